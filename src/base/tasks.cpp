@@ -1,0 +1,130 @@
+#include "base/tasks.h"
+
+#include <algorithm>
+#include <mutex>
+#include <thread>
+
+#include <oneapi/tbb/blocked_range.h>
+#include <oneapi/tbb/global_control.h>
+#include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/parallel_pipeline.h>
+#include <oneapi/tbb/task_arena.h>
+
+#if defined(CONTREJOUR_TSAN)
+#include <sanitizer/tsan_interface.h>
+#endif
+
+namespace contrejour {
+namespace {
+
+// Tell ThreadSanitizer how work passes between threads.
+// The installed TBB is built without it, so what TBB orders looks like a race. This file is compiled without it
+// too (TBB's templates live here alone) and names each hand-over: what happened before hand_over(x) is seen
+// after take_over(x). Elsewhere they are nothing.
+#if defined(CONTREJOUR_TSAN)
+void hand_over(void* token) { __tsan_release(token); }
+void take_over(void* token) { __tsan_acquire(token); }
+#else
+void hand_over(void*) {}
+void take_over(void*) {}
+#endif
+
+int thread_count(const Context& context) {
+  if (context.threads > 0) return context.threads;
+  return std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+}
+
+// Passes rising fractions on to the caller, from one thread at a time.
+class ProgressReport {
+ public:
+  ProgressReport(const Context& context, std::size_t count) : context_(context), count_(count) {}
+
+  void item_done() {
+    if (!context_.progress) return;
+    const std::scoped_lock lock(mutex_);
+    context_.progress(static_cast<double>(++done_) / static_cast<double>(count_));
+  }
+
+ private:
+  const Context& context_;
+  std::size_t count_;
+  std::size_t done_ = 0;
+  std::mutex mutex_;
+};
+
+// An arena of more slots than the machine has cores needs the process-wide limit raised for its lifetime;
+// results for 7 threads can then be tried on 2 cores.
+template <class Body>
+void run_in_arena(int threads, Body body) {
+  const oneapi::tbb::global_control limit(
+      oneapi::tbb::global_control::max_allowed_parallelism,
+      std::max<std::size_t>(static_cast<std::size_t>(threads), std::thread::hardware_concurrency()));
+  oneapi::tbb::task_arena arena(threads);
+  arena.execute(body);
+}
+
+}  // namespace
+
+bool parallel_for(std::size_t count, const Context& context, const std::function<void(std::size_t)>& body) {
+  ProgressReport report(context, count);
+  char started = 0;
+  char finished = 0;
+  hand_over(&started);
+  run_in_arena(thread_count(context), [&] {
+    oneapi::tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) {
+      if (context.cancelled()) return;
+      take_over(&started);
+      body(i);
+      report.item_done();
+      hand_over(&finished);
+    });
+  });
+  take_over(&finished);
+  return !context.cancelled();
+}
+
+bool detail::ordered_pipeline_erased(std::size_t count, const Context& context,
+                                     const std::function<std::shared_ptr<void>(std::size_t)>& produce,
+                                     const std::function<void(std::size_t, void*)>& consume) {
+  struct Item {
+    std::size_t index = 0;
+    std::shared_ptr<void> product;
+  };
+  namespace tbb = oneapi::tbb;
+  const int threads = thread_count(context);
+  ProgressReport report(context, count);
+  std::size_t next = 0;
+  char started = 0;
+  char consumed = 0;
+  hand_over(&started);
+  const auto take = tbb::make_filter<void, std::size_t>(
+      tbb::filter_mode::serial_in_order, [&](tbb::flow_control& flow) -> std::size_t {
+        if (next >= count || context.cancelled()) {
+          flow.stop();
+          return 0;
+        }
+        return next++;
+      });
+  const auto work = tbb::make_filter<std::size_t, Item>(
+      tbb::filter_mode::parallel, [&](std::size_t i) {
+        take_over(&started);
+        Item item{i, produce(i)};
+        hand_over(item.product.get());
+        return item;
+      });
+  const auto give = tbb::make_filter<Item, void>(tbb::filter_mode::serial_in_order, [&](const Item& item) {
+    take_over(item.product.get());
+    if (context.cancelled()) return;
+    take_over(&consumed);
+    consume(item.index, item.product.get());
+    report.item_done();
+    hand_over(&consumed);
+  });
+  run_in_arena(threads, [&] {
+    tbb::parallel_pipeline(2 * static_cast<std::size_t>(threads), take & work & give);
+  });
+  take_over(&consumed);
+  return !context.cancelled();
+}
+
+}  // namespace contrejour

@@ -1,0 +1,19 @@
+// Adds to one number from several threads with nothing in between: ThreadSanitizer must report it.
+// Built in the thread-sanitizer build alone, to show that the annotations in base/tasks.cpp hide no race of ours.
+#include <cstdio>
+#include <vector>
+
+#include "base/tasks.h"
+
+int main() {
+  contrejour::Context context;
+  context.threads = 4;
+  std::vector<int> work(1000, 1);
+  int sum = 0;
+  contrejour::parallel_for(work.size(), context, [&](std::size_t i) {
+    for (int k = 0; k < 20000; ++k) work[i] ^= k;
+    sum += work[i];
+  });
+  std::printf("%d\n", sum);
+  return 0;
+}
