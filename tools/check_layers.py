@@ -1,0 +1,220 @@
+#!/usr/bin/env python3
+"""Hold every #include in include/, src/, apps/ and python/ to the layers of docs/ARCHITECTURE.md.
+
+    check_layers.py [ROOT]     exit 0: all allowed; 1: each forbidden include as file:line; 2: usage
+
+A layer may include itself, the layers its row of MAY_INCLUDE names, and what those may include in turn.
+"""
+import pathlib
+import re
+import sys
+
+# Folder -> layer. The longest folder that matches counts. `src/render/<method>` is a layer of its own each.
+FOLDERS = {
+    "src/base": "base",
+    "src/kernels": "kernels",
+    "src/optics/glass": "glass",
+    "src/optics/coating": "coating",
+    "src/optics/lens": "lens",
+    "src/optics/trace": "trace",
+    "src/ghosts": "ghosts",
+    "src/diffraction": "diffraction",
+    "src/image": "image",
+    "src/render/interface": "render/interface",
+    "src/render/driver": "render/driver",
+    "src/measure": "measure",
+    "src/gpu": "gpu",
+    "apps/params": "apps/params",
+    "apps": "apps",
+    "python": "apps",
+}
+RENDERERS = "src/render"
+
+# Public header -> the layer that implements it.
+PUBLIC = {
+    "coating.h": "coating",
+    "colour.h": "image",
+    "context.h": "base",
+    "first_order.h": "lens",
+    "frame.h": "render/interface",
+    "ghost.h": "ghosts",
+    "glass.h": "glass",
+    "image.h": "image",
+    "image_io.h": "image",
+    "iris.h": "kernels",
+    "lens.h": "lens",
+    "light.h": "image",
+    "light_detection.h": "image",
+    "metrics.h": "image",
+    "render.h": "render/interface",
+    "result.h": "base",
+    "trace.h": "trace",
+    "vec.h": "base",
+}
+
+# "*renderers" stands for every src/render/<method>, "public" for include/contrejour.
+MAY_INCLUDE = {
+    "base": [],
+    "kernels": ["base"],
+    "glass": ["kernels"],
+    "coating": ["glass"],
+    "lens": ["glass", "coating"],
+    "trace": ["lens", "kernels"],
+    "image": ["kernels"],
+    "ghosts": ["trace"],
+    "diffraction": ["lens", "image"],
+    "render/interface": ["lens", "ghosts", "image"],
+    "renderer": ["render/interface", "trace", "ghosts", "diffraction", "kernels", "image"],
+    "render/driver": ["*renderers"],
+    "measure": ["trace", "ghosts", "image", "render/interface"],
+    "gpu": ["render/interface", "kernels", "image"],
+    "apps/params": ["public"],
+    "apps": ["public", "apps/params"],
+}
+
+# Libraries that stay in one place: pattern of the include, folders that may name it, why.
+FENCED = [
+    (r"(vulkan|GLES?\d?|OpenGL)/|glad|shaderc", ("src/gpu", "apps/studio"), "graphics stays in gpu and the studio"),
+    (r"GLFW/|imgui|ofx", ("apps",), "windows and hosts belong to apps"),
+    (r"(oneapi/)?tbb/", ("src/base",), "threads come from base/tasks.h, where their hand-overs are annotated"),
+]
+
+INCLUDE = re.compile(r'^\s*#\s*include\s*(?:"([^"]+)"|<([^>]+)>)')
+SUFFIXES = {".h", ".hpp", ".inl", ".c", ".cc", ".cpp", ".comp"}
+
+
+def layer_of(path):
+    """Layer of a path relative to the root, or None where the table does not know its folder."""
+    parts = path.split("/")
+    if parts[0] == "include":
+        name = "/".join(parts[2:])
+        return PUBLIC.get(name)
+    for size in range(len(parts) - 1, 0, -1):
+        folder = "/".join(parts[:size])
+        if folder in FOLDERS:
+            return FOLDERS[folder]
+        if size == 3 and folder.startswith(RENDERERS + "/"):
+            return "renderer:" + parts[2]
+    return None
+
+
+def closure(layer, allowed=MAY_INCLUDE):
+    """Every layer that `layer` may include, lower ones implied."""
+    seen, todo = set(), [layer]
+    while todo:
+        name = todo.pop()
+        for lower in allowed["renderer" if name.startswith("renderer:") else name]:
+            if lower == "*renderers":
+                lower = "renderer"
+            if lower not in seen and lower != "public":
+                seen.add(lower)
+                todo.append(lower)
+    return seen
+
+
+def without_comments(text):
+    """The same lines with comments blanked, so that a commented-out include does not count."""
+
+    def blank(match):  # strings stay: a // inside one opens no comment
+        return re.sub(r"[^\n]", " ", match.group(0)) if match.group(0).startswith("/") else match.group(0)
+
+    return re.sub(r'//[^\n]*|/\*.*?\*/|"(?:\\.|[^"\\\n])*"', blank, text, flags=re.S)
+
+
+def find_ours(root, source, name):
+    """Path, relative to the root, of the file of ours that an include names; None for a library's."""
+    if name.startswith("contrejour/"):
+        return "include/" + name
+    for base in (source.rpartition("/")[0], "src", "apps", "include"):
+        path = pathlib.PurePosixPath(base) / name
+        parts = []
+        for part in path.parts:
+            if part == ".." and parts:
+                parts.pop()
+            else:
+                parts.append(part)
+        candidate = "/".join(parts)
+        if (root / candidate).is_file():
+            return candidate
+        if base in ("src", "apps") and layer_of(candidate) not in (None, "apps"):
+            return candidate  # a file of a layer of ours that is generated, or missing
+    return None
+
+
+def judge(source, layer, target):
+    """Why `source` of `layer` may not include `target`, or None."""
+    public_target = target.startswith("include/")
+    if source.startswith("include/") and not public_target:
+        return "a public header may include public headers only: users do not have this one"
+    if layer.startswith("apps"):
+        allowed = public_target or target.startswith("apps/params/")
+        if layer == "apps" and not allowed:  # a program's own folder is its own
+            allowed = target.split("/")[:2] == source.split("/")[:2]
+        return None if allowed else "apps may include include/contrejour, apps/params and their own folder only"
+    other = layer_of(target)
+    if other is None:
+        return f"{target} belongs to no layer: add it to the table in tools/check_layers.py"
+    lower = closure(layer)
+    if other == layer or other in lower:
+        return None
+    if other.startswith("renderer:"):
+        if "renderer" in lower:
+            return None
+        if layer.startswith("renderer:"):
+            return "no renderer includes another"
+    return f"{layer} may not include {other}"
+
+
+def check_file(root, source):
+    """Complaints about one file, as (line, text)."""
+    layer = layer_of(source)
+    if layer is None:
+        where = "PUBLIC" if source.startswith("include/") else "FOLDERS"
+        return [(1, f"belongs to no layer: add it to {where} in tools/check_layers.py")]
+    complaints = []
+    text = (root / source).read_text(encoding="utf-8", errors="replace")
+    for number, line in enumerate(without_comments(text).splitlines(), 1):
+        match = INCLUDE.match(line)
+        if not match:
+            continue
+        name = match.group(1) or match.group(2)
+        for pattern, folders, why in FENCED:
+            if re.match(pattern, name) and not source.startswith(tuple(folder + "/" for folder in folders)):
+                complaints.append((number, f'includes "{name}": {why}'))
+        target = find_ours(root, source, name)
+        reason = judge(source, layer, target) if target else None
+        if reason:
+            complaints.append((number, f'includes "{name}": {reason}'))
+    return complaints
+
+
+def check_tree(root):
+    """Complaints about all files under root, as file:line: text, and how many files were read."""
+    complaints, count = [], 0
+    for top in ("include", "src", "apps", "python"):
+        for path in sorted((root / top).rglob("*")):
+            if path.suffix not in SUFFIXES or not path.is_file():
+                continue
+            count += 1
+            source = path.relative_to(root).as_posix()
+            complaints += [f"{source}:{line}: {text}" for line, text in check_file(root, source)]
+    return complaints, count
+
+
+def main(arguments):
+    if len(arguments) > 1 or (arguments and arguments[0].startswith("-")):
+        print(__doc__.strip())
+        return 0 if arguments[0] in ("-h", "--help") else 2
+    root = pathlib.Path(arguments[0]) if arguments else pathlib.Path(__file__).resolve().parent.parent
+    complaints, count = check_tree(root)
+    if count == 0:
+        print(f"{root}: no sources found", file=sys.stderr)
+        return 2
+    for complaint in complaints:
+        print(complaint)
+    print(f"layers: {count} files, {len(complaints)} forbidden includes")
+    return 1 if complaints else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))
