@@ -1,0 +1,50 @@
+# Installs the library, its headers and programs, and the package `contrejour::contrejour` for find_package.
+include(GNUInstallDirs)
+include(CMakePackageConfigHelpers)
+
+set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/contrejour)
+
+install(TARGETS contrejour EXPORT contrejour-targets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
+        INCLUDES DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+install(DIRECTORY include/contrejour DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.h")
+install(EXPORT contrejour-targets NAMESPACE contrejour:: DESTINATION ${package_dir})
+foreach(program contrejour contrejour-demo)
+  # Targets are named after folders; what users type is the output name.
+  foreach(target contrejour_cli contrejour_demo)
+    if(TARGET ${target})
+      get_target_property(output ${target} OUTPUT_NAME)
+      if(output STREQUAL program)
+        install(TARGETS ${target} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+      endif()
+    endif()
+  endforeach()
+endforeach()
+install(FILES LICENSE README.md CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
+
+# The library is static, so whoever links it links what it uses: the config file finds every library that a layer
+# names (`LINK` and `PUBLIC_LINK` of contrejour_layer). A target's package is its namespace but for these.
+set(package_of_tl tl-expected)
+get_property(linked GLOBAL PROPERTY CONTREJOUR_LINK)
+get_property(linked_publicly GLOBAL PROPERTY CONTREJOUR_PUBLIC_LINK)
+set(CONTREJOUR_FIND_DEPENDENCIES "")
+foreach(target IN LISTS linked linked_publicly)
+  if(NOT target MATCHES "^([^:]+)::")
+    message(FATAL_ERROR "${target}: a layer links imported targets only (package::target), so that the package can find them")
+  endif()
+  set(package ${CMAKE_MATCH_1})
+  if(DEFINED package_of_${package})
+    set(package ${package_of_${package}})
+  endif()
+  list(APPEND packages ${package})
+endforeach()
+list(REMOVE_DUPLICATES packages)
+list(SORT packages)
+foreach(package IN LISTS packages)
+  string(APPEND CONTREJOUR_FIND_DEPENDENCIES "find_dependency(${package})\n")
+endforeach()
+
+configure_package_config_file(cmake/contrejour-config.cmake.in ${CMAKE_BINARY_DIR}/contrejour-config.cmake
+  INSTALL_DESTINATION ${package_dir} NO_SET_AND_CHECK_MACRO)
+write_basic_package_version_file(${CMAKE_BINARY_DIR}/contrejour-config-version.cmake COMPATIBILITY SameMinorVersion)
+install(FILES ${CMAKE_BINARY_DIR}/contrejour-config.cmake ${CMAKE_BINARY_DIR}/contrejour-config-version.cmake
+        DESTINATION ${package_dir})

@@ -1,0 +1,34 @@
+# cmake -DBUILD=... -DSOURCE=... -DWORK=... -DCOMPILER=... -P run.cmake
+# Installs the build, moves what was installed (a package must not remember where it was made), builds the consumer
+# against it and runs it.
+function(run)
+  execute_process(COMMAND ${ARGN} COMMAND_ERROR_IS_FATAL ANY)
+endfunction()
+
+file(REMOVE_RECURSE ${WORK})
+run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${WORK}/made)
+file(RENAME ${WORK}/made ${WORK}/moved)
+run(${CMAKE_COMMAND} -G Ninja -S ${SOURCE} -B ${WORK}/build -DCMAKE_PREFIX_PATH=${WORK}/moved
+    -DCMAKE_CXX_COMPILER=${COMPILER} -DCMAKE_BUILD_TYPE=Release)
+run(${CMAKE_COMMAND} --build ${WORK}/build)
+run(${WORK}/build/consumer)
+
+# No layer of ours, no path of the source or build folder may leak into the package.
+file(GLOB_RECURSE package_files ${WORK}/moved/*/cmake/contrejour/*.cmake)
+if(NOT package_files)
+  message(FATAL_ERROR "no package files were installed")
+endif()
+foreach(file IN LISTS package_files)
+  file(READ ${file} text)
+  if(text MATCHES "contrejour_[a-z]")
+    message(FATAL_ERROR "${file} names ${CMAKE_MATCH_0}: an internal target")
+  endif()
+  foreach(path ${BUILD} ${WORK}/made)
+    string(FIND "${text}" "${path}" at)
+    if(NOT at EQUAL -1)
+      message(FATAL_ERROR "${file} holds the path ${path}")
+    endif()
+  endforeach()
+endforeach()
+
+run(${WORK}/moved/bin/contrejour --help)
