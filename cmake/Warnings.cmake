@@ -1,0 +1,26 @@
+# Warnings, sanitizers, and the tools that make a build quick where they are present.
+if(MSVC)
+  add_compile_options(/W4 /permissive- /utf-8)
+else()
+  add_compile_options(-Wall -Wextra -Wshadow -Wnon-virtual-dtor)
+  # The reference must give the same numbers everywhere: no contraction into fused multiply-adds
+  # unless a packet kernel asks for one by name.
+  add_compile_options(-ffp-contract=off)
+endif()
+
+if(CONTREJOUR_SANITIZE)
+  add_compile_options(-fsanitize=${CONTREJOUR_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)
+  add_link_options(-fsanitize=${CONTREJOUR_SANITIZE})
+endif()
+if(CONTREJOUR_FUZZ)
+  add_compile_options(-fsanitize=fuzzer-no-link)
+endif()
+
+find_program(CCACHE_PROGRAM ccache)
+if(CCACHE_PROGRAM AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${CCACHE_PROGRAM})
+endif()
+find_program(MOLD_PROGRAM mold)
+if(MOLD_PROGRAM AND NOT MSVC)
+  add_link_options(-fuse-ld=mold)
+endif()

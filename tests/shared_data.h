@@ -1,0 +1,23 @@
+// Sample data that lives beside the repository; tests that need it say so and pass where it is absent.
+#pragma once
+
+#include <cstdlib>
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include <doctest/doctest.h>
+
+namespace contrejour::test {
+
+inline std::optional<std::filesystem::path> shared_data(const std::string& file) {
+  const char* root = std::getenv("CONTREJOUR_SHARED_DATA");
+  if (root != nullptr) {
+    const std::filesystem::path path = std::filesystem::path(root) / file;
+    if (std::filesystem::exists(path)) return path;
+  }
+  MESSAGE("SKIPPED: needs ", file, " from the shared data, which is not here");
+  return std::nullopt;
+}
+
+}  // namespace contrejour::test
