@@ -1,0 +1,17 @@
+// The lenses of data/lenses, in the library itself: a program that links it needs no files.
+#include "contrejour/lens.h"
+
+namespace contrejour {
+
+namespace {
+
+// In alphabetical order; written by embed_lenses.cmake when the library is built.
+constexpr BundledLens kBundled[] = {
+#include "bundled_lenses.inc"
+};
+
+}  // namespace
+
+std::vector<BundledLens> bundled_lenses() { return {std::begin(kBundled), std::end(kBundled)}; }
+
+}  // namespace contrejour

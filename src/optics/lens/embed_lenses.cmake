@@ -1,0 +1,15 @@
+# cmake -DOUT=FILE -DFOLDER=DIR -P embed_lenses.cmake
+# Writes every DIR/*.toml as { "stem", "text" } rows. One literal a line: compilers bound the length of one literal.
+file(GLOB files ${FOLDER}/*.toml)
+list(SORT files)
+set(rows "")
+foreach(file IN LISTS files)
+  get_filename_component(name ${file} NAME_WE)
+  file(READ ${file} text)
+  string(REPLACE "\r" "" text "${text}")
+  string(REPLACE "\\" "\\\\" text "${text}")
+  string(REPLACE "\"" "\\\"" text "${text}")
+  string(REPLACE "\n" "\\n\"\n   \"" text "${text}")
+  string(APPEND rows "  {\"${name}\",\n   \"${text}\"},\n")
+endforeach()
+file(WRITE ${OUT} "${rows}")

@@ -1,0 +1,227 @@
+#include "optics/lens/toml_fields.h"
+
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "optics/lens/near_name.h"
+
+namespace contrejour {
+
+namespace {
+
+// A key of our format has at most two parts (glass.NAME); eight leave room for other people's tables, so that
+// those get the message about unknown keys.
+constexpr int kMaxKeyParts = 8;
+
+// A TOML type in a user's words.
+std::string_view type_name(toml::node_type type) {
+  switch (type) {
+    case toml::node_type::table: return "a table";
+    case toml::node_type::array: return "a list";
+    case toml::node_type::string: return "text";
+    case toml::node_type::integer: return "a whole number";
+    case toml::node_type::floating_point: return "a number";
+    case toml::node_type::boolean: return "true or false";
+    case toml::node_type::date:
+    case toml::node_type::time:
+    case toml::node_type::date_time: return "a date or time";
+    default: return "nothing";
+  }
+}
+
+// Walks over the text outside strings and comments, as far as TOML's rules for those go.
+class KeyDepthScan {
+ public:
+  explicit KeyDepthScan(std::string_view text) : text_(text) {}
+
+  // The line of the first token with too many dots, 0 if there is none.
+  int find_deep_key() {
+    while (at_ < text_.size()) {
+      const char c = text_[at_];
+      if (c == '"' || c == '\'') {
+        skip_string(c);
+        continue;
+      }
+      if (c == '#') {
+        skip_comment();
+        continue;
+      }
+      if (c == '.' && ++dots_ >= kMaxKeyParts) return line_;
+      if (c == ',' || c == '=' || c == '[' || c == ']' || c == '{' || c == '}' || c == '\n') dots_ = 0;
+      if (c == '\n') ++line_;
+      ++at_;
+    }
+    return 0;
+  }
+
+ private:
+  bool starts_with(char quote, std::size_t at) const {
+    return at + 2 < text_.size() && text_[at] == quote && text_[at + 1] == quote && text_[at + 2] == quote;
+  }
+
+  void skip_comment() {
+    while (at_ < text_.size() && text_[at_] != '\n') ++at_;
+  }
+
+  void skip_string(char quote) {
+    const bool many_lines = starts_with(quote, at_);
+    at_ += many_lines ? 3 : 1;
+    while (at_ < text_.size()) {
+      const char c = text_[at_];
+      if (c == '\\' && quote == '"') {
+        // The escaped character may be the newline of a line continuation.
+        if (at_ + 1 < text_.size() && text_[at_ + 1] == '\n') ++line_;
+        at_ += 2;
+        continue;
+      }
+      if (c == '\n') {
+        // A one-line string that is not closed: the parser will refuse it here.
+        if (!many_lines) return;
+        ++line_;
+      }
+      if (c == quote && !many_lines) {
+        ++at_;
+        return;
+      }
+      if (many_lines && starts_with(quote, at_)) {
+        // Up to two quotes may stand right before the closing three.
+        at_ += 3;
+        while (at_ < text_.size() && text_[at_] == quote) ++at_;
+        return;
+      }
+      ++at_;
+    }
+  }
+
+  std::string_view text_;
+  std::size_t at_ = 0;
+  int line_ = 1;
+  int dots_ = 0;
+};
+
+}  // namespace
+
+void TomlErrors::fail(const toml::source_region& where, std::string message) {
+  if (error_) return;
+  error_ = Error{ErrorCode::Parse, std::move(message),
+                 SourcePlace{file_, static_cast<int>(where.begin.line), static_cast<int>(where.begin.column)}};
+}
+
+TomlFields::TomlFields(const toml::table& table, std::string what,
+                       std::initializer_list<std::string_view> known, TomlErrors& errors)
+    : table_(table), what_(std::move(what)), errors_(errors) {
+  refuse_unknown_keys(known);
+}
+
+void TomlFields::refuse_unknown_keys(std::initializer_list<std::string_view> known) {
+  for (const auto& [key, node] : table_) {
+    bool is_known = false;
+    for (const std::string_view name : known) is_known = is_known || name == key.str();
+    if (is_known) continue;
+    const std::string near = nearest_name(key.str(), {known.begin(), known.end()});
+    std::string remedy;
+    if (!near.empty()) {
+      remedy = fmt::format("did you mean '{}'?", near);
+    } else {
+      remedy = fmt::format("known are {}", fmt::join(known, ", "));
+    }
+    errors_.fail(key.source(), fmt::format("{}: unknown key '{}'; {}", what_, shortened(key.str()), remedy));
+    return;
+  }
+}
+
+void TomlFields::fail(const toml::node& where, std::string_view message) {
+  errors_.fail(where, fmt::format("{}: {}", what_, message));
+}
+
+void TomlFields::fail_type(const toml::node& node, std::string_view key, std::string_view wanted) {
+  fail(node, fmt::format("{} must be {}, not {}", key, wanted, type_name(node.type())));
+}
+
+std::string TomlFields::required_text(std::string_view key, std::string_view remedy) {
+  if (!has(key)) fail_here(fmt::format("{} is missing; {}", key, remedy));
+  const std::string value = text(key).value_or("");
+  if (has(key) && value.empty()) fail(*find(key), fmt::format("{} is empty; {}", key, remedy));
+  return value;
+}
+
+double TomlFields::required_number(std::string_view key, NumberRange range, std::string_view remedy) {
+  if (!has(key)) fail_here(fmt::format("{} is missing; {}", key, remedy));
+  return number(key, range).value_or(range.low);
+}
+
+std::optional<std::string> TomlFields::text(std::string_view key) {
+  const toml::node* node = find(key);
+  if (node == nullptr) return std::nullopt;
+  const auto* value = node->as_string();
+  if (value == nullptr) {
+    fail_type(*node, key, "text in quotes");
+    return std::nullopt;
+  }
+  return value->get();
+}
+
+std::optional<double> TomlFields::number(std::string_view key, NumberRange range) {
+  const toml::node* node = find(key);
+  if (node == nullptr) return std::nullopt;
+  return number_at(*node, key, range);
+}
+
+double TomlFields::number_at(const toml::node& node, std::string_view name, NumberRange range) {
+  if (!node.is_number()) {
+    fail_type(node, name, "a number");
+    return range.low;
+  }
+  // Not node.value<double>(): that refuses whole numbers which a double cannot hold exactly.
+  const double value = node.is_integer() ? static_cast<double>(node.as_integer()->get())
+                                         : node.as_floating_point()->get();
+  // Written so that NaN fails too.
+  if (!(value >= range.low && value <= range.high)) {
+    fail(node, fmt::format("{} is {}; give a number from {} to {}", name, value, range.low, range.high));
+    return range.low;
+  }
+  return value;
+}
+
+std::optional<bool> TomlFields::boolean(std::string_view key) {
+  const toml::node* node = find(key);
+  if (node == nullptr) return std::nullopt;
+  const auto* value = node->as_boolean();
+  if (value == nullptr) {
+    fail_type(*node, key, "true or false");
+    return std::nullopt;
+  }
+  return value->get();
+}
+
+const toml::table* TomlFields::table(std::string_view key) {
+  const toml::node* node = find(key);
+  if (node != nullptr && !node->is_table()) fail_type(*node, key, "a table");
+  return node == nullptr ? nullptr : node->as_table();
+}
+
+const toml::array* TomlFields::array(std::string_view key) {
+  const toml::node* node = find(key);
+  if (node != nullptr && !node->is_array()) fail_type(*node, key, "a list in brackets");
+  return node == nullptr ? nullptr : node->as_array();
+}
+
+Result<toml::table> parse_toml(std::string_view text, const std::string& file) {
+  if (const int line = KeyDepthScan(text).find_deep_key(); line > 0) {
+    return failure(ErrorCode::Parse, "a key has too many parts; a lens needs no more than two, as in glass.NAME",
+                   {file, line, 0});
+  }
+  toml::parse_result parsed = toml::parse(text, std::string_view(file));
+  if (!parsed) {
+    const toml::parse_error& error = parsed.error();
+    return failure(ErrorCode::Parse,
+                   fmt::format("not valid TOML: {}; docs/formats/lens-toml.md shows a complete lens",
+                               error.description()),
+                   {file, static_cast<int>(error.source().begin.line),
+                    static_cast<int>(error.source().begin.column)});
+  }
+  return std::move(parsed).table();
+}
+
+}  // namespace contrejour

@@ -1,0 +1,197 @@
+#include "optics/lens/toml_media.h"
+
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "optics/lens/near_name.h"
+#include "optics/lens/validate.h"
+
+namespace contrejour {
+
+namespace {
+
+// glass_problem() and coating_problem() know what is plausible; here any finite number passes.
+constexpr double kHuge = 1e9;
+constexpr NumberRange kFinite{-kHuge, kHuge};
+
+std::array<double, 3> read_triple(TomlFields& fields, std::string_view key, bool& ok) {
+  std::array<double, 3> values{};
+  const toml::array* list = fields.array(key);
+  if (list == nullptr || list->size() != 3) {
+    fields.fail_here(fmt::format("{} must be a list of three numbers", key));
+    ok = false;
+    return values;
+  }
+  for (std::size_t i = 0; i < 3; ++i) values[i] = fields.number_at((*list)[i], key, kFinite);
+  return values;
+}
+
+// One of {n}, {n_d, v_d}, {sellmeier_b, sellmeier_c_um2}; which of them the keys say.
+Glass read_glass_keys(const toml::table& table, std::string name, const std::string& what, TomlErrors& errors) {
+  TomlFields fields(table, what, {"name", "n", "n_d", "v_d", "sellmeier_b", "sellmeier_c_um2"}, errors);
+  const bool constant = fields.has("n");
+  const bool abbe = fields.has("n_d") || fields.has("v_d");
+  const bool sellmeier = fields.has("sellmeier_b") || fields.has("sellmeier_c_um2");
+  Glass glass{fields.text("name").value_or(std::move(name)), {}};
+  if (int{constant} + int{abbe} + int{sellmeier} != 1) {
+    fields.fail_here("give a glass either n_d and v_d, or n alone, or sellmeier_b and sellmeier_c_um2");
+    return glass;
+  }
+  bool ok = true;
+  if (constant) {
+    glass.dispersion = ConstantIndex{fields.required_number("n", kFinite, "")};
+  } else if (abbe) {
+    glass.dispersion = AbbeGlass{fields.required_number("n_d", kFinite, "give the index at 587.56 nm"),
+                                 fields.required_number("v_d", kFinite, "give the Abbe number, or n alone")};
+  } else {
+    Sellmeier coefficients;
+    coefficients.b = read_triple(fields, "sellmeier_b", ok);
+    coefficients.c_um2 = read_triple(fields, "sellmeier_c_um2", ok);
+    glass.dispersion = coefficients;
+  }
+  if (errors.failed() || !ok) return glass;
+  if (const auto problem = glass_problem(glass)) fields.fail_here(*problem);
+  return glass;
+}
+
+std::vector<FilmLayer> read_layers(TomlFields& fields, TomlErrors& errors) {
+  std::vector<FilmLayer> layers;
+  const toml::array* list = fields.array("layers");
+  if (list == nullptr) return layers;
+  for (const toml::node& node : *list) {
+    const std::string what = fmt::format("{}, film {}", fields.what(), layers.size() + 1);
+    const toml::table* row = node.as_table();
+    if (row == nullptr) {
+      errors.fail(node, what + ": write a film as { n = 1.38, thickness_nm = 99.6 }");
+      return layers;
+    }
+    TomlFields film(*row, what, {"n", "k", "thickness_nm"}, errors);
+    const double n = film.required_number("n", kFinite, "give the film's index");
+    const double k = film.number("k", kFinite).value_or(0.0);
+    layers.push_back({{n, k}, film.required_number("thickness_nm", kFinite, "give the film's thickness")});
+    if (errors.failed()) return layers;
+  }
+  return layers;
+}
+
+// One of {quarter_wave_nm, n}, {hullin_nm, n}, {layers}.
+Coating read_coating_keys(const toml::table& table, std::string name, const std::string& what,
+                          TomlErrors& errors) {
+  TomlFields fields(table, what, {"name", "quarter_wave_nm", "hullin_nm", "n", "layers"}, errors);
+  Coating coating{fields.text("name").value_or(std::move(name)), {}};
+  const bool quarter = fields.has("quarter_wave_nm");
+  const bool hullin = fields.has("hullin_nm");
+  const bool stack = fields.has("layers");
+  if (int{quarter} + int{hullin} + int{stack} != 1 || (stack && fields.has("n"))) {
+    fields.fail_here("give a coating either quarter_wave_nm (and n), or layers, or hullin_nm (and n)");
+    return coating;
+  }
+  const double n = fields.number("n", kFinite).value_or(QuarterWave{}.n);
+  if (quarter) coating.films = QuarterWave{n, *fields.number("quarter_wave_nm", kFinite)};
+  if (hullin) coating.films = HullinFresnelAR{n, *fields.number("hullin_nm", kFinite)};
+  if (stack) coating.films = FilmStack{read_layers(fields, errors)};
+  if (errors.failed()) return coating;
+  if (const auto problem = coating_problem(coating)) fields.fail_here(*problem);
+  return coating;
+}
+
+// The names that mean something without a table.
+bool reserved_name(std::string_view name) { return name == "air" || name == "none" || name == "quarter-wave"; }
+
+template <class Medium, class Read>
+MediumTable<Medium> read_medium_table(const toml::table& lens, std::string_view key, Read read,
+                                      TomlErrors& errors) {
+  MediumTable<Medium> media;
+  const toml::node* node = lens.get(key);
+  if (node == nullptr) return media;
+  if (!node->is_table()) {
+    errors.fail(*node, fmt::format("{0} must be a table; write [{0}] and one line a name", key));
+    return media;
+  }
+  for (const auto& [name, entry] : *node->as_table()) {
+    const std::string what = fmt::format("{} '{}'", key, shortened(name.str()));
+    if (reserved_name(name.str()) || name.str().empty()) {
+      errors.fail(name.source(), fmt::format("{}: this name has a meaning already; choose another", what));
+      return media;
+    }
+    if (!entry.is_table()) {
+      errors.fail(entry, fmt::format("{} must be a table in braces", what));
+      return media;
+    }
+    media[std::string(name.str())] = {read(*entry.as_table(), std::string(name.str()), what, errors), &entry};
+    if (errors.failed()) return media;
+  }
+  return media;
+}
+
+// The table's entry of that name; an error names the nearest.
+template <class Medium>
+Medium look_up(const toml::node& node, std::string_view name, const std::string& what, std::string_view kind,
+               MediumTable<Medium>& table, TomlErrors& errors) {
+  if (const auto found = table.find(name); found != table.end()) {
+    found->second.used = true;
+    return found->second.value;
+  }
+  std::vector<std::string_view> names;
+  for (const auto& entry : table) names.push_back(entry.first);
+  const std::string near = nearest_name(name, names);
+  const std::string remedy = near.empty() ? fmt::format("add it under [{}]", kind)
+                                          : fmt::format("did you mean '{}'?", shortened(near));
+  errors.fail(node, fmt::format("{}: no {} is called '{}'; {}", what, kind, shortened(name), remedy));
+  return {};
+}
+
+template <class Medium>
+void refuse_unused_of(const MediumTable<Medium>& table, std::string_view kind, TomlErrors& errors) {
+  for (const auto& [name, entry] : table) {
+    if (entry.used) continue;
+    errors.fail(*entry.where, fmt::format("{} '{}' is used by no surface; remove it, or check the names in "
+                                          "the surfaces", kind, shortened(name)));
+  }
+}
+
+}  // namespace
+
+MediumTable<Glass> read_glass_table(const toml::table& lens, TomlErrors& errors) {
+  return read_medium_table<Glass>(lens, "glass", read_glass_keys, errors);
+}
+
+MediumTable<Coating> read_coating_table(const toml::table& lens, TomlErrors& errors) {
+  return read_medium_table<Coating>(lens, "coating", read_coating_keys, errors);
+}
+
+Glass read_glass(const toml::node& node, const std::string& what, MediumTable<Glass>& table,
+                 TomlErrors& errors) {
+  if (const toml::table* keys = node.as_table()) return read_glass_keys(*keys, "", what + ", glass", errors);
+  const auto* name = node.as_string();
+  if (name == nullptr) {
+    errors.fail(node, what + ": glass must be a name in quotes or { n_d = ..., v_d = ... }");
+    return air();
+  }
+  if (name->get() == "air") return air();
+  return look_up(node, name->get(), what, "glass", table, errors);
+}
+
+Coating read_coating(const toml::node& node, const std::string& what, MediumTable<Coating>& table,
+                     TomlErrors& errors) {
+  if (const toml::table* keys = node.as_table()) {
+    return read_coating_keys(*keys, "", what + ", coating", errors);
+  }
+  const auto* name = node.as_string();
+  if (name == nullptr) {
+    errors.fail(node, what + ": coating must be a name in quotes or { quarter_wave_nm = ... }");
+    return {};
+  }
+  if (name->get() == "none") return {};
+  if (name->get() == "quarter-wave") return {"", QuarterWave{}};
+  return look_up(node, name->get(), what, "coating", table, errors);
+}
+
+void refuse_unused(const MediumTable<Glass>& glasses, const MediumTable<Coating>& coatings,
+                   TomlErrors& errors) {
+  refuse_unused_of(glasses, "glass", errors);
+  refuse_unused_of(coatings, "coating", errors);
+}
+
+}  // namespace contrejour

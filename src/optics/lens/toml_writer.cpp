@@ -1,0 +1,160 @@
+// Writes docs/formats/lens-toml.md; reading it back gives the same numbers, bit for bit.
+#include <charconv>
+#include <map>
+
+#include <fmt/format.h>
+
+#include "contrejour/lens.h"
+
+namespace contrejour {
+
+namespace {
+
+// A TOML basic string.
+std::string toml_string(std::string_view text) {
+  std::string out = "\"";
+  for (const char c : text) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (c == '"' || c == '\\') {
+      out += '\\';
+      out += c;
+    } else if (byte < 0x20 || byte == 0x7F) {
+      out += fmt::format("\\u{:04X}", byte);
+    } else {
+      out += c;
+    }
+  }
+  return out + '"';
+}
+
+// The shortest text that reads back as the same double.
+std::string number(double value) { return fmt::format("{}", value); }
+
+// "radius_mm = 30.81" with as few digits as give the same curvature; a few curvatures are the reciprocal of
+// no double: those are written as they are.
+std::string curvature_text(double curvature_per_mm) {
+  if (curvature_per_mm == 0.0) return "radius_mm = inf";
+  for (int digits = 1; digits <= 17; ++digits) {
+    const std::string text = fmt::format("{:.{}g}", 1.0 / curvature_per_mm, digits);
+    double radius_mm = 0.0;
+    std::from_chars(text.data(), text.data() + text.size(), radius_mm);
+    if (1.0 / radius_mm == curvature_per_mm) return "radius_mm = " + text;
+  }
+  return "curvature_per_mm = " + number(curvature_per_mm);
+}
+
+struct DispersionText {
+  std::string operator()(const ConstantIndex& glass) const { return "n = " + number(glass.n); }
+  std::string operator()(const AbbeGlass& glass) const {
+    return fmt::format("n_d = {}, v_d = {}", number(glass.n_d), number(glass.v_d));
+  }
+  std::string operator()(const Sellmeier& glass) const {
+    const auto list = [](const std::array<double, 3>& v) {
+      return fmt::format("[{}, {}, {}]", number(v[0]), number(v[1]), number(v[2]));
+    };
+    return fmt::format("sellmeier_b = {}, sellmeier_c_um2 = {}", list(glass.b), list(glass.c_um2));
+  }
+};
+
+struct FilmsText {
+  std::string operator()(const Bare&) const { return {}; }
+  std::string operator()(const QuarterWave& film) const {
+    return fmt::format("quarter_wave_nm = {}, n = {}", number(film.lambda0_nm), number(film.n));
+  }
+  std::string operator()(const HullinFresnelAR& film) const {
+    return fmt::format("hullin_nm = {}, n = {}", number(film.lambda0_nm), number(film.n));
+  }
+  std::string operator()(const FilmStack& stack) const {
+    std::string rows;
+    for (const FilmLayer& layer : stack.layers) {
+      const std::string k = layer.n.imag() == 0.0 ? "" : fmt::format(", k = {}", number(layer.n.imag()));
+      rows += fmt::format("{}{{ n = {}{}, thickness_nm = {} }}", rows.empty() ? "" : ", ", number(layer.n.real()),
+                          k, number(layer.thickness_nm));
+    }
+    return fmt::format("layers = [{}]", rows);
+  }
+};
+
+std::string keys_of(const Glass& glass) { return std::visit(DispersionText{}, glass.dispersion); }
+std::string keys_of(const Coating& coating) { return std::visit(FilmsText{}, coating.films); }
+
+bool reserved_name(std::string_view name) { return name == "air" || name == "none" || name == "quarter-wave"; }
+
+// Named media go to a table at the end of the file; one that cannot (no name, or a name that another medium of
+// the same name took) stands in the surface's row.
+class MediaTable {
+ public:
+  template <class Medium>
+  std::string reference(const Medium& medium) {
+    const std::string keys = keys_of(medium);
+    if (medium.name.empty()) return fmt::format("{{ {} }}", keys);
+    const std::string inline_text = fmt::format("{{ name = {}, {} }}", toml_string(medium.name), keys);
+    if (reserved_name(medium.name)) return inline_text;
+    const auto [entry, is_new] = keys_.emplace(medium.name, keys);
+    return entry->second == keys ? toml_string(medium.name) : inline_text;
+  }
+
+  [[nodiscard]] std::string text(std::string_view title) const {
+    if (keys_.empty()) return {};
+    std::string out = fmt::format("\n[{}]\n", title);
+    for (const auto& [name, keys] : keys_) out += fmt::format("{} = {{ {} }}\n", toml_string(name), keys);
+    return out;
+  }
+
+ private:
+  std::map<std::string, std::string> keys_;
+};
+
+std::string surface_row(const Surface& surface, bool last, MediaTable& glasses, MediaTable& coatings) {
+  std::string row = "  { ";
+  row += surface.kind == SurfaceKind::Stop ? "stop = true" : curvature_text(surface.curvature_per_mm);
+  if (!last) row += ", thickness_mm = " + number(surface.thickness_mm);
+  row += ", semi_diameter_mm = " + number(surface.semi_diameter_mm);
+  if (surface.kind == SurfaceKind::Refracting) {
+    if (!(surface.glass_after == air())) row += ", glass = " + glasses.reference(surface.glass_after);
+    if (!std::holds_alternative<Bare>(surface.coating.films)) {
+      row += ", coating = " + coatings.reference(surface.coating);
+    }
+  }
+  return row + " },\n";
+}
+
+std::string zoom_rows(const std::vector<ZoomPosition>& zoom) {
+  if (zoom.empty()) return {};
+  std::string out = "\nzoom = [\n";
+  for (const ZoomPosition& position : zoom) {
+    std::string gaps;
+    for (const auto& [index, thickness_mm] : position.thickness_mm) {
+      gaps += fmt::format("{}{} = {}", gaps.empty() ? "" : ", ", index + 1, number(thickness_mm));
+    }
+    out += fmt::format("  {{ focal_length_mm = {}, thickness_mm = {{ {} }} }},\n", number(position.focal_length_mm),
+                       gaps);
+  }
+  return out + "]\n";
+}
+
+std::string stated_table(const StatedFigures& stated) {
+  std::string out = "\n[stated]\n";
+  if (stated.focal_length_mm) out += fmt::format("focal_length_mm = {}\n", number(*stated.focal_length_mm));
+  if (stated.back_focal_distance_mm) {
+    out += fmt::format("back_focal_distance_mm = {}\n", number(*stated.back_focal_distance_mm));
+  }
+  out += fmt::format("wavelength_nm = {}\n", number(stated.wavelength_nm));
+  return out + fmt::format("tolerance = {}\n", number(stated.tolerance));
+}
+
+}  // namespace
+
+std::string write_lens_toml(const Prescription& lens) {
+  MediaTable glasses, coatings;
+  std::string out = fmt::format("name = {}\nsource = {}\nf_number = {}\nsensor_mm = [{}, {}]\n\nsurfaces = [\n",
+                                toml_string(lens.name), toml_string(lens.source), number(lens.f_number),
+                                number(lens.sensor_width_mm), number(lens.sensor_height_mm));
+  for (std::size_t i = 0; i < lens.surfaces.size(); ++i) {
+    out += surface_row(lens.surfaces[i], i + 1 == lens.surfaces.size(), glasses, coatings);
+  }
+  out += "]\n" + zoom_rows(lens.zoom) + stated_table(lens.stated);
+  return out + glasses.text("glass") + coatings.text("coating");
+}
+
+}  // namespace contrejour

@@ -1,0 +1,282 @@
+#include "optics/lens/validate.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+#include <span>
+
+#include <fmt/format.h>
+
+#include "contrejour/lens.h"
+
+namespace contrejour {
+
+namespace {
+
+// A glass is asked for its index from here to there.
+constexpr double kVisibleFirst_nm = 380.0;
+constexpr double kVisibleLast_nm = 780.0;
+constexpr double kVisibleStep_nm = 20.0;
+// The highest index of a transparent solid in the visible is near 2.7; films of silicon and germanium go to 5.
+constexpr double kMaxGlassIndex = 4.0;
+constexpr double kMaxFilmIndex = 8.0;
+constexpr double kMinFilmIndex = 0.01;  // silver
+constexpr double kMaxFilm_nm = 1e5;     // beyond it, films are glass
+constexpr double kMaxLength_mm = 1e5;
+constexpr double kMaxFNumber = 1000.0;
+constexpr double kMinFNumber = 0.4;  // 0.5 is the limit of an aplanat in air; patents round
+
+// Vertices and rims may touch: patents give thicknesses to 1 um at best, and their rounding must not refuse a lens.
+constexpr double kTouch_mm = 1e-3;
+
+// Where a rule was broken: the row of surface `index`, with its number for people.
+struct RowFailure {
+  const Prescription& lens;
+
+  [[nodiscard]] tl::unexpected<Error> at(std::size_t index, const std::string& message) const {
+    return failure(ErrorCode::InvalidArgument, fmt::format("surface {}: {}", index + 1, message),
+                   {lens.file.file, lens.surfaces[index].source_line, 0});
+  }
+  [[nodiscard]] tl::unexpected<Error> at_line(int line, std::string message) const {
+    return failure(ErrorCode::InvalidArgument, std::move(message), {lens.file.file, line, 0});
+  }
+};
+
+bool within(double value, double low, double high) { return value >= low && value <= high; }
+
+Result<void> check_lens_values(const Prescription& lens) {
+  const RowFailure fail{lens};
+  if (!within(lens.f_number, kMinFNumber, kMaxFNumber)) {
+    return fail.at_line(lens.file.line, fmt::format("f_number is {}; give the widest, from {} to {}", lens.f_number,
+                                                    kMinFNumber, kMaxFNumber));
+  }
+  if (!within(lens.sensor_width_mm, 0.1, 1e4) || !within(lens.sensor_height_mm, 0.1, 1e4)) {
+    return fail.at_line(lens.file.line, fmt::format("the sensor is {} x {} mm; give sizes from 0.1 to 10000 mm",
+                                                    lens.sensor_width_mm, lens.sensor_height_mm));
+  }
+  const StatedFigures& stated = lens.stated;
+  const bool focal_fits = !stated.focal_length_mm || within(std::abs(*stated.focal_length_mm), 1e-3, kMaxLength_mm);
+  const bool back_fits =
+      !stated.back_focal_distance_mm || within(std::abs(*stated.back_focal_distance_mm), 0.0, kMaxLength_mm);
+  if (!focal_fits || !back_fits || !within(stated.wavelength_nm, 300.0, 1100.0) || !(stated.tolerance > 0.0)) {
+    return fail.at_line(lens.file.line, "a stated figure is zero, not finite or too large; correct it or leave it out");
+  }
+  return {};
+}
+
+Result<void> check_surface(const Prescription& lens, std::size_t i) {
+  const RowFailure fail{lens};
+  const Surface& s = lens.surfaces[i];
+  const Glass before = i == 0 ? air() : lens.surfaces[i - 1].glass_after;
+  const double semi_mm = s.semi_diameter_mm;
+  if (!within(semi_mm, 1e-6, kMaxLength_mm)) {
+    return fail.at(i, fmt::format("semi_diameter_mm is {}; give the radius of the clear aperture, more than 0", semi_mm));
+  }
+  if (!within(s.thickness_mm, 0.0, kMaxLength_mm)) {
+    return fail.at(i, fmt::format("thickness_mm is {}; give the distance to the next vertex, 0 or more",
+                                  s.thickness_mm));
+  }
+  if (!(std::abs(s.curvature_per_mm) * semi_mm <= 1.0)) {
+    return fail.at(i, fmt::format("radius {:.6g} mm is smaller than semi_diameter_mm {:.6g}: a sphere has no rim "
+                                  "there; make the semi-diameter smaller", 1.0 / s.curvature_per_mm, semi_mm));
+  }
+  if (s.kind == SurfaceKind::Stop && (s.curvature_per_mm != 0.0 || !(s.glass_after == before))) {
+    return fail.at(i, "a stop is flat and has the same medium before and behind; make it so");
+  }
+  if (const auto problem = glass_problem(s.glass_after)) return fail.at(i, *problem);
+  if (const auto problem = coating_problem(s.coating)) return fail.at(i, *problem);
+  return {};
+}
+
+Result<void> check_rows(const Prescription& lens) {
+  const RowFailure fail{lens};
+  const std::vector<Surface>& rows = lens.surfaces;
+  if (rows.empty()) return fail.at_line(lens.file.line, "no surfaces; list them from the front to the back");
+  if (rows.size() > static_cast<std::size_t>(kMaxSurfaces)) {
+    return fail.at_line(lens.file.line, fmt::format("{} surfaces; at most {} are computed", rows.size(), kMaxSurfaces));
+  }
+  int stops = 0;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    if (const auto row = check_surface(lens, i); !row) return row;
+    if (rows[i].kind == SurfaceKind::Stop && ++stops == 2) {
+      return fail.at(i, "a second stop; keep the one that the iris closes and leave the other out");
+    }
+  }
+  if (stops == 0) {
+    return fail.at_line(rows.front().source_line, "the lens has no stop; add a row { stop = true, semi_diameter_mm = "
+                                                  "..., thickness_mm = ... } where the iris is");
+  }
+  if (rows.size() == 1) return fail.at(0, "a stop alone is no lens; add its surfaces");
+  if (!is_air(rows.back().glass_after)) {
+    return fail.at(rows.size() - 1, "the last surface must be followed by air; leave its glass out");
+  }
+  return {};
+}
+
+// Distance of the sphere from its vertex plane at height h, |c| h <= 1.
+double sag_mm(double curvature_per_mm, double h_mm) {
+  const double ch = curvature_per_mm * h_mm;
+  return ch * h_mm / (1.0 + std::sqrt(std::max(0.0, 1.0 - ch * ch)));
+}
+
+// The gap between two surfaces at the smaller of their rims. It grows or falls steadily with height (so does
+// a sphere's slope with its curvature), and at the axis it is a thickness: the rim is the only place to look.
+double rim_gap_mm(const Surface& front, const Surface& back, double thickness_mm) {
+  const double h_mm = std::min(front.semi_diameter_mm, back.semi_diameter_mm);
+  return thickness_mm + sag_mm(back.curvature_per_mm, h_mm) - sag_mm(front.curvature_per_mm, h_mm);
+}
+
+Result<void> check_pair(const Prescription& lens, std::size_t front, std::size_t back, double thickness_mm,
+                        const std::string& where) {
+  const double gap_mm = rim_gap_mm(lens.surfaces[front], lens.surfaces[back], thickness_mm);
+  if (gap_mm >= -kTouch_mm) return {};
+  const double h_mm = std::min(lens.surfaces[front].semi_diameter_mm, lens.surfaces[back].semi_diameter_mm);
+  return RowFailure{lens}.at(back, fmt::format("it crosses surface {} by {:.3g} mm inside the clear aperture (at "
+                                               "height {:.6g} mm{}); make a semi-diameter smaller or check the "
+                                               "radii and the thickness", front + 1, -gap_mm, h_mm, where));
+}
+
+// Neighbours, and the two that the stop stands between.
+Result<void> check_crossings(const Prescription& lens, std::span<const double> thickness_mm,
+                             const std::string& where) {
+  const std::vector<Surface>& rows = lens.surfaces;
+  for (std::size_t i = 0; i + 1 < rows.size(); ++i) {
+    if (const auto pair = check_pair(lens, i, i + 1, thickness_mm[i], where); !pair) return pair;
+    const bool before_stop = i + 2 < rows.size() && rows[i + 1].kind == SurfaceKind::Stop;
+    if (!before_stop) continue;
+    const auto pair = check_pair(lens, i, i + 2, thickness_mm[i] + thickness_mm[i + 1], where);
+    if (!pair) return pair;
+  }
+  return {};
+}
+
+std::set<int> gaps_of(const ZoomPosition& position) {
+  std::set<int> gaps;
+  for (const auto& [index, thickness] : position.thickness_mm) gaps.insert(index);
+  return gaps;
+}
+
+Result<void> check_zoom_values(const Prescription& lens, const ZoomPosition& position, std::size_t number) {
+  const RowFailure fail{lens};
+  if (!within(position.focal_length_mm, 1e-3, kMaxLength_mm)) {
+    return fail.at_line(position.source_line, fmt::format("zoom position {}: focal_length_mm is {}; give one more than 0",
+                                                          number, position.focal_length_mm));
+  }
+  if (position.thickness_mm.empty() || gaps_of(position).size() != position.thickness_mm.size()) {
+    return fail.at_line(position.source_line,
+                        fmt::format("zoom position {}: give each gap that moves, once", number));
+  }
+  for (const auto& [index, thickness_mm] : position.thickness_mm) {
+    if (index < 0 || index + 1 >= static_cast<int>(lens.surfaces.size())) {
+      return fail.at_line(position.source_line,
+                          fmt::format("zoom position {}: no gap is behind surface {}; gaps are 1 to {}", number,
+                                      index + 1, lens.surfaces.size() - 1));
+    }
+    if (!within(thickness_mm, 0.0, kMaxLength_mm)) {
+      return fail.at_line(position.source_line,
+                          fmt::format("zoom position {}: the thickness behind surface {} is {}; give 0 or more", number,
+                                      index + 1, thickness_mm));
+    }
+  }
+  return {};
+}
+
+Result<void> check_zoom_order(const Prescription& lens) {
+  const RowFailure fail{lens};
+  for (std::size_t z = 1; z < lens.zoom.size(); ++z) {
+    const ZoomPosition& now = lens.zoom[z];
+    if (!(now.focal_length_mm > lens.zoom[z - 1].focal_length_mm)) {
+      return fail.at_line(now.source_line, fmt::format("zoom position {}: {} mm after {} mm; list the positions from the "
+                                                       "shortest to the longest", z + 1, now.focal_length_mm,
+                                                       lens.zoom[z - 1].focal_length_mm));
+    }
+    if (gaps_of(now) != gaps_of(lens.zoom.front())) {
+      return fail.at_line(now.source_line, fmt::format("zoom position {}: it moves other gaps than position 1; give the "
+                                                       "same ones at every position", z + 1));
+    }
+  }
+  return {};
+}
+
+Result<void> check_zoom(const Prescription& lens) {
+  const RowFailure fail{lens};
+  if (lens.zoom.size() == 1 || lens.zoom.size() > static_cast<std::size_t>(kMaxZoomPositions)) {
+    return fail.at_line(lens.zoom.front().source_line,
+                        fmt::format("{} zoom positions; give 2 to {}, or none", lens.zoom.size(), kMaxZoomPositions));
+  }
+  for (std::size_t z = 0; z < lens.zoom.size(); ++z) {
+    if (const auto values = check_zoom_values(lens, lens.zoom[z], z + 1); !values) return values;
+  }
+  return check_zoom_order(lens);
+}
+
+}  // namespace
+
+std::optional<std::string> glass_problem(const Glass& glass) {
+  if (const auto* abbe = std::get_if<AbbeGlass>(&glass.dispersion)) {
+    const bool fits = abbe->v_d == 0.0 || within(abbe->v_d, 5.0, 200.0);
+    if (!fits) return fmt::format("v_d is {}; an Abbe number is from 5 to 200", abbe->v_d);
+  }
+  if (const auto* sellmeier = std::get_if<Sellmeier>(&glass.dispersion)) {
+    for (const double c_um2 : sellmeier->c_um2) {
+      // A resonance inside the visible: no glass, and an index without bound between the samples below.
+      if (!within(c_um2, 0.0, 1e6) || within(std::sqrt(c_um2), kVisibleFirst_nm / 1e3, kVisibleLast_nm / 1e3)) {
+        return fmt::format("sellmeier_c_um2 has {}; give squares of wavelengths (um^2) outside the visible", c_um2);
+      }
+    }
+  }
+  for (double nm = kVisibleFirst_nm; nm <= kVisibleLast_nm; nm += kVisibleStep_nm) {
+    const double n = refractive_index(glass, nm);
+    if (!within(n, 1.0, kMaxGlassIndex)) {
+      return fmt::format("the glass's index is {:.6g} at {} nm; it must be from 1 to {}: check its figures", n, nm,
+                         kMaxGlassIndex);
+    }
+  }
+  return std::nullopt;
+}
+
+std::optional<std::string> coating_problem(const Coating& coating) {
+  const auto single = [](double n, double nm) -> std::optional<std::string> {
+    if (within(n, 1.0, kMaxFilmIndex) && within(nm, 100.0, 5000.0)) return std::nullopt;
+    return fmt::format("a film of index {} for {} nm; give an index from 1 to {} and a wavelength from 100 to 5000 nm",
+                       n, nm, kMaxFilmIndex);
+  };
+  if (const auto* quarter = std::get_if<QuarterWave>(&coating.films)) return single(quarter->n, quarter->lambda0_nm);
+  if (const auto* hullin = std::get_if<HullinFresnelAR>(&coating.films)) return single(hullin->n, hullin->lambda0_nm);
+  const auto* stack = std::get_if<FilmStack>(&coating.films);
+  if (stack == nullptr) return std::nullopt;
+  if (stack->layers.empty() || stack->layers.size() > static_cast<std::size_t>(kMaxFilmLayers)) {
+    return fmt::format("a stack of {} layers; give 1 to {}, or \"none\"", stack->layers.size(), kMaxFilmLayers);
+  }
+  for (const FilmLayer& layer : stack->layers) {
+    const bool fits = within(layer.n.real(), kMinFilmIndex, kMaxFilmIndex) &&
+                      within(layer.n.imag(), 0.0, 20.0) && within(layer.thickness_nm, 0.0, kMaxFilm_nm);
+    if (!fits) {
+      return fmt::format("a layer of n = {}, k = {}, {} nm; give n from {} to {}, k from 0 to 20 and at most {} nm",
+                         layer.n.real(), layer.n.imag(), layer.thickness_nm, kMinFilmIndex, kMaxFilmIndex,
+                         kMaxFilm_nm);
+    }
+  }
+  return std::nullopt;
+}
+
+Result<void> validate(const Prescription& lens) {
+  if (const auto values = check_lens_values(lens); !values) return values;
+  if (const auto rows = check_rows(lens); !rows) return rows;
+  if (!lens.zoom.empty()) {
+    if (const auto zoom = check_zoom(lens); !zoom) return zoom;
+  }
+  std::vector<double> thickness_mm;
+  for (const Surface& surface : lens.surfaces) thickness_mm.push_back(surface.thickness_mm);
+  if (lens.zoom.empty()) return check_crossings(lens, thickness_mm, "");
+  for (const ZoomPosition& position : lens.zoom) {
+    for (const auto& [index, gap_mm] : position.thickness_mm) thickness_mm[static_cast<std::size_t>(index)] = gap_mm;
+    const auto crossings =
+        check_crossings(lens, thickness_mm, fmt::format(", zoomed to {:g} mm", position.focal_length_mm));
+    if (!crossings) return crossings;
+  }
+  return {};
+}
+
+}  // namespace contrejour

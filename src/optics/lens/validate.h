@@ -1,0 +1,20 @@
+// The rules that readers share with validate(), so that an error can name the line of the value itself.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "contrejour/coating.h"
+#include "contrejour/glass.h"
+
+namespace contrejour {
+
+inline constexpr int kMaxSurfaces = 200;
+inline constexpr int kMaxZoomPositions = 200;
+inline constexpr int kMaxFilmLayers = 200;
+
+// What is wrong and what to do, or nothing. A glass must have an index from 1 to 4 over the visible.
+[[nodiscard]] std::optional<std::string> glass_problem(const Glass& glass);
+[[nodiscard]] std::optional<std::string> coating_problem(const Coating& coating);
+
+}  // namespace contrejour
