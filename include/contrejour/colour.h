@@ -1,0 +1,55 @@
+// Spectra and working colour spaces: CIE 1931 2 degree observer -> linear RGB (docs/physics/colour.md).
+// Accuracy: chromaticities of D65 and A within 1e-4 of CIE 15. Thread-safety: pure functions.
+#pragma once
+
+#include <array>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "contrejour/result.h"
+
+namespace contrejour {
+
+using Rgb = std::array<double, 3>;
+using Xyz = std::array<double, 3>;
+
+// Both scene-linear. White is illuminant D65 in both: ACEScg's own white is reached by Bradford adaptation.
+enum class ColourSpace { Rec709, AcesCg };
+
+// Relative spectral power by wavelength. D65 is 0 outside 300..830 nm; the others have no bounds.
+struct IlluminantD65 {};
+struct IlluminantA {};
+struct EqualEnergy {};
+struct BlackBody {
+  double temperature_k = 6500;  // > 0
+};
+using Spectrum = std::variant<IlluminantD65, IlluminantA, EqualEnergy, BlackBody>;
+
+[[nodiscard]] double spectral_power(const Spectrum& spectrum, double lambda_nm);  // 560 nm -> 1
+[[nodiscard]] Xyz colour_matching(double lambda_nm);                              // CIE 1931, 360..830 nm, 0 outside
+[[nodiscard]] Xyz xyz_of(const Spectrum& spectrum);                               // Y = 1
+[[nodiscard]] std::array<double, 2> chromaticity(const Xyz& xyz);
+
+[[nodiscard]] Rgb rgb_from_xyz(const Xyz& xyz, ColourSpace space);
+[[nodiscard]] Xyz xyz_from_rgb(const Rgb& rgb, ColourSpace space);
+[[nodiscard]] double luminance(const Rgb& rgb, ColourSpace space);
+
+// RGB of a light of this spectrum, scaled so that its luminance is 1. D65 is (1, 1, 1) in both spaces. A channel may
+// be negative: the spectrum's colour then lies outside the space's gamut (in Rec709, black bodies below 1900 K).
+[[nodiscard]] Rgb rgb_of(const Spectrum& spectrum, ColourSpace space);
+
+// N wavelengths that stand for N bands of the visible spectrum, and what each adds to each channel.
+// Each channel's weights sum to 1 for any N, so a lens that does not depend on wavelength keeps the light's
+// own colour exactly; N -> infinity converges to the integral over the light's spectrum. Where a light has next to
+// nothing of a channel (the blue of a candle), the weights there are kept bounded instead of exact.
+struct SpectralBand {
+  double lambda_nm = 550;
+  Rgb weight{};  // share of the light's channel value that falls in the band; may be negative
+};
+[[nodiscard]] std::vector<SpectralBand> spectral_bands(int count, const Spectrum& light, ColourSpace space);
+
+// "D65", "A", "E", "3200K" -> spectrum. Errors: unknown name; temperature outside 500 to 100000 K.
+[[nodiscard]] Result<Spectrum> parse_spectrum(const std::string& text);
+
+}  // namespace contrejour

@@ -1,0 +1,97 @@
+// Pictures in files: OpenEXR (single part, flat, scan lines or tiles, any channels) and PNG (8 and 16 bit).
+// A Picture keeps all that its file holds, so that writing it back changes only the samples whose rgb value was
+// changed; every other sample keeps its bits, NaN included. docs/formats/images.md says what is kept and what not.
+// Errors: Io, Parse (damaged file), Unsupported (multi-part, deep, subsampled colour), Cancelled; place.file is set.
+// No exception leaves. A failed or cancelled write leaves no file. Thread-safety: pure functions.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "contrejour/colour.h"
+#include "contrejour/context.h"
+#include "contrejour/image.h"
+#include "contrejour/result.h"
+
+namespace contrejour {
+
+// Pixels x in [x, x + width), y in [y, y + height); the origin may be anywhere, also negative.
+struct PixelWindow {
+  int x = 0, y = 0;
+  int width = 0, height = 0;
+  friend bool operator==(const PixelWindow&, const PixelWindow&) = default;
+};
+
+enum class SampleType { Half, Float, UInt32, UInt8, UInt16 };  // the last two in PNG only, colour coded as sRGB
+[[nodiscard]] std::size_t size_of(SampleType type);
+
+// A channel as its file has it: native-endian samples, rows from the top, over the data window.
+struct PictureChannel {
+  std::string name;
+  SampleType type = SampleType::Half;
+  int x_sampling = 1, y_sampling = 1;  // > 1: one sample for so many pixels
+  bool perceptually_linear = false;    // OpenEXR's pLinear, a hint to its lossy codecs
+  std::vector<std::byte> samples;
+};
+
+struct PictureHeader;  // an OpenEXR file's attributes, kept whole
+
+struct Picture {
+  Image rgb;                 // scene-linear, three channels, over the data window; change this
+  PixelWindow data_window;   // where rgb lies
+  PixelWindow display_window;
+  std::vector<PictureChannel> channels;         // every channel as it was read, those behind rgb included
+  std::array<int, 3> rgb_source{-1, -1, -1};    // the channels behind r, g, b; all the same one for a grey picture
+  std::shared_ptr<const PictureHeader> header;  // null: not from an OpenEXR file
+};
+
+// What a reader takes on before it allocates; beyond it the file is refused.
+struct ReadLimits {
+  std::uint64_t max_pixels = std::uint64_t{1} << 28;  // in the data window
+  std::uint64_t max_bytes = std::uint64_t{8} << 30;   // of all channels, uncompressed; and of the file
+};
+
+struct ReadOptions {
+  std::string layer;  // colour from LAYER.R, .G, .B; empty: R, G, B, else Y, else the first layer with R, G, B
+  ReadLimits limits;
+};
+
+// The format is told by the content, not by the name.
+[[nodiscard]] Result<Picture> read_picture(const std::filesystem::path& file, const ReadOptions& options = {});
+[[nodiscard]] Result<Picture> read_picture(std::span<const std::byte> bytes, const std::string& name,
+                                           const ReadOptions& options = {});
+
+// A new picture of an image of 1 (grey), 3 or 4 (RGB and alpha) channels, both windows at the origin.
+[[nodiscard]] Picture picture_of(const Image& image, SampleType type = SampleType::Float);
+
+// The working space the file's chromaticities name: Rec709 when it has none, nothing when it is another one.
+[[nodiscard]] std::optional<ColourSpace> colour_space_of(const Picture& picture);
+void set_colour_space(Picture& picture, ColourSpace space);  // writes the chromaticities attribute
+
+// Text attributes of an OpenEXR file, e.g. "comments"; setting replaces one of any type.
+[[nodiscard]] std::optional<std::string> text_attribute(const Picture& picture, const std::string& name);
+void set_text_attribute(Picture& picture, const std::string& name, const std::string& text);
+[[nodiscard]] std::vector<std::string> attribute_names(const Picture& picture);
+
+// By the extension: .exr, or .png as sRGB (colours clipped to 0..1; 8 bit if it came from 8 bit, else 16).
+[[nodiscard]] Result<void> write_picture(const std::filesystem::path& file, const Picture& picture,
+                                         const Context& context = {});
+[[nodiscard]] Result<void> write_exr(const std::filesystem::path& file, const Image& image,
+                                     SampleType type = SampleType::Float, const Context& context = {});
+
+// An 8-bit sRGB PNG to look at. NaN and negative values show as black.
+struct PreviewSettings {
+  double exposure_stops = 0;      // values times 2^stops
+  bool roll_off_highlights = true;  // bends values above 0.8 towards 1 instead of clipping them
+};
+[[nodiscard]] Result<void> write_preview_png(const std::filesystem::path& file, const Image& rgb,
+                                             const PreviewSettings& settings = {}, const Context& context = {});
+
+}  // namespace contrejour

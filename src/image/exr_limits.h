@@ -1,0 +1,21 @@
+// Whether an OpenEXR file of so many bytes can hold the picture its header claims.
+#pragma once
+
+#include <cstdint>
+
+#include <ImfHeader.h>
+#include <ImfPixelType.h>
+
+#include "contrejour/image_io.h"
+
+namespace contrejour {
+
+// Errors: Unsupported (beyond the limits), Parse (the file is too small for it).
+[[nodiscard]] Result<void> check_exr_size(const Imf::Header& header, std::uint64_t header_bytes,
+                                          std::uint64_t file_bytes, const ReadLimits& limits,
+                                          const std::string& name);
+
+[[nodiscard]] SampleType sample_type_of(Imf::PixelType type);
+[[nodiscard]] PixelWindow window_of(const Imath::Box2i& box);
+
+}  // namespace contrejour

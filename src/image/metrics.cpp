@@ -1,0 +1,93 @@
+#include "contrejour/metrics.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+
+namespace contrejour {
+namespace {
+
+constexpr double kPeakQuantile = 0.999;
+
+std::vector<float> finite_samples(const Image& image) {
+  std::vector<float> samples;
+  samples.reserve(image.pixels.size());
+  for (const float value : image.pixels)
+    if (std::isfinite(value)) samples.push_back(value);
+  return samples;
+}
+
+double largest_finite(const Image& image) {
+  double largest = 0;
+  for (const float value : image.pixels)
+    if (std::isfinite(value)) largest = std::max(largest, static_cast<double>(value));
+  return largest;
+}
+
+double peak_of(const Image& a, const Image& b) {
+  double peak = quantile_of_samples(a, kPeakQuantile);
+  if (!(peak > 0)) peak = largest_finite(a);
+  if (!(peak > 0)) peak = largest_finite(b);
+  return peak;
+}
+
+double ratio(double b, double a) {
+  if (a == 0 && b == 0) return 1;
+  return a == 0 ? std::copysign(std::numeric_limits<double>::infinity(), b) : b / a;
+}
+
+bool same_non_finite(float a, float b) { return (std::isnan(a) && std::isnan(b)) || a == b; }
+
+}  // namespace
+
+double quantile_of_samples(const Image& image, double q) {
+  std::vector<float> samples = finite_samples(image);
+  if (samples.empty()) return 0;
+  const double place = std::clamp(q, 0.0, 1.0) * static_cast<double>(samples.size() - 1);
+  const auto below = static_cast<std::ptrdiff_t>(place);
+  std::nth_element(samples.begin(), samples.begin() + below, samples.end());
+  const double low = samples[static_cast<std::size_t>(below)];
+  if (below + 1 == static_cast<std::ptrdiff_t>(samples.size())) return low;
+  const double high = *std::min_element(samples.begin() + below + 1, samples.end());
+  return low + (place - static_cast<double>(below)) * (high - low);
+}
+
+Result<Comparison> compare(const Image& a, const Image& b) {
+  if (a.width != b.width || a.height != b.height || a.channels != b.channels)
+    return failure(ErrorCode::InvalidArgument,
+                   fmt::format("the images differ in size: {} x {} of {} channels, {} x {} of {}", a.width, a.height,
+                               a.channels, b.width, b.height, b.channels));
+  if (a.pixels.empty() || a.pixels.size() != b.pixels.size())
+    return failure(ErrorCode::InvalidArgument, "there are no pixels to compare");
+
+  Comparison result;
+  result.peak = peak_of(a, b);
+  const auto channels = static_cast<std::size_t>(a.channels);
+  std::vector<double> sum_a(channels), sum_b(channels);
+  double square_error = 0;
+  for (std::size_t i = 0; i < a.pixels.size(); ++i) {
+    const float va = a.pixels[i], vb = b.pixels[i];
+    if (std::isfinite(va)) sum_a[i % channels] += va;
+    if (std::isfinite(vb)) sum_b[i % channels] += vb;
+    if (!std::isfinite(va) || !std::isfinite(vb)) {
+      if (same_non_finite(va, vb)) continue;
+      ++result.non_finite_mismatches;
+      square_error += result.peak * result.peak;
+      continue;
+    }
+    const double difference = static_cast<double>(va) - vb;
+    result.max_abs_error = std::max(result.max_abs_error, std::abs(difference));
+    const double clipped = std::min<double>(va, result.peak) - std::min<double>(vb, result.peak);
+    square_error += clipped * clipped;
+  }
+  for (std::size_t c = 0; c < channels; ++c) result.flux_ratio.push_back(ratio(sum_b[c], sum_a[c]));
+  if (square_error > 0) {
+    const double mean = square_error / static_cast<double>(a.pixels.size());
+    result.psnr_db = 10 * std::log10(result.peak * result.peak / mean);
+  }
+  return result;
+}
+
+}  // namespace contrejour

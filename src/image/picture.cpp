@@ -1,0 +1,186 @@
+// Pictures as values, and the choice of the format.
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <fstream>
+
+#include <ImfChromaticitiesAttribute.h>
+#include <ImfStandardAttributes.h>
+#include <ImfStringAttribute.h>
+#include <fmt/format.h>
+
+#include "image/formats.h"
+#include "image/picture_header.h"
+#include "image/rgb_spaces.h"
+#include "image/samples.h"
+
+namespace contrejour {
+namespace {
+
+constexpr double kChromaticityTolerance = 2e-3;  // files round theirs to three or four digits
+
+template <class Action>
+void change_header(Picture& picture, Action action) {
+  auto changed = std::make_shared<PictureHeader>(PictureHeader{header_of(picture)});
+  action(changed->header);
+  picture.header = std::move(changed);
+}
+
+bool near(const Imath::V2f& a, const std::array<double, 2>& b) {
+  return std::abs(a.x - b[0]) < kChromaticityTolerance && std::abs(a.y - b[1]) < kChromaticityTolerance;
+}
+
+bool near(const Imf::Chromaticities& a, const Primaries& b) {
+  return near(a.red, b.red) && near(a.green, b.green) && near(a.blue, b.blue) && near(a.white, b.white);
+}
+
+Imath::V2f vector_of(const std::array<double, 2>& xy) {
+  return {static_cast<float>(xy[0]), static_cast<float>(xy[1])};
+}
+
+Result<std::vector<std::byte>> read_bytes(const std::filesystem::path& file, std::uint64_t max_bytes) {
+  const SourcePlace place{file.string()};
+  std::error_code error;
+  if (std::filesystem::is_directory(file, error))
+    return failure(ErrorCode::Io, "this is a folder; give a picture's name", place);
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream) return failure(ErrorCode::Io, std::string("cannot open: ") + std::strerror(errno), place);
+  // In pieces: a pipe has no size, and a file's own may be a lie (/dev/zero).
+  constexpr std::size_t kPiece = std::size_t{1} << 20;
+  const std::uintmax_t expected = std::filesystem::file_size(file, error);
+  std::vector<std::byte> bytes;
+  if (!error && expected <= max_bytes) bytes.reserve(static_cast<std::size_t>(expected) + 1);
+  while (stream) {
+    const std::size_t have = bytes.size();
+    const std::size_t step = bytes.capacity() > have ? std::min(kPiece, bytes.capacity() - have) : kPiece;
+    bytes.resize(have + step);
+    stream.read(reinterpret_cast<char*>(bytes.data() + have), static_cast<std::streamsize>(step));
+    bytes.resize(have + static_cast<std::size_t>(stream.gcount()));
+    if (bytes.size() > max_bytes)
+      return failure(ErrorCode::Unsupported, fmt::format("the file is larger than {} bytes", max_bytes), place);
+  }
+  if (stream.bad()) return failure(ErrorCode::Io, "cannot read", place);
+  return bytes;
+}
+
+bool starts_with(std::span<const std::byte> bytes, std::initializer_list<unsigned char> magic) {
+  return bytes.size() >= magic.size() &&
+         std::equal(magic.begin(), magic.end(), bytes.begin(),
+                    [](unsigned char a, std::byte b) { return std::byte{a} == b; });
+}
+
+std::string lower_extension(const std::filesystem::path& file) {
+  std::string extension = file.extension().string();
+  for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return extension;
+}
+
+}  // namespace
+
+Imf::Header header_of(const Picture& picture) { return picture.header ? picture.header->header : Imf::Header(); }
+
+Result<Picture> read_picture(std::span<const std::byte> bytes, const std::string& name, const ReadOptions& options) {
+  if (bytes.empty()) return failure(ErrorCode::Parse, "the file is empty", {name});
+  if (starts_with(bytes, {0x76, 0x2f, 0x31, 0x01})) return read_exr(bytes, name, options);
+  if (starts_with(bytes, {0x89, 'P', 'N', 'G'})) return read_png(bytes, name, options.limits);
+  return failure(ErrorCode::Parse, "neither an OpenEXR nor a PNG file; convert it to one of these", {name});
+}
+
+Result<Picture> read_picture(const std::filesystem::path& file, const ReadOptions& options) {
+  try {
+    const Result<std::vector<std::byte>> bytes = read_bytes(file, options.limits.max_bytes);
+    if (!bytes) return tl::unexpected(bytes.error());
+    return read_picture(*bytes, file.string(), options);
+  } catch (const std::exception& e) {
+    return failure(ErrorCode::Io, std::string("cannot read: ") + e.what(), {file.string()});
+  }
+}
+
+Picture picture_of(const Image& image, SampleType type) {
+  Picture picture;
+  picture.data_window = picture.display_window = {0, 0, image.width, image.height};
+  picture.rgb = Image(image.width, image.height, 3);
+  const std::size_t channels = static_cast<std::size_t>(image.channels);
+  const std::size_t count = picture.rgb.pixels.size() / 3;
+  const bool grey = channels < 3;
+  for (std::size_t i = 0; i < count; ++i)
+    for (std::size_t c = 0; c < 3; ++c)
+      picture.rgb.pixels[3 * i + c] = image.pixels[i * channels + (grey ? 0 : c)];
+  if (grey) {
+    picture.channels.push_back({"Y", type, 1, 1, false, {}});
+    picture.rgb_source = {0, 0, 0};
+    return picture;
+  }
+  for (const char* name : {"R", "G", "B"}) picture.channels.push_back({name, type, 1, 1, false, {}});
+  picture.rgb_source = {0, 1, 2};
+  if (channels > 3) {
+    PictureChannel alpha{"A", type, 1, 1, false, std::vector<std::byte>(count * size_of(type))};
+    for (std::size_t i = 0; i < count; ++i)
+      encode_sample(type, Coding::Linear, image.pixels[i * channels + 3], alpha.samples.data() + i * size_of(type));
+    picture.channels.push_back(std::move(alpha));
+  }
+  return picture;
+}
+
+std::optional<ColourSpace> colour_space_of(const Picture& picture) {
+  if (!picture.header || !Imf::hasChromaticities(picture.header->header)) return ColourSpace::Rec709;
+  const Imf::Chromaticities& found = Imf::chromaticities(picture.header->header);
+  for (const ColourSpace space : {ColourSpace::Rec709, ColourSpace::AcesCg})
+    if (near(found, primaries_of(space))) return space;
+  return std::nullopt;
+}
+
+void set_colour_space(Picture& picture, ColourSpace space) {
+  const Primaries& p = primaries_of(space);
+  change_header(picture, [&](Imf::Header& header) {
+    Imf::addChromaticities(header, {vector_of(p.red), vector_of(p.green), vector_of(p.blue), vector_of(p.white)});
+  });
+}
+
+std::optional<std::string> text_attribute(const Picture& picture, const std::string& name) {
+  if (!picture.header) return std::nullopt;
+  const auto* found = picture.header->header.findTypedAttribute<Imf::StringAttribute>(name);
+  return found == nullptr ? std::nullopt : std::optional(found->value());
+}
+
+void set_text_attribute(Picture& picture, const std::string& name, const std::string& text) {
+  change_header(picture, [&](Imf::Header& header) {
+    header.erase(name);
+    header.insert(name, Imf::StringAttribute(text));
+  });
+}
+
+std::vector<std::string> attribute_names(const Picture& picture) {
+  std::vector<std::string> names;
+  if (!picture.header) return names;
+  for (auto i = picture.header->header.begin(); i != picture.header->header.end(); ++i) names.emplace_back(i.name());
+  return names;
+}
+
+Result<void> write_picture(const std::filesystem::path& file, const Picture& picture, const Context& context) {
+  const std::string extension = lower_extension(file);
+  const SourcePlace place{file.string()};
+  const std::size_t pixels = sample_count(picture.data_window, 1, 1);
+  if (pixels == 0 || picture.rgb.channels != 3 || picture.rgb.pixels.size() != 3 * pixels)
+    return failure(ErrorCode::InvalidArgument, "the picture is empty or its image does not fill its window", place);
+  try {
+    if (extension == ".exr") return write_picture_exr(file, picture, context);
+    if (extension == ".png") return write_picture_png(file, picture, context);
+  } catch (const std::exception& e) {
+    return failure(ErrorCode::Io, std::string("cannot write: ") + e.what(), place);
+  }
+  return failure(ErrorCode::InvalidArgument,
+                 fmt::format("cannot write pictures as '{}'; use .exr or .png", extension), place);
+}
+
+Result<void> write_exr(const std::filesystem::path& file, const Image& image, SampleType type, const Context& context) {
+  if (image.width <= 0 || image.height <= 0 || image.pixels.size() != image.index(0, image.height))
+    return failure(ErrorCode::InvalidArgument, "the image is empty", {file.string()});
+  try {
+    return write_picture_exr(file, picture_of(image, type), context);
+  } catch (const std::exception& e) {
+    return failure(ErrorCode::Io, std::string("cannot write: ") + e.what(), {file.string()});
+  }
+}
+
+}  // namespace contrejour

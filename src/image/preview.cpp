@@ -1,0 +1,44 @@
+// Scene-linear images to look at.
+#include <cmath>
+
+#include "image/png_file.h"
+#include "image/samples.h"
+
+namespace contrejour {
+namespace {
+
+constexpr float kRollOffStart = 0.8F;
+
+// Straight up to the knee, from there with the same slope towards 1.
+float roll_off(float value) {
+  if (!(value > kRollOffStart)) return value;
+  constexpr float room = 1 - kRollOffStart;
+  return 1 - room * std::exp((kRollOffStart - value) / room);
+}
+
+}  // namespace
+
+Result<void> write_preview_png(const std::filesystem::path& file, const Image& rgb, const PreviewSettings& settings,
+                               const Context& context) {
+  const SourcePlace place{file.string()};
+  const bool complete = rgb.width > 0 && rgb.height > 0 && rgb.channels > 0 &&
+                        rgb.pixels.size() == rgb.index(0, rgb.height);
+  if (!complete) return failure(ErrorCode::InvalidArgument, "the image is empty", place);
+  const float gain = static_cast<float>(std::exp2(settings.exposure_stops));
+  const int channels = rgb.channels < 3 ? 1 : 3;
+  const auto fill = [&](int y, std::byte* row) {
+    for (int x = 0; x < rgb.width; ++x)
+      for (int c = 0; c < channels; ++c) {
+        const float value = gain * rgb.at(x, y, c);
+        const float shown = settings.roll_off_highlights ? roll_off(value) : value;
+        encode_sample(SampleType::UInt8, Coding::Colour, shown, row++);
+      }
+  };
+  try {
+    return write_png_file(file, {rgb.width, rgb.height, channels, 8}, fill, context);
+  } catch (const std::exception& e) {
+    return failure(ErrorCode::Io, std::string("cannot write: ") + e.what(), place);
+  }
+}
+
+}  // namespace contrejour

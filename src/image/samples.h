@@ -1,0 +1,38 @@
+// One sample of a file to a scene-linear float and back.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "contrejour/image_io.h"
+
+namespace contrejour {
+
+// IEC 61966-2-1:1999 (sRGB), 0..1 to 0..1; encoding clips and takes NaN to 0.
+[[nodiscard]] float srgb_decode(double coded);
+[[nodiscard]] float srgb_encode(float linear);
+
+// Colour samples of 8 and 16 bits are sRGB, `linear` ones (alpha) are not; the other types are linear as they are.
+enum class Coding { Colour, Linear };
+
+[[nodiscard]] std::vector<float> decode_samples(const PictureChannel& channel, Coding coding);
+
+// Finite values beyond the type's range become its largest; integers round, NaN becomes 0 in them.
+void encode_sample(SampleType type, Coding coding, float value, std::byte* out);
+
+// Sample count of a channel over a window that starts at a multiple of its sampling.
+[[nodiscard]] std::size_t sample_count(const PixelWindow& window, int x_sampling, int y_sampling);
+
+// What a file shall hold of channel k: where rgb is as it was read, the bits that were read; elsewhere rgb encoded as
+// `type`. A type other than the channel's own codes all samples anew. Rows from the top.
+[[nodiscard]] std::vector<std::byte> samples_to_write(const Picture& picture, std::size_t k, SampleType type);
+
+// Which of rgb (0..2) comes from channel k, 3 for all of them (grey), -1 for none.
+[[nodiscard]] int rgb_component(const Picture& picture, std::size_t k);
+
+// The alpha channel "A" where it has a sample for each pixel, else empty. Colours are multiplied by it in memory and
+// in OpenEXR, not in PNG.
+[[nodiscard]] std::vector<float> alpha_of(const Picture& picture);
+
+}  // namespace contrejour

@@ -1,0 +1,136 @@
+// The visible spectrum in N bands: docs/physics/colour.md.
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+#include "image/cie_tables.h"
+#include "image/rgb_spaces.h"
+
+namespace contrejour {
+namespace {
+
+// Below this share of its absolute integral a channel's total says nothing of how its light is spread: the blue
+// matching function's lobes cancel for a black body of about 1900 K, and their quotient would grow without bound.
+constexpr double kSmallestTotalShare = 0.1;
+
+// What is integrated over wavelength: piecewise linear between whole nanometres.
+struct Sample {
+  double visible = 0;  // S (xbar + ybar + zbar)
+  double moment = 0;   // lambda times that
+  Rgb channel{};       // S times the channel's matching function
+  Rgb absolute{};      // and its size
+};
+
+Sample operator+(const Sample& a, const Sample& b) {
+  Sample sum{a.visible + b.visible, a.moment + b.moment, {}, {}};
+  for (std::size_t c = 0; c < 3; ++c) {
+    sum.channel[c] = a.channel[c] + b.channel[c];
+    sum.absolute[c] = a.absolute[c] + b.absolute[c];
+  }
+  return sum;
+}
+
+Sample operator*(double s, const Sample& a) {
+  Sample scaled{s * a.visible, s * a.moment, {}, {}};
+  for (std::size_t c = 0; c < 3; ++c) {
+    scaled.channel[c] = s * a.channel[c];
+    scaled.absolute[c] = s * a.absolute[c];
+  }
+  return scaled;
+}
+
+using Samples = std::array<Sample, cie::kObserverCount>;
+
+Samples sample_light(const Spectrum& light, ColourSpace space) {
+  // A black body of 500 K spans 17 powers of ten; relative to its largest value nothing over- or underflows to matter.
+  std::array<double, cie::kObserverCount> power{};
+  double largest = 0;
+  for (std::size_t i = 0; i < power.size(); ++i) {
+    power[i] = spectral_power(light, cie::kObserverFirstNm + static_cast<double>(i));
+    largest = std::max(largest, power[i]);
+  }
+  Samples samples{};
+  for (std::size_t i = 0; i < power.size(); ++i) {
+    const Xyz& observer = cie::kObserver1931[i];
+    const Rgb matching = rgb_from_xyz(observer, space);
+    const double s = power[i] / largest;
+    samples[i].visible = s * (observer[0] + observer[1] + observer[2]);
+    samples[i].moment = samples[i].visible * (cie::kObserverFirstNm + static_cast<double>(i));
+    for (std::size_t c = 0; c < 3; ++c) {
+      samples[i].channel[c] = s * matching[c];
+      samples[i].absolute[c] = std::abs(s * matching[c]);
+    }
+  }
+  return samples;
+}
+
+// Integrals from the first wavelength to any other, exact for the piecewise linear samples.
+class Cumulative {
+ public:
+  explicit Cumulative(const Samples& samples) : samples_(samples) {
+    for (std::size_t i = 1; i < samples.size(); ++i)
+      to_[i] = to_[i - 1] + 0.5 * (samples[i - 1] + samples[i]);
+  }
+
+  [[nodiscard]] const Sample& total() const { return to_.back(); }
+
+  // Up to the place where `visible` reaches this value. Within a nanometre visible is
+  // v0 t + (v1 - v0) t^2 / 2; the root is taken in the form that does not cancel.
+  [[nodiscard]] Sample up_to_visible(double value) const {
+    const auto above = std::upper_bound(to_.begin() + 1, to_.end() - 1, value,
+                                        [](double v, const Sample& s) { return v < s.visible; });
+    const auto i = static_cast<std::size_t>(above - to_.begin()) - 1;
+    const double rest = std::max(0.0, value - to_[i].visible);
+    const double v0 = samples_[i].visible, slope = samples_[i + 1].visible - v0;
+    const double denominator = v0 + std::sqrt(std::max(0.0, v0 * v0 + 2 * slope * rest));
+    const double t = denominator > 0 ? std::min(1.0, 2 * rest / denominator) : 0.0;
+    return to_[i] + (t - 0.5 * t * t) * samples_[i] + (0.5 * t * t) * samples_[i + 1];
+  }
+
+ private:
+  const Samples& samples_;
+  Samples to_{};
+};
+
+// Shifts rounding errors into the largest weight until the sum, taken in order, is 1.
+void make_sum_one(std::vector<SpectralBand>& bands, std::size_t c) {
+  const auto largest = std::max_element(bands.begin(), bands.end(), [c](const auto& a, const auto& b) {
+    return std::abs(a.weight[c]) < std::abs(b.weight[c]);
+  });
+  for (int attempt = 0; attempt < 8; ++attempt) {
+    double sum = 0;
+    for (const SpectralBand& band : bands) sum += band.weight[c];
+    if (sum == 1) return;
+    largest->weight[c] += 1 - sum;
+  }
+}
+
+}  // namespace
+
+std::vector<SpectralBand> spectral_bands(int count, const Spectrum& light, ColourSpace space) {
+  assert(count >= 1);
+  const Samples samples = sample_light(light, space);
+  const Cumulative cumulative(samples);
+  const Sample& total = cumulative.total();
+
+  std::vector<SpectralBand> bands(static_cast<std::size_t>(std::max(count, 1)));
+  Sample begin{};
+  for (std::size_t k = 0; k < bands.size(); ++k) {
+    const bool last = k + 1 == bands.size();
+    const double share = static_cast<double>(k + 1) / static_cast<double>(bands.size());
+    const Sample end = last ? total : cumulative.up_to_visible(share * total.visible);
+    const Sample band = end + (-1.0) * begin;
+    bands[k].lambda_nm = band.moment / band.visible;
+    for (std::size_t c = 0; c < 3; ++c) {
+      // The channel's own integral, plus as much of the absolute one as keeps the quotient bounded.
+      const double added = std::max(0.0, kSmallestTotalShare - total.channel[c] / total.absolute[c]);
+      bands[k].weight[c] = (band.channel[c] + added * band.absolute[c]) /
+                           (total.channel[c] + added * total.absolute[c]);
+    }
+    begin = end;
+  }
+  for (std::size_t c = 0; c < 3; ++c) make_sum_one(bands, c);
+  return bands;
+}
+
+}  // namespace contrejour
