@@ -137,16 +137,21 @@ Result<void> check_pair(const Prescription& lens, std::size_t front, std::size_t
                                                "radii and the thickness", front + 1, -gap_mm, h_mm, where));
 }
 
-// Neighbours, and the two that the stop stands between.
+// Neighbouring refracting surfaces. The stop is no matter: design programs put its plane at the vertex of a
+// surface, where a concave one reaches through it.
 Result<void> check_crossings(const Prescription& lens, std::span<const double> thickness_mm,
                              const std::string& where) {
-  const std::vector<Surface>& rows = lens.surfaces;
-  for (std::size_t i = 0; i + 1 < rows.size(); ++i) {
-    if (const auto pair = check_pair(lens, i, i + 1, thickness_mm[i], where); !pair) return pair;
-    const bool before_stop = i + 2 < rows.size() && rows[i + 1].kind == SurfaceKind::Stop;
-    if (!before_stop) continue;
-    const auto pair = check_pair(lens, i, i + 2, thickness_mm[i] + thickness_mm[i + 1], where);
-    if (!pair) return pair;
+  std::optional<std::size_t> front;
+  double gap_mm = 0.0;
+  for (std::size_t i = 0; i < lens.surfaces.size(); ++i) {
+    if (lens.surfaces[i].kind == SurfaceKind::Refracting) {
+      if (front) {
+        if (const auto pair = check_pair(lens, *front, i, gap_mm, where); !pair) return pair;
+      }
+      front = i;
+      gap_mm = 0.0;
+    }
+    gap_mm += thickness_mm[i];
   }
   return {};
 }
