@@ -1,0 +1,75 @@
+// Thin-film coatings: which films lie on a surface, and what they reflect and transmit.
+// Exact for plane-parallel homogeneous films of any number, s and p (Abeles transfer matrices; Born & Wolf
+// 1.6, Byrnes arXiv:1603.02720). Lossless films give R + T = 1 to 1e-12 at any angle.
+// Thread-safety: plain values and pure functions.
+#pragma once
+
+#include <complex>
+#include <span>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace contrejour {
+
+struct FilmLayer {
+  std::complex<double> n{1.0, 0.0};  // n + i k, absorbing for k > 0
+  double thickness_nm = 0.0;
+  friend bool operator==(const FilmLayer&, const FilmLayer&) = default;
+};
+
+struct Bare {
+  friend bool operator==(const Bare&, const Bare&) = default;
+};
+
+// One film of index n, a quarter of lambda0 thick at normal incidence: d = lambda0 / (4 n). MgF2 by default.
+struct QuarterWave {
+  double n = 1.38;
+  double lambda0_nm = 550.0;
+  friend bool operator==(const QuarterWave&, const QuarterWave&) = default;
+};
+
+// Any stack, listed from the low-index side (air) to the glass, whichever way the light goes.
+struct FilmStack {
+  std::vector<FilmLayer> layers;
+  friend bool operator==(const FilmStack&, const FilmStack&) = default;
+};
+
+// The formula printed in hullin2011's supplement, for comparison only: it squares t01 where t01 * t10
+// belongs, so it reflects up to a third too much (docs/physics/coatings.md).
+struct HullinFresnelAR {
+  double n = 1.38;
+  double lambda0_nm = 550.0;
+  friend bool operator==(const HullinFresnelAR&, const HullinFresnelAR&) = default;
+};
+
+struct Coating {
+  std::string name;  // as the user wrote it, may be empty
+  std::variant<Bare, QuarterWave, FilmStack, HullinFresnelAR> films;
+  friend bool operator==(const Coating&, const Coating&) = default;
+};
+
+// A short text for tables and JSON: "none", "quarter-wave 550 nm n=1.38", "stack of 3 layers", ...
+[[nodiscard]] std::string describe(const Coating& coating);
+
+// Amplitudes and powers of a stack between two half-spaces, convention exp(-i w t); r_p = -r_s at normal
+// incidence; T counts the power that leaves into the last medium per power that comes in.
+struct FilmResponse {
+  std::complex<double> r_s, r_p, t_s, t_p;
+  double R_s = 0, R_p = 0, T_s = 0, T_p = 0;
+};
+
+// layers run from the side of n_in to the side of n_out; theta_in in n_in (real angle, radians).
+[[nodiscard]] FilmResponse film_response(std::complex<double> n_in, std::span<const FilmLayer> layers,
+                                         std::complex<double> n_out, double theta_in_rad, double lambda_nm);
+
+// Power reflectance of a coated surface for unpolarised light that comes from n_in at cos_in (0..1);
+// 1 under total reflection. T = 1 - R for lossless films.
+[[nodiscard]] double reflectance(const Coating& coating, double n_in, double n_out, double cos_in,
+                                 double lambda_nm);
+
+// Unpolarised transmittance: 1 - R unless a film absorbs.
+[[nodiscard]] double transmittance(const Coating& coating, double n_in, double n_out, double cos_in,
+                                   double lambda_nm);
+
+}  // namespace contrejour

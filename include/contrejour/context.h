@@ -1,0 +1,19 @@
+// What a long computation needs from its caller: threads, a way to stop it, a way to hear how far it is.
+// The result is the same, bit for bit, for any number of threads. Thread-safety: `cancelled` and `progress`
+// may be called from any worker thread, progress never from two at once.
+#pragma once
+
+#include <atomic>
+#include <functional>
+
+namespace contrejour {
+
+struct Context {
+  int threads = 0;                             // 0: all cores
+  const std::atomic<bool>* cancel = nullptr;   // set it to stop; null: cannot be stopped
+  std::function<void(double done)> progress;   // 0..1, rising; may be empty
+
+  [[nodiscard]] bool cancelled() const { return cancel != nullptr && cancel->load(std::memory_order_relaxed); }
+};
+
+}  // namespace contrejour

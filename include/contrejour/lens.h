@@ -1,0 +1,120 @@
+// A lens as its patent tells it (Prescription), and the same lens set for a picture (LensState).
+// Lengths mm, z = 0 at the first vertex, light travels to +z. Surfaces count from 1 in prescription order
+// wherever a user sees a number; vectors count from 0. Thread-safety: plain values.
+#pragma once
+
+#include <filesystem>
+#include <limits>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "contrejour/coating.h"
+#include "contrejour/glass.h"
+#include "contrejour/iris.h"
+#include "contrejour/result.h"
+
+namespace contrejour {
+
+enum class SurfaceKind { Refracting, Stop };
+
+struct Surface {
+  SurfaceKind kind = SurfaceKind::Refracting;
+  double curvature_per_mm = 0.0;  // 1 / radius, 0 for a plane, > 0 when the centre lies to +z
+  double thickness_mm = 0.0;      // to the next vertex; unused on the last surface
+  double semi_diameter_mm = 0.0;  // clear radius; for the stop, its widest opening
+  Glass glass_after;              // the medium behind; for the stop, the same as in front
+  Coating coating;
+  int source_line = 0;            // in the file it was read from, 0 unknown
+};
+
+// One position of a zoom: thicknesses (mm) that replace those of the surfaces, by vector index.
+struct ZoomPosition {
+  double focal_length_mm = 0.0;  // nominal: the number a photographer asks for
+  std::vector<std::pair<int, double>> thickness_mm;
+  int source_line = 0;
+};
+
+// First-order figures the source states; a lens whose computed ones differ is reported.
+struct StatedFigures {
+  double wavelength_nm = kLineD_nm;
+  std::optional<double> focal_length_mm;
+  std::optional<double> back_focal_distance_mm;
+  double tolerance = 0.01;  // relative
+};
+
+struct Prescription {
+  std::string name;    // "Canon 70-200mm f/2.8"
+  std::string source;  // patent or book, with its number
+  std::vector<Surface> surfaces;
+  std::vector<ZoomPosition> zoom;  // empty: a prime; else in rising focal length
+  double f_number = 0.0;           // widest
+  double sensor_width_mm = 36.0;
+  double sensor_height_mm = 24.0;
+  std::optional<double> sensor_distance_mm;  // last vertex -> sensor at infinity focus; default: paraxial focus
+  StatedFigures stated;
+  SourcePlace file;
+};
+
+struct LensSettings {
+  std::optional<double> focal_length_mm = std::nullopt;  // zoom; default: the first position
+  std::optional<double> f_number = std::nullopt;         // default: the widest
+  double object_distance_mm = std::numeric_limits<double>::infinity();  // from surface 1; focus
+  std::optional<Coating> coating = std::nullopt;         // in place of every glass-to-air coating
+  Iris iris = {};
+};
+
+struct SurfaceState {
+  SurfaceKind kind = SurfaceKind::Refracting;
+  double z_mm = 0.0;
+  double curvature_per_mm = 0.0;
+  double semi_diameter_mm = 0.0;
+  Glass before, after;
+  Coating coating;
+};
+
+// Everything a renderer needs to know of the lens: fixed positions, stop radius, sensor in focus.
+struct LensState {
+  std::string name;
+  std::vector<SurfaceState> surfaces;
+  int stop_index = 0;  // into surfaces
+  double stop_radius_mm = 0.0;
+  Iris iris;
+  double sensor_z_mm = 0.0;
+  double sensor_width_mm = 36.0;
+  double sensor_height_mm = 24.0;
+  double focal_length_mm = 0.0;
+  double f_number = 0.0;
+  double object_distance_mm = std::numeric_limits<double>::infinity();
+  double design_wavelength_nm = kLineD_nm;
+  std::vector<std::string> warnings;
+};
+
+// Checks a prescription: stop, semi-diameters, finite values, surfaces that cross inside their clear
+// aperture (at every zoom position). Errors name file, line and remedy.
+[[nodiscard]] Result<void> validate(const Prescription& lens);
+
+// Sets zoom (any focal length within the range), stop and focus. Errors: focal length or f-number out of
+// range, object inside the front focal point.
+[[nodiscard]] Result<LensState> lens_at(const Prescription& lens, const LensSettings& settings = {});
+
+// Reads a lens in any format that is known, by content and extension. Bounded in memory and time.
+[[nodiscard]] Result<Prescription> read_lens(const std::filesystem::path& file);
+
+// Our own format (docs/formats/lens-toml.md) from memory; `file` names it in errors.
+[[nodiscard]] Result<Prescription> read_lens_toml(std::string_view text, const std::string& file);
+[[nodiscard]] std::string write_lens_toml(const Prescription& lens);
+
+// Lenses that come with the library.
+struct BundledLens {
+  std::string_view name;  // "canon-70-200"
+  std::string_view toml;
+};
+[[nodiscard]] std::vector<BundledLens> bundled_lenses();
+
+// A bundled name, or else a file.
+[[nodiscard]] Result<Prescription> find_lens(const std::string& name_or_file);
+
+}  // namespace contrejour

@@ -1,0 +1,45 @@
+// Result<T>: a value, or an Error that names what is wrong, where, and what to do.
+// No exception crosses a library edge; a ray that fails is data (trace.h), not an Error.
+// Thread-safety: plain values.
+#pragma once
+
+#include <string>
+#include <utility>
+
+#include <tl/expected.hpp>
+
+namespace contrejour {
+
+enum class ErrorCode {
+  InvalidArgument,  // a value out of its range
+  Parse,            // a file that is not what its format says
+  Io,               // cannot open, read or write
+  Unsupported,      // understood, but not modelled
+  Cancelled,        // the caller asked to stop
+};
+
+// A place in a user's file; line and column count from 1, 0 means unknown.
+struct SourcePlace {
+  std::string file;
+  int line = 0;
+  int column = 0;
+};
+
+struct Error {
+  ErrorCode code = ErrorCode::InvalidArgument;
+  std::string message;  // what is wrong and what to do, no trailing newline
+  SourcePlace place;
+
+  // "file:line: message", without the parts that are unknown.
+  [[nodiscard]] std::string to_string() const;
+};
+
+template <class T>
+using Result = tl::expected<T, Error>;
+
+[[nodiscard]] inline tl::unexpected<Error> failure(ErrorCode code, std::string message,
+                                                   SourcePlace place = {}) {
+  return tl::unexpected<Error>(Error{code, std::move(message), std::move(place)});
+}
+
+}  // namespace contrejour

@@ -1,0 +1,12 @@
+// The only place where units are converted.
+#pragma once
+
+#include <numbers>
+
+namespace contrejour {
+
+constexpr double rad_from_deg(double deg) { return deg * std::numbers::pi / 180.0; }
+constexpr double deg_from_rad(double rad) { return rad * 180.0 / std::numbers::pi; }
+constexpr double um_from_nm(double nm) { return nm * 1e-3; }
+
+}  // namespace contrejour

@@ -1,0 +1,79 @@
+// Abeles characteristic matrices in the convention exp(-i w t). Each film's matrix maps the tangential fields
+// (E, H) at its back to those at its front; with sin(delta) / cos(theta) kept as one factor, a film at its
+// critical angle needs no special case.
+#include <cmath>
+#include <numbers>
+
+#include "contrejour/coating.h"
+
+namespace contrejour {
+namespace {
+
+using Complex = std::complex<double>;
+
+// Beyond this attenuation (nepers) nothing measurable comes back from a film; it keeps cosh finite.
+constexpr double kDeepestAttenuation = 300.0;
+constexpr double kSmallPhase = 1e-4;  // below it sin(x)/x = 1 - x^2/6 is exact to rounding
+
+// Cosine of the ray angle in a medium by Snell, on the branch that travels or decays forwards.
+Complex forward_cosine(Complex n, Complex n_sin) {
+  const Complex sine = n_sin / n;
+  Complex cosine = std::sqrt(1.0 - sine * sine);
+  const Complex along = n * cosine;
+  const bool backwards = std::abs(along.imag()) > 1e-14 * std::abs(along) ? along.imag() < 0.0 : along.real() < 0.0;
+  return backwards ? -cosine : cosine;
+}
+
+Complex sinc(Complex x) { return std::abs(x) < kSmallPhase ? 1.0 - x * x / 6.0 : std::sin(x) / x; }
+
+struct Fields {
+  Complex e, h;
+};
+
+// admittance_sin = eta sin(delta), impedance_sin = sin(delta) / eta
+Fields through_film(const Fields& back, Complex delta, Complex admittance_sin, Complex impedance_sin) {
+  const Complex i(0.0, 1.0);
+  const Complex cosine = std::cos(delta);
+  return {cosine * back.e - i * impedance_sin * back.h, cosine * back.h - i * admittance_sin * back.e};
+}
+
+}  // namespace
+
+FilmResponse film_response(Complex n_in, std::span<const FilmLayer> layers, Complex n_out, double theta_in_rad,
+                           double lambda_nm) {
+  const Complex n_sin = n_in * std::sin(theta_in_rad);
+  const Complex cos_in = std::cos(theta_in_rad);
+  const Complex cos_out = forward_cosine(n_out, n_sin);
+
+  // Fields at the back for a unit transmitted wave; p is scaled by cos_out so that grazing exit stays finite.
+  Fields s{1.0, n_out * cos_out};
+  Fields p{cos_out, n_out};
+  for (auto film = layers.rbegin(); film != layers.rend(); ++film) {
+    const Complex cosine = forward_cosine(film->n, n_sin);
+    const Complex thickness = 2.0 * std::numbers::pi * film->thickness_nm / lambda_nm * film->n;
+    Complex delta = thickness * cosine;
+    if (delta.imag() > kDeepestAttenuation) delta.imag(kDeepestAttenuation);
+    const Complex sine_over_cosine = thickness * sinc(delta);  // sin(delta) / cos(theta)
+    const Complex sine_times_cosine = std::sin(delta) * cosine;
+    s = through_film(s, delta, film->n * sine_times_cosine, sine_over_cosine / film->n);
+    p = through_film(p, delta, film->n * sine_over_cosine, sine_times_cosine / film->n);
+  }
+
+  FilmResponse out;
+  const Complex s_sum = n_in * cos_in * s.e + s.h;
+  const Complex p_sum = n_in * p.e + cos_in * p.h;
+  out.r_s = (n_in * cos_in * s.e - s.h) / s_sum;
+  out.r_p = -(n_in * p.e - cos_in * p.h) / p_sum;
+  out.t_s = 2.0 * n_in * cos_in / s_sum;
+  out.t_p = 2.0 * n_in * cos_in / p_sum;
+  out.R_s = std::norm(out.r_s);
+  out.R_p = std::norm(out.r_p);
+  // Power along the normal: Re(n cos) for s, Re(n conj(cos)) for p.
+  const double in_s = (n_in * cos_in).real();
+  const double in_p = (n_in * std::conj(cos_in)).real();
+  out.T_s = in_s > 0.0 ? std::norm(out.t_s) * (n_out * cos_out).real() / in_s : 0.0;
+  out.T_p = in_p > 0.0 ? std::norm(out.t_p) * (n_out * std::conj(cos_out)).real() / in_p : 0.0;
+  return out;
+}
+
+}  // namespace contrejour

@@ -1,0 +1,39 @@
+#include "contrejour/glass.h"
+
+#include <cmath>
+
+#include "base/units.h"
+
+namespace contrejour {
+namespace {
+
+double index_of(const ConstantIndex& glass, double) { return glass.n; }
+
+// n = A + B / lambda^2 with n(d) = n_d and n(F) - n(C) = (n_d - 1) / v_d.
+double index_of(const AbbeGlass& glass, double lambda_nm) {
+  if (glass.v_d == 0.0) return glass.n_d;
+  const auto inverse_square = [](double nm) { return 1.0 / (um_from_nm(nm) * um_from_nm(nm)); };
+  const double b = (glass.n_d - 1.0) / (glass.v_d * (inverse_square(kLineF_nm) - inverse_square(kLineC_nm)));
+  return glass.n_d + b * (inverse_square(lambda_nm) - inverse_square(kLineD_nm));
+}
+
+// hullin2011 eq. 1; lambda um.
+double index_of(const Sellmeier& glass, double lambda_nm) {
+  const double l2 = um_from_nm(lambda_nm) * um_from_nm(lambda_nm);
+  double n2 = 1.0;
+  for (std::size_t k = 0; k < glass.b.size(); ++k) n2 += glass.b[k] * l2 / (l2 - glass.c_um2[k]);
+  return std::sqrt(n2);
+}
+
+}  // namespace
+
+double refractive_index(const Glass& glass, double lambda_nm) {
+  return std::visit([&](const auto& dispersion) { return index_of(dispersion, lambda_nm); }, glass.dispersion);
+}
+
+bool is_air(const Glass& glass) {
+  const auto* constant = std::get_if<ConstantIndex>(&glass.dispersion);
+  return constant != nullptr && constant->n == 1.0;
+}
+
+}  // namespace contrejour

@@ -1,0 +1,92 @@
+#include "contrejour/first_order.h"
+
+#include <cmath>
+
+namespace contrejour {
+namespace {
+
+// Slopes are dy per unit of path length along the axis, so that the same transfer serves both directions of
+// travel; a curvature seen from behind changes sign.
+Abcd transfer(double distance_mm) { return {1.0, distance_mm, 0.0, 1.0}; }
+
+Abcd refraction(double n_in, double n_out, double curvature) {
+  return {1.0, 0.0, -curvature * (n_out - n_in) / n_out, n_in / n_out};
+}
+
+Abcd reflection(double curvature) { return {1.0, 0.0, 2.0 * curvature, 1.0}; }
+
+struct Index {
+  double before, after;
+};
+Index index_at(const SurfaceState& surface, double lambda_nm) {
+  return {refractive_index(surface.before, lambda_nm), refractive_index(surface.after, lambda_nm)};
+}
+
+Abcd refraction_forward(const SurfaceState& s, double lambda_nm) {
+  if (s.kind == SurfaceKind::Stop) return {};
+  const Index n = index_at(s, lambda_nm);
+  return refraction(n.before, n.after, s.curvature_per_mm);
+}
+
+Abcd refraction_backward(const SurfaceState& s, double lambda_nm) {
+  if (s.kind == SurfaceKind::Stop) return {};
+  const Index n = index_at(s, lambda_nm);
+  return refraction(n.after, n.before, -s.curvature_per_mm);
+}
+
+}  // namespace
+
+Abcd abcd_between(std::span<const SurfaceState> surfaces, int first, int last, double lambda_nm) {
+  Abcd m;
+  for (int k = first; k <= last; ++k) {
+    const auto& s = surfaces[static_cast<std::size_t>(k)];
+    if (k > first) m = transfer(s.z_mm - surfaces[static_cast<std::size_t>(k - 1)].z_mm) * m;
+    m = refraction_forward(s, lambda_nm) * m;
+  }
+  return m;
+}
+
+Abcd abcd_ghost(const LensState& lens, int i, int j, double lambda_nm) {
+  const auto& all = lens.surfaces;
+  const auto surface = [&](int k) -> const SurfaceState& { return all[static_cast<std::size_t>(k)]; };
+  const int last = static_cast<int>(all.size()) - 1;
+  const int far = j - 1;
+  const int near = i - 1;
+  const auto gap = [&](int k) { return transfer(surface(k + 1).z_mm - surface(k).z_mm); };
+
+  Abcd m;
+  for (int k = 0; k < far; ++k) m = gap(k) * refraction_forward(surface(k), lambda_nm) * m;
+  m = reflection(surface(far).curvature_per_mm) * m;
+  for (int k = far - 1; k > near; --k) m = refraction_backward(surface(k), lambda_nm) * gap(k) * m;
+  m = reflection(-surface(near).curvature_per_mm) * gap(near) * m;
+  for (int k = near; k < last; ++k) m = refraction_forward(surface(k + 1), lambda_nm) * gap(k) * m;
+  return transfer(lens.sensor_z_mm - surface(last).z_mm) * m;
+}
+
+FirstOrder first_order(const LensState& lens, double lambda_nm) {
+  const int last = static_cast<int>(lens.surfaces.size()) - 1;
+  const Abcd whole = abcd_between(lens.surfaces, 0, last, lambda_nm);
+  const Abcd front = abcd_between(lens.surfaces, 0, lens.stop_index, lambda_nm);
+  const Abcd rear = abcd_between(lens.surfaces, lens.stop_index, last, lambda_nm);
+  const auto z = [&](int k) { return lens.surfaces[static_cast<std::size_t>(k)].z_mm; };
+
+  FirstOrder f;
+  f.focal_length_mm = -1.0 / whole.c;
+  f.back_focal_distance_mm = -whole.a / whole.c;
+  f.front_focal_distance_mm = whole.d / whole.c;
+  f.f_number = lens.f_number;
+  f.sensor_position_mm = lens.sensor_z_mm - z(last);
+  // The stop's centre seen from the scene (y_stop = a y + b u = 0) and from the sensor (y = 0 at the stop).
+  f.entrance_pupil_position_mm = front.b / front.a;
+  f.entrance_pupil_diameter_mm = std::abs(f.focal_length_mm) / lens.f_number;
+  f.exit_pupil_position_mm = -rear.b / rear.d - f.sensor_position_mm;
+  const double n_stop = refractive_index(lens.surfaces[static_cast<std::size_t>(lens.stop_index)].before, lambda_nm);
+  const double n_after = refractive_index(lens.surfaces.back().after, lambda_nm);
+  const double pupil_magnification = front.a * n_stop / (n_after * rear.d);
+  f.exit_pupil_diameter_mm = std::abs(f.entrance_pupil_diameter_mm * pupil_magnification);
+  const double half_diagonal = 0.5 * std::hypot(lens.sensor_width_mm, lens.sensor_height_mm);
+  f.half_field_rad = std::atan(half_diagonal / std::abs(f.focal_length_mm));
+  return f;
+}
+
+}  // namespace contrejour

@@ -1,0 +1,219 @@
+// Prescription -> LensState: zoom by interpolating between positions, focus by moving the sensor, stop radius
+// from the f-number by a real marginal ray.
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include <fmt/format.h>
+
+#include "contrejour/first_order.h"
+#include "contrejour/lens.h"
+#include "kernels/surface-inl.h"
+
+namespace contrejour {
+namespace {
+
+namespace hk = kernels::HWY_NAMESPACE;
+
+constexpr double kNominalTolerance = 1e-6;   // relative: the same nominal focal length
+constexpr double kPrimeTolerance = 5e-3;     // relative: asking a prime for its own focal length
+constexpr double kFNumberTolerance = 1e-2;   // relative: f-numbers are rounded on the barrel
+constexpr int kZoomBisections = 60;          // to the last bit of the interpolation parameter
+
+// Thicknesses at one zoom position, or between two.
+std::vector<double> thicknesses(const Prescription& lens, std::size_t position, double towards_next) {
+  std::vector<double> t;
+  for (const Surface& s : lens.surfaces) t.push_back(s.thickness_mm);
+  if (lens.zoom.empty()) return t;
+  for (const auto& [k, value] : lens.zoom[position].thickness_mm) t[static_cast<std::size_t>(k)] = value;
+  if (towards_next > 0.0) {
+    const std::vector<double> next = thicknesses(lens, position + 1, 0.0);
+    for (std::size_t k = 0; k < t.size(); ++k) t[k] = std::lerp(t[k], next[k], towards_next);
+  }
+  return t;
+}
+
+std::vector<SurfaceState> place_surfaces(const Prescription& lens, const std::vector<double>& thickness,
+                                         const std::optional<Coating>& coating) {
+  std::vector<SurfaceState> out;
+  Glass medium = air();
+  double z = 0.0;
+  for (std::size_t k = 0; k < lens.surfaces.size(); ++k) {
+    const Surface& s = lens.surfaces[k];
+    const Glass after = s.kind == SurfaceKind::Stop ? medium : s.glass_after;
+    const bool replaces = coating && s.kind == SurfaceKind::Refracting && is_air(medium) != is_air(after);
+    out.push_back({s.kind, z, s.curvature_per_mm, s.semi_diameter_mm, medium, after,
+                   replaces ? *coating : s.coating});
+    medium = after;
+    z += thickness[k];
+  }
+  return out;
+}
+
+double focal_length_of(const std::vector<SurfaceState>& surfaces, double lambda_nm) {
+  return -1.0 / abcd_between(surfaces, 0, static_cast<int>(surfaces.size()) - 1, lambda_nm).c;
+}
+
+struct ZoomSetting {
+  std::size_t position = 0;
+  double towards_next = 0.0;
+  std::string warning;
+};
+
+double focal_length_at(const Prescription& lens, std::size_t position, double towards_next) {
+  return focal_length_of(place_surfaces(lens, thicknesses(lens, position, towards_next), {}),
+                         lens.stated.wavelength_nm);
+}
+
+// The interpolation parameter of a segment at which the lens really has the focal length.
+double solve_segment(const Prescription& lens, std::size_t position, double focal_length_mm) {
+  double low = 0.0;
+  double high = 1.0;
+  const bool rising = focal_length_at(lens, position, 1.0) > focal_length_at(lens, position, 0.0);
+  for (int k = 0; k < kZoomBisections; ++k) {
+    const double middle = 0.5 * (low + high);
+    const bool too_short = focal_length_at(lens, position, middle) < focal_length_mm;
+    (too_short == rising ? low : high) = middle;
+  }
+  return 0.5 * (low + high);
+}
+
+Result<ZoomSetting> zoom_setting(const Prescription& lens, double focal_length_mm) {
+  const auto& zoom = lens.zoom;
+  for (std::size_t k = 0; k < zoom.size(); ++k) {
+    if (std::abs(focal_length_mm / zoom[k].focal_length_mm - 1.0) < kNominalTolerance) return ZoomSetting{k, 0.0, {}};
+  }
+  std::vector<double> real;
+  for (std::size_t k = 0; k < zoom.size(); ++k) real.push_back(focal_length_at(lens, k, 0.0));
+  for (std::size_t k = 0; k + 1 < zoom.size(); ++k) {
+    const auto [shorter, longer] = std::minmax(real[k], real[k + 1]);
+    if (focal_length_mm >= shorter && focal_length_mm <= longer) {
+      return ZoomSetting{k, solve_segment(lens, k, focal_length_mm), {}};
+    }
+  }
+  const double shortest = std::min(zoom.front().focal_length_mm, real.front());
+  const double longest = std::max(zoom.back().focal_length_mm, real.back());
+  if (!(focal_length_mm >= shortest && focal_length_mm <= longest)) {
+    return failure(ErrorCode::InvalidArgument,
+                   fmt::format("focal length {:g} mm is outside this zoom's range; choose from {:g} to {:g} mm",
+                               focal_length_mm, shortest, longest),
+                   lens.file);
+  }
+  // Inside the engraved range but beyond what the prescription reaches.
+  const std::size_t end = focal_length_mm < real.front() ? 0 : zoom.size() - 1;
+  return ZoomSetting{end, 0.0,
+                     fmt::format("asked for {:g} mm; the prescription's own limit is {:.2f} mm", focal_length_mm,
+                                 real[end])};
+}
+
+Result<ZoomSetting> choose_zoom(const Prescription& lens, const std::optional<double>& focal_length_mm) {
+  if (!lens.zoom.empty()) {
+    return focal_length_mm ? zoom_setting(lens, *focal_length_mm) : Result<ZoomSetting>(ZoomSetting{});
+  }
+  if (!focal_length_mm) return ZoomSetting{};
+  const double own = focal_length_at(lens, 0, 0.0);
+  const double stated = lens.stated.focal_length_mm.value_or(own);
+  if (std::abs(*focal_length_mm / own - 1.0) < kPrimeTolerance ||
+      std::abs(*focal_length_mm / stated - 1.0) < kPrimeTolerance) {
+    return ZoomSetting{};
+  }
+  return failure(ErrorCode::InvalidArgument,
+                 fmt::format("this lens has one focal length, {:.2f} mm; leave the focal length out", own), lens.file);
+}
+
+// Height at the stop of the real ray that comes in parallel to the axis at `height`; none if it cannot get there.
+std::optional<double> marginal_height_at_stop(const LensState& lens, double height_mm) {
+  hk::Ray3<double> ray{0.0, height_mm, lens.surfaces.front().z_mm, 0.0, 0.0, 1.0};
+  for (int k = 0; k <= lens.stop_index; ++k) {
+    const SurfaceState& s = lens.surfaces[static_cast<std::size_t>(k)];
+    const auto hit = hk::intersect(ray, s.z_mm, s.curvature_per_mm, 1.0);
+    if (hit.cos_in_squared <= 0.0) return std::nullopt;
+    hk::move_to(ray, hit, s.z_mm);
+    if (s.kind == SurfaceKind::Stop) continue;
+    const double n_in = refractive_index(s.before, lens.design_wavelength_nm);
+    const double n_out = refractive_index(s.after, lens.design_wavelength_nm);
+    if (hk::refract(ray, hit, n_in / n_out, 1.0) <= 0.0) return std::nullopt;
+  }
+  return std::abs(ray.y);
+}
+
+Result<void> set_stop(LensState& state, const Prescription& lens, const std::optional<double>& f_number) {
+  const SurfaceState& stop = state.surfaces[static_cast<std::size_t>(state.stop_index)];
+  const double front_magnification =
+      std::abs(abcd_between(state.surfaces, 0, state.stop_index, state.design_wavelength_nm).a);
+  const double widest_of_stop =
+      std::abs(state.focal_length_mm) * front_magnification / (2.0 * stop.semi_diameter_mm);
+  state.f_number = f_number.value_or(lens.f_number);
+  if (!(state.f_number >= lens.f_number * (1.0 - kFNumberTolerance)) || !std::isfinite(state.f_number)) {
+    return failure(ErrorCode::InvalidArgument,
+                   fmt::format("f/{:g} is out of range; this lens opens to f/{:.3g}, choose that or a larger number",
+                               state.f_number, lens.f_number),
+                   lens.file);
+  }
+  const double marginal_mm = 0.5 * std::abs(state.focal_length_mm) / state.f_number;
+  state.stop_radius_mm =
+      marginal_height_at_stop(state, marginal_mm).value_or(front_magnification * marginal_mm);
+  if (state.stop_radius_mm > stop.semi_diameter_mm) {
+    if (f_number || state.stop_radius_mm > stop.semi_diameter_mm * (1.0 + kFNumberTolerance)) {
+      state.warnings.push_back(
+          fmt::format("f/{:g} needs a stop of {:.3f} mm radius; its widest opening of {:.3f} mm is used (f/{:.3g})",
+                      state.f_number, state.stop_radius_mm, stop.semi_diameter_mm, widest_of_stop));
+    }
+    state.stop_radius_mm = stop.semi_diameter_mm;
+  }
+  return {};
+}
+
+// The sensor follows the paraxial image; a prescription that fixes its place for distant objects keeps its own
+// defocus for near ones.
+Result<void> set_focus(LensState& state, const Prescription& lens, double object_distance_mm) {
+  const double last_z = state.surfaces.back().z_mm;
+  const Abcd m = abcd_between(state.surfaces, 0, static_cast<int>(state.surfaces.size()) - 1, state.design_wavelength_nm);
+  state.object_distance_mm = object_distance_mm;
+  const double distant_mm = -m.a / m.c;
+  double image_mm = distant_mm;
+  if (!std::isinf(object_distance_mm)) {  // the ray from the axial object point: y = d u at the first vertex
+    image_mm = -(m.a * object_distance_mm + m.b) / (m.c * object_distance_mm + m.d);
+  }
+  if (lens.sensor_distance_mm) image_mm += *lens.sensor_distance_mm - distant_mm;
+  if (!(object_distance_mm > 0.0) || !std::isfinite(image_mm) || image_mm <= 0.0) {
+    return failure(ErrorCode::InvalidArgument,
+                   fmt::format("no image forms behind the lens for an object {:g} mm in front of it; focus farther "
+                               "away than its front focal point at {:.1f} mm",
+                               object_distance_mm, -m.d / m.c),
+                   lens.file);
+  }
+  state.sensor_z_mm = last_z + image_mm;
+  return {};
+}
+
+}  // namespace
+
+Result<LensState> lens_at(const Prescription& lens, const LensSettings& settings) {
+  if (const auto valid = validate(lens); !valid) return tl::unexpected<Error>(valid.error());
+  const auto zoom = choose_zoom(lens, settings.focal_length_mm);
+  if (!zoom) return tl::unexpected<Error>(zoom.error());
+
+  LensState state;
+  state.name = lens.name;
+  state.surfaces = place_surfaces(lens, thicknesses(lens, zoom->position, zoom->towards_next), settings.coating);
+  const auto stop = std::find_if(lens.surfaces.begin(), lens.surfaces.end(),
+                                 [](const Surface& s) { return s.kind == SurfaceKind::Stop; });
+  state.stop_index = static_cast<int>(stop - lens.surfaces.begin());
+  state.iris = settings.iris;
+  state.sensor_width_mm = lens.sensor_width_mm;
+  state.sensor_height_mm = lens.sensor_height_mm;
+  state.design_wavelength_nm = lens.stated.wavelength_nm;
+  state.focal_length_mm = focal_length_of(state.surfaces, state.design_wavelength_nm);
+  if (!zoom->warning.empty()) state.warnings.push_back(zoom->warning);
+  if (!std::isfinite(state.focal_length_mm)) {
+    return failure(ErrorCode::InvalidArgument, "the lens has no power, so no focal length; check its radii", lens.file);
+  }
+  if (const auto set = set_stop(state, lens, settings.f_number); !set) return tl::unexpected<Error>(set.error());
+  if (const auto set = set_focus(state, lens, settings.object_distance_mm); !set) {
+    return tl::unexpected<Error>(set.error());
+  }
+  return state;
+}
+
+}  // namespace contrejour

@@ -1,0 +1,139 @@
+// Where a distant light's image lies, by its chief ray. The lens is a surface of revolution, so one meridian
+// tells all: a table of landing height against field angle, walked outwards from the axis so that each chief
+// ray starts from its neighbour's.
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+#include <vector>
+
+#include "contrejour/first_order.h"
+#include "contrejour/trace.h"
+
+namespace contrejour {
+namespace {
+
+constexpr double kFieldStep_rad = 0.005;
+constexpr double kLastField_rad = 0.49 * std::numbers::pi;
+constexpr double kAimed = 1e-10;     // of the stop radius, off its centre
+constexpr int kAimSteps = 40;
+constexpr int kFieldBisections = 60;
+
+// Slope (mm per mm) at the entrance; height at the plane of the paraxial entrance pupil.
+class Meridian {
+ public:
+  Meridian(const LensState& lens, double lambda_nm)
+      : path_(direct_path(lens, lambda_nm)), pupil_z_mm_(first_order(lens, lambda_nm).entrance_pupil_position_mm) {
+    if (!std::isfinite(pupil_z_mm_)) pupil_z_mm_ = 0.0;  // telecentric in front: any plane will do
+  }
+
+  struct Chief {
+    double height_mm = 0;  // at the entrance pupil plane
+    double landing_mm = 0;
+  };
+
+  // Secant search for the ray through the stop's centre, from a first guess.
+  [[nodiscard]] std::optional<Chief> chief(double field_rad, double guess_mm) const {
+    double h0 = guess_mm;
+    double h1 = guess_mm + 1e-3;
+    auto r0 = at(field_rad, h0);
+    auto r1 = at(field_rad, h1);
+    for (int k = 0; k < kAimSteps; ++k) {
+      if (r0.status != RayStatus::Ok || r1.status != RayStatus::Ok) return std::nullopt;
+      if (std::abs(r1.stop[0].y) < kAimed) return Chief{h1, r1.sensor_mm.y};
+      const double change = r1.stop[0].y - r0.stop[0].y;
+      if (change == 0.0) return std::nullopt;
+      const double next = h1 - r1.stop[0].y * (h1 - h0) / change;
+      h0 = h1;
+      r0 = r1;
+      h1 = next;
+      r1 = at(field_rad, h1);
+    }
+    return std::nullopt;
+  }
+
+ private:
+  [[nodiscard]] TracedRay at(double field_rad, double height_mm) const {
+    return trace(path_, {{0.0, height_mm, pupil_z_mm_}, {0.0, std::sin(field_rad), std::cos(field_rad)}});
+  }
+
+  OpticalPath path_;
+  double pupil_z_mm_;
+};
+
+struct FieldPoint {
+  double field_rad = 0;
+  Meridian::Chief chief;
+};
+
+// Up to the last angle whose chief ray exists and still lands farther out than the one before.
+std::vector<FieldPoint> walk_field(const Meridian& meridian) {
+  std::vector<FieldPoint> points{{0.0, {}}};
+  for (double field = kFieldStep_rad; field < kLastField_rad; field += kFieldStep_rad) {
+    const auto chief = meridian.chief(field, points.back().chief.height_mm);
+    if (!chief || !(std::abs(chief->landing_mm) > std::abs(points.back().chief.landing_mm))) break;
+    points.push_back({field, *chief});
+  }
+  return points;
+}
+
+// Beyond the last chief ray the landing height goes on as f tan(field) does.
+double extrapolated_landing(const LensState& lens, const FieldPoint& last, double field_rad) {
+  return std::abs(last.chief.landing_mm) +
+         std::abs(lens.focal_length_mm) * (std::tan(field_rad) - std::tan(last.field_rad));
+}
+
+double landing_at(const Meridian& meridian, const FieldPoint& near, double field_rad) {
+  const auto chief = meridian.chief(field_rad, near.chief.height_mm);
+  return std::abs(chief ? chief->landing_mm : near.chief.landing_mm);
+}
+
+double field_for(const LensState& lens, double lambda_nm, double radius_mm) {
+  const Meridian meridian(lens, lambda_nm);
+  const auto points = walk_field(meridian);
+  const FieldPoint& last = points.back();
+  if (radius_mm >= std::abs(last.chief.landing_mm)) {
+    return std::atan(std::tan(last.field_rad) +
+                     (radius_mm - std::abs(last.chief.landing_mm)) / std::abs(lens.focal_length_mm));
+  }
+  std::size_t k = 0;
+  while (std::abs(points[k + 1].chief.landing_mm) <= radius_mm) ++k;
+  double low = points[k].field_rad;
+  double high = points[k + 1].field_rad;
+  for (int step = 0; step < kFieldBisections; ++step) {
+    const double middle = 0.5 * (low + high);
+    (landing_at(meridian, points[k], middle) < radius_mm ? low : high) = middle;
+  }
+  return 0.5 * (low + high);
+}
+
+double radius_for(const LensState& lens, double lambda_nm, double field_rad) {
+  const Meridian meridian(lens, lambda_nm);
+  const auto points = walk_field(meridian);
+  if (field_rad >= points.back().field_rad) return extrapolated_landing(lens, points.back(), field_rad);
+  const auto k = static_cast<std::size_t>(field_rad / kFieldStep_rad);
+  return landing_at(meridian, points[std::min(k, points.size() - 1)], field_rad);
+}
+
+}  // namespace
+
+// A positive lens images the sky point in direction d (the way the light travels) on the side d points to.
+Vec3 direction_to_land_at(const LensState& lens, Vec2 sensor_mm, double lambda_nm) {
+  const double radius = length(sensor_mm);
+  if (radius == 0.0) return {0.0, 0.0, 1.0};
+  const double field = field_for(lens, lambda_nm, radius);
+  const double sign = lens.focal_length_mm > 0.0 ? 1.0 : -1.0;
+  const Vec2 azimuth = sensor_mm * (sign / radius);
+  return {azimuth.x * std::sin(field), azimuth.y * std::sin(field), std::cos(field)};
+}
+
+Vec2 landing_of(const LensState& lens, Vec3 direction, double lambda_nm) {
+  const Vec2 across{direction.x, direction.y};
+  const double sine = length(across);
+  if (sine == 0.0) return {};
+  const double radius = radius_for(lens, lambda_nm, std::atan2(sine, direction.z));
+  const double sign = lens.focal_length_mm > 0.0 ? 1.0 : -1.0;
+  return across * (sign * radius / sine);
+}
+
+}  // namespace contrejour

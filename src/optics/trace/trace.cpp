@@ -1,0 +1,142 @@
+#include "contrejour/trace.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "kernels/surface-inl.h"
+
+namespace contrejour {
+namespace {
+
+namespace hk = kernels::HWY_NAMESPACE;
+
+// A ray that meets a sphere on the far side of its equator has left the glass; it counts as blocked, whatever
+// its distance from the axis there.
+constexpr double kBeyondEquator = 2.0;
+
+struct State {
+  hk::Ray3<double> ray;
+  TracedRay out;
+  int crossings = 0;
+};
+
+double distance_over_rim(const hk::Hit<double>& hit, double semi_diameter_mm) {
+  const double r = std::hypot(hit.x, hit.y) / semi_diameter_mm;
+  return hit.nz > 0.0 ? r : std::max(r, kBeyondEquator);
+}
+
+// Takes the ray over one surface; false ends it with out.status set.
+bool advance(State& state, const PathStep& step, const OpticalPath& path, double* angle_of_incidence_rad,
+             double* reflectance_here) {
+  const double direction = step.direction;
+  const auto hit = hk::intersect(state.ray, step.z_mm, step.curvature_per_mm, direction);
+  if (!(hit.cos_in_squared > 0.0)) {
+    state.out.status = RayStatus::Missed;
+    return false;
+  }
+  hk::move_to(state.ray, hit, step.z_mm);
+  if (angle_of_incidence_rad != nullptr) *angle_of_incidence_rad = std::acos(std::min(1.0, hit.cos_in));
+  if (step.event == PathEvent::Stop) {
+    state.out.stop[static_cast<std::size_t>(state.crossings++)] =
+        Vec2{hit.x, hit.y} * (1.0 / path.stop_radius_mm);
+    return true;
+  }
+  state.out.r_rel = std::max(state.out.r_rel, distance_over_rim(hit, step.semi_diameter_mm));
+  const double cos_in = std::min(1.0, hit.cos_in);
+  const double r = reflectance(step.coating, step.n_in, step.n_out, cos_in, path.lambda_nm);
+  if (reflectance_here != nullptr) *reflectance_here = r;
+  if (step.event == PathEvent::Reflect) {
+    hk::reflect(state.ray, hit, direction);
+    state.out.transmission *= r;
+    return true;
+  }
+  if (hk::refract(state.ray, hit, step.n_in / step.n_out, direction) <= 0.0) {
+    state.out.status = RayStatus::TotalReflection;
+    return false;
+  }
+  const bool may_absorb = std::holds_alternative<FilmStack>(step.coating.films);
+  state.out.transmission *=
+      may_absorb ? transmittance(step.coating, step.n_in, step.n_out, cos_in, path.lambda_nm) : 1.0 - r;
+  return true;
+}
+
+bool is_finite(const Ray& ray) {
+  const Vec3 o = ray.origin_mm;
+  const Vec3 d = ray.direction;
+  return std::isfinite(o.x + o.y + o.z) && std::isfinite(d.x + d.y + d.z) && d.z != 0.0;
+}
+
+State start(const Ray& ray) {
+  State state;
+  state.ray = {ray.origin_mm.x, ray.origin_mm.y, ray.origin_mm.z, ray.direction.x, ray.direction.y, ray.direction.z};
+  state.out.transmission = 1.0;
+  if (!is_finite(ray)) state.out.status = RayStatus::NotFinite;
+  return state;
+}
+
+void land(State& state, double sensor_z_mm) {
+  const auto& ray = state.ray;
+  const double t = (sensor_z_mm - ray.z) / ray.dz;
+  state.out.sensor_mm = {ray.x + t * ray.dx, ray.y + t * ray.dy};
+  state.out.direction = {ray.dx, ray.dy, ray.dz};
+  if (!(ray.dz > 0.0)) state.out.status = RayStatus::Missed;
+}
+
+void fail_dark(TracedRay& ray) {
+  if (ray.status != RayStatus::Ok) ray.transmission = 0.0;
+}
+
+}  // namespace
+
+const char* to_string(RayStatus status) {
+  switch (status) {
+    case RayStatus::Ok: return "ok";
+    case RayStatus::Missed: return "missed";
+    case RayStatus::TotalReflection: return "total_reflection";
+    case RayStatus::NotFinite: return "not_finite";
+  }
+  return "unknown";
+}
+
+TracedRay trace(const OpticalPath& path, const Ray& ray) {
+  State state = start(ray);
+  if (state.out.status == RayStatus::Ok) {
+    bool alive = true;
+    for (auto step = path.steps.begin(); alive && step != path.steps.end(); ++step) {
+      alive = advance(state, *step, path, nullptr, nullptr);
+    }
+    if (alive) land(state, path.sensor_z_mm);
+  }
+  fail_dark(state.out);
+  return state.out;
+}
+
+RayRecord trace_recorded(const OpticalPath& path, const Ray& ray) {
+  State state = start(ray);
+  RayRecord record;
+  bool alive = state.out.status == RayStatus::Ok;
+  for (auto step = path.steps.begin(); alive && step != path.steps.end(); ++step) {
+    TraceStep seen;
+    seen.surface = step->surface + 1;
+    seen.event = step->event;
+    alive = advance(state, *step, path, &seen.angle_of_incidence_rad, &seen.reflectance);
+    if (state.out.status == RayStatus::Missed) break;
+    seen.position_mm = {state.ray.x, state.ray.y, state.ray.z};
+    seen.direction_after = {state.ray.dx, state.ray.dy, state.ray.dz};
+    record.steps.push_back(seen);
+  }
+  if (alive) land(state, path.sensor_z_mm);
+  fail_dark(state.out);
+  record.ray = state.out;
+  return record;
+}
+
+double blocked_by(const TracedRay& ray, const OpticalPath& path, const Iris& iris) {
+  double worst = ray.r_rel - 1.0;
+  for (int k = 0; k < path.stop_crossings; ++k) {
+    worst = std::max(worst, iris_distance(iris, ray.stop[static_cast<std::size_t>(k)]));
+  }
+  return worst;
+}
+
+}  // namespace contrejour

@@ -1,0 +1,35 @@
+// What every renderer works out before its first ray: which ghosts, at which wavelengths, and by what factor
+// flux becomes pixel values. So selection, colour and radiometry are the same in all of them.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "contrejour/render.h"
+
+namespace contrejour {
+
+// A ghost, a light and a wavelength: the unit of rendering work.
+struct PlannedPass {
+  double lambda_nm = 550;
+  // Pixel value per mm^2 of flux (E0 = 1, cos(theta) included) that a ghost path puts into the pixel:
+  // gain[c] = V[c] * w[c] / sum over bands of w[c] * Phi.
+  Rgb gain{};
+};
+
+struct PlannedLight {
+  Vec3 direction;
+  std::vector<PlannedPass> passes;  // one a wavelength
+};
+
+struct FramePlan {
+  std::vector<Ghost> ghosts;
+  std::vector<PlannedLight> lights;
+  double skipped_flux = 0;  // share of the flare that selection leaves out
+};
+
+// Errors: InvalidArgument for settings out of range, Cancelled.
+[[nodiscard]] Result<FramePlan> plan_frame(const LensState& lens, std::span<const Light> lights,
+                                           const RenderSettings& settings, const Context& context);
+
+}  // namespace contrejour

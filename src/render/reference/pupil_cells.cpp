@@ -1,0 +1,203 @@
+#include "render/reference/pupil_cells.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+namespace contrejour::reference {
+namespace {
+
+constexpr double kFailed = std::numeric_limits<double>::infinity();
+
+// What is known of one point of the entrance plane.
+struct Sample {
+  Vec2 entrance_mm;
+  Vec2 pixel;
+  double transmission = 0.0;
+  double blocked = kFailed;  // <= 0 gets through; infinite where the ray failed
+
+  [[nodiscard]] bool traced() const { return blocked < kFailed; }
+};
+
+Sample between(const Sample& a, const Sample& b, double t) {
+  return {a.entrance_mm + (b.entrance_mm - a.entrance_mm) * t, a.pixel + (b.pixel - a.pixel) * t,
+          std::lerp(a.transmission, b.transmission, t), 0.0};
+}
+
+// Corners in turn around the cell: low-low, high-low, high-high, low-high in entrance x and y.
+using Corners = std::array<Sample, 4>;
+
+struct Extent {
+  Vec2 low{kFailed, kFailed}, high{-kFailed, -kFailed};
+
+  void add(Vec2 p) {
+    low = {std::min(low.x, p.x), std::min(low.y, p.y)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y)};
+  }
+  [[nodiscard]] double size() const { return std::max(high.x - low.x, high.y - low.y); }
+};
+
+class CellWalker {
+ public:
+  CellWalker(const OpticalPath& path, const Iris& iris, Vec3 direction, double z_mm, const Frame& frame,
+             const CellLimits& limits, const LitPolygon& lit)
+      : path_(path), iris_(iris), direction_(direction), z_mm_(z_mm), frame_(frame), limits_(limits), lit_(lit) {}
+
+  [[nodiscard]] Sample sample(Vec2 entrance_mm) {
+    ++counts_.rays;
+    Sample s;
+    s.entrance_mm = entrance_mm;
+    const TracedRay ray = trace(path_, {{entrance_mm.x, entrance_mm.y, z_mm_}, direction_});
+    if (ray.status != RayStatus::Ok) return s;
+    s.pixel = frame_.pixel_from_sensor(ray.sensor_mm);
+    s.transmission = ray.transmission;
+    s.blocked = blocked_by(ray, path_, iris_);
+    return s;
+  }
+
+  void walk(const Corners& corners, int depth) {
+    if (!may_be_open(corners)) return;
+    const Sample middle =
+        sample((corners[0].entrance_mm + corners[2].entrance_mm) * 0.5);
+    if (outside_frame(corners, middle)) return;
+    if (depth < limits_.deepest && needs_cutting(corners, middle)) {
+      cut(corners, middle, depth);
+      return;
+    }
+    for (std::size_t k = 0; k < 4; ++k) emit(corners[k], corners[(k + 1) % 4], middle);
+  }
+
+  [[nodiscard]] CellCounts counts() const { return counts_; }
+
+ private:
+  // `blocked` is nearly linear over a cell, so it cannot fall below its lowest corner by more than the corners
+  // differ. A failed corner tells nothing: the others decide, and a cell of failed corners is dark.
+  static bool may_be_open(const Corners& corners) {
+    double lowest = kFailed;
+    double highest = -kFailed;
+    for (const Sample& s : corners) {
+      if (!s.traced()) continue;
+      lowest = std::min(lowest, s.blocked);
+      highest = std::max(highest, s.blocked);
+    }
+    return lowest <= 0.0 || lowest <= highest - lowest;
+  }
+
+  // Grown by its own size, for the light that bends out of the corners' box.
+  [[nodiscard]] bool outside_frame(const Corners& corners, const Sample& middle) const {
+    Extent e;
+    for (const Sample& s : corners) {
+      if (!s.traced()) return false;
+      e.add(s.pixel);
+    }
+    if (!middle.traced()) return false;
+    e.add(middle.pixel);
+    const double margin = e.size();
+    return e.high.x + margin < 0.0 || e.high.y + margin < 0.0 || e.low.x - margin > frame_.width ||
+           e.low.y - margin > frame_.height;
+  }
+
+  [[nodiscard]] bool needs_cutting(const Corners& corners, const Sample& middle) const {
+    Extent e;
+    Vec2 mean{};
+    bool all_open = middle.blocked <= 0.0;
+    bool all_traced = middle.traced();
+    for (const Sample& s : corners) {
+      all_open = all_open && s.blocked <= 0.0;
+      all_traced = all_traced && s.traced();
+      if (s.traced()) e.add(s.pixel);
+      mean = mean + s.pixel * 0.25;
+    }
+    if (!all_traced) return e.size() > limits_.cut_footprint_px;
+    if (e.size() > (all_open ? limits_.footprint_px : limits_.cut_footprint_px)) return true;
+    return length(middle.pixel - mean) > limits_.bend_px;
+  }
+
+  void cut(const Corners& c, const Sample& middle, int depth) {
+    const auto half = [&](std::size_t a, std::size_t b) {
+      return sample((c[a].entrance_mm + c[b].entrance_mm) * 0.5);
+    };
+    const Sample south = half(0, 1);
+    const Sample east = half(1, 2);
+    const Sample north = half(2, 3);
+    const Sample west = half(3, 0);
+    walk({c[0], south, middle, west}, depth + 1);
+    walk({south, c[1], east, middle}, depth + 1);
+    walk({middle, east, c[2], north}, depth + 1);
+    walk({west, middle, north, c[3]}, depth + 1);
+  }
+
+  // The part of a triangle where the linear interpolation of `blocked` is <= 0.
+  void emit(const Sample& a, const Sample& b, const Sample& c) {
+    if (!a.traced() || !b.traced() || !c.traced()) return;
+    const std::array<const Sample*, 3> in{&a, &b, &c};
+    std::array<Sample, 4> open;
+    std::size_t count = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Sample& p = *in[k];
+      const Sample& q = *in[(k + 1) % 3];
+      if (p.blocked <= 0.0) open[count++] = p;
+      if ((p.blocked <= 0.0) != (q.blocked <= 0.0)) open[count++] = between(p, q, p.blocked / (p.blocked - q.blocked));
+    }
+    if (count < 3) return;
+    std::array<Vec2, 4> pixels;
+    double twice_area = 0.0;
+    double transmission = 0.0;
+    for (std::size_t k = 0; k < count; ++k) {
+      pixels[k] = open[k].pixel;
+      transmission += open[k].transmission / static_cast<double>(count);
+      if (k + 1 < count && k > 0) {
+        twice_area += cross(open[k].entrance_mm - open[0].entrance_mm, open[k + 1].entrance_mm - open[0].entrance_mm);
+      }
+    }
+    ++counts_.polygons;
+    lit_({pixels.data(), count}, 0.5 * std::abs(twice_area) * transmission * direction_.z);
+  }
+
+  const OpticalPath& path_;
+  const Iris& iris_;
+  Vec3 direction_;
+  double z_mm_;
+  const Frame& frame_;
+  CellLimits limits_;
+  const LitPolygon& lit_;
+  CellCounts counts_;
+};
+
+}  // namespace
+
+CellLimits CellLimits::for_density(double density) {
+  CellLimits limits;
+  limits.root_cells = std::max(8, static_cast<int>(std::lround(limits.root_cells * density)));
+  limits.footprint_px /= density;
+  limits.cut_footprint_px /= density;
+  limits.bend_px /= density;
+  return limits;
+}
+
+CellCounts for_each_lit_polygon(const OpticalPath& path, const Iris& iris, Vec3 direction,
+                                const EntranceWindow& window, const Frame& frame, const CellLimits& limits,
+                                const std::function<bool()>& stop, const LitPolygon& lit) {
+  CellWalker walker(path, iris, direction, window.z_mm, frame, limits, lit);
+  const int n = limits.root_cells;
+  const auto row_of = [&](int iy) {
+    std::vector<Sample> row;
+    for (int ix = 0; ix <= n; ++ix) {
+      row.push_back(walker.sample({std::lerp(window.min_mm.x, window.max_mm.x, static_cast<double>(ix) / n),
+                                   std::lerp(window.min_mm.y, window.max_mm.y, static_cast<double>(iy) / n)}));
+    }
+    return row;
+  };
+  std::vector<Sample> below = row_of(0);
+  for (int iy = 0; iy < n && !stop(); ++iy) {
+    std::vector<Sample> above = row_of(iy + 1);
+    for (std::size_t ix = 0; ix < static_cast<std::size_t>(n); ++ix) {
+      walker.walk({below[ix], below[ix + 1], above[ix + 1], above[ix]}, 0);
+    }
+    below = std::move(above);
+  }
+  return walker.counts();
+}
+
+}  // namespace contrejour::reference

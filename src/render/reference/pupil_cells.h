@@ -1,0 +1,40 @@
+// A ghost's light, cell by cell of the entrance plane: the whole window is cut into cells and each cell into
+// smaller ones until its image on the sensor is small and all but straight-edged.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <span>
+
+#include "contrejour/frame.h"
+#include "contrejour/trace.h"
+
+namespace contrejour::reference {
+
+struct CellLimits {
+  int root_cells = 96;             // a side of the window, before any subdivision
+  double footprint_px = 2.0;       // longest side of a cell's image
+  double cut_footprint_px = 0.5;   // the same where a rim or the iris edge cuts the cell
+  double bend_px = 0.05;           // a cell's middle off the mean of its corners
+  int deepest = 12;                // subdivisions of a root cell
+
+  // Density 2 halves every length.
+  [[nodiscard]] static CellLimits for_density(double density);
+};
+
+// A convex polygon of the sensor, in pixels, and the flux (mm^2 at E0 = 1) that falls on it.
+using LitPolygon = std::function<void(std::span<const Vec2> pixels, double flux_mm2)>;
+
+struct CellCounts {
+  std::uint64_t rays = 0;
+  std::uint64_t polygons = 0;
+};
+
+// Calls `lit` for every open piece of every cell that may fall inside the frame. Stops early, with whatever has
+// been passed on so far, once `stop()` is true.
+CellCounts for_each_lit_polygon(const OpticalPath& path, const Iris& iris, Vec3 direction,
+                                const EntranceWindow& window, const Frame& frame, const CellLimits& limits,
+                                const std::function<bool()>& stop, const LitPolygon& lit);
+
+}  // namespace contrejour::reference

@@ -1,0 +1,92 @@
+#include "render/reference/reference.h"
+
+#include <chrono>
+
+#include "base/memory.h"
+#include "base/tasks.h"
+#include "render/interface/frame_plan.h"
+#include "render/reference/flux_image.h"
+#include "render/reference/pupil_cells.h"
+
+namespace contrejour {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double ms_since(Clock::time_point start) {
+  return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+}
+
+// One ghost of one light at one wavelength.
+struct Item {
+  Ghost ghost;
+  const PlannedLight* light;
+  const PlannedPass* pass;
+};
+
+std::vector<Item> items_of(const FramePlan& plan) {
+  std::vector<Item> items;
+  for (const Ghost& ghost : plan.ghosts) {
+    for (const PlannedLight& light : plan.lights) {
+      for (const PlannedPass& pass : light.passes) items.push_back({ghost, &light, &pass});
+    }
+  }
+  return items;
+}
+
+struct RenderedItem {
+  reference::FluxImage flux;
+  reference::CellCounts counts;
+  std::uint64_t surfaces = 0;  // that each of its rays meets
+};
+
+RenderedItem render_item(const Item& item, const LensState& lens, const RenderSettings& settings,
+                         const Context& context) {
+  RenderedItem out{{settings.frame.width, settings.frame.height}, {}, 0};
+  const OpticalPath path = ghost_path(lens, item.ghost, item.pass->lambda_nm);
+  const Vec3 direction = item.light->direction;
+  out.surfaces = path.steps.size();
+  out.counts = reference::for_each_lit_polygon(
+      path, lens.iris, direction, entrance_window(lens, direction), settings.frame,
+      reference::CellLimits::for_density(settings.reference_density), [&] { return context.cancelled(); },
+      [&](std::span<const Vec2> pixels, double flux) { out.flux.add_polygon(pixels, flux); });
+  return out;
+}
+
+}  // namespace
+
+Result<Flare> render_reference(const LensState& lens, std::span<const Light> lights, const RenderSettings& settings,
+                               const Context& context) {
+  const auto start = Clock::now();
+  if (!(settings.reference_density > 0.0) || settings.reference_density > 64.0) {
+    return failure(ErrorCode::InvalidArgument, "the reference's density is out of range; choose a value up to 64");
+  }
+  const auto plan = plan_frame(lens, lights, settings, context);
+  if (!plan) return tl::unexpected<Error>(plan.error());
+  const double plan_ms = ms_since(start);
+
+  Flare flare;
+  flare.image = Image(settings.frame.width, settings.frame.height, 3);
+  RenderStatistics& stats = flare.statistics;
+  std::vector<double> sum(flare.image.pixels.size());
+  const auto items = items_of(*plan);
+  const bool done = ordered_pipeline(
+      items.size(), context, [&](std::size_t k) { return render_item(items[k], lens, settings, context); },
+      [&](std::size_t k, const RenderedItem& rendered) {
+        rendered.flux.add_to(sum, items[k].pass->gain);
+        stats.rays += rendered.counts.rays;
+        stats.surface_hits += rendered.counts.rays * rendered.surfaces;
+        stats.primitives += rendered.counts.polygons;
+      });
+  if (!done) return failure(ErrorCode::Cancelled, "interrupted");
+
+  for (std::size_t i = 0; i < sum.size(); ++i) flare.image.pixels[i] = static_cast<float>(sum[i]);
+  stats.method = "reference";
+  stats.ghosts_rendered = static_cast<int>(plan->ghosts.size());
+  stats.ghosts_skipped_flux = plan->skipped_flux;
+  stats.peak_memory_bytes = peak_memory_bytes();
+  stats.time_ms = {{"plan", plan_ms}, {"render", ms_since(start) - plan_ms}, {"total", ms_since(start)}};
+  return flare;
+}
+
+}  // namespace contrejour

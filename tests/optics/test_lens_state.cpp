@@ -1,0 +1,101 @@
+#include <cmath>
+
+#include <doctest/doctest.h>
+
+#include "contrejour/first_order.h"
+#include "contrejour/lens.h"
+
+using namespace contrejour;
+
+namespace {
+
+Glass crown() { return {"crown", AbbeGlass{1.5168, 64.17}}; }
+
+// Two separated positive lenses whose gap is the zoom.
+Prescription zoom_lens() {
+  Prescription lens;
+  lens.name = "pair";
+  lens.f_number = 4.0;
+  lens.surfaces = {{SurfaceKind::Refracting, 1.0 / 80.0, 4.0, 15.0, crown(), {}, 0},
+                   {SurfaceKind::Refracting, -1.0 / 80.0, 10.0, 15.0, air(), {}, 0},
+                   {SurfaceKind::Stop, 0.0, 5.0, 8.0, air(), {}, 0},
+                   {SurfaceKind::Refracting, 1.0 / 90.0, 3.0, 12.0, crown(), {}, 0},
+                   {SurfaceKind::Refracting, -1.0 / 90.0, 0.0, 12.0, air(), {}, 0}};
+  lens.zoom = {{45.0, {{1, 5.0}}, 0}, {55.0, {{1, 40.0}}, 0}};
+  return lens;
+}
+
+Prescription prime_lens() {
+  Prescription lens = zoom_lens();
+  lens.zoom.clear();
+  return lens;
+}
+
+}  // namespace
+
+TEST_CASE("the two-term fit passes through n_d and the F and C lines") {
+  const Glass g = crown();
+  CHECK(refractive_index(g, kLineD_nm) == doctest::Approx(1.5168).epsilon(1e-14));
+  const double spread = refractive_index(g, kLineF_nm) - refractive_index(g, kLineC_nm);
+  CHECK((1.5168 - 1.0) / spread == doctest::Approx(64.17).epsilon(1e-12));
+}
+
+TEST_CASE("Sellmeier's formula gives N-BK7's catalogue index at d") {
+  // Schott, N-BK7 data sheet: n_d = 1.51680.
+  const Glass bk7{"N-BK7", Sellmeier{{1.03961212, 0.231792344, 1.01046945}, {0.00600069867, 0.0200179144, 103.560653}}};
+  CHECK(refractive_index(bk7, kLineD_nm) == doctest::Approx(1.51680003).epsilon(1e-8));
+}
+
+TEST_CASE("any focal length between a zoom's positions is reached, and the sensor follows focus") {
+  const Prescription lens = zoom_lens();
+  const double shortest = lens_at(lens, {.focal_length_mm = 45.0})->focal_length_mm;
+  const double longest = lens_at(lens, {.focal_length_mm = 55.0})->focal_length_mm;
+  REQUIRE(longest > shortest + 5.0);
+  for (int k = 1; k < 10; ++k) {
+    const double wanted = shortest + (longest - shortest) * k / 10.0;
+    const auto state = lens_at(lens, {.focal_length_mm = wanted});
+    REQUIRE(state.has_value());
+    CHECK(state->focal_length_mm == doctest::Approx(wanted).epsilon(1e-9));
+    const FirstOrder f = first_order(*state, kLineD_nm);
+    CHECK(f.sensor_position_mm == doctest::Approx(f.back_focal_distance_mm).epsilon(1e-12));
+  }
+  CHECK_FALSE(lens_at(lens, {.focal_length_mm = 20.0}).has_value());
+  CHECK_FALSE(lens_at(lens, {.focal_length_mm = 500.0}).has_value());
+  CHECK_FALSE(lens_at(lens, {.focal_length_mm = std::nan("")}).has_value());
+}
+
+TEST_CASE("the f-number sets the stop by the real marginal ray") {
+  const auto f8 = lens_at(prime_lens(), {.f_number = 8.0});
+  const auto f16 = lens_at(prime_lens(), {.f_number = 16.0});
+  REQUIRE(f8.has_value());
+  REQUIRE(f16.has_value());
+  CHECK(f8->stop_radius_mm / f16->stop_radius_mm == doctest::Approx(2.0).epsilon(0.01));
+  // Paraxially the marginal height at the stop is front.a * EPD / 2; the real ray differs by aberration only.
+  const Abcd front = abcd_between(f16->surfaces, 0, f16->stop_index, kLineD_nm);
+  CHECK(f16->stop_radius_mm == doctest::Approx(front.a * f16->focal_length_mm / 32.0).epsilon(1e-3));
+  CHECK_FALSE(lens_at(prime_lens(), {.f_number = 0.5}).has_value());
+  CHECK_FALSE(lens_at(prime_lens(), {.f_number = -8.0}).has_value());
+  CHECK_FALSE(lens_at(prime_lens(), {.f_number = std::nan("")}).has_value());
+}
+
+TEST_CASE("focusing near moves the sensor to the conjugate plane (Newton's equation)") {
+  const auto far = lens_at(prime_lens(), {});
+  const auto near = lens_at(prime_lens(), {.object_distance_mm = 1000.0});
+  REQUIRE(near.has_value());
+  const FirstOrder f = first_order(*far, kLineD_nm);
+  const double x = 1000.0 + f.front_focal_distance_mm;  // object to front focal point
+  CHECK(near->sensor_z_mm - far->sensor_z_mm == doctest::Approx(f.focal_length_mm * f.focal_length_mm / x).epsilon(1e-9));
+  CHECK_FALSE(lens_at(prime_lens(), {.object_distance_mm = 10.0}).has_value());
+  CHECK_FALSE(lens_at(prime_lens(), {.object_distance_mm = -5.0}).has_value());
+}
+
+TEST_CASE("a coating setting replaces glass-to-air coatings only") {
+  Prescription lens = prime_lens();
+  lens.surfaces[0].glass_after = crown();
+  const Coating blue{"", QuarterWave{1.38, 430.0}};
+  const auto state = lens_at(lens, {.coating = blue});
+  REQUIRE(state.has_value());
+  CHECK(state->surfaces[0].coating == blue);
+  CHECK(state->surfaces[1].coating == blue);
+  CHECK(state->surfaces[2].coating == Coating{});  // the stop
+}
