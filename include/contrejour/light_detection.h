@@ -1,0 +1,47 @@
+// Bright areas of a scene-linear photograph -> lights: connected areas (8 neighbours) above a threshold.
+// A pixel's level is its largest channel; its weight rises from 0 at the threshold to 1 at threshold * (1 + softness),
+// so a light that brightens frame by frame fades in (docs/formats/images.md). NaN, infinite and negative samples count
+// as 0. Deterministic; O(pixels). Thread-safety: pure.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "contrejour/colour.h"
+#include "contrejour/image.h"
+#include "contrejour/result.h"
+#include "contrejour/vec.h"
+
+namespace contrejour {
+
+struct DetectionSettings {
+  std::optional<double> threshold;  // level, scene-linear; none: automatic_threshold
+  double softness = 0.25;           // >= 0; 0 makes the threshold hard
+  int max_lights = 32;              // >= 1; the rest is merged into the nearest of these
+  int min_pixels = 1;               // smaller areas (hot pixels) are no lights
+};
+
+struct DetectedLight {
+  Vec2 centroid_px;          // flux-weighted; the top-left pixel's centre is (0.5, 0.5)
+  Rgb flux{};                // sum of weight * value over the area's pixels
+  double rms_radius_px = 0;  // flux-weighted, about the centroid; of a single pixel sqrt(1/6)
+  int min_x = 0, min_y = 0, max_x = 0, max_y = 0;  // pixels, inclusive
+  std::int64_t pixel_count = 0;
+  double peak = 0;       // largest level
+  int merged_areas = 1;  // how many areas this light stands for
+};
+
+struct Detection {
+  double threshold = 0;               // the one used
+  std::vector<DetectedLight> lights;  // by flux (r + g + b), largest first
+  int areas_found = 0;                // before merging
+};
+
+// Errors: InvalidArgument (not three channels, settings out of range).
+[[nodiscard]] Result<Detection> detect_lights(const Image& rgb, const DetectionSettings& settings = {});
+
+// The level above which a thing is a light and not a lit surface, from the picture's own statistics.
+[[nodiscard]] double automatic_threshold(const Image& rgb);
+
+}  // namespace contrejour

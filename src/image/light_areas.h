@@ -1,0 +1,27 @@
+// Connected areas of bright pixels, as sums that can be added up.
+#pragma once
+
+#include <vector>
+
+#include "contrejour/light_detection.h"
+
+namespace contrejour {
+
+// Finite and positive, else 0.
+[[nodiscard]] float usable_sample(float value);
+[[nodiscard]] float level_of(const float* rgb);  // the largest usable sample
+
+struct AreaSettings {
+  double threshold = 1;
+  double softness = 0.25;
+};
+
+// The areas in the order of their first pixels (rows from the top); 8 neighbours connect.
+[[nodiscard]] std::vector<DetectedLight> bright_areas(const Image& rgb, const AreaSettings& settings);
+
+[[nodiscard]] double total_flux(const DetectedLight& light);
+
+// Both lights as one: fluxes add, centroid and radius are those of the union.
+[[nodiscard]] DetectedLight merged(const DetectedLight& a, const DetectedLight& b);
+
+}  // namespace contrejour

@@ -1,0 +1,73 @@
+#include "contrejour/light_detection.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <tuple>
+
+#include "image/light_areas.h"
+
+namespace contrejour {
+namespace {
+
+// By flux; equals by place, so that the order never depends on the sort.
+bool comes_first(const DetectedLight& a, const DetectedLight& b) {
+  const double flux_a = total_flux(a), flux_b = total_flux(b);
+  return flux_a != flux_b ? flux_a > flux_b
+                          : std::tie(a.centroid_px.y, a.centroid_px.x) < std::tie(b.centroid_px.y, b.centroid_px.x);
+}
+
+std::size_t nearest(const std::vector<Vec2>& centroids, Vec2 place) {
+  std::size_t best = 0;
+  double best_distance = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < centroids.size(); ++i) {
+    const Vec2 apart = centroids[i] - place;
+    const double distance = dot(apart, apart);
+    if (distance >= best_distance) continue;
+    best = i;
+    best_distance = distance;
+  }
+  return best;
+}
+
+// Each weak light goes to the strong one that was nearest before any was merged: no order matters.
+void merge_tail(std::vector<DetectedLight>& lights, std::size_t kept) {
+  std::vector<Vec2> centroids;
+  for (std::size_t i = 0; i < kept; ++i) centroids.push_back(lights[i].centroid_px);
+  for (std::size_t i = kept; i < lights.size(); ++i) {
+    DetectedLight& target = lights[nearest(centroids, lights[i].centroid_px)];
+    target = merged(target, lights[i]);
+  }
+  lights.resize(kept);
+  std::sort(lights.begin(), lights.end(), comes_first);
+}
+
+Result<void> check(const Image& rgb, const DetectionSettings& settings) {
+  if (rgb.channels != 3 || rgb.width < 0 || rgb.height < 0 || rgb.pixels.size() != rgb.index(0, rgb.height))
+    return failure(ErrorCode::InvalidArgument, "lights are looked for in an image of three channels");
+  if (settings.threshold && !(std::isfinite(*settings.threshold) && *settings.threshold >= 0))
+    return failure(ErrorCode::InvalidArgument, "the threshold for lights must be 0 or more");
+  if (!(std::isfinite(settings.softness) && settings.softness >= 0))
+    return failure(ErrorCode::InvalidArgument, "the softness of the threshold must be 0 or more");
+  if (settings.max_lights < 1 || settings.min_pixels < 1)
+    return failure(ErrorCode::InvalidArgument, "the largest number of lights and their least size must be 1 or more");
+  return {};
+}
+
+}  // namespace
+
+Result<Detection> detect_lights(const Image& rgb, const DetectionSettings& settings) {
+  const Result<void> usable = check(rgb, settings);
+  if (!usable) return tl::unexpected(usable.error());
+  Detection detection;
+  detection.threshold = settings.threshold ? *settings.threshold : automatic_threshold(rgb);
+  detection.lights = bright_areas(rgb, {detection.threshold, settings.softness});
+  std::erase_if(detection.lights, [&](const DetectedLight& l) { return l.pixel_count < settings.min_pixels; });
+  detection.areas_found = static_cast<int>(detection.lights.size());
+  std::sort(detection.lights.begin(), detection.lights.end(), comes_first);
+  const auto most = static_cast<std::size_t>(settings.max_lights);
+  if (detection.lights.size() > most) merge_tail(detection.lights, most);
+  return detection;
+}
+
+}  // namespace contrejour
