@@ -11,7 +11,7 @@ namespace {
 
 // Below this share of its absolute integral a channel's total says nothing of how its light is spread: the blue
 // matching function's lobes cancel for a black body of about 1900 K, and their quotient would grow without bound.
-constexpr double kSmallestTotalShare = 0.1;
+constexpr double kSmallestTotalShare = 0.25;
 
 // What is integrated over wavelength: piecewise linear between whole nanometres.
 struct Sample {
@@ -92,17 +92,18 @@ class Cumulative {
   Samples to_{};
 };
 
-// Shifts rounding errors into the largest weight until the sum, taken in order, is 1.
+// Weights as multiples of this add up without rounding, in any order; it is far below the tables' own digits.
+constexpr double kWeightStep = 0x1p-48;
+
 void make_sum_one(std::vector<SpectralBand>& bands, std::size_t c) {
-  const auto largest = std::max_element(bands.begin(), bands.end(), [c](const auto& a, const auto& b) {
-    return std::abs(a.weight[c]) < std::abs(b.weight[c]);
-  });
-  for (int attempt = 0; attempt < 8; ++attempt) {
-    double sum = 0;
-    for (const SpectralBand& band : bands) sum += band.weight[c];
-    if (sum == 1) return;
-    largest->weight[c] += 1 - sum;
+  double sum = 0;
+  SpectralBand* largest = &bands.front();
+  for (SpectralBand& band : bands) {
+    band.weight[c] = std::nearbyint(band.weight[c] / kWeightStep) * kWeightStep;
+    sum += band.weight[c];
+    if (std::abs(band.weight[c]) > std::abs(largest->weight[c])) largest = &band;
   }
+  largest->weight[c] += 1 - sum;
 }
 
 }  // namespace

@@ -1,0 +1,289 @@
+// The promise of image_io.h: what nobody touched comes back bit for bit.
+#include <cmath>
+#include <limits>
+#include <random>
+
+#include <ImfChannelList.h>
+#include <ImfFrameBuffer.h>
+#include <ImfHeader.h>
+#include <ImfIntAttribute.h>
+#include <ImfMultiPartOutputFile.h>
+#include <ImfOutputFile.h>
+#include <ImfOutputPart.h>
+#include <ImfPartType.h>
+#include <ImfRgbaFile.h>
+#include <ImfStandardAttributes.h>
+#include <ImfStringAttribute.h>
+#include <ImfTiledOutputFile.h>
+
+#include "shared_data.h"
+#include "test_pictures.h"
+
+using namespace contrejour;
+using namespace contrejour::test;
+
+namespace {
+
+struct Given {
+  std::string name;
+  Imf::PixelType type;
+  int sampling = 1;
+};
+
+// Random bits in every sample: NaNs with payloads, infinities, denormals, large integers.
+class GivenFile {
+ public:
+  GivenFile(Imf::Header header, const std::vector<Given>& channels) : header_(std::move(header)) {
+    std::mt19937 random(7);
+    const Imath::Box2i window = header_.dataWindow();
+    const int width = window.max.x - window.min.x + 1, height = window.max.y - window.min.y + 1;
+    for (const Given& given : channels) {
+      header_.channels().insert(given.name, Imf::Channel(given.type, given.sampling, given.sampling));
+      const std::size_t size = given.type == Imf::HALF ? 2 : 4;
+      const auto count = static_cast<std::size_t>((width / given.sampling) * (height / given.sampling));
+      data_.emplace_back(count * size);
+      for (std::byte& b : data_.back()) b = static_cast<std::byte>(random());
+      frame_buffer_.insert(given.name, Imf::Slice::Make(given.type, data_.back().data(), window, 0, 0, given.sampling,
+                                                        given.sampling));
+    }
+  }
+
+  void write(const std::filesystem::path& file) const {
+    const Imath::Box2i window = header_.dataWindow();
+    if (header_.hasTileDescription()) {
+      Imf::TiledOutputFile out(file.c_str(), header_);
+      out.setFrameBuffer(frame_buffer_);
+      out.writeTiles(0, out.numXTiles() - 1, 0, out.numYTiles() - 1);
+    } else {
+      Imf::OutputFile out(file.c_str(), header_);
+      out.setFrameBuffer(frame_buffer_);
+      out.writePixels(window.max.y - window.min.y + 1);
+    }
+  }
+
+  [[nodiscard]] const std::vector<std::byte>& data(std::size_t i) const { return data_[i]; }
+
+ private:
+  Imf::Header header_;
+  std::vector<std::vector<std::byte>> data_;
+  Imf::FrameBuffer frame_buffer_;
+};
+
+const std::vector<Given> kMixed = {{"R", Imf::HALF},           {"G", Imf::FLOAT},         {"B", Imf::HALF},
+                                   {"A", Imf::HALF},           {"Z", Imf::FLOAT},         {"id", Imf::UINT},
+                                   {"diffuse.R", Imf::HALF},   {"mask.half", Imf::HALF},  {"chroma", Imf::HALF, 2}};
+
+Imf::Header windowed_header(Imf::Compression compression) {
+  Imf::Header header({{-10, 5}, {300, 200}}, {{-8, -16}, {55, 33}}, 1.5F, {0.25F, -1}, 2.5F);
+  header.compression() = compression;
+  header.lineOrder() = Imf::DECREASING_Y;
+  header.insert("shot", Imf::StringAttribute("A001_C003"));
+  header.insert("take", Imf::IntAttribute(17));
+  Imf::addOwner(header, "a studio");
+  return header;
+}
+
+void check_round_trip(const GivenFile& given) {
+  const ScratchFolder folder;
+  given.write(folder / "in.exr");
+  const Picture in = must_read(folder / "in.exr");
+  must_write(folder / "out.exr", in);
+  const Picture out = must_read(folder / "out.exr");
+  check_same_channels(in, out);
+  CHECK(in.data_window == out.data_window);
+  CHECK(in.display_window == out.display_window);
+  CHECK(attribute_names(in) == attribute_names(out));
+  CHECK(text_attribute(out, "shot") == "A001_C003");
+  CHECK(folder.file_count() == 2);  // no temporary is left
+}
+
+}  // namespace
+
+TEST_CASE("every bit comes back: mixed types, NaNs, windows, extra channels, attributes, lossless codecs") {
+  for (const Imf::Compression compression : {Imf::NO_COMPRESSION, Imf::RLE_COMPRESSION, Imf::ZIPS_COMPRESSION,
+                                             Imf::ZIP_COMPRESSION, Imf::PIZ_COMPRESSION}) {
+    CAPTURE(static_cast<int>(compression));
+    const GivenFile given(windowed_header(compression), kMixed);
+    check_round_trip(given);
+    const ScratchFolder folder;
+    given.write(folder / "in.exr");
+    const Picture in = must_read(folder / "in.exr");
+    CHECK(in.data_window == PixelWindow{-8, -16, 64, 50});
+    CHECK(in.display_window == PixelWindow{-10, 5, 311, 196});
+    for (std::size_t i = 0; i < kMixed.size(); ++i) {
+      CAPTURE(kMixed[i].name);
+      CHECK(channel(in, kMixed[i].name).samples == given.data(i));
+    }
+    CHECK(channel(in, "chroma").x_sampling == 2);
+  }
+}
+
+TEST_CASE("an unchanged picture is the same file, when OpenEXR wrote it the same way") {
+  const ScratchFolder folder;
+  GivenFile(windowed_header(Imf::ZIP_COMPRESSION), kMixed).write(folder / "in.exr");
+  must_write(folder / "out.exr", must_read(folder / "in.exr"));
+  CHECK(bytes_of(folder / "in.exr") == bytes_of(folder / "out.exr"));
+}
+
+TEST_CASE("tiles stay tiles, every bit and attribute") {
+  Imf::Header header = windowed_header(Imf::ZIP_COMPRESSION);
+  header.lineOrder() = Imf::RANDOM_Y;
+  header.setTileDescription(Imf::TileDescription(24, 16, Imf::ONE_LEVEL));
+  const std::vector<Given> channels(kMixed.begin(), kMixed.end() - 1);  // tiles have no subsampling
+  check_round_trip(GivenFile(header, channels));
+}
+
+TEST_CASE("lossy codecs read as they are and are written without loss") {
+  for (const Imf::Compression compression : {Imf::PXR24_COMPRESSION, Imf::B44_COMPRESSION, Imf::B44A_COMPRESSION,
+                                             Imf::DWAA_COMPRESSION, Imf::DWAB_COMPRESSION}) {
+    CAPTURE(static_cast<int>(compression));
+    check_round_trip(GivenFile(windowed_header(compression), {{"R", Imf::HALF}, {"G", Imf::HALF}, {"B", Imf::HALF},
+                                                              {"A", Imf::HALF}, {"Z", Imf::FLOAT}}));
+  }
+}
+
+TEST_CASE("a changed pixel changes its own samples and no others") {
+  const ScratchFolder folder;
+  GivenFile(windowed_header(Imf::PIZ_COMPRESSION), kMixed).write(folder / "in.exr");
+  const Picture in = must_read(folder / "in.exr");
+  Picture changed = in;
+  changed.rgb.at(3, 4, 0) = 0.5F;
+  changed.rgb.at(3, 4, 1) = 0.1F;
+  changed.rgb.at(5, 4, 2) = 1e9F;  // beyond half: the largest half, not infinity
+  must_write(folder / "out.exr", changed);
+  const Picture out = must_read(folder / "out.exr");
+  CHECK(out.rgb.at(3, 4, 0) == 0.5F);
+  CHECK(out.rgb.at(3, 4, 1) == 0.1F);
+  CHECK(out.rgb.at(5, 4, 2) == 65504.0F);
+  Picture expected = in;
+  const auto set_half = [&](const char* name, std::size_t pixel, std::uint16_t bits) {
+    for (PictureChannel& c : expected.channels)
+      if (c.name == name) std::memcpy(c.samples.data() + 2 * pixel, &bits, 2);
+  };
+  set_half("R", 4 * 64 + 3, 0x3800);
+  set_half("B", 4 * 64 + 5, 0x7bff);
+  const float tenth = 0.1F;
+  for (PictureChannel& c : expected.channels)
+    if (c.name == "G") std::memcpy(c.samples.data() + 4 * (4 * 64 + 3), &tenth, 4);
+  check_same_channels(expected, out);
+}
+
+TEST_CASE("grey pictures, layers, integer colours") {
+  const ScratchFolder folder;
+  Imf::Header header = windowed_header(Imf::ZIP_COMPRESSION);
+  GivenFile(header, {{"Y", Imf::HALF}, {"A", Imf::HALF}}).write(folder / "grey.exr");
+  Picture grey = must_read(folder / "grey.exr");
+  CHECK(grey.rgb_source == std::array<int, 3>{1, 1, 1});
+  grey.rgb.at(0, 0, 0) = grey.rgb.at(0, 0, 1) = grey.rgb.at(0, 0, 2) = 2;
+  grey.rgb.at(1, 0, 0) = 0;
+  grey.rgb.at(1, 0, 1) = 1;
+  grey.rgb.at(1, 0, 2) = 0;
+  must_write(folder / "grey2.exr", grey);
+  const Picture back = must_read(folder / "grey2.exr");
+  CHECK(back.channels.size() == 2);
+  CHECK(back.rgb.at(0, 0, 1) == 2);
+  CHECK(back.rgb.at(1, 0, 0) == doctest::Approx(0.7152).epsilon(1e-3));
+
+  GivenFile(header, {{"key.R", Imf::FLOAT}, {"key.G", Imf::FLOAT}, {"key.B", Imf::FLOAT}, {"fill.R", Imf::UINT},
+                     {"fill.G", Imf::UINT}, {"fill.B", Imf::UINT}})
+      .write(folder / "layers.exr");
+  CHECK(must_read(folder / "layers.exr").rgb_source[0] == 2);  // fill.B, fill.G, fill.R, key...
+  const Picture key = must_read(folder / "layers.exr", {"key", {}});
+  CHECK(key.channels[static_cast<std::size_t>(key.rgb_source[0])].name == "key.R");
+  CHECK_FALSE(read_picture(folder / "layers.exr", {"rim", {}}).has_value());
+  check_round_trip(GivenFile(header, {{"R", Imf::UINT}, {"G", Imf::UINT}, {"B", Imf::UINT}}));
+
+  GivenFile(header, {{"Z", Imf::FLOAT}}).write(folder / "depth.exr");
+  const auto depth = read_picture(folder / "depth.exr");
+  REQUIRE_FALSE(depth.has_value());
+  CHECK(depth.error().code == ErrorCode::Unsupported);
+  CHECK(depth.error().message.find("Z") != std::string::npos);
+}
+
+TEST_CASE("luminance and chroma become RGB") {
+  const ScratchFolder folder;
+  std::vector<Imf::Rgba> pixels(32 * 16, Imf::Rgba(0.5F, 0.25F, 0.125F, 1));
+  {
+    Imf::RgbaOutputFile out((folder / "yc.exr").c_str(), 32, 16, Imf::WRITE_YC);
+    out.setFrameBuffer(pixels.data(), 1, 32);
+    out.writePixels(16);
+  }
+  const Picture picture = must_read(folder / "yc.exr");
+  CHECK(picture.rgb.at(9, 9, 0) == doctest::Approx(0.5).epsilon(2e-3));
+  CHECK(picture.rgb.at(9, 9, 1) == doctest::Approx(0.25).epsilon(2e-3));
+  CHECK(picture.rgb.at(9, 9, 2) == doctest::Approx(0.125).epsilon(2e-3));
+  must_write(folder / "rgb.exr", picture);
+  CHECK(must_read(folder / "rgb.exr").rgb.pixels == picture.rgb.pixels);
+}
+
+TEST_CASE("new images, colour space and text") {
+  const ScratchFolder folder;
+  Image image(3, 2, 4);
+  for (std::size_t i = 0; i < image.pixels.size(); ++i) image.pixels[i] = 0.1F * static_cast<float>(i);
+  REQUIRE(write_exr(folder / "new.exr", image).has_value());
+  const Picture read = must_read(folder / "new.exr");
+  CHECK(read.rgb.at(2, 1, 2) == image.at(2, 1, 2));
+  CHECK(channel(read, "A").type == SampleType::Float);
+  CHECK(colour_space_of(read) == ColourSpace::Rec709);
+
+  Picture aces = picture_of(image, SampleType::Half);
+  set_colour_space(aces, ColourSpace::AcesCg);
+  set_text_attribute(aces, "comments", "made by a test");
+  aces.data_window.x = 100;
+  must_write(folder / "aces.exr", aces);
+  const Picture back = must_read(folder / "aces.exr");
+  CHECK(colour_space_of(back) == ColourSpace::AcesCg);
+  CHECK(text_attribute(back, "comments") == "made by a test");
+  CHECK(back.data_window == PixelWindow{100, 0, 3, 2});
+  CHECK(back.rgb.at(1, 1, 0) == doctest::Approx(image.at(1, 1, 0)).epsilon(1e-3));
+
+  REQUIRE(write_exr(folder / "one.exr", Image(4, 4, 1)).has_value());
+  CHECK(must_read(folder / "one.exr").channels.size() == 1);
+  CHECK_FALSE(write_exr(folder / "none.exr", Image()).has_value());
+  CHECK_FALSE(write_picture(folder / "new.tiff", aces).has_value());
+}
+
+TEST_CASE("multi-part and deep files are refused by name") {
+  const ScratchFolder folder;
+  std::vector<Imf::Header> headers(2, Imf::Header(8, 8));
+  for (std::size_t i = 0; i < 2; ++i) {
+    headers[i].setName("part" + std::to_string(i));
+    headers[i].setType(Imf::SCANLINEIMAGE);
+    headers[i].channels().insert("R", Imf::Channel(Imf::HALF));
+  }
+  { Imf::MultiPartOutputFile out((folder / "parts.exr").c_str(), headers.data(), 2); }
+  const auto parts = read_picture(folder / "parts.exr");
+  REQUIRE_FALSE(parts.has_value());
+  CHECK(parts.error().code == ErrorCode::Unsupported);
+  CHECK(parts.error().message.find("multi-part") != std::string::npos);
+  CHECK(parts.error().place.file == (folder / "parts.exr").string());
+}
+
+TEST_CASE("a cancelled write leaves nothing and keeps what was there") {
+  const ScratchFolder folder;
+  const std::atomic<bool> cancel{true};
+  Context context;
+  context.cancel = &cancel;
+  write_bytes(folder / "out.exr", {std::byte{1}});
+  for (const char* name : {"out.exr", "out.png"}) {
+    const auto written = write_picture(folder / name, picture_of(Image(64, 64)), context);
+    REQUIRE_FALSE(written.has_value());
+    CHECK(written.error().code == ErrorCode::Cancelled);
+  }
+  CHECK(folder.file_count() == 1);
+  CHECK(bytes_of(folder / "out.exr").size() == 1);
+}
+
+TEST_CASE("the sample photographs come back bit for bit") {
+  for (const char* name : {"ScanLines/CandleGlass.exr", "ScanLines/StillLife.exr", "ScanLines/Tree.exr",
+                           "MultiResolution/StageEnvLatLong.exr"}) {
+    const auto file = shared_data(std::string("hdr/openexr-images/") + name);
+    if (!file) continue;
+    const ScratchFolder folder;
+    const Picture in = must_read(*file);
+    must_write(folder / "out.exr", in);
+    const Picture out = must_read(folder / "out.exr");
+    check_same_channels(in, out);
+    CHECK(attribute_names(in) == attribute_names(out));
+  }
+}

@@ -1,0 +1,82 @@
+#include <cmath>
+#include <limits>
+
+#include <doctest/doctest.h>
+
+#include "contrejour/metrics.h"
+
+using namespace contrejour;
+
+namespace {
+constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+constexpr float kInf = std::numeric_limits<float>::infinity();
+
+// 0, 1, 2 ... 29 over 10 pixels of 3 channels.
+Image ramp() {
+  Image image(5, 2, 3);
+  for (std::size_t i = 0; i < image.pixels.size(); ++i) image.pixels[i] = static_cast<float>(i);
+  return image;
+}
+}  // namespace
+
+TEST_CASE("equal images have no PSNR") {
+  const Comparison c = compare(ramp(), ramp()).value();
+  CHECK_FALSE(c.psnr_db.has_value());
+  CHECK(c.max_abs_error == 0);
+  CHECK(c.flux_ratio == std::vector<double>{1, 1, 1});
+  CHECK(c.peak == doctest::Approx(0.999 * 29));  // between 28 and 29 as numpy.percentile interpolates
+}
+
+TEST_CASE("a known error gives a known PSNR") {
+  const Image a = ramp();
+  Image b = a;
+  b.at(1, 0, 2) += 3;  // one sample of 30
+  const Comparison c = compare(a, b).value();
+  const double peak = 0.999 * 29;
+  CHECK(c.psnr_db.value() == doctest::Approx(10 * std::log10(peak * peak / (9.0 / 30))).epsilon(1e-12));
+  CHECK(c.max_abs_error == 3);
+  CHECK(c.flux_ratio[0] == 1);
+  CHECK(c.flux_ratio[2] == doctest::Approx((155.0 + 3) / 155));
+}
+
+TEST_CASE("what lies above the peak counts for the largest error only") {
+  Image a(100, 100, 3), b(100, 100, 3);
+  for (auto& v : a.pixels) v = 1;
+  b.pixels = a.pixels;
+  a.at(3, 3, 0) = 500;
+  b.at(3, 3, 0) = 800;
+  const Comparison c = compare(a, b).value();
+  CHECK(c.peak == 1);
+  CHECK_FALSE(c.psnr_db.has_value());
+  CHECK(c.max_abs_error == 300);
+}
+
+TEST_CASE("a peak of 0 falls back to the largest value") {
+  Image a(100, 100, 3), b(100, 100, 3);
+  a.at(0, 0, 0) = 8;
+  CHECK(compare(a, b).value().peak == 8);
+  CHECK(compare(b, a).value().peak == 8);
+  CHECK(std::isinf(compare(b, a).value().flux_ratio[0]));
+  CHECK(compare(b, a).value().flux_ratio[1] == 1);
+  CHECK_FALSE(compare(b, b).value().psnr_db.has_value());
+}
+
+TEST_CASE("NaN and infinity are left out, and counted where they differ") {
+  Image a = ramp();
+  a.at(4, 1, 2) = kNan;
+  a.at(0, 0, 0) = kInf;
+  Image b = a;
+  CHECK_FALSE(compare(a, b).value().psnr_db.has_value());
+  CHECK(compare(a, b).value().non_finite_mismatches == 0);
+  b.at(4, 1, 2) = 29;
+  const Comparison c = compare(a, b).value();
+  CHECK(c.non_finite_mismatches == 1);
+  CHECK(c.psnr_db.value() == doctest::Approx(10 * std::log10(30.0)));
+  CHECK(c.max_abs_error == 0);
+}
+
+TEST_CASE("images of different size are not compared") {
+  CHECK_FALSE(compare(Image(2, 3), Image(3, 2)).has_value());
+  CHECK_FALSE(compare(Image(2, 2, 3), Image(2, 2, 1)).has_value());
+  CHECK_FALSE(compare(Image(), Image()).has_value());
+}

@@ -1,0 +1,123 @@
+#include <cmath>
+
+#include "contrejour/metrics.h"
+#include "test_pictures.h"
+
+using namespace contrejour;
+using namespace contrejour::test;
+
+namespace {
+
+// Every 16-bit code once in each channel, alpha falling from opaque; or every 8-bit one.
+Picture all_codes(SampleType type, bool with_alpha) {
+  const int side = type == SampleType::UInt8 ? 16 : 256;
+  const auto count = static_cast<std::size_t>(side * side);
+  Picture picture = picture_of(Image(side, side, 3));
+  picture.channels.clear();
+  picture.rgb_source = {0, 1, 2};
+  for (const char* name : {"R", "G", "B", "A"}) {
+    if (*name == 'A' && !with_alpha) continue;
+    PictureChannel c{name, type, 1, 1, false, std::vector<std::byte>(count * size_of(type))};
+    for (std::size_t i = 0; i < count; ++i) {
+      const auto code = static_cast<std::uint16_t>(*name == 'A' ? count - 1 - i / 2 : (*name == 'G' ? count - 1 - i : i));
+      std::memcpy(c.samples.data() + i * size_of(type), &code, size_of(type));
+    }
+    picture.channels.push_back(std::move(c));
+  }
+  return picture;
+}
+
+// The values a reader gives for these codes, so that writing keeps them.
+Picture with_values(Picture picture) {
+  const double largest = picture.channels[0].type == SampleType::UInt8 ? 255 : 65535;
+  const auto code = [&](std::size_t c, std::size_t i) {
+    std::uint16_t value = 0;
+    std::memcpy(&value, picture.channels[c].samples.data() + i * size_of(picture.channels[c].type),
+                size_of(picture.channels[c].type));
+    return value / largest;
+  };
+  for (std::size_t i = 0; i < picture.rgb.pixels.size() / 3; ++i)
+    for (std::size_t c = 0; c < 3; ++c) {
+      const double v = code(c, i);
+      const double linear = v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4);  // IEC 61966-2-1
+      const double alpha = picture.channels.size() > 3 ? code(3, i) : 1;
+      picture.rgb.pixels[3 * i + c] = static_cast<float>(linear * alpha);
+    }
+  return picture;
+}
+
+}  // namespace
+
+TEST_CASE("every 8 and 16 bit code goes to linear and back") {
+  for (const SampleType type : {SampleType::UInt8, SampleType::UInt16})
+    for (const bool with_alpha : {false, true}) {
+      CAPTURE(with_alpha);
+      const ScratchFolder folder;
+      const Picture given = with_values(all_codes(type, with_alpha));
+      must_write(folder / "a.png", given);
+      const Picture read = must_read(folder / "a.png");
+      if (!with_alpha) check_same_channels(given, read);
+      double worst = 0;
+      for (std::size_t i = 0; i < read.rgb.pixels.size(); ++i)
+        worst = std::max<double>(worst, std::abs(read.rgb.pixels[i] - given.rgb.pixels[i]));
+      CHECK(worst < 1e-6);
+      must_write(folder / "b.png", read);
+      check_same_channels(read, must_read(folder / "b.png"));
+    }
+}
+
+TEST_CASE("a changed PNG pixel is coded as sRGB and clipped") {
+  const ScratchFolder folder;
+  must_write(folder / "a.png", with_values(all_codes(SampleType::UInt8, false)));
+  Picture picture = must_read(folder / "a.png");
+  picture.rgb.at(4, 4, 0) = 0.5F;
+  picture.rgb.at(5, 4, 0) = 7;
+  picture.rgb.at(6, 4, 0) = -1;
+  picture.rgb.at(7, 4, 0) = std::nanf("");
+  must_write(folder / "b.png", picture);
+  const Picture back = must_read(folder / "b.png");
+  CHECK(channel(back, "R").samples[4 * 16 + 4] == std::byte{188});  // sRGB of 0.5
+  CHECK(channel(back, "R").samples[4 * 16 + 5] == std::byte{255});
+  CHECK(channel(back, "R").samples[4 * 16 + 6] == std::byte{0});
+  CHECK(channel(back, "R").samples[4 * 16 + 7] == std::byte{0});
+  CHECK(channel(back, "G").samples == channel(picture, "G").samples);
+}
+
+TEST_CASE("between PNG and OpenEXR the light stays") {
+  const ScratchFolder folder;
+  must_write(folder / "a.png", with_values(all_codes(SampleType::UInt16, true)));
+  const Picture png = must_read(folder / "a.png");
+  must_write(folder / "a.exr", png);
+  const Picture exr = must_read(folder / "a.exr");
+  CHECK(channel(exr, "A").type == SampleType::Float);
+  CHECK(exr.rgb.pixels == png.rgb.pixels);
+  must_write(folder / "b.png", exr);
+  const Picture back = must_read(folder / "b.png");
+  double worst = 0;
+  for (std::size_t i = 0; i < png.rgb.pixels.size(); ++i)
+    worst = std::max<double>(worst, std::abs(back.rgb.pixels[i] - png.rgb.pixels[i]));
+  CHECK(worst < 4e-5);  // a 16-bit code's step at white
+}
+
+TEST_CASE("previews: exposure and roll-off") {
+  const ScratchFolder folder;
+  Image image(4, 1, 3);
+  for (int c = 0; c < 3; ++c) {
+    image.at(0, 0, c) = 0.25F;
+    image.at(1, 0, c) = 0.8F;
+    image.at(2, 0, c) = 3;
+    image.at(3, 0, c) = std::nanf("");
+  }
+  const auto code = [&](const PreviewSettings& settings, std::size_t x) {
+    REQUIRE(write_preview_png(folder / "p.png", image, settings).has_value());
+    return std::to_integer<int>(channel(must_read(folder / "p.png"), "R").samples[x]);
+  };
+  CHECK(code({0, false}, 0) == 137);  // sRGB of 0.25
+  CHECK(code({1, false}, 0) == 188);  // of 0.5
+  CHECK(code({0, false}, 2) == 255);
+  CHECK(code({0, true}, 0) == 137);
+  CHECK(code({0, true}, 1) == code({0, false}, 1));
+  CHECK(code({-1, true}, 2) < 255);
+  CHECK(code({-1, true}, 2) > code({0, true}, 1));
+  CHECK(code({0, true}, 3) == 0);
+}
