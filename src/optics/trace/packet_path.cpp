@@ -1,0 +1,72 @@
+#include <algorithm>
+#include <cmath>
+
+#include "optics/trace/packet_trace.h"
+
+namespace contrejour {
+namespace {
+
+// Beyond the critical angle seen from the denser side there is no u; from the other side every u is an angle.
+double cos_in_denser(double u, double n_low, double n_high) {
+  const double eta = n_low / n_high;
+  return std::sqrt(1.0 - eta * eta * (1.0 - u * u));
+}
+
+}  // namespace
+
+ReflectanceTables::ReflectanceTables(const LensState& lens, double lambda_nm) : lambda_nm_(lambda_nm) {
+  for (const SurfaceState& surface : lens.surfaces) {
+    Entry entry;
+    if (surface.kind == SurfaceKind::Refracting) {
+      const bool may_absorb = std::holds_alternative<FilmStack>(surface.coating.films);
+      const bool same_both_ways =
+          !may_absorb && !std::holds_alternative<HullinFresnelAR>(surface.coating.films);
+      entry.reflectance[0] = add(surface, +1, false);
+      entry.reflectance[1] = same_both_ways ? entry.reflectance[0] : add(surface, -1, false);
+      if (may_absorb) entry.transmittance = add(surface, +1, true);
+    }
+    entries_.push_back(entry);
+  }
+}
+
+int ReflectanceTables::add(const SurfaceState& surface, int direction, bool transmitted) {
+  const int offset = static_cast<int>(values_.size());
+  const double before = refractive_index(surface.before, lambda_nm_);
+  const double after = refractive_index(surface.after, lambda_nm_);
+  const double n_in = direction > 0 ? before : after;
+  const double n_out = direction > 0 ? after : before;
+  for (int k = 0; k <= kIntervals; ++k) {
+    // Grazing itself is 0/0 in a matrix of films; its limit is next to it.
+    const double u = std::max(static_cast<double>(k) / kIntervals, 1e-9);
+    const double cos_in = n_in > n_out ? cos_in_denser(u, n_out, n_in) : u;
+    const double value = transmitted ? transmittance(surface.coating, n_in, n_out, cos_in, lambda_nm_)
+                                     : reflectance(surface.coating, n_in, n_out, cos_in, lambda_nm_);
+    values_.push_back(static_cast<float>(value));
+  }
+  return offset;
+}
+
+PacketPath::PacketPath(const OpticalPath& path, const ReflectanceTables& tables, const ParallelRays& rays)
+    : tables_(tables.values()), rays_(rays), inverse_stop_radius_per_mm_(1.0 / path.stop_radius_mm) {
+  double z_before_mm = rays.origin_mm.z;
+  steps_.reserve(path.steps.size());
+  for (const PathStep& from : path.steps) {
+    const ReflectanceTables::Entry& entry = tables.of(from.surface);
+    PacketStep step;
+    step.event = from.event;
+    if (from.event == PathEvent::Stop) step.crossing = stop_crossings_++;
+    step.from_denser = from.n_in > from.n_out;
+    step.reflectance = entry.reflectance[from.direction > 0 ? 0 : 1];
+    step.transmittance = entry.transmittance;
+    step.direction = from.direction;
+    step.gap_mm = from.z_mm - z_before_mm;
+    step.curvature_per_mm = from.curvature_per_mm;
+    step.inverse_semi_diameter_squared = 1.0 / (from.semi_diameter_mm * from.semi_diameter_mm);
+    step.eta = from.n_in / from.n_out;
+    z_before_mm = from.z_mm;
+    steps_.push_back(step);
+  }
+  sensor_gap_mm_ = path.sensor_z_mm - z_before_mm;
+}
+
+}  // namespace contrejour

@@ -1,0 +1,206 @@
+#include "optics/trace/packet_trace.h"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+
+// Packets are structs of vectors, which these targets do not allow.
+#define HWY_DISABLED_TARGETS (HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128 | HWY_RVV)
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "optics/trace/packet_trace.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+#include "kernels/packet-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace contrejour::HWY_NAMESPACE {
+
+namespace hk = kernels::HWY_NAMESPACE;
+namespace hn = hwy::HWY_NAMESPACE;
+
+// As in trace.cpp: a ray beyond the equator of a sphere has left the glass; squared.
+constexpr double kBeyondEquatorSquared = 4.0;
+
+// Two packets go through a step together, so that one works while the other waits for a root or a quotient.
+constexpr int kTogether = 2;
+
+template <class P>
+struct PacketState {
+  hk::Ray3<P> ray;
+  P transmission;
+  P r_rel_squared;
+  P alive;  // 1 or 0
+};
+
+template <class P>
+HWY_INLINE void pass_stop(PacketState<P>& s, const PacketStep& step, double inverse_radius, std::size_t at,
+                          const TracedArrays& out) {
+  const P scale(inverse_radius);
+  store_floats(s.ray.x * scale, out.stop_x[static_cast<std::size_t>(step.crossing)] + at);
+  store_floats(s.ray.y * scale, out.stop_y[static_cast<std::size_t>(step.crossing)] + at);
+}
+
+// One packet over one surface. Rays that fail go on as numbers of no meaning with alive = 0.
+template <class P>
+HWY_INLINE void advance(PacketState<P>& s, const PacketStep& step, const float* tables) {
+  const P zero(0.0);
+  const P one(1.0);
+  const P direction(step.direction);
+  auto hit = hk::intersect(s.ray, P(step.gap_mm), P(step.curvature_per_mm), direction);
+  s.alive = or_zero(hit.cos_in_squared > zero, s.alive);
+  hk::move_to(s.ray, hit, zero);  // z from this vertex on
+  if (step.event == PathEvent::Stop) return;
+
+  const P r_squared = (hit.x * hit.x + hit.y * hit.y) * P(step.inverse_semi_diameter_squared);
+  const P beyond = select(hit.nz > zero, zero, P(kBeyondEquatorSquared));
+  s.r_rel_squared = larger(s.r_rel_squared, larger(r_squared, beyond));
+
+  const P eta(step.eta);
+  if (step.event == PathEvent::Reflect) {
+    const P cos_in = smaller(hit.cos_in, one);
+    const P cos_out_squared = one - eta * eta * (one - cos_in * cos_in);
+    const P u = step.from_denser ? square_root(larger(cos_out_squared, zero)) : cos_in;
+    s.transmission = s.transmission * look_up(tables + step.reflectance, ReflectanceTables::kIntervals, u);
+    hk::reflect(s.ray, hit, direction);
+    return;
+  }
+  const P cos_out_squared = hk::refract(s.ray, hit, eta, direction);
+  s.alive = or_zero(cos_out_squared > zero, s.alive);
+  const P u = step.from_denser ? square_root(larger(cos_out_squared, zero)) : smaller(hit.cos_in, one);
+  const P through = step.transmittance >= 0
+                        ? look_up(tables + step.transmittance, ReflectanceTables::kIntervals, u)
+                        : one - look_up(tables + step.reflectance, ReflectanceTables::kIntervals, u);
+  s.transmission = s.transmission * through;
+}
+
+template <class P>
+HWY_INLINE void land(const PacketState<P>& s, double sensor_gap_mm, std::size_t at, const TracedArrays& out) {
+  const P zero(0.0);
+  const P t = (P(sensor_gap_mm) - s.ray.z) / s.ray.dz;
+  const auto ok = or_zero(s.ray.dz > zero, s.alive) > zero;
+  store_floats(or_zero(ok, s.ray.x + t * s.ray.dx), out.sensor_x_mm + at);
+  store_floats(or_zero(ok, s.ray.y + t * s.ray.dy), out.sensor_y_mm + at);
+  store_floats(or_zero(ok, s.transmission), out.transmission + at);
+  store_floats(select(ok, square_root(s.r_rel_squared), P(std::numeric_limits<double>::infinity())), out.r_rel + at);
+}
+
+// kTogether packets that start at index `at` of the arrays.
+template <class P>
+HWY_INLINE void trace_block(const PacketPath& path, const float* x_mm, const float* y_mm, std::size_t at,
+                            const TracedArrays& out) {
+  const std::size_t lanes = hn::Lanes(typename P::Tag());
+  const ParallelRays& rays = path.rays();
+  std::array<PacketState<P>, kTogether> states;
+  for (int k = 0; k < kTogether; ++k) {
+    const std::size_t from = at + static_cast<std::size_t>(k) * lanes;
+    PacketState<P>& s = states[static_cast<std::size_t>(k)];
+    s.ray = {P(rays.origin_mm.x) + hk::load_floats(P(), x_mm + from),
+             P(rays.origin_mm.y) + hk::load_floats(P(), y_mm + from),
+             P(0.0),
+             P(rays.direction.x),
+             P(rays.direction.y),
+             P(rays.direction.z)};
+    s.transmission = P(1.0);
+    s.r_rel_squared = P(0.0);
+    s.alive = P(1.0);
+  }
+  for (const PacketStep& step : path.steps()) {
+    for (int k = 0; k < kTogether; ++k) {
+      PacketState<P>& s = states[static_cast<std::size_t>(k)];
+      advance(s, step, path.tables());
+      if (step.event == PathEvent::Stop) {
+        pass_stop(s, step, path.inverse_stop_radius_per_mm(), at + static_cast<std::size_t>(k) * lanes, out);
+      }
+    }
+  }
+  for (int k = 0; k < kTogether; ++k) {
+    land(states[static_cast<std::size_t>(k)], path.sensor_gap_mm(), at + static_cast<std::size_t>(k) * lanes, out);
+  }
+}
+
+// The last rays, too few for a block, in buffers of a block's length.
+template <class P>
+void trace_tail(const PacketPath& path, const float* x_mm, const float* y_mm, std::size_t count,
+                const TracedArrays& out) {
+  constexpr std::size_t kLongest = kTogether * HWY_MAX_BYTES / sizeof(float);
+  constexpr std::size_t kFixed = 4;
+  std::array<std::array<float, kLongest>, 2> in{};
+  std::array<std::array<float, kLongest>, kFixed + 2 * kMaxStopCrossings> buffers;
+  std::copy_n(x_mm, count, in[0].begin());
+  std::copy_n(y_mm, count, in[1].begin());
+  TracedArrays part{buffers[0].data(), buffers[1].data(), buffers[2].data(), buffers[3].data(), {}, {}};
+  for (std::size_t c = 0; c < kMaxStopCrossings; ++c) {
+    part.stop_x[c] = buffers[kFixed + 2 * c].data();
+    part.stop_y[c] = buffers[kFixed + 2 * c + 1].data();
+  }
+  trace_block<P>(path, in[0].data(), in[1].data(), 0, part);
+  std::copy_n(part.sensor_x_mm, count, out.sensor_x_mm);
+  std::copy_n(part.sensor_y_mm, count, out.sensor_y_mm);
+  std::copy_n(part.transmission, count, out.transmission);
+  std::copy_n(part.r_rel, count, out.r_rel);
+  for (std::size_t c = 0; c < static_cast<std::size_t>(path.stop_crossings()); ++c) {
+    std::copy_n(part.stop_x[c], count, out.stop_x[c]);
+    std::copy_n(part.stop_y[c], count, out.stop_y[c]);
+  }
+}
+
+TracedArrays advanced(const TracedArrays& arrays, std::size_t by, int crossings) {
+  TracedArrays out = arrays;
+  out.sensor_x_mm += by;
+  out.sensor_y_mm += by;
+  out.transmission += by;
+  out.r_rel += by;
+  for (std::size_t c = 0; c < static_cast<std::size_t>(crossings); ++c) {
+    out.stop_x[c] += by;
+    out.stop_y[c] += by;
+  }
+  return out;
+}
+
+template <class P>
+void trace_all(const PacketPath& path, const float* x_mm, const float* y_mm, std::size_t count,
+               const TracedArrays& out) {
+  const std::size_t block = kTogether * hn::Lanes(typename P::Tag());
+  std::size_t at = 0;
+  for (; at + block <= count; at += block) trace_block<P>(path, x_mm, y_mm, at, out);
+  if (at < count) {
+    trace_tail<P>(path, x_mm + at, y_mm + at, count - at, advanced(out, at, path.stop_crossings()));
+  }
+}
+
+void trace_float(const PacketPath& path, const float* x_mm, const float* y_mm, std::size_t count,
+                 const TracedArrays& out) {
+  trace_all<hk::Packet<float>>(path, x_mm, y_mm, count, out);
+}
+
+// Where an instruction set has no vectors of double (none of x86), float must do.
+void trace_double(const PacketPath& path, const float* x_mm, const float* y_mm, std::size_t count,
+                  const TracedArrays& out) {
+#if HWY_HAVE_FLOAT64
+  trace_all<hk::Packet<double>>(path, x_mm, y_mm, count, out);
+#else
+  trace_all<hk::Packet<float>>(path, x_mm, y_mm, count, out);
+#endif
+}
+
+}  // namespace contrejour::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace contrejour {
+
+HWY_EXPORT(trace_float);
+HWY_EXPORT(trace_double);
+
+void trace_packets(const PacketPath& path, PacketPrecision precision, const float* x_mm, const float* y_mm,
+                   std::size_t count, const TracedArrays& out) {
+  if (precision == PacketPrecision::Double) {
+    HWY_DYNAMIC_DISPATCH(trace_double)(path, x_mm, y_mm, count, out);
+  } else {
+    HWY_DYNAMIC_DISPATCH(trace_float)(path, x_mm, y_mm, count, out);
+  }
+}
+
+}  // namespace contrejour
+#endif  // HWY_ONCE

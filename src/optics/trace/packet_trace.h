@@ -1,0 +1,98 @@
+// Many parallel rays along one path, several at a time (Highway packets, the widest instruction set of the
+// machine): the formulas of trace() in float, or in double where neighbouring rays lie too close for float.
+// Layout: structure of arrays, any length. Nothing is allocated while tracing.
+// Accuracy against trace() for unblocked rays: sensor positions 1e-3 mm in float (typically 1e-5) and 1e-5 mm
+// in double (outputs are float), transmission 1e-4 relative. Thread-safety: shared values are only read.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+#include "contrejour/trace.h"
+
+namespace contrejour {
+
+// Reflectance, and transmittance where a film absorbs, of every surface at one wavelength, tabulated over the
+// cosine u of the ray in the medium of lower index. Over u a lossless surface is the same from both sides and
+// has no root at the critical angle (u = 0 there), so straight lines between the nodes are good to 1e-5.
+class ReflectanceTables {
+ public:
+  static constexpr int kIntervals = 2048;
+
+  ReflectanceTables(const LensState& lens, double lambda_nm);
+
+  struct Entry {
+    std::array<int, 2> reflectance{-1, -1};  // offsets into values(), light from the front and from behind
+    int transmittance = -1;                  // -1: 1 - reflectance
+  };
+  [[nodiscard]] const Entry& of(int surface) const { return entries_[static_cast<std::size_t>(surface)]; }
+  [[nodiscard]] const float* values() const { return values_.data(); }
+  [[nodiscard]] double lambda_nm() const { return lambda_nm_; }
+
+ private:
+  int add(const SurfaceState& surface, int direction, bool transmitted);
+
+  std::vector<Entry> entries_;
+  std::vector<float> values_;
+  double lambda_nm_;
+};
+
+// A step with lengths from the vertex before, so that float has digits to spare.
+struct PacketStep {
+  PathEvent event = PathEvent::Refract;
+  int crossing = 0;             // for the stop: which one it is
+  bool from_denser = false;     // n_in > n_out
+  int reflectance = 0;          // offsets into the tables
+  int transmittance = -1;
+  double direction = 1;
+  double gap_mm = 0;            // z of this vertex less that of the step before, or of the origin
+  double curvature_per_mm = 0;
+  double inverse_semi_diameter_squared = 0;
+  double eta = 1;               // n_in / n_out
+};
+
+// The light's rays: parallel, through points of the plane z = origin.z.
+struct ParallelRays {
+  Vec3 origin_mm;
+  Vec3 direction;  // unit
+};
+
+// A path made ready for tracing rays that start from one plane. The tables must outlive it.
+class PacketPath {
+ public:
+  PacketPath(const OpticalPath& path, const ReflectanceTables& tables, const ParallelRays& rays);
+
+  [[nodiscard]] const std::vector<PacketStep>& steps() const { return steps_; }
+  [[nodiscard]] const float* tables() const { return tables_; }
+  [[nodiscard]] const ParallelRays& rays() const { return rays_; }
+  [[nodiscard]] double sensor_gap_mm() const { return sensor_gap_mm_; }
+  [[nodiscard]] double inverse_stop_radius_per_mm() const { return inverse_stop_radius_per_mm_; }
+  [[nodiscard]] int stop_crossings() const { return stop_crossings_; }
+
+ private:
+  std::vector<PacketStep> steps_;
+  const float* tables_;
+  ParallelRays rays_;
+  double sensor_gap_mm_ = 0;
+  double inverse_stop_radius_per_mm_ = 1;
+  int stop_crossings_ = 0;
+};
+
+// Where the results go. A ray that fails has r_rel = infinity, transmission 0 and a sensor point of no meaning.
+struct TracedArrays {
+  float* sensor_x_mm = nullptr;
+  float* sensor_y_mm = nullptr;
+  float* transmission = nullptr;
+  float* r_rel = nullptr;
+  std::array<float*, kMaxStopCrossings> stop_x{};  // as many as the path crosses the stop
+  std::array<float*, kMaxStopCrossings> stop_y{};
+};
+
+enum class PacketPrecision { Float, Double };
+
+// Entrance points are given from rays().origin_mm.
+void trace_packets(const PacketPath& path, PacketPrecision precision, const float* x_mm, const float* y_mm,
+                   std::size_t count, const TracedArrays& out);
+
+}  // namespace contrejour
