@@ -1,0 +1,79 @@
+#include "render/bundle/cell_clip.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace contrejour::bundle {
+namespace {
+
+// Two tangents of a circle this far apart leave its arc by less than 3e-4 of the radius.
+constexpr double kTangentStep_rad = 0.05;
+
+}  // namespace
+
+double share_of_triangle(std::span<const Vec2> uv) {
+  double twice = 0.0;
+  for (std::size_t k = 2; k < uv.size(); ++k) twice += cross(uv[k - 1] - uv[0], uv[k] - uv[0]);
+  return std::abs(twice);  // the whole triangle's is 1/2
+}
+
+// Keeps where a function that is linear over the triangle is <= 0. Sutherland-Hodgman.
+void TriangleClipper::cut(double at_0, double at_1, double at_2) {
+  if (at_0 <= 0.0 && at_1 <= 0.0 && at_2 <= 0.0) return;
+  const auto value = [&](Vec2 p) { return at_0 + p.x * (at_1 - at_0) + p.y * (at_2 - at_0); };
+  next_.clear();
+  for (std::size_t k = 0; k < polygon_.size(); ++k) {
+    const Vec2 a = polygon_[k];
+    const Vec2 b = polygon_[k + 1 == polygon_.size() ? 0 : k + 1];
+    const double fa = value(a);
+    const double fb = value(b);
+    if (fa <= 0.0) next_.push_back(a);
+    if ((fa <= 0.0) != (fb <= 0.0)) next_.push_back(a + (b - a) * (fa / (fa - fb)));
+  }
+  polygon_.swap(next_);
+}
+
+void TriangleClipper::cut_by_edge(const std::array<Vec2, 3>& stop, Vec2 normal, double reach) {
+  cut(dot(normal, stop[0]) - reach, dot(normal, stop[1]) - reach, dot(normal, stop[2]) - reach);
+}
+
+void TriangleClipper::cut_by_circle(const std::array<Vec2, 3>& stop) {
+  const Vec2 middle = (stop[0] + stop[1] + stop[2]) * (1.0 / 3.0);
+  double reach = 0.0;
+  for (const Vec2 p : stop) reach = std::max(reach, length(p - middle));
+  const double distance = length(middle);
+  // Seen from the circle's centre the triangle lies within this angle of its middle.
+  const double half_angle = distance > 1.5 * reach ? std::asin(reach / distance) : std::numbers::pi;
+  const int tangents = 1 + static_cast<int>(std::ceil(2.0 * half_angle / kTangentStep_rad));
+  const double middle_angle = std::atan2(middle.y, middle.x);
+  for (int k = 0; k < tangents; ++k) {
+    const double angle = middle_angle + half_angle * ((2 * k + 1.0) / tangents - 1.0);
+    cut_by_edge(stop, {std::cos(angle), std::sin(angle)}, 1.0);
+  }
+}
+
+void TriangleClipper::cut_by_iris(const RayGrid& grid, const Triangle& triangle, std::size_t crossing) {
+  std::array<Vec2, 3> stop;
+  bool all_inside = true;
+  for (std::size_t k = 0; k < 3; ++k) {
+    stop[k] = {grid.stop_x[crossing][triangle[k]], grid.stop_y[crossing][triangle[k]]};
+    all_inside = all_inside && grid.iris_distance[crossing][triangle[k]] <= 0.0F;
+  }
+  if (all_inside) return;  // the opening is convex
+  if (iris_.is_circle()) {
+    cut_by_circle(stop);
+  } else {
+    for (const IrisShape::Edge& edge : iris_.edges()) cut_by_edge(stop, edge.normal, iris_.apothem());
+  }
+}
+
+std::span<const Vec2> TriangleClipper::open_part(const RayGrid& grid, const Triangle& t) {
+  polygon_.assign({{0.0, 0.0}, {1.0, 0.0}, {0.0, 1.0}});
+  cut(grid.r_rel[t[0]] - 1.0, grid.r_rel[t[1]] - 1.0, grid.r_rel[t[2]] - 1.0);
+  for (int c = 0; c < grid.stop_crossings(); ++c) cut_by_iris(grid, t, static_cast<std::size_t>(c));
+  if (polygon_.size() < 3) polygon_.clear();
+  return polygon_;
+}
+
+}  // namespace contrejour::bundle

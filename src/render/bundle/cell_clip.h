@@ -1,0 +1,38 @@
+// The open part of a triangle of rays: what the rims and the iris leave of it.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "render/bundle/ray_grid.h"
+
+namespace contrejour::bundle {
+
+using Triangle = std::array<std::size_t, 3>;  // vertices of a RayGrid
+
+// Clips in the triangle's own coordinates (u, v): vertex 0 + u (vertex 1 - vertex 0) + v (vertex 2 - vertex 0).
+// r_rel and the stop coordinates are interpolated linearly (hullin2011 4.1), so every rim and every edge of the
+// iris cuts along a straight line; a round iris is cut by tangents, as many as its bend within the triangle needs.
+class TriangleClipper {
+ public:
+  explicit TriangleClipper(const IrisShape& iris) : iris_(iris) {}
+
+  // Convex; empty when nothing is open. Valid until the next call.
+  [[nodiscard]] std::span<const Vec2> open_part(const RayGrid& grid, const Triangle& triangle);
+
+ private:
+  void cut(double at_0, double at_1, double at_2);
+  void cut_by_iris(const RayGrid& grid, const Triangle& triangle, std::size_t crossing);
+  void cut_by_circle(const std::array<Vec2, 3>& stop);
+  void cut_by_edge(const std::array<Vec2, 3>& stop, Vec2 normal, double reach);
+
+  const IrisShape& iris_;
+  std::vector<Vec2> polygon_, next_;
+};
+
+// Area of a polygon in (u, v) as a share of the triangle's.
+[[nodiscard]] double share_of_triangle(std::span<const Vec2> uv);
+
+}  // namespace contrejour::bundle

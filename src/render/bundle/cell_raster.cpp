@@ -1,0 +1,243 @@
+#include "render/bundle/cell_raster.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace contrejour::bundle {
+namespace {
+
+constexpr float kFailed = std::numeric_limits<float>::infinity();
+// Cells around a vertex that differ by more than this in area do not sample a smooth map.
+constexpr float kSmoothRatio = 1.5F;
+// A change of irradiance within a smaller cell, in pixels of area, is not seen.
+constexpr double kShadedCell_px = 4.0;
+// Below this share of its extent squared a polygon's area is mostly rounding: it is spread along itself.
+constexpr double kSliver = 1e-7;
+constexpr int kRowsBetweenStops = 16;
+
+double signed_area(Vec2 a, Vec2 b, Vec2 c) { return 0.5 * cross(b - a, c - a); }
+
+bool in_one_pixel(std::span<const Vec2> p) {
+  const double x = std::floor(p[0].x);
+  const double y = std::floor(p[0].y);
+  return std::all_of(p.begin(), p.end(), [&](Vec2 q) { return std::floor(q.x) == x && std::floor(q.y) == y; });
+}
+
+// The two points of a polygon that lie farthest apart.
+std::array<Vec2, 2> ends_of(std::span<const Vec2> p) {
+  std::array<Vec2, 2> ends{p[0], p[0]};
+  double longest = 0.0;
+  for (const Vec2 a : p) {
+    for (const Vec2 b : p) {
+      if (dot(b - a, b - a) > longest) {
+        longest = dot(b - a, b - a);
+        ends = {a, b};
+      }
+    }
+  }
+  return ends;
+}
+
+bool is_convex(std::span<const Vec2> q, double orientation) {
+  for (std::size_t k = 0; k < 4; ++k) {
+    if (signed_area(q[k], q[(k + 1) % 4], q[(k + 2) % 4]) * orientation <= 0.0) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+CellRaster::CellRaster(const RayGrid& grid, const IrisShape& iris, const Frame& frame, double cos_theta)
+    : grid_(grid), frame_(frame), clipper_(iris) {
+  const Vec2 step = grid.step_mm();
+  triangle_weight_mm2_ = 0.5 * step.x * step.y * cos_theta;
+  place_vertices();
+  find_states();
+  find_irradiance();
+}
+
+void CellRaster::place_vertices() {
+  const std::size_t count = grid_.sensor_x_mm.size();
+  pixel_.resize(count);
+  for (std::size_t k = 0; k < count; ++k) {
+    pixel_[k] = frame_.pixel_from_sensor({grid_.sensor_x_mm[k], grid_.sensor_y_mm[k]});
+  }
+}
+
+// Closed for certain only where one rim or one crossing of the iris blocks all corners.
+CellRaster::CellState CellRaster::state_of(const std::array<std::size_t, 4>& corners) const {
+  const auto all = [&](auto test) { return std::all_of(corners.begin(), corners.end(), test); };
+  if (all([&](std::size_t k) { return grid_.blocked[k] <= 0.0F; })) return CellState::Open;
+  if (all([&](std::size_t k) { return grid_.r_rel[k] > 1.0F; })) return CellState::Closed;
+  for (std::size_t c = 0; c < static_cast<std::size_t>(grid_.stop_crossings()); ++c) {
+    if (all([&](std::size_t k) { return !(grid_.iris_distance[c][k] <= 0.0F); })) return CellState::Closed;
+  }
+  return CellState::Cut;
+}
+
+void CellRaster::find_states() {
+  const int n = grid_.cells();
+  state_.resize(static_cast<std::size_t>(n) * static_cast<std::size_t>(n));
+  area_.resize(state_.size());
+  for (int iy = 0; iy < n; ++iy) {
+    for (int ix = 0; ix < n; ++ix) {
+      const auto v = grid_.corners(ix, iy);
+      const std::size_t cell = cell_index(ix, iy);
+      state_[cell] = state_of(v);
+      const bool failed = std::any_of(v.begin(), v.end(), [&](std::size_t k) { return grid_.r_rel[k] == kFailed; });
+      area_[cell] = failed ? std::numeric_limits<float>::quiet_NaN()
+                           : static_cast<float>(0.5 * cross(pixel_[v[2]] - pixel_[v[0]], pixel_[v[3]] - pixel_[v[1]]));
+    }
+  }
+}
+
+// hullin2011 4.1 and 4.3: the flux of the cells around a vertex over their area. 0 where one of them is folded,
+// has failed or is much larger than another.
+void CellRaster::find_irradiance() {
+  const int n = grid_.cells();
+  irradiance_.resize(pixel_.size());
+  for (int iy = 0; iy <= n; ++iy) {
+    for (int ix = 0; ix <= n; ++ix) {
+      float smallest = kFailed;
+      float largest = -kFailed;
+      float sum = 0.0F;
+      float cells = 0.0F;
+      for (int cy = std::max(iy - 1, 0); cy <= std::min(iy, n - 1); ++cy) {
+        for (int cx = std::max(ix - 1, 0); cx <= std::min(ix, n - 1); ++cx) {
+          const float area = area_[cell_index(cx, cy)];
+          smallest = std::min(smallest, area);
+          largest = std::max(largest, area);
+          sum += area;
+          cells += 1.0F;
+        }
+      }
+      const float ratio = largest < 0.0F ? smallest / largest : largest / smallest;
+      const bool smooth = sum == sum && smallest * largest > 0.0F && ratio < kSmoothRatio;
+      const std::size_t k = grid_.at(ix, iy);
+      irradiance_[k] = smooth ? grid_.transmission[k] * cells / std::abs(sum) : 0.0F;
+    }
+  }
+}
+
+bool CellRaster::outside(const PixelBox& box, const std::array<std::size_t, 4>& corners) const {
+  const auto all = [&](auto test) { return std::all_of(corners.begin(), corners.end(), test); };
+  return all([&](std::size_t k) { return pixel_[k].x < box.x0; }) || all([&](std::size_t k) { return pixel_[k].x >= box.x1; }) ||
+         all([&](std::size_t k) { return pixel_[k].y < box.y0; }) || all([&](std::size_t k) { return pixel_[k].y >= box.y1; });
+}
+
+// The frame's pixels within the bounds of all cells that are not closed.
+PixelBox CellRaster::drawn_box() const {
+  constexpr double kFar = std::numeric_limits<double>::infinity();
+  Vec2 low{kFar, kFar};
+  Vec2 high{-kFar, -kFar};
+  const int n = grid_.cells();
+  for (int iy = 0; iy < n; ++iy) {
+    for (int ix = 0; ix < n; ++ix) {
+      if (state_[cell_index(ix, iy)] == CellState::Closed) continue;
+      for (const std::size_t k : grid_.corners(ix, iy)) {
+        if (grid_.r_rel[k] == kFailed) continue;
+        low = {std::min(low.x, pixel_[k].x), std::min(low.y, pixel_[k].y)};
+        high = {std::max(high.x, pixel_[k].x), std::max(high.y, pixel_[k].y)};
+      }
+    }
+  }
+  if (!(low.x < frame_.width && low.y < frame_.height && high.x >= 0.0 && high.y >= 0.0)) return {};
+  return {static_cast<int>(std::max(low.x, 0.0)), static_cast<int>(std::max(low.y, 0.0)),
+          static_cast<int>(std::min(high.x, frame_.width - 1.0)) + 1,
+          static_cast<int>(std::min(high.y, frame_.height - 1.0)) + 1};
+}
+
+CellRaster::Cell CellRaster::cell_at(int ix, int iy) const {
+  Cell cell;
+  cell.vertex = grid_.corners(ix, iy);
+  cell.signed_area_px = area_[cell_index(ix, iy)];
+  const auto e = [&](std::size_t k) { return irradiance_[cell.vertex[k]]; };
+  cell.smooth = e(0) > 0.0F && e(1) > 0.0F && e(2) > 0.0F && e(3) > 0.0F;
+  if (!cell.smooth || std::abs(cell.signed_area_px) < kShadedCell_px) return cell;
+  // The plane that rises along both diagonals as the vertices do.
+  const Vec2 d = pixel_[cell.vertex[2]] - pixel_[cell.vertex[0]];
+  const Vec2 f = pixel_[cell.vertex[3]] - pixel_[cell.vertex[1]];
+  const double mean = 0.25 * (e(0) + e(1) + e(2) + e(3));
+  const double along_d = (e(2) - e(0)) / mean;
+  const double along_f = (e(3) - e(1)) / mean;
+  cell.gradient = Vec2{along_d * f.y - along_f * d.y, along_f * d.x - along_d * f.x} * (1.0 / cross(d, f));
+  return cell;
+}
+
+double CellRaster::triangle_flux(const Triangle& t) const {
+  return triangle_weight_mm2_ * (grid_.transmission[t[0]] + grid_.transmission[t[1]] + grid_.transmission[t[2]]) / 3.0;
+}
+
+void CellRaster::draw_open(FluxBox& out, const Cell& cell) {
+  const auto& v = cell.vertex;
+  const std::array<Vec2, 4> quad{pixel_[v[0]], pixel_[v[1]], pixel_[v[2]], pixel_[v[3]]};
+  const double flux = triangle_flux({v[0], v[1], v[2]}) + triangle_flux({v[0], v[2], v[3]});
+  if (in_one_pixel(quad)) {
+    ++primitives_;
+    out.add_point(quad[0], flux);
+    return;
+  }
+  if (cell.smooth && is_convex(quad, cell.signed_area_px)) {
+    const Vec2 middle = (quad[0] + quad[1] + quad[2] + quad[3]) * 0.25;
+    const double value = flux / std::abs(0.5 * cross(quad[2] - quad[0], quad[3] - quad[1]));
+    ++primitives_;
+    out.add_polygon(quad, {middle, value, cell.gradient * value});
+    return;
+  }
+  draw_triangle(out, cell, {v[0], v[1], v[2]}, false);
+  draw_triangle(out, cell, {v[0], v[2], v[3]}, false);
+}
+
+void CellRaster::draw_triangle(FluxBox& out, const Cell& cell, const Triangle& t, bool cut) {
+  if (std::any_of(t.begin(), t.end(), [&](std::size_t k) { return grid_.r_rel[k] == kFailed; })) return;
+  const std::array<Vec2, 3> p{pixel_[t[0]], pixel_[t[1]], pixel_[t[2]]};
+  double flux = triangle_flux(t);
+  std::span<const Vec2> polygon = p;
+  if (cut) {
+    const auto uv = clipper_.open_part(grid_, t);
+    if (uv.empty()) return;
+    flux *= share_of_triangle(uv);
+    corner_scratch_.clear();
+    for (const Vec2 q : uv) corner_scratch_.push_back(p[0] + (p[1] - p[0]) * q.x + (p[2] - p[0]) * q.y);
+    polygon = corner_scratch_;
+  }
+  ++primitives_;
+  if (in_one_pixel(polygon)) {
+    out.add_point(polygon[0], flux);
+    return;
+  }
+  const double area = std::abs(signed_area(p[0], p[1], p[2]));
+  const auto ends = ends_of(polygon);
+  if (area < kSliver * dot(ends[1] - ends[0], ends[1] - ends[0])) {
+    out.add_line(ends[0], ends[1], flux);
+    return;
+  }
+  const double value = triangle_flux(t) / area;
+  const Vec2 middle = (p[0] + p[1] + p[2]) * (1.0 / 3.0);
+  out.add_polygon(polygon, {middle, value, cell.gradient * value});
+}
+
+FluxBox CellRaster::draw(const std::function<bool()>& stop) {
+  FluxBox out(drawn_box());
+  if (out.box().empty()) return out;
+  const int n = grid_.cells();
+  for (int iy = 0; iy < n; ++iy) {
+    if (iy % kRowsBetweenStops == 0 && stop()) break;
+    for (int ix = 0; ix < n; ++ix) {
+      const CellState state = state_[cell_index(ix, iy)];
+      if (state == CellState::Closed) continue;
+      if (outside(out.box(), grid_.corners(ix, iy)) ) continue;
+      const Cell cell = cell_at(ix, iy);
+      if (state == CellState::Open) {
+        draw_open(out, cell);
+      } else {
+        draw_triangle(out, cell, {cell.vertex[0], cell.vertex[1], cell.vertex[2]}, true);
+        draw_triangle(out, cell, {cell.vertex[0], cell.vertex[2], cell.vertex[3]}, true);
+      }
+    }
+  }
+  return out;
+}
+
+}  // namespace contrejour::bundle

@@ -1,0 +1,64 @@
+// A traced grid onto the frame: every cell's flux over its image, hullin2011 4.1 "rasterization and shading".
+// Within a cell the irradiance follows the vertices' (cell areas averaged to vertices), but the flux of every
+// triangle is its own: where cells fold or differ strongly from their neighbours the irradiance is flat.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "contrejour/frame.h"
+#include "render/bundle/cell_clip.h"
+#include "render/bundle/flux_box.h"
+
+namespace contrejour::bundle {
+
+class CellRaster {
+ public:
+  // cos_theta: of the light's angle to the axis.
+  CellRaster(const RayGrid& grid, const IrisShape& iris, const Frame& frame, double cos_theta);
+
+  // Flux in mm^2 at E0 = 1 by pixel, over the part of the frame that the ghost touches. Stops early, with whatever
+  // is done, once `stop()` is true.
+  [[nodiscard]] FluxBox draw(const std::function<bool()>& stop);
+
+  [[nodiscard]] std::uint64_t primitives() const { return primitives_; }
+
+ private:
+  enum class CellState : std::uint8_t { Closed, Cut, Open };
+
+  struct Cell {
+    std::array<std::size_t, 4> vertex;
+    double signed_area_px = 0;
+    Vec2 gradient;  // of the irradiance, relative to its mean, per pixel; zero unless smooth
+    bool smooth = false;
+  };
+
+  void place_vertices();
+  void find_states();
+  void find_irradiance();
+  [[nodiscard]] CellState state_of(const std::array<std::size_t, 4>& corners) const;
+  [[nodiscard]] PixelBox drawn_box() const;
+  [[nodiscard]] bool outside(const PixelBox& box, const std::array<std::size_t, 4>& corners) const;
+  [[nodiscard]] Cell cell_at(int ix, int iy) const;
+  [[nodiscard]] double triangle_flux(const Triangle& t) const;
+
+  void draw_open(FluxBox& out, const Cell& cell);
+  void draw_triangle(FluxBox& out, const Cell& cell, const Triangle& t, bool cut);
+  [[nodiscard]] std::size_t cell_index(int ix, int iy) const {
+    return static_cast<std::size_t>(iy) * static_cast<std::size_t>(grid_.cells()) + static_cast<std::size_t>(ix);
+  }
+
+  const RayGrid& grid_;
+  const Frame& frame_;
+  TriangleClipper clipper_;
+  double triangle_weight_mm2_;       // flux of a triangle of transmission 1
+  std::vector<Vec2> pixel_;          // by vertex
+  std::vector<float> area_;          // by cell, signed, pixels; NaN where a ray failed
+  std::vector<float> irradiance_;    // by vertex, flux over pixel area; 0 where the map is not smooth
+  std::vector<CellState> state_;     // by cell
+  std::vector<Vec2> corner_scratch_;
+  std::uint64_t primitives_ = 0;
+};
+
+}  // namespace contrejour::bundle

@@ -1,0 +1,216 @@
+#include "render/bundle/flux_box.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace contrejour::bundle {
+namespace {
+
+// A polygon over more pixels than this a side is cut in two first, so that its coverage stays in the cache.
+constexpr int kMaxSide = 62;
+constexpr std::size_t kPitch = kMaxSide + 2;
+
+using Polygon = std::vector<Vec2>;
+
+// Sutherland-Hodgman against a line parallel to an axis: sign * (coordinate - bound) >= 0 is kept.
+template <double Vec2::* coordinate>
+Polygon clipped(std::span<const Vec2> polygon, double bound, double sign) {
+  Polygon out;
+  out.reserve(polygon.size() + 2);
+  for (std::size_t k = 0; k < polygon.size(); ++k) {
+    const Vec2 a = polygon[k];
+    const Vec2 b = polygon[k + 1 == polygon.size() ? 0 : k + 1];
+    const double da = sign * (a.*coordinate - bound);
+    const double db = sign * (b.*coordinate - bound);
+    if (da >= 0.0) out.push_back(a);
+    if ((da < 0.0) != (db < 0.0)) {
+      Vec2 cut = a + (b - a) * (da / (da - db));
+      cut.*coordinate = bound;
+      out.push_back(cut);
+    }
+  }
+  return out;
+}
+
+// Signed area to the right of an edge, pixel by pixel, as differences along the row: the running sum over a
+// row is the coverage. One stretch of the edge within a row of pixels, from (x0, .) to (x1, .), dy high.
+void add_stretch(float* row, double x0, double x1, double dy) {
+  if (x0 > x1) std::swap(x0, x1);
+  const auto first = static_cast<int>(x0);
+  const auto last = static_cast<int>(x1);
+  if (first == last) {
+    const double right = dy * (0.5 * (x0 + x1) - first);
+    row[first] += static_cast<float>(dy - right);
+    row[first + 1] += static_cast<float>(right);
+    return;
+  }
+  // A trapezium a pixel wide: what lies right of the edge in columns first .. last, by the area under the ramp.
+  const double slope = dy / (x1 - x0);
+  const double in_first = first + 1 - x0;
+  double before = 0.5 * slope * in_first * in_first;
+  double filled = slope * in_first;
+  row[first] += static_cast<float>(before);
+  for (int x = first + 1; x < last; ++x) {
+    const double covered = filled + 0.5 * slope;
+    row[x] += static_cast<float>(covered - before);
+    before = covered;
+    filled += slope;
+  }
+  const double in_last = x1 - last;
+  const double covered = dy - 0.5 * slope * in_last * in_last;
+  // dy - covered of the last column is made up in the next.
+  row[last] += static_cast<float>(covered - before);
+  row[last + 1] += static_cast<float>(dy - covered);
+}
+
+void add_edge(float* cover, Vec2 a, Vec2 b, double sign) {
+  if (a.y == b.y) return;
+  if (a.y > b.y) {
+    std::swap(a, b);
+    sign = -sign;
+  }
+  const double dx_dy = (b.x - a.x) / (b.y - a.y);
+  const auto last_row = static_cast<int>(b.y);
+  double x = a.x;
+  double y = a.y;
+  for (int row = static_cast<int>(a.y); row <= last_row; ++row) {
+    const double y_next = std::min<double>(row + 1, b.y);
+    const double dy = y_next - y;
+    if (dy <= 0.0) break;
+    const double x_next = y_next == b.y ? b.x : a.x + dx_dy * (y_next - a.y);
+    add_stretch(cover + static_cast<std::size_t>(row) * kPitch, x, x_next, sign * dy);
+    x = x_next;
+    y = y_next;
+  }
+}
+
+double signed_area(std::span<const Vec2> p) {
+  double twice = 0.0;
+  for (std::size_t k = 2; k < p.size(); ++k) twice += cross(p[k - 1] - p[0], p[k] - p[0]);
+  return 0.5 * twice;
+}
+
+struct Bounds {
+  Vec2 low, high;
+};
+Bounds bounds_of(std::span<const Vec2> p) {
+  Bounds b{p[0], p[0]};
+  for (const Vec2 q : p) {
+    b.low = {std::min(b.low.x, q.x), std::min(b.low.y, q.y)};
+    b.high = {std::max(b.high.x, q.x), std::max(b.high.y, q.y)};
+  }
+  return b;
+}
+
+}  // namespace
+
+FluxBox::FluxBox(const PixelBox& box)
+    : box_(box), flux_(box.empty() ? 0 : static_cast<std::size_t>(box.width()) * static_cast<std::size_t>(box.height())),
+      cover_(kPitch * (kMaxSide + 1)) {}
+
+void FluxBox::add_point(Vec2 point, double flux) {
+  if (!(point.x >= box_.x0 && point.x < box_.x1 && point.y >= box_.y0 && point.y < box_.y1)) return;
+  flux_[index(static_cast<int>(point.x), static_cast<int>(point.y))] += static_cast<float>(flux);
+}
+
+void FluxBox::add_polygon(std::span<const Vec2> polygon, const Density& density) {
+  if (polygon.size() < 3) return;
+  const Bounds b = bounds_of(polygon);
+  if (!(b.high.x > box_.x0 && b.low.x < box_.x1 && b.high.y > box_.y0 && b.low.y < box_.y1)) return;
+  const bool crosses =
+      b.low.x < box_.x0 || b.low.y < box_.y0 || b.high.x > box_.x1 || b.high.y > box_.y1;
+  if (!crosses) {
+    add_inside(polygon, density);
+    return;
+  }
+  Polygon part = clipped<&Vec2::x>(polygon, box_.x0, 1.0);
+  part = clipped<&Vec2::x>(part, box_.x1, -1.0);
+  part = clipped<&Vec2::y>(part, box_.y0, 1.0);
+  part = clipped<&Vec2::y>(part, box_.y1, -1.0);
+  if (part.size() >= 3) add_inside(part, density);
+}
+
+void FluxBox::add_halves(std::span<const Vec2> polygon, const Density& density, bool cut_columns, double at) {
+  const Polygon low = cut_columns ? clipped<&Vec2::x>(polygon, at, -1.0) : clipped<&Vec2::y>(polygon, at, -1.0);
+  const Polygon high = cut_columns ? clipped<&Vec2::x>(polygon, at, 1.0) : clipped<&Vec2::y>(polygon, at, 1.0);
+  if (low.size() >= 3) add_inside(low, density);
+  if (high.size() >= 3) add_inside(high, density);
+}
+
+void FluxBox::add_inside(std::span<const Vec2> polygon, const Density& density) {
+  const Bounds b = bounds_of(polygon);
+  const int x0 = std::min(static_cast<int>(b.low.x), box_.x1 - 1);
+  const int y0 = std::min(static_cast<int>(b.low.y), box_.y1 - 1);
+  const int x1 = std::min(static_cast<int>(b.high.x), box_.x1 - 1);
+  const int y1 = std::min(static_cast<int>(b.high.y), box_.y1 - 1);
+  const double area = signed_area(polygon);
+  if (x1 - x0 >= kMaxSide || y1 - y0 >= kMaxSide) {
+    const bool columns = x1 - x0 > y1 - y0;
+    add_halves(polygon, density, columns, columns ? (x0 + x1 + 1) / 2 : (y0 + y1 + 1) / 2);
+    return;
+  }
+  const auto level = [&](int x, int y) {
+    return density.value + dot(density.gradient, Vec2{x + 0.5, y + 0.5} - density.point);
+  };
+  if (x0 == x1 && y0 == y1) {
+    flux_[index(x0, y0)] += static_cast<float>(std::abs(area) * level(x0, y0));
+    return;
+  }
+  const Vec2 origin{static_cast<double>(x0), static_cast<double>(y0)};
+  const double sign = area > 0.0 ? -1.0 : 1.0;  // y down in memory: left edges rise
+  for (std::size_t k = 0; k < polygon.size(); ++k) {
+    add_edge(cover_.data(), polygon[k] - origin, polygon[k + 1 == polygon.size() ? 0 : k + 1] - origin, sign);
+  }
+  for (int y = y0; y <= y1; ++y) {
+    float* cover = cover_.data() + static_cast<std::size_t>(y - y0) * kPitch;
+    float* out = flux_.data() + index(x0, y);
+    auto here = static_cast<float>(level(x0, y));
+    const auto slope = static_cast<float>(density.gradient.x);
+    float covered = 0.0F;
+    for (int k = 0; k <= x1 - x0; ++k) {
+      covered += cover[k];
+      cover[k] = 0.0F;
+      out[k] += covered * here;
+      here += slope;
+    }
+    cover[x1 - x0 + 1] = 0.0F;
+    cover[x1 - x0 + 2] = 0.0F;
+  }
+}
+
+// Exact lengths pixel by pixel: the line is cut where it crosses the pixels' borders.
+void FluxBox::add_line(Vec2 from, Vec2 to, double flux) {
+  const Vec2 along = to - from;
+  // The part inside the box, as shares of the whole (Liang-Barsky).
+  double t0 = 0.0;
+  double t1 = 1.0;
+  const auto keep = [&](double start, double change, double low, double high) {
+    if (change == 0.0) {
+      if (start < low || start >= high) t1 = -1.0;
+      return;
+    }
+    const double a = (low - start) / change;
+    const double b = (high - start) / change;
+    t0 = std::max(t0, std::min(a, b));
+    t1 = std::min(t1, std::max(a, b));
+  };
+  keep(from.x, along.x, box_.x0, box_.x1);
+  keep(from.y, along.y, box_.y0, box_.y1);
+  const double step_x = along.x != 0.0 ? 1.0 / std::abs(along.x) : 2.0;
+  const double step_y = along.y != 0.0 ? 1.0 / std::abs(along.y) : 2.0;
+  const auto next_border = [](double start, double change, double t) {
+    if (change == 0.0) return 2.0;
+    const double p = start + change * t;
+    const double border = change > 0.0 ? std::floor(p) + 1.0 : std::ceil(p) - 1.0;
+    return (border - start) / change;
+  };
+  while (t0 < t1) {
+    double next = std::min(next_border(from.x, along.x, t0), next_border(from.y, along.y, t0));
+    next = std::clamp(next, t0 + 1e-6 * std::min({step_x, step_y, t1 - t0}), t1);
+    add_point(from + along * (0.5 * (t0 + next)), flux * (next - t0));
+    t0 = next;
+  }
+}
+
+}  // namespace contrejour::bundle

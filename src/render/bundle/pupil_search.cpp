@@ -1,0 +1,104 @@
+#include "render/bundle/pupil_search.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace contrejour::bundle {
+namespace {
+
+constexpr int kSearchSide = 49;  // rays a side of every zoom step
+constexpr int kSearchSteps = 10;
+constexpr double kShrinkEnough = 0.85;  // zoom on while the area still falls below this share
+// Rays closer than this at the entrance are searched in double: float places them to about 2e-6 mm.
+constexpr double kFloatStep_mm = 1e-3;
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
+
+// What blocks is nearly linear over a cell, so it cannot fall below its lowest corner by more than the corners
+// differ. A failed corner tells nothing: the others decide.
+class Extremes {
+ public:
+  void add(float value) {
+    lowest_ = std::min(lowest_, value);
+    highest_ = std::max(highest_, value);
+  }
+  [[nodiscard]] bool may_pass() const { return lowest_ <= 0.0F || lowest_ <= highest_ - lowest_; }
+
+ private:
+  float lowest_ = kInfinity;
+  float highest_ = -kInfinity;
+};
+
+bool may_be_open(const RayGrid& grid, const std::array<std::size_t, 4>& corners) {
+  Extremes rims;
+  std::array<Extremes, kMaxStopCrossings> iris;
+  bool any = false;
+  for (const std::size_t k : corners) {
+    if (grid.blocked[k] == kInfinity) continue;
+    any = true;
+    rims.add(grid.r_rel[k] - 1.0F);
+    for (std::size_t c = 0; c < static_cast<std::size_t>(grid.stop_crossings()); ++c) {
+      iris[c].add(grid.iris_distance[c][k]);
+    }
+  }
+  if (!any || !rims.may_pass()) return false;
+  for (std::size_t c = 0; c < static_cast<std::size_t>(grid.stop_crossings()); ++c) {
+    if (!iris[c].may_pass()) return false;
+  }
+  return true;
+}
+
+struct OpenPart {
+  Rectangle pupil_mm{{kInfinity, kInfinity}, {-kInfinity, -kInfinity}};
+  Rectangle sensor_mm{{kInfinity, kInfinity}, {-kInfinity, -kInfinity}};
+  bool any = false;
+};
+
+void grow(Rectangle& r, Vec2 p) {
+  r.low = {std::min(r.low.x, p.x), std::min(r.low.y, p.y)};
+  r.high = {std::max(r.high.x, p.x), std::max(r.high.y, p.y)};
+}
+
+OpenPart open_part(const RayGrid& grid) {
+  OpenPart part;
+  const Vec2 step = grid.step_mm();
+  for (int iy = 0; iy < grid.cells(); ++iy) {
+    for (int ix = 0; ix < grid.cells(); ++ix) {
+      const auto corners = grid.corners(ix, iy);
+      if (!may_be_open(grid, corners)) continue;
+      part.any = true;
+      grow(part.pupil_mm, grid.box().low + Vec2{ix * step.x, iy * step.y});
+      grow(part.pupil_mm, grid.box().low + Vec2{(ix + 1) * step.x, (iy + 1) * step.y});
+      for (const std::size_t k : corners) {
+        if (grid.blocked[k] < kInfinity) grow(part.sensor_mm, {grid.sensor_x_mm[k], grid.sensor_y_mm[k]});
+      }
+    }
+  }
+  return part;
+}
+
+double area(const Rectangle& r) { return (r.high.x - r.low.x) * (r.high.y - r.low.y); }
+
+}  // namespace
+
+std::optional<PupilRegion> find_pupil_region(const OpticalPath& path, const ReflectanceTables& tables,
+                                             const IrisShape& iris, Vec3 direction, const EntranceWindow& window,
+                                             RayGrid& scratch) {
+  PupilRegion region{{window.min_mm, window.max_mm}, {}, 0};
+  for (int step = 0; step < kSearchSteps; ++step) {
+    const Vec2 size = region.pupil_mm.high - region.pupil_mm.low;
+    const bool fine = std::min(size.x, size.y) < kFloatStep_mm * kSearchSide;
+    scratch.trace(path, tables, iris, direction, window.z_mm, region.pupil_mm, kSearchSide,
+                  fine ? PacketPrecision::Double : PacketPrecision::Float);
+    region.rays += static_cast<std::uint64_t>(kSearchSide) * kSearchSide;
+    const OpenPart part = open_part(scratch);
+    if (!part.any) return std::nullopt;
+    const double before = area(region.pupil_mm);
+    region.pupil_mm = part.pupil_mm;
+    region.sensor_mm = part.sensor_mm;
+    if (area(part.pupil_mm) > kShrinkEnough * before) break;
+  }
+  return region;
+}
+
+}  // namespace contrejour::bundle

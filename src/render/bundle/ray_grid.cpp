@@ -1,0 +1,92 @@
+#include "render/bundle/ray_grid.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace contrejour::bundle {
+namespace {
+
+// Rounding between neighbours may be this share of their distance: it is the ripple of a flat ghost.
+constexpr double kRoundingShare = 1e-3;
+// Below this many pixels a cell's own shape is not seen, only its flux.
+constexpr double kUnseenCell_px = 0.25;
+constexpr int kProbeRays = 64;
+
+}  // namespace
+
+Vec2 RayGrid::step_mm() const { return (box_.high - box_.low) * (1.0 / (side_ - 1)); }
+
+void RayGrid::resize(std::size_t count) {
+  for (auto* v : {&sensor_x_mm, &sensor_y_mm, &transmission, &r_rel, &blocked, &x_mm_, &y_mm_}) v->resize(count);
+  for (std::size_t c = 0; c < static_cast<std::size_t>(stop_crossings_); ++c) {
+    for (auto* v : {&stop_x[c], &stop_y[c], &iris_distance[c]}) v->resize(count);
+  }
+}
+
+void RayGrid::trace(const OpticalPath& path, const ReflectanceTables& tables, const IrisShape& iris, Vec3 direction,
+                    double z_mm, const Rectangle& box, int side, PacketPrecision precision) {
+  side_ = side;
+  box_ = box;
+  stop_crossings_ = path.stop_crossings;
+  const auto count = static_cast<std::size_t>(side) * static_cast<std::size_t>(side);
+  resize(count);
+  const Vec2 step = step_mm();
+  for (int iy = 0; iy < side; ++iy) {
+    std::fill_n(y_mm_.begin() + static_cast<std::ptrdiff_t>(at(0, iy)), side, static_cast<float>(iy * step.y));
+    for (int ix = 0; ix < side; ++ix) x_mm_[at(ix, iy)] = static_cast<float>(ix * step.x);
+  }
+  TracedArrays out{sensor_x_mm.data(), sensor_y_mm.data(), transmission.data(), r_rel.data(), {}, {}};
+  for (std::size_t c = 0; c < static_cast<std::size_t>(stop_crossings_); ++c) {
+    out.stop_x[c] = stop_x[c].data();
+    out.stop_y[c] = stop_y[c].data();
+  }
+  const PacketPath packets(path, tables, {{box.low.x, box.low.y, z_mm}, direction});
+  trace_packets(packets, precision, x_mm_.data(), y_mm_.data(), count, out);
+  find_blocked(iris, count);
+}
+
+void RayGrid::find_blocked(const IrisShape& iris, std::size_t count) {
+  for (std::size_t k = 0; k < count; ++k) blocked[k] = r_rel[k] - 1.0F;
+  for (std::size_t c = 0; c < static_cast<std::size_t>(stop_crossings_); ++c) {
+    iris.distances(stop_x[c].data(), stop_y[c].data(), count, iris_distance[c].data());
+    // In this order a NaN of a failed ray never wins over its infinity.
+    for (std::size_t k = 0; k < count; ++k) {
+      blocked[k] = iris_distance[c][k] > blocked[k] ? iris_distance[c][k] : blocked[k];
+    }
+  }
+}
+
+// The middle row is traced both ways. What changes from ray to ray in their difference is rounding; what
+// changes slowly bends the ghost a little, unseen.
+PacketPrecision precision_for(const OpticalPath& path, const ReflectanceTables& tables, Vec3 direction, double z_mm,
+                              const Rectangle& box, int side, double pixel_pitch_mm) {
+  const PacketPath packets(path, tables, {{box.low.x, 0.5 * (box.low.y + box.high.y), z_mm}, direction});
+  using Row = std::array<float, kProbeRays>;
+  Row x_mm{}, y_mm{};
+  const double step_mm = (box.high.x - box.low.x) / (side - 1);
+  const double first = 0.5 * ((side - 1) - (kProbeRays - 1));
+  for (int k = 0; k < kProbeRays; ++k) x_mm[static_cast<std::size_t>(k)] = static_cast<float>((first + k) * step_mm);
+  std::array<std::array<Row, 4 + 2 * kMaxStopCrossings>, 2> rows;
+  for (const PacketPrecision precision : {PacketPrecision::Float, PacketPrecision::Double}) {
+    auto& row = rows[precision == PacketPrecision::Double ? 1 : 0];
+    trace_packets(packets, precision, x_mm.data(), y_mm.data(), kProbeRays,
+                  {row[0].data(), row[1].data(), row[2].data(), row[3].data(),
+                   {row[4].data(), row[5].data(), row[6].data()}, {row[7].data(), row[8].data(), row[9].data()}});
+  }
+  double noise = 0.0;
+  double distance = 0.0;
+  for (std::size_t k = 1; k < kProbeRays; ++k) {
+    if (!(rows[0][3][k] + rows[0][3][k - 1] + rows[1][3][k] + rows[1][3][k - 1] < 1e9F)) continue;
+    for (std::size_t axis = 0; axis < 2; ++axis) {
+      const double exact = rows[1][axis][k] - rows[1][axis][k - 1];
+      const double rounded = rows[0][axis][k] - rows[0][axis][k - 1];
+      distance += exact * exact;
+      noise += (rounded - exact) * (rounded - exact);
+    }
+  }
+  const double unseen_mm = kUnseenCell_px * pixel_pitch_mm;
+  const bool seen = distance > unseen_mm * unseen_mm * kProbeRays;
+  return seen && noise > kRoundingShare * kRoundingShare * distance ? PacketPrecision::Double : PacketPrecision::Float;
+}
+
+}  // namespace contrejour::bundle

@@ -1,0 +1,59 @@
+// A uniform grid of a light's rays over a rectangle of the entrance plane, traced along one path; hullin2011
+// 4.1. Every vertex keeps what is interpolated over the cells: sensor point, transmission, r_rel and the places
+// where the ray crosses the stop.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "optics/trace/packet_trace.h"
+#include "render/bundle/iris_sets.h"
+
+namespace contrejour::bundle {
+
+struct Rectangle {
+  Vec2 low, high;
+};
+
+// Buffers are kept between passes; one object a thread.
+class RayGrid {
+ public:
+  // box: on the plane z = z_mm of the entrance window, in mm.
+  void trace(const OpticalPath& path, const ReflectanceTables& tables, const IrisShape& iris, Vec3 direction,
+             double z_mm, const Rectangle& box, int side, PacketPrecision precision);
+
+  [[nodiscard]] int side() const { return side_; }
+  [[nodiscard]] int cells() const { return side_ - 1; }
+  [[nodiscard]] int stop_crossings() const { return stop_crossings_; }
+  [[nodiscard]] const Rectangle& box() const { return box_; }
+  [[nodiscard]] Vec2 step_mm() const;
+  [[nodiscard]] std::size_t at(int ix, int iy) const {
+    return static_cast<std::size_t>(iy) * static_cast<std::size_t>(side_) + static_cast<std::size_t>(ix);
+  }
+  // The four vertices of a cell in turn.
+  [[nodiscard]] std::array<std::size_t, 4> corners(int ix, int iy) const {
+    return {at(ix, iy), at(ix + 1, iy), at(ix + 1, iy + 1), at(ix, iy + 1)};
+  }
+
+  // One value a vertex. A ray that failed has blocked = infinity.
+  std::vector<float> sensor_x_mm, sensor_y_mm, transmission, r_rel;
+  std::array<std::vector<float>, kMaxStopCrossings> stop_x, stop_y, iris_distance;
+  std::vector<float> blocked;  // the largest of r_rel - 1 and the iris distances
+
+ private:
+  void resize(std::size_t count);
+  void find_blocked(const IrisShape& iris, std::size_t count);
+
+  int side_ = 0;
+  int stop_crossings_ = 0;
+  Rectangle box_;
+  std::vector<float> x_mm_, y_mm_;  // entrance points from box_.low
+};
+
+// Float or double: whatever keeps the rounding of neighbouring rays well below their distance on the sensor.
+[[nodiscard]] PacketPrecision precision_for(const OpticalPath& path, const ReflectanceTables& tables, Vec3 direction,
+                                            double z_mm, const Rectangle& box, int side, double pixel_pitch_mm);
+
+}  // namespace contrejour::bundle
