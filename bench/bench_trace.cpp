@@ -28,8 +28,10 @@ std::vector<Ray> rays_over(const EntranceWindow& window, Vec3 direction) {
   constexpr int kSide = 16;
   std::vector<Ray> rays;
   for (int k = 0; k < kSide * kSide; ++k) {
-    const double u = (k % kSide + 0.5) / kSide;
-    const double v = (k / kSide + 0.5) / kSide;
+    const int column = k % kSide;
+    const int row = k / kSide;
+    const double u = (column + 0.5) / kSide;
+    const double v = (row + 0.5) / kSide;
     rays.push_back({{window.min_mm.x + u * (window.max_mm.x - window.min_mm.x),
                      window.min_mm.y + v * (window.max_mm.y - window.min_mm.y), window.z_mm},
                     direction});
