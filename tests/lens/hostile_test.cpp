@@ -89,6 +89,8 @@ TEST_CASE("no text at all") {
   check_refused(std::string("name = \"a\"\n\0\n", 13));
   check_refused("name = \"\xff\xfe\"\n", "not valid TOML");
   check_refused("\xff\xfen\0a\0m\0e\0");
+  check_refused("brennweite_\xc3\xa4 = 1\n", "put the name in quotes");
+  check_refused("a = [ \xef\xb3\xbf ]\n", "put the name in quotes");
   std::mt19937 random(7);
   for (int k = 0; k < 200; ++k) {
     std::string bytes(1 + random() % 2000, '\0');

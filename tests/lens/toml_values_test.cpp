@@ -84,6 +84,12 @@ TEST_CASE("a zoom's gaps come in the order of the surfaces") {
   CHECK(lens.zoom[1].source_line == 14);
 }
 
+TEST_CASE("a byte order mark and Windows line ends change nothing") {
+  std::string text = std::string("\xEF\xBB\xBF").append(kSampleLens);
+  for (std::size_t at = 0; (at = text.find('\n', at)) != std::string::npos; at += 2) text.insert(at, "\r");
+  CHECK(read(text).surfaces[1].source_line == 7);
+}
+
 TEST_CASE("rows may be written as tables of their own") {
   const Prescription lens = read(
       "name = \"a\"\nsource = \"b\"\nf_number = 2\nsensor_mm = [3, 2]\n"

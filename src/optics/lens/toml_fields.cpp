@@ -30,13 +30,17 @@ std::string_view type_name(toml::node_type type) {
   }
 }
 
-// Walks over the text outside strings and comments, as far as TOML's rules for those go.
-class KeyDepthScan {
+// Walks over the text outside strings and comments, as far as TOML's rules for those go, and finds what the
+// parser must not see: keys of many parts, and bytes that TOML allows in strings and comments only (toml++ 3.3
+// runs into undefined behaviour on some letters there).
+class TextScan {
  public:
-  explicit KeyDepthScan(std::string_view text) : text_(text) {}
+  explicit TextScan(std::string_view text) : text_(text) {}
 
-  // The line of the first token with too many dots, 0 if there is none.
-  int find_deep_key() {
+  [[nodiscard]] int line() const { return line_; }
+
+  // What is wrong at line(), or nothing.
+  std::optional<std::string_view> find_fault() {
     while (at_ < text_.size()) {
       const char c = text_[at_];
       if (c == '"' || c == '\'') {
@@ -47,12 +51,18 @@ class KeyDepthScan {
         skip_comment();
         continue;
       }
-      if (c == '.' && ++dots_ >= kMaxKeyParts) return line_;
+      const auto byte = static_cast<unsigned char>(c);
+      if (byte >= 0x7F || (byte < 0x20 && c != '\n' && c != '\r' && c != '\t')) {
+        return "not valid TOML: a letter or sign that must stand in quotes; put the name in quotes";
+      }
+      if (c == '.' && ++dots_ >= kMaxKeyParts) {
+        return "a key has too many parts; a lens needs no more than two, as in glass.NAME";
+      }
       if (c == ',' || c == '=' || c == '[' || c == ']' || c == '{' || c == '}' || c == '\n') dots_ = 0;
       if (c == '\n') ++line_;
       ++at_;
     }
-    return 0;
+    return std::nullopt;
   }
 
  private:
@@ -208,9 +218,11 @@ const toml::array* TomlFields::array(std::string_view key) {
 }
 
 Result<toml::table> parse_toml(std::string_view text, const std::string& file) {
-  if (const int line = KeyDepthScan(text).find_deep_key(); line > 0) {
-    return failure(ErrorCode::Parse, "a key has too many parts; a lens needs no more than two, as in glass.NAME",
-                   {file, line, 0});
+  // The byte order mark that some editors put first.
+  if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
+  TextScan scan(text);
+  if (const auto fault = scan.find_fault()) {
+    return failure(ErrorCode::Parse, std::string(*fault), {file, scan.line(), 0});
   }
   toml::parse_result parsed = toml::parse(text, std::string_view(file));
   if (!parsed) {
