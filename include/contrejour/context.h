@@ -9,9 +9,9 @@
 namespace contrejour {
 
 struct Context {
-  int threads = 0;                             // 0: all cores
-  const std::atomic<bool>* cancel = nullptr;   // set it to stop; null: cannot be stopped
-  std::function<void(double done)> progress;   // 0..1, rising; may be empty
+  int threads = 0;                            // 0: all cores
+  const std::atomic<bool>* cancel = nullptr;  // set it to stop; null: cannot be stopped
+  std::function<void(double done)> progress = {};  // 0..1, rising; may be empty
 
   [[nodiscard]] bool cancelled() const { return cancel != nullptr && cancel->load(std::memory_order_relaxed); }
 };

@@ -10,7 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "contrejour/first_order.h"
-#include "optics/csv_lens.h"
+#include "support/csv_lens.h"
 #include "shared_data.h"
 
 using namespace contrejour;

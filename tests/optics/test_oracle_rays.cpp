@@ -9,7 +9,7 @@
 
 #include "contrejour/first_order.h"
 #include "contrejour/trace.h"
-#include "optics/csv_lens.h"
+#include "support/csv_lens.h"
 #include "shared_data.h"
 
 using namespace contrejour;

@@ -5,7 +5,7 @@
 #include <doctest/doctest.h>
 
 #include "contrejour/trace.h"
-#include "optics/csv_lens.h"
+#include "support/csv_lens.h"
 
 using namespace contrejour;
 

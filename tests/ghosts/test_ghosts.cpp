@@ -1,0 +1,86 @@
+#include <cmath>
+#include <numbers>
+
+#include <doctest/doctest.h>
+
+#include "contrejour/ghost.h"
+#include "ghosts/pupil_region.h"
+#include "support/scenes.h"
+
+using namespace contrejour;
+using test::bundled;
+
+namespace {
+
+constexpr double kGreen_nm = 550.0;
+
+}  // namespace
+
+TEST_CASE("the papers' ghost counts: 13, 73, 142 and 312 with both reflections on one side of the stop") {
+  const auto count = [](const char* name, GhostScope scope) {
+    return enumerate_ghosts(bundled(name, {}), scope).size();
+  };
+  CHECK(count("heliar", GhostScope::OneSideOfStop) == 13);
+  CHECK(count("itoh-zoom", GhostScope::OneSideOfStop) == 73);
+  CHECK(count("nikon-80-200", GhostScope::OneSideOfStop) == 142);
+  CHECK(count("canon-70-200", GhostScope::OneSideOfStop) == 312);
+  CHECK(count("heliar", GhostScope::All) == 8 * 7 / 2);
+  CHECK(count("canon-70-200", GhostScope::All) == 33 * 32 / 2);
+}
+
+TEST_CASE("a plate's ghost carries area cos(theta) T R R T, and lands as the stop's own disc") {
+  const LensState lens = test::plate();
+  for (const double angle : {0.0, 0.3}) {
+    const Vec3 d{std::sin(angle), 0.0, std::cos(angle)};
+    const double r = reflectance({}, 1.0, 1.5, std::cos(angle), kGreen_nm);
+    const double area = std::numbers::pi * 9.0 * std::cos(angle);
+    const GhostMeasure m = measure_ghost(lens, {2, 3}, d, kGreen_nm);
+    CHECK(m.flux_mm2 == doctest::Approx(area * (1 - r) * r * r * (1 - r)).epsilon(1e-3));
+    CHECK(m.max_mm.x - m.min_mm.x == doctest::Approx(6.0).epsilon(0.05));
+    CHECK(m.peak_per_mm2 == doctest::Approx(std::cos(angle) * (1 - r) * r * r * (1 - r)).epsilon(1e-3));
+    CHECK(direct_flux(lens, d, kGreen_nm) == doctest::Approx(area * (1 - r) * (1 - r)).epsilon(1e-4));
+  }
+}
+
+TEST_CASE("the pupil search finds what a dense scan finds, for ghosts of a zoom at a small stop [slow]") {
+  const LensState lens = bundled("canon-70-200", {.focal_length_mm = 200.0, .f_number = 32.0});
+  const Vec3 d = direction_to_land_at(lens, {5.0, -3.0}, kGreen_nm);
+  const EntranceWindow window = entrance_window(lens, d);
+  const auto ghosts = enumerate_ghosts(lens, GhostScope::OneSideOfStop);
+  constexpr int kScan = 220;
+  for (std::size_t g = 0; g < ghosts.size(); g += 13) {
+    CAPTURE(ghosts[g].i);
+    CAPTURE(ghosts[g].j);
+    const OpticalPath path = ghost_path(lens, ghosts[g], kGreen_nm);
+    const auto box = find_pupil(path, lens.iris, d, window);
+    int outside = 0;
+    for (int iy = 0; iy < kScan; ++iy) {
+      for (int ix = 0; ix < kScan; ++ix) {
+        const Vec2 p{std::lerp(window.min_mm.x, window.max_mm.x, (ix + 0.5) / kScan),
+                     std::lerp(window.min_mm.y, window.max_mm.y, (iy + 0.5) / kScan)};
+        const TracedRay ray = trace(path, {{p.x, p.y, window.z_mm}, d});
+        if (ray.status != RayStatus::Ok || blocked_by(ray, path, lens.iris) > 0.0) continue;
+        const bool inside = box && p.x >= box->min_mm.x && p.x <= box->max_mm.x && p.y >= box->min_mm.y &&
+                            p.y <= box->max_mm.y;
+        if (!inside) ++outside;
+      }
+    }
+    CHECK(outside == 0);
+  }
+}
+
+TEST_CASE("a pupil of a ten-thousandth of the window's area is found") {
+  LensState lens = test::plate();
+  lens.stop_radius_mm = 0.05;
+  const GhostMeasure m = measure_ghost(lens, {2, 3}, {0, 0, 1}, kGreen_nm);
+  const double r = 0.04;
+  CHECK(m.flux_mm2 == doctest::Approx(std::numbers::pi * 0.0025 * (1 - r) * r * r * (1 - r)).epsilon(2e-3));
+}
+
+TEST_CASE("an iris polygon cuts the direct flux by its area") {
+  LensState lens = test::plate();
+  const double open = direct_flux(lens, {0, 0, 1}, kGreen_nm);
+  lens.iris = {6, 0.3};
+  CHECK(direct_flux(lens, {0, 0, 1}, kGreen_nm) / open == doctest::Approx(iris_area_fraction(lens.iris)).epsilon(1e-3));
+  CHECK(iris_area_fraction({6, 0.0}) == doctest::Approx(3.0 * std::sqrt(3.0) / (2.0 * std::numbers::pi)));
+}

@@ -1,0 +1,137 @@
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <numbers>
+
+#include <doctest/doctest.h>
+
+#include "contrejour/metrics.h"
+#include "render/reference/reference.h"
+#include "support/scenes.h"
+
+using namespace contrejour;
+
+using test::bundled;
+using test::green;
+using test::light_at;
+using test::sum;
+
+namespace {
+
+Image rendered(const LensState& lens, std::span<const Light> lights, const RenderSettings& settings,
+               const Context& context = {}) {
+  const auto flare = render_reference(lens, lights, settings, context);
+  REQUIRE(flare.has_value());
+  return flare->image;
+}
+
+double psnr_db(const Image& a, const Image& b) { return compare(a, b).value().psnr_db.value_or(1000.0); }
+
+Frame small_frame(const LensState& lens, int width = 96) { return frame_on_sensor(lens, width, width * 2 / 3); }
+
+}  // namespace
+
+TEST_CASE("a ghost with an affine map is a flat sheet with the closed form's level") {
+  const LensState lens = test::plate();
+  Frame frame{200, 200, 0, 0, 200, 200, 0.05};
+  Light light;
+  light.direction = {0.0, 0.0, 1.0};
+  const Image image = rendered(lens, {&light, 1}, green(frame));
+  const double r = 0.04;
+  // V = 1: E_ghost A_pixel / Phi = R^2 * pixel area / stop area.
+  const double level = r * r * 0.05 * 0.05 / (std::numbers::pi * 9.0);
+  float low = 1e30f;
+  float high = 0.0f;
+  for (int y = 0; y < 200; ++y) {
+    for (int x = 0; x < 200; ++x) {
+      const double from_centre = std::hypot(x + 0.5 - 100.0, y + 0.5 - 100.0) * 0.05;
+      if (from_centre > 2.9) continue;
+      low = std::min(low, image.at(x, y));
+      high = std::max(high, image.at(x, y));
+    }
+  }
+  CHECK(high / low < 1.005);
+  CHECK(low == doctest::Approx(level).epsilon(1e-3));
+  CHECK(sum(image) / 3.0 == doctest::Approx(r * r).epsilon(1e-3));
+  CHECK(image.at(100, 30) == 0.0f);
+}
+
+TEST_CASE("doubling the density changes the picture by less than 55 dB [slow]") {
+  const LensState heliar = bundled("heliar", {.f_number = 16.0});
+  RenderSettings settings = green(small_frame(heliar, 120));
+  const Light light = light_at(heliar, settings.frame, {0.70, 0.33});
+  const Image once = rendered(heliar, {&light, 1}, settings);
+  settings.reference_density = 2.0;
+  const Image twice = rendered(heliar, {&light, 1}, settings);
+  CHECK(psnr_db(twice, once) > 55.0);
+  CHECK(sum(once) / sum(twice) == doctest::Approx(1.0).epsilon(2e-3));
+}
+
+TEST_CASE("the Heliar's flare at f/16 has the order of brightness that a rough trial gave") {
+  const LensState heliar = bundled("heliar", {.f_number = 16.0});
+  const RenderSettings settings = green(small_frame(heliar));
+  const Light light = light_at(heliar, settings.frame, {0.75, 0.5});
+  const double flux = sum(rendered(heliar, {&light, 1}, settings)) / 3.0;
+  CHECK(flux > 0.5 * 2.2e-4);
+  CHECK(flux < 2.0 * 2.2e-4);
+}
+
+TEST_CASE("the same picture, bit for bit, on 1, 2 and 7 threads") {
+  const LensState lens = bundled("angenieux-double-gauss", {.f_number = 5.6});
+  const RenderSettings settings = green(small_frame(lens, 48));
+  const Light lights[] = {light_at(lens, settings.frame, {0.8, 0.2}), light_at(lens, settings.frame, {0.3, 0.6})};
+  const Image one = rendered(lens, lights, settings, {.threads = 1});
+  CHECK(one.pixels == rendered(lens, lights, settings, {.threads = 2}).pixels);
+  CHECK(one.pixels == rendered(lens, lights, settings, {.threads = 7}).pixels);
+}
+
+TEST_CASE("a quarter turn of the light about the axis turns the flare [slow]") {
+  const LensState lens = bundled("heliar", {.f_number = 8.0});
+  Frame frame = frame_on_sensor(lens, 90, 90);
+  const RenderSettings settings = green(frame);
+  const Light right = light_at(lens, frame, {0.8, 0.45});
+  Light turned = right;
+  turned.direction = {right.direction.y, -right.direction.x, right.direction.z};
+  const Image a = rendered(lens, {&right, 1}, settings);
+  const Image b = rendered(lens, {&turned, 1}, settings);
+  // u' = 1 - v, v' = u: where the light went, every ghost went.
+  Image back = a;
+  for (int y = 0; y < 90; ++y) {
+    for (int x = 0; x < 90; ++x) {
+      for (int c = 0; c < 3; ++c) back.at(x, y, c) = b.at(89 - y, x, c);
+    }
+  }
+  const Vec2 landed = frame.uv_from_sensor(landing_of(lens, turned.direction, lens.design_wavelength_nm));
+  CHECK(landed.x == doctest::Approx(0.55).epsilon(1e-6));
+  CHECK(landed.y == doctest::Approx(0.8).epsilon(1e-6));
+  CHECK(psnr_db(a, back) > 60.0);
+}
+
+TEST_CASE("twice the light, twice the flare; two lights add") {
+  const LensState lens = bundled("heliar", {.f_number = 11.0});
+  const RenderSettings settings = green(small_frame(lens, 48));
+  Light a = light_at(lens, settings.frame, {0.7, 0.3});
+  const Light b = light_at(lens, settings.frame, {0.2, 0.6});
+  const Image one = rendered(lens, {&a, 1}, settings);
+  const Image other = rendered(lens, {&b, 1}, settings);
+  const Light both[] = {a, b};
+  const Image together = rendered(lens, both, settings);
+  a.value = {2, 2, 2};
+  const Image bright = rendered(lens, {&a, 1}, settings);
+  for (std::size_t k = 0; k < one.pixels.size(); ++k) {
+    CHECK(bright.pixels[k] == 2.0f * one.pixels[k]);
+    CHECK(together.pixels[k] == doctest::Approx(one.pixels[k] + other.pixels[k]).epsilon(1e-5));
+  }
+}
+
+TEST_CASE("no lights, no flare; a cancelled render says so") {
+  const LensState lens = bundled("heliar", {});
+  const RenderSettings settings = green(small_frame(lens, 32));
+  const Image dark = rendered(lens, {}, settings);
+  CHECK(std::all_of(dark.pixels.begin(), dark.pixels.end(), [](float v) { return v == 0.0f; }));
+  const std::atomic<bool> cancel{true};
+  const Light light = light_at(lens, settings.frame, {0.7, 0.3});
+  const auto cancelled = render_reference(lens, {&light, 1}, settings, {.cancel = &cancel});
+  REQUIRE_FALSE(cancelled.has_value());
+  CHECK(cancelled.error().code == ErrorCode::Cancelled);
+}

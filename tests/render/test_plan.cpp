@@ -1,0 +1,146 @@
+#include <cmath>
+#include <limits>
+
+#include <doctest/doctest.h>
+
+#include "render/interface/frame_plan.h"
+#include "support/scenes.h"
+
+using namespace contrejour;
+
+namespace {
+
+// Bare glass of constant index: nothing depends on the wavelength.
+LensState grey_lens() {
+  LensState lens = test::plate();
+  return lens;
+}
+
+Result<FramePlan> plan(const LensState& lens, std::span<const Light> lights, const RenderSettings& settings) {
+  return plan_frame(lens, lights, settings, {});
+}
+
+Frame frame() { return {60, 40, 0, 0, 60, 40, 0.2}; }
+
+}  // namespace
+
+TEST_CASE("a lens without colour keeps the light's colour for any number of wavelengths") {
+  const LensState lens = grey_lens();
+  const double flux = direct_flux(lens, {0, 0, 1}, 550.0);
+  Light light;
+  light.value = {3.0, 5.0, 7.0};
+  for (const int count : {1, 2, 3, 4, 7, 16, 61}) {
+    CAPTURE(count);
+    RenderSettings settings;
+    settings.frame = frame();
+    settings.wavelengths = count;
+    const auto planned = plan(lens, {&light, 1}, settings);
+    REQUIRE(planned.has_value());
+    Rgb sum{};
+    for (const PlannedPass& pass : planned->lights[0].passes) {
+      for (std::size_t c = 0; c < 3; ++c) sum[c] += pass.gain[c];
+    }
+    for (std::size_t c = 0; c < 3; ++c) CHECK(sum[c] * flux == doctest::Approx(light.value[c]).epsilon(1e-9));
+  }
+}
+
+TEST_CASE("more wavelengths converge to one colour, without a shift") {
+  const LensState lens = test::bundled("heliar", {.f_number = 8.0});
+  Light light = test::light_at(lens, frame_on_sensor(lens, 60, 40), {0.7, 0.4});
+  const auto colour = [&](int count) {
+    RenderSettings settings;
+    settings.frame = frame_on_sensor(lens, 60, 40);
+    settings.wavelengths = count;
+    settings.selection = SelectBrightest{1};
+    const auto planned = plan(lens, {&light, 1}, settings);
+    REQUIRE(planned.has_value());
+    Rgb rgb{};
+    for (const PlannedPass& pass : planned->lights[0].passes) {
+      const double flux = measure_ghost(lens, planned->ghosts[0], light.direction, pass.lambda_nm).flux_mm2;
+      for (std::size_t c = 0; c < 3; ++c) rgb[c] += pass.gain[c] * flux;
+    }
+    return rgb;
+  };
+  const Rgb truth = colour(81);
+  for (const auto& [count, tolerance] : {std::pair{8, 0.06}, std::pair{16, 0.02}, std::pair{40, 0.005}}) {
+    const Rgb rgb = colour(count);
+    for (std::size_t c = 0; c < 3; ++c) CHECK(std::abs(rgb[c] / truth[c] - 1.0) < tolerance);
+  }
+}
+
+TEST_CASE("selections keep what they say") {
+  const LensState lens = test::bundled("heliar", {.f_number = 8.0});
+  const Light light = test::light_at(lens, frame_on_sensor(lens, 60, 40), {0.7, 0.4});
+  RenderSettings settings;
+  settings.frame = frame();
+  const auto kept = [&](GhostSelection selection) {
+    settings.selection = std::move(selection);
+    const auto planned = plan(lens, {&light, 1}, settings);
+    REQUIRE(planned.has_value());
+    return *planned;
+  };
+  CHECK(kept(SelectAll{}).ghosts.size() == 13);
+  CHECK(kept(SelectBrightest{3}).ghosts.size() == 3);
+  CHECK(kept(SelectBrightest{100}).ghosts.size() == 13);
+  CHECK(kept(SelectBrightest{0}).ghosts.empty());
+  CHECK(kept(SelectList{{{1, 3}, {4, 5}}}).ghosts == std::vector<Ghost>{{1, 3}, {4, 5}});
+  const FramePlan most = kept(SelectByFlux{10.0});
+  CHECK(most.skipped_flux <= 0.10);
+  CHECK(most.ghosts.size() < 13);
+  CHECK(kept(SelectByFlux{0.0}).skipped_flux == 0.0);
+  for (const Ghost& g : kept(SelectSurface{4}).ghosts) CHECK((g.i == 4 || g.j == 4));
+  CHECK(kept(SelectSurface{4}).ghosts.size() == 4);
+  settings.selection = SelectList{{{1, 6}}};  // 6 is the stop
+  CHECK_FALSE(plan(lens, {&light, 1}, settings).has_value());
+}
+
+TEST_CASE("the flare does not jump when its light leaves the frame") {
+  const LensState lens = test::bundled("heliar", {.f_number = 8.0});
+  RenderSettings settings = test::green(frame_on_sensor(lens, 60, 40));
+  const auto gain_at = [&](double u) {
+    const Light light = test::light_at(lens, settings.frame, {u, 0.5});
+    return plan(lens, {&light, 1}, settings)->lights[0].passes[0].gain[1];
+  };
+  CHECK(gain_at(0.9999) == doctest::Approx(gain_at(1.0001)).epsilon(1e-3));
+  CHECK(gain_at(1.0001) == doctest::Approx(gain_at(3.0)).epsilon(1e-3));
+  CHECK(std::isfinite(gain_at(50.0)));
+}
+
+TEST_CASE("settings out of range are refused with a message, not rendered") {
+  const LensState lens = grey_lens();
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  Light light;
+  RenderSettings good;
+  good.frame = frame();
+  const auto refused = [&](const RenderSettings& settings, const Light& l) {
+    const auto planned = plan(lens, {&l, 1}, settings);
+    return !planned.has_value() && planned.error().code == ErrorCode::InvalidArgument;
+  };
+  CHECK_FALSE(refused(good, light));
+  RenderSettings bad = good;
+  bad.frame.width = 0;
+  CHECK(refused(bad, light));
+  bad = good;
+  bad.frame.width = bad.frame.full_width = 1 << 20;
+  bad.frame.height = bad.frame.full_height = 1 << 20;
+  CHECK(refused(bad, light));
+  bad = good;
+  bad.wavelengths = 0;
+  CHECK(refused(bad, light));
+  Light odd = light;
+  odd.direction = {0.0, nan, 1.0};
+  CHECK(refused(good, odd));
+  odd.direction = {0.0, 0.0, -1.0};
+  CHECK(refused(good, odd));
+  odd = light;
+  odd.value = {1.0, nan, 1.0};
+  CHECK(refused(good, odd));
+}
+
+TEST_CASE("the driver knows its methods and says so") {
+  const LensState lens = test::plate();
+  CHECK(render_methods().size() >= 2);
+  const auto unknown = render("no-such-method", lens, {}, test::green(frame()));
+  REQUIRE_FALSE(unknown.has_value());
+  CHECK(unknown.error().message.find("bundle") != std::string::npos);
+}

@@ -1,0 +1,53 @@
+// Lenses, lights and frames that many tests start from.
+#pragma once
+
+#include <numeric>
+#include <span>
+
+#include <doctest/doctest.h>
+
+#include "contrejour/render.h"
+#include "support/csv_lens.h"
+
+namespace contrejour::test {
+
+inline LensState bundled(const char* name, const LensSettings& settings = {}) {
+  const auto lens = find_lens(name);
+  REQUIRE(lens.has_value());
+  const auto state = lens_at(*lens, settings);
+  REQUIRE(state.has_value());
+  return *state;
+}
+
+// A bare plate of n = 1.5 behind a stop of 3 mm radius, the sensor 10 mm from the stop. It has one ghost, (2, 3),
+// an exact copy of the stop at R^2 of the direct light.
+inline LensState plate() {
+  Prescription lens;
+  lens.surfaces = {{SurfaceKind::Stop, 0.0, 1.0, 20.0, air(), {}, 0},
+                   {SurfaceKind::Refracting, 0.0, 2.0, 30.0, {"", ConstantIndex{1.5}}, {}, 0},
+                   {SurfaceKind::Refracting, 0.0, 0.0, 30.0, air(), {}, 0}};
+  LensState state = place(lens, 3.0);
+  state.sensor_z_mm = 10.0;
+  state.focal_length_mm = 50.0;  // of no meaning here, but finite: where lights outside the frame land
+  return state;
+}
+
+inline Light light_at(const LensState& lens, const Frame& frame, Vec2 uv) {
+  Light light;
+  light.direction = direction_to_land_at(lens, frame.sensor_from_uv(uv), lens.design_wavelength_nm);
+  return light;
+}
+
+// One wavelength, so that all three channels are alike.
+inline RenderSettings green(const Frame& frame) {
+  RenderSettings settings;
+  settings.frame = frame;
+  settings.lambda_nm = {550.0};
+  return settings;
+}
+
+inline double sum(const Image& image) {
+  return std::accumulate(image.pixels.begin(), image.pixels.end(), 0.0);
+}
+
+}  // namespace contrejour::test
