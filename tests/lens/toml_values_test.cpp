@@ -86,7 +86,7 @@ TEST_CASE("a zoom's gaps come in the order of the surfaces") {
 
 TEST_CASE("a byte order mark and Windows line ends change nothing") {
   std::string text = std::string("\xEF\xBB\xBF").append(kSampleLens);
-  for (std::size_t at = 0; (at = text.find('\n', at)) != std::string::npos; at += 2) text.insert(at, "\r");
+  for (std::size_t at = 0; (at = text.find('\n', at)) != std::string::npos; at += 2) text.insert(at, 1, '\r');
   CHECK(read(text).surfaces[1].source_line == 7);
 }
 
