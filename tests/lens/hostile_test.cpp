@@ -91,6 +91,7 @@ TEST_CASE("no text at all") {
   check_refused("\xff\xfen\0a\0m\0e\0");
   check_refused("brennweite_\xc3\xa4 = 1\n", "put the name in quotes");
   check_refused("a = [ \xef\xb3\xbf ]\n", "put the name in quotes");
+  check_refused("a = 7:7\"\xef\xbb\xbe\"\n", "a quote in the middle of a word");
   std::mt19937 random(7);
   for (int k = 0; k < 200; ++k) {
     std::string bytes(1 + random() % 2000, '\0');

@@ -44,6 +44,7 @@ class TextScan {
     while (at_ < text_.size()) {
       const char c = text_[at_];
       if (c == '"' || c == '\'') {
+        if (!string_may_begin()) return "not valid TOML: a quote in the middle of a word; put all of it in quotes";
         skip_string(c);
         continue;
       }
@@ -68,6 +69,11 @@ class TextScan {
  private:
   bool starts_with(char quote, std::size_t at) const {
     return at + 2 < text_.size() && text_[at] == quote && text_[at + 1] == quote && text_[at + 2] == quote;
+  }
+
+  // Elsewhere the parser reads on as if the quote were a letter, and what follows were not in quotes.
+  [[nodiscard]] bool string_may_begin() const {
+    return at_ == 0 || std::string_view(" \t\r\n=,[{.").find(text_[at_ - 1]) != std::string_view::npos;
   }
 
   void skip_comment() {
