@@ -8,7 +8,7 @@
 namespace contrejour {
 namespace {
 
-constexpr int kFluxCells = 160;    // a side: the direct flux is good to 1e-4
+constexpr int kFluxCells = 96;     // a side: the direct flux is good to 3e-4
 constexpr int kGhostCells = 64;    // a side: fluxes for ranking and tables, 1e-3
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
