@@ -47,8 +47,8 @@ struct Packet {
 };
 
 // Samples are read and written as float whatever the lanes are.
-HWY_INLINE Packet<float> load_floats(Packet<float>, const float* from) {
-  return Packet<float>(hn::LoadU(Packet<float>::Tag(), from));
+HWY_INLINE Packet<float> load_floats(Packet<float>::Tag d, const float* from) {
+  return Packet<float>(hn::LoadU(d, from));
 }
 HWY_INLINE void store_floats(Packet<float> p, float* to) { hn::StoreU(p.v, Packet<float>::Tag(), to); }
 
@@ -68,8 +68,8 @@ HWY_INLINE Packet<float> look_up(const float* table, int intervals, Packet<float
 #if HWY_HAVE_FLOAT64
 using FloatsOfDoubles = hn::Rebind<float, Packet<double>::Tag>;
 
-HWY_INLINE Packet<double> load_floats(Packet<double>, const float* from) {
-  return Packet<double>(hn::PromoteTo(Packet<double>::Tag(), hn::LoadU(FloatsOfDoubles(), from)));
+HWY_INLINE Packet<double> load_floats(Packet<double>::Tag d, const float* from) {
+  return Packet<double>(hn::PromoteTo(d, hn::LoadU(FloatsOfDoubles(), from)));
 }
 HWY_INLINE void store_floats(Packet<double> p, float* to) {
   hn::StoreU(hn::DemoteTo(FloatsOfDoubles(), p.v), FloatsOfDoubles(), to);

@@ -19,8 +19,7 @@ ReflectanceTables::ReflectanceTables(const LensState& lens, double lambda_nm) : 
     Entry entry;
     if (surface.kind == SurfaceKind::Refracting) {
       const bool may_absorb = std::holds_alternative<FilmStack>(surface.coating.films);
-      const bool same_both_ways =
-          !may_absorb && !std::holds_alternative<HullinFresnelAR>(surface.coating.films);
+      const bool same_both_ways = !may_absorb && !std::holds_alternative<HullinFresnelAR>(surface.coating.films);
       entry.reflectance[0] = add(surface, +1, false);
       entry.reflectance[1] = same_both_ways ? entry.reflectance[0] : add(surface, -1, false);
       if (may_absorb) entry.transmittance = add(surface, +1, true);

@@ -22,9 +22,6 @@ namespace hn = hwy::HWY_NAMESPACE;
 // As in trace.cpp: a ray beyond the equator of a sphere has left the glass; squared.
 constexpr double kBeyondEquatorSquared = 4.0;
 
-// Two packets go through a step together, so that one works while the other waits for a root or a quotient.
-constexpr int kTogether = 2;
-
 template <class P>
 struct PacketState {
   hk::Ray3<P> ray;
@@ -85,45 +82,33 @@ HWY_INLINE void land(const PacketState<P>& s, double sensor_gap_mm, std::size_t 
   store_floats(select(ok, square_root(s.r_rel_squared), P(std::numeric_limits<double>::infinity())), out.r_rel + at);
 }
 
-// kTogether packets that start at index `at` of the arrays.
+// The rays that start at index `at` of the arrays, as many as a packet holds.
 template <class P>
-HWY_INLINE void trace_block(const PacketPath& path, const float* x_mm, const float* y_mm, std::size_t at,
-                            const TracedArrays& out) {
-  const std::size_t lanes = hn::Lanes(typename P::Tag());
+HWY_INLINE void trace_one(const PacketPath& path, const float* x_mm, const float* y_mm, std::size_t at,
+                          const TracedArrays& out) {
   const ParallelRays& rays = path.rays();
-  std::array<PacketState<P>, kTogether> states;
-  for (int k = 0; k < kTogether; ++k) {
-    const std::size_t from = at + static_cast<std::size_t>(k) * lanes;
-    PacketState<P>& s = states[static_cast<std::size_t>(k)];
-    s.ray = {P(rays.origin_mm.x) + hk::load_floats(P(), x_mm + from),
-             P(rays.origin_mm.y) + hk::load_floats(P(), y_mm + from),
-             P(0.0),
-             P(rays.direction.x),
-             P(rays.direction.y),
-             P(rays.direction.z)};
-    s.transmission = P(1.0);
-    s.r_rel_squared = P(0.0);
-    s.alive = P(1.0);
-  }
+  PacketState<P> s;
+  s.ray = {P(rays.origin_mm.x) + hk::load_floats(typename P::Tag(), x_mm + at),
+           P(rays.origin_mm.y) + hk::load_floats(typename P::Tag(), y_mm + at),
+           P(0.0),
+           P(rays.direction.x),
+           P(rays.direction.y),
+           P(rays.direction.z)};
+  s.transmission = P(1.0);
+  s.r_rel_squared = P(0.0);
+  s.alive = P(1.0);
   for (const PacketStep& step : path.steps()) {
-    for (int k = 0; k < kTogether; ++k) {
-      PacketState<P>& s = states[static_cast<std::size_t>(k)];
-      advance(s, step, path.tables());
-      if (step.event == PathEvent::Stop) {
-        pass_stop(s, step, path.inverse_stop_radius_per_mm(), at + static_cast<std::size_t>(k) * lanes, out);
-      }
-    }
+    advance(s, step, path.tables());
+    if (step.event == PathEvent::Stop) pass_stop(s, step, path.inverse_stop_radius_per_mm(), at, out);
   }
-  for (int k = 0; k < kTogether; ++k) {
-    land(states[static_cast<std::size_t>(k)], path.sensor_gap_mm(), at + static_cast<std::size_t>(k) * lanes, out);
-  }
+  land(s, path.sensor_gap_mm(), at, out);
 }
 
-// The last rays, too few for a block, in buffers of a block's length.
+// The last rays, too few for a packet, in buffers of a packet's length.
 template <class P>
 void trace_tail(const PacketPath& path, const float* x_mm, const float* y_mm, std::size_t count,
                 const TracedArrays& out) {
-  constexpr std::size_t kLongest = kTogether * HWY_MAX_BYTES / sizeof(float);
+  constexpr std::size_t kLongest = HWY_MAX_BYTES / sizeof(float);
   constexpr std::size_t kFixed = 4;
   std::array<std::array<float, kLongest>, 2> in{};
   std::array<std::array<float, kLongest>, kFixed + 2 * kMaxStopCrossings> buffers;
@@ -134,7 +119,7 @@ void trace_tail(const PacketPath& path, const float* x_mm, const float* y_mm, st
     part.stop_x[c] = buffers[kFixed + 2 * c].data();
     part.stop_y[c] = buffers[kFixed + 2 * c + 1].data();
   }
-  trace_block<P>(path, in[0].data(), in[1].data(), 0, part);
+  trace_one<P>(path, in[0].data(), in[1].data(), 0, part);
   std::copy_n(part.sensor_x_mm, count, out.sensor_x_mm);
   std::copy_n(part.sensor_y_mm, count, out.sensor_y_mm);
   std::copy_n(part.transmission, count, out.transmission);
@@ -161,9 +146,9 @@ TracedArrays advanced(const TracedArrays& arrays, std::size_t by, int crossings)
 template <class P>
 void trace_all(const PacketPath& path, const float* x_mm, const float* y_mm, std::size_t count,
                const TracedArrays& out) {
-  const std::size_t block = kTogether * hn::Lanes(typename P::Tag());
+  const std::size_t lanes = hn::Lanes(typename P::Tag());
   std::size_t at = 0;
-  for (; at + block <= count; at += block) trace_block<P>(path, x_mm, y_mm, at, out);
+  for (; at + lanes <= count; at += lanes) trace_one<P>(path, x_mm, y_mm, at, out);
   if (at < count) {
     trace_tail<P>(path, x_mm + at, y_mm + at, count - at, advanced(out, at, path.stop_crossings()));
   }
