@@ -159,9 +159,11 @@ class ItemRenderer {
       if (!layers[k] || layers[k]->box().empty()) continue;
       const bundle::PixelBox b = layers[k]->box();
       const Rgb& gain = item_.passes[k].gain;
-      const std::array<float, 3> g{static_cast<float>(gain[0]), static_cast<float>(gain[1]), static_cast<float>(gain[2])};
+      const std::array<float, 3> g{static_cast<float>(gain[0]), static_cast<float>(gain[1]),
+                                   static_cast<float>(gain[2])};
       for (int y = b.y0; y < b.y1; ++y) {
-        float* to = out.rgb.data() + 3 * (static_cast<std::size_t>(y - out.box.y0) * width + static_cast<std::size_t>(b.x0 - out.box.x0));
+        float* to = out.rgb.data() + 3 * (static_cast<std::size_t>(y - out.box.y0) * width +
+                                          static_cast<std::size_t>(b.x0 - out.box.x0));
         for (const float flux : layers[k]->row(y)) {
           for (std::size_t c = 0; c < 3; ++c) *to++ += g[c] * flux;
         }
@@ -210,8 +212,8 @@ Result<Flare> render_bundle(const LensState& lens, std::span<const Light> lights
                             const Context& context) {
   const auto start = Clock::now();
   if (settings.grid < kLowestGrid || settings.grid > kHighestGrid) {
-    return failure(ErrorCode::InvalidArgument, "a grid of " + std::to_string(settings.grid) +
-                                                   " rays a side is out of range; choose 16 to 512");
+    return failure(ErrorCode::InvalidArgument,
+                   "a grid of " + std::to_string(settings.grid) + " rays a side is out of range; choose 16 to 512");
   }
   const auto plan = plan_frame(lens, lights, settings, context);
   if (!plan) return tl::unexpected<Error>(plan.error());

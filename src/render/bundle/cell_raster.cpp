@@ -122,8 +122,10 @@ void CellRaster::find_irradiance() {
 
 bool CellRaster::outside(const PixelBox& box, const std::array<std::size_t, 4>& corners) const {
   const auto all = [&](auto test) { return std::all_of(corners.begin(), corners.end(), test); };
-  return all([&](std::size_t k) { return pixel_[k].x < box.x0; }) || all([&](std::size_t k) { return pixel_[k].x >= box.x1; }) ||
-         all([&](std::size_t k) { return pixel_[k].y < box.y0; }) || all([&](std::size_t k) { return pixel_[k].y >= box.y1; });
+  return all([&](std::size_t k) { return pixel_[k].x < box.x0; }) ||
+         all([&](std::size_t k) { return pixel_[k].x >= box.x1; }) ||
+         all([&](std::size_t k) { return pixel_[k].y < box.y0; }) ||
+         all([&](std::size_t k) { return pixel_[k].y >= box.y1; });
 }
 
 // The frame's pixels within the bounds of all cells that are not closed.
@@ -227,7 +229,7 @@ FluxBox CellRaster::draw(const std::function<bool()>& stop) {
     for (int ix = 0; ix < n; ++ix) {
       const CellState state = state_[cell_index(ix, iy)];
       if (state == CellState::Closed) continue;
-      if (outside(out.box(), grid_.corners(ix, iy)) ) continue;
+      if (outside(out.box(), grid_.corners(ix, iy))) continue;
       const Cell cell = cell_at(ix, iy);
       if (state == CellState::Open) {
         draw_open(out, cell);

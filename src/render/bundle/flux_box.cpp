@@ -106,7 +106,8 @@ Bounds bounds_of(std::span<const Vec2> p) {
 }  // namespace
 
 FluxBox::FluxBox(const PixelBox& box)
-    : box_(box), flux_(box.empty() ? 0 : static_cast<std::size_t>(box.width()) * static_cast<std::size_t>(box.height())),
+    : box_(box),
+      flux_(box.empty() ? 0 : static_cast<std::size_t>(box.width()) * static_cast<std::size_t>(box.height())),
       cover_(kPitch * (kMaxSide + 1)) {}
 
 void FluxBox::add_point(Vec2 point, double flux) {
@@ -118,8 +119,7 @@ void FluxBox::add_polygon(std::span<const Vec2> polygon, const Density& density)
   if (polygon.size() < 3) return;
   const Bounds b = bounds_of(polygon);
   if (!(b.high.x > box_.x0 && b.low.x < box_.x1 && b.high.y > box_.y0 && b.low.y < box_.y1)) return;
-  const bool crosses =
-      b.low.x < box_.x0 || b.low.y < box_.y0 || b.high.x > box_.x1 || b.high.y > box_.y1;
+  const bool crosses = b.low.x < box_.x0 || b.low.y < box_.y0 || b.high.x > box_.x1 || b.high.y > box_.y1;
   if (!crosses) {
     add_inside(polygon, density);
     return;

@@ -70,8 +70,12 @@ PacketPrecision precision_for(const OpticalPath& path, const ReflectanceTables& 
   for (const PacketPrecision precision : {PacketPrecision::Float, PacketPrecision::Double}) {
     auto& row = rows[precision == PacketPrecision::Double ? 1 : 0];
     trace_packets(packets, precision, x_mm.data(), y_mm.data(), kProbeRays,
-                  {row[0].data(), row[1].data(), row[2].data(), row[3].data(),
-                   {row[4].data(), row[5].data(), row[6].data()}, {row[7].data(), row[8].data(), row[9].data()}});
+                  {row[0].data(),
+                   row[1].data(),
+                   row[2].data(),
+                   row[3].data(),
+                   {row[4].data(), row[5].data(), row[6].data()},
+                   {row[7].data(), row[8].data(), row[9].data()}});
   }
   double noise = 0.0;
   double distance = 0.0;
