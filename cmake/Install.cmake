@@ -1,4 +1,5 @@
-# Installs the library, its headers and programs, and the package `contrejour::contrejour` for find_package.
+# Installs the library, its headers, and the package `contrejour::contrejour` for find_package. Programs are
+# installed where they are made, in apps/.
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
@@ -8,17 +9,6 @@ install(TARGETS contrejour EXPORT contrejour-targets ARCHIVE DESTINATION ${CMAKE
         INCLUDES DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 install(DIRECTORY include/contrejour DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.h")
 install(EXPORT contrejour-targets NAMESPACE contrejour:: DESTINATION ${package_dir})
-foreach(program contrejour contrejour-demo)
-  # Targets are named after folders; what users type is the output name.
-  foreach(target contrejour_cli contrejour_demo)
-    if(TARGET ${target})
-      get_target_property(output ${target} OUTPUT_NAME)
-      if(output STREQUAL program)
-        install(TARGETS ${target} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
-      endif()
-    endif()
-  endforeach()
-endforeach()
 install(FILES LICENSE README.md CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
 
 # The library is static, so whoever links it links what it uses: the config file finds every library that a layer
