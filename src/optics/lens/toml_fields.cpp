@@ -5,14 +5,11 @@
 #include <fmt/format.h>
 
 #include "optics/lens/near_name.h"
+#include "optics/lens/toml_scan.h"
 
 namespace contrejour {
 
 namespace {
-
-// A key of our format has at most two parts (glass.NAME); eight leave room for other people's tables, so that
-// those get the message about unknown keys.
-constexpr int kMaxKeyParts = 8;
 
 // A TOML type in a user's words.
 std::string_view type_name(toml::node_type type) {
@@ -29,92 +26,6 @@ std::string_view type_name(toml::node_type type) {
     default: return "nothing";
   }
 }
-
-// Walks over the text outside strings and comments, as far as TOML's rules for those go, and finds what the
-// parser must not see: keys of many parts, and bytes that TOML allows in strings and comments only (toml++ 3.3
-// runs into undefined behaviour on some letters there).
-class TextScan {
- public:
-  explicit TextScan(std::string_view text) : text_(text) {}
-
-  [[nodiscard]] int line() const { return line_; }
-
-  // What is wrong at line(), or nothing.
-  std::optional<std::string_view> find_fault() {
-    while (at_ < text_.size()) {
-      const char c = text_[at_];
-      if (c == '"' || c == '\'') {
-        if (!string_may_begin()) return "not valid TOML: a quote in the middle of a word; put all of it in quotes";
-        skip_string(c);
-        continue;
-      }
-      if (c == '#') {
-        skip_comment();
-        continue;
-      }
-      const auto byte = static_cast<unsigned char>(c);
-      if (byte >= 0x7F || (byte < 0x20 && c != '\n' && c != '\r' && c != '\t')) {
-        return "not valid TOML: a letter or sign that must stand in quotes; put the name in quotes";
-      }
-      if (c == '.' && ++dots_ >= kMaxKeyParts) {
-        return "a key has too many parts; a lens needs no more than two, as in glass.NAME";
-      }
-      if (c == ',' || c == '=' || c == '[' || c == ']' || c == '{' || c == '}' || c == '\n') dots_ = 0;
-      if (c == '\n') ++line_;
-      ++at_;
-    }
-    return std::nullopt;
-  }
-
- private:
-  bool starts_with(char quote, std::size_t at) const {
-    return at + 2 < text_.size() && text_[at] == quote && text_[at + 1] == quote && text_[at + 2] == quote;
-  }
-
-  // Elsewhere the parser reads on as if the quote were a letter, and what follows were not in quotes.
-  [[nodiscard]] bool string_may_begin() const {
-    return at_ == 0 || std::string_view(" \t\r\n=,[{.").find(text_[at_ - 1]) != std::string_view::npos;
-  }
-
-  void skip_comment() {
-    while (at_ < text_.size() && text_[at_] != '\n') ++at_;
-  }
-
-  void skip_string(char quote) {
-    const bool many_lines = starts_with(quote, at_);
-    at_ += many_lines ? 3 : 1;
-    while (at_ < text_.size()) {
-      const char c = text_[at_];
-      if (c == '\\' && quote == '"') {
-        // The escaped character may be the newline of a line continuation.
-        if (at_ + 1 < text_.size() && text_[at_ + 1] == '\n') ++line_;
-        at_ += 2;
-        continue;
-      }
-      if (c == '\n') {
-        // A one-line string that is not closed: the parser will refuse it here.
-        if (!many_lines) return;
-        ++line_;
-      }
-      if (c == quote && !many_lines) {
-        ++at_;
-        return;
-      }
-      if (many_lines && starts_with(quote, at_)) {
-        // Up to two quotes may stand right before the closing three.
-        at_ += 3;
-        while (at_ < text_.size() && text_[at_] == quote) ++at_;
-        return;
-      }
-      ++at_;
-    }
-  }
-
-  std::string_view text_;
-  std::size_t at_ = 0;
-  int line_ = 1;
-  int dots_ = 0;
-};
 
 }  // namespace
 
@@ -226,9 +137,8 @@ const toml::array* TomlFields::array(std::string_view key) {
 Result<toml::table> parse_toml(std::string_view text, const std::string& file) {
   // The byte order mark that some editors put first.
   if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
-  TextScan scan(text);
-  if (const auto fault = scan.find_fault()) {
-    return failure(ErrorCode::Parse, std::string(*fault), {file, scan.line(), 0});
+  if (const auto fault = find_toml_fault(text)) {
+    return failure(ErrorCode::Parse, std::string(fault->message), {file, fault->line, 0});
   }
   toml::parse_result parsed = toml::parse(text, std::string_view(file));
   if (!parsed) {

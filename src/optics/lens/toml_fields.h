@@ -85,8 +85,7 @@ class TomlFields {
   TomlErrors& errors_;
 };
 
-// Parses the whole text. Bounded: refuses keys of many parts before the parser can build a table per part,
-// whose destruction would recurse as deep; the parser itself bounds nested brackets.
+// Parses the whole text, after find_toml_fault() has found nothing: bounded in memory, time and stack.
 Result<toml::table> parse_toml(std::string_view text, const std::string& file);
 
 }  // namespace contrejour
