@@ -1,0 +1,171 @@
+// contrejour apply: a photograph in, the same photograph with the lens's flare out.
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <system_error>
+
+#include <fmt/format.h>
+
+#include "cli/apply_report.h"
+#include "cli/command.h"
+#include "cli/console.h"
+#include "cli/exposure.h"
+#include "cli/flare_report.h"
+#include "cli/lens_choice.h"
+#include "cli/long_task.h"
+#include "cli/options.h"
+#include "cli/outputs.h"
+#include "params/flare_plan.h"
+#include "params/settings.h"
+
+namespace contrejour::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kExamples =
+    "Bright areas of the picture become lights where they are, and the flare they make in the lens is added. All else\n"
+    "in the file stays as it is; a picture without lights comes back unchanged, bit for bit. IN and OUT may be the\n"
+    "same file. Without --hfov the picture is taken to fill the lens's sensor.\n\n"
+    "Examples:\n"
+    "  contrejour apply canon-70-200 --focal 135 plate.exr -o out.exr --preview out.png\n"
+    "  contrejour apply heliar -f 16 plate.exr -o out.exr --flare-only flare.exr --hfov 40 --json\n"
+    "  contrejour apply nikon-80-200 plate.exr -o out.exr --threshold 50 --max-lights 8 --gain 2";
+
+// The lights' colours stay right; only the flare's own tint is then slightly off.
+constexpr const char* kGuessedSpace =
+    "the picture's primaries are neither Rec.709 nor ACEScg; its flare is computed as for Rec.709 (--colour-space)";
+
+struct ApplyOptions {
+  std::string lens, input, output, flare_only, preview;
+  bool json = false;
+  params::Values values;
+};
+
+struct ApplyFiles {
+  fs::path output;
+  std::optional<fs::path> flare_only, preview;
+};
+
+Result<ApplyFiles> open_files(const ApplyOptions& options, Outputs& outputs) {
+  ApplyFiles files;
+  const auto output = outputs.add(options.output);
+  if (!output) return tl::unexpected(output.error());
+  files.output = *output;
+  if (!options.flare_only.empty()) {
+    const auto file = outputs.add(options.flare_only);
+    if (!file) return tl::unexpected(file.error());
+    files.flare_only = *file;
+  }
+  if (!options.preview.empty()) {
+    const auto file = outputs.add(options.preview);
+    if (!file) return tl::unexpected(file.error());
+    files.preview = *file;
+  }
+  return files;
+}
+
+// No lights: the file itself, so that not even its compression changes. Only another format needs rewriting.
+Result<void> copy_input(const ApplyOptions& options, const Picture& picture, const fs::path& output,
+                        const Context& context) {
+  const std::string format = picture.header != nullptr ? ".exr" : ".png";
+  if (lower_extension(options.output) != format) return write_picture(output, picture, context);
+  std::error_code error;
+  fs::copy_file(options.input, output, fs::copy_options::overwrite_existing, error);
+  if (error) return failure(ErrorCode::Io, "cannot copy the picture: " + error.message(), {options.output});
+  return {};
+}
+
+Result<void> write_flare_only(const fs::path& file, const Picture& picture, const Image& flare, ColourSpace space,
+                              const Context& context) {
+  Picture alone = picture_of(flare);
+  alone.data_window = picture.data_window;
+  alone.display_window = picture.display_window;
+  set_colour_space(alone, space);
+  return write_picture(file, alone, context);
+}
+
+Result<Flare> render_plan(const ApplyOptions& options, const LensState& lens, const params::FlarePlan& plan) {
+  if (plan.lights.empty()) return Flare{Image(plan.frame.width, plan.frame.height), {}};
+  const RenderSettings settings = params::render_settings(options.values, plan.frame, plan.space);
+  const LongTask task("rendering", options.values.integer("threads"));
+  return render(*options.values.text("method"), lens, plan.lights, settings, task.context());
+}
+
+Result<void> write_all(const ApplyOptions& options, const ApplyFiles& files, Picture& picture, const params::FlarePlan& plan,
+                       const Image& flare) {
+  const LongTask task("writing", 0);
+  if (plan.lights.empty()) {
+    if (auto ok = copy_input(options, picture, files.output, task.context()); !ok) return ok;
+  } else {
+    params::add_flare(picture.rgb, flare);
+    if (auto ok = write_picture(files.output, picture, task.context()); !ok) return ok;
+  }
+  if (files.flare_only) {
+    auto ok = write_flare_only(*files.flare_only, picture, flare, plan.space, task.context());
+    if (!ok) return ok;
+  }
+  if (!files.preview) return {};
+  const PreviewSettings look = preview_settings(options.values, picture.rgb, UsualExposure::AsItIs);
+  return write_preview_png(*files.preview, picture.rgb, look, task.context());
+}
+
+void report(const ApplyOptions& options, const LensState& lens, const params::FlarePlan& plan, const RenderStatistics& stats) {
+  if (!options.json) {
+    print(report_text(plan));
+    print(fmt::format("{}: {} ghosts, {:.2f} s\n", options.output, stats.ghosts_rendered, total_ms(stats) / 1000.0));
+    return;
+  }
+  Json json = {{"lens", lens.name}, {"input", options.input}, {"output", options.output}};
+  json.update(report_json(plan));
+  json["statistics"] = plan.lights.empty() ? Json() : stats_json(stats);
+  print_json(json);
+}
+
+Result<int> run_apply(const ApplyOptions& options) {
+  Outputs outputs;
+  const auto files = open_files(options, outputs);
+  if (!files) return tl::unexpected(files.error());
+  const auto lens = open_lens(options.lens, options.values);
+  if (!lens) return tl::unexpected(lens.error());
+  auto picture = read_picture(options.input);
+  if (!picture) return tl::unexpected(picture.error());
+  auto plan = params::plan_flare(*picture, *lens, options.values);
+  if (!plan) {
+    Error error = plan.error();
+    if (error.place.file.empty()) error.place.file = options.input;
+    return tl::unexpected(error);
+  }
+  if (plan->space_is_guessed) print_warnings({kGuessedSpace});
+  const auto flare = render_plan(options, *lens, *plan);
+  if (!flare) return tl::unexpected(flare.error());
+  if (auto ok = write_all(options, *files, *picture, *plan, flare->image); !ok) return tl::unexpected(ok.error());
+  if (auto ok = outputs.commit(); !ok) return tl::unexpected(ok.error());
+  report(options, *lens, *plan, flare->statistics);
+  return kDone;
+}
+
+}  // namespace
+
+void add_apply(CLI::App& app, Action& action) {
+  const auto options = std::make_shared<ApplyOptions>();
+  CLI::App* command = app.add_subcommand("apply", "put the flare of a lens on a photograph");
+  add_lens_argument(*command, options->lens);
+  command->add_option("IN", options->input, "a scene-linear EXR, or a PNG")->required()->option_text(" ");
+  add_output(*command, "-o,--output", options->output, {".exr", ".png"}, "the photograph with flare")->required();
+  add_output(*command, "--flare-only", options->flare_only, {".exr"}, "only what the flare adds");
+  add_output(*command, "--preview", options->preview, {".png"}, "a PNG of the result to look at");
+  command->add_flag("--json", options->json, "report what was found as JSON");
+  add_parameters(*command, options->values, {"exposure"});
+  add_parameters(*command, options->values,
+                 {"threshold", "softness", "max-lights", "min-pixels", "spectrum", "gain"});
+  add_lens_parameters(*command, options->values);
+  add_parameters(*command, options->values, {"hfov"});
+  add_parameters(*command, options->values, {"method", "device", "wavelengths", "colour-space", "ghosts", "select",
+                                             "grid", "scale-grid", "density", "threads"});
+  command->footer(kExamples);
+  command->callback([options, &action] { action = [options] { return run_apply(*options); }; });
+}
+
+}  // namespace contrejour::cli

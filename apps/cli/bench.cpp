@@ -1,0 +1,13 @@
+// contrejour bench: measurements on this machine.
+#include "cli/command.h"
+
+namespace contrejour::cli {
+
+void add_bench(CLI::App& app, Action& action) {
+  CLI::App* bench = app.add_subcommand("bench", "measure this machine");
+  bench->require_subcommand(1);
+  bench->footer("Examples:\n  contrejour bench tables\n  contrejour bench tables --json tables.json");
+  add_bench_tables(*bench, action);
+}
+
+}  // namespace contrejour::cli

@@ -1,0 +1,36 @@
+// What every sub-command gives: a function that puts it on the command line and says what to do when it is chosen.
+#pragma once
+
+#include <functional>
+
+#include <CLI/CLI.hpp>
+
+#include "contrejour/result.h"
+
+namespace contrejour::cli {
+
+inline constexpr int kDone = 0;
+inline constexpr int kFailed = 1;
+inline constexpr int kUsage = 2;
+inline constexpr int kInterrupted = 130;  // 128 + SIGINT, as a shell has it
+
+// The action of the command line that was read; its value is the exit code.
+using Action = std::function<Result<int>()>;
+
+void add_render(CLI::App& app, Action& action);
+void add_apply(CLI::App& app, Action& action);
+void add_lens(CLI::App& app, Action& action);
+void add_ghosts(CLI::App& app, Action& action);
+void add_compare(CLI::App& app, Action& action);
+void add_bench(CLI::App& app, Action& action);
+
+void add_lens_list(CLI::App& lens, Action& action);
+void add_lens_info(CLI::App& lens, Action& action);
+void add_lens_draw(CLI::App& lens, Action& action);
+void add_lens_convert(CLI::App& lens, Action& action);
+void add_lens_check(CLI::App& lens, Action& action);
+void add_lens_trace(CLI::App& lens, Action& action);
+
+void add_bench_tables(CLI::App& bench, Action& action);
+
+}  // namespace contrejour::cli

@@ -1,0 +1,30 @@
+#include "cli/flare_report.h"
+
+namespace contrejour::cli {
+
+double total_ms(const RenderStatistics& statistics) {
+  for (const auto& [phase, ms] : statistics.time_ms) {
+    if (phase == "total") return ms;
+  }
+  return 0.0;
+}
+
+Json times_json(const RenderStatistics& statistics) {
+  Json times = {{"total", total_ms(statistics)}};
+  for (const auto& [phase, ms] : statistics.time_ms) times[phase] = ms;
+  return times;
+}
+
+Json stats_json(const RenderStatistics& statistics) {
+  return {{"method", statistics.method},
+          {"device", statistics.device},
+          {"time_ms", times_json(statistics)},
+          {"rays", statistics.rays},
+          {"surface_hits", statistics.surface_hits},
+          {"primitives", statistics.primitives},
+          {"ghosts_rendered", statistics.ghosts_rendered},
+          {"ghosts_skipped_flux", statistics.ghosts_skipped_flux},
+          {"peak_memory_bytes", statistics.peak_memory_bytes}};
+}
+
+}  // namespace contrejour::cli

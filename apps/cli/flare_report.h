@@ -1,0 +1,13 @@
+// A renderer's statistics as JSON, with the names of `render --stats`.
+#pragma once
+
+#include "cli/console.h"
+#include "contrejour/render.h"
+
+namespace contrejour::cli {
+
+[[nodiscard]] Json stats_json(const RenderStatistics& statistics);
+[[nodiscard]] Json times_json(const RenderStatistics& statistics);  // total first, then by phase
+[[nodiscard]] double total_ms(const RenderStatistics& statistics);
+
+}  // namespace contrejour::cli

@@ -1,0 +1,24 @@
+#include "cli/interrupt.h"
+
+#include <csignal>
+
+namespace contrejour::cli {
+namespace {
+
+std::atomic<bool> interrupted{false};
+static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler may only touch lock-free atomics");
+
+extern "C" void on_interrupt(int) { interrupted.store(true); }
+
+}  // namespace
+
+const std::atomic<bool>& interrupt_flag() { return interrupted; }
+
+void catch_interrupts() {
+  for (const int number : {SIGINT, SIGTERM}) {
+    // A shell's background job ignores SIGINT; so it stays.
+    if (std::signal(number, on_interrupt) == SIG_IGN) std::signal(number, SIG_IGN);
+  }
+}
+
+}  // namespace contrejour::cli

@@ -1,0 +1,46 @@
+#include "cli/lens_choice.h"
+
+#include <fmt/format.h>
+
+#include "cli/console.h"
+#include "params/settings.h"
+
+namespace contrejour::cli {
+
+CLI::Option* add_lens_argument(CLI::App& command, std::string& lens) {
+  return command.add_option("LENS", lens, "a bundled lens (see `contrejour lens list`) or a file")
+      ->required()
+      ->option_text(" ");
+}
+
+Result<LensState> open_lens(const std::string& lens, const params::Values& values) {
+  const auto prescription = find_lens(lens);
+  if (!prescription) return tl::unexpected(prescription.error());
+  auto state = lens_at(*prescription, params::lens_settings(values));
+  if (state) print_warnings(state->warnings);
+  return state;
+}
+
+CLI::Option* add_ghost_option(CLI::App& command, std::string& ghost, const std::string& help) {
+  const auto problem = [](const std::string& text) {
+    const auto parsed = params::parse_ghost(text);
+    return parsed ? std::string() : parsed.error().message;
+  };
+  return command.add_option("--ghost", ghost, help)->check(CLI::Validator(problem, "", "ghost"))->option_text("I,J");
+}
+
+Result<Ghost> choose_ghost(const LensState& lens, const std::string& text) {
+  const Ghost ghost = *params::parse_ghost(text);
+  for (const Ghost& known : enumerate_ghosts(lens, GhostScope::All)) {
+    if (known == ghost) return ghost;
+  }
+  return failure(ErrorCode::InvalidArgument,
+                 fmt::format("there is no ghost {}-{}: the lens has {} surfaces and number {}, the stop, does not reflect",
+                             ghost.i, ghost.j, lens.surfaces.size(), lens.stop_index + 1));
+}
+
+double wavelength_nm(const params::Values& values, const LensState& lens) {
+  return values.real("wavelength").value_or(lens.design_wavelength_nm);
+}
+
+}  // namespace contrejour::cli

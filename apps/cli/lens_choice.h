@@ -1,0 +1,27 @@
+// The lens a command works with: a bundled name or a file, set as the options say.
+#pragma once
+
+#include <string>
+
+#include <CLI/CLI.hpp>
+
+#include "contrejour/ghost.h"
+#include "contrejour/lens.h"
+#include "params/values.h"
+
+namespace contrejour::cli {
+
+// The LENS argument.
+CLI::Option* add_lens_argument(CLI::App& command, std::string& lens);
+
+// Finds and sets it; prints its warnings. Errors: those of find_lens and lens_at.
+[[nodiscard]] Result<LensState> open_lens(const std::string& lens, const params::Values& values);
+
+// The --ghost I,J option, and the ghost it names. Errors: the lens has no such ghost.
+CLI::Option* add_ghost_option(CLI::App& command, std::string& ghost, const std::string& help);
+[[nodiscard]] Result<Ghost> choose_ghost(const LensState& lens, const std::string& text);
+
+// --wavelength, or the lens's own.
+[[nodiscard]] double wavelength_nm(const params::Values& values, const LensState& lens);
+
+}  // namespace contrejour::cli

@@ -1,0 +1,47 @@
+// contrejour lens convert: any lens that is read -> our own TOML.
+#include <memory>
+#include <string>
+
+#include <fmt/format.h>
+
+#include "cli/command.h"
+#include "cli/console.h"
+#include "cli/options.h"
+#include "cli/outputs.h"
+#include "contrejour/lens.h"
+
+namespace contrejour::cli {
+namespace {
+
+struct ConvertOptions {
+  std::string input, output;
+};
+
+Result<int> run_convert(const ConvertOptions& options) {
+  Outputs outputs;
+  const auto file = outputs.add(options.output);
+  if (!file) return tl::unexpected(file.error());
+  const auto lens = find_lens(options.input);
+  if (!lens) return tl::unexpected(lens.error());
+  if (const auto ok = write_text(*file, write_lens_toml(*lens)); !ok) return tl::unexpected(ok.error());
+  if (const auto ok = outputs.commit(); !ok) return tl::unexpected(ok.error());
+  print(fmt::format("{}: {}, {} surfaces\n", options.output, lens->name, lens->surfaces.size()));
+  return kDone;
+}
+
+}  // namespace
+
+void add_lens_convert(CLI::App& lens, Action& action) {
+  const auto options = std::make_shared<ConvertOptions>();
+  CLI::App* command = lens.add_subcommand("convert", "write a lens in the program's own format");
+  command->add_option("IN", options->input, "a lens file in any format that is read, or a name")
+      ->required()
+      ->option_text(" ");
+  add_output(*command, "OUT", options->output, {".toml"}, "the TOML to write")->required()->option_text(" ");
+  command->footer("Examples:\n"
+                  "  contrejour lens convert heliar my-heliar.toml\n"
+                  "  contrejour lens convert other.toml tidy.toml");
+  command->callback([options, &action] { action = [options] { return run_convert(*options); }; });
+}
+
+}  // namespace contrejour::cli

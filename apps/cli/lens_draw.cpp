@@ -1,0 +1,83 @@
+// contrejour lens draw: a section of the lens as SVG, with rays.
+#include <cmath>
+#include <memory>
+#include <string>
+
+#include "cli/command.h"
+#include "cli/console.h"
+#include "cli/lens_choice.h"
+#include "cli/options.h"
+#include "cli/outputs.h"
+#include "cli/section_svg.h"
+#include "contrejour/light.h"
+#include "params/settings.h"
+
+namespace contrejour::cli {
+namespace {
+
+constexpr const char* kExamples =
+    "Without a ghost: the rays that image the axis and the corner of the field. With one: the light's rays to its image\n"
+    "and, in another colour, those the ghost's path lets through (dashed, if none gets through). The section lies in\n"
+    "the plane of the light.\n\n"
+    "Examples:\n"
+    "  contrejour lens draw heliar -o heliar.svg\n"
+    "  contrejour lens draw canon-70-200 --focal 135 -f 8 --ghost 3,14 --light 0,4 -o ghost.svg";
+
+struct DrawOptions {
+  std::string lens, output, ghost;
+  params::Values values;
+};
+
+// How far the light is from the axis, up if it is up.
+Result<std::optional<double>> light_angle_rad(const params::Values& values, const LensState& lens) {
+  if (!values.given("light")) return std::optional<double>();
+  const auto lights = params::lights(values, lens, frame_on_sensor(lens, 3, 2), ColourSpace::Rec709);
+  if (!lights) return tl::unexpected(lights.error());
+  const Vec3 d = lights->front().direction;
+  return std::optional<double>(std::copysign(std::atan2(std::hypot(d.x, d.y), d.z), -d.y));
+}
+
+Result<int> run_draw(const DrawOptions& options) {
+  Outputs outputs;
+  const auto file = outputs.add(options.output);
+  if (!file) return tl::unexpected(file.error());
+  const auto lens = open_lens(options.lens, options.values);
+  if (!lens) return tl::unexpected(lens.error());
+  SectionRequest request;
+  request.lambda_nm = wavelength_nm(options.values, *lens);
+  if (!options.ghost.empty()) {
+    const auto ghost = choose_ghost(*lens, options.ghost);
+    if (!ghost) return tl::unexpected(ghost.error());
+    request.ghost = *ghost;
+  }
+  const auto angle_rad = light_angle_rad(options.values, *lens);
+  if (!angle_rad) return tl::unexpected(angle_rad.error());
+  request.ghost_light_rad = *angle_rad;
+  const std::string drawing = draw_section(make_section(*lens, request));
+  if (const auto ok = write_text(*file, drawing); !ok) return tl::unexpected(ok.error());
+  if (const auto ok = outputs.commit(); !ok) return tl::unexpected(ok.error());
+  return kDone;
+}
+
+}  // namespace
+
+void add_lens_draw(CLI::App& lens, Action& action) {
+  const auto options = std::make_shared<DrawOptions>();
+  CLI::App* command = lens.add_subcommand("draw", "a section with rays, as SVG");
+  add_lens_argument(*command, options->lens);
+  add_output(*command, "-o,--output", options->output, {".svg"}, "the drawing")->required();
+  add_ghost_option(*command, options->ghost, "show this ghost's path");
+  add_parameters(*command, options->values, {"light"});
+  add_lens_parameters(*command, options->values);
+  add_parameters(*command, options->values, {"wavelength"});
+  command->footer(kExamples);
+  command->callback([options, &action] {
+    if (options->values.given("light") && options->ghost.empty()) {
+      throw CLI::ValidationError("--light", "is for a ghost's path; give --ghost as well");
+    }
+    if (options->values.list("light").size() > 1) throw CLI::ValidationError("--light", "one light is drawn; give one");
+    action = [options] { return run_draw(*options); };
+  });
+}
+
+}  // namespace contrejour::cli

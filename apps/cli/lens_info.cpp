@@ -1,0 +1,168 @@
+// contrejour lens info: surfaces and first-order figures of a lens.
+#include <cmath>
+#include <memory>
+#include <string>
+
+#include <fmt/format.h>
+
+#include "cli/command.h"
+#include "cli/console.h"
+#include "cli/lens_choice.h"
+#include "cli/options.h"
+#include "cli/text_table.h"
+#include "contrejour/first_order.h"
+#include "params/settings.h"
+
+namespace contrejour::cli {
+namespace {
+
+constexpr const char* kExamples =
+    "Indices and figures are for --wavelength; n_d is always for the d line. A plane has no radius. The last surface's\n"
+    "thickness leads to the sensor. Positions are measured as DESIGN says: entrance pupil and front focal point from\n"
+    "surface 1, back focus and sensor from the last surface, exit pupil from the sensor; positive towards the image.\n\n"
+    "Examples:\n"
+    "  contrejour lens info heliar\n"
+    "  contrejour lens info canon-70-200 --focal 135 -f 4 --focus 3m --json";
+
+struct InfoOptions {
+  std::string lens;
+  bool json = false;
+  params::Values values;
+};
+
+struct Info {
+  Prescription lens;
+  LensState state;
+  FirstOrder figures;
+  double lambda_nm = 0;
+};
+
+std::string glass_name(const Glass& glass) {
+  if (is_air(glass)) return "air";
+  return glass.name.empty() ? fmt::format("n_d {:.5f}", refractive_index(glass, kLineD_nm)) : glass.name;
+}
+
+double thickness_mm(const LensState& lens, std::size_t k) {
+  const double next_mm = k + 1 < lens.surfaces.size() ? lens.surfaces[k + 1].z_mm : lens.sensor_z_mm;
+  return next_mm - lens.surfaces[k].z_mm;
+}
+
+Json surfaces_json(const Info& info) {
+  Json list = Json::array();
+  for (std::size_t k = 0; k < info.state.surfaces.size(); ++k) {
+    const SurfaceState& s = info.state.surfaces[k];
+    const bool plane = s.curvature_per_mm == 0.0;
+    list.push_back({{"index", k + 1},
+                    {"kind", s.kind == SurfaceKind::Stop ? "stop" : "refracting"},
+                    {"radius_mm", plane ? Json() : Json(1.0 / s.curvature_per_mm)},
+                    {"curvature_per_mm", s.curvature_per_mm},
+                    {"thickness_mm", thickness_mm(info.state, k)},
+                    {"semi_diameter_mm", s.semi_diameter_mm},
+                    {"glass", glass_name(s.after)},
+                    {"n_d", refractive_index(s.after, kLineD_nm)},
+                    {"n", refractive_index(s.after, info.lambda_nm)},
+                    {"coating", describe(s.coating)}});
+  }
+  return list;
+}
+
+Json info_json(const Info& info) {
+  const FirstOrder& f = info.figures;
+  Json zoom = Json::array();
+  for (const ZoomPosition& position : info.lens.zoom) zoom.push_back(position.focal_length_mm);
+  return {{"name", info.lens.name},
+          {"source", info.lens.source},
+          {"wavelength_nm", info.lambda_nm},
+          {"surfaces", surfaces_json(info)},
+          {"stop_index", info.state.stop_index + 1},
+          {"stop_radius_mm", info.state.stop_radius_mm},
+          {"focal_length_mm", f.focal_length_mm},
+          {"back_focal_distance_mm", f.back_focal_distance_mm},
+          {"front_focal_distance_mm", f.front_focal_distance_mm},
+          {"entrance_pupil_position_mm", f.entrance_pupil_position_mm},
+          {"entrance_pupil_diameter_mm", f.entrance_pupil_diameter_mm},
+          {"exit_pupil_position_mm", f.exit_pupil_position_mm},
+          {"exit_pupil_diameter_mm", f.exit_pupil_diameter_mm},
+          {"f_number", f.f_number},
+          {"half_field_deg", f.half_field_rad / params::kDegree_rad},
+          {"sensor_position_mm", f.sensor_position_mm},
+          {"sensor_width_mm", info.state.sensor_width_mm},
+          {"sensor_height_mm", info.state.sensor_height_mm},
+          {"zoom", zoom},
+          {"warnings", info.state.warnings}};
+}
+
+std::string surfaces_text(const Info& info) {
+  TextTable table({"surface", "radius mm", "thickness mm", "semi-diameter mm", "<glass behind", "n", "<coating"});
+  for (std::size_t k = 0; k < info.state.surfaces.size(); ++k) {
+    const SurfaceState& s = info.state.surfaces[k];
+    const bool stop = s.kind == SurfaceKind::Stop;
+    const std::string radius = s.curvature_per_mm == 0.0 ? "plane" : fmt::format("{:.4f}", 1.0 / s.curvature_per_mm);
+    table.add({fmt::format("{}", k + 1), stop ? "stop" : radius, fmt::format("{:.4f}", thickness_mm(info.state, k)),
+               fmt::format("{:.3f}", stop ? info.state.stop_radius_mm : s.semi_diameter_mm), glass_name(s.after),
+               fmt::format("{:.6f}", refractive_index(s.after, info.lambda_nm)), stop ? "" : describe(s.coating)});
+  }
+  return table.text();
+}
+
+std::string figures_text(const Info& info) {
+  const FirstOrder& f = info.figures;
+  TextTable table({"<", "", "<"});
+  const auto add = [&](const std::string& name, double value, const std::string& unit) {
+    table.add({name, fmt::format("{:.4f}", value), unit});
+  };
+  add("focal length", f.focal_length_mm, "mm");
+  add("back focal distance", f.back_focal_distance_mm, "mm from the last surface");
+  add("front focal distance", f.front_focal_distance_mm, "mm from surface 1");
+  add("entrance pupil", f.entrance_pupil_position_mm, "mm from surface 1");
+  add("  diameter", f.entrance_pupil_diameter_mm, "mm");
+  add("exit pupil", f.exit_pupil_position_mm, "mm from the sensor");
+  add("  diameter", f.exit_pupil_diameter_mm, "mm");
+  add("f-number", f.f_number, "");
+  add("sensor", f.sensor_position_mm, fmt::format("mm from the last surface, {:g} x {:g} mm", info.state.sensor_width_mm,
+                                                  info.state.sensor_height_mm));
+  add("half field", f.half_field_rad / params::kDegree_rad, "degrees, corner");
+  const std::string text = table.text();
+  return text.substr(text.find('\n') + 1);  // no headings
+}
+
+std::string info_text(const Info& info) {
+  std::string text = fmt::format("{}\n{}\n", info.lens.name, info.lens.source);
+  if (!info.lens.zoom.empty()) {
+    text += fmt::format("zoom from {:g} to {:g} mm, here {:.2f} mm\n", info.lens.zoom.front().focal_length_mm,
+                        info.lens.zoom.back().focal_length_mm, info.state.focal_length_mm);
+  }
+  return text + fmt::format("\n{}\nat {:g} nm\n{}", surfaces_text(info), info.lambda_nm, figures_text(info));
+}
+
+Result<int> run_info(const InfoOptions& options) {
+  auto lens = find_lens(options.lens);
+  if (!lens) return tl::unexpected(lens.error());
+  auto state = lens_at(*lens, params::lens_settings(options.values));
+  if (!state) return tl::unexpected(state.error());
+  const double lambda_nm = wavelength_nm(options.values, *state);
+  const FirstOrder figures = first_order(*state, lambda_nm);
+  const Info info{std::move(*lens), std::move(*state), figures, lambda_nm};
+  if (options.json) {
+    print_json(info_json(info));
+  } else {
+    print(info_text(info));
+    print_warnings(info.state.warnings);
+  }
+  return kDone;
+}
+
+}  // namespace
+
+void add_lens_info(CLI::App& lens, Action& action) {
+  const auto options = std::make_shared<InfoOptions>();
+  CLI::App* command = lens.add_subcommand("info", "surfaces and first-order figures");
+  add_lens_argument(*command, options->lens);
+  command->add_flag("--json", options->json, "as JSON");
+  add_lens_parameters(*command, options->values);
+  add_parameters(*command, options->values, {"wavelength"});
+  command->footer(kExamples);
+  command->callback([options, &action] { action = [options] { return run_info(*options); }; });
+}
+
+}  // namespace contrejour::cli

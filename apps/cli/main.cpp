@@ -1,0 +1,3 @@
+#include "cli/app.h"
+
+int main(int argc, char** argv) { return contrejour::cli::run({argv + 1, argv + argc}); }

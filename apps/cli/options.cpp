@@ -1,0 +1,84 @@
+#include "cli/options.h"
+
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+#include <vector>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+namespace contrejour::cli {
+namespace {
+
+using params::Kind;
+using params::Parameter;
+
+std::string flags_of(const Parameter& p) {
+  return p.letter != '\0' ? fmt::format("-{},--{}", p.letter, p.name) : fmt::format("--{}", p.name);
+}
+
+// What stands for the value in the help.
+std::string placeholder(const Parameter& p) {
+  if (p.kind == Kind::Choice) return fmt::format("{}", fmt::join(p.choices, "|"));
+  if (p.unit.empty()) return p.kind == Kind::Integer ? "N" : "NUMBER";
+  std::string text(p.unit);
+  if (p.kind != Kind::Text) {
+    std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::toupper(c); });
+  }
+  return text;
+}
+
+std::string help_of(const Parameter& p) {
+  return p.fallback.empty() ? std::string(p.help) : fmt::format("{} (default: {})", p.help, p.fallback);
+}
+
+void add_parameter(CLI::App& command, params::Values& values, const Parameter& p) {
+  const std::string flags = flags_of(p);
+  const std::string name(p.name);
+  const auto set = [&values, name](const std::string& text) {
+    const auto checked = values.set(name, text);
+    if (!checked) throw CLI::ValidationError("--" + name, checked.error().message);
+  };
+  if (p.kind == Kind::Switch) {
+    command.add_flag_function(flags, [set](std::int64_t) { set("on"); }, help_of(p))->group(std::string(p.group));
+    return;
+  }
+  CLI::Option* option = command.add_option(
+      flags,
+      [set](const CLI::results_t& texts) {
+        for (const std::string& text : texts) set(text);
+        return true;
+      },
+      help_of(p));
+  option->type_size(1)->expected(1)->option_text(placeholder(p))->group(std::string(p.group));
+  if (p.repeats) option->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+}
+
+}  // namespace
+
+void add_parameters(CLI::App& command, params::Values& values, std::initializer_list<std::string_view> names) {
+  for (const std::string_view name : names) add_parameter(command, values, params::parameter(name));
+}
+
+void add_lens_parameters(CLI::App& command, params::Values& values) {
+  add_parameters(command, values, {"focal", "fnumber", "focus", "blades", "blade-rotation", "coating"});
+}
+
+std::string lower_extension(const std::string& file) {
+  std::string extension = std::filesystem::path(file).extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(), [](unsigned char c) { return std::tolower(c); });
+  return extension;
+}
+
+CLI::Option* add_output(CLI::App& command, const std::string& flags, std::string& file,
+                        std::initializer_list<std::string_view> endings, const std::string& help) {
+  const std::vector<std::string> allowed(endings.begin(), endings.end());
+  const auto check = [allowed](const std::string& name) {
+    if (std::find(allowed.begin(), allowed.end(), lower_extension(name)) != allowed.end()) return std::string();
+    return fmt::format("\"{}\" does not end in {}", name, fmt::join(allowed, " or "));
+  };
+  return command.add_option(flags, file, help)->check(CLI::Validator(check, "", "ending"))->option_text("FILE");
+}
+
+}  // namespace contrejour::cli

@@ -1,0 +1,121 @@
+// contrejour render: a lens and lights -> the flare as an image.
+#include <memory>
+#include <optional>
+#include <string>
+
+#include <fmt/format.h>
+
+#include "cli/command.h"
+#include "cli/console.h"
+#include "cli/exposure.h"
+#include "cli/flare_report.h"
+#include "cli/lens_choice.h"
+#include "cli/long_task.h"
+#include "cli/options.h"
+#include "cli/outputs.h"
+#include "contrejour/image_io.h"
+#include "contrejour/render.h"
+#include "params/settings.h"
+
+namespace contrejour::cli {
+namespace {
+
+constexpr const char* kExamples =
+    "Without a light there is one at u,v = 0.70,0.33. The image holds what the flare adds to a photograph, in the\n"
+    "lights' own units; a light's own image is not in it. A PNG is made to look at: --exposure says how bright.\n\n"
+    "Examples:\n"
+    "  contrejour render heliar -o flare.exr\n"
+    "  contrejour render canon-70-200 --focal 135 -f 8 --light 6,4 --light -3,5 -o flare.exr --preview flare.png\n"
+    "  contrejour render nikon-80-200 --light-at 0.7,0.33:5000:3200K --light-at 0.2,0.8:900 --size 960x540 -o f.exr\n"
+    "  contrejour render heliar --select list:2-5 --method reference -o ghost.exr --stats ghost.json";
+
+struct RenderOptions {
+  std::string lens, output, preview, stats;
+  params::Values values;
+};
+
+struct RenderFiles {
+  std::filesystem::path output;
+  std::optional<std::filesystem::path> preview, stats;
+};
+
+Result<RenderFiles> open_files(const RenderOptions& options, Outputs& outputs) {
+  RenderFiles files;
+  const auto output = outputs.add(options.output);
+  if (!output) return tl::unexpected(output.error());
+  files.output = *output;
+  const auto add = [&](const std::string& name, std::optional<std::filesystem::path>& file) -> Result<void> {
+    if (name.empty()) return {};
+    const auto path = outputs.add(name);
+    if (!path) return tl::unexpected(path.error());
+    file = *path;
+    return {};
+  };
+  if (const auto ok = add(options.preview, files.preview); !ok) return tl::unexpected(ok.error());
+  if (const auto ok = add(options.stats, files.stats); !ok) return tl::unexpected(ok.error());
+  return files;
+}
+
+Result<Flare> render_flare(const RenderOptions& options) {
+  const params::Values& values = options.values;
+  const auto lens = open_lens(options.lens, values);
+  if (!lens) return tl::unexpected(lens.error());
+  const Frame frame = params::whole_frame(values, *lens, *params::parse_size(*values.text("size")));
+  const ColourSpace space = params::colour_space(values, ColourSpace::Rec709);
+  const auto lights = params::lights(values, *lens, frame, space);
+  if (!lights) return tl::unexpected(lights.error());
+  const LongTask task("rendering", values.integer("threads"));
+  return render(*values.text("method"), *lens, *lights, params::render_settings(values, frame, space), task.context());
+}
+
+Result<void> write_flare(const RenderOptions& options, const RenderFiles& files, const Flare& flare,
+                         const Context& context) {
+  const PreviewSettings look = preview_settings(options.values, flare.image, UsualExposure::Automatic);
+  if (lower_extension(options.output) == ".png") {
+    if (auto ok = write_preview_png(files.output, flare.image, look, context); !ok) return ok;
+  } else {
+    Picture picture = picture_of(flare.image);
+    set_colour_space(picture, params::colour_space(options.values, ColourSpace::Rec709));
+    if (auto ok = write_picture(files.output, picture, context); !ok) return ok;
+  }
+  if (files.preview) {
+    if (auto ok = write_preview_png(*files.preview, flare.image, look, context); !ok) return ok;
+  }
+  if (files.stats) return write_text(*files.stats, json_text(stats_json(flare.statistics)));
+  return {};
+}
+
+Result<int> run_render(const RenderOptions& options) {
+  Outputs outputs;
+  const auto files = open_files(options, outputs);
+  if (!files) return tl::unexpected(files.error());
+  const auto flare = render_flare(options);
+  if (!flare) return tl::unexpected(flare.error());
+  const LongTask task("writing", 0);
+  if (auto ok = write_flare(options, *files, *flare, task.context()); !ok) return tl::unexpected(ok.error());
+  if (auto ok = outputs.commit(); !ok) return tl::unexpected(ok.error());
+  print(fmt::format("{}: {} x {}, {} ghosts, {:.2f} s\n", options.output, flare->image.width, flare->image.height,
+                    flare->statistics.ghosts_rendered, total_ms(flare->statistics) / 1000.0));
+  return kDone;
+}
+
+}  // namespace
+
+void add_render(CLI::App& app, Action& action) {
+  const auto options = std::make_shared<RenderOptions>();
+  CLI::App* command = app.add_subcommand("render", "the flare of a lens and lights, as an image");
+  add_lens_argument(*command, options->lens);
+  add_output(*command, "-o,--output", options->output, {".exr", ".png"}, "the flare")->required();
+  add_output(*command, "--preview", options->preview, {".png"}, "a PNG to look at");
+  add_output(*command, "--stats", options->stats, {".json"}, "times and counts");
+  add_parameters(*command, options->values, {"exposure"});
+  add_parameters(*command, options->values, {"light", "light-at", "value", "colour"});
+  add_lens_parameters(*command, options->values);
+  add_parameters(*command, options->values, {"size", "hfov"});
+  add_parameters(*command, options->values, {"method", "device", "wavelengths", "colour-space", "ghosts", "select",
+                                             "grid", "scale-grid", "density", "threads"});
+  command->footer(kExamples);
+  command->callback([options, &action] { action = [options] { return run_render(*options); }; });
+}
+
+}  // namespace contrejour::cli

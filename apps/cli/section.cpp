@@ -1,0 +1,124 @@
+#include "cli/section.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "contrejour/light.h"
+
+namespace contrejour::cli {
+namespace {
+
+constexpr int kScan = 2001;       // rays tried across the entrance window
+constexpr int kImagingRays = 5;
+constexpr int kGhostRays = 9;
+constexpr double kLead = 0.10;    // free space in front of the lens, of its length
+constexpr double kFieldOfGhostLight = 0.33;
+
+struct Line {
+  double y_mm = 0;
+  bool open = false;
+};
+
+// Heights at which a ray gets through, or at least to the sensor.
+std::vector<Line> scan(const OpticalPath& path, const EntranceWindow& window, Vec3 direction) {
+  std::vector<Line> lines;
+  for (int k = 0; k < kScan; ++k) {
+    const double y = std::lerp(window.min_mm.y, window.max_mm.y, static_cast<double>(k) / (kScan - 1));
+    const TracedRay ray = trace(path, {{0.0, y, window.z_mm}, direction});
+    if (ray.status == RayStatus::Ok) lines.push_back({y, blocked_by(ray, path, Iris{}) <= 0.0});
+  }
+  const bool any_open = std::any_of(lines.begin(), lines.end(), [](const Line& line) { return line.open; });
+  if (any_open) std::erase_if(lines, [](const Line& line) { return !line.open; });
+  return lines;
+}
+
+SectionRay record(const OpticalPath& path, Vec3 origin, Vec3 direction, double left_mm) {
+  SectionRay ray;
+  ray.points_mm.push_back({left_mm, origin.y + (left_mm - origin.z) * direction.y / direction.z});
+  const RayRecord traced = trace_recorded(path, {origin, direction});
+  for (const TraceStep& step : traced.steps) {
+    ray.points_mm.push_back({step.position_mm.z, step.position_mm.y});
+    if (step.event == PathEvent::Reflect) ray.reflections_mm.push_back(ray.points_mm.back());
+  }
+  if (traced.ray.status == RayStatus::Ok) ray.points_mm.push_back({path.sensor_z_mm, traced.ray.sensor_mm.y});
+  return ray;
+}
+
+// `count` rays, evenly over those that get through.
+void add_fan(Section& section, const OpticalPath& path, Vec3 direction, RayKind kind, int count) {
+  const EntranceWindow window = entrance_window(section.lens, direction);
+  const std::vector<Line> lines = scan(path, window, direction);
+  if (lines.empty()) return;
+  for (int k = 0; k < count; ++k) {
+    const double at = static_cast<double>(k) / (count - 1) * static_cast<double>(lines.size() - 1);
+    const Line& line = lines[static_cast<std::size_t>(std::lround(at))];
+    SectionRay ray = record(path, {0.0, line.y_mm, window.z_mm}, direction, section.left_mm);
+    ray.kind = kind;
+    ray.blocked = !line.open;
+    section.rays.push_back(std::move(ray));
+  }
+}
+
+std::vector<Element> find_elements(const LensState& lens) {
+  std::vector<Element> elements;
+  for (std::size_t k = 0; k < lens.surfaces.size(); ++k) {
+    if (lens.surfaces[k].kind == SurfaceKind::Stop || is_air(lens.surfaces[k].after)) continue;
+    std::size_t next = k + 1;
+    while (next < lens.surfaces.size() && lens.surfaces[next].kind == SurfaceKind::Stop) ++next;
+    if (next < lens.surfaces.size()) elements.push_back({k, next});
+  }
+  return elements;
+}
+
+double half_diagonal_mm(const LensState& lens) { return 0.5 * std::hypot(lens.sensor_width_mm, lens.sensor_height_mm); }
+
+void set_bounds(Section& section) {
+  const LensState& lens = section.lens;
+  double leftmost = 0.0;
+  double highest = half_diagonal_mm(lens);
+  for (const SurfaceState& s : lens.surfaces) {
+    const double height = drawn_height_mm(s);
+    leftmost = std::min(leftmost, s.z_mm + std::min(0.0, sag_mm(s, height)));
+    highest = std::max(highest, height);
+  }
+  section.left_mm = leftmost - kLead * (lens.sensor_z_mm - leftmost);
+  section.right_mm = lens.sensor_z_mm;
+  section.half_height_mm = 1.06 * highest;
+}
+
+}  // namespace
+
+double drawn_height_mm(const SurfaceState& surface) {
+  constexpr double kNearlyHalfSphere = 0.9999;
+  const double curvature = std::abs(surface.curvature_per_mm);
+  return std::min(surface.semi_diameter_mm, curvature > 0.0 ? kNearlyHalfSphere / curvature : surface.semi_diameter_mm);
+}
+
+double sag_mm(const SurfaceState& surface, double height_mm) {
+  const double c = surface.curvature_per_mm;
+  return c * height_mm * height_mm / (1.0 + std::sqrt(std::max(0.0, 1.0 - c * c * height_mm * height_mm)));
+}
+
+Section make_section(const LensState& lens, const SectionRequest& request) {
+  Section section;
+  section.lens = lens;
+  section.elements = find_elements(lens);
+  section.ghost = request.ghost;
+  set_bounds(section);
+  const OpticalPath direct = direct_path(lens, request.lambda_nm);
+  const Vec3 field = direction_to_land_at(lens, {0.0, -half_diagonal_mm(lens)}, request.lambda_nm);
+  if (!request.ghost) {
+    add_fan(section, direct, field, RayKind::Field, kImagingRays);
+    add_fan(section, direct, {0.0, 0.0, 1.0}, RayKind::Axis, kImagingRays);
+    return section;
+  }
+  const double light_rad =
+      request.ghost_light_rad.value_or(kFieldOfGhostLight * angles_from_direction(field).elevation_rad);
+  section.ghost_light_deg = light_rad * 180.0 / 3.14159265358979323846;
+  const Vec3 light = direction_from_angles(0.0, light_rad);
+  add_fan(section, direct, light, RayKind::Axis, kImagingRays);
+  add_fan(section, ghost_path(lens, *request.ghost, request.lambda_nm), light, RayKind::Ghost, kGhostRays);
+  return section;
+}
+
+}  // namespace contrejour::cli

@@ -1,0 +1,47 @@
+// A section through a lens along its axis: what of it is glass, and the rays to draw.
+// Points are (z, y) in mm. A light off the axis lies in the plane of the section.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "contrejour/lens.h"
+#include "contrejour/trace.h"
+
+namespace contrejour::cli {
+
+enum class RayKind { Axis, Field, Ghost };
+
+struct SectionRay {
+  RayKind kind = RayKind::Axis;
+  std::vector<Vec2> points_mm;
+  std::vector<Vec2> reflections_mm;
+  bool blocked = false;  // drawn although it meets a rim, because no ray gets through
+};
+
+struct Element {  // glass between two surfaces, 0-based
+  std::size_t front = 0, rear = 0;
+};
+
+struct Section {
+  LensState lens;
+  std::vector<Element> elements;
+  std::vector<SectionRay> rays;
+  std::optional<Ghost> ghost;
+  double ghost_light_deg = 0;  // up
+  double left_mm = 0, right_mm = 0, half_height_mm = 0;
+};
+
+struct SectionRequest {
+  double lambda_nm = kLineD_nm;
+  std::optional<Ghost> ghost;
+  std::optional<double> ghost_light_rad;  // default: a third of the field
+};
+
+[[nodiscard]] Section make_section(const LensState& lens, const SectionRequest& request);
+
+// Clear height of a surface, and its sag there; a sphere's height ends at its radius.
+[[nodiscard]] double drawn_height_mm(const SurfaceState& surface);
+[[nodiscard]] double sag_mm(const SurfaceState& surface, double height_mm);
+
+}  // namespace contrejour::cli

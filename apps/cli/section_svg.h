@@ -1,0 +1,12 @@
+// A section as a drawing.
+#pragma once
+
+#include <string>
+
+#include "cli/section.h"
+
+namespace contrejour::cli {
+
+[[nodiscard]] std::string draw_section(const Section& section);
+
+}  // namespace contrejour::cli

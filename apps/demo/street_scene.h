@@ -1,0 +1,38 @@
+// What stands in the street, and what a ray sees of it. Lengths in metres, y up, z down the street.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "contrejour/colour.h"
+#include "contrejour/vec.h"
+
+namespace contrejour::demo {
+
+struct Lamp {  // a glowing sphere
+  Vec3 place;
+  double radius = 0.1;
+  Rgb radiance{};
+};
+
+class StreetScene {
+ public:
+  StreetScene();
+
+  // Radiance along a ray; direction is unit.
+  [[nodiscard]] Rgb radiance(Vec3 origin, Vec3 direction) const { return radiance(origin, direction, true); }
+
+ private:
+  [[nodiscard]] Rgb radiance(Vec3 origin, Vec3 direction, bool may_reflect) const;
+  [[nodiscard]] Rgb lamp_light(Vec3 place, Vec3 normal) const;  // irradiance / pi
+  [[nodiscard]] Rgb wall(Vec3 place, double side) const;
+  [[nodiscard]] Rgb road(Vec3 place, Vec3 direction, bool may_reflect) const;
+  [[nodiscard]] Rgb sky(Vec3 direction) const;
+
+  std::vector<Lamp> lamps_;
+};
+
+// A number in 0..1 that looks random, the same for the same three.
+[[nodiscard]] double hash01(std::int64_t a, std::int64_t b, std::int64_t c);
+
+}  // namespace contrejour::demo

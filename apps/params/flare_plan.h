@@ -1,0 +1,29 @@
+// From a photograph's bright areas to lights in front of the lens, and from the flare back onto the photograph.
+// Thread-safety: pure functions.
+#pragma once
+
+#include <vector>
+
+#include "contrejour/frame.h"
+#include "contrejour/image_io.h"
+#include "contrejour/light.h"
+#include "contrejour/light_detection.h"
+#include "params/values.h"
+
+namespace contrejour::params {
+
+struct FlarePlan {
+  ColourSpace space = ColourSpace::Rec709;
+  bool space_is_guessed = false;  // the file names primaries that are neither Rec.709's nor ACEScg's
+  Frame frame;                    // the data window within the display window
+  Detection found;
+  std::vector<Light> lights;      // one for each found, in the same order
+};
+
+// Errors: Unsupported for display windows with no pixels or beyond 2^28 of them; those of detect_lights.
+[[nodiscard]] Result<FlarePlan> plan_flare(const Picture& picture, const LensState& lens, const Values& values);
+
+// Adds the flare. Samples that are not finite stay what they are, and so do those it adds nothing to.
+void add_flare(Image& rgb, const Image& flare);
+
+}  // namespace contrejour::params

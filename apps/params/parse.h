@@ -1,0 +1,62 @@
+// What a user writes -> values: numbers, sizes, lights, colours, coatings, choices of ghosts.
+// Errors: InvalidArgument with what was expected; NaN and infinity are refused unless said otherwise.
+// Thread-safety: pure functions.
+#pragma once
+
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "contrejour/coating.h"
+#include "contrejour/colour.h"
+#include "contrejour/ghost.h"
+#include "contrejour/result.h"
+#include "contrejour/vec.h"
+
+namespace contrejour::params {
+
+[[nodiscard]] Result<double> parse_real(std::string_view text);
+[[nodiscard]] Result<int> parse_integer(std::string_view text);
+[[nodiscard]] Result<std::vector<double>> parse_reals(std::string_view text, std::size_t count);  // "1,2,3"
+[[nodiscard]] std::vector<std::string_view> split(std::string_view text, char separator);
+
+struct PixelSize {
+  int width = 0, height = 0;
+};
+inline constexpr double kMaxPixels = 268435456.0;  // 2^28, as the renderers and readers have it
+[[nodiscard]] Result<PixelSize> parse_size(std::string_view text);  // "1920x1080"
+
+// "2000", "2000mm", "200cm", "2m" or "inf".
+[[nodiscard]] Result<double> parse_distance_mm(std::string_view text);
+
+// What a light's direct image sums to: one number (its luminance, coloured by the light's colour) or three (as
+// they are, per channel).
+struct LightValue {
+  Rgb rgb{1, 1, 1};
+  bool per_channel = false;
+};
+[[nodiscard]] Result<LightValue> parse_light_value(std::string_view text);
+
+// "D65", "A", "E", "3200K", or R,G,B.
+struct LightColour {
+  Spectrum spectrum = IlluminantD65{};
+  std::optional<Rgb> rgb;  // as given; else the spectrum's own
+};
+[[nodiscard]] Result<LightColour> parse_light_colour(std::string_view text);
+
+// "A,B", "A,B:VALUE" or "A,B:VALUE:COLOUR"; VALUE may be left empty.
+struct LightText {
+  Vec2 place;  // azimuth and elevation in degrees, or u and v
+  std::optional<LightValue> value;
+  std::optional<LightColour> colour;
+};
+[[nodiscard]] Result<LightText> parse_light(std::string_view text);
+
+// "all", "brightest:N", "flux:P", "surface:K", "list:1-2,3-4".
+[[nodiscard]] Result<GhostSelection> parse_selection(std::string_view text);
+[[nodiscard]] Result<Ghost> parse_ghost(std::string_view text);  // "2,5" or "2-5"
+
+// "none", "quarter-wave[:NM[:N]]", "hullin[:NM[:N]]", "stack:N@NM,N@NM,..." from air to glass.
+[[nodiscard]] Result<Coating> parse_coating(std::string_view text);
+
+}  // namespace contrejour::params

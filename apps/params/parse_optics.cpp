@@ -1,0 +1,166 @@
+// The texts that stand for optical things: lights, ghosts, coatings.
+#include <algorithm>
+#include <string>
+
+#include <fmt/format.h>
+
+#include "params/parse.h"
+
+namespace contrejour::params {
+namespace {
+
+tl::unexpected<Error> invalid(std::string message) {
+  return failure(ErrorCode::InvalidArgument, std::move(message));
+}
+
+std::optional<std::string_view> after(std::string_view text, std::string_view prefix) {
+  if (!text.starts_with(prefix)) return std::nullopt;
+  return text.substr(prefix.size());
+}
+
+Result<Rgb> parse_rgb(std::string_view text) {
+  const auto numbers = parse_reals(text, 3);
+  if (!numbers) return tl::unexpected(numbers.error());
+  if (*std::min_element(numbers->begin(), numbers->end()) < 0.0) {
+    return invalid(fmt::format("\"{}\" is negative somewhere; a light has no negative channel", text));
+  }
+  return Rgb{(*numbers)[0], (*numbers)[1], (*numbers)[2]};
+}
+
+// "", ":550" or ":550:1.38"
+template <class Film>
+Result<Film> parse_film(std::string_view text) {
+  Film film;
+  if (text.empty()) return film;
+  const auto parts = split(text.substr(1), ':');
+  const auto lambda = parse_real(parts[0]);
+  const auto n = parts.size() > 1 ? parse_real(parts[1]) : Result<double>(film.n);
+  if (text[0] != ':' || parts.size() > 2 || !lambda || !n) {
+    return invalid(fmt::format("\"{}\" is not \":wavelength\" or \":wavelength:index\", as in quarter-wave:550:1.38", text));
+  }
+  if (!(*lambda >= 100.0 && *lambda <= 10000.0)) return invalid("a film's wavelength must be from 100 to 10000 nm");
+  if (!(*n >= 1.0 && *n <= 10.0)) return invalid("a film's index must be from 1 to 10");
+  film.lambda0_nm = *lambda;
+  film.n = *n;
+  return film;
+}
+
+Result<FilmStack> parse_stack(std::string_view text) {
+  FilmStack stack;
+  for (const std::string_view layer : split(text, ',')) {
+    const auto parts = split(layer, '@');
+    const auto n = parse_real(parts[0]);
+    const auto thickness = parts.size() == 2 ? parse_real(parts[1]) : Result<double>(-1.0);
+    if (!n || !thickness || !(*n >= 1.0 && *n <= 10.0) || !(*thickness >= 0.0 && *thickness <= 1e6)) {
+      return invalid(fmt::format("\"{}\" is not a film; write index@nanometres, as in stack:1.38@99.6,2.1@131", layer));
+    }
+    stack.layers.push_back({{*n, 0.0}, *thickness});
+  }
+  if (stack.layers.size() > 1000) return invalid("a stack may have 1000 films");
+  return stack;
+}
+
+}  // namespace
+
+Result<LightValue> parse_light_value(std::string_view text) {
+  if (text.find(',') != std::string_view::npos) {
+    const auto rgb = parse_rgb(text);
+    if (!rgb) return tl::unexpected(rgb.error());
+    return LightValue{*rgb, true};
+  }
+  const auto value = parse_real(text);
+  if (!value) return tl::unexpected(value.error());
+  if (*value < 0.0) return invalid(fmt::format("{} is negative; a light's value is at least 0", text));
+  return LightValue{{*value, *value, *value}, false};
+}
+
+Result<LightColour> parse_light_colour(std::string_view text) {
+  if (text.find(',') != std::string_view::npos) {
+    const auto rgb = parse_rgb(text);
+    if (!rgb) return tl::unexpected(rgb.error());
+    return LightColour{IlluminantD65{}, *rgb};
+  }
+  auto spectrum = parse_spectrum(std::string(text));
+  if (!spectrum) return tl::unexpected(spectrum.error());
+  return LightColour{*spectrum, std::nullopt};
+}
+
+Result<LightText> parse_light(std::string_view text) {
+  const auto parts = split(text, ':');
+  if (parts.size() > 3) return invalid(fmt::format("\"{}\" has too many parts; write A,B:VALUE:COLOUR", text));
+  const auto place = parse_reals(parts[0], 2);
+  if (!place) return tl::unexpected(place.error());
+  LightText light;
+  light.place = {(*place)[0], (*place)[1]};
+  if (parts.size() > 1 && !parts[1].empty()) {
+    const auto value = parse_light_value(parts[1]);
+    if (!value) return tl::unexpected(value.error());
+    light.value = *value;
+  }
+  if (parts.size() > 2) {
+    const auto colour = parse_light_colour(parts[2]);
+    if (!colour) return tl::unexpected(colour.error());
+    light.colour = *colour;
+  }
+  return light;
+}
+
+Result<Ghost> parse_ghost(std::string_view text) {
+  auto parts = split(text, text.find(',') != std::string_view::npos ? ',' : '-');
+  if (parts.size() == 2) {
+    const auto i = parse_integer(parts[0]);
+    const auto j = parse_integer(parts[1]);
+    if (i && j && *i >= 1 && *i < *j) return Ghost{*i, *j};
+  }
+  return invalid(fmt::format("\"{}\" is not a ghost; write its two surfaces, the smaller first, as in 2-5", text));
+}
+
+Result<GhostSelection> parse_selection(std::string_view text) {
+  if (text == "all") return SelectAll{};
+  if (const auto rest = after(text, "brightest:")) {
+    const auto count = parse_integer(*rest);
+    if (count && *count >= 0) return SelectBrightest{*count};
+  } else if (const auto percent = after(text, "flux:")) {
+    const auto share = parse_real(*percent);
+    if (share && *share >= 0.0 && *share <= 100.0) return SelectByFlux{*share};
+  } else if (const auto number = after(text, "surface:")) {
+    const auto surface = parse_integer(*number);
+    if (surface && *surface >= 1) return SelectSurface{*surface};
+  } else if (const auto list = after(text, "list:")) {
+    SelectList select;
+    for (const std::string_view part : split(*list, ',')) {
+      const auto ghost = parse_ghost(part);
+      if (!ghost) return tl::unexpected(ghost.error());
+      select.ghosts.push_back(*ghost);
+    }
+    return select;
+  }
+  return invalid(fmt::format("\"{}\" is no choice of ghosts; write all, brightest:N, flux:PERCENT, surface:K or "
+                             "list:1-2,3-4", text));
+}
+
+Result<Coating> parse_coating(std::string_view text) {
+  Coating coating;
+  coating.name = std::string(text);
+  if (text == "none") {
+    coating.films = Bare{};
+  } else if (const auto quarter = after(text, "quarter-wave")) {
+    const auto film = parse_film<QuarterWave>(*quarter);
+    if (!film) return tl::unexpected(film.error());
+    coating.films = *film;
+  } else if (const auto hullin = after(text, "hullin")) {
+    const auto film = parse_film<HullinFresnelAR>(*hullin);
+    if (!film) return tl::unexpected(film.error());
+    coating.films = *film;
+  } else if (const auto layers = after(text, "stack:")) {
+    const auto stack = parse_stack(*layers);
+    if (!stack) return tl::unexpected(stack.error());
+    coating.films = *stack;
+  } else {
+    return invalid(fmt::format("\"{}\" is no coating; write none, quarter-wave:550:1.38, hullin:550:1.38 or "
+                               "stack:1.38@99.6,2.1@131", text));
+  }
+  return coating;
+}
+
+}  // namespace contrejour::params

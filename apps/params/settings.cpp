@@ -1,0 +1,117 @@
+#include "params/settings.h"
+
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "contrejour/trace.h"
+
+namespace contrejour::params {
+namespace {
+
+constexpr double kMaxLightAngle_deg = 89.9;  // beyond, no light meets the front of a lens
+constexpr Vec2 kUsualPlace{0.70, 0.33};      // bodonyi2023's light
+
+Result<Vec3> direction_of_angles(Vec2 angles_deg) {
+  if (std::abs(angles_deg.x) > kMaxLightAngle_deg || std::abs(angles_deg.y) > kMaxLightAngle_deg) {
+    return failure(ErrorCode::InvalidArgument,
+                   fmt::format("a light at {},{} degrees is beside or behind the camera; stay within {}", angles_deg.x,
+                               angles_deg.y, kMaxLightAngle_deg));
+  }
+  return direction_from_angles(angles_deg.x * kDegree_rad, angles_deg.y * kDegree_rad);
+}
+
+Result<Light> finish_light(Vec3 direction, const LightValue& value, const LightColour& colour, ColourSpace space) {
+  Light light;
+  light.direction = direction;
+  light.spectrum = colour.spectrum;
+  light.value = value.rgb;
+  if (value.per_channel) {
+    if (!colour.rgb) return light;
+    return failure(ErrorCode::InvalidArgument, "a light's value and colour are both R,G,B; give one as a single number or name");
+  }
+  const Rgb tint = colour.rgb ? *colour.rgb : rgb_of(colour.spectrum, space);
+  for (std::size_t c = 0; c < tint.size(); ++c) light.value[c] *= tint[c];
+  return light;
+}
+
+}  // namespace
+
+LensSettings lens_settings(const Values& values) {
+  LensSettings settings;
+  settings.focal_length_mm = values.real("focal");
+  settings.f_number = values.real("fnumber");
+  settings.object_distance_mm = *parse_distance_mm(*values.text("focus"));
+  if (const auto coating = values.text("coating")) settings.coating = *parse_coating(*coating);
+  settings.iris.blades = values.integer("blades");
+  settings.iris.rotation_rad = values.number("blade-rotation") * kDegree_rad;
+  return settings;
+}
+
+Frame whole_frame(const Values& values, const LensState& lens, PixelSize size) {
+  Frame frame = frame_on_sensor(lens, size.width, size.height);
+  if (const auto hfov_deg = values.real("hfov")) {
+    frame.pixel_pitch_mm = 2.0 * lens.focal_length_mm * std::tan(0.5 * *hfov_deg * kDegree_rad) / size.width;
+  }
+  return frame;
+}
+
+ColourSpace colour_space(const Values& values, ColourSpace otherwise) {
+  const auto name = values.text("colour-space");
+  if (!name) return otherwise;
+  return *name == "acescg" ? ColourSpace::AcesCg : ColourSpace::Rec709;
+}
+
+RenderSettings render_settings(const Values& values, const Frame& frame, ColourSpace space) {
+  RenderSettings settings;
+  settings.frame = frame;
+  settings.scope = *values.text("ghosts") == "all" ? GhostScope::All : GhostScope::OneSideOfStop;
+  settings.selection = *parse_selection(*values.text("select"));
+  settings.wavelengths = values.integer("wavelengths");
+  settings.colour_space = space;
+  settings.grid = values.integer("grid");
+  settings.scale_grid = values.is_on("scale-grid");
+  settings.reference_density = values.number("density");
+  return settings;
+}
+
+Result<std::vector<Light>> lights(const Values& values, const LensState& lens, const Frame& frame,
+                                  ColourSpace space) {
+  const LightValue value = *parse_light_value(*values.text("value"));
+  const LightColour colour = *parse_light_colour(*values.text("colour"));
+  std::vector<Light> all;
+  const auto add = [&](Vec3 direction, const LightText& text) -> Result<void> {
+    auto light = finish_light(direction, text.value.value_or(value), text.colour.value_or(colour), space);
+    if (!light) return tl::unexpected(light.error());
+    all.push_back(*light);
+    return {};
+  };
+  for (const std::string& given : values.list("light")) {
+    const LightText text = *parse_light(given);
+    const auto direction = direction_of_angles(text.place);
+    if (!direction) return tl::unexpected(direction.error());
+    if (const auto added = add(*direction, text); !added) return tl::unexpected(added.error());
+  }
+  const auto add_at = [&](const LightText& text) {
+    const Vec2 sensor_mm = frame.sensor_from_uv(text.place);
+    return add(direction_to_land_at(lens, sensor_mm, lens.design_wavelength_nm), text);
+  };
+  for (const std::string& given : values.list("light-at")) {
+    if (const auto added = add_at(*parse_light(given)); !added) return tl::unexpected(added.error());
+  }
+  if (all.empty()) {
+    if (const auto added = add_at({kUsualPlace, {}, {}}); !added) return tl::unexpected(added.error());
+  }
+  return all;
+}
+
+DetectionSettings detection_settings(const Values& values) {
+  DetectionSettings settings;
+  settings.threshold = values.real("threshold");
+  settings.softness = values.number("softness");
+  settings.max_lights = values.integer("max-lights");
+  settings.min_pixels = values.integer("min-pixels");
+  return settings;
+}
+
+}  // namespace contrejour::params

@@ -1,0 +1,33 @@
+// A user's values -> what the library takes: lens settings, frame, lights, render and detection settings.
+// Errors: InvalidArgument. Thread-safety: pure functions.
+#pragma once
+
+#include <vector>
+
+#include "contrejour/lens.h"
+#include "contrejour/light.h"
+#include "contrejour/light_detection.h"
+#include "contrejour/render.h"
+#include "params/parse.h"
+#include "params/values.h"
+
+namespace contrejour::params {
+
+inline constexpr double kDegree_rad = 0.017453292519943295;
+
+[[nodiscard]] LensSettings lens_settings(const Values& values);
+
+// A whole frame of these pixels: on the lens's sensor, or as wide as --hfov says.
+[[nodiscard]] Frame whole_frame(const Values& values, const LensState& lens, PixelSize size);
+
+[[nodiscard]] ColourSpace colour_space(const Values& values, ColourSpace otherwise);
+[[nodiscard]] RenderSettings render_settings(const Values& values, const Frame& frame, ColourSpace space);
+
+// The lights given, each with its own value and colour or the common ones; none given: one at u, v = 0.70, 0.33.
+// Errors: a light beside or behind the camera; R,G,B given for both value and colour.
+[[nodiscard]] Result<std::vector<Light>> lights(const Values& values, const LensState& lens, const Frame& frame,
+                                                ColourSpace space);
+
+[[nodiscard]] DetectionSettings detection_settings(const Values& values);
+
+}  // namespace contrejour::params

@@ -1,0 +1,124 @@
+#include <algorithm>
+#include <array>
+#include <string>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "contrejour/render.h"
+#include "params/parameter.h"
+#include "params/parse.h"
+
+namespace contrejour::params {
+namespace {
+
+// A parser as a check: its value is thrown away.
+template <auto parse>
+Result<void> parses(std::string_view text) {
+  const auto value = parse(text);
+  if (!value) return tl::unexpected(value.error());
+  return {};
+}
+
+Result<void> check_method(std::string_view text) {
+  const auto methods = render_methods();
+  if (std::find(methods.begin(), methods.end(), text) != methods.end()) return {};
+  return failure(ErrorCode::InvalidArgument,
+                 fmt::format("\"{}\" is no method; there are {}", text, fmt::join(methods, ", ")));
+}
+
+Result<void> check_spectrum(std::string_view text) {
+  const auto spectrum = parse_spectrum(std::string(text));
+  if (!spectrum) return tl::unexpected(spectrum.error());
+  return {};
+}
+
+Result<void> check_exposure(std::string_view text) {
+  if (text == "auto") return {};
+  const auto stops = parse_real(text);
+  if (stops && *stops >= -100.0 && *stops <= 100.0) return {};
+  return failure(ErrorCode::InvalidArgument, fmt::format("\"{}\" is neither auto nor stops from -100 to 100", text));
+}
+
+constexpr double kBig = 1e12;
+
+const Parameter kTable[] = {
+    {.name = "focal", .group = "Lens", .kind = Kind::Real, .unit = "mm", .minimum = 0.01, .maximum = 1e5,
+     .help = "focal length of a zoom (default: its shortest)"},
+    {.name = "fnumber", .letter = 'f', .group = "Lens", .kind = Kind::Real, .minimum = 0.1, .maximum = 1000,
+     .help = "f-number (default: the lens's widest)"},
+    {.name = "focus", .group = "Lens", .unit = "DISTANCE", .fallback = "inf",
+     .help = "distance of the object in focus from the first surface: 2000 (mm), 2m, inf",
+     .check = parses<parse_distance_mm>},
+    {.name = "blades", .group = "Lens", .kind = Kind::Integer, .minimum = 0, .maximum = 100, .fallback = "0",
+     .help = "blades of the iris, 3 or more; 0: a circle"},
+    {.name = "blade-rotation", .group = "Lens", .kind = Kind::Real, .unit = "deg", .minimum = -3600, .maximum = 3600,
+     .fallback = "0", .help = "the iris's first corner, counter-clockwise from the right"},
+    {.name = "coating", .group = "Lens", .unit = "COATING",
+     .help = "films on every surface to the air instead of the lens's own: none, quarter-wave:550:1.38, "
+             "hullin:550:1.38, stack:INDEX@NM,...",
+     .check = parses<parse_coating>},
+
+    {.name = "light", .group = "Lights", .unit = "AZ,EL[:VALUE[:COLOUR]]",
+     .help = "a light so many degrees to the right and up; may be repeated", .repeats = true,
+     .check = parses<parse_light>},
+    {.name = "light-at", .group = "Lights", .unit = "U,V[:VALUE[:COLOUR]]",
+     .help = "a light whose image lands there: 0,0 top left, 1,1 bottom right, outside too; may be repeated",
+     .repeats = true, .check = parses<parse_light>},
+    {.name = "value", .group = "Lights", .unit = "V|R,G,B", .fallback = "1",
+     .help = "what a light's own image sums to over its pixels", .check = parses<parse_light_value>},
+    {.name = "colour", .group = "Lights", .unit = "COLOUR", .fallback = "D65",
+     .help = "D65, A, E, a temperature such as 3200K, or R,G,B", .check = parses<parse_light_colour>},
+
+    {.name = "size", .group = "Frame", .unit = "WxH", .fallback = "1920x1080", .help = "size of the picture in pixels",
+     .check = parses<parse_size>},
+    {.name = "hfov", .group = "Frame", .kind = Kind::Real, .unit = "deg", .minimum = 0.01, .maximum = 175,
+     .help = "horizontal field of view of the whole frame (default: the frame on the lens's sensor)"},
+
+    {.name = "method", .group = "Rendering", .unit = "METHOD", .fallback = "bundle",
+     .help = "reference (exact and slow) or bundle (hullin2011)", .check = check_method},
+    {.name = "device", .group = "Rendering", .kind = Kind::Choice, .unit = "DEVICE", .fallback = "cpu",
+     .help = "what computes: cpu", .choices = {"cpu"}},
+    {.name = "wavelengths", .group = "Rendering", .kind = Kind::Integer, .minimum = 1, .maximum = 1024,
+     .fallback = "3", .help = "bands of the visible spectrum"},
+    {.name = "colour-space", .group = "Rendering", .kind = Kind::Choice, .unit = "SPACE",
+     .help = "linear working space: rec709 or acescg (default: the picture's, else rec709)",
+     .choices = {"rec709", "acescg"}},
+    {.name = "ghosts", .group = "Rendering", .kind = Kind::Choice, .unit = "SCOPE", .fallback = "one-side",
+     .help = "one-side: both reflections on one side of the stop; all: every pair", .choices = {"one-side", "all"}},
+    {.name = "select", .group = "Rendering", .unit = "CHOICE", .fallback = "all",
+     .help = "all, brightest:N, flux:PERCENT (leave out the weakest that carry so much), surface:K, list:1-2,3-4",
+     .check = parses<parse_selection>},
+    {.name = "grid", .group = "Rendering", .kind = Kind::Integer, .minimum = 16, .maximum = 512, .fallback = "256",
+     .help = "bundle: rays along each side of a ghost's grid"},
+    {.name = "scale-grid", .group = "Rendering", .kind = Kind::Switch,
+     .help = "bundle: fewer rays for small ghosts (bodonyi2023 eq. 13)"},
+    {.name = "density", .group = "Rendering", .kind = Kind::Real, .minimum = 0.05, .maximum = 16, .fallback = "1",
+     .help = "reference: 2 halves the cells"},
+    {.name = "threads", .group = "Rendering", .kind = Kind::Integer, .minimum = 0, .maximum = 1024, .fallback = "0",
+     .help = "threads; 0: all cores. The picture does not depend on it"},
+
+    {.name = "threshold", .group = "Finding lights", .kind = Kind::Real, .minimum = 0, .maximum = kBig,
+     .help = "level above which a pixel belongs to a light (default: from the picture)"},
+    {.name = "softness", .group = "Finding lights", .kind = Kind::Real, .minimum = 0, .maximum = 1000,
+     .fallback = "0.25", .help = "a pixel counts in full at threshold x (1 + softness)"},
+    {.name = "max-lights", .group = "Finding lights", .kind = Kind::Integer, .minimum = 1, .maximum = 100000,
+     .fallback = "32", .help = "more are merged into the nearest of these, without losing flux"},
+    {.name = "min-pixels", .group = "Finding lights", .kind = Kind::Integer, .minimum = 1, .maximum = 1000000000,
+     .fallback = "1", .help = "smaller areas, such as hot pixels, are no lights"},
+    {.name = "spectrum", .group = "Finding lights", .unit = "SPECTRUM", .fallback = "D65",
+     .help = "spectrum within each channel of the picture's lights: D65, A, E, 3200K", .check = check_spectrum},
+    {.name = "gain", .group = "Finding lights", .kind = Kind::Real, .minimum = 0, .maximum = kBig, .fallback = "1",
+     .help = "flare times so much; 1 is physically right"},
+
+    {.name = "exposure", .group = "Output", .unit = "STOPS|auto",
+     .help = "brightness of PNG pictures to look at; auto: by the brightest parts", .check = check_exposure},
+    {.name = "wavelength", .group = "Lens", .kind = Kind::Real, .unit = "nm", .minimum = 300, .maximum = 1100,
+     .help = "wavelength (default: the lens's design wavelength)"},
+};
+
+}  // namespace
+
+std::span<const Parameter> all_parameters() { return kTable; }
+
+}  // namespace contrejour::params
