@@ -83,10 +83,16 @@ bool is_preview(ByteReader in) {
   return in.remaining() == std::size_t{4} * *width * *height;
 }
 
+// Sizes, then the level mode (0 to 2) and the rounding mode (0 or 1) in the halves of a byte.
+bool is_tile_description(std::span<const std::byte> value) {
+  const auto modes = std::to_integer<unsigned>(value[8]);
+  return (modes & 0xf) <= 2 && (modes >> 4) <= 1;
+}
+
 // Whether the library will read exactly these bytes for an attribute of this type; unknown types it copies.
 bool is_value_of(std::string_view type, std::span<const std::byte> value) {
   for (const auto& [fixed_type, size] : kFixedSizes)
-    if (type == fixed_type) return value.size() == size;
+    if (type == fixed_type) return value.size() == size && (type != "tiledesc" || is_tile_description(value));
   if (type == "chlist") return is_channel_list(ByteReader(value));
   if (type == "stringvector") return is_string_list(ByteReader(value));
   if (type == "preview") return is_preview(ByteReader(value));

@@ -44,7 +44,8 @@ Result<CheckedHeader> read_header(std::span<const std::byte> bytes, const std::s
   stream.seekg(kAttributesOffset);
   checked.header.readFrom(stream, version);
   checked.header.sanityCheck(Imf::isTiled(version));
-  if (!Imf::isTiled(version)) checked.header.erase("tiles");  // the version field decides
+  // The version field decides what an attribute alone does not.
+  if (!Imf::isTiled(version)) checked.header = without_attribute(checked.header, "tiles");
   if (checked.header.hasType() && Imf::isDeepData(checked.header.type()))
     return failure(ErrorCode::Unsupported, "deep OpenEXR pictures are not read; flatten it first", {name});
   const Result<void> fits = check_exr_size(checked.header, checked.size, bytes.size(), limits, name);

@@ -44,11 +44,10 @@ bool is_lossy(Imf::Compression compression) {
 }
 
 Imf::Header header_to_write(const Picture& picture) {
-  Imf::Header header = header_of(picture);
+  Imf::Header header = without_attribute(header_of(picture), "chunkCount");  // it counts another file's chunks
   header.dataWindow() = box_of(picture.data_window);
   header.displayWindow() = box_of(picture.display_window);
   if (!picture.header || is_lossy(header.compression())) header.compression() = Imf::ZIP_COMPRESSION;
-  header.erase("chunkCount");  // it counts another file's chunks
   if (header.hasTileDescription()) {
     header.tileDescription().mode = Imf::ONE_LEVEL;  // smaller levels would show the picture as it was
   } else if (header.lineOrder() == Imf::RANDOM_Y) {

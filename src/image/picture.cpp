@@ -79,6 +79,14 @@ std::string lower_extension(const std::filesystem::path& file) {
 
 Imf::Header header_of(const Picture& picture) { return picture.header ? picture.header->header : Imf::Header(); }
 
+Imf::Header without_attribute(const Imf::Header& header, const std::string& name) {
+  if (header.find(name) == header.end()) return header;
+  Imf::Header rest;
+  for (auto i = header.begin(); i != header.end(); ++i)
+    if (name != i.name()) rest.insert(i.name(), i.attribute());
+  return rest;
+}
+
 Result<Picture> read_picture(std::span<const std::byte> bytes, const std::string& name, const ReadOptions& options) {
   if (bytes.empty()) return failure(ErrorCode::Parse, "the file is empty", {name});
   if (starts_with(bytes, {0x76, 0x2f, 0x31, 0x01})) return read_exr(bytes, name, options);
@@ -145,7 +153,7 @@ std::optional<std::string> text_attribute(const Picture& picture, const std::str
 
 void set_text_attribute(Picture& picture, const std::string& name, const std::string& text) {
   change_header(picture, [&](Imf::Header& header) {
-    header.erase(name);
+    header = without_attribute(header, name);
     header.insert(name, Imf::StringAttribute(text));
   });
 }

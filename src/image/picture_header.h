@@ -13,4 +13,7 @@ struct PictureHeader {
 
 [[nodiscard]] Imf::Header header_of(const Picture& picture);  // a copy, or a new one's attributes
 
+// Imf::Header::erase of OpenEXR 3.1 forgets to free the attribute.
+[[nodiscard]] Imf::Header without_attribute(const Imf::Header& header, const std::string& name);
+
 }  // namespace contrejour

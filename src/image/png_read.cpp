@@ -48,19 +48,29 @@ void on_read(png_structp png, png_bytep to, std::size_t size) {
   reader->position += size;
 }
 
-// Any PNG as 1 to 4 channels of 8 or 16 bits.
+// Chunks nobody reads here; compressed ones can grow a thousandfold, each.
+constexpr png_byte kSkippedChunks[] = "tEXt\0zTXt\0iTXt\0iCCP\0sPLT\0eXIf\0hIST\0sCAL\0pCAL";
+
 bool read_header(Reader& r) {
   if (setjmp(png_jmpbuf(r.png)) != 0) return false;
+  png_set_keep_unknown_chunks(r.png, PNG_HANDLE_CHUNK_NEVER, kSkippedChunks, sizeof kSkippedChunks / 5);
   png_set_read_fn(r.png, &r, on_read);
   png_set_user_limits(r.png, kLargestSide, kLargestSide);
   png_set_chunk_malloc_max(r.png, kLargestChunk);
   png_read_info(r.png, r.info);
+  r.width = png_get_image_width(r.png, r.info);
+  r.height = png_get_image_height(r.png, r.info);
+  r.bits = png_get_bit_depth(r.png, r.info);
+  return true;
+}
+
+// Any PNG as 1 to 4 channels of 8 or 16 bits. libpng allocates rows here, so the size must have been checked.
+bool begin_pixels(Reader& r) {
+  if (setjmp(png_jmpbuf(r.png)) != 0) return false;
   png_set_expand(r.png);  // palette to RGB, fewer bits to 8, a transparent colour to alpha
   if constexpr (std::endian::native == std::endian::little) png_set_swap(r.png);
   png_set_interlace_handling(r.png);
   png_read_update_info(r.png, r.info);
-  r.width = png_get_image_width(r.png, r.info);
-  r.height = png_get_image_height(r.png, r.info);
   r.channels = png_get_channels(r.png, r.info);
   r.bits = png_get_bit_depth(r.png, r.info);
   r.row_bytes = png_get_rowbytes(r.png, r.info);
@@ -80,11 +90,12 @@ tl::unexpected<Error> damaged(const Reader& reader, const std::string& name) {
 
 Result<void> check_size(const Reader& r, const std::string& name, const ReadLimits& limits) {
   const std::uint64_t pixels = std::uint64_t{r.width} * r.height;
-  const std::uint64_t bytes = std::uint64_t{r.row_bytes} * r.height;
-  if (pixels > limits.max_pixels || 2 * bytes + 3 * sizeof(float) * pixels > limits.max_bytes)
+  // At most four channels, twice (interleaved and apart), and the linear image.
+  const std::uint64_t bytes_per_pixel = 2 * 4 * (r.bits == 16 ? 2 : 1) + 3 * sizeof(float);
+  if (pixels > limits.max_pixels || pixels * bytes_per_pixel > limits.max_bytes)
     return failure(ErrorCode::Unsupported,
                    fmt::format("the picture claims {} x {} pixels, more than the limit", r.width, r.height), {name});
-  // Before palettes and few bits are expanded, a pixel takes a bit at least.
+  // A pixel takes a bit at least.
   if (pixels / 8 / kLargestDeflate > r.bytes.size())
     return failure(ErrorCode::Parse,
                    fmt::format("the file is cut off: {} bytes cannot hold its {} x {} pixels", r.bytes.size(), r.width,
@@ -126,6 +137,7 @@ Result<Picture> read(std::span<const std::byte> bytes, const std::string& name, 
   if (!read_header(reader)) return damaged(reader, name);
   const Result<void> fits = check_size(reader, name, limits);
   if (!fits) return tl::unexpected(fits.error());
+  if (!begin_pixels(reader)) return damaged(reader, name);
 
   std::vector<std::byte> interleaved(reader.row_bytes * reader.height);
   std::vector<png_bytep> rows(reader.height);
