@@ -135,10 +135,9 @@ const toml::array* TomlFields::array(std::string_view key) {
 }
 
 Result<toml::table> parse_toml(std::string_view text, const std::string& file) {
-  // The byte order mark that some editors put first.
-  if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
-  if (const auto fault = find_toml_fault(text)) {
-    return failure(ErrorCode::Parse, std::string(fault->message), {file, fault->line, 0});
+  if (const int line = line_of_deep_key(text); line > 0) {
+    return failure(ErrorCode::Parse, "a key has too many parts; a lens needs no more than two, as in glass.NAME",
+                   {file, line, 0});
   }
   toml::parse_result parsed = toml::parse(text, std::string_view(file));
   if (!parsed) {
