@@ -115,6 +115,15 @@ TEST_CASE("ghosts smaller than a pixel keep their flux") {
   }
 }
 
+TEST_CASE("ghosts that enter through a thousandth of a fisheye's front are found") {
+  const LensState lens = test::lens("muller-fisheye-10", 11.0);
+  const Frame frame = frame_of(lens, 160, 90);
+  const Vec3 direction = direction_to_land_at(lens, frame.sensor_from_uv({0.25, 0.75}), 550.0);
+  const GhostImage mine = bundle_ghost(lens, {3, 4}, direction, frame, 64);
+  // 2000 x 2000 rays over the whole entrance window, 218 of them open.
+  CHECK(mine.total() == doctest::Approx(1.222e-6).epsilon(0.03));
+}
+
 TEST_CASE("a polygonal iris cuts as in the reference") {
   const LensState lens = test::lens("heliar", 16.0, 0.0, 6);
   const Frame frame = frame_of(lens, 180, 120);
