@@ -1,0 +1,130 @@
+#!/usr/bin/env python3
+"""contrejour apply: a photograph in, the same photograph with flare out."""
+import math
+import struct
+import unittest
+
+import exr
+from program import ProgramTest
+
+WIDTH, HEIGHT = 90, 60
+QUICK = ["--grid", "32", "--threads", "2"]
+
+
+def dark(lights=(), level=0.01, width=WIDTH, height=HEIGHT):
+    values = [level] * (width * height)
+    for x, y, value in lights:
+        values[y * width + x] = value
+    return values
+
+
+class Apply(ProgramTest):
+    def write(self, name, values, kind=exr.FLOAT, **more):
+        exr.write(self.folder / name, {c: (kind, values) for c in "RGB"}, WIDTH, HEIGHT, **more)
+
+    def test_report_and_flare(self):
+        self.write("in.exr", dark([(60, 20, 5000.0), (20, 40, 900.0)]))
+        report = self.json_of("apply", "heliar", "in.exr", "-o", "out.exr", "--flare-only", "flare.exr",
+                              "--preview", "out.png", *QUICK)
+        self.assertEqual([light["centroid_px"] for light in report["lights"]], [[60.5, 20.5], [20.5, 40.5]])
+        self.assertAlmostEqual(report["lights"][0]["flux"][1], 5000, delta=1)
+        before, after = exr.Picture(self.folder / "in.exr"), exr.Picture(self.folder / "out.exr")
+        flare = exr.Picture(self.folder / "flare.exr")
+        self.assertGreater(flare.total(), 0)
+        for a, b, f in zip(before.channels["G"], after.channels["G"], flare.channels["G"]):
+            self.assertEqual(struct.pack("<f", a + f), struct.pack("<f", b))
+        self.assertEqual(self.files(), ["flare.exr", "in.exr", "out.exr", "out.png"])
+
+    def test_up_right_is_up_right(self):
+        self.write("in.exr", dark([(75, 10, 5000.0)]))
+        light = self.json_of("apply", "heliar", "in.exr", "-o", "out.exr", *QUICK)["lights"][0]
+        self.assertGreater(light["azimuth_deg"], 0)
+        self.assertGreater(light["elevation_deg"], 0)
+        # The chief ray of that direction lands on the pixel: camera images are upside down on the sensor.
+        az, el = math.radians(light["azimuth_deg"]), math.radians(light["elevation_deg"])
+        ray = [-math.sin(az) * math.cos(el), -math.sin(el), math.cos(az) * math.cos(el)]
+        info = self.json_of("lens", "info", "heliar")
+        pupil = info["entrance_pupil_position_mm"]
+        start = [-ray[0] / ray[2] * (pupil + 50), -ray[1] / ray[2] * (pupil + 50), -50]
+        text = ",".join(repr(v) for v in start + ray)
+        x_mm, y_mm = self.json_of("lens", "trace", "heliar", "--ray", text)["sensor_mm"]
+        pitch = min(info["sensor_width_mm"] / WIDTH, info["sensor_height_mm"] / HEIGHT)
+        self.assertAlmostEqual(WIDTH / 2 - x_mm / pitch, 75.5, delta=0.5)
+        self.assertAlmostEqual(HEIGHT / 2 + y_mm / pitch, 10.5, delta=0.5)
+
+    def test_flare_matches_render(self):
+        """The same light put there by hand makes the same flare."""
+        self.write("in.exr", dark([(75, 10, 5000.0)], level=0.0))
+        self.run_program("apply", "heliar", "in.exr", "-o", "out.exr", "--flare-only", "flare.exr", "--softness", "0", *QUICK)
+        self.run_program("render", "heliar", "-o", "r.exr", "--size", f"{WIDTH}x{HEIGHT}", "--value", "5000,5000,5000",
+                         "--light-at", f"{75.5 / WIDTH!r},{10.5 / HEIGHT!r}", *QUICK)
+        result = self.json_of("compare", "r.exr", "flare.exr")
+        self.assertTrue(result["psnr_db"] is None or result["psnr_db"] > 100, result)
+
+    def test_gain_and_hfov(self):
+        self.write("in.exr", dark([(60, 20, 5000.0)]))
+        self.run_program("apply", "heliar", "in.exr", "-o", "o.exr", "--flare-only", "a.exr", *QUICK)
+        self.run_program("apply", "heliar", "in.exr", "-o", "o.exr", "--flare-only", "b.exr", "--gain", "2", *QUICK)
+        a, b = exr.Picture(self.folder / "a.exr"), exr.Picture(self.folder / "b.exr")
+        self.assertEqual([2 * v for v in a.channels["R"]], b.channels["R"])
+        light = self.json_of("apply", "heliar", "in.exr", "-o", "o.exr", "--hfov", "10", *QUICK)["lights"][0]
+        right = math.degrees(math.atan(math.tan(math.radians(5)) * (60.5 - WIDTH / 2) / (WIDTH / 2)))
+        self.assertAlmostEqual(light["azimuth_deg"], right, delta=0.01)
+
+    def test_no_lights_is_bit_identical(self):
+        """Half floats, an extra channel, NaN, an odd attribute: nothing changes, not even how it is packed."""
+        values = [0.1 + 0.001 * (k % 7) for k in range(WIDTH * HEIGHT)]
+        values[5] = math.nan
+        channels = {c: (exr.HALF, values) for c in "RGBA"}
+        channels["depth.Z"] = (exr.FLOAT, [1e9] * (WIDTH * HEIGHT))
+        exr.write(self.folder / "in.exr", channels, WIDTH, HEIGHT, origin=(-3, 7), display=(0, 0, 100, 80),
+                  extra=[("note", "string", b"kept")])
+        report = self.json_of("apply", "heliar", "in.exr", "-o", "out.exr", "--flare-only", "f.exr", *QUICK)
+        self.assertEqual(report["lights"], [])
+        self.assertEqual((self.folder / "in.exr").read_bytes(), (self.folder / "out.exr").read_bytes())
+        self.assertEqual(exr.Picture(self.folder / "f.exr").total(), 0)
+
+    def test_everything_else_is_kept(self):
+        values = dark([(60, 20, 5000.0)])
+        values[5] = math.nan
+        channels = {c: (exr.HALF, values) for c in "RGB"}
+        channels["A"] = (exr.HALF, [0.5] * (WIDTH * HEIGHT))
+        channels["depth.Z"] = (exr.FLOAT, [float(k) for k in range(WIDTH * HEIGHT)])
+        exr.write(self.folder / "in.exr", channels, WIDTH, HEIGHT, origin=(-3, 7), display=(0, 0, 100, 80),
+                  extra=[("note", "string", b"kept")])
+        self.run_program("apply", "heliar", "in.exr", "-o", "out.exr", *QUICK)
+        before, after = exr.Picture(self.folder / "in.exr"), exr.Picture(self.folder / "out.exr")
+        self.assertEqual((after.origin, after.display), ((-3, 7), (0, 0, 100, 80)))
+        self.assertEqual(after.attributes["note"], ("string", b"kept"))
+        for name in ("A", "depth.Z"):
+            self.assertEqual(before.channels[name], after.channels[name])
+        self.assertTrue(math.isnan(after.channels["R"][5]))
+        self.assertNotEqual(before.channels["G"][6:], after.channels["G"][6:])
+
+    def test_data_window_sits_in_the_display_window(self):
+        """The same light in a cropped file has the same direction as in the whole one."""
+        self.write("whole.exr", dark([(60, 20, 5000.0)]))
+        whole = self.json_of("apply", "heliar", "whole.exr", "-o", "o.exr", *QUICK)["lights"][0]
+        exr.write(self.folder / "crop.exr", {c: (exr.FLOAT, dark([(20, 10, 5000.0)], width=40, height=30)) for c in "RGB"},
+                  40, 30, origin=(40, 10), display=(0, 0, WIDTH, HEIGHT))
+        crop = self.json_of("apply", "heliar", "crop.exr", "-o", "o.exr", *QUICK)["lights"][0]
+        self.assertAlmostEqual(whole["azimuth_deg"], crop["azimuth_deg"], delta=1e-9)
+        self.assertAlmostEqual(whole["elevation_deg"], crop["elevation_deg"], delta=1e-9)
+
+    def test_output_may_be_the_input(self):
+        self.write("in.exr", dark([(60, 20, 5000.0)]))
+        self.run_program("apply", "heliar", "in.exr", "-o", "other.exr", *QUICK)
+        self.run_program("apply", "heliar", "in.exr", "-o", "in.exr", *QUICK)
+        self.assertIsNone(self.json_of("compare", "in.exr", "other.exr")["psnr_db"])
+
+    def test_many_lights_are_merged_without_losing_flux(self):
+        spots = [(x, y, 1000.0) for x in range(1, 89, 4) for y in range(1, 59, 4)]
+        self.write("in.exr", dark(spots, level=0.0))
+        report = self.json_of("apply", "heliar", "in.exr", "-o", "o.exr", "--max-lights", "5", "--softness", "0",
+                              "--select", "brightest:2", *QUICK)
+        self.assertEqual((len(report["lights"]), report["areas_found"]), (5, len(spots)))
+        self.assertAlmostEqual(sum(light["flux"][0] for light in report["lights"]), 1000.0 * len(spots), delta=1)
+
+
+if __name__ == "__main__":
+    unittest.main()

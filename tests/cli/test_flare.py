@@ -1,0 +1,151 @@
+#!/usr/bin/env python3
+"""contrejour render, compare and bench tables."""
+import json
+import struct
+import unittest
+
+import exr
+from program import QUICK, ProgramTest
+
+
+class Render(ProgramTest):
+    def render(self, name, *arguments, lens="heliar"):
+        self.run_program("render", lens, "-f", "16", "-o", name, *QUICK, *arguments)
+        return exr.Picture(self.folder / name)
+
+    def test_outputs_and_statistics(self):
+        picture = self.render("a.exr", "--preview", "a.png", "--stats", "a.json")
+        self.assertEqual((picture.width, picture.height), (96, 64))
+        self.assertEqual(set(picture.channels), {"R", "G", "B"})
+        self.assertGreater(picture.total(), 0)
+        header = (self.folder / "a.png").read_bytes()[:24]
+        self.assertEqual(header[:8], b"\x89PNG\r\n\x1a\n")
+        self.assertEqual(struct.unpack(">2I", header[16:]), (96, 64))
+        stats = json.loads((self.folder / "a.json").read_text())
+        self.assertLessEqual({"method", "device", "time_ms", "rays", "surface_hits", "primitives", "ghosts_rendered",
+                              "ghosts_skipped_flux", "peak_memory_bytes"}, set(stats))
+        self.assertIn("total", stats["time_ms"])
+        self.assertEqual((stats["method"], stats["ghosts_rendered"]), ("bundle", 13))
+        self.assertEqual(self.files(), ["a.exr", "a.json", "a.png"])
+
+    def test_doubling_the_light_doubles_the_flare(self):
+        one, two = self.render("1.exr", "--value", "3"), self.render("2.exr", "--value", "6")
+        for name in "RGB":
+            self.assertEqual([2 * v for v in one.channels[name]], two.channels[name])
+
+    def test_a_light_mirrored_mirrors_the_flare(self):
+        """A light on the other side of both axes: the picture turned by half a turn."""
+        a, b = self.render("a.exr", "--light", "6,4"), self.render("b.exr", "--light", "-6,-4")
+        peak = max(a.channels["G"])
+        for k, value in enumerate(a.channels["G"]):
+            self.assertAlmostEqual(value, b.channels["G"][-1 - k], delta=0.02 * peak)
+
+    def test_a_quarter_turn_of_the_light_turns_the_flare(self):
+        def square(name, u, v):
+            self.run_program("render", "heliar", "-f", "16", "-o", name, "--size", "72x72", "--grid", "64",
+                             "--light-at", f"{u},{v}")
+            return exr.Picture(self.folder / name)
+
+        a, b = square("a.exr", 0.75, 0.5), square("b.exr", 0.5, 0.25)  # right, then up
+        (ax, ay), (bx, by) = a.centroid(), b.centroid()
+        self.assertGreater(abs(ax - 36), 2)  # it is off the middle, or nothing is tested
+        self.assertAlmostEqual(bx, ay, delta=0.05)
+        self.assertAlmostEqual(by, 72 - ax, delta=0.05)
+        self.assertAlmostEqual(a.total(), b.total(), delta=2e-3 * a.total())
+
+    def test_a_light_lands_where_it_is_put(self):
+        """--light-at and --light agree: the direction found for a place makes the same flare."""
+        report = self.json_of("ghosts", "heliar", "-f", "16", "--light-at", "0.7,0.3", "--size", "96x64")["light"]
+        self.assertGreater(report["azimuth_deg"], 0)
+        self.assertGreater(report["elevation_deg"], 0)
+        a = self.render("a.exr", "--light-at", "0.7,0.3")
+        b = self.render("b.exr", "--light", f"{report['azimuth_deg']!r},{report['elevation_deg']!r}")
+        peak = max(a.channels["G"])
+        for p, q in zip(a.channels["G"], b.channels["G"]):
+            self.assertAlmostEqual(p, q, delta=1e-3 * peak)
+
+    def test_lights_add_and_carry_their_own_values(self):
+        both = self.render("c.exr", "--light", "5,2:3", "4,-3:5:A")
+        a, b = self.render("a.exr", "--light", "5,2:3"), self.render("b.exr", "--light=4,-3:5", "--colour", "A")
+        for name in "RGB":
+            peak = max(both.channels[name])
+            for p, q, r in zip(a.channels[name], b.channels[name], both.channels[name]):
+                self.assertAlmostEqual(p + q, r, delta=1e-5 * peak)
+
+    def test_colour(self):
+        warm = self.render("w.exr", "--colour", "2800K", "--coating", "none")
+        white = self.render("d.exr", "--coating", "none")
+        self.assertGreater(warm.total("R") / warm.total("B"), 2 * white.total("R") / white.total("B"))
+        green = self.render("g.exr", "--value", "0,1,0")
+        self.assertEqual((green.total("R"), green.total("B")), (0, 0))
+
+    def test_selection(self):
+        whole, one = self.render("a.exr"), self.render("b.exr", "--select", "list:3-4")
+        self.assertLess(one.total(), whole.total())
+        self.render("c.exr", "--select", "brightest:2", "--stats", "c.json")
+        self.assertEqual(json.loads((self.folder / "c.json").read_text())["ghosts_rendered"], 2)
+        self.error_of("render", "heliar", "-o", "d.exr", *QUICK, "--select", "list:1-99", code=1)
+
+    def test_same_file_for_any_number_of_threads(self):
+        self.render("a.exr", "--threads", "1")
+        self.render("b.exr", "--threads", "3")
+        self.assertEqual((self.folder / "a.exr").read_bytes(), (self.folder / "b.exr").read_bytes())
+
+    def test_many_lights(self):
+        lights = [f"{0.2 + 0.015 * k:.6f},0.4:0.001" for k in range(40)]
+        self.run_program("render", "heliar", "-f", "16", "-o", "a.exr", "--size", "8x8", "--grid", "16",
+                         "--wavelengths", "1", "--light-at", *lights)
+        self.assertGreater(exr.Picture(self.folder / "a.exr").total(), 0)
+
+    def test_ten_thousand_lights_are_read(self):
+        """Far enough to see that the chosen ghost does not exist; all of them would take minutes."""
+        lights = [f"{0.2 + 0.00006 * k:.6f},0.4:0.001" for k in range(10000)]
+        text = self.error_of("render", "heliar", "-o", "a.exr", "--size", "8x8", "--select", "list:8-99", "--light-at",
+                             *lights, code=1)
+        self.assertIn("8-99", text)
+
+
+class Compare(ProgramTest):
+    def picture(self, name, values):
+        exr.write(self.folder / name, {c: (exr.FLOAT, values) for c in "RGB"}, 8, 4)
+
+    def test_equal(self):
+        self.picture("a.exr", list(range(32)))
+        result = self.json_of("compare", "a.exr", "a.exr")
+        self.assertLessEqual({"psnr_db", "peak", "max_abs_error", "flux_ratio"}, set(result))
+        self.assertIsNone(result["psnr_db"])
+        self.assertEqual((result["max_abs_error"], result["flux_ratio"]), (0, [1, 1, 1]))
+
+    def test_known_error(self):
+        self.picture("a.exr", [10.0] * 32)
+        self.picture("b.exr", [9.0] * 32)
+        result = self.json_of("compare", "a.exr", "b.exr")
+        self.assertAlmostEqual(result["psnr_db"], 20, delta=1e-9)  # 10 log10(10^2 / 1^2)
+        self.assertEqual((result["peak"], result["max_abs_error"]), (10, 1))
+        self.assertAlmostEqual(result["flux_ratio"][1], 0.9, delta=1e-7)
+        self.assertIn("20.000 dB", self.run_program("compare", "a.exr", "b.exr").stdout.decode())
+
+    def test_sizes_differ(self):
+        self.picture("a.exr", [1.0] * 32)
+        exr.write(self.folder / "b.exr", {c: (exr.FLOAT, [1.0]) for c in "RGB"}, 1, 1)
+        self.error_of("compare", "a.exr", "b.exr", code=1)
+
+
+class Bench(ProgramTest):
+    def test_tables(self):
+        done = self.run_program("bench", "tables", "--systems", "heliar", "--size", "48x27", "--grid", "16",
+                                "--reference", "--density", "0.1", "--json", "t.json", "--cache", "cache")
+        self.assertIn("Heliar", done.stdout.decode())
+        tables = json.loads((self.folder / "t.json").read_text())
+        self.assertLessEqual({"machine", "rows"}, set(tables))
+        self.assertEqual([row["lights"] for row in tables["rows"]], [1, 2])
+        for row in tables["rows"]:
+            self.assertLessEqual({"system", "f_number", "lights", "method", "device", "settings", "time_ms", "psnr_db",
+                                  "paper_ms"}, set(row))
+            self.assertGreater(row["psnr_db"], 10)
+        self.assertEqual(tables["rows"][0]["paper_ms"]["total"], 1.1)  # bodonyi2023 table 2, previous method
+        self.assertEqual(len(list((self.folder / "cache").iterdir())), 2)
+
+
+if __name__ == "__main__":
+    unittest.main()

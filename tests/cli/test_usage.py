@@ -1,0 +1,62 @@
+#!/usr/bin/env python3
+"""Wrong usage ends with 2 and says what to do; help ends with 0 and shows examples."""
+import unittest
+
+from program import ProgramTest
+
+COMMANDS = [["render"], ["apply"], ["ghosts"], ["compare"], ["lens", "list"], ["lens", "info"], ["lens", "draw"],
+            ["lens", "trace"], ["lens", "check"], ["lens", "convert"], ["bench", "tables"]]
+
+
+class Usage(ProgramTest):
+    def test_help(self):
+        for command in COMMANDS:
+            done = self.run_program(*command, "--help")
+            self.assertIn("Examples:\n  contrejour " + " ".join(command), done.stdout.decode())
+            self.assertEqual(done.stderr, b"")
+        self.assertIn("render", self.run_program("--help").stdout.decode())
+        self.assertRegex(self.run_program("--version").stdout.decode(), r"^contrejour \d+\.\d+\.\d+\n$")
+
+    def test_wrong_options(self):
+        render = ["render", "heliar", "-o", "a.exr"]
+        for wrong in (
+                [], ["lens"], ["frobnicate"], ["render"], ["render", "heliar"], ["render", "heliar", "-o", "a.jpg"],
+                [*render, "--bogus"], [*render, "--size", "0x10"], [*render, "--size", "10"], [*render, "--size", "-4x4"],
+                [*render, "--size", "20000x20000"], [*render, "--size", "99999999999x1"],
+                [*render, "-f", "nan"], [*render, "-f", "inf"], [*render, "-f", "0"], [*render, "-f", "8", "-f", "11"],
+                [*render, "--value", "-1"], [*render, "--value", "1e400"], [*render, "--value", "1,2"],
+                [*render, "--colour", "mauve"], [*render, "--colour", "20K"], [*render, "--light", "1"],
+                [*render, "--light", "nan,0"], [*render, "--light", "1,2:3:D65:4"], [*render, "--focus", "-1"],
+                [*render, "--method", "magic"], [*render, "--device", "toaster"], [*render, "--grid", "8"],
+                [*render, "--wavelengths", "0"], [*render, "--wavelengths", "2.5"], [*render, "--threads", "-1"],
+                [*render, "--threads", "100000"], [*render, "--select", "best"], [*render, "--coating", "paint"],
+                [*render, "--blades", "-3"], [*render, "--preview", "a.exr"], [*render, "--stats", "a.txt"],
+                ["apply", "heliar", "in.exr", "-o", "o.exr", "--threshold", "nan"],
+                ["apply", "heliar", "in.exr", "-o", "o.exr", "--gain", "-1"],
+                ["apply", "heliar", "in.exr", "-o", "o.exr", "--max-lights", "0"],
+                ["apply", "heliar", "in.exr", "-o", "o.exr", "--hfov", "180"],
+                ["lens", "trace", "heliar", "--ray", "0,0,0"], ["lens", "trace", "heliar", "--ray", "0,0,0,0,0,0"],
+                ["lens", "trace", "heliar", "--ray", "0,0,0,0,0,-1"],
+                ["lens", "trace", "heliar", "--ray", "0,0,0,0,0,1", "--ghost", "5,2"],
+                ["lens", "draw", "heliar", "-o", "a.png"], ["lens", "draw", "heliar", "-o", "a.svg", "--light", "1,1"],
+                ["lens", "convert", "heliar", "a.json"], ["ghosts", "heliar", "--light", "1,1", "2,2"],
+                ["bench", "tables", "--systems", "brownie"], ["bench", "tables", "--methods", "magic"]):
+            with self.subTest(wrong):
+                self.assertIn("--help)", self.error_of(*wrong, code=2))
+        self.assertEqual(self.files(), [])
+
+    def test_did_you_mean(self):
+        self.assertIn("--light-at", self.error_of("render", "heliar", "-o", "a.exr", "--lightat", "0,0", code=2))
+        self.assertIn("render", self.error_of("rendr", code=2))
+
+    def test_values_a_lens_refuses_are_failures(self):
+        for wrong in (["-f", "0.5"], ["--focal", "50"], ["--focus", "1mm"], ["--light", "95,0"],
+                      ["--value", "1,1,1", "--colour", "1,1,1"]):
+            with self.subTest(wrong):
+                self.error_of("render", "heliar", "-o", "a.exr", "--size", "8x8", "--grid", "16", *wrong, code=1)
+        self.error_of("lens", "trace", "heliar", "--ray", "0,0,0,0,0,1", "--ghost", "2,40", code=1)
+        self.assertEqual(self.files(), [])
+
+
+if __name__ == "__main__":
+    unittest.main()
