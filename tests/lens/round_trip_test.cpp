@@ -13,6 +13,7 @@ void check_same(const Prescription& a, const Prescription& b) {
   CHECK(a.source == b.source);
   CHECK(a.f_number == b.f_number);
   CHECK(a.sensor_width_mm == b.sensor_width_mm);
+  CHECK(a.sensor_distance_mm == b.sensor_distance_mm);
   CHECK(a.sensor_height_mm == b.sensor_height_mm);
   CHECK(a.stated.focal_length_mm == b.stated.focal_length_mm);
   CHECK(a.stated.back_focal_distance_mm == b.stated.back_focal_distance_mm);
@@ -45,6 +46,7 @@ class RandomLens {
     lens.source = text();
     lens.f_number = real(0.8, 32.0);
     lens.sensor_width_mm = real(1.0, 100.0);
+    if (one_in(3)) lens.sensor_distance_mm = real(0.5, 90.0);
     lens.sensor_height_mm = real(1.0, 100.0);
     if (one_in(2)) lens.stated.focal_length_mm = real(-300.0, -1.0);
     if (one_in(2)) lens.stated.back_focal_distance_mm = real(1.0, 300.0);

@@ -59,6 +59,7 @@ TEST_CASE("wrong types") {
   check_edit("stop = true", "stop = false", 8, "stop = false says nothing");
   check_edit("glass = \"BK7\"", "glass = 1.5", 6, "surface 1: glass must be a name in quotes or {");
   check_edit("sensor_mm = [36, 24]", "sensor_mm = 36", 4, "sensor_mm must be a list");
+  check_edit("sensor_mm = [36, 24]", "sensor_mm = [36, 24]\nsensor_distance_mm = -3", 5, "sensor_distance_mm is -3");
   check_edit("sensor_mm = [36, 24]", "sensor_mm = [36]", 4, "sensor_mm must be [width, height]");
   check_edit("  { radius_mm = 70.0, semi_diameter_mm = 9.0 },", "  70.0,", 10, "surface 5 must be a row");
   check_edit("[stated]\n", "stated = 3\n#", 12, "stated must be a table");
@@ -89,7 +90,7 @@ TEST_CASE("glasses") {
   check_edit("glass = \"BK7\"", "glass = \"BK8\"", 6, "no glass is called 'BK8'; did you mean 'BK7'?");
   check_edit("glass = \"BK7\"", "glass = \"LaSF31\"", 6, "no glass is called 'LaSF31'; add it under [glass]");
   check_edit("n_d = 1.5168", "n_d = 0.9", 15, "glass 'BK7': the glass's index is 0.8");
-  check_edit("n_d = 1.5168", "n_d = 15.168", 15, "it must be from 1 to 4");
+  check_edit("n_d = 1.5168", "n_d = 15.168", 15, "it must be from 1 to 5");
   check_edit("v_d = 64.17", "v_d = -3", 15, "v_d is -3; an Abbe number is from 5 to 200");
   check_edit("v_d = 64.17", "v_d = nan", 15, "v_d is nan");
   check_edit(", v_d = 64.17", "", 15, "v_d is missing");

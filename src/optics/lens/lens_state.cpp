@@ -17,7 +17,8 @@ namespace hk = kernels::HWY_NAMESPACE;
 
 constexpr double kNominalTolerance = 1e-6;   // relative: the same nominal focal length
 constexpr double kPrimeTolerance = 5e-3;     // relative: asking a prime for its own focal length
-constexpr double kFNumberTolerance = 1e-2;   // relative: f-numbers are rounded on the barrel
+constexpr double kFNumberTolerance = 5e-2;   // relative: what patents call 2.92 is sold as 2.8
+constexpr double kStopTolerance = 1e-2;      // relative: a stop that misses the widest f-number by less is no news
 constexpr int kZoomBisections = 60;          // to the last bit of the interpolation parameter
 
 // Thicknesses at one zoom position, or between two.
@@ -150,16 +151,18 @@ Result<void> set_stop(LensState& state, const Prescription& lens, const std::opt
                                state.f_number, lens.f_number),
                    lens.file);
   }
+  state.f_number = std::max(state.f_number, lens.f_number);
   const double marginal_mm = 0.5 * std::abs(state.focal_length_mm) / state.f_number;
   state.stop_radius_mm =
       marginal_height_at_stop(state, marginal_mm).value_or(front_magnification * marginal_mm);
   if (state.stop_radius_mm > stop.semi_diameter_mm) {
-    if (f_number || state.stop_radius_mm > stop.semi_diameter_mm * (1.0 + kFNumberTolerance)) {
+    if (state.stop_radius_mm > stop.semi_diameter_mm * (1.0 + kStopTolerance)) {
       state.warnings.push_back(
           fmt::format("f/{:g} needs a stop of {:.3f} mm radius; its widest opening of {:.3f} mm is used (f/{:.3g})",
                       state.f_number, state.stop_radius_mm, stop.semi_diameter_mm, widest_of_stop));
     }
     state.stop_radius_mm = stop.semi_diameter_mm;
+    state.f_number = std::max(state.f_number, widest_of_stop);
   }
   return {};
 }

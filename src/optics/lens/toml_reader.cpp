@@ -53,7 +53,7 @@ struct Reader {
 
 void Reader::read_lens_table(const toml::table& root) {
   TomlFields fields(root, "lens",
-                    {"name", "source", "f_number", "sensor_mm", "half_field_deg", "default_coating", "surfaces",
+                    {"name", "source", "f_number", "sensor_mm", "half_field_deg", "sensor_distance_mm", "default_coating", "surfaces",
                      "zoom", "stated", "glass", "coating"},
                     errors);
   lens.name = fields.required_text("name", "give the lens a name");
@@ -83,6 +83,7 @@ void Reader::read_stated(TomlFields& fields) {
 }
 
 void Reader::read_sensor(TomlFields& fields) {
+  lens.sensor_distance_mm = fields.number("sensor_distance_mm", {1e-6, 1e5});
   if (fields.has("sensor_mm") == fields.has("half_field_deg")) {
     fields.fail_here("give the sensor either as sensor_mm = [36, 24] or by half_field_deg");
     return;

@@ -147,9 +147,11 @@ std::string stated_table(const StatedFigures& stated) {
 
 std::string write_lens_toml(const Prescription& lens) {
   MediaTable glasses, coatings;
-  std::string out = fmt::format("name = {}\nsource = {}\nf_number = {}\nsensor_mm = [{}, {}]\n\nsurfaces = [\n",
+  std::string out = fmt::format("name = {}\nsource = {}\nf_number = {}\nsensor_mm = [{}, {}]\n",
                                 toml_string(lens.name), toml_string(lens.source), number(lens.f_number),
                                 number(lens.sensor_width_mm), number(lens.sensor_height_mm));
+  if (lens.sensor_distance_mm) out += fmt::format("sensor_distance_mm = {}\n", number(*lens.sensor_distance_mm));
+  out += "\nsurfaces = [\n";
   for (std::size_t i = 0; i < lens.surfaces.size(); ++i) {
     out += surface_row(lens.surfaces[i], i + 1 == lens.surfaces.size(), glasses, coatings);
   }

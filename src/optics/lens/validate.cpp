@@ -18,8 +18,8 @@ namespace {
 constexpr double kVisibleFirst_nm = 380.0;
 constexpr double kVisibleLast_nm = 780.0;
 constexpr double kVisibleStep_nm = 20.0;
-// The highest index of a transparent solid in the visible is near 2.7; films of silicon and germanium go to 5.
-constexpr double kMaxGlassIndex = 4.0;
+// Transparent solids go to 2.7 in the visible; silicon and germanium, for infrared designs, to 4.1.
+constexpr double kMaxGlassIndex = 5.0;
 constexpr double kMaxFilmIndex = 8.0;
 constexpr double kMinFilmIndex = 0.01;  // silver
 constexpr double kMaxFilm_nm = 1e5;     // beyond it, films are glass
@@ -54,6 +54,10 @@ Result<void> check_lens_values(const Prescription& lens) {
   if (!within(lens.sensor_width_mm, 0.1, 1e4) || !within(lens.sensor_height_mm, 0.1, 1e4)) {
     return fail.at_line(lens.file.line, fmt::format("the sensor is {} x {} mm; give sizes from 0.1 to 10000 mm",
                                                     lens.sensor_width_mm, lens.sensor_height_mm));
+  }
+  if (lens.sensor_distance_mm && !within(*lens.sensor_distance_mm, 1e-6, kMaxLength_mm)) {
+    return fail.at_line(lens.file.line, fmt::format("sensor_distance_mm is {}; give the distance from the last vertex",
+                                                    *lens.sensor_distance_mm));
   }
   const StatedFigures& stated = lens.stated;
   const bool focal_fits = !stated.focal_length_mm || within(std::abs(*stated.focal_length_mm), 1e-3, kMaxLength_mm);

@@ -13,7 +13,7 @@
 namespace contrejour::reference {
 
 struct CellLimits {
-  int root_cells = 96;             // a side of the window, before any subdivision
+  int root_cells = 192;            // a side of the window, before any subdivision
   double footprint_px = 4.0;       // longest side of a cell's image
   double cut_footprint_px = 1.0;   // the same where a rim or the iris edge cuts the cell
   double bend_px = 0.1;           // a cell's middle off the mean of its corners
