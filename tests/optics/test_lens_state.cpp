@@ -73,6 +73,13 @@ TEST_CASE("the f-number sets the stop by the real marginal ray") {
   // Paraxially the marginal height at the stop is front.a * EPD / 2; the real ray differs by aberration only.
   const Abcd front = abcd_between(f16->surfaces, 0, f16->stop_index, kLineD_nm);
   CHECK(f16->stop_radius_mm == doctest::Approx(front.a * f16->focal_length_mm / 32.0).epsilon(1e-3));
+  CHECK(lens_at(prime_lens(), {.f_number = 3.9})->f_number == 4.0);  // engraved a little wider than it is
+  Prescription narrow = prime_lens();
+  narrow.surfaces[2].semi_diameter_mm = 2.0;
+  const auto clipped = lens_at(narrow, {.f_number = 4.0});
+  CHECK(clipped->stop_radius_mm == 2.0);
+  CHECK(clipped->f_number > 8.0);
+  CHECK(clipped->warnings.size() == 1);
   CHECK_FALSE(lens_at(prime_lens(), {.f_number = 0.5}).has_value());
   CHECK_FALSE(lens_at(prime_lens(), {.f_number = -8.0}).has_value());
   CHECK_FALSE(lens_at(prime_lens(), {.f_number = std::nan("")}).has_value());

@@ -160,9 +160,9 @@ Result<void> set_stop(LensState& state, const Prescription& lens, const std::opt
       state.warnings.push_back(
           fmt::format("f/{:g} needs a stop of {:.3f} mm radius; its widest opening of {:.3f} mm is used (f/{:.3g})",
                       state.f_number, state.stop_radius_mm, stop.semi_diameter_mm, widest_of_stop));
+      state.f_number = widest_of_stop;
     }
     state.stop_radius_mm = stop.semi_diameter_mm;
-    state.f_number = std::max(state.f_number, widest_of_stop);
   }
   return {};
 }
