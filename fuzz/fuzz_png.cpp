@@ -46,8 +46,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     if (picture.error().message.empty()) std::abort();
     return 0;
   }
-  const auto pixels = static_cast<std::size_t>(picture->data_window.width) *
-                      static_cast<std::size_t>(picture->data_window.height);
+  const auto pixels =
+      static_cast<std::size_t>(picture->data_window.width) * static_cast<std::size_t>(picture->data_window.height);
   if (pixels == 0 || picture->rgb.pixels.size() != 3 * pixels) std::abort();
   for (const int source : picture->rgb_source)
     if (source < 0 || static_cast<std::size_t>(source) >= picture->channels.size()) std::abort();

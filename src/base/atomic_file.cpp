@@ -35,14 +35,6 @@ int seek_to(std::FILE* stream, std::uint64_t position) {
 #endif
 }
 
-std::int64_t tell(std::FILE* stream) {
-#if defined(_WIN32)
-  return _ftelli64(stream);
-#else
-  return static_cast<std::int64_t>(ftello(stream));
-#endif
-}
-
 // To the disk, where a full one may say so only now.
 int synchronise(std::FILE* stream) {
   if (std::fflush(stream) != 0) return errno;
@@ -121,13 +113,6 @@ Result<void> AtomicFile::seek(std::uint64_t position) {
   return {};
 }
 
-Result<std::uint64_t> AtomicFile::position() {
-  if (failed_ || stream_ == nullptr) return fail("cannot write", EIO);
-  const std::int64_t place = tell(stream_);
-  if (place < 0) return fail("cannot move within the file", errno);
-  return static_cast<std::uint64_t>(place);
-}
-
 Result<void> AtomicFile::commit() {
   if (failed_ || stream_ == nullptr) return fail("cannot write", EIO);
   const int sync_error = synchronise(stream_);
@@ -160,7 +145,7 @@ void AtomicFile::close_and_remove() noexcept {
 Result<void> write_text_file(const fs::path& destination, std::string_view text) {
   Result<AtomicFile> file = AtomicFile::create(destination);
   if (!file) return tl::unexpected(file.error());
-  const Result<void> written = file->write(text);
+  Result<void> written = file->write(text);
   if (!written) return written;
   return file->commit();
 }

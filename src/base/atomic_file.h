@@ -30,7 +30,6 @@ class AtomicFile {
   Result<void> write(std::span<const std::byte> bytes);
   Result<void> write(std::string_view text);
   Result<void> seek(std::uint64_t position);
-  [[nodiscard]] Result<std::uint64_t> position();
 
   // Everything on the disk, under the destination's name. Once only.
   [[nodiscard]] Result<void> commit();

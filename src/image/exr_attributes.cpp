@@ -17,12 +17,30 @@ constexpr std::uint32_t kVersionMask = 0xff, kDeepFlag = 0x800, kMultiPartFlag =
 constexpr std::size_t kLongestName = 255;
 
 // Attribute types of one size, "OpenEXR File Layout", Predefined Attribute Types.
-constexpr std::pair<std::string_view, std::size_t> kFixedSizes[] = {
-    {"box2f", 16},  {"box2i", 16},    {"chromaticities", 32}, {"compression", 1}, {"deepImageState", 1},
-    {"double", 8},  {"envmap", 1},    {"float", 4},           {"int", 4},         {"keycode", 28},
-    {"lineOrder", 1}, {"m33d", 72},   {"m33f", 36},           {"m44d", 128},      {"m44f", 64},
-    {"rational", 8}, {"tiledesc", 9}, {"timecode", 8},        {"v2d", 16},        {"v2f", 8},
-    {"v2i", 8},     {"v3d", 24},      {"v3f", 12},            {"v3i", 12}};
+constexpr std::pair<std::string_view, std::size_t> kFixedSizes[] = {{"box2f", 16},
+                                                                    {"box2i", 16},
+                                                                    {"chromaticities", 32},
+                                                                    {"compression", 1},
+                                                                    {"deepImageState", 1},
+                                                                    {"double", 8},
+                                                                    {"envmap", 1},
+                                                                    {"float", 4},
+                                                                    {"int", 4},
+                                                                    {"keycode", 28},
+                                                                    {"lineOrder", 1},
+                                                                    {"m33d", 72},
+                                                                    {"m33f", 36},
+                                                                    {"m44d", 128},
+                                                                    {"m44f", 64},
+                                                                    {"rational", 8},
+                                                                    {"tiledesc", 9},
+                                                                    {"timecode", 8},
+                                                                    {"v2d", 16},
+                                                                    {"v2f", 8},
+                                                                    {"v2i", 8},
+                                                                    {"v3d", 24},
+                                                                    {"v3f", 12},
+                                                                    {"v3i", 12}};
 
 class ByteReader {
  public:

@@ -57,8 +57,8 @@ std::uint64_t bytes_per_pixel(const Imf::Header& header) {
 std::uint64_t sample_bytes(const Imf::Header& header, const PixelWindow& window) {
   std::uint64_t bytes = 0;
   for (auto i = header.channels().begin(); i != header.channels().end(); ++i)
-    bytes += sample_count(window, i.channel().xSampling, i.channel().ySampling) *
-             size_of(sample_type_of(i.channel().type));
+    bytes +=
+        sample_count(window, i.channel().xSampling, i.channel().ySampling) * size_of(sample_type_of(i.channel().type));
   return bytes;
 }
 
@@ -101,8 +101,8 @@ Result<void> check_exr_size(const Imf::Header& header, std::uint64_t header_byte
   const std::uint64_t least = header_bytes + chunks * (8 + 8) + bytes / largest_compression(header.compression());
   if (file_bytes < least)
     return failure(ErrorCode::Parse,
-                   fmt::format("the file is cut off: {} bytes cannot hold its {} x {} pixels", file_bytes,
-                               window.width, window.height),
+                   fmt::format("the file is cut off: {} bytes cannot hold its {} x {} pixels", file_bytes, window.width,
+                               window.height),
                    place);
   return {};
 }

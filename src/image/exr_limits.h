@@ -12,8 +12,7 @@ namespace contrejour {
 
 // Errors: Unsupported (beyond the limits), Parse (the file is too small for it).
 [[nodiscard]] Result<void> check_exr_size(const Imf::Header& header, std::uint64_t header_bytes,
-                                          std::uint64_t file_bytes, const ReadLimits& limits,
-                                          const std::string& name);
+                                          std::uint64_t file_bytes, const ReadLimits& limits, const std::string& name);
 
 [[nodiscard]] SampleType sample_type_of(Imf::PixelType type);
 [[nodiscard]] PixelWindow window_of(const Imath::Box2i& box);

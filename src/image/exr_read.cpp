@@ -30,8 +30,7 @@ struct CheckedHeader {
 };
 
 // All that can be known to be wrong before anything of the picture's size is allocated.
-Result<CheckedHeader> read_header(std::span<const std::byte> bytes, const std::string& name,
-                                  const ReadLimits& limits) {
+Result<CheckedHeader> read_header(std::span<const std::byte> bytes, const std::string& name, const ReadLimits& limits) {
   const Result<std::size_t> size = check_exr_header(bytes, name);
   if (!size) return tl::unexpected(size.error());
   CheckedHeader checked;
@@ -62,8 +61,8 @@ void read_channels(std::span<const std::byte> bytes, const std::string& name, Pi
     const Imf::Channel& in = i.channel();
     PictureChannel channel{i.name(), sample_type_of(in.type), in.xSampling, in.ySampling, in.pLinear, {}};
     channel.samples.resize(sample_count(picture.data_window, in.xSampling, in.ySampling) * size_of(channel.type));
-    frame_buffer.insert(i.name(), Imf::Slice::Make(in.type, channel.samples.data(), window, 0, 0, in.xSampling,
-                                                   in.ySampling));
+    frame_buffer.insert(i.name(),
+                        Imf::Slice::Make(in.type, channel.samples.data(), window, 0, 0, in.xSampling, in.ySampling));
     picture.channels.push_back(std::move(channel));
   }
   file.setFrameBuffer(frame_buffer);
@@ -121,7 +120,7 @@ void convert_luminance_chroma(std::span<const std::byte> bytes, const std::strin
   file.readPixels(window.min.y, window.max.y);
   std::erase_if(picture.channels,
                 [](const PictureChannel& c) { return c.name == "Y" || c.name == "RY" || c.name == "BY"; });
-  constexpr half Imf::Rgba::*kComponents[] = {&Imf::Rgba::r, &Imf::Rgba::g, &Imf::Rgba::b};
+  constexpr half Imf::Rgba::* kComponents[] = {&Imf::Rgba::r, &Imf::Rgba::g, &Imf::Rgba::b};
   constexpr const char* kNames[] = {"R", "G", "B"};
   for (std::size_t c = 0; c < 3; ++c) {
     PictureChannel channel{kNames[c], SampleType::Half, 1, 1, false, std::vector<std::byte>(2 * count)};

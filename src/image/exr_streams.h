@@ -14,8 +14,7 @@ namespace contrejour {
 
 class MemoryInput final : public Imf::IStream {
  public:
-  MemoryInput(std::span<const std::byte> bytes, const std::string& name)
-      : Imf::IStream(name.c_str()), bytes_(bytes) {}
+  MemoryInput(std::span<const std::byte> bytes, const std::string& name) : Imf::IStream(name.c_str()), bytes_(bytes) {}
 
   bool read(char to[], int count) override {
     const auto size = static_cast<std::size_t>(count);
@@ -33,31 +32,32 @@ class MemoryInput final : public Imf::IStream {
   std::size_t position_ = 0;
 };
 
-// OpenEXR's writers swallow what their destructors meet; the first error is kept here, to be asked for afterwards.
+// Never throws: OpenEXR's writers write in their destructors too, where an exception ends the program. The first error
+// is kept, to be asked for; after it nothing more is written.
 class AtomicFileOutput final : public Imf::OStream {
  public:
   explicit AtomicFileOutput(AtomicFile& file) : Imf::OStream(file.destination().string().c_str()), file_(file) {}
 
   void write(const char from[], int count) override {
-    check(file_.write(std::string_view(from, static_cast<std::size_t>(count))));
+    const auto size = static_cast<std::size_t>(count);
+    if (!error_) keep(file_.write(std::string_view(from, size)));
+    position_ += size;
   }
-  uint64_t tellp() override {
-    const Result<std::uint64_t> place = file_.position();
-    if (!place) check(tl::unexpected(place.error()));
-    return *place;
+  uint64_t tellp() override { return position_; }
+  void seekp(uint64_t position) override {
+    if (!error_) keep(file_.seek(position));
+    position_ = position;
   }
-  void seekp(uint64_t position) override { check(file_.seek(position)); }
 
   [[nodiscard]] const std::optional<Error>& error() const { return error_; }
 
  private:
-  void check(const Result<void>& result) {
-    if (result) return;
-    if (!error_) error_ = result.error();
-    throw std::runtime_error(result.error().message);
+  void keep(const Result<void>& result) {
+    if (!result) error_ = result.error();
   }
 
   AtomicFile& file_;
+  std::uint64_t position_ = 0;
   std::optional<Error> error_;
 };
 

@@ -60,13 +60,13 @@ Imf::Header header_to_write(const Picture& picture) {
   return header;
 }
 
-// Whether it came to the end; false when cancelled.
+// Whether it came to the end; false when cancelled or the stream has failed.
 bool write_scan_lines(AtomicFileOutput& stream, const Imf::Header& header, const Imf::FrameBuffer& frame_buffer,
                       int height, const Context& context) {
   Imf::OutputFile out(stream, header);
   out.setFrameBuffer(frame_buffer);
   for (int row = 0; row < height; row += kRowsBetweenCancelChecks) {
-    if (context.cancelled()) return false;
+    if (context.cancelled() || stream.error()) return false;
     out.writePixels(std::min(kRowsBetweenCancelChecks, height - row));
   }
   return true;
@@ -78,7 +78,7 @@ bool write_tiles(AtomicFileOutput& stream, const Imf::Header& header, const Imf:
   out.setFrameBuffer(frame_buffer);
   const int rows = out.numYTiles();
   for (int i = 0; i < rows; ++i) {
-    if (context.cancelled()) return false;
+    if (context.cancelled() || stream.error()) return false;
     const int row = header.lineOrder() == Imf::DECREASING_Y ? rows - 1 - i : i;
     out.writeTiles(0, out.numXTiles() - 1, row, row);
   }
@@ -112,7 +112,7 @@ Result<void> write_picture_exr(const std::filesystem::path& file, const Picture&
                    ? write_tiles(stream, header, frame_buffer, context)
                    : write_scan_lines(stream, header, frame_buffer, picture.data_window.height, context);
   } catch (const std::exception& e) {
-    if (!stream.error()) return failure(ErrorCode::Io, fmt::format("cannot write: {}", e.what()), place);
+    return failure(ErrorCode::Io, fmt::format("cannot write: {}", e.what()), place);
   }
   if (stream.error()) return tl::unexpected(*stream.error());
   if (!finished || context.cancelled()) return failure(ErrorCode::Cancelled, "cancelled", place);

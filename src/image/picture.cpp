@@ -34,9 +34,7 @@ bool near(const Imf::Chromaticities& a, const Primaries& b) {
   return near(a.red, b.red) && near(a.green, b.green) && near(a.blue, b.blue) && near(a.white, b.white);
 }
 
-Imath::V2f vector_of(const std::array<double, 2>& xy) {
-  return {static_cast<float>(xy[0]), static_cast<float>(xy[1])};
-}
+Imath::V2f vector_of(const std::array<double, 2>& xy) { return {static_cast<float>(xy[0]), static_cast<float>(xy[1])}; }
 
 Result<std::vector<std::byte>> read_bytes(const std::filesystem::path& file, std::uint64_t max_bytes) {
   const SourcePlace place{file.string()};
@@ -64,9 +62,8 @@ Result<std::vector<std::byte>> read_bytes(const std::filesystem::path& file, std
 }
 
 bool starts_with(std::span<const std::byte> bytes, std::initializer_list<unsigned char> magic) {
-  return bytes.size() >= magic.size() &&
-         std::equal(magic.begin(), magic.end(), bytes.begin(),
-                    [](unsigned char a, std::byte b) { return std::byte{a} == b; });
+  return bytes.size() >= magic.size() && std::equal(magic.begin(), magic.end(), bytes.begin(),
+                                                    [](unsigned char a, std::byte b) { return std::byte{a} == b; });
 }
 
 std::string lower_extension(const std::filesystem::path& file) {
@@ -112,8 +109,7 @@ Picture picture_of(const Image& image, SampleType type) {
   const std::size_t count = picture.rgb.pixels.size() / 3;
   const bool grey = channels < 3;
   for (std::size_t i = 0; i < count; ++i)
-    for (std::size_t c = 0; c < 3; ++c)
-      picture.rgb.pixels[3 * i + c] = image.pixels[i * channels + (grey ? 0 : c)];
+    for (std::size_t c = 0; c < 3; ++c) picture.rgb.pixels[3 * i + c] = image.pixels[i * channels + (grey ? 0 : c)];
   if (grey) {
     picture.channels.push_back({"Y", type, 1, 1, false, {}});
     picture.rgb_source = {0, 0, 0};
@@ -177,8 +173,8 @@ Result<void> write_picture(const std::filesystem::path& file, const Picture& pic
   } catch (const std::exception& e) {
     return failure(ErrorCode::Io, std::string("cannot write: ") + e.what(), place);
   }
-  return failure(ErrorCode::InvalidArgument,
-                 fmt::format("cannot write pictures as '{}'; use .exr or .png", extension), place);
+  return failure(ErrorCode::InvalidArgument, fmt::format("cannot write pictures as '{}'; use .exr or .png", extension),
+                 place);
 }
 
 Result<void> write_exr(const std::filesystem::path& file, const Image& image, SampleType type, const Context& context) {

@@ -1,4 +1,5 @@
-// PNG -> Picture: docs/formats/images.md. libpng leaves by longjmp: between setjmp and it there are no objects to destroy.
+// PNG -> Picture: docs/formats/images.md. libpng leaves by longjmp: between setjmp and it there are no objects to
+// destroy.
 #include <bit>
 #include <csetjmp>
 #include <cstring>
@@ -97,10 +98,10 @@ Result<void> check_size(const Reader& r, const std::string& name, const ReadLimi
                    fmt::format("the picture claims {} x {} pixels, more than the limit", r.width, r.height), {name});
   // A pixel takes a bit at least.
   if (pixels / 8 / kLargestDeflate > r.bytes.size())
-    return failure(ErrorCode::Parse,
-                   fmt::format("the file is cut off: {} bytes cannot hold its {} x {} pixels", r.bytes.size(), r.width,
-                               r.height),
-                   {name});
+    return failure(
+        ErrorCode::Parse,
+        fmt::format("the file is cut off: {} bytes cannot hold its {} x {} pixels", r.bytes.size(), r.width, r.height),
+        {name});
   return {};
 }
 

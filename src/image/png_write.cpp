@@ -1,4 +1,5 @@
-// Picture -> PNG: docs/formats/images.md. libpng leaves by longjmp: between setjmp and it there are no objects to destroy.
+// Picture -> PNG: docs/formats/images.md. libpng leaves by longjmp: between setjmp and it there are no objects to
+// destroy.
 #include <bit>
 #include <csetjmp>
 #include <cstring>
@@ -114,8 +115,7 @@ Result<void> write_picture_png(const std::filesystem::path& file, const Picture&
   // Colour and alpha; a PNG has no place for other channels.
   std::vector<std::size_t> sources;
   const bool grey = picture.rgb_source[0] == picture.rgb_source[2];
-  for (std::size_t c = 0; c < (grey ? 1U : 3U); ++c)
-    sources.push_back(static_cast<std::size_t>(picture.rgb_source[c]));
+  for (std::size_t c = 0; c < (grey ? 1U : 3U); ++c) sources.push_back(static_cast<std::size_t>(picture.rgb_source[c]));
   for (std::size_t k = 0; k < picture.channels.size(); ++k)
     if (picture.channels[k].name == "A" && picture.channels[k].x_sampling * picture.channels[k].y_sampling == 1)
       sources.push_back(k);

@@ -21,8 +21,8 @@ float roll_off(float value) {
 Result<void> write_preview_png(const std::filesystem::path& file, const Image& rgb, const PreviewSettings& settings,
                                const Context& context) {
   const SourcePlace place{file.string()};
-  const bool complete = rgb.width > 0 && rgb.height > 0 && rgb.channels > 0 &&
-                        rgb.pixels.size() == rgb.index(0, rgb.height);
+  const bool complete =
+      rgb.width > 0 && rgb.height > 0 && rgb.channels > 0 && rgb.pixels.size() == rgb.index(0, rgb.height);
   if (!complete) return failure(ErrorCode::InvalidArgument, "the image is empty", place);
   const float gain = static_cast<float>(std::exp2(settings.exposure_stops));
   const int channels = rgb.channels < 3 ? 1 : 3;

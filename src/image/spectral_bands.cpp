@@ -68,8 +68,7 @@ Samples sample_light(const Spectrum& light, ColourSpace space) {
 class Cumulative {
  public:
   explicit Cumulative(const Samples& samples) : samples_(samples) {
-    for (std::size_t i = 1; i < samples.size(); ++i)
-      to_[i] = to_[i - 1] + 0.5 * (samples[i - 1] + samples[i]);
+    for (std::size_t i = 1; i < samples.size(); ++i) to_[i] = to_[i - 1] + 0.5 * (samples[i - 1] + samples[i]);
   }
 
   [[nodiscard]] const Sample& total() const { return to_.back(); }
@@ -125,8 +124,8 @@ std::vector<SpectralBand> spectral_bands(int count, const Spectrum& light, Colou
     for (std::size_t c = 0; c < 3; ++c) {
       // The channel's own integral, plus as much of the absolute one as keeps the quotient bounded.
       const double added = std::max(0.0, kSmallestTotalShare - total.channel[c] / total.absolute[c]);
-      bands[k].weight[c] = (band.channel[c] + added * band.absolute[c]) /
-                           (total.channel[c] + added * total.absolute[c]);
+      bands[k].weight[c] =
+          (band.channel[c] + added * band.absolute[c]) / (total.channel[c] + added * total.absolute[c]);
     }
     begin = end;
   }

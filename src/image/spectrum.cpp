@@ -46,9 +46,7 @@ struct PowerAt {
 
 }  // namespace
 
-double spectral_power(const Spectrum& spectrum, double lambda_nm) {
-  return std::visit(PowerAt{lambda_nm}, spectrum);
-}
+double spectral_power(const Spectrum& spectrum, double lambda_nm) { return std::visit(PowerAt{lambda_nm}, spectrum); }
 
 Xyz colour_matching(double lambda_nm) {
   const double place = lambda_nm - cie::kObserverFirstNm;
@@ -56,8 +54,7 @@ Xyz colour_matching(double lambda_nm) {
   const auto i = std::min(static_cast<std::size_t>(place), cie::kObserver1931.size() - 2);
   const double t = place - static_cast<double>(i);
   Xyz xyz{};
-  for (std::size_t c = 0; c < 3; ++c)
-    xyz[c] = (1 - t) * cie::kObserver1931[i][c] + t * cie::kObserver1931[i + 1][c];
+  for (std::size_t c = 0; c < 3; ++c) xyz[c] = (1 - t) * cie::kObserver1931[i][c] + t * cie::kObserver1931[i + 1][c];
   return xyz;
 }
 

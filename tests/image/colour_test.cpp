@@ -41,8 +41,8 @@ TEST_CASE("chromaticities of the standard illuminants are the CIE's") {
 }
 
 TEST_CASE("spectral power is 1 at 560 nm and the embedded tables are the CIE's") {
-  for (const Spectrum& s : {Spectrum(IlluminantD65{}), Spectrum(IlluminantA{}), Spectrum(BlackBody{500}),
-                            Spectrum(BlackBody{100000})})
+  for (const Spectrum& s :
+       {Spectrum(IlluminantD65{}), Spectrum(IlluminantA{}), Spectrum(BlackBody{500}), Spectrum(BlackBody{100000})})
     CHECK(spectral_power(s, 560) == doctest::Approx(1).epsilon(1e-12));
   CHECK(spectral_power(IlluminantD65{}, 299) == 0);
   CHECK(spectral_power(IlluminantD65{}, 831) == 0);
@@ -51,13 +51,13 @@ TEST_CASE("spectral power is 1 at 560 nm and the embedded tables are the CIE's")
 
   if (const auto file = test::shared_data("colour/cie/CIE_xyz_1931_2deg.csv"))
     for (const auto& row : rows_of(*file))
-      for (std::size_t c = 0; c < 3; ++c) CHECK(colour_matching(row[0])[c] == doctest::Approx(row[c + 1]).epsilon(1e-9));
+      for (std::size_t c = 0; c < 3; ++c)
+        CHECK(colour_matching(row[0])[c] == doctest::Approx(row[c + 1]).epsilon(1e-9));
   if (const auto file = test::shared_data("colour/cie/CIE_std_illum_D65.csv"))
     for (const auto& row : rows_of(*file))
       CHECK(std::abs(100 * spectral_power(IlluminantD65{}, row[0]) - row[1]) < 6e-4);  // its rounding
   if (const auto file = test::shared_data("colour/cie/CIE_std_illum_A_1nm.csv"))
-    for (const auto& row : rows_of(*file))
-      CHECK(std::abs(100 * spectral_power(IlluminantA{}, row[0]) - row[1]) < 6e-4);
+    for (const auto& row : rows_of(*file)) CHECK(std::abs(100 * spectral_power(IlluminantA{}, row[0]) - row[1]) < 6e-4);
 }
 
 TEST_CASE("D65 is white in both spaces and conversion goes both ways") {
@@ -73,8 +73,7 @@ TEST_CASE("D65 is white in both spaces and conversion goes both ways") {
 
 TEST_CASE("the matrices are the published ones") {
   // IEC 61966-2-1 gives four digits for a white of (0.3127, 0.3290); the tabulated D65 moves them by less than 5e-4.
-  constexpr double kXyzFrom709[3][3] = {
-      {0.4124, 0.3576, 0.1805}, {0.2126, 0.7152, 0.0722}, {0.0193, 0.1192, 0.9505}};
+  constexpr double kXyzFrom709[3][3] = {{0.4124, 0.3576, 0.1805}, {0.2126, 0.7152, 0.0722}, {0.0193, 0.1192, 0.9505}};
   // ACES AP1 to Rec.709 by Bradford, as colour-science and OpenColorIO's ACES configuration print it.
   constexpr double k709FromAcesCg[3][3] = {
       {1.70505, -0.62179, -0.08326}, {-0.13026, 1.14080, -0.01055}, {-0.02400, -0.12897, 1.15297}};

@@ -43,8 +43,8 @@ class GivenFile {
       const auto count = static_cast<std::size_t>((width / given.sampling) * (height / given.sampling));
       data_.emplace_back(count * size);
       for (std::byte& b : data_.back()) b = static_cast<std::byte>(random());
-      frame_buffer_.insert(given.name, Imf::Slice::Make(given.type, data_.back().data(), window, 0, 0, given.sampling,
-                                                        given.sampling));
+      frame_buffer_.insert(
+          given.name, Imf::Slice::Make(given.type, data_.back().data(), window, 0, 0, given.sampling, given.sampling));
     }
   }
 
@@ -69,9 +69,9 @@ class GivenFile {
   Imf::FrameBuffer frame_buffer_;
 };
 
-const std::vector<Given> kMixed = {{"R", Imf::HALF},           {"G", Imf::FLOAT},         {"B", Imf::HALF},
-                                   {"A", Imf::HALF},           {"Z", Imf::FLOAT},         {"id", Imf::UINT},
-                                   {"diffuse.R", Imf::HALF},   {"mask.half", Imf::HALF},  {"chroma", Imf::HALF, 2}};
+const std::vector<Given> kMixed = {{"R", Imf::HALF},         {"G", Imf::FLOAT},        {"B", Imf::HALF},
+                                   {"A", Imf::HALF},         {"Z", Imf::FLOAT},        {"id", Imf::UINT},
+                                   {"diffuse.R", Imf::HALF}, {"mask.half", Imf::HALF}, {"chroma", Imf::HALF, 2}};
 
 Imf::Header windowed_header(Imf::Compression compression) {
   Imf::Header header({{-10, 5}, {300, 200}}, {{-8, -16}, {55, 33}}, 1.5F, {0.25F, -1}, 2.5F);
@@ -100,8 +100,8 @@ void check_round_trip(const GivenFile& given) {
 }  // namespace
 
 TEST_CASE("every bit comes back: mixed types, NaNs, windows, extra channels, attributes, lossless codecs") {
-  for (const Imf::Compression compression : {Imf::NO_COMPRESSION, Imf::RLE_COMPRESSION, Imf::ZIPS_COMPRESSION,
-                                             Imf::ZIP_COMPRESSION, Imf::PIZ_COMPRESSION}) {
+  for (const Imf::Compression compression :
+       {Imf::NO_COMPRESSION, Imf::RLE_COMPRESSION, Imf::ZIPS_COMPRESSION, Imf::ZIP_COMPRESSION, Imf::PIZ_COMPRESSION}) {
     CAPTURE(static_cast<int>(compression));
     const GivenFile given(windowed_header(compression), kMixed);
     check_round_trip(given);
@@ -137,8 +137,9 @@ TEST_CASE("lossy codecs read as they are and are written without loss") {
   for (const Imf::Compression compression : {Imf::PXR24_COMPRESSION, Imf::B44_COMPRESSION, Imf::B44A_COMPRESSION,
                                              Imf::DWAA_COMPRESSION, Imf::DWAB_COMPRESSION}) {
     CAPTURE(static_cast<int>(compression));
-    check_round_trip(GivenFile(windowed_header(compression), {{"R", Imf::HALF}, {"G", Imf::HALF}, {"B", Imf::HALF},
-                                                              {"A", Imf::HALF}, {"Z", Imf::FLOAT}}));
+    check_round_trip(
+        GivenFile(windowed_header(compression),
+                  {{"R", Imf::HALF}, {"G", Imf::HALF}, {"B", Imf::HALF}, {"A", Imf::HALF}, {"Z", Imf::FLOAT}}));
   }
 }
 
@@ -184,8 +185,12 @@ TEST_CASE("grey pictures, layers, integer colours") {
   CHECK(back.rgb.at(0, 0, 1) == 2);
   CHECK(back.rgb.at(1, 0, 0) == doctest::Approx(0.7152).epsilon(1e-3));
 
-  GivenFile(header, {{"key.R", Imf::FLOAT}, {"key.G", Imf::FLOAT}, {"key.B", Imf::FLOAT}, {"fill.R", Imf::UINT},
-                     {"fill.G", Imf::UINT}, {"fill.B", Imf::UINT}})
+  GivenFile(header, {{"key.R", Imf::FLOAT},
+                     {"key.G", Imf::FLOAT},
+                     {"key.B", Imf::FLOAT},
+                     {"fill.R", Imf::UINT},
+                     {"fill.G", Imf::UINT},
+                     {"fill.B", Imf::UINT}})
       .write(folder / "layers.exr");
   CHECK(must_read(folder / "layers.exr").rgb_source[0] == 2);  // fill.B, fill.G, fill.R, key...
   const Picture key = must_read(folder / "layers.exr", {"key", {}});
@@ -251,7 +256,9 @@ TEST_CASE("multi-part and deep files are refused by name") {
     headers[i].setType(Imf::SCANLINEIMAGE);
     headers[i].channels().insert("R", Imf::Channel(Imf::HALF));
   }
-  { Imf::MultiPartOutputFile out((folder / "parts.exr").c_str(), headers.data(), 2); }
+  {
+    Imf::MultiPartOutputFile out((folder / "parts.exr").c_str(), headers.data(), 2);
+  }
   const auto parts = read_picture(folder / "parts.exr");
   REQUIRE_FALSE(parts.has_value());
   CHECK(parts.error().code == ErrorCode::Unsupported);

@@ -97,9 +97,14 @@ TEST_CASE("random bytes after a good start are errors") {
 TEST_CASE("absurd dimensions are refused before anything is allocated") {
   const std::uint64_t before = peak_memory_bytes();
   const std::vector<std::byte> good = good_exr();
-  for (const auto& [right, bottom] : std::initializer_list<std::pair<std::uint32_t, std::uint32_t>>{
-           {0x7fffffff, 0x7fffffff}, {0x3ffffffe, 0}, {0, 0x3ffffffe}, {65535, 65535}, {30000, 8000},
-           {0xfffffff0, 10}, {67 * 100, 43 * 100}}) {
+  for (const auto& [right, bottom] :
+       std::initializer_list<std::pair<std::uint32_t, std::uint32_t>>{{0x7fffffff, 0x7fffffff},
+                                                                      {0x3ffffffe, 0},
+                                                                      {0, 0x3ffffffe},
+                                                                      {65535, 65535},
+                                                                      {30000, 8000},
+                                                                      {0xfffffff0, 10},
+                                                                      {67 * 100, 43 * 100}}) {
     CAPTURE(right);
     CAPTURE(bottom);
     std::vector<std::byte> bytes = good;
@@ -122,12 +127,22 @@ TEST_CASE("attributes that claim more than the file holds are refused") {
     put_int(bytes, value_of(bytes, "comments", "string") - 4, size);
     check_refused(bytes);
   }
-  // A preview of 65535 x 65535 in eight bytes, in place of the comment's text.
-  std::vector<std::byte> bytes = good;
-  const std::size_t value = value_of(bytes, "comments", "string");
-  std::memcpy(bytes.data() + value - 4 - 7, "preview", 7);  // takes one letter more than "string": a damaged name
-  put_int(bytes, value, 65535);
-  check_refused(bytes);
+  // A preview of 65535 x 65535, and an integer of a kilobyte that would put the library out of step.
+  for (const auto& [type, size] : std::initializer_list<std::pair<std::string, std::uint32_t>>{
+           {"preview", 8}, {"int", 1000}, {"stringvector", 8}, {"tiledesc", 8}}) {
+    CAPTURE(type);
+    const std::string names = std::string("bad") + '\0' + type + '\0';
+    std::vector<std::byte> attribute(names.size() + 4 + size);
+    std::memcpy(attribute.data(), names.data(), names.size());
+    put_int(attribute, names.size(), size);
+    put_int(attribute, names.size() + 4, 65535);
+    put_int(attribute, names.size() + 8, 65535);
+    std::vector<std::byte> bytes = good;
+    bytes.insert(bytes.begin() + 8, attribute.begin(), attribute.end());
+    const Result<Picture> picture = read_picture(bytes, "bad.exr");
+    REQUIRE_FALSE(picture.has_value());
+    CHECK(picture.error().message.find("'bad'") != std::string::npos);
+  }
   CHECK(peak_memory_bytes() < before + (64 << 20));
 }
 

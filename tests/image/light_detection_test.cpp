@@ -66,8 +66,8 @@ TEST_CASE("known lights are found where they are, with their flux and size") {
 }
 
 TEST_CASE("areas connect over corners and round bends, and only so") {
-  const char* const rows[] = {"#.#.....#", "#.#....#.", "###...#..", ".....#...", "#........", ".#.###.#.", "...#.#.#.",
-                              "...#.###."};
+  const char* const rows[] = {"#.#.....#", "#.#....#.", "###...#..", ".....#...",
+                              "#........", ".#.###.#.", "...#.#.#.", "...#.###."};
   Image image(9, 8);
   for (int y = 0; y < 8; ++y)
     for (int x = 0; x < 9; ++x)

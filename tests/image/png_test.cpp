@@ -19,7 +19,8 @@ Picture all_codes(SampleType type, bool with_alpha) {
     if (*name == 'A' && !with_alpha) continue;
     PictureChannel c{name, type, 1, 1, false, std::vector<std::byte>(count * size_of(type))};
     for (std::size_t i = 0; i < count; ++i) {
-      const auto code = static_cast<std::uint16_t>(*name == 'A' ? count - 1 - i / 2 : (*name == 'G' ? count - 1 - i : i));
+      const auto code =
+          static_cast<std::uint16_t>(*name == 'A' ? count - 1 - i / 2 : (*name == 'G' ? count - 1 - i : i));
       std::memcpy(c.samples.data() + i * size_of(type), &code, size_of(type));
     }
     picture.channels.push_back(std::move(c));

@@ -8,8 +8,8 @@ using namespace contrejour;
 
 namespace {
 
-const Spectrum kLights[] = {IlluminantD65{},    IlluminantA{},    EqualEnergy{},     BlackBody{500},
-                            BlackBody{1000},    BlackBody{1900},  BlackBody{100000}};
+const Spectrum kLights[] = {IlluminantD65{}, IlluminantA{},   EqualEnergy{},    BlackBody{500},
+                            BlackBody{1000}, BlackBody{1900}, BlackBody{100000}};
 constexpr ColourSpace kSpaces[] = {ColourSpace::Rec709, ColourSpace::AcesCg};
 
 double smooth(double lambda_nm) { return 1.5 + std::cos((lambda_nm - 400) / 60); }
