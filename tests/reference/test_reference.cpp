@@ -135,3 +135,13 @@ TEST_CASE("no lights, no flare; a cancelled render says so") {
   REQUIRE_FALSE(cancelled.has_value());
   CHECK(cancelled.error().code == ErrorCode::Cancelled);
 }
+
+TEST_CASE("a ghost of less than a pixel keeps its flux") {
+  const LensState lens = test::plate();
+  Frame frame{8, 8, 0, 0, 8, 8, 10.0};  // the stop's 6 mm within one pixel of 10 mm
+  frame.full_width = frame.full_height = 9;
+  Light light;
+  light.direction = {0.0, 0.0, 1.0};
+  const Image image = rendered(lens, {&light, 1}, green(frame));
+  CHECK(sum(image) / 3.0 == doctest::Approx(0.04 * 0.04).epsilon(2e-3));
+}

@@ -61,7 +61,7 @@ class CellWalker {
     const Sample middle =
         sample((corners[0].entrance_mm + corners[2].entrance_mm) * 0.5);
     if (outside_frame(corners, middle)) return;
-    if (depth < limits_.deepest && needs_cutting(corners, middle)) {
+    if (depth < limits_.deepest && needs_cutting(corners, middle, depth)) {
       cut(corners, middle, depth);
       return;
     }
@@ -98,19 +98,28 @@ class CellWalker {
            e.low.y - margin > frame_.height;
   }
 
-  [[nodiscard]] bool needs_cutting(const Corners& corners, const Sample& middle) const {
+  [[nodiscard]] bool needs_cutting(const Corners& corners, const Sample& middle, int depth) const {
     Extent e;
     Vec2 mean{};
-    bool all_open = middle.blocked <= 0.0;
-    bool all_traced = middle.traced();
+    double lowest = middle.blocked;
+    double highest = middle.blocked;
+    double mean_blocked = 0.0;
     for (const Sample& s : corners) {
-      all_open = all_open && s.blocked <= 0.0;
-      all_traced = all_traced && s.traced();
       if (s.traced()) e.add(s.pixel);
       mean = mean + s.pixel * 0.25;
+      mean_blocked += s.blocked * 0.25;
+      lowest = std::min(lowest, s.blocked);
+      highest = std::max(highest, s.blocked);
     }
+    const bool all_traced = highest < kFailed;
     if (!all_traced) return e.size() > limits_.cut_footprint_px;
-    if (e.size() > (all_open ? limits_.footprint_px : limits_.cut_footprint_px)) return true;
+    if (lowest > 0.0) {  // dark so far: an opening inside shows as a dip in the middle
+      return depth < limits_.look_depth || middle.blocked <= lowest;
+    }
+    if (e.size() > (highest <= 0.0 ? limits_.footprint_px : limits_.cut_footprint_px)) return true;
+    // However small its image, a cell that an edge cuts must hold an all but straight piece of it.
+    const bool bowed = std::abs(middle.blocked - mean_blocked) > limits_.edge_bend * (highest - lowest);
+    if (highest > 0.0 && bowed) return true;
     return length(middle.pixel - mean) > limits_.bend_px;
   }
 
@@ -173,6 +182,7 @@ CellLimits CellLimits::for_density(double density) {
   limits.footprint_px /= density;
   limits.cut_footprint_px /= density;
   limits.bend_px /= density;
+  limits.edge_bend /= density;
   return limits;
 }
 

@@ -16,7 +16,9 @@ struct CellLimits {
   int root_cells = 192;            // a side of the window, before any subdivision
   double footprint_px = 4.0;       // longest side of a cell's image
   double cut_footprint_px = 1.0;   // the same where a rim or the iris edge cuts the cell
-  double bend_px = 0.1;           // a cell's middle off the mean of its corners
+  double bend_px = 0.1;            // a cell's middle off the mean of its corners
+  double edge_bend = 0.005;        // how far an edge may bow within the cell it cuts, over the cell's size
+  int look_depth = 3;              // dark cells beside an opening are searched to this depth
   int deepest = 12;                // subdivisions of a root cell
 
   // Density 2 halves every length.
