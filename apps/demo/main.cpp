@@ -89,12 +89,12 @@ Result<std::size_t> show_applied(const LensState& lens, const params::Values& va
   return plan->lights.size();
 }
 
-// Settings that take seconds where the defaults take minutes: the weakest ghosts, 2 per cent of the flux, are left
-// out, small ones get coarser grids, and of the street's many lights the far ones are merged.
+// Settings that take seconds where the defaults take minutes: coarser grids, most of all for small ghosts, and of the
+// street's many lights the faint ones are merged.
 Result<params::Values> quick_values() {
   params::Values values;
   for (const auto& [name, text] :
-       {std::pair{"select", "flux:2"}, {"grid", "128"}, {"scale-grid", "on"}, {"max-lights", "12"}}) {
+       {std::pair{"grid", "128"}, {"scale-grid", "on"}, {"max-lights", "6"}}) {
     if (auto ok = values.set(name, text); !ok) return tl::unexpected(ok.error());
   }
   return values;

@@ -11,7 +11,7 @@ struct StreetSettings {
   double hfov_rad = 0.5;  // horizontal field of view of the camera
 };
 
-// Dark walls near 0.01, lit asphalt near 0.3, windows near 3, lamps in the thousands, the moon in the ten thousands.
+// Dark walls near 0.01, lit asphalt near 0.3, windows near 3, lamps near 900, headlights and the moon in the thousands.
 [[nodiscard]] Image make_street(const StreetSettings& settings);
 
 }  // namespace contrejour::demo

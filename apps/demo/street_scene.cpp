@@ -12,10 +12,11 @@ constexpr double kHouse_m = 11.0;      // along the street
 constexpr double kWindowStep_m = 2.6, kFloor_m = 3.2;
 constexpr double kFog_m = 220.0;       // distance over which haze swallows 1/e
 constexpr double kMoonRadius_rad = 0.0046;
-constexpr Rgb kMoon{26000, 24500, 21500};
-constexpr Rgb kSodium{2600, 1350, 380};
-constexpr Rgb kWhite{1900, 1950, 2000};
-constexpr Rgb kHeadlight{7200, 6900, 6100};
+constexpr Rgb kMoon{9000, 8500, 7500};
+constexpr double kShade = 2.6;         // lamps throw so much more onto the street than towards the eye
+constexpr Rgb kSodium{900, 470, 130};
+constexpr Rgb kWhite{650, 670, 690};
+constexpr Rgb kHeadlight{2400, 2300, 2050};
 
 Rgb operator*(Rgb a, double s) { return {a[0] * s, a[1] * s, a[2] * s}; }
 Rgb operator+(Rgb a, Rgb b) { return {a[0] + b[0], a[1] + b[1], a[2] + b[2]}; }
@@ -62,8 +63,8 @@ StreetScene::StreetScene() {
     lamps_.push_back({{4.7, 5.6, z + 10.5}, 0.17, k % 3 == 1 ? kWhite : kSodium});
   }
   for (const double x : {-2.6, -1.3}) lamps_.push_back({{x, 0.68, 47.0}, 0.085, kHeadlight});
-  for (const double x : {1.2, 2.5}) lamps_.push_back({{x, 0.75, 33.0}, 0.07, {90, 4, 2}});
-  lamps_.push_back({{4.4, 3.1, 60.0}, 0.13, {6, 130, 70}});  // traffic light
+  for (const double x : {1.2, 2.5}) lamps_.push_back({{x, 0.75, 33.0}, 0.07, {60, 3, 1}});
+  lamps_.push_back({{4.4, 3.1, 60.0}, 0.13, {4, 80, 45}});  // traffic light
 }
 
 Rgb StreetScene::lamp_light(Vec3 place, Vec3 normal) const {
@@ -72,7 +73,7 @@ Rgb StreetScene::lamp_light(Vec3 place, Vec3 normal) const {
     const Vec3 to = lamp.place - place;
     const double d2 = dot(to, to) + 0.3;  // lamps have a size
     const double cosine = dot(to, normal) / std::sqrt(d2);
-    if (cosine > 0.0) sum = sum + lamp.radiance * (cosine * lamp.radius * lamp.radius / d2);
+    if (cosine > 0.0) sum = sum + lamp.radiance * (kShade * cosine * lamp.radius * lamp.radius / d2);
   }
   return sum;
 }
