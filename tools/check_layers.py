@@ -38,6 +38,7 @@ PUBLIC = {
     "first_order.h": "lens",
     "frame.h": "render/interface",
     "ghost.h": "ghosts",
+    "ghost_figures.h": "render/interface",
     "glass.h": "glass",
     "image.h": "image",
     "image_io.h": "image",
