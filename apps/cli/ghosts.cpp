@@ -6,7 +6,7 @@
 
 #include "cli/command.h"
 #include "cli/console.h"
-#include "cli/ghost_figures.h"
+#include "contrejour/ghost_figures.h"
 #include "cli/lens_choice.h"
 #include "cli/long_task.h"
 #include "cli/options.h"

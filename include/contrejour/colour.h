@@ -18,11 +18,18 @@ using Xyz = std::array<double, 3>;
 enum class ColourSpace { Rec709, AcesCg };
 
 // Relative spectral power by wavelength. D65 is 0 outside 300..830 nm; the others have no bounds.
-struct IlluminantD65 {};
-struct IlluminantA {};
-struct EqualEnergy {};
+struct IlluminantD65 {
+  friend bool operator==(const IlluminantD65&, const IlluminantD65&) = default;
+};
+struct IlluminantA {
+  friend bool operator==(const IlluminantA&, const IlluminantA&) = default;
+};
+struct EqualEnergy {
+  friend bool operator==(const EqualEnergy&, const EqualEnergy&) = default;
+};
 struct BlackBody {
   double temperature_k = 6500;  // > 0
+  friend bool operator==(const BlackBody&, const BlackBody&) = default;
 };
 using Spectrum = std::variant<IlluminantD65, IlluminantA, EqualEnergy, BlackBody>;
 

@@ -10,7 +10,7 @@
 #include "contrejour/ghost.h"
 #include "contrejour/lens.h"
 #include "render/bundle/cell_raster.h"
-#include "render/bundle/pupil_search.h"
+#include "ghosts/pupil_search.h"
 #include "render/reference/flux_image.h"
 #include "render/reference/pupil_cells.h"
 
@@ -41,7 +41,7 @@ struct GhostImage {
 };
 
 // Are there open cells that the map turns over, and others that it does not?
-inline bool is_folded(const bundle::RayGrid& grid) {
+inline bool is_folded(const RayGrid& grid) {
   bool up = false;
   bool down = false;
   for (int iy = 0; iy < grid.cells(); ++iy) {
@@ -63,13 +63,13 @@ inline GhostImage bundle_ghost(const LensState& state, Ghost ghost, Vec3 directi
   image.flux.resize(static_cast<std::size_t>(frame.width) * static_cast<std::size_t>(frame.height));
   const OpticalPath path = ghost_path(state, ghost, lambda_nm);
   const ReflectanceTables tables(state, lambda_nm);
-  const bundle::IrisShape iris(state.iris);
+  const IrisShape iris(state.iris);
   const EntranceWindow window = entrance_window(state, direction);
-  bundle::RayGrid grid;
-  const auto region = bundle::find_pupil_region(path, tables, iris, direction, window, grid);
+  RayGrid grid;
+  const auto region = find_pupil_region(path, tables, iris, direction, window, grid);
   if (!region) return image;
   const auto precision =
-      bundle::precision_for(path, tables, direction, window.z_mm, region->pupil_mm, side, frame.pixel_pitch_mm);
+      precision_for(path, tables, direction, window.z_mm, region->pupil_mm, side, frame.pixel_pitch_mm);
   grid.trace(path, tables, iris, direction, window.z_mm, region->pupil_mm, side, precision);
   image.folded = is_folded(grid);
   bundle::CellRaster raster(grid, iris, frame, direction.z);

@@ -106,8 +106,9 @@ TEST_CASE("folded ghosts keep their flux and have no spikes") {
 TEST_CASE("ghosts smaller than a pixel keep their flux") {
   const LensState lens = test::lens("heliar", 16.0);
   const Vec3 direction = direction_to_land_at(lens, {4.0, 3.0}, 550.0);
+  const GhostMeter meter(lens, 550.0);
   for (const Ghost ghost : enumerate_ghosts(lens, GhostScope::OneSideOfStop)) {
-    const GhostMeasure measure = measure_ghost(lens, ghost, direction, 550.0);
+    const GhostMeasure measure = meter.measure(ghost, direction);
     CAPTURE(ghost.i);
     CAPTURE(ghost.j);
     const GhostImage mine = bundle_ghost(lens, ghost, direction, {4, 4, 0, 0, 4, 4, 500.0}, 128);

@@ -4,7 +4,7 @@
 #include <doctest/doctest.h>
 
 #include "contrejour/ghost.h"
-#include "ghosts/pupil_region.h"
+#include "ghosts/pupil_search.h"
 #include "support/scenes.h"
 
 using namespace contrejour;
@@ -34,11 +34,12 @@ TEST_CASE("a plate's ghost carries area cos(theta) T R R T, and lands as the sto
     const Vec3 d{std::sin(angle), 0.0, std::cos(angle)};
     const double r = reflectance({}, 1.0, 1.5, std::cos(angle), kGreen_nm);
     const double area = std::numbers::pi * 9.0 * std::cos(angle);
-    const GhostMeasure m = measure_ghost(lens, {2, 3}, d, kGreen_nm);
+    const GhostMeter meter(lens, kGreen_nm);
+    const GhostMeasure m = meter.measure({2, 3}, d);
     CHECK(m.flux_mm2 == doctest::Approx(area * (1 - r) * r * r * (1 - r)).epsilon(1e-3));
     CHECK(m.max_mm.x - m.min_mm.x == doctest::Approx(6.0).epsilon(0.05));
     CHECK(m.peak_per_mm2 == doctest::Approx(std::cos(angle) * (1 - r) * r * r * (1 - r)).epsilon(1e-3));
-    CHECK(direct_flux(lens, d, kGreen_nm) == doctest::Approx(area * (1 - r) * (1 - r)).epsilon(3e-4));
+    CHECK(meter.direct_flux(d) == doctest::Approx(area * (1 - r) * (1 - r)).epsilon(3e-4));
   }
 }
 
@@ -47,12 +48,14 @@ TEST_CASE("the pupil search finds what a dense scan finds, for ghosts of a zoom 
   const Vec3 d = direction_to_land_at(lens, {5.0, -3.0}, kGreen_nm);
   const EntranceWindow window = entrance_window(lens, d);
   const auto ghosts = enumerate_ghosts(lens, GhostScope::OneSideOfStop);
+  const ReflectanceTables tables(lens, kGreen_nm);
+  RayGrid scratch;
   constexpr int kScan = 220;
   for (std::size_t g = 0; g < ghosts.size(); g += 13) {
     CAPTURE(ghosts[g].i);
     CAPTURE(ghosts[g].j);
     const OpticalPath path = ghost_path(lens, ghosts[g], kGreen_nm);
-    const auto box = find_pupil(path, lens.iris, d, window);
+    const auto region = find_pupil_region(path, tables, IrisShape(lens.iris), d, window, scratch);
     int outside = 0;
     for (int iy = 0; iy < kScan; ++iy) {
       for (int ix = 0; ix < kScan; ++ix) {
@@ -60,8 +63,8 @@ TEST_CASE("the pupil search finds what a dense scan finds, for ghosts of a zoom 
                      std::lerp(window.min_mm.y, window.max_mm.y, (iy + 0.5) / kScan)};
         const TracedRay ray = trace(path, {{p.x, p.y, window.z_mm}, d});
         if (ray.status != RayStatus::Ok || blocked_by(ray, path, lens.iris) > 0.0) continue;
-        const bool inside = box && p.x >= box->min_mm.x && p.x <= box->max_mm.x && p.y >= box->min_mm.y &&
-                            p.y <= box->max_mm.y;
+        const bool inside = region && p.x >= region->pupil_mm.low.x && p.x <= region->pupil_mm.high.x &&
+                            p.y >= region->pupil_mm.low.y && p.y <= region->pupil_mm.high.y;
         if (!inside) ++outside;
       }
     }
@@ -72,15 +75,15 @@ TEST_CASE("the pupil search finds what a dense scan finds, for ghosts of a zoom 
 TEST_CASE("a pupil of a ten-thousandth of the window's area is found") {
   LensState lens = test::plate();
   lens.stop_radius_mm = 0.05;
-  const GhostMeasure m = measure_ghost(lens, {2, 3}, {0, 0, 1}, kGreen_nm);
+  const GhostMeasure m = GhostMeter(lens, kGreen_nm).measure({2, 3}, {0, 0, 1});
   const double r = 0.04;
   CHECK(m.flux_mm2 == doctest::Approx(std::numbers::pi * 0.0025 * (1 - r) * r * r * (1 - r)).epsilon(2e-3));
 }
 
 TEST_CASE("an iris polygon cuts the direct flux by its area") {
   LensState lens = test::plate();
-  const double open = direct_flux(lens, {0, 0, 1}, kGreen_nm);
+  const double open = GhostMeter(lens, kGreen_nm).direct_flux({0, 0, 1});
   lens.iris = {6, 0.3};
-  CHECK(direct_flux(lens, {0, 0, 1}, kGreen_nm) / open == doctest::Approx(iris_area_fraction(lens.iris)).epsilon(1e-3));
+  CHECK(GhostMeter(lens, kGreen_nm).direct_flux({0, 0, 1}) / open == doctest::Approx(iris_area_fraction(lens.iris)).epsilon(1e-3));
   CHECK(iris_area_fraction({6, 0.0}) == doctest::Approx(3.0 * std::sqrt(3.0) / (2.0 * std::numbers::pi)));
 }

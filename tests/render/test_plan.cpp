@@ -26,7 +26,7 @@ Frame frame() { return {60, 40, 0, 0, 60, 40, 0.2}; }
 
 TEST_CASE("a lens without colour keeps the light's colour for any number of wavelengths") {
   const LensState lens = grey_lens();
-  const double flux = direct_flux(lens, {0, 0, 1}, 550.0);
+  const double flux = GhostMeter(lens, 550.0).direct_flux({0, 0, 1});
   Light light;
   light.value = {3.0, 5.0, 7.0};
   for (const int count : {1, 2, 3, 4, 7, 16, 61}) {
@@ -56,7 +56,7 @@ TEST_CASE("more wavelengths converge to one colour, without a shift") {
     REQUIRE(planned.has_value());
     Rgb rgb{};
     for (const PlannedPass& pass : planned->lights[0].passes) {
-      const double flux = measure_ghost(lens, planned->ghosts[0], light.direction, pass.lambda_nm).flux_mm2;
+      const double flux = GhostMeter(lens, pass.lambda_nm).measure(planned->ghosts[0], light.direction).flux_mm2;
       for (std::size_t c = 0; c < 3; ++c) rgb[c] += pass.gain[c] * flux;
     }
     return rgb;

@@ -10,7 +10,7 @@
 #include "base/memory.h"
 #include "base/tasks.h"
 #include "render/bundle/cell_raster.h"
-#include "render/bundle/pupil_search.h"
+#include "ghosts/pupil_search.h"
 #include "render/interface/frame_plan.h"
 
 namespace contrejour {
@@ -86,7 +86,7 @@ TablesByWavelength tables_for(const FramePlan& plan, const LensState& lens, cons
 }
 
 // bodonyi2023 eq. 13 with sigma = 1, phi = 1/2: the grid shrinks with the ghost's share of the sensor.
-int grid_side(const RenderSettings& settings, const LensState& lens, const bundle::Rectangle& on_sensor) {
+int grid_side(const RenderSettings& settings, const LensState& lens, const Rectangle& on_sensor) {
   if (!settings.scale_grid) return settings.grid;
   const Vec2 size = on_sensor.high - on_sensor.low;
   const double share = size.x * size.y / (lens.sensor_width_mm * lens.sensor_height_mm);
@@ -117,14 +117,14 @@ class ItemRenderer {
     const EntranceWindow window = entrance_window(lens_, direction);
 
     auto start = Clock::now();
-    const auto region = bundle::find_pupil_region(path, tables, iris_, direction, window, grid_);
+    const auto region = find_pupil_region(path, tables, iris_, direction, window, grid_);
     counts_.search_ms += ms_since(start);
     if (!region) return std::nullopt;
     count_rays(region->rays, path);
 
     start = Clock::now();
     const int side = grid_side(settings_, lens_, region->sensor_mm);
-    const auto precision = bundle::precision_for(path, tables, direction, window.z_mm, region->pupil_mm, side,
+    const auto precision = precision_for(path, tables, direction, window.z_mm, region->pupil_mm, side,
                                                  settings_.frame.pixel_pitch_mm);
     grid_.trace(path, tables, iris_, direction, window.z_mm, region->pupil_mm, side, precision);
     count_rays(static_cast<std::uint64_t>(side) * static_cast<std::uint64_t>(side), path);
@@ -179,8 +179,8 @@ class ItemRenderer {
   const RenderSettings& settings_;
   const TablesByWavelength& tables_;
   const Context& context_;
-  bundle::IrisShape iris_;
-  bundle::RayGrid grid_;
+  IrisShape iris_;
+  RayGrid grid_;
   Counts counts_;
 };
 

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "render/bundle/ray_grid.h"
+#include "ghosts/ray_grid.h"
 
 namespace contrejour::bundle {
 

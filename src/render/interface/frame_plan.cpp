@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "base/tasks.h"
+#include "render/interface/direct_light.h"
 #include "render/interface/ghost_selection.h"
 
 namespace contrejour {
@@ -49,36 +50,34 @@ std::vector<SpectralBand> bands_of(const Light& light, const RenderSettings& set
   return bands;
 }
 
-// The direction whose direct image the light's value is measured by: its own inside the frame; outside, the
-// nearest point of the frame's edge on the way to its centre (ARCHITECTURE, Radiometry).
-Vec3 measured_direction(const LensState& lens, const Frame& frame, Vec3 direction) {
-  const Vec2 uv = frame.uv_from_sensor(landing_of(lens, direction, lens.design_wavelength_nm));
-  const double outside = std::max(std::abs(uv.x - 0.5), std::abs(uv.y - 0.5)) / 0.5;
-  if (!(outside > 1.0)) return direction;
-  const Vec2 edge = Vec2{0.5, 0.5} + (uv - Vec2{0.5, 0.5}) * (1.0 / outside);
-  return direction_to_land_at(lens, frame.sensor_from_uv(edge), lens.design_wavelength_nm);
+// Lights of one spectrum share their bands, and the meters made for them.
+struct MeteredBands {
+  std::vector<SpectralBand> bands;
+  std::vector<GhostMeter> meters;
+};
+
+using BandsBySpectrum = std::vector<std::pair<Spectrum, MeteredBands>>;
+
+BandsBySpectrum meter_bands(const LensState& lens, std::span<const Light> lights, const RenderSettings& settings) {
+  BandsBySpectrum all;
+  for (const Light& light : lights) {
+    const auto same = [&](const auto& entry) { return entry.first == light.spectrum; };
+    if (std::any_of(all.begin(), all.end(), same)) continue;
+    MeteredBands metered{bands_of(light, settings), {}};
+    for (const SpectralBand& band : metered.bands) metered.meters.emplace_back(lens, band.lambda_nm);
+    all.emplace_back(light.spectrum, std::move(metered));
+  }
+  return all;
 }
 
-// sum over bands of w[c] * Phi, for the direction the light is measured in.
-Rgb direct_light(const LensState& lens, const Frame& frame, Vec3 direction, std::span<const SpectralBand> bands) {
-  const auto towards = [&](Vec3 measured) {
-    Rgb whole{};
-    for (const SpectralBand& band : bands) {
-      const double flux = direct_flux(lens, measured, band.lambda_nm);
-      for (std::size_t c = 0; c < whole.size(); ++c) whole[c] += band.weight[c] * flux;
-    }
-    return whole;
-  };
-  const Rgb whole = towards(measured_direction(lens, frame, direction));
-  const bool dark = whole == Rgb{};
-  return dark ? towards({0.0, 0.0, 1.0}) : whole;
-}
-
-PlannedLight plan_light(const LensState& lens, const Light& light, const RenderSettings& settings) {
+PlannedLight plan_light(const LensState& lens, const Light& light, const RenderSettings& settings,
+                        const BandsBySpectrum& spectra) {
   PlannedLight planned;
   planned.direction = normalized(light.direction);
-  const auto bands = bands_of(light, settings);
-  const Rgb whole = direct_light(lens, settings.frame, planned.direction, bands);
+  const auto& [bands, meters] = std::find_if(spectra.begin(), spectra.end(), [&](const auto& entry) {
+                                  return entry.first == light.spectrum;
+                                })->second;
+  const Rgb whole = direct_light(lens, settings.frame, planned.direction, bands, meters);
   for (const SpectralBand& band : bands) {
     PlannedPass pass{band.lambda_nm, {}};
     for (std::size_t c = 0; c < whole.size(); ++c) {
@@ -103,8 +102,10 @@ Result<FramePlan> plan_frame(const LensState& lens, std::span<const Light> light
   plan.lights.resize(lights.size());
   Context quiet = context;
   quiet.progress = {};
-  const bool done =
-      parallel_for(lights.size(), quiet, [&](std::size_t k) { plan.lights[k] = plan_light(lens, lights[k], settings); });
+  const BandsBySpectrum spectra = meter_bands(lens, lights, settings);
+  const bool done = parallel_for(lights.size(), quiet, [&](std::size_t k) {
+    plan.lights[k] = plan_light(lens, lights[k], settings, spectra);
+  });
   if (!done) return failure(ErrorCode::Cancelled, "interrupted");
   return plan;
 }

@@ -21,10 +21,11 @@ Result<std::vector<double>> ghost_fluxes(const LensState& lens, std::span<const 
   std::vector<double> flux(ghosts.size(), 0.0);
   Context quiet = context;
   quiet.progress = {};
+  const GhostMeter meter(lens, kGreen_nm);
   const bool done = parallel_for(ghosts.size(), quiet, [&](std::size_t g) {
     for (const Light& light : lights) {
       const double weight = std::abs(luminance(light.value, settings.colour_space));
-      flux[g] += weight * measure_ghost(lens, ghosts[g], normalized(light.direction), kGreen_nm).flux_mm2;
+      flux[g] += weight * meter.measure(ghosts[g], normalized(light.direction)).flux_mm2;
     }
   });
   if (!done) return failure(ErrorCode::Cancelled, "interrupted");

@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "optics/trace/packet_trace.h"
-#include "render/bundle/iris_sets.h"
+#include "ghosts/iris_shape.h"
 
-namespace contrejour::bundle {
+namespace contrejour {
 
 struct Rectangle {
   Vec2 low, high;
@@ -56,4 +56,4 @@ class RayGrid {
 [[nodiscard]] PacketPrecision precision_for(const OpticalPath& path, const ReflectanceTables& tables, Vec3 direction,
                                             double z_mm, const Rectangle& box, int side, double pixel_pitch_mm);
 
-}  // namespace contrejour::bundle
+}  // namespace contrejour

@@ -5,9 +5,9 @@
 #include <cstdint>
 #include <optional>
 
-#include "render/bundle/ray_grid.h"
+#include "ghosts/ray_grid.h"
 
-namespace contrejour::bundle {
+namespace contrejour {
 
 struct PupilRegion {
   Rectangle pupil_mm;   // enclosing, with a margin
@@ -21,4 +21,4 @@ struct PupilRegion {
                                                            const IrisShape& iris, Vec3 direction,
                                                            const EntranceWindow& window, RayGrid& scratch);
 
-}  // namespace contrejour::bundle
+}  // namespace contrejour

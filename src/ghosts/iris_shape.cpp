@@ -1,10 +1,10 @@
-#include "render/bundle/iris_sets.h"
+#include "ghosts/iris_shape.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
-namespace contrejour::bundle {
+namespace contrejour {
 
 IrisShape::IrisShape(const Iris& iris) {
   if (iris.blades < 3) return;
@@ -33,4 +33,4 @@ void IrisShape::distances(const float* x, const float* y, std::size_t count, flo
   }
 }
 
-}  // namespace contrejour::bundle
+}  // namespace contrejour

@@ -1,9 +1,9 @@
-#include "render/bundle/ray_grid.h"
+#include "ghosts/ray_grid.h"
 
 #include <algorithm>
 #include <cmath>
 
-namespace contrejour::bundle {
+namespace contrejour {
 namespace {
 
 // Rounding between neighbours may be this share of their distance: it is the ripple of a flat ghost.
@@ -93,4 +93,4 @@ PacketPrecision precision_for(const OpticalPath& path, const ReflectanceTables& 
   return seen && noise > kRoundingShare * kRoundingShare * distance ? PacketPrecision::Double : PacketPrecision::Float;
 }
 
-}  // namespace contrejour::bundle
+}  // namespace contrejour

@@ -1,11 +1,11 @@
-#include "render/bundle/pupil_search.h"
+#include "ghosts/pupil_search.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
 
-namespace contrejour::bundle {
+namespace contrejour {
 namespace {
 
 constexpr int kSearchSide = 49;  // rays a side of every zoom step
@@ -111,4 +111,4 @@ std::optional<PupilRegion> find_pupil_region(const OpticalPath& path, const Refl
   return std::nullopt;
 }
 
-}  // namespace contrejour::bundle
+}  // namespace contrejour

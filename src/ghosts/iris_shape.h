@@ -6,7 +6,7 @@
 
 #include "contrejour/iris.h"
 
-namespace contrejour::bundle {
+namespace contrejour {
 
 // The iris opening as straight edges, normal . p <= apothem; none for a full circle of radius 1.
 // Near and inside the opening the distance to the farthest of them is iris_distance().
@@ -29,4 +29,4 @@ class IrisShape {
   double apothem_ = 1.0;
 };
 
-}  // namespace contrejour::bundle
+}  // namespace contrejour

@@ -1,0 +1,116 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "contrejour/ghost.h"
+#include "ghosts/pupil_search.h"
+
+namespace contrejour {
+namespace {
+
+constexpr int kDirectSide = 97;  // rays a side over the pupil
+constexpr int kGhostSide = 65;
+constexpr float kFailed = std::numeric_limits<float>::infinity();
+constexpr double kFar = std::numeric_limits<double>::infinity();
+
+// Share of a triangle where a function that is linear over it is <= 0.
+double share_below_zero(double a, double b, double c) {
+  if (a > b) std::swap(a, b);
+  if (b > c) std::swap(b, c);
+  if (a > b) std::swap(a, b);
+  if (c <= 0.0) return 1.0;
+  if (a > 0.0) return 0.0;
+  if (b > 0.0) return a / (a - b) * (a / (a - c));  // the corner at a
+  return 1.0 - c / (c - a) * (c / (c - b));         // all but the corner at c
+}
+
+// Half a cell of the grid: its vertices, the share of it that is open, and the flux through that share.
+struct OpenTriangle {
+  std::array<std::size_t, 3> vertex;
+  double open = 0;
+  double flux_mm2 = 0;  // but for cos(theta)
+};
+
+template <class Visit>
+void for_each_open_triangle(const RayGrid& grid, Visit visit) {
+  const Vec2 step = grid.step_mm();
+  for (int iy = 0; iy < grid.cells(); ++iy) {
+    for (int ix = 0; ix < grid.cells(); ++ix) {
+      const auto q = grid.corners(ix, iy);
+      for (const auto& v : {std::array{q[0], q[1], q[2]}, std::array{q[0], q[2], q[3]}}) {
+        const auto blocked = [&](std::size_t k) { return grid.blocked[v[k]]; };
+        if (!(blocked(0) < kFailed && blocked(1) < kFailed && blocked(2) < kFailed)) continue;
+        const double open = share_below_zero(blocked(0), blocked(1), blocked(2));
+        if (open <= 0.0) continue;
+        const double transmission =
+            (grid.transmission[v[0]] + grid.transmission[v[1]] + grid.transmission[v[2]]) / 3.0;
+        visit(OpenTriangle{v, open, open * transmission * 0.5 * step.x * step.y});
+      }
+    }
+  }
+}
+
+void grow(Vec2& low, Vec2& high, Vec2 p) {
+  low = {std::min(low.x, p.x), std::min(low.y, p.y)};
+  high = {std::max(high.x, p.x), std::max(high.y, p.y)};
+}
+
+Vec2 sensor_point(const RayGrid& grid, std::size_t k) { return {grid.sensor_x_mm[k], grid.sensor_y_mm[k]}; }
+
+GhostMeasure measured(const RayGrid& grid, double cos_theta) {
+  GhostMeasure m;
+  m.min_mm = {kFar, kFar};
+  m.max_mm = {-kFar, -kFar};
+  for_each_open_triangle(grid, [&](const OpenTriangle& t) {
+    const double flux = t.flux_mm2 * cos_theta;
+    m.flux_mm2 += flux;
+    std::array<Vec2, 3> p;
+    for (std::size_t k = 0; k < 3; ++k) {
+      p[k] = sensor_point(grid, t.vertex[k]);
+      m.centroid_mm = m.centroid_mm + p[k] * (flux / 3.0);
+      grow(m.min_mm, m.max_mm, p[k]);
+    }
+    const double lit_mm2 = 0.5 * std::abs(cross(p[1] - p[0], p[2] - p[0])) * t.open;
+    if (lit_mm2 > 0.0) m.peak_per_mm2 = std::max(m.peak_per_mm2, flux / lit_mm2);
+  });
+  if (!(m.flux_mm2 > 0.0)) return {};
+  m.centroid_mm = m.centroid_mm * (1.0 / m.flux_mm2);
+  return m;
+}
+
+// The pupil's grid, or false when nothing gets through.
+bool trace_pupil(RayGrid& grid, const OpticalPath& path, const ReflectanceTables& tables, const LensState& lens,
+                 Vec3 direction, int side) {
+  const IrisShape iris(lens.iris);
+  const EntranceWindow window = entrance_window(lens, direction);
+  const auto region = find_pupil_region(path, tables, iris, direction, window, grid);
+  if (!region) return false;
+  grid.trace(path, tables, iris, direction, window.z_mm, region->pupil_mm, side, PacketPrecision::Double);
+  return true;
+}
+
+}  // namespace
+
+GhostMeter::GhostMeter(LensState lens, double lambda_nm)
+    : lens_(std::move(lens)), lambda_nm_(lambda_nm), tables_(std::make_unique<ReflectanceTables>(lens_, lambda_nm)) {}
+GhostMeter::~GhostMeter() = default;
+GhostMeter::GhostMeter(GhostMeter&&) noexcept = default;
+GhostMeter& GhostMeter::operator=(GhostMeter&&) noexcept = default;
+
+double GhostMeter::direct_flux(Vec3 direction) const {
+  RayGrid grid;
+  if (!trace_pupil(grid, direct_path(lens_, lambda_nm_), *tables_, lens_, direction, kDirectSide)) return 0.0;
+  double flux = 0.0;
+  for_each_open_triangle(grid, [&](const OpenTriangle& t) { flux += t.flux_mm2; });
+  return flux * direction.z;
+}
+
+GhostMeasure GhostMeter::measure(Ghost ghost, Vec3 direction) const {
+  RayGrid grid;
+  if (!trace_pupil(grid, ghost_path(lens_, ghost, lambda_nm_), *tables_, lens_, direction, kGhostSide)) return {};
+  return measured(grid, direction.z);
+}
+
+}  // namespace contrejour
