@@ -103,7 +103,7 @@ const Parameter kTable[] = {
     {.name = "softness", .group = "Finding lights", .kind = Kind::Real, .minimum = 0, .maximum = 1000,
      .fallback = "0.25", .help = "a pixel counts in full at threshold x (1 + softness)"},
     {.name = "max-lights", .group = "Finding lights", .kind = Kind::Integer, .minimum = 1, .maximum = 100000,
-     .fallback = "32", .help = "more are merged into the nearest of these, without losing flux"},
+     .fallback = "8", .help = "more are merged into the nearest of these, without losing flux"},
     {.name = "min-pixels", .group = "Finding lights", .kind = Kind::Integer, .minimum = 1, .maximum = 1000000000,
      .fallback = "1", .help = "smaller areas, such as hot pixels, are no lights"},
     {.name = "spectrum", .group = "Finding lights", .unit = "SPECTRUM", .fallback = "D65",

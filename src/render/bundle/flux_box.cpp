@@ -64,7 +64,16 @@ void add_stretch(float* row, double x0, double x1, double dy) {
   row[last + 1] += static_cast<float>(dy - covered);
 }
 
-void add_edge(float* cover, Vec2 a, Vec2 b, double sign) {
+// Columns of a row that edges touch: a convex polygon's coverage is level between its left and right edges.
+void note_columns(RowSpan& span, double x0, double x1, bool left) {
+  if (left) {
+    span.left_end = std::max(span.left_end, static_cast<int>(std::max(x0, x1)) + 1);
+  } else {
+    span.right_begin = std::min(span.right_begin, static_cast<int>(std::min(x0, x1)));
+  }
+}
+
+void add_edge(float* cover, RowSpan* spans, Vec2 a, Vec2 b, double sign) {
   if (a.y == b.y) return;
   if (a.y > b.y) {
     std::swap(a, b);
@@ -80,9 +89,36 @@ void add_edge(float* cover, Vec2 a, Vec2 b, double sign) {
     if (dy <= 0.0) break;
     const double x_next = y_next == b.y ? b.x : a.x + dx_dy * (y_next - a.y);
     add_stretch(cover + static_cast<std::size_t>(row) * kPitch, x, x_next, sign * dy);
+    note_columns(spans[row], x, x_next, sign > 0.0);
     x = x_next;
     y = y_next;
   }
+}
+
+// Irradiance along a row of pixels.
+struct Ramp {
+  float first, slope;
+};
+
+// Adds coverage times irradiance to a row's pixels and clears the coverage. Between the edges the running sum
+// stands still, which leaves a loop without a chain of additions.
+void add_row(float* cover, const RowSpan& span, int count, float* out, Ramp ramp) {
+  float covered = 0.0F;
+  const auto add_summed = [&](int from, int to) {
+    for (int k = from; k < to; ++k) {
+      covered += cover[k];
+      cover[k] = 0.0F;
+      out[k] += covered * (ramp.first + ramp.slope * static_cast<float>(k));
+    }
+  };
+  const int level_from = std::min(span.left_end + 1, count);
+  const int level_to = std::clamp(span.right_begin, level_from, count);
+  add_summed(0, level_from);
+  const float level = covered;
+  for (int k = level_from; k < level_to; ++k) out[k] += level * (ramp.first + ramp.slope * static_cast<float>(k));
+  add_summed(level_to, count);
+  cover[count] = 0.0F;
+  cover[count + 1] = 0.0F;
 }
 
 double signed_area(std::span<const Vec2> p) {
@@ -108,7 +144,8 @@ Bounds bounds_of(std::span<const Vec2> p) {
 FluxBox::FluxBox(const PixelBox& box)
     : box_(box),
       flux_(box.empty() ? 0 : static_cast<std::size_t>(box.width()) * static_cast<std::size_t>(box.height())),
-      cover_(kPitch * (kMaxSide + 1)) {}
+      cover_(kPitch * (kMaxSide + 1)),
+      span_(kMaxSide + 1) {}
 
 void FluxBox::add_point(Vec2 point, double flux) {
   if (!(point.x >= box_.x0 && point.x < box_.x1 && point.y >= box_.y0 && point.y < box_.y1)) return;
@@ -160,22 +197,13 @@ void FluxBox::add_inside(std::span<const Vec2> polygon, const Density& density) 
   const Vec2 origin{static_cast<double>(x0), static_cast<double>(y0)};
   const double sign = area > 0.0 ? -1.0 : 1.0;  // y down in memory: left edges rise
   for (std::size_t k = 0; k < polygon.size(); ++k) {
-    add_edge(cover_.data(), polygon[k] - origin, polygon[k + 1 == polygon.size() ? 0 : k + 1] - origin, sign);
+    add_edge(cover_.data(), span_.data(), polygon[k] - origin, polygon[k + 1 == polygon.size() ? 0 : k + 1] - origin, sign);
   }
   for (int y = y0; y <= y1; ++y) {
-    float* cover = cover_.data() + static_cast<std::size_t>(y - y0) * kPitch;
-    float* out = flux_.data() + index(x0, y);
-    auto here = static_cast<float>(level(x0, y));
-    const auto slope = static_cast<float>(density.gradient.x);
-    float covered = 0.0F;
-    for (int k = 0; k <= x1 - x0; ++k) {
-      covered += cover[k];
-      cover[k] = 0.0F;
-      out[k] += covered * here;
-      here += slope;
-    }
-    cover[x1 - x0 + 1] = 0.0F;
-    cover[x1 - x0 + 2] = 0.0F;
+    const auto row = static_cast<std::size_t>(y - y0);
+    add_row(cover_.data() + row * kPitch, span_[row], x1 - x0 + 1, flux_.data() + index(x0, y),
+            {static_cast<float>(level(x0, y)), static_cast<float>(density.gradient.x)});
+    span_[row] = {};
   }
 }
 

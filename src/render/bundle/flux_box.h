@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -22,6 +23,13 @@ struct Density {
   Vec2 point;
   double value = 0.0;
   Vec2 gradient{};
+};
+
+// The level part of a row of a polygon: the columns between the last that a left edge touches and the first that
+// a right edge does.
+struct RowSpan {
+  int left_end = -1;
+  int right_begin = std::numeric_limits<int>::max();
 };
 
 class FluxBox {
@@ -51,7 +59,8 @@ class FluxBox {
 
   PixelBox box_;
   std::vector<float> flux_;
-  std::vector<float> cover_;
+  std::vector<float> cover_;     // signed coverage of the polygon at hand, as differences along each row
+  std::vector<RowSpan> span_;    // where each of its rows is level
 };
 
 }  // namespace contrejour::bundle
