@@ -24,6 +24,7 @@ constexpr int kHighestGrid = 512;
 // Wavelengths that one item draws before they are added up: fewer, larger additions.
 constexpr std::size_t kPassesPerItem = 4;
 constexpr double kLowestGridScale = 0.05;  // bodonyi2023 eq. 13
+constexpr int kLowestScaledGrid = 32;
 
 double ms_since(Clock::time_point start) {
   return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
@@ -86,12 +87,14 @@ TablesByWavelength tables_for(const FramePlan& plan, const LensState& lens, cons
 }
 
 // bodonyi2023 eq. 13 with sigma = 1, phi = 1/2: the grid shrinks with the ghost's share of the sensor.
+// Differs: not below 32 rays a side, where a caustic in a small ghost shows the grid as a four-pointed star.
 int grid_side(const RenderSettings& settings, const LensState& lens, const Rectangle& on_sensor) {
   if (!settings.scale_grid) return settings.grid;
   const Vec2 size = on_sensor.high - on_sensor.low;
   const double share = size.x * size.y / (lens.sensor_width_mm * lens.sensor_height_mm);
   const double scale = std::clamp(std::sqrt(share), kLowestGridScale, 1.0);
-  return std::max(2, static_cast<int>(std::lround(settings.grid * scale)));
+  const int fewest = std::min(settings.grid, kLowestScaledGrid);
+  return std::max(fewest, static_cast<int>(std::lround(settings.grid * scale)));
 }
 
 class ItemRenderer {
