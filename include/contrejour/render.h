@@ -21,6 +21,26 @@
 
 namespace contrejour {
 
+// What hullin2011 4.2 and 4.3 do to be quicker or better; `bundle` only.
+struct BundleOptions {
+  bool smooth_shading = true;      // irradiance averaged to the vertices, linear over a cell; off: level cells
+  bool grid_levels = false;        // instead of `grid`: one of six, 16 to 512, by the variance of the cells' areas
+  bool mirror_symmetry = false;    // half the grid is traced, the other half mirrored at the light's meridian
+  bool precomputed_bounds = false; // pupil bounds from a table over field angles, made first, instead of a search
+  bool spectral_filter = false;    // few bands, each blurred along the way to its neighbours to bridge the gap
+  enum class Anisotropic { Exact, HighResolution, Points } anisotropic = Anisotropic::Exact;
+};
+
+// bodonyi2023; `tiled` only.
+struct TiledOptions {
+  int merge_steps = 4;
+  double merge_threshold = 0.001;  // gamma of eq. 12; light 0.001, heavy 0.1
+  int dense_tile = 8;              // pixels a side; must divide coarse_tile
+  int coarse_tile = 128;           // 0: none
+  enum class Interpolation { Triangle, HomogeneousTriangle, MeanValue, Wachspress, LoopDeRose } interpolation =
+      Interpolation::LoopDeRose;
+};
+
 struct RenderSettings {
   Frame frame;
   GhostScope scope = GhostScope::OneSideOfStop;
@@ -29,8 +49,11 @@ struct RenderSettings {
   ColourSpace colour_space = ColourSpace::Rec709;
   std::vector<double> lambda_nm;  // instead of bands: these wavelengths, equal weights, for tests and tables
 
-  int grid = 256;                // `bundle`: rays along each side of a ghost's grid, 16 to 512
-  bool scale_grid = false;       // `bundle`: fewer rays for small ghosts, bodonyi2023 eq. 13
+  int grid = 256;                // `bundle`, `tiled`: rays along each side of a ghost's grid, 16 to 512
+  bool scale_grid = false;       // `bundle`, `tiled`: fewer rays for small ghosts, bodonyi2023 eq. 13
+  BundleOptions bundle;
+  TiledOptions tiled;
+  double error = 0.002;          // `adaptive`: bound of the RMS error over the frame's peak
   double reference_density = 1;  // `reference`: 2 halves the cells
 };
 

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <map>
-#include <memory>
 #include <optional>
 
 #include "base/memory.h"
@@ -12,19 +10,20 @@
 #include "render/bundle/cell_raster.h"
 #include "ghosts/pupil_search.h"
 #include "render/interface/frame_plan.h"
+#include "render/interface/grid_side.h"
+#include "render/interface/wavelength_tables.h"
 
 namespace contrejour {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-using TablesByWavelength = std::map<double, std::unique_ptr<ReflectanceTables>>;
 
 constexpr int kLowestGrid = 16;
 constexpr int kHighestGrid = 512;
 // Wavelengths that one item draws before they are added up: fewer, larger additions.
 constexpr std::size_t kPassesPerItem = 4;
-constexpr double kLowestGridScale = 0.05;  // bodonyi2023 eq. 13
-constexpr int kLowestScaledGrid = 32;
+// Below 32 rays a side a caustic in a small ghost shows the grid as a four-pointed star.
+constexpr int kFewestScaled = 32;
 
 double ms_since(Clock::time_point start) {
   return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
@@ -71,32 +70,6 @@ std::vector<Item> items_of(const FramePlan& plan) {
   return items;
 }
 
-TablesByWavelength tables_for(const FramePlan& plan, const LensState& lens, const Context& context) {
-  TablesByWavelength tables;
-  for (const PlannedLight& light : plan.lights) {
-    for (const PlannedPass& pass : light.passes) tables.try_emplace(pass.lambda_nm);
-  }
-  std::vector<TablesByWavelength::value_type*> entries;
-  for (auto& entry : tables) entries.push_back(&entry);
-  Context quiet = context;
-  quiet.progress = {};
-  parallel_for(entries.size(), quiet, [&](std::size_t k) {
-    entries[k]->second = std::make_unique<ReflectanceTables>(lens, entries[k]->first);
-  });
-  return tables;
-}
-
-// bodonyi2023 eq. 13 with sigma = 1, phi = 1/2: the grid shrinks with the ghost's share of the sensor.
-// Differs: not below 32 rays a side, where a caustic in a small ghost shows the grid as a four-pointed star.
-int grid_side(const RenderSettings& settings, const LensState& lens, const Rectangle& on_sensor) {
-  if (!settings.scale_grid) return settings.grid;
-  const Vec2 size = on_sensor.high - on_sensor.low;
-  const double share = size.x * size.y / (lens.sensor_width_mm * lens.sensor_height_mm);
-  const double scale = std::clamp(std::sqrt(share), kLowestGridScale, 1.0);
-  const int fewest = std::min(settings.grid, kLowestScaledGrid);
-  return std::max(fewest, static_cast<int>(std::lround(settings.grid * scale)));
-}
-
 class ItemRenderer {
  public:
   ItemRenderer(const Item& item, const LensState& lens, const RenderSettings& settings,
@@ -126,7 +99,7 @@ class ItemRenderer {
     count_rays(region->rays, path);
 
     start = Clock::now();
-    const int side = grid_side(settings_, lens_, region->sensor_mm);
+    const int side = grid_side(settings_, lens_, region->sensor_mm, kFewestScaled);
     const auto precision = precision_for(path, tables, direction, window.z_mm, region->pupil_mm, side,
                                                  settings_.frame.pixel_pitch_mm);
     grid_.trace(path, tables, iris_, direction, window.z_mm, region->pupil_mm, side, precision);
