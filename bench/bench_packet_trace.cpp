@@ -32,7 +32,7 @@ struct Rays {
 
   [[nodiscard]] TracedArrays arrays() {
     const auto at = [&](std::size_t k) { return results[k].data(); };
-    return {at(0), at(1), at(2), at(3), {at(4), at(5), at(6)}, {at(7), at(8), at(9)}};
+    return {at(0), at(1), at(2), at(3), {at(4), at(5), at(6)}, {at(7), at(8), at(9)}, nullptr, 0};
   }
 };
 

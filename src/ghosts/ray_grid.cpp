@@ -35,7 +35,7 @@ void RayGrid::trace(const OpticalPath& path, const ReflectanceTables& tables, co
     std::fill_n(y_mm_.begin() + static_cast<std::ptrdiff_t>(at(0, iy)), side, static_cast<float>(iy * step.y));
     for (int ix = 0; ix < side; ++ix) x_mm_[at(ix, iy)] = static_cast<float>(ix * step.x);
   }
-  TracedArrays out{sensor_x_mm.data(), sensor_y_mm.data(), transmission.data(), r_rel.data(), {}, {}};
+  TracedArrays out{sensor_x_mm.data(), sensor_y_mm.data(), transmission.data(), r_rel.data(), {}, {}, nullptr, 0};
   for (std::size_t c = 0; c < static_cast<std::size_t>(stop_crossings_); ++c) {
     out.stop_x[c] = stop_x[c].data();
     out.stop_y[c] = stop_y[c].data();
@@ -75,7 +75,9 @@ PacketPrecision precision_for(const OpticalPath& path, const ReflectanceTables& 
                    row[2].data(),
                    row[3].data(),
                    {row[4].data(), row[5].data(), row[6].data()},
-                   {row[7].data(), row[8].data(), row[9].data()}});
+                   {row[7].data(), row[8].data(), row[9].data()},
+                   nullptr,
+                   0});
   }
   double noise = 0.0;
   double distance = 0.0;

@@ -40,7 +40,7 @@ HWY_INLINE void pass_stop(PacketState<P>& s, const PacketStep& step, double inve
 
 // One packet over one surface. Rays that fail go on as numbers of no meaning with alive = 0.
 template <class P>
-HWY_INLINE void advance(PacketState<P>& s, const PacketStep& step, const float* tables) {
+HWY_INLINE void advance(PacketState<P>& s, const PacketStep& step, const float* tables, float* rim_squared) {
   const P zero(0.0);
   const P one(1.0);
   const P direction(step.direction);
@@ -51,7 +51,9 @@ HWY_INLINE void advance(PacketState<P>& s, const PacketStep& step, const float* 
 
   const P r_squared = (hit.x * hit.x + hit.y * hit.y) * P(step.inverse_semi_diameter_squared);
   const P beyond = select(hit.nz > zero, zero, P(kBeyondEquatorSquared));
-  s.r_rel_squared = larger(s.r_rel_squared, larger(r_squared, beyond));
+  const P out_squared = larger(r_squared, beyond);
+  s.r_rel_squared = larger(s.r_rel_squared, out_squared);
+  if (rim_squared != nullptr) store_floats(out_squared, rim_squared);
 
   const P eta(step.eta);
   if (step.event == PathEvent::Reflect) {
@@ -82,14 +84,11 @@ HWY_INLINE void land(const PacketState<P>& s, double sensor_gap_mm, std::size_t 
   store_floats(select(ok, square_root(s.r_rel_squared), P(std::numeric_limits<double>::infinity())), out.r_rel + at);
 }
 
-// The rays that start at index `at` of the arrays, as many as a packet holds.
 template <class P>
-HWY_INLINE void trace_one(const PacketPath& path, const float* x_mm, const float* y_mm, std::size_t at,
-                          const TracedArrays& out) {
-  const ParallelRays& rays = path.rays();
+HWY_INLINE PacketState<P> enter(const ParallelRays& rays, const float* x_mm, const float* y_mm) {
   PacketState<P> s;
-  s.ray = {P(rays.origin_mm.x) + hk::load_floats(typename P::Tag(), x_mm + at),
-           P(rays.origin_mm.y) + hk::load_floats(typename P::Tag(), y_mm + at),
+  s.ray = {P(rays.origin_mm.x) + hk::load_floats(typename P::Tag(), x_mm),
+           P(rays.origin_mm.y) + hk::load_floats(typename P::Tag(), y_mm),
            P(0.0),
            P(rays.direction.x),
            P(rays.direction.y),
@@ -97,9 +96,19 @@ HWY_INLINE void trace_one(const PacketPath& path, const float* x_mm, const float
   s.transmission = P(1.0);
   s.r_rel_squared = P(0.0);
   s.alive = P(1.0);
+  return s;
+}
+
+// The rays that start at index `at` of the arrays, as many as a packet holds.
+template <class P>
+HWY_INLINE void trace_one(const PacketPath& path, const float* x_mm, const float* y_mm, std::size_t at,
+                          const TracedArrays& out) {
+  PacketState<P> s = enter<P>(path.rays(), x_mm + at, y_mm + at);
+  float* rim_squared = out.rim_squared != nullptr ? out.rim_squared + at : nullptr;
   for (const PacketStep& step : path.steps()) {
-    advance(s, step, path.tables());
+    advance(s, step, path.tables(), rim_squared);
     if (step.event == PathEvent::Stop) pass_stop(s, step, path.inverse_stop_radius_per_mm(), at, out);
+    if (rim_squared != nullptr) rim_squared += out.rim_stride;
   }
   land(s, path.sensor_gap_mm(), at, out);
 }
@@ -114,12 +123,21 @@ void trace_tail(const PacketPath& path, const float* x_mm, const float* y_mm, st
   std::array<std::array<float, kLongest>, kFixed + 2 * kMaxStopCrossings> buffers;
   std::copy_n(x_mm, count, in[0].begin());
   std::copy_n(y_mm, count, in[1].begin());
-  TracedArrays part{buffers[0].data(), buffers[1].data(), buffers[2].data(), buffers[3].data(), {}, {}};
+  TracedArrays part{buffers[0].data(), buffers[1].data(), buffers[2].data(), buffers[3].data(), {}, {}, nullptr, 0};
   for (std::size_t c = 0; c < kMaxStopCrossings; ++c) {
     part.stop_x[c] = buffers[kFixed + 2 * c].data();
     part.stop_y[c] = buffers[kFixed + 2 * c + 1].data();
   }
+  std::vector<float> rims;
+  if (out.rim_squared != nullptr) {
+    rims.resize(path.steps().size() * kLongest);
+    part.rim_squared = rims.data();
+    part.rim_stride = kLongest;
+  }
   trace_one<P>(path, in[0].data(), in[1].data(), 0, part);
+  for (std::size_t k = 0; part.rim_squared != nullptr && k < path.steps().size(); ++k) {
+    std::copy_n(rims.data() + k * kLongest, count, out.rim_squared + k * out.rim_stride);
+  }
   std::copy_n(part.sensor_x_mm, count, out.sensor_x_mm);
   std::copy_n(part.sensor_y_mm, count, out.sensor_y_mm);
   std::copy_n(part.transmission, count, out.transmission);
@@ -136,6 +154,7 @@ TracedArrays advanced(const TracedArrays& arrays, std::size_t by, int crossings)
   out.sensor_y_mm += by;
   out.transmission += by;
   out.r_rel += by;
+  if (out.rim_squared != nullptr) out.rim_squared += by;
   for (std::size_t c = 0; c < static_cast<std::size_t>(crossings); ++c) {
     out.stop_x[c] += by;
     out.stop_y[c] += by;

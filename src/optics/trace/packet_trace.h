@@ -87,6 +87,10 @@ struct TracedArrays {
   float* r_rel = nullptr;
   std::array<float*, kMaxStopCrossings> stop_x{};  // as many as the path crosses the stop
   std::array<float*, kMaxStopCrossings> stop_y{};
+  // Where wanted: at step k of the path, the square of the distance from the axis over the clear semi-diameter, at
+  // [k * rim_stride + ray]; 4 beyond a sphere's equator; not written at the stop. Smooth where r_rel has creases.
+  float* rim_squared = nullptr;
+  std::size_t rim_stride = 0;
 };
 
 enum class PacketPrecision { Float, Double };
