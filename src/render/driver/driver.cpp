@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include "contrejour/render.h"
+#include "render/adaptive/adaptive.h"
 #include "render/bundle/bundle.h"
 #include "render/reference/reference.h"
 
@@ -15,7 +16,7 @@ struct Method {
   Result<Flare> (*render)(const LensState&, std::span<const Light>, const RenderSettings&, const Context&);
 };
 
-constexpr std::array kMethods{Method{"bundle", render_bundle}, Method{"reference", render_reference}};
+constexpr std::array kMethods{Method{"adaptive", render_adaptive}, Method{"bundle", render_bundle}, Method{"reference", render_reference}};
 
 }  // namespace
 

@@ -1,0 +1,372 @@
+#include "render/adaptive/cell_painter.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace contrejour::adaptive {
+namespace {
+
+constexpr int kFirstCell = 4;        // mesh cells a side of the largest cell drawn
+constexpr int kDeepest = 6;          // quarterings of a patch
+constexpr double kSliver = 1e-3;     // pixels: mean width below which a polygon is a line
+constexpr double kSpeck = 0.05;      // pixels: a polygon no longer than this is a point
+constexpr int kMostPoints = 256;     // that stand for a line
+constexpr double kPixel = 1.0;       // area below which a cell is not seen but for its flux
+constexpr double kPeaks = 4.0;       // brightness over the peak where errors begin to count as relative ones
+// Half the cell, a fourth of the deviation of a curve from its chord: a sixteenth of the squared error.
+constexpr double kGainOfHalving = 16.0;
+
+struct Bounds {
+  Vec2 low{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
+  Vec2 high{-std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
+  void add(Vec2 p) {
+    low = {std::min(low.x, p.x), std::min(low.y, p.y)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y)};
+  }
+  [[nodiscard]] Vec2 size() const { return high - low; }
+};
+
+double quad_area(Vec2 a, Vec2 b, Vec2 c, Vec2 d) { return 0.5 * cross(c - a, d - b); }
+
+}  // namespace
+
+CellPainter::Cell CellPainter::cell_at(int ix, int iy, int size) {
+  Cell cell{ix, iy, size, {}, {}, 0};
+  const int half = size / 2;
+  cell.corner = {Mesh::at(ix, iy), Mesh::at(ix + size, iy), Mesh::at(ix + size, iy + size), Mesh::at(ix, iy + size)};
+  cell.side = {Mesh::at(ix + half, iy), Mesh::at(ix + size, iy + half), Mesh::at(ix + half, iy + size), Mesh::at(ix, iy + half)};
+  cell.middle = Mesh::at(ix + half, iy + half);
+  return cell;
+}
+
+// Closed for certain only where one rim or one crossing of the iris blocks all of it.
+CellPainter::State CellPainter::state_of(const Mesh& mesh, const Cell& cell) {
+  std::uint32_t any = 0;
+  std::uint32_t all = ~0U;
+  for (int y = cell.iy; y <= cell.iy + cell.size; ++y) {
+    for (int x = cell.ix; x <= cell.ix + cell.size; ++x) {
+      any |= mesh.outside[Mesh::at(x, y)];
+      all &= mesh.outside[Mesh::at(x, y)];
+    }
+  }
+  if (any == 0) return State::Open;
+  return all != 0 ? State::Closed : State::Cut;
+}
+
+bool CellPainter::off_frame(const Mesh& mesh, const Cell& cell) const {
+  Bounds b;
+  for (const std::size_t v : cell.corner) b.add(mesh.position(v));
+  for (const std::size_t v : cell.side) b.add(mesh.position(v));
+  const Vec2 low = b.low + mesh.origin_px;
+  const Vec2 high = b.high + mesh.origin_px;
+  return !(high.x > 0.0 && high.y > 0.0 && low.x < width_ && low.y < height_);
+}
+
+// What drawing the cell as one polygon with a linear irradiance would get wrong, squared, over its pixels.
+double CellPainter::squared_error(const Mesh& mesh, const Cell& cell, State state) const {
+  const std::array<std::size_t, 9> v{cell.corner[0], cell.side[0], cell.corner[1], cell.side[3], cell.middle,
+                                     cell.side[1],   cell.corner[3], cell.side[2], cell.corner[2]};
+  Bounds b;
+  bool folded = false;
+  double sum = 0.0;
+  for (const std::size_t k : v) {
+    b.add(mesh.position(k));
+    folded = folded || mesh.area[k] * mesh.area[cell.middle] <= 0.0F;
+    sum += mesh.brightness[k];
+  }
+  const double mean = sum / 9.0;
+  const Vec2 extent = b.size();
+  const double box = std::max(extent.x, kPixel) * std::max(extent.y, kPixel);
+  // Its whole flux out of place within its bounds: no cell can do worse.
+  const double flux = std::abs(mesh.brightness[cell.middle] * mesh.area[cell.middle]) * cell.size * cell.size;
+  const double worst = flux * flux / box;
+  if (folded) {
+    const double seen = 1.0 / (1.0 + flux / box / (kPeaks * peak_));
+    return worst * seen * seen;
+  }
+
+  const auto e = [&](std::size_t k) { return static_cast<double>(mesh.brightness[v[k]]); };
+  const double along_u = (e(2) + e(5) + e(8) - e(0) - e(3) - e(6)) / 6.0;
+  const double along_v = (e(6) + e(7) + e(8) - e(0) - e(1) - e(2)) / 6.0;
+  double residual = 0.0;
+  for (std::size_t k = 0; k < 9; ++k) {
+    const double plane = mean + along_u * (static_cast<double>(k % 3) - 1.0) + along_v * (static_cast<double>(k / 3) - 1.0);
+    residual += (e(k) - plane) * (e(k) - plane) / 9.0;
+  }
+  const double longest = std::max(extent.x, extent.y);
+  const double area = std::abs(mesh.area[cell.middle]) * cell.size * cell.size;
+  const double width = std::min(1.0, area / std::max(longest, 1e-6));  // a sliver's flux is seen spread over a pixel
+  // Far above the frame's peak only the relative error counts.
+  const double dimmed = 1.0 / (1.0 + mean / (kPeaks * peak_));
+  double error = residual * area * width;
+
+  // Sides drawn straight.
+  for (std::size_t k = 0; k < 4; ++k) {
+    const Vec2 a = mesh.position(cell.corner[k]);
+    const Vec2 c = mesh.position(cell.corner[(k + 1) % 4]);
+    const double off = length(mesh.position(cell.side[k]) - (a + c) * 0.5);
+    error += mean * mean * std::min(off * off, off) * length(c - a) * width * width;
+  }
+  if (state == State::Cut) {
+    // The iris and the rims bend within the cell: its chord's height, by their curvature in the stop.
+    const int field = PatchLayout::kStop;
+    double bend = 0.0;
+    for (int f = field; f < mesh.layout.fields(); f += f < mesh.layout.rim(0) ? 2 : 1) {
+      const bool stop = f < mesh.layout.rim(0);
+      double reach = 0.0;
+      for (const std::size_t k : {cell.corner[1], cell.corner[2], cell.corner[3]}) {
+        const double dx = mesh.field(f)[k] - mesh.field(f)[cell.corner[0]];
+        const double dy = stop ? mesh.field(f + 1)[k] - mesh.field(f + 1)[cell.corner[0]] : 0.0;
+        reach = std::max(reach, stop ? std::hypot(dx, dy) : 0.5 * std::abs(dx));
+      }
+      bend = std::max(bend, std::min(reach, 1.0));
+    }
+    const double off = bend * longest / 8.0;
+    error += mean * mean * std::min(off * off, off) * longest * width * width;
+  }
+  return std::min(error, 4.0 * worst) * dimmed * dimmed;
+}
+
+bool CellPainter::wants_finer_mesh(const Mesh& mesh, int ix, int iy) const {
+  for (int y = iy; y < iy + Mesh::kCells / 2; y += 2) {
+    for (int x = ix; x < ix + Mesh::kCells / 2; x += 2) {
+      const Cell cell = cell_at(x, y, 2);
+      const State state = state_of(mesh, cell);
+      if (state == State::Closed || off_frame(mesh, cell)) continue;
+      if (squared_error(mesh, cell, state) > kGainOfHalving * budget_) return true;
+    }
+  }
+  return false;
+}
+
+void CellPainter::paint(const Patch& patch, int depth) {
+  const Mesh mesh = make_mesh(patch, iris_);
+  constexpr int kHalf = Mesh::kCells / 2;
+  for (int qy = 0; qy < 2; ++qy) {
+    for (int qx = 0; qx < 2; ++qx) {
+      if (depth < kDeepest && wants_finer_mesh(mesh, qx * kHalf, qy * kHalf)) {
+        paint(quarter(patch, qx, qy), depth + 1);
+        continue;
+      }
+      for (int y = qy * kHalf; y < (qy + 1) * kHalf; y += kFirstCell) {
+        for (int x = qx * kHalf; x < (qx + 1) * kHalf; x += kFirstCell) paint_cell(mesh, x, y, kFirstCell);
+      }
+    }
+  }
+}
+
+void CellPainter::paint_cell(const Mesh& mesh, int ix, int iy, int size) {
+  const Cell cell = cell_at(ix, iy, size);
+  const State state = state_of(mesh, cell);
+  if (state == State::Closed || off_frame(mesh, cell)) return;
+  if (size > 1 && squared_error(mesh, cell, state) > budget_) {
+    const int half = size / 2;
+    for (int k = 0; k < 4; ++k) paint_cell(mesh, ix + (k % 2) * half, iy + (k / 2) * half, half);
+    return;
+  }
+  draw(mesh, cell, state);
+}
+
+void CellPainter::draw(const Mesh& mesh, const Cell& cell, State state) {
+  const std::array<Vec2, 4> p{mesh.position(cell.corner[0]), mesh.position(cell.corner[1]), mesh.position(cell.corner[2]),
+                              mesh.position(cell.corner[3])};
+  const double area = quad_area(p[0], p[1], p[2], p[3]);
+  bool convex = true;
+  for (std::size_t k = 0; k < 4; ++k) {
+    const Vec2 a = p[k];
+    convex = convex && cross(p[(k + 1) % 4] - a, p[(k + 2) % 4] - a) * area > 0.0 && mesh.area[cell.corner[k]] * area > 0.0;
+  }
+  if (!convex) return draw_folded(mesh, cell, state);
+
+  Shade shade;
+  Flux flux{};
+  const Vec2 middle = (p[0] + p[1] + p[2] + p[3]) * 0.25 + mesh.origin_px;
+  shade.at = {static_cast<float>(middle.x), static_cast<float>(middle.y)};
+  const Vec2 d = p[2] - p[0];
+  const Vec2 f = p[3] - p[1];
+  const double flux_area = mesh.cell_flux_area_mm2 * cell.size * cell.size;
+  // Pixels see the irradiance at their centres, which may lie well outside a cell smaller than they are.
+  const double width = std::abs(area) / std::max(length(d), length(f));
+  const double sloped = std::clamp(width - 1.0, 0.0, 1.0);
+  for (int c = 0; c < 3; ++c) {
+    const auto& w = mesh.field(PatchLayout::kWeight + c);
+    double weight = 0.25 * (w[cell.corner[0]] + w[cell.corner[1]] + w[cell.corner[2]] + w[cell.corner[3]]);
+    if (cell.size > 1) {  // Simpson's rule both ways
+      const double sides = 0.25 * (w[cell.side[0]] + w[cell.side[1]] + w[cell.side[2]] + w[cell.side[3]]);
+      weight = (weight + 4.0 * sides + 4.0 * w[cell.middle]) / 9.0;
+    }
+    const double value = weight * flux_area / std::abs(area);
+    flux[static_cast<std::size_t>(c)] = weight * flux_area;
+    std::array<double, 4> e{};
+    double mean = 0.0;
+    double most = 0.0;
+    for (std::size_t k = 0; k < 4; ++k) {
+      e[k] = mesh.irradiance(c, cell.corner[k]);
+      mean += 0.25 * e[k];
+      most = std::max(most, std::abs(e[k]));
+    }
+    const auto channel = static_cast<std::size_t>(c);
+    shade.value[channel] = static_cast<float>(value);
+    // Where the irradiance rises steeply a plane through the corners would go below zero: level then.
+    if (!(std::abs(mean) > 0.0) || most > 2.0 * std::abs(mean)) continue;
+    const double along_d = (e[2] - e[0]) / mean;
+    const double along_f = (e[3] - e[1]) / mean;
+    const double scale = sloped * value / cross(d, f);
+    shade.along_x[channel] = static_cast<float>((along_d * f.y - along_f * d.y) * scale);
+    shade.along_y[channel] = static_cast<float>((along_f * d.x - along_d * f.x) * scale);
+  }
+  draw_polygon(mesh, state, shade, flux, cell.corner);
+}
+
+// Two triangles, each with its own flux spread evenly.
+void CellPainter::draw_folded(const Mesh& mesh, const Cell& cell, State state) {
+  const double flux_area = 0.5 * mesh.cell_flux_area_mm2 * cell.size * cell.size;
+  for (const auto& t : {std::array{cell.corner[0], cell.corner[1], cell.corner[2]},
+                        std::array{cell.corner[0], cell.corner[2], cell.corner[3]}}) {
+    const std::array<Vec2, 3> p{mesh.position(t[0]), mesh.position(t[1]), mesh.position(t[2])};
+    const double area = 0.5 * std::abs(cross(p[1] - p[0], p[2] - p[0]));
+    const Vec2 middle = (p[0] + p[1] + p[2]) * (1.0 / 3.0) + mesh.origin_px;
+    Shade shade;
+    Flux flux{};
+    shade.at = {static_cast<float>(middle.x), static_cast<float>(middle.y)};
+    for (int c = 0; c < 3; ++c) {
+      const auto channel = static_cast<std::size_t>(c);
+      const auto& w = mesh.field(PatchLayout::kWeight + c);
+      flux[channel] = (w[t[0]] + w[t[1]] + w[t[2]]) / 3.0 * flux_area;
+      shade.value[channel] = static_cast<float>(flux[channel] / std::max(area, 1e-12));
+    }
+    draw_polygon(mesh, state, shade, flux, t);
+  }
+}
+
+void CellPainter::draw_polygon(const Mesh& mesh, State state, const Shade& shade, const Flux& flux,
+                               std::span<const std::size_t> corners) {
+  constexpr std::array<Vec2, 4> kUv{Vec2{0, 0}, Vec2{1, 0}, Vec2{1, 1}, Vec2{0, 1}};
+  polygon_.clear();
+  for (std::size_t k = 0; k < corners.size(); ++k) {
+    Corner corner{mesh.position(corners[k]) + mesh.origin_px, kUv[k], {}};
+    for (int f = PatchLayout::kStop; state == State::Cut && f < mesh.layout.fields(); ++f) {
+      corner.limit[static_cast<std::size_t>(f - PatchLayout::kStop)] = mesh.field(f)[corners[k]];
+    }
+    polygon_.push_back(corner);
+  }
+  if (state == State::Cut) cut(mesh);
+  if (polygon_.size() < 3) return;
+
+  points_.clear();
+  Bounds b;
+  double twice_area = 0.0;
+  double twice_share = 0.0;
+  for (std::size_t k = 0; k < polygon_.size(); ++k) {
+    const Corner& c = polygon_[k];
+    b.add(c.position);
+    points_.push_back({static_cast<float>(c.position.x), static_cast<float>(c.position.y)});
+    if (k < 2) continue;
+    twice_area += cross(polygon_[k - 1].position - polygon_[0].position, c.position - polygon_[0].position);
+    twice_share += cross(polygon_[k - 1].uv - polygon_[0].uv, c.uv - polygon_[0].uv);
+  }
+  const double longest = std::max(b.size().x, b.size().y);
+  const bool one_pixel = std::floor(b.low.x) == std::floor(b.high.x) && std::floor(b.low.y) == std::floor(b.high.y);
+  const bool sliver = std::abs(twice_area) < kSliver * longest;
+  if (!one_pixel && !sliver && longest > kSpeck) {
+    out_.add(points_, shade);
+    return;
+  }
+  const double share = 0.5 * std::abs(twice_share) * (corners.size() == 3 ? 2.0 : 1.0);
+  draw_line(polygon_, {flux[0] * share, flux[1] * share, flux[2] * share});
+}
+
+// The flux at points between the ends of a polygon that is thinner than can be told.
+void CellPainter::draw_line(std::span<const Corner> polygon, const Flux& flux) {
+  std::array<Vec2, 2> ends{polygon[0].position, polygon[0].position};
+  for (const Corner& a : polygon) {
+    for (const Corner& b : polygon) {
+      if (length(b.position - a.position) > length(ends[1] - ends[0])) ends = {a.position, b.position};
+    }
+  }
+  const Vec2 along = ends[1] - ends[0];
+  const int count = std::clamp(static_cast<int>(std::ceil(2.0 * length(along))), 1, kMostPoints);
+  Shade point;
+  for (std::size_t c = 0; c < 3; ++c) point.value[c] = static_cast<float>(flux[c] / count);
+  for (int k = 0; k < count; ++k) {
+    const Vec2 p = ends[0] + along * ((k + 0.5) / count);
+    point.at = {static_cast<float>(p.x), static_cast<float>(p.y)};
+    out_.add({&point.at, 1}, point);
+  }
+}
+
+// Keeps where value(corner), linear along the sides, is <= 0. Sutherland-Hodgman.
+template <class Value>
+void CellPainter::cut_where_positive(Value value) {
+  next_.clear();
+  for (std::size_t k = 0; k < polygon_.size(); ++k) {
+    const Corner& a = polygon_[k];
+    const Corner& b = polygon_[k + 1 == polygon_.size() ? 0 : k + 1];
+    const double fa = value(a);
+    const double fb = value(b);
+    if (fa <= 0.0) next_.push_back(a);
+    if ((fa <= 0.0) == (fb <= 0.0)) continue;
+    const double t = fa / (fa - fb);
+    Corner c;
+    c.position = a.position + (b.position - a.position) * t;
+    c.uv = a.uv + (b.uv - a.uv) * t;
+    for (std::size_t l = 0; l < c.limit.size(); ++l) {
+      c.limit[l] = a.limit[l] + static_cast<float>(t) * (b.limit[l] - a.limit[l]);
+    }
+    next_.push_back(c);
+  }
+  polygon_.swap(next_);
+}
+
+// The stop coordinates are linear along each side, which then meets the circle exactly.
+void CellPainter::cut_by_circle(std::size_t limit) {
+  const auto outside = [&](const Corner& c) {
+    return static_cast<double>(c.limit[limit]) * c.limit[limit] + static_cast<double>(c.limit[limit + 1]) * c.limit[limit + 1] - 1.0;
+  };
+  next_.clear();
+  for (std::size_t k = 0; k < polygon_.size(); ++k) {
+    const Corner& a = polygon_[k];
+    const Corner& b = polygon_[k + 1 == polygon_.size() ? 0 : k + 1];
+    const double fa = outside(a);
+    if (fa <= 0.0) next_.push_back(a);
+    const Vec2 s{a.limit[limit], a.limit[limit + 1]};
+    const Vec2 along = Vec2{b.limit[limit], b.limit[limit + 1]} - s;
+    const double aa = dot(along, along);
+    const double half_b = dot(s, along);
+    const double under = half_b * half_b - aa * fa;
+    if (!(under > 0.0) || !(aa > 0.0)) continue;
+    for (const double t : {(-half_b - std::sqrt(under)) / aa, (-half_b + std::sqrt(under)) / aa}) {
+      if (!(t > 0.0 && t < 1.0)) continue;
+      Corner c;
+      c.position = a.position + (b.position - a.position) * t;
+      c.uv = a.uv + (b.uv - a.uv) * t;
+      for (std::size_t l = 0; l < c.limit.size(); ++l) {
+        c.limit[l] = a.limit[l] + static_cast<float>(t) * (b.limit[l] - a.limit[l]);
+      }
+      next_.push_back(c);
+    }
+  }
+  polygon_.swap(next_);
+}
+
+void CellPainter::cut(const Mesh& mesh) {
+  for (int c = 0; c < mesh.layout.crossings && !polygon_.empty(); ++c) {
+    const auto limit = static_cast<std::size_t>(2 * c);
+    if (iris_.is_circle()) {
+      cut_by_circle(limit);
+      continue;
+    }
+    for (const IrisShape::Edge& edge : iris_.edges()) {
+      cut_where_positive([&](const Corner& p) {
+        return edge.normal.x * p.limit[limit] + edge.normal.y * p.limit[limit + 1] - iris_.apothem();
+      });
+    }
+  }
+  for (int r = 0; r < mesh.layout.rims && !polygon_.empty(); ++r) {
+    const auto limit = static_cast<std::size_t>(2 * mesh.layout.crossings + r);
+    cut_where_positive([&](const Corner& p) { return static_cast<double>(p.limit[limit]) - 1.0; });
+  }
+}
+
+}  // namespace contrejour::adaptive

@@ -1,0 +1,64 @@
+// A patch as polygons: cells as large as the error allows, small where the map folds and at the edges that the iris
+// and the rims cut.
+#pragma once
+
+#include <cstdint>
+
+#include "render/adaptive/mesh.h"
+#include "render/adaptive/polygon_list.h"
+
+namespace contrejour::adaptive {
+
+class CellPainter {
+ public:
+  // budget: squared error that one cell may make, in pixel values, summed over its pixels. peak: of the frame.
+  CellPainter(const IrisShape& iris, const Frame& frame, double budget, double peak, PolygonList& out)
+      : iris_(iris), width_(frame.width), height_(frame.height), budget_(budget), peak_(peak), out_(out) {}
+
+  void paint(const Patch& patch) { paint(patch, 0); }
+
+ private:
+  enum class State : std::uint8_t { Open, Cut, Closed };
+
+  // Vertices of a square of mesh cells: corners in turn, middles of the sides, the middle.
+  struct Cell {
+    int ix = 0, iy = 0, size = 0;
+    std::array<std::size_t, 4> corner{}, side{};
+    std::size_t middle = 0;
+  };
+  using Flux = std::array<double, 3>;
+  // A corner of a polygon with what may cut it: stop coordinates, then rims.
+  struct Corner {
+    Vec2 position;  // pixels of the frame
+    Vec2 uv;        // in the cell or triangle: shares of areas there are shares of flux
+    std::array<float, 2 * kMaxStopCrossings + kMostRims> limit{};
+  };
+
+  void paint(const Patch& patch, int depth);
+  void paint_cell(const Mesh& mesh, int ix, int iy, int size);
+  void draw(const Mesh& mesh, const Cell& cell, State state);
+  void draw_folded(const Mesh& mesh, const Cell& cell, State state);
+  void draw_polygon(const Mesh& mesh, State state, const Shade& shade, const Flux& flux, std::span<const std::size_t> corners);
+  void draw_line(std::span<const Corner> polygon, const Flux& flux);
+
+  [[nodiscard]] static Cell cell_at(int ix, int iy, int size);
+  [[nodiscard]] static State state_of(const Mesh& mesh, const Cell& cell);
+  [[nodiscard]] bool off_frame(const Mesh& mesh, const Cell& cell) const;
+  [[nodiscard]] bool wants_finer_mesh(const Mesh& mesh, int ix, int iy) const;
+  [[nodiscard]] double squared_error(const Mesh& mesh, const Cell& cell, State state) const;
+
+  void cut(const Mesh& mesh);
+  void cut_by_circle(std::size_t limit);
+  template <class Value>
+  void cut_where_positive(Value value);
+
+  const IrisShape& iris_;
+  int width_, height_;
+  double budget_;
+  double peak_;
+  PolygonList& out_;
+  std::vector<Corner> polygon_, next_;
+  std::vector<Point> points_;
+};
+
+}  // namespace contrejour::adaptive

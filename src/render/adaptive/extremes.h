@@ -1,0 +1,24 @@
+// Whether light may pass through a cell, from what blocks it at the corners.
+#pragma once
+
+#include <algorithm>
+#include <limits>
+
+namespace contrejour::adaptive {
+
+// Lowest and highest of a function at a cell's corners; the cell is open where the function is <= 0. It is taken to
+// be nearly linear: below its lowest corner by no more than `reach` times what the corners differ.
+class Extremes {
+ public:
+  void add(float value) {
+    lowest_ = std::min(lowest_, value);
+    highest_ = std::max(highest_, value);
+  }
+  [[nodiscard]] bool may_pass(float reach) const { return lowest_ <= 0.0F || lowest_ <= reach * (highest_ - lowest_); }
+
+ private:
+  float lowest_ = std::numeric_limits<float>::infinity();
+  float highest_ = -std::numeric_limits<float>::infinity();
+};
+
+}  // namespace contrejour::adaptive

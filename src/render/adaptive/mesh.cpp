@@ -1,0 +1,103 @@
+#include "render/adaptive/mesh.h"
+
+#include <cmath>
+#include <map>
+
+#include "render/adaptive/lobatto.h"
+
+namespace contrejour::adaptive {
+namespace {
+
+// From nodes to vertices: values, and their change from vertex to vertex.
+struct MeshMatrices {
+  Matrix value, change;
+
+  explicit MeshMatrices(int nodes) {
+    std::vector<double> points;
+    for (int k = 0; k < Mesh::kSide; ++k) points.push_back(2.0 * k / Mesh::kCells - 1.0);
+    value = interpolation_matrix(nodes, points);
+    change = derivative_matrix(nodes, points);
+    for (float& v : change.values) v *= 2.0F / Mesh::kCells;
+  }
+};
+
+const MeshMatrices& matrices(int nodes) {
+  static const std::map<int, MeshMatrices> all{{2, MeshMatrices(2)}, {5, MeshMatrices(5)}, {9, MeshMatrices(9)}, {17, MeshMatrices(17)}};
+  return all.at(nodes);
+}
+
+using HalfField = std::array<float, 17 * Mesh::kStride>;
+
+// Position and how it changes along u and v.
+struct Positions {
+  Mesh::Field value, along_u, along_v;
+};
+
+Positions positions(const float* nodes_field, int nodes, const MeshMatrices& m) {
+  Positions out;
+  HalfField half;
+  multiply(nodes_field, nodes, nodes, nodes, m.value, half.data());
+  multiply_transposed(m.value, half.data(), Mesh::kStride, out.value.data());
+  multiply_transposed(m.change, half.data(), Mesh::kStride, out.along_v.data());
+  multiply(nodes_field, nodes, nodes, nodes, m.change, half.data());
+  multiply_transposed(m.value, half.data(), Mesh::kStride, out.along_u.data());
+  return out;
+}
+
+void mark_outside(Mesh& mesh, const IrisShape& iris) {
+  mesh.outside.fill(0);
+  Mesh::Field distance;
+  for (int c = 0; c < mesh.layout.crossings; ++c) {
+    iris.distances(mesh.field(PatchLayout::kStop + 2 * c).data(), mesh.field(PatchLayout::kStop + 2 * c + 1).data(),
+                   distance.size(), distance.data());
+    for (std::size_t k = 0; k < distance.size(); ++k) mesh.outside[k] |= (distance[k] > 0.0F ? 1U : 0U) << c;
+  }
+  for (int r = 0; r < mesh.layout.rims; ++r) {
+    const Mesh::Field& rim = mesh.field(mesh.layout.rim(r));
+    for (std::size_t k = 0; k < rim.size(); ++k) mesh.outside[k] |= (rim[k] > 1.0F ? 1U : 0U) << (mesh.layout.crossings + r);
+  }
+}
+
+void find_brightness(Mesh& mesh) {
+  const float third = static_cast<float>(mesh.cell_flux_area_mm2 * mesh.cell_flux_area_mm2 / 3.0);
+  for (std::size_t k = 0; k < mesh.brightness.size(); ++k) {
+    float sum = 0.0F;
+    for (int c = 0; c < 3; ++c) {
+      const float w = mesh.field(PatchLayout::kWeight + c)[k];
+      sum += w * w;
+    }
+    mesh.brightness[k] = std::sqrt(sum * third) / (std::abs(mesh.area[k]) + 1e-20F);
+  }
+}
+
+}  // namespace
+
+double Mesh::irradiance(int channel, std::size_t vertex) const {
+  return field(PatchLayout::kWeight + channel)[vertex] * cell_flux_area_mm2 / (std::abs(area[vertex]) + 1e-20);
+}
+
+Mesh make_mesh(const Patch& patch, const IrisShape& iris) {
+  const MeshMatrices& m = matrices(patch.nodes);
+  Mesh mesh;
+  mesh.layout = patch.layout;
+  mesh.origin_px = patch.origin_px;
+  mesh.cell_flux_area_mm2 = patch.flux_area_mm2 / (Mesh::kCells * Mesh::kCells);
+  mesh.fields.resize(static_cast<std::size_t>(patch.layout.fields()));
+  const Positions x = positions(patch.field(PatchLayout::kX), patch.nodes, m);
+  const Positions y = positions(patch.field(PatchLayout::kY), patch.nodes, m);
+  mesh.fields[PatchLayout::kX] = x.value;
+  mesh.fields[PatchLayout::kY] = y.value;
+  for (std::size_t k = 0; k < mesh.area.size(); ++k) {
+    mesh.area[k] = x.along_u[k] * y.along_v[k] - x.along_v[k] * y.along_u[k];
+  }
+  HalfField half;
+  for (int f = PatchLayout::kWeight; f < patch.layout.fields(); ++f) {
+    multiply(patch.field(f), patch.nodes, patch.nodes, patch.nodes, m.value, half.data());
+    multiply_transposed(m.value, half.data(), Mesh::kStride, mesh.fields[static_cast<std::size_t>(f)].data());
+  }
+  mark_outside(mesh, iris);
+  find_brightness(mesh);
+  return mesh;
+}
+
+}  // namespace contrejour::adaptive

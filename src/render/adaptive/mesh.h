@@ -1,0 +1,40 @@
+// A patch at the vertices of a uniform mesh of 16 x 16 cells.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "ghosts/iris_shape.h"
+#include "render/adaptive/patch.h"
+
+namespace contrejour::adaptive {
+
+struct Mesh {
+  static constexpr int kCells = 16;
+  static constexpr int kSide = kCells + 1;
+  static constexpr int kStride = 32;
+  using Field = std::array<float, static_cast<std::size_t>(kSide) * kStride>;
+
+  PatchLayout layout;
+  Vec2 origin_px;
+  std::vector<Field> fields;              // as the patch's
+  Field area;                             // signed, of a cell's image by the derivatives at the vertex, pixels
+  Field brightness;                       // root mean square of the channels' irradiance, per pixel
+  double cell_flux_area_mm2 = 0;          // of one cell
+  std::array<std::uint32_t, static_cast<std::size_t>(kSide) * kStride> outside;  // bits: crossings, then rims
+
+  [[nodiscard]] static std::size_t at(int ix, int iy) {
+    return static_cast<std::size_t>(iy) * kStride + static_cast<std::size_t>(ix);
+  }
+  [[nodiscard]] const Field& field(int f) const { return fields[static_cast<std::size_t>(f)]; }
+  [[nodiscard]] Vec2 position(std::size_t vertex) const {
+    return {field(PatchLayout::kX)[vertex], field(PatchLayout::kY)[vertex]};
+  }
+  // Irradiance of a channel, flux per pixel; large where the map folds.
+  [[nodiscard]] double irradiance(int channel, std::size_t vertex) const;
+};
+
+[[nodiscard]] Mesh make_mesh(const Patch& patch, const IrisShape& iris);
+
+}  // namespace contrejour::adaptive

@@ -1,0 +1,147 @@
+#include "render/adaptive/patch.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "render/adaptive/lobatto.h"
+
+namespace contrejour::adaptive {
+namespace {
+
+// A rim counts once a ray of the sheet passes beyond this share of it, squared.
+constexpr float kNearRim = 0.94F;
+
+// Matrices for one number of nodes.
+struct NodeMatrices {
+  Matrix coefficients;
+  std::array<Matrix, 2> half;  // to the nodes of the low and of the high half
+
+  explicit NodeMatrices(int nodes) : coefficients(coefficient_matrix(nodes)) {
+    for (std::size_t side = 0; side < 2; ++side) {
+      auto points = lobatto_points(nodes);
+      for (double& p : points) p = 0.5 * (p + (side == 0 ? -1.0 : 1.0));
+      half[side] = interpolation_matrix(nodes, points);
+    }
+  }
+};
+
+const NodeMatrices& matrices(int nodes) {
+  static const std::map<int, NodeMatrices> all{{2, NodeMatrices(2)}, {5, NodeMatrices(5)}, {9, NodeMatrices(9)}, {17, NodeMatrices(17)}};
+  return all.at(nodes);
+}
+
+// along_y^T * field * along_x, both nodes by nodes.
+void transform(const float* field, int nodes, const Matrix& along_x, const Matrix& along_y, float* out) {
+  const int stride = along_x.stride;
+  std::array<float, 17 * 32> half{};
+  std::array<float, 17 * 32> whole{};
+  multiply(field, nodes, nodes, nodes, along_x, half.data());
+  multiply_transposed(along_y, half.data(), stride, whole.data());
+  for (int row = 0; row < nodes; ++row) std::copy_n(whole.data() + row * stride, nodes, out + row * nodes);
+}
+
+// Indices of the steps whose rims may cut the sheet, those that cut deepest first.
+std::vector<std::size_t> rims_in_play(const RaySheet& sheet) {
+  std::vector<std::pair<float, std::size_t>> found;
+  for (std::size_t step = 0; step * sheet.count() < sheet.rim_squared.size(); ++step) {
+    const float* rim = sheet.rim_squared.data() + step * sheet.count();
+    const float highest = *std::max_element(rim, rim + sheet.count());
+    if (highest > kNearRim) found.emplace_back(-highest, step);
+  }
+  std::sort(found.begin(), found.end());
+  std::vector<std::size_t> steps;
+  for (const auto& [height, step] : found) steps.push_back(step);
+  return steps;
+}
+
+// The rims of `steps` in fields of their own; more than there is room for share the last one.
+void copy_rims(const RaySheet& sheet, const std::vector<std::size_t>& steps, Patch& patch) {
+  for (std::size_t k = 0; k < steps.size(); ++k) {
+    const float* rim = sheet.rim_squared.data() + steps[k] * sheet.count();
+    float* to = patch.field(patch.layout.rim(std::min(static_cast<int>(k), kMostRims - 1)));
+    const bool shared = k >= static_cast<std::size_t>(kMostRims);
+    for (std::size_t node = 0; node < patch.size(); ++node) to[node] = shared ? std::max(to[node], rim[node]) : rim[node];
+  }
+}
+
+double largest_size(const float* field, std::size_t count) {
+  float largest = 0.0F;
+  for (std::size_t k = 0; k < count; ++k) largest = std::max(largest, std::abs(field[k]));
+  return largest;
+}
+
+// Sum of the coefficients of highest degree in either direction.
+double tail(const float* field, int nodes) {
+  const Matrix& to_coefficients = matrices(nodes).coefficients;
+  std::array<float, 17 * 17> c{};
+  transform(field, nodes, to_coefficients, to_coefficients, c.data());
+  double sum = 0.0;
+  for (int k = 0; k < nodes; ++k) {
+    sum += std::abs(c[static_cast<std::size_t>(nodes * nodes - nodes + k)]);
+    if (k < nodes - 1) sum += std::abs(c[static_cast<std::size_t>(k * nodes + nodes - 1)]);
+  }
+  return sum;
+}
+
+}  // namespace
+
+Patch make_patch(const RaySheet& sheet, const Meridian& meridian, const Frame& frame) {
+  const auto steps = rims_in_play(sheet);
+  Patch patch;
+  patch.nodes = sheet.nodes;
+  patch.layout = {static_cast<int>(sheet.stop.size()), std::min(static_cast<int>(steps.size()), kMostRims)};
+  patch.values.resize(static_cast<std::size_t>(patch.layout.fields()) * sheet.count());
+  const Vec2 size = sheet.box.high - sheet.box.low;
+  patch.flux_area_mm2 = size.x * size.y * meridian.direction.z;
+
+  const auto on_frame = [&](std::size_t k) {
+    return frame.pixel_from_sensor(meridian.to_lens({sheet.sensor_x_mm[k], sheet.sensor_y_mm[k]}));
+  };
+  patch.origin_px = on_frame(sheet.count() / 2);
+  patch.origin_px = {std::floor(patch.origin_px.x), std::floor(patch.origin_px.y)};
+  for (std::size_t k = 0; k < sheet.count(); ++k) {
+    const Vec2 p = on_frame(k) - patch.origin_px;
+    patch.field(PatchLayout::kX)[k] = static_cast<float>(p.x);
+    patch.field(PatchLayout::kY)[k] = static_cast<float>(p.y);
+    for (std::size_t c = 0; c < sheet.stop.size(); ++c) {
+      const Vec2 s = meridian.to_lens({sheet.stop[c][0][k], sheet.stop[c][1][k]});
+      patch.field(PatchLayout::kStop + 2 * static_cast<int>(c))[k] = static_cast<float>(s.x);
+      patch.field(PatchLayout::kStop + 2 * static_cast<int>(c) + 1)[k] = static_cast<float>(s.y);
+    }
+  }
+  for (int c = 0; c < 3; ++c) {
+    std::copy(sheet.weight[static_cast<std::size_t>(c)].begin(), sheet.weight[static_cast<std::size_t>(c)].end(),
+              patch.field(PatchLayout::kWeight + c));
+  }
+  copy_rims(sheet, steps, patch);
+  return patch;
+}
+
+PatchError estimated_error(const Patch& patch) {
+  PatchError error;
+  const PatchLayout& layout = patch.layout;
+  error.position_px = std::max(tail(patch.field(PatchLayout::kX), patch.nodes), tail(patch.field(PatchLayout::kY), patch.nodes));
+  for (int k = 0; k < 2 * layout.crossings; ++k) error.stop = std::max(error.stop, tail(patch.field(PatchLayout::kStop + k), patch.nodes));
+  for (int k = 0; k < layout.rims; ++k) error.rim = std::max(error.rim, tail(patch.field(layout.rim(k)), patch.nodes));
+  double largest = 0.0;
+  for (int c = 0; c < 3; ++c) {
+    const float* field = patch.field(PatchLayout::kWeight + c);
+    largest = std::max(largest, largest_size(field, patch.size()));
+    error.weight = std::max(error.weight, tail(field, patch.nodes));
+  }
+  if (largest > 0.0) error.weight /= largest;
+  return error;
+}
+
+Patch quarter(const Patch& patch, int ix, int iy) {
+  const NodeMatrices& m = matrices(patch.nodes);
+  Patch out = patch;
+  out.flux_area_mm2 = 0.25 * patch.flux_area_mm2;
+  for (int f = 0; f < patch.layout.fields(); ++f) {
+    transform(patch.field(f), patch.nodes, m.half[static_cast<std::size_t>(ix)], m.half[static_cast<std::size_t>(iy)], out.field(f));
+  }
+  return out;
+}
+
+}  // namespace contrejour::adaptive

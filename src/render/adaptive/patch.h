@@ -1,0 +1,54 @@
+// A part of a ghost as polynomials over a box of the entrance plane: where its rays land, what they carry and how
+// close they pass to whatever may block them.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+#include "contrejour/frame.h"
+#include "render/adaptive/ray_sheet.h"
+
+namespace contrejour::adaptive {
+
+// Fields of a patch in turn: position in pixels (2), weight per channel (3), stop coordinates (2 a crossing), and
+// the square of the relative height at every rim that comes into play.
+struct PatchLayout {
+  int crossings = 0;
+  int rims = 0;
+
+  static constexpr int kX = 0, kY = 1, kWeight = 2, kStop = 5;
+  [[nodiscard]] int rim(int k) const { return kStop + 2 * crossings + k; }
+  [[nodiscard]] int fields() const { return rim(rims); }
+};
+
+inline constexpr int kMostRims = 12;
+
+struct Patch {
+  PatchLayout layout;
+  int nodes = 0;             // a side, Lobatto points
+  Vec2 origin_px;            // what positions are counted from
+  double flux_area_mm2 = 0;  // of the box, times cos(theta): flux is weight times this, over the whole box
+  std::vector<float> values; // [(field * nodes + row) * nodes + column]
+
+  [[nodiscard]] std::size_t size() const { return static_cast<std::size_t>(nodes) * static_cast<std::size_t>(nodes); }
+  [[nodiscard]] const float* field(int f) const { return values.data() + static_cast<std::size_t>(f) * size(); }
+  [[nodiscard]] float* field(int f) { return values.data() + static_cast<std::size_t>(f) * size(); }
+};
+
+// All rays of the sheet must have arrived. Rims that every ray clears by a good margin are left out.
+[[nodiscard]] Patch make_patch(const RaySheet& sheet, const Meridian& meridian, const Frame& frame);
+
+// How much the polynomials may still be wrong, by the size of their highest terms.
+struct PatchError {
+  double position_px = 0;
+  double stop = 0;    // stop radii
+  double rim = 0;     // of squared relative heights
+  double weight = 0;  // relative to the largest
+};
+[[nodiscard]] PatchError estimated_error(const Patch& patch);
+
+// The quarter of a patch on the low (0) or high (1) side of each axis, as a patch of its own.
+[[nodiscard]] Patch quarter(const Patch& patch, int ix, int iy);
+
+}  // namespace contrejour::adaptive

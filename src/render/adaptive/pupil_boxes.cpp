@@ -1,0 +1,207 @@
+#include "render/adaptive/pupil_boxes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
+
+#include "render/adaptive/extremes.h"
+
+namespace contrejour::adaptive {
+namespace {
+
+constexpr int kFirstColumns = 16;     // cells of the first lattice across the window; half as many from y = 0 up
+constexpr int kSecondColumns = 64;    // of a second one, where the first meets nothing
+constexpr int kDeepest = 14;          // quarterings
+constexpr std::size_t kMostCells = 1500;
+constexpr double kTight = 0.4;         // share of the cells with an open corner at which boxes fit well enough
+// How many times its variation over a cell what blocks may be below its lowest corner.
+constexpr float kFirstReach = 2.5F;
+constexpr float kReach = 1.0F;
+// Rays closer than this at the entrance are searched in double: float places them to about 2e-6 mm.
+constexpr double kFloatStep_mm = 1e-3;
+
+// A cell of the lattice of some depth: [column, column + 1) x [row, row + 1) cells, rows from y = 0 up.
+struct Cell {
+  int column = 0, row = 0;
+};
+
+// What blocks a ray, <= 0 where it passes: rims together, then each crossing of the stop.
+struct Blocking {
+  std::array<float, 1 + kMaxStopCrossings> value{};
+  bool failed = false;
+};
+
+class Search {
+ public:
+  Search(const OpticalPath& path, const ReflectanceTables& tables, const Meridian& meridian, const EntranceWindow& window)
+      : path_(path), tables_(tables), direction_(meridian.direction), window_(window),
+        half_height_mm_(std::max(std::abs(window.min_mm.y), window.max_mm.y)) {}
+
+  PupilBoxes run() {
+    start(kFirstColumns, kFirstReach);
+    if (cells_.empty()) start(kSecondColumns, kReach);
+    for (int depth = 0; depth < kDeepest && !cells_.empty() && cells_.size() < kMostCells; ++depth) {
+      quarter();
+      if (static_cast<double>(open_) >= kTight * static_cast<double>(cells_.size())) break;
+    }
+    return {boxes(), rays_};
+  }
+
+ private:
+  [[nodiscard]] Vec2 cell_size() const {
+    return {(window_.max_mm.x - window_.min_mm.x) / columns_, half_height_mm_ / (columns_ / 2)};
+  }
+
+  // All cells of a lattice that may let light through.
+  void start(int columns, float reach) {
+    columns_ = columns;
+    x_mm_.clear();
+    y_mm_.clear();
+    const Vec2 size = cell_size();
+    for (int row = 0; row <= columns / 2; ++row) {
+      for (int column = 0; column <= columns; ++column) {
+        x_mm_.push_back(static_cast<float>(column * size.x));
+        y_mm_.push_back(static_cast<float>(row * size.y));
+      }
+    }
+    trace();
+    cells_.clear();
+    for (int row = 0; row < columns / 2; ++row) {
+      for (int column = 0; column < columns; ++column) {
+        const auto at = [&](int c, int r) { return static_cast<std::size_t>(r * (columns + 1) + c); };
+        if (may_pass({at(column, row), at(column + 1, row), at(column, row + 1), at(column + 1, row + 1)}, reach)) {
+          cells_.push_back({column, row});
+        }
+      }
+    }
+  }
+
+  // Each cell by nine rays into four, of which those stay that may let light through.
+  void quarter() {
+    columns_ *= 2;
+    x_mm_.clear();
+    y_mm_.clear();
+    const Vec2 size = cell_size();
+    for (const Cell& cell : cells_) {
+      for (int k = 0; k < 9; ++k) {
+        x_mm_.push_back(static_cast<float>((2 * cell.column + k % 3) * size.x));
+        y_mm_.push_back(static_cast<float>((2 * cell.row + k / 3) * size.y));
+      }
+    }
+    trace();
+    std::vector<Cell> kept;
+    open_ = 0;
+    for (std::size_t c = 0; c < cells_.size(); ++c) {
+      for (int k = 0; k < 4; ++k) {
+        const std::size_t at = 9 * c + static_cast<std::size_t>(k % 2 + 3 * (k / 2));
+        const std::array<std::size_t, 4> corners{at, at + 1, at + 3, at + 4};
+        if (may_pass(corners, kReach)) {
+          if (std::any_of(corners.begin(), corners.end(), [&](std::size_t v) { return is_open(v); })) ++open_;
+          kept.push_back({2 * cells_[c].column + k % 2, 2 * cells_[c].row + k / 2});
+        }
+      }
+    }
+    cells_.swap(kept);
+  }
+
+  void trace() {
+    const std::size_t count = x_mm_.size();
+    rays_ += count;
+    constexpr std::size_t kFields = 4 + 2 * kMaxStopCrossings;
+    results_.resize(kFields * count);
+    const auto field = [&](std::size_t k) { return results_.data() + k * count; };
+    const TracedArrays out{field(0), field(1), field(2), field(3), {field(4), field(5), field(6)},
+                           {field(7), field(8), field(9)}, nullptr, 0};
+    const Vec2 size = cell_size();
+    const PacketPath packets(path_, tables_, {{window_.min_mm.x, 0.0, window_.z_mm}, direction_});
+    trace_packets(packets, std::min(size.x, size.y) < kFloatStep_mm ? PacketPrecision::Double : PacketPrecision::Float,
+                  x_mm_.data(), y_mm_.data(), count, out);
+    blocking_.assign(count, {});
+    for (std::size_t k = 0; k < count; ++k) {
+      Blocking& b = blocking_[k];
+      b.failed = std::isinf(out.r_rel[k]);
+      b.value[0] = out.r_rel[k] - 1.0F;
+      for (std::size_t c = 0; c < static_cast<std::size_t>(path_.stop_crossings); ++c) {
+        b.value[1 + c] = std::hypot(out.stop_x[c][k], out.stop_y[c][k]) - 1.0F;
+      }
+    }
+  }
+
+  [[nodiscard]] bool is_open(std::size_t ray) const {
+    const Blocking& b = blocking_[ray];
+    return !b.failed && std::all_of(b.value.begin(), b.value.end(), [](float v) { return v <= 0.0F; });
+  }
+
+  // A failed corner tells nothing: the others decide.
+  [[nodiscard]] bool may_pass(const std::array<std::size_t, 4>& corners, float reach) const {
+    std::array<Extremes, 1 + kMaxStopCrossings> extremes;
+    bool any = false;
+    const auto limits = 1 + static_cast<std::size_t>(path_.stop_crossings);
+    for (const std::size_t k : corners) {
+      if (blocking_[k].failed) continue;
+      any = true;
+      for (std::size_t l = 0; l < limits; ++l) extremes[l].add(blocking_[k].value[l]);
+    }
+    for (std::size_t l = 0; l < limits; ++l) any = any && extremes[l].may_pass(reach);
+    return any;
+  }
+
+  // Cells that touch, corners included, share a box.
+  [[nodiscard]] std::vector<Rectangle> boxes() const {
+    std::map<std::pair<int, int>, std::size_t> index;
+    for (std::size_t k = 0; k < cells_.size(); ++k) index[{cells_[k].row, cells_[k].column}] = k;
+    std::vector<std::size_t> parent(cells_.size());
+    std::iota(parent.begin(), parent.end(), std::size_t{0});
+    const auto root = [&](std::size_t k) {
+      while (parent[k] != k) k = parent[k] = parent[parent[k]];
+      return k;
+    };
+    for (std::size_t k = 0; k < cells_.size(); ++k) {
+      for (const auto& [dr, dc] : {std::pair{0, 1}, std::pair{1, -1}, std::pair{1, 0}, std::pair{1, 1}}) {
+        const auto near = index.find({cells_[k].row + dr, cells_[k].column + dc});
+        if (near != index.end()) parent[std::max(root(k), root(near->second))] = std::min(root(k), root(near->second));
+      }
+    }
+    const Vec2 size = cell_size();
+    std::map<std::size_t, Rectangle> by_root;
+    for (std::size_t k = 0; k < cells_.size(); ++k) {
+      const Vec2 low{window_.min_mm.x + cells_[k].column * size.x, cells_[k].row * size.y};
+      const auto [place, fresh] = by_root.try_emplace(root(k), Rectangle{low, low + size});
+      Rectangle& r = place->second;
+      r.low = {std::min(r.low.x, low.x), std::min(r.low.y, low.y)};
+      r.high = {std::max(r.high.x, low.x + size.x), std::max(r.high.y, low.y + size.y)};
+    }
+    std::vector<Rectangle> out;
+    for (const auto& [key, r] : by_root) {
+      if (r.low.y <= 0.0) {
+        out.push_back({{r.low.x, -r.high.y}, r.high});
+      } else {
+        out.push_back(r);
+        out.push_back({{r.low.x, -r.high.y}, {r.high.x, -r.low.y}});
+      }
+    }
+    return out;
+  }
+
+  const OpticalPath& path_;
+  const ReflectanceTables& tables_;
+  Vec3 direction_;
+  EntranceWindow window_;
+  double half_height_mm_;
+  int columns_ = 0;
+  std::vector<Cell> cells_;
+  std::size_t open_ = 0;  // of them with a corner whose ray passes
+  std::vector<float> x_mm_, y_mm_, results_;
+  std::vector<Blocking> blocking_;
+  std::uint64_t rays_ = 0;
+};
+
+}  // namespace
+
+PupilBoxes find_pupil_boxes(const OpticalPath& path, const ReflectanceTables& tables, const Meridian& meridian,
+                            const EntranceWindow& window) {
+  return Search(path, tables, meridian, window).run();
+}
+
+}  // namespace contrejour::adaptive

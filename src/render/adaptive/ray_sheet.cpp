@@ -1,0 +1,155 @@
+#include "render/adaptive/ray_sheet.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "render/adaptive/lobatto.h"
+
+namespace contrejour::adaptive {
+namespace {
+
+constexpr float kFailed = std::numeric_limits<float>::infinity();
+
+void flip_rows(std::vector<float>& values, int nodes, float sign) {
+  const auto n = static_cast<std::size_t>(nodes);
+  for (std::size_t low = 0, high = n - 1; low < high; ++low, --high) {
+    std::swap_ranges(values.begin() + static_cast<std::ptrdiff_t>(low * n),
+                     values.begin() + static_cast<std::ptrdiff_t>((low + 1) * n),
+                     values.begin() + static_cast<std::ptrdiff_t>(high * n));
+  }
+  if (sign < 0.0F) {
+    for (float& v : values) v = -v;
+  }
+}
+
+// Rows below the middle from those above.
+void complete(float* values, int nodes, float sign) {
+  const auto n = static_cast<std::size_t>(nodes);
+  for (std::size_t row = 0; row < n / 2; ++row) {
+    for (std::size_t k = 0; k < n; ++k) values[row * n + k] = sign * values[(n - 1 - row) * n + k];
+  }
+}
+
+}  // namespace
+
+Meridian::Meridian(Vec3 light_direction) {
+  const double across = std::hypot(light_direction.x, light_direction.y);
+  direction = {across, 0.0, light_direction.z};
+  if (across > 0.0) {
+    cos_azimuth = light_direction.x / across;
+    sin_azimuth = light_direction.y / across;
+  }
+}
+
+RaySheet mirrored(const RaySheet& sheet) {
+  RaySheet out = sheet;
+  out.box = {{sheet.box.low.x, -sheet.box.high.y}, {sheet.box.high.x, -sheet.box.low.y}};
+  flip_rows(out.sensor_x_mm, out.nodes, 1.0F);
+  flip_rows(out.sensor_y_mm, out.nodes, -1.0F);
+  for (auto& w : out.weight) flip_rows(w, out.nodes, 1.0F);
+  flip_rows(out.r_rel, out.nodes, 1.0F);
+  for (auto& s : out.stop) {
+    flip_rows(s[0], out.nodes, 1.0F);
+    flip_rows(s[1], out.nodes, -1.0F);
+  }
+  for (std::size_t step = 0; step * out.count() < out.rim_squared.size(); ++step) {
+    const auto first = out.rim_squared.begin() + static_cast<std::ptrdiff_t>(step * out.count());
+    std::vector<float> rim(first, first + static_cast<std::ptrdiff_t>(out.count()));
+    flip_rows(rim, out.nodes, 1.0F);
+    std::copy(rim.begin(), rim.end(), first);
+  }
+  return out;
+}
+
+SheetTracer::SheetTracer(const LensState& lens, Ghost ghost, const Meridian& meridian, double plane_z_mm,
+                         const Band& band, const TablesByWavelength& tables)
+    : meridian_(meridian), plane_z_mm_(plane_z_mm), band_(band) {
+  const auto add = [&](double lambda_nm) {
+    paths_.push_back(ghost_path(lens, ghost, lambda_nm));
+    tables_.push_back(tables.at(lambda_nm).get());
+  };
+  add(band.lambda_nm);
+  for (const PlannedPass& pass : band.passes) {
+    if (pass.lambda_nm != band.lambda_nm) add(pass.lambda_nm);
+  }
+}
+
+RaySheet SheetTracer::trace(const Rectangle& box, int nodes) {
+  RaySheet sheet;
+  sheet.box = box;
+  sheet.nodes = nodes;
+  const std::size_t count = sheet.count();
+  for (auto* v : {&sheet.sensor_x_mm, &sheet.sensor_y_mm, &sheet.r_rel, &sheet.weight[0], &sheet.weight[1], &sheet.weight[2]}) {
+    v->resize(count);
+  }
+  sheet.stop.resize(static_cast<std::size_t>(paths_.front().stop_crossings));
+  for (auto& s : sheet.stop) {
+    s[0].resize(count);
+    s[1].resize(count);
+  }
+  sheet.rim_squared.resize(steps() * count);
+  const bool symmetric = box.low.y == -box.high.y;
+  trace_rows(box, symmetric ? nodes / 2 : 0, sheet);
+  if (symmetric) {
+    complete(sheet.sensor_x_mm.data(), nodes, 1.0F);
+    complete(sheet.sensor_y_mm.data(), nodes, -1.0F);
+    for (auto& w : sheet.weight) complete(w.data(), nodes, 1.0F);
+    complete(sheet.r_rel.data(), nodes, 1.0F);
+    for (auto& s : sheet.stop) {
+      complete(s[0].data(), nodes, 1.0F);
+      complete(s[1].data(), nodes, -1.0F);
+    }
+    for (std::size_t step = 0; step < steps(); ++step) complete(sheet.rim_squared.data() + step * count, nodes, 1.0F);
+  }
+  sheet.failed = static_cast<int>(std::count(sheet.r_rel.begin(), sheet.r_rel.end(), kFailed));
+  return sheet;
+}
+
+void SheetTracer::trace_rows(const Rectangle& box, int first_row, RaySheet& sheet) {
+  const auto points = lobatto_points(sheet.nodes);
+  const Vec2 half = (box.high - box.low) * 0.5;
+  x_mm_.clear();
+  y_mm_.clear();
+  for (int row = first_row; row < sheet.nodes; ++row) {
+    for (int column = 0; column < sheet.nodes; ++column) {
+      x_mm_.push_back(static_cast<float>((1.0 + points[static_cast<std::size_t>(column)]) * half.x));
+      y_mm_.push_back(static_cast<float>((1.0 + points[static_cast<std::size_t>(row)]) * half.y));
+    }
+  }
+  const std::size_t count = x_mm_.size();
+  const std::size_t at = sheet.count() - count;
+  constexpr std::size_t kDiscarded = 4 + 2 * kMaxStopCrossings;
+  scratch_.resize(kDiscarded * count);
+  const auto discarded = [&](std::size_t k) { return scratch_.data() + k * count; };
+
+  for (std::size_t k = 0; k < paths_.size(); ++k) {
+    const bool geometry = k == 0;
+    TracedArrays out{discarded(0), discarded(1), discarded(2), discarded(3), {}, {}, nullptr, 0};
+    for (std::size_t c = 0; c < sheet.stop.size(); ++c) {
+      out.stop_x[c] = geometry ? sheet.stop[c][0].data() + at : discarded(4 + 2 * c);
+      out.stop_y[c] = geometry ? sheet.stop[c][1].data() + at : discarded(5 + 2 * c);
+    }
+    if (geometry) {
+      out.sensor_x_mm = sheet.sensor_x_mm.data() + at;
+      out.sensor_y_mm = sheet.sensor_y_mm.data() + at;
+      out.r_rel = sheet.r_rel.data() + at;
+      out.rim_squared = sheet.rim_squared.data() + at;
+      out.rim_stride = sheet.count();
+    }
+    const PacketPath packets(paths_[k], *tables_[k], {{box.low.x, box.low.y, plane_z_mm_}, meridian_.direction});
+    // Double: neighbouring nodes may lie as close as float's rounding, and there are few of them.
+    trace_packets(packets, PacketPrecision::Double, x_mm_.data(), y_mm_.data(), count, out);
+    rays_ += count;
+    for (const PlannedPass& pass : band_.passes) {
+      if (pass.lambda_nm != paths_[k].lambda_nm) continue;
+      for (std::size_t c = 0; c < 3; ++c) {
+        const auto gain = static_cast<float>(pass.gain[c]);
+        float* weight = sheet.weight[c].data() + at;
+        for (std::size_t node = 0; node < count; ++node) weight[node] += gain * out.transmission[node];
+      }
+    }
+  }
+}
+
+}  // namespace contrejour::adaptive

@@ -1,0 +1,75 @@
+// Exact rays of one ghost, light and band of wavelengths at the Lobatto points of a box of the entrance plane.
+// All in the light's meridional frame: the light comes from -x or along the axis, so a centred lens is symmetric
+// in y and half the rays are the mirror images of the others; hullin2011 4.2, "symmetries".
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "ghosts/ray_grid.h"
+#include "render/interface/wavelength_tables.h"
+
+namespace contrejour::adaptive {
+
+// Wavelengths close enough for a ghost to be drawn with the geometry of one of them.
+struct Band {
+  double lambda_nm = 550;               // where rays are traced
+  std::span<const PlannedPass> passes;  // whose transmissions are summed
+};
+
+// A light in its meridional frame.
+struct Meridian {
+  Vec3 direction;          // y = 0, x >= 0
+  double cos_azimuth = 1;  // the frame's x axis as seen by the lens
+  double sin_azimuth = 0;
+
+  explicit Meridian(Vec3 light_direction);
+  [[nodiscard]] Vec2 to_lens(Vec2 v) const {
+    return {v.x * cos_azimuth - v.y * sin_azimuth, v.x * sin_azimuth + v.y * cos_azimuth};
+  }
+};
+
+// One value a node, rows of `nodes` by rising y.
+struct RaySheet {
+  Rectangle box;  // mm, in the plane of the entrance window
+  int nodes = 0;
+  int failed = 0;  // nodes whose ray does not arrive; their values mean nothing
+  std::vector<float> sensor_x_mm, sensor_y_mm;
+  std::array<std::vector<float>, 3> weight;  // per channel: sum over the passes of gain * transmission
+  std::vector<float> r_rel;                  // infinite where the ray fails
+  std::vector<std::array<std::vector<float>, 2>> stop;  // by crossing: x and y over the stop radius
+  std::vector<float> rim_squared;            // [step * nodes^2 + node]
+
+  [[nodiscard]] std::size_t count() const { return static_cast<std::size_t>(nodes) * static_cast<std::size_t>(nodes); }
+};
+
+// The same sheet seen in the mirror y -> -y.
+[[nodiscard]] RaySheet mirrored(const RaySheet& sheet);
+
+class SheetTracer {
+ public:
+  // The tables must hold every wavelength of the band.
+  SheetTracer(const LensState& lens, Ghost ghost, const Meridian& meridian, double plane_z_mm, const Band& band,
+              const TablesByWavelength& tables);
+
+  // A box that is its own mirror image costs half the rays.
+  [[nodiscard]] RaySheet trace(const Rectangle& box, int nodes);
+
+  [[nodiscard]] std::size_t steps() const { return paths_.front().steps.size(); }
+  [[nodiscard]] std::uint64_t rays() const { return rays_; }
+  [[nodiscard]] std::uint64_t surface_hits() const { return rays_ * steps(); }
+
+ private:
+  void trace_rows(const Rectangle& box, int first_row, RaySheet& sheet);
+
+  Meridian meridian_;
+  double plane_z_mm_;
+  Band band_;
+  std::vector<OpticalPath> paths_;                  // first the geometry's, then one a pass where they differ
+  std::vector<const ReflectanceTables*> tables_;
+  std::vector<float> x_mm_, y_mm_, scratch_;
+  std::uint64_t rays_ = 0;
+};
+
+}  // namespace contrejour::adaptive

@@ -1,0 +1,44 @@
+// Polygons onto the frame, tile by tile. Each edge leaves, row by row, the change of coverage times irradiance that
+// it makes; one running sum along the rows then turns the changes of all polygons into pixels at once. So a polygon
+// costs what its outline costs, not its area, and overlapping ghosts share one pass over the frame.
+// Accuracy: exact coverage of a pixel by a polygon, irradiance taken at the pixel's centre; sums in double.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "contrejour/image.h"
+#include "render/adaptive/polygon_list.h"
+
+namespace contrejour::adaptive {
+
+// The frame cut into rectangles whose sums stay in the cache.
+struct TileGrid {
+  static constexpr int kWidth = 256;
+  static constexpr int kHeight = 16;
+
+  int width = 0, height = 0;  // pixels
+  int columns = 0, rows = 0;  // tiles
+
+  TileGrid(int w, int h)
+      : width(w), height(h), columns((w + kWidth - 1) / kWidth), rows((h + kHeight - 1) / kHeight) {}
+  [[nodiscard]] std::size_t count() const { return static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows); }
+};
+
+// For each tile the polygons of a list that may touch it, in their order: index[start[t] .. start[t + 1]).
+struct TileLists {
+  std::vector<std::uint32_t> start, index;
+  [[nodiscard]] std::size_t bytes() const { return (start.size() + index.size()) * sizeof(std::uint32_t); }
+};
+
+[[nodiscard]] TileLists tile_lists(const PolygonList& list, const TileGrid& grid);
+
+struct TiledPolygons {
+  PolygonList list;
+  TileLists tiles;
+};
+
+// Adds to the pixels of a row of tiles what the polygons bring, list after list. Rows do not touch each other.
+void add_tile_row(std::span<const TiledPolygons> lists, const TileGrid& grid, int row, Image& image);
+
+}  // namespace contrejour::adaptive
