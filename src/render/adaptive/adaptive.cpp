@@ -20,6 +20,7 @@ using Clock = std::chrono::steady_clock;
 
 constexpr double kPeakQuantile = 0.999;  // as metrics.h: what errors are relative to
 constexpr double kMargin = 0.03;  // of a box's size, on every side, for the other wavelengths
+constexpr int kDeepest = 4;  // quarterings of a box
 constexpr int kPreviewScale = 8;
 constexpr std::size_t kBatchBytes = 48U << 20U;
 constexpr std::size_t kBatchItems = 64;
@@ -71,12 +72,12 @@ void find_box(const Scene& scene, Item& item) {
 }
 
 // Polygons of an item at every wavelength of its light.
-PolygonList paint_item(const Scene& scene, const Item& item, const Frame& frame, ErrorBudget budget, std::uint64_t& rays,
-                       std::uint64_t& hits) {
+PolygonList paint_item(const Scene& scene, const Item& item, const Frame& frame, ErrorBudget budget, int deepest,
+                       std::uint64_t& rays, std::uint64_t& hits) {
   PolygonList out;
   const Meridian meridian(item.light->direction);
   const double z = entrance_window(scene.lens, meridian.direction).z_mm;
-  GhostPainter painter(scene.lens, scene.iris, frame, meridian, z, scene.tables);
+  GhostPainter painter(scene.lens, scene.iris, frame, meridian, z, scene.tables, deepest);
   const std::span<const PlannedPass> passes(item.light->passes);
   for (std::size_t k = 0; k < passes.size(); ++k) {
     for (const Rectangle& box : item.boxes) painter.paint({item.ghost, box, {passes[k].lambda_nm, passes.subspan(k, 1)}},
@@ -113,7 +114,7 @@ double find_peak(const Scene& scene, const std::vector<Item>& items, const Conte
       const PlannedLight light{item.light->direction, {all}};
       Item one = item;
       one.light = &light;
-      painted[k].list = paint_item(scene, one, frame, {std::numeric_limits<double>::infinity(), 1.0}, counts[k][0], counts[k][1]);
+      painted[k].list = paint_item(scene, one, frame, {std::numeric_limits<double>::infinity(), 1.0}, 1, counts[k][0], counts[k][1]);
     }
     painted[k].tiles = tile_lists(painted[k].list, grid);
   });
@@ -158,7 +159,7 @@ Result<Flare> render_adaptive(const LensState& lens, std::span<const Light> ligh
   const double peak_ms = ms_since(start);
 
   const double pixels = static_cast<double>(settings.frame.width) * settings.frame.height;
-  const double allowed = settings.error * peak;
+  const double allowed = (getenv("ERR") ? atof(getenv("ERR")) : settings.error) * peak;
   const double squared_error = allowed * allowed * pixels / static_cast<double>(std::max<std::size_t>(items.size(), 1));
   const TileGrid grid(settings.frame.width, settings.frame.height);
   double paint_ms = 0.0;
@@ -173,7 +174,7 @@ Result<Flare> render_adaptive(const LensState& lens, std::span<const Light> ligh
       std::vector<std::array<std::uint64_t, 2>> counts(count);
       parallel_for(count, quiet, [&](std::size_t k) {
         const Item& item = items[first + k];
-        if (!item.boxes.empty()) some[k].list = paint_item(scene, item, settings.frame, {squared_error, peak}, counts[k][0], counts[k][1]);
+        if (!item.boxes.empty()) some[k].list = paint_item(scene, item, settings.frame, {squared_error, peak}, kDeepest, counts[k][0], counts[k][1]);
         some[k].tiles = tile_lists(some[k].list, grid);
       });
       if (context.cancelled()) return failure(ErrorCode::Cancelled, "interrupted");

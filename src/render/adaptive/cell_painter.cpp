@@ -3,14 +3,15 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 namespace contrejour::adaptive {
 namespace {
 
-constexpr int kFirstCell = 4;        // mesh cells a side of the largest cell drawn
 constexpr int kDeepest = 6;          // quarterings of a patch
 constexpr double kSliver = 1e-3;     // pixels: mean width below which a polygon is a line
 constexpr double kSpeck = 0.05;      // pixels: a polygon no longer than this is a point
+constexpr double kSmallAngle = 1e-3;
 constexpr int kMostPoints = 256;     // that stand for a line
 constexpr double kPixel = 1.0;       // area below which a cell is not seen but for its flux
 constexpr double kPeaks = 4.0;       // brightness over the peak where errors begin to count as relative ones
@@ -109,23 +110,39 @@ double CellPainter::squared_error(const Mesh& mesh, const Cell& cell, State stat
     error += mean * mean * std::min(off * off, off) * length(c - a) * width * width;
   }
   if (state == State::Cut) {
-    // The iris and the rims bend within the cell: its chord's height, by their curvature in the stop.
-    const int field = PatchLayout::kStop;
-    double bend = 0.0;
-    for (int f = field; f < mesh.layout.fields(); f += f < mesh.layout.rim(0) ? 2 : 1) {
-      const bool stop = f < mesh.layout.rim(0);
-      double reach = 0.0;
-      for (const std::size_t k : {cell.corner[1], cell.corner[2], cell.corner[3]}) {
-        const double dx = mesh.field(f)[k] - mesh.field(f)[cell.corner[0]];
-        const double dy = stop ? mesh.field(f + 1)[k] - mesh.field(f + 1)[cell.corner[0]] : 0.0;
-        reach = std::max(reach, stop ? std::hypot(dx, dy) : 0.5 * std::abs(dx));
-      }
-      bend = std::max(bend, std::min(reach, 1.0));
-    }
-    const double off = bend * longest / 8.0;
+    const double off = limit_error(mesh, cell) * longest;
     error += mean * mean * std::min(off * off, off) * longest * width * width;
   }
   return std::min(error, 4.0 * worst) * dimmed * dimmed;
+}
+
+// How far the lines that cut the cell are off when stop coordinates and rims are taken as linear along its sides, as
+// a share of the cell.
+double CellPainter::limit_error(const Mesh& mesh, const Cell& cell) {
+  double largest = 0.0;
+  const int first_rim = mesh.layout.rim(0);
+  for (int f = PatchLayout::kStop; f < mesh.layout.fields(); ++f) {
+    const Mesh::Field& v = mesh.field(f);
+    float low = v[cell.corner[0]];
+    float high = low;
+    for (const std::size_t k : cell.corner) {
+      low = std::min(low, v[k]);
+      high = std::max(high, v[k]);
+    }
+    if (f >= first_rim && (high <= 1.0F || low > 1.0F)) continue;
+    double off = 0.0;
+    for (std::size_t k = 0; k < 4; ++k) {
+      off = std::max(off, std::abs(static_cast<double>(v[cell.side[k]]) - 0.5 * (v[cell.corner[k]] + v[cell.corner[(k + 1) % 4]])));
+    }
+    // Neighbouring stop fields are one point's coordinates: the larger change is the scale of both.
+    double change = high - low;
+    if (f < first_rim) {
+      const Mesh::Field& w = mesh.field((f - PatchLayout::kStop) % 2 == 0 ? f + 1 : f - 1);
+      for (const std::size_t k : cell.corner) change = std::max(change, 2.0 * std::abs(static_cast<double>(w[k]) - w[cell.middle]));
+    }
+    if (change > 0.0) largest = std::max(largest, off / change);
+  }
+  return largest;
 }
 
 bool CellPainter::wants_finer_mesh(const Mesh& mesh, int ix, int iy) const {
@@ -143,14 +160,20 @@ bool CellPainter::wants_finer_mesh(const Mesh& mesh, int ix, int iy) const {
 void CellPainter::paint(const Patch& patch, int depth) {
   const Mesh mesh = make_mesh(patch, iris_);
   constexpr int kHalf = Mesh::kCells / 2;
+  if (depth == 0 && patch.nodes <= 5 && !wants_finer_mesh(mesh, 0, 0) && !wants_finer_mesh(mesh, kHalf, 0) &&
+      !wants_finer_mesh(mesh, 0, kHalf) && !wants_finer_mesh(mesh, kHalf, kHalf)) {
+    paint_cell(mesh, 0, 0, Mesh::kCells);  // what so few nodes tell, nine vertices tell too
+    return;
+  }
+  const int first = patch.nodes <= 9 ? kHalf : kHalf / 2;
   for (int qy = 0; qy < 2; ++qy) {
     for (int qx = 0; qx < 2; ++qx) {
       if (depth < kDeepest && wants_finer_mesh(mesh, qx * kHalf, qy * kHalf)) {
         paint(quarter(patch, qx, qy), depth + 1);
         continue;
       }
-      for (int y = qy * kHalf; y < (qy + 1) * kHalf; y += kFirstCell) {
-        for (int x = qx * kHalf; x < (qx + 1) * kHalf; x += kFirstCell) paint_cell(mesh, x, y, kFirstCell);
+      for (int y = qy * kHalf; y < (qy + 1) * kHalf; y += first) {
+        for (int x = qx * kHalf; x < (qx + 1) * kHalf; x += first) paint_cell(mesh, x, y, first);
       }
     }
   }
@@ -240,6 +263,24 @@ void CellPainter::draw_folded(const Mesh& mesh, const Cell& cell, State state) {
   }
 }
 
+// Chords of an arc that miss it by no more pixels than the budget allows; half as many either way would do.
+void CellPainter::set_arc_step(const Mesh& mesh, std::span<const std::size_t> corners, const Shade& shade) {
+  double reach = 0.0;
+  Bounds b;
+  for (const std::size_t v : corners) {
+    b.add(mesh.position(v));
+    for (int f = PatchLayout::kStop; f < mesh.layout.rim(0); ++f) {
+      reach = std::max(reach, std::abs(static_cast<double>(mesh.field(f)[v]) - mesh.field(f)[corners[0]]));
+    }
+  }
+  const double longest = std::max(b.size().x, b.size().y);
+  const double level = std::max({std::abs(shade.value[0]), std::abs(shade.value[1]), std::abs(shade.value[2])});
+  const double seen = level / (1.0 + level / (kPeaks * peak_));
+  const double off_px = std::clamp(0.5 * std::sqrt(budget_ / std::max(longest, 1.0)) / std::max(seen, 1e-300), 0.02, 0.5);
+  const double pixels_per_radius = longest / std::max(reach, 1e-9);
+  arc_step_ = std::clamp(std::sqrt(8.0 * off_px / pixels_per_radius), 0.02, 0.8);
+}
+
 void CellPainter::draw_polygon(const Mesh& mesh, State state, const Shade& shade, const Flux& flux,
                                std::span<const std::size_t> corners) {
   constexpr std::array<Vec2, 4> kUv{Vec2{0, 0}, Vec2{1, 0}, Vec2{1, 1}, Vec2{0, 1}};
@@ -251,7 +292,11 @@ void CellPainter::draw_polygon(const Mesh& mesh, State state, const Shade& shade
     }
     polygon_.push_back(corner);
   }
-  if (state == State::Cut) cut(mesh);
+  if (state == State::Cut) {
+    set_arc_step(mesh, corners, shade);
+    whole_ = polygon_;
+    cut(mesh);
+  }
   if (polygon_.size() < 3) return;
 
   points_.clear();
@@ -307,47 +352,131 @@ void CellPainter::cut_where_positive(Value value) {
     const double fb = value(b);
     if (fa <= 0.0) next_.push_back(a);
     if ((fa <= 0.0) == (fb <= 0.0)) continue;
-    const double t = fa / (fa - fb);
-    Corner c;
-    c.position = a.position + (b.position - a.position) * t;
-    c.uv = a.uv + (b.uv - a.uv) * t;
-    for (std::size_t l = 0; l < c.limit.size(); ++l) {
-      c.limit[l] = a.limit[l] + static_cast<float>(t) * (b.limit[l] - a.limit[l]);
-    }
-    next_.push_back(c);
+    next_.push_back(between(a, b, fa / (fa - fb)));
   }
   polygon_.swap(next_);
 }
 
-// The stop coordinates are linear along each side, which then meets the circle exactly.
+// The stop coordinates are linear along each side, which then meets the circle exactly; where the outline leaves the
+// circle an arc takes it to where it comes back.
 void CellPainter::cut_by_circle(std::size_t limit) {
-  const auto outside = [&](const Corner& c) {
-    return static_cast<double>(c.limit[limit]) * c.limit[limit] + static_cast<double>(c.limit[limit + 1]) * c.limit[limit + 1] - 1.0;
-  };
+  const auto stop = [limit](const Corner& c) { return Vec2{c.limit[limit], c.limit[limit + 1]}; };
   next_.clear();
+  std::vector<std::size_t>& exits = exits_;
+  exits.clear();
+  double twice_area = 0.0;
   for (std::size_t k = 0; k < polygon_.size(); ++k) {
     const Corner& a = polygon_[k];
     const Corner& b = polygon_[k + 1 == polygon_.size() ? 0 : k + 1];
-    const double fa = outside(a);
-    if (fa <= 0.0) next_.push_back(a);
-    const Vec2 s{a.limit[limit], a.limit[limit + 1]};
-    const Vec2 along = Vec2{b.limit[limit], b.limit[limit + 1]} - s;
+    const Vec2 s = stop(a);
+    const Vec2 along = stop(b) - s;
+    twice_area += cross(s, stop(b));
+    const bool starts_inside = dot(s, s) <= 1.0;
+    const bool ends_inside = dot(stop(b), stop(b)) <= 1.0;
+    if (starts_inside) next_.push_back(a);
+    if (starts_inside && ends_inside) continue;
+    // Where the side meets the circle; corners were judged above, and rounding must not judge otherwise.
     const double aa = dot(along, along);
     const double half_b = dot(s, along);
-    const double under = half_b * half_b - aa * fa;
-    if (!(under > 0.0) || !(aa > 0.0)) continue;
-    for (const double t : {(-half_b - std::sqrt(under)) / aa, (-half_b + std::sqrt(under)) / aa}) {
-      if (!(t > 0.0 && t < 1.0)) continue;
-      Corner c;
-      c.position = a.position + (b.position - a.position) * t;
-      c.uv = a.uv + (b.uv - a.uv) * t;
-      for (std::size_t l = 0; l < c.limit.size(); ++l) {
-        c.limit[l] = a.limit[l] + static_cast<float>(t) * (b.limit[l] - a.limit[l]);
-      }
-      next_.push_back(c);
+    const double under = half_b * half_b - aa * (dot(s, s) - 1.0);
+    const bool meets = under > 0.0 && aa > 0.0;
+    const double enters = meets ? (-half_b - std::sqrt(under)) / aa : 0.0;
+    const double leaves = meets ? (-half_b + std::sqrt(under)) / aa : 0.0;
+    const bool passes_through = !starts_inside && !ends_inside;
+    if (passes_through && !(meets && enters > 0.0 && leaves < 1.0)) continue;
+    if (!starts_inside) next_.push_back(between(a, b, std::clamp(enters, 0.0, 1.0)));
+    if (!ends_inside) {
+      exits.push_back(next_.size());
+      next_.push_back(between(a, b, std::clamp(leaves, 0.0, 1.0)));
     }
   }
-  polygon_.swap(next_);
+  if (next_.empty() && !surrounds_origin(limit)) {
+    polygon_.clear();
+    return;
+  }
+  const double turn = twice_area > 0.0 ? 1.0 : -1.0;
+  polygon_.clear();
+  if (next_.empty()) {
+    add_arc(limit, 0.0, turn * 2.0 * std::numbers::pi);
+    return;
+  }
+  std::size_t exit = 0;
+  for (std::size_t k = 0; k < next_.size(); ++k) {
+    polygon_.push_back(next_[k]);
+    if (exit == exits.size() || exits[exit] != k) continue;
+    ++exit;
+    const Vec2 from = stop(next_[k]);
+    const Vec2 to = stop(next_[k + 1 == next_.size() ? 0 : k + 1]);
+    double angle = std::atan2(cross(from, to), dot(from, to));
+    // Only where a single side cuts the circle is a small angle backwards nearly a whole turn, not rounding.
+    if (angle * turn < 0.0 && (std::abs(angle) > kSmallAngle || next_.size() == 2)) angle += turn * 2.0 * std::numbers::pi;
+    if (angle * turn > 0.0) add_arc(limit, std::atan2(from.y, from.x), angle);
+  }
+}
+
+// All corners lie outside the unit circle: whether it lies inside them.
+bool CellPainter::surrounds_origin(std::size_t limit) const {
+  bool left = false;
+  bool right = false;
+  for (std::size_t k = 0; k < polygon_.size(); ++k) {
+    const Corner& a = polygon_[k];
+    const Corner& b = polygon_[k + 1 == polygon_.size() ? 0 : k + 1];
+    const double side = cross(Vec2{a.limit[limit], a.limit[limit + 1]}, Vec2{b.limit[limit], b.limit[limit + 1]});
+    (side > 0.0 ? left : right) = true;
+  }
+  return left != right;
+}
+
+// Corners along the unit circle of the stop, its ends not among them.
+void CellPainter::add_arc(std::size_t limit, double from, double angle) {
+  const int steps = static_cast<int>(std::ceil(std::abs(angle) / arc_step_));
+  for (int k = 1; k < steps; ++k) {
+    const double a = from + angle * k / steps;
+    polygon_.push_back(corner_at_stop(limit, {std::cos(a), std::sin(a)}));
+  }
+}
+
+CellPainter::Corner CellPainter::between(const Corner& a, const Corner& b, double t) {
+  Corner c;
+  c.position = a.position + (b.position - a.position) * t;
+  c.uv = a.uv + (b.uv - a.uv) * t;
+  for (std::size_t l = 0; l < c.limit.size(); ++l) c.limit[l] = a.limit[l] + static_cast<float>(t) * (b.limit[l] - a.limit[l]);
+  return c;
+}
+
+// Everything is bilinear in the cell, or linear in a triangle of corners 0, 1 and 2.
+CellPainter::Corner CellPainter::corner_at(Vec2 uv) const {
+  const bool triangle = whole_.size() == 3;
+  const std::array<double, 4> share = triangle ? std::array{1.0 - uv.x, uv.x - uv.y, uv.y, 0.0}
+                                               : std::array{(1.0 - uv.x) * (1.0 - uv.y), uv.x * (1.0 - uv.y), uv.x * uv.y,
+                                                            (1.0 - uv.x) * uv.y};
+  Corner out;
+  out.uv = uv;
+  for (std::size_t k = 0; k < whole_.size(); ++k) {
+    out.position = out.position + whole_[k].position * share[k];
+    for (std::size_t l = 0; l < out.limit.size(); ++l) out.limit[l] += static_cast<float>(share[k]) * whole_[k].limit[l];
+  }
+  return out;
+}
+
+// The point of the cell whose ray crosses the stop there: two steps of Newton's method, the map being nearly linear.
+CellPainter::Corner CellPainter::corner_at_stop(std::size_t limit, Vec2 target) const {
+  constexpr double kStep = 1e-2;
+  Vec2 uv{0.5, 0.5};
+  Corner at = corner_at(uv);
+  for (int step = 0; step < 2; ++step) {
+    const Corner right = corner_at(uv + Vec2{kStep, 0.0});
+    const Corner up = corner_at(uv + Vec2{0.0, kStep});
+    const Vec2 s{at.limit[limit], at.limit[limit + 1]};
+    const Vec2 du = (Vec2{right.limit[limit], right.limit[limit + 1]} - s) * (1.0 / kStep);
+    const Vec2 dv = (Vec2{up.limit[limit], up.limit[limit + 1]} - s) * (1.0 / kStep);
+    const double determinant = cross(du, dv);
+    if (determinant == 0.0) break;
+    const Vec2 off = target - s;
+    uv = uv + Vec2{cross(off, dv) / determinant, cross(du, off) / determinant};
+    at = corner_at(uv);
+  }
+  return at;
 }
 
 void CellPainter::cut(const Mesh& mesh) {

@@ -47,8 +47,16 @@ class CellPainter {
   [[nodiscard]] bool wants_finer_mesh(const Mesh& mesh, int ix, int iy) const;
   [[nodiscard]] double squared_error(const Mesh& mesh, const Cell& cell, State state) const;
 
+  [[nodiscard]] static double limit_error(const Mesh& mesh, const Cell& cell);
+
   void cut(const Mesh& mesh);
   void cut_by_circle(std::size_t limit);
+  [[nodiscard]] bool surrounds_origin(std::size_t limit) const;
+  void add_arc(std::size_t limit, double from, double angle);
+  void set_arc_step(const Mesh& mesh, std::span<const std::size_t> corners, const Shade& shade);
+  [[nodiscard]] static Corner between(const Corner& a, const Corner& b, double t);
+  [[nodiscard]] Corner corner_at(Vec2 uv) const;
+  [[nodiscard]] Corner corner_at_stop(std::size_t limit, Vec2 target) const;
   template <class Value>
   void cut_where_positive(Value value);
 
@@ -57,7 +65,9 @@ class CellPainter {
   double budget_;
   double peak_;
   PolygonList& out_;
-  std::vector<Corner> polygon_, next_;
+  std::vector<Corner> whole_, polygon_, next_;
+  std::vector<std::size_t> exits_;
+  double arc_step_ = 0.1;  // radians
   std::vector<Point> points_;
 };
 

@@ -11,7 +11,9 @@ namespace contrejour::adaptive {
 namespace {
 
 constexpr std::array kNodes{5, 9, 17};
-constexpr int kDeepest = 4;            // quarterings of the pupil before straight lines between rays must do
+// Float places a ray on the sensor to some 1e-3 mm at worst; it must be given room enough at the entrance, too.
+constexpr double kFloatError_mm = 1e-3;
+constexpr double kFloatBox_mm = 0.05;
 constexpr double kCellsPerItem = 64.0; // an item's squared error is shared among so many cells
 
 // Whether any cell between the nodes may let light through; the iris counts as its circumscribed circle.
@@ -66,6 +68,12 @@ GhostPainter::Tolerance GhostPainter::tolerance_for(const RaySheet& sheet, const
   return t;
 }
 
+PacketPrecision GhostPainter::precision_for(const Rectangle& box, const Tolerance& tolerance) const {
+  const bool coarse = tolerance.position_px * frame_.pixel_pitch_mm > 2.0 * kFloatError_mm;
+  const Vec2 size = box.high - box.low;
+  return coarse && std::min(size.x, size.y) > kFloatBox_mm ? PacketPrecision::Float : PacketPrecision::Double;
+}
+
 bool GhostPainter::accepts(const Patch& patch, const Tolerance& tolerance) {
   const PatchError e = estimated_error(patch);
   return e.position_px <= tolerance.position_px && e.stop <= tolerance.stop && e.rim <= 2.0 * tolerance.stop &&
@@ -75,7 +83,7 @@ bool GhostPainter::accepts(const Patch& patch, const Tolerance& tolerance) {
 void GhostPainter::paint(const PaintJob& job, const ErrorBudget& budget, PolygonList& out) {
   SheetTracer tracer(lens_, job.ghost, meridian_, plane_z_mm_, job.band, tables_);
   CellPainter cells(iris_, frame_, budget.squared_error / kCellsPerItem, budget.peak, out);
-  const RaySheet first = tracer.trace(job.box, kNodes.front());
+  const RaySheet first = tracer.trace(job.box, kNodes.front(), PacketPrecision::Double);
   const Tolerance tolerance = tolerance_for(first, budget);
   bool done = false;
   if (first.failed == 0) {
@@ -93,14 +101,14 @@ void GhostPainter::paint(const PaintJob& job, const ErrorBudget& budget, Polygon
 
 void GhostPainter::paint_box(SheetTracer& tracer, const Rectangle& box, int depth, const Tolerance& tolerance,
                              CellPainter& cells) {
-  for (std::size_t k = 1; k < kNodes.size(); ++k) {
-    const RaySheet sheet = tracer.trace(box, kNodes[k]);
+  for (std::size_t k = depth == 0 ? 1 : 0; k < kNodes.size(); ++k) {
+    const RaySheet sheet = tracer.trace(box, kNodes[k], precision_for(box, tolerance));
     if (!may_pass(sheet)) return;
     const bool last = k + 1 == kNodes.size();
     if (sheet.failed == 0) {
       const Patch patch = make_patch(sheet, meridian_, frame_);
-      if (accepts(patch, tolerance) || (last && depth == kDeepest)) return cells.paint(patch);
-    } else if (depth == kDeepest) {
+      if (accepts(patch, tolerance) || (last && depth >= deepest_)) return cells.paint(patch);
+    } else if (depth >= deepest_) {
       return paint_sheet(sheet, cells);
     } else {
       break;

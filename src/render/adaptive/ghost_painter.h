@@ -20,9 +20,11 @@ struct PaintJob {
 
 class GhostPainter {
  public:
+  // deepest: how often the pupil may be quartered before straight lines between rays must do.
   GhostPainter(const LensState& lens, const IrisShape& iris, const Frame& frame, const Meridian& meridian,
-               double plane_z_mm, const TablesByWavelength& tables)
-      : lens_(lens), iris_(iris), frame_(frame), meridian_(meridian), plane_z_mm_(plane_z_mm), tables_(tables) {}
+               double plane_z_mm, const TablesByWavelength& tables, int deepest)
+      : lens_(lens), iris_(iris), frame_(frame), meridian_(meridian), plane_z_mm_(plane_z_mm), tables_(tables),
+        deepest_(deepest) {}
 
   void paint(const PaintJob& job, const ErrorBudget& budget, PolygonList& out);
 
@@ -34,6 +36,7 @@ class GhostPainter {
     double position_px = 0, stop = 0, weight = 0;
   };
   [[nodiscard]] Tolerance tolerance_for(const RaySheet& sheet, const ErrorBudget& budget) const;
+  [[nodiscard]] PacketPrecision precision_for(const Rectangle& box, const Tolerance& tolerance) const;
   [[nodiscard]] static bool accepts(const Patch& patch, const Tolerance& tolerance);
   void paint_box(SheetTracer& tracer, const Rectangle& box, int depth, const Tolerance& tolerance, CellPainter& cells);
   void paint_sheet(const RaySheet& sheet, CellPainter& cells) const;
@@ -45,6 +48,7 @@ class GhostPainter {
   const Meridian& meridian_;
   double plane_z_mm_;
   const TablesByWavelength& tables_;
+  int deepest_;
   std::uint64_t rays_ = 0, surface_hits_ = 0;
 };
 

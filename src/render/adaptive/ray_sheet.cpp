@@ -75,7 +75,7 @@ SheetTracer::SheetTracer(const LensState& lens, Ghost ghost, const Meridian& mer
   }
 }
 
-RaySheet SheetTracer::trace(const Rectangle& box, int nodes) {
+RaySheet SheetTracer::trace(const Rectangle& box, int nodes, PacketPrecision precision) {
   RaySheet sheet;
   sheet.box = box;
   sheet.nodes = nodes;
@@ -90,7 +90,7 @@ RaySheet SheetTracer::trace(const Rectangle& box, int nodes) {
   }
   sheet.rim_squared.resize(steps() * count);
   const bool symmetric = box.low.y == -box.high.y;
-  trace_rows(box, symmetric ? nodes / 2 : 0, sheet);
+  trace_rows(symmetric ? nodes / 2 : 0, precision, sheet);
   if (symmetric) {
     complete(sheet.sensor_x_mm.data(), nodes, 1.0F);
     complete(sheet.sensor_y_mm.data(), nodes, -1.0F);
@@ -106,7 +106,8 @@ RaySheet SheetTracer::trace(const Rectangle& box, int nodes) {
   return sheet;
 }
 
-void SheetTracer::trace_rows(const Rectangle& box, int first_row, RaySheet& sheet) {
+void SheetTracer::trace_rows(int first_row, PacketPrecision precision, RaySheet& sheet) {
+  const Rectangle& box = sheet.box;
   const auto points = lobatto_points(sheet.nodes);
   const Vec2 half = (box.high - box.low) * 0.5;
   x_mm_.clear();
@@ -138,8 +139,7 @@ void SheetTracer::trace_rows(const Rectangle& box, int first_row, RaySheet& shee
       out.rim_stride = sheet.count();
     }
     const PacketPath packets(paths_[k], *tables_[k], {{box.low.x, box.low.y, plane_z_mm_}, meridian_.direction});
-    // Double: neighbouring nodes may lie as close as float's rounding, and there are few of them.
-    trace_packets(packets, PacketPrecision::Double, x_mm_.data(), y_mm_.data(), count, out);
+    trace_packets(packets, precision, x_mm_.data(), y_mm_.data(), count, out);
     rays_ += count;
     for (const PlannedPass& pass : band_.passes) {
       if (pass.lambda_nm != paths_[k].lambda_nm) continue;

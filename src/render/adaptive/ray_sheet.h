@@ -54,14 +54,14 @@ class SheetTracer {
               const TablesByWavelength& tables);
 
   // A box that is its own mirror image costs half the rays.
-  [[nodiscard]] RaySheet trace(const Rectangle& box, int nodes);
+  [[nodiscard]] RaySheet trace(const Rectangle& box, int nodes, PacketPrecision precision);
 
   [[nodiscard]] std::size_t steps() const { return paths_.front().steps.size(); }
   [[nodiscard]] std::uint64_t rays() const { return rays_; }
   [[nodiscard]] std::uint64_t surface_hits() const { return rays_ * steps(); }
 
  private:
-  void trace_rows(const Rectangle& box, int first_row, RaySheet& sheet);
+  void trace_rows(int first_row, PacketPrecision precision, RaySheet& sheet);
 
   Meridian meridian_;
   double plane_z_mm_;
