@@ -8,7 +8,7 @@
 namespace contrejour::adaptive {
 namespace {
 
-constexpr int kDeepest = 6;          // quarterings of a patch
+constexpr int kDeepest = 7;          // quarterings of a patch
 constexpr double kSliver = 1e-3;     // pixels: mean width below which a polygon is a line
 constexpr double kSpeck = 0.05;      // pixels: a polygon no longer than this is a point
 constexpr double kSmallAngle = 1e-3;
@@ -165,7 +165,7 @@ void CellPainter::paint(const Patch& patch, int depth) {
     paint_cell(mesh, 0, 0, Mesh::kCells);  // what so few nodes tell, nine vertices tell too
     return;
   }
-  const int first = patch.nodes <= 9 ? kHalf : kHalf / 2;
+  const int first = patch.nodes <= 9 ? kHalf : kHalf / 2;  // 9 nodes: 3 x 3 vertices tell a quarter
   for (int qy = 0; qy < 2; ++qy) {
     for (int qx = 0; qx < 2; ++qx) {
       if (depth < kDeepest && wants_finer_mesh(mesh, qx * kHalf, qy * kHalf)) {

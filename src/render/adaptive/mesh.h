@@ -1,4 +1,4 @@
-// A patch at the vertices of a uniform mesh of 16 x 16 cells.
+// A patch at the vertices of a uniform mesh of 8 x 8 cells.
 #pragma once
 
 #include <array>
@@ -11,9 +11,9 @@
 namespace contrejour::adaptive {
 
 struct Mesh {
-  static constexpr int kCells = 16;
+  static constexpr int kCells = 8;
   static constexpr int kSide = kCells + 1;
-  static constexpr int kStride = 32;
+  static constexpr int kStride = 16;
   using Field = std::array<float, static_cast<std::size_t>(kSide) * kStride>;
 
   PatchLayout layout;

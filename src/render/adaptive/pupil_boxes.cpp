@@ -41,16 +41,32 @@ class Search {
   PupilBoxes run() {
     start(kFirstColumns, kFirstReach);
     if (cells_.empty()) start(kSecondColumns, kReach);
-    for (int depth = 0; depth < kDeepest && !cells_.empty() && cells_.size() < kMostCells; ++depth) {
-      quarter();
-      if (static_cast<double>(open_) >= kTight * static_cast<double>(cells_.size())) break;
-    }
-    return {boxes(), rays_};
+    refine(0);
+    return {std::move(boxes_), rays_};
   }
 
  private:
   [[nodiscard]] Vec2 cell_size() const {
     return {(window_.max_mm.x - window_.min_mm.x) / columns_, half_height_mm_ / (columns_ / 2)};
+  }
+
+  // Quarters cells until those that are left hold mostly open ones; what falls apart goes on piece by piece.
+  void refine(int depth) {
+    while (!cells_.empty() && depth < kDeepest && cells_.size() < kMostCells) {
+      quarter();
+      ++depth;
+      if (static_cast<double>(open_) >= kTight * static_cast<double>(cells_.size())) break;
+      const auto pieces = connected();
+      if (pieces.size() < 2) continue;
+      const int columns = columns_;
+      for (const auto& piece : pieces) {
+        cells_ = piece;
+        columns_ = columns;
+        refine(depth);
+      }
+      return;
+    }
+    for (const auto& piece : connected()) add_box(piece);
   }
 
   // All cells of a lattice that may let light through.
@@ -147,8 +163,8 @@ class Search {
     return any;
   }
 
-  // Cells that touch, corners included, share a box.
-  [[nodiscard]] std::vector<Rectangle> boxes() const {
+  // Cells that touch, corners included, belong together.
+  [[nodiscard]] std::vector<std::vector<Cell>> connected() const {
     std::map<std::pair<int, int>, std::size_t> index;
     for (std::size_t k = 0; k < cells_.size(); ++k) index[{cells_[k].row, cells_[k].column}] = k;
     std::vector<std::size_t> parent(cells_.size());
@@ -163,25 +179,31 @@ class Search {
         if (near != index.end()) parent[std::max(root(k), root(near->second))] = std::min(root(k), root(near->second));
       }
     }
-    const Vec2 size = cell_size();
-    std::map<std::size_t, Rectangle> by_root;
-    for (std::size_t k = 0; k < cells_.size(); ++k) {
-      const Vec2 low{window_.min_mm.x + cells_[k].column * size.x, cells_[k].row * size.y};
-      const auto [place, fresh] = by_root.try_emplace(root(k), Rectangle{low, low + size});
-      Rectangle& r = place->second;
-      r.low = {std::min(r.low.x, low.x), std::min(r.low.y, low.y)};
-      r.high = {std::max(r.high.x, low.x + size.x), std::max(r.high.y, low.y + size.y)};
-    }
-    std::vector<Rectangle> out;
-    for (const auto& [key, r] : by_root) {
-      if (r.low.y <= 0.0) {
-        out.push_back({{r.low.x, -r.high.y}, r.high});
-      } else {
-        out.push_back(r);
-        out.push_back({{r.low.x, -r.high.y}, {r.high.x, -r.low.y}});
-      }
-    }
+    std::map<std::size_t, std::vector<Cell>> by_root;
+    for (std::size_t k = 0; k < cells_.size(); ++k) by_root[root(k)].push_back(cells_[k]);
+    std::vector<std::vector<Cell>> out;
+    for (auto& [key, cells] : by_root) out.push_back(std::move(cells));
     return out;
+  }
+
+  void add_box(const std::vector<Cell>& cells) {
+    const Vec2 size = cell_size();
+    Cell low = cells.front();
+    Cell high = low;
+    for (const Cell& c : cells) {
+      low = {std::min(low.column, c.column), std::min(low.row, c.row)};
+      high = {std::max(high.column, c.column), std::max(high.row, c.row)};
+    }
+    const double x0 = window_.min_mm.x + low.column * size.x;
+    const double x1 = window_.min_mm.x + (high.column + 1) * size.x;
+    const double y0 = low.row * size.y;
+    const double y1 = (high.row + 1) * size.y;
+    if (low.row == 0) {
+      boxes_.push_back({{x0, -y1}, {x1, y1}});
+    } else {
+      boxes_.push_back({{x0, y0}, {x1, y1}});
+      boxes_.push_back({{x0, -y1}, {x1, -y0}});
+    }
   }
 
   const OpticalPath& path_;
@@ -194,6 +216,7 @@ class Search {
   std::size_t open_ = 0;  // of them with a corner whose ray passes
   std::vector<float> x_mm_, y_mm_, results_;
   std::vector<Blocking> blocking_;
+  std::vector<Rectangle> boxes_;
   std::uint64_t rays_ = 0;
 };
 
