@@ -113,7 +113,8 @@ void add_render(CLI::App& app, Action& action) {
   add_lens_parameters(*command, options->values);
   add_parameters(*command, options->values, {"size", "hfov"});
   add_parameters(*command, options->values, {"method", "device", "wavelengths", "colour-space", "ghosts", "select",
-                                             "grid", "scale-grid", "density", "threads"});
+                                             "grid", "scale-grid", "merge-steps", "merge-threshold", "tile", "coarse-tile",
+                                             "interpolation", "density", "threads"});
   command->footer(kExamples);
   command->callback([options, &action] { action = [options] { return run_render(*options); }; });
 }

@@ -1,5 +1,6 @@
 #include "params/settings.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -33,6 +34,18 @@ Result<Light> finish_light(Vec3 direction, const LightValue& value, const LightC
   const Rgb tint = colour.rgb ? *colour.rgb : rgb_of(colour.spectrum, space);
   for (std::size_t c = 0; c < tint.size(); ++c) light.value[c] *= tint[c];
   return light;
+}
+
+TiledOptions tiled_options(const Values& values) {
+  TiledOptions options;
+  options.merge_steps = values.integer("merge-steps");
+  options.merge_threshold = values.number("merge-threshold");
+  options.dense_tile = values.integer("tile");
+  options.coarse_tile = values.integer("coarse-tile");
+  const auto& names = parameter("interpolation").choices;
+  const auto chosen = std::find(names.begin(), names.end(), *values.text("interpolation"));
+  options.interpolation = static_cast<TiledOptions::Interpolation>(chosen - names.begin());
+  return options;
 }
 
 }  // namespace
@@ -71,6 +84,7 @@ RenderSettings render_settings(const Values& values, const Frame& frame, ColourS
   settings.colour_space = space;
   settings.grid = values.integer("grid");
   settings.scale_grid = values.is_on("scale-grid");
+  settings.tiled = tiled_options(values);
   settings.reference_density = values.number("density");
   return settings;
 }

@@ -67,6 +67,12 @@ struct RenderStatistics {
   int ghosts_rendered = 0;
   double ghosts_skipped_flux = 0;  // share of the flare's flux that selection left out
   std::uint64_t peak_memory_bytes = 0;
+
+  // `tiled`; `primitives` counts them before merging.
+  std::uint64_t primitives_merged = 0;  // what merging leaves
+  std::uint64_t tile_indices = 0;       // entries of all dense tiles' lists
+  std::uint64_t primitive_bytes = 0;    // of the primitives held at once
+  std::uint64_t tile_list_bytes = 0;    // of the dense tiles' lists held at once
 };
 
 struct Flare {

@@ -6,6 +6,7 @@
 #include "contrejour/render.h"
 #include "render/bundle/bundle.h"
 #include "render/reference/reference.h"
+#include "render/tiled/tiled.h"
 
 namespace contrejour {
 namespace {
@@ -15,7 +16,8 @@ struct Method {
   Result<Flare> (*render)(const LensState&, std::span<const Light>, const RenderSettings&, const Context&);
 };
 
-constexpr std::array kMethods{Method{"bundle", render_bundle}, Method{"reference", render_reference}};
+constexpr std::array kMethods{Method{"bundle", render_bundle}, Method{"reference", render_reference},
+                              Method{"tiled", render_tiled}};
 
 }  // namespace
 
