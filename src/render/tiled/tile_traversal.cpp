@@ -137,11 +137,14 @@ namespace contrejour::tiled {
 
 HWY_EXPORT(traverse);
 
+// Floats in the longest vector of any instruction set. HWY_MAX_BYTES is that of one set, here the least.
+constexpr std::size_t kLongestVector = 64;
+
 void TilePixels::load(const Image& image, const PixelRange& range) {
   pixels = range;
   const std::size_t width = static_cast<std::size_t>(range.x1 - range.x0 + 1);
   const std::size_t count = width * static_cast<std::size_t>(range.y1 - range.y0 + 1);
-  for (auto* v : {&x, &y, &value[0], &value[1], &value[2]}) v->resize(count + HWY_MAX_BYTES / sizeof(float));
+  for (auto* v : {&x, &y, &value[0], &value[1], &value[2]}) v->resize(count + kLongestVector);
   std::size_t k = 0;
   for (int row = range.y0; row <= range.y1; ++row) {
     const float* from = image.pixels.data() + image.index(range.x0, row);
