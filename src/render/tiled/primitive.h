@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "contrejour/vec.h"
+#include "contrejour/frame.h"
 
 namespace contrejour::tiled {
 
@@ -16,6 +16,9 @@ struct PixelRange {
   std::int32_t x0 = 0, y0 = 0, x1 = -1, y1 = -1;
   [[nodiscard]] bool empty() const { return x1 < x0 || y1 < y0; }
 };
+
+// Of the bounds of four corners. Empty, too, when one is not a number.
+[[nodiscard]] PixelRange pixels_within(const std::array<float, 4>& x, const std::array<float, 4>& y, const Frame& frame);
 
 enum PrimitiveFlags : std::uint16_t {
   kTriangle = 1,  // the fourth corner is the first again

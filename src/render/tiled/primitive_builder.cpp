@@ -12,17 +12,6 @@ constexpr float kSmoothRatio = 1.5F;
 // Below this share of its extent squared a primitive's area is mostly rounding: it holds no pixel's middle.
 constexpr double kSliver = 1e-7;
 
-// Middles first .. last of pixels 0 .. count - 1 between two bounds. Empty, too, when a bound is not a number.
-struct Span {
-  std::int32_t first, last;
-};
-Span middles_between(float low, float high, int count) {
-  const float first = std::max(std::ceil(low - 0.5F), 0.0F);
-  const float last = std::min(std::floor(high - 0.5F), static_cast<float>(count - 1));
-  if (!(first <= last)) return {0, -1};
-  return {static_cast<std::int32_t>(first), std::min(static_cast<std::int32_t>(last), count - 1)};
-}
-
 // Squared, by the diagonals of the bounds.
 double extent_squared(const Primitive& p) {
   const auto [x0, x1] = std::minmax_element(p.x.begin(), p.x.end());
@@ -35,14 +24,6 @@ double extent_squared(const Primitive& p) {
 // What gamma is measured in: half the frame's width, the unit of a GPU's screen coordinates. The paper names none;
 // in this one its light and heavy thresholds leave about as many primitives as its table 5 tells.
 double merge_unit_px(const Frame& frame) { return 0.5 * frame.full_width; }
-
-PixelRange pixels_of(const Primitive& p, const Frame& frame) {
-  const auto [x0, x1] = std::minmax_element(p.x.begin(), p.x.end());
-  const auto [y0, y1] = std::minmax_element(p.y.begin(), p.y.end());
-  const Span columns = middles_between(*x0, *x1, frame.width);
-  const Span rows = middles_between(*y0, *y1, frame.height);
-  return {columns.first, rows.first, columns.last, rows.last};
-}
 
 }  // namespace
 
@@ -240,7 +221,7 @@ void PrimitiveBuilder::emit_quad(const RayGrid& grid, std::array<std::size_t, 4>
     if (!smooth) e = {1.0, 1.0, 1.0, 1.0};
     const double held = (first * (e[0] + e[1] + e[2]) + second * (e[0] + e[2] + e[3])) / 6.0;
     for (std::size_t k = 0; k < 4; ++k) p.irradiance[k] = static_cast<float>(e[k] * (flux / held));
-    p.pixels = pixels_of(p, frame_);
+    p.pixels = pixels_within(p.x, p.y, frame_);
   }
   out_->primitives.push_back(p);
 }
@@ -261,7 +242,7 @@ void PrimitiveBuilder::emit_triangle(const RayGrid& grid, std::array<std::size_t
   fill(grid, {corners[0], corners[1], corners[2], corners[0]}, p);
   if (twice > kSliver * extent_squared(p)) {
     p.irradiance.fill(static_cast<float>(flux / (0.5 * twice)));
-    p.pixels = pixels_of(p, frame_);
+    p.pixels = pixels_within(p.x, p.y, frame_);
   }
   out_->primitives.push_back(p);
 }

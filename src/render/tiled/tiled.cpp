@@ -15,8 +15,7 @@
 #include "render/interface/grid_side.h"
 #include "render/interface/wavelength_tables.h"
 #include "render/tiled/primitive_builder.h"
-#include "render/tiled/tile_lists.h"
-#include "render/tiled/tile_traversal.h"
+#include "render/tiled/tiled_frame.h"
 
 namespace contrejour {
 namespace {
@@ -29,10 +28,6 @@ constexpr int kMostMergeSteps = 9;  // a grid of 512 in one primitive
 constexpr int kLargestTile = 4096;
 // bodonyi2023 eq. 13 ends at this share of the grid.
 constexpr double kFewestShare = 0.05;
-// With more primitives or list entries at hand the tiles are built and traversed before more rays are traced:
-// 256 and 128 MiB. The sums do not change, as pixels go on where they were.
-constexpr std::size_t kHeldPrimitives = 1U << 21U;
-constexpr std::uint64_t kHeldIndices = 1U << 25U;
 constexpr double kTracingProgress = 0.7;  // of the whole, for the bar
 
 double ms_since(Clock::time_point start) {
@@ -117,100 +112,6 @@ class Workspaces {
   std::vector<std::unique_ptr<Workspace>> free_;
 };
 
-// The frame's picture, from primitives handed over in order.
-class TiledFrame {
- public:
-  TiledFrame(const RenderSettings& settings, const Context& context, const IrisShape& iris,
-             std::span<const tiled::Gain> gains)
-      : settings_(settings), context_(context), iris_(iris), gains_(gains),
-        coarse_grid_{settings.frame.width, settings.frame.height, std::max(1, settings.tiled.coarse_tile)},
-        dense_grid_{settings.frame.width, settings.frame.height, settings.tiled.dense_tile},
-        image_(settings.frame.width, settings.frame.height, 3) {
-    context_.progress = {};
-  }
-
-  void add(const tiled::PrimitiveBuffer& buffer) {
-    for (const tiled::Primitive& primitive : buffer.primitives) {
-      const std::uint64_t indices = dense_grid_.tile_count_of(primitive.pixels);
-      if (held_.primitives.size() >= kHeldPrimitives || held_indices_ + indices > kHeldIndices) draw();
-      held_.append(primitive, buffer);
-      held_indices_ += indices;
-    }
-  }
-
-  // Tiles and pixels of the primitives at hand. Does nothing once the context is cancelled.
-  void draw() {
-    const auto start = Clock::now();
-    if (context_.cancelled() || held_.primitives.empty()) return;
-    list();
-    const auto listed = Clock::now();
-    if (!context_.cancelled()) traverse();
-    traversal_ms_ += ms_since(listed);
-    primitives_ += held_.primitives.size();
-    indices_ += dense_.indices.size();
-    primitive_bytes_ = std::max(primitive_bytes_, held_.bytes());
-    list_bytes_ = std::max(list_bytes_, dense_.bytes());
-    held_.clear();
-    held_indices_ = 0;
-    draw_ms_ += ms_since(start);
-  }
-
-  [[nodiscard]] double draw_ms() const { return draw_ms_; }
-  [[nodiscard]] Image&& image() { return std::move(image_); }
-
-  void report(RenderStatistics& stats) const {
-    stats.primitives_merged = primitives_;
-    stats.tile_indices = indices_;
-    stats.primitive_bytes = primitive_bytes_;
-    stats.tile_list_bytes = list_bytes_;
-    stats.time_ms.insert(stats.time_ms.end(),
-                         {{"coarse tiles", coarse_ms_}, {"dense tiles", dense_ms_}, {"traversal", traversal_ms_}});
-  }
-
- private:
-  void list() {
-    auto start = Clock::now();
-    if (settings_.tiled.coarse_tile == 0) {
-      list_by_tile(held_.primitives, dense_grid_, context_, dense_);
-      dense_ms_ += ms_since(start);
-      return;
-    }
-    const bool listed = list_by_tile(held_.primitives, coarse_grid_, context_, coarse_);
-    coarse_ms_ += ms_since(start);
-    start = Clock::now();
-    if (listed) refine_lists(held_.primitives, coarse_grid_, coarse_, dense_grid_, context_, dense_);
-    dense_ms_ += ms_since(start);
-  }
-
-  void traverse() {
-    const tiled::TraversalInput input{held_, gains_, iris_, settings_.tiled.interpolation};
-    parallel_for(static_cast<std::size_t>(dense_grid_.rows()), context_, [&](std::size_t row) {
-      tiled::TilePixels pixels;
-      const int y0 = static_cast<int>(row) * dense_grid_.tile;
-      const int y1 = std::min(y0 + dense_grid_.tile, dense_grid_.height) - 1;
-      for (int column = 0; column < dense_grid_.columns(); ++column) {
-        const auto list = dense_.of(row * static_cast<std::size_t>(dense_grid_.columns()) + static_cast<std::size_t>(column));
-        if (list.empty() || context_.cancelled()) continue;
-        const int x0 = column * dense_grid_.tile;
-        pixels.load(image_, {x0, y0, std::min(x0 + dense_grid_.tile, dense_grid_.width) - 1, y1});
-        tiled::traverse_tile(input, list, pixels);
-        pixels.store(image_);
-      }
-    });
-  }
-
-  const RenderSettings& settings_;
-  Context context_;
-  const IrisShape& iris_;
-  std::span<const tiled::Gain> gains_;
-  tiled::TileGrid coarse_grid_, dense_grid_;
-  Image image_;
-  tiled::PrimitiveBuffer held_;
-  tiled::TileLists coarse_, dense_;
-  std::uint64_t held_indices_ = 0, primitives_ = 0, indices_ = 0, primitive_bytes_ = 0, list_bytes_ = 0;
-  double coarse_ms_ = 0, dense_ms_ = 0, traversal_ms_ = 0, draw_ms_ = 0;
-};
-
 struct Job {
   const LensState& lens;
   const RenderSettings& settings;
@@ -263,7 +164,7 @@ TracedItem trace_item(const Job& job, std::size_t index, Workspace& workspace) {
 }
 
 // Traces all items; the frame takes their primitives in order and draws whenever it holds enough.
-bool trace_all(const Job& job, TiledFrame& frame, Counts& counts) {
+bool trace_all(const Job& job, tiled::TiledFrame& frame, Counts& counts) {
   Context context = job.context;
   if (context.progress) context.progress = [&](double done) { job.context.progress(kTracingProgress * done); };
   Workspaces workspaces(job.settings);
@@ -296,7 +197,7 @@ Result<Flare> render_tiled(const LensState& lens, std::span<const Light> lights,
   const double plan_ms = ms_since(start);
 
   const auto traced = Clock::now();
-  TiledFrame frame(settings, context, job.iris, job.gains);
+  tiled::TiledFrame frame(settings, context, job.iris, job.gains);
   Counts counts;
   trace_all(job, frame, counts);
   const double trace_ms = ms_since(traced) - frame.draw_ms();
@@ -317,7 +218,7 @@ Result<Flare> render_tiled(const LensState& lens, std::span<const Light> lights,
   const double share = busy_ms > 0.0 ? trace_ms / busy_ms : 0.0;
   stats.time_ms = {{"plan", plan_ms}, {"search", counts.search_ms * share}, {"trace", counts.trace_ms * share}};
   frame.report(stats);
-  flare.image = frame.image();
+  flare.image = frame.take_image();
   stats.peak_memory_bytes = peak_memory_bytes();
   stats.time_ms.emplace_back("total", ms_since(start));
   return flare;
