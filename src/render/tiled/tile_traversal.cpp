@@ -8,6 +8,7 @@
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "render/tiled/tile_traversal.cpp"
 #include <hwy/foreach_target.h>
+#include <hwy/cache_control.h>
 #include <hwy/highway.h>
 
 #include "kernels/packet-inl.h"
@@ -21,6 +22,8 @@ namespace hk = kernels::HWY_NAMESPACE;
 namespace hn = hwy::HWY_NAMESPACE;
 using P = hk::Packet<float>;
 using Mask = P::Mask;
+
+constexpr std::size_t kAhead = 4;  // primitives fetched before they are needed
 
 HWY_INLINE P broadcast(float value) { return P(hn::Set(P::Tag(), value)); }
 
@@ -103,8 +106,14 @@ HWY_INLINE void add_primitive(const TraversalInput& input, const Primitive& p, T
 
 template <template <class> class QuadMethod, template <class> class TriangleMethod>
 void traverse_by(const TraversalInput& input, std::span<const std::uint32_t> list, TilePixels& tile) {
-  for (const std::uint32_t index : list) {
-    const Primitive& p = input.buffer.primitives[index];
+  const std::vector<Primitive>& primitives = input.buffer.primitives;
+  for (std::size_t k = 0; k < list.size(); ++k) {
+    if (k + kAhead < list.size()) {
+      const Primitive* next = &primitives[list[k + kAhead]];
+      hwy::Prefetch(&next->x);
+      hwy::Prefetch(&next->stop_x);
+    }
+    const Primitive& p = primitives[list[k]];
     if ((p.flags & kTriangle) != 0) {
       add_primitive<TriangleMethod>(input, p, tile);
     } else {
