@@ -36,6 +36,19 @@ Result<Light> finish_light(Vec3 direction, const LightValue& value, const LightC
   return light;
 }
 
+BundleOptions bundle_options(const Values& values) {
+  BundleOptions options;
+  options.smooth_shading = !values.is_on("flat-shading");
+  options.grid_levels = values.is_on("grid-levels");
+  options.mirror_symmetry = values.is_on("mirror");
+  options.precomputed_bounds = values.is_on("pupil-table");
+  options.spectral_filter = values.is_on("spectral-filter");
+  const auto& choices = parameter("anisotropic").choices;
+  const auto chosen = std::find(choices.begin(), choices.end(), *values.text("anisotropic"));
+  options.anisotropic = static_cast<BundleOptions::Anisotropic>(chosen - choices.begin());
+  return options;
+}
+
 TiledOptions tiled_options(const Values& values) {
   TiledOptions options;
   options.merge_steps = values.integer("merge-steps");
@@ -84,6 +97,7 @@ RenderSettings render_settings(const Values& values, const Frame& frame, ColourS
   settings.colour_space = space;
   settings.grid = values.integer("grid");
   settings.scale_grid = values.is_on("scale-grid");
+  settings.bundle = bundle_options(values);
   settings.tiled = tiled_options(values);
   settings.reference_density = values.number("density");
   return settings;
