@@ -170,8 +170,7 @@ void add_apply(CLI::App& app, Action& action) {
                  {"threshold", "softness", "max-lights", "min-pixels", "spectrum", "gain"});
   add_lens_parameters(*command, options->values);
   add_parameters(*command, options->values, {"hfov"});
-  add_parameters(*command, options->values, {"method", "device", "wavelengths", "colour-space", "ghosts", "select",
-                                             "grid", "scale-grid", "density", "threads"});
+  add_rendering_parameters(*command, options->values);
   command->footer(kExamples);
   command->callback([options, &action] { action = [options] { return run_apply(*options); }; });
 }

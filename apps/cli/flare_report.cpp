@@ -22,6 +22,10 @@ Json stats_json(const RenderStatistics& statistics) {
           {"rays", statistics.rays},
           {"surface_hits", statistics.surface_hits},
           {"primitives", statistics.primitives},
+          {"primitives_merged", statistics.primitives_merged},
+          {"tile_indices", statistics.tile_indices},
+          {"primitive_bytes", statistics.primitive_bytes},
+          {"tile_list_bytes", statistics.tile_list_bytes},
           {"ghosts_rendered", statistics.ghosts_rendered},
           {"ghosts_skipped_flux", statistics.ghosts_skipped_flux},
           {"peak_memory_bytes", statistics.peak_memory_bytes}};

@@ -65,6 +65,15 @@ void add_lens_parameters(CLI::App& command, params::Values& values) {
   add_parameters(command, values, {"focal", "fnumber", "focus", "blades", "blade-rotation", "coating"});
 }
 
+void add_rendering_parameters(CLI::App& command, params::Values& values) {
+  add_parameters(command, values, {"method", "device", "wavelengths", "colour-space", "ghosts", "select", "threads"});
+  add_parameters(command, values, {"grid", "scale-grid"});
+  add_parameters(command, values,
+                 {"grid-levels", "mirror", "pupil-table", "spectral-filter", "flat-shading", "anisotropic"});
+  add_parameters(command, values, {"merge-steps", "merge-threshold", "tile", "coarse-tile", "interpolation"});
+  add_parameters(command, values, {"error", "density"});
+}
+
 std::string lower_extension(const std::string& file) {
   std::string extension = std::filesystem::path(file).extension().string();
   std::transform(extension.begin(), extension.end(), extension.begin(), [](unsigned char c) { return std::tolower(c); });

@@ -18,6 +18,9 @@ void add_parameters(CLI::App& command, params::Values& values, std::initializer_
 // Every parameter that sets the lens: focal, fnumber, focus, blades, blade-rotation, coating.
 void add_lens_parameters(CLI::App& command, params::Values& values);
 
+// How to render: the method and its settings.
+void add_rendering_parameters(CLI::App& command, params::Values& values);
+
 // -o FILE or another file that is written; its name must end so (".exr"), in any case.
 CLI::Option* add_output(CLI::App& command, const std::string& flags, std::string& file,
                         std::initializer_list<std::string_view> endings, const std::string& help);

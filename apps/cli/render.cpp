@@ -112,8 +112,7 @@ void add_render(CLI::App& app, Action& action) {
   add_parameters(*command, options->values, {"light", "light-at", "value", "colour"});
   add_lens_parameters(*command, options->values);
   add_parameters(*command, options->values, {"size", "hfov"});
-  add_parameters(*command, options->values, {"method", "device", "wavelengths", "colour-space", "ghosts", "select",
-                                             "grid", "scale-grid", "density", "threads"});
+  add_rendering_parameters(*command, options->values);
   command->footer(kExamples);
   command->callback([options, &action] { action = [options] { return run_render(*options); }; });
 }

@@ -97,4 +97,15 @@ Result<double> parse_distance_mm(std::string_view text) {
   return *value * unit_mm;
 }
 
+Result<double> parse_error_bound(std::string_view text) {
+  constexpr std::pair<std::string_view, double> kPresets[] = {{"preview", 0.01}, {"standard", 0.003}, {"final", 0.001}};
+  for (const auto& [name, bound] : kPresets) {
+    if (text == name) return bound;
+  }
+  const auto bound = parse_real(text);
+  if (bound && *bound >= 1e-4 && *bound <= 0.1) return *bound;
+  return failure(ErrorCode::InvalidArgument,
+                 fmt::format("\"{}\" is no error bound; give preview, standard, final or 0.0001 to 0.1", text));
+}
+
 }  // namespace contrejour::params

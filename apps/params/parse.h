@@ -56,6 +56,9 @@ struct LightText {
 [[nodiscard]] Result<GhostSelection> parse_selection(std::string_view text);
 [[nodiscard]] Result<Ghost> parse_ghost(std::string_view text);  // "2,5" or "2-5"
 
+// "preview", "standard", "final", or the bound itself.
+[[nodiscard]] Result<double> parse_error_bound(std::string_view text);
+
 // "none", "quarter-wave[:NM[:N]]", "hullin[:NM[:N]]", "stack:N@NM,N@NM,..." from air to glass.
 [[nodiscard]] Result<Coating> parse_coating(std::string_view text);
 

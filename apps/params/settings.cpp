@@ -1,5 +1,6 @@
 #include "params/settings.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -33,6 +34,31 @@ Result<Light> finish_light(Vec3 direction, const LightValue& value, const LightC
   const Rgb tint = colour.rgb ? *colour.rgb : rgb_of(colour.spectrum, space);
   for (std::size_t c = 0; c < tint.size(); ++c) light.value[c] *= tint[c];
   return light;
+}
+
+BundleOptions bundle_options(const Values& values) {
+  BundleOptions options;
+  options.smooth_shading = !values.is_on("flat-shading");
+  options.grid_levels = values.is_on("grid-levels");
+  options.mirror_symmetry = values.is_on("mirror");
+  options.precomputed_bounds = values.is_on("pupil-table");
+  options.spectral_filter = values.is_on("spectral-filter");
+  const auto& choices = parameter("anisotropic").choices;
+  const auto chosen = std::find(choices.begin(), choices.end(), *values.text("anisotropic"));
+  options.anisotropic = static_cast<BundleOptions::Anisotropic>(chosen - choices.begin());
+  return options;
+}
+
+TiledOptions tiled_options(const Values& values) {
+  TiledOptions options;
+  options.merge_steps = values.integer("merge-steps");
+  options.merge_threshold = values.number("merge-threshold");
+  options.dense_tile = values.integer("tile");
+  options.coarse_tile = values.integer("coarse-tile");
+  const auto& names = parameter("interpolation").choices;
+  const auto chosen = std::find(names.begin(), names.end(), *values.text("interpolation"));
+  options.interpolation = static_cast<TiledOptions::Interpolation>(chosen - names.begin());
+  return options;
 }
 
 }  // namespace
@@ -71,6 +97,9 @@ RenderSettings render_settings(const Values& values, const Frame& frame, ColourS
   settings.colour_space = space;
   settings.grid = values.integer("grid");
   settings.scale_grid = values.is_on("scale-grid");
+  settings.bundle = bundle_options(values);
+  settings.tiled = tiled_options(values);
+  settings.error = *parse_error_bound(*values.text("error"));
   settings.reference_density = values.number("density");
   return settings;
 }

@@ -50,6 +50,8 @@ class ReflectanceTables;
 class GhostMeter {
  public:
   GhostMeter(LensState lens, double lambda_nm);
+  // With the lens's tables for the wavelength, where a caller has them already.
+  GhostMeter(LensState lens, std::shared_ptr<const ReflectanceTables> tables);
   ~GhostMeter();
   GhostMeter(GhostMeter&&) noexcept;
   GhostMeter& operator=(GhostMeter&&) noexcept;
@@ -63,7 +65,7 @@ class GhostMeter {
  private:
   LensState lens_;
   double lambda_nm_;
-  std::unique_ptr<const ReflectanceTables> tables_;
+  std::shared_ptr<const ReflectanceTables> tables_;
 };
 
 }  // namespace contrejour

@@ -53,7 +53,7 @@ struct RenderSettings {
   bool scale_grid = false;       // `bundle`, `tiled`: fewer rays for small ghosts, bodonyi2023 eq. 13
   BundleOptions bundle;
   TiledOptions tiled;
-  double error = 0.002;          // `adaptive`: bound of the RMS error over the frame's peak
+  double error = 0.003;          // `adaptive`: RMS error to stay below, over the frame's peak; 1e-4 to 0.1
   double reference_density = 1;  // `reference`: 2 halves the cells
 };
 
@@ -67,6 +67,12 @@ struct RenderStatistics {
   int ghosts_rendered = 0;
   double ghosts_skipped_flux = 0;  // share of the flare's flux that selection left out
   std::uint64_t peak_memory_bytes = 0;
+
+  // `tiled`; `primitives` counts them before merging.
+  std::uint64_t primitives_merged = 0;  // what merging leaves
+  std::uint64_t tile_indices = 0;       // entries of all dense tiles' lists
+  std::uint64_t primitive_bytes = 0;    // of the primitives held at once
+  std::uint64_t tile_list_bytes = 0;    // of the dense tiles' lists held at once
 };
 
 struct Flare {

@@ -94,7 +94,9 @@ bool trace_pupil(RayGrid& grid, const OpticalPath& path, const ReflectanceTables
 }  // namespace
 
 GhostMeter::GhostMeter(LensState lens, double lambda_nm)
-    : lens_(std::move(lens)), lambda_nm_(lambda_nm), tables_(std::make_unique<ReflectanceTables>(lens_, lambda_nm)) {}
+    : lens_(std::move(lens)), lambda_nm_(lambda_nm), tables_(std::make_shared<ReflectanceTables>(lens_, lambda_nm)) {}
+GhostMeter::GhostMeter(LensState lens, std::shared_ptr<const ReflectanceTables> tables)
+    : lens_(std::move(lens)), lambda_nm_(tables->lambda_nm()), tables_(std::move(tables)) {}
 GhostMeter::~GhostMeter() = default;
 GhostMeter::GhostMeter(GhostMeter&&) noexcept = default;
 GhostMeter& GhostMeter::operator=(GhostMeter&&) noexcept = default;

@@ -10,8 +10,8 @@ namespace {
 
 constexpr int kSearchSide = 49;  // rays a side of every zoom step
 constexpr int kSearchSteps = 10;
-// Where the first grid meets nothing finer ones follow: a fisheye lets some ghosts through a thousandth of its front.
-constexpr std::array kFirstSides{kSearchSide, 193, 577};
+constexpr std::array kFirstSides{kSearchSide, 193, 577};  // by PupilEffort
+constexpr int kGuessSide = 33;
 constexpr double kShrinkEnough = 0.85;  // zoom on while the area still falls below this share
 // Rays closer than this at the entrance are searched in double: float places them to about 2e-6 mm.
 constexpr double kFloatStep_mm = 1e-3;
@@ -80,25 +80,30 @@ OpenPart open_part(const RayGrid& grid) {
   return part;
 }
 
+PacketPrecision search_precision(const Rectangle& box, int side) {
+  const Vec2 size = box.high - box.low;
+  return std::min(size.x, size.y) < kFloatStep_mm * side ? PacketPrecision::Double : PacketPrecision::Float;
+}
+
 double area(const Rectangle& r) { return (r.high.x - r.low.x) * (r.high.y - r.low.y); }
 
 }  // namespace
 
+int first_grid_side(PupilEffort effort) { return kFirstSides[static_cast<std::size_t>(effort)]; }
+
 std::optional<PupilRegion> find_pupil_region(const OpticalPath& path, const ReflectanceTables& tables,
                                              const IrisShape& iris, Vec3 direction, const EntranceWindow& window,
-                                             RayGrid& scratch) {
+                                             RayGrid& scratch, PupilEffort effort) {
   PupilRegion region{{window.min_mm, window.max_mm}, {}, 0};
   const auto search = [&](int side) {
-    const Vec2 size = region.pupil_mm.high - region.pupil_mm.low;
-    const bool fine = std::min(size.x, size.y) < kFloatStep_mm * side;
     scratch.trace(path, tables, iris, direction, window.z_mm, region.pupil_mm, side,
-                  fine ? PacketPrecision::Double : PacketPrecision::Float);
+                  search_precision(region.pupil_mm, side));
     region.rays += static_cast<std::uint64_t>(side) * static_cast<std::uint64_t>(side);
     return open_part(scratch);
   };
   OpenPart part;
-  for (const int side : kFirstSides) {
-    part = search(side);
+  for (std::size_t k = 0; k <= static_cast<std::size_t>(effort); ++k) {
+    part = search(kFirstSides[k]);
     if (part.any) break;
   }
   for (int step = 1; part.any; ++step) {
@@ -109,6 +114,28 @@ std::optional<PupilRegion> find_pupil_region(const OpticalPath& path, const Refl
     part = search(kSearchSide);
   }
   return std::nullopt;
+}
+
+std::optional<PupilRegion> find_pupil_region_in(const Rectangle& guess, const OpticalPath& path,
+                                                const ReflectanceTables& tables, const IrisShape& iris,
+                                                Vec3 direction, const EntranceWindow& window, RayGrid& scratch) {
+  const Rectangle box{{std::max(guess.low.x, window.min_mm.x), std::max(guess.low.y, window.min_mm.y)},
+                      {std::min(guess.high.x, window.max_mm.x), std::min(guess.high.y, window.max_mm.y)}};
+  if (!(box.low.x < box.high.x && box.low.y < box.high.y)) return std::nullopt;
+  scratch.trace(path, tables, iris, direction, window.z_mm, box, kGuessSide, search_precision(box, kGuessSide));
+  const OpenPart part = open_part(scratch);
+  if (!part.any) return std::nullopt;
+  const Vec2 step = scratch.step_mm() * 0.5;
+  const auto cut = [&](double edge, double end, double window_end, double half_step) {
+    return std::abs(edge - end) < half_step && end != window_end;
+  };
+  if (cut(part.pupil_mm.low.x, box.low.x, window.min_mm.x, step.x) ||
+      cut(part.pupil_mm.low.y, box.low.y, window.min_mm.y, step.y) ||
+      cut(part.pupil_mm.high.x, box.high.x, window.max_mm.x, step.x) ||
+      cut(part.pupil_mm.high.y, box.high.y, window.max_mm.y, step.y)) {
+    return std::nullopt;
+  }
+  return PupilRegion{part.pupil_mm, part.sensor_mm, static_cast<std::uint64_t>(kGuessSide) * kGuessSide};
 }
 
 }  // namespace contrejour

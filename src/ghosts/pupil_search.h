@@ -15,10 +15,25 @@ struct PupilRegion {
   std::uint64_t rays = 0;
 };
 
-// None when nothing gets through. Differs: hullin2011 precomputes tables over light directions; packets are
-// quick enough to search for every light anew.
+// How far to look where the first grid meets nothing. A fisheye lets some ghosts through a thousandth of its front.
+enum class PupilEffort {
+  Once,      // not at all
+  Finer,     // a grid of four times as many rays a side
+  Finest,    // and one of twelve times
+};
+[[nodiscard]] int first_grid_side(PupilEffort effort);  // rays a side of the finest of them
+
+// None when nothing gets through. Differs: hullin2011 precomputes tables over light directions (pupil_bounds.h);
+// packets are quick enough to search for every light anew.
 [[nodiscard]] std::optional<PupilRegion> find_pupil_region(const OpticalPath& path, const ReflectanceTables& tables,
                                                            const IrisShape& iris, Vec3 direction,
-                                                           const EntranceWindow& window, RayGrid& scratch);
+                                                           const EntranceWindow& window, RayGrid& scratch,
+                                                           PupilEffort effort = PupilEffort::Finest);
+
+// The same by one coarse grid over a guess. None when the guess holds no ray that gets through, or cuts some off.
+[[nodiscard]] std::optional<PupilRegion> find_pupil_region_in(const Rectangle& guess, const OpticalPath& path,
+                                                              const ReflectanceTables& tables, const IrisShape& iris,
+                                                              Vec3 direction, const EntranceWindow& window,
+                                                              RayGrid& scratch);
 
 }  // namespace contrejour

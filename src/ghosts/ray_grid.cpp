@@ -23,15 +23,15 @@ void RayGrid::resize(std::size_t count) {
   }
 }
 
-void RayGrid::trace(const OpticalPath& path, const ReflectanceTables& tables, const IrisShape& iris, Vec3 direction,
-                    double z_mm, const Rectangle& box, int side, PacketPrecision precision) {
+// The first rows of the grid; all arrays are made for the whole.
+void RayGrid::trace_rows(const OpticalPath& path, const ReflectanceTables& tables, Vec3 direction, double z_mm,
+                         const Rectangle& box, int side, int rows, PacketPrecision precision) {
   side_ = side;
   box_ = box;
   stop_crossings_ = path.stop_crossings;
-  const auto count = static_cast<std::size_t>(side) * static_cast<std::size_t>(side);
-  resize(count);
+  resize(static_cast<std::size_t>(side) * static_cast<std::size_t>(side));
   const Vec2 step = step_mm();
-  for (int iy = 0; iy < side; ++iy) {
+  for (int iy = 0; iy < rows; ++iy) {
     std::fill_n(y_mm_.begin() + static_cast<std::ptrdiff_t>(at(0, iy)), side, static_cast<float>(iy * step.y));
     for (int ix = 0; ix < side; ++ix) x_mm_[at(ix, iy)] = static_cast<float>(ix * step.x);
   }
@@ -41,8 +41,51 @@ void RayGrid::trace(const OpticalPath& path, const ReflectanceTables& tables, co
     out.stop_y[c] = stop_y[c].data();
   }
   const PacketPath packets(path, tables, {{box.low.x, box.low.y, z_mm}, direction});
-  trace_packets(packets, precision, x_mm_.data(), y_mm_.data(), count, out);
-  find_blocked(iris, count);
+  trace_packets(packets, precision, x_mm_.data(), y_mm_.data(), at(0, rows), out);
+}
+
+void RayGrid::trace(const OpticalPath& path, const ReflectanceTables& tables, const IrisShape& iris, Vec3 direction,
+                    double z_mm, const Rectangle& box, int side, PacketPrecision precision) {
+  trace_rows(path, tables, direction, z_mm, box, side, side, precision);
+  find_blocked(iris, at(0, side));
+}
+
+std::size_t RayGrid::trace_mirrored(const OpticalPath& path, const ReflectanceTables& tables, const IrisShape& iris,
+                                    Vec3 direction, double z_mm, const Rectangle& box, int side,
+                                    PacketPrecision precision) {
+  const int rows = (side + 1) / 2;
+  trace_rows(path, tables, direction, z_mm, box, side, rows, precision);
+  mirror_rows(rows);
+  find_blocked(iris, at(0, side));
+  return at(0, rows);
+}
+
+// Fills the rows behind from those before: what is a y changes its sign, the rest stays.
+void RayGrid::mirror_rows(int from) {
+  const auto mirror = [&](std::vector<float>& values, float sign) {
+    for (int iy = from; iy < side_; ++iy) {
+      const float* source = values.data() + at(0, side_ - 1 - iy);
+      float* target = values.data() + at(0, iy);
+      for (int ix = 0; ix < side_; ++ix) target[ix] = sign * source[ix];
+    }
+  };
+  for (auto* same : {&sensor_x_mm, &transmission, &r_rel}) mirror(*same, 1.0F);
+  mirror(sensor_y_mm, -1.0F);
+  for (std::size_t c = 0; c < static_cast<std::size_t>(stop_crossings_); ++c) {
+    mirror(stop_x[c], 1.0F);
+    mirror(stop_y[c], -1.0F);
+  }
+}
+
+void RayGrid::turn_sensor(double angle_rad) {
+  const auto cosine = static_cast<float>(std::cos(angle_rad));
+  const auto sine = static_cast<float>(std::sin(angle_rad));
+  for (std::size_t k = 0; k < sensor_x_mm.size(); ++k) {
+    const float x = sensor_x_mm[k];
+    const float y = sensor_y_mm[k];
+    sensor_x_mm[k] = cosine * x - sine * y;
+    sensor_y_mm[k] = sine * x + cosine * y;
+  }
 }
 
 void RayGrid::find_blocked(const IrisShape& iris, std::size_t count) {

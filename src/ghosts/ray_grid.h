@@ -24,6 +24,14 @@ class RayGrid {
   void trace(const OpticalPath& path, const ReflectanceTables& tables, const IrisShape& iris, Vec3 direction,
              double z_mm, const Rectangle& box, int side, PacketPrecision precision);
 
+  // The same for a light in the x-z plane and a box that is symmetric in y: one half is traced and mirrored
+  // (hullin2011 4.2, mirror symmetry), the iris is applied to every ray where it crosses. Gives the rays traced.
+  std::size_t trace_mirrored(const OpticalPath& path, const ReflectanceTables& tables, const IrisShape& iris,
+                             Vec3 direction, double z_mm, const Rectangle& box, int side, PacketPrecision precision);
+
+  // Turns the sensor points about the axis; the crossings of the stop stay as they are.
+  void turn_sensor(double angle_rad);
+
   [[nodiscard]] int side() const { return side_; }
   [[nodiscard]] int cells() const { return side_ - 1; }
   [[nodiscard]] int stop_crossings() const { return stop_crossings_; }
@@ -44,6 +52,9 @@ class RayGrid {
 
  private:
   void resize(std::size_t count);
+  void trace_rows(const OpticalPath& path, const ReflectanceTables& tables, Vec3 direction, double z_mm,
+                  const Rectangle& box, int side, int rows, PacketPrecision precision);
+  void mirror_rows(int from);
   void find_blocked(const IrisShape& iris, std::size_t count);
 
   int side_ = 0;

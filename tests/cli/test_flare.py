@@ -91,6 +91,21 @@ class Render(ProgramTest):
         self.render("b.exr", "--threads", "3")
         self.assertEqual((self.folder / "a.exr").read_bytes(), (self.folder / "b.exr").read_bytes())
 
+    def test_tiles_do_not_show(self):
+        """`tiled` gives the same file for any tiles, and nearly bundle's flare."""
+        a = self.render("a.exr", "--method", "tiled", "--stats", "a.json")
+        self.render("b.exr", "--method", "tiled", "--tile", "16", "--coarse-tile", "0")
+        self.assertEqual((self.folder / "a.exr").read_bytes(), (self.folder / "b.exr").read_bytes())
+        bundle = self.render("c.exr")
+        self.assertAlmostEqual(a.total(), bundle.total(), delta=0.03 * bundle.total())
+        stats = json.loads((self.folder / "a.json").read_text())
+        self.assertEqual(stats["method"], "tiled")
+        self.assertGreater(stats["primitives"], stats["primitives_merged"])
+        self.assertGreater(stats["tile_list_bytes"], 4 * stats["tile_indices"])
+        self.render("d.exr", "--method", "tiled", "--interpolation", "mean-value", "--merge-steps", "0")
+        text = self.error_of("render", "heliar", "-o", "e.exr", *QUICK, "--method", "tiled", "--tile", "48", code=1)
+        self.assertIn("48", text)
+
     def test_many_lights(self):
         lights = [f"{0.2 + 0.015 * k:.6f},0.4:0.001" for k in range(40)]
         self.run_program("render", "heliar", "-f", "16", "-o", "a.exr", "--size", "8x8", "--grid", "16",
@@ -132,19 +147,49 @@ class Compare(ProgramTest):
 
 
 class Bench(ProgramTest):
-    def test_tables(self):
-        done = self.run_program("bench", "tables", "--systems", "heliar", "--size", "48x27", "--grid", "16",
-                                "--reference", "--density", "0.1", "--json", "t.json", "--cache", "cache")
-        self.assertIn("Heliar", done.stdout.decode())
+    QUICK_SYSTEM = ["--systems", "heliar", "--size", "48x27", "--grid", "16"]
+
+    def tables(self, *arguments):
+        """What is printed, and the rows."""
+        done = self.run_program("bench", "tables", *self.QUICK_SYSTEM, "--json", "t.json", *arguments)
         tables = json.loads((self.folder / "t.json").read_text())
         self.assertLessEqual({"machine", "rows"}, set(tables))
-        self.assertEqual([row["lights"] for row in tables["rows"]], [1, 2])
         for row in tables["rows"]:
             self.assertLessEqual({"system", "f_number", "lights", "method", "device", "settings", "time_ms", "psnr_db",
                                   "paper_ms"}, set(row))
+        return done.stdout.decode(), tables["rows"]
+
+    def test_against_the_reference(self):
+        text, rows = self.tables("--tables", "overview", "--methods", "bundle,tiled", "--reference", "--density", "0.1",
+                                 "--cache", "cache")
+        self.assertIn("Heliar", text)
+        self.assertEqual([(row["lights"], row["method"]) for row in rows],
+                         [(1, "bundle"), (1, "tiled"), (2, "bundle"), (2, "tiled")])
+        for row in rows:
             self.assertGreater(row["psnr_db"], 10)
-        self.assertEqual(tables["rows"][0]["paper_ms"]["total"], 1.1)  # bodonyi2023 table 2, previous method
+        self.assertEqual(rows[0]["paper_ms"]["total"], 1.1)  # bodonyi2023 table 2, previous method
         self.assertEqual(len(list((self.folder / "cache").iterdir())), 2)
+
+    def test_all_tables(self):
+        text, rows = self.tables()
+        for number in range(2, 9):
+            self.assertIn(f"Table {number}", text)
+        for figure in ("0.72", "50.27", "3.86", "122129", "332133", "1.12", "0.49"):  # one of each table's
+            self.assertIn(figure, text)
+        merged = {row["settings"]["merge_steps"] for row in rows if row["method"] == "tiled"}
+        self.assertEqual(merged, {0, 4})
+        kinds = {row["settings"]["interpolation"] for row in rows if row["method"] == "tiled"}
+        self.assertEqual(len(kinds), 5)
+        for row in rows:
+            if row["method"] == "tiled":
+                self.assertGreaterEqual(row["primitives"], row["primitives_merged"])
+                self.assertGreater(row["psnr_bundle_db"], 10)
+
+    def test_chosen_tables_measure_no_more_than_they_need(self):
+        text, rows = self.tables("--tables", "4")
+        self.assertNotIn("Table 2", text)
+        self.assertEqual([(row["lights"], row["method"]) for row in rows], [(1, "tiled")] * 4)
+        self.error_of("bench", "tables", "--tables", "9", code=2)
 
 
 if __name__ == "__main__":

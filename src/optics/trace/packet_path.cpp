@@ -12,6 +12,17 @@ double cos_in_denser(double u, double n_low, double n_high) {
   return std::sqrt(1.0 - eta * eta * (1.0 - u * u));
 }
 
+// Every so many of the table's values is computed; a cubic through four of them, good to 1e-7, gives the others.
+constexpr int kSpacing = 8;
+
+// Lagrange's cubic through the four nodes about a place between the first and the last.
+double cubic(const std::vector<double>& nodes, double place) {
+  const auto first = static_cast<std::size_t>(std::clamp<double>(std::floor(place) - 1.0, 0.0, static_cast<double>(nodes.size()) - 4.0));
+  const double t = place - static_cast<double>(first);
+  return nodes[first] * (t - 1) * (t - 2) * (t - 3) / -6.0 + nodes[first + 1] * t * (t - 2) * (t - 3) / 2.0 +
+         nodes[first + 2] * t * (t - 1) * (t - 3) / -2.0 + nodes[first + 3] * t * (t - 1) * (t - 2) / 6.0;
+}
+
 }  // namespace
 
 ReflectanceTables::ReflectanceTables(const LensState& lens, double lambda_nm) : lambda_nm_(lambda_nm) {
@@ -34,14 +45,17 @@ int ReflectanceTables::add(const SurfaceState& surface, int direction, bool tran
   const double after = refractive_index(surface.after, lambda_nm_);
   const double n_in = direction > 0 ? before : after;
   const double n_out = direction > 0 ? after : before;
-  for (int k = 0; k <= kIntervals; ++k) {
+  const auto exact = [&](int k) {
     // Grazing itself is 0/0 in a matrix of films; its limit is next to it.
     const double u = std::max(static_cast<double>(k) / kIntervals, 1e-9);
     const double cos_in = n_in > n_out ? cos_in_denser(u, n_out, n_in) : u;
-    const double value = transmitted ? transmittance(surface.coating, n_in, n_out, cos_in, lambda_nm_)
-                                     : reflectance(surface.coating, n_in, n_out, cos_in, lambda_nm_);
-    values_.push_back(static_cast<float>(value));
-  }
+    return transmitted ? transmittance(surface.coating, n_in, n_out, cos_in, lambda_nm_)
+                       : reflectance(surface.coating, n_in, n_out, cos_in, lambda_nm_);
+  };
+  std::vector<double> nodes;
+  for (int k = 0; k <= kIntervals; k += kSpacing) nodes.push_back(exact(k));
+  for (int k = 0; k < kIntervals; ++k) values_.push_back(static_cast<float>(cubic(nodes, static_cast<double>(k) / kSpacing)));
+  values_.push_back(static_cast<float>(nodes.back()));
   return offset;
 }
 

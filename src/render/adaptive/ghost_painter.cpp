@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
 
 #include "render/adaptive/extremes.h"
 
@@ -14,7 +12,11 @@ constexpr std::array kNodes{5, 9, 17};
 // Float places a ray on the sensor to some 1e-3 mm at worst; it must be given room enough at the entrance, too.
 constexpr double kFloatError_mm = 1e-3;
 constexpr double kFloatBox_mm = 0.05;
-constexpr double kCellsPerItem = 64.0; // an item's squared error is shared among so many cells
+constexpr double kNoLimit = 1e9;
+constexpr double kPeaks = 4.0;         // fits of what is so many times brighter than the peak need be no better
+constexpr float kNearlyThrough = 1.2F; // of the clear height
+constexpr double kShiftShare = 1.0;    // of a fit's tolerance that a band of wavelengths may take on either side
+constexpr double kCellsPerItem = 64.0;  // an item's squared error is shared among so many cells
 
 // Whether any cell between the nodes may let light through; the iris counts as its circumscribed circle.
 bool may_pass(const RaySheet& sheet) {
@@ -39,28 +41,36 @@ bool may_pass(const RaySheet& sheet) {
 
 }  // namespace
 
+GhostPainter::GhostPainter(const LensState& lens, const IrisShape& iris, const Frame& frame, const LightFrame& light,
+                           const TablesByWavelength& tables, int deepest)
+    : lens_(lens), iris_(iris), frame_(frame), light_(light), tables_(tables),
+      plane_z_mm_(entrance_window(lens, light.direction).z_mm), deepest_(deepest) {}
+
 // How far a fit may be off, from what that does to pixels: edges displaced by d over a length of about 4 L, and
 // levels off by a share w over L^2 pixels.
-GhostPainter::Tolerance GhostPainter::tolerance_for(const RaySheet& sheet, const ErrorBudget& budget) const {
-  if (!std::isfinite(budget.squared_error)) return {1e9, 1e9, 1e9};
-  Vec2 low{1e30, 1e30};
-  Vec2 high{-1e30, -1e30};
+GhostPainter::Tolerance GhostPainter::tolerance_for(const std::vector<RaySheet>& sheets, const ErrorBudget& budget) const {
+  if (!std::isfinite(budget.squared_error)) return {kNoLimit, kNoLimit, kNoLimit};
+  const RaySheet& middle = sheets[sheets.size() / 2];
+  Vec2 low{kNoLimit, kNoLimit};
+  Vec2 high{-kNoLimit, -kNoLimit};
   double weight = 0.0;
-  int arrived = 0;
-  for (std::size_t k = 0; k < sheet.count(); ++k) {
-    if (std::isinf(sheet.r_rel[k])) continue;
-    ++arrived;
-    const Vec2 p = Vec2{sheet.sensor_x_mm[k], sheet.sensor_y_mm[k]} * (1.0 / frame_.pixel_pitch_mm);
+  for (std::size_t k = 0; k < middle.count(); ++k) {
+    if (std::isinf(middle.r_rel[k])) continue;
+    const Vec2 p = Vec2{middle.sensor_x_mm[k], middle.sensor_y_mm[k]} * (1.0 / frame_.pixel_pitch_mm);
     low = {std::min(low.x, p.x), std::min(low.y, p.y)};
     high = {std::max(high.x, p.x), std::max(high.y, p.y)};
-    for (const auto& w : sheet.weight) weight = std::max(weight, std::abs(static_cast<double>(w[k])));
+    for (std::size_t c = 0; c < 3; ++c) {
+      double sum = 0.0;
+      for (const RaySheet& sheet : sheets) sum += sheet.weight[c][k];
+      weight = std::max(weight, std::abs(sum));
+    }
   }
-  if (arrived == 0 || !(weight > 0.0)) return {1e9, 1e9, 1e9};
+  if (!(weight > 0.0)) return {kNoLimit, kNoLimit, kNoLimit};
   const Vec2 size{std::max(high.x - low.x, 1.0), std::max(high.y - low.y, 1.0)};
   const double side = std::sqrt(size.x * size.y);
-  const Vec2 pupil = sheet.box.high - sheet.box.low;
-  const double level = std::min(weight * pupil.x * pupil.y * meridian_.direction.z / (size.x * size.y), 4.0 * budget.peak);
-  const double error = std::sqrt(budget.squared_error) / level;  // in levels, summed
+  const Vec2 pupil = middle.box.high - middle.box.low;
+  const double level = weight * pupil.x * pupil.y * light_.direction.z / (size.x * size.y);
+  const double error = std::sqrt(budget.squared_error) / std::min(level, kPeaks * budget.peak);  // in levels, summed
   Tolerance t;
   t.position_px = std::clamp(std::min(error / (2.0 * std::sqrt(side)), error / 8.0), 0.005, 0.05 * side + 0.5);
   t.stop = 2.0 * t.position_px / side;
@@ -80,23 +90,62 @@ bool GhostPainter::accepts(const Patch& patch, const Tolerance& tolerance) {
          e.weight <= tolerance.weight;
 }
 
-void GhostPainter::paint(const PaintJob& job, const ErrorBudget& budget, PolygonList& out) {
-  SheetTracer tracer(lens_, job.ghost, meridian_, plane_z_mm_, job.band, tables_);
-  CellPainter cells(iris_, frame_, budget.squared_error / kCellsPerItem, budget.peak, out);
-  const RaySheet first = tracer.trace(job.box, kNodes.front(), PacketPrecision::Double);
-  const Tolerance tolerance = tolerance_for(first, budget);
-  bool done = false;
-  if (first.failed == 0) {
-    const Patch patch = make_patch(first, meridian_, frame_);
-    if (accepts(patch, tolerance)) {
-      cells.paint(patch);
-      done = true;
-    }
-  }
-  if (!done) paint_box(tracer, job.box, 0, tolerance, cells);
-  if (getenv("DBG")) { double rmin=1e9; for (float r: first.r_rel) rmin=std::min<double>(rmin,r); const PatchError e = first.failed?PatchError{}:estimated_error(make_patch(first,meridian_,frame_)); fprintf(stderr,"%d-%d %.0f box %g %g..%g  failed %d rays %d polys %zu tol px %.3g stop %.3g w %.3g  err5 %.3g %.3g %.3g %.3g rmin %.3g\n", job.ghost.i, job.ghost.j, job.band.lambda_nm, job.box.high.y, job.box.low.x, job.box.high.x, first.failed, (int)tracer.rays(), out.polygons.size(), tolerance.position_px, tolerance.stop, tolerance.weight, e.position_px,e.stop,e.rim,e.weight, rmin); }
+void GhostPainter::count(const SheetTracer& tracer) {
   rays_ += tracer.rays();
   surface_hits_ += tracer.surface_hits();
+}
+
+std::vector<RaySheet> GhostPainter::first_sheets(Ghost ghost, const Rectangle& box, std::span<const PlannedPass> passes) {
+  std::vector<RaySheet> sheets;
+  for (std::size_t k = 0; k < passes.size(); ++k) {
+    SheetTracer tracer(lens_, ghost, light_, plane_z_mm_, {passes[k].lambda_nm, passes.subspan(k, 1)}, tables_);
+    sheets.push_back(tracer.trace(box, kNodes.front(), PacketPrecision::Double));
+    count(tracer);
+  }
+  return sheets;
+}
+
+// How far a ghost moves from one wavelength to another, by the rays that are not far from getting through.
+double GhostPainter::shift_px(const RaySheet& a, const RaySheet& b) const {
+  double largest = 0.0;
+  for (std::size_t k = 0; k < a.count(); ++k) {
+    if (!(a.r_rel[k] < kNearlyThrough && b.r_rel[k] < kNearlyThrough)) continue;
+    const Vec2 shift{a.sensor_x_mm[k] - b.sensor_x_mm[k], a.sensor_y_mm[k] - b.sensor_y_mm[k]};
+    largest = std::max(largest, length(shift));
+  }
+  return largest / frame_.pixel_pitch_mm;
+}
+
+void GhostPainter::paint(Ghost ghost, const Rectangle& box, std::span<const PlannedPass> passes,
+                         const ErrorBudget& budget, PolygonList& out) {
+  const std::vector<RaySheet> sheets = first_sheets(ghost, box, passes);
+  const Tolerance tolerance = tolerance_for(sheets, budget);
+  // Wavelengths whose images lie closer than is seen share one geometry.
+  const double shift = passes.size() > 1 ? shift_px(sheets.front(), sheets.back()) : 0.0;
+  const double wanted = std::ceil(shift / (2.0 * kShiftShare * tolerance.position_px));
+  const std::size_t bands = static_cast<std::size_t>(std::clamp(wanted, 1.0, static_cast<double>(passes.size())));
+  CellPainter cells(iris_, frame_, budget.squared_error / (kCellsPerItem * static_cast<double>(bands)), budget.peak, out);
+  for (std::size_t band = 0; band < bands; ++band) {
+    const std::size_t first = band * passes.size() / bands;
+    const std::size_t last = (band + 1) * passes.size() / bands;
+    const std::size_t middle = (first + last) / 2;
+    RaySheet sheet = sheets[middle];
+    for (std::size_t k = first; k < last; ++k) {
+      for (std::size_t c = 0; c < 3 && k != middle; ++c) {
+        for (std::size_t node = 0; node < sheet.count(); ++node) sheet.weight[c][node] += sheets[k].weight[c][node];
+      }
+    }
+    if (sheet.failed == 0) {
+      const Patch patch = make_patch(sheet, light_, frame_);
+      if (accepts(patch, tolerance)) {
+        cells.paint(patch);
+        continue;
+      }
+    }
+    SheetTracer tracer(lens_, ghost, light_, plane_z_mm_, {passes[middle].lambda_nm, passes.subspan(first, last - first)}, tables_);
+    paint_box(tracer, box, 0, tolerance, cells);
+    count(tracer);
+  }
 }
 
 void GhostPainter::paint_box(SheetTracer& tracer, const Rectangle& box, int depth, const Tolerance& tolerance,
@@ -106,10 +155,11 @@ void GhostPainter::paint_box(SheetTracer& tracer, const Rectangle& box, int dept
     if (!may_pass(sheet)) return;
     const bool last = k + 1 == kNodes.size();
     if (sheet.failed == 0) {
-      const Patch patch = make_patch(sheet, meridian_, frame_);
+      const Patch patch = make_patch(sheet, light_, frame_);
       if (accepts(patch, tolerance) || (last && depth >= deepest_)) return cells.paint(patch);
     } else if (depth >= deepest_) {
-      return paint_sheet(sheet, cells);
+      for (const Patch& patch : patches_of_cells(sheet, light_, frame_)) cells.paint(patch);
+      return;
     } else {
       break;
     }
@@ -123,46 +173,6 @@ void GhostPainter::paint_quarters(SheetTracer& tracer, const Rectangle& box, int
   for (const auto& [y0, y1] : {std::pair{box.low.y, middle.y}, std::pair{middle.y, box.high.y}}) {
     for (const auto& [x0, x1] : {std::pair{box.low.x, middle.x}, std::pair{middle.x, box.high.x}}) {
       paint_box(tracer, {{x0, y0}, {x1, y1}}, depth + 1, tolerance, cells);
-    }
-  }
-}
-
-// Cells between rays that arrived, as patches of four.
-void GhostPainter::paint_sheet(const RaySheet& sheet, CellPainter& cells) const {
-  const int n = sheet.nodes;
-  const auto copy = [n](const auto& from, auto& to, int ix, int iy, std::size_t offset = 0) {
-    for (int k = 0; k < 4; ++k) {
-      to.push_back(from[offset + static_cast<std::size_t>((iy + k / 2) * n + ix + k % 2)]);
-    }
-  };
-  const auto points = [&] {
-    std::vector<double> p;
-    for (int k = 0; k < n; ++k) p.push_back(0.5 - 0.5 * std::cos(3.14159265358979 * k / (n - 1)));
-    return p;
-  }();
-  const Vec2 size = sheet.box.high - sheet.box.low;
-  for (int iy = 0; iy + 1 < n; ++iy) {
-    for (int ix = 0; ix + 1 < n; ++ix) {
-      RaySheet cell;
-      cell.nodes = 2;
-      copy(sheet.r_rel, cell.r_rel, ix, iy);
-      if (std::any_of(cell.r_rel.begin(), cell.r_rel.end(), [](float r) { return std::isinf(r); })) continue;
-      const auto x = static_cast<std::size_t>(ix);
-      const auto y = static_cast<std::size_t>(iy);
-      cell.box = {{sheet.box.low.x + size.x * points[x], sheet.box.low.y + size.y * points[y]},
-                  {sheet.box.low.x + size.x * points[x + 1], sheet.box.low.y + size.y * points[y + 1]}};
-      copy(sheet.sensor_x_mm, cell.sensor_x_mm, ix, iy);
-      copy(sheet.sensor_y_mm, cell.sensor_y_mm, ix, iy);
-      for (std::size_t c = 0; c < 3; ++c) copy(sheet.weight[c], cell.weight[c], ix, iy);
-      cell.stop.resize(sheet.stop.size());
-      for (std::size_t c = 0; c < sheet.stop.size(); ++c) {
-        copy(sheet.stop[c][0], cell.stop[c][0], ix, iy);
-        copy(sheet.stop[c][1], cell.stop[c][1], ix, iy);
-      }
-      for (std::size_t step = 0; step * sheet.count() < sheet.rim_squared.size(); ++step) {
-        copy(sheet.rim_squared, cell.rim_squared, ix, iy, step * sheet.count());
-      }
-      cells.paint(make_patch(cell, meridian_, frame_));
     }
   }
 }

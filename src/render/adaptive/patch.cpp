@@ -86,17 +86,17 @@ double tail(const float* field, int nodes) {
 
 }  // namespace
 
-Patch make_patch(const RaySheet& sheet, const Meridian& meridian, const Frame& frame) {
+Patch make_patch(const RaySheet& sheet, const LightFrame& light, const Frame& frame) {
   const auto steps = rims_in_play(sheet);
   Patch patch;
   patch.nodes = sheet.nodes;
   patch.layout = {static_cast<int>(sheet.stop.size()), std::min(static_cast<int>(steps.size()), kMostRims)};
   patch.values.resize(static_cast<std::size_t>(patch.layout.fields()) * sheet.count());
   const Vec2 size = sheet.box.high - sheet.box.low;
-  patch.flux_area_mm2 = size.x * size.y * meridian.direction.z;
+  patch.flux_area_mm2 = size.x * size.y * light.direction.z;
 
   const auto on_frame = [&](std::size_t k) {
-    return frame.pixel_from_sensor(meridian.to_lens({sheet.sensor_x_mm[k], sheet.sensor_y_mm[k]}));
+    return frame.pixel_from_sensor(light.into_place({sheet.sensor_x_mm[k], sheet.sensor_y_mm[k]}));
   };
   patch.origin_px = on_frame(sheet.count() / 2);
   patch.origin_px = {std::floor(patch.origin_px.x), std::floor(patch.origin_px.y)};
@@ -105,7 +105,7 @@ Patch make_patch(const RaySheet& sheet, const Meridian& meridian, const Frame& f
     patch.field(PatchLayout::kX)[k] = static_cast<float>(p.x);
     patch.field(PatchLayout::kY)[k] = static_cast<float>(p.y);
     for (std::size_t c = 0; c < sheet.stop.size(); ++c) {
-      const Vec2 s = meridian.to_lens({sheet.stop[c][0][k], sheet.stop[c][1][k]});
+      const Vec2 s = light.into_place({sheet.stop[c][0][k], sheet.stop[c][1][k]});
       patch.field(PatchLayout::kStop + 2 * static_cast<int>(c))[k] = static_cast<float>(s.x);
       patch.field(PatchLayout::kStop + 2 * static_cast<int>(c) + 1)[k] = static_cast<float>(s.y);
     }
@@ -116,6 +116,37 @@ Patch make_patch(const RaySheet& sheet, const Meridian& meridian, const Frame& f
   }
   copy_rims(sheet, steps, patch);
   return patch;
+}
+
+std::vector<Patch> patches_of_cells(const RaySheet& sheet, const LightFrame& light, const Frame& frame) {
+  const auto points = lobatto_points(sheet.nodes);
+  const Vec2 half = (sheet.box.high - sheet.box.low) * 0.5;
+  const auto n = static_cast<std::size_t>(sheet.nodes);
+  std::vector<Patch> patches;
+  for (std::size_t iy = 0; iy + 1 < n; ++iy) {
+    for (std::size_t ix = 0; ix + 1 < n; ++ix) {
+      const std::array<std::size_t, 4> corners{iy * n + ix, iy * n + ix + 1, (iy + 1) * n + ix, (iy + 1) * n + ix + 1};
+      if (std::any_of(corners.begin(), corners.end(), [&](std::size_t k) { return std::isinf(sheet.r_rel[k]); })) continue;
+      const auto pick = [&](const std::vector<float>& from, std::vector<float>& to, std::size_t offset = 0) {
+        for (const std::size_t k : corners) to.push_back(from[offset + k]);
+      };
+      RaySheet cell;
+      cell.nodes = 2;
+      cell.box = {sheet.box.low + Vec2{half.x * (1.0 + points[ix]), half.y * (1.0 + points[iy])},
+                  sheet.box.low + Vec2{half.x * (1.0 + points[ix + 1]), half.y * (1.0 + points[iy + 1])}};
+      pick(sheet.sensor_x_mm, cell.sensor_x_mm);
+      pick(sheet.sensor_y_mm, cell.sensor_y_mm);
+      pick(sheet.r_rel, cell.r_rel);
+      for (std::size_t c = 0; c < 3; ++c) pick(sheet.weight[c], cell.weight[c]);
+      cell.stop.resize(sheet.stop.size());
+      for (std::size_t c = 0; c < sheet.stop.size(); ++c) {
+        for (std::size_t axis = 0; axis < 2; ++axis) pick(sheet.stop[c][axis], cell.stop[c][axis]);
+      }
+      for (std::size_t at = 0; at < sheet.rim_squared.size(); at += sheet.count()) pick(sheet.rim_squared, cell.rim_squared, at);
+      patches.push_back(make_patch(cell, light, frame));
+    }
+  }
+  return patches;
 }
 
 PatchError estimated_error(const Patch& patch) {

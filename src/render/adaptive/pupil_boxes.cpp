@@ -34,8 +34,8 @@ struct Blocking {
 
 class Search {
  public:
-  Search(const OpticalPath& path, const ReflectanceTables& tables, const Meridian& meridian, const EntranceWindow& window)
-      : path_(path), tables_(tables), direction_(meridian.direction), window_(window),
+  Search(const OpticalPath& path, const ReflectanceTables& tables, const LightFrame& light, const EntranceWindow& window)
+      : path_(path), tables_(tables), direction_(light.direction), window_(window),
         half_height_mm_(std::max(std::abs(window.min_mm.y), window.max_mm.y)) {}
 
   PupilBoxes run() {
@@ -222,9 +222,9 @@ class Search {
 
 }  // namespace
 
-PupilBoxes find_pupil_boxes(const OpticalPath& path, const ReflectanceTables& tables, const Meridian& meridian,
+PupilBoxes find_pupil_boxes(const OpticalPath& path, const ReflectanceTables& tables, const LightFrame& light,
                             const EntranceWindow& window) {
-  return Search(path, tables, meridian, window).run();
+  return Search(path, tables, light, window).run();
 }
 
 }  // namespace contrejour::adaptive

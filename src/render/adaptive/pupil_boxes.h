@@ -18,6 +18,6 @@ struct PupilBoxes {
 
 // The iris counts as its circumscribed circle.
 [[nodiscard]] PupilBoxes find_pupil_boxes(const OpticalPath& path, const ReflectanceTables& tables,
-                                          const Meridian& meridian, const EntranceWindow& window);
+                                          const LightFrame& light, const EntranceWindow& window);
 
 }  // namespace contrejour::adaptive

@@ -11,18 +11,6 @@ namespace {
 
 constexpr float kFailed = std::numeric_limits<float>::infinity();
 
-void flip_rows(std::vector<float>& values, int nodes, float sign) {
-  const auto n = static_cast<std::size_t>(nodes);
-  for (std::size_t low = 0, high = n - 1; low < high; ++low, --high) {
-    std::swap_ranges(values.begin() + static_cast<std::ptrdiff_t>(low * n),
-                     values.begin() + static_cast<std::ptrdiff_t>((low + 1) * n),
-                     values.begin() + static_cast<std::ptrdiff_t>(high * n));
-  }
-  if (sign < 0.0F) {
-    for (float& v : values) v = -v;
-  }
-}
-
 // Rows below the middle from those above.
 void complete(float* values, int nodes, float sign) {
   const auto n = static_cast<std::size_t>(nodes);
@@ -33,38 +21,9 @@ void complete(float* values, int nodes, float sign) {
 
 }  // namespace
 
-Meridian::Meridian(Vec3 light_direction) {
-  const double across = std::hypot(light_direction.x, light_direction.y);
-  direction = {across, 0.0, light_direction.z};
-  if (across > 0.0) {
-    cos_azimuth = light_direction.x / across;
-    sin_azimuth = light_direction.y / across;
-  }
-}
-
-RaySheet mirrored(const RaySheet& sheet) {
-  RaySheet out = sheet;
-  out.box = {{sheet.box.low.x, -sheet.box.high.y}, {sheet.box.high.x, -sheet.box.low.y}};
-  flip_rows(out.sensor_x_mm, out.nodes, 1.0F);
-  flip_rows(out.sensor_y_mm, out.nodes, -1.0F);
-  for (auto& w : out.weight) flip_rows(w, out.nodes, 1.0F);
-  flip_rows(out.r_rel, out.nodes, 1.0F);
-  for (auto& s : out.stop) {
-    flip_rows(s[0], out.nodes, 1.0F);
-    flip_rows(s[1], out.nodes, -1.0F);
-  }
-  for (std::size_t step = 0; step * out.count() < out.rim_squared.size(); ++step) {
-    const auto first = out.rim_squared.begin() + static_cast<std::ptrdiff_t>(step * out.count());
-    std::vector<float> rim(first, first + static_cast<std::ptrdiff_t>(out.count()));
-    flip_rows(rim, out.nodes, 1.0F);
-    std::copy(rim.begin(), rim.end(), first);
-  }
-  return out;
-}
-
-SheetTracer::SheetTracer(const LensState& lens, Ghost ghost, const Meridian& meridian, double plane_z_mm,
+SheetTracer::SheetTracer(const LensState& lens, Ghost ghost, const LightFrame& light, double plane_z_mm,
                          const Band& band, const TablesByWavelength& tables)
-    : meridian_(meridian), plane_z_mm_(plane_z_mm), band_(band) {
+    : light_(light), plane_z_mm_(plane_z_mm), band_(band) {
   const auto add = [&](double lambda_nm) {
     paths_.push_back(ghost_path(lens, ghost, lambda_nm));
     tables_.push_back(tables.at(lambda_nm).get());
@@ -138,7 +97,7 @@ void SheetTracer::trace_rows(int first_row, PacketPrecision precision, RaySheet&
       out.rim_squared = sheet.rim_squared.data() + at;
       out.rim_stride = sheet.count();
     }
-    const PacketPath packets(paths_[k], *tables_[k], {{box.low.x, box.low.y, plane_z_mm_}, meridian_.direction});
+    const PacketPath packets(paths_[k], *tables_[k], {{box.low.x, box.low.y, plane_z_mm_}, light_.direction});
     trace_packets(packets, precision, x_mm_.data(), y_mm_.data(), count, out);
     rays_ += count;
     for (const PlannedPass& pass : band_.passes) {

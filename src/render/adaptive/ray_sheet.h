@@ -8,7 +8,8 @@
 #include <vector>
 
 #include "ghosts/ray_grid.h"
-#include "render/interface/wavelength_tables.h"
+#include "render/adaptive/light_frame.h"
+#include "render/interface/frame_plan.h"
 
 namespace contrejour::adaptive {
 
@@ -16,18 +17,6 @@ namespace contrejour::adaptive {
 struct Band {
   double lambda_nm = 550;               // where rays are traced
   std::span<const PlannedPass> passes;  // whose transmissions are summed
-};
-
-// A light in its meridional frame.
-struct Meridian {
-  Vec3 direction;          // y = 0, x >= 0
-  double cos_azimuth = 1;  // the frame's x axis as seen by the lens
-  double sin_azimuth = 0;
-
-  explicit Meridian(Vec3 light_direction);
-  [[nodiscard]] Vec2 to_lens(Vec2 v) const {
-    return {v.x * cos_azimuth - v.y * sin_azimuth, v.x * sin_azimuth + v.y * cos_azimuth};
-  }
 };
 
 // One value a node, rows of `nodes` by rising y.
@@ -44,13 +33,10 @@ struct RaySheet {
   [[nodiscard]] std::size_t count() const { return static_cast<std::size_t>(nodes) * static_cast<std::size_t>(nodes); }
 };
 
-// The same sheet seen in the mirror y -> -y.
-[[nodiscard]] RaySheet mirrored(const RaySheet& sheet);
-
 class SheetTracer {
  public:
   // The tables must hold every wavelength of the band.
-  SheetTracer(const LensState& lens, Ghost ghost, const Meridian& meridian, double plane_z_mm, const Band& band,
+  SheetTracer(const LensState& lens, Ghost ghost, const LightFrame& light, double plane_z_mm, const Band& band,
               const TablesByWavelength& tables);
 
   // A box that is its own mirror image costs half the rays.
@@ -63,7 +49,7 @@ class SheetTracer {
  private:
   void trace_rows(int first_row, PacketPrecision precision, RaySheet& sheet);
 
-  Meridian meridian_;
+  LightFrame light_;
   double plane_z_mm_;
   Band band_;
   std::vector<OpticalPath> paths_;                  // first the geometry's, then one a pass where they differ

@@ -48,8 +48,9 @@ bool is_convex(std::span<const Vec2> q, double orientation) {
 
 }  // namespace
 
-CellRaster::CellRaster(const RayGrid& grid, const IrisShape& iris, const Frame& frame, double cos_theta)
-    : grid_(grid), frame_(frame), clipper_(iris) {
+CellRaster::CellRaster(const RayGrid& grid, const IrisShape& iris, const Frame& frame, double cos_theta,
+                       CellStyle style)
+    : grid_(grid), frame_(frame), style_(style), clipper_(iris) {
   const Vec2 step = grid.step_mm();
   triangle_weight_mm2_ = 0.5 * step.x * step.y * cos_theta;
   place_vertices();
@@ -85,9 +86,8 @@ void CellRaster::find_states() {
       const auto v = grid_.corners(ix, iy);
       const std::size_t cell = cell_index(ix, iy);
       state_[cell] = state_of(v);
-      const bool failed = std::any_of(v.begin(), v.end(), [&](std::size_t k) { return grid_.r_rel[k] == kFailed; });
-      area_[cell] = failed ? std::numeric_limits<float>::quiet_NaN()
-                           : static_cast<float>(0.5 * cross(pixel_[v[2]] - pixel_[v[0]], pixel_[v[3]] - pixel_[v[1]]));
+      area_[cell] = failed(v) ? std::numeric_limits<float>::quiet_NaN()
+                              : static_cast<float>(0.5 * cross(pixel_[v[2]] - pixel_[v[0]], pixel_[v[3]] - pixel_[v[1]]));
     }
   }
 }
@@ -156,7 +156,7 @@ CellRaster::Cell CellRaster::cell_at(int ix, int iy) const {
   cell.signed_area_px = area_[cell_index(ix, iy)];
   const auto e = [&](std::size_t k) { return irradiance_[cell.vertex[k]]; };
   cell.smooth = e(0) > 0.0F && e(1) > 0.0F && e(2) > 0.0F && e(3) > 0.0F;
-  if (!cell.smooth || std::abs(cell.signed_area_px) < kShadedCell_px) return cell;
+  if (!style_.smooth_shading || !cell.smooth || std::abs(cell.signed_area_px) < kShadedCell_px) return cell;
   // The plane that rises along both diagonals as the vertices do.
   const Vec2 d = pixel_[cell.vertex[2]] - pixel_[cell.vertex[0]];
   const Vec2 f = pixel_[cell.vertex[3]] - pixel_[cell.vertex[1]];
@@ -192,7 +192,7 @@ void CellRaster::draw_open(FluxBox& out, const Cell& cell) {
 }
 
 void CellRaster::draw_triangle(FluxBox& out, const Cell& cell, const Triangle& t, bool cut) {
-  if (std::any_of(t.begin(), t.end(), [&](std::size_t k) { return grid_.r_rel[k] == kFailed; })) return;
+  if (failed(t)) return;
   const std::array<Vec2, 3> p{pixel_[t[0]], pixel_[t[1]], pixel_[t[2]]};
   double flux = triangle_flux(t);
   std::span<const Vec2> polygon = p;
@@ -220,6 +220,36 @@ void CellRaster::draw_triangle(FluxBox& out, const Cell& cell, const Triangle& t
   out.add_polygon(polygon, {middle, value, cell.gradient * value});
 }
 
+bool CellRaster::failed(std::span<const std::size_t> vertices) const {
+  return std::any_of(vertices.begin(), vertices.end(), [&](std::size_t k) { return grid_.r_rel[k] == kFailed; });
+}
+
+double CellRaster::open_flux(const Triangle& t, CellState state) {
+  if (failed(t)) return 0.0;
+  const double share = state == CellState::Open ? 1.0 : share_of_triangle(clipper_.open_part(grid_, t));
+  return share * triangle_flux(t);
+}
+
+void CellRaster::draw_point(FluxBox& out, const Cell& cell, CellState state) {
+  const auto& v = cell.vertex;
+  if (failed(v)) return;
+  const double flux = open_flux({v[0], v[1], v[2]}, state) + open_flux({v[0], v[2], v[3]}, state);
+  ++primitives_;
+  out.add_point((pixel_[v[0]] + pixel_[v[1]] + pixel_[v[2]] + pixel_[v[3]]) * 0.25, flux);
+}
+
+void CellRaster::draw_cell(FluxBox& out, const Cell& cell, CellState state) {
+  const auto& v = cell.vertex;
+  if (style_.points) {
+    draw_point(out, cell, state);
+  } else if (state == CellState::Open) {
+    draw_open(out, cell);
+  } else {
+    draw_triangle(out, cell, {v[0], v[1], v[2]}, true);
+    draw_triangle(out, cell, {v[0], v[2], v[3]}, true);
+  }
+}
+
 FluxBox CellRaster::draw(const std::function<bool()>& stop) {
   FluxBox out(drawn_box());
   if (out.box().empty()) return out;
@@ -230,13 +260,7 @@ FluxBox CellRaster::draw(const std::function<bool()>& stop) {
       const CellState state = state_[cell_index(ix, iy)];
       if (state == CellState::Closed) continue;
       if (outside(out.box(), grid_.corners(ix, iy))) continue;
-      const Cell cell = cell_at(ix, iy);
-      if (state == CellState::Open) {
-        draw_open(out, cell);
-      } else {
-        draw_triangle(out, cell, {cell.vertex[0], cell.vertex[1], cell.vertex[2]}, true);
-        draw_triangle(out, cell, {cell.vertex[0], cell.vertex[2], cell.vertex[3]}, true);
-      }
+      draw_cell(out, cell_at(ix, iy), state);
     }
   }
   return out;

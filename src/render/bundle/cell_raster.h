@@ -13,10 +13,15 @@
 
 namespace contrejour::bundle {
 
+struct CellStyle {
+  bool smooth_shading = true;  // off: every cell is level
+  bool points = false;         // every cell's flux goes to the pixel of its middle: hullin2011 7.2
+};
+
 class CellRaster {
  public:
-  // cos_theta: of the light's angle to the axis.
-  CellRaster(const RayGrid& grid, const IrisShape& iris, const Frame& frame, double cos_theta);
+  // iris: as it stands for the grid's crossings of the stop. cos_theta: of the light's angle to the axis.
+  CellRaster(const RayGrid& grid, const IrisShape& iris, const Frame& frame, double cos_theta, CellStyle style = {});
 
   // Flux in mm^2 at E0 = 1 by pixel, over the part of the frame that the ghost touches. Stops early, with whatever
   // is done, once `stop()` is true.
@@ -43,6 +48,10 @@ class CellRaster {
   [[nodiscard]] Cell cell_at(int ix, int iy) const;
   [[nodiscard]] double triangle_flux(const Triangle& t) const;
 
+  void draw_cell(FluxBox& out, const Cell& cell, CellState state);
+  void draw_point(FluxBox& out, const Cell& cell, CellState state);
+  [[nodiscard]] double open_flux(const Triangle& t, CellState state);
+  [[nodiscard]] bool failed(std::span<const std::size_t> vertices) const;
   void draw_open(FluxBox& out, const Cell& cell);
   void draw_triangle(FluxBox& out, const Cell& cell, const Triangle& t, bool cut);
   [[nodiscard]] std::size_t cell_index(int ix, int iy) const {
@@ -51,6 +60,7 @@ class CellRaster {
 
   const RayGrid& grid_;
   const Frame& frame_;
+  CellStyle style_;
   TriangleClipper clipper_;
   double triangle_weight_mm2_;       // flux of a triangle of transmission 1
   std::vector<Vec2> pixel_;          // by vertex

@@ -241,4 +241,16 @@ void FluxBox::add_line(Vec2 from, Vec2 to, double flux) {
   }
 }
 
+FluxBox FluxBox::coarser(int factor) const {
+  if (box_.empty()) return FluxBox({});
+  FluxBox out({box_.x0 / factor, box_.y0 / factor, (box_.x1 - 1) / factor + 1, (box_.y1 - 1) / factor + 1});
+  for (int y = box_.y0; y < box_.y1; ++y) {
+    const auto from = row(y);
+    for (int x = box_.x0; x < box_.x1; ++x) {
+      out.flux_[out.index(x / factor, y / factor)] += from[static_cast<std::size_t>(x - box_.x0)];
+    }
+  }
+  return out;
+}
+
 }  // namespace contrejour::bundle

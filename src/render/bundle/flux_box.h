@@ -49,6 +49,9 @@ class FluxBox {
   void add_point(Vec2 point, double flux);
   void add_line(Vec2 from, Vec2 to, double flux);
 
+  // The same flux in pixels `factor` times as large; the frame's corner stays a corner.
+  [[nodiscard]] FluxBox coarser(int factor) const;
+
  private:
   [[nodiscard]] std::size_t index(int x, int y) const {
     return static_cast<std::size_t>(y - box_.y0) * static_cast<std::size_t>(box_.width()) +

@@ -7,6 +7,7 @@
 #include "render/adaptive/adaptive.h"
 #include "render/bundle/bundle.h"
 #include "render/reference/reference.h"
+#include "render/tiled/tiled.h"
 
 namespace contrejour {
 namespace {
@@ -16,7 +17,9 @@ struct Method {
   Result<Flare> (*render)(const LensState&, std::span<const Light>, const RenderSettings&, const Context&);
 };
 
-constexpr std::array kMethods{Method{"adaptive", render_adaptive}, Method{"bundle", render_bundle}, Method{"reference", render_reference}};
+// The default first.
+constexpr std::array kMethods{Method{"adaptive", render_adaptive}, Method{"bundle", render_bundle},
+                              Method{"tiled", render_tiled}, Method{"reference", render_reference}};
 
 }  // namespace
 

@@ -58,16 +58,22 @@ struct MeteredBands {
 
 using BandsBySpectrum = std::vector<std::pair<Spectrum, MeteredBands>>;
 
-BandsBySpectrum meter_bands(const LensState& lens, std::span<const Light> lights, const RenderSettings& settings) {
+BandsBySpectrum bands_by_spectrum(std::span<const Light> lights, const RenderSettings& settings) {
   BandsBySpectrum all;
   for (const Light& light : lights) {
     const auto same = [&](const auto& entry) { return entry.first == light.spectrum; };
     if (std::any_of(all.begin(), all.end(), same)) continue;
-    MeteredBands metered{bands_of(light, settings), {}};
-    for (const SpectralBand& band : metered.bands) metered.meters.emplace_back(lens, band.lambda_nm);
-    all.emplace_back(light.spectrum, std::move(metered));
+    all.emplace_back(light.spectrum, MeteredBands{bands_of(light, settings), {}});
   }
   return all;
+}
+
+TablesByWavelength tables_of(const LensState& lens, const BandsBySpectrum& spectra, const Context& context) {
+  std::vector<double> lambda_nm;
+  for (const auto& [spectrum, metered] : spectra) {
+    for (const SpectralBand& band : metered.bands) lambda_nm.push_back(band.lambda_nm);
+  }
+  return tables_for(lens, lambda_nm, context);
 }
 
 PlannedLight plan_light(const LensState& lens, const Light& light, const RenderSettings& settings,
@@ -102,7 +108,12 @@ Result<FramePlan> plan_frame(const LensState& lens, std::span<const Light> light
   plan.lights.resize(lights.size());
   Context quiet = context;
   quiet.progress = {};
-  const BandsBySpectrum spectra = meter_bands(lens, lights, settings);
+  BandsBySpectrum spectra = bands_by_spectrum(lights, settings);
+  plan.tables = tables_of(lens, spectra, context);
+  if (context.cancelled()) return failure(ErrorCode::Cancelled, "interrupted");
+  for (auto& [spectrum, metered] : spectra) {
+    for (const SpectralBand& band : metered.bands) metered.meters.emplace_back(lens, plan.tables.at(band.lambda_nm));
+  }
   const bool done = parallel_for(lights.size(), quiet, [&](std::size_t k) {
     plan.lights[k] = plan_light(lens, lights[k], settings, spectra);
   });

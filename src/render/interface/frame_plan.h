@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "contrejour/render.h"
+#include "render/interface/wavelength_tables.h"
 
 namespace contrejour {
 
@@ -25,6 +26,7 @@ struct PlannedLight {
 struct FramePlan {
   std::vector<Ghost> ghosts;
   std::vector<PlannedLight> lights;
+  TablesByWavelength tables;  // for every wavelength of the passes
   double skipped_flux = 0;  // share of the flare that selection leaves out
 };
 

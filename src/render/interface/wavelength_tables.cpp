@@ -6,17 +6,15 @@
 
 namespace contrejour {
 
-TablesByWavelength tables_for(const FramePlan& plan, const LensState& lens, const Context& context) {
+TablesByWavelength tables_for(const LensState& lens, std::span<const double> lambda_nm, const Context& context) {
   TablesByWavelength tables;
-  for (const PlannedLight& light : plan.lights) {
-    for (const PlannedPass& pass : light.passes) tables.try_emplace(pass.lambda_nm);
-  }
+  for (const double lambda : lambda_nm) tables.try_emplace(lambda);
   std::vector<TablesByWavelength::value_type*> entries;
   for (auto& entry : tables) entries.push_back(&entry);
   Context quiet = context;
   quiet.progress = {};
   parallel_for(entries.size(), quiet, [&](std::size_t k) {
-    entries[k]->second = std::make_unique<ReflectanceTables>(lens, entries[k]->first);
+    entries[k]->second = std::make_shared<const ReflectanceTables>(lens, entries[k]->first);
   });
   return tables;
 }

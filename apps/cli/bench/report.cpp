@@ -1,0 +1,114 @@
+#include "cli/bench/report.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "cli/bench/tables.h"
+#include "cli/flare_report.h"
+#include "cli/machine.h"
+#include "params/parameter.h"
+
+namespace contrejour::cli {
+namespace {
+
+Json figure(double value) { return value > 0.0 ? Json(value) : Json(); }
+
+Json decibels(const std::optional<double>& db) { return db && std::isfinite(*db) ? Json(*db) : Json(); }
+
+// Of the tables that vary tiles, merging or interpolation; null where the paper has no such figure.
+Json paper_variation(const BenchRow& row) {
+  const TiledOptions usual;
+  const TiledOptions& t = row.settings.tiled;
+  const auto& system = *row.system;
+  Json times;
+  if (row.request.lights != 1) return times;
+  if (t.dense_tile != usual.dense_tile || t.coarse_tile != usual.coarse_tile) {
+    times["total"] = system.tiles_ms[(t.dense_tile == usual.dense_tile ? 0U : 2U) + (t.coarse_tile == 0 ? 0U : 1U)];
+  } else if (t.merge_steps != usual.merge_steps || t.merge_threshold != usual.merge_threshold) {
+    times["total"] = figure(system.merging_ms[t.merge_steps == 0 ? 0 : 2]);
+  } else {
+    // The paper's order has the mean value second.
+    constexpr std::size_t kColumn[] = {0, 2, 1, 3, 4};
+    times["tile_traversal"] = system.traverse_ms[kColumn[static_cast<std::size_t>(t.interpolation)]];
+  }
+  return times;
+}
+
+Json paper_times(const BenchRow& row) {
+  const PaperFigures& p = row.paper();
+  if (row.request.method == "bundle") {
+    return {{"total", p.bundle_total_ms}, {"ray_tracing", p.bundle_trace_ms}, {"rasterisation", p.bundle_raster_ms}};
+  }
+  if (row.request.method == "tiled" && !same(row.request, tiled_of(row.request.lights))) return paper_variation(row);
+  return {{"total", p.tiled_total_ms},
+          {"ray_tracing_and_coarse_tiles", p.tiled_trace_ms},
+          {"dense_tiles", p.tiled_dense_ms},
+          {"tile_traversal", p.tiled_traverse_ms}};
+}
+
+Json paper_counts(const ByMerging& counts) {
+  return {{"no_merge", figure(counts[0])}, {"light_merge", figure(counts[1])}, {"heavy_merge", figure(counts[2])}};
+}
+
+Json settings_json(const BenchRow& row) {
+  const RenderSettings& s = row.settings;
+  Json json{{"lens", row.system->lens},     {"width", s.frame.width},   {"height", s.frame.height},
+            {"wavelengths", s.wavelengths}, {"grid", s.grid},           {"scale_grid", s.scale_grid},
+            {"density", s.reference_density}, {"runs", row.runs}};
+  if (row.request.method == "tiled") {
+    json["merge_steps"] = s.tiled.merge_steps;
+    json["merge_threshold"] = s.tiled.merge_threshold;
+    json["tile"] = s.tiled.dense_tile;
+    json["coarse_tile"] = s.tiled.coarse_tile;
+    json["interpolation"] = params::parameter("interpolation").choices[static_cast<std::size_t>(s.tiled.interpolation)];
+  }
+  return json;
+}
+
+Json row_json(const BenchRow& row) {
+  return {{"system", row.system->name},
+          {"f_number", row.system->f_number},
+          {"lights", row.request.lights},
+          {"method", row.statistics.method},
+          {"device", row.statistics.device},
+          {"settings", settings_json(row)},
+          {"time_ms", times_json(row.statistics)},
+          {"psnr_db", decibels(row.reference_db)},
+          {"psnr_bundle_db", decibels(row.bundle_db)},
+          {"psnr_unmerged_db", decibels(row.unmerged_db)},
+          {"paper_ms", paper_times(row)},
+          {"paper_psnr_db", row.paper().tiled_psnr_db},
+          {"paper_primitives", paper_counts(row.paper().primitives)},
+          {"paper_tile_indices", paper_counts(row.paper().indices)},
+          {"rays", row.statistics.rays},
+          {"surface_hits", row.statistics.surface_hits},
+          {"primitives", row.statistics.primitives},
+          {"primitives_merged", row.statistics.primitives_merged},
+          {"tile_indices", row.statistics.tile_indices},
+          {"primitive_bytes", row.statistics.primitive_bytes},
+          {"tile_list_bytes", row.statistics.tile_list_bytes},
+          {"ghosts_rendered", row.statistics.ghosts_rendered},
+          {"peak_memory_bytes", row.statistics.peak_memory_bytes}};
+}
+
+}  // namespace
+
+Json bench_json(const BenchRows& rows) {
+  const Machine machine = this_machine();
+  Json list = Json::array();
+  for (const BenchRow& row : rows.all()) list.push_back(row_json(row));
+  return {{"machine", {{"processor", machine.processor},
+                       {"cores", machine.cores},
+                       {"system", machine.system},
+                       {"compiler", machine.compiler}}},
+          {"rows", list}};
+}
+
+std::string machine_text() {
+  const Machine machine = this_machine();
+  return fmt::format("{}, {} cores, {}, {}\n", machine.processor, machine.cores, machine.system, machine.compiler);
+}
+
+}  // namespace contrejour::cli

@@ -1,0 +1,19 @@
+#include "ghosts/meridian.h"
+
+#include <cmath>
+
+namespace contrejour {
+
+double Meridian::angle_rad() const { return std::atan2(direction.x, direction.z); }
+
+Meridian meridian_of(Vec3 direction) {
+  const double across = std::hypot(direction.x, direction.y);
+  return {{across, 0.0, direction.z}, across > 0.0 ? std::atan2(direction.y, direction.x) : 0.0};
+}
+
+Iris turned_back(Iris iris, const Meridian& meridian) {
+  iris.rotation_rad -= meridian.turn_rad;
+  return iris;
+}
+
+}  // namespace contrejour

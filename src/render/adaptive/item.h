@@ -1,0 +1,47 @@
+// The units of work: a ghost of a light, with the parts of the pupil it comes through.
+#pragma once
+
+#include "render/adaptive/ghost_painter.h"
+#include "render/adaptive/tiles.h"
+
+namespace contrejour::adaptive {
+
+// What all items of a frame share.
+struct Scene {
+  const LensState& lens;
+  const FramePlan& plan;
+  IrisShape iris;
+};
+
+struct Work {
+  std::uint64_t rays = 0, surface_hits = 0;
+  void add(const Work& other) {
+    rays += other.rays;
+    surface_hits += other.surface_hits;
+  }
+};
+
+struct Item {
+  Ghost ghost;
+  const PlannedLight* light = nullptr;
+  std::vector<Rectangle> boxes;  // in the light's meridional frame; none: nothing gets through
+};
+
+// One for each ghost and light, those first that come first in the plan.
+[[nodiscard]] std::vector<Item> find_items(const Scene& scene, const Context& context, Work& work);
+
+struct Painted {
+  TiledPolygons polygons;
+  Work work;
+};
+
+// An item in all wavelengths of its light.
+[[nodiscard]] Painted paint_item(const Scene& scene, const Item& item, const Frame& frame, const TileGrid& grid,
+                                 const ErrorBudget& budget);
+
+// The level that 99.9 per cent of the frame's samples stay below (metrics.h), from a small frame drawn without care:
+// what errors are relative to.
+[[nodiscard]] double estimate_peak(const Scene& scene, const std::vector<Item>& items, const Frame& frame,
+                                   const Context& context, Work& work);
+
+}  // namespace contrejour::adaptive

@@ -1,0 +1,100 @@
+#include "render/bundle/ghost_grid.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "render/bundle/stopwatch.h"
+#include "render/interface/grid_side.h"
+
+namespace contrejour::bundle {
+namespace {
+
+// Below 32 rays a side a caustic in a small ghost shows the grid as a four-pointed star.
+constexpr int kFewestScaled = 32;
+
+void make_symmetric(Rectangle& r) {
+  r.high.y = std::max(std::abs(r.low.y), std::abs(r.high.y));
+  r.low.y = -r.high.y;
+}
+
+}  // namespace
+
+void Counts::add(const Counts& other) {
+  rays += other.rays;
+  surface_hits += other.surface_hits;
+  primitives += other.primitives;
+  search_ms += other.search_ms;
+  trace_ms += other.trace_ms;
+  raster_ms += other.raster_ms;
+}
+
+GhostGrid::GhostGrid(const LensState& lens, const RenderSettings& settings, const TablesByWavelength& tables,
+                     const PupilBounds* bounds)
+    : lens_(lens), settings_(settings), tables_(tables), bounds_(bounds) {}
+
+const ReflectanceTables& GhostGrid::tables_of(const GhostPupil& pupil) const { return *tables_.at(pupil.lambda_nm); }
+
+void GhostGrid::count_rays(std::uint64_t rays, const OpticalPath& path) {
+  counts_.rays += rays;
+  counts_.surface_hits += rays * path.steps.size();
+}
+
+std::optional<GhostPupil> GhostGrid::find(Ghost ghost, Vec3 direction, double lambda_nm, bool look) {
+  const Stopwatch watch(counts_.search_ms);
+  const BundleOptions& options = settings_.bundle;
+  GhostPupil pupil;
+  pupil.lambda_nm = lambda_nm;
+  pupil.path = ghost_path(lens_, ghost, lambda_nm);
+  const bool in_meridian = options.mirror_symmetry || bounds_ != nullptr;
+  pupil.meridian = in_meridian ? meridian_of(direction) : Meridian{direction, 0.0};
+  pupil.iris = turned_back(lens_.iris, pupil.meridian);
+  const EntranceWindow window = entrance_window(lens_, pupil.meridian.direction);
+  pupil.plane_z_mm = window.z_mm;
+
+  const auto region = bounds_ != nullptr
+                          ? bounds_->find(ghost, pupil.meridian.angle_rad())
+                          : find_pupil_region(pupil.path, tables_of(pupil), IrisShape(pupil.iris),
+                                              pupil.meridian.direction, window, rays_);
+  if (!region) return std::nullopt;
+  pupil.region = *region;
+  count_rays(region->rays, pupil.path);
+  if (options.mirror_symmetry) make_symmetric(pupil.region.pupil_mm);
+  if (look || options.grid_levels || options.anisotropic != BundleOptions::Anisotropic::Exact) {
+    pupil.figures = figures_of(pupil);
+  }
+  return pupil;
+}
+
+MapFigures GhostGrid::figures_of(const GhostPupil& pupil) {
+  rays_.trace(pupil.path, tables_of(pupil), IrisShape(pupil.iris), pupil.meridian.direction, pupil.plane_z_mm,
+              pupil.region.pupil_mm, kProbeSide, PacketPrecision::Double);
+  rays_.turn_sensor(pupil.meridian.turn_rad);
+  count_rays(static_cast<std::uint64_t>(kProbeSide) * kProbeSide, pupil.path);
+  return measure_map(rays_);
+}
+
+int GhostGrid::side_of(const GhostPupil& pupil) const {
+  if (settings_.bundle.grid_levels) return grid_level(*pupil.figures);
+  return grid_side(settings_, lens_, pupil.region.sensor_mm, kFewestScaled);
+}
+
+void GhostGrid::trace(const GhostPupil& pupil) {
+  const Stopwatch watch(counts_.trace_ms);
+  const int side = side_of(pupil);
+  const IrisShape iris(pupil.iris);
+  const auto all = static_cast<std::size_t>(side) * static_cast<std::size_t>(side);
+  const Rectangle& box = pupil.region.pupil_mm;
+  const Vec3 direction = pupil.meridian.direction;
+  const auto precision = precision_for(pupil.path, tables_of(pupil), direction, pupil.plane_z_mm, box, side,
+                                       settings_.frame.pixel_pitch_mm);
+  if (settings_.bundle.mirror_symmetry) {
+    count_rays(rays_.trace_mirrored(pupil.path, tables_of(pupil), iris, direction, pupil.plane_z_mm, box, side, precision),
+               pupil.path);
+  } else {
+    rays_.trace(pupil.path, tables_of(pupil), iris, direction, pupil.plane_z_mm, box, side, precision);
+    count_rays(all, pupil.path);
+  }
+  if (pupil.meridian.turn_rad != 0.0) rays_.turn_sensor(pupil.meridian.turn_rad);
+}
+
+}  // namespace contrejour::bundle

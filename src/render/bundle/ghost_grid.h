@@ -1,0 +1,62 @@
+// From a ghost, a light and a wavelength to a traced grid: where its rays enter, how many, in which frame.
+// Here hullin2011's accelerations of 4.2 are heeded that concern rays: bounds, grid levels, symmetries.
+#pragma once
+
+#include <optional>
+
+#include "contrejour/render.h"
+#include "ghosts/meridian.h"
+#include "ghosts/pupil_bounds.h"
+#include "render/bundle/map_figures.h"
+#include "render/interface/wavelength_tables.h"
+
+namespace contrejour::bundle {
+
+struct Counts {
+  std::uint64_t rays = 0, surface_hits = 0, primitives = 0;
+  double search_ms = 0, trace_ms = 0, raster_ms = 0;
+
+  void add(const Counts& other);
+};
+
+// A ghost's pupil and what a look at it told.
+struct GhostPupil {
+  double lambda_nm = 0;
+  OpticalPath path;
+  Meridian meridian;     // of the light; or as it comes, with no turn
+  Iris iris;             // as it stands there
+  double plane_z_mm = 0;
+  PupilRegion region;
+  std::optional<MapFigures> figures;  // in the frame of the sensor, where a look was asked for
+};
+
+class GhostGrid {
+ public:
+  // bounds: in place of a search; may be null.
+  GhostGrid(const LensState& lens, const RenderSettings& settings, const TablesByWavelength& tables,
+            const PupilBounds* bounds);
+
+  // None when nothing gets through. look: figures are wanted whatever the settings are.
+  [[nodiscard]] std::optional<GhostPupil> find(Ghost ghost, Vec3 direction, double lambda_nm, bool look);
+
+  // Traces the pupil; rays() is valid until the next find() or trace().
+  void trace(const GhostPupil& pupil);
+  [[nodiscard]] const RayGrid& rays() const { return rays_; }
+
+  [[nodiscard]] Counts& counts() { return counts_; }
+
+ private:
+  [[nodiscard]] const ReflectanceTables& tables_of(const GhostPupil& pupil) const;
+  [[nodiscard]] MapFigures figures_of(const GhostPupil& pupil);
+  [[nodiscard]] int side_of(const GhostPupil& pupil) const;
+  void count_rays(std::uint64_t rays, const OpticalPath& path);
+
+  const LensState& lens_;
+  const RenderSettings& settings_;
+  const TablesByWavelength& tables_;
+  const PupilBounds* bounds_;
+  RayGrid rays_;
+  Counts counts_;
+};
+
+}  // namespace contrejour::bundle

@@ -1,0 +1,157 @@
+#include "render/bundle/item_renderer.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "render/bundle/cell_raster.h"
+#include "render/bundle/stopwatch.h"
+
+namespace contrejour::bundle {
+namespace {
+
+// Wavelengths that one item draws before they are added up: fewer, larger additions.
+constexpr std::size_t kPassesPerItem = 4;
+// hullin2011 7.2 draws very anisotropic ghosts at a higher resolution: so many pixels in place of one, a side.
+constexpr int kFineness = 4;
+// Gaps of less than two pixels between bands are not seen: light that moves less stays where it is.
+constexpr double kUnseenWay_px = 1.0;
+// Bands are drawn beyond the frame as far as their light may move into it, but no farther than this.
+constexpr double kWidestBorder_px = 256.0;
+
+bool is_blurred(const BundleOptions& options, std::size_t bands) {
+  return options.spectral_filter && bands > 1 && bands <= kMostBlurredBands;
+}
+
+Frame finer(Frame frame, int factor) {
+  for (int* size : {&frame.width, &frame.height, &frame.origin_x, &frame.origin_y, &frame.full_width, &frame.full_height}) {
+    *size *= factor;
+  }
+  frame.pixel_pitch_mm /= factor;
+  return frame;
+}
+
+// The frame with a border all round; its pixel (0, 0) is the old one's (-border, -border).
+Frame bordered(Frame frame, int border) {
+  frame.width += 2 * border;
+  frame.height += 2 * border;
+  frame.origin_x -= border;
+  frame.origin_y -= border;
+  return frame;
+}
+
+PixelBox box_around(const std::vector<std::optional<FluxBox>>& layers) {
+  PixelBox all;
+  for (const auto& layer : layers) {
+    if (!layer || layer->box().empty()) continue;
+    const PixelBox b = layer->box();
+    all = all.empty() ? b
+                      : PixelBox{std::min(all.x0, b.x0), std::min(all.y0, b.y0), std::max(all.x1, b.x1),
+                                 std::max(all.y1, b.y1)};
+  }
+  return all;
+}
+
+}  // namespace
+
+std::vector<Item> items_of(const FramePlan& plan, const BundleOptions& options) {
+  std::vector<Item> items;
+  for (const Ghost& ghost : plan.ghosts) {
+    for (const PlannedLight& light : plan.lights) {
+      const std::span<const PlannedPass> all(light.passes);
+      const std::size_t together = is_blurred(options, all.size()) ? all.size() : kPassesPerItem;
+      for (std::size_t first = 0; first < all.size(); first += together) {
+        items.push_back({ghost, &light, all.subspan(first, std::min(together, all.size() - first))});
+      }
+    }
+  }
+  return items;
+}
+
+ItemRenderer::ItemRenderer(const Item& item, const LensState& lens, const RenderSettings& settings,
+                           const TablesByWavelength& tables, const PupilBounds* bounds, const Context& context)
+    : item_(item), settings_(settings), context_(context), grid_(lens, settings, tables, bounds) {}
+
+RenderedItem ItemRenderer::render() {
+  const bool blur = is_blurred(settings_.bundle, item_.light->passes.size());
+  RenderedItem out = merge(blur ? draw_and_blur() : draw_all());
+  out.counts = grid_.counts();
+  return out;
+}
+
+std::vector<ItemRenderer::Layer> ItemRenderer::draw_all() {
+  std::vector<Layer> layers(item_.passes.size());
+  for (std::size_t k = 0; k < layers.size() && !context_.cancelled(); ++k) {
+    const auto pupil = grid_.find(item_.ghost, item_.light->direction, item_.passes[k].lambda_nm, false);
+    if (pupil) layers[k] = draw(*pupil, settings_.frame);
+  }
+  return layers;
+}
+
+std::vector<ItemRenderer::Layer> ItemRenderer::draw_and_blur() {
+  std::vector<std::size_t> order(item_.passes.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return item_.passes[a].lambda_nm < item_.passes[b].lambda_nm;
+  });
+  std::vector<std::optional<GhostPupil>> pupils;
+  std::vector<std::optional<MapFigures>> figures;
+  for (const std::size_t k : order) {
+    pupils.push_back(grid_.find(item_.ghost, item_.light->direction, item_.passes[k].lambda_nm, true));
+    figures.push_back(pupils.back() ? pupils.back()->figures : std::nullopt);
+  }
+  const auto motions = band_motions(figures, settings_.frame);
+  std::vector<Layer> layers(order.size());
+  for (std::size_t k = 0; k < order.size() && !context_.cancelled(); ++k) {
+    if (pupils[k]) layers[order[k]] = draw_blurred(*pupils[k], motions[k]);
+  }
+  return layers;
+}
+
+ItemRenderer::Layer ItemRenderer::draw_blurred(const GhostPupil& pupil, const std::optional<BandMotion>& motion) {
+  const double way_px = motion ? longest_way_px(*motion, settings_.frame) : 0.0;
+  if (way_px < kUnseenWay_px) return draw(pupil, settings_.frame);
+  const int border = static_cast<int>(std::ceil(std::min(way_px, kWidestBorder_px)));
+  const FluxBox band = draw(pupil, bordered(settings_.frame, border));
+  const Stopwatch watch(grid_.counts().raster_ms);
+  return blurred(band, *motion, settings_.frame, border);
+}
+
+FluxBox ItemRenderer::draw(const GhostPupil& pupil, const Frame& frame) {
+  grid_.trace(pupil);
+  const Stopwatch watch(grid_.counts().raster_ms);
+  const BundleOptions& options = settings_.bundle;
+  const bool special = options.anisotropic != BundleOptions::Anisotropic::Exact && is_very_anisotropic(*pupil.figures);
+  const bool points = special && options.anisotropic == BundleOptions::Anisotropic::Points;
+  const bool fine = special && !points;
+  const Frame drawn = fine ? finer(frame, kFineness) : frame;
+  const IrisShape iris(pupil.iris);
+  CellRaster raster(grid_.rays(), iris, drawn, item_.light->direction.z, {options.smooth_shading, points});
+  FluxBox flux = raster.draw([&] { return context_.cancelled(); });
+  grid_.counts().primitives += raster.primitives();
+  return fine ? flux.coarser(kFineness) : std::move(flux);
+}
+
+RenderedItem ItemRenderer::merge(const std::vector<Layer>& layers) {
+  const Stopwatch watch(grid_.counts().raster_ms);
+  RenderedItem out;
+  out.box = box_around(layers);
+  const auto width = static_cast<std::size_t>(out.box.width());
+  out.rgb.resize(3 * width * static_cast<std::size_t>(out.box.height()));
+  for (std::size_t k = 0; k < layers.size(); ++k) {
+    if (!layers[k] || layers[k]->box().empty()) continue;
+    const PixelBox b = layers[k]->box();
+    const Rgb& gain = item_.passes[k].gain;
+    const std::array<float, 3> g{static_cast<float>(gain[0]), static_cast<float>(gain[1]), static_cast<float>(gain[2])};
+    for (int y = b.y0; y < b.y1; ++y) {
+      float* to = out.rgb.data() + 3 * (static_cast<std::size_t>(y - out.box.y0) * width +
+                                        static_cast<std::size_t>(b.x0 - out.box.x0));
+      for (const float flux : layers[k]->row(y)) {
+        for (std::size_t c = 0; c < 3; ++c) *to++ += g[c] * flux;
+      }
+    }
+  }
+  return out;
+}
+
+}  // namespace contrejour::bundle

@@ -1,0 +1,54 @@
+// One ghost of one light at a few wavelengths, drawn into a box of its own: the unit that threads share.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "render/bundle/band_blur.h"
+#include "render/bundle/flux_box.h"
+#include "render/bundle/ghost_grid.h"
+#include "render/interface/frame_plan.h"
+
+namespace contrejour::bundle {
+
+struct Item {
+  Ghost ghost;
+  const PlannedLight* light = nullptr;
+  std::span<const PlannedPass> passes;
+};
+
+// RGB over the pixels that the item touches.
+struct RenderedItem {
+  PixelBox box;
+  std::vector<float> rgb;
+  Counts counts;
+};
+
+// Every ghost and light of a plan, the passes a few at a time; all at once where bands are blurred into each other.
+[[nodiscard]] std::vector<Item> items_of(const FramePlan& plan, const BundleOptions& options);
+
+class ItemRenderer {
+ public:
+  ItemRenderer(const Item& item, const LensState& lens, const RenderSettings& settings,
+               const TablesByWavelength& tables, const PupilBounds* bounds, const Context& context);
+
+  // Incomplete when the context is cancelled.
+  [[nodiscard]] RenderedItem render();
+
+ private:
+  using Layer = std::optional<FluxBox>;
+
+  [[nodiscard]] std::vector<Layer> draw_all();
+  [[nodiscard]] std::vector<Layer> draw_and_blur();
+  [[nodiscard]] Layer draw_blurred(const GhostPupil& pupil, const std::optional<BandMotion>& motion);
+  [[nodiscard]] FluxBox draw(const GhostPupil& pupil, const Frame& frame);
+  [[nodiscard]] RenderedItem merge(const std::vector<Layer>& layers);
+
+  const Item& item_;
+  const RenderSettings& settings_;
+  const Context& context_;
+  GhostGrid grid_;
+};
+
+}  // namespace contrejour::bundle

@@ -1,0 +1,25 @@
+// Adds the time until the end of the block to a sum.
+#pragma once
+
+#include <chrono>
+
+namespace contrejour::bundle {
+
+class Stopwatch {
+ public:
+  explicit Stopwatch(double& sum_ms) : sum_ms_(sum_ms) {}
+  ~Stopwatch() { sum_ms_ += elapsed_ms(); }
+  Stopwatch(const Stopwatch&) = delete;
+  Stopwatch& operator=(const Stopwatch&) = delete;
+
+  [[nodiscard]] double elapsed_ms() const {
+    return std::chrono::duration<double, std::milli>(Clock::now() - start_).count();
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  Clock::time_point start_ = Clock::now();
+  double& sum_ms_;
+};
+
+}  // namespace contrejour::bundle

@@ -1,0 +1,65 @@
+// What bodonyi2023 4.1 calls a primitive: a cell of a ghost's ray grid, or a block of cells merged into one, on
+// the frame.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "contrejour/frame.h"
+
+namespace contrejour::tiled {
+
+// Pixels of the frame whose middle lies within a primitive's bounds, both ends included.
+struct PixelRange {
+  std::int32_t x0 = 0, y0 = 0, x1 = -1, y1 = -1;
+  [[nodiscard]] bool empty() const { return x1 < x0 || y1 < y0; }
+};
+
+// Of the bounds of four corners. Empty, too, when one is not a number.
+[[nodiscard]] PixelRange pixels_within(const std::array<float, 4>& x, const std::array<float, 4>& y, const Frame& frame);
+
+enum PrimitiveFlags : std::uint16_t {
+  kTriangle = 1,  // the fourth corner is the first again
+  kOpen = 2,      // no rim and no crossing of the iris blocks a corner
+};
+
+struct alignas(64) Primitive {
+  std::array<float, 4> x, y;        // pixels; corners in turn, the shoelace area positive
+  std::array<float, 4> irradiance;  // flux in mm^2 at E0 = 1, per pixel area
+  std::array<float, 4> r_rel;
+  std::array<float, 4> stop_x, stop_y;  // at the first crossing of the stop
+  PixelRange pixels;
+  std::uint32_t pass = 0;            // whose gain it has
+  std::uint32_t more_crossings = 0;  // where the other crossings' places begin
+  std::uint16_t crossings = 0;
+  std::uint16_t flags = 0;
+};
+static_assert(sizeof(Primitive) == 128);
+
+struct StopPlaces {
+  std::array<float, 4> x, y;
+};
+
+struct PrimitiveBuffer {
+  std::vector<Primitive> primitives;
+  std::vector<StopPlaces> more_crossings;  // second and third crossings, where there are any
+
+  void clear() {
+    primitives.clear();
+    more_crossings.clear();
+  }
+  void append(const Primitive& primitive, const PrimitiveBuffer& from) {
+    primitives.push_back(primitive);
+    if (primitive.crossings < 2) return;
+    primitives.back().more_crossings = static_cast<std::uint32_t>(more_crossings.size());
+    const auto first = from.more_crossings.begin() + static_cast<std::ptrdiff_t>(primitive.more_crossings);
+    more_crossings.insert(more_crossings.end(), first, first + primitive.crossings - 1);
+  }
+  [[nodiscard]] std::uint64_t bytes() const {
+    return primitives.size() * sizeof(Primitive) + more_crossings.size() * sizeof(StopPlaces);
+  }
+};
+
+}  // namespace contrejour::tiled

@@ -1,0 +1,64 @@
+// From a traced grid to primitives: bodonyi2023 4.1 and 4.2.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "contrejour/render.h"
+#include "ghosts/ray_grid.h"
+#include "render/tiled/primitive.h"
+
+namespace contrejour::tiled {
+
+// Cells of four rays of which at least one gets through; 2 x 2 blocks of them that bend by less than gamma become one,
+// and four such blocks again, `merge_steps` times. A primitive's flux is the sum of its cells' however many there are.
+// Cells that are not convex, or have a ray that failed, stay what they are, in triangles.
+// Buffers are kept between grids; one object a thread.
+class PrimitiveBuilder {
+ public:
+  PrimitiveBuilder(const Frame& frame, const TiledOptions& options);
+
+  // Appends to `out`. cos_theta: of the light's angle to the axis. Returns the number of primitives before merging.
+  std::uint64_t build(const RayGrid& grid, double cos_theta, std::uint32_t pass, PrimitiveBuffer& out);
+
+ private:
+  enum class CellState : std::uint8_t { Dark, Whole, InTriangles };
+
+  // Blocks of 2^step cells a side.
+  struct Level {
+    int side = 0;
+    std::vector<std::uint8_t> is_whole;
+    std::vector<float> flux;
+    [[nodiscard]] std::size_t at(int ix, int iy) const {
+      return static_cast<std::size_t>(iy) * static_cast<std::size_t>(side) + static_cast<std::size_t>(ix);
+    }
+  };
+
+  void place_vertices(const RayGrid& grid);
+  void find_cells(const RayGrid& grid);
+  void find_irradiance(const RayGrid& grid);
+  void merge(const RayGrid& grid);
+  [[nodiscard]] bool is_flat(const RayGrid& grid, int step, int ix, int iy) const;
+  [[nodiscard]] double twice_area(std::size_t i, std::size_t j, std::size_t k) const;
+  [[nodiscard]] bool is_convex(const std::array<std::size_t, 4>& corners) const;
+
+  // Everything in the block of 2^step cells, appended.
+  void emit(const RayGrid& grid, int step, int ix, int iy);
+  void emit_quad(const RayGrid& grid, std::array<std::size_t, 4> corners, double flux);
+  void emit_triangle(const RayGrid& grid, std::array<std::size_t, 3> corners);
+  void fill(const RayGrid& grid, std::array<std::size_t, 4> corners, Primitive& primitive);
+
+  const Frame& frame_;
+  int merge_steps_;
+  float merge_threshold_px_;
+  double triangle_weight_mm2_ = 0;   // flux of half a cell of transmission 1
+  std::vector<float> x_, y_;         // by vertex, pixels
+  std::vector<float> area_;          // by cell with a rim one cell wide, signed, pixels; NaN where a ray failed
+  std::vector<float> irradiance_;    // by vertex, flux over area; 0 where the map is not smooth
+  std::vector<CellState> state_;     // by cell
+  std::vector<Level> levels_;        // levels_[k]: after k steps
+  std::uint32_t pass_ = 0;
+  PrimitiveBuffer* out_ = nullptr;
+};
+
+}  // namespace contrejour::tiled

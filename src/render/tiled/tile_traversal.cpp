@@ -1,0 +1,183 @@
+#include "render/tiled/tile_traversal.h"
+
+#include <algorithm>
+#include <limits>
+
+// Packets are structs of vectors, which these targets do not allow.
+#define HWY_DISABLED_TARGETS (HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128 | HWY_RVV)
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "render/tiled/tile_traversal.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/cache_control.h>
+#include <hwy/highway.h>
+
+#include "kernels/packet-inl.h"
+// After packet-inl.h, whose functions its templates use.
+#include "kernels/barycentric-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace contrejour::tiled::HWY_NAMESPACE {
+
+namespace hk = kernels::HWY_NAMESPACE;
+namespace hn = hwy::HWY_NAMESPACE;
+using P = hk::Packet<float>;
+using Mask = P::Mask;
+
+constexpr std::size_t kAhead = 4;  // primitives fetched before they are needed
+
+HWY_INLINE P broadcast(float value) { return P(hn::Set(P::Tag(), value)); }
+
+HWY_INLINE P interpolate(const hk::Weights<P>& weights, const std::array<float, 4>& corner) {
+  const P values[4] = {broadcast(corner[0]), broadcast(corner[1]), broadcast(corner[2]), broadcast(corner[3])};
+  return hk::weighted_sum(weights, values);
+}
+
+// Inside the opening of the iris? Places are `total` times too large.
+HWY_INLINE Mask passes(const IrisShape& iris, P x, P y, P total) {
+  if (iris.is_circle()) return hn::Le((x * x + y * y).v, (total * total).v);
+  const P reach = total * broadcast(static_cast<float>(iris.apothem()));
+  Mask inside = hn::FirstN(P::Tag(), hn::Lanes(P::Tag()));
+  for (const IrisShape::Edge& edge : iris.edges()) {
+    const P along = x * broadcast(static_cast<float>(edge.normal.x)) + y * broadcast(static_cast<float>(edge.normal.y));
+    inside = hn::And(inside, hn::Le(along.v, reach.v));
+  }
+  return inside;
+}
+
+// Which pixels no rim and no crossing of the iris blocks.
+HWY_INLINE Mask unblocked(const TraversalInput& input, const Primitive& p, const hk::Weights<P>& weights) {
+  Mask open = hn::Le(interpolate(weights, p.r_rel).v, weights.total.v);
+  if (p.crossings == 0) return open;
+  open = hn::And(open, passes(input.iris, interpolate(weights, p.stop_x), interpolate(weights, p.stop_y), weights.total));
+  for (std::uint32_t c = 0; c + 1 < p.crossings; ++c) {
+    const StopPlaces& places = input.buffer.more_crossings[p.more_crossings + c];
+    open = hn::And(open, passes(input.iris, interpolate(weights, places.x), interpolate(weights, places.y), weights.total));
+  }
+  return open;
+}
+
+// An edge holds the points on it when it runs upwards, or level to the left. So of two neighbours one does.
+HWY_INLINE float least_on_edge(const Primitive& p, std::size_t i) {
+  const std::size_t j = (i + 1) % 4;
+  const bool holds = p.y[j] < p.y[i] || (p.y[j] == p.y[i] && p.x[j] <= p.x[i]);
+  return holds ? 0.0F : std::numeric_limits<float>::min();
+}
+
+template <template <class> class Method>
+HWY_INLINE void add_primitive(const TraversalInput& input, const Primitive& p, TilePixels& tile) {
+  const P::Tag d;
+  const std::size_t lanes = hn::Lanes(d);
+  const int width = tile.pixels.x1 - tile.pixels.x0 + 1;
+  const int first = std::max(p.pixels.y0, tile.pixels.y0) - tile.pixels.y0;
+  const int last = std::min(p.pixels.y1, tile.pixels.y1) - tile.pixels.y0;
+  const auto begin = static_cast<std::size_t>(first * width);
+  const auto end = static_cast<std::size_t>((last + 1) * width);
+
+  hk::Quad<P> quad;
+  for (std::size_t i = 0; i < 4; ++i) {
+    quad.x[i] = broadcast(p.x[i]);
+    quad.y[i] = broadcast(p.y[i]);
+  }
+  const P least[4] = {broadcast(least_on_edge(p, 0)), broadcast(least_on_edge(p, 1)), broadcast(least_on_edge(p, 2)),
+                      broadcast(least_on_edge(p, 3))};
+  const P left = broadcast(static_cast<float>(p.pixels.x0));
+  const P right = broadcast(static_cast<float>(p.pixels.x1) + 1.0F);
+  const Method<P> method(quad);
+  const Gain& gain = input.gains[p.pass];
+  for (std::size_t k = begin; k < end; k += lanes) {
+    const P x(hn::LoadU(d, tile.x.data() + k));
+    const P y(hn::LoadU(d, tile.y.data() + k));
+    const auto seen = hk::seen_from(quad, x, y);
+    Mask inside = hn::And(hn::FirstN(d, end - k), hn::And(hn::Gt(x.v, left.v), hn::Lt(x.v, right.v)));
+    for (int i = 0; i < 4; ++i) inside = hn::And(inside, hn::Ge(seen.edge[i].v, least[i].v));
+    if (hn::AllFalse(d, inside)) continue;
+
+    const hk::Weights<P> weights = method.at(seen);
+    inside = hn::And(inside, hn::Gt(weights.total.v, hn::Zero(d)));
+    if ((p.flags & kOpen) == 0) inside = hn::And(inside, unblocked(input, p, weights));
+    const P value = interpolate(weights, p.irradiance) / weights.total;
+    const auto lit = hn::IfThenElseZero(inside, value.v);
+    for (std::size_t c = 0; c < 3; ++c) {
+      float* out = tile.value[c].data() + k;
+      hn::StoreU(hn::MulAdd(lit, hn::Set(d, gain[c]), hn::LoadU(d, out)), d, out);
+    }
+  }
+}
+
+template <template <class> class QuadMethod, template <class> class TriangleMethod>
+void traverse_by(const TraversalInput& input, std::span<const std::uint32_t> list, TilePixels& tile) {
+  const std::vector<Primitive>& primitives = input.buffer.primitives;
+  for (std::size_t k = 0; k < list.size(); ++k) {
+    if (k + kAhead < list.size()) {
+      const Primitive* next = &primitives[list[k + kAhead]];
+      hwy::Prefetch(&next->x);
+      hwy::Prefetch(&next->stop_x);
+    }
+    const Primitive& p = primitives[list[k]];
+    if ((p.flags & kTriangle) != 0) {
+      add_primitive<TriangleMethod>(input, p, tile);
+    } else {
+      add_primitive<QuadMethod>(input, p, tile);
+    }
+  }
+}
+
+void traverse(const TraversalInput& input, std::span<const std::uint32_t> list, TilePixels& tile) {
+  using Interpolation = TiledOptions::Interpolation;
+  switch (input.interpolation) {
+    case Interpolation::Triangle:
+      return traverse_by<hk::TriangleByMatrix, hk::TriangleByMatrix>(input, list, tile);
+    case Interpolation::HomogeneousTriangle:
+      return traverse_by<hk::TriangleByCrossProduct, hk::TriangleByCrossProduct>(input, list, tile);
+    case Interpolation::MeanValue:
+      return traverse_by<hk::MeanValue, hk::TriangleByCrossProduct>(input, list, tile);
+    case Interpolation::Wachspress:
+      return traverse_by<hk::Wachspress, hk::TriangleByCrossProduct>(input, list, tile);
+    case Interpolation::LoopDeRose:
+      return traverse_by<hk::LoopDeRose, hk::TriangleByCrossProduct>(input, list, tile);
+  }
+}
+
+}  // namespace contrejour::tiled::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace contrejour::tiled {
+
+HWY_EXPORT(traverse);
+
+// Floats in the longest vector of any instruction set. HWY_MAX_BYTES is that of one set, here the least.
+constexpr std::size_t kLongestVector = 64;
+
+void TilePixels::load(const Image& image, const PixelRange& range) {
+  pixels = range;
+  const std::size_t width = static_cast<std::size_t>(range.x1 - range.x0 + 1);
+  const std::size_t count = width * static_cast<std::size_t>(range.y1 - range.y0 + 1);
+  for (auto* v : {&x, &y, &value[0], &value[1], &value[2]}) v->resize(count + kLongestVector);
+  std::size_t k = 0;
+  for (int row = range.y0; row <= range.y1; ++row) {
+    const float* from = image.pixels.data() + image.index(range.x0, row);
+    for (int column = range.x0; column <= range.x1; ++column, ++k) {
+      x[k] = static_cast<float>(column) + 0.5F;
+      y[k] = static_cast<float>(row) + 0.5F;
+      for (std::size_t c = 0; c < 3; ++c) value[c][k] = *from++;
+    }
+  }
+}
+
+void TilePixels::store(Image& image) const {
+  std::size_t k = 0;
+  for (int row = pixels.y0; row <= pixels.y1; ++row) {
+    float* to = image.pixels.data() + image.index(pixels.x0, row);
+    for (int column = pixels.x0; column <= pixels.x1; ++column, ++k) {
+      for (std::size_t c = 0; c < 3; ++c) *to++ = value[c][k];
+    }
+  }
+}
+
+void traverse_tile(const TraversalInput& input, std::span<const std::uint32_t> list, TilePixels& tile) {
+  HWY_DYNAMIC_DISPATCH(traverse)(input, list, tile);
+}
+
+}  // namespace contrejour::tiled
+#endif  // HWY_ONCE

@@ -1,0 +1,227 @@
+#include "render/tiled/tiled.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <memory>
+#include <mutex>
+
+#include <fmt/format.h>
+
+#include "base/memory.h"
+#include "base/tasks.h"
+#include "ghosts/pupil_search.h"
+#include "render/interface/frame_plan.h"
+#include "render/interface/grid_side.h"
+#include "render/interface/wavelength_tables.h"
+#include "render/tiled/primitive_builder.h"
+#include "render/tiled/tiled_frame.h"
+
+namespace contrejour {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr int kLowestGrid = 16;
+constexpr int kHighestGrid = 512;
+constexpr int kMostMergeSteps = 9;  // a grid of 512 in one primitive
+constexpr int kLargestTile = 4096;
+// bodonyi2023 eq. 13 ends at this share of the grid.
+constexpr double kFewestShare = 0.05;
+constexpr double kTracingProgress = 0.7;  // of the whole, for the bar
+
+double ms_since(Clock::time_point start) {
+  return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+}
+
+Result<void> check(const RenderSettings& settings) {
+  const TiledOptions& o = settings.tiled;
+  const auto refuse = [](std::string message) { return failure(ErrorCode::InvalidArgument, std::move(message)); };
+  if (settings.grid < kLowestGrid || settings.grid > kHighestGrid) {
+    return refuse(fmt::format("a grid of {} rays a side is out of range; choose 16 to 512", settings.grid));
+  }
+  if (o.merge_steps < 0 || o.merge_steps > kMostMergeSteps) {
+    return refuse(fmt::format("{} merge steps is out of range; choose 0 to {}", o.merge_steps, kMostMergeSteps));
+  }
+  if (!(o.merge_threshold >= 0.0) || !std::isfinite(o.merge_threshold)) {
+    return refuse("the merge threshold must be a number of 0 or more");
+  }
+  if (o.dense_tile < 1 || o.dense_tile > kLargestTile || o.coarse_tile < 0 || o.coarse_tile > kLargestTile) {
+    return refuse(fmt::format("tiles of {} and {} pixels are out of range; choose 1 to {}, coarse ones 0 for none",
+                              o.dense_tile, o.coarse_tile, kLargestTile));
+  }
+  if (o.coarse_tile % o.dense_tile != 0) {
+    return refuse(fmt::format("coarse tiles of {} pixels do not hold whole tiles of {}; choose a multiple",
+                              o.coarse_tile, o.dense_tile));
+  }
+  return {};
+}
+
+// One ghost of one light at one wavelength.
+struct Item {
+  Ghost ghost;
+  Vec3 direction;
+  double lambda_nm = 550;
+};
+
+struct Counts {
+  std::uint64_t rays = 0, surface_hits = 0, primitives = 0;
+  double search_ms = 0, trace_ms = 0;
+
+  void add(const Counts& other) {
+    rays += other.rays;
+    surface_hits += other.surface_hits;
+    primitives += other.primitives;
+    search_ms += other.search_ms;
+    trace_ms += other.trace_ms;
+  }
+};
+
+struct TracedItem {
+  tiled::PrimitiveBuffer buffer;
+  Counts counts;
+};
+
+// What a thread needs to trace an item. Taken and given back, so that memory is touched for the first time once.
+struct Workspace {
+  RayGrid grid;
+  tiled::PrimitiveBuilder builder;
+};
+
+class Workspaces {
+ public:
+  explicit Workspaces(const RenderSettings& settings) : settings_(settings) {}
+
+  std::unique_ptr<Workspace> take() {
+    const std::scoped_lock lock(mutex_);
+    if (free_.empty()) {
+      return std::make_unique<Workspace>(Workspace{{}, tiled::PrimitiveBuilder(settings_.frame, settings_.tiled)});
+    }
+    auto workspace = std::move(free_.back());
+    free_.pop_back();
+    return workspace;
+  }
+  void give_back(std::unique_ptr<Workspace> workspace) {
+    const std::scoped_lock lock(mutex_);
+    free_.push_back(std::move(workspace));
+  }
+
+ private:
+  const RenderSettings& settings_;
+  std::mutex mutex_;
+  std::vector<std::unique_ptr<Workspace>> free_;
+};
+
+struct Job {
+  const LensState& lens;
+  const RenderSettings& settings;
+  const Context& context;
+  const TablesByWavelength& tables;
+  IrisShape iris;
+  std::vector<Item> items;
+  std::vector<tiled::Gain> gains;  // one an item
+};
+
+void list_items(const FramePlan& plan, Job& job) {
+  for (const Ghost& ghost : plan.ghosts) {
+    for (const PlannedLight& light : plan.lights) {
+      for (const PlannedPass& pass : light.passes) {
+        job.items.push_back({ghost, light.direction, pass.lambda_nm});
+        job.gains.push_back({static_cast<float>(pass.gain[0]), static_cast<float>(pass.gain[1]),
+                             static_cast<float>(pass.gain[2])});
+      }
+    }
+  }
+}
+
+TracedItem trace_item(const Job& job, std::size_t index, Workspace& workspace) {
+  TracedItem out;
+  const Item& item = job.items[index];
+  const OpticalPath path = ghost_path(job.lens, item.ghost, item.lambda_nm);
+  const ReflectanceTables& tables = *job.tables.at(item.lambda_nm);
+  const EntranceWindow window = entrance_window(job.lens, item.direction);
+  const auto count_rays = [&](std::uint64_t rays) {
+    out.counts.rays += rays;
+    out.counts.surface_hits += rays * path.steps.size();
+  };
+
+  auto start = Clock::now();
+  const auto region = find_pupil_region(path, tables, job.iris, item.direction, window, workspace.grid);
+  out.counts.search_ms = ms_since(start);
+  if (!region) return out;
+  count_rays(region->rays);
+
+  start = Clock::now();
+  const int fewest = std::max(2, static_cast<int>(std::lround(job.settings.grid * kFewestShare)));
+  const int side = grid_side(job.settings, job.lens, region->sensor_mm, fewest);
+  const auto precision = precision_for(path, tables, item.direction, window.z_mm, region->pupil_mm, side,
+                                       job.settings.frame.pixel_pitch_mm);
+  workspace.grid.trace(path, tables, job.iris, item.direction, window.z_mm, region->pupil_mm, side, precision);
+  count_rays(static_cast<std::uint64_t>(side) * static_cast<std::uint64_t>(side));
+  out.counts.primitives = workspace.builder.build(workspace.grid, item.direction.z, static_cast<std::uint32_t>(index), out.buffer);
+  out.counts.trace_ms = ms_since(start);
+  return out;
+}
+
+// Traces all items; the frame takes their primitives in order and draws whenever it holds enough.
+bool trace_all(const Job& job, tiled::TiledFrame& frame, Counts& counts) {
+  Context context = job.context;
+  if (context.progress) context.progress = [&](double done) { job.context.progress(kTracingProgress * done); };
+  Workspaces workspaces(job.settings);
+  return ordered_pipeline(
+      job.items.size(), context,
+      [&](std::size_t k) {
+        auto workspace = workspaces.take();
+        TracedItem item = trace_item(job, k, *workspace);
+        workspaces.give_back(std::move(workspace));
+        return item;
+      },
+      [&](std::size_t, const TracedItem& item) {
+        counts.add(item.counts);
+        frame.add(item.buffer);
+      });
+}
+
+}  // namespace
+
+Result<Flare> render_tiled(const LensState& lens, std::span<const Light> lights, const RenderSettings& settings,
+                           const Context& context) {
+  const auto start = Clock::now();
+  if (const auto ok = check(settings); !ok) return tl::unexpected<Error>(ok.error());
+  const auto plan = plan_frame(lens, lights, settings, context);
+  if (!plan) return tl::unexpected<Error>(plan.error());
+  const TablesByWavelength& tables = plan->tables;
+  if (context.cancelled()) return failure(ErrorCode::Cancelled, "interrupted");
+  Job job{lens, settings, context, tables, IrisShape(lens.iris), {}, {}};
+  list_items(*plan, job);
+  const double plan_ms = ms_since(start);
+
+  const auto traced = Clock::now();
+  tiled::TiledFrame frame(settings, context, job.iris, job.gains);
+  Counts counts;
+  trace_all(job, frame, counts);
+  const double trace_ms = ms_since(traced) - frame.draw_ms();
+  frame.draw();
+  if (context.cancelled()) return failure(ErrorCode::Cancelled, "interrupted");
+  if (context.progress) context.progress(1.0);
+
+  Flare flare;
+  RenderStatistics& stats = flare.statistics;
+  stats.method = "tiled";
+  stats.rays = counts.rays;
+  stats.surface_hits = counts.surface_hits;
+  stats.primitives = counts.primitives;
+  stats.ghosts_rendered = static_cast<int>(plan->ghosts.size());
+  stats.ghosts_skipped_flux = plan->skipped_flux;
+  // Both run side by side on all threads: each gets its share of the time that went by.
+  const double busy_ms = counts.search_ms + counts.trace_ms;
+  const double share = busy_ms > 0.0 ? trace_ms / busy_ms : 0.0;
+  stats.time_ms = {{"plan", plan_ms}, {"search", counts.search_ms * share}, {"trace", counts.trace_ms * share}};
+  frame.report(stats);
+  flare.image = frame.take_image();
+  stats.peak_memory_bytes = peak_memory_bytes();
+  stats.time_ms.emplace_back("total", ms_since(start));
+  return flare;
+}
+
+}  // namespace contrejour

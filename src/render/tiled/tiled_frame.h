@@ -1,0 +1,59 @@
+// From the primitives of all ghosts to the picture: one buffer, tile lists, traversal.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "contrejour/render.h"
+#include "ghosts/iris_shape.h"
+#include "render/tiled/primitive.h"
+#include "render/tiled/tile_lists.h"
+#include "render/tiled/tile_traversal.h"
+
+namespace contrejour::tiled {
+
+// With more at hand the tiles are built and traversed before more is taken, so that memory stays bounded. The
+// picture does not change: every pixel goes on with its sum. 256 MiB of primitives, 128 MiB of lists.
+struct HeldLimits {
+  std::size_t primitives = 1U << 21U;
+  std::uint64_t indices = 1U << 25U;
+};
+
+class TiledFrame {
+ public:
+  // gains: by Primitive::pass. All must outlive the frame.
+  TiledFrame(const RenderSettings& settings, const Context& context, const IrisShape& iris, std::span<const Gain> gains,
+             const HeldLimits& limits = {});
+
+  // Takes primitives, in the order in which pixels add them up.
+  void add(const PrimitiveBuffer& buffer);
+
+  // Puts the primitives at hand onto the picture. Does nothing once the context is cancelled.
+  void draw();
+
+  [[nodiscard]] double draw_ms() const { return draw_ms_; }
+  [[nodiscard]] Image take_image() { return std::move(image_); }
+
+  // Counts, bytes and the times of the phases.
+  void report(RenderStatistics& stats) const;
+
+ private:
+  void list();
+  void traverse();
+  void traverse_row(std::size_t row);
+
+  const RenderSettings& settings_;
+  Context context_;
+  const IrisShape& iris_;
+  std::span<const Gain> gains_;
+  HeldLimits limits_;
+  TileGrid coarse_grid_, dense_grid_;
+  Image image_;
+  PrimitiveBuffer held_;
+  TileLists coarse_, dense_;
+  std::uint64_t held_indices_ = 0, primitives_ = 0, indices_ = 0, primitive_bytes_ = 0, list_bytes_ = 0;
+  double coarse_ms_ = 0, dense_ms_ = 0, traversal_ms_ = 0, draw_ms_ = 0;
+};
+
+}  // namespace contrejour::tiled
