@@ -20,8 +20,10 @@ namespace contrejour::cli {
 namespace {
 
 constexpr const char* kExamples =
-    "Five systems, one and two lights, at the paper's f-numbers and grids (256 x 256, fewer for small ghosts; --grid).\n"
-    "The paper's figures are a GeForce RTX 3060's. --reference adds the PSNR against the reference renderer, which takes\n"
+    "Five systems, one and two lights, at the paper's f-numbers and grids (256 x 256, fewer for small ghosts; "
+    "--grid).\n"
+    "The paper's figures are a GeForce RTX 3060's. --reference adds the PSNR against the reference renderer, which "
+    "takes\n"
     "hours at full size; --cache keeps its pictures for the next time.\n\n"
     "Examples:\n"
     "  contrejour bench tables\n"
@@ -145,7 +147,9 @@ void add_bench_tables(CLI::App& bench, Action& action) {
       ->check(CLI::Validator(problem_with_systems, "", "systems"))
       ->option_text("LIST");
   BenchRunning& running = options->running;
-  command->add_option("--runs", running.runs, "of so many runs the fastest counts")->capture_default_str()->check(CLI::Range(1, 1000));
+  command->add_option("--runs", running.runs, "of so many runs the fastest counts")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 1000));
   command->add_flag("--reference", running.reference, "PSNR against the reference renderer (slow)");
   command->add_option("--cache", running.cache, "keep the reference renderer's pictures here")->option_text("FOLDER");
   add_parameters(*command, options->values, {"size", "wavelengths", "grid", "density", "threads"});

@@ -138,7 +138,8 @@ class MeanValue {
       const T dot = s.x[i] * s.x[j] + s.y[i] * s.y[j];
       // tan(alpha / 2) = sin / (1 + cos) = (1 - cos) / sin; each where it does not cancel.
       const auto is_acute = dot > T(0.0);
-      tangent[i] = select(is_acute, s.edge[i], product - dot) / larger(select(is_acute, product + dot, s.edge[i]), least);
+      tangent[i] =
+          select(is_acute, s.edge[i], product - dot) / larger(select(is_acute, product + dot, s.edge[i]), least);
     }
     Weights<T> out;
     for (int i = 0; i < 4; ++i) {

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <numbers>
 
@@ -18,9 +17,8 @@ using test::sum;
 
 namespace {
 
-Image rendered(const LensState& lens, std::span<const Light> lights, const RenderSettings& settings,
-               const Context& context = {}) {
-  const auto flare = render_reference(lens, lights, settings, context);
+Image rendered(const LensState& lens, std::span<const Light> lights, const RenderSettings& settings) {
+  const auto flare = render_reference(lens, lights, settings, {});
   REQUIRE(flare.has_value());
   return flare->image;
 }
@@ -76,15 +74,6 @@ TEST_CASE("the Heliar's flare at f/16 has the order of brightness that a rough t
   CHECK(flux < 2.0 * 2.2e-4);
 }
 
-TEST_CASE("the same picture, bit for bit, on 1, 2 and 7 threads") {
-  const LensState lens = bundled("angenieux-double-gauss", {.f_number = 5.6});
-  const RenderSettings settings = green(small_frame(lens, 48));
-  const Light lights[] = {light_at(lens, settings.frame, {0.8, 0.2}), light_at(lens, settings.frame, {0.3, 0.6})};
-  const Image one = rendered(lens, lights, settings, {.threads = 1});
-  CHECK(one.pixels == rendered(lens, lights, settings, {.threads = 2}).pixels);
-  CHECK(one.pixels == rendered(lens, lights, settings, {.threads = 7}).pixels);
-}
-
 TEST_CASE("a quarter turn of the light about the axis turns the flare [slow]") {
   const LensState lens = bundled("heliar", {.f_number = 8.0});
   Frame frame = frame_on_sensor(lens, 90, 90);
@@ -105,35 +94,6 @@ TEST_CASE("a quarter turn of the light about the axis turns the flare [slow]") {
   CHECK(landed.x == doctest::Approx(0.55).epsilon(1e-6));
   CHECK(landed.y == doctest::Approx(0.8).epsilon(1e-6));
   CHECK(psnr_db(a, back) > 60.0);
-}
-
-TEST_CASE("twice the light, twice the flare; two lights add") {
-  const LensState lens = bundled("heliar", {.f_number = 11.0});
-  const RenderSettings settings = green(small_frame(lens, 48));
-  Light a = light_at(lens, settings.frame, {0.7, 0.3});
-  const Light b = light_at(lens, settings.frame, {0.2, 0.6});
-  const Image one = rendered(lens, {&a, 1}, settings);
-  const Image other = rendered(lens, {&b, 1}, settings);
-  const Light both[] = {a, b};
-  const Image together = rendered(lens, both, settings);
-  a.value = {2, 2, 2};
-  const Image bright = rendered(lens, {&a, 1}, settings);
-  for (std::size_t k = 0; k < one.pixels.size(); ++k) {
-    CHECK(bright.pixels[k] == 2.0f * one.pixels[k]);
-    CHECK(together.pixels[k] == doctest::Approx(one.pixels[k] + other.pixels[k]).epsilon(1e-5));
-  }
-}
-
-TEST_CASE("no lights, no flare; a cancelled render says so") {
-  const LensState lens = bundled("heliar", {});
-  const RenderSettings settings = green(small_frame(lens, 32));
-  const Image dark = rendered(lens, {}, settings);
-  CHECK(std::all_of(dark.pixels.begin(), dark.pixels.end(), [](float v) { return v == 0.0f; }));
-  const std::atomic<bool> cancel{true};
-  const Light light = light_at(lens, settings.frame, {0.7, 0.3});
-  const auto cancelled = render_reference(lens, {&light, 1}, settings, {.cancel = &cancel});
-  REQUIRE_FALSE(cancelled.has_value());
-  CHECK(cancelled.error().code == ErrorCode::Cancelled);
 }
 
 TEST_CASE("a ghost of less than a pixel keeps its flux") {

@@ -133,8 +133,8 @@ TEST_CASE("a large flat ghost has bundle's level, whatever the interpolation") {
   const auto truth = render_bundle(lens, {&light, 1}, settings, {});
   REQUIRE(truth.has_value());
   using Interpolation = TiledOptions::Interpolation;
-  for (const auto interpolation : {Interpolation::Triangle, Interpolation::HomogeneousTriangle, Interpolation::MeanValue,
-                                   Interpolation::Wachspress, Interpolation::LoopDeRose}) {
+  for (const auto interpolation : {Interpolation::Triangle, Interpolation::HomogeneousTriangle,
+                                   Interpolation::MeanValue, Interpolation::Wachspress, Interpolation::LoopDeRose}) {
     CAPTURE(static_cast<int>(interpolation));
     settings.tiled.interpolation = interpolation;
     const Flare flare = tiled_of(lens, {&light, 1}, settings);

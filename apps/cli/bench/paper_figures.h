@@ -29,7 +29,7 @@ struct PaperSystem {
   std::array<PaperFigures, 2> by_lights;  // one and two lights
   std::array<double, 4> tiles_ms;         // table 4: 8 x 8 without and with coarse tiles, 16 x 16 likewise
   ByMerging merging_ms, merging_db;       // table 7
-  std::array<double, 5> traverse_ms;      // table 8: triangle, mean value, homogeneous triangle, Wachspress, Loop-DeRose
+  std::array<double, 5> traverse_ms;  // table 8: triangle, mean value, homogeneous triangle, Wachspress, Loop-DeRose
 };
 
 // Bytes behind the memory that tables 5 and 6 give, in MiB.

@@ -54,8 +54,8 @@ Json paper_counts(const ByMerging& counts) {
 
 Json settings_json(const BenchRow& row) {
   const RenderSettings& s = row.settings;
-  Json json{{"lens", row.system->lens},     {"width", s.frame.width},   {"height", s.frame.height},
-            {"wavelengths", s.wavelengths}, {"grid", s.grid},           {"scale_grid", s.scale_grid},
+  Json json{{"lens", row.system->lens},       {"width", s.frame.width}, {"height", s.frame.height},
+            {"wavelengths", s.wavelengths},   {"grid", s.grid},         {"scale_grid", s.scale_grid},
             {"density", s.reference_density}, {"runs", row.runs}};
   if (row.request.method == "tiled") {
     json["merge_steps"] = s.tiled.merge_steps;
@@ -99,10 +99,11 @@ Json bench_json(const BenchRows& rows) {
   const Machine machine = this_machine();
   Json list = Json::array();
   for (const BenchRow& row : rows.all()) list.push_back(row_json(row));
-  return {{"machine", {{"processor", machine.processor},
-                       {"cores", machine.cores},
-                       {"system", machine.system},
-                       {"compiler", machine.compiler}}},
+  return {{"machine",
+           {{"processor", machine.processor},
+            {"cores", machine.cores},
+            {"system", machine.system},
+            {"compiler", machine.compiler}}},
           {"rows", list}};
 }
 

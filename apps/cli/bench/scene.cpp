@@ -32,8 +32,8 @@ Result<Flare> render_scene(const BenchScene& scene, const BenchRequest& request,
 
 fs::path cache_file(const BenchScene& scene, const std::string& folder) {
   const RenderSettings& s = scene.settings;
-  return fs::path(folder) / fmt::format("{}-{}-{}x{}-{}nm-{:g}.exr", scene.system->key, scene.light_count, s.frame.width,
-                                        s.frame.height, s.wavelengths, s.reference_density);
+  return fs::path(folder) / fmt::format("{}-{}-{}x{}-{}nm-{:g}.exr", scene.system->key, scene.light_count,
+                                        s.frame.width, s.frame.height, s.wavelengths, s.reference_density);
 }
 
 Result<Image> reference_image(const BenchScene& scene, const BenchRunning& running) {
@@ -76,8 +76,10 @@ Result<BenchRow> measure(const BenchScene& scene, const BenchRequest& request, c
     row.reference_db = psnr_db(truths.reference, flare->image);
     row.bundle_db = psnr_db(truths.bundle, flare->image);
     row.unmerged_db = psnr_db(truths.unmerged, flare->image);
-    if (same(request, bundle_of(request.lights))) truths.bundle = std::move(flare->image);
-    else if (same(request, tiled_merged(request.lights, 0))) truths.unmerged = std::move(flare->image);
+    if (same(request, bundle_of(request.lights)))
+      truths.bundle = std::move(flare->image);
+    else if (same(request, tiled_merged(request.lights, 0)))
+      truths.unmerged = std::move(flare->image);
   }
   return row;
 }
@@ -96,7 +98,8 @@ Result<BenchScene> bench_scene(const PaperSystem& system, int light_count, const
   const Frame frame = params::whole_frame(values, scene.lens, *params::parse_size(*values.text("size")));
   for (int k = 0; k < light_count; ++k) {
     Light light;
-    light.direction = direction_to_land_at(scene.lens, frame.sensor_from_uv(kLights_uv[k]), scene.lens.design_wavelength_nm);
+    light.direction =
+        direction_to_land_at(scene.lens, frame.sensor_from_uv(kLights_uv[k]), scene.lens.design_wavelength_nm);
     scene.lights.push_back(light);
   }
   scene.settings = params::render_settings(values, frame, ColourSpace::Rec709);

@@ -6,8 +6,9 @@ namespace contrejour::cli {
 namespace {
 
 using Interpolation = TiledOptions::Interpolation;
-constexpr std::array kInPaperOrder{Interpolation::Triangle, Interpolation::MeanValue, Interpolation::HomogeneousTriangle,
-                                   Interpolation::Wachspress, Interpolation::LoopDeRose};
+constexpr std::array kInPaperOrder{Interpolation::Triangle, Interpolation::MeanValue,
+                                   Interpolation::HomogeneousTriangle, Interpolation::Wachspress,
+                                   Interpolation::LoopDeRose};
 
 BenchRequest interpolated(std::size_t k) {
   BenchRequest request = tiled_of(1);
@@ -22,8 +23,8 @@ std::vector<BenchRequest> requests(const std::vector<std::string>&) {
 }
 
 std::string text(const BenchRows& rows, const std::vector<std::string>&) {
-  TextTable table({"<system", "triangle", "paper", "mean value", "paper", "hom. triangle", "paper", "Wachspress", "paper",
-                   "Loop-DeRose", "paper"});
+  TextTable table({"<system", "triangle", "paper", "mean value", "paper", "hom. triangle", "paper", "Wachspress",
+                   "paper", "Loop-DeRose", "paper"});
   for (const PaperSystem* system : rows.systems()) {
     std::vector<std::string> cells{std::string(system->name)};
     for (std::size_t k = 0; k < kInPaperOrder.size(); ++k) {

@@ -13,8 +13,8 @@ std::vector<BenchRequest> requests(const std::vector<std::string>&) {
 }
 
 std::string text(const BenchRows& rows, const std::vector<std::string>&) {
-  TextTable table({"<system", "none ms", "paper", "dB", "paper", "light ms", "paper", "dB", "paper", "dB of none", "heavy ms",
-                   "paper", "dB", "paper", "dB of none"});
+  TextTable table({"<system", "none ms", "paper", "dB", "paper", "light ms", "paper", "dB", "paper", "dB of none",
+                   "heavy ms", "paper", "dB", "paper", "dB of none"});
   for (const PaperSystem* system : rows.systems()) {
     std::vector<std::string> cells{std::string(system->name)};
     for (std::size_t k = 0; k < kMergings; ++k) {
@@ -32,6 +32,8 @@ std::string text(const BenchRows& rows, const std::vector<std::string>&) {
 
 }  // namespace
 
-const BenchTable kMergingTable{"7", "Table 7: merging, total ms and PSNR of bundle, dB; one light. dB of none: of the picture without merging", requests, text};
+const BenchTable kMergingTable{
+    "7", "Table 7: merging, total ms and PSNR of bundle, dB; one light. dB of none: of the picture without merging",
+    requests, text};
 
 }  // namespace contrejour::cli

@@ -50,6 +50,8 @@ std::string text(const BenchRows& rows, const std::vector<std::string>& methods)
 
 }  // namespace
 
-const BenchTable kOverviewTable{"overview", "Every method; the paper's total is its previous method's for bundle, its tiled one's else", requests, text};
+const BenchTable kOverviewTable{
+    "overview", "Every method; the paper's total is its previous method's for bundle, its tiled one's else", requests,
+    text};
 
 }  // namespace contrejour::cli

@@ -16,8 +16,8 @@ std::vector<BenchRequest> requests(const std::vector<std::string>&) {
 }
 
 std::string text(const BenchRows& rows, const std::vector<std::string>&) {
-  TextTable table({"lights", "<system", "none", "paper", "MiB", "paper", "light", "paper", "MiB", "paper", "heavy", "paper", "MiB",
-                   "paper"});
+  TextTable table({"lights", "<system", "none", "paper", "MiB", "paper", "light", "paper", "MiB", "paper", "heavy",
+                   "paper", "MiB", "paper"});
   for (const int lights : {1, 2}) {
     for (const PaperSystem* system : rows.systems()) {
       std::vector<std::string> cells{fmt::format("{}", lights), std::string(system->name)};
@@ -37,6 +37,7 @@ std::string text(const BenchRows& rows, const std::vector<std::string>&) {
 
 }  // namespace
 
-const BenchTable kPrimitivesTable{"5", "Table 5: primitives and their memory by merging; MiB: the most held at once", requests, text};
+const BenchTable kPrimitivesTable{"5", "Table 5: primitives and their memory by merging; MiB: the most held at once",
+                                  requests, text};
 
 }  // namespace contrejour::cli

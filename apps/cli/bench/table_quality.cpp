@@ -26,6 +26,7 @@ std::string text(const BenchRows& rows, const std::vector<std::string>&) {
 
 }  // namespace
 
-const BenchTable kQualityTable{"3", "Table 3: PSNR, dB (clipped at the 99.9th percentile of the picture compared with)", requests, text};
+const BenchTable kQualityTable{"3", "Table 3: PSNR, dB (clipped at the 99.9th percentile of the picture compared with)",
+                               requests, text};
 
 }  // namespace contrejour::cli

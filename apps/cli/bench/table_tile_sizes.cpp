@@ -21,8 +21,8 @@ std::vector<BenchRequest> requests(const std::vector<std::string>&) {
 }
 
 std::string text(const BenchRows& rows, const std::vector<std::string>&) {
-  TextTable table({"<system", "8, no coarse", "paper", "8, coarse", "paper", "16, no coarse", "paper", "16, coarse", "paper",
-                   "<lists and traversal alone, likewise"});
+  TextTable table({"<system", "8, no coarse", "paper", "8, coarse", "paper", "16, no coarse", "paper", "16, coarse",
+                   "paper", "<lists and traversal alone, likewise"});
   for (const PaperSystem* system : rows.systems()) {
     std::vector<std::string> cells{std::string(system->name)};
     std::string alone;
@@ -40,6 +40,7 @@ std::string text(const BenchRows& rows, const std::vector<std::string>&) {
 
 }  // namespace
 
-const BenchTable kTileSizesTable{"4", "Table 4: total ms by tile size, without and with coarse tiles of 128; one light", requests, text};
+const BenchTable kTileSizesTable{"4", "Table 4: total ms by tile size, without and with coarse tiles of 128; one light",
+                                 requests, text};
 
 }  // namespace contrejour::cli

@@ -22,8 +22,8 @@ struct BenchTable {
 
 // Settings the tables share.
 [[nodiscard]] BenchRequest bundle_of(int lights);
-[[nodiscard]] BenchRequest tiled_of(int lights);                            // light merge, 8 and 128 pixels, Loop-DeRose
-[[nodiscard]] BenchRequest tiled_merged(int lights, std::size_t merging);   // none, light, heavy
+[[nodiscard]] BenchRequest tiled_of(int lights);  // light merge, 8 and 128 pixels, Loop-DeRose
+[[nodiscard]] BenchRequest tiled_merged(int lights, std::size_t merging);  // none, light, heavy
 inline constexpr std::size_t kMergings = 3;
 
 // Cells. A figure of the paper that is lost, or one that was not measured, is a dash.

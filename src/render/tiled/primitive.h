@@ -18,7 +18,8 @@ struct PixelRange {
 };
 
 // Of the bounds of four corners. Empty, too, when one is not a number.
-[[nodiscard]] PixelRange pixels_within(const std::array<float, 4>& x, const std::array<float, 4>& y, const Frame& frame);
+[[nodiscard]] PixelRange pixels_within(const std::array<float, 4>& x, const std::array<float, 4>& y,
+                                       const Frame& frame);
 
 enum PrimitiveFlags : std::uint16_t {
   kTriangle = 1,  // the fourth corner is the first again

@@ -28,8 +28,7 @@ double merge_unit_px(const Frame& frame) { return 0.5 * frame.full_width; }
 }  // namespace
 
 PrimitiveBuilder::PrimitiveBuilder(const Frame& frame, const TiledOptions& options)
-    : frame_(frame),
-      merge_steps_(options.merge_steps),
+    : frame_(frame), merge_steps_(options.merge_steps),
       merge_threshold_px_(static_cast<float>(options.merge_threshold * merge_unit_px(frame))) {}
 
 void PrimitiveBuilder::place_vertices(const RayGrid& grid) {
@@ -82,8 +81,9 @@ void PrimitiveBuilder::find_cells(const RayGrid& grid) {
       const bool failed = any([&](std::size_t k) { return !std::isfinite(grid.r_rel[k]); });
       const bool lit = any([&](std::size_t k) { return grid.blocked[k] <= 0.0F; });
       area_[(static_cast<std::size_t>(iy) + 1) * pitch + static_cast<std::size_t>(ix) + 1] =
-          failed ? std::numeric_limits<float>::quiet_NaN()
-                 : 0.5F * ((x_[v[2]] - x_[v[0]]) * (y_[v[3]] - y_[v[1]]) - (x_[v[3]] - x_[v[1]]) * (y_[v[2]] - y_[v[0]]));
+          failed
+              ? std::numeric_limits<float>::quiet_NaN()
+              : 0.5F * ((x_[v[2]] - x_[v[0]]) * (y_[v[3]] - y_[v[1]]) - (x_[v[3]] - x_[v[1]]) * (y_[v[2]] - y_[v[0]]));
       state_[cell] = !lit ? CellState::Dark : !failed && is_convex(v) ? CellState::Whole : CellState::InTriangles;
       levels_[0].is_whole[cell] = state_[cell] == CellState::Whole ? 1 : 0;
       const auto& t = grid.transmission;
@@ -165,9 +165,9 @@ void PrimitiveBuilder::merge(const RayGrid& grid) {
                                                finer.at(2 * ix, 2 * iy + 1), finer.at(2 * ix + 1, 2 * iy + 1)};
         const auto is_whole = [&](std::size_t k) { return finer.is_whole[k] != 0; };
         if (!std::all_of(parts.begin(), parts.end(), is_whole) || !is_flat(grid, step, ix, iy)) continue;
-        const std::array<std::size_t, 4> corners{
-            grid.at(ix * size, iy * size), grid.at((ix + 1) * size, iy * size),
-            grid.at((ix + 1) * size, (iy + 1) * size), grid.at(ix * size, (iy + 1) * size)};
+        const std::array<std::size_t, 4> corners{grid.at(ix * size, iy * size), grid.at((ix + 1) * size, iy * size),
+                                                 grid.at((ix + 1) * size, (iy + 1) * size),
+                                                 grid.at(ix * size, (iy + 1) * size)};
         if (!is_convex(corners)) continue;
         level.is_whole[level.at(ix, iy)] = 1;
         level.flux[level.at(ix, iy)] =
@@ -252,8 +252,9 @@ void PrimitiveBuilder::emit(const RayGrid& grid, int step, int ix, int iy) {
   const int size = 1 << step;
   const bool whole = ix < level.side && iy < level.side && level.is_whole[level.at(ix, iy)] != 0;
   if (whole) {
-    emit_quad(grid, {grid.at(ix * size, iy * size), grid.at((ix + 1) * size, iy * size),
-                     grid.at((ix + 1) * size, (iy + 1) * size), grid.at(ix * size, (iy + 1) * size)},
+    emit_quad(grid,
+              {grid.at(ix * size, iy * size), grid.at((ix + 1) * size, iy * size),
+               grid.at((ix + 1) * size, (iy + 1) * size), grid.at(ix * size, (iy + 1) * size)},
               level.flux[level.at(ix, iy)]);
     return;
   }

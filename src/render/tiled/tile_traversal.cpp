@@ -7,8 +7,8 @@
 #define HWY_DISABLED_TARGETS (HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128 | HWY_RVV)
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "render/tiled/tile_traversal.cpp"
-#include <hwy/foreach_target.h>
 #include <hwy/cache_control.h>
+#include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
 #include "kernels/packet-inl.h"
@@ -48,10 +48,12 @@ HWY_INLINE Mask passes(const IrisShape& iris, P x, P y, P total) {
 HWY_INLINE Mask unblocked(const TraversalInput& input, const Primitive& p, const hk::Weights<P>& weights) {
   Mask open = hn::Le(interpolate(weights, p.r_rel).v, weights.total.v);
   if (p.crossings == 0) return open;
-  open = hn::And(open, passes(input.iris, interpolate(weights, p.stop_x), interpolate(weights, p.stop_y), weights.total));
+  open =
+      hn::And(open, passes(input.iris, interpolate(weights, p.stop_x), interpolate(weights, p.stop_y), weights.total));
   for (std::uint32_t c = 0; c + 1 < p.crossings; ++c) {
     const StopPlaces& places = input.buffer.more_crossings[p.more_crossings + c];
-    open = hn::And(open, passes(input.iris, interpolate(weights, places.x), interpolate(weights, places.y), weights.total));
+    open = hn::And(open,
+                   passes(input.iris, interpolate(weights, places.x), interpolate(weights, places.y), weights.total));
   }
   return open;
 }
@@ -125,16 +127,12 @@ void traverse_by(const TraversalInput& input, std::span<const std::uint32_t> lis
 void traverse(const TraversalInput& input, std::span<const std::uint32_t> list, TilePixels& tile) {
   using Interpolation = TiledOptions::Interpolation;
   switch (input.interpolation) {
-    case Interpolation::Triangle:
-      return traverse_by<hk::TriangleByMatrix, hk::TriangleByMatrix>(input, list, tile);
+    case Interpolation::Triangle: return traverse_by<hk::TriangleByMatrix, hk::TriangleByMatrix>(input, list, tile);
     case Interpolation::HomogeneousTriangle:
       return traverse_by<hk::TriangleByCrossProduct, hk::TriangleByCrossProduct>(input, list, tile);
-    case Interpolation::MeanValue:
-      return traverse_by<hk::MeanValue, hk::TriangleByCrossProduct>(input, list, tile);
-    case Interpolation::Wachspress:
-      return traverse_by<hk::Wachspress, hk::TriangleByCrossProduct>(input, list, tile);
-    case Interpolation::LoopDeRose:
-      return traverse_by<hk::LoopDeRose, hk::TriangleByCrossProduct>(input, list, tile);
+    case Interpolation::MeanValue: return traverse_by<hk::MeanValue, hk::TriangleByCrossProduct>(input, list, tile);
+    case Interpolation::Wachspress: return traverse_by<hk::Wachspress, hk::TriangleByCrossProduct>(input, list, tile);
+    case Interpolation::LoopDeRose: return traverse_by<hk::LoopDeRose, hk::TriangleByCrossProduct>(input, list, tile);
   }
 }
 

@@ -127,8 +127,8 @@ void list_items(const FramePlan& plan, Job& job) {
     for (const PlannedLight& light : plan.lights) {
       for (const PlannedPass& pass : light.passes) {
         job.items.push_back({ghost, light.direction, pass.lambda_nm});
-        job.gains.push_back({static_cast<float>(pass.gain[0]), static_cast<float>(pass.gain[1]),
-                             static_cast<float>(pass.gain[2])});
+        job.gains.push_back(
+            {static_cast<float>(pass.gain[0]), static_cast<float>(pass.gain[1]), static_cast<float>(pass.gain[2])});
       }
     }
   }
@@ -158,7 +158,8 @@ TracedItem trace_item(const Job& job, std::size_t index, Workspace& workspace) {
                                        job.settings.frame.pixel_pitch_mm);
   workspace.grid.trace(path, tables, job.iris, item.direction, window.z_mm, region->pupil_mm, side, precision);
   count_rays(static_cast<std::uint64_t>(side) * static_cast<std::uint64_t>(side));
-  out.counts.primitives = workspace.builder.build(workspace.grid, item.direction.z, static_cast<std::uint32_t>(index), out.buffer);
+  out.counts.primitives =
+      workspace.builder.build(workspace.grid, item.direction.z, static_cast<std::uint32_t>(index), out.buffer);
   out.counts.trace_ms = ms_since(start);
   return out;
 }

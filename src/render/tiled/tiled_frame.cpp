@@ -18,11 +18,7 @@ double ms_since(Clock::time_point start) {
 
 TiledFrame::TiledFrame(const RenderSettings& settings, const Context& context, const IrisShape& iris,
                        std::span<const Gain> gains, const HeldLimits& limits)
-    : settings_(settings),
-      context_(context),
-      iris_(iris),
-      gains_(gains),
-      limits_(limits),
+    : settings_(settings), context_(context), iris_(iris), gains_(gains), limits_(limits),
       coarse_grid_{settings.frame.width, settings.frame.height, std::max(1, settings.tiled.coarse_tile)},
       dense_grid_{settings.frame.width, settings.frame.height, settings.tiled.dense_tile},
       image_(settings.frame.width, settings.frame.height, 3) {

@@ -1,0 +1,106 @@
+// Every renderer the driver knows, with what is asked of each. The cases of this folder are the same for all.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <doctest/doctest.h>
+
+#include "contrejour/metrics.h"
+#include "contrejour/render.h"
+#include "support/scenes.h"
+
+namespace contrejour::test {
+
+struct Bounds {
+  std::string_view method;
+  double psnr_db = 50;        // at least, against `reference`
+  double flux = 0.005;        // at most this share off in a flare's flux
+  double addition = 1e-5;     // two lights against the sum of each, a window against its part of the frame: of the peak
+  double jump = 0.02;         // of the peak, beyond the reference's own change, when the light moves a hundredth of a pixel
+  bool covers_pixels = true;  // a pixel holds all the light on it; false: it is sampled at its middle
+};
+
+// A method that is not listed must meet the defaults.
+inline Bounds bounds_of(std::string_view method) {
+  constexpr Bounds kBounds[] = {
+      {.method = "reference", .psnr_db = 200.0, .flux = 1e-6},
+      {.method = "bundle", .psnr_db = 57.0},
+      // One sample a pixel: edges are steps, and ghosts of a few pixels are off in flux.
+      {.method = "tiled", .psnr_db = 28.0, .flux = 0.05, .jump = 1.0, .covers_pixels = false},
+      // Where it spends its error depends on all the light in the frame.
+      {.method = "adaptive", .psnr_db = 50.0, .addition = 5e-3},
+  };
+  for (const Bounds& bounds : kBounds) {
+    if (bounds.method == method) return bounds;
+  }
+  return {.method = method};
+}
+
+// body(bounds) for every method of the driver.
+template <class Body>
+void for_each_method(Body body) {
+  for (const std::string_view method : render_methods()) {
+    const std::string name(method);
+    CAPTURE(name);
+    body(bounds_of(method));
+  }
+}
+
+// The flare; every value of it is a finite number.
+inline Flare flare_of(std::string_view method, const LensState& lens, std::span<const Light> lights,
+                      const RenderSettings& settings, const Context& context = {}) {
+  auto flare = render(method, lens, lights, settings, context);
+  REQUIRE(flare.has_value());
+  const auto& pixels = flare->image.pixels;
+  CHECK(std::all_of(pixels.begin(), pixels.end(), [](float v) { return std::isfinite(v); }));
+  return *flare;
+}
+
+inline Image image_of(const Bounds& method, const LensState& lens, std::span<const Light> lights,
+                      const RenderSettings& settings) {
+  return flare_of(method.method, lens, lights, settings).image;
+}
+
+inline Image image_of(const Bounds& method, const LensState& lens, const Light& light, const RenderSettings& settings) {
+  return image_of(method, lens, std::span(&light, 1), settings);
+}
+
+inline Image truth_of(const LensState& lens, const Light& light, const RenderSettings& settings) {
+  return image_of(bounds_of("reference"), lens, light, settings);
+}
+
+// A frame on the lens's sensor at 550 nm, with a grid that is quick.
+inline RenderSettings small_frame(const LensState& lens, int width, int height) {
+  RenderSettings settings = green(frame_on_sensor(lens, width, height));
+  settings.grid = 128;
+  return settings;
+}
+
+inline double peak_of(const Image& image) { return *std::max_element(image.pixels.begin(), image.pixels.end()); }
+
+inline double largest_difference(const Image& a, const Image& b) {
+  REQUIRE(a.pixels.size() == b.pixels.size());
+  double worst = 0.0;
+  for (std::size_t k = 0; k < a.pixels.size(); ++k) {
+    worst = std::max(worst, std::abs(static_cast<double>(a.pixels[k]) - b.pixels[k]));
+  }
+  return worst;
+}
+
+inline double psnr_db(const Image& truth, const Image& image) {
+  const auto difference = compare(truth, image);
+  REQUIRE(difference.has_value());
+  return difference->psnr_db.value_or(1000.0);
+}
+
+// PSNR and flux against the truth, as the method's bounds ask.
+inline void check_against(const Image& truth, const Image& image, const Bounds& bounds) {
+  CHECK(psnr_db(truth, image) >= bounds.psnr_db);
+  CHECK(sum(image) / sum(truth) == doctest::Approx(1.0).epsilon(bounds.flux));
+}
+
+}  // namespace contrejour::test
