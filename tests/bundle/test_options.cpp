@@ -49,10 +49,12 @@ Image one_ghost(const LensState& lens, Ghost ghost, const Light& light, const Re
   FramePlan plan;
   plan.ghosts = {ghost};
   plan.lights = {{normalized(light.direction), {}}};
+  std::vector<double> lambda_nm;
   for (const SpectralBand& band : spectral_bands(settings.wavelengths, light.spectrum, settings.colour_space)) {
     plan.lights[0].passes.push_back({band.lambda_nm, band.weight});
+    lambda_nm.push_back(band.lambda_nm);
   }
-  const TablesByWavelength tables = tables_for(plan, lens, {});
+  const TablesByWavelength tables = tables_for(lens, lambda_nm, {});
   Image image(settings.frame.width, settings.frame.height, 3);
   for (const bundle::Item& item : bundle::items_of(plan, settings.bundle)) {
     const auto part = bundle::ItemRenderer(item, lens, settings, tables, nullptr, {}).render();
