@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "render/adaptive/extremes.h"
+#include "render/adaptive/lobatto.h"
 
 namespace contrejour::adaptive {
 namespace {
@@ -12,17 +14,24 @@ constexpr std::array kNodes{5, 9, 17};
 // Float places a ray on the sensor to some 1e-3 mm at worst; it must be given room enough at the entrance, too.
 constexpr double kFloatError_mm = 1e-3;
 constexpr double kFloatBox_mm = 0.05;
+constexpr double kWorthShrinking = 0.5;  // a box whose lit part has no more of its area is shrunk to it
 constexpr double kNoLimit = 1e9;
 constexpr double kPeaks = 4.0;         // fits of what is so many times brighter than the peak need be no better
 constexpr float kNearlyThrough = 1.2F; // of the clear height
 constexpr double kShiftShare = 1.0;    // of a fit's tolerance that a band of wavelengths may take on either side
 constexpr double kCellsPerItem = 64.0;  // an item's squared error is shared among so many cells
 
-// Whether any cell between the nodes may let light through; the iris counts as its circumscribed circle.
-bool may_pass(const RaySheet& sheet) {
+// Bounds of the cells between the nodes that may let light through, none if none may; the iris counts as its
+// circumscribed circle.
+std::optional<Rectangle> lit_part(const RaySheet& sheet) {
   const auto n = static_cast<std::size_t>(sheet.nodes);
+  const auto points = lobatto_points(sheet.nodes);
+  const Vec2 half = (sheet.box.high - sheet.box.low) * 0.5;
+  std::optional<Rectangle> part;
   for (std::size_t cell = 0; cell + n < sheet.count(); ++cell) {
-    if (cell % n == n - 1) continue;
+    const std::size_t ix = cell % n;
+    const std::size_t iy = cell / n;
+    if (ix == n - 1) continue;
     std::array<Extremes, 1 + kMaxStopCrossings> extremes;
     bool any = false;
     for (const std::size_t k : {cell, cell + 1, cell + n, cell + n + 1}) {
@@ -30,14 +39,23 @@ bool may_pass(const RaySheet& sheet) {
       any = true;
       extremes[0].add(sheet.r_rel[k] - 1.0F);
       for (std::size_t c = 0; c < sheet.stop.size(); ++c) {
-        extremes[1 + c].add(std::hypot(sheet.stop[c][0][k], sheet.stop[c][1][k]) - 1.0F);
+        const float x = sheet.stop[c][0][k];
+        const float y = sheet.stop[c][1][k];
+        extremes[1 + c].add(std::sqrt(x * x + y * y) - 1.0F);
       }
     }
     for (std::size_t l = 0; l < 1 + sheet.stop.size(); ++l) any = any && extremes[l].may_pass(1.0F);
-    if (any) return true;
+    if (!any) continue;
+    const Vec2 low = sheet.box.low + Vec2{half.x * (1.0 + points[ix]), half.y * (1.0 + points[iy])};
+    const Vec2 high = sheet.box.low + Vec2{half.x * (1.0 + points[ix + 1]), half.y * (1.0 + points[iy + 1])};
+    if (!part) part = {low, high};
+    part->low = {std::min(part->low.x, low.x), std::min(part->low.y, low.y)};
+    part->high = {std::max(part->high.x, high.x), std::max(part->high.y, high.y)};
   }
-  return false;
+  return part;
 }
+
+double area(const Rectangle& r) { return (r.high.x - r.low.x) * (r.high.y - r.low.y); }
 
 }  // namespace
 
@@ -152,7 +170,11 @@ void GhostPainter::paint_box(SheetTracer& tracer, const Rectangle& box, int dept
                              CellPainter& cells) {
   for (std::size_t k = depth == 0 ? 1 : 0; k < kNodes.size(); ++k) {
     const RaySheet sheet = tracer.trace(box, kNodes[k], precision_for(box, tolerance));
-    if (!may_pass(sheet)) return;
+    const auto part = lit_part(sheet);
+    if (!part) return;
+    if (depth < deepest_ && area(*part) < kWorthShrinking * area(box)) {
+      return paint_box(tracer, *part, depth + 1, tolerance, cells);
+    }
     const bool last = k + 1 == kNodes.size();
     if (sheet.failed == 0) {
       const Patch patch = make_patch(sheet, light_, frame_);

@@ -93,29 +93,40 @@ class Search {
     }
   }
 
-  // Each cell by nine rays into four, of which those stay that may let light through.
+  // Each cell by nine rays, shared with its neighbours, into four, of which those stay that may let light through.
   void quarter() {
     columns_ *= 2;
+    std::vector<std::uint64_t> places;
+    const auto place = [](const Cell& cell, int k) {
+      return static_cast<std::uint64_t>(2 * cell.row + k / 3) << 32U | static_cast<std::uint32_t>(2 * cell.column + k % 3);
+    };
+    for (const Cell& cell : cells_) {
+      for (int k = 0; k < 9; ++k) places.push_back(place(cell, k));
+    }
+    std::sort(places.begin(), places.end());
+    places.erase(std::unique(places.begin(), places.end()), places.end());
     x_mm_.clear();
     y_mm_.clear();
     const Vec2 size = cell_size();
-    for (const Cell& cell : cells_) {
-      for (int k = 0; k < 9; ++k) {
-        x_mm_.push_back(static_cast<float>((2 * cell.column + k % 3) * size.x));
-        y_mm_.push_back(static_cast<float>((2 * cell.row + k / 3) * size.y));
-      }
+    for (const std::uint64_t p : places) {
+      x_mm_.push_back(static_cast<float>(static_cast<double>(p & 0xFFFFFFFFU) * size.x));
+      y_mm_.push_back(static_cast<float>(static_cast<double>(p >> 32U) * size.y));
     }
     trace();
     std::vector<Cell> kept;
     open_ = 0;
-    for (std::size_t c = 0; c < cells_.size(); ++c) {
+    for (const Cell& cell : cells_) {
+      std::array<std::size_t, 9> ray{};
+      for (int row = 0; row < 3; ++row) {  // the three of a row are neighbours
+        const auto first = std::lower_bound(places.begin(), places.end(), place(cell, 3 * row)) - places.begin();
+        for (int k = 0; k < 3; ++k) ray[static_cast<std::size_t>(3 * row + k)] = static_cast<std::size_t>(first + k);
+      }
       for (int k = 0; k < 4; ++k) {
-        const std::size_t at = 9 * c + static_cast<std::size_t>(k % 2 + 3 * (k / 2));
-        const std::array<std::size_t, 4> corners{at, at + 1, at + 3, at + 4};
-        if (may_pass(corners, kReach)) {
-          if (std::any_of(corners.begin(), corners.end(), [&](std::size_t v) { return is_open(v); })) ++open_;
-          kept.push_back({2 * cells_[c].column + k % 2, 2 * cells_[c].row + k / 2});
-        }
+        const auto at = static_cast<std::size_t>(k % 2 + 3 * (k / 2));
+        const std::array<std::size_t, 4> corners{ray[at], ray[at + 1], ray[at + 3], ray[at + 4]};
+        if (!may_pass(corners, kReach)) continue;
+        if (std::any_of(corners.begin(), corners.end(), [&](std::size_t v) { return is_open(v); })) ++open_;
+        kept.push_back({2 * cell.column + k % 2, 2 * cell.row + k / 2});
       }
     }
     cells_.swap(kept);
