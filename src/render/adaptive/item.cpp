@@ -10,7 +10,10 @@
 namespace contrejour::adaptive {
 namespace {
 
-constexpr double kMargin = 0.03;  // of a box's size, on every side, for the other wavelengths
+constexpr double kMargin = 0.03;  // of a box's size, on every side
+constexpr double kWidening = 0.2; // the same, where another wavelength needs more
+constexpr int kMostWidenings = 4;
+constexpr int kWideningNodes = 5;
 constexpr int kDeepest = 4;       // quarterings of a box
 constexpr int kPeakDeepest = 1;
 constexpr double kPeakQuantile = 0.999;
@@ -18,7 +21,45 @@ constexpr int kPeakScale = 8;  // the frame's pixels over those of the small one
 
 const PlannedPass& middle_pass(const PlannedLight& light) { return light.passes[light.passes.size() / 2]; }
 
-// Where rays get through, at the middle wavelength.
+// Whether light comes through at the very border of a sheet's box.
+bool is_cut_off(const Scene& scene, const LightFrame& light, const RaySheet& sheet) {
+  if (sheet.failed > 0) {
+    const int last = sheet.nodes - 1;
+    for (int k = 0; k < sheet.nodes * sheet.nodes; ++k) {
+      const int x = k % sheet.nodes;
+      const int y = k / sheet.nodes;
+      if ((x == 0 || y == 0 || x == last || y == last) && is_open(sheet, static_cast<std::size_t>(k))) return true;
+    }
+    return false;
+  }
+  const Mesh mesh = make_mesh(make_patch(sheet, light, Frame{1, 1, 0, 0, 1, 1, 1.0}), scene.iris);
+  for (int k = 0; k < Mesh::kSide; ++k) {
+    for (const std::size_t v : {Mesh::at(k, 0), Mesh::at(k, Mesh::kCells), Mesh::at(0, k), Mesh::at(Mesh::kCells, k)}) {
+      if (mesh.outside[v] == 0) return true;
+    }
+  }
+  return false;
+}
+
+// A box found at one wavelength, wide enough for another. Boxes beside the axis of symmetry stay on their side.
+Work widen(const Scene& scene, const Item& item, double lambda_nm, Rectangle& box) {
+  const LightFrame light(item.light->direction);
+  const EntranceWindow window = entrance_window(scene.lens, light.direction);
+  const PlannedPass pass{lambda_nm, {}};
+  SheetTracer tracer(scene.lens, item.ghost, light, window.z_mm, {lambda_nm, {&pass, 1}}, scene.plan.tables);
+  for (int step = 0; step < kMostWidenings; ++step) {
+    if (!is_cut_off(scene, light, tracer.trace(box, kWideningNodes, PacketPrecision::Double))) break;
+    const Vec2 more = (box.high - box.low) * kWidening;
+    const Rectangle before = box;
+    box.low = {std::max(box.low.x - more.x, std::min(box.low.x, window.min_mm.x)), box.low.y - more.y};
+    box.high = {std::min(box.high.x + more.x, std::max(box.high.x, window.max_mm.x)), box.high.y + more.y};
+    if (before.low.y >= 0.0) box.low.y = std::max(box.low.y, 0.0);
+    if (before.high.y <= 0.0) box.high.y = std::min(box.high.y, 0.0);
+  }
+  return {tracer.rays(), tracer.surface_hits()};
+}
+
+// Where rays get through, at all wavelengths of the light.
 Work find_boxes(const Scene& scene, Item& item) {
   const LightFrame light(item.light->direction);
   const double lambda_nm = middle_pass(*item.light).lambda_nm;
@@ -28,8 +69,13 @@ Work find_boxes(const Scene& scene, Item& item) {
     const Vec2 margin = (box.high - box.low) * kMargin;
     box = {box.low - margin, box.high + margin};
   }
+  Work work{found.rays, found.rays * path.steps.size()};
+  for (Rectangle& box : found.boxes) {
+    work.add(widen(scene, item, item.light->passes.front().lambda_nm, box));
+    work.add(widen(scene, item, item.light->passes.back().lambda_nm, box));
+  }
   item.boxes = std::move(found.boxes);
-  return {found.rays, found.rays * path.steps.size()};
+  return work;
 }
 
 Painted paint(const Scene& scene, const Item& item, std::span<const PlannedPass> passes, const Frame& frame,

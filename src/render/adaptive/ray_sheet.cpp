@@ -21,6 +21,13 @@ void complete(float* values, int nodes, float sign) {
 
 }  // namespace
 
+bool is_open(const RaySheet& sheet, std::size_t node) {
+  if (sheet.r_rel[node] > 1.0F) return false;
+  return std::all_of(sheet.stop.begin(), sheet.stop.end(), [node](const auto& s) {
+    return s[0][node] * s[0][node] + s[1][node] * s[1][node] <= 1.0F;
+  });
+}
+
 SheetTracer::SheetTracer(const LensState& lens, Ghost ghost, const LightFrame& light, double plane_z_mm,
                          const Band& band, const TablesByWavelength& tables)
     : light_(light), plane_z_mm_(plane_z_mm), band_(band) {

@@ -33,6 +33,9 @@ struct RaySheet {
   [[nodiscard]] std::size_t count() const { return static_cast<std::size_t>(nodes) * static_cast<std::size_t>(nodes); }
 };
 
+// Whether a node's ray gets through; the iris counts as its circumscribed circle.
+[[nodiscard]] bool is_open(const RaySheet& sheet, std::size_t node);
+
 class SheetTracer {
  public:
   // The tables must hold every wavelength of the band.
