@@ -27,16 +27,12 @@ namespace fs = std::filesystem;
 constexpr const char* kExamples =
     "Bright areas of the picture become lights where they are, and the flare they make in the lens is added. All else\n"
     "in the file stays as it is; a picture without lights comes back unchanged, bit for bit. IN and OUT may be the\n"
-    "same file. Without --hfov the picture is taken to fill the lens's sensor. Without --grid\n"
-    "96 rays a side are traced for each ghost, fewer for small ones.\n\n"
+    "same file. Without --hfov the picture is taken to fill the lens's sensor.\n\n"
     "Examples:\n"
     "  contrejour apply canon-70-200 --focal 135 plate.exr -o out.exr --preview out.png\n"
     "  contrejour apply heliar -f 16 plate.exr -o out.exr --flare-only flare.exr --hfov 40 --json\n"
     "  contrejour apply nikon-80-200 plate.exr -o out.exr --threshold 50 --max-lights 8 --gain 2";
 
-// A photograph has several lights, and a large pupil spreads most ghosts over smooth discs: fewer rays than a
-// single render's show them as well.
-constexpr int kUsualGrid = 96;
 // The lights' colours stay right; only the flare's own tint is then slightly off.
 constexpr const char* kGuessedSpace =
     "the picture's primaries are neither Rec.709 nor ACEScg; its flare is computed as for Rec.709 (--colour-space)";
@@ -92,11 +88,7 @@ Result<void> write_flare_only(const fs::path& file, const Picture& picture, cons
 
 Result<Flare> render_plan(const ApplyOptions& options, const LensState& lens, const params::FlarePlan& plan) {
   if (plan.lights.empty()) return Flare{Image(plan.frame.width, plan.frame.height), {}};
-  RenderSettings settings = params::render_settings(options.values, plan.frame, plan.space);
-  if (!options.values.given("grid")) {
-    settings.grid = kUsualGrid;
-    settings.scale_grid = true;
-  }
+  const RenderSettings settings = params::render_settings(options.values, plan.frame, plan.space);
   const LongTask task("rendering", options.values.integer("threads"));
   return render(*options.values.text("method"), lens, plan.lights, settings, task.context());
 }

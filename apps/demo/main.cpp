@@ -89,14 +89,10 @@ Result<std::size_t> show_applied(const LensState& lens, const params::Values& va
   return plan->lights.size();
 }
 
-// Settings that take seconds where the defaults take minutes: coarser grids, most of all for small ghosts, and of the
-// street's many lights the faint ones are merged.
+// Of the street's many lights the faint ones are merged.
 Result<params::Values> quick_values() {
   params::Values values;
-  for (const auto& [name, text] :
-       {std::pair{"grid", "128"}, {"scale-grid", "on"}, {"max-lights", "6"}}) {
-    if (auto ok = values.set(name, text); !ok) return tl::unexpected(ok.error());
-  }
+  if (auto ok = values.set("max-lights", "16"); !ok) return tl::unexpected(ok.error());
   return values;
 }
 
