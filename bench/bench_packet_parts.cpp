@@ -102,7 +102,8 @@ const bool kRegistered = [] {
       benchmark::RegisterBenchmark(("geometry_only/" + set + "/float/" + lens).c_str(), geometry_of, lens,
                                    static_cast<std::int64_t>(target));
     }
-    benchmark::RegisterBenchmark(("look_ups/" + set + "/float").c_str(), look_ups_of, static_cast<std::int64_t>(target));
+    benchmark::RegisterBenchmark(("look_ups/" + set + "/float").c_str(), look_ups_of,
+                                 static_cast<std::int64_t>(target));
   }
   return true;
 }();

@@ -47,7 +47,8 @@ const bool kRegistered = [] {
       for (const PacketPrecision precision : {PacketPrecision::Float, PacketPrecision::Double}) {
         const std::string name = std::string("trace_packets/") + hwy::TargetName(target) +
                                  (precision == PacketPrecision::Float ? "/float" : "/double") + end;
-        benchmark::RegisterBenchmark(name.c_str(), trace_packets_of, lens, static_cast<std::int64_t>(target), precision);
+        benchmark::RegisterBenchmark(name.c_str(), trace_packets_of, lens, static_cast<std::int64_t>(target),
+                                     precision);
       }
     }
   }

@@ -59,8 +59,8 @@ void trace_longest_ghost(benchmark::State& state, const char* name) {
   const LensState lens = bundled(state, name);
   if (lens.surfaces.empty()) return;
   const std::vector<Ghost> ghosts = enumerate_ghosts(lens, GhostScope::OneSideOfStop);
-  const Ghost longest = *std::max_element(ghosts.begin(), ghosts.end(),
-                                          [](Ghost a, Ghost b) { return a.j - a.i < b.j - b.i; });
+  const Ghost longest =
+      *std::max_element(ghosts.begin(), ghosts.end(), [](Ghost a, Ghost b) { return a.j - a.i < b.j - b.i; });
   run(state, lens, ghost_path(lens, longest, 550.0));
 }
 

@@ -148,8 +148,8 @@ class EntryBuilder {
 
   // Stretches from a to b: halved until a straight line holds, or the angle at which the pupil closes is near.
   void lay(const Node& a, const Node& b, int depth) {
-    const Node middle = look(0.5 * (a.angle_rad + b.angle_rad), guess_between(a, b),
-                             std::max(effort_for(a), effort_for(b)));
+    const Node middle =
+        look(0.5 * (a.angle_rad + b.angle_rad), guess_between(a, b), std::max(effort_for(a), effort_for(b)));
     const bool all = a.region && middle.region && b.region;
     const bool none = !a.region && !middle.region && !b.region;
     if (all) {
@@ -206,9 +206,8 @@ PupilBounds::PupilBounds(const LensState& lens, const PupilBoundsRange& range, c
   Context quiet = context;
   quiet.progress = {};
   std::vector<std::unique_ptr<const ReflectanceTables>> tables(range.lambda_nm.size());
-  parallel_for(tables.size(), quiet, [&](std::size_t k) {
-    tables[k] = std::make_unique<const ReflectanceTables>(lens, range.lambda_nm[k]);
-  });
+  parallel_for(tables.size(), quiet,
+               [&](std::size_t k) { tables[k] = std::make_unique<const ReflectanceTables>(lens, range.lambda_nm[k]); });
   std::vector<Entry> built(range.ghosts.size());
   const bool done = parallel_for(built.size(), quiet, [&](std::size_t g) {
     std::vector<AtWavelength> paths;
@@ -290,7 +289,8 @@ std::optional<PupilRegion> ZoomPupilBounds::find(const LensState& lens, Ghost gh
   const auto shorter = [&](const std::vector<Node>& row) { return row.front().focal_length_mm < lens.focal_length_mm; };
   const auto wider = [&](const Node& node) { return node.stop_radius_mm > lens.stop_radius_mm; };
   for (const std::size_t z : neighbours(by_zoom_, shorter)) {
-    for (const std::size_t s : neighbours(by_zoom_[z], wider)) add(region, by_zoom_[z][s].bounds.find(ghost, angle_rad));
+    for (const std::size_t s : neighbours(by_zoom_[z], wider))
+      add(region, by_zoom_[z][s].bounds.find(ghost, angle_rad));
   }
   return region;
 }

@@ -117,8 +117,8 @@ std::optional<PupilRegion> find_pupil_region(const OpticalPath& path, const Refl
 }
 
 std::optional<PupilRegion> find_pupil_region_in(const Rectangle& guess, const OpticalPath& path,
-                                                const ReflectanceTables& tables, const IrisShape& iris,
-                                                Vec3 direction, const EntranceWindow& window, RayGrid& scratch) {
+                                                const ReflectanceTables& tables, const IrisShape& iris, Vec3 direction,
+                                                const EntranceWindow& window, RayGrid& scratch) {
   const Rectangle box{{std::max(guess.low.x, window.min_mm.x), std::max(guess.low.y, window.min_mm.y)},
                       {std::min(guess.high.x, window.max_mm.x), std::min(guess.high.y, window.max_mm.y)}};
   if (!(box.low.x < box.high.x && box.low.y < box.high.y)) return std::nullopt;

@@ -8,8 +8,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "optics/trace/packet_trace.h"
 #include "ghosts/iris_shape.h"
+#include "optics/trace/packet_trace.h"
 
 namespace contrejour {
 

@@ -103,8 +103,8 @@ TEST_CASE("half the rays, mirrored, are the rays that would have been traced") {
     RayGrid whole;
     RayGrid half;
     whole.trace(path, tables, iris, meridian.direction, window.z_mm, box, side, PacketPrecision::Double);
-    const std::size_t traced = half.trace_mirrored(path, tables, iris, meridian.direction, window.z_mm, box, side,
-                                                   PacketPrecision::Double);
+    const std::size_t traced =
+        half.trace_mirrored(path, tables, iris, meridian.direction, window.z_mm, box, side, PacketPrecision::Double);
     CHECK(traced == static_cast<std::size_t>(side * ((side + 1) / 2)));
     double worst = 0.0;
     for (std::size_t k = 0; k < whole.blocked.size(); ++k) {

@@ -19,22 +19,23 @@ struct Bounds {
   std::string_view method;
   double psnr_db = 50;        // at least, against `reference`
   double flux = 0.005;        // at most this share off in a flare's flux
-  double addition = 1e-5;     // two lights against the sum of each, a window against its part of the frame: of the peak
-  double jump = 0.02;         // of the peak, beyond the reference's own change, when the light moves a hundredth of a pixel
+  double addition = 1e-5;  // of the peak: two lights against the sum of each, a window against its part of the frame
+  double jump = 0.02;  // of the peak, beyond the reference's own change, as the light moves 0.01 pixel
+  double rms = 1.0;  // of the frame's peak, at most: what a method promises by itself
   bool covers_pixels = true;  // a pixel holds all the light on it; false: it is sampled at its middle
 };
 
 // A method that is not listed must meet the defaults.
 inline Bounds bounds_of(std::string_view method) {
-  constexpr Bounds kBounds[] = {
+  const Bounds all[] = {
       {.method = "reference", .psnr_db = 200.0, .flux = 1e-6},
       {.method = "bundle", .psnr_db = 57.0},
       // One sample a pixel: edges are steps, and ghosts of a few pixels are off in flux.
       {.method = "tiled", .psnr_db = 28.0, .flux = 0.05, .jump = 1.0, .covers_pixels = false},
       // Where it spends its error depends on all the light in the frame.
-      {.method = "adaptive", .psnr_db = 50.0, .addition = 5e-3},
+      {.method = "adaptive", .psnr_db = 50.0, .addition = 5e-3, .rms = RenderSettings{}.error},
   };
-  for (const Bounds& bounds : kBounds) {
+  for (const Bounds& bounds : all) {
     if (bounds.method == method) return bounds;
   }
   return {.method = method};
@@ -97,8 +98,18 @@ inline double psnr_db(const Image& truth, const Image& image) {
   return difference->psnr_db.value_or(1000.0);
 }
 
-// PSNR and flux against the truth, as the method's bounds ask.
+inline double rms_difference(const Image& a, const Image& b) {
+  REQUIRE(a.pixels.size() == b.pixels.size());
+  double squares = 0.0;
+  for (std::size_t k = 0; k < a.pixels.size(); ++k) {
+    squares += std::pow(static_cast<double>(a.pixels[k]) - b.pixels[k], 2.0);
+  }
+  return std::sqrt(squares / static_cast<double>(a.pixels.size()));
+}
+
+// PSNR, error and flux against the truth, as the method's bounds ask.
 inline void check_against(const Image& truth, const Image& image, const Bounds& bounds) {
+  CHECK(rms_difference(truth, image) <= bounds.rms * peak_of(truth));
   CHECK(psnr_db(truth, image) >= bounds.psnr_db);
   CHECK(sum(image) / sum(truth) == doctest::Approx(1.0).epsilon(bounds.flux));
 }

@@ -118,7 +118,6 @@ TEST_CASE("a frame of one pixel holds what all pixels of the same area hold") {
 TEST_CASE("the same bits for 1, 2 and 7 threads") {
   const LensState lens = heliar();
   RenderSettings settings = small_frame(lens, 48, 32);
-  settings.lambda_nm = {480.0, 640.0};
   settings.grid = 48;
   const std::vector<Light> lights{light_at(lens, settings.frame, {0.7, 0.33}),
                                   light_at(lens, settings.frame, {0.25, 0.75})};

@@ -43,7 +43,9 @@ PixelBox reached(const PixelBox& band, const BandMotion& motion, const Frame& fr
       }
     }
   }
-  const auto within = [](double v, int limit) { return static_cast<int>(std::clamp(v, 0.0, static_cast<double>(limit))); };
+  const auto within = [](double v, int limit) {
+    return static_cast<int>(std::clamp(v, 0.0, static_cast<double>(limit)));
+  };
   return {within(std::floor(low.x), frame.width), within(std::floor(low.y), frame.height),
           within(std::ceil(high.x), frame.width), within(std::ceil(high.y), frame.height)};
 }
@@ -64,8 +66,8 @@ std::vector<std::optional<BandMotion>> band_motions(std::span<const std::optiona
     const bool after = k + 1 < bands.size() && is_lit(bands[k + 1]);
     if (!before && !after) continue;
     const HalfGap neighbour = half_gap(*bands[k], before ? *bands[k - 1] : *bands[k + 1], frame);
-    const HalfGap opposite =
-        before && after ? half_gap(*bands[k], *bands[k + 1], frame) : HalfGap{neighbour.shift * -1.0, neighbour.growth * -1.0};
+    const HalfGap opposite = before && after ? half_gap(*bands[k], *bands[k + 1], frame)
+                                             : HalfGap{neighbour.shift * -1.0, neighbour.growth * -1.0};
     motions[k] = BandMotion{frame.pixel_from_sensor(bands[k]->centre_mm), neighbour.shift, opposite.shift,
                             neighbour.growth, opposite.growth};
   }

@@ -86,8 +86,9 @@ void CellRaster::find_states() {
       const auto v = grid_.corners(ix, iy);
       const std::size_t cell = cell_index(ix, iy);
       state_[cell] = state_of(v);
-      area_[cell] = failed(v) ? std::numeric_limits<float>::quiet_NaN()
-                              : static_cast<float>(0.5 * cross(pixel_[v[2]] - pixel_[v[0]], pixel_[v[3]] - pixel_[v[1]]));
+      area_[cell] = failed(v)
+                        ? std::numeric_limits<float>::quiet_NaN()
+                        : static_cast<float>(0.5 * cross(pixel_[v[2]] - pixel_[v[0]], pixel_[v[3]] - pixel_[v[1]]));
     }
   }
 }

@@ -144,8 +144,7 @@ Bounds bounds_of(std::span<const Vec2> p) {
 FluxBox::FluxBox(const PixelBox& box)
     : box_(box),
       flux_(box.empty() ? 0 : static_cast<std::size_t>(box.width()) * static_cast<std::size_t>(box.height())),
-      cover_(kPitch * (kMaxSide + 1)),
-      span_(kMaxSide + 1) {}
+      cover_(kPitch * (kMaxSide + 1)), span_(kMaxSide + 1) {}
 
 void FluxBox::add_point(Vec2 point, double flux) {
   if (!(point.x >= box_.x0 && point.x < box_.x1 && point.y >= box_.y0 && point.y < box_.y1)) return;
@@ -197,7 +196,8 @@ void FluxBox::add_inside(std::span<const Vec2> polygon, const Density& density) 
   const Vec2 origin{static_cast<double>(x0), static_cast<double>(y0)};
   const double sign = area > 0.0 ? -1.0 : 1.0;  // y down in memory: left edges rise
   for (std::size_t k = 0; k < polygon.size(); ++k) {
-    add_edge(cover_.data(), span_.data(), polygon[k] - origin, polygon[k + 1 == polygon.size() ? 0 : k + 1] - origin, sign);
+    add_edge(cover_.data(), span_.data(), polygon[k] - origin, polygon[k + 1 == polygon.size() ? 0 : k + 1] - origin,
+             sign);
   }
   for (int y = y0; y <= y1; ++y) {
     const auto row = static_cast<std::size_t>(y - y0);

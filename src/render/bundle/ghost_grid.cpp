@@ -51,10 +51,9 @@ std::optional<GhostPupil> GhostGrid::find(Ghost ghost, Vec3 direction, double la
   const EntranceWindow window = entrance_window(lens_, pupil.meridian.direction);
   pupil.plane_z_mm = window.z_mm;
 
-  const auto region = bounds_ != nullptr
-                          ? bounds_->find(ghost, pupil.meridian.angle_rad())
-                          : find_pupil_region(pupil.path, tables_of(pupil), IrisShape(pupil.iris),
-                                              pupil.meridian.direction, window, rays_);
+  const auto region = bounds_ != nullptr ? bounds_->find(ghost, pupil.meridian.angle_rad())
+                                         : find_pupil_region(pupil.path, tables_of(pupil), IrisShape(pupil.iris),
+                                                             pupil.meridian.direction, window, rays_);
   if (!region) return std::nullopt;
   pupil.region = *region;
   count_rays(region->rays, pupil.path);
@@ -88,8 +87,9 @@ void GhostGrid::trace(const GhostPupil& pupil) {
   const auto precision = precision_for(pupil.path, tables_of(pupil), direction, pupil.plane_z_mm, box, side,
                                        settings_.frame.pixel_pitch_mm);
   if (settings_.bundle.mirror_symmetry) {
-    count_rays(rays_.trace_mirrored(pupil.path, tables_of(pupil), iris, direction, pupil.plane_z_mm, box, side, precision),
-               pupil.path);
+    count_rays(
+        rays_.trace_mirrored(pupil.path, tables_of(pupil), iris, direction, pupil.plane_z_mm, box, side, precision),
+        pupil.path);
   } else {
     rays_.trace(pupil.path, tables_of(pupil), iris, direction, pupil.plane_z_mm, box, side, precision);
     count_rays(all, pupil.path);

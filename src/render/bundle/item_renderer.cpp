@@ -24,7 +24,8 @@ bool is_blurred(const BundleOptions& options, std::size_t bands) {
 }
 
 Frame finer(Frame frame, int factor) {
-  for (int* size : {&frame.width, &frame.height, &frame.origin_x, &frame.origin_y, &frame.full_width, &frame.full_height}) {
+  for (int* size :
+       {&frame.width, &frame.height, &frame.origin_x, &frame.origin_y, &frame.full_width, &frame.full_height}) {
     *size *= factor;
   }
   frame.pixel_pitch_mm /= factor;
@@ -91,9 +92,8 @@ std::vector<ItemRenderer::Layer> ItemRenderer::draw_all() {
 std::vector<ItemRenderer::Layer> ItemRenderer::draw_and_blur() {
   std::vector<std::size_t> order(item_.passes.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-    return item_.passes[a].lambda_nm < item_.passes[b].lambda_nm;
-  });
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return item_.passes[a].lambda_nm < item_.passes[b].lambda_nm; });
   std::vector<std::optional<GhostPupil>> pupils;
   std::vector<std::optional<MapFigures>> figures;
   for (const std::size_t k : order) {
@@ -144,8 +144,8 @@ RenderedItem ItemRenderer::merge(const std::vector<Layer>& layers) {
     const Rgb& gain = item_.passes[k].gain;
     const std::array<float, 3> g{static_cast<float>(gain[0]), static_cast<float>(gain[1]), static_cast<float>(gain[2])};
     for (int y = b.y0; y < b.y1; ++y) {
-      float* to = out.rgb.data() + 3 * (static_cast<std::size_t>(y - out.box.y0) * width +
-                                        static_cast<std::size_t>(b.x0 - out.box.x0));
+      float* to = out.rgb.data() +
+                  3 * (static_cast<std::size_t>(y - out.box.y0) * width + static_cast<std::size_t>(b.x0 - out.box.x0));
       for (const float flux : layers[k]->row(y)) {
         for (std::size_t c = 0; c < 3; ++c) *to++ += g[c] * flux;
       }

@@ -82,7 +82,8 @@ class MapMeter {
     figures_.centre_mm = moment_ * (1.0 / figures_.weight);
     const Vec2 square = second_moment_ * (1.0 / figures_.weight);
     const Vec2 c = figures_.centre_mm;
-    figures_.spread_mm = {std::sqrt(std::max(0.0, square.x - c.x * c.x)), std::sqrt(std::max(0.0, square.y - c.y * c.y))};
+    figures_.spread_mm = {std::sqrt(std::max(0.0, square.x - c.x * c.x)),
+                          std::sqrt(std::max(0.0, square.y - c.y * c.y))};
   }
 
   const RayGrid& probe_;
