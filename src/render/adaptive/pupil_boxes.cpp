@@ -4,19 +4,21 @@
 #include <cmath>
 #include <map>
 #include <numeric>
+#include <set>
 
 #include "render/adaptive/extremes.h"
 
 namespace contrejour::adaptive {
 namespace {
 
-constexpr int kFirstColumns = 16;     // cells of the first lattice across the window; half as many from y = 0 up
+constexpr int kFirstColumns = 20;     // cells of the first lattice across the window; half as many from y = 0 up
 constexpr int kSecondColumns = 64;    // of a second one, where the first meets nothing
 constexpr int kDeepest = 14;          // quarterings
+constexpr std::size_t kFewCells = 12;
 constexpr std::size_t kMostCells = 1500;
 constexpr double kTight = 0.4;         // share of the cells with an open corner at which boxes fit well enough
 // How many times its variation over a cell what blocks may be below its lowest corner.
-constexpr float kFirstReach = 2.5F;
+constexpr float kFirstReach = 4.0F;
 constexpr float kReach = 1.0F;
 // Rays closer than this at the entrance are searched in double: float places them to about 2e-6 mm.
 constexpr double kFloatStep_mm = 1e-3;
@@ -41,6 +43,7 @@ class Search {
   PupilBoxes run() {
     start(kFirstColumns, kFirstReach);
     if (cells_.empty()) start(kSecondColumns, kReach);
+    if (cells_.size() <= kFewCells) add_neighbours();
     refine(0);
     return {std::move(boxes_), rays_};
   }
@@ -91,6 +94,20 @@ class Search {
         }
       }
     }
+  }
+
+  // A pupil of about a cell's size may reach into cells whose corners are far from it.
+  void add_neighbours() {
+    std::set<std::pair<int, int>> all;
+    for (const Cell& cell : cells_) {
+      for (int k = 0; k < 9; ++k) {
+        const int column = cell.column + k % 3 - 1;
+        const int row = std::max(cell.row + k / 3 - 1, 0);
+        if (column >= 0 && column < columns_ && row < columns_ / 2) all.emplace(row, column);
+      }
+    }
+    cells_.clear();
+    for (const auto& [row, column] : all) cells_.push_back({column, row});
   }
 
   // Each cell by nine rays, shared with its neighbours, into four, of which those stay that may let light through.
