@@ -46,6 +46,7 @@ PUBLIC = {
     "lens.h": "lens",
     "light.h": "image",
     "light_detection.h": "image",
+    "machine_speed.h": "measure",
     "metrics.h": "image",
     "render.h": "render/interface",
     "result.h": "base",

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "cli/bench/probe.h"
 #include "cli/bench/report.h"
 #include "cli/bench/scene.h"
 #include "cli/bench/tables.h"
@@ -28,7 +29,8 @@ constexpr const char* kExamples =
     "Examples:\n"
     "  contrejour bench tables\n"
     "  contrejour bench tables --tables 2,4 --systems heliar,nikon --size 960x540 --json tables.json\n"
-    "  contrejour bench tables --tables overview --methods bundle --reference --cache ~/flares";
+    "  contrejour bench tables --tables overview --methods bundle --reference --cache ~/flares\n"
+    "  contrejour bench tables --tables targets --runs 5";
 
 struct TablesOptions {
   std::string json, tables, methods, systems;
@@ -69,20 +71,56 @@ std::vector<BenchRequest> requests_of(const TablesOptions& options) {
   return all;
 }
 
+bool needs_probes(const TablesOptions& options) {
+  const auto tables = bench_tables();
+  return std::any_of(tables.begin(), tables.end(), [&](const BenchTable& table) {
+    return table.needs_probes && is_wanted(table.key, options.tables);
+  });
+}
+
+// One request of each scene, in the order they are asked for.
+std::vector<BenchRequest> scenes_of(const std::vector<BenchRequest>& requests) {
+  std::vector<BenchRequest> scenes;
+  for (const BenchRequest& request : requests) {
+    const auto is_same = [&](const BenchRequest& other) {
+      return other.lights == request.lights && other.variant == request.variant;
+    };
+    if (std::none_of(scenes.begin(), scenes.end(), is_same)) scenes.push_back(request);
+  }
+  return scenes;
+}
+
+// Probes come first: peak memory is of no meaning once other methods have run.
 Result<BenchRows> measure_all(const TablesOptions& options) {
   BenchRows rows;
   BenchRunning running = options.running;
   running.threads = options.values.integer("threads");
+  std::vector<const PaperSystem*> systems;
+  for (const PaperSystem& system : paper_systems()) {
+    if (is_wanted(system.key, options.systems)) systems.push_back(&system);
+  }
+  if (needs_probes(options)) {
+    if (const auto ok = probe(systems, options.values, running.threads, rows); !ok) return tl::unexpected(ok.error());
+  }
   const auto requests = requests_of(options);
-  for (const int light_count : {1, 2}) {
-    for (const PaperSystem& system : paper_systems()) {
-      if (!is_wanted(system.key, options.systems)) continue;
-      const auto scene = bench_scene(system, light_count, options.values);
+  for (const BenchRequest& of : scenes_of(requests)) {
+    for (const PaperSystem* system : systems) {
+      const auto scene = bench_scene(*system, of.lights, of.variant, options.values);
       if (!scene) return tl::unexpected(scene.error());
       if (const auto ok = measure_scene(*scene, requests, running, rows); !ok) return tl::unexpected(ok.error());
     }
   }
   return rows;
+}
+
+std::vector<Target> targets_of(const TablesOptions& options, const BenchRows& rows) {
+  std::vector<Target> all;
+  for (const BenchTable& table : bench_tables()) {
+    if (table.targets == nullptr || !is_wanted(table.key, options.tables)) continue;
+    const auto its = table.targets(rows);
+    all.insert(all.end(), its.begin(), its.end());
+  }
+  return all;
 }
 
 Result<int> run_tables(const TablesOptions& options) {
@@ -96,7 +134,8 @@ Result<int> run_tables(const TablesOptions& options) {
   const auto rows = measure_all(options);
   if (!rows) return tl::unexpected(rows.error());
   if (!json_file.empty()) {
-    if (const auto ok = write_text(json_file, json_text(bench_json(*rows))); !ok) return tl::unexpected(ok.error());
+    const std::string text = json_text(bench_json(*rows, targets_of(options, *rows)));
+    if (const auto ok = write_text(json_file, text); !ok) return tl::unexpected(ok.error());
   }
   if (const auto ok = outputs.commit(); !ok) return tl::unexpected(ok.error());
   print(machine_text());
@@ -137,7 +176,9 @@ void add_bench_tables(CLI::App& bench, Action& action) {
   const auto options = std::make_shared<TablesOptions>();
   CLI::App* command = bench.add_subcommand("tables", "the papers' systems: times, counts, PSNR");
   add_output(*command, "--json", options->json, {".json"}, "write the rows to this file");
-  command->add_option("--tables", options->tables, "overview, 2 to 8 as bodonyi2023 numbers them (default: all)")
+  command
+      ->add_option("--tables", options->tables,
+                   "overview, 2 to 8 as bodonyi2023 numbers them, targets, full-aperture (default: all)")
       ->check(CLI::Validator(problem_with_tables, "", "tables"))
       ->option_text("LIST");
   command->add_option("--methods", options->methods, "methods of the overview (default: all but the reference)")

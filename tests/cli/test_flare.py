@@ -159,6 +159,10 @@ class Bench(ProgramTest):
                                   "paper_ms"}, set(row))
         return done.stdout.decode(), tables["rows"]
 
+    def targets(self):
+        """Those of the last run."""
+        return json.loads((self.folder / "t.json").read_text())["targets"]
+
     def test_against_the_reference(self):
         text, rows = self.tables("--tables", "overview", "--methods", "bundle,tiled", "--reference", "--density", "0.1",
                                  "--cache", "cache")
@@ -189,7 +193,46 @@ class Bench(ProgramTest):
         text, rows = self.tables("--tables", "4")
         self.assertNotIn("Table 2", text)
         self.assertEqual([(row["lights"], row["method"]) for row in rows], [(1, "tiled")] * 4)
+        self.assertEqual(self.targets(), [])
         self.error_of("bench", "tables", "--tables", "9", code=2)
+
+    def test_targets(self):
+        text, rows = self.tables("--tables", "targets", "--reference", "--density", "0.1")
+        targets = {(t["name"], t["lights"]): t for t in self.targets()}
+        self.assertEqual(list(targets), [
+            ("bundle / adaptive", 1), ("bundle / adaptive", 2), ("tiled / adaptive", 1), ("tiled / adaptive", 2),
+            ("PSNR of adaptive", 1), ("PSNR of adaptive", 2), ("adaptive / floor", 1), ("adaptive / floor", 2),
+            ("16 wavelengths / 3", 1), ("100 lights / 1, per light", 100), ("96x54 / 48x27", 1),
+            ("preparing a new lens", 1), ("peak memory", 2)])
+        for target in targets.values():
+            self.assertEqual(target["system"], "Heliar Tronnier")
+            self.assertGreater(target["value"], 0)
+            self.assertIn(target["name"], text)
+        self.check_holds(targets.values())
+        # Measured before other methods ran: no later picture had less.
+        self.assertLessEqual(targets["peak memory", 2]["value"] * 1e6, min(r["peak_memory_bytes"] for r in rows))
+        ms = {(r["method"], r["lights"]): r["time_ms"]["total"] for r in reversed(rows)}
+        ratio = targets["bundle / adaptive", 1]["value"]
+        self.assertAlmostEqual(ratio, ms["bundle", 1] / ms["adaptive", 1], delta=1e-9 * ratio)
+        for row in rows:  # the paper has figures for its own scenes only
+            is_papers = row["lights"] <= 2 and row["settings"]["wavelengths"] == 3 and row["settings"]["width"] == 48
+            self.assertEqual(row["paper_psnr_db"] is not None, is_papers)
+            self.assertEqual(row["psnr_db"] is not None, is_papers)
+
+    def check_holds(self, targets):
+        for target in targets:
+            sign = 1 if target["more_is_better"] else -1
+            reached = [sign * target["value"] >= sign * target[goal] for goal in ("must", "aim")]
+            holds = "aim" if all(reached) else "yes" if reached[0] else "no"
+            self.assertEqual(target["holds"], holds, target)
+
+    def test_targets_at_full_aperture(self):
+        _, rows = self.tables("--tables", "full-aperture", "--runs", "2")
+        self.assertEqual([(t["name"], t["must"], t["aim"]) for t in self.targets()],
+                         [("bundle / adaptive at f/3.5", 5, 20), ("tiled / adaptive at f/3.5", 5, 20)])
+        self.check_holds(self.targets())
+        self.assertEqual({(r["method"], r["f_number"], r["settings"]["runs"]) for r in rows},
+                         {("bundle", 3.5, 1), ("tiled", 3.5, 1), ("adaptive", 3.5, 2)})
 
 
 if __name__ == "__main__":

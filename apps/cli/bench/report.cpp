@@ -37,6 +37,7 @@ Json paper_variation(const BenchRow& row) {
 }
 
 Json paper_times(const BenchRow& row) {
+  if (row.paper_if_any() == nullptr) return {};
   const PaperFigures& p = row.paper();
   if (row.request.method == "bundle") {
     return {{"total", p.bundle_total_ms}, {"ray_tracing", p.bundle_trace_ms}, {"rasterisation", p.bundle_raster_ms}};
@@ -68,8 +69,9 @@ Json settings_json(const BenchRow& row) {
 }
 
 Json row_json(const BenchRow& row) {
+  const PaperFigures* paper = row.paper_if_any();
   return {{"system", row.system->name},
-          {"f_number", row.system->f_number},
+          {"f_number", row.f_number},
           {"lights", row.request.lights},
           {"method", row.statistics.method},
           {"device", row.statistics.device},
@@ -79,9 +81,9 @@ Json row_json(const BenchRow& row) {
           {"psnr_bundle_db", decibels(row.bundle_db)},
           {"psnr_unmerged_db", decibels(row.unmerged_db)},
           {"paper_ms", paper_times(row)},
-          {"paper_psnr_db", row.paper().tiled_psnr_db},
-          {"paper_primitives", paper_counts(row.paper().primitives)},
-          {"paper_tile_indices", paper_counts(row.paper().indices)},
+          {"paper_psnr_db", paper ? Json(paper->tiled_psnr_db) : Json()},
+          {"paper_primitives", paper ? paper_counts(paper->primitives) : Json()},
+          {"paper_tile_indices", paper ? paper_counts(paper->indices) : Json()},
           {"rays", row.statistics.rays},
           {"surface_hits", row.statistics.surface_hits},
           {"primitives", row.statistics.primitives},
@@ -93,18 +95,29 @@ Json row_json(const BenchRow& row) {
           {"peak_memory_bytes", row.statistics.peak_memory_bytes}};
 }
 
+Json target_json(const Target& target) {
+  return {{"name", target.name},        {"system", target.system},
+          {"lights", target.lights},    {"value", target.value},
+          {"must", target.must},        {"aim", target.aim},
+          {"unit", target.unit},        {"more_is_better", target.more_is_better},
+          {"holds", holds_text(target)}};
+}
+
 }  // namespace
 
-Json bench_json(const BenchRows& rows) {
+Json bench_json(const BenchRows& rows, const std::vector<Target>& targets) {
   const Machine machine = this_machine();
   Json list = Json::array();
   for (const BenchRow& row : rows.all()) list.push_back(row_json(row));
+  Json target_list = Json::array();
+  for (const Target& target : targets) target_list.push_back(target_json(target));
   return {{"machine",
            {{"processor", machine.processor},
             {"cores", machine.cores},
             {"system", machine.system},
             {"compiler", machine.compiler}}},
-          {"rows", list}};
+          {"rows", list},
+          {"targets", target_list}};
 }
 
 std::string machine_text() {

@@ -6,7 +6,7 @@
 namespace contrejour::cli {
 
 bool same(const BenchRequest& a, const BenchRequest& b) {
-  if (a.lights != b.lights || a.method != b.method) return false;
+  if (a.lights != b.lights || a.method != b.method || a.variant != b.variant) return false;
   return a.method != "tiled" ||
          (a.tiled.merge_steps == b.tiled.merge_steps && a.tiled.merge_threshold == b.tiled.merge_threshold &&
           a.tiled.dense_tile == b.tiled.dense_tile && a.tiled.coarse_tile == b.tiled.coarse_tile &&
@@ -26,6 +26,13 @@ const BenchRow& BenchRows::at(const PaperSystem& system, const BenchRequest& req
     return row.system == &system && same(row.request, request);
   });
   assert(found != rows_.end());
+  return *found;
+}
+
+const BenchProbe& BenchRows::probe_of(const PaperSystem& system) const {
+  const auto found =
+      std::find_if(probes_.begin(), probes_.end(), [&](const BenchProbe& probe) { return probe.system == &system; });
+  assert(found != probes_.end());
   return *found;
 }
 

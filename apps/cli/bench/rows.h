@@ -1,6 +1,7 @@
 // Measurements of `bench tables`: what is asked for, and what came out.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -10,43 +11,69 @@
 
 namespace contrejour::cli {
 
+// How a scene differs from the paper's.
+struct SceneVariant {
+  bool full_aperture = false;
+  int wavelengths = 0;  // 0: as the user says
+  int scale = 1;        // of the frame's width and height
+  friend bool operator==(const SceneVariant&, const SceneVariant&) = default;
+};
+
 // A measurement wanted of every system.
 struct BenchRequest {
   int lights = 1;
   std::string method;
   TiledOptions tiled{};  // of no meaning for other methods
+  SceneVariant variant{};
 };
 [[nodiscard]] bool same(const BenchRequest& a, const BenchRequest& b);
 
 struct BenchRow {
   const PaperSystem* system = nullptr;
   BenchRequest request;
+  double f_number = 0;
   RenderSettings settings;
   RenderStatistics statistics;  // of the fastest run
   int runs = 1;
   // Against the pictures of these, where they were made; infinite when equal.
   std::optional<double> reference_db, bundle_db, unmerged_db;
 
-  [[nodiscard]] const PaperFigures& paper() const {
-    return system->by_lights[static_cast<std::size_t>(request.lights) - 1];
+  // Null where the scene is none of the paper's.
+  [[nodiscard]] const PaperFigures* paper_if_any() const {
+    const auto lights = static_cast<std::size_t>(request.lights);
+    return request.variant == SceneVariant{} && lights <= system->by_lights.size() ? &system->by_lights[lights - 1]
+                                                                                   : nullptr;
   }
+  [[nodiscard]] const PaperFigures& paper() const { return *paper_if_any(); }
   // Sum over the named phases.
   [[nodiscard]] double phase_ms(std::initializer_list<std::string_view> phases) const;
+};
+
+// What a system and this machine give apart from pictures: bench/probe.h.
+struct BenchProbe {
+  const PaperSystem* system = nullptr;
+  double prepare_ms = 0;
+  double peak_hits_per_ms = 0;
+  double frame_pass_ms = 0;
+  std::uint64_t peak_memory_bytes = 0;  // 0: not measured
 };
 
 class BenchRows {
  public:
   void add(BenchRow row) { rows_.push_back(std::move(row)); }
+  void add(const BenchProbe& probe) { probes_.push_back(probe); }
   [[nodiscard]] const std::vector<BenchRow>& all() const { return rows_; }
 
-  // The row of a system for a request that was measured; it must exist.
+  // The row of a system for a request that was measured, and its probe; they must exist.
   [[nodiscard]] const BenchRow& at(const PaperSystem& system, const BenchRequest& request) const;
+  [[nodiscard]] const BenchProbe& probe_of(const PaperSystem& system) const;
 
   // Systems measured, in the paper's order.
   [[nodiscard]] std::vector<const PaperSystem*> systems() const;
 
  private:
   std::vector<BenchRow> rows_;
+  std::vector<BenchProbe> probes_;
 };
 
 }  // namespace contrejour::cli

@@ -1,7 +1,9 @@
 #include "cli/bench/scene.h"
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
+#include <iterator>
 #include <limits>
 #include <system_error>
 
@@ -20,24 +22,47 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr Vec2 kLights_uv[] = {{0.70, 0.33}, {0.25, 0.75}};
+constexpr Vec2 kPaperLights_uv[] = {{0.70, 0.33}, {0.25, 0.75}};
 constexpr const char* kReference = "reference";
+
+// Lights beyond the paper's fill the frame evenly: the R2 sequence of Roberts 2018 ("The unreasonable effectiveness of
+// quasirandom sequences"), whose steps are the powers of 1 / 1.32471795724474602596.
+Vec2 light_uv(std::size_t k) {
+  if (k < std::size(kPaperLights_uv)) return kPaperLights_uv[k];
+  constexpr double kStep_u = 0.7548776662466927;
+  constexpr double kStep_v = 0.5698402909980532;
+  const auto n = static_cast<double>(k);
+  return {std::fmod(0.5 + n * kStep_u, 1.0), std::fmod(0.5 + n * kStep_v, 1.0)};
+}
+
+bool is_of(const BenchRequest& request, const BenchScene& scene) {
+  return static_cast<std::size_t>(request.lights) == scene.lights.size() && request.variant == scene.variant;
+}
+
+bool has_papers_lights(const BenchScene& scene) { return scene.lights.size() <= std::size(kPaperLights_uv); }
+
+// Many lights, and bundle and tiled at full aperture, take seconds to minutes.
+int runs_of(const BenchScene& scene, const BenchRequest& request, const BenchRunning& running) {
+  const bool is_long = !has_papers_lights(scene) || (request.variant.full_aperture && request.method != "adaptive");
+  return is_long ? 1 : running.runs;
+}
 
 Result<Flare> render_scene(const BenchScene& scene, const BenchRequest& request, int threads) {
   RenderSettings settings = scene.settings;
   settings.tiled = request.tiled;
-  const LongTask task(fmt::format("{}, {} lights, {}", scene.system->name, scene.light_count, request.method), threads);
+  const LongTask task(fmt::format("{}, {} lights, {}", scene.system->name, scene.lights.size(), request.method),
+                      threads);
   return render(request.method, scene.lens, scene.lights, settings, task.context());
 }
 
 fs::path cache_file(const BenchScene& scene, const std::string& folder) {
   const RenderSettings& s = scene.settings;
-  return fs::path(folder) / fmt::format("{}-{}-{}x{}-{}nm-{:g}.exr", scene.system->key, scene.light_count,
+  return fs::path(folder) / fmt::format("{}-{}-{}x{}-{}nm-{:g}.exr", scene.system->key, scene.lights.size(),
                                         s.frame.width, s.frame.height, s.wavelengths, s.reference_density);
 }
 
 Result<Image> reference_image(const BenchScene& scene, const BenchRunning& running) {
-  const BenchRequest request{scene.light_count, kReference, {}};
+  const BenchRequest request{static_cast<int>(scene.lights.size()), kReference};
   if (running.cache.empty()) {
     return render_scene(scene, request, running.threads).map([](Flare flare) { return std::move(flare.image); });
   }
@@ -66,9 +91,10 @@ struct Truths {
 
 Result<BenchRow> measure(const BenchScene& scene, const BenchRequest& request, const BenchRunning& running,
                          Truths& truths) {
-  BenchRow row{scene.system, request, scene.settings, {}, running.runs, {}, {}, {}};
+  BenchRow row{scene.system, request, scene.lens.f_number, scene.settings, {}, runs_of(scene, request, running), {},
+               {},           {}};
   row.settings.tiled = request.tiled;
-  for (int run = 0; run < running.runs; ++run) {
+  for (int run = 0; run < row.runs; ++run) {
     auto flare = render_scene(scene, request, running.threads);
     if (!flare) return tl::unexpected(flare.error());
     if (run == 0 || total_ms(flare->statistics) < total_ms(row.statistics)) row.statistics = flare->statistics;
@@ -76,7 +102,7 @@ Result<BenchRow> measure(const BenchScene& scene, const BenchRequest& request, c
     row.reference_db = psnr_db(truths.reference, flare->image);
     row.bundle_db = psnr_db(truths.bundle, flare->image);
     row.unmerged_db = psnr_db(truths.unmerged, flare->image);
-    if (same(request, bundle_of(request.lights)))
+    if (request.method == "bundle")
       truths.bundle = std::move(flare->image);
     else if (same(request, tiled_merged(request.lights, 0)))
       truths.unmerged = std::move(flare->image);
@@ -84,26 +110,35 @@ Result<BenchRow> measure(const BenchScene& scene, const BenchRequest& request, c
   return row;
 }
 
-}  // namespace
-
-Result<BenchScene> bench_scene(const PaperSystem& system, int light_count, const params::Values& values) {
+Result<LensState> lens_of(const PaperSystem& system, const SceneVariant& variant) {
   const auto prescription = find_lens(std::string(system.lens));
   if (!prescription) return tl::unexpected(prescription.error());
-  LensSettings lens_settings;
-  lens_settings.f_number = system.f_number;
-  if (system.focal_length_mm > 0.0) lens_settings.focal_length_mm = system.focal_length_mm;
-  auto lens = lens_at(*prescription, lens_settings);
+  LensSettings settings;
+  if (!variant.full_aperture) settings.f_number = system.f_number;
+  if (system.focal_length_mm > 0.0) settings.focal_length_mm = system.focal_length_mm;
+  return lens_at(*prescription, settings);
+}
+
+}  // namespace
+
+Result<BenchScene> bench_scene(const PaperSystem& system, int light_count, const SceneVariant& variant,
+                               const params::Values& values) {
+  auto lens = lens_of(system, variant);
   if (!lens) return tl::unexpected(lens.error());
-  BenchScene scene{&system, light_count, std::move(*lens), {}, {}};
-  const Frame frame = params::whole_frame(values, scene.lens, *params::parse_size(*values.text("size")));
-  for (int k = 0; k < light_count; ++k) {
+  BenchScene scene{&system, variant, std::move(*lens), {}, {}};
+  params::PixelSize size = *params::parse_size(*values.text("size"));
+  size.width *= variant.scale;
+  size.height *= variant.scale;
+  const Frame frame = params::whole_frame(values, scene.lens, size);
+  for (std::size_t k = 0; k < static_cast<std::size_t>(light_count); ++k) {
     Light light;
     light.direction =
-        direction_to_land_at(scene.lens, frame.sensor_from_uv(kLights_uv[k]), scene.lens.design_wavelength_nm);
+        direction_to_land_at(scene.lens, frame.sensor_from_uv(light_uv(k)), scene.lens.design_wavelength_nm);
     scene.lights.push_back(light);
   }
   scene.settings = params::render_settings(values, frame, ColourSpace::Rec709);
   scene.settings.scale_grid = true;  // the paper's eq. 13
+  if (variant.wavelengths > 0) scene.settings.wavelengths = variant.wavelengths;
   return scene;
 }
 
@@ -111,16 +146,16 @@ Result<void> measure_scene(const BenchScene& scene, const std::vector<BenchReque
                            const BenchRunning& running, BenchRows& rows) {
   std::vector<BenchRequest> wanted;
   std::copy_if(requests.begin(), requests.end(), std::back_inserter(wanted),
-               [&](const BenchRequest& request) { return request.lights == scene.light_count; });
+               [&](const BenchRequest& request) { return is_of(request, scene); });
   // Those that others are compared with come first.
   const auto rank = [&](const BenchRequest& request) {
-    return same(request, bundle_of(request.lights)) ? 0 : same(request, tiled_merged(request.lights, 0)) ? 1 : 2;
+    return request.method == "bundle" ? 0 : same(request, tiled_merged(request.lights, 0)) ? 1 : 2;
   };
   std::stable_sort(wanted.begin(), wanted.end(),
                    [&](const BenchRequest& a, const BenchRequest& b) { return rank(a) < rank(b); });
   if (wanted.empty()) return {};
   Truths truths;
-  if (running.reference) {
+  if (running.reference && scene.variant == SceneVariant{} && has_papers_lights(scene)) {
     auto image = reference_image(scene, running);
     if (!image) return tl::unexpected(image.error());
     truths.reference = std::move(*image);

@@ -1,4 +1,4 @@
-// bodonyi2023's systems with one light or two, rendered and compared.
+// bodonyi2023's systems with one light or two, or varied, rendered and compared.
 #pragma once
 
 #include <string>
@@ -13,21 +13,23 @@ namespace contrejour::cli {
 
 struct BenchScene {
   const PaperSystem* system = nullptr;
-  int light_count = 1;
+  SceneVariant variant;
   LensState lens;
   std::vector<Light> lights;
   RenderSettings settings;
 };
 
-[[nodiscard]] Result<BenchScene> bench_scene(const PaperSystem& system, int light_count, const params::Values& values);
+// The first two lights are where the paper's are; more are spread over the frame, always in the same places.
+[[nodiscard]] Result<BenchScene> bench_scene(const PaperSystem& system, int light_count, const SceneVariant& variant,
+                                             const params::Values& values);
 
 struct BenchRunning {
   int runs = 1, threads = 0;
-  bool reference = false;  // compare with the reference renderer
+  bool reference = false;  // compare the paper's scenes with the reference renderer
   std::string cache;       // where its pictures are kept; may be empty
 };
 
-// A row for each request that has this scene's number of lights. Bundle's and the unmerged picture are compared with
+// A row for each request that is of this scene. Bundle's and the unmerged picture are compared with
 // where they are among the requests.
 [[nodiscard]] Result<void> measure_scene(const BenchScene& scene, const std::vector<BenchRequest>& requests,
                                          const BenchRunning& running, BenchRows& rows);

@@ -25,7 +25,7 @@ double paper_total_ms(const BenchRow& row) {
 std::vector<BenchRequest> requests(const std::vector<std::string>& methods) {
   std::vector<BenchRequest> list;
   for (const int lights : {1, 2}) {
-    for (const std::string& method : methods) list.push_back({lights, method, {}});
+    for (const std::string& method : methods) list.push_back({lights, method});
   }
   return list;
 }
@@ -36,7 +36,7 @@ std::string text(const BenchRows& rows, const std::vector<std::string>& methods)
   for (const int lights : {1, 2}) {
     for (const PaperSystem* system : rows.systems()) {
       for (const std::string& method : methods) {
-        const BenchRow& row = rows.at(*system, {lights, method, {}});
+        const BenchRow& row = rows.at(*system, {lights, method});
         const RenderStatistics& s = row.statistics;
         table.add({std::string(system->name), fmt::format("{:g}", system->f_number), fmt::format("{}", lights), method,
                    ms_text(total_ms(s)), paper_text(paper_total_ms(row), 2), db_text(row.reference_db),

@@ -8,14 +8,17 @@
 namespace contrejour::cli {
 
 std::span<const BenchTable> bench_tables() {
-  static const std::array kTables{kOverviewTable,   kPhasesTable,  kQualityTable, kTileSizesTable,
-                                  kPrimitivesTable, kIndicesTable, kMergingTable, kInterpolationTable};
+  static const std::array kTables{kOverviewTable,   kPhasesTable,      kQualityTable, kTileSizesTable,
+                                  kPrimitivesTable, kIndicesTable,     kMergingTable, kInterpolationTable,
+                                  kTargetsTable,    kFullApertureTable};
   return kTables;
 }
 
-BenchRequest bundle_of(int lights) { return {lights, "bundle", {}}; }
+BenchRequest bundle_of(int lights) { return {lights, "bundle"}; }
 
-BenchRequest tiled_of(int lights) { return {lights, "tiled", {}}; }
+BenchRequest tiled_of(int lights) { return {lights, "tiled"}; }
+
+BenchRequest adaptive_of(int lights) { return {lights, "adaptive"}; }
 
 BenchRequest tiled_merged(int lights, std::size_t merging) {
   BenchRequest request = tiled_of(lights);

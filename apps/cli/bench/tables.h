@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "cli/bench/rows.h"
+#include "cli/bench/target.h"
 
 namespace contrejour::cli {
 
@@ -16,12 +17,15 @@ struct BenchTable {
   // What it needs of every system; methods: those asked for, for a table that lists any.
   std::vector<BenchRequest> (*requests)(const std::vector<std::string>& methods);
   std::string (*text)(const BenchRows& rows, const std::vector<std::string>& methods);
+  std::vector<Target> (*targets)(const BenchRows& rows) = nullptr;  // where it holds any
+  bool needs_probes = false;
 };
 
 [[nodiscard]] std::span<const BenchTable> bench_tables();
 
 // Settings the tables share.
 [[nodiscard]] BenchRequest bundle_of(int lights);
+[[nodiscard]] BenchRequest adaptive_of(int lights);
 [[nodiscard]] BenchRequest tiled_of(int lights);  // light merge, 8 and 128 pixels, Loop-DeRose
 [[nodiscard]] BenchRequest tiled_merged(int lights, std::size_t merging);  // none, light, heavy
 inline constexpr std::size_t kMergings = 3;
@@ -34,6 +38,6 @@ inline constexpr std::size_t kMergings = 3;
 [[nodiscard]] std::string paper_text(double value, int digits);
 
 extern const BenchTable kOverviewTable, kPhasesTable, kQualityTable, kTileSizesTable, kPrimitivesTable, kIndicesTable,
-    kMergingTable, kInterpolationTable;
+    kMergingTable, kInterpolationTable, kTargetsTable, kFullApertureTable;
 
 }  // namespace contrejour::cli

@@ -129,7 +129,9 @@ double CellPainter::limit_error(const Mesh& mesh, const Cell& cell) {
       low = std::min(low, v[k]);
       high = std::max(high, v[k]);
     }
-    if (f >= first_rim && (high <= 1.0F || low > 1.0F)) continue;
+    float lowest = std::min(low, v[cell.middle]);  // a rim may pass inside a cell whose corners are all beyond it
+    for (const std::size_t k : cell.side) lowest = std::min(lowest, v[k]);
+    if (f >= first_rim && (high <= 1.0F || lowest > 1.0F)) continue;
     double off = 0.0;
     for (std::size_t k = 0; k < 4; ++k) {
       off = std::max(off, std::abs(static_cast<double>(v[cell.side[k]]) - 0.5 * (v[cell.corner[k]] + v[cell.corner[(k + 1) % 4]])));
@@ -380,7 +382,7 @@ void CellPainter::cut_by_circle(std::size_t limit) {
     const double half_b = dot(s, along);
     const double under = half_b * half_b - aa * (dot(s, s) - 1.0);
     const bool meets = under > 0.0 && aa > 0.0;
-    const double enters = meets ? (-half_b - std::sqrt(under)) / aa : 0.0;
+    const double enters = meets ? (-half_b - std::sqrt(under)) / aa : 1.0;  // a tangent side is met at its end
     const double leaves = meets ? (-half_b + std::sqrt(under)) / aa : 0.0;
     const bool passes_through = !starts_inside && !ends_inside;
     if (passes_through && !(meets && enters > 0.0 && leaves < 1.0)) continue;
@@ -397,6 +399,7 @@ void CellPainter::cut_by_circle(std::size_t limit) {
   const double turn = twice_area > 0.0 ? 1.0 : -1.0;
   polygon_.clear();
   if (next_.empty()) {
+    polygon_.push_back(corner_at_stop(limit, {1.0, 0.0}));
     add_arc(limit, 0.0, turn * 2.0 * std::numbers::pi);
     return;
   }

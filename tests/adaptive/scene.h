@@ -1,0 +1,83 @@
+// What the tests of this folder share: polygons onto an image, and a ghost's exact rays.
+#pragma once
+
+#include <doctest/doctest.h>
+
+#include "render/adaptive/pupil_boxes.h"
+#include "render/adaptive/tiles.h"
+#include "support/scenes.h"
+
+namespace contrejour::test {
+
+inline LensState lens_at_f(const char* name, double f_number, double focal_length_mm = 0.0, Iris iris = {}) {
+  LensSettings settings;
+  settings.f_number = f_number;
+  if (focal_length_mm > 0.0) settings.focal_length_mm = focal_length_mm;
+  settings.iris = iris;
+  return bundled(name, settings);
+}
+
+// Lists of polygons, drawn one after the other.
+inline Image drawn(std::span<const adaptive::PolygonList> lists, int width, int height) {
+  const adaptive::TileGrid grid(width, height);
+  std::vector<adaptive::TiledPolygons> tiled;
+  for (const adaptive::PolygonList& list : lists) tiled.push_back({list, adaptive::tile_lists(list, grid)});
+  Image image(width, height, 3);
+  for (int row = 0; row < grid.rows; ++row) adaptive::add_tile_row(tiled, grid, row, image);
+  return image;
+}
+
+inline Image drawn(const adaptive::PolygonList& list, int width, int height) {
+  return drawn({&list, 1}, width, height);
+}
+
+inline double sum_of_channel(const Image& image, int channel) {
+  double sum = 0.0;
+  for (std::size_t k = static_cast<std::size_t>(channel); k < image.pixels.size(); k += 3) sum += image.pixels[k];
+  return sum;
+}
+
+// Positive where the corners turn from +x to +y.
+inline double signed_area(std::span<const adaptive::Point> polygon) {
+  double twice = 0.0;
+  for (std::size_t k = 0; k < polygon.size(); ++k) {
+    const adaptive::Point a = polygon[k];
+    const adaptive::Point b = polygon[(k + 1) % polygon.size()];
+    twice += static_cast<double>(a.x) * b.y - static_cast<double>(b.x) * a.y;
+  }
+  return 0.5 * twice;
+}
+
+// Rays of one ghost and light at one wavelength, ready for sheets.
+struct GhostScene {
+  LensState lens;
+  Ghost ghost;
+  double lambda_nm = 550.0;
+  Vec3 direction;  // of the light, in place
+  adaptive::LightFrame light;
+  EntranceWindow window;
+  OpticalPath path;
+  TablesByWavelength tables;
+  std::vector<Rectangle> boxes;
+
+  GhostScene(LensState state, Ghost of, Vec3 towards, double wavelength_nm = 550.0)
+      : lens(std::move(state)), ghost(of), lambda_nm(wavelength_nm), direction(towards), light(towards),
+        window(entrance_window(lens, light.direction)), path(ghost_path(lens, ghost, lambda_nm)) {
+    tables[lambda_nm] = std::make_shared<const ReflectanceTables>(lens, lambda_nm);
+    boxes = adaptive::find_pupil_boxes(path, *tables.at(lambda_nm), light, window).boxes;
+  }
+
+  [[nodiscard]] adaptive::RaySheet sheet(const Rectangle& box, int nodes, Rgb gain = {1, 1, 1}) const {
+    const PlannedPass pass{lambda_nm, gain};
+    adaptive::SheetTracer tracer(lens, ghost, light, window.z_mm, {lambda_nm, {&pass, 1}}, tables);
+    return tracer.trace(box, nodes, PacketPrecision::Double);
+  }
+
+  // The ray through a point of the meridional entrance plane, traced where it really runs.
+  [[nodiscard]] RayRecord exact(Vec2 entrance_mm) const {
+    const Vec2 p = light.into_place(entrance_mm);
+    return trace_recorded(path, {{p.x, p.y, window.z_mm}, direction});
+  }
+};
+
+}  // namespace contrejour::test

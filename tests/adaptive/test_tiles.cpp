@@ -1,0 +1,285 @@
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <random>
+
+#include <doctest/doctest.h>
+
+#include "adaptive/scene.h"
+
+using namespace contrejour;
+using namespace contrejour::adaptive;
+
+namespace {
+
+using Corners = std::vector<Vec2>;
+
+// The part of a polygon where sign * (coordinate - limit) >= 0.
+Corners clipped(const Corners& polygon, double Vec2::* coordinate, double limit, double sign) {
+  Corners out;
+  for (std::size_t k = 0; k < polygon.size(); ++k) {
+    const Vec2 a = polygon[k];
+    const Vec2 b = polygon[(k + 1) % polygon.size()];
+    const double fa = sign * (a.*coordinate - limit);
+    const double fb = sign * (b.*coordinate - limit);
+    if (fa >= 0.0) out.push_back(a);
+    if ((fa >= 0.0) != (fb >= 0.0)) out.push_back(a + (b - a) * (fa / (fa - fb)));
+  }
+  return out;
+}
+
+double area_of(const Corners& polygon) {
+  double twice = 0.0;
+  for (std::size_t k = 2; k < polygon.size(); ++k) twice += cross(polygon[k - 1] - polygon[0], polygon[k] - polygon[0]);
+  return 0.5 * std::abs(twice);
+}
+
+double shade_at(const Shade& shade, std::size_t channel, Vec2 p) {
+  return shade.value[channel] + (p.x - shade.at.x) * static_cast<double>(shade.along_x[channel]) +
+         (p.y - shade.at.y) * static_cast<double>(shade.along_y[channel]);
+}
+
+// Pixel by pixel: the polygon's area in it times the irradiance at its centre.
+class PlainImage {
+ public:
+  PlainImage(int width, int height)
+      : width_(width), height_(height), values_(static_cast<std::size_t>(3 * width * height)) {}
+
+  void add(const PolygonList& list) {
+    for (const Polygon& p : list.polygons) add(list, p);
+  }
+
+  // The largest difference, over the scale that the summands' sizes set.
+  [[nodiscard]] double difference(const Image& image) const {
+    double worst = 0.0;
+    for (std::size_t k = 0; k < values_.size(); ++k) worst = std::max(worst, std::abs(values_[k] - image.pixels[k]));
+    return worst / std::max(scale_, 1e-30);
+  }
+  [[nodiscard]] double scale() const { return scale_; }
+
+ private:
+  void add(const PolygonList& list, const Polygon& polygon) {
+    Corners corners;
+    for (const Point p : list.corners_of(polygon)) corners.push_back({p.x, p.y});
+    const auto by_x = std::minmax_element(corners.begin(), corners.end(), [](Vec2 a, Vec2 b) { return a.x < b.x; });
+    const auto by_y = std::minmax_element(corners.begin(), corners.end(), [](Vec2 a, Vec2 b) { return a.y < b.y; });
+    const auto pixel = [](double v, int most) { return static_cast<int>(std::clamp(std::floor(v), 0.0, most - 1.0)); };
+    for (int y = pixel(by_y.first->y, height_); y <= pixel(by_y.second->y, height_); ++y) {
+      const Corners row = clipped(clipped(corners, &Vec2::y, y, 1.0), &Vec2::y, y + 1, -1.0);
+      for (int x = pixel(by_x.first->x, width_); x <= pixel(by_x.second->x, width_); ++x) {
+        double share = area_of(clipped(clipped(row, &Vec2::x, x, 1.0), &Vec2::x, x + 1, -1.0));
+        if (corners.size() == 1) {
+          share = std::floor(corners[0].x) == x && std::floor(corners[0].y) == y ? 1.0 : 0.0;
+        }
+        for (std::size_t c = 0; c < 3; ++c) {
+          const Vec2 at = corners.size() == 1 ? Vec2{polygon.shade.at.x, polygon.shade.at.y} : Vec2{x + 0.5, y + 0.5};
+          const double value = shade_at(polygon.shade, c, at);
+          scale_ = std::max(scale_, std::abs(value));
+          values_[static_cast<std::size_t>(3 * (y * width_ + x)) + c] += share * value;
+        }
+      }
+    }
+  }
+
+  int width_, height_;
+  std::vector<double> values_;
+  double scale_ = 0.0;
+};
+
+class Fuzz {
+ public:
+  explicit Fuzz(unsigned seed) : random_(seed) {}
+  double operator()(double low, double high) { return low + (high - low) * unit_(random_); }
+
+  Shade shade(Vec2 at) {
+    Shade s;
+    s.at = {static_cast<float>(at.x), static_cast<float>(at.y)};
+    for (std::size_t c = 0; c < 3; ++c) {
+      s.value[c] = static_cast<float>((*this)(0.1, 2.0));
+      s.along_x[c] = static_cast<float>((*this)(-0.05, 0.05));
+      s.along_y[c] = static_cast<float>((*this)(-0.05, 0.05));
+    }
+    return s;
+  }
+
+  // An ellipse's polygon, either way round; flat: how much narrower than long. snap: corners on halves of pixels.
+  std::vector<Point> ellipse(Vec2 middle, double radius, double flat, bool snap) {
+    const double turn = (*this)(0.0, 6.3);
+    const int count = 3 + static_cast<int>((*this)(0.0, 7.0));
+    std::vector<Point> corners;
+    for (int k = 0; k < count; ++k) {
+      const double angle = 2.0 * std::numbers::pi * k / count;
+      const Vec2 q{radius * std::cos(angle), radius * flat * std::sin(angle)};
+      Vec2 p = middle + Vec2{q.x * std::cos(turn) - q.y * std::sin(turn), q.x * std::sin(turn) + q.y * std::cos(turn)};
+      if (snap) p = {std::round(2.0 * p.x) / 2.0, std::round(2.0 * p.y) / 2.0};
+      corners.push_back({static_cast<float>(p.x), static_cast<float>(p.y)});
+    }
+    if ((*this)(0.0, 1.0) < 0.5) std::reverse(corners.begin(), corners.end());
+    return corners;
+  }
+
+ private:
+  std::mt19937 random_;
+  std::uniform_real_distribution<double> unit_{0.0, 1.0};
+};
+
+std::vector<Point> rectangle(float x0, float y0, float x1, float y1) {
+  return {{x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}};
+}
+
+Shade level(float value) {
+  Shade shade;
+  shade.value = {value, value, value};
+  return shade;
+}
+
+double plain_difference(const PolygonList& list, int width, int height) {
+  PlainImage plain(width, height);
+  plain.add(list);
+  return plain.difference(test::drawn(list, width, height));
+}
+
+}  // namespace
+
+TEST_CASE("any convex polygon: its area in each pixel times the irradiance at the pixel's centre") {
+  struct Size {
+    int width, height, trials;
+  };
+  for (const Size& size :
+       {Size{40, 24, 400}, Size{300, 40, 100}, Size{1, 1, 200}, Size{3, 50, 150}, Size{520, 2, 60}}) {
+    CAPTURE(size.width);
+    Fuzz fuzz(static_cast<unsigned>(size.width));
+    for (int k = 0; k < size.trials; ++k) {
+      CAPTURE(k);
+      // Inside, across the frame's edges and beyond; from specks to larger than the frame.
+      const Vec2 middle{fuzz(-0.3, 1.3) * size.width, fuzz(-0.3, 1.3) * size.height};
+      const double radius = std::pow(10.0, fuzz(-2.0, std::log10(1.5 * size.width + 2.0)));
+      const double flat = k % 3 == 0 ? std::pow(10.0, fuzz(-5.0, -1.0)) : fuzz(0.2, 1.0);
+      PolygonList list;
+      list.add(fuzz.ellipse(middle, radius, flat, k % 4 == 1), fuzz.shade(middle));
+      CHECK(plain_difference(list, size.width, size.height) < 2e-6);
+    }
+  }
+}
+
+TEST_CASE("polygons along the borders of pixels, tiles and the frame") {
+  constexpr auto kTile = static_cast<float>(TileGrid::kWidth);
+  constexpr auto kRow = static_cast<float>(TileGrid::kHeight);
+  const int width = TileGrid::kWidth + 20;
+  const int height = 2 * TileGrid::kHeight + 5;
+  const auto w = static_cast<float>(width);
+  const auto h = static_cast<float>(height);
+  for (const auto& corners :
+       {rectangle(0, 0, w, h), rectangle(kTile, kRow, w, h), rectangle(0, 0, kTile, kRow),
+        rectangle(kTile - 1, kRow - 1, kTile + 1, kRow + 1), rectangle(-5, -5, 0, h), rectangle(w, 0, w + 9, h),
+        rectangle(-1e6F, -1e6F, 1e6F, 1e6F), rectangle(3, h, 8, h + 3),
+        std::vector<Point>{{kTile, 3}, {kTile, 30}, {kTile - 7, 16}},
+        std::vector<Point>{{kTile, 3}, {kTile, 30}, {kTile + 7, 16}},
+        std::vector<Point>{{5, kRow}, {90, kRow}, {40, kRow + 2}}, std::vector<Point>{{0, 3}, {0, 30}, {-7, 16}}}) {
+    PolygonList list;
+    Shade shade = level(1.0F);
+    shade.along_x = {0.01F, 0.0F, -0.02F};
+    shade.along_y = {0.0F, 0.03F, 0.01F};
+    list.add(corners, shade);
+    CHECK(plain_difference(list, width, height) < 2e-6);
+  }
+}
+
+TEST_CASE("a point's light is in the pixel that holds it, or nowhere") {
+  const int width = TileGrid::kWidth + 4;
+  const int height = TileGrid::kHeight + 4;
+  const auto w = static_cast<float>(width);
+  const auto h = static_cast<float>(height);
+  PolygonList list;
+  for (const Point p :
+       {Point{0, 0}, Point{255.99F, 3}, Point{256, 3}, Point{256.5F, 15.99F}, Point{7.5F, 16}, Point{w, 3}, Point{3, h},
+        Point{-0.001F, 5}, Point{5, -0.001F}, Point{1e9F, 2}, Point{w - 0.01F, h - 0.01F}}) {
+    Shade shade = level(2.0F);
+    shade.at = p;
+    list.add({&p, 1}, shade);
+  }
+  CHECK(plain_difference(list, width, height) == 0.0);
+  CHECK(test::sum_of_channel(test::drawn(list, width, height), 0) == 6 * 2.0);
+}
+
+TEST_CASE("many polygons: the sum of each, whatever lists they come in") {
+  constexpr int kWidth = 280;
+  constexpr int kHeight = 36;
+  Fuzz fuzz(17);
+  PolygonList all;
+  std::vector<PolygonList> parts(4);
+  for (int k = 0; k < 200; ++k) {
+    const Vec2 middle{fuzz(-20, kWidth + 20), fuzz(-9, kHeight + 9)};
+    auto corners = fuzz.ellipse(middle, std::pow(10.0, fuzz(-1.0, 1.7)), fuzz(0.01, 1.0), false);
+    Shade shade = fuzz.shade(middle);
+    if (k % 10 == 0) {  // a point has no slope
+      corners.resize(1);
+      shade = level(shade.value[0]);
+    }
+    all.add(corners, shade);
+    parts[static_cast<std::size_t>(k / 60)].add(corners, shade);
+  }
+  parts.insert(parts.begin() + 2, PolygonList{});
+  PlainImage plain(kWidth, kHeight);
+  plain.add(all);
+  const Image once = test::drawn(all, kWidth, kHeight);
+  CHECK(plain.difference(once) < 5e-6);
+  CHECK(test::drawn(parts, kWidth, kHeight).pixels == once.pixels);
+  // Into an image that holds something already.
+  const TileGrid grid(kWidth, kHeight);
+  const TiledPolygons tiled{all, tile_lists(all, grid)};
+  Image added = once;
+  for (int row = grid.rows - 1; row >= 0; --row) add_tile_row({&tiled, 1}, grid, row, added);
+  for (std::size_t k = 0; k < once.pixels.size(); ++k) CHECK(added.pixels[k] == 2.0F * once.pixels[k]);
+}
+
+TEST_CASE("neighbours that share edges leave neither gaps nor doubled pixels, and no light is lost") {
+  constexpr int kCells = 30;
+  Fuzz fuzz(7);
+  std::vector<Point> net;
+  for (int y = 0; y <= kCells; ++y) {
+    for (int x = 0; x <= kCells; ++x) {
+      net.push_back(
+          {static_cast<float>(10.37 * x - 4 + fuzz(-3, 3)), static_cast<float>(1.41 * y - 0.9 + fuzz(-0.3, 0.3))});
+    }
+  }
+  PolygonList list;
+  double area = 0.0;
+  for (std::size_t y = 0; y < kCells; ++y) {
+    for (std::size_t x = 0; x < kCells; ++x) {
+      const std::size_t at = y * (kCells + 1) + x;
+      for (const auto& t : {std::array{net[at], net[at + 1], net[at + kCells + 2]},
+                            std::array{net[at], net[at + kCells + 2], net[at + kCells + 1]}}) {
+        list.add(t, level(1.0F));
+        area += std::abs(test::signed_area(t));
+      }
+    }
+  }
+  const Image inside = test::drawn(list, 290, 38);
+  for (int y = 1; y < 38; ++y) {
+    for (int x = 1; x < 290; ++x) CHECK(inside.at(x, y) == doctest::Approx(1.0).epsilon(2e-6));
+  }
+  // Moved so that all of it is on the frame.
+  for (Point& p : list.corners) p = {p.x + 10.0F, p.y + 4.0F};
+  CHECK(test::sum_of_channel(test::drawn(list, 330, 60), 2) == doctest::Approx(area).epsilon(1e-5));
+}
+
+TEST_CASE("a tile lists the polygons that touch it, in their order, and none that do not") {
+  const TileGrid grid(3 * TileGrid::kWidth, 4 * TileGrid::kHeight);
+  PolygonList list;
+  list.add(rectangle(10, 10, 20, 12), level(1));                                    // tile (0, 0)
+  list.add(rectangle(-9, -9, 3000, 3000), level(1));                                // all
+  list.add(rectangle(TileGrid::kWidth + 1, 17, TileGrid::kWidth + 9, 30), level(1));  // (1, 1)
+  list.add(rectangle(3000, 10, 3100, 12), level(1));                                // none
+  const TileLists lists = tile_lists(list, grid);
+  REQUIRE(lists.start.size() == grid.count() + 1);
+  for (std::size_t t = 0; t < grid.count(); ++t) {
+    const std::vector<std::uint32_t> found(lists.index.begin() + lists.start[t],
+                                           lists.index.begin() + lists.start[t + 1]);
+    const std::vector<std::uint32_t> expected = t == 0 ? std::vector<std::uint32_t>{0, 1}
+                                                : t == static_cast<std::size_t>(grid.columns) + 1
+                                                    ? std::vector<std::uint32_t>{1, 2}
+                                                    : std::vector<std::uint32_t>{1};
+    CHECK(found == expected);
+  }
+}
