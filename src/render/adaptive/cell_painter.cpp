@@ -400,7 +400,7 @@ void CellPainter::cut_by_circle(std::size_t limit) {
   polygon_.clear();
   if (next_.empty()) {
     polygon_.push_back(corner_at_stop(limit, {1.0, 0.0}));
-    add_arc(limit, 0.0, turn * 2.0 * std::numbers::pi);
+    add_circle(limit, turn);
     return;
   }
   std::size_t exit = 0;
@@ -430,12 +430,27 @@ bool CellPainter::surrounds_origin(std::size_t limit) const {
   return left != right;
 }
 
-// Corners along the unit circle of the stop, its ends not among them.
+// Corners along an arc of the unit circle of the stop; its ends lie on the circle and are not among them. The others
+// lie a little outside, so that the chords enclose the arc's area: (n - 2) r^2 + 2 r = n step / sin(step).
 void CellPainter::add_arc(std::size_t limit, double from, double angle) {
   const int steps = static_cast<int>(std::ceil(std::abs(angle) / arc_step_));
+  if (steps < 2) return;
+  const double step = angle / steps;
+  const double excess = steps * step / std::sin(step);
+  const double radius = steps == 2 ? 0.5 * excess : (std::sqrt(1.0 + (steps - 2) * excess) - 1.0) / (steps - 2);
   for (int k = 1; k < steps; ++k) {
-    const double a = from + angle * k / steps;
-    polygon_.push_back(corner_at_stop(limit, {std::cos(a), std::sin(a)}));
+    const double a = from + step * k;
+    polygon_.push_back(corner_at_stop(limit, Vec2{std::cos(a), std::sin(a)} * radius));
+  }
+}
+
+// The whole circle as a regular polygon of its area.
+void CellPainter::add_circle(std::size_t limit, double turn) {
+  const int steps = std::max(3, static_cast<int>(std::ceil(2.0 * std::numbers::pi / arc_step_)));
+  const double step = 2.0 * std::numbers::pi / steps;
+  const double radius = std::sqrt(step / std::sin(step));
+  for (int k = 0; k < steps; ++k) {
+    polygon_.push_back(corner_at_stop(limit, Vec2{std::cos(turn * step * k), std::sin(turn * step * k)} * radius));
   }
 }
 

@@ -53,6 +53,7 @@ class CellPainter {
   void cut_by_circle(std::size_t limit);
   [[nodiscard]] bool surrounds_origin(std::size_t limit) const;
   void add_arc(std::size_t limit, double from, double angle);
+  void add_circle(std::size_t limit, double turn);
   void set_arc_step(const Mesh& mesh, std::span<const std::size_t> corners, const Shade& shade);
   [[nodiscard]] static Corner between(const Corner& a, const Corner& b, double t);
   [[nodiscard]] Corner corner_at(Vec2 uv) const;
