@@ -25,7 +25,7 @@ class Render(ProgramTest):
         self.assertLessEqual({"method", "device", "time_ms", "rays", "surface_hits", "primitives", "ghosts_rendered",
                               "ghosts_skipped_flux", "peak_memory_bytes"}, set(stats))
         self.assertIn("total", stats["time_ms"])
-        self.assertEqual((stats["method"], stats["ghosts_rendered"]), ("bundle", 13))
+        self.assertEqual((stats["method"], stats["ghosts_rendered"]), ("adaptive", 13))
         self.assertEqual(self.files(), ["a.exr", "a.json", "a.png"])
 
     def test_doubling_the_light_doubles_the_flare(self):

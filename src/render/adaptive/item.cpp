@@ -59,6 +59,23 @@ Work widen(const Scene& scene, const Item& item, double lambda_nm, Rectangle& bo
   return {tracer.rays(), tracer.surface_hits()};
 }
 
+bool overlap(const Rectangle& a, const Rectangle& b) {
+  return a.low.x < b.high.x && b.low.x < a.high.x && a.low.y < b.high.y && b.low.y < a.high.y;
+}
+
+// Boxes that overlap, which would be painted twice there, as one that holds both.
+void merge_overlapping(std::vector<Rectangle>& boxes) {
+  for (std::size_t a = 0; a < boxes.size(); ++a) {
+    for (std::size_t b = a + 1; b < boxes.size(); ++b) {
+      if (!overlap(boxes[a], boxes[b])) continue;
+      boxes[a] = {{std::min(boxes[a].low.x, boxes[b].low.x), std::min(boxes[a].low.y, boxes[b].low.y)},
+                  {std::max(boxes[a].high.x, boxes[b].high.x), std::max(boxes[a].high.y, boxes[b].high.y)}};
+      boxes.erase(boxes.begin() + static_cast<std::ptrdiff_t>(b));
+      return merge_overlapping(boxes);
+    }
+  }
+}
+
 // Where rays get through, at all wavelengths of the light.
 Work find_boxes(const Scene& scene, Item& item) {
   const LightFrame light(item.light->direction);
@@ -74,6 +91,7 @@ Work find_boxes(const Scene& scene, Item& item) {
     work.add(widen(scene, item, item.light->passes.front().lambda_nm, box));
     work.add(widen(scene, item, item.light->passes.back().lambda_nm, box));
   }
+  merge_overlapping(found.boxes);
   item.boxes = std::move(found.boxes);
   return work;
 }
