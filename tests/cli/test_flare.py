@@ -65,8 +65,9 @@ class Render(ProgramTest):
             self.assertAlmostEqual(p, q, delta=1e-3 * peak)
 
     def test_lights_add_and_carry_their_own_values(self):
-        both = self.render("c.exr", "--light", "5,2:3", "4,-3:5:A")
-        a, b = self.render("a.exr", "--light", "5,2:3"), self.render("b.exr", "--light=4,-3:5", "--colour", "A")
+        both = self.render("c.exr", "--light", "5,2:3", "4,-3:5:A", "--method", "bundle")
+        a = self.render("a.exr", "--light", "5,2:3", "--method", "bundle")
+        b = self.render("b.exr", "--light=4,-3:5", "--colour", "A", "--method", "bundle")
         for name in "RGB":
             peak = max(both.channels[name])
             for p, q, r in zip(a.channels[name], b.channels[name], both.channels[name]):

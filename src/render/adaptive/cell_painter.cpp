@@ -399,7 +399,6 @@ void CellPainter::cut_by_circle(std::size_t limit) {
   const double turn = twice_area > 0.0 ? 1.0 : -1.0;
   polygon_.clear();
   if (next_.empty()) {
-    polygon_.push_back(corner_at_stop(limit, {1.0, 0.0}));
     add_circle(limit, turn);
     return;
   }
