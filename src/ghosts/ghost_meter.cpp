@@ -12,6 +12,7 @@ namespace {
 
 constexpr int kDirectSide = 97;  // rays a side over the pupil
 constexpr int kGhostSide = 65;
+constexpr double kFloatPupil_mm = 1.0;
 constexpr float kFailed = std::numeric_limits<float>::infinity();
 constexpr double kFar = std::numeric_limits<double>::infinity();
 
@@ -87,7 +88,11 @@ bool trace_pupil(RayGrid& grid, const OpticalPath& path, const ReflectanceTables
   const EntranceWindow window = entrance_window(lens, direction);
   const auto region = find_pupil_region(path, tables, iris, direction, window, grid);
   if (!region) return false;
-  grid.trace(path, tables, iris, direction, window.z_mm, region->pupil_mm, side, PacketPrecision::Double);
+  // Fluxes need shares of cells, not places on the sensor: float will do unless the pupil is tiny.
+  const Vec2 size = region->pupil_mm.high - region->pupil_mm.low;
+  const bool wide = std::min(size.x, size.y) > kFloatPupil_mm;
+  grid.trace(path, tables, iris, direction, window.z_mm, region->pupil_mm, side,
+             wide ? PacketPrecision::Float : PacketPrecision::Double);
   return true;
 }
 

@@ -14,6 +14,7 @@ constexpr double kSpeck = 0.05;      // pixels: a polygon no longer than this is
 constexpr double kSmallAngle = 1e-3;
 constexpr int kMostPoints = 256;     // that stand for a line
 constexpr double kPixel = 1.0;       // area below which a cell is not seen but for its flux
+constexpr double kMostBend = 0.04;   // of a cell, that what cuts it may be off
 constexpr double kPeaks = 64.0;      // brightness over the peak where errors begin to count as relative ones
 // Half the cell, a fourth of the deviation of a curve from its chord: a sixteenth of the squared error.
 constexpr double kGainOfHalving = 16.0;
@@ -110,7 +111,9 @@ double CellPainter::squared_error(const Mesh& mesh, const Cell& cell, State stat
     error += mean * mean * std::min(off * off, off) * length(c - a) * width * width;
   }
   if (state == State::Cut) {
-    const double off = limit_error(mesh, cell) * longest;
+    const double share = limit_error(mesh, cell);
+    if (share > kMostBend) return std::numeric_limits<double>::infinity();  // or light would be lost unseen
+    const double off = share * longest;
     error += mean * mean * std::min(off * off, off) * longest * width * width;
   }
   return std::min(error, 4.0 * worst) * dimmed * dimmed;

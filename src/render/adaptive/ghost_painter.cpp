@@ -55,6 +55,23 @@ std::optional<Rectangle> lit_part(const RaySheet& sheet) {
   return part;
 }
 
+// A band's wavelengths as at most three of them, each with the gains of those nearest: within a band the rest would
+// show no more.
+std::vector<PlannedPass> thinned(std::span<const PlannedPass> passes) {
+  const std::size_t count = std::min<std::size_t>(passes.size(), 3);
+  std::vector<PlannedPass> few;
+  for (std::size_t part = 0; part < count; ++part) {
+    const std::size_t first = part * passes.size() / count;
+    const std::size_t last = (part + 1) * passes.size() / count;
+    PlannedPass one{passes[(first + last) / 2].lambda_nm, {}};
+    for (std::size_t k = first; k < last; ++k) {
+      for (std::size_t c = 0; c < 3; ++c) one.gain[c] += passes[k].gain[c];
+    }
+    few.push_back(one);
+  }
+  return few;
+}
+
 double area(const Rectangle& r) { return (r.high.x - r.low.x) * (r.high.y - r.low.y); }
 
 }  // namespace
@@ -160,7 +177,8 @@ void GhostPainter::paint(Ghost ghost, const Rectangle& box, std::span<const Plan
         continue;
       }
     }
-    SheetTracer tracer(lens_, ghost, light_, plane_z_mm_, {passes[middle].lambda_nm, passes.subspan(first, last - first)}, tables_);
+    const auto few = thinned(passes.subspan(first, last - first));
+    SheetTracer tracer(lens_, ghost, light_, plane_z_mm_, {few[few.size() / 2].lambda_nm, few}, tables_);
     paint_box(tracer, box, 0, tolerance, cells);
     count(tracer);
   }
