@@ -45,8 +45,7 @@ void for_each_open_triangle(const RayGrid& grid, Visit visit) {
         if (!(blocked(0) < kFailed && blocked(1) < kFailed && blocked(2) < kFailed)) continue;
         const double open = share_below_zero(blocked(0), blocked(1), blocked(2));
         if (open <= 0.0) continue;
-        const double transmission =
-            (grid.transmission[v[0]] + grid.transmission[v[1]] + grid.transmission[v[2]]) / 3.0;
+        const double transmission = (grid.transmission[v[0]] + grid.transmission[v[1]] + grid.transmission[v[2]]) / 3.0;
         visit(OpenTriangle{v, open, open * transmission * 0.5 * step.x * step.y});
       }
     }

@@ -17,7 +17,8 @@ constexpr int kSpacing = 8;
 
 // Lagrange's cubic through the four nodes about a place between the first and the last.
 double cubic(const std::vector<double>& nodes, double place) {
-  const auto first = static_cast<std::size_t>(std::clamp<double>(std::floor(place) - 1.0, 0.0, static_cast<double>(nodes.size()) - 4.0));
+  const auto first = static_cast<std::size_t>(
+      std::clamp<double>(std::floor(place) - 1.0, 0.0, static_cast<double>(nodes.size()) - 4.0));
   const double t = place - static_cast<double>(first);
   return nodes[first] * (t - 1) * (t - 2) * (t - 3) / -6.0 + nodes[first + 1] * t * (t - 2) * (t - 3) / 2.0 +
          nodes[first + 2] * t * (t - 1) * (t - 3) / -2.0 + nodes[first + 3] * t * (t - 1) * (t - 2) / 6.0;
@@ -54,7 +55,8 @@ int ReflectanceTables::add(const SurfaceState& surface, int direction, bool tran
   };
   std::vector<double> nodes;
   for (int k = 0; k <= kIntervals; k += kSpacing) nodes.push_back(exact(k));
-  for (int k = 0; k < kIntervals; ++k) values_.push_back(static_cast<float>(cubic(nodes, static_cast<double>(k) / kSpacing)));
+  for (int k = 0; k < kIntervals; ++k)
+    values_.push_back(static_cast<float>(cubic(nodes, static_cast<double>(k) / kSpacing)));
   values_.push_back(static_cast<float>(nodes.back()));
   return offset;
 }

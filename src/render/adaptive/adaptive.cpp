@@ -74,7 +74,8 @@ class FramePainter {
  private:
   std::size_t paint_some(std::span<const Item> items, const ErrorBudget& budget, std::vector<TiledPolygons>& batch) {
     std::vector<Painted> painted(items.size());
-    parallel_for(items.size(), quiet_, [&](std::size_t k) { painted[k] = paint_item(scene_, items[k], frame_, grid_, budget); });
+    parallel_for(items.size(), quiet_,
+                 [&](std::size_t k) { painted[k] = paint_item(scene_, items[k], frame_, grid_, budget); });
     std::size_t bytes = 0;
     for (Painted& p : painted) {
       work_.add(p.work);
@@ -137,8 +138,12 @@ Result<Flare> render_adaptive(const LensState& lens, std::span<const Light> ligh
   stats.ghosts_rendered = static_cast<int>(plan->ghosts.size());
   stats.ghosts_skipped_flux = plan->skipped_flux;
   stats.peak_memory_bytes = peak_memory_bytes();
-  stats.time_ms = {{"plan", plan_ms},           {"bound", bound_ms},          {"peak", peak_ms},
-                   {"paint", painter.paint_ms()}, {"tiles", painter.tiles_ms()}, {"total", whole.lap_ms()}};
+  stats.time_ms = {{"plan", plan_ms},
+                   {"bound", bound_ms},
+                   {"peak", peak_ms},
+                   {"paint", painter.paint_ms()},
+                   {"tiles", painter.tiles_ms()},
+                   {"total", whole.lap_ms()}};
   return flare;
 }
 

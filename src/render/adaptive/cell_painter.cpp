@@ -11,7 +11,7 @@ namespace {
 constexpr int kDeepest = 7;          // quarterings of a patch
 constexpr double kSliver = 1e-3;     // pixels: mean width below which a polygon is a line
 constexpr double kSpeck = 0.05;      // pixels: a polygon no longer than this is a point
-constexpr double kSmallAngle = 1e-3;
+constexpr double kSmallAngle = 1e-3; // radians: smaller ones may be rounding
 constexpr int kMostPoints = 256;     // that stand for a line
 constexpr double kPixel = 1.0;       // area below which a cell is not seen but for its flux
 constexpr double kMostBend = 0.04;   // of a cell, that what cuts it may be off
@@ -37,7 +37,8 @@ CellPainter::Cell CellPainter::cell_at(int ix, int iy, int size) {
   Cell cell{ix, iy, size, {}, {}, 0};
   const int half = size / 2;
   cell.corner = {Mesh::at(ix, iy), Mesh::at(ix + size, iy), Mesh::at(ix + size, iy + size), Mesh::at(ix, iy + size)};
-  cell.side = {Mesh::at(ix + half, iy), Mesh::at(ix + size, iy + half), Mesh::at(ix + half, iy + size), Mesh::at(ix, iy + half)};
+  cell.side = {Mesh::at(ix + half, iy), Mesh::at(ix + size, iy + half), Mesh::at(ix + half, iy + size),
+               Mesh::at(ix, iy + half)};
   cell.middle = Mesh::at(ix + half, iy + half);
   return cell;
 }
@@ -67,8 +68,8 @@ bool CellPainter::off_frame(const Mesh& mesh, const Cell& cell) const {
 
 // What drawing the cell as one polygon with a linear irradiance would get wrong, squared, over its pixels.
 double CellPainter::squared_error(const Mesh& mesh, const Cell& cell, State state) const {
-  const std::array<std::size_t, 9> v{cell.corner[0], cell.side[0], cell.corner[1], cell.side[3], cell.middle,
-                                     cell.side[1],   cell.corner[3], cell.side[2], cell.corner[2]};
+  const std::array<std::size_t, 9> v{cell.corner[0], cell.side[0],   cell.corner[1], cell.side[3],  cell.middle,
+                                     cell.side[1],   cell.corner[3], cell.side[2],   cell.corner[2]};
   Bounds b;
   bool folded = false;
   double sum = 0.0;
@@ -93,7 +94,8 @@ double CellPainter::squared_error(const Mesh& mesh, const Cell& cell, State stat
   const double along_v = (e(6) + e(7) + e(8) - e(0) - e(1) - e(2)) / 6.0;
   double residual = 0.0;
   for (std::size_t k = 0; k < 9; ++k) {
-    const double plane = mean + along_u * (static_cast<double>(k % 3) - 1.0) + along_v * (static_cast<double>(k / 3) - 1.0);
+    const double plane =
+        mean + along_u * (static_cast<double>(k % 3) - 1.0) + along_v * (static_cast<double>(k / 3) - 1.0);
     residual += (e(k) - plane) * (e(k) - plane) / 9.0;
   }
   const double longest = std::max(extent.x, extent.y);
@@ -137,13 +139,15 @@ double CellPainter::limit_error(const Mesh& mesh, const Cell& cell) {
     if (f >= first_rim && (high <= 1.0F || lowest > 1.0F)) continue;
     double off = 0.0;
     for (std::size_t k = 0; k < 4; ++k) {
-      off = std::max(off, std::abs(static_cast<double>(v[cell.side[k]]) - 0.5 * (v[cell.corner[k]] + v[cell.corner[(k + 1) % 4]])));
+      off = std::max(off, std::abs(static_cast<double>(v[cell.side[k]]) -
+                                   0.5 * (v[cell.corner[k]] + v[cell.corner[(k + 1) % 4]])));
     }
     // Neighbouring stop fields are one point's coordinates: the larger change is the scale of both.
     double change = high - low;
     if (f < first_rim) {
       const Mesh::Field& w = mesh.field((f - PatchLayout::kStop) % 2 == 0 ? f + 1 : f - 1);
-      for (const std::size_t k : cell.corner) change = std::max(change, 2.0 * std::abs(static_cast<double>(w[k]) - w[cell.middle]));
+      for (const std::size_t k : cell.corner)
+        change = std::max(change, 2.0 * std::abs(static_cast<double>(w[k]) - w[cell.middle]));
     }
     if (change > 0.0) largest = std::max(largest, off / change);
   }
@@ -197,13 +201,14 @@ void CellPainter::paint_cell(const Mesh& mesh, int ix, int iy, int size) {
 }
 
 void CellPainter::draw(const Mesh& mesh, const Cell& cell, State state) {
-  const std::array<Vec2, 4> p{mesh.position(cell.corner[0]), mesh.position(cell.corner[1]), mesh.position(cell.corner[2]),
-                              mesh.position(cell.corner[3])};
+  const std::array<Vec2, 4> p{mesh.position(cell.corner[0]), mesh.position(cell.corner[1]),
+                              mesh.position(cell.corner[2]), mesh.position(cell.corner[3])};
   const double area = quad_area(p[0], p[1], p[2], p[3]);
   bool convex = true;
   for (std::size_t k = 0; k < 4; ++k) {
     const Vec2 a = p[k];
-    convex = convex && cross(p[(k + 1) % 4] - a, p[(k + 2) % 4] - a) * area > 0.0 && mesh.area[cell.corner[k]] * area > 0.0;
+    convex =
+        convex && cross(p[(k + 1) % 4] - a, p[(k + 2) % 4] - a) * area > 0.0 && mesh.area[cell.corner[k]] * area > 0.0;
   }
   if (!convex) return draw_folded(mesh, cell, state);
 
@@ -281,7 +286,8 @@ void CellPainter::set_arc_step(const Mesh& mesh, std::span<const std::size_t> co
   const double longest = std::max(b.size().x, b.size().y);
   const double level = std::max({std::abs(shade.value[0]), std::abs(shade.value[1]), std::abs(shade.value[2])});
   const double seen = level / (1.0 + level / (kPeaks * peak_));
-  const double off_px = std::clamp(0.5 * std::sqrt(budget_ / std::max(longest, 1.0)) / std::max(seen, 1e-300), 0.02, 0.5);
+  const double off_px =
+      std::clamp(0.5 * std::sqrt(budget_ / std::max(longest, 1.0)) / std::max(seen, 1e-300), 0.02, 0.5);
   const double pixels_per_radius = longest / std::max(reach, 1e-9);
   arc_step_ = std::clamp(std::sqrt(8.0 * off_px / pixels_per_radius), 0.02, 0.8);
 }
@@ -414,7 +420,8 @@ void CellPainter::cut_by_circle(std::size_t limit) {
     const Vec2 to = stop(next_[k + 1 == next_.size() ? 0 : k + 1]);
     double angle = std::atan2(cross(from, to), dot(from, to));
     // Only where a single side cuts the circle is a small angle backwards nearly a whole turn, not rounding.
-    if (angle * turn < 0.0 && (std::abs(angle) > kSmallAngle || next_.size() == 2)) angle += turn * 2.0 * std::numbers::pi;
+    if (angle * turn < 0.0 && (std::abs(angle) > kSmallAngle || next_.size() == 2))
+      angle += turn * 2.0 * std::numbers::pi;
     if (angle * turn > 0.0) add_arc(limit, std::atan2(from.y, from.x), angle);
   }
 }
@@ -460,21 +467,23 @@ CellPainter::Corner CellPainter::between(const Corner& a, const Corner& b, doubl
   Corner c;
   c.position = a.position + (b.position - a.position) * t;
   c.uv = a.uv + (b.uv - a.uv) * t;
-  for (std::size_t l = 0; l < c.limit.size(); ++l) c.limit[l] = a.limit[l] + static_cast<float>(t) * (b.limit[l] - a.limit[l]);
+  for (std::size_t l = 0; l < c.limit.size(); ++l)
+    c.limit[l] = a.limit[l] + static_cast<float>(t) * (b.limit[l] - a.limit[l]);
   return c;
 }
 
 // Everything is bilinear in the cell, or linear in a triangle of corners 0, 1 and 2.
 CellPainter::Corner CellPainter::corner_at(Vec2 uv) const {
   const bool triangle = whole_.size() == 3;
-  const std::array<double, 4> share = triangle ? std::array{1.0 - uv.x, uv.x - uv.y, uv.y, 0.0}
-                                               : std::array{(1.0 - uv.x) * (1.0 - uv.y), uv.x * (1.0 - uv.y), uv.x * uv.y,
-                                                            (1.0 - uv.x) * uv.y};
+  const std::array<double, 4> share =
+      triangle ? std::array{1.0 - uv.x, uv.x - uv.y, uv.y, 0.0}
+               : std::array{(1.0 - uv.x) * (1.0 - uv.y), uv.x * (1.0 - uv.y), uv.x * uv.y, (1.0 - uv.x) * uv.y};
   Corner out;
   out.uv = uv;
   for (std::size_t k = 0; k < whole_.size(); ++k) {
     out.position = out.position + whole_[k].position * share[k];
-    for (std::size_t l = 0; l < out.limit.size(); ++l) out.limit[l] += static_cast<float>(share[k]) * whole_[k].limit[l];
+    for (std::size_t l = 0; l < out.limit.size(); ++l)
+      out.limit[l] += static_cast<float>(share[k]) * whole_[k].limit[l];
   }
   return out;
 }

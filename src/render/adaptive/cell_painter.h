@@ -38,7 +38,8 @@ class CellPainter {
   void paint_cell(const Mesh& mesh, int ix, int iy, int size);
   void draw(const Mesh& mesh, const Cell& cell, State state);
   void draw_folded(const Mesh& mesh, const Cell& cell, State state);
-  void draw_polygon(const Mesh& mesh, State state, const Shade& shade, const Flux& flux, std::span<const std::size_t> corners);
+  void draw_polygon(const Mesh& mesh, State state, const Shade& shade, const Flux& flux,
+                    std::span<const std::size_t> corners);
   void draw_line(std::span<const Corner> polygon, const Flux& flux);
 
   [[nodiscard]] static Cell cell_at(int ix, int iy, int size);

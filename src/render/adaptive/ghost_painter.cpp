@@ -83,7 +83,8 @@ GhostPainter::GhostPainter(const LensState& lens, const IrisShape& iris, const F
 
 // How far a fit may be off, from what that does to pixels: edges displaced by d over a length of about 4 L, and
 // levels off by a share w over L^2 pixels.
-GhostPainter::Tolerance GhostPainter::tolerance_for(const std::vector<RaySheet>& sheets, const ErrorBudget& budget) const {
+GhostPainter::Tolerance GhostPainter::tolerance_for(const std::vector<RaySheet>& sheets,
+                                                    const ErrorBudget& budget) const {
   if (!std::isfinite(budget.squared_error)) return {kNoLimit, kNoLimit, kNoLimit};
   const RaySheet& middle = sheets[sheets.size() / 2];
   Vec2 low{kNoLimit, kNoLimit};
@@ -130,7 +131,8 @@ void GhostPainter::count(const SheetTracer& tracer) {
   surface_hits_ += tracer.surface_hits();
 }
 
-std::vector<RaySheet> GhostPainter::first_sheets(Ghost ghost, const Rectangle& box, std::span<const PlannedPass> passes) {
+std::vector<RaySheet> GhostPainter::first_sheets(Ghost ghost, const Rectangle& box,
+                                                 std::span<const PlannedPass> passes) {
   std::vector<RaySheet> sheets;
   for (std::size_t k = 0; k < passes.size(); ++k) {
     SheetTracer tracer(lens_, ghost, light_, plane_z_mm_, {passes[k].lambda_nm, passes.subspan(k, 1)}, tables_);
@@ -159,7 +161,8 @@ void GhostPainter::paint(Ghost ghost, const Rectangle& box, std::span<const Plan
   const double shift = passes.size() > 1 ? shift_px(sheets.front(), sheets.back()) : 0.0;
   const double wanted = std::ceil(shift / (2.0 * kShiftShare * tolerance.position_px));
   const std::size_t bands = static_cast<std::size_t>(std::clamp(wanted, 1.0, static_cast<double>(passes.size())));
-  CellPainter cells(iris_, frame_, budget.squared_error / (kCellsPerItem * static_cast<double>(bands)), budget.peak, out);
+  CellPainter cells(iris_, frame_, budget.squared_error / (kCellsPerItem * static_cast<double>(bands)), budget.peak,
+                    out);
   for (std::size_t band = 0; band < bands; ++band) {
     const std::size_t first = band * passes.size() / bands;
     const std::size_t last = (band + 1) * passes.size() / bands;

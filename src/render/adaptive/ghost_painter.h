@@ -32,11 +32,13 @@ class GhostPainter {
   [[nodiscard]] Tolerance tolerance_for(const std::vector<RaySheet>& sheets, const ErrorBudget& budget) const;
   [[nodiscard]] static bool accepts(const Patch& patch, const Tolerance& tolerance);
   [[nodiscard]] PacketPrecision precision_for(const Rectangle& box, const Tolerance& tolerance) const;
-  [[nodiscard]] std::vector<RaySheet> first_sheets(Ghost ghost, const Rectangle& box, std::span<const PlannedPass> passes);
+  [[nodiscard]] std::vector<RaySheet> first_sheets(Ghost ghost, const Rectangle& box,
+                                                   std::span<const PlannedPass> passes);
   [[nodiscard]] double shift_px(const RaySheet& a, const RaySheet& b) const;
 
   void paint_box(SheetTracer& tracer, const Rectangle& box, int depth, const Tolerance& tolerance, CellPainter& cells);
-  void paint_quarters(SheetTracer& tracer, const Rectangle& box, int depth, const Tolerance& tolerance, CellPainter& cells);
+  void paint_quarters(SheetTracer& tracer, const Rectangle& box, int depth, const Tolerance& tolerance,
+                      CellPainter& cells);
   void count(const SheetTracer& tracer);
 
   const LensState& lens_;

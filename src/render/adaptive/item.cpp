@@ -81,7 +81,8 @@ Work find_boxes(const Scene& scene, Item& item) {
   const LightFrame light(item.light->direction);
   const double lambda_nm = middle_pass(*item.light).lambda_nm;
   const OpticalPath path = ghost_path(scene.lens, item.ghost, lambda_nm);
-  PupilBoxes found = find_pupil_boxes(path, *scene.plan.tables.at(lambda_nm), light, entrance_window(scene.lens, light.direction));
+  PupilBoxes found =
+      find_pupil_boxes(path, *scene.plan.tables.at(lambda_nm), light, entrance_window(scene.lens, light.direction));
   for (Rectangle& box : found.boxes) {
     const Vec2 margin = (box.high - box.low) * kMargin;
     box = {box.low - margin, box.high + margin};
@@ -118,7 +119,8 @@ PlannedPass merged(const PlannedLight& light) {
 
 Frame smaller(const Frame& frame, int by) {
   Frame small = frame;
-  for (int* length : {&small.width, &small.height, &small.full_width, &small.full_height}) *length = std::max(1, *length / by);
+  for (int* length : {&small.width, &small.height, &small.full_width, &small.full_height})
+    *length = std::max(1, *length / by);
   small.origin_x /= by;
   small.origin_y /= by;
   small.pixel_pitch_mm *= by;

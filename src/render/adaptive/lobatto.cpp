@@ -74,8 +74,8 @@ std::vector<std::vector<double>> node_derivatives(const std::vector<double>& nod
   for (std::size_t i = 0; i < count; ++i) {
     for (std::size_t j = 0; j < count; ++j) {
       if (i == j) continue;
-      d[i][j] = weight(static_cast<int>(j), static_cast<int>(count)) / weight(static_cast<int>(i), static_cast<int>(count)) /
-                (nodes[i] - nodes[j]);
+      d[i][j] = weight(static_cast<int>(j), static_cast<int>(count)) /
+                weight(static_cast<int>(i), static_cast<int>(count)) / (nodes[i] - nodes[j]);
       d[i][i] -= d[i][j];
     }
   }
@@ -100,7 +100,8 @@ Matrix interpolation_matrix(int count, std::span<const double> points) {
   Matrix m(count, static_cast<int>(points.size()));
   for (std::size_t p = 0; p < points.size(); ++p) {
     const std::vector<double> values = lagrange(nodes, points[p]);
-    for (int k = 0; k < count; ++k) m.at(k, static_cast<int>(p)) = static_cast<float>(values[static_cast<std::size_t>(k)]);
+    for (int k = 0; k < count; ++k)
+      m.at(k, static_cast<int>(p)) = static_cast<float>(values[static_cast<std::size_t>(k)]);
   }
   return m;
 }

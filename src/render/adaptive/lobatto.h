@@ -17,9 +17,15 @@ struct Matrix {
 
   Matrix() = default;
   Matrix(int r, int c);
-  [[nodiscard]] float& at(int r, int c) { return values[static_cast<std::size_t>(r) * static_cast<std::size_t>(stride) + static_cast<std::size_t>(c)]; }
-  [[nodiscard]] float at(int r, int c) const { return values[static_cast<std::size_t>(r) * static_cast<std::size_t>(stride) + static_cast<std::size_t>(c)]; }
-  [[nodiscard]] const float* row(int r) const { return values.data() + static_cast<std::size_t>(r) * static_cast<std::size_t>(stride); }
+  [[nodiscard]] float& at(int r, int c) {
+    return values[static_cast<std::size_t>(r) * static_cast<std::size_t>(stride) + static_cast<std::size_t>(c)];
+  }
+  [[nodiscard]] float at(int r, int c) const {
+    return values[static_cast<std::size_t>(r) * static_cast<std::size_t>(stride) + static_cast<std::size_t>(c)];
+  }
+  [[nodiscard]] const float* row(int r) const {
+    return values.data() + static_cast<std::size_t>(r) * static_cast<std::size_t>(stride);
+  }
 };
 
 // The points, rising from -1 to 1.

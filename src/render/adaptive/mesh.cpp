@@ -22,7 +22,8 @@ struct MeshMatrices {
 };
 
 const MeshMatrices& matrices(int nodes) {
-  static const std::map<int, MeshMatrices> all{{2, MeshMatrices(2)}, {5, MeshMatrices(5)}, {9, MeshMatrices(9)}, {17, MeshMatrices(17)}};
+  static const std::map<int, MeshMatrices> all{
+      {2, MeshMatrices(2)}, {5, MeshMatrices(5)}, {9, MeshMatrices(9)}, {17, MeshMatrices(17)}};
   return all.at(nodes);
 }
 
@@ -54,7 +55,8 @@ void mark_outside(Mesh& mesh, const IrisShape& iris) {
   }
   for (int r = 0; r < mesh.layout.rims; ++r) {
     const Mesh::Field& rim = mesh.field(mesh.layout.rim(r));
-    for (std::size_t k = 0; k < rim.size(); ++k) mesh.outside[k] |= (rim[k] > 1.0F ? 1U : 0U) << (mesh.layout.crossings + r);
+    for (std::size_t k = 0; k < rim.size(); ++k)
+      mesh.outside[k] |= (rim[k] > 1.0F ? 1U : 0U) << (mesh.layout.crossings + r);
   }
 }
 

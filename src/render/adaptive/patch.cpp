@@ -27,7 +27,8 @@ struct NodeMatrices {
 };
 
 const NodeMatrices& matrices(int nodes) {
-  static const std::map<int, NodeMatrices> all{{2, NodeMatrices(2)}, {5, NodeMatrices(5)}, {9, NodeMatrices(9)}, {17, NodeMatrices(17)}};
+  static const std::map<int, NodeMatrices> all{
+      {2, NodeMatrices(2)}, {5, NodeMatrices(5)}, {9, NodeMatrices(9)}, {17, NodeMatrices(17)}};
   return all.at(nodes);
 }
 
@@ -61,7 +62,8 @@ void copy_rims(const RaySheet& sheet, const std::vector<std::size_t>& steps, Pat
     const float* rim = sheet.rim_squared.data() + steps[k] * sheet.count();
     float* to = patch.field(patch.layout.rim(std::min(static_cast<int>(k), kMostRims - 1)));
     const bool shared = k >= static_cast<std::size_t>(kMostRims);
-    for (std::size_t node = 0; node < patch.size(); ++node) to[node] = shared ? std::max(to[node], rim[node]) : rim[node];
+    for (std::size_t node = 0; node < patch.size(); ++node)
+      to[node] = shared ? std::max(to[node], rim[node]) : rim[node];
   }
 }
 
@@ -126,7 +128,8 @@ std::vector<Patch> patches_of_cells(const RaySheet& sheet, const LightFrame& lig
   for (std::size_t iy = 0; iy + 1 < n; ++iy) {
     for (std::size_t ix = 0; ix + 1 < n; ++ix) {
       const std::array<std::size_t, 4> corners{iy * n + ix, iy * n + ix + 1, (iy + 1) * n + ix, (iy + 1) * n + ix + 1};
-      if (std::any_of(corners.begin(), corners.end(), [&](std::size_t k) { return std::isinf(sheet.r_rel[k]); })) continue;
+      if (std::any_of(corners.begin(), corners.end(), [&](std::size_t k) { return std::isinf(sheet.r_rel[k]); }))
+        continue;
       const auto pick = [&](const std::vector<float>& from, std::vector<float>& to, std::size_t offset = 0) {
         for (const std::size_t k : corners) to.push_back(from[offset + k]);
       };
@@ -142,7 +145,8 @@ std::vector<Patch> patches_of_cells(const RaySheet& sheet, const LightFrame& lig
       for (std::size_t c = 0; c < sheet.stop.size(); ++c) {
         for (std::size_t axis = 0; axis < 2; ++axis) pick(sheet.stop[c][axis], cell.stop[c][axis]);
       }
-      for (std::size_t at = 0; at < sheet.rim_squared.size(); at += sheet.count()) pick(sheet.rim_squared, cell.rim_squared, at);
+      for (std::size_t at = 0; at < sheet.rim_squared.size(); at += sheet.count())
+        pick(sheet.rim_squared, cell.rim_squared, at);
       patches.push_back(make_patch(cell, light, frame));
     }
   }
@@ -152,8 +156,10 @@ std::vector<Patch> patches_of_cells(const RaySheet& sheet, const LightFrame& lig
 PatchError estimated_error(const Patch& patch) {
   PatchError error;
   const PatchLayout& layout = patch.layout;
-  error.position_px = std::max(tail(patch.field(PatchLayout::kX), patch.nodes), tail(patch.field(PatchLayout::kY), patch.nodes));
-  for (int k = 0; k < 2 * layout.crossings; ++k) error.stop = std::max(error.stop, tail(patch.field(PatchLayout::kStop + k), patch.nodes));
+  error.position_px =
+      std::max(tail(patch.field(PatchLayout::kX), patch.nodes), tail(patch.field(PatchLayout::kY), patch.nodes));
+  for (int k = 0; k < 2 * layout.crossings; ++k)
+    error.stop = std::max(error.stop, tail(patch.field(PatchLayout::kStop + k), patch.nodes));
   for (int k = 0; k < layout.rims; ++k) error.rim = std::max(error.rim, tail(patch.field(layout.rim(k)), patch.nodes));
   double largest = 0.0;
   for (int c = 0; c < 3; ++c) {
@@ -170,7 +176,8 @@ Patch quarter(const Patch& patch, int ix, int iy) {
   Patch out = patch;
   out.flux_area_mm2 = 0.25 * patch.flux_area_mm2;
   for (int f = 0; f < patch.layout.fields(); ++f) {
-    transform(patch.field(f), patch.nodes, m.half[static_cast<std::size_t>(ix)], m.half[static_cast<std::size_t>(iy)], out.field(f));
+    transform(patch.field(f), patch.nodes, m.half[static_cast<std::size_t>(ix)], m.half[static_cast<std::size_t>(iy)],
+              out.field(f));
   }
   return out;
 }

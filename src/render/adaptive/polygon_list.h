@@ -35,7 +35,9 @@ struct PolygonList {
     polygons.push_back({static_cast<std::uint32_t>(corners.size()), static_cast<std::uint32_t>(polygon.size()), shade});
     corners.insert(corners.end(), polygon.begin(), polygon.end());
   }
-  [[nodiscard]] std::span<const Point> corners_of(const Polygon& p) const { return {corners.data() + p.first, p.count}; }
+  [[nodiscard]] std::span<const Point> corners_of(const Polygon& p) const {
+    return {corners.data() + p.first, p.count};
+  }
   [[nodiscard]] std::size_t bytes() const { return corners.size() * sizeof(Point) + polygons.size() * sizeof(Polygon); }
 };
 

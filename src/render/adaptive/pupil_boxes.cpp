@@ -36,7 +36,8 @@ struct Blocking {
 
 class Search {
  public:
-  Search(const OpticalPath& path, const ReflectanceTables& tables, const LightFrame& light, const EntranceWindow& window)
+  Search(const OpticalPath& path, const ReflectanceTables& tables, const LightFrame& light,
+         const EntranceWindow& window)
       : path_(path), tables_(tables), direction_(light.direction), window_(window),
         half_height_mm_(std::max(std::abs(window.min_mm.y), window.max_mm.y)) {}
 
@@ -115,7 +116,8 @@ class Search {
     columns_ *= 2;
     std::vector<std::uint64_t> places;
     const auto place = [](const Cell& cell, int k) {
-      return static_cast<std::uint64_t>(2 * cell.row + k / 3) << 32U | static_cast<std::uint32_t>(2 * cell.column + k % 3);
+      return static_cast<std::uint64_t>(2 * cell.row + k / 3) << 32U |
+             static_cast<std::uint32_t>(2 * cell.column + k % 3);
     };
     for (const Cell& cell : cells_) {
       for (int k = 0; k < 9; ++k) places.push_back(place(cell, k));
@@ -155,8 +157,9 @@ class Search {
     constexpr std::size_t kFields = 4 + 2 * kMaxStopCrossings;
     results_.resize(kFields * count);
     const auto field = [&](std::size_t k) { return results_.data() + k * count; };
-    const TracedArrays out{field(0), field(1), field(2), field(3), {field(4), field(5), field(6)},
-                           {field(7), field(8), field(9)}, nullptr, 0};
+    const TracedArrays out{
+        field(0), field(1), field(2), field(3), {field(4), field(5), field(6)}, {field(7), field(8), field(9)},
+        nullptr,  0};
     const Vec2 size = cell_size();
     const PacketPath packets(path_, tables_, {{window_.min_mm.x, 0.0, window_.z_mm}, direction_});
     trace_packets(packets, std::min(size.x, size.y) < kFloatStep_mm ? PacketPrecision::Double : PacketPrecision::Float,

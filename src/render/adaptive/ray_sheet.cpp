@@ -23,9 +23,8 @@ void complete(float* values, int nodes, float sign) {
 
 bool is_open(const RaySheet& sheet, std::size_t node) {
   if (sheet.r_rel[node] > 1.0F) return false;
-  return std::all_of(sheet.stop.begin(), sheet.stop.end(), [node](const auto& s) {
-    return s[0][node] * s[0][node] + s[1][node] * s[1][node] <= 1.0F;
-  });
+  return std::all_of(sheet.stop.begin(), sheet.stop.end(),
+                     [node](const auto& s) { return s[0][node] * s[0][node] + s[1][node] * s[1][node] <= 1.0F; });
 }
 
 SheetTracer::SheetTracer(const LensState& lens, Ghost ghost, const LightFrame& light, double plane_z_mm,
@@ -46,7 +45,8 @@ RaySheet SheetTracer::trace(const Rectangle& box, int nodes, PacketPrecision pre
   sheet.box = box;
   sheet.nodes = nodes;
   const std::size_t count = sheet.count();
-  for (auto* v : {&sheet.sensor_x_mm, &sheet.sensor_y_mm, &sheet.r_rel, &sheet.weight[0], &sheet.weight[1], &sheet.weight[2]}) {
+  for (auto* v :
+       {&sheet.sensor_x_mm, &sheet.sensor_y_mm, &sheet.r_rel, &sheet.weight[0], &sheet.weight[1], &sheet.weight[2]}) {
     v->resize(count);
   }
   sheet.stop.resize(static_cast<std::size_t>(paths_.front().stop_crossings));

@@ -105,7 +105,8 @@ HWY_INLINE void add_edge(TileSums& tile, const RowShade& shade, Vec2 a, Vec2 b, 
     const double y_next = std::min<double>(row + 1, bottom);
     const double x_next = std::clamp(a.x + dx_dy * (y_next - a.y), low, high);
     for (std::size_t k = 0; k < TileSums::kLanes; k += hn::Lanes(d)) {
-      hn::Store(hn::MulAdd(hn::Load(d, shade.by_row + k), hn::Set(d, row), hn::Load(d, shade.level + k)), d, at_row + k);
+      hn::Store(hn::MulAdd(hn::Load(d, shade.by_row + k), hn::Set(d, row), hn::Load(d, shade.level + k)), d,
+                at_row + k);
     }
     add_stretch(tile.at(row, 0), at_row, x, x_next, sign * (y_next - y));
     x = x_next;
@@ -153,7 +154,8 @@ void add_polygon(TileSums& tile, const PolygonList& list, const Polygon& polygon
     return;
   }
   double twice_area = 0.0;
-  for (std::size_t k = 2; k < corners.size(); ++k) twice_area += cross(corner(k - 1) - corner(0), corner(k) - corner(0));
+  for (std::size_t k = 2; k < corners.size(); ++k)
+    twice_area += cross(corner(k - 1) - corner(0), corner(k) - corner(0));
   const double sign = twice_area > 0.0 ? -1.0 : 1.0;  // y down in memory: left edges rise
   for (std::size_t k = 0; k < corners.size(); ++k) {
     add_clipped(tile, shade, corner(k), corner(k + 1 == corners.size() ? 0 : k + 1), sign);

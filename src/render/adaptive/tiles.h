@@ -20,8 +20,7 @@ struct TileGrid {
   int width = 0, height = 0;  // pixels
   int columns = 0, rows = 0;  // tiles
 
-  TileGrid(int w, int h)
-      : width(w), height(h), columns((w + kWidth - 1) / kWidth), rows((h + kHeight - 1) / kHeight) {}
+  TileGrid(int w, int h) : width(w), height(h), columns((w + kWidth - 1) / kWidth), rows((h + kHeight - 1) / kHeight) {}
   [[nodiscard]] std::size_t count() const { return static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows); }
 };
 

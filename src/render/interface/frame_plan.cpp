@@ -26,14 +26,16 @@ bool is_finite(const Light& light) {
 std::optional<Error> problem_with(std::span<const Light> lights, const RenderSettings& settings) {
   const Frame& f = settings.frame;
   if (f.width <= 0 || f.height <= 0 || f.full_width <= 0 || f.full_height <= 0) {
-    return invalid(fmt::format("a frame of {} x {} pixels has no pixels; give a size of at least 1x1", f.width, f.height));
+    return invalid(
+        fmt::format("a frame of {} x {} pixels has no pixels; give a size of at least 1x1", f.width, f.height));
   }
   if (static_cast<double>(f.width) * f.height > kMaxPixels) {
     return invalid(fmt::format("a frame of {} x {} pixels is too large; 2^28 pixels are the limit", f.width, f.height));
   }
   if (!(f.pixel_pitch_mm > 0.0) || !std::isfinite(f.pixel_pitch_mm)) return invalid("the pixel pitch must be positive");
   if (settings.lambda_nm.empty() && (settings.wavelengths < 1 || settings.wavelengths > kMaxWavelengths)) {
-    return invalid(fmt::format("{} wavelengths is out of range; choose 1 to {}", settings.wavelengths, kMaxWavelengths));
+    return invalid(
+        fmt::format("{} wavelengths is out of range; choose 1 to {}", settings.wavelengths, kMaxWavelengths));
   }
   for (std::size_t k = 0; k < lights.size(); ++k) {
     if (!is_finite(lights[k])) return invalid(fmt::format("light {} has a value that is not a finite number", k + 1));
@@ -114,9 +116,8 @@ Result<FramePlan> plan_frame(const LensState& lens, std::span<const Light> light
   for (auto& [spectrum, metered] : spectra) {
     for (const SpectralBand& band : metered.bands) metered.meters.emplace_back(lens, plan.tables.at(band.lambda_nm));
   }
-  const bool done = parallel_for(lights.size(), quiet, [&](std::size_t k) {
-    plan.lights[k] = plan_light(lens, lights[k], settings, spectra);
-  });
+  const bool done = parallel_for(
+      lights.size(), quiet, [&](std::size_t k) { plan.lights[k] = plan_light(lens, lights[k], settings, spectra); });
   if (!done) return failure(ErrorCode::Cancelled, "interrupted");
   return plan;
 }

@@ -13,6 +13,7 @@ namespace contrejour {
 using TablesByWavelength = std::map<double, std::shared_ptr<const ReflectanceTables>>;
 
 // Incomplete when the context is cancelled.
-[[nodiscard]] TablesByWavelength tables_for(const LensState& lens, std::span<const double> lambda_nm, const Context& context);
+[[nodiscard]] TablesByWavelength tables_for(const LensState& lens, std::span<const double> lambda_nm,
+                                            const Context& context);
 
 }  // namespace contrejour
