@@ -1,12 +1,12 @@
 #include "contrejour/machine_speed.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cstddef>
 #include <limits>
 #include <utility>
 #include <vector>
 
+#include "base/clock.h"
 #include "base/tasks.h"
 #include "contrejour/ghost.h"
 #include "contrejour/image.h"
@@ -15,7 +15,6 @@
 namespace contrejour {
 namespace {
 
-using Clock = std::chrono::steady_clock;
 
 constexpr int kRounds = 5;
 constexpr double kLambda_nm = 550.0;
@@ -25,10 +24,6 @@ constexpr std::size_t kRays = kRaysPerSide * kRaysPerSide;
 constexpr std::size_t kRepeats = 8;
 constexpr std::size_t kItems = 256;  // many a thread, so that none waits long for the last
 constexpr double kWidth_mm = 4.0;    // of the square of the entrance plane that they start from
-
-double ms_since(Clock::time_point start) {
-  return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
-}
 
 // Points of the entrance plane, and room for what becomes of their rays.
 class RaySquare {

@@ -11,6 +11,7 @@
 #include "adaptive/scene.h"
 #include "contrejour/image_io.h"
 #include "contrejour/metrics.h"
+#include "support/flares.h"
 
 using namespace contrejour;
 
@@ -22,17 +23,8 @@ RenderSettings settings_for(const LensState& lens, int width, int height) {
   return test::green(frame_on_sensor(lens, width, height));
 }
 
-Flare flare_of(std::string_view method, const LensState& lens, std::span<const Light> lights,
-               const RenderSettings& settings, const Context& context = {}) {
-  auto flare = render(method, lens, lights, settings, context);
-  REQUIRE(flare.has_value());
-  const auto& pixels = flare->image.pixels;
-  CHECK(std::all_of(pixels.begin(), pixels.end(), [](float v) { return std::isfinite(v); }));
-  return *flare;
-}
-
 Image image_of(std::string_view method, const LensState& lens, const Light& light, const RenderSettings& settings) {
-  return flare_of(method, lens, {&light, 1}, settings).image;
+  return test::flare_of(method, lens, {&light, 1}, settings).image;
 }
 
 double psnr_db(const Image& truth, const Image& image) {
@@ -120,10 +112,10 @@ TEST_CASE("sixteen wavelengths as by the bundle, the same bits for 1, 2 and 7 th
   settings.grid = 128;
   const Light light = test::light_at(lens, settings.frame, {0.70, 0.33});
   const Image truth = image_of("bundle", lens, light, settings);
-  const Image one = flare_of("adaptive", lens, {&light, 1}, settings, {.threads = 1}).image;
+  const Image one = test::flare_of("adaptive", lens, {&light, 1}, settings, {.threads = 1}).image;
   CHECK(psnr_db(truth, one) >= 50.0);
   for (const int threads : {2, 7}) {
-    CHECK(flare_of("adaptive", lens, {&light, 1}, settings, {.threads = threads}).image.pixels == one.pixels);
+    CHECK(test::flare_of("adaptive", lens, {&light, 1}, settings, {.threads = threads}).image.pixels == one.pixels);
   }
 }
 
@@ -205,7 +197,7 @@ TEST_CASE("errors out of range are refused, no light is no flare, an interrupted
     settings.error = error;
     CHECK(render("adaptive", lens, {&light, 1}, settings).has_value());
   }
-  CHECK(flare_of("adaptive", lens, {}, settings).image.pixels == std::vector<float>(32 * 18 * 3, 0.0F));
+  CHECK(test::flare_of("adaptive", lens, {}, settings).image.pixels == std::vector<float>(32 * 18 * 3, 0.0F));
   std::atomic<bool> cancel{true};
   Context context;
   context.cancel = &cancel;

@@ -11,6 +11,7 @@
 
 #include "contrejour/metrics.h"
 #include "contrejour/render.h"
+#include "support/flares.h"
 #include "support/scenes.h"
 
 namespace contrejour::test {
@@ -49,16 +50,6 @@ void for_each_method(Body body) {
     CAPTURE(name);
     body(bounds_of(method));
   }
-}
-
-// The flare; every value of it is a finite number.
-inline Flare flare_of(std::string_view method, const LensState& lens, std::span<const Light> lights,
-                      const RenderSettings& settings, const Context& context = {}) {
-  auto flare = render(method, lens, lights, settings, context);
-  REQUIRE(flare.has_value());
-  const auto& pixels = flare->image.pixels;
-  CHECK(std::all_of(pixels.begin(), pixels.end(), [](float v) { return std::isfinite(v); }));
-  return *flare;
 }
 
 inline Image image_of(const Bounds& method, const LensState& lens, std::span<const Light> lights,

@@ -1,8 +1,8 @@
 #include "render/adaptive/adaptive.h"
 
 #include <algorithm>
-#include <chrono>
 
+#include "base/clock.h"
 #include "base/memory.h"
 #include "base/tasks.h"
 #include "render/adaptive/item.h"
@@ -11,7 +11,6 @@ namespace contrejour {
 namespace {
 
 using namespace adaptive;
-using Clock = std::chrono::steady_clock;
 
 // Polygons of so many bytes, or a little more, are alive at once.
 constexpr std::size_t kBatchBytes = std::size_t{32} << 20U;
@@ -23,9 +22,8 @@ constexpr double kHighestError = 0.1;
 class Stopwatch {
  public:
   [[nodiscard]] double lap_ms() {
-    const auto now = Clock::now();
-    const double ms = std::chrono::duration<double, std::milli>(now - last_).count();
-    last_ = now;
+    const double ms = ms_since(last_);
+    last_ = Clock::now();
     return ms;
   }
 

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 namespace contrejour::adaptive {
 namespace {
@@ -11,7 +10,6 @@ namespace {
 constexpr int kDeepest = 7;          // quarterings of a patch
 constexpr double kSliver = 1e-3;     // pixels: mean width below which a polygon is a line
 constexpr double kSpeck = 0.05;      // pixels: a polygon no longer than this is a point
-constexpr double kSmallAngle = 1e-3; // radians: smaller ones may be rounding
 constexpr int kMostPoints = 256;     // that stand for a line
 constexpr double kPixel = 1.0;       // area below which a cell is not seen but for its flux
 constexpr double kMostBend = 0.04;   // of a cell, that what cuts it may be off
@@ -274,7 +272,7 @@ void CellPainter::draw_folded(const Mesh& mesh, const Cell& cell, State state) {
 }
 
 // Chords of an arc that miss it by no more pixels than the budget allows; half as many either way would do.
-void CellPainter::set_arc_step(const Mesh& mesh, std::span<const std::size_t> corners, const Shade& shade) {
+double CellPainter::arc_step(const Mesh& mesh, std::span<const std::size_t> corners, const Shade& shade) const {
   double reach = 0.0;
   Bounds b;
   for (const std::size_t v : corners) {
@@ -289,38 +287,38 @@ void CellPainter::set_arc_step(const Mesh& mesh, std::span<const std::size_t> co
   const double off_px =
       std::clamp(0.5 * std::sqrt(budget_ / std::max(longest, 1.0)) / std::max(seen, 1e-300), 0.02, 0.5);
   const double pixels_per_radius = longest / std::max(reach, 1e-9);
-  arc_step_ = std::clamp(std::sqrt(8.0 * off_px / pixels_per_radius), 0.02, 0.8);
+  return std::clamp(std::sqrt(8.0 * off_px / pixels_per_radius), 0.02, 0.8);
 }
 
 void CellPainter::draw_polygon(const Mesh& mesh, State state, const Shade& shade, const Flux& flux,
                                std::span<const std::size_t> corners) {
   constexpr std::array<Vec2, 4> kUv{Vec2{0, 0}, Vec2{1, 0}, Vec2{1, 1}, Vec2{0, 1}};
-  polygon_.clear();
+  std::array<Corner, 4> whole;
   for (std::size_t k = 0; k < corners.size(); ++k) {
-    Corner corner{mesh.position(corners[k]) + mesh.origin_px, kUv[k], {}};
+    Corner& corner = whole[k];
+    corner.position = mesh.position(corners[k]) + mesh.origin_px;
+    corner.uv = kUv[k];
     for (int f = PatchLayout::kStop; state == State::Cut && f < mesh.layout.fields(); ++f) {
       corner.limit[static_cast<std::size_t>(f - PatchLayout::kStop)] = mesh.field(f)[corners[k]];
     }
-    polygon_.push_back(corner);
   }
+  std::span<const Corner> polygon(whole.data(), corners.size());
   if (state == State::Cut) {
-    set_arc_step(mesh, corners, shade);
-    whole_ = polygon_;
-    cut(mesh);
+    polygon = cutter_.open_part(polygon, mesh.layout.crossings, mesh.layout.rims, arc_step(mesh, corners, shade));
   }
-  if (polygon_.size() < 3) return;
+  if (polygon.size() < 3) return;
 
   points_.clear();
   Bounds b;
   double twice_area = 0.0;
   double twice_share = 0.0;
-  for (std::size_t k = 0; k < polygon_.size(); ++k) {
-    const Corner& c = polygon_[k];
+  for (std::size_t k = 0; k < polygon.size(); ++k) {
+    const Corner& c = polygon[k];
     b.add(c.position);
     points_.push_back({static_cast<float>(c.position.x), static_cast<float>(c.position.y)});
     if (k < 2) continue;
-    twice_area += cross(polygon_[k - 1].position - polygon_[0].position, c.position - polygon_[0].position);
-    twice_share += cross(polygon_[k - 1].uv - polygon_[0].uv, c.uv - polygon_[0].uv);
+    twice_area += cross(polygon[k - 1].position - polygon[0].position, c.position - polygon[0].position);
+    twice_share += cross(polygon[k - 1].uv - polygon[0].uv, c.uv - polygon[0].uv);
   }
   const double longest = std::max(b.size().x, b.size().y);
   const bool one_pixel = std::floor(b.low.x) == std::floor(b.high.x) && std::floor(b.low.y) == std::floor(b.high.y);
@@ -330,7 +328,7 @@ void CellPainter::draw_polygon(const Mesh& mesh, State state, const Shade& shade
     return;
   }
   const double share = 0.5 * std::abs(twice_share) * (corners.size() == 3 ? 2.0 : 1.0);
-  draw_line(polygon_, {flux[0] * share, flux[1] * share, flux[2] * share});
+  draw_line(polygon, {flux[0] * share, flux[1] * share, flux[2] * share});
 }
 
 // The flux at points between the ends of a polygon that is thinner than can be told.
@@ -349,181 +347,6 @@ void CellPainter::draw_line(std::span<const Corner> polygon, const Flux& flux) {
     const Vec2 p = ends[0] + along * ((k + 0.5) / count);
     point.at = {static_cast<float>(p.x), static_cast<float>(p.y)};
     out_.add({&point.at, 1}, point);
-  }
-}
-
-// Keeps where value(corner), linear along the sides, is <= 0. Sutherland-Hodgman.
-template <class Value>
-void CellPainter::cut_where_positive(Value value) {
-  next_.clear();
-  for (std::size_t k = 0; k < polygon_.size(); ++k) {
-    const Corner& a = polygon_[k];
-    const Corner& b = polygon_[k + 1 == polygon_.size() ? 0 : k + 1];
-    const double fa = value(a);
-    const double fb = value(b);
-    if (fa <= 0.0) next_.push_back(a);
-    if ((fa <= 0.0) == (fb <= 0.0)) continue;
-    next_.push_back(between(a, b, fa / (fa - fb)));
-  }
-  polygon_.swap(next_);
-}
-
-// The stop coordinates are linear along each side, which then meets the circle exactly; where the outline leaves the
-// circle an arc takes it to where it comes back.
-void CellPainter::cut_by_circle(std::size_t limit) {
-  const auto stop = [limit](const Corner& c) { return Vec2{c.limit[limit], c.limit[limit + 1]}; };
-  next_.clear();
-  std::vector<std::size_t>& exits = exits_;
-  exits.clear();
-  double twice_area = 0.0;
-  for (std::size_t k = 0; k < polygon_.size(); ++k) {
-    const Corner& a = polygon_[k];
-    const Corner& b = polygon_[k + 1 == polygon_.size() ? 0 : k + 1];
-    const Vec2 s = stop(a);
-    const Vec2 along = stop(b) - s;
-    twice_area += cross(s, stop(b));
-    const bool starts_inside = dot(s, s) <= 1.0;
-    const bool ends_inside = dot(stop(b), stop(b)) <= 1.0;
-    if (starts_inside) next_.push_back(a);
-    if (starts_inside && ends_inside) continue;
-    // Where the side meets the circle; corners were judged above, and rounding must not judge otherwise.
-    const double aa = dot(along, along);
-    const double half_b = dot(s, along);
-    const double under = half_b * half_b - aa * (dot(s, s) - 1.0);
-    const bool meets = under > 0.0 && aa > 0.0;
-    const double enters = meets ? (-half_b - std::sqrt(under)) / aa : 1.0;  // a tangent side is met at its end
-    const double leaves = meets ? (-half_b + std::sqrt(under)) / aa : 0.0;
-    const bool passes_through = !starts_inside && !ends_inside;
-    if (passes_through && !(meets && enters > 0.0 && leaves < 1.0)) continue;
-    if (!starts_inside) next_.push_back(between(a, b, std::clamp(enters, 0.0, 1.0)));
-    if (!ends_inside) {
-      exits.push_back(next_.size());
-      next_.push_back(between(a, b, std::clamp(leaves, 0.0, 1.0)));
-    }
-  }
-  if (next_.empty() && !surrounds_origin(limit)) {
-    polygon_.clear();
-    return;
-  }
-  const double turn = twice_area > 0.0 ? 1.0 : -1.0;
-  polygon_.clear();
-  if (next_.empty()) {
-    add_circle(limit, turn);
-    return;
-  }
-  std::size_t exit = 0;
-  for (std::size_t k = 0; k < next_.size(); ++k) {
-    polygon_.push_back(next_[k]);
-    if (exit == exits.size() || exits[exit] != k) continue;
-    ++exit;
-    const Vec2 from = stop(next_[k]);
-    const Vec2 to = stop(next_[k + 1 == next_.size() ? 0 : k + 1]);
-    double angle = std::atan2(cross(from, to), dot(from, to));
-    // Only where a single side cuts the circle is a small angle backwards nearly a whole turn, not rounding.
-    if (angle * turn < 0.0 && (std::abs(angle) > kSmallAngle || next_.size() == 2))
-      angle += turn * 2.0 * std::numbers::pi;
-    if (angle * turn > 0.0) add_arc(limit, std::atan2(from.y, from.x), angle);
-  }
-}
-
-// All corners lie outside the unit circle: whether it lies inside them.
-bool CellPainter::surrounds_origin(std::size_t limit) const {
-  bool left = false;
-  bool right = false;
-  for (std::size_t k = 0; k < polygon_.size(); ++k) {
-    const Corner& a = polygon_[k];
-    const Corner& b = polygon_[k + 1 == polygon_.size() ? 0 : k + 1];
-    const double side = cross(Vec2{a.limit[limit], a.limit[limit + 1]}, Vec2{b.limit[limit], b.limit[limit + 1]});
-    (side > 0.0 ? left : right) = true;
-  }
-  return left != right;
-}
-
-// Corners along an arc of the unit circle of the stop; its ends lie on the circle and are not among them. The others
-// lie a little outside, so that the chords enclose the arc's area: (n - 2) r^2 + 2 r = n step / sin(step).
-void CellPainter::add_arc(std::size_t limit, double from, double angle) {
-  const int steps = static_cast<int>(std::ceil(std::abs(angle) / arc_step_));
-  if (steps < 2) return;
-  const double step = angle / steps;
-  const double excess = steps * step / std::sin(step);
-  const double radius = steps == 2 ? 0.5 * excess : (std::sqrt(1.0 + (steps - 2) * excess) - 1.0) / (steps - 2);
-  for (int k = 1; k < steps; ++k) {
-    const double a = from + step * k;
-    polygon_.push_back(corner_at_stop(limit, Vec2{std::cos(a), std::sin(a)} * radius));
-  }
-}
-
-// The whole circle as a regular polygon of its area.
-void CellPainter::add_circle(std::size_t limit, double turn) {
-  const int steps = std::max(3, static_cast<int>(std::ceil(2.0 * std::numbers::pi / arc_step_)));
-  const double step = 2.0 * std::numbers::pi / steps;
-  const double radius = std::sqrt(step / std::sin(step));
-  for (int k = 0; k < steps; ++k) {
-    polygon_.push_back(corner_at_stop(limit, Vec2{std::cos(turn * step * k), std::sin(turn * step * k)} * radius));
-  }
-}
-
-CellPainter::Corner CellPainter::between(const Corner& a, const Corner& b, double t) {
-  Corner c;
-  c.position = a.position + (b.position - a.position) * t;
-  c.uv = a.uv + (b.uv - a.uv) * t;
-  for (std::size_t l = 0; l < c.limit.size(); ++l)
-    c.limit[l] = a.limit[l] + static_cast<float>(t) * (b.limit[l] - a.limit[l]);
-  return c;
-}
-
-// Everything is bilinear in the cell, or linear in a triangle of corners 0, 1 and 2.
-CellPainter::Corner CellPainter::corner_at(Vec2 uv) const {
-  const bool triangle = whole_.size() == 3;
-  const std::array<double, 4> share =
-      triangle ? std::array{1.0 - uv.x, uv.x - uv.y, uv.y, 0.0}
-               : std::array{(1.0 - uv.x) * (1.0 - uv.y), uv.x * (1.0 - uv.y), uv.x * uv.y, (1.0 - uv.x) * uv.y};
-  Corner out;
-  out.uv = uv;
-  for (std::size_t k = 0; k < whole_.size(); ++k) {
-    out.position = out.position + whole_[k].position * share[k];
-    for (std::size_t l = 0; l < out.limit.size(); ++l)
-      out.limit[l] += static_cast<float>(share[k]) * whole_[k].limit[l];
-  }
-  return out;
-}
-
-// The point of the cell whose ray crosses the stop there: two steps of Newton's method, the map being nearly linear.
-CellPainter::Corner CellPainter::corner_at_stop(std::size_t limit, Vec2 target) const {
-  constexpr double kStep = 1e-2;
-  Vec2 uv{0.5, 0.5};
-  Corner at = corner_at(uv);
-  for (int step = 0; step < 2; ++step) {
-    const Corner right = corner_at(uv + Vec2{kStep, 0.0});
-    const Corner up = corner_at(uv + Vec2{0.0, kStep});
-    const Vec2 s{at.limit[limit], at.limit[limit + 1]};
-    const Vec2 du = (Vec2{right.limit[limit], right.limit[limit + 1]} - s) * (1.0 / kStep);
-    const Vec2 dv = (Vec2{up.limit[limit], up.limit[limit + 1]} - s) * (1.0 / kStep);
-    const double determinant = cross(du, dv);
-    if (determinant == 0.0) break;
-    const Vec2 off = target - s;
-    uv = uv + Vec2{cross(off, dv) / determinant, cross(du, off) / determinant};
-    at = corner_at(uv);
-  }
-  return at;
-}
-
-void CellPainter::cut(const Mesh& mesh) {
-  for (int c = 0; c < mesh.layout.crossings && !polygon_.empty(); ++c) {
-    const auto limit = static_cast<std::size_t>(2 * c);
-    if (iris_.is_circle()) {
-      cut_by_circle(limit);
-      continue;
-    }
-    for (const IrisShape::Edge& edge : iris_.edges()) {
-      cut_where_positive([&](const Corner& p) {
-        return edge.normal.x * p.limit[limit] + edge.normal.y * p.limit[limit + 1] - iris_.apothem();
-      });
-    }
-  }
-  for (int r = 0; r < mesh.layout.rims && !polygon_.empty(); ++r) {
-    const auto limit = static_cast<std::size_t>(2 * mesh.layout.crossings + r);
-    cut_where_positive([&](const Corner& p) { return static_cast<double>(p.limit[limit]) - 1.0; });
   }
 }
 

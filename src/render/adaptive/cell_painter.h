@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "render/adaptive/mesh.h"
+#include "render/adaptive/outline_cutter.h"
 #include "render/adaptive/polygon_list.h"
 
 namespace contrejour::adaptive {
@@ -13,7 +14,8 @@ class CellPainter {
  public:
   // budget: squared error that one cell may make, in pixel values, summed over its pixels. peak: of the frame.
   CellPainter(const IrisShape& iris, const Frame& frame, double budget, double peak, PolygonList& out)
-      : iris_(iris), width_(frame.width), height_(frame.height), budget_(budget), peak_(peak), out_(out) {}
+      : iris_(iris), width_(frame.width), height_(frame.height), budget_(budget), peak_(peak), out_(out),
+        cutter_(iris) {}
 
   void paint(const Patch& patch) { paint(patch, 0); }
 
@@ -27,12 +29,6 @@ class CellPainter {
     std::size_t middle = 0;
   };
   using Flux = std::array<double, 3>;
-  // A corner of a polygon with what may cut it: stop coordinates, then rims.
-  struct Corner {
-    Vec2 position;  // pixels of the frame
-    Vec2 uv;        // in the cell or triangle: shares of areas there are shares of flux
-    std::array<float, 2 * kMaxStopCrossings + kMostRims> limit{};
-  };
 
   void paint(const Patch& patch, int depth);
   void paint_cell(const Mesh& mesh, int ix, int iy, int size);
@@ -50,26 +46,14 @@ class CellPainter {
 
   [[nodiscard]] static double limit_error(const Mesh& mesh, const Cell& cell);
 
-  void cut(const Mesh& mesh);
-  void cut_by_circle(std::size_t limit);
-  [[nodiscard]] bool surrounds_origin(std::size_t limit) const;
-  void add_arc(std::size_t limit, double from, double angle);
-  void add_circle(std::size_t limit, double turn);
-  void set_arc_step(const Mesh& mesh, std::span<const std::size_t> corners, const Shade& shade);
-  [[nodiscard]] static Corner between(const Corner& a, const Corner& b, double t);
-  [[nodiscard]] Corner corner_at(Vec2 uv) const;
-  [[nodiscard]] Corner corner_at_stop(std::size_t limit, Vec2 target) const;
-  template <class Value>
-  void cut_where_positive(Value value);
+  [[nodiscard]] double arc_step(const Mesh& mesh, std::span<const std::size_t> corners, const Shade& shade) const;
 
   const IrisShape& iris_;
   int width_, height_;
   double budget_;
   double peak_;
   PolygonList& out_;
-  std::vector<Corner> whole_, polygon_, next_;
-  std::vector<std::size_t> exits_;
-  double arc_step_ = 0.1;  // radians
+  OutlineCutter cutter_;
   std::vector<Point> points_;
 };
 

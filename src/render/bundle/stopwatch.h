@@ -1,7 +1,7 @@
 // Adds the time until the end of the block to a sum.
 #pragma once
 
-#include <chrono>
+#include "base/clock.h"
 
 namespace contrejour::bundle {
 
@@ -13,11 +13,10 @@ class Stopwatch {
   Stopwatch& operator=(const Stopwatch&) = delete;
 
   [[nodiscard]] double elapsed_ms() const {
-    return std::chrono::duration<double, std::milli>(Clock::now() - start_).count();
+    return ms_since(start_);
   }
 
  private:
-  using Clock = std::chrono::steady_clock;
   Clock::time_point start_ = Clock::now();
   double& sum_ms_;
 };

@@ -1,7 +1,7 @@
 #include "render/reference/reference.h"
 
-#include <chrono>
 
+#include "base/clock.h"
 #include "base/memory.h"
 #include "base/tasks.h"
 #include "render/interface/frame_plan.h"
@@ -10,12 +10,6 @@
 
 namespace contrejour {
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double ms_since(Clock::time_point start) {
-  return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
-}
 
 // One ghost of one light at one wavelength.
 struct Item {

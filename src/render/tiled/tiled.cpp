@@ -1,13 +1,13 @@
 #include "render/tiled/tiled.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <memory>
 #include <mutex>
 
 #include <fmt/format.h>
 
+#include "base/clock.h"
 #include "base/memory.h"
 #include "base/tasks.h"
 #include "ghosts/pupil_search.h"
@@ -20,8 +20,6 @@
 namespace contrejour {
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
 constexpr int kLowestGrid = 16;
 constexpr int kHighestGrid = 512;
 constexpr int kMostMergeSteps = 9;  // a grid of 512 in one primitive
@@ -29,10 +27,6 @@ constexpr int kLargestTile = 4096;
 // bodonyi2023 eq. 13 ends at this share of the grid.
 constexpr double kFewestShare = 0.05;
 constexpr double kTracingProgress = 0.7;  // of the whole, for the bar
-
-double ms_since(Clock::time_point start) {
-  return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
-}
 
 Result<void> check(const RenderSettings& settings) {
   const TiledOptions& o = settings.tiled;

@@ -1,0 +1,50 @@
+// What the iris and the rims leave of a cell: its outline, cut along arcs and lines.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "ghosts/iris_shape.h"
+#include "render/adaptive/patch.h"
+
+namespace contrejour::adaptive {
+
+// A corner of a polygon with what may cut it: stop coordinates, two a crossing, then squared heights at rims.
+struct Corner {
+  Vec2 position;  // pixels of the frame
+  Vec2 uv;        // in the cell or triangle: shares of areas there are shares of flux
+  std::array<float, 2 * kMaxStopCrossings + kMostRims> limit{};
+};
+
+class OutlineCutter {
+ public:
+  explicit OutlineCutter(const IrisShape& iris) : iris_(iris) {}
+
+  // whole: the cell's four corners at uv (0, 0), (1, 0), (1, 1), (0, 1), or the first three of them. Arcs of a round
+  // iris get a corner every arc_step_rad at least. Empty when nothing is open. Valid until the next call, as long as
+  // `whole` is.
+  [[nodiscard]] std::span<const Corner> open_part(std::span<const Corner> whole, int crossings, int rims,
+                                                  double arc_step_rad);
+
+ private:
+  void cut_by_iris(std::size_t limit);
+  void cut_by_circle(std::size_t limit);
+  template <class Value>
+  void cut_where_positive(Value value);
+  void add_arc(std::size_t limit, double from, double angle);
+  void add_circle(std::size_t limit, double turn);
+  [[nodiscard]] bool surrounds_origin(std::size_t limit) const;
+  [[nodiscard]] static Corner between(const Corner& a, const Corner& b, double t);
+  [[nodiscard]] Corner corner_at(Vec2 uv) const;
+  [[nodiscard]] Corner corner_at_stop(std::size_t limit, Vec2 target) const;
+
+  const IrisShape& iris_;
+  std::span<const Corner> whole_;
+  double arc_step_ = 0.1;  // radians
+  std::vector<Corner> polygon_, next_;
+  std::vector<std::size_t> exits_;  // of next_: where the outline leaves the circle
+};
+
+}  // namespace contrejour::adaptive
