@@ -45,7 +45,7 @@ struct GhostMeasure {
 class ReflectanceTables;
 
 // Measures a lens's ghosts at one wavelength, by grids of rays over the part of the entrance window that gets
-// through. Fluxes are good to 1e-3, the direct image's to 3e-4. Made once (tens of milliseconds for a long zoom),
+// through. Fluxes are good to 1e-3, the direct image's to 5e-4. Made once (tens of milliseconds for a long zoom),
 // then used for any light, from any thread.
 class GhostMeter {
  public:

@@ -10,7 +10,13 @@
 namespace contrejour {
 namespace {
 
-constexpr int kDirectSide = 97;  // rays a side over the pupil
+// The direct image's pupil: rays a side of the grid that is summed, and of those traced, cubics making the rest.
+// Few where the iris alone bounds the pupil; more where rims do, whose edges meet in corners; all where rays fail.
+constexpr int kDirectSide = 97;
+constexpr int kDirectSmooth = 6;  // so many times fewer
+constexpr int kDirectRims = 2;
+constexpr int kDirectSearchSide = 17;
+constexpr float kNearRim = 0.1F;  // of the clear height; of the stop radius
 constexpr int kGhostSide = 65;
 constexpr double kFloatPupil_mm = 1.0;
 constexpr float kFailed = std::numeric_limits<float>::infinity();
@@ -80,19 +86,47 @@ GhostMeasure measured(const RayGrid& grid, double cos_theta) {
   return m;
 }
 
-// The pupil's grid, or false when nothing gets through.
-bool trace_pupil(RayGrid& grid, const OpticalPath& path, const ReflectanceTables& tables, const LensState& lens,
-                 Vec3 direction, int side) {
-  const IrisShape iris(lens.iris);
-  const EntranceWindow window = entrance_window(lens, direction);
-  const auto region = find_pupil_region(path, tables, iris, direction, window, grid);
-  if (!region) return false;
+// Where rays of one path from one direction get through, and how to trace them there.
+struct Pupil {
+  const OpticalPath& path;
+  const ReflectanceTables& tables;
+  const IrisShape& iris;
+  Vec3 direction;
+  double z_mm;
+  Rectangle box;
+
   // Fluxes need shares of cells, not places on the sensor: float will do unless the pupil is tiny.
-  const Vec2 size = region->pupil_mm.high - region->pupil_mm.low;
-  const bool wide = std::min(size.x, size.y) > kFloatPupil_mm;
-  grid.trace(path, tables, iris, direction, window.z_mm, region->pupil_mm, side,
-             wide ? PacketPrecision::Float : PacketPrecision::Double);
-  return true;
+  void trace(RayGrid& grid, int side) const {
+    const Vec2 size = box.high - box.low;
+    const bool wide = std::min(size.x, size.y) > kFloatPupil_mm;
+    grid.trace(path, tables, iris, direction, z_mm, box, side, wide ? PacketPrecision::Float : PacketPrecision::Double);
+  }
+};
+
+bool all_arrived(const RayGrid& grid) {
+  return std::all_of(grid.blocked.begin(), grid.blocked.end(), [](float blocked) { return blocked < kFailed; });
+}
+
+// Whether a rim comes near what the iris lets through.
+bool is_cut_by_rims(const RayGrid& grid) {
+  for (std::size_t k = 0; k < grid.r_rel.size(); ++k) {
+    float iris = -kFailed;
+    for (std::size_t c = 0; c < static_cast<std::size_t>(grid.stop_crossings()); ++c)
+      iris = std::max(iris, grid.iris_distance[c][k]);
+    if (iris < kNearRim && grid.r_rel[k] > 1.0F - kNearRim) return true;
+  }
+  return false;
+}
+
+// A grid of kDirectSide rays a side over the pupil, but for rounding of cubics.
+void trace_direct(const Pupil& pupil, RayGrid& grid) {
+  const auto try_with = [&](int refinement) {
+    pupil.trace(grid, (kDirectSide - 1) / refinement + 1);
+    return all_arrived(grid);
+  };
+  if (try_with(kDirectSmooth) && !is_cut_by_rims(grid)) return grid.refine(pupil.iris, kDirectSmooth);
+  if (try_with(kDirectRims)) return grid.refine(pupil.iris, kDirectRims);
+  pupil.trace(grid, kDirectSide);
 }
 
 }  // namespace
@@ -106,16 +140,27 @@ GhostMeter::GhostMeter(GhostMeter&&) noexcept = default;
 GhostMeter& GhostMeter::operator=(GhostMeter&&) noexcept = default;
 
 double GhostMeter::direct_flux(Vec3 direction) const {
+  const OpticalPath path = direct_path(lens_, lambda_nm_);
+  const IrisShape iris(lens_.iris);
+  const EntranceWindow window = entrance_window(lens_, direction);
   RayGrid grid;
-  if (!trace_pupil(grid, direct_path(lens_, lambda_nm_), *tables_, lens_, direction, kDirectSide)) return 0.0;
+  const auto region =
+      find_pupil_region(path, *tables_, iris, direction, window, grid, PupilEffort::Finest, kDirectSearchSide);
+  if (!region) return 0.0;
+  trace_direct({path, *tables_, iris, direction, window.z_mm, region->pupil_mm}, grid);
   double flux = 0.0;
   for_each_open_triangle(grid, [&](const OpenTriangle& t) { flux += t.flux_mm2; });
   return flux * direction.z;
 }
 
 GhostMeasure GhostMeter::measure(Ghost ghost, Vec3 direction) const {
+  const OpticalPath path = ghost_path(lens_, ghost, lambda_nm_);
+  const IrisShape iris(lens_.iris);
+  const EntranceWindow window = entrance_window(lens_, direction);
   RayGrid grid;
-  if (!trace_pupil(grid, ghost_path(lens_, ghost, lambda_nm_), *tables_, lens_, direction, kGhostSide)) return {};
+  const auto region = find_pupil_region(path, *tables_, iris, direction, window, grid);
+  if (!region) return {};
+  Pupil{path, *tables_, iris, direction, window.z_mm, region->pupil_mm}.trace(grid, kGhostSide);
   return measured(grid, direction.z);
 }
 

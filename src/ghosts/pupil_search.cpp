@@ -8,7 +8,6 @@
 namespace contrejour {
 namespace {
 
-constexpr int kSearchSide = 49;  // rays a side of every zoom step
 constexpr int kSearchSteps = 10;
 constexpr std::array kFirstSides{kSearchSide, 193, 577};  // by PupilEffort
 constexpr int kGuessSide = 33;
@@ -93,25 +92,24 @@ int first_grid_side(PupilEffort effort) { return kFirstSides[static_cast<std::si
 
 std::optional<PupilRegion> find_pupil_region(const OpticalPath& path, const ReflectanceTables& tables,
                                              const IrisShape& iris, Vec3 direction, const EntranceWindow& window,
-                                             RayGrid& scratch, PupilEffort effort) {
+                                             RayGrid& scratch, PupilEffort effort, int side) {
   PupilRegion region{{window.min_mm, window.max_mm}, {}, 0};
-  const auto search = [&](int side) {
-    scratch.trace(path, tables, iris, direction, window.z_mm, region.pupil_mm, side,
-                  search_precision(region.pupil_mm, side));
-    region.rays += static_cast<std::uint64_t>(side) * static_cast<std::uint64_t>(side);
+  const auto search = [&](int rays) {
+    scratch.trace(path, tables, iris, direction, window.z_mm, region.pupil_mm, rays,
+                  search_precision(region.pupil_mm, rays));
+    region.rays += static_cast<std::uint64_t>(rays) * static_cast<std::uint64_t>(rays);
     return open_part(scratch);
   };
-  OpenPart part;
-  for (std::size_t k = 0; k <= static_cast<std::size_t>(effort); ++k) {
+  OpenPart part = search(side);
+  for (std::size_t k = side < kSearchSide ? 0 : 1; !part.any && k <= static_cast<std::size_t>(effort); ++k) {
     part = search(kFirstSides[k]);
-    if (part.any) break;
   }
   for (int step = 1; part.any; ++step) {
     const double before = area(region.pupil_mm);
     region.pupil_mm = part.pupil_mm;
     region.sensor_mm = part.sensor_mm;
     if (area(part.pupil_mm) > kShrinkEnough * before || step == kSearchSteps) return region;
-    part = search(kSearchSide);
+    part = search(side);
   }
   return std::nullopt;
 }

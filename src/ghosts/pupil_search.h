@@ -21,14 +21,16 @@ enum class PupilEffort {
   Finer,     // a grid of four times as many rays a side
   Finest,    // and one of twelve times
 };
+inline constexpr int kSearchSide = 49;  // rays a side of a search's grids, where nobody asks for less
 [[nodiscard]] int first_grid_side(PupilEffort effort);  // rays a side of the finest of them
 
 // None when nothing gets through. Differs: hullin2011 precomputes tables over light directions (pupil_bounds.h);
-// packets are quick enough to search for every light anew.
+// packets are quick enough to search for every light anew. A side below kSearchSide is for well-behaved paths.
 [[nodiscard]] std::optional<PupilRegion> find_pupil_region(const OpticalPath& path, const ReflectanceTables& tables,
                                                            const IrisShape& iris, Vec3 direction,
                                                            const EntranceWindow& window, RayGrid& scratch,
-                                                           PupilEffort effort = PupilEffort::Finest);
+                                                           PupilEffort effort = PupilEffort::Finest,
+                                                           int side = kSearchSide);
 
 // The same by one coarse grid over a guess. None when the guess holds no ray that gets through, or cuts some off.
 [[nodiscard]] std::optional<PupilRegion> find_pupil_region_in(const Rectangle& guess, const OpticalPath& path,

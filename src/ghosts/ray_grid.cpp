@@ -12,6 +12,28 @@ constexpr double kRoundingShare = 1e-3;
 constexpr double kUnseenCell_px = 0.25;
 constexpr int kProbeRays = 64;
 
+// The cubic through f(0) to f(3), at t.
+std::array<float, 4> cubic_weights(double t) {
+  return {static_cast<float>(-(t - 1.0) * (t - 2.0) * (t - 3.0) / 6.0),
+          static_cast<float>(t * (t - 2.0) * (t - 3.0) / 2.0), static_cast<float>(-t * (t - 1.0) * (t - 3.0) / 2.0),
+          static_cast<float>(t * (t - 1.0) * (t - 2.0) / 6.0)};
+}
+
+// For each of factor * (side - 1) + 1 points along an axis, the first of the four rays about it and their weights.
+struct CubicPoint {
+  std::size_t first = 0;
+  std::array<float, 4> weight{};
+};
+
+std::vector<CubicPoint> cubic_points(int side, int factor) {
+  std::vector<CubicPoint> points;
+  for (int k = 0; k <= factor * (side - 1); ++k) {
+    const int first = std::clamp(k / factor - 1, 0, side - 4);
+    points.push_back({static_cast<std::size_t>(first), cubic_weights(static_cast<double>(k) / factor - first)});
+  }
+  return points;
+}
+
 }  // namespace
 
 Vec2 RayGrid::step_mm() const { return (box_.high - box_.low) * (1.0 / (side_ - 1)); }
@@ -74,6 +96,40 @@ void RayGrid::mirror_rows(int from) {
   for (std::size_t c = 0; c < static_cast<std::size_t>(stop_crossings_); ++c) {
     mirror(stop_x[c], 1.0F);
     mirror(stop_y[c], -1.0F);
+  }
+}
+
+void RayGrid::refine(const IrisShape& iris, int factor) {
+  for (auto* v : {&sensor_x_mm, &sensor_y_mm, &transmission, &r_rel}) refine(*v, factor);
+  for (std::size_t c = 0; c < static_cast<std::size_t>(stop_crossings_); ++c) {
+    for (auto* v : {&stop_x[c], &stop_y[c]}) refine(*v, factor);
+  }
+  side_ = factor * (side_ - 1) + 1;
+  const std::size_t count = at(0, side_);
+  resize(count);
+  find_blocked(iris, count);
+}
+
+void RayGrid::refine(std::vector<float>& values, int factor) const {
+  const auto points = cubic_points(side_, factor);
+  const auto coarse = static_cast<std::size_t>(side_);
+  const std::size_t fine = points.size();
+  std::vector<float> rows(coarse * fine);
+  for (std::size_t y = 0; y < coarse; ++y) {
+    for (std::size_t x = 0; x < fine; ++x) {
+      const float* from = values.data() + y * coarse + points[x].first;
+      const auto& w = points[x].weight;
+      rows[y * fine + x] = w[0] * from[0] + w[1] * from[1] + w[2] * from[2] + w[3] * from[3];
+    }
+  }
+  values.resize(fine * fine);
+  for (std::size_t y = 0; y < fine; ++y) {
+    const float* from = rows.data() + points[y].first * fine;
+    const auto& w = points[y].weight;
+    for (std::size_t x = 0; x < fine; ++x) {
+      values[y * fine + x] =
+          w[0] * from[x] + w[1] * from[fine + x] + w[2] * from[2 * fine + x] + w[3] * from[3 * fine + x];
+    }
   }
 }
 

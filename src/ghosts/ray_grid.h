@@ -29,6 +29,10 @@ class RayGrid {
   std::size_t trace_mirrored(const OpticalPath& path, const ReflectanceTables& tables, const IrisShape& iris,
                              Vec3 direction, double z_mm, const Rectangle& box, int side, PacketPrecision precision);
 
+  // Every cell into factor x factor, by cubics through the rays along each axis: what is smooth between rays in few of
+  // them. The grid needs four rays a side, all of which arrived.
+  void refine(const IrisShape& iris, int factor);
+
   // Turns the sensor points about the axis; the crossings of the stop stay as they are.
   void turn_sensor(double angle_rad);
 
@@ -55,6 +59,7 @@ class RayGrid {
   void trace_rows(const OpticalPath& path, const ReflectanceTables& tables, Vec3 direction, double z_mm,
                   const Rectangle& box, int side, int rows, PacketPrecision precision);
   void mirror_rows(int from);
+  void refine(std::vector<float>& values, int factor) const;
   void find_blocked(const IrisShape& iris, std::size_t count);
 
   int side_ = 0;

@@ -15,7 +15,6 @@
 namespace contrejour {
 namespace {
 
-
 constexpr int kRounds = 5;
 constexpr double kLambda_nm = 550.0;
 // Enough rays for long vectors, few enough for a core's own cache.

@@ -85,7 +85,7 @@ PolygonList painted(const AffineGhost& ghost, const Iris& iris, double error = 1
   PolygonList list;
   const IrisShape shape(iris);
   const Frame frame = frame_px();
-  CellPainter painter(shape, frame, error * error * level * level * area_px / 64.0, level, list);
+  CellPainter painter(shape, frame, error * error * level * level * area_px, 64.0, level, list);
   painter.paint(ghost.patch());
   return list;
 }

@@ -69,7 +69,7 @@ std::vector<double> changes_of(const System& system) {
 }  // namespace
 
 // Which systems tests/renderers has not: other f-numbers, other places of the light, all presets.
-TEST_CASE("closer to the reference with every preset, and always within 50 dB of it [slow]") {
+TEST_CASE("closer to the reference with every preset, within its error or 50 dB of it [slow]") {
   for (const System& system :
        {System{"heliar", {.f_number = 16.0}, {0.62, 0.3}}, System{"heliar", {.f_number = 5.6}, {0.2, 0.71}},
         System{"planar-50", {.f_number = 5.6}, {0.35, 0.4}},
@@ -85,8 +85,8 @@ TEST_CASE("closer to the reference with every preset, and always within 50 dB of
       CAPTURE(error);
       settings.error = error;
       const double db = psnr_db(truth, image_of("adaptive", lens, light, settings));
-      CHECK(db >= before_db);
-      CHECK(db >= system.psnr_db);
+      CHECK(db >= before_db - 0.1);  // the reference's own error shows from 64 dB on
+      CHECK(db >= std::min(system.psnr_db, -20.0 * std::log10(error)));
       before_db = db;
     }
   }

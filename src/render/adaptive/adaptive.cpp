@@ -32,10 +32,10 @@ class Stopwatch {
 };
 
 // The error that one item may make: items' errors add in squares, being of either sign and in different places. What
-// cells and fits are allowed is a bound that most of them stay far below: measured, all of them together make less
-// than a fifth of it (docs/physics/adaptive.md), so that three times as much still holds.
+// cells are allowed is a bound that most of them stay far below: measured, all together make less than a tenth of it
+// (docs/physics/adaptive.md), so that six times as much still holds.
 ErrorBudget budget_per_item(double error, double peak, const Frame& frame, std::size_t items) {
-  constexpr double kRoom = 3.0;
+  constexpr double kRoom = 6.0;
   const double allowed = kRoom * error * peak;
   const double pixels = static_cast<double>(frame.width) * frame.height;
   return {allowed * allowed * pixels / static_cast<double>(std::max<std::size_t>(items, 1)), peak};
@@ -59,7 +59,7 @@ class FramePainter {
         done += count;
       }
       paint_ms_ += watch_.lap_ms();
-      draw(batch);
+      draw(batch, budget.peak);
       tiles_ms_ += watch_.lap_ms();
       if (context_.progress) context_.progress(static_cast<double>(done) / static_cast<double>(items.size()));
     }
@@ -84,9 +84,9 @@ class FramePainter {
     return bytes;
   }
 
-  void draw(const std::vector<TiledPolygons>& batch) {
+  void draw(const std::vector<TiledPolygons>& batch, double peak) {
     parallel_for(static_cast<std::size_t>(grid_.rows), quiet_,
-                 [&](std::size_t row) { add_tile_row(batch, grid_, static_cast<int>(row), flare_.image); });
+                 [&](std::size_t row) { add_tile_row(batch, grid_, static_cast<int>(row), peak, flare_.image); });
   }
 
   const Scene& scene_;

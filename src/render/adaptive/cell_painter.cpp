@@ -158,7 +158,7 @@ bool CellPainter::wants_finer_mesh(const Mesh& mesh, int ix, int iy) const {
       const Cell cell = cell_at(x, y, 2);
       const State state = state_of(mesh, cell);
       if (state == State::Closed || off_frame(mesh, cell)) continue;
-      if (squared_error(mesh, cell, state) > kGainOfHalving * budget_) return true;
+      if (squared_error(mesh, cell, state) > kGainOfHalving * cell_budget()) return true;
     }
   }
   return false;
@@ -190,7 +190,7 @@ void CellPainter::paint_cell(const Mesh& mesh, int ix, int iy, int size) {
   const Cell cell = cell_at(ix, iy, size);
   const State state = state_of(mesh, cell);
   if (state == State::Closed || off_frame(mesh, cell)) return;
-  if (size > 1 && squared_error(mesh, cell, state) > budget_) {
+  if (size > 1 && squared_error(mesh, cell, state) > cell_budget()) {
     const int half = size / 2;
     for (int k = 0; k < 4; ++k) paint_cell(mesh, ix + (k % 2) * half, iy + (k / 2) * half, half);
     return;
@@ -199,6 +199,7 @@ void CellPainter::paint_cell(const Mesh& mesh, int ix, int iy, int size) {
 }
 
 void CellPainter::draw(const Mesh& mesh, const Cell& cell, State state) {
+  cells_ += 1.0;
   const std::array<Vec2, 4> p{mesh.position(cell.corner[0]), mesh.position(cell.corner[1]),
                               mesh.position(cell.corner[2]), mesh.position(cell.corner[3])};
   const double area = quad_area(p[0], p[1], p[2], p[3]);
@@ -285,7 +286,7 @@ double CellPainter::arc_step(const Mesh& mesh, std::span<const std::size_t> corn
   const double level = std::max({std::abs(shade.value[0]), std::abs(shade.value[1]), std::abs(shade.value[2])});
   const double seen = level / (1.0 + level / (kPeaks * peak_));
   const double off_px =
-      std::clamp(0.5 * std::sqrt(budget_ / std::max(longest, 1.0)) / std::max(seen, 1e-300), 0.02, 0.5);
+      std::clamp(0.5 * std::sqrt(cell_budget() / std::max(longest, 1.0)) / std::max(seen, 1e-300), 0.02, 0.5);
   const double pixels_per_radius = longest / std::max(reach, 1e-9);
   return std::clamp(std::sqrt(8.0 * off_px / pixels_per_radius), 0.02, 0.8);
 }

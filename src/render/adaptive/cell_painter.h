@@ -2,6 +2,7 @@
 // and the rims cut.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 
 #include "render/adaptive/mesh.h"
@@ -12,10 +13,11 @@ namespace contrejour::adaptive {
 
 class CellPainter {
  public:
-  // budget: squared error that one cell may make, in pixel values, summed over its pixels. peak: of the frame.
-  CellPainter(const IrisShape& iris, const Frame& frame, double budget, double peak, PolygonList& out)
-      : iris_(iris), width_(frame.width), height_(frame.height), budget_(budget), peak_(peak), out_(out),
-        cutter_(iris) {}
+  // budget: squared error that all cells together may make, in pixel values, summed over pixels, if they are no more
+  // than few_cells or several times that. peak: of the frame.
+  CellPainter(const IrisShape& iris, const Frame& frame, double budget, double few_cells, double peak, PolygonList& out)
+      : iris_(iris), width_(frame.width), height_(frame.height), budget_(budget), few_cells_(few_cells), peak_(peak),
+        out_(out), cutter_(iris) {}
 
   void paint(const Patch& patch) { paint(patch, 0); }
 
@@ -30,6 +32,8 @@ class CellPainter {
   };
   using Flux = std::array<double, 3>;
 
+  static constexpr double kManyCells = 4.0;
+
   void paint(const Patch& patch, int depth);
   void paint_cell(const Mesh& mesh, int ix, int iy, int size);
   void draw(const Mesh& mesh, const Cell& cell, State state);
@@ -38,6 +42,9 @@ class CellPainter {
                     std::span<const std::size_t> corners);
   void draw_line(std::span<const Corner> polygon, const Flux& flux);
 
+  // Of the next cell. How many there will be is not known before: their share falls as they become more, down to a
+  // quarter. Falling on, it would spend most of them where light gathers and nothing is gained.
+  [[nodiscard]] double cell_budget() const { return budget_ / std::clamp(cells_, few_cells_, kManyCells * few_cells_); }
   [[nodiscard]] static Cell cell_at(int ix, int iy, int size);
   [[nodiscard]] static State state_of(const Mesh& mesh, const Cell& cell);
   [[nodiscard]] bool off_frame(const Mesh& mesh, const Cell& cell) const;
@@ -50,7 +57,8 @@ class CellPainter {
 
   const IrisShape& iris_;
   int width_, height_;
-  double budget_;
+  double budget_, few_cells_;
+  double cells_ = 0.0;  // drawn so far
   double peak_;
   PolygonList& out_;
   OutlineCutter cutter_;

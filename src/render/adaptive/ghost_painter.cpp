@@ -15,11 +15,12 @@ constexpr std::array kNodes{5, 9, 17};
 constexpr double kFloatError_mm = 1e-3;
 constexpr double kFloatBox_mm = 0.05;
 constexpr double kWorthShrinking = 0.5;  // a box whose lit part has no more of its area is shrunk to it
+constexpr double kFitShare = 0.4;  // of the allowed error, that fits may make: theirs is the same all over a ghost
 constexpr double kNoLimit = 1e9;
-constexpr double kPeaks = 4.0;         // fits of what is so many times brighter than the peak need be no better
-constexpr float kNearlyThrough = 1.2F; // of the clear height
-constexpr double kShiftShare = 1.0;    // of a fit's tolerance that a band of wavelengths may take on either side
-constexpr double kCellsPerItem = 64.0;  // an item's squared error is shared among so many cells
+constexpr double kPeaks = 4.0;  // fits of what is so many times brighter than the peak need be no better
+constexpr float kNearlyThrough = 1.2F;  // of the clear height
+constexpr double kShiftShare = 1.0;  // of a fit's tolerance that a band of wavelengths may take on either side
+constexpr double kFewCells = 64.0;  // a band's squared error is shared among so many cells
 
 // Bounds of the cells between the nodes that may let light through, none if none may; the iris counts as its
 // circumscribed circle.
@@ -106,7 +107,8 @@ GhostPainter::Tolerance GhostPainter::tolerance_for(const std::vector<RaySheet>&
   const double side = std::sqrt(size.x * size.y);
   const Vec2 pupil = middle.box.high - middle.box.low;
   const double level = weight * pupil.x * pupil.y * light_.direction.z / (size.x * size.y);
-  const double error = std::sqrt(budget.squared_error) / std::min(level, kPeaks * budget.peak);  // in levels, summed
+  const double error =
+      kFitShare * std::sqrt(budget.squared_error) / std::min(level, kPeaks * budget.peak);  // in levels, summed
   Tolerance t;
   t.position_px = std::clamp(std::min(error / (2.0 * std::sqrt(side)), error / 8.0), 0.005, 0.05 * side + 0.5);
   t.stop = 2.0 * t.position_px / side;
@@ -161,8 +163,7 @@ void GhostPainter::paint(Ghost ghost, const Rectangle& box, std::span<const Plan
   const double shift = passes.size() > 1 ? shift_px(sheets.front(), sheets.back()) : 0.0;
   const double wanted = std::ceil(shift / (2.0 * kShiftShare * tolerance.position_px));
   const std::size_t bands = static_cast<std::size_t>(std::clamp(wanted, 1.0, static_cast<double>(passes.size())));
-  CellPainter cells(iris_, frame_, budget.squared_error / (kCellsPerItem * static_cast<double>(bands)), budget.peak,
-                    out);
+  CellPainter cells(iris_, frame_, budget.squared_error, kFewCells * static_cast<double>(bands), budget.peak, out);
   for (std::size_t band = 0; band < bands; ++band) {
     const std::size_t first = band * passes.size() / bands;
     const std::size_t last = (band + 1) * passes.size() / bands;

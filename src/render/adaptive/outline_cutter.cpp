@@ -108,7 +108,7 @@ void OutlineCutter::add_arc(std::size_t limit, double from, double angle) {
   const double radius = steps == 2 ? 0.5 * excess : (std::sqrt(1.0 + (steps - 2) * excess) - 1.0) / (steps - 2);
   for (int k = 1; k < steps; ++k) {
     const double a = from + step * k;
-    polygon_.push_back(corner_at_stop(limit, Vec2{std::cos(a), std::sin(a)} * radius));
+    if (const auto corner = corner_at_stop(limit, Vec2{std::cos(a), std::sin(a)} * radius)) polygon_.push_back(*corner);
   }
 }
 
@@ -118,16 +118,16 @@ void OutlineCutter::add_circle(std::size_t limit, double turn) {
   const double step = 2.0 * std::numbers::pi / steps;
   const double radius = std::sqrt(step / std::sin(step));
   for (int k = 0; k < steps; ++k) {
-    polygon_.push_back(corner_at_stop(limit, Vec2{std::cos(turn * step * k), std::sin(turn * step * k)} * radius));
+    const double a = turn * step * k;
+    if (const auto corner = corner_at_stop(limit, Vec2{std::cos(a), std::sin(a)} * radius)) polygon_.push_back(*corner);
   }
 }
 
-Corner OutlineCutter::between(const Corner& a, const Corner& b, double t) {
+Corner OutlineCutter::between(const Corner& a, const Corner& b, double t) const {
   Corner c;
   c.position = a.position + (b.position - a.position) * t;
   c.uv = a.uv + (b.uv - a.uv) * t;
-  for (std::size_t l = 0; l < c.limit.size(); ++l)
-    c.limit[l] = a.limit[l] + static_cast<float>(t) * (b.limit[l] - a.limit[l]);
+  for (std::size_t l = 0; l < limits_; ++l) c.limit[l] = a.limit[l] + static_cast<float>(t) * (b.limit[l] - a.limit[l]);
   return c;
 }
 
@@ -141,36 +141,45 @@ Corner OutlineCutter::corner_at(Vec2 uv) const {
   out.uv = uv;
   for (std::size_t k = 0; k < whole_.size(); ++k) {
     out.position = out.position + whole_[k].position * share[k];
-    for (std::size_t l = 0; l < out.limit.size(); ++l)
-      out.limit[l] += static_cast<float>(share[k]) * whole_[k].limit[l];
+    for (std::size_t l = 0; l < limits_; ++l) out.limit[l] += static_cast<float>(share[k]) * whole_[k].limit[l];
   }
   return out;
 }
 
 // The point of the cell whose ray crosses the stop there: two steps of Newton's method, the map being nearly linear.
-Corner OutlineCutter::corner_at_stop(std::size_t limit, Vec2 target) const {
-  constexpr double kStep = 1e-2;
+// None where it bends too much for them.
+std::optional<Corner> OutlineCutter::corner_at_stop(std::size_t limit, Vec2 target) const {
+  constexpr double kMiss = 0.1;  // stop radii
+  const auto stop = [&](std::size_t k) { return Vec2{whole_[k].limit[limit], whole_[k].limit[limit + 1]}; };
+  const bool triangle = whole_.size() == 3;
+  // s(u, v) = origin + u along_u + v along_v + u v twist.
+  const Vec2 origin = stop(0);
+  const Vec2 along_u = stop(1) - origin;
+  const Vec2 along_v = triangle ? stop(2) - stop(1) : stop(3) - origin;
+  const Vec2 twist = triangle ? Vec2{} : stop(2) - stop(1) - along_v;
+  const auto missed_by = [&](Vec2 uv) {
+    return target - (origin + along_u * uv.x + along_v * uv.y + twist * (uv.x * uv.y));
+  };
   Vec2 uv{0.5, 0.5};
-  Corner at = corner_at(uv);
   for (int step = 0; step < 2; ++step) {
-    const Corner right = corner_at(uv + Vec2{kStep, 0.0});
-    const Corner up = corner_at(uv + Vec2{0.0, kStep});
-    const Vec2 s{at.limit[limit], at.limit[limit + 1]};
-    const Vec2 du = (Vec2{right.limit[limit], right.limit[limit + 1]} - s) * (1.0 / kStep);
-    const Vec2 dv = (Vec2{up.limit[limit], up.limit[limit + 1]} - s) * (1.0 / kStep);
+    const Vec2 off = missed_by(uv);
+    const Vec2 du = along_u + twist * uv.y;
+    const Vec2 dv = along_v + twist * uv.x;
     const double determinant = cross(du, dv);
-    if (determinant == 0.0) break;
-    const Vec2 off = target - s;
+    if (determinant == 0.0) return std::nullopt;
     uv = uv + Vec2{cross(off, dv) / determinant, cross(du, off) / determinant};
-    at = corner_at(uv);
+    // An arc does not leave the cell that it was found in.
+    uv = {std::clamp(uv.x, 0.0, 1.0), std::clamp(uv.y, 0.0, triangle ? uv.x : 1.0)};
   }
-  return at;
+  if (length(missed_by(uv)) > kMiss) return std::nullopt;
+  return corner_at(uv);
 }
 
 std::span<const Corner> OutlineCutter::open_part(std::span<const Corner> whole, int crossings, int rims,
                                                  double arc_step_rad) {
   whole_ = whole;
   arc_step_ = arc_step_rad;
+  limits_ = static_cast<std::size_t>(2 * crossings + rims);
   polygon_.assign(whole.begin(), whole.end());
   for (int c = 0; c < crossings && !polygon_.empty(); ++c) cut_by_iris(static_cast<std::size_t>(2 * c));
   for (int r = 0; r < rims && !polygon_.empty(); ++r) {

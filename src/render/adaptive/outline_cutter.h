@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -36,13 +37,14 @@ class OutlineCutter {
   void add_arc(std::size_t limit, double from, double angle);
   void add_circle(std::size_t limit, double turn);
   [[nodiscard]] bool surrounds_origin(std::size_t limit) const;
-  [[nodiscard]] static Corner between(const Corner& a, const Corner& b, double t);
+  [[nodiscard]] Corner between(const Corner& a, const Corner& b, double t) const;
   [[nodiscard]] Corner corner_at(Vec2 uv) const;
-  [[nodiscard]] Corner corner_at_stop(std::size_t limit, Vec2 target) const;
+  [[nodiscard]] std::optional<Corner> corner_at_stop(std::size_t limit, Vec2 target) const;
 
   const IrisShape& iris_;
   std::span<const Corner> whole_;
   double arc_step_ = 0.1;  // radians
+  std::size_t limits_ = 0;  // of a corner's that are in use
   std::vector<Corner> polygon_, next_;
   std::vector<std::size_t> exits_;  // of next_: where the outline leaves the circle
 };

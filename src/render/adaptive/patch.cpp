@@ -67,6 +67,22 @@ void copy_rims(const RaySheet& sheet, const std::vector<std::size_t>& steps, Pat
   }
 }
 
+// Whether nothing between four rays gets through: all beyond one rim, or on one side of the stop beyond its circle.
+// What lies between them is a mean of theirs.
+bool is_closed(const RaySheet& sheet, const std::array<std::size_t, 4>& corners) {
+  const auto all = [&](auto beyond) { return std::all_of(corners.begin(), corners.end(), beyond); };
+  for (std::size_t at = 0; at < sheet.rim_squared.size(); at += sheet.count()) {
+    if (all([&](std::size_t k) { return sheet.rim_squared[at + k] > 1.0F; })) return true;
+  }
+  for (const auto& crossing : sheet.stop) {
+    for (const auto& coordinate : crossing) {
+      if (all([&](std::size_t k) { return coordinate[k] > 1.0F; })) return true;
+      if (all([&](std::size_t k) { return coordinate[k] < -1.0F; })) return true;
+    }
+  }
+  return false;
+}
+
 double largest_size(const float* field, std::size_t count) {
   float largest = 0.0F;
   for (std::size_t k = 0; k < count; ++k) largest = std::max(largest, std::abs(field[k]));
@@ -130,6 +146,7 @@ std::vector<Patch> patches_of_cells(const RaySheet& sheet, const LightFrame& lig
       const std::array<std::size_t, 4> corners{iy * n + ix, iy * n + ix + 1, (iy + 1) * n + ix, (iy + 1) * n + ix + 1};
       if (std::any_of(corners.begin(), corners.end(), [&](std::size_t k) { return std::isinf(sheet.r_rel[k]); }))
         continue;
+      if (is_closed(sheet, corners)) continue;
       const auto pick = [&](const std::vector<float>& from, std::vector<float>& to, std::size_t offset = 0) {
         for (const std::size_t k : corners) to.push_back(from[offset + k]);
       };

@@ -39,7 +39,7 @@ struct Patch {
 // All rays of the sheet must have arrived. Rims that every ray clears by a good margin are left out.
 [[nodiscard]] Patch make_patch(const RaySheet& sheet, const LightFrame& light, const Frame& frame);
 
-// Straight lines between neighbouring rays that arrived, a patch for each four.
+// Straight lines between neighbouring rays that arrived, a patch for each four between which any light may pass.
 [[nodiscard]] std::vector<Patch> patches_of_cells(const RaySheet& sheet, const LightFrame& light, const Frame& frame);
 
 // How much the polynomials may still be wrong, by the size of their highest terms.

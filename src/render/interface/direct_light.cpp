@@ -4,7 +4,6 @@
 #include <cmath>
 
 namespace contrejour {
-namespace {
 
 Vec3 measured_direction(const LensState& lens, const Frame& frame, Vec3 direction) {
   const Vec2 uv = frame.uv_from_sensor(landing_of(lens, direction, lens.design_wavelength_nm));
@@ -14,20 +13,18 @@ Vec3 measured_direction(const LensState& lens, const Frame& frame, Vec3 directio
   return direction_to_land_at(lens, frame.sensor_from_uv(edge), lens.design_wavelength_nm);
 }
 
-}  // namespace
-
-Rgb direct_light(const LensState& lens, const Frame& frame, Vec3 direction, std::span<const SpectralBand> bands,
-                 std::span<const GhostMeter> meters) {
-  const auto towards = [&](Vec3 measured) {
+Rgb direct_light(std::span<const SpectralBand> bands, std::span<const GhostMeter> meters,
+                 std::span<const double> flux_mm2) {
+  const auto sum = [&](auto flux_of) {
     Rgb whole{};
     for (std::size_t k = 0; k < bands.size(); ++k) {
-      const double flux = meters[k].direct_flux(measured);
+      const double flux = flux_of(k);
       for (std::size_t c = 0; c < whole.size(); ++c) whole[c] += bands[k].weight[c] * flux;
     }
     return whole;
   };
-  const Rgb whole = towards(measured_direction(lens, frame, direction));
-  return whole == Rgb{} ? towards({0.0, 0.0, 1.0}) : whole;
+  const Rgb whole = sum([&](std::size_t k) { return flux_mm2[k]; });
+  return whole == Rgb{} ? sum([&](std::size_t k) { return meters[k].direct_flux({0.0, 0.0, 1.0}); }) : whole;
 }
 
 }  // namespace contrejour

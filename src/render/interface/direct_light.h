@@ -9,10 +9,12 @@
 
 namespace contrejour {
 
-// Sum over the bands of w[c] * Phi, mm^2 at E0 = 1; meters[k] is made for bands[k]. A light outside the frame is
-// measured at the nearest point of the frame's edge on the way to its centre; one whose light does not get
-// through there, on the axis.
-[[nodiscard]] Rgb direct_light(const LensState& lens, const Frame& frame, Vec3 direction,
-                               std::span<const SpectralBand> bands, std::span<const GhostMeter> meters);
+// Where a light is measured: outside the frame at the nearest point of the frame's edge on the way to its centre.
+[[nodiscard]] Vec3 measured_direction(const LensState& lens, const Frame& frame, Vec3 direction);
+
+// Sum over the bands of w[c] * Phi, mm^2 at E0 = 1, from each band's direct flux in the measured direction. A light
+// that does not get through there is measured on the axis; meters[k] is made for bands[k].
+[[nodiscard]] Rgb direct_light(std::span<const SpectralBand> bands, std::span<const GhostMeter> meters,
+                               std::span<const double> flux_mm2);
 
 }  // namespace contrejour

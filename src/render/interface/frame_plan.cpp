@@ -78,15 +78,16 @@ TablesByWavelength tables_of(const LensState& lens, const BandsBySpectrum& spect
   return tables_for(lens, lambda_nm, context);
 }
 
-PlannedLight plan_light(const LensState& lens, const Light& light, const RenderSettings& settings,
-                        const BandsBySpectrum& spectra) {
+const MeteredBands& bands_for(const Light& light, const BandsBySpectrum& spectra) {
+  return std::find_if(spectra.begin(), spectra.end(), [&](const auto& entry) { return entry.first == light.spectrum; })
+      ->second;
+}
+
+PlannedLight plan_light(const Light& light, const MeteredBands& metered, std::span<const double> flux_mm2) {
   PlannedLight planned;
   planned.direction = normalized(light.direction);
-  const auto& [bands, meters] = std::find_if(spectra.begin(), spectra.end(), [&](const auto& entry) {
-                                  return entry.first == light.spectrum;
-                                })->second;
-  const Rgb whole = direct_light(lens, settings.frame, planned.direction, bands, meters);
-  for (const SpectralBand& band : bands) {
+  const Rgb whole = direct_light(metered.bands, metered.meters, flux_mm2);
+  for (const SpectralBand& band : metered.bands) {
     PlannedPass pass{band.lambda_nm, {}};
     for (std::size_t c = 0; c < whole.size(); ++c) {
       pass.gain[c] = whole[c] != 0.0 ? light.value[c] * band.weight[c] / whole[c] : 0.0;
@@ -94,6 +95,28 @@ PlannedLight plan_light(const LensState& lens, const Light& light, const RenderS
     planned.passes.push_back(std::move(pass));
   }
   return planned;
+}
+
+// All lights, the direct fluxes of all their bands side by side. False when cancelled.
+bool plan_lights(const LensState& lens, std::span<const Light> lights, const Frame& frame,
+                 const BandsBySpectrum& spectra, const Context& context, std::vector<PlannedLight>& planned) {
+  struct Share {
+    std::size_t light, band;
+  };
+  std::vector<Share> shares;
+  std::vector<std::vector<double>> flux_mm2(lights.size());
+  for (std::size_t k = 0; k < lights.size(); ++k) {
+    flux_mm2[k].resize(bands_for(lights[k], spectra).bands.size());
+    for (std::size_t band = 0; band < flux_mm2[k].size(); ++band) shares.push_back({k, band});
+  }
+  const bool done = parallel_for(shares.size(), context, [&](std::size_t at) {
+    const auto [k, band] = shares[at];
+    const Vec3 measured = measured_direction(lens, frame, normalized(lights[k].direction));
+    flux_mm2[k][band] = bands_for(lights[k], spectra).meters[band].direct_flux(measured);
+  });
+  for (std::size_t k = 0; done && k < lights.size(); ++k)
+    planned.push_back(plan_light(lights[k], bands_for(lights[k], spectra), flux_mm2[k]));
+  return done;
 }
 
 }  // namespace
@@ -107,7 +130,6 @@ Result<FramePlan> plan_frame(const LensState& lens, std::span<const Light> light
   FramePlan plan;
   plan.ghosts = selected->ghosts;
   plan.skipped_flux = selected->skipped_flux;
-  plan.lights.resize(lights.size());
   Context quiet = context;
   quiet.progress = {};
   BandsBySpectrum spectra = bands_by_spectrum(lights, settings);
@@ -116,9 +138,8 @@ Result<FramePlan> plan_frame(const LensState& lens, std::span<const Light> light
   for (auto& [spectrum, metered] : spectra) {
     for (const SpectralBand& band : metered.bands) metered.meters.emplace_back(lens, plan.tables.at(band.lambda_nm));
   }
-  const bool done = parallel_for(
-      lights.size(), quiet, [&](std::size_t k) { plan.lights[k] = plan_light(lens, lights[k], settings, spectra); });
-  if (!done) return failure(ErrorCode::Cancelled, "interrupted");
+  if (!plan_lights(lens, lights, settings.frame, spectra, quiet, plan.lights))
+    return failure(ErrorCode::Cancelled, "interrupted");
   return plan;
 }
 

@@ -66,15 +66,16 @@ Result<std::vector<GhostFigures>> ghost_figures(const LensState& lens, const Fig
   const std::vector<Ghost> ghosts = enumerate_ghosts(lens, request.scope);
   std::vector<GhostMeter> meters;
   for (const SpectralBand& band : request.bands) meters.emplace_back(lens, band.lambda_nm);
-  const Rgb whole = direct_light(lens, request.frame, normalized(request.light.direction), request.bands, meters);
+  const Vec3 measured = measured_direction(lens, request.frame, normalized(request.light.direction));
+  std::vector<double> direct_mm2;
+  for (const GhostMeter& meter : meters) direct_mm2.push_back(meter.direct_flux(measured));
+  const Rgb whole = direct_light(request.bands, meters, direct_mm2);
   std::vector<GhostFigures> all(ghosts.size());
-  const bool done = parallel_for(ghosts.size(), context, [&](std::size_t g) {
-    all[g] = figures_of(lens, ghosts[g], request, meters, whole);
-  });
+  const bool done = parallel_for(ghosts.size(), context,
+                                 [&](std::size_t g) { all[g] = figures_of(lens, ghosts[g], request, meters, whole); });
   if (!done) return failure(ErrorCode::Cancelled, "interrupted");
-  std::stable_sort(all.begin(), all.end(), [](const GhostFigures& a, const GhostFigures& b) {
-    return a.relative_flux > b.relative_flux;
-  });
+  std::stable_sort(all.begin(), all.end(),
+                   [](const GhostFigures& a, const GhostFigures& b) { return a.relative_flux > b.relative_flux; });
   return all;
 }
 
