@@ -23,7 +23,7 @@ inline Image drawn(std::span<const adaptive::PolygonList> lists, int width, int 
   std::vector<adaptive::TiledPolygons> tiled;
   for (const adaptive::PolygonList& list : lists) tiled.push_back({list, adaptive::tile_lists(list, grid)});
   Image image(width, height, 3);
-  for (int row = 0; row < grid.rows; ++row) adaptive::add_tile_row(tiled, grid, row, 1.0, image);
+  for (int row = 0; row < grid.rows; ++row) adaptive::add_tile_row(tiled, grid, row, image);
   return image;
 }
 

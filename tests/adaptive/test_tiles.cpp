@@ -229,7 +229,7 @@ TEST_CASE("many polygons: the sum of each, whatever lists they come in") {
   const TileGrid grid(kWidth, kHeight);
   const TiledPolygons tiled{all, tile_lists(all, grid)};
   Image added = once;
-  for (int row = grid.rows - 1; row >= 0; --row) add_tile_row({&tiled, 1}, grid, row, 1.0, added);
+  for (int row = grid.rows - 1; row >= 0; --row) add_tile_row({&tiled, 1}, grid, row, added);
   for (std::size_t k = 0; k < once.pixels.size(); ++k) CHECK(added.pixels[k] == 2.0F * once.pixels[k]);
 }
 

@@ -59,7 +59,7 @@ class FramePainter {
         done += count;
       }
       paint_ms_ += watch_.lap_ms();
-      draw(batch, budget.peak);
+      draw(batch);
       tiles_ms_ += watch_.lap_ms();
       if (context_.progress) context_.progress(static_cast<double>(done) / static_cast<double>(items.size()));
     }
@@ -84,9 +84,9 @@ class FramePainter {
     return bytes;
   }
 
-  void draw(const std::vector<TiledPolygons>& batch, double peak) {
+  void draw(const std::vector<TiledPolygons>& batch) {
     parallel_for(static_cast<std::size_t>(grid_.rows), quiet_,
-                 [&](std::size_t row) { add_tile_row(batch, grid_, static_cast<int>(row), peak, flare_.image); });
+                 [&](std::size_t row) { add_tile_row(batch, grid_, static_cast<int>(row), flare_.image); });
   }
 
   const Scene& scene_;
@@ -115,12 +115,18 @@ Result<Flare> render_adaptive(const LensState& lens, std::span<const Light> ligh
   const double plan_ms = watch.lap_ms();
 
   Flare flare;
-  flare.image = Image(settings.frame.width, settings.frame.height, 3);
   const Scene scene{lens, *plan, IrisShape(lens.iris)};
   Context quiet = context;
   quiet.progress = {};
   Work work;
-  const std::vector<Item> items = find_items(scene, quiet, work);
+  std::vector<Item> items;
+  // Fresh memory for the picture takes a small lens as long as its boxes: both at once.
+  parallel_for(2, quiet, [&](std::size_t k) {
+    if (k == 0)
+      flare.image = Image(settings.frame.width, settings.frame.height, 3);
+    else
+      items = find_items(scene, quiet, work);
+  });
   const double bound_ms = watch.lap_ms();
   const double peak = estimate_peak(scene, items, settings.frame, quiet, work);
   const double peak_ms = watch.lap_ms();

@@ -13,7 +13,7 @@ constexpr double kSpeck = 0.05;      // pixels: a polygon no longer than this is
 constexpr int kMostPoints = 256;     // that stand for a line
 constexpr double kPixel = 1.0;       // area below which a cell is not seen but for its flux
 constexpr double kMostBend = 0.04;   // of a cell, that what cuts it may be off
-constexpr double kPeaks = 64.0;      // brightness over the peak where errors begin to count as relative ones
+constexpr double kPeaks = 16.0;      // brightness over the peak where errors begin to count as relative ones
 // Half the cell, a fourth of the deviation of a curve from its chord: a sixteenth of the squared error.
 constexpr double kGainOfHalving = 16.0;
 

@@ -191,21 +191,22 @@ void GhostPainter::paint(Ghost ghost, const Rectangle& box, std::span<const Plan
 void GhostPainter::paint_box(SheetTracer& tracer, const Rectangle& box, int depth, const Tolerance& tolerance,
                              CellPainter& cells) {
   for (std::size_t k = depth == 0 ? 1 : 0; k < kNodes.size(); ++k) {
-    const RaySheet sheet = tracer.trace(box, kNodes[k], precision_for(box, tolerance));
+    const PacketPrecision precision = precision_for(box, tolerance);
+    RaySheet sheet = tracer.trace(box, kNodes[k], precision);
     const auto part = lit_part(sheet);
     if (!part) return;
     if (depth < deepest_ && area(*part) < kWorthShrinking * area(box)) {
       return paint_box(tracer, *part, depth + 1, tolerance, cells);
     }
     const bool last = k + 1 == kNodes.size();
+    if (sheet.failed > 0 && depth < deepest_) break;
+    tracer.add_wavelengths(sheet, precision);
     if (sheet.failed == 0) {
       const Patch patch = make_patch(sheet, light_, frame_);
       if (accepts(patch, tolerance) || (last && depth >= deepest_)) return cells.paint(patch);
-    } else if (depth >= deepest_) {
+    } else {
       for (const Patch& patch : patches_of_cells(sheet, light_, frame_)) cells.paint(patch);
       return;
-    } else {
-      break;
     }
   }
   paint_quarters(tracer, box, depth, tolerance, cells);

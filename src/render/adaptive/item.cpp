@@ -17,7 +17,6 @@ constexpr int kWideningNodes = 5;
 constexpr int kDeepest = 4;       // quarterings of a box
 constexpr int kPeakDeepest = 1;
 constexpr double kPeakQuantile = 0.999;
-constexpr double kAnyPeak = std::numeric_limits<double>::infinity();
 constexpr int kPeakScale = 8;  // the frame's pixels over those of the small one, along a side
 
 const PlannedPass& middle_pass(const PlannedLight& light) { return light.passes[light.passes.size() / 2]; }
@@ -162,7 +161,7 @@ double estimate_peak(const Scene& scene, const std::vector<Item>& items, const F
   for (const Work& w : done) work.add(w);
   if (context.cancelled()) return 0.0;
   Image image(small.width, small.height, 3);
-  for (int row = 0; row < grid.rows; ++row) add_tile_row(polygons, grid, row, kAnyPeak, image);
+  for (int row = 0; row < grid.rows; ++row) add_tile_row(polygons, grid, row, image);
   double peak = quantile_of_samples(image, kPeakQuantile);
   if (!(peak > 0.0)) {
     for (const float value : image.pixels) peak = std::max(peak, static_cast<double>(value));

@@ -14,23 +14,53 @@ namespace contrejour::adaptive::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 using Tag = hn::CappedTag<float, 16>;
 
-// Row of `width` floats: sum over k of factor[k * step] * rows[k * stride ...].
-HWY_INLINE void combine_rows(const float* factors, std::size_t step, const float* rows, std::size_t stride,
-                             std::size_t inner, std::size_t width, float* out) {
+// Rows and columns of a left factor: element (row, k) at row * by_row + k * by_k.
+struct Factors {
+  const float* at;
+  std::size_t by_row, by_k;
+};
+
+// One column of vectors of four rows of the product: four sums at once, as a sum has to wait for its last addition.
+HWY_INLINE void combine_four(const Factors& a, std::size_t inner, const float* b, std::size_t b_stride, float* out) {
   const Tag d;
-  for (std::size_t c = 0; c < width; c += hn::Lanes(d)) {
-    auto sum = hn::Zero(d);
-    for (std::size_t k = 0; k < inner; ++k) {
-      sum = hn::MulAdd(hn::Set(d, factors[k * step]), hn::LoadU(d, rows + k * stride + c), sum);
-    }
-    hn::StoreU(sum, d, out + c);
+  auto s0 = hn::Zero(d);
+  auto s1 = hn::Zero(d);
+  auto s2 = hn::Zero(d);
+  auto s3 = hn::Zero(d);
+  for (std::size_t k = 0; k < inner; ++k) {
+    const float* factor = a.at + k * a.by_k;
+    const auto row = hn::LoadU(d, b + k * b_stride);
+    s0 = hn::MulAdd(hn::Set(d, factor[0]), row, s0);
+    s1 = hn::MulAdd(hn::Set(d, factor[a.by_row]), row, s1);
+    s2 = hn::MulAdd(hn::Set(d, factor[2 * a.by_row]), row, s2);
+    s3 = hn::MulAdd(hn::Set(d, factor[3 * a.by_row]), row, s3);
   }
+  hn::StoreU(s0, d, out);
+  hn::StoreU(s1, d, out + b_stride);
+  hn::StoreU(s2, d, out + 2 * b_stride);
+  hn::StoreU(s3, d, out + 3 * b_stride);
+}
+
+HWY_INLINE void combine_one(const Factors& a, std::size_t inner, const float* b, std::size_t b_stride, float* out) {
+  const Tag d;
+  auto sum = hn::Zero(d);
+  for (std::size_t k = 0; k < inner; ++k)
+    sum = hn::MulAdd(hn::Set(d, a.at[k * a.by_k]), hn::LoadU(d, b + k * b_stride), sum);
+  hn::StoreU(sum, d, out);
 }
 
 void multiply_rows(const float* a, std::size_t a_rows, std::size_t a_row_step, std::size_t a_step, std::size_t inner,
                    const float* b, std::size_t b_stride, float* out) {
-  for (std::size_t r = 0; r < a_rows; ++r) {
-    combine_rows(a + r * a_row_step, a_step, b, b_stride, inner, b_stride, out + r * b_stride);
+  const std::size_t lanes = hn::Lanes(Tag());
+  std::size_t r = 0;
+  for (; r + 4 <= a_rows; r += 4) {
+    const Factors rows{a + r * a_row_step, a_row_step, a_step};
+    for (std::size_t c = 0; c < b_stride; c += lanes)
+      combine_four(rows, inner, b + c, b_stride, out + r * b_stride + c);
+  }
+  for (; r < a_rows; ++r) {
+    const Factors row{a + r * a_row_step, a_row_step, a_step};
+    for (std::size_t c = 0; c < b_stride; c += lanes) combine_one(row, inner, b + c, b_stride, out + r * b_stride + c);
   }
 }
 

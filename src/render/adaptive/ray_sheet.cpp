@@ -19,6 +19,9 @@ void complete(float* values, int nodes, float sign) {
   }
 }
 
+// Rows above this one are mirror images of those below, where the box is its own.
+int first_traced_row(const RaySheet& sheet) { return sheet.box.low.y == -sheet.box.high.y ? sheet.nodes / 2 : 0; }
+
 }  // namespace
 
 bool is_open(const RaySheet& sheet, std::size_t node) {
@@ -55,9 +58,10 @@ RaySheet SheetTracer::trace(const Rectangle& box, int nodes, PacketPrecision pre
     s[1].resize(count);
   }
   sheet.rim_squared.resize(steps() * count);
-  const bool symmetric = box.low.y == -box.high.y;
-  trace_rows(symmetric ? nodes / 2 : 0, precision, sheet);
-  if (symmetric) {
+  const int first_row = first_traced_row(sheet);
+  lay_out(sheet, first_row);
+  trace_path(0, first_row, precision, sheet);
+  if (first_row > 0) {
     complete(sheet.sensor_x_mm.data(), nodes, 1.0F);
     complete(sheet.sensor_y_mm.data(), nodes, -1.0F);
     for (auto& w : sheet.weight) complete(w.data(), nodes, 1.0F);
@@ -72,10 +76,18 @@ RaySheet SheetTracer::trace(const Rectangle& box, int nodes, PacketPrecision pre
   return sheet;
 }
 
-void SheetTracer::trace_rows(int first_row, PacketPrecision precision, RaySheet& sheet) {
-  const Rectangle& box = sheet.box;
+void SheetTracer::add_wavelengths(RaySheet& sheet, PacketPrecision precision) {
+  const int first_row = first_traced_row(sheet);
+  lay_out(sheet, first_row);
+  for (std::size_t k = 1; k < paths_.size(); ++k) trace_path(k, first_row, precision, sheet);
+  if (first_row == 0) return;
+  for (auto& w : sheet.weight) complete(w.data(), sheet.nodes, 1.0F);
+}
+
+// The entrance points of the rows to trace.
+void SheetTracer::lay_out(const RaySheet& sheet, int first_row) {
   const auto points = lobatto_points(sheet.nodes);
-  const Vec2 half = (box.high - box.low) * 0.5;
+  const Vec2 half = (sheet.box.high - sheet.box.low) * 0.5;
   x_mm_.clear();
   y_mm_.clear();
   for (int row = first_row; row < sheet.nodes; ++row) {
@@ -84,36 +96,37 @@ void SheetTracer::trace_rows(int first_row, PacketPrecision precision, RaySheet&
       y_mm_.push_back(static_cast<float>((1.0 + points[static_cast<std::size_t>(row)]) * half.y));
     }
   }
+}
+
+// One of the paths through the points laid out; what the sheet keeps of it starts at first_row.
+void SheetTracer::trace_path(std::size_t k, int first_row, PacketPrecision precision, RaySheet& sheet) {
   const std::size_t count = x_mm_.size();
-  const std::size_t at = sheet.count() - count;
+  const auto at = static_cast<std::size_t>(first_row) * static_cast<std::size_t>(sheet.nodes);
   constexpr std::size_t kDiscarded = 4 + 2 * kMaxStopCrossings;
   scratch_.resize(kDiscarded * count);
-  const auto discarded = [&](std::size_t k) { return scratch_.data() + k * count; };
-
-  for (std::size_t k = 0; k < paths_.size(); ++k) {
-    const bool geometry = k == 0;
-    TracedArrays out{discarded(0), discarded(1), discarded(2), discarded(3), {}, {}, nullptr, 0};
-    for (std::size_t c = 0; c < sheet.stop.size(); ++c) {
-      out.stop_x[c] = geometry ? sheet.stop[c][0].data() + at : discarded(4 + 2 * c);
-      out.stop_y[c] = geometry ? sheet.stop[c][1].data() + at : discarded(5 + 2 * c);
-    }
-    if (geometry) {
-      out.sensor_x_mm = sheet.sensor_x_mm.data() + at;
-      out.sensor_y_mm = sheet.sensor_y_mm.data() + at;
-      out.r_rel = sheet.r_rel.data() + at;
-      out.rim_squared = sheet.rim_squared.data() + at;
-      out.rim_stride = sheet.count();
-    }
-    const PacketPath packets(paths_[k], *tables_[k], {{box.low.x, box.low.y, plane_z_mm_}, light_.direction});
-    trace_packets(packets, precision, x_mm_.data(), y_mm_.data(), count, out);
-    rays_ += count;
-    for (const PlannedPass& pass : band_.passes) {
-      if (pass.lambda_nm != paths_[k].lambda_nm) continue;
-      for (std::size_t c = 0; c < 3; ++c) {
-        const auto gain = static_cast<float>(pass.gain[c]);
-        float* weight = sheet.weight[c].data() + at;
-        for (std::size_t node = 0; node < count; ++node) weight[node] += gain * out.transmission[node];
-      }
+  const auto discarded = [&](std::size_t f) { return scratch_.data() + f * count; };
+  const bool geometry = k == 0;
+  TracedArrays out{discarded(0), discarded(1), discarded(2), discarded(3), {}, {}, nullptr, 0};
+  for (std::size_t c = 0; c < sheet.stop.size(); ++c) {
+    out.stop_x[c] = geometry ? sheet.stop[c][0].data() + at : discarded(4 + 2 * c);
+    out.stop_y[c] = geometry ? sheet.stop[c][1].data() + at : discarded(5 + 2 * c);
+  }
+  if (geometry) {
+    out.sensor_x_mm = sheet.sensor_x_mm.data() + at;
+    out.sensor_y_mm = sheet.sensor_y_mm.data() + at;
+    out.r_rel = sheet.r_rel.data() + at;
+    out.rim_squared = sheet.rim_squared.data() + at;
+    out.rim_stride = sheet.count();
+  }
+  const PacketPath packets(paths_[k], *tables_[k], {{sheet.box.low.x, sheet.box.low.y, plane_z_mm_}, light_.direction});
+  trace_packets(packets, precision, x_mm_.data(), y_mm_.data(), count, out);
+  rays_ += count;
+  for (const PlannedPass& pass : band_.passes) {
+    if (pass.lambda_nm != paths_[k].lambda_nm) continue;
+    for (std::size_t c = 0; c < 3; ++c) {
+      const auto gain = static_cast<float>(pass.gain[c]);
+      float* weight = sheet.weight[c].data() + at;
+      for (std::size_t node = 0; node < count; ++node) weight[node] += gain * out.transmission[node];
     }
   }
 }

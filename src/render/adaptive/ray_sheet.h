@@ -42,15 +42,18 @@ class SheetTracer {
   SheetTracer(const LensState& lens, Ghost ghost, const LightFrame& light, double plane_z_mm, const Band& band,
               const TablesByWavelength& tables);
 
-  // A box that is its own mirror image costs half the rays.
+  // Rays at the band's own wavelength, and its transmission. A box that is its own mirror image costs half of them.
   [[nodiscard]] RaySheet trace(const Rectangle& box, int nodes, PacketPrecision precision);
+  // The transmissions at the band's other wavelengths, for a sheet that is going to be drawn.
+  void add_wavelengths(RaySheet& sheet, PacketPrecision precision);
 
   [[nodiscard]] std::size_t steps() const { return paths_.front().steps.size(); }
   [[nodiscard]] std::uint64_t rays() const { return rays_; }
   [[nodiscard]] std::uint64_t surface_hits() const { return rays_ * steps(); }
 
  private:
-  void trace_rows(int first_row, PacketPrecision precision, RaySheet& sheet);
+  void lay_out(const RaySheet& sheet, int first_row);
+  void trace_path(std::size_t k, int first_row, PacketPrecision precision, RaySheet& sheet);
 
   LightFrame light_;
   double plane_z_mm_;

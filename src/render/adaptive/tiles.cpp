@@ -13,23 +13,16 @@
 namespace contrejour::adaptive {
 
 // A tile's place in the frame, and its sums.
-template <class T>
 struct TileSums {
   static constexpr std::size_t kLanes = 8;  // three channels and a spare: level, then slope along x
   static constexpr std::size_t kPitch = TileGrid::kWidth + 2;  // what edges on the right border change is not read
 
   int x0 = 0, y0 = 0, width = 0, height = 0;
-  std::vector<T> sums;
+  std::vector<double> sums = std::vector<double>(kLanes * kPitch * TileGrid::kHeight, 0.0);
 
-  [[nodiscard]] T* at(int row, int column) {
+  [[nodiscard]] double* at(int row, int column) {
     return sums.data() + kLanes * (static_cast<std::size_t>(row) * kPitch + static_cast<std::size_t>(column));
   }
-};
-
-// A row of tiles, one after the other.
-struct TileRow {
-  TileSums<float> plain;
-  TileSums<double> bright;
 };
 
 }  // namespace contrejour::adaptive
@@ -39,74 +32,66 @@ HWY_BEFORE_NAMESPACE();
 namespace contrejour::adaptive::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
-constexpr std::size_t kLanes = TileSums<float>::kLanes;
-template <class T>
-using Tag = hn::CappedTag<T, kLanes>;
+using Tag = hn::CappedTag<double, TileSums::kLanes>;
 
 // A polygon's irradiance as what a row of pixels needs: level and slope along x, and how the level changes by row.
-template <class T>
 struct RowShade {
-  HWY_ALIGN T level[kLanes] = {};
-  HWY_ALIGN T by_row[kLanes] = {};
+  HWY_ALIGN double level[TileSums::kLanes] = {};
+  HWY_ALIGN double by_row[TileSums::kLanes] = {};
 };
 
-template <class T>
-HWY_INLINE RowShade<T> row_shade(const Shade& shade, const TileSums<T>& tile) {
-  RowShade<T> out;
+HWY_INLINE RowShade row_shade(const Shade& shade, const TileSums& tile) {
+  RowShade out;
   const double x = static_cast<double>(shade.at.x) - tile.x0 - 0.5;  // pixel centres
   const double y = static_cast<double>(shade.at.y) - tile.y0 - 0.5;
   for (std::size_t c = 0; c < 3; ++c) {
     const double slope = shade.along_x[c];
-    out.level[c] = static_cast<T>(shade.value[c] - slope * x - shade.along_y[c] * y);
-    out.level[4 + c] = shade.along_x[c];
+    out.level[c] = shade.value[c] - slope * x - shade.along_y[c] * y;
+    out.level[4 + c] = slope;
     out.by_row[c] = shade.along_y[c];
   }
   return out;
 }
 
 // Adds `cover` of the row's irradiance to one column's sums.
-template <class T>
-HWY_INLINE void add(T* to, const T* shade, double cover) {
-  const Tag<T> d;
-  const auto factor = hn::Set(d, static_cast<T>(cover));
-  for (std::size_t k = 0; k < kLanes; k += hn::Lanes(d)) {
-    hn::StoreU(hn::MulAdd(hn::Load(d, shade + k), factor, hn::LoadU(d, to + k)), d, to + k);
+HWY_INLINE void add(double* to, const double* shade, double cover) {
+  const Tag d;
+  for (std::size_t k = 0; k < TileSums::kLanes; k += hn::Lanes(d)) {
+    hn::StoreU(hn::MulAdd(hn::Load(d, shade + k), hn::Set(d, cover), hn::LoadU(d, to + k)), d, to + k);
   }
 }
 
 // One stretch of an edge within a row of pixels, from x0 to x1 and dy high: coverage to its right, as differences.
-template <class T>
-HWY_INLINE void add_stretch(T* row, const T* shade, double x0, double x1, double dy) {
+HWY_INLINE void add_stretch(double* row, const double* shade, double x0, double x1, double dy) {
   if (x0 > x1) std::swap(x0, x1);
   const auto first = static_cast<int>(x0);
   const auto last = static_cast<int>(x1);
-  const auto column = [&](int k) { return row + kLanes * static_cast<std::size_t>(k); };
+  const auto column = [&](int k) { return row + TileSums::kLanes * static_cast<std::size_t>(k); };
   if (first == last) {
     const double right = dy * (0.5 * (x0 + x1) - first);
-    add<T>(column(first), shade, dy - right);
-    add<T>(column(first + 1), shade, right);
+    add(column(first), shade, dy - right);
+    add(column(first + 1), shade, right);
     return;
   }
   const double slope = dy / (x1 - x0);
   const double in_first = first + 1 - x0;
   double before = 0.5 * slope * in_first * in_first;
   double filled = slope * in_first;
-  add<T>(column(first), shade, before);
+  add(column(first), shade, before);
   for (int k = first + 1; k < last; ++k) {
     const double covered = filled + 0.5 * slope;
-    add<T>(column(k), shade, covered - before);
+    add(column(k), shade, covered - before);
     before = covered;
     filled += slope;
   }
   const double in_last = x1 - last;
   const double covered = dy - 0.5 * slope * in_last * in_last;
-  add<T>(column(last), shade, covered - before);
-  add<T>(column(last + 1), shade, dy - covered);
+  add(column(last), shade, covered - before);
+  add(column(last + 1), shade, dy - covered);
 }
 
 // An edge inside the tile's columns, from a down to b, clipped to its rows.
-template <class T>
-HWY_INLINE void add_edge(TileSums<T>& tile, const RowShade<T>& shade, Vec2 a, Vec2 b, double sign) {
+HWY_INLINE void add_edge(TileSums& tile, const RowShade& shade, Vec2 a, Vec2 b, double sign) {
   const double dx_dy = (b.x - a.x) / (b.y - a.y);
   const double top = std::max(a.y, 0.0);
   const double bottom = std::min(b.y, static_cast<double>(tile.height));
@@ -114,24 +99,23 @@ HWY_INLINE void add_edge(TileSums<T>& tile, const RowShade<T>& shade, Vec2 a, Ve
   const double high = std::max(a.x, b.x);
   double y = top;
   double x = std::clamp(a.x + dx_dy * (top - a.y), low, high);
-  HWY_ALIGN T at_row[kLanes];
-  const Tag<T> d;
+  HWY_ALIGN double at_row[TileSums::kLanes];
+  const Tag d;
   for (int row = static_cast<int>(top); y < bottom; ++row) {
     const double y_next = std::min<double>(row + 1, bottom);
     const double x_next = std::clamp(a.x + dx_dy * (y_next - a.y), low, high);
-    const auto down = hn::Set(d, static_cast<T>(row));
-    for (std::size_t k = 0; k < kLanes; k += hn::Lanes(d)) {
-      hn::Store(hn::MulAdd(hn::Load(d, shade.by_row + k), down, hn::Load(d, shade.level + k)), d, at_row + k);
+    for (std::size_t k = 0; k < TileSums::kLanes; k += hn::Lanes(d)) {
+      hn::Store(hn::MulAdd(hn::Load(d, shade.by_row + k), hn::Set(d, row), hn::Load(d, shade.level + k)), d,
+                at_row + k);
     }
-    add_stretch<T>(tile.at(row, 0), at_row, x, x_next, sign * (y_next - y));
+    add_stretch(tile.at(row, 0), at_row, x, x_next, sign * (y_next - y));
     x = x_next;
     y = y_next;
   }
 }
 
 // Parts of an edge left of the tile count as on its border, parts to the right do not count.
-template <class T>
-void add_clipped(TileSums<T>& tile, const RowShade<T>& shade, Vec2 a, Vec2 b, double sign) {
+void add_clipped(TileSums& tile, const RowShade& shade, Vec2 a, Vec2 b, double sign) {
   const double width = tile.width;
   if (a.y > b.y) {
     std::swap(a, b);
@@ -155,19 +139,18 @@ void add_clipped(TileSums<T>& tile, const RowShade<T>& shade, Vec2 a, Vec2 b, do
   if (b.x < 0.0 && left.y < b.y) add_edge(tile, shade, {0.0, left.y}, {0.0, b.y}, sign);
 }
 
-template <class T>
-void add_polygon(TileSums<T>& tile, const PolygonList& list, const Polygon& polygon) {
+void add_polygon(TileSums& tile, const PolygonList& list, const Polygon& polygon) {
   const auto corners = list.corners_of(polygon);
   const auto corner = [&](std::size_t k) {
     return Vec2{static_cast<double>(corners[k].x) - tile.x0, static_cast<double>(corners[k].y) - tile.y0};
   };
-  const RowShade<T> shade = row_shade(polygon.shade, tile);
+  const RowShade shade = row_shade(polygon.shade, tile);
   if (corners.size() == 1) {
     const auto column = static_cast<int>(std::floor(corner(0).x));
     const auto row = static_cast<int>(std::floor(corner(0).y));
     if (column < 0 || row < 0 || column >= tile.width || row >= tile.height) return;
-    add<T>(tile.at(row, column), shade.level, 1.0);
-    add<T>(tile.at(row, column + 1), shade.level, -1.0);
+    add(tile.at(row, column), shade.level, 1.0);
+    add(tile.at(row, column + 1), shade.level, -1.0);
     return;
   }
   double twice_area = 0.0;
@@ -180,26 +163,25 @@ void add_polygon(TileSums<T>& tile, const PolygonList& list, const Polygon& poly
 }
 
 // Running sums into pixels; the sums are cleared.
-template <class T>
-void sum_up(TileSums<T>& tile, Image& image) {
-  constexpr std::size_t kHalf = kLanes / 2;
-  const hn::CappedTag<T, kHalf> d;
-  HWY_ALIGN T pixels[kHalf * TileGrid::kWidth];
+void sum_up(TileSums& tile, Image& image) {
+  constexpr std::size_t kHalf = TileSums::kLanes / 2;
+  const hn::CappedTag<double, kHalf> d;
+  HWY_ALIGN double pixels[kHalf * TileGrid::kWidth];
+  const auto width = static_cast<std::size_t>(tile.width);
   for (int row = 0; row < tile.height; ++row) {
-    T* sums = tile.at(row, 0);
-    const auto width = static_cast<std::size_t>(tile.width);
+    double* sums = tile.at(row, 0);
     for (std::size_t k = 0; k < kHalf; k += hn::Lanes(d)) {
       auto level = hn::Zero(d);
       auto slope = hn::Zero(d);
       auto x = hn::Zero(d);
       for (std::size_t column = 0; column < width; ++column) {
-        level = hn::Add(level, hn::LoadU(d, sums + kLanes * column + k));
-        slope = hn::Add(slope, hn::LoadU(d, sums + kLanes * column + kHalf + k));
+        level = hn::Add(level, hn::LoadU(d, sums + TileSums::kLanes * column + k));
+        slope = hn::Add(slope, hn::LoadU(d, sums + TileSums::kLanes * column + kHalf + k));
         hn::Store(hn::MulAdd(slope, x, level), d, pixels + kHalf * column + k);
-        x = hn::Add(x, hn::Set(d, T{1}));
+        x = hn::Add(x, hn::Set(d, 1.0));
       }
     }
-    std::fill_n(sums, kLanes * (width + 1), T{0});
+    std::fill_n(sums, TileSums::kLanes * (width + 1), 0.0);
     float* to = image.pixels.data() + image.index(tile.x0, tile.y0 + row);
     for (std::size_t column = 0; column < width; ++column) {
       for (std::size_t c = 0; c < 3; ++c) to[3 * column + c] += static_cast<float>(pixels[kHalf * column + c]);
@@ -207,43 +189,15 @@ void sum_up(TileSums<T>& tile, Image& image) {
   }
 }
 
-// The largest that a polygon's level may get anywhere in a tile, outside the polygon too, where sums must cancel.
-float reach_of(const Shade& shade) {
-  float most = 0.0F;
-  for (std::size_t c = 0; c < 3; ++c) {
-    most = std::max(most, std::abs(shade.value[c]) + TileGrid::kWidth * std::abs(shade.along_x[c]) +
-                              TileGrid::kHeight * std::abs(shade.along_y[c]));
-  }
-  return most;
-}
-
-template <class T>
-void draw(std::span<const TiledPolygons> lists, std::size_t at, const TileSums<float>& place, TileSums<T>& tile,
-          Image& image) {
-  tile.x0 = place.x0;
-  tile.y0 = place.y0;
-  tile.width = place.width;
-  tile.height = place.height;
-  tile.sums.resize(kLanes * TileSums<T>::kPitch * TileGrid::kHeight);
+void draw_tile(std::span<const TiledPolygons> lists, std::size_t at, TileSums& tile, Image& image) {
+  bool any = false;
   for (const TiledPolygons& p : lists) {
     for (std::uint32_t k = p.tiles.start[at]; k < p.tiles.start[at + 1]; ++k) {
       add_polygon(tile, p.list, p.list.polygons[p.tiles.index[k]]);
+      any = true;
     }
   }
-  sum_up(tile, image);
-}
-
-void draw_tile(std::span<const TiledPolygons> lists, std::size_t at, double bright, TileRow& row, Image& image) {
-  float most = 0.0F;
-  for (const TiledPolygons& p : lists) {
-    for (std::uint32_t k = p.tiles.start[at]; k < p.tiles.start[at + 1]; ++k) {
-      most = std::max(most, reach_of(p.list.polygons[p.tiles.index[k]].shade));
-    }
-  }
-  if (most > bright)
-    draw(lists, at, row.plain, row.bright, image);
-  else if (most > 0.0F)
-    draw(lists, at, row.plain, row.plain, image);
+  if (any) sum_up(tile, image);
 }
 
 }  // namespace contrejour::adaptive::HWY_NAMESPACE
@@ -254,9 +208,6 @@ namespace contrejour::adaptive {
 namespace {
 
 HWY_EXPORT(draw_tile);
-
-// Float sums keep a tile's pixels to some 1e-7 of its brightest polygon: enough up to so many times the frame's peak.
-constexpr double kBright = 16.0;
 
 // The tiles under a polygon's bounds.
 struct TileRange {
@@ -306,16 +257,14 @@ TileLists tile_lists(const PolygonList& list, const TileGrid& grid) {
   return out;
 }
 
-void add_tile_row(std::span<const TiledPolygons> lists, const TileGrid& grid, int row, double peak, Image& image) {
-  TileRow tiles;
-  TileSums<float>& place = tiles.plain;
-  place.y0 = row * TileGrid::kHeight;
-  place.height = std::min(TileGrid::kHeight, grid.height - place.y0);
+void add_tile_row(std::span<const TiledPolygons> lists, const TileGrid& grid, int row, Image& image) {
+  TileSums sums;
+  sums.y0 = row * TileGrid::kHeight;
+  sums.height = std::min(TileGrid::kHeight, grid.height - sums.y0);
   for (int column = 0; column < grid.columns; ++column) {
-    place.x0 = column * TileGrid::kWidth;
-    place.width = std::min(TileGrid::kWidth, grid.width - place.x0);
-    HWY_DYNAMIC_DISPATCH(draw_tile)
-    (lists, static_cast<std::size_t>(row * grid.columns + column), kBright * peak, tiles, image);
+    sums.x0 = column * TileGrid::kWidth;
+    sums.width = std::min(TileGrid::kWidth, grid.width - sums.x0);
+    HWY_DYNAMIC_DISPATCH(draw_tile)(lists, static_cast<std::size_t>(row * grid.columns + column), sums, image);
   }
 }
 

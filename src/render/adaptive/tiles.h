@@ -1,8 +1,7 @@
 // Polygons onto the frame, tile by tile. Each edge leaves, row by row, the change of coverage times irradiance that
 // it makes; one running sum along the rows then turns the changes of all polygons into pixels at once. So a polygon
 // costs what its outline costs, not its area, and overlapping ghosts share one pass over the frame.
-// Accuracy: exact coverage of a pixel by a polygon, irradiance taken at the pixel's centre; rounding below 1e-5 of the
-// frame's peak: sums are in double where polygons are much brighter than that.
+// Accuracy: exact coverage of a pixel by a polygon, irradiance taken at the pixel's centre; sums in double.
 #pragma once
 
 #include <cstdint>
@@ -39,7 +38,6 @@ struct TiledPolygons {
 };
 
 // Adds to the pixels of a row of tiles what the polygons bring, list after list. Rows do not touch each other.
-// peak: of the frame's pixel values, about.
-void add_tile_row(std::span<const TiledPolygons> lists, const TileGrid& grid, int row, double peak, Image& image);
+void add_tile_row(std::span<const TiledPolygons> lists, const TileGrid& grid, int row, Image& image);
 
 }  // namespace contrejour::adaptive

@@ -105,15 +105,18 @@ bool plan_lights(const LensState& lens, std::span<const Light> lights, const Fra
   };
   std::vector<Share> shares;
   std::vector<std::vector<double>> flux_mm2(lights.size());
+  std::vector<Vec3> measured(lights.size());
+  bool done = parallel_for(lights.size(), context, [&](std::size_t k) {
+    measured[k] = measured_direction(lens, frame, normalized(lights[k].direction));
+  });
   for (std::size_t k = 0; k < lights.size(); ++k) {
     flux_mm2[k].resize(bands_for(lights[k], spectra).bands.size());
     for (std::size_t band = 0; band < flux_mm2[k].size(); ++band) shares.push_back({k, band});
   }
-  const bool done = parallel_for(shares.size(), context, [&](std::size_t at) {
-    const auto [k, band] = shares[at];
-    const Vec3 measured = measured_direction(lens, frame, normalized(lights[k].direction));
-    flux_mm2[k][band] = bands_for(lights[k], spectra).meters[band].direct_flux(measured);
-  });
+  done = done && parallel_for(shares.size(), context, [&](std::size_t at) {
+           const auto [k, band] = shares[at];
+           flux_mm2[k][band] = bands_for(lights[k], spectra).meters[band].direct_flux(measured[k]);
+         });
   for (std::size_t k = 0; done && k < lights.size(); ++k)
     planned.push_back(plan_light(lights[k], bands_for(lights[k], spectra), flux_mm2[k]));
   return done;
