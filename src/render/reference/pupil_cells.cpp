@@ -57,11 +57,11 @@ class CellWalker {
   }
 
   void walk(const Corners& corners, int depth) {
-    if (!may_be_open(corners)) return;
-    const Sample middle =
-        sample((corners[0].entrance_mm + corners[2].entrance_mm) * 0.5);
+    const Sample middle = sample((corners[0].entrance_mm + corners[2].entrance_mm) * 0.5);
+    const Blocking blocking = blocking_of(corners, middle);
+    if (!may_be_open(blocking, middle, depth)) return;
     if (outside_frame(corners, middle)) return;
-    if (depth < limits_.deepest && needs_cutting(corners, middle, depth)) {
+    if (depth < limits_.deepest && needs_cutting(corners, middle, blocking, depth)) {
       cut(corners, middle, depth);
       return;
     }
@@ -71,17 +71,35 @@ class CellWalker {
   [[nodiscard]] CellCounts counts() const { return counts_; }
 
  private:
-  // `blocked` is nearly linear over a cell, so it cannot fall below its lowest corner by more than the corners
-  // differ. A failed corner tells nothing: the others decide, and a cell of failed corners is dark.
-  static bool may_be_open(const Corners& corners) {
-    double lowest = kFailed;
-    double highest = -kFailed;
-    for (const Sample& s : corners) {
-      if (!s.traced()) continue;
-      lowest = std::min(lowest, s.blocked);
-      highest = std::max(highest, s.blocked);
+  // What a cell's corners and its middle tell of `blocked`.
+  struct Blocking {
+    double lowest = kFailed;    // of the rays that did not fail
+    double highest = -kFailed;  // likewise
+    bool some_failed = false;
+  };
+
+  static Blocking blocking_of(const Corners& corners, const Sample& middle) {
+    Blocking b;
+    for (const Sample* s : {&corners[0], &corners[1], &corners[2], &corners[3], &middle}) {
+      if (!s->traced()) {
+        b.some_failed = true;
+        continue;
+      }
+      b.lowest = std::min(b.lowest, s->blocked);
+      b.highest = std::max(b.highest, s->blocked);
     }
-    return lowest <= 0.0 || lowest <= highest - lowest;
+    return b;
+  }
+
+  // `blocked` is the largest of some distances from the axis. As far as rays' places at the surfaces change linearly
+  // over a cell, those are convex, and so is it: its middle is at most the mean of any point and the one opposite,
+  // and the latter is at most the highest corner. So it is nowhere below twice its middle less its highest corner,
+  // be the pupil ever so small and all corners alike. What is not linear is allowed for by how much the samples
+  // differ, a share that halves with the cell. A failed ray tells nothing.
+  [[nodiscard]] bool may_be_open(const Blocking& b, const Sample& middle, int depth) const {
+    if (b.lowest <= 0.0) return true;
+    if (b.some_failed) return depth < (b.lowest < kFailed ? limits_.look_depth : limits_.blind_depth);
+    return 2.0 * middle.blocked - b.highest <= std::ldexp(b.highest - b.lowest, -depth);
   }
 
   // Grown by its own size, for the light that bends out of the corners' box.
@@ -98,35 +116,31 @@ class CellWalker {
            e.low.y - margin > frame_.height;
   }
 
-  [[nodiscard]] bool needs_cutting(const Corners& corners, const Sample& middle, int depth) const {
+  [[nodiscard]] bool needs_cutting(const Corners& corners, const Sample& middle, const Blocking& blocking,
+                                   int depth) const {
+    if (blocking.lowest > 0.0) return true;  // dark so far, yet an opening may be inside
     Extent e;
     Vec2 mean{};
-    double lowest = middle.blocked;
-    double highest = middle.blocked;
     double mean_blocked = 0.0;
     for (const Sample& s : corners) {
       if (s.traced()) e.add(s.pixel);
       mean = mean + s.pixel * 0.25;
       mean_blocked += s.blocked * 0.25;
-      lowest = std::min(lowest, s.blocked);
-      highest = std::max(highest, s.blocked);
     }
-    const bool all_traced = highest < kFailed;
-    if (!all_traced) return e.size() > limits_.cut_footprint_px;
-    if (lowest > 0.0) {  // dark so far: an opening inside shows as a dip in the middle
-      return depth < limits_.look_depth || middle.blocked <= lowest;
+    if (blocking.some_failed) {
+      if (middle.traced()) e.add(middle.pixel);
+      return depth < limits_.look_depth || e.size() > limits_.cut_footprint_px;
     }
-    if (e.size() > (highest <= 0.0 ? limits_.footprint_px : limits_.cut_footprint_px)) return true;
+    const bool is_cut = blocking.highest > 0.0;
+    if (e.size() > (is_cut ? limits_.cut_footprint_px : limits_.footprint_px)) return true;
     // However small its image, a cell that an edge cuts must hold an all but straight piece of it.
-    const bool bowed = std::abs(middle.blocked - mean_blocked) > limits_.edge_bend * (highest - lowest);
-    if (highest > 0.0 && bowed) return true;
+    const double bow = std::abs(middle.blocked - mean_blocked);
+    if (is_cut && bow > limits_.edge_bend * (blocking.highest - blocking.lowest)) return true;
     return length(middle.pixel - mean) > limits_.bend_px;
   }
 
   void cut(const Corners& c, const Sample& middle, int depth) {
-    const auto half = [&](std::size_t a, std::size_t b) {
-      return sample((c[a].entrance_mm + c[b].entrance_mm) * 0.5);
-    };
+    const auto half = [&](std::size_t a, std::size_t b) { return sample((c[a].entrance_mm + c[b].entrance_mm) * 0.5); };
     const Sample south = half(0, 1);
     const Sample east = half(1, 2);
     const Sample north = half(2, 3);
@@ -186,9 +200,9 @@ CellLimits CellLimits::for_density(double density) {
   return limits;
 }
 
-CellCounts for_each_lit_polygon(const OpticalPath& path, const Iris& iris, Vec3 direction,
-                                const EntranceWindow& window, const Frame& frame, const CellLimits& limits,
-                                const std::function<bool()>& stop, const LitPolygon& lit) {
+CellCounts for_each_lit_polygon(const OpticalPath& path, const Iris& iris, Vec3 direction, const EntranceWindow& window,
+                                const Frame& frame, const CellLimits& limits, const std::function<bool()>& stop,
+                                const LitPolygon& lit) {
   CellWalker walker(path, iris, direction, window.z_mm, frame, limits, lit);
   const int n = limits.root_cells;
   const auto row_of = [&](int iy) {

@@ -18,7 +18,8 @@ struct CellLimits {
   double cut_footprint_px = 1.0;   // the same where a rim or the iris edge cuts the cell
   double bend_px = 0.1;            // a cell's middle off the mean of its corners
   double edge_bend = 0.005;        // how far an edge may bow within the cell it cuts, over the cell's size
-  int look_depth = 3;              // dark cells beside an opening are searched to this depth
+  int look_depth = 3;              // dark cells with a ray that fails are searched to this depth
+  int blind_depth = 1;             // likewise where all rays fail
   int deepest = 12;                // subdivisions of a root cell
 
   // Density 2 halves every length.
@@ -35,8 +36,8 @@ struct CellCounts {
 
 // Calls `lit` for every open piece of every cell that may fall inside the frame. Stops early, with whatever has
 // been passed on so far, once `stop()` is true.
-CellCounts for_each_lit_polygon(const OpticalPath& path, const Iris& iris, Vec3 direction,
-                                const EntranceWindow& window, const Frame& frame, const CellLimits& limits,
-                                const std::function<bool()>& stop, const LitPolygon& lit);
+CellCounts for_each_lit_polygon(const OpticalPath& path, const Iris& iris, Vec3 direction, const EntranceWindow& window,
+                                const Frame& frame, const CellLimits& limits, const std::function<bool()>& stop,
+                                const LitPolygon& lit);
 
 }  // namespace contrejour::reference

@@ -1,6 +1,5 @@
 #include "render/reference/reference.h"
 
-
 #include "base/clock.h"
 #include "base/memory.h"
 #include "base/tasks.h"
