@@ -41,6 +41,17 @@ CellPainter::Cell CellPainter::cell_at(int ix, int iy, int size) {
   return cell;
 }
 
+// Whether a line keeps the cell's crossings of the stop away from its rim: they may lie all around it, all outside.
+bool CellPainter::misses_stop(const Mesh& mesh, const Cell& cell, int crossing) {
+  const Mesh::Field& x = mesh.field(PatchLayout::kStop + 2 * crossing);
+  const Mesh::Field& y = mesh.field(PatchLayout::kStop + 2 * crossing + 1);
+  const Vec2 middle{x[cell.middle], y[cell.middle]};
+  const double distance = length(middle);
+  const auto beyond = [&](std::size_t v) { return dot(middle, Vec2{x[v], y[v]}) > distance; };
+  return beyond(cell.middle) && std::all_of(cell.corner.begin(), cell.corner.end(), beyond) &&
+         std::all_of(cell.side.begin(), cell.side.end(), beyond);
+}
+
 // Closed for certain only where one rim or one crossing of the iris blocks all of it.
 CellPainter::State CellPainter::state_of(const Mesh& mesh, const Cell& cell) {
   std::uint32_t any = 0;
@@ -52,7 +63,11 @@ CellPainter::State CellPainter::state_of(const Mesh& mesh, const Cell& cell) {
     }
   }
   if (any == 0) return State::Open;
-  return all != 0 ? State::Closed : State::Cut;
+  if (all >> mesh.layout.crossings != 0) return State::Closed;
+  for (int c = 0; c < mesh.layout.crossings; ++c) {
+    if ((all >> c & 1U) != 0 && misses_stop(mesh, cell, c)) return State::Closed;
+  }
+  return State::Cut;
 }
 
 bool CellPainter::off_frame(const Mesh& mesh, const Cell& cell) const {

@@ -46,6 +46,7 @@ class CellPainter {
   // quarter. Falling on, it would spend most of them where light gathers and nothing is gained.
   [[nodiscard]] double cell_budget() const { return budget_ / std::clamp(cells_, few_cells_, kManyCells * few_cells_); }
   [[nodiscard]] static Cell cell_at(int ix, int iy, int size);
+  [[nodiscard]] static bool misses_stop(const Mesh& mesh, const Cell& cell, int crossing);
   [[nodiscard]] static State state_of(const Mesh& mesh, const Cell& cell);
   [[nodiscard]] bool off_frame(const Mesh& mesh, const Cell& cell) const;
   [[nodiscard]] bool wants_finer_mesh(const Mesh& mesh, int ix, int iy) const;

@@ -1,0 +1,76 @@
+// What the iris leaves of a cell.
+#include <doctest/doctest.h>
+
+#include <numbers>
+#include <random>
+
+#include "render/adaptive/outline_cutter.h"
+
+using namespace contrejour;
+using namespace contrejour::adaptive;
+
+namespace {
+
+constexpr double kSide_px = 10.0;
+
+// A cell of kSide_px x kSide_px pixels with these stop coordinates at its corners.
+std::array<Corner, 4> cell_with(const std::array<Vec2, 4>& stop) {
+  constexpr std::array<Vec2, 4> kUv{Vec2{0, 0}, Vec2{1, 0}, Vec2{1, 1}, Vec2{0, 1}};
+  std::array<Corner, 4> cell;
+  for (std::size_t k = 0; k < 4; ++k) {
+    cell[k].position = kUv[k] * kSide_px;
+    cell[k].uv = kUv[k];
+    cell[k].limit[0] = static_cast<float>(stop[k].x);
+    cell[k].limit[1] = static_cast<float>(stop[k].y);
+  }
+  return cell;
+}
+
+double area_of(std::span<const Corner> polygon) {
+  double twice = 0.0;
+  for (std::size_t k = 2; k < polygon.size(); ++k) {
+    const Vec2 from = polygon[0].position;
+    twice += cross(polygon[k - 1].position - from, polygon[k].position - from);
+  }
+  return 0.5 * std::abs(twice);
+}
+
+}  // namespace
+
+TEST_CASE("a round iris inside a cell leaves its area") {
+  const IrisShape iris{Iris{}};
+  OutlineCutter cutter(iris);
+  const double r = 0.25;  // of the iris, in cells
+  for (const double step : {0.8, 0.2, 0.05}) {
+    const auto cell = cell_with({Vec2{-2, -2}, Vec2{2, -2}, Vec2{2, 2}, Vec2{-2, 2}});
+    const double whole = std::numbers::pi * r * r * kSide_px * kSide_px;
+    CHECK(area_of(cutter.open_part(cell, 1, 0, step)) == doctest::Approx(whole).epsilon(1e-6));
+  }
+}
+
+// One ghost of the Nikon became a polygon of 1e10 pixels where the map to the stop folds within a cell.
+TEST_CASE("nothing is cut to beyond the cell, wherever its corners cross the stop") {
+  const IrisShape iris{Iris{}};
+  OutlineCutter cutter(iris);
+  std::mt19937 random(11);
+  std::uniform_real_distribution<double> anywhere(-2.0, 2.0);
+  constexpr double kRounding = 1e-9;
+  int cut = 0;
+  for (int round = 0; round < 5000; ++round) {
+    std::array<Vec2, 4> stop;
+    for (Vec2& s : stop) s = {anywhere(random), anywhere(random)};
+    const auto cell = cell_with(stop);
+    const std::span<const Corner> whole(cell.data(), round % 2 == 0 ? 4 : 3);
+    const auto part = cutter.open_part(whole, 1, 0, 0.1);
+    if (part.size() > 4) ++cut;
+    bool inside = true;
+    for (const Corner& c : part) {
+      for (const double v : {c.position.x, c.position.y})
+        inside = inside && v >= -kRounding && v <= kSide_px + kRounding;
+      if (whole.size() == 3) inside = inside && c.uv.y <= c.uv.x + kRounding;
+    }
+    CAPTURE(round);
+    CHECK(inside);
+  }
+  CHECK(cut > 1000);
+}
