@@ -84,7 +84,7 @@ TEST_CASE("the plane gets the light's flux in every channel, wherever in a pixel
       const double rho = 300.0 * c.pitch_mm / (550e-6 * c.f_number) * kPi / std::sqrt(8.0);
       const double outside = opening.perimeter() / opening.area() / (kPi * kPi * rho);
       for (int channel = 0; channel < 3; ++channel)
-        CHECK(flux_of(image, channel) + outside == doctest::Approx(1.0).epsilon(1e-3));
+        CHECK(flux_of(image, channel) + outside == doctest::Approx(1.0).epsilon(5e-4));
     }
   }
 }
@@ -109,7 +109,7 @@ TEST_CASE("half the f-number draws the same at half the pitch, four times as den
   const Image wide = drawn({7, 0.2, 0.2}, settings_of(16.0, 0.004, 300.0), 400);
   const Image narrow = drawn({7, 0.2, 0.2}, settings_of(8.0, 0.002, 300.0), 400);
   for (std::size_t k = 0; k < wide.pixels.size(); k += 997)
-    CHECK(narrow.pixels[k] == doctest::Approx(wide.pixels[k]).epsilon(1e-3));
+    CHECK(narrow.pixels[k] / wide.pixels[k] == doctest::Approx(1.0).epsilon(1e-3));
 }
 
 TEST_CASE("a quarter-size picture is the full one filtered") {
@@ -144,25 +144,32 @@ TEST_CASE("at one wavelength the rings are the exact pattern, core and tail") {
   CHECK(worst < 0.015 * peak);  // cubics between samples a quarter of a fringe apart
 }
 
-TEST_CASE("eight decades without a step: far out, neighbours along a ray differ by what r^-2 to r^-4 asks") {
+TEST_CASE("eight decades without a step: far out a spike falls as r^-2 and what is between spikes as r^-4") {
   const Image image = drawn({8, 0.1}, settings_of(16.0, 0.01, 1500.0), 2000, {0.0, 0.0}, sunlight());
-  double brightest = 0.0, darkest = 1.0;
+  constexpr double kRatio = 1.15;  // rings wide enough that it does not count which pixels fall in
+  double darkest = 1.0;
   // Rows go down, so this is the quadrant below the axis: the first along a spike, the others between them.
   for (const double angle : {kPi / 8 - 0.1, 0.6, 0.8, 1.4}) {
-    double last = 0.0;
-    for (double r = 60.0; r < 1450.0; r *= 1.02) {
-      double value = 0.0;  // the mean over a short arc, so that a spike's place within pixels does not count
-      for (int i = -8; i <= 8; ++i)
-        value += image.at(static_cast<int>(r * std::cos(angle + 0.5 * i / r)),
-                          static_cast<int>(r * std::sin(angle + 0.5 * i / r)), 1) /
-                 17.0;
-      if (last > 0.0) CHECK(value / last == doctest::Approx(std::pow(1.02, -3)).epsilon(0.12));
-      last = value;
-      darkest = std::min(darkest, value);
+    const Vec2 along{std::cos(angle), std::sin(angle)};
+    std::vector<double> sum(100), count(100);
+    for (int y = 0; y < 2000; ++y) {
+      for (int x = 0; x < 2000; ++x) {
+        const Vec2 p{x + 0.5, y + 0.5};
+        const double r = dot(p, along);
+        if (std::abs(cross(p, along)) > 8.0 || r < 100.0 || length(p) > 1450.0) continue;
+        const auto bin = static_cast<std::size_t>(std::log(r / 100.0) / std::log(kRatio));
+        sum[bin] += image.at(x, y, 1);
+        count[bin] += 1.0;
+      }
+    }
+    for (std::size_t i = 1; i < 19; ++i) {
+      const double here = sum[i] / count[i], before = sum[i - 1] / count[i - 1];
+      INFO("angle ", angle, " radius ", 100.0 * std::pow(kRatio, i));
+      CHECK(here / before == doctest::Approx(std::pow(kRatio, -3)).epsilon(0.065));
+      darkest = std::min(darkest, here);
     }
   }
-  brightest = image.at(0, 0, 1);
-  CHECK(brightest / darkest > 1e8);
+  CHECK(image.at(0, 0, 1) / darkest > 1e8);
   for (const float v : image.pixels) REQUIRE(std::isfinite(v));
 }
 
