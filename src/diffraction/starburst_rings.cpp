@@ -25,17 +25,21 @@ constexpr double kPixelsPerAngle = 0.7;  // directions are as close as that at a
 constexpr double kRhoPerAngle = 0.2;     // or as close as this where the pattern itself is smoother than pixels
 constexpr std::size_t kFewestAngles = 96;
 constexpr double kSampleRho = 0.45;      // fringes are 1 apart at least: samples of an average stand closer
-constexpr double kTailStart = 1.0 / 8, kTailEnd = 1.0 / 5;  // of the samples across: from spectrum to edge waves
+// From spectrum to edge waves, in samples across: where aliases of the edges are below 1 per cent, and with dirt, which
+// only the spectrum has, where they are 10.
+constexpr double kTailEnd = 0.2, kTailEndWithDirt = 0.35;
+constexpr double kTailFade = 0.625;  // of that, where it begins
+constexpr double kCleanWithin = 2e-3;  // relative: as much as edges' samples may be off
 constexpr std::size_t kBlock = kDirectionsAtOnce;
 
-constexpr int kRowsPerStep = 4;          // between which edge waves are interpolated
+constexpr int kRowsPerStep = 4;  // between which edge waves are interpolated
 
 double row_ratio(double rows) { return std::exp2(rows / kRowsPerOctave); }
 
 // What each band adds, by how many rows it moves the pattern outwards.
 struct Shifts {
   double lambda_nm = 0;  // not moved
-  int first = 0;         // rows
+  int first = 0;  // rows
   std::vector<std::array<float, 3>> weight;
 
   [[nodiscard]] int last() const { return first + static_cast<int>(weight.size()) - 1; }
@@ -69,22 +73,34 @@ double power_lost_at_edges(const IrisOpening& outline, double across) {
   return 1.0 + outline.perimeter() * (2.0 / across) / (6.0 * outline.area());
 }
 
+// Mean amplitude over the opening: 1 where nothing but the opening's own edges dims the mask.
+double mean_amplitude(const PupilMask& mask, const IrisOpening& outline, double pupil_radius_mm) {
+  double sum = 0.0;
+  for (const float a : mask.amplitude) sum += a;
+  const double per_sample = mask.grid.pitch_mm / pupil_radius_mm;
+  return sum * per_sample * per_sample / outline.area();
+}
+
+double tail_end_of(const PupilMask& mask, const IrisOpening* outline, double pupil_radius_mm) {
+  if (outline == nullptr) return 1.0;  // all there is
+  const bool clean = std::abs(mean_amplitude(mask, *outline, pupil_radius_mm) - 1.0) < kCleanWithin;
+  return clean ? kTailEnd : kTailEndWithDirt;
+}
+
 // The pattern at one wavelength, as density over rho.
 class Pattern {
  public:
   Pattern(const PupilMask& mask, const IrisOpening* outline, double pupil_radius_mm, const Context& context)
       : across_(2.0 * pupil_radius_mm / mask.grid.pitch_mm),
         power_mm2_(mask.open_area_mm2() * (outline ? power_lost_at_edges(*outline, across_) : 1.0)),
-        grid_(mask, pupil_radius_mm, outline ? kTailEnd * across_ : across_, power_mm2_, outline != nullptr, context) {
+        grid_(mask, pupil_radius_mm, tail_end_of(mask, outline, pupil_radius_mm) * across_, power_mm2_,
+              outline != nullptr, context) {
     tail_end_ = grid_.up_to();
-    tail_start_ = outline ? tail_end_ * (kTailStart / kTailEnd) : tail_end_;  // a picture has no other tail to fade to
+    tail_start_ = outline ? tail_end_ * kTailFade : tail_end_;  // a picture has no other tail to fade to
     if (!outline) return;
     edges_.emplace(*outline);
     // |F|^2 in stop radii, over 4 for d^2 rho = 4 d^2 f, over the mask's power; the edges' part by the mean amplitude.
-    double sum = 0.0;
-    for (const float a : mask.amplitude) sum += a;
-    const double per_sample = mask.grid.pitch_mm / pupil_radius_mm;
-    const double mean = sum * per_sample * per_sample / outline->area();
+    const double mean = mean_amplitude(mask, *outline, pupil_radius_mm);
     tail_scale_ = mean * mean * pupil_radius_mm * pupil_radius_mm / (4.0 * power_mm2_);
   }
 
