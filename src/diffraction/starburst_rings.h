@@ -3,12 +3,15 @@
 // rows, and no more than that is blurred. Real masks give patterns that are the same at p and -p: half a turn is kept.
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <vector>
 
 namespace contrejour {
 
 constexpr int kRowsPerOctave = 92;  // 4 nm at 550 nm
+
+[[nodiscard]] inline double row_ratio(double rows) { return std::exp2(rows / kRowsPerOctave); }
 
 // Radii from one to twice that, kRowsPerOctave + 1 rows, each of `angles` directions over half a turn: direction i is
 // (i + 0.5) pi / angles from straight down, counter-clockwise.

@@ -40,7 +40,7 @@ double contour_power(const IrisOpening& opening, double k, double angle) {
 // Its mean over wavelengths, as a colour channel takes it, brought to k as k^-3, and over a window of directions.
 double averaged(const IrisOpening& opening, double k, double angle, double window) {
   double sum = 0.0;
-  constexpr int kSteps = 40, kAngles = 4;
+  constexpr int kSteps = 32, kAngles = 5;
   for (int i = 0; i < kSteps; ++i) {
     const double scale = 0.88 + 0.24 * (i + 0.5) / kSteps;
     for (int j = 0; j < kAngles; ++j)

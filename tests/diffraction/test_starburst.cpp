@@ -199,6 +199,27 @@ TEST_CASE("a picture's aperture: a double slit's fringes, and a tail that goes o
   for (const float v : image.pixels) REQUIRE(v >= 0.0F);
 }
 
+TEST_CASE("a scratch adds a streak across itself, and no light is lost") {
+  Image dirt(510, 510, 1);
+  for (float& v : dirt.pixels) v = 1.0F;
+  for (int k = 0; k < 300; ++k)
+    for (int width = 0; width < 3; ++width) dirt.at(100 + k, 180 + width) = 0.0F;  // along x
+  const StarburstSettings settings = settings_of(16.0, 0.006, 800.0);
+  const IrisOpening opening(Iris{5, 0.3});
+  const PupilMask clean = make_mask(grid_over(settings.pupil_radius_mm, 510), opening, settings.pupil_radius_mm);
+  const PupilMask scratched = with_dirt(clean, dirt, 0).value();
+  Image with(1100, 1100), without(1100, 1100);
+  add_starburst(with, make_starburst(scratched, &opening, sunlight(), settings), {550, 550}, {1, 1, 1});
+  add_starburst(without, make_starburst(clean, &opening, sunlight(), settings), {550, 550}, {1, 1, 1});
+  for (int c = 0; c < 3; ++c) CHECK(flux_of(with, c) == doctest::Approx(1.0).epsilon(2e-3));
+  for (const int r : {60, 150, 400}) {  // the spectrum, where it fades, and the tail
+    const float across = with.at(550, 550 + r, 1) / without.at(550, 550 + r, 1);
+    const float along = with.at(550 + r, 550, 1) / without.at(550 + r, 550, 1);
+    CHECK(across > 3.0F);
+    CHECK(across > 3.0F * along);  // its short ends send a little along it
+  }
+}
+
 TEST_CASE("the same bits for any number of threads, nothing when cancelled or closed") {
   const auto bands = sunlight();
   const StarburstSettings settings = settings_of(8.0, 0.01, 100.0);
