@@ -74,7 +74,7 @@ TEST_CASE("a circle's far spectrum is the mean of Airy's rings") {
   CHECK(edges.along(0.4, 1e-3).power(300.0) * std::pow(300.0, 3) == doctest::Approx(4.0 * kPi));
 }
 
-TEST_CASE("edges and corners send what the contour integral says") {
+TEST_CASE("edges and corners send what the contour integral says [slow]") {
   for (const Iris& iris :
        {Iris{6, 0.1}, Iris{5, 0.3, 0.0, 1.0, 0.06, 5}, Iris{7, 0.0, 0.4}, Iris{8, 0.2, 0.15, 1.03}}) {
     const IrisOpening opening(iris);

@@ -71,7 +71,7 @@ TEST_CASE("straight blades give the distances that renderers use") {
   }
 }
 
-TEST_CASE("the opening's distance is Euclidean everywhere") {
+TEST_CASE("the opening's distance is Euclidean everywhere [slow]") {
   for (const Iris& iris : kIrises) {
     const IrisOpening opening(iris);
     for (int k = 0; k < 9; ++k) {
