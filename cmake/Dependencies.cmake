@@ -8,6 +8,13 @@ find_package(PNG REQUIRED)
 find_package(tomlplusplus REQUIRED)
 find_package(nlohmann_json 3 REQUIRED)
 find_package(CLI11 2 REQUIRED)
+find_package(Eigen3 3.3 REQUIRED NO_MODULE)
+# pocketfft is a header without a package of its own: Debian ships it in gemmi-dev.
+find_path(POCKETFFT_INCLUDE_DIR gemmi/third_party/pocketfft_hdronly.h)
+if(NOT POCKETFFT_INCLUDE_DIR)
+  message(FATAL_ERROR "pocketfft is missing: install gemmi-dev, or set POCKETFFT_INCLUDE_DIR to the folder that has "
+                      "gemmi/third_party/pocketfft_hdronly.h")
+endif()
 if(CONTREJOUR_TESTS)
   find_package(doctest REQUIRED)
 endif()

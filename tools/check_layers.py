@@ -36,7 +36,10 @@ PUBLIC = {
     "colour.h": "image",
     "context.h": "base",
     "first_order.h": "lens",
+    "fractional_fourier.h": "diffraction",
+    "fraunhofer.h": "diffraction",
     "frame.h": "render/interface",
+    "fresnel.h": "diffraction",
     "ghost.h": "ghosts",
     "ghost_figures.h": "render/interface",
     "glass.h": "glass",
@@ -48,8 +51,10 @@ PUBLIC = {
     "light_detection.h": "image",
     "machine_speed.h": "measure",
     "metrics.h": "image",
+    "pupil_mask.h": "diffraction",
     "render.h": "render/interface",
     "result.h": "base",
+    "starburst.h": "diffraction",
     "trace.h": "trace",
     "vec.h": "base",
 }
@@ -79,6 +84,7 @@ FENCED = [
     (r"(vulkan|GLES?\d?|OpenGL)/|glad|shaderc", ("src/gpu", "apps/studio"), "graphics stays in gpu and the studio"),
     (r"GLFW/|imgui|ofx", ("apps",), "windows and hosts belong to apps"),
     (r"(oneapi/)?tbb/", ("src/base",), "threads come from base/tasks.h, where their hand-overs are annotated"),
+    (r"gemmi/|pocketfft|Eigen/", ("src/diffraction",), "one wrapper of the FFT and of the eigen solver each"),
 ]
 
 INCLUDE = re.compile(r'^\s*#\s*include\s*(?:"([^"]+)"|<([^>]+)>)')

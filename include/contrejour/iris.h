@@ -1,23 +1,72 @@
-// The opening of the aperture stop as a shape of unit circumradius in the stop plane.
-// Accuracy: signed distances are exact for the circle, exact inside and near the edges of the polygon.
-// Thread-safety: plain values.
+// The opening of the aperture stop as a shape in the stop plane, in stop radii.
+// Blades of curved edges close over a round hole of radius 1; where they stand farther out, the hole's rim shows.
+// Accuracy: iris_distance is exact inside and near the edges, IrisOpening::distance everywhere
+// (docs/physics/diffraction.md). Thread-safety: plain values. Source: hullin2011 3.3 and figure 5, generalised.
 #pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <vector>
 
 #include "contrejour/vec.h"
 
 namespace contrejour {
 
 struct Iris {
-  int blades = 0;             // 0 to 2: a full circle; 3 and more: a regular polygon
+  int blades = 0;             // 0 to 2: a full circle; 3 and more: as many edges
   double rotation_rad = 0.0;  // first corner, counter-clockwise from +x as the photographer sees it
+  double curvature = 0.0;     // of the edges, 0..1: 0 straight, 1 arcs of the circle through the corners
+  double blade_radius = 1.0;  // of that circle. 1: its corners touch the rim; 1 / cos(pi / blades): only the rim shows
+  double asymmetry = 0.0;  // 0..0.5: each edge stands nearer or farther by up to this share of its distance
+  std::uint32_t seed = 0;  // which of these irises
+  std::vector<double> blade_offset = {};  // further shares, edge by edge, > 0 outwards; missing ones are 0
   friend bool operator==(const Iris&, const Iris&) = default;
 };
 
-// Signed distance from the edge in units of the stop radius, negative inside.
-// point: position in the stop plane divided by the stop radius.
+// Signed distance from the edge in units of the stop radius, negative inside; no more than the true one beyond a
+// corner. point: position in the stop plane divided by the stop radius.
 [[nodiscard]] double iris_distance(const Iris& iris, Vec2 point);
 
-// Area of the opening over the area of its circumscribed circle.
+// Area of the opening over the area of the rim's circle.
 [[nodiscard]] double iris_area_fraction(const Iris& iris);
+
+// A circle or half-plane that bounds the opening.
+struct IrisBound {
+  Vec2 normal;  // unit, outwards; of a straight edge
+  double apothem = 0;  // straight: normal . p <= apothem
+  Vec2 centre;  // of a curved one: |p - centre| <= radius
+  double radius = std::numeric_limits<double>::infinity();
+
+  [[nodiscard]] bool straight() const { return radius == std::numeric_limits<double>::infinity(); }
+  [[nodiscard]] double distance(Vec2 p) const {
+    const Vec2 from = p - centre;
+    return straight() ? dot(normal, p) - apothem : std::sqrt(dot(from, from)) - radius;
+  }
+};
+
+// A piece of the outline, counter-clockwise from start to end; a full circle has start == end.
+struct IrisEdge {
+  IrisBound bound;
+  Vec2 start, end;
+};
+
+// The opening with its outline worked out, for many points: what all the bounds leave, which is convex.
+class IrisOpening {
+ public:
+  // cut: more circles that block what is outside them, such as other apertures seen from the stop (vignetting).
+  explicit IrisOpening(const Iris& iris, std::span<const IrisBound> cut = {});
+
+  [[nodiscard]] double distance(Vec2 point) const;  // Euclidean, negative inside; infinite when nothing is open
+  [[nodiscard]] double bound_distance(Vec2 point) const;  // quicker: less than that beyond a corner, as iris_distance
+  [[nodiscard]] double area() const;  // of a rim of radius 1: pi when wide open
+  [[nodiscard]] double perimeter() const;
+  [[nodiscard]] const std::vector<IrisEdge>& edges() const { return edges_; }
+  [[nodiscard]] bool closed() const { return edges_.empty(); }
+
+ private:
+  std::vector<IrisEdge> edges_;
+};
 
 }  // namespace contrejour

@@ -4,22 +4,72 @@
 #include <cmath>
 #include <numbers>
 
-namespace contrejour {
+#include "kernels/iris_blades.h"
 
-double iris_distance(const Iris& iris, Vec2 point) {
-  if (iris.blades < 3) return length(point) - 1.0;
-  // Fold the point into the sector of one edge; its distance to that edge's line is the distance to the
-  // polygon inside and beside the edge, and within 1 / cos(pi / n) of it beyond a corner.
+namespace contrejour {
+namespace {
+
+// Distance to a regular iris's nearest bound: the point is folded into the sector of one edge. Inside and beside the
+// edge that is the distance to the opening, and within 1 / cos(pi / n) of it beyond a corner.
+double folded_distance(const Iris& iris, Vec2 point) {
   const double sector = 2.0 * std::numbers::pi / iris.blades;
   const double angle = std::atan2(point.y, point.x) - iris.rotation_rad;
   const double folded = angle - sector * std::floor(angle / sector) - 0.5 * sector;
-  return length(point) * std::cos(folded) - std::cos(0.5 * sector);
+  const double r = length(point);
+  if (iris.curvature <= 0.0) return r * std::cos(folded) - iris.blade_radius * std::cos(0.5 * sector);
+  return edge_bound(iris, 0.0, 0.0).distance({r * std::cos(folded), r * std::sin(folded)});
+}
+
+}  // namespace
+
+bool is_regular(const Iris& iris) { return iris.asymmetry == 0.0 && iris.blade_offset.empty(); }
+
+double edge_offset(const Iris& iris, int blade) {
+  const auto k = static_cast<std::size_t>(blade);
+  const double given = k < iris.blade_offset.size() ? iris.blade_offset[k] : 0.0;
+  if (iris.asymmetry == 0.0) return given;
+  // Steele, Lea & Flood 2014, SplitMix64's finalizer: seeds and blades next to each other give unrelated numbers.
+  std::uint64_t z = (std::uint64_t{iris.seed} << 32) + 0x9e3779b97f4a7c15U * (k + 1);
+  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9U;
+  z = (z ^ (z >> 27)) * 0x94d049bb133111ebU;
+  z ^= z >> 31;
+  return given + iris.asymmetry * (static_cast<double>(z >> 11) * 0x1p-52 - 1.0);
+}
+
+IrisBound edge_bound(const Iris& iris, double normal_rad, double offset) {
+  const double half_sector = std::numbers::pi / iris.blades;
+  const double apothem = iris.blade_radius * std::cos(half_sector);
+  const Vec2 normal{std::cos(normal_rad), std::sin(normal_rad)};
+  IrisBound bound{normal, apothem * (1.0 + offset), {}};
+  if (iris.curvature <= 0.0) return bound;
+  // The arc through both corners, then moved along its normal.
+  const double half_chord = iris.blade_radius * std::sin(half_sector);
+  bound.radius = iris.blade_radius / std::min(iris.curvature, 1.0);
+  bound.centre = normal * (bound.apothem - std::sqrt(bound.radius * bound.radius - half_chord * half_chord));
+  return bound;
+}
+
+double iris_distance(const Iris& iris, Vec2 point) {
+  if (iris.blades < 3) return length(point) - 1.0;
+  if (is_regular(iris)) {
+    const double blades = folded_distance(iris, point);
+    // Straight blades that reach the rim leave nothing for the rim to cut.
+    return iris.blade_radius <= 1.0 ? blades : std::max(blades, length(point) - 1.0);
+  }
+  const double sector = 2.0 * std::numbers::pi / iris.blades;
+  double worst = length(point) - 1.0;
+  for (int k = 0; k < iris.blades; ++k)
+    worst =
+        std::max(worst, edge_bound(iris, iris.rotation_rad + (k + 0.5) * sector, edge_offset(iris, k)).distance(point));
+  return worst;
 }
 
 double iris_area_fraction(const Iris& iris) {
   if (iris.blades < 3) return 1.0;
   const double sector = 2.0 * std::numbers::pi / iris.blades;
-  return std::sin(sector) / sector;
+  if (is_regular(iris) && iris.curvature <= 0.0 && iris.blade_radius <= 1.0)
+    return iris.blade_radius * iris.blade_radius * std::sin(sector) / sector;
+  return IrisOpening(iris).area() / std::numbers::pi;
 }
 
 }  // namespace contrejour

@@ -1,0 +1,41 @@
+// The fractional Fourier transform of a square of samples: order 0 the samples, 1 their spectrum, between them what
+// lies between an aperture and its far field. Squares of side N, the origin at sample N / 2 (rounded down) of each row
+// and column; samples stand for points 1 / sqrt(N) apart. Accuracy: unitary, orders add, order 1 is the centred unitary
+// DFT, all to 1e-9 (tests hold 1e-6). Thread-safety: const members may run at once. Source: Candan, Kutay & Ozaktas
+// 2000; hullin2011 3.3.
+#pragma once
+
+#include <complex>
+#include <span>
+#include <vector>
+
+#include "contrejour/context.h"
+
+namespace contrejour {
+
+class FractionalFourier {
+ public:
+  explicit FractionalFourier(int side);  // finds the eigenvectors: N^3
+
+  [[nodiscard]] int side() const { return side_; }
+
+  // Both steps below.
+  [[nodiscard]] std::vector<std::complex<double>> transform(std::span<const std::complex<double>> square, double order,
+                                                            const Context& context = {}) const;
+
+  // The square by eigenvectors once, and from that any number of orders. Empty when cancelled.
+  [[nodiscard]] std::vector<std::complex<double>> analyse(std::span<const std::complex<double>> square,
+                                                          const Context& context = {}) const;
+  [[nodiscard]] std::vector<std::complex<double>> at_order(std::span<const std::complex<double>> analysis, double order,
+                                                           const Context& context = {}) const;
+
+ private:
+  int side_;
+  std::vector<double> basis_;  // [eigenvector * side + sample]
+  std::vector<int> degree_;    // of the Hermite function that each stands for
+};
+
+// hullin2011 eq. 5: the order whose ringing looks like a lens's, by experience.
+[[nodiscard]] double hullin_order(double lambda_nm, double f_number);
+
+}  // namespace contrejour

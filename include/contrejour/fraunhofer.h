@@ -1,0 +1,36 @@
+// The image of a distant point through a pupil at one wavelength: the Fraunhofer pattern, in absolute units.
+// Irradiance (flux per mm^2) at points of the plane where the pupil's wave converges, on a pitch of the caller's
+// choice. Its integral over the plane is the given flux. Rows from the top, x right, y up, the axis in the middle, all
+// as the pupil has them (through a lens both are upside down on the sensor, and so this pattern is upright in the
+// image). Accuracy: exact for the samples of the mask up to |x| < lambda d / (2 mask pitch), where it starts to repeat.
+// Thread-safety: pure functions. Source: Goodman 2005 eq. 4-25, 5-14; hullin2011 eq. 2.
+#pragma once
+
+#include <vector>
+
+#include "contrejour/context.h"
+#include "contrejour/pupil_mask.h"
+
+namespace contrejour {
+
+struct PatternGrid {
+  int side = 512;
+  double pitch_mm = 1e-3;
+};
+
+struct FraunhoferSettings {
+  double distance_mm = 50.0;  // exit pupil to sensor; the mask is as large as the exit pupil
+  double lambda_nm = 550.0;
+  double flux = 1.0;
+  PatternGrid grid;
+};
+
+struct FraunhoferPattern {
+  PatternGrid grid;
+  std::vector<double> irradiance_per_mm2;  // [row * side + column]; empty when cancelled
+};
+
+[[nodiscard]] FraunhoferPattern fraunhofer_pattern(const PupilMask& mask, const FraunhoferSettings& settings,
+                                                   const Context& context = {});
+
+}  // namespace contrejour

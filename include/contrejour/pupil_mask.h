@@ -1,0 +1,56 @@
+// What a pupil lets through as a wave: amplitude, and phase where it matters, on a square of samples.
+// Rows from the top as in an image; x right, y up as the photographer sees the stop; the axis in the square's middle.
+// Units: mm, radians. Accuracy: an edge's share of a sample is exact for a straight edge. Errors: say what is wrong
+// with a picture. Thread-safety: plain values.
+#pragma once
+
+#include <complex>
+#include <functional>
+#include <vector>
+
+#include "contrejour/context.h"
+#include "contrejour/image.h"
+#include "contrejour/iris.h"
+#include "contrejour/result.h"
+#include "contrejour/vec.h"
+
+namespace contrejour {
+
+struct MaskGrid {
+  int side = 512;  // samples
+  double pitch_mm = 0.01;
+
+  [[nodiscard]] Vec2 place_mm(int column, int row) const {
+    return {(column + 0.5 - 0.5 * side) * pitch_mm, (0.5 * side - 0.5 - row) * pitch_mm};
+  }
+};
+
+// The smallest grid that has a circle of this radius inside, with so many samples across it.
+[[nodiscard]] MaskGrid grid_over(double radius_mm, int samples_across);
+
+struct PupilMask {
+  MaskGrid grid;
+  std::vector<float> amplitude;  // [row * side + column], 0..1: the square root of the transmission
+  std::vector<float> phase_rad;  // as many, or empty: flat
+
+  [[nodiscard]] bool real() const { return phase_rad.empty(); }
+  [[nodiscard]] std::complex<double> at(std::size_t sample) const {
+    return real() ? std::complex<double>(amplitude[sample]) : std::polar<double>(amplitude[sample], phase_rad[sample]);
+  }
+  [[nodiscard]] double open_area_mm2() const;  // integral of amplitude squared
+};
+
+// From a signed distance in mm, negative where light passes: each sample is its open share.
+[[nodiscard]] PupilMask make_mask(const MaskGrid& grid, const std::function<double(Vec2 mm)>& distance_mm,
+                                  const Context& context = {});
+[[nodiscard]] PupilMask make_mask(const MaskGrid& grid, const IrisOpening& opening, double stop_radius_mm,
+                                  const Context& context = {});
+
+// One channel of a picture as amplitude, over a square as wide as the picture's longer side; black beside it.
+// Errors: no such channel, values that are negative or not finite.
+[[nodiscard]] Result<PupilMask> mask_of_image(const Image& image, int channel, double width_mm);
+
+// Dust and scratches: the mask times one channel of a picture laid over its square (hullin2011 5). Errors as above.
+[[nodiscard]] Result<PupilMask> with_dirt(PupilMask mask, const Image& dirt, int channel);
+
+}  // namespace contrejour

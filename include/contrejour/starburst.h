@@ -1,0 +1,54 @@
+// The starburst: a light's own image, spread by diffraction at the pupil, in colour.
+// Units: pixels; flux per pixel relative to the light's, so that the whole plane sums to the light's RGB.
+// Accuracy: flux within 1e-3; the tail far beyond the spectrum's samples within 10 per cent of the fringes' mean
+// (docs/physics/diffraction.md). Thread-safety: a Starburst is a value to share; results do not depend on the threads.
+// Source: hullin2011 3.3 and eq. 2; Differs: in absolute scale, which hullin2011 leaves to the user (eq. 3 and 4).
+#pragma once
+
+#include <memory>
+#include <span>
+
+#include "contrejour/colour.h"
+#include "contrejour/context.h"
+#include "contrejour/image.h"
+#include "contrejour/iris.h"
+#include "contrejour/pupil_mask.h"
+#include "contrejour/vec.h"
+
+namespace contrejour {
+
+struct StarburstSettings {
+  double distance_mm = 50.0;     // exit pupil to sensor
+  double pupil_radius_mm = 5.0;  // the stop's radius as the exit pupil shows it
+  double pixel_pitch_mm = 0.01;
+  double radius_px = 1200.0;     // it is drawn so far from its centre: the frame's farthest corner
+  int samples_across = 510;      // of the pupil, where the mask is made from an opening
+};
+
+struct StarburstRings;
+
+// A starburst for one pupil, pitch and spectrum, to be drawn for any number of lights.
+class Starburst {
+ public:
+  explicit Starburst(std::shared_ptr<const StarburstRings> rings = nullptr) : rings_(std::move(rings)) {}
+  [[nodiscard]] const StarburstRings* rings() const { return rings_.get(); }  // null: nothing open, or cancelled
+
+ private:
+  std::shared_ptr<const StarburstRings> rings_;
+};
+
+// bands: spectral_bands of the light, 100 and more (5 nm and finer), their weights times whatever the lens transmits.
+[[nodiscard]] Starburst make_starburst(const IrisOpening& opening, std::span<const SpectralBand> bands,
+                                       const StarburstSettings& settings, const Context& context = {});
+
+// From any mask without phase, in mm of the exit pupil: a vignetted one, one with dirt, a picture. outline: the opening
+// whose edges make the tail beyond the mask's own samples; null: the tail goes on as the outermost samples, as r^-3.
+[[nodiscard]] Starburst make_starburst(const PupilMask& mask, const IrisOpening* outline,
+                                       std::span<const SpectralBand> bands, const StarburstSettings& settings,
+                                       const Context& context = {});
+
+// Adds a light's starburst to an RGB image; centre in pixels, (0, 0) the top left corner; it may lie outside.
+void add_starburst(Image& image, const Starburst& starburst, Vec2 centre_px, const Rgb& flux,
+                   const Context& context = {});
+
+}  // namespace contrejour

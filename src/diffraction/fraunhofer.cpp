@@ -1,0 +1,34 @@
+#include "contrejour/fraunhofer.h"
+
+#include <complex>
+
+#include "base/units.h"
+#include "diffraction/chirp_z.h"
+
+namespace contrejour {
+
+FraunhoferPattern fraunhofer_pattern(const PupilMask& mask, const FraunhoferSettings& settings,
+                                     const Context& context) {
+  Context steps = context;  // its two passes would each report from 0
+  steps.progress = {};
+  const double lambda_d_mm2 = mm_from_nm(settings.lambda_nm) * settings.distance_mm;
+  const auto samples = static_cast<std::size_t>(mask.grid.side);
+  const auto points = static_cast<std::size_t>(settings.grid.side);
+  const ChirpZ transform(centred_points(samples, mask.grid.pitch_mm),
+                         centred_points(points, settings.grid.pitch_mm / lambda_d_mm2));
+  std::vector<std::complex<double>> wave(samples * samples);
+  for (std::size_t k = 0; k < wave.size(); ++k) wave[k] = mask.at(k);
+  wave = transform.transform_2d(wave, steps);
+  FraunhoferPattern pattern{settings.grid, {}};
+  if (context.cancelled()) return pattern;
+
+  // Goodman 2005 eq. 4-25: E = |integral of U exp(-2 pi i x.xi / (lambda d))|^2 / (lambda d)^2, whose integral is that
+  // of |U|^2 (Parseval).
+  const double sample_mm2 = mask.grid.pitch_mm * mask.grid.pitch_mm;
+  const double scale = settings.flux * sample_mm2 * sample_mm2 / (lambda_d_mm2 * lambda_d_mm2 * mask.open_area_mm2());
+  pattern.irradiance_per_mm2.resize(wave.size());
+  for (std::size_t k = 0; k < wave.size(); ++k) pattern.irradiance_per_mm2[k] = scale * std::norm(wave[k]);
+  return pattern;
+}
+
+}  // namespace contrejour

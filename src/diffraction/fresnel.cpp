@@ -1,0 +1,135 @@
+#include "contrejour/fresnel.h"
+
+#include <cassert>
+#include <cmath>
+#include <complex>
+#include <numbers>
+#include <span>
+
+#include "base/units.h"
+#include "diffraction/chirp_z.h"
+#include "diffraction/fft.h"
+#include "diffraction/fresnel_methods.h"
+
+namespace contrejour {
+namespace {
+
+using Wave = std::vector<std::complex<double>>;
+
+constexpr double kPi = std::numbers::pi;
+constexpr double kSamplesPerFresnel =
+    16.0;  // across the stop, for each unit of F: a turn of the chirp has 8 at the rim
+constexpr double kTaper = 0.8;               // of the band limit, from where on the spectrum is faded out
+
+std::size_t square(std::size_t side) { return side * side; }
+
+double fade(double f, double limit) {
+  const double t = (std::abs(f) / limit - kTaper) / (1.0 - kTaper);
+  if (!(t > 0.0)) return 1.0;
+  return t >= 1.0 ? 0.0 : 0.5 + 0.5 * std::cos(kPi * t);
+}
+
+RegularPoints pattern_points(int side, double extent) {
+  return centred_points(static_cast<std::size_t>(side), 2.0 * extent / side);
+}
+
+std::vector<double> intensities(const Wave& wave, double scale) {
+  std::vector<double> result(wave.size());
+  for (std::size_t k = 0; k < wave.size(); ++k) result[k] = scale * std::norm(wave[k]);
+  return result;
+}
+
+// The mask in the middle of a square of zeros.
+Wave padded_wave(const PupilMask& mask, std::size_t padded) {
+  const auto side = static_cast<std::size_t>(mask.grid.side);
+  const std::size_t first = (padded - side) / 2;
+  Wave wave(square(padded));
+  for (std::size_t r = 0; r < side; ++r)
+    for (std::size_t c = 0; c < side; ++c) wave[(first + r) * padded + first + c] = mask.at(r * side + c);
+  return wave;
+}
+
+}  // namespace
+
+// Goodman 2005 eq. 4-21: H(f) = exp(-i pi f^2 / F), f in cycles per stop radius. A frequency moves light by f / F.
+std::vector<double> fresnel_near(const PupilMask& mask, double stop_radius_mm, double fresnel_number, int side,
+                                 double extent, const Context& context) {
+  const double pitch = mask.grid.pitch_mm / stop_radius_mm, half_mask = 0.5 * mask.grid.side * pitch;
+  const double half_window = std::max(2.0 * half_mask, half_mask + extent);
+  const std::size_t padded =
+      good_fft_size(static_cast<std::size_t>(2.0 * half_window / pitch) + static_cast<std::size_t>(mask.grid.side % 2));
+  Wave wave = padded_wave(mask, padded);
+  if (!fft_2d<double>(wave, {padded, padded}, FftDirection::Forward, context)) return {};
+
+  // Matsushima & Shimobaba 2009: what would come back into the pattern from beyond the window is left out, softly.
+  const double step = 1.0 / (static_cast<double>(padded) * pitch);
+  const double limit = fresnel_number * (static_cast<double>(padded) * pitch - half_mask - extent);
+  std::vector<std::complex<double>> transfer(padded);
+  const std::size_t half = padded / 2;
+  for (std::size_t k = 0; k < padded; ++k) {
+    const double f = (static_cast<double>(k) - static_cast<double>(half)) * step;
+    // The mask's first sample is not at the window's corner but `first` samples in, and half a sample off the middle.
+    const double start = -0.5 * static_cast<double>(mask.grid.side - 1) * pitch -
+                         static_cast<double>((padded - static_cast<std::size_t>(mask.grid.side)) / 2) * pitch;
+    transfer[k] = fade(f, limit) * std::polar(1.0, -kPi * f * f / fresnel_number - 2.0 * kPi * f * start);
+  }
+  Wave spectrum(wave.size());
+  for (std::size_t r = 0; r < padded; ++r)
+    for (std::size_t c = 0; c < padded; ++c)
+      spectrum[r * padded + c] =
+          wave[(r + padded - half) % padded * padded + (c + padded - half) % padded] * transfer[r] * transfer[c];
+
+  // Back at the pattern's places: exp(+2 pi i f x) is the chirp transform to -x.
+  const RegularPoints places = pattern_points(side, extent);
+  const ChirpZ back({padded, -static_cast<double>(half) * step, step}, {places.count, -places.first, -places.step});
+  const Wave pattern = back.transform_2d(spectrum, context);
+  return intensities(pattern, 1.0 / square(padded) / square(padded));
+}
+
+// Goodman 2005 eq. 4-17 in stop radii: U(x) = F integral of U(s) exp(i pi F s^2) exp(-2 pi i F x.s) d^2 s.
+std::vector<double> fresnel_far(const PupilMask& mask, double stop_radius_mm, double fresnel_number, int side,
+                                double extent, const Context& context) {
+  const double pitch = mask.grid.pitch_mm / stop_radius_mm;
+  const auto samples = static_cast<std::size_t>(mask.grid.side);
+  const RegularPoints from = centred_points(samples, pitch), places = pattern_points(side, extent);
+  std::vector<std::complex<double>> chirp(samples);
+  for (std::size_t k = 0; k < samples; ++k) {
+    const double s = from.first + static_cast<double>(k) * from.step;
+    chirp[k] = std::polar(1.0, kPi * fresnel_number * s * s);
+  }
+  Wave wave(square(samples));
+  for (std::size_t r = 0; r < samples; ++r)
+    for (std::size_t c = 0; c < samples; ++c) wave[r * samples + c] = mask.at(r * samples + c) * chirp[r] * chirp[c];
+  const ChirpZ transform(from, {places.count, fresnel_number * places.first, fresnel_number * places.step});
+  const double amplitude = fresnel_number * pitch * pitch;
+  return intensities(transform.transform_2d(wave, context), amplitude * amplitude);
+}
+
+double far_up_to(const PupilMask& mask, double stop_radius_mm) {
+  return 2.0 * stop_radius_mm / mask.grid.pitch_mm / kSamplesPerFresnel;
+}
+
+double fresnel_extent(double fresnel_number) { return 1.0 + 2.0 / std::sqrt(fresnel_number) + 4.0 / fresnel_number; }
+
+FresnelPattern fresnel_pattern(const PupilMask& mask, double stop_radius_mm, const FresnelSettings& settings,
+                               const Context& context) {
+  assert(settings.fresnel_number > 0.0 && settings.side > 0);
+  Context steps = context;
+  steps.progress = {};
+  const double f = settings.fresnel_number;
+  FresnelPattern pattern{settings.side, settings.extent > 0.0 ? settings.extent : fresnel_extent(f), {}, 0.0};
+  const auto method = f <= far_up_to(mask, stop_radius_mm) ? fresnel_far : fresnel_near;
+  pattern.irradiance = method(mask, stop_radius_mm, f, pattern.side, pattern.extent, steps);
+  if (context.cancelled()) pattern.irradiance.clear();
+  double sum = 0.0;
+  for (const double e : pattern.irradiance) sum += e;
+  const double pitch_mm = 2.0 * pattern.extent / pattern.side * stop_radius_mm;
+  pattern.flux = sum * pitch_mm * pitch_mm / mask.open_area_mm2();
+  return pattern;
+}
+
+double fresnel_number(double stop_radius_mm, double a, double b_mm, double lambda_nm) {
+  return std::abs(a * stop_radius_mm * stop_radius_mm / (mm_from_nm(lambda_nm) * b_mm));
+}
+
+}  // namespace contrejour

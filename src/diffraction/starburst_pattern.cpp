@@ -1,0 +1,117 @@
+#include "diffraction/starburst_pattern.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "diffraction/starburst_rings.h"
+
+namespace contrejour {
+namespace {
+
+constexpr double kSampleRho = 0.45;  // fringes are 1 apart at least: samples of an average stand closer
+// From spectrum to edge waves, in samples across: where aliases of the edges are below 1 per cent, and with dirt, which
+// only the spectrum has, where they are 10. Of a picture there is nothing else to go to.
+constexpr double kTailEnd = 0.2, kTailEndWithDirt = 0.35, kTailEndOfPicture = 1.0;
+constexpr double kTailFade = 0.625;  // of that, where it begins
+constexpr double kCleanWithin = 2e-3;  // relative: as much as edges' samples may be off
+constexpr double kScatteredFrom = 0.7;  // of the tail's end: the spectrum there says what goes on beyond
+constexpr int kRowsPerStep = 4;  // between which the tail times rho^3 is interpolated
+
+// An edge's samples hold their open share s as amplitude, so as power s^2 for s. The mean of s - s^2 is 1/6.
+double power_lost_at_edges(const IrisOpening& outline, double across) {
+  return 1.0 + outline.perimeter() * (2.0 / across) / (6.0 * outline.area());
+}
+
+// Over the opening: 1 where nothing but the opening's own edges dims the mask.
+double mean_amplitude(const PupilMask& mask, const IrisOpening& outline, double pupil_radius_mm) {
+  double sum = 0.0;
+  for (const float a : mask.amplitude) sum += a;
+  const double per_sample = mask.grid.pitch_mm / pupil_radius_mm;
+  return sum * per_sample * per_sample / outline.area();
+}
+
+}  // namespace
+
+StarburstPattern::StarburstPattern(const PupilMask& mask, const IrisOpening* outline, double pupil_radius_mm,
+                                   const Context& context)
+    : across_(2.0 * pupil_radius_mm / mask.grid.pitch_mm),
+      power_mm2_(mask.open_area_mm2() * (outline ? power_lost_at_edges(*outline, across_) : 1.0)),
+      clean_(outline && std::abs(mean_amplitude(mask, *outline, pupil_radius_mm) - 1.0) < kCleanWithin),
+      grid_(mask, pupil_radius_mm,
+            across_ * (clean_    ? kTailEnd
+                       : outline ? kTailEndWithDirt
+                                 : kTailEndOfPicture),
+            power_mm2_, outline != nullptr, context) {
+  tail_end_ = grid_.up_to();
+  tail_start_ = tail_end_ * kTailFade;
+  if (!outline) return;
+  edges_.emplace(*outline);
+  // |F|^2 in stop radii, over 4 for d^2 rho = 4 d^2 f, over the mask's power; the edges' part by the mean amplitude.
+  const double mean = mean_amplitude(mask, *outline, pupil_radius_mm);
+  edge_scale_ = mean * mean * pupil_radius_mm * pupil_radius_mm / (4.0 * power_mm2_);
+}
+
+void StarburstPattern::sample(double angle_rad, double window_rad, double first_rho, int rows, float* out,
+                              std::size_t stride) const {
+  const bool needs_tail = first_rho * row_ratio(rows) > tail_start_;
+  const Tail tail = needs_tail ? tail_along(angle_rad, window_rad) : Tail();
+  int row = 0;
+  for (; row < rows; ++row) {
+    const double rho = first_rho * row_ratio(row);
+    if (rho >= tail_end_) break;
+    double value = spectrum_average(angle_rad, window_rad, rho);
+    const double t = (rho - tail_start_) / (tail_end_ - tail_start_);
+    if (t > 0.0) value += t * (tail.times_rho3(rho) / (rho * rho * rho) - value);
+    out[static_cast<std::size_t>(row) * stride] = static_cast<float>(value);
+  }
+  if (row == rows) return;
+  double here = tail.times_rho3(first_rho * row_ratio(row));
+  for (; row < rows; row += kRowsPerStep) {
+    const double next = tail.times_rho3(first_rho * row_ratio(row + kRowsPerStep));
+    for (int i = 0; i < std::min(kRowsPerStep, rows - row); ++i) {
+      const double rho = first_rho * row_ratio(row + i);
+      const double value = here + (next - here) * i / kRowsPerStep;
+      out[static_cast<std::size_t>(row + i) * stride] = static_cast<float>(value / (rho * rho * rho));
+    }
+    here = next;
+  }
+}
+
+double StarburstPattern::Tail::times_rho3(double rho) const {
+  return scattered + (edges ? scale * rho * rho * rho * edges->power(std::numbers::pi * rho) : 0.0);
+}
+
+// What the spectrum's outermost samples have more than the edges goes on as rho^-3, which keeps its share of the flux
+// in proportion to a rim's.
+StarburstPattern::Tail StarburstPattern::tail_along(double angle_rad, double window_rad) const {
+  Tail tail;
+  if (edges_) tail.edges = edges_->along(angle_rad, window_rad);
+  tail.scale = edge_scale_;
+  if (clean_) return tail;
+  double sum = 0.0;
+  int count = 0;
+  for (double rho = tail_end_; rho > kScatteredFrom * tail_end_; rho /= row_ratio(1.0), ++count)
+    sum += spectrum_average(angle_rad, window_rad, rho) * rho * rho * rho - tail.times_rho3(rho);
+  tail.scattered = std::max(0.0, sum / count);
+  return tail;
+}
+
+double StarburstPattern::spectrum_average(double angle_rad, double window_rad, double rho) const {
+  const double height = rho * (row_ratio(1.0) - 1.0), width = rho * window_rad;
+  const int down = std::max(1, static_cast<int>(std::ceil(height / kSampleRho)));
+  const int across = std::max(1, static_cast<int>(std::ceil(width / kSampleRho)));
+  double sum = 0.0;
+  for (int j = 0; j < across; ++j) {
+    const double angle = angle_rad + window_rad * ((j + 0.5) / across - 0.5);
+    double x = std::cos(angle), y = std::sin(angle);
+    if (x < 0.0) x = -x, y = -y;
+    for (int i = 0; i < down; ++i) {
+      const double r = std::min(rho + height * ((i + 0.5) / down - 0.5), grid_.up_to());
+      sum += grid_.density(r * x, r * y);
+    }
+  }
+  return sum / (down * across);
+}
+
+}  // namespace contrejour

@@ -1,0 +1,42 @@
+// The pattern of a real mask at one wavelength, from its middle to as far out as anyone asks: its spectrum as far as
+// its samples have it, then what its outline and its dirt send on. Density over rho = x / (lambda N), of integral 1.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+
+#include "contrejour/context.h"
+#include "contrejour/pupil_mask.h"
+#include "diffraction/edge_waves.h"
+#include "diffraction/power_grid.h"
+
+namespace contrejour {
+
+class StarburstPattern {
+ public:
+  // outline: null where the mask has none.
+  StarburstPattern(const PupilMask& mask, const IrisOpening* outline, double pupil_radius_mm, const Context& context);
+
+  // Averages over rings and a window of directions, at radii from first_rho on, row by row; out is [row * stride].
+  void sample(double angle_rad, double window_rad, double first_rho, int rows, float* out, std::size_t stride) const;
+
+ private:
+  // Of one direction, beyond the spectrum.
+  struct Tail {
+    std::optional<EdgeWaves::Direction> edges;
+    double scale = 0;      // of these
+    double scattered = 0;  // times rho^-3: what else there is
+
+    [[nodiscard]] double times_rho3(double rho) const;
+  };
+  [[nodiscard]] Tail tail_along(double angle_rad, double window_rad) const;
+  [[nodiscard]] double spectrum_average(double angle_rad, double window_rad, double rho) const;
+
+  double across_, power_mm2_;
+  bool clean_;  // nothing dims the mask but its outline
+  PowerGrid grid_;
+  std::optional<EdgeWaves> edges_;
+  double tail_start_ = 0, tail_end_ = 0, edge_scale_ = 0;
+};
+
+}  // namespace contrejour

@@ -1,0 +1,97 @@
+// The far power spectrum of openings against plain contour sums, and the special functions against quadrature.
+#include <cmath>
+#include <complex>
+#include <numbers>
+
+#include <doctest/doctest.h>
+
+#include "diffraction/edge_waves.h"
+#include "diffraction/special_functions.h"
+
+using namespace contrejour;
+
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+// |integral over the opening of exp(-i k u.x)|^2 by Green's theorem, the outline cut into short straight pieces.
+double contour_power(const IrisOpening& opening, double k, double angle) {
+  const Vec2 u{std::cos(angle), std::sin(angle)};
+  std::complex<double> sum = 0.0;
+  for (const IrisEdge& edge : opening.edges()) {
+    const int pieces = edge.bound.straight() ? 1 : static_cast<int>(2.0 * std::sqrt(k) + 20.0);
+    const double first = std::atan2(edge.start.y - edge.bound.centre.y, edge.start.x - edge.bound.centre.x);
+    double span = std::atan2(edge.end.y - edge.bound.centre.y, edge.end.x - edge.bound.centre.x) - first;
+    if (span <= 0.0) span += 2.0 * kPi;
+    const auto at = [&](int i) {
+      const double t = first + span * i / pieces;
+      return edge.bound.centre + Vec2{std::cos(t), std::sin(t)} * edge.bound.radius;
+    };
+    for (int i = 0; i < pieces; ++i) {
+      const Vec2 a = edge.bound.straight() ? edge.start : at(i), b = edge.bound.straight() ? edge.end : at(i + 1);
+      const double q = 0.5 * k * dot(u, b - a);
+      const double sinc = std::abs(q) < 1e-9 ? 1.0 : std::sin(q) / q;
+      sum += cross(u, b - a) * sinc * std::polar(1.0, -0.5 * k * dot(u, a + b));
+    }
+  }
+  return std::norm(sum) / (k * k);
+}
+
+// Its mean over wavelengths, as a colour channel takes it, brought to k as k^-3, and over a window of directions.
+double averaged(const IrisOpening& opening, double k, double angle, double window) {
+  double sum = 0.0;
+  constexpr int kSteps = 97, kAngles = 4;
+  for (int i = 0; i < kSteps; ++i) {
+    const double scale = 0.88 + 0.24 * (i + 0.5) / kSteps;
+    for (int j = 0; j < kAngles; ++j)
+      sum += std::pow(scale, 3) * contour_power(opening, k * scale, angle + window * ((j + 0.5) / kAngles - 0.5));
+  }
+  return sum / (kSteps * kAngles);
+}
+
+}  // namespace
+
+TEST_CASE("Fresnel integrals and the integral of sinc^2") {
+  double c = 0.0, s = 0.0, q = 0.0;
+  constexpr double kStep = 1e-4;
+  for (int i = 0; i < 100000; ++i) {
+    const double x = (i + 0.5) * kStep;
+    c += kStep * std::cos(0.5 * kPi * x * x);
+    s += kStep * std::sin(0.5 * kPi * x * x);
+    q += kStep * std::pow(std::sin(x) / x, 2);
+    if (i % 2503 != 0) continue;
+    const FresnelIntegrals f = fresnel_integrals(x + 0.5 * kStep), g = fresnel_integrals(-x - 0.5 * kStep);
+    CHECK(std::abs(f.c - c) < 2.5e-3);
+    CHECK(std::abs(f.s - s) < 2.5e-3);
+    CHECK(g.c == -f.c);
+    CHECK(std::abs(integral_of_sinc_squared(x + 0.5 * kStep) - q) < 1e-5);
+  }
+  CHECK(integral_of_sinc_squared(1e6) == doctest::Approx(0.5 * kPi).epsilon(1e-5));
+}
+
+TEST_CASE("a circle's far spectrum is the mean of Airy's rings") {
+  const EdgeWaves edges(IrisOpening(Iris{}));
+  CHECK(edges.along(0.4, 1e-3).power(300.0) * std::pow(300.0, 3) == doctest::Approx(4.0 * kPi));
+}
+
+TEST_CASE("edges and corners send what the contour integral says [slow]") {
+  for (const Iris& iris :
+       {Iris{6, 0.1}, Iris{5, 0.3, 0.0, 1.0, 0.06, 5}, Iris{7, 0.0, 0.4}, Iris{8, 0.2, 0.15, 1.03}}) {
+    const IrisOpening opening(iris);
+    const EdgeWaves edges(opening);
+    double worst = 0.0, off = 0.0, sum = 0.0, expected_sum = 0.0;
+    const double k = 400.0, window = kPi / 120;  // the windows cover half a turn
+    for (int i = 0; i < 120; ++i) {
+      const double angle = window * (i + 0.5);
+      const double expected = averaged(opening, k, angle, window), found = edges.along(angle, window).power(k);
+      worst = std::max(worst, std::abs(std::log(found / expected)));
+      off += std::abs(found - expected);
+      sum += found;
+      expected_sum += expected;
+    }
+    CHECK(sum / expected_sum == doctest::Approx(1.0).epsilon(3e-3));
+    CHECK(off / expected_sum < 0.12);  // fringes at the ends of the fans
+    // Only in the gaps between fans, a hundred times darker, where several corners' waves keep a phase to each other.
+    CHECK(worst < std::log(2.0));
+  }
+}

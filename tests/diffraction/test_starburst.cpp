@@ -1,0 +1,235 @@
+// Starbursts: flux, spikes, scale, and the rings against exact patterns of one wavelength.
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include <doctest/doctest.h>
+
+#include "contrejour/fraunhofer.h"
+#include "contrejour/starburst.h"
+
+using namespace contrejour;
+
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+std::vector<SpectralBand> sunlight() { return spectral_bands(120, IlluminantD65{}, ColourSpace::Rec709); }
+
+StarburstSettings settings_of(double f_number, double pitch_mm, double radius_px) {
+  return {100.0, 50.0 / f_number, pitch_mm, radius_px};
+}
+
+Image drawn(const Iris& iris, const StarburstSettings& settings, int side, Vec2 centre,
+            std::span<const SpectralBand> bands) {
+  Image image(side, side);
+  add_starburst(image, make_starburst(IrisOpening(iris), bands, settings), centre, {1.0, 1.0, 1.0});
+  return image;
+}
+
+Image drawn(const Iris& iris, const StarburstSettings& settings, int side) {
+  return drawn(iris, settings, side, {0.5 * side, 0.5 * side}, sunlight());
+}
+
+double flux_of(const Image& image, int channel) {
+  double sum = 0.0;
+  for (std::size_t k = static_cast<std::size_t>(channel); k < image.pixels.size(); k += 3) sum += image.pixels[k];
+  return sum;
+}
+
+// Green on a circle about the middle, each direction's mean over a few radii.
+std::vector<double> round_profile(const Image& image, double from, double to) {
+  constexpr int kDirections = 720;
+  std::vector<double> profile(kDirections);
+  for (int i = 0; i < kDirections; ++i) {
+    const double angle = 2.0 * kPi * i / kDirections;
+    for (double r = from; r < to; r += 1.0)
+      profile[static_cast<std::size_t>(i)] += image.at(static_cast<int>(0.5 * image.width + r * std::cos(angle)),
+                                                       static_cast<int>(0.5 * image.height - r * std::sin(angle)), 1);
+  }
+  return profile;
+}
+
+// Directions (in turns of the profile) of the peaks that stand out.
+std::vector<double> spikes(const std::vector<double>& profile) {
+  const double threshold = 0.2 * *std::max_element(profile.begin(), profile.end());
+  const auto count = static_cast<int>(profile.size());
+  const auto at = [&](int i) { return profile[static_cast<std::size_t>((i + count) % count)]; };
+  std::vector<double> found;
+  int start = 0;
+  while (at(start) > threshold) ++start;
+  for (int i = start; i < start + count; ++i) {
+    if (at(i) <= threshold) continue;
+    double moment = 0.0, sum = 0.0;
+    for (; at(i) > threshold; ++i) moment += i * at(i), sum += at(i);
+    found.push_back(std::fmod(moment / sum, count) * 2.0 * kPi / count);
+  }
+  return found;
+}
+
+}  // namespace
+
+TEST_CASE("the plane gets the light's flux in every channel, wherever in a pixel the centre is") {
+  struct Case {
+    Iris iris;
+    double f_number, pitch_mm;
+  };
+  for (const Case& c : {Case{{}, 16.0, 0.01}, Case{{6, 0.1}, 2.0, 0.02}, Case{{8, 0.0, 0.3, 1.02}, 11.0, 0.006}}) {
+    for (const Vec2 centre : {Vec2{300.0, 300.0}, Vec2{300.31, 299.62}}) {
+      const Image image = drawn(c.iris, settings_of(c.f_number, c.pitch_mm, 430.0), 600, centre, sunlight());
+      // Beyond the frame: the rim's share of flux beyond rho is perimeter / area / (pi^2 rho) stop radii, over a
+      // square's border as over a circle of pi / sqrt(8) times its half side.
+      const IrisOpening opening(c.iris);
+      const double rho = 300.0 * c.pitch_mm / (550e-6 * c.f_number) * kPi / std::sqrt(8.0);
+      const double outside = opening.perimeter() / opening.area() / (kPi * kPi * rho);
+      for (int channel = 0; channel < 3; ++channel)
+        CHECK(flux_of(image, channel) + outside == doctest::Approx(1.0).epsilon(5e-4));
+    }
+  }
+}
+
+TEST_CASE("an even number of blades gives as many spikes, an odd one twice as many, across the edges") {
+  for (const int blades : {5, 6, 7, 8, 9}) {
+    const double rotation = 0.23;
+    const Image image = drawn({blades, rotation}, settings_of(16.0, 0.01, 430.0), 600);
+    const std::vector<double> found = spikes(round_profile(image, 120.0, 140.0));
+    const int expected = blades % 2 == 0 ? blades : 2 * blades;
+    REQUIRE(static_cast<int>(found.size()) == expected);
+    for (const double angle : found) {  // along an edge's normal
+      const double step = 2.0 * kPi / expected;
+      const double normal = rotation + kPi / blades;
+      const double off = std::remainder(angle - normal, step);
+      CHECK(std::abs(off) < 0.01);
+    }
+  }
+}
+
+TEST_CASE("half the f-number draws the same at half the pitch, four times as dense") {
+  const Image wide = drawn({7, 0.2, 0.2}, settings_of(16.0, 0.004, 300.0), 400);
+  const Image narrow = drawn({7, 0.2, 0.2}, settings_of(8.0, 0.002, 300.0), 400);
+  for (std::size_t k = 0; k < wide.pixels.size(); k += 997)
+    CHECK(narrow.pixels[k] / wide.pixels[k] == doctest::Approx(1.0).epsilon(1e-3));
+}
+
+TEST_CASE("a quarter-size picture is the full one filtered") {
+  const Image full = drawn({6, 0.3, 0.1}, settings_of(11.0, 0.005, 600.0), 800);
+  const Image quarter = drawn({6, 0.3, 0.1}, settings_of(11.0, 0.02, 150.0), 200);
+  double error = 0.0, total = 0.0, worst = 0.0;
+  for (int y = 0; y < 200; ++y) {
+    for (int x = 0; x < 200; ++x) {
+      double sum = 0.0;
+      for (int i = 0; i < 16; ++i) sum += full.at(4 * x + i % 4, 4 * y + i / 4, 1);
+      error += std::abs(quarter.at(x, y, 1) - sum);
+      worst = std::max(worst, std::abs(quarter.at(x, y, 1) - sum));
+      total += sum;
+    }
+  }
+  CHECK(error / total < 0.02);
+  CHECK(worst < 5e-3);
+}
+
+TEST_CASE("at one wavelength the rings are the exact pattern, core and tail") {
+  const std::vector<SpectralBand> green{{550.0, {1.0, 1.0, 1.0}}};
+  const double f_number = 16.0, pitch_mm = 1e-3;
+  const Iris iris{6, 0.2, 0.2};
+  const Image image = drawn(iris, settings_of(f_number, pitch_mm, 300.0), 401, {200.5, 200.5}, green);
+  const double radius_mm = 50.0 / f_number;
+  const PupilMask mask = make_mask(grid_over(radius_mm, 900), IrisOpening(iris), radius_mm);
+  const FraunhoferPattern exact = fraunhofer_pattern(mask, {100.0, 550.0, 1.0, {401, pitch_mm}});
+  const double peak = exact.irradiance_per_mm2[200 * 401 + 200] * pitch_mm * pitch_mm;
+  double worst = 0.0;
+  for (std::size_t k = 0; k < exact.irradiance_per_mm2.size(); ++k)
+    worst = std::max(worst, std::abs(image.pixels[3 * k] - exact.irradiance_per_mm2[k] * pitch_mm * pitch_mm));
+  CHECK(worst < 0.015 * peak);  // cubics between samples a quarter of a fringe apart
+}
+
+TEST_CASE("eight decades without a step: far out a spike falls as r^-2 and what is between spikes as r^-4") {
+  const Image image = drawn({8, 0.1}, settings_of(16.0, 0.01, 1500.0), 2000, {0.0, 0.0}, sunlight());
+  constexpr double kRatio = 1.15;  // rings wide enough that it does not count which pixels fall in
+  double darkest = 1.0;
+  // Rows go down, so this is the quadrant below the axis: the first along a spike, the others between them.
+  for (const double angle : {kPi / 8 - 0.1, 0.6, 0.8, 1.4}) {
+    const Vec2 along{std::cos(angle), std::sin(angle)};
+    std::vector<double> sum(100), count(100);
+    for (int y = 0; y < 2000; ++y) {
+      for (int x = 0; x < 2000; ++x) {
+        const Vec2 p{x + 0.5, y + 0.5};
+        const double r = dot(p, along);
+        if (std::abs(cross(p, along)) > 8.0 || r < 100.0 || length(p) > 1450.0) continue;
+        const auto bin = static_cast<std::size_t>(std::log(r / 100.0) / std::log(kRatio));
+        sum[bin] += image.at(x, y, 1);
+        count[bin] += 1.0;
+      }
+    }
+    for (std::size_t i = 1; i < 19; ++i) {
+      const double here = sum[i] / count[i], before = sum[i - 1] / count[i - 1];
+      INFO("angle ", angle, " radius ", 100.0 * std::pow(kRatio, i));
+      CHECK(here / before == doctest::Approx(std::pow(kRatio, -3)).epsilon(0.085));
+      darkest = std::min(darkest, here);
+    }
+  }
+  CHECK(image.at(0, 0, 1) / darkest > 1e8);
+  CHECK(std::all_of(image.pixels.begin(), image.pixels.end(), [](float v) { return std::isfinite(v); }));
+}
+
+TEST_CASE("no radial ringing: from the sixth ring on daylight's are weaker than 1 per cent") {
+  const Image image = drawn({}, settings_of(16.0, 5e-4, 300.0), 600);  // 17.6 pixels a ring
+  double last = 1.0;
+  for (int r = 6 * 18; r < 290; ++r) {  // falling all the way
+    const double value = image.at(300 + r, 300, 1);
+    CHECK(value < last * 1.01);
+    last = value;
+  }
+}
+
+TEST_CASE("a picture's aperture: a double slit's fringes, and a tail that goes on smoothly") {
+  Image slits(64, 64, 1);
+  for (int y = 16; y < 48; ++y)
+    for (const int x : {20, 21, 22, 41, 42, 43}) slits.at(x, y) = 1.0F;
+  const double radius_mm = 2.0;
+  const PupilMask mask = mask_of_image(slits, 0, 2.0 * radius_mm).value();
+  const std::vector<SpectralBand> green{{550.0, {1.0, 1.0, 1.0}}};
+  StarburstSettings settings{100.0, radius_mm, 1e-3, 400.0};
+  Image image(401, 401);
+  add_starburst(image, make_starburst(mask, nullptr, green, settings), {200.5, 200.5}, {1.0, 1.0, 1.0});
+  // Fringes lambda d / (21 samples of 1/16 mm) = 41.9 pixels apart.
+  CHECK(image.at(200 + 21, 200, 1) < 0.05 * image.at(200, 200, 1));
+  CHECK(image.at(200 + 42, 200, 1) > 0.6 * image.at(200, 200, 1));
+  CHECK(std::all_of(image.pixels.begin(), image.pixels.end(), [](float v) { return v >= 0.0F; }));
+}
+
+TEST_CASE("a scratch adds a streak across itself, and no light is lost") {
+  Image dirt(510, 510, 1);
+  for (float& v : dirt.pixels) v = 1.0F;
+  for (int k = 0; k < 300; ++k)
+    for (int width = 0; width < 3; ++width) dirt.at(100 + k, 180 + width) = 0.0F;  // along x
+  const StarburstSettings settings = settings_of(16.0, 0.006, 800.0);
+  const IrisOpening opening(Iris{5, 0.3});
+  const PupilMask clean = make_mask(grid_over(settings.pupil_radius_mm, 510), opening, settings.pupil_radius_mm);
+  const PupilMask scratched = with_dirt(clean, dirt, 0).value();
+  Image with(1100, 1100), without(1100, 1100);
+  add_starburst(with, make_starburst(scratched, &opening, sunlight(), settings), {550, 550}, {1, 1, 1});
+  add_starburst(without, make_starburst(clean, &opening, sunlight(), settings), {550, 550}, {1, 1, 1});
+  for (int c = 0; c < 3; ++c) CHECK(flux_of(with, c) == doctest::Approx(1.0).epsilon(2e-3));
+  for (const int r : {60, 150, 400}) {  // the spectrum, where it fades, and the tail
+    const float across = with.at(550, 550 + r, 1) / without.at(550, 550 + r, 1);
+    const float along = with.at(550 + r, 550, 1) / without.at(550 + r, 550, 1);
+    CHECK(across > 3.0F);
+    CHECK(across > 3.0F * along);  // its short ends send a little along it
+  }
+}
+
+TEST_CASE("the same bits for any number of threads, nothing when cancelled or closed") {
+  const auto bands = sunlight();
+  const StarburstSettings settings = settings_of(8.0, 0.01, 100.0);
+  Image one(128, 128), seven(128, 128), none(128, 128);
+  const IrisOpening opening(Iris{7, 0.1, 0.3});
+  add_starburst(one, make_starburst(opening, bands, settings, {.threads = 1}), {60, 61}, {1, 2, 3}, {.threads = 1});
+  add_starburst(seven, make_starburst(opening, bands, settings, {.threads = 7}), {60, 61}, {1, 2, 3}, {.threads = 7});
+  CHECK(one.pixels == seven.pixels);
+  const std::atomic<bool> stop = true;
+  CHECK(make_starburst(opening, bands, settings, {.cancel = &stop}).rings() == nullptr);
+  add_starburst(none, Starburst(), {60, 61}, {1, 2, 3});
+  CHECK(none.pixels == Image(128, 128).pixels);
+}
