@@ -16,6 +16,8 @@ Json times_json(const RenderStatistics& statistics) {
 }
 
 Json stats_json(const RenderStatistics& statistics) {
+  const auto& skipped_flux = statistics.ghosts_skipped_flux;
+  const Json skipped = skipped_flux ? Json(*skipped_flux) : Json();
   return {{"method", statistics.method},
           {"device", statistics.device},
           {"time_ms", times_json(statistics)},
@@ -27,7 +29,7 @@ Json stats_json(const RenderStatistics& statistics) {
           {"primitive_bytes", statistics.primitive_bytes},
           {"tile_list_bytes", statistics.tile_list_bytes},
           {"ghosts_rendered", statistics.ghosts_rendered},
-          {"ghosts_skipped_flux", statistics.ghosts_skipped_flux},
+          {"ghosts_skipped_flux", skipped},
           {"peak_memory_bytes", statistics.peak_memory_bytes}};
 }
 

@@ -29,11 +29,19 @@ Result<Light> finish_light(Vec3 direction, const LightValue& value, const LightC
   light.value = value.rgb;
   if (value.per_channel) {
     if (!colour.rgb) return light;
-    return failure(ErrorCode::InvalidArgument, "a light's value and colour are both R,G,B; give one as a single number or name");
+    return failure(ErrorCode::InvalidArgument,
+                   "a light's value and colour are both R,G,B; give one as a single number or name");
   }
   const Rgb tint = colour.rgb ? *colour.rgb : rgb_of(colour.spectrum, space);
   for (std::size_t c = 0; c < tint.size(); ++c) light.value[c] *= tint[c];
   return light;
+}
+
+// A parameter that is one of a few words, as the enumerator at its place.
+template <class Enum>
+Enum choice(const Values& values, std::string_view name) {
+  const auto& words = parameter(name).choices;
+  return static_cast<Enum>(std::find(words.begin(), words.end(), *values.text(name)) - words.begin());
 }
 
 BundleOptions bundle_options(const Values& values) {
@@ -43,9 +51,7 @@ BundleOptions bundle_options(const Values& values) {
   options.mirror_symmetry = values.is_on("mirror");
   options.precomputed_bounds = values.is_on("pupil-table");
   options.spectral_filter = values.is_on("spectral-filter");
-  const auto& choices = parameter("anisotropic").choices;
-  const auto chosen = std::find(choices.begin(), choices.end(), *values.text("anisotropic"));
-  options.anisotropic = static_cast<BundleOptions::Anisotropic>(chosen - choices.begin());
+  options.anisotropic = choice<BundleOptions::Anisotropic>(values, "anisotropic");
   return options;
 }
 
@@ -55,9 +61,7 @@ TiledOptions tiled_options(const Values& values) {
   options.merge_threshold = values.number("merge-threshold");
   options.dense_tile = values.integer("tile");
   options.coarse_tile = values.integer("coarse-tile");
-  const auto& names = parameter("interpolation").choices;
-  const auto chosen = std::find(names.begin(), names.end(), *values.text("interpolation"));
-  options.interpolation = static_cast<TiledOptions::Interpolation>(chosen - names.begin());
+  options.interpolation = choice<TiledOptions::Interpolation>(values, "interpolation");
   return options;
 }
 
@@ -104,8 +108,7 @@ RenderSettings render_settings(const Values& values, const Frame& frame, ColourS
   return settings;
 }
 
-Result<std::vector<Light>> lights(const Values& values, const LensState& lens, const Frame& frame,
-                                  ColourSpace space) {
+Result<std::vector<Light>> lights(const Values& values, const LensState& lens, const Frame& frame, ColourSpace space) {
   const LightValue value = *parse_light_value(*values.text("value"));
   const LightColour colour = *parse_light_colour(*values.text("colour"));
   std::vector<Light> all;

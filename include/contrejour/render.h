@@ -6,6 +6,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -37,8 +38,13 @@ struct TiledOptions {
   double merge_threshold = 0.001;  // gamma of eq. 12; light 0.001, heavy 0.1
   int dense_tile = 8;              // pixels a side; must divide coarse_tile
   int coarse_tile = 128;           // 0: none
-  enum class Interpolation { Triangle, HomogeneousTriangle, MeanValue, Wachspress, LoopDeRose } interpolation =
-      Interpolation::LoopDeRose;
+  enum class Interpolation {
+    Triangle,
+    HomogeneousTriangle,
+    MeanValue,
+    Wachspress,
+    LoopDeRose
+  } interpolation = Interpolation::LoopDeRose;
 };
 
 struct RenderSettings {
@@ -65,7 +71,9 @@ struct RenderStatistics {
   std::uint64_t surface_hits = 0;
   std::uint64_t primitives = 0;
   int ghosts_rendered = 0;
-  double ghosts_skipped_flux = 0;  // share of the flare's flux that selection left out
+  // Share of the flare's flux that selection left out; none where it did not go by flux (a list, a surface), since
+  // measuring every ghost may take longer than rendering the chosen ones.
+  std::optional<double> ghosts_skipped_flux;
   std::uint64_t peak_memory_bytes = 0;
 
   // `tiled`; `primitives` counts them before merging.

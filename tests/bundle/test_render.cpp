@@ -4,24 +4,13 @@
 #include "bundle/scene.h"
 #include "contrejour/metrics.h"
 #include "render/bundle/bundle.h"
+#include "support/scenes.h"
 
 using namespace contrejour;
+using test::light_at;
+using test::settings_for;
 
 namespace {
-
-RenderSettings settings_for(const LensState& lens, int width, int height, int grid) {
-  RenderSettings settings;
-  settings.frame = frame_on_sensor(lens, width, height);
-  settings.lambda_nm = {550.0};
-  settings.grid = grid;
-  return settings;
-}
-
-Light light_at(const LensState& lens, const Frame& frame, Vec2 uv) {
-  Light light;
-  light.direction = direction_to_land_at(lens, frame.sensor_from_uv(uv), 550.0);
-  return light;
-}
 
 Flare bundle_of(const LensState& lens, std::span<const Light> lights, const RenderSettings& settings) {
   auto flare = render_bundle(lens, lights, settings, {});

@@ -85,11 +85,16 @@ TEST_CASE("selections keep what they say") {
   CHECK(kept(SelectBrightest{0}).ghosts.empty());
   CHECK(kept(SelectList{{{1, 3}, {4, 5}}}).ghosts == std::vector<Ghost>{{1, 3}, {4, 5}});
   const FramePlan most = kept(SelectByFlux{10.0});
-  CHECK(most.skipped_flux <= 0.10);
+  CHECK(most.skipped_flux.value() <= 0.10);
+  CHECK(most.skipped_flux.value() > 0.0);
   CHECK(most.ghosts.size() < 13);
   CHECK(kept(SelectByFlux{0.0}).skipped_flux == 0.0);
+  CHECK(kept(SelectAll{}).skipped_flux == 0.0);
   for (const Ghost& g : kept(SelectSurface{4}).ghosts) CHECK((g.i == 4 || g.j == 4));
   CHECK(kept(SelectSurface{4}).ghosts.size() == 4);
+  // What needs no flux measures none.
+  CHECK_FALSE(kept(SelectSurface{4}).skipped_flux.has_value());
+  CHECK_FALSE(kept(SelectList{{{1, 3}}}).skipped_flux.has_value());
   settings.selection = SelectList{{{1, 6}}};  // 6 is the stop
   CHECK_FALSE(plan(lens, {&light, 1}, settings).has_value());
 }

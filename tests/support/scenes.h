@@ -46,8 +46,12 @@ inline RenderSettings green(const Frame& frame) {
   return settings;
 }
 
-inline double sum(const Image& image) {
-  return std::accumulate(image.pixels.begin(), image.pixels.end(), 0.0);
+inline RenderSettings settings_for(const LensState& lens, int width, int height, int grid) {
+  RenderSettings settings = green(frame_on_sensor(lens, width, height));
+  settings.grid = grid;
+  return settings;
 }
+
+inline double sum(const Image& image) { return std::accumulate(image.pixels.begin(), image.pixels.end(), 0.0); }
 
 }  // namespace contrejour::test

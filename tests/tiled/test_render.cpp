@@ -13,14 +13,9 @@
 #include "tiled/scene.h"
 
 using namespace contrejour;
+using test::settings_for;
 
 namespace {
-
-RenderSettings settings_for(const LensState& lens, int width, int height, int grid) {
-  RenderSettings settings = test::green(frame_on_sensor(lens, width, height));
-  settings.grid = grid;
-  return settings;
-}
 
 Flare tiled_of(const LensState& lens, std::span<const Light> lights, const RenderSettings& settings,
                const Context& context = {}) {
@@ -33,6 +28,17 @@ double psnr_db(const Image& truth, const Image& image) {
   const auto difference = compare(truth, image);
   REQUIRE(difference.has_value());
   return difference->psnr_db.value_or(1e9);
+}
+
+// A square picture about the axis, its middle.
+RenderSettings plate_settings(int pixels, double pixel_pitch_mm, int grid) {
+  Frame frame;
+  frame.width = frame.full_width = pixels;
+  frame.height = frame.full_height = pixels;
+  frame.pixel_pitch_mm = pixel_pitch_mm;
+  RenderSettings settings = test::green(frame);
+  settings.grid = grid;
+  return settings;
 }
 
 struct System {
@@ -122,12 +128,7 @@ TEST_CASE("against bundle on the same grid, and merged against unmerged") {
 
 TEST_CASE("a large flat ghost has bundle's level, whatever the interpolation") {
   const LensState lens = test::plate();
-  Frame frame;
-  frame.width = frame.full_width = 64;
-  frame.height = frame.full_height = 64;
-  frame.pixel_pitch_mm = 0.15;
-  RenderSettings settings = test::green(frame);
-  settings.grid = 64;
+  RenderSettings settings = plate_settings(64, 0.15, 64);
   Light light;
   light.direction = normalized({0.02, 0.03, 1.0});
   const auto truth = render_bundle(lens, {&light, 1}, settings, {});
@@ -140,10 +141,10 @@ TEST_CASE("a large flat ghost has bundle's level, whatever the interpolation") {
     const Flare flare = tiled_of(lens, {&light, 1}, settings);
     for (int y = 28; y < 36; ++y) {
       for (int x = 28; x < 36; ++x) {
-        CHECK(flare.image.at(x, y) == doctest::Approx(truth->image.at(x, y)).epsilon(1e-3));
+        CHECK(flare.image.at(x, y) / truth->image.at(x, y) == doctest::Approx(1.0).epsilon(1e-3));
       }
     }
-    CHECK(test::sum(flare.image) == doctest::Approx(test::sum(truth->image)).epsilon(5e-3));
+    CHECK(test::sum(flare.image) / test::sum(truth->image) == doctest::Approx(1.0).epsilon(5e-3));
   }
 }
 
@@ -187,19 +188,14 @@ TEST_CASE("no light, no flare; one pixel, no trouble") {
 TEST_CASE("a picture symmetric about the axis counts no pixel twice") {
   // The middle ray and the middle pixel are on the axis: four cells meet there.
   const LensState lens = test::plate();
-  Frame frame;
-  frame.width = frame.full_width = 33;
-  frame.height = frame.full_height = 33;
-  frame.pixel_pitch_mm = 0.25;
-  RenderSettings settings = test::green(frame);
-  settings.grid = 65;
+  RenderSettings settings = plate_settings(33, 0.25, 65);
   const Light light;
   for (const int steps : {0, 4}) {
     settings.tiled.merge_steps = steps;
     const Flare flare = tiled_of(lens, {&light, 1}, settings);
     for (int k = 12; k < 21; ++k) {
-      CHECK(flare.image.at(k, 16) == doctest::Approx(flare.image.at(13, 13)).epsilon(0.01));
-      CHECK(flare.image.at(16, k) == doctest::Approx(flare.image.at(13, 13)).epsilon(0.01));
+      CHECK(flare.image.at(k, 16) / flare.image.at(13, 13) == doctest::Approx(1.0).epsilon(0.01));
+      CHECK(flare.image.at(16, k) / flare.image.at(13, 13) == doctest::Approx(1.0).epsilon(0.01));
     }
   }
 }

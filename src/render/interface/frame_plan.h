@@ -27,7 +27,7 @@ struct FramePlan {
   std::vector<Ghost> ghosts;
   std::vector<PlannedLight> lights;
   TablesByWavelength tables;  // for every wavelength of the passes
-  double skipped_flux = 0;  // share of the flare that selection leaves out
+  std::optional<double> skipped_flux;  // as RenderStatistics::ghosts_skipped_flux
 };
 
 // Errors: InvalidArgument for settings out of range, Cancelled.

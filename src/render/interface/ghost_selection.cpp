@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numeric>
-#include <set>
 
 #include <fmt/format.h>
 
@@ -32,7 +32,7 @@ Result<std::vector<double>> ghost_fluxes(const LensState& lens, std::span<const 
   return flux;
 }
 
-// Indices of the ghosts to keep, given their fluxes; by falling flux, ties in ghost order.
+// Indices of the ghosts by falling flux, ties in ghost order.
 std::vector<std::size_t> by_falling_flux(const std::vector<double>& flux) {
   std::vector<std::size_t> order(flux.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
@@ -52,21 +52,25 @@ std::size_t count_to_keep(const SelectByFlux& select, const std::vector<double>&
 Result<void> check_list(const std::vector<Ghost>& list, std::span<const Ghost> all) {
   for (const Ghost& g : list) {
     if (std::find(all.begin(), all.end(), g) == all.end()) {
-      return failure(ErrorCode::InvalidArgument,
-                     fmt::format("there is no ghost {}-{} in this lens; `contrejour ghosts` lists those there are", g.i, g.j));
+      return failure(
+          ErrorCode::InvalidArgument,
+          fmt::format("there is no ghost {}-{} in this lens; `contrejour ghosts` lists those there are", g.i, g.j));
     }
   }
   return {};
 }
 
-GhostChoice keep_ghosts(const std::vector<Ghost>& all, const std::vector<double>& flux,
-                        const std::set<std::size_t>& kept) {
+// The first so many of the order, back in (i, j) order.
+GhostChoice first_of(const std::vector<Ghost>& all, const std::vector<double>& flux,
+                     const std::vector<std::size_t>& order, std::size_t count) {
+  std::vector<bool> is_kept(all.size(), false);
+  for (std::size_t k = 0; k < std::min(count, order.size()); ++k) is_kept[order[k]] = true;
   GhostChoice out;
   double total = 0.0;
   double skipped = 0.0;
   for (std::size_t g = 0; g < all.size(); ++g) {
     total += flux[g];
-    if (kept.count(g) > 0) {
+    if (is_kept[g]) {
       out.ghosts.push_back(all[g]);
     } else {
       skipped += flux[g];
@@ -76,58 +80,57 @@ GhostChoice keep_ghosts(const std::vector<Ghost>& all, const std::vector<double>
   return out;
 }
 
-// Indices of the ghosts that a selection keeps.
-class Kept {
- public:
-  Kept(const std::vector<Ghost>& all, const std::vector<double>& flux) : all_(all), flux_(flux) {}
+template <class Condition>
+GhostChoice those_where(const std::vector<Ghost>& all, Condition condition) {
+  GhostChoice out;
+  std::copy_if(all.begin(), all.end(), std::back_inserter(out.ghosts), condition);
+  return out;
+}
 
-  std::set<std::size_t> operator()(const SelectAll&) const { return first(all_.size()); }
-  std::set<std::size_t> operator()(const SelectBrightest& select) const {
-    return first(static_cast<std::size_t>(std::max(0, select.count)));
+// One selection of ghosts each.
+struct Selector {
+  const LensState& lens;
+  std::span<const Light> lights;
+  const RenderSettings& settings;
+  const Context& context;
+
+  [[nodiscard]] std::vector<Ghost> in_scope() const { return enumerate_ghosts(lens, settings.scope); }
+
+  Result<GhostChoice> operator()(const SelectAll&) const { return GhostChoice{in_scope(), 0.0}; }
+  Result<GhostChoice> operator()(const SelectBrightest& select) const {
+    return by_flux([&](const auto&, const auto&) { return static_cast<std::size_t>(std::max(0, select.count)); });
   }
-  std::set<std::size_t> operator()(const SelectByFlux& select) const {
-    return first(count_to_keep(select, flux_, by_falling_flux(flux_)));
+  Result<GhostChoice> operator()(const SelectByFlux& select) const {
+    return by_flux([&](const auto& flux, const auto& order) { return count_to_keep(select, flux, order); });
   }
-  std::set<std::size_t> operator()(const SelectList& select) const {
-    return where([&](const Ghost& g) {
+  Result<GhostChoice> operator()(const SelectList& select) const {
+    const auto all = enumerate_ghosts(lens, GhostScope::All);
+    if (const auto ok = check_list(select.ghosts, all); !ok) return tl::unexpected<Error>(ok.error());
+    return those_where(all, [&](const Ghost& g) {
       return std::find(select.ghosts.begin(), select.ghosts.end(), g) != select.ghosts.end();
     });
   }
-  std::set<std::size_t> operator()(const SelectSurface& select) const {
-    return where([&](const Ghost& g) { return g.i == select.surface || g.j == select.surface; });
+  Result<GhostChoice> operator()(const SelectSurface& select) const {
+    return those_where(in_scope(), [&](const Ghost& g) { return g.i == select.surface || g.j == select.surface; });
   }
 
  private:
-  [[nodiscard]] std::set<std::size_t> first(std::size_t count) const {
-    const auto order = by_falling_flux(flux_);
-    return {order.begin(), order.begin() + static_cast<std::ptrdiff_t>(std::min(count, order.size()))};
+  // count(flux, order): how many to keep, given the fluxes and the ghosts' indices by falling flux.
+  template <class Count>
+  [[nodiscard]] Result<GhostChoice> by_flux(Count count) const {
+    const auto all = in_scope();
+    const auto flux = ghost_fluxes(lens, all, lights, settings, context);
+    if (!flux) return tl::unexpected<Error>(flux.error());
+    const auto order = by_falling_flux(*flux);
+    return first_of(all, *flux, order, count(*flux, order));
   }
-  template <class Condition>
-  [[nodiscard]] std::set<std::size_t> where(Condition condition) const {
-    std::set<std::size_t> kept;
-    for (std::size_t g = 0; g < all_.size(); ++g) {
-      if (condition(all_[g])) kept.insert(g);
-    }
-    return kept;
-  }
-
-  const std::vector<Ghost>& all_;
-  const std::vector<double>& flux_;
 };
 
 }  // namespace
 
 Result<GhostChoice> select_ghosts(const LensState& lens, std::span<const Light> lights, const RenderSettings& settings,
                                   const Context& context) {
-  if (std::holds_alternative<SelectAll>(settings.selection)) return GhostChoice{enumerate_ghosts(lens, settings.scope), 0};
-  const auto* list = std::get_if<SelectList>(&settings.selection);
-  const auto all = enumerate_ghosts(lens, list != nullptr ? GhostScope::All : settings.scope);
-  if (list != nullptr) {
-    if (const auto ok = check_list(list->ghosts, all); !ok) return tl::unexpected<Error>(ok.error());
-  }
-  const auto flux = ghost_fluxes(lens, all, lights, settings, context);
-  if (!flux) return tl::unexpected<Error>(flux.error());
-  return keep_ghosts(all, *flux, std::visit(Kept(all, *flux), settings.selection));
+  return std::visit(Selector{lens, lights, settings, context}, settings.selection);
 }
 
 }  // namespace contrejour
