@@ -19,7 +19,7 @@ double half_field_rad(const LensState& lens) {
 }
 
 struct Tally {
-  std::uint64_t searches = 0, rays = 0, passing = 0, missed = 0, dark = 0, dark_with_boxes = 0;
+  std::uint64_t searches = 0, rays = 0, passing = 0, missed = 0, lost = 0, dark = 0, dark_with_boxes = 0;
 };
 
 bool in_any(const std::vector<Rectangle>& boxes, Vec2 p) {
@@ -59,6 +59,7 @@ void add(const LensState& lens, Ghost ghost, const ReflectanceTables& tables, co
   }
   tally.passing += passing;
   tally.missed += missed;
+  if (passing > 0 && missed == passing) ++tally.lost;
 }
 
 }  // namespace
@@ -84,11 +85,11 @@ TEST_CASE("rays that get through lie in a box, for all lenses [slow]") {
     }
   }
   CHECK(tally.passing > 1'000'000);
-  // Ought to be none. Openings much smaller than the first lattice's cells are missed: of these 1572 searches 14 lose
-  // rays, 6 of them all of a ghost; 0.46 per cent of the rays.
-  CHECK(tally.missed < tally.passing / 200);
-  WARN(tally.missed == 0);
-  CHECK(tally.rays < 1500 * tally.searches);
+  // Ought to be none. Of these 1572 searches twelve lose rays, nearly all of them where rims leave slivers of a pupil:
+  // 0.011 per cent of the rays. No ghost is lost whole.
+  CHECK(tally.missed < tally.passing / 5000);
+  CHECK(tally.lost == 0);
+  CHECK(tally.rays < 320 * tally.searches);
   CHECK(tally.dark_with_boxes <= tally.dark / 20);
 }
 

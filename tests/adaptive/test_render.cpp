@@ -46,7 +46,7 @@ struct System {
   const char* name;
   LensSettings settings;
   Vec2 uv{0.70, 0.33};
-  double psnr_db = 50.0;
+  double standard_db = 50.0;  // at the default error
 };
 
 // How much each of 100 steps of a hundredth of a pixel changes the pixel it changes most, over the brightest pixel.
@@ -73,8 +73,8 @@ TEST_CASE("closer to the reference with every preset, within its error or 50 dB 
   for (const System& system :
        {System{"heliar", {.f_number = 16.0}, {0.62, 0.3}}, System{"heliar", {.f_number = 5.6}, {0.2, 0.71}},
         System{"planar-50", {.f_number = 5.6}, {0.35, 0.4}},
-        // 46 dB: ghosts (1, 4) and (3, 5) get no box of the pupil; 64 without them.
-        System{"muller-fisheye-10", {.f_number = 16.0}, {0.8, 0.5}, 45.0}}) {
+        // Ghosts (1, 4) and (3, 5) come through islands among rays that fail; 46 dB without them.
+        System{"muller-fisheye-10", {.f_number = 16.0}, {0.8, 0.5}, 60.0}}) {
     CAPTURE(system.name);
     const LensState lens = test::bundled(system.name, system.settings);
     RenderSettings settings = settings_for(lens, 160, 90);
@@ -86,7 +86,8 @@ TEST_CASE("closer to the reference with every preset, within its error or 50 dB 
       settings.error = error;
       const double db = psnr_db(truth, image_of("adaptive", lens, light, settings));
       CHECK(db >= before_db - 0.1);  // the reference's own error shows from 64 dB on
-      CHECK(db >= std::min(system.psnr_db, -20.0 * std::log10(error)));
+      CHECK(db >= std::min(50.0, -20.0 * std::log10(error)));
+      if (error <= 0.003) CHECK(db >= system.standard_db);
       before_db = db;
     }
   }

@@ -76,6 +76,7 @@ PacketPath::PacketPath(const OpticalPath& path, const ReflectanceTables& tables,
     step.direction = from.direction;
     step.gap_mm = from.z_mm - z_before_mm;
     step.curvature_per_mm = from.curvature_per_mm;
+    step.inverse_semi_diameter_per_mm = 1.0 / from.semi_diameter_mm;
     step.inverse_semi_diameter_squared = 1.0 / (from.semi_diameter_mm * from.semi_diameter_mm);
     step.eta = from.n_in / from.n_out;
     z_before_mm = from.z_mm;

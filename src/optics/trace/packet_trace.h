@@ -48,6 +48,7 @@ struct PacketStep {
   double direction = 1;
   double gap_mm = 0;            // z of this vertex less that of the step before, or of the origin
   double curvature_per_mm = 0;
+  double inverse_semi_diameter_per_mm = 0;
   double inverse_semi_diameter_squared = 0;
   double eta = 1;               // n_in / n_out
 };
@@ -62,6 +63,9 @@ struct ParallelRays {
 class PacketPath {
  public:
   PacketPath(const OpticalPath& path, const ReflectanceTables& tables, const ParallelRays& rays);
+
+  // The same light through other points of the plane.
+  void start_from(Vec2 origin_mm) { rays_.origin_mm = {origin_mm.x, origin_mm.y, rays_.origin_mm.z}; }
 
   [[nodiscard]] const std::vector<PacketStep>& steps() const { return steps_; }
   [[nodiscard]] const float* tables() const { return tables_; }

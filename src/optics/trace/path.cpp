@@ -28,6 +28,7 @@ class PathBuilder {
     path_.lambda_nm = lambda_nm;
     path_.sensor_z_mm = lens.sensor_z_mm;
     path_.stop_radius_mm = lens.stop_radius_mm;
+    path_.steps.reserve(3 * lens.surfaces.size());
   }
 
   // Refracts at every surface from first to last, which may be none.

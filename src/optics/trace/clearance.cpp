@@ -1,0 +1,140 @@
+#include "optics/trace/clearance.h"
+
+// Packets are structs of vectors, which these targets do not allow.
+#define HWY_DISABLED_TARGETS (HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128 | HWY_RVV)
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "optics/trace/clearance.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+#include "kernels/packet-inl.h"
+#include "kernels/quick_packet-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace contrejour::HWY_NAMESPACE {
+
+namespace hk = kernels::HWY_NAMESPACE;
+namespace hn = hwy::HWY_NAMESPACE;
+
+template <class P>
+struct Clearance {
+  hk::Ray3<P> ray;
+  P alive;                      // 1 or 0
+  P passed;                     // tests, as long as alive
+  P margin;                     // of the last test while alive; <= 0 where the ray fails
+  P rim_x, rim_y, rim_squared;  // where the ray passes farthest out
+};
+
+template <class P>
+HWY_INLINE void test(Clearance<P>& s, P must_be_positive) {
+  const P zero(0.0);
+  s.margin = select(s.alive > zero, must_be_positive, s.margin);
+  s.alive = select(must_be_positive > zero, s.alive, zero);
+  s.passed = s.passed + s.alive;
+}
+
+// Rays that fail go on as numbers of no meaning.
+template <class P>
+HWY_INLINE void advance(Clearance<P>& s, const PacketStep& step) {
+  const P zero(0.0);
+  const P direction(step.direction);
+  const auto hit = hk::intersect(s.ray, P(step.gap_mm), P(step.curvature_per_mm), direction);
+  test(s, smaller(hit.cos_in_squared, hit.nz));
+  hk::move_to(s.ray, hit, zero);  // z from this vertex on
+  if (step.event == PathEvent::Stop) return;
+  const P per_mm(step.inverse_semi_diameter_per_mm);
+  const P rim_x = hit.x * per_mm;
+  const P rim_y = hit.y * per_mm;
+  const P rim_squared = rim_x * rim_x + rim_y * rim_y;
+  const auto farther = rim_squared > s.rim_squared;
+  s.rim_x = select(farther, rim_x, s.rim_x);
+  s.rim_y = select(farther, rim_y, s.rim_y);
+  s.rim_squared = larger(s.rim_squared, rim_squared);
+  if (step.event == PathEvent::Reflect) return hk::reflect(s.ray, hit, direction);
+  test(s, hk::refract(s.ray, hit, P(step.eta), direction));
+}
+
+template <class P>
+HWY_INLINE Clearance<P> enter(const ParallelRays& rays, const float* x_mm, const float* y_mm) {
+  const typename P::Tag d;
+  return {{P(rays.origin_mm.x) + P(hk::load_floats(d, x_mm)), P(rays.origin_mm.y) + P(hk::load_floats(d, y_mm)), P(0.0),
+           P(rays.direction.x), P(rays.direction.y), P(rays.direction.z)},
+          P(1.0),
+          P(0.0),
+          P(1.0),
+          P(0.0),
+          P(0.0),
+          P(0.0)};
+}
+
+template <class P>
+HWY_INLINE void leave(Clearance<P>& s, std::size_t at, const ClearanceArrays& out) {
+  test(s, s.ray.dz);
+  store_floats(select(s.alive > P(0.0), P(0.0), P(0.0) - s.margin), out.failing + at);
+  store_floats(s.passed, out.passed + at);
+  store_floats(s.rim_x, out.rim_x + at);
+  store_floats(s.rim_y, out.rim_y + at);
+}
+
+// Two packets abreast: one waits for its own results most of the time.
+template <class P>
+void trace_all(const PacketPath& path, const float* x_mm, const float* y_mm, std::size_t count,
+               const ClearanceArrays& out) {
+  const std::size_t lanes = hn::Lanes(typename P::Tag());
+  const P per_radius(path.inverse_stop_radius_per_mm());
+  for (std::size_t at = 0; at < count; at += 2 * lanes) {
+    Clearance<P> a = enter<P>(path.rays(), x_mm + at, y_mm + at);
+    Clearance<P> b = enter<P>(path.rays(), x_mm + at + lanes, y_mm + at + lanes);
+    for (const PacketStep& step : path.steps()) {
+      advance(a, step);
+      advance(b, step);
+      if (step.event != PathEvent::Stop) continue;
+      float* x = out.stop_x[static_cast<std::size_t>(step.crossing)] + at;
+      float* y = out.stop_y[static_cast<std::size_t>(step.crossing)] + at;
+      store_floats(a.ray.x * per_radius, x);
+      store_floats(a.ray.y * per_radius, y);
+      store_floats(b.ray.x * per_radius, x + lanes);
+      store_floats(b.ray.y * per_radius, y + lanes);
+    }
+    leave(a, at, out);
+    leave(b, at + lanes, out);
+  }
+}
+
+void clearance_float(const PacketPath& path, const float* x_mm, const float* y_mm, std::size_t count,
+                     const ClearanceArrays& out) {
+  trace_all<hk::QuickPacket>(path, x_mm, y_mm, count, out);
+}
+
+// Where an instruction set has no vectors of double (none of x86), float must do.
+void clearance_double(const PacketPath& path, const float* x_mm, const float* y_mm, std::size_t count,
+                      const ClearanceArrays& out) {
+#if HWY_HAVE_FLOAT64
+  trace_all<hk::Packet<double>>(path, x_mm, y_mm, count, out);
+#else
+  trace_all<hk::Packet<float>>(path, x_mm, y_mm, count, out);
+#endif
+}
+
+}  // namespace contrejour::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace contrejour {
+
+HWY_EXPORT(clearance_float);
+HWY_EXPORT(clearance_double);
+
+static_assert(kClearancePadding * sizeof(float) >= 2 * HWY_MAX_BYTES);
+
+void trace_clearance(const PacketPath& path, PacketPrecision precision, const float* x_mm, const float* y_mm,
+                     std::size_t count, const ClearanceArrays& out) {
+  if (precision == PacketPrecision::Double) {
+    HWY_DYNAMIC_DISPATCH(clearance_double)(path, x_mm, y_mm, count, out);
+  } else {
+    HWY_DYNAMIC_DISPATCH(clearance_float)(path, x_mm, y_mm, count, out);
+  }
+}
+
+}  // namespace contrejour
+#endif  // HWY_ONCE

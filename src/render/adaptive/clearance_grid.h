@@ -1,0 +1,76 @@
+// Rays on a uniform grid over a part of the upper half of the entrance plane, and what blocks them: which cells may let
+// light through, and which of these hang together. In the light's meridional frame; the iris counts as its
+// circumscribed circle.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "contrejour/trace.h"
+#include "ghosts/ray_grid.h"
+#include "optics/trace/clearance.h"
+
+namespace contrejour::adaptive {
+
+struct GridCell {
+  int column = 0, row = 0;
+};
+
+class ClearanceGrid {
+ public:
+  ClearanceGrid(const OpticalPath& path, const ReflectanceTables& tables, const ParallelRays& rays)
+      : path_(path, tables, rays) {}
+
+  // box: y >= 0.
+  void trace(const Rectangle& box, int columns, int rows);
+
+  [[nodiscard]] const Rectangle& box() const { return box_; }
+  [[nodiscard]] int columns() const { return columns_; }
+  [[nodiscard]] int rows() const { return rows_; }
+  [[nodiscard]] int crossings() const { return path_.stop_crossings(); }
+  [[nodiscard]] std::uint64_t rays() const { return rays_; }  // of all grids so far
+  [[nodiscard]] std::size_t steps() const { return path_.steps().size(); }
+  [[nodiscard]] bool touches_axis() const { return box_.low.y == 0.0; }
+  [[nodiscard]] Vec2 cell_size() const {
+    return {(box_.high.x - box_.low.x) / columns_, (box_.high.y - box_.low.y) / rows_};
+  }
+  [[nodiscard]] std::size_t at(int column, int row) const {
+    return static_cast<std::size_t>(row * (columns_ + 1) + column);
+  }
+  [[nodiscard]] bool fails(std::size_t ray) const { return field(kFailing)[ray] != 0.0F; }
+  [[nodiscard]] bool is_open(std::size_t ray) const { return open_[ray] != 0; }
+  // Over the stop's radius.
+  [[nodiscard]] Vec2 stop(int crossing, std::size_t ray) const {
+    const auto c = static_cast<std::size_t>(kStop + 2 * crossing);
+    return {field(c)[ray], field(c + 1)[ray]};
+  }
+
+  // Whether light may pass through a cell, if nothing goes beyond its values at the corners by more than `reach` times
+  // what they differ.
+  [[nodiscard]] bool may_pass(GridCell cell, float reach) const;
+  [[nodiscard]] int open_corners(GridCell cell) const;
+
+  // The cells that may let light through, by those that touch, corners included.
+  [[nodiscard]] std::vector<std::vector<GridCell>> pieces(float reach) const;
+  // The box, larger by a share of its size on every side at which rays get through, but within bounds.
+  [[nodiscard]] Rectangle grown(double share, const Rectangle& bounds) const;
+
+  [[nodiscard]] Rectangle hull(const std::vector<GridCell>& cells) const;
+
+ private:
+  static constexpr std::size_t kFailing = 0, kPassed = 1, kRim = 2, kStop = 4, kFields = kStop + 2 * kMaxStopCrossings;
+  [[nodiscard]] const float* field(std::size_t k) const { return fields_.data() + k * padded_; }
+  // Whether a place in the unit circle may be reached in a cell, from its x and y, fields k and k + 1.
+  [[nodiscard]] bool may_reach_circle(std::size_t k, const std::array<std::size_t, 4>& corners, float reach) const;
+  void find_open(std::size_t count);
+
+  PacketPath path_;
+  Rectangle box_;
+  int columns_ = 0, rows_ = 0;
+  std::size_t padded_ = 0;
+  std::uint64_t rays_ = 0;
+  std::vector<float> x_mm_, y_mm_, fields_;
+  std::vector<std::uint8_t> open_;
+};
+
+}  // namespace contrejour::adaptive

@@ -1,0 +1,46 @@
+// Rays along the line y = 0 of the entrance plane, ever closer where light may get through or where rays begin to
+// fail: for small pupils among rays that fail, which a grid steps over. All but a few small pupils lie on this line, as
+// the lens is symmetric about it.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "contrejour/trace.h"
+#include "ghosts/ray_grid.h"
+#include "optics/trace/clearance.h"
+
+namespace contrejour::adaptive {
+
+struct Interval {
+  double low = 0, high = 0;  // x, mm
+};
+
+class MeridianScan {
+ public:
+  MeridianScan(const OpticalPath& path, const ReflectanceTables& tables, const ParallelRays& rays)
+      : path_(path, tables, rays) {}
+
+  // Parts of the line through which light may pass and which no box reaches.
+  [[nodiscard]] std::vector<Interval> find(Interval line, std::span<const Rectangle> boxes);
+
+  [[nodiscard]] std::uint64_t rays() const { return rays_; }
+
+ private:
+  struct Node {
+    double x_mm = 0;
+    float failing = 0, passed = 0;
+    std::array<float, 1 + kMaxStopCrossings> place{};  // x where the ray passes farthest out, then in the stop
+  };
+  void trace(const std::vector<double>& x_mm);
+  [[nodiscard]] bool may_pass(std::size_t k) const;
+  [[nodiscard]] bool is_worth_a_look(std::size_t k) const;
+  [[nodiscard]] bool is_open(const Node& node) const;
+
+  PacketPath path_;
+  std::vector<Node> nodes_;  // by rising x
+  std::vector<float> x_mm_, fields_;
+  std::uint64_t rays_ = 0;
+};
+
+}  // namespace contrejour::adaptive

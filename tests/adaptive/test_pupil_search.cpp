@@ -1,0 +1,122 @@
+// The parts of the search for boxes of the pupil, each against the rays of a dense grid.
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include <doctest/doctest.h>
+
+#include "adaptive/scene.h"
+#include "render/adaptive/box_fit.h"
+#include "render/adaptive/clearance_grid.h"
+#include "render/adaptive/meridian_scan.h"
+#include "render/adaptive/stop_aim.h"
+
+using namespace contrejour;
+using namespace contrejour::adaptive;
+
+namespace {
+
+struct Setting {
+  LensState lens;
+  LightFrame light;
+  EntranceWindow window;
+  OpticalPath path;
+  ReflectanceTables tables;
+
+  Setting(const char* name, double f_number, Ghost ghost, double angle_rad)
+      : lens(test::lens_at_f(name, f_number)), light(Vec3{std::sin(angle_rad), 0.0, std::cos(angle_rad)}),
+        window(entrance_window(lens, light.direction)), path(ghost_path(lens, ghost, 550.0)), tables(lens, 550.0) {}
+
+  [[nodiscard]] ParallelRays rays() const { return {{0.0, 0.0, window.z_mm}, light.direction}; }
+  [[nodiscard]] Rectangle half() const { return {{window.min_mm.x, 0.0}, window.max_mm}; }
+};
+
+// Bounds of the rays of a grid over a box that get through, by trace().
+std::optional<Rectangle> open_bounds(const Setting& s, const Rectangle& box, int side) {
+  std::optional<Rectangle> bounds;
+  for (int k = 0; k < side * side; ++k) {
+    const Vec2 p{std::lerp(box.low.x, box.high.x, (k % side) / (side - 1.0)),
+                 std::lerp(box.low.y, box.high.y, std::floor(k / side) / (side - 1.0))};
+    const TracedRay ray = trace(s.path, {{p.x, p.y, s.window.z_mm}, s.light.direction});
+    if (ray.status != RayStatus::Ok || blocked_by(ray, s.path, Iris{}) > 0.0) continue;
+    if (!bounds) bounds = {p, p};
+    bounds->low = {std::min(bounds->low.x, p.x), std::min(bounds->low.y, p.y)};
+    bounds->high = {std::max(bounds->high.x, p.x), std::max(bounds->high.y, p.y)};
+  }
+  return bounds;
+}
+
+bool holds(const Rectangle& outer, const Rectangle& inner) {
+  return outer.low.x <= inner.low.x && outer.low.y <= inner.low.y && outer.high.x >= inner.high.x &&
+         outer.high.y >= inner.high.y;
+}
+
+double area(const Rectangle& r) { return (r.high.x - r.low.x) * (r.high.y - r.low.y); }
+
+}  // namespace
+
+TEST_CASE("a box aimed at the stop from a coarse grid holds what gets through, and little more") {
+  int aimed = 0;
+  for (const Ghost ghost : enumerate_ghosts(test::lens_at_f("canon-70-200", 32.0), GhostScope::OneSideOfStop)) {
+    if (ghost.i % 4 != 1) continue;
+    const Setting s("canon-70-200", 32.0, ghost, 0.05);
+    ClearanceGrid grid(s.path, s.tables, s.rays());
+    grid.trace(s.half(), 12, 6);
+    for (const auto& piece : grid.pieces(1.0F)) {
+      const auto aim = aim_at_stop(grid, piece);
+      if (!aim || aim->error > 0.1) continue;
+      const Vec2 more = (aim->box.high - aim->box.low) * 0.5;
+      const auto open = open_bounds(s, {aim->box.low - more, aim->box.high + more}, 41);
+      if (!open) continue;  // a rim is in the way
+      ++aimed;
+      CAPTURE(ghost.i);
+      CAPTURE(ghost.j);
+      CHECK(holds(aim->box, *open));
+    }
+  }
+  CHECK(aimed > 30);
+}
+
+TEST_CASE("a pupil a three-hundredth of the window wide, among rays that fail, is found along the meridian") {
+  // From a search by 193 x 193 rays: x from -6.0515 to -5.9018.
+  const Setting s("nikon-80-200", 11.0, {7, 12}, 0.37 * 0.27);
+  const auto open = open_bounds(s, {{-9.0, -0.5}, {-3.0, 0.5}}, 301);
+  REQUIRE(open.has_value());
+  CHECK(open->high.x - open->low.x < 0.5);
+  ClearanceGrid grid(s.path, s.tables, s.rays());
+  grid.trace(s.half(), 12, 6);
+  bool seen = false;
+  for (int k = 0; k <= 12; ++k) seen = seen || grid.is_open(grid.at(k, 0));
+  CHECK_FALSE(seen);
+
+  MeridianScan scan(s.path, s.tables, s.rays());
+  const auto found = scan.find({s.window.min_mm.x, s.window.max_mm.x}, {});
+  CHECK(std::any_of(found.begin(), found.end(),
+                    [&](const Interval& i) { return i.low <= open->low.x && i.high >= open->high.x; }));
+  CHECK(scan.rays() < 150);
+
+  // Nothing is found twice.
+  MeridianScan again(s.path, s.tables, s.rays());
+  const Rectangle box{{open->low.x - 1.0, -1.0}, {open->high.x + 1.0, 1.0}};
+  for (const Interval& i : again.find({s.window.min_mm.x, s.window.max_mm.x}, {&box, 1})) {
+    CHECK((i.high <= open->low.x || i.low >= open->high.x));
+  }
+}
+
+TEST_CASE("boxes fitted at another wavelength grow to hold what gets through, and shrink to it") {
+  const Setting s("heliar", 11.0, {1, 4}, 0.2);
+  const auto open = open_bounds(s, {s.window.min_mm, s.window.max_mm}, 201);
+  REQUIRE(open.has_value());
+  const Vec2 size = open->high - open->low;
+  BoxFitter fitter(s.path, s.tables, s.rays(), s.window);
+  const auto grown = fitter.fit({open->low + size * 0.2, open->high - size * 0.2});
+  REQUIRE(grown.has_value());
+  CHECK(holds(*grown, *open));
+  CHECK(area(*grown) < 2.0 * area(*open));
+  const auto shrunk = fitter.fit({open->low - size, open->high + size});
+  REQUIRE(shrunk.has_value());
+  CHECK(holds(*shrunk, *open));
+  CHECK(area(*shrunk) < 3.5 * area(*open));
+  CHECK_FALSE(fitter.fit({open->high + size, open->high + size * 1.5}).has_value());
+  CHECK(fitter.surface_hits() == fitter.rays() * s.path.steps.size());
+}
