@@ -74,7 +74,7 @@ TEST_CASE("closer to the reference with every preset, within its error or 50 dB 
        {System{"heliar", {.f_number = 16.0}, {0.62, 0.3}}, System{"heliar", {.f_number = 5.6}, {0.2, 0.71}},
         System{"planar-50", {.f_number = 5.6}, {0.35, 0.4}},
         // Ghosts (1, 4) and (3, 5) come through islands among rays that fail; 46 dB without them.
-        System{"muller-fisheye-10", {.f_number = 16.0}, {0.8, 0.5}, 60.0}}) {
+        System{"muller-fisheye-10", {.f_number = 16.0}, {0.8, 0.5}, 58.0}}) {
     CAPTURE(system.name);
     const LensState lens = test::bundled(system.name, system.settings);
     RenderSettings settings = settings_for(lens, 160, 90);
