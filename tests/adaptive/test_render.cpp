@@ -93,6 +93,21 @@ TEST_CASE("closer to the reference with every preset, within its error or 50 dB 
   }
 }
 
+TEST_CASE("ghosts that fall beside the frame leave it dark") {
+  const LensState lens = test::lens_at_f("nikon-80-200", 16.0, 140.0);
+  RenderSettings settings = settings_for(lens, 480, 270);
+  settings.lambda_nm.clear();
+  const Light light = test::light_at(lens, settings.frame, {0.70, 0.33});
+  for (const Ghost ghost : {Ghost{13, 17}, Ghost{1, 10}, Ghost{5, 7}, Ghost{6, 19}, Ghost{14, 15}}) {
+    CAPTURE(ghost.i);
+    CAPTURE(ghost.j);
+    settings.selection = SelectList{{ghost}};
+    const Image image = image_of("adaptive", lens, light, settings);
+    const Image coarse = image_of("bundle", lens, light, settings);
+    CHECK(peak_of(image) <= 2.0 * peak_of(coarse));
+  }
+}
+
 // The reference takes many minutes here; tests/renderers holds the bundle to it.
 TEST_CASE("the Canon at 200 mm wide open, its brightest ghosts, as by the bundle [slow]") {
   const LensState lens = test::lens_at_f("canon-70-200", 2.8, 200.0);

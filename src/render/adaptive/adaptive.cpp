@@ -1,6 +1,7 @@
 #include "render/adaptive/adaptive.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "base/clock.h"
 #include "base/memory.h"
@@ -36,6 +37,7 @@ class Stopwatch {
 // (docs/physics/adaptive.md), so that six times as much still holds.
 ErrorBudget budget_per_item(double error, double peak, const Frame& frame, std::size_t items) {
   constexpr double kRoom = 6.0;
+  if (!(peak > 0.0)) return {std::numeric_limits<double>::infinity(), 1.0};  // all light falls beside the frame
   const double allowed = kRoom * error * peak;
   const double pixels = static_cast<double>(frame.width) * frame.height;
   return {allowed * allowed * pixels / static_cast<double>(std::max<std::size_t>(items, 1)), peak};
