@@ -32,7 +32,7 @@ class FractionalFourier {
  private:
   int side_;
   std::vector<double> basis_;  // [eigenvector * side + sample]
-  std::vector<int> degree_;    // of the Hermite function that each stands for
+  std::vector<int> degree_;  // of the Hermite function that each stands for
 };
 
 // hullin2011 eq. 5: the order whose ringing looks like a lens's, by experience.
