@@ -5,6 +5,11 @@
 
 #define POCKETFFT_NO_MULTITHREADING  // threads come from base/tasks
 #define POCKETFFT_CACHE_SIZE 0       // no state between calls
+// It asks aligned_alloc for sizes that are no multiple of the alignment, which C11 forbids and sanitizers refuse. This
+// is its switch to align by itself.
+#ifndef _LIBCPP_HAS_NO_ALIGNED_ALLOCATION
+#define _LIBCPP_HAS_NO_ALIGNED_ALLOCATION  // NOLINT(bugprone-reserved-identifier)
+#endif
 #include <gemmi/third_party/pocketfft_hdronly.h>
 
 #include "base/tasks.h"
