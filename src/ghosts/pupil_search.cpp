@@ -12,8 +12,6 @@ constexpr int kSearchSteps = 10;
 constexpr std::array kFirstSides{kSearchSide, 193, 577};  // by PupilEffort
 constexpr int kGuessSide = 33;
 constexpr double kShrinkEnough = 0.85;  // zoom on while the area still falls below this share
-// Rays closer than this at the entrance are searched in double: float places them to about 2e-6 mm.
-constexpr double kFloatStep_mm = 1e-3;
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
 // What blocks is nearly linear over a cell, so it cannot fall below its lowest corner by more than the corners
@@ -79,9 +77,9 @@ OpenPart open_part(const RayGrid& grid) {
   return part;
 }
 
-PacketPrecision search_precision(const Rectangle& box, int side) {
+PacketPrecision precision_for(const Rectangle& box, int side) {
   const Vec2 size = box.high - box.low;
-  return std::min(size.x, size.y) < kFloatStep_mm * side ? PacketPrecision::Double : PacketPrecision::Float;
+  return search_precision(std::min(size.x, size.y) / side);
 }
 
 double area(const Rectangle& r) { return (r.high.x - r.low.x) * (r.high.y - r.low.y); }
@@ -96,7 +94,7 @@ std::optional<PupilRegion> find_pupil_region(const OpticalPath& path, const Refl
   PupilRegion region{{window.min_mm, window.max_mm}, {}, 0};
   const auto search = [&](int rays) {
     scratch.trace(path, tables, iris, direction, window.z_mm, region.pupil_mm, rays,
-                  search_precision(region.pupil_mm, rays));
+                  precision_for(region.pupil_mm, rays));
     region.rays += static_cast<std::uint64_t>(rays) * static_cast<std::uint64_t>(rays);
     return open_part(scratch);
   };
@@ -120,7 +118,7 @@ std::optional<PupilRegion> find_pupil_region_in(const Rectangle& guess, const Op
   const Rectangle box{{std::max(guess.low.x, window.min_mm.x), std::max(guess.low.y, window.min_mm.y)},
                       {std::min(guess.high.x, window.max_mm.x), std::min(guess.high.y, window.max_mm.y)}};
   if (!(box.low.x < box.high.x && box.low.y < box.high.y)) return std::nullopt;
-  scratch.trace(path, tables, iris, direction, window.z_mm, box, kGuessSide, search_precision(box, kGuessSide));
+  scratch.trace(path, tables, iris, direction, window.z_mm, box, kGuessSide, precision_for(box, kGuessSide));
   const OpenPart part = open_part(scratch);
   if (!part.any) return std::nullopt;
   const Vec2 step = scratch.step_mm() * 0.5;

@@ -87,6 +87,9 @@ HWY_INLINE Packet<double> look_up(const float* table, int intervals, Packet<doub
   const Packet<double> rise(hn::PromoteTo(Packet<double>::Tag(), hn::Sub(high, low)));
   return Packet<double>(hn::PromoteTo(Packet<double>::Tag(), low)) + between * rise;
 }
+using PrecisePacket = Packet<double>;
+#else
+using PrecisePacket = Packet<float>;  // where an instruction set has no vectors of double (none of x86) it must do
 #endif
 
 }  // namespace contrejour::kernels::HWY_NAMESPACE

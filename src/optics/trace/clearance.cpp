@@ -106,14 +106,9 @@ void clearance_float(const PacketPath& path, const float* x_mm, const float* y_m
   trace_all<hk::QuickPacket>(path, x_mm, y_mm, count, out);
 }
 
-// Where an instruction set has no vectors of double (none of x86), float must do.
 void clearance_double(const PacketPath& path, const float* x_mm, const float* y_mm, std::size_t count,
                       const ClearanceArrays& out) {
-#if HWY_HAVE_FLOAT64
-  trace_all<hk::Packet<double>>(path, x_mm, y_mm, count, out);
-#else
-  trace_all<hk::Packet<float>>(path, x_mm, y_mm, count, out);
-#endif
+  trace_all<hk::PrecisePacket>(path, x_mm, y_mm, count, out);
 }
 
 }  // namespace contrejour::HWY_NAMESPACE

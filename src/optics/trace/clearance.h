@@ -27,6 +27,9 @@ struct ClearanceArrays {
 // Entrance points are given from rays().origin_mm. All arrays must have room up to the next multiple of
 // kClearancePadding, whose surplus is read and written.
 inline constexpr std::size_t kClearancePadding = 32;
+[[nodiscard]] constexpr std::size_t clearance_padded(std::size_t count) {
+  return (count + kClearancePadding - 1) / kClearancePadding * kClearancePadding;
+}
 void trace_clearance(const PacketPath& path, PacketPrecision precision, const float* x_mm, const float* y_mm,
                      std::size_t count, const ClearanceArrays& out);
 

@@ -178,14 +178,9 @@ void trace_float(const PacketPath& path, const float* x_mm, const float* y_mm, s
   trace_all<hk::Packet<float>>(path, x_mm, y_mm, count, out);
 }
 
-// Where an instruction set has no vectors of double (none of x86), float must do.
 void trace_double(const PacketPath& path, const float* x_mm, const float* y_mm, std::size_t count,
                   const TracedArrays& out) {
-#if HWY_HAVE_FLOAT64
-  trace_all<hk::Packet<double>>(path, x_mm, y_mm, count, out);
-#else
-  trace_all<hk::Packet<float>>(path, x_mm, y_mm, count, out);
-#endif
+  trace_all<hk::PrecisePacket>(path, x_mm, y_mm, count, out);
 }
 
 }  // namespace contrejour::HWY_NAMESPACE

@@ -99,6 +99,12 @@ struct TracedArrays {
 
 enum class PacketPrecision { Float, Double };
 
+// For searches: rays closer than this at the entrance are traced in double, as float places them to some 4e-6 mm.
+inline constexpr double kFloatStep_mm = 1e-3;
+[[nodiscard]] constexpr PacketPrecision search_precision(double step_mm) {
+  return step_mm < kFloatStep_mm ? PacketPrecision::Double : PacketPrecision::Float;
+}
+
 // Entrance points are given from rays().origin_mm.
 void trace_packets(const PacketPath& path, PacketPrecision precision, const float* x_mm, const float* y_mm,
                    std::size_t count, const TracedArrays& out);

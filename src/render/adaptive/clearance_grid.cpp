@@ -6,9 +6,6 @@
 namespace contrejour::adaptive {
 namespace {
 
-// Rays closer than this at the entrance are traced in double: float places them to some 4e-6 mm.
-constexpr double kFloatStep_mm = 1e-3;
-
 struct Range {
   float low, high;
 };
@@ -35,7 +32,7 @@ void ClearanceGrid::trace(const Rectangle& box, int columns, int rows) {
   rows_ = rows;
   const Vec2 size = cell_size();
   const std::size_t count = static_cast<std::size_t>(columns + 1) * static_cast<std::size_t>(rows + 1);
-  padded_ = (count + kClearancePadding - 1) / kClearancePadding * kClearancePadding;
+  padded_ = clearance_padded(count);
   x_mm_.assign(padded_, 0.0F);
   y_mm_.assign(padded_, 0.0F);
   for (int row = 0; row <= rows; ++row) {
@@ -52,9 +49,7 @@ void ClearanceGrid::trace(const Rectangle& box, int columns, int rows) {
     out.stop_y[c] = to(kStop + 2 * c + 1);
   }
   path_.start_from(box.low);
-  const bool fine = std::min(size.x, size.y) < kFloatStep_mm;
-  trace_clearance(path_, fine ? PacketPrecision::Double : PacketPrecision::Float, x_mm_.data(), y_mm_.data(), count,
-                  out);
+  trace_clearance(path_, search_precision(std::min(size.x, size.y)), x_mm_.data(), y_mm_.data(), count, out);
   rays_ += count;
   find_open(count);
 }

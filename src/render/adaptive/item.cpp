@@ -13,7 +13,7 @@ namespace contrejour::adaptive {
 namespace {
 
 // Of a box's size, on every side: polynomials through its rays are least good at its border, where the ghost's edge
-// would be if the box were tight. Half of this costs no fewer rays and a decibel, twice this a third more rays.
+// would be if the box were tight. Half of this saves no rays and costs a decibel; twice this takes a third more rays.
 constexpr double kMargin = 0.1;
 constexpr int kDeepest = 4;       // quarterings of a box
 constexpr int kPeakDeepest = 1;

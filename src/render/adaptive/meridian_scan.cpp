@@ -11,7 +11,6 @@ constexpr int kParts = 3;  // of an interval that is looked into
 constexpr int kRounds = 2;
 constexpr std::size_t kMostLooks = 12;  // intervals a round
 constexpr float kReach = 0.5F;          // of what the ends of an interval differ, beyond them
-constexpr double kFloatStep_mm = 1e-3;  // rays closer than this are traced in double
 
 bool reaches(const Interval& i, std::span<const Rectangle> boxes) {
   return std::any_of(boxes.begin(), boxes.end(), [&](const Rectangle& b) {
@@ -23,7 +22,7 @@ bool reaches(const Interval& i, std::span<const Rectangle> boxes) {
 
 void MeridianScan::trace(const std::vector<double>& x_mm) {
   const std::size_t count = x_mm.size();
-  const std::size_t padded = (count + kClearancePadding - 1) / kClearancePadding * kClearancePadding;
+  const std::size_t padded = clearance_padded(count);
   constexpr std::size_t kFields = 4 + 2 * kMaxStopCrossings;
   x_mm_.assign(padded, 0.0F);
   double closest = x_mm.back() - x_mm.front();
@@ -37,8 +36,7 @@ void MeridianScan::trace(const std::vector<double>& x_mm) {
   const ClearanceArrays out{
       field(0), field(1), field(2), field(3), {field(4), field(6), field(8)}, {field(5), field(7), field(9)}};
   path_.start_from({x_mm.front(), 0.0});
-  trace_clearance(path_, closest < kFloatStep_mm ? PacketPrecision::Double : PacketPrecision::Float, x_mm_.data(),
-                  field(kFields), count, out);
+  trace_clearance(path_, search_precision(closest), x_mm_.data(), field(kFields), count, out);
   rays_ += count;
   const std::size_t known = nodes_.size();
   for (std::size_t k = 0; k < count; ++k) {
