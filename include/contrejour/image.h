@@ -2,21 +2,63 @@
 #pragma once
 
 #include <cstddef>
+#include <new>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace contrejour {
+
+namespace detail {
+[[nodiscard]] void* allocate_pixels(std::size_t bytes);
+void free_pixels(void* pixels) noexcept;
+}  // namespace detail
+
+// Memory of pictures: in the system's large pages where it has them, for a 4K picture is 25000 small ones, each of
+// which costs a fault. Elements made without a value are not cleared.
+template <class T>
+struct PixelAllocator {
+  using value_type = T;
+
+  PixelAllocator() = default;
+  template <class U>
+  explicit PixelAllocator(const PixelAllocator<U>& /*other*/) {}
+
+  [[nodiscard]] T* allocate(std::size_t count) {
+    if (count > static_cast<std::size_t>(-1) / sizeof(T)) throw std::bad_array_new_length();
+    return static_cast<T*>(detail::allocate_pixels(count * sizeof(T)));
+  }
+  void deallocate(T* pixels, std::size_t /*count*/) noexcept { detail::free_pixels(pixels); }
+  void construct(T* at) noexcept { ::new (static_cast<void*>(at)) T; }
+  template <class... From>
+  void construct(T* at, From&&... from) {
+    ::new (static_cast<void*>(at)) T(std::forward<From>(from)...);
+  }
+  friend bool operator==(const PixelAllocator&, const PixelAllocator&) { return true; }
+};
+
+using Pixels = std::vector<float, PixelAllocator<float>>;
 
 struct Image {
   int width = 0;
   int height = 0;
   int channels = 3;
-  std::vector<float> pixels;  // [(y * width + x) * channels + c]
+  Pixels pixels;  // [(y * width + x) * channels + c]
 
   Image() = default;
   Image(int w, int h, int c = 3)
       : width(w), height(h), channels(c),
-        pixels(static_cast<std::size_t>(w) * static_cast<std::size_t>(h) * static_cast<std::size_t>(c)) {}
+        pixels(static_cast<std::size_t>(w) * static_cast<std::size_t>(h) * static_cast<std::size_t>(c), 0.0F) {}
+
+  // With pixels of any value, for who writes them all.
+  [[nodiscard]] static Image unwritten(int w, int h, int c = 3) {
+    Image image;
+    image.width = w;
+    image.height = h;
+    image.channels = c;
+    image.pixels = Pixels(static_cast<std::size_t>(w) * static_cast<std::size_t>(h) * static_cast<std::size_t>(c));
+    return image;
+  }
 
   [[nodiscard]] std::size_t index(int x, int y, int c = 0) const {
     return (static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)) *

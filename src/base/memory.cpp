@@ -1,10 +1,31 @@
 #include "base/memory.h"
 
+#include <memory>
+#include <new>
+
 #if defined(__unix__) || defined(__APPLE__)
 #include <sys/resource.h>
 #endif
+#if defined(__linux__)
+#include <sys/mman.h>
+#endif
 
 namespace contrejour {
+
+void* allocate_large(std::size_t bytes) {
+  void* memory = ::operator new(bytes);
+#if defined(__linux__)
+  // Those large pages that lie within. Asking for aligned memory instead, the C library would never use it twice.
+  constexpr std::size_t kLargePage = std::size_t{2} << 20U;
+  std::size_t space = bytes;
+  void* first = memory;
+  if (std::align(kLargePage, kLargePage, first, space) != nullptr)
+    madvise(first, space / kLargePage * kLargePage, MADV_HUGEPAGE);  // a wish: refused, the memory is as good
+#endif
+  return memory;
+}
+
+void free_large(void* memory) noexcept { ::operator delete(memory); }
 
 std::uint64_t peak_memory_bytes() {
 #if defined(__unix__) || defined(__APPLE__)

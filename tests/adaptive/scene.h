@@ -1,6 +1,9 @@
 // What the tests of this folder share: polygons onto an image, and a ghost's exact rays.
 #pragma once
 
+#include <algorithm>
+#include <limits>
+
 #include <doctest/doctest.h>
 
 #include "render/adaptive/pupil_boxes.h"
@@ -22,8 +25,9 @@ inline Image drawn(std::span<const adaptive::PolygonList> lists, int width, int 
   const adaptive::TileGrid grid(width, height);
   std::vector<adaptive::TiledPolygons> tiled;
   for (const adaptive::PolygonList& list : lists) tiled.push_back({list, adaptive::tile_lists(list, grid)});
-  Image image(width, height, 3);
-  for (int row = 0; row < grid.rows; ++row) adaptive::add_tile_row(tiled, grid, row, image);
+  Image image = Image::unwritten(width, height);
+  std::fill(image.pixels.begin(), image.pixels.end(), std::numeric_limits<float>::quiet_NaN());  // all are written
+  adaptive::draw_tile_rows(tiled, grid, 0, grid.rows, adaptive::TileMode::Write, image);
   return image;
 }
 

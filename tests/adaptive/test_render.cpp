@@ -213,7 +213,7 @@ TEST_CASE("errors out of range are refused, no light is no flare, an interrupted
     settings.error = error;
     CHECK(render("adaptive", lens, {&light, 1}, settings).has_value());
   }
-  CHECK(test::flare_of("adaptive", lens, {}, settings).image.pixels == std::vector<float>(32 * 18 * 3, 0.0F));
+  CHECK(test::flare_of("adaptive", lens, {}, settings).image.pixels == Pixels(32 * 18 * 3, 0.0F));
   std::atomic<bool> cancel{true};
   Context context;
   context.cancel = &cancel;

@@ -229,7 +229,7 @@ TEST_CASE("many polygons: the sum of each, whatever lists they come in") {
   const TileGrid grid(kWidth, kHeight);
   const TiledPolygons tiled{all, tile_lists(all, grid)};
   Image added = once;
-  for (int row = grid.rows - 1; row >= 0; --row) add_tile_row({&tiled, 1}, grid, row, added);
+  for (int row = grid.rows - 1; row >= 0; --row) draw_tile_rows({&tiled, 1}, grid, row, row + 1, TileMode::Add, added);
   for (std::size_t k = 0; k < once.pixels.size(); ++k) CHECK(added.pixels[k] == 2.0F * once.pixels[k]);
 }
 
@@ -267,10 +267,11 @@ TEST_CASE("neighbours that share edges leave neither gaps nor doubled pixels, an
 TEST_CASE("a tile lists the polygons that touch it, in their order, and none that do not") {
   const TileGrid grid(3 * TileGrid::kWidth, 4 * TileGrid::kHeight);
   PolygonList list;
-  list.add(rectangle(10, 10, 20, 12), level(1));                                    // tile (0, 0)
-  list.add(rectangle(-9, -9, 3000, 3000), level(1));                                // all
-  list.add(rectangle(TileGrid::kWidth + 1, 17, TileGrid::kWidth + 9, 30), level(1));  // (1, 1)
-  list.add(rectangle(3000, 10, 3100, 12), level(1));                                // none
+  list.add(rectangle(10, 10, 20, 12), level(1));      // tile (0, 0)
+  list.add(rectangle(-9, -9, 3000, 3000), level(1));  // all
+  list.add(rectangle(TileGrid::kWidth + 1, TileGrid::kHeight + 1, TileGrid::kWidth + 9, TileGrid::kHeight + 9),
+           level(1));  // (1, 1)
+  list.add(rectangle(3000, 10, 3100, 12), level(1));  // none
   const TileLists lists = tile_lists(list, grid);
   REQUIRE(lists.start.size() == grid.count() + 1);
   for (std::size_t t = 0; t < grid.count(); ++t) {

@@ -45,7 +45,7 @@ TEST_CASE("no light, no flare") {
   const LensState lens = heliar();
   const RenderSettings settings = small_frame(lens, 33, 18);
   for_each_method([&](const Bounds& bounds) {
-    CHECK(image_of(bounds, lens, std::span<const Light>(), settings).pixels == std::vector<float>(33 * 18 * 3, 0.0F));
+    CHECK(image_of(bounds, lens, std::span<const Light>(), settings).pixels == Pixels(33 * 18 * 3, 0.0F));
   });
 }
 

@@ -177,7 +177,7 @@ TEST_CASE("paths that cross the stop three times, and an iris of blades") {
 
 TEST_CASE("no light, no flare; one pixel, no trouble") {
   const LensState lens = test::lens_at_f("heliar", 16.0);
-  CHECK(tiled_of(lens, {}, settings_for(lens, 32, 18, 32)).image.pixels == std::vector<float>(32 * 18 * 3, 0.0F));
+  CHECK(tiled_of(lens, {}, settings_for(lens, 32, 18, 32)).image.pixels == Pixels(32 * 18 * 3, 0.0F));
   const RenderSettings settings = settings_for(lens, 1, 1, 32);
   const Light light = test::light_at(lens, settings.frame, {0.70, 0.33});
   const Flare flare = tiled_of(lens, {&light, 1}, settings);

@@ -16,6 +16,7 @@ using namespace adaptive;
 // Polygons of so many bytes, or a little more, are alive at once.
 constexpr std::size_t kBatchBytes = std::size_t{32} << 20U;
 constexpr std::size_t kItemsAtOnce = 64;
+constexpr int kRowsAtOnce = 2;  // of tiles, by one thread
 constexpr double kLowestError = 1e-4;
 constexpr double kHighestError = 0.1;
 
@@ -53,6 +54,9 @@ class FramePainter {
   }
 
   void paint(const std::vector<Item>& items, const ErrorBudget& budget) {
+    flare_.image = Image::unwritten(frame_.width, frame_.height);
+    mode_ = TileMode::Write;
+    if (items.empty()) draw({});
     for (std::size_t done = 0; done < items.size() && !context_.cancelled();) {
       std::vector<TiledPolygons> batch;
       for (std::size_t bytes = 0; done < items.size() && bytes < kBatchBytes && !context_.cancelled();) {
@@ -87,8 +91,12 @@ class FramePainter {
   }
 
   void draw(const std::vector<TiledPolygons>& batch) {
-    parallel_for(static_cast<std::size_t>(grid_.rows), quiet_,
-                 [&](std::size_t row) { add_tile_row(batch, grid_, static_cast<int>(row), flare_.image); });
+    const std::size_t strips = static_cast<std::size_t>((grid_.rows + kRowsAtOnce - 1) / kRowsAtOnce);
+    parallel_for(strips, quiet_, [&](std::size_t strip) {
+      const int first = static_cast<int>(strip) * kRowsAtOnce;
+      draw_tile_rows(batch, grid_, first, std::min(first + kRowsAtOnce, grid_.rows), mode_, flare_.image);
+    });
+    mode_ = TileMode::Add;
   }
 
   const Scene& scene_;
@@ -97,6 +105,7 @@ class FramePainter {
   Context quiet_;
   Flare& flare_;
   TileGrid grid_;
+  TileMode mode_ = TileMode::Write;
   Work work_;
   Stopwatch watch_;
   double paint_ms_ = 0.0, tiles_ms_ = 0.0;
@@ -121,14 +130,7 @@ Result<Flare> render_adaptive(const LensState& lens, std::span<const Light> ligh
   Context quiet = context;
   quiet.progress = {};
   Work work;
-  std::vector<Item> items;
-  // Fresh memory for the picture takes a small lens as long as its boxes: both at once.
-  parallel_for(2, quiet, [&](std::size_t k) {
-    if (k == 0)
-      flare.image = Image(settings.frame.width, settings.frame.height, 3);
-    else
-      items = find_items(scene, quiet, work);
-  });
+  const std::vector<Item> items = find_items(scene, quiet, work);
   const double bound_ms = watch.lap_ms();
   const double peak = estimate_peak(scene, items, settings.frame, quiet, work);
   const double peak_ms = watch.lap_ms();

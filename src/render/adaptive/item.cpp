@@ -149,8 +149,8 @@ double estimate_peak(const Scene& scene, const std::vector<Item>& items, const F
   });
   for (const Work& w : done) work.add(w);
   if (context.cancelled()) return 0.0;
-  Image image(small.width, small.height, 3);
-  for (int row = 0; row < grid.rows; ++row) add_tile_row(polygons, grid, row, image);
+  Image image = Image::unwritten(small.width, small.height);
+  draw_tile_rows(polygons, grid, 0, grid.rows, TileMode::Write, image);
   double peak = quantile_of_samples(image, kPeakQuantile);
   if (!(peak > 0.0)) {
     for (const float value : image.pixels) peak = std::max(peak, static_cast<double>(value));

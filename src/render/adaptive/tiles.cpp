@@ -1,7 +1,9 @@
 #include "render/adaptive/tiles.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "render/adaptive/tiles.cpp"
@@ -17,11 +19,22 @@ struct TileSums {
   static constexpr std::size_t kLanes = 8;  // three channels and a spare: level, then slope along x
   static constexpr std::size_t kPitch = TileGrid::kWidth + 2;  // what edges on the right border change is not read
 
+  static constexpr int kBlock = 8;  // columns
+  static_assert(TileGrid::kWidth <= 64 * kBlock);
+
   int x0 = 0, y0 = 0, width = 0, height = 0;
+  std::array<std::uint64_t, TileGrid::kHeight> touched{};  // by row, a bit for each block of columns with changes
   std::vector<double> sums = std::vector<double>(kLanes * kPitch * TileGrid::kHeight, 0.0);
 
   [[nodiscard]] double* at(int row, int column) {
     return sums.data() + kLanes * (static_cast<std::size_t>(row) * kPitch + static_cast<std::size_t>(column));
+  }
+  // Columns first to last, last one included and the right border's left out.
+  void touch(int row, int first, int last) {
+    const int most = TileGrid::kWidth / kBlock - 1;
+    const int low = first / kBlock;
+    const int high = std::min(last / kBlock, most);
+    touched[static_cast<std::size_t>(row)] |= (~std::uint64_t{0} >> (most - high)) & (~std::uint64_t{0} << low);
   }
 };
 
@@ -62,10 +75,12 @@ HWY_INLINE void add(double* to, const double* shade, double cover) {
 }
 
 // One stretch of an edge within a row of pixels, from x0 to x1 and dy high: coverage to its right, as differences.
-HWY_INLINE void add_stretch(double* row, const double* shade, double x0, double x1, double dy) {
+HWY_INLINE void add_stretch(TileSums& tile, int at_row, const double* shade, double x0, double x1, double dy) {
   if (x0 > x1) std::swap(x0, x1);
   const auto first = static_cast<int>(x0);
   const auto last = static_cast<int>(x1);
+  double* row = tile.at(at_row, 0);
+  tile.touch(at_row, first, last + 1);
   const auto column = [&](int k) { return row + TileSums::kLanes * static_cast<std::size_t>(k); };
   if (first == last) {
     const double right = dy * (0.5 * (x0 + x1) - first);
@@ -108,7 +123,7 @@ HWY_INLINE void add_edge(TileSums& tile, const RowShade& shade, Vec2 a, Vec2 b, 
       hn::Store(hn::MulAdd(hn::Load(d, shade.by_row + k), hn::Set(d, row), hn::Load(d, shade.level + k)), d,
                 at_row + k);
     }
-    add_stretch(tile.at(row, 0), at_row, x, x_next, sign * (y_next - y));
+    add_stretch(tile, row, at_row, x, x_next, sign * (y_next - y));
     x = x_next;
     y = y_next;
   }
@@ -149,6 +164,7 @@ void add_polygon(TileSums& tile, const PolygonList& list, const Polygon& polygon
     const auto column = static_cast<int>(std::floor(corner(0).x));
     const auto row = static_cast<int>(std::floor(corner(0).y));
     if (column < 0 || row < 0 || column >= tile.width || row >= tile.height) return;
+    tile.touch(row, column, column + 1);
     add(tile.at(row, column), shade.level, 1.0);
     add(tile.at(row, column + 1), shade.level, -1.0);
     return;
@@ -162,34 +178,70 @@ void add_polygon(TileSums& tile, const PolygonList& list, const Polygon& polygon
   }
 }
 
-// Running sums into pixels; the sums are cleared.
-void sum_up(TileSums& tile, Image& image) {
+// Running sums of a row, four floats a pixel; the sums are cleared. Blocks without changes are not looked at: reading
+// and clearing them is most of the work.
+HWY_INLINE void sum_row(double* sums, std::uint64_t touched, int width, float* pixels) {
   constexpr std::size_t kHalf = TileSums::kLanes / 2;
   const hn::CappedTag<double, kHalf> d;
-  HWY_ALIGN double pixels[kHalf * TileGrid::kWidth];
-  const auto width = static_cast<std::size_t>(tile.width);
-  for (int row = 0; row < tile.height; ++row) {
-    double* sums = tile.at(row, 0);
-    for (std::size_t k = 0; k < kHalf; k += hn::Lanes(d)) {
-      auto level = hn::Zero(d);
-      auto slope = hn::Zero(d);
-      auto x = hn::Zero(d);
-      for (std::size_t column = 0; column < width; ++column) {
-        level = hn::Add(level, hn::LoadU(d, sums + TileSums::kLanes * column + k));
-        slope = hn::Add(slope, hn::LoadU(d, sums + TileSums::kLanes * column + kHalf + k));
-        hn::Store(hn::MulAdd(slope, x, level), d, pixels + kHalf * column + k);
-        x = hn::Add(x, hn::Set(d, 1.0));
+  const hn::Rebind<float, decltype(d)> df;
+  const auto zero = hn::Zero(d);
+  const auto one = hn::Set(d, 1.0);
+  for (std::size_t k = 0; k < kHalf; k += hn::Lanes(d)) {
+    auto level = zero;
+    auto slope = zero;
+    auto x = zero;
+    for (int block = 0; block * TileSums::kBlock < width; ++block) {
+      const auto first = static_cast<std::size_t>(block * TileSums::kBlock);
+      const bool changes = (touched >> block & 1U) != 0;
+      for (std::size_t column = first; column < first + TileSums::kBlock; ++column) {
+        if (changes) {
+          double* at = sums + TileSums::kLanes * column + k;
+          level = hn::Add(level, hn::LoadU(d, at));
+          slope = hn::Add(slope, hn::LoadU(d, at + kHalf));
+          hn::StoreU(zero, d, at);
+          hn::StoreU(zero, d, at + kHalf);
+        }
+        hn::StoreU(hn::DemoteTo(df, hn::MulAdd(slope, x, level)), df, pixels + kHalf * column + k);
+        x = hn::Add(x, one);
       }
-    }
-    std::fill_n(sums, TileSums::kLanes * (width + 1), 0.0);
-    float* to = image.pixels.data() + image.index(tile.x0, tile.y0 + row);
-    for (std::size_t column = 0; column < width; ++column) {
-      for (std::size_t c = 0; c < 3; ++c) to[3 * column + c] += static_cast<float>(pixels[kHalf * column + c]);
     }
   }
 }
 
-void draw_tile(std::span<const TiledPolygons> lists, std::size_t at, TileSums& tile, Image& image) {
+void sum_up(TileSums& tile, TileMode mode, Image& image) {
+  constexpr std::size_t kPixel = TileSums::kLanes / 2;
+  HWY_ALIGN float pixels[kPixel * TileGrid::kWidth];
+  const hn::CappedTag<float, kPixel> d;
+  const auto width = static_cast<std::size_t>(tile.width);
+  for (int row = 0; row < tile.height; ++row) {
+    const auto at_row = static_cast<std::size_t>(row);
+    sum_row(tile.at(row, 0), tile.touched[at_row], tile.width, pixels);
+    std::fill_n(tile.at(row, tile.width), TileSums::kLanes, 0.0);  // what edges on the right border changed
+    tile.touched[at_row] = 0;
+    float* to = image.pixels.data() + image.index(tile.x0, tile.y0 + row);
+    if (mode == TileMode::Add) {
+      for (std::size_t column = 0; column < width; ++column) {
+        for (std::size_t c = 0; c < 3; ++c) to[3 * column + c] += pixels[kPixel * column + c];
+      }
+      continue;
+    }
+    // The fourth value of a pixel is overwritten by the next one; the last pixel has no next.
+    for (std::size_t column = 0; column + 1 < width; ++column) {
+      for (std::size_t k = 0; k < kPixel; k += hn::Lanes(d))
+        hn::StoreU(hn::Load(d, pixels + kPixel * column + k), d, to + 3 * column + k);
+    }
+    std::copy_n(pixels + kPixel * (width - 1), 3, to + 3 * (width - 1));
+  }
+}
+
+void clear(const TileSums& tile, Image& image) {
+  for (int row = 0; row < tile.height; ++row) {
+    std::fill_n(image.pixels.data() + image.index(tile.x0, tile.y0 + row), 3 * static_cast<std::size_t>(tile.width),
+                0.0F);
+  }
+}
+
+void draw_tile(std::span<const TiledPolygons> lists, std::size_t at, TileSums& tile, TileMode mode, Image& image) {
   bool any = false;
   for (const TiledPolygons& p : lists) {
     for (std::uint32_t k = p.tiles.start[at]; k < p.tiles.start[at + 1]; ++k) {
@@ -197,7 +249,8 @@ void draw_tile(std::span<const TiledPolygons> lists, std::size_t at, TileSums& t
       any = true;
     }
   }
-  if (any) sum_up(tile, image);
+  if (any) return sum_up(tile, mode, image);
+  if (mode == TileMode::Write) clear(tile, image);
 }
 
 }  // namespace contrejour::adaptive::HWY_NAMESPACE
@@ -257,14 +310,18 @@ TileLists tile_lists(const PolygonList& list, const TileGrid& grid) {
   return out;
 }
 
-void add_tile_row(std::span<const TiledPolygons> lists, const TileGrid& grid, int row, Image& image) {
+void draw_tile_rows(std::span<const TiledPolygons> lists, const TileGrid& grid, int first, int last, TileMode mode,
+                    Image& image) {
   TileSums sums;
-  sums.y0 = row * TileGrid::kHeight;
-  sums.height = std::min(TileGrid::kHeight, grid.height - sums.y0);
-  for (int column = 0; column < grid.columns; ++column) {
-    sums.x0 = column * TileGrid::kWidth;
-    sums.width = std::min(TileGrid::kWidth, grid.width - sums.x0);
-    HWY_DYNAMIC_DISPATCH(draw_tile)(lists, static_cast<std::size_t>(row * grid.columns + column), sums, image);
+  for (int row = first; row < last; ++row) {
+    sums.y0 = row * TileGrid::kHeight;
+    sums.height = std::min(TileGrid::kHeight, grid.height - sums.y0);
+    for (int column = 0; column < grid.columns; ++column) {
+      sums.x0 = column * TileGrid::kWidth;
+      sums.width = std::min(TileGrid::kWidth, grid.width - sums.x0);
+      const auto tile = static_cast<std::size_t>(row * grid.columns + column);
+      HWY_DYNAMIC_DISPATCH(draw_tile)(lists, tile, sums, mode, image);
+    }
   }
 }
 

@@ -14,8 +14,8 @@ namespace contrejour::adaptive {
 
 // The frame cut into rectangles whose sums stay in the cache.
 struct TileGrid {
-  static constexpr int kWidth = 256;
-  static constexpr int kHeight = 16;
+  static constexpr int kWidth = 512;
+  static constexpr int kHeight = 32;
 
   int width = 0, height = 0;  // pixels
   int columns = 0, rows = 0;  // tiles
@@ -37,7 +37,11 @@ struct TiledPolygons {
   TileLists tiles;
 };
 
-// Adds to the pixels of a row of tiles what the polygons bring, list after list. Rows do not touch each other.
-void add_tile_row(std::span<const TiledPolygons> lists, const TileGrid& grid, int row, Image& image);
+enum class TileMode : std::uint8_t { Write, Add };
+
+// Writes or adds to the pixels of rows of tiles, from first to last without it, what the polygons bring, list after
+// list. Rows do not touch each other.
+void draw_tile_rows(std::span<const TiledPolygons> lists, const TileGrid& grid, int first, int last, TileMode mode,
+                    Image& image);
 
 }  // namespace contrejour::adaptive
