@@ -46,6 +46,7 @@ PUBLIC = {
     "image.h": "image",
     "image_io.h": "image",
     "iris.h": "kernels",
+    "key_values.h": "base",
     "lens.h": "lens",
     "light.h": "image",
     "light_detection.h": "image",

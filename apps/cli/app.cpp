@@ -5,13 +5,13 @@
 #include <exception>
 #include <new>
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include "cli/command.h"
 #include "cli/console.h"
 #include "cli/interrupt.h"
-#include "cli/nearest_word.h"
+#include "params/nearest_word.h"
 
 namespace contrejour::cli {
 namespace {
@@ -54,7 +54,8 @@ std::string full_name(const CLI::App* app) {
 
 std::vector<std::string> words_of(const CLI::App* command) {
   std::vector<std::string> words;
-  for (const CLI::App* sub : command->get_subcommands([](const CLI::App*) { return true; })) words.push_back(sub->get_name());
+  for (const CLI::App* sub : command->get_subcommands([](const CLI::App*) { return true; }))
+    words.push_back(sub->get_name());
   for (const CLI::Option* option : command->get_options()) {
     for (const std::string& name : option->get_lnames()) words.push_back("--" + name);
   }
@@ -63,7 +64,7 @@ std::vector<std::string> words_of(const CLI::App* command) {
 
 std::string suggestion(const CLI::App* command) {
   for (const std::string& word : command->remaining(true)) {
-    const std::string near = nearest_word(word.substr(0, word.find('=')), words_of(command));
+    const std::string near = params::nearest_word(word.substr(0, word.find('=')), words_of(command));
     if (!near.empty()) return fmt::format("; did you mean {}?", near);
   }
   return "";
@@ -96,16 +97,18 @@ void set_up(CLI::App& app, Action& action) {
   app.name("contrejour");
   app.set_version_flag("--version", "contrejour " CONTREJOUR_VERSION);
   app.require_subcommand(1);
-  app.footer("Examples:\n"
-             "  contrejour render heliar -f 16 --light-at 0.7,0.33 -o flare.exr --preview flare.png\n"
-             "  contrejour apply canon-70-200 --focal 135 plate.exr -o out.exr\n"
-             "  contrejour lens list\n\n"
-             "Exit codes: 0 done, 1 failed, 2 wrong usage, 130 interrupted.");
+  app.footer(
+      "Examples:\n"
+      "  contrejour render heliar -f 16 --light-at 0.7,0.33 -o flare.exr --preview flare.png\n"
+      "  contrejour apply canon-70-200 --focal 135 plate.exr -o out.exr\n"
+      "  contrejour lens list\n\n"
+      "Exit codes: 0 done, 1 failed, 2 wrong usage, 130 interrupted.");
   add_render(app, action);
   add_apply(app, action);
   add_lens(app, action);
   add_ghosts(app, action);
   add_compare(app, action);
+  add_look(app, action);
   add_bench(app, action);
 }
 

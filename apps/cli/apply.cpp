@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 #include <system_error>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -14,6 +15,7 @@
 #include "cli/flare_report.h"
 #include "cli/lens_choice.h"
 #include "cli/long_task.h"
+#include "cli/look_choice.h"
 #include "cli/options.h"
 #include "cli/outputs.h"
 #include "params/flare_plan.h"
@@ -40,12 +42,13 @@ constexpr const char* kGuessedSpace =
 struct ApplyOptions {
   std::string lens, input, output, flare_only, preview;
   bool json = false;
+  LookOptions look;
   params::Values values;
 };
 
 struct ApplyFiles {
   fs::path output;
-  std::optional<fs::path> flare_only, preview;
+  std::optional<fs::path> flare_only, preview, look;
 };
 
 Result<ApplyFiles> open_files(const ApplyOptions& options, Outputs& outputs) {
@@ -57,6 +60,11 @@ Result<ApplyFiles> open_files(const ApplyOptions& options, Outputs& outputs) {
     const auto file = outputs.add(options.flare_only);
     if (!file) return tl::unexpected(file.error());
     files.flare_only = *file;
+  }
+  if (!options.look.save.empty()) {
+    const auto file = outputs.add(options.look.save);
+    if (!file) return tl::unexpected(file.error());
+    files.look = *file;
   }
   if (!options.preview.empty()) {
     const auto file = outputs.add(options.preview);
@@ -93,8 +101,8 @@ Result<Flare> render_plan(const ApplyOptions& options, const LensState& lens, co
   return render(*options.values.text("method"), lens, plan.lights, settings, task.context());
 }
 
-Result<void> write_all(const ApplyOptions& options, const ApplyFiles& files, Picture& picture, const params::FlarePlan& plan,
-                       const Image& flare) {
+Result<void> write_all(const ApplyOptions& options, const ApplyFiles& files, Picture& picture,
+                       const params::FlarePlan& plan, const Image& flare) {
   const LongTask task("writing", 0);
   if (plan.lights.empty()) {
     if (auto ok = copy_input(options, picture, files.output, task.context()); !ok) return ok;
@@ -106,12 +114,17 @@ Result<void> write_all(const ApplyOptions& options, const ApplyFiles& files, Pic
     auto ok = write_flare_only(*files.flare_only, picture, flare, plan.space, task.context());
     if (!ok) return ok;
   }
+  if (files.look) {
+    auto ok = write_text(*files.look, params::write_look({{}, {}, options.lens, options.values}));
+    if (!ok) return ok;
+  }
   if (!files.preview) return {};
   const PreviewSettings look = preview_settings(options.values, picture.rgb, UsualExposure::AsItIs);
   return write_preview_png(*files.preview, picture.rgb, look, task.context());
 }
 
-void report(const ApplyOptions& options, const LensState& lens, const params::FlarePlan& plan, const RenderStatistics& stats) {
+void report(const ApplyOptions& options, const LensState& lens, const params::FlarePlan& plan,
+            const RenderStatistics& stats) {
   if (!options.json) {
     print(report_text(plan));
     print(fmt::format("{}: {} ghosts, {:.2f} s\n", options.output, stats.ghosts_rendered, total_ms(stats) / 1000.0));
@@ -123,7 +136,9 @@ void report(const ApplyOptions& options, const LensState& lens, const params::Fl
   print_json(json);
 }
 
-Result<int> run_apply(const ApplyOptions& options) {
+Result<int> run_apply(ApplyOptions options) {
+  if (const auto ok = fill_from_look(options.look, options.lens, options.values); !ok)
+    return tl::unexpected(ok.error());
   Outputs outputs;
   const auto files = open_files(options, outputs);
   if (!files) return tl::unexpected(files.error());
@@ -152,19 +167,25 @@ void add_apply(CLI::App& app, Action& action) {
   const auto options = std::make_shared<ApplyOptions>();
   CLI::App* command = app.add_subcommand("apply", "put the flare of a lens on a photograph");
   add_lens_argument(*command, options->lens);
-  command->add_option("IN", options->input, "a scene-linear EXR, or a PNG")->required()->option_text(" ");
+  command->add_option("IN", options->input, "a scene-linear EXR, or a PNG")->option_text(" ");
   add_output(*command, "-o,--output", options->output, {".exr", ".png"}, "the photograph with flare")->required();
   add_output(*command, "--flare-only", options->flare_only, {".exr"}, "only what the flare adds");
   add_output(*command, "--preview", options->preview, {".png"}, "a PNG of the result to look at");
   command->add_flag("--json", options->json, "report what was found as JSON");
+  add_look_options(*command, options->look);
   add_parameters(*command, options->values, {"exposure"});
-  add_parameters(*command, options->values,
-                 {"threshold", "softness", "max-lights", "min-pixels", "spectrum", "gain"});
+  add_parameters(*command, options->values, {"threshold", "softness", "max-lights", "min-pixels", "spectrum", "gain"});
   add_lens_parameters(*command, options->values);
   add_parameters(*command, options->values, {"hfov"});
   add_rendering_parameters(*command, options->values);
   command->footer(kExamples);
-  command->callback([options, &action] { action = [options] { return run_apply(*options); }; });
+  command->callback([options, &action] {
+    if (options->input.empty()) {
+      if (options->look.look.empty()) throw CLI::RequiredError("IN");
+      std::swap(options->lens, options->input);  // the look's lens
+    }
+    action = [options] { return run_apply(*options); };
+  });
 }
 
 }  // namespace contrejour::cli

@@ -22,6 +22,7 @@ void add_apply(CLI::App& app, Action& action);
 void add_lens(CLI::App& app, Action& action);
 void add_ghosts(CLI::App& app, Action& action);
 void add_compare(CLI::App& app, Action& action);
+void add_look(CLI::App& app, Action& action);
 void add_bench(CLI::App& app, Action& action);
 
 void add_lens_list(CLI::App& lens, Action& action);

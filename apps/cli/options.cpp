@@ -34,18 +34,21 @@ std::string help_of(const Parameter& p) {
 }
 
 void add_parameter(CLI::App& command, params::Values& values, const Parameter& p) {
-  const std::string flags = flags_of(p);
   const std::string name(p.name);
   const auto set = [&values, name](const std::string& text) {
     const auto checked = values.set(name, text);
     if (!checked) throw CLI::ValidationError("--" + name, checked.error().message);
   };
   if (p.kind == Kind::Switch) {
-    command.add_flag_function(flags, [set](std::int64_t) { set("on"); }, help_of(p))->group(std::string(p.group));
+    // Off is for a look that has it on.
+    command
+        .add_flag_function(
+            fmt::format("--{0},!--no-{0}", p.name), [set](std::int64_t n) { set(n > 0 ? "on" : "off"); }, help_of(p))
+        ->group(std::string(p.group));
     return;
   }
   CLI::Option* option = command.add_option(
-      flags,
+      flags_of(p),
       [set](const CLI::results_t& texts) {
         for (const std::string& text : texts) set(text);
         return true;
@@ -76,7 +79,8 @@ void add_rendering_parameters(CLI::App& command, params::Values& values) {
 
 std::string lower_extension(const std::string& file) {
   std::string extension = std::filesystem::path(file).extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(), [](unsigned char c) { return std::tolower(c); });
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return std::tolower(c); });
   return extension;
 }
 

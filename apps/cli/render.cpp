@@ -11,6 +11,7 @@
 #include "cli/flare_report.h"
 #include "cli/lens_choice.h"
 #include "cli/long_task.h"
+#include "cli/look_choice.h"
 #include "cli/options.h"
 #include "cli/outputs.h"
 #include "contrejour/image_io.h"
@@ -27,16 +28,18 @@ constexpr const char* kExamples =
     "  contrejour render heliar -o flare.exr\n"
     "  contrejour render canon-70-200 --focal 135 -f 8 --light 6,4 --light -3,5 -o flare.exr --preview flare.png\n"
     "  contrejour render nikon-80-200 --light-at 0.7,0.33:5000:3200K --light-at 0.2,0.8:900 --size 960x540 -o f.exr\n"
-    "  contrejour render heliar --select list:2-5 --method reference -o ghost.exr --stats ghost.json";
+    "  contrejour render heliar --select list:2-5 --method reference -o ghost.exr --stats ghost.json\n"
+    "  contrejour render --look old-portrait --blades 7 -o flare.exr --save-look mine.toml";
 
 struct RenderOptions {
   std::string lens, output, preview, stats;
+  LookOptions look;
   params::Values values;
 };
 
 struct RenderFiles {
   std::filesystem::path output;
-  std::optional<std::filesystem::path> preview, stats;
+  std::optional<std::filesystem::path> preview, stats, look;
 };
 
 Result<RenderFiles> open_files(const RenderOptions& options, Outputs& outputs) {
@@ -53,6 +56,7 @@ Result<RenderFiles> open_files(const RenderOptions& options, Outputs& outputs) {
   };
   if (const auto ok = add(options.preview, files.preview); !ok) return tl::unexpected(ok.error());
   if (const auto ok = add(options.stats, files.stats); !ok) return tl::unexpected(ok.error());
+  if (const auto ok = add(options.look.save, files.look); !ok) return tl::unexpected(ok.error());
   return files;
 }
 
@@ -81,11 +85,16 @@ Result<void> write_flare(const RenderOptions& options, const RenderFiles& files,
   if (files.preview) {
     if (auto ok = write_preview_png(*files.preview, flare.image, look, context); !ok) return ok;
   }
+  if (files.look) {
+    if (auto ok = write_text(*files.look, params::write_look({{}, {}, options.lens, options.values})); !ok) return ok;
+  }
   if (files.stats) return write_text(*files.stats, json_text(stats_json(flare.statistics)));
   return {};
 }
 
-Result<int> run_render(const RenderOptions& options) {
+Result<int> run_render(RenderOptions options) {
+  if (const auto ok = fill_from_look(options.look, options.lens, options.values); !ok)
+    return tl::unexpected(ok.error());
   Outputs outputs;
   const auto files = open_files(options, outputs);
   if (!files) return tl::unexpected(files.error());
@@ -104,17 +113,21 @@ Result<int> run_render(const RenderOptions& options) {
 void add_render(CLI::App& app, Action& action) {
   const auto options = std::make_shared<RenderOptions>();
   CLI::App* command = app.add_subcommand("render", "the flare of a lens and lights, as an image");
-  add_lens_argument(*command, options->lens);
+  add_lens_argument(*command, options->lens)->required(false);
   add_output(*command, "-o,--output", options->output, {".exr", ".png"}, "the flare")->required();
   add_output(*command, "--preview", options->preview, {".png"}, "a PNG to look at");
   add_output(*command, "--stats", options->stats, {".json"}, "times and counts");
+  add_look_options(*command, options->look);
   add_parameters(*command, options->values, {"exposure"});
   add_parameters(*command, options->values, {"light", "light-at", "value", "colour"});
   add_lens_parameters(*command, options->values);
   add_parameters(*command, options->values, {"size", "hfov"});
   add_rendering_parameters(*command, options->values);
   command->footer(kExamples);
-  command->callback([options, &action] { action = [options] { return run_render(*options); }; });
+  command->callback([options, &action] {
+    if (options->lens.empty() && options->look.look.empty()) throw CLI::RequiredError("LENS");
+    action = [options] { return run_render(*options); };
+  });
 }
 
 }  // namespace contrejour::cli

@@ -46,7 +46,8 @@ Result<void> check_value(const Parameter& p, std::string_view text) {
       if (std::find(p.choices.begin(), p.choices.end(), text) != p.choices.end()) return {};
       return failure(ErrorCode::InvalidArgument, fmt::format("\"{}\" is none of {}", text, fmt::join(p.choices, ", ")));
     case Kind::Switch:
-      return {};
+      if (text == "on" || text == "off") return {};
+      return failure(ErrorCode::InvalidArgument, fmt::format("\"{}\" is neither on nor off", text));
     case Kind::Text:
       if (p.check != nullptr) return p.check(text);
       return {};

@@ -33,6 +33,7 @@ struct Parameter {
   std::string_view help{};
   std::vector<std::string_view> choices{};
   bool repeats = false;         // may be given several times
+  bool scene = false;           // of one picture: where its lights are, how large it is; a look has all others
   Result<void> (*check)(std::string_view text) = nullptr;
 };
 

@@ -15,6 +15,12 @@ Result<void> Values::set(std::string_view name, std::string text) {
   return {};
 }
 
+Values Values::over(const Values& base) const {
+  Values both = *this;
+  both.texts_.insert(base.texts_.begin(), base.texts_.end());
+  return both;
+}
+
 bool Values::given(std::string_view name) const { return texts_.find(name) != texts_.end(); }
 
 std::optional<std::string> Values::text(std::string_view name) const {

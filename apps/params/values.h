@@ -17,11 +17,14 @@ class Values {
   // Sets a value, or adds one to a parameter that repeats. Errors: what check_value says.
   [[nodiscard]] Result<void> set(std::string_view name, std::string text);
 
+  // These values, and the base's where there are none.
+  [[nodiscard]] Values over(const Values& base) const;
+
   [[nodiscard]] bool given(std::string_view name) const;
   [[nodiscard]] std::optional<std::string> text(std::string_view name) const;  // given, or the default
   [[nodiscard]] std::optional<double> real(std::string_view name) const;
   [[nodiscard]] std::vector<std::string> list(std::string_view name) const;
-  [[nodiscard]] bool is_on(std::string_view name) const { return given(name); }
+  [[nodiscard]] bool is_on(std::string_view name) const { return text(name) == "on"; }  // a switch
 
   // For parameters that have a default in the table.
   [[nodiscard]] double number(std::string_view name) const { return real(name).value(); }

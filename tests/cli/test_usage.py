@@ -5,7 +5,7 @@ import unittest
 from program import ProgramTest
 
 COMMANDS = [["render"], ["apply"], ["ghosts"], ["compare"], ["lens", "list"], ["lens", "info"], ["lens", "draw"],
-            ["lens", "trace"], ["lens", "check"], ["lens", "convert"], ["bench", "tables"]]
+            ["lens", "trace"], ["lens", "check"], ["lens", "convert"], ["look", "list"], ["look", "show"], ["bench", "tables"]]
 
 
 class Usage(ProgramTest):

@@ -3,45 +3,16 @@
 
 #include <algorithm>
 #include <cctype>
-#include <fstream>
 
 #include <fmt/format.h>
 
+#include "base/near_name.h"
+#include "base/text_file.h"
 #include "contrejour/lens.h"
-#include "optics/lens/near_name.h"
 
 namespace contrejour {
 
 namespace {
-
-Result<std::string> read_text(const std::filesystem::path& file) {
-  const std::string name = file.string();
-  std::error_code code;
-  const auto status = std::filesystem::status(file, code);
-  if (!std::filesystem::exists(status)) {
-    return failure(ErrorCode::Io, "no such file; check the path, or see the bundled lenses by `contrejour lens list`",
-                   {name, 0, 0});
-  }
-  if (std::filesystem::is_directory(status)) {
-    return failure(ErrorCode::Io, "this is a folder; name a lens file in it", {name, 0, 0});
-  }
-  // Pipes and devices may never end.
-  if (!std::filesystem::is_regular_file(status)) {
-    return failure(ErrorCode::Io, "not an ordinary file; copy the lens into one", {name, 0, 0});
-  }
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream) return failure(ErrorCode::Io, "cannot be opened; check its permissions", {name, 0, 0});
-  // One byte more than is allowed tells a file that is too large, also one that grows meanwhile.
-  std::string text(kMaxLensFileBytes + 1, '\0');
-  stream.read(text.data(), static_cast<std::streamsize>(text.size()));
-  if (stream.bad()) return failure(ErrorCode::Io, "cannot be read; check the disk and try again", {name, 0, 0});
-  text.resize(static_cast<std::size_t>(stream.gcount()));
-  if (text.size() > kMaxLensFileBytes) {
-    return failure(ErrorCode::Parse, fmt::format("larger than {} bytes; no lens file is", kMaxLensFileBytes),
-                   {name, 0, 0});
-  }
-  return text;
-}
 
 std::string extension_of(const std::filesystem::path& file) {
   std::string extension = file.extension().string();
@@ -66,18 +37,22 @@ bool looks_like_toml(std::string_view text) {
 }  // namespace
 
 Result<Prescription> read_lens(const std::filesystem::path& file) {
-  const auto text = read_text(file);
+  const auto text = read_text_file(file, kMaxLensFileBytes, "see the bundled lenses by `contrejour lens list`");
   if (!text) return tl::unexpected(text.error());
   const std::string name = file.string();
   if (text->empty()) return failure(ErrorCode::Parse, "the file is empty; give a lens file", {name, 0, 0});
   if (text->find('\0') != std::string::npos) {
-    return failure(ErrorCode::Parse, "not a lens file that is known: it is binary; give a TOML lens file "
-                                     "(docs/formats/lens-toml.md)", {name, 0, 0});
+    return failure(ErrorCode::Parse,
+                   "not a lens file that is known: it is binary; give a TOML lens file "
+                   "(docs/formats/lens-toml.md)",
+                   {name, 0, 0});
   }
   if (extension_of(file) == ".toml" || looks_like_toml(*text)) return read_lens_toml(*text, name);
   const std::string first_line = text->substr(0, text->find('\n'));
-  return failure(ErrorCode::Parse, fmt::format("not a lens file that is known: it begins with '{}'; give a TOML lens "
-                                               "file (docs/formats/lens-toml.md)", shortened(first_line)),
+  return failure(ErrorCode::Parse,
+                 fmt::format("not a lens file that is known: it begins with '{}'; give a TOML lens "
+                             "file (docs/formats/lens-toml.md)",
+                             shortened(first_line)),
                  {name, 1, 0});
 }
 

@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "optics/lens/near_name.h"
+#include "base/near_name.h"
 #include "optics/lens/validate.h"
 
 namespace contrejour {

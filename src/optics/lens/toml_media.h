@@ -6,7 +6,7 @@
 
 #include "contrejour/coating.h"
 #include "contrejour/glass.h"
-#include "optics/lens/toml_fields.h"
+#include "base/toml_fields.h"
 
 namespace contrejour {
 

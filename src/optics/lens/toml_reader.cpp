@@ -7,9 +7,9 @@
 
 #include "base/units.h"
 #include "contrejour/lens.h"
-#include "optics/lens/near_name.h"
+#include "base/near_name.h"
 #include "optics/lens/read_lens.h"
-#include "optics/lens/toml_fields.h"
+#include "base/toml_fields.h"
 #include "optics/lens/toml_media.h"
 #include "optics/lens/validate.h"
 
@@ -234,7 +234,7 @@ Result<Prescription> read_lens_toml(std::string_view text, const std::string& fi
     return failure(ErrorCode::Parse, fmt::format("{} bytes; a lens file has at most {}", text.size(),
                                                  kMaxLensFileBytes), {file, 0, 0});
   }
-  const Result<toml::table> root = parse_toml(text, file);
+  const Result<toml::table> root = parse_toml(text, file, "docs/formats/lens-toml.md");
   if (!root) return tl::unexpected(root.error());
   Reader reader(file);
   reader.lens.file = {file, 1, 0};

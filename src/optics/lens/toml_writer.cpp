@@ -4,28 +4,12 @@
 
 #include <fmt/format.h>
 
+#include "base/toml_fields.h"
 #include "contrejour/lens.h"
 
 namespace contrejour {
 
 namespace {
-
-// A TOML basic string.
-std::string toml_string(std::string_view text) {
-  std::string out = "\"";
-  for (const char c : text) {
-    const auto byte = static_cast<unsigned char>(c);
-    if (c == '"' || c == '\\') {
-      out += '\\';
-      out += c;
-    } else if (byte < 0x20 || byte == 0x7F) {
-      out += fmt::format("\\u{:04X}", byte);
-    } else {
-      out += c;
-    }
-  }
-  return out + '"';
-}
 
 // The shortest text that reads back as the same double.
 std::string number(double value) { return fmt::format("{}", value); }

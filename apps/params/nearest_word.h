@@ -5,9 +5,9 @@
 #include <string_view>
 #include <vector>
 
-namespace contrejour::cli {
+namespace contrejour::params {
 
 // Empty if none is near: more than a third of the letters, and more than two, differ.
 [[nodiscard]] std::string nearest_word(std::string_view word, const std::vector<std::string>& words);
 
-}  // namespace contrejour::cli
+}  // namespace contrejour::params

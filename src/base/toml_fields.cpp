@@ -1,11 +1,11 @@
-#include "optics/lens/toml_fields.h"
+#include "base/toml_fields.h"
 
 #include <cmath>
 
 #include <fmt/format.h>
 
-#include "optics/lens/near_name.h"
-#include "optics/lens/toml_scan.h"
+#include "base/near_name.h"
+#include "base/toml_scan.h"
 
 namespace contrejour {
 
@@ -134,21 +134,36 @@ const toml::array* TomlFields::array(std::string_view key) {
   return node == nullptr ? nullptr : node->as_array();
 }
 
-Result<toml::table> parse_toml(std::string_view text, const std::string& file) {
+Result<toml::table> parse_toml(std::string_view text, const std::string& file, std::string_view page) {
   if (const int line = line_of_deep_key(text); line > 0) {
-    return failure(ErrorCode::Parse, "a key has too many parts; a lens needs no more than two, as in glass.NAME",
+    return failure(ErrorCode::Parse, fmt::format("a key has too many parts; no file of ours has more than two; see {}", page),
                    {file, line, 0});
   }
   toml::parse_result parsed = toml::parse(text, std::string_view(file));
   if (!parsed) {
     const toml::parse_error& error = parsed.error();
     return failure(ErrorCode::Parse,
-                   fmt::format("not valid TOML: {}; docs/formats/lens-toml.md shows a complete lens",
-                               error.description()),
+                   fmt::format("not valid TOML: {}; {} shows a complete file", error.description(), page),
                    {file, static_cast<int>(error.source().begin.line),
                     static_cast<int>(error.source().begin.column)});
   }
   return std::move(parsed).table();
+}
+
+std::string toml_string(std::string_view text) {
+  std::string out = "\"";
+  for (const char c : text) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (c == '"' || c == '\\') {
+      out += '\\';
+      out += c;
+    } else if (byte < 0x20 || byte == 0x7F) {
+      out += fmt::format("\\u{:04X}", byte);
+    } else {
+      out += c;
+    }
+  }
+  return out + '"';
 }
 
 }  // namespace contrejour

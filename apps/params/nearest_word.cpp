@@ -1,9 +1,9 @@
-#include "cli/nearest_word.h"
+#include "params/nearest_word.h"
 
 #include <algorithm>
 #include <numeric>
 
-namespace contrejour::cli {
+namespace contrejour::params {
 namespace {
 
 // Levenshtein: insertions, deletions and changes of one letter.
@@ -38,4 +38,4 @@ std::string nearest_word(std::string_view word, const std::vector<std::string>& 
   return nearest;
 }
 
-}  // namespace contrejour::cli
+}  // namespace contrejour::params

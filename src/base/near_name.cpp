@@ -1,4 +1,4 @@
-#include "optics/lens/near_name.h"
+#include "base/near_name.h"
 
 #include <algorithm>
 #include <cstdlib>

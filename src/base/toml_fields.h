@@ -96,7 +96,10 @@ class TomlFields {
   TomlErrors& errors_;
 };
 
-// Parses the whole text, bounded in time, memory and stack (toml_scan.h).
-Result<toml::table> parse_toml(std::string_view text, const std::string& file);
+// Parses the whole text, bounded in time, memory and stack (toml_scan.h). page: the document that shows such a file.
+Result<toml::table> parse_toml(std::string_view text, const std::string& file, std::string_view page);
+
+// A TOML basic string.
+[[nodiscard]] std::string toml_string(std::string_view text);
 
 }  // namespace contrejour

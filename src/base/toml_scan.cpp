@@ -1,4 +1,4 @@
-#include "optics/lens/toml_scan.h"
+#include "base/toml_scan.h"
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-# cmake -DOUT=FILE -DFOLDER=DIR -P embed_lenses.cmake
+# cmake -DOUT=FILE -DFOLDER=DIR -P embed_toml.cmake
 # Writes every DIR/*.toml as { "stem", "text" } rows. One literal a line: compilers bound the length of one literal.
 file(GLOB files ${FOLDER}/*.toml)
 list(SORT files)

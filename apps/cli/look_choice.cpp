@@ -1,0 +1,25 @@
+#include "cli/look_choice.h"
+
+#include "cli/options.h"
+
+namespace contrejour::cli {
+
+void add_look_options(CLI::App& command, LookOptions& options) {
+  command
+      .add_option("--look", options.look,
+                  "settings to start from: a bundled look (see `contrejour look list`) or a file; options override it")
+      ->option_text("LOOK");
+  add_output(command, "--save-look", options.save, {".toml"}, "all settings of this flare, as a look");
+}
+
+Result<void> fill_from_look(const LookOptions& options, std::string& lens, params::Values& values) {
+  if (options.look.empty()) return {};
+  const auto look = params::find_look(options.look);
+  if (!look) return tl::unexpected(look.error());
+  values = values.over(look->values);
+  if (lens.empty()) lens = look->lens;
+  if (!lens.empty()) return {};
+  return failure(ErrorCode::InvalidArgument, "the look names no lens; give one (see `contrejour lens list`)");
+}
+
+}  // namespace contrejour::cli

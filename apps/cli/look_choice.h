@@ -1,0 +1,25 @@
+// --look and --save-look, and what a look changes.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include <CLI/CLI.hpp>
+
+#include "contrejour/result.h"
+#include "params/look.h"
+
+namespace contrejour::cli {
+
+struct LookOptions {
+  std::string look;  // a bundled name or a file; empty: none
+  std::string save;  // a file; empty: none
+};
+
+void add_look_options(CLI::App& command, LookOptions& options);
+
+// Lens and values as the look has them where the command line does not say. Errors: no such look; no lens anywhere.
+[[nodiscard]] Result<void> fill_from_look(const LookOptions& options, std::string& lens, params::Values& values);
+
+}  // namespace contrejour::cli
