@@ -25,7 +25,7 @@ void starburst_of_new_iris(benchmark::State& state) {
   const auto bands = spectral_bands(120, IlluminantD65{}, ColourSpace::Rec709);
   Image image(kWidth, kHeight);
   for (auto _ : state) {
-    const Starburst starburst = make_starburst(IrisOpening(iris_of(state)), bands, at_f16());
+    const Starburst starburst = make_starburst(IrisOpening(iris_of(state)), bands, at_f16()).value();
     add_starburst(image, starburst, {960.3, 539.8}, {1.0, 1.0, 1.0});
     benchmark::DoNotOptimize(image.pixels.data());
   }
@@ -33,7 +33,7 @@ void starburst_of_new_iris(benchmark::State& state) {
 
 void starburst_of_another_light(benchmark::State& state) {
   const auto bands = spectral_bands(120, IlluminantD65{}, ColourSpace::Rec709);
-  const Starburst starburst = make_starburst(IrisOpening(iris_of(state)), bands, at_f16());
+  const Starburst starburst = make_starburst(IrisOpening(iris_of(state)), bands, at_f16()).value();
   Image image(kWidth, kHeight);
   for (auto _ : state) {
     add_starburst(image, starburst, {960.3, 539.8}, {1.0, 1.0, 1.0});

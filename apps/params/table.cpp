@@ -122,6 +122,10 @@ const Parameter kTable[] = {
      .check = parses<parse_error_bound>},
     {.name = "density", .group = "Rendering", .kind = Kind::Real, .minimum = 0.05, .maximum = 16, .fallback = "1",
      .help = "reference: 2 halves the cells"},
+    {.name = "starburst", .group = "Rendering", .kind = Kind::Switch,
+     .help = "add each light's own image as diffraction at the iris spreads it"},
+    {.name = "starburst-gain", .group = "Rendering", .kind = Kind::Real, .minimum = 0, .maximum = kBig, .fallback = "1",
+     .help = "starburst times so much; 1 is physically right"},
     {.name = "threads", .group = "Rendering", .kind = Kind::Integer, .minimum = 0, .maximum = 1024, .fallback = "0",
      .help = "threads; 0: all cores. The picture does not depend on it"},
 
