@@ -126,6 +126,10 @@ const Parameter kTable[] = {
      .help = "add each light's own image as diffraction at the iris spreads it"},
     {.name = "starburst-gain", .group = "Rendering", .kind = Kind::Real, .minimum = 0, .maximum = kBig, .fallback = "1",
      .help = "starburst times so much; 1 is physically right"},
+    {.name = "glare", .group = "Rendering", .kind = Kind::Real, .minimum = 0, .maximum = 1, .fallback = "0",
+     .help = "share of each light that the lens scatters about its image; good lenses: 0.005 to 0.03"},
+    {.name = "glare-width", .group = "Rendering", .kind = Kind::Real, .unit = "deg", .minimum = 0.001, .maximum = 80,
+     .fallback = "1", .help = "angle from the light within which glare is flat; beyond, it falls as the cube"},
     {.name = "threads", .group = "Rendering", .kind = Kind::Integer, .minimum = 0, .maximum = 1024, .fallback = "0",
      .help = "threads; 0: all cores. The picture does not depend on it"},
 

@@ -302,3 +302,40 @@ TEST_CASE("a pupil seen askew: its outline's tail goes on from its samples' spec
   }
   CHECK(sum_found / sum_truth == doctest::Approx(1.0).epsilon(0.02));
 }
+
+TEST_CASE("laid out, a starburst is drawn as without, and moves smoothly") {
+  for (const Iris& iris : {Iris{}, Iris{6, 0.2, 0.3}, Iris{8, 0.1}}) {
+    const Starburst starburst = make_starburst(IrisOpening(iris), sunlight(), settings_of(16.0, 0.01, 700.0)).value();
+    const StarburstSheet sheet = lay_out(starburst, 400, 300).value();
+    for (const Vec2 centre : {Vec2{200.0, 150.0}, Vec2{31.4, 288.3}, Vec2{399.7, 0.2}, Vec2{420.0, 100.0}}) {
+      CAPTURE(centre.x);
+      Image direct(400, 300), laid(400, 300);
+      add_starburst(direct, starburst, centre, {1.0, 2.0, 3.0});
+      add_starburst(laid, sheet, centre, {1.0, 2.0, 3.0});
+      const bool cut = centre.x > 390.0 && centre.x < 410.0;  // the frame's edge goes through the core
+      for (int c = 0; c < 3; ++c)
+        CHECK(flux_of(laid, c) / flux_of(direct, c) == doctest::Approx(1.0).epsilon(cut ? 0.02 : 1e-4));
+      double worst_near = 0.0, worst_far = 0.0, core_error = 0.0;
+      for (int y = 0; y < 300; ++y) {
+        for (int x = 0; x < 400; ++x) {
+          const double r = std::hypot(x + 0.5 - centre.x, y + 0.5 - centre.y);
+          const double a = direct.at(x, y, 1), b = laid.at(x, y, 1);
+          CHECK(b >= 0.0);
+          if (r < 10.0) core_error += std::abs(b - a);
+          if (r > 10.0 && r < 15.0) CHECK(b / a == doctest::Approx(1.0).epsilon(1e-4));
+          if (iris.blades > 0 || r < 18.0) continue;
+          (r < 80.0 ? worst_near : worst_far) = std::max(r < 80.0 ? worst_near : worst_far, std::abs(b / a - 1.0));
+        }
+      }
+      CHECK(core_error < 0.02 * 2.0);  // of green's flux
+      CHECK(worst_near < 0.06);
+      CHECK(worst_far < 0.01);
+    }
+  }
+  CHECK_FALSE(lay_out(Starburst(), 0, 10).has_value());
+  CHECK_FALSE(lay_out(Starburst(), 1 << 14, 1 << 14).has_value());
+  Image none(8, 8);
+  add_starburst(none, lay_out(Starburst(), 8, 8).value(), {4, 4}, {1, 1, 1});
+  add_starburst(none, StarburstSheet(), {std::nan(""), 4}, {1, 1, 1});
+  CHECK(none.pixels == Image(8, 8).pixels);
+}

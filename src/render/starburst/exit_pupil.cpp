@@ -22,21 +22,27 @@ constexpr double kNearRim = 0.05;     // a rim that comes so near to the pupil m
 constexpr double kRimShare = 0.2;     // about a rim, where it is looked at as a circle seen from the stop
 constexpr double kUncertain = 0.02;   // relative radii, beside twice the straight model's own error
 constexpr int kFewestSamples = 16, kMostSamples = 4096;
-constexpr std::size_t kKeptRays = 6;
+constexpr std::size_t kKeptRays = 5;
+constexpr int kShadeStep = 8;  // samples
 
 // Places at the stop, then at each rim that vignettes, by the cosines: x and y of each.
 class Borders {
  public:
   Borders(const PupilRays& pupil, const std::vector<std::size_t>& used, std::vector<std::size_t> rims,
           const IrisOpening& iris, int degree)
-      : iris_(iris), rims_(std::move(rims)), exact_(fit(pupil, used, degree)), straight_(fit(pupil, used, 1)) {
+      : iris_(iris), rims_(std::move(rims)), exact_(fit(pupil, used, degree)) {
+    const SmoothFit straight = fit(pupil, used, 1);
+    for (std::size_t f = 0; f < straight.functions(); ++f) {
+      const double at_zero = straight({}, f);
+      straight_.push_back({at_zero, {straight({1.0, 0.0}, f) - at_zero, straight({0.0, 1.0}, f) - at_zero}});
+    }
     // How far off the straight model is decides where the polynomials have to be asked.
-    std::vector<double> smooth(exact_.functions()), linear(exact_.functions());
+    std::vector<double> smooth(exact_.functions());
     double worst = 0.0;
     for (const std::size_t k : used) {
       exact_.evaluate(pupil.rays[k].cosines, smooth.data());
-      straight_.evaluate(pupil.rays[k].cosines, linear.data());
-      for (std::size_t f = 0; f < smooth.size(); ++f) worst = std::max(worst, std::abs(smooth[f] - linear[f]));
+      for (std::size_t f = 0; f < smooth.size(); ++f)
+        worst = std::max(worst, std::abs(smooth[f] - straight_[f].at(pupil.rays[k].cosines)));
     }
     uncertain_ = 2.0 * worst + kUncertain;
     values_per_place_ = exact_.functions();
@@ -44,11 +50,13 @@ class Borders {
 
   // Signed, in cosines; far from the borders only its sign counts.
   [[nodiscard]] double distance(Vec2 cosines) const {
-    Values here{}, right{}, up{};
-    straight_.evaluate(cosines, here.data());
+    Values here, right, up;  // filled as far as they are read
+    for (std::size_t f = 0; f < straight_.size(); ++f) here[f] = straight_[f].at(cosines);
     const double about = largest(here);
     if (std::abs(about) > uncertain_) return std::copysign(kFar, about);
     exact_.evaluate(cosines, here.data());
+    const double level_here = largest(here);
+    if (std::abs(level_here) > kNearBorder) return std::copysign(kFar, level_here);
     exact_.evaluate(cosines + Vec2{kStep, 0.0}, right.data());
     exact_.evaluate(cosines + Vec2{0.0, kStep}, up.data());
     double worst = -kFar;
@@ -75,6 +83,12 @@ class Borders {
  private:
   static constexpr double kFar = 1e3;
   static constexpr double kStep = 1e-6;  // cosines
+  static constexpr double kNearBorder = 0.03;  // relative radii: several samples, where the distance counts
+  struct Straight {
+    double at_zero;
+    Vec2 slope;
+    [[nodiscard]] double at(Vec2 cosines) const { return at_zero + dot(slope, cosines); }
+  };
   using Values = std::array<double, 2 * (kMostRims + 1)>;
 
   SmoothFit fit(const PupilRays& pupil, const std::vector<std::size_t>& used, int degree) const {
@@ -103,7 +117,8 @@ class Borders {
 
   const IrisOpening& iris_;
   std::vector<std::size_t> rims_;
-  SmoothFit exact_, straight_;
+  SmoothFit exact_;
+  std::vector<Straight> straight_;
   double uncertain_ = 0;
   std::size_t values_per_place_ = 0;
 };
@@ -226,13 +241,23 @@ void keep_rays(const PupilRays& pupil, const std::vector<std::size_t>& open, Exi
 // The mask's amplitudes, and the flux: the mean over the outline becomes 1.
 void shade(const SmoothFit& amplitude, ExitPupil& out) {
   const MaskGrid& grid = out.mask.grid;
+  // Straight lines between every so many samples: off by 1e-4 at most.
+  const int knots = grid.side / kShadeStep + 2;
+  std::vector<double> at_knot;
+  for (int row = 0; row < knots; ++row)
+    for (int column = 0; column < knots; ++column)
+      at_knot.push_back(std::max(0.0, amplitude(out.middle + grid.place_mm(column * kShadeStep, row * kShadeStep))));
   double sum = 0.0, squares = 0.0;
   std::size_t k = 0;
   for (int row = 0; row < grid.side; ++row) {
     for (int column = 0; column < grid.side; ++column, ++k) {
       float& value = out.mask.amplitude[k];
       if (value <= 0.0F) continue;
-      const double here = std::max(0.0, amplitude(out.middle + grid.place_mm(column, row)));
+      const double* const knot = at_knot.data() + (row / kShadeStep) * knots + column / kShadeStep;
+      const double s = static_cast<double>(column % kShadeStep) / kShadeStep;
+      const double t = static_cast<double>(row % kShadeStep) / kShadeStep;
+      const double here =
+          (1.0 - t) * ((1.0 - s) * knot[0] + s * knot[1]) + t * ((1.0 - s) * knot[knots] + s * knot[knots + 1]);
       squares += value * here * here;
       value *= static_cast<float>(here);
       sum += value;

@@ -17,7 +17,7 @@ inline constexpr int kSharingCells = 12;  // across the frame's longer side
 struct ImagedLight {
   std::size_t light = 0;  // of the caller's
   Vec2 centre_px;
-  Rgb flux{};
+  Rgb flux{};  // share of its value that gets through
 };
 
 using LightGroup = std::vector<ImagedLight>;  // brightest first

@@ -77,7 +77,8 @@ SmoothFit::SmoothFit(std::span<const Vec2> places, std::span<const double> value
 }
 
 void SmoothFit::basis_at(Vec2 place, double* basis) const {
-  std::array<double, kHighestDegree + 1> tx{1.0}, ty{1.0};
+  std::array<double, kHighestDegree + 1> tx, ty;
+  tx[0] = ty[0] = 1.0;
   const double x = (place.x - middle_.x) / half_.x, y = (place.y - middle_.y) / half_.y;
   tx[1] = x;
   ty[1] = y;
@@ -90,7 +91,7 @@ void SmoothFit::basis_at(Vec2 place, double* basis) const {
 }
 
 void SmoothFit::evaluate(Vec2 place, double* values) const {
-  std::array<double, kMostTerms> basis{};
+  std::array<double, kMostTerms> basis;  // filled as far as it is read: this runs for every sample near a border
   basis_at(place, basis.data());
   const std::size_t n = terms(degree_);
   for (std::size_t f = 0; f < functions_; ++f) {

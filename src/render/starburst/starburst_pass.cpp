@@ -1,8 +1,8 @@
 #include "render/starburst/starburst_pass.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <numbers>
 #include <optional>
 
 #include <fmt/format.h>
@@ -12,12 +12,15 @@
 #include "base/tasks.h"
 #include "contrejour/lens_starburst.h"
 #include "render/interface/direct_light.h"
+#include "render/starburst/glare.h"
 #include "render/starburst/light_groups.h"
 
 namespace contrejour {
 namespace {
 
 constexpr int kBands = 120;  // 3.3 nm; hullin2011 3.3 finds 5 nm fine enough
+constexpr std::size_t kWorthLayingOut = 4;  // lights
+constexpr double kMostLaidOut = 8388608.0;  // pixels of a frame: 200 MB
 constexpr double kFarthest_diagonals = 4.0;  // lights farther from the frame's middle draw no starburst
 
 Error invalid(std::string message) { return {ErrorCode::InvalidArgument, std::move(message), {}}; }
@@ -64,7 +67,7 @@ std::vector<ImagedLight> image_lights(const LensState& lens, std::span<const Lig
   std::vector<ImagedLight> imaged;
   for (std::size_t k = 0; k < lights.size(); ++k) {
     ImagedLight light{k, frame.pixel_from_sensor(sensor_mm[k]), lights[k].value};
-    for (double& value : light.flux) value *= share[k] * settings.starburst.gain;
+    for (double& value : light.flux) value *= share[k];
     if (light.flux != Rgb{}) imaged.push_back(light);
   }
   return imaged;
@@ -91,6 +94,28 @@ Result<Starburst> starburst_of(const LightGroup& group, const LensState& lens, s
   return Starburst();
 }
 
+// Many lights are worth laying the starburst out once.
+Result<void> draw_group(Image& image, const LightGroup& group, const Starburst& starburst, double gain,
+                        const Context& context) {
+  StarburstSheet sheet;
+  const bool lays_out =
+      group.size() >= kWorthLayingOut && static_cast<double>(image.width) * image.height <= kMostLaidOut;
+  if (lays_out) {
+    const auto laid = lay_out(starburst, image.width, image.height, context);
+    if (!laid) return tl::unexpected(laid.error());
+    sheet = *laid;
+  }
+  for (const ImagedLight& light : group) {
+    const Rgb flux{gain * light.flux[0], gain * light.flux[1], gain * light.flux[2]};
+    if (lays_out)
+      add_starburst(image, sheet, light.centre_px, flux, context);
+    else
+      add_starburst(image, starburst, light.centre_px, flux, context);
+    if (context.cancelled()) return failure(ErrorCode::Cancelled, "interrupted");
+  }
+  return {};
+}
+
 Result<void> draw_groups(Image& image, const std::vector<LightGroup>& groups, const LensState& lens,
                          std::span<const Light> lights, const RenderSettings& settings, const Context& context) {
   Context quiet = context;
@@ -98,10 +123,8 @@ Result<void> draw_groups(Image& image, const std::vector<LightGroup>& groups, co
   for (std::size_t g = 0; g < groups.size(); ++g) {
     const auto starburst = starburst_of(groups[g], lens, lights, settings, quiet);
     if (!starburst) return tl::unexpected(starburst.error());
-    for (const ImagedLight& light : groups[g]) {
-      add_starburst(image, *starburst, light.centre_px, light.flux, quiet);
-      if (context.cancelled()) return failure(ErrorCode::Cancelled, "interrupted");
-    }
+    const auto drawn = draw_group(image, groups[g], *starburst, settings.starburst.gain, quiet);
+    if (!drawn) return drawn;
     if (context.progress) context.progress(static_cast<double>(g + 1) / static_cast<double>(groups.size()));
   }
   return {};
@@ -115,54 +138,73 @@ void add_except(Image& image, const Image& layer, const Image& left_out, const C
   });
 }
 
-void count_time(RenderStatistics& statistics, double ms) {
+void count_time(RenderStatistics& statistics, const char* phase, double ms) {
   auto total = std::find_if(statistics.time_ms.begin(), statistics.time_ms.end(),
-                            [](const auto& phase) { return phase.first == "total"; });
+                            [](const auto& entry) { return entry.first == "total"; });
   if (total != statistics.time_ms.end()) total->second += ms;
-  statistics.time_ms.insert(total, {"starburst", ms});
+  statistics.time_ms.insert(total, {phase, ms});
   statistics.peak_memory_bytes = std::max(statistics.peak_memory_bytes, peak_memory_bytes());
 }
 
-}  // namespace
-
-Result<void> check_starburst(const RenderSettings& settings) {
-  const StarburstOptions& options = settings.starburst;
-  if (!options.on) return {};
-  if (!(options.gain >= 0.0) || !std::isfinite(options.gain))
-    return tl::unexpected(invalid(fmt::format("a starburst's gain must be 0 or more, not {}", options.gain)));
-  for (const double lambda_nm : settings.lambda_nm)
-    if (!(lambda_nm > 0.0) || !std::isfinite(lambda_nm))
-      return tl::unexpected(invalid(fmt::format("no light has a wavelength of {} nm", lambda_nm)));
-  const Image* const left_out = options.left_out.get();
-  if (left_out == nullptr) return {};
-  if (left_out->width != settings.frame.width || left_out->height != settings.frame.height || left_out->channels != 1 ||
-      left_out->pixels.size() != left_out->index(0, left_out->height))
-    return tl::unexpected(
-        invalid(fmt::format("what a starburst leaves out must be one channel of {} x {} pixels, as the frame",
-                            settings.frame.width, settings.frame.height)));
-  const bool shares = std::all_of(left_out->pixels.begin(), left_out->pixels.end(),
+Result<void> check_left_out(const Image& left_out, const Frame& frame) {
+  if (left_out.width != frame.width || left_out.height != frame.height || left_out.channels != 1 ||
+      left_out.pixels.size() != left_out.index(0, left_out.height))
+    return tl::unexpected(invalid(fmt::format(
+        "what a starburst leaves out must be one channel of {} x {} pixels, as the frame", frame.width, frame.height)));
+  const bool shares = std::all_of(left_out.pixels.begin(), left_out.pixels.end(),
                                   [](float share) { return share >= 0.0F && share <= 1.0F; });
   if (!shares) return tl::unexpected(invalid("what a starburst leaves out of a pixel must be a share from 0 to 1"));
   return {};
 }
 
-Result<void> add_starbursts(Flare& flare, const LensState& lens, std::span<const Light> lights,
-                            const RenderSettings& settings, const Context& context) {
-  const Clock::time_point start = Clock::now();
+// Both, onto an image; times by phase.
+Result<void> draw_light_images(Image& image, RenderStatistics& statistics, const LensState& lens,
+                               std::span<const Light> lights, const RenderSettings& settings, const Context& context) {
+  Clock::time_point start = Clock::now();
   Context quiet = context;
   quiet.progress = {};
   const auto imaged = image_lights(lens, lights, settings, quiet);
-  if (context.cancelled()) return failure(ErrorCode::Cancelled, "interrupted");
-  const auto groups = group_lights(lights, imaged, settings.frame);
-  Result<void> drawn;
-  if (settings.starburst.left_out == nullptr) {
-    drawn = draw_groups(flare.image, groups, lens, lights, settings, context);
-  } else {
-    Image layer(settings.frame.width, settings.frame.height);
-    drawn = draw_groups(layer, groups, lens, lights, settings, context);
-    if (drawn) add_except(flare.image, layer, *settings.starburst.left_out, quiet);
+  if (settings.starburst.on && !context.cancelled()) {
+    const auto groups = group_lights(lights, imaged, settings.frame);
+    if (auto drawn = draw_groups(image, groups, lens, lights, settings, context); !drawn) return drawn;
+    count_time(statistics, "starburst", ms_since(start));
+    start = Clock::now();
   }
-  if (drawn) count_time(flare.statistics, ms_since(start));
+  if (settings.glare.share > 0.0 && !context.cancelled()) {
+    const double r0_mm = std::abs(lens.focal_length_mm) * std::tan(settings.glare.width_rad);
+    add_glare(image, imaged, settings.glare.share, r0_mm / settings.frame.pixel_pitch_mm, quiet);
+    count_time(statistics, "glare", ms_since(start));
+  }
+  if (context.cancelled()) return failure(ErrorCode::Cancelled, "interrupted");
+  return {};
+}
+
+}  // namespace
+
+Result<void> check_light_images(const RenderSettings& settings) {
+  const StarburstOptions& starburst = settings.starburst;
+  const GlareOptions& glare = settings.glare;
+  if (!(starburst.gain >= 0.0) || !std::isfinite(starburst.gain))
+    return tl::unexpected(invalid(fmt::format("a starburst's gain must be 0 or more, not {}", starburst.gain)));
+  if (!(glare.share >= 0.0 && glare.share <= 1.0))
+    return tl::unexpected(invalid(fmt::format("glare is a share of the light from 0 to 1, not {}", glare.share)));
+  if (!(glare.width_rad > 0.0 && glare.width_rad < 0.5 * std::numbers::pi))
+    return tl::unexpected(invalid(fmt::format("glare cannot be {} radians wide", glare.width_rad)));
+  for (const double lambda_nm : settings.lambda_nm)
+    if (!(lambda_nm > 0.0) || !std::isfinite(lambda_nm))
+      return tl::unexpected(invalid(fmt::format("no light has a wavelength of {} nm", lambda_nm)));
+  return starburst.left_out ? check_left_out(*starburst.left_out, settings.frame) : Result<void>();
+}
+
+Result<void> add_light_images(Flare& flare, const LensState& lens, std::span<const Light> lights,
+                              const RenderSettings& settings, const Context& context) {
+  const Image* const left_out = settings.starburst.left_out.get();
+  if (left_out == nullptr) return draw_light_images(flare.image, flare.statistics, lens, lights, settings, context);
+  Image layer(settings.frame.width, settings.frame.height);
+  auto drawn = draw_light_images(layer, flare.statistics, lens, lights, settings, context);
+  Context quiet = context;
+  quiet.progress = {};
+  if (drawn) add_except(flare.image, layer, *left_out, quiet);
   return drawn;
 }
 
