@@ -1,10 +1,12 @@
 // A light's starburst through a lens: the exit pupil as the light's own image sees it, vignetted and askew, and its
 // diffraction pattern. Where the chief ray lands is its centre (landing_of, Frame::pixel_from_sensor).
-// Accuracy: borders of the pupil to 1e-3 of the stop's radius at the traced wavelength; the pupil's shape and place are
-// taken as the same at all others, the transmission is each wavelength's own (docs/physics/diffraction.md).
-// Errors: InvalidArgument, Cancelled. Thread-safety: pure functions; results do not depend on the threads.
+// Accuracy: borders of the pupil to 1e-3 of the stop's radius at the traced wavelength (4e-3 wide open in the corner);
+// the pupil's shape and place are taken as the same at all others, the transmission is each wavelength's own
+// (docs/physics/diffraction.md). Errors: InvalidArgument, Cancelled. Thread-safety: pure functions; results do not
+// depend on the threads.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -18,8 +20,9 @@ namespace contrejour {
 // makes the pattern: the wave from cosines k has the phase 2 pi k.x / lambda at x. In a plane of mm they are the exit
 // pupil as if it stood 1 mm from the sensor: radius 1 / (2 N) on the axis.
 struct ExitPupil {
-  PupilMask mask;  // amplitude: square root of the flux per solid cosine; its mean over the outline is 1
-  PupilOutline outline;  // the iris, cut by the rims that vignette it
+  PupilMask mask;  // amplitude: square root of the flux per solid cosine; its mean over the area is 1
+  std::optional<PupilOutline>
+      outline;  // the iris, cut by the rims that vignette it; none where that differs from the mask
   double radius = 0;  // of the circle about the middle of the mask that holds the pupil; 0: no light gets through
   Vec2 middle;  // the cosines of the mask's middle
   double flux_mm2 = 0;  // of the direct image at E0 = 1, as GhostMeter::direct_flux

@@ -238,7 +238,7 @@ TEST_CASE("the same bits for any number of threads; many lights share starbursts
   const LensState lens = test::bundled("heliar", {.f_number = 11.0, .iris = {7, 0.1}});
   const RenderSettings settings = starburst_alone(frame_on_sensor(lens, 120, 80));
   std::vector<Light> lights;
-  for (int k = 0; k < 35; ++k) {  // in some eight of the cells that many lights share
+  for (int k = 0; k < 35; ++k) {  // in a few of the cells that many lights share
     lights.push_back(test::light_at(lens, settings.frame, {0.4 + 0.03 * (k % 7), 0.5 + 0.05 * (k / 7)}));
     lights.back().value = {1.0 + k, 1.0, 2.0};
   }

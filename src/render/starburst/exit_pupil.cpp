@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include <fmt/format.h>
 
@@ -14,12 +15,13 @@
 namespace contrejour {
 namespace {
 
-constexpr int kDegree = 7;            // of places at stop and rims
+constexpr int kDegree = 8;            // of places at stop and rims
 constexpr int kAmplitudeDegree = 4;
 constexpr std::size_t kRaysPerTerm = 3;
-constexpr double kFitBeyond = 0.25;   // relative radii: rays so far outside still shape the borders
+constexpr double kFitBeyond = 0.06;   // relative radii: rays so far outside still shape the borders
 constexpr double kNearRim = 0.05;     // a rim that comes so near to the pupil may cut it somewhere between the rays
-constexpr double kRimShare = 0.2;     // about a rim, where it is looked at as a circle seen from the stop
+constexpr double kRimShare = 0.1;     // about a rim, where it is looked at as a circle seen from the stop
+constexpr double kOutlineAgrees = 0.15;  // of the area
 constexpr double kUncertain = 0.02;   // relative radii, beside twice the straight model's own error
 constexpr int kFewestSamples = 16, kMostSamples = 4096;
 constexpr std::size_t kKeptRays = 5;
@@ -165,29 +167,49 @@ std::array<Vec2, 2> stop_in_cosines(const PupilRays& pupil, const std::vector<st
   return {step({1.0, 0.0}), step({0.0, 1.0})};
 }
 
-// A rim as the stop sees it: places there are H s + h for places s at the stop, so |H s + h| <= 1 is nearly a circle.
+// A rim as the stop sees it: rays near it, moved onto it along the slope of how far outside they are, and the circle
+// through these places (Kasa 1976: linear in centre and radius squared).
 std::optional<IrisBound> rim_seen_from_stop(const PupilRays& pupil, std::size_t rim) {
   std::vector<Vec2> stops;
-  std::vector<double> values;
-  std::vector<std::size_t> near;
-  for (std::size_t k = 0; k < pupil.rays.size(); ++k)
-    if (pupil.rays[k].arrived && pupil.rays[k].iris < kRimShare &&
-        std::abs(length(pupil.at_rim(rim, k)) - 1.0) < kRimShare)
-      near.push_back(k);
-  if (near.size() < kRaysPerTerm * SmoothFit::terms(1)) return std::nullopt;
-  for (const std::size_t k : near) stops.push_back(pupil.rays[k].stop);
-  for (const std::size_t k : near) values.push_back(pupil.at_rim(rim, k).x);
-  for (const std::size_t k : near) values.push_back(pupil.at_rim(rim, k).y);
-  const SmoothFit fit(stops, values, 1);
-  const Vec2 h{fit({}, 0), fit({}, 1)};
-  const Vec2 hx = Vec2{fit({1.0, 0.0}, 0), fit({1.0, 0.0}, 1)} - h;
-  const Vec2 hy = Vec2{fit({0.0, 1.0}, 0), fit({0.0, 1.0}, 1)} - h;
-  const double det = cross(hx, hy);
-  if (!(std::abs(det) > 1e-9)) return std::nullopt;
+  std::vector<double> outside;
+  for (std::size_t k = 0; k < pupil.rays.size(); ++k) {
+    const PupilRay& ray = pupil.rays[k];
+    const double beyond = length(pupil.at_rim(rim, k)) - 1.0;
+    if (!ray.arrived || ray.blocked > kRimShare || std::abs(beyond) > kRimShare) continue;
+    stops.push_back(ray.stop);
+    outside.push_back(beyond);
+  }
+  if (stops.size() < kRaysPerTerm * SmoothFit::terms(2)) return std::nullopt;
+  const SmoothFit level(stops, outside, 2);
+  std::vector<double> minus_squares;
+  constexpr double h = 1e-5;
+  for (Vec2& at : stops) {
+    for (int step = 0; step < 2; ++step) {
+      const double here = level(at);
+      const Vec2 slope = Vec2{level(at + Vec2{h, 0.0}) - here, level(at + Vec2{0.0, h}) - here} * (1.0 / h);
+      at = at - slope * (here / std::max(dot(slope, slope), 1e-12));
+    }
+    minus_squares.push_back(-dot(at, at));
+  }
+  const SmoothFit circle(stops, minus_squares, 1);
+  const double at_zero = circle({});
   IrisBound bound;
-  bound.centre = Vec2{cross(h, hy), cross(hx, h)} * (-1.0 / det);
-  bound.radius = 1.0 / std::sqrt(std::abs(det));
+  bound.centre = Vec2{circle({1.0, 0.0}) - at_zero, circle({0.0, 1.0}) - at_zero} * -0.5;
+  bound.radius = std::sqrt(dot(bound.centre, bound.centre) - at_zero);
+  if (!(bound.radius > 0.0) || !std::isfinite(bound.radius)) return std::nullopt;
   return bound;
+}
+
+// The iris, cut by the rims; none where that is far from the mask.
+std::optional<PupilOutline> outline_of(const PupilRays& pupil, const std::vector<std::size_t>& rims,
+                                       const std::vector<std::size_t>& open, const Iris& iris, double open_area) {
+  std::vector<IrisBound> cuts;
+  for (const std::size_t rim : rims)
+    if (const auto cut = rim_seen_from_stop(pupil, rim)) cuts.push_back(*cut);
+  const auto axes = stop_in_cosines(pupil, open);
+  PupilOutline outline{IrisOpening(iris, cuts), axes[0], axes[1]};
+  if (!(std::abs(outline.area_mm2() / open_area - 1.0) < kOutlineAgrees)) return std::nullopt;
+  return outline;
 }
 
 // Between the rays: an open ray's neighbours may be the last before the border.
@@ -239,7 +261,7 @@ void keep_rays(const PupilRays& pupil, const std::vector<std::size_t>& open, Exi
 }
 
 // The mask's amplitudes, and the flux: the mean over the outline becomes 1.
-void shade(const SmoothFit& amplitude, ExitPupil& out) {
+void shade(const SmoothFit& amplitude, double area, ExitPupil& out) {
   const MaskGrid& grid = out.mask.grid;
   // Straight lines between every so many samples: off by 1e-4 at most.
   const int knots = grid.side / kShadeStep + 2;
@@ -265,7 +287,7 @@ void shade(const SmoothFit& amplitude, ExitPupil& out) {
   }
   const double sample = grid.pitch_mm * grid.pitch_mm;
   out.flux_mm2 = squares * sample;
-  const double mean = sum * sample / out.outline.area_mm2();
+  const double mean = sum * sample / area;
   if (!(mean > 0.0)) return;
   for (float& value : out.mask.amplitude) value /= static_cast<float>(mean);
 }
@@ -307,12 +329,12 @@ ExitPupil pupil_of(const PupilRays& pupil, const LensState& lens, Vec3 direction
   out.mask = make_mask(
       grid_over(out.radius, samples_across), [&](Vec2 at) { return borders.distance(out.middle + at); }, context);
 
-  std::vector<IrisBound> cuts;
-  for (const std::size_t rim : rims)
-    if (const auto cut = rim_seen_from_stop(pupil, rim)) cuts.push_back(*cut);
-  const auto axes = stop_in_cosines(pupil, open);
-  out.outline = {IrisOpening(lens.iris, cuts), axes[0], axes[1]};
-  shade(amplitude_of(pupil, used, direction.z), out);
+  double open_samples = 0.0;
+  for (const float share : out.mask.amplitude) open_samples += share;
+  if (!(open_samples > 0.0)) return {};
+  const double open_area = open_samples * out.mask.grid.pitch_mm * out.mask.grid.pitch_mm;
+  out.outline = outline_of(pupil, rims, open, lens.iris, open_area);
+  shade(amplitude_of(pupil, used, direction.z), out.outline ? out.outline->area_mm2() : open_area, out);
   keep_rays(pupil, open, out);
   return out;
 }

@@ -43,7 +43,7 @@ Result<Starburst> lens_starburst(const LensState& lens, Vec3 direction, std::spa
   const auto weighted = transmitted(bands, transmissions(lens, normalized(direction), pupil->rays_mm, bands, quiet));
   StarburstSettings scaled = made;
   scaled.pupil_radius_mm = pupil->radius;
-  const PupilOutline* const outline = pupil->outline.opening.closed() ? nullptr : &pupil->outline;
+  const PupilOutline* const outline = pupil->outline ? &*pupil->outline : nullptr;
   return make_starburst(pupil->mask, outline, weighted, scaled, context);
 }
 

@@ -10,8 +10,8 @@
 
 namespace contrejour {
 
-inline constexpr std::size_t kOwnStarbursts = 32;
-inline constexpr int kSharingCells = 12;  // across the frame's longer side
+inline constexpr std::size_t kOwnStarbursts = 24;
+inline constexpr int kSharingCells = 6;  // across the frame's longer side
 
 // A light that has an image, and what of its value its starburst holds.
 struct ImagedLight {

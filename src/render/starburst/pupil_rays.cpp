@@ -8,7 +8,7 @@
 namespace contrejour {
 namespace {
 
-constexpr int kSide = 33;
+constexpr int kSide = 41;
 constexpr double kBeyond = 0.08;  // of the region, on each side: borders are fitted from both sides
 
 // Where the direct image's rays enter. Films change nothing about it, and bare surfaces are tabulated quickly.

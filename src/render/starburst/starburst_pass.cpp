@@ -19,7 +19,7 @@ namespace contrejour {
 namespace {
 
 constexpr int kBands = 120;  // 3.3 nm; hullin2011 3.3 finds 5 nm fine enough
-constexpr std::size_t kWorthLayingOut = 4;  // lights
+constexpr std::size_t kWorthLayingOut = 3;  // lights
 constexpr double kMostLaidOut = 8388608.0;  // pixels of a frame: 200 MB
 constexpr double kFarthest_diagonals = 4.0;  // lights farther from the frame's middle draw no starburst
 
