@@ -6,6 +6,8 @@
 
 #include "contrejour/fractional_fourier.h"
 #include "contrejour/fresnel.h"
+#include "contrejour/lens_starburst.h"
+#include "contrejour/render.h"
 #include "contrejour/starburst.h"
 
 namespace {
@@ -25,7 +27,7 @@ void starburst_of_new_iris(benchmark::State& state) {
   const auto bands = spectral_bands(120, IlluminantD65{}, ColourSpace::Rec709);
   Image image(kWidth, kHeight);
   for (auto _ : state) {
-    const Starburst starburst = make_starburst(IrisOpening(iris_of(state)), bands, at_f16());
+    const Starburst starburst = make_starburst(IrisOpening(iris_of(state)), bands, at_f16()).value();
     add_starburst(image, starburst, {960.3, 539.8}, {1.0, 1.0, 1.0});
     benchmark::DoNotOptimize(image.pixels.data());
   }
@@ -33,12 +35,60 @@ void starburst_of_new_iris(benchmark::State& state) {
 
 void starburst_of_another_light(benchmark::State& state) {
   const auto bands = spectral_bands(120, IlluminantD65{}, ColourSpace::Rec709);
-  const Starburst starburst = make_starburst(IrisOpening(iris_of(state)), bands, at_f16());
+  const Starburst starburst = make_starburst(IrisOpening(iris_of(state)), bands, at_f16()).value();
   Image image(kWidth, kHeight);
   for (auto _ : state) {
     add_starburst(image, starburst, {960.3, 539.8}, {1.0, 1.0, 1.0});
     benchmark::DoNotOptimize(image.pixels.data());
   }
+}
+
+// What is left to do in each frame once a starburst is kept: the light moves by fractions of a pixel.
+void starburst_kept_over_frames(benchmark::State& state) {
+  const auto bands = spectral_bands(120, IlluminantD65{}, ColourSpace::Rec709);
+  StarburstSettings settings = at_f16();
+  settings.radius_px = 2250.0;
+  const Starburst starburst = make_starburst(IrisOpening(iris_of(state)), bands, settings).value();
+  const StarburstSheet sheet = lay_out(starburst, kWidth, kHeight).value();
+  Image image(kWidth, kHeight);
+  double x = 900.3;
+  for (auto _ : state) {
+    add_starburst(image, sheet, {x += 0.3, 539.8}, {1.0, 1.0, 1.0});
+    benchmark::DoNotOptimize(image.pixels.data());
+  }
+}
+
+void starburst_laid_out(benchmark::State& state) {
+  const auto bands = spectral_bands(120, IlluminantD65{}, ColourSpace::Rec709);
+  StarburstSettings settings = at_f16();
+  settings.radius_px = 2250.0;
+  const Starburst starburst = make_starburst(IrisOpening(iris_of(state)), bands, settings).value();
+  for (auto _ : state) benchmark::DoNotOptimize(lay_out(starburst, kWidth, kHeight));
+}
+
+// A lens's own exit pupil, off the axis and vignetted, to pixels: all that a new lens state or light costs.
+void starburst_through_lens(benchmark::State& state) {
+  const auto lens =
+      lens_at(*find_lens("canon-70-200"),
+              {.focal_length_mm = 135.0, .f_number = static_cast<double>(state.range(0)), .iris = {8, 0.2}});
+  const Frame frame = frame_on_sensor(*lens, kWidth, kHeight);
+  const Vec2 centre_px{1344.0, 356.0};
+  const Vec3 direction = direction_to_land_at(*lens, frame.sensor_from_pixel(centre_px), lens->design_wavelength_nm);
+  const auto bands = spectral_bands(120, IlluminantD65{}, ColourSpace::Rec709);
+  Image image(kWidth, kHeight);
+  for (auto _ : state) {
+    const auto starburst = lens_starburst(*lens, direction, bands, {frame.pixel_pitch_mm, 1525.0});
+    add_starburst(image, *starburst, centre_px, {1.0, 1.0, 1.0});
+    benchmark::DoNotOptimize(image.pixels.data());
+  }
+}
+
+void exit_pupil_of_lens(benchmark::State& state) {
+  const auto lens =
+      lens_at(*find_lens("canon-70-200"),
+              {.focal_length_mm = 135.0, .f_number = static_cast<double>(state.range(0)), .iris = {8, 0.2}});
+  const Vec3 direction = direction_from_angles(0.06, 0.04);
+  for (auto _ : state) benchmark::DoNotOptimize(exit_pupil(*lens, direction, lens->design_wavelength_nm));
 }
 
 void fresnel_ringing(benchmark::State& state) {
@@ -65,6 +115,32 @@ BENCHMARK(starburst_of_new_iris)
 BENCHMARK(starburst_of_another_light)
     ->ArgNames({"blades", "curvature%"})
     ->Args({8, 0})
+    ->MeasureProcessCPUTime()
+    ->UseRealTime()
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK(starburst_kept_over_frames)
+    ->ArgNames({"blades", "curvature%"})
+    ->Args({8, 0})
+    ->MeasureProcessCPUTime()
+    ->UseRealTime()
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK(starburst_laid_out)
+    ->ArgNames({"blades", "curvature%"})
+    ->Args({8, 0})
+    ->MeasureProcessCPUTime()
+    ->UseRealTime()
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK(starburst_through_lens)
+    ->ArgName("f")
+    ->Arg(16)
+    ->Arg(4)
+    ->MeasureProcessCPUTime()
+    ->UseRealTime()
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK(exit_pupil_of_lens)
+    ->ArgName("f")
+    ->Arg(16)
+    ->Arg(4)
     ->MeasureProcessCPUTime()
     ->UseRealTime()
     ->Unit(benchmark::kMillisecond);

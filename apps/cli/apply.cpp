@@ -96,7 +96,8 @@ Result<void> write_flare_only(const fs::path& file, const Picture& picture, cons
 
 Result<Flare> render_plan(const ApplyOptions& options, const LensState& lens, const params::FlarePlan& plan) {
   if (plan.lights.empty()) return Flare{Image(plan.frame.width, plan.frame.height), {}};
-  const RenderSettings settings = params::render_settings(options.values, plan.frame, plan.space);
+  RenderSettings settings = params::render_settings(options.values, plan.frame, plan.space);
+  settings.starburst.left_out = plan.already_there;
   const LongTask task("rendering", options.values.integer("threads"));
   return render(*options.values.text("method"), lens, plan.lights, settings, task.context());
 }

@@ -75,6 +75,7 @@ void add_rendering_parameters(CLI::App& command, params::Values& values) {
                  {"grid-levels", "mirror", "pupil-table", "spectral-filter", "flat-shading", "anisotropic"});
   add_parameters(command, values, {"merge-steps", "merge-threshold", "tile", "coarse-tile", "interpolation"});
   add_parameters(command, values, {"error", "density"});
+  add_parameters(command, values, {"starburst", "starburst-gain", "glare", "glare-width"});
 }
 
 std::string lower_extension(const std::string& file) {

@@ -44,9 +44,13 @@ Result<FlarePlan> plan_flare(const Picture& picture, const LensState& lens, cons
   auto frame = frame_of(picture, lens, values);
   if (!frame) return tl::unexpected(frame.error());
   plan.frame = *frame;
-  auto found = detect_lights(picture.rgb, detection_settings(values));
+  const DetectionSettings detection = detection_settings(values);
+  auto found = detect_lights(picture.rgb, detection);
   if (!found) return tl::unexpected(found.error());
   plan.found = std::move(*found);
+  if (values.is_on("starburst") || values.number("glare") > 0.0)
+    plan.already_there =
+        std::make_shared<const Image>(light_shares(picture.rgb, plan.found.threshold, detection.softness));
   for (const DetectedLight& area : plan.found.lights) {
     plan.lights.push_back(light_of(area, plan.frame, lens, values));
   }

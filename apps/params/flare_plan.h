@@ -2,6 +2,7 @@
 // Thread-safety: pure functions.
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "contrejour/frame.h"
@@ -18,6 +19,7 @@ struct FlarePlan {
   Frame frame;                    // the data window within the display window
   Detection found;
   std::vector<Light> lights;      // one for each found, in the same order
+  std::shared_ptr<const Image> already_there;  // with --starburst or --glare: the share of each pixel that is a light's own image
 };
 
 // Errors: Unsupported for display windows with no pixels or beyond 2^28 of them; those of detect_lights.

@@ -105,6 +105,10 @@ RenderSettings render_settings(const Values& values, const Frame& frame, ColourS
   settings.tiled = tiled_options(values);
   settings.error = *parse_error_bound(*values.text("error"));
   settings.reference_density = values.number("density");
+  settings.starburst.on = values.is_on("starburst");
+  settings.starburst.gain = values.number("starburst-gain");
+  settings.glare.share = values.number("glare");
+  settings.glare.width_rad = values.number("glare-width") * kDegree_rad;
   return settings;
 }
 

@@ -3,6 +3,7 @@
 // choice. Its integral over the plane is the given flux. Rows from the top, x right, y up, the axis in the middle, all
 // as the pupil has them (through a lens both are upside down on the sensor, and so this pattern is upright in the
 // image). Accuracy: exact for the samples of the mask up to |x| < lambda d / (2 mask pitch), where it starts to repeat.
+// Errors: InvalidArgument for lengths that are not positive and masks that let nothing through, Cancelled.
 // Thread-safety: pure functions. Source: Goodman 2005 eq. 4-25, 5-14; hullin2011 eq. 2.
 #pragma once
 
@@ -10,6 +11,7 @@
 
 #include "contrejour/context.h"
 #include "contrejour/pupil_mask.h"
+#include "contrejour/result.h"
 
 namespace contrejour {
 
@@ -27,10 +29,10 @@ struct FraunhoferSettings {
 
 struct FraunhoferPattern {
   PatternGrid grid;
-  std::vector<double> irradiance_per_mm2;  // [row * side + column]; empty when cancelled
+  std::vector<double> irradiance_per_mm2;  // [row * side + column]
 };
 
-[[nodiscard]] FraunhoferPattern fraunhofer_pattern(const PupilMask& mask, const FraunhoferSettings& settings,
-                                                   const Context& context = {});
+[[nodiscard]] Result<FraunhoferPattern> fraunhofer_pattern(const PupilMask& mask, const FraunhoferSettings& settings,
+                                                           const Context& context = {});
 
 }  // namespace contrejour

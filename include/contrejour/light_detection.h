@@ -41,6 +41,10 @@ struct Detection {
 // Errors: InvalidArgument (not three channels, settings out of range).
 [[nodiscard]] Result<Detection> detect_lights(const Image& rgb, const DetectionSettings& settings = {});
 
+// How much of each pixel belongs to a light, 0..1, one channel: the weight that detect_lights gives it. Areas that are
+// too small to be lights count too.
+[[nodiscard]] Image light_shares(const Image& rgb, double threshold, double softness);
+
 // The level above which a thing is a light and not a lit surface, from the picture's own statistics.
 [[nodiscard]] double automatic_threshold(const Image& rgb);
 

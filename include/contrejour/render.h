@@ -1,11 +1,13 @@
 // Rendering: lens state, lights and settings in, flare and statistics out. One contract, several methods.
 // The image holds what the flare adds to the photograph, in the lights' own units (docs/physics/radiometry.md):
 // a light whose image sums to V makes a ghost pixel of V * E_ghost * A_pixel / Phi. It does not hold the
-// lights' direct images. Channels may be slightly negative where a ghost's colour lies outside the RGB gamut.
+// lights' direct images, unless settings.starburst is on. Channels may be slightly negative where a ghost's colour
+// lies outside the RGB gamut.
 // Errors: InvalidArgument, Cancelled. Same result for any thread count. Thread-safety: pure functions.
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -47,6 +49,22 @@ struct TiledOptions {
   } interpolation = Interpolation::LoopDeRose;
 };
 
+// Each light's own image as diffraction spreads it (docs/physics/diffraction.md), added after the ghosts by every
+// method alike: a light that gets through in full sums to its value over an unlimited picture.
+struct StarburstOptions {
+  bool on = false;
+  double gain = 1.0;  // 0 and more; 1 is physically right
+  // Where a photograph holds the lights' own images already: a share from 0 to 1 a pixel that is left out of starburst
+  // and glare, one channel, as large as the frame. Null: nothing is left out.
+  std::shared_ptr<const Image> left_out = nullptr;
+};
+
+// What polish, dust and edges scatter about each light's own image: over angles theta as (1 + (theta / width)^2)^-1.5.
+struct GlareOptions {
+  double share = 0.0;  // of the light's value, 0 to 1, over an unlimited picture; 0: none
+  double width_rad = 0.0175;
+};
+
 struct RenderSettings {
   Frame frame;
   GhostScope scope = GhostScope::OneSideOfStop;
@@ -61,6 +79,8 @@ struct RenderSettings {
   TiledOptions tiled;
   double error = 0.003;          // `adaptive`: RMS error to stay below, over the frame's peak; 1e-4 to 0.1
   double reference_density = 1;  // `reference`: 2 halves the cells
+  StarburstOptions starburst;
+  GlareOptions glare;
 };
 
 struct RenderStatistics {

@@ -1,14 +1,33 @@
 #include "contrejour/fraunhofer.h"
 
+#include <cmath>
 #include <complex>
+
+#include <fmt/format.h>
 
 #include "base/units.h"
 #include "diffraction/chirp_z.h"
 
 namespace contrejour {
+namespace {
 
-FraunhoferPattern fraunhofer_pattern(const PupilMask& mask, const FraunhoferSettings& settings,
-                                     const Context& context) {
+constexpr int kMostPoints = 16384;
+
+}  // namespace
+
+Result<FraunhoferPattern> fraunhofer_pattern(const PupilMask& mask, const FraunhoferSettings& settings,
+                                             const Context& context) {
+  for (const double length : {settings.distance_mm, settings.lambda_nm, settings.grid.pitch_mm, mask.grid.pitch_mm})
+    if (!(length > 0.0) || !std::isfinite(length))
+      return failure(ErrorCode::InvalidArgument,
+                     fmt::format("a pattern's distance, wavelength and pitches must be positive, not {}", length));
+  if (settings.grid.side < 1 || settings.grid.side > kMostPoints)
+    return failure(
+        ErrorCode::InvalidArgument,
+        fmt::format("a pattern of {} points a side is out of range; choose 1 to {}", settings.grid.side, kMostPoints));
+  const double open_mm2 = mask.open_area_mm2();
+  if (!(open_mm2 > 0.0) || !std::isfinite(open_mm2 * settings.flux))
+    return failure(ErrorCode::InvalidArgument, "a mask that lets nothing through has no pattern");
   Context steps = context;  // its two passes would each report from 0
   steps.progress = {};
   const double lambda_d_mm2 = mm_from_nm(settings.lambda_nm) * settings.distance_mm;
@@ -19,13 +38,13 @@ FraunhoferPattern fraunhofer_pattern(const PupilMask& mask, const FraunhoferSett
   std::vector<std::complex<double>> wave(samples * samples);
   for (std::size_t k = 0; k < wave.size(); ++k) wave[k] = mask.at(k);
   wave = transform.transform_2d(wave, steps);
+  if (context.cancelled()) return failure(ErrorCode::Cancelled, "interrupted");
   FraunhoferPattern pattern{settings.grid, {}};
-  if (context.cancelled()) return pattern;
 
   // Goodman 2005 eq. 4-25: E = |integral of U exp(-2 pi i x.xi / (lambda d))|^2 / (lambda d)^2, whose integral is that
   // of |U|^2 (Parseval).
   const double sample_mm2 = mask.grid.pitch_mm * mask.grid.pitch_mm;
-  const double scale = settings.flux * sample_mm2 * sample_mm2 / (lambda_d_mm2 * lambda_d_mm2 * mask.open_area_mm2());
+  const double scale = settings.flux * sample_mm2 * sample_mm2 / (lambda_d_mm2 * lambda_d_mm2 * open_mm2);
   pattern.irradiance_per_mm2.resize(wave.size());
   for (std::size_t k = 0; k < wave.size(); ++k) pattern.irradiance_per_mm2[k] = scale * std::norm(wave[k]);
   return pattern;

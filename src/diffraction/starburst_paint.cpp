@@ -10,6 +10,7 @@
 #include "base/tasks.h"
 #include "contrejour/starburst.h"
 #include "diffraction/ring_reader.h"
+#include "diffraction/starburst_core.h"
 #include "diffraction/starburst_rings.h"
 
 namespace contrejour {
@@ -27,13 +28,18 @@ double read_share(double r_px) {
   return t * t * (3.0 - 2.0 * t);
 }
 
-// The laid part about the centre's pixel.
+// The laid part on square cells about the centre, pixels or smaller. centre: in cells of the patch.
 class CentrePatch {
  public:
+  CentrePatch(Vec2 centre, int side, double cell_px)
+      : side_(side), cell_px_(cell_px), centre_(centre), sum_(static_cast<std::size_t>(side * side)) {}
   explicit CentrePatch(Vec2 centre_px)
-      : left_(static_cast<int>(std::floor(centre_px.x)) - kPatchHalf),
-        top_(static_cast<int>(std::floor(centre_px.y)) - kPatchHalf), centre_{centre_px.x - left_, centre_px.y - top_},
-        sum_(kPatchSide * kPatchSide) {}
+      : CentrePatch(
+            {centre_px.x - std::floor(centre_px.x) + kPatchHalf, centre_px.y - std::floor(centre_px.y) + kPatchHalf},
+            kPatchSide, 1.0) {
+    left_ = static_cast<int>(std::floor(centre_px.x)) - kPatchHalf;
+    top_ = static_cast<int>(std::floor(centre_px.y)) - kPatchHalf;
+  }
 
   void lay_all(const StarburstRings& rings) {
     lay_disc(rings);
@@ -41,6 +47,10 @@ class CentrePatch {
       const double first = rings.first_px * std::exp2(static_cast<double>(o));
       if (first < kReadFrom) lay_octave(rings.octaves[o], first);
     }
+  }
+
+  [[nodiscard]] const std::array<double, 3>& flux(std::size_t x, std::size_t y) const {
+    return sum_[y * static_cast<std::size_t>(side_) + x];
   }
 
   void add_to(Image& image, const Rgb& flux) const {
@@ -56,21 +66,22 @@ class CentrePatch {
   }
 
  private:
-  // Half the flux at an offset and half at its opposite, each over a square this wide.
-  void lay(Vec2 offset, double width, const std::array<double, 3>& flux) {
-    lay_square(centre_ + offset, width, flux);
-    lay_square(centre_ - offset, width, flux);
+  // Half the flux at an offset (pixels) and half at its opposite, each over a square this wide.
+  void lay(Vec2 offset_px, double width_px, const std::array<double, 3>& flux) {
+    const Vec2 offset = offset_px * (1.0 / cell_px_);
+    lay_square(centre_ + offset, width_px / cell_px_, flux);
+    lay_square(centre_ - offset, width_px / cell_px_, flux);
   }
 
   void lay_square(Vec2 at, double width, const std::array<double, 3>& flux) {
     const int x0 = static_cast<int>(std::floor(at.x - 0.5 * width)), x1 = static_cast<int>(at.x + 0.5 * width);
     const int y0 = static_cast<int>(std::floor(at.y - 0.5 * width)), y1 = static_cast<int>(at.y + 0.5 * width);
-    for (int y = std::max(y0, 0); y <= std::min(y1, kPatchSide - 1); ++y) {
-      for (int x = std::max(x0, 0); x <= std::min(x1, kPatchSide - 1); ++x) {
+    for (int y = std::max(y0, 0); y <= std::min(y1, side_ - 1); ++y) {
+      for (int x = std::max(x0, 0); x <= std::min(x1, side_ - 1); ++x) {
         const double w = std::min(at.x + 0.5 * width, x + 1.0) - std::max(at.x - 0.5 * width, static_cast<double>(x));
         const double h = std::min(at.y + 0.5 * width, y + 1.0) - std::max(at.y - 0.5 * width, static_cast<double>(y));
         const double share = 0.5 * w * h / (width * width);
-        for (std::size_t c = 0; c < 3; ++c) sum_[static_cast<std::size_t>(y * kPatchSide + x)][c] += share * flux[c];
+        for (std::size_t c = 0; c < 3; ++c) sum_[static_cast<std::size_t>(y * side_ + x)][c] += share * flux[c];
       }
     }
   }
@@ -106,49 +117,75 @@ class CentrePatch {
     }
   }
 
-  int left_, top_;
+  int side_;
+  double cell_px_;
+  int left_ = 0, top_ = 0;  // of the image's pixel under the first cell
   Vec2 centre_;
   std::vector<std::array<double, 3>> sum_;
 };
 
-// A pixel near the centre, at so many places, without what the patch has.
-std::array<float, 3> read_finely(const StarburstRings& rings, double x, double y) {
-  constexpr int kSide = 4;
-  std::array<float, 3> sum{};
-  for (int i = 0; i < kSide * kSide; ++i) {
-    const double u = x + (i % kSide + 0.5) / kSide - 0.5, v = y + (i / kSide + 0.5) / kSide - 0.5;
-    const auto share = static_cast<float>(read_share(std::hypot(u, v)) / (kSide * kSide));
-    if (share <= 0.0F) continue;
-    std::array<float, 3> rgb{};
-    read_rings(rings, u, v, 1, rgb.data());
-    for (std::size_t c = 0; c < 3; ++c) sum[c] += share * rgb[c];
-  }
-  return sum;
-}
-
 }  // namespace
 
-void add_starburst(Image& image, const Starburst& starburst, Vec2 centre_px, const Rgb& flux, const Context& context) {
-  assert(image.channels == 3);
-  if (starburst.rings() == nullptr) return;
-  const StarburstRings& rings = *starburst.rings();
+void paint_core(Image& image, const StarburstRings& rings, Vec2 centre_px, const Rgb& flux) {
   CentrePatch patch(centre_px);
   patch.lay_all(rings);
   patch.add_to(image, flux);
+}
+
+std::vector<double> core_flux(const StarburstRings& rings) {
+  constexpr auto kSide = static_cast<std::size_t>(kCoreCells);
+  // Cells of the patch are pixels there: the same rings with pixels a kCellsPerPixel-th as wide.
+  CentrePatch patch({0.5 * kCoreCells, 0.5 * kCoreCells}, kCoreCells, 1.0 / kCellsPerPixel);
+  patch.lay_all(rings);
+  std::vector<double> below((kSide + 1) * (kSide + 1) * 3);
+  const auto at = [&](std::size_t x, std::size_t y, std::size_t c) -> double& {
+    return below[(y * (kSide + 1) + x) * 3 + c];
+  };
+  for (std::size_t y = 0; y < kSide; ++y)
+    for (std::size_t x = 0; x < kSide; ++x)
+      for (std::size_t c = 0; c < 3; ++c)
+        at(x + 1, y + 1, c) = patch.flux(x, y)[c] + at(x, y + 1, c) + at(x + 1, y, c) - at(x, y, c);
+  return below;
+}
+
+// Places of a row at so many offsets within the pixels, without what the patch has.
+void read_core_row(const StarburstRings& rings, Vec2 centre_px, double y, std::size_t width, float* rgb) {
+  constexpr int kSide = 4;
+  if (std::abs(y) > kReadFinelyWithin) return;
+  const double half = std::sqrt(kReadFinelyWithin * kReadFinelyWithin - y * y);
+  const auto clamped = [&](double x) {
+    return static_cast<std::size_t>(std::clamp(x, 0.0, static_cast<double>(width)));
+  };
+  const std::size_t from = clamped(std::ceil(centre_px.x - half - 0.5)),
+                    to = clamped(std::floor(centre_px.x + half + 0.5));
+  if (from >= to) return;
+  std::fill(rgb + 3 * from, rgb + 3 * to, 0.0F);
+  std::vector<float> fine(3 * (to - from));
+  for (int i = 0; i < kSide * kSide; ++i) {
+    const double u = static_cast<double>(from) + (i % kSide + 0.5) / kSide - centre_px.x;
+    const double v = y + (i / kSide + 0.5) / kSide - 0.5;
+    read_rings(rings, u, v, to - from, fine.data());
+    for (std::size_t x = 0; x < to - from; ++x) {
+      const auto share = static_cast<float>(read_share(std::hypot(u + static_cast<double>(x), v)) / (kSide * kSide));
+      for (std::size_t c = 0; c < 3; ++c) rgb[3 * (from + x) + c] += share * fine[3 * x + c];
+    }
+  }
+}
+
+void add_starburst(Image& image, const Starburst& starburst, Vec2 centre_px, const Rgb& flux, const Context& context) {
+  assert(image.channels == 3);
+  if (starburst.rings() == nullptr || !is_drawable(centre_px)) return;
+  const StarburstRings& rings = *starburst.rings();
+  paint_core(image, rings, centre_px, flux);
   const auto width = static_cast<std::size_t>(image.width);
+  const std::array<float, 3> scale{static_cast<float>(flux[0]), static_cast<float>(flux[1]),
+                                   static_cast<float>(flux[2])};
   parallel_for(static_cast<std::size_t>(image.height), context, [&](std::size_t row) {
     const double y = static_cast<double>(row) + 0.5 - centre_px.y;
     if (std::abs(y) > rings.radius_px) return;
     std::vector<float> rgb(3 * width);
     read_rings(rings, 0.5 - centre_px.x, y, width, rgb.data());
-    for (std::size_t x = 0; x < width; ++x) {
-      const double from_centre = static_cast<double>(x) + 0.5 - centre_px.x;
-      if (std::hypot(from_centre, y) > kReadFinelyWithin) continue;
-      const std::array<float, 3> fine = read_finely(rings, from_centre, y);
-      std::copy(fine.begin(), fine.end(), rgb.begin() + static_cast<std::ptrdiff_t>(3 * x));
-    }
-    const std::array<float, 3> scale{static_cast<float>(flux[0]), static_cast<float>(flux[1]),
-                                     static_cast<float>(flux[2])};
+    read_core_row(rings, centre_px, y, width, rgb.data());
     const std::span<float> pixels = image.row(static_cast<int>(row));
     for (std::size_t i = 0; i < pixels.size(); ++i) pixels[i] += scale[i % 3] * rgb[i];
   });

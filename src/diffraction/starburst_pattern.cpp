@@ -19,25 +19,26 @@ constexpr double kScatteredFrom = 0.7;  // of the tail's end: the spectrum there
 constexpr int kRowsPerStep = 4;  // between which the tail times rho^3 is interpolated
 
 // An edge's samples hold their open share s as amplitude, so as power s^2 for s. The mean of s - s^2 is 1/6.
-double power_lost_at_edges(const IrisOpening& outline, double across) {
-  return 1.0 + outline.perimeter() * (2.0 / across) / (6.0 * outline.area());
+// The perimeter of what is squeezed is taken as that of the same shape scaled evenly.
+double power_lost_at_edges(const PupilMask& mask, const PupilOutline& outline) {
+  const double size_mm = std::sqrt(std::abs(cross(outline.x_mm, outline.y_mm)));
+  return 1.0 + outline.opening.perimeter() * size_mm * mask.grid.pitch_mm / (6.0 * outline.area_mm2());
 }
 
 // Over the opening: 1 where nothing but the opening's own edges dims the mask.
-double mean_amplitude(const PupilMask& mask, const IrisOpening& outline, double pupil_radius_mm) {
+double mean_amplitude(const PupilMask& mask, const PupilOutline& outline) {
   double sum = 0.0;
   for (const float a : mask.amplitude) sum += a;
-  const double per_sample = mask.grid.pitch_mm / pupil_radius_mm;
-  return sum * per_sample * per_sample / outline.area();
+  return sum * mask.grid.pitch_mm * mask.grid.pitch_mm / outline.area_mm2();
 }
 
 }  // namespace
 
-StarburstPattern::StarburstPattern(const PupilMask& mask, const IrisOpening* outline, double pupil_radius_mm,
+StarburstPattern::StarburstPattern(const PupilMask& mask, const PupilOutline* outline, double pupil_radius_mm,
                                    const Context& context)
     : across_(2.0 * pupil_radius_mm / mask.grid.pitch_mm),
-      power_mm2_(mask.open_area_mm2() * (outline ? power_lost_at_edges(*outline, across_) : 1.0)),
-      clean_(outline && std::abs(mean_amplitude(mask, *outline, pupil_radius_mm) - 1.0) < kCleanWithin),
+      power_mm2_(mask.open_area_mm2() * (outline ? power_lost_at_edges(mask, *outline) : 1.0)),
+      clean_(outline && std::abs(mean_amplitude(mask, *outline) - 1.0) < kCleanWithin),
       grid_(mask, pupil_radius_mm,
             across_ * (clean_    ? kTailEnd
                        : outline ? kTailEndWithDirt
@@ -46,10 +47,12 @@ StarburstPattern::StarburstPattern(const PupilMask& mask, const IrisOpening* out
   tail_end_ = grid_.up_to();
   tail_start_ = tail_end_ * kTailFade;
   if (!outline) return;
-  edges_.emplace(*outline);
+  edges_.emplace(outline->opening);
+  outline_x_ = outline->x_mm * (1.0 / pupil_radius_mm);
+  outline_y_ = outline->y_mm * (1.0 / pupil_radius_mm);
   // |F|^2 in stop radii, over 4 for d^2 rho = 4 d^2 f, over the mask's power; the edges' part by the mean amplitude.
-  const double mean = mean_amplitude(mask, *outline, pupil_radius_mm);
-  edge_scale_ = mean * mean * pupil_radius_mm * pupil_radius_mm / (4.0 * power_mm2_);
+  const double amplitude = mean_amplitude(mask, *outline) * std::abs(cross(outline_x_, outline_y_));
+  edge_scale_ = amplitude * amplitude * pupil_radius_mm * pupil_radius_mm / (4.0 * power_mm2_);
 }
 
 void StarburstPattern::sample(double angle_rad, double window_rad, double first_rho, int rows, float* out,
@@ -79,14 +82,21 @@ void StarburstPattern::sample(double angle_rad, double window_rad, double first_
 }
 
 double StarburstPattern::Tail::times_rho3(double rho) const {
-  return scattered + (edges ? scale * rho * rho * rho * edges->power(std::numbers::pi * rho) : 0.0);
+  return scattered + (edges ? scale * rho * rho * rho * edges->power(std::numbers::pi * stretch * rho) : 0.0);
 }
 
 // What the spectrum's outermost samples have more than the edges goes on as rho^-3, which keeps its share of the flux
 // in proportion to a rim's.
 StarburstPattern::Tail StarburstPattern::tail_along(double angle_rad, double window_rad) const {
   Tail tail;
-  if (edges_) tail.edges = edges_->along(angle_rad, window_rad);
+  if (edges_) {
+    // Of an opening laid down by a linear map the spectrum at f is the opening's own at the map's transpose times f.
+    const Vec2 along{std::cos(angle_rad), std::sin(angle_rad)};
+    const Vec2 own{dot(outline_x_, along), dot(outline_y_, along)};
+    tail.stretch = length(own);
+    const double turn = std::abs(cross(outline_x_, outline_y_)) / (tail.stretch * tail.stretch);
+    tail.edges = edges_->along(std::atan2(own.y, own.x), window_rad * turn);
+  }
   tail.scale = edge_scale_;
   if (clean_) return tail;
   double sum = 0.0;

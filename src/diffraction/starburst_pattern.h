@@ -7,6 +7,7 @@
 
 #include "contrejour/context.h"
 #include "contrejour/pupil_mask.h"
+#include "contrejour/starburst.h"
 #include "diffraction/edge_waves.h"
 #include "diffraction/power_grid.h"
 
@@ -15,7 +16,7 @@ namespace contrejour {
 class StarburstPattern {
  public:
   // outline: null where the mask has none.
-  StarburstPattern(const PupilMask& mask, const IrisOpening* outline, double pupil_radius_mm, const Context& context);
+  StarburstPattern(const PupilMask& mask, const PupilOutline* outline, double pupil_radius_mm, const Context& context);
 
   // Averages over rings and a window of directions, at radii from first_rho on, row by row; out is [row * stride].
   void sample(double angle_rad, double window_rad, double first_rho, int rows, float* out, std::size_t stride) const;
@@ -25,6 +26,7 @@ class StarburstPattern {
   struct Tail {
     std::optional<EdgeWaves::Direction> edges;
     double scale = 0;      // of these
+    double stretch = 1;    // frequencies of the opening over those of the pupil
     double scattered = 0;  // times rho^-3: what else there is
 
     [[nodiscard]] double times_rho3(double rho) const;
@@ -37,6 +39,7 @@ class StarburstPattern {
   PowerGrid grid_;
   std::optional<EdgeWaves> edges_;
   double tail_start_ = 0, tail_end_ = 0, edge_scale_ = 0;
+  Vec2 outline_x_, outline_y_;  // the opening's unit vectors in pupil radii
 };
 
 }  // namespace contrejour

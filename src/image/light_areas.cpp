@@ -47,8 +47,7 @@ DetectedLight light_of_run(const Image& rgb, int y, int begin, int end, const Ar
   for (int x = begin; x < end; ++x) {
     const float* const pixel = rgb.pixels.data() + rgb.index(x, y);
     const double level = level_of(pixel);
-    const double above = level - settings.threshold, ramp = settings.softness * settings.threshold;
-    const double weight = above >= ramp ? 1 : above / ramp;
+    const double weight = share_of_light(level, settings);
     double brightness = 0;
     for (std::size_t c = 0; c < 3; ++c) {
       const double value = weight * usable_sample(pixel[c]);
@@ -67,13 +66,6 @@ DetectedLight light_of_run(const Image& rgb, int y, int begin, int end, const Ar
   return light;
 }
 
-bool is_bright(const float* pixel, const AreaSettings& settings) {
-  const double level = level_of(pixel);
-  // At the threshold a soft weight is 0; a hard one is 1, but nothing is ever a light of level 0.
-  return settings.softness > 0 && settings.threshold > 0 ? level > settings.threshold
-                                                         : level > 0 && level >= settings.threshold;
-}
-
 std::vector<Run> runs_of_row(const Image& rgb, int y, const AreaSettings& settings) {
   std::vector<Run> runs;
   for (int x = 0; x < rgb.width; ++x) {
@@ -85,6 +77,18 @@ std::vector<Run> runs_of_row(const Image& rgb, int y, const AreaSettings& settin
 }
 
 }  // namespace
+
+bool is_bright(const float* pixel, const AreaSettings& settings) {
+  const double level = level_of(pixel);
+  // At the threshold a soft weight is 0; a hard one is 1, but nothing is ever a light of level 0.
+  return settings.softness > 0 && settings.threshold > 0 ? level > settings.threshold
+                                                         : level > 0 && level >= settings.threshold;
+}
+
+double share_of_light(double level, const AreaSettings& settings) {
+  const double above = level - settings.threshold, ramp = settings.softness * settings.threshold;
+  return above >= ramp ? 1 : above / ramp;
+}
 
 float usable_sample(float value) { return value > 0 && std::isfinite(value) ? value : 0; }
 

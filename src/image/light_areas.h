@@ -16,6 +16,11 @@ struct AreaSettings {
   double softness = 0.25;
 };
 
+[[nodiscard]] bool is_bright(const float* rgb, const AreaSettings& settings);
+
+// 0..1: how much of a bright pixel of this level counts to a light.
+[[nodiscard]] double share_of_light(double level, const AreaSettings& settings);
+
 // The areas in the order of their first pixels (rows from the top); 8 neighbours connect.
 [[nodiscard]] std::vector<DetectedLight> bright_areas(const Image& rgb, const AreaSettings& settings);
 

@@ -70,4 +70,16 @@ Result<Detection> detect_lights(const Image& rgb, const DetectionSettings& setti
   return detection;
 }
 
+Image light_shares(const Image& rgb, double threshold, double softness) {
+  const AreaSettings settings{threshold, softness};
+  Image shares(rgb.width, rgb.height, 1);
+  for (int y = 0; y < rgb.height; ++y) {
+    for (int x = 0; x < rgb.width; ++x) {
+      const float* const pixel = rgb.pixels.data() + rgb.index(x, y);
+      if (is_bright(pixel, settings)) shares.at(x, y) = static_cast<float>(share_of_light(level_of(pixel), settings));
+    }
+  }
+  return shares;
+}
+
 }  // namespace contrejour

@@ -61,6 +61,23 @@ class Apply(ProgramTest):
         result = self.json_of("compare", "r.exr", "flare.exr")
         self.assertTrue(result["psnr_db"] is None or result["psnr_db"] > 100, result)
 
+    def test_starburst_leaves_the_light_itself_alone(self):
+        """The photograph holds the light's own image: its pixels get no starburst, those around it do."""
+        self.write("in.exr", dark([(60, 20, 5000.0)]))
+        arguments = ["apply", "heliar", "-f", "16", "in.exr", "--softness", "0", *QUICK]
+        self.run_program(*arguments, "-o", "off.exr")
+        self.run_program(*arguments, "-o", "on.exr", "--starburst", "--glare", "0.01")
+        off, on = exr.Picture(self.folder / "off.exr"), exr.Picture(self.folder / "on.exr")
+        light = 20 * WIDTH + 60
+        for channel in "RGB":
+            a, b = off.channels[channel], on.channels[channel]
+            self.assertEqual(a[light], b[light])
+            for beside in (light - 1, light + 1, light - WIDTH, light + WIDTH):
+                self.assertGreater(b[beside], 2 * a[beside])
+        self.write("dark.exr", dark())
+        self.run_program("apply", "heliar", "dark.exr", "-o", "same.exr", "--starburst", "--threshold", "10")
+        self.assertEqual((self.folder / "dark.exr").read_bytes(), (self.folder / "same.exr").read_bytes())
+
     def test_gain_and_hfov(self):
         self.write("in.exr", dark([(60, 20, 5000.0)]))
         self.run_program("apply", "heliar", "in.exr", "-o", "o.exr", "--flare-only", "a.exr", *QUICK)

@@ -28,6 +28,28 @@ class Render(ProgramTest):
         self.assertEqual((stats["method"], stats["ghosts_rendered"]), ("adaptive", 13))
         self.assertEqual(self.files(), ["a.exr", "a.json", "a.png"])
 
+    def test_starburst(self):
+        """Off it changes no bit; on, the picture holds the light's own image beside the ghosts."""
+        def bytes_of(name, *arguments):
+            self.render(name, "--value", "30", "--blades", "7", *arguments)
+            return (self.folder / name).read_bytes()
+
+        self.assertEqual(bytes_of("a.exr"), bytes_of("b.exr", "--starburst-gain", "5", "--glare-width", "3"))
+        bytes_of("s.exr", "--starburst", "--stats", "s.json")
+        self.assertIn("starburst", json.loads((self.folder / "s.json").read_text())["time_ms"])
+        bytes_of("h.exr", "--starburst", "--starburst-gain", "0.5")
+        bytes_of("g.exr", "--glare", "0.1", "--glare-width", "0.5")
+        off, on, half, glare = (exr.Picture(self.folder / f"{name}.exr") for name in "ashg")
+        for channel in "RGB":
+            own = on.total(channel) - off.total(channel)
+            self.assertAlmostEqual(own, 30, delta=0.3)
+            self.assertAlmostEqual(half.total(channel) - off.total(channel), 0.5 * own, delta=1e-3 * own)
+            self.assertAlmostEqual(glare.total(channel) - off.total(channel), 3, delta=0.6)
+        brightest = max(range(96 * 64), key=lambda k: on.channels["G"][k])
+        self.assertEqual((brightest % 96, brightest // 96), (int(0.70 * 96), int(0.33 * 64)))
+        for wrong in (["--starburst-gain", "-1"], ["--glare", "1.5"], ["--glare-width", "0"], ["--glare", "nan"]):
+            self.error_of("render", "heliar", "-o", "w.exr", *wrong, code=2)
+
     def test_doubling_the_light_doubles_the_flare(self):
         one, two = self.render("1.exr", "--value", "3"), self.render("2.exr", "--value", "6")
         for name in "RGB":

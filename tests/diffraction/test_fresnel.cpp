@@ -114,7 +114,7 @@ TEST_CASE("F -> 0 is Fraunhofer's pattern") {
   // z = a^2 / (lambda F), a = 1 mm.
   const double distance_mm = 1.0 / (500e-6 * f);
   const FraunhoferPattern far =
-      fraunhofer_pattern(mask, {distance_mm, 500.0, mask.open_area_mm2(), {301, 2.0 * pattern.extent / 301}});
+      fraunhofer_pattern(mask, {distance_mm, 500.0, mask.open_area_mm2(), {301, 2.0 * pattern.extent / 301}}).value();
   const double peak = *std::max_element(pattern.irradiance.begin(), pattern.irradiance.end());
   double worst = 0.0;
   for (std::size_t k = 0; k < pattern.irradiance.size(); ++k)

@@ -1,7 +1,9 @@
 // Starbursts: flux, spikes, scale, and the rings against exact patterns of one wavelength.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
+#include <string>
 #include <vector>
 
 #include <doctest/doctest.h>
@@ -24,7 +26,7 @@ StarburstSettings settings_of(double f_number, double pitch_mm, double radius_px
 Image drawn(const Iris& iris, const StarburstSettings& settings, int side, Vec2 centre,
             std::span<const SpectralBand> bands) {
   Image image(side, side);
-  add_starburst(image, make_starburst(IrisOpening(iris), bands, settings), centre, {1.0, 1.0, 1.0});
+  add_starburst(image, make_starburst(IrisOpening(iris), bands, settings).value(), centre, {1.0, 1.0, 1.0});
   return image;
 }
 
@@ -136,7 +138,7 @@ TEST_CASE("at one wavelength the rings are the exact pattern, core and tail") {
   const Image image = drawn(iris, settings_of(f_number, pitch_mm, 300.0), 401, {200.5, 200.5}, green);
   const double radius_mm = 50.0 / f_number;
   const PupilMask mask = make_mask(grid_over(radius_mm, 900), IrisOpening(iris), radius_mm);
-  const FraunhoferPattern exact = fraunhofer_pattern(mask, {100.0, 550.0, 1.0, {401, pitch_mm}});
+  const FraunhoferPattern exact = fraunhofer_pattern(mask, {100.0, 550.0, 1.0, {401, pitch_mm}}).value();
   const double peak = exact.irradiance_per_mm2[200 * 401 + 200] * pitch_mm * pitch_mm;
   double worst = 0.0;
   for (std::size_t k = 0; k < exact.irradiance_per_mm2.size(); ++k)
@@ -192,7 +194,7 @@ TEST_CASE("a picture's aperture: a double slit's fringes, and a tail that goes o
   const std::vector<SpectralBand> green{{550.0, {1.0, 1.0, 1.0}}};
   StarburstSettings settings{100.0, radius_mm, 1e-3, 400.0};
   Image image(401, 401);
-  add_starburst(image, make_starburst(mask, nullptr, green, settings), {200.5, 200.5}, {1.0, 1.0, 1.0});
+  add_starburst(image, make_starburst(mask, nullptr, green, settings).value(), {200.5, 200.5}, {1.0, 1.0, 1.0});
   // Fringes lambda d / (21 samples of 1/16 mm) = 41.9 pixels apart.
   CHECK(image.at(200 + 21, 200, 1) < 0.05 * image.at(200, 200, 1));
   CHECK(image.at(200 + 42, 200, 1) > 0.6 * image.at(200, 200, 1));
@@ -206,11 +208,12 @@ TEST_CASE("a scratch adds a streak across itself, and no light is lost") {
     for (int width = 0; width < 3; ++width) dirt.at(100 + k, 180 + width) = 0.0F;  // along x
   const StarburstSettings settings = settings_of(16.0, 0.006, 800.0);
   const IrisOpening opening(Iris{5, 0.3});
+  const PupilOutline outline{opening, {settings.pupil_radius_mm, 0.0}, {0.0, settings.pupil_radius_mm}};
   const PupilMask clean = make_mask(grid_over(settings.pupil_radius_mm, 510), opening, settings.pupil_radius_mm);
   const PupilMask scratched = with_dirt(clean, dirt, 0).value();
   Image with(1100, 1100), without(1100, 1100);
-  add_starburst(with, make_starburst(scratched, &opening, sunlight(), settings), {550, 550}, {1, 1, 1});
-  add_starburst(without, make_starburst(clean, &opening, sunlight(), settings), {550, 550}, {1, 1, 1});
+  add_starburst(with, make_starburst(scratched, &outline, sunlight(), settings).value(), {550, 550}, {1, 1, 1});
+  add_starburst(without, make_starburst(clean, &outline, sunlight(), settings).value(), {550, 550}, {1, 1, 1});
   for (int c = 0; c < 3; ++c) CHECK(flux_of(with, c) == doctest::Approx(1.0).epsilon(2e-3));
   for (const int r : {60, 150, 400}) {  // the spectrum, where it fades, and the tail
     const float across = with.at(550, 550 + r, 1) / without.at(550, 550 + r, 1);
@@ -225,11 +228,114 @@ TEST_CASE("the same bits for any number of threads, nothing when cancelled or cl
   const StarburstSettings settings = settings_of(8.0, 0.01, 100.0);
   Image one(128, 128), seven(128, 128), none(128, 128);
   const IrisOpening opening(Iris{7, 0.1, 0.3});
-  add_starburst(one, make_starburst(opening, bands, settings, {.threads = 1}), {60, 61}, {1, 2, 3}, {.threads = 1});
-  add_starburst(seven, make_starburst(opening, bands, settings, {.threads = 7}), {60, 61}, {1, 2, 3}, {.threads = 7});
+  add_starburst(one, make_starburst(opening, bands, settings, {.threads = 1}).value(), {60, 61}, {1, 2, 3},
+                {.threads = 1});
+  add_starburst(seven, make_starburst(opening, bands, settings, {.threads = 7}).value(), {60, 61}, {1, 2, 3},
+                {.threads = 7});
   CHECK(one.pixels == seven.pixels);
   const std::atomic<bool> stop = true;
-  CHECK(make_starburst(opening, bands, settings, {.cancel = &stop}).rings() == nullptr);
+  CHECK(make_starburst(opening, bands, settings, {.cancel = &stop}).error().code == ErrorCode::Cancelled);
   add_starburst(none, Starburst(), {60, 61}, {1, 2, 3});
   CHECK(none.pixels == Image(128, 128).pixels);
+}
+
+TEST_CASE("what no starburst comes of is refused and named") {
+  const auto bands = sunlight();
+  const IrisOpening opening(Iris{7, 0.1});
+  const StarburstSettings good = settings_of(8.0, 0.01, 100.0);
+  const auto message = [&](auto spoil) {
+    StarburstSettings settings = good;
+    spoil(settings);
+    const auto made = make_starburst(opening, bands, settings);
+    return made ? std::string() : made.error().message;
+  };
+  const double nan = std::numeric_limits<double>::quiet_NaN(), infinity = std::numeric_limits<double>::infinity();
+  CHECK(message([](auto&) {}).empty());
+  for (const double bad : {0.0, -1.0, nan, infinity}) {
+    CAPTURE(bad);
+    CHECK(message([=](auto& s) { s.distance_mm = bad; }).find("distance") != std::string::npos);
+    CHECK(message([=](auto& s) { s.pupil_radius_mm = bad; }).find("exit pupil") != std::string::npos);
+    CHECK(message([=](auto& s) { s.pixel_pitch_mm = bad; }).find("pitch") != std::string::npos);
+    CHECK(message([=](auto& s) { s.radius_px = bad; }).find("pixels") != std::string::npos);
+    CHECK_FALSE(make_starburst(opening, std::vector<SpectralBand>{{bad, {1, 1, 1}}}, good).has_value());
+    CHECK_FALSE(fraunhofer_pattern(make_mask(grid_over(1.0, 64), opening, 1.0), {bad, 550.0, 1.0, {}}).has_value());
+  }
+  CHECK(message([](auto& s) { s.samples_across = 3; }).find("samples") != std::string::npos);
+  CHECK_FALSE(make_starburst(opening, {}, good).has_value());
+  CHECK_FALSE(make_starburst(opening, std::vector<SpectralBand>{{550.0, {nan, 1, 1}}}, good).has_value());
+  PupilMask broken = make_mask(grid_over(1.0, 64), opening, 1.0);
+  broken.amplitude.pop_back();
+  CHECK_FALSE(make_starburst(broken, nullptr, bands, good).has_value());
+  broken.amplitude.push_back(static_cast<float>(nan));
+  CHECK_FALSE(make_starburst(broken, nullptr, bands, good).has_value());
+  PupilMask dark{grid_over(1.0, 64), std::vector<float>(66 * 66), {}};
+  CHECK(make_starburst(dark, nullptr, bands, good).value().rings() == nullptr);
+  CHECK_FALSE(fraunhofer_pattern(dark, {}).has_value());
+}
+
+TEST_CASE("a pupil seen askew: its outline's tail goes on from its samples' spectrum, along every direction") {
+  const IrisOpening opening(Iris{6, 0.2, 0.3});
+  const Vec2 x_mm{0.8, 0.1}, y_mm{-0.05, 0.55};
+  const double det = cross(x_mm, y_mm);
+  const auto distance_mm = [&](Vec2 p) {  // exact at edges, where it is read as a distance
+    const auto bound = [&](Vec2 q) { return opening.bound_distance({cross(q, y_mm) / det, cross(x_mm, q) / det}); };
+    constexpr double h = 1e-6;
+    const double here = bound(p);
+    return here / length(Vec2{bound(p + Vec2{h, 0}) - here, bound(p + Vec2{0, h}) - here} * (1.0 / h));
+  };
+  const PupilMask fine = make_mask(grid_over(0.85, 1600), distance_mm),
+                  coarse = make_mask(grid_over(0.85, 400), distance_mm);
+  const PupilOutline outline{opening, x_mm, y_mm};
+  CHECK(fine.open_area_mm2() == doctest::Approx(outline.area_mm2()).epsilon(1e-3));
+  // The coarse mask's spectrum ends at rho = 80, the fine one's at 320: 150 to 600 pixels here.
+  const StarburstSettings settings{50.0, 0.85, 0.0087, 500.0};
+  Image exact(800, 800), tail(800, 800);
+  add_starburst(exact, make_starburst(fine, &outline, sunlight(), settings).value(), {400, 400}, {1, 1, 1});
+  add_starburst(tail, make_starburst(coarse, &outline, sunlight(), settings).value(), {400, 400}, {1, 1, 1});
+  const auto truth = round_profile(exact, 200.0, 260.0), found = round_profile(tail, 200.0, 260.0);
+  const double peak = *std::max_element(truth.begin(), truth.end());
+  double sum_truth = 0.0, sum_found = 0.0;
+  for (std::size_t k = 0; k < truth.size(); ++k) {
+    CHECK(std::abs(found[k] - truth[k]) < 0.1 * peak);
+    sum_truth += truth[k];
+    sum_found += found[k];
+  }
+  CHECK(sum_found / sum_truth == doctest::Approx(1.0).epsilon(0.02));
+}
+
+TEST_CASE("laid out, a starburst is drawn as without, and moves smoothly") {
+  for (const Iris& iris : {Iris{}, Iris{6, 0.2, 0.3}, Iris{8, 0.1}}) {
+    const Starburst starburst = make_starburst(IrisOpening(iris), sunlight(), settings_of(16.0, 0.01, 700.0)).value();
+    const StarburstSheet sheet = lay_out(starburst, 400, 300).value();
+    for (const Vec2 centre : {Vec2{200.0, 150.0}, Vec2{31.4, 288.3}, Vec2{399.7, 0.2}, Vec2{420.0, 100.0}}) {
+      CAPTURE(centre.x);
+      Image direct(400, 300), laid(400, 300);
+      add_starburst(direct, starburst, centre, {1.0, 2.0, 3.0});
+      add_starburst(laid, sheet, centre, {1.0, 2.0, 3.0});
+      const bool cut = centre.x > 390.0 && centre.x < 410.0;  // the frame's edge goes through the core
+      for (int c = 0; c < 3; ++c)
+        CHECK(flux_of(laid, c) / flux_of(direct, c) == doctest::Approx(1.0).epsilon(cut ? 0.02 : 1e-4));
+      double worst_near = 0.0, worst_far = 0.0, core_error = 0.0;
+      for (int y = 0; y < 300; ++y) {
+        for (int x = 0; x < 400; ++x) {
+          const double r = std::hypot(x + 0.5 - centre.x, y + 0.5 - centre.y);
+          const double a = direct.at(x, y, 1), b = laid.at(x, y, 1);
+          CHECK(b >= 0.0);
+          if (r < 10.0) core_error += std::abs(b - a);
+          if (r > 10.0 && r < 15.0) CHECK(b / a == doctest::Approx(1.0).epsilon(1e-4));
+          if (iris.blades > 0 || r < 18.0) continue;
+          (r < 80.0 ? worst_near : worst_far) = std::max(r < 80.0 ? worst_near : worst_far, std::abs(b / a - 1.0));
+        }
+      }
+      CHECK(core_error < 0.02 * 2.0);  // of green's flux
+      CHECK(worst_near < 0.06);
+      CHECK(worst_far < 0.01);
+    }
+  }
+  CHECK_FALSE(lay_out(Starburst(), 0, 10).has_value());
+  CHECK_FALSE(lay_out(Starburst(), 1 << 14, 1 << 14).has_value());
+  Image none(8, 8);
+  add_starburst(none, lay_out(Starburst(), 8, 8).value(), {4, 4}, {1, 1, 1});
+  add_starburst(none, StarburstSheet(), {std::nan(""), 4}, {1, 1, 1});
+  CHECK(none.pixels == Image(8, 8).pixels);
 }

@@ -7,6 +7,7 @@
 #include "render/adaptive/adaptive.h"
 #include "render/bundle/bundle.h"
 #include "render/reference/reference.h"
+#include "render/starburst/starburst_pass.h"
 #include "render/tiled/tiled.h"
 
 namespace contrejour {
@@ -21,6 +22,25 @@ struct Method {
 constexpr std::array kMethods{Method{"adaptive", render_adaptive}, Method{"bundle", render_bundle},
                               Method{"tiled", render_tiled}, Method{"reference", render_reference}};
 
+constexpr double kGhostsShare = 0.9;  // of the progress, where the lights' own images follow
+
+// The part of a whole's progress from one share to another.
+Context part_of(const Context& whole, double from, double to) {
+  Context part = whole;
+  if (whole.progress) part.progress = [&whole, from, to](double done) { whole.progress(from + (to - from) * done); };
+  return part;
+}
+
+Result<Flare> render_with_lights(const Method& method, const LensState& lens, std::span<const Light> lights,
+                                 const RenderSettings& settings, const Context& context) {
+  if (const auto good = check_light_images(settings); !good) return tl::unexpected(good.error());
+  auto flare = method.render(lens, lights, settings, part_of(context, 0.0, kGhostsShare));
+  if (!flare) return flare;
+  const auto added = add_light_images(*flare, lens, lights, settings, part_of(context, kGhostsShare, 1.0));
+  if (!added) return tl::unexpected(added.error());
+  return flare;
+}
+
 }  // namespace
 
 std::vector<std::string_view> render_methods() {
@@ -32,7 +52,10 @@ std::vector<std::string_view> render_methods() {
 Result<Flare> render(std::string_view method, const LensState& lens, std::span<const Light> lights,
                      const RenderSettings& settings, const Context& context) {
   for (const Method& known : kMethods) {
-    if (known.name == method) return known.render(lens, lights, settings, context);
+    if (known.name != method) continue;
+    const bool adds_lights = settings.starburst.on || settings.glare.share != 0.0;
+    return adds_lights ? render_with_lights(known, lens, lights, settings, context)
+                       : known.render(lens, lights, settings, context);
   }
   return failure(ErrorCode::InvalidArgument,
                  fmt::format("there is no method '{}'; choose one of {}", method, fmt::join(render_methods(), ", ")));

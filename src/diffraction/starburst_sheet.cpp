@@ -1,0 +1,153 @@
+// A starburst laid out over pixels: half the plane, the other half is the same turned about the centre.
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <vector>
+
+#include "base/tasks.h"
+#include "contrejour/starburst.h"
+#include "diffraction/ring_reader.h"
+#include "diffraction/sheet_rows.h"
+#include "diffraction/starburst_core.h"
+#include "diffraction/starburst_rings.h"
+
+namespace contrejour {
+
+// Samples at whole pixels from the centre: x from -reach_x to reach_x, y (down) from 0 to reach_y.
+struct StarburstSamples {
+  Starburst starburst;
+  int reach_x = 0, reach_y = 0;
+  std::vector<float> rgb;
+  std::vector<double> core;  // core_flux
+
+  [[nodiscard]] std::size_t row_size() const { return 3 * (2 * static_cast<std::size_t>(reach_x) + 1); }
+  // From the sample x of a row y >= 0.
+  [[nodiscard]] const float* at(int x, int y) const {
+    return rgb.data() + static_cast<std::size_t>(y) * row_size() + 3 * static_cast<std::size_t>(x + reach_x);
+  }
+};
+
+namespace {
+
+constexpr double kMostPixels = 67108864.0;  // 2^26: 1.6 GB
+constexpr double kCore_px = 17.0;  // rows within hold pixels of the core
+constexpr int kRowsAtOnce = 8;     // neighbouring rows read the same samples
+
+void turn_about(const float* from, std::size_t places, float* to) {
+  for (std::size_t i = 0; i < places; ++i, to += 3) std::copy_n(from + 3 * (places - 1 - i), 3, to);
+}
+
+// Where a frame's pixels lie between the samples.
+struct Placed {
+  int x = 0, y = 0;  // the sample left of and above the first pixel's centre
+  float right = 0, down = 0;  // and how far beyond it, 0..1
+};
+
+Placed placed(Vec2 centre_px) {
+  const double x = 0.5 - centre_px.x, y = 0.5 - centre_px.y;
+  return {static_cast<int>(std::floor(x)), static_cast<int>(std::floor(y)), static_cast<float>(x - std::floor(x)),
+          static_cast<float>(y - std::floor(y))};
+}
+
+bool reaches(const StarburstSamples& samples, const Image& image, Vec2 centre_px) {
+  return std::max(centre_px.x, image.width - centre_px.x) + 1.0 <= samples.reach_x &&
+         std::max(centre_px.y, image.height - centre_px.y) + 1.0 <= samples.reach_y;
+}
+
+// Densities between the samples' rows y and y + 1, at `places` samples from x on.
+void blend_at(const StarburstSamples& samples, int x, int y, float down, std::size_t places, std::vector<float>& turned,
+              float* out) {
+  const int last = x + static_cast<int>(places) - 1;
+  if (y >= 0) return blend_rows(samples.at(x, y), samples.at(x, y + 1), down, 3 * places, out);
+  // Above the centre: the samples opposite.
+  blend_rows(samples.at(-last, -y), samples.at(-last, -y - 1), down, 3 * places, turned.data());
+  turn_about(turned.data(), places, out);
+}
+
+// Flux of the core within so many cells, between them by straight lines.
+Rgb core_within(const std::vector<double>& core, double x, double y) {
+  const auto clamped = [](double v) { return std::clamp(v, 0.0, kCoreCells - 1e-9); };
+  x = clamped(x);
+  y = clamped(y);
+  const auto column = static_cast<std::size_t>(x), row = static_cast<std::size_t>(y);
+  const double s = x - static_cast<double>(column), t = y - static_cast<double>(row);
+  constexpr std::size_t kRow = 3 * (kCoreCells + 1);
+  const double* const p = core.data() + row * kRow + column * 3;
+  Rgb sum{};
+  for (std::size_t c = 0; c < 3; ++c)
+    sum[c] = (1.0 - t) * ((1.0 - s) * p[c] + s * p[c + 3]) + t * ((1.0 - s) * p[c + kRow] + s * p[c + kRow + 3]);
+  return sum;
+}
+
+void add_core(Image& image, const std::vector<double>& core, Vec2 centre_px, const Rgb& flux) {
+  const Vec2 corner{centre_px.x - 0.5 * kCorePixels, centre_px.y - 0.5 * kCorePixels};
+  const int left = static_cast<int>(std::floor(corner.x)), top = static_cast<int>(std::floor(corner.y));
+  for (int y = std::max(top, 0); y < std::min(top + kCorePixels + 1, image.height); ++y) {
+    for (int x = std::max(left, 0); x < std::min(left + kCorePixels + 1, image.width); ++x) {
+      const double x0 = (x - corner.x) * kCellsPerPixel, y0 = (y - corner.y) * kCellsPerPixel;
+      const double x1 = x0 + kCellsPerPixel, y1 = y0 + kCellsPerPixel;
+      const Rgb a = core_within(core, x0, y0), b = core_within(core, x1, y0);
+      const Rgb c = core_within(core, x0, y1), d = core_within(core, x1, y1);
+      for (std::size_t k = 0; k < 3; ++k)
+        image.at(x, y, static_cast<int>(k)) += static_cast<float>(flux[k] * (d[k] - c[k] - b[k] + a[k]));
+    }
+  }
+}
+
+void draw_rows(Image& image, const StarburstSamples& samples, Vec2 centre_px, const std::array<float, 3>& scale,
+               int first, int end) {
+  const Placed place = placed(centre_px);
+  const auto width = static_cast<std::size_t>(image.width);
+  std::vector<float> blended(3 * (width + 1)), turned(3 * (width + 1)), core;
+  for (int row = first; row < end; ++row) {
+    blend_at(samples, place.x, place.y + row, place.down, width + 1, turned, blended.data());
+    const double y = row + 0.5 - centre_px.y;
+    float* const pixels = image.row(row).data();
+    if (std::abs(y) > kCore_px) {
+      add_between(blended.data(), place.right, scale, 3 * width, pixels);
+      continue;
+    }
+    core.assign(3 * width, 0.0F);
+    add_between(blended.data(), place.right, {1.0F, 1.0F, 1.0F}, 3 * width, core.data());
+    read_core_row(*samples.starburst.rings(), centre_px, y, width, core.data());
+    for (std::size_t i = 0; i < core.size(); ++i) pixels[i] += scale[i % 3] * core[i];
+  }
+}
+
+}  // namespace
+
+Result<StarburstSheet> lay_out(const Starburst& starburst, int width, int height, const Context& context) {
+  if (width < 1 || height < 1 || static_cast<double>(width) * height > kMostPixels)
+    return failure(ErrorCode::InvalidArgument, "a starburst is laid out for frames of 1 to 2^26 pixels");
+  if (starburst.rings() == nullptr) return StarburstSheet();
+  auto samples = std::make_shared<StarburstSamples>();
+  samples->starburst = starburst;
+  samples->reach_x = width + 1;
+  samples->reach_y = height + 1;
+  samples->core = core_flux(*starburst.rings());
+  const std::size_t row_size = samples->row_size();
+  samples->rgb.resize(row_size * (static_cast<std::size_t>(samples->reach_y) + 1));
+  const bool done = parallel_for(static_cast<std::size_t>(samples->reach_y) + 1, context, [&](std::size_t row) {
+    read_rings(*starburst.rings(), -samples->reach_x, static_cast<double>(row), row_size / 3,
+               samples->rgb.data() + row * row_size);
+  });
+  if (!done) return failure(ErrorCode::Cancelled, "interrupted");
+  return StarburstSheet(std::move(samples));
+}
+
+void add_starburst(Image& image, const StarburstSheet& sheet, Vec2 centre_px, const Rgb& flux, const Context& context) {
+  assert(image.channels == 3);
+  if (sheet.samples() == nullptr || !is_drawable(centre_px)) return;
+  const StarburstSamples& samples = *sheet.samples();
+  if (!reaches(samples, image, centre_px)) return add_starburst(image, samples.starburst, centre_px, flux, context);
+  add_core(image, samples.core, centre_px, flux);
+  const std::array<float, 3> scale{static_cast<float>(flux[0]), static_cast<float>(flux[1]),
+                                   static_cast<float>(flux[2])};
+  const int blocks = (image.height + kRowsAtOnce - 1) / kRowsAtOnce;
+  parallel_for(static_cast<std::size_t>(blocks), context, [&](std::size_t block) {
+    const int first = static_cast<int>(block) * kRowsAtOnce;
+    draw_rows(image, samples, centre_px, scale, first, std::min(first + kRowsAtOnce, image.height));
+  });
+}
+
+}  // namespace contrejour

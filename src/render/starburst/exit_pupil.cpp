@@ -1,0 +1,358 @@
+// The exit pupil in direction cosines. Rays are few; what decides between open and blocked (places at the stop and at
+// the rims that vignette) is smooth in the cosines, so polynomials through them give borders as sharp as the mask.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include <fmt/format.h>
+
+#include "contrejour/lens_starburst.h"
+#include "render/starburst/pupil_rays.h"
+#include "render/starburst/smooth_fit.h"
+
+namespace contrejour {
+namespace {
+
+constexpr int kDegree = 8;            // of places at stop and rims
+constexpr int kAmplitudeDegree = 4;
+constexpr std::size_t kRaysPerTerm = 3;
+constexpr double kFitBeyond = 0.06;   // relative radii: rays so far outside still shape the borders
+constexpr double kNearRim = 0.05;     // a rim that comes so near to the pupil may cut it somewhere between the rays
+constexpr double kRimShare = 0.1;     // about a rim, where it is looked at as a circle seen from the stop
+constexpr double kOutlineAgrees = 0.15;  // of the area
+constexpr double kUncertain = 0.02;   // relative radii, beside twice the straight model's own error
+constexpr int kFewestSamples = 16, kMostSamples = 4096;
+constexpr std::size_t kKeptRays = 5;
+constexpr int kShadeStep = 8;  // samples
+
+// Places at the stop, then at each rim that vignettes, by the cosines: x and y of each.
+class Borders {
+ public:
+  Borders(const PupilRays& pupil, const std::vector<std::size_t>& used, std::vector<std::size_t> rims,
+          const IrisOpening& iris, int degree)
+      : iris_(iris), rims_(std::move(rims)), exact_(fit(pupil, used, degree)) {
+    const SmoothFit straight = fit(pupil, used, 1);
+    for (std::size_t f = 0; f < straight.functions(); ++f) {
+      const double at_zero = straight({}, f);
+      straight_.push_back({at_zero, {straight({1.0, 0.0}, f) - at_zero, straight({0.0, 1.0}, f) - at_zero}});
+    }
+    // How far off the straight model is decides where the polynomials have to be asked.
+    std::vector<double> smooth(exact_.functions());
+    double worst = 0.0;
+    for (const std::size_t k : used) {
+      exact_.evaluate(pupil.rays[k].cosines, smooth.data());
+      for (std::size_t f = 0; f < smooth.size(); ++f)
+        worst = std::max(worst, std::abs(smooth[f] - straight_[f].at(pupil.rays[k].cosines)));
+    }
+    uncertain_ = 2.0 * worst + kUncertain;
+    values_per_place_ = exact_.functions();
+  }
+
+  // Signed, in cosines; far from the borders only its sign counts.
+  [[nodiscard]] double distance(Vec2 cosines) const {
+    Values here, right, up;  // filled as far as they are read
+    for (std::size_t f = 0; f < straight_.size(); ++f) here[f] = straight_[f].at(cosines);
+    const double about = largest(here);
+    if (std::abs(about) > uncertain_) return std::copysign(kFar, about);
+    exact_.evaluate(cosines, here.data());
+    const double level_here = largest(here);
+    if (std::abs(level_here) > kNearBorder) return std::copysign(kFar, level_here);
+    exact_.evaluate(cosines + Vec2{kStep, 0.0}, right.data());
+    exact_.evaluate(cosines + Vec2{0.0, kStep}, up.data());
+    double worst = -kFar;
+    for (std::size_t c = 0; c < values_per_place_ / 2; ++c) {
+      const double g = level(here, c);
+      const Vec2 gradient = Vec2{level(right, c) - g, level(up, c) - g} * (1.0 / kStep);
+      worst = std::max(worst, g / std::max(length(gradient), 1e-12));
+    }
+    return worst;
+  }
+
+  // Largest distance between fitted and traced places, over a ray's own stop and rims.
+  [[nodiscard]] double error_at(const PupilRays& pupil, std::size_t ray) const {
+    Values values{};
+    exact_.evaluate(pupil.rays[ray].cosines, values.data());
+    double worst = length(pupil.rays[ray].stop - Vec2{values[0], values[1]});
+    for (std::size_t r = 0; r < rims_.size(); ++r)
+      worst = std::max(worst, length(pupil.at_rim(rims_[r], ray) - Vec2{values[2 * r + 2], values[2 * r + 3]}));
+    return worst;
+  }
+
+  static constexpr std::size_t kMostRims = 15;
+
+ private:
+  static constexpr double kFar = 1e3;
+  static constexpr double kStep = 1e-6;  // cosines
+  static constexpr double kNearBorder = 0.03;  // relative radii: several samples, where the distance counts
+  struct Straight {
+    double at_zero;
+    Vec2 slope;
+    [[nodiscard]] double at(Vec2 cosines) const { return at_zero + dot(slope, cosines); }
+  };
+  using Values = std::array<double, 2 * (kMostRims + 1)>;
+
+  SmoothFit fit(const PupilRays& pupil, const std::vector<std::size_t>& used, int degree) const {
+    std::vector<Vec2> places;
+    std::vector<double> values;
+    const auto add = [&](auto place_of) {
+      for (const std::size_t k : used) values.push_back(place_of(k).x);
+      for (const std::size_t k : used) values.push_back(place_of(k).y);
+    };
+    for (const std::size_t k : used) places.push_back(pupil.rays[k].cosines);
+    add([&](std::size_t k) { return pupil.rays[k].stop; });
+    for (const std::size_t rim : rims_) add([&](std::size_t k) { return pupil.at_rim(rim, k); });
+    return {places, values, degree};
+  }
+
+  // How far beyond the iris (0) or a rim (1 and more), relative radii.
+  [[nodiscard]] double level(const Values& values, std::size_t constraint) const {
+    const Vec2 at{values[2 * constraint], values[2 * constraint + 1]};
+    return constraint == 0 ? iris_.bound_distance(at) : length(at) - 1.0;
+  }
+  [[nodiscard]] double largest(const Values& values) const {
+    double worst = level(values, 0);
+    for (std::size_t c = 1; c < values_per_place_ / 2; ++c) worst = std::max(worst, level(values, c));
+    return worst;
+  }
+
+  const IrisOpening& iris_;
+  std::vector<std::size_t> rims_;
+  SmoothFit exact_;
+  std::vector<Straight> straight_;
+  double uncertain_ = 0;
+  std::size_t values_per_place_ = 0;
+};
+
+// Rims that cut the pupil, or nearly: the outermost rays that the iris lets through decide. At most so many, the
+// closest first.
+std::vector<std::size_t> vignetting_rims(const PupilRays& pupil) {
+  std::vector<std::pair<double, std::size_t>> found;
+  for (std::size_t rim = 0; rim < pupil.rims; ++rim) {
+    double farthest = 0.0;
+    for (std::size_t k = 0; k < pupil.rays.size(); ++k)
+      if (pupil.rays[k].arrived && pupil.rays[k].iris < kNearRim)
+        farthest = std::max(farthest, length(pupil.at_rim(rim, k)));
+    if (farthest > 1.0 - kNearRim) found.emplace_back(-farthest, rim);
+  }
+  std::sort(found.begin(), found.end());
+  found.resize(std::min(found.size(), Borders::kMostRims));
+  std::vector<std::size_t> rims;
+  for (const auto& [farthest, rim] : found) rims.push_back(rim);
+  return rims;
+}
+
+std::vector<std::size_t> rays_within(const PupilRays& pupil, double beyond) {
+  std::vector<std::size_t> used;
+  for (std::size_t k = 0; k < pupil.rays.size(); ++k)
+    if (pupil.rays[k].arrived && pupil.rays[k].blocked <= beyond) used.push_back(k);
+  return used;
+}
+
+int degree_for(std::size_t rays, int wanted) {
+  while (wanted > 0 && SmoothFit::terms(wanted) * kRaysPerTerm > rays) --wanted;
+  return wanted;
+}
+
+// The stop's unit vectors in cosines, by the open rays.
+std::array<Vec2, 2> stop_in_cosines(const PupilRays& pupil, const std::vector<std::size_t>& open) {
+  std::vector<Vec2> places;
+  std::vector<double> values;
+  for (const std::size_t k : open) places.push_back(pupil.rays[k].stop);
+  for (const std::size_t k : open) values.push_back(pupil.rays[k].cosines.x);
+  for (const std::size_t k : open) values.push_back(pupil.rays[k].cosines.y);
+  const SmoothFit fit(places, values, 1);
+  const auto step = [&](Vec2 to) { return Vec2{fit(to, 0) - fit({}, 0), fit(to, 1) - fit({}, 1)}; };
+  return {step({1.0, 0.0}), step({0.0, 1.0})};
+}
+
+// A rim as the stop sees it: rays near it, moved onto it along the slope of how far outside they are, and the circle
+// through these places (Kasa 1976: linear in centre and radius squared).
+std::optional<IrisBound> rim_seen_from_stop(const PupilRays& pupil, std::size_t rim) {
+  std::vector<Vec2> stops;
+  std::vector<double> outside;
+  for (std::size_t k = 0; k < pupil.rays.size(); ++k) {
+    const PupilRay& ray = pupil.rays[k];
+    const double beyond = length(pupil.at_rim(rim, k)) - 1.0;
+    if (!ray.arrived || ray.blocked > kRimShare || std::abs(beyond) > kRimShare) continue;
+    stops.push_back(ray.stop);
+    outside.push_back(beyond);
+  }
+  if (stops.size() < kRaysPerTerm * SmoothFit::terms(2)) return std::nullopt;
+  const SmoothFit level(stops, outside, 2);
+  std::vector<double> minus_squares;
+  constexpr double h = 1e-5;
+  for (Vec2& at : stops) {
+    for (int step = 0; step < 2; ++step) {
+      const double here = level(at);
+      const Vec2 slope = Vec2{level(at + Vec2{h, 0.0}) - here, level(at + Vec2{0.0, h}) - here} * (1.0 / h);
+      at = at - slope * (here / std::max(dot(slope, slope), 1e-12));
+    }
+    minus_squares.push_back(-dot(at, at));
+  }
+  const SmoothFit circle(stops, minus_squares, 1);
+  const double at_zero = circle({});
+  IrisBound bound;
+  bound.centre = Vec2{circle({1.0, 0.0}) - at_zero, circle({0.0, 1.0}) - at_zero} * -0.5;
+  bound.radius = std::sqrt(dot(bound.centre, bound.centre) - at_zero);
+  if (!(bound.radius > 0.0) || !std::isfinite(bound.radius)) return std::nullopt;
+  return bound;
+}
+
+// The iris, cut by the rims; none where that is far from the mask.
+std::optional<PupilOutline> outline_of(const PupilRays& pupil, const std::vector<std::size_t>& rims,
+                                       const std::vector<std::size_t>& open, const Iris& iris, double open_area) {
+  std::vector<IrisBound> cuts;
+  for (const std::size_t rim : rims)
+    if (const auto cut = rim_seen_from_stop(pupil, rim)) cuts.push_back(*cut);
+  const auto axes = stop_in_cosines(pupil, open);
+  PupilOutline outline{IrisOpening(iris, cuts), axes[0], axes[1]};
+  if (!(std::abs(outline.area_mm2() / open_area - 1.0) < kOutlineAgrees)) return std::nullopt;
+  return outline;
+}
+
+// Between the rays: an open ray's neighbours may be the last before the border.
+void grow_over_neighbours(const PupilRays& pupil, Vec2& low, Vec2& high) {
+  const int side = pupil.side;
+  const auto open = [&](int x, int y) {
+    const PupilRay& ray = pupil.rays[static_cast<std::size_t>(y * side + x)];
+    return ray.arrived && ray.blocked <= 0.0;
+  };
+  for (int y = 0; y < side; ++y) {
+    for (int x = 0; x < side; ++x) {
+      bool beside = false;
+      for (int j = std::max(0, y - 1); j <= std::min(side - 1, y + 1); ++j)
+        for (int i = std::max(0, x - 1); i <= std::min(side - 1, x + 1); ++i) beside = beside || open(i, j);
+      const PupilRay& ray = pupil.rays[static_cast<std::size_t>(y * side + x)];
+      if (!beside || !ray.arrived) continue;
+      low = {std::min(low.x, ray.cosines.x), std::min(low.y, ray.cosines.y)};
+      high = {std::max(high.x, ray.cosines.x), std::max(high.y, ray.cosines.y)};
+    }
+  }
+}
+
+// Root of the flux per solid cosine: transmission times |d entrance / d cosines| (radiometry.md).
+SmoothFit amplitude_of(const PupilRays& pupil, const std::vector<std::size_t>& used, double cos_theta) {
+  std::vector<Vec2> places;
+  std::vector<double> entrance, amplitude;
+  for (const std::size_t k : used) places.push_back(pupil.rays[k].cosines);
+  for (const std::size_t k : used) entrance.push_back(pupil.rays[k].entrance_mm.x);
+  for (const std::size_t k : used) entrance.push_back(pupil.rays[k].entrance_mm.y);
+  const SmoothFit from(places, entrance, degree_for(used.size(), kDegree));
+  constexpr double h = 1e-6;
+  for (const std::size_t k : used) {
+    const Vec2 at = pupil.rays[k].cosines;
+    const auto along = [&](Vec2 step) {
+      return Vec2{from(at + step, 0) - from(at - step, 0), from(at + step, 1) - from(at - step, 1)} * (0.5 / h);
+    };
+    const double density = std::abs(cross(along({h, 0.0}), along({0.0, h})));
+    amplitude.push_back(std::sqrt(pupil.rays[k].transmission * cos_theta * density));
+  }
+  return {places, amplitude, degree_for(used.size(), kAmplitudeDegree)};
+}
+
+void keep_rays(const PupilRays& pupil, const std::vector<std::size_t>& open, ExitPupil& out) {
+  const std::size_t count = std::min(kKeptRays, open.size());
+  for (std::size_t i = 0; i < count; ++i) {
+    const Vec2 at = pupil.rays[open[(2 * i + 1) * open.size() / (2 * count)]].entrance_mm;
+    out.rays_mm.push_back({at.x, at.y, pupil.z_mm});
+  }
+}
+
+// The mask's amplitudes, and the flux: the mean over the outline becomes 1.
+void shade(const SmoothFit& amplitude, double area, ExitPupil& out) {
+  const MaskGrid& grid = out.mask.grid;
+  // Straight lines between every so many samples: off by 1e-4 at most.
+  const int knots = grid.side / kShadeStep + 2;
+  std::vector<double> at_knot;
+  for (int row = 0; row < knots; ++row)
+    for (int column = 0; column < knots; ++column)
+      at_knot.push_back(std::max(0.0, amplitude(out.middle + grid.place_mm(column * kShadeStep, row * kShadeStep))));
+  double sum = 0.0, squares = 0.0;
+  std::size_t k = 0;
+  for (int row = 0; row < grid.side; ++row) {
+    for (int column = 0; column < grid.side; ++column, ++k) {
+      float& value = out.mask.amplitude[k];
+      if (value <= 0.0F) continue;
+      const double* const knot = at_knot.data() + (row / kShadeStep) * knots + column / kShadeStep;
+      const double s = static_cast<double>(column % kShadeStep) / kShadeStep;
+      const double t = static_cast<double>(row % kShadeStep) / kShadeStep;
+      const double here =
+          (1.0 - t) * ((1.0 - s) * knot[0] + s * knot[1]) + t * ((1.0 - s) * knot[knots] + s * knot[knots + 1]);
+      squares += value * here * here;
+      value *= static_cast<float>(here);
+      sum += value;
+    }
+  }
+  const double sample = grid.pitch_mm * grid.pitch_mm;
+  out.flux_mm2 = squares * sample;
+  const double mean = sum * sample / area;
+  if (!(mean > 0.0)) return;
+  for (float& value : out.mask.amplitude) value /= static_cast<float>(mean);
+}
+
+Result<void> check(const LensState& lens, Vec3 direction, double lambda_nm, int samples_across) {
+  if (!std::isfinite(direction.x + direction.y + direction.z) || !(direction.z > 0.0))
+    return failure(ErrorCode::InvalidArgument, "the light is beside or behind the camera");
+  if (!(lambda_nm > 0.0) || !std::isfinite(lambda_nm))
+    return failure(ErrorCode::InvalidArgument, fmt::format("no light has a wavelength of {} nm", lambda_nm));
+  if (samples_across < kFewestSamples || samples_across > kMostSamples)
+    return failure(ErrorCode::InvalidArgument,
+                   fmt::format("{} samples across the pupil are out of range; choose {} to {}", samples_across,
+                               kFewestSamples, kMostSamples));
+  if (!(lens.stop_radius_mm > 0.0) || lens.surfaces.empty())
+    return failure(ErrorCode::InvalidArgument, "the lens has no open stop");
+  return {};
+}
+
+ExitPupil pupil_of(const PupilRays& pupil, const LensState& lens, Vec3 direction, int samples_across,
+                   const Context& context) {
+  ExitPupil out;
+  const std::vector<std::size_t> open = rays_within(pupil, 0.0), used = rays_within(pupil, kFitBeyond);
+  const int degree = degree_for(used.size(), kDegree);
+  if (open.size() < kRaysPerTerm * SmoothFit::terms(1) || degree < 1) return out;
+  const IrisOpening iris(lens.iris);
+  const std::vector<std::size_t> rims = vignetting_rims(pupil);
+
+  std::vector<std::size_t> fitted, held_out;
+  for (std::size_t k = 0; k < used.size(); ++k) (k % 5 == 2 ? held_out : fitted).push_back(used[k]);
+  const Borders borders(pupil, fitted, rims, iris, degree_for(fitted.size(), kDegree));
+  for (const std::size_t k : held_out)
+    if (pupil.rays[k].blocked <= kNearRim) out.fit_error = std::max(out.fit_error, borders.error_at(pupil, k));
+
+  constexpr double kHuge = std::numeric_limits<double>::max();
+  Vec2 low{kHuge, kHuge}, high{-kHuge, -kHuge};
+  grow_over_neighbours(pupil, low, high);
+  out.middle = (low + high) * 0.5;
+  out.radius = 0.5 * std::max(high.x - low.x, high.y - low.y);
+  out.mask = make_mask(
+      grid_over(out.radius, samples_across), [&](Vec2 at) { return borders.distance(out.middle + at); }, context);
+
+  double open_samples = 0.0;
+  for (const float share : out.mask.amplitude) open_samples += share;
+  if (!(open_samples > 0.0)) return {};
+  const double open_area = open_samples * out.mask.grid.pitch_mm * out.mask.grid.pitch_mm;
+  out.outline = outline_of(pupil, rims, open, lens.iris, open_area);
+  shade(amplitude_of(pupil, used, direction.z), out.outline ? out.outline->area_mm2() : open_area, out);
+  keep_rays(pupil, open, out);
+  return out;
+}
+
+}  // namespace
+
+Result<ExitPupil> exit_pupil(const LensState& lens, Vec3 direction, double lambda_nm, int samples_across,
+                             const Context& context) {
+  if (const auto good = check(lens, direction, lambda_nm, samples_across); !good) return tl::unexpected(good.error());
+  Context quiet = context;
+  quiet.progress = {};
+  const Vec3 along = normalized(direction);
+  const auto pupil = trace_pupil(lens, IrisOpening(lens.iris), along, lambda_nm, quiet);
+  if (context.cancelled()) return failure(ErrorCode::Cancelled, "interrupted");
+  ExitPupil out;
+  if (pupil) out = pupil_of(*pupil, lens, along, samples_across, quiet);
+  if (context.cancelled()) return failure(ErrorCode::Cancelled, "interrupted");
+  return out;
+}
+
+}  // namespace contrejour

@@ -1,0 +1,16 @@
+// Scattered light about the lights' images: a smooth fall-off whose pixels and flux are closed forms.
+#pragma once
+
+#include <span>
+
+#include "contrejour/context.h"
+#include "contrejour/image.h"
+#include "render/starburst/light_groups.h"
+
+namespace contrejour {
+
+// The density (r0 / (2 pi)) (r0^2 + r^2)^-1.5 in pixels, of integral 1, times each light's flux and the share.
+// Accuracy: a pixel's mean to 1e-3. Stops when cancelled.
+void add_glare(Image& image, std::span<const ImagedLight> lights, double share, double r0_px, const Context& context);
+
+}  // namespace contrejour

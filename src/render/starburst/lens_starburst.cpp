@@ -1,0 +1,50 @@
+#include "contrejour/lens_starburst.h"
+
+#include <algorithm>
+
+#include "base/tasks.h"
+
+namespace contrejour {
+namespace {
+
+// What the lens transmits at each wavelength, in the mean over some of the pupil's rays.
+std::vector<double> transmissions(const LensState& lens, Vec3 direction, const std::vector<Vec3>& rays_mm,
+                                  std::span<const SpectralBand> bands, const Context& context) {
+  std::vector<double> mean(bands.size());
+  parallel_for(bands.size(), context, [&](std::size_t k) {
+    const OpticalPath path = direct_path(lens, bands[k].lambda_nm);
+    for (const Vec3 from : rays_mm)
+      mean[k] += trace(path, {from, direction}).transmission / static_cast<double>(rays_mm.size());
+  });
+  return mean;
+}
+
+// Weights times transmissions, each channel's sum 1 again.
+std::vector<SpectralBand> transmitted(std::span<const SpectralBand> bands, const std::vector<double>& transmission) {
+  std::vector<SpectralBand> out(bands.begin(), bands.end());
+  Rgb whole{};
+  for (std::size_t k = 0; k < out.size(); ++k)
+    for (std::size_t c = 0; c < whole.size(); ++c) whole[c] += out[k].weight[c] *= transmission[k];
+  for (SpectralBand& band : out)
+    for (std::size_t c = 0; c < whole.size(); ++c) band.weight[c] = whole[c] != 0.0 ? band.weight[c] / whole[c] : 0.0;
+  return out;
+}
+
+}  // namespace
+
+Result<Starburst> lens_starburst(const LensState& lens, Vec3 direction, std::span<const SpectralBand> bands,
+                                 const LensStarburstSettings& settings, const Context& context) {
+  const StarburstSettings made{1.0, 1.0, settings.pixel_pitch_mm, settings.radius_px};
+  const auto pupil = exit_pupil(lens, direction, lens.design_wavelength_nm, made.samples_across, context);
+  if (!pupil) return tl::unexpected(pupil.error());
+  if (!(pupil->radius > 0.0)) return Starburst();
+  Context quiet = context;
+  quiet.progress = {};
+  const auto weighted = transmitted(bands, transmissions(lens, normalized(direction), pupil->rays_mm, bands, quiet));
+  StarburstSettings scaled = made;
+  scaled.pupil_radius_mm = pupil->radius;
+  const PupilOutline* const outline = pupil->outline ? &*pupil->outline : nullptr;
+  return make_starburst(pupil->mask, outline, weighted, scaled, context);
+}
+
+}  // namespace contrejour

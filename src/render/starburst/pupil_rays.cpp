@@ -1,0 +1,74 @@
+#include "render/starburst/pupil_rays.h"
+
+#include <algorithm>
+
+#include "base/tasks.h"
+#include "ghosts/pupil_search.h"
+
+namespace contrejour {
+namespace {
+
+constexpr int kSide = 41;
+constexpr double kBeyond = 0.08;  // of the region, on each side: borders are fitted from both sides
+
+// Where the direct image's rays enter. Films change nothing about it, and bare surfaces are tabulated quickly.
+std::optional<Rectangle> find_region(LensState lens, Vec3 direction, double lambda_nm) {
+  for (SurfaceState& surface : lens.surfaces) surface.coating = {};
+  const ReflectanceTables tables(lens, lambda_nm);
+  RayGrid scratch;
+  const auto region = find_pupil_region(direct_path(lens, lambda_nm), tables, IrisShape(lens.iris), direction,
+                                        entrance_window(lens, direction), scratch);
+  if (!region) return std::nullopt;
+  const Vec2 beyond = (region->pupil_mm.high - region->pupil_mm.low) * kBeyond;
+  return Rectangle{region->pupil_mm.low - beyond, region->pupil_mm.high + beyond};
+}
+
+// One ray, and its places at the rims: rim_places[rim * stride].
+PupilRay trace_one(const OpticalPath& path, const IrisOpening& iris, const Ray& from, Vec2* rim_places,
+                   std::size_t stride) {
+  PupilRay ray;
+  ray.entrance_mm = {from.origin_mm.x, from.origin_mm.y};
+  const RayRecord record = trace_recorded(path, from);
+  if (record.ray.status != RayStatus::Ok) return ray;
+  ray.arrived = true;
+  ray.cosines = {record.ray.direction.x, record.ray.direction.y};
+  ray.stop = record.ray.stop[0];
+  ray.transmission = record.ray.transmission;
+  ray.iris = iris.bound_distance(ray.stop);
+  ray.blocked = std::max(ray.iris, record.ray.r_rel - 1.0);
+  std::size_t rim = 0;
+  for (std::size_t k = 0; k < path.steps.size(); ++k) {
+    if (path.steps[k].event == PathEvent::Stop) continue;
+    const Vec3 at = record.steps[k].position_mm;
+    rim_places[rim++ * stride] = Vec2{at.x, at.y} * (1.0 / path.steps[k].semi_diameter_mm);
+  }
+  return ray;
+}
+
+}  // namespace
+
+std::optional<PupilRays> trace_pupil(const LensState& lens, const IrisOpening& iris, Vec3 direction, double lambda_nm,
+                                     const Context& context) {
+  const auto box = find_region(lens, direction, lambda_nm);
+  if (!box) return std::nullopt;
+  const OpticalPath path = direct_path(lens, lambda_nm);
+  PupilRays pupil;
+  pupil.side = kSide;
+  pupil.z_mm = entrance_window(lens, direction).z_mm;
+  pupil.rims = path.steps.size() - static_cast<std::size_t>(path.stop_crossings);
+  pupil.rays.resize(static_cast<std::size_t>(kSide) * kSide);
+  pupil.rim_places.resize(pupil.rims * pupil.rays.size());
+  const Vec2 step = (box->high - box->low) * (1.0 / (kSide - 1));
+  const bool done = parallel_for(static_cast<std::size_t>(kSide), context, [&](std::size_t row) {
+    for (std::size_t column = 0; column < static_cast<std::size_t>(kSide); ++column) {
+      const std::size_t k = row * static_cast<std::size_t>(kSide) + column;
+      const Vec2 at = box->low + Vec2{static_cast<double>(column) * step.x, static_cast<double>(row) * step.y};
+      pupil.rays[k] =
+          trace_one(path, iris, {{at.x, at.y, pupil.z_mm}, direction}, pupil.rim_places.data() + k, pupil.rays.size());
+    }
+  });
+  if (!done) return std::nullopt;
+  return pupil;
+}
+
+}  // namespace contrejour

@@ -1,0 +1,38 @@
+// Smooth functions of a place, known at scattered places, as polynomials: least squares.
+// Products of Chebyshev polynomials over the places' bounding box, so that the normal equations stay well conditioned.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "contrejour/vec.h"
+
+namespace contrejour {
+
+class SmoothFit {
+ public:
+  static constexpr int kHighestDegree = 8;
+
+  // values[f * places.size() + i]: of function f at places[i]. degree: in both coordinates together.
+  SmoothFit(std::span<const Vec2> places, std::span<const double> values, int degree);
+
+  // All functions at a place.
+  void evaluate(Vec2 place, double* values) const;
+  [[nodiscard]] double operator()(Vec2 place, std::size_t function = 0) const;
+
+  [[nodiscard]] std::size_t functions() const { return functions_; }
+  [[nodiscard]] static std::size_t terms(int degree) {
+    return static_cast<std::size_t>(degree + 1) * static_cast<std::size_t>(degree + 2) / 2;
+  }
+
+ private:
+  void basis_at(Vec2 place, double* basis) const;
+
+  int degree_;
+  std::size_t functions_ = 0;
+  Vec2 middle_, half_;
+  std::vector<double> weights_;  // [function * terms + term]
+};
+
+}  // namespace contrejour

@@ -1,0 +1,211 @@
+#include "render/starburst/starburst_pass.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+
+#include <fmt/format.h>
+
+#include "base/clock.h"
+#include "base/memory.h"
+#include "base/tasks.h"
+#include "contrejour/lens_starburst.h"
+#include "render/interface/direct_light.h"
+#include "render/starburst/glare.h"
+#include "render/starburst/light_groups.h"
+
+namespace contrejour {
+namespace {
+
+constexpr int kBands = 120;  // 3.3 nm; hullin2011 3.3 finds 5 nm fine enough
+constexpr std::size_t kWorthLayingOut = 3;  // lights
+constexpr double kMostLaidOut = 8388608.0;  // pixels of a frame: 200 MB
+constexpr double kFarthest_diagonals = 4.0;  // lights farther from the frame's middle draw no starburst
+
+Error invalid(std::string message) { return {ErrorCode::InvalidArgument, std::move(message), {}}; }
+
+double distance_to_farthest_corner(const Frame& frame, Vec2 from_px) {
+  return length(Vec2{std::max(std::abs(from_px.x), std::abs(frame.width - from_px.x)),
+                     std::max(std::abs(from_px.y), std::abs(frame.height - from_px.y))});
+}
+
+// How much of a light outside the frame gets through, of what did where it is measured (docs/physics/radiometry.md).
+double share_outside(const GhostMeter& meter, const LensState& lens, const Frame& frame, Vec3 direction) {
+  const double flux_mm2 = meter.direct_flux(direction);
+  if (!(flux_mm2 > 0.0)) return 0.0;
+  const double measured_mm2 = meter.direct_flux(measured_direction(lens, frame, direction));
+  return flux_mm2 / (measured_mm2 > 0.0 ? measured_mm2 : meter.direct_flux({0.0, 0.0, 1.0}));
+}
+
+bool is_outside(const Frame& frame, Vec2 sensor_mm) {
+  const Vec2 uv = frame.uv_from_sensor(sensor_mm);
+  return std::max(std::abs(uv.x - 0.5), std::abs(uv.y - 0.5)) > 0.5;
+}
+
+// Where each light's image lies, and what its starburst sums to. Lights without any are left out.
+std::vector<ImagedLight> image_lights(const LensState& lens, std::span<const Light> lights,
+                                      const RenderSettings& settings, const Context& context) {
+  const Frame& frame = settings.frame;
+  const double farthest_px = kFarthest_diagonals * std::hypot(frame.full_width, frame.full_height);
+  const Vec2 middle_px = frame.pixel_from_sensor({});
+  std::vector<Vec2> sensor_mm(lights.size());
+  parallel_for(lights.size(), context, [&](std::size_t k) {
+    sensor_mm[k] = landing_of(lens, normalized(lights[k].direction), lens.design_wavelength_nm);
+  });
+  std::optional<GhostMeter> meter;
+  if (std::any_of(sensor_mm.begin(), sensor_mm.end(), [&](Vec2 p) { return is_outside(frame, p); }))
+    meter.emplace(lens, lens.design_wavelength_nm);
+  std::vector<double> share(lights.size(), 1.0);
+  parallel_for(lights.size(), context, [&](std::size_t k) {
+    const double from_middle_px = length(frame.pixel_from_sensor(sensor_mm[k]) - middle_px);
+    if (!(from_middle_px < farthest_px))
+      share[k] = 0.0;
+    else if (is_outside(frame, sensor_mm[k]))
+      share[k] = share_outside(*meter, lens, frame, normalized(lights[k].direction));
+  });
+  std::vector<ImagedLight> imaged;
+  for (std::size_t k = 0; k < lights.size(); ++k) {
+    ImagedLight light{k, frame.pixel_from_sensor(sensor_mm[k]), lights[k].value};
+    for (double& value : light.flux) value *= share[k];
+    if (light.flux != Rgb{}) imaged.push_back(light);
+  }
+  return imaged;
+}
+
+std::vector<SpectralBand> bands_of(const Light& light, const RenderSettings& settings) {
+  if (settings.lambda_nm.empty()) return spectral_bands(kBands, light.spectrum, settings.colour_space);
+  std::vector<SpectralBand> bands;
+  for (const double lambda_nm : settings.lambda_nm) bands.push_back({lambda_nm, {1.0, 1.0, 1.0}});
+  return bands;
+}
+
+// The starburst of the brightest light of a group that gets through.
+Result<Starburst> starburst_of(const LightGroup& group, const LensState& lens, std::span<const Light> lights,
+                               const RenderSettings& settings, const Context& context) {
+  const std::vector<SpectralBand> bands = bands_of(lights[group.front().light], settings);
+  LensStarburstSettings drawn{settings.frame.pixel_pitch_mm, 1.0};
+  for (const ImagedLight& light : group)
+    drawn.radius_px = std::max(drawn.radius_px, 1.0 + distance_to_farthest_corner(settings.frame, light.centre_px));
+  for (const ImagedLight& light : group) {
+    auto starburst = lens_starburst(lens, lights[light.light].direction, bands, drawn, context);
+    if (!starburst || starburst->rings() != nullptr) return starburst;
+  }
+  return Starburst();
+}
+
+// Many lights are worth laying the starburst out once.
+Result<void> draw_group(Image& image, const LightGroup& group, const Starburst& starburst, double gain,
+                        const Context& context) {
+  StarburstSheet sheet;
+  const bool lays_out =
+      group.size() >= kWorthLayingOut && static_cast<double>(image.width) * image.height <= kMostLaidOut;
+  if (lays_out) {
+    const auto laid = lay_out(starburst, image.width, image.height, context);
+    if (!laid) return tl::unexpected(laid.error());
+    sheet = *laid;
+  }
+  for (const ImagedLight& light : group) {
+    const Rgb flux{gain * light.flux[0], gain * light.flux[1], gain * light.flux[2]};
+    if (lays_out)
+      add_starburst(image, sheet, light.centre_px, flux, context);
+    else
+      add_starburst(image, starburst, light.centre_px, flux, context);
+    if (context.cancelled()) return failure(ErrorCode::Cancelled, "interrupted");
+  }
+  return {};
+}
+
+Result<void> draw_groups(Image& image, const std::vector<LightGroup>& groups, const LensState& lens,
+                         std::span<const Light> lights, const RenderSettings& settings, const Context& context) {
+  Context quiet = context;
+  quiet.progress = {};
+  for (std::size_t g = 0; g < groups.size(); ++g) {
+    const auto starburst = starburst_of(groups[g], lens, lights, settings, quiet);
+    if (!starburst) return tl::unexpected(starburst.error());
+    const auto drawn = draw_group(image, groups[g], *starburst, settings.starburst.gain, quiet);
+    if (!drawn) return drawn;
+    if (context.progress) context.progress(static_cast<double>(g + 1) / static_cast<double>(groups.size()));
+  }
+  return {};
+}
+
+void add_except(Image& image, const Image& layer, const Image& left_out, const Context& context) {
+  parallel_for(static_cast<std::size_t>(image.height), context, [&](std::size_t row) {
+    const int y = static_cast<int>(row);
+    for (int x = 0; x < image.width; ++x)
+      for (int c = 0; c < image.channels; ++c) image.at(x, y, c) += (1.0F - left_out.at(x, y)) * layer.at(x, y, c);
+  });
+}
+
+void count_time(RenderStatistics& statistics, const char* phase, double ms) {
+  auto total = std::find_if(statistics.time_ms.begin(), statistics.time_ms.end(),
+                            [](const auto& entry) { return entry.first == "total"; });
+  if (total != statistics.time_ms.end()) total->second += ms;
+  statistics.time_ms.insert(total, {phase, ms});
+  statistics.peak_memory_bytes = std::max(statistics.peak_memory_bytes, peak_memory_bytes());
+}
+
+Result<void> check_left_out(const Image& left_out, const Frame& frame) {
+  if (left_out.width != frame.width || left_out.height != frame.height || left_out.channels != 1 ||
+      left_out.pixels.size() != left_out.index(0, left_out.height))
+    return tl::unexpected(invalid(fmt::format(
+        "what a starburst leaves out must be one channel of {} x {} pixels, as the frame", frame.width, frame.height)));
+  const bool shares = std::all_of(left_out.pixels.begin(), left_out.pixels.end(),
+                                  [](float share) { return share >= 0.0F && share <= 1.0F; });
+  if (!shares) return tl::unexpected(invalid("what a starburst leaves out of a pixel must be a share from 0 to 1"));
+  return {};
+}
+
+// Both, onto an image; times by phase.
+Result<void> draw_light_images(Image& image, RenderStatistics& statistics, const LensState& lens,
+                               std::span<const Light> lights, const RenderSettings& settings, const Context& context) {
+  Clock::time_point start = Clock::now();
+  Context quiet = context;
+  quiet.progress = {};
+  const auto imaged = image_lights(lens, lights, settings, quiet);
+  if (settings.starburst.on && !context.cancelled()) {
+    const auto groups = group_lights(lights, imaged, settings.frame);
+    if (auto drawn = draw_groups(image, groups, lens, lights, settings, context); !drawn) return drawn;
+    count_time(statistics, "starburst", ms_since(start));
+    start = Clock::now();
+  }
+  if (settings.glare.share > 0.0 && !context.cancelled()) {
+    const double r0_mm = std::abs(lens.focal_length_mm) * std::tan(settings.glare.width_rad);
+    add_glare(image, imaged, settings.glare.share, r0_mm / settings.frame.pixel_pitch_mm, quiet);
+    count_time(statistics, "glare", ms_since(start));
+  }
+  if (context.cancelled()) return failure(ErrorCode::Cancelled, "interrupted");
+  return {};
+}
+
+}  // namespace
+
+Result<void> check_light_images(const RenderSettings& settings) {
+  const StarburstOptions& starburst = settings.starburst;
+  const GlareOptions& glare = settings.glare;
+  if (!(starburst.gain >= 0.0) || !std::isfinite(starburst.gain))
+    return tl::unexpected(invalid(fmt::format("a starburst's gain must be 0 or more, not {}", starburst.gain)));
+  if (!(glare.share >= 0.0 && glare.share <= 1.0))
+    return tl::unexpected(invalid(fmt::format("glare is a share of the light from 0 to 1, not {}", glare.share)));
+  if (!(glare.width_rad > 0.0 && glare.width_rad < 0.5 * std::numbers::pi))
+    return tl::unexpected(invalid(fmt::format("glare cannot be {} radians wide", glare.width_rad)));
+  for (const double lambda_nm : settings.lambda_nm)
+    if (!(lambda_nm > 0.0) || !std::isfinite(lambda_nm))
+      return tl::unexpected(invalid(fmt::format("no light has a wavelength of {} nm", lambda_nm)));
+  return starburst.left_out ? check_left_out(*starburst.left_out, settings.frame) : Result<void>();
+}
+
+Result<void> add_light_images(Flare& flare, const LensState& lens, std::span<const Light> lights,
+                              const RenderSettings& settings, const Context& context) {
+  const Image* const left_out = settings.starburst.left_out.get();
+  if (left_out == nullptr) return draw_light_images(flare.image, flare.statistics, lens, lights, settings, context);
+  Image layer(settings.frame.width, settings.frame.height);
+  auto drawn = draw_light_images(layer, flare.statistics, lens, lights, settings, context);
+  Context quiet = context;
+  quiet.progress = {};
+  if (drawn) add_except(flare.image, layer, *left_out, quiet);
+  return drawn;
+}
+
+}  // namespace contrejour

@@ -1,0 +1,18 @@
+// What the driver adds to every method's picture: the lights' own images as diffraction spreads them, and their glare.
+#pragma once
+
+#include <span>
+
+#include "contrejour/render.h"
+
+namespace contrejour {
+
+// Are the options of starburst and glare usable? Errors: InvalidArgument.
+[[nodiscard]] Result<void> check_light_images(const RenderSettings& settings);
+
+// Adds them to the flare's image, and the phases "starburst" and "glare" to its times. Lights and frame are those of a
+// render that succeeded. Errors: Cancelled.
+[[nodiscard]] Result<void> add_light_images(Flare& flare, const LensState& lens, std::span<const Light> lights,
+                                            const RenderSettings& settings, const Context& context);
+
+}  // namespace contrejour
