@@ -51,24 +51,36 @@ EdgeWaves::Direction EdgeWaves::along(double direction_rad, double window_rad) c
   Direction direction;
   direction.window_rad_ = window_rad;
   for (const Outline& o : outline_) {
-    Direction::Edge edge;
-    edge.radius = o.radius;
-    edge.length = o.length;
-    edge.full_circle = o.full_circle;
     // u and -u give the same power: take the one nearer to the middle normal.
     const double middle = wrap(o.normal_middle_rad - direction_rad, kPi);
-    edge.tau_start = middle - o.half_span_rad;
-    edge.tau_end = middle + o.half_span_rad;
-    edge.cot_start = -1.0 / std::tan(edge.tau_start);
-    edge.cot_end = -1.0 / std::tan(edge.tau_end);
-    Direction::find_far(edge, window_rad);
-    direction.edges_.push_back(edge);
-    direction.far_from_ = std::max(direction.far_from_, edge.far_from);
-    direction.constant_ += edge.constant;
-    direction.slope_ += edge.slope;
+    if (o.radius == 0.0 || o.full_circle) {
+      direction.add({o.radius, o.length, middle - o.half_span_rad, middle + o.half_span_rad, 0, 0, o.full_circle});
+      continue;
+    }
+    // In pieces that each see u or -u alone: a normal at a right angle to it, where they part, sends nothing there.
+    const double last = middle + o.half_span_rad;
+    for (double first = middle - o.half_span_rad; first < last;) {
+      const double turn = kPi * std::round(first / kPi);
+      double end = turn + 0.5 * kPi;
+      if (!(end > first)) end += kPi;
+      end = std::min(end, last);
+      const double centre = kPi * std::round(0.5 * (first + end) / kPi);
+      direction.add({o.radius, o.radius * (end - first), first - centre, end - centre});
+      first = end;
+    }
   }
   direction.constant_ += direction.corner_terms();
   return direction;
+}
+
+void EdgeWaves::Direction::add(Edge edge) {
+  edge.cot_start = -1.0 / std::tan(edge.tau_start);
+  edge.cot_end = -1.0 / std::tan(edge.tau_end);
+  find_far(edge, window_rad_);
+  edges_.push_back(edge);
+  far_from_ = std::max(far_from_, edge.far_from);
+  constant_ += edge.constant;
+  slope_ += edge.slope;
 }
 
 // From where on the special functions below have come to their asymptotic forms.
@@ -85,8 +97,6 @@ void EdgeWaves::Direction::find_far(Edge& edge, double window_rad) {
     return;
   }
   if (edge.tau_start < 0.0 && edge.tau_end > 0.0) edge.slope += 2.0 * kPi * edge.radius;
-  // The far side of more than half a circle; its ends are counted already.
-  if (std::max(std::abs(edge.tau_start), std::abs(edge.tau_end)) > kPi) edge.slope += 2.0 * kPi * edge.radius;
   const double nearest = std::min(std::abs(edge.tau_start), std::abs(edge.tau_end)) - 0.5 * window_rad;
   const double sine = std::sin(0.5 * std::clamp(nearest, 0.0, kPi));
   const double bends = 8.0 * kFlatPhase * edge.radius / square(edge.length);  // below, it counts as straight

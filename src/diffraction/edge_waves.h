@@ -34,6 +34,7 @@ class EdgeWaves {
       double far_from = 0;  // k from which on its power is constant + slope k
       double constant = 0, slope = 0;
     };
+    void add(Edge edge);
     [[nodiscard]] static double straight_power(const Edge& edge, double k, double window_rad);
     [[nodiscard]] static double arc_power(const Edge& edge, double k, double window_rad);
     [[nodiscard]] static double edge_power(const Edge& edge, double k, double window_rad);

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <complex>
 #include <numbers>
+#include <span>
 
 #include <doctest/doctest.h>
 
@@ -93,5 +94,24 @@ TEST_CASE("edges and corners send what the contour integral says [slow]") {
     CHECK(off / expected_sum < 0.12);  // fringes at the ends of the fans
     // Only in the gaps between fans, a hundred times darker, where several corners' waves keep a phase to each other.
     CHECK(worst < std::log(2.0));
+  }
+}
+
+// Arcs whose normals turn by half a turn or nearly: both ends may lie square to a direction at once.
+TEST_CASE("a circle cut by another one: two fans, no direction brighter than a whole circle's") {
+  for (const Vec2 centre : {Vec2{-0.15, -0.07}, Vec2{0.6, 0.1}, Vec2{-0.05, 0.0}}) {
+    IrisBound cut;
+    cut.centre = centre;
+    cut.radius = 1.0427;
+    const IrisOpening opening(Iris{}, std::span(&cut, 1));
+    REQUIRE(opening.edges().size() == 2);
+    const EdgeWaves edges(opening);
+    for (const double k : {100.0, 1000.0, 30000.0}) {
+      double brightest = 0.0;
+      for (int i = 0; i < 7200; ++i)
+        brightest = std::max(brightest, edges.along(kPi * i / 7200, kPi / 7200).power(k) * std::pow(k, 3));
+      CHECK(brightest < 1.5 * 4.0 * kPi * cut.radius);  // the first fringe of a fan's edge is 1.37 of its level
+      CHECK(brightest > 0.9 * 4.0 * kPi);
+    }
   }
 }
