@@ -17,7 +17,7 @@ namespace contrejour {
 struct Iris {
   int blades = 0;             // 0 to 2: a full circle; 3 and more: as many edges
   double rotation_rad = 0.0;  // first corner, counter-clockwise from +x as the photographer sees it
-  double curvature = 0.0;     // of the edges, 0..1: 0 straight, 1 arcs of the circle through the corners
+  double curvature = 0.0;  // of the edges, 0..1: 0 (below 1e-5) straight, 1 arcs of the circle through the corners
   double blade_radius = 1.0;  // of that circle. 1: its corners touch the rim; 1 / cos(pi / blades): only the rim shows
   double asymmetry = 0.0;  // 0..0.5: each edge stands nearer or farther by up to this share of its distance
   std::uint32_t seed = 0;  // which of these irises
@@ -44,6 +44,9 @@ struct IrisBound {
     const Vec2 from = p - centre;
     return straight() ? dot(normal, p) - apothem : std::sqrt(dot(from, from)) - radius;
   }
+  // Of a curved one: |p - centre|^2 - radius^2 at p = 0.
+  [[nodiscard]] double power_at_axis() const { return dot(centre, centre) - radius * radius; }
+  friend bool operator==(const IrisBound&, const IrisBound&) = default;
 };
 
 // A piece of the outline, counter-clockwise from start to end; a full circle has start == end.
@@ -62,6 +65,7 @@ class IrisOpening {
   [[nodiscard]] double bound_distance(Vec2 point) const;  // quicker: less than that beyond a corner, as iris_distance
   [[nodiscard]] double area() const;  // of a rim of radius 1: pi when wide open
   [[nodiscard]] double perimeter() const;
+  [[nodiscard]] double reach() const;  // of the point farthest from the axis
   [[nodiscard]] const std::vector<IrisEdge>& edges() const { return edges_; }
   [[nodiscard]] bool closed() const { return edges_.empty(); }
 

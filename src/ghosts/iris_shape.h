@@ -1,4 +1,4 @@
-// What may block a ray, as functions that are <= 0 where it passes: r_rel - 1, and the iris at each crossing.
+// What may block a ray at the iris, as functions that are <= 0 where it passes.
 #pragma once
 
 #include <cstddef>
@@ -8,25 +8,22 @@
 
 namespace contrejour {
 
-// The iris opening as straight edges, normal . p <= apothem; none for a full circle of radius 1.
-// Near and inside the opening the distance to the farthest of them is iris_distance().
+// The iris opening as the circles and half-planes that its outline lies on: the rim where it shows, then the blades in
+// their order. What all of them leave is the opening, which is convex; the distance to the farthest of them is
+// iris_distance() inside and near the opening.
 class IrisShape {
  public:
   explicit IrisShape(const Iris& iris);
 
-  struct Edge {
-    Vec2 normal;  // unit, outwards
-  };
-  [[nodiscard]] const std::vector<Edge>& edges() const { return edges_; }
-  [[nodiscard]] double apothem() const { return apothem_; }
-  [[nodiscard]] bool is_circle() const { return edges_.empty(); }
+  [[nodiscard]] const std::vector<IrisBound>& bounds() const { return bounds_; }
+  [[nodiscard]] bool is_circle() const { return is_circle_; }  // of radius 1 about the axis
 
   // Signed distances of many points of the stop plane, in stop radii.
   void distances(const float* x, const float* y, std::size_t count, float* out) const;
 
  private:
-  std::vector<Edge> edges_;
-  double apothem_ = 1.0;
+  std::vector<IrisBound> bounds_;  // never empty
+  bool is_circle_ = false;
 };
 
 }  // namespace contrejour

@@ -9,6 +9,8 @@
 namespace contrejour {
 namespace {
 
+constexpr double kStraight = 1e-5;  // curvatures below it bend an edge by less than 5e-6 stop radii
+
 // Distance to a regular iris's nearest bound: the point is folded into the sector of one edge. Inside and beside the
 // edge that is the distance to the opening, and within 1 / cos(pi / n) of it beyond a corner.
 double folded_distance(const Iris& iris, Vec2 point) {
@@ -16,7 +18,7 @@ double folded_distance(const Iris& iris, Vec2 point) {
   const double angle = std::atan2(point.y, point.x) - iris.rotation_rad;
   const double folded = angle - sector * std::floor(angle / sector) - 0.5 * sector;
   const double r = length(point);
-  if (iris.curvature <= 0.0) return r * std::cos(folded) - iris.blade_radius * std::cos(0.5 * sector);
+  if (iris.curvature < kStraight) return r * std::cos(folded) - iris.blade_radius * std::cos(0.5 * sector);
   return edge_bound(iris, 0.0, 0.0).distance({r * std::cos(folded), r * std::sin(folded)});
 }
 
@@ -41,7 +43,7 @@ IrisBound edge_bound(const Iris& iris, double normal_rad, double offset) {
   const double apothem = iris.blade_radius * std::cos(half_sector);
   const Vec2 normal{std::cos(normal_rad), std::sin(normal_rad)};
   IrisBound bound{normal, apothem * (1.0 + offset), {}};
-  if (iris.curvature <= 0.0) return bound;
+  if (iris.curvature < kStraight) return bound;
   // The arc through both corners, then moved along its normal.
   const double half_chord = iris.blade_radius * std::sin(half_sector);
   bound.radius = iris.blade_radius / std::min(iris.curvature, 1.0);
@@ -67,7 +69,7 @@ double iris_distance(const Iris& iris, Vec2 point) {
 double iris_area_fraction(const Iris& iris) {
   if (iris.blades < 3) return 1.0;
   const double sector = 2.0 * std::numbers::pi / iris.blades;
-  if (is_regular(iris) && iris.curvature <= 0.0 && iris.blade_radius <= 1.0)
+  if (is_regular(iris) && iris.curvature < kStraight && iris.blade_radius <= 1.0)
     return iris.blade_radius * iris.blade_radius * std::sin(sector) / sector;
   return IrisOpening(iris).area() / std::numbers::pi;
 }

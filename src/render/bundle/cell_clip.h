@@ -13,8 +13,8 @@ namespace contrejour::bundle {
 using Triangle = std::array<std::size_t, 3>;  // vertices of a RayGrid
 
 // Clips in the triangle's own coordinates (u, v): vertex 0 + u (vertex 1 - vertex 0) + v (vertex 2 - vertex 0).
-// r_rel and the stop coordinates are interpolated linearly (hullin2011 4.1), so every rim and every edge of the
-// iris cuts along a straight line; a round iris is cut by tangents, as many as its bend within the triangle needs.
+// r_rel and the stop coordinates are interpolated linearly (hullin2011 4.1), so every rim and every straight edge of
+// the iris cuts along a straight line; arcs are cut by tangents, as many as their bend within the triangle needs.
 class TriangleClipper {
  public:
   explicit TriangleClipper(const IrisShape& iris) : iris_(iris) {}
@@ -25,7 +25,8 @@ class TriangleClipper {
  private:
   void cut(double at_0, double at_1, double at_2);
   void cut_by_iris(const RayGrid& grid, const Triangle& triangle, std::size_t crossing);
-  void cut_by_circle(const std::array<Vec2, 3>& stop);
+  void cut_by_bound(const std::array<Vec2, 3>& stop, const IrisBound& bound);
+  void cut_by_circle(const std::array<Vec2, 3>& stop, Vec2 centre, double radius);
   void cut_by_edge(const std::array<Vec2, 3>& stop, Vec2 normal, double reach);
 
   const IrisShape& iris_;

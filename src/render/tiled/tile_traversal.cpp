@@ -35,11 +35,20 @@ HWY_INLINE P interpolate(const hk::Weights<P>& weights, const std::array<float, 
 // Inside the opening of the iris? Places are `total` times too large.
 HWY_INLINE Mask passes(const IrisShape& iris, P x, P y, P total) {
   if (iris.is_circle()) return hn::Le((x * x + y * y).v, (total * total).v);
-  const P reach = total * broadcast(static_cast<float>(iris.apothem()));
   Mask inside = hn::FirstN(P::Tag(), hn::Lanes(P::Tag()));
-  for (const IrisShape::Edge& edge : iris.edges()) {
-    const P along = x * broadcast(static_cast<float>(edge.normal.x)) + y * broadcast(static_cast<float>(edge.normal.y));
-    inside = hn::And(inside, hn::Le(along.v, reach.v));
+  for (const IrisBound& bound : iris.bounds()) {
+    if (bound.straight()) {
+      const P along =
+          x * broadcast(static_cast<float>(bound.normal.x)) + y * broadcast(static_cast<float>(bound.normal.y));
+      inside = hn::And(inside, hn::Le(along.v, (total * broadcast(static_cast<float>(bound.apothem))).v));
+    } else {
+      // |p - c|^2 <= r^2, multiplied out: centres far away would round.
+      const P along =
+          x * broadcast(static_cast<float>(bound.centre.x)) + y * broadcast(static_cast<float>(bound.centre.y));
+      const P power = x * x + y * y +
+                      total * (total * broadcast(static_cast<float>(bound.power_at_axis())) - broadcast(2.0F) * along);
+      inside = hn::And(inside, hn::Le(power.v, hn::Zero(P::Tag())));
+    }
   }
   return inside;
 }
