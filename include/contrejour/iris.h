@@ -7,12 +7,15 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <memory>
 #include <span>
 #include <vector>
 
 #include "contrejour/vec.h"
 
 namespace contrejour {
+
+class IrisField;
 
 struct Iris {
   int blades = 0;             // 0 to 2: a full circle; 3 and more: as many edges
@@ -22,6 +25,7 @@ struct Iris {
   double asymmetry = 0.0;  // 0..0.5: each edge stands nearer or farther by up to this share of its distance
   std::uint32_t seed = 0;  // which of these irises
   std::vector<double> blade_offset = {};  // further shares, edge by edge, > 0 outwards; missing ones are 0
+  std::shared_ptr<const IrisField> field = nullptr;  // a picture (iris_field.h) in place of blades, turned as they are
   friend bool operator==(const Iris&, const Iris&) = default;
 };
 
@@ -58,7 +62,8 @@ struct IrisEdge {
 // The opening with its outline worked out, for many points: what all the bounds leave, which is convex.
 class IrisOpening {
  public:
-  // cut: more circles that block what is outside them, such as other apertures seen from the stop (vignetting).
+  // Of blades and rim: a picture has no such outline. cut: more circles that block what is outside them, such as other
+  // apertures seen from the stop (vignetting).
   explicit IrisOpening(const Iris& iris, std::span<const IrisBound> cut = {});
 
   [[nodiscard]] double distance(Vec2 point) const;  // Euclidean, negative inside; infinite when nothing is open

@@ -41,6 +41,13 @@ void round_distances(const IrisBound& bound, const float* x, const float* y, std
 }  // namespace
 
 IrisShape::IrisShape(const Iris& iris) {
+  if (iris.field) {
+    field_ = iris.field;
+    cosine_ = std::cos(iris.rotation_rad);
+    sine_ = std::sin(iris.rotation_rad);
+    for (const IrisBound& bound : iris.field->hull()) bounds_.push_back(in_stop(bound));
+    return;
+  }
   const IrisOpening opening(iris);
   for (const IrisBound& bound : iris_bounds(iris)) {
     const auto lies_on_it = [&](const IrisEdge& edge) { return edge.bound == bound; };
@@ -50,7 +57,26 @@ IrisShape::IrisShape(const Iris& iris) {
   if (bounds_.empty()) bounds_.push_back({{1.0, 0.0}, -kInfinity, {}});  // closed: nothing is on its inner side
 }
 
+IrisShape IrisShape::hull() const {
+  IrisShape shape;
+  shape.bounds_ = bounds_;
+  shape.is_circle_ = is_circle_;
+  return shape;
+}
+
+std::pair<std::array<IrisBound, 6>, std::size_t> IrisShape::half_planes_of(const IrisPiece& piece) const {
+  std::array<IrisBound, 6> all{in_stop({{1.0, 0.0}, piece.high.x, {}}), in_stop({{-1.0, 0.0}, -piece.low.x, {}}),
+                               in_stop({{0.0, 1.0}, piece.high.y, {}}), in_stop({{0.0, -1.0}, -piece.low.y, {}})};
+  std::size_t count = 4;
+  for (int c = 0; c < piece.cuts; ++c) all[count++] = in_stop(piece.cut[static_cast<std::size_t>(c)]);
+  return {all, count};
+}
+
 void IrisShape::distances(const float* x, const float* y, std::size_t count, float* out) const {
+  if (is_picture()) {
+    for (std::size_t k = 0; k < count; ++k) out[k] = static_cast<float>(picture_distance({x[k], y[k]}));
+    return;
+  }
   if (is_circle()) {
     for (std::size_t k = 0; k < count; ++k) out[k] = std::sqrt(x[k] * x[k] + y[k] * y[k]) - 1.0F;
     return;

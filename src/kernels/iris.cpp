@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "contrejour/iris_field.h"
 #include "kernels/iris_blades.h"
 
 namespace contrejour {
@@ -23,6 +24,12 @@ double folded_distance(const Iris& iris, Vec2 point) {
 }
 
 }  // namespace
+
+Vec2 turned(Vec2 p, double angle_rad) {
+  const double cosine = std::cos(angle_rad);
+  const double sine = std::sin(angle_rad);
+  return {cosine * p.x - sine * p.y, sine * p.x + cosine * p.y};
+}
 
 bool is_regular(const Iris& iris) { return iris.asymmetry == 0.0 && iris.blade_offset.empty(); }
 
@@ -52,6 +59,7 @@ IrisBound edge_bound(const Iris& iris, double normal_rad, double offset) {
 }
 
 double iris_distance(const Iris& iris, Vec2 point) {
+  if (iris.field) return iris.field->distance(turned(point, -iris.rotation_rad));
   if (iris.blades < 3) return length(point) - 1.0;
   if (is_regular(iris)) {
     const double blades = folded_distance(iris, point);
@@ -67,6 +75,7 @@ double iris_distance(const Iris& iris, Vec2 point) {
 }
 
 double iris_area_fraction(const Iris& iris) {
+  if (iris.field) return iris.field->area() / std::numbers::pi;
   if (iris.blades < 3) return 1.0;
   const double sector = 2.0 * std::numbers::pi / iris.blades;
   if (is_regular(iris) && iris.curvature < kStraight && iris.blade_radius <= 1.0)

@@ -10,6 +10,8 @@ namespace contrejour {
 // The round hole that blades close.
 inline constexpr IrisBound kIrisRim{{}, 0.0, {}, 1.0};
 
+[[nodiscard]] Vec2 turned(Vec2 p, double angle_rad);  // counter-clockwise about the axis
+
 [[nodiscard]] bool is_regular(const Iris& iris);  // every edge at the same distance
 [[nodiscard]] double edge_offset(const Iris& iris, int blade);
 

@@ -186,23 +186,66 @@ std::span<const Corner> OutlineCutter::open_part(std::span<const Corner> whole, 
   limits_ = static_cast<std::size_t>(2 * crossings + rims);
   polygon_.assign(whole.begin(), whole.end());
   for (int c = 0; c < crossings && !polygon_.empty(); ++c) cut_by_iris(static_cast<std::size_t>(2 * c));
+  cut_by_rims(crossings, rims);
+  return polygon_;
+}
+
+void OutlineCutter::cut_by_rims(int crossings, int rims) {
   for (int r = 0; r < rims && !polygon_.empty(); ++r) {
     const auto limit = static_cast<std::size_t>(2 * crossings + r);
     cut_where_positive([&](const Corner& p) { return static_cast<double>(p.limit[limit]) - 1.0; });
   }
-  return polygon_;
+}
+
+// In triangles, over which the stop coordinates are linear: cuts of neighbouring pieces then meet.
+void OutlineCutter::for_each_open_part(std::span<const Corner> whole, int crossings, int rims, double finest,
+                                       const OpenPart& visit) {
+  limits_ = static_cast<std::size_t>(2 * crossings + rims);
+  for (std::size_t k = 2; k < whole.size(); ++k) {
+    polygon_.assign({whole[0], whole[k - 1], whole[k]});
+    cut_by_rims(crossings, rims);
+    cut_by_pieces(0, static_cast<std::size_t>(2 * crossings), finest, 1.0, visit);
+  }
+}
+
+void OutlineCutter::cut_by_pieces(std::size_t limit, std::size_t first_rim, double finest, double open,
+                                  const OpenPart& visit) {
+  if (polygon_.size() < 3) return;
+  if (limit == first_rim) return visit(polygon_, open);
+  const std::vector<Corner> before = polygon_;
+  Vec2 low{before[0].limit[limit], before[0].limit[limit + 1]};
+  Vec2 high = low;
+  for (const Corner& c : before) {
+    low = {std::min<double>(low.x, c.limit[limit]), std::min<double>(low.y, c.limit[limit + 1])};
+    high = {std::max<double>(high.x, c.limit[limit]), std::max<double>(high.y, c.limit[limit + 1])};
+  }
+  const double detail = finest * std::max(high.x - low.x, high.y - low.y);
+  iris_.for_each_piece(low, high, detail, [&](std::span<const IrisBound> half_planes, double share) {
+    polygon_ = before;
+    for (const IrisBound& bound : half_planes)
+      if (!is_inside(limit, bound)) cut_by_line(limit, bound);
+    cut_by_pieces(limit + 2, first_rim, finest, open * share, visit);
+  });
+}
+
+bool OutlineCutter::is_inside(std::size_t limit, const IrisBound& half_plane) const {
+  return std::all_of(polygon_.begin(), polygon_.end(),
+                     [&](const Corner& c) { return half_plane.distance({c.limit[limit], c.limit[limit + 1]}) <= 0.0; });
+}
+
+void OutlineCutter::cut_by_line(std::size_t limit, const IrisBound& bound) {
+  cut_where_positive([&](const Corner& p) {
+    return bound.normal.x * p.limit[limit] + bound.normal.y * p.limit[limit + 1] - bound.apothem;
+  });
 }
 
 void OutlineCutter::cut_by_iris(std::size_t limit) {
   for (const IrisBound& bound : iris_.bounds()) {
     if (polygon_.empty()) return;
-    if (!bound.straight()) {
+    if (bound.straight())
+      cut_by_line(limit, bound);
+    else
       cut_by_circle({limit, bound.centre, bound.radius});
-      continue;
-    }
-    cut_where_positive([&](const Corner& p) {
-      return bound.normal.x * p.limit[limit] + bound.normal.y * p.limit[limit + 1] - bound.apothem;
-    });
   }
 }
 

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstddef>
+#include <functional>
 #include <optional>
 #include <span>
 #include <vector>
@@ -29,6 +30,11 @@ class OutlineCutter {
   [[nodiscard]] std::span<const Corner> open_part(std::span<const Corner> whole, int crossings, int rims,
                                                   double arc_step_rad);
 
+  // The same for a picture: convex parts that do not overlap, each with the share of light that passes there. Details
+  // are told apart down to `finest` of the cell's extent in the stop's plane.
+  using OpenPart = std::function<void(std::span<const Corner> part, double open)>;
+  void for_each_open_part(std::span<const Corner> whole, int crossings, int rims, double finest, const OpenPart& visit);
+
  private:
   // In the plane of a crossing, whose coordinates are a corner's from `limit` on.
   struct Circle {
@@ -43,11 +49,15 @@ class OutlineCutter {
   };
 
   void cut_by_iris(std::size_t limit);
+  void cut_by_rims(int crossings, int rims);
+  void cut_by_pieces(std::size_t limit, std::size_t first_rim, double finest, double open, const OpenPart& visit);
+  void cut_by_line(std::size_t limit, const IrisBound& bound);
   void cut_by_circle(const Circle& circle);
   template <class Value>
   void cut_where_positive(Value value);
   void add_arc(const Circle& circle, double from, double angle);
   void add_circle(const Circle& circle, double turn);
+  [[nodiscard]] bool is_inside(std::size_t limit, const IrisBound& half_plane) const;
   [[nodiscard]] double step_on(const Circle& circle) const;
   [[nodiscard]] bool surrounds_centre(const Circle& circle) const;
   [[nodiscard]] Corner between(const Corner& a, const Corner& b, double t) const;

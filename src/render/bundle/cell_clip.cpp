@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 namespace contrejour::bundle {
@@ -9,6 +10,7 @@ namespace {
 
 // Two tangents of a circle of radius r >= 1 leave its arc by less than 3e-4 where they are this over sqrt(r) apart.
 constexpr double kTangentStep_rad = 0.05;
+constexpr double kFar = std::numeric_limits<double>::infinity();
 
 }  // namespace
 
@@ -76,12 +78,40 @@ void TriangleClipper::cut_by_iris(const RayGrid& grid, const Triangle& triangle,
   }
 }
 
-std::span<const Vec2> TriangleClipper::open_part(const RayGrid& grid, const Triangle& t) {
+void TriangleClipper::start(const RayGrid& grid, const Triangle& t) {
   polygon_.assign({{0.0, 0.0}, {1.0, 0.0}, {0.0, 1.0}});
   cut(grid.r_rel[t[0]] - 1.0, grid.r_rel[t[1]] - 1.0, grid.r_rel[t[2]] - 1.0);
+}
+
+void TriangleClipper::cut_by_pieces(const RayGrid& grid, const Triangle& t, double finest, int crossing, double open,
+                                    const OpenPart& visit) {
+  if (polygon_.size() < 3) return;
+  if (crossing == grid.stop_crossings()) return visit(polygon_, open);
+  const auto c = static_cast<std::size_t>(crossing);
+  std::array<Vec2, 3> stop;
+  for (std::size_t k = 0; k < 3; ++k) stop[k] = {grid.stop_x[c][t[k]], grid.stop_y[c][t[k]]};
+  const std::vector<Vec2> before = polygon_;
+  Vec2 low{kFar, kFar};
+  Vec2 high{-kFar, -kFar};
+  for (const Vec2 q : before) {
+    const Vec2 p = stop[0] + (stop[1] - stop[0]) * q.x + (stop[2] - stop[0]) * q.y;
+    low = {std::min(low.x, p.x), std::min(low.y, p.y)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y)};
+  }
+  const double detail =
+      finest * std::max({length(stop[1] - stop[0]), length(stop[2] - stop[1]), length(stop[0] - stop[2])});
+  iris_.for_each_piece(low, high, detail, [&](std::span<const IrisBound> half_planes, double share) {
+    polygon_ = before;
+    for (const IrisBound& bound : half_planes) cut_by_edge(stop, bound.normal, bound.apothem);
+    cut_by_pieces(grid, t, finest, crossing + 1, open * share, visit);
+  });
+}
+
+void TriangleClipper::for_each_open_part(const RayGrid& grid, const Triangle& t, double finest, const OpenPart& visit) {
+  start(grid, t);
+  if (iris_.is_picture()) return cut_by_pieces(grid, t, finest, 0, 1.0, visit);
   for (int c = 0; c < grid.stop_crossings(); ++c) cut_by_iris(grid, t, static_cast<std::size_t>(c));
-  if (polygon_.size() < 3) polygon_.clear();
-  return polygon_;
+  if (polygon_.size() >= 3) visit(polygon_, 1.0);
 }
 
 }  // namespace contrejour::bundle
