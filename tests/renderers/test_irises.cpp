@@ -58,7 +58,7 @@ void check_plate(const Iris& iris) {
         if (expected == 0.0 || expected == 1.0) worst = std::max(worst, off);
       }
     }
-    // Counting is off by up to 1/16 where an edge runs along a pixel's side, a picture's details of 0.4 pixels are means.
+    // Counting is off by up to 1/16 where an edge runs along a pixel's side, a picture's details of 0.3 pixels are means.
     CHECK(std::sqrt(squares / (80 * 80)) < (bounds.covers_pixels ? 0.012 : 0.15));
     CHECK(worst < (bounds.covers_pixels ? 0.1 : 1.001));
     CHECK(sum(image) / 3.0 / (0.04 * 0.04) == doctest::Approx(1.0).epsilon(std::max(bounds.flux, 5e-3)));

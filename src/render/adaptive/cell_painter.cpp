@@ -9,10 +9,11 @@ namespace {
 
 constexpr int kDeepest = 7;          // quarterings of a patch
 constexpr double kSliver = 1e-3;     // pixels: mean width below which a polygon is a line
-constexpr double kUnseenDetail = 0.4;  // pixels, of a picture as the iris
+constexpr double kUnseenDetail = 0.3;  // pixels, of a picture as the iris
 constexpr double kSpeck = 0.05;      // pixels: a polygon no longer than this is a point
 constexpr int kMostPoints = 256;     // that stand for a line
 constexpr double kPixel = 1.0;       // area below which a cell is not seen but for its flux
+constexpr double kPictureEdges = 6.0;  // that cut a cell, as long as it is, where a picture is the iris
 constexpr double kMostBend = 0.04;   // of a cell, that what cuts it may be off
 constexpr double kPeaks = 16.0;      // brightness over the peak where errors begin to count as relative ones
 // Half the cell, a fourth of the deviation of a curve from its chord: a sixteenth of the squared error.
@@ -130,7 +131,8 @@ double CellPainter::squared_error(const Mesh& mesh, const Cell& cell, State stat
     const double share = limit_error(mesh, cell);
     if (share > kMostBend) return std::numeric_limits<double>::infinity();  // or light would be lost unseen
     const double off = share * longest;
-    error += mean * mean * std::min(off * off, off) * longest * width * width;
+    const double edges = iris_.is_picture() ? kPictureEdges : 1.0;
+    error += mean * mean * std::min(off * off, off) * edges * longest * width * width;
   }
   return std::min(error, 4.0 * worst) * dimmed * dimmed;
 }
