@@ -46,7 +46,7 @@ PUBLIC = {
     "glass.h": "glass",
     "image.h": "image",
     "image_io.h": "image",
-    "iris.h": "kernels",
+    "iris.h", "iris_field.h": "kernels",
     "key_values.h": "base",
     "lens.h": "lens",
     "lens_starburst.h": "render/starburst",

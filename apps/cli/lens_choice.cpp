@@ -16,7 +16,9 @@ CLI::Option* add_lens_argument(CLI::App& command, std::string& lens) {
 Result<LensState> open_lens(const std::string& lens, const params::Values& values) {
   const auto prescription = find_lens(lens);
   if (!prescription) return tl::unexpected(prescription.error());
-  auto state = lens_at(*prescription, params::lens_settings(values));
+  const auto settings = params::lens_settings(values);
+  if (!settings) return tl::unexpected(settings.error());
+  auto state = lens_at(*prescription, *settings);
   if (state) print_warnings(state->warnings);
   return state;
 }

@@ -65,7 +65,9 @@ void add_parameters(CLI::App& command, params::Values& values, std::initializer_
 }
 
 void add_lens_parameters(CLI::App& command, params::Values& values) {
-  add_parameters(command, values, {"focal", "fnumber", "focus", "blades", "blade-rotation", "coating"});
+  add_parameters(command, values, {"focal", "fnumber", "focus", "coating"});
+  add_parameters(command, values, {"blades", "blade-rotation", "blade-curvature", "blade-asymmetry", "blade-seed"});
+  add_parameters(command, values, {"blade-closing", "iris-image"});
 }
 
 void add_rendering_parameters(CLI::App& command, params::Values& values) {

@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <fmt/format.h>
 
 #include "contrejour/trace.h"
+#include "params/iris_image.h"
 
 namespace contrejour::params {
 namespace {
@@ -67,7 +69,7 @@ TiledOptions tiled_options(const Values& values) {
 
 }  // namespace
 
-LensSettings lens_settings(const Values& values) {
+Result<LensSettings> lens_settings(const Values& values) {
   LensSettings settings;
   settings.focal_length_mm = values.real("focal");
   settings.f_number = values.real("fnumber");
@@ -75,6 +77,15 @@ LensSettings lens_settings(const Values& values) {
   if (const auto coating = values.text("coating")) settings.coating = *parse_coating(*coating);
   settings.iris.blades = values.integer("blades");
   settings.iris.rotation_rad = values.number("blade-rotation") * kDegree_rad;
+  settings.iris.curvature = values.number("blade-curvature");
+  settings.iris.asymmetry = values.number("blade-asymmetry");
+  settings.iris.seed = static_cast<std::uint32_t>(values.integer("blade-seed"));
+  settings.iris_closing = choice<IrisClosing>(values, "blade-closing");
+  if (const auto file = values.text("iris-image")) {
+    auto field = read_iris_image(*file);
+    if (!field) return tl::unexpected(field.error());
+    settings.iris.field = std::move(*field);
+  }
   return settings;
 }
 

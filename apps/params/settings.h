@@ -15,7 +15,8 @@ namespace contrejour::params {
 
 inline constexpr double kDegree_rad = 0.017453292519943295;
 
-[[nodiscard]] LensSettings lens_settings(const Values& values);
+// Errors: a picture of the iris that cannot be read or is none.
+[[nodiscard]] Result<LensSettings> lens_settings(const Values& values);
 
 // A whole frame of these pixels: on the lens's sensor, or as wide as --hfov says.
 [[nodiscard]] Frame whole_frame(const Values& values, const LensState& lens, PixelSize size);

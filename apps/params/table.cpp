@@ -54,6 +54,19 @@ const Parameter kTable[] = {
      .help = "blades of the iris, 3 or more; 0: a circle"},
     {.name = "blade-rotation", .group = "Lens", .kind = Kind::Real, .unit = "deg", .minimum = -3600, .maximum = 3600,
      .fallback = "0", .help = "the iris's first corner, counter-clockwise from the right"},
+    {.name = "blade-curvature", .group = "Lens", .kind = Kind::Real, .minimum = 0, .maximum = 1, .fallback = "0",
+     .help = "how round the blades' edges are: 0 straight, 1 a circle together"},
+    {.name = "blade-asymmetry", .group = "Lens", .kind = Kind::Real, .minimum = 0, .maximum = 0.5, .fallback = "0",
+     .help = "blades stand nearer or farther by up to this share, each by its own"},
+    {.name = "blade-seed", .group = "Lens", .kind = Kind::Integer, .minimum = 0, .maximum = 1000000000,
+     .fallback = "0", .help = "which of the irises of such asymmetry"},
+    {.name = "blade-closing", .group = "Lens", .kind = Kind::Choice, .unit = "HOW", .fallback = "scaled",
+     .help = "scaled: one shape at every f-number, its corners on the round stop's rim; mechanism: round wide open, "
+             "then blades come out of the rim and leave the round stop's area",
+     .choices = {"scaled", "mechanism"}},  // as the enum
+    {.name = "iris-image", .group = "Lens", .unit = "FILE",
+     .help = "a picture (PNG, EXR) as the iris in place of blades, its longer side across the stop: light passes where "
+             "it is at least half as bright as at its brightest"},
     {.name = "coating", .group = "Lens", .unit = "COATING",
      .help = "films on every surface to the air instead of the lens's own: none, quarter-wave:550:1.38, "
              "hullin:550:1.38, stack:INDEX@NM,...",

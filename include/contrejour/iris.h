@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -14,14 +15,17 @@
 
 namespace contrejour {
 
+class IrisField;
+
 struct Iris {
   int blades = 0;             // 0 to 2: a full circle; 3 and more: as many edges
   double rotation_rad = 0.0;  // first corner, counter-clockwise from +x as the photographer sees it
-  double curvature = 0.0;     // of the edges, 0..1: 0 straight, 1 arcs of the circle through the corners
+  double curvature = 0.0;  // of the edges, 0..1: 0 (below 1e-5) straight, 1 arcs of the circle through the corners
   double blade_radius = 1.0;  // of that circle. 1: its corners touch the rim; 1 / cos(pi / blades): only the rim shows
   double asymmetry = 0.0;  // 0..0.5: each edge stands nearer or farther by up to this share of its distance
   std::uint32_t seed = 0;  // which of these irises
   std::vector<double> blade_offset = {};  // further shares, edge by edge, > 0 outwards; missing ones are 0
+  std::shared_ptr<const IrisField> field = nullptr;  // a picture (iris_field.h) in place of blades, turned as they are
   friend bool operator==(const Iris&, const Iris&) = default;
 };
 
@@ -44,6 +48,9 @@ struct IrisBound {
     const Vec2 from = p - centre;
     return straight() ? dot(normal, p) - apothem : std::sqrt(dot(from, from)) - radius;
   }
+  // Of a curved one: |p - centre|^2 - radius^2 at p = 0.
+  [[nodiscard]] double power_at_axis() const { return dot(centre, centre) - radius * radius; }
+  friend bool operator==(const IrisBound&, const IrisBound&) = default;
 };
 
 // A piece of the outline, counter-clockwise from start to end; a full circle has start == end.
@@ -55,13 +62,15 @@ struct IrisEdge {
 // The opening with its outline worked out, for many points: what all the bounds leave, which is convex.
 class IrisOpening {
  public:
-  // cut: more circles that block what is outside them, such as other apertures seen from the stop (vignetting).
+  // Of blades and rim: a picture has no such outline. cut: more circles that block what is outside them, such as other
+  // apertures seen from the stop (vignetting).
   explicit IrisOpening(const Iris& iris, std::span<const IrisBound> cut = {});
 
   [[nodiscard]] double distance(Vec2 point) const;  // Euclidean, negative inside; infinite when nothing is open
   [[nodiscard]] double bound_distance(Vec2 point) const;  // quicker: less than that beyond a corner, as iris_distance
   [[nodiscard]] double area() const;  // of a rim of radius 1: pi when wide open
   [[nodiscard]] double perimeter() const;
+  [[nodiscard]] double reach() const;  // of the point farthest from the axis
   [[nodiscard]] const std::vector<IrisEdge>& edges() const { return edges_; }
   [[nodiscard]] bool closed() const { return edges_.empty(); }
 

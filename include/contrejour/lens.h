@@ -58,12 +58,20 @@ struct Prescription {
   SourcePlace file;
 };
 
+// What the f-number does to blades (docs/physics/diffraction.md).
+enum class IrisClosing {
+  Scaled,     // one shape at every f-number: the stop's radius is that of the round stop, the iris in units of it
+  Mechanism,  // blades come out of a round hole, which is the stop at the widest f-number, until they leave the round
+              // stop's area: round wide open, then rim and blades in turn, then the blades' polygon
+};
+
 struct LensSettings {
   std::optional<double> focal_length_mm = std::nullopt;  // zoom; default: the first position
   std::optional<double> f_number = std::nullopt;         // default: the widest
   double object_distance_mm = std::numeric_limits<double>::infinity();  // from surface 1; focus
   std::optional<Coating> coating = std::nullopt;         // in place of every glass-to-air coating
   Iris iris = {};
+  IrisClosing iris_closing = IrisClosing::Scaled;  // Mechanism sets the iris's blade_radius
 };
 
 struct SurfaceState {
@@ -80,7 +88,7 @@ struct LensState {
   std::string name;
   std::vector<SurfaceState> surfaces;
   int stop_index = 0;  // into surfaces
-  double stop_radius_mm = 0.0;
+  double stop_radius_mm = 0.0;  // no point of the opening is farther from the axis
   Iris iris;
   double sensor_z_mm = 0.0;
   double sensor_width_mm = 36.0;
@@ -97,7 +105,7 @@ struct LensState {
 [[nodiscard]] Result<void> validate(const Prescription& lens);
 
 // Sets zoom (any focal length within the range), stop and focus. Errors: focal length or f-number out of
-// range, object inside the front focal point.
+// range, object inside the front focal point, an iris that lets nothing through or has numbers out of its range.
 [[nodiscard]] Result<LensState> lens_at(const Prescription& lens, const LensSettings& settings = {});
 
 // Reads a lens in any format that is known, by content and extension. Bounded in memory and time.

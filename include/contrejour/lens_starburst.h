@@ -22,7 +22,7 @@ namespace contrejour {
 struct ExitPupil {
   PupilMask mask;  // amplitude: square root of the flux per solid cosine; its mean over the area is 1
   std::optional<PupilOutline>
-      outline;  // the iris, cut by the rims that vignette it; none where that differs from the mask
+      outline;  // the iris, cut by the rims that vignette it; none where that differs from the mask, or for a picture
   double radius = 0;  // of the circle about the middle of the mask that holds the pupil; 0: no light gets through
   Vec2 middle;  // the cosines of the mask's middle
   double flux_mm2 = 0;  // of the direct image at E0 = 1, as GhostMeter::direct_flux

@@ -1,32 +1,67 @@
-// What may block a ray, as functions that are <= 0 where it passes: r_rel - 1, and the iris at each crossing.
+// What may block a ray at the iris, as functions that are <= 0 where it passes.
 #pragma once
 
+#include <array>
+#include <cmath>
 #include <cstddef>
+#include <memory>
+#include <span>
+#include <utility>
 #include <vector>
 
-#include "contrejour/iris.h"
+#include "contrejour/iris_field.h"
 
 namespace contrejour {
 
-// The iris opening as straight edges, normal . p <= apothem; none for a full circle of radius 1.
-// Near and inside the opening the distance to the farthest of them is iris_distance().
+// The iris opening as the circles and half-planes that its outline lies on: the rim where it shows, then the blades in
+// their order. What all of them leave is the opening, which is convex; the distance to the farthest of them is
+// iris_distance() inside and near the opening.
+// A picture's opening is not convex: its bounds are those of its hull, distances are those of its field, and it is cut
+// from polygons piece by piece.
 class IrisShape {
  public:
   explicit IrisShape(const Iris& iris);
 
-  struct Edge {
-    Vec2 normal;  // unit, outwards
-  };
-  [[nodiscard]] const std::vector<Edge>& edges() const { return edges_; }
-  [[nodiscard]] double apothem() const { return apothem_; }
-  [[nodiscard]] bool is_circle() const { return edges_.empty(); }
+  [[nodiscard]] const std::vector<IrisBound>& bounds() const { return bounds_; }
+  [[nodiscard]] bool is_circle() const { return is_circle_; }  // of radius 1 about the axis
+  [[nodiscard]] bool is_picture() const { return field_ != nullptr; }
+  [[nodiscard]] IrisShape hull() const;  // convex: where to search for light
 
   // Signed distances of many points of the stop plane, in stop radii.
   void distances(const float* x, const float* y, std::size_t count, float* out) const;
+  [[nodiscard]] double picture_distance(Vec2 p) const { return field_->distance(picture_from_stop(p)); }
+
+  // visit(std::span<const IrisBound> half_planes, double open) for the pieces of a picture that may meet a box:
+  // what all of the half-planes leave, and the share of light that passes there (IrisField::for_each_piece).
+  template <class Visit>
+  void for_each_piece(Vec2 low, Vec2 high, double detail, const Visit& visit) const {
+    const Vec2 middle = picture_from_stop((low + high) * 0.5);
+    const Vec2 half = (high - low) * 0.5;
+    const double c = std::abs(cosine_);
+    const double s = std::abs(sine_);
+    const Vec2 reach{c * half.x + s * half.y, s * half.x + c * half.y};
+    field_->for_each_piece(middle - reach, middle + reach, detail, [&](const IrisPiece& piece) {
+      const auto [half_planes, count] = half_planes_of(piece);
+      visit(std::span<const IrisBound>(half_planes.data(), count), piece.open);
+    });
+  }
 
  private:
-  std::vector<Edge> edges_;
-  double apothem_ = 1.0;
+  IrisShape() = default;
+  [[nodiscard]] Vec2 picture_from_stop(Vec2 p) const {
+    return {cosine_ * p.x + sine_ * p.y, cosine_ * p.y - sine_ * p.x};
+  }
+  [[nodiscard]] IrisBound in_stop(IrisBound half_plane) const {
+    const Vec2 n = half_plane.normal;
+    half_plane.normal = {cosine_ * n.x - sine_ * n.y, sine_ * n.x + cosine_ * n.y};
+    return half_plane;
+  }
+  [[nodiscard]] std::pair<std::array<IrisBound, 6>, std::size_t> half_planes_of(const IrisPiece& piece) const;
+
+  std::vector<IrisBound> bounds_;  // never empty
+  bool is_circle_ = false;
+  std::shared_ptr<const IrisField> field_;
+  double cosine_ = 1.0, sine_ = 0.0;  // of the picture's turn
 };
 
 }  // namespace contrejour

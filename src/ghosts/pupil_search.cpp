@@ -92,8 +92,9 @@ std::optional<PupilRegion> find_pupil_region(const OpticalPath& path, const Refl
                                              const IrisShape& iris, Vec3 direction, const EntranceWindow& window,
                                              RayGrid& scratch, PupilEffort effort, int side) {
   PupilRegion region{{window.min_mm, window.max_mm}, {}, 0};
+  const IrisShape hull = iris.hull();
   const auto search = [&](int rays) {
-    scratch.trace(path, tables, iris, direction, window.z_mm, region.pupil_mm, rays,
+    scratch.trace(path, tables, hull, direction, window.z_mm, region.pupil_mm, rays,
                   precision_for(region.pupil_mm, rays));
     region.rays += static_cast<std::uint64_t>(rays) * static_cast<std::uint64_t>(rays);
     return open_part(scratch);
@@ -118,7 +119,7 @@ std::optional<PupilRegion> find_pupil_region_in(const Rectangle& guess, const Op
   const Rectangle box{{std::max(guess.low.x, window.min_mm.x), std::max(guess.low.y, window.min_mm.y)},
                       {std::min(guess.high.x, window.max_mm.x), std::min(guess.high.y, window.max_mm.y)}};
   if (!(box.low.x < box.high.x && box.low.y < box.high.y)) return std::nullopt;
-  scratch.trace(path, tables, iris, direction, window.z_mm, box, kGuessSide, precision_for(box, kGuessSide));
+  scratch.trace(path, tables, iris.hull(), direction, window.z_mm, box, kGuessSide, precision_for(box, kGuessSide));
   const OpenPart part = open_part(scratch);
   if (!part.any) return std::nullopt;
   const Vec2 step = scratch.step_mm() * 0.5;

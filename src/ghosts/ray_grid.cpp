@@ -144,7 +144,22 @@ void RayGrid::turn_sensor(double angle_rad) {
   }
 }
 
+float RayGrid::slack(std::span<const std::size_t> corners) const {
+  float longest = 0.0F;
+  for (std::size_t c = 0; !convex_ && c < static_cast<std::size_t>(stop_crossings_); ++c) {
+    for (const std::size_t a : corners) {
+      for (const std::size_t b : corners) {
+        const float dx = stop_x[c][a] - stop_x[c][b];
+        const float dy = stop_y[c][a] - stop_y[c][b];
+        longest = std::max(longest, dx * dx + dy * dy);
+      }
+    }
+  }
+  return 0.5F * std::sqrt(longest);
+}
+
 void RayGrid::find_blocked(const IrisShape& iris, std::size_t count) {
+  convex_ = !iris.is_picture();
   for (std::size_t k = 0; k < count; ++k) blocked[k] = r_rel[k] - 1.0F;
   for (std::size_t c = 0; c < static_cast<std::size_t>(stop_crossings_); ++c) {
     iris.distances(stop_x[c].data(), stop_y[c].data(), count, iris_distance[c].data());

@@ -6,6 +6,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "ghosts/iris_shape.h"
@@ -49,6 +50,11 @@ class RayGrid {
     return {at(ix, iy), at(ix + 1, iy), at(ix + 1, iy + 1), at(ix, iy + 1)};
   }
 
+  // How far from the nearest of these corners a place of the stop may be that a ray between them crosses, in stop
+  // radii: by so much less may `blocked` be there, or more. 0 for a convex opening, where corners tell what is between
+  // them.
+  [[nodiscard]] float slack(std::span<const std::size_t> corners) const;
+
   // One value a vertex. A ray that failed has blocked = infinity.
   std::vector<float> sensor_x_mm, sensor_y_mm, transmission, r_rel;
   std::array<std::vector<float>, kMaxStopCrossings> stop_x, stop_y, iris_distance;
@@ -64,6 +70,7 @@ class RayGrid {
 
   int side_ = 0;
   int stop_crossings_ = 0;
+  bool convex_ = true;
   Rectangle box_;
   std::vector<float> x_mm_, y_mm_;  // entrance points from box_.low
 };

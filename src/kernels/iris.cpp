@@ -4,10 +4,13 @@
 #include <cmath>
 #include <numbers>
 
+#include "contrejour/iris_field.h"
 #include "kernels/iris_blades.h"
 
 namespace contrejour {
 namespace {
+
+constexpr double kStraight = 1e-5;  // curvatures below it bend an edge by less than 5e-6 stop radii
 
 // Distance to a regular iris's nearest bound: the point is folded into the sector of one edge. Inside and beside the
 // edge that is the distance to the opening, and within 1 / cos(pi / n) of it beyond a corner.
@@ -16,11 +19,17 @@ double folded_distance(const Iris& iris, Vec2 point) {
   const double angle = std::atan2(point.y, point.x) - iris.rotation_rad;
   const double folded = angle - sector * std::floor(angle / sector) - 0.5 * sector;
   const double r = length(point);
-  if (iris.curvature <= 0.0) return r * std::cos(folded) - iris.blade_radius * std::cos(0.5 * sector);
+  if (iris.curvature < kStraight) return r * std::cos(folded) - iris.blade_radius * std::cos(0.5 * sector);
   return edge_bound(iris, 0.0, 0.0).distance({r * std::cos(folded), r * std::sin(folded)});
 }
 
 }  // namespace
+
+Vec2 turned(Vec2 p, double angle_rad) {
+  const double cosine = std::cos(angle_rad);
+  const double sine = std::sin(angle_rad);
+  return {cosine * p.x - sine * p.y, sine * p.x + cosine * p.y};
+}
 
 bool is_regular(const Iris& iris) { return iris.asymmetry == 0.0 && iris.blade_offset.empty(); }
 
@@ -41,7 +50,7 @@ IrisBound edge_bound(const Iris& iris, double normal_rad, double offset) {
   const double apothem = iris.blade_radius * std::cos(half_sector);
   const Vec2 normal{std::cos(normal_rad), std::sin(normal_rad)};
   IrisBound bound{normal, apothem * (1.0 + offset), {}};
-  if (iris.curvature <= 0.0) return bound;
+  if (iris.curvature < kStraight) return bound;
   // The arc through both corners, then moved along its normal.
   const double half_chord = iris.blade_radius * std::sin(half_sector);
   bound.radius = iris.blade_radius / std::min(iris.curvature, 1.0);
@@ -50,6 +59,7 @@ IrisBound edge_bound(const Iris& iris, double normal_rad, double offset) {
 }
 
 double iris_distance(const Iris& iris, Vec2 point) {
+  if (iris.field) return iris.field->distance(turned(point, -iris.rotation_rad));
   if (iris.blades < 3) return length(point) - 1.0;
   if (is_regular(iris)) {
     const double blades = folded_distance(iris, point);
@@ -65,9 +75,10 @@ double iris_distance(const Iris& iris, Vec2 point) {
 }
 
 double iris_area_fraction(const Iris& iris) {
+  if (iris.field) return iris.field->area() / std::numbers::pi;
   if (iris.blades < 3) return 1.0;
   const double sector = 2.0 * std::numbers::pi / iris.blades;
-  if (is_regular(iris) && iris.curvature <= 0.0 && iris.blade_radius <= 1.0)
+  if (is_regular(iris) && iris.curvature < kStraight && iris.blade_radius <= 1.0)
     return iris.blade_radius * iris.blade_radius * std::sin(sector) / sector;
   return IrisOpening(iris).area() / std::numbers::pi;
 }

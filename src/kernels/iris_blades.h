@@ -1,14 +1,27 @@
 // The blades of an iris one by one.
 #pragma once
 
+#include <vector>
+
 #include "contrejour/iris.h"
 
 namespace contrejour {
+
+// The round hole that blades close.
+inline constexpr IrisBound kIrisRim{{}, 0.0, {}, 1.0};
+
+[[nodiscard]] Vec2 turned(Vec2 p, double angle_rad);  // counter-clockwise about the axis
 
 [[nodiscard]] bool is_regular(const Iris& iris);  // every edge at the same distance
 [[nodiscard]] double edge_offset(const Iris& iris, int blade);
 
 // What a blade leaves open, its edge's normal at this angle, moved outwards by this share of its distance.
 [[nodiscard]] IrisBound edge_bound(const Iris& iris, double normal_rad, double offset);
+
+// The rim, then the blades in their order, those that are the same as one before left out.
+[[nodiscard]] std::vector<IrisBound> iris_bounds(const Iris& iris);
+
+// Whether two bounds are nowhere apart but for rounding.
+[[nodiscard]] bool same_bound(const IrisBound& a, const IrisBound& b);
 
 }  // namespace contrejour

@@ -15,19 +15,9 @@ constexpr double kOnBound = 1e-9;     // stop radii: a corner lies on its bounds
 constexpr double kSameCorner = 1e-7;  // stop radii: corners of three bounds through one point are one corner
 constexpr double kSameBound = 1e-12;  // stop radii, curvature: bounds that nowhere differ by more are one
 
-std::vector<IrisBound> bounds_of(const Iris& iris, std::span<const IrisBound> cut) {
-  std::vector<IrisBound> bounds{{{}, 0.0, {}, 1.0}};
-  const double sector = 2.0 * std::numbers::pi / std::max(iris.blades, 1);
-  for (int k = 0; iris.blades >= 3 && k < iris.blades; ++k)
-    bounds.push_back(edge_bound(iris, iris.rotation_rad + (k + 0.5) * sector, edge_offset(iris, k)));
-  bounds.insert(bounds.end(), cut.begin(), cut.end());
-  return bounds;
-}
-
-bool same(const IrisBound& a, const IrisBound& b) {
-  if (a.straight() != b.straight()) return false;
-  if (a.straight()) return length(a.normal - b.normal) + std::abs(a.apothem - b.apothem) < kSameBound;
-  return length(a.centre - b.centre) + std::abs(a.radius - b.radius) < kSameBound;
+void add_unless_known(std::vector<IrisBound>& bounds, const IrisBound& bound) {
+  if (std::none_of(bounds.begin(), bounds.end(), [&](const IrisBound& known) { return same_bound(known, bound); }))
+    bounds.push_back(bound);
 }
 
 // On a line, at distances -h and h from its foot; nothing where h^2 < 0.
@@ -49,6 +39,7 @@ std::vector<Vec2> crossings(const IrisBound& a, const IrisBound& b) {
     const double d = b.apothem - dot(b.normal, a.centre);
     return pair_about(a.centre + b.normal * d, {-b.normal.y, b.normal.x}, a.radius * a.radius - d * d);
   }
+  if (a.radius > b.radius) return crossings(b, a);  // from the nearer centre, or the farther one's distance would round
   const Vec2 between = b.centre - a.centre;
   const double gap = length(between);
   if (gap < kSameBound) return {};
@@ -148,11 +139,23 @@ double distance_to(const IrisEdge& edge, Vec2 p) {
 
 }  // namespace
 
+bool same_bound(const IrisBound& a, const IrisBound& b) {
+  if (a.straight() != b.straight()) return false;
+  if (a.straight()) return length(a.normal - b.normal) + std::abs(a.apothem - b.apothem) < kSameBound;
+  return length(a.centre - b.centre) + std::abs(a.radius - b.radius) < kSameBound;
+}
+
+std::vector<IrisBound> iris_bounds(const Iris& iris) {
+  std::vector<IrisBound> bounds{kIrisRim};
+  const double sector = 2.0 * std::numbers::pi / std::max(iris.blades, 1);
+  for (int k = 0; iris.blades >= 3 && k < iris.blades; ++k)
+    add_unless_known(bounds, edge_bound(iris, iris.rotation_rad + (k + 0.5) * sector, edge_offset(iris, k)));
+  return bounds;
+}
+
 IrisOpening::IrisOpening(const Iris& iris, std::span<const IrisBound> cut) {
-  std::vector<IrisBound> bounds;
-  for (const IrisBound& bound : bounds_of(iris, cut))
-    if (std::none_of(bounds.begin(), bounds.end(), [&](const IrisBound& known) { return same(known, bound); }))
-      bounds.push_back(bound);
+  std::vector<IrisBound> bounds = iris_bounds(iris);
+  for (const IrisBound& bound : cut) add_unless_known(bounds, bound);
   edges_ = outline_of(bounds);
 }
 
@@ -177,6 +180,20 @@ double IrisOpening::perimeter() const {
   for (const IrisEdge& edge : edges_)
     sum += edge.bound.straight() ? length(edge.end - edge.start) : edge.bound.radius * arc_angle(edge);
   return sum;
+}
+
+double IrisOpening::reach() const {
+  double farthest = 0.0;
+  for (const IrisEdge& edge : edges_) {
+    farthest = std::max({farthest, length(edge.start), length(edge.end)});
+    if (edge.bound.straight()) continue;
+    // A circle is farthest from the axis beyond its centre.
+    const double outwards = std::atan2(edge.bound.centre.y, edge.bound.centre.x);
+    double turn = outwards - angle_from(edge.bound.centre, edge.start);
+    turn -= 2.0 * std::numbers::pi * std::floor(turn / (2.0 * std::numbers::pi));
+    if (turn <= arc_angle(edge)) farthest = std::max(farthest, length(edge.bound.centre) + edge.bound.radius);
+  }
+  return farthest;
 }
 
 // Green's theorem: the polygon of the corners, and what each arc adds beyond its chord.

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """contrejour render, compare and bench tables."""
 import json
+import math
 import struct
 import unittest
 
@@ -101,6 +102,35 @@ class Render(ProgramTest):
         self.assertGreater(warm.total("R") / warm.total("B"), 2 * white.total("R") / white.total("B"))
         green = self.render("g.exr", "--value", "0,1,0")
         self.assertEqual((green.total("R"), green.total("B")), (0, 0))
+
+    def test_irises(self):
+        square = [1.0 if 2 <= x < 6 and 3 <= y < 6 else 0.0 for y in range(8) for x in range(8)]
+        exr.write(self.folder / "mask.exr", {name: (exr.FLOAT, square) for name in "RGB"}, 8, 8)
+        totals = {self.render(f"{k}.exr", *arguments).total() for k, arguments in enumerate((
+            [], ["--blades", "6"], ["--blades", "6", "--blade-curvature", "0.5"],
+            ["--blades", "6", "--blade-asymmetry", "0.2"], ["--blades", "6", "--blade-asymmetry", "0.2", "--blade-seed", "1"],
+            ["--blades", "6", "--blade-closing", "mechanism"], ["--iris-image", "mask.exr"]))}
+        self.assertEqual(len(totals), 7)
+        round_iris = (self.folder / "0.exr").read_bytes()
+        self.render("round.exr", "--blades", "6", "--blade-curvature", "1")
+        self.assertEqual((self.folder / "round.exr").read_bytes(), round_iris)
+
+    def test_pictures_that_are_no_iris(self):
+        def refused(name, *more):
+            text = self.error_of("render", "heliar", "-o", "a.exr", *QUICK, "--iris-image", name, *more, code=1)
+            self.assertNotIn("a.exr", self.files())
+            return text
+
+        grey = {"one.exr": [1.0], "black.exr": [0.0], "nan.exr": [math.nan], "inf.exr": [math.inf], "minus.exr": [-1.0]}
+        for name, values in grey.items():
+            exr.write(self.folder / name, {c: (exr.FLOAT, values) for c in "RGB"}, 1, 1)
+        (self.folder / "text.png").write_text("not a picture")
+        for name in ("missing.png", "text.png", "black.exr", "nan.exr", "inf.exr", "minus.exr"):
+            with self.subTest(name):
+                self.assertIn(name, refused(name))
+        self.assertIn("black", refused("black.exr"))
+        self.assertIn("either", refused("one.exr", "--blades", "5"))
+        self.render("a.exr", "--iris-image", "one.exr")  # all white
 
     def test_selection(self):
         whole, one = self.render("a.exr"), self.render("b.exr", "--select", "list:3-4")

@@ -90,7 +90,12 @@ bool renders(const std::string& text, const char* lens_name) {
   REQUIRE_MESSAGE(look.has_value(), (look ? "" : look.error().to_string()));
   const auto prescription = find_lens(lens_name);
   REQUIRE(prescription.has_value());
-  const auto lens = lens_at(*prescription, lens_settings(look->values));
+  const auto settings = lens_settings(look->values);
+  if (!settings) {
+    CHECK(!settings.error().message.empty());
+    return false;
+  }
+  const auto lens = lens_at(*prescription, *settings);
   if (!lens) {
     CHECK(!lens.error().message.empty());
     return false;

@@ -1,13 +1,16 @@
 // The exit pupil in direction cosines, against first-order optics, the ghosts' own flux measure and rays traced
 // densely.
 #include <cmath>
+#include <iterator>
 #include <string>
+#include <vector>
 
 #include <doctest/doctest.h>
 
 #include "contrejour/first_order.h"
 #include "contrejour/ghost.h"
 #include "contrejour/lens_starburst.h"
+#include "support/pictures.h"
 #include "support/scenes.h"
 
 using namespace contrejour;
@@ -52,7 +55,12 @@ TEST_CASE("on the axis the exit pupil is first-order optics'") {
 }
 
 TEST_CASE("borders are where traced rays are blocked, and the flux is the direct image's") {
-  for (const Case& c : kCases) {
+  std::vector<Case> cases(std::begin(kCases), std::end(kCases));
+  cases.push_back({"heliar", {.f_number = 5.6, .iris = {5, 0.3, 0.5, 1.0, 0.1, 1}}, 10.0, 4.0});
+  cases.push_back({"heliar", {.f_number = 5.6}, 10.0, 4.0});
+  cases.back().settings.iris.rotation_rad = 0.4;
+  cases.back().settings.iris.field = test::flower_field();
+  for (const Case& c : cases) {
     CAPTURE(c.lens);
     CAPTURE(c.azimuth_deg);
     const LensState lens = test::bundled(c.lens, c.settings);

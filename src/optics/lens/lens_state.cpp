@@ -9,6 +9,7 @@
 #include "contrejour/first_order.h"
 #include "contrejour/lens.h"
 #include "kernels/surface-inl.h"
+#include "optics/lens/iris_closing.h"
 
 namespace contrejour {
 namespace {
@@ -43,8 +44,7 @@ std::vector<SurfaceState> place_surfaces(const Prescription& lens, const std::ve
     const Surface& s = lens.surfaces[k];
     const Glass after = s.kind == SurfaceKind::Stop ? medium : s.glass_after;
     const bool replaces = coating && s.kind == SurfaceKind::Refracting && is_air(medium) != is_air(after);
-    out.push_back({s.kind, z, s.curvature_per_mm, s.semi_diameter_mm, medium, after,
-                   replaces ? *coating : s.coating});
+    out.push_back({s.kind, z, s.curvature_per_mm, s.semi_diameter_mm, medium, after, replaces ? *coating : s.coating});
     medium = after;
     z += thickness[k];
   }
@@ -102,9 +102,9 @@ Result<ZoomSetting> zoom_setting(const Prescription& lens, double focal_length_m
   }
   // Inside the engraved range but beyond what the prescription reaches.
   const std::size_t end = focal_length_mm < real.front() ? 0 : zoom.size() - 1;
-  return ZoomSetting{end, 0.0,
-                     fmt::format("asked for {:g} mm; the prescription's own limit is {:.2f} mm", focal_length_mm,
-                                 real[end])};
+  return ZoomSetting{
+      end, 0.0,
+      fmt::format("asked for {:g} mm; the prescription's own limit is {:.2f} mm", focal_length_mm, real[end])};
 }
 
 Result<ZoomSetting> choose_zoom(const Prescription& lens, const std::optional<double>& focal_length_mm) {
@@ -138,12 +138,18 @@ std::optional<double> marginal_height_at_stop(const LensState& lens, double heig
   return std::abs(ray.y);
 }
 
+// Radius of the round stop at this f-number.
+double round_stop_mm(const LensState& lens, double f_number) {
+  const double marginal_mm = 0.5 * std::abs(lens.focal_length_mm) / f_number;
+  if (const auto height_mm = marginal_height_at_stop(lens, marginal_mm)) return *height_mm;
+  return std::abs(abcd_between(lens.surfaces, 0, lens.stop_index, lens.design_wavelength_nm).a) * marginal_mm;
+}
+
 Result<void> set_stop(LensState& state, const Prescription& lens, const std::optional<double>& f_number) {
   const SurfaceState& stop = state.surfaces[static_cast<std::size_t>(state.stop_index)];
   const double front_magnification =
       std::abs(abcd_between(state.surfaces, 0, state.stop_index, state.design_wavelength_nm).a);
-  const double widest_of_stop =
-      std::abs(state.focal_length_mm) * front_magnification / (2.0 * stop.semi_diameter_mm);
+  const double widest_of_stop = std::abs(state.focal_length_mm) * front_magnification / (2.0 * stop.semi_diameter_mm);
   state.f_number = f_number.value_or(lens.f_number);
   if (!(state.f_number >= lens.f_number * (1.0 - kFNumberTolerance)) || !std::isfinite(state.f_number)) {
     return failure(ErrorCode::InvalidArgument,
@@ -152,9 +158,7 @@ Result<void> set_stop(LensState& state, const Prescription& lens, const std::opt
                    lens.file);
   }
   state.f_number = std::max(state.f_number, lens.f_number);
-  const double marginal_mm = 0.5 * std::abs(state.focal_length_mm) / state.f_number;
-  state.stop_radius_mm =
-      marginal_height_at_stop(state, marginal_mm).value_or(front_magnification * marginal_mm);
+  state.stop_radius_mm = round_stop_mm(state, state.f_number);
   if (state.stop_radius_mm > stop.semi_diameter_mm) {
     if (state.stop_radius_mm > stop.semi_diameter_mm * (1.0 + kStopTolerance)) {
       state.warnings.push_back(
@@ -167,11 +171,25 @@ Result<void> set_stop(LensState& state, const Prescription& lens, const std::opt
   return {};
 }
 
+// After the stop: blades of a mechanism stand in front of the hole that the stop is at the widest f-number.
+Result<void> set_iris(LensState& state, const Prescription& lens, const LensSettings& settings) {
+  if (const auto good = check_iris(settings.iris); !good) return good;
+  state.iris = settings.iris;
+  if (settings.iris_closing == IrisClosing::Scaled) return {};
+  const double widest_mm = state.surfaces[static_cast<std::size_t>(state.stop_index)].semi_diameter_mm;
+  const ClosedIris closed =
+      close_iris(settings.iris, state.stop_radius_mm, std::min(widest_mm, round_stop_mm(state, lens.f_number)));
+  state.iris = closed.iris;
+  state.stop_radius_mm = closed.stop_radius_mm;
+  return {};
+}
+
 // The sensor follows the paraxial image; a prescription that fixes its place for distant objects keeps its own
 // defocus for near ones.
 Result<void> set_focus(LensState& state, const Prescription& lens, double object_distance_mm) {
   const double last_z = state.surfaces.back().z_mm;
-  const Abcd m = abcd_between(state.surfaces, 0, static_cast<int>(state.surfaces.size()) - 1, state.design_wavelength_nm);
+  const Abcd m =
+      abcd_between(state.surfaces, 0, static_cast<int>(state.surfaces.size()) - 1, state.design_wavelength_nm);
   state.object_distance_mm = object_distance_mm;
   const double distant_mm = -m.a / m.c;
   double image_mm = distant_mm;
@@ -203,7 +221,6 @@ Result<LensState> lens_at(const Prescription& lens, const LensSettings& settings
   const auto stop = std::find_if(lens.surfaces.begin(), lens.surfaces.end(),
                                  [](const Surface& s) { return s.kind == SurfaceKind::Stop; });
   state.stop_index = static_cast<int>(stop - lens.surfaces.begin());
-  state.iris = settings.iris;
   state.sensor_width_mm = lens.sensor_width_mm;
   state.sensor_height_mm = lens.sensor_height_mm;
   state.design_wavelength_nm = lens.stated.wavelength_nm;
@@ -213,6 +230,7 @@ Result<LensState> lens_at(const Prescription& lens, const LensSettings& settings
     return failure(ErrorCode::InvalidArgument, "the lens has no power, so no focal length; check its radii", lens.file);
   }
   if (const auto set = set_stop(state, lens, settings.f_number); !set) return tl::unexpected<Error>(set.error());
+  if (const auto set = set_iris(state, lens, settings); !set) return tl::unexpected<Error>(set.error());
   if (const auto set = set_focus(state, lens, settings.object_distance_mm); !set) {
     return tl::unexpected<Error>(set.error());
   }

@@ -9,9 +9,11 @@ namespace {
 
 constexpr int kDeepest = 7;          // quarterings of a patch
 constexpr double kSliver = 1e-3;     // pixels: mean width below which a polygon is a line
+constexpr double kUnseenDetail = 0.3;  // pixels, of a picture as the iris
 constexpr double kSpeck = 0.05;      // pixels: a polygon no longer than this is a point
 constexpr int kMostPoints = 256;     // that stand for a line
 constexpr double kPixel = 1.0;       // area below which a cell is not seen but for its flux
+constexpr double kPictureEdges = 6.0;  // that cut a cell, as long as it is, where a picture is the iris
 constexpr double kMostBend = 0.04;   // of a cell, that what cuts it may be off
 constexpr double kPeaks = 16.0;      // brightness over the peak where errors begin to count as relative ones
 // Half the cell, a fourth of the deviation of a curve from its chord: a sixteenth of the squared error.
@@ -129,7 +131,8 @@ double CellPainter::squared_error(const Mesh& mesh, const Cell& cell, State stat
     const double share = limit_error(mesh, cell);
     if (share > kMostBend) return std::numeric_limits<double>::infinity();  // or light would be lost unseen
     const double off = share * longest;
-    error += mean * mean * std::min(off * off, off) * longest * width * width;
+    const double edges = iris_.is_picture() ? kPictureEdges : 1.0;
+    error += mean * mean * std::min(off * off, off) * edges * longest * width * width;
   }
   return std::min(error, 4.0 * worst) * dimmed * dimmed;
 }
@@ -319,11 +322,36 @@ void CellPainter::draw_polygon(const Mesh& mesh, State state, const Shade& shade
     }
   }
   std::span<const Corner> polygon(whole.data(), corners.size());
+  if (state == State::Cut && iris_.is_picture()) return draw_pieces(mesh, polygon, shade, flux);
   if (state == State::Cut) {
     polygon = cutter_.open_part(polygon, mesh.layout.crossings, mesh.layout.rims, arc_step(mesh, corners, shade));
   }
-  if (polygon.size() < 3) return;
+  draw_part(polygon, shade, flux, corners.size() == 3);
+}
 
+// What a picture as the iris leaves of a cell. Details that no pixel shows are drawn as their mean.
+void CellPainter::draw_pieces(const Mesh& mesh, std::span<const Corner> cell, const Shade& shade, const Flux& flux) {
+  Bounds b;
+  for (const Corner& c : cell) b.add(c.position);
+  const double finest = std::min(1.0, kUnseenDetail / std::max({b.size().x, b.size().y, kUnseenDetail}));
+  cutter_.for_each_open_part(cell, mesh.layout.crossings, mesh.layout.rims, finest,
+                             [&](std::span<const Corner> part, double open) {
+                               Shade dimmed = shade;
+                               Flux less = flux;
+                               const auto share = static_cast<float>(open);
+                               for (std::size_t c = 0; c < 3; ++c) {
+                                 dimmed.value[c] *= share;
+                                 dimmed.along_x[c] *= share;
+                                 dimmed.along_y[c] *= share;
+                                 less[c] *= open;
+                               }
+                               draw_part(part, dimmed, less, cell.size() == 3);
+                             });
+}
+
+// triangle: flux is that of half the square of uv.
+void CellPainter::draw_part(std::span<const Corner> polygon, const Shade& shade, const Flux& flux, bool triangle) {
+  if (polygon.size() < 3) return;
   points_.clear();
   Bounds b;
   double twice_area = 0.0;
@@ -343,7 +371,7 @@ void CellPainter::draw_polygon(const Mesh& mesh, State state, const Shade& shade
     out_.add(points_, shade);
     return;
   }
-  const double share = 0.5 * std::abs(twice_share) * (corners.size() == 3 ? 2.0 : 1.0);
+  const double share = 0.5 * std::abs(twice_share) * (triangle ? 2.0 : 1.0);
   draw_line(polygon, {flux[0] * share, flux[1] * share, flux[2] * share});
 }
 

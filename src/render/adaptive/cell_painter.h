@@ -40,6 +40,8 @@ class CellPainter {
   void draw_folded(const Mesh& mesh, const Cell& cell, State state);
   void draw_polygon(const Mesh& mesh, State state, const Shade& shade, const Flux& flux,
                     std::span<const std::size_t> corners);
+  void draw_pieces(const Mesh& mesh, std::span<const Corner> cell, const Shade& shade, const Flux& flux);
+  void draw_part(std::span<const Corner> polygon, const Shade& shade, const Flux& flux, bool triangle);
   void draw_line(std::span<const Corner> polygon, const Flux& flux);
 
   // Of the next cell. How many there will be is not known before: their share falls as they become more, down to a

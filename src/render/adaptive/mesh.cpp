@@ -1,5 +1,6 @@
 #include "render/adaptive/mesh.h"
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 
@@ -45,13 +46,34 @@ Positions positions(const float* nodes_field, int nodes, const MeshMatrices& m) 
   return out;
 }
 
+// Half a cell's longest diagonal in the plane of a crossing: no ray of a cell is farther from all of its vertices.
+float slack_of(const Mesh& mesh, int crossing) {
+  const Mesh::Field& x = mesh.field(PatchLayout::kStop + 2 * crossing);
+  const Mesh::Field& y = mesh.field(PatchLayout::kStop + 2 * crossing + 1);
+  float longest = 0.0F;
+  const auto add = [&](std::size_t a, std::size_t b) {
+    const float dx = x[a] - x[b];
+    const float dy = y[a] - y[b];
+    longest = std::max(longest, dx * dx + dy * dy);
+  };
+  for (int iy = 0; iy < Mesh::kCells; ++iy) {
+    for (int ix = 0; ix < Mesh::kCells; ++ix) {
+      add(Mesh::at(ix, iy), Mesh::at(ix + 1, iy + 1));
+      add(Mesh::at(ix + 1, iy), Mesh::at(ix, iy + 1));
+    }
+  }
+  return 0.5F * std::sqrt(longest);
+}
+
 void mark_outside(Mesh& mesh, const IrisShape& iris) {
   mesh.outside.fill(0);
   Mesh::Field distance;
   for (int c = 0; c < mesh.layout.crossings; ++c) {
     iris.distances(mesh.field(PatchLayout::kStop + 2 * c).data(), mesh.field(PatchLayout::kStop + 2 * c + 1).data(),
                    distance.size(), distance.data());
-    for (std::size_t k = 0; k < distance.size(); ++k) mesh.outside[k] |= (distance[k] > 0.0F ? 1U : 0U) << c;
+    // Between vertices that are open there may be what a picture blocks.
+    const float open = iris.is_picture() ? -slack_of(mesh, c) : 0.0F;
+    for (std::size_t k = 0; k < distance.size(); ++k) mesh.outside[k] |= (distance[k] > open ? 1U : 0U) << c;
   }
   for (int r = 0; r < mesh.layout.rims; ++r) {
     const Mesh::Field& rim = mesh.field(mesh.layout.rim(r));

@@ -9,6 +9,7 @@ namespace contrejour::adaptive {
 namespace {
 
 constexpr double kSmallAngle = 1e-3;  // radians: smaller ones may be rounding
+constexpr double kLongestStep = 0.8;  // radians
 
 }  // namespace
 
@@ -30,8 +31,8 @@ void OutlineCutter::cut_where_positive(Value value) {
 
 // The stop coordinates are linear along each side, which then meets the circle exactly; where the outline leaves the
 // circle an arc takes it to where it comes back.
-void OutlineCutter::cut_by_circle(std::size_t limit) {
-  const auto stop = [limit](const Corner& c) { return Vec2{c.limit[limit], c.limit[limit + 1]}; };
+void OutlineCutter::cut_by_circle(const Circle& circle) {
+  const auto stop = [&circle](const Corner& c) { return circle.unit_from_stop(c); };
   next_.clear();
   exits_.clear();
   double twice_area = 0.0;
@@ -60,14 +61,12 @@ void OutlineCutter::cut_by_circle(std::size_t limit) {
       next_.push_back(between(a, b, std::clamp(leaves, 0.0, 1.0)));
     }
   }
-  if (next_.empty() && !surrounds_origin(limit)) {
-    polygon_.clear();
-    return;
-  }
+  // A circle that a single side cuts, or none.
+  const bool nearly_whole = next_.size() <= 2 && surrounds_centre(circle);
   const double turn = twice_area > 0.0 ? 1.0 : -1.0;
   polygon_.clear();
   if (next_.empty()) {
-    add_circle(limit, turn);
+    if (nearly_whole) add_circle(circle, turn);
     return;
   }
   std::size_t exit = 0;
@@ -79,47 +78,52 @@ void OutlineCutter::cut_by_circle(std::size_t limit) {
     const Vec2 to = stop(next_[k + 1 == next_.size() ? 0 : k + 1]);
     double angle = std::atan2(cross(from, to), dot(from, to));
     // Only where a single side cuts the circle is a small angle backwards nearly a whole turn, not rounding.
-    if (angle * turn < 0.0 && (std::abs(angle) > kSmallAngle || next_.size() == 2))
-      angle += turn * 2.0 * std::numbers::pi;
-    if (angle * turn > 0.0) add_arc(limit, std::atan2(from.y, from.x), angle);
+    if (angle * turn < 0.0 && (std::abs(angle) > kSmallAngle || nearly_whole)) angle += turn * 2.0 * std::numbers::pi;
+    if (angle * turn > 0.0) add_arc(circle, std::atan2(from.y, from.x), angle);
   }
 }
 
-// All corners lie outside the unit circle: whether it lies inside them.
-bool OutlineCutter::surrounds_origin(std::size_t limit) const {
+bool OutlineCutter::surrounds_centre(const Circle& circle) const {
   bool left = false;
   bool right = false;
   for (std::size_t k = 0; k < polygon_.size(); ++k) {
     const Corner& a = polygon_[k];
     const Corner& b = polygon_[k + 1 == polygon_.size() ? 0 : k + 1];
-    const double side = cross(Vec2{a.limit[limit], a.limit[limit + 1]}, Vec2{b.limit[limit], b.limit[limit + 1]});
+    const double side = cross(circle.unit_from_stop(a), circle.unit_from_stop(b));
     (side > 0.0 ? left : right) = true;
   }
   return left != right;
 }
 
-// Corners along an arc of the unit circle of the stop; its ends lie on the circle and are not among them. The others
-// lie a little outside, so that the chords enclose the arc's area: (n - 2) r^2 + 2 r = n step / sin(step).
-void OutlineCutter::add_arc(std::size_t limit, double from, double angle) {
-  const int steps = static_cast<int>(std::ceil(std::abs(angle) / arc_step_));
+// As flat on a circle of any size as arc_step_ is on the rim.
+double OutlineCutter::step_on(const Circle& circle) const {
+  return std::min(arc_step_ / std::sqrt(circle.radius), kLongestStep);
+}
+
+// Corners along an arc, angles seen from the circle's centre; its ends lie on the circle and are not among them. The
+// others lie a little outside, so that the chords enclose the arc's area: (n - 2) r^2 + 2 r = n step / sin(step).
+void OutlineCutter::add_arc(const Circle& circle, double from, double angle) {
+  const int steps = static_cast<int>(std::ceil(std::abs(angle) / step_on(circle)));
   if (steps < 2) return;
   const double step = angle / steps;
   const double excess = steps * step / std::sin(step);
   const double radius = steps == 2 ? 0.5 * excess : (std::sqrt(1.0 + (steps - 2) * excess) - 1.0) / (steps - 2);
   for (int k = 1; k < steps; ++k) {
     const double a = from + step * k;
-    if (const auto corner = corner_at_stop(limit, Vec2{std::cos(a), std::sin(a)} * radius)) polygon_.push_back(*corner);
+    const Vec2 place = circle.stop_from_unit(Vec2{std::cos(a), std::sin(a)} * radius);
+    if (const auto corner = corner_at_stop(circle.limit, place)) polygon_.push_back(*corner);
   }
 }
 
 // The whole circle as a regular polygon of its area.
-void OutlineCutter::add_circle(std::size_t limit, double turn) {
-  const int steps = std::max(3, static_cast<int>(std::ceil(2.0 * std::numbers::pi / arc_step_)));
+void OutlineCutter::add_circle(const Circle& circle, double turn) {
+  const int steps = std::max(3, static_cast<int>(std::ceil(2.0 * std::numbers::pi / step_on(circle))));
   const double step = 2.0 * std::numbers::pi / steps;
   const double radius = std::sqrt(step / std::sin(step));
   for (int k = 0; k < steps; ++k) {
     const double a = turn * step * k;
-    if (const auto corner = corner_at_stop(limit, Vec2{std::cos(a), std::sin(a)} * radius)) polygon_.push_back(*corner);
+    const Vec2 place = circle.stop_from_unit(Vec2{std::cos(a), std::sin(a)} * radius);
+    if (const auto corner = corner_at_stop(circle.limit, place)) polygon_.push_back(*corner);
   }
 }
 
@@ -182,19 +186,66 @@ std::span<const Corner> OutlineCutter::open_part(std::span<const Corner> whole, 
   limits_ = static_cast<std::size_t>(2 * crossings + rims);
   polygon_.assign(whole.begin(), whole.end());
   for (int c = 0; c < crossings && !polygon_.empty(); ++c) cut_by_iris(static_cast<std::size_t>(2 * c));
+  cut_by_rims(crossings, rims);
+  return polygon_;
+}
+
+void OutlineCutter::cut_by_rims(int crossings, int rims) {
   for (int r = 0; r < rims && !polygon_.empty(); ++r) {
     const auto limit = static_cast<std::size_t>(2 * crossings + r);
     cut_where_positive([&](const Corner& p) { return static_cast<double>(p.limit[limit]) - 1.0; });
   }
-  return polygon_;
+}
+
+// In triangles, over which the stop coordinates are linear: cuts of neighbouring pieces then meet.
+void OutlineCutter::for_each_open_part(std::span<const Corner> whole, int crossings, int rims, double finest,
+                                       const OpenPart& visit) {
+  limits_ = static_cast<std::size_t>(2 * crossings + rims);
+  for (std::size_t k = 2; k < whole.size(); ++k) {
+    polygon_.assign({whole[0], whole[k - 1], whole[k]});
+    cut_by_rims(crossings, rims);
+    cut_by_pieces(0, static_cast<std::size_t>(2 * crossings), finest, 1.0, visit);
+  }
+}
+
+void OutlineCutter::cut_by_pieces(std::size_t limit, std::size_t first_rim, double finest, double open,
+                                  const OpenPart& visit) {
+  if (polygon_.size() < 3) return;
+  if (limit == first_rim) return visit(polygon_, open);
+  const std::vector<Corner> before = polygon_;
+  Vec2 low{before[0].limit[limit], before[0].limit[limit + 1]};
+  Vec2 high = low;
+  for (const Corner& c : before) {
+    low = {std::min<double>(low.x, c.limit[limit]), std::min<double>(low.y, c.limit[limit + 1])};
+    high = {std::max<double>(high.x, c.limit[limit]), std::max<double>(high.y, c.limit[limit + 1])};
+  }
+  const double detail = finest * std::max(high.x - low.x, high.y - low.y);
+  iris_.for_each_piece(low, high, detail, [&](std::span<const IrisBound> half_planes, double share) {
+    polygon_ = before;
+    for (const IrisBound& bound : half_planes)
+      if (!is_inside(limit, bound)) cut_by_line(limit, bound);
+    cut_by_pieces(limit + 2, first_rim, finest, open * share, visit);
+  });
+}
+
+bool OutlineCutter::is_inside(std::size_t limit, const IrisBound& half_plane) const {
+  return std::all_of(polygon_.begin(), polygon_.end(),
+                     [&](const Corner& c) { return half_plane.distance({c.limit[limit], c.limit[limit + 1]}) <= 0.0; });
+}
+
+void OutlineCutter::cut_by_line(std::size_t limit, const IrisBound& bound) {
+  cut_where_positive([&](const Corner& p) {
+    return bound.normal.x * p.limit[limit] + bound.normal.y * p.limit[limit + 1] - bound.apothem;
+  });
 }
 
 void OutlineCutter::cut_by_iris(std::size_t limit) {
-  if (iris_.is_circle()) return cut_by_circle(limit);
-  for (const IrisShape::Edge& edge : iris_.edges()) {
-    cut_where_positive([&](const Corner& p) {
-      return edge.normal.x * p.limit[limit] + edge.normal.y * p.limit[limit + 1] - iris_.apothem();
-    });
+  for (const IrisBound& bound : iris_.bounds()) {
+    if (polygon_.empty()) return;
+    if (bound.straight())
+      cut_by_line(limit, bound);
+    else
+      cut_by_circle({limit, bound.centre, bound.radius});
   }
 }
 

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstddef>
+#include <functional>
 #include <optional>
 #include <span>
 #include <vector>
@@ -23,20 +24,42 @@ class OutlineCutter {
  public:
   explicit OutlineCutter(const IrisShape& iris) : iris_(iris) {}
 
-  // whole: the cell's four corners at uv (0, 0), (1, 0), (1, 1), (0, 1), or the first three of them. Arcs of a round
-  // iris get a corner every arc_step_rad at least. Empty when nothing is open. Valid until the next call, as long as
-  // `whole` is.
+  // whole: the cell's four corners at uv (0, 0), (1, 0), (1, 1), (0, 1), or the first three of them. Arcs get a corner
+  // every arc_step_rad / sqrt(r) at least, r their radius in stop radii. Empty when nothing is open. Valid until the
+  // next call, as long as `whole` is.
   [[nodiscard]] std::span<const Corner> open_part(std::span<const Corner> whole, int crossings, int rims,
                                                   double arc_step_rad);
 
+  // The same for a picture: convex parts that do not overlap, each with the share of light that passes there. Details
+  // are told apart down to `finest` of the cell's extent in the stop's plane.
+  using OpenPart = std::function<void(std::span<const Corner> part, double open)>;
+  void for_each_open_part(std::span<const Corner> whole, int crossings, int rims, double finest, const OpenPart& visit);
+
  private:
+  // In the plane of a crossing, whose coordinates are a corner's from `limit` on.
+  struct Circle {
+    std::size_t limit = 0;
+    Vec2 centre;
+    double radius = 1.0;
+
+    [[nodiscard]] Vec2 unit_from_stop(const Corner& c) const {
+      return (Vec2{c.limit[limit], c.limit[limit + 1]} - centre) * (1.0 / radius);
+    }
+    [[nodiscard]] Vec2 stop_from_unit(Vec2 p) const { return centre + p * radius; }
+  };
+
   void cut_by_iris(std::size_t limit);
-  void cut_by_circle(std::size_t limit);
+  void cut_by_rims(int crossings, int rims);
+  void cut_by_pieces(std::size_t limit, std::size_t first_rim, double finest, double open, const OpenPart& visit);
+  void cut_by_line(std::size_t limit, const IrisBound& bound);
+  void cut_by_circle(const Circle& circle);
   template <class Value>
   void cut_where_positive(Value value);
-  void add_arc(std::size_t limit, double from, double angle);
-  void add_circle(std::size_t limit, double turn);
-  [[nodiscard]] bool surrounds_origin(std::size_t limit) const;
+  void add_arc(const Circle& circle, double from, double angle);
+  void add_circle(const Circle& circle, double turn);
+  [[nodiscard]] bool is_inside(std::size_t limit, const IrisBound& half_plane) const;
+  [[nodiscard]] double step_on(const Circle& circle) const;
+  [[nodiscard]] bool surrounds_centre(const Circle& circle) const;
   [[nodiscard]] Corner between(const Corner& a, const Corner& b, double t) const;
   [[nodiscard]] Corner corner_at(Vec2 uv) const;
   [[nodiscard]] std::optional<Corner> corner_at_stop(std::size_t limit, Vec2 target) const;

@@ -2,13 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 namespace contrejour::bundle {
 namespace {
 
-// Two tangents of a circle this far apart leave its arc by less than 3e-4 of the radius.
+// Two tangents of a circle of radius r >= 1 leave its arc by less than 3e-4 where they are this over sqrt(r) apart.
 constexpr double kTangentStep_rad = 0.05;
+constexpr double kFar = std::numeric_limits<double>::infinity();
 
 }  // namespace
 
@@ -38,19 +40,27 @@ void TriangleClipper::cut_by_edge(const std::array<Vec2, 3>& stop, Vec2 normal, 
   cut(dot(normal, stop[0]) - reach, dot(normal, stop[1]) - reach, dot(normal, stop[2]) - reach);
 }
 
-void TriangleClipper::cut_by_circle(const std::array<Vec2, 3>& stop) {
-  const Vec2 middle = (stop[0] + stop[1] + stop[2]) * (1.0 / 3.0);
+void TriangleClipper::cut_by_circle(const std::array<Vec2, 3>& stop, Vec2 centre, double radius) {
+  const Vec2 middle = (stop[0] + stop[1] + stop[2]) * (1.0 / 3.0) - centre;
   double reach = 0.0;
-  for (const Vec2 p : stop) reach = std::max(reach, length(p - middle));
+  for (const Vec2 p : stop) reach = std::max(reach, length(p - centre - middle));
   const double distance = length(middle);
   // Seen from the circle's centre the triangle lies within this angle of its middle.
   const double half_angle = distance > 1.5 * reach ? std::asin(reach / distance) : std::numbers::pi;
-  const int tangents = 1 + static_cast<int>(std::ceil(2.0 * half_angle / kTangentStep_rad));
+  const double step_rad = kTangentStep_rad / std::sqrt(std::max(radius, 1.0));
+  const int tangents = 1 + static_cast<int>(std::ceil(2.0 * half_angle / step_rad));
   const double middle_angle = std::atan2(middle.y, middle.x);
   for (int k = 0; k < tangents; ++k) {
     const double angle = middle_angle + half_angle * ((2 * k + 1.0) / tangents - 1.0);
-    cut_by_edge(stop, {std::cos(angle), std::sin(angle)}, 1.0);
+    const Vec2 normal{std::cos(angle), std::sin(angle)};
+    cut_by_edge(stop, normal, radius + dot(normal, centre));
   }
+}
+
+void TriangleClipper::cut_by_bound(const std::array<Vec2, 3>& stop, const IrisBound& bound) {
+  if (bound.straight()) return cut_by_edge(stop, bound.normal, bound.apothem);
+  const auto inside = [&](Vec2 p) { return bound.distance(p) <= 0.0; };
+  if (!std::all_of(stop.begin(), stop.end(), inside)) cut_by_circle(stop, bound.centre, bound.radius);
 }
 
 void TriangleClipper::cut_by_iris(const RayGrid& grid, const Triangle& triangle, std::size_t crossing) {
@@ -62,18 +72,46 @@ void TriangleClipper::cut_by_iris(const RayGrid& grid, const Triangle& triangle,
   }
   if (all_inside) return;  // the opening is convex
   if (iris_.is_circle()) {
-    cut_by_circle(stop);
+    cut_by_circle(stop, {}, 1.0);
   } else {
-    for (const IrisShape::Edge& edge : iris_.edges()) cut_by_edge(stop, edge.normal, iris_.apothem());
+    for (const IrisBound& bound : iris_.bounds()) cut_by_bound(stop, bound);
   }
 }
 
-std::span<const Vec2> TriangleClipper::open_part(const RayGrid& grid, const Triangle& t) {
+void TriangleClipper::start(const RayGrid& grid, const Triangle& t) {
   polygon_.assign({{0.0, 0.0}, {1.0, 0.0}, {0.0, 1.0}});
   cut(grid.r_rel[t[0]] - 1.0, grid.r_rel[t[1]] - 1.0, grid.r_rel[t[2]] - 1.0);
+}
+
+void TriangleClipper::cut_by_pieces(const RayGrid& grid, const Triangle& t, double finest, int crossing, double open,
+                                    const OpenPart& visit) {
+  if (polygon_.size() < 3) return;
+  if (crossing == grid.stop_crossings()) return visit(polygon_, open);
+  const auto c = static_cast<std::size_t>(crossing);
+  std::array<Vec2, 3> stop;
+  for (std::size_t k = 0; k < 3; ++k) stop[k] = {grid.stop_x[c][t[k]], grid.stop_y[c][t[k]]};
+  const std::vector<Vec2> before = polygon_;
+  Vec2 low{kFar, kFar};
+  Vec2 high{-kFar, -kFar};
+  for (const Vec2 q : before) {
+    const Vec2 p = stop[0] + (stop[1] - stop[0]) * q.x + (stop[2] - stop[0]) * q.y;
+    low = {std::min(low.x, p.x), std::min(low.y, p.y)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y)};
+  }
+  const double detail =
+      finest * std::max({length(stop[1] - stop[0]), length(stop[2] - stop[1]), length(stop[0] - stop[2])});
+  iris_.for_each_piece(low, high, detail, [&](std::span<const IrisBound> half_planes, double share) {
+    polygon_ = before;
+    for (const IrisBound& bound : half_planes) cut_by_edge(stop, bound.normal, bound.apothem);
+    cut_by_pieces(grid, t, finest, crossing + 1, open * share, visit);
+  });
+}
+
+void TriangleClipper::for_each_open_part(const RayGrid& grid, const Triangle& t, double finest, const OpenPart& visit) {
+  start(grid, t);
+  if (iris_.is_picture()) return cut_by_pieces(grid, t, finest, 0, 1.0, visit);
   for (int c = 0; c < grid.stop_crossings(); ++c) cut_by_iris(grid, t, static_cast<std::size_t>(c));
-  if (polygon_.size() < 3) polygon_.clear();
-  return polygon_;
+  if (polygon_.size() >= 3) visit(polygon_, 1.0);
 }
 
 }  // namespace contrejour::bundle

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstddef>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -13,19 +14,27 @@ namespace contrejour::bundle {
 using Triangle = std::array<std::size_t, 3>;  // vertices of a RayGrid
 
 // Clips in the triangle's own coordinates (u, v): vertex 0 + u (vertex 1 - vertex 0) + v (vertex 2 - vertex 0).
-// r_rel and the stop coordinates are interpolated linearly (hullin2011 4.1), so every rim and every edge of the
-// iris cuts along a straight line; a round iris is cut by tangents, as many as its bend within the triangle needs.
+// r_rel and the stop coordinates are interpolated linearly (hullin2011 4.1), so every rim and every straight edge of
+// the iris cuts along a straight line; arcs are cut by tangents, as many as their bend within the triangle needs.
 class TriangleClipper {
  public:
   explicit TriangleClipper(const IrisShape& iris) : iris_(iris) {}
 
-  // Convex; empty when nothing is open. Valid until the next call.
-  [[nodiscard]] std::span<const Vec2> open_part(const RayGrid& grid, const Triangle& triangle);
+  // A convex polygon of the open part, and the share of light that passes there.
+  using OpenPart = std::function<void(std::span<const Vec2> uv, double open)>;
+
+  // One, none when nothing is open, or more for a picture, whose details are told apart down to `finest` of the
+  // triangle; they do not overlap.
+  void for_each_open_part(const RayGrid& grid, const Triangle& triangle, double finest, const OpenPart& visit);
 
  private:
+  void start(const RayGrid& grid, const Triangle& triangle);
+  void cut_by_pieces(const RayGrid& grid, const Triangle& triangle, double finest, int crossing, double open,
+                     const OpenPart& visit);
   void cut(double at_0, double at_1, double at_2);
   void cut_by_iris(const RayGrid& grid, const Triangle& triangle, std::size_t crossing);
-  void cut_by_circle(const std::array<Vec2, 3>& stop);
+  void cut_by_bound(const std::array<Vec2, 3>& stop, const IrisBound& bound);
+  void cut_by_circle(const std::array<Vec2, 3>& stop, Vec2 centre, double radius);
   void cut_by_edge(const std::array<Vec2, 3>& stop, Vec2 normal, double reach);
 
   const IrisShape& iris_;

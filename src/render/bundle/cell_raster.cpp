@@ -14,6 +14,7 @@ constexpr float kSmoothRatio = 1.5F;
 constexpr double kShadedCell_px = 4.0;
 // Below this share of its extent squared a polygon's area is mostly rounding: it is spread along itself.
 constexpr double kSliver = 1e-7;
+constexpr double kUnseenDetail_px = 0.3;
 constexpr int kRowsBetweenStops = 16;
 
 double signed_area(Vec2 a, Vec2 b, Vec2 c) { return 0.5 * cross(b - a, c - a); }
@@ -69,10 +70,11 @@ void CellRaster::place_vertices() {
 // Closed for certain only where one rim or one crossing of the iris blocks all corners.
 CellRaster::CellState CellRaster::state_of(const std::array<std::size_t, 4>& corners) const {
   const auto all = [&](auto test) { return std::all_of(corners.begin(), corners.end(), test); };
-  if (all([&](std::size_t k) { return grid_.blocked[k] <= 0.0F; })) return CellState::Open;
+  const float slack = grid_.slack(corners);
+  if (all([&](std::size_t k) { return grid_.blocked[k] <= -slack; })) return CellState::Open;
   if (all([&](std::size_t k) { return grid_.r_rel[k] > 1.0F; })) return CellState::Closed;
   for (std::size_t c = 0; c < static_cast<std::size_t>(grid_.stop_crossings()); ++c) {
-    if (all([&](std::size_t k) { return !(grid_.iris_distance[c][k] <= 0.0F); })) return CellState::Closed;
+    if (all([&](std::size_t k) { return !(grid_.iris_distance[c][k] <= slack); })) return CellState::Closed;
   }
   return CellState::Cut;
 }
@@ -195,28 +197,37 @@ void CellRaster::draw_open(FluxBox& out, const Cell& cell) {
 void CellRaster::draw_triangle(FluxBox& out, const Cell& cell, const Triangle& t, bool cut) {
   if (failed(t)) return;
   const std::array<Vec2, 3> p{pixel_[t[0]], pixel_[t[1]], pixel_[t[2]]};
-  double flux = triangle_flux(t);
-  std::span<const Vec2> polygon = p;
-  if (cut) {
-    const auto uv = clipper_.open_part(grid_, t);
-    if (uv.empty()) return;
-    flux *= share_of_triangle(uv);
+  if (!cut) return draw_polygon(out, cell, t, p, 1.0, 1.0);
+  clipper_.for_each_open_part(grid_, t, finest(p), [&](std::span<const Vec2> uv, double open) {
     corner_scratch_.clear();
     for (const Vec2 q : uv) corner_scratch_.push_back(p[0] + (p[1] - p[0]) * q.x + (p[2] - p[0]) * q.y);
-    polygon = corner_scratch_;
-  }
+    draw_polygon(out, cell, t, corner_scratch_, share_of_triangle(uv), open);
+  });
+}
+
+// Details of an opening are told apart down to this share of a triangle.
+double CellRaster::finest(const std::array<Vec2, 3>& p) {
+  const double longest = std::max({length(p[1] - p[0]), length(p[2] - p[1]), length(p[0] - p[2])});
+  return std::min(1.0, kUnseenDetail_px / std::max(longest, kUnseenDetail_px));
+}
+
+// Part of a triangle's image, with this share of its flux if all of it were open.
+void CellRaster::draw_polygon(FluxBox& out, const Cell& cell, const Triangle& t, std::span<const Vec2> polygon,
+                              double share, double open) {
+  const std::array<Vec2, 3> p{pixel_[t[0]], pixel_[t[1]], pixel_[t[2]]};
+  const double flux = triangle_flux(t) * open;
   ++primitives_;
   if (in_one_pixel(polygon)) {
-    out.add_point(polygon[0], flux);
+    out.add_point(polygon[0], flux * share);
     return;
   }
   const double area = std::abs(signed_area(p[0], p[1], p[2]));
   const auto ends = ends_of(polygon);
   if (area < kSliver * dot(ends[1] - ends[0], ends[1] - ends[0])) {
-    out.add_line(ends[0], ends[1], flux);
+    out.add_line(ends[0], ends[1], flux * share);
     return;
   }
-  const double value = triangle_flux(t) / area;
+  const double value = flux / area;
   const Vec2 middle = (p[0] + p[1] + p[2]) * (1.0 / 3.0);
   out.add_polygon(polygon, {middle, value, cell.gradient * value});
 }
@@ -227,7 +238,11 @@ bool CellRaster::failed(std::span<const std::size_t> vertices) const {
 
 double CellRaster::open_flux(const Triangle& t, CellState state) {
   if (failed(t)) return 0.0;
-  const double share = state == CellState::Open ? 1.0 : share_of_triangle(clipper_.open_part(grid_, t));
+  if (state == CellState::Open) return triangle_flux(t);
+  double share = 0.0;
+  const double detail = finest({pixel_[t[0]], pixel_[t[1]], pixel_[t[2]]});
+  clipper_.for_each_open_part(grid_, t, detail,
+                              [&](std::span<const Vec2> uv, double open) { share += share_of_triangle(uv) * open; });
   return share * triangle_flux(t);
 }
 

@@ -54,6 +54,9 @@ class CellRaster {
   [[nodiscard]] bool failed(std::span<const std::size_t> vertices) const;
   void draw_open(FluxBox& out, const Cell& cell);
   void draw_triangle(FluxBox& out, const Cell& cell, const Triangle& t, bool cut);
+  void draw_polygon(FluxBox& out, const Cell& cell, const Triangle& t, std::span<const Vec2> polygon, double share,
+                    double open);
+  [[nodiscard]] static double finest(const std::array<Vec2, 3>& p);
   [[nodiscard]] std::size_t cell_index(int ix, int iy) const {
     return static_cast<std::size_t>(iy) * static_cast<std::size_t>(grid_.cells()) + static_cast<std::size_t>(ix);
   }

@@ -5,10 +5,14 @@
 #include <limits>
 #include <vector>
 
+#include "contrejour/iris_field.h"
+#include "kernels/iris_blades.h"
+
 namespace contrejour::reference {
 namespace {
 
 constexpr double kFailed = std::numeric_limits<double>::infinity();
+constexpr double kUnseen = 0.25;  // of a cut cell's footprint, of what a picture's edge is known to
 
 // What is known of one point of the entrance plane.
 struct Sample {
@@ -16,13 +20,21 @@ struct Sample {
   Vec2 pixel;
   double transmission = 0.0;
   double blocked = kFailed;  // <= 0 gets through; infinite where the ray failed
+  double outside = kFailed;  // the same for the convex hull of the iris's opening
+  std::array<Vec2, kMaxStopCrossings> stop{};  // with a picture's distances there
+  std::array<double, kMaxStopCrossings> distance{};
 
   [[nodiscard]] bool traced() const { return blocked < kFailed; }
 };
 
 Sample between(const Sample& a, const Sample& b, double t) {
-  return {a.entrance_mm + (b.entrance_mm - a.entrance_mm) * t, a.pixel + (b.pixel - a.pixel) * t,
-          std::lerp(a.transmission, b.transmission, t), 0.0};
+  return {a.entrance_mm + (b.entrance_mm - a.entrance_mm) * t,
+          a.pixel + (b.pixel - a.pixel) * t,
+          std::lerp(a.transmission, b.transmission, t),
+          0.0,
+          0.0,
+          {},
+          {}};
 }
 
 // Corners in turn around the cell: low-low, high-low, high-high, low-high in entrance x and y.
@@ -42,7 +54,9 @@ class CellWalker {
  public:
   CellWalker(const OpticalPath& path, const Iris& iris, Vec3 direction, double z_mm, const Frame& frame,
              const CellLimits& limits, const LitPolygon& lit)
-      : path_(path), iris_(iris), direction_(direction), z_mm_(z_mm), frame_(frame), limits_(limits), lit_(lit) {}
+      : path_(path), iris_(iris), direction_(direction), z_mm_(z_mm), frame_(frame), limits_(limits), lit_(lit) {
+    if (iris.field) hull_ = iris.field->hull();
+  }
 
   [[nodiscard]] Sample sample(Vec2 entrance_mm) {
     ++counts_.rays;
@@ -53,6 +67,8 @@ class CellWalker {
     s.pixel = frame_.pixel_from_sensor(ray.sensor_mm);
     s.transmission = ray.transmission;
     s.blocked = blocked_by(ray, path_, iris_);
+    s.outside = s.blocked;
+    if (iris_.field) look_at_picture(ray, s);
     return s;
   }
 
@@ -60,6 +76,7 @@ class CellWalker {
     const Sample middle = sample((corners[0].entrance_mm + corners[2].entrance_mm) * 0.5);
     const Blocking blocking = blocking_of(corners, middle);
     if (!may_be_open(blocking, middle, depth)) return;
+    if (is_dark_and_small(corners, blocking)) return;
     if (outside_frame(corners, middle)) return;
     if (depth < limits_.deepest && needs_cutting(corners, middle, blocking, depth)) {
       cut(corners, middle, depth);
@@ -75,11 +92,41 @@ class CellWalker {
   struct Blocking {
     double lowest = kFailed;    // of the rays that did not fail
     double highest = -kFailed;  // likewise
+    double lowest_outside = kFailed, highest_outside = -kFailed;
+    double slack = 0.0;  // by so much more may it be between them, if the opening is not convex
+    bool dark = false;   // as a picture is near
     bool some_failed = false;
   };
 
-  static Blocking blocking_of(const Corners& corners, const Sample& middle) {
+  void look_at_picture(const TracedRay& ray, Sample& s) const {
+    s.stop = ray.stop;
+    s.outside = ray.r_rel - 1.0;
+    for (std::size_t c = 0; c < static_cast<std::size_t>(path_.stop_crossings); ++c) {
+      s.distance[c] = iris_distance(iris_, ray.stop[c]);
+      const Vec2 p = turned(ray.stop[c], -iris_.rotation_rad);
+      for (const IrisBound& bound : hull_) s.outside = std::max(s.outside, bound.distance(p));
+    }
+  }
+
+  // A distance changes by no more than one walks: half the way between the corners that lie farthest apart.
+  void allow_for_picture(const Corners& corners, Blocking& b) const {
+    for (std::size_t c = 0; c < static_cast<std::size_t>(path_.stop_crossings); ++c) {
+      double longest = 0.0;
+      double nearest = kFailed;
+      for (const Sample& p : corners) {
+        if (!p.traced()) continue;
+        nearest = std::min(nearest, p.distance[c]);
+        for (const Sample& q : corners)
+          if (q.traced()) longest = std::max(longest, length(p.stop[c] - q.stop[c]));
+      }
+      b.slack = std::max(b.slack, 0.5 * longest);
+      b.dark = b.dark || nearest > 0.5 * longest;
+    }
+  }
+
+  [[nodiscard]] Blocking blocking_of(const Corners& corners, const Sample& middle) const {
     Blocking b;
+    if (iris_.field) allow_for_picture(corners, b);
     for (const Sample* s : {&corners[0], &corners[1], &corners[2], &corners[3], &middle}) {
       if (!s->traced()) {
         b.some_failed = true;
@@ -87,6 +134,8 @@ class CellWalker {
       }
       b.lowest = std::min(b.lowest, s->blocked);
       b.highest = std::max(b.highest, s->blocked);
+      b.lowest_outside = std::min(b.lowest_outside, s->outside);
+      b.highest_outside = std::max(b.highest_outside, s->outside);
     }
     return b;
   }
@@ -96,10 +145,21 @@ class CellWalker {
   // and the latter is at most the highest corner. So it is nowhere below twice its middle less its highest corner,
   // be the pupil ever so small and all corners alike. What is not linear is allowed for by how much the samples
   // differ, a share that halves with the cell. A failed ray tells nothing.
+  // A picture's opening is not convex, but its hull is; within that its distances tell.
   [[nodiscard]] bool may_be_open(const Blocking& b, const Sample& middle, int depth) const {
     if (b.lowest <= 0.0) return true;
     if (b.some_failed) return depth < (b.lowest < kFailed ? limits_.look_depth : limits_.blind_depth);
-    return 2.0 * middle.blocked - b.highest <= std::ldexp(b.highest - b.lowest, -depth);
+    if (b.dark) return false;
+    if (b.lowest_outside <= 0.0) return true;
+    return 2.0 * middle.outside - b.highest_outside <= std::ldexp(b.highest_outside - b.lowest_outside, -depth);
+  }
+
+  // No ray of a cell between dark parts of a picture gets through, and what might is not seen.
+  [[nodiscard]] bool is_dark_and_small(const Corners& corners, const Blocking& b) const {
+    if (!iris_.field || b.some_failed || b.lowest <= 0.0 || b.lowest_outside > 0.0) return false;
+    Extent e;
+    for (const Sample& s : corners) e.add(s.pixel);
+    return e.size() < kUnseen * limits_.cut_footprint_px && b.slack < kUnseen * IrisField::kTolerance;
   }
 
   // Grown by its own size, for the light that bends out of the corners' box.
@@ -131,7 +191,7 @@ class CellWalker {
       if (middle.traced()) e.add(middle.pixel);
       return depth < limits_.look_depth || e.size() > limits_.cut_footprint_px;
     }
-    const bool is_cut = blocking.highest > 0.0;
+    const bool is_cut = blocking.highest > -blocking.slack;
     if (e.size() > (is_cut ? limits_.cut_footprint_px : limits_.footprint_px)) return true;
     // However small its image, a cell that an edge cuts must hold an all but straight piece of it.
     const double bow = std::abs(middle.blocked - mean_blocked);
@@ -185,6 +245,7 @@ class CellWalker {
   const Frame& frame_;
   CellLimits limits_;
   const LitPolygon& lit_;
+  std::vector<IrisBound> hull_;  // of a picture's opening
   CellCounts counts_;
 };
 

@@ -31,8 +31,8 @@ constexpr int kShadeStep = 8;  // samples
 class Borders {
  public:
   Borders(const PupilRays& pupil, const std::vector<std::size_t>& used, std::vector<std::size_t> rims,
-          const IrisOpening& iris, int degree)
-      : iris_(iris), rims_(std::move(rims)), exact_(fit(pupil, used, degree)) {
+          const Iris& iris, int degree)
+      : iris_(iris), opening_(iris), rims_(std::move(rims)), exact_(fit(pupil, used, degree)) {
     const SmoothFit straight = fit(pupil, used, 1);
     for (std::size_t f = 0; f < straight.functions(); ++f) {
       const double at_zero = straight({}, f);
@@ -109,7 +109,8 @@ class Borders {
   // How far beyond the iris (0) or a rim (1 and more), relative radii.
   [[nodiscard]] double level(const Values& values, std::size_t constraint) const {
     const Vec2 at{values[2 * constraint], values[2 * constraint + 1]};
-    return constraint == 0 ? iris_.bound_distance(at) : length(at) - 1.0;
+    if (constraint > 0) return length(at) - 1.0;
+    return iris_.field ? iris_distance(iris_, at) : opening_.bound_distance(at);
   }
   [[nodiscard]] double largest(const Values& values) const {
     double worst = level(values, 0);
@@ -117,7 +118,8 @@ class Borders {
     return worst;
   }
 
-  const IrisOpening& iris_;
+  const Iris& iris_;
+  IrisOpening opening_;
   std::vector<std::size_t> rims_;
   SmoothFit exact_;
   std::vector<Straight> straight_;
@@ -200,9 +202,10 @@ std::optional<IrisBound> rim_seen_from_stop(const PupilRays& pupil, std::size_t 
   return bound;
 }
 
-// The iris, cut by the rims; none where that is far from the mask.
+// The iris, cut by the rims; none where that is far from the mask, or a picture is the iris.
 std::optional<PupilOutline> outline_of(const PupilRays& pupil, const std::vector<std::size_t>& rims,
                                        const std::vector<std::size_t>& open, const Iris& iris, double open_area) {
+  if (iris.field) return std::nullopt;
   std::vector<IrisBound> cuts;
   for (const std::size_t rim : rims)
     if (const auto cut = rim_seen_from_stop(pupil, rim)) cuts.push_back(*cut);
@@ -312,12 +315,11 @@ ExitPupil pupil_of(const PupilRays& pupil, const LensState& lens, Vec3 direction
   const std::vector<std::size_t> open = rays_within(pupil, 0.0), used = rays_within(pupil, kFitBeyond);
   const int degree = degree_for(used.size(), kDegree);
   if (open.size() < kRaysPerTerm * SmoothFit::terms(1) || degree < 1) return out;
-  const IrisOpening iris(lens.iris);
   const std::vector<std::size_t> rims = vignetting_rims(pupil);
 
   std::vector<std::size_t> fitted, held_out;
   for (std::size_t k = 0; k < used.size(); ++k) (k % 5 == 2 ? held_out : fitted).push_back(used[k]);
-  const Borders borders(pupil, fitted, rims, iris, degree_for(fitted.size(), kDegree));
+  const Borders borders(pupil, fitted, rims, lens.iris, degree_for(fitted.size(), kDegree));
   for (const std::size_t k : held_out)
     if (pupil.rays[k].blocked <= kNearRim) out.fit_error = std::max(out.fit_error, borders.error_at(pupil, k));
 

@@ -79,7 +79,8 @@ void PrimitiveBuilder::find_cells(const RayGrid& grid) {
       const std::size_t cell = levels_[0].at(ix, iy);
       const auto any = [&](auto test) { return test(v[0]) || test(v[1]) || test(v[2]) || test(v[3]); };
       const bool failed = any([&](std::size_t k) { return !std::isfinite(grid.r_rel[k]); });
-      const bool lit = any([&](std::size_t k) { return grid.blocked[k] <= 0.0F; });
+      const float slack = grid.slack(v);
+      const bool lit = any([&](std::size_t k) { return grid.blocked[k] <= slack; });
       area_[(static_cast<std::size_t>(iy) + 1) * pitch + static_cast<std::size_t>(ix) + 1] =
           failed
               ? std::numeric_limits<float>::quiet_NaN()
@@ -181,6 +182,7 @@ void PrimitiveBuilder::fill(const RayGrid& grid, std::array<std::size_t, 4> corn
   p.pass = pass_;
   p.crossings = static_cast<std::uint16_t>(grid.stop_crossings());
   bool open = true;
+  const float slack = grid.slack(corners);
   for (std::size_t k = 0; k < 4; ++k) {
     const std::size_t v = corners[k];
     p.x[k] = x_[v];
@@ -188,7 +190,7 @@ void PrimitiveBuilder::fill(const RayGrid& grid, std::array<std::size_t, 4> corn
     p.r_rel[k] = grid.r_rel[v];
     p.stop_x[k] = p.crossings > 0 ? grid.stop_x[0][v] : 0.0F;
     p.stop_y[k] = p.crossings > 0 ? grid.stop_y[0][v] : 0.0F;
-    open = open && grid.blocked[v] <= 0.0F;
+    open = open && grid.blocked[v] <= -slack;
   }
   if (open) p.flags |= kOpen;
   p.more_crossings = static_cast<std::uint32_t>(out_->more_crossings.size());

@@ -32,14 +32,34 @@ HWY_INLINE P interpolate(const hk::Weights<P>& weights, const std::array<float, 
   return hk::weighted_sum(weights, values);
 }
 
+// One place after the other: pictures are looked up in memory.
+HWY_INLINE Mask passes_picture(const IrisShape& iris, P x, P y) {
+  const P::Tag d;
+  HWY_ALIGN std::array<float, HWY_MAX_BYTES / sizeof(float)> at_x, at_y, distance;
+  hn::Store(x.v, d, at_x.data());
+  hn::Store(y.v, d, at_y.data());
+  iris.distances(at_x.data(), at_y.data(), hn::Lanes(d), distance.data());
+  return hn::Le(hn::Load(d, distance.data()), hn::Zero(d));
+}
+
 // Inside the opening of the iris? Places are `total` times too large.
 HWY_INLINE Mask passes(const IrisShape& iris, P x, P y, P total) {
   if (iris.is_circle()) return hn::Le((x * x + y * y).v, (total * total).v);
-  const P reach = total * broadcast(static_cast<float>(iris.apothem()));
+  if (iris.is_picture()) return passes_picture(iris, x / total, y / total);
   Mask inside = hn::FirstN(P::Tag(), hn::Lanes(P::Tag()));
-  for (const IrisShape::Edge& edge : iris.edges()) {
-    const P along = x * broadcast(static_cast<float>(edge.normal.x)) + y * broadcast(static_cast<float>(edge.normal.y));
-    inside = hn::And(inside, hn::Le(along.v, reach.v));
+  for (const IrisBound& bound : iris.bounds()) {
+    if (bound.straight()) {
+      const P along =
+          x * broadcast(static_cast<float>(bound.normal.x)) + y * broadcast(static_cast<float>(bound.normal.y));
+      inside = hn::And(inside, hn::Le(along.v, (total * broadcast(static_cast<float>(bound.apothem))).v));
+    } else {
+      // |p - c|^2 <= r^2, multiplied out: centres far away would round.
+      const P along =
+          x * broadcast(static_cast<float>(bound.centre.x)) + y * broadcast(static_cast<float>(bound.centre.y));
+      const P power = x * x + y * y +
+                      total * (total * broadcast(static_cast<float>(bound.power_at_axis())) - broadcast(2.0F) * along);
+      inside = hn::And(inside, hn::Le(power.v, hn::Zero(P::Tag())));
+    }
   }
   return inside;
 }

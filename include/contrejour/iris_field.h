@@ -1,0 +1,93 @@
+// A picture as the opening of the aperture stop: a signed distance field over the stop plane, and the same opening as
+// convex pieces. Right side up as the photographer sees the stop; the picture's longer side spans the stop's diameter,
+// the rim cuts its corners off, beside it nothing passes. Units: stop radii. Accuracy: the edge lies where the picture,
+// interpolated, crosses its level, to a fifth of a sample (2 / samples()); pieces to kTolerance more. Thread-safety:
+// constant after it is made. docs/physics/diffraction.md.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "contrejour/iris.h"
+#include "contrejour/result.h"
+
+namespace contrejour {
+
+// Part of an opening: what straight cuts leave of a rectangle.
+struct IrisPiece {
+  Vec2 low, high;
+  std::array<IrisBound, 2> cut;
+  int cuts = 0;
+  double open = 1.0;  // share of light that passes; less than 1 where details were not asked for
+};
+
+class IrisField {
+ public:
+  static constexpr double kTolerance = 3e-4;  // stop radii, that a piece's edge is off the field's
+
+  // level: of width x height pixels, rows from the top. Light passes where it is at least half of the highest.
+  // Errors: no pixels, levels that are negative or not finite, pictures that let nothing through.
+  [[nodiscard]] static Result<std::shared_ptr<const IrisField>> from_levels(std::span<const float> level, int width,
+                                                                            int height);
+
+  // From the edge, negative inside, bilinear between samples; inside no more than the true one, and exact near edges.
+  [[nodiscard]] double distance(Vec2 p) const;
+  [[nodiscard]] double area() const { return nodes_[0].open_area; }  // of a rim of radius 1: pi when all is open
+  [[nodiscard]] const std::vector<IrisBound>& hull() const { return hull_; }  // half-planes that hold all of it
+  [[nodiscard]] int samples() const { return side_ - 2; }  // across the stop's diameter
+
+  // visit(const IrisPiece&) for the pieces that may meet a box; they do not overlap. Parts of the plane no larger than
+  // `detail` come as rectangles with the share of them that is open, edges may be off by a quarter of it.
+  template <class Visit>
+  void for_each_piece(Vec2 low, Vec2 high, double detail, const Visit& visit) const {
+    visit_node(nodes_[0], low, high, detail, visit);
+  }
+
+ private:
+  friend class IrisFieldMaker;
+
+  static constexpr double kCoarseEdge = 0.25;  // of a detail
+
+  // Of a tree of rectangles, each in at most four.
+  struct Node {
+    Vec2 low, high;
+    double open_area = 0;
+    std::int32_t first = 0;  // of pieces_ if a leaf, else of nodes_
+    std::int32_t count = 0;
+    std::int32_t coarse = 0;  // of pieces_: one straight edge in place of all
+    double coarse_error = std::numeric_limits<double>::infinity();
+    bool leaf = true;
+  };
+
+  template <class Visit>
+  void visit_node(const Node& node, Vec2 low, Vec2 high, double detail, const Visit& visit) const {
+    if (!(node.open_area > 0.0) || node.low.x > high.x || node.low.y > high.y || node.high.x < low.x ||
+        node.high.y < low.y)
+      return;
+    const Vec2 size = node.high - node.low;
+    if (!node.leaf && size.x <= detail && size.y <= detail) {
+      visit(IrisPiece{node.low, node.high, {}, 0, node.open_area / (size.x * size.y)});
+      return;
+    }
+    if (!node.leaf && node.coarse_error <= kCoarseEdge * detail)
+      return visit(pieces_[static_cast<std::size_t>(node.coarse)]);
+    for (std::int32_t k = node.first; k < node.first + node.count; ++k) {
+      const auto at = static_cast<std::size_t>(k);
+      if (node.leaf)
+        visit(pieces_[at]);
+      else
+        visit_node(nodes_[at], low, high, detail, visit);
+    }
+  }
+
+  int side_ = 0;  // nodes of the field along a side: the picture's samples and a ring around them
+  std::vector<float> field_;  // [row from below * side_ + column]
+  std::vector<Node> nodes_;  // the root first
+  std::vector<IrisPiece> pieces_;
+  std::vector<IrisBound> hull_;
+};
+
+}  // namespace contrejour
