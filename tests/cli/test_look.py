@@ -29,7 +29,8 @@ class Look(ProgramTest):
         shown = self.json_of("look", "show", "mine.toml")
         self.assertEqual((shown["lens"], shown["values"]["fnumber"], shown["values"]["blades"]), ("heliar", "11", "5"))
         self.assertEqual(shown["values"]["mirror"], "on")
-        self.run_program("render", "heliar", "-f", "11", "--blades", "5", "--coating", "none", "-o", "b.exr", *QUICK)
+        self.run_program("render", "heliar", "-f", "11", "--blades", "5", "--coating", "none", "--blade-curvature", "0.3",
+                         "--starburst", "-o", "b.exr", *QUICK)
         self.run_program("render", "--look", "mine.toml", "--no-mirror", "-o", "c.exr", *QUICK)
         self.assertEqual((self.folder / "b.exr").read_bytes(), (self.folder / "c.exr").read_bytes())
 

@@ -21,14 +21,13 @@ using Words = std::vector<std::string>;
 const std::map<std::string_view, Words> kTexts = {
     {"focus", {"inf", "2m", "500", "1e9", "350mm"}},
     {"coating", {"none", "quarter-wave", "quarter-wave:450:1.38", "hullin:550:1.38", "stack:1.38@99.6,2.1@131"}},
-    // The reference takes its time.
     {"method",
      {"adaptive", "adaptive", "adaptive", "bundle", "bundle", "bundle", "tiled", "tiled", "tiled", "reference"}},
-    {"select", {"all", "brightest:3", "flux:5", "surface:2", "list:1-2,2-5"}},
+    {"select", {"list:1-2,2-5", "list:1-5", "list:2-3", "list:3-5", "surface:2", "brightest:3"}},
     {"error", {"preview", "standard", "0.1"}},
 };
 const std::map<std::string_view, std::pair<double, double>> kNarrowed = {
-    {"grid", {16, 32}}, {"wavelengths", {1, 5}}, {"density", {0.05, 0.1}}, {"fnumber", {3.0, 64}}};
+    {"grid", {16, 32}}, {"wavelengths", {1, 3}}, {"density", {0.05, 0.1}}, {"fnumber", {3.0, 64}}};
 
 class RandomLook {
  public:
@@ -73,7 +72,7 @@ class RandomLook {
       case Kind::Integer:
         return std::to_string(static_cast<long>(std::clamp(std::floor(number(p)), p.minimum, p.maximum)));
       case Kind::Choice: return '"' + std::string(any(p.choices)) + '"';
-      case Kind::Switch: return chance(0.5) ? "true" : "false";
+      case Kind::Switch: return chance(p.name == "starburst" ? 0.05 : 0.5) ? "true" : "false";  // a tenth of a second
       case Kind::Text: break;
     }
     const auto words = kTexts.find(p.name);
