@@ -54,15 +54,22 @@ double worst_distance(const std::vector<IrisBound>& bounds, Vec2 p) {
   return worst;
 }
 
+// worst_distance() < kOnBound, found out at the first bound that says no: most crossings lie outside of many.
+bool is_within(const std::vector<IrisBound>& bounds, Vec2 p) {
+  return std::all_of(bounds.begin(), bounds.end(),
+                     [&](const IrisBound& bound) { return bound.distance(p) < kOnBound; });
+}
+
 // Corners of the opening, counter-clockwise.
 std::vector<Vec2> corners_of(const std::vector<IrisBound>& bounds) {
   std::vector<Vec2> corners;
   for (std::size_t i = 0; i < bounds.size(); ++i) {
     for (std::size_t j = i + 1; j < bounds.size(); ++j) {
       for (const Vec2 p : crossings(bounds[i], bounds[j])) {
+        if (!is_within(bounds, p)) continue;
         const bool known =
             std::any_of(corners.begin(), corners.end(), [&](Vec2 c) { return length(c - p) < kSameCorner; });
-        if (!known && worst_distance(bounds, p) < kOnBound) corners.push_back(p);
+        if (!known) corners.push_back(p);
       }
     }
   }
@@ -112,8 +119,7 @@ std::vector<IrisEdge> outline_of(const std::vector<IrisBound>& bounds) {
       const Vec2 start = bound.centre + Vec2{bound.radius, 0.0};
       const std::array<Vec2, 3> probes{start, bound.centre + Vec2{-0.5, 0.8660254037844386} * bound.radius,
                                        bound.centre + Vec2{-0.5, -0.8660254037844386} * bound.radius};
-      const bool inside =
-          std::all_of(probes.begin(), probes.end(), [&](Vec2 p) { return worst_distance(bounds, p) < kOnBound; });
+      const bool inside = std::all_of(probes.begin(), probes.end(), [&](Vec2 p) { return is_within(bounds, p); });
       if (inside) return {{bound, start, start}};
     }
     return edges;
