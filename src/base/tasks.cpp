@@ -114,11 +114,12 @@ bool detail::ordered_pipeline_erased(std::size_t count, const Context& context,
       });
   const auto give = tbb::make_filter<Item, void>(tbb::filter_mode::serial_in_order, [&](const Item& item) {
     take_over(item.product.get());
-    if (context.cancelled()) return;
-    take_over(&consumed);
-    consume(item.index, item.product.get());
-    report.item_done();
-    hand_over(&consumed);
+    if (!context.cancelled()) {
+      take_over(&consumed);
+      consume(item.index, item.product.get());
+      report.item_done();
+    }
+    hand_over(&consumed);  // a product that nobody wants, too: the caller frees what it was made with
   });
   run_in_arena(threads, [&] {
     tbb::parallel_pipeline(2 * static_cast<std::size_t>(threads), take & work & give);

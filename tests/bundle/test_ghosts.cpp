@@ -96,7 +96,7 @@ TEST_CASE("folded ghosts keep their flux and have no spikes") {
     CAPTURE(ghost.i);
     CAPTURE(ghost.j);
     const GhostImage truth = reference_ghost(lens, ghost, direction, frame);
-    CHECK(mine.total() == doctest::Approx(truth.total()).epsilon(0.005));
+    CHECK(mine.total() / truth.total() == doctest::Approx(1.0).epsilon(0.0025));
     CHECK(mine.peak() < 1.05 * truth.peak());
     CHECK(mine.peak() > 0.9 * truth.peak());
   }
@@ -133,7 +133,7 @@ TEST_CASE("a polygonal iris cuts as in the reference") {
     // At density 1 the reference itself is off by 3 per cent of the peak where the iris has its corners.
     const GhostImage truth = reference_ghost(lens, ghost, direction, frame, 2.0);
     const GhostImage mine = bundle_ghost(lens, ghost, direction, frame, 128);
-    CHECK(mine.total() == doctest::Approx(truth.total()).epsilon(0.001));
+    CHECK(mine.total() / truth.total() == doctest::Approx(1.0).epsilon(0.001));
     double worst = 0.0;
     for (std::size_t k = 0; k < truth.flux.size(); ++k) worst = std::max(worst, std::abs(mine.flux[k] - truth.flux[k]));
     CHECK(worst < 0.02 * truth.peak());

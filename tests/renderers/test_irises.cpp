@@ -124,7 +124,7 @@ TEST_CASE("blades that leave a circle give the round iris's bits") {
   });
 }
 
-TEST_CASE("a white picture is the round iris, to the error of its edge") {
+TEST_CASE("a white picture is the round iris, to the error of its edge [slow]") {
   const LensState round = bundled("heliar", {.f_number = 11.0});
   LensState white = round;
   white.iris.field = drawn_field(64, [](Vec2) { return 1.0; });

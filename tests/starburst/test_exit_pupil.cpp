@@ -54,7 +54,7 @@ TEST_CASE("on the axis the exit pupil is first-order optics'") {
   }
 }
 
-TEST_CASE("borders are where traced rays are blocked, and the flux is the direct image's") {
+TEST_CASE("borders are where traced rays are blocked, and the flux is the direct image's [slow]") {
   std::vector<Case> cases(std::begin(kCases), std::end(kCases));
   cases.push_back({"heliar", {.f_number = 5.6, .iris = {5, 0.3, 0.5, 1.0, 0.1, 1}}, 10.0, 4.0});
   cases.push_back({"heliar", {.f_number = 5.6}, 10.0, 4.0});
@@ -99,7 +99,7 @@ TEST_CASE("borders are where traced rays are blocked, and the flux is the direct
   }
 }
 
-TEST_CASE("every bundled lens wide open, from the axis to the corner: flux, outline, and rays the fit did not see") {
+TEST_CASE("every bundled lens wide open, from the axis to the corner: flux, outline, and rays the fit did not see [slow]") {
   int without_outline = 0;  // the fisheye's corner, a sliver
   for (const BundledLens& entry : bundled_lenses()) {
     const std::string name(entry.name);

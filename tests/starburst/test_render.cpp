@@ -149,7 +149,7 @@ TEST_CASE("a quarter-size render is the full one filtered") {
   CHECK(error / total < 0.02);
 }
 
-TEST_CASE("off the axis the pupil is vignetted and askew, and so is the pattern: sums over densely traced rays") {
+TEST_CASE("off the axis the pupil is vignetted and askew, and so is the pattern: sums over densely traced rays [slow]") {
   struct Case {
     const char* name;
     LensSettings settings;
