@@ -10,6 +10,7 @@
 
 #include "contrejour/key_values.h"
 #include "params/nearest_word.h"
+#include "params/parse.h"
 
 namespace contrejour::params {
 namespace {
@@ -87,6 +88,11 @@ KeyValue::Kind kind_of(const Parameter& p) {
   return p.kind == Kind::Real || p.kind == Kind::Integer ? KeyValue::Kind::Number : KeyValue::Kind::Text;
 }
 
+// As TOML has numbers: it takes neither ".5" nor "+5" nor "08", which the command line does.
+std::string number_text(const Parameter& p, const std::string& given) {
+  return p.kind == Kind::Integer ? fmt::format("{}", *parse_integer(given)) : fmt::format("{}", *parse_real(given));
+}
+
 }  // namespace
 
 bool belongs_to_look(const Parameter& parameter) { return !parameter.scene; }
@@ -111,7 +117,7 @@ std::string write_look(const Look& look) {
     } else if (p.kind == Kind::Switch) {
       value.texts = {look.values.is_on(p.name) ? "true" : "false"};
     } else if (const auto text = look.values.text(p.name)) {
-      value.texts = {*text};
+      value.texts = {value.kind == KeyValue::Kind::Number ? number_text(p, *text) : *text};
     }
     if (!value.texts.empty()) out.push_back(std::move(value));
   }

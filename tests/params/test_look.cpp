@@ -80,6 +80,18 @@ TEST_CASE("a look written is the look read, and names a value for every default"
   }
 }
 
+TEST_CASE("numbers as the command line takes them are written as TOML has them") {
+  Look look;
+  for (const auto& [name, text] : std::vector<std::pair<std::string, std::string>>{
+           {"starburst-gain", ".5"}, {"blade-rotation", "05."}, {"fnumber", "8e0"}, {"blades", "007"}}) {
+    CAPTURE(text);
+    if (!look.values.set(name, text)) continue;  // refused at once is as good
+    const Look again = must_read(write_look(look));
+    CHECK(again.values.number(name) == look.values.number(name));
+  }
+  CHECK(look.values.given("starburst-gain"));
+}
+
 TEST_CASE("values given stand over a look's") {
   Values given;
   REQUIRE(given.set("blades", "5").has_value());
