@@ -1,12 +1,11 @@
 // What tracing a packet is made of, one instruction set after the other: the geometry without any reflectance
 // looked up, and the look-ups alone. Items are surfaces hit, or look-ups; float.
-// Packets are structs of vectors, which these targets do not allow.
-#define HWY_DISABLED_TARGETS (HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128 | HWY_RVV)
-
 #include <cstddef>
 #include <cstdint>
 #include <string>
 #include <vector>
+
+#include "kernels/simd_targets.h"  // before Highway
 
 #include <benchmark/benchmark.h>
 #include <hwy/targets.h>

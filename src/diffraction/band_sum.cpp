@@ -1,5 +1,7 @@
 #include "diffraction/band_sum.h"
 
+#include "kernels/simd_targets.h"
+
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "diffraction/band_sum.cpp"
 #include <hwy/foreach_target.h>

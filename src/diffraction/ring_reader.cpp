@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "kernels/simd_targets.h"
+
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "diffraction/ring_reader.cpp"
 #include <hwy/foreach_target.h>

@@ -1,5 +1,7 @@
 #include "diffraction/sheet_rows.h"
 
+#include "kernels/simd_targets.h"
+
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "diffraction/sheet_rows.cpp"
 #include <hwy/foreach_target.h>

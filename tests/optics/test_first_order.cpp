@@ -3,8 +3,8 @@
 #include <fstream>
 #include <map>
 #include <optional>
-#include <regex>
 #include <sstream>
+#include <string>
 
 #include <doctest/doctest.h>
 #include <nlohmann/json.hpp>
@@ -18,17 +18,24 @@ using nlohmann::json;
 
 namespace {
 
+// What follows a marker, to the end of its line.
+std::optional<std::string> after(const std::string& text, const std::string& marker) {
+  const auto at = text.find(marker);
+  if (at == std::string::npos) return std::nullopt;
+  const auto start = at + marker.size();
+  return text.substr(start, text.find('\n', start) - start);
+}
+
 // Index from a refractiveindex.info file: formula 2 (Sellmeier) and formula 3 (polynomial) are enough here.
 std::optional<double> index_from_file(const std::filesystem::path& file, double lambda_um) {
   std::ifstream in(file);
   std::stringstream text;
   text << in.rdbuf();
-  const std::string content = text.str();
-  std::smatch match;
-  if (!std::regex_search(content, match, std::regex("type: formula ([0-9])"))) return std::nullopt;
-  const int formula = std::stoi(match[1]);
-  if (!std::regex_search(content, match, std::regex("coefficients: *([^\\n]*)"))) return std::nullopt;
-  std::stringstream numbers(match[1].str());
+  const auto kind = after(text.str(), "type: formula ");
+  const auto coefficients = after(text.str(), "coefficients:");
+  if (!kind || !coefficients) return std::nullopt;
+  const int formula = std::stoi(*kind);
+  std::stringstream numbers(*coefficients);
   std::vector<double> c;
   for (double v = 0; numbers >> v;) c.push_back(v);
   const double l2 = lambda_um * lambda_um;
@@ -65,11 +72,11 @@ std::optional<LensState> state_of(const json& sample, const json& resolution) {
     double n = 1.0;
     if (row.contains("material")) {
       const std::string material = row["material"].is_string() ? row["material"].get<std::string>() : "";
-      std::smatch ideal;
-      if (std::regex_search(material, ideal, std::regex("IdealMaterial\\(n=([0-9.]+)\\)"))) {
-        n = std::stod(ideal[1]);
+      if (const auto ideal = after(material, "IdealMaterial(n=")) {
+        n = std::stod(*ideal);
       } else {
-        const std::string key = std::regex_replace(row["material"].dump(), std::regex("\",\""), "\", \"");
+        std::string key = row["material"].dump();
+        for (std::size_t at = 0; (at = key.find("\",\"", at)) != std::string::npos; ++at) key.insert(at + 2, 1, ' ');
         const auto found = resolution["glasses"].find(key);
         if (found == resolution["glasses"].end()) return std::nullopt;
         const auto file = test::shared_data("glass/refractiveindex.info/database/data/" + found->get<std::string>());

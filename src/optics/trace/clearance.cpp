@@ -1,7 +1,7 @@
 #include "optics/trace/clearance.h"
 
-// Packets are structs of vectors, which these targets do not allow.
-#define HWY_DISABLED_TARGETS (HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128 | HWY_RVV)
+#include "kernels/simd_targets.h"
+
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "optics/trace/clearance.cpp"
 #include <hwy/foreach_target.h>

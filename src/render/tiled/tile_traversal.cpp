@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <limits>
 
-// Packets are structs of vectors, which these targets do not allow.
-#define HWY_DISABLED_TARGETS (HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128 | HWY_RVV)
+#include "kernels/simd_targets.h"
+
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "render/tiled/tile_traversal.cpp"
 #include <hwy/cache_control.h>
