@@ -37,7 +37,7 @@ class Stopwatch {
 // cells are allowed is a bound that most of them stay far below: measured, all together make less than a tenth of it
 // (docs/physics/adaptive.md), so that six times as much still holds.
 ErrorBudget budget_per_item(double error, double peak, const Frame& frame, std::size_t items) {
-  constexpr double kRoom = 6.0;
+  constexpr double kRoom = 7.0;
   if (!(peak > 0.0)) return {std::numeric_limits<double>::infinity(), 1.0};  // all light falls beside the frame
   const double allowed = kRoom * error * peak;
   const double pixels = static_cast<double>(frame.width) * frame.height;
@@ -49,7 +49,7 @@ class FramePainter {
  public:
   FramePainter(const Scene& scene, const RenderSettings& settings, const Context& context, Flare& flare)
       : scene_(scene), frame_(settings.frame), context_(context), quiet_(context), flare_(flare),
-        grid_(settings.frame.width, settings.frame.height) {
+        grid_(settings.frame.width, settings.frame.height), drawer_(grid_) {
     quiet_.progress = {};
   }
 
@@ -94,7 +94,7 @@ class FramePainter {
     const std::size_t strips = static_cast<std::size_t>((grid_.rows + kRowsAtOnce - 1) / kRowsAtOnce);
     parallel_for(strips, quiet_, [&](std::size_t strip) {
       const int first = static_cast<int>(strip) * kRowsAtOnce;
-      draw_tile_rows(batch, grid_, first, std::min(first + kRowsAtOnce, grid_.rows), mode_, flare_.image);
+      drawer_.draw_rows(batch, first, std::min(first + kRowsAtOnce, grid_.rows), mode_, flare_.image);
     });
     mode_ = TileMode::Add;
   }
@@ -105,6 +105,7 @@ class FramePainter {
   Context quiet_;
   Flare& flare_;
   TileGrid grid_;
+  TileDrawer drawer_;
   TileMode mode_ = TileMode::Write;
   Work work_;
   Stopwatch watch_;

@@ -14,7 +14,13 @@ constexpr double kSpeck = 0.05;      // pixels: a polygon no longer than this is
 constexpr int kMostPoints = 256;     // that stand for a line
 constexpr double kPixel = 1.0;       // area below which a cell is not seen but for its flux
 constexpr double kPictureEdges = 6.0;  // that cut a cell, as long as it is, where a picture is the iris
+constexpr double kStraight = 0.05;   // of a cell's budget, below which straight sides do: others meet bent ones
+// Found by measuring what doubling each does to errors and to the number of cells.
+constexpr double kShadeBound = 4.0;  // the irradiance is linear over the cell in pixels, not in shares of it
+constexpr double kFoldBound = 0.5;   // of a fold's flux, that is out of place
 constexpr double kMostBend = 0.04;   // of a cell, that what cuts it may be off
+constexpr double kLeftByBend = 0.25;  // of a curve's deviation from its chord, where a corner in its middle bends it
+constexpr std::array kSimpson{1.0 / 6.0, 4.0 / 6.0, 1.0 / 6.0};
 constexpr double kPeaks = 16.0;      // brightness over the peak where errors begin to count as relative ones
 // Half the cell, a fourth of the deviation of a curve from its chord: a sixteenth of the squared error.
 constexpr double kGainOfHalving = 16.0;
@@ -29,7 +35,28 @@ struct Bounds {
   [[nodiscard]] Vec2 size() const { return high - low; }
 };
 
-double quad_area(Vec2 a, Vec2 b, Vec2 c, Vec2 d) { return 0.5 * cross(c - a, d - b); }
+// Of a polygon: signed, and the point that halves it every way.
+struct Area {
+  double signed_px = 0;
+  Vec2 centroid;
+};
+
+template <class PositionOf>
+Area area_of(std::size_t count, PositionOf position) {
+  Area out;
+  Vec2 moment;
+  const Vec2 origin = position(std::size_t{0});
+  Vec2 before = position(std::size_t{1}) - origin;
+  for (std::size_t k = 2; k < count; ++k) {
+    const Vec2 next = position(k) - origin;
+    const double part = 0.5 * cross(before, next);
+    out.signed_px += part;
+    moment = moment + (before + next) * (part / 3.0);
+    before = next;
+  }
+  out.centroid = out.signed_px != 0.0 ? origin + moment * (1.0 / out.signed_px) : origin;
+  return out;
+}
 
 }  // namespace
 
@@ -41,6 +68,17 @@ CellPainter::Cell CellPainter::cell_at(int ix, int iy, int size) {
                Mesh::at(ix, iy + half)};
   cell.middle = Mesh::at(ix + half, iy + half);
   return cell;
+}
+
+CellPainter::Outline CellPainter::outline_of(const Cell& cell, Sides sides) {
+  constexpr std::array<Vec2, 4> kCorner{Vec2{0, 0}, Vec2{1, 0}, Vec2{1, 1}, Vec2{0, 1}};
+  constexpr std::array<Vec2, 4> kSide{Vec2{0.5, 0}, Vec2{1, 0.5}, Vec2{0.5, 1}, Vec2{0, 0.5}};
+  Outline out;
+  for (std::size_t k = 0; k < 4; ++k) {
+    out.corners[out.count++] = {cell.corner[k], kCorner[k]};
+    if (sides == Sides::Bent) out.corners[out.count++] = {cell.side[k], kSide[k]};
+  }
+  return out;
 }
 
 // Whether a line keeps the cell's crossings of the stop away from its rim: they may lie all around it, all outside.
@@ -82,7 +120,7 @@ bool CellPainter::off_frame(const Mesh& mesh, const Cell& cell) const {
 }
 
 // What drawing the cell as one polygon with a linear irradiance would get wrong, squared, over its pixels.
-double CellPainter::squared_error(const Mesh& mesh, const Cell& cell, State state) const {
+double CellPainter::squared_error(const Mesh& mesh, const Cell& cell, State state, Sides sides) const {
   const std::array<std::size_t, 9> v{cell.corner[0], cell.side[0],   cell.corner[1], cell.side[3],  cell.middle,
                                      cell.side[1],   cell.corner[3], cell.side[2],   cell.corner[2]};
   Bounds b;
@@ -101,7 +139,7 @@ double CellPainter::squared_error(const Mesh& mesh, const Cell& cell, State stat
   const double worst = flux * flux / box;
   if (folded) {
     const double seen = 1.0 / (1.0 + flux / box / (kPeaks * peak_));
-    return worst * seen * seen;
+    return kFoldBound * worst * seen * seen;
   }
 
   const auto e = [&](std::size_t k) { return static_cast<double>(mesh.brightness[v[k]]); };
@@ -113,23 +151,38 @@ double CellPainter::squared_error(const Mesh& mesh, const Cell& cell, State stat
         mean + along_u * (static_cast<double>(k % 3) - 1.0) + along_v * (static_cast<double>(k / 3) - 1.0);
     residual += (e(k) - plane) * (e(k) - plane) / 9.0;
   }
+  // What is drawn has the flux over the polygon's area for its mean.
+  const Outline outline = outline_of(cell, sides);
+  const double drawn_area = std::abs(
+      area_of(outline.count, [&](std::size_t k) { return mesh.position(outline.corners[k].vertex); }).signed_px);
+  double cell_flux = 0.0;
+  double cell_area = 0.0;
+  for (std::size_t k = 0; k < 9; ++k) {
+    const double part = kSimpson[k % 3] * kSimpson[k / 3] * std::abs(mesh.area[v[k]]) * cell.size * cell.size;
+    cell_area += part;
+    cell_flux += part * e(k);
+  }
+  const double off_level = cell_flux / std::max(drawn_area, 1e-12) - cell_flux / std::max(cell_area, 1e-12);
+  residual += off_level * off_level;
+
   const double longest = std::max(extent.x, extent.y);
   const double area = std::abs(mesh.area[cell.middle]) * cell.size * cell.size;
   const double width = std::min(1.0, area / std::max(longest, 1e-6));  // a sliver's flux is seen spread over a pixel
   // Far above the frame's peak only the relative error counts.
   const double dimmed = 1.0 / (1.0 + mean / (kPeaks * peak_));
-  double error = residual * area * width;
+  double error = kShadeBound * residual * area * width;
 
-  // Sides drawn straight.
+  // Sides off their place: beside a cell with more corners they overlap or leave a gap, cut ones are seen.
+  const double left = sides == Sides::Bent ? kLeftByBend : 1.0;
   for (std::size_t k = 0; k < 4; ++k) {
     const Vec2 a = mesh.position(cell.corner[k]);
     const Vec2 c = mesh.position(cell.corner[(k + 1) % 4]);
-    const double off = length(mesh.position(cell.side[k]) - (a + c) * 0.5);
+    const double off = left * length(mesh.position(cell.side[k]) - (a + c) * 0.5);
     error += mean * mean * std::min(off * off, off) * length(c - a) * width * width;
   }
   if (state == State::Cut) {
-    const double share = limit_error(mesh, cell);
-    if (share > kMostBend) return std::numeric_limits<double>::infinity();  // or light would be lost unseen
+    const double share = left * limit_error(mesh, cell);
+    if (share > left * kMostBend) return std::numeric_limits<double>::infinity();  // or light would be lost unseen
     const double off = share * longest;
     const double edges = iris_.is_picture() ? kPictureEdges : 1.0;
     error += mean * mean * std::min(off * off, off) * edges * longest * width * width;
@@ -176,7 +229,7 @@ bool CellPainter::wants_finer_mesh(const Mesh& mesh, int ix, int iy) const {
       const Cell cell = cell_at(x, y, 2);
       const State state = state_of(mesh, cell);
       if (state == State::Closed || off_frame(mesh, cell)) continue;
-      if (squared_error(mesh, cell, state) > kGainOfHalving * cell_budget()) return true;
+      if (squared_error(mesh, cell, state, most_bent(state)) > kGainOfHalving * cell_budget()) return true;
     }
   }
   return false;
@@ -208,19 +261,21 @@ void CellPainter::paint_cell(const Mesh& mesh, int ix, int iy, int size) {
   const Cell cell = cell_at(ix, iy, size);
   const State state = state_of(mesh, cell);
   if (state == State::Closed || off_frame(mesh, cell)) return;
-  if (size > 1 && squared_error(mesh, cell, state) > cell_budget()) {
-    const int half = size / 2;
-    for (int k = 0; k < 4; ++k) paint_cell(mesh, ix + (k % 2) * half, iy + (k / 2) * half, half);
-    return;
-  }
-  draw(mesh, cell, state);
+  if (size == 1 || squared_error(mesh, cell, state, Sides::Straight) <= kStraight * cell_budget())
+    return draw(mesh, cell, state, Sides::Straight);
+  const Sides sides = most_bent(state);
+  if (squared_error(mesh, cell, state, sides) <= cell_budget()) return draw(mesh, cell, state, sides);
+  const int half = size / 2;
+  for (int k = 0; k < 4; ++k) paint_cell(mesh, ix + (k % 2) * half, iy + (k / 2) * half, half);
 }
 
-void CellPainter::draw(const Mesh& mesh, const Cell& cell, State state) {
+void CellPainter::draw(const Mesh& mesh, const Cell& cell, State state, Sides sides) {
   cells_ += 1.0;
   const std::array<Vec2, 4> p{mesh.position(cell.corner[0]), mesh.position(cell.corner[1]),
                               mesh.position(cell.corner[2]), mesh.position(cell.corner[3])};
-  const double area = quad_area(p[0], p[1], p[2], p[3]);
+  const Outline outline = outline_of(cell, sides);
+  const auto [area, centroid] =
+      area_of(outline.count, [&](std::size_t k) { return mesh.position(outline.corners[k].vertex); });
   bool convex = true;
   for (std::size_t k = 0; k < 4; ++k) {
     const Vec2 a = p[k];
@@ -231,7 +286,7 @@ void CellPainter::draw(const Mesh& mesh, const Cell& cell, State state) {
 
   Shade shade;
   Flux flux{};
-  const Vec2 middle = (p[0] + p[1] + p[2] + p[3]) * 0.25 + mesh.origin_px;
+  const Vec2 middle = centroid + mesh.origin_px;
   shade.at = {static_cast<float>(middle.x), static_cast<float>(middle.y)};
   const Vec2 d = p[2] - p[0];
   const Vec2 f = p[3] - p[1];
@@ -243,8 +298,8 @@ void CellPainter::draw(const Mesh& mesh, const Cell& cell, State state) {
     const auto& w = mesh.field(PatchLayout::kWeight + c);
     double weight = 0.25 * (w[cell.corner[0]] + w[cell.corner[1]] + w[cell.corner[2]] + w[cell.corner[3]]);
     if (cell.size > 1) {  // Simpson's rule both ways
-      const double sides = 0.25 * (w[cell.side[0]] + w[cell.side[1]] + w[cell.side[2]] + w[cell.side[3]]);
-      weight = (weight + 4.0 * sides + 4.0 * w[cell.middle]) / 9.0;
+      const double middles = 0.25 * (w[cell.side[0]] + w[cell.side[1]] + w[cell.side[2]] + w[cell.side[3]]);
+      weight = (weight + 4.0 * middles + 4.0 * w[cell.middle]) / 9.0;
     }
     const double value = weight * flux_area / std::abs(area);
     flux[static_cast<std::size_t>(c)] = weight * flux_area;
@@ -266,7 +321,7 @@ void CellPainter::draw(const Mesh& mesh, const Cell& cell, State state) {
     shade.along_x[channel] = static_cast<float>((along_d * f.y - along_f * d.y) * scale);
     shade.along_y[channel] = static_cast<float>((along_f * d.x - along_d * f.x) * scale);
   }
-  draw_polygon(mesh, state, shade, flux, cell.corner);
+  draw_polygon(mesh, state, shade, flux, outline.all());
 }
 
 // Two triangles, each with its own flux spread evenly.
@@ -274,6 +329,7 @@ void CellPainter::draw_folded(const Mesh& mesh, const Cell& cell, State state) {
   const double flux_area = 0.5 * mesh.cell_flux_area_mm2 * cell.size * cell.size;
   for (const auto& t : {std::array{cell.corner[0], cell.corner[1], cell.corner[2]},
                         std::array{cell.corner[0], cell.corner[2], cell.corner[3]}}) {
+    const std::array<CellCorner, 3> corners{{{t[0], {0, 0}}, {t[1], {1, 0}}, {t[2], {1, 1}}}};
     const std::array<Vec2, 3> p{mesh.position(t[0]), mesh.position(t[1]), mesh.position(t[2])};
     const double area = 0.5 * std::abs(cross(p[1] - p[0], p[2] - p[0]));
     const Vec2 middle = (p[0] + p[1] + p[2]) * (1.0 / 3.0) + mesh.origin_px;
@@ -286,39 +342,39 @@ void CellPainter::draw_folded(const Mesh& mesh, const Cell& cell, State state) {
       flux[channel] = (w[t[0]] + w[t[1]] + w[t[2]]) / 3.0 * flux_area;
       shade.value[channel] = static_cast<float>(flux[channel] / std::max(area, 1e-12));
     }
-    draw_polygon(mesh, state, shade, flux, t);
+    draw_polygon(mesh, state, shade, flux, corners);
   }
 }
 
 // Chords of an arc that miss it by no more pixels than the budget allows; half as many either way would do.
-double CellPainter::arc_step(const Mesh& mesh, std::span<const std::size_t> corners, const Shade& shade) const {
+double CellPainter::arc_step(const Mesh& mesh, std::span<const CellCorner> corners, const Shade& shade) const {
   double reach = 0.0;
   Bounds b;
-  for (const std::size_t v : corners) {
-    b.add(mesh.position(v));
+  for (const CellCorner& corner : corners) {
+    b.add(mesh.position(corner.vertex));
     for (int f = PatchLayout::kStop; f < mesh.layout.rim(0); ++f) {
-      reach = std::max(reach, std::abs(static_cast<double>(mesh.field(f)[v]) - mesh.field(f)[corners[0]]));
+      const Mesh::Field& stop = mesh.field(f);
+      reach = std::max(reach, std::abs(static_cast<double>(stop[corner.vertex]) - stop[corners[0].vertex]));
     }
   }
   const double longest = std::max(b.size().x, b.size().y);
   const double level = std::max({std::abs(shade.value[0]), std::abs(shade.value[1]), std::abs(shade.value[2])});
   const double seen = level / (1.0 + level / (kPeaks * peak_));
   const double off_px =
-      std::clamp(0.5 * std::sqrt(cell_budget() / std::max(longest, 1.0)) / std::max(seen, 1e-300), 0.02, 0.5);
+      std::clamp(0.25 * std::sqrt(cell_budget() / std::max(longest, 1.0)) / std::max(seen, 1e-300), 0.02, 0.5);
   const double pixels_per_radius = longest / std::max(reach, 1e-9);
   return std::clamp(std::sqrt(8.0 * off_px / pixels_per_radius), 0.02, 0.8);
 }
 
 void CellPainter::draw_polygon(const Mesh& mesh, State state, const Shade& shade, const Flux& flux,
-                               std::span<const std::size_t> corners) {
-  constexpr std::array<Vec2, 4> kUv{Vec2{0, 0}, Vec2{1, 0}, Vec2{1, 1}, Vec2{0, 1}};
-  std::array<Corner, 4> whole;
+                               std::span<const CellCorner> corners) {
+  std::array<Corner, 8> whole;
   for (std::size_t k = 0; k < corners.size(); ++k) {
     Corner& corner = whole[k];
-    corner.position = mesh.position(corners[k]) + mesh.origin_px;
-    corner.uv = kUv[k];
+    corner.position = mesh.position(corners[k].vertex) + mesh.origin_px;
+    corner.uv = corners[k].uv;
     for (int f = PatchLayout::kStop; state == State::Cut && f < mesh.layout.fields(); ++f) {
-      corner.limit[static_cast<std::size_t>(f - PatchLayout::kStop)] = mesh.field(f)[corners[k]];
+      corner.limit[static_cast<std::size_t>(f - PatchLayout::kStop)] = mesh.field(f)[corners[k].vertex];
     }
   }
   std::span<const Corner> polygon(whole.data(), corners.size());

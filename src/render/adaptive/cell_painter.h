@@ -30,16 +30,27 @@ class CellPainter {
     std::array<std::size_t, 4> corner{}, side{};
     std::size_t middle = 0;
   };
+  // A corner of what is drawn: a vertex of the mesh, and where it is in the cell.
+  struct CellCorner {
+    std::size_t vertex = 0;
+    Vec2 uv;
+  };
+  enum class Sides : std::uint8_t { Straight, Bent };  // bent ones have a corner in their middle
+  struct Outline {
+    std::array<CellCorner, 8> corners;
+    std::size_t count = 0;
+    [[nodiscard]] std::span<const CellCorner> all() const { return {corners.data(), count}; }
+  };
   using Flux = std::array<double, 3>;
 
   static constexpr double kManyCells = 4.0;
 
   void paint(const Patch& patch, int depth);
   void paint_cell(const Mesh& mesh, int ix, int iy, int size);
-  void draw(const Mesh& mesh, const Cell& cell, State state);
+  void draw(const Mesh& mesh, const Cell& cell, State state, Sides sides);
   void draw_folded(const Mesh& mesh, const Cell& cell, State state);
   void draw_polygon(const Mesh& mesh, State state, const Shade& shade, const Flux& flux,
-                    std::span<const std::size_t> corners);
+                    std::span<const CellCorner> corners);
   void draw_pieces(const Mesh& mesh, std::span<const Corner> cell, const Shade& shade, const Flux& flux);
   void draw_part(std::span<const Corner> polygon, const Shade& shade, const Flux& flux, bool triangle);
   void draw_line(std::span<const Corner> polygon, const Flux& flux);
@@ -52,11 +63,14 @@ class CellPainter {
   [[nodiscard]] static State state_of(const Mesh& mesh, const Cell& cell);
   [[nodiscard]] bool off_frame(const Mesh& mesh, const Cell& cell) const;
   [[nodiscard]] bool wants_finer_mesh(const Mesh& mesh, int ix, int iy) const;
-  [[nodiscard]] double squared_error(const Mesh& mesh, const Cell& cell, State state) const;
-
+  [[nodiscard]] double squared_error(const Mesh& mesh, const Cell& cell, State state, Sides sides) const;
+  // A picture cuts triangles, within which corners on a cell's sides say nothing.
+  [[nodiscard]] Sides most_bent(State state) const {
+    return state == State::Cut && iris_.is_picture() ? Sides::Straight : Sides::Bent;
+  }
+  [[nodiscard]] static Outline outline_of(const Cell& cell, Sides sides);
   [[nodiscard]] static double limit_error(const Mesh& mesh, const Cell& cell);
-
-  [[nodiscard]] double arc_step(const Mesh& mesh, std::span<const std::size_t> corners, const Shade& shade) const;
+  [[nodiscard]] double arc_step(const Mesh& mesh, std::span<const CellCorner> corners, const Shade& shade) const;
 
   const IrisShape& iris_;
   int width_, height_;

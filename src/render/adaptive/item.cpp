@@ -150,7 +150,7 @@ double estimate_peak(const Scene& scene, const std::vector<Item>& items, const F
   for (const Work& w : done) work.add(w);
   if (context.cancelled()) return 0.0;
   Image image = Image::unwritten(small.width, small.height);
-  draw_tile_rows(polygons, grid, 0, grid.rows, TileMode::Write, image);
+  TileDrawer(grid).draw_rows(polygons, 0, grid.rows, TileMode::Write, image);
   double peak = quantile_of_samples(image, kPeakQuantile);
   if (!(peak > 0.0)) {
     for (const float value : image.pixels) peak = std::max(peak, static_cast<double>(value));

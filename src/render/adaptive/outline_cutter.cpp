@@ -13,10 +13,12 @@ constexpr double kLongestStep = 0.8;  // radians
 
 }  // namespace
 
-// Keeps where value(corner), linear along the sides, is <= 0. Sutherland-Hodgman.
+// Keeps where value(corner), linear along the sides, is <= 0. Sutherland-Hodgman; in a cell of bent sides what is cut
+// bends with them.
 template <class Value>
 void OutlineCutter::cut_where_positive(Value value) {
   next_.clear();
+  exits_.clear();
   for (std::size_t k = 0; k < polygon_.size(); ++k) {
     const Corner& a = polygon_[k];
     const Corner& b = polygon_[k + 1 == polygon_.size() ? 0 : k + 1];
@@ -24,9 +26,36 @@ void OutlineCutter::cut_where_positive(Value value) {
     const double fb = value(b);
     if (fa <= 0.0) next_.push_back(a);
     if ((fa <= 0.0) == (fb <= 0.0)) continue;
+    if (fa <= 0.0) exits_.push_back(next_.size());
     next_.push_back(between(a, b, fa / (fa - fb)));
   }
+  if (whole_.size() == kBentCorners) bend_cuts(value);
   polygon_.swap(next_);
+}
+
+// Where the outline leaves, a corner on the way to where it comes back: the cut is a parabola over the chord between
+// them, and the triangle of its area is 4/3 as high.
+template <class Value>
+void OutlineCutter::bend_cuts(Value value) {
+  constexpr double kTrial = 0.125;  // of the chord, aside from its middle either way, to see how the value changes
+  constexpr double kMost = 0.5;
+  for (std::size_t k = exits_.size(); k-- > 0;) {
+    const Vec2 from = next_[exits_[k]].uv;
+    const Vec2 chord = next_[exits_[k] + 1 == next_.size() ? 0 : exits_[k] + 1].uv - from;
+    const Vec2 middle = from + chord * 0.5;
+    const Vec2 aside{-chord.y, chord.x};
+    const double here = value(corner_at(middle));
+    const double there = value(corner_at(middle + aside * kTrial)) - here;
+    const double back = value(corner_at(middle - aside * kTrial)) - here;
+    const double slope = 0.5 * (there - back);
+    const double curvature = 0.5 * (there + back);
+    const double root = std::sqrt(slope * slope - 4.0 * curvature * here);
+    const double height = -2.0 * here / (slope + std::copysign(root, slope)) * kTrial;
+    if (!(std::abs(height) < kMost)) continue;  // NaN where it has no zero
+    const Vec2 uv = middle + aside * (4.0 / 3.0 * height);
+    next_.insert(next_.begin() + static_cast<std::ptrdiff_t>(exits_[k]) + 1,
+                 corner_at({std::clamp(uv.x, 0.0, 1.0), std::clamp(uv.y, 0.0, 1.0)}));
+  }
 }
 
 // The stop coordinates are linear along each side, which then meets the circle exactly; where the outline leaves the
@@ -135,12 +164,27 @@ Corner OutlineCutter::between(const Corner& a, const Corner& b, double t) const 
   return c;
 }
 
-// Everything is bilinear in the cell, or linear in a triangle of corners 0, 1 and 2.
+// What each of the whole cell's corners adds to a point between them: linear in a triangle, bilinear in a cell of four
+// corners, quadratic along the sides of one of eight (serendipity; Zienkiewicz and Taylor, The Finite Element Method).
+OutlineCutter::Shares OutlineCutter::shares_at(Vec2 uv) const {
+  const double u = uv.x;
+  const double v = uv.y;
+  if (whole_.size() == 3) return {1.0 - u, u - v, v};
+  Shares s{(1.0 - u) * (1.0 - v), u * (1.0 - v), u * v, (1.0 - u) * v};
+  if (whole_.size() != kBentCorners) return s;
+  const double across_u = 4.0 * u * (1.0 - u);
+  const double across_v = 4.0 * v * (1.0 - v);
+  const std::array<double, 4> side{across_u * (1.0 - v), across_v * u, across_u * v, across_v * (1.0 - u)};
+  Shares bent{};
+  for (std::size_t k = 0; k < 4; ++k) {
+    bent[2 * k] = s[k] - 0.5 * (side[k] + side[(k + 3) % 4]);
+    bent[2 * k + 1] = side[k];
+  }
+  return bent;
+}
+
 Corner OutlineCutter::corner_at(Vec2 uv) const {
-  const bool triangle = whole_.size() == 3;
-  const std::array<double, 4> share =
-      triangle ? std::array{1.0 - uv.x, uv.x - uv.y, uv.y, 0.0}
-               : std::array{(1.0 - uv.x) * (1.0 - uv.y), uv.x * (1.0 - uv.y), uv.x * uv.y, (1.0 - uv.x) * uv.y};
+  const Shares share = shares_at(uv);
   Corner out;
   out.uv = uv;
   for (std::size_t k = 0; k < whole_.size(); ++k) {
@@ -150,22 +194,25 @@ Corner OutlineCutter::corner_at(Vec2 uv) const {
   return out;
 }
 
-// The point of the cell whose ray crosses the stop there: two steps of Newton's method, the map being nearly linear.
-// None where it bends too much for them.
+// The point of the cell whose ray crosses the stop there: steps of Newton's method by the slopes of the bilinear part,
+// the map being nearly linear. None where it bends too much for them.
 std::optional<Corner> OutlineCutter::corner_at_stop(std::size_t limit, Vec2 target) const {
   constexpr double kMiss = 0.1;  // stop radii
-  const auto stop = [&](std::size_t k) { return Vec2{whole_[k].limit[limit], whole_[k].limit[limit + 1]}; };
+  const std::size_t by = whole_.size() == kBentCorners ? 2 : 1;
+  const auto stop = [&](std::size_t k) { return Vec2{whole_[k * by].limit[limit], whole_[k * by].limit[limit + 1]}; };
   const bool triangle = whole_.size() == 3;
-  // s(u, v) = origin + u along_u + v along_v + u v twist.
-  const Vec2 origin = stop(0);
-  const Vec2 along_u = stop(1) - origin;
-  const Vec2 along_v = triangle ? stop(2) - stop(1) : stop(3) - origin;
+  const Vec2 along_u = stop(1) - stop(0);
+  const Vec2 along_v = triangle ? stop(2) - stop(1) : stop(3) - stop(0);
   const Vec2 twist = triangle ? Vec2{} : stop(2) - stop(1) - along_v;
   const auto missed_by = [&](Vec2 uv) {
-    return target - (origin + along_u * uv.x + along_v * uv.y + twist * (uv.x * uv.y));
+    const Shares share = shares_at(uv);
+    Vec2 off = target;
+    for (std::size_t k = 0; k < whole_.size(); ++k)
+      off = off - Vec2{whole_[k].limit[limit], whole_[k].limit[limit + 1]} * share[k];
+    return off;
   };
   Vec2 uv{0.5, 0.5};
-  for (int step = 0; step < 2; ++step) {
+  for (int step = 0; step < (by == 1 ? 2 : 3); ++step) {
     const Vec2 off = missed_by(uv);
     const Vec2 du = along_u + twist * uv.y;
     const Vec2 dv = along_v + twist * uv.x;
@@ -201,6 +248,7 @@ void OutlineCutter::cut_by_rims(int crossings, int rims) {
 void OutlineCutter::for_each_open_part(std::span<const Corner> whole, int crossings, int rims, double finest,
                                        const OpenPart& visit) {
   limits_ = static_cast<std::size_t>(2 * crossings + rims);
+  whole_ = {};
   for (std::size_t k = 2; k < whole.size(); ++k) {
     polygon_.assign({whole[0], whole[k - 1], whole[k]});
     cut_by_rims(crossings, rims);

@@ -24,7 +24,8 @@ class OutlineCutter {
  public:
   explicit OutlineCutter(const IrisShape& iris) : iris_(iris) {}
 
-  // whole: the cell's four corners at uv (0, 0), (1, 0), (1, 1), (0, 1), or the first three of them. Arcs get a corner
+  // whole: the cell's four corners at uv (0, 0), (1, 0), (1, 1), (0, 1), or the first three of them, or the four with
+  // the middle of the side that follows after each. Arcs get a corner
   // every arc_step_rad / sqrt(r) at least, r their radius in stop radii. Empty when nothing is open. Valid until the
   // next call, as long as `whole` is.
   [[nodiscard]] std::span<const Corner> open_part(std::span<const Corner> whole, int crossings, int rims,
@@ -36,6 +37,8 @@ class OutlineCutter {
   void for_each_open_part(std::span<const Corner> whole, int crossings, int rims, double finest, const OpenPart& visit);
 
  private:
+  static constexpr std::size_t kBentCorners = 8;  // of a cell whose sides bend in their middles
+
   // In the plane of a crossing, whose coordinates are a corner's from `limit` on.
   struct Circle {
     std::size_t limit = 0;
@@ -55,12 +58,16 @@ class OutlineCutter {
   void cut_by_circle(const Circle& circle);
   template <class Value>
   void cut_where_positive(Value value);
+  template <class Value>
+  void bend_cuts(Value value);
   void add_arc(const Circle& circle, double from, double angle);
   void add_circle(const Circle& circle, double turn);
   [[nodiscard]] bool is_inside(std::size_t limit, const IrisBound& half_plane) const;
   [[nodiscard]] double step_on(const Circle& circle) const;
   [[nodiscard]] bool surrounds_centre(const Circle& circle) const;
   [[nodiscard]] Corner between(const Corner& a, const Corner& b, double t) const;
+  using Shares = std::array<double, kBentCorners>;
+  [[nodiscard]] Shares shares_at(Vec2 uv) const;
   [[nodiscard]] Corner corner_at(Vec2 uv) const;
   [[nodiscard]] std::optional<Corner> corner_at_stop(std::size_t limit, Vec2 target) const;
 

@@ -180,9 +180,10 @@ void add_polygon(TileSums& tile, const PolygonList& list, const Polygon& polygon
   }
 }
 
-// Running sums of a row, four floats a pixel; the sums are cleared. Blocks without changes are not looked at: reading
-// and clearing them is most of the work.
-HWY_INLINE void sum_row(double* sums, std::uint64_t touched, int width, float* pixels) {
+// Running sums of a row, each pixel as four floats to where `store` puts them; the sums are cleared. Blocks without
+// changes are not looked at: reading and clearing them is most of the work.
+template <class Store>
+HWY_INLINE void sum_row(double* sums, std::uint64_t touched, int width, Store store) {
   constexpr std::size_t kHalf = TileSums::kLanes / 2;
   const hn::CappedTag<double, kHalf> d;
   const hn::Rebind<float, decltype(d)> df;
@@ -194,8 +195,9 @@ HWY_INLINE void sum_row(double* sums, std::uint64_t touched, int width, float* p
     auto x = zero;
     for (int block = 0; block * TileSums::kBlock < width; ++block) {
       const auto first = static_cast<std::size_t>(block * TileSums::kBlock);
+      const auto end = std::min(first + TileSums::kBlock, static_cast<std::size_t>(width));
       const bool changes = (touched >> block & 1U) != 0;
-      for (std::size_t column = first; column < first + TileSums::kBlock; ++column) {
+      for (std::size_t column = first; column < end; ++column) {
         if (changes) {
           double* at = sums + TileSums::kLanes * column + k;
           level = hn::Add(level, hn::LoadU(d, at));
@@ -203,7 +205,7 @@ HWY_INLINE void sum_row(double* sums, std::uint64_t touched, int width, float* p
           hn::StoreU(zero, d, at);
           hn::StoreU(zero, d, at + kHalf);
         }
-        hn::StoreU(hn::DemoteTo(df, hn::MulAdd(slope, x, level)), df, pixels + kHalf * column + k);
+        store(df, hn::DemoteTo(df, hn::MulAdd(slope, x, level)), column, k);
         x = hn::Add(x, one);
       }
     }
@@ -212,27 +214,30 @@ HWY_INLINE void sum_row(double* sums, std::uint64_t touched, int width, float* p
 
 void sum_up(TileSums& tile, TileMode mode, Image& image) {
   constexpr std::size_t kPixel = TileSums::kLanes / 2;
+  // With whole pixels a store the fourth value is overwritten by the next pixel; the last one's stays beside the
+  // picture.
+  constexpr bool kWholePixels = hn::MaxLanes(hn::CappedTag<double, kPixel>()) == kPixel;
   HWY_ALIGN float pixels[kPixel * TileGrid::kWidth];
-  const hn::CappedTag<float, kPixel> d;
-  const auto width = static_cast<std::size_t>(tile.width);
+  const auto last = static_cast<std::size_t>(tile.width - 1);
   for (int row = 0; row < tile.height; ++row) {
     const auto at_row = static_cast<std::size_t>(row);
-    sum_row(tile.at(row, 0), tile.touched[at_row], tile.width, pixels);
+    float* to = image.pixels.data() + image.index(tile.x0, tile.y0 + row);
+    const auto into = [&](auto place) {
+      sum_row(tile.at(row, 0), tile.touched[at_row], tile.width,
+              [&](auto d, auto value, std::size_t column, std::size_t k) { hn::StoreU(value, d, place(column) + k); });
+    };
+    if (kWholePixels && mode == TileMode::Write) {
+      into([&](std::size_t column) { return column == last ? pixels : to + 3 * column; });
+      std::copy_n(pixels, 3, to + 3 * last);
+    } else {
+      into([&](std::size_t column) { return pixels + kPixel * column; });
+      for (std::size_t k = 0; k < 3 * (last + 1); ++k) {
+        const float value = pixels[kPixel * (k / 3) + k % 3];
+        to[k] = mode == TileMode::Write ? value : to[k] + value;
+      }
+    }
     std::fill_n(tile.at(row, tile.width), TileSums::kLanes, 0.0);  // what edges on the right border changed
     tile.touched[at_row] = 0;
-    float* to = image.pixels.data() + image.index(tile.x0, tile.y0 + row);
-    if (mode == TileMode::Add) {
-      for (std::size_t column = 0; column < width; ++column) {
-        for (std::size_t c = 0; c < 3; ++c) to[3 * column + c] += pixels[kPixel * column + c];
-      }
-      continue;
-    }
-    // The fourth value of a pixel is overwritten by the next one; the last pixel has no next.
-    for (std::size_t column = 0; column + 1 < width; ++column) {
-      for (std::size_t k = 0; k < kPixel; k += hn::Lanes(d))
-        hn::StoreU(hn::Load(d, pixels + kPixel * column + k), d, to + 3 * column + k);
-    }
-    std::copy_n(pixels + kPixel * (width - 1), 3, to + 3 * (width - 1));
   }
 }
 
@@ -312,19 +317,36 @@ TileLists tile_lists(const PolygonList& list, const TileGrid& grid) {
   return out;
 }
 
-void draw_tile_rows(std::span<const TiledPolygons> lists, const TileGrid& grid, int first, int last, TileMode mode,
-                    Image& image) {
-  TileSums sums;
+TileDrawer::TileDrawer(const TileGrid& grid) : grid_(grid) {}
+TileDrawer::~TileDrawer() = default;
+
+std::unique_ptr<TileSums> TileDrawer::take() {
+  const std::lock_guard lock(mutex_);
+  if (unused_.empty()) return std::make_unique<TileSums>();
+  auto sums = std::move(unused_.back());
+  unused_.pop_back();
+  return sums;
+}
+
+void TileDrawer::give_back(std::unique_ptr<TileSums> sums) {
+  const std::lock_guard lock(mutex_);
+  unused_.push_back(std::move(sums));
+}
+
+void TileDrawer::draw_rows(std::span<const TiledPolygons> lists, int first, int last, TileMode mode, Image& image) {
+  auto taken = take();
+  TileSums& sums = *taken;
   for (int row = first; row < last; ++row) {
     sums.y0 = row * TileGrid::kHeight;
-    sums.height = std::min(TileGrid::kHeight, grid.height - sums.y0);
-    for (int column = 0; column < grid.columns; ++column) {
+    sums.height = std::min(TileGrid::kHeight, grid_.height - sums.y0);
+    for (int column = 0; column < grid_.columns; ++column) {
       sums.x0 = column * TileGrid::kWidth;
-      sums.width = std::min(TileGrid::kWidth, grid.width - sums.x0);
-      const auto tile = static_cast<std::size_t>(row * grid.columns + column);
+      sums.width = std::min(TileGrid::kWidth, grid_.width - sums.x0);
+      const auto tile = static_cast<std::size_t>(row * grid_.columns + column);
       HWY_DYNAMIC_DISPATCH(draw_tile)(lists, tile, sums, mode, image);
     }
   }
+  give_back(std::move(taken));
 }
 
 }  // namespace contrejour::adaptive

@@ -5,6 +5,9 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
+#include <mutex>
+#include <span>
 #include <vector>
 
 #include "contrejour/image.h"
@@ -39,9 +42,25 @@ struct TiledPolygons {
 
 enum class TileMode : std::uint8_t { Write, Add };
 
-// Writes or adds to the pixels of rows of tiles, from first to last without it, what the polygons bring, list after
-// list. Rows do not touch each other.
-void draw_tile_rows(std::span<const TiledPolygons> lists, const TileGrid& grid, int first, int last, TileMode mode,
-                    Image& image);
+struct TileSums;
+
+// Draws polygons into rows of tiles. Rows may be drawn by several threads at once.
+class TileDrawer {
+ public:
+  explicit TileDrawer(const TileGrid& grid);
+  ~TileDrawer();
+
+  // Writes or adds to the pixels of rows of tiles, from first to last without it, what the polygons bring, list after
+  // list. Rows do not touch each other.
+  void draw_rows(std::span<const TiledPolygons> lists, int first, int last, TileMode mode, Image& image);
+
+ private:
+  [[nodiscard]] std::unique_ptr<TileSums> take();
+  void give_back(std::unique_ptr<TileSums> sums);
+
+  TileGrid grid_;
+  std::mutex mutex_;
+  std::vector<std::unique_ptr<TileSums>> unused_;  // a megabyte each, all zero: one a thread, not one a row
+};
 
 }  // namespace contrejour::adaptive
