@@ -28,7 +28,7 @@ using P = hk::Packet<float>;
 
 // As the tracer does, less R, T and rims.
 void geometry(const PacketPath& path, const float* x_mm, const float* y_mm, std::size_t count, float* out) {
-  const ParallelRays& rays = path.rays();
+  const PacketStart& rays = path.start();
   const P::Tag tag;
   for (std::size_t at = 0; at + hn::Lanes(tag) <= count; at += hn::Lanes(tag)) {
     hk::Ray3<P> ray{P(rays.origin_mm.x) + hk::load_floats(tag, x_mm + at),

@@ -28,7 +28,7 @@ void trace_packets_of(benchmark::State& state, const char* lens, std::int64_t ta
 void trace_scalar_of(benchmark::State& state, const char* lens) {
   const auto scene = bench::packet_scene(lens);
   if (!scene) return state.SkipWithError("this lens does not load");
-  const ParallelRays& rays = scene->packets->rays();
+  const PacketStart& rays = scene->packets->start();
   for (auto _ : state) {
     for (std::size_t k = 0; k < scene->rays(); ++k) {
       const Vec3 origin_mm = rays.origin_mm + Vec3{scene->x_mm[k], scene->y_mm[k], 0.0};

@@ -51,7 +51,7 @@ inline std::optional<PacketScene> packet_scene(const char* name) {
   PacketScene scene;
   scene.path = ghost_path(*lens, longest, kLambda_nm);
   scene.tables = std::make_unique<ReflectanceTables>(*lens, kLambda_nm);
-  const ParallelRays rays{{-0.5 * kWidth_mm, -0.5 * kWidth_mm, entrance_window(*lens, direction).z_mm}, direction};
+  const LightRays rays{{-0.5 * kWidth_mm, -0.5 * kWidth_mm, entrance_window(*lens, direction).z_mm}, direction};
   scene.packets = std::make_unique<PacketPath>(scene.path, *scene.tables, rays);
   for (int k = 0; k < kSide * kSide; ++k) {
     scene.x_mm.push_back(static_cast<float>(kWidth_mm * (k % kSide) / kSide));

@@ -53,6 +53,7 @@ PUBLIC = {
     "lens_starburst.h": "render/starburst",
     "light.h": "image",
     "light_detection.h": "image",
+    "light_source.h": "kernels",
     "machine_speed.h": "measure",
     "metrics.h": "image",
     "pupil_mask.h": "diffraction",

@@ -175,7 +175,8 @@ void add_apply(CLI::App& app, Action& action) {
   command->add_flag("--json", options->json, "report what was found as JSON");
   add_look_options(*command, options->look);
   add_parameters(*command, options->values, {"exposure"});
-  add_parameters(*command, options->values, {"threshold", "softness", "max-lights", "min-pixels", "spectrum", "gain"});
+  add_parameters(*command, options->values,
+                 {"threshold", "softness", "max-lights", "min-pixels", "spectrum", "light-distance", "gain"});
   add_lens_parameters(*command, options->values);
   add_parameters(*command, options->values, {"hfov"});
   add_rendering_parameters(*command, options->values);

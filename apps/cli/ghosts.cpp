@@ -97,7 +97,7 @@ void add_ghosts(CLI::App& app, Action& action) {
   CLI::App* command = app.add_subcommand("ghosts", "each ghost: flux, peak, place, size, colour, focus");
   add_lens_argument(*command, options->lens);
   command->add_flag("--json", options->json, "as JSON");
-  add_parameters(*command, options->values, {"light", "light-at", "colour"});
+  add_parameters(*command, options->values, {"light", "light-at", "colour", "light-distance"});
   add_lens_parameters(*command, options->values);
   add_parameters(*command, options->values, {"wavelength", "size", "hfov", "wavelengths", "ghosts", "threads"});
   command->footer(kExamples);

@@ -28,7 +28,9 @@ Result<Frame> frame_of(const Picture& picture, const LensState& lens, const Valu
 Light light_of(const DetectedLight& area, const Frame& frame, const LensState& lens, const Values& values) {
   const double gain = values.number("gain");
   Light light;
-  light.direction = direction_to_land_at(lens, frame.sensor_from_pixel(area.centroid_px), lens.design_wavelength_nm);
+  light.distance_mm = *parse_distance_mm(*values.text("light-distance"));
+  light.direction = direction_to_land_at(lens, frame.sensor_from_pixel(area.centroid_px), lens.design_wavelength_nm,
+                                         light.distance_mm);
   light.value = {area.flux[0] * gain, area.flux[1] * gain, area.flux[2] * gain};
   light.spectrum = *parse_spectrum(*values.text("spectrum"));
   return light;

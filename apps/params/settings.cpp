@@ -24,9 +24,10 @@ Result<Vec3> direction_of_angles(Vec2 angles_deg) {
   return direction_from_angles(angles_deg.x * kDegree_rad, angles_deg.y * kDegree_rad);
 }
 
-Result<Light> finish_light(Vec3 direction, const LightValue& value, const LightColour& colour, ColourSpace space) {
+Result<Light> finish_light(const LightSource& place, const LightValue& value, const LightColour& colour, ColourSpace space) {
   Light light;
-  light.direction = direction;
+  light.direction = place.direction;
+  light.distance_mm = place.distance_mm;
   light.spectrum = colour.spectrum;
   light.value = value.rgb;
   if (value.per_channel) {
@@ -126,9 +127,10 @@ RenderSettings render_settings(const Values& values, const Frame& frame, ColourS
 Result<std::vector<Light>> lights(const Values& values, const LensState& lens, const Frame& frame, ColourSpace space) {
   const LightValue value = *parse_light_value(*values.text("value"));
   const LightColour colour = *parse_light_colour(*values.text("colour"));
+  const double distance_mm = *parse_distance_mm(*values.text("light-distance"));
   std::vector<Light> all;
   const auto add = [&](Vec3 direction, const LightText& text) -> Result<void> {
-    auto light = finish_light(direction, text.value.value_or(value), text.colour.value_or(colour), space);
+    auto light = finish_light({direction, distance_mm}, text.value.value_or(value), text.colour.value_or(colour), space);
     if (!light) return tl::unexpected(light.error());
     all.push_back(*light);
     return {};
@@ -141,7 +143,7 @@ Result<std::vector<Light>> lights(const Values& values, const LensState& lens, c
   }
   const auto add_at = [&](const LightText& text) {
     const Vec2 sensor_mm = frame.sensor_from_uv(text.place);
-    return add(direction_to_land_at(lens, sensor_mm, lens.design_wavelength_nm), text);
+    return add(direction_to_land_at(lens, sensor_mm, lens.design_wavelength_nm, distance_mm), text);
   };
   for (const std::string& given : values.list("light-at")) {
     if (const auto added = add_at(*parse_light(given)); !added) return tl::unexpected(added.error());

@@ -82,6 +82,9 @@ const Parameter kTable[] = {
      .help = "what a light's own image sums to over its pixels", .scene = true, .check = parses<parse_light_value>},
     {.name = "colour", .group = "Lights", .unit = "COLOUR", .fallback = "D65",
      .help = "D65, A, E, a temperature such as 3200K, or R,G,B", .scene = true, .check = parses<parse_light_colour>},
+    {.name = "light-distance", .group = "Lights", .unit = "DISTANCE", .fallback = "inf",
+     .help = "of the lights from the first surface: 500 (mm), 2m, inf; nearer than the focus their flare changes, too",
+     .scene = true, .check = parses<parse_distance_mm>},
 
     {.name = "size", .group = "Frame", .unit = "WxH", .fallback = "1920x1080", .help = "size of the picture in pixels",
      .scene = true, .check = parses<parse_size>},

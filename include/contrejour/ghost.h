@@ -56,11 +56,11 @@ class GhostMeter {
   GhostMeter(GhostMeter&&) noexcept;
   GhostMeter& operator=(GhostMeter&&) noexcept;
 
-  // Flux of the direct image of a light from this direction, mm^2 at E0 = 1 (docs/physics/radiometry.md: Phi).
-  [[nodiscard]] double direct_flux(Vec3 direction) const;
+  // Flux of the direct image of a light, mm^2 at E0 = 1 (docs/physics/radiometry.md: Phi).
+  [[nodiscard]] double direct_flux(const LightSource& light) const;
 
   // All zero when no light gets through.
-  [[nodiscard]] GhostMeasure measure(Ghost ghost, Vec3 direction) const;
+  [[nodiscard]] GhostMeasure measure(Ghost ghost, const LightSource& light) const;
 
  private:
   LensState lens_;

@@ -29,7 +29,7 @@ struct FiguresRequest {
   std::vector<SpectralBand> bands;  // weights of one wavelength: 1, 1, 1
 };
 
-// By falling relative_flux. Errors: Cancelled.
+// By falling relative_flux. Errors: a light that is not in front of the lens, Cancelled.
 [[nodiscard]] Result<std::vector<GhostFigures>> ghost_figures(const LensState& lens, const FiguresRequest& request,
                                                               const Context& context);
 

@@ -16,7 +16,7 @@
 
 namespace contrejour {
 
-// The rays of a distant light that reach its image, by their direction cosines x and y at the sensor. These are what
+// The rays of a light that reach its image, by their direction cosines x and y at the sensor. These are what
 // makes the pattern: the wave from cosines k has the phase 2 pi k.x / lambda at x. In a plane of mm they are the exit
 // pupil as if it stood 1 mm from the sensor: radius 1 / (2 N) on the axis.
 struct ExitPupil {
@@ -30,7 +30,7 @@ struct ExitPupil {
   std::vector<Vec3> rays_mm;  // points in front of the lens of some rays that get through, evenly spread
 };
 
-[[nodiscard]] Result<ExitPupil> exit_pupil(const LensState& lens, Vec3 direction, double lambda_nm,
+[[nodiscard]] Result<ExitPupil> exit_pupil(const LensState& lens, const LightSource& light, double lambda_nm,
                                            int samples_across = 510, const Context& context = {});
 
 struct LensStarburstSettings {
@@ -40,7 +40,7 @@ struct LensStarburstSettings {
 
 // bands: spectral_bands of the light, 100 and more. What the lens transmits of each is seen to here; of each channel
 // the whole plane still sums to 1. A light that does not get through has a starburst that draws nothing.
-[[nodiscard]] Result<Starburst> lens_starburst(const LensState& lens, Vec3 direction,
+[[nodiscard]] Result<Starburst> lens_starburst(const LensState& lens, const LightSource& light,
                                                std::span<const SpectralBand> bands,
                                                const LensStarburstSettings& settings, const Context& context = {});
 

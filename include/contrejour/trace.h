@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "contrejour/lens.h"
+#include "contrejour/light_source.h"
 #include "contrejour/vec.h"
 
 namespace contrejour {
@@ -93,19 +94,25 @@ struct RayRecord {
 };
 [[nodiscard]] RayRecord trace_recorded(const OpticalPath& path, const Ray& ray);
 
-// The rectangle of the plane z = z_mm that holds every ray of a parallel bundle that can pass inside the
-// clear aperture of surface 1. Grids over the entrance plane span it.
+// Can rays from there be traced? Errors: InvalidArgument for numbers that are not finite, a light beside or behind the
+// camera, a distance of 0 or less, and a point that is not in front of all of the lens by kNearestLight_mm.
+inline constexpr double kNearestLight_mm = 0.1;
+[[nodiscard]] Result<void> check_source(const LensState& lens, const LightSource& source);
+
+// The rectangle of the plane z = z_mm that holds every ray of a light that can pass inside the clear aperture of
+// surface 1. Grids over the entrance plane span it.
 struct EntranceWindow {
   double z_mm = 0;
   Vec2 min_mm, max_mm;
 };
-[[nodiscard]] EntranceWindow entrance_window(const LensState& lens, Vec3 direction);
+[[nodiscard]] EntranceWindow entrance_window(const LensState& lens, const LightSource& source);
 
-// The direction of a distant light whose chief ray (through the centre of the stop) meets the sensor at a
+// The direction of a light, at a distance, whose chief ray (through the centre of the stop) meets the sensor at a
 // point; extrapolated rectilinearly where no chief ray gets through. The light may lie outside the frame.
-[[nodiscard]] Vec3 direction_to_land_at(const LensState& lens, Vec2 sensor_mm, double lambda_nm);
+[[nodiscard]] Vec3 direction_to_land_at(const LensState& lens, Vec2 sensor_mm, double lambda_nm,
+                                        double distance_mm = std::numeric_limits<double>::infinity());
 
-// Where the chief ray of a distant light lands (inverse of the above).
-[[nodiscard]] Vec2 landing_of(const LensState& lens, Vec3 direction, double lambda_nm);
+// Where the chief ray of a light lands (inverse of the above).
+[[nodiscard]] Vec2 landing_of(const LensState& lens, const LightSource& source, double lambda_nm);
 
 }  // namespace contrejour

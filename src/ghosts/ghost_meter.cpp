@@ -38,7 +38,7 @@ double share_below_zero(double a, double b, double c) {
 struct OpenTriangle {
   std::array<std::size_t, 3> vertex;
   double open = 0;
-  double flux_mm2 = 0;  // but for cos(theta)
+  double flux_mm2 = 0;  // but for what all points share (LightSource)
 };
 
 template <class Visit>
@@ -66,12 +66,12 @@ void grow(Vec2& low, Vec2& high, Vec2 p) {
 
 Vec2 sensor_point(const RayGrid& grid, std::size_t k) { return {grid.sensor_x_mm[k], grid.sensor_y_mm[k]}; }
 
-GhostMeasure measured(const RayGrid& grid, double cos_theta) {
+GhostMeasure measured(const RayGrid& grid, double shared_flux) {
   GhostMeasure m;
   m.min_mm = {kFar, kFar};
   m.max_mm = {-kFar, -kFar};
   for_each_open_triangle(grid, [&](const OpenTriangle& t) {
-    const double flux = t.flux_mm2 * cos_theta;
+    const double flux = t.flux_mm2 * shared_flux;
     m.flux_mm2 += flux;
     std::array<Vec2, 3> p;
     for (std::size_t k = 0; k < 3; ++k) {
@@ -92,7 +92,7 @@ struct Pupil {
   const OpticalPath& path;
   const ReflectanceTables& tables;
   const IrisShape& iris;
-  Vec3 direction;
+  const LightSource& light;
   double z_mm;
   Rectangle box;
 
@@ -100,7 +100,7 @@ struct Pupil {
   void trace(RayGrid& grid, int side) const {
     const Vec2 size = box.high - box.low;
     const bool wide = std::min(size.x, size.y) > kFloatPupil_mm;
-    grid.trace(path, tables, iris, direction, z_mm, box, side, wide ? PacketPrecision::Float : PacketPrecision::Double);
+    grid.trace(path, tables, iris, light, z_mm, box, side, wide ? PacketPrecision::Float : PacketPrecision::Double);
   }
 };
 
@@ -141,29 +141,29 @@ GhostMeter::~GhostMeter() = default;
 GhostMeter::GhostMeter(GhostMeter&&) noexcept = default;
 GhostMeter& GhostMeter::operator=(GhostMeter&&) noexcept = default;
 
-double GhostMeter::direct_flux(Vec3 direction) const {
+double GhostMeter::direct_flux(const LightSource& light) const {
   const OpticalPath path = direct_path(lens_, lambda_nm_);
   const IrisShape iris(lens_.iris);
-  const EntranceWindow window = entrance_window(lens_, direction);
+  const EntranceWindow window = entrance_window(lens_, light);
   RayGrid grid;
   const auto region =
-      find_pupil_region(path, *tables_, iris, direction, window, grid, PupilEffort::Finest, kDirectSearchSide);
+      find_pupil_region(path, *tables_, iris, light, window, grid, PupilEffort::Finest, kDirectSearchSide);
   if (!region) return 0.0;
-  trace_direct({path, *tables_, iris, direction, window.z_mm, region->pupil_mm}, grid);
+  trace_direct({path, *tables_, iris, light, window.z_mm, region->pupil_mm}, grid);
   double flux = 0.0;
   for_each_open_triangle(grid, [&](const OpenTriangle& t) { flux += t.flux_mm2; });
-  return flux * direction.z;
+  return flux * light.shared_flux();
 }
 
-GhostMeasure GhostMeter::measure(Ghost ghost, Vec3 direction) const {
+GhostMeasure GhostMeter::measure(Ghost ghost, const LightSource& light) const {
   const OpticalPath path = ghost_path(lens_, ghost, lambda_nm_);
   const IrisShape iris(lens_.iris);
-  const EntranceWindow window = entrance_window(lens_, direction);
+  const EntranceWindow window = entrance_window(lens_, light);
   RayGrid grid;
-  const auto region = find_pupil_region(path, *tables_, iris, direction, window, grid);
+  const auto region = find_pupil_region(path, *tables_, iris, light, window, grid);
   if (!region) return {};
-  Pupil{path, *tables_, iris, direction, window.z_mm, region->pupil_mm}.trace(grid, kGhostSide);
-  return measured(grid, direction.z);
+  Pupil{path, *tables_, iris, light, window.z_mm, region->pupil_mm}.trace(grid, kGhostSide);
+  return measured(grid, light.shared_flux());
 }
 
 }  // namespace contrejour

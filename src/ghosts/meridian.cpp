@@ -4,11 +4,12 @@
 
 namespace contrejour {
 
-double Meridian::angle_rad() const { return std::atan2(direction.x, direction.z); }
+double Meridian::angle_rad() const { return std::atan2(light.direction.x, light.direction.z); }
 
-Meridian meridian_of(Vec3 direction) {
+Meridian meridian_of(const LightSource& light) {
+  const Vec3 direction = light.direction;
   const double across = std::hypot(direction.x, direction.y);
-  return {{across, 0.0, direction.z}, across > 0.0 ? std::atan2(direction.y, direction.x) : 0.0};
+  return {{{across, 0.0, direction.z}, light.distance_mm}, across > 0.0 ? std::atan2(direction.y, direction.x) : 0.0};
 }
 
 Iris turned_back(Iris iris, const Meridian& meridian) {

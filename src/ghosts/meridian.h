@@ -3,18 +3,19 @@
 #pragma once
 
 #include "contrejour/iris.h"
+#include "contrejour/light_source.h"
 #include "contrejour/vec.h"
 
 namespace contrejour {
 
 struct Meridian {
-  Vec3 direction;       // of the light, y = 0, x >= 0
+  LightSource light;    // its direction: y = 0, x >= 0
   double turn_rad = 0;  // about the axis, from here into place
   [[nodiscard]] double angle_rad() const;  // of the light to the axis
 };
 
 // A light on the axis has every meridian; it gets the one that turns nothing.
-[[nodiscard]] Meridian meridian_of(Vec3 direction);
+[[nodiscard]] Meridian meridian_of(const LightSource& light);
 
 // The iris as it stands in the meridian's frame.
 [[nodiscard]] Iris turned_back(Iris iris, const Meridian& meridian);

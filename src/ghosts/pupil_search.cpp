@@ -89,13 +89,13 @@ double area(const Rectangle& r) { return (r.high.x - r.low.x) * (r.high.y - r.lo
 int first_grid_side(PupilEffort effort) { return kFirstSides[static_cast<std::size_t>(effort)]; }
 
 std::optional<PupilRegion> find_pupil_region(const OpticalPath& path, const ReflectanceTables& tables,
-                                             const IrisShape& iris, Vec3 direction, const EntranceWindow& window,
-                                             RayGrid& scratch, PupilEffort effort, int side) {
+                                             const IrisShape& iris, const LightSource& light,
+                                             const EntranceWindow& window, RayGrid& scratch, PupilEffort effort,
+                                             int side) {
   PupilRegion region{{window.min_mm, window.max_mm}, {}, 0};
   const IrisShape hull = iris.hull();
   const auto search = [&](int rays) {
-    scratch.trace(path, tables, hull, direction, window.z_mm, region.pupil_mm, rays,
-                  precision_for(region.pupil_mm, rays));
+    scratch.trace(path, tables, hull, light, window.z_mm, region.pupil_mm, rays, precision_for(region.pupil_mm, rays));
     region.rays += static_cast<std::uint64_t>(rays) * static_cast<std::uint64_t>(rays);
     return open_part(scratch);
   };
@@ -114,12 +114,13 @@ std::optional<PupilRegion> find_pupil_region(const OpticalPath& path, const Refl
 }
 
 std::optional<PupilRegion> find_pupil_region_in(const Rectangle& guess, const OpticalPath& path,
-                                                const ReflectanceTables& tables, const IrisShape& iris, Vec3 direction,
-                                                const EntranceWindow& window, RayGrid& scratch) {
+                                                const ReflectanceTables& tables, const IrisShape& iris,
+                                                const LightSource& light, const EntranceWindow& window,
+                                                RayGrid& scratch) {
   const Rectangle box{{std::max(guess.low.x, window.min_mm.x), std::max(guess.low.y, window.min_mm.y)},
                       {std::min(guess.high.x, window.max_mm.x), std::min(guess.high.y, window.max_mm.y)}};
   if (!(box.low.x < box.high.x && box.low.y < box.high.y)) return std::nullopt;
-  scratch.trace(path, tables, iris.hull(), direction, window.z_mm, box, kGuessSide, precision_for(box, kGuessSide));
+  scratch.trace(path, tables, iris.hull(), light, window.z_mm, box, kGuessSide, precision_for(box, kGuessSide));
   const OpenPart part = open_part(scratch);
   if (!part.any) return std::nullopt;
   const Vec2 step = scratch.step_mm() * 0.5;

@@ -27,7 +27,7 @@ inline constexpr int kSearchSide = 49;  // rays a side of a search's grids, wher
 // None when nothing gets through. Differs: hullin2011 precomputes tables over light directions (pupil_bounds.h);
 // packets are quick enough to search for every light anew. A side below kSearchSide is for well-behaved paths.
 [[nodiscard]] std::optional<PupilRegion> find_pupil_region(const OpticalPath& path, const ReflectanceTables& tables,
-                                                           const IrisShape& iris, Vec3 direction,
+                                                           const IrisShape& iris, const LightSource& light,
                                                            const EntranceWindow& window, RayGrid& scratch,
                                                            PupilEffort effort = PupilEffort::Finest,
                                                            int side = kSearchSide);
@@ -35,7 +35,7 @@ inline constexpr int kSearchSide = 49;  // rays a side of a search's grids, wher
 // The same by one coarse grid over a guess. None when the guess holds no ray that gets through, or cuts some off.
 [[nodiscard]] std::optional<PupilRegion> find_pupil_region_in(const Rectangle& guess, const OpticalPath& path,
                                                               const ReflectanceTables& tables, const IrisShape& iris,
-                                                              Vec3 direction, const EntranceWindow& window,
+                                                              const LightSource& light, const EntranceWindow& window,
                                                               RayGrid& scratch);
 
 }  // namespace contrejour

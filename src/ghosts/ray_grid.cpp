@@ -46,8 +46,8 @@ void RayGrid::resize(std::size_t count) {
 }
 
 // The first rows of the grid; all arrays are made for the whole.
-void RayGrid::trace_rows(const OpticalPath& path, const ReflectanceTables& tables, Vec3 direction, double z_mm,
-                         const Rectangle& box, int side, int rows, PacketPrecision precision) {
+void RayGrid::trace_rows(const OpticalPath& path, const ReflectanceTables& tables, const LightSource& light,
+                         double z_mm, const Rectangle& box, int side, int rows, PacketPrecision precision) {
   side_ = side;
   box_ = box;
   stop_crossings_ = path.stop_crossings;
@@ -62,21 +62,21 @@ void RayGrid::trace_rows(const OpticalPath& path, const ReflectanceTables& table
     out.stop_x[c] = stop_x[c].data();
     out.stop_y[c] = stop_y[c].data();
   }
-  const PacketPath packets(path, tables, {{box.low.x, box.low.y, z_mm}, direction});
+  const PacketPath packets(path, tables, {{box.low.x, box.low.y, z_mm}, light});
   trace_packets(packets, precision, x_mm_.data(), y_mm_.data(), at(0, rows), out);
 }
 
-void RayGrid::trace(const OpticalPath& path, const ReflectanceTables& tables, const IrisShape& iris, Vec3 direction,
-                    double z_mm, const Rectangle& box, int side, PacketPrecision precision) {
-  trace_rows(path, tables, direction, z_mm, box, side, side, precision);
+void RayGrid::trace(const OpticalPath& path, const ReflectanceTables& tables, const IrisShape& iris,
+                    const LightSource& light, double z_mm, const Rectangle& box, int side, PacketPrecision precision) {
+  trace_rows(path, tables, light, z_mm, box, side, side, precision);
   find_blocked(iris, at(0, side));
 }
 
 std::size_t RayGrid::trace_mirrored(const OpticalPath& path, const ReflectanceTables& tables, const IrisShape& iris,
-                                    Vec3 direction, double z_mm, const Rectangle& box, int side,
+                                    const LightSource& light, double z_mm, const Rectangle& box, int side,
                                     PacketPrecision precision) {
   const int rows = (side + 1) / 2;
-  trace_rows(path, tables, direction, z_mm, box, side, rows, precision);
+  trace_rows(path, tables, light, z_mm, box, side, rows, precision);
   mirror_rows(rows);
   find_blocked(iris, at(0, side));
   return at(0, rows);
@@ -172,9 +172,9 @@ void RayGrid::find_blocked(const IrisShape& iris, std::size_t count) {
 
 // The middle row is traced both ways. What changes from ray to ray in their difference is rounding; what
 // changes slowly bends the ghost a little, unseen.
-PacketPrecision precision_for(const OpticalPath& path, const ReflectanceTables& tables, Vec3 direction, double z_mm,
-                              const Rectangle& box, int side, double pixel_pitch_mm) {
-  const PacketPath packets(path, tables, {{box.low.x, 0.5 * (box.low.y + box.high.y), z_mm}, direction});
+PacketPrecision precision_for(const OpticalPath& path, const ReflectanceTables& tables, const LightSource& light,
+                              double z_mm, const Rectangle& box, int side, double pixel_pitch_mm) {
+  const PacketPath packets(path, tables, {{box.low.x, 0.5 * (box.low.y + box.high.y), z_mm}, light});
   using Row = std::array<float, kProbeRays>;
   Row x_mm{}, y_mm{};
   const double step_mm = (box.high.x - box.low.x) / (side - 1);

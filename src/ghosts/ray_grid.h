@@ -22,13 +22,14 @@ struct Rectangle {
 class RayGrid {
  public:
   // box: on the plane z = z_mm of the entrance window, in mm.
-  void trace(const OpticalPath& path, const ReflectanceTables& tables, const IrisShape& iris, Vec3 direction,
+  void trace(const OpticalPath& path, const ReflectanceTables& tables, const IrisShape& iris, const LightSource& light,
              double z_mm, const Rectangle& box, int side, PacketPrecision precision);
 
   // The same for a light in the x-z plane and a box that is symmetric in y: one half is traced and mirrored
   // (hullin2011 4.2, mirror symmetry), the iris is applied to every ray where it crosses. Gives the rays traced.
   std::size_t trace_mirrored(const OpticalPath& path, const ReflectanceTables& tables, const IrisShape& iris,
-                             Vec3 direction, double z_mm, const Rectangle& box, int side, PacketPrecision precision);
+                             const LightSource& light, double z_mm, const Rectangle& box, int side,
+                             PacketPrecision precision);
 
   // Every cell into factor x factor, by cubics through the rays along each axis: what is smooth between rays in few of
   // them. The grid needs four rays a side, all of which arrived.
@@ -62,7 +63,7 @@ class RayGrid {
 
  private:
   void resize(std::size_t count);
-  void trace_rows(const OpticalPath& path, const ReflectanceTables& tables, Vec3 direction, double z_mm,
+  void trace_rows(const OpticalPath& path, const ReflectanceTables& tables, const LightSource& light, double z_mm,
                   const Rectangle& box, int side, int rows, PacketPrecision precision);
   void mirror_rows(int from);
   void refine(std::vector<float>& values, int factor) const;
@@ -76,7 +77,8 @@ class RayGrid {
 };
 
 // Float or double: whatever keeps the rounding of neighbouring rays well below their distance on the sensor.
-[[nodiscard]] PacketPrecision precision_for(const OpticalPath& path, const ReflectanceTables& tables, Vec3 direction,
-                                            double z_mm, const Rectangle& box, int side, double pixel_pitch_mm);
+[[nodiscard]] PacketPrecision precision_for(const OpticalPath& path, const ReflectanceTables& tables,
+                                            const LightSource& light, double z_mm, const Rectangle& box, int side,
+                                            double pixel_pitch_mm);
 
 }  // namespace contrejour

@@ -26,6 +26,19 @@ struct Ray3 {
   T dx, dy, dz;  // unit
 };
 
+// Of a light at a finite distance: the ray that passes beside one whose direction is the ray's, by this much of that
+// one's way from the light. Gives the other's way over this one's.
+template <class T>
+HWY_INLINE T turn_aside(Ray3<T>& ray, T aside_x, T aside_y) {
+  ray.dx = ray.dx + aside_x;
+  ray.dy = ray.dy + aside_y;
+  const T share = T(1.0) / square_root(ray.dx * ray.dx + ray.dy * ray.dy + ray.dz * ray.dz);
+  ray.dx = ray.dx * share;
+  ray.dy = ray.dy * share;
+  ray.dz = ray.dz * share;
+  return share;
+}
+
 // Where a ray meets a surface; the surface's own z axis points to +z.
 template <class T>
 struct Hit {

@@ -66,7 +66,7 @@ struct GhostScene {
 
   GhostScene(LensState state, Ghost of, Vec3 towards, double wavelength_nm = 550.0)
       : lens(std::move(state)), ghost(of), lambda_nm(wavelength_nm), direction(towards), light(towards),
-        window(entrance_window(lens, light.direction)), path(ghost_path(lens, ghost, lambda_nm)) {
+        window(entrance_window(lens, light.source)), path(ghost_path(lens, ghost, lambda_nm)) {
     tables[lambda_nm] = std::make_shared<const ReflectanceTables>(lens, lambda_nm);
     boxes = adaptive::find_pupil_boxes(path, *tables.at(lambda_nm), light, window).boxes;
   }

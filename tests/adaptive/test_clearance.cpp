@@ -17,12 +17,12 @@ constexpr std::size_t kSide = 33;
 // The rays of a grid over the entrance window, whose last packet is not full.
 struct Traced {
   EntranceWindow window;
-  ParallelRays rays;
+  LightRays rays;
   std::vector<float> x_mm, y_mm;
   std::vector<std::vector<float>> fields;
 
   [[nodiscard]] Ray ray(std::size_t k) const {
-    return {{rays.origin_mm.x + x_mm[k], rays.origin_mm.y + y_mm[k], rays.origin_mm.z}, rays.direction};
+    return {{rays.origin_mm.x + x_mm[k], rays.origin_mm.y + y_mm[k], rays.origin_mm.z}, rays.source.direction};
   }
 };
 

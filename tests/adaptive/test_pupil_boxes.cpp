@@ -33,20 +33,20 @@ bool in_any(const std::vector<Rectangle>& boxes, Vec2 p) {
 // The boxes of one ghost against a grid of 65 x 65 rays over the rectangle that another search finds.
 void add(const LensState& lens, Ghost ghost, const ReflectanceTables& tables, const LightFrame& light, Tally& tally) {
   const OpticalPath path = ghost_path(lens, ghost, tables.lambda_nm());
-  const EntranceWindow window = entrance_window(lens, light.direction);
+  const EntranceWindow window = entrance_window(lens, light.source);
   const PupilBoxes found = find_pupil_boxes(path, tables, light, window);
   ++tally.searches;
   tally.rays += found.rays;
   const IrisShape circle(Iris{});
   RayGrid grid;
-  const auto region = find_pupil_region(path, tables, circle, light.direction, window, grid, PupilEffort::Finer);
+  const auto region = find_pupil_region(path, tables, circle, light.source, window, grid, PupilEffort::Finer);
   if (!region) {
     ++tally.dark;
     tally.dark_with_boxes += found.boxes.empty() ? 0U : 1U;
     return;
   }
   constexpr int kSide = 65;
-  grid.trace(path, tables, circle, light.direction, window.z_mm, region->pupil_mm, kSide, PacketPrecision::Double);
+  grid.trace(path, tables, circle, light.source, window.z_mm, region->pupil_mm, kSide, PacketPrecision::Double);
   const Vec2 step = grid.step_mm();
   std::uint64_t passing = 0;
   std::uint64_t missed = 0;
@@ -97,8 +97,8 @@ TEST_CASE("boxes are mirror images of each other or of themselves, and fit") {
   const LensState lens = test::lens_at_f("heliar", 8.0);
   const ReflectanceTables tables(lens, 550.0);
   const LightFrame light(direction_from_angles(0.2, 0.13));
-  CHECK(light.direction.y == 0.0);
-  const EntranceWindow window = entrance_window(lens, light.direction);
+  CHECK(light.source.direction.y == 0.0);
+  const EntranceWindow window = entrance_window(lens, light.source);
   int boxes = 0;
   for (const Ghost ghost : enumerate_ghosts(lens, GhostScope::All)) {
     const auto found = find_pupil_boxes(ghost_path(lens, ghost, 550.0), tables, light, window).boxes;
@@ -118,7 +118,7 @@ TEST_CASE("where no light gets through there are no boxes") {
   const LensState lens = test::lens_at_f("canon-70-200", 8.0, 200.0);
   const ReflectanceTables tables(lens, 550.0);
   const LightFrame light(direction_from_angles(75.0 * std::numbers::pi / 180.0, 0.0));
-  const EntranceWindow window = entrance_window(lens, light.direction);
+  const EntranceWindow window = entrance_window(lens, light.source);
   const auto ghosts = enumerate_ghosts(lens, GhostScope::OneSideOfStop);
   for (std::size_t k = 0; k < ghosts.size(); k += 7) {
     CHECK(find_pupil_boxes(ghost_path(lens, ghosts[k], 550.0), tables, light, window).boxes.empty());

@@ -25,9 +25,9 @@ struct Setting {
 
   Setting(const char* name, double f_number, Ghost ghost, double angle_rad)
       : lens(test::lens_at_f(name, f_number)), light(Vec3{std::sin(angle_rad), 0.0, std::cos(angle_rad)}),
-        window(entrance_window(lens, light.direction)), path(ghost_path(lens, ghost, 550.0)), tables(lens, 550.0) {}
+        window(entrance_window(lens, light.source)), path(ghost_path(lens, ghost, 550.0)), tables(lens, 550.0) {}
 
-  [[nodiscard]] ParallelRays rays() const { return {{0.0, 0.0, window.z_mm}, light.direction}; }
+  [[nodiscard]] LightRays rays() const { return {{0.0, 0.0, window.z_mm}, light.source}; }
   [[nodiscard]] Rectangle half() const { return {{window.min_mm.x, 0.0}, window.max_mm}; }
 };
 
@@ -37,7 +37,7 @@ std::optional<Rectangle> open_bounds(const Setting& s, const Rectangle& box, int
   for (int k = 0; k < side * side; ++k) {
     const Vec2 p{std::lerp(box.low.x, box.high.x, (k % side) / (side - 1.0)),
                  std::lerp(box.low.y, box.high.y, std::floor(k / side) / (side - 1.0))};
-    const TracedRay ray = trace(s.path, {{p.x, p.y, s.window.z_mm}, s.light.direction});
+    const TracedRay ray = trace(s.path, {{p.x, p.y, s.window.z_mm}, s.light.source.direction});
     if (ray.status != RayStatus::Ok || blocked_by(ray, s.path, Iris{}) > 0.0) continue;
     if (!bounds) bounds = {p, p};
     bounds->low = {std::min(bounds->low.x, p.x), std::min(bounds->low.y, p.y)};

@@ -66,7 +66,7 @@ RayGrid made_up(Map map, double open_radius = 10.0) {
   lens.sensor_z_mm = 1.0;
   const ReflectanceTables tables(lens, 550.0);
   RayGrid grid;
-  grid.trace(direct_path(lens, 550.0), tables, IrisShape(Iris{}), {0.0, 0.0, 1.0}, 0.0, {{-1.0, -1.0}, {1.0, 1.0}},
+  grid.trace(direct_path(lens, 550.0), tables, IrisShape(Iris{}), Vec3{0.0, 0.0, 1.0}, 0.0, {{-1.0, -1.0}, {1.0, 1.0}},
              bundle::kProbeSide, PacketPrecision::Double);
   for (std::size_t k = 0; k < grid.sensor_x_mm.size(); ++k) {
     const Vec2 at{grid.sensor_x_mm[k], grid.sensor_y_mm[k]};
@@ -85,15 +85,15 @@ TEST_CASE("half the rays, mirrored, are the rays that would have been traced") {
   const Meridian meridian = meridian_of(direction_to_land_at(lens, {6.0, 3.0}, 550.0));
   const OpticalPath path = ghost_path(lens, {8, 10}, 550.0);
   const ReflectanceTables tables(lens, 550.0);
-  const EntranceWindow window = entrance_window(lens, meridian.direction);
+  const EntranceWindow window = entrance_window(lens, meridian.light);
   const IrisShape iris(turned_back(lens.iris, meridian));
   const Rectangle box{{-4.0, -3.0}, {5.0, 3.0}};
   for (const int side : {32, 33}) {
     RayGrid whole;
     RayGrid half;
-    whole.trace(path, tables, iris, meridian.direction, window.z_mm, box, side, PacketPrecision::Double);
+    whole.trace(path, tables, iris, meridian.light, window.z_mm, box, side, PacketPrecision::Double);
     const std::size_t traced =
-        half.trace_mirrored(path, tables, iris, meridian.direction, window.z_mm, box, side, PacketPrecision::Double);
+        half.trace_mirrored(path, tables, iris, meridian.light, window.z_mm, box, side, PacketPrecision::Double);
     CHECK(traced == static_cast<std::size_t>(side * ((side + 1) / 2)));
     double worst = 0.0;
     for (std::size_t k = 0; k < whole.blocked.size(); ++k) {

@@ -24,11 +24,11 @@ struct Batch {
 
 // Points over the unblocked region of a ghost.
 struct Fan {
-  ParallelRays rays;
+  LightRays rays;
   std::vector<float> x_mm, y_mm;
 
   [[nodiscard]] Ray ray(std::size_t k) const {
-    return {{rays.origin_mm.x + x_mm[k], rays.origin_mm.y + y_mm[k], rays.origin_mm.z}, rays.direction};
+    return {{rays.origin_mm.x + x_mm[k], rays.origin_mm.y + y_mm[k], rays.origin_mm.z}, rays.source.direction};
   }
 };
 

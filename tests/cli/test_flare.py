@@ -51,6 +51,47 @@ class Render(ProgramTest):
         for wrong in (["--starburst-gain", "-1"], ["--glare", "1.5"], ["--glare-width", "0"], ["--glare", "nan"]):
             self.error_of("render", "heliar", "-o", "w.exr", *wrong, code=2)
 
+    def test_near_lights_lamps_and_lenses_with_errors(self):
+        """Each changes the flare, said at their defaults they do not, and nonsense is a wrong usage."""
+        def bytes_of(name, *arguments):
+            self.render(name, *arguments)
+            return (self.folder / name).read_bytes()
+
+        (self.folder / "lamp.csv").write_text("nm,power\n500,1\n520,1\n")
+        plain = bytes_of("a.exr")
+        self.assertEqual(plain, bytes_of("b.exr", "--light-distance", "inf", "--tilt", "0", "--build-seed", "3"))
+        for k, options in enumerate((["--light-distance", "500"], ["--colour", "sodium"], ["--colour", "lamp.csv"],
+                                     ["--tilt", "0.2", "--decentre", "0.1"])):
+            self.assertNotEqual(plain, bytes_of(f"{k}.exr", *options))
+        green = exr.Picture(self.folder / "2.exr")
+        self.assertGreater(green.total("G"), abs(green.total("R")) + abs(green.total("B")))
+        (self.folder / "bad.csv").write_text("400,1\n500 nm,1\n")
+        self.assertIn("bad.csv:2: ", self.error_of("render", "heliar", "-o", "w.exr", "--colour", "bad.csv", code=2))
+        self.error_of("render", "heliar", "-o", "w.exr", "--light-distance", "0.01mm", code=1)
+        for wrong in (["--light-distance", "0"], ["--light-distance", "nan"], ["--colour", "no-lamp"],
+                      ["--tilt", "90"], ["--decentre", "-1"]):
+            self.error_of("render", "heliar", "-o", "w.exr", *wrong, code=2)
+
+    def test_ghosts_bent_to_taste(self):
+        def picture(name, *arguments):
+            return self.render(name, "--select", "list:1-2,2-3", *arguments)
+
+        plain, twice = picture("a.exr"), picture("b.exr", "--ghost-gain", "2")
+        red = picture("c.exr", "--ghost", "1-2:gain=1,colour=1,0,0", "--ghost", "2-3:colour=1,0,0")
+        for name in "RGB":
+            self.assertAlmostEqual(twice.total(name), 2 * plain.total(name), delta=0.02 * abs(plain.total(name)))
+        self.assertAlmostEqual(red.total("R"), plain.total("R"), delta=0.02 * plain.total("R"))
+        self.assertEqual(red.total("G"), 0)
+        ramped = picture("d.exr", "--ghost-ramp=-9:0,0,1/9:0,0,1")
+        self.assertEqual(ramped.total("R"), 0)
+        self.assertGreater(ramped.total("B"), 0)
+        picture("e.exr", "--ghost-scatter", "0.1", "--ghost-seed", "4")
+        for wrong in (["--ghost", "2-5:gain"], ["--ghost", "5-2:gain=1"], ["--ghost", "2-5:gain=-1"],
+                      ["--ghost", "2-5:shape=1"], ["--ghost", "2-5:offset=1"], ["--ghost-ramp", "0:1,1,1/0:1,1,1"],
+                      ["--ghost-ramp", "1,1,1"], ["--ghost-gain", "-1"]):
+            self.error_of("render", "heliar", "-o", "w.exr", *wrong, code=2)
+        self.error_of("render", "heliar", "-o", "w.exr", "--ghost", "2-99:gain=1", code=1)
+
     def test_doubling_the_light_doubles_the_flare(self):
         one, two = self.render("1.exr", "--value", "3"), self.render("2.exr", "--value", "6")
         for name in "RGB":

@@ -43,6 +43,23 @@ TEST_CASE("a plate's ghost carries area cos(theta) T R R T, and lands as the sto
   }
 }
 
+TEST_CASE("a near light's direct flux is the solid angle that the stop fills, seen from there") {
+  Prescription hole;  // no glass: all of it passes
+  hole.surfaces = {{SurfaceKind::Stop, 0.0, 1.0, 20.0, air(), {}, 0},
+                   {SurfaceKind::Refracting, 0.0, 2.0, 60.0, air(), {}, 0},
+                   {SurfaceKind::Refracting, 0.0, 0.0, 60.0, air(), {}, 0}};
+  LensState lens = test::place(hole, 3.0);
+  lens.sensor_z_mm = 10.0;
+  lens.focal_length_mm = 50.0;
+  const GhostMeter meter(lens, kGreen_nm);
+  for (const double distance_mm : {3.0, 10.0, 500.0, 1e6}) {
+    CAPTURE(distance_mm);
+    const double solid_angle = 2.0 * std::numbers::pi * (1.0 - distance_mm / std::hypot(distance_mm, 3.0));
+    const double expected = distance_mm < 1e5 ? distance_mm * distance_mm * solid_angle : std::numbers::pi * 9.0;
+    CHECK(meter.direct_flux(LightSource({0, 0, 1}, distance_mm)) == doctest::Approx(expected).epsilon(5e-4));
+  }
+}
+
 TEST_CASE("the pupil search finds what a dense scan finds, for ghosts of a zoom at a small stop [slow]") {
   const LensState lens = bundled("canon-70-200", {.focal_length_mm = 200.0, .f_number = 32.0});
   const Vec3 d = direction_to_land_at(lens, {5.0, -3.0}, kGreen_nm);
@@ -75,15 +92,15 @@ TEST_CASE("the pupil search finds what a dense scan finds, for ghosts of a zoom 
 TEST_CASE("a pupil of a ten-thousandth of the window's area is found") {
   LensState lens = test::plate();
   lens.stop_radius_mm = 0.05;
-  const GhostMeasure m = GhostMeter(lens, kGreen_nm).measure({2, 3}, {0, 0, 1});
+  const GhostMeasure m = GhostMeter(lens, kGreen_nm).measure({2, 3}, Vec3{0, 0, 1});
   const double r = 0.04;
   CHECK(m.flux_mm2 == doctest::Approx(std::numbers::pi * 0.0025 * (1 - r) * r * r * (1 - r)).epsilon(2e-3));
 }
 
 TEST_CASE("an iris polygon cuts the direct flux by its area") {
   LensState lens = test::plate();
-  const double open = GhostMeter(lens, kGreen_nm).direct_flux({0, 0, 1});
+  const double open = GhostMeter(lens, kGreen_nm).direct_flux(Vec3{0, 0, 1});
   lens.iris = {6, 0.3};
-  CHECK(GhostMeter(lens, kGreen_nm).direct_flux({0, 0, 1}) / open == doctest::Approx(iris_area_fraction(lens.iris)).epsilon(1e-3));
+  CHECK(GhostMeter(lens, kGreen_nm).direct_flux(Vec3{0, 0, 1}) / open == doctest::Approx(iris_area_fraction(lens.iris)).epsilon(1e-3));
   CHECK(iris_area_fraction({6, 0.0}) == doctest::Approx(3.0 * std::sqrt(3.0) / (2.0 * std::numbers::pi)));
 }

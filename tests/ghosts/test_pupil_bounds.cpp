@@ -166,10 +166,10 @@ TEST_CASE("bounds over zoom and stop hold every ray of the settings between [slo
 TEST_CASE("a light's meridian turns into place") {
   const Vec3 direction = normalized({-0.2, 0.3, 1.0});
   const Meridian meridian = meridian_of(direction);
-  CHECK(meridian.direction.y == 0.0);
-  CHECK(meridian.direction.x * std::cos(meridian.turn_rad) == doctest::Approx(direction.x));
-  CHECK(meridian.direction.x * std::sin(meridian.turn_rad) == doctest::Approx(direction.y));
+  CHECK(meridian.light.direction.y == 0.0);
+  CHECK(meridian.light.direction.x * std::cos(meridian.turn_rad) == doctest::Approx(direction.x));
+  CHECK(meridian.light.direction.x * std::sin(meridian.turn_rad) == doctest::Approx(direction.y));
   CHECK(std::cos(meridian.angle_rad()) == doctest::Approx(direction.z));
-  CHECK(meridian_of({0.0, 0.0, 1.0}).turn_rad == 0.0);
+  CHECK(meridian_of(Vec3{0.0, 0.0, 1.0}).turn_rad == 0.0);
   CHECK(turned_back(Iris{5, 0.4}, meridian).rotation_rad == doctest::Approx(0.4 - meridian.turn_rad));
 }

@@ -115,6 +115,36 @@ TEST_CASE("the entrance window holds every ray that can pass inside surface 1") 
   }
 }
 
+TEST_CASE("the entrance window holds every ray of a point that can pass inside surface 1") {
+  for (const double curvature : {1.0 / 12.0, 0.0, -1.0 / 12.0}) {
+    Prescription first;
+    first.surfaces = {{SurfaceKind::Refracting, curvature, 5.0, 11.0, {"", ConstantIndex{1.6}}, {}, 0},
+                      {SurfaceKind::Stop, 0.0, 5.0, 3.0, {"", ConstantIndex{1.6}}, {}, 0},
+                      {SurfaceKind::Refracting, 0.0, 0.0, 11.0, air(), {}, 0}};
+    const LensState lens = test::place(first, 3.0);
+    const double rim_z = curvature == 0.0 ? 0.0 : (12.0 - std::sqrt(144.0 - 121.0)) * (curvature > 0.0 ? 1.0 : -1.0);
+    for (const Vec3 from : {Vec3{0, 0, -0.2}, Vec3{3, -1, -4}, Vec3{50, 20, -60}, Vec3{0, 0, -500}}) {
+      const Vec3 point{from.x, from.y, from.z + std::min(0.0, rim_z)};
+      const LightSource light(normalized(point * -1.0), length(point));
+      REQUIRE(check_source(lens, light).has_value());
+      const EntranceWindow window = entrance_window(lens, light);
+      CHECK(window.z_mm == doctest::Approx(rim_z));
+      int outside = 0;
+      for (int k = 0; k < 2000; ++k) {
+        const double r = 11.0 * std::sqrt((k + 0.5) / 2000.0);
+        const double azimuth = 2.399963 * k;
+        const double sag = curvature == 0.0 ? 0.0 : (12.0 - std::sqrt(144.0 - r * r)) * (curvature > 0.0 ? 1.0 : -1.0);
+        const Vec3 cap{r * std::cos(azimuth), r * std::sin(azimuth), sag};
+        const Vec3 p = point + (cap - point) * ((window.z_mm - point.z) / (cap.z - point.z));
+        outside += p.x >= window.min_mm.x && p.x <= window.max_mm.x && p.y >= window.min_mm.y && p.y <= window.max_mm.y
+                       ? 0
+                       : 1;
+      }
+      CHECK(outside == 0);
+    }
+  }
+}
+
 TEST_CASE("a light is found again where its chief ray lands, inside and outside the field") {
   Prescription singlet;
   singlet.surfaces = {{SurfaceKind::Stop, 0.0, 2.0, 5.0, air(), {}, 0},
@@ -127,6 +157,21 @@ TEST_CASE("a light is found again where its chief ray lands, inside and outside 
     const Vec2 back = landing_of(lens, d, kLineD_nm);
     CHECK(back.x == doctest::Approx(p.x).epsilon(1e-8));
     CHECK(back.y == doctest::Approx(p.y).epsilon(1e-8));
+  }
+  // Near ones, too; near the axis where similar triangles through the stop put them, but for the singlet's power.
+  for (const double distance_mm : {1e6, 500.0, 30.0, 2.0}) {
+    CAPTURE(distance_mm);
+    for (const Vec2 p : {Vec2{0, 0}, Vec2{3, -2}, Vec2{-15, 10}, Vec2{300, -200}}) {
+      const Vec3 d = direction_to_land_at(lens, p, kLineD_nm, distance_mm);
+      CHECK(length(d) == doctest::Approx(1.0));
+      const Vec2 back = landing_of(lens, {d, distance_mm}, kLineD_nm);
+      CHECK(back.x == doctest::Approx(p.x).epsilon(1e-8));
+      CHECK(back.y == doctest::Approx(p.y).epsilon(1e-8));
+    }
+    // The stop is in front: a chief ray goes through its middle, which is the first vertex, whatever the distance.
+    const Vec3 slanting{0.0, std::sin(0.1), std::cos(0.1)};
+    CHECK(landing_of(lens, {slanting, distance_mm}, kLineD_nm).y ==
+          doctest::Approx(landing_of(lens, slanting, kLineD_nm).y).epsilon(1e-8));
   }
   // An upside-down image: a light above the axis travels downwards and lands below.
   const Vec3 from_above{0.0, -std::sin(0.1), std::cos(0.1)};

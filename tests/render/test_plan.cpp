@@ -26,7 +26,7 @@ Frame frame() { return {60, 40, 0, 0, 60, 40, 0.2}; }
 
 TEST_CASE("a lens without colour keeps the light's colour for any number of wavelengths") {
   const LensState lens = grey_lens();
-  const double flux = GhostMeter(lens, 550.0).direct_flux({0, 0, 1});
+  const double flux = GhostMeter(lens, 550.0).direct_flux(Vec3{0, 0, 1});
   Light light;
   light.value = {3.0, 5.0, 7.0};
   for (const int count : {1, 2, 3, 4, 7, 16, 61}) {

@@ -44,7 +44,7 @@ TEST_CASE("on the axis the exit pupil is first-order optics'") {
     CAPTURE(name);
     const LensState lens = test::bundled(name, {.f_number = 22.0});
     const FirstOrder first = first_order(lens, lens.design_wavelength_nm);
-    const auto pupil = exit_pupil(lens, {0, 0, 1}, lens.design_wavelength_nm);
+    const auto pupil = exit_pupil(lens, Vec3{0, 0, 1}, lens.design_wavelength_nm);
     REQUIRE(pupil.has_value());
     // Seen from 1 mm away instead of its distance.
     const double radius = 0.5 * first.exit_pupil_diameter_mm / std::abs(first.exit_pupil_position_mm);
@@ -99,7 +99,8 @@ TEST_CASE("borders are where traced rays are blocked, and the flux is the direct
   }
 }
 
-TEST_CASE("every bundled lens wide open, from the axis to the corner: flux, outline, and rays the fit did not see [slow]") {
+TEST_CASE(
+    "every bundled lens wide open, from the axis to the corner: flux, outline, and rays the fit did not see [slow]") {
   int without_outline = 0;  // the fisheye's corner, a sliver
   for (const BundledLens& entry : bundled_lenses()) {
     const std::string name(entry.name);
@@ -135,10 +136,10 @@ TEST_CASE("no light gets through: an empty pupil and a starburst that draws noth
   CHECK(pupil->radius == 0.0);
   const auto bands = spectral_bands(120, IlluminantD65{}, ColourSpace::Rec709);
   CHECK(lens_starburst(lens, beside, bands, {}).value().rings() == nullptr);
-  CHECK_FALSE(exit_pupil(lens, {0, 0, -1}, 550.0).has_value());
-  CHECK_FALSE(exit_pupil(lens, {0, std::nan(""), 1}, 550.0).has_value());
-  CHECK_FALSE(exit_pupil(lens, {0, 0, 1}, 0.0).has_value());
-  CHECK_FALSE(exit_pupil(lens, {0, 0, 1}, 550.0, 1).has_value());
-  CHECK_FALSE(lens_starburst(lens, {0, 0, 1}, {}, {}).has_value());
-  CHECK_FALSE(lens_starburst(lens, {0, 0, 1}, bands, {.pixel_pitch_mm = 0.0}).has_value());
+  CHECK_FALSE(exit_pupil(lens, Vec3{0, 0, -1}, 550.0).has_value());
+  CHECK_FALSE(exit_pupil(lens, Vec3{0, std::nan(""), 1}, 550.0).has_value());
+  CHECK_FALSE(exit_pupil(lens, Vec3{0, 0, 1}, 0.0).has_value());
+  CHECK_FALSE(exit_pupil(lens, Vec3{0, 0, 1}, 550.0, 1).has_value());
+  CHECK_FALSE(lens_starburst(lens, Vec3{0, 0, 1}, {}, {}).has_value());
+  CHECK_FALSE(lens_starburst(lens, Vec3{0, 0, 1}, bands, {.pixel_pitch_mm = 0.0}).has_value());
 }

@@ -1,4 +1,4 @@
-// Where a distant light's image lies, by its chief ray. The lens is a surface of revolution, so one meridian
+// Where a light's image lies, by its chief ray. The lens is a surface of revolution, so one meridian
 // tells all: a table of landing height against field angle, walked outwards from the axis so that each chief
 // ray starts from its neighbour's.
 #include <algorithm>
@@ -19,16 +19,19 @@ constexpr double kAimed = 1e-10;     // of the stop radius, off its centre
 constexpr int kAimSteps = 40;
 constexpr int kFieldBisections = 60;
 
-// Slope (mm per mm) at the entrance; height at the plane of the paraxial entrance pupil.
+// Field angle: of the light's direction. Height at the plane of the paraxial entrance pupil, where that is behind the
+// light, or else of the first vertex.
 class Meridian {
  public:
-  Meridian(const LensState& lens, double lambda_nm)
-      : path_(direct_path(lens, lambda_nm)), pupil_z_mm_(first_order(lens, lambda_nm).entrance_pupil_position_mm) {
+  Meridian(const LensState& lens, double lambda_nm, double distance_mm)
+      : path_(direct_path(lens, lambda_nm)), pupil_z_mm_(first_order(lens, lambda_nm).entrance_pupil_position_mm),
+        distance_mm_(distance_mm) {
     if (!std::isfinite(pupil_z_mm_)) pupil_z_mm_ = 0.0;  // telecentric in front: any plane will do
+    if (!source_at(0.0).is_distant()) pupil_z_mm_ = std::max(pupil_z_mm_, 0.0);
   }
 
   struct Chief {
-    double height_mm = 0;  // at the entrance pupil plane
+    double height_mm = 0;  // at that plane
     double landing_mm = 0;
   };
 
@@ -53,12 +56,17 @@ class Meridian {
   }
 
  private:
+  [[nodiscard]] LightSource source_at(double field_rad) const {
+    return {{0.0, std::sin(field_rad), std::cos(field_rad)}, distance_mm_};
+  }
   [[nodiscard]] TracedRay at(double field_rad, double height_mm) const {
-    return trace(path_, {{0.0, height_mm, pupil_z_mm_}, {0.0, std::sin(field_rad), std::cos(field_rad)}});
+    const Vec3 at{0.0, height_mm, pupil_z_mm_};
+    return trace(path_, {at, source_at(field_rad).direction_at(at)});
   }
 
   OpticalPath path_;
   double pupil_z_mm_;
+  double distance_mm_;
 };
 
 struct FieldPoint {
@@ -88,8 +96,8 @@ double landing_at(const Meridian& meridian, const FieldPoint& near, double field
   return std::abs(chief ? chief->landing_mm : near.chief.landing_mm);
 }
 
-double field_for(const LensState& lens, double lambda_nm, double radius_mm) {
-  const Meridian meridian(lens, lambda_nm);
+double field_for(const LensState& lens, double lambda_nm, double distance_mm, double radius_mm) {
+  const Meridian meridian(lens, lambda_nm, distance_mm);
   const auto points = walk_field(meridian);
   const FieldPoint& last = points.back();
   if (radius_mm >= std::abs(last.chief.landing_mm)) {
@@ -107,8 +115,8 @@ double field_for(const LensState& lens, double lambda_nm, double radius_mm) {
   return 0.5 * (low + high);
 }
 
-double radius_for(const LensState& lens, double lambda_nm, double field_rad) {
-  const Meridian meridian(lens, lambda_nm);
+double radius_for(const LensState& lens, double lambda_nm, double distance_mm, double field_rad) {
+  const Meridian meridian(lens, lambda_nm, distance_mm);
   const auto points = walk_field(meridian);
   if (field_rad >= points.back().field_rad) return extrapolated_landing(lens, points.back(), field_rad);
   const auto k = static_cast<std::size_t>(field_rad / kFieldStep_rad);
@@ -118,20 +126,20 @@ double radius_for(const LensState& lens, double lambda_nm, double field_rad) {
 }  // namespace
 
 // A positive lens images the sky point in direction d (the way the light travels) on the side d points to.
-Vec3 direction_to_land_at(const LensState& lens, Vec2 sensor_mm, double lambda_nm) {
+Vec3 direction_to_land_at(const LensState& lens, Vec2 sensor_mm, double lambda_nm, double distance_mm) {
   const double radius = length(sensor_mm);
   if (radius == 0.0) return {0.0, 0.0, 1.0};
-  const double field = field_for(lens, lambda_nm, radius);
+  const double field = field_for(lens, lambda_nm, distance_mm, radius);
   const double sign = lens.focal_length_mm > 0.0 ? 1.0 : -1.0;
   const Vec2 azimuth = sensor_mm * (sign / radius);
   return {azimuth.x * std::sin(field), azimuth.y * std::sin(field), std::cos(field)};
 }
 
-Vec2 landing_of(const LensState& lens, Vec3 direction, double lambda_nm) {
-  const Vec2 across{direction.x, direction.y};
+Vec2 landing_of(const LensState& lens, const LightSource& source, double lambda_nm) {
+  const Vec2 across{source.direction.x, source.direction.y};
   const double sine = length(across);
   if (sine == 0.0) return {};
-  const double radius = radius_for(lens, lambda_nm, std::atan2(sine, direction.z));
+  const double radius = radius_for(lens, lambda_nm, source.distance_mm, std::atan2(sine, source.direction.z));
   const double sign = lens.focal_length_mm > 0.0 ? 1.0 : -1.0;
   return across * (sign * radius / sine);
 }

@@ -55,16 +55,20 @@ HWY_INLINE void advance(Clearance<P>& s, const PacketStep& step) {
 }
 
 template <class P>
-HWY_INLINE Clearance<P> enter(const ParallelRays& rays, const float* x_mm, const float* y_mm) {
+HWY_INLINE Clearance<P> enter(const PacketStart& start, const float* x_mm, const float* y_mm) {
   const typename P::Tag d;
-  return {{P(rays.origin_mm.x) + P(hk::load_floats(d, x_mm)), P(rays.origin_mm.y) + P(hk::load_floats(d, y_mm)), P(0.0),
-           P(rays.direction.x), P(rays.direction.y), P(rays.direction.z)},
-          P(1.0),
-          P(0.0),
-          P(1.0),
-          P(0.0),
-          P(0.0),
-          P(0.0)};
+  const P x(hk::load_floats(d, x_mm));
+  const P y(hk::load_floats(d, y_mm));
+  Clearance<P> s{{P(start.origin_mm.x) + x, P(start.origin_mm.y) + y, P(0.0), P(start.direction.x),
+                  P(start.direction.y), P(start.direction.z)},
+                 P(1.0),
+                 P(0.0),
+                 P(1.0),
+                 P(0.0),
+                 P(0.0),
+                 P(0.0)};
+  if (start.diverges) hk::turn_aside(s.ray, x * P(start.per_way_mm), y * P(start.per_way_mm));
+  return s;
 }
 
 template <class P>
@@ -83,8 +87,8 @@ void trace_all(const PacketPath& path, const float* x_mm, const float* y_mm, std
   const std::size_t lanes = hn::Lanes(typename P::Tag());
   const P per_radius(path.inverse_stop_radius_per_mm());
   for (std::size_t at = 0; at < count; at += 2 * lanes) {
-    Clearance<P> a = enter<P>(path.rays(), x_mm + at, y_mm + at);
-    Clearance<P> b = enter<P>(path.rays(), x_mm + at + lanes, y_mm + at + lanes);
+    Clearance<P> a = enter<P>(path.start(), x_mm + at, y_mm + at);
+    Clearance<P> b = enter<P>(path.start(), x_mm + at + lanes, y_mm + at + lanes);
     for (const PacketStep& step : path.steps()) {
       advance(a, step);
       advance(b, step);

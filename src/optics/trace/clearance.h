@@ -24,7 +24,7 @@ struct ClearanceArrays {
   std::array<float*, kMaxStopCrossings> stop_y{};
 };
 
-// Entrance points are given from rays().origin_mm. All arrays must have room up to the next multiple of
+// Entrance points are given from start().origin_mm. All arrays must have room up to the next multiple of
 // kClearancePadding, whose surplus is read and written.
 inline constexpr std::size_t kClearancePadding = 32;
 [[nodiscard]] constexpr std::size_t clearance_padded(std::size_t count) {

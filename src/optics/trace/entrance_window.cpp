@@ -1,6 +1,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <fmt/format.h>
+
 #include "contrejour/trace.h"
 
 namespace contrejour {
@@ -14,25 +16,64 @@ double sag(double curvature, double r) {
   return curvature * r * r / (1.0 + std::sqrt(std::max(0.0, 1.0 - cr * cr)));
 }
 
+struct Circle {
+  Vec2 centre;
+  double radius = 0;
+};
+
+// The circle about the axis at height z, seen along the light on a plane `to_plane_mm` behind it: moved, and from a
+// point larger as well.
+Circle shadow(const LightSource& source, double z_mm, double radius_mm, double to_plane_mm) {
+  if (source.is_distant()) {
+    const Vec2 slope{source.direction.x / source.direction.z, source.direction.y / source.direction.z};
+    return {slope * to_plane_mm, radius_mm};
+  }
+  const Vec3 from = source.point_mm();
+  const double further = to_plane_mm / (z_mm - from.z);
+  return {Vec2{from.x, from.y} * -further, radius_mm * (1.0 + further)};
+}
+
 }  // namespace
+
+Result<void> check_source(const LensState& lens, const LightSource& source) {
+  const Vec3 d = source.direction;
+  const auto refuse = [](std::string why) { return failure(ErrorCode::InvalidArgument, std::move(why)); };
+  if (!std::isfinite(d.x + d.y + d.z) || !(d.z > 0.0)) return refuse("the light is beside or behind the camera");
+  if (!(source.distance_mm > 0.0))
+    return refuse(fmt::format("a light cannot be at a distance of {} mm; give more than 0", source.distance_mm));
+  const SurfaceState& first = lens.surfaces.front();
+  const double front_mm = std::min(0.0, sag(first.curvature_per_mm, first.semi_diameter_mm)) + first.z_mm;
+  if (!source.is_distant() && !(source.point_mm().z <= front_mm - kNearestLight_mm))
+    return refuse(fmt::format("a light {} mm from the first surface is not in front of all of the lens; give it {:.4g} mm "
+                              "along the axis or more",
+                              source.distance_mm, kNearestLight_mm - front_mm));
+  return {};
+}
 
 // The cap of surface 1, seen along the light, is more than its rim when the light comes in obliquely onto a
 // bulging surface: each ring of the cap is projected along the light onto the plane of the rim.
-EntranceWindow entrance_window(const LensState& lens, Vec3 direction) {
+EntranceWindow entrance_window(const LensState& lens, const LightSource& source) {
   const SurfaceState& first = lens.surfaces.front();
   const double rim = first.semi_diameter_mm;
-  const Vec2 slope{direction.x / direction.z, direction.y / direction.z};
   EntranceWindow window;
   window.z_mm = first.z_mm + sag(first.curvature_per_mm, rim);
   window.min_mm = {-rim, -rim};
   window.max_mm = {rim, rim};
   for (int k = 0; k <= kRings; ++k) {
     const double r = rim * k / kRings;
-    const Vec2 shift = slope * (window.z_mm - (first.z_mm + sag(first.curvature_per_mm, r)));
-    window.min_mm = {std::min(window.min_mm.x, shift.x - r), std::min(window.min_mm.y, shift.y - r)};
-    window.max_mm = {std::max(window.max_mm.x, shift.x + r), std::max(window.max_mm.y, shift.y + r)};
+    const double z_mm = first.z_mm + sag(first.curvature_per_mm, r);
+    const Circle ring = shadow(source, z_mm, r, window.z_mm - z_mm);
+    window.min_mm = {std::min(window.min_mm.x, ring.centre.x - ring.radius),
+                     std::min(window.min_mm.y, ring.centre.y - ring.radius)};
+    window.max_mm = {std::max(window.max_mm.x, ring.centre.x + ring.radius),
+                     std::max(window.max_mm.y, ring.centre.y + ring.radius)};
   }
-  const Vec2 margin{kMargin * rim, kMargin * rim};
+  double reach = rim;
+  if (!source.is_distant()) {
+    const Vec2 half = (window.max_mm - window.min_mm) * 0.5;
+    reach = std::max({rim, half.x, half.y});
+  }
+  const Vec2 margin{kMargin * reach, kMargin * reach};
   window.min_mm = window.min_mm - margin;
   window.max_mm = window.max_mm + margin;
   return window;

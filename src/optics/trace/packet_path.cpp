@@ -61,8 +61,10 @@ int ReflectanceTables::add(const SurfaceState& surface, int direction, bool tran
   return offset;
 }
 
-PacketPath::PacketPath(const OpticalPath& path, const ReflectanceTables& tables, const ParallelRays& rays)
-    : tables_(tables.values()), rays_(rays), inverse_stop_radius_per_mm_(1.0 / path.stop_radius_mm) {
+PacketPath::PacketPath(const OpticalPath& path, const ReflectanceTables& tables, const LightRays& rays)
+    : tables_(tables.values()), source_(rays.source), inverse_stop_radius_per_mm_(1.0 / path.stop_radius_mm) {
+  start_.origin_mm = rays.origin_mm;
+  start_from({rays.origin_mm.x, rays.origin_mm.y});
   double z_before_mm = rays.origin_mm.z;
   steps_.reserve(path.steps.size());
   for (const PathStep& from : path.steps) {
@@ -83,6 +85,15 @@ PacketPath::PacketPath(const OpticalPath& path, const ReflectanceTables& tables,
     steps_.push_back(step);
   }
   sensor_gap_mm_ = path.sensor_z_mm - z_before_mm;
+}
+
+void PacketPath::start_from(Vec2 origin_mm) {
+  const Vec3 origin{origin_mm.x, origin_mm.y, start_.origin_mm.z};
+  start_ = {origin, source_.direction_at(origin)};
+  if (source_.is_distant()) return;
+  start_.diverges = true;
+  start_.per_way_mm = 1.0 / length(origin + source_.direction * source_.distance_mm);
+  start_.flux = source_.flux_at(origin);
 }
 
 }  // namespace contrejour

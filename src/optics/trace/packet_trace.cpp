@@ -85,15 +85,18 @@ HWY_INLINE void land(const PacketState<P>& s, double sensor_gap_mm, std::size_t 
 }
 
 template <class P>
-HWY_INLINE PacketState<P> enter(const ParallelRays& rays, const float* x_mm, const float* y_mm) {
+HWY_INLINE PacketState<P> enter(const PacketStart& start, const float* x_mm, const float* y_mm) {
+  const P x = hk::load_floats(typename P::Tag(), x_mm);
+  const P y = hk::load_floats(typename P::Tag(), y_mm);
   PacketState<P> s;
-  s.ray = {P(rays.origin_mm.x) + hk::load_floats(typename P::Tag(), x_mm),
-           P(rays.origin_mm.y) + hk::load_floats(typename P::Tag(), y_mm),
-           P(0.0),
-           P(rays.direction.x),
-           P(rays.direction.y),
-           P(rays.direction.z)};
+  s.ray = {P(start.origin_mm.x) + x, P(start.origin_mm.y) + y, P(0.0),
+           P(start.direction.x),     P(start.direction.y),     P(start.direction.z)};
   s.transmission = P(1.0);
+  if (start.diverges) {
+    const P per_way(start.per_way_mm);
+    const P share = hk::turn_aside(s.ray, x * per_way, y * per_way);
+    s.transmission = P(start.flux) * share * share * share;
+  }
   s.r_rel_squared = P(0.0);
   s.alive = P(1.0);
   return s;
@@ -103,7 +106,7 @@ HWY_INLINE PacketState<P> enter(const ParallelRays& rays, const float* x_mm, con
 template <class P>
 HWY_INLINE void trace_one(const PacketPath& path, const float* x_mm, const float* y_mm, std::size_t at,
                           const TracedArrays& out) {
-  PacketState<P> s = enter<P>(path.rays(), x_mm + at, y_mm + at);
+  PacketState<P> s = enter<P>(path.start(), x_mm + at, y_mm + at);
   float* rim_squared = out.rim_squared != nullptr ? out.rim_squared + at : nullptr;
   for (const PacketStep& step : path.steps()) {
     advance(s, step, path.tables(), rim_squared);

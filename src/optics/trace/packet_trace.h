@@ -1,4 +1,4 @@
-// Many parallel rays along one path, several at a time (Highway packets, the widest instruction set of the
+// Many rays of a light along one path, several at a time (Highway packets, the widest instruction set of the
 // machine): the formulas of trace() in float, or in double where neighbouring rays lie too close for float.
 // Layout: structure of arrays, any length. Nothing is allocated while tracing.
 // Accuracy against trace() for unblocked rays: sensor positions 1e-3 mm in float (typically 1e-5) and 1e-5 mm
@@ -53,23 +53,32 @@ struct PacketStep {
   double eta = 1;               // n_in / n_out
 };
 
-// The light's rays: parallel, through points of the plane z = origin.z.
-struct ParallelRays {
+// A light's rays, through points of the plane z = origin.z.
+struct LightRays {
   Vec3 origin_mm;
-  Vec3 direction;  // unit
+  LightSource source;
+};
+
+// The ray through the origin, and of a light at a finite distance what the others differ from it by.
+struct PacketStart {
+  Vec3 origin_mm;
+  Vec3 direction;
+  bool diverges = false;
+  double per_way_mm = 0;  // over the way from the light to the origin
+  double flux = 1;        // LightSource::flux_at: times (this way over another ray's)^3
 };
 
 // A path made ready for tracing rays that start from one plane. The tables must outlive it.
 class PacketPath {
  public:
-  PacketPath(const OpticalPath& path, const ReflectanceTables& tables, const ParallelRays& rays);
+  PacketPath(const OpticalPath& path, const ReflectanceTables& tables, const LightRays& rays);
 
   // The same light through other points of the plane.
-  void start_from(Vec2 origin_mm) { rays_.origin_mm = {origin_mm.x, origin_mm.y, rays_.origin_mm.z}; }
+  void start_from(Vec2 origin_mm);
 
   [[nodiscard]] const std::vector<PacketStep>& steps() const { return steps_; }
   [[nodiscard]] const float* tables() const { return tables_; }
-  [[nodiscard]] const ParallelRays& rays() const { return rays_; }
+  [[nodiscard]] const PacketStart& start() const { return start_; }
   [[nodiscard]] double sensor_gap_mm() const { return sensor_gap_mm_; }
   [[nodiscard]] double inverse_stop_radius_per_mm() const { return inverse_stop_radius_per_mm_; }
   [[nodiscard]] int stop_crossings() const { return stop_crossings_; }
@@ -77,13 +86,14 @@ class PacketPath {
  private:
   std::vector<PacketStep> steps_;
   const float* tables_;
-  ParallelRays rays_;
+  LightSource source_;
+  PacketStart start_;
   double sensor_gap_mm_ = 0;
   double inverse_stop_radius_per_mm_ = 1;
   int stop_crossings_ = 0;
 };
 
-// Where the results go. A ray that fails has r_rel = infinity, transmission 0 and a sensor point of no meaning.
+// Where the results go. Transmissions of a light at a finite distance are times LightSource::flux_at. A ray that fails has r_rel = infinity, transmission 0 and a sensor point of no meaning.
 struct TracedArrays {
   float* sensor_x_mm = nullptr;
   float* sensor_y_mm = nullptr;
@@ -105,7 +115,7 @@ inline constexpr double kFloatStep_mm = 1e-3;
   return step_mm < kFloatStep_mm ? PacketPrecision::Double : PacketPrecision::Float;
 }
 
-// Entrance points are given from rays().origin_mm.
+// Entrance points are given from start().origin_mm.
 void trace_packets(const PacketPath& path, PacketPrecision precision, const float* x_mm, const float* y_mm,
                    std::size_t count, const TracedArrays& out);
 

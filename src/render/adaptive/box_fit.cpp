@@ -13,7 +13,7 @@ constexpr float kReach = 0.5F;     // ClearanceGrid::may_pass
 
 }  // namespace
 
-BoxFitter::BoxFitter(const OpticalPath& path, const ReflectanceTables& tables, const ParallelRays& rays,
+BoxFitter::BoxFitter(const OpticalPath& path, const ReflectanceTables& tables, const LightRays& rays,
                      const EntranceWindow& window)
     : grid_(path, tables, rays),
       window_{{window.min_mm.x, 0.0}, {window.max_mm.x, std::max(std::abs(window.min_mm.y), window.max_mm.y)}} {}

@@ -10,7 +10,7 @@ namespace contrejour::adaptive {
 class BoxFitter {
  public:
   // rays: the light's, from any point of the entrance plane.
-  BoxFitter(const OpticalPath& path, const ReflectanceTables& tables, const ParallelRays& rays,
+  BoxFitter(const OpticalPath& path, const ReflectanceTables& tables, const LightRays& rays,
             const EntranceWindow& window);
 
   // box: one that touches y = 0 is symmetric in y, others lie above it; so is the answer. None if nothing comes

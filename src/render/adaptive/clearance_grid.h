@@ -18,7 +18,7 @@ struct GridCell {
 
 class ClearanceGrid {
  public:
-  ClearanceGrid(const OpticalPath& path, const ReflectanceTables& tables, const ParallelRays& rays)
+  ClearanceGrid(const OpticalPath& path, const ReflectanceTables& tables, const LightRays& rays)
       : path_(path, tables, rays) {}
 
   // box: y >= 0.

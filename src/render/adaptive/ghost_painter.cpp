@@ -80,7 +80,7 @@ double area(const Rectangle& r) { return (r.high.x - r.low.x) * (r.high.y - r.lo
 GhostPainter::GhostPainter(const LensState& lens, const IrisShape& iris, const Frame& frame, const LightFrame& light,
                            const TablesByWavelength& tables, int deepest)
     : lens_(lens), iris_(iris), frame_(frame), light_(light), tables_(tables),
-      plane_z_mm_(entrance_window(lens, light.direction).z_mm), deepest_(deepest) {}
+      plane_z_mm_(entrance_window(lens, light.source).z_mm), deepest_(deepest) {}
 
 // How far a fit may be off, from what that does to pixels: edges displaced by d over a length of about 4 L, and
 // levels off by a share w over L^2 pixels.
@@ -106,7 +106,7 @@ GhostPainter::Tolerance GhostPainter::tolerance_for(const std::vector<RaySheet>&
   const Vec2 size{std::max(high.x - low.x, 1.0), std::max(high.y - low.y, 1.0)};
   const double side = std::sqrt(size.x * size.y);
   const Vec2 pupil = middle.box.high - middle.box.low;
-  const double level = weight * pupil.x * pupil.y * light_.direction.z / (size.x * size.y);
+  const double level = weight * pupil.x * pupil.y * light_.source.shared_flux() / (size.x * size.y);
   const double error =
       kFitShare * std::sqrt(budget.squared_error) / std::min(level, kPeaks * budget.peak);  // in levels, summed
   Tolerance t;

@@ -52,9 +52,9 @@ Rectangle with_margin(const Rectangle& box) {
 
 // Where rays get through, at all wavelengths of the light: found at the middle one, then fitted to the outer ones.
 Work find_boxes(const Scene& scene, Item& item) {
-  const LightFrame light(item.light->direction);
-  const EntranceWindow window = entrance_window(scene.lens, light.direction);
-  const ParallelRays rays{{0.0, 0.0, window.z_mm}, light.direction};
+  const LightFrame light(item.light->source);
+  const EntranceWindow window = entrance_window(scene.lens, light.source);
+  const LightRays rays{{0.0, 0.0, window.z_mm}, light.source};
   const auto path_at = [&](double lambda_nm) { return ghost_path(scene.lens, item.ghost, lambda_nm); };
   const auto tables_at = [&](double lambda_nm) -> const ReflectanceTables& { return *scene.plan.tables.at(lambda_nm); };
   const double middle_nm = middle_pass(*item.light).lambda_nm;
@@ -89,7 +89,7 @@ Work find_boxes(const Scene& scene, Item& item) {
 Painted paint(const Scene& scene, const Item& item, std::span<const PlannedPass> passes, const Frame& frame,
               const TileGrid& grid, const ErrorBudget& budget, int deepest) {
   Painted painted;
-  const LightFrame light(item.light->direction);
+  const LightFrame light(item.light->source);
   GhostPainter painter(scene.lens, scene.iris, frame, light, scene.plan.tables, deepest);
   for (const Rectangle& box : item.boxes) painter.paint(item.ghost, box, passes, budget, painted.polygons.list);
   painted.polygons.tiles = tile_lists(painted.polygons.list, grid);

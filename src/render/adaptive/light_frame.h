@@ -8,17 +8,17 @@
 namespace contrejour::adaptive {
 
 struct LightFrame {
-  Vec3 direction;  // of the light, y = 0, x >= 0
+  LightSource source;  // its direction: y = 0, x >= 0
   double cos_turn = 1, sin_turn = 0;
 
-  explicit LightFrame(Vec3 light) : LightFrame(meridian_of(light)) {}
+  explicit LightFrame(const LightSource& light) : LightFrame(meridian_of(light)) {}
   [[nodiscard]] Vec2 into_place(Vec2 v) const {
     return {v.x * cos_turn - v.y * sin_turn, v.x * sin_turn + v.y * cos_turn};
   }
 
  private:
   explicit LightFrame(const Meridian& m)
-      : direction(m.direction), cos_turn(std::cos(m.turn_rad)), sin_turn(std::sin(m.turn_rad)) {}
+      : source(m.light), cos_turn(std::cos(m.turn_rad)), sin_turn(std::sin(m.turn_rad)) {}
 };
 
 }  // namespace contrejour::adaptive

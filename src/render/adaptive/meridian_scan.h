@@ -18,7 +18,7 @@ struct Interval {
 
 class MeridianScan {
  public:
-  MeridianScan(const OpticalPath& path, const ReflectanceTables& tables, const ParallelRays& rays)
+  MeridianScan(const OpticalPath& path, const ReflectanceTables& tables, const LightRays& rays)
       : path_(path, tables, rays) {}
 
   // Parts of the line through which light may pass and which no box reaches.

@@ -111,7 +111,7 @@ Patch make_patch(const RaySheet& sheet, const LightFrame& light, const Frame& fr
   patch.layout = {static_cast<int>(sheet.stop.size()), std::min(static_cast<int>(steps.size()), kMostRims)};
   patch.values.resize(static_cast<std::size_t>(patch.layout.fields()) * sheet.count());
   const Vec2 size = sheet.box.high - sheet.box.low;
-  patch.flux_area_mm2 = size.x * size.y * light.direction.z;
+  patch.flux_area_mm2 = size.x * size.y * light.source.shared_flux();
 
   const auto on_frame = [&](std::size_t k) {
     return frame.pixel_from_sensor(light.into_place({sheet.sensor_x_mm[k], sheet.sensor_y_mm[k]}));

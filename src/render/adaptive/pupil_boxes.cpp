@@ -43,8 +43,8 @@ class Search {
  public:
   Search(const OpticalPath& path, const ReflectanceTables& tables, const LightFrame& light,
          const EntranceWindow& window)
-      : grid_(path, tables, {{0.0, 0.0, window.z_mm}, light.direction}),
-        meridian_(path, tables, {{0.0, 0.0, window.z_mm}, light.direction}),
+      : grid_(path, tables, {{0.0, 0.0, window.z_mm}, light.source}),
+        meridian_(path, tables, {{0.0, 0.0, window.z_mm}, light.source}),
         half_{{window.min_mm.x, 0.0}, {window.max_mm.x, std::max(std::abs(window.min_mm.y), window.max_mm.y)}} {}
 
   PupilBoxes run() {

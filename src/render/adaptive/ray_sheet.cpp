@@ -118,7 +118,7 @@ void SheetTracer::trace_path(std::size_t k, int first_row, PacketPrecision preci
     out.rim_squared = sheet.rim_squared.data() + at;
     out.rim_stride = sheet.count();
   }
-  const PacketPath packets(paths_[k], *tables_[k], {{sheet.box.low.x, sheet.box.low.y, plane_z_mm_}, light_.direction});
+  const PacketPath packets(paths_[k], *tables_[k], {{sheet.box.low.x, sheet.box.low.y, plane_z_mm_}, light_.source});
   trace_packets(packets, precision, x_mm_.data(), y_mm_.data(), count, out);
   rays_ += count;
   for (const PlannedPass& pass : band_.passes) {

@@ -28,7 +28,7 @@ std::optional<PupilBounds> bounds_for(const FramePlan& plan, const LensState& le
   range.lambda_nm = {tables.begin()->first};
   if (tables.size() > 1) range.lambda_nm.push_back(tables.rbegin()->first);
   for (const PlannedLight& light : plan.lights) {
-    range.largest_angle_rad = std::max(range.largest_angle_rad, meridian_of(light.direction).angle_rad());
+    range.largest_angle_rad = std::max(range.largest_angle_rad, meridian_of(light.source).angle_rad());
   }
   return PupilBounds(lens, range, context);
 }

@@ -49,11 +49,11 @@ bool is_convex(std::span<const Vec2> q, double orientation) {
 
 }  // namespace
 
-CellRaster::CellRaster(const RayGrid& grid, const IrisShape& iris, const Frame& frame, double cos_theta,
+CellRaster::CellRaster(const RayGrid& grid, const IrisShape& iris, const Frame& frame, double shared_flux,
                        CellStyle style)
     : grid_(grid), frame_(frame), style_(style), clipper_(iris) {
   const Vec2 step = grid.step_mm();
-  triangle_weight_mm2_ = 0.5 * step.x * step.y * cos_theta;
+  triangle_weight_mm2_ = 0.5 * step.x * step.y * shared_flux;
   place_vertices();
   find_states();
   find_irradiance();

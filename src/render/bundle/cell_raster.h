@@ -20,8 +20,8 @@ struct CellStyle {
 
 class CellRaster {
  public:
-  // iris: as it stands for the grid's crossings of the stop. cos_theta: of the light's angle to the axis.
-  CellRaster(const RayGrid& grid, const IrisShape& iris, const Frame& frame, double cos_theta, CellStyle style = {});
+  // iris: as it stands for the grid's crossings of the stop. shared_flux: LightSource's.
+  CellRaster(const RayGrid& grid, const IrisShape& iris, const Frame& frame, double shared_flux, CellStyle style = {});
 
   // Flux in mm^2 at E0 = 1 by pixel, over the part of the frame that the ghost touches. Stops early, with whatever
   // is done, once `stop()` is true.

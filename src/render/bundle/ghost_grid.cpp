@@ -39,21 +39,22 @@ void GhostGrid::count_rays(std::uint64_t rays, const OpticalPath& path) {
   counts_.surface_hits += rays * path.steps.size();
 }
 
-std::optional<GhostPupil> GhostGrid::find(Ghost ghost, Vec3 direction, double lambda_nm, bool look) {
+std::optional<GhostPupil> GhostGrid::find(Ghost ghost, const LightSource& light, double lambda_nm, bool look) {
   const Stopwatch watch(counts_.search_ms);
   const BundleOptions& options = settings_.bundle;
   GhostPupil pupil;
   pupil.lambda_nm = lambda_nm;
   pupil.path = ghost_path(lens_, ghost, lambda_nm);
-  const bool in_meridian = options.mirror_symmetry || bounds_ != nullptr;
-  pupil.meridian = in_meridian ? meridian_of(direction) : Meridian{direction, 0.0};
+  const bool from_table = bounds_ != nullptr && light.is_distant();
+  const bool in_meridian = options.mirror_symmetry || from_table;
+  pupil.meridian = in_meridian ? meridian_of(light) : Meridian{light, 0.0};
   pupil.iris = turned_back(lens_.iris, pupil.meridian);
-  const EntranceWindow window = entrance_window(lens_, pupil.meridian.direction);
+  const EntranceWindow window = entrance_window(lens_, pupil.meridian.light);
   pupil.plane_z_mm = window.z_mm;
 
-  const auto region = bounds_ != nullptr ? bounds_->find(ghost, pupil.meridian.angle_rad())
+  const auto region = from_table ? bounds_->find(ghost, pupil.meridian.angle_rad())
                                          : find_pupil_region(pupil.path, tables_of(pupil), IrisShape(pupil.iris),
-                                                             pupil.meridian.direction, window, rays_);
+                                                             pupil.meridian.light, window, rays_);
   if (!region) return std::nullopt;
   pupil.region = *region;
   count_rays(region->rays, pupil.path);
@@ -65,7 +66,7 @@ std::optional<GhostPupil> GhostGrid::find(Ghost ghost, Vec3 direction, double la
 }
 
 MapFigures GhostGrid::figures_of(const GhostPupil& pupil) {
-  rays_.trace(pupil.path, tables_of(pupil), IrisShape(pupil.iris), pupil.meridian.direction, pupil.plane_z_mm,
+  rays_.trace(pupil.path, tables_of(pupil), IrisShape(pupil.iris), pupil.meridian.light, pupil.plane_z_mm,
               pupil.region.pupil_mm, kProbeSide, PacketPrecision::Double);
   rays_.turn_sensor(pupil.meridian.turn_rad);
   count_rays(static_cast<std::uint64_t>(kProbeSide) * kProbeSide, pupil.path);
@@ -83,15 +84,15 @@ void GhostGrid::trace(const GhostPupil& pupil) {
   const IrisShape iris(pupil.iris);
   const auto all = static_cast<std::size_t>(side) * static_cast<std::size_t>(side);
   const Rectangle& box = pupil.region.pupil_mm;
-  const Vec3 direction = pupil.meridian.direction;
-  const auto precision = precision_for(pupil.path, tables_of(pupil), direction, pupil.plane_z_mm, box, side,
+  const LightSource& light = pupil.meridian.light;
+  const auto precision = precision_for(pupil.path, tables_of(pupil), light, pupil.plane_z_mm, box, side,
                                        settings_.frame.pixel_pitch_mm);
   if (settings_.bundle.mirror_symmetry) {
     count_rays(
-        rays_.trace_mirrored(pupil.path, tables_of(pupil), iris, direction, pupil.plane_z_mm, box, side, precision),
+        rays_.trace_mirrored(pupil.path, tables_of(pupil), iris, light, pupil.plane_z_mm, box, side, precision),
         pupil.path);
   } else {
-    rays_.trace(pupil.path, tables_of(pupil), iris, direction, pupil.plane_z_mm, box, side, precision);
+    rays_.trace(pupil.path, tables_of(pupil), iris, light, pupil.plane_z_mm, box, side, precision);
     count_rays(all, pupil.path);
   }
   if (pupil.meridian.turn_rad != 0.0) rays_.turn_sensor(pupil.meridian.turn_rad);

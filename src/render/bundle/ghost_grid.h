@@ -32,12 +32,12 @@ struct GhostPupil {
 
 class GhostGrid {
  public:
-  // bounds: in place of a search; may be null.
+  // bounds: in place of a search, for distant lights; may be null.
   GhostGrid(const LensState& lens, const RenderSettings& settings, const TablesByWavelength& tables,
             const PupilBounds* bounds);
 
   // None when nothing gets through. look: figures are wanted whatever the settings are.
-  [[nodiscard]] std::optional<GhostPupil> find(Ghost ghost, Vec3 direction, double lambda_nm, bool look);
+  [[nodiscard]] std::optional<GhostPupil> find(Ghost ghost, const LightSource& light, double lambda_nm, bool look);
 
   // Traces the pupil; rays() is valid until the next find() or trace().
   void trace(const GhostPupil& pupil);

@@ -62,7 +62,8 @@ std::vector<Item> items_of(const FramePlan& plan, const BundleOptions& options) 
       const std::span<const PlannedPass> all(light.passes);
       const std::size_t together = is_blurred(options, all.size()) ? all.size() : kPassesPerItem;
       for (std::size_t first = 0; first < all.size(); first += together) {
-        items.push_back({ghost, &light, all.subspan(first, std::min(together, all.size() - first))});
+        items.push_back(
+            {ghost, &light, all.subspan(first, std::min(together, all.size() - first))});
       }
     }
   }
@@ -71,7 +72,8 @@ std::vector<Item> items_of(const FramePlan& plan, const BundleOptions& options) 
 
 ItemRenderer::ItemRenderer(const Item& item, const LensState& lens, const RenderSettings& settings,
                            const TablesByWavelength& tables, const PupilBounds* bounds, const Context& context)
-    : item_(item), settings_(settings), context_(context), grid_(lens, settings, tables, bounds) {}
+    : item_(item), settings_(settings), context_(context),
+      grid_(lens, settings, tables, bounds) {}
 
 RenderedItem ItemRenderer::render() {
   const bool blur = is_blurred(settings_.bundle, item_.light->passes.size());
@@ -83,7 +85,7 @@ RenderedItem ItemRenderer::render() {
 std::vector<ItemRenderer::Layer> ItemRenderer::draw_all() {
   std::vector<Layer> layers(item_.passes.size());
   for (std::size_t k = 0; k < layers.size() && !context_.cancelled(); ++k) {
-    const auto pupil = grid_.find(item_.ghost, item_.light->direction, item_.passes[k].lambda_nm, false);
+    const auto pupil = grid_.find(item_.ghost, item_.light->source, item_.passes[k].lambda_nm, false);
     if (pupil) layers[k] = draw(*pupil, settings_.frame);
   }
   return layers;
@@ -97,7 +99,7 @@ std::vector<ItemRenderer::Layer> ItemRenderer::draw_and_blur() {
   std::vector<std::optional<GhostPupil>> pupils;
   std::vector<std::optional<MapFigures>> figures;
   for (const std::size_t k : order) {
-    pupils.push_back(grid_.find(item_.ghost, item_.light->direction, item_.passes[k].lambda_nm, true));
+    pupils.push_back(grid_.find(item_.ghost, item_.light->source, item_.passes[k].lambda_nm, true));
     figures.push_back(pupils.back() ? pupils.back()->figures : std::nullopt);
   }
   const auto motions = band_motions(figures, settings_.frame);
@@ -126,7 +128,7 @@ FluxBox ItemRenderer::draw(const GhostPupil& pupil, const Frame& frame) {
   const bool fine = special && !points;
   const Frame drawn = fine ? finer(frame, kFineness) : frame;
   const IrisShape iris(pupil.iris);
-  CellRaster raster(grid_.rays(), iris, drawn, item_.light->direction.z, {options.smooth_shading, points});
+  CellRaster raster(grid_.rays(), iris, drawn, item_.light->source.shared_flux(), {options.smooth_shading, points});
   FluxBox flux = raster.draw([&] { return context_.cancelled(); });
   grid_.counts().primitives += raster.primitives();
   return fine ? flux.coarser(kFineness) : std::move(flux);

@@ -5,16 +5,17 @@
 
 namespace contrejour {
 
-Vec3 measured_direction(const LensState& lens, const Frame& frame, Vec3 direction) {
-  const Vec2 uv = frame.uv_from_sensor(landing_of(lens, direction, lens.design_wavelength_nm));
+LightSource measured_source(const LensState& lens, const Frame& frame, const LightSource& light) {
+  const Vec2 uv = frame.uv_from_sensor(landing_of(lens, light, lens.design_wavelength_nm));
   const double outside = std::max(std::abs(uv.x - 0.5), std::abs(uv.y - 0.5)) / 0.5;
-  if (!(outside > 1.0)) return direction;
+  if (!(outside > 1.0)) return light;
   const Vec2 edge = Vec2{0.5, 0.5} + (uv - Vec2{0.5, 0.5}) * (1.0 / outside);
-  return direction_to_land_at(lens, frame.sensor_from_uv(edge), lens.design_wavelength_nm);
+  const Vec2 sensor_mm = frame.sensor_from_uv(edge);
+  return {direction_to_land_at(lens, sensor_mm, lens.design_wavelength_nm, light.distance_mm), light.distance_mm};
 }
 
 Rgb direct_light(std::span<const SpectralBand> bands, std::span<const GhostMeter> meters,
-                 std::span<const double> flux_mm2) {
+                 std::span<const double> flux_mm2, double distance_mm) {
   const auto sum = [&](auto flux_of) {
     Rgb whole{};
     for (std::size_t k = 0; k < bands.size(); ++k) {
@@ -24,7 +25,8 @@ Rgb direct_light(std::span<const SpectralBand> bands, std::span<const GhostMeter
     return whole;
   };
   const Rgb whole = sum([&](std::size_t k) { return flux_mm2[k]; });
-  return whole == Rgb{} ? sum([&](std::size_t k) { return meters[k].direct_flux({0.0, 0.0, 1.0}); }) : whole;
+  const LightSource on_axis({0.0, 0.0, 1.0}, distance_mm);
+  return whole == Rgb{} ? sum([&](std::size_t k) { return meters[k].direct_flux(on_axis); }) : whole;
 }
 
 }  // namespace contrejour

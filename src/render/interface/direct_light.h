@@ -9,12 +9,13 @@
 
 namespace contrejour {
 
-// Where a light is measured: outside the frame at the nearest point of the frame's edge on the way to its centre.
-[[nodiscard]] Vec3 measured_direction(const LensState& lens, const Frame& frame, Vec3 direction);
+// Where a light is measured, at its own distance: outside the frame at the nearest point of the frame's edge on the way
+// to its centre.
+[[nodiscard]] LightSource measured_source(const LensState& lens, const Frame& frame, const LightSource& light);
 
-// Sum over the bands of w[c] * Phi, mm^2 at E0 = 1, from each band's direct flux in the measured direction. A light
-// that does not get through there is measured on the axis; meters[k] is made for bands[k].
+// Sum over the bands of w[c] * Phi, mm^2 at E0 = 1, from each band's direct flux where the light is measured. One that
+// does not get through there is measured on the axis, at this distance; meters[k] is made for bands[k].
 [[nodiscard]] Rgb direct_light(std::span<const SpectralBand> bands, std::span<const GhostMeter> meters,
-                               std::span<const double> flux_mm2);
+                               std::span<const double> flux_mm2, double distance_mm);
 
 }  // namespace contrejour

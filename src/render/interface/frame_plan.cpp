@@ -23,7 +23,8 @@ bool is_finite(const Light& light) {
   return std::isfinite(d.x + d.y + d.z) && std::isfinite(light.value[0] + light.value[1] + light.value[2]);
 }
 
-std::optional<Error> problem_with(std::span<const Light> lights, const RenderSettings& settings) {
+std::optional<Error> problem_with(const LensState& lens, std::span<const Light> lights,
+                                  const RenderSettings& settings) {
   const Frame& f = settings.frame;
   if (f.width <= 0 || f.height <= 0 || f.full_width <= 0 || f.full_height <= 0) {
     return invalid(
@@ -40,6 +41,8 @@ std::optional<Error> problem_with(std::span<const Light> lights, const RenderSet
   for (std::size_t k = 0; k < lights.size(); ++k) {
     if (!is_finite(lights[k])) return invalid(fmt::format("light {} has a value that is not a finite number", k + 1));
     if (!(lights[k].direction.z > 0.0)) return invalid(fmt::format("light {} is beside or behind the camera", k + 1));
+    if (const auto good = check_source(lens, lights[k].source()); !good)
+      return invalid(fmt::format("light {}: {}", k + 1, good.error().message));
   }
   return std::nullopt;
 }
@@ -85,8 +88,8 @@ const MeteredBands& bands_for(const Light& light, const BandsBySpectrum& spectra
 
 PlannedLight plan_light(const Light& light, const MeteredBands& metered, std::span<const double> flux_mm2) {
   PlannedLight planned;
-  planned.direction = normalized(light.direction);
-  const Rgb whole = direct_light(metered.bands, metered.meters, flux_mm2);
+  planned.source = light.source();
+  const Rgb whole = direct_light(metered.bands, metered.meters, flux_mm2, light.distance_mm);
   for (const SpectralBand& band : metered.bands) {
     PlannedPass pass{band.lambda_nm, {}};
     for (std::size_t c = 0; c < whole.size(); ++c) {
@@ -105,9 +108,9 @@ bool plan_lights(const LensState& lens, std::span<const Light> lights, const Fra
   };
   std::vector<Share> shares;
   std::vector<std::vector<double>> flux_mm2(lights.size());
-  std::vector<Vec3> measured(lights.size());
+  std::vector<LightSource> measured(lights.size());
   bool done = parallel_for(lights.size(), context, [&](std::size_t k) {
-    measured[k] = measured_direction(lens, frame, normalized(lights[k].direction));
+    measured[k] = measured_source(lens, frame, lights[k].source());
   });
   for (std::size_t k = 0; k < lights.size(); ++k) {
     flux_mm2[k].resize(bands_for(lights[k], spectra).bands.size());
@@ -126,7 +129,7 @@ bool plan_lights(const LensState& lens, std::span<const Light> lights, const Fra
 
 Result<FramePlan> plan_frame(const LensState& lens, std::span<const Light> lights, const RenderSettings& settings,
                              const Context& context) {
-  if (const auto problem = problem_with(lights, settings)) return tl::unexpected<Error>(*problem);
+  if (const auto problem = problem_with(lens, lights, settings)) return tl::unexpected<Error>(*problem);
   const auto selected = select_ghosts(lens, lights, settings, context);
   if (!selected) return tl::unexpected<Error>(selected.error());
 

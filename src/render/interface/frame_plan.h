@@ -13,13 +13,13 @@ namespace contrejour {
 // A ghost, a light and a wavelength: the unit of rendering work.
 struct PlannedPass {
   double lambda_nm = 550;
-  // Pixel value per mm^2 of flux (E0 = 1, cos(theta) included) that a ghost path puts into the pixel:
+  // Pixel value per mm^2 of flux (E0 = 1, LightSource's flux included) that a ghost path puts into the pixel:
   // gain[c] = V[c] * w[c] / sum over bands of w[c] * Phi.
   Rgb gain{};
 };
 
 struct PlannedLight {
-  Vec3 direction;
+  LightSource source;
   std::vector<PlannedPass> passes;  // one a wavelength
 };
 

@@ -40,7 +40,7 @@ GhostFigures figures_of(const LensState& lens, Ghost ghost, const FiguresRequest
   Footprint footprint;
   for (std::size_t k = 0; k < request.bands.size(); ++k) {
     const SpectralBand& band = request.bands[k];
-    const GhostMeasure m = meters[k].measure(ghost, normalized(request.light.direction));
+    const GhostMeasure m = meters[k].measure(ghost, request.light.source());
     for (std::size_t c = 0; c < flux.size(); ++c) flux[c] += band.weight[c] * m.flux_mm2;
     if (m.flux_mm2 <= 0.0) continue;
     const double brightness = luminance(band.weight, ColourSpace::Rec709);
@@ -63,13 +63,14 @@ GhostFigures figures_of(const LensState& lens, Ghost ghost, const FiguresRequest
 
 Result<std::vector<GhostFigures>> ghost_figures(const LensState& lens, const FiguresRequest& request,
                                                 const Context& context) {
+  if (const auto good = check_source(lens, request.light.source()); !good) return tl::unexpected(good.error());
   const std::vector<Ghost> ghosts = enumerate_ghosts(lens, request.scope);
   std::vector<GhostMeter> meters;
   for (const SpectralBand& band : request.bands) meters.emplace_back(lens, band.lambda_nm);
-  const Vec3 measured = measured_direction(lens, request.frame, normalized(request.light.direction));
+  const LightSource measured = measured_source(lens, request.frame, request.light.source());
   std::vector<double> direct_mm2;
   for (const GhostMeter& meter : meters) direct_mm2.push_back(meter.direct_flux(measured));
-  const Rgb whole = direct_light(request.bands, meters, direct_mm2);
+  const Rgb whole = direct_light(request.bands, meters, direct_mm2, measured.distance_mm);
   std::vector<GhostFigures> all(ghosts.size());
   const bool done = parallel_for(ghosts.size(), context,
                                  [&](std::size_t g) { all[g] = figures_of(lens, ghosts[g], request, meters, whole); });

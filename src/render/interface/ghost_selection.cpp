@@ -25,7 +25,7 @@ Result<std::vector<double>> ghost_fluxes(const LensState& lens, std::span<const 
   const bool done = parallel_for(ghosts.size(), quiet, [&](std::size_t g) {
     for (const Light& light : lights) {
       const double weight = std::abs(luminance(light.value, settings.colour_space));
-      flux[g] += weight * meter.measure(ghosts[g], normalized(light.direction)).flux_mm2;
+      flux[g] += weight * meter.measure(ghosts[g], light.source()).flux_mm2;
     }
   });
   if (!done) return failure(ErrorCode::Cancelled, "interrupted");

@@ -52,9 +52,9 @@ struct Extent {
 
 class CellWalker {
  public:
-  CellWalker(const OpticalPath& path, const Iris& iris, Vec3 direction, double z_mm, const Frame& frame,
+  CellWalker(const OpticalPath& path, const Iris& iris, const LightSource& light, double z_mm, const Frame& frame,
              const CellLimits& limits, const LitPolygon& lit)
-      : path_(path), iris_(iris), direction_(direction), z_mm_(z_mm), frame_(frame), limits_(limits), lit_(lit) {
+      : path_(path), iris_(iris), light_(light), z_mm_(z_mm), frame_(frame), limits_(limits), lit_(lit) {
     if (iris.field) hull_ = iris.field->hull();
   }
 
@@ -62,10 +62,11 @@ class CellWalker {
     ++counts_.rays;
     Sample s;
     s.entrance_mm = entrance_mm;
-    const TracedRay ray = trace(path_, {{entrance_mm.x, entrance_mm.y, z_mm_}, direction_});
+    const Vec3 from{entrance_mm.x, entrance_mm.y, z_mm_};
+    const TracedRay ray = trace(path_, {from, light_.direction_at(from)});
     if (ray.status != RayStatus::Ok) return s;
     s.pixel = frame_.pixel_from_sensor(ray.sensor_mm);
-    s.transmission = ray.transmission;
+    s.transmission = ray.transmission * light_.flux_at(from);
     s.blocked = blocked_by(ray, path_, iris_);
     s.outside = s.blocked;
     if (iris_.field) look_at_picture(ray, s);
@@ -235,12 +236,12 @@ class CellWalker {
       }
     }
     ++counts_.polygons;
-    lit_({pixels.data(), count}, 0.5 * std::abs(twice_area) * transmission * direction_.z);
+    lit_({pixels.data(), count}, 0.5 * std::abs(twice_area) * transmission * light_.shared_flux());
   }
 
   const OpticalPath& path_;
   const Iris& iris_;
-  Vec3 direction_;
+  LightSource light_;
   double z_mm_;
   const Frame& frame_;
   CellLimits limits_;
@@ -261,10 +262,10 @@ CellLimits CellLimits::for_density(double density) {
   return limits;
 }
 
-CellCounts for_each_lit_polygon(const OpticalPath& path, const Iris& iris, Vec3 direction, const EntranceWindow& window,
-                                const Frame& frame, const CellLimits& limits, const std::function<bool()>& stop,
-                                const LitPolygon& lit) {
-  CellWalker walker(path, iris, direction, window.z_mm, frame, limits, lit);
+CellCounts for_each_lit_polygon(const OpticalPath& path, const Iris& iris, const LightSource& light,
+                                const EntranceWindow& window, const Frame& frame, const CellLimits& limits,
+                                const std::function<bool()>& stop, const LitPolygon& lit) {
+  CellWalker walker(path, iris, light, window.z_mm, frame, limits, lit);
   const int n = limits.root_cells;
   const auto row_of = [&](int iy) {
     std::vector<Sample> row;

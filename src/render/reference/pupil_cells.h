@@ -36,8 +36,8 @@ struct CellCounts {
 
 // Calls `lit` for every open piece of every cell that may fall inside the frame. Stops early, with whatever has
 // been passed on so far, once `stop()` is true.
-CellCounts for_each_lit_polygon(const OpticalPath& path, const Iris& iris, Vec3 direction, const EntranceWindow& window,
-                                const Frame& frame, const CellLimits& limits, const std::function<bool()>& stop,
-                                const LitPolygon& lit);
+CellCounts for_each_lit_polygon(const OpticalPath& path, const Iris& iris, const LightSource& light,
+                                const EntranceWindow& window, const Frame& frame, const CellLimits& limits,
+                                const std::function<bool()>& stop, const LitPolygon& lit);
 
 }  // namespace contrejour::reference

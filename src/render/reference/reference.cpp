@@ -37,10 +37,10 @@ RenderedItem render_item(const Item& item, const LensState& lens, const RenderSe
                          const Context& context) {
   RenderedItem out{{settings.frame.width, settings.frame.height}, {}, 0};
   const OpticalPath path = ghost_path(lens, item.ghost, item.pass->lambda_nm);
-  const Vec3 direction = item.light->direction;
+  const LightSource& light = item.light->source;
   out.surfaces = path.steps.size();
   out.counts = reference::for_each_lit_polygon(
-      path, lens.iris, direction, entrance_window(lens, direction), settings.frame,
+      path, lens.iris, light, entrance_window(lens, light), settings.frame,
       reference::CellLimits::for_density(settings.reference_density), [&] { return context.cancelled(); },
       [&](std::span<const Vec2> pixels, double flux) { out.flux.add_polygon(pixels, flux); });
   return out;

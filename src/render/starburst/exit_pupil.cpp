@@ -30,8 +30,8 @@ constexpr int kShadeStep = 8;  // samples
 // Places at the stop, then at each rim that vignettes, by the cosines: x and y of each.
 class Borders {
  public:
-  Borders(const PupilRays& pupil, const std::vector<std::size_t>& used, std::vector<std::size_t> rims,
-          const Iris& iris, int degree)
+  Borders(const PupilRays& pupil, const std::vector<std::size_t>& used, std::vector<std::size_t> rims, const Iris& iris,
+          int degree)
       : iris_(iris), opening_(iris), rims_(std::move(rims)), exact_(fit(pupil, used, degree)) {
     const SmoothFit straight = fit(pupil, used, 1);
     for (std::size_t f = 0; f < straight.functions(); ++f) {
@@ -236,7 +236,7 @@ void grow_over_neighbours(const PupilRays& pupil, Vec2& low, Vec2& high) {
 }
 
 // Root of the flux per solid cosine: transmission times |d entrance / d cosines| (radiometry.md).
-SmoothFit amplitude_of(const PupilRays& pupil, const std::vector<std::size_t>& used, double cos_theta) {
+SmoothFit amplitude_of(const PupilRays& pupil, const std::vector<std::size_t>& used, double shared_flux) {
   std::vector<Vec2> places;
   std::vector<double> entrance, amplitude;
   for (const std::size_t k : used) places.push_back(pupil.rays[k].cosines);
@@ -250,7 +250,7 @@ SmoothFit amplitude_of(const PupilRays& pupil, const std::vector<std::size_t>& u
       return Vec2{from(at + step, 0) - from(at - step, 0), from(at + step, 1) - from(at - step, 1)} * (0.5 / h);
     };
     const double density = std::abs(cross(along({h, 0.0}), along({0.0, h})));
-    amplitude.push_back(std::sqrt(pupil.rays[k].transmission * cos_theta * density));
+    amplitude.push_back(std::sqrt(pupil.rays[k].transmission * shared_flux * density));
   }
   return {places, amplitude, degree_for(used.size(), kAmplitudeDegree)};
 }
@@ -295,9 +295,7 @@ void shade(const SmoothFit& amplitude, double area, ExitPupil& out) {
   for (float& value : out.mask.amplitude) value /= static_cast<float>(mean);
 }
 
-Result<void> check(const LensState& lens, Vec3 direction, double lambda_nm, int samples_across) {
-  if (!std::isfinite(direction.x + direction.y + direction.z) || !(direction.z > 0.0))
-    return failure(ErrorCode::InvalidArgument, "the light is beside or behind the camera");
+Result<void> check(const LensState& lens, const LightSource& light, double lambda_nm, int samples_across) {
   if (!(lambda_nm > 0.0) || !std::isfinite(lambda_nm))
     return failure(ErrorCode::InvalidArgument, fmt::format("no light has a wavelength of {} nm", lambda_nm));
   if (samples_across < kFewestSamples || samples_across > kMostSamples)
@@ -306,10 +304,10 @@ Result<void> check(const LensState& lens, Vec3 direction, double lambda_nm, int 
                                kFewestSamples, kMostSamples));
   if (!(lens.stop_radius_mm > 0.0) || lens.surfaces.empty())
     return failure(ErrorCode::InvalidArgument, "the lens has no open stop");
-  return {};
+  return check_source(lens, light);
 }
 
-ExitPupil pupil_of(const PupilRays& pupil, const LensState& lens, Vec3 direction, int samples_across,
+ExitPupil pupil_of(const PupilRays& pupil, const LensState& lens, const LightSource& light, int samples_across,
                    const Context& context) {
   ExitPupil out;
   const std::vector<std::size_t> open = rays_within(pupil, 0.0), used = rays_within(pupil, kFitBeyond);
@@ -336,19 +334,19 @@ ExitPupil pupil_of(const PupilRays& pupil, const LensState& lens, Vec3 direction
   if (!(open_samples > 0.0)) return {};
   const double open_area = open_samples * out.mask.grid.pitch_mm * out.mask.grid.pitch_mm;
   out.outline = outline_of(pupil, rims, open, lens.iris, open_area);
-  shade(amplitude_of(pupil, used, direction.z), out.outline ? out.outline->area_mm2() : open_area, out);
+  shade(amplitude_of(pupil, used, light.shared_flux()), out.outline ? out.outline->area_mm2() : open_area, out);
   keep_rays(pupil, open, out);
   return out;
 }
 
 }  // namespace
 
-Result<ExitPupil> exit_pupil(const LensState& lens, Vec3 direction, double lambda_nm, int samples_across,
+Result<ExitPupil> exit_pupil(const LensState& lens, const LightSource& light, double lambda_nm, int samples_across,
                              const Context& context) {
-  if (const auto good = check(lens, direction, lambda_nm, samples_across); !good) return tl::unexpected(good.error());
+  if (const auto good = check(lens, light, lambda_nm, samples_across); !good) return tl::unexpected(good.error());
   Context quiet = context;
   quiet.progress = {};
-  const Vec3 along = normalized(direction);
+  const LightSource along(normalized(light.direction), light.distance_mm);
   const auto pupil = trace_pupil(lens, IrisOpening(lens.iris), along, lambda_nm, quiet);
   if (context.cancelled()) return failure(ErrorCode::Cancelled, "interrupted");
   ExitPupil out;

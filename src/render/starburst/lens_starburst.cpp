@@ -8,13 +8,13 @@ namespace contrejour {
 namespace {
 
 // What the lens transmits at each wavelength, in the mean over some of the pupil's rays.
-std::vector<double> transmissions(const LensState& lens, Vec3 direction, const std::vector<Vec3>& rays_mm,
+std::vector<double> transmissions(const LensState& lens, const LightSource& light, const std::vector<Vec3>& rays_mm,
                                   std::span<const SpectralBand> bands, const Context& context) {
   std::vector<double> mean(bands.size());
   parallel_for(bands.size(), context, [&](std::size_t k) {
     const OpticalPath path = direct_path(lens, bands[k].lambda_nm);
     for (const Vec3 from : rays_mm)
-      mean[k] += trace(path, {from, direction}).transmission / static_cast<double>(rays_mm.size());
+      mean[k] += trace(path, {from, light.direction_at(from)}).transmission / static_cast<double>(rays_mm.size());
   });
   return mean;
 }
@@ -32,15 +32,16 @@ std::vector<SpectralBand> transmitted(std::span<const SpectralBand> bands, const
 
 }  // namespace
 
-Result<Starburst> lens_starburst(const LensState& lens, Vec3 direction, std::span<const SpectralBand> bands,
+Result<Starburst> lens_starburst(const LensState& lens, const LightSource& light, std::span<const SpectralBand> bands,
                                  const LensStarburstSettings& settings, const Context& context) {
   const StarburstSettings made{1.0, 1.0, settings.pixel_pitch_mm, settings.radius_px};
-  const auto pupil = exit_pupil(lens, direction, lens.design_wavelength_nm, made.samples_across, context);
+  const auto pupil = exit_pupil(lens, light, lens.design_wavelength_nm, made.samples_across, context);
   if (!pupil) return tl::unexpected(pupil.error());
   if (!(pupil->radius > 0.0)) return Starburst();
   Context quiet = context;
   quiet.progress = {};
-  const auto weighted = transmitted(bands, transmissions(lens, normalized(direction), pupil->rays_mm, bands, quiet));
+  const LightSource along(normalized(light.direction), light.distance_mm);
+  const auto weighted = transmitted(bands, transmissions(lens, along, pupil->rays_mm, bands, quiet));
   StarburstSettings scaled = made;
   scaled.pupil_radius_mm = pupil->radius;
   const PupilOutline* const outline = pupil->outline ? &*pupil->outline : nullptr;

@@ -33,7 +33,7 @@ std::vector<LightGroup> group_lights(std::span<const Light> lights, std::span<co
       const ImagedLight& first = group.front();
       if (lights[first.light].spectrum != lights[light.light].spectrum) return false;
       return share_cells ? cell_of(first, frame) == cell_of(light, frame)
-                         : lights[first.light].direction == lights[light.light].direction;
+                         : lights[first.light].source() == lights[light.light].source();
     };
     const auto found = std::find_if(groups.begin(), groups.end(), joins);
     if (found == groups.end())

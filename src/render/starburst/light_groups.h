@@ -22,7 +22,7 @@ struct ImagedLight {
 
 using LightGroup = std::vector<ImagedLight>;  // brightest first
 
-// Groups in the order of their first lights. Lights of different spectra never share, lights of the same direction and
+// Groups in the order of their first lights. Lights of different spectra never share, lights of the same place and
 // spectrum always do.
 [[nodiscard]] std::vector<LightGroup> group_lights(std::span<const Light> lights, std::span<const ImagedLight> imaged,
                                                    const Frame& frame);

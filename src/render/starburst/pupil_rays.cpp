@@ -12,12 +12,12 @@ constexpr int kSide = 41;
 constexpr double kBeyond = 0.08;  // of the region, on each side: borders are fitted from both sides
 
 // Where the direct image's rays enter. Films change nothing about it, and bare surfaces are tabulated quickly.
-std::optional<Rectangle> find_region(LensState lens, Vec3 direction, double lambda_nm) {
+std::optional<Rectangle> find_region(LensState lens, const LightSource& light, double lambda_nm) {
   for (SurfaceState& surface : lens.surfaces) surface.coating = {};
   const ReflectanceTables tables(lens, lambda_nm);
   RayGrid scratch;
-  const auto region = find_pupil_region(direct_path(lens, lambda_nm), tables, IrisShape(lens.iris), direction,
-                                        entrance_window(lens, direction), scratch);
+  const auto region = find_pupil_region(direct_path(lens, lambda_nm), tables, IrisShape(lens.iris), light,
+                                        entrance_window(lens, light), scratch);
   if (!region) return std::nullopt;
   const Vec2 beyond = (region->pupil_mm.high - region->pupil_mm.low) * kBeyond;
   return Rectangle{region->pupil_mm.low - beyond, region->pupil_mm.high + beyond};
@@ -47,14 +47,14 @@ PupilRay trace_one(const OpticalPath& path, const IrisOpening& iris, const Ray& 
 
 }  // namespace
 
-std::optional<PupilRays> trace_pupil(const LensState& lens, const IrisOpening& iris, Vec3 direction, double lambda_nm,
+std::optional<PupilRays> trace_pupil(const LensState& lens, const IrisOpening& iris, const LightSource& light, double lambda_nm,
                                      const Context& context) {
-  const auto box = find_region(lens, direction, lambda_nm);
+  const auto box = find_region(lens, light, lambda_nm);
   if (!box) return std::nullopt;
   const OpticalPath path = direct_path(lens, lambda_nm);
   PupilRays pupil;
   pupil.side = kSide;
-  pupil.z_mm = entrance_window(lens, direction).z_mm;
+  pupil.z_mm = entrance_window(lens, light).z_mm;
   pupil.rims = path.steps.size() - static_cast<std::size_t>(path.stop_crossings);
   pupil.rays.resize(static_cast<std::size_t>(kSide) * kSide);
   pupil.rim_places.resize(pupil.rims * pupil.rays.size());
@@ -63,8 +63,10 @@ std::optional<PupilRays> trace_pupil(const LensState& lens, const IrisOpening& i
     for (std::size_t column = 0; column < static_cast<std::size_t>(kSide); ++column) {
       const std::size_t k = row * static_cast<std::size_t>(kSide) + column;
       const Vec2 at = box->low + Vec2{static_cast<double>(column) * step.x, static_cast<double>(row) * step.y};
+      const Vec3 from{at.x, at.y, pupil.z_mm};
       pupil.rays[k] =
-          trace_one(path, iris, {{at.x, at.y, pupil.z_mm}, direction}, pupil.rim_places.data() + k, pupil.rays.size());
+          trace_one(path, iris, {from, light.direction_at(from)}, pupil.rim_places.data() + k, pupil.rays.size());
+      pupil.rays[k].transmission *= light.flux_at(from);
     }
   });
   if (!done) return std::nullopt;

@@ -16,7 +16,7 @@ struct PupilRay {
   Vec2 entrance_mm;     // in the plane z_mm of the entrance window
   Vec2 cosines;         // at the sensor
   Vec2 stop;            // over the stop's radius
-  double transmission = 0;
+  double transmission = 0;  // times LightSource::flux_at
   double iris = 0;      // distance from the iris's edge in stop radii, negative inside
   double blocked = 0;   // the largest of that and every rim's r_rel - 1
 };
@@ -32,7 +32,7 @@ struct PupilRays {
 };
 
 // None when nothing gets through, or when cancelled.
-[[nodiscard]] std::optional<PupilRays> trace_pupil(const LensState& lens, const IrisOpening& iris, Vec3 direction,
-                                                   double lambda_nm, const Context& context);
+[[nodiscard]] std::optional<PupilRays> trace_pupil(const LensState& lens, const IrisOpening& iris,
+                                                   const LightSource& light, double lambda_nm, const Context& context);
 
 }  // namespace contrejour

@@ -31,11 +31,12 @@ double distance_to_farthest_corner(const Frame& frame, Vec2 from_px) {
 }
 
 // How much of a light outside the frame gets through, of what did where it is measured (docs/physics/radiometry.md).
-double share_outside(const GhostMeter& meter, const LensState& lens, const Frame& frame, Vec3 direction) {
-  const double flux_mm2 = meter.direct_flux(direction);
+double share_outside(const GhostMeter& meter, const LensState& lens, const Frame& frame, const LightSource& light) {
+  const double flux_mm2 = meter.direct_flux(light);
   if (!(flux_mm2 > 0.0)) return 0.0;
-  const double measured_mm2 = meter.direct_flux(measured_direction(lens, frame, direction));
-  return flux_mm2 / (measured_mm2 > 0.0 ? measured_mm2 : meter.direct_flux({0.0, 0.0, 1.0}));
+  const double measured_mm2 = meter.direct_flux(measured_source(lens, frame, light));
+  const LightSource on_axis({0.0, 0.0, 1.0}, light.distance_mm);
+  return flux_mm2 / (measured_mm2 > 0.0 ? measured_mm2 : meter.direct_flux(on_axis));
 }
 
 bool is_outside(const Frame& frame, Vec2 sensor_mm) {
@@ -50,9 +51,8 @@ std::vector<ImagedLight> image_lights(const LensState& lens, std::span<const Lig
   const double farthest_px = kFarthest_diagonals * std::hypot(frame.full_width, frame.full_height);
   const Vec2 middle_px = frame.pixel_from_sensor({});
   std::vector<Vec2> sensor_mm(lights.size());
-  parallel_for(lights.size(), context, [&](std::size_t k) {
-    sensor_mm[k] = landing_of(lens, normalized(lights[k].direction), lens.design_wavelength_nm);
-  });
+  parallel_for(lights.size(), context,
+               [&](std::size_t k) { sensor_mm[k] = landing_of(lens, lights[k].source(), lens.design_wavelength_nm); });
   std::optional<GhostMeter> meter;
   if (std::any_of(sensor_mm.begin(), sensor_mm.end(), [&](Vec2 p) { return is_outside(frame, p); }))
     meter.emplace(lens, lens.design_wavelength_nm);
@@ -62,7 +62,7 @@ std::vector<ImagedLight> image_lights(const LensState& lens, std::span<const Lig
     if (!(from_middle_px < farthest_px))
       share[k] = 0.0;
     else if (is_outside(frame, sensor_mm[k]))
-      share[k] = share_outside(*meter, lens, frame, normalized(lights[k].direction));
+      share[k] = share_outside(*meter, lens, frame, lights[k].source());
   });
   std::vector<ImagedLight> imaged;
   for (std::size_t k = 0; k < lights.size(); ++k) {
@@ -88,7 +88,8 @@ Result<Starburst> starburst_of(const LightGroup& group, const LensState& lens, s
   for (const ImagedLight& light : group)
     drawn.radius_px = std::max(drawn.radius_px, 1.0 + distance_to_farthest_corner(settings.frame, light.centre_px));
   for (const ImagedLight& light : group) {
-    auto starburst = lens_starburst(lens, lights[light.light].direction, bands, drawn, context);
+    const Light& shown = lights[light.light];
+    auto starburst = lens_starburst(lens, {shown.direction, shown.distance_mm}, bands, drawn, context);
     if (!starburst || starburst->rings() != nullptr) return starburst;
   }
   return Starburst();

@@ -54,7 +54,7 @@ Result<void> check(const RenderSettings& settings) {
 // One ghost of one light at one wavelength.
 struct Item {
   Ghost ghost;
-  Vec3 direction;
+  LightSource light;
   double lambda_nm = 550;
 };
 
@@ -120,9 +120,8 @@ void list_items(const FramePlan& plan, Job& job) {
   for (const Ghost& ghost : plan.ghosts) {
     for (const PlannedLight& light : plan.lights) {
       for (const PlannedPass& pass : light.passes) {
-        job.items.push_back({ghost, light.direction, pass.lambda_nm});
-        job.gains.push_back(
-            {static_cast<float>(pass.gain[0]), static_cast<float>(pass.gain[1]), static_cast<float>(pass.gain[2])});
+        job.items.push_back({ghost, light.source, pass.lambda_nm});
+        job.gains.push_back({static_cast<float>(pass.gain[0]), static_cast<float>(pass.gain[1]), static_cast<float>(pass.gain[2])});
       }
     }
   }
@@ -133,14 +132,14 @@ TracedItem trace_item(const Job& job, std::size_t index, Workspace& workspace) {
   const Item& item = job.items[index];
   const OpticalPath path = ghost_path(job.lens, item.ghost, item.lambda_nm);
   const ReflectanceTables& tables = *job.tables.at(item.lambda_nm);
-  const EntranceWindow window = entrance_window(job.lens, item.direction);
+  const EntranceWindow window = entrance_window(job.lens, item.light);
   const auto count_rays = [&](std::uint64_t rays) {
     out.counts.rays += rays;
     out.counts.surface_hits += rays * path.steps.size();
   };
 
   auto start = Clock::now();
-  const auto region = find_pupil_region(path, tables, job.iris, item.direction, window, workspace.grid);
+  const auto region = find_pupil_region(path, tables, job.iris, item.light, window, workspace.grid);
   out.counts.search_ms = ms_since(start);
   if (!region) return out;
   count_rays(region->rays);
@@ -148,12 +147,12 @@ TracedItem trace_item(const Job& job, std::size_t index, Workspace& workspace) {
   start = Clock::now();
   const int fewest = std::max(2, static_cast<int>(std::lround(job.settings.grid * kFewestShare)));
   const int side = grid_side(job.settings, job.lens, region->sensor_mm, fewest);
-  const auto precision = precision_for(path, tables, item.direction, window.z_mm, region->pupil_mm, side,
-                                       job.settings.frame.pixel_pitch_mm);
-  workspace.grid.trace(path, tables, job.iris, item.direction, window.z_mm, region->pupil_mm, side, precision);
+  const auto precision =
+      precision_for(path, tables, item.light, window.z_mm, region->pupil_mm, side, job.settings.frame.pixel_pitch_mm);
+  workspace.grid.trace(path, tables, job.iris, item.light, window.z_mm, region->pupil_mm, side, precision);
   count_rays(static_cast<std::uint64_t>(side) * static_cast<std::uint64_t>(side));
   out.counts.primitives =
-      workspace.builder.build(workspace.grid, item.direction.z, static_cast<std::uint32_t>(index), out.buffer);
+      workspace.builder.build(workspace.grid, item.light.shared_flux(), static_cast<std::uint32_t>(index), out.buffer);
   out.counts.trace_ms = ms_since(start);
   return out;
 }
