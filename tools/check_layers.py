@@ -59,6 +59,7 @@ PUBLIC = {
     "pupil_mask.h": "diffraction",
     "render.h": "render/interface",
     "result.h": "base",
+    "spectrum_file.h": "image",
     "starburst.h": "diffraction",
     "trace.h": "trace",
     "vec.h": "base",

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <utility>
 
+#include "contrejour/spectrum_file.h"
 #include "contrejour/trace.h"
 #include "params/settings.h"
 
@@ -25,14 +26,15 @@ Result<Frame> frame_of(const Picture& picture, const LensState& lens, const Valu
   return frame;
 }
 
-Light light_of(const DetectedLight& area, const Frame& frame, const LensState& lens, const Values& values) {
+Light light_of(const DetectedLight& area, const Spectrum& spectrum, const Frame& frame, const LensState& lens,
+               const Values& values) {
   const double gain = values.number("gain");
   Light light;
   light.distance_mm = *parse_distance_mm(*values.text("light-distance"));
   light.direction = direction_to_land_at(lens, frame.sensor_from_pixel(area.centroid_px), lens.design_wavelength_nm,
                                          light.distance_mm);
   light.value = {area.flux[0] * gain, area.flux[1] * gain, area.flux[2] * gain};
-  light.spectrum = *parse_spectrum(*values.text("spectrum"));
+  light.spectrum = spectrum;
   return light;
 }
 
@@ -46,6 +48,8 @@ Result<FlarePlan> plan_flare(const Picture& picture, const LensState& lens, cons
   auto frame = frame_of(picture, lens, values);
   if (!frame) return tl::unexpected(frame.error());
   plan.frame = *frame;
+  const auto spectrum = find_spectrum(*values.text("spectrum"));
+  if (!spectrum) return tl::unexpected(spectrum.error());
   const DetectionSettings detection = detection_settings(values);
   auto found = detect_lights(picture.rgb, detection);
   if (!found) return tl::unexpected(found.error());
@@ -54,7 +58,7 @@ Result<FlarePlan> plan_flare(const Picture& picture, const LensState& lens, cons
     plan.already_there =
         std::make_shared<const Image>(light_shares(picture.rgb, plan.found.threshold, detection.softness));
   for (const DetectedLight& area : plan.found.lights) {
-    plan.lights.push_back(light_of(area, plan.frame, lens, values));
+    plan.lights.push_back(light_of(area, *spectrum, plan.frame, lens, values));
   }
   return plan;
 }

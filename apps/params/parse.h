@@ -37,7 +37,7 @@ struct LightValue {
 };
 [[nodiscard]] Result<LightValue> parse_light_value(std::string_view text);
 
-// "D65", "A", "E", "3200K", or R,G,B.
+// "D65", "A", "E", "3200K", a lamp or a file (spectrum_file.h), or R,G,B.
 struct LightColour {
   Spectrum spectrum = IlluminantD65{};
   std::optional<Rgb> rgb;  // as given; else the spectrum's own

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "contrejour/spectrum_file.h"
 #include "params/parse.h"
 
 namespace contrejour::params {
@@ -80,7 +81,7 @@ Result<LightColour> parse_light_colour(std::string_view text) {
     if (!rgb) return tl::unexpected(rgb.error());
     return LightColour{IlluminantD65{}, *rgb};
   }
-  auto spectrum = parse_spectrum(std::string(text));
+  auto spectrum = find_spectrum(std::string(text));
   if (!spectrum) return tl::unexpected(spectrum.error());
   return LightColour{*spectrum, std::nullopt};
 }

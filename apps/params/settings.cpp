@@ -126,27 +126,31 @@ RenderSettings render_settings(const Values& values, const Frame& frame, ColourS
 
 Result<std::vector<Light>> lights(const Values& values, const LensState& lens, const Frame& frame, ColourSpace space) {
   const LightValue value = *parse_light_value(*values.text("value"));
-  const LightColour colour = *parse_light_colour(*values.text("colour"));
+  const auto colour = parse_light_colour(*values.text("colour"));  // a file may be gone since it was checked
+  if (!colour) return tl::unexpected(colour.error());
   const double distance_mm = *parse_distance_mm(*values.text("light-distance"));
   std::vector<Light> all;
   const auto add = [&](Vec3 direction, const LightText& text) -> Result<void> {
-    auto light = finish_light({direction, distance_mm}, text.value.value_or(value), text.colour.value_or(colour), space);
+    auto light = finish_light({direction, distance_mm}, text.value.value_or(value), text.colour.value_or(*colour), space);
     if (!light) return tl::unexpected(light.error());
     all.push_back(*light);
     return {};
   };
   for (const std::string& given : values.list("light")) {
-    const LightText text = *parse_light(given);
-    const auto direction = direction_of_angles(text.place);
+    const auto text = parse_light(given);
+    if (!text) return tl::unexpected(text.error());
+    const auto direction = direction_of_angles(text->place);
     if (!direction) return tl::unexpected(direction.error());
-    if (const auto added = add(*direction, text); !added) return tl::unexpected(added.error());
+    if (const auto added = add(*direction, *text); !added) return tl::unexpected(added.error());
   }
   const auto add_at = [&](const LightText& text) {
     const Vec2 sensor_mm = frame.sensor_from_uv(text.place);
     return add(direction_to_land_at(lens, sensor_mm, lens.design_wavelength_nm, distance_mm), text);
   };
   for (const std::string& given : values.list("light-at")) {
-    if (const auto added = add_at(*parse_light(given)); !added) return tl::unexpected(added.error());
+    const auto text = parse_light(given);
+    if (!text) return tl::unexpected(text.error());
+    if (const auto added = add_at(*text); !added) return tl::unexpected(added.error());
   }
   if (all.empty()) {
     if (const auto added = add_at({kUsualPlace, {}, {}}); !added) return tl::unexpected(added.error());

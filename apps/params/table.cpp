@@ -6,6 +6,7 @@
 #include <fmt/ranges.h>
 
 #include "contrejour/render.h"
+#include "contrejour/spectrum_file.h"
 #include "params/parameter.h"
 #include "params/parse.h"
 
@@ -28,7 +29,7 @@ Result<void> check_method(std::string_view text) {
 }
 
 Result<void> check_spectrum(std::string_view text) {
-  const auto spectrum = parse_spectrum(std::string(text));
+  const auto spectrum = find_spectrum(std::string(text));
   if (!spectrum) return tl::unexpected(spectrum.error());
   return {};
 }
@@ -81,7 +82,8 @@ const Parameter kTable[] = {
     {.name = "value", .group = "Lights", .unit = "V|R,G,B", .fallback = "1",
      .help = "what a light's own image sums to over its pixels", .scene = true, .check = parses<parse_light_value>},
     {.name = "colour", .group = "Lights", .unit = "COLOUR", .fallback = "D65",
-     .help = "D65, A, E, a temperature such as 3200K, or R,G,B", .scene = true, .check = parses<parse_light_colour>},
+     .help = "D65, A, E, a temperature such as 3200K, led, sodium, sodium-low, fluorescent, fluorescent-narrow, a "
+             "file of wavelengths and powers, or R,G,B", .scene = true, .check = parses<parse_light_colour>},
     {.name = "light-distance", .group = "Lights", .unit = "DISTANCE", .fallback = "inf",
      .help = "of the lights from the first surface: 500 (mm), 2m, inf; nearer than the focus their flare changes, too",
      .scene = true, .check = parses<parse_distance_mm>},
@@ -158,7 +160,7 @@ const Parameter kTable[] = {
     {.name = "min-pixels", .group = "Finding lights", .kind = Kind::Integer, .minimum = 1, .maximum = 1000000000,
      .fallback = "1", .help = "smaller areas, such as hot pixels, are no lights", .scene = true},
     {.name = "spectrum", .group = "Finding lights", .unit = "SPECTRUM", .fallback = "D65",
-     .help = "spectrum within each channel of the picture's lights: D65, A, E, 3200K",
+     .help = "spectrum within each channel of the picture's lights: D65, A, E, 3200K, led, sodium, ... as --colour",
      .scene = true, .check = check_spectrum},
     {.name = "gain", .group = "Finding lights", .kind = Kind::Real, .minimum = 0, .maximum = kBig, .fallback = "1",
      .help = "flare times so much; 1 is physically right"},

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <string>
 #include <variant>
 #include <vector>
@@ -31,9 +32,27 @@ struct BlackBody {
   double temperature_k = 6500;  // > 0
   friend bool operator==(const BlackBody&, const BlackBody&) = default;
 };
-using Spectrum = std::variant<IlluminantD65, IlluminantA, EqualEnergy, BlackBody>;
+// A lamp that was measured: straight lines between its points, nothing beyond them.
+struct SpectrumPoint {
+  double lambda_nm = 0;
+  double power = 0;
+  friend bool operator==(const SpectrumPoint&, const SpectrumPoint&) = default;
+};
+struct TabulatedSpectrum {
+  // Two or more, wavelengths rising, powers of 0 and more, some of it visible (spectrum_file.h reads such).
+  std::shared_ptr<const std::vector<SpectrumPoint>> points;
+  friend bool operator==(const TabulatedSpectrum& a, const TabulatedSpectrum& b) {
+    return a.points == b.points || (a.points && b.points && *a.points == *b.points);
+  }
+};
+using Spectrum = std::variant<IlluminantD65, IlluminantA, EqualEnergy, BlackBody, TabulatedSpectrum>;
 
-[[nodiscard]] double spectral_power(const Spectrum& spectrum, double lambda_nm);  // 560 nm -> 1
+// 560 nm -> 1, but for a tabulated spectrum, whose numbers are its own.
+[[nodiscard]] double spectral_power(const Spectrum& spectrum, double lambda_nm);
+// Its mean over a nanometre or so about a wavelength, weighted as straight lines between whole nanometres weigh it: of
+// narrow lines none falls between these. The same as spectral_power but for a tabulated spectrum.
+[[nodiscard]] double spectral_power_near(const Spectrum& spectrum, double lambda_nm);
+[[nodiscard]] bool is_visible(const TabulatedSpectrum& spectrum);  // anything within 360 to 830 nm
 [[nodiscard]] Xyz colour_matching(double lambda_nm);                              // CIE 1931, 360..830 nm, 0 outside
 [[nodiscard]] Xyz xyz_of(const Spectrum& spectrum);                               // Y = 1
 [[nodiscard]] std::array<double, 2> chromaticity(const Xyz& xyz);

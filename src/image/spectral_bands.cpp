@@ -39,6 +39,9 @@ Sample operator*(double s, const Sample& a) {
   return scaled;
 }
 
+// Of many bands of one line some stand at the same whole nanometre; no two may share a wavelength.
+constexpr double kApart_nm = 1e-6;
+
 using Samples = std::array<Sample, cie::kObserverCount>;
 
 Samples sample_light(const Spectrum& light, ColourSpace space) {
@@ -46,7 +49,7 @@ Samples sample_light(const Spectrum& light, ColourSpace space) {
   std::array<double, cie::kObserverCount> power{};
   double largest = 0;
   for (std::size_t i = 0; i < power.size(); ++i) {
-    power[i] = spectral_power(light, cie::kObserverFirstNm + static_cast<double>(i));
+    power[i] = spectral_power_near(light, cie::kObserverFirstNm + static_cast<double>(i));
     largest = std::max(largest, power[i]);
   }
   Samples samples{};
@@ -121,6 +124,7 @@ std::vector<SpectralBand> spectral_bands(int count, const Spectrum& light, Colou
     const Sample end = last ? total : cumulative.up_to_visible(share * total.visible);
     const Sample band = end + (-1.0) * begin;
     bands[k].lambda_nm = band.moment / band.visible;
+    if (k > 0) bands[k].lambda_nm = std::max(bands[k].lambda_nm, bands[k - 1].lambda_nm + kApart_nm);
     for (std::size_t c = 0; c < 3; ++c) {
       // The channel's own integral, plus as much of the absolute one as keeps the quotient bounded.
       const double added = std::max(0.0, kSmallestTotalShare - total.channel[c] / total.absolute[c]);

@@ -34,6 +34,36 @@ double illuminant_d65(double lambda_nm) {
   return ((1 - t) * cie::kIlluminantD65[i] + t * cie::kIlluminantD65[i + 1]) / 100;
 }
 
+double tabulated(const std::vector<SpectrumPoint>& points, double lambda_nm) {
+  const auto after = std::lower_bound(points.begin(), points.end(), lambda_nm,
+                                      [](const SpectrumPoint& p, double nm) { return p.lambda_nm < nm; });
+  if (after == points.end() || (after == points.begin() && after->lambda_nm != lambda_nm)) return 0;
+  if (after->lambda_nm == lambda_nm) return after->power;
+  const SpectrumPoint& before = *(after - 1);
+  const double t = (lambda_nm - before.lambda_nm) / (after->lambda_nm - before.lambda_nm);
+  return (1 - t) * before.power + t * after->power;
+}
+
+// Integral of the table times max(0, 1 - |l - lambda|) over l: both are straight between the points, lambda and
+// lambda +- 1, and Simpson's rule is exact for their product.
+double tabulated_near(const std::vector<SpectrumPoint>& points, double lambda_nm) {
+  std::vector<double> knots{lambda_nm - 1, lambda_nm, lambda_nm + 1};
+  const auto first = std::lower_bound(points.begin(), points.end(), lambda_nm - 1,
+                                      [](const SpectrumPoint& p, double nm) { return p.lambda_nm < nm; });
+  for (auto p = first; p != points.end() && p->lambda_nm < lambda_nm + 1; ++p) knots.push_back(p->lambda_nm);
+  std::sort(knots.begin(), knots.end());
+  const auto product = [&](double nm) { return tabulated(points, nm) * std::max(0.0, 1 - std::abs(nm - lambda_nm)); };
+  // A table may begin or end above 0: what is beyond its ends is left out whole.
+  const double from = points.front().lambda_nm, to = points.back().lambda_nm;
+  double sum = 0;
+  for (std::size_t k = 1; k < knots.size(); ++k) {
+    const double a = knots[k - 1], b = knots[k];
+    if (!(b > a) || b <= from || a >= to) continue;
+    sum += (b - a) / 6 * (product(a) + 4 * product(0.5 * (a + b)) + product(b));
+  }
+  return sum;
+}
+
 struct PowerAt {
   double lambda_nm;
   double operator()(IlluminantD65) const { return illuminant_d65(lambda_nm); }
@@ -42,11 +72,24 @@ struct PowerAt {
   double operator()(BlackBody body) const {
     return relative_planck(lambda_nm, kSecondRadiationNmK / body.temperature_k);
   }
+  double operator()(const TabulatedSpectrum& table) const { return tabulated(*table.points, lambda_nm); }
 };
 
 }  // namespace
 
 double spectral_power(const Spectrum& spectrum, double lambda_nm) { return std::visit(PowerAt{lambda_nm}, spectrum); }
+
+double spectral_power_near(const Spectrum& spectrum, double lambda_nm) {
+  const auto* const table = std::get_if<TabulatedSpectrum>(&spectrum);
+  return table != nullptr ? tabulated_near(*table->points, lambda_nm) : spectral_power(spectrum, lambda_nm);
+}
+
+bool is_visible(const TabulatedSpectrum& spectrum) {
+  if (!spectrum.points || spectrum.points->size() < 2) return false;
+  for (int nm = cie::kObserverFirstNm + 1; nm < cie::kObserverLastNm; ++nm)
+    if (spectral_power_near(spectrum, nm) > 0) return true;
+  return false;
+}
 
 Xyz colour_matching(double lambda_nm) {
   const double place = lambda_nm - cie::kObserverFirstNm;
@@ -62,7 +105,7 @@ Xyz colour_matching(double lambda_nm) {
 Xyz xyz_of(const Spectrum& spectrum) {
   Xyz sum{};
   for (int nm = cie::kObserverFirstNm; nm <= cie::kObserverLastNm; ++nm) {
-    const double power = spectral_power(spectrum, nm);
+    const double power = spectral_power_near(spectrum, nm);
     const auto& observer = cie::kObserver1931[static_cast<std::size_t>(nm - cie::kObserverFirstNm)];
     for (std::size_t c = 0; c < 3; ++c) sum[c] += power * observer[c];
   }
@@ -83,8 +126,11 @@ Result<Spectrum> parse_spectrum(const std::string& text) {
   const auto [rest, status] = std::from_chars(text.data(), end, kelvin);
   const bool is_temperature = status == std::errc{} && rest + 1 == end && (*rest == 'K' || *rest == 'k');
   if (!is_temperature)
-    return failure(ErrorCode::InvalidArgument,
-                   fmt::format("no spectrum is called '{}'; say D65, A, E or a temperature such as 3200K", text));
+    return failure(
+        ErrorCode::InvalidArgument,
+        fmt::format("no spectrum is called '{}'; say D65, A, E, a temperature such as 3200K, led, sodium, sodium-low, "
+                    "fluorescent, fluorescent-narrow or a file",
+                    text));
   if (!(kelvin >= 500 && kelvin <= 100000))
     return failure(ErrorCode::InvalidArgument,
                    fmt::format("a colour temperature of {} is out of range; say 500K to 100000K", text));

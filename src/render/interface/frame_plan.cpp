@@ -41,6 +41,9 @@ std::optional<Error> problem_with(const LensState& lens, std::span<const Light> 
   for (std::size_t k = 0; k < lights.size(); ++k) {
     if (!is_finite(lights[k])) return invalid(fmt::format("light {} has a value that is not a finite number", k + 1));
     if (!(lights[k].direction.z > 0.0)) return invalid(fmt::format("light {} is beside or behind the camera", k + 1));
+    const auto* const table = std::get_if<TabulatedSpectrum>(&lights[k].spectrum);
+    if (table != nullptr && !is_visible(*table))
+      return invalid(fmt::format("light {} has a spectrum of which nothing is visible", k + 1));
     if (const auto good = check_source(lens, lights[k].source()); !good)
       return invalid(fmt::format("light {}: {}", k + 1, good.error().message));
   }

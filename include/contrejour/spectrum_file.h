@@ -1,0 +1,30 @@
+// Spectra as files: lines of a wavelength in nm and a power, with a comma, semicolon, tab or spaces between, the
+// wavelengths rising; `#` begins a comment, one line of headings may come first (docs/formats/spectrum.md).
+// Bounded in memory and time. Errors: Parse with file and line, Io. Thread-safety: pure functions.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "contrejour/colour.h"
+
+namespace contrejour {
+
+[[nodiscard]] Result<TabulatedSpectrum> read_spectrum(std::string_view text, const std::string& file);
+[[nodiscard]] Result<TabulatedSpectrum> read_spectrum(const std::filesystem::path& file);
+[[nodiscard]] std::string write_spectrum(const TabulatedSpectrum& spectrum);  // reads back as the same
+
+// Lamps that come with the library: "led", "sodium", ...
+struct BundledSpectrum {
+  std::string_view name;
+  std::string_view what;  // one line
+};
+[[nodiscard]] std::vector<BundledSpectrum> bundled_spectra();
+
+// What parse_spectrum knows, a bundled lamp, or else a file: a text with a dot or a slash in it.
+// Errors: those of reading; InvalidArgument for a name that is none of them.
+[[nodiscard]] Result<Spectrum> find_spectrum(const std::string& name_or_file);
+
+}  // namespace contrejour
