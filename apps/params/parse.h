@@ -10,6 +10,7 @@
 #include "contrejour/coating.h"
 #include "contrejour/colour.h"
 #include "contrejour/ghost.h"
+#include "contrejour/render.h"
 #include "contrejour/result.h"
 #include "contrejour/vec.h"
 
@@ -55,6 +56,11 @@ struct LightText {
 // "all", "brightest:N", "flux:P", "surface:K", "list:1-2,3-4".
 [[nodiscard]] Result<GhostSelection> parse_selection(std::string_view text);
 [[nodiscard]] Result<Ghost> parse_ghost(std::string_view text);  // "2,5" or "2-5"
+
+// "2-5:gain=0.5,colour=1,0.8,0.6,offset=0.01,-0.02"; each part may be left out.
+[[nodiscard]] Result<GhostAdjustment> parse_ghost_adjustment(std::string_view text);
+// "-1:1,0.5,0.2/0:1,1,1/1:0.6,0.8,1"
+[[nodiscard]] Result<std::vector<GhostRampStop>> parse_ghost_ramp(std::string_view text);
 
 // "preview", "standard", "final", or the bound itself.
 [[nodiscard]] Result<double> parse_error_bound(std::string_view text);

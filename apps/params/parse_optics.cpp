@@ -116,6 +116,59 @@ Result<Ghost> parse_ghost(std::string_view text) {
   return invalid(fmt::format("\"{}\" is not a ghost; write its two surfaces, the smaller first, as in 2-5", text));
 }
 
+Result<GhostAdjustment> parse_ghost_adjustment(std::string_view text) {
+  const std::size_t colon = text.find(':');
+  const auto ghost = parse_ghost(text.substr(0, colon));
+  if (!ghost) return tl::unexpected(ghost.error());
+  GhostAdjustment out{*ghost};
+  if (colon == std::string_view::npos) return out;
+  // A part without a name goes on with the list before it.
+  std::vector<std::pair<std::string_view, std::string>> settings;
+  for (const std::string_view part : split(text.substr(colon + 1), ',')) {
+    const std::size_t equals = part.find('=');
+    if (equals != std::string_view::npos) {
+      settings.emplace_back(part.substr(0, equals), part.substr(equals + 1));
+    } else if (!settings.empty()) {
+      settings.back().second += "," + std::string(part);
+    } else {
+      return invalid(fmt::format("\"{}\" is not a ghost and what to do with it; write 2-5:gain=0.5", text));
+    }
+  }
+  for (const auto& [name, value] : settings) {
+    if (name == "gain") {
+      const auto gain = parse_real(value);
+      if (!gain || *gain < 0.0) return invalid(fmt::format("\"{}\" is no gain; give a number of 0 or more", value));
+      out.gain = *gain;
+    } else if (name == "colour") {
+      const auto rgb = parse_rgb(value);
+      if (!rgb) return tl::unexpected(rgb.error());
+      out.colour = *rgb;
+    } else if (name == "offset") {
+      const auto xy = parse_reals(value, 2);
+      if (!xy) return tl::unexpected(xy.error());
+      out.offset = {(*xy)[0], (*xy)[1]};
+    } else {
+      return invalid(fmt::format("a ghost has no \"{}\"; set gain, colour or offset", name));
+    }
+  }
+  return out;
+}
+
+Result<std::vector<GhostRampStop>> parse_ghost_ramp(std::string_view text) {
+  std::vector<GhostRampStop> ramp;
+  for (const std::string_view part : split(text, '/')) {
+    const auto halves = split(part, ':');
+    const auto place = parse_real(halves[0]);
+    if (halves.size() != 2 || !place)
+      return invalid(fmt::format("\"{}\" is not a place and a colour; write -1:1,0.5,0.2/1:1,1,1", part));
+    const auto rgb = parse_rgb(halves[1]);
+    if (!rgb) return tl::unexpected(rgb.error());
+    if (!ramp.empty() && !(*place > ramp.back().place)) return invalid("let the places of a ramp rise");
+    ramp.push_back({*place, *rgb});
+  }
+  return ramp;
+}
+
 Result<GhostSelection> parse_selection(std::string_view text) {
   if (text == "all") return SelectAll{};
   if (const auto rest = after(text, "brightest:")) {

@@ -68,6 +68,17 @@ TiledOptions tiled_options(const Values& values) {
   return options;
 }
 
+GhostOptions ghost_options(const Values& values) {
+  GhostOptions options;
+  options.gain = values.number("ghost-gain");
+  options.edge_gain = values.number("ghost-edge-gain");
+  for (const std::string& given : values.list("ghost")) options.adjustments.push_back(*parse_ghost_adjustment(given));
+  if (const auto ramp = values.text("ghost-ramp")) options.ramp = *parse_ghost_ramp(*ramp);
+  options.scatter = values.number("ghost-scatter");
+  options.scatter_seed = static_cast<std::uint32_t>(values.integer("ghost-seed"));
+  return options;
+}
+
 }  // namespace
 
 Result<LensSettings> lens_settings(const Values& values) {
@@ -121,6 +132,7 @@ RenderSettings render_settings(const Values& values, const Frame& frame, ColourS
   settings.starburst.gain = values.number("starburst-gain");
   settings.glare.share = values.number("glare");
   settings.glare.width_rad = values.number("glare-width") * kDegree_rad;
+  settings.ghosts = ghost_options(values);
   return settings;
 }
 

@@ -15,14 +15,15 @@ struct Frame {
   int origin_x = 0, origin_y = 0;
   int full_width = 0, full_height = 0;
   double pixel_pitch_mm = 0.01;
+  Vec2 shift_mm{};  // that every point of the sensor is moved by, for one ghost that is set off
 
   [[nodiscard]] Vec2 pixel_from_sensor(Vec2 sensor_mm) const {
-    return {0.5 * full_width - sensor_mm.x / pixel_pitch_mm - origin_x,
-            0.5 * full_height + sensor_mm.y / pixel_pitch_mm - origin_y};
+    return {0.5 * full_width - (sensor_mm.x + shift_mm.x) / pixel_pitch_mm - origin_x,
+            0.5 * full_height + (sensor_mm.y + shift_mm.y) / pixel_pitch_mm - origin_y};
   }
   [[nodiscard]] Vec2 sensor_from_pixel(Vec2 pixel) const {
-    return {(0.5 * full_width - pixel.x - origin_x) * pixel_pitch_mm,
-            (pixel.y + origin_y - 0.5 * full_height) * pixel_pitch_mm};
+    return {(0.5 * full_width - pixel.x - origin_x) * pixel_pitch_mm - shift_mm.x,
+            (pixel.y + origin_y - 0.5 * full_height) * pixel_pitch_mm - shift_mm.y};
   }
   // u, v in 0..1 over the full frame, (0, 0) top left.
   [[nodiscard]] Vec2 sensor_from_uv(Vec2 uv) const {

@@ -65,6 +65,33 @@ struct GlareOptions {
   double width_rad = 0.0175;
 };
 
+// What an artist bends about a ghost. Gains are 0 and more, 1 is physically right; so are colours, per channel.
+struct GhostAdjustment {
+  Ghost ghost;
+  double gain = 1.0;
+  Rgb colour{1, 1, 1};
+  Vec2 offset;  // in the picture, to the right and up, of the frame's height
+};
+
+// A colour that ghosts are multiplied by, over where they lie: 1 at the light's image, 0 in the frame's middle, -1
+// opposite the light (first order: through the middle of the stop). Between stops it goes over evenly, beyond the first
+// and the last it stays.
+struct GhostRampStop {
+  double place = 0.0;
+  Rgb colour{1, 1, 1};
+};
+
+struct GhostOptions {
+  double gain = 1.0;       // of all ghosts
+  double edge_gain = 1.0;  // and this when the light is at the frame's corner, in proportion nearer to the middle
+  std::vector<GhostAdjustment> adjustments;  // those of one ghost add up
+  std::vector<GhostRampStop> ramp;           // places rising
+  // hullin2011 4.2, imperfect symmetry: each ghost is set off by its own random way, normally distributed with this
+  // root mean square, of the frame's height.
+  double scatter = 0.0;
+  std::uint32_t scatter_seed = 0;
+};
+
 struct RenderSettings {
   Frame frame;
   GhostScope scope = GhostScope::OneSideOfStop;
@@ -81,6 +108,7 @@ struct RenderSettings {
   double reference_density = 1;  // `reference`: 2 halves the cells
   StarburstOptions starburst;
   GlareOptions glare;
+  GhostOptions ghosts;
 };
 
 struct RenderStatistics {

@@ -37,6 +37,7 @@ double phase_ms(const Flare& flare, std::string_view name) {
 Image one_ghost(const LensState& lens, Ghost ghost, const Light& light, const RenderSettings& settings) {
   FramePlan plan;
   plan.ghosts = {ghost};
+  plan.looks = {{}};
   plan.lights = {{normalized(light.direction), {}}};
   std::vector<double> lambda_nm;
   for (const SpectralBand& band : spectral_bands(settings.wavelengths, light.spectrum, settings.colour_space)) {

@@ -25,6 +25,8 @@ const std::map<std::string_view, Words> kTexts = {
      {"adaptive", "adaptive", "adaptive", "bundle", "bundle", "bundle", "tiled", "tiled", "tiled", "reference"}},
     {"select", {"list:1-2,2-5", "list:1-5", "list:2-3", "list:3-5", "surface:2", "brightest:3"}},
     {"error", {"preview", "standard", "0.1"}},
+    {"ghost", {"2-5:gain=0.5", "1-2:colour=1,0,0.5,offset=0.1,-0.2", "2-3:offset=3,0"}},
+    {"ghost-ramp", {"0:1,0.5,0.2", "-1:1,0.5,0/0:1,1,1/1:0,0,2"}},
 };
 const std::map<std::string_view, std::pair<double, double>> kNarrowed = {
     {"grid", {16, 32}}, {"wavelengths", {1, 3}}, {"density", {0.05, 0.1}}, {"fnumber", {3.0, 64}}};

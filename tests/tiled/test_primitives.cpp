@@ -23,7 +23,7 @@ PrimitiveBuffer build(const RayGrid& grid, const Frame& frame, const TiledOption
                       std::uint64_t* before_merging = nullptr) {
   PrimitiveBuffer buffer;
   tiled::PrimitiveBuilder builder(frame, options);
-  const auto count = builder.build(grid, 1.0, 5, buffer);
+  const auto count = builder.build(grid, {.pass = 5}, buffer);
   if (before_merging != nullptr) *before_merging = count;
   return buffer;
 }

@@ -87,7 +87,7 @@ TEST_CASE("the same bits for any tiles, and however often the buffer is emptied"
   const RayGrid grid = test::traced(lens, {3, 4}, light.direction, 64);
   settings.tiled = {};
   tiled::PrimitiveBuffer buffer;
-  tiled::PrimitiveBuilder(settings.frame, settings.tiled).build(grid, 1.0, 0, buffer);
+  tiled::PrimitiveBuilder(settings.frame, settings.tiled).build(grid, {}, buffer);
   const IrisShape iris(lens.iris);
   const std::vector<tiled::Gain> gains{{1.0F, 2.0F, 3.0F}};
   const auto drawn = [&](const tiled::HeldLimits& limits) {

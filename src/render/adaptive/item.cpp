@@ -86,9 +86,11 @@ Work find_boxes(const Scene& scene, Item& item) {
   return work;
 }
 
-Painted paint(const Scene& scene, const Item& item, std::span<const PlannedPass> passes, const Frame& frame,
+Painted paint(const Scene& scene, const Item& item, std::vector<PlannedPass> passes, const Frame& whole,
               const TileGrid& grid, const ErrorBudget& budget, int deepest) {
   Painted painted;
+  const Frame frame = item.look->placed(whole);
+  for (PlannedPass& pass : passes) pass.gain = item.look->tinted(pass.gain);
   const LightFrame light(item.light->source);
   GhostPainter painter(scene.lens, scene.iris, frame, light, scene.plan.tables, deepest);
   for (const Rectangle& box : item.boxes) painter.paint(item.ghost, box, passes, budget, painted.polygons.list);
@@ -120,8 +122,9 @@ Frame smaller(const Frame& frame, int by) {
 
 std::vector<Item> find_items(const Scene& scene, const Context& context, Work& work) {
   std::vector<Item> items;
-  for (const Ghost& ghost : scene.plan.ghosts) {
-    for (const PlannedLight& light : scene.plan.lights) items.push_back({ghost, &light, {}});
+  for (std::size_t g = 0; g < scene.plan.ghosts.size(); ++g) {
+    for (const PlannedLight& light : scene.plan.lights)
+      items.push_back({scene.plan.ghosts[g], &scene.plan.looks[g], &light, {}});
   }
   std::vector<Work> done(items.size());
   parallel_for(items.size(), context, [&](std::size_t k) { done[k] = find_boxes(scene, items[k]); });
@@ -143,7 +146,7 @@ double estimate_peak(const Scene& scene, const std::vector<Item>& items, const F
   std::vector<Work> done(items.size());
   parallel_for(items.size(), context, [&](std::size_t k) {
     const PlannedPass pass = merged(*items[k].light);
-    Painted painted = paint(scene, items[k], {&pass, 1}, small, grid, unlimited, kPeakDeepest);
+    Painted painted = paint(scene, items[k], {pass}, small, grid, unlimited, kPeakDeepest);
     polygons[k] = std::move(painted.polygons);
     done[k] = painted.work;
   });

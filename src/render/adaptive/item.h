@@ -23,6 +23,7 @@ struct Work {
 
 struct Item {
   Ghost ghost;
+  const GhostLook* look = nullptr;
   const PlannedLight* light = nullptr;
   std::vector<Rectangle> boxes;  // in the light's meridional frame; none: nothing gets through
 };

@@ -57,13 +57,13 @@ PixelBox box_around(const std::vector<std::optional<FluxBox>>& layers) {
 
 std::vector<Item> items_of(const FramePlan& plan, const BundleOptions& options) {
   std::vector<Item> items;
-  for (const Ghost& ghost : plan.ghosts) {
+  for (std::size_t g = 0; g < plan.ghosts.size(); ++g) {
     for (const PlannedLight& light : plan.lights) {
       const std::span<const PlannedPass> all(light.passes);
       const std::size_t together = is_blurred(options, all.size()) ? all.size() : kPassesPerItem;
       for (std::size_t first = 0; first < all.size(); first += together) {
         items.push_back(
-            {ghost, &light, all.subspan(first, std::min(together, all.size() - first))});
+            {plan.ghosts[g], &plan.looks[g], &light, all.subspan(first, std::min(together, all.size() - first))});
       }
     }
   }
@@ -72,7 +72,7 @@ std::vector<Item> items_of(const FramePlan& plan, const BundleOptions& options) 
 
 ItemRenderer::ItemRenderer(const Item& item, const LensState& lens, const RenderSettings& settings,
                            const TablesByWavelength& tables, const PupilBounds* bounds, const Context& context)
-    : item_(item), settings_(settings), context_(context),
+    : item_(item), settings_(settings), frame_(item.look->placed(settings.frame)), context_(context),
       grid_(lens, settings, tables, bounds) {}
 
 RenderedItem ItemRenderer::render() {
@@ -86,7 +86,7 @@ std::vector<ItemRenderer::Layer> ItemRenderer::draw_all() {
   std::vector<Layer> layers(item_.passes.size());
   for (std::size_t k = 0; k < layers.size() && !context_.cancelled(); ++k) {
     const auto pupil = grid_.find(item_.ghost, item_.light->source, item_.passes[k].lambda_nm, false);
-    if (pupil) layers[k] = draw(*pupil, settings_.frame);
+    if (pupil) layers[k] = draw(*pupil, frame_);
   }
   return layers;
 }
@@ -102,7 +102,7 @@ std::vector<ItemRenderer::Layer> ItemRenderer::draw_and_blur() {
     pupils.push_back(grid_.find(item_.ghost, item_.light->source, item_.passes[k].lambda_nm, true));
     figures.push_back(pupils.back() ? pupils.back()->figures : std::nullopt);
   }
-  const auto motions = band_motions(figures, settings_.frame);
+  const auto motions = band_motions(figures, frame_);
   std::vector<Layer> layers(order.size());
   for (std::size_t k = 0; k < order.size() && !context_.cancelled(); ++k) {
     if (pupils[k]) layers[order[k]] = draw_blurred(*pupils[k], motions[k]);
@@ -111,12 +111,12 @@ std::vector<ItemRenderer::Layer> ItemRenderer::draw_and_blur() {
 }
 
 ItemRenderer::Layer ItemRenderer::draw_blurred(const GhostPupil& pupil, const std::optional<BandMotion>& motion) {
-  const double way_px = motion ? longest_way_px(*motion, settings_.frame) : 0.0;
-  if (way_px < kUnseenWay_px) return draw(pupil, settings_.frame);
+  const double way_px = motion ? longest_way_px(*motion, frame_) : 0.0;
+  if (way_px < kUnseenWay_px) return draw(pupil, frame_);
   const int border = static_cast<int>(std::ceil(std::min(way_px, kWidestBorder_px)));
-  const FluxBox band = draw(pupil, bordered(settings_.frame, border));
+  const FluxBox band = draw(pupil, bordered(frame_, border));
   const Stopwatch watch(grid_.counts().raster_ms);
-  return blurred(band, *motion, settings_.frame, border);
+  return blurred(band, *motion, frame_, border);
 }
 
 FluxBox ItemRenderer::draw(const GhostPupil& pupil, const Frame& frame) {
@@ -143,7 +143,7 @@ RenderedItem ItemRenderer::merge(const std::vector<Layer>& layers) {
   for (std::size_t k = 0; k < layers.size(); ++k) {
     if (!layers[k] || layers[k]->box().empty()) continue;
     const PixelBox b = layers[k]->box();
-    const Rgb& gain = item_.passes[k].gain;
+    const Rgb gain = item_.look->tinted(item_.passes[k].gain);
     const std::array<float, 3> g{static_cast<float>(gain[0]), static_cast<float>(gain[1]), static_cast<float>(gain[2])};
     for (int y = b.y0; y < b.y1; ++y) {
       float* to = out.rgb.data() +

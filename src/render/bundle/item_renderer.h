@@ -14,6 +14,7 @@ namespace contrejour::bundle {
 
 struct Item {
   Ghost ghost;
+  const GhostLook* look = nullptr;
   const PlannedLight* light = nullptr;
   std::span<const PlannedPass> passes;
 };
@@ -47,6 +48,7 @@ class ItemRenderer {
 
   const Item& item_;
   const RenderSettings& settings_;
+  Frame frame_;  // as the ghost is placed in it
   const Context& context_;
   GhostGrid grid_;
 };

@@ -89,14 +89,25 @@ const MeteredBands& bands_for(const Light& light, const BandsBySpectrum& spectra
       ->second;
 }
 
-PlannedLight plan_light(const Light& light, const MeteredBands& metered, std::span<const double> flux_mm2) {
+// What a light's ghosts are multiplied by, for where its image lies.
+double edge_gain(const LensState& lens, const Light& light, const RenderSettings& settings) {
+  const double at_corner = settings.ghosts.edge_gain;
+  if (at_corner == 1.0) return 1.0;
+  const Frame& frame = settings.frame;
+  const double corner_mm = 0.5 * std::hypot(frame.full_width, frame.full_height) * frame.pixel_pitch_mm;
+  const double landing_mm = length(landing_of(lens, light.source(), lens.design_wavelength_nm));
+  return std::lerp(1.0, at_corner, std::min(1.0, landing_mm / corner_mm));
+}
+
+PlannedLight plan_light(const Light& light, const MeteredBands& metered, std::span<const double> flux_mm2,
+                        double ghost_gain) {
   PlannedLight planned;
   planned.source = light.source();
   const Rgb whole = direct_light(metered.bands, metered.meters, flux_mm2, light.distance_mm);
   for (const SpectralBand& band : metered.bands) {
     PlannedPass pass{band.lambda_nm, {}};
     for (std::size_t c = 0; c < whole.size(); ++c) {
-      pass.gain[c] = whole[c] != 0.0 ? light.value[c] * band.weight[c] / whole[c] : 0.0;
+      pass.gain[c] = whole[c] != 0.0 ? ghost_gain * light.value[c] * band.weight[c] / whole[c] : 0.0;
     }
     planned.passes.push_back(std::move(pass));
   }
@@ -104,7 +115,7 @@ PlannedLight plan_light(const Light& light, const MeteredBands& metered, std::sp
 }
 
 // All lights, the direct fluxes of all their bands side by side. False when cancelled.
-bool plan_lights(const LensState& lens, std::span<const Light> lights, const Frame& frame,
+bool plan_lights(const LensState& lens, std::span<const Light> lights, const RenderSettings& settings,
                  const BandsBySpectrum& spectra, const Context& context, std::vector<PlannedLight>& planned) {
   struct Share {
     std::size_t light, band;
@@ -113,7 +124,7 @@ bool plan_lights(const LensState& lens, std::span<const Light> lights, const Fra
   std::vector<std::vector<double>> flux_mm2(lights.size());
   std::vector<LightSource> measured(lights.size());
   bool done = parallel_for(lights.size(), context, [&](std::size_t k) {
-    measured[k] = measured_source(lens, frame, lights[k].source());
+    measured[k] = measured_source(lens, settings.frame, lights[k].source());
   });
   for (std::size_t k = 0; k < lights.size(); ++k) {
     flux_mm2[k].resize(bands_for(lights[k], spectra).bands.size());
@@ -124,7 +135,8 @@ bool plan_lights(const LensState& lens, std::span<const Light> lights, const Fra
            flux_mm2[k][band] = bands_for(lights[k], spectra).meters[band].direct_flux(measured[k]);
          });
   for (std::size_t k = 0; done && k < lights.size(); ++k)
-    planned.push_back(plan_light(lights[k], bands_for(lights[k], spectra), flux_mm2[k]));
+    planned.push_back(
+        plan_light(lights[k], bands_for(lights[k], spectra), flux_mm2[k], edge_gain(lens, lights[k], settings)));
   return done;
 }
 
@@ -133,11 +145,13 @@ bool plan_lights(const LensState& lens, std::span<const Light> lights, const Fra
 Result<FramePlan> plan_frame(const LensState& lens, std::span<const Light> lights, const RenderSettings& settings,
                              const Context& context) {
   if (const auto problem = problem_with(lens, lights, settings)) return tl::unexpected<Error>(*problem);
+  if (const auto good = check_ghost_options(lens, settings.ghosts); !good) return tl::unexpected(good.error());
   const auto selected = select_ghosts(lens, lights, settings, context);
   if (!selected) return tl::unexpected<Error>(selected.error());
 
   FramePlan plan;
   plan.ghosts = selected->ghosts;
+  plan.looks = ghost_looks(lens, plan.ghosts, settings.ghosts, settings.frame);
   plan.skipped_flux = selected->skipped_flux;
   Context quiet = context;
   quiet.progress = {};
@@ -147,7 +161,7 @@ Result<FramePlan> plan_frame(const LensState& lens, std::span<const Light> light
   for (auto& [spectrum, metered] : spectra) {
     for (const SpectralBand& band : metered.bands) metered.meters.emplace_back(lens, plan.tables.at(band.lambda_nm));
   }
-  if (!plan_lights(lens, lights, settings.frame, spectra, quiet, plan.lights))
+  if (!plan_lights(lens, lights, settings, spectra, quiet, plan.lights))
     return failure(ErrorCode::Cancelled, "interrupted");
   return plan;
 }

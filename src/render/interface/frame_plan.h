@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "contrejour/render.h"
+#include "render/interface/ghost_look.h"
 #include "render/interface/wavelength_tables.h"
 
 namespace contrejour {
@@ -14,7 +15,7 @@ namespace contrejour {
 struct PlannedPass {
   double lambda_nm = 550;
   // Pixel value per mm^2 of flux (E0 = 1, LightSource's flux included) that a ghost path puts into the pixel:
-  // gain[c] = V[c] * w[c] / sum over bands of w[c] * Phi.
+  // gain[c] = V[c] * w[c] / sum over bands of w[c] * Phi, times GhostOptions::edge_gain; looks come on top.
   Rgb gain{};
 };
 
@@ -25,6 +26,7 @@ struct PlannedLight {
 
 struct FramePlan {
   std::vector<Ghost> ghosts;
+  std::vector<GhostLook> looks;  // one a ghost
   std::vector<PlannedLight> lights;
   TablesByWavelength tables;  // for every wavelength of the passes
   std::optional<double> skipped_flux;  // as RenderStatistics::ghosts_skipped_flux

@@ -13,15 +13,16 @@ namespace {
 // One ghost of one light at one wavelength.
 struct Item {
   Ghost ghost;
+  const GhostLook* look;
   const PlannedLight* light;
   const PlannedPass* pass;
 };
 
 std::vector<Item> items_of(const FramePlan& plan) {
   std::vector<Item> items;
-  for (const Ghost& ghost : plan.ghosts) {
+  for (std::size_t g = 0; g < plan.ghosts.size(); ++g) {
     for (const PlannedLight& light : plan.lights) {
-      for (const PlannedPass& pass : light.passes) items.push_back({ghost, &light, &pass});
+      for (const PlannedPass& pass : light.passes) items.push_back({plan.ghosts[g], &plan.looks[g], &light, &pass});
     }
   }
   return items;
@@ -40,7 +41,7 @@ RenderedItem render_item(const Item& item, const LensState& lens, const RenderSe
   const LightSource& light = item.light->source;
   out.surfaces = path.steps.size();
   out.counts = reference::for_each_lit_polygon(
-      path, lens.iris, light, entrance_window(lens, light), settings.frame,
+      path, lens.iris, light, entrance_window(lens, light), item.look->placed(settings.frame),
       reference::CellLimits::for_density(settings.reference_density), [&] { return context.cancelled(); },
       [&](std::span<const Vec2> pixels, double flux) { out.flux.add_polygon(pixels, flux); });
   return out;
@@ -66,7 +67,7 @@ Result<Flare> render_reference(const LensState& lens, std::span<const Light> lig
   const bool done = ordered_pipeline(
       items.size(), context, [&](std::size_t k) { return render_item(items[k], lens, settings, context); },
       [&](std::size_t k, const RenderedItem& rendered) {
-        rendered.flux.add_to(sum, items[k].pass->gain);
+        rendered.flux.add_to(sum, items[k].look->tinted(items[k].pass->gain));
         stats.rays += rendered.counts.rays;
         stats.surface_hits += rendered.counts.rays * rendered.surfaces;
         stats.primitives += rendered.counts.polygons;

@@ -31,12 +31,12 @@ PrimitiveBuilder::PrimitiveBuilder(const Frame& frame, const TiledOptions& optio
     : frame_(frame), merge_steps_(options.merge_steps),
       merge_threshold_px_(static_cast<float>(options.merge_threshold * merge_unit_px(frame))) {}
 
-void PrimitiveBuilder::place_vertices(const RayGrid& grid) {
+void PrimitiveBuilder::place_vertices(const RayGrid& grid, Vec2 shift_mm) {
   const std::size_t count = grid.sensor_x_mm.size();
   x_.resize(count);
   y_.resize(count);
   const double scale = 1.0 / frame_.pixel_pitch_mm;
-  const Vec2 axis = frame_.pixel_from_sensor({0.0, 0.0});
+  const Vec2 axis = frame_.pixel_from_sensor(shift_mm);
   for (std::size_t k = 0; k < count; ++k) {
     x_[k] = static_cast<float>(axis.x - grid.sensor_x_mm[k] * scale);
     y_[k] = static_cast<float>(axis.y + grid.sensor_y_mm[k] * scale);
@@ -270,13 +270,13 @@ void PrimitiveBuilder::emit(const RayGrid& grid, int step, int ix, int iy) {
   for (int k = 0; k < 4; ++k) emit(grid, step - 1, 2 * ix + k % 2, 2 * iy + k / 2);
 }
 
-std::uint64_t PrimitiveBuilder::build(const RayGrid& grid, double cos_theta, std::uint32_t pass, PrimitiveBuffer& out) {
+std::uint64_t PrimitiveBuilder::build(const RayGrid& grid, const TracedPass& traced, PrimitiveBuffer& out) {
   const Vec2 step_mm = grid.step_mm();
-  triangle_weight_mm2_ = 0.5 * step_mm.x * step_mm.y * cos_theta;
-  pass_ = pass;
+  triangle_weight_mm2_ = 0.5 * step_mm.x * step_mm.y * traced.shared_flux;
+  pass_ = traced.pass;
   out_ = &out;
   levels_.resize(static_cast<std::size_t>(merge_steps_) + 1);
-  place_vertices(grid);
+  place_vertices(grid, traced.shift_mm);
   find_cells(grid);
   find_irradiance(grid);
   merge(grid);

@@ -10,6 +10,13 @@
 
 namespace contrejour::tiled {
 
+// What a grid was traced for.
+struct TracedPass {
+  double shared_flux = 1;  // LightSource's
+  std::uint32_t pass = 0;
+  Vec2 shift_mm = {};      // of the ghost, on the sensor
+};
+
 // Cells of four rays of which at least one gets through; 2 x 2 blocks of them that bend by less than gamma become one,
 // and four such blocks again, `merge_steps` times. A primitive's flux is the sum of its cells' however many there are.
 // Cells that are not convex, or have a ray that failed, stay what they are, in triangles.
@@ -18,8 +25,8 @@ class PrimitiveBuilder {
  public:
   PrimitiveBuilder(const Frame& frame, const TiledOptions& options);
 
-  // Appends to `out`. cos_theta: of the light's angle to the axis. Returns the number of primitives before merging.
-  std::uint64_t build(const RayGrid& grid, double cos_theta, std::uint32_t pass, PrimitiveBuffer& out);
+  // Appends to `out`. Returns the number of primitives before merging.
+  std::uint64_t build(const RayGrid& grid, const TracedPass& traced, PrimitiveBuffer& out);
 
  private:
   enum class CellState : std::uint8_t { Dark, Whole, InTriangles };
@@ -34,7 +41,7 @@ class PrimitiveBuilder {
     }
   };
 
-  void place_vertices(const RayGrid& grid);
+  void place_vertices(const RayGrid& grid, Vec2 shift_mm);
   void find_cells(const RayGrid& grid);
   void find_irradiance(const RayGrid& grid);
   void merge(const RayGrid& grid);

@@ -54,6 +54,7 @@ Result<void> check(const RenderSettings& settings) {
 // One ghost of one light at one wavelength.
 struct Item {
   Ghost ghost;
+  Vec2 shift_mm;  // of the ghost, on the sensor
   LightSource light;
   double lambda_nm = 550;
 };
@@ -117,11 +118,13 @@ struct Job {
 };
 
 void list_items(const FramePlan& plan, Job& job) {
-  for (const Ghost& ghost : plan.ghosts) {
+  for (std::size_t g = 0; g < plan.ghosts.size(); ++g) {
+    const GhostLook& look = plan.looks[g];
     for (const PlannedLight& light : plan.lights) {
       for (const PlannedPass& pass : light.passes) {
-        job.items.push_back({ghost, light.source, pass.lambda_nm});
-        job.gains.push_back({static_cast<float>(pass.gain[0]), static_cast<float>(pass.gain[1]), static_cast<float>(pass.gain[2])});
+        const Rgb gain = look.tinted(pass.gain);
+        job.items.push_back({plan.ghosts[g], look.shift_mm, light.source, pass.lambda_nm});
+        job.gains.push_back({static_cast<float>(gain[0]), static_cast<float>(gain[1]), static_cast<float>(gain[2])});
       }
     }
   }
@@ -151,8 +154,8 @@ TracedItem trace_item(const Job& job, std::size_t index, Workspace& workspace) {
       precision_for(path, tables, item.light, window.z_mm, region->pupil_mm, side, job.settings.frame.pixel_pitch_mm);
   workspace.grid.trace(path, tables, job.iris, item.light, window.z_mm, region->pupil_mm, side, precision);
   count_rays(static_cast<std::uint64_t>(side) * static_cast<std::uint64_t>(side));
-  out.counts.primitives =
-      workspace.builder.build(workspace.grid, item.light.shared_flux(), static_cast<std::uint32_t>(index), out.buffer);
+  const tiled::TracedPass traced{item.light.shared_flux(), static_cast<std::uint32_t>(index), item.shift_mm};
+  out.counts.primitives = workspace.builder.build(workspace.grid, traced, out.buffer);
   out.counts.trace_ms = ms_since(start);
   return out;
 }

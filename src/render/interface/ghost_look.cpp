@@ -1,0 +1,109 @@
+#include "render/interface/ghost_look.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "base/normal_pair.h"
+#include "contrejour/first_order.h"
+
+namespace contrejour {
+namespace {
+
+tl::unexpected<Error> invalid(std::string message) { return failure(ErrorCode::InvalidArgument, std::move(message)); }
+
+bool is_gain(double value) { return value >= 0.0 && std::isfinite(value); }
+bool is_colour(const Rgb& rgb) { return std::all_of(rgb.begin(), rgb.end(), is_gain); }
+
+// Landing over the tangent of the field angle, of the first-order ray through the middle of the stop (at its first
+// crossing): y = -b / a (of the way to the stop) at slope 1 meets it there.
+double chief_landing_mm(const Abcd& to_stop, const Abcd& to_sensor) {
+  return to_sensor.b - to_sensor.a * to_stop.b / to_stop.a;
+}
+
+Abcd inverse(const Abcd& m) {
+  const double det = m.a * m.d - m.b * m.c;
+  return {m.d / det, -m.b / det, -m.c / det, m.a / det};
+}
+
+Rgb ramp_at(const std::vector<GhostRampStop>& ramp, double place) {
+  if (ramp.empty()) return {1, 1, 1};
+  const auto after =
+      std::find_if(ramp.begin(), ramp.end(), [&](const GhostRampStop& stop) { return stop.place > place; });
+  if (after == ramp.begin()) return after->colour;
+  if (after == ramp.end()) return ramp.back().colour;
+  const GhostRampStop& before = *(after - 1);
+  const double t = (place - before.place) / (after->place - before.place);
+  Rgb colour{};
+  for (std::size_t c = 0; c < colour.size(); ++c) colour[c] = std::lerp(before.colour[c], after->colour[c], t);
+  return colour;
+}
+
+// Of a ghost and a seed alone: which ghosts are rendered beside it does not matter.
+Vec2 scattered(Ghost ghost, std::uint32_t seed) {
+  return normal_pair({seed, static_cast<std::uint32_t>(ghost.i), static_cast<std::uint32_t>(ghost.j)});
+}
+
+}  // namespace
+
+double first_order_place(const LensState& lens, Ghost ghost) {
+  const double lambda_nm = lens.design_wavelength_nm;
+  const auto& surfaces = lens.surfaces;
+  const int last = static_cast<int>(surfaces.size()) - 1;
+  const Abcd to_sensor_plane{1.0, lens.sensor_z_mm - surfaces.back().z_mm, 0.0, 1.0};
+  const Abcd to_stop = abcd_between(surfaces, 0, lens.stop_index, lambda_nm);
+  const Abcd direct = to_sensor_plane * abcd_between(surfaces, 0, last, lambda_nm);
+  const Abcd by_ghost = abcd_ghost(lens, ghost.i, ghost.j, lambda_nm);
+  // A ghost of surfaces before the stop is the direct way from the stop on, after its own way there.
+  const bool before_stop = ghost.j - 1 < lens.stop_index;
+  const Abcd ghost_to_stop = before_stop ? to_stop * inverse(direct) * by_ghost : to_stop;
+  return chief_landing_mm(ghost_to_stop, by_ghost) / chief_landing_mm(to_stop, direct);
+}
+
+Result<void> check_ghost_options(const LensState& lens, const GhostOptions& options) {
+  if (!is_gain(options.gain) || !is_gain(options.edge_gain)) return invalid("a gain of ghosts must be 0 or more");
+  if (!is_gain(options.scatter)) return invalid("ghosts are scattered by a share of the frame's height, 0 or more");
+  const auto all = options.adjustments.empty() ? std::vector<Ghost>() : enumerate_ghosts(lens, GhostScope::All);
+  for (const GhostAdjustment& a : options.adjustments) {
+    if (std::find(all.begin(), all.end(), a.ghost) == all.end())
+      return invalid(fmt::format("there is no ghost {}-{} in this lens; `contrejour ghosts` lists those there are",
+                                 a.ghost.i, a.ghost.j));
+    if (!is_gain(a.gain) || !is_colour(a.colour) || !std::isfinite(a.offset.x + a.offset.y))
+      return invalid(
+          fmt::format("ghost {}-{}: give a gain and colours of 0 or more, and a finite offset", a.ghost.i, a.ghost.j));
+  }
+  for (std::size_t k = 0; k < options.ramp.size(); ++k) {
+    const GhostRampStop& stop = options.ramp[k];
+    if (!std::isfinite(stop.place) || !is_colour(stop.colour))
+      return invalid("a ramp's places must be finite and its colours 0 or more");
+    if (k > 0 && !(stop.place > options.ramp[k - 1].place)) return invalid("let the places of a ramp rise");
+  }
+  return {};
+}
+
+std::vector<GhostLook> ghost_looks(const LensState& lens, std::span<const Ghost> ghosts, const GhostOptions& options,
+                                   const Frame& frame) {
+  const double height_mm = frame.full_height * frame.pixel_pitch_mm;
+  std::vector<GhostLook> looks;
+  for (const Ghost& ghost : ghosts) {
+    GhostLook look;
+    look.tint = {options.gain, options.gain, options.gain};
+    Vec2 offset;  // right and up in the picture
+    const auto tint = [&](const Rgb& colour, double gain) {
+      for (std::size_t c = 0; c < colour.size(); ++c) look.tint[c] *= colour[c] * gain;
+    };
+    if (!options.ramp.empty()) tint(ramp_at(options.ramp, first_order_place(lens, ghost)), 1.0);
+    for (const GhostAdjustment& a : options.adjustments) {
+      if (a.ghost != ghost) continue;
+      tint(a.colour, a.gain);
+      offset = offset + a.offset;
+    }
+    if (options.scatter > 0.0) offset = offset + scattered(ghost, options.scatter_seed) * options.scatter;
+    look.shift_mm = offset * -height_mm;  // a picture's right and up are the sensor's left and down
+    looks.push_back(look);
+  }
+  return looks;
+}
+
+}  // namespace contrejour

@@ -1,0 +1,35 @@
+// What an artist bends about ghosts (GhostOptions), ghost by ghost, as renderers apply it.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "contrejour/render.h"
+
+namespace contrejour {
+
+// Times every pass's gain; where the ghost is drawn. {1, 1, 1} and {}: as physics has it.
+struct GhostLook {
+  Rgb tint{1, 1, 1};
+  Vec2 shift_mm;
+
+  [[nodiscard]] Rgb tinted(const Rgb& gain) const { return {gain[0] * tint[0], gain[1] * tint[1], gain[2] * tint[2]}; }
+  [[nodiscard]] Frame placed(Frame frame) const {
+    frame.shift_mm = frame.shift_mm + shift_mm;
+    return frame;
+  }
+};
+
+// Errors: InvalidArgument for numbers that are not finite, negative gains and colours, places of a ramp that do not
+// rise, ghosts that the lens does not have.
+[[nodiscard]] Result<void> check_ghost_options(const LensState& lens, const GhostOptions& options);
+
+// One a ghost.
+[[nodiscard]] std::vector<GhostLook> ghost_looks(const LensState& lens, std::span<const Ghost> ghosts,
+                                                 const GhostOptions& options, const Frame& frame);
+
+// Where a ghost lies over where the light's image does, by first-order chief rays of a distant light: infinite for a
+// light whose own chief ray stays on the axis.
+[[nodiscard]] double first_order_place(const LensState& lens, Ghost ghost);
+
+}  // namespace contrejour
