@@ -37,7 +37,7 @@ void add_parameter(CLI::App& command, params::Values& values, const Parameter& p
   const std::string name(p.name);
   const auto set = [&values, name](const std::string& text) {
     const auto checked = values.set(name, text);
-    if (!checked) throw CLI::ValidationError("--" + name, checked.error().message);
+    if (!checked) throw CLI::ValidationError("--" + name, checked.error().to_string());
   };
   if (p.kind == Kind::Switch) {
     // Off is for a look that has it on.
@@ -68,6 +68,7 @@ void add_lens_parameters(CLI::App& command, params::Values& values) {
   add_parameters(command, values, {"focal", "fnumber", "focus", "coating"});
   add_parameters(command, values, {"blades", "blade-rotation", "blade-curvature", "blade-asymmetry", "blade-seed"});
   add_parameters(command, values, {"blade-closing", "iris-image"});
+  add_parameters(command, values, {"tilt", "decentre", "build-seed"});
 }
 
 void add_rendering_parameters(CLI::App& command, params::Values& values) {
@@ -78,7 +79,8 @@ void add_rendering_parameters(CLI::App& command, params::Values& values) {
   add_parameters(command, values, {"merge-steps", "merge-threshold", "tile", "coarse-tile", "interpolation"});
   add_parameters(command, values, {"error", "density"});
   add_parameters(command, values, {"starburst", "starburst-gain", "glare", "glare-width"});
-  add_parameters(command, values, {"ghost", "ghost-gain", "ghost-edge-gain", "ghost-ramp", "ghost-scatter", "ghost-seed"});
+  add_parameters(command, values,
+                 {"ghost", "ghost-gain", "ghost-edge-gain", "ghost-ramp", "ghost-scatter", "ghost-seed"});
 }
 
 std::string lower_extension(const std::string& file) {

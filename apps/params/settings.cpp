@@ -24,7 +24,8 @@ Result<Vec3> direction_of_angles(Vec2 angles_deg) {
   return direction_from_angles(angles_deg.x * kDegree_rad, angles_deg.y * kDegree_rad);
 }
 
-Result<Light> finish_light(const LightSource& place, const LightValue& value, const LightColour& colour, ColourSpace space) {
+Result<Light> finish_light(const LightSource& place, const LightValue& value, const LightColour& colour,
+                           ColourSpace space) {
   Light light;
   light.direction = place.direction;
   light.distance_mm = place.distance_mm;
@@ -87,6 +88,8 @@ Result<LensSettings> lens_settings(const Values& values) {
   settings.f_number = values.real("fnumber");
   settings.object_distance_mm = *parse_distance_mm(*values.text("focus"));
   if (const auto coating = values.text("coating")) settings.coating = *parse_coating(*coating);
+  settings.build = {values.number("tilt") * kDegree_rad, values.number("decentre"),
+                    static_cast<std::uint32_t>(values.integer("build-seed"))};
   settings.iris.blades = values.integer("blades");
   settings.iris.rotation_rad = values.number("blade-rotation") * kDegree_rad;
   settings.iris.curvature = values.number("blade-curvature");
@@ -143,7 +146,8 @@ Result<std::vector<Light>> lights(const Values& values, const LensState& lens, c
   const double distance_mm = *parse_distance_mm(*values.text("light-distance"));
   std::vector<Light> all;
   const auto add = [&](Vec3 direction, const LightText& text) -> Result<void> {
-    auto light = finish_light({direction, distance_mm}, text.value.value_or(value), text.colour.value_or(*colour), space);
+    auto light =
+        finish_light({direction, distance_mm}, text.value.value_or(value), text.colour.value_or(*colour), space);
     if (!light) return tl::unexpected(light.error());
     all.push_back(*light);
     return {};

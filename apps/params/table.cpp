@@ -68,6 +68,12 @@ const Parameter kTable[] = {
     {.name = "iris-image", .group = "Lens", .unit = "FILE",
      .help = "a picture (PNG, EXR) as the iris in place of blades, its longer side across the stop: light passes where "
              "it is at least half as bright as at its brightest"},
+    {.name = "tilt", .group = "Lens", .kind = Kind::Real, .unit = "deg", .minimum = 0, .maximum = 5, .fallback = "0",
+     .help = "each element, or group of cemented ones, is tilted by its own random angle, RMS"},
+    {.name = "decentre", .group = "Lens", .kind = Kind::Real, .unit = "mm", .minimum = 0, .maximum = 20,
+     .fallback = "0", .help = "and moved to a side by its own random way, RMS"},
+    {.name = "build-seed", .group = "Lens", .kind = Kind::Integer, .minimum = 0, .maximum = 1000000000,
+     .fallback = "0", .help = "which of the lenses of such tilt and decentre"},
     {.name = "coating", .group = "Lens", .unit = "COATING",
      .help = "films on every surface to the air instead of the lens's own: none, quarter-wave:550:1.38, "
              "hullin:550:1.38, stack:INDEX@NM,...",

@@ -3,6 +3,8 @@
 // wherever a user sees a number; vectors count from 0. Thread-safety: plain values.
 #pragma once
 
+#include <algorithm>
+#include <cstdint>
 #include <filesystem>
 #include <limits>
 #include <optional>
@@ -15,6 +17,7 @@
 #include "contrejour/glass.h"
 #include "contrejour/iris.h"
 #include "contrejour/result.h"
+#include "contrejour/vec.h"
 
 namespace contrejour {
 
@@ -65,6 +68,16 @@ enum class IrisClosing {
               // stop's area: round wide open, then rim and blades in turn, then the blades' polygon
 };
 
+// Errors of building: each body of glass between air gaps is tilted about its middle and moved sideways as a whole,
+// cemented parts together, by its own random amounts; the stop stays. Normally distributed in both directions.
+struct BuildErrors {
+  double tilt_rms_rad = 0.0;  // of the angle between the body's axis and the lens's; up to kMostTilt_rad
+  double decentre_rms_mm = 0.0;  // of the distance between the body's middle and the lens's axis
+  std::uint32_t seed = 0;  // which of the lenses of such errors
+
+  static constexpr double kMostTilt_rad = 0.2;
+};
+
 struct LensSettings {
   std::optional<double> focal_length_mm = std::nullopt;  // zoom; default: the first position
   std::optional<double> f_number = std::nullopt;         // default: the widest
@@ -72,6 +85,14 @@ struct LensSettings {
   std::optional<Coating> coating = std::nullopt;         // in place of every glass-to-air coating
   Iris iris = {};
   IrisClosing iris_closing = IrisClosing::Scaled;  // Mechanism sets the iris's blade_radius
+  BuildErrors build = {};
+};
+
+// How a surface stands that is not where it ought to be.
+struct SurfacePose {
+  Vec3 shift_mm{};     // of its vertex
+  Vec3 axis{0, 0, 1};  // unit, z > 0
+  friend bool operator==(const SurfacePose&, const SurfacePose&) = default;
 };
 
 struct SurfaceState {
@@ -81,6 +102,9 @@ struct SurfaceState {
   double semi_diameter_mm = 0.0;
   Glass before, after;
   Coating coating;
+  SurfacePose pose = {};
+
+  [[nodiscard]] bool is_centred() const { return pose == SurfacePose{}; }
 };
 
 // Everything a renderer needs to know of the lens: fixed positions, stop radius, sensor in focus.
@@ -98,6 +122,11 @@ struct LensState {
   double object_distance_mm = std::numeric_limits<double>::infinity();
   double design_wavelength_nm = kLineD_nm;
   std::vector<std::string> warnings;
+
+  // A surface of revolution, so that one meridian tells all.
+  [[nodiscard]] bool is_centred() const {
+    return std::all_of(surfaces.begin(), surfaces.end(), [](const SurfaceState& s) { return s.is_centred(); });
+  }
 };
 
 // Checks a prescription: stop, semi-diameters, finite values, surfaces that cross inside their clear

@@ -48,6 +48,7 @@ struct PathStep {
   double n_in = 1;   // medium the ray comes from
   double n_out = 1;  // medium on the other side (also for a reflection)
   Coating coating;
+  SurfacePose pose = {};
 };
 
 // A ghost's or the direct image's way through the lens at one wavelength.
@@ -57,6 +58,7 @@ struct OpticalPath {
   double sensor_z_mm = 0;
   double stop_radius_mm = 1;
   int stop_crossings = 0;
+  bool centred = true;  // every pose is as it ought to be
 };
 
 inline constexpr int kMaxStopCrossings = 3;

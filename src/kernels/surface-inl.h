@@ -71,6 +71,54 @@ HWY_INLINE Hit<T> intersect(const Ray3<T>& ray, T z_vertex, T c, T direction) {
   return hit;
 }
 
+// A direction.
+template <class T>
+struct Axis3 {
+  T x, y, z;
+};
+
+template <class T>
+HWY_INLINE T along(const Axis3<T>& axis, T x, T y, T z) {
+  return axis.x * x + axis.y * y + axis.z * z;
+}
+
+// The same for a surface that stands askew: about an axis n of its own (unit, nz > 0) through its vertex, where the
+// ray's coordinates begin. c p.p / 2 = n.p is that sphere or plane; with n = (0, 0, 1) it is the formula above.
+template <class T>
+HWY_INLINE Hit<T> intersect_askew(const Ray3<T>& ray, const Axis3<T>& n, T c, T direction) {
+  const T towards = along(n, ray.dx, ray.dy, ray.dz);
+  const T to_plane = (T(0.0) - along(n, ray.x, ray.y, ray.z)) / towards;
+  const T x = ray.x + to_plane * ray.dx;
+  const T y = ray.y + to_plane * ray.dy;
+  const T z = ray.z + to_plane * ray.dz;
+  const T f = c * (x * x + y * y + z * z);
+  const T g = towards - c * (x * ray.dx + y * ray.dy + z * ray.dz);
+  Hit<T> hit;
+  hit.cos_in_squared = g * g - c * f;
+  hit.cos_in = square_root(larger(hit.cos_in_squared, T(0.0)));
+  const T t = f / (g + direction * hit.cos_in);
+  hit.x = x + t * ray.dx;
+  hit.y = y + t * ray.dy;
+  hit.sag = z + t * ray.dz;
+  hit.nx = n.x - c * hit.x;
+  hit.ny = n.y - c * hit.y;
+  hit.nz = n.z - c * hit.sag;
+  return hit;
+}
+
+// The hit's place beside the surface's own axis, and the normal's part along it: > 0 on the near half of the sphere.
+// The smallest turn that takes n to +z takes p to p - (n + z) (n + z).p / (1 + nz) + 2 z n.p.
+template <class T>
+struct OwnPlace {
+  T x, y, nz;
+};
+template <class T>
+HWY_INLINE OwnPlace<T> own_place(const Hit<T>& hit, const Axis3<T>& n, T c) {
+  const T height = along(n, hit.x, hit.y, hit.sag);
+  const T share = (height + hit.sag) / (T(1.0) + n.z);
+  return {hit.x - n.x * share, hit.y - n.y * share, T(1.0) - c * height};
+}
+
 template <class T>
 HWY_INLINE void move_to(Ray3<T>& ray, const Hit<T>& hit, T z_vertex) {
   ray.x = hit.x;

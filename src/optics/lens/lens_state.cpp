@@ -9,6 +9,7 @@
 #include "contrejour/first_order.h"
 #include "contrejour/lens.h"
 #include "kernels/surface-inl.h"
+#include "optics/lens/build_errors.h"
 #include "optics/lens/iris_closing.h"
 
 namespace contrejour {
@@ -212,6 +213,7 @@ Result<void> set_focus(LensState& state, const Prescription& lens, double object
 
 Result<LensState> lens_at(const Prescription& lens, const LensSettings& settings) {
   if (const auto valid = validate(lens); !valid) return tl::unexpected<Error>(valid.error());
+  if (const auto good = check_build_errors(settings.build); !good) return tl::unexpected<Error>(good.error());
   const auto zoom = choose_zoom(lens, settings.focal_length_mm);
   if (!zoom) return tl::unexpected<Error>(zoom.error());
 
@@ -234,6 +236,7 @@ Result<LensState> lens_at(const Prescription& lens, const LensSettings& settings
   if (const auto set = set_focus(state, lens, settings.object_distance_mm); !set) {
     return tl::unexpected<Error>(set.error());
   }
+  apply_build_errors(settings.build, state.surfaces);
   return state;
 }
 

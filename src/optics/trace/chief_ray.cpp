@@ -55,6 +55,12 @@ class Meridian {
     return std::nullopt;
   }
 
+  // Of the ray at this height in the plane of the pupil, where it meets z = 0.
+  [[nodiscard]] double height_at_vertex(double field_rad, double height_mm) const {
+    const Vec3 d = source_at(field_rad).direction_at({0.0, height_mm, pupil_z_mm_});
+    return height_mm - pupil_z_mm_ * d.y / d.z;
+  }
+
  private:
   [[nodiscard]] LightSource source_at(double field_rad) const {
     return {{0.0, std::sin(field_rad), std::cos(field_rad)}, distance_mm_};
@@ -115,6 +121,15 @@ double field_for(const LensState& lens, double lambda_nm, double distance_mm, do
   return 0.5 * (low + high);
 }
 
+// The chief ray's height at z = 0.
+double chief_height_for(const LensState& lens, double lambda_nm, double distance_mm, double field_rad) {
+  const Meridian meridian(lens, lambda_nm, distance_mm);
+  const auto points = walk_field(meridian);
+  const auto k = std::min(static_cast<std::size_t>(field_rad / kFieldStep_rad), points.size() - 1);
+  const auto chief = meridian.chief(field_rad, points[k].chief.height_mm);
+  return meridian.height_at_vertex(field_rad, chief ? chief->height_mm : points[k].chief.height_mm);
+}
+
 double radius_for(const LensState& lens, double lambda_nm, double distance_mm, double field_rad) {
   const Meridian meridian(lens, lambda_nm, distance_mm);
   const auto points = walk_field(meridian);
@@ -123,10 +138,58 @@ double radius_for(const LensState& lens, double lambda_nm, double distance_mm, d
   return landing_at(meridian, points[std::min(k, points.size() - 1)], field_rad);
 }
 
+// The lens as it ought to be, for first guesses.
+LensState centred(LensState lens) {
+  for (SurfaceState& s : lens.surfaces) s.pose = {};
+  return lens;
+}
+
+// A light's chief ray through a lens that is not centred, by Newton's steps in both directions of the plane of the
+// first vertex. None if it gets lost.
+std::optional<Vec2> askew_landing(const OpticalPath& path, const LightSource& source, Vec2 at_mm) {
+  constexpr double kStep_mm = 1e-4;
+  const auto ray = [&](Vec2 at) {
+    const Vec3 from{at.x, at.y, 0.0};
+    return trace(path, {from, source.direction_at(from)});
+  };
+  for (int k = 0; k < kAimSteps; ++k) {
+    const TracedRay here = ray(at_mm);
+    const TracedRay right = ray(at_mm + Vec2{kStep_mm, 0.0});
+    const TracedRay up = ray(at_mm + Vec2{0.0, kStep_mm});
+    if (here.status != RayStatus::Ok || right.status != RayStatus::Ok || up.status != RayStatus::Ok)
+      return std::nullopt;
+    const Vec2 stop = here.stop[0];
+    if (length(stop) < kAimed) return here.sensor_mm;
+    const Vec2 dx = (right.stop[0] - stop) * (1.0 / kStep_mm);
+    const Vec2 dy = (up.stop[0] - stop) * (1.0 / kStep_mm);
+    const double area = cross(dx, dy);
+    if (area == 0.0) return std::nullopt;
+    at_mm = at_mm - Vec2{cross(stop, dy) / area, cross(dx, stop) / area};
+  }
+  return std::nullopt;
+}
+
+// Of the lens as it ought to be the direction is known: its target is moved until the light lands where it is wanted.
+Vec3 askew_direction(const LensState& lens, Vec2 sensor_mm, double lambda_nm, double distance_mm) {
+  constexpr int kSteps = 8;
+  constexpr double kLanded_mm = 1e-6;
+  const LensState ideal = centred(lens);
+  Vec2 target_mm = sensor_mm;
+  Vec3 direction = direction_to_land_at(ideal, target_mm, lambda_nm, distance_mm);
+  for (int k = 0; k < kSteps; ++k) {
+    const Vec2 off_mm = sensor_mm - landing_of(lens, {direction, distance_mm}, lambda_nm);
+    if (length(off_mm) < kLanded_mm) break;
+    target_mm = target_mm + off_mm;
+    direction = direction_to_land_at(ideal, target_mm, lambda_nm, distance_mm);
+  }
+  return direction;
+}
+
 }  // namespace
 
 // A positive lens images the sky point in direction d (the way the light travels) on the side d points to.
 Vec3 direction_to_land_at(const LensState& lens, Vec2 sensor_mm, double lambda_nm, double distance_mm) {
+  if (!lens.is_centred()) return askew_direction(lens, sensor_mm, lambda_nm, distance_mm);
   const double radius = length(sensor_mm);
   if (radius == 0.0) return {0.0, 0.0, 1.0};
   const double field = field_for(lens, lambda_nm, distance_mm, radius);
@@ -138,6 +201,14 @@ Vec3 direction_to_land_at(const LensState& lens, Vec2 sensor_mm, double lambda_n
 Vec2 landing_of(const LensState& lens, const LightSource& source, double lambda_nm) {
   const Vec2 across{source.direction.x, source.direction.y};
   const double sine = length(across);
+  if (!lens.is_centred()) {
+    const LensState ideal = centred(lens);
+    const double field = std::atan2(sine, source.direction.z);
+    const double height_mm = sine > 0.0 ? chief_height_for(ideal, lambda_nm, source.distance_mm, field) : 0.0;
+    const Vec2 start_mm = sine > 0.0 ? across * (height_mm / sine) : Vec2{};
+    if (const auto landing = askew_landing(direct_path(lens, lambda_nm), source, start_mm)) return *landing;
+    return landing_of(ideal, source, lambda_nm);
+  }
   if (sine == 0.0) return {};
   const double radius = radius_for(lens, lambda_nm, source.distance_mm, std::atan2(sine, source.direction.z));
   const double sign = lens.focal_length_mm > 0.0 ? 1.0 : -1.0;

@@ -9,6 +9,7 @@
 
 #include "kernels/packet-inl.h"
 #include "kernels/quick_packet-inl.h"
+#include "optics/trace/meeting-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace contrejour::HWY_NAMESPACE {
@@ -34,17 +35,16 @@ HWY_INLINE void test(Clearance<P>& s, P must_be_positive) {
 }
 
 // Rays that fail go on as numbers of no meaning.
-template <class P>
+template <bool kCentred, class P>
 HWY_INLINE void advance(Clearance<P>& s, const PacketStep& step) {
-  const P zero(0.0);
   const P direction(step.direction);
-  const auto hit = hk::intersect(s.ray, P(step.gap_mm), P(step.curvature_per_mm), direction);
-  test(s, smaller(hit.cos_in_squared, hit.nz));
-  hk::move_to(s.ray, hit, zero);  // z from this vertex on
+  const auto met = meet<kCentred>(s.ray, step);
+  const auto& hit = met.hit;
+  test(s, smaller(hit.cos_in_squared, met.own.nz));
   if (step.event == PathEvent::Stop) return;
   const P per_mm(step.inverse_semi_diameter_per_mm);
-  const P rim_x = hit.x * per_mm;
-  const P rim_y = hit.y * per_mm;
+  const P rim_x = met.own.x * per_mm;
+  const P rim_y = met.own.y * per_mm;
   const P rim_squared = rim_x * rim_x + rim_y * rim_y;
   const auto farther = rim_squared > s.rim_squared;
   s.rim_x = select(farther, rim_x, s.rim_x);
@@ -81,7 +81,7 @@ HWY_INLINE void leave(Clearance<P>& s, std::size_t at, const ClearanceArrays& ou
 }
 
 // Two packets abreast: one waits for its own results most of the time.
-template <class P>
+template <bool kCentred, class P>
 void trace_all(const PacketPath& path, const float* x_mm, const float* y_mm, std::size_t count,
                const ClearanceArrays& out) {
   const std::size_t lanes = hn::Lanes(typename P::Tag());
@@ -90,8 +90,8 @@ void trace_all(const PacketPath& path, const float* x_mm, const float* y_mm, std
     Clearance<P> a = enter<P>(path.start(), x_mm + at, y_mm + at);
     Clearance<P> b = enter<P>(path.start(), x_mm + at + lanes, y_mm + at + lanes);
     for (const PacketStep& step : path.steps()) {
-      advance(a, step);
-      advance(b, step);
+      advance<kCentred>(a, step);
+      advance<kCentred>(b, step);
       if (step.event != PathEvent::Stop) continue;
       float* x = out.stop_x[static_cast<std::size_t>(step.crossing)] + at;
       float* y = out.stop_y[static_cast<std::size_t>(step.crossing)] + at;
@@ -107,12 +107,14 @@ void trace_all(const PacketPath& path, const float* x_mm, const float* y_mm, std
 
 void clearance_float(const PacketPath& path, const float* x_mm, const float* y_mm, std::size_t count,
                      const ClearanceArrays& out) {
-  trace_all<hk::QuickPacket>(path, x_mm, y_mm, count, out);
+  if (path.centred()) return trace_all<true, hk::QuickPacket>(path, x_mm, y_mm, count, out);
+  trace_all<false, hk::QuickPacket>(path, x_mm, y_mm, count, out);
 }
 
 void clearance_double(const PacketPath& path, const float* x_mm, const float* y_mm, std::size_t count,
                       const ClearanceArrays& out) {
-  trace_all<hk::PrecisePacket>(path, x_mm, y_mm, count, out);
+  if (path.centred()) return trace_all<true, hk::PrecisePacket>(path, x_mm, y_mm, count, out);
+  trace_all<false, hk::PrecisePacket>(path, x_mm, y_mm, count, out);
 }
 
 }  // namespace contrejour::HWY_NAMESPACE

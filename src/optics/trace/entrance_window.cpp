@@ -21,6 +21,12 @@ struct Circle {
   double radius = 0;
 };
 
+// How far the front may stand out of its place to a side, and forwards: moved, tilted.
+double askew_aside_mm(const SurfaceState& first) { return length(first.pose.shift_mm); }
+double askew_forward_mm(const SurfaceState& first) {
+  return askew_aside_mm(first) + 2.0 * first.semi_diameter_mm * std::hypot(first.pose.axis.x, first.pose.axis.y);
+}
+
 // The circle about the axis at height z, seen along the light on a plane `to_plane_mm` behind it: moved, and from a
 // point larger as well.
 Circle shadow(const LightSource& source, double z_mm, double radius_mm, double to_plane_mm) {
@@ -42,11 +48,13 @@ Result<void> check_source(const LensState& lens, const LightSource& source) {
   if (!(source.distance_mm > 0.0))
     return refuse(fmt::format("a light cannot be at a distance of {} mm; give more than 0", source.distance_mm));
   const SurfaceState& first = lens.surfaces.front();
-  const double front_mm = std::min(0.0, sag(first.curvature_per_mm, first.semi_diameter_mm)) + first.z_mm;
+  const double front_mm =
+      std::min(0.0, sag(first.curvature_per_mm, first.semi_diameter_mm)) + first.z_mm - askew_forward_mm(first);
   if (!source.is_distant() && !(source.point_mm().z <= front_mm - kNearestLight_mm))
-    return refuse(fmt::format("a light {} mm from the first surface is not in front of all of the lens; give it {:.4g} mm "
-                              "along the axis or more",
-                              source.distance_mm, kNearestLight_mm - front_mm));
+    return refuse(
+        fmt::format("a light {} mm from the first surface is not in front of all of the lens; give it {:.4g} mm "
+                    "along the axis or more",
+                    source.distance_mm, kNearestLight_mm - front_mm));
   return {};
 }
 
@@ -73,7 +81,13 @@ EntranceWindow entrance_window(const LensState& lens, const LightSource& source)
     const Vec2 half = (window.max_mm - window.min_mm) * 0.5;
     reach = std::max({rim, half.x, half.y});
   }
-  const Vec2 margin{kMargin * reach, kMargin * reach};
+  double spare_mm = kMargin * reach;
+  // Its cap is a part of a larger one's: the ways aside of what stands forwards by so much, about as the rim's own.
+  if (!first.is_centred()) {
+    const double slope = std::hypot(window.max_mm.x - window.min_mm.x, window.max_mm.y - window.min_mm.y) / (2.0 * rim);
+    spare_mm += askew_aside_mm(first) + askew_forward_mm(first) * slope;
+  }
+  const Vec2 margin{spare_mm, spare_mm};
   window.min_mm = window.min_mm - margin;
   window.max_mm = window.max_mm + margin;
   return window;

@@ -62,10 +62,11 @@ int ReflectanceTables::add(const SurfaceState& surface, int direction, bool tran
 }
 
 PacketPath::PacketPath(const OpticalPath& path, const ReflectanceTables& tables, const LightRays& rays)
-    : tables_(tables.values()), source_(rays.source), inverse_stop_radius_per_mm_(1.0 / path.stop_radius_mm) {
+    : tables_(tables.values()), source_(rays.source), centred_(path.centred),
+      inverse_stop_radius_per_mm_(1.0 / path.stop_radius_mm) {
   start_.origin_mm = rays.origin_mm;
   start_from({rays.origin_mm.x, rays.origin_mm.y});
-  double z_before_mm = rays.origin_mm.z;
+  Vec3 before_mm{0.0, 0.0, rays.origin_mm.z};
   steps_.reserve(path.steps.size());
   for (const PathStep& from : path.steps) {
     const ReflectanceTables::Entry& entry = tables.of(from.surface);
@@ -76,15 +77,19 @@ PacketPath::PacketPath(const OpticalPath& path, const ReflectanceTables& tables,
     step.reflectance = entry.reflectance[from.direction > 0 ? 0 : 1];
     step.transmittance = entry.transmittance;
     step.direction = from.direction;
-    step.gap_mm = from.z_mm - z_before_mm;
+    const Vec3 vertex_mm = Vec3{0.0, 0.0, from.z_mm} + from.pose.shift_mm;
+    step.gap_mm = vertex_mm.z - before_mm.z;
+    step.offset_mm = {vertex_mm.x - before_mm.x, vertex_mm.y - before_mm.y};
+    step.axis = from.pose.axis;
     step.curvature_per_mm = from.curvature_per_mm;
     step.inverse_semi_diameter_per_mm = 1.0 / from.semi_diameter_mm;
     step.inverse_semi_diameter_squared = 1.0 / (from.semi_diameter_mm * from.semi_diameter_mm);
     step.eta = from.n_in / from.n_out;
-    z_before_mm = from.z_mm;
+    before_mm = vertex_mm;
     steps_.push_back(step);
   }
-  sensor_gap_mm_ = path.sensor_z_mm - z_before_mm;
+  sensor_gap_mm_ = path.sensor_z_mm - before_mm.z;
+  sensor_offset_mm_ = {-before_mm.x, -before_mm.y};
 }
 
 void PacketPath::start_from(Vec2 origin_mm) {

@@ -12,6 +12,7 @@
 #include <hwy/highway.h>
 
 #include "kernels/packet-inl.h"
+#include "optics/trace/meeting-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace contrejour::HWY_NAMESPACE {
@@ -39,18 +40,18 @@ HWY_INLINE void pass_stop(PacketState<P>& s, const PacketStep& step, double inve
 }
 
 // One packet over one surface. Rays that fail go on as numbers of no meaning with alive = 0.
-template <class P>
+template <bool kCentred, class P>
 HWY_INLINE void advance(PacketState<P>& s, const PacketStep& step, const float* tables, float* rim_squared) {
   const P zero(0.0);
   const P one(1.0);
   const P direction(step.direction);
-  auto hit = hk::intersect(s.ray, P(step.gap_mm), P(step.curvature_per_mm), direction);
+  const auto met = meet<kCentred>(s.ray, step);
+  const auto& hit = met.hit;
   s.alive = or_zero(hit.cos_in_squared > zero, s.alive);
-  hk::move_to(s.ray, hit, zero);  // z from this vertex on
   if (step.event == PathEvent::Stop) return;
 
-  const P r_squared = (hit.x * hit.x + hit.y * hit.y) * P(step.inverse_semi_diameter_squared);
-  const P beyond = select(hit.nz > zero, zero, P(kBeyondEquatorSquared));
+  const P r_squared = (met.own.x * met.own.x + met.own.y * met.own.y) * P(step.inverse_semi_diameter_squared);
+  const P beyond = select(met.own.nz > zero, zero, P(kBeyondEquatorSquared));
   const P out_squared = larger(r_squared, beyond);
   s.r_rel_squared = larger(s.r_rel_squared, out_squared);
   if (rim_squared != nullptr) store_floats(out_squared, rim_squared);
@@ -73,13 +74,19 @@ HWY_INLINE void advance(PacketState<P>& s, const PacketStep& step, const float* 
   s.transmission = s.transmission * through;
 }
 
-template <class P>
-HWY_INLINE void land(const PacketState<P>& s, double sensor_gap_mm, std::size_t at, const TracedArrays& out) {
+template <bool kCentred, class P>
+HWY_INLINE void land(const PacketState<P>& s, const PacketPath& path, std::size_t at, const TracedArrays& out) {
   const P zero(0.0);
-  const P t = (P(sensor_gap_mm) - s.ray.z) / s.ray.dz;
+  const P t = (P(path.sensor_gap_mm()) - s.ray.z) / s.ray.dz;
   const auto ok = or_zero(s.ray.dz > zero, s.alive) > zero;
-  store_floats(or_zero(ok, s.ray.x + t * s.ray.dx), out.sensor_x_mm + at);
-  store_floats(or_zero(ok, s.ray.y + t * s.ray.dy), out.sensor_y_mm + at);
+  P x = s.ray.x + t * s.ray.dx;
+  P y = s.ray.y + t * s.ray.dy;
+  if constexpr (!kCentred) {
+    x = x - P(path.sensor_offset_mm().x);
+    y = y - P(path.sensor_offset_mm().y);
+  }
+  store_floats(or_zero(ok, x), out.sensor_x_mm + at);
+  store_floats(or_zero(ok, y), out.sensor_y_mm + at);
   store_floats(or_zero(ok, s.transmission), out.transmission + at);
   store_floats(select(ok, square_root(s.r_rel_squared), P(std::numeric_limits<double>::infinity())), out.r_rel + at);
 }
@@ -103,21 +110,21 @@ HWY_INLINE PacketState<P> enter(const PacketStart& start, const float* x_mm, con
 }
 
 // The rays that start at index `at` of the arrays, as many as a packet holds.
-template <class P>
+template <bool kCentred, class P>
 HWY_INLINE void trace_one(const PacketPath& path, const float* x_mm, const float* y_mm, std::size_t at,
                           const TracedArrays& out) {
   PacketState<P> s = enter<P>(path.start(), x_mm + at, y_mm + at);
   float* rim_squared = out.rim_squared != nullptr ? out.rim_squared + at : nullptr;
   for (const PacketStep& step : path.steps()) {
-    advance(s, step, path.tables(), rim_squared);
+    advance<kCentred>(s, step, path.tables(), rim_squared);
     if (step.event == PathEvent::Stop) pass_stop(s, step, path.inverse_stop_radius_per_mm(), at, out);
     if (rim_squared != nullptr) rim_squared += out.rim_stride;
   }
-  land(s, path.sensor_gap_mm(), at, out);
+  land<kCentred>(s, path, at, out);
 }
 
 // The last rays, too few for a packet, in buffers of a packet's length.
-template <class P>
+template <bool kCentred, class P>
 void trace_tail(const PacketPath& path, const float* x_mm, const float* y_mm, std::size_t count,
                 const TracedArrays& out) {
   constexpr std::size_t kLongest = HWY_MAX_BYTES / sizeof(float);
@@ -137,7 +144,7 @@ void trace_tail(const PacketPath& path, const float* x_mm, const float* y_mm, st
     part.rim_squared = rims.data();
     part.rim_stride = kLongest;
   }
-  trace_one<P>(path, in[0].data(), in[1].data(), 0, part);
+  trace_one<kCentred, P>(path, in[0].data(), in[1].data(), 0, part);
   for (std::size_t k = 0; part.rim_squared != nullptr && k < path.steps().size(); ++k) {
     std::copy_n(rims.data() + k * kLongest, count, out.rim_squared + k * out.rim_stride);
   }
@@ -165,25 +172,27 @@ TracedArrays advanced(const TracedArrays& arrays, std::size_t by, int crossings)
   return out;
 }
 
-template <class P>
+template <bool kCentred, class P>
 void trace_all(const PacketPath& path, const float* x_mm, const float* y_mm, std::size_t count,
                const TracedArrays& out) {
   const std::size_t lanes = hn::Lanes(typename P::Tag());
   std::size_t at = 0;
-  for (; at + lanes <= count; at += lanes) trace_one<P>(path, x_mm, y_mm, at, out);
+  for (; at + lanes <= count; at += lanes) trace_one<kCentred, P>(path, x_mm, y_mm, at, out);
   if (at < count) {
-    trace_tail<P>(path, x_mm + at, y_mm + at, count - at, advanced(out, at, path.stop_crossings()));
+    trace_tail<kCentred, P>(path, x_mm + at, y_mm + at, count - at, advanced(out, at, path.stop_crossings()));
   }
 }
 
 void trace_float(const PacketPath& path, const float* x_mm, const float* y_mm, std::size_t count,
                  const TracedArrays& out) {
-  trace_all<hk::Packet<float>>(path, x_mm, y_mm, count, out);
+  if (path.centred()) return trace_all<true, hk::Packet<float>>(path, x_mm, y_mm, count, out);
+  trace_all<false, hk::Packet<float>>(path, x_mm, y_mm, count, out);
 }
 
 void trace_double(const PacketPath& path, const float* x_mm, const float* y_mm, std::size_t count,
                   const TracedArrays& out) {
-  trace_all<hk::PrecisePacket>(path, x_mm, y_mm, count, out);
+  if (path.centred()) return trace_all<true, hk::PrecisePacket>(path, x_mm, y_mm, count, out);
+  trace_all<false, hk::PrecisePacket>(path, x_mm, y_mm, count, out);
 }
 
 }  // namespace contrejour::HWY_NAMESPACE

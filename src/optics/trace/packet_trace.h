@@ -51,6 +51,8 @@ struct PacketStep {
   double inverse_semi_diameter_per_mm = 0;
   double inverse_semi_diameter_squared = 0;
   double eta = 1;               // n_in / n_out
+  Vec3 axis{0, 0, 1};           // of a lens that is not centred: the surface's own
+  Vec2 offset_mm;               // likewise: of the vertex from the one before, as gap_mm
 };
 
 // A light's rays, through points of the plane z = origin.z.
@@ -79,7 +81,9 @@ class PacketPath {
   [[nodiscard]] const std::vector<PacketStep>& steps() const { return steps_; }
   [[nodiscard]] const float* tables() const { return tables_; }
   [[nodiscard]] const PacketStart& start() const { return start_; }
-  [[nodiscard]] double sensor_gap_mm() const { return sensor_gap_mm_; }
+  [[nodiscard]] bool centred() const { return centred_; }
+  [[nodiscard]] double sensor_gap_mm() const { return sensor_gap_mm_; }  // from the last vertex, as the offset
+  [[nodiscard]] Vec2 sensor_offset_mm() const { return sensor_offset_mm_; }
   [[nodiscard]] double inverse_stop_radius_per_mm() const { return inverse_stop_radius_per_mm_; }
   [[nodiscard]] int stop_crossings() const { return stop_crossings_; }
 
@@ -88,12 +92,15 @@ class PacketPath {
   const float* tables_;
   LightSource source_;
   PacketStart start_;
+  bool centred_ = true;
   double sensor_gap_mm_ = 0;
+  Vec2 sensor_offset_mm_;
   double inverse_stop_radius_per_mm_ = 1;
   int stop_crossings_ = 0;
 };
 
-// Where the results go. Transmissions of a light at a finite distance are times LightSource::flux_at. A ray that fails has r_rel = infinity, transmission 0 and a sensor point of no meaning.
+// Where the results go. Transmissions of a light at a finite distance are times LightSource::flux_at. A ray that fails
+// has r_rel = infinity, transmission 0 and a sensor point of no meaning.
 struct TracedArrays {
   float* sensor_x_mm = nullptr;
   float* sensor_y_mm = nullptr;

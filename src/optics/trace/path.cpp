@@ -19,6 +19,7 @@ PathStep step_at(const LensState& lens, int surface, int direction, PathEvent ev
   step.n_in = direction > 0 ? before : after;
   step.n_out = direction > 0 ? after : before;
   step.coating = s.coating;
+  step.pose = s.pose;
   return step;
 }
 
@@ -28,6 +29,7 @@ class PathBuilder {
     path_.lambda_nm = lambda_nm;
     path_.sensor_z_mm = lens.sensor_z_mm;
     path_.stop_radius_mm = lens.stop_radius_mm;
+    path_.centred = lens.is_centred();
     path_.steps.reserve(3 * lens.surfaces.size());
   }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "kernels/surface-inl.h"
+#include "optics/trace/beside_axis.h"
 
 namespace contrejour {
 namespace {
@@ -20,28 +21,56 @@ struct State {
   int crossings = 0;
 };
 
-double distance_over_rim(const hk::Hit<double>& hit, double semi_diameter_mm) {
-  const double r = std::hypot(hit.x, hit.y) / semi_diameter_mm;
-  return hit.nz > 0.0 ? r : std::max(r, kBeyondEquator);
+// Where a ray meets a step's surface: in the lens's coordinates but for the sag, which is from the vertex, and beside
+// the surface's own axis.
+struct Meeting {
+  hk::Hit<double> hit;
+  double vertex_z_mm = 0;
+  hk::OwnPlace<double> own;
+};
+
+Meeting meet(const hk::Ray3<double>& ray, const PathStep& step, bool centred) {
+  const double direction = step.direction;
+  if (centred) {
+    const auto hit = hk::intersect(ray, step.z_mm, step.curvature_per_mm, direction);
+    return {hit, step.z_mm, {hit.x, hit.y, hit.nz}};
+  }
+  const Vec3 vertex = step.pose.shift_mm + Vec3{0.0, 0.0, step.z_mm};
+  const hk::Axis3<double> axis{step.pose.axis.x, step.pose.axis.y, step.pose.axis.z};
+  hk::Ray3<double> from_vertex = ray;
+  from_vertex.x -= vertex.x;
+  from_vertex.y -= vertex.y;
+  from_vertex.z -= vertex.z;
+  Meeting m{hk::intersect_askew(from_vertex, axis, step.curvature_per_mm, direction), vertex.z, {}};
+  m.own = hk::own_place(m.hit, axis, step.curvature_per_mm);
+  m.hit.x += vertex.x;
+  m.hit.y += vertex.y;
+  return m;
+}
+
+double distance_over_rim(const hk::OwnPlace<double>& own, double semi_diameter_mm) {
+  const double r = std::hypot(own.x, own.y) / semi_diameter_mm;
+  return own.nz > 0.0 ? r : std::max(r, kBeyondEquator);
 }
 
 // Takes the ray over one surface; false ends it with out.status set.
 bool advance(State& state, const PathStep& step, const OpticalPath& path, double* angle_of_incidence_rad,
              double* reflectance_here) {
   const double direction = step.direction;
-  const auto hit = hk::intersect(state.ray, step.z_mm, step.curvature_per_mm, direction);
+  const Meeting met = meet(state.ray, step, path.centred);
+  const auto& hit = met.hit;
   if (!(hit.cos_in_squared > 0.0)) {
     state.out.status = RayStatus::Missed;
     return false;
   }
-  hk::move_to(state.ray, hit, step.z_mm);
+  hk::move_to(state.ray, hit, met.vertex_z_mm);
   if (angle_of_incidence_rad != nullptr) *angle_of_incidence_rad = std::acos(std::min(1.0, hit.cos_in));
   if (step.event == PathEvent::Stop) {
     state.out.stop[static_cast<std::size_t>(state.crossings++)] =
-        Vec2{hit.x, hit.y} * (1.0 / path.stop_radius_mm);
+        Vec2{met.own.x, met.own.y} * (1.0 / path.stop_radius_mm);
     return true;
   }
-  state.out.r_rel = std::max(state.out.r_rel, distance_over_rim(hit, step.semi_diameter_mm));
+  state.out.r_rel = std::max(state.out.r_rel, distance_over_rim(met.own, step.semi_diameter_mm));
   const double cos_in = std::min(1.0, hit.cos_in);
   const double r = reflectance(step.coating, step.n_in, step.n_out, cos_in, path.lambda_nm);
   if (reflectance_here != nullptr) *reflectance_here = r;
@@ -109,6 +138,16 @@ TracedRay trace(const OpticalPath& path, const Ray& ray) {
   }
   fail_dark(state.out);
   return state.out;
+}
+
+Vec2 beside_axis(const PathStep& step, Vec3 position_mm) {
+  const Vec3 from = position_mm - step.pose.shift_mm - Vec3{0.0, 0.0, step.z_mm};
+  hk::Hit<double> hit{};
+  hit.x = from.x;
+  hit.y = from.y;
+  hit.sag = from.z;
+  const auto own = hk::own_place(hit, {step.pose.axis.x, step.pose.axis.y, step.pose.axis.z}, step.curvature_per_mm);
+  return {own.x, own.y};
 }
 
 RayRecord trace_recorded(const OpticalPath& path, const Ray& ray) {

@@ -6,6 +6,7 @@
 
 #include "base/tasks.h"
 #include "contrejour/metrics.h"
+#include "ghosts/pupil_search.h"
 #include "render/adaptive/box_fit.h"
 #include "render/adaptive/pupil_boxes.h"
 
@@ -46,12 +47,45 @@ void merge_overlapping(std::vector<Rectangle>& boxes) {
 Rectangle with_margin(const Rectangle& box) {
   const Vec2 margin = (box.high - box.low) * kMargin;
   Rectangle out{box.low - margin, box.high + margin};
-  if (box.low.y >= 0.0) out.low.y = std::max(out.low.y, 0.0);  // stays on its side of the axis of symmetry
   return out;
+}
+
+// Likewise, of a box of a symmetric pupil: it stays on its side of the axis of symmetry.
+Rectangle with_margin_aside(const Rectangle& box) {
+  Rectangle out = with_margin(box);
+  if (box.low.y >= 0.0) out.low.y = std::max(out.low.y, 0.0);
+  return out;
+}
+
+// The wavelengths at which a pupil is searched that is to hold for all.
+std::vector<double> outer_wavelengths(const PlannedLight& light) {
+  std::vector<double> outer_nm{light.passes.front().lambda_nm};
+  if (light.passes.size() > 1) outer_nm.push_back(light.passes.back().lambda_nm);
+  return outer_nm;
+}
+
+// Of a lens without symmetries: one box, by grids over all of the window.
+Work find_askew_box(const Scene& scene, Item& item) {
+  const LightSource& light = item.light->source;
+  const EntranceWindow window = entrance_window(scene.lens, light);
+  const IrisShape circle{Iris{}};
+  Work work;
+  RayGrid grid;
+  std::optional<Rectangle> box;
+  for (const double lambda_nm : outer_wavelengths(*item.light)) {
+    const OpticalPath path = ghost_path(scene.lens, item.ghost, lambda_nm);
+    const auto region = find_pupil_region(path, *scene.plan.tables.at(lambda_nm), circle, light, window, grid);
+    if (!region) continue;
+    box = box ? both(*box, region->pupil_mm) : region->pupil_mm;
+    work.add({region->rays, region->rays * path.steps.size()});
+  }
+  if (box) item.boxes.push_back(with_margin(*box));
+  return work;
 }
 
 // Where rays get through, at all wavelengths of the light: found at the middle one, then fitted to the outer ones.
 Work find_boxes(const Scene& scene, Item& item) {
+  if (!scene.lens.is_centred()) return find_askew_box(scene, item);
   const LightFrame light(item.light->source);
   const EntranceWindow window = entrance_window(scene.lens, light.source);
   const LightRays rays{{0.0, 0.0, window.z_mm}, light.source};
@@ -64,20 +98,18 @@ Work find_boxes(const Scene& scene, Item& item) {
   if (found.boxes.empty()) return work;
 
   std::vector<std::optional<Rectangle>> fitted(found.boxes.size());
-  std::vector<double> outer_nm{item.light->passes.front().lambda_nm};
-  if (item.light->passes.size() > 1) outer_nm.push_back(item.light->passes.back().lambda_nm);
-  for (const double lambda_nm : outer_nm) {
+  for (const double lambda_nm : outer_wavelengths(*item.light)) {
     BoxFitter fitter(path_at(lambda_nm), tables_at(lambda_nm), rays, window);
     for (std::size_t k = 0; k < fitted.size(); ++k) {
       if (found.boxes[k].high.y <= 0.0) continue;  // another's mirror image
-      const auto fit = fitter.fit(with_margin(found.boxes[k]));
+      const auto fit = fitter.fit(with_margin_aside(found.boxes[k]));
       if (fit) fitted[k] = fitted[k] ? both(*fitted[k], *fit) : *fit;
     }
     work.add({fitter.rays(), fitter.surface_hits()});
   }
   for (std::size_t k = 0; k < fitted.size(); ++k) {
     if (found.boxes[k].high.y <= 0.0) continue;
-    Rectangle box = fitted[k] ? *fitted[k] : with_margin(found.boxes[k]);
+    Rectangle box = fitted[k] ? *fitted[k] : with_margin_aside(found.boxes[k]);
     if (box.low.y < 0.0) box.low.y = -box.high.y;
     item.boxes.push_back(box);
     if (box.low.y >= 0.0) item.boxes.push_back({{box.low.x, -box.high.y}, {box.high.x, -box.low.y}});
@@ -91,7 +123,7 @@ Painted paint(const Scene& scene, const Item& item, std::vector<PlannedPass> pas
   Painted painted;
   const Frame frame = item.look->placed(whole);
   for (PlannedPass& pass : passes) pass.gain = item.look->tinted(pass.gain);
-  const LightFrame light(item.light->source);
+  const LightFrame light(item.light->source, scene.lens.is_centred());
   GhostPainter painter(scene.lens, scene.iris, frame, light, scene.plan.tables, deepest);
   for (const Rectangle& box : item.boxes) painter.paint(item.ghost, box, passes, budget, painted.polygons.list);
   painted.polygons.tiles = tile_lists(painted.polygons.list, grid);

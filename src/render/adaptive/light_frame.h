@@ -1,4 +1,5 @@
-// A light's meridional frame, and the way back from it: ghosts/meridian.h with the sine and cosine worked out.
+// A light's meridional frame, and the way back from it: ghosts/meridian.h with the sine and cosine worked out. For a
+// lens that is not centred, which has no such frame, that of the lens.
 #pragma once
 
 #include <cmath>
@@ -8,10 +9,14 @@
 namespace contrejour::adaptive {
 
 struct LightFrame {
-  LightSource source;  // its direction: y = 0, x >= 0
+  LightSource source;  // its direction: y = 0, x >= 0 where symmetric
   double cos_turn = 1, sin_turn = 0;
+  bool symmetric = true;  // y -> -y changes nothing
 
-  explicit LightFrame(const LightSource& light) : LightFrame(meridian_of(light)) {}
+  explicit LightFrame(const LightSource& light, bool lens_is_centred = true)
+      : LightFrame(lens_is_centred ? meridian_of(light) : Meridian{light, 0.0}) {
+    symmetric = lens_is_centred;
+  }
   [[nodiscard]] Vec2 into_place(Vec2 v) const {
     return {v.x * cos_turn - v.y * sin_turn, v.x * sin_turn + v.y * cos_turn};
   }

@@ -20,7 +20,9 @@ void complete(float* values, int nodes, float sign) {
 }
 
 // Rows above this one are mirror images of those below, where the box is its own.
-int first_traced_row(const RaySheet& sheet) { return sheet.box.low.y == -sheet.box.high.y ? sheet.nodes / 2 : 0; }
+int first_traced_row(const RaySheet& sheet, const LightFrame& light) {
+  return light.symmetric && sheet.box.low.y == -sheet.box.high.y ? sheet.nodes / 2 : 0;
+}
 
 }  // namespace
 
@@ -58,7 +60,7 @@ RaySheet SheetTracer::trace(const Rectangle& box, int nodes, PacketPrecision pre
     s[1].resize(count);
   }
   sheet.rim_squared.resize(steps() * count);
-  const int first_row = first_traced_row(sheet);
+  const int first_row = first_traced_row(sheet, light_);
   lay_out(sheet, first_row);
   trace_path(0, first_row, precision, sheet);
   if (first_row > 0) {
@@ -77,7 +79,7 @@ RaySheet SheetTracer::trace(const Rectangle& box, int nodes, PacketPrecision pre
 }
 
 void SheetTracer::add_wavelengths(RaySheet& sheet, PacketPrecision precision) {
-  const int first_row = first_traced_row(sheet);
+  const int first_row = first_traced_row(sheet, light_);
   lay_out(sheet, first_row);
   for (std::size_t k = 1; k < paths_.size(); ++k) trace_path(k, first_row, precision, sheet);
   if (first_row == 0) return;

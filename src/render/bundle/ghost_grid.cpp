@@ -46,19 +46,19 @@ std::optional<GhostPupil> GhostGrid::find(Ghost ghost, const LightSource& light,
   pupil.lambda_nm = lambda_nm;
   pupil.path = ghost_path(lens_, ghost, lambda_nm);
   const bool from_table = bounds_ != nullptr && light.is_distant();
-  const bool in_meridian = options.mirror_symmetry || from_table;
+  const bool in_meridian = mirrors() || from_table;
   pupil.meridian = in_meridian ? meridian_of(light) : Meridian{light, 0.0};
   pupil.iris = turned_back(lens_.iris, pupil.meridian);
   const EntranceWindow window = entrance_window(lens_, pupil.meridian.light);
   pupil.plane_z_mm = window.z_mm;
 
   const auto region = from_table ? bounds_->find(ghost, pupil.meridian.angle_rad())
-                                         : find_pupil_region(pupil.path, tables_of(pupil), IrisShape(pupil.iris),
-                                                             pupil.meridian.light, window, rays_);
+                                 : find_pupil_region(pupil.path, tables_of(pupil), IrisShape(pupil.iris),
+                                                     pupil.meridian.light, window, rays_);
   if (!region) return std::nullopt;
   pupil.region = *region;
   count_rays(region->rays, pupil.path);
-  if (options.mirror_symmetry) make_symmetric(pupil.region.pupil_mm);
+  if (mirrors()) make_symmetric(pupil.region.pupil_mm);
   if (look || options.grid_levels || options.anisotropic != BundleOptions::Anisotropic::Exact) {
     pupil.figures = figures_of(pupil);
   }
@@ -85,12 +85,11 @@ void GhostGrid::trace(const GhostPupil& pupil) {
   const auto all = static_cast<std::size_t>(side) * static_cast<std::size_t>(side);
   const Rectangle& box = pupil.region.pupil_mm;
   const LightSource& light = pupil.meridian.light;
-  const auto precision = precision_for(pupil.path, tables_of(pupil), light, pupil.plane_z_mm, box, side,
-                                       settings_.frame.pixel_pitch_mm);
-  if (settings_.bundle.mirror_symmetry) {
-    count_rays(
-        rays_.trace_mirrored(pupil.path, tables_of(pupil), iris, light, pupil.plane_z_mm, box, side, precision),
-        pupil.path);
+  const auto precision =
+      precision_for(pupil.path, tables_of(pupil), light, pupil.plane_z_mm, box, side, settings_.frame.pixel_pitch_mm);
+  if (mirrors()) {
+    count_rays(rays_.trace_mirrored(pupil.path, tables_of(pupil), iris, light, pupil.plane_z_mm, box, side, precision),
+               pupil.path);
   } else {
     rays_.trace(pupil.path, tables_of(pupil), iris, light, pupil.plane_z_mm, box, side, precision);
     count_rays(all, pupil.path);

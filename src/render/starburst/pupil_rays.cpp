@@ -4,6 +4,7 @@
 
 #include "base/tasks.h"
 #include "ghosts/pupil_search.h"
+#include "optics/trace/beside_axis.h"
 
 namespace contrejour {
 namespace {
@@ -39,16 +40,16 @@ PupilRay trace_one(const OpticalPath& path, const IrisOpening& iris, const Ray& 
   std::size_t rim = 0;
   for (std::size_t k = 0; k < path.steps.size(); ++k) {
     if (path.steps[k].event == PathEvent::Stop) continue;
-    const Vec3 at = record.steps[k].position_mm;
-    rim_places[rim++ * stride] = Vec2{at.x, at.y} * (1.0 / path.steps[k].semi_diameter_mm);
+    const Vec2 at = beside_axis(path.steps[k], record.steps[k].position_mm);
+    rim_places[rim++ * stride] = at * (1.0 / path.steps[k].semi_diameter_mm);
   }
   return ray;
 }
 
 }  // namespace
 
-std::optional<PupilRays> trace_pupil(const LensState& lens, const IrisOpening& iris, const LightSource& light, double lambda_nm,
-                                     const Context& context) {
+std::optional<PupilRays> trace_pupil(const LensState& lens, const IrisOpening& iris, const LightSource& light,
+                                     double lambda_nm, const Context& context) {
   const auto box = find_region(lens, light, lambda_nm);
   if (!box) return std::nullopt;
   const OpticalPath path = direct_path(lens, lambda_nm);

@@ -1,0 +1,16 @@
+// A lens as it was built: bodies of glass a little beside their places.
+#pragma once
+
+#include <vector>
+
+#include "contrejour/lens.h"
+
+namespace contrejour {
+
+// Errors: numbers that are not finite or out of their range (lens.h).
+[[nodiscard]] Result<void> check_build_errors(const BuildErrors& errors);
+
+// Poses all surfaces of glass (docs/physics/tracing.md); a body's share depends on the seed and its place in the lens.
+void apply_build_errors(const BuildErrors& errors, std::vector<SurfaceState>& surfaces);
+
+}  // namespace contrejour
