@@ -98,6 +98,7 @@ Result<Flare> render_plan(const ApplyOptions& options, const LensState& lens, co
   if (plan.lights.empty()) return Flare{Image(plan.frame.width, plan.frame.height), {}};
   RenderSettings settings = params::render_settings(options.values, plan.frame, plan.space);
   settings.starburst.left_out = plan.already_there;
+  settings.starburst.lights = plan.imaged_lights;
   const LongTask task("rendering", options.values.integer("threads"));
   return render(*options.values.text("method"), lens, plan.lights, settings, task.context());
 }
@@ -176,7 +177,8 @@ void add_apply(CLI::App& app, Action& action) {
   add_look_options(*command, options->look);
   add_parameters(*command, options->values, {"exposure"});
   add_parameters(*command, options->values,
-                 {"threshold", "softness", "max-lights", "min-pixels", "spectrum", "light-distance", "gain"});
+                 {"threshold", "softness", "max-lights", "min-pixels", "light-shape", "spectrum", "light-distance",
+                  "gain"});
   add_lens_parameters(*command, options->values);
   add_parameters(*command, options->values, {"hfov"});
   add_rendering_parameters(*command, options->values);

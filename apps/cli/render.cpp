@@ -119,7 +119,7 @@ void add_render(CLI::App& app, Action& action) {
   add_output(*command, "--stats", options->stats, {".json"}, "times and counts");
   add_look_options(*command, options->look);
   add_parameters(*command, options->values, {"exposure"});
-  add_parameters(*command, options->values, {"light", "light-at", "value", "colour", "light-distance"});
+  add_parameters(*command, options->values, {"light", "light-at", "value", "colour", "light-size", "light-distance"});
   add_lens_parameters(*command, options->values);
   add_parameters(*command, options->values, {"size", "hfov"});
   add_rendering_parameters(*command, options->values);

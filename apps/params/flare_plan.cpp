@@ -1,6 +1,8 @@
 #include "params/flare_plan.h"
 
+#include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "contrejour/spectrum_file.h"
@@ -9,6 +11,10 @@
 
 namespace contrejour::params {
 namespace {
+
+constexpr double kPoint_px = 1.0;         // root mean square radius: what is smaller is a point
+constexpr int kLargestShape_px = 512;     // a side of a shape
+constexpr int kMostImages = 32;           // lights that keep their own starburst, where ghosts' are merged
 
 Result<Frame> frame_of(const Picture& picture, const LensState& lens, const Values& values) {
   const PixelWindow& whole = picture.display_window;
@@ -38,6 +44,49 @@ Light light_of(const DetectedLight& area, const Spectrum& spectrum, const Frame&
   return light;
 }
 
+// Angles of a pixel's sides, as tangents, about a light's direction: by how its image moves. None where no light gets
+// through.
+std::optional<LightShape> shape_about(const LightSource& source, const Frame& frame, const LensState& lens) {
+  constexpr double kStep = 1e-3;
+  const auto at = [&](Vec2 tangents) {
+    return frame.pixel_from_sensor(landing_of(lens, source_beside(source, tangents), lens.design_wavelength_nm));
+  };
+  const Vec2 x = (at({kStep, 0.0}) - at({-kStep, 0.0})) * (0.5 / kStep);
+  const Vec2 y = (at({0.0, kStep}) - at({0.0, -kStep})) * (0.5 / kStep);
+  const double determinant = cross(x, y);
+  if (!std::isnormal(determinant)) return std::nullopt;
+  LightShape shape;
+  shape.right = {y.y / determinant, -x.y / determinant};
+  shape.down = {-y.x / determinant, x.x / determinant};
+  return shape;
+}
+
+// The light's own pixels as its extent, if it is larger than a point and they can be one.
+void give_shape(Light& light, const DetectedLight& area, const Picture& picture, const FlarePlan& plan,
+                const Detection& found, const LensState& lens, double softness) {
+  if (!(area.rms_radius_px > kPoint_px)) return;
+  auto shape = shape_about(light.source(), plan.frame, lens);
+  if (!shape) return;
+  shape->level = picture_of_areas(picture.rgb, found, softness, area);
+  shape->centre_px = area.centroid_px - Vec2{static_cast<double>(area.min_x), static_cast<double>(area.min_y)};
+  const int side = std::max(shape->level.width, shape->level.height);
+  Light shaped = light;
+  shaped.shape = std::make_shared<const LightShape>(
+      side > kLargestShape_px ? coarser(*shape, side / kLargestShape_px + 1) : std::move(*shape));
+  if (check_extent(shaped)) light = shaped;
+}
+
+std::vector<Light> lights_of(const Detection& found, const Spectrum& spectrum, const Picture& picture,
+                             const FlarePlan& plan, const LensState& lens, const Values& values) {
+  std::vector<Light> lights;
+  for (const DetectedLight& area : found.lights) {
+    lights.push_back(light_of(area, spectrum, plan.frame, lens, values));
+    if (values.is_on("light-shape"))
+      give_shape(lights.back(), area, picture, plan, found, lens, values.number("softness"));
+  }
+  return lights;
+}
+
 }  // namespace
 
 Result<FlarePlan> plan_flare(const Picture& picture, const LensState& lens, const Values& values) {
@@ -57,8 +106,14 @@ Result<FlarePlan> plan_flare(const Picture& picture, const LensState& lens, cons
   if (values.is_on("starburst") || values.number("glare") > 0.0)
     plan.already_there =
         std::make_shared<const Image>(light_shares(picture.rgb, plan.found.threshold, detection.softness));
-  for (const DetectedLight& area : plan.found.lights) {
-    plan.lights.push_back(light_of(area, *spectrum, plan.frame, lens, values));
+  plan.lights = lights_of(plan.found, *spectrum, picture, plan, lens, values);
+  if (plan.already_there && values.is_on("light-shape") && plan.found.areas_found > detection.max_lights) {
+    DetectionSettings fewer_merged = detection;
+    fewer_merged.threshold = plan.found.threshold;
+    fewer_merged.max_lights = std::max(detection.max_lights, kMostImages);
+    const auto apart = detect_lights(picture.rgb, fewer_merged);
+    if (!apart) return tl::unexpected(apart.error());
+    plan.imaged_lights = std::make_shared<const std::vector<Light>>(lights_of(*apart, *spectrum, picture, plan, lens, values));
   }
   return plan;
 }

@@ -19,7 +19,11 @@ struct FlarePlan {
   Frame frame;                    // the data window within the display window
   Detection found;
   std::vector<Light> lights;      // one for each found, in the same order
-  std::shared_ptr<const Image> already_there;  // with --starburst or --glare: the share of each pixel that is a light's own image
+  // With --starburst or --glare: the lights whose images are drawn, fewer of them merged. Null: the same as the
+  // ghosts'.
+  std::shared_ptr<const std::vector<Light>> imaged_lights;
+  std::shared_ptr<const Image>
+      already_there;  // with --starburst or --glare: the share of each pixel that is a light's own image
 };
 
 // Errors: Unsupported for display windows with no pixels or beyond 2^28 of them; those of detect_lights.

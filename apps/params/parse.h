@@ -45,11 +45,12 @@ struct LightColour {
 };
 [[nodiscard]] Result<LightColour> parse_light_colour(std::string_view text);
 
-// "A,B", "A,B:VALUE" or "A,B:VALUE:COLOUR"; VALUE may be left empty.
+// "A,B", "A,B:VALUE", "A,B:VALUE:COLOUR" or "A,B:VALUE:COLOUR:SIZE"; VALUE and COLOUR may be left empty.
 struct LightText {
   Vec2 place;  // azimuth and elevation in degrees, or u and v
   std::optional<LightValue> value;
   std::optional<LightColour> colour;
+  std::optional<double> size_deg;  // of a disc, across
 };
 [[nodiscard]] Result<LightText> parse_light(std::string_view text);
 

@@ -10,6 +10,8 @@
 namespace contrejour::params {
 namespace {
 
+constexpr double kLargestLight_deg = 90.0;
+
 tl::unexpected<Error> invalid(std::string message) {
   return failure(ErrorCode::InvalidArgument, std::move(message));
 }
@@ -88,7 +90,7 @@ Result<LightColour> parse_light_colour(std::string_view text) {
 
 Result<LightText> parse_light(std::string_view text) {
   const auto parts = split(text, ':');
-  if (parts.size() > 3) return invalid(fmt::format("\"{}\" has too many parts; write A,B:VALUE:COLOUR", text));
+  if (parts.size() > 4) return invalid(fmt::format("\"{}\" has too many parts; write A,B:VALUE:COLOUR:SIZE", text));
   const auto place = parse_reals(parts[0], 2);
   if (!place) return tl::unexpected(place.error());
   LightText light;
@@ -98,10 +100,17 @@ Result<LightText> parse_light(std::string_view text) {
     if (!value) return tl::unexpected(value.error());
     light.value = *value;
   }
-  if (parts.size() > 2) {
+  if (parts.size() > 2 && !(parts[2].empty() && parts.size() > 3)) {
     const auto colour = parse_light_colour(parts[2]);
     if (!colour) return tl::unexpected(colour.error());
     light.colour = *colour;
+  }
+  if (parts.size() > 3) {
+    const auto size_deg = parse_real(parts[3]);
+    if (!size_deg) return tl::unexpected(size_deg.error());
+    if (!(*size_deg >= 0.0 && *size_deg <= kLargestLight_deg))
+      return invalid(fmt::format("a light {} degrees across is out of range; choose 0 to 90", parts[3]));
+    light.size_deg = *size_deg;
   }
   return light;
 }
@@ -120,7 +129,8 @@ Result<GhostAdjustment> parse_ghost_adjustment(std::string_view text) {
   const std::size_t colon = text.find(':');
   const auto ghost = parse_ghost(text.substr(0, colon));
   if (!ghost) return tl::unexpected(ghost.error());
-  GhostAdjustment out{*ghost};
+  GhostAdjustment out;
+  out.ghost = *ghost;
   if (colon == std::string_view::npos) return out;
   // A part without a name goes on with the list before it.
   std::vector<std::pair<std::string_view, std::string>> settings;

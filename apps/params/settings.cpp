@@ -149,6 +149,7 @@ Result<std::vector<Light>> lights(const Values& values, const LensState& lens, c
     auto light =
         finish_light({direction, distance_mm}, text.value.value_or(value), text.colour.value_or(*colour), space);
     if (!light) return tl::unexpected(light.error());
+    light->radius_rad = 0.5 * text.size_deg.value_or(values.number("light-size")) * kDegree_rad;
     all.push_back(*light);
     return {};
   };
@@ -169,7 +170,7 @@ Result<std::vector<Light>> lights(const Values& values, const LensState& lens, c
     if (const auto added = add_at(*text); !added) return tl::unexpected(added.error());
   }
   if (all.empty()) {
-    if (const auto added = add_at({kUsualPlace, {}, {}}); !added) return tl::unexpected(added.error());
+    if (const auto added = add_at({kUsualPlace, {}, {}, {}}); !added) return tl::unexpected(added.error());
   }
   return all;
 }

@@ -1,22 +1,54 @@
-// A light, as a renderer takes it: distant, or a point at a finite distance in front of the lens.
+// A light, as a renderer takes it: distant, or at a finite distance in front of the lens; a point, a disc, or a shape of
+// its own.
 #pragma once
 
 #include <limits>
+#include <memory>
 
 #include "contrejour/colour.h"
+#include "contrejour/image.h"
 #include "contrejour/light_source.h"
+#include "contrejour/result.h"
 #include "contrejour/vec.h"
 
 namespace contrejour {
+
+// What a light looks like: a picture of it over the angles about its direction, upright as the photographer sees it.
+struct LightShape {
+  Image level;     // one channel or three, of any scale: what share of the light's value comes from each pixel
+  Vec2 centre_px;  // where in the picture the light's direction is; (0, 0) is its top left corner
+  // A pixel to the right and a pixel down, as tangents of the angles from the direction, x to the right and y up.
+  Vec2 right{1e-3, 0.0}, down{0.0, -1e-3};
+};
 
 struct Light {
   Vec3 direction{0, 0, 1};  // unit, the way the light travels to the first vertex (z > 0)
   Rgb value{1, 1, 1};       // what the light's direct image sums to over its pixels, per channel
   Spectrum spectrum = IlluminantD65{};  // how each channel's value is spread over wavelength
   double distance_mm = std::numeric_limits<double>::infinity();  // to the first vertex, > 0
+  // Its extent: a disc of this radius, evenly bright, or the shape; neither: a point. However large, its image sums to
+  // `value` (docs/physics/area-lights.md).
+  double radius_rad = 0.0;
+  std::shared_ptr<const LightShape> shape = nullptr;
 
   [[nodiscard]] LightSource source() const { return {normalized(direction), distance_mm}; }
+  [[nodiscard]] bool is_point() const { return radius_rad == 0.0 && !shape; }
 };
+
+inline constexpr double kSunRadius_rad = 0.00465;  // 0.53 degrees across
+
+// Errors: InvalidArgument for a negative radius or one above 45 degrees; for a shape without light, that reaches
+// farther from its direction than 45 degrees, of more than 4096 pixels a side, with levels that are negative or not
+// finite; for both at once.
+[[nodiscard]] Result<void> check_extent(const Light& light);
+
+// Pixels summed by so many along each side.
+[[nodiscard]] LightShape coarser(const LightShape& shape, int by);
+
+// The direction of the light that is so far to the right of this one, and so far up, in tangents of the angles.
+[[nodiscard]] Vec3 direction_beside(Vec3 direction, Vec2 tangents);
+// The same of a light at any distance, which stays as far from the first vertex.
+[[nodiscard]] LightSource source_beside(const LightSource& source, Vec2 tangents);
 
 // Azimuth to the right, elevation up, as the photographer sees them, radians; the travel direction.
 // Errors (assert): |angle| must keep the light in front of the lens.

@@ -30,12 +30,15 @@ struct DetectedLight {
   std::int64_t pixel_count = 0;
   double peak = 0;       // largest level
   int merged_areas = 1;  // how many areas this light stands for
+  std::vector<int> areas;  // which, of Detection::areas
 };
 
 struct Detection {
   double threshold = 0;               // the one used
   std::vector<DetectedLight> lights;  // by flux (r + g + b), largest first
   int areas_found = 0;                // before merging
+  std::vector<DetectedLight> areas;   // all, in the order of their first pixels, those too small to be lights too
+  std::vector<std::int32_t> area_of_pixel;  // rows from the top; -1: none
 };
 
 // Errors: InvalidArgument (not three channels, settings out of range).
@@ -44,6 +47,11 @@ struct Detection {
 // How much of each pixel belongs to a light, 0..1, one channel: the weight that detect_lights gives it. Areas that are
 // too small to be lights count too.
 [[nodiscard]] Image light_shares(const Image& rgb, double threshold, double softness);
+
+// What some areas look like: the part of the picture that holds them, weight * value in each pixel that is theirs and 0
+// elsewhere, three channels. Its pixel (0, 0) is the picture's (min_x, min_y).
+[[nodiscard]] Image picture_of_areas(const Image& rgb, const Detection& detection, double softness,
+                                     const DetectedLight& light);
 
 // The level above which a thing is a light and not a lit surface, from the picture's own statistics.
 [[nodiscard]] double automatic_threshold(const Image& rgb);

@@ -57,6 +57,9 @@ struct StarburstOptions {
   // Where a photograph holds the lights' own images already: a share from 0 to 1 a pixel that is left out of starburst
   // and glare, one channel, as large as the frame. Null: nothing is left out.
   std::shared_ptr<const Image> left_out = nullptr;
+  // Whose images are drawn, with starburst and glare, where these are not the lights that the ghosts are of: lights that
+  // were merged for the ghosts' sake keep their images apart. Null: the same.
+  std::shared_ptr<const std::vector<Light>> lights = nullptr;
 };
 
 // What polish, dust and edges scatter about each light's own image: over angles theta as (1 + (theta / width)^2)^-1.5.

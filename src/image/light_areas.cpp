@@ -15,6 +15,10 @@ struct Run {
   std::size_t area = 0;
 };
 
+struct PlacedRun {
+  int y = 0, begin = 0, end = 0;
+};
+
 class UnionFind {
  public:
   std::size_t add() {
@@ -114,19 +118,24 @@ DetectedLight merged(const DetectedLight& a, const DetectedLight& b) {
   sum.pixel_count = a.pixel_count + b.pixel_count;
   sum.peak = std::max(a.peak, b.peak);
   sum.merged_areas = a.merged_areas + b.merged_areas;
+  sum.areas = a.areas;
+  sum.areas.insert(sum.areas.end(), b.areas.begin(), b.areas.end());
   return sum;
 }
 
-std::vector<DetectedLight> bright_areas(const Image& rgb, const AreaSettings& settings) {
+std::vector<DetectedLight> bright_areas(const Image& rgb, const AreaSettings& settings,
+                                        std::vector<std::int32_t>& area_of_pixel) {
   UnionFind labels;
   std::vector<DetectedLight> run_lights;  // by label
   std::vector<Run> above;
+  std::vector<PlacedRun> all_runs;
   for (int y = 0; y < rgb.height; ++y) {
     std::vector<Run> runs = runs_of_row(rgb, y, settings);
     std::size_t first = 0;  // of the runs above that may still touch
     for (Run& run : runs) {
       run.area = labels.add();
       run_lights.push_back(light_of_run(rgb, y, run.begin, run.end, settings));
+      all_runs.push_back({y, run.begin, run.end});
       while (first < above.size() && above[first].end < run.begin) ++first;
       for (std::size_t i = first; i < above.size() && above[i].begin <= run.end; ++i)
         labels.join(above[i].area, run.area);
@@ -138,14 +147,20 @@ std::vector<DetectedLight> bright_areas(const Image& rgb, const AreaSettings& se
   std::vector<std::size_t> place(run_lights.size());
   for (std::size_t i = 0; i < run_lights.size(); ++i) {
     const std::size_t root = labels.root(i);
+    place[i] = root == i ? areas.size() : place[root];
     if (root == i) {
-      place[i] = areas.size();
       areas.push_back(run_lights[i]);
     } else {
       DetectedLight& area = areas[place[root]];
       area = merged(area, run_lights[i]);
       area.merged_areas = 1;
     }
+  }
+  for (std::size_t k = 0; k < areas.size(); ++k) areas[k].areas = {static_cast<int>(k)};
+  area_of_pixel.assign(static_cast<std::size_t>(rgb.width) * static_cast<std::size_t>(rgb.height), -1);
+  for (std::size_t i = 0; i < all_runs.size(); ++i) {
+    const auto row = area_of_pixel.begin() + static_cast<std::ptrdiff_t>(all_runs[i].y) * rgb.width;
+    std::fill(row + all_runs[i].begin, row + all_runs[i].end, static_cast<std::int32_t>(place[i]));
   }
   return areas;
 }

@@ -1,6 +1,7 @@
 // Connected areas of bright pixels, as sums that can be added up.
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "contrejour/light_detection.h"
@@ -22,7 +23,9 @@ struct AreaSettings {
 [[nodiscard]] double share_of_light(double level, const AreaSettings& settings);
 
 // The areas in the order of their first pixels (rows from the top); 8 neighbours connect.
-[[nodiscard]] std::vector<DetectedLight> bright_areas(const Image& rgb, const AreaSettings& settings);
+// area_of_pixel: which of them each pixel belongs to, -1 none.
+[[nodiscard]] std::vector<DetectedLight> bright_areas(const Image& rgb, const AreaSettings& settings,
+                                                      std::vector<std::int32_t>& area_of_pixel);
 
 [[nodiscard]] double total_flux(const DetectedLight& light);
 

@@ -61,13 +61,34 @@ Result<Detection> detect_lights(const Image& rgb, const DetectionSettings& setti
   if (!usable) return tl::unexpected(usable.error());
   Detection detection;
   detection.threshold = settings.threshold ? *settings.threshold : automatic_threshold(rgb);
-  detection.lights = bright_areas(rgb, {detection.threshold, settings.softness});
+  detection.areas = bright_areas(rgb, {detection.threshold, settings.softness}, detection.area_of_pixel);
+  detection.lights = detection.areas;
   std::erase_if(detection.lights, [&](const DetectedLight& l) { return l.pixel_count < settings.min_pixels; });
   detection.areas_found = static_cast<int>(detection.lights.size());
   std::sort(detection.lights.begin(), detection.lights.end(), comes_first);
   const auto most = static_cast<std::size_t>(settings.max_lights);
   if (detection.lights.size() > most) merge_tail(detection.lights, most);
   return detection;
+}
+
+Image picture_of_areas(const Image& rgb, const Detection& detection, double softness, const DetectedLight& light) {
+  const AreaSettings settings{detection.threshold, softness};
+  Image out(light.max_x - light.min_x + 1, light.max_y - light.min_y + 1);
+  std::vector<bool> is_its(detection.areas.size());
+  for (const int area : light.areas) is_its[static_cast<std::size_t>(area)] = true;
+  for (int y = light.min_y; y <= light.max_y; ++y) {
+    for (int x = light.min_x; x <= light.max_x; ++x) {
+      const std::int32_t area =
+          detection.area_of_pixel[static_cast<std::size_t>(y) * static_cast<std::size_t>(rgb.width) +
+                                  static_cast<std::size_t>(x)];
+      if (area < 0 || !is_its[static_cast<std::size_t>(area)]) continue;
+      const float* const pixel = rgb.pixels.data() + rgb.index(x, y);
+      const double share = share_of_light(level_of(pixel), settings);
+      for (int c = 0; c < 3; ++c)
+        out.at(x - light.min_x, y - light.min_y, c) = static_cast<float>(share * usable_sample(pixel[c]));
+    }
+  }
+  return out;
 }
 
 Image light_shares(const Image& rgb, double threshold, double softness) {

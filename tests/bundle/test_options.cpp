@@ -19,7 +19,7 @@ using test::settings_for;
 namespace {
 
 Flare drawn(const LensState& lens, const Light& light, const RenderSettings& settings) {
-  auto flare = render_bundle(lens, {&light, 1}, settings, {});
+  auto flare = render_planned(render_bundle, lens, {&light, 1}, settings, {});
   REQUIRE(flare.has_value());
   return *flare;
 }

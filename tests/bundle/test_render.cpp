@@ -13,7 +13,7 @@ using test::settings_for;
 namespace {
 
 Flare bundle_of(const LensState& lens, std::span<const Light> lights, const RenderSettings& settings) {
-  auto flare = render_bundle(lens, lights, settings, {});
+  auto flare = render_planned(render_bundle, lens, lights, settings, {});
   REQUIRE(flare.has_value());
   return *flare;
 }
@@ -38,7 +38,7 @@ TEST_CASE("grids out of range are refused") {
   const LensState lens = test::lens("heliar", 16.0);
   const Light light;
   for (const int grid : {15, 513, -1}) {
-    const auto refused = render_bundle(lens, {&light, 1}, settings_for(lens, 32, 18, grid), {});
+    const auto refused = render_planned(render_bundle, lens, {&light, 1}, settings_for(lens, 32, 18, grid), {});
     REQUIRE_FALSE(refused.has_value());
     CHECK(refused.error().code == ErrorCode::InvalidArgument);
   }

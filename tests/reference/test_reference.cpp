@@ -18,7 +18,7 @@ using test::sum;
 namespace {
 
 Image rendered(const LensState& lens, std::span<const Light> lights, const RenderSettings& settings) {
-  const auto flare = render_reference(lens, lights, settings, {});
+  const auto flare = render_planned(render_reference, lens, lights, settings, {});
   REQUIRE(flare.has_value());
   return flare->image;
 }

@@ -19,7 +19,7 @@ namespace {
 
 Flare tiled_of(const LensState& lens, std::span<const Light> lights, const RenderSettings& settings,
                const Context& context = {}) {
-  auto flare = render_tiled(lens, lights, settings, context);
+  auto flare = render_planned(render_tiled, lens, lights, settings, context);
   REQUIRE(flare.has_value());
   return *flare;
 }
@@ -109,7 +109,7 @@ TEST_CASE("against bundle on the same grid, and merged against unmerged") {
     const LensState lens = test::lens_at_f(system.name, system.f_number, system.focal_length_mm);
     RenderSettings settings = settings_for(lens, 320, 180, 96);
     const Light light = test::light_at(lens, settings.frame, {0.70, 0.33});
-    const auto truth = render_bundle(lens, {&light, 1}, settings, {});
+    const auto truth = render_planned(render_bundle, lens, {&light, 1}, settings, {});
     REQUIRE(truth.has_value());
     settings.tiled.merge_steps = 0;
     const Flare unmerged = tiled_of(lens, {&light, 1}, settings);
@@ -131,7 +131,7 @@ TEST_CASE("a large flat ghost has bundle's level, whatever the interpolation") {
   RenderSettings settings = plate_settings(64, 0.15, 64);
   Light light;
   light.direction = normalized({0.02, 0.03, 1.0});
-  const auto truth = render_bundle(lens, {&light, 1}, settings, {});
+  const auto truth = render_planned(render_bundle, lens, {&light, 1}, settings, {});
   REQUIRE(truth.has_value());
   using Interpolation = TiledOptions::Interpolation;
   for (const auto interpolation : {Interpolation::Triangle, Interpolation::HomogeneousTriangle,
@@ -168,7 +168,7 @@ TEST_CASE("paths that cross the stop three times, and an iris of blades") {
   settings.scope = GhostScope::All;
   settings.selection = SelectList{{{3, 9}, {4, 8}, {2, 3}}};
   const Light light = test::light_at(lens, settings.frame, {0.70, 0.33});
-  const auto truth = render_bundle(lens, {&light, 1}, settings, {});
+  const auto truth = render_planned(render_bundle, lens, {&light, 1}, settings, {});
   REQUIRE(truth.has_value());
   const Flare flare = tiled_of(lens, {&light, 1}, settings);
   CHECK(psnr_db(truth->image, flare.image) > 33.0);
@@ -219,7 +219,7 @@ TEST_CASE("settings out of range are refused, a set cancel flag is obeyed") {
   const auto refused = [&](auto change) {
     RenderSettings settings = good;
     change(settings);
-    const auto flare = render_tiled(lens, {&light, 1}, settings, {});
+    const auto flare = render_planned(render_tiled, lens, {&light, 1}, settings, {});
     return !flare.has_value() && flare.error().code == ErrorCode::InvalidArgument;
   };
   CHECK(refused([](RenderSettings& s) { s.grid = 15; }));
@@ -230,7 +230,7 @@ TEST_CASE("settings out of range are refused, a set cancel flag is obeyed") {
   const std::atomic<bool> cancel{true};
   Context context;
   context.cancel = &cancel;
-  const auto stopped = render_tiled(lens, {&light, 1}, good, context);
+  const auto stopped = render_planned(render_tiled, lens, {&light, 1}, good, context);
   REQUIRE_FALSE(stopped.has_value());
   CHECK(stopped.error().code == ErrorCode::Cancelled);
 }

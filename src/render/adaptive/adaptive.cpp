@@ -114,7 +114,7 @@ class FramePainter {
 
 }  // namespace
 
-Result<Flare> render_adaptive(const LensState& lens, std::span<const Light> lights, const RenderSettings& settings,
+Result<Flare> render_adaptive(const LensState& lens, const FramePlan& plan, const RenderSettings& settings,
                               const Context& context) {
   if (!(settings.error >= kLowestError && settings.error <= kHighestError)) {
     return failure(ErrorCode::InvalidArgument,
@@ -122,12 +122,9 @@ Result<Flare> render_adaptive(const LensState& lens, std::span<const Light> ligh
   }
   Stopwatch whole;
   Stopwatch watch;
-  const auto plan = plan_frame(lens, lights, settings, context);
-  if (!plan) return tl::unexpected<Error>(plan.error());
-  const double plan_ms = watch.lap_ms();
 
   Flare flare;
-  const Scene scene{lens, *plan, IrisShape(lens.iris)};
+  const Scene scene{lens, plan, IrisShape(lens.iris)};
   Context quiet = context;
   quiet.progress = {};
   Work work;
@@ -144,11 +141,10 @@ Result<Flare> render_adaptive(const LensState& lens, std::span<const Light> ligh
   stats.method = "adaptive";
   stats.rays = work.rays;
   stats.surface_hits = work.surface_hits;
-  stats.ghosts_rendered = static_cast<int>(plan->ghosts.size());
-  stats.ghosts_skipped_flux = plan->skipped_flux;
+  stats.ghosts_rendered = static_cast<int>(plan.ghosts.size());
+  stats.ghosts_skipped_flux = plan.skipped_flux;
   stats.peak_memory_bytes = peak_memory_bytes();
-  stats.time_ms = {{"plan", plan_ms},
-                   {"bound", bound_ms},
+  stats.time_ms = {{"bound", bound_ms},
                    {"peak", peak_ms},
                    {"paint", painter.paint_ms()},
                    {"tiles", painter.tiles_ms()},

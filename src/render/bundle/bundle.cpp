@@ -43,25 +43,21 @@ void add_to(Image& image, const RenderedItem& item) {
 }
 
 struct PhaseTimes {
-  double plan_ms = 0, bounds_ms = 0, items_ms = 0, accumulate_ms = 0;
+  double bounds_ms = 0, items_ms = 0, accumulate_ms = 0;
 };
 
 // Search, trace and raster run side by side on all threads: each gets its share of the time that went by.
 std::vector<std::pair<std::string, double>> named(const PhaseTimes& times, const Counts& counts, double total_ms) {
   const double busy_ms = counts.search_ms + counts.trace_ms + counts.raster_ms;
   const double scale = busy_ms > 0.0 ? std::max(0.0, times.items_ms - times.accumulate_ms) / busy_ms : 0.0;
-  return {{"plan", times.plan_ms},
-          {"bounds", times.bounds_ms},
-          {"search", counts.search_ms * scale},
-          {"trace", counts.trace_ms * scale},
-          {"raster", counts.raster_ms * scale},
-          {"accumulate", times.accumulate_ms},
-          {"total", total_ms}};
+  return {{"bounds", times.bounds_ms},         {"search", counts.search_ms * scale},
+          {"trace", counts.trace_ms * scale},  {"raster", counts.raster_ms * scale},
+          {"accumulate", times.accumulate_ms}, {"total", total_ms}};
 }
 
 }  // namespace
 
-Result<Flare> render_bundle(const LensState& lens, std::span<const Light> lights, const RenderSettings& settings,
+Result<Flare> render_bundle(const LensState& lens, const FramePlan& plan, const RenderSettings& settings,
                             const Context& context) {
   PhaseTimes times;
   double total_ms = 0.0;
@@ -70,12 +66,9 @@ Result<Flare> render_bundle(const LensState& lens, std::span<const Light> lights
     return failure(ErrorCode::InvalidArgument,
                    "a grid of " + std::to_string(settings.grid) + " rays a side is out of range; choose 16 to 512");
   }
-  const auto plan = plan_frame(lens, lights, settings, context);
-  if (!plan) return tl::unexpected<Error>(plan.error());
-  const TablesByWavelength& tables = plan->tables;
-  times.plan_ms = whole.elapsed_ms();
-  const auto bounds = bounds_for(*plan, lens, settings, tables, context);
-  times.bounds_ms = whole.elapsed_ms() - times.plan_ms;
+  const TablesByWavelength& tables = plan.tables;
+  const auto bounds = bounds_for(plan, lens, settings, tables, context);
+  times.bounds_ms = whole.elapsed_ms();
   if (context.cancelled()) return failure(ErrorCode::Cancelled, "interrupted");
 
   Flare flare;
@@ -85,7 +78,7 @@ Result<Flare> render_bundle(const LensState& lens, std::span<const Light> lights
     counts.rays = bounds->rays();
     counts.surface_hits = bounds->surface_hits();
   }
-  const auto items = bundle::items_of(*plan, settings.bundle);
+  const auto items = bundle::items_of(plan, settings.bundle);
   const bool done = ordered_pipeline(
       items.size(), context,
       [&](std::size_t k) {
@@ -97,15 +90,15 @@ Result<Flare> render_bundle(const LensState& lens, std::span<const Light> lights
         counts.add(item.counts);
       });
   if (!done) return failure(ErrorCode::Cancelled, "interrupted");
-  times.items_ms = whole.elapsed_ms() - times.plan_ms - times.bounds_ms;
+  times.items_ms = whole.elapsed_ms() - times.bounds_ms;
 
   RenderStatistics& stats = flare.statistics;
   stats.method = "bundle";
   stats.rays = counts.rays;
   stats.surface_hits = counts.surface_hits;
   stats.primitives = counts.primitives;
-  stats.ghosts_rendered = static_cast<int>(plan->ghosts.size());
-  stats.ghosts_skipped_flux = plan->skipped_flux;
+  stats.ghosts_rendered = static_cast<int>(plan.ghosts.size());
+  stats.ghosts_skipped_flux = plan.skipped_flux;
   stats.peak_memory_bytes = peak_memory_bytes();
   stats.time_ms = named(times, counts, whole.elapsed_ms());
   return flare;

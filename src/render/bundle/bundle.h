@@ -1,12 +1,12 @@
 #pragma once
 
-#include "contrejour/render.h"
+#include "render/interface/frame_plan.h"
 
 namespace contrejour {
 
 // hullin2011: a uniform grid of rays per ghost, light and wavelength, its cells rasterised with interpolated
 // aperture coordinates and clipping, ghost by ghost.
-[[nodiscard]] Result<Flare> render_bundle(const LensState& lens, std::span<const Light> lights,
-                                          const RenderSettings& settings, const Context& context);
+[[nodiscard]] Result<Flare> render_bundle(const LensState& lens, const FramePlan& plan, const RenderSettings& settings,
+                                          const Context& context);
 
 }  // namespace contrejour

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <array>
 
 #include <fmt/format.h>
@@ -5,6 +6,7 @@
 
 #include "contrejour/render.h"
 #include "render/adaptive/adaptive.h"
+#include "render/area/area_render.h"
 #include "render/bundle/bundle.h"
 #include "render/reference/reference.h"
 #include "render/starburst/starburst_pass.h"
@@ -15,7 +17,7 @@ namespace {
 
 struct Method {
   std::string_view name;
-  Result<Flare> (*render)(const LensState&, std::span<const Light>, const RenderSettings&, const Context&);
+  PlannedRenderer draw;
 };
 
 // The default first.
@@ -31,12 +33,19 @@ Context part_of(const Context& whole, double from, double to) {
   return part;
 }
 
+Result<Flare> render_ghosts(const Method& method, const LensState& lens, std::span<const Light> lights,
+                            const RenderSettings& settings, const Context& context) {
+  const bool points = std::all_of(lights.begin(), lights.end(), [](const Light& light) { return light.is_point(); });
+  return (points ? render_planned : render_areas)(method.draw, lens, lights, settings, context);
+}
+
 Result<Flare> render_with_lights(const Method& method, const LensState& lens, std::span<const Light> lights,
                                  const RenderSettings& settings, const Context& context) {
   if (const auto good = check_light_images(settings); !good) return tl::unexpected(good.error());
-  auto flare = method.render(lens, lights, settings, part_of(context, 0.0, kGhostsShare));
+  auto flare = render_ghosts(method, lens, lights, settings, part_of(context, 0.0, kGhostsShare));
   if (!flare) return flare;
-  const auto added = add_light_images(*flare, lens, lights, settings, part_of(context, kGhostsShare, 1.0));
+  const auto added = add_light_images(*flare, lens, settings.starburst.lights ? *settings.starburst.lights : lights,
+                                      settings, part_of(context, kGhostsShare, 1.0));
   if (!added) return tl::unexpected(added.error());
   return flare;
 }
@@ -55,7 +64,7 @@ Result<Flare> render(std::string_view method, const LensState& lens, std::span<c
     if (known.name != method) continue;
     const bool adds_lights = settings.starburst.on || settings.glare.share != 0.0;
     return adds_lights ? render_with_lights(known, lens, lights, settings, context)
-                       : known.render(lens, lights, settings, context);
+                       : render_ghosts(known, lens, lights, settings, context);
   }
   return failure(ErrorCode::InvalidArgument,
                  fmt::format("there is no method '{}'; choose one of {}", method, fmt::join(render_methods(), ", ")));

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "base/clock.h"
 #include "base/tasks.h"
 #include "render/interface/direct_light.h"
 #include "render/interface/ghost_selection.h"
@@ -46,6 +47,8 @@ std::optional<Error> problem_with(const LensState& lens, std::span<const Light> 
       return invalid(fmt::format("light {} has a spectrum of which nothing is visible", k + 1));
     if (const auto good = check_source(lens, lights[k].source()); !good)
       return invalid(fmt::format("light {}: {}", k + 1, good.error().message));
+    if (const auto ok = check_extent(lights[k]); !ok)
+      return invalid(fmt::format("light {}: {}", k + 1, ok.error().message));
   }
   return std::nullopt;
 }
@@ -164,6 +167,23 @@ Result<FramePlan> plan_frame(const LensState& lens, std::span<const Light> light
   if (!plan_lights(lens, lights, settings, spectra, quiet, plan.lights))
     return failure(ErrorCode::Cancelled, "interrupted");
   return plan;
+}
+
+void count_plan(RenderStatistics& statistics, double plan_ms) {
+  auto& times = statistics.time_ms;
+  times.insert(times.begin(), {"plan", plan_ms});
+  if (times.back().first == "total") times.back().second += plan_ms;
+}
+
+Result<Flare> render_planned(PlannedRenderer method, const LensState& lens, std::span<const Light> lights,
+                             const RenderSettings& settings, const Context& context) {
+  const auto start = Clock::now();
+  const auto plan = plan_frame(lens, lights, settings, context);
+  if (!plan) return tl::unexpected<Error>(plan.error());
+  const double plan_ms = ms_since(start);
+  auto flare = method(lens, *plan, settings, context);
+  if (flare) count_plan(flare->statistics, plan_ms);
+  return flare;
 }
 
 }  // namespace contrejour

@@ -36,4 +36,16 @@ struct FramePlan {
 [[nodiscard]] Result<FramePlan> plan_frame(const LensState& lens, std::span<const Light> lights,
                                            const RenderSettings& settings, const Context& context);
 
+// A method: draws what a plan says. Its picture depends on ghosts, lights and gains of the plan and on the settings'
+// frame and options, no longer on settings.selection, scope, wavelengths and colour space.
+using PlannedRenderer = Result<Flare> (*)(const LensState& lens, const FramePlan& plan, const RenderSettings& settings,
+                                          const Context& context);
+
+// Puts the phase "plan" before the others, and into their total.
+void count_plan(RenderStatistics& statistics, double plan_ms);
+
+// Plans, then draws; the statistics' phases begin with "plan". Errors: those of both.
+[[nodiscard]] Result<Flare> render_planned(PlannedRenderer method, const LensState& lens, std::span<const Light> lights,
+                                           const RenderSettings& settings, const Context& context);
+
 }  // namespace contrejour

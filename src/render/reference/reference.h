@@ -1,12 +1,12 @@
 #pragma once
 
-#include "contrejour/render.h"
+#include "render/interface/frame_plan.h"
 
 namespace contrejour {
 
 // The truth in every test: double precision, dense cells with exact footprints, no shortcut that other
 // renderers use.
-[[nodiscard]] Result<Flare> render_reference(const LensState& lens, std::span<const Light> lights,
+[[nodiscard]] Result<Flare> render_reference(const LensState& lens, const FramePlan& plan,
                                              const RenderSettings& settings, const Context& context);
 
 }  // namespace contrejour

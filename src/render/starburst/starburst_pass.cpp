@@ -12,6 +12,7 @@
 #include "base/tasks.h"
 #include "contrejour/lens_starburst.h"
 #include "render/interface/direct_light.h"
+#include "render/starburst/area_starburst.h"
 #include "render/starburst/glare.h"
 #include "render/starburst/light_groups.h"
 
@@ -131,6 +132,16 @@ Result<void> draw_groups(Image& image, const std::vector<LightGroup>& groups, co
   return {};
 }
 
+Result<void> draw_areas(Image& image, const std::vector<ImagedLight>& areas, const LensState& lens,
+                        std::span<const Light> lights, const RenderSettings& settings, const Context& context) {
+  if (areas.empty()) return {};
+  const auto make = [&](std::size_t light, double pixel_pitch_mm, double radius_px) {
+    return lens_starburst(lens, lights[light].source(), bands_of(lights[light], settings), {pixel_pitch_mm, radius_px},
+                          context);
+  };
+  return add_area_starbursts(image, areas, lens, lights, settings, make, context);
+}
+
 void add_except(Image& image, const Image& layer, const Image& left_out, const Context& context) {
   parallel_for(static_cast<std::size_t>(image.height), context, [&](std::size_t row) {
     const int y = static_cast<int>(row);
@@ -158,6 +169,14 @@ Result<void> check_left_out(const Image& left_out, const Frame& frame) {
   return {};
 }
 
+Result<void> check_light(const Light& light) {
+  const Vec3 d = light.direction;
+  if (!(d.z > 0.0) || !std::isfinite(d.x + d.y + d.z) ||
+      !std::isfinite(light.value[0] + light.value[1] + light.value[2]))
+    return tl::unexpected(invalid("a light whose image is drawn must lie before the camera and have a finite value"));
+  return check_extent(light);
+}
+
 // Both, onto an image; times by phase.
 Result<void> draw_light_images(Image& image, RenderStatistics& statistics, const LensState& lens,
                                std::span<const Light> lights, const RenderSettings& settings, const Context& context) {
@@ -166,8 +185,11 @@ Result<void> draw_light_images(Image& image, RenderStatistics& statistics, const
   quiet.progress = {};
   const auto imaged = image_lights(lens, lights, settings, quiet);
   if (settings.starburst.on && !context.cancelled()) {
-    const auto groups = group_lights(lights, imaged, settings.frame);
+    std::vector<ImagedLight> points, areas;
+    for (const ImagedLight& light : imaged) (lights[light.light].is_point() ? points : areas).push_back(light);
+    const auto groups = group_lights(lights, points, settings.frame);
     if (auto drawn = draw_groups(image, groups, lens, lights, settings, context); !drawn) return drawn;
+    if (auto drawn = draw_areas(image, areas, lens, lights, settings, quiet); !drawn) return drawn;
     count_time(statistics, "starburst", ms_since(start));
     start = Clock::now();
   }
@@ -191,6 +213,9 @@ Result<void> check_light_images(const RenderSettings& settings) {
     return tl::unexpected(invalid(fmt::format("glare is a share of the light from 0 to 1, not {}", glare.share)));
   if (!(glare.width_rad > 0.0 && glare.width_rad < 0.5 * std::numbers::pi))
     return tl::unexpected(invalid(fmt::format("glare cannot be {} radians wide", glare.width_rad)));
+  if (starburst.lights)
+    for (const Light& light : *starburst.lights)
+      if (auto usable = check_light(light); !usable) return usable;
   for (const double lambda_nm : settings.lambda_nm)
     if (!(lambda_nm > 0.0) || !std::isfinite(lambda_nm))
       return tl::unexpected(invalid(fmt::format("no light has a wavelength of {} nm", lambda_nm)));

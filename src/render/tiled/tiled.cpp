@@ -181,17 +181,14 @@ bool trace_all(const Job& job, tiled::TiledFrame& frame, Counts& counts) {
 
 }  // namespace
 
-Result<Flare> render_tiled(const LensState& lens, std::span<const Light> lights, const RenderSettings& settings,
+Result<Flare> render_tiled(const LensState& lens, const FramePlan& plan, const RenderSettings& settings,
                            const Context& context) {
   const auto start = Clock::now();
   if (const auto ok = check(settings); !ok) return tl::unexpected<Error>(ok.error());
-  const auto plan = plan_frame(lens, lights, settings, context);
-  if (!plan) return tl::unexpected<Error>(plan.error());
-  const TablesByWavelength& tables = plan->tables;
+  const TablesByWavelength& tables = plan.tables;
   if (context.cancelled()) return failure(ErrorCode::Cancelled, "interrupted");
   Job job{lens, settings, context, tables, IrisShape(lens.iris), {}, {}};
-  list_items(*plan, job);
-  const double plan_ms = ms_since(start);
+  list_items(plan, job);
 
   const auto traced = Clock::now();
   tiled::TiledFrame frame(settings, context, job.iris, job.gains);
@@ -208,12 +205,12 @@ Result<Flare> render_tiled(const LensState& lens, std::span<const Light> lights,
   stats.rays = counts.rays;
   stats.surface_hits = counts.surface_hits;
   stats.primitives = counts.primitives;
-  stats.ghosts_rendered = static_cast<int>(plan->ghosts.size());
-  stats.ghosts_skipped_flux = plan->skipped_flux;
+  stats.ghosts_rendered = static_cast<int>(plan.ghosts.size());
+  stats.ghosts_skipped_flux = plan.skipped_flux;
   // Both run side by side on all threads: each gets its share of the time that went by.
   const double busy_ms = counts.search_ms + counts.trace_ms;
   const double share = busy_ms > 0.0 ? trace_ms / busy_ms : 0.0;
-  stats.time_ms = {{"plan", plan_ms}, {"search", counts.search_ms * share}, {"trace", counts.trace_ms * share}};
+  stats.time_ms = {{"search", counts.search_ms * share}, {"trace", counts.trace_ms * share}};
   frame.report(stats);
   flare.image = frame.take_image();
   stats.peak_memory_bytes = peak_memory_bytes();

@@ -1,12 +1,12 @@
 #pragma once
 
-#include "contrejour/render.h"
+#include "render/interface/frame_plan.h"
 
 namespace contrejour {
 
 // bodonyi2023: the cells of all ghosts' ray grids, merged where the map is flat, in one buffer; lists of them by
 // screen tile; and every pixel adds up what its tile's list puts there, in one pass over the frame.
-[[nodiscard]] Result<Flare> render_tiled(const LensState& lens, std::span<const Light> lights,
-                                         const RenderSettings& settings, const Context& context);
+[[nodiscard]] Result<Flare> render_tiled(const LensState& lens, const FramePlan& plan, const RenderSettings& settings,
+                                         const Context& context);
 
 }  // namespace contrejour

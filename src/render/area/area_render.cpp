@@ -1,0 +1,209 @@
+#include "render/area/area_render.h"
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+#include "base/clock.h"
+#include "base/memory.h"
+#include "base/tasks.h"
+#include "render/area/blur_classes.h"
+#include "render/area/kernel.h"
+#include "render/area/layers.h"
+
+namespace contrejour {
+namespace {
+
+using namespace area;
+
+constexpr std::size_t kMostPieces = 24;  // of all lights, or as many as there are lights
+constexpr double kLargestError = 0.1;  // of `adaptive`
+
+// Of many large lights in fewer pieces each, so that all together stay affordable.
+std::vector<LightPiece> all_pieces(std::span<const Light> lights) {
+  for (int most_across = kMostPiecesAcross;; --most_across) {
+    std::vector<LightPiece> pieces;
+    for (const Light& light : lights) {
+      for (LightPiece& piece : pieces_of(light, most_across)) pieces.push_back(std::move(piece));
+    }
+    if (most_across == 1 || pieces.size() <= std::max(kMostPieces, lights.size())) return pieces;
+  }
+}
+
+std::vector<Light> points_of(const std::vector<LightPiece>& pieces) {
+  std::vector<Light> points;
+  for (const LightPiece& piece : pieces) points.push_back(piece.point);
+  return points;
+}
+
+// The plan for some of its ghosts and some lights.
+FramePlan part_of(const FramePlan& plan, std::vector<Ghost> ghosts, std::vector<PlannedLight> lights) {
+  FramePlan part;
+  for (const Ghost& ghost : ghosts) {
+    const auto at = std::find(plan.ghosts.begin(), plan.ghosts.end(), ghost) - plan.ghosts.begin();
+    part.looks.push_back(plan.looks[static_cast<std::size_t>(at)]);
+  }
+  part.ghosts = std::move(ghosts);
+  part.lights = std::move(lights);
+  part.tables = plan.tables;
+  part.skipped_flux = plan.skipped_flux;
+  return part;
+}
+
+double middle_wavelength(const PlannedLight& light) {
+  return light.passes.empty() ? kLineD_nm : light.passes[light.passes.size() / 2].lambda_nm;
+}
+
+// Sums over all that was drawn.
+void add(RenderStatistics& sum, const RenderStatistics& one) {
+  sum.method = one.method;
+  sum.device = one.device;
+  sum.rays += one.rays;
+  sum.surface_hits += one.surface_hits;
+  sum.primitives += one.primitives;
+  sum.primitives_merged += one.primitives_merged;
+  sum.tile_indices += one.tile_indices;
+  sum.primitive_bytes = std::max(sum.primitive_bytes, one.primitive_bytes);
+  sum.tile_list_bytes = std::max(sum.tile_list_bytes, one.tile_list_bytes);
+  sum.peak_memory_bytes = std::max(sum.peak_memory_bytes, one.peak_memory_bytes);
+  for (const auto& [phase, ms] : one.time_ms) {
+    const auto same = std::find_if(sum.time_ms.begin(), sum.time_ms.end(),
+                                   [&name = phase](const auto& entry) { return entry.first == name; });
+    if (same != sum.time_ms.end())
+      same->second += ms;
+    else
+      sum.time_ms.emplace_back(phase, ms);
+  }
+}
+
+// Before the total, and in it.
+void count_phase(RenderStatistics& statistics, const char* phase, double ms) {
+  auto& times = statistics.time_ms;
+  const auto total = std::find_if(times.begin(), times.end(), [](const auto& entry) { return entry.first == "total"; });
+  if (total != times.end()) total->second += ms;
+  times.insert(total, {phase, ms});
+}
+
+// A picture of some ghosts of some lights, and the kernel that it is blurred by.
+struct Drawing {
+  std::vector<Ghost> ghosts;
+  std::vector<PlannedLight> lights;
+  const LightPiece* piece = nullptr;  // null: it is sharp
+  int level = 0;
+  LinearMap px_from_tangents;
+  double room = 1.0;  // blur_classes.h
+};
+
+// All drawings. The ghosts of points, and those too little blurred to show it, are left as they are.
+std::vector<Drawing> drawings_of(const FramePlan& plan, const std::vector<LightPiece>& pieces, const LensState& lens,
+                                 const Frame& frame, const Context& context) {
+  std::vector<std::vector<GhostMotion>> motions(pieces.size());
+  for (std::vector<GhostMotion>& one : motions) one.resize(plan.ghosts.size());
+  parallel_for(pieces.size() * plan.ghosts.size(), context, [&](std::size_t k) {
+    const std::size_t p = k / plan.ghosts.size(), g = k % plan.ghosts.size();
+    if (pieces[p].samples.empty()) return;
+    motions[p][g] = ghost_motion(lens, plan.ghosts[g], plan.lights[p].source, middle_wavelength(plan.lights[p]));
+  });
+  std::vector<Drawing> drawings;
+  Drawing points{plan.ghosts, {}, nullptr, 0, kNowhere, 1.0};
+  for (std::size_t p = 0; p < pieces.size(); ++p) {
+    if (pieces[p].samples.empty()) {
+      points.lights.push_back(plan.lights[p]);
+      continue;
+    }
+    for (BlurClass& made : blur_classes(plan.ghosts, motions[p], pieces[p], frame))
+      drawings.push_back({std::move(made.ghosts),
+                          {plan.lights[p]},
+                          made.is_sharp ? nullptr : &pieces[p],
+                          made.level,
+                          made.px_from_tangents,
+                          made.room});
+  }
+  if (!points.lights.empty() || drawings.empty()) drawings.push_back(std::move(points));
+  // Sharp ones first: the picture of the first is where all others are added.
+  std::stable_partition(drawings.begin(), drawings.end(), [](const Drawing& d) { return d.piece == nullptr; });
+  return drawings;
+}
+
+// Drawings one after the other, each blurred and added up.
+class AreaPainter {
+ public:
+  AreaPainter(PlannedRenderer method, const LensState& lens, const FramePlan& plan, const RenderSettings& settings,
+              const Context& context)
+      : method_(method), lens_(lens), plan_(plan), settings_(settings), context_(context), layers_(settings.frame) {
+    context_.progress = {};
+  }
+
+  Result<void> paint(const Drawing& drawing) {
+    const LightPiece* const piece = drawing.piece;
+    RenderSettings drawn = settings_;
+    drawn.error = std::max(settings_.error, std::min(settings_.error * drawing.room, kLargestError));
+    LayerFrame at;
+    if (piece != nullptr) {
+      at = layers_.frame_for(drawing.level, reach_of(*piece, drawing.px_from_tangents));
+      drawn.frame = at.frame;
+    }
+    auto picture = method_(lens_, part_of(plan_, drawing.ghosts, drawing.lights), drawn, context_);
+    if (!picture) return tl::unexpected(picture.error());
+    add(statistics_, picture->statistics);
+    const auto start = Clock::now();
+    if (piece != nullptr)
+      layers_.add(picture->image, at, make_kernel(*piece, drawing.px_from_tangents, at.moved), context_);
+    else
+      layers_.add_sharp(std::move(picture->image), context_);
+    ms_ += ms_since(start);
+    return {};
+  }
+
+  Flare finish(double before_ms) && {
+    const auto start = Clock::now();
+    Flare flare{std::move(layers_).flattened(context_), std::move(statistics_)};
+    RenderStatistics& stats = flare.statistics;
+    stats.ghosts_rendered = static_cast<int>(plan_.ghosts.size());
+    stats.ghosts_skipped_flux = plan_.skipped_flux;
+    stats.peak_memory_bytes = std::max(stats.peak_memory_bytes, peak_memory_bytes());
+    count_phase(stats, "areas", before_ms + ms_ + ms_since(start));
+    return flare;
+  }
+
+ private:
+  PlannedRenderer method_;
+  const LensState& lens_;
+  const FramePlan& plan_;
+  const RenderSettings& settings_;
+  Context context_;
+  Layers layers_;
+  RenderStatistics statistics_;
+  double ms_ = 0.0;
+};
+
+}  // namespace
+
+Result<Flare> render_areas(PlannedRenderer method, const LensState& lens, std::span<const Light> lights,
+                           const RenderSettings& settings, const Context& context) {
+  auto start = Clock::now();
+  for (const Light& light : lights)
+    if (const auto ok = check_extent(light); !ok) return tl::unexpected(ok.error());
+  const std::vector<LightPiece> pieces = all_pieces(lights);
+  const auto plan = plan_frame(lens, points_of(pieces), settings, context);
+  if (!plan) return tl::unexpected<Error>(plan.error());
+  const double plan_ms = ms_since(start);
+
+  start = Clock::now();
+  Context quiet = context;
+  quiet.progress = {};
+  const std::vector<Drawing> drawings = drawings_of(*plan, pieces, lens, settings.frame, quiet);
+  const double drawings_ms = ms_since(start);
+
+  AreaPainter painter(method, lens, *plan, settings, context);
+  for (std::size_t k = 0; k < drawings.size(); ++k) {
+    if (const auto painted = painter.paint(drawings[k]); !painted) return tl::unexpected(painted.error());
+    if (context.cancelled()) return failure(ErrorCode::Cancelled, "interrupted");
+    if (context.progress) context.progress(static_cast<double>(k + 1) / static_cast<double>(drawings.size()));
+  }
+  Flare flare = std::move(painter).finish(drawings_ms);
+  count_plan(flare.statistics, plan_ms);
+  return flare;
+}
+
+}  // namespace contrejour

@@ -1,0 +1,21 @@
+// The innermost loop of a convolution, by vectors.
+#pragma once
+
+#include <cstddef>
+#include <span>
+
+namespace contrejour::area {
+
+inline constexpr std::size_t kBlockFloats = 48;    // 16 pixels of three channels
+inline constexpr std::size_t kPatternFloats = 24;  // after which channels and vectors of 8 begin together
+
+// A row of a kernel over a row of a picture: pixel p of the block takes from[3 * (p - k)] for each weight k.
+struct BlockTerm {
+  const float* from = nullptr;
+  const float* weights = nullptr;  // of each three numbers for the channels, repeated to kPatternFloats
+  std::size_t count = 0;
+};
+
+void add_block(std::span<const BlockTerm> terms, float* to);
+
+}  // namespace contrejour::area

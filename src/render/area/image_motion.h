@@ -1,0 +1,14 @@
+// How a light's own image moves over the frame as the light moves.
+#pragma once
+
+#include "contrejour/frame.h"
+#include "contrejour/light_source.h"
+#include "render/area/linear_map.h"
+
+namespace contrejour::area {
+
+// Pixels right and down for a light so far to the right and up (tangents, direction_beside); kNowhere where no light
+// gets through.
+[[nodiscard]] LinearMap image_motion_px(const LensState& lens, const Frame& frame, const LightSource& source);
+
+}  // namespace contrejour::area

@@ -1,0 +1,80 @@
+#include "render/area/kernel.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace contrejour::area {
+namespace {
+
+constexpr double kFarthest = 2.0;  // pixels beyond the shape: the tents it is laid with, and a picture that was moved
+constexpr double kFinest = 0.4;  // pixels between the points that a square is laid as
+constexpr int kMostPoints = 64;  // of them along a side
+constexpr double kTentVariance = 1.0 / 6.0;  // of a point laid on its four nearest pixels, in squares of a pixel
+
+// Narrower by the variance that the tents add. The level's pixels add none: what drawing in squares spreads, going down
+// to finer pixels, which takes squares' means for what they are, puts back.
+LinearMap narrowed(const LightPiece& piece, const LinearMap& map) {
+  const LinearMap wanted = mapped_covariance(map, piece.covariance);
+  const LinearMap root = square_root(wanted);
+  if (!(root.determinant() > 1e-12)) return map;
+  LinearMap less = wanted - LinearMap{} * kTentVariance;
+  const Vec2 e = eigenvalues(less);
+  // Of what is no wider than the pixels nothing is left across.
+  if (e.x < 0.0) {
+    const double apart = e.y - e.x;
+    if (e.y <= 0.0) return kNowhere;
+    less = (less - LinearMap{} * e.x) * (e.y / apart);
+  }
+  return square_root(less) * inverse(root) * map;
+}
+
+int points_along(Vec2 side_px) {
+  return std::clamp(static_cast<int>(std::ceil(std::max(std::abs(side_px.x), std::abs(side_px.y)) / kFinest)), 1,
+                    kMostPoints);
+}
+
+}  // namespace
+
+KernelReach reach_of(const LightPiece& piece, const LinearMap& map) {
+  Vec2 low, high;
+  const Vec2 right = map(piece.right) * 0.5, down = map(piece.down) * 0.5;
+  const Vec2 square{std::abs(right.x) + std::abs(down.x), std::abs(right.y) + std::abs(down.y)};
+  for (const ShapeSample& s : piece.samples) {
+    const Vec2 at = map(s.at);
+    low = {std::min(low.x, at.x - square.x), std::min(low.y, at.y - square.y)};
+    high = {std::max(high.x, at.x + square.x), std::max(high.y, at.y + square.y)};
+  }
+  const auto whole = [](double px) { return static_cast<int>(std::ceil(px + kFarthest)); };
+  return {whole(-low.x), whole(high.x), whole(-low.y), whole(high.y)};
+}
+
+Kernel make_kernel(const LightPiece& piece, const LinearMap& px_from_tangents, Vec2 moved) {
+  Kernel kernel;
+  kernel.reach = reach_of(piece, px_from_tangents);
+  kernel.weight.resize(static_cast<std::size_t>(kernel.width()) * static_cast<std::size_t>(kernel.height()));
+  const LinearMap map = narrowed(piece, px_from_tangents);
+  const Vec2 right = map(piece.right), down = map(piece.down);
+  const int columns = points_along(right), rows = points_along(down);
+  const double share = 1.0 / (static_cast<double>(columns) * rows);
+  for (const ShapeSample& s : piece.samples) {
+    const Vec2 corner = map(s.at) - right * 0.5 - down * 0.5 - moved;
+    for (int k = 0; k < columns * rows; ++k) {
+      const Vec2 at = corner + right * ((k % columns + 0.5) / columns) + down * ((k / columns + 0.5) / rows);
+      const double x = at.x + kernel.reach.left, y = at.y + kernel.reach.up;
+      const double column = std::floor(x), row = std::floor(y), u = x - column, v = y - row;
+      const std::size_t first =
+          static_cast<std::size_t>(row) * static_cast<std::size_t>(kernel.width()) + static_cast<std::size_t>(column);
+      const std::size_t below = first + static_cast<std::size_t>(kernel.width());
+      for (std::size_t c = 0; c < 3; ++c) {
+        const double w = share * s.share[c];
+        kernel.weight[first][c] += w * (1.0 - u) * (1.0 - v);
+        kernel.weight[first + 1][c] += w * u * (1.0 - v);
+        kernel.weight[below][c] += w * (1.0 - u) * v;
+        kernel.weight[below + 1][c] += w * u * v;
+      }
+    }
+  }
+  return kernel;
+}
+
+}  // namespace contrejour::area

@@ -1,0 +1,49 @@
+// Pictures of one frame at several resolutions, added up: pixels of level k are 2^k of the frame's along each side.
+// A picture drawn at a level holds flux per pixel of that level, is convolved with a kernel there, and goes down to the
+// frame's pixels by halves, each of which keeps the flux of every pixel and is exact for polynomials of degree 4.
+// Thread-safety: one at a time; results do not depend on the threads.
+#pragma once
+
+#include <vector>
+
+#include "contrejour/context.h"
+#include "contrejour/frame.h"
+#include "contrejour/image.h"
+#include "render/area/kernel.h"
+
+namespace contrejour::area {
+
+inline constexpr int kLevels = 7;
+
+// A frame to draw a picture in, to be convolved by a kernel that reaches so far.
+struct LayerFrame {
+  Frame frame;
+  int level = 0;
+  int left = 0, top = 0;  // its first pixel, in pixels of the level from the whole frame's corner
+  // How far right and down of its place the picture is drawn, in pixels of the level, for the corner of a window of the
+  // sensor is where whole numbers of pixels allow: the kernel moves it back.
+  Vec2 moved;
+};
+
+class Layers {
+ public:
+  explicit Layers(const Frame& frame);
+
+  // reach: of the kernel, in pixels of the level.
+  [[nodiscard]] LayerFrame frame_for(int level, KernelReach reach) const;
+  void add(const Image& picture, const LayerFrame& drawn, const Kernel& kernel, const Context& context);
+  void add_sharp(Image picture, const Context& context);  // of the frame itself
+  [[nodiscard]] Image flattened(const Context& context) &&;
+
+ private:
+  struct Layer {
+    int left = 0, top = 0;  // as in LayerFrame
+    int width = 0, height = 0;
+    Image sum;  // without pixels while nothing was added
+  };
+
+  Frame frame_;
+  std::vector<Layer> layers_;
+};
+
+}  // namespace contrejour::area

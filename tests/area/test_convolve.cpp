@@ -1,0 +1,142 @@
+// Kernels, convolution, and pictures of several resolutions added up: against plain sums and polynomials.
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <utility>
+
+#include <doctest/doctest.h>
+
+#include "render/area/convolve.h"
+#include "render/area/layers.h"
+
+using namespace contrejour;
+using namespace contrejour::area;
+
+namespace {
+
+Image random_picture(int width, int height, unsigned seed) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<float> level(0.0F, 1.0F);
+  Image image(width, height);
+  for (float& v : image.pixels) v = level(random) < 0.7F ? 0.0F : level(random);
+  return image;
+}
+
+Kernel random_kernel(KernelReach reach, unsigned seed) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> level(0.0, 1.0);
+  Kernel kernel;
+  kernel.reach = reach;
+  for (int k = 0; k < kernel.width() * kernel.height(); ++k)
+    kernel.weight.push_back(k % 5 == 0 ? Rgb{} : Rgb{level(random), level(random), level(random)});
+  return kernel;
+}
+
+// The light's flux and first and second moments about a place.
+struct Moments {
+  double flux = 0.0;
+  Vec2 mean;
+  LinearMap covariance = kNowhere;
+};
+
+Moments moments_of(const Image& image, int channel) {
+  Moments m;
+  for (int y = 0; y < image.height; ++y) {
+    for (int x = 0; x < image.width; ++x) {
+      const double v = image.at(x, y, channel);
+      m.flux += v;
+      m.mean = m.mean + Vec2{x + 0.5, y + 0.5} * v;
+    }
+  }
+  m.mean = m.mean * (1.0 / m.flux);
+  for (int y = 0; y < image.height; ++y) {
+    for (int x = 0; x < image.width; ++x) {
+      const Vec2 d = Vec2{x + 0.5, y + 0.5} - m.mean;
+      const double w = image.at(x, y, channel) / m.flux;
+      m.covariance = m.covariance + LinearMap{d * (w * d.x), d * (w * d.y)};
+    }
+  }
+  return m;
+}
+
+}  // namespace
+
+TEST_CASE("a convolution is the plain sum, at any width and number of threads") {
+  for (const int width : {1, 7, 16, 33, 50}) {
+    const Kernel kernel = random_kernel({3, 1, 2, 4}, 7);
+    const Image picture = random_picture(width + kernel.width() - 1, 21 + kernel.height() - 1, 3);
+    Image sum(width, 21), again(width, 21);
+    add_convolved(sum, picture, kernel, {.threads = 1});
+    add_convolved(again, picture, kernel, {.threads = 3});
+    CHECK(sum.pixels == again.pixels);
+    double worst = 0.0;
+    for (int y = 0; y < sum.height; ++y) {
+      for (int x = 0; x < width; ++x) {
+        for (int c = 0; c < 3; ++c) {
+          double expected = 0.0;
+          for (int dy = -2; dy <= 4; ++dy)
+            for (int dx = -3; dx <= 1; ++dx)
+              expected += kernel.weight[static_cast<std::size_t>((dy + 2) * kernel.width() + dx + 3)]
+                                       [static_cast<std::size_t>(c)] *
+                          picture.at(x + 1 - dx, y + 4 - dy, c);
+          worst = std::max(worst, std::abs(expected - sum.at(x, y, c)));
+        }
+      }
+    }
+    CHECK(worst < 1e-4);
+  }
+}
+
+TEST_CASE("a spot at any level comes back at its place, with its flux and the shape's moments") {
+  // A frame cut out of one of an odd size, so that no level's pixels begin with the frame's.
+  Frame frame{601, 503, 37, 11, 701, 555, 0.02};
+  Light light;
+  light.radius_rad = 0.01;
+  const LightPiece piece = pieces_of(light).front();
+  for (int level = 0; level < 5; ++level) {
+    CAPTURE(level);
+    const double radius_px = 5.0 * std::exp2(level) + 2.0;
+    const double turn = 0.4;
+    const LinearMap map = LinearMap{{std::cos(turn), std::sin(turn)}, {-0.7 * std::sin(turn), 0.7 * std::cos(turn)}} *
+                          (radius_px / std::tan(light.radius_rad));
+    const LinearMap at_level = map * std::exp2(-level);
+    Layers layers(frame);
+    const LayerFrame at = layers.frame_for(level, reach_of(piece, at_level));
+    // The pixel of this level that holds a point of the sensor, filled: the frame says where that is.
+    const Vec2 place = frame.sensor_from_pixel({300.0, 250.0});
+    const Vec2 px = at.frame.pixel_from_sensor(place);
+    Image spot(at.frame.width, at.frame.height);
+    const int x = static_cast<int>(px.x), y = static_cast<int>(px.y);
+    for (int c = 0; c < 3; ++c) spot.at(x, y, c) = 1.0F + static_cast<float>(c);
+    const Vec2 expected = frame.pixel_from_sensor(at.frame.sensor_from_pixel({x + 0.5, y + 0.5}));
+    layers.add(spot, at, make_kernel(piece, at_level, at.moved), {});
+    const Image flat = std::move(layers).flattened({});
+    for (int c = 0; c < 3; ++c) {
+      const Moments m = moments_of(flat, c);
+      CHECK(m.flux == doctest::Approx(1.0 + c).epsilon(1e-5));
+      CHECK(length(m.mean - expected) < 0.01 * radius_px);
+      const LinearMap wanted = mapped_covariance(map, piece.covariance);
+      // A pixel's light lies anywhere in it, a twelfth of its square about its middle, which counts as the light's own.
+      const LinearMap off = m.covariance + LinearMap{} * (std::exp2(2 * level) / 12.0) - wanted;
+      CHECK(std::abs(off.x.x) + std::abs(off.y.y) + std::abs(off.x.y) < 0.01 * trace_of(wanted) + 0.2);
+    }
+  }
+}
+
+TEST_CASE("what is drawn at two levels at once comes down as if added at the finer") {
+  const Frame frame{64, 48, 0, 0, 64, 48, 0.1};
+  Layers layers(frame);
+  // The mean over each pixel of a polynomial, at level 2: halves keep it.
+  const auto mean = [](double x0, double x1) { return (x1 * x1 * x1 - x0 * x0 * x0) / 3.0 / (x1 - x0) + 100.0; };
+  Kernel delta;
+  delta.weight = {{1.0, 1.0, 1.0}};
+  const LayerFrame at = layers.frame_for(2, {});
+  Image picture(at.frame.width, at.frame.height);
+  for (int y = 0; y < picture.height; ++y)
+    for (int x = 0; x < picture.width; ++x)
+      for (int c = 0; c < 3; ++c)
+        picture.at(x, y, c) = static_cast<float>(16.0 * mean(4.0 * (at.left + x), 4.0 * (at.left + x + 1)));
+  layers.add(picture, at, delta, {});
+  const Image flat = std::move(layers).flattened({});
+  for (int x = 0; x < 64; ++x) CHECK(flat.at(x, 20, 1) == doctest::Approx(mean(x, x + 1)).epsilon(1e-4));
+}

@@ -1,0 +1,202 @@
+// Lights with a size, as `render` draws them, against sums of many points.
+#include <atomic>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <utility>
+#include <vector>
+
+#include <doctest/doctest.h>
+
+#include "contrejour/metrics.h"
+#include "support/flares.h"
+#include "support/scenes.h"
+
+using namespace contrejour;
+
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+// Points spread evenly over a disc (Vogel's spiral).
+std::vector<Light> points_over(const Light& disc, int count) {
+  std::vector<Light> points;
+  for (int k = 0; k < count; ++k) {
+    const double r = std::tan(disc.radius_rad) * std::sqrt((k + 0.5) / count), turn = k * kPi * (3.0 - std::sqrt(5.0));
+    Light point = disc;
+    point.radius_rad = 0.0;
+    point.direction = direction_beside(disc.direction, {r * std::cos(turn), r * std::sin(turn)});
+    for (double& v : point.value) v /= count;
+    points.push_back(point);
+  }
+  return points;
+}
+
+double psnr_db(const Image& a, const Image& b) { return compare(a, b).value().psnr_db.value_or(1000.0); }
+
+Light sun(double azimuth_rad, double elevation_rad) {
+  Light light;
+  light.direction = direction_from_angles(azimuth_rad, elevation_rad);
+  light.radius_rad = kSunRadius_rad;
+  return light;
+}
+
+}  // namespace
+
+TEST_CASE("the sun is the sum of points over its disc") {
+  struct Case {
+    const char* lens;
+    double f_number;
+    double least_db;
+    GhostSelection ghosts;
+  };
+  // Of the Tessar all but a sliver (2-3) and a ghost that hardly moves and outshines the others (6-8).
+  const SelectList most{{{1, 2}, {1, 3}, {1, 4}, {3, 4}, {6, 7}, {7, 8}}};
+  const Case cases[] = {{"planar-50", 8.0, 50.0, SelectAll{}}, {"tessar", 11.0, 45.0, most}};
+  for (const auto& [name, f_number, least_db, ghosts] : cases) {
+    CAPTURE(name);
+    const LensState lens = test::bundled(name, {.f_number = f_number, .iris = {7}});
+    RenderSettings settings = test::green(frame_on_sensor(lens, 240, 160));
+    settings.error = 0.001;
+    settings.selection = ghosts;
+    const Light light = sun(0.17, 0.1);
+    const Flare ours = test::flare_of("adaptive", lens, {&light, 1}, settings);
+    const Flare truth = test::flare_of("adaptive", lens, points_over(light, 150), settings);
+    Light point = light;
+    point.radius_rad = 0.0;
+    const Flare still = test::flare_of("adaptive", lens, {&point, 1}, settings);
+    const double db = psnr_db(truth.image, ours.image);
+    CHECK(db > least_db);
+    CHECK(db > psnr_db(truth.image, still.image) + 6.0);
+  }
+}
+
+TEST_CASE("every method blurs alike") {
+  const LensState lens = test::bundled("heliar", {.f_number = 16.0});
+  RenderSettings settings = test::green(frame_on_sensor(lens, 96, 64));
+  settings.grid = 96;
+  settings.reference_density = 0.25;
+  settings.selection = SelectList{{{3, 4}, {7, 9}}};
+  Light light = sun(0.1, 0.05);
+  light.radius_rad *= 3.0;
+  const Image truth = test::flare_of("reference", lens, {&light, 1}, settings).image;
+  for (const char* method : {"adaptive", "bundle", "tiled"})
+    CHECK(psnr_db(truth, test::flare_of(method, lens, {&light, 1}, settings).image) > 40.0);
+}
+
+TEST_CASE("size zero is the point, bit for bit; a very small disc is nearly that") {
+  const LensState lens = test::bundled("heliar", {.f_number = 11.0});
+  RenderSettings settings = test::green(frame_on_sensor(lens, 120, 80));
+  Light light = sun(0.1, 0.05);
+  light.radius_rad = 0.0;
+  const Flare point = test::flare_of("adaptive", lens, {&light, 1}, settings);
+  CHECK(light.is_point());
+  light.radius_rad = 1e-9;
+  const Flare small = test::flare_of("adaptive", lens, {&light, 1}, settings);
+  CHECK(psnr_db(point.image, small.image) > 80.0);
+  CHECK(small.statistics.ghosts_rendered == point.statistics.ghosts_rendered);
+  CHECK(small.statistics.time_ms.back().first == "total");
+}
+
+TEST_CASE("the flux does not depend on the size") {
+  // A ghost well within the frame, and one whose point falls just beside it.
+  const LensState lens = test::plate();
+  for (const double shift_mm : {0.0, -4.5}) {
+    Frame frame{240, 240, 0, 0, 240, 240, 0.05};
+    frame.origin_x = static_cast<int>(shift_mm / frame.pixel_pitch_mm);
+    RenderSettings settings = test::green(frame);
+    Light light;
+    double flux = 0.0;
+    for (const double radius : {0.0, 0.002, 0.01, 0.05, 0.15}) {
+      light.radius_rad = radius;
+      const double sum = test::sum(test::flare_of("adaptive", lens, {&light, 1}, settings).image);
+      if (radius == 0.0) flux = sum;
+      if (shift_mm == 0.0) CHECK(sum == doctest::Approx(flux).epsilon(0.004));
+      CHECK(sum > 0.2 * flux);
+    }
+  }
+}
+
+TEST_CASE("a shape's ghost is the shape, as the ghost turns it, and lies where points would") {
+  const LensState lens = test::bundled("planar-50", {.f_number = 8.0});
+  RenderSettings settings = test::green(frame_on_sensor(lens, 180, 120));
+  settings.error = 0.001;
+  // An L of five squares: like none of its mirror images.
+  Light light = sun(0.12, 0.07);
+  light.radius_rad = 0.0;
+  Image level(2, 4, 1);
+  for (const auto& [x, y] : {std::pair{0, 0}, {0, 1}, {0, 2}, {0, 3}, {1, 3}}) level.at(x, y) = 1.0F;
+  const double pixel = 0.006;
+  light.shape = std::make_shared<const LightShape>(LightShape{level, {1.0, 2.0}, {pixel, 0.0}, {0.0, -pixel}});
+  std::vector<Light> points;
+  constexpr int kEach = 6;
+  for (const auto& [x, y] : {std::pair{0, 0}, {0, 1}, {0, 2}, {0, 3}, {1, 3}}) {
+    for (int k = 0; k < kEach * kEach; ++k) {
+      Light point;
+      const double u = x + (k % kEach + 0.5) / kEach - 1.0, v = y + (k / kEach + 0.5) / kEach - 2.0;
+      point.direction = direction_beside(light.direction, {u * pixel, -v * pixel});
+      for (double& value : point.value) value /= 5.0 * kEach * kEach;
+      points.push_back(point);
+    }
+  }
+  const Image ours = test::flare_of("adaptive", lens, {&light, 1}, settings).image;
+  CHECK(psnr_db(test::flare_of("adaptive", lens, points, settings).image, ours) > 42.0);
+}
+
+TEST_CASE("the same for any number of threads; cancelled when asked; wrong extents refused") {
+  const LensState lens = test::bundled("heliar", {.f_number = 8.0});
+  RenderSettings settings = test::green(frame_on_sensor(lens, 150, 100));
+  settings.starburst.on = true;
+  Light light = sun(0.1, 0.05);
+  const Flare one = test::flare_of("adaptive", lens, {&light, 1}, settings, {.threads = 1});
+  const Flare three = test::flare_of("adaptive", lens, {&light, 1}, settings, {.threads = 3});
+  CHECK(one.image.pixels == three.image.pixels);
+  const std::atomic<bool> cancel = true;
+  const auto stopped = render("adaptive", lens, {&light, 1}, settings, {.cancel = &cancel});
+  REQUIRE_FALSE(stopped.has_value());
+  CHECK(stopped.error().code == ErrorCode::Cancelled);
+  Light nowhere = light;
+  nowhere.direction.x = std::numeric_limits<double>::quiet_NaN();
+  CHECK_FALSE(render("adaptive", lens, {&nowhere, 1}, settings).has_value());
+  light.radius_rad = -1.0;
+  const auto refused = render("adaptive", lens, {&light, 1}, settings);
+  REQUIRE_FALSE(refused.has_value());
+  CHECK(refused.error().code == ErrorCode::InvalidArgument);
+}
+
+TEST_CASE("a disc's starburst is the sum of its points', and holds the light's value") {
+  const LensState lens = test::bundled("heliar", {.f_number = 16.0, .iris = {6}});
+  RenderSettings settings;
+  settings.frame = frame_on_sensor(lens, 240, 160);
+  settings.selection = SelectList{};
+  settings.starburst.on = true;
+  Light light = sun(0.02, 0.01);
+  light.radius_rad *= 4.0;
+  const Image ours = test::flare_of("bundle", lens, {&light, 1}, settings).image;
+  const Image truth = test::flare_of("bundle", lens, points_over(light, 1200), settings).image;
+  CHECK(test::sum(ours) == doctest::Approx(test::sum(truth)).epsilon(0.003));
+  CHECK(psnr_db(truth, ours) > 35.0);
+  // The tail beside the disc, by ratio.
+  const auto mean_at = [](const Image& image, int x0, int y0) {
+    double sum = 0.0;
+    for (int y = y0; y < y0 + 8; ++y)
+      for (int x = x0; x < x0 + 8; ++x) sum += image.at(x, y, 1);
+    return sum;
+  };
+  for (const auto& [x, y] : {std::pair{10, 10}, {200, 20}, {60, 140}, {180, 80}})
+    CHECK(mean_at(ours, x, y) == doctest::Approx(mean_at(truth, x, y)).epsilon(0.05));
+}
+
+TEST_CASE("lights whose images are drawn may be others than the ghosts'") {
+  const LensState lens = test::bundled("heliar", {.f_number = 16.0});
+  RenderSettings settings;
+  settings.frame = frame_on_sensor(lens, 120, 80);
+  settings.selection = SelectList{};
+  settings.starburst.on = true;
+  const Light ghosts = test::light_at(lens, settings.frame, {0.5, 0.5});
+  const Light image = test::light_at(lens, settings.frame, {0.25, 0.25});
+  settings.starburst.lights = std::make_shared<const std::vector<Light>>(std::vector{image});
+  const Flare other = test::flare_of("bundle", lens, {&ghosts, 1}, settings);
+  settings.starburst.lights = nullptr;
+  CHECK(other.image.pixels == test::flare_of("bundle", lens, {&image, 1}, settings).image.pixels);
+}
