@@ -37,6 +37,7 @@ PUBLIC = {
     "coating.h": "coating",
     "colour.h": "image",
     "context.h": "base",
+    "dirt.h": "kernels",
     "first_order.h": "lens",
     "fractional_fourier.h": "diffraction",
     "fraunhofer.h": "diffraction",

@@ -1,0 +1,233 @@
+// Shapes of dirt from statistics. The plane is cut into squares; each has its own hashed numbers, so that nothing
+// depends on which part of the plane is looked at, and the k-th speck of a square is the same at any density.
+#include "contrejour/dirt.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <fmt/format.h>
+
+namespace contrejour {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+constexpr double kCell_mm = 2.0;
+constexpr double kMostDeviations = 2.5;  // of a log-normal size
+constexpr double kElongation = 0.8;  // of specks: the line within one is up to so much of its width long
+constexpr double kNearlyStraight = 1e-6;  // rad
+
+enum class Kind : std::uint64_t { Dust = 1, Scratch = 2 };
+
+// Steele, Lea & Flood 2014: SplitMix64's increment and finalizer.
+std::uint64_t mixed(std::uint64_t z) {
+  z += 0x9e3779b97f4a7c15U;
+  z = (z ^ (z >> 30U)) * 0xbf58476d1ce4e5b9U;
+  z = (z ^ (z >> 27U)) * 0x94d049bb133111ebU;
+  return z ^ (z >> 31U);
+}
+
+// Numbers of one shape or square, from 0 to below 1, in turn.
+class Numbers {
+ public:
+  Numbers(const Dirt& dirt, Kind kind, int ix, int iy, std::uint64_t which) {
+    state_ = mixed(dirt.seed);
+    state_ = mixed(state_ ^ static_cast<std::uint64_t>(kind));
+    state_ = mixed(state_ ^ static_cast<std::uint32_t>(ix));
+    state_ = mixed(state_ ^ (static_cast<std::uint64_t>(static_cast<std::uint32_t>(iy)) << 32U));
+    state_ = mixed(state_ ^ which);
+  }
+  double next() {
+    state_ = mixed(state_);
+    return static_cast<double>(state_ >> 11U) * 0x1p-53;
+  }
+  double next_signed() { return 2.0 * next() - 1.0; }
+  // Of the normal distribution (Box & Muller 1958), not farther out than the sizes go.
+  double next_normal() {
+    const double r = std::sqrt(-2.0 * std::log(1.0 - next()));
+    return std::clamp(r * std::cos(2.0 * kPi * next()), -kMostDeviations, kMostDeviations);
+  }
+  double next_size(double median) { return median * std::exp(Dirt::kSizeSpread * next_normal()); }
+
+ private:
+  std::uint64_t state_ = 0;
+};
+
+// Of Poisson's distribution, by inversion: with one number for all means it never falls as the mean rises.
+int poisson(double mean, double number) {
+  int count = 0;
+  double probability = std::exp(-mean);
+  double below = probability;
+  const int most = static_cast<int>(mean + 12.0 * std::sqrt(mean) + 12.0);
+  while (number >= below && count < most) {
+    ++count;
+    probability *= mean / count;
+    below += probability;
+  }
+  return count;
+}
+
+// Two tones of whole numbers of turns, from 0 at time 0; about 1 high.
+double wandering(double time, Numbers& numbers) {
+  double sum = 0.0;
+  for (const double tone : {1.0, 2.0}) {
+    const double start = numbers.next();
+    sum += 0.5 * (std::sin(2.0 * kPi * (tone * time + start)) - std::sin(2.0 * kPi * start));
+  }
+  return sum;
+}
+
+// kSizeSpread and the most deviations, as a factor.
+double largest_over_median() { return std::exp(Dirt::kSizeSpread * kMostDeviations); }
+
+class DirtMaker {
+ public:
+  DirtMaker(const Dirt& dirt, Vec2 low, Vec2 high) : dirt_(dirt), low_(low), high_(high) {}
+
+  void add(Kind kind, double per_cm2, double reach_mm) {
+    if (!(per_cm2 > 0.0)) return;
+    const double mean = per_cm2 * kCell_mm * kCell_mm * 0.01;
+    const double around = reach_mm + 2.0 * dirt_.drift_mm;
+    const auto cell_of = [](double mm) { return static_cast<int>(std::floor(mm / kCell_mm)); };
+    for (int iy = cell_of(low_.y - around); iy <= cell_of(high_.y + around); ++iy) {
+      for (int ix = cell_of(low_.x - around); ix <= cell_of(high_.x + around); ++ix) {
+        Numbers own(dirt_, kind, ix, iy, 0);
+        const int count = poisson(mean, own.next());
+        for (int k = 1; k <= count; ++k) add_one(kind, ix, iy, k);
+      }
+    }
+  }
+
+  [[nodiscard]] std::vector<DirtStroke> take() { return std::move(strokes_); }
+
+ private:
+  void add_one(Kind kind, int ix, int iy, int which) {
+    Numbers own(dirt_, kind, ix, iy, static_cast<std::uint64_t>(which));
+    DirtStroke s;
+    s.middle_mm.x = (ix + own.next()) * kCell_mm;
+    s.middle_mm.y = (iy + own.next()) * kCell_mm;
+    s.opacity = dirt_.opacity;
+    if (kind == Kind::Dust) {
+      s.angle_rad = kPi * own.next();
+      s.width_mm = own.next_size(dirt_.dust_mm);
+      // As much area as a round speck of that diameter, on the average.
+      s.length_mm = kElongation * own.next() * s.width_mm;
+      const double area = 0.25 * kPi * s.width_mm * s.width_mm;
+      const double scale = std::sqrt(area / (area + s.length_mm * s.width_mm));
+      s.width_mm *= scale;
+      s.length_mm *= scale;
+    } else {
+      s.angle_rad = dirt_.scratch_angle_rad + dirt_.scratch_spread_rad * own.next_signed();
+      s.length_mm = own.next_size(dirt_.scratch_length_mm);
+      s.width_mm = own.next_size(dirt_.scratch_width_mm);
+      s.bend_rad = dirt_.scratch_bend_rad * own.next_signed();
+    }
+    if (dirt_.time != 0.0) {
+      const double turns = dirt_.time - std::floor(dirt_.time);
+      s.middle_mm.x += dirt_.drift_mm * wandering(turns, own);
+      s.middle_mm.y += dirt_.drift_mm * wandering(turns, own);
+    }
+    const double reach = s.reach_mm();
+    if (s.middle_mm.x + reach < low_.x || s.middle_mm.x - reach > high_.x || s.middle_mm.y + reach < low_.y ||
+        s.middle_mm.y - reach > high_.y)
+      return;
+    strokes_.push_back(s);
+  }
+
+  const Dirt& dirt_;
+  Vec2 low_, high_;
+  std::vector<DirtStroke> strokes_;
+};
+
+}  // namespace
+
+Vec2 DirtStroke::at(double share) const {
+  const Vec2 along{std::cos(angle_rad), std::sin(angle_rad)};
+  const double s = share * length_mm;
+  if (std::abs(bend_rad) < kNearlyStraight || length_mm <= 0.0) return middle_mm + along * s;
+  // On a circle of curvature c: (sin(c s) / c, (1 - cos(c s)) / c).
+  const double turn = share * bend_rad, radius = length_mm / bend_rad;
+  const double half = std::sin(0.5 * turn);
+  return middle_mm + along * (radius * std::sin(turn)) + Vec2{-along.y, along.x} * (2.0 * radius * half * half);
+}
+
+Vec2 DirtStroke::normal_at(double share) const {
+  const double angle = angle_rad + share * bend_rad;
+  return {-std::sin(angle), std::cos(angle)};
+}
+
+double DirtStroke::distance_mm(Vec2 place_mm) const {
+  const Vec2 along{std::cos(angle_rad), std::sin(angle_rad)};
+  const Vec2 from = place_mm - middle_mm;
+  const Vec2 own{dot(along, from), cross(along, from)};
+  if (std::abs(bend_rad) < kNearlyStraight || length_mm <= 0.0) {
+    const double beyond = std::max(0.0, std::abs(own.x) - 0.5 * length_mm);
+    return std::hypot(beyond, own.y) - 0.5 * width_mm;
+  }
+  const double radius = length_mm / bend_rad;  // signed: the circle's middle lies to the left or right
+  const Vec2 from_centre{own.x, own.y - radius};
+  const double turn = std::atan2(from_centre.x, std::copysign(1.0, radius) * -from_centre.y);
+  if (std::abs(turn) <= 0.5 * std::abs(bend_rad))
+    return std::abs(length(from_centre) - std::abs(radius)) - 0.5 * width_mm;
+  const double end = turn * radius > 0.0 ? 0.5 : -0.5;
+  return std::min(length(place_mm - at(end)), length(place_mm - at(-end))) - 0.5 * width_mm;
+}
+
+Result<void> check_dirt(const Dirt& dirt) {
+  const auto bad = [](const char* what, double value) {
+    return failure(ErrorCode::InvalidArgument, fmt::format("dirt cannot have {} of {}", what, value));
+  };
+  const auto within = [](double value, double low, double high) { return value >= low && value <= high; };
+  if (!within(dirt.dust_per_cm2, 0.0, Dirt::kMostDustPerCm2)) return bad("specks per cm^2", dirt.dust_per_cm2);
+  if (!within(dirt.scratches_per_cm2, 0.0, Dirt::kMostScratchesPerCm2))
+    return bad("scratches per cm^2", dirt.scratches_per_cm2);
+  if (!within(dirt.dust_mm, 1e-4, Dirt::kWidest_mm)) return bad("specks, in mm,", dirt.dust_mm);
+  if (!within(dirt.scratch_length_mm, 1e-4, Dirt::kLongest_mm)) return bad("scratches, in mm,", dirt.scratch_length_mm);
+  if (!within(dirt.scratch_width_mm, 1e-4, Dirt::kWidest_mm))
+    return bad("scratches' widths, in mm,", dirt.scratch_width_mm);
+  if (!std::isfinite(dirt.scratch_angle_rad)) return bad("an angle", dirt.scratch_angle_rad);
+  if (!within(dirt.scratch_spread_rad, 0.0, kPi)) return bad("a spread of angles", dirt.scratch_spread_rad);
+  if (!within(dirt.scratch_bend_rad, 0.0, kPi)) return bad("a bend", dirt.scratch_bend_rad);
+  if (!within(dirt.opacity, 0.0, 1.0)) return bad("an opacity", dirt.opacity);
+  if (!within(dirt.drift_mm, 0.0, Dirt::kFarthestDrift_mm)) return bad("a drift, in mm,", dirt.drift_mm);
+  if (!std::isfinite(dirt.time)) return bad("a time", dirt.time);
+  return {};
+}
+
+std::vector<DirtStroke> dirt_within(const Dirt& dirt, Vec2 low_mm, Vec2 high_mm) {
+  if (!(dirt.opacity > 0.0)) return {};
+  DirtMaker maker(dirt, low_mm, high_mm);
+  const double largest = largest_over_median();
+  maker.add(Kind::Dust, dirt.dust_per_cm2, largest * dirt.dust_mm);
+  maker.add(Kind::Scratch, dirt.scratches_per_cm2, 0.5 * largest * (dirt.scratch_length_mm + dirt.scratch_width_mm));
+  return maker.take();
+}
+
+std::vector<Vec2> dirt_outline(const DirtStroke& stroke, double low, double high) {
+  constexpr int kEndSteps = 8;  // over half a turn: off by 1 - cos(pi / 16) of half a width
+  constexpr double kStep_rad = 0.05;  // along a bent line
+  const double half = 0.5 * stroke.width_mm;
+  const int steps = std::max(1, static_cast<int>(std::ceil((high - low) * std::abs(stroke.bend_rad) / kStep_rad)));
+  std::vector<Vec2> outline;
+  const auto add_side = [&](double from, double to, double side) {
+    for (int i = 0; i <= steps; ++i) {
+      const double share = from + (to - from) * i / steps;
+      outline.push_back(stroke.at(share) + stroke.normal_at(share) * (side * half));
+    }
+  };
+  const auto add_end = [&](double share, double side) {  // from one side to the other, without both
+    const Vec2 n = stroke.normal_at(share) * (side * half);
+    const Vec2 out = Vec2{-n.y, n.x};
+    for (int i = 1; i < kEndSteps; ++i) {
+      const double a = kPi * i / kEndSteps;
+      outline.push_back(stroke.at(share) + n * std::cos(a) + out * std::sin(a));
+    }
+  };
+  add_side(low, high, -1.0);
+  if (high >= 0.5) add_end(0.5, -1.0);
+  add_side(high, low, 1.0);
+  if (low <= -0.5) add_end(-0.5, 1.0);
+  return outline;
+}
+
+}  // namespace contrejour
