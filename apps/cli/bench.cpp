@@ -6,8 +6,11 @@ namespace contrejour::cli {
 void add_bench(CLI::App& app, Action& action) {
   CLI::App* bench = app.add_subcommand("bench", "measure this machine");
   bench->require_subcommand(1);
-  bench->footer("Examples:\n  contrejour bench tables\n  contrejour bench tables --json tables.json");
+  bench->footer(
+      "Examples:\n  contrejour bench tables\n  contrejour bench tables --json tables.json\n"
+      "  contrejour bench effects --threads 2");
   add_bench_tables(*bench, action);
+  add_bench_effects(*bench, action);
 }
 
 }  // namespace contrejour::cli

@@ -33,5 +33,6 @@ void add_lens_check(CLI::App& lens, Action& action);
 void add_lens_trace(CLI::App& lens, Action& action);
 
 void add_bench_tables(CLI::App& bench, Action& action);
+void add_bench_effects(CLI::App& bench, Action& action);
 
 }  // namespace contrejour::cli

@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "contrejour/trace.h"
-#include "params/iris_image.h"
+#include "params/mask_images.h"
 
 namespace contrejour::params {
 namespace {
@@ -80,6 +80,26 @@ GhostOptions ghost_options(const Values& values) {
   return options;
 }
 
+Result<Dirt> dirt(const Values& values) {
+  Dirt dirt;
+  dirt.dust_per_cm2 = values.number("dust");
+  dirt.dust_mm = values.number("dust-size");
+  dirt.scratches_per_cm2 = values.number("scratches");
+  dirt.scratch_length_mm = values.number("scratch-length");
+  dirt.scratch_width_mm = values.number("scratch-width");
+  dirt.scratch_angle_rad = values.number("scratch-angle") * kDegree_rad;
+  dirt.scratch_spread_rad = values.number("scratch-spread") * kDegree_rad;
+  dirt.plane = choice<DirtPlane>(values, "dirt-on");
+  dirt.seed = static_cast<std::uint32_t>(values.integer("dirt-seed"));
+  dirt.time = values.number("dirt-time");
+  if (const auto file = values.text("dirt-image")) {
+    auto picture = read_dirt_image(*file);
+    if (!picture) return tl::unexpected(picture.error());
+    dirt.picture = std::move(*picture);
+  }
+  return dirt;
+}
+
 }  // namespace
 
 Result<LensSettings> lens_settings(const Values& values) {
@@ -101,6 +121,9 @@ Result<LensSettings> lens_settings(const Values& values) {
     if (!field) return tl::unexpected(field.error());
     settings.iris.field = std::move(*field);
   }
+  auto lying = dirt(values);
+  if (!lying) return tl::unexpected(lying.error());
+  settings.dirt = std::move(*lying);
   return settings;
 }
 

@@ -15,7 +15,7 @@ namespace contrejour::params {
 
 inline constexpr double kDegree_rad = 0.017453292519943295;
 
-// Errors: a picture of the iris that cannot be read or is none.
+// Errors: a picture of the iris or of dirt that cannot be read or is none.
 [[nodiscard]] Result<LensSettings> lens_settings(const Values& values);
 
 // A whole frame of these pixels: on the lens's sensor, or as wide as --hfov says.

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "contrejour/coating.h"
+#include "contrejour/dirt.h"
 #include "contrejour/glass.h"
 #include "contrejour/iris.h"
 #include "contrejour/result.h"
@@ -80,12 +81,13 @@ struct BuildErrors {
 
 struct LensSettings {
   std::optional<double> focal_length_mm = std::nullopt;  // zoom; default: the first position
-  std::optional<double> f_number = std::nullopt;         // default: the widest
+  std::optional<double> f_number = std::nullopt;  // default: the widest
   double object_distance_mm = std::numeric_limits<double>::infinity();  // from surface 1; focus
-  std::optional<Coating> coating = std::nullopt;         // in place of every glass-to-air coating
+  std::optional<Coating> coating = std::nullopt;  // in place of every glass-to-air coating
   Iris iris = {};
   IrisClosing iris_closing = IrisClosing::Scaled;  // Mechanism sets the iris's blade_radius
   BuildErrors build = {};
+  Dirt dirt = {};
 };
 
 // How a surface stands that is not where it ought to be.
@@ -114,6 +116,7 @@ struct LensState {
   int stop_index = 0;  // into surfaces
   double stop_radius_mm = 0.0;  // no point of the opening is farther from the axis
   Iris iris;
+  Dirt dirt;
   double sensor_z_mm = 0.0;
   double sensor_width_mm = 36.0;
   double sensor_height_mm = 24.0;
@@ -134,7 +137,8 @@ struct LensState {
 [[nodiscard]] Result<void> validate(const Prescription& lens);
 
 // Sets zoom (any focal length within the range), stop and focus. Errors: focal length or f-number out of
-// range, object inside the front focal point, an iris that lets nothing through or has numbers out of its range.
+// range, object inside the front focal point, an iris that lets nothing through, an iris or dirt that has numbers out
+// of its range.
 [[nodiscard]] Result<LensState> lens_at(const Prescription& lens, const LensSettings& settings = {});
 
 // Reads a lens in any format that is known, by content and extension. Bounded in memory and time.

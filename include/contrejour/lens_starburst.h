@@ -25,7 +25,8 @@ struct ExitPupil {
       outline;  // the iris, cut by the rims that vignette it; none where that differs from the mask, or for a picture
   double radius = 0;  // of the circle about the middle of the mask that holds the pupil; 0: no light gets through
   Vec2 middle;  // the cosines of the mask's middle
-  double flux_mm2 = 0;  // of the direct image at E0 = 1, as GhostMeter::direct_flux
+  double flux_mm2 = 0;  // of the direct image at E0 = 1, as GhostMeter::direct_flux less what dirt blocks
+  double open_share = 1;  // of the flux, that dirt lets through
   double fit_error = 0;  // largest, of the stop's or a rim's radius, at traced rays that the borders were not fitted to
   std::vector<Vec3> rays_mm;  // points in front of the lens of some rays that get through, evenly spread
 };
@@ -39,7 +40,8 @@ struct LensStarburstSettings {
 };
 
 // bands: spectral_bands of the light, 100 and more. What the lens transmits of each is seen to here; of each channel
-// the whole plane still sums to 1. A light that does not get through has a starburst that draws nothing.
+// the whole plane still sums to 1, or to what dirt lets through of that. A light that does not get through has a
+// starburst that draws nothing.
 [[nodiscard]] Result<Starburst> lens_starburst(const LensState& lens, const LightSource& light,
                                                std::span<const SpectralBand> bands,
                                                const LensStarburstSettings& settings, const Context& context = {});

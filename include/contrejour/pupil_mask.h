@@ -6,6 +6,7 @@
 
 #include <complex>
 #include <functional>
+#include <span>
 #include <vector>
 
 #include "contrejour/context.h"
@@ -52,5 +53,16 @@ struct PupilMask {
 
 // Dust and scratches: the mask times one channel of a picture laid over its square (hullin2011 5). Errors as above.
 [[nodiscard]] Result<PupilMask> with_dirt(PupilMask mask, const Image& dirt, int channel);
+
+// What of the light passes each sample of a mask, beside its amplitude: a sample that a speck covers in part lets more
+// power through than the square of its mean amplitude, which the rest of its width diffracts farther.
+using MaskPower = std::vector<float>;  // [row * side + column], 0..1, from 1 where nothing lies
+
+// Shapes over a mask, exactly: polygons in mm of its plane that let this share of the light pass.
+struct DimPolygon {
+  std::vector<Vec2> corners_mm;  // any orientation, no crossings
+  double transmission = 0;
+};
+void dim(PupilMask& mask, MaskPower& power, std::span<const DimPolygon> polygons);
 
 }  // namespace contrejour

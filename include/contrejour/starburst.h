@@ -9,9 +9,11 @@
 #include <cmath>
 #include <memory>
 #include <span>
+#include <vector>
 
 #include "contrejour/colour.h"
 #include "contrejour/context.h"
+#include "contrejour/dirt.h"
 #include "contrejour/image.h"
 #include "contrejour/iris.h"
 #include "contrejour/pupil_mask.h"
@@ -28,11 +30,20 @@ struct StarburstSettings {
   int samples_across = 510;      // of the pupil, where the mask is made from an opening
 };
 
+// Dirt that a mask holds, as what it sends on beyond the mask's samples.
+struct PupilDirt {
+  std::vector<DirtStroke> strokes;  // as far as they lie within the opening
+  Vec2 x_mm, y_mm;  // where the dirt's own unit vectors come to lie in the mask's plane
+  double power_mm2 =
+      0;  // integral of what the mask lets through, which samples that a speck covers in part do not tell
+};
+
 // A mask's outline: an opening, and where its unit vectors come to lie in the mask's plane. A pupil seen askew is no
 // circle, but a circle squeezed.
 struct PupilOutline {
   IrisOpening opening{Iris{}};
   Vec2 x_mm, y_mm;
+  std::shared_ptr<const PupilDirt> dirt = nullptr;  // null: none, or none that has shapes
 
   [[nodiscard]] double area_mm2() const { return opening.area() * std::abs(cross(x_mm, y_mm)); }
 };

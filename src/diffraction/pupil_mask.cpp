@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "base/tasks.h"
+#include "diffraction/polygon_cover.h"
 
 namespace contrejour {
 namespace {
@@ -109,6 +110,23 @@ Result<PupilMask> with_dirt(PupilMask mask, const Image& dirt, int channel) {
     for (int x = 0; x < mask.grid.side; ++x)
       mask.amplitude[k++] *= sample_bilinear(dirt, channel, (x + 0.5) * scale_x, (y + 0.5) * scale_y);
   return mask;
+}
+
+void dim(PupilMask& mask, MaskPower& power, std::span<const DimPolygon> polygons) {
+  power.resize(mask.amplitude.size(), 1.0F);
+  PolygonCover cover(mask.grid.side);
+  const double per_mm = 1.0 / mask.grid.pitch_mm, half = 0.5 * mask.grid.side;
+  std::vector<Vec2> corners;
+  for (const DimPolygon& polygon : polygons) {
+    const double lost = 1.0 - std::clamp(polygon.transmission, 0.0, 1.0);
+    const double amplitude_lost = 1.0 - std::sqrt(1.0 - lost);
+    corners.clear();
+    for (const Vec2 p : polygon.corners_mm) corners.push_back({half + p.x * per_mm, half - p.y * per_mm});
+    cover.for_each(corners, [&](std::size_t sample, double share) {
+      mask.amplitude[sample] *= static_cast<float>(1.0 - share * amplitude_lost);
+      power[sample] *= static_cast<float>(1.0 - share * lost);
+    });
+  }
 }
 
 }  // namespace contrejour

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "diffraction/starburst_rings.h"
 
@@ -16,6 +17,9 @@ constexpr double kTailEnd = 0.2, kTailEndWithDirt = 0.35, kTailEndOfPicture = 1.
 constexpr double kTailFade = 0.625;  // of that, where it begins
 constexpr double kCleanWithin = 2e-3;  // relative: as much as edges' samples may be off
 constexpr double kScatteredFrom = 0.7;  // of the tail's end: the spectrum there says what goes on beyond
+constexpr double kGrainRho = 1.0;  // between samples that tell it: it is as wide
+constexpr int kModelPlaces = 6;    // and what it is compared with is smooth
+constexpr double kLeastGrain = 0.25, kMostGrain = 4.0;  // of the shapes' sum, where they interfere
 constexpr int kRowsPerStep = 4;  // between which the tail times rho^3 is interpolated
 
 // An edge's samples hold their open share s as amplitude, so as power s^2 for s. The mean of s - s^2 is 1/6.
@@ -25,6 +29,11 @@ double power_lost_at_edges(const PupilMask& mask, const PupilOutline& outline) {
   return 1.0 + outline.opening.perimeter() * size_mm * mask.grid.pitch_mm / (6.0 * outline.area_mm2());
 }
 
+double power_of(const PupilMask& mask, const PupilOutline* outline) {
+  if (outline && outline->dirt) return outline->dirt->power_mm2;
+  return mask.open_area_mm2() * (outline ? power_lost_at_edges(mask, *outline) : 1.0);
+}
+
 // Over the opening: 1 where nothing but the opening's own edges dims the mask.
 double mean_amplitude(const PupilMask& mask, const PupilOutline& outline) {
   double sum = 0.0;
@@ -32,13 +41,26 @@ double mean_amplitude(const PupilMask& mask, const PupilOutline& outline) {
   return sum * mask.grid.pitch_mm * mask.grid.pitch_mm / outline.area_mm2();
 }
 
+double square(double x) { return x * x; }
+
+// A direction in the plane of a shape that unit vectors x and y lay down.
+struct Seen {
+  double angle_rad, stretch;
+  double turn;  // of directions there over here
+};
+Seen seen_from(Vec2 x, Vec2 y, double angle_rad) {
+  const Vec2 along{std::cos(angle_rad), std::sin(angle_rad)};
+  const Vec2 own{dot(x, along), dot(y, along)};
+  const double stretch = length(own);
+  return {std::atan2(own.y, own.x), stretch, std::abs(cross(x, y)) / (stretch * stretch)};
+}
+
 }  // namespace
 
 StarburstPattern::StarburstPattern(const PupilMask& mask, const PupilOutline* outline, double pupil_radius_mm,
                                    const Context& context)
-    : across_(2.0 * pupil_radius_mm / mask.grid.pitch_mm),
-      power_mm2_(mask.open_area_mm2() * (outline ? power_lost_at_edges(mask, *outline) : 1.0)),
-      clean_(outline && std::abs(mean_amplitude(mask, *outline) - 1.0) < kCleanWithin),
+    : across_(2.0 * pupil_radius_mm / mask.grid.pitch_mm), power_mm2_(power_of(mask, outline)),
+      clean_(outline && !outline->dirt && std::abs(mean_amplitude(mask, *outline) - 1.0) < kCleanWithin),
       grid_(mask, pupil_radius_mm,
             across_ * (clean_    ? kTailEnd
                        : outline ? kTailEndWithDirt
@@ -53,6 +75,12 @@ StarburstPattern::StarburstPattern(const PupilMask& mask, const PupilOutline* ou
   // |F|^2 in stop radii, over 4 for d^2 rho = 4 d^2 f, over the mask's power; the edges' part by the mean amplitude.
   const double amplitude = mean_amplitude(mask, *outline) * std::abs(cross(outline_x_, outline_y_));
   edge_scale_ = amplitude * amplitude * pupil_radius_mm * pupil_radius_mm / (4.0 * power_mm2_);
+  if (!outline->dirt) return;
+  const PupilDirt& dirt = *outline->dirt;
+  dirt_.emplace(dirt.strokes);
+  dirt_x_ = dirt.x_mm * (1.0 / pupil_radius_mm);
+  dirt_y_ = dirt.y_mm * (1.0 / pupil_radius_mm);
+  dirt_scale_ = square(cross(dirt_x_, dirt_y_) * pupil_radius_mm) / (4.0 * power_mm2_);
 }
 
 void StarburstPattern::sample(double angle_rad, double window_rad, double first_rho, int rows, float* out,
@@ -82,29 +110,75 @@ void StarburstPattern::sample(double angle_rad, double window_rad, double first_
 }
 
 double StarburstPattern::Tail::times_rho3(double rho) const {
-  return scattered + (edges ? scale * rho * rho * rho * edges->power(std::numbers::pi * stretch * rho) : 0.0);
+  constexpr double kPi = std::numbers::pi;
+  double sum = scattered;
+  if (edges) sum += scale * rho * rho * rho * edges->power(kPi * stretch * rho);
+  if (dirt) sum += dirt_scale * rho * rho * rho * dirt->power(kPi * dirt_stretch * rho);
+  return sum;
 }
 
-// What the spectrum's outermost samples have more than the edges goes on as rho^-3, which keeps its share of the flux
-// in proportion to a rim's.
+// Of a shape laid down by a linear map the spectrum at f is the shape's own at the map's transpose times f: another
+// direction, another wave number, another width of the window.
+void StarburstPattern::add_edges(double angle_rad, double window_rad, Tail& tail) const {
+  const Seen seen = seen_from(outline_x_, outline_y_, angle_rad);
+  tail.stretch = seen.stretch;
+  tail.edges = edges_->along(seen.angle_rad, window_rad * seen.turn);
+  tail.scale = edge_scale_;
+}
+
+void StarburstPattern::add_dirt(double angle_rad, double window_rad, Tail& tail) const {
+  const Seen seen = seen_from(dirt_x_, dirt_y_, angle_rad);
+  tail.dirt_stretch = seen.stretch;
+  tail.dirt = dirt_->along(seen.angle_rad, window_rad * seen.turn);
+  tail.dirt_scale = dirt_scale_;
+}
+
+// Beyond the spectrum's samples goes on what they have more than the edges. Where shapes are known, as those send it,
+// times as much as their interference makes of it along this direction there, which is the halo's grain; where not, as
+// rho^-3, which keeps its share of the flux in proportion to a rim's.
 StarburstPattern::Tail StarburstPattern::tail_along(double angle_rad, double window_rad) const {
   Tail tail;
-  if (edges_) {
-    // Of an opening laid down by a linear map the spectrum at f is the opening's own at the map's transpose times f.
-    const Vec2 along{std::cos(angle_rad), std::sin(angle_rad)};
-    const Vec2 own{dot(outline_x_, along), dot(outline_y_, along)};
-    tail.stretch = length(own);
-    const double turn = std::abs(cross(outline_x_, outline_y_)) / (tail.stretch * tail.stretch);
-    tail.edges = edges_->along(std::atan2(own.y, own.x), window_rad * turn);
-  }
-  tail.scale = edge_scale_;
+  if (edges_) add_edges(angle_rad, window_rad, tail);
   if (clean_) return tail;
+  if (dirt_) {
+    Tail dirt;
+    add_dirt(angle_rad, window_rad, dirt);
+    dirt.dirt_scale *= grain_along(angle_rad, window_rad, tail, dirt);
+    tail.dirt = std::move(dirt.dirt);
+    tail.dirt_stretch = dirt.dirt_stretch;
+    tail.dirt_scale = dirt.dirt_scale;
+    return tail;
+  }
   double sum = 0.0;
   int count = 0;
   for (double rho = tail_end_; rho > kScatteredFrom * tail_end_; rho /= row_ratio(1.0), ++count)
     sum += spectrum_average(angle_rad, window_rad, rho) * rho * rho * rho - tail.times_rho3(rho);
   tail.scattered = std::max(0.0, sum / count);
   return tail;
+}
+
+// The spectrum less what edges send over what shapes send one by one, in the mean over the spectrum's outermost part.
+double StarburstPattern::grain_along(double angle_rad, double window_rad, const Tail& edges, const Tail& dirt) const {
+  const double from = kScatteredFrom * tail_end_, length = tail_end_ - from;
+  const int across = std::max(1, static_cast<int>(std::ceil(tail_end_ * window_rad / kSampleRho)));
+  const int down = std::max(1, static_cast<int>(length / kGrainRho));
+  double sum = 0.0;
+  for (int j = 0; j < across; ++j) {
+    const double angle = angle_rad + window_rad * ((j + 0.5) / across - 0.5);
+    double x = std::cos(angle), y = std::sin(angle);
+    if (x < 0.0) x = -x, y = -y;
+    for (int i = 0; i < down; ++i) {
+      const double rho = from + length * (i + 0.5) / down;
+      sum += grid_.density(rho * x, rho * y) * rho * rho * rho / (across * down);
+    }
+  }
+  double of_dirt = 0.0;
+  for (int i = 0; i < kModelPlaces; ++i) {
+    const double rho = from + length * (i + 0.5) / kModelPlaces;
+    sum -= edges.times_rho3(rho) / kModelPlaces;
+    of_dirt += dirt.times_rho3(rho) / kModelPlaces;
+  }
+  return of_dirt > 0.0 ? std::clamp(sum / of_dirt, kLeastGrain, kMostGrain) : 1.0;
 }
 
 double StarburstPattern::spectrum_average(double angle_rad, double window_rad, double rho) const {

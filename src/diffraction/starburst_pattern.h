@@ -8,6 +8,7 @@
 #include "contrejour/context.h"
 #include "contrejour/pupil_mask.h"
 #include "contrejour/starburst.h"
+#include "diffraction/dirt_waves.h"
 #include "diffraction/edge_waves.h"
 #include "diffraction/power_grid.h"
 
@@ -28,10 +29,16 @@ class StarburstPattern {
     double scale = 0;      // of these
     double stretch = 1;    // frequencies of the opening over those of the pupil
     double scattered = 0;  // times rho^-3: what else there is
+    std::optional<DirtWaves::Direction> dirt;
+    double dirt_scale = 0;    // of these
+    double dirt_stretch = 1;  // wave numbers in the dirt's plane over rho
 
     [[nodiscard]] double times_rho3(double rho) const;
   };
   [[nodiscard]] Tail tail_along(double angle_rad, double window_rad) const;
+  void add_edges(double angle_rad, double window_rad, Tail& tail) const;
+  void add_dirt(double angle_rad, double window_rad, Tail& tail) const;
+  [[nodiscard]] double grain_along(double angle_rad, double window_rad, const Tail& edges, const Tail& dirt) const;
   [[nodiscard]] double spectrum_average(double angle_rad, double window_rad, double rho) const;
 
   double across_, power_mm2_;
@@ -40,6 +47,9 @@ class StarburstPattern {
   std::optional<EdgeWaves> edges_;
   double tail_start_ = 0, tail_end_ = 0, edge_scale_ = 0;
   Vec2 outline_x_, outline_y_;  // the opening's unit vectors in pupil radii
+  std::optional<DirtWaves> dirt_;
+  double dirt_scale_ = 0;
+  Vec2 dirt_x_, dirt_y_;  // the dirt's unit vectors in pupil radii
 };
 
 }  // namespace contrejour

@@ -103,6 +103,8 @@ std::optional<std::string> problem_with(const PupilMask& mask, const PupilOutlin
   if (!std::isfinite(mask.open_area_mm2())) return "a mask's amplitudes must be finite";
   if (outline && !outline->opening.closed() && !is_positive(outline->area_mm2()))
     return "the outline of the pupil has no area";
+  if (outline && outline->dirt && !is_positive(outline->dirt->power_mm2))
+    return "dirt that lets nothing through leaves no starburst";
   return std::nullopt;
 }
 

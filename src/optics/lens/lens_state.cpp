@@ -233,6 +233,8 @@ Result<LensState> lens_at(const Prescription& lens, const LensSettings& settings
   }
   if (const auto set = set_stop(state, lens, settings.f_number); !set) return tl::unexpected<Error>(set.error());
   if (const auto set = set_iris(state, lens, settings); !set) return tl::unexpected<Error>(set.error());
+  if (const auto good = check_dirt(settings.dirt); !good) return tl::unexpected<Error>(good.error());
+  state.dirt = settings.dirt;
   if (const auto set = set_focus(state, lens, settings.object_distance_mm); !set) {
     return tl::unexpected<Error>(set.error());
   }

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "contrejour/lens_starburst.h"
+#include "render/starburst/pupil_dirt.h"
 #include "render/starburst/pupil_rays.h"
 #include "render/starburst/smooth_fit.h"
 
@@ -263,8 +264,8 @@ void keep_rays(const PupilRays& pupil, const std::vector<std::size_t>& open, Exi
   }
 }
 
-// The mask's amplitudes, and the flux: the mean over the outline becomes 1.
-void shade(const SmoothFit& amplitude, double area, ExitPupil& out) {
+// The mask's amplitudes, and the flux: the mean over the outline becomes 1. Returns the mask's power.
+double shade(const SmoothFit& amplitude, double area, ExitPupil& out) {
   const MaskGrid& grid = out.mask.grid;
   // Straight lines between every so many samples: off by 1e-4 at most.
   const int knots = grid.side / kShadeStep + 2;
@@ -291,8 +292,9 @@ void shade(const SmoothFit& amplitude, double area, ExitPupil& out) {
   const double sample = grid.pitch_mm * grid.pitch_mm;
   out.flux_mm2 = squares * sample;
   const double mean = sum * sample / area;
-  if (!(mean > 0.0)) return;
+  if (!(mean > 0.0)) return 0.0;
   for (float& value : out.mask.amplitude) value /= static_cast<float>(mean);
+  return out.flux_mm2 / (mean * mean);
 }
 
 Result<void> check(const LensState& lens, const LightSource& light, double lambda_nm, int samples_across) {
@@ -334,7 +336,9 @@ ExitPupil pupil_of(const PupilRays& pupil, const LensState& lens, const LightSou
   if (!(open_samples > 0.0)) return {};
   const double open_area = open_samples * out.mask.grid.pitch_mm * out.mask.grid.pitch_mm;
   out.outline = outline_of(pupil, rims, open, lens.iris, open_area);
-  shade(amplitude_of(pupil, used, light.shared_flux()), out.outline ? out.outline->area_mm2() : open_area, out);
+  const double power_mm2 =
+      shade(amplitude_of(pupil, used, light.shared_flux()), out.outline ? out.outline->area_mm2() : open_area, out);
+  add_dirt(lens, light, pupil, used, degree, power_mm2, out);
   keep_rays(pupil, open, out);
   return out;
 }

@@ -19,14 +19,16 @@ std::vector<double> transmissions(const LensState& lens, const LightSource& ligh
   return mean;
 }
 
-// Weights times transmissions, each channel's sum 1 again.
-std::vector<SpectralBand> transmitted(std::span<const SpectralBand> bands, const std::vector<double>& transmission) {
+// Weights times transmissions, each channel's sum `whole_share`.
+std::vector<SpectralBand> transmitted(std::span<const SpectralBand> bands, const std::vector<double>& transmission,
+                                      double whole_share) {
   std::vector<SpectralBand> out(bands.begin(), bands.end());
   Rgb whole{};
   for (std::size_t k = 0; k < out.size(); ++k)
     for (std::size_t c = 0; c < whole.size(); ++c) whole[c] += out[k].weight[c] *= transmission[k];
   for (SpectralBand& band : out)
-    for (std::size_t c = 0; c < whole.size(); ++c) band.weight[c] = whole[c] != 0.0 ? band.weight[c] / whole[c] : 0.0;
+    for (std::size_t c = 0; c < whole.size(); ++c)
+      band.weight[c] = whole[c] != 0.0 ? whole_share * band.weight[c] / whole[c] : 0.0;
   return out;
 }
 
@@ -37,11 +39,12 @@ Result<Starburst> lens_starburst(const LensState& lens, const LightSource& light
   const StarburstSettings made{1.0, 1.0, settings.pixel_pitch_mm, settings.radius_px};
   const auto pupil = exit_pupil(lens, light, lens.design_wavelength_nm, made.samples_across, context);
   if (!pupil) return tl::unexpected(pupil.error());
-  if (!(pupil->radius > 0.0)) return Starburst();
+  if (!(pupil->radius > 0.0) || !(pupil->open_share > 0.0)) return Starburst();
   Context quiet = context;
   quiet.progress = {};
   const LightSource along(normalized(light.direction), light.distance_mm);
-  const auto weighted = transmitted(bands, transmissions(lens, along, pupil->rays_mm, bands, quiet));
+  const auto weighted =
+      transmitted(bands, transmissions(lens, along, pupil->rays_mm, bands, quiet), pupil->open_share);
   StarburstSettings scaled = made;
   scaled.pupil_radius_mm = pupil->radius;
   const PupilOutline* const outline = pupil->outline ? &*pupil->outline : nullptr;

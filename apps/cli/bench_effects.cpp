@@ -1,0 +1,74 @@
+// contrejour bench effects: what all that is not a ghost costs on this machine, beside its targets.
+#include <memory>
+#include <string>
+
+#include "cli/bench/effects.h"
+#include "cli/bench/report.h"
+#include "cli/command.h"
+#include "cli/console.h"
+#include "cli/long_task.h"
+#include "cli/options.h"
+#include "cli/outputs.h"
+
+namespace contrejour::cli {
+namespace {
+
+struct EffectsOptions {
+  std::string json;
+  int runs = 3;
+  params::Values values;
+};
+
+Result<std::vector<Target>> measure_all(const EffectsOptions& options) {
+  const LongTask task("effects", options.values.integer("threads"));
+  auto scene = effect_scene(options.values, options.runs);
+  if (!scene) return tl::unexpected(scene.error());
+  scene->context.cancel = task.context().cancel;
+  std::vector<Target> all;
+  for (const MeasureEffect measure : effects()) {
+    const auto rows = measure(*scene);
+    if (!rows) return tl::unexpected(rows.error());
+    all.insert(all.end(), rows->begin(), rows->end());
+  }
+  return all;
+}
+
+Result<int> run_effects(const EffectsOptions& options) {
+  Outputs outputs;
+  std::filesystem::path json_file;
+  if (!options.json.empty()) {
+    const auto file = outputs.add(options.json);
+    if (!file) return tl::unexpected(file.error());
+    json_file = *file;
+  }
+  const auto targets = measure_all(options);
+  if (!targets) return tl::unexpected(targets.error());
+  if (!json_file.empty()) {
+    const std::string text = json_text(bench_json(BenchRows(), *targets));
+    if (const auto ok = write_text(json_file, text); !ok) return tl::unexpected(ok.error());
+  }
+  if (const auto ok = outputs.commit(); !ok) return tl::unexpected(ok.error());
+  print(machine_text());
+  print("\n" + targets_text(*targets));
+  return kDone;
+}
+
+}  // namespace
+
+void add_bench_effects(CLI::App& bench, Action& action) {
+  const auto options = std::make_shared<EffectsOptions>();
+  CLI::App* command = bench.add_subcommand("effects", "starburst and dirt: times beside their targets");
+  add_output(*command, "--json", options->json, {".json"}, "write the targets to this file");
+  command->add_option("--runs", options->runs, "of so many runs the fastest counts")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 1000));
+  add_parameters(*command, options->values, {"size", "threads"});
+  command->footer(
+      "planar-50 at f/8 with 7 blades and one light. Targets are for two cores.\n\n"
+      "Examples:\n"
+      "  contrejour bench effects --threads 2\n"
+      "  contrejour bench effects --runs 10 --json effects.json");
+  command->callback([options, &action] { action = [options] { return run_effects(*options); }; });
+}
+
+}  // namespace contrejour::cli

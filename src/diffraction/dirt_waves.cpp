@@ -1,0 +1,171 @@
+#include "diffraction/dirt_waves.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <numbers>
+
+#include "diffraction/special_functions.h"
+
+namespace contrejour {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+constexpr double kSpeckWithin = 1.0;      // lengths of its line in widths: up to that a stroke is a speck
+constexpr double kFlatPhase = 0.1;        // rad: a line whose phase bends by less is straight
+constexpr double kFringes = 14.0;         // rad, from which on sinc^2 and Airy's rings are their means
+constexpr double kBeside = 12.0;          // widths over lengths: angles beyond the fan where ends alone are counted
+constexpr double kSpectralBlur = 0.15;    // half a channel's band over its middle: it blurs fringes beyond the first
+constexpr double kUniformEnd = 2.5;       // Fresnel's u from which on fringes fade into their mean,
+constexpr double kMeanFrom = 4.0;         // and from which on they are that
+constexpr double kFirst = 0x1p-6;         // per mm: k of the specks' table
+constexpr int kStepsPerOctave = 8;
+constexpr int kOctaves = 26;
+constexpr double kSizesPerOctave = 16.0;  // specks are put together by size
+constexpr double kStepU = 0.5;            // of Fresnel's u in an average over directions
+constexpr int kMaxSteps = 8;
+
+double square(double x) { return x * x; }
+
+double smoothstep(double t) {
+  t = std::clamp(t, 0.0, 1.0);
+  return t * t * (3.0 - 2.0 * t);
+}
+
+// (sin x / x)^2, its mean where fringes are finer than a spectrum tells apart.
+double sinc_squared(double x) {
+  x = std::abs(x);
+  if (x < 1e-4) return 1.0;
+  return x < kFringes ? square(std::sin(x) / x) : 0.5 / (x * x);
+}
+
+// (2 J1(x) / x)^2, likewise. J1: Abramowitz & Stegun 9.4.4 and 9.4.6, to 1e-7.
+double airy(double x) {
+  if (x >= kFringes) return 4.0 / (kPi * x * x * x);
+  const double t = square(x / 3.0);
+  if (x <= 3.0) {
+    const double j1_over_x =
+        0.5 + t * (-0.56249985 +
+                   t * (0.21093573 + t * (-0.03954289 + t * (0.00443319 + t * (-0.00031761 + t * 0.00001109)))));
+    return square(2.0 * j1_over_x);
+  }
+  const double s = 3.0 / x;
+  const double amplitude =
+      0.79788456 +
+      s * (0.00000156 + s * (0.01659667 + s * (0.00017105 + s * (-0.00249511 + s * (0.00113653 - s * 0.00020033)))));
+  const double phase =
+      x - 2.35619449 +
+      s * (0.12499612 + s * (0.00005650 + s * (-0.00637879 + s * (0.00074348 + s * (0.00079824 - s * 0.00029166)))));
+  return square(2.0 * amplitude * std::cos(phase) / (x * std::sqrt(x)));
+}
+
+// |integral of exp(-i pi u^2 / 2)|^2 between two places, far from both without the fringes of its ends.
+double fresnel_power(double from, double to) {
+  const double nearest = std::min(std::abs(from), std::abs(to));
+  double exact = 0.0, mean = 0.0;
+  if (nearest < kMeanFrom) {
+    const FresnelIntegrals a = fresnel_integrals(from), b = fresnel_integrals(to);
+    exact = square(b.c - a.c) + square(b.s - a.s);
+  }
+  if (nearest > kUniformEnd)
+    mean = (from < 0.0 && to > 0.0 ? 2.0 : 0.0) + (1.0 / square(from) + 1.0 / square(to)) / square(kPi);
+  const double t = smoothstep((nearest - kUniformEnd) / (kMeanFrom - kUniformEnd));
+  return (1.0 - t) * exact + t * mean;
+}
+
+double weight_of(const DirtStroke& s) { return square(1.0 - std::sqrt(std::max(0.0, 1.0 - s.opacity))); }
+
+}  // namespace
+
+DirtWaves::DirtWaves(std::span<const DirtStroke> strokes) {
+  std::map<int, double> specks;  // by radius: sum of weights times areas squared, shared between the nearest two
+  for (const DirtStroke& s : strokes) {
+    const double area = s.width_mm * (s.length_mm + 0.25 * kPi * s.width_mm);
+    if (!(area > 0.0)) continue;
+    if (s.length_mm <= kSpeckWithin * s.width_mm) {
+      const double size = kSizesPerOctave * 0.5 * std::log2(area / kPi);
+      const double t = size - std::floor(size);
+      specks[static_cast<int>(std::floor(size))] += (1.0 - t) * weight_of(s) * square(area);
+      specks[static_cast<int>(std::floor(size)) + 1] += t * weight_of(s) * square(area);
+    } else
+      scratches_.push_back(
+          {s.angle_rad + 0.5 * kPi, 0.5 * std::abs(s.bend_rad), s.length_mm, s.width_mm, weight_of(s)});
+  }
+  if (specks.empty()) return;
+  for (int i = 0; i <= kOctaves * kStepsPerOctave; ++i) {
+    const double k = kFirst * std::exp2(static_cast<double>(i) / kStepsPerOctave);
+    double sum = 0.0;
+    // As wide as a step, and at least as a channel's band: rings of single sizes are gone.
+    for (const auto& [size, power] : specks)
+      for (const double turn : {-1.0, 0.0, 1.0})
+        sum += power * airy(k * std::exp2(size / kSizesPerOctave + turn / (2.0 * kStepsPerOctave))) / 3.0;
+    specks_.push_back(std::log2(std::max(sum, std::numeric_limits<double>::min())));
+  }
+}
+
+double DirtWaves::specks_power(double k) const {
+  if (specks_.empty()) return 0.0;
+  const double place = std::clamp(std::log2(k / kFirst) * kStepsPerOctave, 0.0, specks_.size() - 1.001);
+  const auto i = static_cast<std::size_t>(place);
+  const double t = place - static_cast<double>(i);
+  return std::exp2((1.0 - t) * specks_[i] + t * specks_[i + 1]);
+}
+
+DirtWaves::Direction DirtWaves::along(double direction_rad, double window_rad) const {
+  Direction d;
+  d.waves_ = this;
+  d.window_rad_ = window_rad;
+  for (const Stroke& s : scratches_) {
+    double tau = direction_rad - s.normal_rad;
+    tau -= kPi * std::round(tau / kPi);  // u and -u give the same power
+    // Beside the fan the ends alone send light, as k^-2 times a slit's, from where their fringes are fine.
+    const double beside = std::abs(tau) - s.half_turn_rad - 0.5 * window_rad;
+    const double ends = smoothstep(beside * s.length / (kBeside * s.width) - 1.0);  // the share counted so
+    if (ends > 0.0) {
+      // 2 / (k sin(tau))^2 * (w sinc(k w cos(tau) / 2))^2, whose mean is 4 / (k^2 sin(tau) cos(tau))^2 at large k.
+      const double sine2 = square(std::sin(beside));
+      const double cosine2 = std::max(square(std::cos(tau)), 1e-6);
+      d.ends_k2_ += ends * s.weight * 2.0 * square(s.width) / sine2;
+      d.ends_k4_ += ends * s.weight * 4.0 / (sine2 * cosine2);
+    }
+    if (ends >= 1.0) continue;
+    const double radius =
+        s.half_turn_rad > 0.0 ? 0.5 * s.length / s.half_turn_rad : std::numeric_limits<double>::infinity();
+    d.near_.push_back({s.length, radius, s.width, (1.0 - ends) * s.weight, tau});
+  }
+  return d;
+}
+
+// A slit's width and, along it: straight, (L sinc(k L sin(tau) / 2))^2, averaged over the window; bent, by Fresnel's
+// integrals (EdgeWaves' arc): phase k R cos(s) = k R - (pi / 2) u^2, u = sqrt(4 k R / pi) sin(s / 2).
+double DirtWaves::Direction::line_power(const Line& line, double k) const {
+  const double across = line.weight * square(line.width) * sinc_squared(0.5 * k * line.width * std::cos(line.tau));
+  if (k * square(line.length) < 8.0 * kFlatPhase * line.radius) {
+    const double q = 0.5 * k * line.length * std::sin(line.tau);
+    const double h =
+        std::max(0.25 * k * line.length * std::cos(line.tau) * window_rad_, kSpectralBlur * (std::abs(q) - kPi));
+    const double along =
+        h < 0.05 ? sinc_squared(q) : (integral_of_sinc_squared(q + h) - integral_of_sinc_squared(q - h)) / (2.0 * h);
+    return across * square(line.length) * along;
+  }
+  const double per_sine = std::sqrt(4.0 * k * line.radius / kPi);
+  const double half_turn = 0.5 * line.length / line.radius;
+  const int steps = std::clamp(static_cast<int>(std::ceil(0.5 * per_sine * window_rad_ / kStepU)), 1, kMaxSteps);
+  double sum = 0.0;
+  for (int i = 0; i < steps; ++i) {
+    const double tau = line.tau + window_rad_ * ((i + 0.5) / steps - 0.5);
+    const auto u_of = [&](double s) { return per_sine * std::sin(0.5 * std::clamp(s, -kPi, kPi)); };
+    sum += fresnel_power(u_of(tau - half_turn), u_of(tau + half_turn));
+  }
+  return across * kPi * line.radius / k * sum / steps;
+}
+
+double DirtWaves::Direction::power(double k) const {
+  double sum = waves_->specks_power(k);
+  for (const Line& line : near_) sum += line_power(line, k);
+  if (ends_k2_ > 0.0) sum += 1.0 / (k * k / ends_k2_ + square(k * k) / ends_k4_);
+  return sum;
+}
+
+}  // namespace contrejour
