@@ -18,7 +18,7 @@ constexpr double kTailFade = 0.625;  // of that, where it begins
 constexpr double kCleanWithin = 2e-3;  // relative: as much as edges' samples may be off
 constexpr double kScatteredFrom = 0.7;  // of the tail's end: the spectrum there says what goes on beyond
 constexpr double kGrainRho = 1.0;  // between samples that tell it: it is as wide
-constexpr int kModelPlaces = 6;    // and what it is compared with is smooth
+constexpr int kModelPlaces = 6;  // and what it is compared with is smooth
 constexpr double kLeastGrain = 0.25, kMostGrain = 4.0;  // of the shapes' sum, where they interfere
 constexpr int kRowsPerStep = 4;  // between which the tail times rho^3 is interpolated
 
