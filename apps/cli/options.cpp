@@ -69,6 +69,8 @@ void add_lens_parameters(CLI::App& command, params::Values& values) {
   add_parameters(command, values, {"blades", "blade-rotation", "blade-curvature", "blade-asymmetry", "blade-seed"});
   add_parameters(command, values, {"blade-closing", "iris-image"});
   add_parameters(command, values, {"tilt", "decentre", "build-seed"});
+  add_parameters(command, values, {"dust", "dust-size", "scratches", "scratch-length", "scratch-width", "scratch-angle"});
+  add_parameters(command, values, {"scratch-spread", "dirt-image", "dirt-on", "dirt-seed", "dirt-time"});
 }
 
 void add_rendering_parameters(CLI::App& command, params::Values& values) {

@@ -15,7 +15,7 @@ namespace contrejour::cli {
 // One option each; `values` must live as long as the command. A wrong value is a usage error.
 void add_parameters(CLI::App& command, params::Values& values, std::initializer_list<std::string_view> names);
 
-// Every parameter that sets the lens: focal, fnumber, focus, coating, those of the blades, iris-image.
+// Every parameter that sets the lens: focal, fnumber, focus, coating, those of the blades, iris-image, those of dirt.
 void add_lens_parameters(CLI::App& command, params::Values& values);
 
 // How to render: the method and its settings.
