@@ -81,6 +81,7 @@ void add_rendering_parameters(CLI::App& command, params::Values& values) {
   add_parameters(command, values, {"merge-steps", "merge-threshold", "tile", "coarse-tile", "interpolation"});
   add_parameters(command, values, {"error", "density"});
   add_parameters(command, values, {"starburst", "starburst-gain", "glare", "glare-width"});
+  add_parameters(command, values, {"ringing", "ringing-alpha"});
   add_parameters(command, values,
                  {"ghost", "ghost-gain", "ghost-edge-gain", "ghost-ramp", "ghost-scatter", "ghost-seed"});
 }

@@ -100,6 +100,13 @@ Result<Dirt> dirt(const Values& values) {
   return dirt;
 }
 
+RingingOptions ringing_options(const Values& values) {
+  RingingOptions options;
+  options.mode = choice<RingingMode>(values, "ringing");
+  options.alpha = values.real("ringing-alpha");
+  return options;
+}
+
 }  // namespace
 
 Result<LensSettings> lens_settings(const Values& values) {
@@ -159,6 +166,7 @@ RenderSettings render_settings(const Values& values, const Frame& frame, ColourS
   settings.glare.share = values.number("glare");
   settings.glare.width_rad = values.number("glare-width") * kDegree_rad;
   settings.ghosts = ghost_options(values);
+  settings.ringing = ringing_options(values);
   return settings;
 }
 

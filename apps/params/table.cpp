@@ -195,6 +195,12 @@ const Parameter kTable[] = {
      .help = "share of each light that the lens scatters about its image; good lenses: 0.005 to 0.03"},
     {.name = "glare-width", .group = "Rendering", .kind = Kind::Real, .unit = "deg", .minimum = 0.001, .maximum = 80,
      .fallback = "1", .help = "angle from the light within which glare is flat; beyond, it falls as the cube"},
+    {.name = "ringing", .group = "Rendering", .kind = Kind::Choice, .unit = "HOW", .fallback = "none",
+     .help = "fringes along ghosts' rims: fresnel: each ghost's own, as far as it is out of focus; hullin: one pattern for "
+             "all (hullin2011)",
+     .choices = {"none", "fresnel", "hullin"}},  // as the enum
+    {.name = "ringing-alpha", .group = "Rendering", .kind = Kind::Real, .minimum = 0, .maximum = 1,
+     .help = "order of hullin's ringing, 0: none (default: 0.15 (wavelength / 400 nm) (f-number / 18))"},
     {.name = "threads", .group = "Rendering", .kind = Kind::Integer, .minimum = 0, .maximum = 1024, .fallback = "0",
      .help = "threads; 0: all cores. The picture does not depend on it", .scene = true},
 

@@ -72,6 +72,7 @@ using Spectrum = std::variant<IlluminantD65, IlluminantA, EqualEnergy, BlackBody
 struct SpectralBand {
   double lambda_nm = 550;
   Rgb weight{};  // share of the light's channel value that falls in the band; may be negative
+  double spread_nm = 0;  // root mean square, of the band about its wavelength, by what is seen of it
 };
 [[nodiscard]] std::vector<SpectralBand> spectral_bands(int count, const Spectrum& light, ColourSpace space);
 

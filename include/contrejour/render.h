@@ -95,6 +95,19 @@ struct GhostOptions {
   std::uint32_t scatter_seed = 0;
 };
 
+// What diffraction at the iris does to the ghosts' rims (docs/physics/diffraction.md).
+enum class RingingMode {
+  None,
+  Fresnel,  // each ghost's own fringes, from how far out of focus it is
+  Hullin,   // hullin2011 eq. 5: one pattern for all ghosts, by experience
+};
+class RingingPatterns;
+struct RingingOptions {
+  RingingMode mode = RingingMode::None;
+  std::optional<double> alpha = std::nullopt;  // Hullin: the order; default: hullin_order()
+  std::shared_ptr<RingingPatterns> patterns = nullptr;  // ringing.h: kept from frame to frame, if given
+};
+
 struct RenderSettings {
   Frame frame;
   GhostScope scope = GhostScope::OneSideOfStop;
@@ -112,6 +125,7 @@ struct RenderSettings {
   StarburstOptions starburst;
   GlareOptions glare;
   GhostOptions ghosts;
+  RingingOptions ringing;
 };
 
 struct RenderStatistics {

@@ -17,12 +17,13 @@ constexpr double kSmallestTotalShare = 0.25;
 struct Sample {
   double visible = 0;  // S (xbar + ybar + zbar)
   double moment = 0;   // lambda times that
+  double second = 0;   // and again
   Rgb channel{};       // S times the channel's matching function
   Rgb absolute{};      // and its size
 };
 
 Sample operator+(const Sample& a, const Sample& b) {
-  Sample sum{a.visible + b.visible, a.moment + b.moment, {}, {}};
+  Sample sum{a.visible + b.visible, a.moment + b.moment, a.second + b.second, {}, {}};
   for (std::size_t c = 0; c < 3; ++c) {
     sum.channel[c] = a.channel[c] + b.channel[c];
     sum.absolute[c] = a.absolute[c] + b.absolute[c];
@@ -31,7 +32,7 @@ Sample operator+(const Sample& a, const Sample& b) {
 }
 
 Sample operator*(double s, const Sample& a) {
-  Sample scaled{s * a.visible, s * a.moment, {}, {}};
+  Sample scaled{s * a.visible, s * a.moment, s * a.second, {}, {}};
   for (std::size_t c = 0; c < 3; ++c) {
     scaled.channel[c] = s * a.channel[c];
     scaled.absolute[c] = s * a.absolute[c];
@@ -59,6 +60,7 @@ Samples sample_light(const Spectrum& light, ColourSpace space) {
     const double s = power[i] / largest;
     samples[i].visible = s * (observer[0] + observer[1] + observer[2]);
     samples[i].moment = samples[i].visible * (cie::kObserverFirstNm + static_cast<double>(i));
+    samples[i].second = samples[i].moment * (cie::kObserverFirstNm + static_cast<double>(i));
     for (std::size_t c = 0; c < 3; ++c) {
       samples[i].channel[c] = s * matching[c];
       samples[i].absolute[c] = std::abs(s * matching[c]);
@@ -125,6 +127,7 @@ std::vector<SpectralBand> spectral_bands(int count, const Spectrum& light, Colou
     const Sample band = end + (-1.0) * begin;
     bands[k].lambda_nm = band.moment / band.visible;
     if (k > 0) bands[k].lambda_nm = std::max(bands[k].lambda_nm, bands[k - 1].lambda_nm + kApart_nm);
+    bands[k].spread_nm = std::sqrt(std::max(0.0, band.second / band.visible - bands[k].lambda_nm * bands[k].lambda_nm));
     for (std::size_t c = 0; c < 3; ++c) {
       // The channel's own integral, plus as much of the absolute one as keeps the quotient bounded.
       const double added = std::max(0.0, kSmallestTotalShare - total.channel[c] / total.absolute[c]);

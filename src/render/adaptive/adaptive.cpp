@@ -7,6 +7,7 @@
 #include "base/memory.h"
 #include "base/tasks.h"
 #include "render/adaptive/item.h"
+#include "render/adaptive/screened_items.h"
 
 namespace contrejour {
 namespace {
@@ -128,9 +129,15 @@ Result<Flare> render_adaptive(const LensState& lens, const FramePlan& plan, cons
   Context quiet = context;
   quiet.progress = {};
   Work work;
-  const std::vector<Item> items = find_items(scene, quiet, work);
+  std::vector<Item> items = find_items(scene, quiet, work);
   const double bound_ms = watch.lap_ms();
-  const double peak = estimate_peak(scene, items, settings.frame, quiet, work);
+  Screens screens(lens, settings);
+  std::vector<ItemSize> sizes;
+  const double peak = estimate_peak(scene, items, settings.frame, quiet, work, screens.on() ? &sizes : nullptr);
+  if (screens.on() && peak > 0.0) {
+    const double pixels = static_cast<double>(settings.frame.width) * settings.frame.height;
+    work.add(screen_items(scene, screens, items, sizes, {settings.error, peak, pixels}, quiet));
+  }
   const double peak_ms = watch.lap_ms();
   FramePainter painter(scene, settings, context, flare);
   painter.paint(items, budget_per_item(settings.error, peak, settings.frame, items.size()));

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 namespace contrejour::adaptive {
 namespace {
@@ -34,6 +35,56 @@ struct Bounds {
   }
   [[nodiscard]] Vec2 size() const { return high - low; }
 };
+
+constexpr double kWidthsPerOctave = 2.0;
+constexpr double kScreenDisc = 1.2;  // of a cell's distance from its middle in the stop, for cells that bend
+
+constexpr double kSagittaRoom = 0.5;  // of an arc's, for circles about the same centre with a smaller radius
+
+struct HalfPlane {  // normal . p <= most
+  Vec2 normal;
+  double most = 0.0;
+};
+
+// Across a bound, straight: normal . p is at most `outer` on the bound's inner side, and at most `inner` nowhere but
+// there, as far as some polygon sees it.
+struct EdgeLine {
+  Vec2 normal;
+  double outer = 0.0, inner = 0.0;
+};
+
+EdgeLine line_along(const IrisBound& bound, std::span<const Corner> polygon, const StopMap& map) {
+  if (bound.straight()) return {bound.normal, bound.apothem, bound.apothem};
+  Vec2 middle{};
+  for (const Corner& c : polygon) middle = middle + map.place(c.position) * (1.0 / static_cast<double>(polygon.size()));
+  const Vec2 from = middle - bound.centre;
+  const double far = length(from);
+  double sideways = 0.0;
+  const Vec2 normal = far > 0.0 ? from * (1.0 / far) : Vec2{1.0, 0.0};
+  for (const Corner& c : polygon)
+    sideways = std::max(sideways, std::abs(cross(normal, map.place(c.position) - bound.centre)));
+  const double reach = dot(normal, bound.centre) + bound.radius;
+  const double sagitta = bound.radius - std::sqrt(std::max(0.0, bound.radius * bound.radius - sideways * sideways));
+  return {normal, reach, reach - sagitta * (1.0 + kSagittaRoom)};
+}
+
+void keep_within(std::vector<Corner>& polygon, const StopMap& map, const HalfPlane& kept) {
+  std::vector<Corner> out;
+  const auto value = [&](const Corner& c) { return dot(kept.normal, map.place(c.position)) - kept.most; };
+  for (std::size_t k = 0; k < polygon.size(); ++k) {
+    const Corner& a = polygon[k];
+    const Corner& b = polygon[k + 1 == polygon.size() ? 0 : k + 1];
+    const double fa = value(a), fb = value(b);
+    if (fa <= 0.0) out.push_back(a);
+    if ((fa <= 0.0) == (fb <= 0.0)) continue;
+    Corner c;
+    const double t = fa / (fa - fb);
+    c.position = a.position + (b.position - a.position) * t;
+    c.uv = a.uv + (b.uv - a.uv) * t;
+    out.push_back(c);
+  }
+  polygon.swap(out);
+}
 
 // Of a polygon: signed, and the point that halves it every way.
 struct Area {
@@ -180,11 +231,15 @@ double CellPainter::squared_error(const Mesh& mesh, const Cell& cell, State stat
     const double off = left * length(mesh.position(cell.side[k]) - (a + c) * 0.5);
     error += mean * mean * std::min(off * off, off) * length(c - a) * width * width;
   }
-  if (state == State::Cut) {
-    const double share = left * limit_error(mesh, cell);
-    if (share > left * kMostBend) return std::numeric_limits<double>::infinity();  // or light would be lost unseen
+  const bool varied = screen_ && screen_part(mesh, cell) == ScreenPart::Varied;
+  if (state == State::Cut || varied) {
+    const double limit = left * limit_error(mesh, cell);
+    if (state == State::Cut && limit > left * kMostBend)
+      return std::numeric_limits<double>::infinity();  // or light would be lost unseen
+    const double share = varied ? std::max(limit, twist(mesh, cell)) : limit;
     const double off = share * longest;
-    const double edges = iris_.is_picture() ? kPictureEdges : 1.0;
+    double edges = iris_.is_picture() ? kPictureEdges : 1.0;
+    if (state != State::Cut) edges = std::min(1.0, stop_size(mesh, cell) / (screen_->unit * longest));  // soft ones
     error += mean * mean * std::min(off * off, off) * edges * longest * width * width;
   }
   return std::min(error, 4.0 * worst) * dimmed * dimmed;
@@ -261,9 +316,11 @@ void CellPainter::paint_cell(const Mesh& mesh, int ix, int iy, int size) {
   const Cell cell = cell_at(ix, iy, size);
   const State state = state_of(mesh, cell);
   if (state == State::Closed || off_frame(mesh, cell)) return;
+  const ScreenPart part = screen_ ? screen_part(mesh, cell) : ScreenPart::Level;
+  if (part == ScreenPart::Dark) return;
   if (size == 1 || squared_error(mesh, cell, state, Sides::Straight) <= kStraight * cell_budget())
     return draw(mesh, cell, state, Sides::Straight);
-  const Sides sides = most_bent(state);
+  const Sides sides = part == ScreenPart::Varied ? Sides::Straight : most_bent(state);
   if (squared_error(mesh, cell, state, sides) <= cell_budget()) return draw(mesh, cell, state, sides);
   const int half = size / 2;
   for (int k = 0; k < 4; ++k) paint_cell(mesh, ix + (k % 2) * half, iy + (k / 2) * half, half);
@@ -321,7 +378,118 @@ void CellPainter::draw(const Mesh& mesh, const Cell& cell, State state, Sides si
     shade.along_x[channel] = static_cast<float>((along_d * f.y - along_f * d.y) * scale);
     shade.along_y[channel] = static_cast<float>((along_f * d.x - along_d * f.x) * scale);
   }
+  if (screen_ && screen_part(mesh, cell) == ScreenPart::Varied) return draw_screened(mesh, cell, state, shade, flux);
   draw_polygon(mesh, state, shade, flux, outline.all());
+}
+
+Vec2 CellPainter::stop_place(const Mesh& mesh, std::size_t vertex, int crossing) const {
+  const int field = PatchLayout::kStop + 2 * crossing;
+  return Vec2{mesh.field(field)[vertex], mesh.field(field + 1)[vertex]} * screen_unit_;
+}
+
+// Over the disc about a cell's crossings of the stop.
+ScreenPart CellPainter::screen_part(const Mesh& mesh, const Cell& cell) const {
+  const int last = mesh.layout.crossings - 1;
+  if (last < 0) return ScreenPart::Level;
+  const Vec2 middle = stop_place(mesh, cell.middle, last);
+  double radius = 0.0;
+  for (const std::size_t v : cell.corner) radius = std::max(radius, length(stop_place(mesh, v, last) - middle));
+  for (const std::size_t v : cell.side) radius = std::max(radius, length(stop_place(mesh, v, last) - middle));
+  const ScreenPart part = screen_->over(middle, kScreenDisc * radius);
+  return part == ScreenPart::Level && last > 0 ? ScreenPart::Varied : part;
+}
+
+double CellPainter::stop_size(const Mesh& mesh, const Cell& cell) const {
+  const int last = mesh.layout.crossings - 1;
+  const auto at = [&](std::size_t v) { return stop_place(mesh, v, last); };
+  return std::max(length(at(cell.corner[2]) - at(cell.corner[0])), length(at(cell.corner[3]) - at(cell.corner[1])));
+}
+
+// How far the stop's places at a cell's middle are off the diagonals' middles, as a share of the cell.
+double CellPainter::twist(const Mesh& mesh, const Cell& cell) const {
+  double largest = 0.0;
+  for (int c = 0; c < mesh.layout.crossings; ++c) {
+    const auto at = [&](std::size_t v) { return stop_place(mesh, v, c); };
+    const Vec2 middle = at(cell.middle);
+    const double size =
+        length(at(cell.corner[2]) - at(cell.corner[0])) + length(at(cell.corner[3]) - at(cell.corner[1]));
+    for (std::size_t k = 0; k < 2; ++k) {
+      const double off = length((at(cell.corner[k]) + at(cell.corner[k + 2])) * 0.5 - middle);
+      if (size > 0.0) largest = std::max(largest, 2.0 * off / size);
+    }
+  }
+  return largest;
+}
+
+StopMap CellPainter::stop_map(const Mesh& mesh, std::span<const std::size_t> corners) const {
+  std::array<StopMap::Corner, 3> c;
+  for (std::size_t k = 0; k < 3; ++k) {
+    c[k].pixel = mesh.position(corners[k]) + mesh.origin_px;
+    for (int crossing = 0; crossing < mesh.layout.crossings; ++crossing)
+      c[k].stop[static_cast<std::size_t>(crossing)] = stop_place(mesh, corners[k], crossing);
+  }
+  return {c, mesh.layout.crossings};
+}
+
+// For pixels of about that width.
+const EdgeTable& CellPainter::table_for(double width) {
+  const int octave = static_cast<int>(std::lround(kWidthsPerOctave * std::log2(std::max(width, 1e-9))));
+  const auto [at, is_new] = tables_.try_emplace(octave, nullptr);
+  if (is_new) {
+    out_.tables.push_back({screen_, std::make_shared<const EdgeTable>(*screen_, std::exp2(octave / kWidthsPerOctave))});
+    at->second = out_.tables.back().table.get();
+  }
+  return *at->second;
+}
+
+// The parts of a triangle's polygon along each edge that brings fringes there, cut off by straight lines, and the rest,
+// which is level.
+void CellPainter::draw_fringed(std::span<const Corner> polygon, const Shade& shade, const Flux& flux,
+                               const StopMap& map) {
+  const EdgeTable& table = table_for(map.width());
+  if (table.iris().is_picture()) return add_fringed(polygon, shade, map, table);
+  std::vector<Corner> rest(polygon.begin(), polygon.end()), strip;
+  for (const IrisBound& bound : table.iris().bounds()) {
+    if (rest.size() < 3) return;
+    const EdgeLine line = line_along(bound, rest, map);
+    keep_within(rest, map, {line.normal, line.outer + table.dark_beyond()});
+    strip = rest;
+    keep_within(strip, map, {line.normal * -1.0, table.level_within() - line.inner});
+    if (strip.size() < 3) continue;
+    keep_within(rest, map, {line.normal, line.inner - table.level_within()});
+    add_fringed(strip, shade, map, table);
+  }
+  draw_part(rest, shade, flux, true);
+}
+
+void CellPainter::add_fringed(std::span<const Corner> polygon, const Shade& shade, const StopMap& map,
+                              const EdgeTable& table) {
+  active_.clear();
+  const auto& bounds = table.iris().bounds();
+  for (std::size_t k = 0; k < bounds.size() && !table.iris().is_picture(); ++k) {
+    double nearest = -std::numeric_limits<double>::infinity();
+    for (const Corner& c : polygon) nearest = std::max(nearest, bounds[k].distance(map.place(c.position)));
+    // Distances are convex: none within is larger than at the corners, but for pixels that reach beyond.
+    if (nearest + map.width() > -table.level_within()) active_.push_back(static_cast<std::uint16_t>(k));
+  }
+  points_.clear();
+  for (const Corner& c : polygon)
+    points_.push_back({static_cast<float>(c.position.x), static_cast<float>(c.position.y)});
+  const Vec2 origin = map.place({0.0, 0.0});
+  out_.add(points_, shade,
+           PolygonList::Fringed{&table, origin, map.place({1.0, 0.0}) - origin, map.place({0.0, 1.0}) - origin, 0, 0},
+           active_);
+}
+
+// Two triangles, over each of which places in the stop are linear.
+void CellPainter::draw_screened(const Mesh& mesh, const Cell& cell, State state, const Shade& shade, const Flux& flux) {
+  const Flux half{0.5 * flux[0], 0.5 * flux[1], 0.5 * flux[2]};
+  for (const auto& t : {std::array{cell.corner[0], cell.corner[1], cell.corner[2]},
+                        std::array{cell.corner[0], cell.corner[2], cell.corner[3]}}) {
+    const std::array<CellCorner, 3> corners{{{t[0], {0, 0}}, {t[1], {1, 0}}, {t[2], {1, 1}}}};
+    const StopMap map = stop_map(mesh, t);
+    draw_polygon(mesh, state, shade, half, corners, &map);
+  }
 }
 
 // Two triangles, each with its own flux spread evenly.
@@ -342,7 +510,9 @@ void CellPainter::draw_folded(const Mesh& mesh, const Cell& cell, State state) {
       flux[channel] = (w[t[0]] + w[t[1]] + w[t[2]]) / 3.0 * flux_area;
       shade.value[channel] = static_cast<float>(flux[channel] / std::max(area, 1e-12));
     }
-    draw_polygon(mesh, state, shade, flux, corners);
+    const bool varied = screen_ && screen_part(mesh, cell) == ScreenPart::Varied;
+    const auto map = varied ? std::optional(stop_map(mesh, t)) : std::nullopt;
+    draw_polygon(mesh, state, shade, flux, corners, map ? &*map : nullptr);
   }
 }
 
@@ -367,7 +537,7 @@ double CellPainter::arc_step(const Mesh& mesh, std::span<const CellCorner> corne
 }
 
 void CellPainter::draw_polygon(const Mesh& mesh, State state, const Shade& shade, const Flux& flux,
-                               std::span<const CellCorner> corners) {
+                               std::span<const CellCorner> corners, const StopMap* map) {
   std::array<Corner, 8> whole;
   for (std::size_t k = 0; k < corners.size(); ++k) {
     Corner& corner = whole[k];
@@ -382,7 +552,7 @@ void CellPainter::draw_polygon(const Mesh& mesh, State state, const Shade& shade
   if (state == State::Cut) {
     polygon = cutter_.open_part(polygon, mesh.layout.crossings, mesh.layout.rims, arc_step(mesh, corners, shade));
   }
-  draw_part(polygon, shade, flux, corners.size() == 3);
+  draw_part(polygon, shade, flux, corners.size() == 3, map);
 }
 
 // What a picture as the iris leaves of a cell. Details that no pixel shows are drawn as their mean.
@@ -406,7 +576,8 @@ void CellPainter::draw_pieces(const Mesh& mesh, std::span<const Corner> cell, co
 }
 
 // triangle: flux is that of half the square of uv.
-void CellPainter::draw_part(std::span<const Corner> polygon, const Shade& shade, const Flux& flux, bool triangle) {
+void CellPainter::draw_part(std::span<const Corner> polygon, const Shade& shade, const Flux& flux, bool triangle,
+                            const StopMap* map) {
   if (polygon.size() < 3) return;
   points_.clear();
   Bounds b;
@@ -424,11 +595,22 @@ void CellPainter::draw_part(std::span<const Corner> polygon, const Shade& shade,
   const bool one_pixel = std::floor(b.low.x) == std::floor(b.high.x) && std::floor(b.low.y) == std::floor(b.high.y);
   const bool sliver = std::abs(twice_area) < kSliver * longest;
   if (!one_pixel && !sliver && longest > kSpeck) {
-    out_.add(points_, shade);
+    if (map == nullptr)
+      out_.add(points_, shade);
+    else if (map->goes_on() && screen_->edges != nullptr)
+      draw_fringed(polygon, shade, flux, *map);
+    else
+      out_.add(points_, shade, PolygonList::Screened{screen_, *map});
     return;
   }
   const double share = 0.5 * std::abs(twice_share) * (triangle ? 2.0 : 1.0);
-  draw_line(polygon, {flux[0] * share, flux[1] * share, flux[2] * share});
+  Flux passed{flux[0] * share, flux[1] * share, flux[2] * share};
+  if (map != nullptr) {
+    std::array<StopPlace, kMaxStopCrossings> room;
+    const auto screened = screen_->share(map->places((b.low + b.high) * 0.5, room));
+    for (std::size_t c = 0; c < 3; ++c) passed[c] *= screened[c];
+  }
+  draw_line(polygon, passed);
 }
 
 // The flux at points between the ends of a polygon that is thinner than can be told.

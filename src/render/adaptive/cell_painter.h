@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <map>
 
 #include "render/adaptive/mesh.h"
 #include "render/adaptive/outline_cutter.h"
@@ -20,6 +21,13 @@ class CellPainter {
         out_(out), cutter_(iris) {}
 
   void paint(const Patch& patch) { paint(patch, 0); }
+
+  // From here on the light passes a screen: stop coordinates are in units of `unit` stop radii.
+  void stand_behind(std::shared_ptr<const BandScreen> screen, double unit) {
+    screen_ = std::move(screen);
+    screen_unit_ = unit;
+    tables_.clear();
+  }
 
  private:
   enum class State : std::uint8_t { Open, Cut, Closed };
@@ -50,9 +58,19 @@ class CellPainter {
   void draw(const Mesh& mesh, const Cell& cell, State state, Sides sides);
   void draw_folded(const Mesh& mesh, const Cell& cell, State state);
   void draw_polygon(const Mesh& mesh, State state, const Shade& shade, const Flux& flux,
-                    std::span<const CellCorner> corners);
+                    std::span<const CellCorner> corners, const StopMap* map = nullptr);
   void draw_pieces(const Mesh& mesh, std::span<const Corner> cell, const Shade& shade, const Flux& flux);
-  void draw_part(std::span<const Corner> polygon, const Shade& shade, const Flux& flux, bool triangle);
+  void draw_part(std::span<const Corner> polygon, const Shade& shade, const Flux& flux, bool triangle,
+                 const StopMap* map = nullptr);
+  void draw_screened(const Mesh& mesh, const Cell& cell, State state, const Shade& shade, const Flux& flux);
+  [[nodiscard]] Vec2 stop_place(const Mesh& mesh, std::size_t vertex, int crossing) const;
+  [[nodiscard]] StopMap stop_map(const Mesh& mesh, std::span<const std::size_t> corners) const;
+  void draw_fringed(std::span<const Corner> polygon, const Shade& shade, const Flux& flux, const StopMap& map);
+  void add_fringed(std::span<const Corner> polygon, const Shade& shade, const StopMap& map, const EdgeTable& table);
+  [[nodiscard]] const EdgeTable& table_for(double width);
+  [[nodiscard]] ScreenPart screen_part(const Mesh& mesh, const Cell& cell) const;
+  [[nodiscard]] double stop_size(const Mesh& mesh, const Cell& cell) const;
+  [[nodiscard]] double twist(const Mesh& mesh, const Cell& cell) const;
   void draw_line(std::span<const Corner> polygon, const Flux& flux);
 
   // Of the next cell. How many there will be is not known before: their share falls as they become more, down to a
@@ -78,6 +96,10 @@ class CellPainter {
   double cells_ = 0.0;  // drawn so far
   double peak_;
   PolygonList& out_;
+  std::shared_ptr<const BandScreen> screen_;  // null: the iris is sharp
+  double screen_unit_ = 1.0;
+  std::map<int, const EdgeTable*> tables_;  // of the screen, by width
+  std::vector<std::uint16_t> active_;
   OutlineCutter cutter_;
   std::vector<Point> points_;
 };

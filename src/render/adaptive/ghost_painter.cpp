@@ -20,6 +20,7 @@ constexpr double kNoLimit = 1e9;
 constexpr double kPeaks = 4.0;  // fits of what is so many times brighter than the peak need be no better
 constexpr float kNearlyThrough = 1.2F;  // of the clear height
 constexpr double kShiftShare = 1.0;  // of a fit's tolerance that a band of wavelengths may take on either side
+constexpr double kLightLeft = 0.05;  // of a channel's absolute sum over wavelengths, for its parts to mean anything
 constexpr double kFewCells = 64.0;  // a band's squared error is shared among so many cells
 
 // Bounds of the cells between the nodes that may let light through, none if none may; the iris counts as its
@@ -78,9 +79,9 @@ double area(const Rectangle& r) { return (r.high.x - r.low.x) * (r.high.y - r.lo
 }  // namespace
 
 GhostPainter::GhostPainter(const LensState& lens, const IrisShape& iris, const Frame& frame, const LightFrame& light,
-                           const TablesByWavelength& tables, int deepest)
+                           const TablesByWavelength& tables, int deepest, const GhostScreens* screens)
     : lens_(lens), iris_(iris), frame_(frame), light_(light), tables_(tables),
-      plane_z_mm_(entrance_window(lens, light.source).z_mm), deepest_(deepest) {}
+      plane_z_mm_(entrance_window(lens, light.source).z_mm), deepest_(deepest), screens_(screens) {}
 
 // How far a fit may be off, from what that does to pixels: edges displaced by d over a length of about 4 L, and
 // levels off by a share w over L^2 pixels.
@@ -137,11 +138,44 @@ std::vector<RaySheet> GhostPainter::first_sheets(Ghost ghost, const Rectangle& b
                                                  std::span<const PlannedPass> passes) {
   std::vector<RaySheet> sheets;
   for (std::size_t k = 0; k < passes.size(); ++k) {
-    SheetTracer tracer(lens_, ghost, light_, plane_z_mm_, {passes[k].lambda_nm, passes.subspan(k, 1)}, tables_);
+    SheetTracer tracer(lens_, ghost, light_, plane_z_mm_, {passes[k].lambda_nm, passes.subspan(k, 1)}, tables_,
+                       stop_times());
     sheets.push_back(tracer.trace(box, kNodes.front(), PacketPrecision::Double));
     count(tracer);
   }
   return sheets;
+}
+
+// The screens of a band's wavelengths, at most three, each with the light of those nearest.
+std::shared_ptr<const BandScreen> GhostPainter::band_screen(const std::vector<RaySheet>& sheets, std::size_t first,
+                                                            std::size_t last) const {
+  const std::size_t passes = last - first, count = std::min<std::size_t>(passes, 3);
+  auto band = std::make_shared<BandScreen>();
+  std::array<double, 3> sum{}, size{};
+  std::vector<std::array<double, 3>> light(count);
+  for (std::size_t part = 0; part < count; ++part) {
+    const std::size_t from = first + part * passes / count, to = first + (part + 1) * passes / count;
+    band->parts.push_back({screens_->by_pass[(from + to) / 2], {}});
+    for (std::size_t k = from; k < to; ++k)
+      for (std::size_t c = 0; c < 3; ++c)
+        for (const float w : sheets[k].weight[c]) light[part][c] += std::isfinite(w) ? w : 0.0F;
+    for (std::size_t c = 0; c < 3; ++c) sum[c] += light[part][c], size[c] += std::abs(light[part][c]);
+  }
+  for (std::size_t part = 0; part < count; ++part)
+    for (std::size_t c = 0; c < 3; ++c)
+      band->parts[part].channel[c] = static_cast<float>(
+          std::abs(sum[c]) > kLightLeft * size[c] ? light[part][c] / sum[c] : 1.0 / static_cast<double>(count));
+  bool all_edges = true;
+  for (const auto& part : band->parts) {
+    const auto* const edge = dynamic_cast<const screens::EdgeScreen*>(part.screen.get());
+    all_edges = all_edges && edge != nullptr;
+    if (edge == nullptr) continue;
+    band->unit = std::min(band->unit, edge->unit());
+    band->dark_beyond = std::max(band->dark_beyond, -screens_->range.dark * edge->unit());
+    band->level_within = std::max(band->level_within, screens_->range.level * edge->unit());
+  }
+  if (all_edges) band->edges = static_cast<const screens::EdgeScreen*>(band->parts.front().screen.get());
+  return band;
 }
 
 // How far a ghost moves from one wavelength to another, by the rays that are not far from getting through.
@@ -168,6 +202,7 @@ void GhostPainter::paint(Ghost ghost, const Rectangle& box, std::span<const Plan
     const std::size_t first = band * passes.size() / bands;
     const std::size_t last = (band + 1) * passes.size() / bands;
     const std::size_t middle = (first + last) / 2;
+    if (screens_ != nullptr) cells.stand_behind(band_screen(sheets, first, last), stop_times());
     RaySheet sheet = sheets[middle];
     for (std::size_t k = first; k < last; ++k) {
       for (std::size_t c = 0; c < 3 && k != middle; ++c) {
@@ -182,7 +217,7 @@ void GhostPainter::paint(Ghost ghost, const Rectangle& box, std::span<const Plan
       }
     }
     const auto few = thinned(passes.subspan(first, last - first));
-    SheetTracer tracer(lens_, ghost, light_, plane_z_mm_, {few[few.size() / 2].lambda_nm, few}, tables_);
+    SheetTracer tracer(lens_, ghost, light_, plane_z_mm_, {few[few.size() / 2].lambda_nm, few}, tables_, stop_times());
     paint_box(tracer, box, 0, tolerance, cells);
     count(tracer);
   }

@@ -12,11 +12,19 @@ struct ErrorBudget {
   double peak = 1;           // of the frame's pixel values
 };
 
+// What stands in the stop for a ghost of a light, in place of the sharp iris: one a pass, the last crossing's.
+struct GhostScreens {
+  double reach = 1.0;  // the largest, as far as their light is worth drawing
+  screens::EdgeProfile::Range range;  // likewise, of edges' fringes
+  std::vector<std::shared_ptr<const StopScreen>> by_pass;
+};
+
 class GhostPainter {
  public:
   // deepest: how often a box may be quartered before straight lines between rays must do.
+  // screens: may be null; with them the iris is a circle.
   GhostPainter(const LensState& lens, const IrisShape& iris, const Frame& frame, const LightFrame& light,
-               const TablesByWavelength& tables, int deepest);
+               const TablesByWavelength& tables, int deepest, const GhostScreens* screens = nullptr);
 
   // box: in the light's meridional frame. Passes by rising wavelength.
   void paint(Ghost ghost, const Rectangle& box, std::span<const PlannedPass> passes, const ErrorBudget& budget,
@@ -34,6 +42,9 @@ class GhostPainter {
   [[nodiscard]] PacketPrecision precision_for(const Rectangle& box, const Tolerance& tolerance) const;
   [[nodiscard]] std::vector<RaySheet> first_sheets(Ghost ghost, const Rectangle& box,
                                                    std::span<const PlannedPass> passes);
+  [[nodiscard]] double stop_times() const { return screens_ != nullptr ? screens_->reach : 1.0; }
+  [[nodiscard]] std::shared_ptr<const BandScreen> band_screen(const std::vector<RaySheet>& sheets, std::size_t first,
+                                                              std::size_t last) const;
   [[nodiscard]] double shift_px(const RaySheet& a, const RaySheet& b) const;
 
   void paint_box(SheetTracer& tracer, const Rectangle& box, int depth, const Tolerance& tolerance, CellPainter& cells);
@@ -48,6 +59,7 @@ class GhostPainter {
   const TablesByWavelength& tables_;
   double plane_z_mm_;
   int deepest_;
+  const GhostScreens* screens_;
   std::uint64_t rays_ = 0, surface_hits_ = 0;
 };
 

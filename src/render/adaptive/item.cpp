@@ -1,6 +1,7 @@
 #include "render/adaptive/item.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <optional>
 
@@ -64,6 +65,9 @@ std::vector<double> outer_wavelengths(const PlannedLight& light) {
   return outer_nm;
 }
 
+// Where the item has screens the stop counts as larger, to hold the light beside its opening.
+double stop_times(const Item& item) { return item.screens ? item.screens->reach : 1.0; }
+
 // Of a lens without symmetries: one box, by grids over all of the window.
 Work find_askew_box(const Scene& scene, Item& item) {
   const LightSource& light = item.light->source;
@@ -73,7 +77,7 @@ Work find_askew_box(const Scene& scene, Item& item) {
   RayGrid grid;
   std::optional<Rectangle> box;
   for (const double lambda_nm : outer_wavelengths(*item.light)) {
-    const OpticalPath path = ghost_path(scene.lens, item.ghost, lambda_nm);
+    const OpticalPath path = widened(ghost_path(scene.lens, item.ghost, lambda_nm), stop_times(item));
     const auto region = find_pupil_region(path, *scene.plan.tables.at(lambda_nm), circle, light, window, grid);
     if (!region) continue;
     box = box ? both(*box, region->pupil_mm) : region->pupil_mm;
@@ -83,13 +87,18 @@ Work find_askew_box(const Scene& scene, Item& item) {
   return work;
 }
 
+}  // namespace
+
 // Where rays get through, at all wavelengths of the light: found at the middle one, then fitted to the outer ones.
 Work find_boxes(const Scene& scene, Item& item) {
+  item.boxes.clear();
   if (!scene.lens.is_centred()) return find_askew_box(scene, item);
   const LightFrame light(item.light->source);
   const EntranceWindow window = entrance_window(scene.lens, light.source);
   const LightRays rays{{0.0, 0.0, window.z_mm}, light.source};
-  const auto path_at = [&](double lambda_nm) { return ghost_path(scene.lens, item.ghost, lambda_nm); };
+  const auto path_at = [&](double lambda_nm) {
+    return widened(ghost_path(scene.lens, item.ghost, lambda_nm), stop_times(item));
+  };
   const auto tables_at = [&](double lambda_nm) -> const ReflectanceTables& { return *scene.plan.tables.at(lambda_nm); };
   const double middle_nm = middle_pass(*item.light).lambda_nm;
   const OpticalPath path = path_at(middle_nm);
@@ -118,13 +127,21 @@ Work find_boxes(const Scene& scene, Item& item) {
   return work;
 }
 
+namespace {
+
+const IrisShape& round_iris() {
+  static const IrisShape circle{Iris{}};
+  return circle;
+}
+
 Painted paint(const Scene& scene, const Item& item, std::vector<PlannedPass> passes, const Frame& whole,
               const TileGrid& grid, const ErrorBudget& budget, int deepest) {
   Painted painted;
   const Frame frame = item.look->placed(whole);
   for (PlannedPass& pass : passes) pass.gain = item.look->tinted(pass.gain);
   const LightFrame light(item.light->source, scene.lens.is_centred());
-  GhostPainter painter(scene.lens, scene.iris, frame, light, scene.plan.tables, deepest);
+  const IrisShape& iris = item.screens ? round_iris() : scene.iris;
+  GhostPainter painter(scene.lens, iris, frame, light, scene.plan.tables, deepest, item.screens.get());
   for (const Rectangle& box : item.boxes) painter.paint(item.ghost, box, passes, budget, painted.polygons.list);
   painted.polygons.tiles = tile_lists(painted.polygons.list, grid);
   painted.work = {painter.rays(), painter.surface_hits()};
@@ -138,6 +155,22 @@ PlannedPass merged(const PlannedLight& light) {
     for (std::size_t c = 0; c < 3; ++c) all.gain[c] += pass.gain[c];
   }
   return all;
+}
+
+// In pixels of the whole frame.
+ItemSize size_of(const PolygonList& list) {
+  double area = 0.0, squares = 0.0;
+  for (const Polygon& polygon : list.polygons) {
+    const auto p = list.corners_of(polygon);
+    double twice = 0.0;
+    for (std::size_t k = 2; k < p.size(); ++k)
+      twice += cross(Vec2{p[k - 1].x - p[0].x, p[k - 1].y - p[0].y}, Vec2{p[k].x - p[0].x, p[k].y - p[0].y});
+    const auto& v = polygon.shade.value;
+    area += 0.5 * std::abs(twice);
+    squares += 0.5 * std::abs(twice) * (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]) / 3.0;
+  }
+  constexpr double kPixels = kPeakScale * kPeakScale;
+  return {area * kPixels, area > 0.0 ? std::sqrt(squares / area) / kPixels : 0.0};
 }
 
 Frame smaller(const Frame& frame, int by) {
@@ -170,7 +203,7 @@ Painted paint_item(const Scene& scene, const Item& item, const Frame& frame, con
 }
 
 double estimate_peak(const Scene& scene, const std::vector<Item>& items, const Frame& frame, const Context& context,
-                     Work& work) {
+                     Work& work, std::vector<ItemSize>* about) {
   const Frame small = smaller(frame, kPeakScale);
   const TileGrid grid(small.width, small.height);
   const ErrorBudget unlimited{std::numeric_limits<double>::infinity(), 1.0};
@@ -184,6 +217,7 @@ double estimate_peak(const Scene& scene, const std::vector<Item>& items, const F
   });
   for (const Work& w : done) work.add(w);
   if (context.cancelled()) return 0.0;
+  for (std::size_t k = 0; about != nullptr && k < items.size(); ++k) about->push_back(size_of(polygons[k].list));
   Image image = Image::unwritten(small.width, small.height);
   TileDrawer(grid).draw_rows(polygons, 0, grid.rows, TileMode::Write, image);
   double peak = quantile_of_samples(image, kPeakQuantile);

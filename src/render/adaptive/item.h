@@ -26,6 +26,7 @@ struct Item {
   const GhostLook* look = nullptr;
   const PlannedLight* light = nullptr;
   std::vector<Rectangle> boxes;  // in the light's meridional frame; none: nothing gets through
+  std::shared_ptr<const GhostScreens> screens = nullptr;  // null: the iris is sharp
 };
 
 // One for each ghost and light, those first that come first in the plan.
@@ -36,13 +37,21 @@ struct Painted {
   Work work;
 };
 
+// Where an item's light comes through, again, now that it has screens.
+[[nodiscard]] Work find_boxes(const Scene& scene, Item& item);
+
 // An item in all wavelengths of its light.
 [[nodiscard]] Painted paint_item(const Scene& scene, const Item& item, const Frame& frame, const TileGrid& grid,
                                  const ErrorBudget& budget);
 
 // The level that 99.9 per cent of the frame's samples stay below (metrics.h), from a small frame drawn without care:
 // what errors are relative to.
+// about: what this tells of each item.
+struct ItemSize {
+  double area_px = 0;  // of the polygons that it is drawn with
+  double level = 0;    // root mean square over that area, pixel values
+};
 [[nodiscard]] double estimate_peak(const Scene& scene, const std::vector<Item>& items, const Frame& frame,
-                                   const Context& context, Work& work);
+                                   const Context& context, Work& work, std::vector<ItemSize>* about = nullptr);
 
 }  // namespace contrejour::adaptive

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "render/adaptive/lobatto.h"
+#include "render/interface/stop_screen.h"
 
 namespace contrejour::adaptive {
 namespace {
@@ -33,10 +34,10 @@ bool is_open(const RaySheet& sheet, std::size_t node) {
 }
 
 SheetTracer::SheetTracer(const LensState& lens, Ghost ghost, const LightFrame& light, double plane_z_mm,
-                         const Band& band, const TablesByWavelength& tables)
+                         const Band& band, const TablesByWavelength& tables, double stop_times)
     : light_(light), plane_z_mm_(plane_z_mm), band_(band) {
   const auto add = [&](double lambda_nm) {
-    paths_.push_back(ghost_path(lens, ghost, lambda_nm));
+    paths_.push_back(widened(ghost_path(lens, ghost, lambda_nm), stop_times));
     tables_.push_back(tables.at(lambda_nm).get());
   };
   add(band.lambda_nm);

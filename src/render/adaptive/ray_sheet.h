@@ -39,8 +39,9 @@ struct RaySheet {
 class SheetTracer {
  public:
   // The tables must hold every wavelength of the band.
+  // stop_times: the stop is taken to be so many times as large (stop_screen.h).
   SheetTracer(const LensState& lens, Ghost ghost, const LightFrame& light, double plane_z_mm, const Band& band,
-              const TablesByWavelength& tables);
+              const TablesByWavelength& tables, double stop_times = 1.0);
 
   // Rays at the band's own wavelength, and its transmission. A box that is its own mirror image costs half of them.
   [[nodiscard]] RaySheet trace(const Rectangle& box, int nodes, PacketPrecision precision);

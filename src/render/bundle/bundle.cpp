@@ -68,6 +68,8 @@ Result<Flare> render_bundle(const LensState& lens, const FramePlan& plan, const 
   }
   const TablesByWavelength& tables = plan.tables;
   const auto bounds = bounds_for(plan, lens, settings, tables, context);
+  Screens screens(lens, settings);
+  if (!screens.prepare(plan, context)) return failure(ErrorCode::Cancelled, "interrupted");
   times.bounds_ms = whole.elapsed_ms();
   if (context.cancelled()) return failure(ErrorCode::Cancelled, "interrupted");
 
@@ -82,7 +84,8 @@ Result<Flare> render_bundle(const LensState& lens, const FramePlan& plan, const 
   const bool done = ordered_pipeline(
       items.size(), context,
       [&](std::size_t k) {
-        return bundle::ItemRenderer(items[k], lens, settings, tables, bounds ? &*bounds : nullptr, context).render();
+        return bundle::ItemRenderer(items[k], lens, settings, tables, screens, bounds ? &*bounds : nullptr, context)
+            .render();
       },
       [&](std::size_t, const RenderedItem& item) {
         const Stopwatch adding(times.accumulate_ms);

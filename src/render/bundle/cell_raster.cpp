@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "kernels/iris_blades.h"
+
 namespace contrejour::bundle {
 namespace {
 
@@ -16,6 +18,8 @@ constexpr double kShadedCell_px = 4.0;
 constexpr double kSliver = 1e-7;
 constexpr double kUnseenDetail_px = 0.3;
 constexpr int kRowsBetweenStops = 16;
+constexpr double kLevel = 1e-3;      // of a screen: what is so close to 1 all over a cell is drawn as 1
+constexpr double kScreenDisc = 1.5;  // of the corners' distance from the middle, for cells that bend
 
 double signed_area(Vec2 a, Vec2 b, Vec2 c) { return 0.5 * cross(b - a, c - a); }
 
@@ -40,6 +44,22 @@ std::array<Vec2, 2> ends_of(std::span<const Vec2> p) {
   return ends;
 }
 
+Vec2 mean_of(std::span<const Vec2> p) {
+  Vec2 sum{};
+  for (const Vec2 q : p) sum = sum + q;
+  return sum * (1.0 / static_cast<double>(p.size()));
+}
+
+// The place of a pixel in a triangle, (u, v) from its first corner; for one beside it, the nearest by those.
+Vec2 place_in(const std::array<Vec2, 3>& p, Vec2 pixel) {
+  const Vec2 u = p[1] - p[0], v = p[2] - p[0], q = pixel - p[0];
+  const double determinant = cross(u, v);
+  if (determinant == 0.0) return {1.0 / 3.0, 1.0 / 3.0};
+  const double s = std::max(cross(q, v) / determinant, 0.0), t = std::max(cross(u, q) / determinant, 0.0);
+  const double beyond = std::max(s + t, 1.0);
+  return {s / beyond, t / beyond};
+}
+
 bool is_convex(std::span<const Vec2> q, double orientation) {
   for (std::size_t k = 0; k < 4; ++k) {
     if (signed_area(q[k], q[(k + 1) % 4], q[(k + 2) % 4]) * orientation <= 0.0) return false;
@@ -50,8 +70,8 @@ bool is_convex(std::span<const Vec2> q, double orientation) {
 }  // namespace
 
 CellRaster::CellRaster(const RayGrid& grid, const IrisShape& iris, const Frame& frame, double shared_flux,
-                       CellStyle style)
-    : grid_(grid), frame_(frame), style_(style), clipper_(iris) {
+                       CellStyle style, CellScreen screen)
+    : grid_(grid), frame_(frame), style_(style), screen_(screen), clipper_(iris) {
   const Vec2 step = grid.step_mm();
   triangle_weight_mm2_ = 0.5 * step.x * step.y * shared_flux;
   place_vertices();
@@ -174,6 +194,37 @@ double CellRaster::triangle_flux(const Triangle& t) const {
   return triangle_weight_mm2_ * (grid_.transmission[t[0]] + grid_.transmission[t[1]] + grid_.transmission[t[2]]) / 3.0;
 }
 
+Vec2 CellRaster::stop_place(std::size_t vertex, std::size_t crossing) const {
+  const Vec2 p{grid_.stop_x[crossing][vertex], grid_.stop_y[crossing][vertex]};
+  return (screen_.turn_rad != 0.0 ? turned(p, screen_.turn_rad) : p) * screen_.screen->reach();
+}
+
+// Over the disc about a cell's crossings of the stop.
+ScreenPart CellRaster::screen_part(const std::array<std::size_t, 4>& corners) const {
+  const auto crossings = static_cast<std::size_t>(grid_.stop_crossings());
+  if (screen_.screen == nullptr || crossings == 0) return ScreenPart::Level;
+  if (failed(corners)) return ScreenPart::Varied;
+  std::array<Vec2, 4> p;
+  for (std::size_t k = 0; k < 4; ++k) p[k] = stop_place(corners[k], crossings - 1);
+  const Vec2 middle = (p[0] + p[1] + p[2] + p[3]) * 0.25;
+  double radius = 0.0;
+  for (const Vec2 corner : p) radius = std::max(radius, length(corner - middle));
+  const ScreenPart part = screen_.screen->over(middle, kScreenDisc * radius, kLevel);
+  return part == ScreenPart::Level && crossings > 1 ? ScreenPart::Varied : part;
+}
+
+// The share of a triangle's light about a place in it that the screen lets through, over a pixel or, where that is
+// smaller, the triangle; pixels: its area.
+double CellRaster::screened(const Triangle& t, Vec2 uv, double pixels) const {
+  const auto crossings = static_cast<std::size_t>(grid_.stop_crossings());
+  std::array<StopPlace, kMaxStopCrossings> places;
+  for (std::size_t c = 0; c < crossings; ++c) {
+    const Vec2 origin = stop_place(t[0], c), u = stop_place(t[1], c) - origin, v = stop_place(t[2], c) - origin;
+    places[c] = {origin + u * uv.x + v * uv.y, std::sqrt(0.5 * std::abs(cross(u, v)) / std::max(pixels, 1.0))};
+  }
+  return screen_.screen->share({places.data(), crossings});
+}
+
 void CellRaster::draw_open(FluxBox& out, const Cell& cell) {
   const auto& v = cell.vertex;
   const std::array<Vec2, 4> quad{pixel_[v[0]], pixel_[v[1]], pixel_[v[2]], pixel_[v[3]]};
@@ -215,21 +266,27 @@ double CellRaster::finest(const std::array<Vec2, 3>& p) {
 void CellRaster::draw_polygon(FluxBox& out, const Cell& cell, const Triangle& t, std::span<const Vec2> polygon,
                               double share, double open) {
   const std::array<Vec2, 3> p{pixel_[t[0]], pixel_[t[1]], pixel_[t[2]]};
-  const double flux = triangle_flux(t) * open;
+  const double area = std::abs(signed_area(p[0], p[1], p[2]));
+  const auto screened_at = [&](Vec2 pixel) { return screened(t, place_in(p, pixel), area); };
   ++primitives_;
+  const double flux = triangle_flux(t) * open;
+  const auto whole_share = [&] { return screens_pixels_ ? screened_at(mean_of(polygon)) : 1.0; };
   if (in_one_pixel(polygon)) {
-    out.add_point(polygon[0], flux * share);
+    out.add_point(polygon[0], flux * share * whole_share());
     return;
   }
-  const double area = std::abs(signed_area(p[0], p[1], p[2]));
   const auto ends = ends_of(polygon);
   if (area < kSliver * dot(ends[1] - ends[0], ends[1] - ends[0])) {
-    out.add_line(ends[0], ends[1], flux * share);
+    out.add_line(ends[0], ends[1], flux * share * whole_share());
     return;
   }
   const double value = flux / area;
   const Vec2 middle = (p[0] + p[1] + p[2]) * (1.0 / 3.0);
-  out.add_polygon(polygon, {middle, value, cell.gradient * value});
+  const Density density{middle, value, cell.gradient * value};
+  if (screens_pixels_)
+    out.add_polygon(polygon, density, screened_at);
+  else
+    out.add_polygon(polygon, density);
 }
 
 bool CellRaster::failed(std::span<const std::size_t> vertices) const {
@@ -249,7 +306,8 @@ double CellRaster::open_flux(const Triangle& t, CellState state) {
 void CellRaster::draw_point(FluxBox& out, const Cell& cell, CellState state) {
   const auto& v = cell.vertex;
   if (failed(v)) return;
-  const double flux = open_flux({v[0], v[1], v[2]}, state) + open_flux({v[0], v[2], v[3]}, state);
+  double flux = open_flux({v[0], v[1], v[2]}, state) + open_flux({v[0], v[2], v[3]}, state);
+  if (screens_pixels_) flux *= screened({v[0], v[1], v[3]}, {0.5, 0.5}, std::abs(cell.signed_area_px) * 0.5);
   ++primitives_;
   out.add_point((pixel_[v[0]] + pixel_[v[1]] + pixel_[v[2]] + pixel_[v[3]]) * 0.25, flux);
 }
@@ -258,7 +316,7 @@ void CellRaster::draw_cell(FluxBox& out, const Cell& cell, CellState state) {
   const auto& v = cell.vertex;
   if (style_.points) {
     draw_point(out, cell, state);
-  } else if (state == CellState::Open) {
+  } else if (state == CellState::Open && !screens_pixels_) {
     draw_open(out, cell);
   } else {
     draw_triangle(out, cell, {v[0], v[1], v[2]}, true);
@@ -276,6 +334,9 @@ FluxBox CellRaster::draw(const std::function<bool()>& stop) {
       const CellState state = state_[cell_index(ix, iy)];
       if (state == CellState::Closed) continue;
       if (outside(out.box(), grid_.corners(ix, iy))) continue;
+      const ScreenPart part = screen_part(grid_.corners(ix, iy));
+      if (part == ScreenPart::Dark) continue;
+      screens_pixels_ = part == ScreenPart::Varied;
       draw_cell(out, cell_at(ix, iy), state);
     }
   }

@@ -10,6 +10,7 @@
 #include "contrejour/frame.h"
 #include "render/bundle/cell_clip.h"
 #include "render/bundle/flux_box.h"
+#include "render/interface/stop_screen.h"
 
 namespace contrejour::bundle {
 
@@ -18,10 +19,18 @@ struct CellStyle {
   bool points = false;         // every cell's flux goes to the pixel of its middle: hullin2011 7.2
 };
 
+// What stands in the stop in place of a sharp iris; turn_rad takes the grid's crossings there into place. The grid's
+// path is then a widened one (stop_screen.h).
+struct CellScreen {
+  const StopScreen* screen = nullptr;
+  double turn_rad = 0.0;
+};
+
 class CellRaster {
  public:
   // iris: as it stands for the grid's crossings of the stop. shared_flux: LightSource's.
-  CellRaster(const RayGrid& grid, const IrisShape& iris, const Frame& frame, double shared_flux, CellStyle style = {});
+  CellRaster(const RayGrid& grid, const IrisShape& iris, const Frame& frame, double shared_flux, CellStyle style = {},
+             CellScreen screen = {});
 
   // Flux in mm^2 at E0 = 1 by pixel, over the part of the frame that the ghost touches. Stops early, with whatever
   // is done, once `stop()` is true.
@@ -54,6 +63,9 @@ class CellRaster {
   [[nodiscard]] bool failed(std::span<const std::size_t> vertices) const;
   void draw_open(FluxBox& out, const Cell& cell);
   void draw_triangle(FluxBox& out, const Cell& cell, const Triangle& t, bool cut);
+  [[nodiscard]] Vec2 stop_place(std::size_t vertex, std::size_t crossing) const;
+  [[nodiscard]] ScreenPart screen_part(const std::array<std::size_t, 4>& corners) const;
+  [[nodiscard]] double screened(const Triangle& t, Vec2 uv, double pixels) const;
   void draw_polygon(FluxBox& out, const Cell& cell, const Triangle& t, std::span<const Vec2> polygon, double share,
                     double open);
   [[nodiscard]] static double finest(const std::array<Vec2, 3>& p);
@@ -64,6 +76,8 @@ class CellRaster {
   const RayGrid& grid_;
   const Frame& frame_;
   CellStyle style_;
+  CellScreen screen_;
+  bool screens_pixels_ = false;  // the cell at hand: each pixel gets a share of its own
   TriangleClipper clipper_;
   double triangle_weight_mm2_;       // flux of a triangle of transmission 1
   std::vector<Vec2> pixel_;          // by vertex

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <limits>
 #include <span>
 #include <vector>
@@ -45,6 +46,10 @@ class FluxBox {
   // lies outside the box is lost.
   void add_polygon(std::span<const Vec2> polygon, const Density& density);
 
+  // The same, each pixel's part times a share that is asked for at its middle.
+  using PixelShare = std::function<double(Vec2 middle)>;
+  void add_polygon(std::span<const Vec2> polygon, const Density& density, const PixelShare& share);
+
   // All the flux in the pixel of the point, or along a line by length: polygons without area.
   void add_point(Vec2 point, double flux);
   void add_line(Vec2 from, Vec2 to, double flux);
@@ -57,8 +62,10 @@ class FluxBox {
     return static_cast<std::size_t>(y - box_.y0) * static_cast<std::size_t>(box_.width()) +
            static_cast<std::size_t>(x - box_.x0);
   }
-  void add_inside(std::span<const Vec2> polygon, const Density& density);
-  void add_halves(std::span<const Vec2> polygon, const Density& density, bool cut_columns, double at);
+  void add_clipped(std::span<const Vec2> polygon, const Density& density, const PixelShare* share);
+  void add_inside(std::span<const Vec2> polygon, const Density& density, const PixelShare* share);
+  void add_halves(std::span<const Vec2> polygon, const Density& density, const PixelShare* share, bool cut_columns,
+                  double at);
 
   PixelBox box_;
   std::vector<float> flux_;

@@ -29,8 +29,8 @@ void Counts::add(const Counts& other) {
 }
 
 GhostGrid::GhostGrid(const LensState& lens, const RenderSettings& settings, const TablesByWavelength& tables,
-                     const PupilBounds* bounds)
-    : lens_(lens), settings_(settings), tables_(tables), bounds_(bounds) {}
+                     const Screens& screens, const PupilBounds* bounds)
+    : lens_(lens), settings_(settings), tables_(tables), screens_(screens), bounds_(bounds) {}
 
 const ReflectanceTables& GhostGrid::tables_of(const GhostPupil& pupil) const { return *tables_.at(pupil.lambda_nm); }
 
@@ -45,10 +45,12 @@ std::optional<GhostPupil> GhostGrid::find(Ghost ghost, const LightSource& light,
   GhostPupil pupil;
   pupil.lambda_nm = lambda_nm;
   pupil.path = ghost_path(lens_, ghost, lambda_nm);
-  const bool from_table = bounds_ != nullptr && light.is_distant();
+  pupil.screen = screens_.of(ghost, lambda_nm, light);
+  if (pupil.screen) pupil.path = widened(std::move(pupil.path), pupil.screen->reach());
+  const bool from_table = bounds_ != nullptr && light.is_distant() && !pupil.screen;
   const bool in_meridian = mirrors() || from_table;
   pupil.meridian = in_meridian ? meridian_of(light) : Meridian{light, 0.0};
-  pupil.iris = turned_back(lens_.iris, pupil.meridian);
+  pupil.iris = pupil.screen ? Iris{} : turned_back(lens_.iris, pupil.meridian);
   const EntranceWindow window = entrance_window(lens_, pupil.meridian.light);
   pupil.plane_z_mm = window.z_mm;
 

@@ -9,6 +9,7 @@
 #include "ghosts/pupil_bounds.h"
 #include "render/bundle/map_figures.h"
 #include "render/interface/wavelength_tables.h"
+#include "render/screens/screens.h"
 
 namespace contrejour::bundle {
 
@@ -27,14 +28,15 @@ struct GhostPupil {
   Iris iris;             // as it stands there
   double plane_z_mm = 0;
   PupilRegion region;
+  std::shared_ptr<const StopScreen> screen;  // null: the iris is sharp; else it is a circle, and the path a widened one
   std::optional<MapFigures> figures;  // in the frame of the sensor, where a look was asked for
 };
 
 class GhostGrid {
  public:
-  // bounds: in place of a search, for distant lights; may be null.
+  // bounds: in place of a search, for distant lights where there is no screen; may be null.
   GhostGrid(const LensState& lens, const RenderSettings& settings, const TablesByWavelength& tables,
-            const PupilBounds* bounds);
+            const Screens& screens, const PupilBounds* bounds);
 
   // None when nothing gets through. look: figures are wanted whatever the settings are.
   [[nodiscard]] std::optional<GhostPupil> find(Ghost ghost, const LightSource& light, double lambda_nm, bool look);
@@ -56,6 +58,7 @@ class GhostGrid {
   const LensState& lens_;
   const RenderSettings& settings_;
   const TablesByWavelength& tables_;
+  const Screens& screens_;
   const PupilBounds* bounds_;
   RayGrid rays_;
   Counts counts_;

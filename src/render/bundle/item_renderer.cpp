@@ -71,9 +71,10 @@ std::vector<Item> items_of(const FramePlan& plan, const BundleOptions& options) 
 }
 
 ItemRenderer::ItemRenderer(const Item& item, const LensState& lens, const RenderSettings& settings,
-                           const TablesByWavelength& tables, const PupilBounds* bounds, const Context& context)
+                           const TablesByWavelength& tables, const Screens& screens, const PupilBounds* bounds,
+                           const Context& context)
     : item_(item), settings_(settings), frame_(item.look->placed(settings.frame)), context_(context),
-      grid_(lens, settings, tables, bounds) {}
+      grid_(lens, settings, tables, screens, bounds) {}
 
 RenderedItem ItemRenderer::render() {
   const bool blur = is_blurred(settings_.bundle, item_.light->passes.size());
@@ -128,7 +129,8 @@ FluxBox ItemRenderer::draw(const GhostPupil& pupil, const Frame& frame) {
   const bool fine = special && !points;
   const Frame drawn = fine ? finer(frame, kFineness) : frame;
   const IrisShape iris(pupil.iris);
-  CellRaster raster(grid_.rays(), iris, drawn, item_.light->source.shared_flux(), {options.smooth_shading, points});
+  CellRaster raster(grid_.rays(), iris, drawn, item_.light->source.shared_flux(), {options.smooth_shading, points},
+                    {pupil.screen.get(), pupil.meridian.turn_rad});
   FluxBox flux = raster.draw([&] { return context_.cancelled(); });
   grid_.counts().primitives += raster.primitives();
   return fine ? flux.coarser(kFineness) : std::move(flux);

@@ -32,7 +32,8 @@ struct RenderedItem {
 class ItemRenderer {
  public:
   ItemRenderer(const Item& item, const LensState& lens, const RenderSettings& settings,
-               const TablesByWavelength& tables, const PupilBounds* bounds, const Context& context);
+               const TablesByWavelength& tables, const Screens& screens, const PupilBounds* bounds,
+               const Context& context);
 
   // Incomplete when the context is cancelled.
   [[nodiscard]] RenderedItem render();

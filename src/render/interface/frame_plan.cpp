@@ -108,7 +108,7 @@ PlannedLight plan_light(const Light& light, const MeteredBands& metered, std::sp
   planned.source = light.source();
   const Rgb whole = direct_light(metered.bands, metered.meters, flux_mm2, light.distance_mm);
   for (const SpectralBand& band : metered.bands) {
-    PlannedPass pass{band.lambda_nm, {}};
+    PlannedPass pass{band.lambda_nm, {}, band.spread_nm};
     for (std::size_t c = 0; c < whole.size(); ++c) {
       pass.gain[c] = whole[c] != 0.0 ? ghost_gain * light.value[c] * band.weight[c] / whole[c] : 0.0;
     }

@@ -17,6 +17,7 @@ struct PlannedPass {
   // Pixel value per mm^2 of flux (E0 = 1, LightSource's flux included) that a ghost path puts into the pixel:
   // gain[c] = V[c] * w[c] / sum over bands of w[c] * Phi, times GhostOptions::edge_gain; looks come on top.
   Rgb gain{};
+  double spread_nm = 0;  // root mean square, of the wavelengths it stands for about its own
 };
 
 struct PlannedLight {

@@ -12,6 +12,8 @@ namespace contrejour::reference {
 namespace {
 
 constexpr double kFailed = std::numeric_limits<double>::infinity();
+constexpr double kLevel = 1e-4;  // of a screen: what is so close to 1 all over a cell needs no smaller ones
+constexpr double kScreenDisc = 1.5;  // of the corners' distance from the middle, for cells that bend
 constexpr double kUnseen = 0.25;  // of a cut cell's footprint, of what a picture's edge is known to
 
 // What is known of one point of the entrance plane.
@@ -21,20 +23,22 @@ struct Sample {
   double transmission = 0.0;
   double blocked = kFailed;  // <= 0 gets through; infinite where the ray failed
   double outside = kFailed;  // the same for the convex hull of the iris's opening
-  std::array<Vec2, kMaxStopCrossings> stop{};  // with a picture's distances there
+  std::array<Vec2, kMaxStopCrossings> stop{};  // with a picture's distances there, or behind a screen, in stop radii
   std::array<double, kMaxStopCrossings> distance{};
 
   [[nodiscard]] bool traced() const { return blocked < kFailed; }
 };
 
 Sample between(const Sample& a, const Sample& b, double t) {
-  return {a.entrance_mm + (b.entrance_mm - a.entrance_mm) * t,
-          a.pixel + (b.pixel - a.pixel) * t,
-          std::lerp(a.transmission, b.transmission, t),
-          0.0,
-          0.0,
-          {},
-          {}};
+  Sample s{a.entrance_mm + (b.entrance_mm - a.entrance_mm) * t,
+           a.pixel + (b.pixel - a.pixel) * t,
+           std::lerp(a.transmission, b.transmission, t),
+           0.0,
+           0.0,
+           {},
+           {}};
+  for (std::size_t c = 0; c < s.stop.size(); ++c) s.stop[c] = a.stop[c] + (b.stop[c] - a.stop[c]) * t;
+  return s;
 }
 
 // Corners in turn around the cell: low-low, high-low, high-high, low-high in entrance x and y.
@@ -53,8 +57,9 @@ struct Extent {
 class CellWalker {
  public:
   CellWalker(const OpticalPath& path, const Iris& iris, const LightSource& light, double z_mm, const Frame& frame,
-             const CellLimits& limits, const LitPolygon& lit)
-      : path_(path), iris_(iris), light_(light), z_mm_(z_mm), frame_(frame), limits_(limits), lit_(lit) {
+             const CellLimits& limits, const LitPolygon& lit, const StopScreen* screen)
+      : path_(path), iris_(iris), light_(light), z_mm_(z_mm), frame_(frame), limits_(limits), lit_(lit),
+        screen_(screen) {
     if (iris.field) hull_ = iris.field->hull();
   }
 
@@ -70,6 +75,8 @@ class CellWalker {
     s.blocked = blocked_by(ray, path_, iris_);
     s.outside = s.blocked;
     if (iris_.field) look_at_picture(ray, s);
+    if (screen_ != nullptr)
+      for (std::size_t c = 0; c < s.stop.size(); ++c) s.stop[c] = ray.stop[c] * screen_->reach();
     return s;
   }
 
@@ -79,6 +86,7 @@ class CellWalker {
     if (!may_be_open(blocking, middle, depth)) return;
     if (is_dark_and_small(corners, blocking)) return;
     if (outside_frame(corners, middle)) return;
+    if (screen_part(corners, middle) == ScreenPart::Dark) return;
     if (depth < limits_.deepest && needs_cutting(corners, middle, blocking, depth)) {
       cut(corners, middle, depth);
       return;
@@ -89,13 +97,41 @@ class CellWalker {
   [[nodiscard]] CellCounts counts() const { return counts_; }
 
  private:
+  // Over the disc about a cell's crossings of the stop; one that a ray's failure leaves open is neither dark nor level.
+  [[nodiscard]] ScreenPart screen_part(const Corners& corners, const Sample& middle) const {
+    if (screen_ == nullptr || path_.stop_crossings == 0) return ScreenPart::Level;
+    if (!middle.traced()) return ScreenPart::Varied;
+    const auto last = static_cast<std::size_t>(path_.stop_crossings - 1);
+    double radius = 0.0;
+    for (const Sample& s : corners) {
+      if (!s.traced()) return ScreenPart::Varied;
+      radius = std::max(radius, length(s.stop[last] - middle.stop[last]));
+    }
+    const ScreenPart part = screen_->over(middle.stop[last], kScreenDisc * radius, kLevel);
+    return part == ScreenPart::Level && last > 0 ? ScreenPart::Varied : part;
+  }
+
+  // The share that a screen lets through of a triangle's light, from its part that is open: at that part's middle, over
+  // a square as large as the triangle.
+  [[nodiscard]] double screened(const std::array<const Sample*, 3>& triangle, std::span<const Sample> open) const {
+    if (screen_ == nullptr) return 1.0;
+    const auto crossings = static_cast<std::size_t>(path_.stop_crossings);
+    std::array<StopPlace, kMaxStopCrossings> places;
+    for (std::size_t c = 0; c < crossings; ++c) {
+      const Vec2 origin = triangle[0]->stop[c];
+      places[c].width = std::sqrt(0.5 * std::abs(cross(triangle[1]->stop[c] - origin, triangle[2]->stop[c] - origin)));
+      for (const Sample& s : open) places[c].at = places[c].at + s.stop[c] * (1.0 / static_cast<double>(open.size()));
+    }
+    return screen_->share({places.data(), crossings});
+  }
+
   // What a cell's corners and its middle tell of `blocked`.
   struct Blocking {
-    double lowest = kFailed;    // of the rays that did not fail
+    double lowest = kFailed;  // of the rays that did not fail
     double highest = -kFailed;  // likewise
     double lowest_outside = kFailed, highest_outside = -kFailed;
     double slack = 0.0;  // by so much more may it be between them, if the opening is not convex
-    bool dark = false;   // as a picture is near
+    bool dark = false;  // as a picture is near
     bool some_failed = false;
   };
 
@@ -192,6 +228,7 @@ class CellWalker {
       if (middle.traced()) e.add(middle.pixel);
       return depth < limits_.look_depth || e.size() > limits_.cut_footprint_px;
     }
+    if (e.size() > limits_.screen_footprint_px && screen_part(corners, middle) == ScreenPart::Varied) return true;
     const bool is_cut = blocking.highest > -blocking.slack;
     if (e.size() > (is_cut ? limits_.cut_footprint_px : limits_.footprint_px)) return true;
     // However small its image, a cell that an edge cuts must hold an all but straight piece of it.
@@ -236,7 +273,8 @@ class CellWalker {
       }
     }
     ++counts_.polygons;
-    lit_({pixels.data(), count}, 0.5 * std::abs(twice_area) * transmission * light_.shared_flux());
+    const double passed = screened(in, {open.data(), count});
+    lit_({pixels.data(), count}, 0.5 * std::abs(twice_area) * transmission * light_.shared_flux() * passed);
   }
 
   const OpticalPath& path_;
@@ -246,6 +284,7 @@ class CellWalker {
   const Frame& frame_;
   CellLimits limits_;
   const LitPolygon& lit_;
+  const StopScreen* screen_;
   std::vector<IrisBound> hull_;  // of a picture's opening
   CellCounts counts_;
 };
@@ -256,6 +295,7 @@ CellLimits CellLimits::for_density(double density) {
   CellLimits limits;
   limits.root_cells = std::max(8, static_cast<int>(std::lround(limits.root_cells * density)));
   limits.footprint_px /= density;
+  limits.screen_footprint_px /= density;
   limits.cut_footprint_px /= density;
   limits.bend_px /= density;
   limits.edge_bend /= density;
@@ -264,8 +304,8 @@ CellLimits CellLimits::for_density(double density) {
 
 CellCounts for_each_lit_polygon(const OpticalPath& path, const Iris& iris, const LightSource& light,
                                 const EntranceWindow& window, const Frame& frame, const CellLimits& limits,
-                                const std::function<bool()>& stop, const LitPolygon& lit) {
-  CellWalker walker(path, iris, light, window.z_mm, frame, limits, lit);
+                                const std::function<bool()>& stop, const LitPolygon& lit, const StopScreen* screen) {
+  CellWalker walker(path, iris, light, window.z_mm, frame, limits, lit, screen);
   const int n = limits.root_cells;
   const auto row_of = [&](int iy) {
     std::vector<Sample> row;

@@ -6,6 +6,7 @@
 #include "render/interface/frame_plan.h"
 #include "render/reference/flux_image.h"
 #include "render/reference/pupil_cells.h"
+#include "render/screens/screens.h"
 
 namespace contrejour {
 namespace {
@@ -35,15 +36,16 @@ struct RenderedItem {
 };
 
 RenderedItem render_item(const Item& item, const LensState& lens, const RenderSettings& settings,
-                         const Context& context) {
+                         const Screens& screens, const Context& context) {
   RenderedItem out{{settings.frame.width, settings.frame.height}, {}, 0};
-  const OpticalPath path = ghost_path(lens, item.ghost, item.pass->lambda_nm);
   const LightSource& light = item.light->source;
+  const auto screen = screens.of(item.ghost, item.pass->lambda_nm, light);
+  const OpticalPath path = widened(ghost_path(lens, item.ghost, item.pass->lambda_nm), screen ? screen->reach() : 1.0);
   out.surfaces = path.steps.size();
   out.counts = reference::for_each_lit_polygon(
-      path, lens.iris, light, entrance_window(lens, light), item.look->placed(settings.frame),
+      path, screen ? Iris{} : lens.iris, light, entrance_window(lens, light), item.look->placed(settings.frame),
       reference::CellLimits::for_density(settings.reference_density), [&] { return context.cancelled(); },
-      [&](std::span<const Vec2> pixels, double flux) { out.flux.add_polygon(pixels, flux); });
+      [&](std::span<const Vec2> pixels, double flux) { out.flux.add_polygon(pixels, flux); }, screen.get());
   return out;
 }
 
@@ -55,6 +57,8 @@ Result<Flare> render_reference(const LensState& lens, const FramePlan& plan, con
   if (!(settings.reference_density > 0.0) || settings.reference_density > 64.0) {
     return failure(ErrorCode::InvalidArgument, "the reference's density is out of range; choose a value up to 64");
   }
+  Screens screens(lens, settings);
+  if (!screens.prepare(plan, context)) return failure(ErrorCode::Cancelled, "interrupted");
 
   Flare flare;
   flare.image = Image(settings.frame.width, settings.frame.height, 3);
@@ -62,7 +66,7 @@ Result<Flare> render_reference(const LensState& lens, const FramePlan& plan, con
   std::vector<double> sum(flare.image.pixels.size());
   const auto items = items_of(plan);
   const bool done = ordered_pipeline(
-      items.size(), context, [&](std::size_t k) { return render_item(items[k], lens, settings, context); },
+      items.size(), context, [&](std::size_t k) { return render_item(items[k], lens, settings, screens, context); },
       [&](std::size_t k, const RenderedItem& rendered) {
         rendered.flux.add_to(sum, items[k].look->tinted(items[k].pass->gain));
         stats.rays += rendered.counts.rays;

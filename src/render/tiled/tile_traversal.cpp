@@ -1,6 +1,7 @@
 #include "render/tiled/tile_traversal.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "kernels/simd_targets.h"
@@ -78,6 +79,40 @@ HWY_INLINE Mask unblocked(const TraversalInput& input, const Primitive& p, const
   return open;
 }
 
+HWY_INLINE StopPlaces places_of(const TraversalInput& input, const Primitive& p, std::size_t crossing) {
+  return crossing == 0 ? StopPlaces{p.stop_x, p.stop_y} : input.buffer.more_crossings[p.more_crossings + crossing - 1];
+}
+
+// A pixel's width in a crossing's units, by areas.
+HWY_INLINE double pixel_at_stop(const Primitive& p, const StopPlaces& places) {
+  const auto area = [](const std::array<float, 4>& x, const std::array<float, 4>& y) {
+    return 0.5 * std::abs(cross(Vec2{x[2], y[2]} - Vec2{x[0], y[0]}, Vec2{x[3], y[3]} - Vec2{x[1], y[1]}));
+  };
+  return std::sqrt(area(places.x, places.y) / std::max(area(p.x, p.y), 1.0));
+}
+
+// What a screen lets through of each pixel's light, one after the other.
+HWY_INLINE P screened(const TraversalInput& input, const Primitive& p, const StopScreen& screen,
+                      const hk::Weights<P>& weights, Mask inside) {
+  const P::Tag d;
+  constexpr std::size_t kLanes = HWY_MAX_BYTES / sizeof(float);
+  HWY_ALIGN std::array<float, kLanes> wanted, share;
+  HWY_ALIGN std::array<std::array<float, kLanes>, kMaxStopCrossings> x, y;
+  std::array<StopPlace, kMaxStopCrossings> places;
+  for (std::size_t c = 0; c < p.crossings; ++c) {
+    const StopPlaces corners = places_of(input, p, c);
+    hn::Store((interpolate(weights, corners.x) / weights.total).v, d, x[c].data());
+    hn::Store((interpolate(weights, corners.y) / weights.total).v, d, y[c].data());
+    places[c].width = pixel_at_stop(p, corners) * screen.reach();
+  }
+  hn::Store(hn::IfThenElseZero(inside, hn::Set(d, 1.0F)), d, wanted.data());
+  for (std::size_t k = 0; k < hn::Lanes(d); ++k) {
+    for (std::size_t c = 0; c < p.crossings; ++c) places[c].at = Vec2{x[c][k], y[c][k]} * screen.reach();
+    share[k] = wanted[k] > 0.0F ? static_cast<float>(screen.share({places.data(), p.crossings})) : 0.0F;
+  }
+  return P(hn::Load(d, share.data()));
+}
+
 // An edge holds the points on it when it runs upwards, or level to the left. So of two neighbours one does.
 HWY_INLINE float least_on_edge(const Primitive& p, std::size_t i) {
   const std::size_t j = (i + 1) % 4;
@@ -106,6 +141,7 @@ HWY_INLINE void add_primitive(const TraversalInput& input, const Primitive& p, T
   const P right = broadcast(static_cast<float>(p.pixels.x1) + 1.0F);
   const Method<P> method(quad);
   const Gain& gain = input.gains[p.pass];
+  const StopScreen* const screen = input.screens.empty() ? nullptr : input.screens[p.pass];
   for (std::size_t k = begin; k < end; k += lanes) {
     const P x(hn::LoadU(d, tile.x.data() + k));
     const P y(hn::LoadU(d, tile.y.data() + k));
@@ -116,8 +152,13 @@ HWY_INLINE void add_primitive(const TraversalInput& input, const Primitive& p, T
 
     const hk::Weights<P> weights = method.at(seen);
     inside = hn::And(inside, hn::Gt(weights.total.v, hn::Zero(d)));
-    if ((p.flags & kOpen) == 0) inside = hn::And(inside, unblocked(input, p, weights));
-    const P value = interpolate(weights, p.irradiance) / weights.total;
+    P value = interpolate(weights, p.irradiance) / weights.total;
+    if (screen != nullptr) {
+      inside = hn::And(inside, hn::Le(interpolate(weights, p.r_rel).v, weights.total.v));
+      value = value * screened(input, p, *screen, weights, inside);
+    } else if ((p.flags & kOpen) == 0) {
+      inside = hn::And(inside, unblocked(input, p, weights));
+    }
     const auto lit = hn::IfThenElseZero(inside, value.v);
     for (std::size_t c = 0; c < 3; ++c) {
       float* out = tile.value[c].data() + k;

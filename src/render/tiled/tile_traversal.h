@@ -8,6 +8,7 @@
 
 #include "contrejour/render.h"
 #include "ghosts/iris_shape.h"
+#include "render/interface/stop_screen.h"
 #include "render/tiled/primitive.h"
 #include "render/tiled/tile_lists.h"
 
@@ -21,6 +22,7 @@ struct TraversalInput {
   const PrimitiveBuffer& buffer;
   std::span<const Gain> gains;  // by Primitive::pass
   const IrisShape& iris;
+  std::span<const StopScreen* const> screens;  // by Primitive::pass; null ones, or none at all: the sharp iris
   TiledOptions::Interpolation interpolation = TiledOptions::Interpolation::LoopDeRose;
 };
 

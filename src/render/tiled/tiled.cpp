@@ -14,6 +14,7 @@
 #include "render/interface/frame_plan.h"
 #include "render/interface/grid_side.h"
 #include "render/interface/wavelength_tables.h"
+#include "render/screens/screens.h"
 #include "render/tiled/primitive_builder.h"
 #include "render/tiled/tiled_frame.h"
 
@@ -115,13 +116,17 @@ struct Job {
   IrisShape iris;
   std::vector<Item> items;
   std::vector<tiled::Gain> gains;  // one an item
+  std::vector<std::shared_ptr<const StopScreen>>
+      screens;  // one an item, null where the iris is sharp; none at all: so everywhere
+  IrisShape round = IrisShape(Iris{});  // for those that have one
 };
 
-void list_items(const FramePlan& plan, Job& job) {
+void list_items(const FramePlan& plan, const Screens& screens, Job& job) {
   for (std::size_t g = 0; g < plan.ghosts.size(); ++g) {
     const GhostLook& look = plan.looks[g];
     for (const PlannedLight& light : plan.lights) {
       for (const PlannedPass& pass : light.passes) {
+        if (screens.on()) job.screens.push_back(screens.of(plan.ghosts[g], pass.lambda_nm, light.source));
         const Rgb gain = look.tinted(pass.gain);
         job.items.push_back({plan.ghosts[g], look.shift_mm, light.source, pass.lambda_nm});
         job.gains.push_back({static_cast<float>(gain[0]), static_cast<float>(gain[1]), static_cast<float>(gain[2])});
@@ -133,7 +138,10 @@ void list_items(const FramePlan& plan, Job& job) {
 TracedItem trace_item(const Job& job, std::size_t index, Workspace& workspace) {
   TracedItem out;
   const Item& item = job.items[index];
-  const OpticalPath path = ghost_path(job.lens, item.ghost, item.lambda_nm);
+  const StopScreen* const screen = job.screens.empty() ? nullptr : job.screens[index].get();
+  const IrisShape& iris = screen != nullptr ? job.round : job.iris;
+  OpticalPath path = ghost_path(job.lens, item.ghost, item.lambda_nm);
+  if (screen != nullptr) path = widened(std::move(path), screen->reach());
   const ReflectanceTables& tables = *job.tables.at(item.lambda_nm);
   const EntranceWindow window = entrance_window(job.lens, item.light);
   const auto count_rays = [&](std::uint64_t rays) {
@@ -142,7 +150,7 @@ TracedItem trace_item(const Job& job, std::size_t index, Workspace& workspace) {
   };
 
   auto start = Clock::now();
-  const auto region = find_pupil_region(path, tables, job.iris, item.light, window, workspace.grid);
+  const auto region = find_pupil_region(path, tables, iris, item.light, window, workspace.grid);
   out.counts.search_ms = ms_since(start);
   if (!region) return out;
   count_rays(region->rays);
@@ -152,7 +160,7 @@ TracedItem trace_item(const Job& job, std::size_t index, Workspace& workspace) {
   const int side = grid_side(job.settings, job.lens, region->sensor_mm, fewest);
   const auto precision =
       precision_for(path, tables, item.light, window.z_mm, region->pupil_mm, side, job.settings.frame.pixel_pitch_mm);
-  workspace.grid.trace(path, tables, job.iris, item.light, window.z_mm, region->pupil_mm, side, precision);
+  workspace.grid.trace(path, tables, iris, item.light, window.z_mm, region->pupil_mm, side, precision);
   count_rays(static_cast<std::uint64_t>(side) * static_cast<std::uint64_t>(side));
   const tiled::TracedPass traced{item.light.shared_flux(), static_cast<std::uint32_t>(index), item.shift_mm};
   out.counts.primitives = workspace.builder.build(workspace.grid, traced, out.buffer);
@@ -187,11 +195,15 @@ Result<Flare> render_tiled(const LensState& lens, const FramePlan& plan, const R
   if (const auto ok = check(settings); !ok) return tl::unexpected<Error>(ok.error());
   const TablesByWavelength& tables = plan.tables;
   if (context.cancelled()) return failure(ErrorCode::Cancelled, "interrupted");
-  Job job{lens, settings, context, tables, IrisShape(lens.iris), {}, {}};
-  list_items(plan, job);
+  Screens screens(lens, settings);
+  if (!screens.prepare(plan, context)) return failure(ErrorCode::Cancelled, "interrupted");
+  Job job{lens, settings, context, tables, IrisShape(lens.iris), {}, {}, {}};
+  list_items(plan, screens, job);
+  std::vector<const StopScreen*> screen_of_pass;
+  for (const auto& screen : job.screens) screen_of_pass.push_back(screen.get());
 
   const auto traced = Clock::now();
-  tiled::TiledFrame frame(settings, context, job.iris, job.gains);
+  tiled::TiledFrame frame(settings, context, job.iris, job.gains, {}, screen_of_pass);
   Counts counts;
   trace_all(job, frame, counts);
   const double trace_ms = ms_since(traced) - frame.draw_ms();

@@ -22,9 +22,9 @@ struct HeldLimits {
 
 class TiledFrame {
  public:
-  // gains: by Primitive::pass. All must outlive the frame.
+  // gains, screens: by Primitive::pass. All must outlive the frame.
   TiledFrame(const RenderSettings& settings, const Context& context, const IrisShape& iris, std::span<const Gain> gains,
-             const HeldLimits& limits = {});
+             const HeldLimits& limits = {}, std::span<const StopScreen* const> screens = {});
 
   // Takes primitives, in the order in which pixels add them up.
   void add(const PrimitiveBuffer& buffer);
@@ -47,6 +47,7 @@ class TiledFrame {
   Context context_;
   const IrisShape& iris_;
   std::span<const Gain> gains_;
+  std::span<const StopScreen* const> screens_;
   HeldLimits limits_;
   TileGrid coarse_grid_, dense_grid_;
   Image image_;

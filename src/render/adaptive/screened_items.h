@@ -1,0 +1,20 @@
+// Which items' ringing is worth its while: fringes cost work along a ghost's whole rim, and most ghosts are so faint
+// that theirs are far below the frame's error.
+#pragma once
+
+#include "render/adaptive/item.h"
+#include "render/screens/screens.h"
+
+namespace contrejour::adaptive {
+
+// What the whole frame may get wrong: RMS error over its pixels, as a share of the peak.
+struct FrameError {
+  double error = 0.003, peak = 1.0, pixels = 1.0;
+};
+
+// Gives screens, and boxes that hold the light beside the opening, to all items but those whose fringes together make
+// a small part of the error. sizes: of the items (estimate_peak). Incomplete when cancelled.
+[[nodiscard]] Work screen_items(const Scene& scene, Screens& screens, std::vector<Item>& items,
+                                const std::vector<ItemSize>& sizes, const FrameError& allowed, const Context& context);
+
+}  // namespace contrejour::adaptive

@@ -1,0 +1,63 @@
+#include "render/screens/iris_screens.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace contrejour::screens {
+namespace {
+
+// Of a square `width` wide on a straight edge, `distance` from its middle.
+double sharp_share(double distance, double width) {
+  if (!(width > 0.0)) return distance <= 0.0 ? 1.0 : 0.0;
+  return std::clamp(0.5 - distance / width, 0.0, 1.0);
+}
+
+}  // namespace
+
+double IrisScreen::distance(Vec2 p) const {
+  if (iris_->is_picture()) return iris_->picture_distance(p);
+  double largest = -std::numeric_limits<double>::infinity();
+  for (const IrisBound& bound : iris_->bounds()) largest = std::max(largest, bound.distance(p));
+  return largest;
+}
+
+double IrisScreen::share(std::span<const StopPlace> places) const {
+  if (places.empty()) return 1.0;
+  double all = pattern(places.back());
+  for (const StopPlace& earlier : places.first(places.size() - 1))
+    if (all > 0.0) all *= sharp_share(distance(earlier.at), earlier.width);
+  return all;
+}
+
+EdgeScreen::EdgeScreen(std::shared_ptr<const IrisShape> iris, std::shared_ptr<const EdgeProfile> profile,
+                       double fresnel_number)
+    : IrisScreen(std::move(iris)), profile_(std::move(profile)), scale_(std::sqrt(2.0 * fresnel_number)) {}
+
+double EdgeScreen::reach() const { return 1.0 - EdgeProfile::kDarkBelow / scale_; }
+
+double EdgeScreen::pattern(const StopPlace& place) const {
+  if (iris().is_picture()) return edge(iris().picture_distance(place.at), place.width);
+  double all = 1.0;
+  for (const IrisBound& bound : iris().bounds()) {
+    if (!(all > 0.0)) break;
+    all *= edge(bound.distance(place.at), place.width);
+  }
+  return std::max(all, 0.0);
+}
+
+ScreenPart EdgeScreen::over(Vec2 middle, double radius, double tolerance) const {
+  const double from_edge = distance(middle);
+  if (scale_ * (from_edge - radius) > -EdgeProfile::kDarkBelow) return ScreenPart::Dark;
+  return scale_ * (-from_edge - radius) > profile_->level_above(tolerance) ? ScreenPart::Level : ScreenPart::Varied;
+}
+
+double TextureScreen::reach() const { return texture_->extent(); }
+
+double TextureScreen::pattern(const StopPlace& place) const { return texture_->at(place.at, place.width); }
+
+ScreenPart TextureScreen::over(Vec2 middle, double radius, double /*tolerance*/) const {
+  return length(middle) - radius > reach() ? ScreenPart::Dark : ScreenPart::Varied;
+}
+
+}  // namespace contrejour::screens

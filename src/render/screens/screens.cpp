@@ -1,0 +1,140 @@
+#include "render/screens/screens.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "base/tasks.h"
+#include "contrejour/ringing.h"
+#include "render/screens/iris_screens.h"
+#include "render/screens/ringing_patterns.h"
+#include "render/screens/stop_wave.h"
+
+namespace contrejour {
+namespace {
+
+using screens::EdgeScreen;
+using screens::TextureScreen;
+using Contents = RingingPatterns::Contents;
+
+// A first fringe is 1.9 of an edge's unit 1 / sqrt(2 F) wide; where that unit is so many pixels, none is seen.
+constexpr double kUnseenUnit_px = 0.15;
+// An order a stands for F = cot(pi a / 2) times the square of the stop's radius in the transform's units.
+constexpr double kFractionalFresnel = 72.0;
+constexpr double kSharpOrder = 1e-4;  // smaller ones leave the mask as it is: fringes of a hundredth of a stop radius
+
+double distance_along_axis(const LightSource& light) {
+  return light.is_distant() ? std::numeric_limits<double>::infinity() : light.distance_mm * light.direction.z;
+}
+
+}  // namespace
+
+Screens::Key Screens::key_of(const Ghost& ghost, double lambda_nm, const LightSource& light) {
+  return {ghost, lambda_nm, distance_along_axis(light)};
+}
+
+Screens::Screens(const LensState& lens, const RenderSettings& settings)
+    : lens_(lens), options_(settings.ringing), pixel_pitch_mm_(settings.frame.pixel_pitch_mm) {
+  if (!on()) return;
+  iris_ = std::make_shared<const IrisShape>(lens.iris);
+  if (!options_.patterns) options_.patterns = std::make_shared<RingingPatterns>();
+}
+
+double Screens::fresnel_number(const Ghost& ghost, double lambda_nm, const LightSource& light) const {
+  if (options_.mode == RingingMode::Fresnel)
+    return screens::stop_wave(ghost_path(lens_, ghost, lambda_nm), distance_along_axis(light)).fresnel_number;
+  return kFractionalFresnel /
+         std::tan(0.5 * std::numbers::pi * std::clamp(std::abs(order(lambda_nm)), kSharpOrder, 0.999));
+}
+
+bool Screens::prepare(const FramePlan& plan, const Context& context) {
+  std::vector<Wanted> wanted;
+  for (const Ghost& ghost : plan.ghosts)
+    for (const PlannedLight& light : plan.lights)
+      for (const PlannedPass& pass : light.passes) wanted.push_back({ghost, pass.lambda_nm, pass.spread_nm, light.source});
+  return prepare(wanted, context);
+}
+
+bool Screens::prepare(std::span<const Wanted> wanted, const Context& context) {
+  if (!on()) return true;
+  std::vector<Wanted> missing;
+  for (const Wanted& w : wanted)
+    if (screens_.try_emplace(key_of(w.ghost, w.lambda_nm, w.light)).second) missing.push_back(w);
+  Contents& patterns = options_.patterns->contents();
+  const std::scoped_lock lock(patterns.mutex());
+  patterns.use(lens_.iris);
+  return options_.mode == RingingMode::Fresnel ? prepare_fresnel(missing, context) : prepare_hullin(missing, context);
+}
+
+// How each ghost's light crosses the stop; none when cancelled.
+std::vector<screens::StopWave> Screens::waves_of(std::span<const Wanted> wanted, const Context& context) const {
+  std::vector<screens::StopWave> waves(wanted.size());
+  Context quiet = context;
+  quiet.progress = {};
+  const bool done = parallel_for(wanted.size(), quiet, [&](std::size_t k) {
+    waves[k] = screens::stop_wave(ghost_path(lens_, wanted[k].ghost, wanted[k].lambda_nm), distance_along_axis(wanted[k].light));
+  });
+  return done ? waves : std::vector<screens::StopWave>{};
+}
+
+// Whether no pixel shows fringes of a Fresnel number on a ghost so large.
+bool Screens::is_sharp(double footprint, double fresnel_number) const {
+  const double unit_mm = lens_.stop_radius_mm * footprint / std::sqrt(2.0 * fresnel_number);
+  return !(unit_mm > kUnseenUnit_px * pixel_pitch_mm_);
+}
+
+bool Screens::prepare_fresnel(std::span<const Wanted> wanted, const Context& context) {
+  const auto waves = waves_of(wanted, context);
+  if (waves.size() != wanted.size()) return false;
+  const auto sharp = [&](std::size_t k) { return is_sharp(waves[k].footprint, waves[k].fresnel_number); };
+  const auto spread = [&](std::size_t k) { return wanted[k].spread_nm / wanted[k].lambda_nm; };
+  std::vector<Contents::Wanted> textures;
+  for (std::size_t k = 0; k < wanted.size(); ++k)
+    if (!sharp(k) && waves[k].fresnel_number < Contents::kEdgesFrom)
+      textures.push_back({waves[k].fresnel_number, spread(k)});
+  Contents& patterns = options_.patterns->contents();
+  if (!patterns.make(textures, context)) return false;
+  for (std::size_t k = 0; k < wanted.size(); ++k) {
+    if (sharp(k)) continue;
+    const double f = waves[k].fresnel_number;
+    auto& screen = screens_[key_of(wanted[k].ghost, wanted[k].lambda_nm, wanted[k].light)];
+    if (f < Contents::kEdgesFrom)
+      screen = std::make_shared<const TextureScreen>(iris_, patterns.pattern({f, spread(k)}));
+    else
+      screen = std::make_shared<const EdgeScreen>(iris_, patterns.profile(spread(k)), f);
+  }
+  return true;
+}
+
+double Screens::order(double lambda_nm) const {
+  const double order = options_.alpha.value_or(hullin_order(lambda_nm, lens_.f_number));
+  return std::isfinite(order) ? order : 0.0;
+}
+
+bool Screens::prepare_hullin(std::span<const Wanted> wanted, const Context& context) {
+  const auto waves = waves_of(wanted, context);
+  if (waves.size() != wanted.size()) return false;
+  Contents& patterns = options_.patterns->contents();
+  for (std::size_t k = 0; k < wanted.size(); ++k) {
+    const Wanted& w = wanted[k];
+    const double middle = order(w.lambda_nm);
+    if (!(std::abs(middle) >= kSharpOrder) || is_sharp(waves[k].footprint, fresnel_number(w.ghost, w.lambda_nm, w.light)))
+      continue;
+    // Three orders stand for the band; one that is set by hand holds for all wavelengths.
+    const double off = options_.alpha ? 0.0 : middle * w.spread_nm / w.lambda_nm * std::sqrt(1.5);
+    const std::vector<double> orders =
+        off > 0.0 ? std::vector<double>{middle - off, middle, middle + off} : std::vector<double>{middle};
+    const auto texture = patterns.fractional(orders, context);
+    if (!texture) return false;
+    screens_[key_of(w.ghost, w.lambda_nm, w.light)] = std::make_shared<const TextureScreen>(iris_, texture);
+  }
+  return true;
+}
+
+std::shared_ptr<const StopScreen> Screens::of(const Ghost& ghost, double lambda_nm, const LightSource& light) const {
+  const auto found = screens_.find(key_of(ghost, lambda_nm, light));
+  return found == screens_.end() ? nullptr : found->second;
+}
+
+}  // namespace contrejour

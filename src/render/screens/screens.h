@@ -1,0 +1,62 @@
+// The screens of a frame's ghosts: what RenderSettings asks for, for one lens.
+// Thread-safety: prepare() from one thread; of() from any, afterwards.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "contrejour/render.h"
+#include "render/interface/frame_plan.h"
+#include "render/interface/stop_screen.h"
+#include "render/screens/stop_wave.h"
+
+namespace contrejour {
+
+class Screens {
+ public:
+  struct Wanted {
+    Ghost ghost;
+    double lambda_nm = 550;
+    double spread_nm = 0;  // PlannedPass
+    LightSource light;
+  };
+
+  Screens(const LensState& lens, const RenderSettings& settings);
+
+  [[nodiscard]] bool on() const { return options_.mode != RingingMode::None; }
+
+  // About how far out of focus the stop's edge is in a ghost; infinite where it is sharp.
+  [[nodiscard]] double fresnel_number(const Ghost& ghost, double lambda_nm, const LightSource& light) const;
+
+  // Makes the screens of these. False when cancelled.
+  bool prepare(std::span<const Wanted> wanted, const Context& context);
+  // Those of all ghosts and passes of a plan.
+  bool prepare(const FramePlan& plan, const Context& context);
+
+  // Null: the iris is sharp, and so it is for what was not prepared.
+  [[nodiscard]] std::shared_ptr<const StopScreen> of(const Ghost& ghost, double lambda_nm,
+                                                     const LightSource& light) const;
+
+ private:
+  struct Key {
+    Ghost ghost;
+    double lambda_nm, light_distance_mm;  // along the axis
+    friend auto operator<=>(const Key&, const Key&) = default;
+  };
+  [[nodiscard]] static Key key_of(const Ghost& ghost, double lambda_nm, const LightSource& light);
+  [[nodiscard]] std::vector<screens::StopWave> waves_of(std::span<const Wanted> wanted, const Context& context) const;
+  [[nodiscard]] bool is_sharp(double footprint, double fresnel_number) const;
+  [[nodiscard]] double order(double lambda_nm) const;  // of the fractional transform
+  bool prepare_fresnel(std::span<const Wanted> wanted, const Context& context);
+  bool prepare_hullin(std::span<const Wanted> wanted, const Context& context);
+
+  const LensState& lens_;
+  RingingOptions options_;
+  double pixel_pitch_mm_;
+  std::shared_ptr<const class IrisShape> iris_;
+  std::map<Key, std::shared_ptr<const StopScreen>> screens_;
+};
+
+}  // namespace contrejour

@@ -1,0 +1,213 @@
+// Ringing as it is drawn: where the fringes are, how much light there is, the same in all methods.
+#include <cmath>
+#include <numbers>
+
+#include "contrejour/ringing.h"
+#include "renderers/methods.h"
+
+using namespace contrejour;
+using namespace contrejour::test;
+
+namespace {
+
+constexpr double kPlateRadius_mm = 3.0;
+constexpr double kPlateFlux = 0.04 * 0.04;  // of the light's value
+
+RenderSettings ringing(RenderSettings settings, RingingMode mode = RingingMode::Fresnel) {
+  settings.ringing.mode = mode;
+  return settings;
+}
+
+// A stop of another size: F = a^2 / (550 nm * 12 mm).
+LensState plate_of(double radius_mm, const Iris& iris) {
+  LensState lens = plate();
+  lens.stop_radius_mm = radius_mm;
+  lens.iris = iris;
+  return lens;
+}
+
+Frame square_frame(int side, double pitch_mm) { return {side, side, 0, 0, side, side, pitch_mm}; }
+
+}  // namespace
+
+TEST_CASE("behind a long edge the first fringe is 1.370, where the Fresnel integrals have it, inside the rim") {
+  const Iris square{4, 0.25 * std::numbers::pi};
+  const LensState lens = plate_of(kPlateRadius_mm, square);
+  const double unit_px = kPlateRadius_mm / std::sqrt(2.0 * 9.0 / (550e-6 * 12.0)) / 0.01;
+  const double edge_px = kPlateRadius_mm * std::sqrt(0.5) / 0.01;  // from the axis
+  const double level = kPlateFlux * 1e-4 / (2.0 * 9.0);
+  const RenderSettings settings = ringing(green({90, 12, 300 + static_cast<int>(edge_px) - 60, 294, 600, 600, 0.01}));
+  for_each_method([&](const Bounds& bounds) {
+    RenderSettings fine = settings;
+    fine.error = 1e-4;
+    const Image image = image_of(bounds, lens, Light{}, fine);
+    int best = 0;
+    for (int x = 30; x < 90; ++x)
+      if (image.at(x, 6) > image.at(best, 6)) best = x;
+    CHECK(image.at(best, 6) / level == doctest::Approx(1.370).epsilon(0.03));
+    const double l = image.at(best - 1, 6), m = image.at(best, 6), r = image.at(best + 1, 6);
+    const double place_px = settings.frame.origin_x - 300 + best + 0.5 + 0.5 * (l - r) / (l - 2.0 * m + r);
+    CHECK((edge_px - place_px) / unit_px == doctest::Approx(1.2172).epsilon(0.03));
+    // A quarter at the edge itself.
+    const double at_edge = edge_px - (settings.frame.origin_x - 300) - 0.5;
+    const int left = static_cast<int>(at_edge);
+    const double value = std::lerp(image.at(left, 6), image.at(left + 1, 6), at_edge - left);
+    CHECK(value / level == doctest::Approx(0.25).epsilon(0.1));
+  });
+}
+
+TEST_CASE("a ghost keeps its light, whatever its Fresnel number [slow]") {
+  const Iris hexagon{6, 0.1};
+  for (const double f : {0.2, 1.5, 20.0, 60.0, 1000.0}) {
+    CAPTURE(f);
+    const double radius_mm = std::sqrt(f * 550e-6 * 12.0);
+    const LensState lens = plate_of(radius_mm, hexagon);
+    const double half_mm = radius_mm * std::min(1.2 + 4.0 / std::sqrt(std::max(f, 0.5)) + 4.0 / std::max(f, 0.5), 12.5);
+    const RenderSettings settings = green(square_frame(128, half_mm / 64.0));
+    for_each_method([&](const Bounds& bounds) {
+      if (bounds.method == "reference" && f > 100.0) return;
+      const double sharp = sum(image_of(bounds, lens, Light{}, settings));
+      const double rung = sum(image_of(bounds, lens, Light{}, ringing(settings)));
+      CHECK(rung / sharp == doctest::Approx(1.0).epsilon(bounds.covers_pixels ? 0.01 : 0.04));
+    });
+  }
+}
+
+TEST_CASE("at a low Fresnel number a ghost widens smoothly and ends") {
+  const double radius_mm = std::sqrt(1.5 * 550e-6 * 12.0);
+  const LensState lens = plate_of(radius_mm, Iris{});
+  const RenderSettings settings = green(square_frame(160, 8.0 * radius_mm / 80.0));
+  for_each_method([&](const Bounds& bounds) {
+    const Image sharp = image_of(bounds, lens, Light{}, settings);
+    const Image rung = image_of(bounds, lens, Light{}, ringing(settings));
+    double beyond = 0.0;
+    for (int y = 0; y < 160; ++y) {
+      for (int x = 0; x < 160; ++x) {
+        const double r = std::hypot(x - 79.5, y - 79.5) / 10.0;  // stop radii
+        if (r > 1.2) beyond += rung.at(x, y);
+        if (r > 5.6) CHECK(rung.at(x, y) == 0.0F);
+      }
+    }
+    CHECK(beyond / (sum(rung) / 3.0) > 0.1);
+    // 4 sin^2(pi F / 2) on the axis: 2 for F = 1.5 (Lommel).
+    CHECK(rung.at(80, 80) / sharp.at(80, 80) == doctest::Approx(2.0).epsilon(0.12));
+    CHECK(peak_of(rung) < 2.6 * sharp.at(80, 80));
+  });
+}
+
+TEST_CASE("methods agree [slow]") {
+  const auto check = [](const LensState& lens, const Light& light, const RenderSettings& settings) {
+    const Image truth = truth_of(lens, light, settings);
+    for_each_method([&](const Bounds& bounds) {
+      if (bounds.method == "reference") return;
+      RenderSettings fine = settings;
+      fine.error = 1e-3;
+      const Image image = image_of(bounds, lens, light, fine);
+      CHECK(psnr_db(truth, image) >= (bounds.covers_pixels ? 42.0 : 28.0));
+      CHECK(sum(image) / sum(truth) == doctest::Approx(1.0).epsilon(bounds.covers_pixels ? 0.01 : 0.06));
+    });
+  };
+  const Iris curved{5, 0.3, 0.4};
+  for (const double f : {4.0, 30.0, 300.0}) {
+    CAPTURE(f);
+    const double radius_mm = std::sqrt(f * 550e-6 * 12.0);
+    check(plate_of(radius_mm, curved), Light{}, ringing(green(square_frame(64, radius_mm / 16.0))));
+  }
+  const LensState lens = bundled("heliar", {.f_number = 16.0, .iris = {7, 0.2}});
+  RenderSettings settings = small_frame(lens, 160, 107);
+  settings.lambda_nm.clear();
+  settings.reference_density = 0.7;
+  check(lens, light_at(lens, settings.frame, {0.7, 0.33}), ringing(settings));
+}
+
+TEST_CASE("every crossing but the last is sharp: ghosts that cross the stop three times agree, too") {
+  const LensState lens = bundled("heliar", {.f_number = 22.0, .iris = {6, 0.2}});
+  RenderSettings settings = ringing(small_frame(lens, 120, 80));
+  settings.scope = GhostScope::All;
+  settings.selection = SelectList{{{2, 7}, {1, 9}}};
+  const Light light = light_at(lens, settings.frame, {0.6, 0.4});
+  settings.error = 1e-3;
+  const Image truth = truth_of(lens, light, settings);
+  REQUIRE(sum(truth) > 0.0);
+  for (const char* method : {"bundle", "adaptive"}) {
+    CAPTURE(method);
+    CHECK(psnr_db(truth, image_of(bounds_of(method), lens, light, settings)) > 34.0);
+  }
+}
+
+TEST_CASE("off, order 0 and fringes finer than pixels give the sharp iris's bits") {
+  const LensState lens = bundled("heliar", {.f_number = 8.0, .iris = {6, 0.2}});
+  const RenderSettings settings = small_frame(lens, 60, 40);
+  const Light light = light_at(lens, settings.frame, {0.7, 0.33});
+  const LensState plain = plate_of(kPlateRadius_mm, Iris{6, 0.2});
+  const RenderSettings coarse = green(square_frame(16, 0.6));
+  for_each_method([&](const Bounds& bounds) {
+    if (bounds.method == "reference") return;
+    const auto expected = image_of(bounds, lens, light, settings).pixels;
+    RenderSettings off = settings;
+    off.ringing = {RingingMode::None, 0.5, std::make_shared<RingingPatterns>()};
+    CHECK(image_of(bounds, lens, light, off).pixels == expected);
+    RenderSettings order_0 = ringing(settings, RingingMode::Hullin);
+    for (const double alpha : {0.0, 1e-9, std::nan("")}) {
+      order_0.ringing.alpha = alpha;
+      CHECK(image_of(bounds, lens, light, order_0).pixels == expected);
+    }
+    CHECK(image_of(bounds, plain, Light{}, ringing(coarse)).pixels == image_of(bounds, plain, Light{}, coarse).pixels);
+  });
+}
+
+TEST_CASE("the higher the Fresnel number, the closer to the sharp iris") {
+  double before = 0.0;
+  for (const double f : {10.0, 100.0, 1000.0, 10000.0}) {
+    const double radius_mm = std::sqrt(f * 550e-6 * 12.0);
+    const LensState lens = plate_of(radius_mm, Iris{6, 0.2});
+    const RenderSettings settings = green(square_frame(96, radius_mm / 36.0));
+    const Bounds bundle = bounds_of("bundle");
+    const double psnr =
+        psnr_db(image_of(bundle, lens, Light{}, settings), image_of(bundle, lens, Light{}, ringing(settings)));
+    CHECK(psnr > before + 1.0);
+    before = psnr;
+  }
+}
+
+TEST_CASE("hullin's pattern keeps the light and is the same for all ghosts") {
+  const LensState lens = plate_of(0.6, Iris{6, 0.2});
+  RenderSettings settings = ringing(green(square_frame(96, 0.9 / 48.0)), RingingMode::Hullin);
+  settings.ringing.patterns = std::make_shared<RingingPatterns>();
+  settings.ringing.alpha = 0.15;
+  for (const char* method : {"bundle", "adaptive"}) {
+    RenderSettings sharp = settings;
+    sharp.ringing.mode = RingingMode::None;
+    const Image image = image_of(bounds_of(method), lens, Light{}, settings);
+    CHECK(sum(image) / sum(image_of(bounds_of(method), lens, Light{}, sharp)) == doctest::Approx(1.0).epsilon(0.01));
+    CHECK(psnr_db(image_of(bounds_of(method), lens, Light{}, sharp), image) < 35.0);
+  }
+  CHECK(settings.ringing.patterns->count() == 1);
+}
+
+TEST_CASE("patterns that are kept change nothing, and go with their iris; threads change nothing") {
+  const double radius_mm = std::sqrt(3.0 * 550e-6 * 12.0);
+  const LensState lens = plate_of(radius_mm, Iris{6, 0.2}), other = plate_of(radius_mm, Iris{5, 0.2});
+  RenderSettings settings = ringing(green(square_frame(48, radius_mm / 8.0)));
+  for_each_method([&](const Bounds& bounds) {
+    const Light light;
+    const auto render_on = [&](const LensState& with, const RenderSettings& s, int threads) {
+      Context context;
+      context.threads = threads;
+      const auto flare = render(bounds.method, with, std::span(&light, 1), s, context);
+      REQUIRE(flare.has_value());
+      return flare->image.pixels;
+    };
+    const auto expected = render_on(lens, settings, 1);
+    CHECK(render_on(lens, settings, 3) == expected);
+    RenderSettings kept = settings;
+    kept.ringing.patterns = std::make_shared<RingingPatterns>();
+    CHECK(render_on(lens, kept, 2) == expected);
+    const std::size_t count = kept.ringing.patterns->count();
+    CHECK(count == 2);  // of one wavelength, and the band of that wavelength alone
+    CHECK(render_on(lens, kept, 2) == expected);
+    CHECK(kept.ringing.patterns->count() == count);
+    CHECK(render_on(other, kept, 2) == render_on(other, settings, 2));
+    CHECK(render_on(lens, kept, 2) == expected);
+  });
+}
