@@ -73,7 +73,9 @@ class RandomLook {
       case Kind::Real: return std::to_string(std::clamp(number(p), p.minimum, p.maximum));
       case Kind::Integer:
         return std::to_string(static_cast<long>(std::clamp(std::floor(number(p)), p.minimum, p.maximum)));
-      case Kind::Choice: return '"' + std::string(any(p.choices)) + '"';
+      case Kind::Choice:
+        if (p.name == "ringing" && chance(0.85)) return {};  // tenths of a second
+        return '"' + std::string(any(p.choices)) + '"';
       case Kind::Switch: return chance(p.name == "starburst" ? 0.05 : 0.5) ? "true" : "false";  // a tenth of a second
       case Kind::Text: break;
     }
