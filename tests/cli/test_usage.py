@@ -26,7 +26,7 @@ class Usage(ProgramTest):
                 [*render, "-f", "nan"], [*render, "-f", "inf"], [*render, "-f", "0"], [*render, "-f", "8", "-f", "11"],
                 [*render, "--value", "-1"], [*render, "--value", "1e400"], [*render, "--value", "1,2"],
                 [*render, "--colour", "mauve"], [*render, "--colour", "20K"], [*render, "--light", "1"],
-                [*render, "--light", "nan,0"], [*render, "--light", "1,2:3:D65:4"], [*render, "--focus", "-1"],
+                [*render, "--light", "nan,0"], [*render, "--light", "1,2:3:D65:4:5"], [*render, "--focus", "-1"],
                 [*render, "--method", "magic"], [*render, "--device", "toaster"], [*render, "--grid", "8"],
                 [*render, "--wavelengths", "0"], [*render, "--wavelengths", "2.5"], [*render, "--threads", "-1"],
                 [*render, "--threads", "100000"], [*render, "--select", "best"], [*render, "--coating", "paint"],

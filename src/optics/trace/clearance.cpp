@@ -38,13 +38,13 @@ HWY_INLINE void test(Clearance<P>& s, P must_be_positive) {
 template <bool kCentred, class P>
 HWY_INLINE void advance(Clearance<P>& s, const PacketStep& step) {
   const P direction(step.direction);
-  const auto met = meet<kCentred>(s.ray, step);
-  const auto& hit = met.hit;
-  test(s, smaller(hit.cos_in_squared, met.own.nz));
+  hk::OwnPlace<P> own;
+  const auto hit = meet<kCentred>(s.ray, step, own);
+  test(s, smaller(hit.cos_in_squared, own.nz));
   if (step.event == PathEvent::Stop) return;
   const P per_mm(step.inverse_semi_diameter_per_mm);
-  const P rim_x = met.own.x * per_mm;
-  const P rim_y = met.own.y * per_mm;
+  const P rim_x = own.x * per_mm;
+  const P rim_y = own.y * per_mm;
   const P rim_squared = rim_x * rim_x + rim_y * rim_y;
   const auto farther = rim_squared > s.rim_squared;
   s.rim_x = select(farther, rim_x, s.rim_x);

@@ -45,13 +45,13 @@ HWY_INLINE void advance(PacketState<P>& s, const PacketStep& step, const float* 
   const P zero(0.0);
   const P one(1.0);
   const P direction(step.direction);
-  const auto met = meet<kCentred>(s.ray, step);
-  const auto& hit = met.hit;
+  hk::OwnPlace<P> own;
+  const auto hit = meet<kCentred>(s.ray, step, own);
   s.alive = or_zero(hit.cos_in_squared > zero, s.alive);
   if (step.event == PathEvent::Stop) return;
 
-  const P r_squared = (met.own.x * met.own.x + met.own.y * met.own.y) * P(step.inverse_semi_diameter_squared);
-  const P beyond = select(met.own.nz > zero, zero, P(kBeyondEquatorSquared));
+  const P r_squared = (own.x * own.x + own.y * own.y) * P(step.inverse_semi_diameter_squared);
+  const P beyond = select(own.nz > zero, zero, P(kBeyondEquatorSquared));
   const P out_squared = larger(r_squared, beyond);
   s.r_rel_squared = larger(s.r_rel_squared, out_squared);
   if (rim_squared != nullptr) store_floats(out_squared, rim_squared);

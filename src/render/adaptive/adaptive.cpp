@@ -38,7 +38,7 @@ class Stopwatch {
 // cells are allowed is a bound that most of them stay far below: measured, all together make less than a tenth of it
 // (docs/physics/adaptive.md), so that six times as much still holds.
 ErrorBudget budget_per_item(double error, double peak, const Frame& frame, std::size_t items) {
-  constexpr double kRoom = 7.0;
+  constexpr double kRoom = 5.0;
   if (!(peak > 0.0)) return {std::numeric_limits<double>::infinity(), 1.0};  // all light falls beside the frame
   const double allowed = kRoom * error * peak;
   const double pixels = static_cast<double>(frame.width) * frame.height;

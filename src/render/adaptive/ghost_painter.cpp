@@ -15,7 +15,7 @@ constexpr std::array kNodes{5, 9, 17};
 constexpr double kFloatError_mm = 1e-3;
 constexpr double kFloatBox_mm = 0.05;
 constexpr double kWorthShrinking = 0.5;  // a box whose lit part has no more of its area is shrunk to it
-constexpr double kFitShare = 0.35;  // of the allowed error, that fits may make: theirs is the same all over a ghost
+constexpr double kFitShare = 0.4;  // of the allowed error, that fits may make: theirs is the same all over a ghost
 constexpr double kNoLimit = 1e9;
 constexpr double kPeaks = 4.0;  // fits of what is so many times brighter than the peak need be no better
 constexpr float kNearlyThrough = 1.2F;  // of the clear height
