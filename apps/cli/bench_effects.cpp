@@ -8,7 +8,6 @@
 #include "cli/console.h"
 #include "cli/long_task.h"
 #include "cli/options.h"
-#include "cli/outputs.h"
 
 namespace contrejour::cli {
 namespace {
@@ -34,20 +33,11 @@ Result<std::vector<Target>> measure_all(const EffectsOptions& options) {
 }
 
 Result<int> run_effects(const EffectsOptions& options) {
-  Outputs outputs;
-  std::filesystem::path json_file;
-  if (!options.json.empty()) {
-    const auto file = outputs.add(options.json);
-    if (!file) return tl::unexpected(file.error());
-    json_file = *file;
-  }
+  BenchFile json;
+  if (const auto ok = json.open(options.json); !ok) return tl::unexpected(ok.error());
   const auto targets = measure_all(options);
   if (!targets) return tl::unexpected(targets.error());
-  if (!json_file.empty()) {
-    const std::string text = json_text(bench_json(BenchRows(), *targets));
-    if (const auto ok = write_text(json_file, text); !ok) return tl::unexpected(ok.error());
-  }
-  if (const auto ok = outputs.commit(); !ok) return tl::unexpected(ok.error());
+  if (const auto ok = json.write(BenchRows(), *targets); !ok) return tl::unexpected(ok.error());
   print(machine_text());
   print("\n" + targets_text(*targets));
   return kDone;

@@ -14,7 +14,6 @@
 #include "cli/command.h"
 #include "cli/console.h"
 #include "cli/options.h"
-#include "cli/outputs.h"
 #include "params/settings.h"
 
 namespace contrejour::cli {
@@ -124,20 +123,11 @@ std::vector<Target> targets_of(const TablesOptions& options, const BenchRows& ro
 }
 
 Result<int> run_tables(const TablesOptions& options) {
-  Outputs outputs;
-  std::filesystem::path json_file;
-  if (!options.json.empty()) {
-    const auto file = outputs.add(options.json);
-    if (!file) return tl::unexpected(file.error());
-    json_file = *file;
-  }
+  BenchFile json;
+  if (const auto ok = json.open(options.json); !ok) return tl::unexpected(ok.error());
   const auto rows = measure_all(options);
   if (!rows) return tl::unexpected(rows.error());
-  if (!json_file.empty()) {
-    const std::string text = json_text(bench_json(*rows, targets_of(options, *rows)));
-    if (const auto ok = write_text(json_file, text); !ok) return tl::unexpected(ok.error());
-  }
-  if (const auto ok = outputs.commit(); !ok) return tl::unexpected(ok.error());
+  if (const auto ok = json.write(*rows, targets_of(options, *rows)); !ok) return tl::unexpected(ok.error());
   print(machine_text());
   for (const BenchTable& table : bench_tables()) {
     if (!is_wanted(table.key, options.tables)) continue;

@@ -22,6 +22,29 @@ constexpr int kModelPlaces = 6;  // and what it is compared with is smooth
 constexpr double kLeastGrain = 0.25, kMostGrain = 4.0;  // of the shapes' sum, where they interfere
 constexpr int kRowsPerStep = 4;  // between which the tail times rho^3 is interpolated
 
+// Directions about one, and radii along each.
+struct Sector {
+  double angle_rad, window_rad;
+  int across, down;
+};
+
+// Mean of value(rho, x, y) over a sector's samples, rho = radius(share of the way). A real mask's spectrum is the same
+// at opposite places; the half plane x >= 0 is the one that is kept.
+template <class Radius, class Value>
+double sector_mean(const Sector& sector, Radius radius, Value value) {
+  double sum = 0.0;
+  for (int j = 0; j < sector.across; ++j) {
+    const double angle = sector.angle_rad + sector.window_rad * ((j + 0.5) / sector.across - 0.5);
+    double x = std::cos(angle), y = std::sin(angle);
+    if (x < 0.0) x = -x, y = -y;
+    for (int i = 0; i < sector.down; ++i) {
+      const double rho = radius((i + 0.5) / sector.down);
+      sum += value(rho, rho * x, rho * y);
+    }
+  }
+  return sum / (sector.across * sector.down);
+}
+
 // An edge's samples hold their open share s as amplitude, so as power s^2 for s. The mean of s - s^2 is 1/6.
 // The perimeter of what is squeezed is taken as that of the same shape scaled evenly.
 double power_lost_at_edges(const PupilMask& mask, const PupilOutline& outline) {
@@ -162,16 +185,9 @@ double StarburstPattern::grain_along(double angle_rad, double window_rad, const 
   const double from = kScatteredFrom * tail_end_, length = tail_end_ - from;
   const int across = std::max(1, static_cast<int>(std::ceil(tail_end_ * window_rad / kSampleRho)));
   const int down = std::max(1, static_cast<int>(length / kGrainRho));
-  double sum = 0.0;
-  for (int j = 0; j < across; ++j) {
-    const double angle = angle_rad + window_rad * ((j + 0.5) / across - 0.5);
-    double x = std::cos(angle), y = std::sin(angle);
-    if (x < 0.0) x = -x, y = -y;
-    for (int i = 0; i < down; ++i) {
-      const double rho = from + length * (i + 0.5) / down;
-      sum += grid_.density(rho * x, rho * y) * rho * rho * rho / (across * down);
-    }
-  }
+  double sum = sector_mean(
+      {angle_rad, window_rad, across, down}, [&](double share) { return from + length * share; },
+      [&](double rho, double x, double y) { return grid_.density(x, y) * rho * rho * rho; });
   double of_dirt = 0.0;
   for (int i = 0; i < kModelPlaces; ++i) {
     const double rho = from + length * (i + 0.5) / kModelPlaces;
@@ -185,17 +201,10 @@ double StarburstPattern::spectrum_average(double angle_rad, double window_rad, d
   const double height = rho * (row_ratio(1.0) - 1.0), width = rho * window_rad;
   const int down = std::max(1, static_cast<int>(std::ceil(height / kSampleRho)));
   const int across = std::max(1, static_cast<int>(std::ceil(width / kSampleRho)));
-  double sum = 0.0;
-  for (int j = 0; j < across; ++j) {
-    const double angle = angle_rad + window_rad * ((j + 0.5) / across - 0.5);
-    double x = std::cos(angle), y = std::sin(angle);
-    if (x < 0.0) x = -x, y = -y;
-    for (int i = 0; i < down; ++i) {
-      const double r = std::min(rho + height * ((i + 0.5) / down - 0.5), grid_.up_to());
-      sum += grid_.density(r * x, r * y);
-    }
-  }
-  return sum / (down * across);
+  return sector_mean(
+      {angle_rad, window_rad, across, down},
+      [&](double share) { return std::min(rho + height * (share - 0.5), grid_.up_to()); },
+      [&](double, double x, double y) { return grid_.density(x, y); });
 }
 
 }  // namespace contrejour

@@ -13,27 +13,17 @@ namespace {
 
 constexpr double kSide_px = 10.0;
 
-// A cell of kSide_px x kSide_px pixels with these stop coordinates at its corners.
-std::array<Corner, 4> cell_with(const std::array<Vec2, 4>& stop) {
-  constexpr std::array<Vec2, 4> kUv{Vec2{0, 0}, Vec2{1, 0}, Vec2{1, 1}, Vec2{0, 1}};
-  std::array<Corner, 4> cell;
-  for (std::size_t k = 0; k < 4; ++k) {
-    cell[k].position = kUv[k] * kSide_px;
-    cell[k].uv = kUv[k];
-    cell[k].limit[0] = static_cast<float>(stop[k].x);
-    cell[k].limit[1] = static_cast<float>(stop[k].y);
-  }
-  return cell;
-}
-
-// The same with a corner in the middle of each side, which each with its stop coordinates.
-std::array<Corner, 8> bent_cell_with(const std::array<Vec2, 8>& stop) {
+// A cell of kSide_px x kSide_px pixels with these stop coordinates at its corners: four, or eight with those in the
+// middles of its sides.
+template <std::size_t N>
+std::array<Corner, N> cell_with(const std::array<Vec2, N>& stop) {
   constexpr std::array<Vec2, 8> kUv{Vec2{0, 0}, Vec2{0.5, 0}, Vec2{1, 0}, Vec2{1, 0.5},
                                     Vec2{1, 1}, Vec2{0.5, 1}, Vec2{0, 1}, Vec2{0, 0.5}};
-  std::array<Corner, 8> cell;
-  for (std::size_t k = 0; k < 8; ++k) {
-    cell[k].position = kUv[k] * kSide_px;
-    cell[k].uv = kUv[k];
+  std::array<Corner, N> cell;
+  for (std::size_t k = 0; k < N; ++k) {
+    const Vec2 uv = kUv[k * (8 / N)];
+    cell[k].position = uv * kSide_px;
+    cell[k].uv = uv;
     cell[k].limit[0] = static_cast<float>(stop[k].x);
     cell[k].limit[1] = static_cast<float>(stop[k].y);
   }
@@ -56,7 +46,7 @@ TEST_CASE("a round iris inside a cell leaves its area") {
   OutlineCutter cutter(iris);
   const double r = 0.25;  // of the iris, in cells
   for (const double step : {0.8, 0.2, 0.05}) {
-    const auto cell = cell_with({Vec2{-2, -2}, Vec2{2, -2}, Vec2{2, 2}, Vec2{-2, 2}});
+    const auto cell = cell_with<4>({Vec2{-2, -2}, Vec2{2, -2}, Vec2{2, 2}, Vec2{-2, 2}});
     const double whole = std::numbers::pi * r * r * kSide_px * kSide_px;
     CHECK(area_of(cutter.open_part(cell, 1, 0, step)) == doctest::Approx(whole).epsilon(1e-6));
   }
@@ -69,9 +59,9 @@ TEST_CASE("a rim that bends within a cell of bent sides cuts along its curve") {
   for (const double r : {0.5, 0.8, 0.95}) {
     CAPTURE(r);
     const auto height = [&](Vec2 uv) { return Vec2{dot(uv, uv) / (r * r), 0.0}; };
-    const auto bent = bent_cell_with({height({0, 0}), height({0.5, 0}), height({1, 0}), height({1, 0.5}),
-                                      height({1, 1}), height({0.5, 1}), height({0, 1}), height({0, 0.5})});
-    const auto straight = cell_with({height({0, 0}), height({1, 0}), height({1, 1}), height({0, 1})});
+    const auto bent = cell_with<8>({height({0, 0}), height({0.5, 0}), height({1, 0}), height({1, 0.5}), height({1, 1}),
+                                    height({0.5, 1}), height({0, 1}), height({0, 0.5})});
+    const auto straight = cell_with<4>({height({0, 0}), height({1, 0}), height({1, 1}), height({0, 1})});
     const double whole = std::numbers::pi / 4.0 * r * r * kSide_px * kSide_px;
     CHECK(area_of(cutter.open_part(bent, 0, 1, 0.1)) / whole == doctest::Approx(1.0).epsilon(0.06));
     CHECK(std::abs(area_of(cutter.open_part(straight, 0, 1, 0.1)) / whole - 1.0) > 0.1);
@@ -82,8 +72,8 @@ TEST_CASE("arcs and straight edges lie where bent stop coordinates put them") {
   // The stop coordinates are (u, v) bent by a parabola: x = u + b 4 v (1 - v). Areas in uv are those of the opening.
   constexpr double b = 0.04;  // more is not accepted
   const auto stop = [&](Vec2 uv) { return Vec2{uv.x + b * 4.0 * uv.y * (1.0 - uv.y) - 0.5, uv.y - 0.5} * 4.0; };
-  const auto cell = bent_cell_with({stop({0, 0}), stop({0.5, 0}), stop({1, 0}), stop({1, 0.5}), stop({1, 1}),
-                                    stop({0.5, 1}), stop({0, 1}), stop({0, 0.5})});
+  const auto cell = cell_with<8>({stop({0, 0}), stop({0.5, 0}), stop({1, 0}), stop({1, 0.5}), stop({1, 1}),
+                                  stop({0.5, 1}), stop({0, 1}), stop({0, 0.5})});
   const IrisShape round{Iris{}};
   OutlineCutter by_circle(round);
   const double disc = std::numbers::pi / 16.0 * kSide_px * kSide_px;  // the map keeps areas but for the scale
@@ -104,8 +94,8 @@ TEST_CASE("nothing is cut to beyond the cell, wherever its corners cross the sto
   for (int round = 0; round < 5000; ++round) {
     std::array<Vec2, 8> stop;
     for (Vec2& s : stop) s = {anywhere(random), anywhere(random)};
-    const auto bent = bent_cell_with(stop);
-    const auto cell = cell_with({stop[0], stop[1], stop[2], stop[3]});
+    const auto bent = cell_with(stop);
+    const auto cell = cell_with<4>({stop[0], stop[1], stop[2], stop[3]});
     const std::span<const Corner> whole =
         round % 3 == 0 ? std::span<const Corner>(bent) : std::span<const Corner>(cell.data(), round % 3 == 1 ? 4 : 3);
     const auto part = cutter.open_part(whole, 1, 0, 0.1);

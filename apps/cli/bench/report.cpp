@@ -125,4 +125,18 @@ std::string machine_text() {
   return fmt::format("{}, {} cores, {}, {}\n", machine.processor, machine.cores, machine.system, machine.compiler);
 }
 
+Result<void> BenchFile::open(const std::string& destination) {
+  if (destination.empty()) return {};
+  const auto file = outputs_.add(destination);
+  if (!file) return tl::unexpected(file.error());
+  file_ = *file;
+  return {};
+}
+
+Result<void> BenchFile::write(const BenchRows& rows, const std::vector<Target>& targets) {
+  if (file_.empty()) return {};
+  if (const auto ok = write_text(file_, json_text(bench_json(rows, targets))); !ok) return ok;
+  return outputs_.commit();
+}
+
 }  // namespace contrejour::cli

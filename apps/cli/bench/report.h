@@ -1,16 +1,29 @@
-// Rows and targets of `bench tables` as JSON.
+// Rows and targets of `bench` as JSON.
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
 #include "cli/bench/rows.h"
 #include "cli/bench/target.h"
 #include "cli/console.h"
+#include "cli/outputs.h"
 
 namespace contrejour::cli {
 
 [[nodiscard]] Json bench_json(const BenchRows& rows, const std::vector<Target>& targets);
+
+// The file that --json names, or none.
+class BenchFile {
+ public:
+  [[nodiscard]] Result<void> open(const std::string& destination);  // before long work; "": none
+  [[nodiscard]] Result<void> write(const BenchRows& rows, const std::vector<Target>& targets);
+
+ private:
+  Outputs outputs_;
+  std::filesystem::path file_;
+};
 
 // What it was measured on, in a line.
 [[nodiscard]] std::string machine_text();
