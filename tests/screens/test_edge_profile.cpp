@@ -4,7 +4,6 @@
 #include <doctest/doctest.h>
 
 #include "render/screens/edge_profile.h"
-#include "render/screens/pattern_texture.h"
 
 using namespace contrejour;
 using namespace contrejour::screens;
@@ -57,28 +56,21 @@ TEST_CASE("a band blurs far fringes and keeps the first") {
   CHECK(far_band < 0.01);
 }
 
-TEST_CASE("a range leaves out what it says") {
+TEST_CASE("a range leaves out dim ripples only, and says how much they are") {
   const EdgeProfile edge(0.04);
-  for (const double error : {0.05, 0.01, 0.001}) {
-    const auto range = edge.range_for(error);
+  for (const double ripple : {0.1, 0.03, 0.005}) {
+    const auto range = edge.range_above(ripple);
     double left = 0.0;
     for (double t = -6.0; t < 32.0; t += 1e-3) {
       const double v = edge.at(t, 0.0);
       if (t < range.dark) left += v * v * 1e-3;
       if (t > range.level) left += (v - 1.0) * (v - 1.0) * 1e-3;
+      if (t < range.dark - 0.01) CHECK(v <= ripple);
+      if (t > range.level + 0.01) CHECK(std::abs(v - 1.0) <= ripple);
     }
-    CHECK(left <= 1.05 * error);
-    CHECK(left > 0.5 * error);
+    CHECK(std::abs(edge.at(range.level - 0.02, 0.0) - 1.0) > 0.5 * ripple);  // and no more than has to be
+    CHECK(edge.squared_error(range) == doctest::Approx(left).epsilon(0.03));
   }
-  CHECK(edge.range_for(0.0).dark == EdgeProfile::kDarkBelow);
-}
-
-TEST_CASE("a texture's mean over a square, wide or not, and nothing outside") {
-  std::vector<float> ramp;
-  for (int row = 0; row < 64; ++row)
-    for (int column = 0; column < 64; ++column) ramp.push_back(static_cast<float>(column));
-  const PatternTexture texture(64, 2.0, ramp);  // 16 a stop radius
-  for (const double width : {0.0, 0.1, 0.5}) CHECK(texture.at({0.3, -0.2}, width) == doctest::Approx(31.5 + 4.8));
-  CHECK(texture.at({2.1, 0.0}, 0.0) == 0.0);
-  CHECK(texture.flux() == doctest::Approx(31.5 * 16.0));
+  CHECK(edge.range_above(2.0).level == 0.0);
+  CHECK(edge.range_above(2.0).dark == 0.0);
 }

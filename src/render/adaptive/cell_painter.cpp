@@ -11,6 +11,7 @@ namespace {
 constexpr int kDeepest = 7;          // quarterings of a patch
 constexpr double kSliver = 1e-3;     // pixels: mean width below which a polygon is a line
 constexpr double kUnseenDetail = 0.3;  // pixels, of a picture as the iris
+constexpr double kOnePlace_px = 0.4; // a cell no longer than this sees the stop at one place
 constexpr double kSpeck = 0.05;      // pixels: a polygon no longer than this is a point
 constexpr int kMostPoints = 256;     // that stand for a line
 constexpr double kPixel = 1.0;       // area below which a cell is not seen but for its flux
@@ -59,6 +60,16 @@ Area area_of(std::size_t count, PositionOf position) {
   return out;
 }
 
+void dim(Shade& shade, std::array<double, 3>& flux, const std::array<double, 3>& share) {
+  for (std::size_t c = 0; c < 3; ++c) {
+    const auto times = static_cast<float>(share[c]);
+    shade.value[c] *= times;
+    shade.along_x[c] *= times;
+    shade.along_y[c] *= times;
+    flux[c] *= share[c];
+  }
+}
+
 }  // namespace
 
 CellPainter::Cell CellPainter::cell_at(int ix, int iy, int size) {
@@ -93,8 +104,9 @@ bool CellPainter::misses_stop(const Mesh& mesh, const Cell& cell, int crossing) 
          std::all_of(cell.side.begin(), cell.side.end(), beyond);
 }
 
-// Closed for certain only where one rim or one crossing of the iris blocks all of it.
-CellPainter::State CellPainter::state_of(const Mesh& mesh, const Cell& cell) {
+// Closed for certain only where one rim or one crossing of the iris blocks all of it. A screen cuts nothing: it is dark
+// where its light ends.
+CellPainter::State CellPainter::state_of(const Mesh& mesh, const Cell& cell) const {
   std::uint32_t any = 0;
   std::uint32_t all = ~0U;
   for (int y = cell.iy; y <= cell.iy + cell.size; ++y) {
@@ -103,7 +115,7 @@ CellPainter::State CellPainter::state_of(const Mesh& mesh, const Cell& cell) {
       all &= mesh.outside[Mesh::at(x, y)];
     }
   }
-  if (any == 0) return State::Open;
+  if ((screen_ ? any >> mesh.layout.crossings : any) == 0) return State::Open;
   if (all >> mesh.layout.crossings != 0) return State::Closed;
   for (int c = 0; c < mesh.layout.crossings; ++c) {
     if ((all >> c & 1U) != 0 && misses_stop(mesh, cell, c)) return State::Closed;
@@ -122,6 +134,11 @@ bool CellPainter::off_frame(const Mesh& mesh, const Cell& cell) const {
 
 // What drawing the cell as one polygon with a linear irradiance would get wrong, squared, over its pixels.
 double CellPainter::squared_error(const Mesh& mesh, const Cell& cell, State state, Sides sides) const {
+  const double passed = most_light(mesh, cell);
+  return passed == 0.0 ? 0.0 : passed * passed * unscreened_error(mesh, cell, state, sides);
+}
+
+double CellPainter::unscreened_error(const Mesh& mesh, const Cell& cell, State state, Sides sides) const {
   const std::array<std::size_t, 9> v{cell.corner[0], cell.side[0],   cell.corner[1], cell.side[3],  cell.middle,
                                      cell.side[1],   cell.corner[3], cell.side[2],   cell.corner[2]};
   Bounds b;
@@ -186,21 +203,23 @@ double CellPainter::squared_error(const Mesh& mesh, const Cell& cell, State stat
     const double limit = left * limit_error(mesh, cell);
     if (state == State::Cut && limit > left * kMostBend)
       return std::numeric_limits<double>::infinity();  // or light would be lost unseen
-    const double share = varied ? std::max(limit, twist(mesh, cell)) : limit;
-    const double off = share * longest;
-    double edges = iris_.is_picture() ? kPictureEdges : 1.0;
-    if (state != State::Cut) edges = std::min(1.0, stop_size(mesh, cell) / (screen_->unit * longest));  // soft ones
-    error += mean * mean * std::min(off * off, off) * edges * longest * width * width;
+    const auto along_edges = [&](double off, double edges) {
+      return mean * mean * std::min(off * off, off) * edges * longest * width * width;
+    };
+    if (state == State::Cut) error += along_edges(limit * longest, iris_.is_picture() ? kPictureEdges : 1.0);
+    if (varied && longest > kOnePlace_px)  // soft ones
+      error += along_edges(map_error(mesh, cell, longest) * longest,
+                           std::min(1.0, stop_size(mesh, cell) / (screen_->unit * longest)));
   }
   return std::min(error, 4.0 * worst) * dimmed * dimmed;
 }
 
 // How far the lines that cut the cell are off when stop coordinates and rims are taken as linear along its sides, as
 // a share of the cell.
-double CellPainter::limit_error(const Mesh& mesh, const Cell& cell) {
+double CellPainter::limit_error(const Mesh& mesh, const Cell& cell) const {
   double largest = 0.0;
   const int first_rim = mesh.layout.rim(0);
-  for (int f = PatchLayout::kStop; f < mesh.layout.fields(); ++f) {
+  for (int f = screen_ ? first_rim : PatchLayout::kStop; f < mesh.layout.fields(); ++f) {
     const Mesh::Field& v = mesh.field(f);
     float low = v[cell.corner[0]];
     float high = low;
@@ -270,7 +289,7 @@ void CellPainter::paint_cell(const Mesh& mesh, int ix, int iy, int size) {
   if (part == ScreenPart::Dark) return;
   if (size == 1 || squared_error(mesh, cell, state, Sides::Straight) <= kStraight * cell_budget())
     return draw(mesh, cell, state, Sides::Straight);
-  const Sides sides = part == ScreenPart::Varied ? Sides::Straight : most_bent(state);
+  const Sides sides = most_bent(state);
   if (squared_error(mesh, cell, state, sides) <= cell_budget()) return draw(mesh, cell, state, sides);
   const int half = size / 2;
   for (int k = 0; k < 4; ++k) paint_cell(mesh, ix + (k % 2) * half, iy + (k / 2) * half, half);
@@ -328,8 +347,13 @@ void CellPainter::draw(const Mesh& mesh, const Cell& cell, State state, Sides si
     shade.along_x[channel] = static_cast<float>((along_d * f.y - along_f * d.y) * scale);
     shade.along_y[channel] = static_cast<float>((along_f * d.x - along_d * f.x) * scale);
   }
-  if (screen_ && screen_part(mesh, cell) == ScreenPart::Varied) return draw_screened(mesh, cell, state, shade, flux);
-  draw_polygon(mesh, state, shade, flux, outline.all());
+  const bool varied = screen_ && screen_part(mesh, cell) == ScreenPart::Varied;
+  if (varied && std::max(length(d), length(f)) < kOnePlace_px) {
+    dim(shade, flux, passed_to(mesh, cell));
+    return draw_polygon(mesh, state, shade, flux, outline.all());
+  }
+  const auto map = varied ? std::optional(stop_map(mesh, cell, kSoft_px)) : std::nullopt;
+  draw_polygon(mesh, state, shade, flux, outline.all(), map ? &*map : nullptr);
 }
 
 // Two triangles, each with its own flux spread evenly.
@@ -351,7 +375,9 @@ void CellPainter::draw_folded(const Mesh& mesh, const Cell& cell, State state) {
       shade.value[channel] = static_cast<float>(flux[channel] / std::max(area, 1e-12));
     }
     const bool varied = screen_ && screen_part(mesh, cell) == ScreenPart::Varied;
-    const auto map = varied ? std::optional(stop_map(mesh, t)) : std::nullopt;
+    const bool one_place = length(p[2] - p[0]) < kOnePlace_px;
+    if (varied && one_place) dim(shade, flux, passed_to(mesh, cell));
+    const auto map = varied && !one_place ? std::optional(stop_map(mesh, t)) : std::nullopt;
     draw_polygon(mesh, state, shade, flux, corners, map ? &*map : nullptr);
   }
 }
@@ -388,8 +414,10 @@ void CellPainter::draw_polygon(const Mesh& mesh, State state, const Shade& shade
     }
   }
   std::span<const Corner> polygon(whole.data(), corners.size());
-  if (state == State::Cut && iris_.is_picture()) return draw_pieces(mesh, polygon, shade, flux);
-  if (state == State::Cut) {
+  if (state == State::Cut && screen_) {
+    polygon = cutter_.within_rims(polygon, mesh.layout.crossings, mesh.layout.rims);
+  } else if (state == State::Cut) {
+    if (iris_.is_picture()) return draw_pieces(mesh, polygon, shade, flux);
     polygon = cutter_.open_part(polygon, mesh.layout.crossings, mesh.layout.rims, arc_step(mesh, corners, shade));
   }
   draw_part(polygon, shade, flux, corners.size() == 3, map);
@@ -404,13 +432,7 @@ void CellPainter::draw_pieces(const Mesh& mesh, std::span<const Corner> cell, co
                              [&](std::span<const Corner> part, double open) {
                                Shade dimmed = shade;
                                Flux less = flux;
-                               const auto share = static_cast<float>(open);
-                               for (std::size_t c = 0; c < 3; ++c) {
-                                 dimmed.value[c] *= share;
-                                 dimmed.along_x[c] *= share;
-                                 dimmed.along_y[c] *= share;
-                                 less[c] *= open;
-                               }
+                               dim(dimmed, less, {open, open, open});
                                draw_part(part, dimmed, less, cell.size() == 3);
                              });
 }
@@ -435,13 +457,8 @@ void CellPainter::draw_part(std::span<const Corner> polygon, const Shade& shade,
   const bool one_pixel = std::floor(b.low.x) == std::floor(b.high.x) && std::floor(b.low.y) == std::floor(b.high.y);
   const bool sliver = std::abs(twice_area) < kSliver * longest;
   if (!one_pixel && !sliver && longest > kSpeck) {
-    if (map == nullptr)
-      out_.add(points_, shade);
-    else if (map->goes_on() && screen_->edges != nullptr)
-      draw_fringed(polygon, shade, flux, *map);
-    else
-      out_.add(points_, shade, PolygonList::Screened{screen_, *map});
-    return;
+    if (map == nullptr) return out_.add(points_, shade);
+    return draw_screened(polygon, 0.5 * std::abs(twice_area), shade, flux, *map);
   }
   const double share = 0.5 * std::abs(twice_share) * (triangle ? 2.0 : 1.0);
   Flux passed{flux[0] * share, flux[1] * share, flux[2] * share};

@@ -27,6 +27,7 @@ class CellPainter {
     screen_ = std::move(screen);
     screen_unit_ = unit;
     tables_.clear();
+    out_.screens.push_back(screen_);
   }
 
  private:
@@ -62,15 +63,26 @@ class CellPainter {
   void draw_pieces(const Mesh& mesh, std::span<const Corner> cell, const Shade& shade, const Flux& flux);
   void draw_part(std::span<const Corner> polygon, const Shade& shade, const Flux& flux, bool triangle,
                  const StopMap* map = nullptr);
-  void draw_screened(const Mesh& mesh, const Cell& cell, State state, const Shade& shade, const Flux& flux);
-  [[nodiscard]] Vec2 stop_place(const Mesh& mesh, std::size_t vertex, int crossing) const;
-  [[nodiscard]] StopMap stop_map(const Mesh& mesh, std::span<const std::size_t> corners) const;
-  void draw_fringed(std::span<const Corner> polygon, const Shade& shade, const Flux& flux, const StopMap& map);
+  void draw_screened(std::span<const Corner> polygon, double area_px, const Shade& shade, const Flux& flux,
+                     const StopMap& map);
   void add_fringed(std::span<const Corner> polygon, const Shade& shade, const StopMap& map, const EdgeTable& table);
+  [[nodiscard]] std::array<double, 3> passed_to(const Mesh& mesh, const Cell& cell) const;
+  [[nodiscard]] Vec2 stop_place(const Mesh& mesh, std::size_t vertex, int crossing) const;
+  [[nodiscard]] StopMap stop_map(const Mesh& mesh, const Cell& cell, double softness_px) const;
+  [[nodiscard]] StopMap stop_map(const Mesh& mesh, const std::array<std::size_t, 3>& triangle) const;
+  template <class SeriesOf>
+  [[nodiscard]] StopMap stop_map(const Mesh& mesh, double softness_px, const SeriesOf& series_of) const;
+  static constexpr double kSoft_px = 0.2;  // of cells, for maps to be drawn with
+  [[nodiscard]] double map_error(const Mesh& mesh, const Cell& cell, double longest_px) const;
   [[nodiscard]] const EdgeTable& table_for(double width);
+  struct StopDisc {
+    Vec2 middle;
+    double radius = 0.0;
+  };
+  [[nodiscard]] StopDisc stop_disc(const Mesh& mesh, const Cell& cell) const;
   [[nodiscard]] ScreenPart screen_part(const Mesh& mesh, const Cell& cell) const;
+  [[nodiscard]] double most_light(const Mesh& mesh, const Cell& cell) const;  // that a screen lets through
   [[nodiscard]] double stop_size(const Mesh& mesh, const Cell& cell) const;
-  [[nodiscard]] double twist(const Mesh& mesh, const Cell& cell) const;
   void draw_line(std::span<const Corner> polygon, const Flux& flux);
 
   // Of the next cell. How many there will be is not known before: their share falls as they become more, down to a
@@ -78,16 +90,17 @@ class CellPainter {
   [[nodiscard]] double cell_budget() const { return budget_ / std::clamp(cells_, few_cells_, kManyCells * few_cells_); }
   [[nodiscard]] static Cell cell_at(int ix, int iy, int size);
   [[nodiscard]] static bool misses_stop(const Mesh& mesh, const Cell& cell, int crossing);
-  [[nodiscard]] static State state_of(const Mesh& mesh, const Cell& cell);
+  [[nodiscard]] State state_of(const Mesh& mesh, const Cell& cell) const;
   [[nodiscard]] bool off_frame(const Mesh& mesh, const Cell& cell) const;
   [[nodiscard]] bool wants_finer_mesh(const Mesh& mesh, int ix, int iy) const;
   [[nodiscard]] double squared_error(const Mesh& mesh, const Cell& cell, State state, Sides sides) const;
+  [[nodiscard]] double unscreened_error(const Mesh& mesh, const Cell& cell, State state, Sides sides) const;
   // A picture cuts triangles, within which corners on a cell's sides say nothing.
   [[nodiscard]] Sides most_bent(State state) const {
     return state == State::Cut && iris_.is_picture() ? Sides::Straight : Sides::Bent;
   }
   [[nodiscard]] static Outline outline_of(const Cell& cell, Sides sides);
-  [[nodiscard]] static double limit_error(const Mesh& mesh, const Cell& cell);
+  [[nodiscard]] double limit_error(const Mesh& mesh, const Cell& cell) const;
   [[nodiscard]] double arc_step(const Mesh& mesh, std::span<const CellCorner> corners, const Shade& shade) const;
 
   const IrisShape& iris_;

@@ -19,18 +19,19 @@ double fade(double way) {
 EdgeTable::EdgeTable(const BandScreen& band, double width)
     : iris_(&band.edges->iris()), dark_beyond_(band.dark_beyond + 0.5 * width),
       level_within_(band.level_within + 0.5 * width), per_step_(1.0 / (kStep * band.unit)) {
-  const auto count = static_cast<std::size_t>((dark_beyond_ + level_within_) * per_step_) + 3;
-  for (std::size_t k = 0; k < count; ++k) {
+  const auto steps = static_cast<std::size_t>((dark_beyond_ + level_within_) * per_step_) + 1;
+  entries_.assign((steps + 1) * kStride, 0.0F);
+  for (std::size_t k = 1; k < steps; ++k) {
     const double distance = dark_beyond_ - static_cast<double>(k) / per_step_;
-    Rgb value{};
+    float* const entry = &entries_[kStride * k];
     for (const BandScreen::Part& part : band.parts) {
       const double share = static_cast<const screens::EdgeScreen&>(*part.screen).edge(distance, width);
       const double faded = distance > 0.0 ? share * fade(distance / dark_beyond_)
                                           : 1.0 + (share - 1.0) * fade(-distance / level_within_);
-      for (std::size_t c = 0; c < 3; ++c) value[c] += part.channel[c] * static_cast<float>(faded);
+      for (std::size_t c = 0; c < 3; ++c) entry[c] += part.channel[c] * static_cast<float>(faded);
     }
-    value_.push_back(value);
   }
+  std::fill_n(&entries_[kStride * steps], kStride, 1.0F);
 }
 
 }  // namespace contrejour::adaptive

@@ -2,7 +2,6 @@
 // adaptive looks up pixel by pixel. Differs: where two edges meet, the channels' means multiply, not each wavelength's.
 #pragma once
 
-#include <array>
 #include <vector>
 
 #include "render/adaptive/polygon_screen.h"
@@ -12,7 +11,7 @@ namespace contrejour::adaptive {
 
 class EdgeTable {
  public:
-  using Rgb = std::array<float, 3>;
+  static constexpr std::size_t kStride = 4;  // floats of an entry: three channels and an unused one
 
   // band: of edges' fringes, which must outlive the table. width: of a pixel, stop radii.
   EdgeTable(const BandScreen& band, double width);
@@ -21,22 +20,15 @@ class EdgeTable {
   [[nodiscard]] double dark_beyond() const { return dark_beyond_; }  // distance outside a bound, stop radii
   [[nodiscard]] double level_within() const { return level_within_; }  // and inside
 
-  // Takes the factor that a bound brings at a signed distance from it into `share`.
-  void apply(double distance, Rgb& share) const {
-    if (distance <= -level_within_) return;
-    const double place = (dark_beyond_ - distance) * per_step_;
-    if (!(place > 0.0)) return share.fill(0.0F);
-    const auto at = static_cast<std::size_t>(place);
-    const auto t = static_cast<float>(place - static_cast<double>(at));
-    const Rgb& a = value_[at];
-    const Rgb& b = value_[at + 1];
-    for (std::size_t c = 0; c < 3; ++c) share[c] *= a[c] + t * (b[c] - a[c]);
-  }
+  // The factors that a bound brings, from 0 at dark_beyond() outside it to 1 at level_within() inside, at even steps.
+  [[nodiscard]] const float* entries() const { return entries_.data(); }
+  [[nodiscard]] std::size_t count() const { return entries_.size() / kStride; }
+  [[nodiscard]] double per_step() const { return per_step_; }  // entries a stop radius
 
  private:
   const IrisShape* iris_;
   double dark_beyond_, level_within_, per_step_;
-  std::vector<Rgb> value_;
+  std::vector<float> entries_;
 };
 
 }  // namespace contrejour::adaptive

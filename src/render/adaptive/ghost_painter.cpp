@@ -6,6 +6,7 @@
 
 #include "render/adaptive/extremes.h"
 #include "render/adaptive/lobatto.h"
+#include "render/screens/ringing_patterns.h"
 
 namespace contrejour::adaptive {
 namespace {
@@ -166,8 +167,11 @@ std::shared_ptr<const BandScreen> GhostPainter::band_screen(const std::vector<Ra
       band->parts[part].channel[c] = static_cast<float>(
           std::abs(sum[c]) > kLightLeft * size[c] ? light[part][c] / sum[c] : 1.0 / static_cast<double>(count));
   bool all_edges = true;
+  std::vector<const screens::PatternTexture*> textures;
   for (const auto& part : band->parts) {
     const auto* const edge = dynamic_cast<const screens::EdgeScreen*>(part.screen.get());
+    const auto* const pattern = dynamic_cast<const screens::TextureScreen*>(part.screen.get());
+    if (pattern != nullptr) textures.push_back(&pattern->texture());
     all_edges = all_edges && edge != nullptr;
     if (edge == nullptr) continue;
     band->unit = std::min(band->unit, edge->unit());
@@ -175,6 +179,8 @@ std::shared_ptr<const BandScreen> GhostPainter::band_screen(const std::vector<Ra
     band->level_within = std::max(band->level_within, screens_->range.level * edge->unit());
   }
   if (all_edges) band->edges = static_cast<const screens::EdgeScreen*>(band->parts.front().screen.get());
+  band->reach = screens_->reach;
+  if (textures.size() == band->parts.size()) band->pattern = screens_->patterns->contents().band(textures);
   return band;
 }
 

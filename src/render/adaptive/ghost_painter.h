@@ -15,8 +15,9 @@ struct ErrorBudget {
 // What stands in the stop for a ghost of a light, in place of the sharp iris: one a pass, the last crossing's.
 struct GhostScreens {
   double reach = 1.0;  // the largest, as far as their light is worth drawing
-  screens::EdgeProfile::Range range;  // likewise, of edges' fringes
+  screens::EdgeProfile::Range range{0.0, 0.0};  // likewise, of edges' fringes
   std::vector<std::shared_ptr<const StopScreen>> by_pass;
+  std::shared_ptr<RingingPatterns> patterns;
 };
 
 class GhostPainter {

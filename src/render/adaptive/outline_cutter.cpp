@@ -228,13 +228,23 @@ std::optional<Corner> OutlineCutter::corner_at_stop(std::size_t limit, Vec2 targ
 
 std::span<const Corner> OutlineCutter::open_part(std::span<const Corner> whole, int crossings, int rims,
                                                  double arc_step_rad) {
-  whole_ = whole;
+  start_with(whole, crossings, rims);
   arc_step_ = arc_step_rad;
-  limits_ = static_cast<std::size_t>(2 * crossings + rims);
-  polygon_.assign(whole.begin(), whole.end());
   for (int c = 0; c < crossings && !polygon_.empty(); ++c) cut_by_iris(static_cast<std::size_t>(2 * c));
   cut_by_rims(crossings, rims);
   return polygon_;
+}
+
+std::span<const Corner> OutlineCutter::within_rims(std::span<const Corner> whole, int crossings, int rims) {
+  start_with(whole, crossings, rims);
+  cut_by_rims(crossings, rims);
+  return polygon_;
+}
+
+void OutlineCutter::start_with(std::span<const Corner> whole, int crossings, int rims) {
+  whole_ = whole;
+  limits_ = static_cast<std::size_t>(2 * crossings + rims);
+  polygon_.assign(whole.begin(), whole.end());
 }
 
 void OutlineCutter::cut_by_rims(int crossings, int rims) {

@@ -31,6 +31,9 @@ class OutlineCutter {
   [[nodiscard]] std::span<const Corner> open_part(std::span<const Corner> whole, int crossings, int rims,
                                                   double arc_step_rad);
 
+  // The same where the iris does not cut.
+  [[nodiscard]] std::span<const Corner> within_rims(std::span<const Corner> whole, int crossings, int rims);
+
   // The same for a picture: convex parts that do not overlap, each with the share of light that passes there. Details
   // are told apart down to `finest` of the cell's extent in the stop's plane.
   using OpenPart = std::function<void(std::span<const Corner> part, double open)>;
@@ -51,6 +54,7 @@ class OutlineCutter {
     [[nodiscard]] Vec2 stop_from_unit(Vec2 p) const { return centre + p * radius; }
   };
 
+  void start_with(std::span<const Corner> whole, int crossings, int rims);
   void cut_by_iris(std::size_t limit);
   void cut_by_rims(int crossings, int rims);
   void cut_by_pieces(std::size_t limit, std::size_t first_rim, double finest, double open, const OpenPart& visit);

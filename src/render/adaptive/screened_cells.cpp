@@ -1,5 +1,5 @@
-// Cells whose light passes a screen instead of the sharp iris: where it varies they are drawn as triangles, over which
-// places in the stop are linear, and cut into strips along the edges that bring fringes and what is level between them.
+// Cells whose light passes a screen instead of the sharp iris: where it varies, places in the stop are polynomials of
+// the pixel; large cells are cut into strips along the edges that bring fringes and what is level between them.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -11,6 +11,8 @@ namespace {
 
 constexpr double kWidthsPerOctave = 2.0;  // of edges' tables
 constexpr double kScreenDisc = 1.2;  // of a cell's distance from its middle in the stop, for cells that bend
+constexpr double kExact = 1e-3;   // of a cell's size, for maps to be judged by
+constexpr double kWorthCutting_px = 400.0;  // of area: smaller cells are looked up all over
 constexpr double kSagittaRoom = 0.5;  // of an arc's, for circles about the same centre with a smaller radius
 
 struct HalfPlane {  // normal . p <= most
@@ -65,16 +67,27 @@ Vec2 CellPainter::stop_place(const Mesh& mesh, std::size_t vertex, int crossing)
   return Vec2{mesh.field(field)[vertex], mesh.field(field + 1)[vertex]} * screen_unit_;
 }
 
-// Over the disc about a cell's crossings of the stop.
-ScreenPart CellPainter::screen_part(const Mesh& mesh, const Cell& cell) const {
+// About a cell's last crossings of the stop.
+CellPainter::StopDisc CellPainter::stop_disc(const Mesh& mesh, const Cell& cell) const {
   const int last = mesh.layout.crossings - 1;
-  if (last < 0) return ScreenPart::Level;
-  const Vec2 middle = stop_place(mesh, cell.middle, last);
-  double radius = 0.0;
-  for (const std::size_t v : cell.corner) radius = std::max(radius, length(stop_place(mesh, v, last) - middle));
-  for (const std::size_t v : cell.side) radius = std::max(radius, length(stop_place(mesh, v, last) - middle));
-  const ScreenPart part = screen_->over(middle, kScreenDisc * radius);
-  return part == ScreenPart::Level && last > 0 ? ScreenPart::Varied : part;
+  StopDisc disc{stop_place(mesh, cell.middle, last), 0.0};
+  for (const auto& vertices : {cell.corner, cell.side})
+    for (const std::size_t v : vertices)
+      disc.radius = std::max(disc.radius, kScreenDisc * length(stop_place(mesh, v, last) - disc.middle));
+  return disc;
+}
+
+ScreenPart CellPainter::screen_part(const Mesh& mesh, const Cell& cell) const {
+  if (mesh.layout.crossings == 0) return ScreenPart::Level;
+  const StopDisc disc = stop_disc(mesh, cell);
+  const ScreenPart part = screen_->over(disc.middle, disc.radius);
+  return part == ScreenPart::Level && mesh.layout.crossings > 1 ? ScreenPart::Varied : part;
+}
+
+double CellPainter::most_light(const Mesh& mesh, const Cell& cell) const {
+  if (!screen_ || mesh.layout.crossings == 0) return 1.0;
+  const StopDisc disc = stop_disc(mesh, cell);
+  return screen_->most_over(disc.middle, disc.radius);
 }
 
 double CellPainter::stop_size(const Mesh& mesh, const Cell& cell) const {
@@ -83,30 +96,46 @@ double CellPainter::stop_size(const Mesh& mesh, const Cell& cell) const {
   return std::max(length(at(cell.corner[2]) - at(cell.corner[0])), length(at(cell.corner[3]) - at(cell.corner[1])));
 }
 
-// How far the stop's places at a cell's middle are off the diagonals' middles, as a share of the cell.
-double CellPainter::twist(const Mesh& mesh, const Cell& cell) const {
-  double largest = 0.0;
-  for (int c = 0; c < mesh.layout.crossings; ++c) {
-    const auto at = [&](std::size_t v) { return stop_place(mesh, v, c); };
-    const Vec2 middle = at(cell.middle);
-    const double size =
-        length(at(cell.corner[2]) - at(cell.corner[0])) + length(at(cell.corner[3]) - at(cell.corner[1]));
-    for (std::size_t k = 0; k < 2; ++k) {
-      const double off = length((at(cell.corner[k]) + at(cell.corner[k + 2])) * 0.5 - middle);
-      if (size > 0.0) largest = std::max(largest, 2.0 * off / size);
-    }
-  }
-  return largest;
+StopMap CellPainter::stop_map(const Mesh& mesh, const Cell& cell, double softness_px) const {
+  const auto series = [&](const auto& at) {
+    const std::array corner{at(cell.corner[0]), at(cell.corner[1]), at(cell.corner[2]), at(cell.corner[3])};
+    if (cell.size == 1) return CellSeries::of_corners(corner);  // that is all there is
+    return CellSeries::of(corner, {at(cell.side[0]), at(cell.side[1]), at(cell.side[2]), at(cell.side[3])},
+                          at(cell.middle));
+  };
+  return stop_map(mesh, softness_px, series);
 }
 
-StopMap CellPainter::stop_map(const Mesh& mesh, std::span<const std::size_t> corners) const {
-  std::array<StopMap::Corner, 3> c;
-  for (std::size_t k = 0; k < 3; ++k) {
-    c[k].pixel = mesh.position(corners[k]) + mesh.origin_px;
-    for (int crossing = 0; crossing < mesh.layout.crossings; ++crossing)
-      c[k].stop[static_cast<std::size_t>(crossing)] = stop_place(mesh, corners[k], crossing);
-  }
-  return {c, mesh.layout.crossings};
+StopMap CellPainter::stop_map(const Mesh& mesh, const std::array<std::size_t, 3>& triangle) const {
+  return stop_map(mesh, kSoft_px, [&](const auto& at) {
+    return CellSeries::of_triangle({at(triangle[0]), at(triangle[1]), at(triangle[2])});
+  });
+}
+
+template <class SeriesOf>
+StopMap CellPainter::stop_map(const Mesh& mesh, double softness_px, const SeriesOf& series_of) const {
+  std::array<CellSeries, kMaxStopCrossings> stop;
+  for (int c = 0; c < mesh.layout.crossings; ++c)
+    stop[static_cast<std::size_t>(c)] = series_of([&](std::size_t v) { return stop_place(mesh, v, c); });
+  return {series_of([&](std::size_t v) { return mesh.position(v) + mesh.origin_px; }),
+          {stop.data(), static_cast<std::size_t>(mesh.layout.crossings)},
+          softness_px};
+}
+
+// How far places in the stop are off where they are polynomials of the pixel, as a share of the cell.
+double CellPainter::map_error(const Mesh& mesh, const Cell& cell, double longest_px) const {
+  const double size = stop_size(mesh, cell);
+  if (!(size > 0.0)) return 0.0;
+  const StopMap map = stop_map(mesh, cell, kExact * longest_px);
+  double most = 0.0;
+  const auto check = [&](std::size_t v) {
+    const Vec2 pixel = mesh.position(v) + mesh.origin_px;
+    for (int c = 0; c < mesh.layout.crossings; ++c)
+      most = std::max(most, length(map.place(pixel, static_cast<std::size_t>(c)) - stop_place(mesh, v, c)));
+  };
+  for (const std::size_t v : cell.corner) check(v);
+  for (const std::size_t v : cell.side) check(v);
+  return most / size;
 }
 
 // For pixels of about that width.
@@ -114,27 +143,41 @@ const EdgeTable& CellPainter::table_for(double width) {
   const int octave = static_cast<int>(std::lround(kWidthsPerOctave * std::log2(std::max(width, 1e-9))));
   const auto [at, is_new] = tables_.try_emplace(octave, nullptr);
   if (is_new) {
-    out_.tables.push_back({screen_, std::make_shared<const EdgeTable>(*screen_, std::exp2(octave / kWidthsPerOctave))});
-    at->second = out_.tables.back().table.get();
+    out_.tables.push_back(std::make_shared<const EdgeTable>(*screen_, std::exp2(octave / kWidthsPerOctave)));
+    at->second = out_.tables.back().get();
   }
   return *at->second;
 }
 
-// The parts of a triangle's polygon along each edge that brings fringes there, cut off by straight lines, and the rest,
-// which is level.
-void CellPainter::draw_fringed(std::span<const Corner> polygon, const Shade& shade, const Flux& flux,
-                               const StopMap& map) {
+// What passes to a cell so small that a pixel sees all of it at once.
+std::array<double, 3> CellPainter::passed_to(const Mesh& mesh, const Cell& cell) const {
+  std::array<StopPlace, kMaxStopCrossings> places;
+  for (int c = 0; c < mesh.layout.crossings; ++c) {
+    const auto at = [&](std::size_t v) { return stop_place(mesh, v, c); };
+    const double twice_area = cross(at(cell.corner[2]) - at(cell.corner[0]), at(cell.corner[3]) - at(cell.corner[1]));
+    places[static_cast<std::size_t>(c)] = {at(cell.middle), std::sqrt(0.5 * std::abs(twice_area))};
+  }
+  return screen_->share({places.data(), static_cast<std::size_t>(mesh.layout.crossings)});
+}
+
+// All of a polygon's pixels look up what passes. Edges' fringes of a large one: the parts along each edge that brings
+// any there, cut off by straight lines; the rest is level.
+void CellPainter::draw_screened(std::span<const Corner> polygon, double area_px, const Shade& shade, const Flux& flux,
+                                const StopMap& map) {
+  if (screen_->edges == nullptr || map.crossings() > 1)
+    return out_.add(points_, shade, Screened{map, screen_.get()}, {});
   const EdgeTable& table = table_for(map.width());
-  if (table.iris().is_picture()) return add_fringed(polygon, shade, map, table);
+  if (area_px < kWorthCutting_px || table.iris().is_picture()) return add_fringed(polygon, shade, map, table);
+  const double room = map.bend();  // cuts are straight, places are not
   std::vector<Corner> rest(polygon.begin(), polygon.end()), strip;
   for (const IrisBound& bound : table.iris().bounds()) {
     if (rest.size() < 3) return;
     const EdgeLine line = line_along(bound, rest, map);
-    keep_within(rest, map, {line.normal, line.outer + table.dark_beyond()});
+    keep_within(rest, map, {line.normal, line.outer + table.dark_beyond() + room});
     strip = rest;
-    keep_within(strip, map, {line.normal * -1.0, table.level_within() - line.inner});
+    keep_within(strip, map, {line.normal * -1.0, table.level_within() + room - line.inner});
     if (strip.size() < 3) continue;
-    keep_within(rest, map, {line.normal, line.inner - table.level_within()});
+    keep_within(rest, map, {line.normal, line.inner - table.level_within() - room});
     add_fringed(strip, shade, map, table);
   }
   draw_part(rest, shade, flux, true);
@@ -148,26 +191,12 @@ void CellPainter::add_fringed(std::span<const Corner> polygon, const Shade& shad
     double nearest = -std::numeric_limits<double>::infinity();
     for (const Corner& c : polygon) nearest = std::max(nearest, bounds[k].distance(map.place(c.position)));
     // Distances are convex: none within is larger than at the corners, but for pixels that reach beyond.
-    if (nearest + map.width() > -table.level_within()) active_.push_back(static_cast<std::uint16_t>(k));
+    if (nearest + map.width() + map.bend() > -table.level_within()) active_.push_back(static_cast<std::uint16_t>(k));
   }
   points_.clear();
   for (const Corner& c : polygon)
     points_.push_back({static_cast<float>(c.position.x), static_cast<float>(c.position.y)});
-  const Vec2 origin = map.place({0.0, 0.0});
-  out_.add(points_, shade,
-           PolygonList::Fringed{&table, origin, map.place({1.0, 0.0}) - origin, map.place({0.0, 1.0}) - origin, 0, 0},
-           active_);
-}
-
-// Two triangles, over each of which places in the stop are linear.
-void CellPainter::draw_screened(const Mesh& mesh, const Cell& cell, State state, const Shade& shade, const Flux& flux) {
-  const Flux half{0.5 * flux[0], 0.5 * flux[1], 0.5 * flux[2]};
-  for (const auto& t : {std::array{cell.corner[0], cell.corner[1], cell.corner[2]},
-                        std::array{cell.corner[0], cell.corner[2], cell.corner[3]}}) {
-    const std::array<CellCorner, 3> corners{{{t[0], {0, 0}}, {t[1], {1, 0}}, {t[2], {1, 1}}}};
-    const StopMap map = stop_map(mesh, t);
-    draw_polygon(mesh, state, shade, half, corners, &map);
-  }
+  out_.add(points_, shade, Screened{map, screen_.get(), &table}, active_);
 }
 
 }  // namespace contrejour::adaptive

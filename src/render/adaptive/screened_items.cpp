@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <numeric>
 
 #include "base/tasks.h"
@@ -11,18 +12,28 @@ namespace contrejour::adaptive {
 namespace {
 
 // Of the frame's squared error: what ghosts that stay sharp may make, and small ripples within the others.
-constexpr double kSharpShare = 0.4, kRippleShare = 0.25;
+constexpr double kSharpShare = 0.6, kRippleShare = 0.5;
 constexpr double kPeaks = 16.0;  // levels over the peak from which on errors count as relative ones (cell_painter.cpp)
 // A straight edge's profile less the sharp one, squared and summed, is so many of an edge's units.
 constexpr double kEdgeError = 0.3;
 constexpr double kOutline = 1.5;  // over a disc's of the same area
 
-// What an item's fringes differ from its sharp rim, squared, over its pixels.
-double fringe_error(const ItemSize& size, double peak, double fresnel_number) {
+// An item's rim: how bright it is seen, and what fringes along it weigh: squared errors summed over t (EdgeProfile) are
+// so many times as large in pixels.
+struct Rim {
+  double level = 0.0, weight = 0.0;
+  double stop_area = 0.0;  // likewise of a pattern's, summed over the stop's plane in stop radii
+};
+
+Rim rim_of(const ItemSize& size, double peak, double fresnel_number) {
   const double seen = size.level / (1.0 + size.level / (kPeaks * peak));
   // unit = R / sqrt(2 F), the outline 2 pi R, pi R^2 the area.
-  return kEdgeError * kOutline * seen * seen * 2.0 * size.area_px / std::sqrt(2.0 * std::max(fresnel_number, 0.5));
+  return {seen, kOutline * seen * seen * 2.0 * size.area_px / std::sqrt(2.0 * std::max(fresnel_number, 0.5)),
+          seen * seen * size.area_px / std::numbers::pi};
 }
+
+// What an item's fringes differ from its sharp rim, squared, over its pixels.
+double fringe_error(const Rim& rim) { return kEdgeError * rim.weight; }
 
 // Of some items' errors, by rising error: those beyond what the smallest may make together.
 std::vector<std::size_t> worth_drawing(std::vector<std::size_t> some, const std::vector<double>& error,
@@ -38,7 +49,9 @@ std::vector<std::size_t> worth_drawing(std::vector<std::size_t> some, const std:
 // Screens of all passes; one whose fringes are not seen takes the next one's, a little wider. Null: none is seen.
 std::shared_ptr<GhostScreens> screens_of(const Screens& screens, const Item& item) {
   auto all = std::make_shared<GhostScreens>();
-  for (const PlannedPass& pass : item.light->passes) all->by_pass.push_back(screens.of(item.ghost, pass.lambda_nm, item.light->source));
+  all->patterns = screens.patterns();
+  for (const PlannedPass& pass : item.light->passes)
+    all->by_pass.push_back(screens.of(item.ghost, pass.lambda_nm, item.light->source));
   const auto seen = [](const auto& screen) { return screen != nullptr; };
   const auto any = std::find_if(all->by_pass.rbegin(), all->by_pass.rend(), seen);
   if (any == all->by_pass.rend()) return nullptr;
@@ -50,16 +63,52 @@ std::shared_ptr<GhostScreens> screens_of(const Screens& screens, const Item& ite
   return all;
 }
 
-// How far fringes are drawn: as far as they make more than an error, squared and in an edge's units.
-void set_range(GhostScreens& screens, double squared_error) {
-  for (const auto& screen : screens.by_pass) {
-    const auto* const edge = dynamic_cast<const screens::EdgeScreen*>(screen.get());
-    if (edge == nullptr) {
-      screens.reach = std::max(screens.reach, screen->reach());
-      continue;
+// An item whose screens are to be drawn.
+struct Drawn {
+  std::shared_ptr<GhostScreens> screens;
+  Rim rim;
+};
+
+// The dimmest ripples that are drawn, in levels: for all items the same, since what a ripple's pixel costs is the same.
+// Those left out together make the error that is allowed.
+double dimmest_ripple(const std::vector<Drawn>& items, double allowed) {
+  const auto error = [&](double dimmest) {
+    double sum = 0.0;
+    for (const Drawn& item : items) {
+      if (!item.screens || !(item.rim.level > 0.0)) continue;
+      const auto& middle = item.screens->by_pass[item.screens->by_pass.size() / 2];
+      const double ripple = dimmest / item.rim.level;
+      if (const auto* const edge = dynamic_cast<const screens::EdgeScreen*>(middle.get()))
+        sum += item.rim.weight * edge->profile().squared_error(edge->profile().range_above(ripple));
+      if (const auto* const pattern = dynamic_cast<const screens::TextureScreen*>(middle.get()))
+        sum += item.rim.stop_area * pattern->texture().squared_beyond(pattern->texture().reach_above(ripple));
     }
-    screens.range = edge->profile().range_for(squared_error);
-    screens.reach = std::max(screens.reach, 1.0 - screens.range.dark * edge->unit());
+    return sum;
+  };
+  double low = 0.0, high = 0.0;
+  for (const Drawn& item : items) high = std::max(high, item.rim.level);
+  constexpr int kHalvings = 24;
+  for (int k = 0; k < kHalvings; ++k) {
+    const double middle = 0.5 * (low + high);
+    (error(middle) > allowed ? high : low) = middle;
+  }
+  return low;
+}
+
+// How far fringes are drawn: as far as ripples are no dimmer than that.
+void set_range(const Drawn& item, double dimmest) {
+  GhostScreens& screens = *item.screens;
+  const double ripple = dimmest / item.rim.level;
+  for (const auto& screen : screens.by_pass) {
+    double reach = screen->reach();
+    if (const auto* const edge = dynamic_cast<const screens::EdgeScreen*>(screen.get())) {
+      const auto range = edge->profile().range_above(ripple);
+      screens.range = {std::min(screens.range.dark, range.dark), std::max(screens.range.level, range.level)};
+      reach = 1.0 - range.dark * edge->unit();
+    } else if (const auto* const pattern = dynamic_cast<const screens::TextureScreen*>(screen.get())) {
+      reach = std::max(pattern->texture().reach_above(ripple), 1.0);
+    }
+    screens.reach = std::max(screens.reach, reach);
   }
 }
 
@@ -71,12 +120,15 @@ Work screen_items(const Scene& scene, Screens& screens, std::vector<Item>& items
   std::vector<std::size_t> all(items.size());
   std::iota(all.begin(), all.end(), std::size_t{0});
   std::vector<double> error(items.size());
-  for (const std::size_t k : all) error[k] = fringe_error(sizes[k], allowed.peak, 0.5);  // at the most
+  std::vector<Rim> rims(items.size());
+  for (const std::size_t k : all) error[k] = fringe_error(rim_of(sizes[k], allowed.peak, 0.5));  // at the most
   std::vector<std::size_t> chosen = worth_drawing(all, error, 0.5 * kSharpShare * squares);
   for (const std::size_t k : chosen) {
     const auto& passes = items[k].light->passes;
-    const double f = screens.fresnel_number(items[k].ghost, passes[passes.size() / 2].lambda_nm, items[k].light->source);
-    error[k] = fringe_error(sizes[k], allowed.peak, f);
+    const double f =
+        screens.fresnel_number(items[k].ghost, passes[passes.size() / 2].lambda_nm, items[k].light->source);
+    rims[k] = rim_of(sizes[k], allowed.peak, f);
+    error[k] = fringe_error(rims[k]);
   }
   chosen = worth_drawing(std::move(chosen), error, 0.5 * kSharpShare * squares);
 
@@ -85,15 +137,16 @@ Work screen_items(const Scene& scene, Screens& screens, std::vector<Item>& items
     for (const PlannedPass& pass : items[k].light->passes)
       wanted.push_back({items[k].ghost, pass.lambda_nm, pass.spread_nm, items[k].light->source});
   if (!screens.prepare(wanted, context)) return {};
-  std::vector<Work> work(chosen.size());
+  std::vector<Drawn> drawn;
+  for (const std::size_t k : chosen) drawn.push_back({screens_of(screens, items[k]), rims[k]});
+  const double dimmest = dimmest_ripple(drawn, kRippleShare * squares);
 
+  std::vector<Work> work(chosen.size());
   parallel_for(chosen.size(), context, [&](std::size_t at) {
+    if (!drawn[at].screens) return;
+    set_range(drawn[at], dimmest);
     Item& item = items[chosen[at]];
-    const auto mine = screens_of(screens, item);
-    if (!mine) return;
-    const double share = kRippleShare * squares / static_cast<double>(chosen.size()) / error[chosen[at]];
-    set_range(*mine, kEdgeError * share);
-    item.screens = mine;
+    item.screens = drawn[at].screens;
     work[at] = find_boxes(scene, item);
   });
   Work sum;

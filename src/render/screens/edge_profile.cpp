@@ -89,27 +89,27 @@ EdgeProfile::EdgeProfile(double spread) {
   }
   worst_from_.assign(count + 1, 0.0);
   for (std::size_t k = count; k-- > 0;) worst_from_[k] = std::max(worst_from_[k + 1], std::abs(value_[k] - 1.0));
+  error_to_.assign(count, 0.0);
+  error_from_.assign(count, 0.0);
+  for (std::size_t k = 1; k < count; ++k) error_to_[k] = error_to_[k - 1] + value_[k - 1] * value_[k - 1] * kStep;
+  for (std::size_t k = count - 1; k-- > 0;)
+    error_from_[k] = error_from_[k + 1] + (value_[k] - 1.0) * (value_[k] - 1.0) * kStep;
   integral_.push_back(0.0);
   for (std::size_t k = 1; k < count; ++k)
     integral_.push_back(integral_.back() + 0.5 * kStep * (value_[k - 1] + value_[k]));
 }
 
-// Most of the error where the light is: the dark is soon dark.
-EdgeProfile::Range EdgeProfile::range_for(double squared_error) const {
-  constexpr double kDarkShare = 0.1;
-  const auto place = [](std::size_t k) { return kDarkBelow + static_cast<double>(k) * kStep; };
-  Range range;
-  double left = squared_error * (1.0 - kDarkShare);
-  for (std::size_t k = value_.size(); k-- > 0 && left > 0.0 && place(k) > 0.0;) {
-    left -= (value_[k] - 1.0) * (value_[k] - 1.0) * kStep;
-    range.level = place(k + 1);
-  }
-  left = squared_error * kDarkShare;
-  for (std::size_t k = 0; k < value_.size() && left > 0.0 && place(k) < 0.0; ++k) {
-    left -= value_[k] * value_[k] * kStep;
-    range.dark = place(k);
-  }
-  return range;
+EdgeProfile::Range EdgeProfile::range_above(double ripple) const {
+  const auto dark = std::find_if(value_.begin(), value_.end(), [&](double v) { return v > ripple; });
+  return {std::min(kDarkBelow + static_cast<double>(dark - value_.begin()) * kStep, 0.0),
+          std::max(level_above(ripple), 0.0)};
+}
+
+double EdgeProfile::squared_error(Range range) const {
+  const auto at = [](double t) {
+    return static_cast<std::size_t>(std::lround((std::clamp(t, kDarkBelow, kLevelAbove) - kDarkBelow) / kStep));
+  };
+  return error_to_[at(range.dark)] + error_from_[at(range.level)];
 }
 
 double EdgeProfile::at(double t, double width) const {

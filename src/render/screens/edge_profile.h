@@ -23,16 +23,19 @@ class EdgeProfile {
   // From where on it stays within a tolerance of 1.
   [[nodiscard]] double level_above(double tolerance) const;
 
-  // Between dark and level there is all of it but for an error of that, squared and summed over t.
+  // Between dark and level there is all of it but for ripples of less than `ripple`.
   struct Range {
     double dark = kDarkBelow, level = kLevelAbove;
   };
-  [[nodiscard]] Range range_for(double squared_error) const;
+  [[nodiscard]] Range range_above(double ripple) const;
+  // What is left out by ending there: squared and summed over t.
+  [[nodiscard]] double squared_error(Range range) const;
 
  private:
   std::vector<double> value_;  // by step from kDarkBelow
   std::vector<double> integral_;  // of it, from kDarkBelow
   std::vector<double> worst_from_;  // how far off 1 it comes from there on
+  std::vector<double> error_to_, error_from_;  // squares summed of the dark before a place, of what is off 1 from it on
 };
 
 }  // namespace contrejour::screens

@@ -58,6 +58,7 @@ class TextureScreen final : public IrisScreen {
 
   [[nodiscard]] double reach() const override;
   [[nodiscard]] ScreenPart over(Vec2 middle, double radius, double tolerance) const override;
+  [[nodiscard]] const PatternTexture& texture() const { return *texture_; }
 
  protected:
   [[nodiscard]] double pattern(const StopPlace& place) const override;

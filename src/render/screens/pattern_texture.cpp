@@ -6,6 +6,11 @@
 #include <numeric>
 
 namespace contrejour::screens {
+namespace {
+
+constexpr double kFluxBeyond = 0.01;  // that may be left out
+
+}  // namespace
 
 PatternTexture::PatternTexture(int side, double extent, std::vector<float> samples) : extent_(extent) {
   levels_.push_back({side, std::move(samples)});
@@ -19,6 +24,42 @@ PatternTexture::PatternTexture(int side, double extent, std::vector<float> sampl
             0.25F * (at(2 * x, 2 * y) + at(2 * x + 1, 2 * y) + at(2 * x, 2 * y + 1) + at(2 * x + 1, 2 * y + 1)));
     levels_.push_back(std::move(half));
   }
+  rest_ = rests();
+}
+
+std::vector<PatternTexture::Rest> PatternTexture::rests() const {
+  const double pitch = 2.0 * extent_ / side();
+  const auto rings = static_cast<std::size_t>(side() / 2);  // a sample wide
+  std::vector<Rest> out(rings + 1);
+  const auto from_middle = [&](int k) { return k + 0.5 - 0.5 * side(); };
+  for (int row = 0; row < side(); ++row) {
+    for (int column = 0; column < side(); ++column) {
+      const double value = samples()[static_cast<std::size_t>(row * side() + column)];
+      const double ring = std::hypot(from_middle(column), from_middle(row));
+      Rest& rest = out[std::min(static_cast<std::size_t>(ring), rings)];
+      rest.brightest = std::max(rest.brightest, value);
+      rest.squared += value * value * pitch * pitch;
+      rest.flux += value * pitch * pitch;
+    }
+  }
+  for (std::size_t k = rings; k-- > 0;) {
+    out[k].brightest = std::max(out[k].brightest, out[k + 1].brightest);
+    out[k].squared += out[k + 1].squared;
+    out[k].flux += out[k + 1].flux;
+  }
+  return out;
+}
+
+double PatternTexture::reach_above(double level) const {
+  const double most_flux = kFluxBeyond * rest_.front().flux;
+  const auto dark = [&](const Rest& rest) { return rest.brightest <= level && rest.flux <= most_flux; };
+  const auto first = std::find_if(rest_.begin(), rest_.end(), dark);
+  return std::min(static_cast<double>(first - rest_.begin()) * 2.0 * extent_ / side(), extent_);
+}
+
+double PatternTexture::squared_beyond(double radius) const {
+  const double ring = std::max(radius, 0.0) * 0.5 * side() / extent_;
+  return rest_[std::min(static_cast<std::size_t>(ring), rest_.size() - 1)].squared;
 }
 
 double PatternTexture::bilinear(const Level& level, Vec2 p) const {
@@ -35,11 +76,15 @@ double PatternTexture::bilinear(const Level& level, Vec2 p) const {
          t * ((1.0 - s) * sample(x0, y0 + 1) + s * sample(x0 + 1, y0 + 1));
 }
 
-// Between two levels. A bilinear look-up among samples w wide blurs by w / 2, root mean square, a square by its width
-// over the root of 12.
+// A bilinear look-up among samples w wide blurs by w / 2, root mean square, a square by its width over the root of 12.
+double PatternTexture::level_for(double width, int side, double extent) {
+  const double samples = width / std::numbers::sqrt3 * 0.5 * side / extent;
+  return samples > 1.0 ? std::log2(samples) : 0.0;
+}
+
+// Between two levels.
 double PatternTexture::at(Vec2 p, double width) const {
-  const double samples = width / std::numbers::sqrt3 * 0.5 * levels_.front().side / extent_;
-  const double level = samples > 1.0 ? std::min(std::log2(samples), static_cast<double>(levels_.size() - 1)) : 0.0;
+  const double level = std::min(level_for(width, side(), extent_), static_cast<double>(levels_.size() - 1));
   const auto fine = std::min(static_cast<std::size_t>(level), levels_.size() - 1);
   const double rest = level - static_cast<double>(fine);
   const double value = bilinear(levels_[fine], p);

@@ -2,6 +2,7 @@
 // again. Units: stop radii. Thread-safety: constant after it is made.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "contrejour/vec.h"
@@ -15,8 +16,17 @@ class PatternTexture {
   PatternTexture(int side, double extent, std::vector<float> samples);
 
   [[nodiscard]] double extent() const { return extent_; }
+  [[nodiscard]] int side() const { return levels_.front().side; }
+  [[nodiscard]] std::span<const float> samples() const { return levels_.front().samples; }
+  // How often samples are halved for a bilinear look-up among them to stand for the mean over a width; 0 and more.
+  [[nodiscard]] static double level_for(double width, int side, double extent);
   [[nodiscard]] double at(Vec2 p, double width) const;
   [[nodiscard]] double flux() const;  // integral over the plane
+
+  // Beyond this radius it is nowhere brighter than `level`, and a small part of its flux at the most.
+  [[nodiscard]] double reach_above(double level) const;
+  // Its square, integrated beyond a radius.
+  [[nodiscard]] double squared_beyond(double radius) const;
 
  private:
   struct Level {
@@ -25,8 +35,14 @@ class PatternTexture {
   };
   [[nodiscard]] double bilinear(const Level& level, Vec2 p) const;
 
+  struct Rest {  // beyond a radius
+    double brightest = 0.0, squared = 0.0, flux = 0.0;
+  };
+  [[nodiscard]] std::vector<Rest> rests() const;
+
   double extent_;
   std::vector<Level> levels_;
+  std::vector<Rest> rest_;  // by even steps of the radius to the extent
 };
 
 }  // namespace contrejour::screens

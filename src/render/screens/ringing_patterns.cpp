@@ -26,7 +26,7 @@ constexpr double kFractionalExtent = 4.0 / 3.0;  // stop radii
 double fresnel_at(int rung) { return std::exp2(rung / kRungsPerOctave); }
 int rung_of(double fresnel_number) {
   using Contents = RingingPatterns::Contents;
-  const double f = std::clamp(fresnel_number, Contents::kLowestFresnel, Contents::kEdgesFrom);
+  const double f = std::clamp(fresnel_number, Contents::kLowestFresnel, Contents::kHighestFresnel);
   return static_cast<int>(std::lround(kRungsPerOctave * std::log2(f)));
 }
 
@@ -87,6 +87,7 @@ void RingingPatterns::Contents::use(const Iris& iris) {
   patterns_.clear();
   analysis_.clear();
   by_orders_.clear();
+  bands_.clear();
 }
 
 bool RingingPatterns::Contents::make(std::span<const Wanted> wanted, const Context& context) {
@@ -171,6 +172,18 @@ RingingPatterns::Contents::Texture RingingPatterns::Contents::fractional(std::sp
   }
   return by_orders_[key] = std::make_shared<const PatternTexture>(
              trimmed(kFractionalSide, kFractionalExtent, std::move(mean), open_area_));
+}
+
+RingingPatterns::Contents::Band RingingPatterns::Contents::band(std::span<const PatternTexture* const> parts) {
+  const std::vector<const PatternTexture*> key(parts.begin(), parts.end());
+  {
+    const std::scoped_lock lock(bands_mutex_);
+    const auto found = bands_.find(key);
+    if (found != bands_.end()) return found->second;
+  }
+  auto made = std::make_shared<const screens::BandPattern>(parts);
+  const std::scoped_lock lock(bands_mutex_);
+  return bands_.try_emplace(key, std::move(made)).first->second;
 }
 
 }  // namespace contrejour

@@ -11,6 +11,7 @@
 #include "contrejour/fractional_fourier.h"
 #include "contrejour/pupil_mask.h"
 #include "contrejour/ringing.h"
+#include "render/screens/band_pattern.h"
 #include "render/screens/edge_profile.h"
 #include "render/screens/pattern_texture.h"
 
@@ -20,9 +21,12 @@ struct RingingPatterns::Contents {
  public:
   using Texture = std::shared_ptr<const screens::PatternTexture>;
   using Profile = std::shared_ptr<const screens::EdgeProfile>;
+  using Band = std::shared_ptr<const screens::BandPattern>;
 
   // From here on edges' fringes do not depend on one another, nearly.
   static constexpr double kEdgesFrom = 48.0;
+  // Wavelengths that are drawn together have patterns together, up to this.
+  static constexpr double kHighestFresnel = 128.0;
   // Below, a ghost is its own far field, smaller than a few pixels or so faint that its shape is not seen.
   static constexpr double kLowestFresnel = 0.5;
 
@@ -40,6 +44,9 @@ struct RingingPatterns::Contents {
   [[nodiscard]] Profile profile(double spread);
   // |F^order U|^2, the mean over some orders. Null when cancelled.
   [[nodiscard]] Texture fractional(std::span<const double> orders, const Context& context);
+
+  // Some of the textures above as one, made when first asked for. Any thread may ask, as long as no pattern is made.
+  [[nodiscard]] Band band(std::span<const screens::PatternTexture* const> parts);
 
   [[nodiscard]] std::size_t count() const;
 
@@ -63,6 +70,8 @@ struct RingingPatterns::Contents {
   std::optional<FractionalFourier> fractional_;
   std::vector<std::complex<double>> analysis_;
   std::map<std::vector<double>, Texture> by_orders_;
+  std::mutex bands_mutex_;
+  std::map<std::vector<const screens::PatternTexture*>, Band> bands_;
 };
 
 }  // namespace contrejour

@@ -52,7 +52,8 @@ bool Screens::prepare(const FramePlan& plan, const Context& context) {
   std::vector<Wanted> wanted;
   for (const Ghost& ghost : plan.ghosts)
     for (const PlannedLight& light : plan.lights)
-      for (const PlannedPass& pass : light.passes) wanted.push_back({ghost, pass.lambda_nm, pass.spread_nm, light.source});
+      for (const PlannedPass& pass : light.passes)
+        wanted.push_back({ghost, pass.lambda_nm, pass.spread_nm, light.source});
   return prepare(wanted, context);
 }
 
@@ -73,7 +74,8 @@ std::vector<screens::StopWave> Screens::waves_of(std::span<const Wanted> wanted,
   Context quiet = context;
   quiet.progress = {};
   const bool done = parallel_for(wanted.size(), quiet, [&](std::size_t k) {
-    waves[k] = screens::stop_wave(ghost_path(lens_, wanted[k].ghost, wanted[k].lambda_nm), distance_along_axis(wanted[k].light));
+    waves[k] = screens::stop_wave(ghost_path(lens_, wanted[k].ghost, wanted[k].lambda_nm),
+                                  distance_along_axis(wanted[k].light));
   });
   return done ? waves : std::vector<screens::StopWave>{};
 }
@@ -89,17 +91,26 @@ bool Screens::prepare_fresnel(std::span<const Wanted> wanted, const Context& con
   if (waves.size() != wanted.size()) return false;
   const auto sharp = [&](std::size_t k) { return is_sharp(waves[k].footprint, waves[k].fresnel_number); };
   const auto spread = [&](std::size_t k) { return wanted[k].spread_nm / wanted[k].lambda_nm; };
+  // A ghost has patterns in all its wavelengths, or edges' fringes in all: what is drawn together is of one kind.
+  std::map<std::pair<Ghost, double>, double> lowest;
+  const auto kin = [&](std::size_t k) { return std::pair(wanted[k].ghost, distance_along_axis(wanted[k].light)); };
+  for (std::size_t k = 0; k < wanted.size(); ++k) {
+    double& f = lowest.try_emplace(kin(k), std::numeric_limits<double>::infinity()).first->second;
+    if (!sharp(k)) f = std::min(f, waves[k].fresnel_number);
+  }
+  const auto has_pattern = [&](std::size_t k) {
+    return lowest.at(kin(k)) < Contents::kEdgesFrom && waves[k].fresnel_number < Contents::kHighestFresnel;
+  };
   std::vector<Contents::Wanted> textures;
   for (std::size_t k = 0; k < wanted.size(); ++k)
-    if (!sharp(k) && waves[k].fresnel_number < Contents::kEdgesFrom)
-      textures.push_back({waves[k].fresnel_number, spread(k)});
+    if (!sharp(k) && has_pattern(k)) textures.push_back({waves[k].fresnel_number, spread(k)});
   Contents& patterns = options_.patterns->contents();
   if (!patterns.make(textures, context)) return false;
   for (std::size_t k = 0; k < wanted.size(); ++k) {
     if (sharp(k)) continue;
     const double f = waves[k].fresnel_number;
     auto& screen = screens_[key_of(wanted[k].ghost, wanted[k].lambda_nm, wanted[k].light)];
-    if (f < Contents::kEdgesFrom)
+    if (has_pattern(k))
       screen = std::make_shared<const TextureScreen>(iris_, patterns.pattern({f, spread(k)}));
     else
       screen = std::make_shared<const EdgeScreen>(iris_, patterns.profile(spread(k)), f);
@@ -119,7 +130,8 @@ bool Screens::prepare_hullin(std::span<const Wanted> wanted, const Context& cont
   for (std::size_t k = 0; k < wanted.size(); ++k) {
     const Wanted& w = wanted[k];
     const double middle = order(w.lambda_nm);
-    if (!(std::abs(middle) >= kSharpOrder) || is_sharp(waves[k].footprint, fresnel_number(w.ghost, w.lambda_nm, w.light)))
+    if (!(std::abs(middle) >= kSharpOrder) ||
+        is_sharp(waves[k].footprint, fresnel_number(w.ghost, w.lambda_nm, w.light)))
       continue;
     // Three orders stand for the band; one that is set by hand holds for all wavelengths.
     const double off = options_.alpha ? 0.0 : middle * w.spread_nm / w.lambda_nm * std::sqrt(1.5);

@@ -30,7 +30,10 @@ class Screens {
   // About how far out of focus the stop's edge is in a ghost; infinite where it is sharp.
   [[nodiscard]] double fresnel_number(const Ghost& ghost, double lambda_nm, const LightSource& light) const;
 
-  // Makes the screens of these. False when cancelled.
+  // What textures are kept in; null without ringing.
+  [[nodiscard]] const std::shared_ptr<RingingPatterns>& patterns() const { return options_.patterns; }
+
+  // Makes the screens of these: all of a ghost's wavelengths at once. False when cancelled.
   bool prepare(std::span<const Wanted> wanted, const Context& context);
   // Those of all ghosts and passes of a plan.
   bool prepare(const FramePlan& plan, const Context& context);

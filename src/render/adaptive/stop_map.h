@@ -1,0 +1,60 @@
+// How a cell's pixels see the stop: the place where their light crosses it, to the second order of the pixel. Where a
+// cell is thinner than a few pixels, to the first.
+#pragma once
+
+#include <array>
+#include <span>
+
+#include "contrejour/trace.h"
+#include "contrejour/vec.h"
+#include "render/interface/stop_screen.h"
+
+namespace contrejour::adaptive {
+
+// What a cell's vertices tell of a field, over coordinates that go from -1 to 1 both ways:
+// middle + u x + v y + (uu x^2 + vv y^2) / 2 + uv x y.
+struct CellSeries {
+  Vec2 middle, u, v, uu, uv, vv;
+
+  // corner, side: in turn, a side after the corner it starts from. The middle's and the sides' values, or none.
+  [[nodiscard]] static CellSeries of(const std::array<Vec2, 4>& corner, const std::array<Vec2, 4>& side, Vec2 middle);
+  [[nodiscard]] static CellSeries of_corners(const std::array<Vec2, 4>& corner);
+  [[nodiscard]] static CellSeries of_triangle(const std::array<Vec2, 3>& corner);
+};
+
+class StopMap {
+ public:
+  // pixel: of the frame. stop: at each crossing, stop radii. A cell that is thinner than `softness_px` counts as so
+  // thick, so that the map goes on tamely beyond it.
+  StopMap(const CellSeries& pixel, std::span<const CellSeries> stop, double softness_px);
+
+  // At the last crossing.
+  [[nodiscard]] Vec2 place(Vec2 pixel) const { return place(pixel, crossings_ - 1); }
+  [[nodiscard]] Vec2 place(Vec2 pixel, std::size_t crossing) const;
+  [[nodiscard]] double width() const { return crossing_[crossings_ - 1].width; }  // of a pixel there, stop radii
+  [[nodiscard]] double bend() const { return bend_; }  // how far from linear it is at the cell's corners, stop radii
+  [[nodiscard]] int crossings() const { return static_cast<int>(crossings_); }
+
+  // For every crossing.
+  [[nodiscard]] std::span<const StopPlace> places(Vec2 pixel, std::array<StopPlace, kMaxStopCrossings>& room) const;
+
+  // The last crossing along a row of pixels: x = x0 + d (x1 + d x2) for the pixel's x - origin().x = d, y likewise.
+  struct Row {
+    float x0, x1, x2, y0, y1, y2;
+  };
+  [[nodiscard]] Row row(double y) const;
+  [[nodiscard]] Vec2 origin() const { return origin_px_; }
+
+ private:
+  struct Crossing {
+    Vec2 level, x, y, xx, xy, yy;  // terms of a polynomial in pixels from the origin
+    double width = 0.0;
+  };
+
+  Vec2 origin_px_;
+  std::array<Crossing, kMaxStopCrossings> crossing_;
+  std::size_t crossings_;
+  double bend_ = 0.0;
+};
+
+}  // namespace contrejour::adaptive

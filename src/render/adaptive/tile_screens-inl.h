@@ -1,0 +1,390 @@
+// Polygons behind a screen: their coverage first, then pixel by pixel the light that passes.
+#if defined(CONTREJOUR_ADAPTIVE_TILE_SCREENS_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef CONTREJOUR_ADAPTIVE_TILE_SCREENS_INL_H_
+#undef CONTREJOUR_ADAPTIVE_TILE_SCREENS_INL_H_
+#else
+#define CONTREJOUR_ADAPTIVE_TILE_SCREENS_INL_H_
+#endif
+
+#include <hwy/highway.h>
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+
+#include "render/adaptive/quad-inl.h"
+#include "render/adaptive/tile_edges-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace contrejour::adaptive::HWY_NAMESPACE {
+
+using FloatTag = hn::ScalableTag<float>;
+using IntTag = hn::RebindToSigned<FloatTag>;
+static_assert(TileSums::kPixel == 4 && EdgeTable::kStride == 4 && screens::BandPattern::kStride == 4);
+
+constexpr std::size_t kRowRoom = TileGrid::kWidth + hn::MaxLanes(FloatTag());
+
+// Some pixels of a row of the frame; where their light crosses the stop.
+struct PixelRow {
+  int first = 0, count = 0;  // columns of the frame
+  int y = 0;
+  HWY_ALIGN float stop_x[kRowRoom], stop_y[kRowRoom];
+
+  [[nodiscard]] Vec2 pixel(int k) const { return {first + k + 0.5, y + 0.5}; }
+  [[nodiscard]] Vec2 stop(int k) const { return {static_cast<double>(stop_x[k]), static_cast<double>(stop_y[k])}; }
+  void look_at_stop(const StopMap& map);
+};
+
+void PixelRow::look_at_stop(const StopMap& map) {
+  const FloatTag d;
+  const StopMap::Row row = map.row(y + 0.5);
+  const auto from = hn::Set(d, static_cast<float>(first + 0.5 - map.origin().x));
+  for (int k = 0; k < count; k += static_cast<int>(hn::Lanes(d))) {
+    const auto x = hn::Add(from, hn::Iota(d, static_cast<float>(k)));
+    const auto along = [&](float c0, float c1, float c2) {
+      return hn::MulAdd(x, hn::MulAdd(x, hn::Set(d, c2), hn::Set(d, c1)), hn::Set(d, c0));
+    };
+    hn::Store(along(row.x0, row.x1, row.x2), d, stop_x + k);
+    hn::Store(along(row.y0, row.y1, row.y2), d, stop_y + k);
+  }
+}
+
+// What a few pixels side by side see, as many as a vector has floats.
+enum class Seen : std::uint8_t { Dark, Level, Varied };
+constexpr std::size_t kMostGroups = TileGrid::kWidth;  // where vectors hold one
+
+// A place between entries of a table: whole steps, and the rest. Places that are no numbers count as 0.
+struct TableRow {
+  HWY_ALIGN std::int32_t whole[kRowRoom];
+  HWY_ALIGN float rest[kRowRoom];
+
+  // place: 0 to most; the last step is one that has an entry after it.
+  HWY_INLINE void put(int k, hn::Vec<FloatTag> place, float most) {
+    const FloatTag d;
+    const IntTag di;
+    const auto within = hn::Min(hn::IfThenElseZero(hn::Gt(place, hn::Zero(d)), place), hn::Set(d, most));
+    const auto steps = hn::Min(hn::ConvertTo(di, within), hn::Set(di, static_cast<std::int32_t>(most) - 1));
+    hn::Store(steps, di, whole + k);
+    hn::Store(hn::Sub(within, hn::ConvertTo(d, steps)), d, rest + k);
+  }
+};
+
+HWY_INLINE hn::Vec<FloatTag> distance_from(const IrisBound& bound, hn::Vec<FloatTag> x, hn::Vec<FloatTag> y) {
+  const FloatTag d;
+  const auto set = [&](double v) { return hn::Set(d, static_cast<float>(v)); };
+  if (bound.straight())
+    return hn::MulAdd(set(bound.normal.x), x, hn::MulSub(set(bound.normal.y), y, set(bound.apothem)));
+  const auto from_x = hn::Sub(x, set(bound.centre.x)), from_y = hn::Sub(y, set(bound.centre.y));
+  return hn::Sub(hn::Sqrt(hn::MulAdd(from_x, from_x, hn::Mul(from_y, from_y))), set(bound.radius));
+}
+
+// What passes where one edge of an iris brings fringes.
+class Fringe {
+ public:
+  Fringe(const EdgeTable& table, const IrisBound& bound) : table_(table), bound_(bound) {}
+
+  void look(const PixelRow& row) {
+    const FloatTag d;
+    const Scale scale(table_);
+    const int lanes = static_cast<int>(hn::Lanes(d));
+    for (int k = 0; k < row.count; k += lanes) {
+      const auto place = scale.place(distance_from(bound_, hn::Load(d, row.stop_x + k), hn::Load(d, row.stop_y + k)));
+      seen_[k / lanes] = scale.seen(place);
+      at_.put(k, place, scale.most);
+    }
+  }
+  [[nodiscard]] Seen seen(int group) const { return seen_[group]; }
+  [[nodiscard]] HWY_INLINE Quad passed(int k) const {
+    const float* const entry = table_.entries() + EdgeTable::kStride * static_cast<std::size_t>(at_.whole[k]);
+    return mix(Quad::load(entry), Quad::load(entry + EdgeTable::kStride), Quad::all(at_.rest[k]));
+  }
+
+ private:
+  friend class Fringes;
+  struct Scale {  // from distances to places in the table
+    explicit Scale(const EdgeTable& table)
+        : per_step(static_cast<float>(table.per_step())),
+          dark(static_cast<float>(table.dark_beyond() * table.per_step())),
+          most(static_cast<float>(table.count() - 1)) {}
+    [[nodiscard]] HWY_INLINE hn::Vec<FloatTag> place(hn::Vec<FloatTag> distance) const {
+      const FloatTag d;
+      return hn::NegMulAdd(distance, hn::Set(d, per_step), hn::Set(d, dark));
+    }
+    [[nodiscard]] HWY_INLINE Seen seen(hn::Vec<FloatTag> place) const {
+      const FloatTag d;
+      if (hn::AllTrue(d, hn::Ge(place, hn::Set(d, most)))) return Seen::Level;
+      return hn::AllTrue(d, hn::Le(place, hn::Zero(d))) ? Seen::Dark : Seen::Varied;
+    }
+    float per_step, dark, most;
+  };
+
+  const EdgeTable& table_;
+  const IrisBound& bound_;
+  TableRow at_;
+  Seen seen_[kMostGroups];
+};
+
+// The product of what several edges bring. A picture's outline is one.
+class Fringes {
+ public:
+  Fringes(const EdgeTable& table, std::span<const std::uint16_t> active) : table_(table), active_(active) {}
+
+  void look(const PixelRow& row) {
+    const FloatTag d;
+    std::fill_n(passed_, TileSums::kPixel * static_cast<std::size_t>(row.count), 1.0F);
+    std::fill_n(seen_, row.count, Seen::Level);
+    if (table_.iris().is_picture()) {
+      HWY_ALIGN float distance[hn::MaxLanes(FloatTag())] = {};
+      return apply(row, [&](int k) {
+        for (int j = 0; j < static_cast<int>(hn::Lanes(d)) && k + j < row.count; ++j)
+          distance[j] = static_cast<float>(table_.iris().picture_distance(row.stop(k + j)));
+        return hn::Load(d, distance);
+      });
+    }
+    for (const std::uint16_t bound : active_)
+      apply(row, [&](int k) {
+        return distance_from(table_.iris().bounds()[bound], hn::Load(d, row.stop_x + k), hn::Load(d, row.stop_y + k));
+      });
+  }
+  [[nodiscard]] Seen seen(int group) const { return seen_[group]; }
+  [[nodiscard]] HWY_INLINE Quad passed(int k) const {
+    return Quad::load(passed_ + TileSums::kPixel * static_cast<std::size_t>(k));
+  }
+
+ private:
+  template <class DistanceAt>
+  HWY_INLINE void apply(const PixelRow& row, const DistanceAt& distance_at) {
+    const FloatTag d;
+    const Fringe::Scale scale(table_);
+    Fringe one(table_, table_.iris().bounds()[0]);
+    const int lanes = static_cast<int>(hn::Lanes(d));
+    for (int k = 0; k < row.count; k += lanes) {
+      const auto place = scale.place(distance_at(k));
+      Seen& seen = seen_[k / lanes];
+      const Seen here = scale.seen(place);
+      if (here == Seen::Level || seen == Seen::Dark) continue;
+      seen = here;
+      if (seen == Seen::Dark) continue;
+      one.at_.put(k, place, scale.most);
+      const int end = std::min(k + lanes, row.count);
+      for (int j = k; j < end; ++j)
+        (passed(j) * one.passed(j)).store(passed_ + TileSums::kPixel * static_cast<std::size_t>(j));
+    }
+  }
+
+  const EdgeTable& table_;
+  std::span<const std::uint16_t> active_;
+  HWY_ALIGN float passed_[TileSums::kPixel * TileGrid::kWidth];
+  Seen seen_[kMostGroups];
+};
+
+// What passes where a pattern of all the iris stands.
+class Pattern {
+ public:
+  Pattern(const BandScreen& screen, double width)
+      : level_(screen.pattern->level_for(width)), extent_(screen.pattern->extent()),
+        pitch_(kStride * static_cast<std::size_t>(level_.pitch())) {
+    for (std::size_t k = 0; k < screen.parts.size(); ++k)
+      std::copy_n(screen.parts[k].channel.data(), 3, channel_[k].data());
+  }
+
+  void look(const PixelRow& row) {
+    const FloatTag d;
+    // With the border's sample the first middle is at 1.
+    const double scale = 0.5 * level_.side / extent_, middle = 0.5 * level_.side + 0.5;
+    const auto most = static_cast<float>(level_.side + 1);
+    const auto per_radius = hn::Set(d, static_cast<float>(scale)), centre = hn::Set(d, static_cast<float>(middle));
+    const int lanes = static_cast<int>(hn::Lanes(d));
+    const auto beyond = [&](auto place) {
+      return hn::AllTrue(d, hn::Le(place, hn::Zero(d))) || hn::AllTrue(d, hn::Ge(place, hn::Set(d, most)));
+    };
+    for (int k = 0; k < row.count; k += lanes) {
+      const auto column = hn::MulAdd(hn::Load(d, row.stop_x + k), per_radius, centre);
+      const auto line = hn::NegMulAdd(hn::Load(d, row.stop_y + k), per_radius, centre);
+      column_.put(k, column, most);
+      row_.put(k, line, most);
+      seen_[k / lanes] = beyond(column) || beyond(line) ? Seen::Dark : Seen::Varied;
+    }
+  }
+  [[nodiscard]] Seen seen(int group) const { return seen_[group]; }
+  [[nodiscard]] HWY_INLINE Quad passed(int k) const {
+    const float* const at = level_.samples.data() + static_cast<std::size_t>(row_.whole[k]) * pitch_ +
+                            kStride * static_cast<std::size_t>(column_.whole[k]);
+    const Quad right = Quad::all(column_.rest[k]);
+    const Quad above = mix(Quad::load(at), Quad::load(at + kStride), right);
+    const Quad below = mix(Quad::load(at + pitch_), Quad::load(at + pitch_ + kStride), right);
+    const Quad value = mix(above, below, Quad::all(row_.rest[k]));
+    const auto of = [&](std::size_t part) { return Quad::load(channel_[part].data()); };
+    return multiply_add(value.broadcast<0>(), of(0),
+                        multiply_add(value.broadcast<1>(), of(1), value.broadcast<2>() * of(2)));
+  }
+
+ private:
+  static constexpr std::size_t kStride = screens::BandPattern::kStride;
+  const screens::BandPattern::Level& level_;
+  double extent_;
+  std::size_t pitch_;
+  std::array<std::array<float, TileSums::kPixel>, screens::BandPattern::kMost> channel_{};
+  TableRow column_, row_;
+  Seen seen_[kMostGroups];
+};
+
+// What passes any screen, several crossings of the stop among them.
+class AnyScreen {
+ public:
+  AnyScreen(const BandScreen& screen, const StopMap& map) : screen_(screen), map_(map) {}
+
+  void look(const PixelRow& row) { row_ = &row; }
+  [[nodiscard]] static Seen seen(int /*group*/) { return Seen::Varied; }
+  [[nodiscard]] Quad passed(int k) const {
+    std::array<StopPlace, kMaxStopCrossings> room;
+    const auto share = screen_.share(map_.places(row_->pixel(k), room));
+    const float all[] = {static_cast<float>(share[0]), static_cast<float>(share[1]), static_cast<float>(share[2]),
+                         0.0F};
+    return Quad::load(all);
+  }
+
+ private:
+  const BandScreen& screen_;
+  const StopMap& map_;
+  const PixelRow* row_ = nullptr;
+};
+
+// A row's coverage from its changes, which are cleared. Pixels that only rounding covers are not. Most pixels have no
+// changes: some of them at once take one test.
+HWY_INLINE void sum_coverage(double* changes, int count, float* cover) {
+  const hn::ScalableTag<double> d;
+  const int lanes = static_cast<int>(hn::Lanes(d));
+  double covered = 0.0;
+  float seen = 0.0F;
+  const auto go_on = [&](int k) {
+    covered += changes[k];
+    changes[k] = 0.0;
+    seen = covered > TileSums::kUnseenCover ? static_cast<float>(covered) : 0.0F;
+    cover[k] = seen;
+  };
+  int k = 0;
+  for (; k + lanes <= count; k += lanes) {
+    if (hn::AllTrue(d, hn::Eq(hn::LoadU(d, changes + k), hn::Zero(d)))) {
+      const hn::Rebind<float, decltype(d)> df;
+      hn::StoreU(hn::Set(df, seen), df, cover + k);
+    } else {
+      for (int j = k; j < k + lanes; ++j) go_on(j);
+    }
+  }
+  for (; k < count; ++k) go_on(k);
+  changes[count] = 0.0;
+}
+
+// Whole pixels in a row that see the stop level: their light is left as changes along the row, as any polygon's is.
+class LevelRun {
+ public:
+  LevelRun(TileSums& tile, int row, const RowShade& shade) : tile_(tile), row_(row), shade_(shade) {}
+
+  void go_on(int first, int end) {
+    if (first_ < 0) first_ = first;
+    end_ = end;
+  }
+  void stop() {
+    if (first_ < 0) return;
+    HWY_ALIGN double at_row[TileSums::kLanes];
+    for (std::size_t k = 0; k < TileSums::kLanes; ++k) at_row[k] = shade_.level[k] + shade_.by_row[k] * row_;
+    tile_.touch(row_, first_, end_);
+    add<TileSums>(tile_.at(row_, first_), at_row, 1.0);
+    add<TileSums>(tile_.at(row_, end_), at_row, -1.0);
+    first_ = -1;
+  }
+
+ private:
+  TileSums& tile_;
+  int row_;
+  const RowShade& shade_;
+  int first_ = -1, end_ = -1;
+};
+
+// Whether pixels are all covered, but for rounding.
+HWY_INLINE bool all_covered(const float* cover, int count) {
+  constexpr float kWhole = 1.0F - 1e-6F;
+  for (int k = 0; k < count; ++k)
+    if (cover[k] < kWhole) return false;
+  return true;
+}
+
+template <class Look>
+void add_pixels(TileSums& tile, const Polygon& polygon, const StopMap& map, int last_column, Look& look) {
+  const RowShade shade = row_shade(polygon.shade, tile);
+  const auto quad = [](const double* from) {
+    float v[TileSums::kPixel];
+    for (std::size_t c = 0; c < TileSums::kPixel; ++c) v[c] = static_cast<float>(from[c]);
+    return Quad::load(v);
+  };
+  const Quad level = quad(shade.level), slope = quad(shade.level + TileSums::kPixel), by_row = quad(shade.by_row);
+  const int lanes = static_cast<int>(hn::Lanes(FloatTag()));
+  PixelRow pixels;
+  HWY_ALIGN float cover[TileGrid::kWidth];
+  for (int row = 0; row < tile.height; ++row) {
+    const auto changed = std::exchange(tile.cover.changed[static_cast<std::size_t>(row)], {});
+    const int last = std::min(std::max(changed.last, last_column), tile.width - 1);
+    if (changed.first > last) {
+      if (changed.last >= 0) *tile.cover.at(row, tile.width) = 0.0;  // the right border's
+      continue;
+    }
+    const int first = changed.first;
+    pixels.first = tile.x0 + first;
+    pixels.y = tile.y0 + row;
+    pixels.count = last - first + 1;
+    sum_coverage(tile.cover.at(row, first), pixels.count, cover);
+    pixels.look_at_stop(map);
+    look.look(pixels);
+    float* const to = tile.pixels_at(row) + TileSums::kPixel * static_cast<std::size_t>(first);
+    const Quad in_row = multiply_add(by_row, Quad::all(static_cast<float>(row)), level);
+    LevelRun run(tile, row, shade);
+    for (int k = 0; k < pixels.count; k += lanes) {
+      const Seen seen = look.seen(k / lanes);
+      const int end = std::min(k + lanes, pixels.count);
+      if (seen == Seen::Level && all_covered(cover + k, end - k)) {
+        run.go_on(first + k, first + end);
+        continue;
+      }
+      run.stop();
+      if (seen == Seen::Dark) continue;
+      tile.light(row, first + k, first + end - 1);
+      for (int j = k; j < end; ++j) {
+        const Quad irradiance = multiply_add(slope, Quad::all(static_cast<float>(first + j)), in_row);
+        float* const pixel = to + TileSums::kPixel * static_cast<std::size_t>(j);
+        multiply_add(Quad::all(cover[j]) * irradiance, look.passed(j), Quad::load(pixel)).store(pixel);
+      }
+    }
+    run.stop();
+  }
+}
+
+void add_screened(TileSums& tile, const PolygonList& list, const Polygon& polygon) {
+  if (tile.by_pixel.empty()) tile.by_pixel.resize(TileSums::kPixel * TileGrid::kWidth * TileGrid::kHeight, 0.0F);
+  CoverSums& cover = tile.cover;
+  cover.width = tile.width;
+  cover.height = tile.height;
+  cover.make();
+  const auto corners = list.corners_of(polygon);
+  for_each_edge(tile, corners, [&](Vec2 a, Vec2 b, double sign) { add_clipped(cover, RowShade{}, a, b, sign); });
+  // Edges beyond the right border leave no change: what is covered there ends with the tile.
+  float right = corners[0].x;
+  for (const Point& p : corners) right = std::max(right, p.x);
+  const int last_column = right > static_cast<float>(tile.x0 + tile.width) ? tile.width - 1 : -1;
+
+  const Screened& behind = list.screened[polygon.screened - 1];
+  const auto add = [&](auto&& look) { add_pixels(tile, polygon, behind.map, last_column, look); };
+  if (behind.edges != nullptr) {
+    const IrisShape& iris = behind.edges->iris();
+    const std::span<const std::uint16_t> active(list.bounds.data() + behind.first, behind.count);
+    if (active.size() == 1 && !iris.is_picture()) return add(Fringe(*behind.edges, iris.bounds()[active[0]]));
+    return add(Fringes(*behind.edges, active));
+  }
+  if (behind.screen->pattern && behind.map.crossings() == 1) return add(Pattern(*behind.screen, behind.map.width()));
+  add(AnyScreen(*behind.screen, behind.map));
+}
+
+}  // namespace contrejour::adaptive::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif

@@ -1,0 +1,76 @@
+// What edges leave behind in a tile, until running sums along its rows turn it into pixels.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include "render/adaptive/tiles.h"
+
+namespace contrejour::adaptive {
+
+// A polygon's coverage alone, as changes along the rows of a tile.
+struct CoverSums {
+  static constexpr std::size_t kLanes = 1;
+  static constexpr std::size_t kPitch = TileGrid::kWidth + 2;
+  struct Columns {  // with changes; none if last < first
+    int first = std::numeric_limits<int>::max(), last = -1;
+  };
+
+  int width = 0, height = 0;
+  std::vector<double> sums;  // made with the first polygon
+  std::array<Columns, TileGrid::kHeight> changed{};
+
+  void make() {
+    if (sums.empty()) sums.resize(kPitch * TileGrid::kHeight, 0.0);
+  }
+  [[nodiscard]] double* at(int row, int column) {
+    return sums.data() + static_cast<std::size_t>(row) * kPitch + static_cast<std::size_t>(column);
+  }
+  void touch(int row, int first, int last) {
+    Columns& columns = changed[static_cast<std::size_t>(row)];
+    columns = {std::min(columns.first, first), std::max(columns.last, last)};
+  }
+};
+
+// A tile's place in the frame, and its sums.
+struct TileSums {
+  static constexpr std::size_t kLanes = 8;  // three channels and a spare: level, then slope along x
+  static constexpr std::size_t kPitch = TileGrid::kWidth + 2;  // what edges on the right border change is not read
+
+  static constexpr std::size_t kPixel = kLanes / 2;  // values of a pixel
+  static constexpr int kBlock = 8;  // columns
+  static constexpr double kUnseenCover = 1e-7;  // of a pixel: rounding beside a polygon
+  static_assert(TileGrid::kWidth <= 64 * kBlock);
+
+  int x0 = 0, y0 = 0, width = 0, height = 0;
+  using Blocks = std::array<std::uint64_t, TileGrid::kHeight>;  // by row, a bit for each block of columns
+  Blocks touched{};  // by changes
+  std::vector<double> sums = std::vector<double>(kLanes * kPitch * TileGrid::kHeight, 0.0);
+  Blocks lit{};                 // pixel by pixel
+  std::vector<float> by_pixel;  // light that came so, kPixel values each; empty: none yet
+  CoverSums cover;
+
+  [[nodiscard]] double* at(int row, int column) {
+    return sums.data() + kLanes * (static_cast<std::size_t>(row) * kPitch + static_cast<std::size_t>(column));
+  }
+  [[nodiscard]] float* pixels_at(int row) {
+    return by_pixel.data() + kPixel * TileGrid::kWidth * static_cast<std::size_t>(row);
+  }
+  // Columns first to last, last one included and the right border's left out.
+  void touch(int row, int first, int last) { mark(touched, row, first, last); }
+  void light(int row, int first, int last) { mark(lit, row, first, last); }
+
+ private:
+  static void mark(Blocks& blocks, int row, int first, int last) {
+    const int most = TileGrid::kWidth / kBlock - 1;
+    const int low = first / kBlock;
+    const int high = std::min(last / kBlock, most);
+    blocks[static_cast<std::size_t>(row)] |= (~std::uint64_t{0} >> (most - high)) & (~std::uint64_t{0} << low);
+  }
+};
+
+}  // namespace contrejour::adaptive

@@ -1,0 +1,107 @@
+#include "render/screens/band_pattern.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+namespace contrejour::screens {
+namespace {
+
+// Where a grid's middles lie between another's, along one direction.
+struct Between {
+  int low = 0, high = 0;
+  float to_high = 0.0F;
+  float inside = 1.0F;
+};
+
+std::vector<Between> places_between(int side, double extent, const PatternTexture& texture) {
+  std::vector<Between> out;
+  for (int k = 0; k < side; ++k) {
+    const double p = (k + 0.5) * 2.0 * extent / side - extent;
+    const double at = (p + texture.extent()) * 0.5 * texture.side() / texture.extent() - 0.5;
+    const double inside = std::clamp(std::min(at + 1.0, texture.side() - at), 0.0, 1.0);
+    const double within = std::clamp(at, 0.0, texture.side() - 1.0);
+    const int low = std::min(static_cast<int>(within), std::max(texture.side() - 2, 0));
+    out.push_back(
+        {low, std::min(low + 1, texture.side() - 1), static_cast<float>(within - low), static_cast<float>(inside)});
+  }
+  return out;
+}
+
+void lay_out(const PatternTexture& texture, double extent, std::size_t part, BandPattern::Level& level) {
+  const auto places = places_between(level.side, extent, texture);
+  const auto samples = texture.samples();
+  const auto side = static_cast<std::size_t>(texture.side());
+  float* to = level.samples.data() + static_cast<std::size_t>(level.pitch() + 1) * BandPattern::kStride + part;
+  for (const Between& y : places) {
+    const float* const above = samples.data() + static_cast<std::size_t>(y.low) * side;
+    const float* const below = samples.data() + static_cast<std::size_t>(y.high) * side;
+    for (const Between& x : places) {
+      const float a = above[x.low] + x.to_high * (above[x.high] - above[x.low]);
+      const float b = below[x.low] + x.to_high * (below[x.high] - below[x.low]);
+      *to = (a + y.to_high * (b - a)) * x.inside * y.inside;
+      to += BandPattern::kStride;
+    }
+    to += 2 * BandPattern::kStride;
+  }
+}
+
+BandPattern::Level dark_level(int side) {
+  BandPattern::Level level{side, {}};
+  level.samples.resize(static_cast<std::size_t>(level.pitch()) * static_cast<std::size_t>(level.pitch()) *
+                       BandPattern::kStride);
+  return level;
+}
+
+BandPattern::Level halved(const BandPattern::Level& fine) {
+  BandPattern::Level half = dark_level(fine.side / 2);
+  const auto row = static_cast<std::size_t>(fine.pitch()) * BandPattern::kStride;
+  for (int y = 0; y < half.side; ++y) {
+    for (int x = 0; x < half.side; ++x) {
+      const float* from = fine.samples.data() + static_cast<std::size_t>(2 * y + 1) * row +
+                          static_cast<std::size_t>(2 * x + 1) * BandPattern::kStride;
+      float* to = half.samples.data() + static_cast<std::size_t>((y + 1) * half.pitch() + x + 1) * BandPattern::kStride;
+      for (std::size_t c = 0; c < BandPattern::kStride; ++c)
+        to[c] =
+            0.25F * (from[c] + from[c + BandPattern::kStride] + from[c + row] + from[c + row + BandPattern::kStride]);
+    }
+  }
+  return half;
+}
+
+}  // namespace
+
+BandPattern::BandPattern(std::span<const PatternTexture* const> parts) {
+  assert(!parts.empty() && parts.size() <= kMost);
+  int side = 0;
+  for (const PatternTexture* part : parts) {
+    extent_ = std::max(extent_, part->extent());
+    side = std::max(side, part->side());
+  }
+  levels_.push_back(dark_level(side));
+  for (std::size_t k = 0; k < parts.size(); ++k) lay_out(*parts[k], extent_, k, levels_.back());
+  while (levels_.back().side % 2 == 0 && levels_.back().side > 2) levels_.push_back(halved(levels_.back()));
+}
+
+const BandPattern::Level& BandPattern::level_for(double width) const {
+  const double level = std::round(PatternTexture::level_for(width, levels_.front().side, extent_));
+  return levels_[std::min(static_cast<std::size_t>(std::max(level, 0.0)), levels_.size() - 1)];
+}
+
+float BandPattern::brightest(Vec2 middle, double distance) const {
+  const double samples = distance * 0.5 * levels_.front().side / extent_;
+  const double fit = samples > 1.0 ? std::ceil(std::log2(samples)) : 0.0;
+  const Level& level = levels_[std::min(static_cast<std::size_t>(fit), levels_.size() - 1)];
+  const auto at = [&](double p) {  // the first of the two samples about there, the border's included
+    return static_cast<int>(std::clamp((p / extent_ + 1.0) * 0.5 * level.side + 0.5, 0.0, level.side + 0.0));
+  };
+  const int x = at(middle.x), y = at(-middle.y);
+  float most = 0.0F;
+  for (const int row : {y, y + 1}) {
+    const float* const from = level.samples.data() + static_cast<std::size_t>(row * level.pitch() + x) * kStride;
+    most = std::max(most, *std::max_element(from, from + 2 * kStride));
+  }
+  return most;
+}
+
+}  // namespace contrejour::screens

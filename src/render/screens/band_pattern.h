@@ -1,0 +1,37 @@
+// The patterns of a few wavelengths on one grid, side by side in memory: one look-up for all that are drawn together.
+// Units: stop radii. Thread-safety: constant after it is made.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "render/screens/pattern_texture.h"
+
+namespace contrejour::screens {
+
+class BandPattern {
+ public:
+  static constexpr std::size_t kMost = 3;    // wavelengths
+  static constexpr std::size_t kStride = 4;  // floats of a sample: one a wavelength, and one or more unused
+
+  // parts: 1 to kMost.
+  explicit BandPattern(std::span<const PatternTexture* const> parts);
+
+  // Samples of the square from -extent to extent, rows from the top, with a border of dark ones about it.
+  struct Level {
+    int side = 0;  // without the border
+    std::vector<float> samples;
+    [[nodiscard]] int pitch() const { return side + 2; }
+  };
+  [[nodiscard]] double extent() const { return extent_; }
+  // The level whose samples, looked up bilinearly, stand for means over about that width.
+  [[nodiscard]] const Level& level_for(double width) const;
+  // The largest sample about there at the level whose samples are so far apart.
+  [[nodiscard]] float brightest(Vec2 middle, double distance) const;
+
+ private:
+  double extent_ = 0.0;
+  std::vector<Level> levels_;
+};
+
+}  // namespace contrejour::screens

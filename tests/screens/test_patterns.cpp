@@ -1,0 +1,73 @@
+// Patterns over the stop: means, reach, and several side by side.
+#include <cmath>
+#include <numbers>
+
+#include <doctest/doctest.h>
+
+#include "render/screens/band_pattern.h"
+
+using namespace contrejour;
+using namespace contrejour::screens;
+
+namespace {
+
+// A bright disc with a dim one about it.
+PatternTexture two_discs(double extent, double inner, double outer, float dim) {
+  constexpr int kSide = 128;
+  std::vector<float> samples;
+  for (int row = 0; row < kSide; ++row)
+    for (int column = 0; column < kSide; ++column) {
+      const double r = std::hypot(column + 0.5 - 0.5 * kSide, row + 0.5 - 0.5 * kSide) * 2.0 * extent / kSide;
+      samples.push_back(r < inner ? 1.0F : r < outer ? dim : 0.0F);
+    }
+  return {kSide, extent, samples};
+}
+
+}  // namespace
+
+TEST_CASE("a texture's mean over a square, wide or not, and nothing outside") {
+  std::vector<float> ramp;
+  for (int row = 0; row < 64; ++row)
+    for (int column = 0; column < 64; ++column) ramp.push_back(static_cast<float>(column));
+  const PatternTexture texture(64, 2.0, ramp);  // 16 a stop radius
+  for (const double width : {0.0, 0.1, 0.5}) CHECK(texture.at({0.3, -0.2}, width) == doctest::Approx(31.5 + 4.8));
+  CHECK(texture.at({2.1, 0.0}, 0.0) == 0.0);
+  CHECK(texture.flux() == doctest::Approx(31.5 * 16.0));
+}
+
+TEST_CASE("a pattern reaches as far as it is bright, and what lies beyond is known") {
+  const PatternTexture discs = two_discs(2.0, 0.8, 1.5, 0.002F);
+  CHECK(discs.reach_above(0.01) == doctest::Approx(0.8).epsilon(0.06));
+  CHECK(discs.reach_above(0.001) == doctest::Approx(1.5).epsilon(0.03));
+  const double area = std::numbers::pi * (1.5 * 1.5 - 0.8 * 0.8);
+  CHECK(discs.squared_beyond(0.85) == doctest::Approx(0.002 * 0.002 * area).epsilon(0.1));
+  CHECK(discs.squared_beyond(1.6) == 0.0);
+  // Light that would be missed is kept, however dim.
+  CHECK(two_discs(2.0, 0.8, 1.5, 0.05F).reach_above(0.2) > 1.4);
+}
+
+TEST_CASE("patterns side by side are each what they are alone") {
+  std::vector<float> ramp;
+  for (int row = 0; row < 96; ++row)
+    for (int column = 0; column < 96; ++column) ramp.push_back(static_cast<float>(1.0 + 0.01 * column - 0.02 * row));
+  const PatternTexture small(96, 1.5, ramp), large(96, 3.0, ramp);
+  const std::array<const PatternTexture*, 2> parts{&small, &large};
+  const BandPattern band(parts);
+  CHECK(band.extent() == 3.0);
+  const auto& level = band.level_for(0.0);
+  REQUIRE(level.side == 96);
+  for (const int row : {0, 20, 47, 60, 95}) {
+    for (const int column : {0, 30, 48, 66, 95}) {
+      const Vec2 p{(column + 0.5) / 16.0 - 3.0, 3.0 - (row + 0.5) / 16.0};
+      const float* const at =
+          &level.samples[static_cast<std::size_t>((row + 1) * level.pitch() + column + 1) * BandPattern::kStride];
+      CHECK(static_cast<double>(at[0]) == doctest::Approx(small.at(p, 0.0)).epsilon(1e-5).scale(1.0));
+      CHECK(static_cast<double>(at[1]) == doctest::Approx(large.at(p, 0.0)).epsilon(1e-5).scale(1.0));
+      CHECK(at[2] == 0.0F);
+    }
+  }
+  CHECK(band.level_for(0.5).side == 24);  // 8 samples wide over the root of 3: halved twice
+  CHECK(band.brightest({2.9, -2.9}, 0.05) > 0.0F);
+  CHECK(band.brightest({0.0, 0.0}, 1e9) > 0.0F);
+  CHECK(band.brightest({50.0, 0.0}, 0.01) >= 0.0F);
+}
