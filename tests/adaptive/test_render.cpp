@@ -221,3 +221,18 @@ TEST_CASE("errors out of range are refused, no light is no flare, an interrupted
   REQUIRE_FALSE(stopped.has_value());
   CHECK(stopped.error().code == ErrorCode::Cancelled);
 }
+
+TEST_CASE("a ghost alone, of which nothing is seen when it is drawn without care") {
+  const LensState lens = test::bundled("tessar", {.f_number = 11.0});
+  RenderSettings settings;
+  settings.frame = frame_on_sensor(lens, 240, 160);
+  settings.reference_density = 0.25;
+  const Light light = test::light_at(lens, settings.frame, {0.70, 0.33});
+  for (const Ghost ghost : {Ghost{2, 4}, Ghost{6, 7}}) {
+    settings.selection = SelectList{{ghost}};
+    const double ours = test::sum(test::flare_of("adaptive", lens, {&light, 1}, settings).image);
+    const double truth = test::sum(test::flare_of("reference", lens, {&light, 1}, settings).image);
+    CHECK(truth > 0.0);
+    CHECK(ours == doctest::Approx(truth).epsilon(0.01));
+  }
+}

@@ -39,10 +39,19 @@ class Stopwatch {
 // (docs/physics/adaptive.md), so that six times as much still holds.
 ErrorBudget budget_per_item(double error, double peak, const Frame& frame, std::size_t items) {
   constexpr double kRoom = 5.0;
-  if (!(peak > 0.0)) return {std::numeric_limits<double>::infinity(), 1.0};  // all light falls beside the frame
   const double allowed = kRoom * error * peak;
   const double pixels = static_cast<double>(frame.width) * frame.height;
   return {allowed * allowed * pixels / static_cast<double>(std::max<std::size_t>(items, 1)), peak};
+}
+
+// Where no light was seen, drawn without care: far below any ghost's, so that errors relative to its own level count.
+double faintest_peak(const FramePlan& plan, const Frame& frame) {
+  constexpr double kFaintest = 1e-9;  // irradiance over the light's
+  double gain = 0.0;
+  for (const PlannedLight& light : plan.lights)
+    for (const PlannedPass& pass : light.passes) gain = std::max(gain, *std::ranges::max_element(pass.gain));
+  return std::max(kFaintest * gain * frame.pixel_pitch_mm * frame.pixel_pitch_mm,
+                  static_cast<double>(std::numeric_limits<float>::min()));
 }
 
 // Items painted one batch after the other, each batch then drawn; in the items' order whatever the threads.
@@ -140,7 +149,8 @@ Result<Flare> render_adaptive(const LensState& lens, const FramePlan& plan, cons
   }
   const double peak_ms = watch.lap_ms();
   FramePainter painter(scene, settings, context, flare);
-  painter.paint(items, budget_per_item(settings.error, peak, settings.frame, items.size()));
+  painter.paint(items, budget_per_item(settings.error, peak > 0.0 ? peak : faintest_peak(plan, settings.frame),
+                                       settings.frame, items.size()));
   if (context.cancelled()) return failure(ErrorCode::Cancelled, "interrupted");
 
   work.add(painter.work());
