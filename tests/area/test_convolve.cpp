@@ -1,6 +1,7 @@
 // Kernels, convolution, and pictures of several resolutions added up: against plain sums and polynomials.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <random>
 #include <utility>
 
@@ -66,8 +67,8 @@ TEST_CASE("a convolution is the plain sum, at any width and number of threads") 
     const Kernel kernel = random_kernel({3, 1, 2, 4}, 7);
     const Image picture = random_picture(width + kernel.width() - 1, 21 + kernel.height() - 1, 3);
     Image sum(width, 21), again(width, 21);
-    add_convolved(sum, picture, kernel, {.threads = 1});
-    add_convolved(again, picture, kernel, {.threads = 3});
+    convolve(sum, ConvolveMode::Add, picture, kernel, 0.0, {.threads = 1});
+    convolve(again, ConvolveMode::Add, picture, kernel, 0.0, {.threads = 3});
     CHECK(sum.pixels == again.pixels);
     double worst = 0.0;
     for (int y = 0; y < sum.height; ++y) {
@@ -85,6 +86,45 @@ TEST_CASE("a convolution is the plain sum, at any width and number of threads") 
     }
     CHECK(worst < 1e-4);
   }
+}
+
+TEST_CASE("white kernels, and what is linear under them") {
+  Kernel disc;
+  disc.reach = {3, 3, 3, 3};
+  double sum = 0.0;
+  for (int k = 0; k < 49; ++k) {
+    const double w = std::hypot(k % 7 - 3, k / 7 - 3) < 3.2 ? 1.0 : 0.0;
+    disc.weight.push_back({w, w, w});
+    sum += w;
+  }
+  for (Rgb& w : disc.weight) w = {w[0] / sum, w[1] / sum, w[2] / sum};
+  // A ramp that ends along a slanted edge, dark beyond, and a faint step across it.
+  const int width = 90, height = 40;
+  Image picture(width + 6, height + 6);
+  for (int y = 0; y < picture.height; ++y)
+    for (int x = 0; x < picture.width; ++x)
+      for (int c = 0; c < 3; ++c)
+        picture.at(x, y, c) =
+            x + 0.3 * y < 70.0 ? 1.0F + 0.01F * static_cast<float>(x + c * y) + (x > 30 ? 1e-3F : 0.0F) : 0.0F;
+  Image exact(width, height), loose(width, height);
+  std::ranges::fill(exact.pixels, std::numeric_limits<float>::quiet_NaN());
+  convolve(exact, ConvolveMode::Write, picture, disc, 0.0, {.threads = 1});
+  convolve(loose, ConvolveMode::Add, picture, disc, 0.01, {.threads = 2});
+  double worst = 0.0, worst_loose = 0.0;
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      for (int c = 0; c < 3; ++c) {
+        double expected = 0.0;
+        for (int k = 0; k < 49; ++k)
+          expected += disc.weight[static_cast<std::size_t>(k)][0] * picture.at(x + 6 - k % 7, y + 6 - k / 7, c);
+        worst = std::max(worst, std::abs(expected - exact.at(x, y, c)));
+        worst_loose = std::max(worst_loose, std::abs(expected - loose.at(x, y, c)));
+      }
+    }
+  }
+  CHECK(worst < 1e-5);
+  CHECK(worst_loose < 0.01);
+  CHECK(worst_loose > 1e-4);  // the step was left as it is
 }
 
 TEST_CASE("a spot at any level comes back at its place, with its flux and the shape's moments") {
@@ -109,7 +149,7 @@ TEST_CASE("a spot at any level comes back at its place, with its flux and the sh
     const int x = static_cast<int>(px.x), y = static_cast<int>(px.y);
     for (int c = 0; c < 3; ++c) spot.at(x, y, c) = 1.0F + static_cast<float>(c);
     const Vec2 expected = frame.pixel_from_sensor(at.frame.sensor_from_pixel({x + 0.5, y + 0.5}));
-    layers.add(spot, at, make_kernel(piece, at_level, at.moved), {});
+    layers.add(spot, at, make_kernel(piece, at_level, at.moved), 0.0, {});
     const Image flat = std::move(layers).flattened({});
     for (int c = 0; c < 3; ++c) {
       const Moments m = moments_of(flat, c);
@@ -121,6 +161,26 @@ TEST_CASE("a spot at any level comes back at its place, with its flux and the sh
       CHECK(std::abs(off.x.x) + std::abs(off.y.y) + std::abs(off.x.y) < 0.01 * trace_of(wanted) + 0.2);
     }
   }
+}
+
+TEST_CASE("layers that go down early sum to the same") {
+  const Frame frame{70, 50, 0, 0, 70, 50, 0.1};
+  const auto drawn = [&](bool early) {
+    Layers layers(frame);
+    for (const int level : {3, 2, 0}) {
+      const Kernel kernel = random_kernel({2, 1, 1, 2}, 5);
+      const LayerFrame at = layers.frame_for(level, kernel.reach);
+      if (early) layers.descend_to(std::max(level, 1), {});
+      layers.add(random_picture(at.frame.width, at.frame.height, 9), at, kernel, 0.0, {});
+      if (level > 0) layers.add_sharp(random_picture(70, 50, 4), {});
+    }
+    return std::move(layers).flattened({});
+  };
+  const Image early = drawn(true), late = drawn(false);
+  double worst = 0.0;
+  for (std::size_t k = 0; k < late.pixels.size(); ++k)
+    worst = std::max(worst, static_cast<double>(std::abs(early.pixels[k] - late.pixels[k])));
+  CHECK(worst < 1e-5);
 }
 
 TEST_CASE("what is drawn at two levels at once comes down as if added at the finer") {
@@ -136,7 +196,7 @@ TEST_CASE("what is drawn at two levels at once comes down as if added at the fin
     for (int x = 0; x < picture.width; ++x)
       for (int c = 0; c < 3; ++c)
         picture.at(x, y, c) = static_cast<float>(16.0 * mean(4.0 * (at.left + x), 4.0 * (at.left + x + 1)));
-  layers.add(picture, at, delta, {});
+  layers.add(picture, at, delta, 0.0, {});
   const Image flat = std::move(layers).flattened({});
   for (int x = 0; x < 64; ++x) CHECK(flat.at(x, 20, 1) == doctest::Approx(mean(x, x + 1)).epsilon(1e-4));
 }

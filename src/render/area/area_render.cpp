@@ -18,6 +18,7 @@ using namespace area;
 
 constexpr std::size_t kMostPieces = 24;  // of all lights, or as many as there are lights
 constexpr double kLargestError = 0.1;  // of `adaptive`
+constexpr double kUnseen = 0.1;        // of the frame's error, that blurs may leave out at any place
 
 // Of many large lights in fewer pieces each, so that all together stay affordable.
 std::vector<LightPiece> all_pieces(std::span<const Light> lights) {
@@ -50,8 +51,14 @@ FramePlan part_of(const FramePlan& plan, std::vector<Ghost> ghosts, std::vector<
   return part;
 }
 
-double middle_wavelength(const PlannedLight& light) {
-  return light.passes.empty() ? kLineD_nm : light.passes[light.passes.size() / 2].lambda_nm;
+double middle_wavelength(const PlannedLight& light) { return light.passes[light.passes.size() / 2].lambda_nm; }
+
+// A pixel's value for an irradiance over the light's.
+double value_of_irradiance(const PlannedLight& light, const Frame& frame) {
+  Rgb gain{};
+  for (const PlannedPass& pass : light.passes)
+    for (std::size_t c = 0; c < 3; ++c) gain[c] += pass.gain[c];
+  return *std::ranges::max_element(gain) * frame.pixel_pitch_mm * frame.pixel_pitch_mm;
 }
 
 // Sums over all that was drawn.
@@ -92,36 +99,44 @@ struct Drawing {
   int level = 0;
   LinearMap px_from_tangents;
   double room = 1.0;  // blur_classes.h
+  double peak = 0.0;  // of the picture's pixels, about
 };
 
 // All drawings. The ghosts of points, and those too little blurred to show it, are left as they are.
 std::vector<Drawing> drawings_of(const FramePlan& plan, const std::vector<LightPiece>& pieces, const LensState& lens,
-                                 const Frame& frame, const Context& context) {
+                                 const RenderSettings& settings, const Context& context) {
+  const Frame& frame = settings.frame;
+  const double squares =
+      settings.error * settings.error * frame.width * frame.height / static_cast<double>(pieces.size());
   std::vector<std::vector<GhostMotion>> motions(pieces.size());
   for (std::vector<GhostMotion>& one : motions) one.resize(plan.ghosts.size());
   parallel_for(pieces.size() * plan.ghosts.size(), context, [&](std::size_t k) {
     const std::size_t p = k / plan.ghosts.size(), g = k % plan.ghosts.size();
-    if (pieces[p].samples.empty()) return;
-    motions[p][g] = ghost_motion(lens, plan.ghosts[g], plan.lights[p].source, middle_wavelength(plan.lights[p]));
+    if (pieces[p].samples.empty() || plan.lights[p].passes.empty()) return;
+    motions[p][g] =
+        ghost_motion(lens, plan.ghosts[g], plan.lights[p].source, *plan.tables.at(middle_wavelength(plan.lights[p])));
   });
   std::vector<Drawing> drawings;
-  Drawing points{plan.ghosts, {}, nullptr, 0, kNowhere, 1.0};
+  Drawing points{plan.ghosts, {}, nullptr, 0, kNowhere, 1.0, 0.0};
   for (std::size_t p = 0; p < pieces.size(); ++p) {
     if (pieces[p].samples.empty()) {
       points.lights.push_back(plan.lights[p]);
       continue;
     }
-    for (BlurClass& made : blur_classes(plan.ghosts, motions[p], pieces[p], frame))
+    for (BlurClass& made : blur_classes(plan.ghosts, motions[p], pieces[p], frame, squares))
       drawings.push_back({std::move(made.ghosts),
                           {plan.lights[p]},
                           made.is_sharp ? nullptr : &pieces[p],
                           made.level,
                           made.px_from_tangents,
-                          made.room});
+                          made.room,
+                          made.peak * value_of_irradiance(plan.lights[p], frame)});
   }
   if (!points.lights.empty() || drawings.empty()) drawings.push_back(std::move(points));
-  // Sharp ones first: the picture of the first is where all others are added.
-  std::stable_partition(drawings.begin(), drawings.end(), [](const Drawing& d) { return d.piece == nullptr; });
+  // In the order that layers want them.
+  const auto rank = [](const Drawing& d) { return d.piece == nullptr ? 1 : 2 * d.level; };
+  std::stable_sort(drawings.begin(), drawings.end(),
+                   [&](const Drawing& a, const Drawing& b) { return rank(a) > rank(b); });
   return drawings;
 }
 
@@ -147,8 +162,10 @@ class AreaPainter {
     if (!picture) return tl::unexpected(picture.error());
     add(statistics_, picture->statistics);
     const auto start = Clock::now();
+    layers_.descend_to(drawing.level, context_);
     if (piece != nullptr)
-      layers_.add(picture->image, at, make_kernel(*piece, drawing.px_from_tangents, at.moved), context_);
+      layers_.add(picture->image, at, make_kernel(*piece, drawing.px_from_tangents, at.moved),
+                  kUnseen * settings_.error * drawing.peak, context_);
     else
       layers_.add_sharp(std::move(picture->image), context_);
     ms_ += ms_since(start);
@@ -192,7 +209,7 @@ Result<Flare> render_areas(PlannedRenderer method, const LensState& lens, std::s
   start = Clock::now();
   Context quiet = context;
   quiet.progress = {};
-  const std::vector<Drawing> drawings = drawings_of(*plan, pieces, lens, settings.frame, quiet);
+  const std::vector<Drawing> drawings = drawings_of(*plan, pieces, lens, settings, quiet);
   const double drawings_ms = ms_since(start);
 
   AreaPainter painter(method, lens, *plan, settings, context);

@@ -6,29 +6,26 @@
 #include <limits>
 #include <numbers>
 
-#include "render/area/layers.h"
+#include "render/area/blur_error.h"
 
 namespace contrejour::area {
 namespace {
 
 // Lengths below are radii of a disc: twice the standard deviation along a line.
 constexpr double kSharp_px = 0.8;      // a blur of this radius does not show
-constexpr double kRadiusPixels = 2.5;  // a blur's radius in pixels of its level, where ghosts are larger than it
-constexpr double kSpotPixels = 6.0;    // where they are much smaller, so that the light's shape shows
-constexpr double kLongest = 30.0;      // its longer radius, whatever the shorter one is
-constexpr double kAlike = 0.12;        // blurs that differ by this share of the radius are taken as one,
-constexpr double kAlike_px = 0.5;      // or by so many pixels of the frame; darker ghosts' by more,
-constexpr double kDark = 0.5;          // from this share of the peak on,
-constexpr double kDarkest = 0.005;     // and from this one any
-constexpr double kDim = 0.1;           // below, no spot shows the light's outline
 constexpr double kLargestBlur = 3.0;   // diagonals of the frame: more shows no more
 constexpr double kPeakShare = 0.002;   // of the frame that is brighter than the peak
+constexpr int kPeakCells = 40;         // across the frame, for what ghosts over one another add up to
+constexpr double kLevelShare = 0.1;    // of the allowed squared error: what coarse pixels may make,
+constexpr double kMisfitShare = 0.03;  // and a ghost by another blur than its own
+constexpr double kPixelsCost = 0.3;    // what drawing a ghost in the frame's pixels is worth of the latter
 
 struct Blur {
   std::size_t ghost = 0;
   LinearMap px;            // of the frame, from tangents
-  double radius = 0.0;     // across the longer axis
-  int level = 0, coarsest = 0;
+  BlurredGhost seen;
+  int level = 0;
+  Vec2 at_px;
   double area_px = 0.0;    // of the blurred ghost, about
   double density = 0.0;    // before it is blurred
   double brightness = 0.0;  // after; 0: it lies beside the frame
@@ -38,14 +35,6 @@ struct Blur {
 Vec2 radii(const LinearMap& covariance) {
   const Vec2 e = eigenvalues(covariance);
   return {2.0 * std::sqrt(std::max(e.x, 0.0)), 2.0 * std::sqrt(std::max(e.y, 0.0))};
-}
-
-// Pixels may be as wide as what they show is smooth: blur and ghost, whichever is the larger, but a spot shows the
-// light's own outline.
-int level_for(Vec2 blur_px, double ghost_px) {
-  const double finest = blur_px.x / kSpotPixels, coarsest = blur_px.x / kRadiusPixels;
-  const double width = std::max(std::clamp(ghost_px / kRadiusPixels, finest, coarsest), blur_px.y / kLongest);
-  return width < 1.0 ? 0 : std::min(static_cast<int>(std::log2(width)), kLevels - 1);
 }
 
 // Sensor mm to pixels: x is mirrored.
@@ -58,8 +47,7 @@ double apart(const LinearMap& a, const LinearMap& b, const LightPiece& piece) {
   return 2.0 * std::sqrt(std::max(trace_of(mapped_covariance(a - b, piece.covariance)), 0.0));
 }
 
-bool touches(const Frame& frame, Vec2 at_mm, double radius_px) {
-  const Vec2 px = frame.pixel_from_sensor(at_mm);
+bool touches(const Frame& frame, Vec2 px, double radius_px) {
   return px.x > -radius_px && px.y > -radius_px && px.x < frame.width + radius_px && px.y < frame.height + radius_px;
 }
 
@@ -79,28 +67,60 @@ Blur blur_of(std::size_t ghost, const GhostMotion& motion, const LightPiece& pie
     blur.px = blur.px * (largest / blurred.y);
     blurred = blurred * (largest / blurred.y);
   }
-  blur.radius = blurred.y;
   const LinearMap spread = pixels_from(motion.spread_mm, frame.pixel_pitch_mm);
   const Vec2 size = radii(spread * transposed(spread) * 0.25);
-  blur.level = level_for(blurred, size.x);
-  blur.coarsest = level_for(blurred, blurred.x);
+  blur.seen.blur_px = blurred;
+  blur.seen.size_px = size;
+  blur.at_px = frame.pixel_from_sensor(motion.at_mm);
   const double ghost_px = std::numbers::pi * size.x * size.y;
   blur.area_px = ghost_px + std::numbers::pi * blurred.x * blurred.y + 1.0;
   blur.density = motion.density;
   // Twice as far as first derivatives say: ghosts are larger than that where they are not sharp.
-  if (touches(frame, motion.at_mm, 2.0 * (size.y + blurred.y)))
+  if (touches(frame, blur.at_px, 2.0 * (size.y + blurred.y)))
     blur.brightness = motion.density * (ghost_px + 1.0) / blur.area_px;
   return blur;
 }
 
 // The brightness of the ghosts that together fill kPeakShare of the frame, the brightest first.
-double peak_of(const std::vector<Blur>& by_brightness, const Frame& frame) {
+double brightest(const std::vector<Blur>& by_brightness, const Frame& frame) {
   double left_px = kPeakShare * frame.width * frame.height;
   for (const Blur& blur : by_brightness) {
     left_px -= blur.area_px;
     if (left_px <= 0.0) return blur.brightness;
   }
   return by_brightness.empty() ? 0.0 : by_brightness.back().brightness;
+}
+
+// What ghosts add up to where they lie over one another, each an even disc, in the cells of a small frame.
+double brightest_sum(const std::vector<Blur>& blurs, const Frame& frame) {
+  const double cell = static_cast<double>(std::max(frame.width, frame.height)) / kPeakCells;
+  const int columns = std::max(1, static_cast<int>(frame.width / cell));
+  const int rows = std::max(1, static_cast<int>(frame.height / cell));
+  std::vector<double> sums(static_cast<std::size_t>(columns * rows), 0.0);
+  const auto within = [](double at, int count) { return static_cast<int>(std::clamp(at, 0.0, count - 1.0)); };
+  for (const Blur& blur : blurs) {
+    if (!(blur.brightness > 0.0)) continue;
+    const Vec2 at = blur.at_px * (1.0 / cell) - Vec2{0.5, 0.5};
+    const double radius = std::sqrt(blur.area_px / std::numbers::pi) / cell;
+    for (int y = within(at.y - radius, rows); y <= within(at.y + radius, rows); ++y)
+      for (int x = within(at.x - radius, columns); x <= within(at.x + radius, columns); ++x)
+        if (length(Vec2{x - at.x, y - at.y}) <= radius)
+          sums[static_cast<std::size_t>(y * columns + x)] += blur.brightness;
+  }
+  const auto nth =
+      sums.begin() + static_cast<std::ptrdiff_t>((1.0 - kPeakShare) * static_cast<double>(sums.size() - 1));
+  std::nth_element(sums.begin(), nth, sums.end());
+  return *nth;
+}
+
+void set_levels(std::vector<Blur>& blurs, double peak, double allowed_squares) {
+  std::vector<BlurredGhost> ghosts;
+  for (Blur& blur : blurs) {
+    blur.seen.level = peak > 0.0 ? blur.brightness / peak : 0.0;
+    ghosts.push_back(blur.seen);
+  }
+  const std::vector<int> levels = levels_of(ghosts, allowed_squares);
+  for (std::size_t k = 0; k < blurs.size(); ++k) blurs[k].level = levels[k];
 }
 
 struct Group {
@@ -119,18 +139,17 @@ struct Group {
   }
 };
 
-// The group whose blur is the nearest, of those that will do.
-Group* group_for(const Blur& blur, std::vector<Group>& groups, const LightPiece& piece, double peak) {
-  const bool any = blur.brightness <= kDarkest * peak;
-  const double darker = any ? 0.0 : std::max(1.0, kDark * peak / blur.brightness);
+// Of the groups that will do the one that costs least: error, and work, which grows with a level's pixels.
+Group* group_for(const Blur& blur, std::vector<Group>& groups, const LightPiece& piece, double allowed_squares) {
   Group* best = nullptr;
   double least = std::numeric_limits<double>::infinity();
   for (Group& group : groups) {
-    const double off = apart(group.seed.px, blur.px, piece);
-    const double alike = std::max(kAlike_px, kAlike * darker * std::max(blur.radius, group.seed.radius));
-    const bool fits = any || (off <= alike && group.seed.level <= blur.level && group.seed.level >= blur.level - 1);
-    if (!fits || !(off < least)) continue;
-    least = off;
+    const int level = group.seed.level;
+    const double coarse = level > blur.level ? level_error(blur.seen, level) : 0.0;
+    const double error = misfit_error(blur.seen, apart(group.seed.px, blur.px, piece)) + coarse;
+    const double cost = error / allowed_squares + kPixelsCost * std::exp2(-2 * level);
+    if (!(error <= allowed_squares && cost < least)) continue;
+    least = cost;
     best = &group;
   }
   return best;
@@ -139,17 +158,16 @@ Group* group_for(const Blur& blur, std::vector<Group>& groups, const LightPiece&
 }  // namespace
 
 std::vector<BlurClass> blur_classes(std::span<const Ghost> ghosts, std::span<const GhostMotion> motions,
-                                    const LightPiece& piece, const Frame& frame) {
+                                    const LightPiece& piece, const Frame& frame, double allowed_squares) {
   std::vector<Blur> blurs;
   for (std::size_t g = 0; g < ghosts.size(); ++g) blurs.push_back(blur_of(g, motions[g], piece, frame));
   std::stable_sort(blurs.begin(), blurs.end(),
                    [](const Blur& a, const Blur& b) { return a.brightness > b.brightness; });
-  const double peak = peak_of(blurs, frame);
+  const double peak = std::max(brightest(blurs, frame), brightest_sum(blurs, frame));
+  set_levels(blurs, peak, kLevelShare * allowed_squares);
   std::vector<Group> groups;
-  for (Blur& blur : blurs) {
-    if (blur.brightness < kDim * peak)
-      blur.level = std::min(blur.coarsest + (blur.radius > kAlike_px * 4.0 ? 1 : 0), kLevels - 1);
-    Group* group = group_for(blur, groups, piece, peak);
+  for (const Blur& blur : blurs) {
+    Group* group = group_for(blur, groups, piece, kMisfitShare * allowed_squares);
     if (group == nullptr) group = &groups.emplace_back(Group{blur, kNowhere, 0.0, 0.0, {}});
     group->add(blur);
   }
@@ -157,9 +175,10 @@ std::vector<BlurClass> blur_classes(std::span<const Ghost> ghosts, std::span<con
   std::vector<BlurClass> classes;
   for (Group& group : groups) {
     BlurClass made;
-    made.is_sharp = group.seed.radius < kSharp_px;
+    made.is_sharp = group.seed.seen.blur_px.y < kSharp_px;
     made.level = group.seed.level;
     made.px_from_tangents = group.px * (std::exp2(-made.level) / group.weight);
+    made.peak = peak;
     made.room = group.density > 0.0 ? std::max(1.0, peak / group.density) : 1.0;
     std::sort(group.ghosts.begin(), group.ghosts.end());
     for (const std::size_t g : group.ghosts) made.ghosts.push_back(ghosts[g]);

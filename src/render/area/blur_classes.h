@@ -14,14 +14,16 @@ struct BlurClass {
   bool is_sharp = false;  // blurred by less than shows: drawn as they are
   int level = 0;          // of the picture they are drawn in (layers.h)
   LinearMap px_from_tangents;  // in pixels of that level
-  // The level that the whole picture's brightest parts reach, over the brightest place of these ghosts before they are
-  // blurred: where it is more than 1, errors may be so much larger in proportion.
+  double peak = 0.0;  // irradiance over the light's that the whole picture's brightest parts reach
+  // That over the brightest place of these ghosts before they are blurred: where it is more than 1, errors may be so
+  // much larger in proportion.
   double room = 1.0;
   std::vector<Ghost> ghosts;
 };
 
-// motions: one for each ghost. What a ghost's blur may be off by depends on how bright it is beside the brightest.
+// motions: one for each ghost.
+// allowed_squares: what the picture may be wrong by, squared and summed over the frame, in squares of the peak.
 [[nodiscard]] std::vector<BlurClass> blur_classes(std::span<const Ghost> ghosts, std::span<const GhostMotion> motions,
-                                                  const LightPiece& piece, const Frame& frame);
+                                                  const LightPiece& piece, const Frame& frame, double allowed_squares);
 
 }  // namespace contrejour::area

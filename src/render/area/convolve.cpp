@@ -1,9 +1,12 @@
 #include "render/area/convolve.h"
 
 #include <algorithm>
-#include <array>
+#include <bit>
 #include <cassert>
+#include <cmath>
 #include <cstddef>
+#include <cstdint>
+#include <span>
 #include <vector>
 
 #include "base/tasks.h"
@@ -14,15 +17,27 @@ namespace {
 
 constexpr int kBlock = static_cast<int>(kBlockFloats / 3);  // pixels
 
-// A row of weights without the zeros at its ends; a pattern for each.
+// Whether all channels have the same weights, as for discs and white shapes.
+bool is_white(const Kernel& kernel) {
+  return std::ranges::all_of(kernel.weight, [](const Rgb& w) { return w[0] == w[1] && w[1] == w[2]; });
+}
+
+// A row of weights without the zeros at its ends, as convolve_block.h has them.
 struct KernelRow {
   int row = 0, first = 0;  // from the kernel's corner
   int count = 0;
-  std::vector<float> patterns;
+  std::vector<float> weights;
 };
 
-std::vector<KernelRow> rows_of(const Kernel& kernel) {
+struct KernelRows {
+  int width = 0, height = 0;
+  bool white = false;
   std::vector<KernelRow> rows;
+  [[nodiscard]] std::size_t floats_each() const { return white ? 1 : kPatternFloats; }
+};
+
+KernelRows rows_of(const Kernel& kernel) {
+  KernelRows out{kernel.width(), kernel.height(), is_white(kernel), {}};
   for (int y = 0; y < kernel.height(); ++y) {
     const Rgb* const weights = kernel.weight.data() + static_cast<std::ptrdiff_t>(y) * kernel.width();
     int first = 0, end = kernel.width();
@@ -31,76 +46,157 @@ std::vector<KernelRow> rows_of(const Kernel& kernel) {
     if (first == end) continue;
     KernelRow row{y, first, end - first, {}};
     for (int x = first; x < end; ++x)
-      for (std::size_t k = 0; k < kPatternFloats; ++k) row.patterns.push_back(static_cast<float>(weights[x][k % 3]));
-    rows.push_back(std::move(row));
+      for (std::size_t k = 0; k < out.floats_each(); ++k) row.weights.push_back(static_cast<float>(weights[x][k % 3]));
+    out.rows.push_back(std::move(row));
   }
-  return rows;
+  return out;
 }
 
-// Where a row of a picture is not 0, in pixels.
-struct Span {
-  int first = 0, end = 0;
+// What second differences may be for a picture to count as linear, which its kernel leaves as it is; below 0 for a
+// kernel that moves it or does not keep its light.
+float roughest_second_difference(const Kernel& kernel, double unseen) {
+  constexpr double kBeside = 1e-6;
+  Rgb sum{}, x{}, y{}, squares{};
+  for (std::size_t k = 0; k < kernel.weight.size(); ++k) {
+    const double dx = static_cast<double>(k % static_cast<std::size_t>(kernel.width())) - kernel.reach.left;
+    const double dy = static_cast<double>(k / static_cast<std::size_t>(kernel.width())) - kernel.reach.up;
+    for (std::size_t c = 0; c < 3; ++c) {
+      const double w = kernel.weight[k][c];
+      sum[c] += w;
+      x[c] += w * dx;
+      y[c] += w * dy;
+      squares[c] += w * (dx * dx + dy * dy);
+    }
+  }
+  double widest = 1.0;
+  for (std::size_t c = 0; c < 3; ++c) {
+    if (std::abs(sum[c] - 1.0) + std::abs(x[c]) + std::abs(y[c]) > kBeside) return -1.0F;
+    widest = std::max(widest, squares[c]);
+  }
+  return static_cast<float>(unseen / widest);
+}
+
+// By blocks of kBlock pixels of a row of the sum, what a kernel finds where it takes a row of the picture.
+struct RowBlocks {
+  std::vector<std::uint8_t> lit;    // any light
+  std::vector<std::uint8_t> rough;  // light that is not linear
+  bool any = false;                 // light at all
 };
 
-Span lit_part(std::span<const float> row) {
-  const auto is_lit = [](float v) { return v != 0.0F; };
-  const auto first = std::find_if(row.begin(), row.end(), is_lit);
-  if (first == row.end()) return {};
-  const auto last = std::find_if(row.rbegin(), row.rend(), is_lit);
-  return {static_cast<int>(first - row.begin()) / 3, static_cast<int>(row.rend() - last - 1) / 3 + 1};
+// From marks of the picture's own blocks.
+void widen(std::vector<std::uint8_t>& marks, int kernel_width) {
+  const auto more = static_cast<std::size_t>((kBlock + kernel_width - 2) / kBlock);  // that a block's sums reach into
+  for (std::size_t b = 0; b < marks.size(); ++b)
+    for (std::size_t k = b + 1; k <= std::min(b + more, marks.size() - 1); ++k) marks[b] |= marks[k];
+}
+
+std::vector<std::uint8_t> lit_blocks(std::span<const float> row) {
+  std::vector<std::uint8_t> lit;
+  for (std::size_t at = 0; at < row.size(); at += kBlockFloats) {
+    std::uint32_t bits = 0;
+    for (std::size_t k = at; k < std::min(at + kBlockFloats, row.size()); ++k)
+      bits |= std::bit_cast<std::uint32_t>(row[k]);
+    lit.push_back(bits != 0 ? 1 : 0);
+  }
+  return lit;
+}
+
+// Lit ones where second differences are more than that; those at the picture's border count as such.
+std::vector<std::uint8_t> rough_blocks(const Image& picture, int y, const std::vector<std::uint8_t>& lit, float most) {
+  std::vector<std::uint8_t> rough(lit);
+  if (most < 0.0F || y == 0 || y + 1 == picture.height) return rough;
+  const float *const above = picture.row(y - 1).data(), *const here = picture.row(y).data(),
+                     *const below = picture.row(y + 1).data();
+  for (std::size_t b = 1; b + 1 < lit.size(); ++b) {
+    if (lit[b] == 0) continue;
+    std::uint32_t any = 0;
+    for (std::size_t k = b * kBlockFloats; k < (b + 1) * kBlockFloats; ++k) {
+      const float across = here[k - 3] - 2.0F * here[k] + here[k + 3], down = above[k] - 2.0F * here[k] + below[k];
+      any |= static_cast<std::uint32_t>(std::abs(across) > most) | static_cast<std::uint32_t>(std::abs(down) > most);
+    }
+    rough[b] = any != 0 ? 1 : 0;
+  }
+  return rough;
 }
 
 // Rows of the picture and of the kernel that meet in a row of the sum.
 struct Meeting {
   const float* picture = nullptr;
-  Span lit;
+  const std::uint8_t* lit = nullptr;  // RowBlocks
   const KernelRow* kernel = nullptr;
 };
 
 // Pixels [x, x + kBlock) of the sum. The kernel's column c meets the picture's pixel x + width - 1 - c.
-void add_at(const std::vector<Meeting>& meetings, int x, int kernel_width, std::vector<BlockTerm>& terms, float* to) {
+void add_at(const std::vector<Meeting>& meetings, int x, const KernelRows& kernel, std::vector<BlockTerm>& terms,
+            float* to) {
   terms.clear();
   for (const Meeting& m : meetings) {
-    const int first = x + kernel_width - 1 - m.kernel->first, least = first - (m.kernel->count - 1);
-    if (first + kBlock <= m.lit.first || least >= m.lit.end) continue;
-    terms.push_back({m.picture + 3 * static_cast<std::ptrdiff_t>(first), m.kernel->patterns.data(),
+    if (m.lit[x / kBlock] == 0) continue;
+    const int first = x + kernel.width - 1 - m.kernel->first;
+    terms.push_back({m.picture + 3 * static_cast<std::ptrdiff_t>(first), m.kernel->weights.data(),
                      static_cast<std::size_t>(m.kernel->count)});
   }
-  if (!terms.empty()) add_block(terms, to);
+  if (!terms.empty()) (kernel.white ? add_block : add_coloured_block)(terms, to);
 }
 
 // The same for a pixel alone.
-void add_pixel(const std::vector<Meeting>& meetings, int x, int kernel_width, float* to) {
+void add_pixel(const std::vector<Meeting>& meetings, int x, const KernelRows& kernel, float* to) {
   for (const Meeting& m : meetings) {
-    const float* from = m.picture + 3 * static_cast<std::ptrdiff_t>(x + kernel_width - 1 - m.kernel->first);
-    const float* weights = m.kernel->patterns.data();
-    for (int k = 0; k < m.kernel->count; ++k, from -= 3, weights += kPatternFloats)
-      for (int c = 0; c < 3; ++c) to[c] += weights[c] * from[c];
+    const float* from = m.picture + 3 * static_cast<std::ptrdiff_t>(x + kernel.width - 1 - m.kernel->first);
+    const float* weights = m.kernel->weights.data();
+    for (int k = 0; k < m.kernel->count; ++k, from -= 3, weights += kernel.floats_each())
+      for (std::size_t c = 0; c < 3; ++c) to[c] += weights[c % kernel.floats_each()] * from[c];
   }
 }
 
 }  // namespace
 
-void add_convolved(Image& to, const Image& picture, const Kernel& kernel, const Context& context) {
+void convolve(Image& to, ConvolveMode mode, const Image& picture, const Kernel& kernel, double unseen,
+              const Context& context) {
   assert(picture.width == to.width + kernel.width() - 1 && picture.height == to.height + kernel.height() - 1);
-  const std::vector<KernelRow> rows = rows_of(kernel);
-  std::vector<Span> lit(static_cast<std::size_t>(picture.height));
-  parallel_for(lit.size(), context, [&](std::size_t y) { lit[y] = lit_part(picture.row(static_cast<int>(y))); });
+  const KernelRows rows = rows_of(kernel);
+  std::vector<RowBlocks> blocks(static_cast<std::size_t>(picture.height));
+  const float roughest = roughest_second_difference(kernel, unseen);
+  parallel_for(blocks.size(), context, [&](std::size_t at) {
+    const int y = static_cast<int>(at);
+    blocks[at].lit = lit_blocks(picture.row(y));
+    blocks[at].any = std::ranges::any_of(blocks[at].lit, [](std::uint8_t b) { return b != 0; });
+    if (!blocks[at].any) return;
+    blocks[at].rough = rough_blocks(picture, y, blocks[at].lit, roughest);
+    widen(blocks[at].lit, rows.width);
+    widen(blocks[at].rough, rows.width);
+  });
   parallel_for(static_cast<std::size_t>(to.height), context, [&](std::size_t at) {
     const int y = static_cast<int>(at);
+    if (mode == ConvolveMode::Write) std::ranges::fill(to.row(y), 0.0F);
     std::vector<Meeting> meetings;
-    for (const KernelRow& row : rows) {
-      const int source = y + kernel.height() - 1 - row.row;
-      const Span span = lit[static_cast<std::size_t>(source)];
-      if (span.first < span.end) meetings.push_back({picture.row(source).data(), span, &row});
+    RowBlocks together;
+    for (const KernelRow& row : rows.rows) {
+      const auto source = static_cast<std::size_t>(y + rows.height - 1 - row.row);
+      if (!blocks[source].any) continue;
+      together.lit.resize(blocks[source].lit.size());
+      together.rough.resize(blocks[source].lit.size());
+      meetings.push_back({picture.row(static_cast<int>(source)).data(), blocks[source].lit.data(), &row});
+      for (std::size_t b = 0; b < together.lit.size(); ++b) {
+        together.lit[b] |= blocks[source].lit[b];
+        together.rough[b] |= blocks[source].rough[b];
+      }
     }
     if (meetings.empty()) return;
     std::vector<BlockTerm> terms;
     float* const out = to.row(y).data();
+    const float* const straight =
+        picture.row(y + kernel.reach.down).data() + 3 * static_cast<std::ptrdiff_t>(kernel.reach.right);
     int x = 0;
-    for (; x + kBlock <= to.width; x += kBlock)
-      add_at(meetings, x, kernel.width(), terms, out + 3 * static_cast<std::ptrdiff_t>(x));
-    for (; x < to.width; ++x) add_pixel(meetings, x, kernel.width(), out + 3 * static_cast<std::ptrdiff_t>(x));
+    for (; x + kBlock <= to.width; x += kBlock) {
+      const auto b = static_cast<std::size_t>(x / kBlock);
+      const std::ptrdiff_t first = 3 * static_cast<std::ptrdiff_t>(x);
+      if (together.rough[b] != 0)
+        add_at(meetings, x, rows, terms, out + first);
+      else if (together.lit[b] != 0)
+        for (std::size_t k = 0; k < kBlockFloats; ++k) out[first + k] += straight[first + k];
+    }
+    for (; x < to.width; ++x) add_pixel(meetings, x, rows, out + 3 * static_cast<std::ptrdiff_t>(x));
   });
 }
 

@@ -35,8 +35,38 @@ void add_half(const BlockTerm* terms, std::size_t count, std::size_t offset, flo
   }
 }
 
-void add_block(const BlockTerm* terms, std::size_t count, float* to) {
+void add_coloured_block(const BlockTerm* terms, std::size_t count, float* to) {
   for (std::size_t half = 0; half < kBlockFloats; half += kPatternFloats) add_half(terms, count, half, to);
+}
+
+// Six vectors at a time share each weight.
+void add_block(const BlockTerm* terms, std::size_t count, float* to) {
+  const Tag d;
+  const std::size_t lanes = hn::Lanes(d);
+  for (std::size_t part = 0; part < kBlockFloats; part += 6 * lanes) {
+    float* const out = to + part;
+    auto s0 = hn::LoadU(d, out), s1 = hn::LoadU(d, out + lanes), s2 = hn::LoadU(d, out + 2 * lanes);
+    auto s3 = hn::LoadU(d, out + 3 * lanes), s4 = hn::LoadU(d, out + 4 * lanes), s5 = hn::LoadU(d, out + 5 * lanes);
+    for (std::size_t t = 0; t < count; ++t) {
+      const float* from = terms[t].from + part;
+      const float* const weights = terms[t].weights;
+      for (std::size_t k = 0; k < terms[t].count; ++k, from -= 3) {
+        const auto w = hn::Set(d, weights[k]);
+        s0 = hn::MulAdd(w, hn::LoadU(d, from), s0);
+        s1 = hn::MulAdd(w, hn::LoadU(d, from + lanes), s1);
+        s2 = hn::MulAdd(w, hn::LoadU(d, from + 2 * lanes), s2);
+        s3 = hn::MulAdd(w, hn::LoadU(d, from + 3 * lanes), s3);
+        s4 = hn::MulAdd(w, hn::LoadU(d, from + 4 * lanes), s4);
+        s5 = hn::MulAdd(w, hn::LoadU(d, from + 5 * lanes), s5);
+      }
+    }
+    hn::StoreU(s0, d, out);
+    hn::StoreU(s1, d, out + lanes);
+    hn::StoreU(s2, d, out + 2 * lanes);
+    hn::StoreU(s3, d, out + 3 * lanes);
+    hn::StoreU(s4, d, out + 4 * lanes);
+    hn::StoreU(s5, d, out + 5 * lanes);
+  }
 }
 
 }  // namespace contrejour::area::HWY_NAMESPACE
@@ -46,9 +76,14 @@ HWY_AFTER_NAMESPACE();
 namespace contrejour::area {
 
 HWY_EXPORT(add_block);
+HWY_EXPORT(add_coloured_block);
 
 void add_block(std::span<const BlockTerm> terms, float* to) {
   HWY_DYNAMIC_DISPATCH(add_block)(terms.data(), terms.size(), to);
+}
+
+void add_coloured_block(std::span<const BlockTerm> terms, float* to) {
+  HWY_DYNAMIC_DISPATCH(add_coloured_block)(terms.data(), terms.size(), to);
 }
 
 }  // namespace contrejour::area

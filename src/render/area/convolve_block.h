@@ -12,10 +12,11 @@ inline constexpr std::size_t kPatternFloats = 24;  // after which channels and v
 // A row of a kernel over a row of a picture: pixel p of the block takes from[3 * (p - k)] for each weight k.
 struct BlockTerm {
   const float* from = nullptr;
-  const float* weights = nullptr;  // of each three numbers for the channels, repeated to kPatternFloats
+  const float* weights = nullptr;  // one each, or three for the channels, these repeated to kPatternFloats
   std::size_t count = 0;
 };
 
-void add_block(std::span<const BlockTerm> terms, float* to);
+void add_block(std::span<const BlockTerm> terms, float* to);          // one weight for all channels
+void add_coloured_block(std::span<const BlockTerm> terms, float* to);  // one for each
 
 }  // namespace contrejour::area

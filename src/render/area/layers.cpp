@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstring>
 
 #include "base/tasks.h"
 #include "render/area/convolve.h"
@@ -12,6 +13,7 @@ namespace contrejour::area {
 namespace {
 
 constexpr int kStencil = 2;  // pixels beside its own that a pixel's halves are found from
+constexpr int kRowsAtOnce = 16;  // coarse ones, by one thread
 
 int floor_half(int n) { return n >= 0 ? n / 2 : -((1 - n) / 2); }
 
@@ -34,39 +36,58 @@ Axis coarser_axis(int full, int origin, double scale, int first) {
   return axis;
 }
 
-// Half of a coarse value that goes to the first or the second of the two places it covers: averages of a polynomial of
-// degree 4 stay averages of it (Donoho 1993, average interpolation).
-float half_of(float before2, float before1, float here, float after1, float after2, bool second) {
-  const float slope = (22.0F * (before1 - after1) - 3.0F * (before2 - after2)) * (1.0F / 128.0F);
-  return 0.5F * (second ? here - slope : here + slope);
+// By how much more than half of a coarse value goes to the first of the two places that it covers: averages of a
+// polynomial of degree 4 stay averages of it (Donoho 1993, average interpolation).
+float lean(float before2, float before1, float after1, float after2) {
+  return (22.0F * (before1 - after1) - 3.0F * (before2 - after2)) * (1.0F / 256.0F);
 }
 
-struct Rows {
-  const Image* coarse = nullptr;
-  int top = 0;  // of the coarse picture, in its pixels
+// The two fine rows that a coarse row covers, of a coarse picture that has kStencil pixels more on every side.
+class RowHalver {
+ public:
+  explicit RowHalver(const Image& coarse)
+      : coarse_(coarse), count_(coarse.row(0).size()), rows_{Row(count_), Row(count_)}, first_(count_ + 1),
+        second_(count_ + 1), fine_(2 * count_ + 1) {}
 
-  // The coarse row of a fine one, halved; 3 floats for each of its pixels.
-  void halve(int fine_y, std::vector<float>& out) const {
-    const int y = floor_half(fine_y) - top;
-    const bool second = (fine_y & 1) != 0;
-    const std::size_t count = 3 * static_cast<std::size_t>(coarse->width);
-    const std::array<const float*, 5> from{coarse->row(y - 2).data(), coarse->row(y - 1).data(), coarse->row(y).data(),
-                                           coarse->row(y + 1).data(), coarse->row(y + 2).data()};
-    out.resize(count);
-    for (std::size_t k = 0; k < count; ++k)
-      out[k] = half_of(from[0][k], from[1][k], from[2][k], from[3][k], from[4][k], second);
+  void take(int y) {
+    const auto row = [&](int by) { return coarse_.row(y + by).data(); };
+    const float *const before2 = row(-2), *const before1 = row(-1), *const here = row(0), *const after1 = row(1),
+                       *const after2 = row(2);
+    float *const upper = rows_[0].data(), *const lower = rows_[1].data();
+    for (std::size_t k = 0; k < count_; ++k) {
+      const float more = lean(before2[k], before1[k], after1[k], after2[k]);
+      upper[k] = 0.5F * here[k] + more;
+      lower[k] = 0.5F * here[k] - more;
+    }
   }
+
+  // The upper or the lower one, of twice as many pixels as the coarse row's; the outermost 2 kStencil on either side
+  // mean nothing.
+  [[nodiscard]] const float* fine(bool lower) {
+    const float* const row = rows_[lower ? 1 : 0].data();
+    float *const first = first_.data(), *const second = second_.data();
+    for (std::size_t k = 6; k + 6 < count_; ++k) {
+      const float more = lean(row[k - 6], row[k - 3], row[k + 3], row[k + 6]);
+      first[k] = 0.5F * row[k] + more;
+      second[k] = 0.5F * row[k] - more;
+    }
+    // Four floats at once, the last of which the next pixel overwrites.
+    float* out = fine_.data() + 12;
+    for (std::size_t k = 6; k + 6 < count_; k += 3, out += 6) {
+      std::memcpy(out, first + k, 4 * sizeof(float));
+      std::memcpy(out + 3, second + k, 4 * sizeof(float));
+    }
+    return fine_.data();
+  }
+
+ private:
+  using Row = std::vector<float>;
+
+  const Image& coarse_;
+  std::size_t count_;
+  std::array<Row, 2> rows_;
+  Row first_, second_, fine_;
 };
-
-void add_halves(const std::vector<float>& coarse, int coarse_left, int fine_left, int fine_width, float* fine) {
-  for (int x = 0; x < fine_width; ++x) {
-    const int fine_x = fine_left + x;
-    const float* const here = coarse.data() + 3 * (floor_half(fine_x) - coarse_left);
-    const bool second = (fine_x & 1) != 0;
-    for (int c = 0; c < 3; ++c)
-      fine[3 * x + c] += half_of(here[c - 6], here[c - 3], here[c], here[c + 3], here[c + 6], second);
-  }
-}
 
 }  // namespace
 
@@ -98,15 +119,20 @@ LayerFrame Layers::frame_for(int level, KernelReach reach) const {
   return out;
 }
 
-void Layers::add(const Image& picture, const LayerFrame& drawn, const Kernel& kernel, const Context& context) {
+void Layers::add(const Image& picture, const LayerFrame& drawn, const Kernel& kernel, double unseen,
+                 const Context& context) {
   Layer& layer = layers_[static_cast<std::size_t>(drawn.level)];
-  if (layer.sum.pixels.empty()) layer.sum = Image(layer.width, layer.height);
-  add_convolved(layer.sum, picture, kernel, context);
+  const auto mode = layer.sum.pixels.empty() ? ConvolveMode::Write : ConvolveMode::Add;
+  if (mode == ConvolveMode::Write) layer.sum = Image::unwritten(layer.width, layer.height);
+  convolve(layer.sum, mode, picture, kernel, unseen * std::exp2(2 * drawn.level), context);
 }
 
 void Layers::add_sharp(Image picture, const Context& context) {
   Image& sum = layers_[0].sum;
   if (sum.pixels.empty()) {
+    descend_to(1, context);
+    if (!layers_[1].sum.pixels.empty()) add_halves(layers_[1], layers_[0], picture, true, context);
+    layers_[1].sum = {};
     sum = std::move(picture);
     return;
   }
@@ -117,21 +143,39 @@ void Layers::add_sharp(Image picture, const Context& context) {
   });
 }
 
-Image Layers::flattened(const Context& context) && {
-  for (std::size_t k = layers_.size() - 1; k > 0; --k) {
-    const Layer& coarse = layers_[k];
+void Layers::descend_to(int level, const Context& context) {
+  for (std::size_t k = layers_.size() - 1; k > static_cast<std::size_t>(level); --k) {
+    Layer &coarse = layers_[k], &fine = layers_[k - 1];
     if (coarse.sum.pixels.empty()) continue;
-    Layer& fine = layers_[k - 1];
-    if (fine.sum.pixels.empty()) fine.sum = Image(fine.width, fine.height);
-    const Rows rows{&coarse.sum, coarse.top};
-    parallel_for(static_cast<std::size_t>(fine.height), context, [&](std::size_t row) {
-      const int y = static_cast<int>(row);
-      std::vector<float> halved;
-      rows.halve(fine.top + y, halved);
-      add_halves(halved, coarse.left, fine.left, fine.width, fine.sum.row(y).data());
-    });
-    layers_[k].sum = {};
+    const bool is_written = !fine.sum.pixels.empty();
+    if (!is_written) fine.sum = Image::unwritten(fine.width, fine.height);
+    add_halves(coarse, fine, fine.sum, is_written, context);
+    coarse.sum = {};
   }
+}
+
+void Layers::add_halves(const Layer& coarse, const Layer& place, Image& fine, bool is_written, const Context& context) {
+  const int top = floor_half(place.top), rows = floor_half(place.top + place.height - 1) + 1 - top;
+  const auto strips = static_cast<std::size_t>((rows + kRowsAtOnce - 1) / kRowsAtOnce);
+  parallel_for(strips, context, [&](std::size_t strip) {
+    RowHalver halver(coarse.sum);
+    const int begin = top + static_cast<int>(strip) * kRowsAtOnce, end = std::min(begin + kRowsAtOnce, top + rows);
+    for (int y = begin; y < end; ++y) {
+      halver.take(y - coarse.top);
+      for (const bool lower : {false, true}) {
+        const int fine_y = 2 * y + (lower ? 1 : 0) - place.top;
+        if (fine_y < 0 || fine_y >= place.height) continue;
+        const float* const from = halver.fine(lower) + static_cast<std::ptrdiff_t>(3) * (place.left - 2 * coarse.left);
+        const auto to = fine.row(fine_y);
+        for (std::size_t k = 0; is_written && k < to.size(); ++k) to[k] += from[k];
+        if (!is_written) std::copy_n(from, to.size(), to.data());
+      }
+    }
+  });
+}
+
+Image Layers::flattened(const Context& context) && {
+  descend_to(0, context);
   if (layers_[0].sum.pixels.empty()) return {frame_.width, frame_.height};
   return std::move(layers_[0].sum);
 }

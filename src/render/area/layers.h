@@ -31,8 +31,12 @@ class Layers {
 
   // reach: of the kernel, in pixels of the level.
   [[nodiscard]] LayerFrame frame_for(int level, KernelReach reach) const;
-  void add(const Image& picture, const LayerFrame& drawn, const Kernel& kernel, const Context& context);
+  // unseen: what a pixel of the frame may be off by (convolve.h).
+  void add(const Image& picture, const LayerFrame& drawn, const Kernel& kernel, double unseen, const Context& context);
   void add_sharp(Image picture, const Context& context);  // of the frame itself
+  // Nothing coarser is to come: what there is goes down. Not to be asked for; what follows then is added where there
+  // are sums already, and only where it has light.
+  void descend_to(int level, const Context& context);
   [[nodiscard]] Image flattened(const Context& context) &&;
 
  private:
@@ -41,6 +45,8 @@ class Layers {
     int width = 0, height = 0;
     Image sum;  // without pixels while nothing was added
   };
+
+  static void add_halves(const Layer& coarse, const Layer& place, Image& fine, bool is_written, const Context& context);
 
   Frame frame_;
   std::vector<Layer> layers_;

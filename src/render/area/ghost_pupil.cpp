@@ -1,0 +1,182 @@
+#include "render/area/ghost_pupil.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <numeric>
+
+#include "optics/trace/clearance.h"
+
+namespace contrejour::area {
+namespace {
+
+constexpr int kSide = 13;             // rays along a side of a grid
+constexpr std::size_t kRays = static_cast<std::size_t>(kSide) * kSide;
+constexpr std::size_t kPadded = clearance_padded(kRays);
+constexpr int kEnough = 30;           // rays that get through, for the shape of what they fill to be known
+constexpr int kMostGrids = 4;
+constexpr float kNearlyThrough = 0.1F;  // outside what stops it, over that one's radius
+constexpr std::size_t kMostBeyondRims = 5;
+
+struct Box {
+  Vec2 low, high;
+};
+
+class Grid {
+ public:
+  Grid(const OpticalPath& path, const ReflectanceTables& tables, const LightSource& source,
+       const EntranceWindow& window)
+      : path_(path, tables, {{0.0, 0.0, window.z_mm}, source}), box_{window.min_mm, window.max_mm} {}
+
+  void trace(const Box& box) {
+    box_ = box;
+    cell_ = (box.high - box.low) * (1.0 / (kSide - 1));
+    for (std::size_t k = 0; k < kPadded; ++k) {
+      const Vec2 from = start(std::min(k, kRays - 1)) - box.low;
+      x_mm_[k] = static_cast<float>(from.x);
+      y_mm_[k] = static_cast<float>(from.y);
+    }
+    ClearanceArrays out{field(0), field(1), field(2), field(3), {}, {}};
+    const auto crossings = static_cast<std::size_t>(path_.stop_crossings());
+    for (std::size_t c = 0; c < crossings; ++c) {
+      out.stop_x[c] = field(4 + 2 * c);
+      out.stop_y[c] = field(5 + 2 * c);
+    }
+    path_.start_from(box.low);
+    trace_clearance(path_, search_precision(std::min(cell_.x, cell_.y)), x_mm_.data(), y_mm_.data(), kRays, out);
+    for (std::size_t k = 0; k < kRays; ++k) {
+      outside_[k] = std::numeric_limits<float>::infinity();
+      if (field(0)[k] != 0.0F) continue;
+      outside_[k] = std::hypot(field(2)[k], field(3)[k]) - 1.0F;
+      by_[k] = kRims;
+      for (std::size_t c = 0; c < crossings; ++c) {
+        const float at_stop = std::hypot(field(4 + 2 * c)[k], field(5 + 2 * c)[k]) - 1.0F;
+        if (!(at_stop > outside_[k])) continue;
+        outside_[k] = at_stop;
+        by_[k] = static_cast<int>(c);
+      }
+    }
+  }
+
+  [[nodiscard]] const Box& box() const { return box_; }
+  [[nodiscard]] Vec2 cell() const { return cell_; }
+  [[nodiscard]] Vec2 start(std::size_t k) const {
+    return box_.low + Vec2{static_cast<double>(k % kSide) * cell_.x, static_cast<double>(k / kSide) * cell_.y};
+  }
+  // By how much a ray is outside what it comes closest to, or is blocked by, over that one's radius; and which it is.
+  [[nodiscard]] float outside(std::size_t k) const { return outside_[k]; }
+  [[nodiscard]] bool is_open(std::size_t k) const { return outside_[k] <= 0.0F; }
+  [[nodiscard]] int by(std::size_t k) const { return by_[k]; }
+  // From the middle of the stop.
+  [[nodiscard]] float at_stop(int crossing, std::size_t k) const {
+    const auto c = static_cast<std::size_t>(crossing);
+    return std::hypot(fields_[(4 + 2 * c) * kPadded + k], fields_[(5 + 2 * c) * kPadded + k]);
+  }
+
+ private:
+  [[nodiscard]] float* field(std::size_t k) { return fields_.data() + k * kPadded; }
+
+  PacketPath path_;
+  Box box_;
+  Vec2 cell_;
+  std::array<float, kPadded> x_mm_{}, y_mm_{};
+  std::array<float, (4 + 2 * kMaxStopCrossings) * kPadded> fields_{};
+  std::array<float, kRays> outside_{};
+  std::array<int, kRays> by_{};
+};
+
+// Around the rays that get through, or else the one that is blocked least; none where all fail.
+std::optional<Box> next_box(const Grid& grid) {
+  std::optional<Box> hull;
+  std::size_t least = 0;
+  for (std::size_t k = 0; k < kRays; ++k) {
+    if (grid.outside(k) < grid.outside(least)) least = k;
+    if (!grid.is_open(k)) continue;
+    const Vec2 at = grid.start(k);
+    if (!hull) hull = Box{at, at};
+    hull->low = {std::min(hull->low.x, at.x), std::min(hull->low.y, at.y)};
+    hull->high = {std::max(hull->high.x, at.x), std::max(hull->high.y, at.y)};
+  }
+  if (!hull && std::isfinite(grid.outside(least))) hull = Box{grid.start(least), grid.start(least)};
+  if (hull) *hull = {hull->low - grid.cell(), hull->high + grid.cell()};
+  return hull;
+}
+
+// Pairs of neighbours of which one gets through and the other does not, by what blocks that.
+void find_border(const Grid& grid, GhostPupil& pupil) {
+  std::array<int, kMaxStopCrossings + 1> pairs{};
+  std::vector<Vec2> beyond;
+  const auto count = [&](std::size_t a, std::size_t b) {
+    if (grid.is_open(a) == grid.is_open(b)) return;
+    const std::size_t blocked = grid.is_open(a) ? b : a;
+    if (!std::isfinite(grid.outside(blocked))) return;
+    ++pairs[static_cast<std::size_t>(grid.by(blocked))];
+    if (grid.by(blocked) == kRims) beyond.push_back(grid.start(blocked));
+  };
+  for (std::size_t k = 0; k < kRays; ++k) {
+    if (k % kSide + 1 < kSide) count(k, k + 1);
+    if (k + kSide < kRays) count(k, k + kSide);
+  }
+  const auto most = std::ranges::max_element(pairs);
+  pupil.bound = static_cast<int>(most - pairs.begin());
+  pupil.bound_share = static_cast<double>(*most) / std::max(std::accumulate(pairs.begin(), pairs.end(), 0), 1);
+  const std::size_t step = beyond.size() / kMostBeyondRims + 1;
+  for (std::size_t k = 0; k < beyond.size(); k += step) pupil.beyond_rims_mm.push_back(beyond[k]);
+}
+
+GhostPupil pupil_of(const Grid& grid, int open) {
+  GhostPupil pupil;
+  pupil.is_open = true;
+  Vec2 mean;
+  for (std::size_t k = 0; k < kRays; ++k)
+    if (grid.is_open(k)) mean = mean + grid.start(k) * (1.0 / open);
+  const Vec2 cell = grid.cell();
+  pupil.covariance = {{cell.x * cell.x / 12.0, 0.0}, {0.0, cell.y * cell.y / 12.0}};
+  find_border(grid, pupil);
+  for (const Vec2 along : {Vec2{1.0, 0.0}, Vec2{0.0, 1.0}, Vec2{-1.0, 0.0}, Vec2{0.0, -1.0}}) {
+    std::size_t farthest = kRays;
+    for (std::size_t k = 0; k < kRays; ++k)
+      if (grid.is_open(k) &&
+          (farthest == kRays || dot(grid.start(k) - mean, along) > dot(grid.start(farthest) - mean, along)))
+        farthest = k;
+    pupil.border_mm.push_back(grid.start(farthest));
+  }
+  double nearest = std::numeric_limits<double>::infinity();
+  for (std::size_t k = 0; k < kRays; ++k) {
+    if (!grid.is_open(k)) continue;
+    const Vec2 d = grid.start(k) - mean;
+    pupil.covariance = pupil.covariance + LinearMap{d * (d.x / open), d * (d.y / open)};
+    const double from_middle = pupil.is_whole() ? grid.at_stop(pupil.bound, k) : length(d);
+    if (!(from_middle < nearest)) continue;
+    nearest = from_middle;
+    pupil.at_mm = grid.start(k);
+  }
+  return pupil;
+}
+
+}  // namespace
+
+std::optional<GhostPupil> find_ghost_pupil(const OpticalPath& path, const ReflectanceTables& tables,
+                                           const LightSource& source, const EntranceWindow& window) {
+  Grid grid(path, tables, source, window);
+  std::optional<Box> box = grid.box();
+  int open = 0;
+  for (int k = 0; k < kMostGrids && box && open < kEnough; ++k) {
+    grid.trace(*box);
+    open = 0;
+    for (std::size_t ray = 0; ray < kRays; ++ray) open += grid.is_open(ray) ? 1 : 0;
+    box = next_box(grid);
+  }
+  if (open > 0) return pupil_of(grid, open);
+  std::size_t least = 0;
+  for (std::size_t k = 0; k < kRays; ++k)
+    if (grid.outside(k) < grid.outside(least)) least = k;
+  if (!(grid.outside(least) < kNearlyThrough)) return std::nullopt;
+  GhostPupil pupil;
+  pupil.at_mm = grid.start(least);
+  return pupil;
+}
+
+}  // namespace contrejour::area
