@@ -17,7 +17,7 @@ constexpr int kBlades = 7;
 }  // namespace
 
 std::span<const MeasureEffect> effects() {
-  static constexpr std::array kEffects{measure_starbursts};
+  static constexpr std::array kEffects{measure_starbursts, measure_area_lights};
   return kEffects;
 }
 

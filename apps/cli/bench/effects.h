@@ -37,4 +37,7 @@ using MeasureEffect = Result<std::vector<Target>> (*)(const EffectScene& scene);
 // A new iris's, a kept one's, a new dirt's.
 [[nodiscard]] Result<std::vector<Target>> measure_starbursts(const EffectScene& scene);
 
+// The sun beside a point, with several lenses.
+[[nodiscard]] Result<std::vector<Target>> measure_area_lights(const EffectScene& scene);
+
 }  // namespace contrejour::cli
