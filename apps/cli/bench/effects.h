@@ -4,6 +4,7 @@
 
 #include <functional>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -31,11 +32,38 @@ struct EffectScene {
 using MeasureEffect = Result<std::vector<Target>> (*)(const EffectScene& scene);
 [[nodiscard]] std::span<const MeasureEffect> effects();
 
+// The scene's light and size of picture with another lens.
+struct EffectSystem {
+  const char* lens;
+  double focal_length_mm;  // 0: no zoom
+  double f_number;
+};
+[[nodiscard]] Result<EffectScene> with_lens(const EffectScene& scene, const EffectSystem& system);
+
+// Renders with an effect and without, in turns, so that what changes while they run changes both. Of so many runs the
+// fastest, in processor time of all threads together, which other programs do not take from.
+struct EffectRender {
+  RenderSettings settings;
+  Light light;
+};
+struct EffectCost {
+  double without_ms = 0.0, with_ms = 0.0;
+  [[nodiscard]] double ratio() const { return with_ms / without_ms; }
+};
+[[nodiscard]] Result<EffectCost> cost_in_turns(const EffectScene& scene, const EffectRender& without,
+                                               const EffectRender& with);
+
+// "f/8, 40.1 ms, 30.0 ms of processor time".
+[[nodiscard]] std::string cost_text(const EffectScene& scene, const EffectCost& cost);
+
 // Of so many runs the fastest, in ms of the clock.
 [[nodiscard]] Result<double> fastest_ms(int runs, const std::function<Result<void>()>& run);
 
 // A new iris's, a kept one's, a new dirt's.
 [[nodiscard]] Result<std::vector<Target>> measure_starbursts(const EffectScene& scene);
+
+// Frames with ringing beside frames without, its patterns kept and new, with several lenses.
+[[nodiscard]] Result<std::vector<Target>> measure_ringing(const EffectScene& scene);
 
 // The sun beside a point, with several lenses.
 [[nodiscard]] Result<std::vector<Target>> measure_area_lights(const EffectScene& scene);
