@@ -154,7 +154,9 @@ double CellPainter::unscreened_error(const Mesh& mesh, const Cell& cell, State s
   const double box = std::max(extent.x, kPixel) * std::max(extent.y, kPixel);
   // Its whole flux out of place within its bounds: no cell can do worse.
   const double flux = std::abs(mesh.brightness[cell.middle] * mesh.area[cell.middle]) * cell.size * cell.size;
-  const double worst = flux * flux / box;
+  // Moved by a quarter of a size below a pixel, an eighth of its square is what pixels see.
+  const double seen_part = dot(extent, extent) / (dot(extent, extent) + 8.0);
+  const double worst = flux * flux / box * seen_part;
   if (folded) {
     const double seen = 1.0 / (1.0 + flux / box / (kPeaks * peak_));
     return kFoldBound * worst * seen * seen;
