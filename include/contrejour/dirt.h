@@ -78,6 +78,8 @@ struct DirtStroke {
   [[nodiscard]] Vec2 normal_at(double share) const;  // unit, to the left
   [[nodiscard]] double reach_mm() const { return 0.5 * (length_mm + width_mm); }  // nothing is farther from the middle
   [[nodiscard]] double distance_mm(Vec2 place_mm) const;  // from its edge, negative inside
+  // x: along its line, or the circle or straight line that it goes on as, from its middle; y: from that to the left.
+  [[nodiscard]] Vec2 along_and_across_mm(Vec2 place_mm) const;
 };
 
 [[nodiscard]] Result<void> check_dirt(const Dirt& dirt);

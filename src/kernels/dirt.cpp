@@ -156,20 +156,25 @@ Vec2 DirtStroke::normal_at(double share) const {
   return {-std::sin(angle), std::cos(angle)};
 }
 
-double DirtStroke::distance_mm(Vec2 place_mm) const {
+Vec2 DirtStroke::along_and_across_mm(Vec2 place_mm) const {
   const Vec2 along{std::cos(angle_rad), std::sin(angle_rad)};
   const Vec2 from = place_mm - middle_mm;
   const Vec2 own{dot(along, from), cross(along, from)};
+  if (std::abs(bend_rad) < kNearlyStraight || length_mm <= 0.0) return own;
+  const double radius = length_mm / bend_rad;  // signed: the circle's middle lies to the left or right
+  const Vec2 from_centre{own.x, own.y - radius};
+  const double turn = std::atan2(from_centre.x, std::copysign(1.0, radius) * -from_centre.y);
+  return {turn * std::abs(radius), std::copysign(1.0, radius) * (std::abs(radius) - length(from_centre))};
+}
+
+double DirtStroke::distance_mm(Vec2 place_mm) const {
+  const Vec2 own = along_and_across_mm(place_mm);
   if (std::abs(bend_rad) < kNearlyStraight || length_mm <= 0.0) {
     const double beyond = std::max(0.0, std::abs(own.x) - 0.5 * length_mm);
     return std::hypot(beyond, own.y) - 0.5 * width_mm;
   }
-  const double radius = length_mm / bend_rad;  // signed: the circle's middle lies to the left or right
-  const Vec2 from_centre{own.x, own.y - radius};
-  const double turn = std::atan2(from_centre.x, std::copysign(1.0, radius) * -from_centre.y);
-  if (std::abs(turn) <= 0.5 * std::abs(bend_rad))
-    return std::abs(length(from_centre) - std::abs(radius)) - 0.5 * width_mm;
-  const double end = turn * radius > 0.0 ? 0.5 : -0.5;
+  if (std::abs(own.x) <= 0.5 * length_mm) return std::abs(own.y) - 0.5 * width_mm;
+  const double end = own.x > 0.0 ? 0.5 : -0.5;
   return std::min(length(place_mm - at(end)), length(place_mm - at(-end))) - 0.5 * width_mm;
 }
 
