@@ -48,7 +48,7 @@ Image one_ghost(const LensState& lens, Ghost ghost, const Light& light, const Re
   const Screens screens(lens, settings);
   Image image(settings.frame.width, settings.frame.height, 3);
   for (const bundle::Item& item : bundle::items_of(plan, settings.bundle)) {
-    const auto part = bundle::ItemRenderer(item, lens, settings, tables, screens, nullptr, {}).render();
+    const auto part = bundle::ItemRenderer(item, lens, settings, tables, screens, nullptr, nullptr, {}).render();
     std::size_t k = 0;
     for (int y = part.box.y0; y < part.box.y1; ++y) {
       for (int x = part.box.x0; x < part.box.x1; ++x) {

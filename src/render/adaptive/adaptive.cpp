@@ -8,6 +8,7 @@
 #include "base/tasks.h"
 #include "render/adaptive/item.h"
 #include "render/adaptive/screened_items.h"
+#include "render/adaptive/shadowed_items.h"
 
 namespace contrejour {
 namespace {
@@ -134,19 +135,20 @@ Result<Flare> render_adaptive(const LensState& lens, const FramePlan& plan, cons
   Stopwatch watch;
 
   Flare flare;
-  const Scene scene{lens, plan, IrisShape(lens.iris)};
+  const Scene scene{lens, plan, IrisShape(lens.iris), screens::DirtField::of(lens)};
   Context quiet = context;
   quiet.progress = {};
   Work work;
   std::vector<Item> items = find_items(scene, quiet, work);
+  if (scene.dirt) dim_items(scene, items);
   const double bound_ms = watch.lap_ms();
   Screens screens(lens, settings);
   std::vector<ItemSize> sizes;
-  const double peak = estimate_peak(scene, items, settings.frame, quiet, work, screens.on() ? &sizes : nullptr);
-  if (screens.on() && peak > 0.0) {
-    const double pixels = static_cast<double>(settings.frame.width) * settings.frame.height;
-    work.add(screen_items(scene, screens, items, sizes, {settings.error, peak, pixels}, quiet));
-  }
+  const double peak =
+      estimate_peak(scene, items, settings.frame, quiet, work, screens.on() || scene.dirt ? &sizes : nullptr);
+  const FrameError allowed{settings.error, peak, static_cast<double>(settings.frame.width) * settings.frame.height};
+  if (screens.on() && peak > 0.0) work.add(screen_items(scene, screens, items, sizes, allowed, quiet));
+  if (scene.dirt && peak > 0.0) shadow_items(scene, items, sizes, allowed);
   const double peak_ms = watch.lap_ms();
   FramePainter painter(scene, settings, context, flare);
   painter.paint(items, budget_per_item(settings.error, peak > 0.0 ? peak : faintest_peak(plan, settings.frame),

@@ -60,7 +60,9 @@ Area area_of(std::size_t count, PositionOf position) {
   return out;
 }
 
-void dim(Shade& shade, std::array<double, 3>& flux, const std::array<double, 3>& share) {
+}  // namespace
+
+void CellPainter::dim(Shade& shade, Flux& flux, const Flux& share) {
   for (std::size_t c = 0; c < 3; ++c) {
     const auto times = static_cast<float>(share[c]);
     shade.value[c] *= times;
@@ -69,8 +71,6 @@ void dim(Shade& shade, std::array<double, 3>& flux, const std::array<double, 3>&
     flux[c] *= share[c];
   }
 }
-
-}  // namespace
 
 CellPainter::Cell CellPainter::cell_at(int ix, int iy, int size) {
   Cell cell{ix, iy, size, {}, {}, 0};
@@ -201,6 +201,7 @@ double CellPainter::unscreened_error(const Mesh& mesh, const Cell& cell, State s
     error += mean * mean * std::min(off * off, off) * length(c - a) * width * width;
   }
   const bool varied = screen_ && screen_part(mesh, cell) == ScreenPart::Varied;
+  if (is_dirty(mesh, cell)) error += mean * mean * shadow_error(mesh, cell) * width * width;
   if (state == State::Cut || varied) {
     const double limit = left * limit_error(mesh, cell);
     if (state == State::Cut && limit > left * kMostBend)
@@ -291,7 +292,7 @@ void CellPainter::paint_cell(const Mesh& mesh, int ix, int iy, int size) {
   if (part == ScreenPart::Dark) return;
   if (size == 1 || squared_error(mesh, cell, state, Sides::Straight) <= kStraight * cell_budget())
     return draw(mesh, cell, state, Sides::Straight);
-  const Sides sides = most_bent(state);
+  const Sides sides = is_dirty(mesh, cell) ? Sides::Straight : most_bent(state);
   if (squared_error(mesh, cell, state, sides) <= cell_budget()) return draw(mesh, cell, state, sides);
   const int half = size / 2;
   for (int k = 0; k < 4; ++k) paint_cell(mesh, ix + (k % 2) * half, iy + (k / 2) * half, half);
@@ -349,13 +350,17 @@ void CellPainter::draw(const Mesh& mesh, const Cell& cell, State state, Sides si
     shade.along_x[channel] = static_cast<float>((along_d * f.y - along_f * d.y) * scale);
     shade.along_y[channel] = static_cast<float>((along_f * d.x - along_d * f.x) * scale);
   }
+  const auto draw_seen = [&](const StopMap* map) {
+    if (is_dirty(mesh, cell)) return draw_dirty(mesh, cell, state, shade, flux, map);
+    draw_polygon(mesh, state, shade, flux, outline.all(), {map});
+  };
   const bool varied = screen_ && screen_part(mesh, cell) == ScreenPart::Varied;
   if (varied && std::max(length(d), length(f)) < kOnePlace_px) {
     dim(shade, flux, passed_to(mesh, cell));
-    return draw_polygon(mesh, state, shade, flux, outline.all());
+    return draw_seen(nullptr);
   }
   const auto map = varied ? std::optional(stop_map(mesh, cell, kSoft_px)) : std::nullopt;
-  draw_polygon(mesh, state, shade, flux, outline.all(), map ? &*map : nullptr);
+  draw_seen(map ? &*map : nullptr);
 }
 
 // Two triangles, each with its own flux spread evenly.
@@ -380,7 +385,8 @@ void CellPainter::draw_folded(const Mesh& mesh, const Cell& cell, State state) {
     const bool one_place = length(p[2] - p[0]) < kOnePlace_px;
     if (varied && one_place) dim(shade, flux, passed_to(mesh, cell));
     const auto map = varied && !one_place ? std::optional(stop_map(mesh, t)) : std::nullopt;
-    draw_polygon(mesh, state, shade, flux, corners, map ? &*map : nullptr);
+    const auto dirt = is_dirty(mesh, cell) ? std::optional(dirt_triangle(mesh, t)) : std::nullopt;
+    draw_polygon(mesh, state, shade, flux, corners, {map ? &*map : nullptr, dirt ? &*dirt : nullptr});
   }
 }
 
@@ -405,7 +411,7 @@ double CellPainter::arc_step(const Mesh& mesh, std::span<const CellCorner> corne
 }
 
 void CellPainter::draw_polygon(const Mesh& mesh, State state, const Shade& shade, const Flux& flux,
-                               std::span<const CellCorner> corners, const StopMap* map) {
+                               std::span<const CellCorner> corners, const Behind& behind) {
   std::array<Corner, 8> whole;
   for (std::size_t k = 0; k < corners.size(); ++k) {
     Corner& corner = whole[k];
@@ -419,14 +425,15 @@ void CellPainter::draw_polygon(const Mesh& mesh, State state, const Shade& shade
   if (state == State::Cut && screen_) {
     polygon = cutter_.within_rims(polygon, mesh.layout.crossings, mesh.layout.rims);
   } else if (state == State::Cut) {
-    if (iris_.is_picture()) return draw_pieces(mesh, polygon, shade, flux);
+    if (iris_.is_picture()) return draw_pieces(mesh, polygon, shade, flux, behind);
     polygon = cutter_.open_part(polygon, mesh.layout.crossings, mesh.layout.rims, arc_step(mesh, corners, shade));
   }
-  draw_part(polygon, shade, flux, corners.size() == 3, map);
+  draw_part(polygon, shade, flux, corners.size() == 3, behind);
 }
 
 // What a picture as the iris leaves of a cell. Details that no pixel shows are drawn as their mean.
-void CellPainter::draw_pieces(const Mesh& mesh, std::span<const Corner> cell, const Shade& shade, const Flux& flux) {
+void CellPainter::draw_pieces(const Mesh& mesh, std::span<const Corner> cell, const Shade& shade, const Flux& flux,
+                              const Behind& behind) {
   Bounds b;
   for (const Corner& c : cell) b.add(c.position);
   const double finest = std::min(1.0, kUnseenDetail / std::max({b.size().x, b.size().y, kUnseenDetail}));
@@ -435,22 +442,20 @@ void CellPainter::draw_pieces(const Mesh& mesh, std::span<const Corner> cell, co
                                Shade dimmed = shade;
                                Flux less = flux;
                                dim(dimmed, less, {open, open, open});
-                               draw_part(part, dimmed, less, cell.size() == 3);
+                               draw_part(part, dimmed, less, cell.size() == 3, behind);
                              });
 }
 
 // triangle: flux is that of half the square of uv.
 void CellPainter::draw_part(std::span<const Corner> polygon, const Shade& shade, const Flux& flux, bool triangle,
-                            const StopMap* map) {
+                            const Behind& behind) {
   if (polygon.size() < 3) return;
-  points_.clear();
   Bounds b;
   double twice_area = 0.0;
   double twice_share = 0.0;
   for (std::size_t k = 0; k < polygon.size(); ++k) {
     const Corner& c = polygon[k];
     b.add(c.position);
-    points_.push_back({static_cast<float>(c.position.x), static_cast<float>(c.position.y)});
     if (k < 2) continue;
     twice_area += cross(polygon[k - 1].position - polygon[0].position, c.position - polygon[0].position);
     twice_share += cross(polygon[k - 1].uv - polygon[0].uv, c.uv - polygon[0].uv);
@@ -458,16 +463,19 @@ void CellPainter::draw_part(std::span<const Corner> polygon, const Shade& shade,
   const double longest = std::max(b.size().x, b.size().y);
   const bool one_pixel = std::floor(b.low.x) == std::floor(b.high.x) && std::floor(b.low.y) == std::floor(b.high.y);
   const bool sliver = std::abs(twice_area) < kSliver * longest;
-  if (!one_pixel && !sliver && longest > kSpeck) {
-    if (map == nullptr) return out_.add(points_, shade);
-    return draw_screened(polygon, 0.5 * std::abs(twice_area), shade, flux, *map);
-  }
+  if (!one_pixel && !sliver && longest > kSpeck)
+    return add_seen(polygon, 0.5 * std::abs(twice_area), shade, flux, behind);
   const double share = 0.5 * std::abs(twice_share) * (triangle ? 2.0 : 1.0);
   Flux passed{flux[0] * share, flux[1] * share, flux[2] * share};
-  if (map != nullptr) {
+  const Vec2 middle = (b.low + b.high) * 0.5;
+  if (behind.screen != nullptr) {
     std::array<StopPlace, kMaxStopCrossings> room;
-    const auto screened = screen_->share(map->places((b.low + b.high) * 0.5, room));
+    const auto screened = screen_->share(behind.screen->places(middle, room));
     for (std::size_t c = 0; c < 3; ++c) passed[c] *= screened[c];
+  }
+  if (behind.dirt != nullptr) {
+    const double left = past_dirt(*behind.dirt).passed(middle);
+    for (double& value : passed) value *= left;
   }
   draw_line(polygon, passed);
 }

@@ -9,6 +9,8 @@
 #include "render/adaptive/mesh.h"
 #include "render/adaptive/outline_cutter.h"
 #include "render/adaptive/polygon_list.h"
+#include "render/adaptive/seen_dirt.h"
+#include "render/screens/shadow_cutter.h"
 
 namespace contrejour::adaptive {
 
@@ -29,9 +31,23 @@ class CellPainter {
     tables_.clear();
     out_.screens.push_back(screen_);
   }
+  // And past dirt.
+  void stand_behind(const SeenDirt& dirt) { dirt_ = dirt; }
 
  private:
   enum class State : std::uint8_t { Open, Cut, Closed };
+  using Flux = std::array<double, 3>;
+  // Where a triangle's light crosses the plane of the dirt, mm.
+  struct DirtTriangle {
+    std::array<Vec2, 3> pixel;
+    std::array<std::array<Vec2, 3>, kMaxStopCrossings> place_mm;
+    std::size_t crossings = 0;
+  };
+  // What a polygon's light has come through, where that is not level; the polygon is then within the triangle.
+  struct Behind {
+    const StopMap* screen = nullptr;
+    const DirtTriangle* dirt = nullptr;
+  };
 
   // Vertices of a square of mesh cells: corners in turn, middles of the sides, the middle.
   struct Cell {
@@ -50,19 +66,31 @@ class CellPainter {
     std::size_t count = 0;
     [[nodiscard]] std::span<const CellCorner> all() const { return {corners.data(), count}; }
   };
-  using Flux = std::array<double, 3>;
 
   static constexpr double kManyCells = 4.0;
 
+  static void dim(Shade& shade, Flux& flux, const Flux& share);
   void paint(const Patch& patch, int depth);
   void paint_cell(const Mesh& mesh, int ix, int iy, int size);
   void draw(const Mesh& mesh, const Cell& cell, State state, Sides sides);
   void draw_folded(const Mesh& mesh, const Cell& cell, State state);
   void draw_polygon(const Mesh& mesh, State state, const Shade& shade, const Flux& flux,
-                    std::span<const CellCorner> corners, const StopMap* map = nullptr);
-  void draw_pieces(const Mesh& mesh, std::span<const Corner> cell, const Shade& shade, const Flux& flux);
+                    std::span<const CellCorner> corners, const Behind& behind);
+  void draw_pieces(const Mesh& mesh, std::span<const Corner> cell, const Shade& shade, const Flux& flux,
+                   const Behind& behind);
   void draw_part(std::span<const Corner> polygon, const Shade& shade, const Flux& flux, bool triangle,
-                 const StopMap* map = nullptr);
+                 const Behind& behind);
+  void add_seen(std::span<const Corner> polygon, double area_px, const Shade& shade, const Flux& flux,
+                const Behind& behind);
+  void add_shadows(std::span<const Corner> polygon, const Shade& shade, const Flux& flux, const Behind& behind);
+  void draw_dirty(const Mesh& mesh, const Cell& cell, State state, const Shade& shade, const Flux& flux,
+                  const StopMap* map);
+  [[nodiscard]] DirtTriangle dirt_triangle(const Mesh& mesh, const std::array<std::size_t, 3>& triangle) const;
+  [[nodiscard]] PastDirt past_dirt(const DirtTriangle& dirt) const;
+  [[nodiscard]] int dirt_crossings(const Mesh& mesh) const;
+  [[nodiscard]] Vec2 dirt_place(const Mesh& mesh, std::size_t vertex, int crossing) const;
+  [[nodiscard]] bool is_dirty(const Mesh& mesh, const Cell& cell) const;  // false where the lens is clean
+  [[nodiscard]] double shadow_error(const Mesh& mesh, const Cell& cell) const;
   void draw_screened(std::span<const Corner> polygon, double area_px, const Shade& shade, const Flux& flux,
                      const StopMap& map);
   void add_fringed(std::span<const Corner> polygon, const Shade& shade, const StopMap& map, const EdgeTable& table);
@@ -111,6 +139,8 @@ class CellPainter {
   PolygonList& out_;
   std::shared_ptr<const BandScreen> screen_;  // null: the iris is sharp
   double screen_unit_ = 1.0;
+  SeenDirt dirt_;
+  screens::ShadowCutter shadows_;
   std::map<int, const EdgeTable*> tables_;  // of the screen, by width
   std::vector<std::uint16_t> active_;
   OutlineCutter cutter_;

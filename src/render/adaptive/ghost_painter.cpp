@@ -80,9 +80,10 @@ double area(const Rectangle& r) { return (r.high.x - r.low.x) * (r.high.y - r.lo
 }  // namespace
 
 GhostPainter::GhostPainter(const LensState& lens, const IrisShape& iris, const Frame& frame, const LightFrame& light,
-                           const TablesByWavelength& tables, int deepest, const GhostScreens* screens)
+                           const TablesByWavelength& tables, int deepest, const GhostScreens* screens,
+                           const screens::DirtField* dirt)
     : lens_(lens), iris_(iris), frame_(frame), light_(light), tables_(tables),
-      plane_z_mm_(entrance_window(lens, light.source).z_mm), deepest_(deepest), screens_(screens) {}
+      plane_z_mm_(entrance_window(lens, light.source).z_mm), deepest_(deepest), screens_(screens), dirt_(dirt) {}
 
 // How far a fit may be off, from what that does to pixels: edges displaced by d over a length of about 4 L, and
 // levels off by a share w over L^2 pixels.
@@ -204,6 +205,7 @@ void GhostPainter::paint(Ghost ghost, const Rectangle& box, std::span<const Plan
   const double wanted = std::ceil(shift / (2.0 * kShiftShare * tolerance.position_px));
   const std::size_t bands = static_cast<std::size_t>(std::clamp(wanted, 1.0, static_cast<double>(passes.size())));
   CellPainter cells(iris_, frame_, budget.squared_error, kFewCells * static_cast<double>(bands), budget.peak, out);
+  cells.stand_behind(SeenDirt{dirt_, &light_, plane_z_mm_});
   for (std::size_t band = 0; band < bands; ++band) {
     const std::size_t first = band * passes.size() / bands;
     const std::size_t last = (band + 1) * passes.size() / bands;

@@ -23,9 +23,10 @@ struct GhostScreens {
 class GhostPainter {
  public:
   // deepest: how often a box may be quartered before straight lines between rays must do.
-  // screens: may be null; with them the iris is a circle.
+  // screens: may be null; with them the iris is a circle. dirt: whose shadows are drawn; may be null.
   GhostPainter(const LensState& lens, const IrisShape& iris, const Frame& frame, const LightFrame& light,
-               const TablesByWavelength& tables, int deepest, const GhostScreens* screens = nullptr);
+               const TablesByWavelength& tables, int deepest, const GhostScreens* screens = nullptr,
+               const screens::DirtField* dirt = nullptr);
 
   // box: in the light's meridional frame. Passes by rising wavelength.
   void paint(Ghost ghost, const Rectangle& box, std::span<const PlannedPass> passes, const ErrorBudget& budget,
@@ -61,6 +62,7 @@ class GhostPainter {
   double plane_z_mm_;
   int deepest_;
   const GhostScreens* screens_;
+  const screens::DirtField* dirt_;
   std::uint64_t rays_ = 0, surface_hits_ = 0;
 };
 

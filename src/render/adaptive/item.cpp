@@ -139,9 +139,13 @@ Painted paint(const Scene& scene, const Item& item, std::vector<PlannedPass> pas
   Painted painted;
   const Frame frame = item.look->placed(whole);
   for (PlannedPass& pass : passes) pass.gain = item.look->tinted(pass.gain);
+  if (!item.has_shadows && item.past_dirt != 1.0)
+    for (PlannedPass& pass : passes)
+      for (double& gain : pass.gain) gain *= item.past_dirt;
   const LightFrame light(item.light->source, scene.lens.is_centred());
   const IrisShape& iris = item.screens ? round_iris() : scene.iris;
-  GhostPainter painter(scene.lens, iris, frame, light, scene.plan.tables, deepest, item.screens.get());
+  GhostPainter painter(scene.lens, iris, frame, light, scene.plan.tables, deepest, item.screens.get(),
+                       item.has_shadows ? scene.dirt.get() : nullptr);
   for (const Rectangle& box : item.boxes) painter.paint(item.ghost, box, passes, budget, painted.polygons.list);
   painted.polygons.tiles = tile_lists(painted.polygons.list, grid);
   painted.work = {painter.rays(), painter.surface_hits()};

@@ -11,6 +11,7 @@ struct Scene {
   const LensState& lens;
   const FramePlan& plan;
   IrisShape iris;
+  std::shared_ptr<const screens::DirtField> dirt = nullptr;  // null: the lens is clean
 };
 
 struct Work {
@@ -27,6 +28,8 @@ struct Item {
   const PlannedLight* light = nullptr;
   std::vector<Rectangle> boxes;  // in the light's meridional frame; none: nothing gets through
   std::shared_ptr<const GhostScreens> screens = nullptr;  // null: the iris is sharp
+  bool has_shadows = false;  // of dirt; without them
+  double past_dirt = 1.0;    // all of it is dimmed to this share
 };
 
 // One for each ghost and light, those first that come first in the plan.

@@ -105,6 +105,7 @@ Mesh make_mesh(const Patch& patch, const IrisShape& iris) {
   Mesh mesh;
   mesh.layout = patch.layout;
   mesh.origin_px = patch.origin_px;
+  mesh.box = patch.box;
   mesh.cell_flux_area_mm2 = patch.flux_area_mm2 / (Mesh::kCells * Mesh::kCells);
   mesh.fields.resize(static_cast<std::size_t>(patch.layout.fields()));
   const Positions x = positions(patch.field(PatchLayout::kX), patch.nodes, m);

@@ -18,6 +18,7 @@ struct Mesh {
 
   PatchLayout layout;
   Vec2 origin_px;
+  Rectangle box;                          // as the patch's
   std::vector<Field> fields;              // as the patch's
   Field area;                             // signed, of a cell's image by the derivatives at the vertex, pixels
   Field brightness;                       // root mean square of the channels' irradiance, per pixel
@@ -30,6 +31,12 @@ struct Mesh {
   [[nodiscard]] const Field& field(int f) const { return fields[static_cast<std::size_t>(f)]; }
   [[nodiscard]] Vec2 position(std::size_t vertex) const {
     return {field(PatchLayout::kX)[vertex], field(PatchLayout::kY)[vertex]};
+  }
+  [[nodiscard]] Vec2 entrance_mm(std::size_t vertex) const {
+    const Vec2 size = box.high - box.low;
+    return box.low +
+           Vec2{size.x * static_cast<double>(vertex % kStride), size.y * static_cast<double>(vertex / kStride)} *
+               (1.0 / kCells);
   }
   // Irradiance of a channel, flux per pixel; large where the map folds.
   [[nodiscard]] double irradiance(int channel, std::size_t vertex) const;

@@ -108,6 +108,7 @@ Patch make_patch(const RaySheet& sheet, const LightFrame& light, const Frame& fr
   const auto steps = rims_in_play(sheet);
   Patch patch;
   patch.nodes = sheet.nodes;
+  patch.box = sheet.box;
   patch.layout = {static_cast<int>(sheet.stop.size()), std::min(static_cast<int>(steps.size()), kMostRims)};
   patch.values.resize(static_cast<std::size_t>(patch.layout.fields()) * sheet.count());
   const Vec2 size = sheet.box.high - sheet.box.low;
@@ -191,6 +192,9 @@ PatchError estimated_error(const Patch& patch) {
 Patch quarter(const Patch& patch, int ix, int iy) {
   const NodeMatrices& m = matrices(patch.nodes);
   Patch out = patch;
+  const Vec2 half = (patch.box.high - patch.box.low) * 0.5;
+  out.box.low = patch.box.low + Vec2{half.x * ix, half.y * iy};
+  out.box.high = out.box.low + half;
   out.flux_area_mm2 = 0.25 * patch.flux_area_mm2;
   for (int f = 0; f < patch.layout.fields(); ++f) {
     transform(patch.field(f), patch.nodes, m.half[static_cast<std::size_t>(ix)], m.half[static_cast<std::size_t>(iy)],

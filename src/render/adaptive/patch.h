@@ -27,6 +27,7 @@ inline constexpr int kMostRims = 12;
 struct Patch {
   PatchLayout layout;
   int nodes = 0;             // a side, Lobatto points
+  Rectangle box;             // mm of the entrance plane, in the light's frame
   Vec2 origin_px;            // what positions are counted from
   double flux_area_mm2 = 0;  // of the box, times cos(theta): flux is weight times this, over the whole box
   std::vector<float> values; // [(field * nodes + row) * nodes + column]

@@ -11,6 +11,7 @@
 #include "contrejour/vec.h"
 #include "render/adaptive/edge_table.h"
 #include "render/adaptive/stop_map.h"
+#include "render/screens/dirt_field.h"
 
 namespace contrejour::adaptive {
 
@@ -24,12 +25,20 @@ struct Shade {
   std::array<float, 3> value{}, along_x{}, along_y{};
 };
 
+// Dirt before a polygon that is looked up pixel by pixel, and how pixels see its plane, in mm.
+struct PastDirt {
+  const screens::DirtField* field;
+  StopMap map;
+  [[nodiscard]] double passed(Vec2 pixel) const;
+};
+
 // A screen in the stop before a polygon: how its pixels see the stop, and what they look up there.
 struct Screened {
   StopMap map;
-  const BandScreen* screen;
+  const BandScreen* screen;  // null: none, but dirt
   const EdgeTable* edges = nullptr;  // of `screen`, where it is edges' fringes
   std::uint32_t first = 0, count = 0;  // of PolygonList::bounds: those whose fringes are within
+  std::uint32_t dirt = 0;              // k + 1: PolygonList::dirt[k]; 0: none
 };
 
 struct Polygon {
@@ -43,6 +52,7 @@ struct PolygonList {
   std::vector<Point> corners;
   std::vector<Polygon> polygons;
   std::vector<Screened> screened;
+  std::vector<PastDirt> dirt;
   std::vector<std::uint16_t> bounds;
   std::vector<std::shared_ptr<const BandScreen>> screens;  // that `screened` points to
   std::vector<std::shared_ptr<const EdgeTable>> tables;
@@ -65,7 +75,8 @@ struct PolygonList {
     return {corners.data() + p.first, p.count};
   }
   [[nodiscard]] std::size_t bytes() const {
-    return corners.size() * sizeof(Point) + polygons.size() * sizeof(Polygon) + screened.size() * sizeof(Screened);
+    return corners.size() * sizeof(Point) + polygons.size() * sizeof(Polygon) + screened.size() * sizeof(Screened) +
+           dirt.size() * sizeof(PastDirt);
   }
 };
 

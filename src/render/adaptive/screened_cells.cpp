@@ -180,7 +180,7 @@ void CellPainter::draw_screened(std::span<const Corner> polygon, double area_px,
     keep_within(rest, map, {line.normal, line.inner - table.level_within() - room});
     add_fringed(strip, shade, map, table);
   }
-  draw_part(rest, shade, flux, true);
+  draw_part(rest, shade, flux, true, {});
 }
 
 void CellPainter::add_fringed(std::span<const Corner> polygon, const Shade& shade, const StopMap& map,

@@ -35,17 +35,6 @@ Rim rim_of(const ItemSize& size, double peak, double fresnel_number) {
 // What an item's fringes differ from its sharp rim, squared, over its pixels.
 double fringe_error(const Rim& rim) { return kEdgeError * rim.weight; }
 
-// Of some items' errors, by rising error: those beyond what the smallest may make together.
-std::vector<std::size_t> worth_drawing(std::vector<std::size_t> some, const std::vector<double>& error,
-                                       double allowed) {
-  std::stable_sort(some.begin(), some.end(), [&](std::size_t a, std::size_t b) { return error[a] < error[b]; });
-  double sum = 0.0;
-  const auto first = std::find_if(some.begin(), some.end(), [&](std::size_t k) { return (sum += error[k]) > allowed; });
-  some.erase(some.begin(), first);
-  std::sort(some.begin(), some.end());
-  return some;
-}
-
 // Screens of all passes; one whose fringes are not seen takes the next one's, a little wider. Null: none is seen.
 std::shared_ptr<GhostScreens> screens_of(const Screens& screens, const Item& item) {
   auto all = std::make_shared<GhostScreens>();
@@ -116,7 +105,7 @@ void set_range(const Drawn& item, double dimmest) {
 
 Work screen_items(const Scene& scene, Screens& screens, std::vector<Item>& items, const std::vector<ItemSize>& sizes,
                   const FrameError& allowed, const Context& context) {
-  const double squares = std::pow(allowed.error * allowed.peak, 2) * allowed.pixels;
+  const double squares = allowed.squared();
   std::vector<std::size_t> all(items.size());
   std::iota(all.begin(), all.end(), std::size_t{0});
   std::vector<double> error(items.size());

@@ -2,15 +2,11 @@
 // that theirs are far below the frame's error.
 #pragma once
 
+#include "render/adaptive/frame_error.h"
 #include "render/adaptive/item.h"
 #include "render/screens/screens.h"
 
 namespace contrejour::adaptive {
-
-// What the whole frame may get wrong: RMS error over its pixels, as a share of the peak.
-struct FrameError {
-  double error = 0.003, peak = 1.0, pixels = 1.0;
-};
 
 // Gives screens, and boxes that hold the light beside the opening, to all items but those whose fringes together make
 // a small part of the error. sizes: of the items (estimate_peak). Incomplete when cancelled.

@@ -229,24 +229,28 @@ class Pattern {
   Seen seen_[kMostGroups];
 };
 
-// What passes any screen, several crossings of the stop among them.
+// What passes any screen, several crossings of the stop among them, and dirt. Either may be null.
 class AnyScreen {
  public:
-  AnyScreen(const BandScreen& screen, const StopMap& map) : screen_(screen), map_(map) {}
+  AnyScreen(const BandScreen* screen, const StopMap& map, const PastDirt* dirt = nullptr)
+      : screen_(screen), map_(map), dirt_(dirt) {}
 
   void look(const PixelRow& row) { row_ = &row; }
   [[nodiscard]] static Seen seen(int /*group*/) { return Seen::Varied; }
   [[nodiscard]] Quad passed(int k) const {
     std::array<StopPlace, kMaxStopCrossings> room;
-    const auto share = screen_.share(map_.places(row_->pixel(k), room));
+    std::array<double, 3> share{1.0, 1.0, 1.0};
+    if (screen_ != nullptr) share = screen_->share(map_.places(row_->pixel(k), room));
     const float all[] = {static_cast<float>(share[0]), static_cast<float>(share[1]), static_cast<float>(share[2]),
                          0.0F};
-    return Quad::load(all);
+    if (dirt_ == nullptr) return Quad::load(all);
+    return Quad::load(all) * Quad::all(static_cast<float>(dirt_->passed(row_->pixel(k))));
   }
 
  private:
-  const BandScreen& screen_;
+  const BandScreen* screen_;
   const StopMap& map_;
+  const PastDirt* dirt_;
   const PixelRow* row_ = nullptr;
 };
 
@@ -374,6 +378,7 @@ void add_screened(TileSums& tile, const PolygonList& list, const Polygon& polygo
 
   const Screened& behind = list.screened[polygon.screened - 1];
   const auto add = [&](auto&& look) { add_pixels(tile, polygon, behind.map, last_column, look); };
+  if (behind.dirt != 0) return add(AnyScreen(behind.screen, behind.map, &list.dirt[behind.dirt - 1]));
   if (behind.edges != nullptr) {
     const IrisShape& iris = behind.edges->iris();
     const std::span<const std::uint16_t> active(list.bounds.data() + behind.first, behind.count);
@@ -381,7 +386,7 @@ void add_screened(TileSums& tile, const PolygonList& list, const Polygon& polygo
     return add(Fringes(*behind.edges, active));
   }
   if (behind.screen->pattern && behind.map.crossings() == 1) return add(Pattern(*behind.screen, behind.map.width()));
-  add(AnyScreen(*behind.screen, behind.map));
+  add(AnyScreen(behind.screen, behind.map));
 }
 
 }  // namespace contrejour::adaptive::HWY_NAMESPACE

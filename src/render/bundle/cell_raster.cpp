@@ -196,7 +196,69 @@ double CellRaster::triangle_flux(const Triangle& t) const {
 
 Vec2 CellRaster::stop_place(std::size_t vertex, std::size_t crossing) const {
   const Vec2 p{grid_.stop_x[crossing][vertex], grid_.stop_y[crossing][vertex]};
-  return (screen_.turn_rad != 0.0 ? turned(p, screen_.turn_rad) : p) * screen_.screen->reach();
+  return (screen_.turn_rad != 0.0 ? turned(p, screen_.turn_rad) : p) * (screen_.screen ? screen_.screen->reach() : 1.0);
+}
+
+std::size_t CellRaster::dirt_crossings() const {
+  return screen_.dirt->on_front() ? 1 : static_cast<std::size_t>(grid_.stop_crossings());
+}
+
+Vec2 CellRaster::dirt_place(std::size_t vertex, std::size_t crossing) const {
+  if (!screen_.dirt->on_front()) return stop_place(vertex, crossing) * screen_.dirt->stop_radius_mm();
+  const auto side = static_cast<std::size_t>(grid_.side());
+  const Vec2 step = grid_.step_mm();
+  const Vec2 entrance =
+      grid_.box().low + Vec2{step.x * static_cast<double>(vertex % side), step.y * static_cast<double>(vertex / side)};
+  const Vec2 p = screen_.dirt->front_place(entrance, screen_.entrance_z_mm, screen_.light);
+  return screen_.turn_rad != 0.0 ? turned(p, screen_.turn_rad) : p;
+}
+
+bool CellRaster::is_dirty(const std::array<std::size_t, 4>& corners) const {
+  if (screen_.dirt == nullptr) return false;
+  if (failed(corners)) return true;
+  for (std::size_t c = 0; c < dirt_crossings(); ++c) {
+    std::array<Vec2, 4> p;
+    for (std::size_t k = 0; k < 4; ++k) p[k] = dirt_place(corners[k], c);
+    const Vec2 middle = (p[0] + p[1] + p[2] + p[3]) * 0.25;
+    double radius = 0.0;
+    for (const Vec2 corner : p) radius = std::max(radius, length(corner - middle));
+    if (!screen_.dirt->is_clean(middle, kScreenDisc * radius)) return true;
+  }
+  return false;
+}
+
+// As screened(): what dirt lets through.
+double CellRaster::past_dirt(const Triangle& t, Vec2 uv, double pixels) const {
+  double passed = 1.0;
+  for (std::size_t c = 0; c < dirt_crossings(); ++c) {
+    const Vec2 origin = dirt_place(t[0], c), u = dirt_place(t[1], c) - origin, v = dirt_place(t[2], c) - origin;
+    const double width = std::sqrt(0.5 * std::abs(cross(u, v)) / std::max(pixels, 1.0));
+    passed *= screen_.dirt->transmission({origin + u * uv.x + v * uv.y, width});
+  }
+  return passed;
+}
+
+// Over a polygon that has been drawn without them, as light of negative sign.
+void CellRaster::draw_shadows(FluxBox& out, std::span<const Vec2> polygon, const Triangle& t, const Density& density) {
+  const std::array<Vec2, 3> p{pixel_[t[0]], pixel_[t[1]], pixel_[t[2]]};
+  std::array<screens::PlaneView, kMaxStopCrossings> views;
+  double finest_mm = std::numeric_limits<double>::infinity();
+  for (std::size_t c = 0; c < dirt_crossings(); ++c) {
+    views[c] = screens::PlaneView::through(
+        p, std::array<Vec2, 3>{dirt_place(t[0], c), dirt_place(t[1], c), dirt_place(t[2], c)});
+    finest_mm = std::min(finest_mm, std::sqrt(std::abs(cross(views[c].along_x, views[c].along_y))));
+  }
+  const double area = std::abs(signed_area(p[0], p[1], p[2]));
+  const auto screened_at = [&](Vec2 pixel) { return screened(t, place_in(p, pixel), area); };
+  shadows_.for_each(*screen_.dirt, {views.data(), dirt_crossings()}, polygon, finest_mm,
+                    [&](std::span<const Vec2> shadow, double blocked) {
+                      const Density lost{density.point, -blocked * density.value, density.gradient * -blocked};
+                      ++primitives_;
+                      if (screens_pixels_)
+                        out.add_polygon(shadow, lost, screened_at);
+                      else
+                        out.add_polygon(shadow, lost);
+                    });
 }
 
 // Over the disc about a cell's crossings of the stop.
@@ -267,10 +329,18 @@ void CellRaster::draw_polygon(FluxBox& out, const Cell& cell, const Triangle& t,
                               double share, double open) {
   const std::array<Vec2, 3> p{pixel_[t[0]], pixel_[t[1]], pixel_[t[2]]};
   const double area = std::abs(signed_area(p[0], p[1], p[2]));
-  const auto screened_at = [&](Vec2 pixel) { return screened(t, place_in(p, pixel), area); };
+  const bool by_pixels = screens_pixels_ || (dirty_ && !screen_.dirt->is_shapes());
+  const auto screened_at = [&](Vec2 pixel) {
+    const double passed = screens_pixels_ ? screened(t, place_in(p, pixel), area) : 1.0;
+    return dirty_ && !screen_.dirt->is_shapes() ? passed * past_dirt(t, place_in(p, pixel), area) : passed;
+  };
   ++primitives_;
   const double flux = triangle_flux(t) * open;
-  const auto whole_share = [&] { return screens_pixels_ ? screened_at(mean_of(polygon)) : 1.0; };
+  const auto whole_share = [&] {
+    const Vec2 middle = mean_of(polygon);
+    const double passed = screens_pixels_ ? screened(t, place_in(p, middle), area) : 1.0;
+    return dirty_ ? passed * past_dirt(t, place_in(p, middle), area) : passed;
+  };
   if (in_one_pixel(polygon)) {
     out.add_point(polygon[0], flux * share * whole_share());
     return;
@@ -283,10 +353,11 @@ void CellRaster::draw_polygon(FluxBox& out, const Cell& cell, const Triangle& t,
   const double value = flux / area;
   const Vec2 middle = (p[0] + p[1] + p[2]) * (1.0 / 3.0);
   const Density density{middle, value, cell.gradient * value};
-  if (screens_pixels_)
+  if (by_pixels)
     out.add_polygon(polygon, density, screened_at);
   else
     out.add_polygon(polygon, density);
+  if (dirty_ && screen_.dirt->is_shapes()) draw_shadows(out, polygon, t, density);
 }
 
 bool CellRaster::failed(std::span<const std::size_t> vertices) const {
@@ -308,6 +379,7 @@ void CellRaster::draw_point(FluxBox& out, const Cell& cell, CellState state) {
   if (failed(v)) return;
   double flux = open_flux({v[0], v[1], v[2]}, state) + open_flux({v[0], v[2], v[3]}, state);
   if (screens_pixels_) flux *= screened({v[0], v[1], v[3]}, {0.5, 0.5}, std::abs(cell.signed_area_px) * 0.5);
+  if (dirty_) flux *= past_dirt({v[0], v[1], v[3]}, {0.5, 0.5}, std::abs(cell.signed_area_px) * 0.5);
   ++primitives_;
   out.add_point((pixel_[v[0]] + pixel_[v[1]] + pixel_[v[2]] + pixel_[v[3]]) * 0.25, flux);
 }
@@ -316,7 +388,7 @@ void CellRaster::draw_cell(FluxBox& out, const Cell& cell, CellState state) {
   const auto& v = cell.vertex;
   if (style_.points) {
     draw_point(out, cell, state);
-  } else if (state == CellState::Open && !screens_pixels_) {
+  } else if (state == CellState::Open && !screens_pixels_ && !dirty_) {
     draw_open(out, cell);
   } else {
     draw_triangle(out, cell, {v[0], v[1], v[2]}, true);
@@ -337,6 +409,7 @@ FluxBox CellRaster::draw(const std::function<bool()>& stop) {
       const ScreenPart part = screen_part(grid_.corners(ix, iy));
       if (part == ScreenPart::Dark) continue;
       screens_pixels_ = part == ScreenPart::Varied;
+      dirty_ = is_dirty(grid_.corners(ix, iy));
       draw_cell(out, cell_at(ix, iy), state);
     }
   }

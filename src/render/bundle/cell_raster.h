@@ -11,6 +11,7 @@
 #include "render/bundle/cell_clip.h"
 #include "render/bundle/flux_box.h"
 #include "render/interface/stop_screen.h"
+#include "render/screens/shadow_cutter.h"
 
 namespace contrejour::bundle {
 
@@ -19,10 +20,14 @@ struct CellStyle {
   bool points = false;         // every cell's flux goes to the pixel of its middle: hullin2011 7.2
 };
 
-// What stands in the stop in place of a sharp iris; turn_rad takes the grid's crossings there into place. The grid's
-// path is then a widened one (stop_screen.h).
+// What stands in the stop in place of a sharp iris; the grid's path is then a widened one (stop_screen.h). And dirt.
+// Either may be null. light, entrance_z_mm: of the grid; turn_rad takes its crossings of the stop and the front into
+// place.
 struct CellScreen {
   const StopScreen* screen = nullptr;
+  const screens::DirtField* dirt = nullptr;
+  LightSource light;
+  double entrance_z_mm = 0.0;
   double turn_rad = 0.0;
 };
 
@@ -64,6 +69,11 @@ class CellRaster {
   void draw_open(FluxBox& out, const Cell& cell);
   void draw_triangle(FluxBox& out, const Cell& cell, const Triangle& t, bool cut);
   [[nodiscard]] Vec2 stop_place(std::size_t vertex, std::size_t crossing) const;
+  [[nodiscard]] std::size_t dirt_crossings() const;
+  [[nodiscard]] Vec2 dirt_place(std::size_t vertex, std::size_t crossing) const;  // mm
+  [[nodiscard]] bool is_dirty(const std::array<std::size_t, 4>& corners) const;
+  [[nodiscard]] double past_dirt(const Triangle& t, Vec2 uv, double pixels) const;
+  void draw_shadows(FluxBox& out, std::span<const Vec2> polygon, const Triangle& t, const Density& density);
   [[nodiscard]] ScreenPart screen_part(const std::array<std::size_t, 4>& corners) const;
   [[nodiscard]] double screened(const Triangle& t, Vec2 uv, double pixels) const;
   void draw_polygon(FluxBox& out, const Cell& cell, const Triangle& t, std::span<const Vec2> polygon, double share,
@@ -78,6 +88,8 @@ class CellRaster {
   CellStyle style_;
   CellScreen screen_;
   bool screens_pixels_ = false;  // the cell at hand: each pixel gets a share of its own
+  bool dirty_ = false;           // the cell at hand
+  screens::ShadowCutter shadows_;
   TriangleClipper clipper_;
   double triangle_weight_mm2_;       // flux of a triangle of transmission 1
   std::vector<Vec2> pixel_;          // by vertex

@@ -72,9 +72,9 @@ std::vector<Item> items_of(const FramePlan& plan, const BundleOptions& options) 
 
 ItemRenderer::ItemRenderer(const Item& item, const LensState& lens, const RenderSettings& settings,
                            const TablesByWavelength& tables, const Screens& screens, const PupilBounds* bounds,
-                           const Context& context)
+                           const screens::DirtField* dirt, const Context& context)
     : item_(item), settings_(settings), frame_(item.look->placed(settings.frame)), context_(context),
-      grid_(lens, settings, tables, screens, bounds) {}
+      grid_(lens, settings, tables, screens, bounds), dirt_(dirt) {}
 
 RenderedItem ItemRenderer::render() {
   const bool blur = is_blurred(settings_.bundle, item_.light->passes.size());
@@ -130,7 +130,11 @@ FluxBox ItemRenderer::draw(const GhostPupil& pupil, const Frame& frame) {
   const Frame drawn = fine ? finer(frame, kFineness) : frame;
   const IrisShape iris(pupil.iris);
   CellRaster raster(grid_.rays(), iris, drawn, item_.light->source.shared_flux(), {options.smooth_shading, points},
-                    {pupil.screen.get(), pupil.meridian.turn_rad});
+                    {.screen = pupil.screen.get(),
+                     .dirt = dirt_,
+                     .light = pupil.meridian.light,
+                     .entrance_z_mm = pupil.plane_z_mm,
+                     .turn_rad = pupil.meridian.turn_rad});
   FluxBox flux = raster.draw([&] { return context_.cancelled(); });
   grid_.counts().primitives += raster.primitives();
   return fine ? flux.coarser(kFineness) : std::move(flux);

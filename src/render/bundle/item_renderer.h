@@ -9,6 +9,7 @@
 #include "render/bundle/flux_box.h"
 #include "render/bundle/ghost_grid.h"
 #include "render/interface/frame_plan.h"
+#include "render/screens/dirt_field.h"
 
 namespace contrejour::bundle {
 
@@ -33,7 +34,7 @@ class ItemRenderer {
  public:
   ItemRenderer(const Item& item, const LensState& lens, const RenderSettings& settings,
                const TablesByWavelength& tables, const Screens& screens, const PupilBounds* bounds,
-               const Context& context);
+               const screens::DirtField* dirt, const Context& context);
 
   // Incomplete when the context is cancelled.
   [[nodiscard]] RenderedItem render();
@@ -52,6 +53,7 @@ class ItemRenderer {
   Frame frame_;  // as the ghost is placed in it
   const Context& context_;
   GhostGrid grid_;
+  const screens::DirtField* dirt_;  // null: the lens is clean
 };
 
 }  // namespace contrejour::bundle

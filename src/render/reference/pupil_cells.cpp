@@ -14,6 +14,7 @@ namespace {
 constexpr double kFailed = std::numeric_limits<double>::infinity();
 constexpr double kLevel = 1e-4;  // of a screen: what is so close to 1 all over a cell needs no smaller ones
 constexpr double kScreenDisc = 1.5;  // of the corners' distance from the middle, for cells that bend
+constexpr double kNoArea = 1e-300;  // pixels: none is divided by
 constexpr double kUnseen = 0.25;  // of a cut cell's footprint, of what a picture's edge is known to
 
 // What is known of one point of the entrance plane.
@@ -25,6 +26,7 @@ struct Sample {
   double outside = kFailed;  // the same for the convex hull of the iris's opening
   std::array<Vec2, kMaxStopCrossings> stop{};  // with a picture's distances there, or behind a screen, in stop radii
   std::array<double, kMaxStopCrossings> distance{};
+  std::array<Vec2, kMaxStopCrossings> dirt_mm{};  // where it crosses the dirt's plane
 
   [[nodiscard]] bool traced() const { return blocked < kFailed; }
 };
@@ -36,8 +38,12 @@ Sample between(const Sample& a, const Sample& b, double t) {
            0.0,
            0.0,
            {},
+           {},
            {}};
-  for (std::size_t c = 0; c < s.stop.size(); ++c) s.stop[c] = a.stop[c] + (b.stop[c] - a.stop[c]) * t;
+  for (std::size_t c = 0; c < s.stop.size(); ++c) {
+    s.stop[c] = a.stop[c] + (b.stop[c] - a.stop[c]) * t;
+    s.dirt_mm[c] = a.dirt_mm[c] + (b.dirt_mm[c] - a.dirt_mm[c]) * t;
+  }
   return s;
 }
 
@@ -57,9 +63,9 @@ struct Extent {
 class CellWalker {
  public:
   CellWalker(const OpticalPath& path, const Iris& iris, const LightSource& light, double z_mm, const Frame& frame,
-             const CellLimits& limits, const LitPolygon& lit, const StopScreen* screen)
+             const CellLimits& limits, const LitPolygon& lit, const StopScreen* screen, const screens::DirtField* dirt)
       : path_(path), iris_(iris), light_(light), z_mm_(z_mm), frame_(frame), limits_(limits), lit_(lit),
-        screen_(screen) {
+        screen_(screen), dirt_(dirt) {
     if (iris.field) hull_ = iris.field->hull();
   }
 
@@ -77,6 +83,7 @@ class CellWalker {
     if (iris_.field) look_at_picture(ray, s);
     if (screen_ != nullptr)
       for (std::size_t c = 0; c < s.stop.size(); ++c) s.stop[c] = ray.stop[c] * screen_->reach();
+    if (dirt_ != nullptr) look_at_dirt(ray, s);
     return s;
   }
 
@@ -123,6 +130,61 @@ class CellWalker {
       for (const Sample& s : open) places[c].at = places[c].at + s.stop[c] * (1.0 / static_cast<double>(open.size()));
     }
     return screen_->share({places.data(), crossings});
+  }
+
+  void look_at_dirt(const TracedRay& ray, Sample& s) const {
+    if (dirt_->on_front())
+      s.dirt_mm[0] = dirt_->front_place(s.entrance_mm, z_mm_, light_);
+    else
+      for (std::size_t c = 0; c < s.dirt_mm.size(); ++c) s.dirt_mm[c] = ray.stop[c] * path_.stop_radius_mm;
+  }
+  [[nodiscard]] std::size_t dirt_crossings() const {
+    return dirt_->on_front() ? 1 : static_cast<std::size_t>(path_.stop_crossings);
+  }
+
+  [[nodiscard]] bool is_dirty(const Corners& corners, const Sample& middle) const {
+    if (dirt_ == nullptr) return false;
+    if (!middle.traced()) return true;
+    for (std::size_t c = 0; c < dirt_crossings(); ++c) {
+      double radius = 0.0;
+      for (const Sample& s : corners) {
+        if (!s.traced()) return true;
+        radius = std::max(radius, length(s.dirt_mm[c] - middle.dirt_mm[c]));
+      }
+      if (!dirt_->is_clean(middle.dirt_mm[c], kScreenDisc * radius)) return true;
+    }
+    return false;
+  }
+
+  // The share of a triangle's light, from its part that is open, that dirt lets through: looked up in kParts^2 parts of
+  // each of that part's own triangles.
+  [[nodiscard]] double past_dirt(std::span<const Sample> open) const {
+    if (dirt_ == nullptr) return 1.0;
+    double passed = 0.0, all = 0.0;
+    for (std::size_t k = 2; k < open.size(); ++k) {
+      const std::array<const Sample*, 3> t{&open[0], &open[k - 1], &open[k]};
+      const double area = 0.5 * std::abs(cross(t[1]->pixel - t[0]->pixel, t[2]->pixel - t[0]->pixel)) + kNoArea;
+      all += area;
+      double mean = 0.0;
+      for (int i = 0; i < kParts; ++i) {
+        for (int j = 0; i + j < kParts; ++j) {
+          mean += past_dirt(t, {i + 1.0 / 3.0, j + 1.0 / 3.0});
+          if (i + j + 1 < kParts) mean += past_dirt(t, {i + 2.0 / 3.0, j + 2.0 / 3.0});
+        }
+      }
+      passed += area * mean / (kParts * kParts);
+    }
+    return passed / all;
+  }
+  // at: the middle of a part, along two sides.
+  static constexpr int kParts = 2;
+  [[nodiscard]] double past_dirt(const std::array<const Sample*, 3>& t, Vec2 at) const {
+    std::array<screens::DirtPlace, kMaxStopCrossings> places;
+    for (std::size_t c = 0; c < dirt_crossings(); ++c) {
+      const Vec2 a = t[0]->dirt_mm[c], u = t[1]->dirt_mm[c] - a, v = t[2]->dirt_mm[c] - a;
+      places[c] = {a + (u * at.x + v * at.y) * (1.0 / kParts), std::sqrt(0.5 * std::abs(cross(u, v))) / kParts};
+    }
+    return dirt_->transmission({places.data(), dirt_crossings()});
   }
 
   // What a cell's corners and its middle tell of `blocked`.
@@ -229,6 +291,7 @@ class CellWalker {
       return depth < limits_.look_depth || e.size() > limits_.cut_footprint_px;
     }
     if (e.size() > limits_.screen_footprint_px && screen_part(corners, middle) == ScreenPart::Varied) return true;
+    if (e.size() > limits_.dirt_footprint_px && is_dirty(corners, middle)) return true;
     const bool is_cut = blocking.highest > -blocking.slack;
     if (e.size() > (is_cut ? limits_.cut_footprint_px : limits_.footprint_px)) return true;
     // However small its image, a cell that an edge cuts must hold an all but straight piece of it.
@@ -273,7 +336,7 @@ class CellWalker {
       }
     }
     ++counts_.polygons;
-    const double passed = screened(in, {open.data(), count});
+    const double passed = screened(in, {open.data(), count}) * past_dirt({open.data(), count});
     lit_({pixels.data(), count}, 0.5 * std::abs(twice_area) * transmission * light_.shared_flux() * passed);
   }
 
@@ -285,6 +348,7 @@ class CellWalker {
   CellLimits limits_;
   const LitPolygon& lit_;
   const StopScreen* screen_;
+  const screens::DirtField* dirt_;
   std::vector<IrisBound> hull_;  // of a picture's opening
   CellCounts counts_;
 };
@@ -296,6 +360,7 @@ CellLimits CellLimits::for_density(double density) {
   limits.root_cells = std::max(8, static_cast<int>(std::lround(limits.root_cells * density)));
   limits.footprint_px /= density;
   limits.screen_footprint_px /= density;
+  limits.dirt_footprint_px /= density;
   limits.cut_footprint_px /= density;
   limits.bend_px /= density;
   limits.edge_bend /= density;
@@ -304,8 +369,9 @@ CellLimits CellLimits::for_density(double density) {
 
 CellCounts for_each_lit_polygon(const OpticalPath& path, const Iris& iris, const LightSource& light,
                                 const EntranceWindow& window, const Frame& frame, const CellLimits& limits,
-                                const std::function<bool()>& stop, const LitPolygon& lit, const StopScreen* screen) {
-  CellWalker walker(path, iris, light, window.z_mm, frame, limits, lit, screen);
+                                const std::function<bool()>& stop, const LitPolygon& lit, const StopScreen* screen,
+                                const screens::DirtField* dirt) {
+  CellWalker walker(path, iris, light, window.z_mm, frame, limits, lit, screen, dirt);
   const int n = limits.root_cells;
   const auto row_of = [&](int iy) {
     std::vector<Sample> row;

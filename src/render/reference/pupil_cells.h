@@ -10,6 +10,7 @@
 #include "contrejour/frame.h"
 #include "contrejour/trace.h"
 #include "render/interface/stop_screen.h"
+#include "render/screens/dirt_field.h"
 
 namespace contrejour::reference {
 
@@ -17,6 +18,7 @@ struct CellLimits {
   int root_cells = 192;            // a side of the window, before any subdivision
   double footprint_px = 4.0;       // longest side of a cell's image
   double screen_footprint_px = 1.0;  // the same where a screen is neither dark nor level
+  double dirt_footprint_px = 0.35;   // where dirt lies: a triangle's light is spread evenly over it, shadows and all
   double cut_footprint_px = 1.0;   // the same where a rim or the iris edge cuts the cell
   double bend_px = 0.1;            // a cell's middle off the mean of its corners
   double edge_bend = 0.005;        // how far an edge may bow within the cell it cuts, over the cell's size
@@ -37,11 +39,11 @@ struct CellCounts {
 };
 
 // Calls `lit` for every open piece of every cell that may fall inside the frame. Stops early, with whatever has
-// been passed on so far, once `stop()` is true. screen: looked up for every triangle; the path is then a widened one, the
-// iris a circle (stop_screen.h).
+// been passed on so far, once `stop()` is true. screen: looked up for every triangle; the path is then a widened one,
+// the iris a circle (stop_screen.h). dirt: looked up for every triangle, too. Both may be null.
 CellCounts for_each_lit_polygon(const OpticalPath& path, const Iris& iris, const LightSource& light,
                                 const EntranceWindow& window, const Frame& frame, const CellLimits& limits,
                                 const std::function<bool()>& stop, const LitPolygon& lit,
-                                const StopScreen* screen = nullptr);
+                                const StopScreen* screen = nullptr, const screens::DirtField* dirt = nullptr);
 
 }  // namespace contrejour::reference

@@ -36,7 +36,7 @@ struct RenderedItem {
 };
 
 RenderedItem render_item(const Item& item, const LensState& lens, const RenderSettings& settings,
-                         const Screens& screens, const Context& context) {
+                         const Screens& screens, const screens::DirtField* dirt, const Context& context) {
   RenderedItem out{{settings.frame.width, settings.frame.height}, {}, 0};
   const LightSource& light = item.light->source;
   const auto screen = screens.of(item.ghost, item.pass->lambda_nm, light);
@@ -45,7 +45,7 @@ RenderedItem render_item(const Item& item, const LensState& lens, const RenderSe
   out.counts = reference::for_each_lit_polygon(
       path, screen ? Iris{} : lens.iris, light, entrance_window(lens, light), item.look->placed(settings.frame),
       reference::CellLimits::for_density(settings.reference_density), [&] { return context.cancelled(); },
-      [&](std::span<const Vec2> pixels, double flux) { out.flux.add_polygon(pixels, flux); }, screen.get());
+      [&](std::span<const Vec2> pixels, double flux) { out.flux.add_polygon(pixels, flux); }, screen.get(), dirt);
   return out;
 }
 
@@ -60,13 +60,16 @@ Result<Flare> render_reference(const LensState& lens, const FramePlan& plan, con
   Screens screens(lens, settings);
   if (!screens.prepare(plan, context)) return failure(ErrorCode::Cancelled, "interrupted");
 
+  const auto dirt = screens::DirtField::of(lens);
+
   Flare flare;
   flare.image = Image(settings.frame.width, settings.frame.height, 3);
   RenderStatistics& stats = flare.statistics;
   std::vector<double> sum(flare.image.pixels.size());
   const auto items = items_of(plan);
   const bool done = ordered_pipeline(
-      items.size(), context, [&](std::size_t k) { return render_item(items[k], lens, settings, screens, context); },
+      items.size(), context,
+      [&](std::size_t k) { return render_item(items[k], lens, settings, screens, dirt.get(), context); },
       [&](std::size_t k, const RenderedItem& rendered) {
         rendered.flux.add_to(sum, items[k].look->tinted(items[k].pass->gain));
         stats.rays += rendered.counts.rays;

@@ -88,7 +88,6 @@ void DirtField::count(const DirtStroke& s) {
   const double field_mm2 = 4.0 * extent_mm_ * extent_mm_;
   const double covered = s.width_mm * (s.length_mm + 0.25 * std::numbers::pi * s.width_mm) / field_mm2;
   const double share = covered * s.opacity * s.opacity;
-  covered_ += covered;
   edges_per_mm_ += s.opacity * s.opacity * (2.0 * s.length_mm + std::numbers::pi * s.width_mm) / field_mm2;
   const auto octave = static_cast<std::size_t>(std::clamp(std::log2(s.width_mm / kThinnest_mm), 0.0, 31.0));
   if (sizes_.size() <= octave) sizes_.resize(octave + 1);
@@ -111,8 +110,10 @@ void DirtField::sum_up_cells() {
           clean ? 1.0
                 : mean_of_parts(kPointsOfCell, [&](Vec2 off) { return transmission({middle + off * cell_mm_, 0.0}); });
       passed_.push_back(passed_.back() + passed);
+      covered_ += (1.0 - passed) / (kCells * kCells);
     }
   }
+  if (!shapes_.empty()) covered_ /= shapes_.front().opacity;  // all have one
 }
 
 // By rows of cells, between the places where the ellipse crosses each.

@@ -51,7 +51,7 @@ class DirtField {
 
  private:
   static constexpr int kCells = 128;  // across the field
-  static constexpr double kMostCovered = 0.7;  // sum of the shapes' areas over the field's
+  static constexpr double kMostCovered = 0.3;  // of the field
   [[nodiscard]] int cell_of(double coordinate_mm) const;
   [[nodiscard]] std::span<const std::uint32_t> shapes_about(int x, int y) const;
   [[nodiscard]] double small_transmission(Vec2 at, double width) const;

@@ -24,6 +24,7 @@ struct PixelRange {
 enum PrimitiveFlags : std::uint16_t {
   kTriangle = 1,  // the fourth corner is the first again
   kOpen = 2,      // no rim and no crossing of the iris blocks a corner
+  kFront = 4,     // after the other crossings' places come those on the front, mm
 };
 
 struct alignas(64) Primitive {
@@ -36,6 +37,10 @@ struct alignas(64) Primitive {
   std::uint32_t more_crossings = 0;  // where the other crossings' places begin
   std::uint16_t crossings = 0;
   std::uint16_t flags = 0;
+
+  [[nodiscard]] std::size_t more_places() const {
+    return static_cast<std::size_t>(crossings > 1 ? crossings - 1 : 0) + ((flags & kFront) != 0 ? 1 : 0);
+  }
 };
 static_assert(sizeof(Primitive) == 128);
 
@@ -45,7 +50,7 @@ struct StopPlaces {
 
 struct PrimitiveBuffer {
   std::vector<Primitive> primitives;
-  std::vector<StopPlaces> more_crossings;  // second and third crossings, where there are any
+  std::vector<StopPlaces> more_crossings;  // second and third crossings, where there are any, and the front
 
   void clear() {
     primitives.clear();
@@ -53,10 +58,10 @@ struct PrimitiveBuffer {
   }
   void append(const Primitive& primitive, const PrimitiveBuffer& from) {
     primitives.push_back(primitive);
-    if (primitive.crossings < 2) return;
+    if (primitive.more_places() == 0) return;
     primitives.back().more_crossings = static_cast<std::uint32_t>(more_crossings.size());
     const auto first = from.more_crossings.begin() + static_cast<std::ptrdiff_t>(primitive.more_crossings);
-    more_crossings.insert(more_crossings.end(), first, first + primitive.crossings - 1);
+    more_crossings.insert(more_crossings.end(), first, first + static_cast<std::ptrdiff_t>(primitive.more_places()));
   }
   [[nodiscard]] std::uint64_t bytes() const {
     return primitives.size() * sizeof(Primitive) + more_crossings.size() * sizeof(StopPlaces);

@@ -179,7 +179,7 @@ void PrimitiveBuilder::merge(const RayGrid& grid) {
 }
 
 void PrimitiveBuilder::fill(const RayGrid& grid, std::array<std::size_t, 4> corners, Primitive& p) {
-  p.pass = pass_;
+  p.pass = traced_.pass;
   p.crossings = static_cast<std::uint16_t>(grid.stop_crossings());
   bool open = true;
   const float slack = grid.slack(corners);
@@ -202,6 +202,19 @@ void PrimitiveBuilder::fill(const RayGrid& grid, std::array<std::size_t, 4> corn
     }
     out_->more_crossings.push_back(places);
   }
+  if (traced_.dirt == nullptr || !traced_.dirt->on_front()) return;
+  p.flags |= kFront;
+  StopPlaces front{};
+  for (std::size_t k = 0; k < 4; ++k) {
+    const auto side = static_cast<std::size_t>(grid.side());
+    const Vec2 step = grid.step_mm();
+    const Vec2 entrance = grid.box().low + Vec2{step.x * static_cast<double>(corners[k] % side),
+                                                step.y * static_cast<double>(corners[k] / side)};
+    const Vec2 at = traced_.dirt->front_place(entrance, traced_.entrance_z_mm, traced_.light);
+    front.x[k] = static_cast<float>(at.x);
+    front.y[k] = static_cast<float>(at.y);
+  }
+  out_->more_crossings.push_back(front);
 }
 
 // The corners' irradiances follow the vertices', scaled so that the primitive's two triangles hold its flux.
@@ -273,7 +286,7 @@ void PrimitiveBuilder::emit(const RayGrid& grid, int step, int ix, int iy) {
 std::uint64_t PrimitiveBuilder::build(const RayGrid& grid, const TracedPass& traced, PrimitiveBuffer& out) {
   const Vec2 step_mm = grid.step_mm();
   triangle_weight_mm2_ = 0.5 * step_mm.x * step_mm.y * traced.shared_flux;
-  pass_ = traced.pass;
+  traced_ = traced;
   out_ = &out;
   levels_.resize(static_cast<std::size_t>(merge_steps_) + 1);
   place_vertices(grid, traced.shift_mm);

@@ -6,6 +6,7 @@
 
 #include "contrejour/render.h"
 #include "ghosts/ray_grid.h"
+#include "render/screens/dirt_field.h"
 #include "render/tiled/primitive.h"
 
 namespace contrejour::tiled {
@@ -15,6 +16,9 @@ struct TracedPass {
   double shared_flux = 1;  // LightSource's
   std::uint32_t pass = 0;
   Vec2 shift_mm = {};      // of the ghost, on the sensor
+  const screens::DirtField* dirt = nullptr;  // where it lies on the front, whose places are then kept; or null
+  LightSource light = {};
+  double entrance_z_mm = 0.0;  // of the grid
 };
 
 // Cells of four rays of which at least one gets through; 2 x 2 blocks of them that bend by less than gamma become one,
@@ -64,7 +68,7 @@ class PrimitiveBuilder {
   std::vector<float> irradiance_;    // by vertex, flux over area; 0 where the map is not smooth
   std::vector<CellState> state_;     // by cell
   std::vector<Level> levels_;        // levels_[k]: after k steps
-  std::uint32_t pass_ = 0;
+  TracedPass traced_;
   PrimitiveBuffer* out_ = nullptr;
 };
 

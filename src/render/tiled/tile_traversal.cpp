@@ -113,6 +113,28 @@ HWY_INLINE P screened(const TraversalInput& input, const Primitive& p, const Sto
   return P(hn::Load(d, share.data()));
 }
 
+// What dirt lets through of each pixel's light, likewise: where it crosses the stop, or the front.
+HWY_INLINE P past_dirt(const TraversalInput& input, const Primitive& p, const hk::Weights<P>& weights, Mask inside) {
+  const P::Tag d;
+  constexpr std::size_t kLanes = HWY_MAX_BYTES / sizeof(float);
+  HWY_ALIGN std::array<float, kLanes> share, x, y;
+  hn::Store(hn::IfThenElseZero(inside, hn::Set(d, 1.0F)), d, share.data());
+  const bool on_front = (p.flags & kFront) != 0;
+  const StopScreen* const screen = input.screens.empty() ? nullptr : input.screens[p.pass];
+  const double unit_mm = on_front ? 1.0 : input.dirt->stop_radius_mm() * (screen != nullptr ? screen->reach() : 1.0);
+  for (std::size_t c = 0; c < (on_front ? 1 : p.crossings); ++c) {
+    const StopPlaces corners =
+        on_front ? input.buffer.more_crossings[p.more_crossings + p.more_places() - 1] : places_of(input, p, c);
+    hn::Store((interpolate(weights, corners.x) / weights.total).v, d, x.data());
+    hn::Store((interpolate(weights, corners.y) / weights.total).v, d, y.data());
+    const double width_mm = pixel_at_stop(p, corners) * unit_mm;
+    for (std::size_t k = 0; k < hn::Lanes(d); ++k)
+      if (share[k] > 0.0F)
+        share[k] *= static_cast<float>(input.dirt->transmission({Vec2{x[k], y[k]} * unit_mm, width_mm}));
+  }
+  return P(hn::Load(d, share.data()));
+}
+
 // An edge holds the points on it when it runs upwards, or level to the left. So of two neighbours one does.
 HWY_INLINE float least_on_edge(const Primitive& p, std::size_t i) {
   const std::size_t j = (i + 1) % 4;
@@ -159,6 +181,7 @@ HWY_INLINE void add_primitive(const TraversalInput& input, const Primitive& p, T
     } else if ((p.flags & kOpen) == 0) {
       inside = hn::And(inside, unblocked(input, p, weights));
     }
+    if (input.dirt != nullptr) value = value * past_dirt(input, p, weights, inside);
     const auto lit = hn::IfThenElseZero(inside, value.v);
     for (std::size_t c = 0; c < 3; ++c) {
       float* out = tile.value[c].data() + k;

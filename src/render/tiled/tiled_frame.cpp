@@ -10,8 +10,9 @@ namespace {}  // namespace
 
 TiledFrame::TiledFrame(const RenderSettings& settings, const Context& context, const IrisShape& iris,
                        std::span<const Gain> gains, const HeldLimits& limits,
-                       std::span<const StopScreen* const> screens)
-    : settings_(settings), context_(context), iris_(iris), gains_(gains), screens_(screens), limits_(limits),
+                       std::span<const StopScreen* const> screens, const screens::DirtField* dirt)
+    : settings_(settings), context_(context), iris_(iris), gains_(gains), screens_(screens), dirt_(dirt),
+      limits_(limits),
       coarse_grid_{settings.frame.width, settings.frame.height, std::max(1, settings.tiled.coarse_tile)},
       dense_grid_{settings.frame.width, settings.frame.height, settings.tiled.dense_tile},
       image_(settings.frame.width, settings.frame.height, 3) {
@@ -62,7 +63,7 @@ void TiledFrame::traverse() {
 }
 
 void TiledFrame::traverse_row(std::size_t row) {
-  const TraversalInput input{held_, gains_, iris_, screens_, settings_.tiled.interpolation};
+  const TraversalInput input{held_, gains_, iris_, screens_, dirt_, settings_.tiled.interpolation};
   const auto columns = static_cast<std::size_t>(dense_grid_.columns());
   const int size = dense_grid_.tile;
   const int y0 = static_cast<int>(row) * size;

@@ -1,0 +1,18 @@
+// Which items' shadows of dirt are worth their while: each costs the outlines of all that lies in the ghost's way. The
+// others are dimmed by what dirt takes of them in the mean.
+#pragma once
+
+#include "render/adaptive/frame_error.h"
+#include "render/adaptive/item.h"
+
+namespace contrejour::adaptive {
+
+// Sets what dirt leaves of each item's light. The scene's lens has dirt.
+void dim_items(const Scene& scene, std::vector<Item>& items);
+
+// Gives shadows to all items but those in which leaving them out makes a small part of the error, all together. sizes:
+// of the items (estimate_peak).
+void shadow_items(const Scene& scene, std::vector<Item>& items, const std::vector<ItemSize>& sizes,
+                  const FrameError& allowed);
+
+}  // namespace contrejour::adaptive
