@@ -134,7 +134,7 @@ bool CellPainter::off_frame(const Mesh& mesh, const Cell& cell) const {
 
 // What drawing the cell as one polygon with a linear irradiance would get wrong, squared, over its pixels.
 double CellPainter::squared_error(const Mesh& mesh, const Cell& cell, State state, Sides sides) const {
-  const double passed = most_light(mesh, cell);
+  const double passed = cell.screen.most;
   return passed == 0.0 ? 0.0 : passed * passed * unscreened_error(mesh, cell, state, sides);
 }
 
@@ -200,7 +200,7 @@ double CellPainter::unscreened_error(const Mesh& mesh, const Cell& cell, State s
     const double off = left * length(mesh.position(cell.side[k]) - (a + c) * 0.5);
     error += mean * mean * std::min(off * off, off) * length(c - a) * width * width;
   }
-  const bool varied = screen_ && screen_part(mesh, cell) == ScreenPart::Varied;
+  const bool varied = cell.screen.part == ScreenPart::Varied;
   if (is_dirty(mesh, cell)) error += mean * mean * shadow_error(mesh, cell) * width * width;
   if (state == State::Cut || varied) {
     const double limit = left * limit_error(mesh, cell);
@@ -250,12 +250,22 @@ double CellPainter::limit_error(const Mesh& mesh, const Cell& cell) const {
   return largest;
 }
 
+std::optional<std::pair<CellPainter::Cell, CellPainter::State>> CellPainter::seen_cell(const Mesh& mesh, int ix, int iy,
+                                                                                       int size) const {
+  Cell cell = cell_at(ix, iy, size);
+  const State state = state_of(mesh, cell);
+  if (state == State::Closed || off_frame(mesh, cell)) return std::nullopt;
+  cell.screen = view_of_screen(mesh, cell);
+  if (cell.screen.part == ScreenPart::Dark) return std::nullopt;
+  return std::pair(cell, state);
+}
+
 bool CellPainter::wants_finer_mesh(const Mesh& mesh, int ix, int iy) const {
   for (int y = iy; y < iy + Mesh::kCells / 2; y += 2) {
     for (int x = ix; x < ix + Mesh::kCells / 2; x += 2) {
-      const Cell cell = cell_at(x, y, 2);
-      const State state = state_of(mesh, cell);
-      if (state == State::Closed || off_frame(mesh, cell)) continue;
+      const auto seen = seen_cell(mesh, x, y, 2);
+      if (!seen) continue;
+      const auto& [cell, state] = *seen;
       if (squared_error(mesh, cell, state, most_bent(state)) > kGainOfHalving * cell_budget()) return true;
     }
   }
@@ -285,11 +295,9 @@ void CellPainter::paint(const Patch& patch, int depth) {
 }
 
 void CellPainter::paint_cell(const Mesh& mesh, int ix, int iy, int size) {
-  const Cell cell = cell_at(ix, iy, size);
-  const State state = state_of(mesh, cell);
-  if (state == State::Closed || off_frame(mesh, cell)) return;
-  const ScreenPart part = screen_ ? screen_part(mesh, cell) : ScreenPart::Level;
-  if (part == ScreenPart::Dark) return;
+  const auto seen = seen_cell(mesh, ix, iy, size);
+  if (!seen) return;
+  const auto& [cell, state] = *seen;
   if (size == 1 || squared_error(mesh, cell, state, Sides::Straight) <= kStraight * cell_budget())
     return draw(mesh, cell, state, Sides::Straight);
   const Sides sides = is_dirty(mesh, cell) ? Sides::Straight : most_bent(state);
@@ -354,7 +362,7 @@ void CellPainter::draw(const Mesh& mesh, const Cell& cell, State state, Sides si
     if (is_dirty(mesh, cell)) return draw_dirty(mesh, cell, state, shade, flux, map);
     draw_polygon(mesh, state, shade, flux, outline.all(), {map});
   };
-  const bool varied = screen_ && screen_part(mesh, cell) == ScreenPart::Varied;
+  const bool varied = cell.screen.part == ScreenPart::Varied;
   if (varied && std::max(length(d), length(f)) < kOnePlace_px) {
     dim(shade, flux, passed_to(mesh, cell));
     return draw_seen(nullptr);
@@ -381,7 +389,7 @@ void CellPainter::draw_folded(const Mesh& mesh, const Cell& cell, State state) {
       flux[channel] = (w[t[0]] + w[t[1]] + w[t[2]]) / 3.0 * flux_area;
       shade.value[channel] = static_cast<float>(flux[channel] / std::max(area, 1e-12));
     }
-    const bool varied = screen_ && screen_part(mesh, cell) == ScreenPart::Varied;
+    const bool varied = cell.screen.part == ScreenPart::Varied;
     const bool one_place = length(p[2] - p[0]) < kOnePlace_px;
     if (varied && one_place) dim(shade, flux, passed_to(mesh, cell));
     const auto map = varied && !one_place ? std::optional(stop_map(mesh, t)) : std::nullopt;

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cstdint>
 #include <map>
+#include <optional>
+#include <utility>
 
 #include "render/adaptive/mesh.h"
 #include "render/adaptive/outline_cutter.h"
@@ -54,6 +56,7 @@ class CellPainter {
     int ix = 0, iy = 0, size = 0;
     std::array<std::size_t, 4> corner{}, side{};
     std::size_t middle = 0;
+    ScreenView screen{ScreenPart::Level, 1.0};  // all that is seen of it
   };
   // A corner of what is drawn: a vertex of the mesh, and where it is in the cell.
   struct CellCorner {
@@ -103,13 +106,7 @@ class CellPainter {
   static constexpr double kSoft_px = 0.2;  // of cells, for maps to be drawn with
   [[nodiscard]] double map_error(const Mesh& mesh, const Cell& cell, double longest_px) const;
   [[nodiscard]] const EdgeTable& table_for(double width);
-  struct StopDisc {
-    Vec2 middle;
-    double radius = 0.0;
-  };
-  [[nodiscard]] StopDisc stop_disc(const Mesh& mesh, const Cell& cell) const;
-  [[nodiscard]] ScreenPart screen_part(const Mesh& mesh, const Cell& cell) const;
-  [[nodiscard]] double most_light(const Mesh& mesh, const Cell& cell) const;  // that a screen lets through
+  [[nodiscard]] ScreenView view_of_screen(const Mesh& mesh, const Cell& cell) const;
   [[nodiscard]] double stop_size(const Mesh& mesh, const Cell& cell) const;
   void draw_line(std::span<const Corner> polygon, const Flux& flux);
 
@@ -117,6 +114,8 @@ class CellPainter {
   // quarter. Falling on, it would spend most of them where light gathers and nothing is gained.
   [[nodiscard]] double cell_budget() const { return budget_ / std::clamp(cells_, few_cells_, kManyCells * few_cells_); }
   [[nodiscard]] static Cell cell_at(int ix, int iy, int size);
+  // Of a cell that is neither closed nor off the frame; none if it is.
+  [[nodiscard]] std::optional<std::pair<Cell, State>> seen_cell(const Mesh& mesh, int ix, int iy, int size) const;
   [[nodiscard]] static bool misses_stop(const Mesh& mesh, const Cell& cell, int crossing);
   [[nodiscard]] State state_of(const Mesh& mesh, const Cell& cell) const;
   [[nodiscard]] bool off_frame(const Mesh& mesh, const Cell& cell) const;

@@ -13,25 +13,21 @@ std::array<double, 3> BandScreen::share(std::span<const StopPlace> places) const
   return sum;
 }
 
-ScreenPart BandScreen::over(Vec2 middle, double radius) const {
+ScreenView BandScreen::over(Vec2 middle, double radius) const {
   constexpr double kLevel = 1e-3;  // of a pattern of all the iris: so close to 1
   if (edges != nullptr) {
     const double distance = edges->distance(middle);
-    if (distance - radius > dark_beyond) return ScreenPart::Dark;
-    return distance + radius < -level_within ? ScreenPart::Level : ScreenPart::Varied;
+    const double outside = distance - radius;  // farther out it is darker
+    if (outside > dark_beyond) return {ScreenPart::Dark, 0.0};
+    return {distance + radius < -level_within ? ScreenPart::Level : ScreenPart::Varied,
+            outside > 0.0 ? edges->edge(outside, 0.0) : 1.0};
   }
-  if (pattern && length(middle) - radius > reach) return ScreenPart::Dark;
+  if (pattern && length(middle) - radius > reach) return {ScreenPart::Dark, 0.0};
+  const double most = pattern ? std::min(static_cast<double>(pattern->brightest(middle, radius)), 1.0) : 1.0;
   const ScreenPart first = parts.front().screen->over(middle, radius, kLevel);
   for (std::size_t k = 1; k < parts.size() && first != ScreenPart::Varied; ++k)
-    if (parts[k].screen->over(middle, radius, kLevel) != first) return ScreenPart::Varied;
-  return first;
-}
-
-double BandScreen::most_over(Vec2 middle, double radius) const {
-  if (pattern) return std::min(static_cast<double>(pattern->brightest(middle, radius)), 1.0);
-  if (edges == nullptr) return 1.0;
-  const double outside = edges->distance(middle) - radius;  // farther out it is darker
-  return outside > 0.0 ? edges->edge(outside, 0.0) : 1.0;
+    if (parts[k].screen->over(middle, radius, kLevel) != first) return {ScreenPart::Varied, most};
+  return {first, most};
 }
 
 }  // namespace contrejour::adaptive

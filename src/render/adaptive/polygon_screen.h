@@ -11,6 +11,12 @@
 
 namespace contrejour::adaptive {
 
+// What a disc of the stop sees of a screen: part, and about how much light passes at the most; 1 where it is more.
+struct ScreenView {
+  ScreenPart part;
+  double most;
+};
+
 // The screens of some wavelengths that are drawn together, and each one's part of each channel's light.
 struct BandScreen {
   struct Part {
@@ -21,9 +27,7 @@ struct BandScreen {
 
   [[nodiscard]] std::array<double, 3> share(std::span<const StopPlace> places) const;
   // Dark or level where all parts are.
-  [[nodiscard]] ScreenPart over(Vec2 middle, double radius) const;
-  // About how much light passes within a disc at the most; 1 where it is more.
-  [[nodiscard]] double most_over(Vec2 middle, double radius) const;
+  [[nodiscard]] ScreenView over(Vec2 middle, double radius) const;
 
   double unit = 0.1;  // of stop radii: no ripple is much finer
   // Of edges' fringes: beyond these distances outside and inside a bound there are none worth drawing.

@@ -68,26 +68,16 @@ Vec2 CellPainter::stop_place(const Mesh& mesh, std::size_t vertex, int crossing)
 }
 
 // About a cell's last crossings of the stop.
-CellPainter::StopDisc CellPainter::stop_disc(const Mesh& mesh, const Cell& cell) const {
+ScreenView CellPainter::view_of_screen(const Mesh& mesh, const Cell& cell) const {
   const int last = mesh.layout.crossings - 1;
-  StopDisc disc{stop_place(mesh, cell.middle, last), 0.0};
+  if (!screen_ || last < 0) return {ScreenPart::Level, 1.0};
+  const Vec2 middle = stop_place(mesh, cell.middle, last);
+  double radius = 0.0;
   for (const auto& vertices : {cell.corner, cell.side})
-    for (const std::size_t v : vertices)
-      disc.radius = std::max(disc.radius, kScreenDisc * length(stop_place(mesh, v, last) - disc.middle));
-  return disc;
-}
-
-ScreenPart CellPainter::screen_part(const Mesh& mesh, const Cell& cell) const {
-  if (mesh.layout.crossings == 0) return ScreenPart::Level;
-  const StopDisc disc = stop_disc(mesh, cell);
-  const ScreenPart part = screen_->over(disc.middle, disc.radius);
-  return part == ScreenPart::Level && mesh.layout.crossings > 1 ? ScreenPart::Varied : part;
-}
-
-double CellPainter::most_light(const Mesh& mesh, const Cell& cell) const {
-  if (!screen_ || mesh.layout.crossings == 0) return 1.0;
-  const StopDisc disc = stop_disc(mesh, cell);
-  return screen_->most_over(disc.middle, disc.radius);
+    for (const std::size_t v : vertices) radius = std::max(radius, length(stop_place(mesh, v, last) - middle));
+  ScreenView view = screen_->over(middle, kScreenDisc * radius);
+  if (view.part == ScreenPart::Level && last > 0) view.part = ScreenPart::Varied;  // earlier crossings are sharp
+  return view;
 }
 
 double CellPainter::stop_size(const Mesh& mesh, const Cell& cell) const {
