@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
+
+#include "render/adaptive/cell_shape.h"
 
 namespace contrejour::adaptive {
 namespace {
@@ -11,54 +12,11 @@ namespace {
 constexpr int kDeepest = 7;          // quarterings of a patch
 constexpr double kSliver = 1e-3;     // pixels: mean width below which a polygon is a line
 constexpr double kUnseenDetail = 0.3;  // pixels, of a picture as the iris
-constexpr double kOnePlace_px = 0.4; // a cell no longer than this sees the stop at one place
 constexpr double kSpeck = 0.05;      // pixels: a polygon no longer than this is a point
 constexpr int kMostPoints = 256;     // that stand for a line
-constexpr double kPixel = 1.0;       // area below which a cell is not seen but for its flux
-constexpr double kPictureEdges = 6.0;  // that cut a cell, as long as it is, where a picture is the iris
 constexpr double kStraight = 0.05;   // of a cell's budget, below which straight sides do: others meet bent ones
-// Found by measuring what doubling each does to errors and to the number of cells.
-constexpr double kShadeBound = 4.0;  // the irradiance is linear over the cell in pixels, not in shares of it
-constexpr double kFoldBound = 0.5;   // of a fold's flux, that is out of place
-constexpr double kMostBend = 0.04;   // of a cell, that what cuts it may be off
-constexpr double kLeftByBend = 0.25;  // of a curve's deviation from its chord, where a corner in its middle bends it
-constexpr std::array kSimpson{1.0 / 6.0, 4.0 / 6.0, 1.0 / 6.0};
-constexpr double kPeaks = 16.0;      // brightness over the peak where errors begin to count as relative ones
 // Half the cell, a fourth of the deviation of a curve from its chord: a sixteenth of the squared error.
 constexpr double kGainOfHalving = 16.0;
-
-struct Bounds {
-  Vec2 low{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
-  Vec2 high{-std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
-  void add(Vec2 p) {
-    low = {std::min(low.x, p.x), std::min(low.y, p.y)};
-    high = {std::max(high.x, p.x), std::max(high.y, p.y)};
-  }
-  [[nodiscard]] Vec2 size() const { return high - low; }
-};
-
-// Of a polygon: signed, and the point that halves it every way.
-struct Area {
-  double signed_px = 0;
-  Vec2 centroid;
-};
-
-template <class PositionOf>
-Area area_of(std::size_t count, PositionOf position) {
-  Area out;
-  Vec2 moment;
-  const Vec2 origin = position(std::size_t{0});
-  Vec2 before = position(std::size_t{1}) - origin;
-  for (std::size_t k = 2; k < count; ++k) {
-    const Vec2 next = position(k) - origin;
-    const double part = 0.5 * cross(before, next);
-    out.signed_px += part;
-    moment = moment + (before + next) * (part / 3.0);
-    before = next;
-  }
-  out.centroid = out.signed_px != 0.0 ? origin + moment * (1.0 / out.signed_px) : origin;
-  return out;
-}
 
 }  // namespace
 
@@ -130,124 +88,6 @@ bool CellPainter::off_frame(const Mesh& mesh, const Cell& cell) const {
   const Vec2 low = b.low + mesh.origin_px;
   const Vec2 high = b.high + mesh.origin_px;
   return !(high.x > 0.0 && high.y > 0.0 && low.x < width_ && low.y < height_);
-}
-
-// What drawing the cell as one polygon with a linear irradiance would get wrong, squared, over its pixels.
-double CellPainter::squared_error(const Mesh& mesh, const Cell& cell, State state, Sides sides) const {
-  const double passed = cell.screen.most;
-  return passed == 0.0 ? 0.0 : passed * passed * unscreened_error(mesh, cell, state, sides);
-}
-
-double CellPainter::unscreened_error(const Mesh& mesh, const Cell& cell, State state, Sides sides) const {
-  const std::array<std::size_t, 9> v{cell.corner[0], cell.side[0],   cell.corner[1], cell.side[3],  cell.middle,
-                                     cell.side[1],   cell.corner[3], cell.side[2],   cell.corner[2]};
-  Bounds b;
-  bool folded = false;
-  double sum = 0.0;
-  for (const std::size_t k : v) {
-    b.add(mesh.position(k));
-    folded = folded || mesh.area[k] * mesh.area[cell.middle] <= 0.0F;
-    sum += mesh.brightness[k];
-  }
-  const double mean = sum / 9.0;
-  const Vec2 extent = b.size();
-  const double box = std::max(extent.x, kPixel) * std::max(extent.y, kPixel);
-  // Its whole flux out of place within its bounds: no cell can do worse.
-  const double flux = std::abs(mesh.brightness[cell.middle] * mesh.area[cell.middle]) * cell.size * cell.size;
-  // Moved by a quarter of a size below a pixel, an eighth of its square is what pixels see.
-  const double seen_part = dot(extent, extent) / (dot(extent, extent) + 8.0);
-  const double worst = flux * flux / box * seen_part;
-  if (folded) {
-    const double seen = 1.0 / (1.0 + flux / box / (kPeaks * peak_));
-    return kFoldBound * worst * seen * seen;
-  }
-
-  const auto e = [&](std::size_t k) { return static_cast<double>(mesh.brightness[v[k]]); };
-  const double along_u = (e(2) + e(5) + e(8) - e(0) - e(3) - e(6)) / 6.0;
-  const double along_v = (e(6) + e(7) + e(8) - e(0) - e(1) - e(2)) / 6.0;
-  double residual = 0.0;
-  for (std::size_t k = 0; k < 9; ++k) {
-    const double plane =
-        mean + along_u * (static_cast<double>(k % 3) - 1.0) + along_v * (static_cast<double>(k / 3) - 1.0);
-    residual += (e(k) - plane) * (e(k) - plane) / 9.0;
-  }
-  // What is drawn has the flux over the polygon's area for its mean.
-  const Outline outline = outline_of(cell, sides);
-  const double drawn_area = std::abs(
-      area_of(outline.count, [&](std::size_t k) { return mesh.position(outline.corners[k].vertex); }).signed_px);
-  double cell_flux = 0.0;
-  double cell_area = 0.0;
-  for (std::size_t k = 0; k < 9; ++k) {
-    const double part = kSimpson[k % 3] * kSimpson[k / 3] * std::abs(mesh.area[v[k]]) * cell.size * cell.size;
-    cell_area += part;
-    cell_flux += part * e(k);
-  }
-  const double off_level = cell_flux / std::max(drawn_area, 1e-12) - cell_flux / std::max(cell_area, 1e-12);
-  residual += off_level * off_level;
-
-  const double longest = std::max(extent.x, extent.y);
-  const double area = std::abs(mesh.area[cell.middle]) * cell.size * cell.size;
-  const double width = std::min(1.0, area / std::max(longest, 1e-6));  // a sliver's flux is seen spread over a pixel
-  // Far above the frame's peak only the relative error counts.
-  const double dimmed = 1.0 / (1.0 + mean / (kPeaks * peak_));
-  double error = kShadeBound * residual * area * width;
-
-  // Sides off their place: beside a cell with more corners they overlap or leave a gap, cut ones are seen.
-  const double left = sides == Sides::Bent ? kLeftByBend : 1.0;
-  for (std::size_t k = 0; k < 4; ++k) {
-    const Vec2 a = mesh.position(cell.corner[k]);
-    const Vec2 c = mesh.position(cell.corner[(k + 1) % 4]);
-    const double off = left * length(mesh.position(cell.side[k]) - (a + c) * 0.5);
-    error += mean * mean * std::min(off * off, off) * length(c - a) * width * width;
-  }
-  const bool varied = cell.screen.part == ScreenPart::Varied;
-  if (is_dirty(mesh, cell)) error += mean * mean * shadow_error(mesh, cell) * width * width;
-  if (state == State::Cut || varied) {
-    const double limit = left * limit_error(mesh, cell);
-    if (state == State::Cut && limit > left * kMostBend)
-      return std::numeric_limits<double>::infinity();  // or light would be lost unseen
-    const auto along_edges = [&](double off, double edges) {
-      return mean * mean * std::min(off * off, off) * edges * longest * width * width;
-    };
-    if (state == State::Cut) error += along_edges(limit * longest, iris_.is_picture() ? kPictureEdges : 1.0);
-    if (varied && longest > kOnePlace_px)  // soft ones
-      error += along_edges(map_error(mesh, cell, longest) * longest,
-                           std::min(1.0, stop_size(mesh, cell) / (screen_->unit * longest)));
-  }
-  return std::min(error, 4.0 * worst) * dimmed * dimmed;
-}
-
-// How far the lines that cut the cell are off when stop coordinates and rims are taken as linear along its sides, as
-// a share of the cell.
-double CellPainter::limit_error(const Mesh& mesh, const Cell& cell) const {
-  double largest = 0.0;
-  const int first_rim = mesh.layout.rim(0);
-  for (int f = screen_ ? first_rim : PatchLayout::kStop; f < mesh.layout.fields(); ++f) {
-    const Mesh::Field& v = mesh.field(f);
-    float low = v[cell.corner[0]];
-    float high = low;
-    for (const std::size_t k : cell.corner) {
-      low = std::min(low, v[k]);
-      high = std::max(high, v[k]);
-    }
-    float lowest = std::min(low, v[cell.middle]);  // a rim may pass inside a cell whose corners are all beyond it
-    for (const std::size_t k : cell.side) lowest = std::min(lowest, v[k]);
-    if (f >= first_rim && (high <= 1.0F || lowest > 1.0F)) continue;
-    double off = 0.0;
-    for (std::size_t k = 0; k < 4; ++k) {
-      off = std::max(off, std::abs(static_cast<double>(v[cell.side[k]]) -
-                                   0.5 * (v[cell.corner[k]] + v[cell.corner[(k + 1) % 4]])));
-    }
-    // Neighbouring stop fields are one point's coordinates: the larger change is the scale of both.
-    double change = high - low;
-    if (f < first_rim) {
-      const Mesh::Field& w = mesh.field((f - PatchLayout::kStop) % 2 == 0 ? f + 1 : f - 1);
-      for (const std::size_t k : cell.corner)
-        change = std::max(change, 2.0 * std::abs(static_cast<double>(w[k]) - w[cell.middle]));
-    }
-    if (change > 0.0) largest = std::max(largest, off / change);
-  }
-  return largest;
 }
 
 std::optional<std::pair<CellPainter::Cell, CellPainter::State>> CellPainter::seen_cell(const Mesh& mesh, int ix, int iy,
@@ -398,26 +238,6 @@ void CellPainter::draw_folded(const Mesh& mesh, const Cell& cell, State state) {
   }
 }
 
-// Chords of an arc that miss it by no more pixels than the budget allows; half as many either way would do.
-double CellPainter::arc_step(const Mesh& mesh, std::span<const CellCorner> corners, const Shade& shade) const {
-  double reach = 0.0;
-  Bounds b;
-  for (const CellCorner& corner : corners) {
-    b.add(mesh.position(corner.vertex));
-    for (int f = PatchLayout::kStop; f < mesh.layout.rim(0); ++f) {
-      const Mesh::Field& stop = mesh.field(f);
-      reach = std::max(reach, std::abs(static_cast<double>(stop[corner.vertex]) - stop[corners[0].vertex]));
-    }
-  }
-  const double longest = std::max(b.size().x, b.size().y);
-  const double level = std::max({std::abs(shade.value[0]), std::abs(shade.value[1]), std::abs(shade.value[2])});
-  const double seen = level / (1.0 + level / (kPeaks * peak_));
-  const double off_px =
-      std::clamp(0.25 * std::sqrt(cell_budget() / std::max(longest, 1.0)) / std::max(seen, 1e-300), 0.02, 0.5);
-  const double pixels_per_radius = longest / std::max(reach, 1e-9);
-  return std::clamp(std::sqrt(8.0 * off_px / pixels_per_radius), 0.02, 0.8);
-}
-
 void CellPainter::draw_polygon(const Mesh& mesh, State state, const Shade& shade, const Flux& flux,
                                std::span<const CellCorner> corners, const Behind& behind) {
   std::array<Corner, 8> whole;
@@ -486,6 +306,14 @@ void CellPainter::draw_part(std::span<const Corner> polygon, const Shade& shade,
     for (double& value : passed) value *= left;
   }
   draw_line(polygon, passed);
+}
+
+// Into the room for what is added next.
+std::span<const Point> CellPainter::points_of(std::span<const Corner> polygon) {
+  points_.clear();
+  for (const Corner& c : polygon)
+    points_.push_back({static_cast<float>(c.position.x), static_cast<float>(c.position.y)});
+  return points_;
 }
 
 // The flux at points between the ends of a polygon that is thinner than can be told.

@@ -71,6 +71,8 @@ class CellPainter {
   };
 
   static constexpr double kManyCells = 4.0;
+  static constexpr double kSoft_px = 0.2;      // of cells, for maps to be drawn with
+  static constexpr double kOnePlace_px = 0.4;  // a cell no longer than this sees the stop at one place
 
   static void dim(Shade& shade, Flux& flux, const Flux& share);
   void paint(const Patch& patch, int depth);
@@ -103,11 +105,11 @@ class CellPainter {
   [[nodiscard]] StopMap stop_map(const Mesh& mesh, const std::array<std::size_t, 3>& triangle) const;
   template <class SeriesOf>
   [[nodiscard]] StopMap stop_map(const Mesh& mesh, double softness_px, const SeriesOf& series_of) const;
-  static constexpr double kSoft_px = 0.2;  // of cells, for maps to be drawn with
   [[nodiscard]] double map_error(const Mesh& mesh, const Cell& cell, double longest_px) const;
   [[nodiscard]] const EdgeTable& table_for(double width);
   [[nodiscard]] ScreenView view_of_screen(const Mesh& mesh, const Cell& cell) const;
   [[nodiscard]] double stop_size(const Mesh& mesh, const Cell& cell) const;
+  [[nodiscard]] std::span<const Point> points_of(std::span<const Corner> polygon);
   void draw_line(std::span<const Corner> polygon, const Flux& flux);
 
   // Of the next cell. How many there will be is not known before: their share falls as they become more, down to a

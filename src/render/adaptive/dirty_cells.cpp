@@ -112,18 +112,15 @@ void CellPainter::add_seen(std::span<const Corner> polygon, double area_px, cons
     add_seen(polygon, area_px, shade, flux, {behind.screen});
     return add_shadows(polygon, shade, flux, behind);
   }
-  points_.clear();
-  for (const Corner& c : polygon)
-    points_.push_back({static_cast<float>(c.position.x), static_cast<float>(c.position.y)});
   if (behind.dirt != nullptr) {
     out_.dirt.push_back(past_dirt(*behind.dirt));
     Screened seen{behind.screen != nullptr ? *behind.screen : out_.dirt.back().map,
                   behind.screen != nullptr ? screen_.get() : nullptr};
     seen.dirt = static_cast<std::uint32_t>(out_.dirt.size());
-    return out_.add(points_, shade, seen, {});
+    return out_.add(points_of(polygon), shade, seen, {});
   }
   if (behind.screen != nullptr) return draw_screened(polygon, area_px, shade, flux, *behind.screen);
-  out_.add(points_, shade);
+  out_.add(points_of(polygon), shade);
 }
 
 void CellPainter::add_shadows(std::span<const Corner> polygon, const Shade& shade, const Flux& flux,

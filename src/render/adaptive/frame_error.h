@@ -12,6 +12,12 @@ struct FrameError {
   [[nodiscard]] double squared() const { return error * peak * error * peak * pixels; }  // summed over the pixels
 };
 
+// What counts of a level's error: all of it up to the peak, and far above that only its share of the level.
+[[nodiscard]] inline double seen_share(double level, double peak) {
+  constexpr double kPeaks = 16.0;  // over the peak, where half counts
+  return 1.0 / (1.0 + level / (kPeaks * peak));
+}
+
 // Of some items' squared errors, by rising error: those beyond what the smallest may make together.
 [[nodiscard]] std::vector<std::size_t> worth_drawing(std::vector<std::size_t> some, const std::vector<double>& error,
                                                      double allowed);

@@ -155,7 +155,7 @@ std::array<double, 3> CellPainter::passed_to(const Mesh& mesh, const Cell& cell)
 void CellPainter::draw_screened(std::span<const Corner> polygon, double area_px, const Shade& shade, const Flux& flux,
                                 const StopMap& map) {
   if (screen_->edges == nullptr || map.crossings() > 1)
-    return out_.add(points_, shade, Screened{map, screen_.get()}, {});
+    return out_.add(points_of(polygon), shade, Screened{map, screen_.get()}, {});
   const EdgeTable& table = table_for(map.width());
   if (area_px < kWorthCutting_px || table.iris().is_picture()) return add_fringed(polygon, shade, map, table);
   const double room = map.bend();  // cuts are straight, places are not
@@ -183,10 +183,7 @@ void CellPainter::add_fringed(std::span<const Corner> polygon, const Shade& shad
     // Distances are convex: none within is larger than at the corners, but for pixels that reach beyond.
     if (nearest + map.width() + map.bend() > -table.level_within()) active_.push_back(static_cast<std::uint16_t>(k));
   }
-  points_.clear();
-  for (const Corner& c : polygon)
-    points_.push_back({static_cast<float>(c.position.x), static_cast<float>(c.position.y)});
-  out_.add(points_, shade, Screened{map, screen_.get(), &table}, active_);
+  out_.add(points_of(polygon), shade, Screened{map, screen_.get(), &table}, active_);
 }
 
 }  // namespace contrejour::adaptive

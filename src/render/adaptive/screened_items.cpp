@@ -13,7 +13,6 @@ namespace {
 
 // Of the frame's squared error: what ghosts that stay sharp may make, and small ripples within the others.
 constexpr double kSharpShare = 0.6, kRippleShare = 0.5;
-constexpr double kPeaks = 16.0;  // levels over the peak from which on errors count as relative ones (cell_painter.cpp)
 // A straight edge's profile less the sharp one, squared and summed, is so many of an edge's units.
 constexpr double kEdgeError = 0.3;
 constexpr double kOutline = 1.5;  // over a disc's of the same area
@@ -26,7 +25,7 @@ struct Rim {
 };
 
 Rim rim_of(const ItemSize& size, double peak, double fresnel_number) {
-  const double seen = size.level / (1.0 + size.level / (kPeaks * peak));
+  const double seen = size.level * seen_share(size.level, peak);
   // unit = R / sqrt(2 F), the outline 2 pi R, pi R^2 the area.
   return {seen, kOutline * seen * seen * 2.0 * size.area_px / std::sqrt(2.0 * std::max(fresnel_number, 0.5)),
           seen * seen * size.area_px / std::numbers::pi};

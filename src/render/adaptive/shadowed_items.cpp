@@ -11,7 +11,6 @@ namespace {
 
 constexpr double kUnshadowedShare = 0.15;  // of the frame's squared error, that ghosts without shadows may make
 constexpr double kRoom = 0.07;  // of an item's boxes, beside its light (item.cpp)
-constexpr double kPeaks = 16.0;  // levels over the peak from which on errors count as relative ones (cell_painter.cpp)
 
 // In the plane of the dirt: about the box that the item's light crosses, mm.
 Rectangle crossed(const Scene& scene, const Item& item) {
@@ -36,7 +35,7 @@ double shadow_error(const Scene& scene, const Item& item, const ItemSize& size, 
   if (!(size.area_px > 0.0)) return std::numeric_limits<double>::infinity();  // a careless look did not find it
   const Rectangle box = crossed(scene, item);
   const double area_mm2 = 0.25 * std::numbers::pi * (box.high.x - box.low.x) * (box.high.y - box.low.y);
-  const double seen = size.level / (1.0 + size.level / (kPeaks * peak));
+  const double seen = size.level * seen_share(size.level, peak);
   return seen * seen * size.area_px * scene.dirt->variance(std::sqrt(area_mm2 / size.area_px));
 }
 

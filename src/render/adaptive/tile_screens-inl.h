@@ -9,8 +9,11 @@
 #include <hwy/highway.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
 #include <span>
+#include <utility>
 
 #include "render/adaptive/quad-inl.h"
 #include "render/adaptive/tile_edges-inl.h"
@@ -78,72 +81,73 @@ HWY_INLINE hn::Vec<FloatTag> distance_from(const IrisBound& bound, hn::Vec<Float
   return hn::Sub(hn::Sqrt(hn::MulAdd(from_x, from_x, hn::Mul(from_y, from_y))), set(bound.radius));
 }
 
-// What passes where one edge of an iris brings fringes.
-class Fringe {
+// A row's places in a table of fringes, by distance from an edge.
+class FringeRow {
  public:
-  Fringe(const EdgeTable& table, const IrisBound& bound) : table_(table), bound_(bound) {}
+  explicit FringeRow(const EdgeTable& table)
+      : table_(table), per_step_(static_cast<float>(table.per_step())),
+        dark_(static_cast<float>(table.dark_beyond() * table.per_step())),
+        most_(static_cast<float>(table.count() - 1)) {}
 
-  void look(const PixelRow& row) {
+  HWY_INLINE Seen put(int k, hn::Vec<FloatTag> distance) {
     const FloatTag d;
-    const Scale scale(table_);
-    const int lanes = static_cast<int>(hn::Lanes(d));
-    for (int k = 0; k < row.count; k += lanes) {
-      const auto place = scale.place(distance_from(bound_, hn::Load(d, row.stop_x + k), hn::Load(d, row.stop_y + k)));
-      seen_[k / lanes] = scale.seen(place);
-      at_.put(k, place, scale.most);
-    }
+    const auto place = hn::NegMulAdd(distance, hn::Set(d, per_step_), hn::Set(d, dark_));
+    at_.put(k, place, most_);
+    if (hn::AllTrue(d, hn::Ge(place, hn::Set(d, most_)))) return Seen::Level;
+    return hn::AllTrue(d, hn::Le(place, hn::Zero(d))) ? Seen::Dark : Seen::Varied;
   }
-  [[nodiscard]] Seen seen(int group) const { return seen_[group]; }
   [[nodiscard]] HWY_INLINE Quad passed(int k) const {
     const float* const entry = table_.entries() + EdgeTable::kStride * static_cast<std::size_t>(at_.whole[k]);
     return mix(Quad::load(entry), Quad::load(entry + EdgeTable::kStride), Quad::all(at_.rest[k]));
   }
 
  private:
-  friend class Fringes;
-  struct Scale {  // from distances to places in the table
-    explicit Scale(const EdgeTable& table)
-        : per_step(static_cast<float>(table.per_step())),
-          dark(static_cast<float>(table.dark_beyond() * table.per_step())),
-          most(static_cast<float>(table.count() - 1)) {}
-    [[nodiscard]] HWY_INLINE hn::Vec<FloatTag> place(hn::Vec<FloatTag> distance) const {
-      const FloatTag d;
-      return hn::NegMulAdd(distance, hn::Set(d, per_step), hn::Set(d, dark));
-    }
-    [[nodiscard]] HWY_INLINE Seen seen(hn::Vec<FloatTag> place) const {
-      const FloatTag d;
-      if (hn::AllTrue(d, hn::Ge(place, hn::Set(d, most)))) return Seen::Level;
-      return hn::AllTrue(d, hn::Le(place, hn::Zero(d))) ? Seen::Dark : Seen::Varied;
-    }
-    float per_step, dark, most;
-  };
-
   const EdgeTable& table_;
-  const IrisBound& bound_;
+  float per_step_, dark_, most_;
   TableRow at_;
+};
+
+// What passes where one edge of an iris brings fringes.
+class Fringe {
+ public:
+  Fringe(const EdgeTable& table, const IrisBound& bound) : row_(table), bound_(bound) {}
+
+  void look(const PixelRow& row) {
+    const FloatTag d;
+    const int lanes = static_cast<int>(hn::Lanes(d));
+    for (int k = 0; k < row.count; k += lanes)
+      seen_[k / lanes] = row_.put(k, distance_from(bound_, hn::Load(d, row.stop_x + k), hn::Load(d, row.stop_y + k)));
+  }
+  [[nodiscard]] Seen seen(int group) const { return seen_[group]; }
+  [[nodiscard]] HWY_INLINE Quad passed(int k) const { return row_.passed(k); }
+
+ private:
+  FringeRow row_;
+  const IrisBound& bound_;
   Seen seen_[kMostGroups];
 };
 
 // The product of what several edges bring. A picture's outline is one.
 class Fringes {
  public:
-  Fringes(const EdgeTable& table, std::span<const std::uint16_t> active) : table_(table), active_(active) {}
+  Fringes(const EdgeTable& table, std::span<const std::uint16_t> active)
+      : iris_(table.iris()), active_(active), one_(table) {}
 
   void look(const PixelRow& row) {
     const FloatTag d;
     std::fill_n(passed_, TileSums::kPixel * static_cast<std::size_t>(row.count), 1.0F);
     std::fill_n(seen_, row.count, Seen::Level);
-    if (table_.iris().is_picture()) {
+    if (iris_.is_picture()) {
       HWY_ALIGN float distance[hn::MaxLanes(FloatTag())] = {};
       return apply(row, [&](int k) {
         for (int j = 0; j < static_cast<int>(hn::Lanes(d)) && k + j < row.count; ++j)
-          distance[j] = static_cast<float>(table_.iris().picture_distance(row.stop(k + j)));
+          distance[j] = static_cast<float>(iris_.picture_distance(row.stop(k + j)));
         return hn::Load(d, distance);
       });
     }
     for (const std::uint16_t bound : active_)
       apply(row, [&](int k) {
-        return distance_from(table_.iris().bounds()[bound], hn::Load(d, row.stop_x + k), hn::Load(d, row.stop_y + k));
+        return distance_from(iris_.bounds()[bound], hn::Load(d, row.stop_x + k), hn::Load(d, row.stop_y + k));
       });
   }
   [[nodiscard]] Seen seen(int group) const { return seen_[group]; }
@@ -154,26 +158,23 @@ class Fringes {
  private:
   template <class DistanceAt>
   HWY_INLINE void apply(const PixelRow& row, const DistanceAt& distance_at) {
-    const FloatTag d;
-    const Fringe::Scale scale(table_);
-    Fringe one(table_, table_.iris().bounds()[0]);
-    const int lanes = static_cast<int>(hn::Lanes(d));
+    const int lanes = static_cast<int>(hn::Lanes(FloatTag()));
     for (int k = 0; k < row.count; k += lanes) {
-      const auto place = scale.place(distance_at(k));
       Seen& seen = seen_[k / lanes];
-      const Seen here = scale.seen(place);
-      if (here == Seen::Level || seen == Seen::Dark) continue;
+      if (seen == Seen::Dark) continue;
+      const Seen here = one_.put(k, distance_at(k));
+      if (here == Seen::Level) continue;
       seen = here;
       if (seen == Seen::Dark) continue;
-      one.at_.put(k, place, scale.most);
       const int end = std::min(k + lanes, row.count);
       for (int j = k; j < end; ++j)
-        (passed(j) * one.passed(j)).store(passed_ + TileSums::kPixel * static_cast<std::size_t>(j));
+        (passed(j) * one_.passed(j)).store(passed_ + TileSums::kPixel * static_cast<std::size_t>(j));
     }
   }
 
-  const EdgeTable& table_;
+  const IrisShape& iris_;
   std::span<const std::uint16_t> active_;
+  FringeRow one_;
   HWY_ALIGN float passed_[TileSums::kPixel * TileGrid::kWidth];
   Seen seen_[kMostGroups];
 };
