@@ -100,7 +100,8 @@ TEST_CASE("lights at half a metre and nearer, as in the reference") {
     CAPTURE(what);
     CAPTURE(c.distance_mm);
     const LensState lens = bundled(c.lens, c.settings);
-    const RenderSettings settings = small_frame(lens, 96, 64);
+    RenderSettings settings = small_frame(lens, 96, 64);
+    settings.reference_density = 0.5;
     const Light light = near_light(lens, settings.frame, c.uv, c.distance_mm);
     const Image truth = truth_of(lens, light, settings);
     CHECK(sum(truth) > 0.0);
