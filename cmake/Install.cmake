@@ -14,10 +14,15 @@ install(FILES LICENSE README.md CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DOCDIR}
 # The library is static, so whoever links it links what it uses: the config file finds every library that a layer
 # names (`LINK` and `PUBLIC_LINK` of contrejour_layer). A target's package is its namespace but for these.
 set(package_of_tl tl-expected)
+set(without_namespace yaml-cpp)
 get_property(linked GLOBAL PROPERTY CONTREJOUR_LINK)
 get_property(linked_publicly GLOBAL PROPERTY CONTREJOUR_PUBLIC_LINK)
 set(CONTREJOUR_FIND_DEPENDENCIES "")
 foreach(target IN LISTS linked linked_publicly)
+  if(target IN_LIST without_namespace)
+    list(APPEND packages ${target})
+    continue()
+  endif()
   if(NOT target MATCHES "^([^:]+)::")
     message(FATAL_ERROR "${target}: a layer links imported targets only (package::target), so that the package can find them")
   endif()

@@ -47,6 +47,7 @@ PUBLIC = {
     "ghost.h": "ghosts",
     "ghost_figures.h": "render/interface",
     "glass.h": "glass",
+    "glass_catalogue.h": "glass",
     "image.h": "image",
     "image_io.h": "image",
     "iris.h": "kernels",
@@ -97,6 +98,7 @@ FENCED = [
     (r"(vulkan|GLES?\d?|OpenGL)/|glad|shaderc", ("src/gpu", "apps/studio"), "graphics stays in gpu and the studio"),
     (r"GLFW/|imgui|ofx", ("apps",), "windows and hosts belong to apps"),
     (r"(oneapi/)?tbb/", ("src/base",), "threads come from base/tasks.h, where their hand-overs are annotated"),
+    (r"yaml-cpp/", ("src/base",), "one wrapper that keeps its exceptions in"),
     (r"gemmi/|pocketfft|Eigen/", ("src/diffraction",), "one wrapper of the FFT and of the eigen solver each"),
 ]
 

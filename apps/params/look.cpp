@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::string_view kPage = "docs/formats/look.md";
 
-// In alphabetical order; written by embed_toml.cmake when the program is built.
+// In alphabetical order; written by embed_text.cmake when the program is built.
 constexpr BundledLook kBundled[] = {
 #include "bundled_looks.inc"
 };

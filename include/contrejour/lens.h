@@ -22,6 +22,8 @@
 
 namespace contrejour {
 
+class GlassCatalogue;  // glass_catalogue.h
+
 enum class SurfaceKind { Refracting, Stop };
 
 struct Surface {
@@ -141,11 +143,13 @@ struct LensState {
 // of its range.
 [[nodiscard]] Result<LensState> lens_at(const Prescription& lens, const LensSettings& settings = {});
 
-// Reads a lens in any format that is known, by content and extension. Bounded in memory and time.
-[[nodiscard]] Result<Prescription> read_lens(const std::filesystem::path& file);
+// Reads a lens in any format that is known, by content and extension. Bounded in memory and time. Glasses that the file
+// names are looked for in `glasses`, if given, and then in the bundled catalogue.
+[[nodiscard]] Result<Prescription> read_lens(const std::filesystem::path& file, const GlassCatalogue* glasses = nullptr);
 
 // Our own format (docs/formats/lens-toml.md) from memory; `file` names it in errors.
-[[nodiscard]] Result<Prescription> read_lens_toml(std::string_view text, const std::string& file);
+[[nodiscard]] Result<Prescription> read_lens_toml(std::string_view text, const std::string& file,
+                                                  const GlassCatalogue* glasses = nullptr);
 [[nodiscard]] std::string write_lens_toml(const Prescription& lens);
 
 // Lenses that come with the library.
@@ -156,6 +160,6 @@ struct BundledLens {
 [[nodiscard]] std::vector<BundledLens> bundled_lenses();
 
 // A bundled name, or else a file.
-[[nodiscard]] Result<Prescription> find_lens(const std::string& name_or_file);
+[[nodiscard]] Result<Prescription> find_lens(const std::string& name_or_file, const GlassCatalogue* glasses = nullptr);
 
 }  // namespace contrejour

@@ -3,6 +3,8 @@
 #include <cmath>
 
 #include "base/units.h"
+#include "optics/glass/buchdahl_model.h"
+#include "optics/glass/formulas.h"
 
 namespace contrejour {
 namespace {
@@ -25,10 +27,28 @@ double index_of(const Sellmeier& glass, double lambda_nm) {
   return std::sqrt(n2);
 }
 
+double index_of(const ModelGlass& glass, double lambda_nm) { return model_index(glass, um_from_nm(lambda_nm)); }
+
+// The catalogue's own figure, but for those against vacuum: divided by air's, at the air's wavelength.
+double index_of(const CatalogueGlass& glass, double lambda_nm) {
+  const GlassData& data = glass.data();
+  if (!data.index_in_vacuum && !data.wavelength_in_vacuum)
+    return formula_index(data.formula, data.coefficients, um_from_nm(lambda_nm));
+  const double n_air = air_index(lambda_nm, {data.reference_temperature_c, 1.0});
+  const double there_nm = data.wavelength_in_vacuum ? lambda_nm * n_air : lambda_nm;
+  const double n = formula_index(data.formula, data.coefficients, um_from_nm(there_nm));
+  return data.index_in_vacuum ? n / n_air : n;
+}
+
 }  // namespace
 
 double refractive_index(const Glass& glass, double lambda_nm) {
   return std::visit([&](const auto& dispersion) { return index_of(dispersion, lambda_nm); }, glass.dispersion);
+}
+
+std::optional<WavelengthRange> wavelength_range_nm(const Glass& glass) {
+  if (const auto* known = std::get_if<CatalogueGlass>(&glass.dispersion)) return known->data().range_nm;
+  return std::nullopt;
 }
 
 bool is_air(const Glass& glass) {

@@ -5,7 +5,7 @@ namespace contrejour {
 
 namespace {
 
-// In alphabetical order; written by embed_toml.cmake when the library is built.
+// In alphabetical order; written by embed_text.cmake when the library is built.
 constexpr BundledLens kBundled[] = {
 #include "bundled_lenses.inc"
 };

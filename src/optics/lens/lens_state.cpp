@@ -209,6 +209,21 @@ Result<void> set_focus(LensState& state, const Prescription& lens, double object
   return {};
 }
 
+// A formula followed beyond where its maker vouches for it, within the visible lines g to C or at the design wavelength.
+void warn_of_glasses(LensState& state) {
+  for (std::size_t k = 0; k < state.surfaces.size(); ++k) {
+    const Glass& glass = state.surfaces[k].after;
+    const auto range = wavelength_range_nm(glass);
+    if (!range) continue;
+    if (range->first_nm <= std::min(kLineG_nm, state.design_wavelength_nm) &&
+        range->last_nm >= std::max(kLineC_nm, state.design_wavelength_nm))
+      continue;
+    state.warnings.push_back(fmt::format("surface {}: the formula of {} holds from {:g} to {:g} nm; beyond, its index is a guess",
+                                         k + 1, glass.name.empty() ? "its glass" : glass.name, range->first_nm,
+                                         range->last_nm));
+  }
+}
+
 }  // namespace
 
 Result<LensState> lens_at(const Prescription& lens, const LensSettings& settings) {
@@ -231,6 +246,7 @@ Result<LensState> lens_at(const Prescription& lens, const LensSettings& settings
   if (!std::isfinite(state.focal_length_mm)) {
     return failure(ErrorCode::InvalidArgument, "the lens has no power, so no focal length; check its radii", lens.file);
   }
+  warn_of_glasses(state);
   if (const auto set = set_stop(state, lens, settings.f_number); !set) return tl::unexpected<Error>(set.error());
   if (const auto set = set_iris(state, lens, settings); !set) return tl::unexpected<Error>(set.error());
   if (const auto good = check_dirt(settings.dirt); !good) return tl::unexpected<Error>(good.error());

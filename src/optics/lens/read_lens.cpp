@@ -36,7 +36,7 @@ bool looks_like_toml(std::string_view text) {
 
 }  // namespace
 
-Result<Prescription> read_lens(const std::filesystem::path& file) {
+Result<Prescription> read_lens(const std::filesystem::path& file, const GlassCatalogue* glasses) {
   const auto text = read_text_file(file, kMaxLensFileBytes, "see the bundled lenses by `contrejour lens list`");
   if (!text) return tl::unexpected(text.error());
   const std::string name = file.string();
@@ -47,7 +47,7 @@ Result<Prescription> read_lens(const std::filesystem::path& file) {
                    "(docs/formats/lens-toml.md)",
                    {name, 0, 0});
   }
-  if (extension_of(file) == ".toml" || looks_like_toml(*text)) return read_lens_toml(*text, name);
+  if (extension_of(file) == ".toml" || looks_like_toml(*text)) return read_lens_toml(*text, name, glasses);
   const std::string first_line = text->substr(0, text->find('\n'));
   return failure(ErrorCode::Parse,
                  fmt::format("not a lens file that is known: it begins with '{}'; give a TOML lens "
@@ -56,7 +56,7 @@ Result<Prescription> read_lens(const std::filesystem::path& file) {
                  {name, 1, 0});
 }
 
-Result<Prescription> find_lens(const std::string& name_or_file) {
+Result<Prescription> find_lens(const std::string& name_or_file, const GlassCatalogue* glasses) {
   const std::vector<BundledLens> bundled = bundled_lenses();
   for (const BundledLens& lens : bundled) {
     if (lens.name == name_or_file) return read_lens_toml(lens.toml, std::string(lens.name) + ".toml");
@@ -64,7 +64,7 @@ Result<Prescription> find_lens(const std::string& name_or_file) {
   std::error_code code;
   const std::filesystem::path path(name_or_file);
   const bool is_path = path.has_parent_path() || path.has_extension();
-  if (is_path || std::filesystem::exists(path, code)) return read_lens(path);
+  if (is_path || std::filesystem::exists(path, code)) return read_lens(path, glasses);
   std::vector<std::string_view> names;
   for (const BundledLens& lens : bundled) names.push_back(lens.name);
   const std::string near = nearest_name(name_or_file, names);

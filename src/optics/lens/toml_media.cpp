@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "base/near_name.h"
+#include "optics/lens/toml_formula.h"
 #include "optics/lens/validate.h"
 
 namespace contrejour {
@@ -27,23 +28,30 @@ std::array<double, 3> read_triple(TomlFields& fields, std::string_view key, bool
   return values;
 }
 
-// One of {n}, {n_d, v_d}, {sellmeier_b, sellmeier_c_um2}; which of them the keys say.
+// One of {n}, {n_d, v_d}, {sellmeier_b, sellmeier_c_um2}, {formula, coefficients}; which of them the keys say.
 Glass read_glass_keys(const toml::table& table, std::string name, const std::string& what, TomlErrors& errors) {
-  TomlFields fields(table, what, {"name", "n", "n_d", "v_d", "sellmeier_b", "sellmeier_c_um2"}, errors);
+  if (table.contains("formula")) return read_formula_keys(table, std::move(name), what, errors);
+  TomlFields fields(table, what, {"name", "n", "n_d", "v_d", "d_pgf", "sellmeier_b", "sellmeier_c_um2"}, errors);
   const bool constant = fields.has("n");
-  const bool abbe = fields.has("n_d") || fields.has("v_d");
+  const bool abbe = fields.has("n_d") || fields.has("v_d") || fields.has("d_pgf");
   const bool sellmeier = fields.has("sellmeier_b") || fields.has("sellmeier_c_um2");
   Glass glass{fields.text("name").value_or(std::move(name)), {}};
   if (int{constant} + int{abbe} + int{sellmeier} != 1) {
-    fields.fail_here("give a glass either n_d and v_d, or n alone, or sellmeier_b and sellmeier_c_um2");
+    fields.fail_here("give a glass either n_d and v_d, or n alone, or sellmeier_b and sellmeier_c_um2, or a formula");
     return glass;
   }
   bool ok = true;
   if (constant) {
     glass.dispersion = ConstantIndex{fields.required_number("n", kFinite, "")};
   } else if (abbe) {
-    glass.dispersion = AbbeGlass{fields.required_number("n_d", kFinite, "give the index at 587.56 nm"),
-                                 fields.required_number("v_d", kFinite, "give the Abbe number, or n alone")};
+    const double n_d = fields.required_number("n_d", kFinite, "give the index at 587.56 nm");
+    const double v_d = fields.required_number("v_d", kFinite, "give the Abbe number, or n alone");
+    const auto d_pgf = fields.number("d_pgf", kFinite);
+    if (d_pgf) {
+      glass.dispersion = ModelGlass{n_d, v_d, *d_pgf};
+    } else {
+      glass.dispersion = AbbeGlass{n_d, v_d};
+    }
   } else {
     Sellmeier coefficients;
     coefficients.b = read_triple(fields, "sellmeier_b", ok);
@@ -125,21 +133,45 @@ MediumTable<Medium> read_medium_table(const toml::table& lens, std::string_view 
   return media;
 }
 
-// The table's entry of that name; an error names the nearest.
+// The table's entry of that name, or null.
 template <class Medium>
-Medium look_up(const toml::node& node, std::string_view name, const std::string& what, std::string_view kind,
-               MediumTable<Medium>& table, TomlErrors& errors) {
-  if (const auto found = table.find(name); found != table.end()) {
-    found->second.used = true;
-    return found->second.value;
-  }
+const Medium* look_up(std::string_view name, MediumTable<Medium>& table) {
+  const auto found = table.find(name);
+  if (found == table.end()) return nullptr;
+  found->second.used = true;
+  return &found->second.value;
+}
+
+// An error that names the nearest of the table.
+template <class Medium>
+void fail_unknown(const toml::node& node, std::string_view name, const std::string& what, std::string_view kind,
+                  const MediumTable<Medium>& table, TomlErrors& errors) {
   std::vector<std::string_view> names;
   for (const auto& entry : table) names.push_back(entry.first);
   const std::string near = nearest_name(name, names);
   const std::string remedy = near.empty() ? fmt::format("add it under [{}]", kind)
                                           : fmt::format("did you mean '{}'?", shortened(near));
   errors.fail(node, fmt::format("{}: no {} is called '{}'; {}", what, kind, shortened(name), remedy));
-  return {};
+}
+
+// A catalogue's glass; where none has it and the table has none of a like name, the catalogue's nearest is named.
+Glass read_catalogue_glass(const toml::node& node, const std::string& name, const std::string& what,
+                           const MediumTable<Glass>& table, GlassFinder& finder, TomlErrors& errors) {
+  auto found = finder.find(name);
+  if (found) {
+    if (const auto problem = glass_problem(*found)) {
+      errors.fail(node, fmt::format("{}, glass '{}': {}", what, shortened(name), *problem));
+    }
+    return std::move(*found);
+  }
+  std::vector<std::string_view> names;
+  for (const auto& entry : table) names.push_back(entry.first);
+  if (nearest_name(name, names).empty()) {
+    errors.fail(node, fmt::format("{}: {}; or add it under [glass]", what, found.error().message));
+  } else {
+    fail_unknown(node, name, what, "glass", table, errors);
+  }
+  return air();
 }
 
 template <class Medium>
@@ -161,7 +193,7 @@ MediumTable<Coating> read_coating_table(const toml::table& lens, TomlErrors& err
   return read_medium_table<Coating>(lens, "coating", read_coating_keys, errors);
 }
 
-Glass read_glass(const toml::node& node, const std::string& what, MediumTable<Glass>& table,
+Glass read_glass(const toml::node& node, const std::string& what, MediumTable<Glass>& table, GlassFinder& finder,
                  TomlErrors& errors) {
   if (const toml::table* keys = node.as_table()) return read_glass_keys(*keys, "", what + ", glass", errors);
   const auto* name = node.as_string();
@@ -170,7 +202,8 @@ Glass read_glass(const toml::node& node, const std::string& what, MediumTable<Gl
     return air();
   }
   if (name->get() == "air") return air();
-  return look_up(node, name->get(), what, "glass", table, errors);
+  if (const Glass* found = look_up(name->get(), table)) return *found;
+  return read_catalogue_glass(node, name->get(), what, table, finder, errors);
 }
 
 Coating read_coating(const toml::node& node, const std::string& what, MediumTable<Coating>& table,
@@ -185,7 +218,9 @@ Coating read_coating(const toml::node& node, const std::string& what, MediumTabl
   }
   if (name->get() == "none") return {};
   if (name->get() == "quarter-wave") return {"", QuarterWave{}};
-  return look_up(node, name->get(), what, "coating", table, errors);
+  if (const Coating* found = look_up(name->get(), table)) return *found;
+  fail_unknown(node, name->get(), what, "coating", table, errors);
+  return {};
 }
 
 void refuse_unused(const MediumTable<Glass>& glasses, const MediumTable<Coating>& coatings,

@@ -7,6 +7,7 @@
 #include "contrejour/coating.h"
 #include "contrejour/glass.h"
 #include "base/toml_fields.h"
+#include "optics/lens/glass_finder.h"
 
 namespace contrejour {
 
@@ -25,8 +26,10 @@ using MediumTable = std::map<std::string, NamedMedium<Medium>, std::less<>>;
 MediumTable<Glass> read_glass_table(const toml::table& lens, TomlErrors& errors);
 MediumTable<Coating> read_coating_table(const toml::table& lens, TomlErrors& errors);
 
-// From the value of a row's `glass` or `coating`; what: how errors call it, e.g. "surface 3".
-Glass read_glass(const toml::node& node, const std::string& what, MediumTable<Glass>& table, TomlErrors& errors);
+// From the value of a row's `glass` or `coating`; what: how errors call it, e.g. "surface 3". A name that is not in the
+// table is a catalogue's.
+Glass read_glass(const toml::node& node, const std::string& what, MediumTable<Glass>& table, GlassFinder& finder,
+                 TomlErrors& errors);
 Coating read_coating(const toml::node& node, const std::string& what, MediumTable<Coating>& table,
                      TomlErrors& errors);
 

@@ -30,10 +30,11 @@ struct Reader {
   TomlErrors errors;
   MediumTable<Glass> glasses;
   MediumTable<Coating> coatings;
+  GlassFinder finder;
   Coating default_coating;
   Prescription lens;
 
-  explicit Reader(const std::string& file) : errors(file) {}
+  Reader(const std::string& file, const GlassCatalogue* own) : errors(file), finder(own) {}
 
   [[nodiscard]] Glass glass_before() const {
     return lens.surfaces.empty() ? air() : lens.surfaces.back().glass_after;
@@ -145,7 +146,7 @@ void Reader::read_surface(const toml::table& row, bool last) {
   } else {
     surface.curvature_per_mm = read_curvature(fields);
     const toml::node* glass = fields.find("glass");
-    surface.glass_after = glass == nullptr ? air() : read_glass(*glass, fields.what(), glasses, errors);
+    surface.glass_after = glass == nullptr ? air() : read_glass(*glass, fields.what(), glasses, finder, errors);
     surface.coating = coating_of(fields, surface);
   }
   if (!errors.failed()) lens.surfaces.push_back(std::move(surface));
@@ -229,14 +230,14 @@ void Reader::read_zoom_position(const toml::table& row) {
 
 }  // namespace
 
-Result<Prescription> read_lens_toml(std::string_view text, const std::string& file) {
+Result<Prescription> read_lens_toml(std::string_view text, const std::string& file, const GlassCatalogue* glasses) {
   if (text.size() > kMaxLensFileBytes) {
     return failure(ErrorCode::Parse, fmt::format("{} bytes; a lens file has at most {}", text.size(),
                                                  kMaxLensFileBytes), {file, 0, 0});
   }
   const Result<toml::table> root = parse_toml(text, file, "docs/formats/lens-toml.md");
   if (!root) return tl::unexpected(root.error());
-  Reader reader(file);
+  Reader reader(file, glasses);
   reader.lens.file = {file, 1, 0};
   reader.read_lens_table(*root);
   if (reader.errors.failed()) return tl::unexpected(reader.errors.error());

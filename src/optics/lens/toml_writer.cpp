@@ -6,6 +6,8 @@
 
 #include "base/toml_fields.h"
 #include "contrejour/lens.h"
+#include "optics/lens/glass_finder.h"
+#include "optics/lens/toml_formula.h"
 
 namespace contrejour {
 
@@ -38,6 +40,10 @@ struct DispersionText {
     };
     return fmt::format("sellmeier_b = {}, sellmeier_c_um2 = {}", list(glass.b), list(glass.c_um2));
   }
+  std::string operator()(const ModelGlass& glass) const {
+    return fmt::format("n_d = {}, v_d = {}, d_pgf = {}", number(glass.n_d), number(glass.v_d), number(glass.d_pgf));
+  }
+  std::string operator()(const CatalogueGlass& glass) const { return formula_text(glass.data()); }
 };
 
 struct FilmsText {
@@ -74,19 +80,35 @@ class MediaTable {
     if (medium.name.empty()) return fmt::format("{{ {} }}", keys);
     const std::string inline_text = fmt::format("{{ name = {}, {} }}", toml_string(medium.name), keys);
     if (reserved_name(medium.name)) return inline_text;
+    if (is_known(medium)) {
+      const auto [entry, is_new] = keys_.emplace(medium.name, "");
+      return entry->second.empty() ? toml_string(medium.name) : inline_text;
+    }
     const auto [entry, is_new] = keys_.emplace(medium.name, keys);
     return entry->second == keys ? toml_string(medium.name) : inline_text;
   }
 
   [[nodiscard]] std::string text(std::string_view title) const {
-    if (keys_.empty()) return {};
-    std::string out = fmt::format("\n[{}]\n", title);
-    for (const auto& [name, keys] : keys_) out += fmt::format("{} = {{ {} }}\n", toml_string(name), keys);
-    return out;
+    std::string rows;
+    for (const auto& [name, keys] : keys_) {
+      if (!keys.empty()) rows += fmt::format("{} = {{ {} }}\n", toml_string(name), keys);
+    }
+    return rows.empty() ? rows : fmt::format("\n[{}]\n{}", title, rows);
   }
 
  private:
-  std::map<std::string, std::string> keys_;
+  // What a reader makes of the name alone is this medium.
+  bool is_known(const Glass& glass) {
+    const bool by_name = std::holds_alternative<ModelGlass>(glass.dispersion) ||
+                         std::holds_alternative<CatalogueGlass>(glass.dispersion);
+    if (!by_name) return false;
+    const auto found = finder_.find(glass.name);
+    return found && *found == glass;
+  }
+  static bool is_known(const Coating&) { return false; }
+
+  std::map<std::string, std::string> keys_;  // empty: known by name, needs no row
+  GlassFinder finder_;
 };
 
 std::string surface_row(const Surface& surface, bool last, MediaTable& glasses, MediaTable& coatings) {

@@ -227,6 +227,13 @@ std::optional<std::string> glass_problem(const Glass& glass) {
     const bool fits = abbe->v_d == 0.0 || within(abbe->v_d, 5.0, 200.0);
     if (!fits) return fmt::format("v_d is {}; an Abbe number is from 5 to 200", abbe->v_d);
   }
+  if (const auto* model = std::get_if<ModelGlass>(&glass.dispersion)) {
+    const bool fits = (model->v_d == 0.0 || within(model->v_d, 5.0, 200.0)) && within(model->d_pgf, -1.0, 1.0);
+    if (!fits) {
+      return fmt::format("v_d is {} and d_pgf {}; an Abbe number is from 5 to 200, a deviation from -1 to 1", model->v_d,
+                         model->d_pgf);
+    }
+  }
   if (const auto* sellmeier = std::get_if<Sellmeier>(&glass.dispersion)) {
     for (const double c_um2 : sellmeier->c_um2) {
       // A resonance inside the visible: no glass, and an index without bound between the samples below.

@@ -1,6 +1,6 @@
-# cmake -DOUT=FILE -DFOLDER=DIR -P embed_toml.cmake
-# Writes every DIR/*.toml as { "stem", "text" } rows. One literal a line: compilers bound the length of one literal.
-file(GLOB files ${FOLDER}/*.toml)
+# cmake -DOUT=FILE -DFOLDER=DIR -DEXTENSION=EXT -P embed_text.cmake
+# Writes every DIR/*.EXT as { "stem", "text" } rows. One literal a line: compilers bound the length of one literal.
+file(GLOB files ${FOLDER}/*.${EXTENSION})
 list(SORT files)
 set(rows "")
 foreach(file IN LISTS files)

@@ -1,0 +1,101 @@
+// Glasses by name and maker: those that come with the library, and users' own catalogues (AGF files, refractiveindex.info
+// YAML; docs/formats/glass.md). Files are read bounded in memory and time. Errors: Parse with file and line, Io;
+// InvalidArgument for a name that no catalogue has, with the nearest. Thread-safety: plain values.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "contrejour/glass.h"
+#include "contrejour/result.h"
+
+namespace contrejour {
+
+enum class GlassStatus { Standard, Preferred, Obsolete, Special, Melt };  // as AGF files number them
+
+[[nodiscard]] std::string_view status_name(GlassStatus status);  // "standard", "obsolete", ...
+
+// A glass in a list. n_d and v_d as its catalogue states them, else computed; 0 where the formula does not reach.
+struct GlassSummary {
+  std::string name;   // "N-BK7"
+  std::string maker;  // "SCHOTT"
+  std::string code;   // six digits, may be empty
+  GlassStatus status = GlassStatus::Standard;
+  double n_d = 0.0;
+  double v_d = 0.0;
+};
+
+struct CatalogueEntry {
+  GlassSummary summary;
+  Glass glass;         // named as the catalogue names it
+  std::string source;  // the file it comes from
+};
+
+// What a file holds. warnings: glasses left out, or figures that disagree, each "file:line: ...".
+struct GlassFile {
+  std::vector<CatalogueEntry> glasses;
+  std::vector<std::string> warnings;
+};
+
+// An AGF file in UTF-8, UTF-16 or Latin-1, with any line ends. A glass that cannot be is left out with a warning.
+// Errors: Parse if the file is none, or holds no glass that can be read.
+[[nodiscard]] Result<GlassFile> read_agf(std::string_view bytes, const std::string& file, const std::string& maker);
+
+// One glass, as refractiveindex.info's database has it. Errors: Parse; Unsupported for a page without n(lambda).
+[[nodiscard]] Result<GlassFile> read_glass_yaml(std::string_view bytes, const std::string& file, const std::string& maker,
+                                                const std::string& name);
+
+// By its ending: .agf, .yml, .yaml. The maker is an AGF file's own name in capitals, as lens files' GCAT lists have it;
+// for YAML its folder's (that above `optical`, as in the database). The glass of a YAML file has the file's name.
+[[nodiscard]] Result<GlassFile> read_glass_file(const std::filesystem::path& file);
+
+struct CloseGlass {
+  GlassSummary glass;
+  double distance = 0.0;  // see closest()
+};
+
+class GlassCatalogue {
+ public:
+  GlassCatalogue();
+  ~GlassCatalogue();
+  GlassCatalogue(const GlassCatalogue&);
+  GlassCatalogue(GlassCatalogue&&) noexcept;
+  GlassCatalogue& operator=(const GlassCatalogue&);
+  GlassCatalogue& operator=(GlassCatalogue&&) noexcept;
+
+  // Behind those that are there: the first of a name is found.
+  void add(std::vector<CatalogueEntry> glasses);
+  void add(const GlassCatalogue& other);
+  // A file, or all .agf, .yml and .yaml files of a folder and the folders in it. A folder's files that cannot be read
+  // are warnings. Returns warnings.
+  [[nodiscard]] Result<std::vector<std::string>> add_path(const std::filesystem::path& path);
+
+  [[nodiscard]] std::size_t size() const;
+  [[nodiscard]] GlassSummary summary(std::size_t k) const;
+  [[nodiscard]] CatalogueEntry entry(std::size_t k) const;
+  [[nodiscard]] std::vector<std::string> makers() const;  // each once, in order
+
+  // "N-BK7", "nbk7", "SCHOTT N-BK7", "NBK7_SCHOTT": letter case, spaces, dashes and underscores aside. A name that none
+  // has is tried as the lead-free one of that name ("BK7" finds "N-BK7": look at the entry's own name). makers: where
+  // to look, in that order; empty: everywhere. Errors: InvalidArgument, naming the nearest.
+  [[nodiscard]] Result<CatalogueEntry> find(std::string_view name, std::span<const std::string> makers = {}) const;
+
+  // The nearest `count` to (n_d, v_d), nearest first: distance^2 = ((n - n_d) / 0.001)^2 + ((v - v_d) / 0.8)^2, so that
+  // 1 is about what melts of one glass differ by. Obsolete ones only on request.
+  [[nodiscard]] std::vector<CloseGlass> closest(double n_d, double v_d, std::size_t count = 1,
+                                                std::span<const std::string> makers = {}, bool obsolete = false) const;
+
+ private:
+  friend GlassCatalogue bundled_glasses();
+  struct Row;
+  std::vector<Row> rows_;
+};
+
+// The catalogue that comes with the library, read from its text: a millisecond or two, so keep it.
+[[nodiscard]] GlassCatalogue bundled_glasses();
+
+}  // namespace contrejour

@@ -1,0 +1,32 @@
+// A YAML file as a tree of its own, bounded in depth, nodes and size: yaml-cpp reads, what it throws stays here.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "contrejour/result.h"
+
+namespace contrejour {
+
+struct YamlNode {
+  enum class Kind { Null, Scalar, List, Map };
+
+  Kind kind = Kind::Null;
+  int line = 0;  // from 1
+  std::string scalar;
+  std::vector<YamlNode> list;
+  std::vector<std::pair<std::string, YamlNode>> map;
+
+  // The map's value of that key, or null: also where this is no map.
+  [[nodiscard]] const YamlNode* find(std::string_view key) const;
+};
+
+inline constexpr std::size_t kYamlMaxBytes = std::size_t{1} << 20U;
+
+// The file's first document. Errors: Parse with the line for what is not YAML, aliases, more than 1 MiB, 10000 nodes or
+// ten levels.
+[[nodiscard]] Result<YamlNode> parse_yaml(std::string_view text, const std::string& file);
+
+}  // namespace contrejour

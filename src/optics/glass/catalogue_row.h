@@ -1,0 +1,19 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <string_view>
+
+#include "contrejour/glass_catalogue.h"
+
+namespace contrejour {
+
+// A bundled glass stays a line of text until it is asked for.
+struct GlassCatalogue::Row {
+  GlassSummary summary;
+  std::string key, maker_key;                   // as names are compared
+  std::string_view line;                        // of a bundled file; or:
+  std::shared_ptr<const CatalogueEntry> entry;  // of a user's
+};
+
+}  // namespace contrejour

@@ -1,0 +1,27 @@
+// Glasses by the names that lens files give them.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "contrejour/glass_catalogue.h"
+
+namespace contrejour {
+
+// One for the reading of one file: the bundled catalogue is loaded when a name is first asked for that is not elsewhere.
+class GlassFinder {
+ public:
+  explicit GlassFinder(const GlassCatalogue* own = nullptr) : own_(own) {}
+
+  // A six-digit code, a glass of the caller's own catalogue, a bundled one; named as asked for. makers: see
+  // GlassCatalogue::find. Errors: InvalidArgument, naming the nearest.
+  [[nodiscard]] Result<Glass> find(std::string_view name, std::span<const std::string> makers = {});
+
+ private:
+  const GlassCatalogue* own_;
+  std::optional<GlassCatalogue> bundled_;
+};
+
+}  // namespace contrejour
