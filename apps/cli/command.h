@@ -20,6 +20,7 @@ using Action = std::function<Result<int>()>;
 void add_render(CLI::App& app, Action& action);
 void add_apply(CLI::App& app, Action& action);
 void add_lens(CLI::App& app, Action& action);
+void add_glass(CLI::App& app, Action& action);
 void add_ghosts(CLI::App& app, Action& action);
 void add_compare(CLI::App& app, Action& action);
 void add_look(CLI::App& app, Action& action);
@@ -31,6 +32,10 @@ void add_lens_draw(CLI::App& lens, Action& action);
 void add_lens_convert(CLI::App& lens, Action& action);
 void add_lens_check(CLI::App& lens, Action& action);
 void add_lens_trace(CLI::App& lens, Action& action);
+
+void add_glass_list(CLI::App& glass, Action& action);
+void add_glass_show(CLI::App& glass, Action& action);
+void add_glass_closest(CLI::App& glass, Action& action);
 
 void add_bench_tables(CLI::App& bench, Action& action);
 void add_bench_effects(CLI::App& bench, Action& action);

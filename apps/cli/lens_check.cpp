@@ -9,6 +9,7 @@
 
 #include "cli/command.h"
 #include "cli/console.h"
+#include "cli/lens_choice.h"
 #include "cli/text_table.h"
 #include "contrejour/first_order.h"
 #include "contrejour/lens.h"
@@ -34,7 +35,7 @@ struct Verdict {
 Verdict check_lens(const std::string& file) {
   Verdict verdict;
   verdict.file = file;
-  auto lens = find_lens(file);
+  auto lens = prescription_of(file);
   if (!lens) {
     verdict.refused = lens.error();
     return verdict;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "cli/console.h"
+#include "cli/glass_choice.h"
 #include "params/settings.h"
 
 namespace contrejour::cli {
@@ -13,8 +14,14 @@ CLI::Option* add_lens_argument(CLI::App& command, std::string& lens) {
       ->option_text(" ");
 }
 
+Result<Prescription> prescription_of(const std::string& lens) {
+  const auto glasses = own_glasses();
+  if (!glasses) return tl::unexpected(glasses.error());
+  return find_lens(lens, &*glasses);
+}
+
 Result<LensState> open_lens(const std::string& lens, const params::Values& values) {
-  const auto prescription = find_lens(lens);
+  const auto prescription = prescription_of(lens);
   if (!prescription) return tl::unexpected(prescription.error());
   const auto settings = params::lens_settings(values);
   if (!settings) return tl::unexpected(settings.error());

@@ -14,6 +14,9 @@ namespace contrejour::cli {
 // The LENS argument.
 CLI::Option* add_lens_argument(CLI::App& command, std::string& lens);
 
+// find_lens() with the user's own glasses (glass_choice.h).
+[[nodiscard]] Result<Prescription> prescription_of(const std::string& lens);
+
 // Finds and sets it; prints its warnings. Errors: those of find_lens and lens_at.
 [[nodiscard]] Result<LensState> open_lens(const std::string& lens, const params::Values& values);
 

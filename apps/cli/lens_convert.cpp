@@ -6,6 +6,7 @@
 
 #include "cli/command.h"
 #include "cli/console.h"
+#include "cli/lens_choice.h"
 #include "cli/options.h"
 #include "cli/outputs.h"
 #include "contrejour/lens.h"
@@ -21,7 +22,7 @@ Result<int> run_convert(const ConvertOptions& options) {
   Outputs outputs;
   const auto file = outputs.add(options.output);
   if (!file) return tl::unexpected(file.error());
-  const auto lens = find_lens(options.input);
+  const auto lens = prescription_of(options.input);
   if (!lens) return tl::unexpected(lens.error());
   if (const auto ok = write_text(*file, write_lens_toml(*lens)); !ok) return tl::unexpected(ok.error());
   if (const auto ok = outputs.commit(); !ok) return tl::unexpected(ok.error());

@@ -136,7 +136,7 @@ std::string info_text(const Info& info) {
 }
 
 Result<int> run_info(const InfoOptions& options) {
-  auto lens = find_lens(options.lens);
+  auto lens = prescription_of(options.lens);
   if (!lens) return tl::unexpected(lens.error());
   const auto settings = params::lens_settings(options.values);
   if (!settings) return tl::unexpected(settings.error());

@@ -84,7 +84,7 @@ enum class DispersionFormula {
   Rii8,
   Rii9,
   Cauchy = 31,  // A, B, C, ...: n = A + B / lambda^2 + C / lambda^4 + ...
-  Buchdahl,     // n_d, nu1, nu2, ...: powers of Buchdahl's chromatic coordinate about the d line
+  Buchdahl,     // lambda_0 (um), n_0, nu1, nu2, ...: powers of Buchdahl's chromatic coordinate about lambda_0
   Table,        // pairs of wavelength (um) and n, the wavelengths rising: monotone between neighbours
 };
 

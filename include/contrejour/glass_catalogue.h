@@ -78,6 +78,8 @@ class GlassCatalogue {
   [[nodiscard]] GlassSummary summary(std::size_t k) const;
   [[nodiscard]] CatalogueEntry entry(std::size_t k) const;
   [[nodiscard]] std::vector<std::string> makers() const;  // each once, in order
+  // Of one of these makers, names compared as find() does; true where none is given.
+  [[nodiscard]] bool is_of(std::size_t k, std::span<const std::string> makers) const;
 
   // "N-BK7", "nbk7", "SCHOTT N-BK7", "NBK7_SCHOTT": letter case, spaces, dashes and underscores aside. A name that none
   // has is tried as the lead-free one of that name ("BK7" finds "N-BK7": look at the entry's own name). makers: where

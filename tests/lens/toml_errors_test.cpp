@@ -87,8 +87,9 @@ TEST_CASE("numbers that are no lengths") {
 }
 
 TEST_CASE("glasses") {
-  check_edit("glass = \"BK7\"", "glass = \"BK8\"", 6, "no glass is called 'BK8'; did you mean 'BK7'?");
-  check_edit("glass = \"BK7\"", "glass = \"LaSF31\"", 6, "no glass is called 'LaSF31'; add it under [glass]");
+  check_edit("glass = \"BK7\"", "glass = \"BK7x\"", 6, "no glass is called 'BK7x'; did you mean 'BK7'?");
+  check_edit("glass = \"BK7\"", "glass = \"marble\"", 6, "no glass is called 'marble'");
+  check_edit("glass = \"BK7\"", "glass = \"marble\"", 6, "add it under [glass]");
   check_edit("n_d = 1.5168", "n_d = 0.9", 15, "glass 'BK7': the glass's index is 0.8");
   check_edit("n_d = 1.5168", "n_d = 15.168", 15, "it must be from 1 to 5");
   check_edit("v_d = 64.17", "v_d = -3", 15, "v_d is -3; an Abbe number is from 5 to 200");

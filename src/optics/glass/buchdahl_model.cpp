@@ -7,7 +7,7 @@ namespace contrejour {
 
 double model_index(const ModelGlass& glass, double lambda_um) {
   if (glass.v_d == 0.0) return glass.n_d;
-  constexpr std::array<double, 2> kCoordinate{0.0, 1.0};
+  constexpr std::array kCoordinate{um_from_nm(kLineD_nm), 0.0, 1.0};
   const auto w_at = [&](double um) { return formula_index(DispersionFormula::Buchdahl, kCoordinate, um); };
   const double wg = w_at(um_from_nm(kLineG_nm)), wf = w_at(um_from_nm(kLineF_nm)), wc = w_at(um_from_nm(kLineC_nm));
   // v1 (wF - wC) + v2 (wF^2 - wC^2) = n_F - n_C and the same of g and F, by Cramer's rule.

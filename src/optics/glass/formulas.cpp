@@ -43,7 +43,7 @@ constexpr std::array kFormulas{
     Entry{Rii8, "rii-8", {4, 4}},
     Entry{Rii9, "rii-9", {6, 6}},
     Entry{Cauchy, "cauchy", {1, kMany}},
-    Entry{Buchdahl, "buchdahl", {1, 10}},
+    Entry{Buchdahl, "buchdahl", {2, 10}},
     Entry{Table, "table", {2, kTableMost, false, true}},
 };
 
@@ -117,8 +117,8 @@ double rii9_squared(const Coefficients& c, double lambda_um) {
 }
 
 double buchdahl(const Coefficients& c, double lambda_um) {
-  const double off = lambda_um - kLineD_nm / 1000.0;
-  return polynomial(c, 0, c.size(), off / (1.0 + kBuchdahlAlpha_per_um * off));
+  const double off = lambda_um - c[0];
+  return polynomial(c, 1, c.size(), off / (1.0 + kBuchdahlAlpha_per_um * off));
 }
 
 }  // namespace

@@ -93,6 +93,11 @@ std::vector<std::string> GlassCatalogue::makers() const {
   return all;
 }
 
+bool GlassCatalogue::is_of(std::size_t k, std::span<const std::string> makers) const {
+  return makers.empty() || std::any_of(makers.begin(), makers.end(),
+                                       [&](const std::string& maker) { return rows_[k].maker_key == maker_key(maker); });
+}
+
 Result<CatalogueEntry> GlassCatalogue::find(std::string_view name, std::span<const std::string> makers) const {
   const std::string key = key_of(name.substr(0, kLongestName));
   const auto row_of = [&](std::string_view wanted, const std::string* maker) {
@@ -128,13 +133,11 @@ Result<CatalogueEntry> GlassCatalogue::find(std::string_view name, std::span<con
 
 std::vector<CloseGlass> GlassCatalogue::closest(double n_d, double v_d, std::size_t count,
                                                 std::span<const std::string> makers, bool obsolete) const {
-  std::vector<std::string> keys;
-  for (const std::string& maker : makers) keys.push_back(maker_key(maker));
   std::vector<CloseGlass> all;
-  for (const Row& row : rows_) {
-    const GlassSummary& glass = row.summary;
+  for (std::size_t k = 0; k < rows_.size(); ++k) {
+    const GlassSummary& glass = rows_[k].summary;
     if (glass.n_d == 0.0 || glass.v_d == 0.0 || (glass.status == GlassStatus::Obsolete && !obsolete)) continue;
-    if (!keys.empty() && std::find(keys.begin(), keys.end(), row.maker_key) == keys.end()) continue;
+    if (!is_of(k, makers)) continue;
     all.push_back({glass, std::hypot((glass.n_d - n_d) / kIndexStep, (glass.v_d - v_d) / kAbbeStep)});
   }
   std::stable_sort(all.begin(), all.end(), [](const CloseGlass& a, const CloseGlass& b) { return a.distance < b.distance; });

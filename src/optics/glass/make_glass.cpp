@@ -11,8 +11,8 @@
 namespace contrejour {
 namespace {
 
-constexpr double kShortest_nm = 1e-4;  // tables of a few materials go to X-rays
-constexpr double kLongest_nm = 1e6;  // 1 mm
+constexpr double kShortest_nm = 1e-4;  // tables of a few materials go from X-rays to microwaves
+constexpr double kLongest_nm = 1e9;
 constexpr double kHuge = 1e30;       // of a coefficient
 constexpr double kMaxIndex = 100.0;
 constexpr int kSamples = 33;         // of the range, to see that n is a number throughout

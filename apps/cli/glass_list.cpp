@@ -1,0 +1,123 @@
+// contrejour glass list and closest: many glasses, one line each.
+#include <memory>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "cli/command.h"
+#include "cli/console.h"
+#include "cli/glass_choice.h"
+#include "cli/text_table.h"
+
+namespace contrejour::cli {
+namespace {
+
+struct ListOptions {
+  std::vector<std::string> catalogues, makers;
+  bool json = false;
+  // of closest:
+  double n_d = 0, v_d = 0;
+  int count = 5;
+  bool obsolete = false;
+};
+
+Json summary_json(const GlassSummary& glass) {
+  const auto or_null = [](double value) { return value == 0.0 ? Json() : Json(value); };
+  return {{"name", glass.name},       {"maker", glass.maker},         {"status", status_name(glass.status)},
+          {"code", glass.code},       {"n_d", or_null(glass.n_d)},    {"v_d", or_null(glass.v_d)}};
+}
+
+std::vector<std::string> summary_cells(const GlassSummary& glass) {
+  const auto number = [](double value, int digits) { return value == 0.0 ? "" : fmt::format("{:.{}f}", value, digits); };
+  return {glass.maker, glass.name, number(glass.n_d, 6), number(glass.v_d, 3), glass.code, std::string(status_name(glass.status))};
+}
+
+void add_common_options(CLI::App& command, ListOptions& options) {
+  command.add_option("--maker", options.makers, "only this maker's; may be repeated")->option_text("MAKER");
+  add_catalogue_option(command, options.catalogues);
+  command.add_flag("--json", options.json, "as JSON");
+}
+
+// A maker that no catalogue has is a mistake.
+Result<void> check_makers(const GlassCatalogue& glasses, const std::vector<std::string>& wanted) {
+  for (const std::string& maker : wanted) {
+    bool known = false;
+    for (std::size_t k = 0; k < glasses.size() && !known; ++k) known = glasses.is_of(k, std::vector<std::string>{maker});
+    if (known) continue;
+    return failure(ErrorCode::InvalidArgument, fmt::format("no catalogue has glasses of '{}'; there are those of {}", maker,
+                                                           fmt::join(glasses.makers(), ", ")));
+  }
+  return {};
+}
+
+Result<int> run_list(const ListOptions& options) {
+  const auto glasses = all_glasses(options.catalogues);
+  if (!glasses) return tl::unexpected(glasses.error());
+  if (const auto known = check_makers(*glasses, options.makers); !known) return tl::unexpected(known.error());
+  Json list = Json::array();
+  TextTable table({"<maker", "<glass", "n_d", "V_d", "<code", "<status"});
+  for (std::size_t k = 0; k < glasses->size(); ++k) {
+    if (!glasses->is_of(k, options.makers)) continue;
+    const GlassSummary glass = glasses->summary(k);
+    if (options.json) {
+      list.push_back(summary_json(glass));
+    } else {
+      table.add(summary_cells(glass));
+    }
+  }
+  if (options.json) {
+    print_json({{"glasses", list}});
+  } else {
+    print(table.text());
+  }
+  return kDone;
+}
+
+Result<int> run_closest(const ListOptions& options) {
+  const auto glasses = all_glasses(options.catalogues);
+  if (!glasses) return tl::unexpected(glasses.error());
+  if (const auto known = check_makers(*glasses, options.makers); !known) return tl::unexpected(known.error());
+  const auto close = glasses->closest(options.n_d, options.v_d, static_cast<std::size_t>(options.count), options.makers,
+                                      options.obsolete);
+  Json list = Json::array();
+  TextTable table({"distance", "<maker", "<glass", "n_d", "V_d", "<code", "<status"});
+  for (const CloseGlass& one : close) {
+    Json row = summary_json(one.glass);
+    row["distance"] = one.distance;
+    list.push_back(std::move(row));
+    std::vector<std::string> cells = summary_cells(one.glass);
+    cells.insert(cells.begin(), fmt::format("{:.3f}", one.distance));
+    table.add(std::move(cells));
+  }
+  if (options.json) {
+    print_json({{"n_d", options.n_d}, {"v_d", options.v_d}, {"glasses", list}});
+  } else {
+    print(table.text());
+  }
+  return kDone;
+}
+
+}  // namespace
+
+void add_glass_list(CLI::App& glass, Action& action) {
+  const auto options = std::make_shared<ListOptions>();
+  CLI::App* command = glass.add_subcommand("list", "the glasses that are known, one line each");
+  add_common_options(*command, *options);
+  command->footer("Examples:\n  contrejour glass list --maker SCHOTT --maker OHARA\n  contrejour glass list --catalogue mine.agf --json");
+  command->callback([options, &action] { action = [options] { return run_list(*options); }; });
+}
+
+void add_glass_closest(CLI::App& glass, Action& action) {
+  const auto options = std::make_shared<ListOptions>();
+  CLI::App* command = glass.add_subcommand("closest", "the glasses nearest to an index and an Abbe number");
+  command->add_option("N_D", options->n_d, "index at 587.56 nm")->required()->check(CLI::Range(1.0, 5.0))->option_text(" ");
+  command->add_option("V_D", options->v_d, "Abbe number")->required()->check(CLI::Range(5.0, 200.0))->option_text(" ");
+  command->add_option("--count", options->count, "how many")->check(CLI::Range(1, 10000))->option_text("N");
+  command->add_flag("--obsolete", options->obsolete, "also glasses that are no longer made");
+  add_common_options(*command, *options);
+  command->footer("Distance 1 is 0.001 of n_d, or 0.8 of V_d: about what melts of one glass differ by.\n\n"
+                  "Examples:\n  contrejour glass closest 1.62004 36.37\n  contrejour glass closest 1.5168 64.2 --maker HOYA --count 1 --json");
+  command->callback([options, &action] { action = [options] { return run_closest(*options); }; });
+}
+
+}  // namespace contrejour::cli
