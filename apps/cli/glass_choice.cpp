@@ -28,7 +28,9 @@ std::vector<std::string> environment_paths() {
 }  // namespace
 
 void add_catalogue_option(CLI::App& command, std::vector<std::string>& paths) {
-  command.add_option("--catalogue", paths, "your own glasses: an .agf file, a .yml of refractiveindex.info, or a folder of them")
+  command
+      .add_option("--catalogue", paths,
+                  "your own glasses: an .agf file, a .yml of refractiveindex.info, or a folder of them")
       ->option_text("PATH");
 }
 

@@ -23,13 +23,16 @@ struct ListOptions {
 
 Json summary_json(const GlassSummary& glass) {
   const auto or_null = [](double value) { return value == 0.0 ? Json() : Json(value); };
-  return {{"name", glass.name},       {"maker", glass.maker},         {"status", status_name(glass.status)},
-          {"code", glass.code},       {"n_d", or_null(glass.n_d)},    {"v_d", or_null(glass.v_d)}};
+  return {{"name", glass.name}, {"maker", glass.maker},      {"status", status_name(glass.status)},
+          {"code", glass.code}, {"n_d", or_null(glass.n_d)}, {"v_d", or_null(glass.v_d)}};
 }
 
 std::vector<std::string> summary_cells(const GlassSummary& glass) {
-  const auto number = [](double value, int digits) { return value == 0.0 ? "" : fmt::format("{:.{}f}", value, digits); };
-  return {glass.maker, glass.name, number(glass.n_d, 6), number(glass.v_d, 3), glass.code, std::string(status_name(glass.status))};
+  const auto number = [](double value, int digits) {
+    return value == 0.0 ? "" : fmt::format("{:.{}f}", value, digits);
+  };
+  return {glass.maker,          glass.name, number(glass.n_d, 6),
+          number(glass.v_d, 3), glass.code, std::string(status_name(glass.status))};
 }
 
 void add_common_options(CLI::App& command, ListOptions& options) {
@@ -42,10 +45,11 @@ void add_common_options(CLI::App& command, ListOptions& options) {
 Result<void> check_makers(const GlassCatalogue& glasses, const std::vector<std::string>& wanted) {
   for (const std::string& maker : wanted) {
     bool known = false;
-    for (std::size_t k = 0; k < glasses.size() && !known; ++k) known = glasses.is_of(k, std::vector<std::string>{maker});
+    for (std::size_t k = 0; k < glasses.size() && !known; ++k)
+      known = glasses.is_of(k, std::vector<std::string>{maker});
     if (known) continue;
-    return failure(ErrorCode::InvalidArgument, fmt::format("no catalogue has glasses of '{}'; there are those of {}", maker,
-                                                           fmt::join(glasses.makers(), ", ")));
+    return failure(ErrorCode::InvalidArgument, fmt::format("no catalogue has glasses of '{}'; there are those of {}",
+                                                           maker, fmt::join(glasses.makers(), ", ")));
   }
   return {};
 }
@@ -103,20 +107,27 @@ void add_glass_list(CLI::App& glass, Action& action) {
   const auto options = std::make_shared<ListOptions>();
   CLI::App* command = glass.add_subcommand("list", "the glasses that are known, one line each");
   add_common_options(*command, *options);
-  command->footer("Examples:\n  contrejour glass list --maker SCHOTT --maker OHARA\n  contrejour glass list --catalogue mine.agf --json");
+  command->footer(
+      "Examples:\n  contrejour glass list --maker SCHOTT --maker OHARA\n  contrejour glass list --catalogue mine.agf "
+      "--json");
   command->callback([options, &action] { action = [options] { return run_list(*options); }; });
 }
 
 void add_glass_closest(CLI::App& glass, Action& action) {
   const auto options = std::make_shared<ListOptions>();
   CLI::App* command = glass.add_subcommand("closest", "the glasses nearest to an index and an Abbe number");
-  command->add_option("N_D", options->n_d, "index at 587.56 nm")->required()->check(CLI::Range(1.0, 5.0))->option_text(" ");
+  command->add_option("N_D", options->n_d, "index at 587.56 nm")
+      ->required()
+      ->check(CLI::Range(1.0, 5.0))
+      ->option_text(" ");
   command->add_option("V_D", options->v_d, "Abbe number")->required()->check(CLI::Range(5.0, 200.0))->option_text(" ");
   command->add_option("--count", options->count, "how many")->check(CLI::Range(1, 10000))->option_text("N");
   command->add_flag("--obsolete", options->obsolete, "also glasses that are no longer made");
   add_common_options(*command, *options);
-  command->footer("Distance 1 is 0.001 of n_d, or 0.8 of V_d: about what melts of one glass differ by.\n\n"
-                  "Examples:\n  contrejour glass closest 1.62004 36.37\n  contrejour glass closest 1.5168 64.2 --maker HOYA --count 1 --json");
+  command->footer(
+      "Distance 1 is 0.001 of n_d, or 0.8 of V_d: about what melts of one glass differ by.\n\n"
+      "Examples:\n  contrejour glass closest 1.62004 36.37\n  contrejour glass closest 1.5168 64.2 --maker HOYA "
+      "--count 1 --json");
   command->callback([options, &action] { action = [options] { return run_closest(*options); }; });
 }
 

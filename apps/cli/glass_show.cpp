@@ -23,8 +23,9 @@ struct Line {
   const char* name;
   double nm;
 };
-constexpr Line kLines[] = {{"i", kLineI_nm}, {"h", kLineH_nm}, {"g", kLineG_nm},           {"F'", kLineFPrime_nm}, {"F", kLineF_nm},
-                           {"e", kLineE_nm}, {"d", kLineD_nm}, {"C'", kLineCPrime_nm}, {"C", kLineC_nm},       {"r", kLineR_nm}};
+constexpr Line kLines[] = {{"i", kLineI_nm}, {"h", kLineH_nm}, {"g", kLineG_nm}, {"F'", kLineFPrime_nm},
+                           {"F", kLineF_nm}, {"e", kLineE_nm}, {"d", kLineD_nm}, {"C'", kLineCPrime_nm},
+                           {"C", kLineC_nm}, {"r", kLineR_nm}};
 constexpr double kPath_mm = 10.0;
 
 const GlassData* data_of(const Glass& glass) {
@@ -52,7 +53,8 @@ Json lines_json(const Glass& glass) {
                     {"wavelength_nm", line.nm},
                     {"n", std::isfinite(n) ? Json(n) : Json()},
                     {"within_range", within_range(glass, line.nm)},
-                    {"transmittance", has_transmittance(glass) ? Json(internal_transmittance(glass, line.nm, kPath_mm)) : Json()}});
+                    {"transmittance",
+                     has_transmittance(glass) ? Json(internal_transmittance(glass, line.nm, kPath_mm)) : Json()}});
   }
   return list;
 }
@@ -87,16 +89,18 @@ std::string lines_text(const Glass& glass) {
     const double n = refractive_index(glass, line.nm);
     table.add({line.name, fmt::format("{:.4f}", line.nm),
                std::isfinite(n) ? fmt::format("{:.6f}{}", n, within ? " " : "*") : "none ",
-               has_transmittance(glass) ? fmt::format("{:.4f}", internal_transmittance(glass, line.nm, kPath_mm)) : "unknown"});
+               has_transmittance(glass) ? fmt::format("{:.4f}", internal_transmittance(glass, line.nm, kPath_mm))
+                                        : "unknown"});
   }
   return table.text();
 }
 
 std::string show_text(const CatalogueEntry& entry) {
   const GlassFigures f = glass_figures(entry.glass);
-  std::string text = fmt::format("{} {}{}{}\n", entry.summary.maker, entry.summary.name,
-                                 entry.summary.code.empty() ? "" : ", " + entry.summary.code,
-                                 entry.summary.status == GlassStatus::Standard ? "" : fmt::format(", {}", status_name(entry.summary.status)));
+  std::string text = fmt::format(
+      "{} {}{}{}\n", entry.summary.maker, entry.summary.name,
+      entry.summary.code.empty() ? "" : ", " + entry.summary.code,
+      entry.summary.status == GlassStatus::Standard ? "" : fmt::format(", {}", status_name(entry.summary.status)));
   if (const GlassData* data = data_of(entry.glass)) {
     text += fmt::format("formula {}", formula_name(data->formula));
     if (data->formula == DispersionFormula::Table) {
@@ -104,12 +108,14 @@ std::string show_text(const CatalogueEntry& entry) {
     } else {
       text += fmt::format(": {}", fmt::join(data->coefficients, " "));
     }
-    if (data->range_nm) text += fmt::format("\nfrom {:g} to {:g} nm", data->range_nm->first_nm, data->range_nm->last_nm);
+    if (data->range_nm)
+      text += fmt::format("\nfrom {:g} to {:g} nm", data->range_nm->first_nm, data->range_nm->last_nm);
     text += fmt::format(", at {:g} deg C\n", data->reference_temperature_c);
   } else {
     text += "model glass of n_d, V_d and a normal partial dispersion\n";
   }
-  text += fmt::format("n_d {:.6f}  V_d {:.3f}  V_e {:.3f}  P_gF {:.5f}  dP_gF {:+.5f}\n\n", f.n_d, f.v_d, f.v_e, f.p_gf, f.d_pgf);
+  text += fmt::format("n_d {:.6f}  V_d {:.3f}  V_e {:.3f}  P_gF {:.5f}  dP_gF {:+.5f}\n\n", f.n_d, f.v_d, f.v_e, f.p_gf,
+                      f.d_pgf);
   text += lines_text(entry.glass);
   for (const Line& line : kLines) {
     if (!within_range(entry.glass, line.nm)) return text + "* beyond where the formula holds\n";
@@ -120,7 +126,9 @@ std::string show_text(const CatalogueEntry& entry) {
 Result<CatalogueEntry> find_glass(const GlassCatalogue& glasses, const ShowOptions& options) {
   if (const auto coded = glass_of_code(options.name)) {
     const GlassFigures figures = glass_figures(*coded);
-    return CatalogueEntry{{options.name, "code", options.name, GlassStatus::Standard, figures.n_d, figures.v_d}, *coded, "its six digits"};
+    return CatalogueEntry{{options.name, "code", options.name, GlassStatus::Standard, figures.n_d, figures.v_d},
+                          *coded,
+                          "its six digits"};
   }
   return glasses.find(options.name, options.makers);
 }
@@ -143,11 +151,15 @@ Result<int> run_show(const ShowOptions& options) {
 void add_glass_show(CLI::App& glass, Action& action) {
   const auto options = std::make_shared<ShowOptions>();
   CLI::App* command = glass.add_subcommand("show", "one glass as a data sheet has it");
-  command->add_option("NAME", options->name, "\"N-BK7\", \"SCHOTT N-BK7\" or a six-digit code")->required()->option_text(" ");
+  command->add_option("NAME", options->name, "\"N-BK7\", \"SCHOTT N-BK7\" or a six-digit code")
+      ->required()
+      ->option_text(" ");
   command->add_option("--maker", options->makers, "look here, in this order; may be repeated")->option_text("MAKER");
   add_catalogue_option(*command, options->catalogues);
   command->add_flag("--json", options->json, "as JSON");
-  command->footer("Examples:\n  contrejour glass show N-BK7\n  contrejour glass show SF4 --maker HIKARI\n  contrejour glass show 517642 --json");
+  command->footer(
+      "Examples:\n  contrejour glass show N-BK7\n  contrejour glass show SF4 --maker HIKARI\n  contrejour glass show "
+      "517642 --json");
   command->callback([options, &action] { action = [options] { return run_show(*options); }; });
 }
 

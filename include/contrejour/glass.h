@@ -1,7 +1,7 @@
 // Optical media: wavelength -> refractive index, relative to air (the surrounding medium is n = 1).
 // Errors: none for an index asked for; coefficients are checked where they are read (make_glass). Domain: each
-// catalogue glass has its own (wavelength_range_nm) and its formula is followed beyond it; the visible for AbbeGlass and
-// ModelGlass. Formulas, sources and accuracy: docs/physics/glass.md. Thread-safety: plain values.
+// catalogue glass has its own (wavelength_range_nm) and its formula is followed beyond it; the visible for AbbeGlass
+// and ModelGlass. Formulas, sources and accuracy: docs/physics/glass.md. Thread-safety: plain values.
 #pragma once
 
 #include <array>
@@ -151,8 +151,8 @@ struct Glass {
 // wavelengths that do not rise, an index that is not a number above 0 within the glass's range.
 [[nodiscard]] Result<Glass> make_glass(std::string name, GlassData data);
 
-// "517642": n_d 1.517, V_d 64.2, as a ModelGlass on the normal line; digits after a point ("517642.251", the density) are
-// passed over. Nothing for any other text.
+// "517642": n_d 1.517, V_d 64.2, as a ModelGlass on the normal line; digits after a point ("517642.251", the density)
+// are passed over. Nothing for any other text.
 [[nodiscard]] std::optional<Glass> glass_of_code(std::string_view code);
 
 // Where the glass's formula or table holds; nothing where that is not known.
@@ -176,9 +176,9 @@ struct AirState {
 // What optical engineers call a glass by.
 struct GlassFigures {
   double n_d = 0.0;
-  double v_d = 0.0;    // (n_d - 1) / (n_F - n_C)
-  double v_e = 0.0;    // (n_e - 1) / (n_F' - n_C')
-  double p_gf = 0.0;   // (n_g - n_F) / (n_F - n_C)
+  double v_d = 0.0;  // (n_d - 1) / (n_F - n_C)
+  double v_e = 0.0;  // (n_e - 1) / (n_F' - n_C')
+  double p_gf = 0.0;  // (n_g - n_F) / (n_F - n_C)
   double d_pgf = 0.0;  // p_gf less the normal line's
 };
 // Not finite for a glass without dispersion.

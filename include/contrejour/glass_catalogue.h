@@ -1,6 +1,6 @@
-// Glasses by name and maker: those that come with the library, and users' own catalogues (AGF files, refractiveindex.info
-// YAML; docs/formats/glass.md). Files are read bounded in memory and time. Errors: Parse with file and line, Io;
-// InvalidArgument for a name that no catalogue has, with the nearest. Thread-safety: plain values.
+// Glasses by name and maker: those that come with the library, and users' own catalogues (AGF files,
+// refractiveindex.info YAML; docs/formats/glass.md). Files are read bounded in memory and time. Errors: Parse with file
+// and line, Io; InvalidArgument for a name that no catalogue has, with the nearest. Thread-safety: plain values.
 #pragma once
 
 #include <filesystem>
@@ -46,8 +46,8 @@ struct GlassFile {
 [[nodiscard]] Result<GlassFile> read_agf(std::string_view bytes, const std::string& file, const std::string& maker);
 
 // One glass, as refractiveindex.info's database has it. Errors: Parse; Unsupported for a page without n(lambda).
-[[nodiscard]] Result<GlassFile> read_glass_yaml(std::string_view bytes, const std::string& file, const std::string& maker,
-                                                const std::string& name);
+[[nodiscard]] Result<GlassFile> read_glass_yaml(std::string_view bytes, const std::string& file,
+                                                const std::string& maker, const std::string& name);
 
 // By its ending: .agf, .yml, .yaml. The maker is an AGF file's own name in capitals, as lens files' GCAT lists have it;
 // for YAML its folder's (that above `optical`, as in the database). The glass of a YAML file has the file's name.

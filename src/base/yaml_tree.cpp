@@ -30,7 +30,9 @@ class TreeBuilder : public YAML::EventHandler {
   void OnDocumentStart(const YAML::Mark&) override {}
   void OnDocumentEnd() override {}
   void OnNull(const YAML::Mark& mark, YAML::anchor_t) override { place(mark, YamlNode::Kind::Null, ""); }
-  void OnAlias(const YAML::Mark& mark, YAML::anchor_t) override { throw Stop(mark, "aliases are not read; write it out"); }
+  void OnAlias(const YAML::Mark& mark, YAML::anchor_t) override {
+    throw Stop(mark, "aliases are not read; write it out");
+  }
   void OnScalar(const YAML::Mark& mark, const std::string&, YAML::anchor_t, const std::string& value) override {
     if (!open_.empty() && open_.back().node.kind == YamlNode::Kind::Map && !open_.back().has_key) {
       open_.back().key = value;
@@ -88,7 +90,8 @@ class TreeBuilder : public YAML::EventHandler {
     } else if (open_.back().node.kind == YamlNode::Kind::List) {
       open_.back().node.list.push_back(std::move(node));
     } else {
-      open_.back().node.map.emplace_back(std::move(open_.back().key), std::move(node));
+      open_.back().node.keys.push_back(std::move(open_.back().key));
+      open_.back().node.list.push_back(std::move(node));
       open_.back().has_key = false;
     }
   }
@@ -110,14 +113,15 @@ class ViewBuffer : public std::streambuf {
 }  // namespace
 
 const YamlNode* YamlNode::find(std::string_view key) const {
-  for (const auto& [name, value] : map)
-    if (name == key) return &value;
+  for (std::size_t k = 0; k < keys.size(); ++k)
+    if (keys[k] == key) return &list[k];
   return nullptr;
 }
 
 Result<YamlNode> parse_yaml(std::string_view text, const std::string& file) {
   if (text.size() > kYamlMaxBytes)
-    return failure(ErrorCode::Parse, fmt::format("{} bytes; at most {} are read", text.size(), kYamlMaxBytes), {file, 0, 0});
+    return failure(ErrorCode::Parse, fmt::format("{} bytes; at most {} are read", text.size(), kYamlMaxBytes),
+                   {file, 0, 0});
   try {
     ViewBuffer buffer(text);
     std::istream stream(&buffer);

@@ -3,7 +3,6 @@
 
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 #include "contrejour/result.h"
@@ -16,8 +15,8 @@ struct YamlNode {
   Kind kind = Kind::Null;
   int line = 0;  // from 1
   std::string scalar;
-  std::vector<YamlNode> list;
-  std::vector<std::pair<std::string, YamlNode>> map;
+  std::vector<YamlNode> list;     // of a list, or a map's values
+  std::vector<std::string> keys;  // of a map, as many
 
   // The map's value of that key, or null: also where this is no map.
   [[nodiscard]] const YamlNode* find(std::string_view key) const;

@@ -40,8 +40,8 @@ TEST_CASE("pairs and halves of surrogates") {
 }
 
 TEST_CASE("what is not UTF-8") {
-  for (const char* bytes : {"\x80", "\xC0\xAF", "\xC3", "\xED\xA0\x80", "\xF4\x90\x80\x80", "\xE0\x80\x80", "\xF0\x80\x80\x80",
-                            "\xFE", "a\xE9z"}) {
+  for (const char* bytes : {"\x80", "\xC0\xAF", "\xC3", "\xED\xA0\x80", "\xF4\x90\x80\x80", "\xE0\x80\x80",
+                            "\xF0\x80\x80\x80", "\xFE", "a\xE9z"}) {
     CAPTURE(bytes);
     CHECK_FALSE(is_utf8(bytes));
     CHECK(is_utf8(decode_text(bytes)));

@@ -22,7 +22,8 @@ std::string repeated(const std::string& piece, std::size_t times) {
 }
 
 TEST_CASE("a tree with lines") {
-  const auto tree = parse_yaml("# head\nA:\n  - type: x\n    text: |\n      1 2\n      3 4\n  - [p, 'q r']\nB: 5\nC:\n", "x.yml");
+  const auto tree =
+      parse_yaml("# head\nA:\n  - type: x\n    text: |\n      1 2\n      3 4\n  - [p, 'q r']\nB: 5\nC:\n", "x.yml");
   REQUIRE(tree.has_value());
   const YamlNode* a = tree->find("A");
   REQUIRE(a != nullptr);

@@ -5,7 +5,8 @@ import unittest
 from program import ProgramTest
 
 COMMANDS = [["render"], ["apply"], ["ghosts"], ["compare"], ["lens", "list"], ["lens", "info"], ["lens", "draw"],
-            ["lens", "trace"], ["lens", "check"], ["lens", "convert"], ["look", "list"], ["look", "show"], ["bench", "tables"]]
+            ["lens", "trace"], ["lens", "check"], ["lens", "convert"],
+            ["glass", "list"], ["glass", "show"], ["glass", "closest"], ["look", "list"], ["look", "show"], ["bench", "tables"]]
 
 
 class Usage(ProgramTest):
@@ -42,6 +43,7 @@ class Usage(ProgramTest):
                 ["lens", "trace", "heliar", "--ray", "0,0,0,0,0,1", "--ghost", "5,2"],
                 ["lens", "draw", "heliar", "-o", "a.png"], ["lens", "draw", "heliar", "-o", "a.svg", "--light", "1,1"],
                 ["lens", "convert", "heliar", "a.json"], ["ghosts", "heliar", "--light", "1,1", "2,2"],
+                ["glass"], ["glass", "show"], ["glass", "closest", "1.5"], ["glass", "closest", "nan", "60"],
                 ["bench", "tables", "--systems", "brownie"], ["bench", "tables", "--methods", "magic"]):
             with self.subTest(wrong):
                 self.assertIn("--help)", self.error_of(*wrong, code=2))

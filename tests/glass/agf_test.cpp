@@ -39,7 +39,9 @@ GlassFile read(const std::string& text) {
   return std::move(*file);
 }
 
-const GlassData& data_of(const CatalogueEntry& entry) { return std::get<CatalogueGlass>(entry.glass.dispersion).data(); }
+const GlassData& data_of(const CatalogueEntry& entry) {
+  return std::get<CatalogueGlass>(entry.glass.dispersion).data();
+}
 
 TEST_CASE("everything that a catalogue says") {
   const GlassFile file = read(kTwo);
@@ -90,7 +92,9 @@ TEST_CASE("any line ends, UTF-16, accents in Latin-1") {
 }
 
 TEST_CASE("numbers that go on in the next line") {
-  const GlassFile file = read("NM A 13 1 1.5 60\nCD 1.25 0.4 0.16\n0.1 0.01 0.0025\n 0.0005 0.0001\n0.00002 0\nTD 1e-6 0 0\n0 0 0 23\nLD 0.45 0.7\n");
+  const GlassFile file = read(
+      "NM A 13 1 1.5 60\nCD 1.25 0.4 0.16\n0.1 0.01 0.0025\n 0.0005 0.0001\n0.00002 0\nTD 1e-6 0 0\n0 0 0 23\nLD 0.45 "
+      "0.7\n");
   REQUIRE(file.glasses.size() == 1);
   CHECK(data_of(file.glasses[0]).coefficients.size() == 9);
   CHECK(data_of(file.glasses[0]).reference_temperature_c == 23.0);
@@ -198,7 +202,8 @@ TEST_CASE("all catalogues at hand are read whole") {
     CHECK(file->warnings.size() <= 3);
     for (const CatalogueEntry& entry : file->glasses) {
       const auto range = wavelength_range_nm(entry.glass);
-      if (entry.summary.n_d == 1.0 || entry.summary.name == "LZ_NEWGLASS" || range->first_nm > kLineF_nm || range->last_nm < kLineC_nm)
+      if (entry.summary.n_d == 1.0 || entry.summary.name == "LZ_NEWGLASS" || range->first_nm > kLineF_nm ||
+          range->last_nm < kLineC_nm)
         continue;
       CAPTURE(entry.summary.name);
       CHECK(std::abs(refractive_index(entry.glass, kLineD_nm) - entry.summary.n_d) < 2e-4);

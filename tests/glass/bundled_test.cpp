@@ -15,15 +15,16 @@
 namespace contrejour::test {
 namespace {
 
-constexpr double kLines_nm[] = {kLineI_nm, kLineH_nm, kLineG_nm, kLineFPrime_nm, kLineF_nm, kLineE_nm,
-                                kLineD_nm, kLineCPrime_nm, kLineC_nm, kLineR_nm};
+constexpr double kLines_nm[] = {kLineI_nm, kLineH_nm, kLineG_nm,      kLineFPrime_nm, kLineF_nm,
+                                kLineE_nm, kLineD_nm, kLineCPrime_nm, kLineC_nm,      kLineR_nm};
 
 struct Bundle {
   GlassCatalogue catalogue = bundled_glasses();
   std::map<std::string, std::size_t> by_name;  // the first of a name
 
   Bundle() {
-    for (std::size_t k = catalogue.size(); k-- > 0;) by_name[catalogue.summary(k).maker + " " + catalogue.summary(k).name] = k;
+    for (std::size_t k = catalogue.size(); k-- > 0;)
+      by_name[catalogue.summary(k).maker + " " + catalogue.summary(k).name] = k;
   }
 };
 
@@ -111,12 +112,15 @@ TEST_CASE("crystals and renamed plastics too") {
   const struct {
     const char* name;
     const char* path;
-  } pages[] = {{"CaF2", "CaF2/nk/Malitson"}, {"BaF2", "BaF2/nk/Malitson"}, {"LiF", "LiF/nk/Li"}, {"MgF2", "MgF2/nk/Dodge-o"},
-               {"SILICA", "SiO2/nk/Malitson"}, {"SAPPHIRE", "Al2O3/nk/Malitson-o"}};
-  const auto ours = [&](const std::string& name) { return bundle.catalogue.entry(bundle.by_name.at("MISC " + name)).glass; };
+  } pages[] = {{"CaF2", "CaF2/nk/Malitson"}, {"BaF2", "BaF2/nk/Malitson"},   {"LiF", "LiF/nk/Li"},
+               {"MgF2", "MgF2/nk/Dodge-o"},  {"SILICA", "SiO2/nk/Malitson"}, {"SAPPHIRE", "Al2O3/nk/Malitson-o"}};
+  const auto ours = [&](const std::string& name) {
+    return bundle.catalogue.entry(bundle.by_name.at("MISC " + name)).glass;
+  };
   for (const auto& page : pages) {
     CAPTURE(page.name);
-    const auto file = read_glass_file(*folder / ("refractiveindex.info/database/data/main/" + std::string(page.path) + ".yml"));
+    const auto file =
+        read_glass_file(*folder / ("refractiveindex.info/database/data/main/" + std::string(page.path) + ".yml"));
     REQUIRE(file.has_value());
     CHECK(largest_difference(file->glasses[0].glass, ours(page.name)) < 1e-12);
   }
@@ -155,7 +159,8 @@ TEST_CASE("the glasses that another program's stored results need are here, by m
     if (!value.contains("glasses")) continue;
     for (const auto& [asked, page] : value["glasses"].items()) {
       const std::filesystem::path file = page.get<std::string>();
-      const bool crystal = *file.begin() == "main";  // CaF2 of Daimon at 20 deg C; Malitson's at 24 is bundled, -1e-5 per K
+      const bool crystal =
+          *file.begin() == "main";  // CaF2 of Daimon at 20 deg C; Malitson's at 24 is bundled, -1e-5 per K
       const std::string maker = crystal ? "MISC" : std::next(file.begin())->string();
       const auto ours = bundle.catalogue.find(crystal ? "CaF2" : file.stem().string(), std::vector<std::string>{maker});
       CAPTURE(asked);

@@ -21,7 +21,8 @@ std::string found(const GlassCatalogue& catalogue, std::string_view name, std::v
 
 TEST_CASE("names as people write them") {
   const GlassCatalogue all = bundled_glasses();
-  for (const char* name : {"N-BK7", "n-bk7", "NBK7", "N BK7", "N_BK7", "SCHOTT N-BK7", "schott_nbk7", "NBK7_SCHOTT", "N-BK7 (SCHOTT"})
+  for (const char* name :
+       {"N-BK7", "n-bk7", "NBK7", "N BK7", "N_BK7", "SCHOTT N-BK7", "schott_nbk7", "NBK7_SCHOTT", "N-BK7 (SCHOTT"})
     CHECK(found(all, name) == (std::string(name).find('(') == std::string::npos ? "SCHOTT N-BK7" : ""));
   CHECK(found(all, "S-BSL7") == "OHARA S-BSL7");
   CHECK(found(all, "E-FDS1-W") == "HOYA E-FDS1-W");
@@ -56,7 +57,8 @@ TEST_CASE("a name that none has") {
   CHECK(wrong.error().message.find("did you mean 'N-BK7") != std::string::npos);
   const auto among = all.find("qqqqqqqqqq", std::vector<std::string>{"SCHOTT", "OHARA"});
   CHECK(among.error().message.find("among SCHOTT, OHARA") != std::string::npos);
-  for (const std::string& name : {std::string(), std::string(" -"), std::string(1'000'000, 'N'), std::string("\0\xFF", 2)}) {
+  for (const std::string& name :
+       {std::string(), std::string(" -"), std::string(1'000'000, 'N'), std::string("\0\xFF", 2)}) {
     const auto none = all.find(name);
     REQUIRE_FALSE(none.has_value());
     CHECK(none.error().message.size() < 300);
@@ -81,7 +83,8 @@ TEST_CASE("the closest glass") {
   CHECK(close[0].distance < 0.01);
   CHECK(close[0].distance <= close[1].distance);
   GlassCatalogue own;
-  own.add({entry("A", "one", 1.500, 60.0), entry("B", "two", 1.502, 60.0), entry("A", "old", 1.501, 60.0, GlassStatus::Obsolete)});
+  own.add({entry("A", "one", 1.500, 60.0), entry("B", "two", 1.502, 60.0),
+           entry("A", "old", 1.501, 60.0, GlassStatus::Obsolete)});
   const auto two = own.closest(1.5014, 60.8, 9);
   REQUIRE(two.size() == 2);
   CHECK(two[0].glass.name == "two");
@@ -97,7 +100,9 @@ struct Folder {
   std::filesystem::path path = std::filesystem::temp_directory_path() / "contrejour-glass-test";
   Folder() { std::filesystem::create_directories(path / "maker" / "optical"); }
   ~Folder() { std::filesystem::remove_all(path); }
-  void write(const std::string& name, const std::string& text) const { std::ofstream(path / name, std::ios::binary) << text; }
+  void write(const std::string& name, const std::string& text) const {
+    std::ofstream(path / name, std::ios::binary) << text;
+  }
 };
 
 constexpr const char* kAgf = "NM MINE-1 1 1 1.5 0\nCD 2.25\nLD 0.4 0.7\n";

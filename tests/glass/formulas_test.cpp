@@ -28,11 +28,13 @@ struct ByHand {
 
 // At 500 nm, where lambda^2 = 1/4 um^2: each term written out with the power's value.
 const ByHand kByHand[] = {
-    {F::Schott, {1.25, 0.4, 0.1, 0.01, 0.0025, 0.0005},
+    {F::Schott,
+     {1.25, 0.4, 0.1, 0.01, 0.0025, 0.0005},
      std::sqrt(1.25 + 0.4 / 4 + 0.1 * 4 + 0.01 * 16 + 0.0025 * 64 + 0.0005 * 256)},
     // 0.25 / (0.25 - 0.05) = 5/4, 0.25 / (0.25 + 0.75) = 1/4, 0.25 / (0.25 - 0.5) = -1, ...
     {F::Sellmeier1, {0.8, 0.05, 0.4, -0.75, -0.2, 0.5}, std::sqrt(1 + 1.0 + 0.1 + 0.2)},
-    {F::Herzberger, {1.4, 0.01, 0.002, -0.03, 0.04, 0.05},
+    {F::Herzberger,
+     {1.4, 0.01, 0.002, -0.03, 0.04, 0.05},
      1.4 + 0.01 / 0.222 + 0.002 / (0.222 * 0.222) - 0.03 / 4 + 0.04 / 16 + 0.05 / 64},
     // 0.25 / (0.25 - 0.4^2) = 25/9; 1 / (0.25 - 10^2)
     {F::Sellmeier2, {0.3, 0.36, 0.4, -1.0, 10.0}, std::sqrt(1 + 0.3 + 1.0 + 1.0 / 99.75)},
@@ -41,23 +43,29 @@ const ByHand kByHand[] = {
     {F::HandbookOfOptics1, {2.2, 0.02, 0.05, 0.04}, std::sqrt(2.2 + 0.1 - 0.01)},
     {F::HandbookOfOptics2, {1.2, 0.8, 0.05, 0.04}, std::sqrt(1.2 + 1.0 - 0.01)},
     {F::Sellmeier4, {1.1, 0.8, 0.05, 0.4, -0.75}, std::sqrt(1.1 + 1.0 + 0.1)},
-    {F::Extended1, {1.25, 0.4, 0.1, 0.01, 0.0025, 0.0005, 0.0001, 0.00002},
+    {F::Extended1,
+     {1.25, 0.4, 0.1, 0.01, 0.0025, 0.0005, 0.0001, 0.00002},
      std::sqrt(1.25 + 0.1 + 0.4 + 0.16 + 0.16 + 0.128 + 0.0001 * 1024 + 0.00002 * 4096)},
-    {F::Sellmeier5, {0.8, 0.05, 0.4, -0.75, -0.2, 0.5, 0.04, 0.125, 0.1, 0.225},
+    {F::Sellmeier5,
+     {0.8, 0.05, 0.4, -0.75, -0.2, 0.5, 0.04, 0.125, 0.1, 0.225},
      std::sqrt(1 + 1.0 + 0.1 + 0.2 + 0.08 + 1.0)},
-    {F::Extended2, {1.25, 0.4, 0.1, 0.01, 0.0025, 0.0005, 0.16, 0.64},
+    {F::Extended2,
+     {1.25, 0.4, 0.1, 0.01, 0.0025, 0.0005, 0.16, 0.64},
      std::sqrt(1.25 + 0.1 + 0.4 + 0.16 + 0.16 + 0.128 + 0.16 / 16 + 0.64 / 64)},
-    {F::Extended3, {1.25, 0.4, 0.16, 0.1, 0.01, 0.0025, 0.0005, 0.0001, 0.00002},
+    {F::Extended3,
+     {1.25, 0.4, 0.16, 0.1, 0.01, 0.0025, 0.0005, 0.0001, 0.00002},
      std::sqrt(1.25 + 0.1 + 0.01 + 0.4 + 0.16 + 0.16 + 0.128 + 0.1024 + 0.08192)},
     {F::Rii1, {0.1, 0.84, 0.2, 0.09, 0.4}, std::sqrt(1 + 0.1 + 0.84 * 25 / 21 + 0.25)},
     {F::Rii2, {0.1, 0.8, 0.05, 0.4, -0.75}, std::sqrt(1 + 0.1 + 1.0 + 0.1)},
     {F::Rii3, {1.25, 0.4, 2, 0.1, -2, 0.01, -4, 0.05, 1}, std::sqrt(1.25 + 0.1 + 0.4 + 0.16 + 0.025)},
     // 0.3 l^2 / (l^2 - 0.2^2) + 0.4 l^0 / (l^2 - 0.05^1), then powers
-    {F::Rii4, {1.5, 0.42, 2, 0.2, 2, 0.04, 0, 0.05, 1, 0.4, 2, 0.1, -2},
+    {F::Rii4,
+     {1.5, 0.42, 2, 0.2, 2, 0.04, 0, 0.05, 1, 0.4, 2, 0.1, -2},
      std::sqrt(1.5 + 0.42 * 25 / 21 + 0.2 + 0.1 + 0.4)},
     {F::Rii5, {1.4, 0.01, -2, 0.002, -4}, 1.4 + 0.04 + 0.032},
     {F::Rii6, {0.001, 0.06, 64, 0.0014, 11}, 1.001 + 0.001 + 0.0002},
-    {F::Rii7, {1.4, 0.01, 0.002, -0.03, 0.04, 0.05},
+    {F::Rii7,
+     {1.4, 0.01, 0.002, -0.03, 0.04, 0.05},
      1.4 + 0.01 / 0.222 + 0.002 / (0.222 * 0.222) - 0.03 / 4 + 0.04 / 16 + 0.05 / 64},
     // (n^2 - 1) / (n^2 + 2) = 1/4 where n^2 = 2
     {F::Rii8, {0.1, 0.08, 0.05, 0.2}, std::sqrt(2.0)},
@@ -82,9 +90,9 @@ TEST_CASE("N-BK7 as its data sheet prints it") {
   const std::vector<double> bk7{1.03961212, 0.00600069867, 0.231792344, 0.0200179144, 1.01046945, 103.560653};
   const struct {
     double nm, n;
-  } sheet[] = {{1013.98, 1.50731}, {852.11, 1.50980}, {kLineR_nm, 1.51289}, {kLineC_nm, 1.51432}, {kLineCPrime_nm, 1.51472},
-               {kLineD_nm, 1.51680}, {kLineE_nm, 1.51872}, {kLineF_nm, 1.52238}, {kLineFPrime_nm, 1.52283},
-               {kLineG_nm, 1.52668}, {kLineH_nm, 1.53024}, {kLineI_nm, 1.53627}};
+  } sheet[] = {{1013.98, 1.50731},        {852.11, 1.50980},    {kLineR_nm, 1.51289}, {kLineC_nm, 1.51432},
+               {kLineCPrime_nm, 1.51472}, {kLineD_nm, 1.51680}, {kLineE_nm, 1.51872}, {kLineF_nm, 1.52238},
+               {kLineFPrime_nm, 1.52283}, {kLineG_nm, 1.52668}, {kLineH_nm, 1.53024}, {kLineI_nm, 1.53627}};
   for (const auto& [nm, n] : sheet) {
     CAPTURE(nm);
     CHECK(std::abs(index_of(F::Sellmeier1, bk7, nm) - n) <= 0.6e-5);
@@ -121,7 +129,8 @@ TEST_CASE("Buchdahl coefficients published for Schott's glasses give the glasses
     if (!found || found->summary.name != name) continue;
     double worst = 0;
     for (double nm = 400; nm <= 700; nm += 20)
-      worst = std::max(worst, std::abs(refractive_index(found->glass, nm) - index_of(F::Buchdahl, {0.574, n, nu1, nu2}, nm)));
+      worst = std::max(worst,
+                       std::abs(refractive_index(found->glass, nm) - index_of(F::Buchdahl, {0.574, n, nu1, nu2}, nm)));
     ++compared;
     // The catalogue's formulas were fitted anew since: some glasses moved by a few 1e-5, and a few rows are misprinted.
     if (worst < most + 3e-5) ++close;

@@ -18,7 +18,9 @@ CatalogueEntry read(const std::string& text) {
   return std::move(file->glasses[0]);
 }
 
-const GlassData& data_of(const CatalogueEntry& entry) { return std::get<CatalogueGlass>(entry.glass.dispersion).data(); }
+const GlassData& data_of(const CatalogueEntry& entry) {
+  return std::get<CatalogueGlass>(entry.glass.dispersion).data();
+}
 
 // Made up for this test, in the form of the database.
 constexpr const char* kPage =
@@ -56,25 +58,31 @@ TEST_CASE("everything that a page says") {
   CHECK(entry.summary.v_d == 64.17);
   CHECK(entry.summary.maker == "MAKER");
   // k = 1e-8 at 500 nm: 4 pi 1e-8 / 500e-6 per mm.
-  CHECK(internal_transmittance(entry.glass, 500.0, 100.0) == doctest::Approx(std::exp(-4 * 3.14159265358979 * 1e-8 / 5e-4 * 100)));
+  CHECK(internal_transmittance(entry.glass, 500.0, 100.0) ==
+        doctest::Approx(std::exp(-4 * 3.14159265358979 * 1e-8 / 5e-4 * 100)));
 }
 
 TEST_CASE("tables of n, of n and k, rows that fall, wavelengths twice") {
-  const CatalogueEntry entry = read("DATA:\n  - type: tabulated nk\n    data: |\n        0.7 1.5 0.001\n        0.5 1.6 0.002\n        0.5 1.7 0.003\n");
+  const CatalogueEntry entry = read(
+      "DATA:\n  - type: tabulated nk\n    data: |\n        0.7 1.5 0.001\n        0.5 1.6 0.002\n        0.5 1.7 "
+      "0.003\n");
   CHECK(refractive_index(entry.glass, 500.0) == 1.6);
   CHECK(refractive_index(entry.glass, 700.0) == 1.5);
   CHECK(data_of(entry).absorption.size() == 2);
-  CHECK(internal_transmittance(entry.glass, 500.0, 0.01) == doctest::Approx(std::exp(-4 * 3.14159265358979 * 0.002 / 5e-4 * 0.01)));
+  CHECK(internal_transmittance(entry.glass, 500.0, 0.01) ==
+        doctest::Approx(std::exp(-4 * 3.14159265358979 * 0.002 / 5e-4 * 0.01)));
   CHECK(read("DATA:\n  - type: tabulated n\n    data: |\n        0.4 1.6\n        0.7 1.5\n").summary.n_d > 1.5);
 }
 
 TEST_CASE("index and wavelength against vacuum") {
   const double in_air = refractive_index(read(kPage).glass, 500.0);
-  const CatalogueEntry vacuum = read(std::string(kPage) + "SPECS:\n    n_is_absolute: true\n    wavelength_is_vacuum: true\n");
+  const CatalogueEntry vacuum =
+      read(std::string(kPage) + "SPECS:\n    n_is_absolute: true\n    wavelength_is_vacuum: true\n");
   CHECK(data_of(vacuum).index_in_vacuum);
   CHECK(data_of(vacuum).wavelength_in_vacuum);
   CHECK(in_air - refractive_index(vacuum.glass, 500.0) == doctest::Approx(1.52 * 2.7e-4).epsilon(0.1));
-  CHECK(data_of(read("SPECS:\n    temperature: \"25.0 \u00b0C\"\n" + std::string("DATA:\n  - type: formula 5\n    coefficients: 1.5\n    wavelength_range: 0.4 0.7\n")))
+  CHECK(data_of(read("SPECS:\n    temperature: \"25.0 \u00b0C\"\n" +
+                     std::string("DATA:\n  - type: formula 5\n    coefficients: 1.5\n    wavelength_range: 0.4 0.7\n")))
             .reference_temperature_c == 25.0);
 }
 
@@ -112,7 +120,9 @@ TEST_CASE("what is no glass") {
   check_refused(formula("formula 3", "-2"), "index is");
   check_refused(formula("formula 5", "1.5", "0.7 0.4"), "range");
   check_refused(formula("formula 5", "1.5", "0.7"), "two wavelengths", 2);
-  check_refused(formula("formula 5", "1.5") + "  - type: formula 5\n    wavelength_range: 0.4 0.7\n    coefficients: 1.6\n", "second", 5);
+  check_refused(
+      formula("formula 5", "1.5") + "  - type: formula 5\n    wavelength_range: 0.4 0.7\n    coefficients: 1.6\n",
+      "second", 5);
   check_refused("DATA:\n  - type: tabulated n\n    data: |\n        0.5 1.5\n        0.6\n", "rows of 2");
   check_refused("DATA:\n  - type: tabulated n\n", "data is missing");
   check_refused("DATA:\n  - type: tabulated n\n    data: |\n        0.5 1.5\n        0.6 x\n", "not a number");

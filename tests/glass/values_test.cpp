@@ -40,7 +40,8 @@ TEST_CASE("a table passes through its points, never beyond its neighbours, and k
     double um = 0.3;
     for (int k = 0; k < 2 + trial % 9; ++k) points.insert(points.end(), {um += step(random), index(random)});
     const Glass glass = table(points);
-    for (std::size_t k = 0; k < points.size(); k += 2) CHECK(refractive_index(glass, points[k] * 1e3) == doctest::Approx(points[k + 1]).epsilon(1e-11));
+    for (std::size_t k = 0; k < points.size(); k += 2)
+      CHECK(refractive_index(glass, points[k] * 1e3) == doctest::Approx(points[k + 1]).epsilon(1e-11));
     for (std::size_t k = 0; k + 2 < points.size(); k += 2) {
       const double low = std::min(points[k + 1], points[k + 3]), high = std::max(points[k + 1], points[k + 3]);
       for (int i = 1; i < 20; ++i) {
@@ -63,7 +64,8 @@ TEST_CASE("a table of a smooth glass is the glass") {
 }
 
 TEST_CASE("a model glass has the figures it was given") {
-  for (const ModelGlass& model : {ModelGlass{1.5168, 64.17, -0.0009}, ModelGlass{1.80518, 25.36, 0.0092}, ModelGlass{1.497, 81.54, 0.03}}) {
+  for (const ModelGlass& model :
+       {ModelGlass{1.5168, 64.17, -0.0009}, ModelGlass{1.80518, 25.36, 0.0092}, ModelGlass{1.497, 81.54, 0.03}}) {
     const GlassFigures figures = glass_figures({"", model});
     CHECK(figures.n_d == doctest::Approx(model.n_d).epsilon(1e-14));
     CHECK(figures.v_d == doctest::Approx(model.v_d).epsilon(1e-10));
@@ -89,8 +91,8 @@ TEST_CASE("model glasses against the catalogues they stand for, 400 to 700 nm") 
     errors.push_back(worst);
   }
   std::sort(errors.begin(), errors.end());
-  MESSAGE(errors.size(), " glasses: median ", errors[errors.size() / 2], ", 95 % ", errors[errors.size() * 95 / 100], ", worst ",
-          errors.back());
+  MESSAGE(errors.size(), " glasses: median ", errors[errors.size() / 2], ", 95 % ", errors[errors.size() * 95 / 100],
+          ", worst ", errors.back());
   CHECK(errors[errors.size() / 2] < 7e-5);
   CHECK(errors[errors.size() * 95 / 100] < 1.5e-4);
 }
@@ -105,12 +107,13 @@ TEST_CASE("six-digit codes") {
   CHECK(model.d_pgf == 0.0);
   CHECK(std::abs(glass_figures(*glass).p_gf - (0.6438 - 0.001682 * 64.2)) < 1e-12);
   CHECK(glass_of_code("620364.360").has_value());
-  for (const char* text : {"", "51764", "5176422", "517642.", "517642.2510", "51764a", "-17642", "517.642", "000642", "517000", " 517642"})
+  for (const char* text :
+       {"", "51764", "5176422", "517642.", "517642.2510", "51764a", "-17642", "517.642", "000642", "517000", " 517642"})
     CHECK_FALSE(glass_of_code(text).has_value());
 }
 
-// Edlen 1966 at 15 deg C, another measurement in another form: (n - 1) 1e8 = 8342.13 + 2406030 / (130 - s) + 15997 / (38.9 - s)
-// with s = 1 / lambda^2, um. The two agree to some 1e-8.
+// Edlen 1966 at 15 deg C, another measurement in another form: (n - 1) 1e8 = 8342.13 + 2406030 / (130 - s) + 15997 /
+// (38.9 - s) with s = 1 / lambda^2, um. The two agree to some 1e-8.
 TEST_CASE("air") {
   for (double nm = 380; nm <= 1000; nm += 20) {
     const double s = 1e6 / (nm * nm);
@@ -120,18 +123,21 @@ TEST_CASE("air") {
   CHECK(air_index(550, {20.0, 0.0}) == 1.0);
   CHECK(air_index(550, {15.0, 0.5}) - 1.0 == doctest::Approx(0.5 * (air_index(550, {15.0, 1.0}) - 1.0)));
   // Hotter air is thinner, as an ideal gas: 288.15 K over 338.15 K to 0.1 %.
-  CHECK((air_index(550, {65.0, 1.0}) - 1) / (air_index(550, {15.0, 1.0}) - 1) == doctest::Approx(288.15 / 338.15).epsilon(1e-3));
+  CHECK((air_index(550, {65.0, 1.0}) - 1) / (air_index(550, {15.0, 1.0}) - 1) ==
+        doctest::Approx(288.15 / 338.15).epsilon(1e-3));
 }
 
 TEST_CASE("at the catalogue's conditions n is the catalogue's, to the last bit") {
-  for (double nm = 350; nm < 1000; nm += 13) CHECK(refractive_index(bk7(), nm, {20.0, 1.0}) == refractive_index(bk7(), nm));
-  const Glass sellmeier{"", Sellmeier{{1.03961212, 0.231792344, 1.01046945}, {0.00600069867, 0.0200179144, 103.560653}}};
+  for (double nm = 350; nm < 1000; nm += 13)
+    CHECK(refractive_index(bk7(), nm, {20.0, 1.0}) == refractive_index(bk7(), nm));
+  const Glass sellmeier{"",
+                        Sellmeier{{1.03961212, 0.231792344, 1.01046945}, {0.00600069867, 0.0200179144, 103.560653}}};
   CHECK(refractive_index(sellmeier, 500, {20.0, 1.0}) == refractive_index(sellmeier, 500));
   CHECK(refractive_index(air(), 500, {90.0, 0.3}) == 1.0);
 }
 
-// SCHOTT's data sheet of N-BK7, temperature coefficients at the e line in 1e-6 / K: dn_rel/dT 2.9 from -40 to -20 deg C, 3.0 from
-// 20 to 40, 3.1 from 60 to 80; dn_abs/dT 0.8, 1.6, 2.1. Printed to 0.1.
+// SCHOTT's data sheet of N-BK7, temperature coefficients at the e line in 1e-6 / K: dn_rel/dT 2.9 from -40 to -20 deg
+// C, 3.0 from 20 to 40, 3.1 from 60 to 80; dn_abs/dT 0.8, 1.6, 2.1. Printed to 0.1.
 TEST_CASE("temperature coefficients of N-BK7 as its data sheet prints them") {
   const struct {
     double from_c, to_c, relative, absolute;
@@ -150,11 +156,14 @@ TEST_CASE("in vacuum a glass keeps its absolute index") {
   GlassData data = bk7_data();
   const double n_air = air_index(500.0);
   // The same light: 500 nm in air are 500 n nm in vacuum.
-  CHECK(refractive_index(bk7(), 500.0 * n_air, {20.0, 0.0}) == doctest::Approx(refractive_index(bk7(), 500.0) * n_air).epsilon(2e-8));
+  CHECK(refractive_index(bk7(), 500.0 * n_air, {20.0, 0.0}) ==
+        doctest::Approx(refractive_index(bk7(), 500.0) * n_air).epsilon(2e-8));
   data.index_in_vacuum = true;
-  CHECK(refractive_index({"", CatalogueGlass(data)}, 500.0) == doctest::Approx(refractive_index(bk7(), 500.0) / n_air).epsilon(1e-15));
+  CHECK(refractive_index({"", CatalogueGlass(data)}, 500.0) ==
+        doctest::Approx(refractive_index(bk7(), 500.0) / n_air).epsilon(1e-15));
   data.wavelength_in_vacuum = true;
-  CHECK(refractive_index({"", CatalogueGlass(data)}, 500.0) == doctest::Approx(refractive_index(bk7(), 500.0 * n_air) / n_air).epsilon(1e-15));
+  CHECK(refractive_index({"", CatalogueGlass(data)}, 500.0) ==
+        doctest::Approx(refractive_index(bk7(), 500.0 * n_air) / n_air).epsilon(1e-15));
 }
 
 TEST_CASE("a negative lambda_tk stands for a sum") {

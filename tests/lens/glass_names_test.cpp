@@ -12,11 +12,12 @@ namespace contrejour::test {
 namespace {
 
 std::string lens_with(const std::string& glass, const std::string& tables = "") {
-  return fmt::format("name = \"x\"\nsource = \"x\"\nf_number = 4\nsensor_mm = [36, 24]\nsurfaces = [\n"
-                     "  {{ radius_mm = 60, thickness_mm = 5, semi_diameter_mm = 10, glass = {} }},\n"
-                     "  {{ radius_mm = -60, thickness_mm = 2, semi_diameter_mm = 10 }},\n"
-                     "  {{ stop = true, semi_diameter_mm = 8 }},\n]\n{}",
-                     glass, tables);
+  return fmt::format(
+      "name = \"x\"\nsource = \"x\"\nf_number = 4\nsensor_mm = [36, 24]\nsurfaces = [\n"
+      "  {{ radius_mm = 60, thickness_mm = 5, semi_diameter_mm = 10, glass = {} }},\n"
+      "  {{ radius_mm = -60, thickness_mm = 2, semi_diameter_mm = 10 }},\n"
+      "  {{ stop = true, semi_diameter_mm = 8 }},\n]\n{}",
+      glass, tables);
 }
 
 Prescription read(const std::string& text, const GlassCatalogue* own = nullptr) {
@@ -25,7 +26,9 @@ Prescription read(const std::string& text, const GlassCatalogue* own = nullptr) 
   return std::move(*lens);
 }
 
-Glass glass_of(const std::string& glass, const std::string& tables = "") { return read(lens_with(glass, tables)).surfaces[0].glass_after; }
+Glass glass_of(const std::string& glass, const std::string& tables = "") {
+  return read(lens_with(glass, tables)).surfaces[0].glass_after;
+}
 
 constexpr const char* kEveryFormula[] = {
     R"({ n_d = 1.6, v_d = 60, d_pgf = 0.003 })",
@@ -63,7 +66,8 @@ TEST_CASE("catalogue glasses: one catalogue, whatever the spelling; written by n
 }
 
 TEST_CASE("a file's own [glass] comes before the catalogues") {
-  CHECK(glass_of("\"N-BK7\"", "[glass]\nN-BK7 = { n = 1.7 }\n").dispersion == decltype(Glass::dispersion)(ConstantIndex{1.7}));
+  CHECK(glass_of("\"N-BK7\"", "[glass]\nN-BK7 = { n = 1.7 }\n").dispersion ==
+        decltype(Glass::dispersion)(ConstantIndex{1.7}));
   // And so does what is written: two glasses of one name, of which one is the catalogue's.
   Prescription lens = read(lens_with("\"N-BK7\""));
   lens.surfaces.insert(lens.surfaces.begin() + 2, lens.surfaces.begin(), lens.surfaces.begin() + 2);
@@ -118,13 +122,15 @@ TEST_CASE("what is refused, with what to do") {
 
 TEST_CASE("a formula beyond where it holds is a warning") {
   const auto warnings = [](const std::string& range) {
-    const auto state = lens_at(read(lens_with(fmt::format("{{ formula = \"schott\", coefficients = [2.25], range_nm = {} }}", range))));
+    const auto state = lens_at(
+        read(lens_with(fmt::format("{{ formula = \"schott\", coefficients = [2.25], range_nm = {} }}", range))));
     REQUIRE(state.has_value());
     return state->warnings;
   };
   CHECK(warnings("[400, 700]").empty());
   REQUIRE(warnings("[480, 700]").size() == 1);
-  CHECK(warnings("[480, 700]")[0].find("surface 1: the formula of its glass holds from 480 to 700 nm") != std::string::npos);
+  CHECK(warnings("[480, 700]")[0].find("surface 1: the formula of its glass holds from 480 to 700 nm") !=
+        std::string::npos);
   CHECK(warnings("[400, 650]").size() == 1);
 }
 

@@ -130,7 +130,8 @@ void Reader::read_transmittance(const std::vector<std::string_view>& words) {
   if (words.size() < 4) return;
   const auto um = number_of(words[1]), tau = number_of(words[2]), mm = number_of(words[3]);
   if (!um || !tau || !mm) return problem("IT needs a wavelength (um), a transmittance and a thickness (mm)");
-  if (!std::isfinite(*um + *tau + *mm) || *um <= 0.0) return problem("IT has a figure that is not a number, or no wavelength");
+  if (!std::isfinite(*um + *tau + *mm) || *um <= 0.0)
+    return problem("IT has a figure that is not a number, or no wavelength");
   if (*mm <= 0.0 || *tau < 0.0) return;
   if (draft_->absorption.size() == kMaxTransmittances) return problem("too many IT lines");
   draft_->absorption.push_back({*um * 1e3, -std::log(std::clamp(*tau, kLeastTransmittance, 1.0)) / *mm + 0.0});
@@ -179,8 +180,8 @@ void Reader::check_stated(const Draft& draft, const Glass& glass) {
   if (draft.n_d == 0.0 || std::abs(n_d - draft.n_d) <= kStatedTolerance) return;
   const auto range = wavelength_range_nm(glass);
   if (range && (range->first_nm > kLineD_nm || range->last_nm < kLineD_nm)) return;  // a glass for other wavelengths
-  warn(fmt::format("{}:{}: glass '{}' states n_d {} and its formula gives {:.6f}; the formula is used", file_, draft.line,
-                   draft.name, draft.n_d, n_d));
+  warn(fmt::format("{}:{}: glass '{}' states n_d {} and its formula gives {:.6f}; the formula is used", file_,
+                   draft.line, draft.name, draft.n_d, n_d));
 }
 
 void Reader::end_glass() {
@@ -208,14 +209,17 @@ Result<GlassFile> Reader::read(std::string_view text) {
     read_line(text.substr(0, end));
     text.remove_prefix(std::min(end + 1, text.size()));
     if (named_ > kMaxGlasses)
-      return failure(ErrorCode::Parse, fmt::format("more than {} glasses; split the catalogue", kMaxGlasses), {file_, line_, 0});
+      return failure(ErrorCode::Parse, fmt::format("more than {} glasses; split the catalogue", kMaxGlasses),
+                     {file_, line_, 0});
   }
   end_glass();
   if (named_ == 0)
-    return failure(ErrorCode::Parse, "no line begins with NM: this is not an AGF catalogue; check the file", {file_, 0, 0});
+    return failure(ErrorCode::Parse, "no line begins with NM: this is not an AGF catalogue; check the file",
+                   {file_, 0, 0});
   if (found_.glasses.empty()) {
-    return failure(ErrorCode::Parse, fmt::format("none of its {} glasses can be read; the first: {}", named_,
-                                                 found_.warnings.front()), {file_, 0, 0});
+    return failure(ErrorCode::Parse,
+                   fmt::format("none of its {} glasses can be read; the first: {}", named_, found_.warnings.front()),
+                   {file_, 0, 0});
   }
   return std::move(found_);
 }
@@ -224,8 +228,8 @@ Result<GlassFile> Reader::read(std::string_view text) {
 
 Result<GlassFile> read_agf(std::string_view bytes, const std::string& file, const std::string& maker) {
   if (bytes.size() > kMaxGlassFileBytes) {
-    return failure(ErrorCode::Parse, fmt::format("{} bytes; a catalogue has at most {}", bytes.size(), kMaxGlassFileBytes),
-                   {file, 0, 0});
+    return failure(ErrorCode::Parse,
+                   fmt::format("{} bytes; a catalogue has at most {}", bytes.size(), kMaxGlassFileBytes), {file, 0, 0});
   }
   return Reader(file, maker).read(decode_text(bytes));
 }

@@ -13,8 +13,8 @@ constexpr double kAirExpansion_per_k = 3.4785e-3;
 // Change of the absolute index from the reference temperature: Schott TIE-19 eq. 6, as AGF files have it.
 double thermal_change(const ThermalDispersion& t, double n, double lambda_um, double dt_k) {
   const double resonance = t.lambda_tk_um * std::abs(t.lambda_tk_um);
-  const double change = dt_k * (t.d0 + dt_k * (t.d1 + dt_k * t.d2)) +
-                        dt_k * (t.e0 + dt_k * t.e1) / (lambda_um * lambda_um - resonance);
+  const double change =
+      dt_k * (t.d0 + dt_k * (t.d1 + dt_k * t.d2)) + dt_k * (t.e0 + dt_k * t.e1) / (lambda_um * lambda_um - resonance);
   return change * (n * n - 1.0) / (2.0 * n);
 }
 
@@ -39,8 +39,8 @@ double refractive_index(const Glass& glass, double lambda_nm, const AirState& ai
   const double n = refractive_index(glass, there_nm);
   double absolute = n * n_reference_air;
   if (known != nullptr && known->data().thermal) {
-    absolute += thermal_change(*known->data().thermal, n, um_from_nm(there_nm),
-                               air.temperature_c - reference.temperature_c);
+    absolute +=
+        thermal_change(*known->data().thermal, n, um_from_nm(there_nm), air.temperature_c - reference.temperature_c);
   }
   return absolute / n_air;
 }

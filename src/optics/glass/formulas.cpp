@@ -93,7 +93,8 @@ double powers(const Coefficients& c, std::size_t first, double lambda_um) {
 double rii4_squared(const Coefficients& c, double lambda_um) {
   double sum = c[0] + powers(c, 9, lambda_um);
   for (std::size_t k = 1; k < 9; k += 4)
-    if (c[k] != 0.0) sum += c[k] * std::pow(lambda_um, c[k + 1]) / (lambda_um * lambda_um - std::pow(c[k + 2], c[k + 3]));
+    if (c[k] != 0.0)
+      sum += c[k] * std::pow(lambda_um, c[k + 1]) / (lambda_um * lambda_um - std::pow(c[k + 2], c[k + 3]));
   return sum;
 }
 

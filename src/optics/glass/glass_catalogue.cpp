@@ -94,8 +94,9 @@ std::vector<std::string> GlassCatalogue::makers() const {
 }
 
 bool GlassCatalogue::is_of(std::size_t k, std::span<const std::string> makers) const {
-  return makers.empty() || std::any_of(makers.begin(), makers.end(),
-                                       [&](const std::string& maker) { return rows_[k].maker_key == maker_key(maker); });
+  return makers.empty() || std::any_of(makers.begin(), makers.end(), [&](const std::string& maker) {
+           return rows_[k].maker_key == maker_key(maker);
+         });
 }
 
 Result<CatalogueEntry> GlassCatalogue::find(std::string_view name, std::span<const std::string> makers) const {
@@ -126,9 +127,9 @@ Result<CatalogueEntry> GlassCatalogue::find(std::string_view name, std::span<con
   for (const Row& row : rows_) names.push_back(row.summary.name);
   const std::string near = nearest_name(name, names);
   const std::string where = makers.empty() ? "" : fmt::format(" among {}", fmt::join(makers, ", "));
-  return failure(ErrorCode::InvalidArgument,
-                 fmt::format("no glass is called '{}'{}; {}", shortened(name), where,
-                             near.empty() ? "`contrejour glass list` shows all" : fmt::format("did you mean '{}'?", near)));
+  return failure(ErrorCode::InvalidArgument, fmt::format("no glass is called '{}'{}; {}", shortened(name), where,
+                                                         near.empty() ? "`contrejour glass list` shows all"
+                                                                      : fmt::format("did you mean '{}'?", near)));
 }
 
 std::vector<CloseGlass> GlassCatalogue::closest(double n_d, double v_d, std::size_t count,
@@ -140,7 +141,8 @@ std::vector<CloseGlass> GlassCatalogue::closest(double n_d, double v_d, std::siz
     if (!is_of(k, makers)) continue;
     all.push_back({glass, std::hypot((glass.n_d - n_d) / kIndexStep, (glass.v_d - v_d) / kAbbeStep)});
   }
-  std::stable_sort(all.begin(), all.end(), [](const CloseGlass& a, const CloseGlass& b) { return a.distance < b.distance; });
+  std::stable_sort(all.begin(), all.end(),
+                   [](const CloseGlass& a, const CloseGlass& b) { return a.distance < b.distance; });
   if (all.size() > count) all.resize(count);
   return all;
 }

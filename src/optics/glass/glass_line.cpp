@@ -36,7 +36,8 @@ std::vector<double> numbers_of(std::string_view part) {
 }
 
 GlassStatus status_of(std::string_view word) {
-  for (const GlassStatus status : {GlassStatus::Preferred, GlassStatus::Obsolete, GlassStatus::Special, GlassStatus::Melt})
+  for (const GlassStatus status :
+       {GlassStatus::Preferred, GlassStatus::Obsolete, GlassStatus::Special, GlassStatus::Melt})
     if (word == status_name(status)) return status;
   return GlassStatus::Standard;
 }

@@ -2,9 +2,9 @@
 #pragma once
 
 #include <algorithm>
-#include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "contrejour/glass_catalogue.h"
 
@@ -14,7 +14,7 @@ struct BundledGlassFile {
   std::string_view name;  // "schott"
   std::string_view text;
 };
-[[nodiscard]] std::span<const BundledGlassFile> bundled_glass_files();
+[[nodiscard]] std::vector<BundledGlassFile> bundled_glass_files();
 [[nodiscard]] std::string maker_of_bundled(std::string_view file_name);  // "SCHOTT"
 
 // NAME; STATUS; CODE; N_D V_D; FORMULA C ...; FIRST LAST (nm); T_REF [D0 D1 D2 E0 E1 L_TK]; NM PER_M ...

@@ -26,7 +26,10 @@ std::string count_problem(const GlassData& data) {
   if (count.most == 0) return "a formula that is not known";
   if (size < count.least || size > count.most || (count.odd && size % 2 == 0) || (count.even && size % 2 != 0)) {
     return fmt::format("{} coefficients of {}; it takes {}{} to {}", size, formula_name(data.formula),
-                       count.odd ? "an odd number from " : count.even ? "pairs, from " : "", count.least, count.most);
+                       count.odd    ? "an odd number from "
+                       : count.even ? "pairs, from "
+                                    : "",
+                       count.least, count.most);
   }
   for (const double c : data.coefficients)
     if (!within(c, -kHuge, kHuge)) return fmt::format("a coefficient is {}; check its figures", c);
@@ -58,8 +61,10 @@ std::string other_problem(const GlassData& data) {
   }
   double before_nm = 0.0;
   for (const Absorption& row : data.absorption) {
-    if (!(row.lambda_nm > before_nm)) return fmt::format("transmittance: wavelengths do not rise at {} nm", row.lambda_nm);
-    if (!within(row.per_mm, 0.0, 1e12)) return fmt::format("an absorption of {} per mm at {} nm", row.per_mm, row.lambda_nm);
+    if (!(row.lambda_nm > before_nm))
+      return fmt::format("transmittance: wavelengths do not rise at {} nm", row.lambda_nm);
+    if (!within(row.per_mm, 0.0, 1e12))
+      return fmt::format("an absorption of {} per mm at {} nm", row.per_mm, row.lambda_nm);
     before_nm = row.lambda_nm;
   }
   return "";
@@ -72,8 +77,8 @@ std::string index_problem(const Glass& glass) {
     const double nm = asked.first_nm + (asked.last_nm - asked.first_nm) * k / (kSamples - 1);
     const double n = refractive_index(glass, nm);
     if (n > 0.0 && n <= kMaxIndex) continue;
-    return fmt::format("the index is {} at {:.6g} nm, where the glass says that its formula holds; check its figures", n,
-                       nm);
+    return fmt::format("the index is {} at {:.6g} nm, where the glass says that its formula holds; check its figures",
+                       n, nm);
   }
   return "";
 }

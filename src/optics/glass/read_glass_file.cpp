@@ -82,8 +82,10 @@ void fill_stated(CatalogueEntry& entry) {
 
 Result<GlassFile> read_glass_file(const std::filesystem::path& file) {
   if (!is_agf(file) && !is_yaml(file)) {
-    return failure(ErrorCode::Parse, "not a catalogue that is known by its ending; give an .agf file, or a .yml of "
-                                     "refractiveindex.info", {file.string(), 0, 0});
+    return failure(ErrorCode::Parse,
+                   "not a catalogue that is known by its ending; give an .agf file, or a .yml of "
+                   "refractiveindex.info",
+                   {file.string(), 0, 0});
   }
   const auto bytes = read_text_file(file, kMaxGlassFileBytes, "give an .agf or .yml file, or a folder of them");
   if (!bytes) return tl::unexpected(bytes.error());
@@ -102,7 +104,8 @@ Result<std::vector<std::string>> GlassCatalogue::add_path(const std::filesystem:
   }
   const FoundFiles found = files_of(path);
   if (found.code)
-    return failure(ErrorCode::Io, fmt::format("cannot be read: {}; check the folder", found.code.message()), {path.string(), 0, 0});
+    return failure(ErrorCode::Io, fmt::format("cannot be read: {}; check the folder", found.code.message()),
+                   {path.string(), 0, 0});
   if (found.files.empty()) {
     return failure(ErrorCode::Io, "the folder has no .agf and no .yml files; give another", {path.string(), 0, 0});
   }

@@ -41,7 +41,8 @@ Numbers numbers_of(std::string_view text, int line) {
     double value = 0.0;
     const auto [end, code] = std::from_chars(text.data() + at, text.data() + text.size(), value);
     const std::size_t next = static_cast<std::size_t>(end - text.data());
-    const bool whole = code == std::errc{} && (next == text.size() || kSpace.find(text[next]) != std::string_view::npos);
+    const bool whole =
+        code == std::errc{} && (next == text.size() || kSpace.find(text[next]) != std::string_view::npos);
     if (!whole || !std::isfinite(value) || numbers.values.size() == kMaxNumbers) {
       numbers.bad_line = line;
       return numbers;
@@ -118,7 +119,8 @@ Result<void> Reader::read_table(const YamlNode& block, bool has_n, bool has_k) {
     rows.push_back({(*values)[at], has_n ? (*values)[at + 1] : 0.0, has_k ? (*values)[at + columns - 1] : 0.0});
   }
   std::stable_sort(rows.begin(), rows.end(), [](const Row& a, const Row& b) { return a.um < b.um; });
-  rows.erase(std::unique(rows.begin(), rows.end(), [](const Row& a, const Row& b) { return a.um == b.um; }), rows.end());
+  rows.erase(std::unique(rows.begin(), rows.end(), [](const Row& a, const Row& b) { return a.um == b.um; }),
+             rows.end());
   for (const Row& row : rows) {
     if (has_n) data_.coefficients.insert(data_.coefficients.end(), {row.um, row.n});
     if (has_k) k_.emplace_back(row.um * 1e3, row.k);
@@ -137,16 +139,20 @@ Result<void> Reader::read_block(const YamlNode& block) {
   if (name == "tabulated nk") return read_table(block, true, true);
   if (name == "tabulated n2" || name == "formula A") return {};  // other properties than n and k
   if (name.size() == 9 && name.starts_with("formula ") && name[8] >= '1' && name[8] <= '9') {
-    return read_formula(block, static_cast<DispersionFormula>(static_cast<int>(DispersionFormula::Rii1) + name[8] - '1'));
+    return read_formula(block,
+                        static_cast<DispersionFormula>(static_cast<int>(DispersionFormula::Rii1) + name[8] - '1'));
   }
-  return fail(type->line, fmt::format("'{}' is not a type that is known: formula 1 to 9, tabulated n, k or nk",
-                                      shortened(name)), ErrorCode::Unsupported);
+  return fail(type->line,
+              fmt::format("'{}' is not a type that is known: formula 1 to 9, tabulated n, k or nk", shortened(name)),
+              ErrorCode::Unsupported);
 }
 
 // Temperature in K; whether index and wavelength are against vacuum, which older files say under SPECS. Nothing said
 // means air, as in catalogues.
 void Reader::read_conditions() {
-  const auto truth = [](const YamlNode* node) { return node != nullptr && (node->scalar == "true" || node->scalar == "yes"); };
+  const auto truth = [](const YamlNode* node) {
+    return node != nullptr && (node->scalar == "true" || node->scalar == "yes");
+  };
   for (const std::string_view group : {"CONDITIONS", "SPECS", "PROPERTIES"}) {
     const YamlNode* node = root_.find(group);
     if (node == nullptr) continue;
@@ -188,7 +194,8 @@ void Reader::set_absorption() {
 Result<GlassData> Reader::read() {
   const YamlNode* blocks = root_.find("DATA");
   if (blocks == nullptr || blocks->kind != YamlNode::Kind::List) {
-    return fail(root_.line, "no DATA: this is not a page of optical constants; name another file", ErrorCode::Unsupported);
+    return fail(root_.line, "no DATA: this is not a page of optical constants; name another file",
+                ErrorCode::Unsupported);
   }
   for (const YamlNode& block : blocks->list)
     if (const auto read = read_block(block); !read) return tl::unexpected(read.error());

@@ -10,7 +10,8 @@
 
 namespace contrejour {
 
-// One for the reading of one file: the bundled catalogue is loaded when a name is first asked for that is not elsewhere.
+// One for the reading of one file: the bundled catalogue is loaded when a name is first asked for that is not
+// elsewhere.
 class GlassFinder {
  public:
   explicit GlassFinder(const GlassCatalogue* own = nullptr) : own_(own) {}

@@ -27,7 +27,8 @@ std::vector<double> read_list(TomlFields& fields, std::string_view key, std::siz
 
 void read_absorption(TomlFields& fields, GlassData& data) {
   const std::vector<double> pairs = read_list(fields, "absorption_per_mm", 2, kMaxNumbers);
-  if (pairs.size() % 2 != 0) return fields.fail_here("absorption_per_mm must be pairs of a wavelength (nm) and a figure");
+  if (pairs.size() % 2 != 0)
+    return fields.fail_here("absorption_per_mm must be pairs of a wavelength (nm) and a figure");
   for (std::size_t k = 0; k + 1 < pairs.size(); k += 2) data.absorption.push_back({pairs[k], pairs[k + 1]});
 }
 
@@ -39,8 +40,9 @@ GlassData read_data(TomlFields& fields, TomlErrors& errors) {
     std::vector<std::string_view> names;
     for (const DispersionFormula known : all_formulas()) names.push_back(formula_name(known));
     const std::string near = nearest_name(name, names);
-    fields.fail_here(fmt::format("no formula is called '{}'; {}", shortened(name),
-                                 near.empty() ? "see docs/formats/lens-toml.md" : fmt::format("did you mean '{}'?", near)));
+    fields.fail_here(
+        fmt::format("no formula is called '{}'; {}", shortened(name),
+                    near.empty() ? "see docs/formats/lens-toml.md" : fmt::format("did you mean '{}'?", near)));
   }
   data.formula = formula.value_or(DispersionFormula::Schott);
   data.coefficients = read_list(fields, "coefficients", 1, kMaxNumbers);
@@ -88,8 +90,8 @@ Glass read_formula_keys(const toml::table& table, std::string name, const std::s
 }
 
 std::string formula_text(const GlassData& data) {
-  std::string text =
-      fmt::format("formula = {}, coefficients = {}", toml_string(formula_name(data.formula)), list_text(data.coefficients));
+  std::string text = fmt::format("formula = {}, coefficients = {}", toml_string(formula_name(data.formula)),
+                                 list_text(data.coefficients));
   if (data.range_nm) text += ", range_nm = " + list_text(std::array{data.range_nm->first_nm, data.range_nm->last_nm});
   if (data.reference_temperature_c != GlassData{}.reference_temperature_c) {
     text += ", temperature_c = " + number(data.reference_temperature_c);
