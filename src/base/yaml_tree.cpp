@@ -1,5 +1,6 @@
 #include "base/yaml_tree.h"
 
+#include <algorithm>
 #include <exception>
 #include <istream>
 #include <stdexcept>
@@ -101,6 +102,20 @@ class TreeBuilder : public YAML::EventHandler {
   std::size_t nodes_ = 0;
 };
 
+// yaml-cpp keeps all brackets that are open, a quarter of a kilobyte each, before it hands out the first. The line that opens
+// too many, or 0; brackets within words count too, of which no text leaves so many open.
+int line_of_many_brackets(std::string_view text) {
+  constexpr int kMost = 1000;
+  int line = 1, open = 0;
+  for (const char c : text) {
+    if (c == '[' || c == '{') ++open;
+    if (c == ']' || c == '}') open = std::max(open - 1, 0);
+    if (open > kMost) return line;
+    line += c == '\n' ? 1 : 0;
+  }
+  return 0;
+}
+
 // The text as a stream, without a copy.
 class ViewBuffer : public std::streambuf {
  public:
@@ -122,6 +137,8 @@ Result<YamlNode> parse_yaml(std::string_view text, const std::string& file) {
   if (text.size() > kYamlMaxBytes)
     return failure(ErrorCode::Parse, fmt::format("{} bytes; at most {} are read", text.size(), kYamlMaxBytes),
                    {file, 0, 0});
+  if (const int line = line_of_many_brackets(text); line != 0)
+    return failure(ErrorCode::Parse, fmt::format("nested deeper than {} levels", kMaxDepth), {file, line, 0});
   try {
     ViewBuffer buffer(text);
     std::istream stream(&buffer);

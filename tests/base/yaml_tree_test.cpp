@@ -43,8 +43,9 @@ TEST_CASE("what is refused, and where") {
   check_refused("a: &x 1\nb: *x\n", "aliases", 2);
   check_refused("a: 1\n? [b]\n: 2\n", "key must be a word");
   check_refused("a: 1\n? \n: 2\n", "key");
-  check_refused(repeated("[", 100'000), "");
-  check_refused(repeated("{a: ", 100'000), "");
+  check_refused(repeated("[", 100'000), "nested deeper", 1);
+  check_refused("a: 1\nb: " + repeated("{a: ", 100'000), "nested deeper", 2);
+  check_refused(repeated("[\n", 100'000), "nested deeper");
   check_refused("a: " + repeated("[", 20) + repeated("]", 20), "nested deeper");
   check_refused(repeated("- ", 100'000), "nested deeper");
   check_refused("a:\n" + repeated("  - 1\n", 20'000), "more than 10000 values", 10000);
