@@ -126,9 +126,8 @@ std::string show_text(const CatalogueEntry& entry) {
 Result<CatalogueEntry> find_glass(const GlassCatalogue& glasses, const ShowOptions& options) {
   if (const auto coded = glass_of_code(options.name)) {
     const GlassFigures figures = glass_figures(*coded);
-    return CatalogueEntry{{options.name, "code", options.name, GlassStatus::Standard, figures.n_d, figures.v_d},
-                          *coded,
-                          "its six digits"};
+    return CatalogueEntry{
+        {options.name, "code", "", GlassStatus::Standard, figures.n_d, figures.v_d}, *coded, "its six digits"};
   }
   return glasses.find(options.name, options.makers);
 }

@@ -21,9 +21,9 @@ enum class GlassStatus { Standard, Preferred, Obsolete, Special, Melt };  // as 
 
 // A glass in a list. n_d and v_d as its catalogue states them, else computed; 0 where the formula does not reach.
 struct GlassSummary {
-  std::string name;   // "N-BK7"
+  std::string name;  // "N-BK7"
   std::string maker;  // "SCHOTT"
-  std::string code;   // six digits, may be empty
+  std::string code;  // six digits, may be empty
   GlassStatus status = GlassStatus::Standard;
   double n_d = 0.0;
   double v_d = 0.0;
@@ -31,7 +31,7 @@ struct GlassSummary {
 
 struct CatalogueEntry {
   GlassSummary summary;
-  Glass glass;         // named as the catalogue names it
+  Glass glass;  // named as the catalogue names it
   std::string source;  // the file it comes from
 };
 

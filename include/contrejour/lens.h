@@ -145,7 +145,8 @@ struct LensState {
 
 // Reads a lens in any format that is known, by content and extension. Bounded in memory and time. Glasses that the file
 // names are looked for in `glasses`, if given, and then in the bundled catalogue.
-[[nodiscard]] Result<Prescription> read_lens(const std::filesystem::path& file, const GlassCatalogue* glasses = nullptr);
+[[nodiscard]] Result<Prescription> read_lens(const std::filesystem::path& file,
+                                             const GlassCatalogue* glasses = nullptr);
 
 // Our own format (docs/formats/lens-toml.md) from memory; `file` names it in errors.
 [[nodiscard]] Result<Prescription> read_lens_toml(std::string_view text, const std::string& file,
