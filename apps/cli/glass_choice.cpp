@@ -1,5 +1,6 @@
 #include "cli/glass_choice.h"
 
+#include <algorithm>
 #include <cstdlib>
 
 #include "cli/console.h"

@@ -137,6 +137,22 @@ TEST_CASE("a glass that cannot be is left out and named with its line; the other
   }
 }
 
+TEST_CASE("stated figures that are no numbers are as if they were not there") {
+  const GlassFile file = read("NM A 1 1 nan inf 0 nan\nCD 2.25 -0.01 0.01\nLD 0.4 0.7\n");
+  CHECK(std::abs(file.glasses.at(0).summary.n_d - 1.508) < 0.01);
+  CHECK(std::isfinite(file.glasses[0].summary.v_d));
+  CHECK(file.warnings.empty());
+}
+
+TEST_CASE("a thousand broken glasses make a hundred warnings and one more") {
+  std::string text = kTwo;
+  for (int k = 0; k < 1000; ++k) text += "NM BAD 99\n";
+  const GlassFile file = read(text);
+  CHECK(file.glasses.size() == 2);
+  CHECK(file.warnings.size() == 101);
+  CHECK(file.warnings.back().find("more warnings") != std::string::npos);
+}
+
 TEST_CASE("a stated index that is another than the formula's is a warning") {
   const GlassFile file = read("NM A 1 1 1.6 60\nCD 2.25\nLD 0.4 0.7\n");
   CHECK(file.glasses.size() == 1);

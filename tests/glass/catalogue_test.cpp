@@ -92,6 +92,7 @@ TEST_CASE("the closest glass") {
   CHECK(own.closest(1.5014, 60.0, 1, {}, true).at(0).glass.name == "old");
   CHECK(own.closest(1.5014, 60.0, 1, std::vector<std::string>{"A"}).at(0).glass.name == "one");
   CHECK(own.closest(1.5, 60.0, 0).empty());
+  CHECK(own.closest(std::nan(""), 60.0, 5).empty());
   CHECK(GlassCatalogue().closest(1.5, 60.0, 5).empty());
 }
 

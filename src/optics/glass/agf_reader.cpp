@@ -78,7 +78,9 @@ class Reader {
     if (draft_ && draft_->problem.empty()) draft_->problem = fmt::format("{}:{}: {}", file_, line_, what);
   }
   void warn(std::string text) {
-    if (found_.warnings.size() < kMaxWarnings) found_.warnings.push_back(std::move(text));
+    if (found_.warnings.size() > kMaxWarnings) return;
+    if (found_.warnings.size() == kMaxWarnings) text = fmt::format("{}: more warnings are not shown", file_);
+    found_.warnings.push_back(std::move(text));
   }
 
   const std::string& file_;
@@ -100,7 +102,10 @@ void Reader::begin_glass(const std::vector<std::string_view>& words) {
   const auto formula = number_of(words[2]);
   if (!formula) return problem(fmt::format("'{}' is not the number of a formula", shortened(words[2])));
   draft_->formula = *formula;
-  const auto number_at = [&](std::size_t k) { return words.size() > k ? number_of(words[k]).value_or(0.0) : 0.0; };
+  const auto number_at = [&](std::size_t k) {
+    const double value = words.size() > k ? number_of(words[k]).value_or(0.0) : 0.0;
+    return std::isfinite(value) ? value : 0.0;
+  };
   if (words.size() > 3 && glass_of_code(words[3])) draft_->code = words[3];
   draft_->n_d = number_at(4);
   draft_->v_d = number_at(5);

@@ -139,7 +139,8 @@ std::vector<CloseGlass> GlassCatalogue::closest(double n_d, double v_d, std::siz
     const GlassSummary& glass = rows_[k].summary;
     if (glass.n_d == 0.0 || glass.v_d == 0.0 || (glass.status == GlassStatus::Obsolete && !obsolete)) continue;
     if (!is_of(k, makers)) continue;
-    all.push_back({glass, std::hypot((glass.n_d - n_d) / kIndexStep, (glass.v_d - v_d) / kAbbeStep)});
+    const double distance = std::hypot((glass.n_d - n_d) / kIndexStep, (glass.v_d - v_d) / kAbbeStep);
+    if (std::isfinite(distance)) all.push_back({glass, distance});
   }
   std::stable_sort(all.begin(), all.end(),
                    [](const CloseGlass& a, const CloseGlass& b) { return a.distance < b.distance; });

@@ -218,9 +218,9 @@ void warn_of_glasses(LensState& state) {
     if (range->first_nm <= std::min(kLineG_nm, state.design_wavelength_nm) &&
         range->last_nm >= std::max(kLineC_nm, state.design_wavelength_nm))
       continue;
-    state.warnings.push_back(fmt::format("surface {}: the formula of {} holds from {:g} to {:g} nm; beyond, its index is a guess",
-                                         k + 1, glass.name.empty() ? "its glass" : glass.name, range->first_nm,
-                                         range->last_nm));
+    state.warnings.push_back(
+        fmt::format("surface {}: the formula of {} holds from {:g} to {:g} nm; beyond, its index is a guess", k + 1,
+                    glass.name.empty() ? "its glass" : glass.name, range->first_nm, range->last_nm));
   }
 }
 
