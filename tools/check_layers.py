@@ -66,6 +66,7 @@ PUBLIC = {
     "ringing.h": "render/screens",
     "spectrum_file.h": "image",
     "starburst.h": "diffraction",
+    "surface_shape.h": "kernels",
     "trace.h": "trace",
     "vec.h": "base",
 }

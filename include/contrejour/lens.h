@@ -18,6 +18,7 @@
 #include "contrejour/glass.h"
 #include "contrejour/iris.h"
 #include "contrejour/result.h"
+#include "contrejour/surface_shape.h"
 #include "contrejour/vec.h"
 
 namespace contrejour {
@@ -25,6 +26,13 @@ namespace contrejour {
 class GlassCatalogue;  // glass_catalogue.h
 
 enum class SurfaceKind { Refracting, Stop };
+
+// How a surface stands that is not where a centred one would be.
+struct SurfacePose {
+  Vec3 shift_mm{};     // of its vertex
+  Vec3 axis{0, 0, 1};  // unit, z > 0; the smallest turn takes +z there
+  friend bool operator==(const SurfacePose&, const SurfacePose&) = default;
+};
 
 struct Surface {
   SurfaceKind kind = SurfaceKind::Refracting;
@@ -34,6 +42,8 @@ struct Surface {
   Glass glass_after;              // the medium behind; for the stop, the same as in front
   Coating coating;
   int source_line = 0;            // in the file it was read from, 0 unknown
+  SurfaceShape shape = {};
+  SurfacePose pose = {};          // decentred and tilted elements; those around stay where they are
 };
 
 // One position of a zoom: thicknesses (mm) that replace those of the surfaces, by vector index.
@@ -92,13 +102,6 @@ struct LensSettings {
   Dirt dirt = {};
 };
 
-// How a surface stands that is not where it ought to be.
-struct SurfacePose {
-  Vec3 shift_mm{};     // of its vertex
-  Vec3 axis{0, 0, 1};  // unit, z > 0
-  friend bool operator==(const SurfacePose&, const SurfacePose&) = default;
-};
-
 struct SurfaceState {
   SurfaceKind kind = SurfaceKind::Refracting;
   double z_mm = 0.0;
@@ -107,8 +110,10 @@ struct SurfaceState {
   Glass before, after;
   Coating coating;
   SurfacePose pose = {};
+  SurfaceShape shape = {};
 
   [[nodiscard]] bool is_centred() const { return pose == SurfacePose{}; }
+  [[nodiscard]] bool has_axial_symmetry() const { return is_centred() && shape.has_axial_symmetry(); }
 };
 
 // Everything a renderer needs to know of the lens: fixed positions, stop radius, sensor in focus.
@@ -128,9 +133,9 @@ struct LensState {
   double design_wavelength_nm = kLineD_nm;
   std::vector<std::string> warnings;
 
-  // A surface of revolution, so that one meridian tells all.
-  [[nodiscard]] bool is_centred() const {
-    return std::all_of(surfaces.begin(), surfaces.end(), [](const SurfaceState& s) { return s.is_centred(); });
+  // Surfaces of revolution about one axis, so that one meridian tells all.
+  [[nodiscard]] bool has_axial_symmetry() const {
+    return std::all_of(surfaces.begin(), surfaces.end(), [](const SurfaceState& s) { return s.has_axial_symmetry(); });
   }
 };
 

@@ -1,11 +1,12 @@
 // Sequential ray tracing along a prescribed path, as hullin2011 4.1 and its supplement: fixed order of
-// surfaces, spheres continued beyond their rims, intersections behind the ray allowed, nothing clipped but
-// everything recorded. With T at every refraction and R at every reflection (the supplement has R only).
+// surfaces, continued beyond their rims, intersections behind the ray allowed, nothing clipped but everything
+// recorded. With T at every refraction and R at every reflection (the supplement has R only).
 // Accuracy: double; 1e-9 mm against closed forms. Thread-safety: pure functions.
 #pragma once
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "contrejour/lens.h"
@@ -13,6 +14,8 @@
 #include "contrejour/vec.h"
 
 namespace contrejour {
+
+struct ShapeConstants;
 
 // Two-reflection path, surfaces count from 1, i < j: the light reflects first at j, then at i.
 struct Ghost {
@@ -49,6 +52,7 @@ struct PathStep {
   double n_out = 1;  // medium on the other side (also for a reflection)
   Coating coating;
   SurfacePose pose = {};
+  std::shared_ptr<const ShapeConstants> shape = nullptr;  // none: a sphere or a plane
 };
 
 // A ghost's or the direct image's way through the lens at one wavelength.
@@ -58,7 +62,7 @@ struct OpticalPath {
   double sensor_z_mm = 0;
   double stop_radius_mm = 1;
   int stop_crossings = 0;
-  bool centred = true;  // every pose is as it ought to be
+  bool centred = true;  // every pose is that of a centred lens
 };
 
 inline constexpr int kMaxStopCrossings = 3;

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "base/normal_pair.h"
+#include "optics/lens/carried.h"
 
 namespace contrejour {
 namespace {
@@ -58,8 +59,7 @@ void apply_build_errors(const BuildErrors& errors, std::vector<SurfaceState>& su
     for (std::size_t k = body.first; k <= body.last; ++k) {
       SurfaceState& s = surfaces[k];
       if (s.kind == SurfaceKind::Stop) continue;
-      s.pose.axis = axis;
-      s.pose.shift_mm = Vec3{aside.x, aside.y, 0.0} + (axis - Vec3{0, 0, 1}) * (s.z_mm - middle_mm);
+      s.pose = carried({Vec3{aside.x, aside.y, 0.0}, axis}, s.z_mm - middle_mm, s.pose);
     }
   }
 }

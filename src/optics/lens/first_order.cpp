@@ -22,31 +22,35 @@ Index index_at(const SurfaceState& surface, double lambda_nm) {
   return {refractive_index(surface.before, lambda_nm), refractive_index(surface.after, lambda_nm)};
 }
 
-Abcd refraction_forward(const SurfaceState& s, double lambda_nm) {
-  if (s.kind == SurfaceKind::Stop) return {};
-  const Index n = index_at(s, lambda_nm);
-  return refraction(n.before, n.after, s.curvature_per_mm);
+double curvature_of(const SurfaceState& s, Section section) {
+  return vertex_curvature(s.curvature_per_mm, s.shape, section);
 }
 
-Abcd refraction_backward(const SurfaceState& s, double lambda_nm) {
+Abcd refraction_forward(const SurfaceState& s, double lambda_nm, Section section) {
   if (s.kind == SurfaceKind::Stop) return {};
   const Index n = index_at(s, lambda_nm);
-  return refraction(n.after, n.before, -s.curvature_per_mm);
+  return refraction(n.before, n.after, curvature_of(s, section));
+}
+
+Abcd refraction_backward(const SurfaceState& s, double lambda_nm, Section section) {
+  if (s.kind == SurfaceKind::Stop) return {};
+  const Index n = index_at(s, lambda_nm);
+  return refraction(n.after, n.before, -curvature_of(s, section));
 }
 
 }  // namespace
 
-Abcd abcd_between(std::span<const SurfaceState> surfaces, int first, int last, double lambda_nm) {
+Abcd abcd_between(std::span<const SurfaceState> surfaces, int first, int last, double lambda_nm, Section section) {
   Abcd m;
   for (int k = first; k <= last; ++k) {
     const auto& s = surfaces[static_cast<std::size_t>(k)];
     if (k > first) m = transfer(s.z_mm - surfaces[static_cast<std::size_t>(k - 1)].z_mm) * m;
-    m = refraction_forward(s, lambda_nm) * m;
+    m = refraction_forward(s, lambda_nm, section) * m;
   }
   return m;
 }
 
-Abcd abcd_ghost(const LensState& lens, int i, int j, double lambda_nm) {
+Abcd abcd_ghost(const LensState& lens, int i, int j, double lambda_nm, Section section) {
   const auto& all = lens.surfaces;
   const auto surface = [&](int k) -> const SurfaceState& { return all[static_cast<std::size_t>(k)]; };
   const int last = static_cast<int>(all.size()) - 1;
@@ -55,11 +59,11 @@ Abcd abcd_ghost(const LensState& lens, int i, int j, double lambda_nm) {
   const auto gap = [&](int k) { return transfer(surface(k + 1).z_mm - surface(k).z_mm); };
 
   Abcd m;
-  for (int k = 0; k < far; ++k) m = gap(k) * refraction_forward(surface(k), lambda_nm) * m;
-  m = reflection(surface(far).curvature_per_mm) * m;
-  for (int k = far - 1; k > near; --k) m = refraction_backward(surface(k), lambda_nm) * gap(k) * m;
-  m = reflection(-surface(near).curvature_per_mm) * gap(near) * m;
-  for (int k = near; k < last; ++k) m = refraction_forward(surface(k + 1), lambda_nm) * gap(k) * m;
+  for (int k = 0; k < far; ++k) m = gap(k) * refraction_forward(surface(k), lambda_nm, section) * m;
+  m = reflection(curvature_of(surface(far), section)) * m;
+  for (int k = far - 1; k > near; --k) m = refraction_backward(surface(k), lambda_nm, section) * gap(k) * m;
+  m = reflection(-curvature_of(surface(near), section)) * gap(near) * m;
+  for (int k = near; k < last; ++k) m = refraction_forward(surface(k + 1), lambda_nm, section) * gap(k) * m;
   return transfer(lens.sensor_z_mm - surface(last).z_mm) * m;
 }
 
@@ -86,6 +90,14 @@ FirstOrder first_order(const LensState& lens, double lambda_nm) {
   f.exit_pupil_diameter_mm = std::abs(f.entrance_pupil_diameter_mm * pupil_magnification);
   const double half_diagonal = 0.5 * std::hypot(lens.sensor_width_mm, lens.sensor_height_mm);
   f.half_field_rad = std::atan(half_diagonal / std::abs(f.focal_length_mm));
+  f.focal_length_x_mm = f.focal_length_mm;
+  f.back_focal_distance_x_mm = f.back_focal_distance_mm;
+  if (lens.has_axial_symmetry()) return f;
+  const Abcd in_x = abcd_between(lens.surfaces, 0, last, lambda_nm, Section::X);
+  f.focal_length_x_mm = -1.0 / in_x.c;
+  f.back_focal_distance_x_mm = -in_x.a / in_x.c;
+  f.half_field_rad = std::atan(
+      0.5 * std::hypot(lens.sensor_width_mm / f.focal_length_x_mm, lens.sensor_height_mm / f.focal_length_mm));
   return f;
 }
 

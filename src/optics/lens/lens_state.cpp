@@ -2,13 +2,14 @@
 // from the f-number by a real marginal ray.
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <optional>
 
 #include <fmt/format.h>
 
 #include "contrejour/first_order.h"
 #include "contrejour/lens.h"
-#include "kernels/surface-inl.h"
+#include "kernels/shape-inl.h"
 #include "optics/lens/build_errors.h"
 #include "optics/lens/iris_closing.h"
 
@@ -45,7 +46,8 @@ std::vector<SurfaceState> place_surfaces(const Prescription& lens, const std::ve
     const Surface& s = lens.surfaces[k];
     const Glass after = s.kind == SurfaceKind::Stop ? medium : s.glass_after;
     const bool replaces = coating && s.kind == SurfaceKind::Refracting && is_air(medium) != is_air(after);
-    out.push_back({s.kind, z, s.curvature_per_mm, s.semi_diameter_mm, medium, after, replaces ? *coating : s.coating});
+    out.push_back({s.kind, z, s.curvature_per_mm, s.semi_diameter_mm, medium, after, replaces ? *coating : s.coating,
+                   s.pose, s.shape});
     medium = after;
     z += thickness[k];
   }
@@ -123,12 +125,18 @@ Result<ZoomSetting> choose_zoom(const Prescription& lens, const std::optional<do
                  fmt::format("this lens has one focal length, {:.2f} mm; leave the focal length out", own), lens.file);
 }
 
+hk::Hit<double> meet_centred(const hk::Ray3<double>& ray, const SurfaceState& s) {
+  if (s.shape.is_sphere()) return hk::intersect(ray, s.z_mm, s.curvature_per_mm, 1.0);
+  const ShapeConstants shape = shape_constants(s.curvature_per_mm, s.shape, s.semi_diameter_mm);
+  return hk::intersect_shape(ray, s.z_mm, shape, 1.0, hk::exact_limits(shape));
+}
+
 // Height at the stop of the real ray that comes in parallel to the axis at `height`; none if it cannot get there.
 std::optional<double> marginal_height_at_stop(const LensState& lens, double height_mm) {
   hk::Ray3<double> ray{0.0, height_mm, lens.surfaces.front().z_mm, 0.0, 0.0, 1.0};
   for (int k = 0; k <= lens.stop_index; ++k) {
     const SurfaceState& s = lens.surfaces[static_cast<std::size_t>(k)];
-    const auto hit = hk::intersect(ray, s.z_mm, s.curvature_per_mm, 1.0);
+    const auto hit = meet_centred(ray, s);
     if (hit.cos_in_squared <= 0.0) return std::nullopt;
     hk::move_to(ray, hit, s.z_mm);
     if (s.kind == SurfaceKind::Stop) continue;
@@ -136,7 +144,7 @@ std::optional<double> marginal_height_at_stop(const LensState& lens, double heig
     const double n_out = refractive_index(s.after, lens.design_wavelength_nm);
     if (hk::refract(ray, hit, n_in / n_out, 1.0) <= 0.0) return std::nullopt;
   }
-  return std::abs(ray.y);
+  return std::hypot(ray.x, ray.y);
 }
 
 // Radius of the round stop at this f-number.
@@ -185,24 +193,41 @@ Result<void> set_iris(LensState& state, const Prescription& lens, const LensSett
   return {};
 }
 
-// The sensor follows the paraxial image; a prescription that fixes its place for distant objects keeps its own
-// defocus for near ones.
-Result<void> set_focus(LensState& state, const Prescription& lens, double object_distance_mm) {
-  const double last_z = state.surfaces.back().z_mm;
+double front_focal_distance_mm(const LensState& state) {
   const Abcd m =
       abcd_between(state.surfaces, 0, static_cast<int>(state.surfaces.size()) - 1, state.design_wavelength_nm);
-  state.object_distance_mm = object_distance_mm;
+  return -m.d / m.c;
+}
+
+struct ImagePlane {
+  double distant_mm = 0, image_mm = 0;  // from the last vertex: of distant objects, of that one
+};
+ImagePlane image_plane(const LensState& state, double object_distance_mm, Section section) {
+  const Abcd m = abcd_between(state.surfaces, 0, static_cast<int>(state.surfaces.size()) - 1, state.design_wavelength_nm,
+                              section);
   const double distant_mm = -m.a / m.c;
-  double image_mm = distant_mm;
-  if (!std::isinf(object_distance_mm)) {  // the ray from the axial object point: y = d u at the first vertex
-    image_mm = -(m.a * object_distance_mm + m.b) / (m.c * object_distance_mm + m.d);
+  if (std::isinf(object_distance_mm)) return {distant_mm, distant_mm};
+  // The ray from the axial object point: y = d u at the first vertex.
+  return {distant_mm, -(m.a * object_distance_mm + m.b) / (m.c * object_distance_mm + m.d)};
+}
+
+// The sensor follows the paraxial image, half-way between its two places where there are two; a prescription that fixes
+// its place for distant objects keeps its own defocus for near ones.
+Result<void> set_focus(LensState& state, const Prescription& lens, double object_distance_mm) {
+  const double last_z = state.surfaces.back().z_mm;
+  state.object_distance_mm = object_distance_mm;
+  ImagePlane plane = image_plane(state, object_distance_mm, Section::Y);
+  if (!state.has_axial_symmetry()) {
+    const ImagePlane in_x = image_plane(state, object_distance_mm, Section::X);
+    plane = {std::midpoint(plane.distant_mm, in_x.distant_mm), std::midpoint(plane.image_mm, in_x.image_mm)};
   }
-  if (lens.sensor_distance_mm) image_mm += *lens.sensor_distance_mm - distant_mm;
+  double image_mm = plane.image_mm;
+  if (lens.sensor_distance_mm) image_mm += *lens.sensor_distance_mm - plane.distant_mm;
   if (!(object_distance_mm > 0.0) || !std::isfinite(image_mm) || image_mm <= 0.0) {
     return failure(ErrorCode::InvalidArgument,
                    fmt::format("no image forms behind the lens for an object {:g} mm in front of it; focus farther "
                                "away than its front focal point at {:.1f} mm",
-                               object_distance_mm, -m.d / m.c),
+                               object_distance_mm, front_focal_distance_mm(state)),
                    lens.file);
   }
   state.sensor_z_mm = last_z + image_mm;

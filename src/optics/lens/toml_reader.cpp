@@ -11,6 +11,7 @@
 #include "optics/lens/read_lens.h"
 #include "base/toml_fields.h"
 #include "optics/lens/toml_media.h"
+#include "optics/lens/toml_shape.h"
 #include "optics/lens/validate.h"
 
 namespace contrejour {
@@ -45,7 +46,6 @@ struct Reader {
   void read_stated(TomlFields& fields);
   void read_surfaces(TomlFields& fields);
   void read_surface(const toml::table& row, bool last);
-  double read_curvature(TomlFields& fields);
   Coating coating_of(TomlFields& fields, const Surface& surface);
   void read_stop(TomlFields& fields, Surface& surface);
   void read_zoom(TomlFields& fields);
@@ -55,7 +55,7 @@ struct Reader {
 void Reader::read_lens_table(const toml::table& root) {
   TomlFields fields(root, "lens",
                     {"name", "source", "f_number", "sensor_mm", "half_field_deg", "sensor_distance_mm", "default_coating", "surfaces",
-                     "zoom", "stated", "glass", "coating"},
+                     "groups", "zoom", "stated", "glass", "coating"},
                     errors);
   lens.name = fields.required_text("name", "give the lens a name");
   lens.source = fields.required_text("source", "say where its figures come from, e.g. the patent's number");
@@ -68,6 +68,7 @@ void Reader::read_lens_table(const toml::table& root) {
     default_coating = read_coating(*coating, "default_coating", coatings, errors);
   }
   if (!errors.failed()) read_surfaces(fields);
+  if (!errors.failed()) read_groups(fields, lens.surfaces, errors);
   if (!errors.failed()) read_zoom(fields);
   if (!errors.failed()) refuse_unused(glasses, coatings, errors);
 }
@@ -128,7 +129,7 @@ void Reader::read_surfaces(TomlFields& fields) {
 void Reader::read_surface(const toml::table& row, bool last) {
   TomlFields fields(row, fmt::format("surface {}", lens.surfaces.size() + 1),
                     {"radius_mm", "curvature_per_mm", "thickness_mm", "semi_diameter_mm", "glass", "coating",
-                     "stop"},
+                     "stop", "conic", "asphere", "toroid", "biconic", "decentre_mm", "tilt_deg", "axis"},
                     errors);
   Surface surface;
   surface.source_line = line_of(row);
@@ -144,7 +145,9 @@ void Reader::read_surface(const toml::table& row, bool last) {
   if (fields.has("stop")) {
     read_stop(fields, surface);
   } else {
-    surface.curvature_per_mm = read_curvature(fields);
+    surface.curvature_per_mm = read_curvature(fields, "");
+    surface.shape = read_shape(fields, errors);
+    surface.pose = read_pose(fields, errors);
     const toml::node* glass = fields.find("glass");
     surface.glass_after = glass == nullptr ? air() : read_glass(*glass, fields.what(), glasses, finder, errors);
     surface.coating = coating_of(fields, surface);
@@ -155,28 +158,12 @@ void Reader::read_surface(const toml::table& row, bool last) {
 void Reader::read_stop(TomlFields& fields, Surface& surface) {
   const auto is_stop = fields.boolean("stop");
   if (is_stop == false) return fields.fail(*fields.find("stop"), "stop = false says nothing; leave it out");
-  for (const std::string_view key : {"radius_mm", "curvature_per_mm", "glass", "coating"}) {
+  for (const std::string_view key : {"radius_mm", "curvature_per_mm", "glass", "coating", "conic", "asphere", "toroid",
+                                     "biconic", "decentre_mm", "tilt_deg", "axis"}) {
     if (fields.has(key)) fields.fail(*fields.find(key), fmt::format("a stop has no {}; leave it out", key));
   }
   surface.kind = SurfaceKind::Stop;
   surface.glass_after = glass_before();
-}
-
-double Reader::read_curvature(TomlFields& fields) {
-  if (fields.has("radius_mm") == fields.has("curvature_per_mm")) {
-    fields.fail_here("give either radius_mm (inf for a plane) or curvature_per_mm; the stop is stop = true");
-    return 0.0;
-  }
-  if (fields.has("curvature_per_mm")) return fields.number("curvature_per_mm", kFinite).value_or(0.0);
-  const toml::node& node = *fields.find("radius_mm");
-  // TOML's own infinity is how a plane is written: the one number that is allowed not to be finite.
-  if (node.is_floating_point() && std::isinf(node.as_floating_point()->get())) return 0.0;
-  const double radius_mm = fields.number_at(node, "radius_mm", kFinite);
-  if (std::abs(radius_mm) < 1.0 / kHuge) {
-    fields.fail(node, "radius_mm is 0; write radius_mm = inf for a plane, stop = true for the stop");
-    return 0.0;
-  }
-  return 1.0 / radius_mm;
 }
 
 // What the row says; else the lens's default where glass meets air; else bare, as cemented faces are.

@@ -1,5 +1,4 @@
 // Writes docs/formats/lens-toml.md; reading it back gives the same numbers, bit for bit.
-#include <charconv>
 #include <map>
 
 #include <fmt/format.h>
@@ -8,6 +7,7 @@
 #include "contrejour/lens.h"
 #include "optics/lens/glass_finder.h"
 #include "optics/lens/toml_formula.h"
+#include "optics/lens/toml_shape.h"
 
 namespace contrejour {
 
@@ -15,19 +15,6 @@ namespace {
 
 // The shortest text that reads back as the same double.
 std::string number(double value) { return fmt::format("{}", value); }
-
-// "radius_mm = 30.81" with as few digits as give the same curvature; a few curvatures are the reciprocal of
-// no double: those are written as they are.
-std::string curvature_text(double curvature_per_mm) {
-  if (curvature_per_mm == 0.0) return "radius_mm = inf";
-  for (int digits = 1; digits <= 17; ++digits) {
-    const std::string text = fmt::format("{:.{}g}", 1.0 / curvature_per_mm, digits);
-    double radius_mm = 0.0;
-    std::from_chars(text.data(), text.data() + text.size(), radius_mm);
-    if (1.0 / radius_mm == curvature_per_mm) return "radius_mm = " + text;
-  }
-  return "curvature_per_mm = " + number(curvature_per_mm);
-}
 
 struct DispersionText {
   std::string operator()(const ConstantIndex& glass) const { return "n = " + number(glass.n); }
@@ -113,9 +100,9 @@ class MediaTable {
 
 std::string surface_row(const Surface& surface, bool last, MediaTable& glasses, MediaTable& coatings) {
   std::string row = "  { ";
-  row += surface.kind == SurfaceKind::Stop ? "stop = true" : curvature_text(surface.curvature_per_mm);
+  row += surface.kind == SurfaceKind::Stop ? "stop = true" : curvature_text(surface.curvature_per_mm, "");
   if (!last) row += ", thickness_mm = " + number(surface.thickness_mm);
-  row += ", semi_diameter_mm = " + number(surface.semi_diameter_mm);
+  row += ", semi_diameter_mm = " + number(surface.semi_diameter_mm) + shape_text(surface.shape) + pose_text(surface.pose);
   if (surface.kind == SurfaceKind::Refracting) {
     if (!(surface.glass_after == air())) row += ", glass = " + glasses.reference(surface.glass_after);
     if (!std::holds_alternative<Bare>(surface.coating.films)) {

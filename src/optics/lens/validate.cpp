@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <set>
 #include <span>
 
@@ -24,6 +25,9 @@ constexpr double kMaxFilmIndex = 8.0;
 constexpr double kMinFilmIndex = 0.01;  // silver
 constexpr double kMaxFilm_nm = 1e5;     // beyond it, films are glass
 constexpr double kMaxLength_mm = 1e5;
+constexpr double kMaxConic = 1e6;       // of a nearly flat surface; real ones stay below 1000
+constexpr double kMaxTurn_rad = 1e3;    // beyond, angles lose digits
+constexpr double kLeastUpright = 0.5;   // z of a surface's axis
 constexpr double kMaxFNumber = 1000.0;
 constexpr double kMinFNumber = 0.4;  // 0.5 is the limit of an aplanat in air; patents round
 
@@ -81,12 +85,14 @@ Result<void> check_surface(const Prescription& lens, std::size_t i) {
     return fail.at(i, fmt::format("thickness_mm is {}; give the distance to the next vertex, 0 or more",
                                   s.thickness_mm));
   }
-  if (!(std::abs(s.curvature_per_mm) * semi_mm <= 1.0)) {
+  if (const auto problem = shape_problem(s)) return fail.at(i, *problem);
+  if (s.shape.is_sphere() && !(std::abs(s.curvature_per_mm) * semi_mm <= 1.0)) {
     return fail.at(i, fmt::format("radius {:.6g} mm is smaller than semi_diameter_mm {:.6g}: a sphere has no rim "
                                   "there; make the semi-diameter smaller", 1.0 / s.curvature_per_mm, semi_mm));
   }
-  if (s.kind == SurfaceKind::Stop && (s.curvature_per_mm != 0.0 || !(s.glass_after == before))) {
-    return fail.at(i, "a stop is flat and has the same medium before and behind; make it so");
+  const bool plain = s.curvature_per_mm == 0.0 && s.shape == SurfaceShape{} && s.pose == SurfacePose{};
+  if (s.kind == SurfaceKind::Stop && (!plain || !(s.glass_after == before))) {
+    return fail.at(i, "a stop is flat, stands about the axis and has the same medium before and behind; make it so");
   }
   if (const auto problem = glass_problem(s.glass_after)) return fail.at(i, *problem);
   if (const auto problem = coating_problem(s.coating)) return fail.at(i, *problem);
@@ -131,11 +137,49 @@ double rim_gap_mm(const Surface& front, const Surface& back, double thickness_mm
   return thickness_mm + sag_mm(back.curvature_per_mm, h_mm) - sag_mm(front.curvature_per_mm, h_mm);
 }
 
+// Height of a surface of any shape, moved and (by so little that its sag's foot stays where it is) tilted.
+std::optional<double> height_mm(const Surface& s, Vec2 at_mm) {
+  const Vec2 from = at_mm - Vec2{s.pose.shift_mm.x, s.pose.shift_mm.y};
+  const auto point = surface_at(s.curvature_per_mm, s.shape, from);
+  if (!point) return std::nullopt;
+  const Vec3 axis = s.pose.axis;
+  return s.pose.shift_mm.z + point->sag_mm - (axis.x * from.x + axis.y * from.y) / axis.z;
+}
+
+struct Gap {
+  double gap_mm = 0, height_mm = 0;
+};
+
+// Surfaces of which one is no sphere, or stands askew, are nearest to each other anywhere.
+Gap smallest_gap(const Surface& front, const Surface& back, double thickness_mm) {
+  constexpr int kRings = 32, kSpokes = 24;
+  const double rim_mm = std::min(front.semi_diameter_mm, back.semi_diameter_mm);
+  Gap smallest{thickness_mm, 0.0};
+  for (int ring = 1; ring <= kRings; ++ring) {
+    for (int spoke = 0; spoke < kSpokes; ++spoke) {
+      const double r_mm = rim_mm * ring / kRings;
+      const double angle = 2.0 * std::numbers::pi * spoke / kSpokes;
+      const Vec2 at{r_mm * std::cos(angle), r_mm * std::sin(angle)};
+      const auto from = height_mm(front, at), to = height_mm(back, at);
+      if (!from || !to) continue;
+      const double gap_mm = thickness_mm + *to - *from;
+      if (gap_mm < smallest.gap_mm) smallest = {gap_mm, r_mm};
+    }
+  }
+  return smallest;
+}
+
+bool is_plain(const Surface& s) { return s.shape.is_sphere() && s.pose == SurfacePose{}; }
+
 Result<void> check_pair(const Prescription& lens, std::size_t front, std::size_t back, double thickness_mm,
                         const std::string& where) {
-  const double gap_mm = rim_gap_mm(lens.surfaces[front], lens.surfaces[back], thickness_mm);
+  const Surface &before = lens.surfaces[front], &behind = lens.surfaces[back];
+  const Gap smallest = is_plain(before) && is_plain(behind)
+                           ? Gap{rim_gap_mm(before, behind, thickness_mm),
+                                 std::min(before.semi_diameter_mm, behind.semi_diameter_mm)}
+                           : smallest_gap(before, behind, thickness_mm);
+  const double gap_mm = smallest.gap_mm, h_mm = smallest.height_mm;
   if (gap_mm >= -kTouch_mm) return {};
-  const double h_mm = std::min(lens.surfaces[front].semi_diameter_mm, lens.surfaces[back].semi_diameter_mm);
   return RowFailure{lens}.at(back, fmt::format("it crosses surface {} by {:.3g} mm inside the clear aperture (at "
                                                "height {:.6g} mm{}); make a semi-diameter smaller or check the "
                                                "radii and the thickness", front + 1, -gap_mm, h_mm, where));
@@ -248,6 +292,56 @@ std::optional<std::string> glass_problem(const Glass& glass) {
       return fmt::format("the glass's index is {:.6g} at {} nm; it must be from 1 to {}: check its figures", n, nm,
                          kMaxGlassIndex);
     }
+  }
+  return std::nullopt;
+}
+
+namespace {
+
+// At all heights: a toroid with a polynomial may end and begin again.
+bool reaches_rim(const Surface& surface) {
+  constexpr int kRings = 32;
+  for (int ring = 1; ring <= kRings; ++ring) {
+    if (!sag_range(surface.curvature_per_mm, surface.shape, surface.semi_diameter_mm * ring / kRings)) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+std::optional<std::string> shape_problem(const Surface& surface) {
+  const SurfaceShape& shape = surface.shape;
+  const bool symmetric = shape.has_axial_symmetry();
+  if (!within(shape.conic, -kMaxConic, kMaxConic) || !within(shape.conic_x, -kMaxConic, kMaxConic)) {
+    return fmt::format("a conic constant is {}; give one from {} to {}",
+                       within(shape.conic, -kMaxConic, kMaxConic) ? shape.conic_x : shape.conic, -kMaxConic, kMaxConic);
+  }
+  if (shape.powers.size() > static_cast<std::size_t>(SurfaceShape::kHighestPower)) {
+    return fmt::format("an asphere's powers go to {}; at most {} is computed", shape.powers.size(),
+                       SurfaceShape::kHighestPower);
+  }
+  if (!std::all_of(shape.powers.begin(), shape.powers.end(), [](double a) { return std::isfinite(a); }) ||
+      !std::isfinite(shape.curvature_x_per_mm) || !within(shape.turn_rad, -kMaxTurn_rad, kMaxTurn_rad)) {
+    return "a number of the surface's shape is not finite, or too large; correct it";
+  }
+  const bool has_powers = std::any_of(shape.powers.begin(), shape.powers.end(), [](double a) { return a != 0.0; });
+  const bool has_x = shape.curvature_x_per_mm != 0.0 || shape.turn_rad != 0.0;
+  if ((symmetric && has_x) || (shape.kind != ShapeKind::Biconic && shape.conic_x != 0.0) ||
+      (shape.kind == ShapeKind::Biconic && has_powers)) {
+    return "a number that a surface of this shape does not have: only a toroid and a biconic have a second radius, only "
+           "a biconic a second conic constant and only the others powers";
+  }
+  const Vec3 axis = surface.pose.axis;
+  const Vec3 shift = surface.pose.shift_mm;
+  const bool stands = within(shift.x, -kMaxLength_mm, kMaxLength_mm) && within(shift.y, -kMaxLength_mm, kMaxLength_mm) &&
+                      within(shift.z, -kMaxLength_mm, kMaxLength_mm);
+  if (!stands || !(std::abs(length(axis) - 1.0) < 1e-9) || !(axis.z >= kLeastUpright)) {
+    return fmt::format("it stands {:.4g} mm aside with its axis along ({:.4g}, {:.4g}, {:.4g}); tilt it by 60 degrees at "
+                       "most", std::hypot(shift.x, shift.y), axis.x, axis.y, axis.z);
+  }
+  if (!shape.is_sphere() && !reaches_rim(surface)) {
+    return fmt::format("the surface ends before semi_diameter_mm {:.6g}: a root of its formula is of a negative number "
+                       "there; make the semi-diameter smaller or check the conic constant", surface.semi_diameter_mm);
   }
   return std::nullopt;
 }

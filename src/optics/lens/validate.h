@@ -6,6 +6,7 @@
 
 #include "contrejour/coating.h"
 #include "contrejour/glass.h"
+#include "contrejour/lens.h"
 
 namespace contrejour {
 
@@ -16,5 +17,6 @@ inline constexpr int kMaxFilmLayers = 200;
 // What is wrong and what to do, or nothing. A glass must have an index from 1 to 4 over the visible.
 [[nodiscard]] std::optional<std::string> glass_problem(const Glass& glass);
 [[nodiscard]] std::optional<std::string> coating_problem(const Coating& coating);
+[[nodiscard]] std::optional<std::string> shape_problem(const Surface& surface);
 
 }  // namespace contrejour

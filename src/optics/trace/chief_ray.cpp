@@ -1,6 +1,7 @@
-// Where a light's image lies, by its chief ray. The lens is a surface of revolution, so one meridian
-// tells all: a table of landing height against field angle, walked outwards from the axis so that each chief
-// ray starts from its neighbour's.
+// Where a light's image lies, by its chief ray. Where the lens has axial symmetry one meridian tells all: a table of
+// landing height against field angle, walked outwards from the axis so that each chief ray starts from its
+// neighbour's. Else, chief rays are sought in both directions: anamorphic_chief_ray.h where that is due to surfaces'
+// own shapes, and from the centred lens's where elements are moved or tilted.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -9,14 +10,14 @@
 
 #include "contrejour/first_order.h"
 #include "contrejour/trace.h"
+#include "optics/trace/anamorphic_chief_ray.h"
+#include "optics/trace/chief_newton.h"
 
 namespace contrejour {
 namespace {
 
 constexpr double kFieldStep_rad = 0.005;
 constexpr double kLastField_rad = 0.49 * std::numbers::pi;
-constexpr double kAimed = 1e-10;     // of the stop radius, off its centre
-constexpr int kAimSteps = 40;
 constexpr int kFieldBisections = 60;
 
 // Field angle: of the light's direction. Height at the plane of the paraxial entrance pupil, where that is behind the
@@ -144,31 +145,6 @@ LensState centred(LensState lens) {
   return lens;
 }
 
-// A light's chief ray through a lens that is not centred, by Newton's steps in both directions of the plane of the
-// first vertex. None if it gets lost.
-std::optional<Vec2> askew_landing(const OpticalPath& path, const LightSource& source, Vec2 at_mm) {
-  constexpr double kStep_mm = 1e-4;
-  const auto ray = [&](Vec2 at) {
-    const Vec3 from{at.x, at.y, 0.0};
-    return trace(path, {from, source.direction_at(from)});
-  };
-  for (int k = 0; k < kAimSteps; ++k) {
-    const TracedRay here = ray(at_mm);
-    const TracedRay right = ray(at_mm + Vec2{kStep_mm, 0.0});
-    const TracedRay up = ray(at_mm + Vec2{0.0, kStep_mm});
-    if (here.status != RayStatus::Ok || right.status != RayStatus::Ok || up.status != RayStatus::Ok)
-      return std::nullopt;
-    const Vec2 stop = here.stop[0];
-    if (length(stop) < kAimed) return here.sensor_mm;
-    const Vec2 dx = (right.stop[0] - stop) * (1.0 / kStep_mm);
-    const Vec2 dy = (up.stop[0] - stop) * (1.0 / kStep_mm);
-    const double area = cross(dx, dy);
-    if (area == 0.0) return std::nullopt;
-    at_mm = at_mm - Vec2{cross(stop, dy) / area, cross(dx, stop) / area};
-  }
-  return std::nullopt;
-}
-
 // Of the lens as it ought to be the direction is known: its target is moved until the light lands where it is wanted.
 Vec3 askew_direction(const LensState& lens, Vec2 sensor_mm, double lambda_nm, double distance_mm) {
   constexpr int kSteps = 8;
@@ -189,7 +165,8 @@ Vec3 askew_direction(const LensState& lens, Vec2 sensor_mm, double lambda_nm, do
 
 // A positive lens images the sky point in direction d (the way the light travels) on the side d points to.
 Vec3 direction_to_land_at(const LensState& lens, Vec2 sensor_mm, double lambda_nm, double distance_mm) {
-  if (!lens.is_centred()) return askew_direction(lens, sensor_mm, lambda_nm, distance_mm);
+  if (is_anamorphic(lens)) return anamorphic_direction(lens, sensor_mm, lambda_nm, distance_mm);
+  if (!lens.has_axial_symmetry()) return askew_direction(lens, sensor_mm, lambda_nm, distance_mm);
   const double radius = length(sensor_mm);
   if (radius == 0.0) return {0.0, 0.0, 1.0};
   const double field = field_for(lens, lambda_nm, distance_mm, radius);
@@ -199,14 +176,15 @@ Vec3 direction_to_land_at(const LensState& lens, Vec2 sensor_mm, double lambda_n
 }
 
 Vec2 landing_of(const LensState& lens, const LightSource& source, double lambda_nm) {
+  if (is_anamorphic(lens)) return anamorphic_landing(lens, source, lambda_nm);
   const Vec2 across{source.direction.x, source.direction.y};
   const double sine = length(across);
-  if (!lens.is_centred()) {
+  if (!lens.has_axial_symmetry()) {
     const LensState ideal = centred(lens);
     const double field = std::atan2(sine, source.direction.z);
     const double height_mm = sine > 0.0 ? chief_height_for(ideal, lambda_nm, source.distance_mm, field) : 0.0;
     const Vec2 start_mm = sine > 0.0 ? across * (height_mm / sine) : Vec2{};
-    if (const auto landing = askew_landing(direct_path(lens, lambda_nm), source, start_mm)) return *landing;
+    if (const auto chief = aim_chief(direct_path(lens, lambda_nm), source, start_mm)) return chief->landing_mm;
     return landing_of(ideal, source, lambda_nm);
   }
   if (sine == 0.0) return {};

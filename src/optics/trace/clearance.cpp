@@ -35,11 +35,11 @@ HWY_INLINE void test(Clearance<P>& s, P must_be_positive) {
 }
 
 // Rays that fail go on as numbers of no meaning.
-template <bool kCentred, class P>
+template <PathGeometry kGeometry, class P>
 HWY_INLINE void advance(Clearance<P>& s, const PacketStep& step) {
   const P direction(step.direction);
   hk::OwnPlace<P> own;
-  const auto hit = meet<kCentred>(s.ray, step, own);
+  const auto hit = meet<kGeometry>(s.ray, step, own);
   test(s, smaller(hit.cos_in_squared, own.nz));
   if (step.event == PathEvent::Stop) return;
   const P per_mm(step.inverse_semi_diameter_per_mm);
@@ -81,7 +81,7 @@ HWY_INLINE void leave(Clearance<P>& s, std::size_t at, const ClearanceArrays& ou
 }
 
 // Two packets abreast: one waits for its own results most of the time.
-template <bool kCentred, class P>
+template <PathGeometry kGeometry, class P>
 void trace_all(const PacketPath& path, const float* x_mm, const float* y_mm, std::size_t count,
                const ClearanceArrays& out) {
   const std::size_t lanes = hn::Lanes(typename P::Tag());
@@ -90,8 +90,8 @@ void trace_all(const PacketPath& path, const float* x_mm, const float* y_mm, std
     Clearance<P> a = enter<P>(path.start(), x_mm + at, y_mm + at);
     Clearance<P> b = enter<P>(path.start(), x_mm + at + lanes, y_mm + at + lanes);
     for (const PacketStep& step : path.steps()) {
-      advance<kCentred>(a, step);
-      advance<kCentred>(b, step);
+      advance<kGeometry>(a, step);
+      advance<kGeometry>(b, step);
       if (step.event != PathEvent::Stop) continue;
       float* x = out.stop_x[static_cast<std::size_t>(step.crossing)] + at;
       float* y = out.stop_y[static_cast<std::size_t>(step.crossing)] + at;
@@ -105,16 +105,24 @@ void trace_all(const PacketPath& path, const float* x_mm, const float* y_mm, std
   }
 }
 
+template <class P>
+void trace_any(const PacketPath& path, const float* x_mm, const float* y_mm, std::size_t count,
+               const ClearanceArrays& out) {
+  switch (path.geometry()) {
+    case PathGeometry::Spheres: return trace_all<PathGeometry::Spheres, P>(path, x_mm, y_mm, count, out);
+    case PathGeometry::Shapes: return trace_all<PathGeometry::Shapes, P>(path, x_mm, y_mm, count, out);
+    case PathGeometry::Askew: return trace_all<PathGeometry::Askew, P>(path, x_mm, y_mm, count, out);
+  }
+}
+
 void clearance_float(const PacketPath& path, const float* x_mm, const float* y_mm, std::size_t count,
                      const ClearanceArrays& out) {
-  if (path.centred()) return trace_all<true, hk::QuickPacket>(path, x_mm, y_mm, count, out);
-  trace_all<false, hk::QuickPacket>(path, x_mm, y_mm, count, out);
+  trace_any<hk::QuickPacket>(path, x_mm, y_mm, count, out);
 }
 
 void clearance_double(const PacketPath& path, const float* x_mm, const float* y_mm, std::size_t count,
                       const ClearanceArrays& out) {
-  if (path.centred()) return trace_all<true, hk::PrecisePacket>(path, x_mm, y_mm, count, out);
-  trace_all<false, hk::PrecisePacket>(path, x_mm, y_mm, count, out);
+  trace_any<hk::PrecisePacket>(path, x_mm, y_mm, count, out);
 }
 
 }  // namespace contrejour::HWY_NAMESPACE

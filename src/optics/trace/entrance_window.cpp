@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include <fmt/format.h>
 
@@ -14,6 +15,21 @@ constexpr double kMargin = 1e-3;    // of the semi-diameter: the rings' own disc
 double sag(double curvature, double r) {
   const double cr = curvature * r;
   return curvature * r * r / (1.0 + std::sqrt(std::max(0.0, 1.0 - cr * cr)));
+}
+
+// Lowest and highest on the circle.
+SagRange heights(const SurfaceState& s, double r) {
+  if (!s.shape.is_sphere()) return sag_range(s.curvature_per_mm, s.shape, r).value_or(SagRange{});
+  const double height_mm = sag(s.curvature_per_mm, r);
+  return {height_mm, height_mm};
+}
+
+// Of the cap: a sphere's is at its vertex or its rim.
+double lowest_mm(const SurfaceState& s) {
+  double lowest = std::min(0.0, heights(s, s.semi_diameter_mm).low_mm);
+  for (int k = 1; !s.shape.is_sphere() && k < kRings; ++k)
+    lowest = std::min(lowest, heights(s, s.semi_diameter_mm * k / kRings).low_mm);
+  return lowest;
 }
 
 struct Circle {
@@ -48,8 +64,7 @@ Result<void> check_source(const LensState& lens, const LightSource& source) {
   if (!(source.distance_mm > 0.0))
     return refuse(fmt::format("a light cannot be at a distance of {} mm; give more than 0", source.distance_mm));
   const SurfaceState& first = lens.surfaces.front();
-  const double front_mm =
-      std::min(0.0, sag(first.curvature_per_mm, first.semi_diameter_mm)) + first.z_mm - askew_forward_mm(first);
+  const double front_mm = lowest_mm(first) + first.z_mm - askew_forward_mm(first);
   if (!source.is_distant() && !(source.point_mm().z <= front_mm - kNearestLight_mm))
     return refuse(
         fmt::format("a light {} mm from the first surface is not in front of all of the lens; give it {:.4g} mm "
@@ -64,17 +79,22 @@ EntranceWindow entrance_window(const LensState& lens, const LightSource& source)
   const SurfaceState& first = lens.surfaces.front();
   const double rim = first.semi_diameter_mm;
   EntranceWindow window;
-  window.z_mm = first.z_mm + sag(first.curvature_per_mm, rim);
+  const SagRange rim_heights = heights(first, rim);
+  window.z_mm = first.z_mm +
+                (first.shape.is_sphere() ? rim_heights.low_mm : std::midpoint(rim_heights.low_mm, rim_heights.high_mm));
   window.min_mm = {-rim, -rim};
   window.max_mm = {rim, rim};
   for (int k = 0; k <= kRings; ++k) {
     const double r = rim * k / kRings;
-    const double z_mm = first.z_mm + sag(first.curvature_per_mm, r);
-    const Circle ring = shadow(source, z_mm, r, window.z_mm - z_mm);
-    window.min_mm = {std::min(window.min_mm.x, ring.centre.x - ring.radius),
-                     std::min(window.min_mm.y, ring.centre.y - ring.radius)};
-    window.max_mm = {std::max(window.max_mm.x, ring.centre.x + ring.radius),
-                     std::max(window.max_mm.y, ring.centre.y + ring.radius)};
+    const SagRange at_ring = heights(first, r);
+    for (const double height_mm : {at_ring.low_mm, at_ring.high_mm}) {
+      const double z_mm = first.z_mm + height_mm;
+      const Circle ring = shadow(source, z_mm, r, window.z_mm - z_mm);
+      window.min_mm = {std::min(window.min_mm.x, ring.centre.x - ring.radius),
+                       std::min(window.min_mm.y, ring.centre.y - ring.radius)};
+      window.max_mm = {std::max(window.max_mm.x, ring.centre.x + ring.radius),
+                       std::max(window.max_mm.y, ring.centre.y + ring.radius)};
+    }
   }
   double reach = rim;
   if (!source.is_distant()) {

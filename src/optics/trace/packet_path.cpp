@@ -62,7 +62,8 @@ int ReflectanceTables::add(const SurfaceState& surface, int direction, bool tran
 }
 
 PacketPath::PacketPath(const OpticalPath& path, const ReflectanceTables& tables, const LightRays& rays)
-    : tables_(tables.values()), source_(rays.source), centred_(path.centred),
+    : tables_(tables.values()), source_(rays.source),
+      geometry_(path.centred ? PathGeometry::Spheres : PathGeometry::Askew),
       inverse_stop_radius_per_mm_(1.0 / path.stop_radius_mm) {
   start_.origin_mm = rays.origin_mm;
   start_from({rays.origin_mm.x, rays.origin_mm.y});
@@ -82,6 +83,11 @@ PacketPath::PacketPath(const OpticalPath& path, const ReflectanceTables& tables,
     step.offset_mm = {vertex_mm.x - before_mm.x, vertex_mm.y - before_mm.y};
     step.axis = from.pose.axis;
     step.curvature_per_mm = from.curvature_per_mm;
+    if (from.shape) {
+      step.shape = from.shape.get();
+      shapes_.push_back(from.shape);
+      if (path.centred) geometry_ = PathGeometry::Shapes;
+    }
     step.inverse_semi_diameter_per_mm = 1.0 / from.semi_diameter_mm;
     step.inverse_semi_diameter_squared = 1.0 / (from.semi_diameter_mm * from.semi_diameter_mm);
     step.eta = from.n_in / from.n_out;

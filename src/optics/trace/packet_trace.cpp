@@ -40,13 +40,13 @@ HWY_INLINE void pass_stop(PacketState<P>& s, const PacketStep& step, double inve
 }
 
 // One packet over one surface. Rays that fail go on as numbers of no meaning with alive = 0.
-template <bool kCentred, class P>
+template <PathGeometry kGeometry, class P>
 HWY_INLINE void advance(PacketState<P>& s, const PacketStep& step, const float* tables, float* rim_squared) {
   const P zero(0.0);
   const P one(1.0);
   const P direction(step.direction);
   hk::OwnPlace<P> own;
-  const auto hit = meet<kCentred>(s.ray, step, own);
+  const auto hit = meet<kGeometry>(s.ray, step, own);
   s.alive = or_zero(hit.cos_in_squared > zero, s.alive);
   if (step.event == PathEvent::Stop) return;
 
@@ -74,14 +74,14 @@ HWY_INLINE void advance(PacketState<P>& s, const PacketStep& step, const float* 
   s.transmission = s.transmission * through;
 }
 
-template <bool kCentred, class P>
+template <PathGeometry kGeometry, class P>
 HWY_INLINE void land(const PacketState<P>& s, const PacketPath& path, std::size_t at, const TracedArrays& out) {
   const P zero(0.0);
   const P t = (P(path.sensor_gap_mm()) - s.ray.z) / s.ray.dz;
   const auto ok = or_zero(s.ray.dz > zero, s.alive) > zero;
   P x = s.ray.x + t * s.ray.dx;
   P y = s.ray.y + t * s.ray.dy;
-  if constexpr (!kCentred) {
+  if constexpr (kGeometry == PathGeometry::Askew) {
     x = x - P(path.sensor_offset_mm().x);
     y = y - P(path.sensor_offset_mm().y);
   }
@@ -110,21 +110,21 @@ HWY_INLINE PacketState<P> enter(const PacketStart& start, const float* x_mm, con
 }
 
 // The rays that start at index `at` of the arrays, as many as a packet holds.
-template <bool kCentred, class P>
+template <PathGeometry kGeometry, class P>
 HWY_INLINE void trace_one(const PacketPath& path, const float* x_mm, const float* y_mm, std::size_t at,
                           const TracedArrays& out) {
   PacketState<P> s = enter<P>(path.start(), x_mm + at, y_mm + at);
   float* rim_squared = out.rim_squared != nullptr ? out.rim_squared + at : nullptr;
   for (const PacketStep& step : path.steps()) {
-    advance<kCentred>(s, step, path.tables(), rim_squared);
+    advance<kGeometry>(s, step, path.tables(), rim_squared);
     if (step.event == PathEvent::Stop) pass_stop(s, step, path.inverse_stop_radius_per_mm(), at, out);
     if (rim_squared != nullptr) rim_squared += out.rim_stride;
   }
-  land<kCentred>(s, path, at, out);
+  land<kGeometry>(s, path, at, out);
 }
 
 // The last rays, too few for a packet, in buffers of a packet's length.
-template <bool kCentred, class P>
+template <PathGeometry kGeometry, class P>
 void trace_tail(const PacketPath& path, const float* x_mm, const float* y_mm, std::size_t count,
                 const TracedArrays& out) {
   constexpr std::size_t kLongest = HWY_MAX_BYTES / sizeof(float);
@@ -144,7 +144,7 @@ void trace_tail(const PacketPath& path, const float* x_mm, const float* y_mm, st
     part.rim_squared = rims.data();
     part.rim_stride = kLongest;
   }
-  trace_one<kCentred, P>(path, in[0].data(), in[1].data(), 0, part);
+  trace_one<kGeometry, P>(path, in[0].data(), in[1].data(), 0, part);
   for (std::size_t k = 0; part.rim_squared != nullptr && k < path.steps().size(); ++k) {
     std::copy_n(rims.data() + k * kLongest, count, out.rim_squared + k * out.rim_stride);
   }
@@ -172,27 +172,35 @@ TracedArrays advanced(const TracedArrays& arrays, std::size_t by, int crossings)
   return out;
 }
 
-template <bool kCentred, class P>
+template <PathGeometry kGeometry, class P>
 void trace_all(const PacketPath& path, const float* x_mm, const float* y_mm, std::size_t count,
                const TracedArrays& out) {
   const std::size_t lanes = hn::Lanes(typename P::Tag());
   std::size_t at = 0;
-  for (; at + lanes <= count; at += lanes) trace_one<kCentred, P>(path, x_mm, y_mm, at, out);
+  for (; at + lanes <= count; at += lanes) trace_one<kGeometry, P>(path, x_mm, y_mm, at, out);
   if (at < count) {
-    trace_tail<kCentred, P>(path, x_mm + at, y_mm + at, count - at, advanced(out, at, path.stop_crossings()));
+    trace_tail<kGeometry, P>(path, x_mm + at, y_mm + at, count - at, advanced(out, at, path.stop_crossings()));
+  }
+}
+
+template <class P>
+void trace_any(const PacketPath& path, const float* x_mm, const float* y_mm, std::size_t count,
+               const TracedArrays& out) {
+  switch (path.geometry()) {
+    case PathGeometry::Spheres: return trace_all<PathGeometry::Spheres, P>(path, x_mm, y_mm, count, out);
+    case PathGeometry::Shapes: return trace_all<PathGeometry::Shapes, P>(path, x_mm, y_mm, count, out);
+    case PathGeometry::Askew: return trace_all<PathGeometry::Askew, P>(path, x_mm, y_mm, count, out);
   }
 }
 
 void trace_float(const PacketPath& path, const float* x_mm, const float* y_mm, std::size_t count,
                  const TracedArrays& out) {
-  if (path.centred()) return trace_all<true, hk::Packet<float>>(path, x_mm, y_mm, count, out);
-  trace_all<false, hk::Packet<float>>(path, x_mm, y_mm, count, out);
+  trace_any<hk::Packet<float>>(path, x_mm, y_mm, count, out);
 }
 
 void trace_double(const PacketPath& path, const float* x_mm, const float* y_mm, std::size_t count,
                   const TracedArrays& out) {
-  if (path.centred()) return trace_all<true, hk::PrecisePacket>(path, x_mm, y_mm, count, out);
-  trace_all<false, hk::PrecisePacket>(path, x_mm, y_mm, count, out);
+  trace_any<hk::PrecisePacket>(path, x_mm, y_mm, count, out);
 }
 
 }  // namespace contrejour::HWY_NAMESPACE

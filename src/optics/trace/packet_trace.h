@@ -7,6 +7,7 @@
 
 #include <array>
 #include <cstddef>
+#include <memory>
 #include <vector>
 
 #include "contrejour/trace.h"
@@ -51,8 +52,16 @@ struct PacketStep {
   double inverse_semi_diameter_per_mm = 0;
   double inverse_semi_diameter_squared = 0;
   double eta = 1;               // n_in / n_out
+  const ShapeConstants* shape = nullptr;  // none: a sphere or a plane
   Vec3 axis{0, 0, 1};           // of a lens that is not centred: the surface's own
   Vec2 offset_mm;               // likewise: of the vertex from the one before, as gap_mm
+};
+
+// What has to be looked at where a ray meets a surface: tracers are compiled for each.
+enum class PathGeometry {
+  Spheres,  // centred spheres and planes
+  Shapes,   // centred, some of other shapes
+  Askew,    // some moved or tilted, of any shape
 };
 
 // A light's rays, through points of the plane z = origin.z.
@@ -81,7 +90,7 @@ class PacketPath {
   [[nodiscard]] const std::vector<PacketStep>& steps() const { return steps_; }
   [[nodiscard]] const float* tables() const { return tables_; }
   [[nodiscard]] const PacketStart& start() const { return start_; }
-  [[nodiscard]] bool centred() const { return centred_; }
+  [[nodiscard]] PathGeometry geometry() const { return geometry_; }
   [[nodiscard]] double sensor_gap_mm() const { return sensor_gap_mm_; }  // from the last vertex, as the offset
   [[nodiscard]] Vec2 sensor_offset_mm() const { return sensor_offset_mm_; }
   [[nodiscard]] double inverse_stop_radius_per_mm() const { return inverse_stop_radius_per_mm_; }
@@ -92,7 +101,8 @@ class PacketPath {
   const float* tables_;
   LightSource source_;
   PacketStart start_;
-  bool centred_ = true;
+  PathGeometry geometry_ = PathGeometry::Spheres;
+  std::vector<std::shared_ptr<const ShapeConstants>> shapes_;  // that steps_ point to
   double sensor_gap_mm_ = 0;
   Vec2 sensor_offset_mm_;
   double inverse_stop_radius_per_mm_ = 1;

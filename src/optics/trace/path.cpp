@@ -1,6 +1,9 @@
+#include <algorithm>
 #include <cmath>
+#include <memory>
 
 #include "contrejour/trace.h"
+#include "kernels/shape_constants.h"
 
 namespace contrejour {
 namespace {
@@ -20,6 +23,9 @@ PathStep step_at(const LensState& lens, int surface, int direction, PathEvent ev
   step.n_out = direction > 0 ? after : before;
   step.coating = s.coating;
   step.pose = s.pose;
+  if (!s.shape.is_sphere()) {
+    step.shape = std::make_shared<ShapeConstants>(shape_constants(s.curvature_per_mm, s.shape, s.semi_diameter_mm));
+  }
   return step;
 }
 
@@ -29,7 +35,8 @@ class PathBuilder {
     path_.lambda_nm = lambda_nm;
     path_.sensor_z_mm = lens.sensor_z_mm;
     path_.stop_radius_mm = lens.stop_radius_mm;
-    path_.centred = lens.is_centred();
+    path_.centred =
+        std::all_of(lens.surfaces.begin(), lens.surfaces.end(), [](const SurfaceState& s) { return s.is_centred(); });
     path_.steps.reserve(3 * lens.surfaces.size());
   }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kernels/shape-inl.h"
 #include "kernels/surface-inl.h"
 #include "optics/trace/beside_axis.h"
 
@@ -11,7 +12,7 @@ namespace {
 
 namespace hk = kernels::HWY_NAMESPACE;
 
-// A ray that meets a sphere on the far side of its equator has left the glass; it counts as blocked, whatever
+// A ray that meets a surface on the far side of its equator has left the glass; it counts as blocked, whatever
 // its distance from the axis there.
 constexpr double kBeyondEquator = 2.0;
 
@@ -29,10 +30,26 @@ struct Meeting {
   hk::OwnPlace<double> own;
 };
 
+// The ray's coordinates begin at the vertex; so do the hit's.
+Meeting meet_askew_shape(hk::Ray3<double> ray, const PathStep& step, const hk::Axis3<double>& axis) {
+  hk::turn_upright(axis, ray.x, ray.y, ray.z);
+  hk::turn_upright(axis, ray.dx, ray.dy, ray.dz);
+  Meeting m{
+      hk::intersect_shape(ray, 0.0, *step.shape, static_cast<double>(step.direction), hk::exact_limits(*step.shape)),
+      0.0,
+      {}};
+  m.own = {m.hit.x, m.hit.y, m.hit.nz};
+  hk::turn_back(axis, m.hit.x, m.hit.y, m.hit.sag);
+  hk::turn_back(axis, m.hit.nx, m.hit.ny, m.hit.nz);
+  return m;
+}
+
 Meeting meet(const hk::Ray3<double>& ray, const PathStep& step, bool centred) {
   const double direction = step.direction;
   if (centred) {
-    const auto hit = hk::intersect(ray, step.z_mm, step.curvature_per_mm, direction);
+    const auto hit = step.shape
+                         ? hk::intersect_shape(ray, step.z_mm, *step.shape, direction, hk::exact_limits(*step.shape))
+                         : hk::intersect(ray, step.z_mm, step.curvature_per_mm, direction);
     return {hit, step.z_mm, {hit.x, hit.y, hit.nz}};
   }
   const Vec3 vertex = step.pose.shift_mm + Vec3{0.0, 0.0, step.z_mm};
@@ -41,8 +58,14 @@ Meeting meet(const hk::Ray3<double>& ray, const PathStep& step, bool centred) {
   from_vertex.x -= vertex.x;
   from_vertex.y -= vertex.y;
   from_vertex.z -= vertex.z;
-  Meeting m{hk::intersect_askew(from_vertex, axis, step.curvature_per_mm, direction), vertex.z, {}};
-  m.own = hk::own_place(m.hit, axis, step.curvature_per_mm);
+  Meeting m;
+  if (step.shape) {
+    m = meet_askew_shape(from_vertex, step, axis);
+  } else {
+    m.hit = hk::intersect_askew(from_vertex, axis, step.curvature_per_mm, direction);
+    m.own = hk::own_place(m.hit, axis, step.curvature_per_mm);
+  }
+  m.vertex_z_mm = vertex.z;
   m.hit.x += vertex.x;
   m.hit.y += vertex.y;
   return m;

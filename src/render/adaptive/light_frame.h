@@ -1,5 +1,5 @@
 // A light's meridional frame, and the way back from it: ghosts/meridian.h with the sine and cosine worked out. For a
-// lens that is not centred, which has no such frame, that of the lens.
+// lens without axial symmetry, which has no such frame, that of the lens.
 #pragma once
 
 #include <cmath>
@@ -13,9 +13,9 @@ struct LightFrame {
   double cos_turn = 1, sin_turn = 0;
   bool symmetric = true;  // y -> -y changes nothing
 
-  explicit LightFrame(const LightSource& light, bool lens_is_centred = true)
-      : LightFrame(lens_is_centred ? meridian_of(light) : Meridian{light, 0.0}) {
-    symmetric = lens_is_centred;
+  explicit LightFrame(const LightSource& light, bool has_axial_symmetry = true)
+      : LightFrame(has_axial_symmetry ? meridian_of(light) : Meridian{light, 0.0}) {
+    symmetric = has_axial_symmetry;
   }
   [[nodiscard]] Vec2 into_place(Vec2 v) const {
     return {v.x * cos_turn - v.y * sin_turn, v.x * sin_turn + v.y * cos_turn};

@@ -22,7 +22,7 @@ constexpr int kHighestGrid = 512;
 // hullin2011's precomputation, for the angles of the lights at hand and all below: none unless asked for.
 std::optional<PupilBounds> bounds_for(const FramePlan& plan, const LensState& lens, const RenderSettings& settings,
                                       const TablesByWavelength& tables, const Context& context) {
-  if (!settings.bundle.precomputed_bounds || tables.empty() || !lens.is_centred()) return std::nullopt;
+  if (!settings.bundle.precomputed_bounds || tables.empty() || !lens.has_axial_symmetry()) return std::nullopt;
   PupilBoundsRange range;
   range.ghosts = plan.ghosts;
   range.lambda_nm = {tables.begin()->first};

@@ -48,8 +48,8 @@ class GhostGrid {
   [[nodiscard]] Counts& counts() { return counts_; }
 
  private:
-  // A lens that is not centred has no mirror image.
-  [[nodiscard]] bool mirrors() const { return settings_.bundle.mirror_symmetry && lens_.is_centred(); }
+  // A lens without axial symmetry has no mirror image.
+  [[nodiscard]] bool mirrors() const { return settings_.bundle.mirror_symmetry && lens_.has_axial_symmetry(); }
   [[nodiscard]] const ReflectanceTables& tables_of(const GhostPupil& pupil) const;
   [[nodiscard]] MapFigures figures_of(const GhostPupil& pupil);
   [[nodiscard]] int side_of(const GhostPupil& pupil) const;

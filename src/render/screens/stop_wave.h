@@ -1,6 +1,7 @@
 // The wave of a path's light where it crosses the stop for the last time, to the first order: what its edge's shadow
 // looks like on the sensor. Earlier crossings stay sharp: their rims are blurred by what comes after them much as the
 // last one's is, but a pattern of a pattern has no closed form, and such ghosts cross the stop three times, faintly.
+// A lens without axial symmetry has two of all this; the mean stands for both (docs/physics/surfaces.md).
 // Source: Collins 1970 eq. 12 (contrejour/fresnel.h). Thread-safety: pure functions.
 #pragma once
 

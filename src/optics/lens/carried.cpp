@@ -1,0 +1,18 @@
+#include "optics/lens/carried.h"
+
+#include "kernels/shape-inl.h"
+
+namespace contrejour {
+
+SurfacePose carried(const SurfacePose& body, double behind_mm, const SurfacePose& own) {
+  if (own == SurfacePose{}) return {body.shift_mm + (body.axis - Vec3{0, 0, 1}) * behind_mm, body.axis};
+  namespace hk = kernels::HWY_NAMESPACE;
+  const auto turned = [&](Vec3 v) {
+    hk::turn_back(hk::Axis3<double>{body.axis.x, body.axis.y, body.axis.z}, v.x, v.y, v.z);
+    return v;
+  };
+  const Vec3 in_place{0.0, 0.0, behind_mm};
+  return {body.shift_mm + turned(own.shift_mm + in_place) - in_place, turned(own.axis)};
+}
+
+}  // namespace contrejour

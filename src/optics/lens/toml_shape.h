@@ -1,0 +1,30 @@
+// Shapes and places of surfaces in the lens format: conics, aspheres, toroids, biconics, decentres and tilts.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/toml_fields.h"
+#include "contrejour/lens.h"
+
+namespace contrejour {
+
+// From a row's conic, asphere, toroid, biconic; from its or a group's decentre_mm, tilt_deg, axis.
+[[nodiscard]] SurfaceShape read_shape(TomlFields& row, TomlErrors& errors);
+[[nodiscard]] SurfacePose read_pose(TomlFields& fields, TomlErrors& errors);
+
+// 1 / radius_mm, or curvature_per_mm; the one key or the other, with a prefix for that of another section ("_x").
+[[nodiscard]] double read_curvature(TomlFields& fields, const std::string& suffix);
+
+// Poses of elements that are moved together: `groups` of the lens.
+void read_groups(TomlFields& lens, std::vector<Surface>& surfaces, TomlErrors& errors);
+
+// What stands behind a row's radius, ", conic = -1" and so on.
+[[nodiscard]] std::string shape_text(const SurfaceShape& shape);
+[[nodiscard]] std::string pose_text(const SurfacePose& pose);
+
+// "radius_mm = 30.81", or with a suffix "radius_x_mm = ...", in as few digits as give the same curvature.
+[[nodiscard]] std::string curvature_text(double curvature_per_mm, std::string_view suffix);
+
+}  // namespace contrejour

@@ -1,0 +1,14 @@
+// Chief rays of lenses whose surfaces are no surfaces of revolution: docs/physics/surfaces.md.
+#pragma once
+
+#include "contrejour/trace.h"
+
+namespace contrejour {
+
+[[nodiscard]] bool is_anamorphic(const LensState& lens);
+
+// As landing_of and direction_to_land_at.
+[[nodiscard]] Vec2 anamorphic_landing(const LensState& lens, const LightSource& source, double lambda_nm);
+[[nodiscard]] Vec3 anamorphic_direction(const LensState& lens, Vec2 sensor_mm, double lambda_nm, double distance_mm);
+
+}  // namespace contrejour
