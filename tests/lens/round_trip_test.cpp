@@ -1,6 +1,7 @@
 // read(write(x)) == x, bit for bit, for lenses made at random.
 #include "lens/sample_lens.h"
 
+#include <cmath>
 #include <random>
 
 #include "contrejour/lens.h"
@@ -28,6 +29,8 @@ void check_same(const Prescription& a, const Prescription& b) {
     CHECK(s.semi_diameter_mm == t.semi_diameter_mm);
     CHECK(s.glass_after == t.glass_after);
     CHECK(s.coating == t.coating);
+    CHECK(s.shape == t.shape);
+    CHECK(s.pose == t.pose);
   }
   REQUIRE(a.zoom.size() == b.zoom.size());
   for (std::size_t z = 0; z < a.zoom.size(); ++z) {
@@ -97,6 +100,23 @@ class RandomLens {
     }
   }
 
+  // Of little sag beside the curvature's.
+  SurfaceShape shape() {
+    SurfaceShape s;
+    if (one_in(2)) return s;
+    if (one_in(2)) s.conic = real(-3.0, 1.0);
+    s.kind = static_cast<ShapeKind>(whole(0, 2));
+    if (s.kind != ShapeKind::Biconic) {
+      for (int k = whole(0, SurfaceShape::kHighestPower); k > 0; --k)
+        s.powers.push_back(one_in(3) ? 0.0 : real(-0.01, 0.01) * std::pow(0.1, static_cast<double>(s.powers.size())));
+    }
+    if (s.kind == ShapeKind::Revolution) return s;
+    if (!one_in(3)) s.curvature_x_per_mm = one_in(2) ? real(-0.1, 0.1) : 1.0 / real(10.0, 1000.0);
+    if (s.kind == ShapeKind::Biconic && one_in(2)) s.conic_x = real(-3.0, 1.0);
+    if (one_in(2)) s.turn_rad = one_in(2) ? real(-3.0, 3.0) : 30.0 * 3.14159265358979323846 / 180.0;
+    return s;
+  }
+
   void add_surfaces(Prescription& lens) {
     const int count = whole(2, 30);
     const int stop = whole(0, count - 1);
@@ -113,6 +133,9 @@ class RandomLens {
         s.curvature_per_mm = one_in(8) ? 0.0 : one_in(2) ? 1.0 / radius_mm : real(-0.1, 0.1);
         s.glass_after = one_in(2) ? air() : glass();
         s.coating = coating();
+        s.shape = shape();
+        if (one_in(4)) s.pose.shift_mm = {real(-0.1, 0.1), one_in(2) ? 0.0 : real(-0.1, 0.1), real(-0.1, 0.1)};
+        if (one_in(4)) s.pose.axis = normalized({real(-0.02, 0.02), real(-0.02, 0.02), 1.0});
       }
       if (k + 1 == count || (k + 2 == count && stop == count - 1)) s.glass_after = air();
       lens.surfaces.push_back(s);

@@ -1,0 +1,47 @@
+// Lenses with aspheres and with cylinders: every method against the reference. Few ghosts and small frames: what such
+// surfaces do to single rays is for tests/optics/test_surfaces.cpp.
+#include "renderers/methods.h"
+
+using namespace contrejour;
+using namespace contrejour::test;
+
+namespace {
+
+LensState changed_tessar(const SurfaceShape& front, const SurfaceShape& rear) {
+  const auto tessar = find_lens("tessar");
+  REQUIRE(tessar.has_value());
+  Prescription lens = *tessar;
+  lens.surfaces.front().shape = front;
+  lens.surfaces.back().shape = rear;
+  const auto state = lens_at(lens, {.f_number = 11.0});
+  REQUIRE(state.has_value());
+  return *state;
+}
+
+// With any shortcut allowed that a lens of revolution has.
+void check_all(const LensState& lens, Vec2 uv) {
+  RenderSettings settings = small_frame(lens, 72, 48);
+  settings.bundle.mirror_symmetry = settings.bundle.precomputed_bounds = true;
+  const Light light = light_at(lens, settings.frame, uv);
+  const Image truth = truth_of(lens, light, settings);
+  const Image spherical = image_of(bounds_of("bundle"), bundled("tessar", {.f_number = 11.0}), light, settings);
+  CHECK(psnr_db(truth, spherical) < 40.0);
+  for_each_method([&](const Bounds& bounds) {
+    if (bounds.method != "reference") check_against(truth, image_of(bounds, lens, light, settings), bounds);
+  });
+}
+
+}  // namespace
+
+TEST_CASE("a lens with aspheres as in the reference, and unlike its spheres") {
+  check_all(changed_tessar({.conic = -2.0, .powers = {0, 0, 0, 2e-5, 0, -1e-8}}, {.powers = {0, 0, 1e-5, 1e-5}}),
+            {0.66, 0.37});
+}
+
+TEST_CASE("a lens with a toroid and a biconic, turned by odd angles, as in the reference") {
+  const double c = find_lens("tessar")->surfaces.front().curvature_per_mm;
+  check_all(
+      changed_tessar({.kind = ShapeKind::Toroid, .curvature_x_per_mm = 0.6 * c, .turn_rad = 0.4},
+                     {.kind = ShapeKind::Biconic, .conic = -0.5, .curvature_x_per_mm = -0.7 * c, .turn_rad = -0.2}),
+      {0.66, 0.37});
+}
