@@ -1,4 +1,5 @@
 // contrejour lens info: surfaces and first-order figures of a lens.
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <string>
@@ -47,12 +48,45 @@ double thickness_mm(const LensState& lens, std::size_t k) {
   return next_mm - lens.surfaces[k].z_mm;
 }
 
+std::string shape_name(double curvature_per_mm, const SurfaceShape& shape) {
+  const bool has_powers = std::any_of(shape.powers.begin(), shape.powers.end(), [](double a) { return a != 0.0; });
+  const bool flat_one_way = (curvature_per_mm == 0.0) != (shape.curvature_x_per_mm == 0.0);
+  switch (shape.kind) {
+    case ShapeKind::Revolution: return shape.is_sphere() ? "" : has_powers ? "asphere" : "conic";
+    case ShapeKind::Toroid: return flat_one_way && !has_powers ? "cylinder" : "toroid";
+    case ShapeKind::Biconic: return "biconic";
+  }
+  return "";
+}
+
+Json shape_json(double curvature_per_mm, const SurfaceShape& shape) {
+  Json out = {{"kind", shape_name(curvature_per_mm, shape)}, {"conic", shape.conic}, {"powers", Json::object()}};
+  for (std::size_t k = 0; k < shape.powers.size(); ++k) {
+    if (shape.powers[k] != 0.0) out["powers"][fmt::format("{}", k + 1)] = shape.powers[k];
+  }
+  if (shape.has_axial_symmetry()) return out;
+  out["curvature_x_per_mm"] = shape.curvature_x_per_mm;
+  out["conic_x"] = shape.conic_x;
+  out["turn_deg"] = shape.turn_rad / params::kDegree_rad;
+  return out;
+}
+
+// Of the other section's radius too, where that is another.
+std::string shape_text(const SurfaceState& s) {
+  std::string text = shape_name(s.curvature_per_mm, s.shape);
+  if (!s.shape.has_axial_symmetry()) {
+    const double c = s.shape.curvature_x_per_mm;
+    text += c == 0.0 ? ", x plane" : fmt::format(", x {:.4f}", 1.0 / c);
+  }
+  return s.is_centred() ? text : text + (text.empty() ? "askew" : ", askew");
+}
+
 Json surfaces_json(const Info& info) {
   Json list = Json::array();
   for (std::size_t k = 0; k < info.state.surfaces.size(); ++k) {
     const SurfaceState& s = info.state.surfaces[k];
     const bool plane = s.curvature_per_mm == 0.0;
-    list.push_back({{"index", k + 1},
+    Json row = {{"index", k + 1},
                     {"kind", s.kind == SurfaceKind::Stop ? "stop" : "refracting"},
                     {"radius_mm", plane ? Json() : Json(1.0 / s.curvature_per_mm)},
                     {"curvature_per_mm", s.curvature_per_mm},
@@ -61,7 +95,13 @@ Json surfaces_json(const Info& info) {
                     {"glass", glass_name(s.after)},
                     {"n_d", refractive_index(s.after, kLineD_nm)},
                     {"n", refractive_index(s.after, info.lambda_nm)},
-                    {"coating", describe(s.coating)}});
+                    {"coating", describe(s.coating)}};
+    if (!s.shape.is_sphere()) row["shape"] = shape_json(s.curvature_per_mm, s.shape);
+    if (!s.is_centred()) {
+      row["decentre_mm"] = {s.pose.shift_mm.x, s.pose.shift_mm.y, s.pose.shift_mm.z};
+      row["axis"] = {s.pose.axis.x, s.pose.axis.y, s.pose.axis.z};
+    }
+    list.push_back(std::move(row));
   }
   return list;
 }
@@ -77,7 +117,9 @@ Json info_json(const Info& info) {
           {"stop_index", info.state.stop_index + 1},
           {"stop_radius_mm", info.state.stop_radius_mm},
           {"focal_length_mm", f.focal_length_mm},
+          {"focal_length_x_mm", f.focal_length_x_mm},
           {"back_focal_distance_mm", f.back_focal_distance_mm},
+          {"back_focal_distance_x_mm", f.back_focal_distance_x_mm},
           {"front_focal_distance_mm", f.front_focal_distance_mm},
           {"entrance_pupil_position_mm", f.entrance_pupil_position_mm},
           {"entrance_pupil_diameter_mm", f.entrance_pupil_diameter_mm},
@@ -93,14 +135,20 @@ Json info_json(const Info& info) {
 }
 
 std::string surfaces_text(const Info& info) {
-  TextTable table({"surface", "radius mm", "thickness mm", "semi-diameter mm", "<glass behind", "n", "<coating"});
+  const auto has_news = [](const SurfaceState& s) { return !s.shape.is_sphere() || !s.is_centred(); };
+  const bool all_plain = std::none_of(info.state.surfaces.begin(), info.state.surfaces.end(), has_news);
+  std::vector<std::string> headings{"surface", "radius mm", "thickness mm", "semi-diameter mm", "<glass behind", "n", "<coating"};
+  if (!all_plain) headings.emplace_back("<shape");
+  TextTable table(headings);
   for (std::size_t k = 0; k < info.state.surfaces.size(); ++k) {
     const SurfaceState& s = info.state.surfaces[k];
     const bool stop = s.kind == SurfaceKind::Stop;
     const std::string radius = s.curvature_per_mm == 0.0 ? "plane" : fmt::format("{:.4f}", 1.0 / s.curvature_per_mm);
-    table.add({fmt::format("{}", k + 1), stop ? "stop" : radius, fmt::format("{:.4f}", thickness_mm(info.state, k)),
+    std::vector<std::string> row{fmt::format("{}", k + 1), stop ? "stop" : radius, fmt::format("{:.4f}", thickness_mm(info.state, k)),
                fmt::format("{:.3f}", stop ? info.state.stop_radius_mm : s.semi_diameter_mm), glass_name(s.after),
-               fmt::format("{:.6f}", refractive_index(s.after, info.lambda_nm)), stop ? "" : describe(s.coating)});
+               fmt::format("{:.6f}", refractive_index(s.after, info.lambda_nm)), stop ? "" : describe(s.coating)};
+    if (!all_plain) row.push_back(shape_text(s));
+    table.add(std::move(row));
   }
   return table.text();
 }
@@ -112,7 +160,10 @@ std::string figures_text(const Info& info) {
     table.add({name, fmt::format("{:.4f}", value), unit});
   };
   add("focal length", f.focal_length_mm, "mm");
+  const bool anamorphic = f.focal_length_x_mm != f.focal_length_mm;
+  if (anamorphic) add("  in the x-z section", f.focal_length_x_mm, "mm");
   add("back focal distance", f.back_focal_distance_mm, "mm from the last surface");
+  if (anamorphic) add("  in the x-z section", f.back_focal_distance_x_mm, "mm");
   add("front focal distance", f.front_focal_distance_mm, "mm from surface 1");
   add("entrance pupil", f.entrance_pupil_position_mm, "mm from surface 1");
   add("  diameter", f.entrance_pupil_diameter_mm, "mm");

@@ -90,12 +90,17 @@ void set_bounds(Section& section) {
 
 double drawn_height_mm(const SurfaceState& surface) {
   constexpr double kNearlyHalfSphere = 0.9999;
+  if (!surface.shape.is_sphere()) return surface.semi_diameter_mm;
   const double curvature = std::abs(surface.curvature_per_mm);
   return std::min(surface.semi_diameter_mm, curvature > 0.0 ? kNearlyHalfSphere / curvature : surface.semi_diameter_mm);
 }
 
 double sag_mm(const SurfaceState& surface, double height_mm) {
   const double c = surface.curvature_per_mm;
+  if (!surface.shape.is_sphere()) {
+    const auto point = surface_at(c, surface.shape, {0.0, height_mm});
+    return point ? point->sag_mm : 0.0;
+  }
   return c * height_mm * height_mm / (1.0 + std::sqrt(std::max(0.0, 1.0 - c * c * height_mm * height_mm)));
 }
 

@@ -51,10 +51,24 @@ class Page {
   double scale_ = 1, left_px_ = 0, axis_px_ = 0;
 };
 
+// Of a surface that is no sphere: straight lines closer to it than is seen.
+std::string curve(const Page& page, const SurfaceState& s, double from) {
+  constexpr int kPieces = 64;
+  const double h = drawn_height_mm(s);
+  std::string d;
+  for (int k = 1; k <= kPieces; ++k) {
+    const double y = from * h * (1.0 - 2.0 * k / kPieces);
+    const Vec2 to = page.at({s.z_mm + sag_mm(s, y), y});
+    d += fmt::format("L{:.2f} {:.2f} ", to.x, to.y);
+  }
+  return d;
+}
+
 // The arc of a surface from its rim at `from` (+1 top, -1 bottom) to the other.
 std::string arc(const Page& page, const SurfaceState& s, double from) {
   const double h = drawn_height_mm(s);
   const Vec2 end = page.at({s.z_mm + sag_mm(s, h), -from * h});
+  if (!s.shape.is_sphere()) return curve(page, s, from);
   if (s.curvature_per_mm == 0.0) return fmt::format("L{:.2f} {:.2f} ", end.x, end.y);
   const double r = page.scale() / std::abs(s.curvature_per_mm);
   const bool clockwise = (s.curvature_per_mm > 0.0) == (from < 0.0);
