@@ -104,6 +104,7 @@ TEST_CASE("bounds over angles hold every ray that gets through, for all bundled 
   for (const BundledLens& lens : bundled_lenses()) {
     CAPTURE(lens.name);
     const std::string name(lens.name);
+    if (!bundled(name.c_str()).has_axial_symmetry()) continue;  // no such bounds are made
     check_bounds(bundled(name.c_str()), 12);
     check_bounds(bundled(name.c_str(), {.f_number = 16.0}), 12);
   }
