@@ -19,7 +19,27 @@ constexpr double kShadeBound = 4.0;  // the irradiance is linear over the cell i
 constexpr double kFoldBound = 0.5;   // of a fold's flux, that is out of place
 constexpr double kMostBend = 0.04;   // of a cell, that what cuts it may be off
 constexpr double kLeftByBend = 0.25;  // of a curve's deviation from its chord, where a corner in its middle bends it
+// Of a cell that large, and so bright beside the peak: a plane that is farther off shows as a facet, however little it is
+// of the peak.
+constexpr double kFacet = 0.02, kFacet_px = 400.0, kFacetLevel = 2e-4;
 constexpr std::array kSimpson{1.0 / 6.0, 4.0 / 6.0, 1.0 / 6.0};
+
+// Mean square of what a plane through a cell's nine vertices, row by row, leaves of their values.
+template <class ValueAt>
+double off_plane(const ValueAt& at) {
+  std::array<double, 9> e;
+  for (std::size_t k = 0; k < 9; ++k) e[k] = at(k);
+  const double mean = (e[0] + e[1] + e[2] + e[3] + e[4] + e[5] + e[6] + e[7] + e[8]) / 9.0;
+  const double along_u = (e[2] + e[5] + e[8] - e[0] - e[3] - e[6]) / 6.0;
+  const double along_v = (e[6] + e[7] + e[8] - e[0] - e[1] - e[2]) / 6.0;
+  double sum = 0.0;
+  for (std::size_t k = 0; k < 9; ++k) {
+    const double plane =
+        mean + along_u * (static_cast<double>(k % 3) - 1.0) + along_v * (static_cast<double>(k / 3) - 1.0);
+    sum += (e[k] - plane) * (e[k] - plane) / 9.0;
+  }
+  return sum;
+}
 
 }  // namespace
 
@@ -54,13 +74,12 @@ double CellPainter::unscreened_error(const Mesh& mesh, const Cell& cell, State s
   }
 
   const auto e = [&](std::size_t k) { return static_cast<double>(mesh.brightness[v[k]]); };
-  const double along_u = (e(2) + e(5) + e(8) - e(0) - e(3) - e(6)) / 6.0;
-  const double along_v = (e(6) + e(7) + e(8) - e(0) - e(1) - e(2)) / 6.0;
-  double residual = 0.0;
-  for (std::size_t k = 0; k < 9; ++k) {
-    const double plane =
-        mean + along_u * (static_cast<double>(k % 3) - 1.0) + along_v * (static_cast<double>(k / 3) - 1.0);
-    residual += (e(k) - plane) * (e(k) - plane) / 9.0;
+  double residual = off_plane(e);
+  const double area = std::abs(mesh.area[cell.middle]) * cell.size * cell.size;
+  if (area > kFacet_px && mean > kFacetLevel * peak_) {
+    double facet = 0.0;
+    for (int c = 0; c < 3; ++c) facet += off_plane([&](std::size_t k) { return mesh.irradiance(c, v[k]); }) / 3.0;
+    if (facet > kFacet * kFacet * mean * mean) return std::numeric_limits<double>::infinity();
   }
   // What is drawn has the flux over the polygon's area for its mean.
   const Outline outline = outline_of(cell, sides);
@@ -77,7 +96,6 @@ double CellPainter::unscreened_error(const Mesh& mesh, const Cell& cell, State s
   residual += off_level * off_level;
 
   const double longest = std::max(extent.x, extent.y);
-  const double area = std::abs(mesh.area[cell.middle]) * cell.size * cell.size;
   const double width = std::min(1.0, area / std::max(longest, 1e-6));  // a sliver's flux is seen spread over a pixel
   // Far above the frame's peak only the relative error counts.
   const double dimmed = seen_share(mean, peak_);
