@@ -39,6 +39,8 @@ PUBLIC = {
     "colour.h": "image",
     "context.h": "base",
     "dirt.h": "kernels",
+    "film_design.h": "coating",
+    "film_material.h": "coating",
     "first_order.h": "lens",
     "fractional_fourier.h": "diffraction",
     "fraunhofer.h": "diffraction",
@@ -100,7 +102,8 @@ FENCED = [
     (r"GLFW/|imgui|ofx", ("apps",), "windows and hosts belong to apps"),
     (r"(oneapi/)?tbb/", ("src/base",), "threads come from base/tasks.h, where their hand-overs are annotated"),
     (r"yaml-cpp/", ("src/base",), "one wrapper that keeps its exceptions in"),
-    (r"gemmi/|pocketfft|Eigen/", ("src/diffraction",), "one wrapper of the FFT and of the eigen solver each"),
+    (r"gemmi/|pocketfft", ("src/diffraction",), "one wrapper of the FFT"),
+    (r"Eigen/", ("src/diffraction", "src/optics/coating"), "one wrapper of the eigen solver, one of least squares"),
 ]
 
 INCLUDE = re.compile(r'^\s*#\s*include\s*(?:"([^"]+)"|<([^>]+)>)')

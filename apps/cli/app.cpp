@@ -110,6 +110,7 @@ void set_up(CLI::App& app, Action& action) {
   add_ghosts(app, action);
   add_compare(app, action);
   add_look(app, action);
+  add_coating(app, action);
   add_bench(app, action);
 }
 

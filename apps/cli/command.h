@@ -25,6 +25,7 @@ void add_ghosts(CLI::App& app, Action& action);
 void add_compare(CLI::App& app, Action& action);
 void add_look(CLI::App& app, Action& action);
 void add_bench(CLI::App& app, Action& action);
+void add_coating(CLI::App& app, Action& action);
 
 void add_lens_list(CLI::App& lens, Action& action);
 void add_lens_info(CLI::App& lens, Action& action);
@@ -36,6 +37,8 @@ void add_lens_trace(CLI::App& lens, Action& action);
 void add_glass_list(CLI::App& glass, Action& action);
 void add_glass_show(CLI::App& glass, Action& action);
 void add_glass_closest(CLI::App& glass, Action& action);
+void add_coating_show(CLI::App& coating, Action& action);
+void add_coating_fit(CLI::App& coating, Action& action);
 
 void add_bench_tables(CLI::App& bench, Action& action);
 void add_bench_effects(CLI::App& bench, Action& action);

@@ -1,9 +1,12 @@
 // The texts that stand for optical things: lights, ghosts, coatings.
 #include <algorithm>
+#include <optional>
 #include <string>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include "contrejour/film_design.h"
 #include "contrejour/spectrum_file.h"
 #include "params/parse.h"
 
@@ -48,16 +51,49 @@ Result<Film> parse_film(std::string_view text) {
   return film;
 }
 
+std::optional<FilmMaterial> parse_material(std::string_view text) {
+  if (is_film_material(text)) return film_material(text);
+  const auto n = parse_real(text);
+  if (!n || !(*n >= 1.0 && *n <= 10.0)) return std::nullopt;
+  return FilmMaterial(*n);
+}
+
+// "99.6", nm; "0.25w", waves at 550 nm within the film; "0.25w480", at 480 nm.
+std::optional<double> parse_thickness(std::string_view text, const FilmMaterial& material) {
+  const auto parts = split(text, 'w');
+  const auto number = parse_real(parts[0]);
+  if (!number || parts.size() > 2) return std::nullopt;
+  if (parts.size() == 1) return *number;
+  const auto at_nm = parts[1].empty() ? Result<double>(QuarterWave{}.lambda0_nm) : parse_real(parts[1]);
+  if (!at_nm || !(*at_nm >= 100.0 && *at_nm <= 10000.0)) return std::nullopt;
+  return *number * *at_nm / index_at(material, *at_nm).real();
+}
+
+// "v-coat", "broadband-5:520"
+std::optional<Result<DesignedCoating>> parse_design(std::string_view text) {
+  const auto parts = split(text, ':');
+  auto design = find_coating_design(parts[0]);
+  if (!design) return std::nullopt;
+  if (parts.size() == 1) return Result<DesignedCoating>(*design);
+  const auto lambda = parts.size() == 2 ? parse_real(parts[1]) : Result<double>(0.0);
+  if (!lambda || !(*lambda >= 100.0 && *lambda <= 5000.0))
+    return Result<DesignedCoating>(invalid(fmt::format("\"{}\": write a design's wavelength as in v-coat:550", text)));
+  design->lambda0_nm = *lambda;
+  return Result<DesignedCoating>(*design);
+}
+
 Result<FilmStack> parse_stack(std::string_view text) {
   FilmStack stack;
   for (const std::string_view layer : split(text, ',')) {
     const auto parts = split(layer, '@');
-    const auto n = parse_real(parts[0]);
-    const auto thickness = parts.size() == 2 ? parse_real(parts[1]) : Result<double>(-1.0);
-    if (!n || !thickness || !(*n >= 1.0 && *n <= 10.0) || !(*thickness >= 0.0 && *thickness <= 1e6)) {
-      return invalid(fmt::format("\"{}\" is not a film; write index@nanometres, as in stack:1.38@99.6,2.1@131", layer));
+    const auto material = parse_material(parts[0]);
+    const auto thickness =
+        material && parts.size() == 2 ? parse_thickness(parts[1], *material) : std::optional<double>();
+    if (!thickness || !(*thickness >= 0.0 && *thickness <= 1e6)) {
+      return invalid(fmt::format("\"{}\" is not a film; write index or material @ nanometres or waves, as in "
+                                 "stack:1.38@99.6,ZrO2@0.5w", layer));
     }
-    stack.layers.push_back({{*n, 0.0}, *thickness});
+    stack.layers.push_back({*material, *thickness});
   }
   if (stack.layers.size() > 1000) return invalid("a stack may have 1000 films");
   return stack;
@@ -220,9 +256,13 @@ Result<Coating> parse_coating(std::string_view text) {
     const auto stack = parse_stack(*layers);
     if (!stack) return tl::unexpected(stack.error());
     coating.films = *stack;
+  } else if (const auto design = parse_design(text)) {
+    if (!*design) return tl::unexpected(design->error());
+    coating.films = **design;
   } else {
-    return invalid(fmt::format("\"{}\" is no coating; write none, quarter-wave:550:1.38, hullin:550:1.38 or "
-                               "stack:1.38@99.6,2.1@131", text));
+    return invalid(fmt::format("\"{}\" is no coating; write none, quarter-wave:550:1.38, hullin:550:1.38, "
+                               "stack:1.38@99.6,ZrO2@0.5w or a design ({})", text,
+                               fmt::join(coating_design_names(), ", ")));
   }
   return coating;
 }

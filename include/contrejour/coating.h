@@ -10,10 +10,13 @@
 #include <variant>
 #include <vector>
 
+#include "contrejour/film_material.h"
+#include "contrejour/glass.h"
+
 namespace contrejour {
 
 struct FilmLayer {
-  std::complex<double> n{1.0, 0.0};  // n + i k, absorbing for k > 0
+  FilmMaterial material;
   double thickness_nm = 0.0;
   friend bool operator==(const FilmLayer&, const FilmLayer&) = default;
 };
@@ -43,14 +46,47 @@ struct HullinFresnelAR {
   friend bool operator==(const HullinFresnelAR&, const HullinFresnelAR&) = default;
 };
 
+// A coating of the trade that is worked out for each glass it lies on (Macleod, Thin-Film Optical Filters, 3):
+enum class CoatingDesign {
+  VCoat,               // MgF2 on ZrO2: nothing is reflected at lambda0
+  WCoat,               // a quarter wave of MgF2 on half a wave of SiO: low at two wavelengths about lambda0
+  QuarterHalfQuarter,  // MgF2, ZrO2, Al2O3
+  Broadband,           // MgF2 outermost, then SiO2 and Ta2O5 in turns; lowest on the whole from 0.76 to 1.24 lambda0
+};
+struct DesignedCoating {
+  static constexpr int kFewestLayers = 4, kMostLayers = 7;
+  CoatingDesign design = CoatingDesign::VCoat;
+  double lambda0_nm = 550.0;
+  int layers = kFewestLayers;  // of Broadband, 4 to 7
+  friend bool operator==(const DesignedCoating&, const DesignedCoating&) = default;
+};
+
+// Reflectances that were measured, unpolarised, by wavelength and angle in air; straight lines between, the nearest
+// beyond. Nothing is absorbed.
+struct MeasuredCoating {
+  std::vector<double> lambda_nm, angle_deg;  // each rising, one value at least
+  std::vector<double> reflectance;           // 0 to 1; all angles of the first wavelength, then of the next
+  friend bool operator==(const MeasuredCoating&, const MeasuredCoating&) = default;
+};
+
 struct Coating {
   std::string name;  // as the user wrote it, may be empty
-  std::variant<Bare, QuarterWave, FilmStack, HullinFresnelAR> films;
+  std::variant<Bare, QuarterWave, FilmStack, HullinFresnelAR, DesignedCoating, MeasuredCoating> films;
   friend bool operator==(const Coating&, const Coating&) = default;
 };
 
 // A short text for tables and JSON: "none", "quarter-wave 550 nm n=1.38", "stack of 3 layers", ...
 [[nodiscard]] std::string describe(const Coating& coating);
+
+// The films of a design on a glass. Broadband ones are refined for it, some 5 ms (film_design.h).
+[[nodiscard]] FilmStack designed_for(const DesignedCoating& design, const Glass& glass);
+
+// The same coating with its films in place, on the side of the glass of the higher index; any other as it is.
+[[nodiscard]] Coating placed_on(const Coating& coating, const Glass& before, const Glass& after);
+// The same at this wavelength alone, with indices as numbers: quicker to ask.
+[[nodiscard]] Coating at_wavelength(const Coating& coating, double lambda_nm);
+// Whether some light may be neither reflected nor transmitted.
+[[nodiscard]] bool may_absorb(const Coating& coating);
 
 // Amplitudes and powers of a stack between two half-spaces, convention exp(-i w t); r_p = -r_s at normal
 // incidence; T counts the power that leaves into the last medium per power that comes in.
@@ -59,12 +95,14 @@ struct FilmResponse {
   double R_s = 0, R_p = 0, T_s = 0, T_p = 0;
 };
 
-// layers run from the side of n_in to the side of n_out; theta_in in n_in (real angle, radians).
+// layers run from the side of n_in to the side of n_out, or the other way; theta_in in n_in (real angle, radians).
+enum class FilmOrder { AsListed, Reversed };
 [[nodiscard]] FilmResponse film_response(std::complex<double> n_in, std::span<const FilmLayer> layers,
-                                         std::complex<double> n_out, double theta_in_rad, double lambda_nm);
+                                         std::complex<double> n_out, double theta_in_rad, double lambda_nm,
+                                         FilmOrder order = FilmOrder::AsListed);
 
 // Power reflectance of a coated surface for unpolarised light that comes from n_in at cos_in (0..1);
-// 1 under total reflection. T = 1 - R for lossless films.
+// 1 under total reflection. T = 1 - R for lossless films. A DesignedCoating is worked out at every call: place it first.
 [[nodiscard]] double reflectance(const Coating& coating, double n_in, double n_out, double cos_in,
                                  double lambda_nm);
 

@@ -86,14 +86,17 @@ class RandomLens {
   Coating coating() {
     static const char* const kNames[] = {"", "front", "none", "quarter-wave", "c d"};
     const std::string name = kNames[whole(0, 4)];
-    switch (whole(0, 3)) {
+    switch (whole(0, 5)) {
       case 0: return {};
+      case 4: return {name, DesignedCoating{static_cast<CoatingDesign>(whole(0, 3)), real(380.0, 800.0), 4}};
+      case 5: return {name, MeasuredCoating{{real(380.0, 500.0), 600.0}, {0.0, real(1.0, 90.0)}, {0.1, real(0.0, 1.0), 0.0, 1.0}}};
       case 1: return {name, QuarterWave{real(1.2, 2.5), real(380.0, 800.0)}};
       case 2: return {name, HullinFresnelAR{real(1.2, 2.5), real(380.0, 800.0)}};
       default: {
         FilmStack stack;
         for (int k = whole(1, 6); k > 0; --k) {
-          stack.layers.push_back({{real(0.05, 4.0), one_in(2) ? 0.0 : real(0.0, 3.0)}, real(0.0, 300.0)});
+          const FilmMaterial number(real(0.05, 4.0), one_in(2) ? 0.0 : real(0.0, 3.0));
+          stack.layers.push_back({one_in(3) ? film_material("TiO2") : number, real(0.0, 300.0)});
         }
         return {name, stack};
       }

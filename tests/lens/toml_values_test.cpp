@@ -63,6 +63,16 @@ TEST_CASE("every kind of coating and glass") {
   CHECK(coating_of("{ hullin_nm = 480, n = 1.45, name = \"h\" }") == Coating{"h", HullinFresnelAR{1.45, 480.0}});
   CHECK(coating_of("{ layers = [{ n = 1.38, thickness_nm = 90 }, { n = 2, k = 0.1, thickness_nm = 5 }] }") ==
         Coating{"", FilmStack{{{{1.38, 0.0}, 90.0}, {{2.0, 0.1}, 5.0}}}});
+  CHECK(coating_of("\"broadband-6\"") == Coating{"", DesignedCoating{CoatingDesign::Broadband, 550.0, 6}});
+  CHECK(coating_of("{ design = \"v-coat\", design_nm = 480 }") ==
+        Coating{"", DesignedCoating{CoatingDesign::VCoat, 480.0}});
+  CHECK(coating_of("{ layers = [{ material = \"ZrO2\", thickness_nm = 90 }] }") ==
+        Coating{"", FilmStack{{{film_material("ZrO2"), 90.0}}}});
+  CHECK(std::get<FilmStack>(coating_of("{ layers = [{ n = 2, waves = 0.5, at_nm = 600 }] }").films)
+            .layers[0]
+            .thickness_nm == doctest::Approx(150.0));
+  CHECK(coating_of("{ measured_nm = [450, 650], measured_deg = [0], reflectance = [0.01, 0.02] }") ==
+        Coating{"", MeasuredCoating{{450.0, 650.0}, {0.0}, {0.01, 0.02}}});
   const auto glass_of = [](const std::string& value) {
     return read(edited("glass = \"SF2\"", fmt::format("glass = {}", value),
                        edited("SF2 = { n_d = 1.64769, v_d = 33.85 }\n", ""))).surfaces[3].glass_after;

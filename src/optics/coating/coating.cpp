@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "contrejour/film_design.h"
 #include "kernels/surface-inl.h"
 
 namespace contrejour {
@@ -22,9 +23,7 @@ double cos_squared_behind(double n_in, double n_out, double cos_in) {
 FilmResponse stack_response(std::span<const FilmLayer> layers, double n_in, double n_out, double cos_in,
                             double lambda_nm) {
   const double theta = std::acos(std::clamp(cos_in, 0.0, 1.0));
-  if (n_in <= n_out) return film_response(n_in, layers, n_out, theta, lambda_nm);
-  const std::vector<FilmLayer> reversed(layers.rbegin(), layers.rend());
-  return film_response(n_in, reversed, n_out, theta, lambda_nm);
+  return film_response(n_in, layers, n_out, theta, lambda_nm, n_in <= n_out ? FilmOrder::AsListed : FilmOrder::Reversed);
 }
 
 double mean_reflectance(const FilmResponse& r) { return 0.5 * (r.R_s + r.R_p); }
@@ -77,9 +76,45 @@ double reflectance_of(const HullinFresnelAR& film, double n0, double n2, double 
   return std::min(1.0, 0.5 * (s2 + p2));
 }
 
+double reflectance_of(const DesignedCoating& design, double n_in, double n_out, double cos_in, double lambda_nm) {
+  const FilmStack stack = designed_for(design, {"", ConstantIndex{std::max(n_in, n_out)}});
+  return reflectance_of(stack, n_in, n_out, cos_in, lambda_nm);
+}
+
+// Where a value lies in a rising list: after which entry, and how much of the way to the next; the ends hold beyond.
+struct Between {
+  std::size_t first = 0, next = 0;
+  double share = 0.0;
+};
+Between between(const std::vector<double>& list, double value) {
+  const auto above = std::upper_bound(list.begin(), list.end(), value);
+  if (above == list.begin()) return {};
+  const auto next = static_cast<std::size_t>(above - list.begin());
+  if (above == list.end()) return {next - 1, next - 1, 0.0};
+  return {next - 1, next, (value - list[next - 1]) / (list[next] - list[next - 1])};
+}
+
+// Measured from the side of the lower index; from the other the same at the angle that belongs to it.
+double reflectance_of(const MeasuredCoating& measured, double n_in, double n_out, double cos_in, double lambda_nm) {
+  const double cos2_out = cos_squared_behind(n_in, n_out, cos_in);
+  if (cos2_out <= 0.0) return 1.0;
+  const double outside = n_in > n_out ? std::sqrt(cos2_out) : cos_in;
+  const double angle_deg = std::acos(std::clamp(outside, 0.0, 1.0)) * 180.0 / std::numbers::pi;
+  const Between line = between(measured.lambda_nm, lambda_nm), column = between(measured.angle_deg, angle_deg);
+  const auto at = [&](std::size_t row) {
+    const double* const values = measured.reflectance.data() + row * measured.angle_deg.size();
+    return std::lerp(values[column.first], values[column.next], column.share);
+  };
+  return std::lerp(at(line.first), at(line.next), line.share);
+}
+
 std::string text_of(const Bare&) { return "none"; }
 std::string text_of(const QuarterWave& f) { return fmt::format("quarter-wave {:g} nm, n = {:g}", f.lambda0_nm, f.n); }
 std::string text_of(const FilmStack& f) { return fmt::format("stack of {} layers", f.layers.size()); }
+std::string text_of(const MeasuredCoating& f) {
+  return fmt::format("measured at {} wavelengths, {} angles", f.lambda_nm.size(), f.angle_deg.size());
+}
+std::string text_of(const DesignedCoating& f) { return fmt::format("{} {:g} nm", design_name(f), f.lambda0_nm); }
 std::string text_of(const HullinFresnelAR& f) { return fmt::format("hullin {:g} nm, n = {:g}", f.lambda0_nm, f.n); }
 
 }  // namespace
@@ -94,11 +129,27 @@ double reflectance(const Coating& coating, double n_in, double n_out, double cos
 }
 
 double transmittance(const Coating& coating, double n_in, double n_out, double cos_in, double lambda_nm) {
+  if (const auto* design = std::get_if<DesignedCoating>(&coating.films)) {
+    const FilmStack stack = designed_for(*design, {"", ConstantIndex{std::max(n_in, n_out)}});
+    return transmittance({"", stack}, n_in, n_out, cos_in, lambda_nm);
+  }
   if (const auto* stack = std::get_if<FilmStack>(&coating.films)) {
     const FilmResponse r = stack_response(stack->layers, n_in, n_out, cos_in, lambda_nm);
     return 0.5 * (r.T_s + r.T_p);
   }
   return 1.0 - reflectance(coating, n_in, n_out, cos_in, lambda_nm);
+}
+
+Coating at_wavelength(const Coating& coating, double lambda_nm) {
+  const auto* const stack = std::get_if<FilmStack>(&coating.films);
+  if (stack == nullptr) return coating;
+  FilmStack fixed = *stack;
+  for (FilmLayer& layer : fixed.layers) layer.material = index_at(layer.material, lambda_nm);
+  return {coating.name, std::move(fixed)};
+}
+
+bool may_absorb(const Coating& coating) {
+  return std::holds_alternative<FilmStack>(coating.films) || std::holds_alternative<DesignedCoating>(coating.films);
 }
 
 }  // namespace contrejour

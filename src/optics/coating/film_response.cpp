@@ -40,7 +40,7 @@ Fields through_film(const Fields& back, Complex delta, Complex admittance_sin, C
 }  // namespace
 
 FilmResponse film_response(Complex n_in, std::span<const FilmLayer> layers, Complex n_out, double theta_in_rad,
-                           double lambda_nm) {
+                           double lambda_nm, FilmOrder order) {
   const Complex n_sin = n_in * std::sin(theta_in_rad);
   const Complex cos_in = std::cos(theta_in_rad);
   const Complex cos_out = forward_cosine(n_out, n_sin);
@@ -48,15 +48,17 @@ FilmResponse film_response(Complex n_in, std::span<const FilmLayer> layers, Comp
   // Fields at the back for a unit transmitted wave; p is scaled by cos_out so that grazing exit stays finite.
   Fields s{1.0, n_out * cos_out};
   Fields p{cos_out, n_out};
-  for (auto film = layers.rbegin(); film != layers.rend(); ++film) {
-    const Complex cosine = forward_cosine(film->n, n_sin);
-    const Complex thickness = 2.0 * std::numbers::pi * film->thickness_nm / lambda_nm * film->n;
+  for (std::size_t k = 0; k < layers.size(); ++k) {
+    const FilmLayer& film = layers[order == FilmOrder::AsListed ? layers.size() - 1 - k : k];
+    const Complex n = index_at(film.material, lambda_nm);
+    const Complex cosine = forward_cosine(n, n_sin);
+    const Complex thickness = 2.0 * std::numbers::pi * film.thickness_nm / lambda_nm * n;
     Complex delta = thickness * cosine;
     if (delta.imag() > kDeepestAttenuation) delta.imag(kDeepestAttenuation);
     const Complex sine_over_cosine = thickness * sinc(delta);  // sin(delta) / cos(theta)
     const Complex sine_times_cosine = std::sin(delta) * cosine;
-    s = through_film(s, delta, film->n * sine_times_cosine, sine_over_cosine / film->n);
-    p = through_film(p, delta, film->n * sine_over_cosine, sine_times_cosine / film->n);
+    s = through_film(s, delta, n * sine_times_cosine, sine_over_cosine / n);
+    p = through_film(p, delta, n * sine_over_cosine, sine_times_cosine / n);
   }
 
   FilmResponse out;

@@ -37,17 +37,38 @@ std::vector<double> thicknesses(const Prescription& lens, std::size_t position, 
   return t;
 }
 
+// Coatings placed on their glasses, a design once for each glass.
+class CoatingPlacer {
+ public:
+  Coating place(const Coating& coating, const Glass& before, const Glass& after) {
+    if (!std::holds_alternative<DesignedCoating>(coating.films)) return coating;
+    for (const Placed& p : placed_)
+      if (p.coating == coating && p.before == before && p.after == after) return p.result;
+    placed_.push_back({coating, before, after, placed_on(coating, before, after)});
+    return placed_.back().result;
+  }
+
+ private:
+  struct Placed {
+    Coating coating;
+    Glass before, after;
+    Coating result;
+  };
+  std::vector<Placed> placed_;
+};
+
 std::vector<SurfaceState> place_surfaces(const Prescription& lens, const std::vector<double>& thickness,
                                          const std::optional<Coating>& coating) {
   std::vector<SurfaceState> out;
+  CoatingPlacer coatings;
   Glass medium = air();
   double z = 0.0;
   for (std::size_t k = 0; k < lens.surfaces.size(); ++k) {
     const Surface& s = lens.surfaces[k];
     const Glass after = s.kind == SurfaceKind::Stop ? medium : s.glass_after;
     const bool replaces = coating && s.kind == SurfaceKind::Refracting && is_air(medium) != is_air(after);
-    out.push_back({s.kind, z, s.curvature_per_mm, s.semi_diameter_mm, medium, after, replaces ? *coating : s.coating,
-                   s.pose, s.shape});
+    out.push_back({s.kind, z, s.curvature_per_mm, s.semi_diameter_mm, medium, after,
+                   coatings.place(replaces ? *coating : s.coating, medium, after), s.pose, s.shape});
     medium = after;
     z += thickness[k];
   }

@@ -3,8 +3,10 @@
 #include <limits>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "base/near_name.h"
+#include "contrejour/film_design.h"
 #include "optics/lens/toml_formula.h"
 #include "optics/lens/validate.h"
 
@@ -63,6 +65,41 @@ Glass read_glass_keys(const toml::table& table, std::string name, const std::str
   return glass;
 }
 
+// { n, k } or { material }; { thickness_nm } or { waves, at_nm }, of the light within the film.
+FilmLayer read_film(TomlFields& film, TomlErrors& errors) {
+  FilmLayer layer;
+  if (const auto name = film.text("material")) {
+    layer.material = film_material(*name);
+    if (film.has("n") || film.has("k")) film.fail_here("give a film either a material or n and k");
+    if (!is_film_material(*name))
+      film.fail_here(*coating_problem({"", FilmStack{{layer}}}));
+  } else {
+    const double n = film.required_number("n", kFinite, "give the film's index or its material");
+    layer.material = FilmMaterial(n, film.number("k", kFinite).value_or(0.0));
+  }
+  if (errors.failed() || !film.has("waves")) {
+    if (film.has("at_nm")) film.fail_here("at_nm belongs to a thickness in waves; give waves");
+    layer.thickness_nm = film.required_number("thickness_nm", kFinite, "give the film's thickness, or waves");
+    return layer;
+  }
+  if (film.has("thickness_nm")) film.fail_here("give a film either thickness_nm or waves");
+  const double at_nm = film.number("at_nm", kFinite).value_or(QuarterWave{}.lambda0_nm);
+  const double n = index_at(layer.material, at_nm).real();
+  layer.thickness_nm = n > 0.0 ? *film.number("waves", kFinite) * at_nm / n : -1.0;
+  return layer;
+}
+
+std::vector<double> read_numbers(TomlFields& fields, std::string_view key) {
+  std::vector<double> values;
+  const toml::array* list = fields.array(key);
+  if (list == nullptr) {
+    fields.fail_here(fmt::format("{} is missing; give a list of numbers", key));
+    return values;
+  }
+  for (const toml::node& node : *list) values.push_back(fields.number_at(node, key, kFinite));
+  return values;
+}
+
 std::vector<FilmLayer> read_layers(TomlFields& fields, TomlErrors& errors) {
   std::vector<FilmLayer> layers;
   const toml::array* list = fields.array("layers");
@@ -74,38 +111,60 @@ std::vector<FilmLayer> read_layers(TomlFields& fields, TomlErrors& errors) {
       errors.fail(node, what + ": write a film as { n = 1.38, thickness_nm = 99.6 }");
       return layers;
     }
-    TomlFields film(*row, what, {"n", "k", "thickness_nm"}, errors);
-    const double n = film.required_number("n", kFinite, "give the film's index");
-    const double k = film.number("k", kFinite).value_or(0.0);
-    layers.push_back({{n, k}, film.required_number("thickness_nm", kFinite, "give the film's thickness")});
+    TomlFields film(*row, what, {"material", "n", "k", "thickness_nm", "waves", "at_nm"}, errors);
+    layers.push_back(read_film(film, errors));
     if (errors.failed()) return layers;
   }
   return layers;
 }
 
-// One of {quarter_wave_nm, n}, {hullin_nm, n}, {layers}.
+// One of {quarter_wave_nm, n}, {hullin_nm, n}, {layers}, {design, design_nm}, {measured_nm, measured_deg, reflectance}.
 Coating read_coating_keys(const toml::table& table, std::string name, const std::string& what,
                           TomlErrors& errors) {
-  TomlFields fields(table, what, {"name", "quarter_wave_nm", "hullin_nm", "n", "layers"}, errors);
+  TomlFields fields(table, what,
+                    {"name", "quarter_wave_nm", "hullin_nm", "n", "layers", "design", "design_nm", "measured_nm",
+                     "measured_deg", "reflectance"},
+                    errors);
   Coating coating{fields.text("name").value_or(std::move(name)), {}};
   const bool quarter = fields.has("quarter_wave_nm");
   const bool hullin = fields.has("hullin_nm");
   const bool stack = fields.has("layers");
-  if (int{quarter} + int{hullin} + int{stack} != 1 || (stack && fields.has("n"))) {
-    fields.fail_here("give a coating either quarter_wave_nm (and n), or layers, or hullin_nm (and n)");
+  const bool design = fields.has("design");
+  const bool measured = fields.has("measured_nm");
+  const bool more = fields.has("n") ? !(quarter || hullin) : false;
+  const bool others = (fields.has("design_nm") && !design) ||
+                      ((fields.has("measured_deg") || fields.has("reflectance")) && !measured);
+  if (int{quarter} + int{hullin} + int{stack} + int{design} + int{measured} != 1 || more || others) {
+    fields.fail_here("give a coating one of quarter_wave_nm (and n), layers, design (and design_nm), measured_nm with "
+                     "measured_deg and reflectance, or hullin_nm (and n)");
     return coating;
   }
   const double n = fields.number("n", kFinite).value_or(QuarterWave{}.n);
   if (quarter) coating.films = QuarterWave{n, *fields.number("quarter_wave_nm", kFinite)};
   if (hullin) coating.films = HullinFresnelAR{n, *fields.number("hullin_nm", kFinite)};
   if (stack) coating.films = FilmStack{read_layers(fields, errors)};
+  if (design) {
+    const std::string wanted = fields.text("design").value_or("");
+    const auto found = find_coating_design(wanted);
+    if (!found) fields.fail_here(fmt::format("no design is called '{}'; give one of {}", shortened(wanted),
+                                             fmt::join(coating_design_names(), ", ")));
+    coating.films = found.value_or(DesignedCoating{});
+    std::get<DesignedCoating>(coating.films).lambda0_nm =
+        fields.number("design_nm", kFinite).value_or(DesignedCoating{}.lambda0_nm);
+  }
+  if (measured) {
+    coating.films = MeasuredCoating{read_numbers(fields, "measured_nm"), read_numbers(fields, "measured_deg"),
+                                    read_numbers(fields, "reflectance")};
+  }
   if (errors.failed()) return coating;
   if (const auto problem = coating_problem(coating)) fields.fail_here(*problem);
   return coating;
 }
 
 // The names that mean something without a table.
-bool reserved_name(std::string_view name) { return name == "air" || name == "none" || name == "quarter-wave"; }
+bool reserved_name(std::string_view name) {
+  return name == "air" || name == "none" || name == "quarter-wave" || find_coating_design(name);
+}
 
 template <class Medium, class Read>
 MediumTable<Medium> read_medium_table(const toml::table& lens, std::string_view key, Read read,
@@ -218,6 +277,7 @@ Coating read_coating(const toml::node& node, const std::string& what, MediumTabl
   }
   if (name->get() == "none") return {};
   if (name->get() == "quarter-wave") return {"", QuarterWave{}};
+  if (const auto design = find_coating_design(name->get())) return {"", *design};
   if (const Coating* found = look_up(name->get(), table)) return *found;
   fail_unknown(node, name->get(), what, "coating", table, errors);
   return {};

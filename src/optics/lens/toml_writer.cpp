@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "base/toml_fields.h"
+#include "contrejour/film_design.h"
 #include "contrejour/lens.h"
 #include "optics/lens/glass_finder.h"
 #include "optics/lens/toml_formula.h"
@@ -44,18 +45,38 @@ struct FilmsText {
   std::string operator()(const FilmStack& stack) const {
     std::string rows;
     for (const FilmLayer& layer : stack.layers) {
-      const std::string k = layer.n.imag() == 0.0 ? "" : fmt::format(", k = {}", number(layer.n.imag()));
-      rows += fmt::format("{}{{ n = {}{}, thickness_nm = {} }}", rows.empty() ? "" : ", ", number(layer.n.real()),
-                          k, number(layer.thickness_nm));
+      rows += fmt::format("{}{{ {}, thickness_nm = {} }}", rows.empty() ? "" : ", ", material_text(layer.material),
+                          number(layer.thickness_nm));
     }
     return fmt::format("layers = [{}]", rows);
+  }
+  std::string operator()(const DesignedCoating& coating) const {
+    return fmt::format("design = {}, design_nm = {}", toml_string(design_name(coating)), number(coating.lambda0_nm));
+  }
+  std::string operator()(const MeasuredCoating& measured) const {
+    return fmt::format("measured_nm = {}, measured_deg = {}, reflectance = {}", list(measured.lambda_nm),
+                       list(measured.angle_deg), list(measured.reflectance));
+  }
+
+ private:
+  static std::string material_text(const FilmMaterial& material) {
+    if (!material.name.empty()) return "material = " + toml_string(material.name);
+    const std::string k = material.n.imag() == 0.0 ? "" : fmt::format(", k = {}", number(material.n.imag()));
+    return fmt::format("n = {}{}", number(material.n.real()), k);
+  }
+  static std::string list(const std::vector<double>& values) {
+    std::string text;
+    for (const double v : values) text += (text.empty() ? "" : ", ") + number(v);
+    return "[" + text + "]";
   }
 };
 
 std::string keys_of(const Glass& glass) { return std::visit(DispersionText{}, glass.dispersion); }
 std::string keys_of(const Coating& coating) { return std::visit(FilmsText{}, coating.films); }
 
-bool reserved_name(std::string_view name) { return name == "air" || name == "none" || name == "quarter-wave"; }
+bool reserved_name(std::string_view name) {
+  return name == "air" || name == "none" || name == "quarter-wave" || find_coating_design(name);
+}
 
 // Named media go to a table at the end of the file; one that cannot (no name, or a name that another medium of
 // the same name took) stands in the surface's row.

@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include "base/near_name.h"
 #include "contrejour/lens.h"
 
 namespace contrejour {
@@ -307,6 +308,34 @@ bool reaches_rim(const Surface& surface) {
   return true;
 }
 
+bool rising(const std::vector<double>& list, double low, double high) {
+  for (std::size_t k = 0; k < list.size(); ++k)
+    if (!within(list[k], low, high) || (k > 0 && !(list[k] > list[k - 1]))) return false;
+  return !list.empty() && list.size() <= kMostMeasured;
+}
+
+std::optional<std::string> measured_problem(const MeasuredCoating& measured) {
+  if (!rising(measured.lambda_nm, 100.0, 20000.0)) {
+    return fmt::format("measured wavelengths must rise from 100 nm or more to 20000 nm at the most, 1 to {} of them",
+                       kMostMeasured);
+  }
+  if (!rising(measured.angle_deg, 0.0, 90.0))
+    return fmt::format("measured angles must rise within 0 to 90 degrees, 1 to {} of them", kMostMeasured);
+  const std::size_t wanted = measured.lambda_nm.size() * measured.angle_deg.size();
+  const auto fits = [](double r) { return within(r, 0.0, 1.0); };
+  if (measured.reflectance.size() == wanted && std::all_of(measured.reflectance.begin(), measured.reflectance.end(), fits))
+    return std::nullopt;
+  return fmt::format("{} reflectances; give {}, each from 0 to 1", measured.reflectance.size(), wanted);
+}
+
+std::string unknown_material(const std::string& name) {
+  std::vector<std::string_view> names;
+  for (const FilmMaterialFacts& facts : film_materials()) names.push_back(facts.name);
+  const std::string near = nearest_name(name, names);
+  return fmt::format("no film material is called '{}'; {}", shortened(name),
+                     near.empty() ? "give its index instead" : fmt::format("did you mean '{}'?", near));
+}
+
 }  // namespace
 
 std::optional<std::string> shape_problem(const Surface& surface) {
@@ -354,17 +383,21 @@ std::optional<std::string> coating_problem(const Coating& coating) {
   };
   if (const auto* quarter = std::get_if<QuarterWave>(&coating.films)) return single(quarter->n, quarter->lambda0_nm);
   if (const auto* hullin = std::get_if<HullinFresnelAR>(&coating.films)) return single(hullin->n, hullin->lambda0_nm);
+  if (const auto* design = std::get_if<DesignedCoating>(&coating.films)) return single(1.0, design->lambda0_nm);
+  if (const auto* measured = std::get_if<MeasuredCoating>(&coating.films)) return measured_problem(*measured);
   const auto* stack = std::get_if<FilmStack>(&coating.films);
   if (stack == nullptr) return std::nullopt;
   if (stack->layers.empty() || stack->layers.size() > static_cast<std::size_t>(kMaxFilmLayers)) {
     return fmt::format("a stack of {} layers; give 1 to {}, or \"none\"", stack->layers.size(), kMaxFilmLayers);
   }
   for (const FilmLayer& layer : stack->layers) {
-    const bool fits = within(layer.n.real(), kMinFilmIndex, kMaxFilmIndex) &&
-                      within(layer.n.imag(), 0.0, 20.0) && within(layer.thickness_nm, 0.0, kMaxFilm_nm);
+    const FilmMaterial& m = layer.material;
+    if (!m.name.empty() && !is_film_material(m.name)) return unknown_material(m.name);
+    const bool fits = within(m.n.real(), kMinFilmIndex, kMaxFilmIndex) && within(m.n.imag(), 0.0, 20.0) &&
+                      within(layer.thickness_nm, 0.0, kMaxFilm_nm);
     if (!fits) {
       return fmt::format("a layer of n = {}, k = {}, {} nm; give n from {} to {}, k from 0 to 20 and at most {} nm",
-                         layer.n.real(), layer.n.imag(), layer.thickness_nm, kMinFilmIndex, kMaxFilmIndex,
+                         m.n.real(), m.n.imag(), layer.thickness_nm, kMinFilmIndex, kMaxFilmIndex,
                          kMaxFilm_nm);
     }
   }

@@ -13,6 +13,7 @@ namespace contrejour {
 inline constexpr int kMaxSurfaces = 200;
 inline constexpr int kMaxZoomPositions = 200;
 inline constexpr int kMaxFilmLayers = 200;
+inline constexpr std::size_t kMostMeasured = 1000;  // wavelengths, or angles, of a measured coating
 
 // What is wrong and what to do, or nothing. A glass must have an index from 1 to 4 over the visible.
 [[nodiscard]] std::optional<std::string> glass_problem(const Glass& glass);

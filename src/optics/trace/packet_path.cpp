@@ -30,11 +30,11 @@ ReflectanceTables::ReflectanceTables(const LensState& lens, double lambda_nm) : 
   for (const SurfaceState& surface : lens.surfaces) {
     Entry entry;
     if (surface.kind == SurfaceKind::Refracting) {
-      const bool may_absorb = std::holds_alternative<FilmStack>(surface.coating.films);
-      const bool same_both_ways = !may_absorb && !std::holds_alternative<HullinFresnelAR>(surface.coating.films);
+      const bool absorbs = may_absorb(surface.coating);
+      const bool same_both_ways = !absorbs && !std::holds_alternative<HullinFresnelAR>(surface.coating.films);
       entry.reflectance[0] = add(surface, +1, false);
       entry.reflectance[1] = same_both_ways ? entry.reflectance[0] : add(surface, -1, false);
-      if (may_absorb) entry.transmittance = add(surface, +1, true);
+      if (absorbs) entry.transmittance = add(surface, +1, true);
     }
     entries_.push_back(entry);
   }
@@ -46,12 +46,13 @@ int ReflectanceTables::add(const SurfaceState& surface, int direction, bool tran
   const double after = refractive_index(surface.after, lambda_nm_);
   const double n_in = direction > 0 ? before : after;
   const double n_out = direction > 0 ? after : before;
+  const Coating coating = at_wavelength(surface.coating, lambda_nm_);
   const auto exact = [&](int k) {
     // Grazing itself is 0/0 in a matrix of films; its limit is next to it.
     const double u = std::max(static_cast<double>(k) / kIntervals, 1e-9);
     const double cos_in = n_in > n_out ? cos_in_denser(u, n_out, n_in) : u;
-    return transmitted ? transmittance(surface.coating, n_in, n_out, cos_in, lambda_nm_)
-                       : reflectance(surface.coating, n_in, n_out, cos_in, lambda_nm_);
+    return transmitted ? transmittance(coating, n_in, n_out, cos_in, lambda_nm_)
+                       : reflectance(coating, n_in, n_out, cos_in, lambda_nm_);
   };
   std::vector<double> nodes;
   for (int k = 0; k <= kIntervals; k += kSpacing) nodes.push_back(exact(k));

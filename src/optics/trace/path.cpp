@@ -21,7 +21,7 @@ PathStep step_at(const LensState& lens, int surface, int direction, PathEvent ev
   step.semi_diameter_mm = s.semi_diameter_mm;
   step.n_in = direction > 0 ? before : after;
   step.n_out = direction > 0 ? after : before;
-  step.coating = s.coating;
+  step.coating = at_wavelength(s.coating, lambda_nm);
   step.pose = s.pose;
   if (!s.shape.is_sphere()) {
     step.shape = std::make_shared<ShapeConstants>(shape_constants(s.curvature_per_mm, s.shape, s.semi_diameter_mm));

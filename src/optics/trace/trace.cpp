@@ -106,9 +106,8 @@ bool advance(State& state, const PathStep& step, const OpticalPath& path, double
     state.out.status = RayStatus::TotalReflection;
     return false;
   }
-  const bool may_absorb = std::holds_alternative<FilmStack>(step.coating.films);
   state.out.transmission *=
-      may_absorb ? transmittance(step.coating, step.n_in, step.n_out, cos_in, path.lambda_nm) : 1.0 - r;
+      may_absorb(step.coating) ? transmittance(step.coating, step.n_in, step.n_out, cos_in, path.lambda_nm) : 1.0 - r;
   return true;
 }
 

@@ -1,0 +1,142 @@
+// contrejour coating fit: coatings whose reflection has a colour that was seen. Makers keep their films to themselves
+// (hullin2011, 3.1); the colour of a reflection tells something of them.
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+#include <fmt/format.h>
+
+#include "cli/coating_glass.h"
+#include "cli/command.h"
+#include "cli/console.h"
+#include "cli/reflected_colour.h"
+#include "cli/text_table.h"
+#include "contrejour/film_design.h"
+
+namespace contrejour::cli {
+namespace {
+
+constexpr const char* kExamples =
+    "COLOUR is that of the reflection of white light on a coated surface, seen straight on: #rrggbb picked from a\n"
+    "picture, or R,G,B scene-linear. Each family of coatings is tried; what --coating takes is printed with its\n"
+    "difference from that colour in u'v' (0.002 is hardly seen) and its reflectance of daylight.\n\n"
+    "Examples:\n"
+    "  contrejour coating fit '#7a4cff'\n"
+    "  contrejour coating fit 0.2,0.9,0.4 --glass 1.85,23.8 --json";
+
+constexpr double kColourWeight = 20.0;  // of a step in u'v' over a step in reflectance
+constexpr std::array kDesigned_nm{450.0, 500.0, 550.0, 600.0, 650.0};
+
+struct FitOptions {
+  std::string colour, glass;
+  bool json = false;
+};
+
+struct Fit {
+  std::string family;
+  FilmStack stack;
+  Xyz colour{};
+  double difference = 0.0;  // in u'v'
+};
+
+// CIE 1976 u', v'.
+std::array<double, 2> uv_of(const std::array<double, 2>& xy) {
+  const double scale = 1.0 / (-2.0 * xy[0] + 12.0 * xy[1] + 3.0);
+  return {4.0 * xy[0] * scale, 9.0 * xy[1] * scale};
+}
+
+std::array<double, 2> off_colour(const Xyz& colour, const std::array<double, 2>& wanted_uv) {
+  const auto uv = uv_of(chromaticity(colour));
+  return {uv[0] - wanted_uv[0], uv[1] - wanted_uv[1]};
+}
+
+Fit fitted(const std::string& family, const FilmStack& start, const Glass& glass,
+           const std::array<double, 2>& wanted_uv) {
+  FilmGoal goal;
+  goal.lambda_nm = reflected_wavelengths_nm();
+  goal.off = [&](std::span<const double> r) {
+    const Xyz colour = reflected_colour(r);
+    const auto off = off_colour(colour, wanted_uv);
+    return std::vector<double>{kColourWeight * off[0], kColourWeight * off[1], colour[1]};
+  };
+  Fit fit{family, refined(start, glass, goal)};
+  // What is printed and read again is in tenths of nanometres.
+  for (FilmLayer& layer : fit.stack.layers) layer.thickness_nm = std::round(10.0 * layer.thickness_nm) / 10.0;
+  fit.colour = reflected_colour(reflectances(fit.stack, glass, goal.lambda_nm));
+  const auto off = off_colour(fit.colour, wanted_uv);
+  fit.difference = std::hypot(off[0], off[1]);
+  return fit;
+}
+
+// The best of each family, the nearest colour first.
+std::vector<Fit> all_fits(const Glass& glass, const std::array<double, 2>& wanted_uv) {
+  std::vector<Fit> best;
+  const auto better = [](const Fit& a, const Fit& b) { return a.difference < b.difference; };
+  const auto add_best = [&](const std::vector<Fit>& tried) {
+    best.push_back(*std::min_element(tried.begin(), tried.end(), better));
+  };
+  std::vector<Fit> single;
+  for (const double nm : kDesigned_nm) {
+    const FilmMaterial film = film_material("MgF2");
+    single.push_back(fitted("one film", {{{film, nm / (4.0 * index_at(film, nm).real())}}}, glass, wanted_uv));
+  }
+  add_best(single);
+  for (const std::string& name : coating_design_names()) {
+    std::vector<Fit> tried;
+    for (const double nm : kDesigned_nm) {
+      DesignedCoating design = *find_coating_design(name);
+      design.lambda0_nm = nm;
+      tried.push_back(fitted(name, designed_for(design, glass), glass, wanted_uv));
+    }
+    add_best(tried);
+  }
+  std::stable_sort(best.begin(), best.end(), better);
+  return best;
+}
+
+std::string written(const FilmStack& stack) {
+  std::string text;
+  for (const FilmLayer& layer : stack.layers)
+    text += fmt::format("{}{}@{:.1f}", text.empty() ? "stack:" : ",", layer.material.name, layer.thickness_nm);
+  return text;
+}
+
+Result<int> run_fit(const FitOptions& options) {
+  const auto glass = parse_glass(options.glass);
+  if (!glass) return tl::unexpected(glass.error());
+  const auto wanted = parse_chromaticity(options.colour);
+  if (!wanted) return tl::unexpected(wanted.error());
+  const std::vector<Fit> fits = all_fits(*glass, uv_of(*wanted));
+  if (options.json) {
+    Json list = Json::array();
+    for (const Fit& fit : fits) {
+      list.push_back({{"family", fit.family},
+                      {"coating", written(fit.stack)},
+                      {"difference_uv", fit.difference},
+                      {"luminous_reflectance", fit.colour[1]},
+                      {"shown_as", shown_as(fit.colour)}});
+    }
+    print_json({{"chromaticity", *wanted}, {"fits", list}});
+    return kDone;
+  }
+  TextTable table({"<family", "off, u'v'", "R %", "<colour", "<--coating"});
+  for (const Fit& fit : fits)
+    table.add({fit.family, fmt::format("{:.4f}", fit.difference), fmt::format("{:.2f}", 100.0 * fit.colour[1]),
+               shown_as(fit.colour), written(fit.stack)});
+  print(table.text());
+  return kDone;
+}
+
+}  // namespace
+
+void add_coating_fit(CLI::App& coating, Action& action) {
+  const auto options = std::make_shared<FitOptions>();
+  CLI::App* command = coating.add_subcommand("fit", "coatings that reflect a colour that was seen");
+  command->add_option("colour", options->colour, "of the reflection")->required()->type_name("COLOUR");
+  add_glass_option(*command, options->glass);
+  command->add_flag("--json", options->json, "as JSON");
+  command->footer(kExamples);
+  command->callback([options, &action] { action = [options] { return run_fit(*options); }; });
+}
+
+}  // namespace contrejour::cli

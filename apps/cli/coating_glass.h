@@ -1,0 +1,17 @@
+// --glass of the commands that look at a coating.
+#pragma once
+
+#include <string>
+
+#include <CLI/CLI.hpp>
+
+#include "contrejour/glass.h"
+#include "contrejour/result.h"
+
+namespace contrejour::cli {
+
+// Text: an index, or N_D,V_D. Default: 1.5168,64.17 (N-BK7).
+void add_glass_option(CLI::App& command, std::string& text);
+[[nodiscard]] Result<Glass> parse_glass(const std::string& text);
+
+}  // namespace contrejour::cli

@@ -1,0 +1,84 @@
+#include "cli/reflected_colour.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <optional>
+
+#include <fmt/format.h>
+
+#include "params/parse.h"
+
+namespace contrejour::cli {
+namespace {
+
+constexpr double kFirst_nm = 380.0, kLast_nm = 780.0, kStep_nm = 5.0;
+
+// IEC 61966-2-1.
+double encoded(double linear) {
+  return linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1.0 / 2.4) - 0.055;
+}
+double decoded(double code) { return code <= 0.04045 ? code / 12.92 : std::pow((code + 0.055) / 1.055, 2.4); }
+
+std::optional<Rgb> parse_hex(const std::string& text) {
+  if (text.size() != 7 || text[0] != '#') return std::nullopt;
+  Rgb rgb{};
+  for (std::size_t c = 0; c < 3; ++c) {
+    int code = 0;
+    const char* const first = text.data() + 1 + 2 * c;
+    const auto [end, status] = std::from_chars(first, first + 2, code, 16);
+    if (status != std::errc{} || end != first + 2) return std::nullopt;
+    rgb[c] = decoded(code / 255.0);
+  }
+  return rgb;
+}
+
+}  // namespace
+
+std::vector<double> reflected_wavelengths_nm() {
+  std::vector<double> nm;
+  for (double l = kFirst_nm; l <= kLast_nm; l += kStep_nm) nm.push_back(l);
+  return nm;
+}
+
+Xyz reflected_colour(std::span<const double> reflectance) {
+  Xyz sum{};
+  double white = 0.0;
+  double nm = kFirst_nm;
+  for (const double r : reflectance) {
+    const Xyz observer = colour_matching(nm);
+    const double power = spectral_power(IlluminantD65{}, nm);
+    for (std::size_t c = 0; c < 3; ++c) sum[c] += r * power * observer[c];
+    white += power * observer[1];
+    nm += kStep_nm;
+  }
+  for (double& v : sum) v /= white;
+  return sum;
+}
+
+std::string shown_as(const Xyz& xyz) {
+  Rgb rgb = rgb_from_xyz(xyz, ColourSpace::Rec709);
+  const double most = *std::max_element(rgb.begin(), rgb.end());
+  std::string text = "#";
+  for (const double v : rgb)
+    text += fmt::format("{:02x}", std::lround(255.0 * (most > 0.0 ? encoded(std::clamp(v / most, 0.0, 1.0)) : 0.0)));
+  return text;
+}
+
+Result<std::array<double, 2>> parse_chromaticity(const std::string& text) {
+  auto rgb = parse_hex(text);
+  if (!rgb) {
+    const auto numbers = params::parse_light_value(text);
+    if (!numbers || text.find(',') == std::string::npos) {
+      return failure(ErrorCode::InvalidArgument,
+                     fmt::format("\"{}\" is no colour; write #rrggbb as in a picture, or R,G,B scene-linear", text));
+    }
+    rgb = numbers->rgb;
+  }
+  const Xyz xyz = xyz_from_rgb(*rgb, ColourSpace::Rec709);
+  if (!(xyz[0] + xyz[1] + xyz[2] > 0.0))
+    return failure(ErrorCode::InvalidArgument, fmt::format("\"{}\" is black; a reflection's colour is wanted", text));
+  return chromaticity(xyz);
+}
+
+}  // namespace contrejour::cli
