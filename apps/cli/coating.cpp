@@ -30,7 +30,8 @@ Result<int> run_list(bool json) {
   for (const std::string& name : coating_design_names()) {
     const FilmStack stack = designed_for(*find_coating_design(name), glass);
     const Xyz colour = reflected_colour(reflectances(stack, glass, nm));
-    designs.add({name, fmt::format("{}", stack.layers.size()), fmt::format("{:.2f}", 100.0 * colour[1]), shown_as(colour)});
+    designs.add(
+        {name, fmt::format("{}", stack.layers.size()), fmt::format("{:.2f}", 100.0 * colour[1]), shown_as(colour)});
   }
   TextTable materials({"<film material", "n at 550", "k", "<source"});
   for (const FilmMaterialFacts& m : film_materials()) {
@@ -38,8 +39,8 @@ Result<int> run_list(bool json) {
     materials.add({std::string(m.name), fmt::format("{:.4f}", n.real()),
                    n.imag() > 0.0 ? fmt::format("{:.2g}", n.imag()) : "", std::string(m.source)});
   }
-  print("none, quarter-wave[:NM[:N]], stack:MATERIAL|N@NM|WAVESw,..., and designs, each as NAME[:NM]:\n\n" + designs.text() +
-        "\n" + materials.text());
+  print("none, quarter-wave[:NM[:N]], stack:MATERIAL|N@NM|WAVESw,..., and designs, each as NAME[:NM]:\n\n" +
+        designs.text() + "\n" + materials.text());
   return kDone;
 }
 
@@ -56,10 +57,11 @@ void add_list(CLI::App& coating, Action& action) {
 void add_coating(CLI::App& app, Action& action) {
   CLI::App* coating = app.add_subcommand("coating", "list and show coatings, find one by its colour");
   coating->require_subcommand(1);
-  coating->footer("Examples:\n"
-                  "  contrejour coating list\n"
-                  "  contrejour coating show broadband-5 -o r.svg\n"
-                  "  contrejour coating fit '#7a4cff'");
+  coating->footer(
+      "Examples:\n"
+      "  contrejour coating list\n"
+      "  contrejour coating show broadband-5 -o r.svg\n"
+      "  contrejour coating fit '#7a4cff'");
   add_list(*coating, action);
   add_coating_show(*coating, action);
   add_coating_fit(*coating, action);

@@ -10,7 +10,7 @@
 
 namespace contrejour::cli {
 
-// Text: an index, or N_D,V_D. Default: 1.5168,64.17 (N-BK7).
+// Text: a glass by name or six digits, an index, or N_D,V_D. Default: N-BK7.
 void add_glass_option(CLI::App& command, std::string& text);
 [[nodiscard]] Result<Glass> parse_glass(const std::string& text);
 

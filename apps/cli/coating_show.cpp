@@ -145,8 +145,9 @@ Result<int> run_show(const ShowOptions& options) {
 void add_coating_show(CLI::App& coating, Action& action) {
   const auto options = std::make_shared<ShowOptions>();
   CLI::App* command = coating.add_subcommand("show", "what a coating reflects, over wavelength and angle");
-  command->add_option("coating", options->coating, "as for --coating: a design, a stack, ...")->required()->type_name(
-      "COATING");
+  command->add_option("coating", options->coating, "as for --coating: a design, a stack, ...")
+      ->required()
+      ->type_name("COATING");
   add_glass_option(*command, options->glass);
   add_output(*command, "-o,--output", options->output, {".svg"}, "a drawing of it");
   command->add_flag("--json", options->json, "as JSON");

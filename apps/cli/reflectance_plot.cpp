@@ -54,7 +54,8 @@ void draw_axes(Svg& svg, const Plot& plot) {
   }
   for (double nm = 400.0; nm < kLast_nm; nm += 50.0) {
     svg.line(plot.at(nm, 0.0), plot.at(nm, plot.most()), kGrid);
-    svg.text(plot.at(nm, 0.0) + Vec2{0.0, 30.0}, fmt::format("{:g}", nm), std::string(kSmall) + R"( text-anchor="middle")");
+    svg.text(plot.at(nm, 0.0) + Vec2{0.0, 30.0}, fmt::format("{:g}", nm),
+             std::string(kSmall) + R"( text-anchor="middle")");
   }
   svg.text({kLeft + 0.5 * (kWidth - kLeft - kRight), kHeight - 12.0}, "wavelength, nm",
            std::string(kSmall) + R"( text-anchor="middle")");

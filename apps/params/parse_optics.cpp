@@ -15,9 +15,7 @@ namespace {
 
 constexpr double kLargestLight_deg = 90.0;
 
-tl::unexpected<Error> invalid(std::string message) {
-  return failure(ErrorCode::InvalidArgument, std::move(message));
-}
+tl::unexpected<Error> invalid(std::string message) { return failure(ErrorCode::InvalidArgument, std::move(message)); }
 
 std::optional<std::string_view> after(std::string_view text, std::string_view prefix) {
   if (!text.starts_with(prefix)) return std::nullopt;
@@ -42,7 +40,8 @@ Result<Film> parse_film(std::string_view text) {
   const auto lambda = parse_real(parts[0]);
   const auto n = parts.size() > 1 ? parse_real(parts[1]) : Result<double>(film.n);
   if (text[0] != ':' || parts.size() > 2 || !lambda || !n) {
-    return invalid(fmt::format("\"{}\" is not \":wavelength\" or \":wavelength:index\", as in quarter-wave:550:1.38", text));
+    return invalid(
+        fmt::format("\"{}\" is not \":wavelength\" or \":wavelength:index\", as in quarter-wave:550:1.38", text));
   }
   if (!(*lambda >= 100.0 && *lambda <= 10000.0)) return invalid("a film's wavelength must be from 100 to 10000 nm");
   if (!(*n >= 1.0 && *n <= 10.0)) return invalid("a film's index must be from 1 to 10");
@@ -90,8 +89,10 @@ Result<FilmStack> parse_stack(std::string_view text) {
     const auto thickness =
         material && parts.size() == 2 ? parse_thickness(parts[1], *material) : std::optional<double>();
     if (!thickness || !(*thickness >= 0.0 && *thickness <= 1e6)) {
-      return invalid(fmt::format("\"{}\" is not a film; write index or material @ nanometres or waves, as in "
-                                 "stack:1.38@99.6,ZrO2@0.5w", layer));
+      return invalid(
+          fmt::format("\"{}\" is not a film; write index or material @ nanometres or waves, as in "
+                      "stack:1.38@99.6,ZrO2@0.5w",
+                      layer));
     }
     stack.layers.push_back({*material, *thickness});
   }
@@ -235,8 +236,10 @@ Result<GhostSelection> parse_selection(std::string_view text) {
     }
     return select;
   }
-  return invalid(fmt::format("\"{}\" is no choice of ghosts; write all, brightest:N, flux:PERCENT, surface:K or "
-                             "list:1-2,3-4", text));
+  return invalid(
+      fmt::format("\"{}\" is no choice of ghosts; write all, brightest:N, flux:PERCENT, surface:K or "
+                  "list:1-2,3-4",
+                  text));
 }
 
 Result<Coating> parse_coating(std::string_view text) {
@@ -260,9 +263,10 @@ Result<Coating> parse_coating(std::string_view text) {
     if (!*design) return tl::unexpected(design->error());
     coating.films = **design;
   } else {
-    return invalid(fmt::format("\"{}\" is no coating; write none, quarter-wave:550:1.38, hullin:550:1.38, "
-                               "stack:1.38@99.6,ZrO2@0.5w or a design ({})", text,
-                               fmt::join(coating_design_names(), ", ")));
+    return invalid(
+        fmt::format("\"{}\" is no coating; write none, quarter-wave:550:1.38, hullin:550:1.38, "
+                    "stack:1.38@99.6,ZrO2@0.5w or a design ({})",
+                    text, fmt::join(coating_design_names(), ", ")));
   }
   return coating;
 }

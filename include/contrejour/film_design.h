@@ -1,5 +1,5 @@
-// Stacks of films towards a goal: thicknesses refined by Levenberg and Marquardt's method from a start, materials as they
-// are. Light at normal incidence from air. Local: another start may end elsewhere. Thread-safety: pure functions.
+// Stacks of films towards a goal: thicknesses refined by Levenberg and Marquardt's method from a start, materials as
+// they are. Light at normal incidence from air. Local: another start may end elsewhere. Thread-safety: pure functions.
 #pragma once
 
 #include <functional>
@@ -24,7 +24,8 @@ namespace contrejour {
 
 struct FilmGoal {
   std::vector<double> lambda_nm;
-  // What is off, of reflectances at those wavelengths: its squares' sum is made small. Always as many as the first time.
+  // What is off, of reflectances at those wavelengths: its squares' sum is made small. Always as many as the first
+  // time.
   std::function<std::vector<double>(std::span<const double> reflectance)> off;
 };
 

@@ -24,7 +24,7 @@ class Coating(ProgramTest):
         self.assertLess(at_600["reflectance_0deg"], 1e-9)
         self.assertLess(at_600["reflectance_0deg"], at_600["reflectance_60deg"])
         text = self.run_program("coating", "show", "quarter-wave").stdout.decode()
-        self.assertIn("420 to 680 nm: mean 1.3", text)
+        self.assertIn("420 to 680 nm: mean 1.42", text)
 
     def test_drawing(self):
         self.run_program("coating", "show", "broadband-5", "-o", "r.svg")
@@ -51,6 +51,7 @@ class Coating(ProgramTest):
     def test_wrong_words(self):
         self.assertIn("is no coating", self.error_of("coating", "show", "velvet", code=1))
         self.assertIn("is no glass", self.error_of("coating", "show", "none", "--glass", "0.5", code=1))
+        self.assertIn("did you mean", self.error_of("coating", "show", "none", "--glass", "N-BK8X", code=1))
         self.assertIn("is no colour", self.error_of("coating", "fit", "#12", code=1))
         self.assertIn("black", self.error_of("coating", "fit", "0,0,0", code=1))
         self.assertIn("is not a film", self.error_of("coating", "show", "stack:MgF3@90", code=1))

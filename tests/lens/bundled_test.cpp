@@ -51,8 +51,8 @@ struct Position {
 // Figures of the patents; where those only name a nominal focal length, of an independent paraxial trace of the tables.
 TEST_CASE("every position of the zooms") {
   constexpr Position kPositions[] = {
-      {"canon-70-200", 70, 72.10, 52.43},   {"canon-70-200", 135, 135.00, 52.43}, {"canon-70-200", 200, 194.01, 52.43},
-      {"itoh-zoom", 100, 99.92, 149.46},    {"itoh-zoom", 146, 145.73, 189.53},   {"nikon-80-200", 80, 80.0, 40.17},
+      {"canon-70-200", 70, 72.10, 52.43},  {"canon-70-200", 135, 135.00, 52.43}, {"canon-70-200", 200, 194.01, 52.43},
+      {"itoh-zoom", 100, 99.92, 149.46},   {"itoh-zoom", 146, 145.73, 189.53},   {"nikon-80-200", 80, 80.0, 40.17},
       {"nikon-80-200", 200, 200.0, 40.18},
   };
   for (const Position& position : kPositions) {
@@ -68,7 +68,8 @@ TEST_CASE("every position of the zooms") {
 
 // Pairs of refracting surfaces on the same side of the stop; the four counts are those of bodonyi2023.
 TEST_CASE("ghosts with both reflections on one side of the stop") {
-  const std::map<std::string, int> counts = {{"heliar", 13}, {"itoh-zoom", 73}, {"nikon-80-200", 142}, {"canon-70-200", 312}};
+  const std::map<std::string, int> counts = {
+      {"heliar", 13}, {"itoh-zoom", 73}, {"nikon-80-200", 142}, {"canon-70-200", 312}};
   for (const auto& [name, count] : counts) {
     CAPTURE(name);
     const LensState state = state_of(name);
@@ -85,7 +86,8 @@ TEST_CASE("sensors") {
     CAPTURE(name);
     const LensState state = state_of(name);
     CHECK(state.sensor_width_mm / state.sensor_height_mm == doctest::Approx(1.5));
-    CHECK(first_order(state, kLineD_nm).half_field_rad * 180.0 / 3.14159265358979 == doctest::Approx(degrees).epsilon(1e-3));
+    CHECK(first_order(state, kLineD_nm).half_field_rad * 180.0 / 3.14159265358979 ==
+          doctest::Approx(degrees).epsilon(1e-3));
   }
   for (const char* name : {"canon-70-200", "nikon-80-200", "planar-50"}) {
     CHECK(state_of(name).sensor_width_mm == 36.0);

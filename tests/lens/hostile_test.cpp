@@ -38,7 +38,8 @@ TEST_CASE("a lens cut at each byte") {
   // Names that no catalogue has: cut off before its own glasses the lens would else be whole.
   std::string sample = kSampleLens;
   for (int k = 0; k < 2; ++k) sample = edited("SF2", "a flint", edited("BK7", "a crown", sample));
-  for (const char* name : {"a flint", "a crown"}) sample = edited(fmt::format("{} =", name), fmt::format("\"{}\" =", name), sample);
+  for (const char* name : {"a flint", "a crown"})
+    sample = edited(fmt::format("{} =", name), fmt::format("\"{}\" =", name), sample);
   REQUIRE(read_lens_toml(sample, "x.toml").has_value());
   for (std::size_t size = 0; size < sample.size(); ++size) {
     CAPTURE(size);
@@ -62,8 +63,8 @@ TEST_CASE("nesting without end") {
 
 // Preconditions of the parser that a broken file breaks.
 TEST_CASE("closing what was not opened") {
-  for (const char* text : {"a = [}", "a = [ 1, } ]", "a = [{]", "a = {]", "a = ]", "a = }", "a = ,", "[[[a]]]", "[[=",
-                           "[=", "a.[", "= 1", "[]", "[[]]", "a = [c\"]", "a = {,}", "a = [#", "a = [_]"}) {
+  for (const char* text : {"a = [}", "a = [ 1, } ]", "a = [{]", "a = {]", "a = ]", "a = }", "a = ,", "[[[a]]]",
+                           "[[=", "[=", "a.[", "= 1", "[]", "[[]]", "a = [c\"]", "a = {,}", "a = [#", "a = [_]"}) {
     CAPTURE(text);
     check_refused(text);
   }
@@ -72,8 +73,11 @@ TEST_CASE("closing what was not opened") {
 TEST_CASE("many small things") {
   check_refused(repeated("[[a]]\n", 150'000));
   check_refused(fmt::format("surfaces = [{}]", repeated("{},", 300'000)));
-  check_refused(edited("surfaces = [", fmt::format("surfaces = [{}", repeated("{ radius_mm = inf, thickness_mm = 1, semi_diameter_mm "
-                                                                       "= 1 },", 250))), "at most 200");
+  check_refused(edited("surfaces = [",
+                       fmt::format("surfaces = [{}", repeated("{ radius_mm = inf, thickness_mm = 1, semi_diameter_mm "
+                                                              "= 1 },",
+                                                              250))),
+                "at most 200");
   std::string keys;
   for (int k = 0; k < 60'000; ++k) keys += fmt::format("k{} = 1\n", k);
   check_refused(keys, "unknown key");
@@ -112,7 +116,8 @@ TEST_CASE("a lens with bytes changed at random") {
   std::mt19937 random(11);
   for (int k = 0; k < 3000; ++k) {
     std::string text = zoom_sample();
-    for (int n = 1 + static_cast<int>(random() % 4); n > 0; --n) text[random() % text.size()] = static_cast<char>(random() % 256);
+    for (int n = 1 + static_cast<int>(random() % 4); n > 0; --n)
+      text[random() % text.size()] = static_cast<char>(random() % 256);
     const auto lens = read_lens_toml(text, "x.toml");
     if (!lens) {
       CHECK_FALSE(lens.error().message.empty());

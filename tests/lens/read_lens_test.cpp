@@ -58,7 +58,10 @@ TEST_CASE("files that are no lens") {
   check_refused(folder.path() / "none.toml", "no such file");
   check_refused(folder.path(), "this is a folder");
   check_refused(folder.write("empty.toml", ""), "the file is empty");
-  check_refused(folder.write("a.bin", std::string("\x7f" "ELF\0\0\0", 7)), "not a lens file that is known: it is binary");
+  check_refused(folder.write("a.bin", std::string("\x7f"
+                                                  "ELF\0\0\0",
+                                                  7)),
+                "not a lens file that is known: it is binary");
   check_refused(folder.write("a.toml", std::string("name\0", 5)), "not a lens file that is known: it is binary");
   check_refused(folder.write("a.xml", "<?xml version=\"1.0\"?>\n<lens/>\n"), "it begins with '<?xml version=");
   check_refused(folder.write("a.txt", "once upon a time\n"), "not a lens file that is known: it begins with 'once");

@@ -79,7 +79,8 @@ class RandomLens {
     switch (whole(0, 2)) {
       case 0: return {name, ConstantIndex{real(1.1, 3.9)}};
       case 1: return {name, AbbeGlass{real(1.4, 2.0), real(20.0, 90.0)}};
-      default: return {name, Sellmeier{{real(1.0, 1.5), real(0.0, 0.3), real(0.5, 1.0)}, {0.007, real(0.0, 0.03), 100.0}}};
+      default:
+        return {name, Sellmeier{{real(1.0, 1.5), real(0.0, 0.3), real(0.5, 1.0)}, {0.007, real(0.0, 0.03), 100.0}}};
     }
   }
 
@@ -89,7 +90,9 @@ class RandomLens {
     switch (whole(0, 5)) {
       case 0: return {};
       case 4: return {name, DesignedCoating{static_cast<CoatingDesign>(whole(0, 3)), real(380.0, 800.0), 4}};
-      case 5: return {name, MeasuredCoating{{real(380.0, 500.0), 600.0}, {0.0, real(1.0, 90.0)}, {0.1, real(0.0, 1.0), 0.0, 1.0}}};
+      case 5:
+        return {name,
+                MeasuredCoating{{real(380.0, 500.0), 600.0}, {0.0, real(1.0, 90.0)}, {0.1, real(0.0, 1.0), 0.0, 1.0}}};
       case 1: return {name, QuarterWave{real(1.2, 2.5), real(380.0, 800.0)}};
       case 2: return {name, HullinFresnelAR{real(1.2, 2.5), real(380.0, 800.0)}};
       default: {

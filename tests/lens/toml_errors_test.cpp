@@ -48,7 +48,8 @@ TEST_CASE("missing keys") {
   check_edit("thickness_mm = 5.0, ", "", 6, "surface 1: thickness_mm is missing; give the distance");
   check_edit(", semi_diameter_mm = 9.0 },\n]", " },\n]", 10, "surface 5: semi_diameter_mm is missing");
   check_error("name = \"a\"\nsource = \"b\"\nf_number = 2\nsensor_mm = [3, 2]\n", 1, "surfaces is missing");
-  check_error("name = \"a\"\nsource = \"b\"\nf_number = 2\nsensor_mm = [3, 2]\nsurfaces = []\n", 5, "surfaces is empty");
+  check_error("name = \"a\"\nsource = \"b\"\nf_number = 2\nsensor_mm = [3, 2]\nsurfaces = []\n", 5,
+              "surfaces is empty");
 }
 
 TEST_CASE("wrong types") {
@@ -141,19 +142,23 @@ TEST_CASE("the stop") {
   check_edit("radius_mm = inf", "stop = true", 9, "a stop has no glass");
   check_edit("radius_mm = -60.0", "stop = true", 8, "surface 3: a second stop; keep the one");
   check_edit("stop = true", "stop = true, radius_mm = inf", 8, "a stop has no radius_mm; leave it out");
-  check_error("name = \"a\"\nsource = \"b\"\nf_number = 2\nsensor_mm = [3, 2]\nsurfaces = [{ stop = true, "
-              "semi_diameter_mm = 1 }]\n", 5, "a stop alone is no lens");
+  check_error(
+      "name = \"a\"\nsource = \"b\"\nf_number = 2\nsensor_mm = [3, 2]\nsurfaces = [{ stop = true, "
+      "semi_diameter_mm = 1 }]\n",
+      5, "a stop alone is no lens");
 }
 
 TEST_CASE("surfaces that cross inside their clear aperture") {
   // Sags at 10 mm: 50 mm gives 1.01 mm, -60 mm gives 0.84 mm: 1.85 mm of glass at least.
-  check_edit("thickness_mm = 5.0", "thickness_mm = 1.8", 7, "surface 2: it crosses surface 1 by 0.0494 mm inside the "
-                                                            "clear aperture (at height 10 mm)");
+  check_edit("thickness_mm = 5.0", "thickness_mm = 1.8", 7,
+             "surface 2: it crosses surface 1 by 0.0494 mm inside the "
+             "clear aperture (at height 10 mm)");
   CHECK(read_lens_toml(edited("thickness_mm = 5.0", "thickness_mm = 1.9"), "x.toml").has_value());
   // Across the stop: surface 2 turned round bulges into surface 4, though no rim touches the stop's plane.
   const std::string bulge = edited("radius_mm = -60.0", "radius_mm = 12.0");
-  check_error(edited("thickness_mm = 3.0", "thickness_mm = 0.1", edited("thickness_mm = 2.0", "thickness_mm = 0.1", bulge)),
-              9, "surface 4: it crosses surface 2");
+  check_error(
+      edited("thickness_mm = 3.0", "thickness_mm = 0.1", edited("thickness_mm = 2.0", "thickness_mm = 0.1", bulge)), 9,
+      "surface 4: it crosses surface 2");
   // A stop's plane may lie inside the hollow of its neighbour.
   CHECK(read_lens_toml(edited("thickness_mm = 3.0", "thickness_mm = 0.0"), "x.toml").has_value());
 }
@@ -172,7 +177,8 @@ TEST_CASE("zooms") {
   check("{ 2 = 4.0 }", "{ 3 = 4.0 }", 14, "it moves other gaps than position 1");
   check("{ 2 = 4.0 }", "{ 2 = -4.0 }", 14, "the thickness behind surface 2 is -4");
   check("{ 2 = 4.0 }", "{ 2 = nan }", 14, "thickness_mm is nan");
-  check("focal_length_mm = 60,", "focal_length_mm = 40,", 14, "40 mm after 50 mm; list the positions from the shortest");
+  check("focal_length_mm = 60,", "focal_length_mm = 40,", 14,
+        "40 mm after 50 mm; list the positions from the shortest");
   check("focal_length_mm = 60,", "focal_length_mm = 50,", 14, "50 mm after 50 mm");
   check("focal_length_mm = 60,", "focal_length_mm = -60,", 14, "zoom position 2: focal_length_mm is -60");
   check("  { focal_length_mm = 60, thickness_mm = { 2 = 4.0 } },\n", "", 12, "zoom has 1 positions; give 2 to 200");
@@ -190,15 +196,15 @@ TEST_CASE("half field in place of a sensor") {
   CHECK(lens->sensor_width_mm / lens->sensor_height_mm == doctest::Approx(1.5));
   check_edit("sensor_mm = [36, 24]", "sensor_mm = [36, 24]\nhalf_field_deg = 20", 1, "give the sensor either");
   check_edit("sensor_mm = [36, 24]", "half_field_deg = 89", 4, "half_field_deg is 89; give a number from 0.01 to 80");
-  check_error(edited("[stated]\nfocal_length_mm = 60.0\n", "", edited("sensor_mm = [36, 24]", "half_field_deg = 20")), 4,
-              "half_field_deg needs focal_length_mm under [stated]");
+  check_error(edited("[stated]\nfocal_length_mm = 60.0\n", "", edited("sensor_mm = [36, 24]", "half_field_deg = 20")),
+              4, "half_field_deg needs focal_length_mm under [stated]");
 }
 
 TEST_CASE("what is no TOML") {
   check_error("name = \n", 1, "not valid TOML");
   check_error("name = \"a\"\nname = \"b\"\n", 2, "not valid TOML");
   check_error("name = \"a\nsource", 1, "not valid TOML");
-  check_error(edited("surfaces = [", "surfaces = ["  ) + "x\n", 17, "not valid TOML");
+  check_error(edited("surfaces = [", "surfaces = [") + "x\n", 17, "not valid TOML");
 }
 
 }  // namespace

@@ -40,8 +40,10 @@ TEST_CASE("values of the sample") {
 TEST_CASE("the default coating covers glass to air only, and gives way to a row's own") {
   std::string text = edited("sensor_mm", "default_coating = { quarter_wave_nm = 500, n = 1.4 }\nsensor_mm");
   // Cement surfaces 1 and 2 to a flint, whose rear face says "none".
-  text = edited("semi_diameter_mm = 10.0 },", "semi_diameter_mm = 10.0, glass = \"SF2\" },\n  { radius_mm = inf, "
-                "thickness_mm = 2.0, semi_diameter_mm = 9.0, coating = \"none\" },", text);
+  text = edited("semi_diameter_mm = 10.0 },",
+                "semi_diameter_mm = 10.0, glass = \"SF2\" },\n  { radius_mm = inf, "
+                "thickness_mm = 2.0, semi_diameter_mm = 9.0, coating = \"none\" },",
+                text);
   const Prescription lens = read(text);
   REQUIRE(lens.surfaces.size() == 6);
   const Coating film{"", QuarterWave{1.4, 500.0}};
@@ -75,7 +77,9 @@ TEST_CASE("every kind of coating and glass") {
         Coating{"", MeasuredCoating{{450.0, 650.0}, {0.0}, {0.01, 0.02}}});
   const auto glass_of = [](const std::string& value) {
     return read(edited("glass = \"SF2\"", fmt::format("glass = {}", value),
-                       edited("SF2 = { n_d = 1.64769, v_d = 33.85 }\n", ""))).surfaces[3].glass_after;
+                       edited("SF2 = { n_d = 1.64769, v_d = 33.85 }\n", "")))
+        .surfaces[3]
+        .glass_after;
   };
   CHECK(glass_of("{ n = 1.5 }") == Glass{"", ConstantIndex{1.5}});
   CHECK(glass_of("{ n_d = 1.5, v_d = 0 }") == Glass{"", AbbeGlass{1.5, 0.0}});

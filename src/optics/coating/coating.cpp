@@ -23,7 +23,8 @@ double cos_squared_behind(double n_in, double n_out, double cos_in) {
 FilmResponse stack_response(std::span<const FilmLayer> layers, double n_in, double n_out, double cos_in,
                             double lambda_nm) {
   const double theta = std::acos(std::clamp(cos_in, 0.0, 1.0));
-  return film_response(n_in, layers, n_out, theta, lambda_nm, n_in <= n_out ? FilmOrder::AsListed : FilmOrder::Reversed);
+  return film_response(n_in, layers, n_out, theta, lambda_nm,
+                       n_in <= n_out ? FilmOrder::AsListed : FilmOrder::Reversed);
 }
 
 double mean_reflectance(const FilmResponse& r) { return 0.5 * (r.R_s + r.R_p); }

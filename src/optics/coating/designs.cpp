@@ -20,8 +20,7 @@ FilmLayer film(std::string_view material, double waves, double lambda0_nm) {
 FilmGoal lowest(double lambda0_nm, double band, int samples) {
   FilmGoal goal;
   for (int k = 0; k < samples; ++k)
-    goal.lambda_nm.push_back(samples == 1 ? lambda0_nm
-                                          : lambda0_nm * (1.0 - band + 2.0 * band * k / (samples - 1)));
+    goal.lambda_nm.push_back(samples == 1 ? lambda0_nm : lambda0_nm * (1.0 - band + 2.0 * band * k / (samples - 1)));
   goal.off = [](std::span<const double> r) { return std::vector<double>(r.begin(), r.end()); };
   return goal;
 }

@@ -224,8 +224,8 @@ struct ImagePlane {
   double distant_mm = 0, image_mm = 0;  // from the last vertex: of distant objects, of that one
 };
 ImagePlane image_plane(const LensState& state, double object_distance_mm, Section section) {
-  const Abcd m = abcd_between(state.surfaces, 0, static_cast<int>(state.surfaces.size()) - 1, state.design_wavelength_nm,
-                              section);
+  const Abcd m =
+      abcd_between(state.surfaces, 0, static_cast<int>(state.surfaces.size()) - 1, state.design_wavelength_nm, section);
   const double distant_mm = -m.a / m.c;
   if (std::isinf(object_distance_mm)) return {distant_mm, distant_mm};
   // The ray from the axial object point: y = d u at the first vertex.
@@ -255,7 +255,8 @@ Result<void> set_focus(LensState& state, const Prescription& lens, double object
   return {};
 }
 
-// A formula followed beyond where its maker vouches for it, within the visible lines g to C or at the design wavelength.
+// A formula followed beyond where its maker vouches for it, within the visible lines g to C or at the design
+// wavelength.
 void warn_of_glasses(LensState& state) {
   for (std::size_t k = 0; k < state.surfaces.size(); ++k) {
     const Glass& glass = state.surfaces[k].after;

@@ -71,8 +71,7 @@ FilmLayer read_film(TomlFields& film, TomlErrors& errors) {
   if (const auto name = film.text("material")) {
     layer.material = film_material(*name);
     if (film.has("n") || film.has("k")) film.fail_here("give a film either a material or n and k");
-    if (!is_film_material(*name))
-      film.fail_here(*coating_problem({"", FilmStack{{layer}}}));
+    if (!is_film_material(*name)) film.fail_here(*coating_problem({"", FilmStack{{layer}}}));
   } else {
     const double n = film.required_number("n", kFinite, "give the film's index or its material");
     layer.material = FilmMaterial(n, film.number("k", kFinite).value_or(0.0));
@@ -119,8 +118,7 @@ std::vector<FilmLayer> read_layers(TomlFields& fields, TomlErrors& errors) {
 }
 
 // One of {quarter_wave_nm, n}, {hullin_nm, n}, {layers}, {design, design_nm}, {measured_nm, measured_deg, reflectance}.
-Coating read_coating_keys(const toml::table& table, std::string name, const std::string& what,
-                          TomlErrors& errors) {
+Coating read_coating_keys(const toml::table& table, std::string name, const std::string& what, TomlErrors& errors) {
   TomlFields fields(table, what,
                     {"name", "quarter_wave_nm", "hullin_nm", "n", "layers", "design", "design_nm", "measured_nm",
                      "measured_deg", "reflectance"},
@@ -132,11 +130,12 @@ Coating read_coating_keys(const toml::table& table, std::string name, const std:
   const bool design = fields.has("design");
   const bool measured = fields.has("measured_nm");
   const bool more = fields.has("n") ? !(quarter || hullin) : false;
-  const bool others = (fields.has("design_nm") && !design) ||
-                      ((fields.has("measured_deg") || fields.has("reflectance")) && !measured);
+  const bool others =
+      (fields.has("design_nm") && !design) || ((fields.has("measured_deg") || fields.has("reflectance")) && !measured);
   if (int{quarter} + int{hullin} + int{stack} + int{design} + int{measured} != 1 || more || others) {
-    fields.fail_here("give a coating one of quarter_wave_nm (and n), layers, design (and design_nm), measured_nm with "
-                     "measured_deg and reflectance, or hullin_nm (and n)");
+    fields.fail_here(
+        "give a coating one of quarter_wave_nm (and n), layers, design (and design_nm), measured_nm with "
+        "measured_deg and reflectance, or hullin_nm (and n)");
     return coating;
   }
   const double n = fields.number("n", kFinite).value_or(QuarterWave{}.n);
@@ -146,8 +145,9 @@ Coating read_coating_keys(const toml::table& table, std::string name, const std:
   if (design) {
     const std::string wanted = fields.text("design").value_or("");
     const auto found = find_coating_design(wanted);
-    if (!found) fields.fail_here(fmt::format("no design is called '{}'; give one of {}", shortened(wanted),
-                                             fmt::join(coating_design_names(), ", ")));
+    if (!found)
+      fields.fail_here(fmt::format("no design is called '{}'; give one of {}", shortened(wanted),
+                                   fmt::join(coating_design_names(), ", ")));
     coating.films = found.value_or(DesignedCoating{});
     std::get<DesignedCoating>(coating.films).lambda0_nm =
         fields.number("design_nm", kFinite).value_or(DesignedCoating{}.lambda0_nm);
@@ -167,8 +167,7 @@ bool reserved_name(std::string_view name) {
 }
 
 template <class Medium, class Read>
-MediumTable<Medium> read_medium_table(const toml::table& lens, std::string_view key, Read read,
-                                      TomlErrors& errors) {
+MediumTable<Medium> read_medium_table(const toml::table& lens, std::string_view key, Read read, TomlErrors& errors) {
   MediumTable<Medium> media;
   const toml::node* node = lens.get(key);
   if (node == nullptr) return media;
@@ -208,8 +207,8 @@ void fail_unknown(const toml::node& node, std::string_view name, const std::stri
   std::vector<std::string_view> names;
   for (const auto& entry : table) names.push_back(entry.first);
   const std::string near = nearest_name(name, names);
-  const std::string remedy = near.empty() ? fmt::format("add it under [{}]", kind)
-                                          : fmt::format("did you mean '{}'?", shortened(near));
+  const std::string remedy =
+      near.empty() ? fmt::format("add it under [{}]", kind) : fmt::format("did you mean '{}'?", shortened(near));
   errors.fail(node, fmt::format("{}: no {} is called '{}'; {}", what, kind, shortened(name), remedy));
 }
 
@@ -238,7 +237,8 @@ void refuse_unused_of(const MediumTable<Medium>& table, std::string_view kind, T
   for (const auto& [name, entry] : table) {
     if (entry.used) continue;
     errors.fail(*entry.where, fmt::format("{} '{}' is used by no surface; remove it, or check the names in "
-                                          "the surfaces", kind, shortened(name)));
+                                          "the surfaces",
+                                          kind, shortened(name)));
   }
 }
 
@@ -265,8 +265,7 @@ Glass read_glass(const toml::node& node, const std::string& what, MediumTable<Gl
   return read_catalogue_glass(node, name->get(), what, table, finder, errors);
 }
 
-Coating read_coating(const toml::node& node, const std::string& what, MediumTable<Coating>& table,
-                     TomlErrors& errors) {
+Coating read_coating(const toml::node& node, const std::string& what, MediumTable<Coating>& table, TomlErrors& errors) {
   if (const toml::table* keys = node.as_table()) {
     return read_coating_keys(*keys, "", what + ", coating", errors);
   }
@@ -283,8 +282,7 @@ Coating read_coating(const toml::node& node, const std::string& what, MediumTabl
   return {};
 }
 
-void refuse_unused(const MediumTable<Glass>& glasses, const MediumTable<Coating>& coatings,
-                   TomlErrors& errors) {
+void refuse_unused(const MediumTable<Glass>& glasses, const MediumTable<Coating>& coatings, TomlErrors& errors) {
   refuse_unused_of(glasses, "glass", errors);
   refuse_unused_of(coatings, "coating", errors);
 }

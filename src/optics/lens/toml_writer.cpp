@@ -123,7 +123,8 @@ std::string surface_row(const Surface& surface, bool last, MediaTable& glasses, 
   std::string row = "  { ";
   row += surface.kind == SurfaceKind::Stop ? "stop = true" : curvature_text(surface.curvature_per_mm, "");
   if (!last) row += ", thickness_mm = " + number(surface.thickness_mm);
-  row += ", semi_diameter_mm = " + number(surface.semi_diameter_mm) + shape_text(surface.shape) + pose_text(surface.pose);
+  row +=
+      ", semi_diameter_mm = " + number(surface.semi_diameter_mm) + shape_text(surface.shape) + pose_text(surface.pose);
   if (surface.kind == SurfaceKind::Refracting) {
     if (!(surface.glass_after == air())) row += ", glass = " + glasses.reference(surface.glass_after);
     if (!std::holds_alternative<Bare>(surface.coating.films)) {
@@ -141,8 +142,8 @@ std::string zoom_rows(const std::vector<ZoomPosition>& zoom) {
     for (const auto& [index, thickness_mm] : position.thickness_mm) {
       gaps += fmt::format("{}{} = {}", gaps.empty() ? "" : ", ", index + 1, number(thickness_mm));
     }
-    out += fmt::format("  {{ focal_length_mm = {}, thickness_mm = {{ {} }} }},\n", number(position.focal_length_mm),
-                       gaps);
+    out +=
+        fmt::format("  {{ focal_length_mm = {}, thickness_mm = {{ {} }} }},\n", number(position.focal_length_mm), gaps);
   }
   return out + "]\n";
 }
@@ -161,9 +162,9 @@ std::string stated_table(const StatedFigures& stated) {
 
 std::string write_lens_toml(const Prescription& lens) {
   MediaTable glasses, coatings;
-  std::string out = fmt::format("name = {}\nsource = {}\nf_number = {}\nsensor_mm = [{}, {}]\n",
-                                toml_string(lens.name), toml_string(lens.source), number(lens.f_number),
-                                number(lens.sensor_width_mm), number(lens.sensor_height_mm));
+  std::string out = fmt::format("name = {}\nsource = {}\nf_number = {}\nsensor_mm = [{}, {}]\n", toml_string(lens.name),
+                                toml_string(lens.source), number(lens.f_number), number(lens.sensor_width_mm),
+                                number(lens.sensor_height_mm));
   if (lens.sensor_distance_mm) out += fmt::format("sensor_distance_mm = {}\n", number(*lens.sensor_distance_mm));
   out += "\nsurfaces = [\n";
   for (std::size_t i = 0; i < lens.surfaces.size(); ++i) {

@@ -80,16 +80,18 @@ Result<void> check_surface(const Prescription& lens, std::size_t i) {
   const Glass before = i == 0 ? air() : lens.surfaces[i - 1].glass_after;
   const double semi_mm = s.semi_diameter_mm;
   if (!within(semi_mm, 1e-6, kMaxLength_mm)) {
-    return fail.at(i, fmt::format("semi_diameter_mm is {}; give the radius of the clear aperture, more than 0", semi_mm));
+    return fail.at(i,
+                   fmt::format("semi_diameter_mm is {}; give the radius of the clear aperture, more than 0", semi_mm));
   }
   if (!within(s.thickness_mm, 0.0, kMaxLength_mm)) {
-    return fail.at(i, fmt::format("thickness_mm is {}; give the distance to the next vertex, 0 or more",
-                                  s.thickness_mm));
+    return fail.at(i,
+                   fmt::format("thickness_mm is {}; give the distance to the next vertex, 0 or more", s.thickness_mm));
   }
   if (const auto problem = shape_problem(s)) return fail.at(i, *problem);
   if (s.shape.is_sphere() && !(std::abs(s.curvature_per_mm) * semi_mm <= 1.0)) {
     return fail.at(i, fmt::format("radius {:.6g} mm is smaller than semi_diameter_mm {:.6g}: a sphere has no rim "
-                                  "there; make the semi-diameter smaller", 1.0 / s.curvature_per_mm, semi_mm));
+                                  "there; make the semi-diameter smaller",
+                                  1.0 / s.curvature_per_mm, semi_mm));
   }
   const bool plain = s.curvature_per_mm == 0.0 && s.shape == SurfaceShape{} && s.pose == SurfacePose{};
   if (s.kind == SurfaceKind::Stop && (!plain || !(s.glass_after == before))) {
@@ -115,8 +117,9 @@ Result<void> check_rows(const Prescription& lens) {
     }
   }
   if (stops == 0) {
-    return fail.at_line(rows.front().source_line, "the lens has no stop; add a row { stop = true, semi_diameter_mm = "
-                                                  "..., thickness_mm = ... } where the iris is");
+    return fail.at_line(rows.front().source_line,
+                        "the lens has no stop; add a row { stop = true, semi_diameter_mm = "
+                        "..., thickness_mm = ... } where the iris is");
   }
   if (rows.size() == 1) return fail.at(0, "a stop alone is no lens; add its surfaces");
   if (!is_air(rows.back().glass_after)) {
@@ -175,21 +178,21 @@ bool is_plain(const Surface& s) { return s.shape.is_sphere() && s.pose == Surfac
 Result<void> check_pair(const Prescription& lens, std::size_t front, std::size_t back, double thickness_mm,
                         const std::string& where) {
   const Surface &before = lens.surfaces[front], &behind = lens.surfaces[back];
-  const Gap smallest = is_plain(before) && is_plain(behind)
-                           ? Gap{rim_gap_mm(before, behind, thickness_mm),
-                                 std::min(before.semi_diameter_mm, behind.semi_diameter_mm)}
-                           : smallest_gap(before, behind, thickness_mm);
+  const Gap smallest =
+      is_plain(before) && is_plain(behind)
+          ? Gap{rim_gap_mm(before, behind, thickness_mm), std::min(before.semi_diameter_mm, behind.semi_diameter_mm)}
+          : smallest_gap(before, behind, thickness_mm);
   const double gap_mm = smallest.gap_mm, h_mm = smallest.height_mm;
   if (gap_mm >= -kTouch_mm) return {};
   return RowFailure{lens}.at(back, fmt::format("it crosses surface {} by {:.3g} mm inside the clear aperture (at "
                                                "height {:.6g} mm{}); make a semi-diameter smaller or check the "
-                                               "radii and the thickness", front + 1, -gap_mm, h_mm, where));
+                                               "radii and the thickness",
+                                               front + 1, -gap_mm, h_mm, where));
 }
 
 // Neighbouring refracting surfaces. The stop is no matter: design programs put its plane at the vertex of a
 // surface, where a concave one reaches through it.
-Result<void> check_crossings(const Prescription& lens, std::span<const double> thickness_mm,
-                             const std::string& where) {
+Result<void> check_crossings(const Prescription& lens, std::span<const double> thickness_mm, const std::string& where) {
   std::optional<std::size_t> front;
   double gap_mm = 0.0;
   for (std::size_t i = 0; i < lens.surfaces.size(); ++i) {
@@ -214,12 +217,12 @@ std::set<int> gaps_of(const ZoomPosition& position) {
 Result<void> check_zoom_values(const Prescription& lens, const ZoomPosition& position, std::size_t number) {
   const RowFailure fail{lens};
   if (!within(position.focal_length_mm, 1e-3, kMaxLength_mm)) {
-    return fail.at_line(position.source_line, fmt::format("zoom position {}: focal_length_mm is {}; give one more than 0",
-                                                          number, position.focal_length_mm));
+    return fail.at_line(
+        position.source_line,
+        fmt::format("zoom position {}: focal_length_mm is {}; give one more than 0", number, position.focal_length_mm));
   }
   if (position.thickness_mm.empty() || gaps_of(position).size() != position.thickness_mm.size()) {
-    return fail.at_line(position.source_line,
-                        fmt::format("zoom position {}: give each gap that moves, once", number));
+    return fail.at_line(position.source_line, fmt::format("zoom position {}: give each gap that moves, once", number));
   }
   for (const auto& [index, thickness_mm] : position.thickness_mm) {
     if (index < 0 || index + 1 >= static_cast<int>(lens.surfaces.size())) {
@@ -241,13 +244,16 @@ Result<void> check_zoom_order(const Prescription& lens) {
   for (std::size_t z = 1; z < lens.zoom.size(); ++z) {
     const ZoomPosition& now = lens.zoom[z];
     if (!(now.focal_length_mm > lens.zoom[z - 1].focal_length_mm)) {
-      return fail.at_line(now.source_line, fmt::format("zoom position {}: {} mm after {} mm; list the positions from the "
-                                                       "shortest to the longest", z + 1, now.focal_length_mm,
-                                                       lens.zoom[z - 1].focal_length_mm));
+      return fail.at_line(now.source_line,
+                          fmt::format("zoom position {}: {} mm after {} mm; list the positions from the "
+                                      "shortest to the longest",
+                                      z + 1, now.focal_length_mm, lens.zoom[z - 1].focal_length_mm));
     }
     if (gaps_of(now) != gaps_of(lens.zoom.front())) {
-      return fail.at_line(now.source_line, fmt::format("zoom position {}: it moves other gaps than position 1; give the "
-                                                       "same ones at every position", z + 1));
+      return fail.at_line(now.source_line,
+                          fmt::format("zoom position {}: it moves other gaps than position 1; give the "
+                                      "same ones at every position",
+                                      z + 1));
     }
   }
   return {};
@@ -275,8 +281,8 @@ std::optional<std::string> glass_problem(const Glass& glass) {
   if (const auto* model = std::get_if<ModelGlass>(&glass.dispersion)) {
     const bool fits = (model->v_d == 0.0 || within(model->v_d, 5.0, 200.0)) && within(model->d_pgf, -1.0, 1.0);
     if (!fits) {
-      return fmt::format("v_d is {} and d_pgf {}; an Abbe number is from 5 to 200, a deviation from -1 to 1", model->v_d,
-                         model->d_pgf);
+      return fmt::format("v_d is {} and d_pgf {}; an Abbe number is from 5 to 200, a deviation from -1 to 1",
+                         model->v_d, model->d_pgf);
     }
   }
   if (const auto* sellmeier = std::get_if<Sellmeier>(&glass.dispersion)) {
@@ -323,7 +329,8 @@ std::optional<std::string> measured_problem(const MeasuredCoating& measured) {
     return fmt::format("measured angles must rise within 0 to 90 degrees, 1 to {} of them", kMostMeasured);
   const std::size_t wanted = measured.lambda_nm.size() * measured.angle_deg.size();
   const auto fits = [](double r) { return within(r, 0.0, 1.0); };
-  if (measured.reflectance.size() == wanted && std::all_of(measured.reflectance.begin(), measured.reflectance.end(), fits))
+  if (measured.reflectance.size() == wanted &&
+      std::all_of(measured.reflectance.begin(), measured.reflectance.end(), fits))
     return std::nullopt;
   return fmt::format("{} reflectances; give {}, each from 0 to 1", measured.reflectance.size(), wanted);
 }
@@ -357,20 +364,25 @@ std::optional<std::string> shape_problem(const Surface& surface) {
   const bool has_x = shape.curvature_x_per_mm != 0.0 || shape.turn_rad != 0.0;
   if ((symmetric && has_x) || (shape.kind != ShapeKind::Biconic && shape.conic_x != 0.0) ||
       (shape.kind == ShapeKind::Biconic && has_powers)) {
-    return "a number that a surface of this shape does not have: only a toroid and a biconic have a second radius, only "
+    return "a number that a surface of this shape does not have: only a toroid and a biconic have a second radius, "
+           "only "
            "a biconic a second conic constant and only the others powers";
   }
   const Vec3 axis = surface.pose.axis;
   const Vec3 shift = surface.pose.shift_mm;
-  const bool stands = within(shift.x, -kMaxLength_mm, kMaxLength_mm) && within(shift.y, -kMaxLength_mm, kMaxLength_mm) &&
-                      within(shift.z, -kMaxLength_mm, kMaxLength_mm);
+  const bool stands = within(shift.x, -kMaxLength_mm, kMaxLength_mm) &&
+                      within(shift.y, -kMaxLength_mm, kMaxLength_mm) && within(shift.z, -kMaxLength_mm, kMaxLength_mm);
   if (!stands || !(std::abs(length(axis) - 1.0) < 1e-9) || !(axis.z >= kLeastUpright)) {
-    return fmt::format("it stands {:.4g} mm aside with its axis along ({:.4g}, {:.4g}, {:.4g}); tilt it by 60 degrees at "
-                       "most", std::hypot(shift.x, shift.y), axis.x, axis.y, axis.z);
+    return fmt::format(
+        "it stands {:.4g} mm aside with its axis along ({:.4g}, {:.4g}, {:.4g}); tilt it by 60 degrees at "
+        "most",
+        std::hypot(shift.x, shift.y), axis.x, axis.y, axis.z);
   }
   if (!shape.is_sphere() && !reaches_rim(surface)) {
-    return fmt::format("the surface ends before semi_diameter_mm {:.6g}: a root of its formula is of a negative number "
-                       "there; make the semi-diameter smaller or check the conic constant", surface.semi_diameter_mm);
+    return fmt::format(
+        "the surface ends before semi_diameter_mm {:.6g}: a root of its formula is of a negative number "
+        "there; make the semi-diameter smaller or check the conic constant",
+        surface.semi_diameter_mm);
   }
   return std::nullopt;
 }
@@ -397,8 +409,7 @@ std::optional<std::string> coating_problem(const Coating& coating) {
                       within(layer.thickness_nm, 0.0, kMaxFilm_nm);
     if (!fits) {
       return fmt::format("a layer of n = {}, k = {}, {} nm; give n from {} to {}, k from 0 to 20 and at most {} nm",
-                         m.n.real(), m.n.imag(), layer.thickness_nm, kMinFilmIndex, kMaxFilmIndex,
-                         kMaxFilm_nm);
+                         m.n.real(), m.n.imag(), layer.thickness_nm, kMinFilmIndex, kMaxFilmIndex, kMaxFilm_nm);
     }
   }
   return std::nullopt;

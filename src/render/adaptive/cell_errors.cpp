@@ -19,8 +19,8 @@ constexpr double kShadeBound = 4.0;  // the irradiance is linear over the cell i
 constexpr double kFoldBound = 0.5;   // of a fold's flux, that is out of place
 constexpr double kMostBend = 0.04;   // of a cell, that what cuts it may be off
 constexpr double kLeftByBend = 0.25;  // of a curve's deviation from its chord, where a corner in its middle bends it
-// Of a cell that large, and so bright beside the peak: a plane that is farther off shows as a facet, however little it is
-// of the peak.
+// Of a cell that large, and so bright beside the peak: a plane that is farther off shows as a facet, however little it
+// is of the peak.
 constexpr double kFacet = 0.02, kFacet_px = 400.0, kFacetLevel = 2e-4;
 constexpr std::array kSimpson{1.0 / 6.0, 4.0 / 6.0, 1.0 / 6.0};
 
