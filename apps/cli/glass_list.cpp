@@ -8,6 +8,7 @@
 #include "cli/console.h"
 #include "cli/glass_choice.h"
 #include "cli/text_table.h"
+#include "params/parse.h"
 
 namespace contrejour::cli {
 namespace {
@@ -33,6 +34,16 @@ std::vector<std::string> summary_cells(const GlassSummary& glass) {
   };
   return {glass.maker,          glass.name, number(glass.n_d, 6),
           number(glass.v_d, 3), glass.code, std::string(status_name(glass.status))};
+}
+
+// A number within a range; CLI::Range lets NaN through.
+CLI::Validator within(double low, double high) {
+  const auto problem = [low, high](const std::string& text) {
+    const auto value = params::parse_real(text);
+    if (value && *value >= low && *value <= high) return std::string();
+    return fmt::format("{} is not a number from {} to {}", text, low, high);
+  };
+  return {problem, "", "range"};
 }
 
 void add_common_options(CLI::App& command, ListOptions& options) {
@@ -116,11 +127,8 @@ void add_glass_list(CLI::App& glass, Action& action) {
 void add_glass_closest(CLI::App& glass, Action& action) {
   const auto options = std::make_shared<ListOptions>();
   CLI::App* command = glass.add_subcommand("closest", "the glasses nearest to an index and an Abbe number");
-  command->add_option("N_D", options->n_d, "index at 587.56 nm")
-      ->required()
-      ->check(CLI::Range(1.0, 5.0))
-      ->option_text(" ");
-  command->add_option("V_D", options->v_d, "Abbe number")->required()->check(CLI::Range(5.0, 200.0))->option_text(" ");
+  command->add_option("N_D", options->n_d, "index at 587.56 nm")->required()->check(within(1.0, 5.0))->option_text(" ");
+  command->add_option("V_D", options->v_d, "Abbe number")->required()->check(within(5.0, 200.0))->option_text(" ");
   command->add_option("--count", options->count, "how many")->check(CLI::Range(1, 10000))->option_text("N");
   command->add_flag("--obsolete", options->obsolete, "also glasses that are no longer made");
   add_common_options(*command, *options);
