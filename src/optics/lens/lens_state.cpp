@@ -175,11 +175,20 @@ double round_stop_mm(const LensState& lens, double f_number) {
   return std::abs(abcd_between(lens.surfaces, 0, lens.stop_index, lens.design_wavelength_nm).a) * marginal_mm;
 }
 
+// The f-number at which the round stop is as wide as its surface, from one on at which it would have to be wider.
+double f_number_filling(const LensState& state, double stop_mm, double too_wide) {
+  constexpr double kNarrow = 1000.0;
+  constexpr int kHalvings = 60;
+  double narrow = std::max(kNarrow, 2.0 * too_wide);
+  for (int k = 0; k < kHalvings; ++k) {
+    const double middle = std::sqrt(too_wide * narrow);
+    (round_stop_mm(state, middle) > stop_mm ? too_wide : narrow) = middle;
+  }
+  return narrow;
+}
+
 Result<void> set_stop(LensState& state, const Prescription& lens, const std::optional<double>& f_number) {
   const SurfaceState& stop = state.surfaces[static_cast<std::size_t>(state.stop_index)];
-  const double front_magnification =
-      std::abs(abcd_between(state.surfaces, 0, state.stop_index, state.design_wavelength_nm).a);
-  const double widest_of_stop = std::abs(state.focal_length_mm) * front_magnification / (2.0 * stop.semi_diameter_mm);
   state.f_number = f_number.value_or(lens.f_number);
   if (!(state.f_number >= lens.f_number * (1.0 - kFNumberTolerance)) || !std::isfinite(state.f_number)) {
     return failure(ErrorCode::InvalidArgument,
@@ -191,6 +200,7 @@ Result<void> set_stop(LensState& state, const Prescription& lens, const std::opt
   state.stop_radius_mm = round_stop_mm(state, state.f_number);
   if (state.stop_radius_mm > stop.semi_diameter_mm) {
     if (state.stop_radius_mm > stop.semi_diameter_mm * (1.0 + kStopTolerance)) {
+      const double widest_of_stop = f_number_filling(state, stop.semi_diameter_mm, state.f_number);
       state.warnings.push_back(
           fmt::format("f/{:g} needs a stop of {:.3f} mm radius; its widest opening of {:.3f} mm is used (f/{:.3g})",
                       state.f_number, state.stop_radius_mm, stop.semi_diameter_mm, widest_of_stop));
