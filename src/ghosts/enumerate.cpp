@@ -1,3 +1,5 @@
+#include <variant>
+
 #include "contrejour/ghost.h"
 
 namespace contrejour {
@@ -7,7 +9,9 @@ namespace contrejour {
 std::vector<Ghost> enumerate_ghosts(const LensState& lens, GhostScope scope) {
   const int count = static_cast<int>(lens.surfaces.size());
   const auto reflects = [&](int k) {
-    return lens.surfaces[static_cast<std::size_t>(k)].kind == SurfaceKind::Refracting;
+    const SurfaceState& s = lens.surfaces[static_cast<std::size_t>(k)];
+    const bool only_an_opening = s.before == s.after && std::holds_alternative<Bare>(s.coating.films);
+    return s.kind == SurfaceKind::Refracting && !only_an_opening;
   };
   std::vector<Ghost> ghosts;
   for (int i = 0; i < count; ++i) {

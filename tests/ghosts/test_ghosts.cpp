@@ -28,6 +28,20 @@ TEST_CASE("the papers' ghost counts: 13, 73, 142 and 312 with both reflections o
   CHECK(count("canon-70-200", GhostScope::All) == 33 * 32 / 2);
 }
 
+TEST_CASE("openings in air reflect nothing; a film between the same media does") {
+  LensState lens = bundled("heliar", {});
+  SurfaceState opening = lens.surfaces.front();
+  opening.after = opening.before;
+  opening.z_mm -= 5.0;
+  lens.surfaces.insert(lens.surfaces.begin(), opening);
+  ++lens.stop_index;
+  lens.surfaces.front().coating = {};
+  CHECK(enumerate_ghosts(lens, GhostScope::All).size() == 8 * 7 / 2);
+  for (const Ghost& ghost : enumerate_ghosts(lens, GhostScope::All)) CHECK(ghost.i > 1);
+  lens.surfaces.front().coating = {"", FilmStack{{{2.0, 60.0}}}};
+  CHECK(enumerate_ghosts(lens, GhostScope::All).size() == 9 * 8 / 2);
+}
+
 TEST_CASE("a plate's ghost carries area cos(theta) T R R T, and lands as the stop's own disc") {
   const LensState lens = test::plate();
   for (const double angle : {0.0, 0.3}) {
@@ -101,6 +115,7 @@ TEST_CASE("an iris polygon cuts the direct flux by its area") {
   LensState lens = test::plate();
   const double open = GhostMeter(lens, kGreen_nm).direct_flux(Vec3{0, 0, 1});
   lens.iris = {6, 0.3};
-  CHECK(GhostMeter(lens, kGreen_nm).direct_flux(Vec3{0, 0, 1}) / open == doctest::Approx(iris_area_fraction(lens.iris)).epsilon(1e-3));
+  CHECK(GhostMeter(lens, kGreen_nm).direct_flux(Vec3{0, 0, 1}) / open ==
+        doctest::Approx(iris_area_fraction(lens.iris)).epsilon(1e-3));
   CHECK(iris_area_fraction({6, 0.0}) == doctest::Approx(3.0 * std::sqrt(3.0) / (2.0 * std::numbers::pi)));
 }

@@ -47,11 +47,13 @@ Result<Prescription> read_lens(const std::filesystem::path& file, const GlassCat
                    "(docs/formats/lens-toml.md)",
                    {name, 0, 0});
   }
+  if (looks_like_optical_bench(*text)) return read_optical_bench(*text, name);
   if (extension_of(file) == ".toml" || looks_like_toml(*text)) return read_lens_toml(*text, name, glasses);
+  if (looks_like_pbrt(*text)) return read_pbrt(*text, name);
   const std::string first_line = text->substr(0, text->find('\n'));
   return failure(ErrorCode::Parse,
                  fmt::format("not a lens file that is known: it begins with '{}'; give a TOML lens "
-                             "file (docs/formats/lens-toml.md)",
+                             "file, or one of Optical Bench or PBRT (docs/formats)",
                              shortened(first_line)),
                  {name, 1, 0});
 }

@@ -2,10 +2,21 @@
 #pragma once
 
 #include <cstddef>
+#include <string>
+#include <string_view>
+
+#include "contrejour/lens.h"
 
 namespace contrejour {
 
 // The largest real prescriptions take a few kB; the bound keeps hostile files cheap.
 inline constexpr std::size_t kMaxLensFileBytes = 1'000'000;
+
+// Each format: what its files look like, and its reader.
+[[nodiscard]] bool looks_like_optical_bench(std::string_view text);
+[[nodiscard]] Result<Prescription> read_optical_bench(std::string_view text, const std::string& file);
+
+[[nodiscard]] bool looks_like_pbrt(std::string_view text);
+[[nodiscard]] Result<Prescription> read_pbrt(std::string_view text, const std::string& file);
 
 }  // namespace contrejour
