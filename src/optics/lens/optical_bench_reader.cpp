@@ -11,6 +11,7 @@
 
 #include <fmt/format.h>
 
+#include "base/decode_text.h"
 #include "base/near_name.h"
 #include "contrejour/lens.h"
 #include "optics/lens/read_lens.h"
@@ -20,6 +21,7 @@ namespace contrejour {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kHuge = 1e9;  // no lens's number is larger
 constexpr std::size_t kMostCells = 64, kMostRows = 2000;
 
 struct Row {
@@ -54,7 +56,7 @@ std::optional<double> number_of(std::string_view cell) {
   if (cell == "Infinity") return kInfinity;
   double value = 0.0;
   const auto [end, status] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
-  if (cell.empty() || status != std::errc{} || end != cell.data() + cell.size() || !std::isfinite(value))
+  if (cell.empty() || status != std::errc{} || end != cell.data() + cell.size() || !(std::abs(value) <= kHuge))
     return std::nullopt;
   return value;
 }
@@ -118,6 +120,7 @@ class Reader {
       lens_.source = std::string(trimmed(named ? std::string_view(title).substr(0, open) : title));
     }
     if (lens_.name.empty()) lens_.name = "lens of Optical Bench";
+    if (lens_.source.empty()) lens_.source = "an Optical Bench file that does not say it";
   }
 
   // A variable's value in a column; none where it has none.
@@ -292,7 +295,8 @@ class Reader {
 bool looks_like_optical_bench(std::string_view text) { return text.find("[lens data]") != std::string_view::npos; }
 
 Result<Prescription> read_optical_bench(std::string_view text, const std::string& file) {
-  return Reader(text, file).read();
+  const std::string decoded = decode_text(text);
+  return Reader(decoded, file).read();
 }
 
 }  // namespace contrejour

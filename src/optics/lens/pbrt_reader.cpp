@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include "base/decode_text.h"
 #include "base/near_name.h"
 #include "contrejour/lens.h"
 #include "optics/lens/read_lens.h"
@@ -94,7 +95,7 @@ Result<Prescription> read_pbrt(std::string_view text, const std::string& file) {
   lens.file = {file, 0, 0};
   std::optional<Error> error;
   Glass medium = air();
-  for_each_line(text, [&](int number, std::string_view line, std::string_view comment) {
+  for_each_line(decode_text(text), [&](int number, std::string_view line, std::string_view comment) {
     if (line.empty()) {  // headings: what it is, then where it is from
       std::string& to = lens.name.empty() ? lens.name : lens.source;
       const bool heading = lens.surfaces.empty() && !comment.empty() && !comment.starts_with("radius");
@@ -114,6 +115,7 @@ Result<Prescription> read_pbrt(std::string_view text, const std::string& file) {
   });
   if (error) return tl::unexpected(*error);
   if (lens.name.empty()) lens.name = "lens of PBRT";
+  if (lens.source.empty()) lens.source = "a PBRT file that does not say it";
   lens.f_number = 1.0;  // for now
   if (const auto valid = validate(lens); !valid) return tl::unexpected(valid.error());
   const auto widest = widest_f_number(lens);
