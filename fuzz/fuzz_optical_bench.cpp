@@ -1,4 +1,4 @@
-// Any bytes as a lens of Optical Bench: one that can be set and written in our own format, or an error.
+// Any bytes as a lens of Optical Bench: one that can be set and written, and reads back the same, or an error.
 #include <cstdlib>
 #include <string_view>
 
@@ -11,6 +11,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const auto lens = read_optical_bench(text, "fuzz");
   if (!lens) return 0;
   (void)lens_at(*lens);
-  if (write_lens_toml(*lens).empty()) std::abort();
+  const std::string written = write_lens_toml(*lens);
+  const auto again = read_lens_toml(written, "again.toml");
+  if (!again || write_lens_toml(*again) != written) std::abort();
   return 0;
 }

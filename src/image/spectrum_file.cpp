@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "base/text_file.h"
+#include "base/trimmed.h"
 
 namespace contrejour {
 namespace {
@@ -15,13 +16,6 @@ constexpr std::size_t kMaxBytes = std::size_t{1} << 20U;
 constexpr double kShortestNm = 1.0;
 constexpr double kLongestNm = 1e5;
 constexpr double kMostPower = 1e30;
-constexpr std::string_view kSpace = " \t\r";
-
-std::string_view trimmed(std::string_view text) {
-  const std::size_t first = text.find_first_not_of(kSpace);
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(kSpace) - first + 1);
-}
 
 // A finite number and what follows it; false if there is none.
 bool take_number(std::string_view& text, double& value) {

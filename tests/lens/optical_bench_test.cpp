@@ -94,6 +94,8 @@ TEST_CASE("what is wrong with an Optical Bench file, and where") {
   check_refused(edited("26.5", "x26"), 13, "is no radius");
   check_refused(edited("26.5", "0"), 13, "is no radius");
   check_refused(edited("\t1.62041\t20\t60.3", "\t1.62041\tbig\t60.3"), 13, "diameter");
+  check_refused(edited("1.62041", "1.62x"), 13, "are no n_d and V_d");
+  check_refused(edited("60.3\n", "sixty\n"), 13, "are no n_d and V_d");
   check_refused(edited("25\td4", "25\td9"), 16, "the gap 'd9'");
   check_refused(edited("8\t-20\t-0.5", "9\t-20\t-0.5"), 22, "no surface is called '9'");
   check_refused(edited("8\t-20\t-0.5", "8\t-21\t-0.5"), 22, "which is right?");

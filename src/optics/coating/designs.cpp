@@ -37,11 +37,10 @@ FilmStack v_coat(double lambda0_nm, const Glass& glass) {
   const double tan2 = (ns - 1.0) * -under * n2 * n2 / (matching * over);
   if (!(tan1 > 0.0 && tan2 > 0.0)) return refined(stack, glass, lowest(lambda0_nm, 0.0, 1));
   // tan(delta1) tan(delta2) = n1 n2 (ns - 1) / (n1^2 ns - n2^2): its sign says which branches go together.
-  const double half = std::numbers::pi;
   const double second = std::atan(std::sqrt(tan2));
-  const double first = matching > 0.0 ? std::atan(std::sqrt(tan1)) : half - std::atan(std::sqrt(tan1));
-  stack.layers[0].thickness_nm = first * lambda0_nm / (2.0 * half * n1);
-  stack.layers[1].thickness_nm = second * lambda0_nm / (2.0 * half * n2);
+  const double first = matching > 0.0 ? std::atan(std::sqrt(tan1)) : std::numbers::pi - std::atan(std::sqrt(tan1));
+  stack.layers[0].thickness_nm = first * lambda0_nm / (2.0 * std::numbers::pi * n1);
+  stack.layers[1].thickness_nm = second * lambda0_nm / (2.0 * std::numbers::pi * n2);
   return stack;
 }
 

@@ -13,6 +13,7 @@
 
 #include "base/decode_text.h"
 #include "base/near_name.h"
+#include "base/trimmed.h"
 #include "contrejour/lens.h"
 #include "optics/lens/read_lens.h"
 #include "optics/lens/validate.h"
@@ -33,17 +34,11 @@ struct Row {
 // By the name within the brackets.
 using Sections = std::map<std::string, std::vector<Row>, std::less<>>;
 
-std::string_view trimmed(std::string_view text) {
-  const std::size_t first = text.find_first_not_of(" \r");
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(" \r") - first + 1);
-}
-
 std::vector<std::string_view> cells_of(std::string_view line) {
   std::vector<std::string_view> cells;
   while (cells.size() < kMostCells) {
     const std::size_t tab = line.find('\t');
-    cells.push_back(trimmed(line.substr(0, tab)));
+    cells.push_back(trimmed(line.substr(0, tab), " "));
     if (tab == std::string_view::npos) break;
     line.remove_prefix(tab + 1);
   }
@@ -58,7 +53,7 @@ std::optional<double> number_of(std::string_view cell) {
   const auto [end, status] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
   if (cell.empty() || status != std::errc{} || end != cell.data() + cell.size() || !(std::abs(value) <= kHuge))
     return std::nullopt;
-  return value;
+  return value + 0.0;  // -0 is 0
 }
 
 class Reader {
@@ -194,7 +189,11 @@ class Reader {
           return fail(row.line,
                       fmt::format("'{}' is no radius; a number, Infinity, AS, FS or CG is known", shortened(radius)));
         surface.curvature_per_mm = std::isinf(*radius_mm) ? 0.0 : 1.0 / *radius_mm;
-        surface.glass_after = glass_of(row);
+        const auto glass = glass_of(row);
+        if (!glass)
+          return fail(row.line, fmt::format("'{}' and '{}' are no n_d and V_d; leave both out for air",
+                                            shortened(row.cell(3)), shortened(row.cell(5))));
+        surface.glass_after = *glass;
       }
       const auto diameter_mm = number_of(row.cell(4));
       if (!diameter_mm) return fail(row.line, "the fifth cell is no number; give the surface's diameter");
@@ -207,12 +206,13 @@ class Reader {
     }
   }
 
-  [[nodiscard]] static Glass glass_of(const Row& row) {
-    const auto n_d = number_of(row.cell(3));
+  // None for cells that are not empty and no numbers.
+  [[nodiscard]] static std::optional<Glass> glass_of(const Row& row) {
+    const auto n_d = number_of(row.cell(3)), v_d = number_of(row.cell(5));
+    if ((!n_d && !row.cell(3).empty()) || (!v_d && !row.cell(5).empty())) return std::nullopt;
     if (!n_d || *n_d == 1.0) return air();
-    const auto v_d = number_of(row.cell(5));
-    if (!v_d) return {"", ConstantIndex{*n_d}};
-    return {"", AbbeGlass{*n_d, *v_d}};
+    if (!v_d) return Glass{"", ConstantIndex{*n_d}};
+    return Glass{"", AbbeGlass{*n_d, *v_d}};
   }
 
   // "5  27.197  -1.81201  5.0791E-06 ...": a surface, its radius, its conic constant, A4, A6 and so on.

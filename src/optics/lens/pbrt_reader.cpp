@@ -11,6 +11,7 @@
 
 #include "base/decode_text.h"
 #include "base/near_name.h"
+#include "base/trimmed.h"
 #include "contrejour/lens.h"
 #include "optics/lens/read_lens.h"
 #include "optics/lens/validate.h"
@@ -20,23 +21,18 @@ namespace {
 
 constexpr std::string_view kSpace = " \t\r\"";
 
-std::string_view trimmed(std::string_view text) {
-  const std::size_t first = text.find_first_not_of(kSpace);
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(kSpace) - first + 1);
-}
-
 // Exactly four finite numbers between spaces.
 std::optional<std::array<double, 4>> four_numbers(std::string_view line) {
   std::array<double, 4> numbers{};
   for (double& number : numbers) {
-    line = trimmed(line);
+    line = trimmed(line, kSpace);
     const auto [end, status] = std::from_chars(line.data(), line.data() + line.size(), number);
     if (status != std::errc{} || !std::isfinite(number)) return std::nullopt;
+    number += 0.0;  // -0 is 0
     line.remove_prefix(static_cast<std::size_t>(end - line.data()));
     if (!line.empty() && kSpace.find(line.front()) == std::string_view::npos) return std::nullopt;
   }
-  return trimmed(line).empty() ? std::optional(numbers) : std::nullopt;
+  return trimmed(line, kSpace).empty() ? std::optional(numbers) : std::nullopt;
 }
 
 // body(number, line without its comment, comment) for each line, until it returns false.
@@ -48,7 +44,7 @@ void for_each_line(std::string_view text, const Body& body) {
     text.remove_prefix(std::min(end + 1, text.size()));
     const std::size_t hash = line.find('#');
     const std::string_view comment = hash == std::string_view::npos ? std::string_view() : line.substr(hash + 1);
-    if (!body(number, trimmed(line.substr(0, hash)), trimmed(comment))) return;
+    if (!body(number, trimmed(line.substr(0, hash), kSpace), trimmed(comment, kSpace))) return;
   }
 }
 
@@ -116,7 +112,7 @@ Result<Prescription> read_pbrt(std::string_view text, const std::string& file) {
   if (error) return tl::unexpected(*error);
   if (lens.name.empty()) lens.name = "lens of PBRT";
   if (lens.source.empty()) lens.source = "a PBRT file that does not say it";
-  lens.f_number = 1.0;  // for now
+  lens.f_number = 1.0;  // a plausible one, so that all else is checked before the lens is traced
   if (const auto valid = validate(lens); !valid) return tl::unexpected(valid.error());
   const auto widest = widest_f_number(lens);
   if (!widest) return tl::unexpected(widest.error());
