@@ -72,6 +72,8 @@ struct Prescription {
   std::optional<double> sensor_distance_mm;  // last vertex -> sensor at infinity focus; default: paraxial focus
   StatedFigures stated;
   SourcePlace file;
+  // What a reader took otherwise than its file says it, or could not take from it: for people, with the line.
+  std::vector<std::string> warnings;
 };
 
 // What the f-number does to blades (docs/physics/diffraction.md).

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 
+#include "base/decode_text.h"
 #include "contrejour/first_order.h"
 #include "contrejour/lens.h"
 #include "optics/lens/read_lens.h"
@@ -23,7 +24,7 @@ const std::string kSample =
     "80 0 1 14";
 
 void check_refused(const std::string& text, int line, const std::string& words) {
-  const auto lens = read_pbrt(text, "a.dat");
+  const auto lens = read_pbrt({decode_text(text), "a.dat"});
   REQUIRE_FALSE(lens.has_value());
   CAPTURE(lens.error().to_string());
   CHECK(lens.error().message.find(words) != std::string::npos);
@@ -33,7 +34,7 @@ void check_refused(const std::string& text, int line, const std::string& words) 
 }  // namespace
 
 TEST_CASE("a PBRT lens in every detail") {
-  const auto lens = read_pbrt(kSample, "a.dat");
+  const auto lens = read_pbrt({decode_text(kSample), "a.dat"});
   REQUIRE_MESSAGE(lens.has_value(), (lens ? "" : lens.error().to_string()));
   CHECK(lens->name == "A SMALL LENS F/4");
   CHECK(lens->source == "of nowhere");

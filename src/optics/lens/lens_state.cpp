@@ -291,6 +291,7 @@ Result<LensState> lens_at(const Prescription& lens, const LensSettings& settings
 
   LensState state;
   state.name = lens.name;
+  state.warnings = lens.warnings;
   state.surfaces = place_surfaces(lens, thicknesses(lens, zoom->position, zoom->towards_next), settings.coating);
   const auto stop = std::find_if(lens.surfaces.begin(), lens.surfaces.end(),
                                  [](const Surface& s) { return s.kind == SurfaceKind::Stop; });

@@ -1,6 +1,5 @@
 // Optical Bench files of photonstophotos.net (docs/formats/optical-bench.md): sections in brackets, cells between tabs.
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -11,18 +10,17 @@
 
 #include <fmt/format.h>
 
-#include "base/decode_text.h"
 #include "base/near_name.h"
 #include "base/trimmed.h"
 #include "contrejour/lens.h"
+#include "optics/lens/complete.h"
+#include "optics/lens/plain_number.h"
 #include "optics/lens/read_lens.h"
-#include "optics/lens/validate.h"
 
 namespace contrejour {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kHuge = 1e9;  // no lens's number is larger
 constexpr std::size_t kMostCells = 64, kMostRows = 2000;
 
 struct Row {
@@ -48,12 +46,7 @@ std::vector<std::string_view> cells_of(std::string_view line) {
 
 // A number, or infinity by its name; none for "undefined" and all else.
 std::optional<double> number_of(std::string_view cell) {
-  if (cell == "Infinity") return kInfinity;
-  double value = 0.0;
-  const auto [end, status] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
-  if (cell.empty() || status != std::errc{} || end != cell.data() + cell.size() || !(std::abs(value) <= kHuge))
-    return std::nullopt;
-  return value + 0.0;  // -0 is 0
+  return cell == "Infinity" ? std::optional(kInfinity) : plain_number(cell);
 }
 
 class Reader {
@@ -71,8 +64,7 @@ class Reader {
     place_diaphragms();
     state_figures();
     if (error_) return tl::unexpected(*error_);
-    if (const auto valid = validate(lens_); !valid) return tl::unexpected(valid.error());
-    return lens_;
+    return completed(std::move(lens_));
   }
 
  private:
@@ -188,7 +180,7 @@ class Reader {
         if (!radius_mm || *radius_mm == 0.0)
           return fail(row.line,
                       fmt::format("'{}' is no radius; a number, Infinity, AS, FS or CG is known", shortened(radius)));
-        surface.curvature_per_mm = std::isinf(*radius_mm) ? 0.0 : 1.0 / *radius_mm;
+        surface.curvature_per_mm = curvature_of_radius(*radius_mm);
         const auto glass = glass_of(row);
         if (!glass)
           return fail(row.line, fmt::format("'{}' and '{}' are no n_d and V_d; leave both out for air",
@@ -294,9 +286,6 @@ class Reader {
 
 bool looks_like_optical_bench(std::string_view text) { return text.find("[lens data]") != std::string_view::npos; }
 
-Result<Prescription> read_optical_bench(std::string_view text, const std::string& file) {
-  const std::string decoded = decode_text(text);
-  return Reader(decoded, file).read();
-}
+Result<Prescription> read_optical_bench(const LensText& in) { return Reader(in.text, in.file).read(); }
 
 }  // namespace contrejour

@@ -2,35 +2,33 @@
 // diameter; a radius of 0 is the stop.
 #include <algorithm>
 #include <array>
-#include <charconv>
-#include <cmath>
 #include <optional>
 #include <string>
 
 #include <fmt/format.h>
 
-#include "base/decode_text.h"
 #include "base/near_name.h"
 #include "base/trimmed.h"
 #include "contrejour/lens.h"
+#include "optics/lens/complete.h"
+#include "optics/lens/plain_number.h"
 #include "optics/lens/read_lens.h"
-#include "optics/lens/validate.h"
 
 namespace contrejour {
 namespace {
 
 constexpr std::string_view kSpace = " \t\r\"";
 
-// Exactly four finite numbers between spaces.
+// Exactly four numbers between spaces.
 std::optional<std::array<double, 4>> four_numbers(std::string_view line) {
   std::array<double, 4> numbers{};
   for (double& number : numbers) {
     line = trimmed(line, kSpace);
-    const auto [end, status] = std::from_chars(line.data(), line.data() + line.size(), number);
-    if (status != std::errc{} || !std::isfinite(number)) return std::nullopt;
-    number += 0.0;  // -0 is 0
-    line.remove_prefix(static_cast<std::size_t>(end - line.data()));
-    if (!line.empty() && kSpace.find(line.front()) == std::string_view::npos) return std::nullopt;
+    const std::size_t end = std::min(line.find_first_of(kSpace), line.size());
+    const auto cell = plain_number(line.substr(0, end));
+    if (!cell) return std::nullopt;
+    number = *cell;
+    line.remove_prefix(end);
   }
   return trimmed(line, kSpace).empty() ? std::optional(numbers) : std::nullopt;
 }
@@ -58,19 +56,10 @@ Surface surface_of(const std::array<double, 4>& row, const Glass& medium, int li
   if (radius_mm == 0.0) {
     surface.kind = SurfaceKind::Stop;
   } else {
-    surface.curvature_per_mm = 1.0 / radius_mm;
+    surface.curvature_per_mm = curvature_of_radius(radius_mm);
     surface.glass_after = n == 1.0 ? air() : Glass{"", ConstantIndex{n}};
   }
   return surface;
-}
-
-// The files do not say it: that of the ray parallel to the axis that just passes the stop's whole opening.
-Result<double> widest_f_number(Prescription lens) {
-  constexpr double kWiderThanAny = 0.5;
-  lens.f_number = kWiderThanAny;
-  const auto state = lens_at(lens);
-  if (!state) return tl::unexpected(state.error());
-  return state->f_number;
 }
 
 }  // namespace
@@ -86,12 +75,12 @@ bool looks_like_pbrt(std::string_view text) {
   return is;
 }
 
-Result<Prescription> read_pbrt(std::string_view text, const std::string& file) {
+Result<Prescription> read_pbrt(const LensText& in) {
   Prescription lens;
-  lens.file = {file, 0, 0};
+  lens.file = {in.file, 0, 0};
   std::optional<Error> error;
   Glass medium = air();
-  for_each_line(decode_text(text), [&](int number, std::string_view line, std::string_view comment) {
+  for_each_line(in.text, [&](int number, std::string_view line, std::string_view comment) {
     if (line.empty()) {  // headings: what it is, then where it is from
       std::string& to = lens.name.empty() ? lens.name : lens.source;
       const bool heading = lens.surfaces.empty() && !comment.empty() && !comment.starts_with("radius");
@@ -102,7 +91,7 @@ Result<Prescription> read_pbrt(std::string_view text, const std::string& file) {
     if (!row) {
       error = Error{ErrorCode::Parse,
                     fmt::format("'{}' is not a surface; give radius, gap, index and diameter", shortened(line)),
-                    {file, number, 0}};
+                    {in.file, number, 0}};
       return false;
     }
     lens.surfaces.push_back(surface_of(*row, medium, number));
@@ -112,13 +101,7 @@ Result<Prescription> read_pbrt(std::string_view text, const std::string& file) {
   if (error) return tl::unexpected(*error);
   if (lens.name.empty()) lens.name = "lens of PBRT";
   if (lens.source.empty()) lens.source = "a PBRT file that does not say it";
-  lens.f_number = 1.0;  // a plausible one, so that all else is checked before the lens is traced
-  if (const auto valid = validate(lens); !valid) return tl::unexpected(valid.error());
-  const auto widest = widest_f_number(lens);
-  if (!widest) return tl::unexpected(widest.error());
-  lens.f_number = *widest;
-  if (const auto valid = validate(lens); !valid) return tl::unexpected(valid.error());
-  return lens;
+  return completed(std::move(lens));  // the f-number is nowhere told
 }
 
 }  // namespace contrejour

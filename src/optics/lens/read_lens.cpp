@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "base/decode_text.h"
 #include "base/near_name.h"
 #include "base/text_file.h"
 #include "contrejour/lens.h"
@@ -34,27 +35,50 @@ bool looks_like_toml(std::string_view text) {
   return false;
 }
 
+// The first format that knows a text as its own reads it, so those that are surest of theirs come first.
+struct LensFormat {
+  std::string_view name;
+  bool (*looks_like)(std::string_view text);
+  Result<Prescription> (*read)(const LensText& in);
+};
+
+Result<Prescription> read_ours(const LensText& in) { return read_lens_toml(in.text, in.file, in.glasses); }
+
+constexpr LensFormat kFormats[] = {
+    {"Optical Bench", looks_like_optical_bench, read_optical_bench},
+    {"our TOML", looks_like_toml, read_ours},
+    {"PBRT", looks_like_pbrt, read_pbrt},
+};
+
+std::string format_names() {
+  std::string names;
+  for (const LensFormat& format : kFormats) names += (names.empty() ? "" : ", ") + std::string(format.name);
+  return names;
+}
+
 }  // namespace
 
 Result<Prescription> read_lens(const std::filesystem::path& file, const GlassCatalogue* glasses) {
-  const auto text = read_text_file(file, kMaxLensFileBytes, "see the bundled lenses by `contrejour lens list`");
-  if (!text) return tl::unexpected(text.error());
+  const auto bytes = read_text_file(file, kMaxLensFileBytes, "see the bundled lenses by `contrejour lens list`");
+  if (!bytes) return tl::unexpected(bytes.error());
   const std::string name = file.string();
-  if (text->empty()) return failure(ErrorCode::Parse, "the file is empty; give a lens file", {name, 0, 0});
-  if (text->find('\0') != std::string::npos) {
+  if (bytes->empty()) return failure(ErrorCode::Parse, "the file is empty; give a lens file", {name, 0, 0});
+  const bool is_toml = extension_of(file) == ".toml";
+  const std::string text = is_toml ? *bytes : decode_text(*bytes);
+  if (text.find('\0') != std::string::npos) {
     return failure(ErrorCode::Parse,
                    "not a lens file that is known: it is binary; give a TOML lens file "
                    "(docs/formats/lens-toml.md)",
                    {name, 0, 0});
   }
-  if (looks_like_optical_bench(*text)) return read_optical_bench(*text, name);
-  if (extension_of(file) == ".toml" || looks_like_toml(*text)) return read_lens_toml(*text, name, glasses);
-  if (looks_like_pbrt(*text)) return read_pbrt(*text, name);
-  const std::string first_line = text->substr(0, text->find('\n'));
+  const LensText in{text, name, glasses};
+  if (is_toml) return read_ours(in);
+  for (const LensFormat& format : kFormats)
+    if (format.looks_like(text)) return format.read(in);
   return failure(ErrorCode::Parse,
-                 fmt::format("not a lens file that is known: it begins with '{}'; give a TOML lens "
-                             "file, or one of Optical Bench or PBRT (docs/formats)",
-                             shortened(first_line)),
+                 fmt::format("not a lens file that is known: it begins with '{}'; formats that are read are {} "
+                             "(docs/formats)",
+                             shortened(text.substr(0, text.find('\n'))), format_names()),
                  {name, 1, 0});
 }
 

@@ -12,11 +12,18 @@ namespace contrejour {
 // The largest real prescriptions take a few kB; the bound keeps hostile files cheap.
 inline constexpr std::size_t kMaxLensFileBytes = 1'000'000;
 
-// Each format: what its files look like, and its reader.
+// What a reader is given.
+struct LensText {
+  std::string_view text;  // UTF-8, whatever the file was in
+  std::string file;       // names it in errors
+  const GlassCatalogue* glasses = nullptr;  // the user's own, if any
+};
+
+// Each format other than ours: what its files look like, and its reader.
 [[nodiscard]] bool looks_like_optical_bench(std::string_view text);
-[[nodiscard]] Result<Prescription> read_optical_bench(std::string_view text, const std::string& file);
+[[nodiscard]] Result<Prescription> read_optical_bench(const LensText& in);
 
 [[nodiscard]] bool looks_like_pbrt(std::string_view text);
-[[nodiscard]] Result<Prescription> read_pbrt(std::string_view text, const std::string& file);
+[[nodiscard]] Result<Prescription> read_pbrt(const LensText& in);
 
 }  // namespace contrejour

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <set>
 #include <span>
 
@@ -11,6 +10,7 @@
 
 #include "base/near_name.h"
 #include "contrejour/lens.h"
+#include "optics/lens/rims.h"
 
 namespace contrejour {
 
@@ -31,9 +31,6 @@ constexpr double kMaxTurn_rad = 1e3;    // beyond, angles lose digits
 constexpr double kLeastUpright = 0.5;   // z of a surface's axis
 constexpr double kMaxFNumber = 1000.0;
 constexpr double kMinFNumber = 0.4;  // 0.5 is the limit of an aplanat in air; patents round
-
-// Vertices and rims may touch: patents give thicknesses to 1 um at best, and their rounding must not refuse a lens.
-constexpr double kTouch_mm = 1e-3;
 
 // Where a rule was broken: the row of surface `index`, with its number for people.
 struct RowFailure {
@@ -128,84 +125,25 @@ Result<void> check_rows(const Prescription& lens) {
   return {};
 }
 
-// Distance of the sphere from its vertex plane at height h, |c| h <= 1.
-double sag_mm(double curvature_per_mm, double h_mm) {
-  const double ch = curvature_per_mm * h_mm;
-  return ch * h_mm / (1.0 + std::sqrt(std::max(0.0, 1.0 - ch * ch)));
-}
-
-// The gap between two surfaces at the smaller of their rims. It grows or falls steadily with height (so does
-// a sphere's slope with its curvature), and at the axis it is a thickness: the rim is the only place to look.
-double rim_gap_mm(const Surface& front, const Surface& back, double thickness_mm) {
-  const double h_mm = std::min(front.semi_diameter_mm, back.semi_diameter_mm);
-  return thickness_mm + sag_mm(back.curvature_per_mm, h_mm) - sag_mm(front.curvature_per_mm, h_mm);
-}
-
-// Height of a surface of any shape, moved and (by so little that its sag's foot stays where it is) tilted.
-std::optional<double> height_mm(const Surface& s, Vec2 at_mm) {
-  const Vec2 from = at_mm - Vec2{s.pose.shift_mm.x, s.pose.shift_mm.y};
-  const auto point = surface_at(s.curvature_per_mm, s.shape, from);
-  if (!point) return std::nullopt;
-  const Vec3 axis = s.pose.axis;
-  return s.pose.shift_mm.z + point->sag_mm - (axis.x * from.x + axis.y * from.y) / axis.z;
-}
-
-struct Gap {
-  double gap_mm = 0, height_mm = 0;
-};
-
-// Surfaces of which one is no sphere, or stands askew, are nearest to each other anywhere.
-Gap smallest_gap(const Surface& front, const Surface& back, double thickness_mm) {
-  constexpr int kRings = 32, kSpokes = 24;
-  const double rim_mm = std::min(front.semi_diameter_mm, back.semi_diameter_mm);
-  Gap smallest{thickness_mm, 0.0};
-  for (int ring = 1; ring <= kRings; ++ring) {
-    for (int spoke = 0; spoke < kSpokes; ++spoke) {
-      const double r_mm = rim_mm * ring / kRings;
-      const double angle = 2.0 * std::numbers::pi * spoke / kSpokes;
-      const Vec2 at{r_mm * std::cos(angle), r_mm * std::sin(angle)};
-      const auto from = height_mm(front, at), to = height_mm(back, at);
-      if (!from || !to) continue;
-      const double gap_mm = thickness_mm + *to - *from;
-      if (gap_mm < smallest.gap_mm) smallest = {gap_mm, r_mm};
-    }
-  }
-  return smallest;
-}
-
-bool is_plain(const Surface& s) { return s.shape.is_sphere() && s.pose == SurfacePose{}; }
-
 Result<void> check_pair(const Prescription& lens, std::size_t front, std::size_t back, double thickness_mm,
                         const std::string& where) {
   const Surface &before = lens.surfaces[front], &behind = lens.surfaces[back];
   const Gap smallest =
-      is_plain(before) && is_plain(behind)
-          ? Gap{rim_gap_mm(before, behind, thickness_mm), std::min(before.semi_diameter_mm, behind.semi_diameter_mm)}
-          : smallest_gap(before, behind, thickness_mm);
-  const double gap_mm = smallest.gap_mm, h_mm = smallest.height_mm;
-  if (gap_mm >= -kTouch_mm) return {};
+      smallest_gap(before, behind, thickness_mm, std::min(before.semi_diameter_mm, behind.semi_diameter_mm));
+  if (smallest.gap_mm >= -kTouch_mm) return {};
   return RowFailure{lens}.at(back, fmt::format("it crosses surface {} by {:.3g} mm inside the clear aperture (at "
                                                "height {:.6g} mm{}); make a semi-diameter smaller or check the "
                                                "radii and the thickness",
-                                               front + 1, -gap_mm, h_mm, where));
+                                               front + 1, -smallest.gap_mm, smallest.height_mm, where));
 }
 
-// Neighbouring refracting surfaces. The stop is no matter: design programs put its plane at the vertex of a
-// surface, where a concave one reaches through it.
 Result<void> check_crossings(const Prescription& lens, std::span<const double> thickness_mm, const std::string& where) {
-  std::optional<std::size_t> front;
-  double gap_mm = 0.0;
-  for (std::size_t i = 0; i < lens.surfaces.size(); ++i) {
-    if (lens.surfaces[i].kind == SurfaceKind::Refracting) {
-      if (front) {
-        if (const auto pair = check_pair(lens, *front, i, gap_mm, where); !pair) return pair;
-      }
-      front = i;
-      gap_mm = 0.0;
-    }
-    gap_mm += thickness_mm[i];
-  }
-  return {};
+  Result<void> checked;
+  for_each_neighbours(lens.surfaces, thickness_mm, [&](std::size_t front, std::size_t back, double gap_mm) {
+    checked = check_pair(lens, front, back, gap_mm, where);
+    return checked.has_value();
+  });
+  return checked;
 }
 
 std::set<int> gaps_of(const ZoomPosition& position) {
@@ -305,15 +243,6 @@ std::optional<std::string> glass_problem(const Glass& glass) {
 
 namespace {
 
-// At all heights: a toroid with a polynomial may end and begin again.
-bool reaches_rim(const Surface& surface) {
-  constexpr int kRings = 32;
-  for (int ring = 1; ring <= kRings; ++ring) {
-    if (!sag_range(surface.curvature_per_mm, surface.shape, surface.semi_diameter_mm * ring / kRings)) return false;
-  }
-  return true;
-}
-
 bool rising(const std::vector<double>& list, double low, double high) {
   for (std::size_t k = 0; k < list.size(); ++k)
     if (!within(list[k], low, high) || (k > 0 && !(list[k] > list[k - 1]))) return false;
@@ -378,7 +307,7 @@ std::optional<std::string> shape_problem(const Surface& surface) {
         "most",
         std::hypot(shift.x, shift.y), axis.x, axis.y, axis.z);
   }
-  if (!shape.is_sphere() && !reaches_rim(surface)) {
+  if (!shape.is_sphere() && !reaches(surface, surface.semi_diameter_mm)) {
     return fmt::format(
         "the surface ends before semi_diameter_mm {:.6g}: a root of its formula is of a negative number "
         "there; make the semi-diameter smaller or check the conic constant",
@@ -421,14 +350,10 @@ Result<void> validate(const Prescription& lens) {
   if (!lens.zoom.empty()) {
     if (const auto zoom = check_zoom(lens); !zoom) return zoom;
   }
-  std::vector<double> thickness_mm;
-  for (const Surface& surface : lens.surfaces) thickness_mm.push_back(surface.thickness_mm);
-  if (lens.zoom.empty()) return check_crossings(lens, thickness_mm, "");
-  for (const ZoomPosition& position : lens.zoom) {
-    for (const auto& [index, gap_mm] : position.thickness_mm) thickness_mm[static_cast<std::size_t>(index)] = gap_mm;
-    const auto crossings =
-        check_crossings(lens, thickness_mm, fmt::format(", zoomed to {:g} mm", position.focal_length_mm));
-    if (!crossings) return crossings;
+  const auto thicknesses = thicknesses_of(lens);
+  for (std::size_t z = 0; z < thicknesses.size(); ++z) {
+    const std::string where = lens.zoom.empty() ? "" : fmt::format(", zoomed to {:g} mm", lens.zoom[z].focal_length_mm);
+    if (const auto crossings = check_crossings(lens, thicknesses[z], where); !crossings) return crossings;
   }
   return {};
 }
