@@ -68,6 +68,8 @@ PUBLIC = {
     "ringing.h": "render/screens",
     "spectrum_file.h": "image",
     "starburst.h": "diffraction",
+    "clear_aperture.h": "kernels",
+    "ghost_id.h": "lens",
     "surface_shape.h": "kernels",
     "trace.h": "trace",
     "vec.h": "base",

@@ -6,18 +6,19 @@
 
 #include "cli/command.h"
 #include "cli/console.h"
-#include "contrejour/ghost_figures.h"
 #include "cli/lens_choice.h"
 #include "cli/long_task.h"
 #include "cli/options.h"
 #include "cli/text_table.h"
+#include "contrejour/ghost_figures.h"
 #include "params/settings.h"
 
 namespace contrejour::cli {
 namespace {
 
 constexpr const char* kExamples =
-    "relative flux: the ghost's flux over the direct image's, wherever it lands. peak: its largest irradiance over the\n"
+    "relative flux: the ghost's flux over the direct image's, wherever it lands. peak: its largest irradiance over "
+    "the\n"
     "light's at the front of the lens. Colours are relative to a white light. focus: from the sensor to where the\n"
     "ghost's near-axis light focuses, positive behind the sensor.\n\n"
     "Examples:\n"
@@ -30,11 +31,19 @@ struct GhostsOptions {
   params::Values values;
 };
 
+// Pairs in the order of the reflections: of each pair the light meets the second first.
+Json surfaces_json(const Ghost& ghost) {
+  Json surfaces = {ghost.i, ghost.j};
+  if (ghost.reflects_four_times()) surfaces.insert(surfaces.end(), {ghost.k, ghost.l});
+  return surfaces;
+}
+
 Json ghosts_json(const LensState& lens, const FiguresRequest& request, const std::vector<GhostFigures>& figures) {
   const LightAngles angles = angles_from_direction(request.light.direction);
   Json ghosts = Json::array();
   for (const GhostFigures& g : figures) {
-    ghosts.push_back({{"surfaces", {g.ghost.i, g.ghost.j}},
+    ghosts.push_back({{"surfaces", surfaces_json(g.ghost)},
+                      {"order", g.ghost.order},
                       {"relative_flux", g.relative_flux},
                       {"peak_irradiance", g.peak_irradiance},
                       {"centroid_px", {g.centroid_px.x, g.centroid_px.y}},
@@ -43,22 +52,25 @@ Json ghosts_json(const LensState& lens, const FiguresRequest& request, const std
                       {"paraxial_focus_mm", g.paraxial_focus_mm ? Json(*g.paraxial_focus_mm) : Json()}});
   }
   return {{"lens", lens.name},
-          {"light", {{"azimuth_deg", angles.azimuth_rad / params::kDegree_rad},
-                     {"elevation_deg", angles.elevation_rad / params::kDegree_rad}}},
-          {"frame", {{"width", request.frame.width},
-                     {"height", request.frame.height},
-                     {"pixel_pitch_mm", request.frame.pixel_pitch_mm}}},
+          {"light",
+           {{"azimuth_deg", angles.azimuth_rad / params::kDegree_rad},
+            {"elevation_deg", angles.elevation_rad / params::kDegree_rad}}},
+          {"frame",
+           {{"width", request.frame.width},
+            {"height", request.frame.height},
+            {"pixel_pitch_mm", request.frame.pixel_pitch_mm}}},
           {"ghosts", ghosts}};
 }
 
 std::string ghosts_text(const std::vector<GhostFigures>& figures) {
-  TextTable table({"ghost", "relative flux", "peak", "x px", "y px", "width px", "height px", "R", "G", "B", "focus mm"});
+  TextTable table(
+      {"ghost", "relative flux", "peak", "x px", "y px", "width px", "height px", "R", "G", "B", "focus mm"});
   for (const GhostFigures& g : figures) {
     const auto number = [](double value) { return fmt::format("{:.3g}", value); };
     const auto place = [](double value) { return fmt::format("{:.1f}", value); };
-    table.add({fmt::format("{}-{}", g.ghost.i, g.ghost.j), number(g.relative_flux), number(g.peak_irradiance),
-               place(g.centroid_px.x), place(g.centroid_px.y), place(g.size_px.x), place(g.size_px.y), number(g.rgb[0]),
-               number(g.rgb[1]), number(g.rgb[2]), g.paraxial_focus_mm ? place(*g.paraxial_focus_mm) : "-"});
+    table.add({ghost_name(g.ghost), number(g.relative_flux), number(g.peak_irradiance), place(g.centroid_px.x),
+               place(g.centroid_px.y), place(g.size_px.x), place(g.size_px.y), number(g.rgb[0]), number(g.rgb[1]),
+               number(g.rgb[2]), g.paraxial_focus_mm ? place(*g.paraxial_focus_mm) : "-"});
   }
   return table.text();
 }
@@ -78,6 +90,7 @@ Result<int> run_ghosts(const GhostsOptions& options) {
   if (!lights) return tl::unexpected(lights.error());
   request.light = lights->front();
   request.scope = *values.text("ghosts") == "all" ? GhostScope::All : GhostScope::OneSideOfStop;
+  request.reflections = params::reflections(values);
   request.bands = bands_for(values, request.light);
   const LongTask task("measuring", values.integer("threads"));
   const auto figures = ghost_figures(*lens, request, task.context());
@@ -99,7 +112,8 @@ void add_ghosts(CLI::App& app, Action& action) {
   command->add_flag("--json", options->json, "as JSON");
   add_parameters(*command, options->values, {"light", "light-at", "colour", "light-distance"});
   add_lens_parameters(*command, options->values);
-  add_parameters(*command, options->values, {"wavelength", "size", "hfov", "wavelengths", "ghosts", "threads"});
+  add_parameters(*command, options->values,
+                 {"wavelength", "size", "hfov", "wavelengths", "ghosts", "reflections", "threads"});
   command->footer(kExamples);
   command->callback([options, &action] {
     if (options->values.list("light").size() + options->values.list("light-at").size() > 1) {

@@ -40,12 +40,10 @@ CLI::Option* add_ghost_option(CLI::App& command, std::string& ghost, const std::
 
 Result<Ghost> choose_ghost(const LensState& lens, const std::string& text) {
   const Ghost ghost = *params::parse_ghost(text);
-  for (const Ghost& known : enumerate_ghosts(lens, GhostScope::All)) {
-    if (known == ghost) return ghost;
-  }
+  if (has_ghost(lens, ghost)) return ghost;
   return failure(ErrorCode::InvalidArgument,
-                 fmt::format("there is no ghost {}-{}: the lens has {} surfaces and number {}, the stop, does not reflect",
-                             ghost.i, ghost.j, lens.surfaces.size(), lens.stop_index + 1));
+                 fmt::format("there is no ghost {}: the lens has {} surfaces and number {}, the stop, does not reflect",
+                             ghost_name(ghost), lens.surfaces.size(), lens.stop_index + 1));
 }
 
 double wavelength_nm(const params::Values& values, const LensState& lens) {

@@ -18,9 +18,11 @@ namespace contrejour::cli {
 namespace {
 
 constexpr const char* kExamples =
-    "Indices and figures are for --wavelength; n_d is always for the d line. A plane has no radius. The last surface's\n"
+    "Indices and figures are for --wavelength; n_d is always for the d line. A plane has no radius. The last "
+    "surface's\n"
     "thickness leads to the sensor. Positions are measured as DESIGN says: entrance pupil and front focal point from\n"
-    "surface 1, back focus and sensor from the last surface, exit pupil from the sensor; positive towards the image.\n\n"
+    "surface 1, back focus and sensor from the last surface, exit pupil from the sensor; positive towards the "
+    "image.\n\n"
     "Examples:\n"
     "  contrejour lens info heliar\n"
     "  contrejour lens info canon-70-200 --focal 135 -f 4 --focus 3m --json";
@@ -71,6 +73,13 @@ Json shape_json(double curvature_per_mm, const SurfaceShape& shape) {
   return out;
 }
 
+Json aperture_json(const ClearAperture& a) {
+  return {{"kind", a.kind == ApertureKind::Ellipse ? "ellipse" : "rectangle"},
+          {"half_mm", {a.half_mm.x, a.half_mm.y}},
+          {"centre_mm", {a.centre_mm.x, a.centre_mm.y}},
+          {"turn_deg", a.turn_rad / params::kDegree_rad}};
+}
+
 // Of the other section's radius too, where that is another.
 std::string shape_text(const SurfaceState& s) {
   std::string text = shape_name(s.curvature_per_mm, s.shape);
@@ -78,7 +87,12 @@ std::string shape_text(const SurfaceState& s) {
     const double c = s.shape.curvature_x_per_mm;
     text += c == 0.0 ? ", x plane" : fmt::format(", x {:.4f}", 1.0 / c);
   }
-  return s.is_centred() ? text : text + (text.empty() ? "askew" : ", askew");
+  const auto add = [&](const std::string& more) { text += (text.empty() ? "" : ", ") + more; };
+  if (s.aperture.kind != ApertureKind::Disc)
+    add(fmt::format("{} {:.4g} x {:.4g}", s.aperture.kind == ApertureKind::Ellipse ? "ellipse" : "rectangle",
+                    2.0 * s.aperture.half_mm.x, 2.0 * s.aperture.half_mm.y));
+  if (!s.is_centred()) add("askew");
+  return text;
 }
 
 Json surfaces_json(const Info& info) {
@@ -87,16 +101,17 @@ Json surfaces_json(const Info& info) {
     const SurfaceState& s = info.state.surfaces[k];
     const bool plane = s.curvature_per_mm == 0.0;
     Json row = {{"index", k + 1},
-                    {"kind", s.kind == SurfaceKind::Stop ? "stop" : "refracting"},
-                    {"radius_mm", plane ? Json() : Json(1.0 / s.curvature_per_mm)},
-                    {"curvature_per_mm", s.curvature_per_mm},
-                    {"thickness_mm", thickness_mm(info.state, k)},
-                    {"semi_diameter_mm", s.semi_diameter_mm},
-                    {"glass", glass_name(s.after)},
-                    {"n_d", refractive_index(s.after, kLineD_nm)},
-                    {"n", refractive_index(s.after, info.lambda_nm)},
-                    {"coating", describe(s.coating)}};
+                {"kind", s.kind == SurfaceKind::Stop ? "stop" : "refracting"},
+                {"radius_mm", plane ? Json() : Json(1.0 / s.curvature_per_mm)},
+                {"curvature_per_mm", s.curvature_per_mm},
+                {"thickness_mm", thickness_mm(info.state, k)},
+                {"semi_diameter_mm", s.semi_diameter_mm},
+                {"glass", glass_name(s.after)},
+                {"n_d", refractive_index(s.after, kLineD_nm)},
+                {"n", refractive_index(s.after, info.lambda_nm)},
+                {"coating", describe(s.coating)}};
     if (!s.shape.is_sphere()) row["shape"] = shape_json(s.curvature_per_mm, s.shape);
+    if (s.aperture.kind != ApertureKind::Disc) row["aperture"] = aperture_json(s.aperture);
     if (!s.is_centred()) {
       row["decentre_mm"] = {s.pose.shift_mm.x, s.pose.shift_mm.y, s.pose.shift_mm.z};
       row["axis"] = {s.pose.axis.x, s.pose.axis.y, s.pose.axis.z};
@@ -135,18 +150,25 @@ Json info_json(const Info& info) {
 }
 
 std::string surfaces_text(const Info& info) {
-  const auto has_news = [](const SurfaceState& s) { return !s.shape.is_sphere() || !s.is_centred(); };
+  const auto has_news = [](const SurfaceState& s) {
+    return !s.shape.is_sphere() || !s.is_centred() || s.aperture.kind != ApertureKind::Disc;
+  };
   const bool all_plain = std::none_of(info.state.surfaces.begin(), info.state.surfaces.end(), has_news);
-  std::vector<std::string> headings{"surface", "radius mm", "thickness mm", "semi-diameter mm", "<glass behind", "n", "<coating"};
+  std::vector<std::string> headings{"surface",       "radius mm", "thickness mm", "semi-diameter mm",
+                                    "<glass behind", "n",         "<coating"};
   if (!all_plain) headings.emplace_back("<shape");
   TextTable table(headings);
   for (std::size_t k = 0; k < info.state.surfaces.size(); ++k) {
     const SurfaceState& s = info.state.surfaces[k];
     const bool stop = s.kind == SurfaceKind::Stop;
     const std::string radius = s.curvature_per_mm == 0.0 ? "plane" : fmt::format("{:.4f}", 1.0 / s.curvature_per_mm);
-    std::vector<std::string> row{fmt::format("{}", k + 1), stop ? "stop" : radius, fmt::format("{:.4f}", thickness_mm(info.state, k)),
-               fmt::format("{:.3f}", stop ? info.state.stop_radius_mm : s.semi_diameter_mm), glass_name(s.after),
-               fmt::format("{:.6f}", refractive_index(s.after, info.lambda_nm)), stop ? "" : describe(s.coating)};
+    std::vector<std::string> row{fmt::format("{}", k + 1),
+                                 stop ? "stop" : radius,
+                                 fmt::format("{:.4f}", thickness_mm(info.state, k)),
+                                 fmt::format("{:.3f}", stop ? info.state.stop_radius_mm : s.semi_diameter_mm),
+                                 glass_name(s.after),
+                                 fmt::format("{:.6f}", refractive_index(s.after, info.lambda_nm)),
+                                 stop ? "" : describe(s.coating)};
     if (!all_plain) row.push_back(shape_text(s));
     table.add(std::move(row));
   }
@@ -170,8 +192,8 @@ std::string figures_text(const Info& info) {
   add("exit pupil", f.exit_pupil_position_mm, "mm from the sensor");
   add("  diameter", f.exit_pupil_diameter_mm, "mm");
   add("f-number", f.f_number, "");
-  add("sensor", f.sensor_position_mm, fmt::format("mm from the last surface, {:g} x {:g} mm", info.state.sensor_width_mm,
-                                                  info.state.sensor_height_mm));
+  add("sensor", f.sensor_position_mm,
+      fmt::format("mm from the last surface, {:g} x {:g} mm", info.state.sensor_width_mm, info.state.sensor_height_mm));
   add("half field", f.half_field_rad / params::kDegree_rad, "degrees, corner");
   const std::string text = table.text();
   return text.substr(text.find('\n') + 1);  // no headings

@@ -115,6 +115,7 @@ Result<int> run_trace(const TraceOptions& options) {
   if (!path) return tl::unexpected(path.error());
   const std::vector<double> r = *params::parse_reals(options.ray, 6);
   traced.record = trace_recorded(*path, {{r[0], r[1], r[2]}, unit_vector(r[3], r[4], r[5])});
+  std::erase_if(traced.record.steps, [](const TraceStep& step) { return step.is_rim_only; });
   traced.outside = blocked_by(traced.record.ray, *path, lens->iris);
   if (options.json) {
     print_json(traced_json(traced));

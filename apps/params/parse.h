@@ -56,7 +56,7 @@ struct LightText {
 
 // "all", "brightest:N", "flux:P", "surface:K", "list:1-2,3-4".
 [[nodiscard]] Result<GhostSelection> parse_selection(std::string_view text);
-[[nodiscard]] Result<Ghost> parse_ghost(std::string_view text);  // "2,5" or "2-5"
+[[nodiscard]] Result<Ghost> parse_ghost(std::string_view text);  // "2-5" or "2,5"; "2-5-1-4", "7-12@1,-2": ghost_name()
 
 // "2-5:gain=0.5,colour=1,0.8,0.6,offset=0.01,-0.02"; each part may be left out.
 [[nodiscard]] Result<GhostAdjustment> parse_ghost_adjustment(std::string_view text);
@@ -68,5 +68,8 @@ struct LightText {
 
 // "none", "quarter-wave[:NM[:N]]", "hullin[:NM[:N]]", "stack:N@NM,N@NM,..." from air to glass.
 [[nodiscard]] Result<Coating> parse_coating(std::string_view text);
+
+// A plane plate in front of the sensor: "2", "2:N-BK7", "2:1.52:0.8": mm thick, glass or index (N-BK7), gap behind (1).
+[[nodiscard]] Result<SensorPlate> parse_cover_glass(std::string_view text);
 
 }  // namespace contrejour::params

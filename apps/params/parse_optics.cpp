@@ -7,6 +7,7 @@
 #include <fmt/ranges.h>
 
 #include "contrejour/film_design.h"
+#include "contrejour/glass_catalogue.h"
 #include "contrejour/spectrum_file.h"
 #include "params/parse.h"
 
@@ -153,13 +154,35 @@ Result<LightText> parse_light(std::string_view text) {
 }
 
 Result<Ghost> parse_ghost(std::string_view text) {
-  auto parts = split(text, text.find(',') != std::string_view::npos ? ',' : '-');
-  if (parts.size() == 2) {
-    const auto i = parse_integer(parts[0]);
-    const auto j = parse_integer(parts[1]);
-    if (i && j && *i >= 1 && *i < *j) return Ghost{*i, *j};
+  const std::size_t at = text.find('@');
+  const std::string_view surfaces = text.substr(0, at);
+  const auto parts = split(surfaces, surfaces.find(',') != std::string_view::npos ? ',' : '-');
+  std::vector<int> numbers;
+  for (const std::string_view part : parts) {
+    const auto number = parse_integer(part);
+    numbers.push_back(number ? *number : 0);
   }
-  return invalid(fmt::format("\"{}\" is not a ghost; write its two surfaces, the smaller first, as in 2-5", text));
+  const auto fits = [&](std::size_t k) { return numbers[k] >= 1 && numbers[k] < numbers[k + 1]; };
+  Ghost ghost;
+  bool good = (numbers.size() == 2 || numbers.size() == 4) && fits(0);
+  if (good) ghost = {numbers[0], numbers[1]};
+  if (good && numbers.size() == 4) {
+    good = fits(2);
+    ghost.k = numbers[2];
+    ghost.l = numbers[3];
+  }
+  if (good && at != std::string_view::npos) {
+    const auto orders = split(text.substr(at + 1), ',');
+    const auto x = parse_integer(orders[0]);
+    const auto y = orders.size() == 2 ? parse_integer(orders[1]) : x;
+    good = orders.size() == 2 && x && y;
+    if (good) ghost.order = {*x, *y};
+  }
+  if (good) return ghost;
+  return invalid(
+      fmt::format("\"{}\" is not a ghost; write its two surfaces, the smaller first, as in 2-5; of four "
+                  "reflections both pairs, as in 2-5-1-4; an order at the sensor as in 7-12@1,-2",
+                  text));
 }
 
 Result<GhostAdjustment> parse_ghost_adjustment(std::string_view text) {
@@ -269,6 +292,30 @@ Result<Coating> parse_coating(std::string_view text) {
                     text, fmt::join(coating_design_names(), ", ")));
   }
   return coating;
+}
+
+Result<SensorPlate> parse_cover_glass(std::string_view text) {
+  const auto parts = split(text, ':');
+  SensorPlate plate;
+  const auto thickness_mm = parse_real(parts[0]);
+  const std::string glass(parts.size() > 1 ? parts[1] : "N-BK7");
+  const auto gap_mm = parts.size() > 2 ? parse_real(parts[2]) : Result<double>(plate.gap_mm);
+  if (!thickness_mm || !gap_mm || parts.size() > 3) {
+    return invalid(
+        fmt::format("\"{}\" is no plate; write its thickness in mm, and if you like its glass or index and "
+                    "the gap behind it, as in 2, 2:N-BK7 or 2:1.52:0.8",
+                    text));
+  }
+  plate.thickness_mm = *thickness_mm;
+  plate.gap_mm = *gap_mm;
+  if (const auto n = parse_real(glass)) {
+    plate.glass = {glass, ConstantIndex{*n}};
+    return plate;
+  }
+  auto entry = bundled_glasses().find(glass);
+  if (!entry) return tl::unexpected(entry.error());
+  plate.glass = std::move(entry->glass);
+  return plate;
 }
 
 }  // namespace contrejour::params

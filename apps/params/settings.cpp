@@ -131,6 +131,16 @@ Result<LensSettings> lens_settings(const Values& values) {
   auto lying = dirt(values);
   if (!lying) return tl::unexpected(lying.error());
   settings.dirt = std::move(*lying);
+  settings.absorption = values.is_on("absorption");
+  for (const std::string& text : values.list("cover-glass")) {
+    const auto plate = parse_cover_glass(text);
+    if (!plate) return tl::unexpected(plate.error());
+    settings.sensor.plates.push_back(*plate);
+  }
+  settings.sensor.reflectance = values.number("sensor-reflectance");
+  settings.sensor.orders = values.integer("sensor-orders");
+  settings.sensor.pitch_mm = values.number("sensor-pitch") * 1e-3;
+  settings.sensor.fill = values.number("sensor-fill");
   return settings;
 }
 
@@ -148,10 +158,15 @@ ColourSpace colour_space(const Values& values, ColourSpace otherwise) {
   return *name == "acescg" ? ColourSpace::AcesCg : ColourSpace::Rec709;
 }
 
+Reflections reflections(const Values& values) {
+  return *values.text("reflections") == "4" ? Reflections::UpToFour : Reflections::Two;
+}
+
 RenderSettings render_settings(const Values& values, const Frame& frame, ColourSpace space) {
   RenderSettings settings;
   settings.frame = frame;
   settings.scope = *values.text("ghosts") == "all" ? GhostScope::All : GhostScope::OneSideOfStop;
+  settings.reflections = reflections(values);
   settings.selection = *parse_selection(*values.text("select"));
   settings.wavelengths = values.integer("wavelengths");
   settings.colour_space = space;

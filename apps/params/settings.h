@@ -21,6 +21,8 @@ inline constexpr double kDegree_rad = 0.017453292519943295;
 // A whole frame of these pixels: on the lens's sensor, or as wide as --hfov says.
 [[nodiscard]] Frame whole_frame(const Values& values, const LensState& lens, PixelSize size);
 
+[[nodiscard]] Reflections reflections(const Values& values);
+
 [[nodiscard]] ColourSpace colour_space(const Values& values, ColourSpace otherwise);
 [[nodiscard]] RenderSettings render_settings(const Values& values, const Frame& frame, ColourSpace space);
 

@@ -7,6 +7,7 @@
 
 #include <span>
 
+#include "contrejour/ghost_id.h"
 #include "contrejour/lens.h"
 
 namespace contrejour {
@@ -24,8 +25,9 @@ struct Abcd {
 [[nodiscard]] Abcd abcd_between(std::span<const SurfaceState> surfaces, int first, int last, double lambda_nm,
                                 Section section = Section::Y);
 
-// From surface 1 to the sensor plane along a two-reflection path: j reflects first, then i < j (1-based).
-[[nodiscard]] Abcd abcd_ghost(const LensState& lens, int i, int j, double lambda_nm, Section section = Section::Y);
+// From surface 1 to the sensor plane along a ghost's path, of the order 0 at the sensor.
+[[nodiscard]] Abcd abcd_ghost(const LensState& lens, const Ghost& ghost, double lambda_nm,
+                              Section section = Section::Y);
 
 // Of the y-z section; the f-number and the pupils' diameters are its own too.
 struct FirstOrder {

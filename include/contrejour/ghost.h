@@ -12,12 +12,21 @@
 namespace contrejour {
 
 enum class GhostScope {
-  OneSideOfStop,  // both reflections on one side of the stop, crossed once: both papers' default
+  OneSideOfStop,  // the stop is crossed once (both reflections on one side of it): both papers' default
   All,            // every pair, the iris acting at every crossing
 };
 
-// Ordered by (i, j). The stop never reflects.
-[[nodiscard]] std::vector<Ghost> enumerate_ghosts(const LensState& lens, GhostScope scope);
+enum class Reflections {
+  Two,
+  UpToFour,  // ghosts of four besides, some (n / 2)^2 times as many; those that cross the stop five times left out
+};
+
+// Ordered by (i, j, k, l, order). The stop never reflects; a sensor that is a grating does in all its orders.
+[[nodiscard]] std::vector<Ghost> enumerate_ghosts(const LensState& lens, GhostScope scope,
+                                                  Reflections reflections = Reflections::Two);
+
+// Is it among those of the widest scope?
+[[nodiscard]] bool has_ghost(const LensState& lens, const Ghost& ghost);
 
 struct SelectAll {};
 struct SelectBrightest {

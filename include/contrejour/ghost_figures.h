@@ -26,6 +26,7 @@ struct FiguresRequest {
   Frame frame;
   Light light;                      // its value does not matter
   GhostScope scope = GhostScope::OneSideOfStop;
+  Reflections reflections = Reflections::Two;
   std::vector<SpectralBand> bands;  // weights of one wavelength: 1, 1, 1
 };
 

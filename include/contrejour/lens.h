@@ -13,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "contrejour/clear_aperture.h"
 #include "contrejour/coating.h"
 #include "contrejour/dirt.h"
 #include "contrejour/glass.h"
@@ -25,7 +26,11 @@ namespace contrejour {
 
 class GlassCatalogue;  // glass_catalogue.h
 
-enum class SurfaceKind { Refracting, Stop };
+enum class SurfaceKind {
+  Refracting,
+  Stop,
+  Sensor,  // of a LensState alone: light ends there, but for what it reflects
+};
 
 // How a surface stands that is not where a centred one would be.
 struct SurfacePose {
@@ -44,6 +49,7 @@ struct Surface {
   int source_line = 0;            // in the file it was read from, 0 unknown
   SurfaceShape shape = {};
   SurfacePose pose = {};          // decentred and tilted elements; those around stay where they are
+  ClearAperture aperture = {};    // within semi_diameter_mm; the stop's opening is the iris
 };
 
 // One position of a zoom: thicknesses (mm) that replace those of the surfaces, by vector index.
@@ -93,6 +99,27 @@ struct BuildErrors {
   static constexpr double kMostTilt_rad = 0.2;
 };
 
+// A plane plate in front of the sensor, in air: its cover glass, a filter.
+struct SensorPlate {
+  double thickness_mm = 1.0;
+  double gap_mm = 1.0;  // behind it, to the next plate or the sensor
+  Glass glass;
+  Coating coating;  // of both its sides
+};
+
+// What light meets behind the lens. The plates lengthen the way to the focus, and the sensor moves with it.
+struct SensorStack {
+  std::vector<SensorPlate> plates;  // from the lens to the sensor
+  double reflectance = 0.0;         // of the sensor's whole area, at all angles and wavelengths; 0: light ends there
+  // Its pixels as a grating of reflecting squares: orders up to this number in x and in y, each a ghost of its own.
+  int orders = 0;
+  double pitch_mm = 0.005;  // of the grating
+  double fill = 0.8;        // side of a square over the pitch
+
+  static constexpr int kMostOrders = 20;
+  static constexpr std::size_t kMostPlates = 10;
+};
+
 struct LensSettings {
   std::optional<double> focal_length_mm = std::nullopt;  // zoom; default: the first position
   std::optional<double> f_number = std::nullopt;  // default: the widest
@@ -102,6 +129,8 @@ struct LensSettings {
   IrisClosing iris_closing = IrisClosing::Scaled;  // Mechanism sets the iris's blade_radius
   BuildErrors build = {};
   Dirt dirt = {};
+  SensorStack sensor = {};
+  bool absorption = false;  // glass absorbs on the way through it, where its catalogue says how much
 };
 
 struct SurfaceState {
@@ -113,9 +142,19 @@ struct SurfaceState {
   Coating coating;
   SurfacePose pose = {};
   SurfaceShape shape = {};
+  ClearAperture aperture = {};
 
   [[nodiscard]] bool is_centred() const { return pose == SurfacePose{}; }
-  [[nodiscard]] bool has_axial_symmetry() const { return is_centred() && shape.has_axial_symmetry(); }
+  [[nodiscard]] bool has_axial_symmetry() const {
+    return is_centred() && shape.has_axial_symmetry() && aperture.kind == ApertureKind::Disc;
+  }
+};
+
+// The sensor's pixels as light sees them that they reflect (SensorStack).
+struct SensorGrating {
+  int orders = 0;
+  double pitch_mm = 0.005;
+  double fill = 0.8;
 };
 
 // Everything a renderer needs to know of the lens: fixed positions, stop radius, sensor in focus.
@@ -133,6 +172,8 @@ struct LensState {
   double f_number = 0.0;
   double object_distance_mm = std::numeric_limits<double>::infinity();
   double design_wavelength_nm = kLineD_nm;
+  bool absorption = false;
+  SensorGrating sensor_grating;
   std::vector<std::string> warnings;
 
   // Surfaces of revolution about one axis, so that one meridian tells all.
@@ -146,7 +187,7 @@ struct LensState {
 [[nodiscard]] Result<void> validate(const Prescription& lens);
 
 // Sets zoom (any focal length within the range), stop and focus. Errors: focal length or f-number out of
-// range, object inside the front focal point, an iris that lets nothing through, an iris or dirt that has numbers out
+// range, object inside the front focal point, a sensor stack that the lens leaves no room for, an iris that lets nothing through, an iris or dirt that has numbers out
 // of its range.
 [[nodiscard]] Result<LensState> lens_at(const Prescription& lens, const LensSettings& settings = {});
 

@@ -111,6 +111,7 @@ struct RingingOptions {
 struct RenderSettings {
   Frame frame;
   GhostScope scope = GhostScope::OneSideOfStop;
+  Reflections reflections = Reflections::Two;
   GhostSelection selection = SelectAll{};
   int wavelengths = 3;
   ColourSpace colour_space = ColourSpace::Rec709;

@@ -7,8 +7,10 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
+#include "contrejour/ghost_id.h"
 #include "contrejour/lens.h"
 #include "contrejour/light_source.h"
 #include "contrejour/vec.h"
@@ -16,13 +18,6 @@
 namespace contrejour {
 
 struct ShapeConstants;
-
-// Two-reflection path, surfaces count from 1, i < j: the light reflects first at j, then at i.
-struct Ghost {
-  int i = 0;
-  int j = 0;
-  friend auto operator<=>(const Ghost&, const Ghost&) = default;
-};
 
 // A line in space; the origin may lie anywhere on it.
 struct Ray {
@@ -53,6 +48,16 @@ struct PathStep {
   Coating coating;
   SurfacePose pose = {};
   std::shared_ptr<const ShapeConstants> shape = nullptr;  // none: a sphere or a plane
+  std::optional<Rim> rim = std::nullopt;  // in place of the semi-diameter's circle
+  bool is_rim_only = false;               // one more rim of the step that follows: it bends nothing
+  double absorption_per_mm = 0;           // of the medium the ray comes through
+  Vec2 kick;                              // of a grating that reflects: added to the direction's x and y
+  double share = 1;                       // of the reflected light, that goes this order's way
+
+  // Inside the rim where |place| <= 1; own_mm: beside the surface's own axis.
+  [[nodiscard]] Vec2 rim_place(Vec2 own_mm) const {
+    return rim ? rim->place(own_mm) : own_mm * (1.0 / semi_diameter_mm);
+  }
 };
 
 // A ghost's or the direct image's way through the lens at one wavelength.
@@ -93,6 +98,7 @@ struct TraceStep {
   Vec3 direction_after;
   double angle_of_incidence_rad = 0;
   double reflectance = 0;
+  bool is_rim_only = false;  // as the path's step: one a step
 };
 struct RayRecord {
   TracedRay ray;

@@ -1,28 +1,114 @@
+#include <algorithm>
+#include <cstdlib>
+#include <limits>
+#include <span>
 #include <variant>
 
 #include "contrejour/ghost.h"
 
 namespace contrejour {
+namespace {
+
+bool reflects(const SurfaceState& s) {
+  const bool only_an_opening = s.before == s.after && std::holds_alternative<Bare>(s.coating.films);
+  return s.kind != SurfaceKind::Stop && !only_an_opening;
+}
+
+// 0-based, ascending.
+std::vector<int> reflecting_surfaces(const LensState& lens) {
+  std::vector<int> found;
+  for (std::size_t k = 0; k < lens.surfaces.size(); ++k)
+    if (reflects(lens.surfaces[k])) found.push_back(static_cast<int>(k));
+  return found;
+}
+
+bool ends_at_grating(const LensState& lens, const Ghost& ghost) {
+  return lens.sensor_grating.orders > 0 &&
+         lens.surfaces[static_cast<std::size_t>(ghost.j - 1)].kind == SurfaceKind::Sensor;
+}
+
+int stop_crossings(const LensState& lens, const Ghost& ghost) {
+  const int stop = lens.stop_index + 1;
+  int crossings = 0, at = 0;
+  const auto go_to = [&](int surface) {
+    crossings += (at < stop) != (surface < stop) ? 1 : 0;
+    at = surface;
+  };
+  go_to(ghost.j);
+  go_to(ghost.i);
+  if (ghost.reflects_four_times()) {
+    go_to(ghost.l);
+    go_to(ghost.k);
+  }
+  go_to(std::numeric_limits<int>::max());
+  return crossings;
+}
+
+bool is_in_scope(const LensState& lens, const Ghost& ghost, GhostScope scope) {
+  return stop_crossings(lens, ghost) <= (scope == GhostScope::All ? kMaxStopCrossings : 1);
+}
+
+// Of every order where the sensor is a grating.
+void add_orders(const LensState& lens, Ghost ghost, std::vector<Ghost>& to) {
+  if (!ends_at_grating(lens, ghost)) {
+    to.push_back(ghost);
+    return;
+  }
+  const int most = lens.sensor_grating.orders;
+  for (int x = -most; x <= most; ++x) {
+    for (int y = -most; y <= most; ++y) {
+      ghost.order = {x, y};
+      to.push_back(ghost);
+    }
+  }
+}
+
+// Those that go on from a ghost of two reflections to two more.
+void add_four_fold(const LensState& lens, const Ghost& two, std::span<const int> surfaces, GhostScope scope,
+                   std::vector<Ghost>& to) {
+  for (const int k : surfaces) {
+    for (const int l : surfaces) {
+      const Ghost four{two.i, two.j, k + 1, l + 1};
+      if (k < l && four.l > four.i && is_in_scope(lens, four, scope)) add_orders(lens, four, to);
+    }
+  }
+}
+
+}  // namespace
 
 // hullin2011 4.1: N = n (n - 1) / 2; 4.2 "aperture culling": N = (f (f - 1) + b (b - 1)) / 2 for f surfaces
 // before the stop and b behind it.
-std::vector<Ghost> enumerate_ghosts(const LensState& lens, GhostScope scope) {
-  const int count = static_cast<int>(lens.surfaces.size());
-  const auto reflects = [&](int k) {
-    const SurfaceState& s = lens.surfaces[static_cast<std::size_t>(k)];
-    const bool only_an_opening = s.before == s.after && std::holds_alternative<Bare>(s.coating.films);
-    return s.kind == SurfaceKind::Refracting && !only_an_opening;
-  };
+std::vector<Ghost> enumerate_ghosts(const LensState& lens, GhostScope scope, Reflections reflections) {
+  const std::vector<int> surfaces = reflecting_surfaces(lens);
   std::vector<Ghost> ghosts;
-  for (int i = 0; i < count; ++i) {
-    for (int j = i + 1; j < count; ++j) {
-      if (!reflects(i) || !reflects(j)) continue;
-      const bool spans_stop = i < lens.stop_index && j > lens.stop_index;
-      if (spans_stop && scope == GhostScope::OneSideOfStop) continue;
-      ghosts.push_back({i + 1, j + 1});
+  for (const int i : surfaces) {
+    for (const int j : surfaces) {
+      const Ghost ghost{i + 1, j + 1};
+      if (i >= j || !is_in_scope(lens, ghost, scope)) continue;
+      add_orders(lens, ghost, ghosts);
     }
   }
+  if (reflections == Reflections::Two) return ghosts;
+  for (const int i : surfaces) {
+    for (const int j : surfaces)
+      if (i < j) add_four_fold(lens, {i + 1, j + 1}, surfaces, scope, ghosts);
+  }
+  std::sort(ghosts.begin(), ghosts.end());
   return ghosts;
+}
+
+bool has_ghost(const LensState& lens, const Ghost& ghost) {
+  const auto turns_at = [&](int surface) {
+    return surface >= 1 && surface <= static_cast<int>(lens.surfaces.size()) &&
+           reflects(lens.surfaces[static_cast<std::size_t>(surface - 1)]);
+  };
+  if (!turns_at(ghost.i) || !turns_at(ghost.j) || ghost.i >= ghost.j) return false;
+  if (ghost.reflects_four_times() || ghost.k != 0) {
+    if (!turns_at(ghost.k) || !turns_at(ghost.l) || ghost.k >= ghost.l || ghost.l <= ghost.i) return false;
+  }
+  const int most = ends_at_grating(lens, ghost) ? lens.sensor_grating.orders : 0;
+  return std::abs(ghost.order[0]) <= most && std::abs(ghost.order[1]) <= most &&
+         is_in_scope(lens, ghost, GhostScope::All);
 }
 
 }  // namespace contrejour

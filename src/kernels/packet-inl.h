@@ -10,6 +10,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include <hwy/contrib/math/math-inl.h>
 #include <hwy/highway.h>
 
 #include "kernels/surface-inl.h"
@@ -51,6 +52,11 @@ HWY_INLINE Packet<float> load_floats(Packet<float>::Tag d, const float* from) {
   return Packet<float>(hn::LoadU(d, from));
 }
 HWY_INLINE void store_floats(Packet<float> p, float* to) { hn::StoreU(p.v, Packet<float>::Tag(), to); }
+
+template <class Lane>
+HWY_INLINE Packet<Lane> exponential(Packet<Lane> x) {
+  return Packet<Lane>(hn::Exp(typename Packet<Lane>::Tag(), x.v));
+}
 
 // A function on [0, 1] tabulated at `intervals` + 1 equidistant points, between them by straight lines.
 // u outside the interval, or NaN, is taken at an end of it.

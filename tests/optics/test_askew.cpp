@@ -143,7 +143,7 @@ TEST_CASE("a ball moved to a side moves its ghost as its matrix says") {
                    {SurfaceKind::Refracting, -0.1, 0.0, 9.0, air(), {}, 0}};
   LensState lens = test::place(ball, 0.5);
   lens.sensor_z_mm = 30.0;
-  const double a = abcd_ghost(lens, 2, 3, 550.0).a;
+  const double a = abcd_ghost(lens, Ghost{2, 3}, 550.0).a;
   const double aside_mm = 1e-3;
   for (SurfaceState& s : lens.surfaces)
     if (s.kind == SurfaceKind::Refracting) s.pose.shift_mm = {aside_mm, -2.0 * aside_mm, 0.0};

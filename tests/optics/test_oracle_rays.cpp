@@ -53,7 +53,7 @@ void check_ghost(const LensState& lens, const std::string& system, const nlohman
   const Ghost ghost{g["i"], g["j"]};
   CAPTURE(ghost.i);
   CAPTURE(ghost.j);
-  const Abcd m = abcd_ghost(lens, ghost.i, ghost.j, kLineD_nm);
+  const Abcd m = abcd_ghost(lens, ghost, kLineD_nm);
   const auto& e = g["abcd_surf1_to_image"];
   const double scale = std::max({1.0, std::abs(m.a), std::abs(m.b)});
   CHECK(std::abs(m.a - e[0].get<double>()) <= kTolerance_mm * scale);

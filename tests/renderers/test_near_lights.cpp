@@ -120,7 +120,7 @@ TEST_CASE("a near light's ghosts near the axis are where the lens's matrices say
     CAPTURE(distance_mm);
     const LightSource light({0.0, 0.0, 1.0}, distance_mm);
     for (const Ghost& ghost : enumerate_ghosts(lens, GhostScope::OneSideOfStop)) {
-      const Abcd m = abcd_ghost(lens, ghost.i, ghost.j, 550.0);
+      const Abcd m = abcd_ghost(lens, ghost, 550.0);
       const double height_mm = 1e-4;
       const TracedRay ray =
           trace(ghost_path(lens, ghost, 550.0), {{0.0, height_mm, 0.0}, light.direction_at({0.0, height_mm, 0.0})});

@@ -45,3 +45,22 @@ TEST_CASE("a lens with a toroid and a biconic, turned by odd angles, as in the r
                      {.kind = ShapeKind::Biconic, .conic = -0.5, .curvature_x_per_mm = -0.7 * c, .turn_rad = -0.2}),
       {0.66, 0.37});
 }
+
+TEST_CASE("rims that are an ellipse and a turned rectangle, as in the reference, and unlike circles") {
+  auto tessar = find_lens("tessar");
+  REQUIRE(tessar.has_value());
+  const double front_mm = tessar->surfaces.front().semi_diameter_mm, rear_mm = tessar->surfaces.back().semi_diameter_mm;
+  tessar->surfaces.front().aperture = {ApertureKind::Rectangle, {0.6 * front_mm, 0.35 * front_mm}, {0.3, 0.0}, 0.5};
+  tessar->surfaces.back().aperture = {ApertureKind::Ellipse, {0.4 * rear_mm, 0.7 * rear_mm}, {}, 0.2};
+  const auto lens = lens_at(*tessar, {.f_number = 8.0});
+  REQUIRE(lens.has_value());
+  check_all(*lens, {0.66, 0.37});
+}
+
+TEST_CASE("a cover glass and a sensor that reflects in orders, as in the reference") {
+  LensSettings look{.f_number = 8.0};  // dots of some pixels: `tiled` samples theirs
+  look.sensor = {
+      .plates = {{2.0, 15.0, Glass{"", ConstantIndex{1.5}}, {}}}, .reflectance = 0.2, .orders = 1, .pitch_mm = 0.008};
+  const LensState lens = bundled("tessar", look);
+  check_all(lens, {0.6, 0.4});
+}

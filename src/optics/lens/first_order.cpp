@@ -50,20 +50,29 @@ Abcd abcd_between(std::span<const SurfaceState> surfaces, int first, int last, d
   return m;
 }
 
-Abcd abcd_ghost(const LensState& lens, int i, int j, double lambda_nm, Section section) {
+Abcd abcd_ghost(const LensState& lens, const Ghost& ghost, double lambda_nm, Section section) {
   const auto& all = lens.surfaces;
   const auto surface = [&](int k) -> const SurfaceState& { return all[static_cast<std::size_t>(k)]; };
   const int last = static_cast<int>(all.size()) - 1;
-  const int far = j - 1;
-  const int near = i - 1;
-  const auto gap = [&](int k) { return transfer(surface(k + 1).z_mm - surface(k).z_mm); };
-
+  int at = -1;  // the surface that acted last
   Abcd m;
-  for (int k = 0; k < far; ++k) m = gap(k) * refraction_forward(surface(k), lambda_nm, section) * m;
-  m = reflection(curvature_of(surface(far), section)) * m;
-  for (int k = far - 1; k > near; --k) m = refraction_backward(surface(k), lambda_nm, section) * gap(k) * m;
-  m = reflection(-curvature_of(surface(near), section)) * gap(near) * m;
-  for (int k = near; k < last; ++k) m = refraction_forward(surface(k + 1), lambda_nm, section) * gap(k) * m;
+  const auto act = [&](int k, const Abcd& element) {
+    if (at >= 0) m = transfer(std::abs(surface(k).z_mm - surface(at).z_mm)) * m;
+    m = element * m;
+    at = k;
+  };
+  const auto forward_to = [&](int end) {
+    for (int k = at + 1; k < end; ++k) act(k, refraction_forward(surface(k), lambda_nm, section));
+  };
+  const auto there_and_back = [&](int far, int near) {
+    forward_to(far);
+    act(far, reflection(curvature_of(surface(far), section)));
+    for (int k = far - 1; k > near; --k) act(k, refraction_backward(surface(k), lambda_nm, section));
+    act(near, reflection(-curvature_of(surface(near), section)));
+  };
+  there_and_back(ghost.j - 1, ghost.i - 1);
+  if (ghost.reflects_four_times()) there_and_back(ghost.l - 1, ghost.k - 1);
+  forward_to(last + 1);
   return transfer(lens.sensor_z_mm - surface(last).z_mm) * m;
 }
 

@@ -12,6 +12,7 @@
 #include "kernels/shape-inl.h"
 #include "optics/lens/build_errors.h"
 #include "optics/lens/iris_closing.h"
+#include "optics/lens/sensor_stack.h"
 
 namespace contrejour {
 namespace {
@@ -68,7 +69,7 @@ std::vector<SurfaceState> place_surfaces(const Prescription& lens, const std::ve
     const Glass after = s.kind == SurfaceKind::Stop ? medium : s.glass_after;
     const bool replaces = coating && s.kind == SurfaceKind::Refracting && is_air(medium) != is_air(after);
     out.push_back({s.kind, z, s.curvature_per_mm, s.semi_diameter_mm, medium, after,
-                   coatings.place(replaces ? *coating : s.coating, medium, after), s.pose, s.shape});
+                   coatings.place(replaces ? *coating : s.coating, medium, after), s.pose, s.shape, s.aperture});
     medium = after;
     z += thickness[k];
   }
@@ -286,6 +287,7 @@ void warn_of_glasses(LensState& state) {
 Result<LensState> lens_at(const Prescription& lens, const LensSettings& settings) {
   if (const auto valid = validate(lens); !valid) return tl::unexpected<Error>(valid.error());
   if (const auto good = check_build_errors(settings.build); !good) return tl::unexpected<Error>(good.error());
+  if (const auto good = check_sensor_stack(settings.sensor); !good) return tl::unexpected<Error>(good.error());
   const auto zoom = choose_zoom(lens, settings.focal_length_mm);
   if (!zoom) return tl::unexpected<Error>(zoom.error());
 
@@ -313,6 +315,9 @@ Result<LensState> lens_at(const Prescription& lens, const LensSettings& settings
     return tl::unexpected<Error>(set.error());
   }
   apply_build_errors(settings.build, state.surfaces);
+  state.absorption = settings.absorption;
+  if (const auto added = add_sensor_stack(settings.sensor, lens.file, state); !added)
+    return tl::unexpected<Error>(added.error());
   return state;
 }
 

@@ -129,7 +129,7 @@ void Reader::read_surfaces(TomlFields& fields) {
 void Reader::read_surface(const toml::table& row, bool last) {
   TomlFields fields(row, fmt::format("surface {}", lens.surfaces.size() + 1),
                     {"radius_mm", "curvature_per_mm", "thickness_mm", "semi_diameter_mm", "glass", "coating",
-                     "stop", "conic", "asphere", "toroid", "biconic", "decentre_mm", "tilt_deg", "axis"},
+                     "stop", "conic", "asphere", "toroid", "biconic", "ellipse", "rectangle", "decentre_mm", "tilt_deg", "axis"},
                     errors);
   Surface surface;
   surface.source_line = line_of(row);
@@ -147,6 +147,7 @@ void Reader::read_surface(const toml::table& row, bool last) {
   } else {
     surface.curvature_per_mm = read_curvature(fields, "");
     surface.shape = read_shape(fields, errors);
+    surface.aperture = read_aperture(fields, errors);
     surface.pose = read_pose(fields, errors);
     const toml::node* glass = fields.find("glass");
     surface.glass_after = glass == nullptr ? air() : read_glass(*glass, fields.what(), glasses, finder, errors);
@@ -159,7 +160,7 @@ void Reader::read_stop(TomlFields& fields, Surface& surface) {
   const auto is_stop = fields.boolean("stop");
   if (is_stop == false) return fields.fail(*fields.find("stop"), "stop = false says nothing; leave it out");
   for (const std::string_view key : {"radius_mm", "curvature_per_mm", "glass", "coating", "conic", "asphere", "toroid",
-                                     "biconic", "decentre_mm", "tilt_deg", "axis"}) {
+                                     "biconic", "ellipse", "rectangle", "decentre_mm", "tilt_deg", "axis"}) {
     if (fields.has(key)) fields.fail(*fields.find(key), fmt::format("a stop has no {}; leave it out", key));
   }
   surface.kind = SurfaceKind::Stop;

@@ -74,6 +74,16 @@ Vec3 read_vector(TomlFields& fields, std::string_view key, std::size_t fewest, N
   return {v[0], v[1], v[2]};
 }
 
+Vec2 read_pair(TomlFields& fields, std::string_view key) {
+  const toml::array* list = fields.array(key);
+  if (list == nullptr) return {};
+  if (list->size() != 2) {
+    fields.fail(*list, fmt::format("{} must be a list of 2 numbers", key));
+    return {};
+  }
+  return {fields.number_at((*list)[0], key, kFinite), fields.number_at((*list)[1], key, kFinite)};
+}
+
 Vec3 read_axis(TomlFields& fields) {
   const Vec3 axis = read_vector(fields, "axis", 3, kFinite);
   const double size = length(axis);
@@ -174,6 +184,25 @@ SurfaceShape read_shape(TomlFields& row, TomlErrors& errors) {
   return shape;
 }
 
+ClearAperture read_aperture(TomlFields& row, TomlErrors& errors) {
+  ClearAperture aperture;
+  if (row.has("ellipse") && row.has("rectangle")) row.fail_here("a rim is an ellipse or a rectangle, not both");
+  const auto read = [&](std::string_view name, const std::string& sides, ApertureKind kind) {
+    const toml::table* table = row.table(name);
+    if (table == nullptr) return;
+    TomlFields fields(*table, row.what() + ", " + std::string(name), {sides, "centre_mm", "turn_deg", "turn_rad"},
+                      errors);
+    aperture.kind = kind;
+    if (!fields.has(sides)) fields.fail_here(fmt::format("give {} = [x, y]", sides));
+    aperture.half_mm = read_pair(fields, sides);
+    aperture.centre_mm = read_pair(fields, "centre_mm");
+    aperture.turn_rad = read_turn(fields);
+  };
+  read("ellipse", "semi_axes_mm", ApertureKind::Ellipse);
+  read("rectangle", "half_sides_mm", ApertureKind::Rectangle);
+  return aperture;
+}
+
 SurfacePose read_pose(TomlFields& fields, TomlErrors& errors) {
   SurfacePose pose;
   pose.shift_mm = read_vector(fields, "decentre_mm", 2, kFinite);
@@ -227,6 +256,17 @@ std::string shape_text(const SurfaceShape& shape) {
   out += fmt::format(", {} = {{ {}", biconic ? "biconic" : "toroid", curvature_text(shape.curvature_x_per_mm, "_x"));
   if (shape.conic_x != 0.0) out += ", conic_x = " + number(shape.conic_x);
   if (shape.turn_rad != 0.0) out += ", " + turn_text(shape.turn_rad);
+  return out + " }";
+}
+
+std::string aperture_text(const ClearAperture& aperture) {
+  if (aperture.kind == ApertureKind::Disc) return {};
+  const auto pair = [](Vec2 v) { return fmt::format("[{}, {}]", number(v.x), number(v.y)); };
+  std::string out =
+      aperture.kind == ApertureKind::Ellipse ? ", ellipse = { semi_axes_mm = " : ", rectangle = { half_sides_mm = ";
+  out += pair(aperture.half_mm);
+  if (!(aperture.centre_mm == Vec2{})) out += ", centre_mm = " + pair(aperture.centre_mm);
+  if (aperture.turn_rad != 0.0) out += ", " + turn_text(aperture.turn_rad);
   return out + " }";
 }
 

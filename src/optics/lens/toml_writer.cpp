@@ -124,7 +124,8 @@ std::string surface_row(const Surface& surface, bool last, MediaTable& glasses, 
   row += surface.kind == SurfaceKind::Stop ? "stop = true" : curvature_text(surface.curvature_per_mm, "");
   if (!last) row += ", thickness_mm = " + number(surface.thickness_mm);
   row +=
-      ", semi_diameter_mm = " + number(surface.semi_diameter_mm) + shape_text(surface.shape) + pose_text(surface.pose);
+      ", semi_diameter_mm = " + number(surface.semi_diameter_mm) + shape_text(surface.shape) +
+      aperture_text(surface.aperture) + pose_text(surface.pose);
   if (surface.kind == SurfaceKind::Refracting) {
     if (!(surface.glass_after == air())) row += ", glass = " + glasses.reference(surface.glass_after);
     if (!std::holds_alternative<Bare>(surface.coating.films)) {

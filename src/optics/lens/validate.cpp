@@ -85,14 +85,18 @@ Result<void> check_surface(const Prescription& lens, std::size_t i) {
                    fmt::format("thickness_mm is {}; give the distance to the next vertex, 0 or more", s.thickness_mm));
   }
   if (const auto problem = shape_problem(s)) return fail.at(i, *problem);
+  if (const auto problem = aperture_problem(s)) return fail.at(i, *problem);
   if (s.shape.is_sphere() && !(std::abs(s.curvature_per_mm) * semi_mm <= 1.0)) {
     return fail.at(i, fmt::format("radius {:.6g} mm is smaller than semi_diameter_mm {:.6g}: a sphere has no rim "
                                   "there; make the semi-diameter smaller",
                                   1.0 / s.curvature_per_mm, semi_mm));
   }
-  const bool plain = s.curvature_per_mm == 0.0 && s.shape == SurfaceShape{} && s.pose == SurfacePose{};
+  const bool plain = s.curvature_per_mm == 0.0 && s.shape == SurfaceShape{} && s.pose == SurfacePose{} &&
+                     s.aperture == ClearAperture{};
   if (s.kind == SurfaceKind::Stop && (!plain || !(s.glass_after == before))) {
-    return fail.at(i, "a stop is flat, stands about the axis and has the same medium before and behind; make it so");
+    return fail.at(i,
+                   "a stop is flat and round, stands about the axis and has the same medium before and behind; make "
+                   "it so (the iris gives the opening's shape)");
   }
   if (const auto problem = glass_problem(s.glass_after)) return fail.at(i, *problem);
   if (const auto problem = coating_problem(s.coating)) return fail.at(i, *problem);
@@ -314,6 +318,19 @@ std::optional<std::string> shape_problem(const Surface& surface) {
         surface.semi_diameter_mm);
   }
   return std::nullopt;
+}
+
+std::optional<std::string> aperture_problem(const Surface& surface) {
+  const ClearAperture& a = surface.aperture;
+  if (a == ClearAperture{}) return std::nullopt;
+  const bool fits = a.kind != ApertureKind::Disc && within(a.half_mm.x, 1e-6, kMaxLength_mm) &&
+                    within(a.half_mm.y, 1e-6, kMaxLength_mm) && length(a.centre_mm) < surface.semi_diameter_mm &&
+                    within(a.turn_rad, -kMaxTurn_rad, kMaxTurn_rad);
+  if (fits) return std::nullopt;
+  return fmt::format(
+      "a rim of half sides {} and {} mm about ({}, {}); give half sides of more than 0 about a place "
+      "within semi_diameter_mm",
+      a.half_mm.x, a.half_mm.y, a.centre_mm.x, a.centre_mm.y);
 }
 
 std::optional<std::string> coating_problem(const Coating& coating) {

@@ -19,5 +19,6 @@ inline constexpr std::size_t kMostMeasured = 1000;  // wavelengths, or angles, o
 [[nodiscard]] std::optional<std::string> glass_problem(const Glass& glass);
 [[nodiscard]] std::optional<std::string> coating_problem(const Coating& coating);
 [[nodiscard]] std::optional<std::string> shape_problem(const Surface& surface);
+[[nodiscard]] std::optional<std::string> aperture_problem(const Surface& surface);
 
 }  // namespace contrejour

@@ -140,6 +140,11 @@ double radius_for(const LensState& lens, double lambda_nm, double distance_mm, d
 }
 
 // The lens as it ought to be, for first guesses.
+// Chief rays ask nothing of rims.
+bool is_centred(const LensState& lens) {
+  return std::all_of(lens.surfaces.begin(), lens.surfaces.end(), [](const SurfaceState& s) { return s.is_centred(); });
+}
+
 LensState centred(LensState lens) {
   for (SurfaceState& s : lens.surfaces) s.pose = {};
   return lens;
@@ -166,7 +171,7 @@ Vec3 askew_direction(const LensState& lens, Vec2 sensor_mm, double lambda_nm, do
 // A positive lens images the sky point in direction d (the way the light travels) on the side d points to.
 Vec3 direction_to_land_at(const LensState& lens, Vec2 sensor_mm, double lambda_nm, double distance_mm) {
   if (is_anamorphic(lens)) return anamorphic_direction(lens, sensor_mm, lambda_nm, distance_mm);
-  if (!lens.has_axial_symmetry()) return askew_direction(lens, sensor_mm, lambda_nm, distance_mm);
+  if (!is_centred(lens)) return askew_direction(lens, sensor_mm, lambda_nm, distance_mm);
   const double radius = length(sensor_mm);
   if (radius == 0.0) return {0.0, 0.0, 1.0};
   const double field = field_for(lens, lambda_nm, distance_mm, radius);
@@ -179,7 +184,7 @@ Vec2 landing_of(const LensState& lens, const LightSource& source, double lambda_
   if (is_anamorphic(lens)) return anamorphic_landing(lens, source, lambda_nm);
   const Vec2 across{source.direction.x, source.direction.y};
   const double sine = length(across);
-  if (!lens.has_axial_symmetry()) {
+  if (!is_centred(lens)) {
     const LensState ideal = centred(lens);
     const double field = std::atan2(sine, source.direction.z);
     const double height_mm = sine > 0.0 ? chief_height_for(ideal, lambda_nm, source.distance_mm, field) : 0.0;

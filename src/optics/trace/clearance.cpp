@@ -34,6 +34,17 @@ HWY_INLINE void test(Clearance<P>& s, P must_be_positive) {
   s.passed = s.passed + s.alive;
 }
 
+template <class P>
+HWY_INLINE void turn_by_grating(Clearance<P>& s, const PacketStep& step) {
+  const P zero(0.0);
+  s.ray.dx = s.ray.dx + P(step.kick.x);
+  s.ray.dy = s.ray.dy + P(step.kick.y);
+  const P along_squared = P(1.0) - s.ray.dx * s.ray.dx - s.ray.dy * s.ray.dy;
+  test(s, along_squared);
+  const P along = square_root(larger(along_squared, zero));
+  s.ray.dz = select(s.ray.dz > zero, along, zero - along);
+}
+
 // Rays that fail go on as numbers of no meaning.
 template <PathGeometry kGeometry, class P>
 HWY_INLINE void advance(Clearance<P>& s, const PacketStep& step) {
@@ -42,15 +53,28 @@ HWY_INLINE void advance(Clearance<P>& s, const PacketStep& step) {
   const auto hit = meet<kGeometry>(s.ray, step, own);
   test(s, smaller(hit.cos_in_squared, own.nz));
   if (step.event == PathEvent::Stop) return;
-  const P per_mm(step.inverse_semi_diameter_per_mm);
-  const P rim_x = own.x * per_mm;
-  const P rim_y = own.y * per_mm;
+  P rim_x, rim_y;
+  if constexpr (kGeometry == PathGeometry::General) {
+    const auto place = rim_place(own, step.rim);
+    rim_x = place.x;
+    rim_y = place.y;
+  } else {
+    const P per_mm(step.inverse_semi_diameter_per_mm);
+    rim_x = own.x * per_mm;
+    rim_y = own.y * per_mm;
+  }
   const P rim_squared = rim_x * rim_x + rim_y * rim_y;
   const auto farther = rim_squared > s.rim_squared;
   s.rim_x = select(farther, rim_x, s.rim_x);
   s.rim_y = select(farther, rim_y, s.rim_y);
   s.rim_squared = larger(s.rim_squared, rim_squared);
-  if (step.event == PathEvent::Reflect) return hk::reflect(s.ray, hit, direction);
+  if (step.event == PathEvent::Reflect) {
+    hk::reflect(s.ray, hit, direction);
+    if constexpr (kGeometry == PathGeometry::General) {
+      if (step.share != 1.0) turn_by_grating(s, step);
+    }
+    return;
+  }
   test(s, hk::refract(s.ray, hit, P(step.eta), direction));
 }
 
@@ -111,7 +135,7 @@ void trace_any(const PacketPath& path, const float* x_mm, const float* y_mm, std
   switch (path.geometry()) {
     case PathGeometry::Spheres: return trace_all<PathGeometry::Spheres, P>(path, x_mm, y_mm, count, out);
     case PathGeometry::Shapes: return trace_all<PathGeometry::Shapes, P>(path, x_mm, y_mm, count, out);
-    case PathGeometry::Askew: return trace_all<PathGeometry::Askew, P>(path, x_mm, y_mm, count, out);
+    case PathGeometry::General: return trace_all<PathGeometry::General, P>(path, x_mm, y_mm, count, out);
   }
 }
 

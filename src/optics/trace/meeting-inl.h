@@ -27,6 +27,18 @@ inline constexpr kernels::HWY_NAMESPACE::NewtonLimits kPacketLimits<kernels::HWY
     .steps = 5, .residual_mm = 1e-6};
 #endif
 
+template <class P>
+struct RimPlace {
+  P x, y;
+};
+
+// As Rim::place().
+template <class P>
+HWY_INLINE RimPlace<P> rim_place(const kernels::HWY_NAMESPACE::OwnPlace<P>& own, const Rim& rim) {
+  const P x = own.x - P(rim.centre_mm.x), y = own.y - P(rim.centre_mm.y);
+  return {P(rim.u_per_mm.x) * x + P(rim.u_per_mm.y) * y, P(rim.v_per_mm.x) * x + P(rim.v_per_mm.y) * y};
+}
+
 // The ray's coordinates begin at the vertex before; afterwards at the step's. own: the hit's place beside the surface's
 // own axis. (Two results: compilers keep one large struct of vectors in memory, at half the speed.)
 template <PathGeometry kGeometry, class P>
@@ -35,7 +47,7 @@ HWY_INLINE kernels::HWY_NAMESPACE::Hit<P> meet(kernels::HWY_NAMESPACE::Ray3<P>& 
   namespace hk = kernels::HWY_NAMESPACE;
   const P c(step.curvature_per_mm);
   const P direction(step.direction);
-  if constexpr (kGeometry != PathGeometry::Askew) {
+  if constexpr (kGeometry != PathGeometry::General) {
     hk::Hit<P> hit;
     if (kGeometry == PathGeometry::Shapes && step.shape != nullptr) {
       hit = hk::intersect_shape(ray, P(step.gap_mm), *step.shape, direction, kPacketLimits<P>);

@@ -29,7 +29,7 @@ double cubic(const std::vector<double>& nodes, double place) {
 ReflectanceTables::ReflectanceTables(const LensState& lens, double lambda_nm) : lambda_nm_(lambda_nm) {
   for (const SurfaceState& surface : lens.surfaces) {
     Entry entry;
-    if (surface.kind == SurfaceKind::Refracting) {
+    if (surface.kind != SurfaceKind::Stop) {
       const bool absorbs = may_absorb(surface.coating);
       const bool same_both_ways = !absorbs && !std::holds_alternative<HullinFresnelAR>(surface.coating.films);
       entry.reflectance[0] = add(surface, +1, false);
@@ -37,6 +37,9 @@ ReflectanceTables::ReflectanceTables(const LensState& lens, double lambda_nm) : 
       if (absorbs) entry.transmittance = add(surface, +1, true);
     }
     entries_.push_back(entry);
+    if (none_ >= 0 || surface.aperture.kind == ApertureKind::Disc) continue;
+    none_ = static_cast<int>(values_.size());
+    values_.insert(values_.end(), kIntervals + 1, 0.0F);
   }
 }
 
@@ -64,7 +67,7 @@ int ReflectanceTables::add(const SurfaceState& surface, int direction, bool tran
 
 PacketPath::PacketPath(const OpticalPath& path, const ReflectanceTables& tables, const LightRays& rays)
     : tables_(tables.values()), source_(rays.source),
-      geometry_(path.centred ? PathGeometry::Spheres : PathGeometry::Askew),
+      geometry_(path.centred ? PathGeometry::Spheres : PathGeometry::General),
       inverse_stop_radius_per_mm_(1.0 / path.stop_radius_mm) {
   start_.origin_mm = rays.origin_mm;
   start_from({rays.origin_mm.x, rays.origin_mm.y});
@@ -76,8 +79,8 @@ PacketPath::PacketPath(const OpticalPath& path, const ReflectanceTables& tables,
     step.event = from.event;
     if (from.event == PathEvent::Stop) step.crossing = stop_crossings_++;
     step.from_denser = from.n_in > from.n_out;
-    step.reflectance = entry.reflectance[from.direction > 0 ? 0 : 1];
-    step.transmittance = entry.transmittance;
+    step.reflectance = from.is_rim_only ? tables.none() : entry.reflectance[from.direction > 0 ? 0 : 1];
+    step.transmittance = from.is_rim_only ? -1 : entry.transmittance;
     step.direction = from.direction;
     const Vec3 vertex_mm = Vec3{0.0, 0.0, from.z_mm} + from.pose.shift_mm;
     step.gap_mm = vertex_mm.z - before_mm.z;
@@ -87,11 +90,17 @@ PacketPath::PacketPath(const OpticalPath& path, const ReflectanceTables& tables,
     if (from.shape) {
       step.shape = from.shape.get();
       shapes_.push_back(from.shape);
-      if (path.centred) geometry_ = PathGeometry::Shapes;
+      if (geometry_ == PathGeometry::Spheres) geometry_ = PathGeometry::Shapes;
     }
     step.inverse_semi_diameter_per_mm = 1.0 / from.semi_diameter_mm;
     step.inverse_semi_diameter_squared = 1.0 / (from.semi_diameter_mm * from.semi_diameter_mm);
     step.eta = from.n_in / from.n_out;
+    const double per_mm = 1.0 / from.semi_diameter_mm;
+    step.rim = from.rim.value_or(Rim{{}, {per_mm, 0.0}, {0.0, per_mm}});
+    step.absorption_per_mm = from.absorption_per_mm;
+    step.kick = from.kick;
+    step.share = from.share;
+    if (from.rim || from.absorption_per_mm != 0.0 || from.share != 1.0) geometry_ = PathGeometry::General;
     before_mm = vertex_mm;
     steps_.push_back(step);
   }

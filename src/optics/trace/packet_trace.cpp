@@ -39,6 +39,26 @@ HWY_INLINE void pass_stop(PacketState<P>& s, const PacketStep& step, double inve
   store_floats(s.ray.y * scale, out.stop_y[static_cast<std::size_t>(step.crossing)] + at);
 }
 
+// What is left behind a way from a place whose z was from_z in the coordinates of the step before.
+template <class P>
+HWY_INLINE void absorb(PacketState<P>& s, const PacketStep& step, P from_z) {
+  const P way = (s.ray.z + P(step.gap_mm) - from_z) / s.ray.dz;
+  s.transmission = s.transmission * exponential(way * P(-step.absorption_per_mm));
+}
+
+// As in trace.cpp.
+template <class P>
+HWY_INLINE void turn_by_grating(PacketState<P>& s, const PacketStep& step) {
+  const P zero(0.0);
+  s.transmission = s.transmission * P(step.share);
+  s.ray.dx = s.ray.dx + P(step.kick.x);
+  s.ray.dy = s.ray.dy + P(step.kick.y);
+  const P along_squared = P(1.0) - s.ray.dx * s.ray.dx - s.ray.dy * s.ray.dy;
+  s.alive = or_zero(along_squared > zero, s.alive);
+  const P along = square_root(larger(along_squared, zero));
+  s.ray.dz = select(s.ray.dz > zero, along, zero - along);
+}
+
 // One packet over one surface. Rays that fail go on as numbers of no meaning with alive = 0.
 template <PathGeometry kGeometry, class P>
 HWY_INLINE void advance(PacketState<P>& s, const PacketStep& step, const float* tables, float* rim_squared) {
@@ -46,11 +66,21 @@ HWY_INLINE void advance(PacketState<P>& s, const PacketStep& step, const float* 
   const P one(1.0);
   const P direction(step.direction);
   hk::OwnPlace<P> own;
+  const P from_z = s.ray.z;
   const auto hit = meet<kGeometry>(s.ray, step, own);
   s.alive = or_zero(hit.cos_in_squared > zero, s.alive);
+  if constexpr (kGeometry == PathGeometry::General) {
+    if (step.absorption_per_mm != 0.0) absorb(s, step, from_z);
+  }
   if (step.event == PathEvent::Stop) return;
 
-  const P r_squared = (own.x * own.x + own.y * own.y) * P(step.inverse_semi_diameter_squared);
+  P r_squared;
+  if constexpr (kGeometry == PathGeometry::General) {
+    const auto place = rim_place(own, step.rim);
+    r_squared = place.x * place.x + place.y * place.y;
+  } else {
+    r_squared = (own.x * own.x + own.y * own.y) * P(step.inverse_semi_diameter_squared);
+  }
   const P beyond = select(own.nz > zero, zero, P(kBeyondEquatorSquared));
   const P out_squared = larger(r_squared, beyond);
   s.r_rel_squared = larger(s.r_rel_squared, out_squared);
@@ -63,6 +93,9 @@ HWY_INLINE void advance(PacketState<P>& s, const PacketStep& step, const float* 
     const P u = step.from_denser ? square_root(larger(cos_out_squared, zero)) : cos_in;
     s.transmission = s.transmission * look_up(tables + step.reflectance, ReflectanceTables::kIntervals, u);
     hk::reflect(s.ray, hit, direction);
+    if constexpr (kGeometry == PathGeometry::General) {
+      if (step.share != 1.0) turn_by_grating(s, step);
+    }
     return;
   }
   const P cos_out_squared = hk::refract(s.ray, hit, eta, direction);
@@ -81,7 +114,7 @@ HWY_INLINE void land(const PacketState<P>& s, const PacketPath& path, std::size_
   const auto ok = or_zero(s.ray.dz > zero, s.alive) > zero;
   P x = s.ray.x + t * s.ray.dx;
   P y = s.ray.y + t * s.ray.dy;
-  if constexpr (kGeometry == PathGeometry::Askew) {
+  if constexpr (kGeometry == PathGeometry::General) {
     x = x - P(path.sensor_offset_mm().x);
     y = y - P(path.sensor_offset_mm().y);
   }
@@ -189,7 +222,7 @@ void trace_any(const PacketPath& path, const float* x_mm, const float* y_mm, std
   switch (path.geometry()) {
     case PathGeometry::Spheres: return trace_all<PathGeometry::Spheres, P>(path, x_mm, y_mm, count, out);
     case PathGeometry::Shapes: return trace_all<PathGeometry::Shapes, P>(path, x_mm, y_mm, count, out);
-    case PathGeometry::Askew: return trace_all<PathGeometry::Askew, P>(path, x_mm, y_mm, count, out);
+    case PathGeometry::General: return trace_all<PathGeometry::General, P>(path, x_mm, y_mm, count, out);
   }
 }
 

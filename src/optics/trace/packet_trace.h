@@ -27,6 +27,8 @@ class ReflectanceTables {
     std::array<int, 2> reflectance{-1, -1};  // offsets into values(), light from the front and from behind
     int transmittance = -1;                  // -1: 1 - reflectance
   };
+  // Of a rim that bends nothing: no reflectance; of lenses that have such.
+  [[nodiscard]] int none() const { return none_; }
   [[nodiscard]] const Entry& of(int surface) const { return entries_[static_cast<std::size_t>(surface)]; }
   [[nodiscard]] const float* values() const { return values_.data(); }
   [[nodiscard]] double lambda_nm() const { return lambda_nm_; }
@@ -36,6 +38,7 @@ class ReflectanceTables {
 
   std::vector<Entry> entries_;
   std::vector<float> values_;
+  int none_ = -1;
   double lambda_nm_;
 };
 
@@ -55,13 +58,18 @@ struct PacketStep {
   const ShapeConstants* shape = nullptr;  // none: a sphere or a plane
   Vec3 axis{0, 0, 1};           // of a lens that is not centred: the surface's own
   Vec2 offset_mm;               // likewise: of the vertex from the one before, as gap_mm
+  // Of General paths alone.
+  Rim rim;
+  double absorption_per_mm = 0;
+  Vec2 kick;
+  double share = 1;
 };
 
 // What has to be looked at where a ray meets a surface: tracers are compiled for each.
 enum class PathGeometry {
   Spheres,  // centred spheres and planes
   Shapes,   // centred, some of other shapes
-  Askew,    // some moved or tilted, of any shape
+  General,  // some moved or tilted, of any shape, with rims that are no circles, absorbing glass, a grating
 };
 
 // A light's rays, through points of the plane z = origin.z.

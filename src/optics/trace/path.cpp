@@ -1,12 +1,19 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <memory>
+#include <numbers>
 
 #include "contrejour/trace.h"
 #include "kernels/shape_constants.h"
 
 namespace contrejour {
 namespace {
+
+double absorption_per_mm(const Glass& glass, double lambda_nm) {
+  constexpr double kDarkest = 1e-30;
+  return -std::log(std::max(kDarkest, internal_transmittance(glass, lambda_nm, 1.0)));
+}
 
 PathStep step_at(const LensState& lens, int surface, int direction, PathEvent event, double lambda_nm) {
   const SurfaceState& s = lens.surfaces[static_cast<std::size_t>(surface)];
@@ -26,7 +33,16 @@ PathStep step_at(const LensState& lens, int surface, int direction, PathEvent ev
   if (!s.shape.is_sphere()) {
     step.shape = std::make_shared<ShapeConstants>(shape_constants(s.curvature_per_mm, s.shape, s.semi_diameter_mm));
   }
+  if (lens.absorption) step.absorption_per_mm = absorption_per_mm(direction > 0 ? s.before : s.after, lambda_nm);
   return step;
+}
+
+// Of the light that a grating of squares reflects (side over pitch: fill), the share in one order: the squares'
+// spectrum sinc^2(m f) in each direction, all orders' adding up to 1.
+double share_of_order(int order, double fill) {
+  const double x = std::numbers::pi * order * fill;
+  const double sinc = order == 0 ? 1.0 : std::sin(x) / x;
+  return fill * sinc * sinc;
 }
 
 class PathBuilder {
@@ -42,18 +58,48 @@ class PathBuilder {
 
   // Refracts at every surface from first to last, which may be none.
   void pass_forward(int first, int last) {
-    for (int k = first; k <= last; ++k) add(k, +1, PathEvent::Refract);
+    for (int k = first; k <= last; ++k)
+      if (lens_.surfaces[static_cast<std::size_t>(k)].kind != SurfaceKind::Sensor) add(k, +1, PathEvent::Refract);
   }
   void pass_backward(int first, int last) {
     for (int k = first; k >= last; --k) add(k, -1, PathEvent::Refract);
   }
   void reflect(int surface, int direction) { add(surface, direction, PathEvent::Reflect); }
+  void reflect_by_grating(int surface, std::array<int, 2> order) {
+    reflect(surface, +1);
+    const SensorGrating& grating = lens_.sensor_grating;
+    if (grating.orders == 0 || lens_.surfaces[static_cast<std::size_t>(surface)].kind != SurfaceKind::Sensor) return;
+    PathStep& step = path_.steps.back();
+    const double per_order = path_.lambda_nm * 1e-6 / grating.pitch_mm;
+    step.kick = {order[0] * per_order, order[1] * per_order};
+    step.share = share_of_order(order[0], grating.fill) * share_of_order(order[1], grating.fill);
+  }
   [[nodiscard]] OpticalPath take() { return std::move(path_); }
 
  private:
   void add(int surface, int direction, PathEvent event) {
-    path_.steps.push_back(step_at(lens_, surface, direction, event, path_.lambda_nm));
+    PathStep step = step_at(lens_, surface, direction, event, path_.lambda_nm);
+    if (step.event != PathEvent::Stop) add_rims(step);
+    path_.steps.push_back(std::move(step));
     if (path_.steps.back().event == PathEvent::Stop) ++path_.stop_crossings;
+  }
+
+  // All but the last become steps of their own, in the medium before it.
+  void add_rims(PathStep& step) {
+    const SurfaceState& s = lens_.surfaces[static_cast<std::size_t>(step.surface)];
+    const std::vector<Rim> rims = rims_of(s.aperture, s.semi_diameter_mm);
+    if (rims.empty()) return;
+    for (std::size_t k = 0; k + 1 < rims.size(); ++k) {
+      PathStep only = step;
+      only.event = PathEvent::Refract;
+      only.coating = {};
+      only.n_out = only.n_in;
+      only.rim = rims[k];
+      only.is_rim_only = true;
+      path_.steps.push_back(std::move(only));
+      step.absorption_per_mm = 0.0;
+    }
+    step.rim = rims.back();
   }
 
   const LensState& lens_;
@@ -69,14 +115,18 @@ OpticalPath direct_path(const LensState& lens, double lambda_nm) {
 }
 
 OpticalPath ghost_path(const LensState& lens, Ghost ghost, double lambda_nm) {
-  const int near = ghost.i - 1;
-  const int far = ghost.j - 1;
   PathBuilder builder(lens, lambda_nm);
-  builder.pass_forward(0, far - 1);
-  builder.reflect(far, +1);
-  builder.pass_backward(far - 1, near + 1);
-  builder.reflect(near, -1);
-  builder.pass_forward(near + 1, static_cast<int>(lens.surfaces.size()) - 1);
+  int behind = -1;  // the surface that the light comes from, forward
+  const auto there_and_back = [&](int far, int near, std::array<int, 2> order) {
+    builder.pass_forward(behind + 1, far - 1);
+    builder.reflect_by_grating(far, order);
+    builder.pass_backward(far - 1, near + 1);
+    builder.reflect(near, -1);
+    behind = near;
+  };
+  there_and_back(ghost.j - 1, ghost.i - 1, ghost.order);
+  if (ghost.reflects_four_times()) there_and_back(ghost.l - 1, ghost.k - 1, {0, 0});
+  builder.pass_forward(behind + 1, static_cast<int>(lens.surfaces.size()) - 1);
   return builder.take();
 }
 

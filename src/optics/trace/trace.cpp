@@ -71,9 +71,24 @@ Meeting meet(const hk::Ray3<double>& ray, const PathStep& step, bool centred) {
   return m;
 }
 
-double distance_over_rim(const hk::OwnPlace<double>& own, double semi_diameter_mm) {
-  const double r = std::hypot(own.x, own.y) / semi_diameter_mm;
+double distance_over_rim(const hk::OwnPlace<double>& own, const PathStep& step) {
+  const double r =
+      step.rim ? length(step.rim->place({own.x, own.y})) : std::hypot(own.x, own.y) / step.semi_diameter_mm;
   return own.nz > 0.0 ? r : std::max(r, kBeyondEquator);
+}
+
+// A grating square to the axis adds to the direction's x and y; false where that leaves no direction.
+bool turn_by_grating(State& state, Vec2 kick) {
+  hk::Ray3<double>& ray = state.ray;
+  ray.dx += kick.x;
+  ray.dy += kick.y;
+  const double along_squared = 1.0 - ray.dx * ray.dx - ray.dy * ray.dy;
+  if (!(along_squared > 0.0)) {
+    state.out.status = RayStatus::Missed;
+    return false;
+  }
+  ray.dz = std::copysign(std::sqrt(along_squared), ray.dz);
+  return true;
 }
 
 // Takes the ray over one surface; false ends it with out.status set.
@@ -86,21 +101,24 @@ bool advance(State& state, const PathStep& step, const OpticalPath& path, double
     state.out.status = RayStatus::Missed;
     return false;
   }
+  const double from_z_mm = state.ray.z;
   hk::move_to(state.ray, hit, met.vertex_z_mm);
+  if (step.absorption_per_mm != 0.0)
+    state.out.transmission *= std::exp(-step.absorption_per_mm * (state.ray.z - from_z_mm) / state.ray.dz);
   if (angle_of_incidence_rad != nullptr) *angle_of_incidence_rad = std::acos(std::min(1.0, hit.cos_in));
   if (step.event == PathEvent::Stop) {
     state.out.stop[static_cast<std::size_t>(state.crossings++)] =
         Vec2{met.own.x, met.own.y} * (1.0 / path.stop_radius_mm);
     return true;
   }
-  state.out.r_rel = std::max(state.out.r_rel, distance_over_rim(met.own, step.semi_diameter_mm));
+  state.out.r_rel = std::max(state.out.r_rel, distance_over_rim(met.own, step));
   const double cos_in = std::min(1.0, hit.cos_in);
   const double r = reflectance(step.coating, step.n_in, step.n_out, cos_in, path.lambda_nm);
   if (reflectance_here != nullptr) *reflectance_here = r;
   if (step.event == PathEvent::Reflect) {
     hk::reflect(state.ray, hit, direction);
-    state.out.transmission *= r;
-    return true;
+    state.out.transmission *= r * step.share;
+    return step.kick == Vec2{} || turn_by_grating(state, step.kick);
   }
   if (hk::refract(state.ray, hit, step.n_in / step.n_out, direction) <= 0.0) {
     state.out.status = RayStatus::TotalReflection;
@@ -180,6 +198,7 @@ RayRecord trace_recorded(const OpticalPath& path, const Ray& ray) {
     TraceStep seen;
     seen.surface = step->surface + 1;
     seen.event = step->event;
+    seen.is_rim_only = step->is_rim_only;
     alive = advance(state, *step, path, &seen.angle_of_incidence_rad, &seen.reflectance);
     if (state.out.status == RayStatus::Missed) break;
     seen.position_mm = {state.ray.x, state.ray.y, state.ray.z};

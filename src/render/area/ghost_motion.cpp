@@ -61,7 +61,7 @@ class Rays {
       for (std::size_t k = 0; k < record.steps.size(); ++k) {
         if (path_.steps[k].event == PathEvent::Stop) continue;
         const Vec3& at = record.steps[k].position_mm;
-        const double out = std::hypot(at.x, at.y) / path_.steps[k].semi_diameter_mm;
+        const double out = length(path_.steps[k].rim_place({at.x, at.y}));
         if (!(out > farthest)) continue;
         farthest = out;
         worst = k;

@@ -14,7 +14,7 @@ namespace {
 
 // A parallel bundle at height y leaves at the sensor with height a y and slope c y: it meets the axis -a / c on.
 std::optional<double> paraxial_focus_mm(const LensState& lens, Ghost ghost) {
-  const Abcd m = abcd_ghost(lens, ghost.i, ghost.j, lens.design_wavelength_nm);
+  const Abcd m = abcd_ghost(lens, ghost, lens.design_wavelength_nm);
   const double focus = -m.a / m.c;
   return std::isfinite(focus) ? std::optional<double>(focus) : std::nullopt;
 }
@@ -64,7 +64,7 @@ GhostFigures figures_of(const LensState& lens, Ghost ghost, const FiguresRequest
 Result<std::vector<GhostFigures>> ghost_figures(const LensState& lens, const FiguresRequest& request,
                                                 const Context& context) {
   if (const auto good = check_source(lens, request.light.source()); !good) return tl::unexpected(good.error());
-  const std::vector<Ghost> ghosts = enumerate_ghosts(lens, request.scope);
+  const std::vector<Ghost> ghosts = enumerate_ghosts(lens, request.scope, request.reflections);
   std::vector<GhostMeter> meters;
   for (const SpectralBand& band : request.bands) meters.emplace_back(lens, band.lambda_nm);
   const LightSource measured = measured_source(lens, request.frame, request.light.source());

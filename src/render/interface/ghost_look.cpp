@@ -42,7 +42,8 @@ Rgb ramp_at(const std::vector<GhostRampStop>& ramp, double place) {
 
 // Of a ghost and a seed alone: which ghosts are rendered beside it does not matter.
 Vec2 scattered(Ghost ghost, std::uint32_t seed) {
-  return normal_pair({seed, static_cast<std::uint32_t>(ghost.i), static_cast<std::uint32_t>(ghost.j)});
+  const auto both = [](int low, int high) { return static_cast<std::uint32_t>(low + 1000 * high); };
+  return normal_pair({seed, both(ghost.i, ghost.k), both(ghost.j, ghost.l)});
 }
 
 }  // namespace
@@ -54,9 +55,9 @@ double first_order_place(const LensState& lens, Ghost ghost) {
   const Abcd to_sensor_plane{1.0, lens.sensor_z_mm - surfaces.back().z_mm, 0.0, 1.0};
   const Abcd to_stop = abcd_between(surfaces, 0, lens.stop_index, lambda_nm);
   const Abcd direct = to_sensor_plane * abcd_between(surfaces, 0, last, lambda_nm);
-  const Abcd by_ghost = abcd_ghost(lens, ghost.i, ghost.j, lambda_nm);
+  const Abcd by_ghost = abcd_ghost(lens, ghost, lambda_nm);
   // A ghost of surfaces before the stop is the direct way from the stop on, after its own way there.
-  const bool before_stop = ghost.j - 1 < lens.stop_index;
+  const bool before_stop = ghost.farthest() - 1 < lens.stop_index;
   const Abcd ghost_to_stop = before_stop ? to_stop * inverse(direct) * by_ghost : to_stop;
   return chief_landing_mm(ghost_to_stop, by_ghost) / chief_landing_mm(to_stop, direct);
 }
@@ -64,14 +65,13 @@ double first_order_place(const LensState& lens, Ghost ghost) {
 Result<void> check_ghost_options(const LensState& lens, const GhostOptions& options) {
   if (!is_gain(options.gain) || !is_gain(options.edge_gain)) return invalid("a gain of ghosts must be 0 or more");
   if (!is_gain(options.scatter)) return invalid("ghosts are scattered by a share of the frame's height, 0 or more");
-  const auto all = options.adjustments.empty() ? std::vector<Ghost>() : enumerate_ghosts(lens, GhostScope::All);
   for (const GhostAdjustment& a : options.adjustments) {
-    if (std::find(all.begin(), all.end(), a.ghost) == all.end())
-      return invalid(fmt::format("there is no ghost {}-{} in this lens; `contrejour ghosts` lists those there are",
-                                 a.ghost.i, a.ghost.j));
+    if (!has_ghost(lens, a.ghost))
+      return invalid(fmt::format("there is no ghost {} in this lens; `contrejour ghosts` lists those there are",
+                                 ghost_name(a.ghost)));
     if (!is_gain(a.gain) || !is_colour(a.colour) || !std::isfinite(a.offset.x + a.offset.y))
       return invalid(
-          fmt::format("ghost {}-{}: give a gain and colours of 0 or more, and a finite offset", a.ghost.i, a.ghost.j));
+          fmt::format("ghost {}: give a gain and colours of 0 or more, and a finite offset", ghost_name(a.ghost)));
   }
   for (std::size_t k = 0; k < options.ramp.size(); ++k) {
     const GhostRampStop& stop = options.ramp[k];

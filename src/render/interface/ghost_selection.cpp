@@ -4,6 +4,7 @@
 #include <cmath>
 #include <iterator>
 #include <numeric>
+#include <set>
 
 #include <fmt/format.h>
 
@@ -49,13 +50,12 @@ std::size_t count_to_keep(const SelectByFlux& select, const std::vector<double>&
   return keep;
 }
 
-Result<void> check_list(const std::vector<Ghost>& list, std::span<const Ghost> all) {
+Result<void> check_list(const LensState& lens, const std::vector<Ghost>& list) {
   for (const Ghost& g : list) {
-    if (std::find(all.begin(), all.end(), g) == all.end()) {
-      return failure(
-          ErrorCode::InvalidArgument,
-          fmt::format("there is no ghost {}-{} in this lens; `contrejour ghosts` lists those there are", g.i, g.j));
-    }
+    if (has_ghost(lens, g)) continue;
+    return failure(
+        ErrorCode::InvalidArgument,
+        fmt::format("there is no ghost {} in this lens; `contrejour ghosts` lists those there are", ghost_name(g)));
   }
   return {};
 }
@@ -94,7 +94,9 @@ struct Selector {
   const RenderSettings& settings;
   const Context& context;
 
-  [[nodiscard]] std::vector<Ghost> in_scope() const { return enumerate_ghosts(lens, settings.scope); }
+  [[nodiscard]] std::vector<Ghost> in_scope() const {
+    return enumerate_ghosts(lens, settings.scope, settings.reflections);
+  }
 
   Result<GhostChoice> operator()(const SelectAll&) const { return GhostChoice{in_scope(), 0.0}; }
   Result<GhostChoice> operator()(const SelectBrightest& select) const {
@@ -104,14 +106,14 @@ struct Selector {
     return by_flux([&](const auto& flux, const auto& order) { return count_to_keep(select, flux, order); });
   }
   Result<GhostChoice> operator()(const SelectList& select) const {
-    const auto all = enumerate_ghosts(lens, GhostScope::All);
-    if (const auto ok = check_list(select.ghosts, all); !ok) return tl::unexpected<Error>(ok.error());
-    return those_where(all, [&](const Ghost& g) {
-      return std::find(select.ghosts.begin(), select.ghosts.end(), g) != select.ghosts.end();
-    });
+    if (const auto ok = check_list(lens, select.ghosts); !ok) return tl::unexpected<Error>(ok.error());
+    const std::set<Ghost> once(select.ghosts.begin(), select.ghosts.end());
+    return GhostChoice{{once.begin(), once.end()}, std::nullopt};
   }
   Result<GhostChoice> operator()(const SelectSurface& select) const {
-    return those_where(in_scope(), [&](const Ghost& g) { return g.i == select.surface || g.j == select.surface; });
+    return those_where(in_scope(), [&](const Ghost& g) {
+      return g.i == select.surface || g.j == select.surface || g.k == select.surface || g.l == select.surface;
+    });
   }
 
  private:

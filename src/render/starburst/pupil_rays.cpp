@@ -41,7 +41,7 @@ PupilRay trace_one(const OpticalPath& path, const IrisOpening& iris, const Ray& 
   for (std::size_t k = 0; k < path.steps.size(); ++k) {
     if (path.steps[k].event == PathEvent::Stop) continue;
     const Vec2 at = beside_axis(path.steps[k], record.steps[k].position_mm);
-    rim_places[rim++ * stride] = at * (1.0 / path.steps[k].semi_diameter_mm);
+    rim_places[rim++ * stride] = path.steps[k].rim_place(at);
   }
   return ray;
 }

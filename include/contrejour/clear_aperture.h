@@ -1,0 +1,36 @@
+// The clear part of a surface where its rim is no circle about the axis.
+// Lengths mm in the surface's own coordinates beside its axis. Thread-safety: plain values, pure functions.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "contrejour/vec.h"
+
+namespace contrejour {
+
+enum class ApertureKind : std::uint8_t { Disc, Ellipse, Rectangle };
+
+// Within the surface's semi-diameter, which holds besides: a rectangle that reaches beyond it has round corners.
+struct ClearAperture {
+  ApertureKind kind = ApertureKind::Disc;  // a disc is that of the semi-diameter: the rest is unused
+  Vec2 half_mm{};  // semi-axes, or half of the sides
+  Vec2 centre_mm{};
+  double turn_rad = 0.0;  // of the aperture's own x axis from the surface's, towards y
+  friend bool operator==(const ClearAperture&, const ClearAperture&) = default;
+};
+
+// A convex bound as the unit disc, |place| <= 1, under an affine map; of a strip, place has one coordinate.
+struct Rim {
+  Vec2 centre_mm, u_per_mm, v_per_mm;
+  [[nodiscard]] Vec2 place(Vec2 own_mm) const {
+    const Vec2 from = own_mm - centre_mm;
+    return {dot(u_per_mm, from), dot(v_per_mm, from)};
+  }
+};
+
+// What light must pass within, all of them: an ellipse is one rim, a rectangle two strips, each besides the
+// semi-diameter's circle where it does not lie within that. None for a disc.
+[[nodiscard]] std::vector<Rim> rims_of(const ClearAperture& aperture, double semi_diameter_mm);
+
+}  // namespace contrejour

@@ -1,0 +1,90 @@
+#include "optics/lens/sensor_stack.h"
+
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "optics/lens/validate.h"
+
+namespace contrejour {
+namespace {
+
+constexpr double kThickest_mm = 100.0, kWidestGap_mm = 1000.0;
+constexpr double kFinestPitch_mm = 1e-4, kWidestPitch_mm = 1.0;
+
+tl::unexpected<Error> refused(std::string message) { return failure(ErrorCode::InvalidArgument, std::move(message)); }
+
+Result<void> check_plate(const SensorPlate& plate) {
+  if (!(plate.thickness_mm > 0.0 && plate.thickness_mm <= kThickest_mm) ||
+      !(plate.gap_mm >= 0.0 && plate.gap_mm <= kWidestGap_mm)) {
+    return refused(fmt::format("a plate of {} mm, {} mm before what follows; give a thickness to {} and a gap to {} mm",
+                               plate.thickness_mm, plate.gap_mm, kThickest_mm, kWidestGap_mm));
+  }
+  if (const auto problem = glass_problem(plate.glass)) return refused("a plate before the sensor: " + *problem);
+  if (const auto problem = coating_problem(plate.coating)) return refused("a plate before the sensor: " + *problem);
+  return {};
+}
+
+// Far beyond the frame: light that passes beside the sensor is not held back by what stands before it.
+double wide_mm(const LensState& lens) {
+  return 100.0 * (std::hypot(lens.sensor_width_mm, lens.sensor_height_mm) + std::abs(lens.focal_length_mm));
+}
+
+Coating reflecting(double share) { return {"sensor", MeasuredCoating{{kLineD_nm}, {0.0}, {share}}}; }
+
+}  // namespace
+
+Result<void> check_sensor_stack(const SensorStack& stack) {
+  if (stack.plates.size() > SensorStack::kMostPlates)
+    return refused(
+        fmt::format("{} plates before the sensor; give {} at most", stack.plates.size(), SensorStack::kMostPlates));
+  for (const SensorPlate& plate : stack.plates)
+    if (const auto good = check_plate(plate); !good) return good;
+  if (!(stack.reflectance >= 0.0 && stack.reflectance <= 1.0))
+    return refused(fmt::format("a sensor that reflects {}; give a share from 0 to 1", stack.reflectance));
+  const bool fits = stack.orders >= 0 && stack.orders <= SensorStack::kMostOrders &&
+                    stack.pitch_mm >= kFinestPitch_mm && stack.pitch_mm <= kWidestPitch_mm && stack.fill > 0.0 &&
+                    stack.fill <= 1.0;
+  if (fits) return {};
+  return refused(
+      fmt::format("pixels of {} um, {} of them filled, {} orders; give a pitch from {} to {} um, a fill to "
+                  "1 and {} orders at most",
+                  stack.pitch_mm * 1e3, stack.fill, stack.orders, kFinestPitch_mm * 1e3, kWidestPitch_mm * 1e3,
+                  SensorStack::kMostOrders));
+}
+
+Result<void> add_sensor_stack(const SensorStack& stack, const SourcePlace& place, LensState& lens) {
+  if (stack.plates.empty() && stack.reflectance == 0.0) return {};
+  double way_mm = 0.0;
+  for (const SensorPlate& plate : stack.plates) {
+    lens.sensor_z_mm += plate.thickness_mm * (1.0 - 1.0 / refractive_index(plate.glass, lens.design_wavelength_nm));
+    way_mm += plate.thickness_mm + plate.gap_mm;
+  }
+  const double last_z_mm = lens.surfaces.back().z_mm;
+  double z_mm = lens.sensor_z_mm - way_mm;
+  if (!(z_mm >= last_z_mm)) {
+    return failure(ErrorCode::InvalidArgument,
+                   fmt::format("the plates before the sensor need {:.4g} mm; the lens leaves {:.4g} mm", way_mm,
+                               lens.sensor_z_mm - last_z_mm),
+                   place);
+  }
+  const double semi_mm = wide_mm(lens);
+  for (const SensorPlate& plate : stack.plates) {
+    SurfaceState front{SurfaceKind::Refracting, z_mm, 0.0, semi_mm, air(), plate.glass, {}};
+    front.coating = placed_on(plate.coating, front.before, front.after);
+    SurfaceState back{SurfaceKind::Refracting, z_mm + plate.thickness_mm, 0.0, semi_mm, plate.glass, air(), {}};
+    back.coating = placed_on(plate.coating, back.before, back.after);
+    lens.surfaces.push_back(front);
+    lens.surfaces.push_back(back);
+    z_mm = back.z_mm + plate.gap_mm;
+  }
+  if (stack.reflectance == 0.0) return {};
+  SurfaceState sensor{SurfaceKind::Sensor, lens.sensor_z_mm, 0.0, semi_mm, air(), air(), reflecting(stack.reflectance)};
+  sensor.aperture.kind = ApertureKind::Rectangle;
+  sensor.aperture.half_mm = {0.5 * lens.sensor_width_mm, 0.5 * lens.sensor_height_mm};
+  lens.surfaces.push_back(sensor);
+  lens.sensor_grating = {stack.orders, stack.pitch_mm, stack.fill};
+  return {};
+}
+
+}  // namespace contrejour

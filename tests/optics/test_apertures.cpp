@@ -1,0 +1,126 @@
+// Rims that are no circles: rims_of() against plain geometry, both tracers against places on the glass.
+#include <cmath>
+#include <random>
+#include <vector>
+
+#include <doctest/doctest.h>
+
+#include "contrejour/clear_aperture.h"
+#include "optics/trace/clearance.h"
+#include "optics/trace/packet_trace.h"
+#include "support/scenes.h"
+
+using namespace contrejour;
+
+namespace {
+
+// As one would say it: in the aperture's own frame, within the half sides, and within the disc.
+bool is_clear(const ClearAperture& a, double semi_diameter_mm, Vec2 at) {
+  const Vec2 from = at - a.centre_mm;
+  const double x = from.x * std::cos(a.turn_rad) + from.y * std::sin(a.turn_rad);
+  const double y = -from.x * std::sin(a.turn_rad) + from.y * std::cos(a.turn_rad);
+  const double u = x / a.half_mm.x, v = y / a.half_mm.y;
+  const bool inside = a.kind == ApertureKind::Ellipse ? u * u + v * v <= 1.0 : std::abs(u) <= 1.0 && std::abs(v) <= 1.0;
+  return inside && length(at) <= semi_diameter_mm;
+}
+
+const ClearAperture kApertures[] = {
+    {ApertureKind::Ellipse, {6.0, 3.0}, {0.5, -0.4}, 0.3},
+    {ApertureKind::Ellipse, {20.0, 4.0}, {}, -1.0},     // cut by the disc
+    {ApertureKind::Rectangle, {5.0, 3.0}, {-0.3, 0.2}, 0.6},
+    {ApertureKind::Rectangle, {9.0, 8.0}, {}, 0.0},     // its corners are the disc's
+    {ApertureKind::Rectangle, {99.0, 2.0}, {}, 1.2},    // a slit
+};
+
+LensState heliar_with(const ClearAperture& front, const SurfacePose& pose = {}) {
+  auto lens = find_lens("heliar");
+  REQUIRE(lens.has_value());
+  lens->surfaces.front().aperture = front;
+  lens->surfaces.front().pose = pose;
+  const auto state = lens_at(*lens, {.f_number = 8.0});
+  REQUIRE(state.has_value());
+  return *state;
+}
+
+}  // namespace
+
+TEST_CASE("an aperture's rims hold what lies within it and nothing else") {
+  std::mt19937 random(4);
+  std::uniform_real_distribution<double> place(-11.0, 11.0);
+  for (const ClearAperture& aperture : kApertures) {
+    const auto rims = rims_of(aperture, 10.0);
+    REQUIRE_FALSE(rims.empty());
+    int inside = 0;
+    for (int k = 0; k < 5000; ++k) {
+      const Vec2 at{place(random), place(random)};
+      const bool clear = is_clear(aperture, 10.0, at);
+      inside += clear ? 1 : 0;
+      CHECK(std::ranges::all_of(rims, [&](const Rim& rim) { return length(rim.place(at)) <= 1.0; }) == clear);
+    }
+    CHECK(inside > 100);
+  }
+  CHECK(rims_of({}, 10.0).empty());
+  CHECK(rims_of(kApertures[0], 10.0).size() == 1);
+  CHECK(rims_of(kApertures[2], 10.0).size() == 2);
+  CHECK(rims_of(kApertures[3], 10.0).size() == 3);
+}
+
+TEST_CASE("rays pass a rim where they meet the glass within it, centred or not, in every tracer") {
+  const SurfacePose askew{{0.4, -0.3, 0.0}, normalized({0.02, 0.03, 1.0})};
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> place(-13.0, 13.0);
+  for (const SurfacePose& pose : {SurfacePose{}, askew}) {
+    for (const ClearAperture& aperture : kApertures) {
+      const LensState lens = heliar_with(aperture, pose);
+      const LensState round = heliar_with({}, pose);
+      CHECK_FALSE(lens.has_axial_symmetry());
+      const double semi_mm = lens.surfaces.front().semi_diameter_mm;
+      for (const Ghost& ghost : {Ghost{}, Ghost{1, 2}}) {
+        const auto path_of = [&](const LensState& of) {
+          return ghost == Ghost{} ? direct_path(of, 550.0) : ghost_path(of, ghost, 550.0);
+        };
+        const OpticalPath path = path_of(lens), plain = path_of(round);
+        const ReflectanceTables tables(lens, 550.0);
+        const PacketPath packets(path, tables, {{0, 0, -5.0}, LightSource{{0, 0, 1}}});
+        int blocked = 0, open = 0;
+        for (int k = 0; k < 300; ++k) {
+          const Vec2 at{place(random), place(random)};
+          const Ray ray{{at.x, at.y, -5.0}, {0, 0, 1}};
+          const TracedRay through = trace(path, ray), before = trace(plain, ray);
+          CHECK(through.status == before.status);
+          if (through.status != RayStatus::Ok) continue;
+          CHECK(through.sensor_mm.y == doctest::Approx(before.sensor_mm.y).epsilon(1e-12));
+          CHECK(through.transmission == doctest::Approx(before.transmission).epsilon(1e-12));
+          // Where it meets the glass of surface 1, each time.
+          bool clear = before.r_rel <= 1.0;
+          for (const TraceStep& step : trace_recorded(plain, ray).steps) {
+            if (step.surface != 1) continue;
+            Vec3 from = step.position_mm - pose.shift_mm;
+            // Upright again: the smallest turn that takes the axis to +z.
+            const Vec3 a = pose.axis;
+            const double along = dot(a, from), t = (a.x * from.x + a.y * from.y) / (1.0 + a.z);
+            from = {from.x - a.x * (from.z + t), from.y - a.y * (from.z + t), along};
+            clear = clear && is_clear(aperture, semi_mm, {from.x, from.y});
+          }
+          CHECK((through.r_rel <= 1.0) == clear);
+          (clear ? open : blocked) += 1;
+
+          const float x = static_cast<float>(at.x), y = static_cast<float>(at.y);
+          float sx = 0, sy = 0, transmission = 0, r_rel = 0, px = 0, py = 0;
+          TracedArrays out{&sx, &sy, &transmission, &r_rel, {&px}, {&py}, nullptr, 0};
+          trace_packets(packets, PacketPrecision::Double, &x, &y, 1, out);
+          CHECK(r_rel == doctest::Approx(through.r_rel).epsilon(1e-4));
+          CHECK(transmission == doctest::Approx(through.transmission).epsilon(1e-3));
+
+          std::vector<float> fields(7 * kClearancePadding), xs(kClearancePadding, x), ys(kClearancePadding, y);
+          const auto field = [&](std::size_t n) { return fields.data() + n * kClearancePadding; };
+          trace_clearance(packets, PacketPrecision::Double, xs.data(), ys.data(), 1,
+                          {field(0), field(1), field(2), field(3), {field(4)}, {field(5)}});
+          CHECK(std::hypot(*field(2), *field(3)) == doctest::Approx(through.r_rel).epsilon(1e-3));
+        }
+        CHECK(open > 5);
+        CHECK(blocked > 5);
+      }
+    }
+  }
+}
