@@ -85,6 +85,9 @@ struct TracedRay {
 [[nodiscard]] OpticalPath direct_path(const LensState& lens, double lambda_nm);
 [[nodiscard]] OpticalPath ghost_path(const LensState& lens, Ghost ghost, double lambda_nm);
 
+// Does all that the ghost's way meets look the same around the axis? A sensor that it does not turn at is no matter.
+[[nodiscard]] bool has_axial_symmetry(const LensState& lens, const Ghost& ghost);
+
 [[nodiscard]] TracedRay trace(const OpticalPath& path, const Ray& ray);
 
 // How far outside everything the ray passes: the larger of r_rel - 1 and the iris distances; <= 0 gets through.

@@ -130,4 +130,15 @@ OpticalPath ghost_path(const LensState& lens, Ghost ghost, double lambda_nm) {
   return builder.take();
 }
 
+bool has_axial_symmetry(const LensState& lens, const Ghost& ghost) {
+  const auto turns_at = [&](int surface) {
+    return surface == ghost.j || (ghost.reflects_four_times() && surface == ghost.l);
+  };
+  int surface = 0;
+  return std::all_of(lens.surfaces.begin(), lens.surfaces.end(), [&](const SurfaceState& s) {
+    ++surface;
+    return s.has_axial_symmetry() || (s.kind == SurfaceKind::Sensor && !turns_at(surface));
+  });
+}
+
 }  // namespace contrejour

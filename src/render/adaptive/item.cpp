@@ -92,7 +92,7 @@ Work find_askew_box(const Scene& scene, Item& item) {
 // Where rays get through, at all wavelengths of the light: found at the middle one, then fitted to the outer ones.
 Work find_boxes(const Scene& scene, Item& item) {
   item.boxes.clear();
-  if (!scene.lens.has_axial_symmetry()) return find_askew_box(scene, item);
+  if (!has_axial_symmetry(scene.lens, item.ghost)) return find_askew_box(scene, item);
   const LightFrame light(item.light->source);
   const EntranceWindow window = entrance_window(scene.lens, light.source);
   const LightRays rays{{0.0, 0.0, window.z_mm}, light.source};
@@ -142,7 +142,7 @@ Painted paint(const Scene& scene, const Item& item, std::vector<PlannedPass> pas
   if (!item.has_shadows && item.past_dirt != 1.0)
     for (PlannedPass& pass : passes)
       for (double& gain : pass.gain) gain *= item.past_dirt;
-  const LightFrame light(item.light->source, scene.lens.has_axial_symmetry());
+  const LightFrame light(item.light->source, has_axial_symmetry(scene.lens, item.ghost));
   const IrisShape& iris = item.screens ? round_iris() : scene.iris;
   GhostPainter painter(scene.lens, iris, frame, light, scene.plan.tables, deepest, item.screens.get(),
                        item.has_shadows ? scene.dirt.get() : nullptr);

@@ -16,7 +16,7 @@ constexpr double kRoom = 0.07;  // of an item's boxes, beside its light (item.cp
 Rectangle crossed(const Scene& scene, const Item& item) {
   const double r = scene.dirt->stop_radius_mm();
   if (!scene.dirt->on_front()) return {{-r, -r}, {r, r}};
-  const LightFrame light(item.light->source, scene.lens.has_axial_symmetry());
+  const LightFrame light(item.light->source, has_axial_symmetry(scene.lens, item.ghost));
   const SeenDirt seen{scene.dirt.get(), &light, entrance_window(scene.lens, light.source).z_mm};
   Rectangle all{seen.front_place(item.boxes.front().low), seen.front_place(item.boxes.front().low)};
   for (const Rectangle& box : item.boxes) {
