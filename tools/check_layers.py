@@ -69,6 +69,7 @@ PUBLIC = {
     "spectrum_file.h": "image",
     "starburst.h": "diffraction",
     "clear_aperture.h": "kernels",
+    "coating_file.h": "coating",
     "ghost_id.h": "lens",
     "surface_shape.h": "kernels",
     "trace.h": "trace",

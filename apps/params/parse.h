@@ -66,7 +66,7 @@ struct LightText {
 // "preview", "standard", "final", or the bound itself.
 [[nodiscard]] Result<double> parse_error_bound(std::string_view text);
 
-// "none", "quarter-wave[:NM[:N]]", "hullin[:NM[:N]]", "stack:N@NM,N@NM,..." from air to glass.
+// "none", "quarter-wave[:NM[:N]]", "hullin[:NM[:N]]", "stack:N@NM,N@NM,..." from air to glass, "measured:FILE".
 [[nodiscard]] Result<Coating> parse_coating(std::string_view text);
 
 // A plane plate in front of the sensor: "2", "2:N-BK7", "2:1.52:0.8": mm thick, glass or index (N-BK7), gap behind (1).

@@ -1,11 +1,13 @@
 // The texts that stand for optical things: lights, ghosts, coatings.
 #include <algorithm>
+#include <filesystem>
 #include <optional>
 #include <string>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "contrejour/coating_file.h"
 #include "contrejour/film_design.h"
 #include "contrejour/glass_catalogue.h"
 #include "contrejour/spectrum_file.h"
@@ -282,13 +284,17 @@ Result<Coating> parse_coating(std::string_view text) {
     const auto stack = parse_stack(*layers);
     if (!stack) return tl::unexpected(stack.error());
     coating.films = *stack;
+  } else if (const auto file = after(text, "measured:")) {
+    auto measured = read_measured_coating(std::filesystem::path(*file));
+    if (!measured) return tl::unexpected(measured.error());
+    coating.films = std::move(*measured);
   } else if (const auto design = parse_design(text)) {
     if (!*design) return tl::unexpected(design->error());
     coating.films = **design;
   } else {
     return invalid(
         fmt::format("\"{}\" is no coating; write none, quarter-wave:550:1.38, hullin:550:1.38, "
-                    "stack:1.38@99.6,ZrO2@0.5w or a design ({})",
+                    "stack:1.38@99.6,ZrO2@0.5w, measured:FILE or a design ({})",
                     text, fmt::join(coating_design_names(), ", ")));
   }
   return coating;

@@ -99,7 +99,8 @@ const Parameter kTable[] = {
      .fallback = "0", .help = "0: dirt lies still; else it has wandered, and is back at every whole number"},
     {.name = "coating", .group = "Lens", .unit = "COATING",
      .help = "films on every surface to the air instead of the lens's own: none, quarter-wave:550:1.38, "
-             "hullin:550:1.38, stack:MgF2@99.6,ZrO2@0.5w, v-coat, broadband-5:550, ...",
+             "hullin:550:1.38, stack:MgF2@99.6,ZrO2@0.5w, v-coat, broadband-5:550, measured:FILE (a table, R over nm and degrees), "
+             "...",
      .check = parses<parse_coating>},
     {.name = "absorption", .group = "Lens", .kind = Kind::Switch,
      .help = "glass absorbs on the way through it, where its catalogue says how much"},

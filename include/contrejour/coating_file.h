@@ -1,0 +1,20 @@
+// Measured reflectances as files: a line of headings with the angles of incidence in degrees, then lines of a
+// wavelength in nm and the reflectance at each angle, 0 to 1 (docs/formats/coating.md). Commas, semicolons, tabs or
+// spaces between;
+// `#` begins a comment. Bounded in memory and time. Errors: Parse with file and line, Io. Thread-safety: pure
+// functions.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+#include "contrejour/coating.h"
+#include "contrejour/result.h"
+
+namespace contrejour {
+
+[[nodiscard]] Result<MeasuredCoating> read_measured_coating(std::string_view text, const std::string& file);
+[[nodiscard]] Result<MeasuredCoating> read_measured_coating(const std::filesystem::path& file);
+
+}  // namespace contrejour
