@@ -91,7 +91,8 @@ TEST_CASE("focusing near moves the sensor to the conjugate plane (Newton's equat
   REQUIRE(near.has_value());
   const FirstOrder f = first_order(*far, kLineD_nm);
   const double x = 1000.0 + f.front_focal_distance_mm;  // object to front focal point
-  CHECK(near->sensor_z_mm - far->sensor_z_mm == doctest::Approx(f.focal_length_mm * f.focal_length_mm / x).epsilon(1e-9));
+  CHECK(near->sensor_z_mm - far->sensor_z_mm ==
+        doctest::Approx(f.focal_length_mm * f.focal_length_mm / x).epsilon(1e-9));
   CHECK_FALSE(lens_at(prime_lens(), {.object_distance_mm = 10.0}).has_value());
   CHECK_FALSE(lens_at(prime_lens(), {.object_distance_mm = -5.0}).has_value());
 }
@@ -105,4 +106,21 @@ TEST_CASE("a coating setting replaces glass-to-air coatings only") {
   CHECK(state->surfaces[0].coating == blue);
   CHECK(state->surfaces[1].coating == blue);
   CHECK(state->surfaces[2].coating == Coating{});  // the stop
+}
+
+TEST_CASE("figures that the source states and the surfaces do not have are warnings, at the first position alone") {
+  auto zoom = find_lens("canon-70-200");
+  REQUIRE(zoom.has_value());
+  zoom->stated.focal_length_mm = 75.0;
+  zoom->stated.back_focal_distance_mm = 40.0;
+  const auto wide = lens_at(*zoom);
+  REQUIRE(wide.has_value());
+  REQUIRE(wide->warnings.size() == 2);
+  CHECK(wide->warnings[0] == "its source states a focal length of 75 mm; the surfaces have 72.12 mm");
+  CHECK(wide->warnings[1].find("back focal distance of 40 mm") != std::string::npos);
+  const auto far = lens_at(*zoom, {.focal_length_mm = 200.0});
+  REQUIRE(far.has_value());
+  CHECK(far->warnings.empty());
+  zoom->stated.tolerance = 0.2;
+  CHECK(lens_at(*zoom)->warnings.empty());
 }

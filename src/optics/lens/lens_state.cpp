@@ -2,6 +2,7 @@
 // from the f-number by a real marginal ray.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <optional>
 
@@ -282,6 +283,19 @@ void warn_of_glasses(LensState& state) {
   }
 }
 
+// Published data is often wrong: figures that its source states and that the surfaces do not have.
+void warn_of_stated(LensState& state, const StatedFigures& stated) {
+  const auto compare = [&](const char* what, const std::optional<double>& claimed_mm, double computed_mm) {
+    if (!claimed_mm || std::abs(computed_mm - *claimed_mm) <= stated.tolerance * std::abs(state.focal_length_mm))
+      return;
+    state.warnings.push_back(
+        fmt::format("its source states a {} of {:g} mm; the surfaces have {:.4g} mm", what, *claimed_mm, computed_mm));
+  };
+  compare("focal length", stated.focal_length_mm, state.focal_length_mm);
+  const double infinity = std::numeric_limits<double>::infinity();
+  compare("back focal distance", stated.back_focal_distance_mm, image_plane(state, infinity, Section::Y).distant_mm);
+}
+
 }  // namespace
 
 Result<LensState> lens_at(const Prescription& lens, const LensSettings& settings) {
@@ -307,6 +321,7 @@ Result<LensState> lens_at(const Prescription& lens, const LensSettings& settings
     return failure(ErrorCode::InvalidArgument, "the lens has no power, so no focal length; check its radii", lens.file);
   }
   warn_of_glasses(state);
+  if (zoom->position == 0 && zoom->towards_next == 0.0) warn_of_stated(state, lens.stated);
   if (const auto set = set_stop(state, lens, settings.f_number); !set) return tl::unexpected<Error>(set.error());
   if (const auto set = set_iris(state, lens, settings); !set) return tl::unexpected<Error>(set.error());
   if (const auto good = check_dirt(settings.dirt); !good) return tl::unexpected<Error>(good.error());
