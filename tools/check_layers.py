@@ -71,6 +71,7 @@ PUBLIC = {
     "clear_aperture.h": "kernels",
     "coating_file.h": "coating",
     "ghost_id.h": "lens",
+    "seidel.h": "lens",
     "surface_shape.h": "kernels",
     "trace.h": "trace",
     "vec.h": "base",

@@ -12,6 +12,7 @@
 #include "cli/options.h"
 #include "cli/text_table.h"
 #include "contrejour/first_order.h"
+#include "contrejour/seidel.h"
 #include "params/settings.h"
 
 namespace contrejour::cli {
@@ -20,9 +21,8 @@ namespace {
 constexpr const char* kExamples =
     "Indices and figures are for --wavelength; n_d is always for the d line. A plane has no radius. The last "
     "surface's\n"
-    "thickness leads to the sensor. Positions are measured as DESIGN says: entrance pupil and front focal point from\n"
-    "surface 1, back focus and sensor from the last surface, exit pupil from the sensor; positive towards the "
-    "image.\n\n"
+    "thickness leads to the sensor. Entrance pupil and front focal point are measured from surface 1, back focus and\n"
+    "sensor from the last surface, the exit pupil from the sensor; positive towards the image.\n\n"
     "Examples:\n"
     "  contrejour lens info heliar\n"
     "  contrejour lens info canon-70-200 --focal 135 -f 4 --focus 3m --json";
@@ -30,6 +30,7 @@ constexpr const char* kExamples =
 struct InfoOptions {
   std::string lens;
   bool json = false;
+  bool seidel = false;
   params::Values values;
 };
 
@@ -38,6 +39,7 @@ struct Info {
   LensState state;
   FirstOrder figures;
   double lambda_nm = 0;
+  std::vector<SeidelSums> seidel;  // by surface
 };
 
 std::string glass_name(const Glass& glass) {
@@ -121,6 +123,22 @@ Json surfaces_json(const Info& info) {
   return list;
 }
 
+Json seidel_json(const std::vector<SeidelSums>& by_surface) {
+  const auto row = [](const SeidelSums& s) {
+    return Json{{"spherical_mm", s.spherical},          {"coma_mm", s.coma},
+                {"astigmatism_mm", s.astigmatism},      {"petzval_mm", s.petzval},
+                {"distortion_mm", s.distortion},        {"axial_colour_mm", s.axial_colour},
+                {"lateral_colour_mm", s.lateral_colour}};
+  };
+  Json surfaces = Json::array();
+  SeidelSums total;
+  for (const SeidelSums& s : by_surface) {
+    surfaces.push_back(row(s));
+    total += s;
+  }
+  return {{"sums", row(total)}, {"surfaces", surfaces}};
+}
+
 Json info_json(const Info& info) {
   const FirstOrder& f = info.figures;
   Json zoom = Json::array();
@@ -142,6 +160,7 @@ Json info_json(const Info& info) {
           {"exit_pupil_diameter_mm", f.exit_pupil_diameter_mm},
           {"f_number", f.f_number},
           {"half_field_deg", f.half_field_rad / params::kDegree_rad},
+          {"seidel", seidel_json(info.seidel)},
           {"sensor_position_mm", f.sensor_position_mm},
           {"sensor_width_mm", info.state.sensor_width_mm},
           {"sensor_height_mm", info.state.sensor_height_mm},
@@ -199,13 +218,34 @@ std::string figures_text(const Info& info) {
   return text.substr(text.find('\n') + 1);  // no headings
 }
 
+// In wavelengths, as third-order coefficients are read.
+std::string seidel_text(const Info& info) {
+  const double per_wave = 1e6 / info.lambda_nm;
+  TextTable table({"surface", "S_I", "S_II", "S_III", "S_IV", "S_V", "C_I", "C_II"});
+  SeidelSums total;
+  const auto add = [&](const std::string& name, const SeidelSums& s) {
+    std::vector<std::string> row{name};
+    for (const double mm :
+         {s.spherical, s.coma, s.astigmatism, s.petzval, s.distortion, s.axial_colour, s.lateral_colour})
+      row.push_back(fmt::format("{:.3f}", mm * per_wave));
+    table.add(std::move(row));
+  };
+  for (std::size_t k = 0; k < info.seidel.size(); ++k) {
+    total += info.seidel[k];
+    if (info.state.surfaces[k].kind == SurfaceKind::Refracting) add(fmt::format("{}", k + 1), info.seidel[k]);
+  }
+  add("sum", total);
+  return "\nSeidel's sums in waves, at the f-number and half field above, colour from F to C\n" + table.text();
+}
+
 std::string info_text(const Info& info) {
   std::string text = fmt::format("{}\n{}\n", info.lens.name, info.lens.source);
   if (!info.lens.zoom.empty()) {
     text += fmt::format("zoom from {:g} to {:g} mm, here {:.2f} mm\n", info.lens.zoom.front().focal_length_mm,
                         info.lens.zoom.back().focal_length_mm, info.state.focal_length_mm);
   }
-  return text + fmt::format("\n{}\nat {:g} nm\n{}", surfaces_text(info), info.lambda_nm, figures_text(info));
+  text += fmt::format("\n{}\nat {:g} nm\n{}", surfaces_text(info), info.lambda_nm, figures_text(info));
+  return text;
 }
 
 Result<int> run_info(const InfoOptions& options) {
@@ -217,11 +257,12 @@ Result<int> run_info(const InfoOptions& options) {
   if (!state) return tl::unexpected(state.error());
   const double lambda_nm = wavelength_nm(options.values, *state);
   const FirstOrder figures = first_order(*state, lambda_nm);
-  const Info info{std::move(*lens), std::move(*state), figures, lambda_nm};
+  auto seidel = seidel_by_surface(*state, {.lambda_nm = lambda_nm, .half_field_rad = figures.half_field_rad});
+  const Info info{std::move(*lens), std::move(*state), figures, lambda_nm, std::move(seidel)};
   if (options.json) {
     print_json(info_json(info));
   } else {
-    print(info_text(info));
+    print(info_text(info) + (options.seidel ? seidel_text(info) : ""));
     print_warnings(info.state.warnings);
   }
   return kDone;
@@ -234,6 +275,7 @@ void add_lens_info(CLI::App& lens, Action& action) {
   CLI::App* command = lens.add_subcommand("info", "surfaces and first-order figures");
   add_lens_argument(*command, options->lens);
   command->add_flag("--json", options->json, "as JSON");
+  command->add_flag("--seidel", options->seidel, "third-order aberrations too, by surface (as JSON always)");
   add_lens_parameters(*command, options->values);
   add_parameters(*command, options->values, {"wavelength"});
   command->footer(kExamples);

@@ -9,9 +9,11 @@
 #include <doctest/doctest.h>
 #include <nlohmann/json.hpp>
 
+#include "base/units.h"
 #include "contrejour/first_order.h"
-#include "support/csv_lens.h"
+#include "contrejour/seidel.h"
 #include "shared_data.h"
+#include "support/csv_lens.h"
 
 using namespace contrejour;
 using nlohmann::json;
@@ -41,10 +43,14 @@ std::optional<double> index_from_file(const std::filesystem::path& file, double 
   const double l2 = lambda_um * lambda_um;
   double n2 = formula == 3 ? c[0] : 1.0 + c[0];
   for (std::size_t k = 1; k + 1 < c.size(); k += 2) {
-    if (formula == 3) n2 += c[k] * std::pow(lambda_um, c[k + 1]);
-    else if (formula == 2) n2 += c[k] * l2 / (l2 - c[k + 1]);
-    else if (formula == 1) n2 += c[k] * l2 / (l2 - c[k + 1] * c[k + 1]);
-    else return std::nullopt;
+    if (formula == 3)
+      n2 += c[k] * std::pow(lambda_um, c[k + 1]);
+    else if (formula == 2)
+      n2 += c[k] * l2 / (l2 - c[k + 1]);
+    else if (formula == 1)
+      n2 += c[k] * l2 / (l2 - c[k + 1] * c[k + 1]);
+    else
+      return std::nullopt;
   }
   return std::sqrt(n2);
 }
@@ -153,4 +159,67 @@ TEST_CASE("a ball lens focuses at n R / (2 (n - 1)) from its centre") {
   const LensState state = test::place(ball);
   CHECK(state.focal_length_mm == doctest::Approx(n * radius / (2 * (n - 1))).epsilon(1e-12));
   CHECK(state.sensor_z_mm == doctest::Approx(radius + n * radius / (2 * (n - 1))).epsilon(1e-12));
+}
+
+TEST_CASE("Seidel's sums are those that optiland asserts, its signs turned, to 1e-6") {
+  const auto oracle = test::shared_data("oracles/optiland_test_assertions.json");
+  const auto samples_file = test::shared_data("lenses/optiland/optiland_samples.json");
+  const auto resolution_file = test::shared_data("oracles/optiland_glass_resolution.json");
+  if (!oracle || !samples_file || !resolution_file) return;
+  const json samples = json::parse(std::ifstream(*samples_file));
+  const json resolutions = json::parse(std::ifstream(*resolution_file))["systems"];
+  std::map<std::string, std::vector<double>> expected;  // of each test's system, S_I to S_V
+  const json asserted = json::parse(std::ifstream(*oracle));
+  for (const json& line : asserted["tests"]["tests/test_aberrations.py"]) {
+    const std::string name = line["test"];
+    if (name.ends_with(".test_third_order") && line["quantity"].get<std::string>().starts_with("S["))
+      expected[name.substr(0, name.find('.'))].push_back(line["expected"]);
+  }
+  const struct {
+    const char *test, *sample;
+    double field_deg, f_number, pupil_mm;
+  } kSystems[] = {{"TestDoubleGaussAberrations", "DoubleGauss", 14.0, 5.0, 0.0},
+                  {"TestEdmundSinglet", "Edmund_49_847", 14.0, 0.0, 25.4},
+                  {"TestSingletStopTwo", "SingletStopSurf2", 5.0, 0.0, 25.0}};
+  for (const auto& system : kSystems) {
+    const std::string name = system.sample;
+    CAPTURE(name);
+    auto state = state_of(samples[system.sample], resolutions[system.sample]);
+    REQUIRE(state.has_value());
+    state->f_number = system.pupil_mm > 0.0 ? state->focal_length_mm / system.pupil_mm : system.f_number;
+    const SeidelSums sums = seidel_sums(*state, {.half_field_rad = rad_from_deg(system.field_deg)});
+    const double computed[] = {sums.spherical, sums.coma, sums.astigmatism, sums.petzval, sums.distortion};
+    const std::vector<double>& wanted = expected[system.test];
+    REQUIRE(wanted.size() == 5);
+    for (std::size_t k = 0; k < 5; ++k) CHECK(computed[k] == doctest::Approx(-wanted[k]).epsilon(1e-6));
+    CHECK(sums.axial_colour == 0.0);  // glasses are constants here
+  }
+}
+
+TEST_CASE("a thin lens's colour is y^2 power / V, and an ellipsoid of conic -1 / n^2 has no spherical aberration") {
+  Prescription lens;
+  const Glass glass{"", AbbeGlass{1.6, 40.0}};
+  Surface front{.curvature_per_mm = 0.02,
+                .thickness_mm = 1e-9,
+                .semi_diameter_mm = 1e-3,
+                .glass_after = glass};  // rims small: they would cross
+  Surface back{.curvature_per_mm = -0.02, .semi_diameter_mm = 1e-3, .glass_after = air()};
+  Surface stop{.kind = SurfaceKind::Stop, .semi_diameter_mm = 5.0, .glass_after = air()};
+  lens.surfaces = {stop, front, back};
+  lens.f_number = 5.0;
+  auto state = lens_at(lens);
+  REQUIRE_MESSAGE(state.has_value(), (state ? "" : state.error().to_string()));
+  const double y = 0.5 * state->focal_length_mm / 5.0;
+  const SeidelSums thin = seidel_sums(*state, {});
+  CHECK(thin.axial_colour == doctest::Approx(y * y / state->focal_length_mm / 40.0).epsilon(1e-6));
+  CHECK(thin.lateral_colour == doctest::Approx(0.0));
+  CHECK(thin.spherical > 0.0);
+
+  const double n = refractive_index(glass, kLineD_nm);
+  state->surfaces[1].shape.conic = -1.0 / (n * n);
+  CHECK(seidel_by_surface(*state, {})[1].spherical == doctest::Approx(0.0).scale(thin.spherical));
+  // The same departure by its coefficient of r^4.
+  state->surfaces[1].shape.conic = 0.0;
+  state->surfaces[1].shape.powers = {0.0, 0.0, 0.0, -0.02 * 0.02 * 0.02 / (8.0 * n * n)};
+  CHECK(seidel_by_surface(*state, {})[1].spherical == doctest::Approx(0.0).scale(thin.spherical));
 }
