@@ -1,0 +1,100 @@
+#include "optics/lens/zmx_zoom.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include <fmt/format.h>
+
+#include "optics/lens/plain_number.h"
+
+namespace contrejour {
+namespace {
+
+// What changes no ray that we trace: names, weights, vignetting factors, coatings.
+bool changes_nothing(std::string_view name) {
+  static const std::set<std::string_view> kNames = {"MOFF", "LTTL", "CWGT", "FVDX", "FVDY", "FVCX", "FVCY", "FVAN",
+                                                    "FLWT", "WLWT", "COTN", "SATP", "TELE", "RAIM", "NOTE", "BLNK"};
+  return kNames.contains(name);
+}
+
+// What our zoom has once for all positions.
+bool is_said_once(std::string_view name) {
+  static const std::set<std::string_view> kNames = {"APER", "XFIE", "YFIE", "FLTP", "WAVE", "PRWV",
+                                                    "SDIA", "CSP1", "CSP2", "TEMP", "PRES"};
+  return kNames.contains(name);
+}
+
+// Operands that have another value in some configuration. Those of one operand stand together, configurations rising.
+std::vector<const ZmxOperand*> changing(const std::vector<ZmxOperand>& operands) {
+  std::vector<const ZmxOperand*> out;
+  const ZmxOperand* first = nullptr;
+  for (const ZmxOperand& operand : operands) {
+    const bool same = first != nullptr && first->name == operand.name && first->subject == operand.subject &&
+                      operand.configuration > first->configuration;
+    if (!same) {
+      first = &operand;
+    } else if (operand.value != first->value) {
+      out.push_back(&operand);
+    }
+  }
+  return out;
+}
+
+void solve(const std::vector<ZmxSurface>& surfaces, std::vector<double>& thickness) {
+  const auto sum = [&](std::size_t from, std::size_t to) {
+    double total = 0.0;
+    for (std::size_t k = from; k < to; ++k) total += thickness[k];
+    return total;
+  };
+  for (std::size_t k = 0; k < surfaces.size(); ++k) {
+    if (!surfaces[k].solve) continue;
+    const ZmxSolve& by = *surfaces[k].solve;
+    const auto from = static_cast<std::size_t>(std::max(by.from, 0));
+    if (from >= k) continue;
+    switch (by.kind) {
+      case ZmxSolve::Kind::Pickup: thickness[k] = by.scale * thickness[from] + by.offset; break;
+      case ZmxSolve::Kind::Position: thickness[k] = by.offset - sum(from, k); break;
+      case ZmxSolve::Kind::Pair: thickness[k] = by.offset - thickness[from]; break;
+    }
+  }
+}
+
+}  // namespace
+
+std::vector<std::vector<double>> zmx_positions(const ZmxConfigurations& configurations,
+                                               const std::vector<ZmxSurface>& surfaces,
+                                               std::vector<std::string>& warnings) {
+  const auto moving = changing(configurations.operands);
+  if (configurations.count < 2 || moving.empty()) return {};
+  std::set<std::string_view> once;
+  for (const ZmxOperand* operand : moving) {
+    if (operand->name == "THIC" || changes_nothing(operand->name)) continue;
+    if (!is_said_once(operand->name)) {
+      warnings.push_back(
+          fmt::format("the {} configurations differ in {} (line {}), not in thicknesses alone; "
+                      "configuration {} is read",
+                      configurations.count, operand->name, operand->line, configurations.current));
+      return {};
+    }
+    if (once.insert(operand->name).second)
+      warnings.push_back(
+          fmt::format("{} changes with the configuration (line {}); that of configuration {} is used at "
+                      "all of them",
+                      operand->name, operand->line, configurations.current));
+  }
+  if (std::none_of(moving.begin(), moving.end(), [](const ZmxOperand* o) { return o->name == "THIC"; })) return {};
+  std::vector<double> own;
+  for (const ZmxSurface& surface : surfaces) own.push_back(surface.thickness);
+  std::vector<std::vector<double>> positions(static_cast<std::size_t>(configurations.count), own);
+  for (const ZmxOperand& operand : configurations.operands) {
+    if (operand.name != "THIC") continue;
+    const auto value = number_or_infinity(operand.value);
+    const auto at = static_cast<std::size_t>(operand.subject), in = static_cast<std::size_t>(operand.configuration - 1);
+    if (value && at < own.size() && in < positions.size()) positions[in][at] = *value;
+  }
+  for (auto& position : positions) solve(surfaces, position);
+  return positions;
+}
+
+}  // namespace contrejour
