@@ -94,7 +94,8 @@ Result<DesignLight> light_of(const SequentialDesign& design, Prescription rows, 
                                "nor the stop's size; give one of them in {}",
                                design.program),
                    {design.file, 0, 0});
-  if (design.aperture == DesignAperture::FNumber) {
+  const bool distant = std::isinf(object_mm);
+  if (design.aperture == DesignAperture::FNumber || (design.aperture == DesignAperture::WorkingFNumber && distant)) {
     light.f_number = design.aperture_value;
   } else if (design.aperture != DesignAperture::ByStop) {
     light.f_number = std::abs(lens->focal_mm) / light.beam.pupil_diameter_mm;

@@ -47,6 +47,7 @@ Result<Prescription> read_ours(const LensText& in) { return read_lens_toml(in.te
 constexpr LensFormat kFormats[] = {
     {"Optical Bench", looks_like_optical_bench, read_optical_bench},
     {"Zemax", looks_like_zmx, read_zmx},
+    {"CODE V", looks_like_seq, read_seq},
     {"our TOML", looks_like_toml, read_ours},
     {"PBRT", looks_like_pbrt, read_pbrt},
 };

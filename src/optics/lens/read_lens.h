@@ -26,6 +26,9 @@ struct LensText {
 [[nodiscard]] bool looks_like_zmx(std::string_view text);
 [[nodiscard]] Result<Prescription> read_zmx(const LensText& in);
 
+[[nodiscard]] bool looks_like_seq(std::string_view text);
+[[nodiscard]] Result<Prescription> read_seq(const LensText& in);
+
 [[nodiscard]] bool looks_like_pbrt(std::string_view text);
 [[nodiscard]] Result<Prescription> read_pbrt(const LensText& in);
 

@@ -122,11 +122,12 @@ class Builder {
 
   void make_rows() {
     Glass medium = air();
-    int stops = 0;
+    int stops = 0, refracting = 0;
     for (std::size_t k = 1; k + 1 < design_.surfaces.size() && !error_; ++k) {
       const DesignSurface& from = design_.surfaces[k];
       if (!std::isfinite(from.thickness)) return fail(from.line, "an infinite thickness behind a surface of the lens");
       const bool refracts = !from.is_break && !(from.glass_after == medium);
+      refracting += refracts ? 1 : 0;
       const bool kept = refracts || from.is_stop || from.opening;
       if (kept) {
         const Surface surface = surface_of(from);
@@ -139,7 +140,8 @@ class Builder {
       if (!rows_.empty()) rows_.back().gap.push_back(k);
       if (!from.is_break) medium = from.glass_after;
     }
-    if (rows_.empty()) fail(image().line, "no lens: no surface refracts");
+    if (refracting == 0) return fail(image().line, "no lens: no surface refracts");
+    rows_.back().gap.push_back(design_.surfaces.size() - 1);
     if (stops != 1) fail(image().line, stops == 0 ? "no surface is the stop; say which one is" : "more than one stop");
   }
 
@@ -149,10 +151,28 @@ class Builder {
     return out;
   }
 
+  // What follows from thicknesses that a position changes.
+  void solve(std::vector<double>& thickness) const {
+    for (std::size_t k = 0; k < thickness.size(); ++k) {
+      if (!design_.surfaces[k].solve) continue;
+      const ThicknessSolve& by = *design_.surfaces[k].solve;
+      if (by.from < 0 || static_cast<std::size_t>(by.from) >= k) continue;
+      const auto from = static_cast<std::size_t>(by.from);
+      double sum = 0.0;
+      for (std::size_t j = from; j < k; ++j) sum += thickness[j];
+      switch (by.kind) {
+        case ThicknessSolve::Kind::Pickup: thickness[k] = by.scale * thickness[from] + by.offset; break;
+        case ThicknessSolve::Kind::Sum: thickness[k] = by.offset - sum; break;
+        case ThicknessSolve::Kind::Pair: thickness[k] = by.offset - thickness[from]; break;
+      }
+    }
+  }
+
   // Those for distant objects, or else all; the rest is focusing.
   void choose_positions() {
     if (error_) return;
     positions_ = design_.positions;
+    for (auto& position : positions_) solve(position);
     if (positions_.empty()) positions_.push_back(own_thicknesses());
     const auto distant = [](const std::vector<double>& t) { return std::isinf(t.front()); };
     const std::size_t near = static_cast<std::size_t>(

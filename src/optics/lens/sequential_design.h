@@ -23,6 +23,14 @@ struct DesignOpening {
   int line = 0;
 };
 
+// How a thickness follows from those in front of it; the file's own figure is that of one position.
+struct ThicknessSolve {
+  enum class Kind { Pickup, Sum, Pair } kind = Kind::Pickup;
+  int from = 0;                  // surface
+  double scale = 1, offset = 0;  // Pickup: scale * thickness + offset; offset is what the thicknesses from there on
+                                 // (Sum) or the two (Pair) add up to
+};
+
 struct DesignSurface {
   int line = 0;
   double curvature = 0, thickness = 0;
@@ -34,6 +42,7 @@ struct DesignSurface {
   std::optional<DesignOpening> opening;
   Placement move;  // of the coordinates, before this surface and for all that follow
   Placement own;   // of this surface alone, after that
+  std::optional<ThicknessSolve> solve;
   bool is_break = false;  // no surface, a move of the coordinates and a thickness
 };
 
@@ -45,7 +54,7 @@ struct SequentialDesign {
   std::string name, source;
   std::string file;
   double unit_mm = 1.0;
-  std::vector<DesignSurface> surfaces;  // the object first, the image last
+  std::vector<DesignSurface> surfaces;  // the object first, the image last: its thickness is added to the gap before it
   // Zoom: each position's thicknesses of all surfaces; empty for a lens that does not zoom.
   std::vector<std::vector<double>> positions;
   DesignAperture aperture = DesignAperture::ByStop;

@@ -180,11 +180,11 @@ class Reader {
   bool read_solve(const Words& words) {
     auto& solve = surfaces_.back().solve;
     if (words[0] == "PZUP") {
-      solve = ZmxSolve{ZmxSolve::Kind::Pickup, whole(words, 1), number(words, 2), number(words, 3)};
+      solve = ThicknessSolve{ThicknessSolve::Kind::Pickup, whole(words, 1), number(words, 2), number(words, 3)};
     } else if (words[0] == "TOLE") {
-      solve = ZmxSolve{ZmxSolve::Kind::Position, whole(words, 1), 1.0, number(words, 2)};
+      solve = ThicknessSolve{ThicknessSolve::Kind::Sum, whole(words, 1), 1.0, number(words, 2)};
     } else if (words[0] == "TCOM") {
-      solve = ZmxSolve{ZmxSolve::Kind::Pair, whole(words, 1), 1.0, number(words, 2)};
+      solve = ThicknessSolve{ThicknessSolve::Kind::Pair, whole(words, 1), 1.0, number(words, 2)};
     } else {
       return false;
     }
@@ -307,6 +307,7 @@ class Reader {
 
   void make_surfaces() {
     if (surfaces_.empty()) return fail(0, "no SURF blocks; a sequential lens of Zemax has them");
+    surfaces_.back().thickness = 0.0;
     Glass medium = air();
     for (std::size_t k = 0; k < surfaces_.size() && !error_; ++k) {
       const ZmxSurface& from = surfaces_[k];

@@ -118,6 +118,7 @@ Result<DesignSurface> zmx_surface(const ZmxSurface& in, int index, const std::st
   out.line = in.line;
   out.curvature = in.curvature;
   out.thickness = in.thickness;
+  out.solve = in.solve;
   out.shape.conic = in.conic;
   const ZmxType type = type_of(in.type);
   if (const auto problem = set_shape(in, type, out.shape))

@@ -21,13 +21,6 @@ struct ZmxGlass {
   double n_d = 0, v_d = 0, d_pgf = 0;
 };
 
-// How a thickness follows from others; the block's own figure is that of the file's current configuration.
-struct ZmxSolve {
-  enum class Kind { Pickup, Position, Pair } kind = Kind::Pickup;
-  int from = 0;           // surface
-  double scale = 1, offset = 0;  // Pickup: scale * thickness + offset; others: offset is the sum of thicknesses
-};
-
 struct ZmxSurface {
   int line = 0;
   std::string type = "STANDARD";
@@ -40,7 +33,7 @@ struct ZmxSurface {
   bool is_stop = false;
   std::optional<DesignOpening> opening;
   bool floats = false;  // FLAP: an aperture as large as the semi-diameter
-  std::optional<ZmxSolve> solve;
+  std::optional<ThicknessSolve> solve;
 
   [[nodiscard]] double parameter(int k) const {
     const auto at = parm.find(k);

@@ -1,7 +1,6 @@
 #include "optics/lens/zmx_zoom.h"
 
 #include <algorithm>
-#include <cmath>
 #include <set>
 
 #include <fmt/format.h>
@@ -41,25 +40,6 @@ std::vector<const ZmxOperand*> changing(const std::vector<ZmxOperand>& operands)
   return out;
 }
 
-void solve(const std::vector<ZmxSurface>& surfaces, std::vector<double>& thickness) {
-  const auto sum = [&](std::size_t from, std::size_t to) {
-    double total = 0.0;
-    for (std::size_t k = from; k < to; ++k) total += thickness[k];
-    return total;
-  };
-  for (std::size_t k = 0; k < surfaces.size(); ++k) {
-    if (!surfaces[k].solve) continue;
-    const ZmxSolve& by = *surfaces[k].solve;
-    const auto from = static_cast<std::size_t>(std::max(by.from, 0));
-    if (from >= k) continue;
-    switch (by.kind) {
-      case ZmxSolve::Kind::Pickup: thickness[k] = by.scale * thickness[from] + by.offset; break;
-      case ZmxSolve::Kind::Position: thickness[k] = by.offset - sum(from, k); break;
-      case ZmxSolve::Kind::Pair: thickness[k] = by.offset - thickness[from]; break;
-    }
-  }
-}
-
 }  // namespace
 
 std::vector<std::vector<double>> zmx_positions(const ZmxConfigurations& configurations,
@@ -93,7 +73,6 @@ std::vector<std::vector<double>> zmx_positions(const ZmxConfigurations& configur
     const auto at = static_cast<std::size_t>(operand.subject), in = static_cast<std::size_t>(operand.configuration - 1);
     if (value && at < own.size() && in < positions.size()) positions[in][at] = *value;
   }
-  for (auto& position : positions) solve(surfaces, position);
   return positions;
 }
 
