@@ -75,6 +75,7 @@ PUBLIC = {
     "surface_shape.h": "kernels",
     "trace.h": "trace",
     "vec.h": "base",
+    "write_lens.h": "lens",
 }
 
 # "*renderers" stands for every src/render/<method>, "public" for include/contrejour.

@@ -1,4 +1,4 @@
-// contrejour lens convert: any lens that is read -> our own TOML.
+// contrejour lens convert: any lens that is read -> our own TOML, Zemax or CODE V, by the ending.
 #include <memory>
 #include <string>
 
@@ -10,6 +10,7 @@
 #include "cli/options.h"
 #include "cli/outputs.h"
 #include "contrejour/lens.h"
+#include "contrejour/write_lens.h"
 
 namespace contrejour::cli {
 namespace {
@@ -18,14 +19,24 @@ struct ConvertOptions {
   std::string input, output;
 };
 
+Result<WrittenLens> written(const Prescription& lens, const std::string& file) {
+  const std::string ending = lower_extension(file);
+  if (ending == ".zmx") return write_lens_zmx(lens);
+  if (ending == ".seq") return write_lens_seq(lens);
+  return WrittenLens{write_lens_toml(lens), {}};
+}
+
 Result<int> run_convert(const ConvertOptions& options) {
   Outputs outputs;
   const auto file = outputs.add(options.output);
   if (!file) return tl::unexpected(file.error());
   const auto lens = prescription_of(options.input);
   if (!lens) return tl::unexpected(lens.error());
-  if (const auto ok = write_text(*file, write_lens_toml(*lens)); !ok) return tl::unexpected(ok.error());
+  const auto out = written(*lens, options.output);
+  if (!out) return tl::unexpected(out.error());
+  if (const auto ok = write_text(*file, out->text); !ok) return tl::unexpected(ok.error());
   if (const auto ok = outputs.commit(); !ok) return tl::unexpected(ok.error());
+  print_warnings(out->losses);
   print(fmt::format("{}: {}, {} surfaces\n", options.output, lens->name, lens->surfaces.size()));
   return kDone;
 }
@@ -34,14 +45,19 @@ Result<int> run_convert(const ConvertOptions& options) {
 
 void add_lens_convert(CLI::App& lens, Action& action) {
   const auto options = std::make_shared<ConvertOptions>();
-  CLI::App* command = lens.add_subcommand("convert", "write a lens in the program's own format");
+  CLI::App* command =
+      lens.add_subcommand("convert", "write a lens in the program's own format, or in Zemax' or CODE V's");
   command->add_option("IN", options->input, "a lens file in any format that is read, or a name")
       ->required()
       ->option_text(" ");
-  add_output(*command, "OUT", options->output, {".toml"}, "the TOML to write")->required()->option_text(" ");
-  command->footer("Examples:\n"
-                  "  contrejour lens convert heliar my-heliar.toml\n"
-                  "  contrejour lens convert other.toml tidy.toml");
+  add_output(*command, "OUT", options->output, {".toml", ".zmx", ".seq"}, "the file to write")
+      ->required()
+      ->option_text(" ");
+  command->footer(
+      "Examples:\n"
+      "  contrejour lens convert heliar my-heliar.toml\n"
+      "  contrejour lens convert other.zmx tidy.toml\n"
+      "  contrejour lens convert canon-70-200 canon.zmx");
   command->callback([options, &action] { action = [options] { return run_convert(*options); }; });
 }
 

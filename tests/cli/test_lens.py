@@ -94,6 +94,18 @@ class Lens(ProgramTest):
         self.assertIn("refused", done.stdout.decode())
         self.assertIn("bad.toml:2:", done.stderr.decode())
 
+    def test_convert_to_design_programs_and_back(self):
+        a = self.json_of("lens", "info", "canon-70-200")
+        for name in ("canon.zmx", "canon.seq"):
+            done = self.run_program("lens", "convert", "canon-70-200", name)
+            self.assertIn("warning: the coatings of", done.stderr.decode())
+            b = self.json_of("lens", "info", name)
+            for key in ("zoom", "f_number", "sensor_width_mm", "sensor_height_mm", "stop_index"):
+                self.assertEqual(a[key], b[key])
+            self.assertAlmostEqual(a["focal_length_mm"], b["focal_length_mm"], delta=1e-9)
+            self.assertAlmostEqual(a["sensor_position_mm"], b["sensor_position_mm"], delta=1e-9)
+            self.assertEqual([s["radius_mm"] for s in a["surfaces"]], [s["radius_mm"] for s in b["surfaces"]])
+
     def test_unknown_lens_names_the_nearest(self):
         self.assertIn("heliar", self.error_of("lens", "info", "helier", code=1))
 

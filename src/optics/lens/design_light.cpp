@@ -19,6 +19,7 @@ constexpr double kRectilinear_rad = 1.05;  // 60 degrees; beyond, images of wide
 struct Paraxial {
   Abcd through;
   double focal_mm = 0;
+  double focus_mm = 0;  // behind the last row
   double pupil_mm = 0;  // first row -> entrance pupil
   double stop_per_pupil = 1;
 };
@@ -26,6 +27,7 @@ struct Paraxial {
 Result<Paraxial> paraxial(Prescription rows) {
   rows.f_number = kAnyFNumber;
   rows.zoom.clear();
+  rows.sensor_distance_mm.reset();
   for (Surface& surface : rows.surfaces) surface.semi_diameter_mm = kNoRim_mm;
   const auto state = lens_at(rows);
   if (!state) return tl::unexpected(state.error());
@@ -33,7 +35,8 @@ Result<Paraxial> paraxial(Prescription rows) {
   const Abcd to_stop = abcd_between(state->surfaces, 0, state->stop_index, lambda_nm);
   const int last = static_cast<int>(state->surfaces.size()) - 1;
   return Paraxial{abcd_between(state->surfaces, 0, last, lambda_nm), state->focal_length_mm,
-                  to_stop.a == 0.0 ? 0.0 : to_stop.b / to_stop.a, std::abs(to_stop.a)};
+                  state->sensor_z_mm - state->surfaces.back().z_mm, to_stop.a == 0.0 ? 0.0 : to_stop.b / to_stop.a,
+                  std::abs(to_stop.a)};
 }
 
 double stop_semi_mm(const Prescription& rows) {
@@ -86,7 +89,7 @@ Result<DesignLight> light_of(const SequentialDesign& design, Prescription rows, 
   if (!lens) return tl::unexpected(lens.error());
   DesignLight light;
   light.focal_length_mm = lens->focal_mm;
-  light.back_focal_distance_mm = -lens->through.a / lens->through.c;
+  light.focus_mm = lens->focus_mm;
   light.beam.pupil_diameter_mm = pupil_diameter_mm(design, rows, *lens, object_mm);
   if (!(light.beam.pupil_diameter_mm > 0.0) || !std::isfinite(light.beam.pupil_diameter_mm))
     return failure(ErrorCode::Parse,

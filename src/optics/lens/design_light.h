@@ -11,7 +11,7 @@ struct DesignLight {
   Beam beam;
   double f_number = 0;  // of distant objects; 0: what the stop's opening gives
   double focal_length_mm = 0;
-  double back_focal_distance_mm = 0;
+  double focus_mm = 0;  // of distant objects, from the last row
   double image_radius_mm = 0;  // of the widest field; 0: the design has none but the axis
 };
 

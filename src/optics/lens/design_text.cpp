@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "base/trimmed.h"
+#include "optics/lens/plain_number.h"
+
 namespace contrejour {
 
 std::vector<std::string_view> words_of(std::string_view line, std::size_t most) {
@@ -22,6 +25,14 @@ std::vector<std::string_view> words_of(std::string_view line, std::size_t most) 
 std::string stem_of(const std::string& file) {
   const std::string stem = std::filesystem::path(file).stem().string();
   return stem.empty() ? "lens" : stem;
+}
+
+double nominal_focal_mm(std::string_view title) {
+  title = trimmed(title, " \"'");
+  if (title.starts_with("f=") || title.starts_with("F=")) title.remove_prefix(2);
+  if (title.ends_with("mm") || title.ends_with("MM")) title.remove_suffix(2);
+  const double value = plain_number(trimmed(title)).value_or(0.0);
+  return value > 0.0 ? value : 0.0;
 }
 
 std::string cut_text(std::string text, std::size_t most) {

@@ -13,6 +13,9 @@ namespace contrejour {
 // "/a/b/cooke.zmx" -> "cooke": for files that name no lens.
 [[nodiscard]] std::string stem_of(const std::string& file);
 
+// "70 mm", "f=70", "70": the focal length that a position is called by; 0 for all else.
+[[nodiscard]] double nominal_focal_mm(std::string_view title);
+
 // A long text cut to what a lens's source is to be, at a space.
 [[nodiscard]] std::string cut_text(std::string text, std::size_t most = 200);
 

@@ -28,12 +28,12 @@ constexpr std::size_t kMostSurfaces = 1000;
 // Names, weights, vignetting factors, variables and their limits, derivatives, colours, plots.
 bool is_passed_over(std::string_view name) {
   static const std::set<std::string_view> kNames = {
-      "LEN", "INI", "WTW", "WTF", "WTX", "WTY", "VUX", "VLX", "VUY", "VLY", "CCY", "CCX", "THC", "CCF", "SLB", "PIM",
-      "DER", "CLS", "POL", "CA",  "GO",  "AC",  "BC",  "CC",  "DC",  "EC",  "FC",  "GC",  "HC",  "JC",  "KC",  "GLC",
-      "XDC", "YDC", "ZDC", "ADC", "BDC", "CDC", "CUM", "THM", "VER", "IC",  "SAV", "END", "OUT", "CMT", "COM", "REM",
-      "DDM", "TOL", "DLT", "DLF", "DLR", "DLN", "DLV", "DLX", "DLY", "DLZ", "TIR", "CYD", "BTI", "CPO", "LIS", "VIE",
-      "DRA", "RSI", "LIB", "VIG", "HMY", "UMY", "HMX", "UMX", "IMY", "ICY", "CWT", "WTA", "LAB", "FFD", "RAY", "BUF",
-      "EVA", "WRI", "CAN", "FVR", "SET", "MNT", "MXT", "EFX", "CTX", "MTF", "SPO", "RIM", "AUT", "EFL"};
+      "LEN", "INI", "WTW", "WTF", "WTX", "WTY", "VUX", "VLX", "VUY", "VLY", "CCY", "CCX", "THC", "CCF", "SLB", "DER",
+      "CLS", "POL", "CA",  "GO",  "AC",  "BC",  "CC",  "DC",  "EC",  "FC",  "GC",  "HC",  "JC",  "KC",  "GLC", "XDC",
+      "YDC", "ZDC", "ADC", "BDC", "CDC", "CUM", "THM", "VER", "IC",  "SAV", "END", "OUT", "CMT", "COM", "REM", "DDM",
+      "TOL", "DLT", "DLF", "DLR", "DLN", "DLV", "DLX", "DLY", "DLZ", "TIR", "CYD", "BTI", "CPO", "LIS", "VIE", "DRA",
+      "RSI", "LIB", "VIG", "HMY", "UMY", "HMX", "UMX", "IMY", "ICY", "CWT", "WTA", "LAB", "FFD", "RAY", "BUF", "EVA",
+      "WRI", "CAN", "FVR", "SET", "MNT", "MXT", "EFX", "CTX", "MTF", "SPO", "RIM", "AUT", "EFL"};
   return kNames.contains(name);
 }
 
@@ -91,7 +91,7 @@ class Reader {
   // EPD Z1 10 is EPD 10; what the other positions have is the zoom's.
   void read_of_position(const SeqCommand& command, std::size_t word) {
     zoom_.add_one(command, word);
-    if (capitals(command.words[word]) != "Z1") return;
+    if (capitals(command.words[word]) != "Z1" || command.name == "TIT") return;
     SeqCommand first = command;
     first.words.erase(first.words.begin() + static_cast<std::ptrdiff_t>(word));
     read_command(first);
@@ -263,6 +263,7 @@ class Reader {
     for (std::size_t k = 0; k < surfaces_.size() && !error_; ++k) add_surface(surfaces_[k], k);
     if (error_) return;
     set_default_stop();
+    design_.is_focused = surfaces_[surfaces_.size() - 2].is_to_focus && surfaces_.back().thickness == 0.0;
     if (design_.surfaces.back().opening)
       design_.image_semi_diameter =
           std::max(design_.surfaces.back().opening->half_x, design_.surfaces.back().opening->half_y);
@@ -296,7 +297,7 @@ class Reader {
       double x = 0.0, y = 0.0;
       for (const auto& [name, values] : fields_)
         if (k < values.size()) (name[0] == 'X' ? x : y) = values[k];
-      design_.largest_field = std::max(design_.largest_field, std::hypot(x, y));
+      design_.add_field(x, y);
     }
   }
 

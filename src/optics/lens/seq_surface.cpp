@@ -70,7 +70,7 @@ std::string_view refused(std::string_view name) {
 }
 
 bool is_other(std::string_view name) {
-  static const std::set<std::string_view> kNames = {"STO", "THI", "GLA", "RMD", "DAR", "PIK", "MLT", "BAS"};
+  static const std::set<std::string_view> kNames = {"STO", "THI", "GLA", "RMD", "DAR", "PIK", "PIM", "MLT", "BAS"};
   return kNames.contains(name);
 }
 
@@ -174,6 +174,8 @@ std::optional<Error> SeqSurfaceReader::read(const SeqCommand& command, SeqSurfac
     s.returns = false;
   } else if (name == "THI") {
     problem = read_thickness(command, s);
+  } else if (name == "PIM") {
+    s.is_to_focus = true;
   } else if (name == "PIK") {
     read_pickup(command, s);
   } else if (name == "GLA") {

@@ -31,6 +31,7 @@ struct SeqSurface {
   bool returns = false;                        // DAR
   std::optional<DesignOpening> opening;
   std::optional<ThicknessSolve> solve;
+  bool is_to_focus = false;  // PIM: the next surface stands in the paraxial focus
 };
 
 [[nodiscard]] bool seq_is_of_surface(std::string_view name);

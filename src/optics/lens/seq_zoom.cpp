@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "base/near_name.h"
+#include "optics/lens/design_text.h"
 #include "optics/lens/plain_number.h"
 #include "optics/lens/validate.h"
 
@@ -78,6 +79,7 @@ void SeqZoom::add_one(const SeqCommand& command, std::size_t word) {
   if (!(position >= 1.0 && position <= kMaxZoomPositions)) return;
   const SeqSurfaceName at = seq_surface_name(command.word(0));
   const auto value = number_or_infinity(command.words.back());
+  if (command.name == "TIT") nominal_mm_[static_cast<std::size_t>(position)] = nominal_focal_mm(command.words.back());
   if (command.name == "THI" && at.is && value) {
     Row& row = thicknesses_[at.index];
     const auto k = static_cast<std::size_t>(position);
@@ -88,8 +90,8 @@ void SeqZoom::add_one(const SeqCommand& command, std::size_t word) {
   }
 }
 
-std::vector<std::vector<double>> SeqZoom::positions(const SequentialDesign& design,
-                                                    std::vector<std::string>& warnings) const {
+std::vector<DesignPosition> SeqZoom::positions(const SequentialDesign& design,
+                                               std::vector<std::string>& warnings) const {
   if (count_ < 2) return {};
   std::set<std::string> once;
   for (const Row& row : others_) {
@@ -107,12 +109,14 @@ std::vector<std::vector<double>> SeqZoom::positions(const SequentialDesign& desi
   }
   std::vector<double> own;
   for (const DesignSurface& surface : design.surfaces) own.push_back(surface.thickness);
-  std::vector<std::vector<double>> out(count_, own);
+  std::vector<DesignPosition> out(count_, {own});
+  for (const auto& [position, focal_mm] : nominal_mm_)
+    if (position <= count_) out[position - 1].nominal_focal_mm = focal_mm;
   for (const auto& [index, row] : thicknesses_) {
     const std::size_t at = index == kSeqImage ? own.size() - 1 : static_cast<std::size_t>(index);
     if (at >= own.size()) continue;
     for (std::size_t p = 0; p < count_ && p < row.values.size(); ++p)
-      if (!std::isnan(row.values[p])) out[p][at] = row.values[p];
+      if (!std::isnan(row.values[p])) out[p].thickness[at] = row.values[p];
   }
   return out;
 }

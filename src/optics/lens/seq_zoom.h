@@ -21,10 +21,10 @@ class SeqZoom {
   // THI S5 Z2 7: of one position, which words[word] names.
   void add_one(const SeqCommand& command, std::size_t word);
 
-  // The thicknesses of all surfaces at each position; empty without a zoom, or where more than thicknesses changes: a
+  // Each position; empty without a zoom, or where more than thicknesses changes: a
   // warning says then that position 1 is read.
-  [[nodiscard]] std::vector<std::vector<double>> positions(const SequentialDesign& design,
-                                                           std::vector<std::string>& warnings) const;
+  [[nodiscard]] std::vector<DesignPosition> positions(const SequentialDesign& design,
+                                                      std::vector<std::string>& warnings) const;
 
  private:
   struct Row {
@@ -35,6 +35,7 @@ class SeqZoom {
   std::size_t count_ = 0;
   std::map<int, Row> thicknesses_;  // by surface, kSeqImage for the image
   std::vector<Row> others_;
+  std::map<std::size_t, double> nominal_mm_;  // of positions that are called by it
 };
 
 }  // namespace contrejour

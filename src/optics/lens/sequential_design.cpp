@@ -15,7 +15,9 @@ namespace contrejour {
 namespace {
 
 constexpr double kNearFocus = 0.05;  // of the focal length: an image surface within is this lens's own, out of focus
+constexpr double kInFocus = 1e-6;          // of the focal length: as near as files print it
 constexpr double kSameFocalLength = 1e-6;  // relative: two positions of one zoom that are one
+constexpr double kNearNominal = 0.2;       // relative: an engraved focal length and the real one
 constexpr double kDefaultDiagonal_mm = 43.2666;  // 36 x 24
 
 // A row of the prescription, and which of the design's surfaces' thicknesses add up to the gap behind it.
@@ -24,6 +26,12 @@ struct Row {
   std::vector<std::size_t> gap;
   Placement own;
   std::size_t of = 0;  // the design's surface
+};
+
+// One of a zoom, and its place in the file.
+struct Position {
+  double focal_mm = 0;
+  std::size_t index = 0;
 };
 
 class Builder {
@@ -172,14 +180,14 @@ class Builder {
   void choose_positions() {
     if (error_) return;
     positions_ = design_.positions;
-    for (auto& position : positions_) solve(position);
-    if (positions_.empty()) positions_.push_back(own_thicknesses());
-    const auto distant = [](const std::vector<double>& t) { return std::isinf(t.front()); };
+    for (auto& position : positions_) solve(position.thickness);
+    if (positions_.empty()) positions_.push_back({own_thicknesses()});
+    const auto distant = [](const DesignPosition& p) { return std::isinf(p.thickness.front()); };
     const std::size_t near = static_cast<std::size_t>(
         std::count_if(positions_.begin(), positions_.end(), [&](const auto& position) { return !distant(position); }));
     if (near == positions_.size()) {
       warn(fmt::format("designed for an object {:.6g} mm in front of it (line {}); focus is set by --focus",
-                       positions_.front().front() * design_.unit_mm, design_.surfaces.front().line));
+                       positions_.front().thickness.front() * design_.unit_mm, design_.surfaces.front().line));
     } else if (near > 0) {
       std::erase_if(positions_, [&](const auto& position) { return !distant(position); });
       warn(fmt::format("{} of {} positions are for near objects and left out: focusing moves the sensor", near,
@@ -234,9 +242,9 @@ class Builder {
 
   void place_all() {
     if (error_) return;
-    const auto placed = poses(positions_.front());
+    const auto placed = poses(positions_.front().thickness);
     for (const auto& position : positions_) {
-      const auto other = poses(position);
+      const auto other = poses(position.thickness);
       for (std::size_t k = 0; k < placed.size(); ++k)
         if (!(other[k].pose == placed[k].pose))
           return fail(design_.surfaces.front().line,
@@ -267,19 +275,20 @@ class Builder {
   }
 
   void set_gaps(std::size_t position = 0) {
-    const auto gaps = gaps_mm(positions_[position]);
+    const auto gaps = gaps_mm(positions_[position].thickness);
     for (std::size_t k = 0; k + 1 < gaps.size(); ++k) lens_.surfaces[k].thickness_mm = gaps[k];
     if (position > 0) return;
     for (std::size_t k = 1; k + 1 < gaps.size(); ++k)
-      if (gap_mm(rows_[k], positions_[0]) < gaps[k])
+      if (gap_mm(rows_[k], positions_[0].thickness) < gaps[k])
         warn(fmt::format("the opening (line {}) stands behind the next surface's vertex; it is moved there",
                          rows_[k].surface.source_line));
   }
 
   Result<Prescription> finish() {
     // To the first row: what stands in front of it adds to the distance.
-    double object_mm = positions_.front().front();
-    for (std::size_t k = 1; k < rows_.front().of; ++k) object_mm += positions_.front()[k];
+    const std::vector<double>& thickness = positions_.front().thickness;
+    double object_mm = thickness.front();
+    for (std::size_t k = 1; k < rows_.front().of; ++k) object_mm += thickness[k];
     const auto light = light_of(design_, lens_, object_mm * design_.unit_mm);
     if (!light) return tl::unexpected(light.error());
     lens_.f_number = light->f_number;
@@ -296,27 +305,29 @@ class Builder {
     }
     lens_.sensor_width_mm = 2.0 * radius_mm * 3.0 / std::sqrt(13.0);
     lens_.sensor_height_mm = 2.0 * radius_mm * 2.0 / std::sqrt(13.0);
-    if (!distant) return;
-    const double at_mm = gap_mm(rows_.back(), positions_.front());
+    if (design_.field == FieldKind::ImageHeight && design_.largest_x > 0.0 && design_.largest_y > 0.0) {
+      lens_.sensor_width_mm = 2.0 * design_.largest_x * design_.unit_mm;
+      lens_.sensor_height_mm = 2.0 * design_.largest_y * design_.unit_mm;
+    }
+    if (!distant || design_.is_focused) return;
+    const double at_mm = gap_mm(rows_.back(), positions_.front().thickness);
     for (const auto& position : positions_)
-      if (gap_mm(rows_.back(), position) != at_mm) return;  // it follows the focus
-    if (std::abs(at_mm - light.back_focal_distance_mm) <= kNearFocus * std::abs(light.focal_length_mm) && at_mm > 0.0) {
+      if (gap_mm(rows_.back(), position.thickness) != at_mm) return;  // it follows the focus
+    const double defocus_mm = std::abs(at_mm - light.focus_mm);
+    if (defocus_mm <= kInFocus * std::abs(light.focal_length_mm)) return;
+    if (defocus_mm <= kNearFocus * std::abs(light.focal_length_mm) && at_mm > 0.0) {
       lens_.sensor_distance_mm = at_mm;
     } else {
       warn(
           fmt::format("the image surface (line {}) stands {:.6g} mm behind the lens, distant objects are in focus at "
                       "{:.6g} mm; the sensor is put there",
-                      image().line, at_mm, light.back_focal_distance_mm));
+                      image().line, at_mm, light.focus_mm));
     }
   }
 
   // Positions in rising focal length; those of one focal length are one.
   Result<void> set_zoom() {
     if (positions_.size() < 2) return {};
-    struct Position {
-      double focal_mm;
-      std::size_t index;
-    };
     std::vector<Position> sorted;
     for (std::size_t p = 0; p < positions_.size(); ++p) {
       set_gaps(p);
@@ -330,11 +341,12 @@ class Builder {
     sorted.erase(std::unique(sorted.begin(), sorted.end(), same), sorted.end());
     set_gaps(sorted.front().index);
     if (sorted.size() < 2) return {};
-    const auto first = gaps_mm(positions_[sorted.front().index]);
+    const auto first = gaps_mm(positions_[sorted.front().index].thickness);
     for (const Position& position : sorted) lens_.zoom.push_back({position.focal_mm, {}, 0});
+    name_positions(sorted);
     for (std::size_t k = 0; k + 1 < first.size(); ++k) {
       std::vector<double> gaps;
-      for (const Position& position : sorted) gaps.push_back(gaps_mm(positions_[position.index])[k]);
+      for (const Position& position : sorted) gaps.push_back(gaps_mm(positions_[position.index].thickness)[k]);
       if (std::all_of(gaps.begin(), gaps.end(), [&](double gap) { return gap == gaps.front(); })) continue;
       for (std::size_t p = 0; p < sorted.size(); ++p)
         lens_.zoom[p].thickness_mm.emplace_back(static_cast<int>(k), gaps[p]);
@@ -342,10 +354,22 @@ class Builder {
     return {};
   }
 
+  // By the focal lengths that the file calls them, where these are what they nearly have.
+  void name_positions(const std::vector<Position>& sorted) {
+    std::vector<double> names;
+    for (const Position& position : sorted) {
+      const double nominal_mm = positions_[position.index].nominal_focal_mm;
+      if (std::abs(nominal_mm / position.focal_mm - 1.0) > kNearNominal) return;
+      if (!names.empty() && nominal_mm <= names.back()) return;
+      names.push_back(nominal_mm);
+    }
+    for (std::size_t p = 0; p < names.size(); ++p) lens_.zoom[p].focal_length_mm = names[p];
+  }
+
   const SequentialDesign& design_;
   Prescription lens_;
   std::vector<Row> rows_;
-  std::vector<std::vector<double>> positions_;  // of the design's surfaces
+  std::vector<DesignPosition> positions_;
   std::optional<Error> error_;
 };
 

@@ -3,6 +3,8 @@
 // prescription_of makes our lens of it, so that every such format is understood alike (docs/formats/zemax.md).
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <optional>
 #include <string>
 #include <vector>
@@ -46,6 +48,12 @@ struct DesignSurface {
   bool is_break = false;  // no surface, a move of the coordinates and a thickness
 };
 
+// One of a zoom.
+struct DesignPosition {
+  std::vector<double> thickness;  // of all surfaces
+  double nominal_focal_mm = 0;    // that it is called by; 0: it is not
+};
+
 enum class DesignAperture { ByStop, EntrancePupil, FNumber, WorkingFNumber, ObjectNA };
 enum class FieldKind { Angle_deg, ObjectHeight, ImageHeight };
 
@@ -55,15 +63,22 @@ struct SequentialDesign {
   std::string file;
   double unit_mm = 1.0;
   std::vector<DesignSurface> surfaces;  // the object first, the image last: its thickness is added to the gap before it
-  // Zoom: each position's thicknesses of all surfaces; empty for a lens that does not zoom.
-  std::vector<std::vector<double>> positions;
+  std::vector<DesignPosition> positions;  // empty for a lens that does not zoom
   DesignAperture aperture = DesignAperture::ByStop;
   double aperture_value = 0;
   FieldKind field = FieldKind::Angle_deg;
   double largest_field = 0;
+  double largest_x = 0, largest_y = 0;  // of any field
   double image_semi_diameter = 0;  // 0: not told
+  bool is_focused = false;  // the image surface stands in the paraxial focus, by a solve of the program
   std::optional<double> wavelength_nm;
   std::vector<std::string> warnings;
+
+  void add_field(double x, double y) {
+    largest_field = std::max(largest_field, std::hypot(x, y));
+    largest_x = std::max(largest_x, std::abs(x));
+    largest_y = std::max(largest_y, std::abs(y));
+  }
 };
 
 // - Surfaces at which nothing is refracted, blocked or stopped go into the gap.

@@ -35,9 +35,9 @@ bool is_one_of(std::string_view word, std::initializer_list<std::string_view> wo
 // Plots, solves that are already carried out, tolerances, physical optics: nothing that bends or blocks a ray.
 bool is_passed_over(std::string_view word) {
   static const std::set<std::string_view> kWords = {
-      "SSID", "COMM", "FIMP", "HIDE", "MIRR", "SLAB", "POPS", "OEMA", "MEMA", "VPAR", "PPAR", "VDSZ", "MAZH", "CAZH",
-      "VCON", "PCON", "SCBD", "GLRS", "PKUP", "PZSP", "ISNA", "FZSP", "VXDT", "PXDT", "THIC", "BLNK", "DRAW", "SCAT",
-      "CHZN", "EMAR", "PMAR", "LSMO", "ARTP", "ROWC", "SHAD", "OPDM", "MARG", "MRGA", "CHRA", "EDGE", "NOTE", "IDNT"};
+      "SSID", "COMM", "FIMP", "HIDE", "MIRR", "SLAB", "POPS", "OEMA", "MEMA", "VPAR", "PPAR", "VDSZ", "CAZH", "VCON",
+      "PCON", "SCBD", "GLRS", "PKUP", "PZSP", "ISNA", "FZSP", "VXDT", "PXDT", "THIC", "BLNK", "DRAW", "SCAT", "CHZN",
+      "EMAR", "PMAR", "LSMO", "ARTP", "ROWC", "SHAD", "OPDM", "MARG", "MRGA", "CHRA", "EDGE", "NOTE", "IDNT"};
   return kWords.contains(word);
 }
 
@@ -185,6 +185,8 @@ class Reader {
       solve = ThicknessSolve{ThicknessSolve::Kind::Sum, whole(words, 1), 1.0, number(words, 2)};
     } else if (words[0] == "TCOM") {
       solve = ThicknessSolve{ThicknessSolve::Kind::Pair, whole(words, 1), 1.0, number(words, 2)};
+    } else if (words[0] == "MAZH") {
+      surfaces_.back().is_to_focus = number(words, 1) == 0.0 && number(words, 2) == 0.0;
     } else {
       return false;
     }
@@ -279,8 +281,13 @@ class Reader {
     if (words.size() < 4 || configurations_.operands.size() >= kMostOperands) return;
     const auto subject = plain_number(words[1]), configuration = plain_number(words[2]);
     if (!subject || !configuration || std::abs(*subject) > 1e6 || std::abs(*configuration) > 1e6) return;
-    configurations_.operands.push_back({line_, std::string(words[0]), static_cast<int>(*subject),
-                                        static_cast<int>(*configuration), std::string(words[3])});
+    // A title may have spaces.
+    std::string value(words[3]);
+    for (std::size_t k = 4; value.starts_with('"') && (value.size() == 1 || value.back() != '"') && k < words.size();
+         ++k)
+      value += " " + std::string(words[k]);
+    configurations_.operands.push_back(
+        {line_, std::string(words[0]), static_cast<int>(*subject), static_cast<int>(*configuration), value});
   }
 
   void finish_header() {
@@ -292,8 +299,7 @@ class Reader {
     const std::size_t told = std::max(x_field_.size(), y_field_.size());
     const std::size_t count = fields_ > 0 ? std::min(told, static_cast<std::size_t>(fields_)) : told;
     for (std::size_t k = 0; k < count; ++k)
-      design_.largest_field = std::max(design_.largest_field, std::hypot(k < x_field_.size() ? x_field_[k] : 0.0,
-                                                                         k < y_field_.size() ? y_field_[k] : 0.0));
+      design_.add_field(k < x_field_.size() ? x_field_[k] : 0.0, k < y_field_.size() ? y_field_[k] : 0.0);
     design_.field = field_type_ == 1                       ? FieldKind::ObjectHeight
                     : field_type_ == 2 || field_type_ == 3 ? FieldKind::ImageHeight
                                                            : FieldKind::Angle_deg;
@@ -330,6 +336,7 @@ class Reader {
       }
       design_.surfaces.push_back(std::move(*surface));
     }
+    design_.is_focused = surfaces_.size() > 1 && surfaces_[surfaces_.size() - 2].is_to_focus;
     design_.image_semi_diameter = surfaces_.back().semi_diameter;
     design_.positions = zmx_positions(configurations_, surfaces_, design_.warnings);
   }

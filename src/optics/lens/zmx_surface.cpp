@@ -108,6 +108,9 @@ bool is_default(const ZmxGlass& in) { return in.n_d == 1.5 && in.v_d == 40.0; }
 
 Glass model_of(const ZmxGlass& in, std::string name) {
   if (in.v_d == 0.0) return {std::move(name), ConstantIndex{in.n_d}};
+  // The partial dispersion of A + B / lambda^2, to all digits: zmx_writer writes those so.
+  Glass abbe{name, AbbeGlass{in.n_d, in.v_d}};
+  if (in.d_pgf != 0.0 && std::abs(glass_figures(abbe).d_pgf - in.d_pgf) < 1e-15) return abbe;
   return {std::move(name), ModelGlass{in.n_d, in.v_d, in.d_pgf}};
 }
 

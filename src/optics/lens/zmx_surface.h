@@ -34,6 +34,7 @@ struct ZmxSurface {
   std::optional<DesignOpening> opening;
   bool floats = false;  // FLAP: an aperture as large as the semi-diameter
   std::optional<ThicknessSolve> solve;
+  bool is_to_focus = false;  // MAZH 0 0: the next surface stands in the paraxial focus
 
   [[nodiscard]] double parameter(int k) const {
     const auto at = parm.find(k);

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "optics/lens/design_text.h"
 #include "optics/lens/plain_number.h"
 
 namespace contrejour {
@@ -42,9 +43,8 @@ std::vector<const ZmxOperand*> changing(const std::vector<ZmxOperand>& operands)
 
 }  // namespace
 
-std::vector<std::vector<double>> zmx_positions(const ZmxConfigurations& configurations,
-                                               const std::vector<ZmxSurface>& surfaces,
-                                               std::vector<std::string>& warnings) {
+std::vector<DesignPosition> zmx_positions(const ZmxConfigurations& configurations,
+                                          const std::vector<ZmxSurface>& surfaces, std::vector<std::string>& warnings) {
   const auto moving = changing(configurations.operands);
   if (configurations.count < 2 || moving.empty()) return {};
   std::set<std::string_view> once;
@@ -66,12 +66,13 @@ std::vector<std::vector<double>> zmx_positions(const ZmxConfigurations& configur
   if (std::none_of(moving.begin(), moving.end(), [](const ZmxOperand* o) { return o->name == "THIC"; })) return {};
   std::vector<double> own;
   for (const ZmxSurface& surface : surfaces) own.push_back(surface.thickness);
-  std::vector<std::vector<double>> positions(static_cast<std::size_t>(configurations.count), own);
+  std::vector<DesignPosition> positions(static_cast<std::size_t>(configurations.count), {own});
   for (const ZmxOperand& operand : configurations.operands) {
-    if (operand.name != "THIC") continue;
-    const auto value = number_or_infinity(operand.value);
     const auto at = static_cast<std::size_t>(operand.subject), in = static_cast<std::size_t>(operand.configuration - 1);
-    if (value && at < own.size() && in < positions.size()) positions[in][at] = *value;
+    if (in >= positions.size()) continue;
+    if (operand.name == "LTTL") positions[in].nominal_focal_mm = nominal_focal_mm(operand.value);
+    const auto value = number_or_infinity(operand.value);
+    if (operand.name == "THIC" && value && at < own.size()) positions[in].thickness[at] = *value;
   }
   return positions;
 }

@@ -23,10 +23,10 @@ struct ZmxConfigurations {
   std::vector<ZmxOperand> operands;
 };
 
-// The thicknesses of all surfaces in each configuration; empty where there is one, or where more than thicknesses
+// Each configuration; empty where there is one, or where more than thicknesses
 // changes: then a warning says that the current one is read.
-[[nodiscard]] std::vector<std::vector<double>> zmx_positions(const ZmxConfigurations& configurations,
-                                                             const std::vector<ZmxSurface>& surfaces,
-                                                             std::vector<std::string>& warnings);
+[[nodiscard]] std::vector<DesignPosition> zmx_positions(const ZmxConfigurations& configurations,
+                                                        const std::vector<ZmxSurface>& surfaces,
+                                                        std::vector<std::string>& warnings);
 
 }  // namespace contrejour

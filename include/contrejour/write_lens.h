@@ -1,0 +1,24 @@
+// Lenses as files of design programs: sequential Zemax (.zmx) and CODE V (.seq). Read again they are the same lens:
+// surfaces, shapes, stop, gaps of a zoom and f-number to the last bit, tilts and turns to 1e-12, glasses' indices as
+// `losses` says. What a format cannot hold is either left out, which `losses` says for people, or an error.
+// Errors: InvalidArgument for a lens that is none (validate()); Unsupported for a shape that the format has not.
+// docs/formats/zemax.md, docs/formats/codev.md. Thread-safety: pure functions.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "contrejour/lens.h"
+#include "contrejour/result.h"
+
+namespace contrejour {
+
+struct WrittenLens {
+  std::string text;
+  std::vector<std::string> losses;  // "the coatings of 12 surfaces are not written"
+};
+
+[[nodiscard]] Result<WrittenLens> write_lens_zmx(const Prescription& lens);
+[[nodiscard]] Result<WrittenLens> write_lens_seq(const Prescription& lens);
+
+}  // namespace contrejour
