@@ -159,8 +159,11 @@ TEST_CASE("openings of CODE V") {
   const auto last = [](const std::string& commands) { return must_read(seq("  PIM", commands)); };
   CHECK(last("CIR L'a b' 7").surfaces[5].semi_diameter_mm == 7.0);
   CHECK(last("REX 3; REY 4").surfaces[5].semi_diameter_mm == 5.0);
-  check_warns(last("REX 3; REY 4"), "is not a circle");
+  CHECK(last("REX 3; REY 4").surfaces[5].aperture == ClearAperture{ApertureKind::Rectangle, {3, 4}, {}, 0.0});
+  CHECK(last("REX 3; REY 4; CIR 4.5").surfaces[5].semi_diameter_mm == 4.5);
   CHECK(last("ELX 3; ELY 4; ADY 1").surfaces[5].semi_diameter_mm == 5.0);
+  CHECK(last("ELX 3; ELY 4; ADY 1; ARO 30").surfaces[5].aperture ==
+        ClearAperture{ApertureKind::Ellipse, {3, 4}, {0, 1}, 30.0 * std::numbers::pi / 180.0});
   check_warns(last("CIR 7; CIR OBS 1"), "obscured up to a radius of 1 mm");
   CHECK(must_read(seq("S     0.0 -2.0", "S     0.0 2.0\n CIR 6")).surfaces[3].semi_diameter_mm == 6.0);
 }

@@ -67,6 +67,12 @@ TEST_CASE("a lens written for Zemax or CODE V and read again is the same") {
     check_round_trip(toml(row_as(", asphere = { 4 = 1e-7 }, toroid = { radius_x_mm = 71.7, turn_deg = 30 }")), format);
     check_round_trip(toml(row_as(", conic = -1, biconic = { radius_x_mm = 71.7, conic_x = -2 }")), format);
     check_round_trip(toml(row_as(", decentre_mm = [0.1, 0.2], tilt_deg = [1, -2]")), format);
+    check_round_trip(toml(row_as(", rectangle = { half_sides_mm = [5, 3] }")), format);
+    check_round_trip(toml(row_as(", ellipse = { semi_axes_mm = [5, 3], centre_mm = [0.5, 1], turn_deg = 30 }")),
+                     format);
+    check_round_trip(toml(row_as(", toroid = { radius_x_mm = 50, turn_deg = 30 }, tilt_deg = [1, 2], "
+                                 "rectangle = { half_sides_mm = [5, 3], centre_mm = [0.5, 1], turn_deg = 30 }")),
+                     format);
     check_round_trip(toml(row_as(", toroid = { radius_x_mm = inf, turn_deg = 20 }, tilt_deg = [1, -2]")), format);
   }
   check_round_trip(toml(row_as(", decentre_mm = [0.1, 0.2, 0.3], tilt_deg = [1, -2]")), kFormats[1]);
@@ -114,6 +120,10 @@ TEST_CASE("what the formats cannot hold is said") {
   };
   refused(kFormats[0], row_as(", asphere = { 3 = 1e-7 }, toroid = { radius_x_mm = 71.7 }"),
           "surface 4: a toroid's polynomial");
+  refused(kFormats[0], row_as(", toroid = { radius_x_mm = 50 }, rectangle = { half_sides_mm = [5, 3], turn_deg = 30 }"),
+          "surface 4: its rim is turned");
+  CHECK(losses(kFormats[0], row_as(", rectangle = { half_sides_mm = [8, 8] }")).find("written whole") !=
+        std::string::npos);
   refused(kFormats[1], row_as(", asphere = { 3 = 1e-6 }"), "surface 4: a polynomial with r^3");
   refused(kFormats[1], row_as(", asphere = { 2 = 1e-6 }"), "surface 4: a polynomial with r^2");
   Prescription broken = toml(kSampleLens);

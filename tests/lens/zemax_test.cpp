@@ -196,7 +196,7 @@ TEST_CASE("a stop on a surface of Zemax is a row of its own at its vertex") {
   CHECK(lens.surfaces[3].thickness_mm == 6.0);  // 5, -2 and 3
 }
 
-TEST_CASE("openings of Zemax stay, and what is not round is a circle around") {
+TEST_CASE("openings of Zemax stay, rims that are no circles too") {
   const Prescription round = must_read(zmx("DISZ -2\n  DIAM 7", "DISZ 2\n  CLAP 1 6.5 0"));
   REQUIRE(round.surfaces.size() == 7);
   CHECK(round.surfaces[3].semi_diameter_mm == 6.5);
@@ -206,8 +206,19 @@ TEST_CASE("openings of Zemax stay, and what is not round is a circle around") {
   CHECK(floating.surfaces[3].semi_diameter_mm == 7.0);
   const Prescription square = must_read(zmx("CLAP 0 7.5 0", "SQAP 3 4 0"));
   CHECK(square.surfaces[5].semi_diameter_mm == 5.0);
-  check_warns(square, "(line 59) is not a circle");
-  CHECK(must_read(zmx("CLAP 0 7.5 0", "ELAP 3 4 0\n  OBDC 0 1")).surfaces[5].semi_diameter_mm == 5.0);
+  CHECK(square.surfaces[5].aperture == ClearAperture{ApertureKind::Rectangle, {3, 4}, {}, 0.0});
+  const Surface ellipse = must_read(zmx("CLAP 0 7.5 0", "ELAP 3 4 0\n  OBDC 0 1")).surfaces[5];
+  CHECK(ellipse.semi_diameter_mm == 5.0);
+  CHECK(ellipse.aperture == ClearAperture{ApertureKind::Ellipse, {3, 4}, {0, 1}, 0.0});
+  CHECK(must_read(zmx("CLAP 0 7.5 0", "CLAP 0 3 0\n  OBDC 0 1")).surfaces[5].aperture ==
+        ClearAperture{ApertureKind::Ellipse, {3, 3}, {0, 1}, 0.0});
+  check_warns(must_read(zmx("DIAM 4.9 0", "SQAP 4 4 0")), "the stop (line 41) is not round");
+  // Half a cylinder of 10 mm ends before the rectangle's corners.
+  const Prescription cylinder =
+      must_read(zmx("TYPE EVENASPH\n  CURV 0.005\n  CONI -1.5\n  PARM 1 1e-4\n  PARM 2 -2e-6\n  PARM 4 3e-10",
+                    "TYPE TOROIDAL\n  CURV 0.1\n  SQAP 9 9"));
+  CHECK(cylinder.surfaces[4].semi_diameter_mm == doctest::Approx(10.0));
+  check_warns(cylinder, "goes on where the surface ends");
   check_warns(must_read(zmx("CLAP 0 7.5 0", "OBSC 0 1 0")), "OBSC (line 59)");
   check_warns(must_read(zmx("CLAP 0 7.5 0", "COAT AR")), "AR (line 59)");
   check_warns(must_read(zmx("CLAP 0 7.5 0", "WHAT 1")), "'WHAT' of a surface is not known");

@@ -30,7 +30,10 @@ std::size_t stop_of(const Prescription& lens) {
 Result<void> size_for_beam(Prescription& lens, const Beam& beam, const std::vector<bool>& open) {
   Prescription pinhole = lens;
   if (pinhole.f_number == 0.0) pinhole.f_number = kPlausibleFNumber;
-  for (Surface& surface : pinhole.surfaces) surface.semi_diameter_mm = kNoRim_mm;
+  for (Surface& surface : pinhole.surfaces) {
+    surface.semi_diameter_mm = kNoRim_mm;
+    surface.aperture = {};
+  }
   const auto state = lens_at(pinhole);
   if (!state) return tl::unexpected(state.error());
   const double lambda_nm = state->design_wavelength_nm;

@@ -28,7 +28,10 @@ Result<Paraxial> paraxial(Prescription rows) {
   rows.f_number = kAnyFNumber;
   rows.zoom.clear();
   rows.sensor_distance_mm.reset();
-  for (Surface& surface : rows.surfaces) surface.semi_diameter_mm = kNoRim_mm;
+  for (Surface& surface : rows.surfaces) {
+    surface.semi_diameter_mm = kNoRim_mm;
+    surface.aperture = {};
+  }
   const auto state = lens_at(rows);
   if (!state) return tl::unexpected(state.error());
   const double lambda_nm = state->design_wavelength_nm;

@@ -7,6 +7,8 @@
 
 #include <fmt/format.h>
 
+#include "optics/lens/design_opening.h"
+
 namespace contrejour {
 
 std::string number_text(double value) { return fmt::format("{}", value); }
@@ -32,15 +34,23 @@ std::string plain_title(const std::string& text) {
   return out;
 }
 
-Tilts tilts_of(const Surface& surface) {
+Tilts tilts_of(const Surface& surface, double turn_rad) {
   const Vec3 axis = surface.pose.axis;
   Tilts tilts;
   tilts.y_rad = std::asin(std::clamp(axis.x, -1.0, 1.0));
   tilts.x_rad = std::atan2(-axis.y, axis.z);
-  if (surface.shape.has_axial_symmetry()) return tilts;
+  const bool round = surface.shape.has_axial_symmetry() && surface.aperture.kind == ApertureKind::Disc;
+  if (round) return tilts;
   const Placement tilted = turn_about(0, tilts.x_rad).then(turn_about(1, tilts.y_rad));
-  tilts.z_rad = surface.shape.turn_rad - pose_of(tilted).turn_rad;
+  tilts.z_rad = turn_rad - pose_of(tilted).turn_rad;
   return tilts;
+}
+
+ClearAperture aperture_in_turned(const ClearAperture& aperture, double turn_rad) {
+  ClearAperture own = aperture;
+  turn_opening(-turn_rad, own);
+  if (std::abs(own.turn_rad) < 1e-12) own.turn_rad = 0.0;
+  return own;
 }
 
 std::optional<CataloguedName> GlassNamer::name_of(const Glass& glass) const {

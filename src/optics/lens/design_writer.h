@@ -22,11 +22,14 @@ namespace contrejour {
 // A title on one line, without quotes.
 [[nodiscard]] std::string plain_title(const std::string& text);
 
-// Tilts about x, then the new y, then the new z, right-handed, that make up a surface's pose and its shape's turn.
+// Tilts about x, then the new y, then the new z, right-handed, that make up a surface's pose and a turn about its axis.
 struct Tilts {
   double x_rad = 0, y_rad = 0, z_rad = 0;
 };
-[[nodiscard]] Tilts tilts_of(const Surface& surface);
+[[nodiscard]] Tilts tilts_of(const Surface& surface, double turn_rad);
+
+// As it stands in the coordinates of a surface that is turned itself.
+[[nodiscard]] ClearAperture aperture_in_turned(const ClearAperture& aperture, double turn_rad);
 
 // A glass of the bundled catalogue by the name that its maker gives it.
 struct CataloguedName {

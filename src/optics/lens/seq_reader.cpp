@@ -264,9 +264,8 @@ class Reader {
     if (error_) return;
     set_default_stop();
     design_.is_focused = surfaces_[surfaces_.size() - 2].is_to_focus && surfaces_.back().thickness == 0.0;
-    if (design_.surfaces.back().opening)
-      design_.image_semi_diameter =
-          std::max(design_.surfaces.back().opening->half_x, design_.surfaces.back().opening->half_y);
+    if (const auto& opening = design_.surfaces.back().opening)
+      design_.image_semi_diameter = std::max({opening->half_x, opening->half_y, opening->circle});
     design_.positions = zoom_.positions(design_, design_.warnings);
   }
 

@@ -109,10 +109,12 @@ std::optional<std::string> read_aperture(const SeqCommand& command, SeqSurface& 
   opening.line = command.line;
   const std::string_view name = command.name;
   if (name == "CIR") {
-    opening.half_x = opening.half_y = std::abs(*value);
+    opening.circle = std::abs(*value);
   } else if (name == "ADX" || name == "ADY") {
     (name == "ADX" ? opening.centre.x : opening.centre.y) = *value;
-  } else if (name != "ARO") {
+  } else if (name == "ARO") {
+    opening.turn_rad = rad_from_deg(*value);
+  } else {
     opening.shape = name[0] == 'R' ? OpeningShape::Rectangle : OpeningShape::Ellipse;
     (name[2] == 'X' ? opening.half_x : opening.half_y) = std::abs(*value);
   }

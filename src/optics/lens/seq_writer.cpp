@@ -68,7 +68,7 @@ class Writer {
     std::string out = "S     " + radius_text(own) + " " + number_text(gap_mm) + glass_text(s.glass_after) + "\n";
     if (!radius_is_exact(own)) out += "  CUY " + number_text(own) + "\n";
     if (s.kind == SurfaceKind::Stop) out += "  STO\n";
-    out += "  CIR " + number_text(s.semi_diameter_mm) + "\n";
+    out += "  CIR " + number_text(s.semi_diameter_mm) + "\n" + rim_text(s, crossed ? 0.0 : s.shape.turn_rad);
     const auto coefficients = shape_text(s, crossed);
     if (!coefficients) return coefficients;
     return out + *coefficients + decentre_text(s, crossed);
@@ -109,10 +109,21 @@ class Writer {
     return (crossed ? "  XTO\n" : "  YTO\n") + other + conic + powers;
   }
 
+  // Within the circle; turned with the surface where its coordinates are.
+  static std::string rim_text(const Surface& s, double turn_rad) {
+    const ClearAperture rim = aperture_in_turned(s.aperture, turn_rad);
+    if (rim.kind == ApertureKind::Disc) return {};
+    const char* name = rim.kind == ApertureKind::Rectangle ? "RE" : "EL";
+    std::string out =
+        fmt::format("  {0}X {1}; {0}Y {2}\n", name, number_text(rim.half_mm.x), number_text(rim.half_mm.y));
+    if (!(rim.centre_mm == Vec2{}))
+      out += fmt::format("  ADX {}; ADY {}\n", number_text(rim.centre_mm.x), number_text(rim.centre_mm.y));
+    if (rim.turn_rad != 0.0) out += "  ARO " + number_text(deg_from_rad(rim.turn_rad)) + "\n";
+    return out;
+  }
+
   static std::string decentre_text(const Surface& s, bool crossed) {
-    Surface turned = s;
-    if (crossed) turned.shape = {};
-    const Tilts tilts = tilts_of(turned);
+    const Tilts tilts = tilts_of(s, crossed ? 0.0 : s.shape.turn_rad);
     const Vec3 shift = s.pose.shift_mm;
     if (s.pose == SurfacePose{} && tilts.z_rad == 0.0) return {};
     const auto move = [](const char* name, double value) {

@@ -8,8 +8,8 @@
 
 #include "optics/lens/complete.h"
 #include "optics/lens/design_light.h"
+#include "optics/lens/design_opening.h"
 #include "optics/lens/plain_number.h"
-#include "optics/lens/rims.h"
 
 namespace contrejour {
 namespace {
@@ -72,29 +72,6 @@ class Builder {
     }
   }
 
-  // The circle around an aperture, as long as the surface reaches so far.
-  // Where Surface gets an aperture that is not round, it is set here.
-  void set_opening(Surface& surface, const DesignSurface& from) {
-    surface.semi_diameter_mm = from.semi_diameter * design_.unit_mm;
-    if (!from.opening) return;
-    const DesignOpening& opening = *from.opening;
-    const bool rectangle = opening.shape == OpeningShape::Rectangle;
-    const double around =
-        rectangle ? std::hypot(opening.half_x, opening.half_y) : std::max(opening.half_x, opening.half_y);
-    double semi_mm = (around + length(opening.centre)) * design_.unit_mm;
-    if (!reaches(surface, semi_mm)) semi_mm = std::min(opening.half_x, opening.half_y) * design_.unit_mm;
-    surface.semi_diameter_mm = semi_mm;
-    const bool round = opening.shape == OpeningShape::Round && opening.half_x == opening.half_y;
-    if (!round || !(opening.centre == Vec2{}))
-      warn(fmt::format("the aperture (line {}) is not a circle about the axis; a circle of {:.6g} mm radius is used",
-                       opening.line, semi_mm));
-    if (opening.obscured > 0.0)
-      warn(
-          fmt::format("the middle of the surface (line {}) is obscured up to a radius of {:.6g} mm; it lets light "
-                      "through here",
-                      opening.line, opening.obscured * design_.unit_mm));
-  }
-
   [[nodiscard]] SurfaceShape shape_in_mm(const DesignSurface& from) const {
     SurfaceShape shape = from.shape;
     if (design_.unit_mm == 1.0) return shape;
@@ -110,7 +87,7 @@ class Builder {
     surface.curvature_per_mm = tidy_curvature(from.curvature / design_.unit_mm);
     surface.shape = shape_in_mm(from);
     surface.glass_after = from.glass_after;
-    set_opening(surface, from);
+    set_opening(from, design_.unit_mm, surface, lens_.warnings);
     return surface;
   }
 
@@ -123,6 +100,11 @@ class Builder {
     stop.glass_after = medium;
     const bool own = design_.aperture == DesignAperture::ByStop || from.is_semi_fixed || from.opening;
     if (own) stop.semi_diameter_mm = at.semi_diameter_mm;
+    if (at.aperture.kind != ApertureKind::Disc)
+      warn(
+          fmt::format("the stop (line {}) is not round; the circle around it is used, --blades and --iris-image give "
+                      "it a shape",
+                      from.line));
     if (!refracts && (at.curvature_per_mm != 0.0 || !at.shape.is_sphere()))
       warn(fmt::format("the stop (line {}) is curved; it is taken as flat", from.line));
     return stop;
@@ -272,6 +254,7 @@ class Builder {
     }
     surface.pose = at.pose;
     if (!surface.shape.has_axial_symmetry()) surface.shape.turn_rad += at.turn_rad;
+    turn_opening(at.turn_rad, surface.aperture);
   }
 
   void set_gaps(std::size_t position = 0) {

@@ -21,6 +21,8 @@ struct DesignOpening {
   OpeningShape shape = OpeningShape::Round;
   double half_x = 0, half_y = 0;  // radius of a round one: both
   Vec2 centre{};
+  double turn_rad = 0;  // from x towards y
+  double circle = 0;  // a circle about the axis besides; 0: none
   double obscured = 0;  // a disc in the middle that lets nothing through
   int line = 0;
 };

@@ -107,8 +107,12 @@ class Writer {
     const Surface& s = lens_.surfaces[k];
     const auto shape = shape_rows(s);
     if (!shape) return shape.error().message;
-    const std::string body = *shape + glass_row(s) + semi_diameter_rows(k);
-    const bool askew = !(s.pose == SurfacePose{}) || s.shape.turn_rad != 0.0;
+    // Zemax turns neither shapes nor apertures, but coordinates.
+    const double turn_rad = s.shape.has_axial_symmetry() ? s.aperture.turn_rad : s.shape.turn_rad;
+    const auto rim = aperture_rows(k, turn_rad);
+    if (!rim) return "its rim is turned otherwise than itself; Zemax has no such apertures";
+    const std::string body = *shape + glass_row(s) + *rim;
+    const bool askew = !(s.pose == SurfacePose{}) || turn_rad != 0.0;
     if (!askew) {
       gap_at_.push_back({next_, 0.0});
       add(body, gap_mm);
@@ -121,7 +125,7 @@ class Writer {
           fmt::format("surface {}: its shift of {:g} mm along the axis is written as gaps", k + 1, along_mm));
       add("  TYPE STANDARD\n  CURV 0\n" + glass_row_before(k), along_mm);
     }
-    const Tilts tilts = tilts_of(s);
+    const Tilts tilts = tilts_of(s, turn_rad);
     add_break(s.pose.shift_mm, tilts, false, 0.0);
     add(body, 0.0);
     gap_at_.push_back({next_, along_mm});
@@ -129,12 +133,26 @@ class Writer {
     return std::nullopt;
   }
 
-  [[nodiscard]] std::string semi_diameter_rows(std::size_t k) const {
+  // DIAM, and a rim that is no circle about the axis.
+  std::optional<std::string> aperture_rows(std::size_t k, double turn_rad) {
     const Surface& s = lens_.surfaces[k];
     std::string out = fmt::format("  DIAM {} 1 0 0 1 \"\"\n", number_text(s.semi_diameter_mm));
     const Glass before = k == 0 ? air() : lens_.surfaces[k - 1].glass_after;
-    if (s.kind == SurfaceKind::Refracting && s.glass_after == before)
-      out += fmt::format("  CLAP 0 {} 0\n", number_text(s.semi_diameter_mm));
+    const ClearAperture rim = aperture_in_turned(s.aperture, turn_rad);
+    if (rim.kind == ApertureKind::Disc) {
+      if (s.kind == SurfaceKind::Refracting && s.glass_after == before)
+        out += fmt::format("  CLAP 0 {} 0\n", number_text(s.semi_diameter_mm));
+      return out;
+    }
+    if (rim.turn_rad != 0.0) return std::nullopt;
+    if (rims_of({rim.kind, rim.half_mm, rim.centre_mm, 0.0}, s.semi_diameter_mm).size() >
+        rims_of({rim.kind, rim.half_mm, rim.centre_mm, 0.0}, 1e9).size())
+      written_.losses.push_back(
+          fmt::format("surface {}: its rim is written whole, not cut by its semi-diameter", k + 1));
+    out += fmt::format("  {} {} {} 0\n", rim.kind == ApertureKind::Rectangle ? "SQAP" : "ELAP",
+                       number_text(rim.half_mm.x), number_text(rim.half_mm.y));
+    if (!(rim.centre_mm == Vec2{}))
+      out += fmt::format("  OBDC {} {}\n", number_text(rim.centre_mm.x), number_text(rim.centre_mm.y));
     return out;
   }
 
