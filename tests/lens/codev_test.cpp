@@ -303,7 +303,7 @@ TEST_CASE("CODE V's samples: read, or refused for what they hold") {
       {"achroMangin.seq", mirror},
       {"achroMangin_ok.seq", mirror},
       {"ag_dblgauss.seq", {100.0037, ""}},  // optiland's DoubleGauss
-      {"asp46.seq", {0, "no power"}},
+      {"asp46.seq", {0, "no image of distant objects"}},
       {"dar_test.seq", {0, "no surface refracts"}},
       {"dec_rev_tilt_test.seq", {0, "a reversed decentre"}},
       {"dec_test.seq", {0, "a reversed decentre"}},

@@ -352,6 +352,7 @@ TEST_CASE("glasses of Zemax") {
   const auto glass = [](const std::string& row) { return read(zmx("GLAS S-BSL7", "GLAS " + row)); };
   CHECK(glass("N-SK16 1 0 1.6207 60.28")->surfaces[4].glass_after == Glass{"N-SK16", ModelGlass{1.6207, 60.28, 0.0}});
   CHECK(refractive_index(glass("517642")->surfaces[4].glass_after, kLineD_nm) == doctest::Approx(1.517));
+  CHECK(refractive_index(glass("F_SILICA")->surfaces[4].glass_after, kLineD_nm) == doctest::Approx(1.45846).epsilon(1e-5));
   check_warns(*glass("NOSUCH 0 0 1.61 50"), "no catalogue has the glass NOSUCH (line 54)");
   check_warns(*glass("N-BK7 0 0 1.7 50"), "has n_d 1.51680 in the catalogue, 1.70000 in the file");
   CHECK(glass("N-BK7 0 0 1.5 40")->warnings.empty());
@@ -403,7 +404,7 @@ TEST_CASE("Zemax' samples: read, or refused for what they hold") {
       {"HoO-V2C18Ex66NEW.zmx", {0, "a mirror"}},
       {"US00583336-2-scaled.zmx", {49.389, ""}},  // its merit function wants 49.4
       {"US05331467-1.zmx", {0, "a mirror"}},
-      {"US05831776-1.zmx", {0, "no image forms"}},  // a relay for masks
+      {"US05831776-1.zmx", {0, "no image of distant objects"}},  // a relay for masks
       {"US08011793-1.zmx", {0, "a mirror"}},
       {"circular_aperture_example_with_aperture.zmx", {18.544, ""}},
       {"circular_aperture_example_without_aperture.zmx", {18.544, ""}},
@@ -418,11 +419,11 @@ TEST_CASE("Zemax' samples: read, or refused for what they hold") {
       {"lenssystem.ZMX", {0, "the image surface stands"}},
       {"one_mirror_up_45deg.zmx", {0, "a mirror"}},
       {"simple_fold_mirror_up.zmx", {0, "a mirror"}},
-      {"thorlabs_lj1598l1.zmx", {0, "no image forms"}},  // one cylinder
+      {"thorlabs_lj1598l1.zmx", {0, "no image of distant objects"}},  // one cylinder
       {"zemax_double_gaussian.zmx", {0, "of type PARAXIAL"}},
       {"zmax_37992.zmx", {0, "a mirror"}},
       {"zmax_55278.zmx", {52.243, ""}},
-      {"zmax_84383.zmx", {0, "no image forms"}},  // a negative lens
+      {"zmax_84383.zmx", {0, "no image of distant objects"}},  // a negative lens
   };
   std::size_t seen = 0;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(*folder)) {

@@ -32,8 +32,13 @@ Result<Paraxial> paraxial(Prescription rows) {
     surface.semi_diameter_mm = kNoRim_mm;
     surface.aperture = {};
   }
+  if (const auto valid = validate(rows); !valid) return tl::unexpected(valid.error());
   const auto state = lens_at(rows);
-  if (!state) return tl::unexpected(state.error());
+  if (!state)
+    return failure(ErrorCode::Unsupported,
+                   "it forms no image of distant objects behind it, as a negative or afocal lens, a single cylinder, a "
+                   "window or a relay for near objects; flare is computed of lenses that do",
+                   {rows.file.file, 0, 0});
   const double lambda_nm = state->design_wavelength_nm;
   const Abcd to_stop = abcd_between(state->surfaces, 0, state->stop_index, lambda_nm);
   const int last = static_cast<int>(state->surfaces.size()) - 1;

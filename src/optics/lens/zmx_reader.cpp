@@ -253,8 +253,8 @@ class Reader {
     } else if (word == "FTYP") {
       field_type_ = whole(words, 1);
       if (words.size() > 3) fields_ = whole(words, 3);
-    } else if (word == "XFLN" || word == "YFLN") {
-      auto& field = word == "XFLN" ? x_field_ : y_field_;
+    } else if (is_one_of(word, {"XFLN", "YFLN", "XFLD", "YFLD"})) {
+      auto& field = word[0] == 'X' ? x_field_ : y_field_;
       for (std::size_t k = 1; k < words.size(); ++k) field.push_back(number(words, k));
     } else if (word == "WAVL" || word == "WAVN") {
       for (std::size_t k = 1; k < words.size(); ++k) set_wavelength(static_cast<int>(k), number(words, k));
@@ -324,7 +324,7 @@ class Reader {
       }
       if (!surface->is_break) {
         medium = air();
-        if (from.glass && k > 0) {
+        if (from.glass && k > 0 && k + 1 < surfaces_.size()) {
           auto glass = zmx_glass(*from.glass, makers_, finder_, file_, design_.warnings);
           if (!glass) {
             error_ = glass.error();

@@ -152,6 +152,7 @@ Result<Glass> zmx_glass(const ZmxGlass& in, std::span<const std::string> makers,
   if (in.name == "MIRROR")
     return failure(ErrorCode::Unsupported, "a mirror; lenses of refracting surfaces alone are computed",
                    {file, in.line, 0});
+  if (in.name == "AIR" || in.name == "VACUUM") return air();
   const bool blank = in.name.empty() || in.name.starts_with("___");
   if (blank || in.status == 1) {
     if (plausible(in.n_d, in.v_d)) return model_of(in, blank ? "" : in.name);

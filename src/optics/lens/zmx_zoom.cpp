@@ -72,7 +72,7 @@ std::vector<DesignPosition> zmx_positions(const ZmxConfigurations& configuration
     if (in >= positions.size()) continue;
     if (operand.name == "LTTL") positions[in].nominal_focal_mm = nominal_focal_mm(operand.value);
     const auto value = number_or_infinity(operand.value);
-    if (operand.name == "THIC" && value && at < own.size()) positions[in].thickness[at] = *value;
+    if (operand.name == "THIC" && value && at + 1 < own.size()) positions[in].thickness[at] = *value;
   }
   return positions;
 }
