@@ -280,6 +280,9 @@ TEST_CASE("what is wrong with a CODE V file, and where") {
   check_refused("RDM\nSO 0 1e13\nSI 0 0\n", 0, "no lens");
   check_refused(seq("EPD   10.0", ""), 0, "the lens's aperture is not told");
   check_refused(seq("6.0 NBK7", "1e20 NBK7"), 17, "an infinite thickness");
+  std::string commands = kSeq;
+  for (int k = 0; k < 50'000; ++k) commands += ";GO";
+  check_refused(commands, 0, "more than 49999 commands");
   std::string endless = "RDM\nSO 0 1e13\n";
   for (int k = 1; k < 2000; ++k) endless += "S 0 1\n";
   check_refused(endless, 1002, "more than 1000 surfaces");

@@ -72,7 +72,7 @@ class Splitter {
   }
 
   void finish() {
-    if (words_.empty()) return;
+    if (words_.empty() || commands_.size() >= kMostSeqCommands) return words_.clear();
     SeqCommand command;
     command.line = line_;
     command.first = words_.front();

@@ -42,7 +42,10 @@ class Reader {
   explicit Reader(const LensText& in) : file_(in.file), finder_(in.glasses), surface_reader_(in.file) {
     design_.program = "CODE V";
     design_.file = in.file;
-    for (const SeqCommand& command : seq_commands(in.text)) {
+    const std::vector<SeqCommand> commands = seq_commands(in.text);
+    if (commands.size() >= kMostSeqCommands)
+      fail(0, fmt::format("more than {} commands; no lens has so many", kMostSeqCommands - 1));
+    for (const SeqCommand& command : commands) {
       if (error_) break;
       read_command(command);
     }
