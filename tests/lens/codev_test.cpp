@@ -136,6 +136,7 @@ TEST_CASE("CODE V's radii and curvatures") {
   check_warns(must_read(seq("RDM;LEN", "LEN")), "so radii are read");
   CHECK(first(seq("  CCY 0;", "  RDY 40;")) == 1.0 / 40.0);
   CHECK(first(seq("GO", "CUY S1 0.01")) == 0.01);
+  CHECK(first(seq("GO", "CUY S1 UMY -0.1")) == 0.02);  // solved for: S has the result
 }
 
 TEST_CASE("CODE V's apertures, fields and units") {
@@ -275,6 +276,9 @@ TEST_CASE("what is wrong with a CODE V file, and where") {
   check_refused(seq("  PIM", "CIR S20 5"), 34, "CIR of a surface that is not there");
   check_refused(seq("SI    0.0", "S20   0.0"), 35, "S20 where S8 is due");
   check_refused(seq("END\n", "\n"), 16, "is no number");
+  check_refused(seq("GO", "GLA S1..3 NBK7_SCHOTT"), 36, "name one surface");
+  check_refused(seq("GO", "SCA 2"), 36, "an edit of the lens");
+  check_refused(seq("0.1e14", "0.1e14 NBK7_SCHOTT"), 16, "the object stands in glass");
   check_refused(seq("GO", "ZOO 1000"), 36, "1 to 200 positions");
   check_refused(seq("GO", "ZOO THI S4 a b"), 36, "give the surface and its thickness");
   check_refused("RDM\nSO 0 1e13\nSI 0 0\n", 0, "no lens");

@@ -352,7 +352,8 @@ TEST_CASE("glasses of Zemax") {
   const auto glass = [](const std::string& row) { return read(zmx("GLAS S-BSL7", "GLAS " + row)); };
   CHECK(glass("N-SK16 1 0 1.6207 60.28")->surfaces[4].glass_after == Glass{"N-SK16", ModelGlass{1.6207, 60.28, 0.0}});
   CHECK(refractive_index(glass("517642")->surfaces[4].glass_after, kLineD_nm) == doctest::Approx(1.517));
-  CHECK(refractive_index(glass("F_SILICA")->surfaces[4].glass_after, kLineD_nm) == doctest::Approx(1.45846).epsilon(1e-5));
+  CHECK(refractive_index(glass("F_SILICA")->surfaces[4].glass_after, kLineD_nm) ==
+        doctest::Approx(1.45846).epsilon(1e-5));
   check_warns(*glass("NOSUCH 0 0 1.61 50"), "no catalogue has the glass NOSUCH (line 54)");
   check_warns(*glass("N-BK7 0 0 1.7 50"), "has n_d 1.51680 in the catalogue, 1.70000 in the file");
   CHECK(glass("N-BK7 0 0 1.5 40")->warnings.empty());
@@ -362,6 +363,7 @@ TEST_CASE("glasses of Zemax") {
 }
 
 TEST_CASE("what is wrong with a Zemax file, and where") {
+  check_refused(zmx("DISZ INFINITY\n", "DISZ INFINITY\n  GLAS WATER\n"), 21, "the object stands in glass");
   check_refused(zmx("MODE SEQ", "MODE NSC"), 2, "non-sequential");
   check_refused(zmx("UNIT MM", "UNIT FURLONG"), 7, "'FURLONG' is not known");
   check_refused(zmx("ENPD 10", "ENPD 0"), 8, "no size of an aperture");

@@ -10,9 +10,9 @@ std::string_view usual_name(std::string_view name) {
   struct Named {
     std::string_view theirs, ours;
   };
-  constexpr Named kNames[] = {{"F_SILICA", "SILICA"},  {"FUSED_SILICA", "SILICA"}, {"F-SILICA", "SILICA"},
-                              {"UVFS", "SILICA"},      {"SIO2", "SILICA"},         {"D263T", "D263TECO"},
-                              {"POLYCARBONATE", "POLYCARB"}, {"POLYSTYRENE", "POLYSTYR"}};
+  constexpr Named kNames[] = {
+      {"F_SILICA", "SILICA"}, {"FUSED_SILICA", "SILICA"}, {"F-SILICA", "SILICA"},        {"UVFS", "SILICA"},
+      {"SIO2", "SILICA"},     {"D263T", "D263TECO"},      {"POLYCARBONATE", "POLYCARB"}, {"POLYSTYRENE", "POLYSTYR"}};
   std::string upper(name.substr(0, 32));
   for (char& c : upper) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
   for (const Named& known : kNames)

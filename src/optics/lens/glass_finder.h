@@ -18,7 +18,8 @@ class GlassFinder {
   explicit GlassFinder(const GlassCatalogue* own = nullptr) : own_(own) {}
 
   // A six-digit code, a glass of the caller's own catalogue, a bundled one; named as asked for. makers: see
-  // GlassCatalogue::find. A few names that other programs give to materials (F_SILICA) stand for ours. Errors: InvalidArgument, naming the nearest.
+  // GlassCatalogue::find. A few names that other programs give to materials (F_SILICA) stand for ours. Errors:
+  // InvalidArgument, naming the nearest.
   [[nodiscard]] Result<Glass> find(std::string_view name, std::span<const std::string> makers = {});
 
  private:

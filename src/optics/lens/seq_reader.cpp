@@ -246,10 +246,19 @@ class Reader {
         warn(fmt::format("the command {} (line {}) is not known and left out", shortened(command.first), command.line));
       return;
     }
+    if (names_several(own.word(0)))
+      return fail(command.line, fmt::format("{} of {}: name one surface, such as S3", command.name, own.word(0)));
     if (at >= surfaces_.size())
       return fail(command.line, fmt::format("{} of a surface that is not there", command.name));
     const auto problem = surface_reader_.read(own, surfaces_[at], design_.warnings);
     if (problem) error_ = problem;
+  }
+
+  // S2..4, SI-1, SA
+  static bool names_several(std::string_view word) {
+    const std::string upper = capitals(word);
+    return upper.starts_with("S") &&
+           (upper.find("..") != std::string::npos || upper.starts_with("SI-") || upper == "SA");
   }
 
   void finish() {
@@ -312,6 +321,8 @@ class Reader {
   }
 
   void add_surface(const SeqSurface& from, std::size_t k) {
+    if (k == 0 && !from.glass.empty() && capitals(from.glass) != "AIR")
+      return fail(from.glass_line, "the object stands in glass; lenses in air are computed", ErrorCode::Unsupported);
     auto surface = seq_design_surface(from, static_cast<int>(k), file_);
     if (!surface) {
       error_ = surface.error();

@@ -59,6 +59,11 @@ std::string_view refused(std::string_view name) {
                                 {"FRN", "a Fresnel surface"},
                                 {"XYP", "a polynomial in x and y"},
                                 {"ZRN", "a Zernike surface"},
+                                {"INS", "an edit of the lens"},
+                                {"DEL", "an edit of the lens"},
+                                {"COP", "an edit of the lens"},
+                                {"FLP", "an edit of the lens"},
+                                {"SCA", "an edit of the lens"},
                                 {"NSS", "a non-sequential part"},
                                 {"EDR", "a non-sequential part"},
                                 {"ARR", "an array of lenses"},
@@ -195,7 +200,8 @@ std::optional<Error> SeqSurfaceReader::read(const SeqCommand& command, SeqSurfac
   } else if (is_aperture(name)) {
     problem = read_aperture(command, s);
   } else if (!is_shape(name) || name == "RDY" || name == "CUY" || name == "RDX" || name == "CUX") {
-    // All these tell a number.
+    // All these tell a number, or how it is solved for: then S has it.
+    if (command.words.size() > 1 && !plain_number(command.word(0))) return std::nullopt;
     if (!value) {
       problem = fmt::format("'{}' is no number", shortened(command.words.empty() ? "" : command.words.back()));
     } else if (is_move(name)) {

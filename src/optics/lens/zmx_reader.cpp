@@ -322,6 +322,8 @@ class Reader {
         error_ = surface.error();
         return;
       }
+      if (k == 0 && from.glass && from.glass->name != "AIR" && from.glass->name != "VACUUM")
+        return fail(from.glass->line, "the object stands in glass; lenses in air are computed", ErrorCode::Unsupported);
       if (!surface->is_break) {
         medium = air();
         if (from.glass && k > 0 && k + 1 < surfaces_.size()) {
