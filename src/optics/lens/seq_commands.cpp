@@ -77,13 +77,9 @@ class Splitter {
     command.line = line_;
     command.first = words_.front();
     const std::string first = capitals(command.first);
-    command.name = first.substr(0, kLongestName);
-    std::size_t from = 1;
-    if (seq_surface_name(first).is) {
-      command.name = "S";
-      from = 0;
-    }
-    command.words.assign(words_.begin() + static_cast<std::ptrdiff_t>(from), words_.end());
+    const bool surface = seq_surface_name(first).is;
+    command.name = surface ? std::string("S") : first.substr(0, kLongestName);
+    command.words.assign(words_.begin() + (surface ? 0 : 1), words_.end());
     commands_.push_back(std::move(command));
     words_.clear();
   }
