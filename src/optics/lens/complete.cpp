@@ -14,7 +14,6 @@ namespace contrejour {
 namespace {
 
 constexpr double kPlausibleFNumber = 1.0;  // until the real one is known
-constexpr double kMostShrunk = 0.75;  // of a semi-diameter that a file tells: beyond, its other numbers are wrong
 constexpr int kHalvings = 50;
 
 // A rim that is missing: any small one, for questions that rims have no part in.
@@ -64,8 +63,8 @@ double largest_fitting(double high, const Fits& fits) {
 // Surfaces whose rims are being fitted.
 class RimFitter {
  public:
-  RimFitter(Prescription& lens, const std::vector<bool>& open)
-      : lens_(lens), open_(open), told_mm_(lens.surfaces.size()) {
+  RimFitter(Prescription& lens, const std::vector<bool>& open, double least_share)
+      : lens_(lens), open_(open), least_share_(least_share), told_mm_(lens.surfaces.size()) {
     for (std::size_t k = 0; k < told_mm_.size(); ++k) told_mm_[k] = lens.surfaces[k].semi_diameter_mm;
   }
 
@@ -83,7 +82,7 @@ class RimFitter {
  private:
   void shrink(std::size_t k, double semi_mm) {
     Surface& surface = lens_.surfaces[k];
-    if (open_[k] || semi_mm >= kMostShrunk * told_mm_[k])
+    if (open_[k] || semi_mm >= least_share_ * told_mm_[k])
       surface.semi_diameter_mm = std::min(surface.semi_diameter_mm, semi_mm);
   }
 
@@ -117,6 +116,7 @@ class RimFitter {
 
   Prescription& lens_;
   const std::vector<bool>& open_;
+  double least_share_;
   std::vector<double> told_mm_;
 };
 
@@ -139,7 +139,7 @@ Result<double> stop_opening_mm(Prescription lens) {
 
 }  // namespace
 
-Result<Prescription> completed(Prescription lens, const std::optional<Beam>& beam) {
+Result<Prescription> completed(Prescription lens, const std::optional<Beam>& beam, double least_share) {
   std::vector<bool> open;
   for (const Surface& surface : lens.surfaces) open.push_back(surface.semi_diameter_mm == 0.0);
   const std::size_t stop = stop_of(lens);
@@ -147,7 +147,7 @@ Result<Prescription> completed(Prescription lens, const std::optional<Beam>& bea
   if (any_open && beam && stop < lens.surfaces.size()) {
     if (const auto sized = size_for_beam(lens, *beam, open); !sized) return tl::unexpected(sized.error());
   }
-  RimFitter(lens, open).fit();
+  RimFitter(lens, open, least_share).fit();
   const bool wants_f_number = lens.f_number == 0.0;
   if (wants_f_number) lens.f_number = kPlausibleFNumber;
   if (const auto valid = validate(lens); !valid) return tl::unexpected(valid.error());

@@ -13,13 +13,17 @@ struct Beam {
   double half_field_rad = 0;     // of a distant object
 };
 
+// What is left of a semi-diameter that a file tells; less, and its other numbers are wrong.
+inline constexpr double kLeastShare = 0.75;
+
 // A prescription as a reader found it, made whole and checked:
 // - semi-diameters of 0, not told, become what the beam needs by first-order optics, the widest field unvignetted;
 // - where neighbours cross at their rims, or a surface ends before its rim, the smaller semi-diameters shrink to where
-//   they do not, those told by a quarter at most;
+//   they do not, those told to least_share of themselves at the least;
 // - an f-number of 0 becomes that of the ray parallel to the axis that just passes the stop's whole opening.
 // Each change that a file's own numbers suffer is a warning. Errors: those of validate(), and none of an image behind
 // the lens where the f-number is wanted.
-[[nodiscard]] Result<Prescription> completed(Prescription lens, const std::optional<Beam>& beam = std::nullopt);
+[[nodiscard]] Result<Prescription> completed(Prescription lens, const std::optional<Beam>& beam = std::nullopt,
+                                             double least_share = kLeastShare);
 
 }  // namespace contrejour

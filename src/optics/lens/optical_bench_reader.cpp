@@ -14,6 +14,7 @@
 #include "base/trimmed.h"
 #include "contrejour/lens.h"
 #include "optics/lens/complete.h"
+#include "optics/lens/heights.h"
 #include "optics/lens/plain_number.h"
 #include "optics/lens/read_lens.h"
 
@@ -61,7 +62,7 @@ class Reader {
     choose_positions();
     read_surfaces();
     read_aspheres();
-    place_diaphragms();
+    place_openings(lens_);
     state_figures();
     if (error_) return tl::unexpected(*error_);
     return completed(std::move(lens_));
@@ -193,7 +194,6 @@ class Reader {
       read_gap(row, surface, k + 1 == rows.size());
       medium = surface.glass_after;
       by_label_[std::string(row.cell(0))] = lens_.surfaces.size();
-      if (radius == "FS") diaphragms_.push_back(lens_.surfaces.size());
       lens_.surfaces.push_back(std::move(surface));
     }
   }
@@ -235,16 +235,6 @@ class Reader {
     }
   }
 
-  // An opening that is drawn within the lens behind it, as a negative gap has it, moves to that lens's vertex.
-  void place_diaphragms() {
-    for (const std::size_t k : diaphragms_) {
-      Surface& opening = lens_.surfaces[k];
-      if (k == 0 || opening.thickness_mm >= 0.0) continue;
-      lens_.surfaces[k - 1].thickness_mm += opening.thickness_mm;
-      opening.thickness_mm = 0.0;
-    }
-  }
-
   void state_figures() {
     if (error_) return;
     const std::size_t first = positions_.front();
@@ -277,7 +267,6 @@ class Reader {
   std::vector<std::size_t> positions_;  // columns
   std::vector<ZoomGap> zoom_gaps_;
   std::map<std::string, std::size_t> by_label_;
-  std::vector<std::size_t> diaphragms_;
   bool ends_at_sensor_ = false;
   std::optional<Error> error_;
 };

@@ -48,6 +48,7 @@ constexpr LensFormat kFormats[] = {
     {"Optical Bench", looks_like_optical_bench, read_optical_bench},
     {"Zemax", looks_like_zmx, read_zmx},
     {"CODE V", looks_like_seq, read_seq},
+    {"FlareSim", looks_like_flaresim, read_flaresim},
     {"our TOML", looks_like_toml, read_ours},
     {"PBRT", looks_like_pbrt, read_pbrt},
 };

@@ -32,4 +32,7 @@ struct LensText {
 [[nodiscard]] bool looks_like_pbrt(std::string_view text);
 [[nodiscard]] Result<Prescription> read_pbrt(const LensText& in);
 
+[[nodiscard]] bool looks_like_flaresim(std::string_view text);
+[[nodiscard]] Result<Prescription> read_flaresim(const LensText& in);
+
 }  // namespace contrejour
