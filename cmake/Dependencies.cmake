@@ -8,6 +8,7 @@ find_package(PNG REQUIRED)
 find_package(tomlplusplus REQUIRED)
 find_package(nlohmann_json 3 REQUIRED)
 find_package(yaml-cpp REQUIRED)
+find_package(pugixml REQUIRED)
 find_package(CLI11 2 REQUIRED)
 find_package(Eigen3 3.3 REQUIRED NO_MODULE)
 # pocketfft is a header without a package of its own: Debian ships it in gemmi-dev.

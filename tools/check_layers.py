@@ -106,6 +106,8 @@ FENCED = [
     (r"(vulkan|GLES?\d?|OpenGL)/|glad|shaderc", ("src/gpu", "apps/studio"), "graphics stays in gpu and the studio"),
     (r"GLFW/|imgui|ofx", ("apps",), "windows and hosts belong to apps"),
     (r"(oneapi/)?tbb/", ("src/base",), "threads come from base/tasks.h, where their hand-overs are annotated"),
+    (r"nlohmann/", ("src/base", "apps", "tests"), "one wrapper that keeps its exceptions in"),
+    (r"pugixml", ("src/optics/lens",), "one reader of XML"),
     (r"yaml-cpp/", ("src/base",), "one wrapper that keeps its exceptions in"),
     (r"gemmi/|pocketfft", ("src/diffraction",), "one wrapper of the FFT"),
     (r"Eigen/", ("src/diffraction", "src/optics/coating"), "one wrapper of the eigen solver, one of least squares"),

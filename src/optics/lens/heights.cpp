@@ -12,7 +12,7 @@ namespace contrejour {
 namespace {
 
 constexpr double kFocalTolerance = 0.2;
-constexpr double kSemiFrom = 0.7, kDiameterFrom = 1.42, kDiameterTo = 3.0;  // of the stop to the marginal ray
+constexpr double kSemiFrom = 0.7, kDiameterFrom = 1.7, kDiameterTo = 3.0;  // of the stop to the marginal ray
 
 // For questions that rims and stops have no part in.
 constexpr double kNoRim_mm = 1e-3, kAnyFNumber = 8.0;

@@ -13,7 +13,8 @@ enum class HeightMeaning { SemiDiameter, Diameter, Unusable };
 
 // What the heights of a lens mean, which stand in place of its semi-diameters (0: not told):
 // - where the widest f-number is known, the stop's own, against what the real marginal ray needs there; unless the
-//   computed focal length is more than a fifth off the stated one, or the answer is neither 1 nor 2 within a third;
+//   computed focal length is more than a fifth off the stated one, or the heights are not 0.7 to 3 times the need. From
+//   1.7 on they are diameters; a stop may well be a little wider than it must, but not much narrower;
 // - else as told, if so no surface ends and no neighbours cross before three quarters of their rims;
 // - else diameters, if as such they do not; else they are no rims at all.
 [[nodiscard]] HeightMeaning meaning_of_heights(const Prescription& lens, std::optional<double> f_number,

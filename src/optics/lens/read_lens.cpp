@@ -48,6 +48,8 @@ constexpr LensFormat kFormats[] = {
     {"Optical Bench", looks_like_optical_bench, read_optical_bench},
     {"Zemax", looks_like_zmx, read_zmx},
     {"CODE V", looks_like_seq, read_seq},
+    {"ray-optics, Optiland, Realflare, Lentil or DeepLens in JSON", looks_like_json, read_json_lens},
+    {"OpenLensFlare", looks_like_lens_xml, read_lens_xml},
     {"FlareSim", looks_like_flaresim, read_flaresim},
     {"our TOML", looks_like_toml, read_ours},
     {"PBRT", looks_like_pbrt, read_pbrt},
@@ -59,9 +61,24 @@ std::string format_names() {
   return names;
 }
 
+// "lenses.json#0001" is the lens 0001 of that file, unless there is a file of that name.
+struct FileAndKey {
+  std::filesystem::path file;
+  std::string key;
+};
+
+FileAndKey split_key(const std::filesystem::path& named) {
+  const std::string whole = named.string();
+  const std::size_t hash = whole.rfind('#');
+  std::error_code code;
+  if (hash == std::string::npos || std::filesystem::exists(named, code)) return {named, ""};
+  return {whole.substr(0, hash), whole.substr(hash + 1)};
+}
+
 }  // namespace
 
-Result<Prescription> read_lens(const std::filesystem::path& file, const GlassCatalogue* glasses) {
+Result<Prescription> read_lens(const std::filesystem::path& named, const GlassCatalogue* glasses) {
+  const auto [file, key] = split_key(named);
   const auto bytes = read_text_file(file, kMaxLensFileBytes, "see the bundled lenses by `contrejour lens list`");
   if (!bytes) return tl::unexpected(bytes.error());
   const std::string name = file.string();
@@ -74,7 +91,10 @@ Result<Prescription> read_lens(const std::filesystem::path& file, const GlassCat
                    "(docs/formats/lens-toml.md)",
                    {name, 0, 0});
   }
-  const LensText in{text, name, glasses};
+  if (!key.empty() && (is_toml || !looks_like_json(text)))
+    return failure(ErrorCode::InvalidArgument, fmt::format("the file holds one lens; leave '#{}' out", shortened(key)),
+                   {name, 0, 0});
+  const LensText in{text, name, glasses, key};
   if (is_toml) return read_ours(in);
   for (const LensFormat& format : kFormats)
     if (format.looks_like(text)) return format.read(in);
@@ -93,7 +113,7 @@ Result<Prescription> find_lens(const std::string& name_or_file, const GlassCatal
   std::error_code code;
   const std::filesystem::path path(name_or_file);
   const bool is_path = path.has_parent_path() || path.has_extension();
-  if (is_path || std::filesystem::exists(path, code)) return read_lens(path, glasses);
+  if (is_path || std::filesystem::exists(split_key(path).file, code)) return read_lens(path, glasses);
   std::vector<std::string_view> names;
   for (const BundledLens& lens : bundled) names.push_back(lens.name);
   const std::string near = nearest_name(name_or_file, names);

@@ -17,6 +17,7 @@ struct LensText {
   std::string_view text;  // UTF-8, whatever the file was in
   std::string file;       // names it in errors
   const GlassCatalogue* glasses = nullptr;  // the user's own, if any
+  std::string key = {};  // of a file with many lenses, which one
 };
 
 // Each format other than ours: what its files look like, and its reader.
@@ -31,6 +32,14 @@ struct LensText {
 
 [[nodiscard]] bool looks_like_pbrt(std::string_view text);
 [[nodiscard]] Result<Prescription> read_pbrt(const LensText& in);
+
+// Those of several programs (json_lens.h).
+[[nodiscard]] bool looks_like_json(std::string_view text);
+[[nodiscard]] Result<Prescription> read_json_lens(const LensText& in);
+
+// Of OpenLensFlare and the LensFlareFramework.
+[[nodiscard]] bool looks_like_lens_xml(std::string_view text);
+[[nodiscard]] Result<Prescription> read_lens_xml(const LensText& in);
 
 [[nodiscard]] bool looks_like_flaresim(std::string_view text);
 [[nodiscard]] Result<Prescription> read_flaresim(const LensText& in);

@@ -1,0 +1,174 @@
+#include "base/json_tree.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <limits>
+#include <optional>
+#include <utility>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+namespace contrejour {
+namespace {
+
+using nlohmann::json;
+
+struct Place {
+  int line = 1;
+  bool after_line_end = false;  // the character read last ended a line
+  // A value is known once the character behind it was read, which may have ended its line.
+  [[nodiscard]] int of_value() const { return after_line_end ? line - 1 : line; }
+};
+
+// The text's characters; counts lines as they are read.
+class CountingIterator {
+ public:
+  using iterator_category = std::input_iterator_tag;
+  using value_type = char;
+  using difference_type = std::ptrdiff_t;
+  using pointer = const char*;
+  using reference = const char&;
+
+  CountingIterator(const char* at, Place* place) : at_(at), place_(place) {}
+  const char& operator*() const { return *at_; }
+  CountingIterator& operator++() {
+    place_->after_line_end = *at_ == '\n';
+    if (place_->after_line_end) ++place_->line;
+    ++at_;
+    return *this;
+  }
+  CountingIterator operator++(int) {
+    CountingIterator before = *this;
+    ++*this;
+    return before;
+  }
+  friend bool operator==(const CountingIterator& a, const CountingIterator& b) { return a.at_ == b.at_; }
+  friend bool operator!=(const CountingIterator& a, const CountingIterator& b) { return a.at_ != b.at_; }
+
+ private:
+  const char* at_;
+  Place* place_;
+};
+
+// nlohmann's events, made a tree; false stops it.
+class TreeBuilder {
+ public:
+  explicit TreeBuilder(const Place& place) : place_(place) { open_.push_back({}); }
+
+  bool null() { return add({}); }
+  bool boolean(bool value) { return add({.kind = JsonNode::Kind::Bool, .truth = value}); }
+  bool number_integer(json::number_integer_t value) { return number(static_cast<double>(value)); }
+  bool number_unsigned(json::number_unsigned_t value) { return number(static_cast<double>(value)); }
+  bool number_float(json::number_float_t value, const json::string_t& /*as_written*/) { return number(value); }
+  bool string(json::string_t& value) { return add({.kind = JsonNode::Kind::Text, .text = std::move(value)}); }
+  bool binary(json::binary_t& /*value*/) { return fail("binary values are not read"); }
+  bool key(json::string_t& value) {
+    open_.back().keys.push_back(std::move(value));
+    return true;
+  }
+  bool start_object(std::size_t /*count*/) { return open(JsonNode::Kind::Map); }
+  bool start_array(std::size_t /*count*/) { return open(JsonNode::Kind::List); }
+  bool end_object() { return close(); }
+  bool end_array() { return close(); }
+  bool parse_error(std::size_t /*position*/, const std::string& /*token*/, const json::exception& wrong) {
+    // "[json.exception.parse_error.101] parse error at line 1, column 2: syntax error ...": from there on.
+    const std::string_view all = wrong.what();
+    const std::size_t colon = all.find(": ");
+    return fail(fmt::format("not valid JSON: {}", all.substr(colon == std::string_view::npos ? 0 : colon + 2)));
+  }
+
+  [[nodiscard]] std::optional<std::string> error() const { return error_; }
+  [[nodiscard]] JsonNode take() { return std::move(open_.front().list.front()); }
+
+ private:
+  bool fail(std::string message) {
+    if (!error_) error_ = std::move(message);
+    return false;
+  }
+  bool number(double value) { return add({.kind = JsonNode::Kind::Number, .number = value}); }
+  bool add(JsonNode node) {
+    if (++values_ > kJsonMaxValues) return fail(fmt::format("more than {} values", kJsonMaxValues));
+    if (node.line == 0) node.line = place_.of_value();
+    open_.back().list.push_back(std::move(node));
+    return true;
+  }
+  bool open(JsonNode::Kind kind) {
+    if (open_.size() > kJsonMaxDepth) return fail(fmt::format("nested deeper than {} levels", kJsonMaxDepth));
+    open_.push_back({.kind = kind, .line = place_.of_value()});
+    return true;
+  }
+  bool close() {
+    JsonNode node = std::move(open_.back());
+    open_.pop_back();
+    return add(std::move(node));
+  }
+
+  const Place& place_;
+  std::vector<JsonNode> open_;
+  std::size_t values_ = 0;
+  std::optional<std::string> error_;
+};
+
+// Python's words for numbers that JSON has not, outside quotes, become numbers that no file means.
+constexpr std::string_view kInfinity = "1.25e308", kMinusInfinity = "-1.25e308", kNan = "-1.5e308";
+
+std::string without_pythons_words(std::string_view text) {
+  constexpr std::pair<std::string_view, std::string_view> kWords[] = {
+      {"-Infinity", kMinusInfinity}, {"Infinity", kInfinity}, {"NaN", kNan}};
+  std::string out;
+  out.reserve(text.size() + 64);
+  bool quoted = false;
+  for (std::size_t k = 0; k < text.size(); ++k) {
+    const auto word = std::find_if(std::begin(kWords), std::end(kWords),
+                                   [&](const auto& w) { return !quoted && text.substr(k).starts_with(w.first); });
+    if (word != std::end(kWords)) {
+      out += word->second;
+      k += word->first.size() - 1;
+      continue;
+    }
+    out += text[k];
+    if (text[k] == '"') quoted = !quoted;
+    if (quoted && text[k] == '\\' && k + 1 < text.size()) out += text[++k];
+  }
+  return out;
+}
+
+void restore_pythons_words(JsonNode& node) {
+  if (node.number == 1.25e308) node.number = std::numeric_limits<double>::infinity();
+  if (node.number == -1.25e308) node.number = -std::numeric_limits<double>::infinity();
+  if (node.number == -1.5e308) node.number = std::numeric_limits<double>::quiet_NaN();
+  for (JsonNode& child : node.list) restore_pythons_words(child);
+}
+
+}  // namespace
+
+const JsonNode* JsonNode::find(std::string_view key) const {
+  for (std::size_t k = keys.size(); k-- > 0;)
+    if (keys[k] == key) return &list[k];
+  return nullptr;
+}
+
+Result<JsonNode> parse_json(std::string_view text, const std::string& file) {
+  if (text.size() > kJsonMaxBytes)
+    return failure(ErrorCode::Parse, fmt::format("{} bytes; at most {} are read", text.size(), kJsonMaxBytes),
+                   {file, 0, 0});
+  const std::string plain = without_pythons_words(text);
+  Place place;
+  TreeBuilder builder(place);
+  const char* begin = plain.data();
+  const char* end = begin + plain.size();
+  bool whole = false;
+  try {
+    whole = json::sax_parse(CountingIterator(begin, &place), CountingIterator(end, &place), &builder);
+  } catch (const std::exception& wrong) {
+    return failure(ErrorCode::Parse, fmt::format("cannot be read as JSON: {}", wrong.what()), {file, 0, 0});
+  }
+  if (!whole) return failure(ErrorCode::Parse, builder.error().value_or("not valid JSON"), {file, place.of_value(), 0});
+  JsonNode root = builder.take();
+  restore_pythons_words(root);
+  return root;
+}
+
+}  // namespace contrejour
