@@ -23,7 +23,6 @@ constexpr std::string_view kSpace = " \t\r\v\f";
 constexpr std::size_t kMostRows = 2000;
 // Its files have no aspheres: what a strong one would reach, its sphere does not.
 constexpr double kLeastShareWithoutAspheres = 0.3;
-constexpr double kHalfFrame_mm = 21.633;  // of a full frame's diagonal
 
 // "f/2.8" or "F2.8" of a text; of several the last.
 std::optional<double> f_number_in(std::string_view text) {
@@ -71,10 +70,7 @@ class Reader {
       fail(0, "no surfaces after 'surfaces:'; give a line each: radius thickness ior abbe semi_ap coating");
     finish();
     if (error_) return tl::unexpected(*error_);
-    std::optional<Beam> beam;
-    if (lens_.f_number > 0.0 && lens_.stated.focal_length_mm)
-      beam = Beam{*lens_.stated.focal_length_mm / lens_.f_number,
-                  std::atan(kHalfFrame_mm / *lens_.stated.focal_length_mm)};
+    const auto beam = full_frame_beam(lens_);
     return completed(std::move(lens_), beam, kLeastShareWithoutAspheres);
   }
 

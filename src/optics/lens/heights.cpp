@@ -5,7 +5,6 @@
 
 #include <fmt/format.h>
 
-#include "optics/lens/complete.h"
 #include "optics/lens/rims.h"
 
 namespace contrejour {
@@ -70,6 +69,13 @@ HeightMeaning meaning_of_heights(const Prescription& lens, std::optional<double>
 void apply_heights(Prescription& lens, HeightMeaning meaning) {
   const double factor = meaning == HeightMeaning::SemiDiameter ? 1.0 : meaning == HeightMeaning::Diameter ? 0.5 : 0.0;
   for (Surface& surface : lens.surfaces) surface.semi_diameter_mm *= factor;
+}
+
+std::optional<Beam> full_frame_beam(const Prescription& lens) {
+  constexpr double kHalfDiagonal_mm = 21.633;
+  const auto& focal_mm = lens.stated.focal_length_mm;
+  if (!focal_mm || !(lens.f_number > 0.0)) return std::nullopt;
+  return Beam{*focal_mm / lens.f_number, std::atan(kHalfDiagonal_mm / *focal_mm)};
 }
 
 void keep_sensor_without_image(Prescription& lens) {

@@ -3,9 +3,9 @@
 #pragma once
 
 #include <optional>
-#include <string_view>
 
 #include "contrejour/lens.h"
+#include "optics/lens/complete.h"
 
 namespace contrejour {
 
@@ -22,6 +22,9 @@ enum class HeightMeaning { SemiDiameter, Diameter, Unusable };
 
 // Makes them semi-diameters; 0 where they are unusable, which completed() sizes for a beam.
 void apply_heights(Prescription& lens, HeightMeaning meaning);
+
+// That of the stated focal length and f-number, out to a full frame's corner; none unless both are known.
+[[nodiscard]] std::optional<Beam> full_frame_beam(const Prescription& lens);
 
 // A lens whose numbers, misread or mistyped, form no image behind it keeps its sensor at the stated back focal
 // distance, with a warning. Any other lens stays as it is.

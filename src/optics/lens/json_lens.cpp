@@ -1,6 +1,7 @@
 #include "optics/lens/json_lens.h"
 
 #include <algorithm>
+#include <cctype>
 #include <string>
 
 #include <fmt/format.h>
@@ -12,7 +13,10 @@ namespace contrejour {
 namespace {
 
 constexpr JsonLensFormat kFormats[] = {
+    {"ray-optics", is_roa, read_roa},
+    {"Optiland", is_optiland, read_optiland},
     {"Realflare", is_realflare, read_realflare},
+    {"DeepLens", is_deeplens, read_deeplens},
     {"Lentil", is_lentil, read_lentil, true},
 };
 
@@ -29,6 +33,24 @@ std::string first_keys(const JsonField& root) {
 void refuse_many_surfaces(const JsonField& surfaces) {
   if (surfaces.size() > static_cast<std::size_t>(kMaxSurfaces))
     surfaces.fail(fmt::format("{} surfaces; at most {} are computed", surfaces.size(), kMaxSurfaces));
+}
+
+void add_powers(const JsonField& list, std::size_t first, std::size_t step, SurfaceShape& shape) {
+  for (std::size_t k = 0; k < list.size(); ++k) {
+    const double value = list[k].required_number();
+    const std::size_t power = first + step * k;
+    if (value == 0.0) continue;
+    if (power == 0 || power > static_cast<std::size_t>(SurfaceShape::kHighestPower))
+      return list[k].fail(
+          fmt::format("a coefficient of the power {}; 1 to {} are computed", power, SurfaceShape::kHighestPower));
+    if (shape.powers.size() < power) shape.powers.resize(power, 0.0);
+    shape.powers[power - 1] += value;
+  }
+}
+
+std::string lower_case(std::string text) {
+  for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return text;
 }
 
 bool looks_like_json(std::string_view text) {

@@ -32,12 +32,6 @@ std::string name_of(const JsonField& entry, std::string_view key) {
   return key.empty() ? name : fmt::format("{} ({})", name, key);
 }
 
-std::string lower(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return text;
-}
-
 class Reader {
  public:
   Reader(const JsonField& entry, std::string_view key, const LensText& in)
@@ -75,7 +69,7 @@ class Reader {
     const JsonField rim = element["housing-radius"];
     surface.semi_diameter_mm = (rim.is_there() ? rim : element["housing_radius"]).required_number();
     surface.glass_after = medium_;
-    if (lower(element["material"].text()) == "iris") {
+    if (lower_case(element["material"].text()) == "iris") {
       surface.kind = SurfaceKind::Stop;
       has_stop_ = true;
     } else {
@@ -88,8 +82,8 @@ class Reader {
 
   Glass glass_of(const JsonField& element) {
     const std::string material = element["material"].text();
-    if (lower(material) == "air") return air();
-    const std::string name = lower(material) == "abbe" ? "" : material;
+    if (lower_case(material) == "air") return air();
+    const std::string name = lower_case(material) == "abbe" ? "" : material;
     const auto n_d = element["ior"].number();
     const double v_d = element["abbe"].number_or(0.0);
     if (n_d && *n_d == 1.0) return air();
@@ -104,7 +98,7 @@ class Reader {
   void read_shape(const JsonField& element, Surface& surface) {
     const double radius_mm = element["radius"].required_number();
     const double c = std::abs(radius_mm) >= kPlane_mm ? 0.0 : curvature_of_radius(radius_mm);
-    const std::string geometry = lower(element["lens-geometry"].text());
+    const std::string geometry = lower_case(element["lens-geometry"].text());
     if (geometry == "cyl-y") {
       if (c != 0.0) surface.shape = {.kind = ShapeKind::Toroid, .curvature_x_per_mm = c};
       return;
@@ -113,22 +107,10 @@ class Reader {
     if (geometry == "cyl-x") {
       if (c != 0.0) surface.shape.kind = ShapeKind::Toroid;
     } else if (geometry == "aspherical") {
-      read_powers(element["aspherical-equation"], surface.shape.powers);
+      add_powers(element["aspherical-equation"], 4, 2, surface.shape);
     } else if (!geometry.empty() && geometry != "spherical" && geometry != "planar") {
       element["lens-geometry"].fail(
           fmt::format("'{}' is not known; spherical, planar, aspherical, cyl-x and cyl-y are", shortened(geometry)));
-    }
-  }
-
-  // The coefficients of r^4, r^6, ...
-  static void read_powers(const JsonField& equation, std::vector<double>& powers) {
-    for (std::size_t k = 0; k < equation.size(); ++k) {
-      const std::size_t power = 4 + 2 * k;
-      if (power > static_cast<std::size_t>(SurfaceShape::kHighestPower))
-        return equation.fail(fmt::format("has {} coefficients; those of r^4 to r^{} are read", equation.size(),
-                                         SurfaceShape::kHighestPower));
-      powers.resize(power, 0.0);
-      powers.back() = equation[k].required_number();
     }
   }
 

@@ -13,8 +13,6 @@
 namespace contrejour {
 namespace {
 
-constexpr double kHalfFrame_mm = 21.633;  // of a full frame's diagonal
-
 // A project or a preset names the file of its lens.
 Result<Prescription> refuse_settings(const JsonField& root, const LensText& in) {
   const JsonField lens = root["flare"].is_map() ? root["flare"]["lens"] : root["lens"];
@@ -100,9 +98,7 @@ Result<Prescription> read_realflare(const JsonField& root, const LensText& in) {
   place_openings(lens);
   choose_heights(lens, list.line());
   keep_sensor_without_image(lens);
-  std::optional<Beam> beam;
-  if (lens.f_number > 0.0 && lens.stated.focal_length_mm)
-    beam = Beam{*focal_mm / lens.f_number, std::atan(kHalfFrame_mm / *focal_mm)};
+  const auto beam = full_frame_beam(lens);
   return completed(std::move(lens), beam);
 }
 

@@ -61,7 +61,8 @@ GlassData read_data(TomlFields& fields, TomlErrors& errors) {
   return data;
 }
 
-std::string number(double value) { return fmt::format("{}", value); }
+// -0, as the logarithm of a transmittance of 1 may be, is read back as 0.
+std::string number(double value) { return fmt::format("{}", value + 0.0); }
 
 template <class Values>
 std::string list_text(const Values& values) {
