@@ -45,6 +45,8 @@ TEST_CASE("a DeepLens lens in every detail") {
   CHECK(s[2].kind == SurfaceKind::Stop);
   CHECK(s[2].semi_diameter_mm == 9.7);
   CHECK(s[3].semi_diameter_mm == doctest::Approx(14.1421).epsilon(1e-5));
+  CHECK(s[3].aperture.kind == ApertureKind::Rectangle);
+  CHECK(s[3].aperture.half_mm == Vec2{10.0, 10.0});
   CHECK(refractive_index(s[3].glass_after, kLineD_nm) == doctest::Approx(1.5168).epsilon(1e-5));
   CHECK(s[4].curvature_per_mm == 0.0);
   CHECK(lens.f_number == doctest::Approx(4.4).epsilon(0.05));  // of the aperture's whole opening

@@ -50,6 +50,15 @@ TEST_CASE("a Realflare model in every detail") {
   check_round_trip(lens);
 }
 
+TEST_CASE("Realflare's stop may be a surface of glass") {
+  const Prescription lens = read_or_fail(read_json_lens, edited("\"aperture_index\": 2", "\"aperture_index\": 3"));
+  REQUIRE(lens.surfaces.size() == 6);
+  CHECK(is_air(lens.surfaces[2].glass_after));
+  CHECK(lens.surfaces[3].kind == SurfaceKind::Stop);
+  CHECK(lens.surfaces[3].thickness_mm == 0.0);
+  CHECK(lens.surfaces[4].glass_after == Glass{"", ConstantIndex{1.6}});
+}
+
 TEST_CASE("Realflare's heights: semi-diameters, diameters or nonsense") {
   std::string diameters = kSample;
   for (const auto& [from, to] : {std::pair("13.0}", "26.0}"), {"13.0}", "26.0}"}, {"11.0}", "22.0}"}})

@@ -97,8 +97,10 @@ class RimFitter {
     const double rim_mm = std::min(before.semi_diameter_mm, behind.semi_diameter_mm);
     if (!(rim_mm > 0.0) || !(gap_mm >= 0.0) || !reaches(before, rim_mm) || !reaches(behind, rim_mm)) return;
     if (smallest_gap(before, behind, gap_mm, rim_mm).gap_mm >= -kTouch_mm) return;
-    const double fits_mm =
-        largest_fitting(rim_mm, [&](double h_mm) { return smallest_gap(before, behind, gap_mm, h_mm).gap_mm >= 0.0; });
+    const auto fits = [&](double h_mm) { return smallest_gap(before, behind, gap_mm, h_mm).gap_mm >= 0.0; };
+    const bool either_open = open_[front] || open_[back];
+    if (!either_open && !fits(least_share_ * rim_mm)) return;  // shrink() would refuse; hostile files have many such
+    const double fits_mm = largest_fitting(rim_mm, fits);
     for (const std::size_t k : {front, back})
       if (lens_.surfaces[k].semi_diameter_mm <= rim_mm) shrink(k, fits_mm);
   }

@@ -61,12 +61,21 @@ class Reader {
           fmt::format("'{}' is not computed; Spheric, Aspheric, Plane and Aperture are", shortened(in["type"].text())),
           ErrorCode::Unsupported);
     }
-    // A square plane is told by its side.
-    surface.semi_diameter_mm = in["r"].is_there() || !in["l"].is_there()
-                                   ? std::abs(in["r"].required_number())
-                                   : std::abs(in["l"].number_or(0.0)) / std::sqrt(2.0);
+    set_rim(in, surface);
     medium_ = surface.glass_after;
     lens_.surfaces.push_back(std::move(surface));
+  }
+
+  // A square plane is told by its side.
+  static void set_rim(const JsonField& in, Surface& surface) {
+    if (in["r"].is_there() || !in["l"].is_there()) {
+      surface.semi_diameter_mm = std::abs(in["r"].required_number());
+      return;
+    }
+    const double half_mm = 0.5 * std::abs(in["l"].required_number());
+    surface.semi_diameter_mm = half_mm * std::sqrt(2.0);
+    if (surface.kind == SurfaceKind::Refracting)
+      surface.aperture = {.kind = ApertureKind::Rectangle, .half_mm = {half_mm, half_mm}};
   }
 
   // Coefficients of r^2, r^4, ...

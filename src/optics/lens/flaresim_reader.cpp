@@ -15,12 +15,14 @@
 #include "optics/lens/heights.h"
 #include "optics/lens/plain_number.h"
 #include "optics/lens/read_lens.h"
+#include "optics/lens/validate.h"
 
 namespace contrejour {
 namespace {
 
 constexpr std::string_view kSpace = " \t\r\v\f";
-constexpr std::size_t kMostRows = 2000;
+constexpr double kAirIndex = 1.0001;  // FlareSim: no more than it is air, and a V_d below 0.1 no dispersion
+constexpr double kSameIndex = 1e-3;
 // Its files have no aspheres: what a strong one would reach, its sphere does not.
 constexpr double kLeastShareWithoutAspheres = 0.3;
 
@@ -53,12 +55,6 @@ std::vector<std::string_view> words_of(std::string_view line) {
 }
 
 bool is_stop_word(std::string_view word) { return word == "stop" || word == "STOP" || word == "Stop"; }
-
-std::optional<double> radius_of(std::string_view word) {
-  const std::string_view digits = word.starts_with('-') ? word.substr(1) : word;
-  if (digits == "inf" || digits == "INF" || digits == "Inf" || digits == "Infinity") return 0.0;
-  return plain_number(word);
-}
 
 class Reader {
  public:
@@ -114,7 +110,9 @@ class Reader {
   }
 
   void read_focal_length(std::string_view text, int line) {
-    const auto value = plain_number(trimmed(text.substr(0, text.find('#')), kSpace));
+    text = trimmed(text.substr(0, text.find('#')), kSpace);
+    if (text.ends_with("mm")) text = trimmed(text.substr(0, text.size() - 2), kSpace);
+    const auto value = plain_number(text);
     if (!value) return fail(line, fmt::format("'{}' is no focal length; give it in mm", shortened(text)));
     if (*value > 0.0) lens_.stated.focal_length_mm = value;  // 0: not told
   }
@@ -122,12 +120,12 @@ class Reader {
   // radius thickness ior abbe semi_ap coating [type [radius_y]]
   void read_surface(const std::vector<std::string_view>& words, int line) {
     if (words.empty()) return;
-    if (lens_.surfaces.size() >= kMostRows)
-      return fail(line, fmt::format("more than {} surfaces; no lens has so many", kMostRows));
+    if (lens_.surfaces.size() >= static_cast<std::size_t>(kMaxSurfaces))
+      return fail(line, fmt::format("more than {} surfaces; no more are computed", kMaxSurfaces));
     Surface surface;
     surface.source_line = line;
     if (is_stop_word(words[0])) surface.kind = SurfaceKind::Stop;
-    const auto radius_mm = surface.kind == SurfaceKind::Stop ? std::optional(0.0) : radius_of(words[0]);
+    const auto radius_mm = surface.kind == SurfaceKind::Stop ? std::optional(0.0) : number_or_infinity(words[0]);
     double numbers[5] = {0, 0, 0, 0, 0};  // thickness, index, Abbe number, height, coating: the last may be missing
     bool good = radius_mm && words.size() >= 5;
     for (std::size_t k = 0; good && k < 5 && k + 1 < words.size(); ++k) {
@@ -142,6 +140,11 @@ class Reader {
     surface.thickness_mm = numbers[0];
     surface.semi_diameter_mm = numbers[3];
     surface.curvature_per_mm = curvature_of_radius(*radius_mm);
+    const bool odd_stop = surface.kind == SurfaceKind::Stop && numbers[1] > kAirIndex &&
+                          std::abs(numbers[1] - refractive_index(medium_, kLineD_nm)) > kSameIndex;
+    if (odd_stop)
+      return fail(line,
+                  "the stop has another index than the medium in front of it; give that surface a row of its own");
     surface.glass_after = glass_of(surface.kind, numbers[1], numbers[2]);
     if (surface.kind == SurfaceKind::Refracting) {
       surface.coating = coating_of(numbers[4], line, is_air(medium_) || is_air(surface.glass_after));
@@ -153,9 +156,9 @@ class Reader {
 
   // The stop is within its medium, whatever its own index says.
   [[nodiscard]] Glass glass_of(SurfaceKind kind, double n_d, double v_d) const {
-    constexpr double kAir = 1.0001, kNoDispersion = 0.1;  // FlareSim's own bounds
+    constexpr double kNoDispersion = 0.1;
     if (kind == SurfaceKind::Stop) return medium_;
-    if (n_d <= kAir) return n_d < 1.0 ? Glass{"", ConstantIndex{n_d}} : air();
+    if (n_d <= kAirIndex) return n_d < 1.0 ? Glass{"", ConstantIndex{n_d}} : air();
     if (v_d < kNoDispersion) return Glass{"", ConstantIndex{n_d}};
     return Glass{"", AbbeGlass{n_d, v_d}};
   }
@@ -185,7 +188,7 @@ class Reader {
       if (c != 0.0) surface.shape = {.kind = ShapeKind::Toroid, .curvature_x_per_mm = c};
       surface.curvature_per_mm = 0.0;
     } else if (type == "toric") {
-      const auto radius_y = words.size() > 7 ? radius_of(words[7]) : std::nullopt;
+      const auto radius_y = words.size() > 7 ? number_or_infinity(words[7]) : std::nullopt;
       if (!radius_y)
         return fail(line, "a toric surface has two radii; give that of the y-z section as the eighth word");
       surface.curvature_per_mm = curvature_of_radius(*radius_y);

@@ -13,13 +13,6 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-std::optional<double> number_in_quotes(std::string_view text) {
-  const bool negative = text.starts_with('-');
-  const std::string_view word = negative ? text.substr(1) : text;
-  if (word == "Infinity" || word == "inf" || word == "INF" || word == "Inf") return negative ? -kInfinity : kInfinity;
-  return plain_number(text);
-}
-
 std::string below(const std::string& path, std::string_view key) {
   return fmt::format("{}{}{}", path, path.empty() ? "" : ".", shortened(key));
 }
@@ -51,7 +44,7 @@ std::optional<double> JsonField::number() const {
   if (!is_there()) return std::nullopt;
   std::optional<double> value;
   if (node_->kind == JsonNode::Kind::Number) value = node_->number;
-  if (node_->kind == JsonNode::Kind::Text) value = number_in_quotes(node_->text);
+  if (node_->kind == JsonNode::Kind::Text) value = number_or_infinity(node_->text);
   if (!value || std::isnan(*value)) {
     fail("is no number");
     return std::nullopt;

@@ -69,6 +69,14 @@ class Reader {
     return value.value_or(fallback);
   }
 
+  double radius_of(const pugi::xml_node& element) {
+    const std::string text = text_of(element, "radius");
+    const auto value = number_or_infinity(text);
+    if (!value && !text.empty())
+      fail(element.child("radius"), fmt::format("<radius> '{}' is no number", shortened(text)));
+    return value.value_or(0.0);
+  }
+
   double required(const pugi::xml_node& element, const char* child) {
     if (text_of(element, child).empty()) fail(element, fmt::format("an element without <{}>; give it", child));
     return number_or(element, child, 0.0);
@@ -97,7 +105,7 @@ class Reader {
     if (type == "apertureStop") {
       surface.kind = SurfaceKind::Stop;
     } else {
-      surface.curvature_per_mm = curvature_of_radius(number_or(element, "radius", 0.0));
+      surface.curvature_per_mm = curvature_of_radius(radius_of(element));
       surface.glass_after = glass_of(element);
       surface.coating = coating_of(element, surface);
     }

@@ -208,16 +208,16 @@ class Reader {
     const std::string type = plain(key.text());
     design_.aperture_value = in["value"].required_number();
     if (type == "epd") {
-      design_.aperture = ApertureKind::EntrancePupil;
+      design_.aperture = DesignAperture::EntrancePupil;
     } else if (type == "imagefno") {
-      design_.aperture = ApertureKind::FNumber;
+      design_.aperture = DesignAperture::FNumber;
     } else if (type == "paraxialimagefno" || type == "imagena") {
-      design_.aperture = ApertureKind::WorkingFNumber;
+      design_.aperture = DesignAperture::WorkingFNumber;
       if (type == "imagena") design_.aperture_value = 0.5 / design_.aperture_value;
     } else if (type == "objectna") {
-      design_.aperture = ApertureKind::ObjectNA;
+      design_.aperture = DesignAperture::ObjectNA;
     } else if (type == "floatbystopsize") {
-      design_.aperture = ApertureKind::ByStop;
+      design_.aperture = DesignAperture::ByStop;
       for (DesignSurface& surface : design_.surfaces)
         if (surface.is_stop) surface.semi_diameter = 0.5 * design_.aperture_value;
     } else {

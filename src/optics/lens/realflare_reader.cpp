@@ -46,6 +46,12 @@ Surface surface_of(const JsonField& element, bool is_stop, const Glass& medium) 
   return surface;
 }
 
+// The stop may be a surface of glass: then it is a row of its own, at that surface's vertex.
+bool is_refracting(const JsonField& element, const Glass& medium) {
+  return element["radius"].number_or(0.0) != 0.0 ||
+         std::abs(element["refractive_index"].number_or(1.0) - refractive_index(medium, kLineD_nm)) > 1e-6;
+}
+
 void choose_heights(Prescription& lens, int line) {
   const HeightMeaning meaning = meaning_of_heights(
       lens, lens.f_number > 0.0 ? std::optional(lens.f_number) : std::nullopt, HeightMeaning::SemiDiameter);
@@ -87,7 +93,12 @@ Result<Prescription> read_realflare(const JsonField& root, const LensText& in) {
   refuse_many_surfaces(list);
   Glass medium = air();
   for (std::size_t k = 0; k < list.size() && !errors.first; ++k) {
-    lens.surfaces.push_back(surface_of(list[k], static_cast<double>(k) == stop, medium));
+    const bool is_stop = static_cast<double>(k) == stop;
+    lens.surfaces.push_back(surface_of(list[k], is_stop, medium));
+    if (is_stop && is_refracting(list[k], medium)) {
+      lens.surfaces.back().thickness_mm = 0.0;
+      lens.surfaces.push_back(surface_of(list[k], false, medium));
+    }
     medium = lens.surfaces.back().glass_after;
   }
   if (stop < 0.0 || stop >= static_cast<double>(list.size()) || stop != std::floor(stop))

@@ -97,7 +97,7 @@ Glass roa_glass(const JsonField& medium, GlassFinder& finder) {
   if (type == "Air") return air();
   for (const Maker& maker : kMakers)
     if (maker.class_name == type) return catalogue_glass(maker, content, finder);
-  std::string name = content["label"].text();
+  std::string name = (content["label"].is_there() ? content["label"] : content["gname"]).text();
   if (content["wvls"].is_there() && content["rndx"].is_there()) return tabulated(content);
   if (content["n"].is_there()) return model_glass(content["n"], content["v"], std::move(name));
   if (content["nd"].is_there()) return model_glass(content["nd"], content["vd"], std::move(name));

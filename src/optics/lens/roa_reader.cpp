@@ -225,12 +225,12 @@ class Reader {
     design_.aperture_value = value;
     const bool image = space == "image" || what == "fno" || what == "na";
     if (what == "epd" || what == "pupil") {
-      design_.aperture = ApertureKind::EntrancePupil;
+      design_.aperture = DesignAperture::EntrancePupil;
     } else if (what == "f/#" || what == "fno") {
-      design_.aperture = image ? ApertureKind::WorkingFNumber : ApertureKind::ObjectNA;
+      design_.aperture = image ? DesignAperture::WorkingFNumber : DesignAperture::ObjectNA;
       if (!image) design_.aperture_value = std::sin(std::atan(0.5 / value));
     } else if (what == "na" || what == "nao") {
-      design_.aperture = image ? ApertureKind::WorkingFNumber : ApertureKind::ObjectNA;
+      design_.aperture = image ? DesignAperture::WorkingFNumber : DesignAperture::ObjectNA;
       if (image) design_.aperture_value = 0.5 / value;
     } else {
       key.fail(fmt::format("the pupil '{}' is not known; epd, f/# and NA are", shortened(what)));
