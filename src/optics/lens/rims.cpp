@@ -30,12 +30,23 @@ std::optional<double> height_mm(const Surface& s, Vec2 at_mm) {
   return s.pose.shift_mm.z + point->sag_mm - (axis.x * from.x + axis.y * from.y) / axis.z;
 }
 
+constexpr int kSpokes = 24;
+
+// As many spokes from x towards y as tell of all 24: one of surfaces of revolution, a quarter of those that both axes
+// divide alike.
+int spokes_of(const Surface& front, const Surface& back) {
+  if (!(front.pose == SurfacePose{}) || !(back.pose == SurfacePose{})) return kSpokes;
+  if (front.shape.has_axial_symmetry() && back.shape.has_axial_symmetry()) return 1;
+  return front.shape.turn_rad == 0.0 && back.shape.turn_rad == 0.0 ? kSpokes / 4 + 1 : kSpokes;
+}
+
 // Surfaces of which one is no sphere, or stands askew, are nearest to each other anywhere.
 Gap gap_of_any(const Surface& front, const Surface& back, double thickness_mm, double rim_mm) {
-  constexpr int kRings = 32, kSpokes = 24;
+  constexpr int kRings = 32;
+  const int spokes = spokes_of(front, back);
   Gap smallest{thickness_mm, 0.0};
   for (int ring = 1; ring <= kRings; ++ring) {
-    for (int spoke = 0; spoke < kSpokes; ++spoke) {
+    for (int spoke = 0; spoke < spokes; ++spoke) {
       const double r_mm = rim_mm * ring / kRings;
       const double angle = 2.0 * std::numbers::pi * spoke / kSpokes;
       const Vec2 at{r_mm * std::cos(angle), r_mm * std::sin(angle)};
