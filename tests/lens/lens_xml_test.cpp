@@ -107,7 +107,7 @@ TEST_CASE("what is wrong with an OpenLensFlare lens, and where") {
 
 namespace {
 
-// bodonyi-tables' semi_ap of the first surface.
+// Semi-diameter of the first surface.
 double front_mm(const std::string& file) {
   for (const auto& [name, semi_mm] :
        {std::pair("heliar", 14.5), {"canon", 38.0}, {"angenieux", 27.0}, {"itoh", 82.0}, {"nikon", 32.2}})
@@ -118,7 +118,7 @@ double front_mm(const std::string& file) {
 }  // namespace
 
 TEST_CASE("XML samples: focal lengths and focus as computed by another program") {
-  // PROVENANCE.md and bodonyi-tables: focal length, back focal distance; the Nikon's names say 80 to 200 mm.
+  // Focal length, back focal distance, as another program computes them; the Nikon's names say 80 to 200 mm.
   const std::map<std::string, std::pair<double, double>> kLenses = {
       {"bodonyi-LensFlareFramework/Assets/Lenses/canon-zoom-short.xml", {72.12, 52.45}},
       {"bodonyi-LensFlareFramework/Assets/Lenses/canon-zoom-mid.xml", {134.95, 52.43}},
