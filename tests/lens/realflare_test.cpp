@@ -50,6 +50,12 @@ TEST_CASE("a Realflare model in every detail") {
   check_round_trip(lens);
 }
 
+TEST_CASE("a Realflare project with its lens in it") {
+  const Prescription lens = read_or_fail(read_json_lens, "{\"flare\": {\"lens\": {\"lens_model\": " + kSample + "}}}");
+  CHECK(lens.name == "50mm");
+  CHECK(lens.surfaces.size() == 5);
+}
+
 TEST_CASE("Realflare's stop may be a surface of glass") {
   const Prescription lens = read_or_fail(read_json_lens, edited("\"aperture_index\": 2", "\"aperture_index\": 3"));
   REQUIRE(lens.surfaces.size() == 6);

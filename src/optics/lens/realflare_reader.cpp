@@ -13,9 +13,22 @@
 namespace contrejour {
 namespace {
 
+// Of a project or a preset.
+JsonField lens_of_settings(const JsonField& root) {
+  return root["flare"].is_map() ? root["flare"]["lens"] : root["lens"];
+}
+
+// The model itself, or one within a project; else what has no elements.
+JsonField model_of(const JsonField& root) {
+  if (root["lens_elements"].is_list()) return root;
+  for (const char* key : {"lens_model", "prescription", "model"})
+    if (const JsonField model = lens_of_settings(root)[key]; model["lens_elements"].is_list()) return model;
+  return root;
+}
+
 // A project or a preset names the file of its lens.
 Result<Prescription> refuse_settings(const JsonField& root, const LensText& in) {
-  const JsonField lens = root["flare"].is_map() ? root["flare"]["lens"] : root["lens"];
+  const JsonField lens = lens_of_settings(root);
   for (const char* key : {"lens_model_path", "prescription_path"}) {
     if (!lens[key].is_text()) continue;
     return failure(ErrorCode::Unsupported,
@@ -75,10 +88,9 @@ bool is_realflare(const JsonField& root) {
 }
 
 Result<Prescription> read_realflare(const JsonField& root, const LensText& in) {
-  const JsonField elements = root["lens_elements"];
-  if (!elements.is_list()) return refuse_settings(root, in);
   JsonErrors errors{in.file, {}};
-  const JsonField fields = root.reporting_to(errors);
+  const JsonField fields = model_of(root).reporting_to(errors);
+  if (!fields["lens_elements"].is_list()) return refuse_settings(root, in);
   Prescription lens;
   lens.file = {in.file, 0, 0};
   lens.name = fields["name"].text();
