@@ -5,7 +5,7 @@
 #include "base/decode_text.h"
 #include "contrejour/lens.h"
 #include "contrejour/write_lens.h"
-#include "optics/lens/read_lens.h"
+#include "optics/lens_files/read_lens.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace contrejour;

@@ -16,6 +16,7 @@ FOLDERS = {
     "src/optics/glass": "glass",
     "src/optics/coating": "coating",
     "src/optics/lens": "lens",
+    "src/optics/lens_files": "lens_files",
     "src/optics/trace": "trace",
     "src/ghosts": "ghosts",
     "src/diffraction": "diffraction",
@@ -75,7 +76,7 @@ PUBLIC = {
     "surface_shape.h": "kernels",
     "trace.h": "trace",
     "vec.h": "base",
-    "write_lens.h": "lens",
+    "write_lens.h": "lens_files",
 }
 
 # "*renderers" stands for every src/render/<method>, "public" for include/contrejour.
@@ -85,6 +86,7 @@ MAY_INCLUDE = {
     "glass": ["kernels"],
     "coating": ["glass"],
     "lens": ["glass", "coating"],
+    "lens_files": ["lens"],
     "trace": ["lens", "kernels"],
     "image": ["kernels"],
     "ghosts": ["trace"],
@@ -107,7 +109,7 @@ FENCED = [
     (r"GLFW/|imgui|ofx", ("apps",), "windows and hosts belong to apps"),
     (r"(oneapi/)?tbb/", ("src/base",), "threads come from base/tasks.h, where their hand-overs are annotated"),
     (r"nlohmann/", ("src/base", "apps", "tests"), "one wrapper that keeps its exceptions in"),
-    (r"pugixml", ("src/optics/lens",), "one reader of XML"),
+    (r"pugixml", ("src/optics/lens_files",), "one reader of XML"),
     (r"yaml-cpp/", ("src/base",), "one wrapper that keeps its exceptions in"),
     (r"gemmi/|pocketfft", ("src/diffraction",), "one wrapper of the FFT"),
     (r"Eigen/", ("src/diffraction", "src/optics/coating"), "one wrapper of the eigen solver, one of least squares"),

@@ -14,7 +14,7 @@
 #include "contrejour/lens.h"
 #include "contrejour/trace.h"
 #include "lens/sample_lens.h"
-#include "optics/lens/read_lens.h"
+#include "optics/lens_files/read_lens.h"
 #include "shared_data.h"
 
 namespace contrejour::test {

@@ -1,5 +1,5 @@
 // What files of other programs leave open: rims that do not cross, semi-diameters from a beam, f-numbers.
-#include "optics/lens/complete.h"
+#include "optics/lens_files/complete.h"
 
 #include <doctest/doctest.h>
 
@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "contrejour/first_order.h"
-#include "optics/lens/plain_number.h"
+#include "optics/lens_files/plain_number.h"
 
 namespace contrejour::test {
 namespace {

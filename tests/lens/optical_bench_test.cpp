@@ -8,7 +8,7 @@
 #include "base/decode_text.h"
 #include "contrejour/first_order.h"
 #include "contrejour/lens.h"
-#include "optics/lens/read_lens.h"
+#include "optics/lens_files/read_lens.h"
 #include "shared_data.h"
 
 namespace contrejour::test {

@@ -7,7 +7,7 @@
 
 #include "base/decode_text.h"
 #include "contrejour/lens.h"
-#include "optics/lens/read_lens.h"
+#include "optics/lens_files/read_lens.h"
 
 namespace contrejour::test {
 

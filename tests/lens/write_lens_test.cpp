@@ -10,7 +10,7 @@
 #include "contrejour/write_lens.h"
 #include "lens/same_lens.h"
 #include "lens/sample_lens.h"
-#include "optics/lens/read_lens.h"
+#include "optics/lens_files/read_lens.h"
 #include "shared_data.h"
 
 namespace contrejour::test {

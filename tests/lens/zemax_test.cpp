@@ -11,7 +11,7 @@
 #include "contrejour/first_order.h"
 #include "contrejour/lens.h"
 #include "lens/sample_lens.h"
-#include "optics/lens/read_lens.h"
+#include "optics/lens_files/read_lens.h"
 #include "shared_data.h"
 
 namespace contrejour::test {

@@ -1,0 +1,22 @@
+// What light a design is for, once its surfaces are known: entrance pupil, field, image.
+#pragma once
+
+#include "contrejour/lens.h"
+#include "optics/lens_files/complete.h"
+#include "optics/lens_files/sequential/sequential_design.h"
+
+namespace contrejour {
+
+struct DesignLight {
+  Beam beam;
+  double f_number = 0;  // of distant objects; 0: what the stop's opening gives
+  double focal_length_mm = 0;
+  double focus_mm = 0;  // of distant objects, from the last row
+  double image_radius_mm = 0;  // of the widest field; 0: the design has none but the axis
+};
+
+// object_mm: from the first row to the object, infinite for distant ones. Errors: those of lens_at, and an aperture
+// that leads to no pupil.
+[[nodiscard]] Result<DesignLight> light_of(const SequentialDesign& design, Prescription rows, double object_mm);
+
+}  // namespace contrejour

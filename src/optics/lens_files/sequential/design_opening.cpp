@@ -1,0 +1,67 @@
+#include "optics/lens_files/sequential/design_opening.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "optics/lens/rims.h"
+
+namespace contrejour {
+namespace {
+
+// The largest circle about the axis, up to this one, that the surface reaches to.
+double reached_mm(const Surface& surface, double most_mm) {
+  if (reaches(surface, most_mm)) return most_mm;
+  constexpr int kHalvings = 50;
+  double low = 0.0, high = most_mm;
+  for (int k = 0; k < kHalvings; ++k) {
+    const double middle = 0.5 * (low + high);
+    (reaches(surface, middle) ? low : high) = middle;
+  }
+  return low;
+}
+
+}  // namespace
+
+void set_opening(const DesignSurface& from, double unit_mm, Surface& surface, std::vector<std::string>& warnings) {
+  surface.semi_diameter_mm = from.semi_diameter * unit_mm;
+  if (!from.opening) return;
+  const DesignOpening& opening = *from.opening;
+  if (opening.obscured > 0.0)
+    warnings.push_back(
+        fmt::format("the middle of the surface (line {}) is obscured up to a radius of {:.6g} mm; it "
+                    "lets light through here",
+                    opening.line, opening.obscured * unit_mm));
+  if (!(opening.half_x > 0.0 && opening.half_y > 0.0)) {
+    if (opening.circle > 0.0) surface.semi_diameter_mm = opening.circle * unit_mm;
+    return;
+  }
+  const bool rectangle = opening.shape == OpeningShape::Rectangle;
+  const bool disc = !rectangle && opening.half_x == opening.half_y && opening.centre == Vec2{};
+  if (!disc) {
+    surface.aperture.kind = rectangle ? ApertureKind::Rectangle : ApertureKind::Ellipse;
+    surface.aperture.half_mm = Vec2{opening.half_x, opening.half_y} * unit_mm;
+    surface.aperture.centre_mm = opening.centre * unit_mm;
+    surface.aperture.turn_rad = opening.turn_rad;
+  }
+  const double own = rectangle ? std::hypot(opening.half_x, opening.half_y) : std::max(opening.half_x, opening.half_y);
+  double semi_mm = (own + length(opening.centre)) * unit_mm;
+  if (opening.circle > 0.0) semi_mm = std::min(semi_mm, opening.circle * unit_mm);
+  surface.semi_diameter_mm = reached_mm(surface, semi_mm);
+  if (surface.semi_diameter_mm < semi_mm)
+    warnings.push_back(
+        fmt::format("the aperture (line {}) goes on where the surface ends; a circle of {:.6g} mm radius "
+                    "cuts it",
+                    opening.line, surface.semi_diameter_mm));
+}
+
+void turn_opening(double turn_rad, ClearAperture& aperture) {
+  if (turn_rad == 0.0 || aperture.kind == ApertureKind::Disc) return;
+  aperture.turn_rad += turn_rad;
+  const Vec2 at = aperture.centre_mm;
+  const double c = std::cos(turn_rad), s = std::sin(turn_rad);
+  aperture.centre_mm = {c * at.x - s * at.y, s * at.x + c * at.y};
+}
+
+}  // namespace contrejour

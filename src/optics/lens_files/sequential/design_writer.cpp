@@ -1,0 +1,85 @@
+#include "optics/lens_files/sequential/design_writer.h"
+
+#include <algorithm>
+#include <cctype>
+#include <charconv>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "optics/lens_files/sequential/design_opening.h"
+
+namespace contrejour {
+
+std::string number_text(double value) { return fmt::format("{}", value); }
+
+std::optional<std::string> text_giving(double value, double about, const std::function<double(double)>& back) {
+  for (int digits = 1; digits <= 17; ++digits) {
+    const std::string text = fmt::format("{:.{}g}", about, digits);
+    double read = 0.0;
+    std::from_chars(text.data(), text.data() + text.size(), read);
+    if (back(read) == value) return text;
+  }
+  return std::nullopt;
+}
+
+std::string plain_title(const std::string& text) {
+  std::string out;
+  for (const char c : text) {
+    const bool is_blank = std::iscntrl(static_cast<unsigned char>(c)) != 0 || c == ' ';
+    if (is_blank && (out.empty() || out.back() == ' ')) continue;
+    out += is_blank ? ' ' : c == '\'' || c == '"' ? '`' : c;
+  }
+  while (!out.empty() && out.back() == ' ') out.pop_back();
+  return out;
+}
+
+Tilts tilts_of(const Surface& surface, double turn_rad) {
+  const Vec3 axis = surface.pose.axis;
+  Tilts tilts;
+  tilts.y_rad = std::asin(std::clamp(axis.x, -1.0, 1.0));
+  tilts.x_rad = std::atan2(-axis.y, axis.z);
+  const bool round = surface.shape.has_axial_symmetry() && surface.aperture.kind == ApertureKind::Disc;
+  if (round) return tilts;
+  const Placement tilted = turn_about(0, tilts.x_rad).then(turn_about(1, tilts.y_rad));
+  tilts.z_rad = turn_rad - pose_of(tilted).turn_rad;
+  return tilts;
+}
+
+ClearAperture aperture_in_turned(const ClearAperture& aperture, double turn_rad) {
+  ClearAperture own = aperture;
+  turn_opening(-turn_rad, own);
+  if (std::abs(own.turn_rad) < 1e-12) own.turn_rad = 0.0;
+  return own;
+}
+
+std::optional<CataloguedName> GlassNamer::name_of(const Glass& glass) const {
+  if (glass.name.empty() || !std::holds_alternative<CatalogueGlass>(glass.dispersion)) return std::nullopt;
+  const auto found = catalogue_.find(glass.name);
+  if (!found || !(found->glass.dispersion == glass.dispersion)) return std::nullopt;
+  return CataloguedName{found->summary.name, found->summary.maker};
+}
+
+Result<std::vector<double>> sensor_distances_mm(const Prescription& lens) {
+  std::vector<double> out;
+  for (std::size_t k = 0; k < std::max<std::size_t>(lens.zoom.size(), 1); ++k) {
+    LensSettings settings;
+    if (!lens.zoom.empty()) settings.focal_length_mm = lens.zoom[k].focal_length_mm;
+    const auto state = lens_at(lens, settings);
+    if (!state) return tl::unexpected(state.error());
+    out.push_back(lens.sensor_distance_mm.value_or(state->sensor_z_mm - state->surfaces.back().z_mm));
+  }
+  return out;
+}
+
+std::vector<std::string> common_losses(const Prescription& lens) {
+  std::vector<std::string> losses;
+  const auto coated = std::count_if(lens.surfaces.begin(), lens.surfaces.end(),
+                                    [](const Surface& s) { return !std::holds_alternative<Bare>(s.coating.films); });
+  if (coated > 0) losses.push_back(fmt::format("the coatings of {} surfaces are not written", coated));
+  if (lens.stated.focal_length_mm || lens.stated.back_focal_distance_mm)
+    losses.emplace_back("the stated focal length and back focal distance are not written");
+  return losses;
+}
+
+}  // namespace contrejour

@@ -1,0 +1,54 @@
+// What the writers of design programs' files share.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "contrejour/glass_catalogue.h"
+#include "contrejour/write_lens.h"
+#include "optics/lens_files/sequential/placement.h"
+
+namespace contrejour {
+
+// The shortest text that reads back as the same double.
+[[nodiscard]] std::string number_text(double value);
+
+// The fewest digits from which `back` gives the value; nothing if no number does.
+[[nodiscard]] std::optional<std::string> text_giving(double value, double about,
+                                                     const std::function<double(double)>& back);
+
+// A title on one line, without quotes.
+[[nodiscard]] std::string plain_title(const std::string& text);
+
+// Tilts about x, then the new y, then the new z, right-handed, that make up a surface's pose and a turn about its axis.
+struct Tilts {
+  double x_rad = 0, y_rad = 0, z_rad = 0;
+};
+[[nodiscard]] Tilts tilts_of(const Surface& surface, double turn_rad);
+
+// As it stands in the coordinates of a surface that is turned itself.
+[[nodiscard]] ClearAperture aperture_in_turned(const ClearAperture& aperture, double turn_rad);
+
+// A glass of the bundled catalogue by the name that its maker gives it.
+struct CataloguedName {
+  std::string name, maker;
+};
+class GlassNamer {
+ public:
+  GlassNamer() : catalogue_(bundled_glasses()) {}
+  [[nodiscard]] std::optional<CataloguedName> name_of(const Glass& glass) const;
+
+ private:
+  GlassCatalogue catalogue_;
+};
+
+// From the last vertex to the sensor: as the lens has it, else the paraxial focus; one for each position of a zoom, or
+// one. Errors: those of lens_at.
+[[nodiscard]] Result<std::vector<double>> sensor_distances_mm(const Prescription& lens);
+
+// What every such file leaves out.
+[[nodiscard]] std::vector<std::string> common_losses(const Prescription& lens);
+
+}  // namespace contrejour

@@ -1,0 +1,33 @@
+// Glasses as CODE V names them.
+#pragma once
+
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "optics/lens_files/glass_finder.h"
+#include "optics/lens_files/sequential/seq_commands.h"
+
+namespace contrejour {
+
+// Those that a file describes itself, between PRV and END.
+class SeqPrivateGlasses {
+ public:
+  // One command of that part: PWL and wavelengths (nm), or a name and its indices or coefficients. What is wrong, or
+  // nothing.
+  [[nodiscard]] std::optional<std::string> add(const SeqCommand& command);
+  [[nodiscard]] const Glass* find(std::string_view name) const;
+
+ private:
+  std::vector<double> wavelengths_nm_;
+  std::map<std::string, Glass, std::less<>> glasses_;  // by name in capitals
+};
+
+// "NBK7_SCHOTT", "517642", "517.642", "517000.642000", "1.517:64.2", or "1.517" with `next` "64.2". Errors:
+// InvalidArgument for a name that neither the file nor a catalogue has.
+[[nodiscard]] Result<Glass> seq_glass(std::string_view word, std::string_view next, const SeqPrivateGlasses& own,
+                                      GlassFinder& finder, const std::string& file, int line,
+                                      std::vector<std::string>& warnings);
+
+}  // namespace contrejour

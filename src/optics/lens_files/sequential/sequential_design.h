@@ -1,0 +1,95 @@
+// What the files of design programs (Zemax, CODE V) have in common: surfaces from the object to the image in units of
+// the lens, breaks of the coordinates between them, and the light they were designed for. Their readers fill it in;
+// prescription_of makes our lens of it, so that every such format is understood alike (docs/formats/zemax.md).
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "contrejour/lens.h"
+#include "optics/lens_files/sequential/placement.h"
+
+namespace contrejour {
+
+enum class OpeningShape { Round, Rectangle, Ellipse };
+
+// An aperture that a file puts on a surface, in its units.
+struct DesignOpening {
+  OpeningShape shape = OpeningShape::Round;
+  double half_x = 0, half_y = 0;  // radius of a round one: both
+  Vec2 centre{};
+  double turn_rad = 0;  // from x towards y
+  double circle = 0;  // a circle about the axis besides; 0: none
+  double obscured = 0;  // a disc in the middle that lets nothing through
+  int line = 0;
+};
+
+// How a thickness follows from those in front of it; the file's own figure is that of one position.
+struct ThicknessSolve {
+  enum class Kind { Pickup, Sum, Pair } kind = Kind::Pickup;
+  int from = 0;                  // surface
+  double scale = 1, offset = 0;  // Pickup: scale * thickness + offset; offset is what the thicknesses from there on
+                                 // (Sum) or the two (Pair) add up to
+};
+
+struct DesignSurface {
+  int line = 0;
+  double curvature = 0, thickness = 0;
+  SurfaceShape shape;
+  Glass glass_after = air();
+  bool is_stop = false;
+  double semi_diameter = 0;     // 0: not told
+  bool is_semi_fixed = false;   // by the designer; else the program's own, for the rays that it traced
+  std::optional<DesignOpening> opening;
+  Placement move;  // of the coordinates, before this surface and for all that follow
+  Placement own;   // of this surface alone, after that
+  std::optional<ThicknessSolve> solve;
+  bool is_break = false;  // no surface, a move of the coordinates and a thickness
+};
+
+// One of a zoom.
+struct DesignPosition {
+  std::vector<double> thickness;  // of all surfaces
+  double nominal_focal_mm = 0;    // that it is called by; 0: it is not
+};
+
+enum class DesignAperture { ByStop, EntrancePupil, FNumber, WorkingFNumber, ObjectNA };
+enum class FieldKind { Angle_deg, ObjectHeight, ImageHeight };
+
+struct SequentialDesign {
+  std::string program;  // "Zemax": for messages
+  std::string name, source;
+  std::string file;
+  double unit_mm = 1.0;
+  std::vector<DesignSurface> surfaces;  // the object first, the image last: its thickness is added to the gap before it
+  std::vector<DesignPosition> positions;  // empty for a lens that does not zoom
+  DesignAperture aperture = DesignAperture::ByStop;
+  double aperture_value = 0;
+  FieldKind field = FieldKind::Angle_deg;
+  double largest_field = 0;
+  double largest_x = 0, largest_y = 0;  // of any field
+  double image_semi_diameter = 0;  // 0: not told
+  bool is_focused = false;  // the image surface stands in the paraxial focus, by a solve of the program
+  std::optional<double> wavelength_nm;
+  std::vector<std::string> warnings;
+
+  void add_field(double x, double y) {
+    largest_field = std::max(largest_field, std::hypot(x, y));
+    largest_x = std::max(largest_x, std::abs(x));
+    largest_y = std::max(largest_y, std::abs(y));
+  }
+};
+
+// - Surfaces at which nothing is refracted, blocked or stopped go into the gap.
+// - A stop on a surface becomes a row of its own at that surface's vertex, in front of it.
+// - The f-number is that of distant objects; what is not told of semi-diameters the design's beam decides.
+// - The sensor has the image circle of the widest field, and stands where the image surface does if that is near the
+//   focus of distant objects.
+// - Positions for distant objects are those of a zoom; near ones are left out, as focusing moves the sensor.
+// Errors: no lens; a stop or an image surface that stands askew; those of completed().
+[[nodiscard]] Result<Prescription> prescription_of(const SequentialDesign& design);
+
+}  // namespace contrejour

@@ -1,0 +1,57 @@
+// A SURF block of a Zemax file, as it is written, and what it says as a surface.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "optics/lens_files/glass_finder.h"
+#include "optics/lens_files/sequential/sequential_design.h"
+
+namespace contrejour {
+
+// GLAS: a name, or an index and an Abbe number.
+struct ZmxGlass {
+  int line = 0;
+  std::string name;
+  int status = 0;  // 1: the row's figures are the glass; 4: they are offset from the catalogue's
+  double n_d = 0, v_d = 0, d_pgf = 0;
+};
+
+struct ZmxSurface {
+  int line = 0;
+  std::string type = "STANDARD";
+  double curvature = 0, conic = 0;
+  double thickness = 0;  // infinite at distant objects
+  std::map<int, double> parm, xdat;
+  std::optional<ZmxGlass> glass;
+  double semi_diameter = 0;
+  bool is_semi_fixed = false;
+  bool is_stop = false;
+  std::optional<DesignOpening> opening;
+  bool floats = false;  // FLAP: an aperture as large as the semi-diameter
+  std::optional<ThicknessSolve> solve;
+  bool is_to_focus = false;  // MAZH 0 0: the next surface stands in the paraxial focus
+
+  [[nodiscard]] double parameter(int k) const {
+    const auto at = parm.find(k);
+    return at == parm.end() ? 0.0 : at->second;
+  }
+  [[nodiscard]] double extra(int k) const {
+    const auto at = xdat.find(k);
+    return at == xdat.end() ? 0.0 : at->second;
+  }
+};
+
+// Errors: Unsupported for a type, or a number of it, that is not computed.
+[[nodiscard]] Result<DesignSurface> zmx_surface(const ZmxSurface& in, int index, const std::string& file);
+
+// The glass by name: of the makers that GCAT lists, then of any; else as the row's own figures have it, with a warning.
+// Errors: Unsupported for a mirror, InvalidArgument for a name that no catalogue has.
+[[nodiscard]] Result<Glass> zmx_glass(const ZmxGlass& in, std::span<const std::string> makers, GlassFinder& finder,
+                                      const std::string& file, std::vector<std::string>& warnings);
+
+}  // namespace contrejour

@@ -1,0 +1,80 @@
+#include "optics/lens_files/sequential/zmx_zoom.h"
+
+#include <algorithm>
+#include <set>
+
+#include <fmt/format.h>
+
+#include "optics/lens_files/sequential/design_text.h"
+#include "optics/lens_files/plain_number.h"
+
+namespace contrejour {
+namespace {
+
+// What changes no ray that we trace: names, weights, vignetting factors, coatings.
+bool changes_nothing(std::string_view name) {
+  static const std::set<std::string_view> kNames = {"MOFF", "LTTL", "CWGT", "FVDX", "FVDY", "FVCX", "FVCY", "FVAN",
+                                                    "FLWT", "WLWT", "COTN", "SATP", "TELE", "RAIM", "NOTE", "BLNK"};
+  return kNames.contains(name);
+}
+
+// What our zoom has once for all positions.
+bool is_said_once(std::string_view name) {
+  static const std::set<std::string_view> kNames = {"APER", "XFIE", "YFIE", "FLTP", "WAVE", "PRWV",
+                                                    "SDIA", "CSP1", "CSP2", "TEMP", "PRES"};
+  return kNames.contains(name);
+}
+
+// Operands that have another value in some configuration. Those of one operand stand together, configurations rising.
+std::vector<const ZmxOperand*> changing(const std::vector<ZmxOperand>& operands) {
+  std::vector<const ZmxOperand*> out;
+  const ZmxOperand* first = nullptr;
+  for (const ZmxOperand& operand : operands) {
+    const bool same = first != nullptr && first->name == operand.name && first->subject == operand.subject &&
+                      operand.configuration > first->configuration;
+    if (!same) {
+      first = &operand;
+    } else if (operand.value != first->value) {
+      out.push_back(&operand);
+    }
+  }
+  return out;
+}
+
+}  // namespace
+
+std::vector<DesignPosition> zmx_positions(const ZmxConfigurations& configurations,
+                                          const std::vector<ZmxSurface>& surfaces, std::vector<std::string>& warnings) {
+  const auto moving = changing(configurations.operands);
+  if (configurations.count < 2 || moving.empty()) return {};
+  std::set<std::string_view> once;
+  for (const ZmxOperand* operand : moving) {
+    if (operand->name == "THIC" || changes_nothing(operand->name)) continue;
+    if (!is_said_once(operand->name)) {
+      warnings.push_back(
+          fmt::format("the {} configurations differ in {} (line {}), not in thicknesses alone; "
+                      "configuration {} is read",
+                      configurations.count, operand->name, operand->line, configurations.current));
+      return {};
+    }
+    if (once.insert(operand->name).second)
+      warnings.push_back(
+          fmt::format("{} changes with the configuration (line {}); that of configuration {} is used at "
+                      "all of them",
+                      operand->name, operand->line, configurations.current));
+  }
+  if (std::none_of(moving.begin(), moving.end(), [](const ZmxOperand* o) { return o->name == "THIC"; })) return {};
+  std::vector<double> own;
+  for (const ZmxSurface& surface : surfaces) own.push_back(surface.thickness);
+  std::vector<DesignPosition> positions(static_cast<std::size_t>(configurations.count), {own});
+  for (const ZmxOperand& operand : configurations.operands) {
+    const auto at = static_cast<std::size_t>(operand.subject), in = static_cast<std::size_t>(operand.configuration - 1);
+    if (in >= positions.size()) continue;
+    if (operand.name == "LTTL") positions[in].nominal_focal_mm = nominal_focal_mm(operand.value);
+    const auto value = number_or_infinity(operand.value);
+    if (operand.name == "THIC" && value && at + 1 < own.size()) positions[in].thickness[at] = *value;
+  }
+  return positions;
+}
+
+}  // namespace contrejour
