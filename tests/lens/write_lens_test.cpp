@@ -141,7 +141,7 @@ TEST_CASE("every bundled lens is the same through Zemax and CODE V") {
   }
 }
 
-TEST_CASE("every sample that is read is the same through Zemax and CODE V") {
+TEST_CASE("every sample that is read is the same through Zemax and CODE V [slow]") {
   const auto folder = shared_data("lenses");
   if (!folder) return;
   int written = 0;
