@@ -3,7 +3,6 @@
 #include <cmath>
 #include <map>
 #include <random>
-#include <set>
 
 #include <doctest/doctest.h>
 
@@ -21,6 +20,7 @@ using Words = std::vector<std::string>;
 // quick.
 const std::map<std::string_view, Words> kTexts = {
     {"focus", {"inf", "2m", "500", "1e9", "350mm"}},
+    {"cover-glass", {"2", "1:1.52:0.5", "3:N-SF11:10"}},
     {"coating", {"none", "quarter-wave", "quarter-wave:450:1.38", "hullin:550:1.38", "stack:1.38@99.6,2.1@131"}},
     {"method",
      {"adaptive", "adaptive", "adaptive", "bundle", "bundle", "bundle", "tiled", "tiled", "tiled", "reference"}},
@@ -30,10 +30,11 @@ const std::map<std::string_view, Words> kTexts = {
     {"ghost-ramp", {"0:1,0.5,0.2", "-1:1,0.5,0/0:1,1,1/1:0,0,2"}},
 };
 const std::map<std::string_view, std::pair<double, double>> kNarrowed = {
-    {"grid", {16, 32}}, {"wavelengths", {1, 3}}, {"density", {0.05, 0.1}}, {"fnumber", {3.0, 64}}};
+    {"grid", {16, 32}}, {"wavelengths", {1, 3}}, {"density", {0.05, 0.1}}, {"fnumber", {3.0, 64}}, {"sensor-orders", {0, 1}}};
 
-// Without symmetry a search for pupils takes most of a look's time.
-const std::set<std::string_view> kDear = {"decentre", "tilt"};
+// Without symmetry a search for pupils takes most of a look's time; how often such settings are left out.
+const std::map<std::string_view, double> kDear = {
+    {"decentre", 0.8}, {"tilt", 0.8}, {"sensor-reflectance", 0.95}, {"reflections", 0.9}};
 
 class RandomLook {
  public:
@@ -43,7 +44,7 @@ class RandomLook {
     std::string out;
     for (const Parameter& p : all_parameters()) {
       if (!belongs_to_look(p) || p.name == "focal" || chance(0.4)) continue;  // the lenses are no zooms
-      if (kDear.contains(p.name) && chance(0.8)) continue;
+      if (const auto dear = kDear.find(p.name); dear != kDear.end() && chance(dear->second)) continue;
       const std::string value = value_of(p);
       if (!value.empty()) out += std::string(p.name) + " = " + value + "\n";
     }
