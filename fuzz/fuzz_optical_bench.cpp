@@ -1,20 +1,8 @@
-// Any bytes as a lens of Optical Bench: one that can be set and written, and reads back the same, or an error.
-#include <cstdlib>
-#include <string_view>
-
-#include "base/decode_text.h"
-#include "contrejour/lens.h"
-#include "optics/lens_files/read_lens.h"
+// Any bytes as a lens of Optical Bench.
+#include "lens_text.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  using namespace contrejour;
-  const std::string_view text(reinterpret_cast<const char*>(data), size);
-  const std::string decoded = decode_text(text);
-  const auto lens = read_optical_bench({decoded, "fuzz"});
-  if (!lens) return 0;
-  (void)lens_at(*lens);
-  const std::string written = write_lens_toml(*lens);
-  const auto again = read_lens_toml(written, "again.toml");
-  if (!again || write_lens_toml(*again) != written) std::abort();
+  const std::string text = contrejour::fuzzed_text(data, size);
+  (void)contrejour::read_and_back(contrejour::read_optical_bench, {text, "fuzz"});
   return 0;
 }
