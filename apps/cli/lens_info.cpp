@@ -97,13 +97,22 @@ std::string shape_text(const SurfaceState& s) {
   return text;
 }
 
+const char* kind_name(SurfaceKind kind) {
+  switch (kind) {
+    case SurfaceKind::Refracting: return "refracting";
+    case SurfaceKind::Stop: return "stop";
+    case SurfaceKind::Sensor: return "sensor";
+  }
+  return "";
+}
+
 Json surfaces_json(const Info& info) {
   Json list = Json::array();
   for (std::size_t k = 0; k < info.state.surfaces.size(); ++k) {
     const SurfaceState& s = info.state.surfaces[k];
     const bool plane = s.curvature_per_mm == 0.0;
     Json row = {{"index", k + 1},
-                {"kind", s.kind == SurfaceKind::Stop ? "stop" : "refracting"},
+                {"kind", kind_name(s.kind)},
                 {"radius_mm", plane ? Json() : Json(1.0 / s.curvature_per_mm)},
                 {"curvature_per_mm", s.curvature_per_mm},
                 {"thickness_mm", thickness_mm(info.state, k)},
@@ -182,7 +191,7 @@ std::string surfaces_text(const Info& info) {
     const bool stop = s.kind == SurfaceKind::Stop;
     const std::string radius = s.curvature_per_mm == 0.0 ? "plane" : fmt::format("{:.4f}", 1.0 / s.curvature_per_mm);
     std::vector<std::string> row{fmt::format("{}", k + 1),
-                                 stop ? "stop" : radius,
+                                 s.kind == SurfaceKind::Refracting ? radius : kind_name(s.kind),
                                  fmt::format("{:.4f}", thickness_mm(info.state, k)),
                                  fmt::format("{:.3f}", stop ? info.state.stop_radius_mm : s.semi_diameter_mm),
                                  glass_name(s.after),
@@ -244,8 +253,7 @@ std::string info_text(const Info& info) {
     text += fmt::format("zoom from {:g} to {:g} mm, here {:.2f} mm\n", info.lens.zoom.front().focal_length_mm,
                         info.lens.zoom.back().focal_length_mm, info.state.focal_length_mm);
   }
-  text += fmt::format("\n{}\nat {:g} nm\n{}", surfaces_text(info), info.lambda_nm, figures_text(info));
-  return text;
+  return text + fmt::format("\n{}\nat {:g} nm\n{}", surfaces_text(info), info.lambda_nm, figures_text(info));
 }
 
 Result<int> run_info(const InfoOptions& options) {

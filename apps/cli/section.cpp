@@ -86,6 +86,15 @@ void set_bounds(Section& section) {
   section.half_height_mm = 1.06 * highest;
 }
 
+// Plates before the sensor have rims wider than any light needs (SensorStack); they are drawn as large as the sensor.
+LensState as_drawn(LensState lens) {
+  constexpr double kNoRealRim = 20.0;  // half diagonals
+  const double sensor_mm = half_diagonal_mm(lens);
+  for (SurfaceState& s : lens.surfaces)
+    if (s.semi_diameter_mm > kNoRealRim * sensor_mm) s.semi_diameter_mm = sensor_mm;
+  return lens;
+}
+
 }  // namespace
 
 double drawn_height_mm(const SurfaceState& surface) {
@@ -106,7 +115,7 @@ double sag_mm(const SurfaceState& surface, double height_mm) {
 
 Section make_section(const LensState& lens, const SectionRequest& request) {
   Section section;
-  section.lens = lens;
+  section.lens = as_drawn(lens);
   section.elements = find_elements(lens);
   section.ghost = request.ghost;
   set_bounds(section);

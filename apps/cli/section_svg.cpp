@@ -40,7 +40,9 @@ class Page {
     left_px_ = 0.5 * (kWidth_px - scale_ * length_mm);
     axis_px_ = kTop_px + scale_ * section.half_height_mm;
   }
-  [[nodiscard]] Vec2 at(Vec2 mm) const { return {left_px_ + (mm.x - section_.left_mm) * scale_, axis_px_ - mm.y * scale_}; }
+  [[nodiscard]] Vec2 at(Vec2 mm) const {
+    return {left_px_ + (mm.x - section_.left_mm) * scale_, axis_px_ - mm.y * scale_};
+  }
   [[nodiscard]] double scale() const { return scale_; }
   [[nodiscard]] double bottom() const { return axis_px_ + scale_ * section_.half_height_mm; }
   [[nodiscard]] double height() const { return bottom() + kBottom_px; }
@@ -86,9 +88,11 @@ std::string outline(const Page& page, const SurfaceState& front, const SurfaceSt
   const double rear_z = rear.z_mm + sag_mm(rear, rear_h);
   const double edge_h = std::max(front_h, rear_h);
   std::string d = move_or_line('M', page.at({front_z, front_h})) + arc(page, front, +1.0);
-  if (rear_z > front_z) d += move_or_line('L', page.at({front_z, -edge_h})) + move_or_line('L', page.at({rear_z, -edge_h}));
+  if (rear_z > front_z)
+    d += move_or_line('L', page.at({front_z, -edge_h})) + move_or_line('L', page.at({rear_z, -edge_h}));
   d += move_or_line('L', page.at({rear_z, -rear_h})) + arc(page, rear, -1.0);
-  if (rear_z > front_z) d += move_or_line('L', page.at({rear_z, edge_h})) + move_or_line('L', page.at({front_z, edge_h}));
+  if (rear_z > front_z)
+    d += move_or_line('L', page.at({rear_z, edge_h})) + move_or_line('L', page.at({front_z, edge_h}));
   return d + "Z";
 }
 
@@ -115,9 +119,9 @@ void draw_rays(Svg& svg, const Page& page, const Section& section) {
     std::vector<Vec2> points;
     for (const Vec2 p : ray.points_mm) points.push_back(page.at(p));
     const RayStyle style = style_of(ray.kind);
-    svg.polyline(points, fmt::format("stroke=\"{}\" stroke-width=\"{}\" stroke-opacity=\"{}\" stroke-linejoin=\"round\"{}",
-                                     style.colour, style.width, style.opacity,
-                                     ray.blocked ? " stroke-dasharray=\"5 4\"" : ""));
+    svg.polyline(points,
+                 fmt::format("stroke=\"{}\" stroke-width=\"{}\" stroke-opacity=\"{}\" stroke-linejoin=\"round\"{}",
+                             style.colour, style.width, style.opacity, ray.blocked ? " stroke-dasharray=\"5 4\"" : ""));
     for (const Vec2 p : ray.reflections_mm) svg.circle(page.at(p), 2.4, fmt::format("fill=\"{}\"", style.colour));
   }
   svg.end_clip();
@@ -174,8 +178,9 @@ void draw_numbers(Svg& svg, const Page& page, const Section& section) {
   const std::vector<double> places = spread(wanted, gap);
   const double label_y = page.bottom() + 30;
   for (std::size_t k = 0; k < surfaces.size(); ++k) {
-    const bool reflects = section.ghost && (section.ghost->i == static_cast<int>(k) + 1 ||
-                                            section.ghost->j == static_cast<int>(k) + 1);
+    const int number = static_cast<int>(k) + 1;
+    const auto turns = [&](const Ghost& g) { return g.i == number || g.j == number || g.k == number || g.l == number; };
+    const bool reflects = section.ghost && turns(*section.ghost);
     const char* colour = reflects ? style_of(RayKind::Ghost).colour : kInk;
     svg.polyline({rims[k], {rims[k].x, page.bottom() + 4}, {places[k], label_y - 12}},
                  fmt::format("stroke=\"{}\" stroke-width=\"0.6\" stroke-opacity=\"0.7\"", kQuiet));
@@ -196,7 +201,7 @@ void draw_legend(Svg& svg, const Section& section) {
   std::vector<std::pair<RayKind, std::string>> entries;
   if (section.ghost) {
     entries.emplace_back(RayKind::Axis, fmt::format("image of a light {:.1f}° up", section.ghost_light_deg));
-    entries.emplace_back(RayKind::Ghost, fmt::format("ghost {}-{}", section.ghost->i, section.ghost->j));
+    entries.emplace_back(RayKind::Ghost, "ghost " + ghost_name(*section.ghost));
   } else {
     entries.emplace_back(RayKind::Axis, "axis");
     entries.emplace_back(RayKind::Field, "corner of the field");
@@ -225,7 +230,8 @@ void draw_scale_bar(Svg& svg, const Page& page) {
   const std::string style = fmt::format("stroke=\"{}\" stroke-width=\"1.4\"", kQuiet);
   svg.line(from, to, style);
   for (const Vec2 end : {from, to}) svg.line({end.x, end.y - 4}, {end.x, end.y + 4}, style);
-  svg.text({to.x + 8, to.y + 4}, fmt::format("{:g} mm", length_mm), fmt::format("font-size=\"12\" fill=\"{}\"", kQuiet));
+  svg.text({to.x + 8, to.y + 4}, fmt::format("{:g} mm", length_mm),
+           fmt::format("font-size=\"12\" fill=\"{}\"", kQuiet));
 }
 
 void draw_title(Svg& svg, const LensState& lens) {

@@ -13,6 +13,7 @@
 #include "contrejour/first_order.h"
 #include "contrejour/lens.h"
 #include "contrejour/trace.h"
+#include "lens/reader_checks.h"
 #include "lens/sample_lens.h"
 #include "optics/lens_files/read_lens.h"
 #include "shared_data.h"
@@ -65,26 +66,9 @@ std::string seq(const std::string& from, const std::string& to, std::string text
 
 Result<Prescription> read(const std::string& text) { return read_seq({text, "a.seq"}); }
 
-Prescription must_read(const std::string& text) {
-  const auto lens = read(text);
-  REQUIRE_MESSAGE(lens.has_value(), (lens ? "" : lens.error().to_string()));
-  return *lens;
-}
-
+Prescription must_read(const std::string& text) { return read_or_fail(read_seq, text); }
 void check_refused(const std::string& text, int line, const std::string& words) {
-  CAPTURE(words);
-  const auto lens = read(text);
-  REQUIRE_FALSE(lens.has_value());
-  CAPTURE(lens.error().to_string());
-  CHECK(lens.error().message.find(words) != std::string::npos);
-  CHECK(lens.error().place.line == line);
-}
-
-void check_warns(const Prescription& lens, const std::string& words) {
-  CAPTURE(words);
-  bool found = false;
-  for (const std::string& warning : lens.warnings) found = found || warning.find(words) != std::string::npos;
-  CHECK(found);
+  check_refused_by(read_seq, text, line, words);
 }
 
 }  // namespace

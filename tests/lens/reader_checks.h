@@ -30,6 +30,13 @@ inline void check_refused_by(ReadText read, const std::string& text, int line, c
   CHECK(lens.error().place.line == line);
 }
 
+inline void check_warns(const Prescription& lens, const std::string& words) {
+  CAPTURE(words);
+  bool found = false;
+  for (const std::string& warning : lens.warnings) found = found || warning.find(words) != std::string::npos;
+  CHECK(found);
+}
+
 // Written as our own format and read, a lens is the same: the same text is written again.
 inline void check_round_trip(const Prescription& lens) {
   const std::string written = write_lens_toml(lens);

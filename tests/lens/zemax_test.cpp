@@ -10,6 +10,7 @@
 
 #include "contrejour/first_order.h"
 #include "contrejour/lens.h"
+#include "lens/reader_checks.h"
 #include "lens/sample_lens.h"
 #include "optics/lens_files/read_lens.h"
 #include "shared_data.h"
@@ -91,26 +92,9 @@ std::string zmx(const std::string& from, const std::string& to, std::string text
 
 Result<Prescription> read(const std::string& text) { return read_zmx({text, "a.zmx"}); }
 
-Prescription must_read(const std::string& text) {
-  const auto lens = read(text);
-  REQUIRE_MESSAGE(lens.has_value(), (lens ? "" : lens.error().to_string()));
-  return *lens;
-}
-
+Prescription must_read(const std::string& text) { return read_or_fail(read_zmx, text); }
 void check_refused(const std::string& text, int line, const std::string& words) {
-  CAPTURE(words);
-  const auto lens = read(text);
-  REQUIRE_FALSE(lens.has_value());
-  CAPTURE(lens.error().to_string());
-  CHECK(lens.error().message.find(words) != std::string::npos);
-  CHECK(lens.error().place.line == line);
-}
-
-void check_warns(const Prescription& lens, const std::string& words) {
-  CAPTURE(words);
-  bool found = false;
-  for (const std::string& warning : lens.warnings) found = found || warning.find(words) != std::string::npos;
-  CHECK(found);
+  check_refused_by(read_zmx, text, line, words);
 }
 
 }  // namespace
