@@ -75,12 +75,16 @@ Json shape_json(double curvature_per_mm, const SurfaceShape& shape) {
   return out;
 }
 
-Json aperture_json(const ClearAperture& a) {
-  return {{"kind", a.kind == ApertureKind::Ellipse ? "ellipse" : "rectangle"},
-          {"half_mm", {a.half_mm.x, a.half_mm.y}},
-          {"centre_mm", {a.centre_mm.x, a.centre_mm.y}},
-          {"turn_deg", a.turn_rad / params::kDegree_rad}};
+// A ClearAperture or an Obscuration.
+template <class Part>
+Json outline_json(const char* kind, const Part& part) {
+  return {{"kind", kind},
+          {"half_mm", {part.half_mm.x, part.half_mm.y}},
+          {"centre_mm", {part.centre_mm.x, part.centre_mm.y}},
+          {"turn_deg", part.turn_rad / params::kDegree_rad}};
 }
+
+const char* kind_name(ApertureKind kind) { return kind == ApertureKind::Ellipse ? "ellipse" : "rectangle"; }
 
 // Of the other section's radius too, where that is another.
 std::string shape_text(const SurfaceState& s) {
@@ -91,8 +95,10 @@ std::string shape_text(const SurfaceState& s) {
   }
   const auto add = [&](const std::string& more) { text += (text.empty() ? "" : ", ") + more; };
   if (s.aperture.kind != ApertureKind::Disc)
-    add(fmt::format("{} {:.4g} x {:.4g}", s.aperture.kind == ApertureKind::Ellipse ? "ellipse" : "rectangle",
-                    2.0 * s.aperture.half_mm.x, 2.0 * s.aperture.half_mm.y));
+    add(fmt::format("{} {:.4g} x {:.4g}", kind_name(s.aperture.kind), 2.0 * s.aperture.half_mm.x,
+                    2.0 * s.aperture.half_mm.y));
+  if (s.obscuration.any())
+    add(fmt::format("obscured {:.4g} x {:.4g}", 2.0 * s.obscuration.half_mm.x, 2.0 * s.obscuration.half_mm.y));
   if (!s.is_centred()) add("askew");
   return text;
 }
@@ -122,7 +128,8 @@ Json surfaces_json(const Info& info) {
                 {"n", refractive_index(s.after, info.lambda_nm)},
                 {"coating", describe(s.coating)}};
     if (!s.shape.is_sphere()) row["shape"] = shape_json(s.curvature_per_mm, s.shape);
-    if (s.aperture.kind != ApertureKind::Disc) row["aperture"] = aperture_json(s.aperture);
+    if (s.aperture.kind != ApertureKind::Disc) row["aperture"] = outline_json(kind_name(s.aperture.kind), s.aperture);
+    if (s.obscuration.any()) row["obscuration"] = outline_json("ellipse", s.obscuration);
     if (!s.is_centred()) {
       row["decentre_mm"] = {s.pose.shift_mm.x, s.pose.shift_mm.y, s.pose.shift_mm.z};
       row["axis"] = {s.pose.axis.x, s.pose.axis.y, s.pose.axis.z};
@@ -179,7 +186,7 @@ Json info_json(const Info& info) {
 
 std::string surfaces_text(const Info& info) {
   const auto has_news = [](const SurfaceState& s) {
-    return !s.shape.is_sphere() || !s.is_centred() || s.aperture.kind != ApertureKind::Disc;
+    return !s.shape.is_sphere() || !s.is_centred() || s.aperture.kind != ApertureKind::Disc || s.obscuration.any();
   };
   const bool all_plain = std::none_of(info.state.surfaces.begin(), info.state.surfaces.end(), has_news);
   std::vector<std::string> headings{"surface",       "radius mm", "thickness mm", "semi-diameter mm",

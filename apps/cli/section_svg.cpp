@@ -127,6 +127,26 @@ void draw_rays(Svg& svg, const Page& page, const Section& section) {
   svg.end_clip();
 }
 
+// What stands before a surface's middle, as far as the section cuts it: along the surface.
+void draw_obscurations(Svg& svg, const Page& page, const LensState& lens) {
+  for (const SurfaceState& s : lens.surfaces) {
+    if (!s.obscuration.any()) continue;
+    // The ellipse |A (p - c)| = 1 where it meets x = 0: a quadratic in y.
+    const Rim rim = rim_of(s.obscuration);
+    const Vec2 at = rim.place({0.0, 0.0}), along = rim.place({0.0, 1.0}) - at;
+    const double b = dot(at, along), a = dot(along, along), under = b * b - a * (dot(at, at) - 1.0);
+    if (!(under > 0.0)) continue;
+    const double low = (-b - std::sqrt(under)) / a, high = (-b + std::sqrt(under)) / a;
+    std::vector<Vec2> points;
+    constexpr int kPieces = 24;
+    for (int k = 0; k <= kPieces; ++k) {
+      const double y = low + (high - low) * k / kPieces;
+      points.push_back(page.at({s.z_mm + sag_mm(s, y), y}));
+    }
+    svg.polyline(points, fmt::format("stroke=\"{}\" stroke-width=\"3.5\"", kInk));
+  }
+}
+
 void draw_stop_and_sensor(Svg& svg, const Page& page, const Section& section) {
   const LensState& lens = section.lens;
   const SurfaceState& stop = lens.surfaces[static_cast<std::size_t>(lens.stop_index)];
@@ -254,6 +274,7 @@ std::string draw_section(const Section& section) {
   svg.line(axis_left, {axis_right.x + 12, axis_right.y},
            fmt::format("stroke=\"{}\" stroke-width=\"0.8\" stroke-dasharray=\"14 4 2 4\"", kQuiet));
   draw_rays(svg, page, section);
+  draw_obscurations(svg, page, section.lens);
   draw_stop_and_sensor(svg, page, section);
   draw_numbers(svg, page, section);
   draw_scale_bar(svg, page);

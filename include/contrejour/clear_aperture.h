@@ -20,6 +20,18 @@ struct ClearAperture {
   friend bool operator==(const ClearAperture&, const ClearAperture&) = default;
 };
 
+// What stands in the way about the middle of a surface, as a mirror lens's second mirror does: light meets it wherever
+// it crosses the surface.
+struct Obscuration {
+  Vec2 half_mm{};  // semi-axes of an ellipse; 0: there is none
+  Vec2 centre_mm{};
+  double turn_rad = 0.0;  // as of an aperture
+
+  [[nodiscard]] bool any() const { return half_mm.x > 0.0; }
+  [[nodiscard]] bool has_axial_symmetry() const { return half_mm.x == half_mm.y && centre_mm == Vec2{}; }
+  friend bool operator==(const Obscuration&, const Obscuration&) = default;
+};
+
 // A convex bound as the unit disc, |place| <= 1, under an affine map; of a strip, place has one coordinate.
 struct Rim {
   Vec2 centre_mm, u_per_mm, v_per_mm;
@@ -32,5 +44,8 @@ struct Rim {
 // What light must pass within, all of them: an ellipse is one rim, a rectangle two strips, each besides the
 // semi-diameter's circle where it does not lie within that. None for a disc.
 [[nodiscard]] std::vector<Rim> rims_of(const ClearAperture& aperture, double semi_diameter_mm);
+
+// What light must pass outside of.
+[[nodiscard]] Rim rim_of(const Obscuration& obscuration);
 
 }  // namespace contrejour

@@ -50,6 +50,7 @@ struct Surface {
   SurfaceShape shape = {};
   SurfacePose pose = {};          // decentred and tilted elements; those around stay where they are
   ClearAperture aperture = {};    // within semi_diameter_mm; the stop's opening is the iris
+  Obscuration obscuration = {};   // the stop may have one, too
 };
 
 // One position of a zoom: thicknesses (mm) that replace those of the surfaces, by vector index.
@@ -143,10 +144,12 @@ struct SurfaceState {
   SurfacePose pose = {};
   SurfaceShape shape = {};
   ClearAperture aperture = {};
+  Obscuration obscuration = {};
 
   [[nodiscard]] bool is_centred() const { return pose == SurfacePose{}; }
   [[nodiscard]] bool has_axial_symmetry() const {
-    return is_centred() && shape.has_axial_symmetry() && aperture.kind == ApertureKind::Disc;
+    return is_centred() && shape.has_axial_symmetry() && aperture.kind == ApertureKind::Disc &&
+           obscuration.has_axial_symmetry();
   }
 };
 

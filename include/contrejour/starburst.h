@@ -7,7 +7,9 @@
 #pragma once
 
 #include <cmath>
+#include <functional>
 #include <memory>
+#include <numeric>
 #include <span>
 #include <vector>
 
@@ -44,8 +46,13 @@ struct PupilOutline {
   IrisOpening opening{Iris{}};
   Vec2 x_mm, y_mm;
   std::shared_ptr<const PupilDirt> dirt = nullptr;  // null: none, or none that has shapes
+  std::vector<double> obscured_mm2;  // areas in the mask's plane of discs within the opening that are dark
 
-  [[nodiscard]] double area_mm2() const { return opening.area() * std::abs(cross(x_mm, y_mm)); }
+  // Of what is open.
+  [[nodiscard]] double area_mm2() const {
+    return std::accumulate(obscured_mm2.begin(), obscured_mm2.end(), opening.area() * std::abs(cross(x_mm, y_mm)),
+                           std::minus<>());
+  }
 };
 
 struct StarburstRings;

@@ -50,6 +50,7 @@ struct PathStep {
   std::shared_ptr<const ShapeConstants> shape = nullptr;  // none: a sphere or a plane
   std::optional<Rim> rim = std::nullopt;  // in place of the semi-diameter's circle
   bool is_rim_only = false;               // one more rim of the step that follows: it bends nothing
+  bool blocks_within = false;             // the rim is that of an obscuration
   double absorption_per_mm = 0;           // of the medium the ray comes through
   Vec2 kick;                              // of a grating that reflects: added to the direction's x and y
   double share = 1;                       // of the reflected light, that goes this order's way
@@ -68,6 +69,7 @@ struct OpticalPath {
   double stop_radius_mm = 1;
   int stop_crossings = 0;
   bool centred = true;  // every pose is that of a centred lens
+  bool obscured = false;  // some steps block within
 };
 
 inline constexpr int kMaxStopCrossings = 3;
@@ -78,6 +80,7 @@ struct TracedRay {
   Vec3 direction;
   double transmission = 0;  // product of R and T along the path
   double r_rel = 0;         // largest distance from the axis over clear semi-diameter; > 1 is blocked
+  double obscured = -1;     // how deep the ray passes within an obscuration, over its radius, at most; > 0 is blocked
   // Stop coordinates over the stop radius at each crossing; iris_distance() of each must be <= 0.
   std::array<Vec2, kMaxStopCrossings> stop{};
 };
@@ -90,7 +93,11 @@ struct TracedRay {
 
 [[nodiscard]] TracedRay trace(const OpticalPath& path, const Ray& ray);
 
-// How far outside everything the ray passes: the larger of r_rel - 1 and the iris distances; <= 0 gets through.
+// The same way as if nothing stood in it but rims and the iris, all convex: for searches of where light gets through.
+[[nodiscard]] OpticalPath without_obscurations(const OpticalPath& path);
+
+// How far outside everything the ray passes: the largest of r_rel - 1, `obscured` and the iris distances; <= 0 gets
+// through.
 [[nodiscard]] double blocked_by(const TracedRay& ray, const OpticalPath& path, const Iris& iris);
 
 // What happened at each surface, for `lens trace` and drawings. Stops at the step that fails.

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 #include <utility>
+#include <vector>
 
 #include "diffraction/starburst_rings.h"
 
@@ -49,7 +50,23 @@ double sector_mean(const Sector& sector, Radius radius, Value value) {
 // The perimeter of what is squeezed is taken as that of the same shape scaled evenly.
 double power_lost_at_edges(const PupilMask& mask, const PupilOutline& outline) {
   const double size_mm = std::sqrt(std::abs(cross(outline.x_mm, outline.y_mm)));
-  return 1.0 + outline.opening.perimeter() * size_mm * mask.grid.pitch_mm / (6.0 * outline.area_mm2());
+  double edges_mm = outline.opening.perimeter() * size_mm;
+  for (const double area : outline.obscured_mm2) edges_mm += 2.0 * std::sqrt(std::numbers::pi * area);
+  return 1.0 + edges_mm * mask.grid.pitch_mm / (6.0 * outline.area_mm2());
+}
+
+// As specks of dirt are: in units in which the pupil's radius is this.
+constexpr double kObscurationUnits = 16.0;
+
+std::optional<DirtWaves> waves_of_obscurations(const PupilOutline& outline, double pupil_radius_mm) {
+  if (outline.obscured_mm2.empty()) return std::nullopt;
+  std::vector<DirtStroke> discs;
+  for (const double area : outline.obscured_mm2) {
+    DirtStroke disc;
+    disc.width_mm = 2.0 * std::sqrt(area / std::numbers::pi) * kObscurationUnits / pupil_radius_mm;
+    discs.push_back(disc);
+  }
+  return DirtWaves(discs);
 }
 
 double power_of(const PupilMask& mask, const PupilOutline* outline) {
@@ -98,6 +115,9 @@ StarburstPattern::StarburstPattern(const PupilMask& mask, const PupilOutline* ou
   // |F|^2 in stop radii, over 4 for d^2 rho = 4 d^2 f, over the mask's power; the edges' part by the mean amplitude.
   const double amplitude = mean_amplitude(mask, *outline) * std::abs(cross(outline_x_, outline_y_));
   edge_scale_ = amplitude * amplitude * pupil_radius_mm * pupil_radius_mm / (4.0 * power_mm2_);
+  obscurations_ = waves_of_obscurations(*outline, pupil_radius_mm);
+  const double own_area = 1.0 / (kObscurationUnits * kObscurationUnits);
+  obscurations_scale_ = square(mean_amplitude(mask, *outline) * own_area * pupil_radius_mm) / (4.0 * power_mm2_);
   if (!outline->dirt) return;
   const PupilDirt& dirt = *outline->dirt;
   dirt_.emplace(dirt.strokes);
@@ -136,6 +156,7 @@ double StarburstPattern::Tail::times_rho3(double rho) const {
   constexpr double kPi = std::numbers::pi;
   double sum = scattered;
   if (edges) sum += scale * rho * rho * rho * edges->power(kPi * stretch * rho);
+  if (obscurations) sum += obscurations_scale * rho * rho * rho * obscurations->power(kPi * rho / kObscurationUnits);
   if (dirt) sum += dirt_scale * rho * rho * rho * dirt->power(kPi * dirt_stretch * rho);
   return sum;
 }
@@ -147,6 +168,9 @@ void StarburstPattern::add_edges(double angle_rad, double window_rad, Tail& tail
   tail.stretch = seen.stretch;
   tail.edges = edges_->along(seen.angle_rad, window_rad * seen.turn);
   tail.scale = edge_scale_;
+  if (!obscurations_) return;
+  tail.obscurations = obscurations_->along(angle_rad, window_rad);
+  tail.obscurations_scale = obscurations_scale_;
 }
 
 void StarburstPattern::add_dirt(double angle_rad, double window_rad, Tail& tail) const {

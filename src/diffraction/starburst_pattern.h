@@ -29,6 +29,8 @@ class StarburstPattern {
     double scale = 0;      // of these
     double stretch = 1;    // frequencies of the opening over those of the pupil
     double scattered = 0;  // times rho^-3: what else there is
+    std::optional<DirtWaves::Direction> obscurations;
+    double obscurations_scale = 0;
     std::optional<DirtWaves::Direction> dirt;
     double dirt_scale = 0;    // of these
     double dirt_stretch = 1;  // wave numbers in the dirt's plane over rho
@@ -47,6 +49,8 @@ class StarburstPattern {
   std::optional<EdgeWaves> edges_;
   double tail_start_ = 0, tail_end_ = 0, edge_scale_ = 0;
   Vec2 outline_x_, outline_y_;  // the opening's unit vectors in pupil radii
+  std::optional<DirtWaves> obscurations_;
+  double obscurations_scale_ = 0;
   std::optional<DirtWaves> dirt_;
   double dirt_scale_ = 0;
   Vec2 dirt_x_, dirt_y_;  // the dirt's unit vectors in pupil radii

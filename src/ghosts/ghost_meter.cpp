@@ -126,8 +126,9 @@ void trace_direct(const Pupil& pupil, RayGrid& grid) {
     return all_arrived(grid);
   };
   const int details = pupil.iris.is_picture() ? kDirectPicture : 1;
-  if (try_with(kDirectSmooth) && !is_cut_by_rims(grid)) return grid.refine(pupil.iris, kDirectSmooth * details);
-  if (try_with(kDirectRims)) return grid.refine(pupil.iris, kDirectRims * details);
+  if (!pupil.path.obscured && try_with(kDirectSmooth) && !is_cut_by_rims(grid))
+    return grid.refine(pupil.iris, kDirectSmooth * details);
+  if (!pupil.path.obscured && try_with(kDirectRims)) return grid.refine(pupil.iris, kDirectRims * details);
   pupil.trace(grid, (kDirectSide - 1) * details + 1);
 }
 

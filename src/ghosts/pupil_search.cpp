@@ -92,6 +92,8 @@ std::optional<PupilRegion> find_pupil_region(const OpticalPath& path, const Refl
                                              const IrisShape& iris, const LightSource& light,
                                              const EntranceWindow& window, RayGrid& scratch, PupilEffort effort,
                                              int side) {
+  if (path.obscured)
+    return find_pupil_region(without_obscurations(path), tables, iris, light, window, scratch, effort, side);
   PupilRegion region{{window.min_mm, window.max_mm}, {}, 0};
   const IrisShape hull = iris.hull();
   const auto search = [&](int rays) {
@@ -117,6 +119,8 @@ std::optional<PupilRegion> find_pupil_region_in(const Rectangle& guess, const Op
                                                 const ReflectanceTables& tables, const IrisShape& iris,
                                                 const LightSource& light, const EntranceWindow& window,
                                                 RayGrid& scratch) {
+  if (path.obscured)
+    return find_pupil_region_in(guess, without_obscurations(path), tables, iris, light, window, scratch);
   const Rectangle box{{std::max(guess.low.x, window.min_mm.x), std::max(guess.low.y, window.min_mm.y)},
                       {std::min(guess.high.x, window.max_mm.x), std::min(guess.high.y, window.max_mm.y)}};
   if (!(box.low.x < box.high.x && box.low.y < box.high.y)) return std::nullopt;

@@ -51,6 +51,7 @@ void RayGrid::trace_rows(const OpticalPath& path, const ReflectanceTables& table
   side_ = side;
   box_ = box;
   stop_crossings_ = path.stop_crossings;
+  obscured_ = path.obscured;
   resize(static_cast<std::size_t>(side) * static_cast<std::size_t>(side));
   const Vec2 step = step_mm();
   for (int iy = 0; iy < rows; ++iy) {

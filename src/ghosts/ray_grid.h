@@ -56,6 +56,9 @@ class RayGrid {
   // them.
   [[nodiscard]] float slack(std::span<const std::size_t> corners) const;
 
+  // Whether something blocks light within: corners that it passes do not tell of what is between them, then.
+  [[nodiscard]] bool is_obscured() const { return obscured_; }
+
   // One value a vertex. A ray that failed has blocked = infinity.
   std::vector<float> sensor_x_mm, sensor_y_mm, transmission, r_rel;
   std::array<std::vector<float>, kMaxStopCrossings> stop_x, stop_y, iris_distance;
@@ -72,6 +75,7 @@ class RayGrid {
   int side_ = 0;
   int stop_crossings_ = 0;
   bool convex_ = true;
+  bool obscured_ = false;
   Rectangle box_;
   std::vector<float> x_mm_, y_mm_;  // entrance points from box_.low
 };

@@ -12,25 +12,33 @@ double reach_mm(const ClearAperture& a) {
   return own + length(a.centre_mm);
 }
 
+Rim ellipse_of(Vec2 half_mm, Vec2 centre_mm, double turn_rad) {
+  const Vec2 x{std::cos(turn_rad), std::sin(turn_rad)};
+  const Vec2 y{-x.y, x.x};
+  return {centre_mm, x * (1.0 / half_mm.x), y * (1.0 / half_mm.y)};
+}
+
 }  // namespace
 
 std::vector<Rim> rims_of(const ClearAperture& aperture, double semi_diameter_mm) {
   if (aperture.kind == ApertureKind::Disc) return {};
-  const Vec2 x{std::cos(aperture.turn_rad), std::sin(aperture.turn_rad)};
-  const Vec2 y{-x.y, x.x};
-  const Vec2 u = x * (1.0 / aperture.half_mm.x), v = y * (1.0 / aperture.half_mm.y);
+  const Rim ellipse = ellipse_of(aperture.half_mm, aperture.centre_mm, aperture.turn_rad);
   std::vector<Rim> rims;
   if (aperture.kind == ApertureKind::Ellipse) {
-    rims.push_back({aperture.centre_mm, u, v});
+    rims.push_back(ellipse);
   } else {
-    rims.push_back({aperture.centre_mm, u, {}});
-    rims.push_back({aperture.centre_mm, v, {}});
+    rims.push_back({ellipse.centre_mm, ellipse.u_per_mm, {}});
+    rims.push_back({ellipse.centre_mm, ellipse.v_per_mm, {}});
   }
   if (reach_mm(aperture) > semi_diameter_mm) {
     const double per_mm = 1.0 / semi_diameter_mm;
     rims.push_back({{}, {per_mm, 0.0}, {0.0, per_mm}});
   }
   return rims;
+}
+
+Rim rim_of(const Obscuration& obscuration) {
+  return ellipse_of(obscuration.half_mm, obscuration.centre_mm, obscuration.turn_rad);
 }
 
 }  // namespace contrejour

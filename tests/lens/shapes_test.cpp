@@ -52,6 +52,34 @@ TEST_CASE("a row's conic, asphere, toroid, biconic and place") {
   CHECK(length(read(", axis = [0, 3, 4.0e1]").pose.axis - normalized({0, 3, 40})) < 1e-15);
 }
 
+TEST_CASE("a row's rim and what stands before its middle, the stop's too; written and read again the same") {
+  CHECK(read(", ellipse = { semi_axes_mm = [5, 3], centre_mm = [0.5, 1] }").aperture ==
+        ClearAperture{ApertureKind::Ellipse, {5, 3}, {0.5, 1}, 0.0});
+  CHECK_FALSE(read("").obscuration.any());
+  CHECK(read(", obscuration = { semi_axes_mm = [3, 3] }").obscuration == Obscuration{{3, 3}, {}, 0.0});
+  const Surface askew = read(", obscuration = { semi_axes_mm = [3, 2], centre_mm = [0.1, -0.2], turn_rad = 0.4 }");
+  CHECK(askew.obscuration == Obscuration{{3, 2}, {0.1, -0.2}, 0.4});
+  std::string text = lens_with(", obscuration = { semi_axes_mm = [3, 2], centre_mm = [0.1, -0.2], turn_rad = 0.4 }");
+  const std::string stop = "semi_diameter_mm = 6";
+  text.replace(text.find(stop), stop.size(), stop + ", obscuration = { semi_axes_mm = [1, 1] }");
+  const auto lens = read_lens_toml(text, "x.toml");
+  REQUIRE(lens.has_value());
+  CHECK(lens->surfaces[2].obscuration == Obscuration{{1, 1}, {}, 0.0});
+  const auto state = lens_at(*lens);
+  REQUIRE(state.has_value());
+  CHECK(state->surfaces[0].obscuration == askew.obscuration);
+  CHECK(state->surfaces[2].obscuration == lens->surfaces[2].obscuration);
+  const auto again = read_lens_toml(write_lens_toml(*lens), "x.toml");
+  REQUIRE(again.has_value());
+  for (std::size_t k = 0; k < lens->surfaces.size(); ++k)
+    CHECK(again->surfaces[k].obscuration == lens->surfaces[k].obscuration);
+
+  check_refused(", obscuration = { }", 6, "give semi_axes_mm");
+  check_refused(", obscuration = { semi_axes_mm = [0, 1] }", 6, "half sides of more than 0");
+  check_refused(", obscuration = { semi_axes_mm = [2, 2], centre_mm = [0, 9] }", 6, "within semi_diameter_mm");
+  check_refused(", obscuration = { semi_axes_mm = [9, 8.5], centre_mm = [0.2, 0] }", 6, "covers all of the surface");
+}
+
 TEST_CASE("a group is carried as one body, about its middle") {
   const auto lens = read_lens_toml(
       lens_with("", "groups = [{ surfaces = [1, 2], decentre_mm = [0.1, 0], tilt_deg = [1, 0] }]\n"), "x.toml");

@@ -42,6 +42,24 @@ LensState heliar_with(const ClearAperture& front, const SurfacePose& pose = {}) 
   return *state;
 }
 
+// Where a ray meets the glass of surface 1, each time, in the surface's own coordinates.
+std::vector<Vec2> crossings_of_front(const OpticalPath& path, const Ray& ray, const SurfacePose& pose) {
+  std::vector<Vec2> out;
+  for (const TraceStep& step : trace_recorded(path, ray).steps) {
+    if (step.surface != 1) continue;
+    const Vec3 from = step.position_mm - pose.shift_mm;
+    // Upright again: the smallest turn that takes the axis to +z.
+    const Vec3 a = pose.axis;
+    const double t = (a.x * from.x + a.y * from.y) / (1.0 + a.z);
+    out.push_back({from.x - a.x * (from.z + t), from.y - a.y * (from.z + t)});
+  }
+  return out;
+}
+
+OpticalPath path_of(const LensState& lens, const Ghost& ghost) {
+  return ghost == Ghost{} ? direct_path(lens, 550.0) : ghost_path(lens, ghost, 550.0);
+}
+
 }  // namespace
 
 TEST_CASE("an aperture's rims hold what lies within it and nothing else") {
@@ -76,10 +94,7 @@ TEST_CASE("rays pass a rim where they meet the glass within it, centred or not, 
       CHECK_FALSE(lens.has_axial_symmetry());
       const double semi_mm = lens.surfaces.front().semi_diameter_mm;
       for (const Ghost& ghost : {Ghost{}, Ghost{1, 2}}) {
-        const auto path_of = [&](const LensState& of) {
-          return ghost == Ghost{} ? direct_path(of, 550.0) : ghost_path(of, ghost, 550.0);
-        };
-        const OpticalPath path = path_of(lens), plain = path_of(round);
+        const OpticalPath path = path_of(lens, ghost), plain = path_of(round, ghost);
         const ReflectanceTables tables(lens, 550.0);
         const PacketPath packets(path, tables, {{0, 0, -5.0}, LightSource{{0, 0, 1}}});
         int blocked = 0, open = 0;
@@ -91,17 +106,9 @@ TEST_CASE("rays pass a rim where they meet the glass within it, centred or not, 
           if (through.status != RayStatus::Ok) continue;
           CHECK(through.sensor_mm.y == doctest::Approx(before.sensor_mm.y).epsilon(1e-12));
           CHECK(through.transmission == doctest::Approx(before.transmission).epsilon(1e-12));
-          // Where it meets the glass of surface 1, each time.
           bool clear = before.r_rel <= 1.0;
-          for (const TraceStep& step : trace_recorded(plain, ray).steps) {
-            if (step.surface != 1) continue;
-            Vec3 from = step.position_mm - pose.shift_mm;
-            // Upright again: the smallest turn that takes the axis to +z.
-            const Vec3 a = pose.axis;
-            const double along = dot(a, from), t = (a.x * from.x + a.y * from.y) / (1.0 + a.z);
-            from = {from.x - a.x * (from.z + t), from.y - a.y * (from.z + t), along};
-            clear = clear && is_clear(aperture, semi_mm, {from.x, from.y});
-          }
+          for (const Vec2 on_glass : crossings_of_front(plain, ray, pose))
+            clear = clear && is_clear(aperture, semi_mm, on_glass);
           CHECK((through.r_rel <= 1.0) == clear);
           (clear ? open : blocked) += 1;
 
@@ -120,6 +127,61 @@ TEST_CASE("rays pass a rim where they meet the glass within it, centred or not, 
         }
         CHECK(open > 5);
         CHECK(blocked > 5);
+      }
+    }
+  }
+}
+
+TEST_CASE("an obscuration blocks where light meets the glass within it, each time, in every tracer") {
+  const SurfacePose askew{{0.4, -0.3, 0.0}, normalized({0.02, 0.03, 1.0})};
+  const Obscuration obscurations[] = {{{3.0, 3.0}, {}, 0.0}, {{4.0, 1.5}, {1.0, -0.5}, 0.4}};
+  std::mt19937 random(6);
+  std::uniform_real_distribution<double> place(-9.0, 9.0);
+  for (const SurfacePose& pose : {SurfacePose{}, askew}) {
+    for (const Obscuration& obscuration : obscurations) {
+      const LensState round = heliar_with({}, pose);
+      LensState lens = round;
+      lens.surfaces.front().obscuration = obscuration;
+      CHECK(lens.has_axial_symmetry() == (pose == SurfacePose{} && obscuration.has_axial_symmetry()));
+      const ClearAperture same{ApertureKind::Ellipse, obscuration.half_mm, obscuration.centre_mm, obscuration.turn_rad};
+      for (const Ghost& ghost : {Ghost{}, Ghost{1, 2}}) {
+        const OpticalPath path = path_of(lens, ghost), plain = path_of(round, ghost);
+        const ReflectanceTables tables(lens, 550.0);
+        const PacketPath packets(path, tables, {{0, 0, -5.0}, LightSource{{0, 0, 1}}});
+        int obscured = 0, free = 0;
+        for (int k = 0; k < 300; ++k) {
+          const Vec2 at{place(random), place(random)};
+          const Ray ray{{at.x, at.y, -5.0}, {0, 0, 1}};
+          const TracedRay through = trace(path, ray), before = trace(plain, ray);
+          const TracedRay searched = trace(without_obscurations(path), ray);
+          CHECK(through.status == before.status);
+          if (through.status != RayStatus::Ok) continue;
+          CHECK(through.r_rel == doctest::Approx(before.r_rel).epsilon(1e-12));
+          CHECK(through.transmission == doctest::Approx(before.transmission).epsilon(1e-12));
+          CHECK(searched.obscured < 0.0);
+          CHECK(searched.r_rel == before.r_rel);  // the same steps
+          bool meets = false;
+          for (const Vec2 on_glass : crossings_of_front(plain, ray, pose))
+            meets = meets || is_clear(same, 1e3, on_glass);
+          CHECK((through.obscured > 0.0) == meets);
+          CHECK((blocked_by(through, path, Iris{}) > 0.0) == (meets || blocked_by(before, plain, Iris{}) > 0.0));
+          (meets ? obscured : free) += 1;
+
+          const float x = static_cast<float>(at.x), y = static_cast<float>(at.y);
+          float sx = 0, sy = 0, transmission = 0, r_rel = 0, px = 0, py = 0;
+          std::vector<float> squared(path.steps.size());
+          trace_packets(packets, PacketPrecision::Double, &x, &y, 1,
+                        {&sx, &sy, &transmission, &r_rel, {&px}, {&py}, squared.data(), 1});
+          const double p = 1.0 - through.obscured;
+          CHECK(r_rel == doctest::Approx(std::max(through.r_rel, 2.0 - p)).epsilon(1e-4));
+          CHECK(transmission == doctest::Approx(through.transmission).epsilon(1e-3));
+          double deepest = -1e30;
+          for (std::size_t step = 0; step < path.steps.size(); ++step)
+            if (path.steps[step].blocks_within) deepest = std::max(deepest, static_cast<double>(squared[step]));
+          if (p > 1e-3 && p < 2.0) CHECK(deepest == doctest::Approx(2.0 - p * p).epsilon(1e-3));
+        }
+        CHECK(obscured > 5);
+        CHECK(free > 5);
       }
     }
   }

@@ -154,6 +154,24 @@ TEST_CASE("every ghost of a zoom at a small stop carries the flux that counted r
   check_every_ghost(test::bundled("itoh-zoom", {.focal_length_mm = 123.0, .f_number = 32.0}), {0.70, 0.33}, 1);
 }
 
+TEST_CASE("ghosts of a lens that is obscured in front, askew on glass and at the stop carry the flux that counted rays do") {
+  LensState lens = test::bundled("heliar", {.f_number = 6.0});
+  SurfaceState &front = lens.surfaces.front(), &rear = lens.surfaces.back();
+  SurfaceState& stop = lens.surfaces[static_cast<std::size_t>(lens.stop_index)];
+  const auto disc = [](double radius_mm) { return Obscuration{{radius_mm, radius_mm}, {}, 0.0}; };
+  front.obscuration = disc(0.35 * front.semi_diameter_mm);
+  check_every_ghost(lens, {0.62, 0.40}, 1);
+  front.obscuration = {};
+  stop.obscuration = disc(0.5 * lens.stop_radius_mm);
+  check_every_ghost(lens, {0.62, 0.40}, 1);
+  front.obscuration = disc(0.05 * front.semi_diameter_mm);  // smaller than a root cell
+  rear.obscuration = {{0.4 * rear.semi_diameter_mm, 0.2 * rear.semi_diameter_mm}, {1.0, 0.5}, 0.3};
+  check_every_ghost(lens, {0.62, 0.40}, 1);
+  // Nothing is left of the direct image, nor of most ghosts.
+  stop.obscuration = disc(0.97 * lens.stop_radius_mm);
+  check_every_ghost(lens, {0.62, 0.40}, 3);
+}
+
 // Ghost 1-5 of the fisheye, an island as wide as a root cell within rings of rays that miss or are totally reflected.
 TEST_CASE("a pupil is found where all rays about it fail") {
   check_every_ghost(test::bundled("muller-fisheye-10"), {0.06, 0.10}, 1, 470.0);

@@ -60,10 +60,17 @@ TEST_CASE("borders are where traced rays are blocked, and the flux is the direct
   cases.push_back({"heliar", {.f_number = 5.6}, 10.0, 4.0});
   cases.back().settings.iris.rotation_rad = 0.4;
   cases.back().settings.iris.field = test::flower_field();
+  cases.push_back({"heliar", {.f_number = 5.6}, 8.0, 5.0});
+  const std::size_t obscured = cases.size() - 1;
   for (const Case& c : cases) {
     CAPTURE(c.lens);
     CAPTURE(c.azimuth_deg);
-    const LensState lens = test::bundled(c.lens, c.settings);
+    LensState lens = test::bundled(c.lens, c.settings);
+    if (&c == &cases[obscured]) {
+      lens.surfaces.front().obscuration = {{4.0, 3.0}, {0.5, 0.0}, 0.3};
+      lens.surfaces[static_cast<std::size_t>(lens.stop_index)].obscuration = {{1.5, 1.5}, {2.0, 1.0}, 0.0};
+    }
+    const double sample = &c == &cases[obscured] ? 3e-2 : 6e-3;  // its diagonal, over the smallest radius
     const Vec3 direction = direction_of(c);
     const double lambda_nm = lens.design_wavelength_nm;
     const auto pupil = exit_pupil(lens, direction, lambda_nm);
@@ -83,7 +90,8 @@ TEST_CASE("borders are where traced rays are blocked, and the flux is the direct
         const TracedRay ray = trace(path, {{at.x, at.y, window.z_mm}, direction});
         if (ray.status != RayStatus::Ok) continue;
         const double blocked = blocked_by(ray, path, lens.iris);
-        if (std::abs(blocked) < 6e-3 || blocked > 0.25) continue;  // a sample's diagonal; rays that folds send back in
+        const bool is_folded = std::max(blocked, ray.r_rel - 1.0) > 0.25 && ray.obscured <= 0.0;  // and sent back in
+        if (std::abs(blocked) < sample || is_folded) continue;
         const Vec2 p = (Vec2{ray.direction.x, ray.direction.y} - pupil->middle) * (1.0 / pupil->mask.grid.pitch_mm);
         const int column = static_cast<int>(std::floor(p.x + 0.5 * pupil->mask.grid.side));
         const int row = static_cast<int>(std::floor(0.5 * pupil->mask.grid.side - p.y));

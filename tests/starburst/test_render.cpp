@@ -109,6 +109,53 @@ TEST_CASE("through a real lens the first dark ring lies 1.22 lambda N out, and h
   CHECK(zero[0] / zero[1] == doctest::Approx(2.0).epsilon(0.02));
 }
 
+// An opening of outer radius 1 and inner e is dark where J1(x) = e J1(e x) (Born and Wolf, Principles of
+// Optics, 8.6.2).
+TEST_CASE("a stop with a dark middle has narrower rings, and the flux that is left") {
+  constexpr double kObscured = 0.5, kPitch_mm = 4e-4;
+  double low = 2.5, high = 3.8317;
+  for (int k = 0; k < 60; ++k) {
+    const double x = 0.5 * (low + high);
+    (std::cyl_bessel_j(1.0, x) > kObscured * std::cyl_bessel_j(1.0, kObscured * x) ? low : high) = x;
+  }
+  LensState lens = test::bundled("heliar", {.f_number = 16.0});
+  lens.surfaces[static_cast<std::size_t>(lens.stop_index)].obscuration = {
+      {kObscured * lens.stop_radius_mm, kObscured * lens.stop_radius_mm}, {}, 0.0};
+  RenderSettings settings = starburst_alone(window_about({}, 128, kPitch_mm));
+  settings.lambda_nm = {550.0};
+  const Image image = drawn(lens, Light{}, settings);
+  const double expected_mm = low / kPi * 550e-6 * first_order(lens, 550.0).f_number;
+  CHECK(first_zero(image) * kPitch_mm / expected_mm == doctest::Approx(1.0).epsilon(0.02));
+
+  RenderSettings whole = starburst_alone(frame_on_sensor(lens, 500, 500));
+  whole.lambda_nm = {550.0};
+  const double rho = 250.0 * whole.frame.pixel_pitch_mm / (550e-6 * 16.0) * kPi / std::sqrt(8.0);
+  const double outside = 2.0 / (1.0 - kObscured) / (kPi * kPi * rho);  // perimeter over area
+  const Image far = drawn(lens, Light{}, whole);
+  CHECK(flux_of(far, 1) + outside == doctest::Approx(1.0).epsilon(2e-3));
+  // Far out (2 J1(x) / x)^2 is 4 / (pi x^3) in the mean, and both edges' add up, as their fringes are too fine to see.
+  const double lambda_n = 550e-6 * first_order(lens, 550.0).f_number, open = 1.0 - kObscured * kObscured;
+  const std::vector<double> far_profile = radial_profile(far);
+  for (const std::size_t bin : {60, 120, 200}) {
+    const double r_mm = (static_cast<double>(bin) + 0.5) * whole.frame.pixel_pitch_mm, x = kPi * r_mm / lambda_n;
+    const double level =
+        0.25 * kPi * open / (lambda_n * lambda_n) * 4.0 / (kPi * x * x * x) * (1.0 + kObscured) / (open * open);
+    CHECK(far_profile[bin] / (level * whole.frame.pixel_pitch_mm * whole.frame.pixel_pitch_mm) ==
+          doctest::Approx(1.0).epsilon(0.03));
+  }
+
+  const std::vector<double> profile = radial_profile(image);
+  const auto at = [&](double x) { return profile[static_cast<std::size_t>(x / low * first_zero(image))]; };
+  const auto closed = [&](double x) {
+    const double a = (2.0 * std::cyl_bessel_j(1.0, x) / x -
+                      kObscured * kObscured * 2.0 * std::cyl_bessel_j(1.0, kObscured * x) / (kObscured * x)) /
+                     (1.0 - kObscured * kObscured);
+    return a * a;
+  };
+  const double ring = 4.9;
+  CHECK(at(ring) / profile[0] == doctest::Approx(closed(ring)).epsilon(0.08));
+}
+
 TEST_CASE("upright: spikes stand across the blades' edges as the photographer sees the iris") {
   for (const int blades : {5, 6}) {
     const double rotation = 0.23;
@@ -149,7 +196,8 @@ TEST_CASE("a quarter-size render is the full one filtered") {
   CHECK(error / total < 0.02);
 }
 
-TEST_CASE("off the axis the pupil is vignetted and askew, and so is the pattern: sums over densely traced rays [slow]") {
+TEST_CASE(
+    "off the axis the pupil is vignetted and askew, and so is the pattern: sums over densely traced rays [slow]") {
   struct Case {
     const char* name;
     LensSettings settings;

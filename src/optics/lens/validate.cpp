@@ -86,6 +86,7 @@ Result<void> check_surface(const Prescription& lens, std::size_t i) {
   }
   if (const auto problem = shape_problem(s)) return fail.at(i, *problem);
   if (const auto problem = aperture_problem(s)) return fail.at(i, *problem);
+  if (const auto problem = obscuration_problem(s)) return fail.at(i, *problem);
   if (s.shape.is_sphere() && !(std::abs(s.curvature_per_mm) * semi_mm <= 1.0)) {
     return fail.at(i, fmt::format("radius {:.6g} mm is smaller than semi_diameter_mm {:.6g}: a sphere has no rim "
                                   "there; make the semi-diameter smaller",
@@ -331,6 +332,22 @@ std::optional<std::string> aperture_problem(const Surface& surface) {
       "a rim of half sides {} and {} mm about ({}, {}); give half sides of more than 0 about a place "
       "within semi_diameter_mm",
       a.half_mm.x, a.half_mm.y, a.centre_mm.x, a.centre_mm.y);
+}
+
+std::optional<std::string> obscuration_problem(const Surface& surface) {
+  const Obscuration& o = surface.obscuration;
+  if (o == Obscuration{}) return std::nullopt;
+  if (!within(o.half_mm.x, 1e-6, kMaxLength_mm) || !within(o.half_mm.y, 1e-6, kMaxLength_mm) ||
+      !(length(o.centre_mm) <= surface.semi_diameter_mm) || !within(o.turn_rad, -kMaxTurn_rad, kMaxTurn_rad)) {
+    return fmt::format(
+        "an obscuration of half sides {} and {} mm about ({}, {}); give half sides of more than 0 about a place within "
+        "semi_diameter_mm",
+        o.half_mm.x, o.half_mm.y, o.centre_mm.x, o.centre_mm.y);
+  }
+  if (std::min(o.half_mm.x, o.half_mm.y) - length(o.centre_mm) < surface.semi_diameter_mm) return std::nullopt;
+  return fmt::format("an obscuration of {:.6g} mm covers all of the surface, whose semi_diameter_mm is {:.6g}; make it "
+                     "smaller",
+                     std::min(o.half_mm.x, o.half_mm.y), surface.semi_diameter_mm);
 }
 
 std::optional<std::string> coating_problem(const Coating& coating) {

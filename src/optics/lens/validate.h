@@ -20,5 +20,6 @@ inline constexpr std::size_t kMostMeasured = 1000;  // wavelengths, or angles, o
 [[nodiscard]] std::optional<std::string> coating_problem(const Coating& coating);
 [[nodiscard]] std::optional<std::string> shape_problem(const Surface& surface);
 [[nodiscard]] std::optional<std::string> aperture_problem(const Surface& surface);
+[[nodiscard]] std::optional<std::string> obscuration_problem(const Surface& surface);
 
 }  // namespace contrejour

@@ -55,6 +55,7 @@ HWY_INLINE void advance(Clearance<P>& s, const PacketStep& step) {
   if (step.event == PathEvent::Stop) return;
   P rim_x, rim_y;
   if constexpr (kGeometry == PathGeometry::General) {
+    if (step.blocks_within) return;
     const auto place = rim_place(own, step.rim);
     rim_x = place.x;
     rim_y = place.y;

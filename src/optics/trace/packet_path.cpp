@@ -37,7 +37,7 @@ ReflectanceTables::ReflectanceTables(const LensState& lens, double lambda_nm) : 
       if (absorbs) entry.transmittance = add(surface, +1, true);
     }
     entries_.push_back(entry);
-    if (none_ >= 0 || surface.aperture.kind == ApertureKind::Disc) continue;
+    if (none_ >= 0 || (surface.aperture.kind == ApertureKind::Disc && !surface.obscuration.any())) continue;
     none_ = static_cast<int>(values_.size());
     values_.insert(values_.end(), kIntervals + 1, 0.0F);
   }
@@ -97,6 +97,7 @@ PacketPath::PacketPath(const OpticalPath& path, const ReflectanceTables& tables,
     step.eta = from.n_in / from.n_out;
     const double per_mm = 1.0 / from.semi_diameter_mm;
     step.rim = from.rim.value_or(Rim{{}, {per_mm, 0.0}, {0.0, per_mm}});
+    step.blocks_within = from.blocks_within;
     step.absorption_per_mm = from.absorption_per_mm;
     step.kick = from.kick;
     step.share = from.share;

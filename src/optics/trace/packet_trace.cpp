@@ -82,8 +82,16 @@ HWY_INLINE void advance(PacketState<P>& s, const PacketStep& step, const float* 
     r_squared = (own.x * own.x + own.y * own.y) * P(step.inverse_semi_diameter_squared);
   }
   const P beyond = select(own.nz > zero, zero, P(kBeyondEquatorSquared));
-  const P out_squared = larger(r_squared, beyond);
-  s.r_rel_squared = larger(s.r_rel_squared, out_squared);
+  P out_squared = larger(r_squared, beyond);
+  P height_squared = out_squared;
+  if constexpr (kGeometry == PathGeometry::General) {
+    if (step.blocks_within) {
+      out_squared = select(own.nz > zero, P(2.0) - r_squared, P(kBeyondEquatorSquared));
+      const P height = larger(P(2.0) - square_root(r_squared), zero);
+      height_squared = larger(height * height, beyond);
+    }
+  }
+  s.r_rel_squared = larger(s.r_rel_squared, height_squared);
   if (rim_squared != nullptr) store_floats(out_squared, rim_squared);
 
   const P eta(step.eta);

@@ -60,6 +60,7 @@ struct PacketStep {
   Vec2 offset_mm;               // likewise: of the vertex from the one before, as gap_mm
   // Of General paths alone.
   Rim rim;
+  bool blocks_within = false;
   double absorption_per_mm = 0;
   Vec2 kick;
   double share = 1;
@@ -118,7 +119,8 @@ class PacketPath {
 };
 
 // Where the results go. Transmissions of a light at a finite distance are times LightSource::flux_at. A ray that fails
-// has r_rel = infinity, transmission 0 and a sensor point of no meaning.
+// has r_rel = infinity, transmission 0 and a sensor point of no meaning. A place p within an obscuration or near it,
+// over its radius, counts as a relative height of 2 - p: more than 1 where it blocks, and as even as that of a rim.
 struct TracedArrays {
   float* sensor_x_mm = nullptr;
   float* sensor_y_mm = nullptr;
@@ -127,7 +129,8 @@ struct TracedArrays {
   std::array<float*, kMaxStopCrossings> stop_x{};  // as many as the path crosses the stop
   std::array<float*, kMaxStopCrossings> stop_y{};
   // Where wanted: at step k of the path, the square of the distance from the axis over the clear semi-diameter, at
-  // [k * rim_stride + ray]; 4 beyond a sphere's equator; not written at the stop. Smooth where r_rel has creases.
+  // [k * rim_stride + ray]; 4 beyond a sphere's equator; 2 - p^2 of an obscuration; not written at the stop. Smooth
+  // where r_rel has creases.
   float* rim_squared = nullptr;
   std::size_t rim_stride = 0;
 };

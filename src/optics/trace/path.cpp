@@ -3,6 +3,7 @@
 #include <cmath>
 #include <memory>
 #include <numbers>
+#include <utility>
 
 #include "contrejour/trace.h"
 #include "kernels/shape_constants.h"
@@ -79,27 +80,33 @@ class PathBuilder {
  private:
   void add(int surface, int direction, PathEvent event) {
     PathStep step = step_at(lens_, surface, direction, event, path_.lambda_nm);
-    if (step.event != PathEvent::Stop) add_rims(step);
+    const SurfaceState& s = lens_.surfaces[static_cast<std::size_t>(surface)];
+    if (s.obscuration.any()) {
+      add_rim(step, rim_of(s.obscuration));
+      path_.steps.back().blocks_within = path_.obscured = true;
+    }
+    if (step.event != PathEvent::Stop) add_rims(step, rims_of(s.aperture, s.semi_diameter_mm));
     path_.steps.push_back(std::move(step));
     if (path_.steps.back().event == PathEvent::Stop) ++path_.stop_crossings;
   }
 
-  // All but the last become steps of their own, in the medium before it.
-  void add_rims(PathStep& step) {
-    const SurfaceState& s = lens_.surfaces[static_cast<std::size_t>(step.surface)];
-    const std::vector<Rim> rims = rims_of(s.aperture, s.semi_diameter_mm);
+  // All but the last become steps of their own.
+  void add_rims(PathStep& step, const std::vector<Rim>& rims) {
     if (rims.empty()) return;
-    for (std::size_t k = 0; k + 1 < rims.size(); ++k) {
-      PathStep only = step;
-      only.event = PathEvent::Refract;
-      only.coating = {};
-      only.n_out = only.n_in;
-      only.rim = rims[k];
-      only.is_rim_only = true;
-      path_.steps.push_back(std::move(only));
-      step.absorption_per_mm = 0.0;
-    }
+    for (std::size_t k = 0; k + 1 < rims.size(); ++k) add_rim(step, rims[k]);
     step.rim = rims.back();
+  }
+
+  // In the medium before the step, and after the way to it.
+  void add_rim(PathStep& step, const Rim& rim) {
+    PathStep only = step;
+    only.event = PathEvent::Refract;
+    only.coating = {};
+    only.n_out = only.n_in;
+    only.rim = rim;
+    only.is_rim_only = true;
+    path_.steps.push_back(std::move(only));
+    step.absorption_per_mm = 0.0;
   }
 
   const LensState& lens_;
@@ -128,6 +135,22 @@ OpticalPath ghost_path(const LensState& lens, Ghost ghost, double lambda_nm) {
   if (ghost.reflects_four_times()) there_and_back(ghost.l - 1, ghost.k - 1, {0, 0});
   builder.pass_forward(behind + 1, static_cast<int>(lens.surfaces.size()) - 1);
   return builder.take();
+}
+
+OpticalPath without_obscurations(const OpticalPath& path) {
+  OpticalPath out = path;
+  out.obscured = false;
+  out.steps.clear();
+  double absorption_per_mm = 0.0;  // on the way to a step left out
+  for (const PathStep& step : path.steps) {
+    if (step.blocks_within) {
+      absorption_per_mm = step.absorption_per_mm;
+      continue;
+    }
+    out.steps.push_back(step);
+    out.steps.back().absorption_per_mm += std::exchange(absorption_per_mm, 0.0);
+  }
+  return out;
 }
 
 bool has_axial_symmetry(const LensState& lens, const Ghost& ghost) {

@@ -111,7 +111,12 @@ bool advance(State& state, const PathStep& step, const OpticalPath& path, double
         Vec2{met.own.x, met.own.y} * (1.0 / path.stop_radius_mm);
     return true;
   }
-  state.out.r_rel = std::max(state.out.r_rel, distance_over_rim(met.own, step));
+  const double distance = distance_over_rim(met.own, step);
+  if (step.blocks_within) {
+    state.out.obscured = std::max(state.out.obscured, 1.0 - distance);
+  } else {
+    state.out.r_rel = std::max(state.out.r_rel, distance);
+  }
   const double cos_in = std::min(1.0, hit.cos_in);
   const double r = reflectance(step.coating, step.n_in, step.n_out, cos_in, path.lambda_nm);
   if (reflectance_here != nullptr) *reflectance_here = r;
@@ -212,7 +217,7 @@ RayRecord trace_recorded(const OpticalPath& path, const Ray& ray) {
 }
 
 double blocked_by(const TracedRay& ray, const OpticalPath& path, const Iris& iris) {
-  double worst = ray.r_rel - 1.0;
+  double worst = std::max(ray.r_rel - 1.0, ray.obscured);
   for (int k = 0; k < path.stop_crossings; ++k) {
     worst = std::max(worst, iris_distance(iris, ray.stop[static_cast<std::size_t>(k)]));
   }

@@ -19,6 +19,7 @@ constexpr double kShadeBound = 4.0;  // the irradiance is linear over the cell i
 constexpr double kFoldBound = 0.5;   // of a fold's flux, that is out of place
 constexpr double kMostBend = 0.04;   // of a cell, that what cuts it may be off
 constexpr double kLeftByBend = 0.25;  // of a curve's deviation from its chord, where a corner in its middle bends it
+constexpr double kObscurationBend = 3.0;  // its edge goes on bending where that corner is: found by measuring
 // Of a cell that large, and so bright beside the peak: a plane that is farther off shows as a facet, however little it
 // is of the peak.
 constexpr double kFacet = 0.02, kFacet_px = 400.0, kFacetLevel = 2e-4;
@@ -132,6 +133,10 @@ double CellPainter::limit_error(const Mesh& mesh, const Cell& cell) const {
   const int first_rim = mesh.layout.rim(0);
   for (int f = screen_ ? first_rim : PatchLayout::kStop; f < mesh.layout.fields(); ++f) {
     const Mesh::Field& v = mesh.field(f);
+    if (f >= first_rim && mesh.layout.is_obscuration(f - first_rim)) {
+      largest = std::max(largest, obscuration_error(v, cell));
+      continue;
+    }
     float low = v[cell.corner[0]];
     float high = low;
     for (const std::size_t k : cell.corner) {
@@ -156,6 +161,25 @@ double CellPainter::limit_error(const Mesh& mesh, const Cell& cell) const {
     if (change > 0.0) largest = std::max(largest, off / change);
   }
   return largest;
+}
+
+// Likewise, of an obscuration, whose edge bends more: what the middle is off counts, too. It may begin and end inside the
+// cell, or within one side: lines along the outline find nothing of it then.
+double CellPainter::obscuration_error(const Mesh::Field& v, const Cell& cell) {
+  double low = v[cell.middle], off = 0.0, outline = v[cell.corner[0]], mean = 0.0;
+  const auto bend = [&](std::size_t a, std::size_t b) { return std::abs(v[a] - 2.0 * v[cell.middle] + v[b]); };
+  for (std::size_t k = 0; k < 4; ++k) {
+    const double corner = v[cell.corner[k]], side = v[cell.side[k]];
+    low = std::min({low, corner, side});
+    outline = std::max({outline, corner, side});
+    off = std::max(off, std::abs(side - 0.5 * (corner + v[cell.corner[(k + 1) % 4]])));
+    mean += 0.25 * corner;
+  }
+  off = std::max(off, std::abs(v[cell.middle] - mean));
+  const double rise = (bend(cell.side[1], cell.side[3]) + bend(cell.side[0], cell.side[2])) / 8.0;
+  const double high = std::max(outline, static_cast<double>(v[cell.middle]));
+  if (high + rise <= 1.0 || low > 1.0 || !(high > low)) return 0.0;
+  return kObscurationBend * (outline > 1.0 ? off : high + rise - 1.0) / (high - low);
 }
 
 // Chords of an arc that miss it by no more pixels than the budget allows; half as many either way would do.

@@ -73,6 +73,7 @@ CellPainter::State CellPainter::state_of(const Mesh& mesh, const Cell& cell) con
       all &= mesh.outside[Mesh::at(x, y)];
     }
   }
+  all &= ~Mesh::kNearObscuration;
   if ((screen_ ? any >> mesh.layout.crossings : any) == 0) return State::Open;
   if (all >> mesh.layout.crossings != 0) return State::Closed;
   for (int c = 0; c < mesh.layout.crossings; ++c) {

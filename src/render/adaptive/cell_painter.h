@@ -129,6 +129,7 @@ class CellPainter {
     return state == State::Cut && iris_.is_picture() ? Sides::Straight : Sides::Bent;
   }
   [[nodiscard]] static Outline outline_of(const Cell& cell, Sides sides);
+  [[nodiscard]] static double obscuration_error(const Mesh::Field& field, const Cell& cell);
   [[nodiscard]] double limit_error(const Mesh& mesh, const Cell& cell) const;
   [[nodiscard]] double arc_step(const Mesh& mesh, std::span<const CellCorner> corners, const Shade& shade) const;
 

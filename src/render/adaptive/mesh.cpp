@@ -82,6 +82,28 @@ void mark_outside(Mesh& mesh, const IrisShape& iris) {
   }
 }
 
+// By how much a field may rise above its values at the vertices between them, where it curves.
+float rise_between(const Mesh::Field& v) {
+  float along_u = 0.0F, along_v = 0.0F;
+  for (int iy = 0; iy < Mesh::kSide; ++iy) {
+    for (int ix = 1; ix < Mesh::kCells; ++ix) {
+      const auto bend = [&](std::size_t a, std::size_t b, std::size_t c) { return std::abs(v[a] - 2.0F * v[b] + v[c]); };
+      along_u = std::max(along_u, bend(Mesh::at(ix - 1, iy), Mesh::at(ix, iy), Mesh::at(ix + 1, iy)));
+      along_v = std::max(along_v, bend(Mesh::at(iy, ix - 1), Mesh::at(iy, ix), Mesh::at(iy, ix + 1)));
+    }
+  }
+  return (along_u + along_v) / 8.0F;
+}
+
+void mark_near_obscurations(Mesh& mesh) {
+  for (int r = 0; r < mesh.layout.rims; ++r) {
+    if (!mesh.layout.is_obscuration(r)) continue;
+    const Mesh::Field& rim = mesh.field(mesh.layout.rim(r));
+    const float near = 1.0F - rise_between(rim);
+    for (std::size_t k = 0; k < rim.size(); ++k) mesh.outside[k] |= rim[k] > near ? Mesh::kNearObscuration : 0U;
+  }
+}
+
 void find_brightness(Mesh& mesh) {
   const float third = static_cast<float>(mesh.cell_flux_area_mm2 * mesh.cell_flux_area_mm2 / 3.0);
   for (std::size_t k = 0; k < mesh.brightness.size(); ++k) {
@@ -121,6 +143,7 @@ Mesh make_mesh(const Patch& patch, const IrisShape& iris) {
     multiply_transposed(m.value, half.data(), Mesh::kStride, mesh.fields[static_cast<std::size_t>(f)].data());
   }
   mark_outside(mesh, iris);
+  mark_near_obscurations(mesh);
   find_brightness(mesh);
   return mesh;
 }

@@ -24,6 +24,7 @@ struct Mesh {
   Field brightness;                       // root mean square of the channels' irradiance, per pixel
   double cell_flux_area_mm2 = 0;          // of one cell
   std::array<std::uint32_t, static_cast<std::size_t>(kSide) * kStride> outside;  // bits: crossings, then rims
+  static constexpr std::uint32_t kNearObscuration = 1U << 31;  // a bit besides: one may begin before the next vertex
 
   [[nodiscard]] static std::size_t at(int ix, int iy) {
     return static_cast<std::size_t>(iy) * kStride + static_cast<std::size_t>(ix);

@@ -42,12 +42,18 @@ void transform(const float* field, int nodes, const Matrix& along_x, const Matri
   for (int row = 0; row < nodes; ++row) std::copy_n(whole.data() + row * stride, nodes, out + row * nodes);
 }
 
-// Indices of the steps whose rims may cut the sheet, those that cut deepest first.
+bool blocks_within(const RaySheet& sheet, std::size_t step) {
+  return !sheet.blocks_within.empty() && sheet.blocks_within[step];
+}
+
+// Indices of the steps whose rims may cut the sheet, those that cut deepest first. What an obscuration blocks may lie
+// between the rays: no square rises above its highest value there by more than its values differ.
 std::vector<std::size_t> rims_in_play(const RaySheet& sheet) {
   std::vector<std::pair<float, std::size_t>> found;
   for (std::size_t step = 0; step * sheet.count() < sheet.rim_squared.size(); ++step) {
     const float* rim = sheet.rim_squared.data() + step * sheet.count();
-    const float highest = *std::max_element(rim, rim + sheet.count());
+    float highest = *std::max_element(rim, rim + sheet.count());
+    if (blocks_within(sheet, step)) highest += highest - *std::min_element(rim, rim + sheet.count());
     if (highest > kNearRim) found.emplace_back(-highest, step);
   }
   std::sort(found.begin(), found.end());
@@ -60,7 +66,9 @@ std::vector<std::size_t> rims_in_play(const RaySheet& sheet) {
 void copy_rims(const RaySheet& sheet, const std::vector<std::size_t>& steps, Patch& patch) {
   for (std::size_t k = 0; k < steps.size(); ++k) {
     const float* rim = sheet.rim_squared.data() + steps[k] * sheet.count();
-    float* to = patch.field(patch.layout.rim(std::min(static_cast<int>(k), kMostRims - 1)));
+    const int to_rim = std::min(static_cast<int>(k), kMostRims - 1);
+    float* to = patch.field(patch.layout.rim(to_rim));
+    if (blocks_within(sheet, steps[k])) patch.layout.obscurations |= 1U << to_rim;
     const bool shared = k >= static_cast<std::size_t>(kMostRims);
     for (std::size_t node = 0; node < patch.size(); ++node)
       to[node] = shared ? std::max(to[node], rim[node]) : rim[node];
@@ -165,6 +173,7 @@ std::vector<Patch> patches_of_cells(const RaySheet& sheet, const LightFrame& lig
       }
       for (std::size_t at = 0; at < sheet.rim_squared.size(); at += sheet.count())
         pick(sheet.rim_squared, cell.rim_squared, at);
+      cell.blocks_within = sheet.blocks_within;
       patches.push_back(make_patch(cell, light, frame));
     }
   }

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "contrejour/frame.h"
@@ -16,9 +17,11 @@ namespace contrejour::adaptive {
 struct PatchLayout {
   int crossings = 0;
   int rims = 0;
+  std::uint32_t obscurations = 0;  // bit k: rim k blocks within; its field is 2 less the square
 
   static constexpr int kX = 0, kY = 1, kWeight = 2, kStop = 5;
   [[nodiscard]] int rim(int k) const { return kStop + 2 * crossings + k; }
+  [[nodiscard]] bool is_obscuration(int k) const { return (obscurations >> k & 1U) != 0; }
   [[nodiscard]] int fields() const { return rim(rims); }
 };
 

@@ -75,8 +75,22 @@ RaySheet SheetTracer::trace(const Rectangle& box, int nodes, PacketPrecision pre
     }
     for (std::size_t step = 0; step < steps(); ++step) complete(sheet.rim_squared.data() + step * count, nodes, 1.0F);
   }
+  if (paths_.front().obscured) leave_obscurations_out(sheet);
   sheet.failed = static_cast<int>(std::count(sheet.r_rel.begin(), sheet.r_rel.end(), kFailed));
   return sheet;
+}
+
+// Of relative heights, which searches take to be those of convex openings.
+void SheetTracer::leave_obscurations_out(RaySheet& sheet) const {
+  const std::vector<PathStep>& steps = paths_.front().steps;
+  for (const PathStep& step : steps) sheet.blocks_within.push_back(step.blocks_within);
+  for (std::size_t node = 0; node < sheet.count(); ++node) {
+    if (sheet.r_rel[node] == kFailed) continue;
+    float squared = 0.0F;
+    for (std::size_t k = 0; k < steps.size(); ++k)
+      if (!steps[k].blocks_within) squared = std::max(squared, sheet.rim_squared[k * sheet.count() + node]);
+    sheet.r_rel[node] = std::sqrt(squared);
+  }
 }
 
 void SheetTracer::add_wavelengths(RaySheet& sheet, PacketPrecision precision) {

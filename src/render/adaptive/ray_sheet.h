@@ -26,9 +26,10 @@ struct RaySheet {
   int failed = 0;  // nodes whose ray does not arrive; their values mean nothing
   std::vector<float> sensor_x_mm, sensor_y_mm;
   std::array<std::vector<float>, 3> weight;  // per channel: sum over the passes of gain * transmission
-  std::vector<float> r_rel;                  // infinite where the ray fails
+  std::vector<float> r_rel;                  // infinite where the ray fails; without obscurations
   std::vector<std::array<std::vector<float>, 2>> stop;  // by crossing: x and y over the stop radius
   std::vector<float> rim_squared;            // [step * nodes^2 + node]
+  std::vector<bool> blocks_within;           // by step; empty where none does
 
   [[nodiscard]] std::size_t count() const { return static_cast<std::size_t>(nodes) * static_cast<std::size_t>(nodes); }
 };
@@ -54,6 +55,7 @@ class SheetTracer {
 
  private:
   void lay_out(const RaySheet& sheet, int first_row);
+  void leave_obscurations_out(RaySheet& sheet) const;
   void trace_path(std::size_t k, int first_row, PacketPrecision precision, RaySheet& sheet);
 
   LightFrame light_;

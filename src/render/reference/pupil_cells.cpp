@@ -15,6 +15,7 @@ constexpr double kFailed = std::numeric_limits<double>::infinity();
 constexpr double kLevel = 1e-4;  // of a screen: what is so close to 1 all over a cell needs no smaller ones
 constexpr double kScreenDisc = 1.5;  // of the corners' distance from the middle, for cells that bend
 constexpr double kNoArea = 1e-300;  // pixels: none is divided by
+constexpr double kNearObscuration = 1.5;  // of its radius, from its edge
 constexpr double kUnseen = 0.25;  // of a cut cell's footprint, of what a picture's edge is known to
 
 // What is known of one point of the entrance plane.
@@ -23,7 +24,8 @@ struct Sample {
   Vec2 pixel;
   double transmission = 0.0;
   double blocked = kFailed;  // <= 0 gets through; infinite where the ray failed
-  double outside = kFailed;  // the same for the convex hull of the iris's opening
+  double outside = kFailed;  // the same for the convex hull of the iris's opening, and without obscurations
+  double obscured = -kFailed;  // how deep within an obscuration, over its radius
   std::array<Vec2, kMaxStopCrossings> stop{};  // with a picture's distances there, or behind a screen, in stop radii
   std::array<double, kMaxStopCrossings> distance{};
   std::array<Vec2, kMaxStopCrossings> dirt_mm{};  // where it crosses the dirt's plane
@@ -35,6 +37,7 @@ Sample between(const Sample& a, const Sample& b, double t) {
   Sample s{a.entrance_mm + (b.entrance_mm - a.entrance_mm) * t,
            a.pixel + (b.pixel - a.pixel) * t,
            std::lerp(a.transmission, b.transmission, t),
+           0.0,
            0.0,
            0.0,
            {},
@@ -80,6 +83,7 @@ class CellWalker {
     s.transmission = ray.transmission * light_.flux_at(from);
     s.blocked = blocked_by(ray, path_, iris_);
     s.outside = s.blocked;
+    if (path_.obscured) look_past_obscurations(ray, s);
     if (iris_.field) look_at_picture(ray, s);
     if (screen_ != nullptr)
       for (std::size_t c = 0; c < s.stop.size(); ++c) s.stop[c] = ray.stop[c] * screen_->reach();
@@ -193,9 +197,32 @@ class CellWalker {
     double highest = -kFailed;  // likewise
     double lowest_outside = kFailed, highest_outside = -kFailed;
     double slack = 0.0;  // by so much more may it be between them, if the opening is not convex
-    bool dark = false;  // as a picture is near
+    bool dark = false;  // as a picture is near, or all within an obscuration
+    bool near_obscuration = false;  // something of one may lie between them
     bool some_failed = false;
   };
+
+  void look_past_obscurations(TracedRay ray, Sample& s) const {
+    s.obscured = ray.obscured;
+    ray.obscured = -1.0;
+    s.outside = blocked_by(ray, path_, iris_);
+  }
+
+  // Samples may be within different obscurations, or within one on different ways through it, with light between; less
+  // so the deeper they are, and in what is small it is not seen.
+  void allow_for_obscurations(const Corners& corners, const Sample& middle, Blocking& b) const {
+    double least = middle.obscured, most = middle.obscured;
+    Extent e;
+    for (const Sample& s : corners) {
+      if (!s.traced()) return;
+      least = std::min(least, s.obscured);
+      most = std::max(most, s.obscured);
+      e.add(s.pixel);
+    }
+    const bool small = e.size() < kUnseen * limits_.cut_footprint_px;
+    b.dark = b.dark || least > (small ? 0.0 : most - least);
+    b.near_obscuration = most > -kNearObscuration;
+  }
 
   void look_at_picture(const TracedRay& ray, Sample& s) const {
     s.stop = ray.stop;
@@ -226,6 +253,7 @@ class CellWalker {
   [[nodiscard]] Blocking blocking_of(const Corners& corners, const Sample& middle) const {
     Blocking b;
     if (iris_.field) allow_for_picture(corners, b);
+    if (path_.obscured && middle.traced()) allow_for_obscurations(corners, middle, b);
     for (const Sample* s : {&corners[0], &corners[1], &corners[2], &corners[3], &middle}) {
       if (!s->traced()) {
         b.some_failed = true;
@@ -253,9 +281,10 @@ class CellWalker {
     return 2.0 * middle.outside - b.highest_outside <= std::ldexp(b.highest_outside - b.lowest_outside, -depth);
   }
 
-  // No ray of a cell between dark parts of a picture gets through, and what might is not seen.
+  // No ray of a cell between dark parts of a picture, or an obscuration and a rim, gets through, and what might is not
+  // seen.
   [[nodiscard]] bool is_dark_and_small(const Corners& corners, const Blocking& b) const {
-    if (!iris_.field || b.some_failed || b.lowest <= 0.0 || b.lowest_outside > 0.0) return false;
+    if ((!iris_.field && !path_.obscured) || b.some_failed || b.lowest <= 0.0 || b.lowest_outside > 0.0) return false;
     Extent e;
     for (const Sample& s : corners) e.add(s.pixel);
     return e.size() < kUnseen * limits_.cut_footprint_px && b.slack < kUnseen * IrisField::kTolerance;
@@ -293,7 +322,8 @@ class CellWalker {
     if (e.size() > limits_.screen_footprint_px && screen_part(corners, middle) == ScreenPart::Varied) return true;
     if (e.size() > limits_.dirt_footprint_px && is_dirty(corners, middle)) return true;
     const bool is_cut = blocking.highest > -blocking.slack;
-    if (e.size() > (is_cut ? limits_.cut_footprint_px : limits_.footprint_px)) return true;
+    const bool is_fine = is_cut || blocking.near_obscuration;
+    if (e.size() > (is_fine ? limits_.cut_footprint_px : limits_.footprint_px)) return true;
     // However small its image, a cell that an edge cuts must hold an all but straight piece of it.
     const double bow = std::abs(middle.blocked - mean_blocked);
     if (is_cut && bow > limits_.edge_bend * (blocking.highest - blocking.lowest)) return true;

@@ -4,12 +4,14 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <optional>
 
 #include <fmt/format.h>
 
 #include "contrejour/lens_starburst.h"
 #include "render/starburst/pupil_dirt.h"
+#include "render/starburst/pupil_outline.h"
 #include "render/starburst/pupil_rays.h"
 #include "render/starburst/smooth_fit.h"
 
@@ -21,8 +23,7 @@ constexpr int kAmplitudeDegree = 4;
 constexpr std::size_t kRaysPerTerm = 3;
 constexpr double kFitBeyond = 0.06;   // relative radii: rays so far outside still shape the borders
 constexpr double kNearRim = 0.05;     // a rim that comes so near to the pupil may cut it somewhere between the rays
-constexpr double kRimShare = 0.1;     // about a rim, where it is looked at as a circle seen from the stop
-constexpr double kOutlineAgrees = 0.15;  // of the area
+constexpr double kObscures = 3.0;  // of an obscuration's radius, less one: small ones may lie between the rays
 constexpr double kUncertain = 0.02;   // relative radii, beside twice the straight model's own error
 constexpr int kFewestSamples = 16, kMostSamples = 4096;
 constexpr std::size_t kKeptRays = 5;
@@ -34,6 +35,7 @@ class Borders {
   Borders(const PupilRays& pupil, const std::vector<std::size_t>& used, std::vector<std::size_t> rims, const Iris& iris,
           int degree)
       : iris_(iris), opening_(iris), rims_(std::move(rims)), exact_(fit(pupil, used, degree)) {
+    for (const std::size_t rim : rims_) blocks_within_.push_back(pupil.blocks_within[rim]);
     const SmoothFit straight = fit(pupil, used, 1);
     for (std::size_t f = 0; f < straight.functions(); ++f) {
       const double at_zero = straight({}, f);
@@ -107,10 +109,10 @@ class Borders {
     return {places, values, degree};
   }
 
-  // How far beyond the iris (0) or a rim (1 and more), relative radii.
+  // How far beyond the iris (0) or a rim (1 and more), or within an obscuration, relative radii.
   [[nodiscard]] double level(const Values& values, std::size_t constraint) const {
     const Vec2 at{values[2 * constraint], values[2 * constraint + 1]};
-    if (constraint > 0) return length(at) - 1.0;
+    if (constraint > 0) return blocks_within_[constraint - 1] ? 1.0 - length(at) : length(at) - 1.0;
     return iris_.field ? iris_distance(iris_, at) : opening_.bound_distance(at);
   }
   [[nodiscard]] double largest(const Values& values) const {
@@ -122,21 +124,23 @@ class Borders {
   const Iris& iris_;
   IrisOpening opening_;
   std::vector<std::size_t> rims_;
+  std::vector<bool> blocks_within_;  // by rim
   SmoothFit exact_;
   std::vector<Straight> straight_;
   double uncertain_ = 0;
   std::size_t values_per_place_ = 0;
 };
 
-// Rims that cut the pupil, or nearly: the outermost rays that the iris lets through decide. At most so many, the
-// closest first.
+// Rims that cut the pupil, or nearly: the outermost rays that the iris lets through decide, or those next to an
+// obscuration's middle. At most so many, the closest first.
 std::vector<std::size_t> vignetting_rims(const PupilRays& pupil) {
   std::vector<std::pair<double, std::size_t>> found;
   for (std::size_t rim = 0; rim < pupil.rims; ++rim) {
     double farthest = 0.0;
     for (std::size_t k = 0; k < pupil.rays.size(); ++k)
       if (pupil.rays[k].arrived && pupil.rays[k].iris < kNearRim)
-        farthest = std::max(farthest, length(pupil.at_rim(rim, k)));
+        farthest = std::max(farthest, pupil.blocks_within[rim] ? kObscures - length(pupil.at_rim(rim, k))
+                                                               : length(pupil.at_rim(rim, k)));
     if (farthest > 1.0 - kNearRim) found.emplace_back(-farthest, rim);
   }
   std::sort(found.begin(), found.end());
@@ -158,62 +162,10 @@ int degree_for(std::size_t rays, int wanted) {
   return wanted;
 }
 
-// The stop's unit vectors in cosines, by the open rays.
-std::array<Vec2, 2> stop_in_cosines(const PupilRays& pupil, const std::vector<std::size_t>& open) {
-  std::vector<Vec2> places;
-  std::vector<double> values;
-  for (const std::size_t k : open) places.push_back(pupil.rays[k].stop);
-  for (const std::size_t k : open) values.push_back(pupil.rays[k].cosines.x);
-  for (const std::size_t k : open) values.push_back(pupil.rays[k].cosines.y);
-  const SmoothFit fit(places, values, 1);
-  const auto step = [&](Vec2 to) { return Vec2{fit(to, 0) - fit({}, 0), fit(to, 1) - fit({}, 1)}; };
-  return {step({1.0, 0.0}), step({0.0, 1.0})};
-}
-
-// A rim as the stop sees it: rays near it, moved onto it along the slope of how far outside they are, and the circle
-// through these places (Kasa 1976: linear in centre and radius squared).
-std::optional<IrisBound> rim_seen_from_stop(const PupilRays& pupil, std::size_t rim) {
-  std::vector<Vec2> stops;
-  std::vector<double> outside;
-  for (std::size_t k = 0; k < pupil.rays.size(); ++k) {
-    const PupilRay& ray = pupil.rays[k];
-    const double beyond = length(pupil.at_rim(rim, k)) - 1.0;
-    if (!ray.arrived || ray.blocked > kRimShare || std::abs(beyond) > kRimShare) continue;
-    stops.push_back(ray.stop);
-    outside.push_back(beyond);
-  }
-  if (stops.size() < kRaysPerTerm * SmoothFit::terms(2)) return std::nullopt;
-  const SmoothFit level(stops, outside, 2);
-  std::vector<double> minus_squares;
-  constexpr double h = 1e-5;
-  for (Vec2& at : stops) {
-    for (int step = 0; step < 2; ++step) {
-      const double here = level(at);
-      const Vec2 slope = Vec2{level(at + Vec2{h, 0.0}) - here, level(at + Vec2{0.0, h}) - here} * (1.0 / h);
-      at = at - slope * (here / std::max(dot(slope, slope), 1e-12));
-    }
-    minus_squares.push_back(-dot(at, at));
-  }
-  const SmoothFit circle(stops, minus_squares, 1);
-  const double at_zero = circle({});
-  IrisBound bound;
-  bound.centre = Vec2{circle({1.0, 0.0}) - at_zero, circle({0.0, 1.0}) - at_zero} * -0.5;
-  bound.radius = std::sqrt(dot(bound.centre, bound.centre) - at_zero);
-  if (!(bound.radius > 0.0) || !std::isfinite(bound.radius)) return std::nullopt;
-  return bound;
-}
-
-// The iris, cut by the rims; none where that is far from the mask, or a picture is the iris.
-std::optional<PupilOutline> outline_of(const PupilRays& pupil, const std::vector<std::size_t>& rims,
-                                       const std::vector<std::size_t>& open, const Iris& iris, double open_area) {
-  if (iris.field) return std::nullopt;
-  std::vector<IrisBound> cuts;
-  for (const std::size_t rim : rims)
-    if (const auto cut = rim_seen_from_stop(pupil, rim)) cuts.push_back(*cut);
-  const auto axes = stop_in_cosines(pupil, open);
-  PupilOutline outline{IrisOpening(iris, cuts), axes[0], axes[1]};
-  if (!(std::abs(outline.area_mm2() / open_area - 1.0) < kOutlineAgrees)) return std::nullopt;
-  return outline;
+std::vector<std::size_t> open_rays(const PupilRays& pupil) {
+  std::vector<std::size_t> open = rays_within(pupil, 0.0);
+  std::erase_if(open, [&](std::size_t k) { return pupil.rays[k].obscured > 0.0; });
+  return open;
 }
 
 // Between the rays: an open ray's neighbours may be the last before the border.
@@ -312,7 +264,7 @@ Result<void> check(const LensState& lens, const LightSource& light, double lambd
 ExitPupil pupil_of(const PupilRays& pupil, const LensState& lens, const LightSource& light, int samples_across,
                    const Context& context) {
   ExitPupil out;
-  const std::vector<std::size_t> open = rays_within(pupil, 0.0), used = rays_within(pupil, kFitBeyond);
+  const std::vector<std::size_t> open = open_rays(pupil), used = rays_within(pupil, kFitBeyond);
   const int degree = degree_for(used.size(), kDegree);
   if (open.size() < kRaysPerTerm * SmoothFit::terms(1) || degree < 1) return out;
   const std::vector<std::size_t> rims = vignetting_rims(pupil);
@@ -335,7 +287,7 @@ ExitPupil pupil_of(const PupilRays& pupil, const LensState& lens, const LightSou
   for (const float share : out.mask.amplitude) open_samples += share;
   if (!(open_samples > 0.0)) return {};
   const double open_area = open_samples * out.mask.grid.pitch_mm * out.mask.grid.pitch_mm;
-  out.outline = outline_of(pupil, rims, open, lens.iris, open_area);
+  out.outline = outline_of(pupil, {rims, open, used}, lens.iris, open_area);
   const double power_mm2 =
       shade(amplitude_of(pupil, used, light.shared_flux()), out.outline ? out.outline->area_mm2() : open_area, out);
   add_dirt(lens, light, pupil, used, degree, power_mm2, out);

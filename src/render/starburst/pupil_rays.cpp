@@ -37,6 +37,7 @@ PupilRay trace_one(const OpticalPath& path, const IrisOpening& iris, const Ray& 
   ray.transmission = record.ray.transmission;
   ray.iris = iris.bound_distance(ray.stop);
   ray.blocked = std::max(ray.iris, record.ray.r_rel - 1.0);
+  ray.obscured = record.ray.obscured;
   std::size_t rim = 0;
   for (std::size_t k = 0; k < path.steps.size(); ++k) {
     if (path.steps[k].event == PathEvent::Stop) continue;
@@ -57,6 +58,8 @@ std::optional<PupilRays> trace_pupil(const LensState& lens, const IrisOpening& i
   pupil.side = kSide;
   pupil.z_mm = entrance_window(lens, light).z_mm;
   pupil.rims = path.steps.size() - static_cast<std::size_t>(path.stop_crossings);
+  for (const PathStep& step : path.steps)
+    if (step.event != PathEvent::Stop) pupil.blocks_within.push_back(step.blocks_within);
   pupil.rays.resize(static_cast<std::size_t>(kSide) * kSide);
   pupil.rim_places.resize(pupil.rims * pupil.rays.size());
   const Vec2 step = (box->high - box->low) * (1.0 / (kSide - 1));

@@ -19,6 +19,7 @@ struct PupilRay {
   double transmission = 0;  // times LightSource::flux_at
   double iris = 0;      // distance from the iris's edge in stop radii, negative inside
   double blocked = 0;   // the largest of that and every rim's r_rel - 1
+  double obscured = -1; // TracedRay::obscured
 };
 
 struct PupilRays {
@@ -27,6 +28,7 @@ struct PupilRays {
   std::vector<PupilRay> rays;    // [row * side + column]
   std::vector<Vec2> rim_places;  // [rim * rays.size() + ray]: over the clear radius, of every refracting surface
   std::size_t rims = 0;
+  std::vector<bool> blocks_within;  // by rim: it is an obscuration's
 
   [[nodiscard]] Vec2 at_rim(std::size_t rim, std::size_t ray) const { return rim_places[rim * rays.size() + ray]; }
 };

@@ -152,6 +152,15 @@ bool PrimitiveBuilder::is_flat(const RayGrid& grid, int step, int ix, int iy) co
   return true;
 }
 
+// Likewise, whether the nine vertices pass all rims and obscurations: what lies between is found by interpolation from
+// the corners alone.
+bool PrimitiveBuilder::is_open(const RayGrid& grid, int step, int ix, int iy) const {
+  const int half = 1 << (step - 1);
+  for (int k = 0; k < 9; ++k)
+    if (grid.r_rel[grid.at((2 * ix + k % 3) * half, (2 * iy + k / 3) * half)] > 1.0F) return false;
+  return true;
+}
+
 void PrimitiveBuilder::merge(const RayGrid& grid) {
   for (int step = 1; step <= merge_steps_; ++step) {
     const Level& finer = levels_[static_cast<std::size_t>(step) - 1];
@@ -169,7 +178,7 @@ void PrimitiveBuilder::merge(const RayGrid& grid) {
         const std::array<std::size_t, 4> corners{grid.at(ix * size, iy * size), grid.at((ix + 1) * size, iy * size),
                                                  grid.at((ix + 1) * size, (iy + 1) * size),
                                                  grid.at(ix * size, (iy + 1) * size)};
-        if (!is_convex(corners)) continue;
+        if (!is_convex(corners) || (grid.is_obscured() && !is_open(grid, step, ix, iy))) continue;
         level.is_whole[level.at(ix, iy)] = 1;
         level.flux[level.at(ix, iy)] =
             (finer.flux[parts[0]] + finer.flux[parts[1]]) + (finer.flux[parts[2]] + finer.flux[parts[3]]);

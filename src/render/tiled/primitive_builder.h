@@ -50,6 +50,7 @@ class PrimitiveBuilder {
   void find_irradiance(const RayGrid& grid);
   void merge(const RayGrid& grid);
   [[nodiscard]] bool is_flat(const RayGrid& grid, int step, int ix, int iy) const;
+  [[nodiscard]] bool is_open(const RayGrid& grid, int step, int ix, int iy) const;
   [[nodiscard]] double twice_area(std::size_t i, std::size_t j, std::size_t k) const;
   [[nodiscard]] bool is_convex(const std::array<std::size_t, 4>& corners) const;
 

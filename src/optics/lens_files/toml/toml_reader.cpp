@@ -129,7 +129,7 @@ void Reader::read_surfaces(TomlFields& fields) {
 void Reader::read_surface(const toml::table& row, bool last) {
   TomlFields fields(row, fmt::format("surface {}", lens.surfaces.size() + 1),
                     {"radius_mm", "curvature_per_mm", "thickness_mm", "semi_diameter_mm", "glass", "coating",
-                     "stop", "conic", "asphere", "toroid", "biconic", "ellipse", "rectangle", "decentre_mm", "tilt_deg", "axis"},
+                     "stop", "conic", "asphere", "toroid", "biconic", "ellipse", "rectangle", "obscuration", "decentre_mm", "tilt_deg", "axis"},
                     errors);
   Surface surface;
   surface.source_line = line_of(row);
@@ -142,6 +142,7 @@ void Reader::read_surface(const toml::table& row, bool last) {
                 "the last surface has no thickness_mm: the sensor stands where the lens focuses; what the source "
                 "says goes under [stated] as back_focal_distance_mm");
   }
+  surface.obscuration = read_obscuration(fields, errors);
   if (fields.has("stop")) {
     read_stop(fields, surface);
   } else {

@@ -3,6 +3,7 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <optional>
 
 #include <fmt/format.h>
 
@@ -140,6 +141,34 @@ void read_group(const toml::table& table, std::size_t index, std::vector<Surface
   if (!errors.failed()) carry(group, surfaces);
 }
 
+// Of a rim or of what stands in the way within it.
+struct Outline {
+  Vec2 half_mm, centre_mm;
+  double turn_rad = 0.0;
+};
+
+std::optional<Outline> read_outline(TomlFields& row, std::string_view name, const std::string& sides,
+                                    TomlErrors& errors) {
+  const toml::table* table = row.table(name);
+  if (table == nullptr) return std::nullopt;
+  TomlFields fields(*table, row.what() + ", " + std::string(name), {sides, "centre_mm", "turn_deg", "turn_rad"},
+                    errors);
+  if (!fields.has(sides)) fields.fail_here(fmt::format("give {} = [x, y]", sides));
+  Outline outline;
+  outline.half_mm = read_pair(fields, sides);
+  outline.centre_mm = read_pair(fields, "centre_mm");
+  outline.turn_rad = read_turn(fields);
+  return outline;
+}
+
+std::string outline_text(std::string_view name, std::string_view sides, const Outline& outline) {
+  const auto pair = [](Vec2 v) { return fmt::format("[{}, {}]", number(v.x), number(v.y)); };
+  std::string out = fmt::format(", {} = {{ {} = {}", name, sides, pair(outline.half_mm));
+  if (!(outline.centre_mm == Vec2{})) out += ", centre_mm = " + pair(outline.centre_mm);
+  if (outline.turn_rad != 0.0) out += ", " + turn_text(outline.turn_rad);
+  return out + " }";
+}
+
 }  // namespace
 
 double read_curvature(TomlFields& fields, const std::string& suffix) {
@@ -185,22 +214,19 @@ SurfaceShape read_shape(TomlFields& row, TomlErrors& errors) {
 }
 
 ClearAperture read_aperture(TomlFields& row, TomlErrors& errors) {
-  ClearAperture aperture;
   if (row.has("ellipse") && row.has("rectangle")) row.fail_here("a rim is an ellipse or a rectangle, not both");
-  const auto read = [&](std::string_view name, const std::string& sides, ApertureKind kind) {
-    const toml::table* table = row.table(name);
-    if (table == nullptr) return;
-    TomlFields fields(*table, row.what() + ", " + std::string(name), {sides, "centre_mm", "turn_deg", "turn_rad"},
-                      errors);
-    aperture.kind = kind;
-    if (!fields.has(sides)) fields.fail_here(fmt::format("give {} = [x, y]", sides));
-    aperture.half_mm = read_pair(fields, sides);
-    aperture.centre_mm = read_pair(fields, "centre_mm");
-    aperture.turn_rad = read_turn(fields);
+  ClearAperture aperture;
+  const auto take = [&](const std::optional<Outline>& outline, ApertureKind kind) {
+    if (outline) aperture = {kind, outline->half_mm, outline->centre_mm, outline->turn_rad};
   };
-  read("ellipse", "semi_axes_mm", ApertureKind::Ellipse);
-  read("rectangle", "half_sides_mm", ApertureKind::Rectangle);
+  take(read_outline(row, "ellipse", "semi_axes_mm", errors), ApertureKind::Ellipse);
+  take(read_outline(row, "rectangle", "half_sides_mm", errors), ApertureKind::Rectangle);
   return aperture;
+}
+
+Obscuration read_obscuration(TomlFields& row, TomlErrors& errors) {
+  const auto outline = read_outline(row, "obscuration", "semi_axes_mm", errors);
+  return outline ? Obscuration{outline->half_mm, outline->centre_mm, outline->turn_rad} : Obscuration{};
 }
 
 SurfacePose read_pose(TomlFields& fields, TomlErrors& errors) {
@@ -260,14 +286,17 @@ std::string shape_text(const SurfaceShape& shape) {
 }
 
 std::string aperture_text(const ClearAperture& aperture) {
-  if (aperture.kind == ApertureKind::Disc) return {};
-  const auto pair = [](Vec2 v) { return fmt::format("[{}, {}]", number(v.x), number(v.y)); };
-  std::string out =
-      aperture.kind == ApertureKind::Ellipse ? ", ellipse = { semi_axes_mm = " : ", rectangle = { half_sides_mm = ";
-  out += pair(aperture.half_mm);
-  if (!(aperture.centre_mm == Vec2{})) out += ", centre_mm = " + pair(aperture.centre_mm);
-  if (aperture.turn_rad != 0.0) out += ", " + turn_text(aperture.turn_rad);
-  return out + " }";
+  const Outline outline{aperture.half_mm, aperture.centre_mm, aperture.turn_rad};
+  switch (aperture.kind) {
+    case ApertureKind::Disc: return {};
+    case ApertureKind::Ellipse: return outline_text("ellipse", "semi_axes_mm", outline);
+    case ApertureKind::Rectangle: return outline_text("rectangle", "half_sides_mm", outline);
+  }
+  return {};
+}
+
+std::string obscuration_text(const Obscuration& o) {
+  return o.any() ? outline_text("obscuration", "semi_axes_mm", {o.half_mm, o.centre_mm, o.turn_rad}) : std::string();
 }
 
 std::string pose_text(const SurfacePose& pose) {

@@ -14,6 +14,7 @@ namespace contrejour {
 // From a row's conic, asphere, toroid, biconic; from its or a group's decentre_mm, tilt_deg, axis.
 [[nodiscard]] SurfaceShape read_shape(TomlFields& row, TomlErrors& errors);
 [[nodiscard]] ClearAperture read_aperture(TomlFields& row, TomlErrors& errors);  // ellipse, rectangle
+[[nodiscard]] Obscuration read_obscuration(TomlFields& row, TomlErrors& errors);
 [[nodiscard]] SurfacePose read_pose(TomlFields& fields, TomlErrors& errors);
 
 // 1 / radius_mm, or curvature_per_mm; the one key or the other, with a prefix for that of another section ("_x").
@@ -25,6 +26,7 @@ void read_groups(TomlFields& lens, std::vector<Surface>& surfaces, TomlErrors& e
 // What stands behind a row's radius, ", conic = -1" and so on.
 [[nodiscard]] std::string shape_text(const SurfaceShape& shape);
 [[nodiscard]] std::string aperture_text(const ClearAperture& aperture);
+[[nodiscard]] std::string obscuration_text(const Obscuration& obscuration);
 [[nodiscard]] std::string pose_text(const SurfacePose& pose);
 
 // "radius_mm = 30.81", or with a suffix "radius_x_mm = ...", in as few digits as give the same curvature.

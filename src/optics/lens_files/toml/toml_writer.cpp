@@ -125,7 +125,7 @@ std::string surface_row(const Surface& surface, bool last, MediaTable& glasses, 
   if (!last) row += ", thickness_mm = " + number(surface.thickness_mm);
   row +=
       ", semi_diameter_mm = " + number(surface.semi_diameter_mm) + shape_text(surface.shape) +
-      aperture_text(surface.aperture) + pose_text(surface.pose);
+      aperture_text(surface.aperture) + obscuration_text(surface.obscuration) + pose_text(surface.pose);
   if (surface.kind == SurfaceKind::Refracting) {
     if (!(surface.glass_after == air())) row += ", glass = " + glasses.reference(surface.glass_after);
     if (!std::holds_alternative<Bare>(surface.coating.films)) {
