@@ -10,6 +10,7 @@
 #include "cli/console.h"
 #include "cli/lens_choice.h"
 #include "cli/options.h"
+#include "cli/section.h"
 #include "cli/text_table.h"
 #include "contrejour/first_order.h"
 #include "contrejour/seidel.h"
@@ -196,11 +197,12 @@ std::string surfaces_text(const Info& info) {
   for (std::size_t k = 0; k < info.state.surfaces.size(); ++k) {
     const SurfaceState& s = info.state.surfaces[k];
     const bool stop = s.kind == SurfaceKind::Stop;
+    const double semi_mm = stop ? info.state.stop_radius_mm : s.semi_diameter_mm;
     const std::string radius = s.curvature_per_mm == 0.0 ? "plane" : fmt::format("{:.4f}", 1.0 / s.curvature_per_mm);
     std::vector<std::string> row{fmt::format("{}", k + 1),
                                  s.kind == SurfaceKind::Refracting ? radius : kind_name(s.kind),
                                  fmt::format("{:.4f}", thickness_mm(info.state, k)),
-                                 fmt::format("{:.3f}", stop ? info.state.stop_radius_mm : s.semi_diameter_mm),
+                                 has_real_rim(info.state, s) ? fmt::format("{:.3f}", semi_mm) : "",
                                  glass_name(s.after),
                                  fmt::format("{:.6f}", refractive_index(s.after, info.lambda_nm)),
                                  stop ? "" : describe(s.coating)};

@@ -86,16 +86,19 @@ void set_bounds(Section& section) {
   section.half_height_mm = 1.06 * highest;
 }
 
-// Plates before the sensor have rims wider than any light needs (SensorStack); they are drawn as large as the sensor.
+// What has no real rim is drawn as large as the sensor.
 LensState as_drawn(LensState lens) {
-  constexpr double kNoRealRim = 20.0;  // half diagonals
-  const double sensor_mm = half_diagonal_mm(lens);
   for (SurfaceState& s : lens.surfaces)
-    if (s.semi_diameter_mm > kNoRealRim * sensor_mm) s.semi_diameter_mm = sensor_mm;
+    if (!has_real_rim(lens, s)) s.semi_diameter_mm = half_diagonal_mm(lens);
   return lens;
 }
 
 }  // namespace
+
+bool has_real_rim(const LensState& lens, const SurfaceState& surface) {
+  constexpr double kFarBeyond = 20.0;  // half diagonals
+  return surface.semi_diameter_mm <= kFarBeyond * half_diagonal_mm(lens);
+}
 
 double drawn_height_mm(const SurfaceState& surface) {
   constexpr double kNearlyHalfSphere = 0.9999;

@@ -32,6 +32,9 @@ struct Section {
   double left_mm = 0, right_mm = 0, half_height_mm = 0;
 };
 
+// Plates before the sensor have rims wider than any light needs (SensorStack), which are none to speak of.
+[[nodiscard]] bool has_real_rim(const LensState& lens, const SurfaceState& surface);
+
 struct SectionRequest {
   double lambda_nm = kLineD_nm;
   std::optional<Ghost> ghost;

@@ -46,7 +46,7 @@ struct PupilOutline {
   IrisOpening opening{Iris{}};
   Vec2 x_mm, y_mm;
   std::shared_ptr<const PupilDirt> dirt = nullptr;  // null: none, or none that has shapes
-  std::vector<double> obscured_mm2;  // areas in the mask's plane of discs within the opening that are dark
+  std::vector<double> obscured_mm2 = {};  // areas in the mask's plane of discs within the opening that are dark
 
   // Of what is open.
   [[nodiscard]] double area_mm2() const {
