@@ -13,6 +13,7 @@
 
 #include <hwy/highway.h>
 
+#include "kernels/inline_if_fast.h"
 #include "kernels/shape_constants.h"
 #include "kernels/surface-inl.h"
 
@@ -132,7 +133,8 @@ inline constexpr double kSettled = 1e-9;
 // From the place on the plane of the vertex, in the surface's own frame. The root taken is that of the sphere's
 // formula, on the vertex's side and passed in the direction of the path, ahead of the ray or behind it.
 template <ShapeKind kKind, class T>
-HWY_INLINE Hit<T> search(const Ray3<T>& from, const ShapeConstants& s, T direction, const NewtonLimits& limits) {
+CONTREJOUR_INLINE_IF_FAST Hit<T> search(const Ray3<T>& from, const ShapeConstants& s, T direction,
+                                        const NewtonLimits& limits) {
   const T zero(0.0);
   const T sx(s.start_x), sy(s.start_y), sz(s.start_z);
   const T a = sx * from.dx * from.dx + sy * from.dy * from.dy + sz * from.dz * from.dz;

@@ -7,6 +7,7 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#include "kernels/inline_if_fast.h"
 #include "kernels/packet-inl.h"
 #include "kernels/quick_packet-inl.h"
 #include "optics/trace/meeting-inl.h"
@@ -47,7 +48,7 @@ HWY_INLINE void turn_by_grating(Clearance<P>& s, const PacketStep& step) {
 
 // Rays that fail go on as numbers of no meaning.
 template <PathGeometry kGeometry, class P>
-HWY_INLINE void advance(Clearance<P>& s, const PacketStep& step) {
+CONTREJOUR_INLINE_IF_FAST void advance(Clearance<P>& s, const PacketStep& step) {
   const P direction(step.direction);
   hk::OwnPlace<P> own;
   const auto hit = meet<kGeometry>(s.ray, step, own);

@@ -11,6 +11,7 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#include "kernels/inline_if_fast.h"
 #include "kernels/packet-inl.h"
 #include "optics/trace/meeting-inl.h"
 
@@ -61,7 +62,8 @@ HWY_INLINE void turn_by_grating(PacketState<P>& s, const PacketStep& step) {
 
 // One packet over one surface. Rays that fail go on as numbers of no meaning with alive = 0.
 template <PathGeometry kGeometry, class P>
-HWY_INLINE void advance(PacketState<P>& s, const PacketStep& step, const float* tables, float* rim_squared) {
+CONTREJOUR_INLINE_IF_FAST void advance(PacketState<P>& s, const PacketStep& step, const float* tables,
+                                       float* rim_squared) {
   const P zero(0.0);
   const P one(1.0);
   const P direction(step.direction);
@@ -152,8 +154,8 @@ HWY_INLINE PacketState<P> enter(const PacketStart& start, const float* x_mm, con
 
 // The rays that start at index `at` of the arrays, as many as a packet holds.
 template <PathGeometry kGeometry, class P>
-HWY_INLINE void trace_one(const PacketPath& path, const float* x_mm, const float* y_mm, std::size_t at,
-                          const TracedArrays& out) {
+CONTREJOUR_INLINE_IF_FAST void trace_one(const PacketPath& path, const float* x_mm, const float* y_mm, std::size_t at,
+                                         const TracedArrays& out) {
   PacketState<P> s = enter<P>(path.start(), x_mm + at, y_mm + at);
   float* rim_squared = out.rim_squared != nullptr ? out.rim_squared + at : nullptr;
   for (const PacketStep& step : path.steps()) {

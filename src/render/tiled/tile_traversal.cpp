@@ -12,6 +12,7 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#include "kernels/inline_if_fast.h"
 #include "kernels/packet-inl.h"
 // After packet-inl.h, whose functions its templates use.
 #include "kernels/barycentric-inl.h"
@@ -66,7 +67,8 @@ HWY_INLINE Mask passes(const IrisShape& iris, P x, P y, P total) {
 }
 
 // Which pixels no rim and no crossing of the iris blocks.
-HWY_INLINE Mask unblocked(const TraversalInput& input, const Primitive& p, const hk::Weights<P>& weights) {
+CONTREJOUR_INLINE_IF_FAST Mask unblocked(const TraversalInput& input, const Primitive& p,
+                                         const hk::Weights<P>& weights) {
   Mask open = hn::Le(interpolate(weights, p.r_rel).v, weights.total.v);
   if (p.crossings == 0) return open;
   open =
@@ -92,8 +94,8 @@ HWY_INLINE double pixel_at_stop(const Primitive& p, const StopPlaces& places) {
 }
 
 // What a screen lets through of each pixel's light, one after the other.
-HWY_INLINE P screened(const TraversalInput& input, const Primitive& p, const StopScreen& screen,
-                      const hk::Weights<P>& weights, Mask inside) {
+CONTREJOUR_INLINE_IF_FAST P screened(const TraversalInput& input, const Primitive& p, const StopScreen& screen,
+                                     const hk::Weights<P>& weights, Mask inside) {
   const P::Tag d;
   constexpr std::size_t kLanes = HWY_MAX_BYTES / sizeof(float);
   HWY_ALIGN std::array<float, kLanes> wanted, share;
@@ -114,7 +116,8 @@ HWY_INLINE P screened(const TraversalInput& input, const Primitive& p, const Sto
 }
 
 // What dirt lets through of each pixel's light, likewise: where it crosses the stop, or the front.
-HWY_INLINE P past_dirt(const TraversalInput& input, const Primitive& p, const hk::Weights<P>& weights, Mask inside) {
+CONTREJOUR_INLINE_IF_FAST P past_dirt(const TraversalInput& input, const Primitive& p, const hk::Weights<P>& weights,
+                                      Mask inside) {
   const P::Tag d;
   constexpr std::size_t kLanes = HWY_MAX_BYTES / sizeof(float);
   HWY_ALIGN std::array<float, kLanes> share, x, y;
@@ -143,7 +146,7 @@ HWY_INLINE float least_on_edge(const Primitive& p, std::size_t i) {
 }
 
 template <template <class> class Method>
-HWY_INLINE void add_primitive(const TraversalInput& input, const Primitive& p, TilePixels& tile) {
+CONTREJOUR_INLINE_IF_FAST void add_primitive(const TraversalInput& input, const Primitive& p, TilePixels& tile) {
   const P::Tag d;
   const std::size_t lanes = hn::Lanes(d);
   const int width = tile.pixels.x1 - tile.pixels.x0 + 1;
