@@ -92,12 +92,14 @@ class GlassCatalogue {
                                                 std::span<const std::string> makers = {}, bool obsolete = false) const;
 
  private:
-  friend GlassCatalogue bundled_glasses();
+  friend const GlassCatalogue& bundled_glasses();
+  static GlassCatalogue read_bundled();
   struct Row;
   std::vector<Row> rows_;
 };
 
-// The catalogue that comes with the library, read from its text: a millisecond or two, so keep it.
-[[nodiscard]] GlassCatalogue bundled_glasses();
+// The catalogue that comes with the library: read from its text when it is first asked for, some milliseconds, and the
+// same for all who ask.
+[[nodiscard]] const GlassCatalogue& bundled_glasses();
 
 }  // namespace contrejour

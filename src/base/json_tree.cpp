@@ -119,18 +119,25 @@ std::string without_pythons_words(std::string_view text) {
       {"-Infinity", kMinusInfinity}, {"Infinity", kInfinity}, {"NaN", kNan}};
   std::string out;
   out.reserve(text.size() + 64);
+  // From one character that may matter to the next: a quote, or outside quotes a word's first.
   bool quoted = false;
-  for (std::size_t k = 0; k < text.size(); ++k) {
+  for (std::size_t k = 0; k < text.size();) {
+    const std::size_t at = std::min(text.find_first_of(quoted ? "\"\\" : "\"-IN", k), text.size());
+    out += text.substr(k, at - k);
+    k = at;
+    if (k == text.size()) break;
+    const std::string_view rest = text.substr(k);
     const auto word = std::find_if(std::begin(kWords), std::end(kWords),
-                                   [&](const auto& w) { return !quoted && text.substr(k).starts_with(w.first); });
+                                   [&](const auto& w) { return !quoted && rest.starts_with(w.first); });
     if (word != std::end(kWords)) {
       out += word->second;
-      k += word->first.size() - 1;
+      k += word->first.size();
       continue;
     }
-    out += text[k];
-    if (text[k] == '"') quoted = !quoted;
-    if (quoted && text[k] == '\\' && k + 1 < text.size()) out += text[++k];
+    if (rest.front() == '"') quoted = !quoted;
+    const std::size_t taken = rest.front() == '\\' ? std::min<std::size_t>(2, rest.size()) : 1;
+    out += rest.substr(0, taken);
+    k += taken;
   }
   return out;
 }

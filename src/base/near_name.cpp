@@ -46,6 +46,9 @@ std::string nearest_name(std::string_view name, const std::vector<std::string_vi
     const std::string lower = lower_case(candidate);
     // A name that begins or ends the other one ("radius" for "radius_mm") is near at any length.
     const bool part = name.size() >= 3 && lower.find(wanted) != std::string::npos;
+    // Lengths that differ by more are farther apart than the best so far.
+    const auto difference = std::max(lower.size(), wanted.size()) - std::min(lower.size(), wanted.size());
+    if (!part && difference > static_cast<std::size_t>(best_distance)) continue;
     const int distance = part ? 0 : edit_distance(wanted, lower);
     if (distance < best_distance || (distance == best_distance && best.empty())) {
       best_distance = distance;

@@ -65,7 +65,7 @@ void GlassCatalogue::add(const GlassCatalogue& other) {
   rows_.insert(rows_.end(), other.rows_.begin(), other.rows_.end());
 }
 
-GlassCatalogue bundled_glasses() {
+GlassCatalogue GlassCatalogue::read_bundled() {
   GlassCatalogue catalogue;
   for (const BundledGlassFile& file : bundled_glass_files()) {
     const std::string maker = maker_of_bundled(file.name);
@@ -77,6 +77,11 @@ GlassCatalogue bundled_glasses() {
     });
   }
   return catalogue;
+}
+
+const GlassCatalogue& bundled_glasses() {
+  static const GlassCatalogue kBundled = GlassCatalogue::read_bundled();
+  return kBundled;
 }
 
 std::size_t GlassCatalogue::size() const { return rows_.size(); }

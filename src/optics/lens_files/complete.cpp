@@ -33,7 +33,7 @@ Result<void> size_for_beam(Prescription& lens, const Beam& beam, const std::vect
     surface.semi_diameter_mm = kNoRim_mm;
     surface.aperture = {};
   }
-  const auto state = lens_at(pinhole);
+  const auto state = lens_at(pinhole, without_films());
   if (!state) return tl::unexpected(state.error());
   const double lambda_nm = state->design_wavelength_nm;
   const Abcd to_stop = abcd_between(state->surfaces, 0, state->stop_index, lambda_nm);
@@ -125,7 +125,7 @@ class RimFitter {
 Result<double> widest_f_number(Prescription lens) {
   constexpr double kWiderThanAny = 0.5;
   lens.f_number = kWiderThanAny;
-  const auto state = lens_at(lens);
+  const auto state = lens_at(lens, without_films());
   if (!state) return tl::unexpected(state.error());
   return state->f_number;
 }
@@ -134,7 +134,7 @@ Result<double> widest_f_number(Prescription lens) {
 Result<double> stop_opening_mm(Prescription lens) {
   constexpr double kWide_mm = 1e4;
   lens.surfaces[stop_of(lens)].semi_diameter_mm = kWide_mm;
-  const auto state = lens_at(lens);
+  const auto state = lens_at(lens, without_films());
   if (!state) return tl::unexpected(state.error());
   return state->stop_radius_mm;
 }

@@ -13,6 +13,9 @@ struct Beam {
   double half_field_rad = 0;     // of a distant object
 };
 
+// For questions that films have no part in: to design those of a coating takes milliseconds.
+[[nodiscard]] inline LensSettings without_films() { return {.coating = Coating{}}; }
+
 // What is left of a semi-diameter that a file tells; less, and its other numbers are wrong.
 inline constexpr double kLeastShare = 0.75;
 

@@ -35,9 +35,8 @@ Result<Glass> GlassFinder::look_for(std::string_view name, std::span<const std::
   Result<CatalogueEntry> found = failure(ErrorCode::InvalidArgument, "");
   if (own_ != nullptr) found = own_->find(name, makers);
   if (!found) {
-    if (!bundled_) bundled_ = bundled_glasses();
-    found = bundled_->find(name, makers);
-    if (const auto usual = usual_name(name); !found && usual != name) found = bundled_->find(usual, makers);
+    found = bundled_glasses().find(name, makers);
+    if (const auto usual = usual_name(name); !found && usual != name) found = bundled_glasses().find(usual, makers);
   }
   if (!found) return tl::unexpected(found.error());
   found->glass.name = name;

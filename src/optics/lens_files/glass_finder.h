@@ -2,7 +2,6 @@
 #pragma once
 
 #include <map>
-#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -11,8 +10,7 @@
 
 namespace contrejour {
 
-// One for the reading of one file: the bundled catalogue is loaded when a name is first asked for that is not
-// elsewhere, and each name is looked for once.
+// One for the reading of one file: each name is looked for once.
 class GlassFinder {
  public:
   explicit GlassFinder(const GlassCatalogue* own = nullptr) : own_(own) {}
@@ -26,7 +24,6 @@ class GlassFinder {
   [[nodiscard]] Result<Glass> look_for(std::string_view name, std::span<const std::string> makers);
 
   const GlassCatalogue* own_;
-  std::optional<GlassCatalogue> bundled_;
   std::map<std::string, Result<Glass>> found_;  // by name and makers
 };
 

@@ -53,9 +53,9 @@ ClearAperture aperture_in_turned(const ClearAperture& aperture, double turn_rad)
   return own;
 }
 
-std::optional<CataloguedName> GlassNamer::name_of(const Glass& glass) const {
+std::optional<CataloguedName> catalogued_name(const Glass& glass) {
   if (glass.name.empty() || !std::holds_alternative<CatalogueGlass>(glass.dispersion)) return std::nullopt;
-  const auto found = catalogue_.find(glass.name);
+  const auto found = bundled_glasses().find(glass.name);
   if (!found || !(found->glass.dispersion == glass.dispersion)) return std::nullopt;
   return CataloguedName{found->summary.name, found->summary.maker};
 }

@@ -35,14 +35,7 @@ struct Tilts {
 struct CataloguedName {
   std::string name, maker;
 };
-class GlassNamer {
- public:
-  GlassNamer() : catalogue_(bundled_glasses()) {}
-  [[nodiscard]] std::optional<CataloguedName> name_of(const Glass& glass) const;
-
- private:
-  GlassCatalogue catalogue_;
-};
+[[nodiscard]] std::optional<CataloguedName> catalogued_name(const Glass& glass);
 
 // From the last vertex to the sensor: as the lens has it, else the paraxial focus; one for each position of a zoom, or
 // one. Errors: those of lens_at.

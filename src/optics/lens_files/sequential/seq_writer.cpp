@@ -136,7 +136,7 @@ class Writer {
 
   std::string glass_text(const Glass& glass) {
     if (is_air(glass)) return {};
-    if (const auto named = namer_.name_of(glass)) {
+    if (const auto named = catalogued_name(glass)) {
       std::string name;
       for (const char c : named->name)
         if (std::isalnum(static_cast<unsigned char>(c)) != 0) name += c;
@@ -241,7 +241,6 @@ class Writer {
 
   const Prescription& lens_;
   WrittenLens written_;
-  GlassNamer namer_;
   GlassFinder finder_;
   std::vector<std::pair<std::string, Glass>> own_;  // by the name that they get here
 };

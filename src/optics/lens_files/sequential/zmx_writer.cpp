@@ -60,7 +60,7 @@ class Writer {
 
   void collect_makers() {
     for (const Surface& surface : lens_.surfaces) {
-      const auto named = namer_.name_of(surface.glass_after);
+      const auto named = catalogued_name(surface.glass_after);
       if (named && std::find(makers_.begin(), makers_.end(), named->maker) == makers_.end())
         makers_.push_back(named->maker);
     }
@@ -213,7 +213,7 @@ class Writer {
   [[nodiscard]] std::string glass_row(const Surface& s) {
     const Glass& glass = s.glass_after;
     if (is_air(glass)) return {};
-    if (const auto named = namer_.name_of(glass)) {
+    if (const auto named = catalogued_name(glass)) {
       const auto again = finder_.find(named->name, makers_);
       if (again && again->dispersion == glass.dispersion)
         return fmt::format("  GLAS {} 0 0 {:.6g} {:.6g} 0 0 0 0 0 0\n", named->name, refractive_index(glass, kLineD_nm),
@@ -276,7 +276,6 @@ class Writer {
 
   const Prescription& lens_;
   WrittenLens written_;
-  GlassNamer namer_;
   GlassFinder finder_;
   std::vector<std::string> makers_;
   std::string rows_;
