@@ -94,6 +94,23 @@ TEST_CASE("a ray-optics file in every detail") {
   check_round_trip(lens);
 }
 
+TEST_CASE("ray-optics' apertures: the first that is none of an obscuration, turned") {
+  const std::string obscuration = object("Circular", R"("radius": 2.0, "is_obscuration": true)") + ", ";
+  const std::string turned =
+      object("Elliptical", R"("x_half_width": 9.0, "y_half_width": 6.0, "rotation": 30, "is_obscuration": false)");
+  const Prescription lens =
+      read_or_fail(read_json_lens, edited(object("Circular", R"("radius": 9.0)"), obscuration + turned));
+  CHECK(lens.surfaces[0].aperture.kind == ApertureKind::Ellipse);
+  CHECK(lens.surfaces[0].aperture.half_mm == Vec2{9.0, 6.0});
+  CHECK(lens.surfaces[0].aperture.turn_rad == doctest::Approx(0.5235987756));
+  check_warns(lens, "an obscuration (line 4) is not computed");
+  // Alone it leaves the surface as large as it is.
+  const std::string alone = object("Circular", R"("radius": 2.0, "is_obscuration": true)");
+  CHECK(read_or_fail(read_json_lens, edited(object("Circular", R"("radius": 9.0)"), alone))
+            .surfaces[0]
+            .semi_diameter_mm == 9.5);
+}
+
 TEST_CASE("ray-optics' older polynomials begin with the constant") {
   const Prescription lens =
       read_or_fail(read_json_lens, edited("[0.0, 0.0, 2e-6]", "[0.0, 0.0, 0.0, 2e-6, 0, 0, 0, 0, 0, 0, 0]"));

@@ -354,7 +354,7 @@ TEST_CASE("what is wrong with a Zemax file, and where") {
   check_refused(zmx("ENPD 10", "ENPD ten"), 8, "'ten' of ENPD is no number");
   check_refused(zmx("CURV 0.02", "CURV 0.0.2"), 24, "'0.0.2' of CURV is no number");
   check_refused(zmx("SURF 3", "SURF 4"), 33, "SURF 4 where SURF 3 is due");
-  check_refused(zmx("TYPE EVENASPH", "TYPE BINARY_2"), 46, "surface 6 is of type BINARY_2");
+  check_refused(zmx("TYPE EVENASPH", "TYPE DGRATING"), 46, "surface 6 is of type DGRATING");
   check_refused(zmx("TYPE EVENASPH", "TYPE TOROIDAL\n  XDAT 1 3"), 46, "Zernike");
   check_refused(zmx("TYPE EVENASPH", "TYPE XASPHERE\n  XDAT 1 20\n  XDAT 15 1"), 46, "beyond the power 20");
   check_refused(zmx("  STOP\n", ""), 59, "no surface is the stop");

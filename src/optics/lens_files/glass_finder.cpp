@@ -12,7 +12,8 @@ std::string_view usual_name(std::string_view name) {
   };
   constexpr Named kNames[] = {
       {"F_SILICA", "SILICA"}, {"FUSED_SILICA", "SILICA"}, {"F-SILICA", "SILICA"},        {"UVFS", "SILICA"},
-      {"SIO2", "SILICA"},     {"D263T", "D263TECO"},      {"POLYCARBONATE", "POLYCARB"}, {"POLYSTYRENE", "POLYSTYR"}};
+      {"SIO2", "SILICA"},     {"C79-80", "SILICA"},       {"HPFS7980", "SILICA"},        {"SUPRASIL", "SILICA"},
+      {"HOMOSIL", "SILICA"},  {"D263T", "D263TECO"},      {"POLYCARBONATE", "POLYCARB"}, {"POLYSTYRENE", "POLYSTYR"}};
   std::string upper(name.substr(0, 32));
   for (char& c : upper) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
   for (const Named& known : kNames)

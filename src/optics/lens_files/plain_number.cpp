@@ -42,6 +42,8 @@ std::optional<double> number_or_infinity(std::string_view cell) {
   std::string lower(cell.substr(0, 16));
   for (char& c : lower) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   if (lower == "infinity" || lower == "+infinity") return kInfinity;  // from_chars has "inf"
+  if (lower.starts_with("1.#inf")) return kInfinity;                  // as old Windows programs print it
+  if (lower.starts_with("-1.#inf")) return -kInfinity;
   const auto value = any_number(cell);
   if (!value || std::isnan(*value)) return std::nullopt;
   return std::abs(*value) <= kLargestNumber ? *value : std::copysign(kInfinity, *value);

@@ -1,14 +1,16 @@
 // ray-optics' .roa files (docs/formats/ray-optics.md): a tree of python objects in JSON.
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <string>
 
 #include <fmt/format.h>
 
 #include "base/near_name.h"
-#include "optics/lens_files/sequential/design_text.h"
+#include "base/units.h"
 #include "optics/lens_files/json/json_lens.h"
 #include "optics/lens_files/json/roa_media.h"
+#include "optics/lens_files/sequential/design_text.h"
 #include "optics/lens_files/sequential/sequential_design.h"
 
 namespace contrejour {
@@ -162,15 +164,31 @@ class Reader {
     }
   }
 
+  // The first one that light goes through.
   void read_opening(const JsonField& list, DesignSurface& surface) {
-    if (list.size() == 0) return;
-    if (list.size() > 1)
-      design_.warnings.push_back(
-          fmt::format("of {} clear apertures (line {}) the first is used", list.size(), list.line()));
-    const std::string type = class_of(list[0]);
-    const JsonField content = content_of(list[0]);
+    std::optional<JsonField> first;
+    for (std::size_t k = 0; k < list.size(); ++k) {
+      const JsonField object = list[k];
+      if (content_of(object)["is_obscuration"].truth()) {
+        design_.warnings.push_back(
+            fmt::format("an obscuration (line {}) is not computed; light goes through", object.line()));
+      } else if (!first) {
+        first = object;
+      } else {
+        design_.warnings.push_back(
+            fmt::format("of several clear apertures (line {}) the first is used", object.line()));
+      }
+    }
+    if (first) set_opening_of(*first, surface);
+  }
+
+  void set_opening_of(const JsonField& object, DesignSurface& surface) {
+    const std::string type = class_of(object);
+    const JsonField content = content_of(object);
     DesignOpening opening;
-    opening.line = list[0].line();
+    opening.line = object.line();
+    opening.turn_rad = rad_from_deg(content["rotation"].number_or(0.0));
+    if (!std::isfinite(opening.turn_rad)) return content["rotation"].fail("is infinite");
     opening.centre = {content["x_offset"].number_or(0.0), content["y_offset"].number_or(0.0)};
     if (type == "Circular") {
       opening.half_x = opening.half_y = content["radius"].required_number();
@@ -179,7 +197,7 @@ class Reader {
       opening.half_x = content["x_half_width"].required_number();
       opening.half_y = content["y_half_width"].required_number();
     } else {
-      return list[0].fail(
+      return object.fail(
           fmt::format("the aperture '{}' is not known; Circular, Rectangular and Elliptical are", shortened(type)),
           ErrorCode::Unsupported);
     }

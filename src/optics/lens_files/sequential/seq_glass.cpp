@@ -81,32 +81,36 @@ Result<Glass> of_table(const std::string& name, const std::vector<double>& wavel
 
 }  // namespace
 
-std::optional<std::string> SeqPrivateGlasses::add(const SeqCommand& command) {
-  std::vector<double> numbers;
-  std::string kind;
-  const bool is_list = command.name == "PWL";
-  for (std::size_t k = 0; k < command.words.size(); ++k) {
-    const auto value = plain_number(command.words[k]);
-    if (!value && k == 0 && !is_list) {
-      kind = capitals(command.words[k]).substr(0, 3);
-    } else if (!value) {
-      return fmt::format("'{}' is no number", shortened(command.words[k]));
-    } else {
-      numbers.push_back(*value);
-    }
+void SeqPrivateGlasses::add(const SeqCommand& command) {
+  if (command.name != "PWL") {
+    glasses_.insert_or_assign(capitals(command.first), glass_of(command));
+    return;
   }
-  if (is_list) {
-    wavelengths_nm_ = std::move(numbers);
-    return std::nullopt;
-  }
-  const std::string& name = command.first;
-  auto glass = kind.empty() ? of_table(name, wavelengths_nm_, numbers) : of_formula(name, kind, std::move(numbers));
-  if (!glass) return fmt::format("the glass '{}': {}", shortened(name), glass.error().message);
-  glasses_.insert_or_assign(capitals(name), std::move(*glass));
-  return std::nullopt;
+  wavelengths_nm_.clear();
+  for (const std::string& word : command.words) wavelengths_nm_.push_back(plain_number(word).value_or(0.0));
 }
 
-const Glass* SeqPrivateGlasses::find(std::string_view name) const {
+// A name, perhaps a formula's, and numbers.
+Result<Glass> SeqPrivateGlasses::glass_of(const SeqCommand& command) const {
+  std::vector<double> numbers;
+  const bool of_kind = !plain_number(command.word(0));
+  const std::string kind = of_kind ? capitals(command.word(0)).substr(0, 3) : "";
+  const auto wrong = [&](const Error& error) {
+    return failure(error.code, fmt::format("the glass '{}': {}", shortened(command.first), error.message),
+                   {"", command.line, 0});
+  };
+  for (std::size_t k = of_kind ? 1 : 0; k < command.words.size(); ++k) {
+    const auto value = plain_number(command.words[k]);
+    if (!value) return wrong({ErrorCode::Parse, fmt::format("'{}' is no number", shortened(command.words[k])), {}});
+    numbers.push_back(*value);
+  }
+  auto glass =
+      of_kind ? of_formula(command.first, kind, std::move(numbers)) : of_table(command.first, wavelengths_nm_, numbers);
+  if (!glass) return wrong(glass.error());
+  return glass;
+}
+
+const Result<Glass>* SeqPrivateGlasses::find(std::string_view name) const {
   const auto at = glasses_.find(capitals(name));
   return at == glasses_.end() ? nullptr : &at->second;
 }
@@ -114,7 +118,10 @@ const Glass* SeqPrivateGlasses::find(std::string_view name) const {
 Result<Glass> seq_glass(std::string_view word, std::string_view next, const SeqPrivateGlasses& own, GlassFinder& finder,
                         const std::string& file, int line, std::vector<std::string>& warnings) {
   if (word.empty() || capitals(word) == "AIR") return air();
-  if (const Glass* glass = own.find(word)) return *glass;
+  if (const Result<Glass>* glass = own.find(word)) {
+    if (*glass) return **glass;
+    return failure(glass->error().code, glass->error().message, {file, glass->error().place.line, 0});
+  }
   if (auto glass = fictitious(word)) return std::move(*glass);
   if (auto glass = by_number(word, next)) return std::move(*glass);
   auto found = finder.find(word);

@@ -14,14 +14,16 @@ namespace contrejour {
 // Those that a file describes itself, between PRV and END.
 class SeqPrivateGlasses {
  public:
-  // One command of that part: PWL and wavelengths (nm), or a name and its indices or coefficients. What is wrong, or
-  // nothing.
-  [[nodiscard]] std::optional<std::string> add(const SeqCommand& command);
-  [[nodiscard]] const Glass* find(std::string_view name) const;
+  // One command of that part: PWL and wavelengths (nm), or a name and its indices or coefficients. What is wrong is
+  // said to who asks for the glass: files have more of them than they use.
+  void add(const SeqCommand& command);
+  [[nodiscard]] const Result<Glass>* find(std::string_view name) const;
 
  private:
+  [[nodiscard]] Result<Glass> glass_of(const SeqCommand& command) const;
+
   std::vector<double> wavelengths_nm_;
-  std::map<std::string, Glass, std::less<>> glasses_;  // by name in capitals
+  std::map<std::string, Result<Glass>, std::less<>> glasses_;  // by name in capitals
 };
 
 // "NBK7_SCHOTT", "517642", "517.642", "517000.642000", "1.517:64.2", or "1.517" with `next` "64.2". Errors:

@@ -10,15 +10,16 @@
 #include <fmt/format.h>
 
 #include "base/near_name.h"
-#include "optics/lens_files/sequential/design_text.h"
+#include "base/trimmed.h"
+#include "optics/lens/validate.h"
 #include "optics/lens_files/plain_number.h"
 #include "optics/lens_files/read_lens.h"
+#include "optics/lens_files/sequential/design_text.h"
 #include "optics/lens_files/sequential/seq_commands.h"
 #include "optics/lens_files/sequential/seq_glass.h"
 #include "optics/lens_files/sequential/seq_surface.h"
 #include "optics/lens_files/sequential/seq_zoom.h"
 #include "optics/lens_files/sequential/sequential_design.h"
-#include "optics/lens/validate.h"
 
 namespace contrejour {
 namespace {
@@ -28,12 +29,13 @@ constexpr std::size_t kMostSurfaces = 1000;
 // Names, weights, vignetting factors, variables and their limits, derivatives, colours, plots.
 bool is_passed_over(std::string_view name) {
   static const std::set<std::string_view> kNames = {
-      "LEN", "INI", "WTW", "WTF", "WTX", "WTY", "VUX", "VLX", "VUY", "VLY", "CCY", "CCX", "THC", "CCF", "SLB", "DER",
-      "CLS", "POL", "CA",  "GO",  "AC",  "BC",  "CC",  "DC",  "EC",  "FC",  "GC",  "HC",  "JC",  "KC",  "GLC", "XDC",
-      "YDC", "ZDC", "ADC", "BDC", "CDC", "CUM", "THM", "VER", "IC",  "SAV", "END", "OUT", "CMT", "COM", "REM", "DDM",
-      "TOL", "DLT", "DLF", "DLR", "DLN", "DLV", "DLX", "DLY", "DLZ", "TIR", "CYD", "BTI", "CPO", "LIS", "VIE", "DRA",
-      "RSI", "LIB", "VIG", "HMY", "UMY", "HMX", "UMX", "IMY", "ICY", "CWT", "WTA", "LAB", "FFD", "RAY", "BUF", "EVA",
-      "WRI", "CAN", "FVR", "SET", "MNT", "MXT", "EFX", "CTX", "MTF", "SPO", "RIM", "AUT", "EFL"};
+      "LEN", "INI", "WTW", "WTF", "WTX", "WTY", "VUX", "VLX", "VUY", "VLY", "CCY", "CCX", "THC", "CCF", "SLB",
+      "DER", "CLS", "POL", "CA",  "GO",  "AC",  "BC",  "CC",  "DC",  "EC",  "FC",  "GC",  "HC",  "JC",  "KC",
+      "GLC", "XDC", "YDC", "ZDC", "ADC", "BDC", "CDC", "CUM", "THM", "VER", "IC",  "SAV", "END", "OUT", "CMT",
+      "COM", "REM", "DDM", "TOL", "DLT", "DLF", "DLR", "DLN", "DLV", "DLX", "DLY", "DLZ", "TIR", "CYD", "BTI",
+      "CPO", "LIS", "VIE", "DRA", "RSI", "LIB", "VIG", "HMY", "UMY", "HMX", "UMX", "IMY", "ICY", "CWT", "WTA",
+      "LAB", "FFD", "RAY", "BUF", "EVA", "WRI", "CAN", "FVR", "SET", "MNT", "MXT", "EFX", "CTX", "MTF", "SPO",
+      "RIM", "AUT", "EFL", "UID", "DOR", "CMP", "DSX", "DSY", "BTX", "BTY", "PUX", "PUY", "PUI", "EXI"};
   return kNames.contains(name);
 }
 
@@ -75,8 +77,10 @@ class Reader {
     if (private_) {
       if (command.name == "END") {
         private_ = false;
-      } else if (const auto problem = own_glasses_.add(command)) {
-        fail(command.line, *problem);
+      } else if (command.name == "S") {
+        fail(command.line, "the private glasses (PRV) do not END before the surfaces");
+      } else {
+        own_glasses_.add(command);
       }
     } else if (command.name == "PRV") {
       private_ = true;
@@ -196,7 +200,7 @@ class Reader {
       const std::string mode = capitals(command.word(0));
       radius_mode_ = mode.empty() || mode[0] == 'Y' ? RadiusMode::Radius : RadiusMode::Curvature;
     } else if (command.name == "TIT") {
-      if (design_.name.empty()) design_.name = join(command.words);
+      if (design_.name.empty()) design_.name = trimmed(join(command.words), " '\"");
     } else if (command.name == "DIM") {
       read_unit(command);
     } else if (command.name == "TEM") {
@@ -204,7 +208,8 @@ class Reader {
         warn(fmt::format("indices at {:g} deg C (line {}); those at 20 deg C are used", number(command, 0),
                          command.line));
     } else if (command.name == "PRE") {
-      warn(fmt::format("the pressure of the air (line {}) is left out; indices are those at 1 atm", command.line));
+      if (number(command, 0) != 760.0)
+        warn(fmt::format("the pressure of the air (line {}) is left out; indices are those at 1 atm", command.line));
     } else if (command.name == "AFI") {
       warn(fmt::format("an afocal system (line {}); the sensor is put in focus", command.line));
     } else {
@@ -250,7 +255,7 @@ class Reader {
       return fail(command.line, fmt::format("{} of {}: name one surface, such as S3", command.name, own.word(0)));
     if (at >= surfaces_.size())
       return fail(command.line, fmt::format("{} of a surface that is not there", command.name));
-    const auto problem = surface_reader_.read(own, surfaces_[at], design_.warnings);
+    const auto problem = surface_reader_.read(own, static_cast<int>(at), surfaces_[at], design_.warnings);
     if (problem) error_ = problem;
   }
 
@@ -264,7 +269,6 @@ class Reader {
   void finish() {
     if (error_) return;
     if (surfaces_.size() < 3) return fail(0, "no lens: it has an object, an image and nothing between");
-    if (private_) return fail(0, "the private glasses (PRV) do not END");
     decide_radius_mode();
     if (design_.name.empty()) design_.name = stem_of(file_);
     design_.source = "a CODE V file that does not say it";

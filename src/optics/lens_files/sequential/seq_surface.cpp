@@ -44,9 +44,7 @@ std::string_view refused(std::string_view name) {
   struct Named {
     std::string_view name, what;
   };
-  constexpr Named kRefused[] = {{"BEN", "a bend of the axis"},
-                                {"REV", "a reversed decentre"},
-                                {"RET", "a return to another surface's coordinates"},
+  constexpr Named kRefused[] = {{"RET", "a return to another surface's coordinates"},
                                 {"GLB", "global coordinates"},
                                 {"DIF", "a diffractive surface"},
                                 {"GRT", "a grating"},
@@ -75,7 +73,8 @@ std::string_view refused(std::string_view name) {
 }
 
 bool is_other(std::string_view name) {
-  static const std::set<std::string_view> kNames = {"STO", "THI", "GLA", "RMD", "DAR", "PIK", "PIM", "MLT", "BAS"};
+  static const std::set<std::string_view> kNames = {"STO", "THI", "GLA", "RMD", "DAR", "PIK",
+                                                    "PIM", "MLT", "BAS", "BEN", "REV"};
   return kNames.contains(name);
 }
 
@@ -99,14 +98,19 @@ DesignOpening& opening_of(SeqSurface& s, int line) {
 }
 
 // CIR 12, CIR L'a' 12; with EDG the glass's edge, with OBS or HOL a part that is not used.
-std::optional<std::string> read_aperture(const SeqCommand& command, SeqSurface& s) {
+std::optional<std::string> read_aperture(const SeqCommand& command, SeqSurface& s, std::vector<std::string>& warnings) {
   const auto value = last_number(command);
   if (!value) return "no number";
   for (const std::string& word : command.words) {
     const std::string label = capitals(word);
     if (label == "EDG") return std::nullopt;
     if (label == "OBS" || label == "HOL") {
-      if (command.name == "CIR") opening_of(s, command.line).obscured = std::abs(*value);
+      if (command.name == "CIR") {
+        opening_of(s, command.line).obscured = std::abs(*value);
+      } else {
+        warnings.push_back(fmt::format("the obscuration {} {} (line {}) is not computed; light goes through",
+                                       command.name, label, command.line));
+      }
       return std::nullopt;
     }
   }
@@ -126,8 +130,17 @@ std::optional<std::string> read_aperture(const SeqCommand& command, SeqSurface& 
   return std::nullopt;
 }
 
+// Whether a range of vertices, S2..4 or S2..I, ends with the gap behind this surface.
+bool ends_behind(std::string_view range, int index) {
+  const std::size_t dots = range.find("..");
+  if (dots == std::string_view::npos) return false;
+  std::string_view last = range.substr(dots + 2);
+  if (last.starts_with('S') || last.starts_with('s')) last.remove_prefix(1);
+  return last == "I" || last == "i" || plain_number(last) == static_cast<double>(index + 1);
+}
+
 // THI 5; THI HMY 0 (a solve that is carried out); THI OAL S2..4 9: those thicknesses add up to 9.
-std::optional<std::string> read_thickness(const SeqCommand& command, SeqSurface& s) {
+std::optional<std::string> read_thickness(const SeqCommand& command, int index, SeqSurface& s) {
   if (const auto value = number_or_infinity(command.word(0))) {
     s.thickness = *value;
     return std::nullopt;
@@ -137,7 +150,8 @@ std::optional<std::string> read_thickness(const SeqCommand& command, SeqSurface&
   const std::string_view range = command.word(1);
   const SeqSurfaceName from = seq_surface_name(range.substr(0, range.find("..")));
   const auto sum = last_number(command);
-  if (from.is && from.index >= 0 && sum) s.solve = ThicknessSolve{ThicknessSolve::Kind::Sum, from.index, 1.0, *sum};
+  if (from.is && from.index >= 0 && sum && ends_behind(range, index))
+    s.solve = ThicknessSolve{ThicknessSolve::Kind::Sum, from.index, 1.0, *sum};
   return std::nullopt;
 }
 
@@ -163,7 +177,7 @@ bool seq_is_of_surface(std::string_view name) {
          !refused(name).empty();
 }
 
-std::optional<Error> SeqSurfaceReader::read(const SeqCommand& command, SeqSurface& s,
+std::optional<Error> SeqSurfaceReader::read(const SeqCommand& command, int index, SeqSurface& s,
                                             std::vector<std::string>& warnings) const {
   const std::string& name = command.name;
   const auto error = [&](std::string message, ErrorCode code = ErrorCode::Parse) {
@@ -179,8 +193,11 @@ std::optional<Error> SeqSurfaceReader::read(const SeqCommand& command, SeqSurfac
     s.returns = true;
   } else if (name == "BAS") {
     s.returns = false;
+  } else if (name == "BEN" || name == "REV") {
+    s.refused_move = name == "BEN" ? "a bend of the axis (BEN)" : "a reversed decentre (REV)";
+    s.refused_move_line = command.line;
   } else if (name == "THI") {
-    problem = read_thickness(command, s);
+    problem = read_thickness(command, index, s);
   } else if (name == "PIM") {
     s.is_to_focus = true;
   } else if (name == "PIK") {
@@ -198,7 +215,7 @@ std::optional<Error> SeqSurfaceReader::read(const SeqCommand& command, SeqSurfac
                     "films on them",
                     command.line));
   } else if (is_aperture(name)) {
-    problem = read_aperture(command, s);
+    problem = read_aperture(command, s, warnings);
   } else if (!is_shape(name) || name == "RDY" || name == "CUY" || name == "RDX" || name == "CUX") {
     // All these tell a number, or how it is solved for: then S has it.
     if (command.words.size() > 1 && !plain_number(command.word(0))) return std::nullopt;
@@ -254,9 +271,9 @@ void set_powers(const SeqSurface& in, SurfaceShape& shape) {
 }  // namespace
 
 Result<DesignSurface> seq_design_surface(const SeqSurface& in, int index, const std::string& file) {
-  const auto unsupported = [&](std::string_view what) {
+  const auto unsupported = [&](std::string_view what, int line) {
     return failure(ErrorCode::Unsupported, fmt::format("surface {}: {}; it is not computed", index, what),
-                   {file, in.line, 0});
+                   {file, line, 0});
   };
   DesignSurface out;
   out.line = in.line;
@@ -266,12 +283,12 @@ Result<DesignSurface> seq_design_surface(const SeqSurface& in, int index, const 
   out.solve = in.solve;
   const double first = in.first.value_or(0.0);
   out.curvature = in.curvature.value_or(in.radius_mode == RadiusMode::Radius ? curvature_of_radius(first) : first);
-  if (coefficient(in, "CUF") != 0.0) return unsupported("a Fresnel surface (CUF)");
+  if (coefficient(in, "CUF") != 0.0) return unsupported("a Fresnel surface (CUF)", in.line);
   out.shape.kind = in.kind;
   out.shape.conic = coefficient(in, in.kind == ShapeKind::Biconic ? "KY" : "K");
   if (in.kind == ShapeKind::Biconic) {
     for (const char* name : {"AR", "BR", "CR", "DR"})
-      if (coefficient(in, name) != 0.0) return unsupported("an anamorphic asphere's polynomial");
+      if (coefficient(in, name) != 0.0) return unsupported("an anamorphic asphere's polynomial", in.line);
     out.shape.conic_x = coefficient(in, "KX");
   } else {
     set_powers(in, out.shape);
@@ -281,7 +298,10 @@ Result<DesignSurface> seq_design_surface(const SeqSurface& in, int index, const 
     std::swap(out.curvature, out.shape.curvature_x_per_mm);
     out.shape.turn_rad = 0.5 * std::numbers::pi;
   }
-  (in.returns ? out.own : out.move) = placement_of(in);
+  const Placement placement = placement_of(in);
+  if (!in.refused_move.empty() && !(placement == Placement{}))
+    return unsupported(in.refused_move, in.refused_move_line);
+  (in.returns ? out.own : out.move) = placement;
   return out;
 }
 

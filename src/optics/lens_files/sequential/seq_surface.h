@@ -29,6 +29,8 @@ struct SeqSurface {
   std::map<std::string, double, std::less<>> coefficients;  // K, A, B, ..., KX, KY
   std::map<std::string, double, std::less<>> moves;         // XDE, YDE, ZDE, ADE, BDE, CDE
   bool returns = false;                        // DAR
+  std::string refused_move = {};  // how its decentre and tilts act, where that is not computed
+  int refused_move_line = 0;
   std::optional<DesignOpening> opening;
   std::optional<ThicknessSolve> solve;
   bool is_to_focus = false;  // PIM: the next surface stands in the paraxial focus
@@ -41,7 +43,8 @@ class SeqSurfaceReader {
   explicit SeqSurfaceReader(const std::string& file) : file_(file) {}
 
   // An error for what is not computed or no number; nothing if all is well.
-  [[nodiscard]] std::optional<Error> read(const SeqCommand& command, SeqSurface& surface,
+  // Of surface `index`.
+  [[nodiscard]] std::optional<Error> read(const SeqCommand& command, int index, SeqSurface& surface,
                                           std::vector<std::string>& warnings) const;
 
  private:

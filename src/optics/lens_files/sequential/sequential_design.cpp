@@ -7,9 +7,9 @@
 #include <fmt/format.h>
 
 #include "optics/lens_files/complete.h"
+#include "optics/lens_files/plain_number.h"
 #include "optics/lens_files/sequential/design_light.h"
 #include "optics/lens_files/sequential/design_opening.h"
-#include "optics/lens_files/plain_number.h"
 
 namespace contrejour {
 namespace {
@@ -130,6 +130,8 @@ class Builder {
       if (!rows_.empty()) rows_.back().gap.push_back(k);
       if (!from.is_break) medium = from.glass_after;
     }
+    if (image().curvature != 0.0 || !image().shape.is_sphere())
+      warn(fmt::format("the image surface (line {}) is curved; the sensor is flat", image().line));
     if (refracting == 0) return fail(image().line, "no lens: no surface refracts");
     rows_.back().gap.push_back(design_.surfaces.size() - 1);
     if (stops != 1) fail(image().line, stops == 0 ? "no surface is the stop; say which one is" : "more than one stop");

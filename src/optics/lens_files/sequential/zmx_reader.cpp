@@ -12,11 +12,12 @@
 
 #include "base/near_name.h"
 #include "base/trimmed.h"
-#include "optics/lens_files/sequential/design_text.h"
+#include "base/units.h"
+#include "optics/lens/validate.h"
 #include "optics/lens_files/plain_number.h"
 #include "optics/lens_files/read_lens.h"
+#include "optics/lens_files/sequential/design_text.h"
 #include "optics/lens_files/sequential/sequential_design.h"
-#include "optics/lens/validate.h"
 #include "optics/lens_files/sequential/zmx_surface.h"
 #include "optics/lens_files/sequential/zmx_zoom.h"
 
@@ -36,7 +37,7 @@ bool is_one_of(std::string_view word, std::initializer_list<std::string_view> wo
 bool is_passed_over(std::string_view word) {
   static const std::set<std::string_view> kWords = {
       "SSID", "COMM", "FIMP", "HIDE", "MIRR", "SLAB", "POPS", "OEMA", "MEMA", "VPAR", "PPAR", "VDSZ", "CAZH", "VCON",
-      "PCON", "SCBD", "GLRS", "PKUP", "PZSP", "ISNA", "FZSP", "VXDT", "PXDT", "THIC", "BLNK", "DRAW", "SCAT", "CHZN",
+      "PCON", "TCED", "GLRS", "PKUP", "PZSP", "ISNA", "FZSP", "VXDT", "PXDT", "THIC", "BLNK", "DRAW", "SCAT", "CHZN",
       "EMAR", "PMAR", "LSMO", "ARTP", "ROWC", "SHAD", "OPDM", "MARG", "MRGA", "CHRA", "EDGE", "NOTE", "IDNT"};
   return kWords.contains(word);
 }
@@ -86,8 +87,10 @@ class Reader {
         begin_surface(words);
       } else if (in_surface_ && read_surface_line(words)) {
         continue;
+      } else if (in_surface_ && is_passed_over(words[0])) {
+        continue;
       } else if (in_surface_ && (line.front() == ' ' || line.front() == '\t')) {
-        if (!is_passed_over(words[0])) unknown_.insert(std::string(words[0].substr(0, 16)));
+        unknown_.insert(std::string(words[0].substr(0, 16)));
       } else {
         in_surface_ = false;
         read_header_line(words, line);
@@ -133,8 +136,12 @@ class Reader {
     } else if (word == "GLAS") {
       read_glass(words);
     } else if (word == "DIAM") {
-      s.semi_diameter = std::abs(number(words, 1));
+      const double semi = std::abs(number(words, 1, true));
+      s.semi_diameter = std::isinf(semi) ? 0.0 : semi;
       s.is_semi_fixed = words.size() > 2 && whole(words, 2) != 0;
+    } else if (word == "SCBD") {
+      for (std::size_t k = 4; k < words.size(); ++k)  // before or behind it, two flags, decentre and tilts
+        if (number(words, k) != 0.0) s.own_tilt_line = line_;
     } else if (word == "COAT") {
       if (coatings_.empty() && words.size() > 1) coatings_ = fmt::format("{} (line {})", shortened(words[1]), line_);
     } else {
@@ -144,11 +151,14 @@ class Reader {
   }
 
   void read_glass(const Words& words) {
-    ZmxGlass glass{line_, words.size() > 1 ? std::string(words[1]) : "", 0, 0, 0, 0};
-    glass.status = whole(words, 2);
+    ZmxGlass glass{.line = line_, .name = words.size() > 1 ? std::string(words[1]) : ""};
+    glass.status = static_cast<ZmxGlass::Status>(std::clamp(whole(words, 2), 0, 5));
+    glass.from = whole(words, 3);
     glass.n_d = number(words, 4);
     glass.v_d = number(words, 5);
     glass.d_pgf = number(words, 6);
+    glass.more_n_d = number(words, 10);
+    glass.more_v_d = number(words, 11);
     surfaces_.back().glass = glass;
   }
 
@@ -248,6 +258,7 @@ class Reader {
       set_aperture(whole(words, 2) == 1 ? DesignAperture::WorkingFNumber : DesignAperture::FNumber, words);
     } else if (word == "OBNA") {
       set_aperture(DesignAperture::ObjectNA, words);
+      if (whole(words, 2) == 1) design_.aperture_value = std::sin(rad_from_deg(design_.aperture_value));  // a cone's
     } else if (word == "FLOA") {
       design_.aperture = DesignAperture::ByStop;
     } else if (word == "FTYP") {
@@ -311,6 +322,16 @@ class Reader {
     for (const std::string& word : unknown_) warn(fmt::format("'{}' of a surface is not known and left out", word));
   }
 
+  // A row's own glass, or that of the surface it is picked up from.
+  Result<Glass> glass_of(const ZmxGlass& in) {
+    if (in.status != ZmxGlass::Status::PickedUp || !in.is_blank())
+      return zmx_glass(in, makers_, finder_, file_, design_.warnings);
+    if (in.from < 1 || static_cast<std::size_t>(in.from) >= design_.surfaces.size())
+      return failure(ErrorCode::Parse, fmt::format("a glass picked up from surface {}, which is not in front", in.from),
+                     {file_, in.line, 0});
+    return design_.surfaces[static_cast<std::size_t>(in.from)].glass_after;
+  }
+
   void make_surfaces() {
     if (surfaces_.empty()) return fail(0, "no SURF blocks; a sequential lens of Zemax has them");
     surfaces_.back().thickness = 0.0;
@@ -327,7 +348,7 @@ class Reader {
       if (!surface->is_break) {
         medium = air();
         if (from.glass && k > 0 && k + 1 < surfaces_.size()) {
-          auto glass = zmx_glass(*from.glass, makers_, finder_, file_, design_.warnings);
+          auto glass = glass_of(*from.glass);
           if (!glass) {
             error_ = glass.error();
             return;

@@ -52,28 +52,71 @@ Placement coordinate_break(const ZmxSurface& in) {
   return tilts_first ? out.then(decentre) : decentre.then(out);
 }
 
-enum class ZmxType { Standard, EvenAsphere, OddAsphere, ExtendedEven, ExtendedOdd, Toroid, Biconic, Break, Unknown };
+enum class ZmxType {
+  Standard,
+  EvenAsphere,
+  OddAsphere,
+  ExtendedEven,
+  ExtendedOdd,
+  Toroid,
+  Biconic,
+  Tilted,
+  Break,
+  Unknown
+};
 
-ZmxType type_of(std::string_view name) {
-  struct Named {
-    std::string_view name;
-    ZmxType type;
-  };
-  constexpr Named kTypes[] = {
-      {"STANDARD", ZmxType::Standard},     {"EVENASPH", ZmxType::EvenAsphere}, {"ODDASPHE", ZmxType::OddAsphere},
-      {"XASPHERE", ZmxType::ExtendedEven}, {"XOSPHERE", ZmxType::ExtendedOdd}, {"XODDASPH", ZmxType::ExtendedOdd},
-      {"TOROIDAL", ZmxType::Toroid},       {"BICONICX", ZmxType::Biconic},     {"COORDBRK", ZmxType::Break}};
-  for (const Named& known : kTypes)
-    if (known.name == name) return known.type;
-  return ZmxType::Unknown;
+// A type by its name; where terms beyond it are not computed, what they are: such a surface is read if all are 0.
+struct NamedType {
+  std::string_view name;
+  ZmxType type = ZmxType::Unknown;
+  std::string_view beyond = {};
+};
+
+NamedType type_of(std::string_view name) {
+  constexpr NamedType kTypes[] = {{"STANDARD", ZmxType::Standard},
+                                  {"EVENASPH", ZmxType::EvenAsphere},
+                                  {"ODDASPHE", ZmxType::OddAsphere},
+                                  {"XASPHERE", ZmxType::ExtendedEven},
+                                  {"XOSPHERE", ZmxType::ExtendedOdd},
+                                  {"XODDASPH", ZmxType::ExtendedOdd},
+                                  {"TOROIDAL", ZmxType::Toroid, "Zernike terms"},
+                                  {"BICONICX", ZmxType::Biconic},
+                                  {"TILTSURF", ZmxType::Tilted},
+                                  {"COORDBRK", ZmxType::Break},
+                                  {"BINARY_1", ZmxType::EvenAsphere, "phase"},
+                                  {"BINARY_2", ZmxType::EvenAsphere, "phase"},
+                                  {"FZERNSAG", ZmxType::EvenAsphere, "Zernike terms"},
+                                  {"SZERNSAG", ZmxType::EvenAsphere, "Zernike terms"},
+                                  {"XPOLYNOM", ZmxType::Standard, "polynomial in x and y"},
+                                  {"IRREGULA", ZmxType::Standard, "irregularity"}};
+  for (const NamedType& known : kTypes)
+    if (known.name == name) return known;
+  return {name};
+}
+
+// The terms that a type has beyond what is computed: in XDAT behind their number and radius, IRREGULA's in PARM.
+bool has_terms_beyond(const ZmxSurface& in, const NamedType& type) {
+  if (type.beyond.empty()) return false;
+  const auto is_term = [](int first) { return [=](const auto& at) { return at.first >= first && at.second != 0.0; }; };
+  if (type.name == "IRREGULA") return std::any_of(in.parm.begin(), in.parm.end(), is_term(1));
+  if (type.type == ZmxType::Toroid) return in.extra(1) != 0.0;
+  return std::any_of(in.xdat.begin(), in.xdat.end(), is_term(kFirstTerm));
+}
+
+// A plane that rises by these tangents along x and y.
+Placement tilted_plane(double along_x, double along_y) {
+  const double slant = std::sqrt(1.0 + along_x * along_x + along_y * along_y);
+  return turn_about(0, std::atan(along_y)).then(turn_about(1, -std::asin(along_x / slant)));
 }
 
 // What is wrong, or nothing.
-std::optional<std::string> set_shape(const ZmxSurface& in, ZmxType type, SurfaceShape& shape) {
+std::optional<std::string> set_shape(const ZmxSurface& in, const NamedType& named, SurfaceShape& shape) {
+  if (has_terms_beyond(in, named)) return fmt::format("its {} are not computed", named.beyond);
   const std::string too_high =
       fmt::format("its polynomial goes beyond the power {}; no more is computed", SurfaceShape::kHighestPower);
-  switch (type) {
+  switch (named.type) {
     case ZmxType::Standard:
+    case ZmxType::Tilted:
     case ZmxType::Break: break;
     case ZmxType::EvenAsphere: add_powers(in, 1, 8, 2, shape); break;
     case ZmxType::OddAsphere: add_powers(in, 1, 8, 1, shape); break;
@@ -87,7 +130,6 @@ std::optional<std::string> set_shape(const ZmxSurface& in, ZmxType type, Surface
       shape.kind = ShapeKind::Toroid;
       shape.curvature_x_per_mm = curvature_of_radius(in.parameter(1));
       add_powers(in, 2, 7, 2, shape);
-      if (in.extra(1) != 0.0) return "its Zernike terms are not computed";
       break;
     case ZmxType::Biconic:
       shape.kind = ShapeKind::Biconic;
@@ -95,8 +137,8 @@ std::optional<std::string> set_shape(const ZmxSurface& in, ZmxType type, Surface
       shape.conic_x = in.parameter(2);
       break;
     case ZmxType::Unknown:
-      return "it is not computed; STANDARD, EVENASPH, ODDASPHE, XASPHERE, XOSPHERE, TOROIDAL, BICONICX and COORDBRK "
-             "are";
+      return "it is not computed; STANDARD, EVENASPH, ODDASPHE, XASPHERE, XOSPHERE, TOROIDAL, BICONICX, TILTSURF and "
+             "COORDBRK are";
   }
   return std::nullopt;
 }
@@ -105,6 +147,21 @@ bool plausible(double n_d, double v_d) { return n_d >= 1.3 && n_d <= 4.2 && (v_d
 
 // What Zemax writes beside a name when it knows no better.
 bool is_default(const ZmxGlass& in) { return in.n_d == 1.5 && in.v_d == 40.0; }
+
+// n_d and V_d moved by so much; in between the glass's own course. As a table, right to 1e-6.
+Result<Glass> moved_glass(const Glass& glass, std::string name, double more_n_d, double more_v_d) {
+  constexpr double kFirst_nm = 340.0, kLast_nm = 1100.0, kStep_nm = 5.0;
+  const GlassFigures from = glass_figures(glass);
+  const double n_d = from.n_d + more_n_d, v_d = from.v_d + more_v_d;
+  const double spread = std::isfinite(v_d) && v_d > 0.0 ? (n_d - 1.0) / v_d * from.v_d / (from.n_d - 1.0) : 1.0;
+  GlassData data;
+  data.formula = DispersionFormula::Table;
+  for (double nm = kFirst_nm; nm <= kLast_nm; nm += kStep_nm) {
+    const double n = n_d + spread * (refractive_index(glass, nm) - from.n_d);
+    data.coefficients.insert(data.coefficients.end(), {um_from_nm(nm), n});
+  }
+  return make_glass(std::move(name), std::move(data));
+}
 
 Glass model_of(const ZmxGlass& in, std::string name) {
   if (in.v_d == 0.0) return {std::move(name), ConstantIndex{in.n_d}};
@@ -123,15 +180,27 @@ Result<DesignSurface> zmx_surface(const ZmxSurface& in, int index, const std::st
   out.thickness = in.thickness;
   out.solve = in.solve;
   out.shape.conic = in.conic;
-  const ZmxType type = type_of(in.type);
+  const NamedType type = type_of(in.type);
   if (const auto problem = set_shape(in, type, out.shape))
     return failure(ErrorCode::Unsupported,
                    fmt::format("surface {} is of type {}: {}", index, shortened(in.type), *problem),
                    {file, in.line, 0});
-  if (type == ZmxType::Break) {
+  if (in.own_tilt_line != 0 && !(in.glass && in.glass->name == "MIRROR"))
+    return failure(ErrorCode::Unsupported,
+                   "a decentre or tilt of the surface's own (SCBD) is not computed; use a coordinate break",
+                   {file, in.own_tilt_line, 0});
+  if (type.type == ZmxType::Break) {
     out.is_break = true;
     out.move = coordinate_break(in);
     return out;
+  }
+  if (type.type == ZmxType::Tilted) {
+    out.curvature = out.shape.conic = 0.0;
+    const double along_x = in.parameter(1), along_y = in.parameter(2);
+    if (!std::isfinite(along_x) || !std::isfinite(along_y))
+      return failure(ErrorCode::Parse, fmt::format("surface {}: a tilt's tangent is infinite", index),
+                     {file, in.line, 0});
+    if (along_x != 0.0 || along_y != 0.0) out.own = tilted_plane(along_x, along_y);
   }
   out.is_stop = in.is_stop;
   out.semi_diameter = in.semi_diameter;
@@ -153,9 +222,8 @@ Result<Glass> zmx_glass(const ZmxGlass& in, std::span<const std::string> makers,
     return failure(ErrorCode::Unsupported, "a mirror; lenses of refracting surfaces alone are computed",
                    {file, in.line, 0});
   if (in.name == "AIR" || in.name == "VACUUM") return air();
-  const bool blank = in.name.empty() || in.name.starts_with("___");
-  if (blank || in.status == 1) {
-    if (plausible(in.n_d, in.v_d)) return model_of(in, blank ? "" : in.name);
+  if (in.is_blank() || in.status == ZmxGlass::Status::Model) {
+    if (plausible(in.n_d, in.v_d)) return model_of(in, in.is_blank() ? "" : in.name);
     return failure(ErrorCode::Parse, fmt::format("a glass of n_d {:g} and V_d {:g}; which is it?", in.n_d, in.v_d),
                    {file, in.line, 0});
   }
@@ -163,17 +231,19 @@ Result<Glass> zmx_glass(const ZmxGlass& in, std::span<const std::string> makers,
   if (!found && !makers.empty()) found = finder.find(in.name);
   if (found) {
     const double n_d = refractive_index(*found, kLineD_nm);
-    if (in.n_d > 1.0 && !is_default(in) && in.status == 0 && std::abs(n_d - in.n_d) > kSameIndex)
+    if (in.n_d > 1.0 && !is_default(in) && in.status == ZmxGlass::Status::Named && std::abs(n_d - in.n_d) > kSameIndex)
       warnings.push_back(
           fmt::format("{} (line {}) has n_d {:.5f} in the catalogue, {:.5f} in the file; the catalogue's "
                       "is used",
                       in.name, in.line, n_d, in.n_d));
-    if (in.status == 4)
-      warnings.push_back(
-          fmt::format("{} (line {}) is offset from its catalogue by the file; that of the catalogue is "
-                      "used",
-                      in.name, in.line));
-    return std::move(*found);
+    if (in.status != ZmxGlass::Status::Offset || (in.more_n_d == 0.0 && in.more_v_d == 0.0)) return std::move(*found);
+    auto moved = moved_glass(*found, in.name + " offset", in.more_n_d, in.more_v_d);
+    if (!moved)
+      return failure(ErrorCode::Parse,
+                     fmt::format("{} with n_d moved by {:g} and V_d by {:g}: {}", in.name, in.more_n_d, in.more_v_d,
+                                 moved.error().message),
+                     {file, in.line, 0});
+    return moved;
   }
   if (plausible(in.n_d, in.v_d) && in.v_d > 0.0 && !is_default(in)) {
     warnings.push_back(fmt::format("no catalogue has the glass {} (line {}); one of its n_d {:g} and V_d {:g} is used",

@@ -15,10 +15,18 @@ namespace contrejour {
 
 // GLAS: a name, or an index and an Abbe number.
 struct ZmxGlass {
+  // What the glass is: named, the row's figures, that of another surface, one to be exchanged for others, or the named
+  // one with another index and Abbe number.
+  enum class Status { Named, Model, PickedUp, Substitute, Offset, Other };
+
   int line = 0;
-  std::string name;
-  int status = 0;  // 1: the row's figures are the glass; 4: they are offset from the catalogue's
+  std::string name = {};
+  Status status = Status::Named;
+  int from = 0;  // surface that it is picked up from
   double n_d = 0, v_d = 0, d_pgf = 0;
+  double more_n_d = 0, more_v_d = 0;  // than the named one has
+
+  [[nodiscard]] bool is_blank() const { return name.empty() || name.starts_with("___"); }
 };
 
 struct ZmxSurface {
@@ -32,6 +40,7 @@ struct ZmxSurface {
   bool is_semi_fixed = false;
   bool is_stop = false;
   std::optional<DesignOpening> opening;
+  int own_tilt_line = 0;  // of SCBD, a decentre or tilt of the surface alone; 0: none
   bool floats = false;  // FLAP: an aperture as large as the semi-diameter
   std::optional<ThicknessSolve> solve;
   bool is_to_focus = false;  // MAZH 0 0: the next surface stands in the paraxial focus
