@@ -66,6 +66,20 @@ TEST_CASE("DeepLens without an aperture, and with another f-number than its own"
   CHECK(other.warnings.at(0).find("fnum is 2.8 (line 2)") != std::string::npos);
 }
 
+TEST_CASE("cylinders of DeepLens") {
+  const std::string sphere = "\"Spheric\", \"r\": 12, \"roc\": 0";
+  const auto with = [&](const std::string& radii) {
+    return edited(sphere, "\"Anamorphic\", \"r\": 12, \"cx\": -0.0075, \"cy\": 0.0, " + radii);
+  };
+  const Prescription lens = read_or_fail(read_json_lens, with("\"roc_x\": -133.8613, \"roc_y\": 1000000028.2819"));
+  CHECK(lens.surfaces[4].curvature_per_mm == 0.0);
+  CHECK(lens.surfaces[4].shape.kind == ShapeKind::Biconic);
+  CHECK(lens.surfaces[4].shape.curvature_x_per_mm == 1.0 / -133.8613);
+  CHECK(read_or_fail(read_json_lens, with("\"squeeze\": 1.5")).surfaces[4].shape.curvature_x_per_mm == -0.0075);
+  check_round_trip(lens);
+  check_refused(with("\"roc_x\": -133.8613, \"roc_y\": 400"), 8, "curved along x and along y");
+}
+
 TEST_CASE("what is wrong with a DeepLens lens, and where") {
   check_refused(edited("\"Spheric\", \"r\": 12", "\"Fresnel\", \"r\": 12"), 8,
                 "surfaces[4].type: 'Fresnel' is not computed");

@@ -150,6 +150,20 @@ TEST_CASE("apertures of Zemax as old and odd as they come") {
   }
 }
 
+TEST_CASE("a stop that nothing tells the size of lets through what the other surfaces do") {
+  const Prescription lens = must_read(replaced(pair("ENPD 10", "FLOA"), "  DIAM 5\n", ""));
+  check_warns(lens, "nothing tells the stop's size");
+  // The front is as wide as the beam; behind it the beam is narrower, and the rims are as large.
+  CHECK(lens.surfaces[2].kind == SurfaceKind::Stop);
+  const auto state = lens_at(lens);
+  REQUIRE(state.has_value());
+  CHECK(lens.f_number == doctest::Approx(state->focal_length_mm / 16.0).epsilon(0.01));
+  CHECK(lens.surfaces[2].semi_diameter_mm < 8.0);
+  std::string bare = replaced(pair("ENPD 10", "FLOA"), "  DIAM 5\n", "");
+  for (int k = 0; k < 4; ++k) bare = replaced(bare, "  DIAM 8 1\n", "");
+  check_refused(bare, 0, "the lens's aperture is not told");
+}
+
 TEST_CASE("a curved image surface is a warning") {
   check_warns(must_read(pair("SURF 6\n", "SURF 6\n  CURV -0.01\n")), "the image surface (line 33) is curved");
 }

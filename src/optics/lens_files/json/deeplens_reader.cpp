@@ -7,11 +7,11 @@
 
 #include "base/near_name.h"
 #include "optics/lens_files/complete.h"
-#include "optics/lens_files/sequential/design_text.h"
 #include "optics/lens_files/glass_finder.h"
-#include "optics/lens_files/tables/heights.h"
 #include "optics/lens_files/json/json_lens.h"
 #include "optics/lens_files/plain_number.h"
+#include "optics/lens_files/sequential/design_text.h"
+#include "optics/lens_files/tables/heights.h"
 
 namespace contrejour {
 namespace {
@@ -53,13 +53,16 @@ class Reader {
     surface.thickness_mm = in["d_next"].required_number();
     if (type == "aperture" || type == "stop") {
       surface.kind = SurfaceKind::Stop;
+    } else if (type == "anamorphic") {
+      set_cylinder(in, surface);
+      surface.glass_after = glass_of(in["mat2"]);
     } else if (type == "spheric" || type == "aspheric" || type == "plane") {
       if (type != "plane") set_shape(in, surface);
       surface.glass_after = glass_of(in["mat2"]);
     } else {
-      in["type"].fail(
-          fmt::format("'{}' is not computed; Spheric, Aspheric, Plane and Aperture are", shortened(in["type"].text())),
-          ErrorCode::Unsupported);
+      in["type"].fail(fmt::format("'{}' is not computed; Spheric, Aspheric, Anamorphic, Plane and Aperture are",
+                                  shortened(in["type"].text())),
+                      ErrorCode::Unsupported);
     }
     set_rim(in, surface);
     medium_ = surface.glass_after;
@@ -78,10 +81,22 @@ class Reader {
       surface.aperture = {.kind = ApertureKind::Rectangle, .half_mm = {half_mm, half_mm}};
   }
 
+  static double curvature_of(const JsonField& in, const char* radius, const char* curvature) {
+    return in[radius].is_there() ? curvature_of_radius(in[radius].number_or(0.0))
+                                 : tidy_curvature(in[curvature].required_number());
+  }
+
+  // Curved along x or along y.
+  static void set_cylinder(const JsonField& in, Surface& surface) {
+    surface.curvature_per_mm = curvature_of(in, "roc_y", "cy");
+    surface.shape = {.kind = ShapeKind::Biconic, .curvature_x_per_mm = curvature_of(in, "roc_x", "cx")};
+    if (surface.curvature_per_mm != 0.0 && surface.shape.curvature_x_per_mm != 0.0)
+      in["type"].fail("curved along x and along y; one of them is computed", ErrorCode::Unsupported);
+  }
+
   // Coefficients of r^2, r^4, ...
   static void set_shape(const JsonField& in, Surface& surface) {
-    surface.curvature_per_mm = in["roc"].is_there() ? curvature_of_radius(in["roc"].number_or(0.0))
-                                                    : tidy_curvature(in["c"].required_number());
+    surface.curvature_per_mm = curvature_of(in, "roc", "c");
     surface.shape.conic = in["k"].number_or(0.0);
     add_powers(in["ai"], 2, 2, surface.shape);
   }

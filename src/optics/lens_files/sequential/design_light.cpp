@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -22,6 +24,7 @@ struct Paraxial {
   double focus_mm = 0;  // behind the last row
   double pupil_mm = 0;  // first row -> entrance pupil
   double stop_per_pupil = 1;
+  std::vector<double> axial;  // at each row, of a ray parallel to the axis, per height at the first
 };
 
 Result<Paraxial> paraxial(Prescription rows) {
@@ -42,9 +45,24 @@ Result<Paraxial> paraxial(Prescription rows) {
   const double lambda_nm = state->design_wavelength_nm;
   const Abcd to_stop = abcd_between(state->surfaces, 0, state->stop_index, lambda_nm);
   const int last = static_cast<int>(state->surfaces.size()) - 1;
-  return Paraxial{abcd_between(state->surfaces, 0, last, lambda_nm), state->focal_length_mm,
-                  state->sensor_z_mm - state->surfaces.back().z_mm, to_stop.a == 0.0 ? 0.0 : to_stop.b / to_stop.a,
-                  std::abs(to_stop.a)};
+  std::vector<double> axial;
+  for (int k = 0; k <= last; ++k) axial.push_back(std::abs(abcd_between(state->surfaces, 0, k, lambda_nm).a));
+  return Paraxial{abcd_between(state->surfaces, 0, last, lambda_nm),
+                  state->focal_length_mm,
+                  state->sensor_z_mm - state->surfaces.back().z_mm,
+                  to_stop.a == 0.0 ? 0.0 : to_stop.b / to_stop.a,
+                  std::abs(to_stop.a),
+                  std::move(axial)};
+}
+
+// The widest beam along the axis that all surfaces of a known size let through; 0 where none is known.
+double widest_beam_mm(const Prescription& rows, const Paraxial& lens) {
+  double narrowest_mm = std::numeric_limits<double>::infinity();
+  for (std::size_t k = 0; k < rows.surfaces.size(); ++k) {
+    const double semi_mm = rows.surfaces[k].semi_diameter_mm;
+    if (semi_mm > 0.0 && lens.axial[k] > 0.0) narrowest_mm = std::min(narrowest_mm, semi_mm / lens.axial[k]);
+  }
+  return std::isfinite(narrowest_mm) ? 2.0 * narrowest_mm : 0.0;
 }
 
 double stop_semi_mm(const Prescription& rows) {
@@ -59,6 +77,7 @@ double pupil_diameter_mm(const SequentialDesign& design, const Prescription& row
   const bool near = std::isfinite(object_mm);
   const double to_pupil_mm = object_mm + lens.pupil_mm;
   switch (design.aperture) {
+    case DesignAperture::Untold:
     case DesignAperture::ByStop: return 2.0 * stop_semi_mm(rows) / lens.stop_per_pupil;
     case DesignAperture::EntrancePupil: return value * design.unit_mm;
     case DesignAperture::FNumber: return std::abs(lens.focal_mm) / value;
@@ -98,7 +117,9 @@ Result<DesignLight> light_of(const SequentialDesign& design, Prescription rows, 
   DesignLight light;
   light.focal_length_mm = lens->focal_mm;
   light.focus_mm = lens->focus_mm;
-  light.beam.pupil_diameter_mm = pupil_diameter_mm(design, rows, *lens, object_mm);
+  light.stop_is_open = design.aperture == DesignAperture::ByStop && stop_semi_mm(rows) == 0.0;
+  light.beam.pupil_diameter_mm =
+      light.stop_is_open ? widest_beam_mm(rows, *lens) : pupil_diameter_mm(design, rows, *lens, object_mm);
   if (!(light.beam.pupil_diameter_mm > 0.0) || !std::isfinite(light.beam.pupil_diameter_mm))
     return failure(ErrorCode::Parse,
                    fmt::format("the lens's aperture is not told: neither an entrance pupil nor an f-number is given, "
@@ -108,7 +129,7 @@ Result<DesignLight> light_of(const SequentialDesign& design, Prescription rows, 
   const bool distant = std::isinf(object_mm);
   if (design.aperture == DesignAperture::FNumber || (design.aperture == DesignAperture::WorkingFNumber && distant)) {
     light.f_number = design.aperture_value;
-  } else if (design.aperture != DesignAperture::ByStop) {
+  } else if (!design.is_by_stop()) {
     light.f_number = std::abs(lens->focal_mm) / light.beam.pupil_diameter_mm;
   }
   const double half_field = std::abs(half_field_rad(design, *lens, object_mm));

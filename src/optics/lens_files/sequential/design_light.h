@@ -13,6 +13,7 @@ struct DesignLight {
   double focal_length_mm = 0;
   double focus_mm = 0;  // of distant objects, from the last row
   double image_radius_mm = 0;  // of the widest field; 0: the design has none but the axis
+  bool stop_is_open = false;  // nothing tells its size: the pupil is what the other surfaces let through
 };
 
 // object_mm: from the first row to the object, infinite for distant ones. Errors: those of lens_at, and an aperture

@@ -35,7 +35,7 @@ bool is_passed_over(std::string_view name) {
       "COM", "REM", "DDM", "TOL", "DLT", "DLF", "DLR", "DLN", "DLV", "DLX", "DLY", "DLZ", "TIR", "CYD", "BTI",
       "CPO", "LIS", "VIE", "DRA", "RSI", "LIB", "VIG", "HMY", "UMY", "HMX", "UMX", "IMY", "ICY", "CWT", "WTA",
       "LAB", "FFD", "RAY", "BUF", "EVA", "WRI", "CAN", "FVR", "SET", "MNT", "MXT", "EFX", "CTX", "MTF", "SPO",
-      "RIM", "AUT", "EFL", "UID", "DOR", "CMP", "DSX", "DSY", "BTX", "BTY", "PUX", "PUY", "PUI", "EXI"};
+      "RIM", "AUT", "EFL", "UID", "DOR", "CMP", "DSX", "DSY", "BTX", "BTY", "PUX", "PUY", "PUI", "EXI", "RED"};
   return kNames.contains(name);
 }
 

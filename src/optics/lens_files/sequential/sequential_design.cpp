@@ -98,7 +98,7 @@ class Builder {
     stop.kind = SurfaceKind::Stop;
     stop.source_line = from.line;
     stop.glass_after = medium;
-    const bool own = design_.aperture == DesignAperture::ByStop || from.is_semi_fixed || from.opening;
+    const bool own = design_.is_by_stop() || from.is_semi_fixed || from.opening;
     if (own) stop.semi_diameter_mm = at.semi_diameter_mm;
     if (at.aperture.kind != ApertureKind::Disc)
       warn(
@@ -276,6 +276,8 @@ class Builder {
     for (std::size_t k = 1; k < rows_.front().of; ++k) object_mm += thickness[k];
     const auto light = light_of(design_, lens_, object_mm * design_.unit_mm);
     if (!light) return tl::unexpected(light.error());
+    if (light->stop_is_open)
+      warn("nothing tells the stop's size; it lets through what the other surfaces do of a beam along the axis");
     lens_.f_number = light->f_number;
     set_sensor(*light, std::isinf(object_mm));
     if (const auto zoomed = set_zoom(); !zoomed) return tl::unexpected(zoomed.error());

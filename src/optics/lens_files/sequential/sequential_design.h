@@ -56,7 +56,7 @@ struct DesignPosition {
   double nominal_focal_mm = 0;    // that it is called by; 0: it is not
 };
 
-enum class DesignAperture { ByStop, EntrancePupil, FNumber, WorkingFNumber, ObjectNA };
+enum class DesignAperture { Untold, ByStop, EntrancePupil, FNumber, WorkingFNumber, ObjectNA };
 enum class FieldKind { Angle_deg, ObjectHeight, ImageHeight };
 
 struct SequentialDesign {
@@ -66,7 +66,7 @@ struct SequentialDesign {
   double unit_mm = 1.0;
   std::vector<DesignSurface> surfaces;  // the object first, the image last: its thickness is added to the gap before it
   std::vector<DesignPosition> positions;  // empty for a lens that does not zoom
-  DesignAperture aperture = DesignAperture::ByStop;
+  DesignAperture aperture = DesignAperture::Untold;
   double aperture_value = 0;
   FieldKind field = FieldKind::Angle_deg;
   double largest_field = 0;
@@ -76,6 +76,10 @@ struct SequentialDesign {
   std::optional<double> wavelength_nm;
   std::vector<std::string> warnings;
 
+  // The stop's own size, if it is told, is the aperture.
+  [[nodiscard]] bool is_by_stop() const {
+    return aperture == DesignAperture::ByStop || aperture == DesignAperture::Untold;
+  }
   void add_field(double x, double y) {
     largest_field = std::max(largest_field, std::hypot(x, y));
     largest_x = std::max(largest_x, std::abs(x));
