@@ -8,6 +8,7 @@
 #include "base/decode_text.h"
 #include "contrejour/first_order.h"
 #include "contrejour/lens.h"
+#include "lens/reader_checks.h"
 #include "optics/lens_files/read_lens.h"
 #include "shared_data.h"
 
@@ -89,6 +90,24 @@ TEST_CASE("an Optical Bench file in every detail") {
   CHECK(lens->stated.focal_length_mm == 50.5);
   CHECK(lens->stated.back_focal_distance_mm == 40.0);
   CHECK(looks_like_optical_bench(kSample));
+}
+
+TEST_CASE("Optical Bench's aspheres with r^2 or odd powers, as its constants say") {
+  const auto powers = [](const std::string& constant, const std::string& coefficients) {
+    std::string text = edited("[lens data]", "[constants]\n" + constant + "\n[lens data]");
+    text = replaced(text, "1.5E-06\t", coefficients);
+    return read_or_fail(read_optical_bench, text).surfaces[7].shape.powers;
+  };
+  CHECK(powers("Scaled\t50\t100", "1e-6\t2e-8") == std::vector<double>{0, 0, 0, 1e-6, 0, 2e-8});
+  CHECK(powers("AsphericalA2", "1e-5\t1e-6\t2e-8") == std::vector<double>{0, 1e-5, 0, 1e-6, 0, 2e-8});
+  CHECK(powers("AsphericalOddCount\t1", "3e-6\t4e-7\t6e-9\t8e-11") ==
+        std::vector<double>{0, 0, 3e-6, 4e-7, 0, 6e-9, 0, 8e-11});
+  CHECK(powers("AsphericalOddCount\t2", "3e-6\t4e-7\t5e-8\t6e-9\t8e-11") ==
+        std::vector<double>{0, 0, 3e-6, 4e-7, 5e-8, 6e-9, 0, 8e-11});
+  CHECK(powers("AsphericalOddCount\t0", "4e-7\t6e-9") == std::vector<double>{0, 0, 0, 4e-7, 0, 6e-9});
+  for (const char* count : {"", "-1", "1.5", "one"})
+    check_refused(edited("[lens data]", std::string("[constants]\nAsphericalOddCount\t") + count + "\n[lens data]"), 13,
+                  "is no count of odd coefficients");
 }
 
 TEST_CASE("what is wrong with an Optical Bench file, and where") {

@@ -14,9 +14,9 @@
 #include "base/trimmed.h"
 #include "contrejour/lens.h"
 #include "optics/lens_files/complete.h"
-#include "optics/lens_files/tables/heights.h"
 #include "optics/lens_files/plain_number.h"
 #include "optics/lens_files/read_lens.h"
+#include "optics/lens_files/tables/heights.h"
 
 namespace contrejour {
 namespace {
@@ -207,8 +207,27 @@ class Reader {
     return Glass{"", AbbeGlass{*n_d, *v_d}};
   }
 
+  // Which powers the columns of aspheres are: A4, A6, ...; from A2 with AsphericalA2; with AsphericalOddCount n from
+  // A3, as many odd ones each before its even one, then even ones alone.
+  void read_constants() {
+    for (const Row& row : rows_of("constants")) {
+      if (row.cell(0) == "AsphericalA2") first_power_ = 2;
+      if (row.cell(0) != "AsphericalOddCount") continue;
+      const auto count = plain_number(row.cell(1));
+      if (!count || !(*count >= 0.0 && *count <= 10.0) || *count != std::floor(*count))
+        return fail(row.line, fmt::format("'{}' is no count of odd coefficients", shortened(row.cell(1))));
+      odd_powers_ = static_cast<std::size_t>(*count);
+    }
+  }
+
+  [[nodiscard]] std::size_t power_of(std::size_t column) const {
+    if (odd_powers_ == 0) return first_power_ + 2 * column;
+    return column < 2 * odd_powers_ ? 3 + column : 4 + 2 * (column - odd_powers_);
+  }
+
   // "5  27.197  -1.81201  5.0791E-06 ...": a surface, its radius, its conic constant, A4, A6 and so on.
   void read_aspheres() {
+    read_constants();
     for (const Row& row : rows_of("aspherical data")) {
       if (error_) return;
       const auto at = by_label_.find(std::string(row.cell(0)));
@@ -225,9 +244,9 @@ class Reader {
       surface.shape.conic = *conic;
       for (std::size_t k = 3; k < row.cells.size(); ++k) {
         const auto value = number_of(row.cells[k]);
-        const std::size_t power = 4 + 2 * (k - 3);
+        const std::size_t power = power_of(k - 3);
         if (!value || power > static_cast<std::size_t>(SurfaceShape::kHighestPower))
-          return fail(row.line, fmt::format("'{}' is no coefficient; A4 to A{} are read", shortened(row.cells[k]),
+          return fail(row.line, fmt::format("'{}' is no coefficient; those up to A{} are read", shortened(row.cells[k]),
                                             SurfaceShape::kHighestPower));
         surface.shape.powers.resize(power, 0.0);
         surface.shape.powers.back() = *value;
@@ -267,6 +286,7 @@ class Reader {
   std::vector<std::size_t> positions_;  // columns
   std::vector<ZoomGap> zoom_gaps_;
   std::map<std::string, std::size_t> by_label_;
+  std::size_t first_power_ = 4, odd_powers_ = 0;  // of aspheres
   bool ends_at_sensor_ = false;
   std::optional<Error> error_;
 };
