@@ -92,6 +92,15 @@ TEST_CASE("an Optical Bench file in every detail") {
   CHECK(looks_like_optical_bench(kSample));
 }
 
+TEST_CASE("Optical Bench's comments, planes on either side, names") {
+  std::string text = edited("2\tInfinity", "#2\tno radius\n2\t-Infinity");
+  text = replaced(text, "title\tUS 1,234 Example 5 (Small Zoom 50-60mm f/4)", "lens name\tSmall zoom");
+  const Prescription lens = read_or_fail(read_optical_bench, text);
+  CHECK(lens.name == "Small zoom");
+  CHECK(lens.surfaces[1].curvature_per_mm == 0.0);
+  CHECK(lens.surfaces.size() == 8);
+}
+
 TEST_CASE("Optical Bench's aspheres with r^2 or odd powers, as its constants say") {
   const auto powers = [](const std::string& constant, const std::string& coefficients) {
     std::string text = edited("[lens data]", "[constants]\n" + constant + "\n[lens data]");

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <string>
+#include <vector>
 
 #include "contrejour/lens.h"
 #include "lens/reader_checks.h"
@@ -134,6 +135,20 @@ TEST_CASE("Zemax types with terms that are not computed are read where all are 0
   check_refused(of_type("BINARY_2", some), 9, "its phase are not computed");
   CHECK(must_read(of_type("IRREGULA", "  PARM 1 0\n")).surfaces[0].shape.is_sphere());
   check_refused(of_type("IRREGULA", "  PARM 5 1e-3\n"), 9, "its irregularity");
+}
+
+TEST_CASE("coefficients beyond the eight of Zemax's own aspheres") {
+  const auto of_type = [](const std::string& type, const std::string& rows) {
+    return pair("  TYPE STANDARD\n  CURV 0.01\n", "  TYPE " + type + "\n  CURV 0.01\n" + rows);
+  };
+  std::vector<double> powers(20);
+  powers[19] = 1e-24;
+  CHECK(must_read(of_type("EVENASPH", "  PARM 9 0\n  PARM 10 1e-24\n")).surfaces[0].shape.powers == powers);
+  powers = std::vector<double>(9);
+  powers[8] = 1e-12;
+  CHECK(must_read(of_type("ODDASPHE", "  PARM 9 1e-12\n")).surfaces[0].shape.powers == powers);
+  CHECK(must_read(of_type("EVENASPH", "  PARM 11 0\n")).surfaces[0].shape.powers.empty());
+  check_refused(of_type("EVENASPH", "  PARM 11 1e-30\n"), 9, "goes beyond the power 20");
 }
 
 TEST_CASE("apertures of Zemax as old and odd as they come") {

@@ -15,15 +15,17 @@ namespace {
 constexpr int kFirstTerm =
     3;  // of XDAT: before it stand the number of terms and the radius that heights are divided by
 
-// Coefficients of r^step, r^(2 step), ... that stand in PARM from `first` on.
-void add_powers(const ZmxSurface& in, int first, int count, int step, SurfaceShape& shape) {
-  for (int k = 0; k < count; ++k) {
-    const double value = in.parameter(first + k);
-    if (value == 0.0) continue;
-    const auto power = static_cast<std::size_t>(step * (k + 1));
+// Coefficients of r^step, r^(2 step), ... that stand in PARM from `first` on: eight by Zemax, some programs write more.
+// False for one of a power that is too high.
+bool add_powers(const ZmxSurface& in, int first, int step, SurfaceShape& shape) {
+  for (const auto& [k, value] : in.parm) {
+    if (k < first || value == 0.0) continue;
+    if (k - first >= SurfaceShape::kHighestPower / step) return false;
+    const auto power = static_cast<std::size_t>(step * (k - first + 1));
     if (shape.powers.size() < power) shape.powers.resize(power);
     shape.powers[power - 1] = value;
   }
+  return true;
 }
 
 // Coefficients of (r / R)^step, ... that stand in XDAT. False for one of a power that is too high.
@@ -118,8 +120,12 @@ std::optional<std::string> set_shape(const ZmxSurface& in, const NamedType& name
     case ZmxType::Standard:
     case ZmxType::Tilted:
     case ZmxType::Break: break;
-    case ZmxType::EvenAsphere: add_powers(in, 1, 8, 2, shape); break;
-    case ZmxType::OddAsphere: add_powers(in, 1, 8, 1, shape); break;
+    case ZmxType::EvenAsphere:
+      if (!add_powers(in, 1, 2, shape)) return too_high;
+      break;
+    case ZmxType::OddAsphere:
+      if (!add_powers(in, 1, 1, shape)) return too_high;
+      break;
     case ZmxType::ExtendedEven:
       if (!add_extended(in, 2, shape)) return too_high;
       break;
@@ -129,7 +135,7 @@ std::optional<std::string> set_shape(const ZmxSurface& in, const NamedType& name
     case ZmxType::Toroid:
       shape.kind = ShapeKind::Toroid;
       shape.curvature_x_per_mm = curvature_of_radius(in.parameter(1));
-      add_powers(in, 2, 7, 2, shape);
+      if (!add_powers(in, 2, 2, shape)) return too_high;
       break;
     case ZmxType::Biconic:
       shape.kind = ShapeKind::Biconic;

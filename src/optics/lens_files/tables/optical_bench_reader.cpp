@@ -45,9 +45,10 @@ std::vector<std::string_view> cells_of(std::string_view line) {
   return cells;
 }
 
-// A number, or infinity by its name; none for "undefined" and all else.
+// A number, or infinity by its name, on whichever side; none for "undefined" and all else.
 std::optional<double> number_of(std::string_view cell) {
-  return cell == "Infinity" ? std::optional(kInfinity) : plain_number(cell);
+  if (cell == "Infinity" || cell == "-Infinity") return kInfinity;
+  return plain_number(cell);
 }
 
 class Reader {
@@ -82,6 +83,7 @@ class Reader {
       text.remove_prefix(std::min(end + 1, text.size()));
       if (cells.empty()) continue;
       const std::string_view first = cells.front();
+      if (first.starts_with('#')) continue;
       if (first.size() > 2 && first.front() == '[' && first.back() == ']') {
         section = &sections_[std::string(first.substr(1, first.size() - 2))];
       } else if (section != nullptr) {
@@ -99,6 +101,9 @@ class Reader {
 
   // "US 4,123,144 Example 8 (Leica Summicron R 50mm f/2)": where it is from, and in brackets what it is.
   void read_title() {
+    for (const char* section : {"report data", "descriptive data"})
+      for (const Row& row : rows_of(section))
+        if (row.cell(0) == "lens name") lens_.name = row.cell(1);
     for (const Row& row : rows_of("descriptive data")) {
       if (row.cell(0) != "title") continue;
       const std::string title(row.cell(1));
