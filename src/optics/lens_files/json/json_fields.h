@@ -8,18 +8,11 @@
 
 #include "base/json_tree.h"
 #include "contrejour/result.h"
+#include "optics/lens_files/first_error.h"
 
 namespace contrejour {
 
-// The first thing that is wrong with a file.
-struct JsonErrors {
-  std::string file;
-  std::optional<Error> first;
-
-  void fail(int line, std::string message, ErrorCode code = ErrorCode::Parse) {
-    if (!first) first = Error{code, std::move(message), {file, line, 0}};
-  }
-};
+using JsonErrors = FirstError;
 
 // Cheap to copy; the tree and the errors must outlive it.
 class JsonField {

@@ -25,8 +25,7 @@ std::vector<PoseAndTurn> poses(const SequentialDesign& design, const std::vector
   for (std::size_t k = 1; k < design.surfaces.size(); ++k) {
     const DesignSurface& at = design.surfaces[k];
     if (!(at.move == Placement{})) frame = frame.then(in_mm(at.move, unit_mm));
-    for (; next < rows.size() && rows[next].of == k; ++next)
-      out.push_back(pose_of(frame.then(in_mm(at.own, unit_mm))));
+    for (; next < rows.size() && rows[next].of == k; ++next) out.push_back(pose_of(frame.then(in_mm(at.own, unit_mm))));
     if (k + 1 == design.surfaces.size()) break;
     const Vec3 along{0, 0, thickness[k] * unit_mm};
     if (!(frame.axes == Placement{}.axes)) frame.shift = frame.shift + frame.turned(along) - along;

@@ -41,8 +41,7 @@ std::vector<DesignPosition> positions_of(const SequentialDesign& design, std::ve
       std::count_if(positions.begin(), positions.end(), [&](const auto& position) { return !distant(position); }));
   if (near == positions.size()) {
     warnings.push_back(fmt::format("designed for an object {:.6g} mm in front of it (line {}); focus is set by --focus",
-                                   positions.front().thickness.front() * design.unit_mm,
-                                   design.surfaces.front().line));
+                                   positions.front().thickness.front() * design.unit_mm, design.surfaces.front().line));
   } else if (near > 0) {
     std::erase_if(positions, [&](const auto& position) { return !distant(position); });
     warnings.push_back(fmt::format("{} of {} positions are for near objects and left out: focusing moves the sensor",

@@ -32,7 +32,8 @@ class Rows {
       warn(fmt::format("the image surface (line {}) is curved; the sensor is flat", image.line));
     if (refracting == 0) return wrong(image.line, "no lens: no surface refracts");
     rows_.back().gap.push_back(design_.surfaces.size() - 1);
-    if (stops != 1) return wrong(image.line, stops == 0 ? "no surface is the stop; say which one is" : "more than one stop");
+    if (stops != 1)
+      return wrong(image.line, stops == 0 ? "no surface is the stop; say which one is" : "more than one stop");
     return std::move(rows_);
   }
 

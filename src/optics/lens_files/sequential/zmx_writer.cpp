@@ -6,9 +6,9 @@
 #include <fmt/format.h>
 
 #include "base/units.h"
+#include "optics/lens_files/glass_finder.h"
 #include "optics/lens_files/sequential/design_text.h"
 #include "optics/lens_files/sequential/design_writer.h"
-#include "optics/lens_files/glass_finder.h"
 
 namespace contrejour {
 namespace {

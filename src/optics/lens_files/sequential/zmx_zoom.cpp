@@ -1,12 +1,14 @@
 #include "optics/lens_files/sequential/zmx_zoom.h"
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 
 #include <fmt/format.h>
 
-#include "optics/lens_files/sequential/design_text.h"
+#include "optics/lens/validate.h"
 #include "optics/lens_files/plain_number.h"
+#include "optics/lens_files/sequential/design_text.h"
 
 namespace contrejour {
 namespace {
@@ -42,6 +44,27 @@ std::vector<const ZmxOperand*> changing(const std::vector<ZmxOperand>& operands)
 }
 
 }  // namespace
+
+void ZmxConfigurations::begin(const ZmxRow& row) {
+  is_there = true;
+  count = row.size() > 1 ? row.whole(1) : 1;
+  current = row.size() > 2 ? row.whole(2) : 1;
+  if (count > kMaxZoomPositions)
+    row.fail(fmt::format("{} configurations; at most {} are read", count, kMaxZoomPositions));
+}
+
+void ZmxConfigurations::add(const ZmxRow& row) {
+  constexpr std::size_t kMost = 20'000;
+  if (row.size() < 4 || operands.size() >= kMost) return;
+  const auto subject = plain_number(row.word(1)), configuration = plain_number(row.word(2));
+  if (!subject || !configuration || std::abs(*subject) > 1e6 || std::abs(*configuration) > 1e6) return;
+  // A title may have spaces.
+  std::string value(row.word(3));
+  for (std::size_t k = 4; value.starts_with('"') && (value.size() == 1 || value.back() != '"') && k < row.size(); ++k)
+    value += " " + std::string(row.word(k));
+  operands.push_back(
+      {row.line(), std::string(row.word(0)), static_cast<int>(*subject), static_cast<int>(*configuration), value});
+}
 
 std::vector<DesignPosition> zmx_positions(const ZmxConfigurations& configurations,
                                           const std::vector<ZmxSurface>& surfaces, std::vector<std::string>& warnings) {

@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "optics/lens_files/sequential/zmx_row.h"
 #include "optics/lens_files/sequential/zmx_surface.h"
 
 namespace contrejour {
@@ -19,8 +20,12 @@ struct ZmxOperand {
 };
 
 struct ZmxConfigurations {
+  bool is_there = false;  // MNUM: all rows that follow are operands
   int count = 1, current = 1;
   std::vector<ZmxOperand> operands;
+
+  void begin(const ZmxRow& row);
+  void add(const ZmxRow& row);
 };
 
 // Each configuration; empty where there is one, or where more than thicknesses

@@ -1,0 +1,19 @@
+// The rows of a SURF block of a Zemax file.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "optics/lens_files/sequential/zmx_row.h"
+#include "optics/lens_files/sequential/zmx_surface.h"
+
+namespace contrejour {
+
+// False for a keyword that is not a surface's.
+[[nodiscard]] bool read_zmx_surface_row(const ZmxRow& row, ZmxSurface& surface, std::vector<std::string>& warnings);
+
+// One of a surface that bends and blocks nothing: plots, solves that are carried out, tolerances, physical optics.
+[[nodiscard]] bool zmx_is_passed_over(std::string_view keyword);
+
+}  // namespace contrejour
