@@ -9,7 +9,6 @@
 #include <fmt/format.h>
 
 #include "base/near_name.h"
-#include "optics/lens_files/sequential/design_text.h"
 #include "optics/lens_files/glass_finder.h"
 #include "optics/lens_files/json/json_lens.h"
 #include "optics/lens_files/plain_number.h"
@@ -30,10 +29,8 @@ class Reader {
  public:
   Reader(const JsonField& root, const LensText& in)
       : errors_{in.file, {}}, root_(root.reporting_to(errors_)), finder_(in.glasses) {
-    design_.program = "Optiland";
-    design_.file = in.file;
+    design_ = design_from("Optiland", in.file);
     design_.name = root_["name"].text();
-    if (design_.name.empty()) design_.name = stem_of(in.file);
     design_.source = "an Optiland file, which does not say it";
   }
 

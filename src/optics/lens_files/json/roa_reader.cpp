@@ -10,7 +10,6 @@
 #include "base/units.h"
 #include "optics/lens_files/json/json_lens.h"
 #include "optics/lens_files/json/roa_media.h"
-#include "optics/lens_files/sequential/design_text.h"
 #include "optics/lens_files/sequential/sequential_design.h"
 
 namespace contrejour {
@@ -37,8 +36,7 @@ class Reader {
   Reader(const JsonField& root, const LensText& in)
       : errors_{in.file, {}}, model_(content_of(root.reporting_to(errors_)["optical_model"])),
         sequence_(content_of(model_["seq_model"])), finder_(in.glasses) {
-    design_.program = "ray-optics";
-    design_.file = in.file;
+    design_ = design_from("ray-optics", in.file);
   }
 
   [[nodiscard]] Result<Prescription> read() {
@@ -54,7 +52,6 @@ class Reader {
   void read_system() {
     const JsonField system = content_of(either(model_, {"system_spec", "sys_spec"}));
     design_.name = system["title"].text();
-    if (design_.name.empty()) design_.name = stem_of(design_.file);
     design_.source = "a ray-optics file, which does not say it";
     const JsonField dimensions = either(system, {"_dimensions", "dimensions"});
     const std::string unit = lower_case(dimensions.text());

@@ -72,6 +72,25 @@ Result<std::vector<double>> sensor_distances_mm(const Prescription& lens) {
   return out;
 }
 
+Result<std::vector<double>> write_surfaces(const Prescription& lens, const SurfaceWriter& write) {
+  if (const auto valid = validate(lens); !valid) return tl::unexpected(valid.error());
+  auto sensor_mm = sensor_distances_mm(lens);
+  if (!sensor_mm) return sensor_mm;
+  for (std::size_t k = 0; k < lens.surfaces.size(); ++k) {
+    const bool last = k + 1 == lens.surfaces.size();
+    if (const auto problem = write(k, last ? sensor_mm->front() : lens.surfaces[k].thickness_mm))
+      return failure(ErrorCode::Unsupported, fmt::format("surface {}: {}", k + 1, *problem),
+                     {lens.file.file, lens.surfaces[k].source_line, 0});
+  }
+  return sensor_mm;
+}
+
+std::string radius_text(double curvature_per_mm) {
+  if (curvature_per_mm == 0.0) return "0";
+  const double radius_mm = 1.0 / curvature_per_mm;
+  return text_giving(curvature_per_mm, radius_mm, [](double r) { return 1.0 / r; }).value_or(number_text(radius_mm));
+}
+
 std::vector<std::string> common_losses(const Prescription& lens) {
   std::vector<std::string> losses;
   const auto coated = std::count_if(lens.surfaces.begin(), lens.surfaces.end(),

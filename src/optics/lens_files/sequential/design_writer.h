@@ -41,6 +41,14 @@ struct CataloguedName {
 // one. Errors: those of lens_at.
 [[nodiscard]] Result<std::vector<double>> sensor_distances_mm(const Prescription& lens);
 
+// Has each surface written with the gap behind it, the last one's to the sensor, as sensor_distances_mm() has it, which
+// is returned. Errors: those of validate() and lens_at; Unsupported, with the surface, for what `write` says is wrong.
+using SurfaceWriter = std::function<std::optional<std::string>(std::size_t surface, double gap_mm)>;
+[[nodiscard]] Result<std::vector<double>> write_surfaces(const Prescription& lens, const SurfaceWriter& write);
+
+// The radius that reads back as this curvature, or as near as one can; "0" for a plane.
+[[nodiscard]] std::string radius_text(double curvature_per_mm);
+
 // What every such file leaves out.
 [[nodiscard]] std::vector<std::string> common_losses(const Prescription& lens);
 

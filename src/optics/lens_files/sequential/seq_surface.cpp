@@ -14,8 +14,6 @@
 namespace contrejour {
 namespace {
 
-constexpr std::string_view kPowers[] = {"A", "B", "C", "D", "E", "F", "G", "H", "J"};  // r^4, r^6, ... r^20
-
 // Commands that put a number into a list of the surface's.
 bool is_coefficient(std::string_view name) {
   static const std::set<std::string_view> kNames = {"K", "KX", "KY", "A",  "B",  "C",  "D",  "E",  "F",  "G",  "H",
@@ -260,8 +258,8 @@ Placement placement_of(const SeqSurface& in) {
 }
 
 void set_powers(const SeqSurface& in, SurfaceShape& shape) {
-  for (std::size_t k = 0; k < std::size(kPowers); ++k) {
-    const double value = coefficient(in, kPowers[k]);
+  for (std::size_t k = 0; k < std::size(kSeqPowers); ++k) {
+    const double value = coefficient(in, kSeqPowers[k]);
     if (value == 0.0) continue;
     shape.powers.resize(4 + 2 * k);
     shape.powers.back() = value;

@@ -12,6 +12,9 @@
 
 namespace contrejour {
 
+// Coefficients of r^4, r^6, ... r^20.
+inline constexpr std::string_view kSeqPowers[] = {"A", "B", "C", "D", "E", "F", "G", "H", "J"};
+
 enum class RadiusMode { Unsaid, Radius, Curvature };
 
 struct SeqSurface {

@@ -7,14 +7,14 @@
 #include <fmt/format.h>
 
 #include "base/units.h"
-#include "optics/lens_files/sequential/design_writer.h"
 #include "optics/lens_files/glass_finder.h"
+#include "optics/lens_files/sequential/design_writer.h"
 #include "optics/lens_files/sequential/seq_commands.h"
+#include "optics/lens_files/sequential/seq_surface.h"
 
 namespace contrejour {
 namespace {
 
-constexpr std::string_view kPowers[] = {"A", "B", "C", "D", "E", "F", "G", "H", "J"};  // r^4, r^6, ... r^20
 constexpr double kFirst_nm = 340.0, kLast_nm = 1100.0, kStep_nm = 5.0;                 // of a table of indices
 
 // Numbers, a few to a line.
@@ -31,18 +31,14 @@ class Writer {
   explicit Writer(const Prescription& lens) : lens_(lens), written_{"", common_losses(lens)} {}
 
   Result<WrittenLens> write() {
-    if (const auto valid = validate(lens_); !valid) return tl::unexpected(valid.error());
-    const auto sensor_mm = sensor_distances_mm(lens_);
-    if (!sensor_mm) return tl::unexpected(sensor_mm.error());
     std::string rows = "SO    0.0 0.1e14\n";
-    for (std::size_t k = 0; k < lens_.surfaces.size(); ++k) {
-      const bool last = k + 1 == lens_.surfaces.size();
-      auto row = row_text(k, last ? sensor_mm->front() : lens_.surfaces[k].thickness_mm);
-      if (!row)
-        return failure(ErrorCode::Unsupported, fmt::format("surface {}: {}", k + 1, row.error().message),
-                       {lens_.file.file, lens_.surfaces[k].source_line, 0});
+    const auto sensor_mm = write_surfaces(lens_, [&](std::size_t k, double gap_mm) -> std::optional<std::string> {
+      const auto row = row_text(k, gap_mm);
+      if (!row) return row.error().message;
       rows += *row;
-    }
+      return std::nullopt;
+    });
+    if (!sensor_mm) return tl::unexpected(sensor_mm.error());
     if (!lens_.sensor_distance_mm) rows += "  PIM\n";
     written_.text = header() + private_glasses() + rows + "SI    0.0 0.0\n" + positions(*sensor_mm) + "GO\n";
     return std::move(written_);
@@ -65,7 +61,8 @@ class Writer {
     // A toroid turned by a right angle is CODE V's own other one; other turns are turns of the coordinates.
     const bool crossed = shape.kind == ShapeKind::Toroid && shape.turn_rad == 0.5 * std::numbers::pi;
     const double own = crossed ? shape.curvature_x_per_mm : s.curvature_per_mm;
-    std::string out = "S     " + radius_text(own) + " " + number_text(gap_mm) + glass_text(s.glass_after) + "\n";
+    std::string out = "S     " + (own == 0.0 ? "0.0" : radius_text(own)) + " " + number_text(gap_mm) +
+                      glass_text(s.glass_after) + "\n";
     if (!radius_is_exact(own)) out += "  CUY " + number_text(own) + "\n";
     if (s.kind == SurfaceKind::Stop) out += "  STO\n";
     out += "  CIR " + number_text(s.semi_diameter_mm) + "\n" + rim_text(s, crossed ? 0.0 : s.shape.turn_rad);
@@ -78,12 +75,6 @@ class Writer {
     return curvature_per_mm == 0.0 ||
            text_giving(curvature_per_mm, 1.0 / curvature_per_mm, [](double r) { return 1.0 / r; }).has_value();
   }
-  static std::string radius_text(double curvature_per_mm) {
-    if (curvature_per_mm == 0.0) return "0.0";
-    const double radius_mm = 1.0 / curvature_per_mm;
-    return text_giving(curvature_per_mm, radius_mm, [](double r) { return 1.0 / r; }).value_or(number_text(radius_mm));
-  }
-
   // CON or ASP, CYL, YTO, XTO, AAS, with their numbers.
   static Result<std::string> shape_text(const Surface& s, bool crossed) {
     const SurfaceShape& shape = s.shape;
@@ -94,7 +85,7 @@ class Writer {
       if (p % 2 != 0 || p < 4)
         return failure(ErrorCode::Unsupported,
                        fmt::format("a polynomial with r^{}; CODE V's aspheres have r^4, r^6, ... r^20", p));
-      powers += fmt::format("  {} {}\n", kPowers[(p - 4) / 2], number_text(value));
+      powers += fmt::format("  {} {}\n", kSeqPowers[(p - 4) / 2], number_text(value));
     }
     const std::string conic = shape.conic == 0.0 ? "" : "  K " + number_text(shape.conic) + "\n";
     if (shape.kind == ShapeKind::Revolution) {

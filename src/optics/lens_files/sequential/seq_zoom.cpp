@@ -7,9 +7,9 @@
 #include <fmt/format.h>
 
 #include "base/near_name.h"
-#include "optics/lens_files/sequential/design_text.h"
-#include "optics/lens_files/plain_number.h"
 #include "optics/lens/validate.h"
+#include "optics/lens_files/plain_number.h"
+#include "optics/lens_files/sequential/design_text.h"
 
 namespace contrejour {
 namespace {

@@ -11,6 +11,7 @@
 #include "optics/lens_files/sequential/design_places.h"
 #include "optics/lens_files/sequential/design_positions.h"
 #include "optics/lens_files/sequential/design_rows.h"
+#include "optics/lens_files/sequential/design_text.h"
 
 namespace contrejour {
 namespace {
@@ -32,7 +33,7 @@ class Builder {
   explicit Builder(const SequentialDesign& design) : design_(design) {}
 
   Result<Prescription> build() {
-    lens_.name = design_.name;
+    lens_.name = design_.name.empty() ? stem_of(design_.file) : design_.name;
     lens_.source = design_.source;
     lens_.file = {design_.file, 0, 0};
     lens_.warnings = design_.warnings;
@@ -139,7 +140,7 @@ class Builder {
     sorted.erase(std::unique(sorted.begin(), sorted.end(), same), sorted.end());
     set_gaps(sorted.front().index);
     if (sorted.size() < 2) return {};
-        for (const Position& position : sorted) lens_.zoom.push_back({position.focal_mm, {}, 0});
+    for (const Position& position : sorted) lens_.zoom.push_back({position.focal_mm, {}, 0});
     name_positions(sorted);
     for (std::size_t k = 0; k + 1 < rows_.size(); ++k) {
       std::vector<double> gaps;
@@ -170,6 +171,14 @@ class Builder {
 };
 
 }  // namespace
+
+SequentialDesign design_from(std::string program, const std::string& file) {
+  SequentialDesign design;
+  design.source = fmt::format("a {} file that does not say it", program);
+  design.program = std::move(program);
+  design.file = file;
+  return design;
+}
 
 Result<Prescription> prescription_of(const SequentialDesign& design) { return Builder(design).build(); }
 

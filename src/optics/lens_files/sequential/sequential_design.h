@@ -87,6 +87,10 @@ struct SequentialDesign {
   }
 };
 
+// One to be filled in, of a program's file.
+[[nodiscard]] SequentialDesign design_from(std::string program, const std::string& file);
+
+// - One without a name has its file's.
 // - Surfaces at which nothing is refracted, blocked or stopped go into the gap.
 // - A stop on a surface becomes a row of its own at that surface's vertex, in front of it.
 // - The f-number is that of distant objects; what is not told of semi-diameters the design's beam decides.

@@ -8,7 +8,6 @@
 
 #include "base/near_name.h"
 #include "optics/lens_files/read_lens.h"
-#include "optics/lens_files/sequential/design_text.h"
 #include "optics/lens_files/sequential/sequential_design.h"
 #include "optics/lens_files/sequential/zmx_block.h"
 #include "optics/lens_files/sequential/zmx_surface.h"
@@ -22,14 +21,12 @@ constexpr std::size_t kMostSurfaces = 1000;
 
 class Reader {
  public:
-  explicit Reader(const LensText& in) : errors_{in.file, {}}, finder_(in.glasses) {
-    design_.program = "Zemax";
-    design_.file = in.file;
+  explicit Reader(const LensText& in)
+      : errors_{in.file, {}}, finder_(in.glasses), design_(design_from("Zemax", in.file)) {
     read_rows(in.text);
   }
 
   [[nodiscard]] Result<Prescription> read() {
-    if (design_.name.empty()) design_.name = stem_of(errors_.file);
     system_.finish(design_);
     warn_of_blocks();
     make_surfaces();

@@ -91,7 +91,7 @@ void ZmxSystem::set_wavelength(int k, double um) {
 }
 
 void ZmxSystem::finish(SequentialDesign& design) const {
-  design.source = notes_.empty() ? "a Zemax file that does not say it" : cut_text(notes_);
+  if (!notes_.empty()) design.source = cut_text(notes_);
   const std::size_t primary = static_cast<std::size_t>(std::max(primary_, 1)) - 1;
   if (primary < wavelengths_um_.size() && wavelengths_um_[primary] > 0.0)
     design.wavelength_nm = wavelengths_um_[primary] * 1e3;

@@ -35,16 +35,9 @@ class Writer {
   explicit Writer(const Prescription& lens) : lens_(lens), written_{"", common_losses(lens)} {}
 
   Result<WrittenLens> write() {
-    if (const auto valid = validate(lens_); !valid) return tl::unexpected(valid.error());
-    const auto sensor_mm = sensor_distances_mm(lens_);
-    if (!sensor_mm) return tl::unexpected(sensor_mm.error());
     collect_makers();
-    for (std::size_t k = 0; k < lens_.surfaces.size(); ++k) {
-      const bool last = k + 1 == lens_.surfaces.size();
-      if (auto problem = add_row(k, last ? sensor_mm->front() : lens_.surfaces[k].thickness_mm))
-        return failure(ErrorCode::Unsupported, fmt::format("surface {}: {}", k + 1, *problem),
-                       {lens_.file.file, lens_.surfaces[k].source_line, 0});
-    }
+    const auto sensor_mm = write_surfaces(lens_, [&](std::size_t k, double gap_mm) { return add_row(k, gap_mm); });
+    if (!sensor_mm) return tl::unexpected(sensor_mm.error());
     if (!lens_.sensor_distance_mm) rows_ += "  MAZH 0 0\n";
     written_.text = header() + surf("  TYPE STANDARD\n  CURV 0\n", "INFINITY", 0) + rows_;
     written_.text += surf("  TYPE STANDARD\n  CURV 0\n", "0", next_) +
@@ -197,13 +190,6 @@ class Writer {
     out += fmt::format("  TYPE {}\n  CURV {} 0 0 0 0 \"\"\n", type, number_text(s.curvature_per_mm));
     if (shape.conic != 0.0) out += "  CONI " + number_text(shape.conic) + "\n";
     return out + numbers;
-  }
-
-  // 0 for a plane, as Zemax has it.
-  [[nodiscard]] static std::string radius_text(double curvature_per_mm) {
-    if (curvature_per_mm == 0.0) return "0";
-    const double radius_mm = 1.0 / curvature_per_mm;
-    return text_giving(curvature_per_mm, radius_mm, [](double r) { return 1.0 / r; }).value_or(number_text(radius_mm));
   }
 
   [[nodiscard]] std::string glass_row_before(std::size_t k) {
