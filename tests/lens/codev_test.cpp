@@ -149,7 +149,13 @@ TEST_CASE("openings of CODE V") {
   CHECK(last("ELX 3; ELY 4; ADY 1").surfaces[5].semi_diameter_mm == 5.0);
   CHECK(last("ELX 3; ELY 4; ADY 1; ARO 30").surfaces[5].aperture ==
         ClearAperture{ApertureKind::Ellipse, {3, 4}, {0, 1}, 30.0 * std::numbers::pi / 180.0});
-  check_warns(last("CIR 7; CIR OBS 1"), "obscured up to a radius of 1 mm");
+  CHECK(last("CIR 7; CIR OBS 1").surfaces[5].obscuration == Obscuration{{1, 1}, {}, 0.0});
+  CHECK(last("CIR 7; CIR HOL L'a' 1; ADX OBS 0.5").surfaces[5].obscuration == Obscuration{{1, 1}, {0.5, 0}, 0.0});
+  CHECK(last("CIR 7; ELX OBS 1; ELY OBS 2; ARO OBS 30").surfaces[5].obscuration ==
+        Obscuration{{1, 2}, {}, 30.0 * std::numbers::pi / 180.0});
+  CHECK(last("CIR 7; ELX OBS 1; ADX OBS 2").surfaces[5].aperture == ClearAperture{});
+  CHECK(last("CIR 7; ELX OBS 1; ADX OBS 2").surfaces[5].obscuration == Obscuration{{1, 1}, {2, 0}, 0.0});
+  CHECK_FALSE(last("CIR 7; ADX OBS 2").surfaces[5].obscuration.any());
   CHECK(must_read(seq("S     0.0 -2.0", "S     0.0 2.0\n CIR 6")).surfaces[3].semi_diameter_mm == 6.0);
 }
 

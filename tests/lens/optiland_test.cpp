@@ -61,6 +61,9 @@ TEST_CASE("an Optiland file in every detail") {
   CHECK(s[0].shape.conic == -0.5);
   CHECK(s[0].shape.powers == std::vector<double>{0, 0, 0, 1e-6});
   CHECK(s[0].semi_diameter_mm == 9.0);
+  CHECK_FALSE(s[0].obscuration.any());
+  CHECK(read_or_fail(read_json_lens, edited("\"r_min\": 0.0", "\"r_min\": 1.5")).surfaces[0].obscuration ==
+        Obscuration{{1.5, 1.5}, {}, 0.0});
   CHECK(s[0].thickness_mm == 4.0);
   CHECK(s[0].source_line == 4);
   CHECK(s[0].glass_after.name == "SK16");

@@ -94,7 +94,7 @@ TEST_CASE("a ray-optics file in every detail") {
   check_round_trip(lens);
 }
 
-TEST_CASE("ray-optics' apertures: the first that is none of an obscuration, turned") {
+TEST_CASE("ray-optics' apertures: the first that is none of an obscuration, turned, and the first that is one") {
   const std::string obscuration = object("Circular", R"("radius": 2.0, "is_obscuration": true)") + ", ";
   const std::string turned =
       object("Elliptical", R"("x_half_width": 9.0, "y_half_width": 6.0, "rotation": 30, "is_obscuration": false)");
@@ -103,7 +103,11 @@ TEST_CASE("ray-optics' apertures: the first that is none of an obscuration, turn
   CHECK(lens.surfaces[0].aperture.kind == ApertureKind::Ellipse);
   CHECK(lens.surfaces[0].aperture.half_mm == Vec2{9.0, 6.0});
   CHECK(lens.surfaces[0].aperture.turn_rad == doctest::Approx(0.5235987756));
-  check_warns(lens, "an obscuration (line 4) is not computed");
+  CHECK(lens.surfaces[0].obscuration == Obscuration{{2, 2}, {}, 0.0});
+  const std::string square =
+      object("Rectangular", R"("x_half_width": 1.0, "y_half_width": 1.0, "is_obscuration": true)") + ", ";
+  check_warns(read_or_fail(read_json_lens, edited(object("Circular", R"("radius": 9.0)"), square + turned)),
+              "a rectangular obscuration (line 4) is not computed");
   // Alone it leaves the surface as large as it is.
   const std::string alone = object("Circular", R"("radius": 2.0, "is_obscuration": true)");
   CHECK(read_or_fail(read_json_lens, edited(object("Circular", R"("radius": 9.0)"), alone))

@@ -42,6 +42,12 @@ inline void check_same_rim(const Surface& s, const Surface& t) {
   CHECK(std::abs(s.aperture.turn_rad - t.aperture.turn_rad) < 1e-12);
 }
 
+inline void check_same_obscuration(const Obscuration& a, const Obscuration& b) {
+  CHECK(a.half_mm == b.half_mm);
+  CHECK(length(a.centre_mm - b.centre_mm) < 1e-12);
+  CHECK(std::abs(a.turn_rad - b.turn_rad) < 1e-12);
+}
+
 // Same: to the last bit, but for angles (1e-12) and indices.
 inline void check_same_lens(const Prescription& a, const Prescription& b, const SameLens& how = {}) {
   CHECK(a.f_number == b.f_number);
@@ -56,6 +62,7 @@ inline void check_same_lens(const Prescription& a, const Prescription& b, const 
     CHECK(s.kind == t.kind);
     CHECK(s.curvature_per_mm == t.curvature_per_mm);
     check_same_rim(s, t);
+    check_same_obscuration(s.obscuration, t.obscuration);
     check_same_shape(s, t);
     for (double nm = 400.0; nm <= 700.0; nm += 12.5)
       CHECK(std::abs(refractive_index(s.glass_after, nm) - refractive_index(t.glass_after, nm)) < how.index);

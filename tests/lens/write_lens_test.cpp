@@ -73,6 +73,14 @@ TEST_CASE("a lens written for Zemax or CODE V and read again is the same") {
     check_round_trip(toml(row_as(", toroid = { radius_x_mm = 50, turn_deg = 30 }, tilt_deg = [1, 2], "
                                  "rectangle = { half_sides_mm = [5, 3], centre_mm = [0.5, 1], turn_deg = 30 }")),
                      format);
+    check_round_trip(toml(row_as(", obscuration = { semi_axes_mm = [3, 3] }")), format);
+    check_round_trip(toml(row_as(", obscuration = { semi_axes_mm = [3, 3], centre_mm = [0.5, 1] }")), format);
+    check_round_trip(toml(row_as(", obscuration = { semi_axes_mm = [3, 2], centre_mm = [0.5, 1], turn_deg = 30 }")),
+                     format);
+    check_round_trip(toml(row_as(", toroid = { radius_x_mm = 50, turn_deg = 30 }, tilt_deg = [1, 2], "
+                                 "obscuration = { semi_axes_mm = [3, 2], turn_deg = 30 }")),
+                     format);
+    check_round_trip(toml(edited("stop = true", "stop = true, obscuration = { semi_axes_mm = [2, 2] }")), format);
     check_round_trip(toml(row_as(", toroid = { radius_x_mm = inf, turn_deg = 20 }, tilt_deg = [1, -2]")), format);
   }
   check_round_trip(toml(row_as(", decentre_mm = [0.1, 0.2, 0.3], tilt_deg = [1, -2]")), kFormats[1]);
@@ -122,6 +130,10 @@ TEST_CASE("what the formats cannot hold is said") {
           "surface 4: a toroid's polynomial");
   refused(kFormats[0], row_as(", toroid = { radius_x_mm = 50 }, rectangle = { half_sides_mm = [5, 3], turn_deg = 30 }"),
           "surface 4: its rim is turned");
+  refused(kFormats[0], row_as(", rectangle = { half_sides_mm = [5, 3] }, obscuration = { semi_axes_mm = [1, 1] }"),
+          "surface 4: a rim that is no circle and an obscuration");
+  check_round_trip(toml(row_as(", rectangle = { half_sides_mm = [5, 3] }, obscuration = { semi_axes_mm = [1, 1] }")),
+                   kFormats[1]);
   CHECK(losses(kFormats[0], row_as(", rectangle = { half_sides_mm = [8, 8] }")).find("written whole") !=
         std::string::npos);
   refused(kFormats[1], row_as(", asphere = { 3 = 1e-6 }"), "surface 4: a polynomial with r^3");

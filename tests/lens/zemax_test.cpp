@@ -185,7 +185,7 @@ TEST_CASE("openings of Zemax stay, rims that are no circles too") {
   REQUIRE(round.surfaces.size() == 7);
   CHECK(round.surfaces[3].semi_diameter_mm == 6.5);
   CHECK(is_air(round.surfaces[3].glass_after));
-  check_warns(round, "obscured up to a radius of 1 mm");
+  CHECK(round.surfaces[3].obscuration == Obscuration{{1, 1}, {}, 0.0});
   const Prescription floating = must_read(zmx("DISZ -2\n  DIAM 7", "DISZ 2\n  DIAM 7\n  FLAP 0 7 0"));
   CHECK(floating.surfaces[3].semi_diameter_mm == 7.0);
   const Prescription square = must_read(zmx("CLAP 0 7.5 0", "SQAP 3 4 0"));
@@ -203,7 +203,22 @@ TEST_CASE("openings of Zemax stay, rims that are no circles too") {
                     "TYPE TOROIDAL\n  CURV 0.1\n  SQAP 9 9"));
   CHECK(cylinder.surfaces[4].semi_diameter_mm == doctest::Approx(10.0));
   check_warns(cylinder, "goes on where the surface ends");
-  check_warns(must_read(zmx("CLAP 0 7.5 0", "OBSC 0 1 0")), "OBSC (line 59)");
+  const auto last = [](const std::string& rows) { return must_read(zmx("CLAP 0 7.5 0", rows)).surfaces[5]; };
+  CHECK(last("OBSC 0 1 0").obscuration == Obscuration{{1, 1}, {}, 0.0});
+  CHECK(last("OBSC 0 1 0").semi_diameter_mm == last("COMM x").semi_diameter_mm);
+  CHECK(last("ELOB 1 2 0\n  OBDC 0.5 0").obscuration == Obscuration{{1, 2}, {0.5, 0}, 0.0});
+  CHECK(last("FLAP 1 0 0").obscuration == Obscuration{{1, 1}, {}, 0.0});
+  CHECK(last("CLAP 1 4 0\n  OBDC 0 0.5").obscuration == Obscuration{{1, 1}, {0, 0.5}, 0.0});
+  CHECK(last("CLAP 1 4 0\n  OBDC 0 0.5").aperture == ClearAperture{ApertureKind::Ellipse, {4, 4}, {0, 0.5}, 0.0});
+  // An opening of its own, or a stop.
+  const Prescription alone = must_read(zmx("DISZ -2\n  DIAM 7", "DISZ 2\n  DIAM 7\n  OBSC 0 1 0"));
+  REQUIRE(alone.surfaces.size() == 7);
+  CHECK(alone.surfaces[3].obscuration.any());
+  const Prescription stop = must_read(zmx("DIAM 4.9 0", "CLAP 1 4.9 0"));
+  CHECK(std::ranges::find(stop.surfaces, SurfaceKind::Stop, &Surface::kind)->obscuration ==
+        Obscuration{{1, 1}, {}, 0.0});
+  check_warns(must_read(zmx("CLAP 0 7.5 0", "OBSC 1 2 0")), "OBSC (line 59)");
+  check_warns(must_read(zmx("CLAP 0 7.5 0", "SQOB 1 2 0")), "SQOB (line 59)");
   check_warns(must_read(zmx("CLAP 0 7.5 0", "COAT AR")), "AR (line 59)");
   check_warns(must_read(zmx("CLAP 0 7.5 0", "WHAT 1")), "'WHAT' of a surface is not known");
   // Behind the next vertex: moved there.

@@ -32,6 +32,7 @@ Result<void> size_for_beam(Prescription& lens, const Beam& beam, const std::vect
   for (Surface& surface : pinhole.surfaces) {
     surface.semi_diameter_mm = kNoRim_mm;
     surface.aperture = {};
+    surface.obscuration = {};
   }
   const auto state = lens_at(pinhole, without_films());
   if (!state) return tl::unexpected(state.error());

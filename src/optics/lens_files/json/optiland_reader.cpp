@@ -178,7 +178,8 @@ class Reader {
     opening.centre = {in["offset_x"].number_or(0.0), in["offset_y"].number_or(0.0)};
     if (type == "radialaperture" || type == "offsetradialaperture") {
       opening.half_x = opening.half_y = in["r_max"].number_or(0.0);
-      opening.obscured = in["r_min"].number_or(0.0);
+      const double r_min = in["r_min"].number_or(0.0);
+      if (r_min > 0.0) surface.obscuration = {{r_min, r_min}, opening.centre, 0.0};
     } else if (type == "rectangularaperture") {
       opening.shape = OpeningShape::Rectangle;
       const double left = in["x_min"].required_number(), right = in["x_max"].required_number();

@@ -161,31 +161,40 @@ class Reader {
     }
   }
 
-  // The first one that light goes through.
+  // The first one that light goes through, and the first that it does not.
   void read_opening(const JsonField& list, DesignSurface& surface) {
-    std::optional<JsonField> first;
     for (std::size_t k = 0; k < list.size(); ++k) {
       const JsonField object = list[k];
-      if (content_of(object)["is_obscuration"].truth()) {
+      const bool obscures = content_of(object)["is_obscuration"].truth();
+      if (obscures ? surface.obscuration.any() : surface.opening.has_value()) {
+        design_.warnings.push_back(fmt::format("of several {} (line {}) the first is used",
+                                               obscures ? "obscurations" : "clear apertures", object.line()));
+        continue;
+      }
+      const std::optional<DesignOpening> opening = opening_of(object);
+      if (!opening) continue;
+      if (!obscures) {
+        surface.opening = opening;
+      } else if (opening->shape == OpeningShape::Rectangle) {
         design_.warnings.push_back(
-            fmt::format("an obscuration (line {}) is not computed; light goes through", object.line()));
-      } else if (!first) {
-        first = object;
+            fmt::format("a rectangular obscuration (line {}) is not computed; light goes through", object.line()));
       } else {
-        design_.warnings.push_back(
-            fmt::format("of several clear apertures (line {}) the first is used", object.line()));
+        surface.obscuration = {{opening->half_x, opening->half_y}, opening->centre, opening->turn_rad};
       }
     }
-    if (first) set_opening_of(*first, surface);
   }
 
-  void set_opening_of(const JsonField& object, DesignSurface& surface) {
+  // None if it has no size, or something is wrong with it.
+  static std::optional<DesignOpening> opening_of(const JsonField& object) {
     const std::string type = class_of(object);
     const JsonField content = content_of(object);
     DesignOpening opening;
     opening.line = object.line();
     opening.turn_rad = rad_from_deg(content["rotation"].number_or(0.0));
-    if (!std::isfinite(opening.turn_rad)) return content["rotation"].fail("is infinite");
+    if (!std::isfinite(opening.turn_rad)) {
+      content["rotation"].fail("is infinite");
+      return std::nullopt;
+    }
     opening.centre = {content["x_offset"].number_or(0.0), content["y_offset"].number_or(0.0)};
     if (type == "Circular") {
       opening.half_x = opening.half_y = content["radius"].required_number();
@@ -194,11 +203,12 @@ class Reader {
       opening.half_x = content["x_half_width"].required_number();
       opening.half_y = content["y_half_width"].required_number();
     } else {
-      return object.fail(
+      object.fail(
           fmt::format("the aperture '{}' is not known; Circular, Rectangular and Elliptical are", shortened(type)),
           ErrorCode::Unsupported);
+      return std::nullopt;
     }
-    if (opening.half_x > 0.0 && opening.half_y > 0.0) surface.opening = opening;
+    return opening.half_x > 0.0 && opening.half_y > 0.0 ? std::optional(opening) : std::nullopt;
   }
 
   // A model whose apertures were never worked out has one and the same for all.

@@ -34,6 +34,7 @@ Result<Paraxial> paraxial(Prescription rows) {
   for (Surface& surface : rows.surfaces) {
     surface.semi_diameter_mm = kNoRim_mm;
     surface.aperture = {};
+    surface.obscuration = {};
   }
   if (const auto valid = validate(rows); !valid) return tl::unexpected(valid.error());
   const auto state = lens_at(rows);

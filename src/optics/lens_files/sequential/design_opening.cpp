@@ -22,17 +22,21 @@ double reached_mm(const Surface& surface, double most_mm) {
   return low;
 }
 
+Vec2 turned(double turn_rad, Vec2 at) {
+  if (turn_rad == 0.0) return at;
+  const double c = std::cos(turn_rad), s = std::sin(turn_rad);
+  return {c * at.x - s * at.y, s * at.x + c * at.y};
+}
+
 }  // namespace
 
 void set_opening(const DesignSurface& from, double unit_mm, Surface& surface, std::vector<std::string>& warnings) {
   surface.semi_diameter_mm = from.semi_diameter * unit_mm;
+  if (from.obscuration.any())
+    surface.obscuration = {from.obscuration.half_mm * unit_mm, from.obscuration.centre_mm * unit_mm,
+                           from.obscuration.turn_rad};
   if (!from.opening) return;
   const DesignOpening& opening = *from.opening;
-  if (opening.obscured > 0.0)
-    warnings.push_back(
-        fmt::format("the middle of the surface (line {}) is obscured up to a radius of {:.6g} mm; it "
-                    "lets light through here",
-                    opening.line, opening.obscured * unit_mm));
   if (!(opening.half_x > 0.0 && opening.half_y > 0.0)) {
     if (opening.circle > 0.0) surface.semi_diameter_mm = opening.circle * unit_mm;
     return;
@@ -57,11 +61,14 @@ void set_opening(const DesignSurface& from, double unit_mm, Surface& surface, st
 }
 
 void turn_opening(double turn_rad, ClearAperture& aperture) {
-  if (turn_rad == 0.0 || aperture.kind == ApertureKind::Disc) return;
+  if (aperture.kind == ApertureKind::Disc) return;
   aperture.turn_rad += turn_rad;
-  const Vec2 at = aperture.centre_mm;
-  const double c = std::cos(turn_rad), s = std::sin(turn_rad);
-  aperture.centre_mm = {c * at.x - s * at.y, s * at.x + c * at.y};
+  aperture.centre_mm = turned(turn_rad, aperture.centre_mm);
+}
+
+void turn_opening(double turn_rad, Obscuration& obscuration) {
+  if (obscuration.half_mm.x != obscuration.half_mm.y) obscuration.turn_rad += turn_rad;
+  obscuration.centre_mm = turned(turn_rad, obscuration.centre_mm);
 }
 
 }  // namespace contrejour

@@ -45,6 +45,7 @@ Result<void> place(const std::string& file, const PoseAndTurn& at, Surface& surf
   surface.pose = at.pose;
   if (!surface.shape.has_axial_symmetry()) surface.shape.turn_rad += at.turn_rad;
   turn_opening(at.turn_rad, surface.aperture);
+  turn_opening(at.turn_rad, surface.obscuration);
   return {};
 }
 

@@ -45,7 +45,7 @@ class Rows {
 
   void add(std::size_t k, const Glass& medium, bool refracts) {
     const DesignSurface& from = design_.surfaces[k];
-    if (!refracts && !from.is_stop && !from.opening) return;
+    if (!refracts && !from.is_stop && !from.opening && !from.obscuration.any()) return;
     const Surface surface = surface_of(from);
     if (from.is_stop) rows_.push_back({stop_of(from, surface, medium, refracts), {}, from.own, k});
     if (refracts || !from.is_stop) rows_.push_back({surface, {}, from.own, k});
@@ -79,6 +79,7 @@ class Rows {
     stop.glass_after = medium;
     const bool own = design_.is_by_stop() || from.is_semi_fixed || from.opening;
     if (own) stop.semi_diameter_mm = at.semi_diameter_mm;
+    if (!refracts) stop.obscuration = at.obscuration;
     if (at.aperture.kind != ApertureKind::Disc)
       warn(
           fmt::format("the stop (line {}) is not round; the circle around it is used, --blades and --iris-image give "

@@ -39,7 +39,8 @@ Tilts tilts_of(const Surface& surface, double turn_rad) {
   Tilts tilts;
   tilts.y_rad = std::asin(std::clamp(axis.x, -1.0, 1.0));
   tilts.x_rad = std::atan2(-axis.y, axis.z);
-  const bool round = surface.shape.has_axial_symmetry() && surface.aperture.kind == ApertureKind::Disc;
+  const bool round = surface.shape.has_axial_symmetry() && surface.aperture.kind == ApertureKind::Disc &&
+                     surface.obscuration.has_axial_symmetry();
   if (round) return tilts;
   const Placement tilted = turn_about(0, tilts.x_rad).then(turn_about(1, tilts.y_rad));
   tilts.z_rad = turn_rad - pose_of(tilted).turn_rad;
@@ -48,6 +49,13 @@ Tilts tilts_of(const Surface& surface, double turn_rad) {
 
 ClearAperture aperture_in_turned(const ClearAperture& aperture, double turn_rad) {
   ClearAperture own = aperture;
+  turn_opening(-turn_rad, own);
+  if (std::abs(own.turn_rad) < 1e-12) own.turn_rad = 0.0;
+  return own;
+}
+
+Obscuration obscuration_in_turned(const Obscuration& obscuration, double turn_rad) {
+  Obscuration own = obscuration;
   turn_opening(-turn_rad, own);
   if (std::abs(own.turn_rad) < 1e-12) own.turn_rad = 0.0;
   return own;

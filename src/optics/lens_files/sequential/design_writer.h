@@ -30,6 +30,7 @@ struct Tilts {
 
 // As it stands in the coordinates of a surface that is turned itself.
 [[nodiscard]] ClearAperture aperture_in_turned(const ClearAperture& aperture, double turn_rad);
+[[nodiscard]] Obscuration obscuration_in_turned(const Obscuration& obscuration, double turn_rad);
 
 // A glass of the bundled catalogue by the name that its maker gives it.
 struct CataloguedName {

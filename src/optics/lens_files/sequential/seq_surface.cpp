@@ -95,7 +95,23 @@ DesignOpening& opening_of(SeqSurface& s, int line) {
   return *s.opening;
 }
 
-// CIR 12, CIR L'a' 12; with EDG the glass's edge, with OBS or HOL a part that is not used.
+// CIR OBS 3, ELX HOL 2, ADX OBS 0.5. False for a rectangle, which is not computed.
+bool read_obscuration(std::string_view name, double value, Obscuration& obscuration) {
+  if (name == "CIR") {
+    obscuration.half_mm = {std::abs(value), std::abs(value)};
+  } else if (name == "ADX" || name == "ADY") {
+    (name == "ADX" ? obscuration.centre_mm.x : obscuration.centre_mm.y) = value;
+  } else if (name == "ARO") {
+    obscuration.turn_rad = rad_from_deg(value);
+  } else if (name[0] == 'E') {
+    (name[2] == 'X' ? obscuration.half_mm.x : obscuration.half_mm.y) = std::abs(value);
+  } else {
+    return false;
+  }
+  return true;
+}
+
+// CIR 12, CIR L'a' 12; with EDG the glass's edge, with OBS or HOL a part that lets nothing through.
 std::optional<std::string> read_aperture(const SeqCommand& command, SeqSurface& s, std::vector<std::string>& warnings) {
   const auto value = last_number(command);
   if (!value) return "no number";
@@ -103,9 +119,7 @@ std::optional<std::string> read_aperture(const SeqCommand& command, SeqSurface& 
     const std::string label = capitals(word);
     if (label == "EDG") return std::nullopt;
     if (label == "OBS" || label == "HOL") {
-      if (command.name == "CIR") {
-        opening_of(s, command.line).obscured = std::abs(*value);
-      } else {
+      if (!read_obscuration(command.name, *value, s.obscuration)) {
         warnings.push_back(fmt::format("the obscuration {} {} (line {}) is not computed; light goes through",
                                        command.name, label, command.line));
       }
@@ -278,6 +292,10 @@ Result<DesignSurface> seq_design_surface(const SeqSurface& in, int index, const 
   out.thickness = in.thickness;
   out.is_stop = in.is_stop;
   out.opening = in.opening;
+  out.obscuration = in.obscuration;
+  Vec2& half = out.obscuration.half_mm;  // of an ellipse one axis may be left out
+  half = {half.x > 0.0 ? half.x : half.y, half.y > 0.0 ? half.y : half.x};
+  if (!out.obscuration.any()) out.obscuration = {};
   out.solve = in.solve;
   const double first = in.first.value_or(0.0);
   out.curvature = in.curvature.value_or(in.radius_mode == RadiusMode::Radius ? curvature_of_radius(first) : first);

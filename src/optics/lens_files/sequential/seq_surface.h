@@ -35,6 +35,7 @@ struct SeqSurface {
   std::string refused_move = {};  // how its decentre and tilts act, where that is not computed
   int refused_move_line = 0;
   std::optional<DesignOpening> opening;
+  Obscuration obscuration;
   std::optional<ThicknessSolve> solve;
   bool is_to_focus = false;  // PIM: the next surface stands in the paraxial focus
 };

@@ -65,7 +65,8 @@ class Writer {
                       glass_text(s.glass_after) + "\n";
     if (!radius_is_exact(own)) out += "  CUY " + number_text(own) + "\n";
     if (s.kind == SurfaceKind::Stop) out += "  STO\n";
-    out += "  CIR " + number_text(s.semi_diameter_mm) + "\n" + rim_text(s, crossed ? 0.0 : s.shape.turn_rad);
+    const double turn_rad = crossed ? 0.0 : s.shape.turn_rad;
+    out += "  CIR " + number_text(s.semi_diameter_mm) + "\n" + rim_text(s, turn_rad) + obscuration_text(s, turn_rad);
     const auto coefficients = shape_text(s, crossed);
     if (!coefficients) return coefficients;
     return out + *coefficients + decentre_text(s, crossed);
@@ -110,6 +111,18 @@ class Writer {
     if (!(rim.centre_mm == Vec2{}))
       out += fmt::format("  ADX {}; ADY {}\n", number_text(rim.centre_mm.x), number_text(rim.centre_mm.y));
     if (rim.turn_rad != 0.0) out += "  ARO " + number_text(deg_from_rad(rim.turn_rad)) + "\n";
+    return out;
+  }
+
+  static std::string obscuration_text(const Surface& s, double turn_rad) {
+    if (!s.obscuration.any()) return {};
+    const Obscuration own = obscuration_in_turned(s.obscuration, turn_rad);
+    const Vec2 half = own.half_mm, at = own.centre_mm;
+    std::string out = half.x == half.y
+                          ? fmt::format("  CIR OBS {}\n", number_text(half.x))
+                          : fmt::format("  ELX OBS {}; ELY OBS {}\n", number_text(half.x), number_text(half.y));
+    if (!(at == Vec2{})) out += fmt::format("  ADX OBS {}; ADY OBS {}\n", number_text(at.x), number_text(at.y));
+    if (own.turn_rad != 0.0) out += "  ARO OBS " + number_text(deg_from_rad(own.turn_rad)) + "\n";
     return out;
   }
 

@@ -23,7 +23,6 @@ struct DesignOpening {
   Vec2 centre{};
   double turn_rad = 0;  // from x towards y
   double circle = 0;  // a circle about the axis besides; 0: none
-  double obscured = 0;  // a disc in the middle that lets nothing through
   int line = 0;
 };
 
@@ -44,6 +43,7 @@ struct DesignSurface {
   double semi_diameter = 0;     // 0: not told
   bool is_semi_fixed = false;   // by the designer; else the program's own, for the rays that it traced
   std::optional<DesignOpening> opening;
+  Obscuration obscuration;      // in the file's units
   Placement move;  // of the coordinates, before this surface and for all that follow
   Placement own;   // of this surface alone, after that
   std::optional<ThicknessSolve> solve;

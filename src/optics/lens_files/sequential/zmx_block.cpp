@@ -16,6 +16,10 @@ DesignOpening& opening_of(ZmxSurface& surface, int line) {
   return *surface.opening;
 }
 
+void obscure(ZmxSurface& surface, double half_x, double half_y) {
+  if (half_x > 0.0 && half_y > 0.0) surface.obscuration.half_mm = {half_x, half_y};
+}
+
 void read_glass(const ZmxRow& row, ZmxSurface& surface) {
   ZmxGlass glass{.line = row.line(), .name = std::string(row.word(1))};
   glass.status = static_cast<ZmxGlass::Status>(std::clamp(row.whole(2), 0, 5));
@@ -31,18 +35,25 @@ void read_glass(const ZmxRow& row, ZmxSurface& surface) {
 bool read_opening(const ZmxRow& row, ZmxSurface& surface, std::vector<std::string>& warnings) {
   const int line = row.line();
   if (row.is("CLAP")) {
-    opening_of(surface, line).obscured = row.number(1);
-    surface.opening->half_x = surface.opening->half_y = row.number(2);
+    obscure(surface, row.number(1), row.number(1));
+    DesignOpening& opening = opening_of(surface, line);
+    opening.half_x = opening.half_y = row.number(2);
   } else if (row.is("FLAP")) {
     surface.floats = true;
-    if (row.number(1) > 0.0) opening_of(surface, line).obscured = row.number(1);
+    obscure(surface, row.number(1), row.number(1));
   } else if (row.is_one_of({"SQAP", "ELAP"})) {
     opening_of(surface, line).shape = row.is("SQAP") ? OpeningShape::Rectangle : OpeningShape::Ellipse;
     surface.opening->half_x = row.number(1);
     surface.opening->half_y = row.number(2);
   } else if (row.is("OBDC")) {
-    opening_of(surface, line).centre = {row.number(1), row.number(2)};
-  } else if (row.is_one_of({"OBSC", "SQOB", "ELOB", "SPID"})) {
+    const Vec2 centre{row.number(1), row.number(2)};
+    if (surface.obscuration.any()) surface.obscuration.centre_mm = centre;
+    if (surface.opening || !surface.obscuration.any()) opening_of(surface, line).centre = centre;
+  } else if (row.is("OBSC") && row.number(1) == 0.0) {
+    obscure(surface, row.number(2), row.number(2));
+  } else if (row.is("ELOB")) {
+    obscure(surface, row.number(1), row.number(2));
+  } else if (row.is_one_of({"OBSC", "SQOB", "SPID"})) {
     warnings.push_back(
         fmt::format("the obscuration {} (line {}) is not computed; light goes through", row.word(0), line));
   } else if (row.is_one_of({"UDAP", "USAP", "UDOB", "USOB"})) {

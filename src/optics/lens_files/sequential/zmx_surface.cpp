@@ -212,6 +212,7 @@ Result<DesignSurface> zmx_surface(const ZmxSurface& in, int index, const std::st
   out.semi_diameter = in.semi_diameter;
   out.is_semi_fixed = in.is_semi_fixed || in.floats;
   out.opening = in.opening;
+  out.obscuration = in.obscuration;
   const bool needs_size = out.opening && !(out.opening->half_x > 0.0 && out.opening->half_y > 0.0);
   if ((in.floats && !out.opening && in.semi_diameter > 0.0) || needs_size) {
     if (!out.opening) out.opening = DesignOpening{.line = in.line};

@@ -40,6 +40,7 @@ struct ZmxSurface {
   bool is_semi_fixed = false;
   bool is_stop = false;
   std::optional<DesignOpening> opening;
+  Obscuration obscuration;
   std::string coating;  // its name and line
   int own_tilt_line = 0;  // of SCBD, a decentre or tilt of the surface alone; 0: none
   bool floats = false;  // FLAP: an aperture as large as the semi-diameter

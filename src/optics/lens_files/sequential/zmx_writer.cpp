@@ -101,8 +101,13 @@ class Writer {
     const auto shape = shape_rows(s);
     if (!shape) return shape.error().message;
     // Zemax turns neither shapes nor apertures, but coordinates.
-    const double turn_rad = s.shape.has_axial_symmetry() ? s.aperture.turn_rad : s.shape.turn_rad;
-    const auto rim = aperture_rows(k, turn_rad);
+    const bool rim_is_round = s.aperture.kind == ApertureKind::Disc;
+    const double turn_rad = !s.shape.has_axial_symmetry() ? s.shape.turn_rad
+                            : rim_is_round                ? s.obscuration.turn_rad
+                                                          : s.aperture.turn_rad;
+    if (s.obscuration.any() && !rim_is_round)
+      return "a rim that is no circle and an obscuration; a surface of Zemax has one aperture";
+    const auto rim = s.obscuration.any() ? obscuration_rows(s, turn_rad) : aperture_rows(k, turn_rad);
     if (!rim) return "its rim is turned otherwise than itself; Zemax has no such apertures";
     const std::string body = *shape + glass_row(s) + *rim;
     const bool askew = !(s.pose == SurfacePose{}) || turn_rad != 0.0;
@@ -124,6 +129,18 @@ class Writer {
     gap_at_.push_back({next_, along_mm});
     add_break(s.pose.shift_mm, tilts, true, gap_mm - along_mm);
     return std::nullopt;
+  }
+
+  // DIAM, and what stands before the middle.
+  static std::optional<std::string> obscuration_rows(const Surface& s, double turn_rad) {
+    const Obscuration own = obscuration_in_turned(s.obscuration, turn_rad);
+    const std::string semi = number_text(s.semi_diameter_mm);
+    std::string out = fmt::format("  DIAM {} 1 0 0 1 \"\"\n", semi);
+    if (own.has_axial_symmetry()) return out + fmt::format("  CLAP {} {} 0\n", number_text(own.half_mm.x), semi);
+    if (own.turn_rad != 0.0) return std::nullopt;
+    out += fmt::format("  ELOB {} {} 0\n", number_text(own.half_mm.x), number_text(own.half_mm.y));
+    if (own.centre_mm == Vec2{}) return out;
+    return out + fmt::format("  OBDC {} {}\n", number_text(own.centre_mm.x), number_text(own.centre_mm.y));
   }
 
   // DIAM, and a rim that is no circle about the axis.
