@@ -8,6 +8,7 @@
 #include "base/near_name.h"
 #include "base/units.h"
 #include "optics/lens_files/plain_number.h"
+#include "optics/lens_files/sequential/forbes.h"
 
 namespace contrejour {
 namespace {
@@ -62,6 +63,7 @@ enum class ZmxType {
   ExtendedOdd,
   Toroid,
   Biconic,
+  Forbes,
   Tilted,
   Break,
   Unknown
@@ -83,6 +85,7 @@ NamedType type_of(std::string_view name) {
                                   {"XODDASPH", ZmxType::ExtendedOdd},
                                   {"TOROIDAL", ZmxType::Toroid, "Zernike terms"},
                                   {"BICONICX", ZmxType::Biconic},
+                                  {"QED_TYPE", ZmxType::Forbes},
                                   {"TILTSURF", ZmxType::Tilted},
                                   {"COORDBRK", ZmxType::Break},
                                   {"BINARY_1", ZmxType::EvenAsphere, "phase"},
@@ -109,6 +112,29 @@ bool has_terms_beyond(const ZmxSurface& in, const NamedType& type) {
 Placement tilted_plane(double along_x, double along_y) {
   const double slant = std::sqrt(1.0 + along_x * along_x + along_y * along_y);
   return turn_about(0, std::atan(along_y)).then(turn_about(1, -std::asin(along_x / slant)));
+}
+
+// Forbes' asphere: XDAT 1 is 0 for Qbfs and 1 for Qcon, 2 the number of terms, 3 the norm radius, from 4 on Q_0, Q_1,
+// ... What is wrong, or nothing.
+std::optional<std::string> set_forbes(const ZmxSurface& in, SurfaceShape& shape) {
+  constexpr double kMostOff = 1e-5;
+  constexpr int kFirstOfForbes = 4;
+  ForbesAsphere asphere;
+  if (in.extra(1) != 0.0 && in.extra(1) != 1.0) return fmt::format("its type is {:g}; 0 and 1 are known", in.extra(1));
+  asphere.kind = in.extra(1) == 0.0 ? ForbesKind::Bfs : ForbesKind::Con;
+  asphere.norm_radius = in.extra(3);
+  if (!(asphere.norm_radius > 0.0)) return fmt::format("its norm radius is {:g}", asphere.norm_radius);
+  if (!(in.extra(2) <= static_cast<double>(ForbesAsphere::kMostTerms)))
+    return fmt::format("{:g} terms; at most {} are computed", in.extra(2), ForbesAsphere::kMostTerms);
+  for (int k = 0; k < static_cast<int>(in.extra(2)); ++k) asphere.coefficients.push_back(in.extra(kFirstOfForbes + k));
+  const double reach = in.semi_diameter > 0.0 ? in.semi_diameter : asphere.norm_radius;
+  const auto fitted = powers_of_forbes(in.curvature, in.conic, asphere, reach);
+  if (!fitted) return fmt::format("its conic ends within {:g} of the axis", reach);
+  if (fitted->off > kMostOff)
+    return fmt::format("powers up to r^{} miss it by {:.2g}; no more are computed", SurfaceShape::kHighestPower,
+                       fitted->off);
+  shape.powers = fitted->powers;
+  return std::nullopt;
 }
 
 // What is wrong, or nothing.
@@ -142,9 +168,10 @@ std::optional<std::string> set_shape(const ZmxSurface& in, const NamedType& name
       shape.curvature_x_per_mm = curvature_of_radius(in.parameter(1));
       shape.conic_x = in.parameter(2);
       break;
+    case ZmxType::Forbes: return set_forbes(in, shape);
     case ZmxType::Unknown:
-      return "it is not computed; STANDARD, EVENASPH, ODDASPHE, XASPHERE, XOSPHERE, TOROIDAL, BICONICX, TILTSURF and "
-             "COORDBRK are";
+      return "it is not computed; STANDARD, EVENASPH, ODDASPHE, XASPHERE, XOSPHERE, QED_TYPE, TOROIDAL, BICONICX, "
+             "TILTSURF and COORDBRK are";
   }
   return std::nullopt;
 }
