@@ -14,13 +14,12 @@ constexpr std::size_t kRaysPerTerm = 3;
 constexpr double kRimShare = 0.1;     // about a rim, where it is looked at as a circle seen from the stop
 constexpr double kOutlineAgrees = 0.15;  // of the area
 
-// The stop's unit vectors in cosines, by the open rays.
-std::array<Vec2, 2> stop_in_cosines(const PupilRays& pupil, const std::vector<std::size_t>& open) {
-  std::vector<Vec2> places;
+// Where the unit vectors of a plane come to lie in cosines, by the places at which these rays cross it.
+std::array<Vec2, 2> axes_in_cosines(const PupilRays& pupil, const std::vector<std::size_t>& rays,
+                                    const std::vector<Vec2>& places) {
   std::vector<double> values;
-  for (const std::size_t k : open) places.push_back(pupil.rays[k].stop);
-  for (const std::size_t k : open) values.push_back(pupil.rays[k].cosines.x);
-  for (const std::size_t k : open) values.push_back(pupil.rays[k].cosines.y);
+  for (const std::size_t k : rays) values.push_back(pupil.rays[k].cosines.x);
+  for (const std::size_t k : rays) values.push_back(pupil.rays[k].cosines.y);
   const SmoothFit fit(places, values, 1);
   const auto step = [&](Vec2 to) { return Vec2{fit(to, 0) - fit({}, 0), fit(to, 1) - fit({}, 1)}; };
   return {step({1.0, 0.0}), step({0.0, 1.0})};
@@ -67,12 +66,8 @@ std::vector<double> obscured_areas(const PupilRays& pupil, const std::vector<std
   for (const std::size_t rim : rims) {
     if (!pupil.blocks_within[rim]) continue;
     std::vector<Vec2> places;
-    std::vector<double> values;
     for (const std::size_t k : used) places.push_back(pupil.at_rim(rim, k));
-    for (const std::size_t k : used) values.push_back(pupil.rays[k].cosines.x);
-    for (const std::size_t k : used) values.push_back(pupil.rays[k].cosines.y);
-    const SmoothFit fit(places, values, 1);
-    const auto step = [&](Vec2 to) { return Vec2{fit(to, 0) - fit({}, 0), fit(to, 1) - fit({}, 1)}; };
+    const auto axes = axes_in_cosines(pupil, used, places);
     const auto is_within = [&](std::size_t of, std::size_t ray) { return length(pupil.at_rim(of, ray)) < 1.0; };
     int within = 0, dark = 0;
     for (std::size_t k = 0; k < pupil.rays.size(); ++k) {
@@ -82,7 +77,7 @@ std::vector<double> obscured_areas(const PupilRays& pupil, const std::vector<std
       dark += is_dark || pupil.rays[k].blocked > 0.0 ? 1 : 0;
     }
     const double open = within == 0 ? 1.0 : 1.0 - static_cast<double>(dark) / within;  // 0 rays: it is that small
-    if (open > 0.0) areas.push_back(open * std::numbers::pi * std::abs(cross(step({1.0, 0.0}), step({0.0, 1.0}))));
+    if (open > 0.0) areas.push_back(open * std::numbers::pi * std::abs(cross(axes[0], axes[1])));
     before.push_back(rim);
   }
   return areas;
@@ -98,7 +93,9 @@ std::optional<PupilOutline> outline_of(const PupilRays& pupil, const OutlineRays
     if (pupil.blocks_within[rim]) continue;
     if (const auto cut = rim_seen_from_stop(pupil, rim)) cuts.push_back(*cut);
   }
-  const auto axes = stop_in_cosines(pupil, of.open);
+  std::vector<Vec2> stops;
+  for (const std::size_t k : of.open) stops.push_back(pupil.rays[k].stop);
+  const auto axes = axes_in_cosines(pupil, of.open, stops);
   PupilOutline outline{IrisOpening(iris, cuts), axes[0], axes[1]};
   outline.obscured_mm2 = obscured_areas(pupil, of.rims, of.used);
   if (!(std::abs(outline.area_mm2() / open_area - 1.0) < kOutlineAgrees)) return std::nullopt;
