@@ -110,6 +110,7 @@ TEST_CASE("what is wrong with a shape is said with its line") {
   check_refused(", conic = 50", 6, "the surface ends before semi_diameter_mm 8");
   check_refused(", toroid = {}", 6, "give either radius_x_mm (inf for a plane) or curvature_x_per_mm");
   check_refused(", toroid = { radius_x_mm = 5 }", 6, "the surface ends before");
+  check_refused(", toroid = { radius_x_mm = 1e-8 }", 6, "a radius is less than 1e-06 mm");
   check_refused(", toroid = { radius_x_mm = 50, conic_x = 1 }", 6, "unknown key 'conic_x'");
   check_refused(", biconic = { radius_x_mm = 50 }, asphere = { 4 = 1e-6 }", 6, "a biconic has no asphere");
   check_refused(", biconic = { radius_x_mm = 50 }, toroid = { radius_x_mm = 50 }", 6, "not both");

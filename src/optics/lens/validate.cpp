@@ -27,6 +27,7 @@ constexpr double kMinFilmIndex = 0.01;  // silver
 constexpr double kMaxFilm_nm = 1e5;     // beyond it, films are glass
 constexpr double kMaxLength_mm = 1e5;
 constexpr double kMaxConic = 1e6;       // of a nearly flat surface; real ones stay below 1000
+constexpr double kMostCurvature_per_mm = 1e6;  // no clear aperture is smaller
 constexpr double kMaxTurn_rad = 1e3;    // beyond, angles lose digits
 constexpr double kLeastUpright = 0.5;   // z of a surface's axis
 constexpr double kMaxFNumber = 1000.0;
@@ -293,6 +294,10 @@ std::optional<std::string> shape_problem(const Surface& surface) {
   if (!std::all_of(shape.powers.begin(), shape.powers.end(), [](double a) { return std::isfinite(a); }) ||
       !std::isfinite(shape.curvature_x_per_mm) || !within(shape.turn_rad, -kMaxTurn_rad, kMaxTurn_rad)) {
     return "a number of the surface's shape is not finite, or too large; correct it";
+  }
+  if (!within(surface.curvature_per_mm, -kMostCurvature_per_mm, kMostCurvature_per_mm) ||
+      !within(shape.curvature_x_per_mm, -kMostCurvature_per_mm, kMostCurvature_per_mm)) {
+    return fmt::format("a radius is less than {} mm; correct it", 1.0 / kMostCurvature_per_mm);
   }
   const bool has_powers = std::any_of(shape.powers.begin(), shape.powers.end(), [](double a) { return a != 0.0; });
   const bool has_x = shape.curvature_x_per_mm != 0.0 || shape.turn_rad != 0.0;
