@@ -3,6 +3,7 @@
 // where the ray crosses the stop.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -16,7 +17,16 @@ namespace contrejour {
 
 struct Rectangle {
   Vec2 low, high;
+  friend bool operator==(const Rectangle&, const Rectangle&) = default;
 };
+
+// The smallest that holds both.
+[[nodiscard]] inline Rectangle both(const Rectangle& a, const Rectangle& b) {
+  return {{std::min(a.low.x, b.low.x), std::min(a.low.y, b.low.y)},
+          {std::max(a.high.x, b.high.x), std::max(a.high.y, b.high.y)}};
+}
+// On the other side of y = 0.
+[[nodiscard]] inline Rectangle mirrored(const Rectangle& r) { return {{r.low.x, -r.high.y}, {r.high.x, -r.low.y}}; }
 
 // Buffers are kept between passes; one object a thread.
 class RayGrid {

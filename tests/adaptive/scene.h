@@ -72,9 +72,10 @@ struct GhostScene {
   }
 
   [[nodiscard]] adaptive::RaySheet sheet(const Rectangle& box, int nodes, Rgb gain = {1, 1, 1}) const {
-    const PlannedPass pass{lambda_nm, gain};
-    adaptive::SheetTracer tracer(lens, ghost, light, window.z_mm, {lambda_nm, {&pass, 1}}, tables);
-    return tracer.trace(box, nodes, PacketPrecision::Double);
+    adaptive::SheetTracer tracer(lens, ghost, light, window.z_mm, lambda_nm, *tables.at(lambda_nm));
+    adaptive::RaySheet sheet = tracer.trace(box, nodes, PacketPrecision::Double);
+    adaptive::add_light(sheet, sheet.transmission, gain);
+    return sheet;
   }
 
   // The ray through a point of the meridional entrance plane, traced where it really runs.

@@ -166,6 +166,28 @@ TEST_CASE("a sheet half of which is mirrored is the sheet of all rays") {
   }
 }
 
+TEST_CASE("a sheet turned over is the sheet of the box on the other side of the axis") {
+  const test::GhostScene scene = scenes_of(kCases[0], 1).front();
+  Rectangle above = scene.boxes.front();
+  above.low.y = 0.2 * above.high.y;
+  const RaySheet turned = mirrored(scene.sheet(above, 9));
+  const RaySheet traced = scene.sheet(mirrored(above), 9);
+  CHECK(turned.box == traced.box);
+  const auto same = [](const std::vector<float>& a, const std::vector<float>& b) {
+    REQUIRE(a.size() == b.size());
+    for (std::size_t k = 0; k < a.size(); ++k) CHECK(a[k] == doctest::Approx(b[k]).epsilon(1e-4).scale(1e-2));
+  };
+  same(turned.sensor_x_mm, traced.sensor_x_mm);
+  same(turned.sensor_y_mm, traced.sensor_y_mm);
+  same(turned.r_rel, traced.r_rel);
+  same(turned.rim_squared, traced.rim_squared);
+  for (std::size_t axis = 0; axis < 2; ++axis) same(turned.stop[0][axis], traced.stop[0][axis]);
+  for (std::size_t k = 0; k < turned.count(); ++k) {
+    CHECK(turned.weight[1][k] == doctest::Approx(traced.weight[1][k]).epsilon(1e-4));
+    CHECK(turned.transmission[k] == doctest::Approx(traced.transmission[k]).epsilon(1e-4));
+  }
+}
+
 TEST_CASE("quarters of a patch are the patch") {
   for (const int nodes : {2, 5, 9, 17}) {
     CAPTURE(nodes);

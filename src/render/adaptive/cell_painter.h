@@ -28,9 +28,9 @@ class CellPainter {
 
   // From here on the light passes a screen: stop coordinates are in units of `unit` stop radii.
   void stand_behind(std::shared_ptr<const BandScreen> screen, double unit) {
+    if (screen == screen_) return;
     screen_ = std::move(screen);
     screen_unit_ = unit;
-    tables_.clear();
     out_.screens.push_back(screen_);
   }
   // And past dirt.
@@ -143,7 +143,7 @@ class CellPainter {
   double screen_unit_ = 1.0;
   SeenDirt dirt_;
   screens::ShadowCutter shadows_;
-  std::map<int, const EdgeTable*> tables_;  // of the screen, by width
+  std::map<std::pair<const BandScreen*, int>, const EdgeTable*> tables_;  // of screens, by width
   std::vector<std::uint16_t> active_;
   OutlineCutter cutter_;
   std::vector<Point> points_;

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
+#include <set>
 
 #include "render/adaptive/extremes.h"
 #include "render/adaptive/lobatto.h"
@@ -16,12 +18,12 @@ constexpr std::array kNodes{5, 9, 17};
 constexpr double kFloatError_mm = 1e-3;
 constexpr double kFloatBox_mm = 0.05;
 constexpr double kWorthShrinking = 0.5;  // a box whose lit part has no more of its area is shrunk to it
-constexpr double kFitShare = 0.4;  // of the allowed error, that fits may make: theirs is the same all over a ghost
-constexpr double kNoLimit = 1e9;
-constexpr double kPeaks = 4.0;  // fits of what is so many times brighter than the peak need be no better
 constexpr float kNearlyThrough = 1.2F;  // of the clear height
 constexpr double kShiftShare = 1.0;  // of a fit's tolerance that a band of wavelengths may take on either side
 constexpr double kLightLeft = 0.05;  // of a channel's absolute sum over wavelengths, for its parts to mean anything
+constexpr std::size_t kMostSamples = 9;  // of wavelengths, that are tried
+constexpr double kNoFit = std::numeric_limits<double>::infinity();
+constexpr double kHopeless = 2.0;  // times the tolerance, foretold of more nodes
 constexpr double kFewCells = 64.0;  // a band's squared error is shared among so many cells
 
 // Bounds of the cells between the nodes that may let light through, none if none may; the iris counts as its
@@ -58,66 +60,41 @@ std::optional<Rectangle> lit_part(const RaySheet& sheet) {
   return part;
 }
 
-// A band's wavelengths as at most three of them, each with the gains of those nearest: within a band the rest would
-// show no more.
-std::vector<PlannedPass> thinned(std::span<const PlannedPass> passes) {
-  const std::size_t count = std::min<std::size_t>(passes.size(), 3);
-  std::vector<PlannedPass> few;
-  for (std::size_t part = 0; part < count; ++part) {
-    const std::size_t first = part * passes.size() / count;
-    const std::size_t last = (part + 1) * passes.size() / count;
-    PlannedPass one{passes[(first + last) / 2].lambda_nm, {}};
-    for (std::size_t k = first; k < last; ++k) {
-      for (std::size_t c = 0; c < 3; ++c) one.gain[c] += passes[k].gain[c];
-    }
-    few.push_back(one);
+double area(const Rectangle& r) { return (r.high.x - r.low.x) * (r.high.y - r.low.y); }
+
+// Of the cells of any of the sheets, which are of one box.
+std::optional<Rectangle> lit_part(std::span<const RaySheet> sheets) {
+  std::optional<Rectangle> part;
+  for (const RaySheet& sheet : sheets) {
+    const auto one = lit_part(sheet);
+    if (one) part = part ? both(*part, *one) : *one;
   }
-  return few;
+  return part;
 }
 
-double area(const Rectangle& r) { return (r.high.x - r.low.x) * (r.high.y - r.low.y); }
+// A patch's error over what is allowed.
+double misfit(const Patch& patch, const Tolerance& tolerance) {
+  const PatchError e = estimated_error(patch);
+  return std::max({e.position_px / tolerance.position_px, e.stop / tolerance.stop, e.rim / (2.0 * tolerance.stop),
+                   e.weight / tolerance.weight});
+}
+
+bool all_arrive(std::span<const RaySheet> sheets) {
+  return std::all_of(sheets.begin(), sheets.end(), [](const RaySheet& sheet) { return sheet.failed == 0; });
+}
+
+std::vector<double> wavelengths_of(std::span<const PlannedPass> passes) {
+  std::vector<double> lambda_nm;
+  for (const PlannedPass& pass : passes) lambda_nm.push_back(pass.lambda_nm);
+  return lambda_nm;
+}
 
 }  // namespace
 
-GhostPainter::GhostPainter(const LensState& lens, const IrisShape& iris, const Frame& frame, const LightFrame& light,
-                           const TablesByWavelength& tables, int deepest, const GhostScreens* screens,
-                           const screens::DirtField* dirt)
-    : lens_(lens), iris_(iris), frame_(frame), light_(light), tables_(tables),
-      plane_z_mm_(entrance_window(lens, light.source).z_mm), deepest_(deepest), screens_(screens), dirt_(dirt) {}
-
-// How far a fit may be off, from what that does to pixels: edges displaced by d over a length of about 4 L, and
-// levels off by a share w over L^2 pixels.
-GhostPainter::Tolerance GhostPainter::tolerance_for(const std::vector<RaySheet>& sheets,
-                                                    const ErrorBudget& budget) const {
-  if (!std::isfinite(budget.squared_error)) return {kNoLimit, kNoLimit, kNoLimit};
-  const RaySheet& middle = sheets[sheets.size() / 2];
-  Vec2 low{kNoLimit, kNoLimit};
-  Vec2 high{-kNoLimit, -kNoLimit};
-  double weight = 0.0;
-  for (std::size_t k = 0; k < middle.count(); ++k) {
-    if (std::isinf(middle.r_rel[k])) continue;
-    const Vec2 p = Vec2{middle.sensor_x_mm[k], middle.sensor_y_mm[k]} * (1.0 / frame_.pixel_pitch_mm);
-    low = {std::min(low.x, p.x), std::min(low.y, p.y)};
-    high = {std::max(high.x, p.x), std::max(high.y, p.y)};
-    for (std::size_t c = 0; c < 3; ++c) {
-      double sum = 0.0;
-      for (const RaySheet& sheet : sheets) sum += sheet.weight[c][k];
-      weight = std::max(weight, std::abs(sum));
-    }
-  }
-  if (!(weight > 0.0)) return {kNoLimit, kNoLimit, kNoLimit};
-  const Vec2 size{std::max(high.x - low.x, 1.0), std::max(high.y - low.y, 1.0)};
-  const double side = std::sqrt(size.x * size.y);
-  const Vec2 pupil = middle.box.high - middle.box.low;
-  const double level = weight * pupil.x * pupil.y * light_.source.shared_flux() / (size.x * size.y);
-  const double error =
-      kFitShare * std::sqrt(budget.squared_error) / std::min(level, kPeaks * budget.peak);  // in levels, summed
-  Tolerance t;
-  t.position_px = std::clamp(std::min(error / (2.0 * std::sqrt(side)), error / 8.0), 0.005, 0.05 * side + 0.5);
-  t.stop = 2.0 * t.position_px / side;
-  t.weight = std::clamp(error / side, 1e-4, 0.5);
-  return t;
-}
+GhostPainter::GhostPainter(GhostTracers& tracers, const IrisShape& iris, const Frame& frame, int deepest,
+                           const GhostScreens* screens, const screens::DirtField* dirt)
+    : tracers_(tracers), samples_(wavelengths_of(tracers.passes()), kMostSamples), iris_(iris), frame_(frame),
+      deepest_(deepest), screens_(screens), dirt_(dirt) {}
 
 PacketPrecision GhostPainter::precision_for(const Rectangle& box, const Tolerance& tolerance) const {
   const bool coarse = tolerance.position_px * frame_.pixel_pitch_mm > 2.0 * kFloatError_mm;
@@ -125,42 +102,19 @@ PacketPrecision GhostPainter::precision_for(const Rectangle& box, const Toleranc
   return coarse && std::min(size.x, size.y) > kFloatBox_mm ? PacketPrecision::Float : PacketPrecision::Double;
 }
 
-bool GhostPainter::accepts(const Patch& patch, const Tolerance& tolerance) {
-  const PatchError e = estimated_error(patch);
-  return e.position_px <= tolerance.position_px && e.stop <= tolerance.stop && e.rim <= 2.0 * tolerance.stop &&
-         e.weight <= tolerance.weight;
-}
-
-void GhostPainter::count(const SheetTracer& tracer) {
-  rays_ += tracer.rays();
-  surface_hits_ += tracer.surface_hits();
-}
-
-std::vector<RaySheet> GhostPainter::first_sheets(Ghost ghost, const Rectangle& box,
-                                                 std::span<const PlannedPass> passes) {
-  std::vector<RaySheet> sheets;
-  for (std::size_t k = 0; k < passes.size(); ++k) {
-    SheetTracer tracer(lens_, ghost, light_, plane_z_mm_, {passes[k].lambda_nm, passes.subspan(k, 1)}, tables_,
-                       stop_times());
-    sheets.push_back(tracer.trace(box, kNodes.front(), PacketPrecision::Double));
-    count(tracer);
-  }
-  return sheets;
-}
-
 // The screens of a band's wavelengths, at most three, each with the light of those nearest.
-std::shared_ptr<const BandScreen> GhostPainter::band_screen(const std::vector<RaySheet>& sheets, std::size_t first,
-                                                            std::size_t last) const {
-  const std::size_t passes = last - first, count = std::min<std::size_t>(passes, 3);
+std::shared_ptr<const BandScreen> GhostPainter::band_screen(const FirstRays& rays, const Band& of) const {
+  const std::size_t passes = of.last - of.first, count = std::min<std::size_t>(passes, 3);
   auto band = std::make_shared<BandScreen>();
   std::array<double, 3> sum{}, size{};
   std::vector<std::array<double, 3>> light(count);
   for (std::size_t part = 0; part < count; ++part) {
-    const std::size_t from = first + part * passes / count, to = first + (part + 1) * passes / count;
+    const std::size_t from = of.first + part * passes / count, to = of.first + (part + 1) * passes / count;
     band->parts.push_back({screens_->by_pass[(from + to) / 2], {}});
-    for (std::size_t k = from; k < to; ++k)
-      for (std::size_t c = 0; c < 3; ++c)
-        for (const float w : sheets[k].weight[c]) light[part][c] += std::isfinite(w) ? w : 0.0F;
+    for (std::size_t k = from; k < to; ++k) {
+      const auto of_pass = light_of(rays, tracers_.passes(), k);
+      for (std::size_t c = 0; c < 3; ++c) light[part][c] += of_pass[c];
+    }
     for (std::size_t c = 0; c < 3; ++c) sum[c] += light[part][c], size[c] += std::abs(light[part][c]);
   }
   for (std::size_t part = 0; part < count; ++part)
@@ -196,73 +150,150 @@ double GhostPainter::shift_px(const RaySheet& a, const RaySheet& b) const {
   return largest / frame_.pixel_pitch_mm;
 }
 
-void GhostPainter::paint(Ghost ghost, const Rectangle& box, std::span<const PlannedPass> passes,
-                         const ErrorBudget& budget, PolygonList& out) {
-  const std::vector<RaySheet> sheets = first_sheets(ghost, box, passes);
-  const Tolerance tolerance = tolerance_for(sheets, budget);
-  // Wavelengths whose images lie closer than is seen share one geometry.
-  const double shift = passes.size() > 1 ? shift_px(sheets.front(), sheets.back()) : 0.0;
-  const double wanted = std::ceil(shift / (2.0 * kShiftShare * tolerance.position_px));
-  const std::size_t bands = static_cast<std::size_t>(std::clamp(wanted, 1.0, static_cast<double>(passes.size())));
-  CellPainter cells(iris_, frame_, budget.squared_error, kFewCells * static_cast<double>(bands), budget.peak, out);
-  cells.stand_behind(SeenDirt{dirt_, &light_, plane_z_mm_});
-  for (std::size_t band = 0; band < bands; ++band) {
-    const std::size_t first = band * passes.size() / bands;
-    const std::size_t last = (band + 1) * passes.size() / bands;
-    const std::size_t middle = (first + last) / 2;
-    if (screens_ != nullptr) cells.stand_behind(band_screen(sheets, first, last), stop_times());
-    RaySheet sheet = sheets[middle];
-    for (std::size_t k = first; k < last; ++k) {
-      for (std::size_t c = 0; c < 3 && k != middle; ++c) {
-        for (std::size_t node = 0; node < sheet.count(); ++node) sheet.weight[c][node] += sheets[k].weight[c][node];
-      }
-    }
-    if (sheet.failed == 0) {
-      const Patch patch = make_patch(sheet, light_, frame_);
-      if (accepts(patch, tolerance)) {
-        cells.paint(patch);
-        continue;
-      }
-    }
-    const auto few = thinned(passes.subspan(first, last - first));
-    SheetTracer tracer(lens_, ghost, light_, plane_z_mm_, {few[few.size() / 2].lambda_nm, few}, tables_, stop_times());
-    paint_box(tracer, box, 0, tolerance, cells);
-    count(tracer);
-  }
+// Wavelengths whose images lie closer than is seen share one geometry.
+std::vector<Band> GhostPainter::bands_for(const FirstRays& rays) const {
+  const std::size_t passes = rays.sheets.size();
+  const double shift = passes > 1 ? shift_px(rays.sheets.front(), rays.sheets.back()) : 0.0;
+  const double wanted = std::ceil(shift / (2.0 * kShiftShare * rays.tolerance.position_px));
+  const auto count = static_cast<std::size_t>(std::clamp(wanted, 1.0, static_cast<double>(passes)));
+  std::vector<Band> bands;
+  for (std::size_t k = 0; k < count; ++k) bands.push_back({k * passes / count, (k + 1) * passes / count});
+  return bands;
 }
 
-void GhostPainter::paint_box(SheetTracer& tracer, const Rectangle& box, int depth, const Tolerance& tolerance,
-                             CellPainter& cells) {
-  for (std::size_t k = depth == 0 ? 1 : 0; k < kNodes.size(); ++k) {
-    const PacketPrecision precision = precision_for(box, tolerance);
-    RaySheet sheet = tracer.trace(box, kNodes[k], precision);
-    const auto part = lit_part(sheet);
+void GhostPainter::paint(const Rectangle& box, bool with_mirror_image, const ErrorBudget& budget, PolygonList& out) {
+  const FirstRays rays = first_rays(tracers_, samples_, box, kNodes.front(), frame_, budget);
+  const std::vector<Band> bands = bands_for(rays);
+  BandScreens screens;
+  for (const Band& band : bands) screens.push_back(screens_ != nullptr ? band_screen(rays, band) : nullptr);
+  const auto few_cells = kFewCells * static_cast<double>(bands.size());
+  CellPainter cells(iris_, frame_, budget.squared_error, few_cells, budget.peak, out);
+  cells.stand_behind(SeenDirt{dirt_, &tracers_.light(), tracers_.plane_z_mm()});
+  CellPainter cells_of_image = cells;
+  CellPainter* const mirror_image = with_mirror_image ? &cells_of_image : nullptr;
+  if (rays.samples > 0) return paint_bands(rays, box, bands, screens, cells, mirror_image);
+  for (std::size_t k = 0; k < bands.size(); ++k)
+    paint_bands(rays, box, {&bands[k], 1}, {screens[k]}, cells, mirror_image);
+}
+
+// One, or all that the samples tell.
+void GhostPainter::paint_bands(const FirstRays& rays, const Rectangle& box, std::span<const Band> bands,
+                               const BandScreens& screens, CellPainter& cells, CellPainter* mirror_image) {
+  const Painting painting{rays.tolerance, screens, cells, mirror_image};
+  const bool told = rays.samples > 0;
+  const Band& band = bands.front();
+  BandSet set = told ? BandSet(tracers_, samples_, rays.samples, bands) : BandSet(tracers_, band);
+  std::vector<RaySheet> sheets;
+  for (std::size_t k = 0; k < rays.samples; ++k) sheets.push_back(rays.sheets[samples_[k]]);
+  if (told) set.add_weights(sheets, PacketPrecision::Double);
+  if (!told) {
+    const auto add_pass = [&](std::size_t k) {
+      add_light(sheets.front(), rays.transmission[k], tracers_.passes()[k].gain);
+    };
+    sheets.push_back(rays.sheets[band.middle()]);
+    add_pass(band.middle());
+    for (std::size_t k = band.first; k < band.last; ++k)
+      if (k != band.middle()) add_pass(k);
+  }
+  double first_misfit = kNoFit;
+  if (all_arrive(sheets)) {
+    const std::vector<Patch> patches = set.make_patches(sheets, frame_);
+    first_misfit = misfit(set, patches, painting.tolerance);
+    if (first_misfit <= 1.0) return paint_patches(set, sheets, patches, painting);
+  }
+  paint_box(set, box, 0, first_misfit, painting);
+}
+
+// first_misfit: that of the fewest nodes, where it is known.
+void GhostPainter::paint_box(BandSet& bands, const Rectangle& box, int depth, std::optional<double> first_misfit,
+                             const Painting& painting) {
+  double before = first_misfit.value_or(kNoFit);
+  for (std::size_t k = first_misfit ? 1 : 0; k < kNodes.size(); ++k) {
+    const PacketPrecision precision = precision_for(box, painting.tolerance);
+    std::vector<RaySheet> sheets = bands.trace(box, kNodes[k], precision);
+    const auto part = lit_part(sheets);
     if (!part) return;
-    if (depth < deepest_ && area(*part) < kWorthShrinking * area(box)) {
-      return paint_box(tracer, *part, depth + 1, tolerance, cells);
-    }
+    if (depth < deepest_ && area(*part) < kWorthShrinking * area(box))
+      return paint_box(bands, *part, depth + 1, std::nullopt, painting);
     const bool last = k + 1 == kNodes.size();
-    if (sheet.failed > 0 && depth < deepest_) break;
-    tracer.add_wavelengths(sheet, precision);
-    if (sheet.failed == 0) {
-      const Patch patch = make_patch(sheet, light_, frame_);
-      if (accepts(patch, tolerance) || (last && depth >= deepest_)) return cells.paint(patch);
-    } else {
-      for (const Patch& patch : patches_of_cells(sheet, light_, frame_)) cells.paint(patch);
-      return;
-    }
+    const bool arrive = all_arrive(sheets);
+    if (!arrive && depth < deepest_) break;
+    bands.add_weights(sheets, precision);
+    if (!arrive) return paint_between_rays(bands, box, sheets, depth, painting);
+    const std::vector<Patch> patches = bands.make_patches(sheets, frame_);
+    const double now = misfit(bands, patches, painting.tolerance);
+    if (now <= 1.0 || (last && depth >= deepest_)) return paint_patches(bands, sheets, patches, painting);
+    // Errors fall by a like factor for a like number of nodes, which the next step has twice more of.
+    const double next = now * (now / before) * (now / before);
+    if (next > kHopeless && depth < deepest_) break;
+    before = now;
   }
-  paint_quarters(tracer, box, depth, tolerance, cells);
+  paint_quarters(bands, box, depth, painting);
 }
 
-void GhostPainter::paint_quarters(SheetTracer& tracer, const Rectangle& box, int depth, const Tolerance& tolerance,
-                                  CellPainter& cells) {
-  const Vec2 middle = (box.low + box.high) * 0.5;
-  for (const auto& [y0, y1] : {std::pair{box.low.y, middle.y}, std::pair{middle.y, box.high.y}}) {
-    for (const auto& [x0, x1] : {std::pair{box.low.x, middle.x}, std::pair{middle.x, box.high.x}}) {
-      paint_box(tracer, {{x0, y0}, {x1, y1}}, depth + 1, tolerance, cells);
-    }
+// The worst of the bands': those between the ends and the middle are blended like them.
+double GhostPainter::misfit(const BandSet& bands, std::span<const Patch> patches, const Tolerance& tolerance) const {
+  Patch patch;
+  double worst = 0.0;
+  const std::size_t last = bands.size() - 1;
+  for (const std::size_t band : std::set{std::size_t{0}, last / 2, last}) {
+    bands.band_patch(patches, band, patch);
+    worst = std::max(worst, adaptive::misfit(patch, tolerance));
   }
+  return worst;
+}
+
+// patches: of the sheets.
+void GhostPainter::paint_patches(const BandSet& bands, std::span<const RaySheet> sheets, std::span<const Patch> patches,
+                                 const Painting& painting) const {
+  const auto paint_all = [&](std::span<const Patch> of, CellPainter& cells) {
+    Patch patch;
+    for (std::size_t band = 0; band < bands.size(); ++band) {
+      bands.band_patch(of, band, patch);
+      stand_behind(painting.screens[band], cells);
+      cells.paint(patch);
+    }
+  };
+  paint_all(patches, painting.cells);
+  if (painting.mirror_image == nullptr) return;
+  std::vector<RaySheet> others;
+  for (const RaySheet& sheet : sheets) others.push_back(mirrored(sheet));
+  paint_all(bands.make_patches(others, frame_), *painting.mirror_image);
+}
+
+// Straight lines between the rays that arrive, of each band by itself: they fail at different places.
+void GhostPainter::paint_between_rays(BandSet& bands, const Rectangle& box, std::span<const RaySheet> sheets, int depth,
+                                      const Painting& painting) {
+  if (bands.size() == 1 && sheets.size() == 1) {
+    const auto paint_cells = [&](const RaySheet& sheet, CellPainter& cells) {
+      stand_behind(painting.screens.front(), cells);
+      for (const Patch& patch : patches_of_cells(sheet, tracers_.light(), frame_)) cells.paint(patch);
+    };
+    paint_cells(sheets.front(), painting.cells);
+    if (painting.mirror_image != nullptr) paint_cells(mirrored(sheets.front()), *painting.mirror_image);
+    return;
+  }
+  for (std::size_t k = 0; k < bands.size(); ++k) {
+    BandSet alone(tracers_, bands.band(k));
+    paint_box(alone, box, depth, std::nullopt, {painting.tolerance, {painting.screens[k]}, painting.cells, painting.mirror_image});
+  }
+}
+
+// Of a box that is its own mirror image those on one side of the axis tell the others.
+void GhostPainter::paint_quarters(BandSet& bands, const Rectangle& box, int depth, const Painting& painting) {
+  const Vec2 middle = (box.low + box.high) * 0.5;
+  const bool symmetric = tracers_.light().symmetric && box.low.y == -box.high.y;
+  Painting part = painting;
+  if (symmetric) part.mirror_image = &painting.cells;
+  for (const auto& [y0, y1] : {std::pair{middle.y, box.high.y}, std::pair{box.low.y, middle.y}}) {
+    if (symmetric && y0 < middle.y) return;
+    for (const auto& [x0, x1] : {std::pair{box.low.x, middle.x}, std::pair{middle.x, box.high.x}})
+      paint_box(bands, {{x0, y0}, {x1, y1}}, depth + 1, std::nullopt, part);
+  }
+}
+
+void GhostPainter::stand_behind(const std::shared_ptr<const BandScreen>& screen, CellPainter& cells) const {
+  if (screen) cells.stand_behind(screen, tracers_.stop_times());
 }
 
 }  // namespace contrejour::adaptive

@@ -24,11 +24,6 @@ constexpr int kPeakScale = 8;  // the frame's pixels over those of the small one
 
 const PlannedPass& middle_pass(const PlannedLight& light) { return light.passes[light.passes.size() / 2]; }
 
-Rectangle both(const Rectangle& a, const Rectangle& b) {
-  return {{std::min(a.low.x, b.low.x), std::min(a.low.y, b.low.y)},
-          {std::max(a.high.x, b.high.x), std::max(a.high.y, b.high.y)}};
-}
-
 bool overlap(const Rectangle& a, const Rectangle& b) {
   return a.low.x < b.high.x && b.low.x < a.high.x && a.low.y < b.high.y && b.low.y < a.high.y;
 }
@@ -144,11 +139,17 @@ Painted paint(const Scene& scene, const Item& item, std::vector<PlannedPass> pas
       for (double& gain : pass.gain) gain *= item.past_dirt;
   const LightFrame light(item.light->source, has_axial_symmetry(scene.lens, item.ghost));
   const IrisShape& iris = item.screens ? round_iris() : scene.iris;
-  GhostPainter painter(scene.lens, iris, frame, light, scene.plan.tables, deepest, item.screens.get(),
+  GhostTracers tracers(scene.lens, item.ghost, light, scene.plan.tables, passes, stop_times(item));
+  GhostPainter painter(tracers, iris, frame, deepest, item.screens.get(),
                        item.has_shadows ? scene.dirt.get() : nullptr);
-  for (const Rectangle& box : item.boxes) painter.paint(item.ghost, box, passes, budget, painted.polygons.list);
+  for (const Rectangle& box : item.boxes) {
+    const bool aside = light.symmetric && box.low.y != -box.high.y;
+    const bool has_image = aside && std::ranges::count(item.boxes, mirrored(box)) > 0;
+    if (has_image && box.low.y < 0.0) continue;  // painted with the other
+    painter.paint(box, has_image, budget, painted.polygons.list);
+  }
   painted.polygons.tiles = tile_lists(painted.polygons.list, grid);
-  painted.work = {painter.rays(), painter.surface_hits()};
+  painted.work = {tracers.rays(), tracers.surface_hits()};
   return painted;
 }
 

@@ -46,15 +46,32 @@ bool blocks_within(const RaySheet& sheet, std::size_t step) {
   return !sheet.blocks_within.empty() && sheet.blocks_within[step];
 }
 
+// The largest of at least one value: eight at a time, as a single maximum would have to wait for its last comparison.
+float highest_of(const float* values, std::size_t count) {
+  std::array<float, 8> most;
+  most.fill(values[0]);
+  std::size_t k = 0;
+  for (; k + most.size() <= count; k += most.size()) {
+    for (std::size_t lane = 0; lane < most.size(); ++lane) most[lane] = std::max(most[lane], values[k + lane]);
+  }
+  for (; k < count; ++k) most[0] = std::max(most[0], values[k]);
+  return *std::max_element(most.begin(), most.end());
+}
+
 // Indices of the steps whose rims may cut the sheet, those that cut deepest first. What an obscuration blocks may lie
 // between the rays: no square rises above its highest value there by more than its values differ.
-std::vector<std::size_t> rims_in_play(const RaySheet& sheet) {
+std::vector<std::size_t> rims_in_play(std::span<const RaySheet> sheets) {
   std::vector<std::pair<float, std::size_t>> found;
-  for (std::size_t step = 0; step * sheet.count() < sheet.rim_squared.size(); ++step) {
-    const float* rim = sheet.rim_squared.data() + step * sheet.count();
-    float highest = *std::max_element(rim, rim + sheet.count());
-    if (blocks_within(sheet, step)) highest += highest - *std::min_element(rim, rim + sheet.count());
-    if (highest > kNearRim) found.emplace_back(-highest, step);
+  const std::size_t count = sheets.front().count();
+  for (std::size_t at = 0; at < sheets.front().rim_squared.size(); at += count) {
+    float highest = 0.0F;
+    for (const RaySheet& sheet : sheets) {
+      const float* rim = sheet.rim_squared.data() + at;
+      float high = highest_of(rim, count);
+      if (blocks_within(sheet, at / count)) high += high - *std::min_element(rim, rim + count);
+      highest = std::max(highest, high);
+    }
+    if (highest > kNearRim) found.emplace_back(-highest, at / count);
   }
   std::sort(found.begin(), found.end());
   std::vector<std::size_t> steps;
@@ -110,10 +127,19 @@ double tail(const float* field, int nodes) {
   return sum;
 }
 
-}  // namespace
+Vec2 on_frame(const RaySheet& sheet, std::size_t node, const LightFrame& light, const Frame& frame) {
+  return frame.pixel_from_sensor(light.into_place({sheet.sensor_x_mm[node], sheet.sensor_y_mm[node]}));
+}
 
-Patch make_patch(const RaySheet& sheet, const LightFrame& light, const Frame& frame) {
-  const auto steps = rims_in_play(sheet);
+// A pixel's corner near the middle of the sheet's image.
+Vec2 origin_of(const RaySheet& sheet, const LightFrame& light, const Frame& frame) {
+  const Vec2 middle = on_frame(sheet, sheet.count() / 2, light, frame);
+  return {std::floor(middle.x), std::floor(middle.y)};
+}
+
+// steps: those whose rims are kept.
+Patch make_patch(const RaySheet& sheet, const std::vector<std::size_t>& steps, Vec2 origin_px, const LightFrame& light,
+                 const Frame& frame) {
   Patch patch;
   patch.nodes = sheet.nodes;
   patch.box = sheet.box;
@@ -121,14 +147,9 @@ Patch make_patch(const RaySheet& sheet, const LightFrame& light, const Frame& fr
   patch.values.resize(static_cast<std::size_t>(patch.layout.fields()) * sheet.count());
   const Vec2 size = sheet.box.high - sheet.box.low;
   patch.flux_area_mm2 = size.x * size.y * light.source.shared_flux();
-
-  const auto on_frame = [&](std::size_t k) {
-    return frame.pixel_from_sensor(light.into_place({sheet.sensor_x_mm[k], sheet.sensor_y_mm[k]}));
-  };
-  patch.origin_px = on_frame(sheet.count() / 2);
-  patch.origin_px = {std::floor(patch.origin_px.x), std::floor(patch.origin_px.y)};
+  patch.origin_px = origin_px;
   for (std::size_t k = 0; k < sheet.count(); ++k) {
-    const Vec2 p = on_frame(k) - patch.origin_px;
+    const Vec2 p = on_frame(sheet, k, light, frame) - origin_px;
     patch.field(PatchLayout::kX)[k] = static_cast<float>(p.x);
     patch.field(PatchLayout::kY)[k] = static_cast<float>(p.y);
     for (std::size_t c = 0; c < sheet.stop.size(); ++c) {
@@ -143,6 +164,42 @@ Patch make_patch(const RaySheet& sheet, const LightFrame& light, const Frame& fr
   }
   copy_rims(sheet, steps, patch);
   return patch;
+}
+
+}  // namespace
+
+Patch make_patch(const RaySheet& sheet, const LightFrame& light, const Frame& frame) {
+  return make_patch(sheet, rims_in_play({&sheet, 1}), origin_of(sheet, light, frame), light, frame);
+}
+
+std::vector<Patch> make_patches(std::span<const RaySheet> sheets, const LightFrame& light, const Frame& frame) {
+  const auto steps = rims_in_play(sheets);
+  const Vec2 origin_px = origin_of(sheets.front(), light, frame);
+  std::vector<Patch> patches;
+  for (const RaySheet& sheet : sheets) patches.push_back(make_patch(sheet, steps, origin_px, light, frame));
+  return patches;
+}
+
+void blend(std::span<const Patch> patches, const PatchBlend& factors, Patch& out) {
+  const Patch& first = patches.front();
+  out.layout = first.layout;
+  out.nodes = first.nodes;
+  out.box = first.box;
+  out.origin_px = first.origin_px;
+  out.flux_area_mm2 = first.flux_area_mm2;
+  out.values.assign(first.values.size(), 0.0F);
+  const auto add = [&](const float* from, double factor, int field, int count) {
+    const auto times = static_cast<float>(factor);
+    float* to = out.field(field);
+    for (std::size_t k = 0; k < static_cast<std::size_t>(count) * out.size(); ++k) to[k] += times * from[k];
+  };
+  for (std::size_t k = 0; k < patches.size(); ++k) {
+    const Patch& patch = patches[k];
+    add(patch.field(PatchLayout::kX), factors.geometry[k], PatchLayout::kX, PatchLayout::kWeight);
+    add(patch.field(PatchLayout::kStop), factors.geometry[k], PatchLayout::kStop, out.layout.fields() - PatchLayout::kStop);
+    for (int c = 0; c < 3; ++c)
+      add(patch.field(PatchLayout::kWeight), factors.weight[static_cast<std::size_t>(c)][k], PatchLayout::kWeight + c, 1);
+  }
 }
 
 std::vector<Patch> patches_of_cells(const RaySheet& sheet, const LightFrame& light, const Frame& frame) {

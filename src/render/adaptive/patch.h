@@ -5,6 +5,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "contrejour/frame.h"
@@ -42,6 +43,17 @@ struct Patch {
 
 // All rays of the sheet must have arrived. Rims that every ray clears by a good margin are left out.
 [[nodiscard]] Patch make_patch(const RaySheet& sheet, const LightFrame& light, const Frame& frame);
+
+// Patches of sheets of one box at several wavelengths, counted from one origin and with the same rims.
+[[nodiscard]] std::vector<Patch> make_patches(std::span<const RaySheet> sheets, const LightFrame& light,
+                                              const Frame& frame);
+
+// What makes the patch of a further wavelength, or of a band, of such patches: factors, one for each of them.
+struct PatchBlend {
+  std::vector<double> geometry;
+  std::array<std::vector<double>, 3> weight;  // of their first weights, to a channel
+};
+void blend(std::span<const Patch> patches, const PatchBlend& factors, Patch& out);
 
 // Straight lines between neighbouring rays that arrived, a patch for each four between which any light may pass.
 [[nodiscard]] std::vector<Patch> patches_of_cells(const RaySheet& sheet, const LightFrame& light, const Frame& frame);

@@ -20,54 +20,76 @@ void complete(float* values, int nodes, float sign) {
   }
 }
 
-// Rows above this one are mirror images of those below, where the box is its own.
-int first_traced_row(const RaySheet& sheet, const LightFrame& light) {
-  return light.symmetric && sheet.box.low.y == -sheet.box.high.y ? sheet.nodes / 2 : 0;
+// Rows in the opposite order.
+void turn_over(float* values, int nodes, float sign) {
+  const auto n = static_cast<std::size_t>(nodes);
+  for (std::size_t row = 0; row < n / 2; ++row)
+    std::swap_ranges(values + row * n, values + (row + 1) * n, values + (n - 1 - row) * n);
+  if (sign == 1.0F) return;
+  for (std::size_t k = 0; k < n * n; ++k) values[k] *= sign;
 }
 
 }  // namespace
 
-bool is_open(const RaySheet& sheet, std::size_t node) {
-  if (sheet.r_rel[node] > 1.0F) return false;
-  return std::all_of(sheet.stop.begin(), sheet.stop.end(),
-                     [node](const auto& s) { return s[0][node] * s[0][node] + s[1][node] * s[1][node] <= 1.0F; });
+void add_light(RaySheet& sheet, std::span<const float> transmission, const Rgb& gain) {
+  for (std::size_t c = 0; c < 3; ++c) {
+    sheet.weight[c].resize(sheet.count());
+    const auto times = static_cast<float>(gain[c]);
+    for (std::size_t node = 0; node < sheet.count(); ++node) sheet.weight[c][node] += times * transmission[node];
+  }
+}
+
+RaySheet mirrored(const RaySheet& sheet) {
+  RaySheet out = sheet;
+  out.box = mirrored(sheet.box);
+  const auto turn = [&](std::vector<float>& values, float sign) {
+    for (std::size_t at = 0; at < values.size(); at += out.count()) turn_over(values.data() + at, out.nodes, sign);
+  };
+  turn(out.sensor_x_mm, 1.0F);
+  turn(out.sensor_y_mm, -1.0F);
+  turn(out.transmission, 1.0F);
+  for (auto& weight : out.weight) turn(weight, 1.0F);
+  turn(out.r_rel, 1.0F);
+  for (auto& s : out.stop) {
+    turn(s[0], 1.0F);
+    turn(s[1], -1.0F);
+  }
+  turn(out.rim_squared, 1.0F);
+  return out;
 }
 
 SheetTracer::SheetTracer(const LensState& lens, Ghost ghost, const LightFrame& light, double plane_z_mm,
-                         const Band& band, const TablesByWavelength& tables, double stop_times)
-    : light_(light), plane_z_mm_(plane_z_mm), band_(band) {
-  const auto add = [&](double lambda_nm) {
-    paths_.push_back(widened(ghost_path(lens, ghost, lambda_nm), stop_times));
-    tables_.push_back(tables.at(lambda_nm).get());
-  };
-  add(band.lambda_nm);
-  for (const PlannedPass& pass : band.passes) {
-    if (pass.lambda_nm != band.lambda_nm) add(pass.lambda_nm);
-  }
-}
+                         double lambda_nm, const ReflectanceTables& tables, double stop_times)
+    : light_(light), path_(widened(ghost_path(lens, ghost, lambda_nm), stop_times)),
+      packets_(path_, tables, {{0.0, 0.0, plane_z_mm}, light.source}) {}
 
 RaySheet SheetTracer::trace(const Rectangle& box, int nodes, PacketPrecision precision) {
   RaySheet sheet;
   sheet.box = box;
   sheet.nodes = nodes;
   const std::size_t count = sheet.count();
-  for (auto* v :
-       {&sheet.sensor_x_mm, &sheet.sensor_y_mm, &sheet.r_rel, &sheet.weight[0], &sheet.weight[1], &sheet.weight[2]}) {
-    v->resize(count);
-  }
-  sheet.stop.resize(static_cast<std::size_t>(paths_.front().stop_crossings));
+  for (auto* v : {&sheet.sensor_x_mm, &sheet.sensor_y_mm, &sheet.r_rel, &sheet.transmission}) v->resize(count);
+  sheet.stop.resize(static_cast<std::size_t>(path_.stop_crossings));
   for (auto& s : sheet.stop) {
     s[0].resize(count);
     s[1].resize(count);
   }
   sheet.rim_squared.resize(steps() * count);
-  const int first_row = first_traced_row(sheet, light_);
-  lay_out(sheet, first_row);
-  trace_path(0, first_row, precision, sheet);
+
+  const int first_row = first_traced_row(box, nodes);
+  const auto at = static_cast<std::size_t>(first_row) * static_cast<std::size_t>(nodes);
+  TracedArrays out{sheet.sensor_x_mm.data() + at, sheet.sensor_y_mm.data() + at, sheet.transmission.data() + at,
+                   sheet.r_rel.data() + at,       {},                            {},
+                   sheet.rim_squared.data() + at, count};
+  for (std::size_t c = 0; c < sheet.stop.size(); ++c) {
+    out.stop_x[c] = sheet.stop[c][0].data() + at;
+    out.stop_y[c] = sheet.stop[c][1].data() + at;
+  }
+  trace_rows(box, nodes, first_row, precision, out);
   if (first_row > 0) {
     complete(sheet.sensor_x_mm.data(), nodes, 1.0F);
     complete(sheet.sensor_y_mm.data(), nodes, -1.0F);
-    for (auto& w : sheet.weight) complete(w.data(), nodes, 1.0F);
+    complete(sheet.transmission.data(), nodes, 1.0F);
     complete(sheet.r_rel.data(), nodes, 1.0F);
     for (auto& s : sheet.stop) {
       complete(s[0].data(), nodes, 1.0F);
@@ -75,14 +97,14 @@ RaySheet SheetTracer::trace(const Rectangle& box, int nodes, PacketPrecision pre
     }
     for (std::size_t step = 0; step < steps(); ++step) complete(sheet.rim_squared.data() + step * count, nodes, 1.0F);
   }
-  if (paths_.front().obscured) leave_obscurations_out(sheet);
+  if (path_.obscured) leave_obscurations_out(sheet);
   sheet.failed = static_cast<int>(std::count(sheet.r_rel.begin(), sheet.r_rel.end(), kFailed));
   return sheet;
 }
 
 // Of relative heights, which searches take to be those of convex openings.
 void SheetTracer::leave_obscurations_out(RaySheet& sheet) const {
-  const std::vector<PathStep>& steps = paths_.front().steps;
+  const std::vector<PathStep>& steps = path_.steps;
   for (const PathStep& step : steps) sheet.blocks_within.push_back(step.blocks_within);
   for (std::size_t node = 0; node < sheet.count(); ++node) {
     if (sheet.r_rel[node] == kFailed) continue;
@@ -93,59 +115,49 @@ void SheetTracer::leave_obscurations_out(RaySheet& sheet) const {
   }
 }
 
-void SheetTracer::add_wavelengths(RaySheet& sheet, PacketPrecision precision) {
-  const int first_row = first_traced_row(sheet, light_);
-  lay_out(sheet, first_row);
-  for (std::size_t k = 1; k < paths_.size(); ++k) trace_path(k, first_row, precision, sheet);
-  if (first_row == 0) return;
-  for (auto& w : sheet.weight) complete(w.data(), sheet.nodes, 1.0F);
+std::vector<float> SheetTracer::transmissions(const Rectangle& box, int nodes, PacketPrecision precision) {
+  const auto count = static_cast<std::size_t>(nodes) * static_cast<std::size_t>(nodes);
+  std::vector<float> transmission(count);
+  scratch_.resize((3 + 2 * kMaxStopCrossings) * count);
+  const auto discarded = [&](std::size_t f) { return scratch_.data() + f * count; };
+  const int first_row = first_traced_row(box, nodes);
+  TracedArrays out{discarded(0),
+                   discarded(1),
+                   transmission.data() + static_cast<std::size_t>(first_row) * static_cast<std::size_t>(nodes),
+                   discarded(2),
+                   {},
+                   {},
+                   nullptr,
+                   0};
+  for (std::size_t c = 0; c < static_cast<std::size_t>(path_.stop_crossings); ++c) {
+    out.stop_x[c] = discarded(3 + 2 * c);
+    out.stop_y[c] = discarded(4 + 2 * c);
+  }
+  trace_rows(box, nodes, first_row, precision, out);
+  if (first_row > 0) complete(transmission.data(), nodes, 1.0F);
+  return transmission;
 }
 
-// The entrance points of the rows to trace.
-void SheetTracer::lay_out(const RaySheet& sheet, int first_row) {
-  const auto points = lobatto_points(sheet.nodes);
-  const Vec2 half = (sheet.box.high - sheet.box.low) * 0.5;
+// Rows above this one are mirror images of those below, where the box is its own.
+int SheetTracer::first_traced_row(const Rectangle& box, int nodes) const {
+  return light_.symmetric && box.low.y == -box.high.y ? nodes / 2 : 0;
+}
+
+void SheetTracer::trace_rows(const Rectangle& box, int nodes, int first_row, PacketPrecision precision,
+                             TracedArrays out) {
+  const auto points = lobatto_points(nodes);
+  const Vec2 half = (box.high - box.low) * 0.5;
   x_mm_.clear();
   y_mm_.clear();
-  for (int row = first_row; row < sheet.nodes; ++row) {
-    for (int column = 0; column < sheet.nodes; ++column) {
+  for (int row = first_row; row < nodes; ++row) {
+    for (int column = 0; column < nodes; ++column) {
       x_mm_.push_back(static_cast<float>((1.0 + points[static_cast<std::size_t>(column)]) * half.x));
       y_mm_.push_back(static_cast<float>((1.0 + points[static_cast<std::size_t>(row)]) * half.y));
     }
   }
-}
-
-// One of the paths through the points laid out; what the sheet keeps of it starts at first_row.
-void SheetTracer::trace_path(std::size_t k, int first_row, PacketPrecision precision, RaySheet& sheet) {
-  const std::size_t count = x_mm_.size();
-  const auto at = static_cast<std::size_t>(first_row) * static_cast<std::size_t>(sheet.nodes);
-  constexpr std::size_t kDiscarded = 4 + 2 * kMaxStopCrossings;
-  scratch_.resize(kDiscarded * count);
-  const auto discarded = [&](std::size_t f) { return scratch_.data() + f * count; };
-  const bool geometry = k == 0;
-  TracedArrays out{discarded(0), discarded(1), discarded(2), discarded(3), {}, {}, nullptr, 0};
-  for (std::size_t c = 0; c < sheet.stop.size(); ++c) {
-    out.stop_x[c] = geometry ? sheet.stop[c][0].data() + at : discarded(4 + 2 * c);
-    out.stop_y[c] = geometry ? sheet.stop[c][1].data() + at : discarded(5 + 2 * c);
-  }
-  if (geometry) {
-    out.sensor_x_mm = sheet.sensor_x_mm.data() + at;
-    out.sensor_y_mm = sheet.sensor_y_mm.data() + at;
-    out.r_rel = sheet.r_rel.data() + at;
-    out.rim_squared = sheet.rim_squared.data() + at;
-    out.rim_stride = sheet.count();
-  }
-  const PacketPath packets(paths_[k], *tables_[k], {{sheet.box.low.x, sheet.box.low.y, plane_z_mm_}, light_.source});
-  trace_packets(packets, precision, x_mm_.data(), y_mm_.data(), count, out);
-  rays_ += count;
-  for (const PlannedPass& pass : band_.passes) {
-    if (pass.lambda_nm != paths_[k].lambda_nm) continue;
-    for (std::size_t c = 0; c < 3; ++c) {
-      const auto gain = static_cast<float>(pass.gain[c]);
-      float* weight = sheet.weight[c].data() + at;
-      for (std::size_t node = 0; node < count; ++node) weight[node] += gain * out.transmission[node];
-    }
-  }
+  packets_.start_from(box.low);
+  trace_packets(packets_, precision, x_mm_.data(), y_mm_.data(), x_mm_.size(), out);
+  rays_ += x_mm_.size();
 }
 
 }  // namespace contrejour::adaptive

@@ -131,7 +131,7 @@ double CellPainter::map_error(const Mesh& mesh, const Cell& cell, double longest
 // For pixels of about that width.
 const EdgeTable& CellPainter::table_for(double width) {
   const int octave = static_cast<int>(std::lround(kWidthsPerOctave * std::log2(std::max(width, 1e-9))));
-  const auto [at, is_new] = tables_.try_emplace(octave, nullptr);
+  const auto [at, is_new] = tables_.try_emplace(std::pair(screen_.get(), octave), nullptr);
   if (is_new) {
     out_.tables.push_back(std::make_shared<const EdgeTable>(*screen_, std::exp2(octave / kWidthsPerOctave)));
     at->second = out_.tables.back().get();

@@ -1,0 +1,54 @@
+// The ways of one ghost of a light at each of its wavelengths, each made when it is first asked for.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "render/adaptive/ray_sheet.h"
+
+namespace contrejour::adaptive {
+
+class GhostTracers {
+ public:
+  // Everything must outlive this. stop_times: as SheetTracer's.
+  GhostTracers(const LensState& lens, Ghost ghost, const LightFrame& light, const TablesByWavelength& tables,
+               std::span<const PlannedPass> passes, double stop_times)
+      : lens_(lens), ghost_(ghost), light_(light), tables_(tables), passes_(passes), stop_times_(stop_times),
+        plane_z_mm_(entrance_window(lens, light.source).z_mm), tracers_(passes.size()) {}
+
+  [[nodiscard]] SheetTracer& at(std::size_t pass) {
+    std::optional<SheetTracer>& tracer = tracers_[pass];
+    const double lambda_nm = passes_[pass].lambda_nm;
+    if (!tracer) tracer.emplace(lens_, ghost_, light_, plane_z_mm_, lambda_nm, *tables_.at(lambda_nm), stop_times_);
+    return *tracer;
+  }
+
+  [[nodiscard]] const LightFrame& light() const { return light_; }
+  [[nodiscard]] std::span<const PlannedPass> passes() const { return passes_; }
+  [[nodiscard]] double plane_z_mm() const { return plane_z_mm_; }
+  [[nodiscard]] double stop_times() const { return stop_times_; }
+
+  [[nodiscard]] std::uint64_t rays() const { return sum(&SheetTracer::rays); }
+  [[nodiscard]] std::uint64_t surface_hits() const { return sum(&SheetTracer::surface_hits); }
+
+ private:
+  [[nodiscard]] std::uint64_t sum(std::uint64_t (SheetTracer::*of)() const) const {
+    std::uint64_t total = 0;
+    for (const auto& tracer : tracers_) total += tracer ? ((*tracer).*of)() : 0;
+    return total;
+  }
+
+  const LensState& lens_;
+  Ghost ghost_;
+  const LightFrame& light_;
+  const TablesByWavelength& tables_;
+  std::span<const PlannedPass> passes_;
+  double stop_times_;
+  double plane_z_mm_;
+  std::vector<std::optional<SheetTracer>> tracers_;  // one a pass
+};
+
+}  // namespace contrejour::adaptive

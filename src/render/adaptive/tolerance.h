@@ -1,0 +1,24 @@
+// How far polynomials through a ghost's rays may be off, from what that does to pixels.
+#pragma once
+
+#include "contrejour/frame.h"
+#include "render/adaptive/ray_sheet.h"
+
+namespace contrejour::adaptive {
+
+// What may go wrong in all that a painter is asked to paint at once.
+struct ErrorBudget {
+  double squared_error = 0;  // pixel values squared, summed over the frame; infinite: no limit
+  double peak = 1;           // of the frame's pixel values
+};
+
+struct Tolerance {
+  double position_px = 0, stop = 0, weight = 0;  // stop radii; relative to the largest weight
+};
+
+// Of the ghost that a box's sheet is of. weight: the largest of any channel at any of its nodes, all wavelengths
+// together. shared_flux: LightSource's.
+[[nodiscard]] Tolerance tolerance_for(const RaySheet& sheet, double weight, double shared_flux, const Frame& frame,
+                                      const ErrorBudget& budget);
+
+}  // namespace contrejour::adaptive

@@ -1,0 +1,163 @@
+// Many wavelengths told by few: the order they are taken in, what they tell, and pictures made so.
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <set>
+
+#include "adaptive/scene.h"
+#include "contrejour/metrics.h"
+#include "render/adaptive/band_set.h"
+#include "render/adaptive/first_rays.h"
+#include "support/flares.h"
+
+using namespace contrejour;
+using namespace contrejour::adaptive;
+
+namespace {
+
+std::vector<double> evenly(double from_nm, double to_nm, std::size_t count) {
+  std::vector<double> lambda_nm;
+  for (std::size_t k = 0; k < count; ++k)
+    lambda_nm.push_back(from_nm + (to_nm - from_nm) * static_cast<double>(k) / static_cast<double>(count - 1));
+  return lambda_nm;
+}
+
+// A ghost of a light at sixteen wavelengths.
+struct Rainbow {
+  test::GhostScene scene;
+  std::vector<PlannedPass> passes;
+  WavelengthSamples samples;
+  GhostTracers tracers;
+
+  Rainbow(const char* lens, double f_number, Ghost ghost, Vec3 towards)
+      : scene(test::lens_at_f(lens, f_number), ghost, towards), passes(passes_of()),
+        samples(evenly(400.0, 700.0, 16), 9),
+        tracers(scene.lens, ghost, scene.light, scene.tables, passes, 1.0) {
+    for (const PlannedPass& pass : passes)
+      scene.tables[pass.lambda_nm] = std::make_shared<const ReflectanceTables>(scene.lens, pass.lambda_nm);
+  }
+  static std::vector<PlannedPass> passes_of() {
+    std::vector<PlannedPass> passes;
+    for (const double lambda_nm : evenly(400.0, 700.0, 16)) passes.push_back({lambda_nm, {1.0, 0.5, 0.25}});
+    return passes;
+  }
+};
+
+const Vec3 kAside{std::sin(0.2), 0.0, std::cos(0.2)};
+
+}  // namespace
+
+TEST_CASE("Leja's order begins with the ends and leaves out what is there already") {
+  const std::vector<double> lambda_nm = evenly(400.0, 700.0, 16);
+  const WavelengthSamples samples(lambda_nm, 9);
+  REQUIRE(samples.size() == 9);
+  CHECK(samples[0] == 0);
+  CHECK(samples[1] == 15);
+  // The middle in 1 / lambda^2: 493 nm.
+  CHECK(samples[2] == 5);
+  std::set<std::size_t> taken;
+  for (std::size_t k = 0; k < samples.size(); ++k) taken.insert(samples[k]);
+  CHECK(taken.size() == 9);
+  CHECK(WavelengthSamples(std::vector<double>{550.0, 550.0, 600.0, 600.0}, 9).size() == 2);
+  CHECK(WavelengthSamples(std::vector<double>{550.0}, 9).size() == 1);
+  CHECK(WavelengthSamples(std::vector<double>{}, 9).size() == 0);
+}
+
+TEST_CASE("polynomials in 1 / lambda^2 are told exactly, others are not") {
+  const std::vector<double> lambda_nm = evenly(380.0, 780.0, 31);
+  const WavelengthSamples samples(lambda_nm, 5);
+  const auto told = [&](auto of, std::size_t at) {
+    const std::vector<double> factors = samples.factors(5, at);
+    double sum = 0.0;
+    for (std::size_t k = 0; k < factors.size(); ++k) sum += factors[k] * of(lambda_nm[samples[k]]);
+    return sum;
+  };
+  const auto quartic = [](double lambda) {
+    const double s = 550.0 * 550.0 / (lambda * lambda);
+    return 3.0 - s + 2.0 * s * s - 0.5 * s * s * s + 0.1 * s * s * s * s;
+  };
+  for (std::size_t k = 0; k < lambda_nm.size(); ++k)
+    CHECK(told(quartic, k) == doctest::Approx(quartic(lambda_nm[k])).epsilon(1e-12));
+  const auto narrow = [](double lambda) { return std::exp(-0.5 * std::pow((lambda - 550.0) / 20.0, 2.0)); };
+  double worst = 0.0;
+  for (std::size_t k = 0; k < lambda_nm.size(); ++k)
+    worst = std::max(worst, std::abs(told(narrow, k) - narrow(lambda_nm[k])));
+  CHECK(worst > 0.1);
+}
+
+TEST_CASE("few wavelengths tell the transmissions and the places of sixteen") {
+  for (const Ghost ghost : {Ghost{3, 4}, Ghost{1, 2}, Ghost{7, 9}}) {
+    CAPTURE(ghost.i);
+    Rainbow rainbow("heliar", 16.0, ghost, kAside);
+    REQUIRE_FALSE(rainbow.scene.boxes.empty());
+    const Rectangle& box = rainbow.scene.boxes.front();
+    const Frame frame = frame_on_sensor(rainbow.scene.lens, 1920, 1080);
+    // An error so large that the fourth is foretold, and one that wants more.
+    std::size_t before = 0;
+    for (const double allowed : {1e-1, 1e-4}) {
+      CAPTURE(allowed);
+      FirstRays any = first_rays(rainbow.tracers, rainbow.samples, box, 5, frame, {1e300, 1.0});
+      const double peak = 1e-6;
+      const FirstRays rays =
+          first_rays(rainbow.tracers, rainbow.samples, box, 5, frame, {allowed * allowed * peak * peak, peak});
+      REQUIRE(any.samples == 4);
+      if (rays.samples == 0) continue;  // not foretold: all traced
+      CHECK(rays.samples >= before);
+      CHECK(rays.samples < 16);
+      before = rays.samples;
+      for (std::size_t k = 0; k < 16; ++k) {
+        const RaySheet traced = rainbow.tracers.at(k).trace(box, 5, PacketPrecision::Double);
+        const float most = *std::max_element(traced.transmission.begin(), traced.transmission.end());
+        for (std::size_t node = 0; node < traced.count(); ++node)
+          CHECK(std::abs(rays.transmission[k][node] - traced.transmission[node]) <= rays.tolerance.weight * most + 1e-9F);
+      }
+    }
+  }
+}
+
+TEST_CASE("bands told by samples have the patches of rays traced at their wavelengths") {
+  Rainbow rainbow("heliar", 16.0, {3, 4}, kAside);
+  const Rectangle& box = rainbow.scene.boxes.front();
+  const Frame frame = frame_on_sensor(rainbow.scene.lens, 1920, 1080);
+  std::vector<Band> bands;
+  for (std::size_t k = 0; k < 16; ++k) bands.push_back({k, k + 1});
+  BandSet told(rainbow.tracers, rainbow.samples, 6, bands);
+  std::vector<RaySheet> sheets = told.trace(box, 9, PacketPrecision::Double);
+  told.add_weights(sheets, PacketPrecision::Double);
+  const std::vector<Patch> patches = told.make_patches(sheets, frame);
+  REQUIRE(patches.size() == 6);
+  for (std::size_t k = 0; k < 16; ++k) {
+    CAPTURE(k);
+    Patch patch;
+    told.band_patch(patches, k, patch);
+    BandSet alone(rainbow.tracers, bands[k]);
+    std::vector<RaySheet> one = alone.trace(box, 9, PacketPrecision::Double);
+    alone.add_weights(one, PacketPrecision::Double);
+    const Patch traced = alone.make_patches(one, frame).front();
+    for (std::size_t node = 0; node < patch.size(); ++node) {
+      const Vec2 off = patch.origin_px - traced.origin_px;
+      CHECK(std::abs(patch.field(PatchLayout::kX)[node] + off.x - traced.field(PatchLayout::kX)[node]) < 5e-3);
+      CHECK(std::abs(patch.field(PatchLayout::kY)[node] + off.y - traced.field(PatchLayout::kY)[node]) < 5e-3);
+      CHECK(patch.field(PatchLayout::kStop)[node] ==
+            doctest::Approx(traced.field(PatchLayout::kStop)[node]).epsilon(1e-5).scale(1.0));
+      for (int c = 0; c < 3; ++c)
+        CHECK(patch.field(PatchLayout::kWeight + c)[node] ==
+              doctest::Approx(traced.field(PatchLayout::kWeight + c)[node]).epsilon(2e-3));
+    }
+  }
+}
+
+TEST_CASE("sixteen wavelengths as in the reference") {
+  for (const auto& [name, f_number] : {std::pair{"heliar", 16.0}, std::pair{"tessar", 8.0}}) {
+    CAPTURE(name);
+    const LensState lens = test::lens_at_f(name, f_number);
+    RenderSettings settings;
+    settings.frame = frame_on_sensor(lens, 160, 90);
+    settings.wavelengths = 16;
+    const Light light = test::light_at(lens, settings.frame, {0.70, 0.33});
+    const Image truth = test::flare_of("reference", lens, {&light, 1}, settings).image;
+    const auto difference = compare(truth, test::flare_of("adaptive", lens, {&light, 1}, settings).image);
+    REQUIRE(difference.has_value());
+    CHECK(difference->psnr_db.value_or(1000.0) >= 50.0);
+  }
+}
