@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "optics/trace/packet_trace.h"
@@ -12,35 +13,53 @@ double cos_in_denser(double u, double n_low, double n_high) {
   return std::sqrt(1.0 - eta * eta * (1.0 - u * u));
 }
 
-// Every so many of the table's values is computed; a cubic through four of them, good to 1e-7, gives the others.
-constexpr int kSpacing = 8;
+// Every so many of the table's values is computed; a cubic through four of them, good to 2e-6, gives the others.
+constexpr std::size_t kSpacing = 16;
 
-// Lagrange's cubic through the four nodes about a place between the first and the last.
-double cubic(const std::vector<double>& nodes, double place) {
-  const auto first = static_cast<std::size_t>(
-      std::clamp<double>(std::floor(place) - 1.0, 0.0, static_cast<double>(nodes.size()) - 4.0));
-  const double t = place - static_cast<double>(first);
-  return nodes[first] * (t - 1) * (t - 2) * (t - 3) / -6.0 + nodes[first + 1] * t * (t - 2) * (t - 3) / 2.0 +
-         nodes[first + 2] * t * (t - 1) * (t - 3) / -2.0 + nodes[first + 3] * t * (t - 1) * (t - 2) / 6.0;
+// What four nodes are multiplied by, for the values from one of them to the next: the first, the second or the third.
+using CubicWeights = std::array<std::array<std::array<double, 4>, kSpacing>, 3>;
+
+// Lagrange's cubics.
+constexpr CubicWeights cubic_weights() {
+  CubicWeights weights{};
+  for (std::size_t from = 0; from < weights.size(); ++from) {
+    for (std::size_t k = 0; k < kSpacing; ++k) {
+      const double t = static_cast<double>(from) + static_cast<double>(k) / kSpacing;
+      weights[from][k] = {(t - 1) * (t - 2) * (t - 3) / -6.0, t * (t - 2) * (t - 3) / 2.0, t * (t - 1) * (t - 3) / -2.0,
+                          t * (t - 1) * (t - 2) / 6.0};
+    }
+  }
+  return weights;
 }
+constexpr CubicWeights kCubic = cubic_weights();
 
 }  // namespace
 
 ReflectanceTables::ReflectanceTables(const LensState& lens, double lambda_nm) : lambda_nm_(lambda_nm) {
   for (const SurfaceState& surface : lens.surfaces) {
-    Entry entry;
-    if (surface.kind != SurfaceKind::Stop) {
-      const bool absorbs = may_absorb(surface.coating);
-      const bool same_both_ways = !absorbs && !std::holds_alternative<HullinFresnelAR>(surface.coating.films);
-      entry.reflectance[0] = add(surface, +1, false);
-      entry.reflectance[1] = same_both_ways ? entry.reflectance[0] : add(surface, -1, false);
-      if (absorbs) entry.transmittance = add(surface, +1, true);
-    }
-    entries_.push_back(entry);
+    entries_.push_back(surface.kind == SurfaceKind::Stop ? Entry{} : entry_of(surface, lens));
     if (none_ >= 0 || (surface.aperture.kind == ApertureKind::Disc && !surface.obscuration.any())) continue;
     none_ = static_cast<int>(values_.size());
     values_.insert(values_.end(), kIntervals + 1, 0.0F);
   }
+}
+
+// That of a surface before it which reflects alike, or one of its own.
+ReflectanceTables::Entry ReflectanceTables::entry_of(const SurfaceState& surface, const LensState& lens) {
+  const bool absorbs = may_absorb(surface.coating);
+  const bool same_both_ways = !absorbs && !std::holds_alternative<HullinFresnelAR>(surface.coating.films);
+  for (std::size_t k = 0; k < entries_.size(); ++k) {
+    const SurfaceState& other = lens.surfaces[k];
+    if (other.kind == SurfaceKind::Stop || !(other.coating == surface.coating)) continue;
+    if ((other.before == surface.before && other.after == surface.after) ||
+        (same_both_ways && other.before == surface.after && other.after == surface.before))
+      return entries_[k];
+  }
+  Entry entry;
+  entry.reflectance[0] = add(surface, +1, false);
+  entry.reflectance[1] = same_both_ways ? entry.reflectance[0] : add(surface, -1, false);
+  if (absorbs) entry.transmittance = add(surface, +1, true);
+  return entry;
 }
 
 int ReflectanceTables::add(const SurfaceState& surface, int direction, bool transmitted) {
@@ -57,10 +76,16 @@ int ReflectanceTables::add(const SurfaceState& surface, int direction, bool tran
     return transmitted ? transmittance(coating, n_in, n_out, cos_in, lambda_nm_)
                        : reflectance(coating, n_in, n_out, cos_in, lambda_nm_);
   };
-  std::vector<double> nodes;
-  for (int k = 0; k <= kIntervals; k += kSpacing) nodes.push_back(exact(k));
-  for (int k = 0; k < kIntervals; ++k)
-    values_.push_back(static_cast<float>(cubic(nodes, static_cast<double>(k) / kSpacing)));
+  constexpr std::size_t kNodes = kIntervals / kSpacing + 1;
+  static_assert(kIntervals % kSpacing == 0 && kNodes >= 4);
+  std::array<double, kNodes> nodes{};
+  for (std::size_t k = 0; k < kNodes; ++k) nodes[k] = exact(static_cast<int>(k * kSpacing));
+  for (std::size_t k = 0; k + 1 < kNodes; ++k) {
+    const std::size_t first = std::clamp<std::size_t>(k, 1, kNodes - 3) - 1;
+    for (const auto& w : kCubic[k - first])
+      values_.push_back(static_cast<float>(nodes[first] * w[0] + nodes[first + 1] * w[1] + nodes[first + 2] * w[2] +
+                                           nodes[first + 3] * w[3]));
+  }
   values_.push_back(static_cast<float>(nodes.back()));
   return offset;
 }

@@ -34,6 +34,7 @@ class ReflectanceTables {
   [[nodiscard]] double lambda_nm() const { return lambda_nm_; }
 
  private:
+  [[nodiscard]] Entry entry_of(const SurfaceState& surface, const LensState& lens);
   int add(const SurfaceState& surface, int direction, bool transmitted);
 
   std::vector<Entry> entries_;
