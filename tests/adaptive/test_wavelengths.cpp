@@ -31,8 +31,7 @@ struct Rainbow {
 
   Rainbow(const char* lens, double f_number, Ghost ghost, Vec3 towards)
       : scene(test::lens_at_f(lens, f_number), ghost, towards), passes(passes_of()),
-        samples(evenly(400.0, 700.0, 16), 9),
-        tracers(scene.lens, ghost, scene.light, scene.tables, passes, 1.0) {
+        samples(evenly(400.0, 700.0, 16), 9), tracers(scene.lens, ghost, scene.light, scene.tables, passes, 1.0) {
     for (const PlannedPass& pass : passes)
       scene.tables[pass.lambda_nm] = std::make_shared<const ReflectanceTables>(scene.lens, pass.lambda_nm);
   }
@@ -109,7 +108,8 @@ TEST_CASE("few wavelengths tell the transmissions and the places of sixteen") {
         const RaySheet traced = rainbow.tracers.at(k).trace(box, 5, PacketPrecision::Double);
         const float most = *std::max_element(traced.transmission.begin(), traced.transmission.end());
         for (std::size_t node = 0; node < traced.count(); ++node)
-          CHECK(std::abs(rays.transmission[k][node] - traced.transmission[node]) <= rays.tolerance.weight * most + 1e-9F);
+          CHECK(std::abs(rays.transmission[k][node] - traced.transmission[node]) <=
+                rays.tolerance.weight * most + 1e-9F);
       }
     }
   }
@@ -145,6 +145,29 @@ TEST_CASE("bands told by samples have the patches of rays traced at their wavele
               doctest::Approx(traced.field(PatchLayout::kWeight + c)[node]).epsilon(2e-3));
     }
   }
+}
+
+TEST_CASE("bands hold every wavelength once, more of them the less may be wrong") {
+  Rainbow rainbow("heliar", 16.0, {3, 4}, kAside);
+  const Frame frame = frame_on_sensor(rainbow.scene.lens, 1920, 1080);
+  FirstRays rays = first_rays(rainbow.tracers, rainbow.samples, rainbow.scene.boxes.front(), 5, frame, {1e300, 1.0});
+  const auto bands_within = [&](double tolerance_px) {
+    rays.tolerance.position_px = tolerance_px;
+    return bands_for(rays, rainbow.passes, rainbow.samples, frame.pixel_pitch_mm);
+  };
+  std::size_t before = 1;
+  for (const double tolerance_px : {1e6, 3.0, 1.0, 0.3, 0.1, 1e-6}) {
+    CAPTURE(tolerance_px);
+    const std::vector<Band> bands = bands_within(tolerance_px);
+    CHECK(bands.size() >= before);
+    before = bands.size();
+    CHECK(bands.front().first == 0);
+    CHECK(bands.back().last == 16);
+    for (std::size_t k = 0; k + 1 < bands.size(); ++k) CHECK(bands[k].last == bands[k + 1].first);
+  }
+  CHECK(bands_within(1e6).size() == 1);
+  CHECK(bands_within(1e-6).size() == 16);
+  CHECK(bands_within(0.3).size() > 1);
 }
 
 TEST_CASE("sixteen wavelengths as in the reference") {

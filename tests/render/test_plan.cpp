@@ -3,6 +3,7 @@
 
 #include <doctest/doctest.h>
 
+#include "render/interface/direct_light.h"
 #include "render/interface/frame_plan.h"
 #include "support/scenes.h"
 
@@ -65,6 +66,35 @@ TEST_CASE("more wavelengths converge to one colour, without a shift") {
   for (const auto& [count, tolerance] : {std::pair{8, 0.06}, std::pair{16, 0.02}, std::pair{40, 0.005}}) {
     const Rgb rgb = colour(count);
     for (std::size_t c = 0; c < 3; ++c) CHECK(std::abs(rgb[c] / truth[c] - 1.0) < tolerance);
+  }
+}
+
+TEST_CASE("direct fluxes of many wavelengths, few of them measured, are those measured at each") {
+  struct Case {
+    const char* lens;
+    double f_number;
+    Vec2 uv;
+  };
+  // The last one vignetted, and outside the frame.
+  for (const Case& c :
+       {Case{"heliar", 16.0, {0.7, 0.33}}, {"nikon-80-200", 2.97, {0.9, 0.9}}, {"tessar", 4.5, {1.1, 0.5}}}) {
+    CAPTURE(c.lens);
+    const LensState lens = test::bundled(c.lens, {.f_number = c.f_number});
+    const Frame frame = frame_on_sensor(lens, 60, 40);
+    const Light light = test::light_at(lens, frame, c.uv);
+    const LightSource source = measured_source(lens, frame, light.source());
+    const auto bands = spectral_bands(16, light.spectrum, ColourSpace::Rec709);
+    std::vector<GhostMeter> meters;
+    for (const SpectralBand& band : bands) meters.emplace_back(lens, band.lambda_nm);
+    MeteredLight metered{source, bands, meters};
+    REQUIRE(measure_fluxes({&metered, 1}, {}));
+    REQUIRE(metered.flux_mm2.size() == 16);
+    for (std::size_t k = 0; k < bands.size(); ++k)
+      CHECK(metered.flux_mm2[k] == doctest::Approx(meters[k].direct_flux(source)).epsilon(2e-4));
+    // Few are measured at each.
+    MeteredLight few{source, std::span(bands).first(3), std::span(meters).first(3)};
+    REQUIRE(measure_fluxes({&few, 1}, {}));
+    for (std::size_t k = 0; k < 3; ++k) CHECK(few.flux_mm2[k] == meters[k].direct_flux(source));
   }
 }
 

@@ -9,15 +9,9 @@
 
 #include "render/adaptive/ghost_tracers.h"
 #include "render/adaptive/patch.h"
-#include "render/adaptive/wavelength_samples.h"
+#include "render/adaptive/wavelength_bands.h"
 
 namespace contrejour::adaptive {
-
-// Passes from first to last without it, seen as at the one in their middle.
-struct Band {
-  std::size_t first = 0, last = 0;
-  [[nodiscard]] std::size_t middle() const { return (first + last) / 2; }
-};
 
 class BandSet {
  public:

@@ -68,9 +68,9 @@ bool foretells(const FirstRays& rays, const WavelengthSamples& samples, std::siz
   };
   const float most = *std::max_element(next.transmission.begin(), next.transmission.end());
   using Values = const std::vector<float>&;
-  if (!holds([](const RaySheet& s) -> Values { return s.sensor_x_mm; }, tolerance.position_px * pixel_pitch_mm) ||
-      !holds([](const RaySheet& s) -> Values { return s.sensor_y_mm; }, tolerance.position_px * pixel_pitch_mm) ||
-      !holds([](const RaySheet& s) -> Values { return s.transmission; }, tolerance.weight * most))
+  if (!holds([](const RaySheet& s) -> Values { return s.sensor_x_mm; }, tolerance.position_px* pixel_pitch_mm) ||
+      !holds([](const RaySheet& s) -> Values { return s.sensor_y_mm; }, tolerance.position_px* pixel_pitch_mm) ||
+      !holds([](const RaySheet& s) -> Values { return s.transmission; }, tolerance.weight* most))
     return false;
   for (std::size_t c = 0; c < next.stop.size(); ++c) {
     for (std::size_t axis = 0; axis < 2; ++axis) {

@@ -1,4 +1,5 @@
-// The first rays through a box of a ghost's pupil, few at each wavelength: what is decided by before the ghost is drawn.
+// The first rays through a box of a ghost's pupil, few at each wavelength: what is decided by before the ghost is
+// drawn.
 #pragma once
 
 #include <array>
@@ -7,7 +8,7 @@
 
 #include "render/adaptive/ghost_tracers.h"
 #include "render/adaptive/tolerance.h"
-#include "render/adaptive/wavelength_samples.h"
+#include "render/interface/wavelength_samples.h"
 
 namespace contrejour::adaptive {
 

@@ -18,8 +18,6 @@ constexpr std::array kNodes{5, 9, 17};
 constexpr double kFloatError_mm = 1e-3;
 constexpr double kFloatBox_mm = 0.05;
 constexpr double kWorthShrinking = 0.5;  // a box whose lit part has no more of its area is shrunk to it
-constexpr float kNearlyThrough = 1.2F;  // of the clear height
-constexpr double kShiftShare = 1.0;  // of a fit's tolerance that a band of wavelengths may take on either side
 constexpr double kLightLeft = 0.05;  // of a channel's absolute sum over wavelengths, for its parts to mean anything
 constexpr std::size_t kMostSamples = 9;  // of wavelengths, that are tried
 constexpr double kNoFit = std::numeric_limits<double>::infinity();
@@ -139,31 +137,9 @@ std::shared_ptr<const BandScreen> GhostPainter::band_screen(const FirstRays& ray
   return band;
 }
 
-// How far a ghost moves from one wavelength to another, by the rays that are not far from getting through.
-double GhostPainter::shift_px(const RaySheet& a, const RaySheet& b) const {
-  double largest = 0.0;
-  for (std::size_t k = 0; k < a.count(); ++k) {
-    if (!(a.r_rel[k] < kNearlyThrough && b.r_rel[k] < kNearlyThrough)) continue;
-    const Vec2 shift{a.sensor_x_mm[k] - b.sensor_x_mm[k], a.sensor_y_mm[k] - b.sensor_y_mm[k]};
-    largest = std::max(largest, length(shift));
-  }
-  return largest / frame_.pixel_pitch_mm;
-}
-
-// Wavelengths whose images lie closer than is seen share one geometry.
-std::vector<Band> GhostPainter::bands_for(const FirstRays& rays) const {
-  const std::size_t passes = rays.sheets.size();
-  const double shift = passes > 1 ? shift_px(rays.sheets.front(), rays.sheets.back()) : 0.0;
-  const double wanted = std::ceil(shift / (2.0 * kShiftShare * rays.tolerance.position_px));
-  const auto count = static_cast<std::size_t>(std::clamp(wanted, 1.0, static_cast<double>(passes)));
-  std::vector<Band> bands;
-  for (std::size_t k = 0; k < count; ++k) bands.push_back({k * passes / count, (k + 1) * passes / count});
-  return bands;
-}
-
 void GhostPainter::paint(const Rectangle& box, bool with_mirror_image, const ErrorBudget& budget, PolygonList& out) {
   const FirstRays rays = first_rays(tracers_, samples_, box, kNodes.front(), frame_, budget);
-  const std::vector<Band> bands = bands_for(rays);
+  const std::vector<Band> bands = bands_for(rays, tracers_.passes(), samples_, frame_.pixel_pitch_mm);
   BandScreens screens;
   for (const Band& band : bands) screens.push_back(screens_ != nullptr ? band_screen(rays, band) : nullptr);
   const auto few_cells = kFewCells * static_cast<double>(bands.size());
@@ -275,7 +251,8 @@ void GhostPainter::paint_between_rays(BandSet& bands, const Rectangle& box, std:
   }
   for (std::size_t k = 0; k < bands.size(); ++k) {
     BandSet alone(tracers_, bands.band(k));
-    paint_box(alone, box, depth, std::nullopt, {painting.tolerance, {painting.screens[k]}, painting.cells, painting.mirror_image});
+    paint_box(alone, box, depth, std::nullopt,
+              {painting.tolerance, {painting.screens[k]}, painting.cells, painting.mirror_image});
   }
 }
 

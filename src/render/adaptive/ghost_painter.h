@@ -4,7 +4,6 @@
 
 #include "render/adaptive/band_set.h"
 #include "render/adaptive/cell_painter.h"
-#include "render/adaptive/first_rays.h"
 
 namespace contrejour::adaptive {
 
@@ -37,9 +36,7 @@ class GhostPainter {
   };
 
   [[nodiscard]] PacketPrecision precision_for(const Rectangle& box, const Tolerance& tolerance) const;
-  [[nodiscard]] std::vector<Band> bands_for(const FirstRays& rays) const;
   [[nodiscard]] std::shared_ptr<const BandScreen> band_screen(const FirstRays& rays, const Band& band) const;
-  [[nodiscard]] double shift_px(const RaySheet& a, const RaySheet& b) const;
 
   void paint_bands(const FirstRays& rays, const Rectangle& box, std::span<const Band> bands, const BandScreens& screens,
                    CellPainter& cells, CellPainter* mirror_image);

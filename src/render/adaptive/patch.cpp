@@ -196,9 +196,11 @@ void blend(std::span<const Patch> patches, const PatchBlend& factors, Patch& out
   for (std::size_t k = 0; k < patches.size(); ++k) {
     const Patch& patch = patches[k];
     add(patch.field(PatchLayout::kX), factors.geometry[k], PatchLayout::kX, PatchLayout::kWeight);
-    add(patch.field(PatchLayout::kStop), factors.geometry[k], PatchLayout::kStop, out.layout.fields() - PatchLayout::kStop);
+    add(patch.field(PatchLayout::kStop), factors.geometry[k], PatchLayout::kStop,
+        out.layout.fields() - PatchLayout::kStop);
     for (int c = 0; c < 3; ++c)
-      add(patch.field(PatchLayout::kWeight), factors.weight[static_cast<std::size_t>(c)][k], PatchLayout::kWeight + c, 1);
+      add(patch.field(PatchLayout::kWeight), factors.weight[static_cast<std::size_t>(c)][k], PatchLayout::kWeight + c,
+          1);
   }
 }
 

@@ -78,9 +78,14 @@ RaySheet SheetTracer::trace(const Rectangle& box, int nodes, PacketPrecision pre
 
   const int first_row = first_traced_row(box, nodes);
   const auto at = static_cast<std::size_t>(first_row) * static_cast<std::size_t>(nodes);
-  TracedArrays out{sheet.sensor_x_mm.data() + at, sheet.sensor_y_mm.data() + at, sheet.transmission.data() + at,
-                   sheet.r_rel.data() + at,       {},                            {},
-                   sheet.rim_squared.data() + at, count};
+  TracedArrays out{sheet.sensor_x_mm.data() + at,
+                   sheet.sensor_y_mm.data() + at,
+                   sheet.transmission.data() + at,
+                   sheet.r_rel.data() + at,
+                   {},
+                   {},
+                   sheet.rim_squared.data() + at,
+                   count};
   for (std::size_t c = 0; c < sheet.stop.size(); ++c) {
     out.stop_x[c] = sheet.stop[c][0].data() + at;
     out.stop_y[c] = sheet.stop[c][1].data() + at;

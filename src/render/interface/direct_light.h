@@ -2,8 +2,10 @@
 #pragma once
 
 #include <span>
+#include <vector>
 
 #include "contrejour/colour.h"
+#include "contrejour/context.h"
 #include "contrejour/frame.h"
 #include "contrejour/ghost.h"
 
@@ -12,6 +14,19 @@ namespace contrejour {
 // Where a light is measured, at its own distance: outside the frame at the nearest point of the frame's edge on the way
 // to its centre.
 [[nodiscard]] LightSource measured_source(const LensState& lens, const Frame& frame, const LightSource& light);
+
+// A light where it is measured, its bands, the meters made for them and, once found, their direct fluxes in mm^2 at E0
+// = 1.
+struct MeteredLight {
+  LightSource source;
+  std::span<const SpectralBand> bands;
+  std::span<const GhostMeter> meters;
+  std::vector<double> flux_mm2 = {};
+};
+
+// Finds all fluxes. Of many bands' few are measured, where they foretell the next to 2e-4 (wavelength_samples.h); the
+// others are told by them, good to 2e-5. False when cancelled.
+[[nodiscard]] bool measure_fluxes(std::span<MeteredLight> lights, const Context& context);
 
 // Sum over the bands of w[c] * Phi, mm^2 at E0 = 1, from each band's direct flux where the light is measured. One that
 // does not get through there is measured on the axis, at this distance; meters[k] is made for bands[k].

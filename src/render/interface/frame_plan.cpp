@@ -117,30 +117,24 @@ PlannedLight plan_light(const Light& light, const MeteredBands& metered, std::sp
   return planned;
 }
 
-// All lights, the direct fluxes of all their bands side by side. False when cancelled.
+// False when cancelled.
 bool plan_lights(const LensState& lens, std::span<const Light> lights, const RenderSettings& settings,
                  const BandsBySpectrum& spectra, const Context& context, std::vector<PlannedLight>& planned) {
-  struct Share {
-    std::size_t light, band;
-  };
-  std::vector<Share> shares;
-  std::vector<std::vector<double>> flux_mm2(lights.size());
-  std::vector<LightSource> measured(lights.size());
-  bool done = parallel_for(lights.size(), context, [&](std::size_t k) {
-    measured[k] = measured_source(lens, settings.frame, lights[k].source());
-  });
-  for (std::size_t k = 0; k < lights.size(); ++k) {
-    flux_mm2[k].resize(bands_for(lights[k], spectra).bands.size());
-    for (std::size_t band = 0; band < flux_mm2[k].size(); ++band) shares.push_back({k, band});
+  std::vector<MeteredLight> measured;
+  for (const Light& light : lights) {
+    const MeteredBands& of = bands_for(light, spectra);
+    measured.push_back({light.source(), of.bands, of.meters});
   }
-  done = done && parallel_for(shares.size(), context, [&](std::size_t at) {
-           const auto [k, band] = shares[at];
-           flux_mm2[k][band] = bands_for(lights[k], spectra).meters[band].direct_flux(measured[k]);
-         });
-  for (std::size_t k = 0; done && k < lights.size(); ++k)
-    planned.push_back(
-        plan_light(lights[k], bands_for(lights[k], spectra), flux_mm2[k], edge_gain(lens, lights[k], settings)));
-  return done;
+  if (!parallel_for(lights.size(), context, [&](std::size_t k) {
+        measured[k].source = measured_source(lens, settings.frame, lights[k].source());
+      }))
+    return false;
+  if (!measure_fluxes(measured, context)) return false;
+  for (std::size_t k = 0; k < lights.size(); ++k) {
+    planned.push_back(plan_light(lights[k], bands_for(lights[k], spectra), measured[k].flux_mm2,
+                                 edge_gain(lens, lights[k], settings)));
+  }
+  return true;
 }
 
 }  // namespace

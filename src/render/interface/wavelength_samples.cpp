@@ -1,9 +1,9 @@
-#include "render/adaptive/wavelength_samples.h"
+#include "render/interface/wavelength_samples.h"
 
 #include <algorithm>
 #include <cmath>
 
-namespace contrejour::adaptive {
+namespace contrejour {
 
 WavelengthSamples::WavelengthSamples(std::span<const double> lambda_nm, std::size_t most) {
   if (lambda_nm.empty()) return;
@@ -33,4 +33,4 @@ std::vector<double> WavelengthSamples::factors(std::size_t count, std::size_t wa
   return factors;
 }
 
-}  // namespace contrejour::adaptive
+}  // namespace contrejour
