@@ -5,6 +5,7 @@
 
 #include "adaptive/plain_image.h"
 #include "adaptive/scene.h"
+#include "render/adaptive/shared_edges.h"
 
 using namespace contrejour;
 using namespace contrejour::adaptive;
@@ -153,6 +154,40 @@ TEST_CASE("neighbours that share edges leave neither gaps nor doubled pixels, an
   // Moved so that all of it is on the frame.
   for (Point& p : list.corners) p = {p.x + 10.0F, p.y + 4.0F};
   CHECK(test::sum_of_channel(test::drawn(list, 330, 60), 2) == doctest::Approx(area).epsilon(1e-5));
+}
+
+TEST_CASE("edges that neighbours share are drawn once, and nothing else changes") {
+  const int width = 2 * TileGrid::kWidth + 30, height = 2 * TileGrid::kHeight + 7;
+  constexpr int kCells = 12;
+  Fuzz fuzz(11);
+  // A net of quadrilaterals across tiles and the frame's borders, some folded over, some turning the other way.
+  std::vector<Point> net;
+  for (int y = 0; y <= kCells; ++y) {
+    for (int x = 0; x <= kCells; ++x)
+      net.push_back({static_cast<float>(-20.0 + 1.1 * x * width / kCells + fuzz(-60, 60)),
+                     static_cast<float>(-5.0 + 1.1 * y * height / kCells + fuzz(-4, 4))});
+  }
+  PolygonList list;
+  for (std::size_t y = 0; y < kCells; ++y) {
+    for (std::size_t x = 0; x < kCells; ++x) {
+      const std::size_t at = y * (kCells + 1) + x;
+      std::vector<Point> cell{net[at], net[at + 1], net[at + kCells + 2], net[at + kCells + 1]};
+      if ((x + y) % 3 == 0) std::reverse(cell.begin(), cell.end());
+      list.add(cell, fuzz.shade({cell[0].x, cell[0].y}));
+    }
+  }
+  const Image apart = test::drawn(list, width, height);
+  share_edges(list, TileGrid(width, height));
+  const auto shared = std::count(list.partner.begin(), list.partner.end(), PolygonList::kDrawnByPartner);
+  CHECK(shared > kCells * kCells / 3);
+  CHECK(std::count(list.partner.begin(), list.partner.end(), PolygonList::kAlone) > 4 * kCells);
+  const Image together = test::drawn(list, width, height);
+  double most = 0.0, worst = 0.0;
+  for (std::size_t k = 0; k < apart.pixels.size(); ++k) {
+    most = std::max(most, std::abs(static_cast<double>(apart.pixels[k])));
+    worst = std::max(worst, std::abs(static_cast<double>(apart.pixels[k]) - together.pixels[k]));
+  }
+  CHECK(worst < 1e-6 * most);
 }
 
 TEST_CASE("a tile lists the polygons that touch it, in their order, and none that do not") {

@@ -10,6 +10,7 @@
 #include "ghosts/pupil_search.h"
 #include "render/adaptive/box_fit.h"
 #include "render/adaptive/pupil_boxes.h"
+#include "render/adaptive/shared_edges.h"
 
 namespace contrejour::adaptive {
 namespace {
@@ -148,6 +149,7 @@ Painted paint(const Scene& scene, const Item& item, std::vector<PlannedPass> pas
     if (has_image && box.low.y < 0.0) continue;  // painted with the other
     painter.paint(box, has_image, budget, painted.polygons.list);
   }
+  share_edges(painted.polygons.list, grid);
   painted.polygons.tiles = tile_lists(painted.polygons.list, grid);
   painted.work = {tracers.rays(), tracers.surface_hits()};
   return painted;

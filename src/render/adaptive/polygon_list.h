@@ -49,7 +49,12 @@ struct Polygon {
 };
 
 struct PolygonList {
+  static constexpr std::uint32_t kAlone = ~0U, kDrawnByPartner = ~0U - 1;
+
   std::vector<Point> corners;
+  // By corner, of the edge from there to the next: the other polygon that it is drawn for as well. Empty: all are
+  // alone.
+  std::vector<std::uint32_t> partner;
   std::vector<Polygon> polygons;
   std::vector<Screened> screened;
   std::vector<PastDirt> dirt;
@@ -71,13 +76,26 @@ struct PolygonList {
     screened.push_back(behind);
     polygons.back().screened = static_cast<std::uint32_t>(screened.size());
   }
+  [[nodiscard]] std::uint32_t partner_of(std::size_t corner) const {
+    return partner.empty() ? kAlone : partner[corner];
+  }
   [[nodiscard]] std::span<const Point> corners_of(const Polygon& p) const {
     return {corners.data() + p.first, p.count};
   }
   [[nodiscard]] std::size_t bytes() const {
-    return corners.size() * sizeof(Point) + polygons.size() * sizeof(Polygon) + screened.size() * sizeof(Screened) +
-           dirt.size() * sizeof(PastDirt);
+    return corners.size() * sizeof(Point) + partner.size() * sizeof(std::uint32_t) + polygons.size() * sizeof(Polygon) +
+           screened.size() * sizeof(Screened) + dirt.size() * sizeof(PastDirt);
   }
 };
+
+// Positive where the corners turn from +x to +y.
+[[nodiscard]] inline double twice_signed_area(std::span<const Point> corners) {
+  const auto from_first = [&](std::size_t k) {
+    return Vec2{static_cast<double>(corners[k].x) - corners[0].x, static_cast<double>(corners[k].y) - corners[0].y};
+  };
+  double twice = 0.0;
+  for (std::size_t k = 2; k < corners.size(); ++k) twice += cross(from_first(k - 1), from_first(k));
+  return twice;
+}
 
 }  // namespace contrejour::adaptive

@@ -39,6 +39,16 @@ HWY_INLINE RowShade row_shade(const Shade& shade, const TileSums& tile) {
   return out;
 }
 
+// What an edge between two polygons changes, seen from the first.
+HWY_INLINE RowShade operator-(const RowShade& a, const RowShade& b) {
+  RowShade out;
+  for (std::size_t k = 0; k < TileSums::kLanes; ++k) {
+    out.level[k] = a.level[k] - b.level[k];
+    out.by_row[k] = a.by_row[k] - b.by_row[k];
+  }
+  return out;
+}
+
 // Adds `cover` of the row's irradiance to one column's sums.
 template <class Sums>
 HWY_INLINE void add(double* to, const double* shade, double cover) {
@@ -109,6 +119,11 @@ HWY_INLINE void add_edge(Sums& tile, const RowShade& shade, Vec2 a, Vec2 b, doub
   }
 }
 
+template <class Sums>
+HWY_INLINE bool misses_rows(const Sums& tile, Vec2 a, Vec2 b) {
+  return a.y == b.y || std::max(a.y, b.y) <= 0.0 || std::min(a.y, b.y) >= tile.height;
+}
+
 // Parts of an edge left of the tile count as on its border, parts to the right do not count.
 template <class Sums>
 void add_clipped(Sums& tile, const RowShade& shade, Vec2 a, Vec2 b, double sign) {
@@ -141,10 +156,7 @@ void for_each_edge(const TileSums& tile, std::span<const Point> corners, const V
   const auto corner = [&](std::size_t k) {
     return Vec2{static_cast<double>(corners[k].x) - tile.x0, static_cast<double>(corners[k].y) - tile.y0};
   };
-  double twice_area = 0.0;
-  for (std::size_t k = 2; k < corners.size(); ++k)
-    twice_area += cross(corner(k - 1) - corner(0), corner(k) - corner(0));
-  const double sign = twice_area > 0.0 ? -1.0 : 1.0;  // y down in memory: left edges rise
+  const double sign = twice_signed_area(corners) > 0.0 ? -1.0 : 1.0;  // y down in memory: left edges rise
   for (std::size_t k = 0; k < corners.size(); ++k) visit(corner(k), corner(k + 1 == corners.size() ? 0 : k + 1), sign);
 }
 

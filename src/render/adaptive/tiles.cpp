@@ -31,7 +31,13 @@ void add_polygon(TileSums& tile, const PolygonList& list, const Polygon& polygon
     add<TileSums>(tile.at(row, column + 1), shade.level, -1.0);
     return;
   }
-  for_each_edge(tile, corners, [&](Vec2 a, Vec2 b, double sign) { add_clipped(tile, shade, a, b, sign); });
+  std::size_t corner = polygon.first;
+  for_each_edge(tile, corners, [&](Vec2 a, Vec2 b, double sign) {
+    const std::uint32_t partner = list.partner_of(corner++);
+    if (partner == PolygonList::kDrawnByPartner || misses_rows(tile, a, b)) return;
+    if (partner == PolygonList::kAlone) return add_clipped(tile, shade, a, b, sign);
+    add_clipped(tile, shade - row_shade(list.polygons[partner].shade, tile), a, b, sign);
+  });
 }
 
 // Running sums of a row and what came pixel by pixel, each pixel as four floats to where `store` puts them; both are
@@ -135,12 +141,9 @@ namespace {
 
 HWY_EXPORT(draw_tile);
 
-// The tiles under a polygon's bounds.
-struct TileRange {
-  int x0 = 0, y0 = 0, x1 = -1, y1 = -1;  // inclusive
-};
+}  // namespace
 
-TileRange range_of(std::span<const Point> corners, const TileGrid& grid) {
+TileRange tiles_under(std::span<const Point> corners, const TileGrid& grid) {
   Point low = corners[0];
   Point high = corners[0];
   for (const Point p : corners) {
@@ -157,8 +160,6 @@ TileRange range_of(std::span<const Point> corners, const TileGrid& grid) {
           tile(high.y, h, TileGrid::kHeight)};
 }
 
-}  // namespace
-
 // Counts, then fills.
 TileLists tile_lists(const PolygonList& list, const TileGrid& grid) {
   TileLists out;
@@ -171,7 +172,7 @@ TileLists tile_lists(const PolygonList& list, const TileGrid& grid) {
     }
   };
   for (const Polygon& p : list.polygons) {
-    ranges.push_back(range_of(list.corners_of(p), grid));
+    ranges.push_back(tiles_under(list.corners_of(p), grid));
     for_each_tile(ranges.back(), [&](std::size_t t) { ++out.start[t + 1]; });
   }
   for (std::size_t t = 0; t < grid.count(); ++t) out.start[t + 1] += out.start[t];

@@ -27,6 +27,12 @@ struct TileGrid {
   [[nodiscard]] std::size_t count() const { return static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows); }
 };
 
+// The tiles under the bounds of a polygon, last ones included; none if x1 < x0.
+struct TileRange {
+  int x0 = 0, y0 = 0, x1 = -1, y1 = -1;
+};
+[[nodiscard]] TileRange tiles_under(std::span<const Point> corners, const TileGrid& grid);
+
 // For each tile the polygons of a list that may touch it, in their order: index[start[t] .. start[t + 1]).
 struct TileLists {
   std::vector<std::uint32_t> start, index;

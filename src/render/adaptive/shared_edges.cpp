@@ -1,0 +1,79 @@
+#include "render/adaptive/shared_edges.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+
+namespace contrejour::adaptive {
+namespace {
+
+// An edge of a polygon, seen from a to b, where neighbours are drawn from b to a.
+struct Edge {
+  std::uint32_t polygon = 0, corner = 0;
+  Point a, b;
+  bool turns_left = false;  // its polygon
+  int first_column = 0, last_column = 0;
+};
+
+// The edges seen last, by their ends: one a slot, the older one gives way.
+class RecentEdges {
+ public:
+  // The one at the same place, which is then forgotten; otherwise keeps this one.
+  [[nodiscard]] const Edge* take_or_keep(const Edge& edge) {
+    Slot& slot = slots_[(hash(edge.a) + hash(edge.b)) % kSlots];
+    if (slot.used && same(slot.edge, edge)) {
+      slot.used = false;
+      return &slot.edge;
+    }
+    slot = {true, edge};
+    return nullptr;
+  }
+
+ private:
+  static constexpr std::size_t kSlots = 1024;
+  struct Slot {
+    bool used = false;
+    Edge edge;
+  };
+  static std::size_t hash(Point p) {
+    return (std::bit_cast<std::uint32_t>(p.x) * 0x9E3779B1U ^ std::bit_cast<std::uint32_t>(p.y) * 0x85EBCA77U) >> 7U;
+  }
+  static bool equal(Point p, Point q) { return p.x == q.x && p.y == q.y; }
+  // Each light on its own side.
+  static bool same(const Edge& e, const Edge& f) {
+    const bool along = equal(e.a, f.a) && equal(e.b, f.b);
+    const bool against = equal(e.a, f.b) && equal(e.b, f.a);
+    return (e.turns_left == f.turns_left ? against : along) && e.first_column == f.first_column &&
+           e.last_column == f.last_column;
+  }
+  std::array<Slot, kSlots> slots_;
+};
+
+}  // namespace
+
+void share_edges(PolygonList& list, const TileGrid& grid) {
+  list.partner.assign(list.corners.size(), PolygonList::kAlone);
+  RecentEdges recent;
+  for (std::size_t p = 0; p < list.polygons.size(); ++p) {
+    const Polygon& polygon = list.polygons[p];
+    if (polygon.count < 3 || polygon.screened != 0) continue;
+    const std::span<const Point> corners = list.corners_of(polygon);
+    const TileRange range = tiles_under(corners, grid);
+    const double twice_area = twice_signed_area(corners);
+    for (std::uint32_t k = 0; k < polygon.count; ++k) {
+      const Edge edge{static_cast<std::uint32_t>(p),
+                      polygon.first + k,
+                      corners[k],
+                      corners[k + 1 == polygon.count ? 0 : k + 1],
+                      twice_area > 0.0,
+                      range.x0,
+                      range.x1};
+      const Edge* const other = recent.take_or_keep(edge);
+      if (other == nullptr) continue;
+      list.partner[edge.corner] = PolygonList::kDrawnByPartner;
+      list.partner[other->corner] = edge.polygon;
+    }
+  }
+}
+
+}  // namespace contrejour::adaptive
