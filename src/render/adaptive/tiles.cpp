@@ -48,34 +48,41 @@ HWY_INLINE void sum_row(TileSums& tile, int row, Store store) {
   const hn::CappedTag<double, kHalf> d;
   const hn::Rebind<float, decltype(d)> df;
   const auto zero = hn::Zero(d);
-  const auto one = hn::Set(d, 1.0);
   double* const sums = tile.at(row, 0);
   const std::uint64_t touched = std::exchange(tile.touched[static_cast<std::size_t>(row)], 0);
   const std::uint64_t lit = tile.lit[static_cast<std::size_t>(row)];
   for (std::size_t k = 0; k < kHalf; k += hn::Lanes(d)) {
     auto level = zero;
     auto slope = zero;
-    auto x = zero;
     for (int block = 0; block * TileSums::kBlock < tile.width; ++block) {
       const auto first = static_cast<std::size_t>(block * TileSums::kBlock);
-      const auto end = std::min(first + TileSums::kBlock, static_cast<std::size_t>(tile.width));
+      const auto count = std::min<std::size_t>(TileSums::kBlock, static_cast<std::size_t>(tile.width) - first);
       const bool changes = (touched >> block & 1U) != 0;
       float* const light = (lit >> block & 1U) != 0 ? tile.pixels_at(row) + k : nullptr;
-      for (std::size_t column = first; column < end; ++column) {
+      const auto x0 = hn::Set(d, static_cast<double>(first));
+      const auto at_column = [&](std::size_t column) HWY_ATTR {
+        const auto x = hn::Add(x0, hn::Set(d, static_cast<double>(column)));
+        return hn::DemoteTo(df, hn::MulAdd(slope, x, level));
+      };
+      if (!changes && light == nullptr && count == TileSums::kBlock) {  // most of them; no sum that waits for another
+        for (std::size_t column = 0; column < TileSums::kBlock; ++column)
+          store(df, at_column(column), first + column, k);
+        continue;
+      }
+      for (std::size_t column = 0; column < count; ++column) {
         if (changes) {
-          double* at = sums + TileSums::kLanes * column + k;
+          double* at = sums + TileSums::kLanes * (first + column) + k;
           level = hn::Add(level, hn::LoadU(d, at));
           slope = hn::Add(slope, hn::LoadU(d, at + kHalf));
           hn::StoreU(zero, d, at);
           hn::StoreU(zero, d, at + kHalf);
         }
-        auto value = hn::DemoteTo(df, hn::MulAdd(slope, x, level));
+        auto value = at_column(column);
         if (light != nullptr) {
-          value = hn::Add(value, hn::LoadU(df, light + kHalf * column));
-          hn::StoreU(hn::Zero(df), df, light + kHalf * column);
+          value = hn::Add(value, hn::LoadU(df, light + kHalf * (first + column)));
+          hn::StoreU(hn::Zero(df), df, light + kHalf * (first + column));
         }
-        store(df, value, column, k);
-        x = hn::Add(x, one);
+        store(df, value, first + column, k);
       }
     }
   }
