@@ -4,7 +4,6 @@
 #include <cmath>
 #include <limits>
 #include <optional>
-#include <set>
 
 #include "render/adaptive/extremes.h"
 #include "render/adaptive/lobatto.h"
@@ -81,6 +80,15 @@ bool all_arrive(std::span<const RaySheet> sheets) {
   return std::all_of(sheets.begin(), sheets.end(), [](const RaySheet& sheet) { return sheet.failed == 0; });
 }
 
+// A band's first rays: the geometry of its middle and the light of all its passes.
+RaySheet band_sheet(const FirstRays& rays, const Band& band, std::span<const PlannedPass> passes) {
+  RaySheet sheet = rays.sheets[band.middle()];
+  add_light(sheet, rays.transmission[band.middle()], passes[band.middle()].gain);
+  for (std::size_t k = band.first; k < band.last; ++k)
+    if (k != band.middle()) add_light(sheet, rays.transmission[k], passes[k].gain);
+  return sheet;
+}
+
 std::vector<double> wavelengths_of(std::span<const PlannedPass> passes) {
   std::vector<double> lambda_nm;
   for (const PlannedPass& pass : passes) lambda_nm.push_back(pass.lambda_nm);
@@ -147,37 +155,29 @@ void GhostPainter::paint(const Rectangle& box, bool with_mirror_image, const Err
   cells.stand_behind(SeenDirt{dirt_, &tracers_.light(), tracers_.plane_z_mm()});
   CellPainter cells_of_image = cells;
   CellPainter* const mirror_image = with_mirror_image ? &cells_of_image : nullptr;
-  if (rays.samples > 0) return paint_bands(rays, box, bands, screens, cells, mirror_image);
-  for (std::size_t k = 0; k < bands.size(); ++k)
-    paint_bands(rays, box, {&bands[k], 1}, {screens[k]}, cells, mirror_image);
+  if (rays.samples > 0) {
+    BandSet all(tracers_, samples_, rays.samples, bands);
+    std::vector<RaySheet> sheets;
+    for (std::size_t k = 0; k < rays.samples; ++k) sheets.push_back(rays.sheets[samples_[k]]);
+    all.add_weights(sheets, PacketPrecision::Double);
+    return paint_bands(all, sheets, {rays.tolerance, screens, cells, mirror_image});
+  }
+  for (std::size_t k = 0; k < bands.size(); ++k) {
+    BandSet one(tracers_, bands[k]);
+    const RaySheet sheet = band_sheet(rays, bands[k], tracers_.passes());
+    paint_bands(one, {&sheet, 1}, {rays.tolerance, {screens[k]}, cells, mirror_image});
+  }
 }
 
-// One, or all that the samples tell.
-void GhostPainter::paint_bands(const FirstRays& rays, const Rectangle& box, std::span<const Band> bands,
-                               const BandScreens& screens, CellPainter& cells, CellPainter* mirror_image) {
-  const Painting painting{rays.tolerance, screens, cells, mirror_image};
-  const bool told = rays.samples > 0;
-  const Band& band = bands.front();
-  BandSet set = told ? BandSet(tracers_, samples_, rays.samples, bands) : BandSet(tracers_, band);
-  std::vector<RaySheet> sheets;
-  for (std::size_t k = 0; k < rays.samples; ++k) sheets.push_back(rays.sheets[samples_[k]]);
-  if (told) set.add_weights(sheets, PacketPrecision::Double);
-  if (!told) {
-    const auto add_pass = [&](std::size_t k) {
-      add_light(sheets.front(), rays.transmission[k], tracers_.passes()[k].gain);
-    };
-    sheets.push_back(rays.sheets[band.middle()]);
-    add_pass(band.middle());
-    for (std::size_t k = band.first; k < band.last; ++k)
-      if (k != band.middle()) add_pass(k);
-  }
+// first: sheets of the fewest nodes, with weights.
+void GhostPainter::paint_bands(BandSet& bands, std::span<const RaySheet> first, const Painting& painting) {
   double first_misfit = kNoFit;
-  if (all_arrive(sheets)) {
-    const std::vector<Patch> patches = set.make_patches(sheets, frame_);
-    first_misfit = misfit(set, patches, painting.tolerance);
-    if (first_misfit <= 1.0) return paint_patches(set, sheets, patches, painting);
+  if (all_arrive(first)) {
+    const std::vector<Patch> patches = bands.make_patches(first, frame_);
+    first_misfit = misfit(bands, patches, painting.tolerance);
+    if (first_misfit <= 1.0) return paint_patches(bands, first, patches, painting);
   }
-  paint_box(set, box, 0, first_misfit, painting);
+  paint_box(bands, first.front().box, 0, first_misfit, painting);
 }
 
 // first_misfit: that of the fewest nodes, where it is known.
@@ -207,12 +207,12 @@ void GhostPainter::paint_box(BandSet& bands, const Rectangle& box, int depth, st
   paint_quarters(bands, box, depth, painting);
 }
 
-// The worst of the bands': those between the ends and the middle are blended like them.
+// The worst of three bands', at most: those between them are blended like them.
 double GhostPainter::misfit(const BandSet& bands, std::span<const Patch> patches, const Tolerance& tolerance) const {
   Patch patch;
   double worst = 0.0;
-  const std::size_t last = bands.size() - 1;
-  for (const std::size_t band : std::set{std::size_t{0}, last / 2, last}) {
+  const std::size_t step = std::max<std::size_t>(1, (bands.size() - 1) / 2);
+  for (std::size_t band = 0; band < bands.size(); band += step) {
     bands.band_patch(patches, band, patch);
     worst = std::max(worst, adaptive::misfit(patch, tolerance));
   }

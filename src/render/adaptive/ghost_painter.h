@@ -38,8 +38,7 @@ class GhostPainter {
   [[nodiscard]] PacketPrecision precision_for(const Rectangle& box, const Tolerance& tolerance) const;
   [[nodiscard]] std::shared_ptr<const BandScreen> band_screen(const FirstRays& rays, const Band& band) const;
 
-  void paint_bands(const FirstRays& rays, const Rectangle& box, std::span<const Band> bands, const BandScreens& screens,
-                   CellPainter& cells, CellPainter* mirror_image);
+  void paint_bands(BandSet& bands, std::span<const RaySheet> first, const Painting& painting);
   void paint_box(BandSet& bands, const Rectangle& box, int depth, std::optional<double> first_misfit,
                  const Painting& painting);
   [[nodiscard]] double misfit(const BandSet& bands, std::span<const Patch> patches, const Tolerance& tolerance) const;
