@@ -1,4 +1,5 @@
 // Polygons behind screens, pixel by pixel: every way of looking up what passes against the plain one.
+#include <algorithm>
 #include <cmath>
 
 #include <doctest/doctest.h>
@@ -65,8 +66,22 @@ std::shared_ptr<BandScreen> patterns(const std::shared_ptr<const IrisShape>& iri
                            {static_cast<float>(extent - 1.0), 0.3F, static_cast<float>(1.9 - extent)}});
   }
   band->pattern = std::make_shared<const screens::BandPattern>(all);
-  band->reach = 2.0;
   return band;
+}
+
+// One wavelength's alone: all channels see the same.
+std::shared_ptr<BandScreen> grey(std::shared_ptr<BandScreen> band) {
+  band->parts.resize(1);
+  band->parts.front().channel = {1.0F, 1.0F, 1.0F};
+  if (band->pattern) {
+    const auto& of_one = static_cast<const screens::TextureScreen&>(*band->parts.front().screen);
+    band->pattern = std::make_shared<const screens::BandPattern>(std::array{&of_one.texture()});
+  }
+  return band;
+}
+
+double entry_of(const EdgeTable& table, std::size_t k, std::size_t channel) {
+  return static_cast<double>(table.entries()[table.stride() * k + std::min(channel, table.stride() - 1)]);
 }
 
 // By the entries of the table, one edge after the other.
@@ -77,9 +92,7 @@ std::array<double, 3> by_table(const EdgeTable& table, Vec2 at) {
                                     static_cast<double>(table.count()) - 1.0);
     const auto k = std::min(static_cast<std::size_t>(place), table.count() - 2);
     for (std::size_t c = 0; c < 3; ++c)
-      all[c] *= std::lerp(static_cast<double>(table.entries()[EdgeTable::kStride * k + c]),
-                          static_cast<double>(table.entries()[EdgeTable::kStride * (k + 1) + c]),
-                          place - static_cast<double>(k));
+      all[c] *= std::lerp(entry_of(table, k, c), entry_of(table, k + 1, c), place - static_cast<double>(k));
   }
   return all;
 }
@@ -110,7 +123,11 @@ double worst_difference(unsigned seed, const ScreenedOf& screened_of, const Plai
 
 TEST_CASE("edges' fringes: the table's, at every pixel") {
   const auto iris = blades();
-  const auto band = edges(iris);
+  bool alone = false;
+  SUBCASE("of several wavelengths") {}
+  SUBCASE("of one") { alone = true; }
+  const auto band = alone ? grey(edges(iris)) : edges(iris);
+  CHECK(band->is_grey() == alone);
   const EdgeTable table(*band, 1.0 / kRadius_px);
   std::vector<std::uint16_t> all(iris->bounds().size());
   for (std::size_t k = 0; k < all.size(); ++k) all[k] = static_cast<std::uint16_t>(k);
@@ -126,7 +143,7 @@ TEST_CASE("edges' fringes: the table's, at every pixel") {
     Iris one;
     if (only == 1) one.blades = 6;
     const auto shape = std::make_shared<const IrisShape>(one);
-    const auto fringes = edges(shape);
+    const auto fringes = alone ? grey(edges(shape)) : edges(shape);
     const EdgeTable of_one(*fringes, 1.0 / kRadius_px);
     const std::uint16_t bound = static_cast<std::uint16_t>(shape->bounds().size() - 1);
     const auto single = [&](PolygonList&, Vec2 middle, double size) {
@@ -139,9 +156,7 @@ TEST_CASE("edges' fringes: the table's, at every pixel") {
       const auto k = std::min(static_cast<std::size_t>(place), of_one.count() - 2);
       std::array<double, 3> out{};
       for (std::size_t c = 0; c < 3; ++c)
-        out[c] = std::lerp(static_cast<double>(of_one.entries()[EdgeTable::kStride * k + c]),
-                           static_cast<double>(of_one.entries()[EdgeTable::kStride * (k + 1) + c]),
-                           place - static_cast<double>(k));
+        out[c] = std::lerp(entry_of(of_one, k, c), entry_of(of_one, k + 1, c), place - static_cast<double>(k));
       return out;
     };
     CHECK(worst_difference(6, single, of_bound) < 2e-4);
@@ -150,7 +165,11 @@ TEST_CASE("edges' fringes: the table's, at every pixel") {
 
 TEST_CASE("patterns: each wavelength's own, in its part of the channels") {
   const auto iris = blades();
-  const auto band = patterns(iris);
+  bool alone = false;
+  SUBCASE("several") {}
+  SUBCASE("one") { alone = true; }
+  const auto band = alone ? grey(patterns(iris)) : patterns(iris);
+  CHECK(band->pattern->stride() == (alone ? 1 : screens::BandPattern::kStride));
   const auto screened = [&](PolygonList&, Vec2 middle, double size) {
     return std::pair(Screened{StopMap(pixels_about(middle, size), std::array{stop_about(size)}, 0.2), band.get()},
                      std::vector<std::uint16_t>{});
@@ -159,7 +178,7 @@ TEST_CASE("patterns: each wavelength's own, in its part of the channels") {
   const auto sample = [&](int column, int row, std::size_t part) {
     if (column < 0 || row < 0 || column >= samples.side || row >= samples.side) return 0.0;
     const auto at = static_cast<std::size_t>((row + 1) * samples.pitch() + column + 1);
-    return static_cast<double>(samples.samples[screens::BandPattern::kStride * at + part]);
+    return static_cast<double>(samples.samples[band->pattern->stride() * at + part]);
   };
   const auto share = [&](const Polygon&, Vec2 at) {
     const double scale = 0.5 * samples.side / band->pattern->extent();

@@ -46,6 +46,41 @@ TEST_CASE("a pattern reaches as far as it is bright, and what lies beyond is kno
   CHECK(two_discs(2.0, 0.8, 1.5, 0.05F).reach_above(0.2) > 1.4);
 }
 
+TEST_CASE("lines about a pattern: all that is bright is within them, and little else") {
+  constexpr int kSide = 128;
+  constexpr double kExtent = 2.0;
+  std::vector<float> bar;  // across the middle, brighter to the right
+  for (int row = 0; row < kSide; ++row)
+    for (int column = 0; column < kSide; ++column) {
+      const Vec2 p{(column + 0.5) * 2.0 * kExtent / kSide - kExtent, kExtent - (row + 0.5) * 2.0 * kExtent / kSide};
+      bar.push_back(std::abs(p.x) < 1.5 && std::abs(p.y) < 0.4 ? (p.x > 0.0 ? 1.0F : 0.05F) : 0.0F);
+    }
+  const PatternTexture texture(kSide, kExtent, bar);
+  const auto far = [](const PatternHull& hull, Vec2 to) {
+    double most = 10.0;  // how far from the middle one is not beyond any line
+    for (std::size_t k = 0; k < PatternHull::kLines; ++k)
+      if (dot(PatternHull::normals()[k], to) > 1e-9)
+        most = std::min(most, hull.most(k) / dot(PatternHull::normals()[k], to));
+    return most;
+  };
+  const PatternHull all = texture.hull_above(0.01, 1.0), bright = texture.hull_above(0.2, 1.0);
+  for (const auto& hull : {all, bright}) {
+    CHECK(far(hull, {1.0, 0.0}) == doctest::Approx(1.5).epsilon(0.1));
+    CHECK(far(hull, {0.0, 1.0}) < 0.7);
+    for (const double y : {-0.38, 0.0, 0.38}) CHECK_FALSE(hull.misses({1.48, y}, 0.0));
+  }
+  CHECK(far(all, {-1.0, 0.0}) == doctest::Approx(1.5).epsilon(0.1));
+  CHECK(far(bright, {-1.0, 0.0}) < 0.6);
+  CHECK(texture.hull_above(0.2, 1e-4).most(12) > 1.4);  // light that would be missed is kept
+  CHECK(bright.misses({-1.3, 0.0}, 0.2));
+  CHECK_FALSE(bright.misses({-1.3, 0.0}, 1.4));
+  CHECK(texture.brightest_beyond(1.0) == doctest::Approx(1.0));
+  CHECK(texture.brightest_beyond(1.8) == 0.0);
+  PatternHull both = bright;
+  both.hold(Vec2{-1.9, 0.0});
+  CHECK_FALSE(both.misses({-1.85, 0.0}, 0.0));
+}
+
 TEST_CASE("patterns side by side are each what they are alone") {
   std::vector<float> ramp;
   for (int row = 0; row < 96; ++row)

@@ -77,7 +77,7 @@ double CellPainter::unscreened_error(const Mesh& mesh, const Cell& cell, State s
   const auto e = [&](std::size_t k) { return static_cast<double>(mesh.brightness[v[k]]); };
   double residual = off_plane(e);
   const double area = std::abs(mesh.area[cell.middle]) * cell.size * cell.size;
-  if (area > kFacet_px && mean > kFacetLevel * peak_) {
+  if (area > kFacet_px && mean * cell.screen.most > kFacetLevel * peak_) {
     double facet = 0.0;
     for (int c = 0; c < 3; ++c) facet += off_plane([&](std::size_t k) { return mesh.irradiance(c, v[k]); }) / 3.0;
     if (facet > kFacet * kFacet * mean * mean) return std::numeric_limits<double>::infinity();
@@ -117,7 +117,7 @@ double CellPainter::unscreened_error(const Mesh& mesh, const Cell& cell, State s
   };
   if (state == State::Cut) {
     const double limit = limit_error(mesh, cell);
-    if (limit > kMostBend) return std::numeric_limits<double>::infinity();  // or light would be lost unseen
+    if (limit * cell.screen.most > kMostBend) return std::numeric_limits<double>::infinity();  // or light would be lost unseen
     error += along_edges(left * limit * longest, iris_.is_picture() ? kPictureEdges : 1.0);
   }
   if (varied && longest > kOnePlace_px)  // soft ones

@@ -97,7 +97,7 @@ std::optional<std::pair<CellPainter::Cell, CellPainter::State>> CellPainter::see
   const State state = state_of(mesh, cell);
   if (state == State::Closed || off_frame(mesh, cell)) return std::nullopt;
   cell.screen = view_of_screen(mesh, cell);
-  if (cell.screen.part == ScreenPart::Dark) return std::nullopt;
+  if (cell.screen.part == ScreenPart::Dark || (screen_ && is_unseen(mesh, cell))) return std::nullopt;
   return std::pair(cell, state);
 }
 

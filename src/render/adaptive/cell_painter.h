@@ -108,6 +108,7 @@ class CellPainter {
   [[nodiscard]] double map_error(const Mesh& mesh, const Cell& cell, double longest_px) const;
   [[nodiscard]] const EdgeTable& table_for(double width);
   [[nodiscard]] ScreenView view_of_screen(const Mesh& mesh, const Cell& cell) const;
+  [[nodiscard]] bool is_unseen(const Mesh& mesh, const Cell& cell) const;
   [[nodiscard]] double stop_size(const Mesh& mesh, const Cell& cell) const;
   [[nodiscard]] std::span<const Point> points_of(std::span<const Corner> polygon);
   void draw_line(std::span<const Corner> polygon, const Flux& flux);

@@ -17,21 +17,22 @@ double fade(double way) {
 }  // namespace
 
 EdgeTable::EdgeTable(const BandScreen& band, double width)
-    : iris_(&band.edges->iris()), dark_beyond_(band.dark_beyond + 0.5 * width),
+    : iris_(&band.edges->iris()), stride_(band.is_grey() ? 1 : kStride), dark_beyond_(band.dark_beyond + 0.5 * width),
       level_within_(band.level_within + 0.5 * width), per_step_(1.0 / (kStep * band.unit)) {
   const auto steps = static_cast<std::size_t>((dark_beyond_ + level_within_) * per_step_) + 1;
-  entries_.assign((steps + 1) * kStride, 0.0F);
+  entries_.assign((steps + 1) * stride_, 0.0F);
   for (std::size_t k = 1; k < steps; ++k) {
     const double distance = dark_beyond_ - static_cast<double>(k) / per_step_;
-    float* const entry = &entries_[kStride * k];
+    float* const entry = &entries_[stride_ * k];
     for (const BandScreen::Part& part : band.parts) {
       const double share = static_cast<const screens::EdgeScreen&>(*part.screen).edge(distance, width);
       const double faded = distance > 0.0 ? share * fade(distance / dark_beyond_)
                                           : 1.0 + (share - 1.0) * fade(-distance / level_within_);
-      for (std::size_t c = 0; c < 3; ++c) entry[c] += part.channel[c] * static_cast<float>(faded);
+      for (std::size_t c = 0; c < std::min<std::size_t>(stride_, 3); ++c)
+        entry[c] += part.channel[c] * static_cast<float>(faded);
     }
   }
-  std::fill_n(&entries_[kStride * steps], kStride, 1.0F);
+  std::fill_n(&entries_[stride_ * steps], stride_, 1.0F);
 }
 
 }  // namespace contrejour::adaptive

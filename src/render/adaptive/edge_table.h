@@ -12,6 +12,7 @@ namespace contrejour::adaptive {
 class EdgeTable {
  public:
   static constexpr std::size_t kStride = 4;  // floats of an entry: three channels and an unused one
+  [[nodiscard]] std::size_t stride() const { return stride_; }  // that, or 1: all channels are the same
 
   // band: of edges' fringes, which must outlive the table. width: of a pixel, stop radii.
   EdgeTable(const BandScreen& band, double width);
@@ -22,11 +23,12 @@ class EdgeTable {
 
   // The factors that a bound brings, from 0 at dark_beyond() outside it to 1 at level_within() inside, at even steps.
   [[nodiscard]] const float* entries() const { return entries_.data(); }
-  [[nodiscard]] std::size_t count() const { return entries_.size() / kStride; }
+  [[nodiscard]] std::size_t count() const { return entries_.size() / stride_; }
   [[nodiscard]] double per_step() const { return per_step_; }  // entries a stop radius
 
  private:
   const IrisShape* iris_;
+  std::size_t stride_;
   double dark_beyond_, level_within_, per_step_;
   std::vector<float> entries_;
 };

@@ -7,6 +7,7 @@
 
 #include "render/adaptive/extremes.h"
 #include "render/adaptive/lobatto.h"
+#include "render/adaptive/screened_boxes.h"
 #include "render/screens/ringing_patterns.h"
 
 namespace contrejour::adaptive {
@@ -20,6 +21,9 @@ constexpr double kWorthShrinking = 0.5;  // a box whose lit part has no more of 
 constexpr double kLightLeft = 0.05;  // of a channel's absolute sum over wavelengths, for its parts to mean anything
 constexpr std::size_t kMostSamples = 9;  // of wavelengths, that are tried
 constexpr double kNoFit = std::numeric_limits<double>::infinity();
+// Behind a screen: how much worse fits of dim light may be, and what is so dim, over what does not count at all, that
+// any will do.
+constexpr double kMostLooser = 64.0, kRough = 10.0;
 constexpr double kHopeless = 2.0;  // times the tolerance, foretold of more nodes
 constexpr double kFewCells = 64.0;  // a band's squared error is shared among so many cells
 
@@ -116,7 +120,8 @@ std::shared_ptr<const BandScreen> GhostPainter::band_screen(const FirstRays& ray
   std::vector<std::array<double, 3>> light(count);
   for (std::size_t part = 0; part < count; ++part) {
     const std::size_t from = of.first + part * passes / count, to = of.first + (part + 1) * passes / count;
-    band->parts.push_back({screens_->by_pass[(from + to) / 2], {}});
+    band->parts.push_back({screens_->by_pass[(from + to) / 2].screen, {}});
+    band->hull.hold(screens_->by_pass[(from + to) / 2].hull);
     for (std::size_t k = from; k < to; ++k) {
       const auto of_pass = light_of(rays, tracers_.passes(), k);
       for (std::size_t c = 0; c < 3; ++c) light[part][c] += of_pass[c];
@@ -140,7 +145,7 @@ std::shared_ptr<const BandScreen> GhostPainter::band_screen(const FirstRays& ray
     band->level_within = std::max(band->level_within, screens_->range.level * edge->unit());
   }
   if (all_edges) band->edges = static_cast<const screens::EdgeScreen*>(band->parts.front().screen.get());
-  band->reach = screens_->reach;
+  band->unseen = screens_->unseen;
   if (textures.size() == band->parts.size()) band->pattern = screens_->patterns->contents().band(textures);
   return band;
 }
@@ -187,24 +192,47 @@ void GhostPainter::paint_box(BandSet& bands, const Rectangle& box, int depth, st
   for (std::size_t k = first_misfit ? 1 : 0; k < kNodes.size(); ++k) {
     const PacketPrecision precision = precision_for(box, painting.tolerance);
     std::vector<RaySheet> sheets = bands.trace(box, kNodes[k], precision);
+    const std::optional<double> level = level_behind(bands, sheets, painting);
+    if (level && *level < screens_->unseen) return;
+    const bool rough = level && *level < kRough * screens_->unseen;
+    const double looser = level ? std::clamp(painting.tolerance.level / *level, 1.0, kMostLooser) : 1.0;
     const auto part = lit_part(sheets);
     if (!part) return;
     if (depth < deepest_ && area(*part) < kWorthShrinking * area(box))
       return paint_box(bands, *part, depth + 1, std::nullopt, painting);
     const bool last = k + 1 == kNodes.size();
     const bool arrive = all_arrive(sheets);
-    if (!arrive && depth < deepest_) break;
+    if (!arrive && depth < deepest_ && !rough) break;
     bands.add_weights(sheets, precision);
     if (!arrive) return paint_between_rays(bands, box, sheets, depth, painting);
     const std::vector<Patch> patches = bands.make_patches(sheets, frame_);
-    const double now = misfit(bands, patches, painting.tolerance);
-    if (now <= 1.0 || (last && depth >= deepest_)) return paint_patches(bands, sheets, patches, painting);
+    const double now = misfit(bands, patches, painting.tolerance) / looser;
+    if (now <= 1.0 || rough || (last && depth >= deepest_)) return paint_patches(bands, sheets, patches, painting);
     // Errors fall by a like factor for a like number of nodes, which the next step has twice more of.
     const double next = now * (now / before) * (now / before);
     if (next > kHopeless && depth < deepest_) break;
     before = now;
   }
   paint_quarters(bands, box, depth, painting);
+}
+
+// About the brightest pixel of a box behind a screen, or of its mirror image. None: the iris is sharp, or that is not
+// told: of several bands, or where no four rays side by side arrive.
+std::optional<double> GhostPainter::level_behind(const BandSet& bands, std::span<const RaySheet> sheets,
+                                                 const Painting& painting) const {
+  if (screens_ == nullptr || bands.size() > 1 || sheets.size() > 1) return std::nullopt;
+  Rgb gain{};
+  for (std::size_t k = bands.band(0).first; k < bands.band(0).last; ++k)
+    for (std::size_t c = 0; c < 3; ++c) gain[c] += tracers_.passes()[k].gain[c];
+  const double pixel_mm2 = frame_.pixel_pitch_mm * frame_.pixel_pitch_mm;
+  const auto level_of = [&](const RaySheet& sheet) {
+    return brightest_passed(sheet, *painting.screens.front(), tracers_.stop_times(), tracers_.light());
+  };
+  auto brightest = level_of(sheets.front());
+  if (painting.mirror_image != nullptr && brightest)
+    brightest = std::max(*brightest, *level_of(mirrored(sheets.front())));
+  if (brightest) *brightest *= std::max({std::abs(gain[0]), std::abs(gain[1]), std::abs(gain[2])}) * pixel_mm2;
+  return brightest;
 }
 
 // The worst of three bands', at most: those between them are blended like them.

@@ -9,9 +9,14 @@ namespace contrejour::adaptive {
 
 // What stands in the stop for a ghost of a light, in place of the sharp iris: one a pass, the last crossing's.
 struct GhostScreens {
-  double reach = 1.0;  // the largest, as far as their light is worth drawing
-  screens::EdgeProfile::Range range{0.0, 0.0};  // likewise, of edges' fringes
-  std::vector<std::shared_ptr<const StopScreen>> by_pass;
+  struct OfPass {
+    std::shared_ptr<const StopScreen> screen;
+    screens::PatternHull hull;  // of a pattern, as far as its light is worth drawing
+  };
+  std::vector<OfPass> by_pass;
+  double reach = 1.0;  // the largest, likewise
+  screens::EdgeProfile::Range range{0.0, 0.0};  // of edges' fringes, likewise
+  double unseen = 0.0;  // pixel values that do not count
   std::shared_ptr<RingingPatterns> patterns;
 };
 
@@ -46,6 +51,8 @@ class GhostPainter {
                      const Painting& painting) const;
   void paint_between_rays(BandSet& bands, const Rectangle& box, std::span<const RaySheet> sheets, int depth,
                           const Painting& painting);
+  [[nodiscard]] std::optional<double> level_behind(const BandSet& bands, std::span<const RaySheet> sheets,
+                                                   const Painting& painting) const;
   void paint_quarters(BandSet& bands, const Rectangle& box, int depth, const Painting& painting);
   void stand_behind(const std::shared_ptr<const BandScreen>& screen, CellPainter& cells) const;
 

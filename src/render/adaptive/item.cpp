@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <utility>
 
 #include "base/tasks.h"
 #include "contrejour/metrics.h"
@@ -19,6 +20,7 @@ namespace {
 // would be if the box were tight. Half of this saves no rays and costs a decibel; twice this takes a third more rays.
 constexpr double kMargin = 0.1;
 constexpr int kDeepest = 4;       // quarterings of a box
+constexpr double kMuchWider = 1.5;  // of a stop: what a box is widened by at once is less then
 constexpr int kPeakDeepest = 1;
 constexpr double kPeakQuantile = 0.999;
 constexpr int kPeakScale = 8;  // the frame's pixels over those of the small one, along a side
@@ -54,6 +56,17 @@ Rectangle with_margin_aside(const Rectangle& box) {
   return out;
 }
 
+// So many times as large; one of a symmetric pupil stays on its side of the axis of symmetry.
+Rectangle about_middle(const Rectangle& box, double times) {
+  const Vec2 more = (box.high - box.low) * (0.5 * (times - 1.0));
+  Rectangle out{box.low - more, box.high + more};
+  if (box.low.y >= 0.0) out.low.y = std::max(out.low.y, 0.0);
+  return out;
+}
+
+// Of a box on the other side of the axis of symmetry.
+bool is_mirror_image(const Rectangle& box) { return box.high.y <= 0.0; }
+
 // The wavelengths at which a pupil is searched that is to hold for all.
 std::vector<double> outer_wavelengths(const PlannedLight& light) {
   std::vector<double> outer_nm{light.passes.front().lambda_nm};
@@ -83,44 +96,57 @@ Work find_askew_box(const Scene& scene, Item& item) {
   return work;
 }
 
-}  // namespace
-
-// Where rays get through, at all wavelengths of the light: found at the middle one, then fitted to the outer ones.
-Work find_boxes(const Scene& scene, Item& item) {
-  item.boxes.clear();
-  if (!has_axial_symmetry(scene.lens, item.ghost)) return find_askew_box(scene, item);
+// What comes through near some boxes, at all wavelengths of the light; mirror images are left to their originals.
+Work fit_boxes(const Scene& scene, Item& item, const std::vector<Rectangle>& near) {
   const LightFrame light(item.light->source);
   const EntranceWindow window = entrance_window(scene.lens, light.source);
   const LightRays rays{{0.0, 0.0, window.z_mm}, light.source};
-  const auto path_at = [&](double lambda_nm) {
-    return widened(ghost_path(scene.lens, item.ghost, lambda_nm), stop_times(item));
-  };
-  const auto tables_at = [&](double lambda_nm) -> const ReflectanceTables& { return *scene.plan.tables.at(lambda_nm); };
-  const double middle_nm = middle_pass(*item.light).lambda_nm;
-  const OpticalPath path = path_at(middle_nm);
-  const PupilBoxes found = find_pupil_boxes(path, tables_at(middle_nm), light, window);
-  Work work{found.rays, found.rays * path.steps.size()};
-  if (found.boxes.empty()) return work;
-
-  std::vector<std::optional<Rectangle>> fitted(found.boxes.size());
+  std::vector<std::optional<Rectangle>> fitted(near.size());
+  Work work;
   for (const double lambda_nm : outer_wavelengths(*item.light)) {
-    BoxFitter fitter(path_at(lambda_nm), tables_at(lambda_nm), rays, window);
-    for (std::size_t k = 0; k < fitted.size(); ++k) {
-      if (found.boxes[k].high.y <= 0.0) continue;  // another's mirror image
-      const auto fit = fitter.fit(with_margin_aside(found.boxes[k]));
+    const OpticalPath path = widened(ghost_path(scene.lens, item.ghost, lambda_nm), stop_times(item));
+    BoxFitter fitter(path, *scene.plan.tables.at(lambda_nm), rays, window);
+    for (std::size_t k = 0; k < near.size(); ++k) {
+      const auto fit = fitter.fit(near[k]);
       if (fit) fitted[k] = fitted[k] ? both(*fitted[k], *fit) : *fit;
     }
     work.add({fitter.rays(), fitter.surface_hits()});
   }
-  for (std::size_t k = 0; k < fitted.size(); ++k) {
-    if (found.boxes[k].high.y <= 0.0) continue;
-    Rectangle box = fitted[k] ? *fitted[k] : with_margin_aside(found.boxes[k]);
+  for (std::size_t k = 0; k < near.size(); ++k) {
+    Rectangle box = fitted[k].value_or(near[k]);
     if (box.low.y < 0.0) box.low.y = -box.high.y;
     item.boxes.push_back(box);
     if (box.low.y >= 0.0) item.boxes.push_back({{box.low.x, -box.high.y}, {box.high.x, -box.low.y}});
   }
   merge_overlapping(item.boxes);
   return work;
+}
+
+// Where rays get through: found at the middle wavelength, then fitted to the outer ones.
+Work find_boxes(const Scene& scene, Item& item) {
+  if (!has_axial_symmetry(scene.lens, item.ghost)) return find_askew_box(scene, item);
+  const LightFrame light(item.light->source);
+  const double middle_nm = middle_pass(*item.light).lambda_nm;
+  const OpticalPath path = ghost_path(scene.lens, item.ghost, middle_nm);
+  const PupilBoxes found =
+      find_pupil_boxes(path, *scene.plan.tables.at(middle_nm), light, entrance_window(scene.lens, light.source));
+  Work work{found.rays, found.rays * path.steps.size()};
+  std::vector<Rectangle> near;
+  for (const Rectangle& box : found.boxes)
+    if (!is_mirror_image(box)) near.push_back(with_margin_aside(box));
+  if (!near.empty()) work.add(fit_boxes(scene, item, near));
+  return work;
+}
+
+}  // namespace
+
+Work widen_boxes(const Scene& scene, Item& item) {
+  std::vector<Rectangle> sharp = std::exchange(item.boxes, {});
+  if (!has_axial_symmetry(scene.lens, item.ghost)) return find_askew_box(scene, item);
+  std::erase_if(sharp, is_mirror_image);
+  const double times = std::min(stop_times(item), std::sqrt(kMuchWider * stop_times(item)));  // then boxes grow
+  for (Rectangle& box : sharp) box = about_middle(box, times);
+  return fit_boxes(scene, item, sharp);
 }
 
 namespace {

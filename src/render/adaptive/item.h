@@ -40,8 +40,8 @@ struct Painted {
   Work work;
 };
 
-// Where an item's light comes through, again, now that it has screens.
-[[nodiscard]] Work find_boxes(const Scene& scene, Item& item);
+// Its boxes as wide as the light that its screens let through.
+[[nodiscard]] Work widen_boxes(const Scene& scene, Item& item);
 
 // An item in all wavelengths of its light.
 [[nodiscard]] Painted paint_item(const Scene& scene, const Item& item, const Frame& frame, const TileGrid& grid,

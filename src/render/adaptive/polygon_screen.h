@@ -24,6 +24,7 @@ struct BandScreen {
     std::array<float, 3> channel{};
   };
   std::vector<Part> parts;
+  [[nodiscard]] bool is_grey() const;  // one part, all of every channel
 
   [[nodiscard]] std::array<double, 3> share(std::span<const StopPlace> places) const;
   // Dark or level where all parts are.
@@ -34,7 +35,9 @@ struct BandScreen {
   const screens::EdgeScreen* edges = nullptr;  // the first part, if all are such
   double dark_beyond = 0.0, level_within = 0.0;
   std::shared_ptr<const screens::BandPattern> pattern;  // of all parts, if they are such
-  double reach = 0.0;  // of a pattern, as far as it is worth drawing
+  screens::PatternHull hull;  // of a pattern, as far as it is worth drawing
+  [[nodiscard]] double brightest(Vec2 middle, double radius) const;
+  double unseen = 0.0;  // pixel values that do not count
 };
 
 }  // namespace contrejour::adaptive

@@ -28,6 +28,7 @@ struct Quad {
     return all(v[kLane]);
   }
   friend Quad operator*(Quad a, Quad b) { return multiply_add(a, b, all(0.0F)); }
+  friend Quad operator+(Quad a, Quad b) { return multiply_add(b, all(1.0F), a); }
   friend Quad operator-(Quad a, Quad b) { return multiply_add(b, all(-1.0F), a); }
   friend Quad multiply_add(Quad a, Quad b, Quad c) {
     for (int k = 0; k < 4; ++k) c.v[k] += a.v[k] * b.v[k];
@@ -49,6 +50,7 @@ struct Quad {
     return {hn::Broadcast<kLane>(v)};
   }
   friend HWY_INLINE Quad operator*(Quad a, Quad b) { return {hn::Mul(a.v, b.v)}; }
+  friend HWY_INLINE Quad operator+(Quad a, Quad b) { return {hn::Add(a.v, b.v)}; }
   friend HWY_INLINE Quad operator-(Quad a, Quad b) { return {hn::Sub(a.v, b.v)}; }
   friend HWY_INLINE Quad multiply_add(Quad a, Quad b, Quad c) { return {hn::MulAdd(a.v, b.v, c.v)}; }
 };

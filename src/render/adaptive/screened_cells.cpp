@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "render/adaptive/cell_painter.h"
+#include "render/adaptive/cell_shape.h"
 
 namespace contrejour::adaptive {
 namespace {
@@ -43,8 +44,9 @@ EdgeLine line_along(const IrisBound& bound, std::span<const Corner> polygon, con
 }
 
 void keep_within(std::vector<Corner>& polygon, const StopMap& map, const HalfPlane& kept) {
-  std::vector<Corner> out;
   const auto value = [&](const Corner& c) { return dot(kept.normal, map.place(c.position)) - kept.most; };
+  if (std::all_of(polygon.begin(), polygon.end(), [&](const Corner& c) { return value(c) <= 0.0; })) return;
+  std::vector<Corner> out;
   for (std::size_t k = 0; k < polygon.size(); ++k) {
     const Corner& a = polygon[k];
     const Corner& b = polygon[k + 1 == polygon.size() ? 0 : k + 1];
@@ -78,6 +80,14 @@ ScreenView CellPainter::view_of_screen(const Mesh& mesh, const Cell& cell) const
   ScreenView view = screen_->over(middle, kScreenDisc * radius);
   if (view.part == ScreenPart::Level && last > 0) view.part = ScreenPart::Varied;  // earlier crossings are sharp
   return view;
+}
+
+// Whether what passes the screen is too dim all over the cell.
+bool CellPainter::is_unseen(const Mesh& mesh, const Cell& cell) const {
+  float brightest = mesh.brightness[cell.middle];
+  for (const std::size_t v : cell.corner) brightest = std::max(brightest, mesh.brightness[v]);
+  for (const std::size_t v : cell.side) brightest = std::max(brightest, mesh.brightness[v]);
+  return cell.screen.most * brightest < screen_->unseen;
 }
 
 double CellPainter::stop_size(const Mesh& mesh, const Cell& cell) const {
@@ -150,20 +160,34 @@ std::array<double, 3> CellPainter::passed_to(const Mesh& mesh, const Cell& cell)
   return screen_->share({places.data(), static_cast<std::size_t>(mesh.layout.crossings)});
 }
 
-// All of a polygon's pixels look up what passes. Edges' fringes of a large one: the parts along each edge that brings
-// any there, cut off by straight lines; the rest is level.
+// All of a polygon's pixels look up what passes. A large one behind a pattern: as far as that is worth drawing. Behind
+// edges' fringes: the parts along each edge that brings any there, cut off by straight lines; the rest is level.
 void CellPainter::draw_screened(std::span<const Corner> polygon, double area_px, const Shade& shade, const Flux& flux,
                                 const StopMap& map) {
-  if (screen_->edges == nullptr || map.crossings() > 1)
-    return out_.add(points_of(polygon), shade, Screened{map, screen_.get()}, {});
-  const EdgeTable& table = table_for(map.width());
-  if (area_px < kWorthCutting_px || table.iris().is_picture()) return add_fringed(polygon, shade, map, table);
+  const bool large = area_px >= kWorthCutting_px;
   const double room = map.bend();  // cuts are straight, places are not
+  if (screen_->edges == nullptr || map.crossings() > 1) {
+    std::vector<Corner> seen;
+    if (large && screen_->pattern) {
+      seen.assign(polygon.begin(), polygon.end());
+      for (std::size_t k = 0; k < screens::PatternHull::kLines; ++k)
+        keep_within(seen, map, {screens::PatternHull::normals()[k], screen_->hull.most(k) + room});
+      polygon = seen;
+    }
+    if (polygon.size() > 2) out_.add(points_of(polygon), shade, Screened{map, screen_.get()}, {});
+    return;
+  }
+  const EdgeTable& table = table_for(map.width());
+  if (!large || table.iris().is_picture()) return add_fringed(polygon, shade, map, table);
   std::vector<Corner> rest(polygon.begin(), polygon.end()), strip;
   for (const IrisBound& bound : table.iris().bounds()) {
     if (rest.size() < 3) return;
     const EdgeLine line = line_along(bound, rest, map);
     keep_within(rest, map, {line.normal, line.outer + table.dark_beyond() + room});
+  }
+  for (const IrisBound& bound : table.iris().bounds()) {
+    if (rest.size() < 3) return;
+    const EdgeLine line = line_along(bound, rest, map);
     strip = rest;
     keep_within(strip, map, {line.normal * -1.0, table.level_within() + room - line.inner});
     if (strip.size() < 3) continue;

@@ -15,6 +15,10 @@ namespace {
 constexpr double kSharpShare = 0.6, kRippleShare = 0.5;
 // A straight edge's profile less the sharp one, squared and summed, is so many of an edge's units.
 constexpr double kEdgeError = 0.3;
+// Patterns are cut off where they are so much of the dimmest ripple, and no more than that share of the light is
+// beyond.
+constexpr double kHullRipple = 0.5, kHullFlux = 0.003;
+constexpr double kUnseen = 0.01;  // of the error that all pixels may have
 constexpr double kOutline = 1.5;  // over a disc's of the same area
 
 // An item's rim: how bright it is seen, and what fringes along it weigh: squared errors summed over t (EdgeProfile) are
@@ -39,14 +43,14 @@ std::shared_ptr<GhostScreens> screens_of(const Screens& screens, const Item& ite
   auto all = std::make_shared<GhostScreens>();
   all->patterns = screens.patterns();
   for (const PlannedPass& pass : item.light->passes)
-    all->by_pass.push_back(screens.of(item.ghost, pass.lambda_nm, item.light->source));
-  const auto seen = [](const auto& screen) { return screen != nullptr; };
+    all->by_pass.push_back({screens.of(item.ghost, pass.lambda_nm, item.light->source), {}});
+  const auto seen = [](const GhostScreens::OfPass& pass) { return pass.screen != nullptr; };
   const auto any = std::find_if(all->by_pass.rbegin(), all->by_pass.rend(), seen);
   if (any == all->by_pass.rend()) return nullptr;
-  auto next = *any;
+  auto next = any->screen;
   for (auto at = all->by_pass.rbegin(); at != all->by_pass.rend(); ++at) {
-    if (*at == nullptr) *at = next;
-    next = *at;
+    if (at->screen == nullptr) at->screen = next;
+    next = at->screen;
   }
   return all;
 }
@@ -64,7 +68,7 @@ double dimmest_ripple(const std::vector<Drawn>& items, double allowed) {
     double sum = 0.0;
     for (const Drawn& item : items) {
       if (!item.screens || !(item.rim.level > 0.0)) continue;
-      const auto& middle = item.screens->by_pass[item.screens->by_pass.size() / 2];
+      const auto& middle = item.screens->by_pass[item.screens->by_pass.size() / 2].screen;
       const double ripple = dimmest / item.rim.level;
       if (const auto* const edge = dynamic_cast<const screens::EdgeScreen*>(middle.get()))
         sum += item.rim.weight * edge->profile().squared_error(edge->profile().range_above(ripple));
@@ -87,14 +91,15 @@ double dimmest_ripple(const std::vector<Drawn>& items, double allowed) {
 void set_range(const Drawn& item, double dimmest) {
   GhostScreens& screens = *item.screens;
   const double ripple = dimmest / item.rim.level;
-  for (const auto& screen : screens.by_pass) {
-    double reach = screen->reach();
-    if (const auto* const edge = dynamic_cast<const screens::EdgeScreen*>(screen.get())) {
+  for (GhostScreens::OfPass& pass : screens.by_pass) {
+    double reach = pass.screen->reach();
+    if (const auto* const edge = dynamic_cast<const screens::EdgeScreen*>(pass.screen.get())) {
       const auto range = edge->profile().range_above(ripple);
       screens.range = {std::min(screens.range.dark, range.dark), std::max(screens.range.level, range.level)};
       reach = 1.0 - range.dark * edge->unit();
-    } else if (const auto* const pattern = dynamic_cast<const screens::TextureScreen*>(screen.get())) {
+    } else if (const auto* const pattern = dynamic_cast<const screens::TextureScreen*>(pass.screen.get())) {
       reach = std::max(pattern->texture().reach_above(ripple), 1.0);
+      pass.hull = pattern->texture().hull_above(kHullRipple * ripple, kHullFlux);
     }
     screens.reach = std::max(screens.reach, reach);
   }
@@ -133,9 +138,10 @@ Work screen_items(const Scene& scene, Screens& screens, std::vector<Item>& items
   parallel_for(chosen.size(), context, [&](std::size_t at) {
     if (!drawn[at].screens) return;
     set_range(drawn[at], dimmest);
+    drawn[at].screens->unseen = kUnseen * allowed.error * allowed.peak;
     Item& item = items[chosen[at]];
     item.screens = drawn[at].screens;
-    work[at] = find_boxes(scene, item);
+    work[at] = widen_boxes(scene, item);
   });
   Work sum;
   for (const Work& w : work) sum.add(w);

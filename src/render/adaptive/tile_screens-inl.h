@@ -17,69 +17,13 @@
 
 #include "render/adaptive/quad-inl.h"
 #include "render/adaptive/tile_edges-inl.h"
+#include "render/adaptive/tile_grey-inl.h"
+#include "render/adaptive/tile_rows-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace contrejour::adaptive::HWY_NAMESPACE {
 
-using FloatTag = hn::ScalableTag<float>;
-using IntTag = hn::RebindToSigned<FloatTag>;
 static_assert(TileSums::kPixel == 4 && EdgeTable::kStride == 4 && screens::BandPattern::kStride == 4);
-
-constexpr std::size_t kRowRoom = TileGrid::kWidth + hn::MaxLanes(FloatTag());
-
-// Some pixels of a row of the frame; where their light crosses the stop.
-struct PixelRow {
-  int first = 0, count = 0;  // columns of the frame
-  int y = 0;
-  HWY_ALIGN float stop_x[kRowRoom], stop_y[kRowRoom];
-
-  [[nodiscard]] Vec2 pixel(int k) const { return {first + k + 0.5, y + 0.5}; }
-  [[nodiscard]] Vec2 stop(int k) const { return {static_cast<double>(stop_x[k]), static_cast<double>(stop_y[k])}; }
-  void look_at_stop(const StopMap& map);
-};
-
-void PixelRow::look_at_stop(const StopMap& map) {
-  const FloatTag d;
-  const StopMap::Row row = map.row(y + 0.5);
-  const auto from = hn::Set(d, static_cast<float>(first + 0.5 - map.origin().x));
-  for (int k = 0; k < count; k += static_cast<int>(hn::Lanes(d))) {
-    const auto x = hn::Add(from, hn::Iota(d, static_cast<float>(k)));
-    const auto along = [&](float c0, float c1, float c2) {
-      return hn::MulAdd(x, hn::MulAdd(x, hn::Set(d, c2), hn::Set(d, c1)), hn::Set(d, c0));
-    };
-    hn::Store(along(row.x0, row.x1, row.x2), d, stop_x + k);
-    hn::Store(along(row.y0, row.y1, row.y2), d, stop_y + k);
-  }
-}
-
-// What a few pixels side by side see, as many as a vector has floats.
-enum class Seen : std::uint8_t { Dark, Level, Varied };
-constexpr std::size_t kMostGroups = TileGrid::kWidth;  // where vectors hold one
-
-// A place between entries of a table: whole steps, and the rest. Places that are no numbers count as 0.
-struct TableRow {
-  HWY_ALIGN std::int32_t whole[kRowRoom];
-  HWY_ALIGN float rest[kRowRoom];
-
-  // place: 0 to most; the last step is one that has an entry after it.
-  HWY_INLINE void put(int k, hn::Vec<FloatTag> place, float most) {
-    const FloatTag d;
-    const IntTag di;
-    const auto within = hn::Min(hn::IfThenElseZero(hn::Gt(place, hn::Zero(d)), place), hn::Set(d, most));
-    const auto steps = hn::Min(hn::ConvertTo(di, within), hn::Set(di, static_cast<std::int32_t>(most) - 1));
-    hn::Store(steps, di, whole + k);
-    hn::Store(hn::Sub(within, hn::ConvertTo(d, steps)), d, rest + k);
-  }
-};
-
-HWY_INLINE hn::Vec<FloatTag> distance_from(const IrisBound& bound, hn::Vec<FloatTag> x, hn::Vec<FloatTag> y) {
-  const FloatTag d;
-  const auto set = [&](double v) { return hn::Set(d, static_cast<float>(v)); };
-  if (bound.straight())
-    return hn::MulAdd(set(bound.normal.x), x, hn::MulSub(set(bound.normal.y), y, set(bound.apothem)));
-  const auto from_x = hn::Sub(x, set(bound.centre.x)), from_y = hn::Sub(y, set(bound.centre.y));
-  return hn::Sub(hn::Sqrt(hn::MulAdd(from_x, from_x, hn::Mul(from_y, from_y))), set(bound.radius));
-}
 
 // A row's places in a table of fringes, by distance from an edge.
 class FringeRow {
@@ -110,6 +54,7 @@ class FringeRow {
 // What passes where one edge of an iris brings fringes.
 class Fringe {
  public:
+  static constexpr bool kGrey = false;
   Fringe(const EdgeTable& table, const IrisBound& bound) : row_(table), bound_(bound) {}
 
   void look(const PixelRow& row) {
@@ -130,6 +75,7 @@ class Fringe {
 // The product of what several edges bring. A picture's outline is one.
 class Fringes {
  public:
+  static constexpr bool kGrey = false;
   Fringes(const EdgeTable& table, std::span<const std::uint16_t> active)
       : iris_(table.iris()), active_(active), one_(table) {}
 
@@ -182,6 +128,7 @@ class Fringes {
 // What passes where a pattern of all the iris stands.
 class Pattern {
  public:
+  static constexpr bool kGrey = false;
   Pattern(const BandScreen& screen, double width)
       : level_(screen.pattern->level_for(width)), extent_(screen.pattern->extent()),
         pitch_(kStride * static_cast<std::size_t>(level_.pitch())) {
@@ -233,6 +180,7 @@ class Pattern {
 // What passes any screen, several crossings of the stop among them, and dirt. Either may be null.
 class AnyScreen {
  public:
+  static constexpr bool kGrey = false;
   AnyScreen(const BandScreen* screen, const StopMap& map, const PastDirt* dirt = nullptr)
       : screen_(screen), map_(map), dirt_(dirt) {}
 
@@ -326,7 +274,7 @@ void add_pixels(TileSums& tile, const Polygon& polygon, const StopMap& map, int 
   const Quad level = quad(shade.level), slope = quad(shade.level + TileSums::kPixel), by_row = quad(shade.by_row);
   const int lanes = static_cast<int>(hn::Lanes(FloatTag()));
   PixelRow pixels;
-  HWY_ALIGN float cover[TileGrid::kWidth];
+  HWY_ALIGN float cover[kRowRoom];
   for (int row = 0; row < tile.height; ++row) {
     const auto changed = std::exchange(tile.cover.changed[static_cast<std::size_t>(row)], {});
     const int last = std::min(std::max(changed.last, last_column), tile.width - 1);
@@ -354,10 +302,20 @@ void add_pixels(TileSums& tile, const Polygon& polygon, const StopMap& map, int 
       run.stop();
       if (seen == Seen::Dark) continue;
       tile.light(row, first + k, first + end - 1);
-      for (int j = k; j < end; ++j) {
-        const Quad irradiance = multiply_add(slope, Quad::all(static_cast<float>(first + j)), in_row);
-        float* const pixel = to + TileSums::kPixel * static_cast<std::size_t>(j);
-        multiply_add(Quad::all(cover[j]) * irradiance, look.passed(j), Quad::load(pixel)).store(pixel);
+      if constexpr (Look::kGrey) {
+        const FloatTag d;
+        hn::Store(hn::Mul(hn::Load(d, cover + k), hn::Load(d, look.passed() + k)), d, cover + k);
+        Quad irradiance = multiply_add(slope, Quad::all(static_cast<float>(first + k)), in_row);
+        for (int j = k; j < end; ++j, irradiance = irradiance + slope) {
+          float* const pixel = to + TileSums::kPixel * static_cast<std::size_t>(j);
+          multiply_add(Quad::all(cover[j]), irradiance, Quad::load(pixel)).store(pixel);
+        }
+      } else {
+        for (int j = k; j < end; ++j) {
+          const Quad irradiance = multiply_add(slope, Quad::all(static_cast<float>(first + j)), in_row);
+          float* const pixel = to + TileSums::kPixel * static_cast<std::size_t>(j);
+          multiply_add(Quad::all(cover[j]) * irradiance, look.passed(j), Quad::load(pixel)).store(pixel);
+        }
       }
     }
     run.stop();
@@ -383,10 +341,15 @@ void add_screened(TileSums& tile, const PolygonList& list, const Polygon& polygo
   if (behind.edges != nullptr) {
     const IrisShape& iris = behind.edges->iris();
     const std::span<const std::uint16_t> active(list.bounds.data() + behind.first, behind.count);
+    if (behind.edges->stride() == 1) return add(GreyFringes(*behind.edges, active));
     if (active.size() == 1 && !iris.is_picture()) return add(Fringe(*behind.edges, iris.bounds()[active[0]]));
     return add(Fringes(*behind.edges, active));
   }
-  if (behind.screen->pattern && behind.map.crossings() == 1) return add(Pattern(*behind.screen, behind.map.width()));
+  if (behind.screen->pattern && behind.map.crossings() == 1) {
+    const screens::BandPattern& pattern = *behind.screen->pattern;
+    if (pattern.stride() > 1) return add(Pattern(*behind.screen, behind.map.width()));
+    if (behind.screen->is_grey()) return add(GreyPattern(pattern, behind.map.width()));
+  }
   add(AnyScreen(behind.screen, behind.map));
 }
 

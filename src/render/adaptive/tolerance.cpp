@@ -15,7 +15,7 @@ constexpr double kPeaks = 4.0;  // fits of what is so many times brighter than t
 // Edges displaced by d over a length of about 4 L, and levels off by a share w over L^2 pixels.
 Tolerance tolerance_for(const RaySheet& sheet, double weight, double shared_flux, const Frame& frame,
                         const ErrorBudget& budget) {
-  if (!std::isfinite(budget.squared_error) || !(weight > 0.0)) return {kNoLimit, kNoLimit, kNoLimit};
+  if (!std::isfinite(budget.squared_error) || !(weight > 0.0)) return {kNoLimit, kNoLimit, kNoLimit, 0.0};
   Vec2 low{kNoLimit, kNoLimit};
   Vec2 high{-kNoLimit, -kNoLimit};
   for (std::size_t k = 0; k < sheet.count(); ++k) {
@@ -28,9 +28,9 @@ Tolerance tolerance_for(const RaySheet& sheet, double weight, double shared_flux
   const double side = std::sqrt(size.x * size.y);
   const Vec2 pupil = sheet.box.high - sheet.box.low;
   const double level = weight * pupil.x * pupil.y * shared_flux / (size.x * size.y);
-  const double error =
-      kFitShare * std::sqrt(budget.squared_error) / std::min(level, kPeaks * budget.peak);  // in levels, summed
   Tolerance t;
+  t.level = std::min(level, kPeaks * budget.peak);
+  const double error = kFitShare * std::sqrt(budget.squared_error) / t.level;  // in levels, summed
   t.position_px = std::clamp(std::min(error / (2.0 * std::sqrt(side)), error / 8.0), 0.005, 0.05 * side + 0.5);
   t.stop = 2.0 * t.position_px / side;
   t.weight = std::clamp(error / side, 1e-4, 0.5);

@@ -28,11 +28,12 @@ std::vector<Between> places_between(int side, double extent, const PatternTextur
   return out;
 }
 
-void lay_out(const PatternTexture& texture, double extent, std::size_t part, BandPattern::Level& level) {
+void lay_out(const PatternTexture& texture, double extent, std::size_t part, std::size_t stride,
+             BandPattern::Level& level) {
   const auto places = places_between(level.side, extent, texture);
   const auto samples = texture.samples();
   const auto side = static_cast<std::size_t>(texture.side());
-  float* to = level.samples.data() + static_cast<std::size_t>(level.pitch() + 1) * BandPattern::kStride + part;
+  float* to = level.samples.data() + static_cast<std::size_t>(level.pitch() + 1) * stride + part;
   for (const Between& y : places) {
     const float* const above = samples.data() + static_cast<std::size_t>(y.low) * side;
     const float* const below = samples.data() + static_cast<std::size_t>(y.high) * side;
@@ -40,30 +41,28 @@ void lay_out(const PatternTexture& texture, double extent, std::size_t part, Ban
       const float a = above[x.low] + x.to_high * (above[x.high] - above[x.low]);
       const float b = below[x.low] + x.to_high * (below[x.high] - below[x.low]);
       *to = (a + y.to_high * (b - a)) * x.inside * y.inside;
-      to += BandPattern::kStride;
+      to += stride;
     }
-    to += 2 * BandPattern::kStride;
+    to += 2 * stride;
   }
 }
 
-BandPattern::Level dark_level(int side) {
+BandPattern::Level dark_level(int side, std::size_t stride) {
   BandPattern::Level level{side, {}};
-  level.samples.resize(static_cast<std::size_t>(level.pitch()) * static_cast<std::size_t>(level.pitch()) *
-                       BandPattern::kStride);
+  level.samples.resize(static_cast<std::size_t>(level.pitch()) * static_cast<std::size_t>(level.pitch()) * stride);
   return level;
 }
 
-BandPattern::Level halved(const BandPattern::Level& fine) {
-  BandPattern::Level half = dark_level(fine.side / 2);
-  const auto row = static_cast<std::size_t>(fine.pitch()) * BandPattern::kStride;
+BandPattern::Level halved(const BandPattern::Level& fine, std::size_t stride) {
+  BandPattern::Level half = dark_level(fine.side / 2, stride);
+  const auto row = static_cast<std::size_t>(fine.pitch()) * stride;
   for (int y = 0; y < half.side; ++y) {
     for (int x = 0; x < half.side; ++x) {
       const float* from = fine.samples.data() + static_cast<std::size_t>(2 * y + 1) * row +
-                          static_cast<std::size_t>(2 * x + 1) * BandPattern::kStride;
-      float* to = half.samples.data() + static_cast<std::size_t>((y + 1) * half.pitch() + x + 1) * BandPattern::kStride;
-      for (std::size_t c = 0; c < BandPattern::kStride; ++c)
-        to[c] =
-            0.25F * (from[c] + from[c + BandPattern::kStride] + from[c + row] + from[c + row + BandPattern::kStride]);
+                          static_cast<std::size_t>(2 * x + 1) * stride;
+      float* to = half.samples.data() + static_cast<std::size_t>((y + 1) * half.pitch() + x + 1) * stride;
+      for (std::size_t c = 0; c < stride; ++c)
+        to[c] = 0.25F * (from[c] + from[c + stride] + from[c + row] + from[c + row + stride]);
     }
   }
   return half;
@@ -71,16 +70,16 @@ BandPattern::Level halved(const BandPattern::Level& fine) {
 
 }  // namespace
 
-BandPattern::BandPattern(std::span<const PatternTexture* const> parts) {
+BandPattern::BandPattern(std::span<const PatternTexture* const> parts) : stride_(parts.size() == 1 ? 1 : kStride) {
   assert(!parts.empty() && parts.size() <= kMost);
   int side = 0;
   for (const PatternTexture* part : parts) {
     extent_ = std::max(extent_, part->extent());
     side = std::max(side, part->side());
   }
-  levels_.push_back(dark_level(side));
-  for (std::size_t k = 0; k < parts.size(); ++k) lay_out(*parts[k], extent_, k, levels_.back());
-  while (levels_.back().side % 2 == 0 && levels_.back().side > 2) levels_.push_back(halved(levels_.back()));
+  levels_.push_back(dark_level(side, stride_));
+  for (std::size_t k = 0; k < parts.size(); ++k) lay_out(*parts[k], extent_, k, stride_, levels_.back());
+  while (levels_.back().side % 2 == 0 && levels_.back().side > 2) levels_.push_back(halved(levels_.back(), stride_));
 }
 
 const BandPattern::Level& BandPattern::level_for(double width) const {
@@ -98,8 +97,8 @@ float BandPattern::brightest(Vec2 middle, double distance) const {
   const int x = at(middle.x), y = at(-middle.y);
   float most = 0.0F;
   for (const int row : {y, y + 1}) {
-    const float* const from = level.samples.data() + static_cast<std::size_t>(row * level.pitch() + x) * kStride;
-    most = std::max(most, *std::max_element(from, from + 2 * kStride));
+    const float* const from = level.samples.data() + static_cast<std::size_t>(row * level.pitch() + x) * stride_;
+    most = std::max(most, *std::max_element(from, from + 2 * stride_));
   }
   return most;
 }

@@ -13,6 +13,7 @@ class BandPattern {
  public:
   static constexpr std::size_t kMost = 3;    // wavelengths
   static constexpr std::size_t kStride = 4;  // floats of a sample: one a wavelength, and one or more unused
+  [[nodiscard]] std::size_t stride() const { return stride_; }  // that, or 1 of one wavelength
 
   // parts: 1 to kMost.
   explicit BandPattern(std::span<const PatternTexture* const> parts);
@@ -31,6 +32,7 @@ class BandPattern {
 
  private:
   double extent_ = 0.0;
+  std::size_t stride_;
   std::vector<Level> levels_;
 };
 

@@ -89,6 +89,7 @@ EdgeProfile::EdgeProfile(double spread) {
   }
   worst_from_.assign(count + 1, 0.0);
   for (std::size_t k = count; k-- > 0;) worst_from_[k] = std::max(worst_from_[k + 1], std::abs(value_[k] - 1.0));
+  for (const double v : value_) brightest_to_.push_back(brightest_to_.empty() ? v : std::max(brightest_to_.back(), v));
   error_to_.assign(count, 0.0);
   error_from_.assign(count, 0.0);
   for (std::size_t k = 1; k < count; ++k) error_to_[k] = error_to_[k - 1] + value_[k - 1] * value_[k - 1] * kStep;
@@ -100,8 +101,8 @@ EdgeProfile::EdgeProfile(double spread) {
 }
 
 EdgeProfile::Range EdgeProfile::range_above(double ripple) const {
-  const auto dark = std::find_if(value_.begin(), value_.end(), [&](double v) { return v > ripple; });
-  return {std::min(kDarkBelow + static_cast<double>(dark - value_.begin()) * kStep, 0.0),
+  const auto dark = std::upper_bound(brightest_to_.begin(), brightest_to_.end(), ripple);
+  return {std::min(kDarkBelow + static_cast<double>(dark - brightest_to_.begin()) * kStep, 0.0),
           std::max(level_above(ripple), 0.0)};
 }
 

@@ -35,6 +35,7 @@ class EdgeProfile {
   std::vector<double> value_;  // by step from kDarkBelow
   std::vector<double> integral_;  // of it, from kDarkBelow
   std::vector<double> worst_from_;  // how far off 1 it comes from there on
+  std::vector<double> brightest_to_;  // the largest before a place and there
   std::vector<double> error_to_, error_from_;  // squares summed of the dark before a place, of what is off 1 from it on
 };
 

@@ -9,6 +9,25 @@ namespace contrejour::screens {
 namespace {
 
 constexpr double kFluxBeyond = 0.01;  // that may be left out
+constexpr int kSectorsOfQuadrant = 12;
+constexpr int kSectors = 4 * kSectorsOfQuadrant;
+
+// Sectors are even along the square |x| + |y| = 1, which needs no angles.
+int sector_of(double x, double y) {
+  const double along = kSectorsOfQuadrant / (std::abs(x) + std::abs(y));
+  const double turned =
+      x >= 0.0 ? (y >= 0.0 ? y * along : 4 * kSectorsOfQuadrant + y * along) : 2 * kSectorsOfQuadrant - y * along;
+  return std::clamp(static_cast<int>(turned), 0, kSectors - 1);
+}
+Vec2 direction_at(double sector) {
+  const double quadrant = std::floor(sector / kSectorsOfQuadrant), way = sector / kSectorsOfQuadrant - quadrant;
+  const Vec2 first = Vec2{1.0 - way, way} * (1.0 / std::hypot(1.0 - way, way));
+  const auto turns = static_cast<int>(quadrant) % 4;
+  return turns == 0   ? first
+         : turns == 1 ? Vec2{-first.y, first.x}
+         : turns == 2 ? first * -1.0
+                      : Vec2{first.y, -first.x};
+}
 
 }  // namespace
 
@@ -25,6 +44,7 @@ PatternTexture::PatternTexture(int side, double extent, std::vector<float> sampl
     levels_.push_back(std::move(half));
   }
   rest_ = rests();
+  sector_rest_ = sector_rests();
 }
 
 std::vector<PatternTexture::Rest> PatternTexture::rests() const {
@@ -50,17 +70,56 @@ std::vector<PatternTexture::Rest> PatternTexture::rests() const {
   return out;
 }
 
+std::vector<PatternTexture::SectorRest> PatternTexture::sector_rests() const {
+  const auto pitch = static_cast<float>(2.0 * extent_ / side());
+  const std::size_t steps = rings() + 1;
+  std::vector<SectorRest> out(kSectors * steps);
+  for (int row = 0; row < side(); ++row) {
+    for (int column = 0; column < side(); ++column) {
+      const double x = column + 0.5 - 0.5 * side(), y = 0.5 * side() - row - 0.5;
+      const float value = samples()[static_cast<std::size_t>(row * side() + column)];
+      const std::size_t ring = std::min(static_cast<std::size_t>(std::sqrt(x * x + y * y)), rings());
+      SectorRest& rest = out[static_cast<std::size_t>(sector_of(x, y)) * steps + ring];
+      rest.brightest = std::max(rest.brightest, value);
+      rest.flux += value * pitch * pitch;
+    }
+  }
+  for (std::size_t sector = 0; sector < kSectors; ++sector) {
+    SectorRest* const of = &out[sector * steps];
+    for (std::size_t k = rings(); k-- > 0;)
+      of[k] = {std::max(of[k].brightest, of[k + 1].brightest), of[k].flux + of[k + 1].flux};
+  }
+  return out;
+}
+
+PatternHull PatternTexture::hull_above(double level, double flux) const {
+  const std::size_t steps = rings() + 1;
+  const double most_flux = flux * rest_.front().flux / kSectors;
+  const auto bright = [&](const SectorRest& rest) { return rest.brightest > level || rest.flux > most_flux; };
+  PatternHull hull;
+  for (std::size_t sector = 0; sector < kSectors; ++sector) {
+    const auto first = sector_rest_.begin() + static_cast<std::ptrdiff_t>(sector * steps);
+    const auto dark = std::partition_point(first, first + static_cast<std::ptrdiff_t>(steps), bright);
+    const double radius = std::min(static_cast<double>(dark - first) * 2.0 * extent_ / side(), extent_);
+    for (const double at : {0.0, 0.5, 1.0}) hull.hold(direction_at(static_cast<double>(sector) + at) * radius);
+  }
+  return hull;
+}
+
 double PatternTexture::reach_above(double level) const {
   const double most_flux = kFluxBeyond * rest_.front().flux;
-  const auto dark = [&](const Rest& rest) { return rest.brightest <= level && rest.flux <= most_flux; };
-  const auto first = std::find_if(rest_.begin(), rest_.end(), dark);
+  const auto bright = [&](const Rest& rest) { return rest.brightest > level || rest.flux > most_flux; };
+  const auto first = std::partition_point(rest_.begin(), rest_.end(), bright);
   return std::min(static_cast<double>(first - rest_.begin()) * 2.0 * extent_ / side(), extent_);
 }
 
-double PatternTexture::squared_beyond(double radius) const {
+const PatternTexture::Rest& PatternTexture::rest_beyond(double radius) const {
   const double ring = std::max(radius, 0.0) * 0.5 * side() / extent_;
-  return rest_[std::min(static_cast<std::size_t>(ring), rest_.size() - 1)].squared;
+  return rest_[std::min(static_cast<std::size_t>(ring), rest_.size() - 1)];
 }
+
+double PatternTexture::brightest_beyond(double radius) const { return rest_beyond(radius).brightest; }
+double PatternTexture::squared_beyond(double radius) const { return rest_beyond(radius).squared; }
 
 double PatternTexture::bilinear(const Level& level, Vec2 p) const {
   const double scale = 0.5 * level.side / extent_;

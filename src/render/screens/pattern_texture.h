@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "contrejour/vec.h"
+#include "render/screens/pattern_hull.h"
 
 namespace contrejour::screens {
 
@@ -25,6 +26,9 @@ class PatternTexture {
 
   // Beyond this radius it is nowhere brighter than `level`, and a small part of its flux at the most.
   [[nodiscard]] double reach_above(double level) const;
+  // Beyond these lines likewise; less than all of it, where it is not round. flux: the share of it that may be beyond.
+  [[nodiscard]] PatternHull hull_above(double level, double flux) const;
+  [[nodiscard]] double brightest_beyond(double radius) const;
   // Its square, integrated beyond a radius.
   [[nodiscard]] double squared_beyond(double radius) const;
 
@@ -39,10 +43,18 @@ class PatternTexture {
     double brightest = 0.0, squared = 0.0, flux = 0.0;
   };
   [[nodiscard]] std::vector<Rest> rests() const;
+  [[nodiscard]] const Rest& rest_beyond(double radius) const;
+
+  struct SectorRest {
+    float brightest = 0.0F, flux = 0.0F;
+  };
+  [[nodiscard]] std::vector<SectorRest> sector_rests() const;
+  [[nodiscard]] std::size_t rings() const { return static_cast<std::size_t>(side() / 2); }  // a sample wide
 
   double extent_;
   std::vector<Level> levels_;
   std::vector<Rest> rest_;  // by even steps of the radius to the extent
+  std::vector<SectorRest> sector_rest_;  // likewise, sector after sector
 };
 
 }  // namespace contrejour::screens

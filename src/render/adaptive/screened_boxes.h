@@ -1,0 +1,18 @@
+// Boxes of the pupil behind a screen: how bright their light is at the most.
+#pragma once
+
+#include <optional>
+
+#include "render/adaptive/light_frame.h"
+#include "render/adaptive/polygon_screen.h"
+#include "render/adaptive/ray_sheet.h"
+
+namespace contrejour::adaptive {
+
+// About the largest irradiance on the sensor, per mm^2, between rays of a sheet that arrive, for a gain of 1; beside
+// rays that fail it is taken to be as bright as anywhere. unit: of the sheet's stop coordinates, in stop radii. None:
+// nowhere do four rays side by side arrive.
+[[nodiscard]] std::optional<double> brightest_passed(const RaySheet& sheet, const BandScreen& screen, double unit,
+                                                     const LightFrame& light);
+
+}  // namespace contrejour::adaptive
