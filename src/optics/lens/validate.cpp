@@ -350,9 +350,10 @@ std::optional<std::string> obscuration_problem(const Surface& surface) {
         o.half_mm.x, o.half_mm.y, o.centre_mm.x, o.centre_mm.y);
   }
   if (std::min(o.half_mm.x, o.half_mm.y) - length(o.centre_mm) < surface.semi_diameter_mm) return std::nullopt;
-  return fmt::format("an obscuration of {:.6g} mm covers all of the surface, whose semi_diameter_mm is {:.6g}; make it "
-                     "smaller",
-                     std::min(o.half_mm.x, o.half_mm.y), surface.semi_diameter_mm);
+  return fmt::format(
+      "an obscuration of {:.6g} mm covers all of the surface, whose semi_diameter_mm is {:.6g}; make it "
+      "smaller",
+      std::min(o.half_mm.x, o.half_mm.y), surface.semi_diameter_mm);
 }
 
 std::optional<std::string> coating_problem(const Coating& coating) {

@@ -117,7 +117,8 @@ double CellPainter::unscreened_error(const Mesh& mesh, const Cell& cell, State s
   };
   if (state == State::Cut) {
     const double limit = limit_error(mesh, cell);
-    if (limit * cell.screen.most > kMostBend) return std::numeric_limits<double>::infinity();  // or light would be lost unseen
+    if (limit * cell.screen.most > kMostBend)
+      return std::numeric_limits<double>::infinity();  // or light would be lost unseen
     error += along_edges(left * limit * longest, iris_.is_picture() ? kPictureEdges : 1.0);
   }
   if (varied && longest > kOnePlace_px)  // soft ones
@@ -163,8 +164,8 @@ double CellPainter::limit_error(const Mesh& mesh, const Cell& cell) const {
   return largest;
 }
 
-// Likewise, of an obscuration, whose edge bends more: what the middle is off counts, too. It may begin and end inside the
-// cell, or within one side: lines along the outline find nothing of it then.
+// Likewise, of an obscuration, whose edge bends more: what the middle is off counts, too. It may begin and end inside
+// the cell, or within one side: lines along the outline find nothing of it then.
 double CellPainter::obscuration_error(const Mesh::Field& v, const Cell& cell) {
   double low = v[cell.middle], off = 0.0, outline = v[cell.corner[0]], mean = 0.0;
   const auto bend = [&](std::size_t a, std::size_t b) { return std::abs(v[a] - 2.0 * v[cell.middle] + v[b]); };

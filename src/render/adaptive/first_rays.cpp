@@ -9,6 +9,7 @@ namespace {
 constexpr std::size_t kFirstSamples = 3;   // which tell the tolerance, and the fourth
 constexpr std::size_t kManyPasses = 6;     // fewer are all traced
 constexpr double kForetoldShare = 0.5;     // of the tolerance: that of the fits comes on top
+constexpr double kMostLight = 0.004;      // of a transmission, whatever the tolerance: what many ghosts lack adds up
 
 // What the first `count` samples tell of a pass's transmissions.
 std::vector<float> told_transmission(const FirstRays& rays, const WavelengthSamples& samples, std::size_t count,
@@ -70,7 +71,7 @@ bool foretells(const FirstRays& rays, const WavelengthSamples& samples, std::siz
   using Values = const std::vector<float>&;
   if (!holds([](const RaySheet& s) -> Values { return s.sensor_x_mm; }, tolerance.position_px* pixel_pitch_mm) ||
       !holds([](const RaySheet& s) -> Values { return s.sensor_y_mm; }, tolerance.position_px* pixel_pitch_mm) ||
-      !holds([](const RaySheet& s) -> Values { return s.transmission; }, tolerance.weight* most))
+      !holds([](const RaySheet& s) -> Values { return s.transmission; }, std::min(tolerance.weight, kMostLight) * most))
     return false;
   for (std::size_t c = 0; c < next.stop.size(); ++c) {
     for (std::size_t axis = 0; axis < 2; ++axis) {
