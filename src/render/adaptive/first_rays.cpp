@@ -6,9 +6,9 @@
 namespace contrejour::adaptive {
 namespace {
 
-constexpr std::size_t kFirstSamples = 3;   // which tell the tolerance, and the fourth
-constexpr std::size_t kManyPasses = 6;     // fewer are all traced
-constexpr double kForetoldShare = 0.5;     // of the tolerance: that of the fits comes on top
+constexpr std::size_t kFirstSamples = 3;  // which tell the tolerance, and the fourth
+constexpr std::size_t kManyPasses = 6;    // fewer are all traced
+constexpr double kForetoldShare = 0.5;    // of the tolerance: that of the fits comes on top
 constexpr double kMostLight = 0.004;      // of a transmission, whatever the tolerance: what many ghosts lack adds up
 
 // What the first `count` samples tell of a pass's transmissions.
@@ -68,10 +68,12 @@ bool foretells(const FirstRays& rays, const WavelengthSamples& samples, std::siz
     return true;
   };
   const float most = *std::max_element(next.transmission.begin(), next.transmission.end());
+  const double off_mm = tolerance.position_px * pixel_pitch_mm;
+  const double off_light = std::min(tolerance.weight, kMostLight) * most;
   using Values = const std::vector<float>&;
-  if (!holds([](const RaySheet& s) -> Values { return s.sensor_x_mm; }, tolerance.position_px* pixel_pitch_mm) ||
-      !holds([](const RaySheet& s) -> Values { return s.sensor_y_mm; }, tolerance.position_px* pixel_pitch_mm) ||
-      !holds([](const RaySheet& s) -> Values { return s.transmission; }, std::min(tolerance.weight, kMostLight) * most))
+  if (!holds([](const RaySheet& s) -> Values { return s.sensor_x_mm; }, off_mm) ||
+      !holds([](const RaySheet& s) -> Values { return s.sensor_y_mm; }, off_mm) ||
+      !holds([](const RaySheet& s) -> Values { return s.transmission; }, off_light))
     return false;
   for (std::size_t c = 0; c < next.stop.size(); ++c) {
     for (std::size_t axis = 0; axis < 2; ++axis) {
