@@ -43,53 +43,49 @@ PatternTexture::PatternTexture(int side, double extent, std::vector<float> sampl
             0.25F * (at(2 * x, 2 * y) + at(2 * x + 1, 2 * y) + at(2 * x, 2 * y + 1) + at(2 * x + 1, 2 * y + 1)));
     levels_.push_back(std::move(half));
   }
-  rest_ = rests();
-  sector_rest_ = sector_rests();
+  find_rests();
 }
 
-std::vector<PatternTexture::Rest> PatternTexture::rests() const {
-  const double pitch = 2.0 * extent_ / side();
-  const auto rings = static_cast<std::size_t>(side() / 2);  // a sample wide
-  std::vector<Rest> out(rings + 1);
-  const auto from_middle = [&](int k) { return k + 0.5 - 0.5 * side(); };
-  for (int row = 0; row < side(); ++row) {
-    for (int column = 0; column < side(); ++column) {
-      const double value = samples()[static_cast<std::size_t>(row * side() + column)];
-      const double ring = std::hypot(from_middle(column), from_middle(row));
-      Rest& rest = out[std::min(static_cast<std::size_t>(ring), rings)];
-      rest.brightest = std::max(rest.brightest, value);
-      rest.squared += value * value * pitch * pitch;
-      rest.flux += value * pitch * pitch;
-    }
-  }
-  for (std::size_t k = rings; k-- > 0;) {
-    out[k].brightest = std::max(out[k].brightest, out[k + 1].brightest);
-    out[k].squared += out[k + 1].squared;
-    out[k].flux += out[k + 1].flux;
-  }
-  return out;
-}
-
-std::vector<PatternTexture::SectorRest> PatternTexture::sector_rests() const {
+// By sector and ring, each what it holds itself.
+std::vector<PatternTexture::SectorRest> PatternTexture::sector_rings() const {
   const auto pitch = static_cast<float>(2.0 * extent_ / side());
+  const float area = pitch * pitch;
   const std::size_t steps = rings() + 1;
   std::vector<SectorRest> out(kSectors * steps);
+  const float* value = samples().data();
   for (int row = 0; row < side(); ++row) {
-    for (int column = 0; column < side(); ++column) {
-      const double x = column + 0.5 - 0.5 * side(), y = 0.5 * side() - row - 0.5;
-      const float value = samples()[static_cast<std::size_t>(row * side() + column)];
+    const double y = 0.5 * side() - row - 0.5;
+    for (int column = 0; column < side(); ++column, ++value) {
+      const double x = column + 0.5 - 0.5 * side();
       const std::size_t ring = std::min(static_cast<std::size_t>(std::sqrt(x * x + y * y)), rings());
       SectorRest& rest = out[static_cast<std::size_t>(sector_of(x, y)) * steps + ring];
-      rest.brightest = std::max(rest.brightest, value);
-      rest.flux += value * pitch * pitch;
+      rest.brightest = std::max(rest.brightest, *value);
+      rest.flux += *value * area;
+      rest.squared += *value * *value * area;
     }
   }
-  for (std::size_t sector = 0; sector < kSectors; ++sector) {
-    SectorRest* const of = &out[sector * steps];
-    for (std::size_t k = rings(); k-- > 0;)
-      of[k] = {std::max(of[k].brightest, of[k + 1].brightest), of[k].flux + of[k + 1].flux};
-  }
   return out;
+}
+
+// From each ring on, all around and by sector.
+void PatternTexture::find_rests() {
+  sector_rest_ = sector_rings();
+  const std::size_t steps = rings() + 1;
+  rest_.assign(steps, {});
+  for (std::size_t k = 0; k < sector_rest_.size(); ++k) {
+    const SectorRest& from = sector_rest_[k];
+    Rest& to = rest_[k % steps];
+    to = {std::max(to.brightest, static_cast<double>(from.brightest)), to.squared + from.squared, to.flux + from.flux};
+  }
+  const auto add_outer = [&](auto* of) {
+    for (std::size_t k = steps - 1; k-- > 0;) {
+      of[k].brightest = std::max(of[k].brightest, of[k + 1].brightest);
+      of[k].squared += of[k + 1].squared;
+      of[k].flux += of[k + 1].flux;
+    }
+  };
+  add_outer(rest_.data());
+  for (std::size_t sector = 0; sector < kSectors; ++sector) add_outer(&sector_rest_[sector * steps]);
 }
 
 PatternHull PatternTexture::hull_above(double level, double flux) const {

@@ -42,13 +42,13 @@ class PatternTexture {
   struct Rest {  // beyond a radius
     double brightest = 0.0, squared = 0.0, flux = 0.0;
   };
-  [[nodiscard]] std::vector<Rest> rests() const;
   [[nodiscard]] const Rest& rest_beyond(double radius) const;
 
   struct SectorRest {
-    float brightest = 0.0F, flux = 0.0F;
+    float brightest = 0.0F, squared = 0.0F, flux = 0.0F;
   };
-  [[nodiscard]] std::vector<SectorRest> sector_rests() const;
+  [[nodiscard]] std::vector<SectorRest> sector_rings() const;
+  void find_rests();
   [[nodiscard]] std::size_t rings() const { return static_cast<std::size_t>(side() / 2); }  // a sample wide
 
   double extent_;
