@@ -57,6 +57,9 @@ TEST_CASE("Leja's order begins with the ends and leaves out what is there alread
   std::set<std::size_t> taken;
   for (std::size_t k = 0; k < samples.size(); ++k) taken.insert(samples[k]);
   CHECK(taken.size() == 9);
+  const WavelengthSamples shuffled(std::vector<double>{500.0, 700.0, 450.0, 400.0, 600.0}, 2);
+  CHECK(shuffled[0] == 3);
+  CHECK(shuffled[1] == 1);
   CHECK(WavelengthSamples(std::vector<double>{550.0, 550.0, 600.0, 600.0}, 9).size() == 2);
   CHECK(WavelengthSamples(std::vector<double>{550.0}, 9).size() == 1);
   CHECK(WavelengthSamples(std::vector<double>{}, 9).size() == 0);
@@ -84,7 +87,7 @@ TEST_CASE("polynomials in 1 / lambda^2 are told exactly, others are not") {
   CHECK(worst > 0.1);
 }
 
-TEST_CASE("few wavelengths tell the transmissions and the places of sixteen") {
+TEST_CASE("few wavelengths tell the transmissions of sixteen") {
   for (const Ghost ghost : {Ghost{3, 4}, Ghost{1, 2}, Ghost{7, 9}}) {
     CAPTURE(ghost.i);
     Rainbow rainbow("heliar", 16.0, ghost, kAside);

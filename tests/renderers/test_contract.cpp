@@ -122,6 +122,19 @@ TEST_CASE("a frame of one pixel holds what all pixels of the same area hold") {
   });
 }
 
+TEST_CASE("the order in which wavelengths are given does not matter") {
+  const LensState lens = heliar();
+  RenderSettings settings = quick_frame(lens, 48, 32);
+  settings.grid = 48;
+  const std::vector<Light> lights{light_at(lens, settings.frame, {0.7, 0.33})};
+  for_each_method([&](const Bounds& bounds) {
+    settings.lambda_nm = {430, 480, 530, 580, 630, 680};
+    const Image rising = image_of(bounds, lens, lights, settings);
+    settings.lambda_nm = {530, 680, 430, 580, 480, 630};
+    CHECK(image_of(bounds, lens, lights, settings).pixels == rising.pixels);
+  });
+}
+
 TEST_CASE("the same bits for 1, 2 and 7 threads") {
   const LensState lens = heliar();
   RenderSettings settings = quick_frame(lens, 48, 32);

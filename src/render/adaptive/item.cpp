@@ -20,7 +20,8 @@ namespace {
 // would be if the box were tight. Half of this saves no rays and costs a decibel; twice this takes a third more rays.
 constexpr double kMargin = 0.1;
 constexpr int kDeepest = 4;       // quarterings of a box
-constexpr double kMuchWider = 1.5;  // of a stop: what a box is widened by at once is less then
+// Boxes of the sharp stop are widened as the stop is up to here, farther by its root: what they lack they grow.
+constexpr double kMuchWider = 1.5;
 constexpr int kPeakDeepest = 1;
 constexpr double kPeakQuantile = 0.999;
 constexpr int kPeakScale = 8;  // the frame's pixels over those of the small one, along a side
@@ -144,7 +145,7 @@ Work widen_boxes(const Scene& scene, Item& item) {
   std::vector<Rectangle> sharp = std::exchange(item.boxes, {});
   if (!has_axial_symmetry(scene.lens, item.ghost)) return find_askew_box(scene, item);
   std::erase_if(sharp, is_mirror_image);
-  const double times = std::min(stop_times(item), std::sqrt(kMuchWider * stop_times(item)));  // then boxes grow
+  const double times = std::min(stop_times(item), std::sqrt(kMuchWider * stop_times(item)));
   for (Rectangle& box : sharp) box = about_middle(box, times);
   return fit_boxes(scene, item, sharp);
 }
@@ -172,7 +173,7 @@ Painted paint(const Scene& scene, const Item& item, std::vector<PlannedPass> pas
   for (const Rectangle& box : item.boxes) {
     const bool aside = light.symmetric && box.low.y != -box.high.y;
     const bool has_image = aside && std::ranges::count(item.boxes, mirrored(box)) > 0;
-    if (has_image && box.low.y < 0.0) continue;  // painted with the other
+    if (has_image && is_mirror_image(box)) continue;  // painted with the other
     painter.paint(box, has_image, budget, painted.polygons.list);
   }
   share_edges(painted.polygons.list, grid);

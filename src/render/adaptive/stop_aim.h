@@ -9,7 +9,9 @@
 namespace contrejour::adaptive {
 
 struct Aim {
-  Rectangle box;     // holds what crosses inside the stop's rim
+  // Holds what crosses inside the stop's rim but for a tenth of its half: slopes are of the second order, over cells
+  // many times as large. Boxes are searched about it with twice that margin.
+  Rectangle box;
   double error = 0;  // estimated, of the map, in stop radii; the box is larger by as much
 };
 

@@ -67,15 +67,6 @@ struct TableRow {
   }
 };
 
-HWY_INLINE hn::Vec<FloatTag> distance_from(const IrisBound& bound, hn::Vec<FloatTag> x, hn::Vec<FloatTag> y) {
-  const FloatTag d;
-  const auto set = [&](double v) { return hn::Set(d, static_cast<float>(v)); };
-  if (bound.straight())
-    return hn::MulAdd(set(bound.normal.x), x, hn::MulSub(set(bound.normal.y), y, set(bound.apothem)));
-  const auto from_x = hn::Sub(x, set(bound.centre.x)), from_y = hn::Sub(y, set(bound.centre.y));
-  return hn::Sub(hn::Sqrt(hn::MulAdd(from_x, from_x, hn::Mul(from_y, from_y))), set(bound.radius));
-}
-
 }  // namespace contrejour::adaptive::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 

@@ -17,165 +17,14 @@
 
 #include "render/adaptive/quad-inl.h"
 #include "render/adaptive/tile_edges-inl.h"
-#include "render/adaptive/tile_grey-inl.h"
+#include "render/adaptive/tile_fringes-inl.h"
+#include "render/adaptive/tile_patterns-inl.h"
 #include "render/adaptive/tile_rows-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace contrejour::adaptive::HWY_NAMESPACE {
 
-static_assert(TileSums::kPixel == 4 && EdgeTable::kStride == 4 && screens::BandPattern::kStride == 4);
-
-// A row's places in a table of fringes, by distance from an edge.
-class FringeRow {
- public:
-  explicit FringeRow(const EdgeTable& table)
-      : table_(table), per_step_(static_cast<float>(table.per_step())),
-        dark_(static_cast<float>(table.dark_beyond() * table.per_step())),
-        most_(static_cast<float>(table.count() - 1)) {}
-
-  HWY_INLINE Seen put(int k, hn::Vec<FloatTag> distance) {
-    const FloatTag d;
-    const auto place = hn::NegMulAdd(distance, hn::Set(d, per_step_), hn::Set(d, dark_));
-    at_.put(k, place, most_);
-    if (hn::AllTrue(d, hn::Ge(place, hn::Set(d, most_)))) return Seen::Level;
-    return hn::AllTrue(d, hn::Le(place, hn::Zero(d))) ? Seen::Dark : Seen::Varied;
-  }
-  [[nodiscard]] HWY_INLINE Quad passed(int k) const {
-    const float* const entry = table_.entries() + EdgeTable::kStride * static_cast<std::size_t>(at_.whole[k]);
-    return mix(Quad::load(entry), Quad::load(entry + EdgeTable::kStride), Quad::all(at_.rest[k]));
-  }
-
- private:
-  const EdgeTable& table_;
-  float per_step_, dark_, most_;
-  TableRow at_;
-};
-
-// What passes where one edge of an iris brings fringes.
-class Fringe {
- public:
-  static constexpr bool kGrey = false;
-  Fringe(const EdgeTable& table, const IrisBound& bound) : row_(table), bound_(bound) {}
-
-  void look(const PixelRow& row) {
-    const FloatTag d;
-    const int lanes = static_cast<int>(hn::Lanes(d));
-    for (int k = 0; k < row.count; k += lanes)
-      seen_[k / lanes] = row_.put(k, distance_from(bound_, hn::Load(d, row.stop_x + k), hn::Load(d, row.stop_y + k)));
-  }
-  [[nodiscard]] Seen seen(int group) const { return seen_[group]; }
-  [[nodiscard]] HWY_INLINE Quad passed(int k) const { return row_.passed(k); }
-
- private:
-  FringeRow row_;
-  const IrisBound& bound_;
-  Seen seen_[kMostGroups];
-};
-
-// The product of what several edges bring. A picture's outline is one.
-class Fringes {
- public:
-  static constexpr bool kGrey = false;
-  Fringes(const EdgeTable& table, std::span<const std::uint16_t> active)
-      : iris_(table.iris()), active_(active), one_(table) {}
-
-  void look(const PixelRow& row) {
-    const FloatTag d;
-    std::fill_n(passed_, TileSums::kPixel * static_cast<std::size_t>(row.count), 1.0F);
-    std::fill_n(seen_, row.count, Seen::Level);
-    if (iris_.is_picture()) {
-      HWY_ALIGN float distance[hn::MaxLanes(FloatTag())] = {};
-      return apply(row, [&](int k) {
-        for (int j = 0; j < static_cast<int>(hn::Lanes(d)) && k + j < row.count; ++j)
-          distance[j] = static_cast<float>(iris_.picture_distance(row.stop(k + j)));
-        return hn::Load(d, distance);
-      });
-    }
-    for (const std::uint16_t bound : active_)
-      apply(row, [&](int k) {
-        return distance_from(iris_.bounds()[bound], hn::Load(d, row.stop_x + k), hn::Load(d, row.stop_y + k));
-      });
-  }
-  [[nodiscard]] Seen seen(int group) const { return seen_[group]; }
-  [[nodiscard]] HWY_INLINE Quad passed(int k) const {
-    return Quad::load(passed_ + TileSums::kPixel * static_cast<std::size_t>(k));
-  }
-
- private:
-  template <class DistanceAt>
-  HWY_INLINE void apply(const PixelRow& row, const DistanceAt& distance_at) {
-    const int lanes = static_cast<int>(hn::Lanes(FloatTag()));
-    for (int k = 0; k < row.count; k += lanes) {
-      Seen& seen = seen_[k / lanes];
-      if (seen == Seen::Dark) continue;
-      const Seen here = one_.put(k, distance_at(k));
-      if (here == Seen::Level) continue;
-      seen = here;
-      if (seen == Seen::Dark) continue;
-      const int end = std::min(k + lanes, row.count);
-      for (int j = k; j < end; ++j)
-        (passed(j) * one_.passed(j)).store(passed_ + TileSums::kPixel * static_cast<std::size_t>(j));
-    }
-  }
-
-  const IrisShape& iris_;
-  std::span<const std::uint16_t> active_;
-  FringeRow one_;
-  HWY_ALIGN float passed_[TileSums::kPixel * TileGrid::kWidth];
-  Seen seen_[kMostGroups];
-};
-
-// What passes where a pattern of all the iris stands.
-class Pattern {
- public:
-  static constexpr bool kGrey = false;
-  Pattern(const BandScreen& screen, double width)
-      : level_(screen.pattern->level_for(width)), extent_(screen.pattern->extent()),
-        pitch_(kStride * static_cast<std::size_t>(level_.pitch())) {
-    for (std::size_t k = 0; k < screen.parts.size(); ++k)
-      std::copy_n(screen.parts[k].channel.data(), 3, channel_[k].data());
-  }
-
-  void look(const PixelRow& row) {
-    const FloatTag d;
-    // With the border's sample the first middle is at 1.
-    const double scale = 0.5 * level_.side / extent_, middle = 0.5 * level_.side + 0.5;
-    const auto most = static_cast<float>(level_.side + 1);
-    const auto per_radius = hn::Set(d, static_cast<float>(scale)), centre = hn::Set(d, static_cast<float>(middle));
-    const int lanes = static_cast<int>(hn::Lanes(d));
-    const auto beyond = [&](auto place) {
-      return hn::AllTrue(d, hn::Le(place, hn::Zero(d))) || hn::AllTrue(d, hn::Ge(place, hn::Set(d, most)));
-    };
-    for (int k = 0; k < row.count; k += lanes) {
-      const auto column = hn::MulAdd(hn::Load(d, row.stop_x + k), per_radius, centre);
-      const auto line = hn::NegMulAdd(hn::Load(d, row.stop_y + k), per_radius, centre);
-      column_.put(k, column, most);
-      row_.put(k, line, most);
-      seen_[k / lanes] = beyond(column) || beyond(line) ? Seen::Dark : Seen::Varied;
-    }
-  }
-  [[nodiscard]] Seen seen(int group) const { return seen_[group]; }
-  [[nodiscard]] HWY_INLINE Quad passed(int k) const {
-    const float* const at = level_.samples.data() + static_cast<std::size_t>(row_.whole[k]) * pitch_ +
-                            kStride * static_cast<std::size_t>(column_.whole[k]);
-    const Quad right = Quad::all(column_.rest[k]);
-    const Quad above = mix(Quad::load(at), Quad::load(at + kStride), right);
-    const Quad below = mix(Quad::load(at + pitch_), Quad::load(at + pitch_ + kStride), right);
-    const Quad value = mix(above, below, Quad::all(row_.rest[k]));
-    const auto of = [&](std::size_t part) { return Quad::load(channel_[part].data()); };
-    return multiply_add(value.broadcast<0>(), of(0),
-                        multiply_add(value.broadcast<1>(), of(1), value.broadcast<2>() * of(2)));
-  }
-
- private:
-  static constexpr std::size_t kStride = screens::BandPattern::kStride;
-  const screens::BandPattern::Level& level_;
-  double extent_;
-  std::size_t pitch_;
-  std::array<std::array<float, TileSums::kPixel>, screens::BandPattern::kMost> channel_{};
-  TableRow column_, row_;
-  Seen seen_[kMostGroups];
-};
+static_assert(TileSums::kPixel == 4);
 
 // What passes any screen, several crossings of the stop among them, and dirt. Either may be null.
 class AnyScreen {
@@ -341,9 +190,9 @@ void add_screened(TileSums& tile, const PolygonList& list, const Polygon& polygo
   if (behind.edges != nullptr) {
     const IrisShape& iris = behind.edges->iris();
     const std::span<const std::uint16_t> active(list.bounds.data() + behind.first, behind.count);
-    if (behind.edges->stride() == 1) return add(GreyFringes(*behind.edges, active));
+    if (behind.edges->stride() == 1) return add(FringeProduct<true>(*behind.edges, active));
     if (active.size() == 1 && !iris.is_picture()) return add(Fringe(*behind.edges, iris.bounds()[active[0]]));
-    return add(Fringes(*behind.edges, active));
+    return add(FringeProduct<false>(*behind.edges, active));
   }
   if (behind.screen->pattern && behind.map.crossings() == 1) {
     const screens::BandPattern& pattern = *behind.screen->pattern;

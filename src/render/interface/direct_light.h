@@ -24,8 +24,8 @@ struct MeteredLight {
   std::vector<double> flux_mm2 = {};
 };
 
-// Finds all fluxes. Of many bands' few are measured, where they foretell the next to 2e-4 (wavelength_samples.h); the
-// others are told by them, good to 2e-5. False when cancelled.
+// Finds all fluxes. Where there are many bands, few are measured if they foretell the next to 2e-4
+// (wavelength_samples.h), and they tell the others, good to 2e-5. False when cancelled.
 [[nodiscard]] bool measure_fluxes(std::span<MeteredLight> lights, const Context& context);
 
 // Sum over the bands of w[c] * Phi, mm^2 at E0 = 1, from each band's direct flux where the light is measured. One that

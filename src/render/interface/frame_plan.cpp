@@ -58,6 +58,7 @@ std::vector<SpectralBand> bands_of(const Light& light, const RenderSettings& set
   std::vector<SpectralBand> bands;
   const double share = 1.0 / static_cast<double>(settings.lambda_nm.size());
   for (const double lambda_nm : settings.lambda_nm) bands.push_back({lambda_nm, {share, share, share}});
+  std::ranges::sort(bands, {}, &SpectralBand::lambda_nm);
   return bands;
 }
 

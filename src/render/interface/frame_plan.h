@@ -22,7 +22,7 @@ struct PlannedPass {
 
 struct PlannedLight {
   LightSource source;
-  std::vector<PlannedPass> passes;  // one a wavelength
+  std::vector<PlannedPass> passes;  // by rising wavelength
 };
 
 struct FramePlan {

@@ -13,7 +13,8 @@ WavelengthSamples::WavelengthSamples(std::span<const double> lambda_nm, std::siz
   for (double& place : place_) place = (place - middle) / half;
 
   std::vector<double> product(place_.size(), 1.0);  // of the distances from those taken
-  for (std::size_t next = 0; order_.size() < most && product[next] > 0.0;) {
+  const auto shortest = std::max_element(place_.begin(), place_.end());
+  for (auto next = static_cast<std::size_t>(shortest - place_.begin()); order_.size() < most && product[next] > 0.0;) {
     order_.push_back(next);
     for (std::size_t k = 0; k < place_.size(); ++k) product[k] *= std::abs(place_[k] - place_[order_.back()]);
     next = static_cast<std::size_t>(std::max_element(product.begin(), product.end()) - product.begin());
