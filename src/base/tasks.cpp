@@ -29,10 +29,13 @@ void hand_over(void*) {}
 void take_over(void*) {}
 #endif
 
-int thread_count(const Context& context) {
-  if (context.threads > 0) return context.threads;
-  return std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+// To ask the system takes as long as a short loop.
+int core_count() {
+  static const int count = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  return count;
 }
+
+int thread_count(const Context& context) { return context.threads > 0 ? context.threads : core_count(); }
 
 // Passes rising fractions on to the caller, from one thread at a time.
 class ProgressReport {
@@ -58,7 +61,7 @@ template <class Body>
 void run_in_arena(int threads, Body body) {
   const oneapi::tbb::global_control limit(
       oneapi::tbb::global_control::max_allowed_parallelism,
-      std::max<std::size_t>(static_cast<std::size_t>(threads), std::thread::hardware_concurrency()));
+      static_cast<std::size_t>(std::max(threads, core_count())));
   oneapi::tbb::task_arena arena(threads);
   arena.execute(body);
 }

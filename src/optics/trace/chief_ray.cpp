@@ -81,15 +81,22 @@ struct FieldPoint {
   Meridian::Chief chief;
 };
 
-// Up to the last angle whose chief ray exists and still lands farther out than the one before.
-std::vector<FieldPoint> walk_field(const Meridian& meridian) {
+// Up to the first point that is far enough, or the last angle whose chief ray exists and still lands farther out than
+// the one before.
+template <class FarEnough>
+std::vector<FieldPoint> walk_field(const Meridian& meridian, FarEnough far_enough) {
   std::vector<FieldPoint> points{{0.0, {}}};
   for (double field = kFieldStep_rad; field < kLastField_rad; field += kFieldStep_rad) {
     const auto chief = meridian.chief(field, points.back().chief.height_mm);
     if (!chief || !(std::abs(chief->landing_mm) > std::abs(points.back().chief.landing_mm))) break;
     points.push_back({field, *chief});
+    if (far_enough(points.back())) break;
   }
   return points;
+}
+
+std::vector<FieldPoint> walk_past(const Meridian& meridian, double field_rad) {
+  return walk_field(meridian, [&](const FieldPoint& point) { return point.field_rad > field_rad; });
 }
 
 // Beyond the last chief ray the landing height goes on as f tan(field) does.
@@ -105,7 +112,8 @@ double landing_at(const Meridian& meridian, const FieldPoint& near, double field
 
 double field_for(const LensState& lens, double lambda_nm, double distance_mm, double radius_mm) {
   const Meridian meridian(lens, lambda_nm, distance_mm);
-  const auto points = walk_field(meridian);
+  const auto points =
+      walk_field(meridian, [&](const FieldPoint& point) { return std::abs(point.chief.landing_mm) > radius_mm; });
   const FieldPoint& last = points.back();
   if (radius_mm >= std::abs(last.chief.landing_mm)) {
     return std::atan(std::tan(last.field_rad) +
@@ -125,7 +133,7 @@ double field_for(const LensState& lens, double lambda_nm, double distance_mm, do
 // The chief ray's height at z = 0.
 double chief_height_for(const LensState& lens, double lambda_nm, double distance_mm, double field_rad) {
   const Meridian meridian(lens, lambda_nm, distance_mm);
-  const auto points = walk_field(meridian);
+  const auto points = walk_past(meridian, field_rad);
   const auto k = std::min(static_cast<std::size_t>(field_rad / kFieldStep_rad), points.size() - 1);
   const auto chief = meridian.chief(field_rad, points[k].chief.height_mm);
   return meridian.height_at_vertex(field_rad, chief ? chief->height_mm : points[k].chief.height_mm);
@@ -133,7 +141,7 @@ double chief_height_for(const LensState& lens, double lambda_nm, double distance
 
 double radius_for(const LensState& lens, double lambda_nm, double distance_mm, double field_rad) {
   const Meridian meridian(lens, lambda_nm, distance_mm);
-  const auto points = walk_field(meridian);
+  const auto points = walk_past(meridian, field_rad);
   if (field_rad >= points.back().field_rad) return extrapolated_landing(lens, points.back(), field_rad);
   const auto k = static_cast<std::size_t>(field_rad / kFieldStep_rad);
   return landing_at(meridian, points[std::min(k, points.size() - 1)], field_rad);

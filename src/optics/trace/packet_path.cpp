@@ -117,10 +117,10 @@ PacketPath::PacketPath(const OpticalPath& path, const ReflectanceTables& tables,
       shapes_.push_back(from.shape);
       if (geometry_ == PathGeometry::Spheres) geometry_ = PathGeometry::Shapes;
     }
-    step.inverse_semi_diameter_per_mm = 1.0 / from.semi_diameter_mm;
-    step.inverse_semi_diameter_squared = 1.0 / (from.semi_diameter_mm * from.semi_diameter_mm);
-    step.eta = from.n_in / from.n_out;
     const double per_mm = 1.0 / from.semi_diameter_mm;
+    step.inverse_semi_diameter_per_mm = per_mm;
+    step.inverse_semi_diameter_squared = per_mm * per_mm;
+    step.eta = from.n_in / from.n_out;
     step.rim = from.rim.value_or(Rim{{}, {per_mm, 0.0}, {0.0, per_mm}});
     step.blocks_within = from.blocks_within;
     step.absorption_per_mm = from.absorption_per_mm;

@@ -17,7 +17,7 @@ using namespace adaptive;
 
 // Polygons of so many bytes, or a little more, are alive at once.
 constexpr std::size_t kBatchBytes = std::size_t{32} << 20U;
-constexpr std::size_t kItemsAtOnce = 64;
+constexpr std::size_t kItemsAtOnce = 256;
 constexpr int kRowsAtOnce = 2;  // of tiles, by one thread
 constexpr double kLowestError = 1e-4;
 constexpr double kHighestError = 0.1;
