@@ -8,10 +8,14 @@
 
 #include <hwy/highway.h>
 
+#include <bit>
 #include <cstdint>
+#include <cstring>
+#include <vector>
 
 #include "render/adaptive/polygon_list.h"
 #include "render/adaptive/tile_sums.h"
+#include "render/screens/short_light.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace contrejour::adaptive::HWY_NAMESPACE {
@@ -51,20 +55,69 @@ void PixelRow::look_at_stop(const StopMap& map) {
 enum class Seen : std::uint8_t { Dark, Level, Varied };
 constexpr std::size_t kMostGroups = TileGrid::kWidth;  // where vectors hold one
 
-// A place between entries of a table: whole steps, and the rest. Places that are no numbers count as 0.
+// Places between entries of a table: whole steps, and the rest. Places that are no numbers count as 0.
+struct TablePlaces {
+  hn::Vec<IntTag> whole;
+  hn::Vec<FloatTag> rest;
+
+  // place: 0 to most; the last step is one that has an entry after it.
+  HWY_INLINE TablePlaces(hn::Vec<FloatTag> place, float most) {
+    const FloatTag d;
+    const IntTag di;
+    const auto within = hn::Min(hn::IfThenElseZero(hn::Gt(place, hn::Zero(d)), place), hn::Set(d, most));
+    whole = hn::Min(hn::ConvertTo(di, within), hn::Set(di, static_cast<std::int32_t>(most) - 1));
+    rest = hn::Sub(within, hn::ConvertTo(d, whole));
+  }
+};
+
+// Those of a row.
 struct TableRow {
   HWY_ALIGN std::int32_t whole[kRowRoom];
   HWY_ALIGN float rest[kRowRoom];
 
-  // place: 0 to most; the last step is one that has an entry after it.
   HWY_INLINE void put(int k, hn::Vec<FloatTag> place, float most) {
+    const TablePlaces at(place, most);
+    hn::Store(at.whole, IntTag(), whole + k);
+    hn::Store(at.rest, FloatTag(), rest + k);
+  }
+};
+
+// A table of ShortLight.
+class ShortTable {
+ public:
+  ShortTable(const std::vector<std::uint16_t>& coded, const screens::ShortLight& coding)
+      : coded_(coded.data()), coding_(coding) {}
+
+  // Between entries `whole` and the ones after them; more than the light by none().
+  [[nodiscard]] HWY_INLINE hn::Vec<FloatTag> between(hn::Vec<IntTag> whole, hn::Vec<FloatTag> rest) const {
+    constexpr int kShift = screens::ShortLight::kShift;
     const FloatTag d;
     const IntTag di;
-    const auto within = hn::Min(hn::IfThenElseZero(hn::Gt(place, hn::Zero(d)), place), hn::Set(d, most));
-    const auto steps = hn::Min(hn::ConvertTo(di, within), hn::Set(di, static_cast<std::int32_t>(most) - 1));
-    hn::Store(steps, di, whole + k);
-    hn::Store(hn::Sub(within, hn::ConvertTo(d, steps)), d, rest + k);
+    const auto pair = pairs_at(whole);
+    const auto bits = hn::Set(di, 0xFFFF << kShift), lowest = hn::Set(di, coding_.lowest());
+    const auto low = hn::BitCast(d, hn::Add(hn::And(hn::ShiftLeft<kShift>(pair), bits), lowest));
+    const auto high = hn::BitCast(d, hn::Add(hn::And(hn::ShiftRight<16 - kShift>(pair), bits), lowest));
+    constexpr bool kLowFirst = std::endian::native == std::endian::little;
+    const auto first = kLowFirst ? low : high, second = kLowFirst ? high : low;
+    return hn::MulAdd(rest, hn::Sub(second, first), first);
   }
+  [[nodiscard]] HWY_INLINE hn::Vec<FloatTag> none() const { return hn::Set(FloatTag(), coding_.none()); }
+
+ private:
+  // Two entries each, side by side in a word.
+  [[nodiscard]] HWY_INLINE hn::Vec<IntTag> pairs_at(hn::Vec<IntTag> place) const {
+    const IntTag di;
+#if HWY_TARGET == HWY_SCALAR  // whose gather wants whole words
+    std::int32_t pair;
+    std::memcpy(&pair, coded_ + hn::GetLane(place), sizeof pair);
+    return hn::Set(di, pair);
+#else
+    return hn::GatherOffset(di, reinterpret_cast<const std::int32_t*>(coded_), hn::ShiftLeft<1>(place));
+#endif
+  }
+
+  const std::uint16_t* coded_;
+  screens::ShortLight coding_;
 };
 
 }  // namespace contrejour::adaptive::HWY_NAMESPACE

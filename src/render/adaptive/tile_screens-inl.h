@@ -104,16 +104,81 @@ class LevelRun {
   int first_ = -1, end_ = -1;
 };
 
+// One value a pixel times a polygon's irradiance, whole vectors of pixels at once.
+class GreyLight {
+ public:
+  explicit GreyLight(const RowShade& shade) {
+    const auto repeat = [](const double* from, float* to) {
+      for (std::size_t k = 0; k < kLanes; ++k) to[k] = static_cast<float>(from[k % TileSums::kPixel]);
+    };
+    repeat(shade.level, level_);
+    repeat(shade.level + TileSums::kPixel, slope_);
+    repeat(shade.by_row, by_row_);
+  }
+  void set_row(int row) {
+    for (std::size_t k = 0; k < kLanes; ++k) in_row_[k] = level_[k] + by_row_[k] * static_cast<float>(row);
+  }
+
+  // to: the pixels from `column` on, as many as a vector has lanes.
+  HWY_INLINE void add(hn::Vec<FloatTag> passed, int column, float* to) const {
+#if HWY_TARGET == HWY_SCALAR
+    for (std::size_t c = 0; c < TileSums::kPixel; ++c)
+      to[c] += hn::GetLane(passed) * (in_row_[c] + slope_[c] * static_cast<float>(column));
+#else
+    const FloatTag d;
+    const IntTag di;
+    const std::size_t lanes = hn::Lanes(d), pixels = lanes / TileSums::kPixel;
+    const auto slope = hn::Load(d, slope_);
+    // Lane k of a vector is of its pixel k / 4.
+    auto pixel = hn::ShiftRight<2>(hn::Iota(di, 0));
+    const auto next = hn::Set(di, static_cast<std::int32_t>(pixels));
+    auto irradiance = hn::MulAdd(slope, hn::Add(hn::Set(d, static_cast<float>(column)), hn::ConvertTo(d, pixel)),
+                                 hn::Load(d, in_row_));
+    const auto further = hn::Mul(slope, hn::Set(d, static_cast<float>(pixels)));
+    for (std::size_t part = 0; part < TileSums::kPixel; ++part, to += lanes) {
+      const auto each = hn::TableLookupLanes(passed, hn::IndicesFromVec(d, pixel));
+      hn::StoreU(hn::MulAdd(each, irradiance, hn::LoadU(d, to)), d, to);
+      pixel = hn::Add(pixel, next);
+      irradiance = hn::Add(irradiance, further);
+    }
+#endif
+  }
+
+ private:
+  static constexpr std::size_t kLanes = std::max<std::size_t>(hn::MaxLanes(FloatTag()), TileSums::kPixel);
+  HWY_ALIGN float level_[kLanes], slope_[kLanes], by_row_[kLanes], in_row_[kLanes];
+};
+
 // Whether pixels are all covered, but for rounding.
 HWY_INLINE bool all_covered(const float* cover, int count) {
   constexpr float kWhole = 1.0F - 1e-6F;
+  const FloatTag d;
+  if (count == static_cast<int>(hn::Lanes(d))) return hn::AllTrue(d, hn::Ge(hn::Load(d, cover), hn::Set(d, kWhole)));
   for (int k = 0; k < count; ++k)
     if (cover[k] < kWhole) return false;
   return true;
 }
 
+// Of a tile, those that a polygon may touch. last_column: as far as all of them are covered at the least; -1: not told.
+struct PixelRows {
+  int first, last, last_column;
+};
+
+PixelRows rows_under(const TileSums& tile, std::span<const Point> corners) {
+  Point low = corners[0], high = corners[0];
+  for (const Point p : corners) {
+    low.y = std::min(low.y, p.y);
+    high = {std::max(high.x, p.x), std::max(high.y, p.y)};
+  }
+  const auto row = [&](float y) {
+    return static_cast<int>(std::clamp(y - static_cast<float>(tile.y0), 0.0F, static_cast<float>(tile.height - 1)));
+  };
+  // Edges beyond the right border leave no change: what is covered there ends with the tile.
+  return {row(low.y), row(high.y), high.x > static_cast<float>(tile.x0 + tile.width) ? tile.width - 1 : -1};
+}
+
 template <class Look>
-void add_pixels(TileSums& tile, const Polygon& polygon, const StopMap& map, int last_column, Look& look) {
+void add_pixels(TileSums& tile, const Polygon& polygon, const StopMap& map, PixelRows within, Look& look) {
   const RowShade shade = row_shade(polygon.shade, tile);
   const auto quad = [](const double* from) {
     float v[TileSums::kPixel];
@@ -121,12 +186,14 @@ void add_pixels(TileSums& tile, const Polygon& polygon, const StopMap& map, int 
     return Quad::load(v);
   };
   const Quad level = quad(shade.level), slope = quad(shade.level + TileSums::kPixel), by_row = quad(shade.by_row);
-  const int lanes = static_cast<int>(hn::Lanes(FloatTag()));
+  GreyLight grey(shade);
+  const FloatTag d;
+  const int lanes = static_cast<int>(hn::Lanes(d));
   PixelRow pixels;
   HWY_ALIGN float cover[kRowRoom];
-  for (int row = 0; row < tile.height; ++row) {
+  for (int row = within.first; row <= within.last; ++row) {
     const auto changed = std::exchange(tile.cover.changed[static_cast<std::size_t>(row)], {});
-    const int last = std::min(std::max(changed.last, last_column), tile.width - 1);
+    const int last = std::min(std::max(changed.last, within.last_column), tile.width - 1);
     if (changed.first > last) {
       if (changed.last >= 0) *tile.cover.at(row, tile.width) = 0.0;  // the right border's
       continue;
@@ -136,9 +203,11 @@ void add_pixels(TileSums& tile, const Polygon& polygon, const StopMap& map, int 
     pixels.y = tile.y0 + row;
     pixels.count = last - first + 1;
     sum_coverage(tile.cover.at(row, first), pixels.count, cover);
+    hn::StoreU(hn::Zero(d), d, cover + pixels.count);
     pixels.look_at_stop(map);
     look.look(pixels);
     float* const to = tile.pixels_at(row) + TileSums::kPixel * static_cast<std::size_t>(first);
+    if constexpr (Look::kGrey) grey.set_row(row);
     const Quad in_row = multiply_add(by_row, Quad::all(static_cast<float>(row)), level);
     LevelRun run(tile, row, shade);
     for (int k = 0; k < pixels.count; k += lanes) {
@@ -151,14 +220,9 @@ void add_pixels(TileSums& tile, const Polygon& polygon, const StopMap& map, int 
       run.stop();
       if (seen == Seen::Dark) continue;
       tile.light(row, first + k, first + end - 1);
-      if constexpr (Look::kGrey) {
-        const FloatTag d;
-        hn::Store(hn::Mul(hn::Load(d, cover + k), hn::Load(d, look.passed() + k)), d, cover + k);
-        Quad irradiance = multiply_add(slope, Quad::all(static_cast<float>(first + k)), in_row);
-        for (int j = k; j < end; ++j, irradiance = irradiance + slope) {
-          float* const pixel = to + TileSums::kPixel * static_cast<std::size_t>(j);
-          multiply_add(Quad::all(cover[j]), irradiance, Quad::load(pixel)).store(pixel);
-        }
+      if constexpr (Look::kGrey) {  // to whole vectors: nothing to pixels from `count` on
+        const auto passed = hn::Mul(hn::Load(d, cover + k), look.passed(k));
+        grey.add(passed, first + k, to + TileSums::kPixel * static_cast<std::size_t>(k));
       } else {
         for (int j = k; j < end; ++j) {
           const Quad irradiance = multiply_add(slope, Quad::all(static_cast<float>(first + j)), in_row);
@@ -172,31 +236,28 @@ void add_pixels(TileSums& tile, const Polygon& polygon, const StopMap& map, int 
 }
 
 void add_screened(TileSums& tile, const PolygonList& list, const Polygon& polygon) {
-  if (tile.by_pixel.empty()) tile.by_pixel.resize(TileSums::kPixel * TileGrid::kWidth * TileGrid::kHeight, 0.0F);
+  if (tile.by_pixel.empty()) 
+    tile.by_pixel.resize(TileSums::kPixel * (TileGrid::kWidth * TileGrid::kHeight + hn::MaxLanes(FloatTag())), 0.0F);
   CoverSums& cover = tile.cover;
   cover.width = tile.width;
   cover.height = tile.height;
   cover.make();
   const auto corners = list.corners_of(polygon);
   for_each_edge(tile, corners, [&](Vec2 a, Vec2 b, double sign) { add_clipped(cover, RowShade{}, a, b, sign); });
-  // Edges beyond the right border leave no change: what is covered there ends with the tile.
-  float right = corners[0].x;
-  for (const Point& p : corners) right = std::max(right, p.x);
-  const int last_column = right > static_cast<float>(tile.x0 + tile.width) ? tile.width - 1 : -1;
-
+  const PixelRows within = rows_under(tile, corners);
   const Screened& behind = list.screened[polygon.screened - 1];
-  const auto add = [&](auto&& look) { add_pixels(tile, polygon, behind.map, last_column, look); };
+  const auto add = [&](auto&& look) { add_pixels(tile, polygon, behind.map, within, look); };
   if (behind.dirt != 0) return add(AnyScreen(behind.screen, behind.map, &list.dirt[behind.dirt - 1]));
   if (behind.edges != nullptr) {
     const IrisShape& iris = behind.edges->iris();
     const std::span<const std::uint16_t> active(list.bounds.data() + behind.first, behind.count);
-    if (behind.edges->stride() == 1) return add(FringeProduct<true>(*behind.edges, active));
+    if (behind.edges->is_grey()) return add(GreyFringes(*behind.edges, active));
     if (active.size() == 1 && !iris.is_picture()) return add(Fringe(*behind.edges, iris.bounds()[active[0]]));
-    return add(FringeProduct<false>(*behind.edges, active));
+    return add(Fringes(*behind.edges, active));
   }
   if (behind.screen->pattern && behind.map.crossings() == 1) {
     const screens::BandPattern& pattern = *behind.screen->pattern;
-    if (pattern.stride() > 1) return add(Pattern(*behind.screen, behind.map.width()));
+    if (!pattern.of_one()) return add(Pattern(*behind.screen, behind.map.width()));
     if (behind.screen->is_grey()) return add(GreyPattern(pattern, behind.map.width()));
   }
   add(AnyScreen(behind.screen, behind.map));

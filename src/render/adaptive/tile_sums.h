@@ -51,7 +51,7 @@ struct TileSums {
   Blocks touched{};  // by changes
   std::vector<double> sums = std::vector<double>(kLanes * kPitch * TileGrid::kHeight, 0.0);
   Blocks lit{};                 // pixel by pixel
-  std::vector<float> by_pixel;  // light that came so, kPixel values each; empty: none yet
+  std::vector<float> by_pixel;  // light that came so, kPixel values each and a vector's beyond; empty: none yet
   CoverSums cover;
 
   [[nodiscard]] double* at(int row, int column) {

@@ -48,7 +48,8 @@ void lay_out(const PatternTexture& texture, double extent, std::size_t part, std
 }
 
 BandPattern::Level dark_level(int side, std::size_t stride) {
-  BandPattern::Level level{side, {}};
+  BandPattern::Level level;
+  level.side = side;
   level.samples.resize(static_cast<std::size_t>(level.pitch()) * static_cast<std::size_t>(level.pitch()) * stride);
   return level;
 }
@@ -68,6 +69,12 @@ BandPattern::Level halved(const BandPattern::Level& fine, std::size_t stride) {
   return half;
 }
 
+void code(BandPattern::Level& level) {
+  level.coding = ShortLight(*std::max_element(level.samples.begin(), level.samples.end()));
+  for (const float sample : level.samples) level.coded.push_back(level.coding.coded(sample));
+  level.samples = {};
+}
+
 }  // namespace
 
 BandPattern::BandPattern(std::span<const PatternTexture* const> parts) : stride_(parts.size() == 1 ? 1 : kStride) {
@@ -80,6 +87,8 @@ BandPattern::BandPattern(std::span<const PatternTexture* const> parts) : stride_
   levels_.push_back(dark_level(side, stride_));
   for (std::size_t k = 0; k < parts.size(); ++k) lay_out(*parts[k], extent_, k, stride_, levels_.back());
   while (levels_.back().side % 2 == 0 && levels_.back().side > 2) levels_.push_back(halved(levels_.back(), stride_));
+  if (of_one())
+    for (Level& level : levels_) code(level);
 }
 
 const BandPattern::Level& BandPattern::level_for(double width) const {
@@ -88,8 +97,8 @@ const BandPattern::Level& BandPattern::level_for(double width) const {
 }
 
 float BandPattern::brightest(Vec2 middle, double distance) const {
-  const double samples = distance * 0.5 * levels_.front().side / extent_;
-  const double fit = samples > 1.0 ? std::ceil(std::log2(samples)) : 0.0;
+  const double pitches = distance * 0.5 * levels_.front().side / extent_;
+  const double fit = pitches > 1.0 ? std::ceil(std::log2(pitches)) : 0.0;
   const Level& level = levels_[std::min(static_cast<std::size_t>(fit), levels_.size() - 1)];
   const auto at = [&](double p) {  // the first of the two samples about there, the border's included
     return static_cast<int>(std::clamp((p / extent_ + 1.0) * 0.5 * level.side + 0.5, 0.0, level.side + 0.0));
@@ -97,8 +106,11 @@ float BandPattern::brightest(Vec2 middle, double distance) const {
   const int x = at(middle.x), y = at(-middle.y);
   float most = 0.0F;
   for (const int row : {y, y + 1}) {
-    const float* const from = level.samples.data() + static_cast<std::size_t>(row * level.pitch() + x) * stride_;
-    most = std::max(most, *std::max_element(from, from + 2 * stride_));
+    const std::size_t from = static_cast<std::size_t>(row * level.pitch() + x) * stride_;
+    const auto largest = [&](const auto& samples) {
+      return *std::max_element(samples.data() + from, samples.data() + from + 2 * stride_);
+    };
+    most = std::max(most, of_one() ? level.coding.light(largest(level.coded)) : largest(level.samples));
   }
   return most;
 }
