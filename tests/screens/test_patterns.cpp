@@ -6,6 +6,7 @@
 #include <doctest/doctest.h>
 
 #include "render/screens/band_pattern.h"
+#include "render/screens/resampled.h"
 
 using namespace contrejour;
 using namespace contrejour::screens;
@@ -80,6 +81,26 @@ TEST_CASE("lines about a pattern: all that is bright is within them, and little 
   PatternHull both = bright;
   both.hold(Vec2{-1.9, 0.0});
   CHECK_FALSE(both.misses({-1.85, 0.0}, 0.0));
+}
+
+TEST_CASE("a picture on another grid is what the texture says there") {
+  std::vector<float> waves;
+  for (int row = 0; row < 48; ++row)
+    for (int column = 0; column < 48; ++column)
+      waves.push_back(static_cast<float>(2.0 + std::sin(0.7 * column) * std::cos(0.9 * row) + 0.01 * row));
+  const PatternTexture texture(48, 1.3, waves);
+  for (const auto& [side, extent] : {std::pair{48, 1.3}, std::pair{37, 1.1}, std::pair{64, 1.9}}) {
+    const auto out = resampled({48, 1.3, waves}, side, extent);
+    REQUIRE(out.size() == static_cast<std::size_t>(side * side));
+    double worst = 0.0;
+    for (int row = 0; row < side; ++row)
+      for (int column = 0; column < side; ++column) {
+        const Vec2 p{(column + 0.5) * 2.0 * extent / side - extent, extent - (row + 0.5) * 2.0 * extent / side};
+        const double value = static_cast<double>(out[static_cast<std::size_t>(row * side + column)]);
+        worst = std::max(worst, std::abs(value - texture.at(p, 0.0)));
+      }
+    CHECK(worst < 2e-5);
+  }
 }
 
 TEST_CASE("light in 16 bits: to 2^-13 of itself and of a 2^-15 of the largest, and nothing is nothing") {

@@ -4,46 +4,18 @@
 #include <cassert>
 #include <cmath>
 
+#include "render/screens/resampled.h"
+
 namespace contrejour::screens {
 namespace {
 
-// Where a grid's middles lie between another's, along one direction.
-struct Between {
-  int low = 0, high = 0;
-  float to_high = 0.0F;
-  float inside = 1.0F;
-};
-
-std::vector<Between> places_between(int side, double extent, const PatternTexture& texture) {
-  std::vector<Between> out;
-  for (int k = 0; k < side; ++k) {
-    const double p = (k + 0.5) * 2.0 * extent / side - extent;
-    const double at = (p + texture.extent()) * 0.5 * texture.side() / texture.extent() - 0.5;
-    const double inside = std::clamp(std::min(at + 1.0, texture.side() - at), 0.0, 1.0);
-    const double within = std::clamp(at, 0.0, texture.side() - 1.0);
-    const int low = std::min(static_cast<int>(within), std::max(texture.side() - 2, 0));
-    out.push_back(
-        {low, std::min(low + 1, texture.side() - 1), static_cast<float>(within - low), static_cast<float>(inside)});
-  }
-  return out;
-}
-
 void lay_out(const PatternTexture& texture, double extent, std::size_t part, std::size_t stride,
              BandPattern::Level& level) {
-  const auto places = places_between(level.side, extent, texture);
-  const auto samples = texture.samples();
-  const auto side = static_cast<std::size_t>(texture.side());
-  float* to = level.samples.data() + static_cast<std::size_t>(level.pitch() + 1) * stride + part;
-  for (const Between& y : places) {
-    const float* const above = samples.data() + static_cast<std::size_t>(y.low) * side;
-    const float* const below = samples.data() + static_cast<std::size_t>(y.high) * side;
-    for (const Between& x : places) {
-      const float a = above[x.low] + x.to_high * (above[x.high] - above[x.low]);
-      const float b = below[x.low] + x.to_high * (below[x.high] - below[x.low]);
-      *to = (a + y.to_high * (b - a)) * x.inside * y.inside;
-      to += stride;
-    }
-    to += 2 * stride;
+  const auto samples = resampled({texture.side(), texture.extent(), texture.samples()}, level.side, extent);
+  const auto side = static_cast<std::size_t>(level.side);
+  for (std::size_t row = 0; row < side; ++row) {
+    float* to = level.samples.data() + ((row + 1) * static_cast<std::size_t>(level.pitch()) + 1) * stride + part;
+    for (std::size_t column = 0; column < side; ++column, to += stride) *to = samples[row * side + column];
   }
 }
 
