@@ -22,14 +22,27 @@ namespace contrejour::adaptive::HWY_NAMESPACE {
 
 static_assert(EdgeTable::kStride == 4);
 
-HWY_INLINE hn::Vec<FloatTag> distance_from(const IrisBound& bound, hn::Vec<FloatTag> x, hn::Vec<FloatTag> y) {
-  const FloatTag d;
-  const auto set = [&](double v) { return hn::Set(d, static_cast<float>(v)); };
-  if (bound.straight())
-    return hn::MulAdd(set(bound.normal.x), x, hn::MulSub(set(bound.normal.y), y, set(bound.apothem)));
-  const auto from_x = hn::Sub(x, set(bound.centre.x)), from_y = hn::Sub(y, set(bound.centre.y));
-  return hn::Sub(hn::Sqrt(hn::MulAdd(from_x, from_x, hn::Mul(from_y, from_y))), set(bound.radius));
-}
+// Distances from a bound of the iris.
+class BoundDistance {
+ public:
+  explicit BoundDistance(const IrisBound& bound)
+      : straight_(bound.straight()), x_(static_cast<float>(straight_ ? bound.normal.x : bound.centre.x)),
+        y_(static_cast<float>(straight_ ? bound.normal.y : bound.centre.y)),
+        from_(static_cast<float>(straight_ ? bound.apothem : bound.radius)) {}
+
+  [[nodiscard]] HWY_INLINE hn::Vec<FloatTag> at(const PixelRow& row, int k) const {
+    const FloatTag d;
+    const auto x = hn::Load(d, row.stop_x + k), y = hn::Load(d, row.stop_y + k);
+    const auto px = hn::Set(d, x_), py = hn::Set(d, y_), from = hn::Set(d, from_);
+    if (straight_) return hn::MulAdd(px, x, hn::MulSub(py, y, from));
+    const auto from_x = hn::Sub(x, px), from_y = hn::Sub(y, py);
+    return hn::Sub(hn::Sqrt(hn::MulAdd(from_x, from_x, hn::Mul(from_y, from_y))), from);
+  }
+
+ private:
+  bool straight_;
+  float x_, y_, from_;
+};
 
 // Places in a table of fringes, by distance from an edge, and what all pixels of a vector see there.
 class FringeSteps {
@@ -79,20 +92,19 @@ class FringeRow {
 class Fringe {
  public:
   static constexpr bool kGrey = false;
-  Fringe(const EdgeTable& table, const IrisBound& bound) : row_(table), bound_(bound) {}
+  Fringe(const EdgeTable& table, const IrisBound& bound) : row_(table), distance_(bound) {}
 
   void look(const PixelRow& row) {
     const FloatTag d;
     const int lanes = static_cast<int>(hn::Lanes(d));
-    for (int k = 0; k < row.count; k += lanes)
-      seen_[k / lanes] = row_.put(k, distance_from(bound_, hn::Load(d, row.stop_x + k), hn::Load(d, row.stop_y + k)));
+    for (int k = 0; k < row.count; k += lanes) seen_[k / lanes] = row_.put(k, distance_.at(row, k));
   }
   [[nodiscard]] Seen seen(int group) const { return seen_[group]; }
   [[nodiscard]] HWY_INLINE Quad passed(int k) const { return row_.passed(k); }
 
  private:
   FringeRow row_;
-  const IrisBound& bound_;
+  BoundDistance distance_;
   Seen seen_[kMostGroups];
 };
 
@@ -111,9 +123,7 @@ HWY_INLINE void for_each_distance(const IrisShape& iris, std::span<const std::ui
     });
   }
   for (const std::uint16_t bound : active)
-    visit([&](int k) {
-      return distance_from(iris.bounds()[bound], hn::Load(d, row.stop_x + k), hn::Load(d, row.stop_y + k));
-    });
+    visit([&row, distance = BoundDistance(iris.bounds()[bound])](int k) { return distance.at(row, k); });
 }
 
 // The product of what several edges bring.

@@ -10,8 +10,10 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 
 #include "render/adaptive/quad-inl.h"
 #include "render/adaptive/tile_rows-inl.h"
@@ -45,6 +47,10 @@ class PatternSteps {
     return beyond(column) || beyond(line) ? Seen::Dark : Seen::Varied;
   }
   [[nodiscard]] float most() const { return most_; }
+  [[nodiscard]] std::pair<float, float> place(float x, float y) const {
+    return {centre_ + x * per_radius_, centre_ - y * per_radius_};
+  }
+  [[nodiscard]] bool holds(float place) const { return place > 0.0F && place < most_; }
 
  private:
   float per_radius_, centre_, most_;
@@ -98,6 +104,24 @@ class GreyPattern {
  public:
   static constexpr bool kGrey = true;
   GreyPattern(const screens::BandPattern& pattern, double width) : GreyPattern(pattern, pattern.level_for(width)) {}
+
+  // Asks for what a row of pixels will look up, from the first to the last of them: patterns are far away, and most of
+  // their samples are wanted but once.
+  HWY_INLINE void fetch(const StopMap::Row& row, float first, float last) const {
+    constexpr float kLine = 32.0F;  // samples, of memory
+    constexpr int kMost = 16;
+    const auto [x0, y0] = steps_.place(row.x0 + first * row.x1, row.y0 + first * row.y1);
+    const auto [x1, y1] = steps_.place(row.x0 + last * row.x1, row.y0 + last * row.y1);
+    const float apart = std::max(std::abs(x1 - x0) * (1.0F / kLine), std::abs(y1 - y0));
+    const int pieces = apart < kMost ? static_cast<int>(apart) + 1 : kMost;
+    const float part = 1.0F / static_cast<float>(pieces);
+    for (int k = 0; k <= pieces; ++k) {
+      const float t = static_cast<float>(k) * part;
+      const float column = x0 + t * (x1 - x0), line = y0 + t * (y1 - y0);
+      if (steps_.holds(column) && steps_.holds(line))
+        table_.fetch(static_cast<std::ptrdiff_t>(line) * pitch_ + static_cast<std::ptrdiff_t>(column));
+    }
+  }
 
   void look(const PixelRow& row) {
     const FloatTag d;

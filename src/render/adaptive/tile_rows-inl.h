@@ -6,9 +6,11 @@
 #define CONTREJOUR_ADAPTIVE_TILE_ROWS_INL_H_
 #endif
 
+#include <hwy/cache_control.h>
 #include <hwy/highway.h>
 
 #include <bit>
+#include <cstddef>
 #include <cstdint>
 #include <cstring>
 #include <vector>
@@ -21,7 +23,7 @@ HWY_BEFORE_NAMESPACE();
 namespace contrejour::adaptive::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
-using FloatTag = hn::ScalableTag<float>;
+using FloatTag = hn::CappedTag<float, 8>;  // rows of polygons are some twenty pixels long
 using IntTag = hn::RebindToSigned<FloatTag>;
 
 constexpr std::size_t kRowRoom = TileGrid::kWidth + hn::MaxLanes(FloatTag());
@@ -34,13 +36,13 @@ struct PixelRow {
 
   [[nodiscard]] Vec2 pixel(int k) const { return {first + k + 0.5, y + 0.5}; }
   [[nodiscard]] Vec2 stop(int k) const { return {static_cast<double>(stop_x[k]), static_cast<double>(stop_y[k])}; }
-  void look_at_stop(const StopMap& map);
+  // row: of the map whose origin is there.
+  void look_at_stop(const StopMap::Row& row, double origin_x);
 };
 
-void PixelRow::look_at_stop(const StopMap& map) {
+void PixelRow::look_at_stop(const StopMap::Row& row, double origin_x) {
   const FloatTag d;
-  const StopMap::Row row = map.row(y + 0.5);
-  const auto from = hn::Set(d, static_cast<float>(first + 0.5 - map.origin().x));
+  const auto from = hn::Set(d, static_cast<float>(first + 0.5 - origin_x));
   for (int k = 0; k < count; k += static_cast<int>(hn::Lanes(d))) {
     const auto x = hn::Add(from, hn::Iota(d, static_cast<float>(k)));
     const auto along = [&](float c0, float c1, float c2) {
@@ -101,6 +103,7 @@ class ShortTable {
     const auto first = kLowFirst ? low : high, second = kLowFirst ? high : low;
     return hn::MulAdd(rest, hn::Sub(second, first), first);
   }
+  HWY_INLINE void fetch(std::ptrdiff_t entry) const { hwy::Prefetch(coded_ + entry); }
   [[nodiscard]] HWY_INLINE hn::Vec<FloatTag> none() const { return hn::Set(FloatTag(), coding_.none()); }
 
  private:

@@ -53,28 +53,33 @@ class AnyScreen {
 };
 
 // A row's coverage from its changes, which are cleared. Pixels that only rounding covers are not. Most pixels have no
-// changes: some of them at once take one test.
+// changes: some of them at once take one test. Writes whole vectors.
 HWY_INLINE void sum_coverage(double* changes, int count, float* cover) {
   const hn::ScalableTag<double> d;
-  const int lanes = static_cast<int>(hn::Lanes(d));
-  double covered = 0.0;
-  float seen = 0.0F;
-  const auto go_on = [&](int k) {
-    covered += changes[k];
-    changes[k] = 0.0;
-    seen = covered > TileSums::kUnseenCover ? static_cast<float>(covered) : 0.0F;
-    cover[k] = seen;
-  };
-  int k = 0;
-  for (; k + lanes <= count; k += lanes) {
-    if (hn::AllTrue(d, hn::Eq(hn::LoadU(d, changes + k), hn::Zero(d)))) {
-      const hn::Rebind<float, decltype(d)> df;
-      hn::StoreU(hn::Set(df, seen), df, cover + k);
-    } else {
-      for (int j = k; j < k + lanes; ++j) go_on(j);
+  const hn::Rebind<float, decltype(d)> df;
+  constexpr auto kMost = hn::MaxLanes(hn::ScalableTag<double>());
+  const auto lanes = static_cast<int>(hn::Lanes(d));
+  HWY_ALIGN double from_lane[2 * kMost] = {};  // 1 from `lanes` on: read from k before there, 1 in lanes k and up
+  std::fill_n(from_lane + lanes, lanes, 1.0);
+  auto covered = hn::Zero(d);
+  auto seen = hn::Zero(df);
+  for (int k = 0; k < count; k += lanes) {
+    const auto change = hn::LoadU(d, changes + k);
+    if (hn::AllTrue(d, hn::Eq(change, hn::Zero(d)))) {
+      hn::StoreU(seen, df, cover + k);
+      continue;
     }
+    auto sum = covered;
+    for (int j = 0; j < lanes; ++j)
+      sum = hn::MulAdd(hn::Set(d, changes[k + j]), hn::LoadU(d, from_lane + lanes - j), sum);
+    covered = hn::Add(covered, hn::SumOfLanes(d, change));
+    hn::StoreU(hn::Zero(d), d, changes + k);
+    const auto shown = [&](auto v) HWY_ATTR {
+      return hn::DemoteTo(df, hn::IfThenElseZero(hn::Gt(v, hn::Set(d, TileSums::kUnseenCover)), v));
+    };
+    hn::StoreU(shown(sum), df, cover + k);
+    seen = shown(covered);
   }
-  for (; k < count; ++k) go_on(k);
   changes[count] = 0.0;
 }
 
@@ -177,8 +182,52 @@ PixelRows rows_under(const TileSums& tile, std::span<const Point> corners) {
   return {row(low.y), row(high.y), high.x > static_cast<float>(tile.x0 + tile.width) ? tile.width - 1 : -1};
 }
 
+// A row of what a polygon covers.
+struct CoveredRow {
+  int row, first, count;  // in the tile
+  const float* cover;  // none beyond `count`, a vector long
+};
+
+// All of a polygon's rows, before the first of them is looked at: what was just written one by one cannot yet be read
+// by whole vectors.
+class Coverage {
+ public:
+  Coverage(TileSums& tile, const PixelRows& within) {
+    const FloatTag d;
+    std::size_t room = 0;
+    for (int row = within.first; row <= within.last; ++row) {
+      const auto changed = std::exchange(tile.cover.changed[static_cast<std::size_t>(row)], {});
+      const int last = std::min(std::max(changed.last, within.last_column), tile.width - 1);
+      if (changed.first > last) {
+        if (changed.last >= 0) *tile.cover.at(row, tile.width) = 0.0;  // the right border's
+        continue;
+      }
+      const int count = last - changed.first + 1;
+      sum_coverage(tile.cover.at(row, changed.first), count, cover_ + room);
+      hn::StoreU(hn::Zero(d), d, cover_ + room + count);
+      rows_[count_++] = {row, changed.first, count, cover_ + room};
+      room += hwy::RoundUpTo(static_cast<std::size_t>(count), hn::Lanes(d));
+    }
+  }
+  [[nodiscard]] std::span<const CoveredRow> rows() const { return {rows_, count_}; }
+
+ private:
+  HWY_ALIGN float cover_[kRowRoom * TileGrid::kHeight];
+  CoveredRow rows_[TileGrid::kHeight];
+  std::size_t count_ = 0;
+};
+
 template <class Look>
-void add_pixels(TileSums& tile, const Polygon& polygon, const StopMap& map, PixelRows within, Look& look) {
+void add_pixels(TileSums& tile, const Polygon& polygon, const StopMap& map, const PixelRows& within, Look& look) {
+  const Coverage coverage(tile, within);
+  std::array<StopMap::Row, TileGrid::kHeight> stop;
+  for (std::size_t k = 0; k < coverage.rows().size(); ++k) {
+    const CoveredRow& r = coverage.rows()[k];
+    stop[k] = map.row(tile.y0 + r.row + 0.5);
+    const auto first = static_cast<float>(tile.x0 + r.first + 0.5 - map.origin().x);
+    if constexpr (requires { look.fetch(stop[k], first, first); })
+      look.fetch(stop[k], first, first + static_cast<float>(r.count - 1));
+  }
   const RowShade shade = row_shade(polygon.shade, tile);
   const auto quad = [](const double* from) {
     float v[TileSums::kPixel];
@@ -190,29 +239,20 @@ void add_pixels(TileSums& tile, const Polygon& polygon, const StopMap& map, Pixe
   const FloatTag d;
   const int lanes = static_cast<int>(hn::Lanes(d));
   PixelRow pixels;
-  HWY_ALIGN float cover[kRowRoom];
-  for (int row = within.first; row <= within.last; ++row) {
-    const auto changed = std::exchange(tile.cover.changed[static_cast<std::size_t>(row)], {});
-    const int last = std::min(std::max(changed.last, within.last_column), tile.width - 1);
-    if (changed.first > last) {
-      if (changed.last >= 0) *tile.cover.at(row, tile.width) = 0.0;  // the right border's
-      continue;
-    }
-    const int first = changed.first;
+  for (std::size_t at = 0; at < coverage.rows().size(); ++at) {
+    const auto& [row, first, count, cover] = coverage.rows()[at];
     pixels.first = tile.x0 + first;
     pixels.y = tile.y0 + row;
-    pixels.count = last - first + 1;
-    sum_coverage(tile.cover.at(row, first), pixels.count, cover);
-    hn::StoreU(hn::Zero(d), d, cover + pixels.count);
-    pixels.look_at_stop(map);
+    pixels.count = count;
+    pixels.look_at_stop(stop[at], map.origin().x);
     look.look(pixels);
     float* const to = tile.pixels_at(row) + TileSums::kPixel * static_cast<std::size_t>(first);
     if constexpr (Look::kGrey) grey.set_row(row);
     const Quad in_row = multiply_add(by_row, Quad::all(static_cast<float>(row)), level);
     LevelRun run(tile, row, shade);
-    for (int k = 0; k < pixels.count; k += lanes) {
+    for (int k = 0; k < count; k += lanes) {
       const Seen seen = look.seen(k / lanes);
-      const int end = std::min(k + lanes, pixels.count);
+      const int end = std::min(k + lanes, count);
       if (seen == Seen::Level && all_covered(cover + k, end - k)) {
         run.go_on(first + k, first + end);
         continue;
@@ -236,7 +276,7 @@ void add_pixels(TileSums& tile, const Polygon& polygon, const StopMap& map, Pixe
 }
 
 void add_screened(TileSums& tile, const PolygonList& list, const Polygon& polygon) {
-  if (tile.by_pixel.empty()) 
+  if (tile.by_pixel.empty())
     tile.by_pixel.resize(TileSums::kPixel * (TileGrid::kWidth * TileGrid::kHeight + hn::MaxLanes(FloatTag())), 0.0F);
   CoverSums& cover = tile.cover;
   cover.width = tile.width;
