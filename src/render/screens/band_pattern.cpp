@@ -70,8 +70,8 @@ const BandPattern::Level& BandPattern::level_for(double width) const {
 
 float BandPattern::brightest(Vec2 middle, double distance) const {
   const double pitches = distance * 0.5 * levels_.front().side / extent_;
-  const double fit = pitches > 1.0 ? std::ceil(std::log2(pitches)) : 0.0;
-  const Level& level = levels_[std::min(static_cast<std::size_t>(fit), levels_.size() - 1)];
+  const std::size_t fit = pitches > 1.0 ? static_cast<std::size_t>(std::ilogb(pitches)) + 1 : 0;
+  const Level& level = levels_[std::min(fit, levels_.size() - 1)];
   const auto at = [&](double p) {  // the first of the two samples about there, the border's included
     return static_cast<int>(std::clamp((p / extent_ + 1.0) * 0.5 * level.side + 0.5, 0.0, level.side + 0.0));
   };
