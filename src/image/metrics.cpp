@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
+#include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -10,6 +13,7 @@ namespace contrejour {
 namespace {
 
 constexpr double kPeakQuantile = 0.999;
+constexpr std::size_t kFewOf = 64;
 
 std::vector<float> finite_samples(const Image& image) {
   std::vector<float> samples;
@@ -38,6 +42,19 @@ double ratio(double b, double a) {
   return a == 0 ? std::copysign(std::numeric_limits<double>::infinity(), b) : b / a;
 }
 
+// The value at a place of the sorted samples, and the one after it; the last stands for itself.
+std::pair<double, double> neighbours_at(std::vector<float>& samples, std::size_t place) {
+  const std::size_t from_top = samples.size() - place;
+  if (from_top <= samples.size() / kFewOf) {  // most samples take one comparison with the least of the largest
+    std::vector<float> largest(from_top);
+    std::partial_sort_copy(samples.begin(), samples.end(), largest.begin(), largest.end(), std::greater<>());
+    return {largest.back(), largest[from_top > 1 ? from_top - 2 : 0]};
+  }
+  const auto at = samples.begin() + static_cast<std::ptrdiff_t>(place);
+  std::nth_element(samples.begin(), at, samples.end());
+  return {*at, from_top > 1 ? *std::min_element(at + 1, samples.end()) : *at};
+}
+
 bool same_non_finite(float a, float b) { return (std::isnan(a) && std::isnan(b)) || a == b; }
 
 }  // namespace
@@ -46,11 +63,8 @@ double quantile_of_samples(const Image& image, double q) {
   std::vector<float> samples = finite_samples(image);
   if (samples.empty()) return 0;
   const double place = std::clamp(q, 0.0, 1.0) * static_cast<double>(samples.size() - 1);
-  const auto below = static_cast<std::ptrdiff_t>(place);
-  std::nth_element(samples.begin(), samples.begin() + below, samples.end());
-  const double low = samples[static_cast<std::size_t>(below)];
-  if (below + 1 == static_cast<std::ptrdiff_t>(samples.size())) return low;
-  const double high = *std::min_element(samples.begin() + below + 1, samples.end());
+  const auto below = static_cast<std::size_t>(place);
+  const auto [low, high] = neighbours_at(samples, below);
   return low + (place - static_cast<double>(below)) * (high - low);
 }
 

@@ -1,5 +1,8 @@
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <random>
+#include <vector>
 
 #include <doctest/doctest.h>
 
@@ -79,4 +82,27 @@ TEST_CASE("images of different size are not compared") {
   CHECK_FALSE(compare(Image(2, 3), Image(3, 2)).has_value());
   CHECK_FALSE(compare(Image(2, 2, 3), Image(2, 2, 1)).has_value());
   CHECK_FALSE(compare(Image(), Image()).has_value());
+}
+
+TEST_CASE("quantiles are those of sorted samples, near the top and elsewhere, ties and holes among them") {
+  std::mt19937 random(5);
+  for (const int count : {1, 2, 3, 63, 64, 65, 1000, 5000}) {
+    CAPTURE(count);
+    Image image(count, 1, 1);
+    std::vector<float> finite;
+    for (float& value : image.pixels) {
+      value = static_cast<float>(random() % 200U);
+      if (value == 7.0F && count > 3) value = kNan;
+      if (std::isfinite(value)) finite.push_back(value);
+    }
+    std::sort(finite.begin(), finite.end());
+    for (const double q : {0.0, 0.3, 0.5, 0.95, 0.985, 0.99, 0.999, 0.9999, 1.0}) {
+      CAPTURE(q);
+      const double place = q * static_cast<double>(finite.size() - 1);
+      const auto below = static_cast<std::size_t>(place);
+      const double high = finite[std::min(below + 1, finite.size() - 1)];
+      const double expected = finite[below] + (place - static_cast<double>(below)) * (high - finite[below]);
+      CHECK(quantile_of_samples(image, q) == expected);
+    }
+  }
 }

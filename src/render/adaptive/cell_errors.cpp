@@ -16,8 +16,9 @@ constexpr double kPixel = 1.0;       // area below which a cell is not seen but 
 constexpr double kPictureEdges = 6.0;  // that cut a cell, as long as it is, where a picture is the iris
 // Found by measuring what doubling each does to errors and to the number of cells.
 constexpr double kShadeBound = 4.0;  // the irradiance is linear over the cell in pixels, not in shares of it
-constexpr double kFoldBound = 0.5;   // of a fold's flux, that is out of place
-constexpr double kMostBend = 0.04;   // of a cell, that what cuts it may be off
+constexpr double kEdgeBound = 2.0;  // what edges are off is all seen, where levels are off by less than their bounds
+constexpr double kFoldBound = 0.5;  // of a fold's flux, that is out of place
+constexpr double kMostBend = 0.04;  // of a cell, that what cuts it may be off
 constexpr double kLeftByBend = 0.25;  // of a curve's deviation from its chord, where a corner in its middle bends it
 constexpr double kObscurationBend = 3.0;  // its edge goes on bending where that corner is: found by measuring
 // Of a cell that large, and so bright beside the peak: a plane that is farther off shows as a facet, however little it
@@ -108,7 +109,7 @@ double CellPainter::unscreened_error(const Mesh& mesh, const Cell& cell, State s
     const Vec2 a = mesh.position(cell.corner[k]);
     const Vec2 c = mesh.position(cell.corner[(k + 1) % 4]);
     const double off = left * length(mesh.position(cell.side[k]) - (a + c) * 0.5);
-    error += mean * mean * std::min(off * off, off) * length(c - a) * width * width;
+    error += kEdgeBound * mean * mean * std::min(off * off, off) * length(c - a) * width * width;
   }
   const bool varied = cell.screen.part == ScreenPart::Varied;
   if (is_dirty(mesh, cell)) error += mean * mean * shadow_error(mesh, cell) * width * width;
@@ -119,7 +120,7 @@ double CellPainter::unscreened_error(const Mesh& mesh, const Cell& cell, State s
     const double limit = limit_error(mesh, cell);
     if (limit * cell.screen.most > kMostBend)
       return std::numeric_limits<double>::infinity();  // or light would be lost unseen
-    error += along_edges(left * limit * longest, iris_.is_picture() ? kPictureEdges : 1.0);
+    error += kEdgeBound * along_edges(left * limit * longest, iris_.is_picture() ? kPictureEdges : 1.0);
   }
   if (varied && longest > kOnePlace_px && error < 4.0 * worst) {  // soft ones
     if (cell.map_error < 0.0) cell.map_error = map_error(mesh, cell, longest);

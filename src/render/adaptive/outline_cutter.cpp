@@ -108,7 +108,7 @@ void OutlineCutter::cut_by_circle(const Circle& circle) {
     double angle = std::atan2(cross(from, to), dot(from, to));
     // Only where a single side cuts the circle is a small angle backwards nearly a whole turn, not rounding.
     if (angle * turn < 0.0 && (std::abs(angle) > kSmallAngle || nearly_whole)) angle += turn * 2.0 * std::numbers::pi;
-    if (angle * turn > 0.0) add_arc(circle, std::atan2(from.y, from.x), angle);
+    if (angle * turn > 0.0) add_arc(circle, from, angle, next_[k].uv);
   }
 }
 
@@ -131,28 +131,34 @@ double OutlineCutter::step_on(const Circle& circle) const {
 
 // Corners along an arc, angles seen from the circle's centre; its ends lie on the circle and are not among them. The
 // others lie a little outside, so that the chords enclose the arc's area: (n - 2) r^2 + 2 r = n step / sin(step).
-void OutlineCutter::add_arc(const Circle& circle, double from, double angle) {
+// from: the arc's beginning, seen from the centre, at near_uv or about.
+void OutlineCutter::add_arc(const Circle& circle, Vec2 from, double angle, Vec2 near_uv) {
   const int steps = static_cast<int>(std::ceil(std::abs(angle) / step_on(circle)));
   if (steps < 2) return;
   const double step = angle / steps;
   const double excess = steps * step / std::sin(step);
   const double radius = steps == 2 ? 0.5 * excess : (std::sqrt(1.0 + (steps - 2) * excess) - 1.0) / (steps - 2);
-  for (int k = 1; k < steps; ++k) {
-    const double a = from + step * k;
-    const Vec2 place = circle.stop_from_unit(Vec2{std::cos(a), std::sin(a)} * radius);
-    if (const auto corner = corner_at_stop(circle.limit, place)) polygon_.push_back(*corner);
-  }
+  const double start = std::atan2(from.y, from.x) + step;
+  add_corners(circle, Vec2{std::cos(start), std::sin(start)} * radius, step, steps - 1, near_uv);
 }
 
 // The whole circle as a regular polygon of its area.
 void OutlineCutter::add_circle(const Circle& circle, double turn) {
   const int steps = std::max(3, static_cast<int>(std::ceil(2.0 * std::numbers::pi / step_on(circle))));
   const double step = 2.0 * std::numbers::pi / steps;
-  const double radius = std::sqrt(step / std::sin(step));
-  for (int k = 0; k < steps; ++k) {
-    const double a = turn * step * k;
-    const Vec2 place = circle.stop_from_unit(Vec2{std::cos(a), std::sin(a)} * radius);
-    if (const auto corner = corner_at_stop(circle.limit, place)) polygon_.push_back(*corner);
+  add_corners(circle, {std::sqrt(step / std::sin(step)), 0.0}, turn * step, steps, {0.5, 0.5});
+}
+
+// At so many places, each turned by a step about the circle's centre from the one before.
+void OutlineCutter::add_corners(const Circle& circle, Vec2 first, double step, int count, Vec2 near_uv) {
+  const StopSeries stop = stop_series(circle.limit);
+  const Vec2 turn{std::cos(step), std::sin(step)};
+  for (int k = 0; k < count; ++k) {
+    if (const auto uv = uv_at_stop(stop, circle.stop_from_unit(first), near_uv)) {
+      polygon_.push_back(corner_at(*uv));
+      near_uv = *uv;
+    }
+    first = {first.x * turn.x - first.y * turn.y, first.x * turn.y + first.y * turn.x};
   }
 }
 
@@ -194,36 +200,70 @@ Corner OutlineCutter::corner_at(Vec2 uv) const {
   return out;
 }
 
-// The point of the cell whose ray crosses the stop there: steps of Newton's method by the slopes of the bilinear part,
-// the map being nearly linear. None where it bends too much for them.
-std::optional<Corner> OutlineCutter::corner_at_stop(std::size_t limit, Vec2 target) const {
-  constexpr double kMiss = 0.1;  // stop radii
+Vec2 OutlineCutter::StopSeries::at(Vec2 uv) const {
+  const double u = uv.x, v = uv.y;
+  return term[0] + (term[1] + term[4] * u + term[6] * (u * v)) * u +
+         (term[2] + term[3] * u + term[5] * v + term[7] * (u * v)) * v;
+}
+
+Vec2 OutlineCutter::StopSeries::along_u(Vec2 uv) const {
+  return term[1] + term[4] * (2.0 * uv.x) + (term[3] + term[6] * (2.0 * uv.x) + term[7] * uv.y) * uv.y;
+}
+
+Vec2 OutlineCutter::StopSeries::along_v(Vec2 uv) const {
+  return term[2] + term[5] * (2.0 * uv.y) + (term[3] + term[7] * (2.0 * uv.y) + term[6] * uv.x) * uv.x;
+}
+
+// What shares_at() says, sorted by powers of u and v.
+OutlineCutter::StopSeries OutlineCutter::stop_series(std::size_t limit) const {
+  const auto stop = [&](std::size_t k) { return Vec2{whole_[k].limit[limit], whole_[k].limit[limit + 1]}; };
+  StopSeries s;
+  s.term[0] = stop(0);
+  if (whole_.size() == 3) {
+    s.term[1] = stop(1) - stop(0);
+    s.term[2] = stop(2) - stop(1);
+    return s;
+  }
   const std::size_t by = whole_.size() == kBentCorners ? 2 : 1;
-  const auto stop = [&](std::size_t k) { return Vec2{whole_[k * by].limit[limit], whole_[k * by].limit[limit + 1]}; };
+  const std::array<Vec2, 4> corner{stop(0), stop(by), stop(2 * by), stop(3 * by)};
+  if (by == 2) {  // along each side c + u (d - c) + u (u - 1) bend
+    const auto bend = [&](std::size_t a, std::size_t side, std::size_t b) {
+      return (corner[a] + corner[b] - stop(side) * 2.0) * 2.0;
+    };
+    const Vec2 at_v0 = bend(0, 1, 1), at_u1 = bend(1, 3, 2), at_v1 = bend(3, 5, 2), at_u0 = bend(0, 7, 3);
+    s.term[4] = at_v0;
+    s.term[5] = at_u0;
+    s.term[6] = at_v1 - at_v0;
+    s.term[7] = at_u1 - at_u0;
+  }
+  s.term[1] = corner[1] - corner[0] - s.term[4];
+  s.term[2] = corner[3] - corner[0] - s.term[5];
+  s.term[3] = corner[2] - corner[1] - corner[3] + corner[0] - s.term[6] - s.term[7];
+  return s;
+}
+
+// The point of the cell whose ray crosses the stop there, by Newton's method. None where the map bends too much for it.
+std::optional<Vec2> OutlineCutter::uv_at_stop(const StopSeries& stop, Vec2 target, Vec2 near_uv) const {
+  constexpr double kMiss = 0.1;  // stop radii
+  constexpr double kNear = 1e-3;  // of the cell: one step more is as good as exact
+  constexpr int kMostSteps = 4;
   const bool triangle = whole_.size() == 3;
-  const Vec2 along_u = stop(1) - stop(0);
-  const Vec2 along_v = triangle ? stop(2) - stop(1) : stop(3) - stop(0);
-  const Vec2 twist = triangle ? Vec2{} : stop(2) - stop(1) - along_v;
-  const auto missed_by = [&](Vec2 uv) {
-    const Shares share = shares_at(uv);
-    Vec2 off = target;
-    for (std::size_t k = 0; k < whole_.size(); ++k)
-      off = off - Vec2{whole_[k].limit[limit], whole_[k].limit[limit + 1]} * share[k];
-    return off;
-  };
-  Vec2 uv{0.5, 0.5};
-  for (int step = 0; step < (by == 1 ? 2 : 3); ++step) {
-    const Vec2 off = missed_by(uv);
-    const Vec2 du = along_u + twist * uv.y;
-    const Vec2 dv = along_v + twist * uv.x;
+  Vec2 uv = near_uv;
+  for (int step = 0; step < kMostSteps; ++step) {
+    const Vec2 off = target - stop.at(uv);
+    const Vec2 du = stop.along_u(uv), dv = stop.along_v(uv);
     const double determinant = cross(du, dv);
     if (determinant == 0.0) return std::nullopt;
+    const Vec2 before = uv;
     uv = uv + Vec2{cross(off, dv) / determinant, cross(du, off) / determinant};
     // An arc does not leave the cell that it was found in.
     uv = {std::clamp(uv.x, 0.0, 1.0), std::clamp(uv.y, 0.0, triangle ? uv.x : 1.0)};
+    const Vec2 moved = uv - before;
+    if (dot(moved, moved) < kNear * kNear) break;
   }
-  if (length(missed_by(uv)) > kMiss) return std::nullopt;
-  return corner_at(uv);
+  const Vec2 off = target - stop.at(uv);
+  if (!(dot(off, off) <= kMiss * kMiss)) return std::nullopt;
+  return uv;
 }
 
 std::span<const Corner> OutlineCutter::open_part(std::span<const Corner> whole, int crossings, int rims,

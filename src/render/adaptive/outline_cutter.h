@@ -54,6 +54,15 @@ class OutlineCutter {
     [[nodiscard]] Vec2 stop_from_unit(Vec2 p) const { return centre + p * radius; }
   };
 
+  // Stop coordinates of a crossing over the cell: sum of term[k] times 1, u, v, u v, u^2, v^2, u^2 v, u v^2.
+  struct StopSeries {
+    std::array<Vec2, 8> term{};
+
+    [[nodiscard]] Vec2 at(Vec2 uv) const;
+    [[nodiscard]] Vec2 along_u(Vec2 uv) const;
+    [[nodiscard]] Vec2 along_v(Vec2 uv) const;
+  };
+
   void start_with(std::span<const Corner> whole, int crossings, int rims);
   void cut_by_iris(std::size_t limit);
   void cut_by_rims(int crossings, int rims);
@@ -64,8 +73,9 @@ class OutlineCutter {
   void cut_where_positive(Value value);
   template <class Value>
   void bend_cuts(Value value);
-  void add_arc(const Circle& circle, double from, double angle);
+  void add_arc(const Circle& circle, Vec2 from, double angle, Vec2 near_uv);
   void add_circle(const Circle& circle, double turn);
+  void add_corners(const Circle& circle, Vec2 first, double step, int count, Vec2 near_uv);
   [[nodiscard]] bool is_inside(std::size_t limit, const IrisBound& half_plane) const;
   [[nodiscard]] double step_on(const Circle& circle) const;
   [[nodiscard]] bool surrounds_centre(const Circle& circle) const;
@@ -73,7 +83,8 @@ class OutlineCutter {
   using Shares = std::array<double, kBentCorners>;
   [[nodiscard]] Shares shares_at(Vec2 uv) const;
   [[nodiscard]] Corner corner_at(Vec2 uv) const;
-  [[nodiscard]] std::optional<Corner> corner_at_stop(std::size_t limit, Vec2 target) const;
+  [[nodiscard]] StopSeries stop_series(std::size_t limit) const;
+  [[nodiscard]] std::optional<Vec2> uv_at_stop(const StopSeries& stop, Vec2 target, Vec2 near_uv) const;
 
   const IrisShape& iris_;
   std::span<const Corner> whole_;

@@ -1,14 +1,49 @@
 #include "render/adaptive/tolerance.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+
+#include "render/adaptive/lobatto.h"
 
 namespace contrejour::adaptive {
 namespace {
 
 constexpr double kFitShare = 0.4;  // of the allowed error, that fits may make: theirs is the same all over a ghost
 constexpr double kNoLimit = 1e9;
+constexpr float kNearlyThrough = 1.2F;  // of the clear height
 constexpr double kPeaks = 4.0;  // fits of what is so many times brighter than the peak need be no better
+
+// The light of a sheet's image where most of it is: its level, in units of light over pixels, and its area there.
+struct Spread {
+  double level = 0.0, area_px = 1.0;
+};
+
+// pupil_light: of a mm^2 of the pupil, which lies evenly over the image of each cell between rays. Cells far outside a
+// rim do not count: the rays at a box's border may be flung anywhere.
+Spread spread_of(const RaySheet& sheet, double pupil_light, const Frame& frame) {
+  const auto n = static_cast<std::size_t>(sheet.nodes);
+  const auto points = lobatto_points(sheet.nodes);
+  const Vec2 half = (sheet.box.high - sheet.box.low) * 0.5;
+  const auto at = [&](std::size_t k) {
+    return Vec2{sheet.sensor_x_mm[k], sheet.sensor_y_mm[k]} * (1.0 / frame.pixel_pitch_mm);
+  };
+  double light = 0.0, squares = 0.0;
+  for (std::size_t cell = 0; cell + n + 1 < sheet.count(); ++cell) {
+    if (cell % n == n - 1) continue;
+    const std::array<std::size_t, 4> corners{cell, cell + 1, cell + n + 1, cell + n};
+    const auto rim = [&](std::size_t k) { return sheet.r_rel[k]; };
+    const auto [nearest, farthest] = std::ranges::minmax(corners, {}, rim);
+    if (std::isinf(rim(farthest)) || rim(nearest) > kNearlyThrough) continue;
+    const double area = 0.5 * std::abs(cross(at(corners[2]) - at(corners[0]), at(corners[3]) - at(corners[1])));
+    const double here = pupil_light * half.x * (points[cell % n + 1] - points[cell % n]) * half.y *
+                        (points[cell / n + 1] - points[cell / n]);
+    light += here;
+    squares += here * here / std::max(area, 1.0);
+  }
+  if (!(light > 0.0)) return {pupil_light * 4.0 * half.x * half.y, 1.0};
+  return {squares / light, light * light / squares};
+}
 
 }  // namespace
 
@@ -16,20 +51,10 @@ constexpr double kPeaks = 4.0;  // fits of what is so many times brighter than t
 Tolerance tolerance_for(const RaySheet& sheet, double weight, double shared_flux, const Frame& frame,
                         const ErrorBudget& budget) {
   if (!std::isfinite(budget.squared_error) || !(weight > 0.0)) return {kNoLimit, kNoLimit, kNoLimit, 0.0};
-  Vec2 low{kNoLimit, kNoLimit};
-  Vec2 high{-kNoLimit, -kNoLimit};
-  for (std::size_t k = 0; k < sheet.count(); ++k) {
-    if (std::isinf(sheet.r_rel[k])) continue;
-    const Vec2 p = Vec2{sheet.sensor_x_mm[k], sheet.sensor_y_mm[k]} * (1.0 / frame.pixel_pitch_mm);
-    low = {std::min(low.x, p.x), std::min(low.y, p.y)};
-    high = {std::max(high.x, p.x), std::max(high.y, p.y)};
-  }
-  const Vec2 size{std::max(high.x - low.x, 1.0), std::max(high.y - low.y, 1.0)};
-  const double side = std::sqrt(size.x * size.y);
-  const Vec2 pupil = sheet.box.high - sheet.box.low;
-  const double level = weight * pupil.x * pupil.y * shared_flux / (size.x * size.y);
+  const Spread spread = spread_of(sheet, weight * shared_flux, frame);
+  const double side = std::sqrt(spread.area_px);
   Tolerance t;
-  t.level = std::min(level, kPeaks * budget.peak);
+  t.level = std::min(spread.level, kPeaks * budget.peak);
   const double error = kFitShare * std::sqrt(budget.squared_error) / t.level;  // in levels, summed
   t.position_px = std::clamp(std::min(error / (2.0 * std::sqrt(side)), error / 8.0), 0.005, 0.05 * side + 0.5);
   t.stop = 2.0 * t.position_px / side;

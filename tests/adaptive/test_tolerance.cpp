@@ -1,0 +1,76 @@
+// How far fits may be off: by where a ghost's light is, not by where rays may go that nothing lets through.
+#include <cmath>
+#include <functional>
+
+#include <doctest/doctest.h>
+
+#include "render/adaptive/lobatto.h"
+#include "render/adaptive/tolerance.h"
+
+using namespace contrejour;
+using namespace contrejour::adaptive;
+
+namespace {
+
+constexpr int kNodes = 5;
+
+// Of a pupil of 2 x 2 mm about the axis, every ray through.
+RaySheet sheet_of(const std::function<Vec2(Vec2)>& sensor_mm) {
+  RaySheet sheet;
+  sheet.nodes = kNodes;
+  sheet.box = {{-1.0, -1.0}, {1.0, 1.0}};
+  const auto points = lobatto_points(kNodes);
+  for (const double y : points) {
+    for (const double x : points) {
+      const Vec2 at = sensor_mm({x, y});
+      sheet.sensor_x_mm.push_back(static_cast<float>(at.x));
+      sheet.sensor_y_mm.push_back(static_cast<float>(at.y));
+      sheet.r_rel.push_back(0.5F);
+    }
+  }
+  return sheet;
+}
+
+Frame frame_of_small_pixels() {
+  Frame frame;
+  frame.pixel_pitch_mm = 0.01;
+  return frame;
+}
+
+Tolerance of(const RaySheet& sheet) { return tolerance_for(sheet, 1e-6, 1.0, frame_of_small_pixels(), {1e-8, 1.0}); }
+
+}  // namespace
+
+TEST_CASE("an even ghost may be displaced by its squared error over twice the light along its edges") {
+  // 2 x 2 mm of the pupil over 400 x 400 pixels.
+  const Tolerance t = of(sheet_of([](Vec2 p) { return p * 2.0; }));
+  const double level = 4e-6 / (400.0 * 400.0);
+  CHECK(t.level == doctest::Approx(level).epsilon(1e-6));
+  const double error = 0.4 * 1e-4 / level;
+  CHECK(t.weight == doctest::Approx(std::min(0.5, error / 400.0)));
+  CHECK(t.position_px == doctest::Approx(std::min(error / (2.0 * 20.0), 0.05 * 400.0 + 0.5)));
+}
+
+TEST_CASE("rays that are flung far away beyond a rim loosen nothing") {
+  const auto even = [](Vec2 p) { return p * 2.0; };
+  RaySheet flung = sheet_of(even);
+  for (std::size_t k = 0; k < flung.count(); ++k) {
+    if (k % kNodes < 3) continue;
+    flung.r_rel[k] = 1.5F;
+    if (k % kNodes == 4) flung.sensor_x_mm[k] *= 1000.0F;
+  }
+  CHECK(of(flung).level == doctest::Approx(of(sheet_of(even)).level).epsilon(1e-6));
+}
+
+TEST_CASE("a ghost most of whose light gathers is held to the level there") {
+  const double level = of(sheet_of([](Vec2 p) { return p * 2.0; })).level;
+  // The left half of the pupil on a tenth of its width.
+  const Tolerance gathered = of(sheet_of([](Vec2 p) { return Vec2{p.x < 0.0 ? 0.2 * p.x : 2.0 * p.x, 2.0 * p.y}; }));
+  CHECK(gathered.level == doctest::Approx(0.5 * (1.0 + 10.0) * level).epsilon(1e-5));
+}
+
+TEST_CASE("without a limit, or without light, anything will do") {
+  const RaySheet sheet = sheet_of([](Vec2 p) { return p; });
+  CHECK(tolerance_for(sheet, 1e-6, 1.0, frame_of_small_pixels(), {HUGE_VAL, 1.0}).position_px > 1e6);
+  CHECK(tolerance_for(sheet, 0.0, 1.0, frame_of_small_pixels(), {1e-8, 1.0}).position_px > 1e6);
+}
