@@ -1,6 +1,7 @@
 // Patterns over the stop: means, reach, and several side by side.
 #include <bit>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include <doctest/doctest.h>
@@ -169,4 +170,7 @@ TEST_CASE("patterns side by side are each what they are alone") {
   CHECK(band.brightest({2.9, -2.9}, 0.05) > 0.0F);
   CHECK(band.brightest({0.0, 0.0}, 1e9) > 0.0F);
   CHECK(band.brightest({50.0, 0.0}, 0.01) >= 0.0F);
+  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();  // what rays that go astray may say
+  CHECK(band.brightest({kNone, kNone}, 0.01) >= 0.0F);
+  CHECK(band.brightest({0.0, -0.1}, kNone) > 0.0F);
 }

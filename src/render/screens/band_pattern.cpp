@@ -73,7 +73,8 @@ float BandPattern::brightest(Vec2 middle, double distance) const {
   const std::size_t fit = pitches > 1.0 ? static_cast<std::size_t>(std::ilogb(pitches)) + 1 : 0;
   const Level& level = levels_[std::min(fit, levels_.size() - 1)];
   const auto at = [&](double p) {  // the first of the two samples about there, the border's included
-    return static_cast<int>(std::clamp((p / extent_ + 1.0) * 0.5 * level.side + 0.5, 0.0, level.side + 0.0));
+    const double place = (p / extent_ + 1.0) * 0.5 * level.side + 0.5;
+    return place > 0.0 ? static_cast<int>(std::min(place, level.side + 0.0)) : 0;  // 0 as well if that is no number
   };
   const int x = at(middle.x), y = at(-middle.y);
   float most = 0.0F;
