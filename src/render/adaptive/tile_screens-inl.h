@@ -13,6 +13,7 @@
 #include <cmath>
 #include <cstdint>
 #include <span>
+#include <type_traits>
 #include <utility>
 
 #include "render/adaptive/quad-inl.h"
@@ -109,7 +110,33 @@ class LevelRun {
   int first_ = -1, end_ = -1;
 };
 
-// One value a pixel times a polygon's irradiance, whole vectors of pixels at once.
+// A polygon's irradiance times what passes, pixel by pixel.
+class QuadLight {
+ public:
+  explicit QuadLight(const RowShade& shade)
+      : level_(quad(shade.level)), slope_(quad(shade.level + TileSums::kPixel)), by_row_(quad(shade.by_row)),
+        in_row_(level_) {}
+  void set_row(int row) { in_row_ = multiply_add(by_row_, Quad::all(static_cast<float>(row)), level_); }
+
+  // Adds pixels k to `end` of a row to `to`, which is pixel k; `column` is its column.
+  template <class Look>
+  HWY_INLINE void add(const Look& look, const float* cover, int k, int end, int column, float* to) const {
+    for (; k < end; ++k, ++column, to += TileSums::kPixel) {
+      const Quad irradiance = multiply_add(slope_, Quad::all(static_cast<float>(column)), in_row_);
+      multiply_add(Quad::all(cover[k]) * irradiance, look.passed(k), Quad::load(to)).store(to);
+    }
+  }
+
+ private:
+  static Quad quad(const double* from) {
+    float v[TileSums::kPixel];
+    for (std::size_t c = 0; c < TileSums::kPixel; ++c) v[c] = static_cast<float>(from[c]);
+    return Quad::load(v);
+  }
+  Quad level_, slope_, by_row_, in_row_;
+};
+
+// The same where one value serves all channels: whole vectors of pixels at once, which have nothing beyond the row.
 class GreyLight {
  public:
   explicit GreyLight(const RowShade& shade) {
@@ -124,7 +151,12 @@ class GreyLight {
     for (std::size_t k = 0; k < kLanes; ++k) in_row_[k] = level_[k] + by_row_[k] * static_cast<float>(row);
   }
 
-  // to: the pixels from `column` on, as many as a vector has lanes.
+  template <class Look>
+  HWY_INLINE void add(const Look& look, const float* cover, int k, int /*end*/, int column, float* to) const {
+    add(hn::Mul(hn::Load(FloatTag(), cover + k), look.passed(k)), column, to);
+  }
+
+ private:
   HWY_INLINE void add(hn::Vec<FloatTag> passed, int column, float* to) const {
 #if HWY_TARGET == HWY_SCALAR
     for (std::size_t c = 0; c < TileSums::kPixel; ++c)
@@ -149,7 +181,6 @@ class GreyLight {
 #endif
   }
 
- private:
   static constexpr std::size_t kLanes = std::max<std::size_t>(hn::MaxLanes(FloatTag()), TileSums::kPixel);
   HWY_ALIGN float level_[kLanes], slope_[kLanes], by_row_[kLanes], in_row_[kLanes];
 };
@@ -217,61 +248,50 @@ class Coverage {
   std::size_t count_ = 0;
 };
 
+// A row's pixels, as `look` finds them.
+template <class Look, class Light>
+HWY_INLINE void add_row(TileSums& tile, const CoveredRow& r, const RowShade& shade, const Look& look,
+                        const Light& light) {
+  const int lanes = static_cast<int>(hn::Lanes(FloatTag()));
+  float* const to = tile.pixels_at(r.row) + TileSums::kPixel * static_cast<std::size_t>(r.first);
+  LevelRun run(tile, r.row, shade);
+  for (int k = 0; k < r.count; k += lanes) {
+    const Seen seen = look.seen(k / lanes);
+    const int end = std::min(k + lanes, r.count);
+    if (seen == Seen::Level && all_covered(r.cover + k, end - k)) {
+      run.go_on(r.first + k, r.first + end);
+      continue;
+    }
+    run.stop();
+    if (seen == Seen::Dark) continue;
+    tile.light(r.row, r.first + k, r.first + end - 1);
+    light.add(look, r.cover, k, end, r.first + k, to + TileSums::kPixel * static_cast<std::size_t>(k));
+  }
+  run.stop();
+}
+
 template <class Look>
 void add_pixels(TileSums& tile, const Polygon& polygon, const StopMap& map, const PixelRows& within, Look& look) {
   const Coverage coverage(tile, within);
+  const auto rows = coverage.rows();
   std::array<StopMap::Row, TileGrid::kHeight> stop;
-  for (std::size_t k = 0; k < coverage.rows().size(); ++k) {
-    const CoveredRow& r = coverage.rows()[k];
-    stop[k] = map.row(tile.y0 + r.row + 0.5);
-    const auto first = static_cast<float>(tile.x0 + r.first + 0.5 - map.origin().x);
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    stop[k] = map.row(tile.y0 + rows[k].row + 0.5);
+    const auto first = static_cast<float>(tile.x0 + rows[k].first + 0.5 - map.origin().x);
     if constexpr (requires { look.fetch(stop[k], first, first); })
-      look.fetch(stop[k], first, first + static_cast<float>(r.count - 1));
+      look.fetch(stop[k], first, first + static_cast<float>(rows[k].count - 1));
   }
   const RowShade shade = row_shade(polygon.shade, tile);
-  const auto quad = [](const double* from) {
-    float v[TileSums::kPixel];
-    for (std::size_t c = 0; c < TileSums::kPixel; ++c) v[c] = static_cast<float>(from[c]);
-    return Quad::load(v);
-  };
-  const Quad level = quad(shade.level), slope = quad(shade.level + TileSums::kPixel), by_row = quad(shade.by_row);
-  GreyLight grey(shade);
-  const FloatTag d;
-  const int lanes = static_cast<int>(hn::Lanes(d));
+  std::conditional_t<Look::kGrey, GreyLight, QuadLight> light(shade);
   PixelRow pixels;
-  for (std::size_t at = 0; at < coverage.rows().size(); ++at) {
-    const auto& [row, first, count, cover] = coverage.rows()[at];
-    pixels.first = tile.x0 + first;
-    pixels.y = tile.y0 + row;
-    pixels.count = count;
-    pixels.look_at_stop(stop[at], map.origin().x);
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    pixels.first = tile.x0 + rows[k].first;
+    pixels.y = tile.y0 + rows[k].row;
+    pixels.count = rows[k].count;
+    pixels.look_at_stop(stop[k], map.origin().x);
     look.look(pixels);
-    float* const to = tile.pixels_at(row) + TileSums::kPixel * static_cast<std::size_t>(first);
-    if constexpr (Look::kGrey) grey.set_row(row);
-    const Quad in_row = multiply_add(by_row, Quad::all(static_cast<float>(row)), level);
-    LevelRun run(tile, row, shade);
-    for (int k = 0; k < count; k += lanes) {
-      const Seen seen = look.seen(k / lanes);
-      const int end = std::min(k + lanes, count);
-      if (seen == Seen::Level && all_covered(cover + k, end - k)) {
-        run.go_on(first + k, first + end);
-        continue;
-      }
-      run.stop();
-      if (seen == Seen::Dark) continue;
-      tile.light(row, first + k, first + end - 1);
-      if constexpr (Look::kGrey) {  // to whole vectors: nothing to pixels from `count` on
-        const auto passed = hn::Mul(hn::Load(d, cover + k), look.passed(k));
-        grey.add(passed, first + k, to + TileSums::kPixel * static_cast<std::size_t>(k));
-      } else {
-        for (int j = k; j < end; ++j) {
-          const Quad irradiance = multiply_add(slope, Quad::all(static_cast<float>(first + j)), in_row);
-          float* const pixel = to + TileSums::kPixel * static_cast<std::size_t>(j);
-          multiply_add(Quad::all(cover[j]) * irradiance, look.passed(j), Quad::load(pixel)).store(pixel);
-        }
-      }
-    }
-    run.stop();
+    light.set_row(rows[k].row);
+    add_row(tile, rows[k], shade, look, light);
   }
 }
 
