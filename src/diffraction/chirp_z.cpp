@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "base/tasks.h"
+#include "diffraction/complex_product.h"
 #include "diffraction/fft.h"
 
 namespace contrejour {
@@ -53,12 +54,14 @@ ChirpZ::Row ChirpZ::transform_transposed(std::span<const std::complex<double>> d
     const std::size_t first = block * kRowsAtOnce, count = std::min(kRowsAtOnce, rows - first);
     Row work(count * length_);
     for (std::size_t r = 0; r < count; ++r)
-      for (std::size_t j = 0; j < from_; ++j) work[r * length_ + j] = data[(first + r) * from_ + j] * before_[j];
+      for (std::size_t j = 0; j < from_; ++j)
+        work[r * length_ + j] = product(data[(first + r) * from_ + j], before_[j]);
     fft_rows<double>(work, {count, length_}, FftDirection::Forward);
-    for (std::size_t i = 0; i < work.size(); ++i) work[i] *= kernel_[i % length_];
+    for (std::size_t r = 0; r < count; ++r)
+      for (std::size_t i = 0; i < length_; ++i) work[r * length_ + i] = product(work[r * length_ + i], kernel_[i]);
     fft_rows<double>(work, {count, length_}, FftDirection::Backward);
     for (std::size_t k = 0; k < to_; ++k)
-      for (std::size_t r = 0; r < count; ++r) result[k * rows + first + r] = work[r * length_ + k] * after_[k];
+      for (std::size_t r = 0; r < count; ++r) result[k * rows + first + r] = product(work[r * length_ + k], after_[k]);
   });
   return result;
 }

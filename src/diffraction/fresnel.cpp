@@ -8,6 +8,7 @@
 
 #include "base/units.h"
 #include "diffraction/chirp_z.h"
+#include "diffraction/complex_product.h"
 #include "diffraction/fft.h"
 #include "diffraction/fresnel_methods.h"
 
@@ -74,10 +75,15 @@ std::vector<double> fresnel_near(const PupilMask& mask, double stop_radius_mm, d
     transfer[k] = fade(f, limit) * std::polar(1.0, -kPi * f * f / fresnel_number - 2.0 * kPi * f * start);
   }
   Wave spectrum(wave.size());
-  for (std::size_t r = 0; r < padded; ++r)
-    for (std::size_t c = 0; c < padded; ++c)
-      spectrum[r * padded + c] =
-          wave[(r + padded - half) % padded * padded + (c + padded - half) % padded] * transfer[r] * transfer[c];
+  for (std::size_t r = 0; r < padded; ++r) {
+    const std::complex<double>* const from = &wave[(r + padded - half) % padded * padded];
+    std::complex<double>* const to = &spectrum[r * padded];
+    const auto move = [&](std::size_t c, std::size_t at) {
+      to[c] = product(from[at], product(transfer[r], transfer[c]));
+    };
+    for (std::size_t c = 0; c < half; ++c) move(c, c + padded - half);
+    for (std::size_t c = half; c < padded; ++c) move(c, c - half);
+  }
 
   // Back at the pattern's places: exp(+2 pi i f x) is the chirp transform to -x.
   const RegularPoints places = pattern_points(side, extent);
@@ -99,7 +105,8 @@ std::vector<double> fresnel_far(const PupilMask& mask, double stop_radius_mm, do
   }
   Wave wave(square(samples));
   for (std::size_t r = 0; r < samples; ++r)
-    for (std::size_t c = 0; c < samples; ++c) wave[r * samples + c] = mask.at(r * samples + c) * chirp[r] * chirp[c];
+    for (std::size_t c = 0; c < samples; ++c)
+      wave[r * samples + c] = product(product(mask.at(r * samples + c), chirp[r]), chirp[c]);
   const ChirpZ transform(from, {places.count, fresnel_number * places.first, fresnel_number * places.step});
   const double amplitude = fresnel_number * pitch * pitch;
   return intensities(transform.transform_2d(wave, context), amplitude * amplitude);

@@ -22,6 +22,7 @@ constexpr double kReadFinelyWithin = 16.0;  // pixels: farther out a pixel's mid
 constexpr int kPatchHalf = 10;  // pixels on each side of the centre's that the laid part can reach
 constexpr int kPatchSide = 2 * kPatchHalf + 1;
 constexpr int kPiecesPerAngle = 4;
+constexpr std::size_t kParts = 4;  // that rows are laid in side by side, whatever the number of threads
 
 double read_share(double r_px) {
   const double t = std::clamp((r_px - kLaidWithin) / (kReadFrom - kLaidWithin), 0.0, 1.0);
@@ -41,12 +42,24 @@ class CentrePatch {
     top_ = static_cast<int>(std::floor(centre_px.y)) - kPatchHalf;
   }
 
-  void lay_all(const StarburstRings& rings) {
-    lay_disc(rings);
+  void lay_all(const StarburstRings& rings, const Context& context) {
+    Context quiet = context;
+    quiet.progress = {};
+    std::vector<Octave> octaves;
     for (std::size_t o = 0; o < rings.octaves.size(); ++o) {
-      const double first = rings.first_px * std::exp2(static_cast<double>(o));
-      if (first < kReadFrom) lay_octave(rings.octaves[o], first);
+      const double first_px = rings.first_px * std::exp2(static_cast<double>(o));
+      if (first_px < kReadFrom) octaves.push_back({&rings.octaves[o], first_px, {}});
     }
+    parallel_for(octaves.size(), quiet, [&](std::size_t k) { octaves[k].find_directions(); });
+    std::vector<CentrePatch> parts(kParts, *this);
+    parallel_for(kParts, quiet, [&](std::size_t part) {
+      if (part == 0) parts[part].lay_disc(rings);
+      for (const Octave& octave : octaves)
+        for (std::size_t row = part; row < kRowsPerOctave; row += kParts) parts[part].lay_row(octave, row);
+    });
+    for (const CentrePatch& part : parts)
+      for (std::size_t k = 0; k < sum_.size(); ++k)
+        for (std::size_t c = 0; c < 3; ++c) sum_[k][c] += part.sum_[k][c];
   }
 
   [[nodiscard]] const std::array<double, 3>& flux(std::size_t x, std::size_t y) const {
@@ -66,6 +79,20 @@ class CentrePatch {
   }
 
  private:
+  struct Octave {
+    const StarburstOctave* octave;
+    double first_px;
+    std::vector<Vec2> direction;  // of its pieces
+
+    void find_directions() {
+      const double step = kPi / static_cast<double>(octave->angles) / kPiecesPerAngle;
+      for (std::size_t i = 0; i < octave->angles * kPiecesPerAngle; ++i) {
+        const double angle = (static_cast<double>(i) + 0.5) * step - 0.5 * kPi;
+        direction.push_back({std::cos(angle), -std::sin(angle)});
+      }
+    }
+  };
+
   // Half the flux at an offset (pixels) and half at its opposite, each over a square this wide.
   void lay(Vec2 offset_px, double width_px, const std::array<double, 3>& flux) {
     const Vec2 offset = offset_px * (1.0 / cell_px_);
@@ -98,22 +125,18 @@ class CentrePatch {
   }
 
   // Each row and direction stands for its share of the ring between the rows half-way to its neighbours.
-  void lay_octave(const StarburstOctave& octave, double first_px) {
-    const double step = kPi / static_cast<double>(octave.angles);
+  void lay_row(const Octave& of, std::size_t row) {
+    const double r = of.first_px * std::exp2(static_cast<double>(row) / kRowsPerOctave);
+    const double laid = 1.0 - read_share(r);
+    if (laid <= 0.0) return;
+    const double step = kPi / static_cast<double>(of.octave->angles);
     const double half_row = std::exp2(0.5 / kRowsPerOctave);
-    for (std::size_t row = 0; row < kRowsPerOctave; ++row) {
-      const double r = first_px * std::exp2(static_cast<double>(row) / kRowsPerOctave);
-      const double laid = 1.0 - read_share(r);
-      if (laid <= 0.0) return;
-      const double inner = r / half_row, outer = r * half_row;
-      const double area = step * (outer * outer - inner * inner) / kPiecesPerAngle;  // both halves of the turn
-      const double width = std::max(outer - inner, r * step / kPiecesPerAngle);
-      for (std::size_t i = 0; i < octave.angles * kPiecesPerAngle; ++i) {
-        const double angle = (static_cast<double>(i) + 0.5) * step / kPiecesPerAngle - 0.5 * kPi;
-        const float* const rgb = octave.at(row, i / kPiecesPerAngle);
-        lay(Vec2{std::cos(angle), -std::sin(angle)} * r, width,
-            {laid * area * rgb[0], laid * area * rgb[1], laid * area * rgb[2]});
-      }
+    const double inner = r / half_row, outer = r * half_row;
+    const double area = step * (outer * outer - inner * inner) / kPiecesPerAngle;  // both halves of the turn
+    const double width = std::max(outer - inner, r * step / kPiecesPerAngle);
+    for (std::size_t i = 0; i < of.direction.size(); ++i) {
+      const float* const rgb = of.octave->at(row, i / kPiecesPerAngle);
+      lay(of.direction[i] * r, width, {laid * area * rgb[0], laid * area * rgb[1], laid * area * rgb[2]});
     }
   }
 
@@ -126,17 +149,17 @@ class CentrePatch {
 
 }  // namespace
 
-void paint_core(Image& image, const StarburstRings& rings, Vec2 centre_px, const Rgb& flux) {
+void paint_core(Image& image, const StarburstRings& rings, Vec2 centre_px, const Rgb& flux, const Context& context) {
   CentrePatch patch(centre_px);
-  patch.lay_all(rings);
+  patch.lay_all(rings, context);
   patch.add_to(image, flux);
 }
 
-std::vector<double> core_flux(const StarburstRings& rings) {
+std::vector<double> core_flux(const StarburstRings& rings, const Context& context) {
   constexpr auto kSide = static_cast<std::size_t>(kCoreCells);
   // Cells of the patch are pixels there: the same rings with pixels a kCellsPerPixel-th as wide.
   CentrePatch patch({0.5 * kCoreCells, 0.5 * kCoreCells}, kCoreCells, 1.0 / kCellsPerPixel);
-  patch.lay_all(rings);
+  patch.lay_all(rings, context);
   std::vector<double> below((kSide + 1) * (kSide + 1) * 3);
   const auto at = [&](std::size_t x, std::size_t y, std::size_t c) -> double& {
     return below[(y * (kSide + 1) + x) * 3 + c];
@@ -176,7 +199,7 @@ void add_starburst(Image& image, const Starburst& starburst, Vec2 centre_px, con
   assert(image.channels == 3);
   if (starburst.rings() == nullptr || !is_drawable(centre_px)) return;
   const StarburstRings& rings = *starburst.rings();
-  paint_core(image, rings, centre_px, flux);
+  paint_core(image, rings, centre_px, flux, context);
   const auto width = static_cast<std::size_t>(image.width);
   const std::array<float, 3> scale{static_cast<float>(flux[0]), static_cast<float>(flux[1]),
                                    static_cast<float>(flux[2])};

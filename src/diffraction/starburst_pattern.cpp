@@ -23,9 +23,12 @@ constexpr int kModelPlaces = 6;  // and what it is compared with is smooth
 constexpr double kLeastGrain = 0.25, kMostGrain = 4.0;  // of the shapes' sum, where they interfere
 constexpr int kRowsPerStep = 4;  // between which the tail times rho^3 is interpolated
 
+Vec2 along_angle(double angle_rad) { return {std::cos(angle_rad), std::sin(angle_rad)}; }
+
 // Directions about one, and radii along each.
 struct Sector {
   double angle_rad, window_rad;
+  Vec2 along;  // the one direction
   int across, down;
 };
 
@@ -35,9 +38,10 @@ template <class Radius, class Value>
 double sector_mean(const Sector& sector, Radius radius, Value value) {
   double sum = 0.0;
   for (int j = 0; j < sector.across; ++j) {
-    const double angle = sector.angle_rad + sector.window_rad * ((j + 0.5) / sector.across - 0.5);
-    double x = std::cos(angle), y = std::sin(angle);
-    if (x < 0.0) x = -x, y = -y;
+    Vec2 along = sector.along;
+    if (sector.across > 1)
+      along = along_angle(sector.angle_rad + sector.window_rad * ((j + 0.5) / sector.across - 0.5));
+    const auto [x, y] = along.x < 0.0 ? along * -1.0 : along;
     for (int i = 0; i < sector.down; ++i) {
       const double rho = radius((i + 0.5) / sector.down);
       sum += value(rho, rho * x, rho * y);
@@ -130,11 +134,12 @@ void StarburstPattern::sample(double angle_rad, double window_rad, double first_
                               std::size_t stride) const {
   const bool needs_tail = first_rho * row_ratio(rows) > tail_start_;
   const Tail tail = needs_tail ? tail_along(angle_rad, window_rad) : Tail();
+  const Vec2 along = along_angle(angle_rad);
+  const double step = row_ratio(1.0);
   int row = 0;
-  for (; row < rows; ++row) {
-    const double rho = first_rho * row_ratio(row);
+  for (double rho = first_rho; row < rows; ++row, rho *= step) {
     if (rho >= tail_end_) break;
-    double value = spectrum_average(angle_rad, window_rad, rho);
+    double value = spectrum_average(angle_rad, along, window_rad, rho);
     const double t = (rho - tail_start_) / (tail_end_ - tail_start_);
     if (t > 0.0) value += t * (tail.times_rho3(rho) / (rho * rho * rho) - value);
     out[static_cast<std::size_t>(row) * stride] = static_cast<float>(value);
@@ -143,8 +148,8 @@ void StarburstPattern::sample(double angle_rad, double window_rad, double first_
   double here = tail.times_rho3(first_rho * row_ratio(row));
   for (; row < rows; row += kRowsPerStep) {
     const double next = tail.times_rho3(first_rho * row_ratio(row + kRowsPerStep));
-    for (int i = 0; i < std::min(kRowsPerStep, rows - row); ++i) {
-      const double rho = first_rho * row_ratio(row + i);
+    double rho = first_rho * row_ratio(row);
+    for (int i = 0; i < std::min(kRowsPerStep, rows - row); ++i, rho *= step) {
       const double value = here + (next - here) * i / kRowsPerStep;
       out[static_cast<std::size_t>(row + i) * stride] = static_cast<float>(value / (rho * rho * rho));
     }
@@ -199,7 +204,8 @@ StarburstPattern::Tail StarburstPattern::tail_along(double angle_rad, double win
   double sum = 0.0;
   int count = 0;
   for (double rho = tail_end_; rho > kScatteredFrom * tail_end_; rho /= row_ratio(1.0), ++count)
-    sum += spectrum_average(angle_rad, window_rad, rho) * rho * rho * rho - tail.times_rho3(rho);
+    sum +=
+        spectrum_average(angle_rad, along_angle(angle_rad), window_rad, rho) * rho * rho * rho - tail.times_rho3(rho);
   tail.scattered = std::max(0.0, sum / count);
   return tail;
 }
@@ -210,7 +216,8 @@ double StarburstPattern::grain_along(double angle_rad, double window_rad, const 
   const int across = std::max(1, static_cast<int>(std::ceil(tail_end_ * window_rad / kSampleRho)));
   const int down = std::max(1, static_cast<int>(length / kGrainRho));
   double sum = sector_mean(
-      {angle_rad, window_rad, across, down}, [&](double share) { return from + length * share; },
+      {angle_rad, window_rad, along_angle(angle_rad), across, down},
+      [&](double share) { return from + length * share; },
       [&](double rho, double x, double y) { return grid_.density(x, y) * rho * rho * rho; });
   double of_dirt = 0.0;
   for (int i = 0; i < kModelPlaces; ++i) {
@@ -221,12 +228,13 @@ double StarburstPattern::grain_along(double angle_rad, double window_rad, const 
   return of_dirt > 0.0 ? std::clamp(sum / of_dirt, kLeastGrain, kMostGrain) : 1.0;
 }
 
-double StarburstPattern::spectrum_average(double angle_rad, double window_rad, double rho) const {
-  const double height = rho * (row_ratio(1.0) - 1.0), width = rho * window_rad;
+double StarburstPattern::spectrum_average(double angle_rad, Vec2 along, double window_rad, double rho) const {
+  static const double kHeight = row_ratio(1.0) - 1.0;
+  const double height = rho * kHeight, width = rho * window_rad;
   const int down = std::max(1, static_cast<int>(std::ceil(height / kSampleRho)));
   const int across = std::max(1, static_cast<int>(std::ceil(width / kSampleRho)));
   return sector_mean(
-      {angle_rad, window_rad, across, down},
+      {angle_rad, window_rad, along, across, down},
       [&](double share) { return std::min(rho + height * (share - 0.5), grid_.up_to()); },
       [&](double, double x, double y) { return grid_.density(x, y); });
 }

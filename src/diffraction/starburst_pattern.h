@@ -41,7 +41,7 @@ class StarburstPattern {
   void add_edges(double angle_rad, double window_rad, Tail& tail) const;
   void add_dirt(double angle_rad, double window_rad, Tail& tail) const;
   [[nodiscard]] double grain_along(double angle_rad, double window_rad, const Tail& edges, const Tail& dirt) const;
-  [[nodiscard]] double spectrum_average(double angle_rad, double window_rad, double rho) const;
+  [[nodiscard]] double spectrum_average(double angle_rad, Vec2 along, double window_rad, double rho) const;
 
   double across_, power_mm2_;
   bool clean_;  // nothing dims the mask but its outline

@@ -124,7 +124,7 @@ Result<StarburstSheet> lay_out(const Starburst& starburst, int width, int height
   samples->starburst = starburst;
   samples->reach_x = width + 1;
   samples->reach_y = height + 1;
-  samples->core = core_flux(*starburst.rings());
+  samples->core = core_flux(*starburst.rings(), context);
   const std::size_t row_size = samples->row_size();
   samples->rgb.resize(row_size * (static_cast<std::size_t>(samples->reach_y) + 1));
   const bool done = parallel_for(static_cast<std::size_t>(samples->reach_y) + 1, context, [&](std::size_t row) {

@@ -1,5 +1,7 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <memory>
 #include <numbers>
 #include <random>
 
@@ -8,6 +10,7 @@
 #include "adaptive/scene.h"
 #include "render/adaptive/cell_painter.h"
 #include "render/adaptive/lobatto.h"
+#include "render/screens/iris_screens.h"
 
 using namespace contrejour;
 using namespace contrejour::adaptive;
@@ -308,4 +311,44 @@ TEST_CASE("a ghost within a pixel, or thinner than one, keeps its light") {
   // Ought to be 1 per cent. Measured: 5.2 without rims, all above 1 in round irises and patches of 17 nodes; 1.9 with.
   CHECK(most_off_of_specks(false) < 0.06);
   CHECK(most_off_of_specks(true) < 0.03);
+}
+
+TEST_CASE("light behind a screen that is too dim for its ripples to matter is drawn as its mean, and all of it") {
+  constexpr int kSide = 128;
+  constexpr double kExtent = 1.6;
+  std::vector<float> samples;  // a bell with ripples
+  for (int row = 0; row < kSide; ++row)
+    for (int column = 0; column < kSide; ++column) {
+      const double x = (column + 0.5) * 2.0 / kSide - 1.0, y = (row + 0.5) * 2.0 / kSide - 1.0;
+      samples.push_back(static_cast<float>(std::exp(-4.0 * (x * x + y * y)) * (1.0 + 0.3 * std::cos(50.0 * x))));
+    }
+  const auto texture = std::make_shared<const screens::PatternTexture>(kSide, kExtent, samples);
+  const auto band = std::make_shared<BandScreen>();
+  band->parts.push_back(
+      {std::make_shared<const screens::TextureScreen>(std::make_shared<const IrisShape>(Iris{}), texture),
+       {1.0F, 1.0F, 1.0F}});
+  band->pattern = std::make_shared<const screens::BandPattern>(std::array{texture.get()});
+  band->hull = texture->hull_above(1e-6, 0.0);
+
+  AffineGhost ghost;
+  ghost.pixels = {{90.0, 11.0}, {-8.0, 70.0}, {160.0, 100.0}};
+  ghost.stops = {{{1.5, 0.1}, {0.0, 1.5}, {0.05, 0.0}}};
+  const double level = 2.0 * ghost.flux / (4.0 * ghost.pixels.determinant());
+  const auto behind = [&](double unseen) {
+    band->unseen = unseen;
+    PolygonList list;
+    const IrisShape iris{Iris{}};
+    CellPainter painter(iris, frame_px(), 1e-4 * level * level, 64.0, level, list);
+    painter.stand_behind(band, 1.0);
+    painter.paint(ghost.patch());
+    return list;
+  };
+  const PolygonList looked_up = behind(0.0), means = behind(0.03 * level), bright = behind(1e-3 * level);
+  CHECK_FALSE(looked_up.screened.empty());
+  CHECK_FALSE(bright.screened.empty());
+  CHECK(means.screened.empty());
+  REQUIRE_FALSE(means.polygons.empty());
+  const double flux = test::sum_of_channel(test::drawn(looked_up, kWidth, kHeight), 1);
+  CHECK(flux < 0.5 * ghost.flux);
+  CHECK(flux_of(means, 1) == doctest::Approx(flux).epsilon(0.03));
 }

@@ -81,7 +81,8 @@ std::shared_ptr<BandScreen> grey(std::shared_ptr<BandScreen> band) {
 }
 
 double entry_of(const EdgeTable& table, std::size_t k, std::size_t channel) {
-  return static_cast<double>(table.entries()[table.stride() * k + std::min(channel, table.stride() - 1)]);
+  return static_cast<double>(table.is_grey() ? table.coding().light(table.coded()[k])
+                                             : table.entries()[EdgeTable::kStride * k + channel]);
 }
 
 // By the entries of the table, one edge after the other.
@@ -169,7 +170,7 @@ TEST_CASE("patterns: each wavelength's own, in its part of the channels") {
   SUBCASE("several") {}
   SUBCASE("one") { alone = true; }
   const auto band = alone ? grey(patterns(iris)) : patterns(iris);
-  CHECK(band->pattern->stride() == (alone ? 1 : screens::BandPattern::kStride));
+  CHECK(band->pattern->of_one() == alone);
   const auto screened = [&](PolygonList&, Vec2 middle, double size) {
     return std::pair(Screened{StopMap(pixels_about(middle, size), std::array{stop_about(size)}, 0.2), band.get()},
                      std::vector<std::uint16_t>{});
@@ -178,7 +179,8 @@ TEST_CASE("patterns: each wavelength's own, in its part of the channels") {
   const auto sample = [&](int column, int row, std::size_t part) {
     if (column < 0 || row < 0 || column >= samples.side || row >= samples.side) return 0.0;
     const auto at = static_cast<std::size_t>((row + 1) * samples.pitch() + column + 1);
-    return static_cast<double>(samples.samples[band->pattern->stride() * at + part]);
+    return static_cast<double>(alone ? samples.coding.light(samples.coded[at])
+                                     : samples.samples[screens::BandPattern::kStride * at + part]);
   };
   const auto share = [&](const Polygon&, Vec2 at) {
     const double scale = 0.5 * samples.side / band->pattern->extent();

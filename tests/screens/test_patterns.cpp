@@ -1,10 +1,13 @@
 // Patterns over the stop: means, reach, and several side by side.
+#include <bit>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include <doctest/doctest.h>
 
 #include "render/screens/band_pattern.h"
+#include "render/screens/resampled.h"
 
 using namespace contrejour;
 using namespace contrejour::screens;
@@ -81,6 +84,68 @@ TEST_CASE("lines about a pattern: all that is bright is within them, and little 
   CHECK_FALSE(both.misses({-1.85, 0.0}, 0.0));
 }
 
+TEST_CASE("a picture on another grid is what the texture says there") {
+  std::vector<float> waves;
+  for (int row = 0; row < 48; ++row)
+    for (int column = 0; column < 48; ++column)
+      waves.push_back(static_cast<float>(2.0 + std::sin(0.7 * column) * std::cos(0.9 * row) + 0.01 * row));
+  const PatternTexture texture(48, 1.3, waves);
+  for (const auto& [side, extent] : {std::pair{48, 1.3}, std::pair{37, 1.1}, std::pair{64, 1.9}}) {
+    const auto out = resampled({48, 1.3, waves}, side, extent);
+    REQUIRE(out.size() == static_cast<std::size_t>(side * side));
+    double worst = 0.0;
+    for (int row = 0; row < side; ++row)
+      for (int column = 0; column < side; ++column) {
+        const Vec2 p{(column + 0.5) * 2.0 * extent / side - extent, extent - (row + 0.5) * 2.0 * extent / side};
+        const double value = static_cast<double>(out[static_cast<std::size_t>(row * side + column)]);
+        worst = std::max(worst, std::abs(value - texture.at(p, 0.0)));
+      }
+    CHECK(worst < 2e-5);
+  }
+}
+
+TEST_CASE("light in 16 bits: to 2^-13 of itself and of a 2^-15 of the largest, and nothing is nothing") {
+  for (const float largest : {1.0F, 3.999F, 4.0F, 1e5F, 3e-9F}) {
+    const ShortLight coding(largest);
+    CHECK(static_cast<double>(coding.none()) <= 0x1.001p-15 * 1.0005 * static_cast<double>(largest));
+    CHECK(coding.light(0) == 0.0F);
+    CHECK(coding.coded(0.0F) == 0);
+    CHECK(coding.coded(-largest) == 0);
+    double worst = 0.0;
+    for (int k = 0; k <= 4000; ++k) {
+      const float light = largest * std::exp2(-0.005F * static_cast<float>(k));
+      const double error = static_cast<double>(coding.light(coding.coded(light))) - static_cast<double>(light);
+      worst = std::max(worst, std::abs(error) / static_cast<double>(light + coding.none()));
+      // What a table is read by: the bits, moved and raised.
+      const std::int32_t bits = (coding.coded(light) << ShortLight::kShift) + coding.lowest();
+      REQUIRE(std::bit_cast<float>(bits) - coding.none() == coding.light(coding.coded(light)));
+    }
+    CHECK(worst < 0x1.01p-13);
+    CHECK(worst > 0x1p-14);  // the mantissa is not wasted
+  }
+  CHECK(ShortLight(0.0F).light(ShortLight(0.0F).coded(0.0F)) == 0.0F);
+}
+
+TEST_CASE("a pattern of one wavelength is the texture's, coded") {
+  std::vector<float> ramp;
+  for (int row = 0; row < 96; ++row)
+    for (int column = 0; column < 96; ++column) ramp.push_back(static_cast<float>(0.02 * column * row));
+  const PatternTexture texture(96, 1.5, ramp);
+  const BandPattern band(std::array{&texture});
+  CHECK(band.of_one());
+  const auto& level = band.level_for(0.0);
+  REQUIRE(level.coded.size() == 98 * 98);
+  CHECK(level.samples.empty());
+  for (const int row : {0, 20, 95})
+    for (const int column : {0, 48, 95}) {
+      const auto at = static_cast<std::size_t>((row + 1) * level.pitch() + column + 1);
+      const double sample = static_cast<double>(ramp[static_cast<std::size_t>(96 * row + column)]);
+      CHECK(static_cast<double>(level.coding.light(level.coded[at])) == doctest::Approx(sample).epsilon(1.3e-4));
+    }
+  CHECK(level.coded.front() == 0);
+  CHECK(static_cast<double>(band.brightest({1.4, -1.4}, 0.01)) == doctest::Approx(0.02 * 93 * 93).epsilon(0.03));
+}
+
 TEST_CASE("patterns side by side are each what they are alone") {
   std::vector<float> ramp;
   for (int row = 0; row < 96; ++row)
@@ -105,4 +170,7 @@ TEST_CASE("patterns side by side are each what they are alone") {
   CHECK(band.brightest({2.9, -2.9}, 0.05) > 0.0F);
   CHECK(band.brightest({0.0, 0.0}, 1e9) > 0.0F);
   CHECK(band.brightest({50.0, 0.0}, 0.01) >= 0.0F);
+  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();  // what rays that go astray may say
+  CHECK(band.brightest({kNone, kNone}, 0.01) >= 0.0F);
+  CHECK(band.brightest({0.0, -0.1}, kNone) > 0.0F);
 }

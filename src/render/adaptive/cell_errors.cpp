@@ -122,9 +122,10 @@ double CellPainter::unscreened_error(const Mesh& mesh, const Cell& cell, State s
       return std::numeric_limits<double>::infinity();  // or light would be lost unseen
     error += kEdgeBound * along_edges(left * limit * longest, iris_.is_picture() ? kPictureEdges : 1.0);
   }
-  if (varied && longest > kOnePlace_px)  // soft ones
-    error += along_edges(map_error(mesh, cell, longest) * longest,
-                         std::min(1.0, stop_size(mesh, cell) / (screen_->unit * longest)));
+  if (varied && longest > kOnePlace_px && error < 4.0 * worst) {  // soft ones
+    if (cell.map_error < 0.0) cell.map_error = map_error(mesh, cell, longest);
+    error += along_edges(cell.map_error * longest, std::min(1.0, stop_size(mesh, cell) / (screen_->unit * longest)));
+  }
   return std::min(error, 4.0 * worst) * dimmed * dimmed;
 }
 

@@ -31,7 +31,7 @@ void CellPainter::dim(Shade& shade, Flux& flux, const Flux& share) {
 }
 
 CellPainter::Cell CellPainter::cell_at(int ix, int iy, int size) {
-  Cell cell{ix, iy, size, {}, {}, 0};
+  Cell cell{.ix = ix, .iy = iy, .size = size};
   const int half = size / 2;
   cell.corner = {Mesh::at(ix, iy), Mesh::at(ix + size, iy), Mesh::at(ix + size, iy + size), Mesh::at(ix, iy + size)};
   cell.side = {Mesh::at(ix + half, iy), Mesh::at(ix + size, iy + half), Mesh::at(ix + half, iy + size),
@@ -97,7 +97,7 @@ std::optional<std::pair<CellPainter::Cell, CellPainter::State>> CellPainter::see
   const State state = state_of(mesh, cell);
   if (state == State::Closed || off_frame(mesh, cell)) return std::nullopt;
   cell.screen = view_of_screen(mesh, cell);
-  if (cell.screen.part == ScreenPart::Dark || (screen_ && is_unseen(mesh, cell))) return std::nullopt;
+  if (cell.screen.part == ScreenPart::Dark || (screen_ && is_dim(mesh, cell, 1.0))) return std::nullopt;
   return std::pair(cell, state);
 }
 
@@ -204,8 +204,9 @@ void CellPainter::draw(const Mesh& mesh, const Cell& cell, State state, Sides si
     draw_polygon(mesh, state, shade, flux, outline.all(), {map});
   };
   const bool varied = cell.screen.part == ScreenPart::Varied;
-  if (varied && std::max(length(d), length(f)) < kOnePlace_px) {
-    dim(shade, flux, passed_to(mesh, cell));
+  const bool one_place = std::max(length(d), length(f)) < kOnePlace_px;
+  if (varied && (one_place || is_dim(mesh, cell, kMeanBelow))) {
+    dim(shade, flux, mean_passed(mesh, cell, one_place ? 1 : kMeanParts));
     return draw_seen(nullptr);
   }
   const auto map = varied ? std::optional(stop_map(mesh, cell, kSoft_px)) : std::nullopt;
@@ -232,8 +233,9 @@ void CellPainter::draw_folded(const Mesh& mesh, const Cell& cell, State state) {
     }
     const bool varied = cell.screen.part == ScreenPart::Varied;
     const bool one_place = length(p[2] - p[0]) < kOnePlace_px;
-    if (varied && one_place) dim(shade, flux, passed_to(mesh, cell));
-    const auto map = varied && !one_place ? std::optional(stop_map(mesh, t)) : std::nullopt;
+    const bool mean = varied && (one_place || is_dim(mesh, cell, kMeanBelow));
+    if (mean) dim(shade, flux, mean_passed(mesh, cell, one_place ? 1 : kMeanParts));
+    const auto map = varied && !mean ? std::optional(stop_map(mesh, t)) : std::nullopt;
     const auto dirt = is_dirty(mesh, cell) ? std::optional(dirt_triangle(mesh, t)) : std::nullopt;
     draw_polygon(mesh, state, shade, flux, corners, {map ? &*map : nullptr, dirt ? &*dirt : nullptr});
   }
@@ -307,14 +309,6 @@ void CellPainter::draw_part(std::span<const Corner> polygon, const Shade& shade,
     for (double& value : passed) value *= left;
   }
   draw_line(polygon, passed);
-}
-
-// Into the room for what is added next.
-std::span<const Point> CellPainter::points_of(std::span<const Corner> polygon) {
-  points_.clear();
-  for (const Corner& c : polygon)
-    points_.push_back({static_cast<float>(c.position.x), static_cast<float>(c.position.y)});
-  return points_;
 }
 
 // The flux at points between the ends of a polygon that is thinner than can be told.

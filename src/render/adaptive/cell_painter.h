@@ -10,6 +10,7 @@
 
 #include "render/adaptive/mesh.h"
 #include "render/adaptive/outline_cutter.h"
+#include "render/adaptive/placed_polygon.h"
 #include "render/adaptive/polygon_list.h"
 #include "render/adaptive/seen_dirt.h"
 #include "render/screens/shadow_cutter.h"
@@ -57,6 +58,7 @@ class CellPainter {
     std::array<std::size_t, 4> corner{}, side{};
     std::size_t middle = 0;
     ScreenView screen{ScreenPart::Level, 1.0};  // all that is seen of it
+    mutable double map_error = -1.0;  // kept for straight sides and bent ones; negative: not asked for yet
   };
   // A corner of what is drawn: a vertex of the mesh, and where it is in the cell.
   struct CellCorner {
@@ -73,6 +75,10 @@ class CellPainter {
   static constexpr double kManyCells = 4.0;
   static constexpr double kSoft_px = 0.2;      // of cells, for maps to be drawn with
   static constexpr double kOnePlace_px = 0.4;  // a cell no longer than this sees the stop at one place
+  // Times what is not seen, so 0.1 of the error that all pixels may have: where light is dimmer than that it is its
+  // mean over a cell, by so many parts along each side.
+  static constexpr double kMeanBelow = 10.0;
+  static constexpr int kMeanParts = 3;
 
   static void dim(Shade& shade, Flux& flux, const Flux& share);
   void paint(const Patch& patch, int depth);
@@ -98,8 +104,9 @@ class CellPainter {
   [[nodiscard]] double shadow_error(const Mesh& mesh, const Cell& cell) const;
   void draw_screened(std::span<const Corner> polygon, double area_px, const Shade& shade, const Flux& flux,
                      const StopMap& map);
-  void add_fringed(std::span<const Corner> polygon, const Shade& shade, const StopMap& map, const EdgeTable& table);
-  [[nodiscard]] std::array<double, 3> passed_to(const Mesh& mesh, const Cell& cell) const;
+  void add_fringed(std::span<const PlacedCorner> polygon, const Shade& shade, const StopMap& map,
+                   const EdgeTable& table);
+  [[nodiscard]] std::array<double, 3> mean_passed(const Mesh& mesh, const Cell& cell, int parts) const;
   [[nodiscard]] Vec2 stop_place(const Mesh& mesh, std::size_t vertex, int crossing) const;
   [[nodiscard]] StopMap stop_map(const Mesh& mesh, const Cell& cell, double softness_px) const;
   [[nodiscard]] StopMap stop_map(const Mesh& mesh, const std::array<std::size_t, 3>& triangle) const;
@@ -108,9 +115,16 @@ class CellPainter {
   [[nodiscard]] double map_error(const Mesh& mesh, const Cell& cell, double longest_px) const;
   [[nodiscard]] const EdgeTable& table_for(double width);
   [[nodiscard]] ScreenView view_of_screen(const Mesh& mesh, const Cell& cell) const;
-  [[nodiscard]] bool is_unseen(const Mesh& mesh, const Cell& cell) const;
+  [[nodiscard]] bool is_dim(const Mesh& mesh, const Cell& cell, double times) const;
   [[nodiscard]] double stop_size(const Mesh& mesh, const Cell& cell) const;
-  [[nodiscard]] std::span<const Point> points_of(std::span<const Corner> polygon);
+  // Into the room for what is added next.
+  template <class AnyCorner>
+  [[nodiscard]] std::span<const Point> points_of(std::span<const AnyCorner> polygon) {
+    points_.clear();
+    for (const AnyCorner& c : polygon)
+      points_.push_back({static_cast<float>(c.position.x), static_cast<float>(c.position.y)});
+    return points_;
+  }
   void draw_line(std::span<const Corner> polygon, const Flux& flux);
 
   // Of the next cell. How many there will be is not known before: their share falls as they become more, down to a
@@ -146,6 +160,8 @@ class CellPainter {
   screens::ShadowCutter shadows_;
   std::map<std::pair<const BandScreen*, int>, const EdgeTable*> tables_;  // of screens, by width
   std::vector<std::uint16_t> active_;
+  PlacedPolygon rest_, strip_;  // of what is cut along edges
+  std::vector<Corner> level_;
   OutlineCutter cutter_;
   std::vector<Point> points_;
 };

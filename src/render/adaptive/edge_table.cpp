@@ -17,22 +17,27 @@ double fade(double way) {
 }  // namespace
 
 EdgeTable::EdgeTable(const BandScreen& band, double width)
-    : iris_(&band.edges->iris()), stride_(band.is_grey() ? 1 : kStride), dark_beyond_(band.dark_beyond + 0.5 * width),
-      level_within_(band.level_within + 0.5 * width), per_step_(1.0 / (kStep * band.unit)) {
-  const auto steps = static_cast<std::size_t>((dark_beyond_ + level_within_) * per_step_) + 1;
-  entries_.assign((steps + 1) * stride_, 0.0F);
-  for (std::size_t k = 1; k < steps; ++k) {
+    : iris_(&band.edges->iris()), grey_(band.is_grey()), dark_beyond_(band.dark_beyond + 0.5 * width),
+      level_within_(band.level_within + 0.5 * width), per_step_(1.0 / (kStep * band.unit)),
+      count_(static_cast<std::size_t>((dark_beyond_ + level_within_) * per_step_) + 2) {
+  const std::size_t stride = grey_ ? 1 : kStride;
+  entries_.assign(count_ * stride, 0.0F);
+  for (std::size_t k = 1; k + 1 < count_; ++k) {
     const double distance = dark_beyond_ - static_cast<double>(k) / per_step_;
-    float* const entry = &entries_[stride_ * k];
+    float* const entry = &entries_[stride * k];
     for (const BandScreen::Part& part : band.parts) {
       const double share = static_cast<const screens::EdgeScreen&>(*part.screen).edge(distance, width);
       const double faded = distance > 0.0 ? share * fade(distance / dark_beyond_)
                                           : 1.0 + (share - 1.0) * fade(-distance / level_within_);
-      for (std::size_t c = 0; c < std::min<std::size_t>(stride_, 3); ++c)
+      for (std::size_t c = 0; c < std::min<std::size_t>(stride, 3); ++c)
         entry[c] += part.channel[c] * static_cast<float>(faded);
     }
   }
-  std::fill_n(&entries_[stride_ * steps], stride_, 1.0F);
+  std::fill_n(&entries_[stride * (count_ - 1)], stride, 1.0F);
+  if (!grey_) return;
+  coding_ = screens::ShortLight(*std::max_element(entries_.begin(), entries_.end()));
+  for (const float entry : entries_) coded_.push_back(coding_.coded(entry));
+  entries_ = {};
 }
 
 }  // namespace contrejour::adaptive

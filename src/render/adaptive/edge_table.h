@@ -2,17 +2,18 @@
 // adaptive looks up pixel by pixel. Differs: where two edges meet, the channels' means multiply, not each wavelength's.
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "render/adaptive/polygon_screen.h"
 #include "render/screens/iris_screens.h"
+#include "render/screens/short_light.h"
 
 namespace contrejour::adaptive {
 
 class EdgeTable {
  public:
   static constexpr std::size_t kStride = 4;  // floats of an entry: three channels and an unused one
-  [[nodiscard]] std::size_t stride() const { return stride_; }  // that, or 1: all channels are the same
 
   // band: of edges' fringes, which must outlive the table. width: of a pixel, stop radii.
   EdgeTable(const BandScreen& band, double width);
@@ -21,16 +22,23 @@ class EdgeTable {
   [[nodiscard]] double dark_beyond() const { return dark_beyond_; }  // distance outside a bound, stop radii
   [[nodiscard]] double level_within() const { return level_within_; }  // and inside
 
-  // The factors that a bound brings, from 0 at dark_beyond() outside it to 1 at level_within() inside, at even steps.
+  // The factors that a bound brings, from 0 at dark_beyond() outside it to 1 at level_within() inside, at even steps:
+  // coded where all channels are the same, else entries.
+  [[nodiscard]] bool is_grey() const { return grey_; }
   [[nodiscard]] const float* entries() const { return entries_.data(); }
-  [[nodiscard]] std::size_t count() const { return entries_.size() / stride_; }
+  [[nodiscard]] const std::vector<std::uint16_t>& coded() const { return coded_; }
+  [[nodiscard]] const screens::ShortLight& coding() const { return coding_; }
+  [[nodiscard]] std::size_t count() const { return count_; }
   [[nodiscard]] double per_step() const { return per_step_; }  // entries a stop radius
 
  private:
   const IrisShape* iris_;
-  std::size_t stride_;
+  bool grey_;
   double dark_beyond_, level_within_, per_step_;
+  std::size_t count_;
   std::vector<float> entries_;
+  std::vector<std::uint16_t> coded_;
+  screens::ShortLight coding_;
 };
 
 }  // namespace contrejour::adaptive

@@ -31,7 +31,7 @@ constexpr double kFewCells = 64.0;  // a band's squared error is shared among so
 // circumscribed circle.
 std::optional<Rectangle> lit_part(const RaySheet& sheet) {
   const auto n = static_cast<std::size_t>(sheet.nodes);
-  const auto points = lobatto_points(sheet.nodes);
+  const auto& points = lobatto_points(sheet.nodes);
   const Vec2 half = (sheet.box.high - sheet.box.low) * 0.5;
   std::optional<Rectangle> part;
   for (std::size_t cell = 0; cell + n < sheet.count(); ++cell) {
@@ -216,8 +216,8 @@ void GhostPainter::paint_box(BandSet& bands, const Rectangle& box, int depth, st
   paint_quarters(bands, box, depth, painting);
 }
 
-// About the brightest pixel of a box behind a screen, or of its mirror image. None: the iris is sharp, or that is not
-// told: of several bands, or where no four rays side by side arrive.
+// About the brightest pixel of a box behind a screen, or of its mirror image, as far as it matters. None: the iris is
+// sharp, or that is not told: of several bands, or where no four rays side by side arrive.
 std::optional<double> GhostPainter::level_behind(const BandSet& bands, std::span<const RaySheet> sheets,
                                                  const Painting& painting) const {
   if (screens_ == nullptr || bands.size() > 1 || sheets.size() > 1) return std::nullopt;
@@ -225,14 +225,11 @@ std::optional<double> GhostPainter::level_behind(const BandSet& bands, std::span
   for (std::size_t k = bands.band(0).first; k < bands.band(0).last; ++k)
     for (std::size_t c = 0; c < 3; ++c) gain[c] += tracers_.passes()[k].gain[c];
   const double pixel_mm2 = frame_.pixel_pitch_mm * frame_.pixel_pitch_mm;
-  const auto level_of = [&](const RaySheet& sheet) {
-    return brightest_passed(sheet, *painting.screens.front(), tracers_.stop_times(), tracers_.light());
-  };
-  auto brightest = level_of(sheets.front());
-  if (painting.mirror_image != nullptr && brightest)
-    brightest = std::max(*brightest, *level_of(mirrored(sheets.front())));
-  if (brightest) *brightest *= std::max({std::abs(gain[0]), std::abs(gain[1]), std::abs(gain[2])}) * pixel_mm2;
-  return brightest;
+  const double scale = std::max({std::abs(gain[0]), std::abs(gain[1]), std::abs(gain[2])}) * pixel_mm2;
+  const double enough = std::max(painting.tolerance.level, kRough * screens_->unseen);
+  const auto brightest = brightest_passed(sheets.front(), painting.mirror_image != nullptr, *painting.screens.front(),
+                                          tracers_.stop_times(), tracers_.light(), enough / scale);
+  return brightest ? std::optional(*brightest * scale) : std::nullopt;
 }
 
 // The worst of three bands', at most: those between them are blended like them.

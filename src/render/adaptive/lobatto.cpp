@@ -1,5 +1,7 @@
 #include "render/adaptive/lobatto.h"
 
+#include <array>
+#include <cassert>
 #include <cmath>
 #include <numbers>
 
@@ -120,15 +122,22 @@ Matrix::Matrix(int r, int c)
     : rows(r), columns(c), stride((c + kPadding - 1) / kPadding * kPadding),
       values(static_cast<std::size_t>(r) * static_cast<std::size_t>(stride), 0.0F) {}
 
-std::vector<double> lobatto_points(int count) {
-  std::vector<double> points;
-  for (int k = 0; k < count; ++k) points.push_back(-std::cos(std::numbers::pi * k / (count - 1)));
-  if (count % 2 == 1) points[static_cast<std::size_t>(count / 2)] = 0.0;
-  return points;
+const std::vector<double>& lobatto_points(int count) {
+  static const auto all = [] {
+    std::array<std::vector<double>, kMostLobattoPoints + 1> points;
+    for (int n = 2; n <= kMostLobattoPoints; ++n) {
+      auto& of = points[static_cast<std::size_t>(n)];
+      for (int k = 0; k < n; ++k) of.push_back(-std::cos(std::numbers::pi * k / (n - 1)));
+      if (n % 2 == 1) of[static_cast<std::size_t>(n / 2)] = 0.0;
+    }
+    return points;
+  }();
+  assert(count >= 2 && count <= kMostLobattoPoints);
+  return all[static_cast<std::size_t>(count)];
 }
 
 Matrix interpolation_matrix(int count, std::span<const double> points) {
-  const std::vector<double> nodes = lobatto_points(count);
+  const std::vector<double>& nodes = lobatto_points(count);
   Matrix m(count, static_cast<int>(points.size()));
   for (std::size_t p = 0; p < points.size(); ++p) {
     const std::vector<double> values = lagrange(nodes, points[p]);
@@ -140,7 +149,7 @@ Matrix interpolation_matrix(int count, std::span<const double> points) {
 
 // The derivative has the values D f at the nodes and is itself a polynomial through them.
 Matrix derivative_matrix(int count, std::span<const double> points) {
-  const std::vector<double> nodes = lobatto_points(count);
+  const std::vector<double>& nodes = lobatto_points(count);
   const auto d = node_derivatives(nodes);
   Matrix m(count, static_cast<int>(points.size()));
   for (std::size_t p = 0; p < points.size(); ++p) {

@@ -28,8 +28,9 @@ struct Matrix {
   }
 };
 
-// The points, rising from -1 to 1.
-[[nodiscard]] std::vector<double> lobatto_points(int count);
+// The points, rising from -1 to 1. count: 2 to kMostLobattoPoints.
+constexpr int kMostLobattoPoints = 64;
+[[nodiscard]] const std::vector<double>& lobatto_points(int count);
 
 // Both `points.size()` columns by `count` rows: values at the nodes, as a row vector, times the matrix give the
 // polynomial, or its derivative, at the points.

@@ -205,7 +205,7 @@ void blend(std::span<const Patch> patches, const PatchBlend& factors, Patch& out
 }
 
 std::vector<Patch> patches_of_cells(const RaySheet& sheet, const LightFrame& light, const Frame& frame) {
-  const auto points = lobatto_points(sheet.nodes);
+  const auto& points = lobatto_points(sheet.nodes);
   const Vec2 half = (sheet.box.high - sheet.box.low) * 0.5;
   const auto n = static_cast<std::size_t>(sheet.nodes);
   std::vector<Patch> patches;

@@ -68,12 +68,13 @@ struct PolygonList {
     corners.insert(corners.end(), polygon.begin(), polygon.end());
   }
   // active: the bounds of the iris whose fringes are within.
-  void add(std::span<const Point> polygon, const Shade& shade, Screened behind, std::span<const std::uint16_t> active) {
+  void add(std::span<const Point> polygon, const Shade& shade, const Screened& behind,
+           std::span<const std::uint16_t> active) {
     add(polygon, shade);
-    behind.first = static_cast<std::uint32_t>(bounds.size());
-    behind.count = static_cast<std::uint32_t>(active.size());
-    bounds.insert(bounds.end(), active.begin(), active.end());
     screened.push_back(behind);
+    screened.back().first = static_cast<std::uint32_t>(bounds.size());
+    screened.back().count = static_cast<std::uint32_t>(active.size());
+    bounds.insert(bounds.end(), active.begin(), active.end());
     polygons.back().screened = static_cast<std::uint32_t>(screened.size());
   }
   [[nodiscard]] std::uint32_t partner_of(std::size_t corner) const {

@@ -150,7 +150,7 @@ int SheetTracer::first_traced_row(const Rectangle& box, int nodes) const {
 
 void SheetTracer::trace_rows(const Rectangle& box, int nodes, int first_row, PacketPrecision precision,
                              TracedArrays out) {
-  const auto points = lobatto_points(nodes);
+  const auto& points = lobatto_points(nodes);
   const Vec2 half = (box.high - box.low) * 0.5;
   x_mm_.clear();
   y_mm_.clear();

@@ -16,9 +16,17 @@ constexpr double kExact = 1e-3;   // of a cell's size, for maps to be judged by
 constexpr double kWorthCutting_px = 400.0;  // of area: smaller cells are looked up all over
 constexpr double kSagittaRoom = 0.5;  // of an arc's, for circles about the same centre with a smaller radius
 
-struct HalfPlane {  // normal . p <= most
-  Vec2 normal;
-  double most = 0.0;
+// A crossing of the stop at a mesh's vertices, stop radii.
+class StopPlaces {
+ public:
+  StopPlaces(const Mesh& mesh, int crossing, double unit)
+      : x_(mesh.field(PatchLayout::kStop + 2 * crossing).data()),
+        y_(mesh.field(PatchLayout::kStop + 2 * crossing + 1).data()), unit_(unit) {}
+  [[nodiscard]] Vec2 at(std::size_t vertex) const { return Vec2{x_[vertex], y_[vertex]} * unit_; }
+
+ private:
+  const float *x_, *y_;
+  double unit_;
 };
 
 // Across a bound, straight: normal . p is at most `outer` on the bound's inner side, and at most `inner` nowhere but
@@ -28,71 +36,55 @@ struct EdgeLine {
   double outer = 0.0, inner = 0.0;
 };
 
-EdgeLine line_along(const IrisBound& bound, std::span<const Corner> polygon, const StopMap& map) {
+EdgeLine line_along(const IrisBound& bound, std::span<const PlacedCorner> polygon) {
   if (bound.straight()) return {bound.normal, bound.apothem, bound.apothem};
   Vec2 middle{};
-  for (const Corner& c : polygon) middle = middle + map.place(c.position) * (1.0 / static_cast<double>(polygon.size()));
+  for (const PlacedCorner& c : polygon) middle = middle + c.stop * (1.0 / static_cast<double>(polygon.size()));
   const Vec2 from = middle - bound.centre;
   const double far = length(from);
   double sideways = 0.0;
   const Vec2 normal = far > 0.0 ? from * (1.0 / far) : Vec2{1.0, 0.0};
-  for (const Corner& c : polygon)
-    sideways = std::max(sideways, std::abs(cross(normal, map.place(c.position) - bound.centre)));
+  for (const PlacedCorner& c : polygon) sideways = std::max(sideways, std::abs(cross(normal, c.stop - bound.centre)));
   const double reach = dot(normal, bound.centre) + bound.radius;
   const double sagitta = bound.radius - std::sqrt(std::max(0.0, bound.radius * bound.radius - sideways * sideways));
   return {normal, reach, reach - sagitta * (1.0 + kSagittaRoom)};
 }
 
-void keep_within(std::vector<Corner>& polygon, const StopMap& map, const HalfPlane& kept) {
-  const auto value = [&](const Corner& c) { return dot(kept.normal, map.place(c.position)) - kept.most; };
-  if (std::all_of(polygon.begin(), polygon.end(), [&](const Corner& c) { return value(c) <= 0.0; })) return;
-  std::vector<Corner> out;
-  for (std::size_t k = 0; k < polygon.size(); ++k) {
-    const Corner& a = polygon[k];
-    const Corner& b = polygon[k + 1 == polygon.size() ? 0 : k + 1];
-    const double fa = value(a), fb = value(b);
-    if (fa <= 0.0) out.push_back(a);
-    if ((fa <= 0.0) == (fb <= 0.0)) continue;
-    Corner c;
-    const double t = fa / (fa - fb);
-    c.position = a.position + (b.position - a.position) * t;
-    c.uv = a.uv + (b.uv - a.uv) * t;
-    out.push_back(c);
-  }
-  polygon.swap(out);
-}
-
 }  // namespace
 
 Vec2 CellPainter::stop_place(const Mesh& mesh, std::size_t vertex, int crossing) const {
-  const int field = PatchLayout::kStop + 2 * crossing;
-  return Vec2{mesh.field(field)[vertex], mesh.field(field + 1)[vertex]} * screen_unit_;
+  return StopPlaces(mesh, crossing, screen_unit_).at(vertex);
 }
 
 // About a cell's last crossings of the stop.
 ScreenView CellPainter::view_of_screen(const Mesh& mesh, const Cell& cell) const {
   const int last = mesh.layout.crossings - 1;
   if (!screen_ || last < 0) return {ScreenPart::Level, 1.0};
-  const Vec2 middle = stop_place(mesh, cell.middle, last);
-  double radius = 0.0;
-  for (const auto& vertices : {cell.corner, cell.side})
-    for (const std::size_t v : vertices) radius = std::max(radius, length(stop_place(mesh, v, last) - middle));
-  ScreenView view = screen_->over(middle, kScreenDisc * radius);
+  const StopPlaces stop(mesh, last, screen_unit_);
+  const Vec2 middle = stop.at(cell.middle);
+  double squared = 0.0;
+  const auto hold = [&](std::size_t v) {
+    const Vec2 from = stop.at(v) - middle;
+    squared = std::max(squared, dot(from, from));
+  };
+  for (const std::size_t v : cell.corner) hold(v);
+  for (const std::size_t v : cell.side) hold(v);
+  ScreenView view = screen_->over(middle, kScreenDisc * std::sqrt(squared));
   if (view.part == ScreenPart::Level && last > 0) view.part = ScreenPart::Varied;  // earlier crossings are sharp
   return view;
 }
 
-// Whether what passes the screen is too dim all over the cell.
-bool CellPainter::is_unseen(const Mesh& mesh, const Cell& cell) const {
+// Whether what passes the screen is nowhere in the cell brighter than so many times what is not seen.
+bool CellPainter::is_dim(const Mesh& mesh, const Cell& cell, double times) const {
   float brightest = mesh.brightness[cell.middle];
   for (const std::size_t v : cell.corner) brightest = std::max(brightest, mesh.brightness[v]);
   for (const std::size_t v : cell.side) brightest = std::max(brightest, mesh.brightness[v]);
-  return cell.screen.most * brightest < screen_->unseen;
+  return cell.screen.most * brightest < times * screen_->unseen;
 }
 
 double CellPainter::stop_size(const Mesh& mesh, const Cell& cell) const {
-  const int last = mesh.layout.crossings - 1;
-  const auto at = [&](std::size_t v) { return stop_place(mesh, v, last); };
+  const StopPlaces stop(mesh, mesh.layout.crossings - 1, screen_unit_);
+  const auto at = [&](std::size_t v) { return stop.at(v); };
   return std::max(length(at(cell.corner[2]) - at(cell.corner[0])), length(at(cell.corner[3]) - at(cell.corner[1])));
 }
 
@@ -116,7 +108,8 @@ template <class SeriesOf>
 StopMap CellPainter::stop_map(const Mesh& mesh, double softness_px, const SeriesOf& series_of) const {
   std::array<CellSeries, kMaxStopCrossings> stop;
   for (int c = 0; c < mesh.layout.crossings; ++c)
-    stop[static_cast<std::size_t>(c)] = series_of([&](std::size_t v) { return stop_place(mesh, v, c); });
+    stop[static_cast<std::size_t>(c)] =
+        series_of([places = StopPlaces(mesh, c, screen_unit_)](std::size_t v) { return places.at(v); });
   return {series_of([&](std::size_t v) { return mesh.position(v) + mesh.origin_px; }),
           {stop.data(), static_cast<std::size_t>(mesh.layout.crossings)},
           softness_px};
@@ -127,15 +120,17 @@ double CellPainter::map_error(const Mesh& mesh, const Cell& cell, double longest
   const double size = stop_size(mesh, cell);
   if (!(size > 0.0)) return 0.0;
   const StopMap map = stop_map(mesh, cell, kExact * longest_px);
-  double most = 0.0;
-  const auto check = [&](std::size_t v) {
-    const Vec2 pixel = mesh.position(v) + mesh.origin_px;
-    for (int c = 0; c < mesh.layout.crossings; ++c)
-      most = std::max(most, length(map.place(pixel, static_cast<std::size_t>(c)) - stop_place(mesh, v, c)));
-  };
-  for (const std::size_t v : cell.corner) check(v);
-  for (const std::size_t v : cell.side) check(v);
-  return most / size;
+  double squared = 0.0;
+  for (int c = 0; c < mesh.layout.crossings; ++c) {
+    const StopPlaces stop(mesh, c, screen_unit_);
+    const auto check = [&](std::size_t v) {
+      const Vec2 off = map.place(mesh.position(v) + mesh.origin_px, static_cast<std::size_t>(c)) - stop.at(v);
+      squared = std::max(squared, dot(off, off));
+    };
+    for (const std::size_t v : cell.corner) check(v);
+    for (const std::size_t v : cell.side) check(v);
+  }
+  return std::sqrt(squared) / size;
 }
 
 // For pixels of about that width.
@@ -149,15 +144,26 @@ const EdgeTable& CellPainter::table_for(double width) {
   return *at->second;
 }
 
-// What passes to a cell so small that a pixel sees all of it at once.
-std::array<double, 3> CellPainter::passed_to(const Mesh& mesh, const Cell& cell) const {
-  std::array<StopPlace, kMaxStopCrossings> places;
-  for (int c = 0; c < mesh.layout.crossings; ++c) {
-    const auto at = [&](std::size_t v) { return stop_place(mesh, v, c); };
-    const double twice_area = cross(at(cell.corner[2]) - at(cell.corner[0]), at(cell.corner[3]) - at(cell.corner[1]));
-    places[static_cast<std::size_t>(c)] = {at(cell.middle), std::sqrt(0.5 * std::abs(twice_area))};
+// What passes to a cell in the mean, by `parts` x `parts` pieces of it.
+std::array<double, 3> CellPainter::mean_passed(const Mesh& mesh, const Cell& cell, int parts) const {
+  std::array<double, 3> sum{};
+  for (int k = 0; k < parts * parts; ++k) {
+    const double u = (k % parts + 0.5) / parts, v = (k / parts + 0.5) / parts;
+    std::array<StopPlace, kMaxStopCrossings> places;
+    for (int c = 0; c < mesh.layout.crossings; ++c) {
+      const StopPlaces stop(mesh, c, screen_unit_);
+      const std::array at{stop.at(cell.corner[0]), stop.at(cell.corner[1]), stop.at(cell.corner[2]),
+                          stop.at(cell.corner[3])};
+      const Vec2 middle = parts == 1
+                              ? stop.at(cell.middle)
+                              : (at[0] * (1.0 - u) + at[1] * u) * (1.0 - v) + (at[3] * (1.0 - u) + at[2] * u) * v;
+      places[static_cast<std::size_t>(c)] = {middle,
+                                             std::sqrt(0.5 * std::abs(cross(at[2] - at[0], at[3] - at[1]))) / parts};
+    }
+    const auto passed = screen_->share({places.data(), static_cast<std::size_t>(mesh.layout.crossings)});
+    for (std::size_t c = 0; c < 3; ++c) sum[c] += passed[c] / (parts * parts);
   }
-  return screen_->share({places.data(), static_cast<std::size_t>(mesh.layout.crossings)});
+  return sum;
 }
 
 // All of a polygon's pixels look up what passes. A large one behind a pattern: as far as that is worth drawing. Behind
@@ -166,44 +172,41 @@ void CellPainter::draw_screened(std::span<const Corner> polygon, double area_px,
                                 const StopMap& map) {
   const bool large = area_px >= kWorthCutting_px;
   const double room = map.bend();  // cuts are straight, places are not
+  rest_.place(polygon, map);
   if (screen_->edges == nullptr || map.crossings() > 1) {
-    std::vector<Corner> seen;
-    if (large && screen_->pattern) {
-      seen.assign(polygon.begin(), polygon.end());
-      for (std::size_t k = 0; k < screens::PatternHull::kLines; ++k)
-        keep_within(seen, map, {screens::PatternHull::normals()[k], screen_->hull.most(k) + room});
-      polygon = seen;
-    }
-    if (polygon.size() > 2) out_.add(points_of(polygon), shade, Screened{map, screen_.get()}, {});
+    for (std::size_t k = 0; large && screen_->pattern && k < screens::PatternHull::kLines; ++k)
+      rest_.keep_within({screens::PatternHull::normals()[k], screen_->hull.most(k) + room}, map);
+    if (!rest_.is_empty()) out_.add(points_of(rest_.corners()), shade, Screened{map, screen_.get()}, {});
     return;
   }
   const EdgeTable& table = table_for(map.width());
-  if (!large || table.iris().is_picture()) return add_fringed(polygon, shade, map, table);
-  std::vector<Corner> rest(polygon.begin(), polygon.end()), strip;
+  if (!large || table.iris().is_picture()) return add_fringed(rest_.corners(), shade, map, table);
   for (const IrisBound& bound : table.iris().bounds()) {
-    if (rest.size() < 3) return;
-    const EdgeLine line = line_along(bound, rest, map);
-    keep_within(rest, map, {line.normal, line.outer + table.dark_beyond() + room});
+    if (rest_.is_empty()) return;
+    const EdgeLine line = line_along(bound, rest_.corners());
+    rest_.keep_within({line.normal, line.outer + table.dark_beyond() + room}, map);
   }
   for (const IrisBound& bound : table.iris().bounds()) {
-    if (rest.size() < 3) return;
-    const EdgeLine line = line_along(bound, rest, map);
-    strip = rest;
-    keep_within(strip, map, {line.normal * -1.0, table.level_within() + room - line.inner});
-    if (strip.size() < 3) continue;
-    keep_within(rest, map, {line.normal, line.inner - table.level_within() - room});
-    add_fringed(strip, shade, map, table);
+    if (rest_.is_empty()) return;
+    const EdgeLine line = line_along(bound, rest_.corners());
+    strip_.take(rest_);
+    strip_.keep_within({line.normal * -1.0, table.level_within() + room - line.inner}, map);
+    if (strip_.is_empty()) continue;
+    rest_.keep_within({line.normal, line.inner - table.level_within() - room}, map);
+    add_fringed(strip_.corners(), shade, map, table);
   }
-  draw_part(rest, shade, flux, true, {});
+  level_.clear();
+  for (const PlacedCorner& c : rest_.corners()) level_.push_back({c.position, c.uv, {}});
+  draw_part(level_, shade, flux, true, {});
 }
 
-void CellPainter::add_fringed(std::span<const Corner> polygon, const Shade& shade, const StopMap& map,
+void CellPainter::add_fringed(std::span<const PlacedCorner> polygon, const Shade& shade, const StopMap& map,
                               const EdgeTable& table) {
   active_.clear();
   const auto& bounds = table.iris().bounds();
   for (std::size_t k = 0; k < bounds.size() && !table.iris().is_picture(); ++k) {
     double nearest = -std::numeric_limits<double>::infinity();
-    for (const Corner& c : polygon) nearest = std::max(nearest, bounds[k].distance(map.place(c.position)));
+    for (const PlacedCorner& c : polygon) nearest = std::max(nearest, bounds[k].distance(c.stop));
     // Distances are convex: none within is larger than at the corners, but for pixels that reach beyond.
     if (nearest + map.width() + map.bend() > -table.level_within()) active_.push_back(static_cast<std::uint16_t>(k));
   }

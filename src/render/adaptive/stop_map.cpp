@@ -22,12 +22,6 @@ CellSeries CellSeries::of(const std::array<Vec2, 4>& corner, const std::array<Ve
   return out;
 }
 
-CellSeries CellSeries::of_corners(const std::array<Vec2, 4>& c) {
-  return {(c[0] + c[1] + c[2] + c[3]) * 0.25, (c[1] + c[2] - c[0] - c[3]) * 0.25,
-          (c[2] + c[3] - c[0] - c[1]) * 0.25, {},
-          (c[0] + c[2] - c[1] - c[3]) * 0.25, {}};
-}
-
 // Half a cell with corners 0, 1 and 2.
 CellSeries CellSeries::of_triangle(const std::array<Vec2, 3>& c) {
   return {(c[0] + c[2]) * 0.5, (c[1] - c[0]) * 0.5, (c[2] - c[1]) * 0.5, {}, {}, {}};
@@ -67,23 +61,9 @@ StopMap::StopMap(const CellSeries& pixel, std::span<const CellSeries> stop, doub
   }
 }
 
-Vec2 StopMap::place(Vec2 pixel, std::size_t crossing) const {
-  const Vec2 q = pixel - origin_px_;
-  const Crossing& t = crossing_[crossing];
-  return t.level + t.x * q.x + t.y * q.y + t.xx * (q.x * q.x) + t.xy * (q.x * q.y) + t.yy * (q.y * q.y);
-}
-
 std::span<const StopPlace> StopMap::places(Vec2 pixel, std::array<StopPlace, kMaxStopCrossings>& room) const {
   for (std::size_t c = 0; c < crossings_; ++c) room[c] = {place(pixel, c), crossing_[c].width};
   return {room.data(), crossings_};
-}
-
-StopMap::Row StopMap::row(double y) const {
-  const double d = y - origin_px_.y;
-  const Crossing& t = crossing_[crossings_ - 1];
-  const Vec2 level = t.level + t.y * d + t.yy * (d * d), slope = t.x + t.xy * d;
-  return {static_cast<float>(level.x), static_cast<float>(slope.x), static_cast<float>(t.xx.x),
-          static_cast<float>(level.y), static_cast<float>(slope.y), static_cast<float>(t.xx.y)};
 }
 
 }  // namespace contrejour::adaptive

@@ -18,7 +18,11 @@ struct CellSeries {
 
   // corner, side: in turn, a side after the corner it starts from. The middle's and the sides' values, or none.
   [[nodiscard]] static CellSeries of(const std::array<Vec2, 4>& corner, const std::array<Vec2, 4>& side, Vec2 middle);
-  [[nodiscard]] static CellSeries of_corners(const std::array<Vec2, 4>& corner);
+  [[nodiscard]] static CellSeries of_corners(const std::array<Vec2, 4>& c) {
+    return {(c[0] + c[1] + c[2] + c[3]) * 0.25, (c[1] + c[2] - c[0] - c[3]) * 0.25,
+            (c[2] + c[3] - c[0] - c[1]) * 0.25, {},
+            (c[0] + c[2] - c[1] - c[3]) * 0.25, {}};
+  }
   [[nodiscard]] static CellSeries of_triangle(const std::array<Vec2, 3>& corner);
 };
 
@@ -30,7 +34,11 @@ class StopMap {
 
   // At the last crossing.
   [[nodiscard]] Vec2 place(Vec2 pixel) const { return place(pixel, crossings_ - 1); }
-  [[nodiscard]] Vec2 place(Vec2 pixel, std::size_t crossing) const;
+  [[nodiscard]] Vec2 place(Vec2 pixel, std::size_t crossing) const {
+    const Vec2 q = pixel - origin_px_;
+    const Crossing& t = crossing_[crossing];
+    return t.level + t.x * q.x + t.y * q.y + t.xx * (q.x * q.x) + t.xy * (q.x * q.y) + t.yy * (q.y * q.y);
+  }
   [[nodiscard]] double width() const { return crossing_[crossings_ - 1].width; }  // of a pixel there, stop radii
   [[nodiscard]] double bend() const { return bend_; }  // how far from linear it is at the cell's corners, stop radii
   [[nodiscard]] int crossings() const { return static_cast<int>(crossings_); }
@@ -42,7 +50,13 @@ class StopMap {
   struct Row {
     float x0, x1, x2, y0, y1, y2;
   };
-  [[nodiscard]] Row row(double y) const;
+  [[nodiscard]] Row row(double y) const {
+    const double d = y - origin_px_.y;
+    const Crossing& t = crossing_[crossings_ - 1];
+    const Vec2 level = t.level + t.y * d + t.yy * (d * d), slope = t.x + t.xy * d;
+    return {static_cast<float>(level.x), static_cast<float>(slope.x), static_cast<float>(t.xx.x),
+            static_cast<float>(level.y), static_cast<float>(slope.y), static_cast<float>(t.xx.y)};
+  }
   [[nodiscard]] Vec2 origin() const { return origin_px_; }
 
  private:

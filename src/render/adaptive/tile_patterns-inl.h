@@ -10,7 +10,10 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
+#include <cstdint>
+#include <utility>
 
 #include "render/adaptive/quad-inl.h"
 #include "render/adaptive/tile_rows-inl.h"
@@ -20,62 +23,67 @@ namespace contrejour::adaptive::HWY_NAMESPACE {
 
 static_assert(screens::BandPattern::kStride == 4);
 
-// A row's places in a pattern's samples.
-class PatternRow {
+// Places in a pattern's samples.
+class PatternSteps {
  public:
-  PatternRow(const screens::BandPattern::Level& level, double extent) : level_(level), extent_(extent) {}
+  PatternSteps(const screens::BandPattern::Level& level, double extent)
+      : per_radius_(static_cast<float>(0.5 * level.side / extent)),
+        centre_(static_cast<float>(0.5 * level.side + 0.5)),  // with the border's sample the first middle is at 1
+        most_(static_cast<float>(level.side + 1)) {}
 
-  void look(const PixelRow& row, Seen* seen) {
+  [[nodiscard]] HWY_INLINE hn::Vec<FloatTag> column(const PixelRow& row, int k) const {
     const FloatTag d;
-    const int lanes = static_cast<int>(hn::Lanes(d));
-    // With the border's sample the first middle is at 1.
-    const auto per_radius = hn::Set(d, static_cast<float>(0.5 * level_.side / extent_));
-    const auto centre = hn::Set(d, static_cast<float>(0.5 * level_.side + 0.5));
-    const auto most = static_cast<float>(level_.side + 1);
-    const auto beyond = [&](auto place) {
-      return hn::AllTrue(d, hn::Le(place, hn::Zero(d))) || hn::AllTrue(d, hn::Ge(place, hn::Set(d, most)));
+    return hn::MulAdd(hn::Load(d, row.stop_x + k), hn::Set(d, per_radius_), hn::Set(d, centre_));
+  }
+  [[nodiscard]] HWY_INLINE hn::Vec<FloatTag> line(const PixelRow& row, int k) const {
+    const FloatTag d;
+    return hn::NegMulAdd(hn::Load(d, row.stop_y + k), hn::Set(d, per_radius_), hn::Set(d, centre_));
+  }
+  [[nodiscard]] HWY_INLINE Seen seen(hn::Vec<FloatTag> column, hn::Vec<FloatTag> line) const {
+    const FloatTag d;
+    const auto beyond = [&](auto place) HWY_ATTR {
+      return hn::AllTrue(d, hn::Le(place, hn::Zero(d))) || hn::AllTrue(d, hn::Ge(place, hn::Set(d, most_)));
     };
-    for (int k = 0; k < row.count; k += lanes) {
-      const auto column = hn::MulAdd(hn::Load(d, row.stop_x + k), per_radius, centre);
-      const auto line = hn::NegMulAdd(hn::Load(d, row.stop_y + k), per_radius, centre);
-      column_.put(k, column, most);
-      line_.put(k, line, most);
-      seen[k / lanes] = beyond(column) || beyond(line) ? Seen::Dark : Seen::Varied;
-    }
+    return beyond(column) || beyond(line) ? Seen::Dark : Seen::Varied;
   }
-
-  // The sample left of and above a place, of so many values each, and the place's distances from it.
-  [[nodiscard]] HWY_INLINE const float* sample(int k, std::size_t stride) const {
-    return level_.samples.data() +
-           stride * (static_cast<std::size_t>(line_.whole[k]) * pitch() + static_cast<std::size_t>(column_.whole[k]));
+  [[nodiscard]] float most() const { return most_; }
+  [[nodiscard]] std::pair<float, float> place(float x, float y) const {
+    return {centre_ + x * per_radius_, centre_ - y * per_radius_};
   }
-  [[nodiscard]] std::size_t pitch() const { return static_cast<std::size_t>(level_.pitch()); }
-  [[nodiscard]] HWY_INLINE float right(int k) const { return column_.rest[k]; }
-  [[nodiscard]] HWY_INLINE float down(int k) const { return line_.rest[k]; }
+  [[nodiscard]] bool holds(float place) const { return place > 0.0F && place < most_; }
 
  private:
-  const screens::BandPattern::Level& level_;
-  double extent_;
-  TableRow column_, line_;
+  float per_radius_, centre_, most_;
 };
 
 // All channels, each wavelength's part by its own weights.
 class Pattern {
  public:
   static constexpr bool kGrey = false;
-  Pattern(const BandScreen& screen, double width) : row_(screen.pattern->level_for(width), screen.pattern->extent()) {
+  Pattern(const BandScreen& screen, double width)
+      : level_(screen.pattern->level_for(width)), steps_(level_, screen.pattern->extent()),
+        pitch_(kStride * static_cast<std::size_t>(level_.pitch())) {
     for (std::size_t k = 0; k < screen.parts.size(); ++k)
       std::copy_n(screen.parts[k].channel.data(), 3, channel_[k].data());
   }
 
-  void look(const PixelRow& row) { row_.look(row, seen_); }
+  void look(const PixelRow& row) {
+    const int lanes = static_cast<int>(hn::Lanes(FloatTag()));
+    for (int k = 0; k < row.count; k += lanes) {
+      const auto column = steps_.column(row, k), line = steps_.line(row, k);
+      column_.put(k, column, steps_.most());
+      line_.put(k, line, steps_.most());
+      seen_[k / lanes] = steps_.seen(column, line);
+    }
+  }
   [[nodiscard]] Seen seen(int group) const { return seen_[group]; }
   [[nodiscard]] HWY_INLINE Quad passed(int k) const {
-    const float* const above = row_.sample(k, kStride);
-    const float* const below = above + kStride * row_.pitch();
-    const Quad right = Quad::all(row_.right(k));
+    const float* const above = level_.samples.data() + static_cast<std::size_t>(line_.whole[k]) * pitch_ +
+                               kStride * static_cast<std::size_t>(column_.whole[k]);
+    const float* const below = above + pitch_;
+    const Quad right = Quad::all(column_.rest[k]);
     const Quad value = mix(mix(Quad::load(above), Quad::load(above + kStride), right),
-                           mix(Quad::load(below), Quad::load(below + kStride), right), Quad::all(row_.down(k)));
+                           mix(Quad::load(below), Quad::load(below + kStride), right), Quad::all(line_.rest[k]));
     const auto of = [&](std::size_t part) { return Quad::load(channel_[part].data()); };
     return multiply_add(value.broadcast<0>(), of(0),
                         multiply_add(value.broadcast<1>(), of(1), value.broadcast<2>() * of(2)));
@@ -83,8 +91,11 @@ class Pattern {
 
  private:
   static constexpr std::size_t kStride = screens::BandPattern::kStride;
-  PatternRow row_;
+  const screens::BandPattern::Level& level_;
+  PatternSteps steps_;
+  std::size_t pitch_;
   std::array<std::array<float, TileSums::kPixel>, screens::BandPattern::kMost> channel_{};
+  TableRow column_, line_;
   Seen seen_[kMostGroups];
 };
 
@@ -92,23 +103,52 @@ class Pattern {
 class GreyPattern {
  public:
   static constexpr bool kGrey = true;
-  GreyPattern(const screens::BandPattern& pattern, double width) : row_(pattern.level_for(width), pattern.extent()) {}
+  GreyPattern(const screens::BandPattern& pattern, double width) : GreyPattern(pattern, pattern.level_for(width)) {}
+
+  // Asks for what a row of pixels will look up, from the first to the last of them: patterns are far away, and most of
+  // their samples are wanted but once.
+  HWY_INLINE void fetch(const StopMap::Row& row, float first, float last) const {
+    constexpr float kLine = 32.0F;  // samples, of memory
+    constexpr int kMost = 16;
+    const auto [x0, y0] = steps_.place(row.x0 + first * row.x1, row.y0 + first * row.y1);
+    const auto [x1, y1] = steps_.place(row.x0 + last * row.x1, row.y0 + last * row.y1);
+    const float apart = std::max(std::abs(x1 - x0) * (1.0F / kLine), std::abs(y1 - y0));
+    const int pieces = apart < kMost ? static_cast<int>(apart) + 1 : kMost;
+    const float part = 1.0F / static_cast<float>(pieces);
+    for (int k = 0; k <= pieces; ++k) {
+      const float t = static_cast<float>(k) * part;
+      const float column = x0 + t * (x1 - x0), line = y0 + t * (y1 - y0);
+      if (steps_.holds(column) && steps_.holds(line))
+        table_.fetch(static_cast<std::ptrdiff_t>(line) * pitch_ + static_cast<std::ptrdiff_t>(column));
+    }
+  }
 
   void look(const PixelRow& row) {
-    row_.look(row, seen_);
-    const auto mixed = [](float a, float b, float rest) { return a + rest * (b - a); };
-    for (int k = 0; k < row.count; ++k) {
-      const float* const above = row_.sample(k, 1);
-      const float* const below = above + row_.pitch();
-      const float right = row_.right(k);
-      passed_[k] = mixed(mixed(above[0], above[1], right), mixed(below[0], below[1], right), row_.down(k));
+    const FloatTag d;
+    const IntTag di;
+    const int lanes = static_cast<int>(hn::Lanes(d));
+    const auto pitch = hn::Set(di, pitch_);
+    for (int k = 0; k < row.count; k += lanes) {
+      const auto column = steps_.column(row, k), line = steps_.line(row, k);
+      seen_[k / lanes] = steps_.seen(column, line);
+      if (seen_[k / lanes] == Seen::Dark) continue;
+      const TablePlaces across(column, steps_.most()), down(line, steps_.most());
+      const auto place = hn::Add(hn::Mul(down.whole, pitch), across.whole);
+      const auto above = table_.between(place, across.rest), below = table_.between(hn::Add(place, pitch), across.rest);
+      const auto light = hn::MulAdd(down.rest, hn::Sub(below, above), above);
+      hn::Store(hn::Sub(light, table_.none()), d, passed_ + k);
     }
   }
   [[nodiscard]] Seen seen(int group) const { return seen_[group]; }
-  [[nodiscard]] const float* passed() const { return passed_; }
+  [[nodiscard]] HWY_INLINE hn::Vec<FloatTag> passed(int k) const { return hn::Load(FloatTag(), passed_ + k); }
 
  private:
-  PatternRow row_;
+  GreyPattern(const screens::BandPattern& pattern, const screens::BandPattern::Level& level)
+      : steps_(level, pattern.extent()), table_(level.coded, level.coding), pitch_(level.pitch()) {}
+
+  PatternSteps steps_;
+  ShortTable table_;
+  std::int32_t pitch_;
   HWY_ALIGN float passed_[kRowRoom];
   Seen seen_[kMostGroups];
 };

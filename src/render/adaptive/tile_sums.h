@@ -15,7 +15,7 @@ namespace contrejour::adaptive {
 // A polygon's coverage alone, as changes along the rows of a tile.
 struct CoverSums {
   static constexpr std::size_t kLanes = 1;
-  static constexpr std::size_t kPitch = TileGrid::kWidth + 2;
+  static constexpr std::size_t kPitch = TileGrid::kWidth + 32;  // beyond the last changes a vector of none
   struct Columns {  // with changes; none if last < first
     int first = std::numeric_limits<int>::max(), last = -1;
   };
@@ -51,7 +51,7 @@ struct TileSums {
   Blocks touched{};  // by changes
   std::vector<double> sums = std::vector<double>(kLanes * kPitch * TileGrid::kHeight, 0.0);
   Blocks lit{};                 // pixel by pixel
-  std::vector<float> by_pixel;  // light that came so, kPixel values each; empty: none yet
+  std::vector<float> by_pixel;  // light that came so, kPixel values each and a vector's beyond; empty: none yet
   CoverSums cover;
 
   [[nodiscard]] double* at(int row, int column) {

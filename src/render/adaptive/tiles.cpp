@@ -10,6 +10,7 @@
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "render/adaptive/tiles.cpp"
+#include <hwy/cache_control.h>
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
@@ -123,10 +124,21 @@ void clear(const TileSums& tile, Image& image) {
   }
 }
 
+// Polygons of a tile lie far apart in memory: those that come soon are asked for.
+HWY_INLINE void fetch_ahead(const TiledPolygons& p, std::uint32_t k, std::uint32_t end) {
+  constexpr std::uint32_t kPolygon = 8, kRest = 4;  // so many before
+  if (k + kPolygon < end) hwy::Prefetch(&p.list.polygons[p.tiles.index[k + kPolygon]].screened);
+  if (k + kRest >= end) return;
+  const Polygon& polygon = p.list.polygons[p.tiles.index[k + kRest]];
+  hwy::Prefetch(p.list.corners.data() + polygon.first);
+  if (polygon.screened != 0) hwy::Prefetch(&p.list.screened[polygon.screened - 1]);
+}
+
 void draw_tile(std::span<const TiledPolygons> lists, std::size_t at, TileSums& tile, TileMode mode, Image& image) {
   bool any = false;
   for (const TiledPolygons& p : lists) {
     for (std::uint32_t k = p.tiles.start[at]; k < p.tiles.start[at + 1]; ++k) {
+      fetch_ahead(p, k, p.tiles.start[at + 1]);
       const Polygon& polygon = p.list.polygons[p.tiles.index[k]];
       if (polygon.screened != 0)
         add_screened(tile, p.list, polygon);

@@ -4,51 +4,24 @@
 #include <cassert>
 #include <cmath>
 
+#include "render/screens/resampled.h"
+
 namespace contrejour::screens {
 namespace {
 
-// Where a grid's middles lie between another's, along one direction.
-struct Between {
-  int low = 0, high = 0;
-  float to_high = 0.0F;
-  float inside = 1.0F;
-};
-
-std::vector<Between> places_between(int side, double extent, const PatternTexture& texture) {
-  std::vector<Between> out;
-  for (int k = 0; k < side; ++k) {
-    const double p = (k + 0.5) * 2.0 * extent / side - extent;
-    const double at = (p + texture.extent()) * 0.5 * texture.side() / texture.extent() - 0.5;
-    const double inside = std::clamp(std::min(at + 1.0, texture.side() - at), 0.0, 1.0);
-    const double within = std::clamp(at, 0.0, texture.side() - 1.0);
-    const int low = std::min(static_cast<int>(within), std::max(texture.side() - 2, 0));
-    out.push_back(
-        {low, std::min(low + 1, texture.side() - 1), static_cast<float>(within - low), static_cast<float>(inside)});
-  }
-  return out;
-}
-
 void lay_out(const PatternTexture& texture, double extent, std::size_t part, std::size_t stride,
              BandPattern::Level& level) {
-  const auto places = places_between(level.side, extent, texture);
-  const auto samples = texture.samples();
-  const auto side = static_cast<std::size_t>(texture.side());
-  float* to = level.samples.data() + static_cast<std::size_t>(level.pitch() + 1) * stride + part;
-  for (const Between& y : places) {
-    const float* const above = samples.data() + static_cast<std::size_t>(y.low) * side;
-    const float* const below = samples.data() + static_cast<std::size_t>(y.high) * side;
-    for (const Between& x : places) {
-      const float a = above[x.low] + x.to_high * (above[x.high] - above[x.low]);
-      const float b = below[x.low] + x.to_high * (below[x.high] - below[x.low]);
-      *to = (a + y.to_high * (b - a)) * x.inside * y.inside;
-      to += stride;
-    }
-    to += 2 * stride;
+  const auto samples = resampled({texture.side(), texture.extent(), texture.samples()}, level.side, extent);
+  const auto side = static_cast<std::size_t>(level.side);
+  for (std::size_t row = 0; row < side; ++row) {
+    float* to = level.samples.data() + ((row + 1) * static_cast<std::size_t>(level.pitch()) + 1) * stride + part;
+    for (std::size_t column = 0; column < side; ++column, to += stride) *to = samples[row * side + column];
   }
 }
 
 BandPattern::Level dark_level(int side, std::size_t stride) {
-  BandPattern::Level level{side, {}};
+  BandPattern::Level level;
+  level.side = side;
   level.samples.resize(static_cast<std::size_t>(level.pitch()) * static_cast<std::size_t>(level.pitch()) * stride);
   return level;
 }
@@ -68,6 +41,12 @@ BandPattern::Level halved(const BandPattern::Level& fine, std::size_t stride) {
   return half;
 }
 
+void code(BandPattern::Level& level) {
+  level.coding = ShortLight(*std::max_element(level.samples.begin(), level.samples.end()));
+  for (const float sample : level.samples) level.coded.push_back(level.coding.coded(sample));
+  level.samples = {};
+}
+
 }  // namespace
 
 BandPattern::BandPattern(std::span<const PatternTexture* const> parts) : stride_(parts.size() == 1 ? 1 : kStride) {
@@ -80,6 +59,8 @@ BandPattern::BandPattern(std::span<const PatternTexture* const> parts) : stride_
   levels_.push_back(dark_level(side, stride_));
   for (std::size_t k = 0; k < parts.size(); ++k) lay_out(*parts[k], extent_, k, stride_, levels_.back());
   while (levels_.back().side % 2 == 0 && levels_.back().side > 2) levels_.push_back(halved(levels_.back(), stride_));
+  if (of_one())
+    for (Level& level : levels_) code(level);
 }
 
 const BandPattern::Level& BandPattern::level_for(double width) const {
@@ -88,17 +69,21 @@ const BandPattern::Level& BandPattern::level_for(double width) const {
 }
 
 float BandPattern::brightest(Vec2 middle, double distance) const {
-  const double samples = distance * 0.5 * levels_.front().side / extent_;
-  const double fit = samples > 1.0 ? std::ceil(std::log2(samples)) : 0.0;
-  const Level& level = levels_[std::min(static_cast<std::size_t>(fit), levels_.size() - 1)];
+  const double pitches = distance * 0.5 * levels_.front().side / extent_;
+  const std::size_t fit = pitches > 1.0 ? static_cast<std::size_t>(std::ilogb(pitches)) + 1 : 0;
+  const Level& level = levels_[std::min(fit, levels_.size() - 1)];
   const auto at = [&](double p) {  // the first of the two samples about there, the border's included
-    return static_cast<int>(std::clamp((p / extent_ + 1.0) * 0.5 * level.side + 0.5, 0.0, level.side + 0.0));
+    const double place = (p / extent_ + 1.0) * 0.5 * level.side + 0.5;
+    return place > 0.0 ? static_cast<int>(std::min(place, level.side + 0.0)) : 0;  // 0 as well if that is no number
   };
   const int x = at(middle.x), y = at(-middle.y);
   float most = 0.0F;
   for (const int row : {y, y + 1}) {
-    const float* const from = level.samples.data() + static_cast<std::size_t>(row * level.pitch() + x) * stride_;
-    most = std::max(most, *std::max_element(from, from + 2 * stride_));
+    const std::size_t from = static_cast<std::size_t>(row * level.pitch() + x) * stride_;
+    const auto largest = [&](const auto& samples) {
+      return *std::max_element(samples.data() + from, samples.data() + from + 2 * stride_);
+    };
+    most = std::max(most, of_one() ? level.coding.light(largest(level.coded)) : largest(level.samples));
   }
   return most;
 }

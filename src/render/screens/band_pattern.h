@@ -2,10 +2,12 @@
 // Units: stop radii. Thread-safety: constant after it is made.
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <vector>
 
 #include "render/screens/pattern_texture.h"
+#include "render/screens/short_light.h"
 
 namespace contrejour::screens {
 
@@ -13,7 +15,7 @@ class BandPattern {
  public:
   static constexpr std::size_t kMost = 3;    // wavelengths
   static constexpr std::size_t kStride = 4;  // floats of a sample: one a wavelength, and one or more unused
-  [[nodiscard]] std::size_t stride() const { return stride_; }  // that, or 1 of one wavelength
+  [[nodiscard]] bool of_one() const { return stride_ == 1; }  // wavelength
 
   // parts: 1 to kMost.
   explicit BandPattern(std::span<const PatternTexture* const> parts);
@@ -21,7 +23,9 @@ class BandPattern {
   // Samples of the square from -extent to extent, rows from the top, with a border of dark ones about it.
   struct Level {
     int side = 0;  // without the border
-    std::vector<float> samples;
+    std::vector<float> samples;        // of several wavelengths
+    std::vector<std::uint16_t> coded;  // of one
+    ShortLight coding;                 // likewise
     [[nodiscard]] int pitch() const { return side + 2; }
   };
   [[nodiscard]] double extent() const { return extent_; }

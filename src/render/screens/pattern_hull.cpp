@@ -1,5 +1,6 @@
 #include "render/screens/pattern_hull.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -23,6 +24,8 @@ const std::array<Vec2, PatternHull::kLines>& PatternHull::normals() {
 }
 
 bool PatternHull::misses(Vec2 middle, double radius) const {
+  const double reach = nearest_ + radius;
+  if (dot(middle, middle) <= reach * reach) return false;  // as near as no line is
   const auto& normal = normals();
   for (std::size_t k = 0; k < kLines; ++k)
     if (dot(normal[k], middle) - radius > most_[k]) return true;
@@ -32,10 +35,12 @@ bool PatternHull::misses(Vec2 middle, double radius) const {
 void PatternHull::hold(Vec2 p) {
   const auto& normal = normals();
   for (std::size_t k = 0; k < kLines; ++k) most_[k] = std::max(most_[k], dot(normal[k], p));
+  nearest_ = *std::min_element(most_.begin(), most_.end());
 }
 
-void PatternHull::hold(const PatternHull& other) {
-  for (std::size_t k = 0; k < kLines; ++k) most_[k] = std::max(most_[k], other.most_[k]);
+void PatternHull::hold(const PatternHull& other, double times) {
+  for (std::size_t k = 0; k < kLines; ++k) most_[k] = std::max(most_[k], times * other.most_[k]);
+  nearest_ = *std::min_element(most_.begin(), most_.end());
 }
 
 }  // namespace contrejour::screens

@@ -21,10 +21,11 @@ class PatternHull {
   [[nodiscard]] bool misses(Vec2 middle, double radius) const;  // a disc, beyond one of the lines
 
   void hold(Vec2 p);
-  void hold(const PatternHull& other);
+  void hold(const PatternHull& other, double times = 1.0);  // as many times as large, 0 and more
 
  private:
   std::array<double, kLines> most_{};
+  double nearest_ = 0.0;  // of them
 };
 
 }  // namespace contrejour::screens

@@ -1,6 +1,7 @@
 #include "render/screens/pattern_texture.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <numeric>
@@ -27,6 +28,17 @@ Vec2 direction_at(double sector) {
          : turns == 1 ? Vec2{-first.y, first.x}
          : turns == 2 ? first * -1.0
                       : Vec2{first.y, -first.x};
+}
+
+// Each sector of a disc of radius 1: its border's ends and middle.
+const std::array<PatternHull, kSectors>& sector_hulls() {
+  static const auto all = [] {
+    std::array<PatternHull, kSectors> hulls;
+    for (std::size_t sector = 0; sector < hulls.size(); ++sector)
+      for (const double at : {0.0, 0.5, 1.0}) hulls[sector].hold(direction_at(static_cast<double>(sector) + at));
+    return hulls;
+  }();
+  return all;
 }
 
 }  // namespace
@@ -97,7 +109,7 @@ PatternHull PatternTexture::hull_above(double level, double flux) const {
     const auto first = sector_rest_.begin() + static_cast<std::ptrdiff_t>(sector * steps);
     const auto dark = std::partition_point(first, first + static_cast<std::ptrdiff_t>(steps), bright);
     const double radius = std::min(static_cast<double>(dark - first) * 2.0 * extent_ / side(), extent_);
-    for (const double at : {0.0, 0.5, 1.0}) hull.hold(direction_at(static_cast<double>(sector) + at) * radius);
+    hull.hold(sector_hulls()[sector], radius);
   }
   return hull;
 }

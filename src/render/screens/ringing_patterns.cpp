@@ -7,6 +7,7 @@
 
 #include "base/tasks.h"
 #include "contrejour/fresnel.h"
+#include "render/screens/resampled.h"
 
 namespace contrejour {
 namespace {
@@ -102,20 +103,19 @@ bool RingingPatterns::Contents::make(std::span<const Wanted> wanted, const Conte
       if (!rungs_.contains(rung)) rungs.insert(rung);
   }
   const std::vector<int> rung_list(rungs.begin(), rungs.end());
-  std::vector<Texture> made(rung_list.size());
+  std::vector<Rung> made_rungs(rung_list.size());
   Context alone = quiet(context);  // one thread a pattern
   alone.threads = 1;
   bool done = parallel_for(rung_list.size(), quiet(context), [&](std::size_t k) {
     FresnelPattern p = fresnel_pattern(*mask_, 1.0, {fresnel_at(rung_list[k]), kPatternSide, 0.0}, alone);
     if (p.irradiance.empty()) return;
-    made[k] = std::make_shared<const PatternTexture>(p.side, p.extent,
-                                                     std::vector<float>(p.irradiance.begin(), p.irradiance.end()));
+    made_rungs[k] = {p.extent, std::vector<float>(p.irradiance.begin(), p.irradiance.end())};
   });
   if (!done || context.cancelled()) return false;
-  for (std::size_t k = 0; k < rung_list.size(); ++k) rungs_[rung_list[k]] = made[k];
+  for (std::size_t k = 0; k < rung_list.size(); ++k) rungs_[rung_list[k]] = std::move(made_rungs[k]);
 
   const std::vector<Key> key_list(missing.begin(), missing.end());
-  made.assign(key_list.size(), nullptr);
+  std::vector<Texture> made(key_list.size());
   done = parallel_for(key_list.size(), quiet(context), [&](std::size_t k) { made[k] = average(key_list[k]); });
   if (!done || context.cancelled()) return false;
   for (std::size_t k = 0; k < key_list.size(); ++k) patterns_[key_list[k]] = made[k];
@@ -125,15 +125,12 @@ bool RingingPatterns::Contents::make(std::span<const Wanted> wanted, const Conte
 RingingPatterns::Contents::Texture RingingPatterns::Contents::average(const Key& key) const {
   const auto [low, high] = rungs_of(key.rung, key.spread * kSpreadStep);
   const double extent = fresnel_extent(fresnel_at(key.rung));
-  const double pitch = 2.0 * extent / kPatternSide;
-  std::vector<float> samples;
-  for (int row = 0; row < kPatternSide; ++row) {
-    for (int column = 0; column < kPatternSide; ++column) {
-      const Vec2 p{(column + 0.5 - 0.5 * kPatternSide) * pitch, (0.5 * kPatternSide - 0.5 - row) * pitch};
-      double sum = 0.0;
-      for (int rung = low; rung <= high; ++rung) sum += rungs_.at(rung)->at(p, 0.0);
-      samples.push_back(static_cast<float>(sum / (high - low + 1)));
-    }
+  std::vector<float> samples(static_cast<std::size_t>(kPatternSide) * kPatternSide);
+  const float share = 1.0F / static_cast<float>(high - low + 1);
+  for (int rung = low; rung <= high; ++rung) {
+    const Rung& from = rungs_.at(rung);
+    const auto there = screens::resampled({kPatternSide, from.extent, from.samples}, kPatternSide, extent);
+    for (std::size_t k = 0; k < samples.size(); ++k) samples[k] += share * there[k];
   }
   return std::make_shared<const PatternTexture>(trimmed(kPatternSide, extent, std::move(samples), open_area_));
 }

@@ -64,7 +64,11 @@ struct RingingPatterns::Contents {
   Iris iris_;
   std::optional<PupilMask> mask_;
   double open_area_ = 0.0;      // stop radii
-  std::map<int, Texture> rungs_;     // one wavelength each
+  struct Rung {  // one wavelength
+    double extent = 0.0;
+    std::vector<float> samples;
+  };
+  std::map<int, Rung> rungs_;
   std::map<Key, Texture> patterns_;  // bands
   std::map<int, Profile> profiles_;
   std::optional<FractionalFourier> fractional_;

@@ -1,0 +1,19 @@
+// A picture over a square of the stop plane, looked up at the middles of another square's samples: bilinear among its
+// own, falling to nothing within a sample beyond its border. Units: stop radii. Thread-safety: pure.
+#pragma once
+
+#include <span>
+#include <vector>
+
+namespace contrejour::screens {
+
+// Rows of side x side samples over the square from -extent to extent.
+struct SquareSamples {
+  int side = 0;
+  double extent = 0.0;
+  std::span<const float> samples;
+};
+
+[[nodiscard]] std::vector<float> resampled(const SquareSamples& from, int side, double extent);
+
+}  // namespace contrejour::screens

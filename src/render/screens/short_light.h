@@ -1,0 +1,39 @@
+// Light in 16 bits, so that two neighbours in a table are one word: a float above 0 with 4 bits of exponent and 12 of
+// mantissa, which a shift and a sum turn into a float of 32 bits, and from which none() is subtracted.
+// Accuracy: 2^-13 of the light plus none(), which is 2^-15 of the largest at the most. 0 is 0. Thread-safety: a value.
+#pragma once
+
+#include <algorithm>
+#include <bit>
+#include <cstdint>
+
+namespace contrejour::screens {
+
+class ShortLight {
+ public:
+  static constexpr int kShift = 11;  // of the bits, to where a float has them
+
+  // For values from 0 to `largest`.
+  explicit ShortLight(float largest = 0.0F) {
+    const std::int32_t exponent = std::bit_cast<std::int32_t>(largest * kRoom) >> kMantissa;
+    lowest_ = std::max(exponent - 15, 1) << kMantissa;
+  }
+
+  [[nodiscard]] std::uint16_t coded(float light) const {
+    const std::int32_t bits = std::bit_cast<std::int32_t>(std::max(light, 0.0F) + none());
+    return static_cast<std::uint16_t>(std::min((bits - lowest_ + kHalfStep) >> kShift, 0xFFFF));
+  }
+  [[nodiscard]] float light(std::uint16_t coded) const {
+    return std::bit_cast<float>((static_cast<std::int32_t>(coded) << kShift) + lowest_) - none();
+  }
+  [[nodiscard]] std::int32_t lowest() const { return lowest_; }  // the bits of a float that 0 stands for
+  [[nodiscard]] float none() const { return std::bit_cast<float>(lowest_); }
+
+ private:
+  static constexpr int kMantissa = 23;        // of a float, bits
+  static constexpr float kRoom = 1.0005F;     // for `none`, and for rounding up
+  static constexpr std::int32_t kHalfStep = 1 << (kShift - 1);
+  std::int32_t lowest_;
+};
+
+}  // namespace contrejour::screens
