@@ -110,12 +110,13 @@ class ShortTable {
   // Two entries each, side by side in a word.
   [[nodiscard]] HWY_INLINE hn::Vec<IntTag> pairs_at(hn::Vec<IntTag> place) const {
     const IntTag di;
-#if HWY_TARGET == HWY_SCALAR  // whose gather wants whole words
-    std::int32_t pair;
-    std::memcpy(&pair, coded_ + hn::GetLane(place), sizeof pair);
-    return hn::Set(di, pair);
-#else
+#if HWY_ARCH_X86 && HWY_TARGET <= HWY_AVX2  // which gather words from any byte on
     return hn::GatherOffset(di, reinterpret_cast<const std::int32_t*>(coded_), hn::ShiftLeft<1>(place));
+#else
+    HWY_ALIGN std::int32_t pairs[hn::MaxLanes(IntTag())];
+    hn::Store(place, di, pairs);
+    for (std::int32_t& pair : pairs) std::memcpy(&pair, coded_ + pair, sizeof pair);
+    return hn::Load(di, pairs);
 #endif
   }
 
