@@ -20,6 +20,7 @@ constexpr double kEdgeBound = 2.0;  // what edges are off is all seen, where lev
 constexpr double kFoldBound = 0.5;  // of a fold's flux, that is out of place
 constexpr double kMostBend = 0.04;  // of a cell, that what cuts it may be off
 constexpr double kLeftByBend = 0.25;  // of a curve's deviation from its chord, where a corner in its middle bends it
+constexpr double kChordShare = 0.5;   // of a cell's error, that chords in place of an arc may make: half as many do a decibel
 constexpr double kObscurationBend = 3.0;  // its edge goes on bending where that corner is: found by measuring
 // Of a cell that large, and so bright beside the peak: a plane that is farther off shows as a facet, however little it
 // is of the peak.
@@ -200,7 +201,7 @@ double CellPainter::arc_step(const Mesh& mesh, std::span<const CellCorner> corne
   const double level = std::max({std::abs(shade.value[0]), std::abs(shade.value[1]), std::abs(shade.value[2])});
   const double seen = level * seen_share(level, peak_);
   const double off_px =
-      std::clamp(0.25 * std::sqrt(cell_budget() / std::max(longest, 1.0)) / std::max(seen, 1e-300), 0.02, 0.5);
+      std::clamp(kChordShare * std::sqrt(cell_budget() / std::max(longest, 1.0)) / std::max(seen, 1e-300), 0.02, 0.5);
   const double pixels_per_radius = longest / std::max(reach, 1e-9);
   return std::clamp(std::sqrt(8.0 * off_px / pixels_per_radius), 0.02, 0.8);
 }
