@@ -9,6 +9,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 
 #include <hwy/contrib/math/math-inl.h>
 #include <hwy/highway.h>
@@ -78,7 +79,14 @@ HWY_INLINE Packet<double> load_floats(Packet<double>::Tag d, const float* from) 
   return Packet<double>(hn::PromoteTo(d, hn::LoadU(FloatsOfDoubles(), from)));
 }
 HWY_INLINE void store_floats(Packet<double> p, float* to) {
-  hn::StoreU(hn::DemoteTo(FloatsOfDoubles(), p.v), FloatsOfDoubles(), to);
+  const FloatsOfDoubles d;
+  const auto narrow = hn::DemoteTo(d, p.v);
+#if HWY_TARGET == HWY_SCALAR || HWY_TARGET == HWY_EMU128  // which make the largest float of infinity
+  const auto infinite = hn::Set(d, std::numeric_limits<float>::infinity());
+  hn::StoreU(hn::IfThenElse(hn::Ge(narrow, hn::Set(d, std::numeric_limits<float>::max())), infinite, narrow), d, to);
+#else
+  hn::StoreU(narrow, d, to);
+#endif
 }
 
 HWY_INLINE Packet<double> look_up(const float* table, int intervals, Packet<double> u) {

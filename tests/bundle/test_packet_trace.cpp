@@ -116,6 +116,32 @@ TEST_CASE("packets land where single rays in double do, on every instruction set
   hwy::SetSupportedTargetsForTest(0);
 }
 
+TEST_CASE("rays that fail are infinitely far beyond a rim, on every instruction set of this machine") {
+  const LensState lens = test::lens("heliar", 16.0);
+  const Vec3 direction = normalized({0.21, 0.0, 1.0});
+  const ReflectanceTables tables(lens, 550.0);
+  const OpticalPath path = ghost_path(lens, {1, 5}, 550.0);
+  const Fan fan = fan_over({-14.0, -8.0}, {0.0, 8.0}, entrance_window(lens, direction).z_mm, direction, 19);
+  for (const auto target : hwy::SupportedAndGeneratedTargets()) {
+    hwy::SetSupportedTargetsForTest(target);
+    CAPTURE(hwy::TargetName(target));
+    for (const PacketPrecision precision : {PacketPrecision::Float, PacketPrecision::Double}) {
+      Batch batch(fan.x_mm.size());
+      trace_packets(PacketPath(path, tables, fan.rays), precision, fan.x_mm.data(), fan.y_mm.data(), fan.x_mm.size(),
+                    batch.arrays());
+      int failing = 0;
+      for (std::size_t k = 0; k < fan.x_mm.size(); ++k) {
+        const bool fails = trace(path, fan.ray(k)).status != RayStatus::Ok;
+        failing += fails ? 1 : 0;
+        CHECK(std::isinf(batch.columns[3][k]) == fails);
+      }
+      CHECK(failing > 50);
+      CHECK(failing < 300);
+    }
+  }
+  hwy::SetSupportedTargetsForTest(0);
+}
+
 TEST_CASE("a path that crosses the stop three times tells all three crossings") {
   const LensState lens = test::lens("heliar", 16.0);
   const Ghost across{3, 9};  // reflects behind the stop, then before it
