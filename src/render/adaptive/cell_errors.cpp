@@ -20,7 +20,7 @@ constexpr double kEdgeBound = 2.0;  // what edges are off is all seen, where lev
 constexpr double kFoldBound = 0.5;  // of a fold's flux, that is out of place
 constexpr double kMostBend = 0.04;  // of a cell, that what cuts it may be off
 constexpr double kLeftByBend = 0.25;  // of a curve's deviation from its chord, where a corner in its middle bends it
-constexpr double kChordShare = 0.5;   // of a cell's error, that chords in place of an arc may make: half as many do a decibel
+constexpr double kChordShare = 0.5;  // of a cell's error, that chords in place of an arc may make
 constexpr double kObscurationBend = 3.0;  // its edge goes on bending where that corner is: found by measuring
 // Of a cell that large, and so bright beside the peak: a plane that is farther off shows as a facet, however little it
 // is of the peak.
@@ -186,7 +186,7 @@ double CellPainter::obscuration_error(const Mesh::Field& v, const Cell& cell) {
   return kObscurationBend * (outline > 1.0 ? off : high + rise - 1.0) / (high - low);
 }
 
-// Chords of an arc that miss it by no more pixels than the budget allows; half as many either way would do.
+// Chords of an arc that miss it by no more pixels than their share of the budget allows; half as many cost a decibel.
 double CellPainter::arc_step(const Mesh& mesh, std::span<const CellCorner> corners, const Shade& shade) const {
   double reach = 0.0;
   Bounds b;
