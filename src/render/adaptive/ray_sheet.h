@@ -13,6 +13,9 @@
 
 namespace contrejour::adaptive {
 
+// Of the clear height: rays beyond tell nothing of the image, which those at a box's border may be flung far from.
+constexpr float kNearlyThrough = 1.2F;
+
 // One value a node, rows of `nodes` by rising y.
 struct RaySheet {
   Rectangle box;  // mm, in the plane of the entrance window

@@ -70,13 +70,9 @@ class FringeSteps {
 // A row's places in a table of three channels.
 class FringeRow {
  public:
-  explicit FringeRow(const EdgeTable& table) : table_(table), steps_(table) {}
+  explicit FringeRow(const EdgeTable& table) : table_(table), most_(FringeSteps(table).most()) {}
 
-  HWY_INLINE Seen put(int k, hn::Vec<FloatTag> distance) {
-    const auto place = steps_.at(distance);
-    at_.put(k, place, steps_.most());
-    return steps_.seen(place);
-  }
+  HWY_INLINE void put(int k, hn::Vec<FloatTag> place) { at_.put(k, place, most_); }
   [[nodiscard]] HWY_INLINE Quad passed(int k) const {
     const float* const entry = table_.entries() + EdgeTable::kStride * static_cast<std::size_t>(at_.whole[k]);
     return mix(Quad::load(entry), Quad::load(entry + EdgeTable::kStride), Quad::all(at_.rest[k]));
@@ -84,7 +80,7 @@ class FringeRow {
 
  private:
   const EdgeTable& table_;
-  FringeSteps steps_;
+  float most_;
   TableRow at_;
 };
 
@@ -92,17 +88,22 @@ class FringeRow {
 class Fringe {
  public:
   static constexpr bool kGrey = false;
-  Fringe(const EdgeTable& table, const IrisBound& bound) : row_(table), distance_(bound) {}
+  Fringe(const EdgeTable& table, const IrisBound& bound) : steps_(table), row_(table), distance_(bound) {}
 
   void look(const PixelRow& row) {
     const FloatTag d;
     const int lanes = static_cast<int>(hn::Lanes(d));
-    for (int k = 0; k < row.count; k += lanes) seen_[k / lanes] = row_.put(k, distance_.at(row, k));
+    for (int k = 0; k < row.count; k += lanes) {
+      const auto place = steps_.at(distance_.at(row, k));
+      row_.put(k, place);
+      seen_[k / lanes] = steps_.seen(place);
+    }
   }
   [[nodiscard]] Seen seen(int group) const { return seen_[group]; }
   [[nodiscard]] HWY_INLINE Quad passed(int k) const { return row_.passed(k); }
 
  private:
+  FringeSteps steps_;
   FringeRow row_;
   BoundDistance distance_;
   Seen seen_[kMostGroups];
@@ -126,29 +127,39 @@ HWY_INLINE void for_each_distance(const IrisShape& iris, std::span<const std::ui
     visit([&row, distance = BoundDistance(iris.bounds()[bound])](int k) { return distance.at(row, k); });
 }
 
+// Sets what the groups of a row see through several edges. multiply(k, place) is called for each edge and group, from
+// pixel k on, that is neither level nor dark there.
+template <class Multiply>
+HWY_INLINE void look_through(const IrisShape& iris, std::span<const std::uint16_t> active, const FringeSteps& steps,
+                             const PixelRow& row, Seen* groups, const Multiply& multiply) {
+  const int lanes = static_cast<int>(hn::Lanes(FloatTag()));
+  for (int k = 0; k < row.count; k += lanes) groups[k / lanes] = Seen::Level;
+  for_each_distance(iris, active, row, [&](const auto& distance_at) {
+    for (int k = 0; k < row.count; k += lanes) {
+      Seen& seen = groups[k / lanes];
+      if (seen == Seen::Dark) continue;
+      const auto place = steps.at(distance_at(k));
+      const Seen here = steps.seen(place);
+      if (here == Seen::Level) continue;
+      seen = here;
+      if (seen != Seen::Dark) multiply(k, place);
+    }
+  });
+}
+
 // The product of what several edges bring.
 class Fringes {
  public:
   static constexpr bool kGrey = false;
   Fringes(const EdgeTable& table, std::span<const std::uint16_t> active)
-      : iris_(table.iris()), active_(active), one_(table) {}
+      : iris_(table.iris()), active_(active), steps_(table), one_(table) {}
 
   void look(const PixelRow& row) {
     std::fill_n(passed_, TileSums::kPixel * static_cast<std::size_t>(row.count), 1.0F);
-    std::fill_n(seen_, row.count, Seen::Level);
-    for_each_distance(iris_, active_, row, [&](const auto& distance_at) {
-      const int lanes = static_cast<int>(hn::Lanes(FloatTag()));
-      for (int k = 0; k < row.count; k += lanes) {
-        Seen& seen = seen_[k / lanes];
-        if (seen == Seen::Dark) continue;
-        const Seen here = one_.put(k, distance_at(k));
-        if (here == Seen::Level) continue;
-        seen = here;
-        if (seen == Seen::Dark) continue;
-        const int end = std::min(k + lanes, row.count);
-        for (int j = k; j < end; ++j)
-          (passed(j) * one_.passed(j)).store(passed_ + TileSums::kPixel * static_cast<std::size_t>(j));
-      }
+    look_through(iris_, active_, steps_, row, seen_, [&](int k, hn::Vec<FloatTag> place) {
+      one_.put(k, place);
+      const int end = std::min(k + static_cast<int>(hn::Lanes(FloatTag())), row.count);
+      for (; k < end; ++k) (passed(k) * one_.passed(k)).store(passed_ + TileSums::kPixel * static_cast<std::size_t>(k));
     });
   }
   [[nodiscard]] Seen seen(int group) const { return seen_[group]; }
@@ -159,6 +170,7 @@ class Fringes {
  private:
   const IrisShape& iris_;
   std::span<const std::uint16_t> active_;
+  FringeSteps steps_;
   FringeRow one_;
   HWY_ALIGN float passed_[TileSums::kPixel * TileGrid::kWidth];
   Seen seen_[kMostGroups];
@@ -173,24 +185,11 @@ class GreyFringes {
 
   void look(const PixelRow& row) {
     const FloatTag d;
-    const int lanes = static_cast<int>(hn::Lanes(d));
-    for (int k = 0; k < row.count; k += lanes) {
-      hn::Store(hn::Set(d, 1.0F), d, passed_ + k);
-      seen_[k / lanes] = Seen::Level;
-    }
-    for_each_distance(iris_, active_, row, [&](const auto& distance_at) {
-      for (int k = 0; k < row.count; k += lanes) {
-        Seen& seen = seen_[k / lanes];
-        if (seen == Seen::Dark) continue;
-        const auto place = steps_.at(distance_at(k));
-        const Seen here = steps_.seen(place);
-        if (here == Seen::Level) continue;
-        seen = here;
-        if (seen == Seen::Dark) continue;
-        const TablePlaces at(place, steps_.most());
-        const auto factor = hn::Sub(table_.between(at.whole, at.rest), table_.none());
-        hn::Store(hn::Mul(hn::Load(d, passed_ + k), factor), d, passed_ + k);
-      }
+    for (int k = 0; k < row.count; k += static_cast<int>(hn::Lanes(d))) hn::Store(hn::Set(d, 1.0F), d, passed_ + k);
+    look_through(iris_, active_, steps_, row, seen_, [&](int k, hn::Vec<FloatTag> place) {
+      const TablePlaces at(place, steps_.most());
+      const auto factor = hn::Sub(table_.between(at.whole, at.rest), table_.none());
+      hn::Store(hn::Mul(hn::Load(d, passed_ + k), factor), d, passed_ + k);
     });
   }
   [[nodiscard]] Seen seen(int group) const { return seen_[group]; }

@@ -11,7 +11,6 @@ namespace {
 
 constexpr double kFitShare = 0.4;  // of the allowed error, that fits may make: theirs is the same all over a ghost
 constexpr double kNoLimit = 1e9;
-constexpr float kNearlyThrough = 1.2F;  // of the clear height
 constexpr double kPeaks = 4.0;  // fits of what is so many times brighter than the peak need be no better
 
 // The light of a sheet's image where most of it is: its level, in units of light over pixels, and its area there.

@@ -6,7 +6,6 @@
 namespace contrejour::adaptive {
 namespace {
 
-constexpr float kNearlyThrough = 1.2F;  // of the clear height
 // Of the displacement that a fit may make of all light: for bands it comes on top, and colours show.
 constexpr double kBandShare = 0.8;
 
