@@ -1,10 +1,9 @@
 #include "render/adaptive/tolerance.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
-#include "render/adaptive/lobatto.h"
+#include "render/adaptive/sheet_cells.h"
 
 namespace contrejour::adaptive {
 namespace {
@@ -21,26 +20,21 @@ struct Spread {
 // pupil_light: of a mm^2 of the pupil, which lies evenly over the image of each cell between rays. Cells far outside a
 // rim do not count: the rays at a box's border may be flung anywhere.
 Spread spread_of(const RaySheet& sheet, double pupil_light, const Frame& frame) {
-  const auto n = static_cast<std::size_t>(sheet.nodes);
-  const auto points = lobatto_points(sheet.nodes);
-  const Vec2 half = (sheet.box.high - sheet.box.low) * 0.5;
-  const auto at = [&](std::size_t k) {
-    return Vec2{sheet.sensor_x_mm[k], sheet.sensor_y_mm[k]} * (1.0 / frame.pixel_pitch_mm);
-  };
+  const SheetCells cells(sheet);
+  const double pixel_mm2 = frame.pixel_pitch_mm * frame.pixel_pitch_mm;
+  const auto rim = [&](std::size_t k) { return sheet.r_rel[k]; };
   double light = 0.0, squares = 0.0;
-  for (std::size_t cell = 0; cell + n + 1 < sheet.count(); ++cell) {
-    if (cell % n == n - 1) continue;
-    const std::array<std::size_t, 4> corners{cell, cell + 1, cell + n + 1, cell + n};
-    const auto rim = [&](std::size_t k) { return sheet.r_rel[k]; };
+  for (std::size_t first = 0; first < cells.end(); ++first) {
+    if (!cells.has(first)) continue;
+    const auto corners = cells.corners(first);
     const auto [nearest, farthest] = std::ranges::minmax(corners, {}, rim);
     if (std::isinf(rim(farthest)) || rim(nearest) > kNearlyThrough) continue;
-    const double area = 0.5 * std::abs(cross(at(corners[2]) - at(corners[0]), at(corners[3]) - at(corners[1])));
-    const double here = pupil_light * half.x * (points[cell % n + 1] - points[cell % n]) * half.y *
-                        (points[cell / n + 1] - points[cell / n]);
+    const double here = pupil_light * cells.entrance_mm2(first);
     light += here;
-    squares += here * here / std::max(area, 1.0);
+    squares += here * here / std::max(cells.image_mm2(first) / pixel_mm2, 1.0);
   }
-  if (!(light > 0.0)) return {pupil_light * 4.0 * half.x * half.y, 1.0};
+  const Vec2 size = sheet.box.high - sheet.box.low;
+  if (!(light > 0.0)) return {pupil_light * size.x * size.y, 1.0};
   return {squares / light, light * light / squares};
 }
 
