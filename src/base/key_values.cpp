@@ -25,7 +25,7 @@ bool read_scalar(const toml::node& node, KeyValue& to) {
     to.texts.push_back(fmt::format("{}", whole->get()));
   } else if (const auto* real = node.as_floating_point(); real != nullptr && std::isfinite(real->get())) {
     to.kind = KeyValue::Kind::Number;
-    to.texts.push_back(fmt::format("{}", real->get() + 0.0));  // no -0, which would read back as 0
+    to.texts.push_back(toml_number(real->get()));
   } else if (const auto* truth = node.as_boolean()) {
     to.kind = KeyValue::Kind::Boolean;
     to.texts.emplace_back(truth->get() ? "true" : "false");

@@ -35,8 +35,8 @@ void TomlErrors::fail(const toml::source_region& where, std::string message) {
                  SourcePlace{file_, static_cast<int>(where.begin.line), static_cast<int>(where.begin.column)}};
 }
 
-TomlFields::TomlFields(const toml::table& table, std::string what,
-                       std::initializer_list<std::string_view> known, TomlErrors& errors)
+TomlFields::TomlFields(const toml::table& table, std::string what, std::initializer_list<std::string_view> known,
+                       TomlErrors& errors)
     : table_(table), what_(std::move(what)), errors_(errors) {
   refuse_unknown_keys(known);
 }
@@ -101,8 +101,8 @@ double TomlFields::number_at(const toml::node& node, std::string_view name, Numb
     return range.low;
   }
   // Not node.value<double>(): that refuses whole numbers which a double cannot hold exactly.
-  const double value = node.is_integer() ? static_cast<double>(node.as_integer()->get())
-                                         : node.as_floating_point()->get();
+  const double value =
+      node.is_integer() ? static_cast<double>(node.as_integer()->get()) : node.as_floating_point()->get();
   // Written so that NaN fails too.
   if (!(value >= range.low && value <= range.high)) {
     fail(node, fmt::format("{} is {}; give a number from {} to {}", name, value, range.low, range.high));
@@ -136,7 +136,8 @@ const toml::array* TomlFields::array(std::string_view key) {
 
 Result<toml::table> parse_toml(std::string_view text, const std::string& file, std::string_view page) {
   if (const int line = line_of_deep_key(text); line > 0) {
-    return failure(ErrorCode::Parse, fmt::format("a key has too many parts; no file of ours has more than two; see {}", page),
+    return failure(ErrorCode::Parse,
+                   fmt::format("a key has too many parts; no file of ours has more than two; see {}", page),
                    {file, line, 0});
   }
   toml::parse_result parsed = toml::parse(text, std::string_view(file));
@@ -144,8 +145,7 @@ Result<toml::table> parse_toml(std::string_view text, const std::string& file, s
     const toml::parse_error& error = parsed.error();
     return failure(ErrorCode::Parse,
                    fmt::format("not valid TOML: {}; {} shows a complete file", error.description(), page),
-                   {file, static_cast<int>(error.source().begin.line),
-                    static_cast<int>(error.source().begin.column)});
+                   {file, static_cast<int>(error.source().begin.line), static_cast<int>(error.source().begin.column)});
   }
   return std::move(parsed).table();
 }
@@ -165,5 +165,7 @@ std::string toml_string(std::string_view text) {
   }
   return out + '"';
 }
+
+std::string toml_number(double value) { return fmt::format("{}", value + 0.0); }
 
 }  // namespace contrejour

@@ -101,5 +101,7 @@ Result<toml::table> parse_toml(std::string_view text, const std::string& file, s
 
 // A TOML basic string.
 [[nodiscard]] std::string toml_string(std::string_view text);
+// The shortest text that reads back as the same double; -0 as 0, since TOML reads "-0" as a whole number.
+[[nodiscard]] std::string toml_number(double value);
 
 }  // namespace contrejour

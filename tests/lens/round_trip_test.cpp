@@ -2,8 +2,11 @@
 #include "lens/sample_lens.h"
 
 #include <cmath>
+#include <filesystem>
 #include <random>
+#include <regex>
 
+#include "base/text_file.h"
 #include "contrejour/lens.h"
 
 namespace contrejour::test {
@@ -183,6 +186,38 @@ TEST_CASE("every bundled lens too") {
     REQUIRE(again.has_value());
     check_same(*lens, *again);
   }
+}
+
+// Where a text's numbers are, TOML's inf among them: first character and length.
+std::vector<std::pair<std::size_t, std::size_t>> numbers_in(const std::string& text) {
+  static const std::regex kNumber("-?[0-9][0-9.]*(e-?[0-9]+)?|inf");
+  std::vector<std::pair<std::size_t, std::size_t>> places;
+  for (std::sregex_iterator at(text.begin(), text.end(), kNumber), end; at != end; ++at)
+    places.emplace_back(at->position(), at->length());
+  return places;
+}
+
+TEST_CASE("whatever stands for a number in a lens file, what is read is written as the same") {
+  const std::filesystem::path seeds = std::filesystem::path(CONTREJOUR_SOURCE_DIR) / "fuzz/corpus/lens_toml";
+  int read = 0;
+  for (const char* name : {"every_key", "formulas", "shapes", "zoom", "heliar"}) {
+    const std::string text = *read_text_file(seeds / (std::string(name) + ".toml"), 1U << 20U, "");
+    for (const auto& [at, length] : numbers_in(text)) {
+      for (const char* value : {"-0.0", "0", "inf", "-inf", "nan", "1e-9", "-1e-300", "1e9", "-1", "0.1e1",
+                                "0.30000000000000004", "9223372036854775807"}) {
+        const std::string changed = std::string(text).replace(at, length, value);
+        const auto lens = read_lens_toml(changed, "x.toml");
+        if (!lens) continue;
+        ++read;
+        CAPTURE(changed);
+        const std::string written = write_lens_toml(*lens);
+        const auto again = read_lens_toml(written, "y.toml");
+        REQUIRE(again.has_value());
+        REQUIRE(write_lens_toml(*again) == written);
+      }
+    }
+  }
+  CHECK(read > 500);
 }
 
 TEST_CASE("radii are written with the digits they were typed with") {

@@ -61,13 +61,10 @@ GlassData read_data(TomlFields& fields, TomlErrors& errors) {
   return data;
 }
 
-// -0, as the logarithm of a transmittance of 1 may be, is read back as 0.
-std::string number(double value) { return fmt::format("{}", value + 0.0); }
-
 template <class Values>
 std::string list_text(const Values& values) {
   std::string text;
-  for (const double value : values) text += (text.empty() ? "" : ", ") + number(value);
+  for (const double value : values) text += (text.empty() ? "" : ", ") + toml_number(value);
   return fmt::format("[{}]", text);
 }
 
@@ -95,7 +92,7 @@ std::string formula_text(const GlassData& data) {
                                  list_text(data.coefficients));
   if (data.range_nm) text += ", range_nm = " + list_text(std::array{data.range_nm->first_nm, data.range_nm->last_nm});
   if (data.reference_temperature_c != GlassData{}.reference_temperature_c) {
-    text += ", temperature_c = " + number(data.reference_temperature_c);
+    text += ", temperature_c = " + toml_number(data.reference_temperature_c);
   }
   if (data.thermal) {
     const ThermalDispersion& t = *data.thermal;

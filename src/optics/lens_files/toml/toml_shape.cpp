@@ -19,8 +19,6 @@ constexpr NumberRange kFinite{-kHuge, kHuge};
 constexpr NumberRange kTilt_deg{-89.0, 89.0};
 constexpr double kUnit = 1e-12;  // an axis as long as 1 to this is left as it is
 
-std::string number(double value) { return fmt::format("{}", value); }
-
 // A whole number in digits, or 0.
 int whole(std::string_view digits) {
   int value = 0;
@@ -103,10 +101,12 @@ std::string turn_text(double turn_rad) {
     std::from_chars(text.data(), text.data() + text.size(), deg);
     if (rad_from_deg(deg) == turn_rad) return "turn_deg = " + text;
   }
-  return "turn_rad = " + number(turn_rad);
+  return "turn_rad = " + toml_number(turn_rad);
 }
 
-std::string vector_text(Vec3 v) { return fmt::format("[{}, {}, {}]", number(v.x), number(v.y), number(v.z)); }
+std::string vector_text(Vec3 v) {
+  return fmt::format("[{}, {}, {}]", toml_number(v.x), toml_number(v.y), toml_number(v.z));
+}
 
 struct Group {
   std::size_t first = 0, last = 0;
@@ -162,7 +162,7 @@ std::optional<Outline> read_outline(TomlFields& row, std::string_view name, cons
 }
 
 std::string outline_text(std::string_view name, std::string_view sides, const Outline& outline) {
-  const auto pair = [](Vec2 v) { return fmt::format("[{}, {}]", number(v.x), number(v.y)); };
+  const auto pair = [](Vec2 v) { return fmt::format("[{}, {}]", toml_number(v.x), toml_number(v.y)); };
   std::string out = fmt::format(", {} = {{ {} = {}", name, sides, pair(outline.half_mm));
   if (!(outline.centre_mm == Vec2{})) out += ", centre_mm = " + pair(outline.centre_mm);
   if (outline.turn_rad != 0.0) out += ", " + turn_text(outline.turn_rad);
@@ -258,29 +258,30 @@ void read_groups(TomlFields& lens, std::vector<Surface>& surfaces, TomlErrors& e
 
 std::string curvature_text(double curvature_per_mm, std::string_view suffix) {
   if (curvature_per_mm == 0.0) return fmt::format("radius{}_mm = inf", suffix);
-  for (int digits = 1; digits <= 17; ++digits) {
+  const bool radius_is_read = std::abs(curvature_per_mm) >= 1.0 / kHuge;
+  for (int digits = 1; radius_is_read && digits <= 17; ++digits) {
     const std::string text = fmt::format("{:.{}g}", 1.0 / curvature_per_mm, digits);
     double radius_mm = 0.0;
     std::from_chars(text.data(), text.data() + text.size(), radius_mm);
     if (1.0 / radius_mm == curvature_per_mm) return fmt::format("radius{}_mm = {}", suffix, text);
   }
-  return fmt::format("curvature{}_per_mm = {}", suffix, number(curvature_per_mm));
+  return fmt::format("curvature{}_per_mm = {}", suffix, toml_number(curvature_per_mm));
 }
 
 std::string shape_text(const SurfaceShape& shape) {
   std::string out;
-  if (shape.conic != 0.0) out += ", conic = " + number(shape.conic);
+  if (shape.conic != 0.0) out += ", conic = " + toml_number(shape.conic);
   std::string powers;
   for (std::size_t k = 0; k < shape.powers.size(); ++k) {
     const bool last = k + 1 == shape.powers.size();
     if (shape.powers[k] == 0.0 && !last) continue;
-    powers += fmt::format("{}{} = {}", powers.empty() ? "" : ", ", k + 1, number(shape.powers[k]));
+    powers += fmt::format("{}{} = {}", powers.empty() ? "" : ", ", k + 1, toml_number(shape.powers[k]));
   }
   if (!powers.empty()) out += fmt::format(", asphere = {{ {} }}", powers);
   if (shape.has_axial_symmetry()) return out;
   const bool biconic = shape.kind == ShapeKind::Biconic;
   out += fmt::format(", {} = {{ {}", biconic ? "biconic" : "toroid", curvature_text(shape.curvature_x_per_mm, "_x"));
-  if (shape.conic_x != 0.0) out += ", conic_x = " + number(shape.conic_x);
+  if (shape.conic_x != 0.0) out += ", conic_x = " + toml_number(shape.conic_x);
   if (shape.turn_rad != 0.0) out += ", " + turn_text(shape.turn_rad);
   return out + " }";
 }

@@ -14,22 +14,20 @@ namespace contrejour {
 
 namespace {
 
-// The shortest text that reads back as the same double.
-std::string number(double value) { return fmt::format("{}", value); }
-
 struct DispersionText {
-  std::string operator()(const ConstantIndex& glass) const { return "n = " + number(glass.n); }
+  std::string operator()(const ConstantIndex& glass) const { return "n = " + toml_number(glass.n); }
   std::string operator()(const AbbeGlass& glass) const {
-    return fmt::format("n_d = {}, v_d = {}", number(glass.n_d), number(glass.v_d));
+    return fmt::format("n_d = {}, v_d = {}", toml_number(glass.n_d), toml_number(glass.v_d));
   }
   std::string operator()(const Sellmeier& glass) const {
     const auto list = [](const std::array<double, 3>& v) {
-      return fmt::format("[{}, {}, {}]", number(v[0]), number(v[1]), number(v[2]));
+      return fmt::format("[{}, {}, {}]", toml_number(v[0]), toml_number(v[1]), toml_number(v[2]));
     };
     return fmt::format("sellmeier_b = {}, sellmeier_c_um2 = {}", list(glass.b), list(glass.c_um2));
   }
   std::string operator()(const ModelGlass& glass) const {
-    return fmt::format("n_d = {}, v_d = {}, d_pgf = {}", number(glass.n_d), number(glass.v_d), number(glass.d_pgf));
+    return fmt::format("n_d = {}, v_d = {}, d_pgf = {}", toml_number(glass.n_d), toml_number(glass.v_d),
+                       toml_number(glass.d_pgf));
   }
   std::string operator()(const CatalogueGlass& glass) const { return formula_text(glass.data()); }
 };
@@ -37,21 +35,22 @@ struct DispersionText {
 struct FilmsText {
   std::string operator()(const Bare&) const { return {}; }
   std::string operator()(const QuarterWave& film) const {
-    return fmt::format("quarter_wave_nm = {}, n = {}", number(film.lambda0_nm), number(film.n));
+    return fmt::format("quarter_wave_nm = {}, n = {}", toml_number(film.lambda0_nm), toml_number(film.n));
   }
   std::string operator()(const HullinFresnelAR& film) const {
-    return fmt::format("hullin_nm = {}, n = {}", number(film.lambda0_nm), number(film.n));
+    return fmt::format("hullin_nm = {}, n = {}", toml_number(film.lambda0_nm), toml_number(film.n));
   }
   std::string operator()(const FilmStack& stack) const {
     std::string rows;
     for (const FilmLayer& layer : stack.layers) {
       rows += fmt::format("{}{{ {}, thickness_nm = {} }}", rows.empty() ? "" : ", ", material_text(layer.material),
-                          number(layer.thickness_nm));
+                          toml_number(layer.thickness_nm));
     }
     return fmt::format("layers = [{}]", rows);
   }
   std::string operator()(const DesignedCoating& coating) const {
-    return fmt::format("design = {}, design_nm = {}", toml_string(design_name(coating)), number(coating.lambda0_nm));
+    return fmt::format("design = {}, design_nm = {}", toml_string(design_name(coating)),
+                       toml_number(coating.lambda0_nm));
   }
   std::string operator()(const MeasuredCoating& measured) const {
     return fmt::format("measured_nm = {}, measured_deg = {}, reflectance = {}", list(measured.lambda_nm),
@@ -61,12 +60,12 @@ struct FilmsText {
  private:
   static std::string material_text(const FilmMaterial& material) {
     if (!material.name.empty()) return "material = " + toml_string(material.name);
-    const std::string k = material.n.imag() == 0.0 ? "" : fmt::format(", k = {}", number(material.n.imag()));
-    return fmt::format("n = {}{}", number(material.n.real()), k);
+    const std::string k = material.n.imag() == 0.0 ? "" : fmt::format(", k = {}", toml_number(material.n.imag()));
+    return fmt::format("n = {}{}", toml_number(material.n.real()), k);
   }
   static std::string list(const std::vector<double>& values) {
     std::string text;
-    for (const double v : values) text += (text.empty() ? "" : ", ") + number(v);
+    for (const double v : values) text += (text.empty() ? "" : ", ") + toml_number(v);
     return "[" + text + "]";
   }
 };
@@ -122,10 +121,9 @@ class MediaTable {
 std::string surface_row(const Surface& surface, bool last, MediaTable& glasses, MediaTable& coatings) {
   std::string row = "  { ";
   row += surface.kind == SurfaceKind::Stop ? "stop = true" : curvature_text(surface.curvature_per_mm, "");
-  if (!last) row += ", thickness_mm = " + number(surface.thickness_mm);
-  row +=
-      ", semi_diameter_mm = " + number(surface.semi_diameter_mm) + shape_text(surface.shape) +
-      aperture_text(surface.aperture) + obscuration_text(surface.obscuration) + pose_text(surface.pose);
+  if (!last) row += ", thickness_mm = " + toml_number(surface.thickness_mm);
+  row += ", semi_diameter_mm = " + toml_number(surface.semi_diameter_mm) + shape_text(surface.shape) +
+         aperture_text(surface.aperture) + obscuration_text(surface.obscuration) + pose_text(surface.pose);
   if (surface.kind == SurfaceKind::Refracting) {
     if (!(surface.glass_after == air())) row += ", glass = " + glasses.reference(surface.glass_after);
     if (!std::holds_alternative<Bare>(surface.coating.films)) {
@@ -141,22 +139,22 @@ std::string zoom_rows(const std::vector<ZoomPosition>& zoom) {
   for (const ZoomPosition& position : zoom) {
     std::string gaps;
     for (const auto& [index, thickness_mm] : position.thickness_mm) {
-      gaps += fmt::format("{}{} = {}", gaps.empty() ? "" : ", ", index + 1, number(thickness_mm));
+      gaps += fmt::format("{}{} = {}", gaps.empty() ? "" : ", ", index + 1, toml_number(thickness_mm));
     }
-    out +=
-        fmt::format("  {{ focal_length_mm = {}, thickness_mm = {{ {} }} }},\n", number(position.focal_length_mm), gaps);
+    out += fmt::format("  {{ focal_length_mm = {}, thickness_mm = {{ {} }} }},\n",
+                       toml_number(position.focal_length_mm), gaps);
   }
   return out + "]\n";
 }
 
 std::string stated_table(const StatedFigures& stated) {
   std::string out = "\n[stated]\n";
-  if (stated.focal_length_mm) out += fmt::format("focal_length_mm = {}\n", number(*stated.focal_length_mm));
+  if (stated.focal_length_mm) out += fmt::format("focal_length_mm = {}\n", toml_number(*stated.focal_length_mm));
   if (stated.back_focal_distance_mm) {
-    out += fmt::format("back_focal_distance_mm = {}\n", number(*stated.back_focal_distance_mm));
+    out += fmt::format("back_focal_distance_mm = {}\n", toml_number(*stated.back_focal_distance_mm));
   }
-  out += fmt::format("wavelength_nm = {}\n", number(stated.wavelength_nm));
-  return out + fmt::format("tolerance = {}\n", number(stated.tolerance));
+  out += fmt::format("wavelength_nm = {}\n", toml_number(stated.wavelength_nm));
+  return out + fmt::format("tolerance = {}\n", toml_number(stated.tolerance));
 }
 
 }  // namespace
@@ -164,9 +162,9 @@ std::string stated_table(const StatedFigures& stated) {
 std::string write_lens_toml(const Prescription& lens) {
   MediaTable glasses, coatings;
   std::string out = fmt::format("name = {}\nsource = {}\nf_number = {}\nsensor_mm = [{}, {}]\n", toml_string(lens.name),
-                                toml_string(lens.source), number(lens.f_number), number(lens.sensor_width_mm),
-                                number(lens.sensor_height_mm));
-  if (lens.sensor_distance_mm) out += fmt::format("sensor_distance_mm = {}\n", number(*lens.sensor_distance_mm));
+                                toml_string(lens.source), toml_number(lens.f_number), toml_number(lens.sensor_width_mm),
+                                toml_number(lens.sensor_height_mm));
+  if (lens.sensor_distance_mm) out += fmt::format("sensor_distance_mm = {}\n", toml_number(*lens.sensor_distance_mm));
   out += "\nsurfaces = [\n";
   for (std::size_t i = 0; i < lens.surfaces.size(); ++i) {
     out += surface_row(lens.surfaces[i], i + 1 == lens.surfaces.size(), glasses, coatings);
