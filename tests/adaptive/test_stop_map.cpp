@@ -59,16 +59,17 @@ TEST_CASE("what is off falls with the second power of the bend, and is nothing w
   CHECK(small < 0.45 * large);  // the bend times itself and times the stop's own
 }
 
-TEST_CASE("rows are places, widths are areas, thin cells go on tamely") {
+TEST_CASE("forms are places, widths are areas, thin cells go on tamely") {
   const Bent bent{0.2};
   const CellSeries pixels = series_of([&](Vec2 q) { return bent.pixel(q); });
   const StopMap map(pixels, std::array{series_of(Bent::stop)}, 0.2);
-  const StopMap::Row row = map.row(53.5);
-  for (const double x : {90.5, 101.5, 118.5}) {
-    const double d = x - map.origin().x;
-    const Vec2 place = map.place({x, 53.5});
-    CHECK(row.x0 + d * (row.x1 + d * row.x2) == doctest::Approx(place.x).epsilon(1e-5));
-    CHECK(row.y0 + d * (row.y1 + d * row.y2) == doctest::Approx(place.y).epsilon(1e-5));
+  const Vec2 weights{3.0, -7.0};
+  const StopMap::Form form = map.form(weights, 0.25);
+  for (const Vec2 pixel : {Vec2{90.5, 53.5}, Vec2{101.5, 40.5}, Vec2{118.5, 61.5}}) {
+    const Vec2 q = pixel - map.origin();
+    const double value =
+        form.level + form.x * q.x + form.y * q.y + form.xx * q.x * q.x + form.xy * q.x * q.y + form.yy * q.y * q.y;
+    CHECK(value == doctest::Approx(dot(weights, map.place(pixel)) + 0.25).epsilon(1e-5));
   }
   CHECK(map.width() == doctest::Approx(std::sqrt((0.1 * 0.2 + 0.01 * 0.02) / (20.0 * 15.0 + 5.0 * 4.0))).epsilon(1e-9));
 

@@ -46,16 +46,16 @@ class StopMap {
   // For every crossing.
   [[nodiscard]] std::span<const StopPlace> places(Vec2 pixel, std::array<StopPlace, kMaxStopCrossings>& room) const;
 
-  // The last crossing along a row of pixels: x = x0 + d (x1 + d x2) for the pixel's x - origin().x = d, y likewise.
-  struct Row {
-    float x0, x1, x2, y0, y1, y2;
+  // Of the last crossing, with q the pixel's place from origin(): level + x q.x + y q.y + xx q.x^2 + xy q.x q.y + yy
+  // q.y^2.
+  struct Form {
+    float level = 0, x = 0, y = 0, xx = 0, xy = 0, yy = 0;
   };
-  [[nodiscard]] Row row(double y) const {
-    const double d = y - origin_px_.y;
+  // weights . place + more.
+  [[nodiscard]] Form form(Vec2 weights, double more) const {
     const Crossing& t = crossing_[crossings_ - 1];
-    const Vec2 level = t.level + t.y * d + t.yy * (d * d), slope = t.x + t.xy * d;
-    return {static_cast<float>(level.x), static_cast<float>(slope.x), static_cast<float>(t.xx.x),
-            static_cast<float>(level.y), static_cast<float>(slope.y), static_cast<float>(t.xx.y)};
+    const auto of = [&](Vec2 term) { return static_cast<float>(dot(weights, term)); };
+    return {static_cast<float>(dot(weights, t.level) + more), of(t.x), of(t.y), of(t.xx), of(t.xy), of(t.yy)};
   }
   [[nodiscard]] Vec2 origin() const { return origin_px_; }
 

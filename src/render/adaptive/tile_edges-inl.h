@@ -94,9 +94,41 @@ HWY_INLINE void add_stretch(Sums& tile, int at_row, const double* shade, double 
   add<Sums>(column(last + 1), shade, dy - covered);
 }
 
+// The same of coverage alone, inside the tile's columns, where the edge gets no farther than a pixel to the side in a
+// row: three columns at the most, and nothing asked that depends on where it crosses from one to the next.
+HWY_INLINE void add_steep_edge(CoverSums& tile, Vec2 a, Vec2 b, double sign) {
+  const double dx_dy = (b.x - a.x) / (b.y - a.y);
+  const double top = std::max(a.y, 0.0);
+  const double bottom = std::min(b.y, static_cast<double>(tile.height));
+  const double low = std::min(a.x, b.x);
+  const double high = std::max(a.x, b.x);
+  const double half_dy_dx = dx_dy != 0.0 ? 0.5 * sign / std::abs(dx_dy) : 0.0;
+  double y = top;
+  double x = std::clamp(a.x + dx_dy * (top - a.y), low, high);
+  for (int row = static_cast<int>(top); y < bottom; ++row) {
+    const double y_next = std::min<double>(row + 1, bottom);
+    const double x_next = std::clamp(a.x + dx_dy * (y_next - a.y), low, high);
+    const double dy = sign * (y_next - y);
+    const auto first = static_cast<int>(std::min(x, x_next));
+    const double border = first + 1;
+    const double over = std::max(std::max(x, x_next) - border, 0.0);
+    const double in_last = half_dy_dx * over * over;  // a triangle that the next column does not cover
+    const double covered = dy * (border - 0.5 * (x + x_next)) + in_last;
+    double* const column = tile.at(row, first);
+    column[0] += covered;
+    column[1] += dy - in_last - covered;
+    column[2] += in_last;
+    tile.touch(row, first, first + 1 + static_cast<int>(over > 0.0));
+    x = x_next;
+    y = y_next;
+  }
+}
+
 // An edge inside the tile's columns, from a down to b, clipped to its rows.
 template <class Sums>
 HWY_INLINE void add_edge(Sums& tile, const RowShade& shade, Vec2 a, Vec2 b, double sign) {
+  if constexpr (Sums::kLanes == 1)
+    if (std::abs(b.x - a.x) <= b.y - a.y) return add_steep_edge(tile, a, b, sign);
   const double dx_dy = (b.x - a.x) / (b.y - a.y);
   const double top = std::max(a.y, 0.0);
   const double bottom = std::min(b.y, static_cast<double>(tile.height));

@@ -9,9 +9,11 @@
 #include <hwy/highway.h>
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <vector>
 
 #include "render/adaptive/edge_table.h"
 #include "render/adaptive/quad-inl.h"
@@ -22,186 +24,238 @@ namespace contrejour::adaptive::HWY_NAMESPACE {
 
 static_assert(EdgeTable::kStride == 4);
 
-// Distances from a bound of the iris.
-class BoundDistance {
+// Places in a table of fringes along rows, by distance from an edge: a bound's, or a picture's outline.
+class EdgePlaces {
  public:
-  explicit BoundDistance(const IrisBound& bound)
-      : straight_(bound.straight()), x_(static_cast<float>(straight_ ? bound.normal.x : bound.centre.x)),
-        y_(static_cast<float>(straight_ ? bound.normal.y : bound.centre.y)),
-        from_(static_cast<float>(straight_ ? bound.apothem : bound.radius)) {}
+  EdgePlaces() = default;
+  EdgePlaces(const EdgeTable& table, const IrisBound& bound, const StopMap& map) {
+    const double scale = table.per_step();
+    if (bound.straight()) {
+      kind_ = Kind::Straight;
+      x_ = RowForm(map.form(bound.normal * -scale, (table.dark_beyond() + bound.apothem) * scale));
+      return;
+    }
+    kind_ = Kind::Curved;
+    x_ = RowForm(map.form({scale, 0.0}, -bound.centre.x * scale));
+    y_ = RowForm(map.form({0.0, scale}, -bound.centre.y * scale));
+    edge_ = static_cast<float>((table.dark_beyond() + bound.radius) * scale);
+  }
+  EdgePlaces(const EdgeTable& table, const StopMap& map)
+      : kind_(Kind::Picture), x_(map.form({1.0, 0.0}, 0.0)), y_(map.form({0.0, 1.0}, 0.0)), table_(&table) {}
 
-  [[nodiscard]] HWY_INLINE hn::Vec<FloatTag> at(const PixelRow& row, int k) const {
+  HWY_INLINE void set_row(const PixelRow& row) {
+    x_.set_row(row);
+    if (kind_ != Kind::Straight) y_.set_row(row);
+  }
+  // `count` of the pixels count, no more.
+  [[nodiscard]] HWY_INLINE hn::Vec<FloatTag> at(hn::Vec<FloatTag> pixel_x, int count) const {
+    return kind_ == Kind::Picture ? of_picture(x_.at(pixel_x), y_.at(pixel_x), count) : along().at(pixel_x);
+  }
+  // Along a row as vectors of its own; not of a picture.
+  struct Along {
+    bool straight;
+    RowForm::Along x, y;
+    hn::Vec<FloatTag> edge;
+    [[nodiscard]] HWY_INLINE hn::Vec<FloatTag> at(hn::Vec<FloatTag> pixel_x) const {
+      const auto from_x = x.at(pixel_x);
+      if (straight) return from_x;
+      const auto from_y = y.at(pixel_x);
+      return hn::Sub(edge, hn::Sqrt(hn::MulAdd(from_x, from_x, hn::Mul(from_y, from_y))));
+    }
+  };
+  [[nodiscard]] HWY_INLINE Along along() const {
+    return {kind_ == Kind::Straight, x_.along(), y_.along(), hn::Set(FloatTag(), edge_)};
+  }
+  // most: the last place of the table.
+  [[nodiscard]] HWY_INLINE SeenGroups seen(const PixelRow& row, float most) const {
+    if (kind_ == Kind::Picture) return {};
     const FloatTag d;
-    const auto x = hn::Load(d, row.stop_x + k), y = hn::Load(d, row.stop_y + k);
-    const auto px = hn::Set(d, x_), py = hn::Set(d, y_), from = hn::Set(d, from_);
-    if (straight_) return hn::MulAdd(px, x, hn::MulSub(py, y, from));
-    const auto from_x = hn::Sub(x, px), from_y = hn::Sub(y, py);
-    return hn::Sub(hn::Sqrt(hn::MulAdd(from_x, from_x, hn::Mul(from_y, from_y))), from);
+    const float across = x_.half_group(row), down = kind_ == Kind::Straight ? 0.0F : y_.half_group(row);
+    const float apart = across + down;
+    const auto level = hn::Set(d, most + apart), dark = hn::Set(d, -apart);
+    SeenGroups out;
+    out.level = groups_that(row, [&](hn::Vec<FloatTag> x) HWY_ATTR { return hn::Ge(at(x, 0), level); });
+    out.dark = groups_that(row, [&](hn::Vec<FloatTag> x) HWY_ATTR { return hn::Le(at(x, 0), dark); });
+    return out;
   }
 
  private:
-  bool straight_;
-  float x_, y_, from_;
+  enum class Kind : std::uint8_t { Straight, Curved, Picture };
+
+  [[nodiscard]] hn::Vec<FloatTag> of_picture(hn::Vec<FloatTag> x, hn::Vec<FloatTag> y, int count) const {
+    const FloatTag d;
+    HWY_ALIGN float at_x[kGroup], at_y[kGroup], place[kGroup] = {};
+    hn::Store(x, d, at_x);
+    hn::Store(y, d, at_y);
+    for (int k = 0; k < std::min(count, static_cast<int>(hn::Lanes(d))); ++k) {
+      const double distance =
+          table_->iris().picture_distance({static_cast<double>(at_x[k]), static_cast<double>(at_y[k])});
+      place[k] = static_cast<float>((table_->dark_beyond() - distance) * table_->per_step());
+    }
+    return hn::Load(d, place);
+  }
+
+  Kind kind_ = Kind::Straight;
+  RowForm x_, y_;  // of a straight edge x is the place; of a curved one they are steps from its centre
+  float edge_ = 0;  // the place at a curved one's centre
+  const EdgeTable* table_ = nullptr;
 };
 
-// Places in a table of fringes, by distance from an edge, and what all pixels of a vector see there.
-class FringeSteps {
+// What some edges bring together: the product of what each does.
+class Edges {
  public:
-  explicit FringeSteps(const EdgeTable& table)
-      : per_step_(static_cast<float>(table.per_step())),
-        dark_(static_cast<float>(table.dark_beyond() * table.per_step())),
-        most_(static_cast<float>(table.count() - 1)) {}
-
-  [[nodiscard]] HWY_INLINE hn::Vec<FloatTag> at(hn::Vec<FloatTag> distance) const {
-    const FloatTag d;
-    return hn::NegMulAdd(distance, hn::Set(d, per_step_), hn::Set(d, dark_));
+  Edges(const EdgeTable& table, std::span<const std::uint16_t> active, const StopMap& map)
+      : most_(static_cast<float>(table.count() - 1)) {
+    const IrisShape& iris = table.iris();
+    const std::size_t count = iris.is_picture() ? 1 : active.size();
+    if (count > few_.size()) many_.resize(count);
+    all_ = {many_.empty() ? few_.data() : many_.data(), count};
+    for (std::size_t k = 0; k < count; ++k)
+      all_[k] = iris.is_picture() ? EdgePlaces(table, map) : EdgePlaces(table, iris.bounds()[active[k]], map);
   }
-  [[nodiscard]] HWY_INLINE Seen seen(hn::Vec<FloatTag> place) const {
-    const FloatTag d;
-    if (hn::AllTrue(d, hn::Ge(place, hn::Set(d, most_)))) return Seen::Level;
-    return hn::AllTrue(d, hn::Le(place, hn::Zero(d))) ? Seen::Dark : Seen::Varied;
+  Edges(const Edges&) = delete;
+  Edges& operator=(const Edges&) = delete;
+  ~Edges() = default;
+
+  HWY_INLINE void set_row(const PixelRow& row) {
+    for (EdgePlaces& edge : all_) edge.set_row(row);
   }
   [[nodiscard]] float most() const { return most_; }
 
- private:
-  float per_step_, dark_, most_;
-};
-
-// A row's places in a table of three channels.
-class FringeRow {
- public:
-  explicit FringeRow(const EdgeTable& table) : table_(table), most_(FringeSteps(table).most()) {}
-
-  HWY_INLINE void put(int k, hn::Vec<FloatTag> place) { at_.put(k, place, most_); }
-  [[nodiscard]] HWY_INLINE Quad passed(int k) const {
-    const float* const entry = table_.entries() + EdgeTable::kStride * static_cast<std::size_t>(at_.whole[k]);
-    return mix(Quad::load(entry), Quad::load(entry + EdgeTable::kStride), Quad::all(at_.rest[k]));
-  }
-
- private:
-  const EdgeTable& table_;
-  float most_;
-  TableRow at_;
-};
-
-// One edge.
-class Fringe {
- public:
-  static constexpr bool kGrey = false;
-  Fringe(const EdgeTable& table, const IrisBound& bound) : steps_(table), row_(table), distance_(bound) {}
-
-  void look(const PixelRow& row) {
-    const FloatTag d;
-    const int lanes = static_cast<int>(hn::Lanes(d));
-    for (int k = 0; k < row.count; k += lanes) {
-      const auto place = steps_.at(distance_.at(row, k));
-      row_.put(k, place);
-      seen_[k / lanes] = steps_.seen(place);
+  [[nodiscard]] HWY_INLINE SeenGroups seen(const PixelRow& row) const {
+    SeenGroups out{0, ~Groups{0}};
+    for (const EdgePlaces& edge : all_) {
+      const SeenGroups one = edge.seen(row, most_);
+      out.dark |= one.dark;
+      out.level &= one.level;
     }
+    return out;
   }
-  [[nodiscard]] Seen seen(int group) const { return seen_[group]; }
-  [[nodiscard]] HWY_INLINE Quad passed(int k) const { return row_.passed(k); }
+  // Calls `multiply(place)` for each edge, with the places of the pixels from k on.
+  template <class Multiply>
+  HWY_INLINE void look(const PixelRow& row, int k, const Multiply& multiply) const {
+    const auto x = row.x(k);
+    for (const EdgePlaces& edge : all_) multiply(edge.at(x, row.count - k));
+  }
 
  private:
-  FringeSteps steps_;
-  FringeRow row_;
-  BoundDistance distance_;
-  Seen seen_[kMostGroups];
+  float most_;  // place in the table
+  std::array<EdgePlaces, 4> few_;
+  std::vector<EdgePlaces> many_;
+  std::span<EdgePlaces> all_;
 };
 
-// Calls `visit(distance)` for each edge whose fringes are within; distance(k) is that of the pixels from k on.
-// A picture's outline is one edge.
-template <class Visit>
-HWY_INLINE void for_each_distance(const IrisShape& iris, std::span<const std::uint16_t> active, const PixelRow& row,
-                                  const Visit& visit) {
-  const FloatTag d;
-  if (iris.is_picture()) {
-    HWY_ALIGN float distance[hn::MaxLanes(FloatTag())] = {};
-    return visit([&](int k) {
-      for (int j = 0; j < static_cast<int>(hn::Lanes(d)) && k + j < row.count; ++j)
-        distance[j] = static_cast<float>(iris.picture_distance(row.stop(k + j)));
-      return hn::Load(d, distance);
-    });
-  }
-  for (const std::uint16_t bound : active)
-    visit([&row, distance = BoundDistance(iris.bounds()[bound])](int k) { return distance.at(row, k); });
-}
-
-// Sets what the groups of a row see through several edges. multiply(k, place) is called for each edge and group, from
-// pixel k on, that is neither level nor dark there.
-template <class Multiply>
-HWY_INLINE void look_through(const IrisShape& iris, std::span<const std::uint16_t> active, const FringeSteps& steps,
-                             const PixelRow& row, Seen* groups, const Multiply& multiply) {
-  const int lanes = static_cast<int>(hn::Lanes(FloatTag()));
-  for (int k = 0; k < row.count; k += lanes) groups[k / lanes] = Seen::Level;
-  for_each_distance(iris, active, row, [&](const auto& distance_at) {
-    for (int k = 0; k < row.count; k += lanes) {
-      Seen& seen = groups[k / lanes];
-      if (seen == Seen::Dark) continue;
-      const auto place = steps.at(distance_at(k));
-      const Seen here = steps.seen(place);
-      if (here == Seen::Level) continue;
-      seen = here;
-      if (seen != Seen::Dark) multiply(k, place);
-    }
-  });
-}
-
-// The product of what several edges bring.
+// In three channels.
 class Fringes {
  public:
   static constexpr bool kGrey = false;
-  Fringes(const EdgeTable& table, std::span<const std::uint16_t> active)
-      : iris_(table.iris()), active_(active), steps_(table), one_(table) {}
+  Fringes(const EdgeTable& table, std::span<const std::uint16_t> active, const StopMap& map)
+      : edges_(table, active, map), entries_(table.entries()) {}
 
-  void look(const PixelRow& row) {
-    std::fill_n(passed_, TileSums::kPixel * static_cast<std::size_t>(row.count), 1.0F);
-    look_through(iris_, active_, steps_, row, seen_, [&](int k, hn::Vec<FloatTag> place) {
-      one_.put(k, place);
+  HWY_INLINE void set_row(const PixelRow& row) { edges_.set_row(row); }
+  [[nodiscard]] HWY_INLINE SeenGroups seen(const PixelRow& row) const { return edges_.seen(row); }
+  HWY_INLINE const Fringes& look(const PixelRow& row, Groups groups) {
+    for_each_vector(groups, [&](int k) HWY_ATTR {
       const int end = std::min(k + static_cast<int>(hn::Lanes(FloatTag())), row.count);
-      for (; k < end; ++k) (passed(k) * one_.passed(k)).store(passed_ + TileSums::kPixel * static_cast<std::size_t>(k));
+      for (int j = k; j < end; ++j) Quad::all(1.0F).store(passed_ + TileSums::kPixel * static_cast<std::size_t>(j));
+      edges_.look(row, k, [&](hn::Vec<FloatTag> place) HWY_ATTR { multiply(k, end, place); });
     });
+    return *this;
   }
-  [[nodiscard]] Seen seen(int group) const { return seen_[group]; }
   [[nodiscard]] HWY_INLINE Quad passed(int k) const {
     return Quad::load(passed_ + TileSums::kPixel * static_cast<std::size_t>(k));
   }
 
  private:
-  const IrisShape& iris_;
-  std::span<const std::uint16_t> active_;
-  FringeSteps steps_;
-  FringeRow one_;
+  HWY_INLINE void multiply(int k, int end, hn::Vec<FloatTag> place) {
+    if (hn::AllTrue(FloatTag(), hn::Ge(place, hn::Set(FloatTag(), edges_.most())))) return;
+    const TablePlaces at = TableEnd(edges_.most()).places(place);
+    HWY_ALIGN std::int32_t whole[kGroup];
+    HWY_ALIGN float rest[kGroup];
+    hn::Store(at.whole, IntTag(), whole);
+    hn::Store(at.rest, FloatTag(), rest);
+    for (int j = k; j < end; ++j) {
+      const float* const entry = entries_ + EdgeTable::kStride * static_cast<std::size_t>(whole[j - k]);
+      const Quad factor = mix(Quad::load(entry), Quad::load(entry + EdgeTable::kStride), Quad::all(rest[j - k]));
+      (passed(j) * factor).store(passed_ + TileSums::kPixel * static_cast<std::size_t>(j));
+    }
+  }
+
+  Edges edges_;
+  const float* entries_;
   HWY_ALIGN float passed_[TileSums::kPixel * TileGrid::kWidth];
-  Seen seen_[kMostGroups];
 };
 
-// The same of one value for all channels.
+// What fringes let through by place, one value for all channels.
+class GreyTable {
+ public:
+  explicit GreyTable(const EdgeTable& table)
+      : table_(table.coded(), table.coding()), end_(static_cast<float>(table.count() - 1)) {}
+
+  [[nodiscard]] HWY_INLINE hn::Vec<FloatTag> at(hn::Vec<FloatTag> place) const {
+    const TablePlaces at = end_.places(place);
+    return hn::Sub(table_.between(ShortTable::Entries(at.whole), at.rest), table_.none());
+  }
+
+ private:
+  ShortTable table_;
+  TableEnd end_;
+};
+
+// One edge of the iris in one value for all channels.
+class GreyFringe {
+ public:
+  static constexpr bool kGrey = true;
+  GreyFringe(const EdgeTable& table, const IrisBound& bound, const StopMap& map)
+      : table_(table), most_(static_cast<float>(table.count() - 1)), edge_(table, bound, map) {}
+
+  HWY_INLINE void set_row(const PixelRow& row) { edge_.set_row(row); }
+  [[nodiscard]] HWY_INLINE SeenGroups seen(const PixelRow& row) const { return edge_.seen(row, most_); }
+
+  class Row {
+   public:
+    HWY_INLINE Row(const GreyFringe& all, const PixelRow& row)
+        : table_(all.table_), edge_(all.edge_.along()), row_(row) {}
+    [[nodiscard]] HWY_INLINE hn::Vec<FloatTag> passed(int k) const { return table_.at(edge_.at(row_.x(k))); }
+
+   private:
+    GreyTable table_;
+    EdgePlaces::Along edge_;
+    PixelRow row_;
+  };
+  [[nodiscard]] HWY_INLINE Row look(const PixelRow& row, Groups /*groups*/) const { return {*this, row}; }
+
+ private:
+  GreyTable table_;
+  float most_;
+  EdgePlaces edge_;
+};
+
+// Several.
 class GreyFringes {
  public:
   static constexpr bool kGrey = true;
-  GreyFringes(const EdgeTable& table, std::span<const std::uint16_t> active)
-      : iris_(table.iris()), active_(active), steps_(table), table_(table.coded(), table.coding()) {}
+  GreyFringes(const EdgeTable& table, std::span<const std::uint16_t> active, const StopMap& map)
+      : edges_(table, active, map), table_(table) {}
 
-  void look(const PixelRow& row) {
-    const FloatTag d;
-    for (int k = 0; k < row.count; k += static_cast<int>(hn::Lanes(d))) hn::Store(hn::Set(d, 1.0F), d, passed_ + k);
-    look_through(iris_, active_, steps_, row, seen_, [&](int k, hn::Vec<FloatTag> place) {
-      const TablePlaces at(place, steps_.most());
-      const auto factor = hn::Sub(table_.between(at.whole, at.rest), table_.none());
-      hn::Store(hn::Mul(hn::Load(d, passed_ + k), factor), d, passed_ + k);
-    });
-  }
-  [[nodiscard]] Seen seen(int group) const { return seen_[group]; }
-  [[nodiscard]] HWY_INLINE hn::Vec<FloatTag> passed(int k) const { return hn::Load(FloatTag(), passed_ + k); }
+  HWY_INLINE void set_row(const PixelRow& row) { edges_.set_row(row); }
+  [[nodiscard]] HWY_INLINE SeenGroups seen(const PixelRow& row) const { return edges_.seen(row); }
+
+  struct Row {
+    const GreyFringes& all;
+    PixelRow row;
+    [[nodiscard]] HWY_INLINE hn::Vec<FloatTag> passed(int k) const {
+      auto passed = hn::Set(FloatTag(), 1.0F);
+      all.edges_.look(row, k,
+                      [&](hn::Vec<FloatTag> place) HWY_ATTR { passed = hn::Mul(passed, all.table_.at(place)); });
+      return passed;
+    }
+  };
+  [[nodiscard]] HWY_INLINE Row look(const PixelRow& row, Groups /*groups*/) const { return {*this, row}; }
 
  private:
-  const IrisShape& iris_;
-  std::span<const std::uint16_t> active_;
-  FringeSteps steps_;
-  ShortTable table_;
-  HWY_ALIGN float passed_[kRowRoom];
-  Seen seen_[kMostGroups];
+  Edges edges_;
+  GreyTable table_;
 };
 
 }  // namespace contrejour::adaptive::HWY_NAMESPACE

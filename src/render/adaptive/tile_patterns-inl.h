@@ -23,67 +23,74 @@ namespace contrejour::adaptive::HWY_NAMESPACE {
 
 static_assert(screens::BandPattern::kStride == 4);
 
-// Places in a pattern's samples.
-class PatternSteps {
+// Places in a pattern's samples along rows.
+class PatternPlaces {
  public:
-  PatternSteps(const screens::BandPattern::Level& level, double extent)
-      : per_radius_(static_cast<float>(0.5 * level.side / extent)),
-        centre_(static_cast<float>(0.5 * level.side + 0.5)),  // with the border's sample the first middle is at 1
-        most_(static_cast<float>(level.side + 1)) {}
+  PatternPlaces(const screens::BandPattern::Level& level, double extent, const StopMap& map)
+      : most_(static_cast<float>(level.side + 1)) {
+    const double per_radius = 0.5 * level.side / extent;
+    const double centre = 0.5 * level.side + 0.5;  // with the border's sample the first middle is at 1
+    column_ = RowForm(map.form({per_radius, 0.0}, centre));
+    line_ = RowForm(map.form({0.0, -per_radius}, centre));
+  }
 
-  [[nodiscard]] HWY_INLINE hn::Vec<FloatTag> column(const PixelRow& row, int k) const {
-    const FloatTag d;
-    return hn::MulAdd(hn::Load(d, row.stop_x + k), hn::Set(d, per_radius_), hn::Set(d, centre_));
+  HWY_INLINE void set_row(const PixelRow& row) {
+    column_.set_row(row);
+    line_.set_row(row);
   }
-  [[nodiscard]] HWY_INLINE hn::Vec<FloatTag> line(const PixelRow& row, int k) const {
-    const FloatTag d;
-    return hn::NegMulAdd(hn::Load(d, row.stop_y + k), hn::Set(d, per_radius_), hn::Set(d, centre_));
-  }
-  [[nodiscard]] HWY_INLINE Seen seen(hn::Vec<FloatTag> column, hn::Vec<FloatTag> line) const {
-    const FloatTag d;
-    const auto beyond = [&](auto place) HWY_ATTR {
-      return hn::AllTrue(d, hn::Le(place, hn::Zero(d))) || hn::AllTrue(d, hn::Ge(place, hn::Set(d, most_)));
-    };
-    return beyond(column) || beyond(line) ? Seen::Dark : Seen::Varied;
-  }
-  [[nodiscard]] float most() const { return most_; }
-  [[nodiscard]] std::pair<float, float> place(float x, float y) const {
-    return {centre_ + x * per_radius_, centre_ - y * per_radius_};
-  }
+  // Along a row as vectors of its own.
+  class Along {
+   public:
+    HWY_INLINE Along(const PatternPlaces& all, const PixelRow& row)
+        : column_(all.column_.along()), line_(all.line_.along()), end_(all.most_), row_(row) {}
+    [[nodiscard]] HWY_INLINE TablePlaces across(int k) const { return end_.places(column_.at(row_.x(k))); }
+    [[nodiscard]] HWY_INLINE TablePlaces down(int k) const { return end_.places(line_.at(row_.x(k))); }
+
+   private:
+    RowForm::Along column_, line_;
+    TableEnd end_;
+    PixelRow row_;
+  };
+  // Of a pixel so far along the row.
+  [[nodiscard]] std::pair<float, float> at(float x) const { return {column_.at(x), line_.at(x)}; }
   [[nodiscard]] bool holds(float place) const { return place > 0.0F && place < most_; }
 
  private:
-  float per_radius_, centre_, most_;
+  float most_;
+  RowForm column_, line_;
 };
 
 // All channels, each wavelength's part by its own weights.
 class Pattern {
  public:
   static constexpr bool kGrey = false;
-  Pattern(const BandScreen& screen, double width)
-      : level_(screen.pattern->level_for(width)), steps_(level_, screen.pattern->extent()),
+  Pattern(const BandScreen& screen, const StopMap& map)
+      : level_(screen.pattern->level_for(map.width())), places_(level_, screen.pattern->extent(), map),
         pitch_(kStride * static_cast<std::size_t>(level_.pitch())) {
     for (std::size_t k = 0; k < screen.parts.size(); ++k)
       std::copy_n(screen.parts[k].channel.data(), 3, channel_[k].data());
   }
 
-  void look(const PixelRow& row) {
-    const int lanes = static_cast<int>(hn::Lanes(FloatTag()));
-    for (int k = 0; k < row.count; k += lanes) {
-      const auto column = steps_.column(row, k), line = steps_.line(row, k);
-      column_.put(k, column, steps_.most());
-      line_.put(k, line, steps_.most());
-      seen_[k / lanes] = steps_.seen(column, line);
-    }
+  HWY_INLINE void set_row(const PixelRow& row) { places_.set_row(row); }
+  [[nodiscard]] static SeenGroups seen(const PixelRow& /*row*/) { return {}; }  // hulls have cut off what is dark
+  HWY_INLINE const Pattern& look(const PixelRow& row, Groups groups) {
+    const PatternPlaces::Along places(places_, row);
+    for_each_vector(groups, [&](int k) HWY_ATTR {
+      const TablePlaces across = places.across(k), down = places.down(k);
+      hn::Store(across.whole, IntTag(), column_ + k);
+      hn::Store(across.rest, FloatTag(), right_ + k);
+      hn::Store(down.whole, IntTag(), line_ + k);
+      hn::Store(down.rest, FloatTag(), below_ + k);
+    });
+    return *this;
   }
-  [[nodiscard]] Seen seen(int group) const { return seen_[group]; }
-  [[nodiscard]] HWY_INLINE Quad passed(int k) const {
-    const float* const above = level_.samples.data() + static_cast<std::size_t>(line_.whole[k]) * pitch_ +
-                               kStride * static_cast<std::size_t>(column_.whole[k]);
+  [[nodiscard]] HWY_INLINE Quad passed(int j) const {
+    const float* const above = level_.samples.data() + static_cast<std::size_t>(line_[j]) * pitch_ +
+                               kStride * static_cast<std::size_t>(column_[j]);
     const float* const below = above + pitch_;
-    const Quad right = Quad::all(column_.rest[k]);
+    const Quad right = Quad::all(right_[j]);
     const Quad value = mix(mix(Quad::load(above), Quad::load(above + kStride), right),
-                           mix(Quad::load(below), Quad::load(below + kStride), right), Quad::all(line_.rest[k]));
+                           mix(Quad::load(below), Quad::load(below + kStride), right), Quad::all(below_[j]));
     const auto of = [&](std::size_t part) { return Quad::load(channel_[part].data()); };
     return multiply_add(value.broadcast<0>(), of(0),
                         multiply_add(value.broadcast<1>(), of(1), value.broadcast<2>() * of(2)));
@@ -92,65 +99,68 @@ class Pattern {
  private:
   static constexpr std::size_t kStride = screens::BandPattern::kStride;
   const screens::BandPattern::Level& level_;
-  PatternSteps steps_;
+  PatternPlaces places_;
   std::size_t pitch_;
   std::array<std::array<float, TileSums::kPixel>, screens::BandPattern::kMost> channel_{};
-  TableRow column_, line_;
-  Seen seen_[kMostGroups];
+  HWY_ALIGN std::int32_t column_[kRowRoom], line_[kRowRoom];
+  HWY_ALIGN float right_[kRowRoom], below_[kRowRoom];
 };
 
 // Of a single wavelength, one value for all channels.
 class GreyPattern {
  public:
   static constexpr bool kGrey = true;
-  GreyPattern(const screens::BandPattern& pattern, double width) : GreyPattern(pattern, pattern.level_for(width)) {}
+  GreyPattern(const screens::BandPattern& pattern, const StopMap& map)
+      : GreyPattern(pattern, pattern.level_for(map.width()), map) {}
 
-  // Asks for what a row of pixels will look up, from the first to the last of them: patterns are far away, and most of
-  // their samples are wanted but once.
-  HWY_INLINE void fetch(const StopMap::Row& row, float first, float last) const {
+  HWY_INLINE void set_row(const PixelRow& row) { places_.set_row(row); }
+
+  // Asks for what a row of pixels will look up: patterns are far away, and most of their samples are wanted but once.
+  HWY_INLINE void fetch(const PixelRow& row) {
     constexpr float kLine = 32.0F;  // samples, of memory
     constexpr int kMost = 16;
-    const auto [x0, y0] = steps_.place(row.x0 + first * row.x1, row.y0 + first * row.y1);
-    const auto [x1, y1] = steps_.place(row.x0 + last * row.x1, row.y0 + last * row.y1);
+    places_.set_row(row);
+    const auto [x0, y0] = places_.at(row.from_x);
+    const auto [x1, y1] = places_.at(row.from_x + static_cast<float>(row.count - 1));
     const float apart = std::max(std::abs(x1 - x0) * (1.0F / kLine), std::abs(y1 - y0));
     const int pieces = apart < kMost ? static_cast<int>(apart) + 1 : kMost;
     const float part = 1.0F / static_cast<float>(pieces);
     for (int k = 0; k <= pieces; ++k) {
       const float t = static_cast<float>(k) * part;
       const float column = x0 + t * (x1 - x0), line = y0 + t * (y1 - y0);
-      if (steps_.holds(column) && steps_.holds(line))
+      if (places_.holds(column) && places_.holds(line))
         table_.fetch(static_cast<std::ptrdiff_t>(line) * pitch_ + static_cast<std::ptrdiff_t>(column));
     }
   }
 
-  void look(const PixelRow& row) {
-    const FloatTag d;
-    const IntTag di;
-    const int lanes = static_cast<int>(hn::Lanes(d));
-    const auto pitch = hn::Set(di, pitch_);
-    for (int k = 0; k < row.count; k += lanes) {
-      const auto column = steps_.column(row, k), line = steps_.line(row, k);
-      seen_[k / lanes] = steps_.seen(column, line);
-      if (seen_[k / lanes] == Seen::Dark) continue;
-      const TablePlaces across(column, steps_.most()), down(line, steps_.most());
-      const auto place = hn::Add(hn::Mul(down.whole, pitch), across.whole);
-      const auto above = table_.between(place, across.rest), below = table_.between(hn::Add(place, pitch), across.rest);
-      const auto light = hn::MulAdd(down.rest, hn::Sub(below, above), above);
-      hn::Store(hn::Sub(light, table_.none()), d, passed_ + k);
+  [[nodiscard]] static SeenGroups seen(const PixelRow& /*row*/) { return {}; }  // hulls have cut off what is dark
+
+  class Row {
+   public:
+    HWY_INLINE Row(const GreyPattern& all, const PixelRow& row)
+        : places_(all.places_, row), table_(all.table_), pitch_(all.pitch_), down_(hn::Set(IntTag(), all.pitch_)) {}
+    [[nodiscard]] HWY_INLINE hn::Vec<FloatTag> passed(int k) const {
+      const TablePlaces across = places_.across(k), down = places_.down(k);
+      const ShortTable::Entries place(hn::Add(hn::Mul(down.whole, down_), across.whole));
+      const auto above = table_.between(place, across.rest), below = table_.between(place, across.rest, pitch_);
+      return hn::Sub(hn::MulAdd(down.rest, hn::Sub(below, above), above), table_.none());
     }
-  }
-  [[nodiscard]] Seen seen(int group) const { return seen_[group]; }
-  [[nodiscard]] HWY_INLINE hn::Vec<FloatTag> passed(int k) const { return hn::Load(FloatTag(), passed_ + k); }
+
+   private:
+    PatternPlaces::Along places_;
+    ShortTable table_;
+    std::ptrdiff_t pitch_;
+    hn::Vec<IntTag> down_;
+  };
+  [[nodiscard]] HWY_INLINE Row look(const PixelRow& row, Groups /*groups*/) const { return {*this, row}; }
 
  private:
-  GreyPattern(const screens::BandPattern& pattern, const screens::BandPattern::Level& level)
-      : steps_(level, pattern.extent()), table_(level.coded, level.coding), pitch_(level.pitch()) {}
+  GreyPattern(const screens::BandPattern& pattern, const screens::BandPattern::Level& level, const StopMap& map)
+      : places_(level, pattern.extent(), map), table_(level.coded, level.coding), pitch_(level.pitch()) {}
 
-  PatternSteps steps_;
+  PatternPlaces places_;
   ShortTable table_;
   std::int32_t pitch_;
-  HWY_ALIGN float passed_[kRowRoom];
-  Seen seen_[kMostGroups];
 };
 
 }  // namespace contrejour::adaptive::HWY_NAMESPACE

@@ -34,16 +34,18 @@ class AnyScreen {
   AnyScreen(const BandScreen* screen, const StopMap& map, const PastDirt* dirt = nullptr)
       : screen_(screen), map_(map), dirt_(dirt) {}
 
-  void look(const PixelRow& row) { row_ = &row; }
-  [[nodiscard]] static Seen seen(int /*group*/) { return Seen::Varied; }
+  void set_row(const PixelRow& row) { row_ = &row; }
+  [[nodiscard]] static SeenGroups seen(const PixelRow& /*row*/) { return {}; }
+  [[nodiscard]] const AnyScreen& look(const PixelRow& /*row*/, Groups /*groups*/) const { return *this; }
   [[nodiscard]] Quad passed(int k) const {
+    const Vec2 pixel = row_->pixel(k);
     std::array<StopPlace, kMaxStopCrossings> room;
     std::array<double, 3> share{1.0, 1.0, 1.0};
-    if (screen_ != nullptr) share = screen_->share(map_.places(row_->pixel(k), room));
+    if (screen_ != nullptr) share = screen_->share(map_.places(pixel, room));
     const float all[] = {static_cast<float>(share[0]), static_cast<float>(share[1]), static_cast<float>(share[2]),
                          0.0F};
     if (dirt_ == nullptr) return Quad::load(all);
-    return Quad::load(all) * Quad::all(static_cast<float>(dirt_->passed(row_->pixel(k))));
+    return Quad::load(all) * Quad::all(static_cast<float>(dirt_->passed(pixel)));
   }
 
  private:
@@ -53,36 +55,60 @@ class AnyScreen {
   const PixelRow* row_ = nullptr;
 };
 
-// A row's coverage from its changes, which are cleared. Pixels that only rounding covers are not. Most pixels have no
-// changes: some of them at once take one test. Writes whole vectors.
-HWY_INLINE void sum_coverage(double* changes, int count, float* cover) {
-  const hn::ScalableTag<double> d;
-  const hn::Rebind<float, decltype(d)> df;
-  constexpr auto kMost = hn::MaxLanes(hn::ScalableTag<double>());
-  const auto lanes = static_cast<int>(hn::Lanes(d));
-  HWY_ALIGN double from_lane[2 * kMost] = {};  // 1 from `lanes` on: read from k before there, 1 in lanes k and up
-  std::fill_n(from_lane + lanes, lanes, 1.0);
-  auto covered = hn::Zero(d);
-  auto seen = hn::Zero(df);
-  for (int k = 0; k < count; k += lanes) {
-    const auto change = hn::LoadU(d, changes + k);
-    if (hn::AllTrue(d, hn::Eq(change, hn::Zero(d)))) {
-      hn::StoreU(seen, df, cover + k);
-      continue;
-    }
-    auto sum = covered;
-    for (int j = 0; j < lanes; ++j)
-      sum = hn::MulAdd(hn::Set(d, changes[k + j]), hn::LoadU(d, from_lane + lanes - j), sum);
-    covered = hn::Add(covered, hn::SumOfLanes(d, change));
-    hn::StoreU(hn::Zero(d), d, changes + k);
-    const auto shown = [&](auto v) HWY_ATTR {
-      return hn::DemoteTo(df, hn::IfThenElseZero(hn::Gt(v, hn::Set(d, TileSums::kUnseenCover)), v));
-    };
-    hn::StoreU(shown(sum), df, cover + k);
-    seen = shown(covered);
+// A row's coverage from its changes, which are cleared, some pixels after the other. What only rounding covers is not.
+class RunningCover {
+ public:
+  RunningCover(double* changes, int count) : changes_(changes), count_(count), before_(hn::Zero(DoubleTag())) {}
+
+  // Of the pixels from k on: none beyond the row.
+  HWY_INLINE hn::Vec<FloatTag> next(int k) {
+    const FloatTag d;
+    const auto cover = seen(DoubleTag(), changes_ + k);
+    const int left = count_ - k;
+    if (left >= static_cast<int>(hn::Lanes(d))) return cover;
+    return hn::IfThenElseZero(hn::FirstN(d, static_cast<std::size_t>(left)), cover);
   }
-  changes[count] = 0.0;
-}
+
+ private:
+  static constexpr std::size_t kFloats = hn::MaxLanes(FloatTag());
+  using DoubleTag = hn::CappedTag<double, kFloats>;
+  static constexpr std::size_t kDoubles = hn::MaxLanes(DoubleTag());
+
+  template <class D>
+  HWY_INLINE hn::Vec<FloatTag> seen(D d, double* changes) {
+    const hn::Rebind<float, D> df;
+    if constexpr (hn::MaxLanes(d) == kFloats) {
+      return hn::DemoteTo(df, next_sum(d, changes));
+    } else {
+      HWY_ALIGN float cover[kFloats];
+      for (std::size_t k = 0; k < kFloats; k += kDoubles)
+        hn::StoreU(hn::DemoteTo(df, next_sum(d, changes + k)), df, cover + k);
+      return hn::Load(FloatTag(), cover);
+    }
+  }
+  // By sums of two, four and eight neighbours.
+  template <class D>
+  HWY_INLINE hn::Vec<D> next_sum(D d, double* changes) {
+    auto sum = hn::LoadU(d, changes);
+    hn::StoreU(hn::Zero(d), d, changes);
+    for (std::size_t step = 1; step < kDoubles; step *= 2) {
+      HWY_ALIGN std::int64_t from[kDoubles];
+      HWY_ALIGN double has[kDoubles];
+      for (std::size_t k = 0; k < kDoubles; ++k) {
+        from[k] = static_cast<std::int64_t>(k < step ? 0 : k - step);
+        has[k] = k < step ? 0.0 : 1.0;
+      }
+      sum = hn::MulAdd(hn::Load(d, has), hn::TableLookupLanes(sum, hn::SetTableIndices(d, from)), sum);
+    }
+    sum = hn::Add(sum, before_);
+    before_ = hn::TableLookupLanes(sum, hn::IndicesFromVec(d, hn::Set(hn::RebindToSigned<D>(), kDoubles - 1)));
+    return hn::IfThenElseZero(hn::Gt(sum, hn::Set(d, TileSums::kUnseenCover)), sum);
+  }
+
+  double* changes_;
+  int count_;
+  hn::Vec<DoubleTag> before_;  // the sum of all changes so far
+};
 
 // Whole pixels in a row that see the stop level: their light is left as changes along the row, as any polygon's is.
 class LevelRun {
@@ -110,22 +136,40 @@ class LevelRun {
   int first_ = -1, end_ = -1;
 };
 
+// A row of what a polygon covers, in the tile.
+struct CoveredRow {
+  int row, first, count;
+};
+
 // A polygon's irradiance times what passes, pixel by pixel.
 class QuadLight {
  public:
   explicit QuadLight(const RowShade& shade)
-      : level_(quad(shade.level)), slope_(quad(shade.level + TileSums::kPixel)), by_row_(quad(shade.by_row)),
-        in_row_(level_) {}
-  void set_row(int row) { in_row_ = multiply_add(by_row_, Quad::all(static_cast<float>(row)), level_); }
+      : level_(quad(shade.level)), slope_(quad(shade.level + TileSums::kPixel)), by_row_(quad(shade.by_row)) {}
 
-  // Adds pixels k to `end` of a row to `to`, which is pixel k; `column` is its column.
-  template <class Look>
-  HWY_INLINE void add(const Look& look, const float* cover, int k, int end, int column, float* to) const {
-    for (; k < end; ++k, ++column, to += TileSums::kPixel) {
-      const Quad irradiance = multiply_add(slope_, Quad::all(static_cast<float>(column)), in_row_);
-      multiply_add(Quad::all(cover[k]) * irradiance, look.passed(k), Quad::load(to)).store(to);
+  class Row {
+   public:
+    HWY_INLINE Row(const QuadLight& all, const CoveredRow& row)
+        : level_(multiply_add(all.by_row_, Quad::all(static_cast<float>(row.row)), all.level_)), slope_(all.slope_),
+          row_(row) {}
+    // Adds some pixels from k on to the row's at `to`, as far as they are covered.
+    template <class Look>
+    HWY_INLINE void add(const Look& look, hn::Vec<FloatTag> covered, int k, float* to) const {
+      const FloatTag d;
+      HWY_ALIGN float cover[kGroup] = {};
+      hn::Store(covered, d, cover);
+      const int from = k, end = std::min(k + static_cast<int>(hn::Lanes(d)), row_.count);
+      for (; k < end; ++k) {
+        const Quad irradiance = multiply_add(slope_, Quad::all(static_cast<float>(row_.first + k)), level_);
+        float* const pixel = to + TileSums::kPixel * static_cast<std::size_t>(k);
+        multiply_add(Quad::all(cover[k - from]) * irradiance, look.passed(k), Quad::load(pixel)).store(pixel);
+      }
     }
-  }
+
+   private:
+    Quad level_, slope_;
+    CoveredRow row_;
+  };
 
  private:
   static Quad quad(const double* from) {
@@ -133,67 +177,82 @@ class QuadLight {
     for (std::size_t c = 0; c < TileSums::kPixel; ++c) v[c] = static_cast<float>(from[c]);
     return Quad::load(v);
   }
-  Quad level_, slope_, by_row_, in_row_;
+  Quad level_, slope_, by_row_;
 };
 
 // The same where one value serves all channels: whole vectors of pixels at once, which have nothing beyond the row.
 class GreyLight {
+  using WideTag = hn::CappedTag<float, 16>;
+  static constexpr std::size_t kLanes = std::max<std::size_t>(hn::MaxLanes(WideTag()), TileSums::kPixel);
+
  public:
   explicit GreyLight(const RowShade& shade) {
-    const auto repeat = [](const double* from, float* to) {
-      for (std::size_t k = 0; k < kLanes; ++k) to[k] = static_cast<float>(from[k % TileSums::kPixel]);
-    };
-    repeat(shade.level, level_);
-    repeat(shade.level + TileSums::kPixel, slope_);
-    repeat(shade.by_row, by_row_);
-  }
-  void set_row(int row) {
-    for (std::size_t k = 0; k < kLanes; ++k) in_row_[k] = level_[k] + by_row_[k] * static_cast<float>(row);
+    for (std::size_t k = 0; k < kLanes; ++k) {
+      const std::size_t c = k % TileSums::kPixel;
+      level_[k] = static_cast<float>(shade.level[c]);
+      slope_[k] = static_cast<float>(shade.level[TileSums::kPixel + c]);
+      by_row_[k] = static_cast<float>(shade.by_row[c]);
+    }
   }
 
-  template <class Look>
-  HWY_INLINE void add(const Look& look, const float* cover, int k, int /*end*/, int column, float* to) const {
-    add(hn::Mul(hn::Load(FloatTag(), cover + k), look.passed(k)), column, to);
-  }
+#if HWY_TARGET == HWY_SCALAR
+  class Row {
+   public:
+    Row(const GreyLight& all, const CoveredRow& row) : all_(all), row_(row) {}
+    template <class Look>
+    void add(const Look& look, hn::Vec<FloatTag> cover, int k, float* to) const {
+      const float passed = hn::GetLane(cover) * hn::GetLane(look.passed(k));
+      for (std::size_t c = 0; c < TileSums::kPixel; ++c)
+        to[TileSums::kPixel * static_cast<std::size_t>(k) + c] +=
+            passed * (all_.level_[c] + all_.by_row_[c] * static_cast<float>(row_.row) +
+                      all_.slope_[c] * static_cast<float>(row_.first + k));
+    }
+
+   private:
+    const GreyLight& all_;
+    CoveredRow row_;
+  };
+#else
+  class Row {
+   public:
+    HWY_INLINE Row(const GreyLight& all, const CoveredRow& row)
+        : slope_(hn::Load(WideTag(), all.slope_)),
+          level_(hn::MulAdd(
+              hn::Load(WideTag(), all.by_row_), hn::Set(WideTag(), static_cast<float>(row.row)),
+              hn::MulAdd(slope_, hn::Set(WideTag(), static_cast<float>(row.first)), hn::Load(WideTag(), all.level_)))) {
+    }
+    template <class Look>
+    HWY_INLINE void add(const Look& look, hn::Vec<FloatTag> cover, int k, float* to) const {
+      const WideTag d;
+      const hn::RebindToSigned<WideTag> di;
+      constexpr int kPixels = static_cast<int>(kLanes / TileSums::kPixel);  // of a wide vector
+      const auto passed = wide(d, hn::Mul(cover, look.passed(k)));
+      to += TileSums::kPixel * static_cast<std::size_t>(k);
+      // Lane k of a vector is of its pixel k / 4.
+      for (int j = 0; j < static_cast<int>(hn::Lanes(FloatTag())); j += kPixels, to += kLanes) {
+        const auto pixel = hn::Add(hn::ShiftRight<2>(hn::Iota(di, 0)), hn::Set(di, j));
+        const auto each = hn::TableLookupLanes(passed, hn::IndicesFromVec(d, pixel));
+        const auto column = hn::ConvertTo(d, hn::Add(pixel, hn::Set(di, k)));
+        hn::StoreU(hn::MulAdd(each, hn::MulAdd(slope_, column, level_), hn::LoadU(d, to)), d, to);
+      }
+    }
+
+   private:
+    template <class D>
+    static HWY_INLINE hn::Vec<D> wide(D d, hn::Vec<FloatTag> v) {
+      if constexpr (hn::MaxLanes(d) == hn::MaxLanes(FloatTag())) {
+        return v;
+      } else {
+        return hn::ZeroExtendVector(d, v);
+      }
+    }
+    hn::Vec<WideTag> slope_, level_;
+  };
+#endif
 
  private:
-  HWY_INLINE void add(hn::Vec<FloatTag> passed, int column, float* to) const {
-#if HWY_TARGET == HWY_SCALAR
-    for (std::size_t c = 0; c < TileSums::kPixel; ++c)
-      to[c] += hn::GetLane(passed) * (in_row_[c] + slope_[c] * static_cast<float>(column));
-#else
-    const FloatTag d;
-    const IntTag di;
-    const std::size_t lanes = hn::Lanes(d), pixels = lanes / TileSums::kPixel;
-    const auto slope = hn::Load(d, slope_);
-    // Lane k of a vector is of its pixel k / 4.
-    auto pixel = hn::ShiftRight<2>(hn::Iota(di, 0));
-    const auto next = hn::Set(di, static_cast<std::int32_t>(pixels));
-    auto irradiance = hn::MulAdd(slope, hn::Add(hn::Set(d, static_cast<float>(column)), hn::ConvertTo(d, pixel)),
-                                 hn::Load(d, in_row_));
-    const auto further = hn::Mul(slope, hn::Set(d, static_cast<float>(pixels)));
-    for (std::size_t part = 0; part < TileSums::kPixel; ++part, to += lanes) {
-      const auto each = hn::TableLookupLanes(passed, hn::IndicesFromVec(d, pixel));
-      hn::StoreU(hn::MulAdd(each, irradiance, hn::LoadU(d, to)), d, to);
-      pixel = hn::Add(pixel, next);
-      irradiance = hn::Add(irradiance, further);
-    }
-#endif
-  }
-
-  static constexpr std::size_t kLanes = std::max<std::size_t>(hn::MaxLanes(FloatTag()), TileSums::kPixel);
-  HWY_ALIGN float level_[kLanes], slope_[kLanes], by_row_[kLanes], in_row_[kLanes];
+  HWY_ALIGN float level_[kLanes], slope_[kLanes], by_row_[kLanes];
 };
-
-// Whether pixels are all covered, but for rounding.
-HWY_INLINE bool all_covered(const float* cover, int count) {
-  constexpr float kWhole = 1.0F - 1e-6F;
-  const FloatTag d;
-  if (count == static_cast<int>(hn::Lanes(d))) return hn::AllTrue(d, hn::Ge(hn::Load(d, cover), hn::Set(d, kWhole)));
-  for (int k = 0; k < count; ++k)
-    if (cover[k] < kWhole) return false;
-  return true;
-}
 
 // Of a tile, those that a polygon may touch. last_column: as far as all of them are covered at the least; -1: not told.
 struct PixelRows {
@@ -213,91 +272,81 @@ PixelRows rows_under(const TileSums& tile, std::span<const Point> corners) {
   return {row(low.y), row(high.y), high.x > static_cast<float>(tile.x0 + tile.width) ? tile.width - 1 : -1};
 }
 
-// A row of what a polygon covers.
-struct CoveredRow {
-  int row, first, count;  // in the tile
-  const float* cover;  // none beyond `count`, a vector long
-};
-
-// All of a polygon's rows, before the first of them is looked at: what was just written one by one cannot yet be read
-// by whole vectors.
-class Coverage {
+// Those of a polygon whose edges have left their changes in the tile.
+class CoveredRows {
  public:
-  Coverage(TileSums& tile, const PixelRows& within) {
-    const FloatTag d;
-    std::size_t room = 0;
+  CoveredRows(TileSums& tile, const PixelRows& within) {
     for (int row = within.first; row <= within.last; ++row) {
       const auto changed = std::exchange(tile.cover.changed[static_cast<std::size_t>(row)], {});
       const int last = std::min(std::max(changed.last, within.last_column), tile.width - 1);
-      if (changed.first > last) {
-        if (changed.last >= 0) *tile.cover.at(row, tile.width) = 0.0;  // the right border's
-        continue;
-      }
-      const int count = last - changed.first + 1;
-      sum_coverage(tile.cover.at(row, changed.first), count, cover_ + room);
-      hn::StoreU(hn::Zero(d), d, cover_ + room + count);
-      rows_[count_++] = {row, changed.first, count, cover_ + room};
-      room += hwy::RoundUpTo(static_cast<std::size_t>(count), hn::Lanes(d));
+      if (changed.last >= 0) *tile.cover.at(row, tile.width) = 0.0;  // the right border's
+      if (changed.first <= last) rows_[count_++] = {row, changed.first, last - changed.first + 1};
     }
   }
-  [[nodiscard]] std::span<const CoveredRow> rows() const { return {rows_, count_}; }
+  [[nodiscard]] std::span<const CoveredRow> all() const { return {rows_, count_}; }
 
  private:
-  HWY_ALIGN float cover_[kRowRoom * TileGrid::kHeight];
   CoveredRow rows_[TileGrid::kHeight];
   std::size_t count_ = 0;
 };
 
-// A row's pixels, as `look` finds them.
-template <class Look, class Light>
-HWY_INLINE void add_row(TileSums& tile, const CoveredRow& r, const RowShade& shade, const Look& look,
-                        const Light& light) {
+// Whether `count` pixels are all covered, but for rounding; none beyond them is.
+HWY_INLINE bool all_covered(hn::Vec<FloatTag> cover, int count) {
+  constexpr float kWhole = 1.0F - 1e-6F;
+  const FloatTag d;
+  const auto whole = hn::CountTrue(d, hn::Ge(cover, hn::Set(d, kWhole)));
+  return static_cast<int>(whole) >= std::min(count, static_cast<int>(hn::Lanes(d)));
+}
+
+// A row's pixels, but those of groups that see nothing.
+template <class Passed, class LightRow>
+HWY_INLINE void add_row(TileSums& tile, const CoveredRow& r, const RowShade& shade, const SeenGroups& seen,
+                        const Passed& passed, const LightRow& light) {
   const int lanes = static_cast<int>(hn::Lanes(FloatTag()));
   float* const to = tile.pixels_at(r.row) + TileSums::kPixel * static_cast<std::size_t>(r.first);
+  RunningCover covers(tile.cover.at(r.row, r.first), r.count);
   LevelRun run(tile, r.row, shade);
+  Groups lit = 0;
   for (int k = 0; k < r.count; k += lanes) {
-    const Seen seen = look.seen(k / lanes);
-    const int end = std::min(k + lanes, r.count);
-    if (seen == Seen::Level && all_covered(r.cover + k, end - k)) {
-      run.go_on(r.first + k, r.first + end);
+    const auto cover = covers.next(k);
+    const Groups group = Groups{1} << static_cast<unsigned>(k / kGroup);
+    if ((seen.level & group) != 0 && all_covered(cover, r.count - k)) {
+      run.go_on(r.first + k, r.first + std::min(k + lanes, r.count));
       continue;
     }
     run.stop();
-    if (seen == Seen::Dark) continue;
-    tile.light(r.row, r.first + k, r.first + end - 1);
-    light.add(look, r.cover, k, end, r.first + k, to + TileSums::kPixel * static_cast<std::size_t>(k));
+    if ((seen.dark & group) != 0) continue;
+    lit |= group;
+    light.add(passed, cover, k, to);
   }
   run.stop();
+  tile.light_groups(r.row, r.first, lit);
 }
 
 template <class Look>
 void add_pixels(TileSums& tile, const Polygon& polygon, const StopMap& map, const PixelRows& within, Look& look) {
-  const Coverage coverage(tile, within);
-  const auto rows = coverage.rows();
-  std::array<StopMap::Row, TileGrid::kHeight> stop;
-  for (std::size_t k = 0; k < rows.size(); ++k) {
-    stop[k] = map.row(tile.y0 + rows[k].row + 0.5);
-    const auto first = static_cast<float>(tile.x0 + rows[k].first + 0.5 - map.origin().x);
-    if constexpr (requires { look.fetch(stop[k], first, first); })
-      look.fetch(stop[k], first, first + static_cast<float>(rows[k].count - 1));
-  }
+  constexpr int kShort = 8 * kGroup;  // pixels: what groups of them see tells more work than it saves
+  const CoveredRows rows(tile, within);
+  const auto pixels_of = [&](const CoveredRow& r) {
+    return PixelRow(tile.x0 + r.first, r.count, tile.y0 + r.row, map.origin());
+  };
+  if constexpr (requires(const PixelRow& row) { look.fetch(row); })
+    for (const CoveredRow& r : rows.all()) look.fetch(pixels_of(r));
   const RowShade shade = row_shade(polygon.shade, tile);
-  std::conditional_t<Look::kGrey, GreyLight, QuadLight> light(shade);
-  PixelRow pixels;
-  for (std::size_t k = 0; k < rows.size(); ++k) {
-    pixels.first = tile.x0 + rows[k].first;
-    pixels.y = tile.y0 + rows[k].row;
-    pixels.count = rows[k].count;
-    pixels.look_at_stop(stop[k], map.origin().x);
-    look.look(pixels);
-    light.set_row(rows[k].row);
-    add_row(tile, rows[k], shade, look, light);
+  using Light = std::conditional_t<Look::kGrey, GreyLight, QuadLight>;
+  const Light light(shade);
+  for (const CoveredRow& r : rows.all()) {
+    const PixelRow pixels = pixels_of(r);
+    look.set_row(pixels);
+    SeenGroups seen;
+    if (r.count > kShort) seen = look.seen(pixels);
+    const Groups varied = first_groups((r.count + kGroup - 1) / kGroup) & ~seen.dark;
+    add_row(tile, r, shade, seen, look.look(pixels, varied), typename Light::Row(light, r));
   }
 }
 
 void add_screened(TileSums& tile, const PolygonList& list, const Polygon& polygon) {
-  if (tile.by_pixel.empty())
-    tile.by_pixel.resize(TileSums::kPixel * (TileGrid::kWidth * TileGrid::kHeight + hn::MaxLanes(FloatTag())), 0.0F);
+  if (tile.by_pixel.empty()) tile.by_pixel.resize(TileSums::kPixel * TileSums::kPixelPitch * TileGrid::kHeight, 0.0F);
   CoverSums& cover = tile.cover;
   cover.width = tile.width;
   cover.height = tile.height;
@@ -309,16 +358,17 @@ void add_screened(TileSums& tile, const PolygonList& list, const Polygon& polygo
   const auto add = [&](auto&& look) { add_pixels(tile, polygon, behind.map, within, look); };
   if (behind.dirt != 0) return add(AnyScreen(behind.screen, behind.map, &list.dirt[behind.dirt - 1]));
   if (behind.edges != nullptr) {
-    const IrisShape& iris = behind.edges->iris();
     const std::span<const std::uint16_t> active(list.bounds.data() + behind.first, behind.count);
-    if (behind.edges->is_grey()) return add(GreyFringes(*behind.edges, active));
-    if (active.size() == 1 && !iris.is_picture()) return add(Fringe(*behind.edges, iris.bounds()[active[0]]));
-    return add(Fringes(*behind.edges, active));
+    const IrisShape& iris = behind.edges->iris();
+    if (behind.edges->is_grey() && active.size() == 1 && !iris.is_picture())
+      return add(GreyFringe(*behind.edges, iris.bounds()[active[0]], behind.map));
+    if (behind.edges->is_grey()) return add(GreyFringes(*behind.edges, active, behind.map));
+    return add(Fringes(*behind.edges, active, behind.map));
   }
   if (behind.screen->pattern && behind.map.crossings() == 1) {
     const screens::BandPattern& pattern = *behind.screen->pattern;
-    if (!pattern.of_one()) return add(Pattern(*behind.screen, behind.map.width()));
-    if (behind.screen->is_grey()) return add(GreyPattern(pattern, behind.map.width()));
+    if (!pattern.of_one()) return add(Pattern(*behind.screen, behind.map));
+    if (behind.screen->is_grey()) return add(GreyPattern(pattern, behind.map));
   }
   add(AnyScreen(behind.screen, behind.map));
 }

@@ -42,6 +42,8 @@ struct TileSums {
   static constexpr std::size_t kPitch = TileGrid::kWidth + 2;  // what edges on the right border change is not read
 
   static constexpr std::size_t kPixel = kLanes / 2;  // values of a pixel
+  static constexpr std::size_t kPixelPitch =
+      TileGrid::kWidth + 24;  // no power of two: rows share no lines of the cache
   static constexpr int kBlock = 8;  // columns
   static constexpr double kUnseenCover = 1e-7;  // of a pixel: rounding beside a polygon
   static_assert(TileGrid::kWidth <= 64 * kBlock);
@@ -58,11 +60,16 @@ struct TileSums {
     return sums.data() + kLanes * (static_cast<std::size_t>(row) * kPitch + static_cast<std::size_t>(column));
   }
   [[nodiscard]] float* pixels_at(int row) {
-    return by_pixel.data() + kPixel * TileGrid::kWidth * static_cast<std::size_t>(row);
+    return by_pixel.data() + kPixel * kPixelPitch * static_cast<std::size_t>(row);
   }
   // Columns first to last, last one included and the right border's left out.
   void touch(int row, int first, int last) { mark(touched, row, first, last); }
-  void light(int row, int first, int last) { mark(lit, row, first, last); }
+  // groups: a bit for each kBlock columns from `first` on.
+  void light_groups(int row, int first, std::uint64_t groups) {
+    const auto shift = static_cast<unsigned>(first / kBlock);
+    groups <<= shift;
+    lit[static_cast<std::size_t>(row)] |= first % kBlock == 0 ? groups : groups | groups << 1U;
+  }
 
  private:
   static void mark(Blocks& blocks, int row, int first, int last) {
