@@ -22,6 +22,9 @@ constexpr double kMostBend = 0.04;  // of a cell, that what cuts it may be off
 constexpr double kLeftByBend = 0.25;  // of a curve's deviation from its chord, where a corner in its middle bends it
 constexpr double kChordShare = 0.5;  // of a cell's error, that chords in place of an arc may make
 constexpr double kObscurationBend = 3.0;  // its edge goes on bending where that corner is: found by measuring
+// Ripples in their place to less than so many pixels: they are as broad as that or fade, so that this much of their
+// error shows. Found by measuring; all displacements alike would cost a bright spot 1 dB.
+constexpr double kLittleOff_px = 0.5, kSeenOfLittle = 0.1;
 // Of a cell that large, and so bright beside the peak: a plane that is farther off shows as a facet, however little it
 // is of the peak.
 constexpr double kFacet = 0.02, kFacet_px = 400.0, kFacetLevel = 2e-4;
@@ -125,7 +128,9 @@ double CellPainter::unscreened_error(const Mesh& mesh, const Cell& cell, State s
   }
   if (varied && longest > kOnePlace_px && error < 4.0 * worst) {  // soft ones
     if (cell.map_error < 0.0) cell.map_error = map_error(mesh, cell, longest);
-    error += along_edges(cell.map_error * longest, std::min(1.0, stop_size(mesh, cell) / (screen_->unit * longest)));
+    const double off = cell.map_error * longest;
+    const double seen = off < kLittleOff_px ? kSeenOfLittle : 1.0;
+    error += seen * along_edges(off, std::min(1.0, stop_size(mesh, cell) / (screen_->unit * longest)));
   }
   return std::min(error, 4.0 * worst) * dimmed * dimmed;
 }
