@@ -80,8 +80,9 @@ double CellPainter::unscreened_error(const Mesh& mesh, const Cell& cell, State s
   double residual = off_plane(e);
   const double area = std::abs(mesh.area[cell.middle]) * cell.size * cell.size;
   if (area > kFacet_px && mean * cell.screen.most > kFacetLevel * peak_) {
-    double facet = 0.0;
-    for (int c = 0; c < 3; ++c) facet += off_plane([&](std::size_t k) { return mesh.irradiance(c, v[k]); }) / 3.0;
+    double facet = mesh.layout.weights == 1 ? residual : 0.0;
+    for (int c = 0; c < 3 && mesh.layout.weights == 3; ++c)
+      facet += off_plane([&](std::size_t k) { return mesh.irradiance(c, v[k]); }) / 3.0;
     if (facet > kFacet * kFacet * mean * mean) return std::numeric_limits<double>::infinity();
   }
   // What is drawn has the flux over the polygon's area for its mean.
@@ -135,7 +136,7 @@ double CellPainter::unscreened_error(const Mesh& mesh, const Cell& cell, State s
 double CellPainter::limit_error(const Mesh& mesh, const Cell& cell) const {
   double largest = 0.0;
   const int first_rim = mesh.layout.rim(0);
-  for (int f = screen_ ? first_rim : PatchLayout::kStop; f < mesh.layout.fields(); ++f) {
+  for (int f = screen_ ? first_rim : PatchLayout::kStop; f < mesh.layout.limits_end(); ++f) {
     const Mesh::Field& v = mesh.field(f);
     if (f >= first_rim && mesh.layout.is_obscuration(f - first_rim)) {
       largest = std::max(largest, obscuration_error(v, cell));

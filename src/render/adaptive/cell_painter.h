@@ -80,9 +80,15 @@ class CellPainter {
   static constexpr double kMeanBelow = 10.0;
   static constexpr int kMeanParts = 3;
 
+  // By one of the weights, without gain: its mean, and how the irradiance rises along the diagonals, over its mean.
+  struct CellLevel {
+    double weight = 0.0, along_d = 0.0, along_f = 0.0;
+  };
+
   static void dim(Shade& shade, Flux& flux, const Flux& share);
   void paint(const Patch& patch, int depth);
   void paint_cell(const Mesh& mesh, int ix, int iy, int size);
+  [[nodiscard]] static CellLevel cell_level(const Mesh& mesh, const Cell& cell, int weight);
   void draw(const Mesh& mesh, const Cell& cell, State state, Sides sides);
   void draw_folded(const Mesh& mesh, const Cell& cell, State state);
   void draw_polygon(const Mesh& mesh, State state, const Shade& shade, const Flux& flux,
