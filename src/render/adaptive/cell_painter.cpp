@@ -107,7 +107,8 @@ bool CellPainter::wants_finer_mesh(const Mesh& mesh, int ix, int iy) const {
       const auto seen = seen_cell(mesh, x, y, 2);
       if (!seen) continue;
       const auto& [cell, state] = *seen;
-      if (squared_error(mesh, cell, state, most_bent(state)) > kGainOfHalving * cell_budget()) return true;
+      CellMeasure of = measure(mesh, cell, state);
+      if (squared_error(mesh, cell, of, state, most_bent(state)) > kGainOfHalving * cell_budget()) return true;
     }
   }
   return false;
@@ -139,10 +140,12 @@ void CellPainter::paint_cell(const Mesh& mesh, int ix, int iy, int size) {
   const auto seen = seen_cell(mesh, ix, iy, size);
   if (!seen) return;
   const auto& [cell, state] = *seen;
-  if (size == 1 || squared_error(mesh, cell, state, Sides::Straight) <= kStraight * cell_budget())
+  if (size == 1) return draw(mesh, cell, state, Sides::Straight);
+  CellMeasure of = measure(mesh, cell, state);
+  if (squared_error(mesh, cell, of, state, Sides::Straight) <= kStraight * cell_budget())
     return draw(mesh, cell, state, Sides::Straight);
   const Sides sides = is_dirty(mesh, cell) ? Sides::Straight : most_bent(state);
-  if (squared_error(mesh, cell, state, sides) <= cell_budget()) return draw(mesh, cell, state, sides);
+  if (squared_error(mesh, cell, of, state, sides) <= cell_budget()) return draw(mesh, cell, state, sides);
   const int half = size / 2;
   for (int k = 0; k < 4; ++k) paint_cell(mesh, ix + (k % 2) * half, iy + (k / 2) * half, half);
 }
