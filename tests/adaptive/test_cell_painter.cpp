@@ -31,12 +31,14 @@ struct AffineGhost {
   std::vector<Affine> stops;
   std::vector<Affine> rims;  // to coordinates over the semi-diameter
   double flux = 3.0;         // of the whole box, green; red has twice as much, blue none
+  int weights = 1;           // or 3
 
   [[nodiscard]] Patch patch() const {
     Patch patch;
     patch.nodes = nodes;
-    patch.layout = {static_cast<int>(stops.size()), static_cast<int>(rims.size())};
+    patch.layout = {static_cast<int>(stops.size()), static_cast<int>(rims.size()), weights};
     patch.flux_area_mm2 = flux;
+    if (weights == 1) patch.gain = {2.0, 1.0, 0.0};
     patch.origin_px = {std::floor(pixels.offset.x), std::floor(pixels.offset.y)};
     patch.values.resize(static_cast<std::size_t>(patch.layout.fields()) * patch.size());
     const auto points = lobatto_points(nodes);
@@ -47,8 +49,8 @@ struct AffineGhost {
       const Vec2 p = pixels(uv) - patch.origin_px;
       set(PatchLayout::kX, p.x);
       set(PatchLayout::kY, p.y);
-      set(PatchLayout::kWeight, 2.0);
-      set(PatchLayout::kWeight + 1, 1.0);
+      set(patch.layout.weight(0), weights == 1 ? 1.0 : 2.0);
+      if (weights == 3) set(patch.layout.weight(1), 1.0);
       for (std::size_t c = 0; c < stops.size(); ++c) {
         const Vec2 s = stops[c](uv);
         set(PatchLayout::kStop + 2 * static_cast<int>(c), s.x);
@@ -140,6 +142,24 @@ TEST_CASE("nothing in the way: the box itself, level") {
   for (const Vec2 uv : {Vec2{0, 0}, Vec2{-0.9, 0.8}, Vec2{0.9, 0.9}}) {
     const Vec2 p = ghost.pixels(uv);
     CHECK(image.at(static_cast<int>(p.x), static_cast<int>(p.y), 1) / level == doctest::Approx(1.0).epsilon(1e-4));
+  }
+}
+
+TEST_CASE("one weight for all channels draws what one a channel draws") {
+  AffineGhost ghost;
+  ghost.pixels = {{60.2, 11.0}, {-8.0, 45.3}, {160.0, 100.0}};
+  ghost.stops = {{{1.2, 0.1}, {-0.2, 1.4}, {0.1, 0.0}}};
+  const PolygonList one = painted(ghost, {});
+  ghost.weights = 3;
+  const PolygonList three = painted(ghost, {});
+  REQUIRE(one.polygons.size() == three.polygons.size());
+  for (std::size_t k = 0; k < one.polygons.size(); ++k) {
+    const Shade &a = one.polygons[k].shade, &b = three.polygons[k].shade;
+    CHECK(one.corners_of(one.polygons[k]).size() == three.corners_of(three.polygons[k]).size());
+    for (std::size_t c = 0; c < 3; ++c) {
+      CHECK(a.value[c] == doctest::Approx(b.value[c]).epsilon(1e-6));
+      CHECK(a.along_x[c] == doctest::Approx(b.along_x[c]).epsilon(1e-4).scale(1e-6 * a.value[0]));
+    }
   }
 }
 

@@ -37,7 +37,7 @@ TEST_CASE("any convex polygon: its area in each pixel times the irradiance at th
     int width, height, trials;
   };
   for (const Size& size :
-       {Size{40, 24, 400}, Size{300, 40, 100}, Size{1, 1, 200}, Size{3, 50, 150}, Size{520, 2, 60}}) {
+       {Size{40, 24, 400}, Size{300, 40, 100}, Size{1, 1, 200}, Size{3, 50, 150}, Size{520, 2, 60}, Size{1300, 3, 60}}) {
     CAPTURE(size.width);
     Fuzz fuzz(static_cast<unsigned>(size.width));
     for (int k = 0; k < size.trials; ++k) {
@@ -123,6 +123,19 @@ TEST_CASE("many polygons: the sum of each, whatever lists they come in") {
   for (int row = grid.rows - 1; row >= 0; --row)
     TileDrawer(grid).draw_rows({&tiled, 1}, row, row + 1, TileMode::Add, added);
   for (std::size_t k = 0; k < once.pixels.size(); ++k) CHECK(added.pixels[k] == 2.0F * once.pixels[k]);
+}
+
+TEST_CASE("tiles right of a caustic of ten million times the level around it do not see it") {
+  const int width = 4 * TileGrid::kWidth, height = 3;
+  PolygonList list;
+  list.add(rectangle(-1, -1, static_cast<float>(width), 4), level(1.0F));
+  Shade bright = level(1e7F);
+  bright.at = {300.0F, 1.0F};
+  bright.along_x = {1e6F, -1e6F, 3e5F};
+  list.add({{Point{297.3F, 0.1F}, Point{304.1F, 0.4F}, Point{301.7F, 2.9F}}}, bright);
+  const Image image = test::drawn(list, width, height);
+  for (int x = 310; x < width - 1; ++x)
+    for (int c = 0; c < 3; ++c) CHECK(image.at(x, 1, c) == doctest::Approx(1.0).epsilon(1e-6));
 }
 
 TEST_CASE("neighbours that share edges leave neither gaps nor doubled pixels, and no light is lost") {

@@ -134,17 +134,42 @@ TEST_CASE("bands told by samples have the patches of rays traced at their wavele
     std::vector<RaySheet> one = alone.trace(box, 9, PacketPrecision::Double);
     alone.add_weights(one, PacketPrecision::Double);
     const Patch traced = alone.make_patches(one, frame).front();
+    CHECK(patch.layout.weights == 1);
+    CHECK(traced.layout.weights == 1);
+    CHECK(patch.gain == traced.gain);
     for (std::size_t node = 0; node < patch.size(); ++node) {
       const Vec2 off = patch.origin_px - traced.origin_px;
       CHECK(std::abs(patch.field(PatchLayout::kX)[node] + off.x - traced.field(PatchLayout::kX)[node]) < 5e-3);
       CHECK(std::abs(patch.field(PatchLayout::kY)[node] + off.y - traced.field(PatchLayout::kY)[node]) < 5e-3);
       CHECK(patch.field(PatchLayout::kStop)[node] ==
             doctest::Approx(traced.field(PatchLayout::kStop)[node]).epsilon(1e-5).scale(1.0));
-      for (int c = 0; c < 3; ++c)
-        CHECK(patch.field(PatchLayout::kWeight + c)[node] ==
-              doctest::Approx(traced.field(PatchLayout::kWeight + c)[node]).epsilon(2e-3));
+      CHECK(patch.field(patch.layout.weight(0))[node] ==
+            doctest::Approx(traced.field(traced.layout.weight(0))[node]).epsilon(2e-3));
     }
   }
+}
+
+TEST_CASE("a band of several wavelengths carries the light of all, in each channel") {
+  Rainbow rainbow("heliar", 16.0, {3, 4}, kAside);
+  const Rectangle& box = rainbow.scene.boxes.front();
+  const Frame frame = frame_on_sensor(rainbow.scene.lens, 1920, 1080);
+  const std::vector<Band> bands{{0, 5}, {5, 16}};
+  BandSet told(rainbow.tracers, rainbow.samples, 6, bands);
+  std::vector<RaySheet> sheets = told.trace(box, 9, PacketPrecision::Double);
+  told.add_weights(sheets, PacketPrecision::Double);
+  Patch patch;
+  told.band_patch(told.make_patches(sheets, frame), 1, patch);
+  REQUIRE(patch.layout.weights == 3);
+  std::vector<std::array<double, 3>> sum(patch.size());
+  for (std::size_t pass = 5; pass < 16; ++pass) {
+    const std::vector<float> light = rainbow.tracers.at(pass).transmissions(box, 9, PacketPrecision::Double);
+    for (std::size_t node = 0; node < patch.size(); ++node)
+      for (std::size_t c = 0; c < 3; ++c) sum[node][c] += rainbow.tracers.passes()[pass].gain[c] * light[node];
+  }
+  for (std::size_t node = 0; node < patch.size(); ++node)
+    for (int c = 0; c < 3; ++c)
+      CHECK(patch.gain[static_cast<std::size_t>(c)] * patch.field(patch.layout.weight_of(c))[node] ==
+            doctest::Approx(sum[node][static_cast<std::size_t>(c)]).epsilon(2e-3).scale(0.01 * sum[node][1]));
 }
 
 TEST_CASE("bands hold every wavelength once, more of them the less may be wrong") {

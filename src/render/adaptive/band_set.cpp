@@ -6,14 +6,18 @@ namespace contrejour::adaptive {
 namespace {
 
 constexpr std::size_t kMostParts = 3;  // of one band: within it the rest would show no more
-const Rgb kAsTraced{1.0, 0.0, 0.0};    // transmissions, for what weights are blended from
 
 // What makes a band of the first `count` samples: the geometry of its middle and the light of all its wavelengths.
 PatchBlend blend_of(const Band& band, std::span<const PlannedPass> passes, const WavelengthSamples& samples,
                     std::size_t count) {
   PatchBlend blend;
   blend.geometry = samples.factors(count, band.middle());
-  for (auto& weight : blend.weight) weight.assign(count, 0.0);
+  if (band.last - band.first == 1) {
+    blend.weight = {blend.geometry};
+    blend.gain = passes[band.first].gain;
+    return blend;
+  }
+  blend.weight.assign(3, std::vector<double>(count, 0.0));
   for (std::size_t pass = band.first; pass < band.last; ++pass) {
     const std::vector<double> factors = samples.factors(count, pass);
     for (std::size_t c = 0; c < 3; ++c) {
@@ -56,7 +60,7 @@ std::vector<RaySheet> BandSet::trace(const Rectangle& box, int nodes, PacketPrec
 
 void BandSet::add_weights(std::vector<RaySheet>& sheets, PacketPrecision precision) {
   if (!blends_.empty()) {
-    for (RaySheet& sheet : sheets) add_light(sheet, sheet.transmission, kAsTraced);
+    for (RaySheet& sheet : sheets) add_light(sheet, sheet.transmission, {1.0, 1.0, 1.0});
     return;
   }
   RaySheet& sheet = sheets.front();

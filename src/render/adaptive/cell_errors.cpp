@@ -49,15 +49,11 @@ double off_plane(const ValueAt& at) {
 
 }  // namespace
 
-// What drawing the cell as one polygon with a linear irradiance would get wrong, squared, over its pixels.
-double CellPainter::squared_error(const Mesh& mesh, const Cell& cell, State state, Sides sides) const {
-  const double passed = cell.screen.most;
-  return passed == 0.0 ? 0.0 : passed * passed * unscreened_error(mesh, cell, state, sides);
-}
-
-double CellPainter::unscreened_error(const Mesh& mesh, const Cell& cell, State state, Sides sides) const {
+CellPainter::CellMeasure CellPainter::measure(const Mesh& mesh, const Cell& cell, State state) const {
   const std::array<std::size_t, 9> v{cell.corner[0], cell.side[0],   cell.corner[1], cell.side[3],  cell.middle,
                                      cell.side[1],   cell.corner[3], cell.side[2],   cell.corner[2]};
+  CellMeasure m;
+  if (cell.screen.most == 0.0) return m;
   Bounds b;
   bool folded = false;
   double sum = 0.0;
@@ -66,7 +62,7 @@ double CellPainter::unscreened_error(const Mesh& mesh, const Cell& cell, State s
     folded = folded || mesh.area[k] * mesh.area[cell.middle] <= 0.0F;
     sum += mesh.brightness[k];
   }
-  const double mean = sum / 9.0;
+  m.mean = sum / 9.0;
   const Vec2 extent = b.size();
   const double box = std::max(extent.x, kPixel) * std::max(extent.y, kPixel);
   // Its whole flux out of place within its bounds: no cell can do worse.
@@ -76,63 +72,76 @@ double CellPainter::unscreened_error(const Mesh& mesh, const Cell& cell, State s
   const double worst = flux * flux / box * seen_part;
   if (folded) {
     const double seen = seen_share(flux / box, peak_);
-    return kFoldBound * worst * seen * seen;
+    m.whole = kFoldBound * worst * seen * seen;
+    return m;
   }
-
   const auto e = [&](std::size_t k) { return static_cast<double>(mesh.brightness[v[k]]); };
-  double residual = off_plane(e);
-  const double area = std::abs(mesh.area[cell.middle]) * cell.size * cell.size;
-  if (area > kFacet_px && mean * cell.screen.most > kFacetLevel * peak_) {
-    double facet = 0.0;
-    for (int c = 0; c < 3; ++c) facet += off_plane([&](std::size_t k) { return mesh.irradiance(c, v[k]); }) / 3.0;
-    if (facet > kFacet * kFacet * mean * mean) return std::numeric_limits<double>::infinity();
+  m.off_plane = off_plane(e);
+  m.area_px = std::abs(mesh.area[cell.middle]) * cell.size * cell.size;
+  if (m.area_px > kFacet_px && m.mean * cell.screen.most > kFacetLevel * peak_) {
+    double facet = mesh.layout.weights == 1 ? m.off_plane : 0.0;
+    for (int c = 0; c < 3 && mesh.layout.weights == 3; ++c)
+      facet += off_plane([&](std::size_t k) { return mesh.irradiance(c, v[k]); }) / 3.0;
+    if (facet > kFacet * kFacet * m.mean * m.mean) {
+      m.whole = std::numeric_limits<double>::infinity();
+      return m;
+    }
   }
-  // What is drawn has the flux over the polygon's area for its mean.
-  const Outline outline = outline_of(cell, sides);
-  const double drawn_area = std::abs(
-      area_of(outline.count, [&](std::size_t k) { return mesh.position(outline.corners[k].vertex); }).signed_px);
-  double cell_flux = 0.0;
-  double cell_area = 0.0;
+  if (state == State::Cut) {
+    m.limit = limit_error(mesh, cell);
+    if (m.limit * cell.screen.most > kMostBend) {
+      m.whole = std::numeric_limits<double>::infinity();  // or light would be lost unseen
+      return m;
+    }
+  }
   for (std::size_t k = 0; k < 9; ++k) {
     const double part = kSimpson[k % 3] * kSimpson[k / 3] * std::abs(mesh.area[v[k]]) * cell.size * cell.size;
-    cell_area += part;
-    cell_flux += part * e(k);
+    m.image_px += part;
+    m.flux += part * e(k);
   }
-  const double off_level = cell_flux / std::max(drawn_area, 1e-12) - cell_flux / std::max(cell_area, 1e-12);
-  residual += off_level * off_level;
+  m.longest_px = std::max(extent.x, extent.y);
+  m.most = 4.0 * worst;
+  return m;
+}
 
-  const double longest = std::max(extent.x, extent.y);
-  const double width = std::min(1.0, area / std::max(longest, 1e-6));  // a sliver's flux is seen spread over a pixel
-  // Far above the frame's peak only the relative error counts.
-  const double dimmed = seen_share(mean, peak_);
-  double error = kShadeBound * residual * area * width;
+// What drawing the cell as one polygon with a linear irradiance would get wrong, squared, over its pixels.
+double CellPainter::squared_error(const Mesh& mesh, const Cell& cell, CellMeasure& m, State state, Sides sides) const {
+  const double passed = cell.screen.most;
+  if (passed == 0.0) return 0.0;
+  if (m.whole) return passed * passed * *m.whole;
+  // What is drawn has the flux over the polygon's area for its mean.
+  const Outline outline = outline_of(cell, sides);
+  const double drawn_px = std::abs(
+      area_of(outline.count, [&](std::size_t k) { return mesh.position(outline.corners[k].vertex); }).signed_px);
+  const double off_level = m.flux / std::max(drawn_px, 1e-12) - m.flux / std::max(m.image_px, 1e-12);
+  const double width =
+      std::min(1.0, m.area_px / std::max(m.longest_px, 1e-6));  // a sliver's flux is spread over a pixel
+  double error = kShadeBound * (m.off_plane + off_level * off_level) * m.area_px * width;
 
   // Sides off their place: beside a cell with more corners they overlap or leave a gap, cut ones are seen.
   const double left = sides == Sides::Bent ? kLeftByBend : 1.0;
+  const double seen = m.mean * m.mean * width * width;
   for (std::size_t k = 0; k < 4; ++k) {
     const Vec2 a = mesh.position(cell.corner[k]);
     const Vec2 c = mesh.position(cell.corner[(k + 1) % 4]);
     const double off = left * length(mesh.position(cell.side[k]) - (a + c) * 0.5);
-    error += kEdgeBound * mean * mean * std::min(off * off, off) * length(c - a) * width * width;
+    error += kEdgeBound * seen * std::min(off * off, off) * length(c - a);
   }
-  const bool varied = cell.screen.part == ScreenPart::Varied;
-  if (is_dirty(mesh, cell)) error += mean * mean * shadow_error(mesh, cell) * width * width;
+  if (is_dirty(mesh, cell)) error += seen * shadow_error(mesh, cell);
   const auto along_edges = [&](double off, double edges) {
-    return mean * mean * std::min(off * off, off) * edges * longest * width * width;
+    return seen * std::min(off * off, off) * edges * m.longest_px;
   };
-  if (state == State::Cut) {
-    const double limit = limit_error(mesh, cell);
-    if (limit * cell.screen.most > kMostBend)
-      return std::numeric_limits<double>::infinity();  // or light would be lost unseen
-    error += kEdgeBound * along_edges(left * limit * longest, iris_.is_picture() ? kPictureEdges : 1.0);
+  if (state == State::Cut)
+    error += kEdgeBound * along_edges(left * m.limit * m.longest_px, iris_.is_picture() ? kPictureEdges : 1.0);
+  if (cell.screen.part == ScreenPart::Varied && m.longest_px > kOnePlace_px && error < m.most) {  // soft ones
+    if (!m.map_error) m.map_error = map_error(mesh, cell, m.longest_px);
+    const double off = *m.map_error * m.longest_px;
+    const double shown = off < kLittleOff_px ? kSeenOfLittle : 1.0;
+    error += shown * along_edges(off, std::min(1.0, stop_size(mesh, cell) / (screen_->unit * m.longest_px)));
   }
-  if (varied && longest > kOnePlace_px && error < 4.0 * worst) {  // soft ones
-    if (cell.map_error < 0.0) cell.map_error = map_error(mesh, cell, longest);
-    const double off = cell.map_error * longest;
-    const double seen = off < kLittleOff_px ? kSeenOfLittle : 1.0;
-    error += seen * along_edges(off, std::min(1.0, stop_size(mesh, cell) / (screen_->unit * longest)));
-  }
-  return std::min(error, 4.0 * worst) * dimmed * dimmed;
+  // Far above the frame's peak only the relative error counts.
+  const double dimmed = passed * seen_share(m.mean, peak_);
+  return std::min(error, m.most) * dimmed * dimmed;
 }
 
 // How far the lines that cut the cell are off when stop coordinates and rims are taken as linear along its sides, as
@@ -140,7 +149,7 @@ double CellPainter::unscreened_error(const Mesh& mesh, const Cell& cell, State s
 double CellPainter::limit_error(const Mesh& mesh, const Cell& cell) const {
   double largest = 0.0;
   const int first_rim = mesh.layout.rim(0);
-  for (int f = screen_ ? first_rim : PatchLayout::kStop; f < mesh.layout.fields(); ++f) {
+  for (int f = screen_ ? first_rim : PatchLayout::kStop; f < mesh.layout.limits_end(); ++f) {
     const Mesh::Field& v = mesh.field(f);
     if (f >= first_rim && mesh.layout.is_obscuration(f - first_rim)) {
       largest = std::max(largest, obscuration_error(v, cell));

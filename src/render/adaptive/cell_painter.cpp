@@ -107,7 +107,8 @@ bool CellPainter::wants_finer_mesh(const Mesh& mesh, int ix, int iy) const {
       const auto seen = seen_cell(mesh, x, y, 2);
       if (!seen) continue;
       const auto& [cell, state] = *seen;
-      if (squared_error(mesh, cell, state, most_bent(state)) > kGainOfHalving * cell_budget()) return true;
+      CellMeasure of = measure(mesh, cell, state);
+      if (squared_error(mesh, cell, of, state, most_bent(state)) > kGainOfHalving * cell_budget()) return true;
     }
   }
   return false;
@@ -139,12 +140,37 @@ void CellPainter::paint_cell(const Mesh& mesh, int ix, int iy, int size) {
   const auto seen = seen_cell(mesh, ix, iy, size);
   if (!seen) return;
   const auto& [cell, state] = *seen;
-  if (size == 1 || squared_error(mesh, cell, state, Sides::Straight) <= kStraight * cell_budget())
+  if (size == 1) return draw(mesh, cell, state, Sides::Straight);
+  CellMeasure of = measure(mesh, cell, state);
+  if (squared_error(mesh, cell, of, state, Sides::Straight) <= kStraight * cell_budget())
     return draw(mesh, cell, state, Sides::Straight);
   const Sides sides = is_dirty(mesh, cell) ? Sides::Straight : most_bent(state);
-  if (squared_error(mesh, cell, state, sides) <= cell_budget()) return draw(mesh, cell, state, sides);
+  if (squared_error(mesh, cell, of, state, sides) <= cell_budget()) return draw(mesh, cell, state, sides);
   const int half = size / 2;
   for (int k = 0; k < 4; ++k) paint_cell(mesh, ix + (k % 2) * half, iy + (k / 2) * half, half);
+}
+
+CellPainter::CellLevel CellPainter::cell_level(const Mesh& mesh, const Cell& cell, int weight) {
+  const Mesh::Field& w = mesh.field(mesh.layout.weight(weight));
+  CellLevel level;
+  level.weight = 0.25 * (w[cell.corner[0]] + w[cell.corner[1]] + w[cell.corner[2]] + w[cell.corner[3]]);
+  if (cell.size > 1) {  // Simpson's rule both ways
+    const double middles = 0.25 * (w[cell.side[0]] + w[cell.side[1]] + w[cell.side[2]] + w[cell.side[3]]);
+    level.weight = (level.weight + 4.0 * middles + 4.0 * w[cell.middle]) / 9.0;
+  }
+  std::array<double, 4> e{};
+  double mean = 0.0;
+  double most = 0.0;
+  for (std::size_t k = 0; k < 4; ++k) {
+    e[k] = mesh.irradiance(weight, cell.corner[k]);
+    mean += 0.25 * e[k];
+    most = std::max(most, std::abs(e[k]));
+  }
+  // Where the irradiance rises steeply a plane through the corners would go below zero: level then.
+  if (!(std::abs(mean) > 0.0) || most > 2.0 * std::abs(mean)) return level;
+  level.along_d = (e[2] - e[0]) / mean;
+  level.along_f = (e[3] - e[1]) / mean;
+  return level;
 }
 
 void CellPainter::draw(const Mesh& mesh, const Cell& cell, State state, Sides sides) {
@@ -172,32 +198,15 @@ void CellPainter::draw(const Mesh& mesh, const Cell& cell, State state, Sides si
   // Pixels see the irradiance at their centres, which may lie well outside a cell smaller than they are.
   const double width = std::abs(area) / std::max(length(d), length(f));
   const double sloped = std::clamp(width - 1.0, 0.0, 1.0);
-  for (int c = 0; c < 3; ++c) {
-    const auto& w = mesh.field(PatchLayout::kWeight + c);
-    double weight = 0.25 * (w[cell.corner[0]] + w[cell.corner[1]] + w[cell.corner[2]] + w[cell.corner[3]]);
-    if (cell.size > 1) {  // Simpson's rule both ways
-      const double middles = 0.25 * (w[cell.side[0]] + w[cell.side[1]] + w[cell.side[2]] + w[cell.side[3]]);
-      weight = (weight + 4.0 * middles + 4.0 * w[cell.middle]) / 9.0;
-    }
-    const double value = weight * flux_area / std::abs(area);
-    flux[static_cast<std::size_t>(c)] = weight * flux_area;
-    std::array<double, 4> e{};
-    double mean = 0.0;
-    double most = 0.0;
-    for (std::size_t k = 0; k < 4; ++k) {
-      e[k] = mesh.irradiance(c, cell.corner[k]);
-      mean += 0.25 * e[k];
-      most = std::max(most, std::abs(e[k]));
-    }
-    const auto channel = static_cast<std::size_t>(c);
-    shade.value[channel] = static_cast<float>(value);
-    // Where the irradiance rises steeply a plane through the corners would go below zero: level then.
-    if (!(std::abs(mean) > 0.0) || most > 2.0 * std::abs(mean)) continue;
-    const double along_d = (e[2] - e[0]) / mean;
-    const double along_f = (e[3] - e[1]) / mean;
+  CellLevel level;
+  for (std::size_t c = 0; c < 3; ++c) {
+    if (static_cast<int>(c) < mesh.layout.weights) level = cell_level(mesh, cell, static_cast<int>(c));
+    const double gain = mesh.gain[c], value = gain * level.weight * flux_area / std::abs(area);
     const double scale = sloped * value / cross(d, f);
-    shade.along_x[channel] = static_cast<float>((along_d * f.y - along_f * d.y) * scale);
-    shade.along_y[channel] = static_cast<float>((along_f * d.x - along_d * f.x) * scale);
+    flux[c] = gain * level.weight * flux_area;
+    shade.value[c] = static_cast<float>(value);
+    shade.along_x[c] = static_cast<float>((level.along_d * f.y - level.along_f * d.y) * scale);
+    shade.along_y[c] = static_cast<float>((level.along_f * d.x - level.along_d * f.x) * scale);
   }
   const auto draw_seen = [&](const StopMap* map) {
     if (is_dirty(mesh, cell)) return draw_dirty(mesh, cell, state, shade, flux, map);
@@ -225,11 +234,10 @@ void CellPainter::draw_folded(const Mesh& mesh, const Cell& cell, State state) {
     Shade shade;
     Flux flux{};
     shade.at = {static_cast<float>(middle.x), static_cast<float>(middle.y)};
-    for (int c = 0; c < 3; ++c) {
-      const auto channel = static_cast<std::size_t>(c);
-      const auto& w = mesh.field(PatchLayout::kWeight + c);
-      flux[channel] = (w[t[0]] + w[t[1]] + w[t[2]]) / 3.0 * flux_area;
-      shade.value[channel] = static_cast<float>(flux[channel] / std::max(area, 1e-12));
+    for (std::size_t c = 0; c < 3; ++c) {
+      const Mesh::Field& w = mesh.field(mesh.layout.weight_of(static_cast<int>(c)));
+      flux[c] = mesh.gain[c] * (w[t[0]] + w[t[1]] + w[t[2]]) / 3.0 * flux_area;
+      shade.value[c] = static_cast<float>(flux[c] / std::max(area, 1e-12));
     }
     const bool varied = cell.screen.part == ScreenPart::Varied;
     const bool one_place = length(p[2] - p[0]) < kOnePlace_px;
@@ -248,7 +256,7 @@ void CellPainter::draw_polygon(const Mesh& mesh, State state, const Shade& shade
     Corner& corner = whole[k];
     corner.position = mesh.position(corners[k].vertex) + mesh.origin_px;
     corner.uv = corners[k].uv;
-    for (int f = PatchLayout::kStop; state == State::Cut && f < mesh.layout.fields(); ++f) {
+    for (int f = PatchLayout::kStop; state == State::Cut && f < mesh.layout.limits_end(); ++f) {
       corner.limit[static_cast<std::size_t>(f - PatchLayout::kStop)] = mesh.field(f)[corners[k].vertex];
     }
   }

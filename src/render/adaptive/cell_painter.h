@@ -58,7 +58,18 @@ class CellPainter {
     std::array<std::size_t, 4> corner{}, side{};
     std::size_t middle = 0;
     ScreenView screen{ScreenPart::Level, 1.0};  // all that is seen of it
-    mutable double map_error = -1.0;  // kept for straight sides and bent ones; negative: not asked for yet
+  };
+  // What its errors are made of, with straight sides or bent ones.
+  struct CellMeasure {
+    std::optional<double> whole;      // the squared error whatever its sides are; infinite: it must not be drawn
+    double most = 0.0;                // squared error
+    double mean = 0.0;                // brightness
+    double off_plane = 0.0;           // mean square of what a plane leaves of it
+    double area_px = 0.0;             // by the derivatives in its middle
+    double image_px = 0.0, flux = 0.0;  // integrals over the cell
+    double longest_px = 0.0;
+    double limit = 0.0;               // limit_error()
+    std::optional<double> map_error;  // map_error(), once it is asked for
   };
   // A corner of what is drawn: a vertex of the mesh, and where it is in the cell.
   struct CellCorner {
@@ -80,9 +91,15 @@ class CellPainter {
   static constexpr double kMeanBelow = 10.0;
   static constexpr int kMeanParts = 3;
 
+  // By one of the weights, without gain: its mean, and how the irradiance rises along the diagonals, over its mean.
+  struct CellLevel {
+    double weight = 0.0, along_d = 0.0, along_f = 0.0;
+  };
+
   static void dim(Shade& shade, Flux& flux, const Flux& share);
   void paint(const Patch& patch, int depth);
   void paint_cell(const Mesh& mesh, int ix, int iy, int size);
+  [[nodiscard]] static CellLevel cell_level(const Mesh& mesh, const Cell& cell, int weight);
   void draw(const Mesh& mesh, const Cell& cell, State state, Sides sides);
   void draw_folded(const Mesh& mesh, const Cell& cell, State state);
   void draw_polygon(const Mesh& mesh, State state, const Shade& shade, const Flux& flux,
@@ -137,8 +154,9 @@ class CellPainter {
   [[nodiscard]] State state_of(const Mesh& mesh, const Cell& cell) const;
   [[nodiscard]] bool off_frame(const Mesh& mesh, const Cell& cell) const;
   [[nodiscard]] bool wants_finer_mesh(const Mesh& mesh, int ix, int iy) const;
-  [[nodiscard]] double squared_error(const Mesh& mesh, const Cell& cell, State state, Sides sides) const;
-  [[nodiscard]] double unscreened_error(const Mesh& mesh, const Cell& cell, State state, Sides sides) const;
+  [[nodiscard]] CellMeasure measure(const Mesh& mesh, const Cell& cell, State state) const;
+  [[nodiscard]] double squared_error(const Mesh& mesh, const Cell& cell, CellMeasure& of, State state,
+                                     Sides sides) const;
   // A picture cuts triangles, within which corners on a cell's sides say nothing.
   [[nodiscard]] Sides most_bent(State state) const {
     return state == State::Cut && iris_.is_picture() ? Sides::Straight : Sides::Bent;

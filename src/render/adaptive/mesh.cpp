@@ -87,7 +87,9 @@ float rise_between(const Mesh::Field& v) {
   float along_u = 0.0F, along_v = 0.0F;
   for (int iy = 0; iy < Mesh::kSide; ++iy) {
     for (int ix = 1; ix < Mesh::kCells; ++ix) {
-      const auto bend = [&](std::size_t a, std::size_t b, std::size_t c) { return std::abs(v[a] - 2.0F * v[b] + v[c]); };
+      const auto bend = [&](std::size_t a, std::size_t b, std::size_t c) {
+        return std::abs(v[a] - 2.0F * v[b] + v[c]);
+      };
       along_u = std::max(along_u, bend(Mesh::at(ix - 1, iy), Mesh::at(ix, iy), Mesh::at(ix + 1, iy)));
       along_v = std::max(along_v, bend(Mesh::at(iy, ix - 1), Mesh::at(iy, ix), Mesh::at(iy, ix + 1)));
     }
@@ -105,21 +107,29 @@ void mark_near_obscurations(Mesh& mesh) {
 }
 
 void find_brightness(Mesh& mesh) {
-  const float third = static_cast<float>(mesh.cell_flux_area_mm2 * mesh.cell_flux_area_mm2 / 3.0);
-  for (std::size_t k = 0; k < mesh.brightness.size(); ++k) {
-    float sum = 0.0F;
-    for (int c = 0; c < 3; ++c) {
-      const float w = mesh.field(PatchLayout::kWeight + c)[k];
-      sum += w * w;
-    }
-    mesh.brightness[k] = std::sqrt(sum * third) / (std::abs(mesh.area[k]) + 1e-20F);
+  const PatchLayout& layout = mesh.layout;
+  const auto set = [&](auto rms_weight) {
+    for (std::size_t k = 0; k < mesh.brightness.size(); ++k)
+      mesh.brightness[k] = rms_weight(k) / (std::abs(mesh.area[k]) + 1e-20F);
+  };
+  const auto third = static_cast<float>(mesh.cell_flux_area_mm2 * mesh.cell_flux_area_mm2 / 3.0);
+  if (layout.weights == 1) {
+    const Mesh::Field& weight = mesh.field(layout.weight(0));
+    const Rgb& g = mesh.gain;
+    const float times = std::sqrt(static_cast<float>(g[0] * g[0] + g[1] * g[1] + g[2] * g[2]) * third);
+    set([&](std::size_t k) { return times * std::abs(weight[k]); });
+  } else {
+    const std::array weight{&mesh.field(layout.weight(0)), &mesh.field(layout.weight(1)),
+                            &mesh.field(layout.weight(2))};
+    const auto squared = [&](std::size_t c, std::size_t k) { return (*weight[c])[k] * (*weight[c])[k]; };
+    set([&](std::size_t k) { return std::sqrt((squared(0, k) + squared(1, k) + squared(2, k)) * third); });
   }
 }
 
 }  // namespace
 
-double Mesh::irradiance(int channel, std::size_t vertex) const {
-  return field(PatchLayout::kWeight + channel)[vertex] * cell_flux_area_mm2 / (std::abs(area[vertex]) + 1e-20);
+double Mesh::irradiance(int weight, std::size_t vertex) const {
+  return field(layout.weight(weight))[vertex] * cell_flux_area_mm2 / (std::abs(area[vertex]) + 1e-20);
 }
 
 Mesh make_mesh(const Patch& patch, const IrisShape& iris) {
@@ -128,6 +138,7 @@ Mesh make_mesh(const Patch& patch, const IrisShape& iris) {
   mesh.layout = patch.layout;
   mesh.origin_px = patch.origin_px;
   mesh.box = patch.box;
+  mesh.gain = patch.gain;
   mesh.cell_flux_area_mm2 = patch.flux_area_mm2 / (Mesh::kCells * Mesh::kCells);
   mesh.fields.resize(static_cast<std::size_t>(patch.layout.fields()));
   const Positions x = positions(patch.field(PatchLayout::kX), patch.nodes, m);
@@ -138,7 +149,7 @@ Mesh make_mesh(const Patch& patch, const IrisShape& iris) {
     mesh.area[k] = x.along_u[k] * y.along_v[k] - x.along_v[k] * y.along_u[k];
   }
   HalfField half;
-  for (int f = PatchLayout::kWeight; f < patch.layout.fields(); ++f) {
+  for (int f = PatchLayout::kStop; f < patch.layout.fields(); ++f) {
     multiply(patch.field(f), patch.nodes, patch.nodes, patch.nodes, m.value, half.data());
     multiply_transposed(m.value, half.data(), Mesh::kStride, mesh.fields[static_cast<std::size_t>(f)].data());
   }

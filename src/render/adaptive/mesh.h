@@ -23,6 +23,7 @@ struct Mesh {
   Field area;                             // signed, of a cell's image by the derivatives at the vertex, pixels
   Field brightness;                       // root mean square of the channels' irradiance, per pixel
   double cell_flux_area_mm2 = 0;          // of one cell
+  Rgb gain;                               // as the patch's
   std::array<std::uint32_t, static_cast<std::size_t>(kSide) * kStride> outside;  // bits: crossings, then rims
   static constexpr std::uint32_t kNearObscuration = 1U << 31;  // a bit besides: one may begin before the next vertex
 
@@ -39,8 +40,8 @@ struct Mesh {
            Vec2{size.x * static_cast<double>(vertex % kStride), size.y * static_cast<double>(vertex / kStride)} *
                (1.0 / kCells);
   }
-  // Irradiance of a channel, flux per pixel; large where the map folds.
-  [[nodiscard]] double irradiance(int channel, std::size_t vertex) const;
+  // Irradiance by one of the weights, without gain, flux per pixel; large where the map folds.
+  [[nodiscard]] double irradiance(int weight, std::size_t vertex) const;
 };
 
 [[nodiscard]] Mesh make_mesh(const Patch& patch, const IrisShape& iris);

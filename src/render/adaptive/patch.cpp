@@ -143,7 +143,9 @@ Patch make_patch(const RaySheet& sheet, const std::vector<std::size_t>& steps, V
   Patch patch;
   patch.nodes = sheet.nodes;
   patch.box = sheet.box;
-  patch.layout = {static_cast<int>(sheet.stop.size()), std::min(static_cast<int>(steps.size()), kMostRims)};
+  patch.layout = {static_cast<int>(sheet.stop.size()), std::min(static_cast<int>(steps.size()), kMostRims),
+                  static_cast<int>(sheet.weight.size())};
+  patch.gain = sheet.gain;
   patch.values.resize(static_cast<std::size_t>(patch.layout.fields()) * sheet.count());
   const Vec2 size = sheet.box.high - sheet.box.low;
   patch.flux_area_mm2 = size.x * size.y * light.source.shared_flux();
@@ -158,10 +160,8 @@ Patch make_patch(const RaySheet& sheet, const std::vector<std::size_t>& steps, V
       patch.field(PatchLayout::kStop + 2 * static_cast<int>(c) + 1)[k] = static_cast<float>(s.y);
     }
   }
-  for (int c = 0; c < 3; ++c) {
-    std::copy(sheet.weight[static_cast<std::size_t>(c)].begin(), sheet.weight[static_cast<std::size_t>(c)].end(),
-              patch.field(PatchLayout::kWeight + c));
-  }
+  for (int k = 0; k < patch.layout.weights; ++k)
+    std::ranges::copy(sheet.weight[static_cast<std::size_t>(k)], patch.field(patch.layout.weight(k)));
   copy_rims(sheet, steps, patch);
   return patch;
 }
@@ -183,24 +183,23 @@ std::vector<Patch> make_patches(std::span<const RaySheet> sheets, const LightFra
 void blend(std::span<const Patch> patches, const PatchBlend& factors, Patch& out) {
   const Patch& first = patches.front();
   out.layout = first.layout;
+  out.layout.weights = static_cast<int>(factors.weight.size());
   out.nodes = first.nodes;
   out.box = first.box;
   out.origin_px = first.origin_px;
   out.flux_area_mm2 = first.flux_area_mm2;
-  out.values.assign(first.values.size(), 0.0F);
+  out.gain = factors.gain;
+  out.values.assign(static_cast<std::size_t>(out.layout.fields()) * first.size(), 0.0F);
   const auto add = [&](const float* from, double factor, int field, int count) {
     const auto times = static_cast<float>(factor);
     float* to = out.field(field);
     for (std::size_t k = 0; k < static_cast<std::size_t>(count) * out.size(); ++k) to[k] += times * from[k];
   };
   for (std::size_t k = 0; k < patches.size(); ++k) {
-    const Patch& patch = patches[k];
-    add(patch.field(PatchLayout::kX), factors.geometry[k], PatchLayout::kX, PatchLayout::kWeight);
-    add(patch.field(PatchLayout::kStop), factors.geometry[k], PatchLayout::kStop,
-        out.layout.fields() - PatchLayout::kStop);
-    for (int c = 0; c < 3; ++c)
-      add(patch.field(PatchLayout::kWeight), factors.weight[static_cast<std::size_t>(c)][k], PatchLayout::kWeight + c,
-          1);
+    const float* weight = patches[k].field(first.layout.weight(0));
+    add(patches[k].field(0), factors.geometry[k], 0, first.layout.limits_end());
+    for (int w = 0; w < out.layout.weights; ++w)
+      add(weight, factors.weight[static_cast<std::size_t>(w)][k], out.layout.weight(w), 1);
   }
 }
 
@@ -225,7 +224,9 @@ std::vector<Patch> patches_of_cells(const RaySheet& sheet, const LightFrame& lig
       pick(sheet.sensor_x_mm, cell.sensor_x_mm);
       pick(sheet.sensor_y_mm, cell.sensor_y_mm);
       pick(sheet.r_rel, cell.r_rel);
-      for (std::size_t c = 0; c < 3; ++c) pick(sheet.weight[c], cell.weight[c]);
+      cell.gain = sheet.gain;
+      cell.weight.resize(sheet.weight.size());
+      for (std::size_t k = 0; k < sheet.weight.size(); ++k) pick(sheet.weight[k], cell.weight[k]);
       cell.stop.resize(sheet.stop.size());
       for (std::size_t c = 0; c < sheet.stop.size(); ++c) {
         for (std::size_t axis = 0; axis < 2; ++axis) pick(sheet.stop[c][axis], cell.stop[c][axis]);
@@ -248,8 +249,8 @@ PatchError estimated_error(const Patch& patch) {
     error.stop = std::max(error.stop, tail(patch.field(PatchLayout::kStop + k), patch.nodes));
   for (int k = 0; k < layout.rims; ++k) error.rim = std::max(error.rim, tail(patch.field(layout.rim(k)), patch.nodes));
   double largest = 0.0;
-  for (int c = 0; c < 3; ++c) {
-    const float* field = patch.field(PatchLayout::kWeight + c);
+  for (int k = 0; k < layout.weights; ++k) {
+    const float* field = patch.field(layout.weight(k));
     largest = std::max(largest, largest_size(field, patch.size()));
     error.weight = std::max(error.weight, tail(field, patch.nodes));
   }

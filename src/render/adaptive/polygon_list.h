@@ -25,6 +25,16 @@ struct Shade {
   std::array<float, 3> value{}, along_x{}, along_y{};
 };
 
+// Positive where the corners turn from +x to +y.
+[[nodiscard]] inline double twice_signed_area(std::span<const Point> corners) {
+  const auto from_first = [&](std::size_t k) {
+    return Vec2{static_cast<double>(corners[k].x) - corners[0].x, static_cast<double>(corners[k].y) - corners[0].y};
+  };
+  double twice = 0.0;
+  for (std::size_t k = 2; k < corners.size(); ++k) twice += cross(from_first(k - 1), from_first(k));
+  return twice;
+}
+
 // Dirt before a polygon that is looked up pixel by pixel, and how pixels see its plane, in mm.
 struct PastDirt {
   const screens::DirtField* field;
@@ -46,6 +56,7 @@ struct Polygon {
   std::uint32_t count = 0;  // 1: a point that carries shade.value
   Shade shade;
   std::uint32_t screened = 0;  // k + 1: PolygonList::screened[k]; 0: none
+  bool turns_left = false;     // from +x to +y
 };
 
 struct PolygonList {
@@ -63,8 +74,8 @@ struct PolygonList {
   std::vector<std::shared_ptr<const EdgeTable>> tables;
 
   void add(std::span<const Point> polygon, const Shade& shade) {
-    polygons.push_back(
-        {static_cast<std::uint32_t>(corners.size()), static_cast<std::uint32_t>(polygon.size()), shade, 0});
+    polygons.push_back({static_cast<std::uint32_t>(corners.size()), static_cast<std::uint32_t>(polygon.size()), shade,
+                        0, twice_signed_area(polygon) > 0.0});
     corners.insert(corners.end(), polygon.begin(), polygon.end());
   }
   // active: the bounds of the iris whose fringes are within.
@@ -88,15 +99,5 @@ struct PolygonList {
            screened.size() * sizeof(Screened) + dirt.size() * sizeof(PastDirt);
   }
 };
-
-// Positive where the corners turn from +x to +y.
-[[nodiscard]] inline double twice_signed_area(std::span<const Point> corners) {
-  const auto from_first = [&](std::size_t k) {
-    return Vec2{static_cast<double>(corners[k].x) - corners[0].x, static_cast<double>(corners[k].y) - corners[0].y};
-  };
-  double twice = 0.0;
-  for (std::size_t k = 2; k < corners.size(); ++k) twice += cross(from_first(k - 1), from_first(k));
-  return twice;
-}
 
 }  // namespace contrejour::adaptive

@@ -32,8 +32,18 @@ void turn_over(float* values, int nodes, float sign) {
 }  // namespace
 
 void add_light(RaySheet& sheet, std::span<const float> transmission, const Rgb& gain) {
+  if (sheet.weight.empty()) {
+    sheet.weight.emplace_back(transmission.begin(), transmission.end());
+    sheet.gain = gain;
+    return;
+  }
+  if (sheet.weight.size() == 1) {
+    sheet.weight.resize(3, sheet.weight.front());
+    for (std::size_t c = 0; c < 3; ++c)
+      for (float& weight : sheet.weight[c]) weight *= static_cast<float>(sheet.gain[c]);
+    sheet.gain = {1.0, 1.0, 1.0};
+  }
   for (std::size_t c = 0; c < 3; ++c) {
-    sheet.weight[c].resize(sheet.count());
     const auto times = static_cast<float>(gain[c]);
     for (std::size_t node = 0; node < sheet.count(); ++node) sheet.weight[c][node] += times * transmission[node];
   }

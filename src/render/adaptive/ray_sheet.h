@@ -23,7 +23,8 @@ struct RaySheet {
   int failed = 0;  // nodes whose ray does not arrive; their values mean nothing
   std::vector<float> sensor_x_mm, sensor_y_mm;
   std::vector<float> transmission;
-  std::array<std::vector<float>, 3> weight;  // per channel: what add_light() made of transmissions
+  std::vector<std::vector<float>> weight;    // what add_light() made of transmissions: one, or one a channel
+  Rgb gain{1.0, 1.0, 1.0};                   // of weights to channels
   std::vector<float> r_rel;                  // infinite where the ray fails; without obscurations
   std::vector<std::array<std::vector<float>, 2>> stop;  // by crossing: x and y over the stop radius
   std::vector<float> rim_squared;            // [step * nodes^2 + node]
@@ -32,7 +33,7 @@ struct RaySheet {
   [[nodiscard]] std::size_t count() const { return static_cast<std::size_t>(nodes) * static_cast<std::size_t>(nodes); }
 };
 
-// Adds gain * transmission, one value a node, to the sheet's weights.
+// Adds gain * transmission, one value a node, to the sheet's light. The first is one weight for all channels.
 void add_light(RaySheet& sheet, std::span<const float> transmission, const Rgb& gain);
 
 // The sheet of the box on the other side of the axis y = 0, of a lens and light that are symmetric there.

@@ -12,7 +12,6 @@ struct Edge {
   std::uint32_t polygon = 0, corner = 0;
   Point a, b;
   bool turns_left = false;  // its polygon
-  int first_column = 0, last_column = 0;
 };
 
 // The edges seen last, by their ends: one a slot, the older one gives way.
@@ -43,8 +42,7 @@ class RecentEdges {
   static bool same(const Edge& e, const Edge& f) {
     const bool along = equal(e.a, f.a) && equal(e.b, f.b);
     const bool against = equal(e.a, f.b) && equal(e.b, f.a);
-    return (e.turns_left == f.turns_left ? against : along) && e.first_column == f.first_column &&
-           e.last_column == f.last_column;
+    return e.turns_left == f.turns_left ? against : along;
   }
   std::array<Slot, kSlots> slots_;
 };
@@ -58,16 +56,10 @@ void share_edges(PolygonList& list, const TileGrid& grid) {
     const Polygon& polygon = list.polygons[p];
     if (polygon.count < 3 || polygon.screened != 0) continue;
     const std::span<const Point> corners = list.corners_of(polygon);
-    const TileRange range = tiles_under(corners, grid);
-    const double twice_area = twice_signed_area(corners);
+    if (tiles_under(corners, grid).x1 < 0) continue;  // it is not drawn
     for (std::uint32_t k = 0; k < polygon.count; ++k) {
-      const Edge edge{static_cast<std::uint32_t>(p),
-                      polygon.first + k,
-                      corners[k],
-                      corners[k + 1 == polygon.count ? 0 : k + 1],
-                      twice_area > 0.0,
-                      range.x0,
-                      range.x1};
+      const Edge edge{static_cast<std::uint32_t>(p), polygon.first + k, corners[k],
+                      corners[k + 1 == polygon.count ? 0 : k + 1], polygon.turns_left};
       const Edge* const other = recent.take_or_keep(edge);
       if (other == nullptr) continue;
       list.partner[edge.corner] = PolygonList::kDrawnByPartner;

@@ -6,8 +6,9 @@
 
 namespace contrejour::adaptive {
 
-// Sets PolygonList::partner. Only neighbours that touch the same columns of tiles share edges, so that a tile with one
-// of them has the other. Of edges found too far apart in the list some are missed: those are drawn twice.
+// Sets PolygonList::partner, of polygons on the frame: a tile that such an edge crosses has both. Of edges found too far
+// apart in the list some are missed: those are drawn twice.
+// far apart in the list some are missed: those are drawn twice.
 void share_edges(PolygonList& list, const TileGrid& grid);
 
 }  // namespace contrejour::adaptive

@@ -151,12 +151,8 @@ HWY_INLINE void add_edge(Sums& tile, const RowShade& shade, Vec2 a, Vec2 b, doub
   }
 }
 
-template <class Sums>
-HWY_INLINE bool misses_rows(const Sums& tile, Vec2 a, Vec2 b) {
-  return a.y == b.y || std::max(a.y, b.y) <= 0.0 || std::min(a.y, b.y) >= tile.height;
-}
-
-// Parts of an edge left of the tile count as on its border, parts to the right do not count.
+// An edge that for_each_edge() visits. Parts left of the tile count as on its border, or not where sums are carried;
+// parts to the right do not.
 template <class Sums>
 void add_clipped(Sums& tile, const RowShade& shade, Vec2 a, Vec2 b, double sign) {
   const double width = tile.width;
@@ -164,10 +160,10 @@ void add_clipped(Sums& tile, const RowShade& shade, Vec2 a, Vec2 b, double sign)
     std::swap(a, b);
     sign = -sign;
   }
-  if (!(a.y < b.y) || b.y <= 0.0 || a.y >= tile.height || (a.x >= width && b.x >= width)) return;
   const double low = std::min(a.x, b.x);
   const double high = std::max(a.x, b.x);
   if (low >= 0.0 && high < width) return add_edge(tile, shade, a, b, sign);
+  if (high <= 0.0 && tile.is_carried()) return;
   if (high <= 0.0) return add_edge(tile, shade, {0.0, a.y}, {0.0, b.y}, sign);
   const auto at_x = [&](double x) {
     return Vec2{x, std::clamp(a.y + (x - a.x) * (b.y - a.y) / (b.x - a.x), a.y, b.y)};
@@ -177,19 +173,29 @@ void add_clipped(Sums& tile, const RowShade& shade, Vec2 a, Vec2 b, double sign)
   const Vec2 upper = left.y < right.y ? left : right;
   const Vec2 lower = left.y < right.y ? right : left;
   if (upper.y < lower.y) add_edge(tile, shade, upper, lower, sign);
-  if (low >= 0.0) return;
+  if (low >= 0.0 || tile.is_carried()) return;
   if (a.x < 0.0 && a.y < left.y) add_edge(tile, shade, {0.0, a.y}, {0.0, left.y}, sign);
   if (b.x < 0.0 && left.y < b.y) add_edge(tile, shade, {0.0, left.y}, {0.0, b.y}, sign);
 }
 
-// The polygon's corners from the tile's, and its area's sign.
+// The polygon's edges that cross the tile's rows, left of its right border: their ends from the tile's corner, the
+// first one's index among the polygon's, and the sign of what they bring.
 template <class Visit>
-void for_each_edge(const TileSums& tile, std::span<const Point> corners, const Visit& visit) {
-  const auto corner = [&](std::size_t k) {
-    return Vec2{static_cast<double>(corners[k].x) - tile.x0, static_cast<double>(corners[k].y) - tile.y0};
+HWY_INLINE void for_each_edge(const TileSums& tile, const PolygonList& list, const Polygon& polygon,
+                              const Visit& visit) {
+  const auto corners = list.corners_of(polygon);
+  const auto from_tile = [&](Point p) {
+    return Vec2{static_cast<double>(p.x) - tile.x0, static_cast<double>(p.y) - tile.y0};
   };
-  const double sign = twice_signed_area(corners) > 0.0 ? -1.0 : 1.0;  // y down in memory: left edges rise
-  for (std::size_t k = 0; k < corners.size(); ++k) visit(corner(k), corner(k + 1 == corners.size() ? 0 : k + 1), sign);
+  const double sign = polygon.turns_left ? -1.0 : 1.0;  // y down in memory: left edges rise
+  const auto top = static_cast<float>(tile.y0), bottom = static_cast<float>(tile.y0 + tile.height);
+  const auto right = static_cast<float>(tile.x0 + tile.width);
+  for (std::size_t k = 0; k < corners.size(); ++k) {
+    const Point a = corners[k], b = corners[k + 1 == corners.size() ? 0 : k + 1];
+    const float from = std::min(a.y, b.y), to = std::max(a.y, b.y);
+    if (!(from < to) || to <= top || from >= bottom || std::min(a.x, b.x) >= right) continue;
+    visit(from_tile(a), from_tile(b), k, sign);
+  }
 }
 
 }  // namespace contrejour::adaptive::HWY_NAMESPACE

@@ -352,7 +352,8 @@ void add_screened(TileSums& tile, const PolygonList& list, const Polygon& polygo
   cover.height = tile.height;
   cover.make();
   const auto corners = list.corners_of(polygon);
-  for_each_edge(tile, corners, [&](Vec2 a, Vec2 b, double sign) { add_clipped(cover, RowShade{}, a, b, sign); });
+  for_each_edge(tile, list, polygon,
+                [&](Vec2 a, Vec2 b, std::size_t, double sign) { add_clipped(cover, RowShade{}, a, b, sign); });
   const PixelRows within = rows_under(tile, corners);
   const Screened& behind = list.screened[polygon.screened - 1];
   const auto add = [&](auto&& look) { add_pixels(tile, polygon, behind.map, within, look); };

@@ -12,7 +12,7 @@
 
 namespace contrejour::adaptive {
 
-// A polygon's coverage alone, as changes along the rows of a tile.
+// A polygon's coverage alone, as changes along the rows of a tile. Edges left of it count as on its border.
 struct CoverSums {
   static constexpr std::size_t kLanes = 1;
   static constexpr std::size_t kPitch = TileGrid::kWidth + 32;  // beyond the last changes a vector of none
@@ -24,6 +24,7 @@ struct CoverSums {
   std::vector<double> sums;  // made with the first polygon
   std::array<Columns, TileGrid::kHeight> changed{};
 
+  [[nodiscard]] static constexpr bool is_carried() { return false; }  // TileSums has another answer
   void make() {
     if (sums.empty()) sums.resize(kPitch * TileGrid::kHeight, 0.0);
   }
@@ -36,10 +37,11 @@ struct CoverSums {
   }
 };
 
-// A tile's place in the frame, and its sums.
+// A tile's place in the frame, and its sums. Tiles of a row are drawn from left to right: what edges left of a tile
+// changed it has from the one before.
 struct TileSums {
   static constexpr std::size_t kLanes = 8;  // three channels and a spare: level, then slope along x
-  static constexpr std::size_t kPitch = TileGrid::kWidth + 2;  // what edges on the right border change is not read
+  static constexpr std::size_t kPitch = TileGrid::kWidth + 2;  // and what edges on the right border change
 
   static constexpr std::size_t kPixel = kLanes / 2;  // values of a pixel
   static constexpr std::size_t kPixelPitch =
@@ -52,10 +54,12 @@ struct TileSums {
   using Blocks = std::array<std::uint64_t, TileGrid::kHeight>;  // by row, a bit for each block of columns
   Blocks touched{};  // by changes
   std::vector<double> sums = std::vector<double>(kLanes * kPitch * TileGrid::kHeight, 0.0);
+  std::array<std::array<double, kLanes>, TileGrid::kHeight> carried{};  // by row: sums left of the first column
   Blocks lit{};                 // pixel by pixel
   std::vector<float> by_pixel;  // light that came so, kPixel values each and a vector's beyond; empty: none yet
   CoverSums cover;
 
+  [[nodiscard]] bool is_carried() const { return x0 > 0; }  // what edges left of it changed
   [[nodiscard]] double* at(int row, int column) {
     return sums.data() + kLanes * (static_cast<std::size_t>(row) * kPitch + static_cast<std::size_t>(column));
   }
@@ -74,7 +78,7 @@ struct TileSums {
  private:
   static void mark(Blocks& blocks, int row, int first, int last) {
     const int most = TileGrid::kWidth / kBlock - 1;
-    const int low = first / kBlock;
+    const int low = std::min(first / kBlock, most);
     const int high = std::min(last / kBlock, most);
     blocks[static_cast<std::size_t>(row)] |= (~std::uint64_t{0} >> (most - high)) & (~std::uint64_t{0} << low);
   }

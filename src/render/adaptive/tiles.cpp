@@ -32,10 +32,9 @@ void add_polygon(TileSums& tile, const PolygonList& list, const Polygon& polygon
     add<TileSums>(tile.at(row, column + 1), shade.level, -1.0);
     return;
   }
-  std::size_t corner = polygon.first;
-  for_each_edge(tile, corners, [&](Vec2 a, Vec2 b, double sign) {
-    const std::uint32_t partner = list.partner_of(corner++);
-    if (partner == PolygonList::kDrawnByPartner || misses_rows(tile, a, b)) return;
+  for_each_edge(tile, list, polygon, [&](Vec2 a, Vec2 b, std::size_t corner, double sign) {
+    const std::uint32_t partner = list.partner_of(polygon.first + corner);
+    if (partner == PolygonList::kDrawnByPartner) return;
     if (partner == PolygonList::kAlone) return add_clipped(tile, shade, a, b, sign);
     add_clipped(tile, shade - row_shade(list.polygons[partner].shade, tile), a, b, sign);
   });
@@ -53,8 +52,9 @@ HWY_INLINE void sum_row(TileSums& tile, int row, Store store) {
   const std::uint64_t touched = std::exchange(tile.touched[static_cast<std::size_t>(row)], 0);
   const std::uint64_t lit = tile.lit[static_cast<std::size_t>(row)];
   for (std::size_t k = 0; k < kHalf; k += hn::Lanes(d)) {
-    auto level = zero;
-    auto slope = zero;
+    double* const carried = tile.carried[static_cast<std::size_t>(row)].data() + k;
+    auto level = hn::LoadU(d, carried);
+    auto slope = hn::LoadU(d, carried + kHalf);
     for (int block = 0; block * TileSums::kBlock < tile.width; ++block) {
       const auto first = static_cast<std::size_t>(block * TileSums::kBlock);
       const auto count = std::min<std::size_t>(TileSums::kBlock, static_cast<std::size_t>(tile.width) - first);
@@ -86,9 +86,15 @@ HWY_INLINE void sum_row(TileSums& tile, int row, Store store) {
         store(df, value, first + column, k);
       }
     }
+    double* const border = tile.at(row, tile.width) + k;
+    level = hn::Add(level, hn::LoadU(d, border));
+    slope = hn::Add(slope, hn::LoadU(d, border + kHalf));
+    hn::StoreU(hn::MulAdd(slope, hn::Set(d, static_cast<double>(tile.width)), level), d, carried);
+    hn::StoreU(slope, d, carried + kHalf);
+    hn::StoreU(zero, d, border);
+    hn::StoreU(zero, d, border + kHalf);
   }
   tile.lit[static_cast<std::size_t>(row)] = 0;
-  std::fill_n(tile.at(row, tile.width), TileSums::kLanes, 0.0);  // what edges on the right border changed
 }
 
 void sum_up(TileSums& tile, TileMode mode, Image& image) {
@@ -148,6 +154,7 @@ void draw_tile(std::span<const TiledPolygons> lists, std::size_t at, TileSums& t
     }
   }
   if (any) return sum_up(tile, mode, image);
+  tile.carried = {};  // all polygons end before it: rounding
   if (mode == TileMode::Write) clear(tile, image);
 }
 
@@ -225,6 +232,7 @@ void TileDrawer::draw_rows(std::span<const TiledPolygons> lists, int first, int 
   for (int row = first; row < last; ++row) {
     sums.y0 = row * TileGrid::kHeight;
     sums.height = std::min(TileGrid::kHeight, grid_.height - sums.y0);
+    sums.carried = {};
     for (int column = 0; column < grid_.columns; ++column) {
       sums.x0 = column * TileGrid::kWidth;
       sums.width = std::min(TileGrid::kWidth, grid_.width - sums.x0);

@@ -90,12 +90,15 @@ std::vector<DesignPosition> zmx_positions(const ZmxConfigurations& configuration
   std::vector<double> own;
   for (const ZmxSurface& surface : surfaces) own.push_back(surface.thickness);
   std::vector<DesignPosition> positions(static_cast<std::size_t>(configurations.count), {own});
+  const int gaps = static_cast<int>(own.size()) - 1;
   for (const ZmxOperand& operand : configurations.operands) {
-    const auto at = static_cast<std::size_t>(operand.subject), in = static_cast<std::size_t>(operand.configuration - 1);
-    if (in >= positions.size()) continue;
-    if (operand.name == "LTTL") positions[in].nominal_focal_mm = nominal_focal_mm(operand.value);
+    const int in = operand.configuration - 1, gap = operand.subject;
+    if (in < 0 || in >= configurations.count) continue;
+    DesignPosition& position = positions[static_cast<std::size_t>(in)];
+    if (operand.name == "LTTL") position.nominal_focal_mm = nominal_focal_mm(operand.value);
     const auto value = number_or_infinity(operand.value);
-    if (operand.name == "THIC" && value && at + 1 < own.size()) positions[in].thickness[at] = *value;
+    if (operand.name == "THIC" && value && gap >= 0 && gap < gaps)
+      position.thickness[static_cast<std::size_t>(gap)] = *value;
   }
   return positions;
 }
