@@ -37,9 +37,9 @@ class Stopwatch {
 
 // The error that one item may make: items' errors add in squares, being of either sign and in different places. What
 // cells are allowed is a bound that most of them stay far below: measured, all together make less than a tenth of it
-// (docs/physics/adaptive.md), so that six and a half times as much still holds.
+// (docs/physics/adaptive.md), so that six times as much still holds.
 ErrorBudget budget_per_item(double error, double peak, const Frame& frame, std::size_t items) {
-  constexpr double kRoom = 6.5;
+  constexpr double kRoom = 6.2;
   const double allowed = kRoom * error * peak;
   const double pixels = static_cast<double>(frame.width) * frame.height;
   return {allowed * allowed * pixels / static_cast<double>(std::max<std::size_t>(items, 1)), peak};

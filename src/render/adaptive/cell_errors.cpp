@@ -47,6 +47,18 @@ double off_plane(const ValueAt& at) {
   return sum;
 }
 
+// How far from where a parabola through the values at a side's ends and middle is 1 a line between its ends is, as a
+// share of the side; 0 where it does not cross. Beside what fails heights rise so steeply that their mean slope says
+// little.
+double off_crossing(double from, double middle, double to) {
+  if ((from - 1.0) * (to - 1.0) >= 0.0) return 0.0;
+  const double t = (1.0 - from) / (to - from);
+  const double curvature = 2.0 * (from - 2.0 * middle + to);
+  const double slope = to - from + curvature * (2.0 * t - 1.0);
+  const double miss = std::abs(curvature * t * (1.0 - t));
+  return miss < std::abs(slope) ? miss / std::abs(slope) : 1.0;
+}
+
 }  // namespace
 
 CellPainter::CellMeasure CellPainter::measure(const Mesh& mesh, const Cell& cell, State state) const {
@@ -177,6 +189,8 @@ double CellPainter::limit_error(const Mesh& mesh, const Cell& cell) const {
         change = std::max(change, 2.0 * std::abs(static_cast<double>(w[k]) - w[cell.middle]));
     }
     if (change > 0.0) largest = std::max(largest, off / change);
+    for (std::size_t k = 0; f >= first_rim && k < 4; ++k)
+      largest = std::max(largest, off_crossing(v[cell.corner[k]], v[cell.side[k]], v[cell.corner[(k + 1) % 4]]));
   }
   return largest;
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace contrejour::adaptive {
 namespace {
@@ -66,6 +67,23 @@ void ClearanceGrid::find_open(std::size_t count) {
       if (!(x[k] * x[k] + y[k] * y[k] <= 1.0F)) open_[k] = 0;
     }
   }
+}
+
+double ClearanceGrid::arrives_after(std::size_t farther, std::size_t nearer) const {
+  const float *const failing = field(kFailing), *const passed = field(kPassed);
+  const double change = static_cast<double>(failing[nearer]) - failing[farther];
+  if (passed[farther] != passed[nearer] || !(change > 0.0)) return std::numeric_limits<double>::infinity();
+  return -failing[nearer] / change;
+}
+
+float ClearanceGrid::excess(std::size_t ray) const {
+  float most = 0.0F;
+  for (std::size_t c = 0; c <= static_cast<std::size_t>(crossings()); ++c) {
+    const float x = field(kRim + 2 * c)[ray];
+    const float y = field(kRim + 2 * c + 1)[ray];
+    most = std::max(most, x * x + y * y);
+  }
+  return most - 1.0F;
 }
 
 bool ClearanceGrid::may_reach_circle(std::size_t k, const std::array<std::size_t, 4>& corners, float reach) const {

@@ -38,7 +38,12 @@ class ClearanceGrid {
     return static_cast<std::size_t>(row * (columns_ + 1) + column);
   }
   [[nodiscard]] bool fails(std::size_t ray) const { return field(kFailing)[ray] != 0.0F; }
+  // Of two rays that fail, the nearer one: how far on, in their distance, those beyond it no longer do; infinite where
+  // they do not tell.
+  [[nodiscard]] double arrives_after(std::size_t farther, std::size_t nearer) const;
   [[nodiscard]] bool is_open(std::size_t ray) const { return open_[ray] != 0; }
+  // By how much a ray is beyond the stop's circle or the rim it is farthest out on, squared; open below 0.
+  [[nodiscard]] float excess(std::size_t ray) const;
   // Over the stop's radius.
   [[nodiscard]] Vec2 stop(int crossing, std::size_t ray) const {
     const auto c = static_cast<std::size_t>(kStop + 2 * crossing);

@@ -25,6 +25,7 @@ constexpr double kNoFit = std::numeric_limits<double>::infinity();
 // any will do.
 constexpr double kMostLooser = 64.0, kRough = 10.0;
 constexpr double kHopeless = 2.0;  // times the tolerance, foretold of more nodes
+constexpr int kWorthBending = 2;     // quarterings that might be saved
 constexpr double kFewCells = 64.0;  // a band's squared error is shared among so many cells
 
 // Bounds of the cells between the nodes that may let light through, none if none may; the iris counts as its
@@ -151,7 +152,29 @@ std::shared_ptr<const BandScreen> GhostPainter::band_screen(const FirstRays& ray
 }
 
 void GhostPainter::paint(const Rectangle& box, bool with_mirror_image, const ErrorBudget& budget, PolygonList& out) {
-  const FirstRays rays = first_rays(tracers_, samples_, box, kNodes.front(), frame_, budget);
+  FirstRays rays = first_rays(tracers_, samples_, box, kNodes.front(), frame_, budget);
+  if (const auto bent = bent_about(rays, box)) {
+    tracers_.bend(bent->bend);
+    rays = first_rays(tracers_, samples_, bent->box, kNodes.front(), frame_, budget);
+  }
+  paint(rays, with_mirror_image, budget, out);
+  tracers_.bend({});
+}
+
+// A box about the same light where rays fail in this one, which would have to be quartered. Dirt is looked up by place
+// in the straight one.
+std::optional<BentBox> GhostPainter::bent_about(const FirstRays& rays, const Rectangle& box) {
+  const bool fail = std::ranges::any_of(rays.sheets, [](const RaySheet& sheet) { return sheet.failed > 0; });
+  if (!fail || deepest_ < kWorthBending || dirt_ != nullptr || !tracers_.light().symmetric || box.low.y != -box.high.y)
+    return std::nullopt;
+  std::vector<ClearanceGrid> grids{tracers_.clearance(0)};
+  if (tracers_.passes().size() > 1) grids.push_back(tracers_.clearance(tracers_.passes().size() - 1));
+  auto bent = bent_box(grids, box);
+  for (const ClearanceGrid& grid : grids) tracers_.count(grid);
+  return bent;
+}
+
+void GhostPainter::paint(const FirstRays& rays, bool with_mirror_image, const ErrorBudget& budget, PolygonList& out) {
   const std::vector<Band> bands = bands_for(rays, tracers_.passes(), samples_, frame_.pixel_pitch_mm);
   BandScreens screens;
   for (const Band& band : bands) screens.push_back(screens_ != nullptr ? band_screen(rays, band) : nullptr);

@@ -40,6 +40,8 @@ class GhostPainter {
     CellPainter* mirror_image = nullptr;  // of the boxes, if it is painted with them
   };
 
+  [[nodiscard]] std::optional<BentBox> bent_about(const FirstRays& rays, const Rectangle& box);
+  void paint(const FirstRays& rays, bool with_mirror_image, const ErrorBudget& budget, PolygonList& out);
   [[nodiscard]] PacketPrecision precision_for(const Rectangle& box, const Tolerance& tolerance) const;
   [[nodiscard]] std::shared_ptr<const BandScreen> band_screen(const FirstRays& rays, const Band& band) const;
 

@@ -23,7 +23,14 @@ class GhostTracers {
     std::optional<SheetTracer>& tracer = tracers_[pass];
     const double lambda_nm = passes_[pass].lambda_nm;
     if (!tracer) tracer.emplace(lens_, ghost_, light_, plane_z_mm_, lambda_nm, *tables_.at(lambda_nm), stop_times_);
+    tracer->bend(bend_);
     return *tracer;
+  }
+  // Of the boxes that are traced from here on.
+  void bend(const Bend& bend) { bend_ = bend; }
+  // What blocks rays of a pass.
+  [[nodiscard]] ClearanceGrid clearance(std::size_t pass) {
+    return {at(pass).path(), *tables_.at(passes_[pass].lambda_nm), {{0.0, 0.0, plane_z_mm_}, light_.source}};
   }
 
   [[nodiscard]] const LightFrame& light() const { return light_; }
@@ -31,8 +38,13 @@ class GhostTracers {
   [[nodiscard]] double plane_z_mm() const { return plane_z_mm_; }
   [[nodiscard]] double stop_times() const { return stop_times_; }
 
-  [[nodiscard]] std::uint64_t rays() const { return sum(&SheetTracer::rays); }
-  [[nodiscard]] std::uint64_t surface_hits() const { return sum(&SheetTracer::surface_hits); }
+  // Adds rays that were traced beside sheets.
+  void count(const ClearanceGrid& grid) {
+    clearance_rays_ += grid.rays();
+    clearance_hits_ += grid.rays() * grid.steps();
+  }
+  [[nodiscard]] std::uint64_t rays() const { return clearance_rays_ + sum(&SheetTracer::rays); }
+  [[nodiscard]] std::uint64_t surface_hits() const { return clearance_hits_ + sum(&SheetTracer::surface_hits); }
 
  private:
   [[nodiscard]] std::uint64_t sum(std::uint64_t (SheetTracer::*of)() const) const {
@@ -48,6 +60,8 @@ class GhostTracers {
   std::span<const PlannedPass> passes_;
   double stop_times_;
   double plane_z_mm_;
+  Bend bend_;
+  std::uint64_t clearance_rays_ = 0, clearance_hits_ = 0;
   std::vector<std::optional<SheetTracer>> tracers_;  // one a pass
 };
 

@@ -165,14 +165,18 @@ void SheetTracer::trace_rows(const Rectangle& box, int nodes, int first_row, Pac
   x_mm_.clear();
   y_mm_.clear();
   for (int row = first_row; row < nodes; ++row) {
+    const double y = (1.0 + points[static_cast<std::size_t>(row)]) * half.y;
     for (int column = 0; column < nodes; ++column) {
-      x_mm_.push_back(static_cast<float>((1.0 + points[static_cast<std::size_t>(column)]) * half.x));
-      y_mm_.push_back(static_cast<float>((1.0 + points[static_cast<std::size_t>(row)]) * half.y));
+      const double x = (1.0 + points[static_cast<std::size_t>(column)]) * half.x;
+      x_mm_.push_back(static_cast<float>(bend_.entrance_x(box.low + Vec2{x, y}) - box.low.x));
+      y_mm_.push_back(static_cast<float>(y));
     }
   }
   packets_.start_from(box.low);
   trace_packets(packets_, precision, x_mm_.data(), y_mm_.data(), x_mm_.size(), out);
   rays_ += x_mm_.size();
+  for (std::size_t k = 0; k < x_mm_.size(); ++k)
+    out.transmission[k] *= static_cast<float>(bend_.stretch(box.low.y + y_mm_[k]));
 }
 
 }  // namespace contrejour::adaptive

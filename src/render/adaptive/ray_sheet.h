@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "ghosts/ray_grid.h"
+#include "render/adaptive/bent_box.h"
 #include "render/adaptive/light_frame.h"
 #include "render/interface/frame_plan.h"
 
@@ -50,6 +51,10 @@ class SheetTracer {
   // Of the rays through the same nodes.
   [[nodiscard]] std::vector<float> transmissions(const Rectangle& box, int nodes, PacketPrecision precision);
 
+  // Of boxes from here on.
+  void bend(const Bend& bend) { bend_ = bend; }
+
+  [[nodiscard]] const OpticalPath& path() const { return path_; }
   [[nodiscard]] std::size_t steps() const { return path_.steps.size(); }
   [[nodiscard]] std::uint64_t rays() const { return rays_; }
   [[nodiscard]] std::uint64_t surface_hits() const { return rays_ * steps(); }
@@ -62,6 +67,7 @@ class SheetTracer {
   LightFrame light_;
   OpticalPath path_;
   PacketPath packets_;
+  Bend bend_;
   std::vector<float> x_mm_, y_mm_, scratch_;
   std::uint64_t rays_ = 0;
 };
