@@ -195,6 +195,30 @@ TEST_CASE("bands hold every wavelength once, more of them the less may be wrong"
   CHECK(bands_within(0.3).size() > 1);
 }
 
+TEST_CASE("however much may be wrong, wavelengths of a band are no farther apart than colours allow") {
+  Rainbow rainbow("heliar", 16.0, {3, 4}, kAside);
+  const Frame frame = frame_on_sensor(rainbow.scene.lens, 1920, 1080);
+  FirstRays rays = first_rays(rainbow.tracers, rainbow.samples, rainbow.scene.boxes.front(), 5, frame, {1e300, 1.0});
+  rays.tolerance.position_px = 1e6;
+  const auto bands_within = [&](double colour_px) {
+    rays.tolerance.colour_px = colour_px;
+    return bands_for(rays, rainbow.passes, rainbow.samples, frame.pixel_pitch_mm).size();
+  };
+  const RaySheet first = rainbow.tracers.at(0).trace(rainbow.scene.boxes.front(), 5, PacketPrecision::Double);
+  const RaySheet last = rainbow.tracers.at(15).trace(rainbow.scene.boxes.front(), 5, PacketPrecision::Double);
+  double spread_px = 0.0;
+  for (std::size_t k = 0; k < first.count(); ++k)
+    if (std::max(first.r_rel[k], last.r_rel[k]) < 1.2F)
+      spread_px = std::max(spread_px, std::hypot(first.sensor_x_mm[k] - last.sensor_x_mm[k],
+                                                 first.sensor_y_mm[k] - last.sensor_y_mm[k]) /
+                                          frame.pixel_pitch_mm);
+  REQUIRE(spread_px > 1.0);
+  CHECK(bands_within(spread_px) == 1);
+  CHECK(bands_within(0.3 * spread_px) >= 2);
+  CHECK(bands_within(0.1 * spread_px) >= 4);
+  CHECK(bands_within(1e-9) == 16);
+}
+
 TEST_CASE("sixteen wavelengths as in the reference") {
   for (const auto& [name, f_number] : {std::pair{"heliar", 16.0}, std::pair{"tessar", 8.0}}) {
     CAPTURE(name);

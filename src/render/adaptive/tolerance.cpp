@@ -10,6 +10,8 @@ namespace {
 
 constexpr double kFitShare = 0.4;  // of the allowed error, that fits may make: theirs is the same all over a ghost
 constexpr double kNoLimit = 1e9;
+// Of a ghost that bright beside the peak: wavelengths farther apart, in its sizes, give it colours that are seen.
+constexpr double kColourLevel = 1e-3, kColourShift = 0.1, kColourShift_px = 1.0;
 constexpr double kPeaks = 4.0;  // fits of what is so many times brighter than the peak need be no better
 
 // The light of a sheet's image where most of it is: its level, in units of light over pixels, and its area there.
@@ -43,11 +45,12 @@ Spread spread_of(const RaySheet& sheet, double pupil_light, const Frame& frame) 
 // Edges displaced by d over a length of about 4 L, and levels off by a share w over L^2 pixels.
 Tolerance tolerance_for(const RaySheet& sheet, double weight, double shared_flux, const Frame& frame,
                         const ErrorBudget& budget) {
-  if (!std::isfinite(budget.squared_error) || !(weight > 0.0)) return {kNoLimit, kNoLimit, kNoLimit, 0.0};
+  if (!std::isfinite(budget.squared_error) || !(weight > 0.0)) return {kNoLimit, kNoLimit, kNoLimit, 0.0, kNoLimit};
   const Spread spread = spread_of(sheet, weight * shared_flux, frame);
   const double side = std::sqrt(spread.area_px);
   Tolerance t;
   t.level = std::min(spread.level, kPeaks * budget.peak);
+  t.colour_px = t.level > kColourLevel * budget.peak ? std::max(kColourShift_px, kColourShift * side) : kNoLimit;
   const double error = kFitShare * std::sqrt(budget.squared_error) / t.level;  // in levels, summed
   t.position_px = std::clamp(std::min(error / (2.0 * std::sqrt(side)), error / 8.0), 0.005, 0.05 * side + 0.5);
   t.stop = 2.0 * t.position_px / side;

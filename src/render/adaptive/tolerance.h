@@ -15,6 +15,7 @@ struct ErrorBudget {
 struct Tolerance {
   double position_px = 0, stop = 0, weight = 0;  // stop radii; relative to the largest weight
   double level = 0;  // of the ghost that this is for, a pixel's value
+  double colour_px = 0;  // that wavelengths may be off for colours to stay what they are, however dim
 };
 
 // Of the ghost that a box's sheet is of. weight: the largest of any channel at any of its nodes, all wavelengths

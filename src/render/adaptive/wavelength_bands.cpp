@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace contrejour::adaptive {
 namespace {
@@ -54,6 +55,7 @@ std::vector<Band> bands_for(const FirstRays& rays, std::span<const PlannedPass> 
     for (const Band& band : bands) {
       for (std::size_t k = band.first; k < band.last; ++k) {
         const double off_px = 0.5 * shift_px * std::abs(samples.place(k) - samples.place(band.middle()));
+        if (off_px > rays.tolerance.colour_px) return std::numeric_limits<double>::infinity();
         sum += shares[k] * shares[k] * std::min(off_px, off_px * off_px);
       }
     }
