@@ -112,7 +112,8 @@ FENCED = [
     (r"pugixml", ("src/optics/lens_files",), "one reader of XML"),
     (r"yaml-cpp/", ("src/base",), "one wrapper that keeps its exceptions in"),
     (r"gemmi/|pocketfft", ("src/diffraction",), "one wrapper of the FFT"),
-    (r"Eigen/", ("src/diffraction", "src/optics/coating"), "one wrapper of the eigen solver, one of least squares"),
+    (r"Eigen/", ("src/diffraction", "src/optics/coating", "src/render/adaptive"),
+     "one wrapper of the eigen solver, two of least squares"),
 ]
 
 INCLUDE = re.compile(r'^\s*#\s*include\s*(?:"([^"]+)"|<([^>]+)>)')
