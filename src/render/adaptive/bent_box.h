@@ -14,6 +14,7 @@ namespace contrejour::adaptive {
 // How far a side lies from where a straight one would, along x: by_y2 y^2 + by_y4 y^4, mm.
 struct Side {
   double by_y2 = 0.0, by_y4 = 0.0;
+  friend bool operator==(const Side&, const Side&) = default;
   [[nodiscard]] double at(double y_mm) const { return (by_y2 + by_y4 * y_mm * y_mm) * y_mm * y_mm; }
 };
 
@@ -22,6 +23,7 @@ struct Bend {
   double low_mm = 0.0, high_mm = 1.0;
   Side low, high;
 
+  [[nodiscard]] bool is_bent() const { return !(low == Side{} && high == Side{}); }
   // mm of the entrance plane per mm of the box, both along x.
   [[nodiscard]] double stretch(double y_mm) const { return 1.0 + (high.at(y_mm) - low.at(y_mm)) / (high_mm - low_mm); }
   [[nodiscard]] double entrance_x(Vec2 in_box) const {

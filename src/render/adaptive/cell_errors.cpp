@@ -28,6 +28,9 @@ constexpr double kLittleOff_px = 0.5, kSeenOfLittle = 0.1;
 // Of a cell that large, and so bright beside the peak: a plane that is farther off shows as a facet, however little it
 // is of the peak.
 constexpr double kFacet = 0.02, kFacet_px = 400.0, kFacetLevel = 2e-4;
+// Where sides bend for no reason of the image's, beside cells of other sizes: gaps this wide show as lines, of cells
+// that long.
+constexpr double kSeam_px = 0.1, kSeamLength_px = 8.0;
 constexpr std::array kSimpson{1.0 / 6.0, 4.0 / 6.0, 1.0 / 6.0};
 
 // Mean square of what a plane through a cell's nine vertices, row by row, leaves of their values.
@@ -133,10 +136,12 @@ double CellPainter::squared_error(const Mesh& mesh, const Cell& cell, CellMeasur
   // Sides off their place: beside a cell with more corners they overlap or leave a gap, cut ones are seen.
   const double left = sides == Sides::Bent ? kLeftByBend : 1.0;
   const double seen = m.mean * m.mean * width * width;
+  double most_off = 0.0;
   for (std::size_t k = 0; k < 4; ++k) {
     const Vec2 a = mesh.position(cell.corner[k]);
     const Vec2 c = mesh.position(cell.corner[(k + 1) % 4]);
     const double off = left * length(mesh.position(cell.side[k]) - (a + c) * 0.5);
+    most_off = std::max(most_off, off);
     error += kEdgeBound * seen * std::min(off * off, off) * length(c - a);
   }
   if (is_dirty(mesh, cell)) error += seen * shadow_error(mesh, cell);
@@ -153,7 +158,10 @@ double CellPainter::squared_error(const Mesh& mesh, const Cell& cell, CellMeasur
   }
   // Far above the frame's peak only the relative error counts.
   const double dimmed = passed * seen_share(m.mean, peak_);
-  return std::min(error, m.most) * dimmed * dimmed;
+  error = std::min(error, m.most) * dimmed * dimmed;
+  if (!sides_bend_ || m.longest_px < kSeamLength_px || m.mean * passed * width < kFacetLevel * peak_) return error;
+  const double seam = most_off / kSeam_px;
+  return std::max(error, cell_budget() * seam * seam);
 }
 
 // How far the lines that cut the cell are off when stop coordinates and rims are taken as linear along its sides, as

@@ -27,6 +27,9 @@ class CellPainter {
 
   void paint(const Patch& patch) { paint(patch, 0); }
 
+  // Of patches from here on: lines that are straight in them are bent in the entrance plane, so that where cells of
+  // different sizes meet, their sides would leave seams between them.
+  void sides_bend(bool bend) { sides_bend_ = bend; }
   // From here on the light passes a screen: stop coordinates are in units of `unit` stop radii.
   void stand_behind(std::shared_ptr<const BandScreen> screen, double unit) {
     if (screen == screen_) return;
@@ -170,6 +173,7 @@ class CellPainter {
   int width_, height_;
   double budget_, few_cells_;
   double cells_ = 0.0;  // drawn so far
+  bool sides_bend_ = false;
   double peak_;
   PolygonList& out_;
   std::shared_ptr<const BandScreen> screen_;  // null: the iris is sharp

@@ -180,6 +180,7 @@ void GhostPainter::paint(const FirstRays& rays, bool with_mirror_image, const Er
   for (const Band& band : bands) screens.push_back(screens_ != nullptr ? band_screen(rays, band) : nullptr);
   const auto few_cells = kFewCells * static_cast<double>(bands.size());
   CellPainter cells(iris_, frame_, budget.squared_error, few_cells, budget.peak, out);
+  cells.sides_bend(tracers_.is_bent());
   cells.stand_behind(SeenDirt{dirt_, &tracers_.light(), tracers_.plane_z_mm()});
   CellPainter cells_of_image = cells;
   CellPainter* const mirror_image = with_mirror_image ? &cells_of_image : nullptr;

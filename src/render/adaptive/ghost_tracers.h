@@ -28,6 +28,7 @@ class GhostTracers {
   }
   // Of the boxes that are traced from here on.
   void bend(const Bend& bend) { bend_ = bend; }
+  [[nodiscard]] bool is_bent() const { return bend_.is_bent(); }
   // What blocks rays of a pass.
   [[nodiscard]] ClearanceGrid clearance(std::size_t pass) {
     return {at(pass).path(), *tables_.at(passes_[pass].lambda_nm), {{0.0, 0.0, plane_z_mm_}, light_.source}};
