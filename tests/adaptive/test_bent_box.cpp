@@ -141,5 +141,5 @@ TEST_CASE("cells of different sizes in a bent box leave no seams, dim as the gho
     for (int x = 760; x < 860; ++x)
       for (int c = 0; c < 3; ++c)
         worst = std::max(worst, std::abs(image.at(x, y, c) / static_cast<double>(truth.at(x, y, c)) - 1.0));
-  CHECK(worst < 0.3);  // of a pixel; 0.56 where sides may bend as much as their error allows
+  CHECK(worst < 0.3);  // of a pixel's light; 0.56 where sides may bend as much as their error allows
 }

@@ -136,17 +136,19 @@ void keep_failing_out(Extent& room, const ClearanceGrid& grid, double middle, do
 // The box so bent that holds the light of all probes, if what fails can be kept out of it.
 std::optional<BentBox> box_about(std::span<const Probe> probes, const Bend& bend, double highest) {
   Extent light;
-  double top = 0.0;
+  double top = 0.0, least_stretch = 1.0;
   for (const Probe& probe : probes) {
     top = std::max(top, probe.top);
     for (const Row& row : probe.rows) {
+      least_stretch = std::min(least_stretch, bend.stretch(row.y));
       light.low = std::min(light.low, bend.box_x({row.low, row.y}));
       light.high = std::max(light.high, bend.box_x({row.high, row.y}));
     }
   }
   top = std::min(top * (1.0 + kTopMargin), highest);
   const double width = light.high - light.low;
-  if (bend.stretch(top) < kLeastStretch || !(width > 0.0)) return std::nullopt;
+  least_stretch = std::min(least_stretch, bend.stretch(top));
+  if (least_stretch < kLeastStretch || !(width > 0.0)) return std::nullopt;
   Extent room{light.low - kMargin * width, light.high + kMargin * width};
   for (const Probe& probe : probes) keep_failing_out(room, probe.grid, 0.5 * (light.low + light.high), top, bend);
   const double least = kLeastMargin * width;

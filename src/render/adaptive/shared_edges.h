@@ -8,7 +8,6 @@ namespace contrejour::adaptive {
 
 // Sets PolygonList::partner, of polygons on the frame: a tile that such an edge crosses has both. Of edges found too far
 // apart in the list some are missed: those are drawn twice.
-// far apart in the list some are missed: those are drawn twice.
 void share_edges(PolygonList& list, const TileGrid& grid);
 
 }  // namespace contrejour::adaptive
