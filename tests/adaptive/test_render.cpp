@@ -8,6 +8,8 @@
 #include <filesystem>
 #include <limits>
 
+#include <hwy/targets.h>
+
 #include "adaptive/scene.h"
 #include "contrejour/image_io.h"
 #include "contrejour/metrics.h"
@@ -220,6 +222,24 @@ TEST_CASE("errors out of range are refused, no light is no flare, an interrupted
   const auto stopped = render("adaptive", lens, {&light, 1}, settings, context);
   REQUIRE_FALSE(stopped.has_value());
   CHECK(stopped.error().code == ErrorCode::Cancelled);
+}
+
+TEST_CASE("every instruction set of this machine draws the same, with fringes, too") {
+  const LensState lens = test::lens_at_f("heliar", 16.0);
+  RenderSettings settings = settings_for(lens, 523, 40);
+  settings.wavelengths = 3;
+  const Light light = test::light_at(lens, settings.frame, {0.70, 0.33});
+  for (const RingingMode mode : {RingingMode::None, RingingMode::Fresnel}) {
+    settings.ringing.mode = mode;
+    hwy::SetSupportedTargetsForTest(0);
+    const Image best = image_of("adaptive", lens, light, settings);
+    for (const auto target : hwy::SupportedAndGeneratedTargets()) {
+      hwy::SetSupportedTargetsForTest(target);
+      CAPTURE(hwy::TargetName(target));
+      CHECK(psnr_db(best, image_of("adaptive", lens, light, settings)) > 80.0);
+    }
+  }
+  hwy::SetSupportedTargetsForTest(0);
 }
 
 TEST_CASE("a ghost alone, of which nothing is seen when it is drawn without care") {

@@ -19,10 +19,12 @@ struct Point {
   float x = 0, y = 0;
 };
 
+using Channels = std::array<float, 4>;  // and a spare: four are read at once
+
 // Pixel value per pixel area, per channel: at a point, and its change along x and y.
 struct Shade {
   Point at;
-  std::array<float, 3> value{}, along_x{}, along_y{};
+  Channels value{}, along_x{}, along_y{};
 };
 
 // Positive where the corners turn from +x to +y.

@@ -12,59 +12,58 @@
 #include <cmath>
 #include <utility>
 
+#include "render/adaptive/quad-inl.h"
 #include "render/adaptive/tile_sums.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace contrejour::adaptive::HWY_NAMESPACE {
 
-namespace hn = hwy::HWY_NAMESPACE;
-using Tag = hn::CappedTag<double, TileSums::kLanes>;
-
-// A polygon's irradiance as what a row of pixels needs: level and slope along x, and how the level changes by row.
+// A polygon's irradiance as what a row of pixels needs: a line along x, and how its level changes by row.
 struct RowShade {
-  HWY_ALIGN double level[TileSums::kLanes] = {};
-  HWY_ALIGN double by_row[TileSums::kLanes] = {};
+  QuadLine<double> line;
+  DoubleQuad by_row;
+
+  [[nodiscard]] HWY_INLINE QuadLine<double> at(int row) const {
+    return {multiply_add(by_row, DoubleQuad::all(row), line.level), line.slope};
+  }
+  // What an edge between two polygons changes, seen from the first.
+  friend HWY_INLINE RowShade operator-(const RowShade& a, const RowShade& b) {
+    return {a.line - b.line, a.by_row - b.by_row};
+  }
 };
 
 HWY_INLINE RowShade row_shade(const Shade& shade, const TileSums& tile) {
-  RowShade out;
-  const double x = static_cast<double>(shade.at.x) - tile.x0 - 0.5;  // pixel centres
-  const double y = static_cast<double>(shade.at.y) - tile.y0 - 0.5;
-  for (std::size_t c = 0; c < 3; ++c) {
-    const double slope = shade.along_x[c];
-    out.level[c] = shade.value[c] - slope * x - shade.along_y[c] * y;
-    out.level[4 + c] = slope;
-    out.by_row[c] = shade.along_y[c];
-  }
-  return out;
+  const auto x = DoubleQuad::all(tile.x0 + 0.5 - static_cast<double>(shade.at.x));  // pixel centres
+  const auto y = DoubleQuad::all(tile.y0 + 0.5 - static_cast<double>(shade.at.y));
+  const auto along_x = to_doubles(shade.along_x.data()), along_y = to_doubles(shade.along_y.data());
+  const auto level = multiply_add(along_x, x, multiply_add(along_y, y, to_doubles(shade.value.data())));
+  return {{level, along_x}, along_y};
 }
 
-// What an edge between two polygons changes, seen from the first.
-HWY_INLINE RowShade operator-(const RowShade& a, const RowShade& b) {
-  RowShade out;
-  for (std::size_t k = 0; k < TileSums::kLanes; ++k) {
-    out.level[k] = a.level[k] - b.level[k];
-    out.by_row[k] = a.by_row[k] - b.by_row[k];
-  }
-  return out;
-}
-
-// Adds `cover` of the row's irradiance to one column's sums.
+// What coverage is multiplied by: a polygon's irradiance row by row, or for coverage alone nothing.
 template <class Sums>
-HWY_INLINE void add(double* to, const double* shade, double cover) {
-  if constexpr (Sums::kLanes == 1) {
-    *to += cover;
-    return;
-  }
-  const Tag d;
-  for (std::size_t k = 0; k < TileSums::kLanes; k += hn::Lanes(d)) {
-    hn::StoreU(hn::MulAdd(hn::Load(d, shade + k), hn::Set(d, cover), hn::LoadU(d, to + k)), d, to + k);
-  }
-}
+class EdgeShade {
+ public:
+  HWY_INLINE explicit EdgeShade(const RowShade& of, int row = 0) : of_(of), row_(of.at(row)) {}
+  HWY_INLINE void set_row(int y) { row_ = of_.at(y); }
+  // Adds `cover` of the row's irradiance to one column's sums.
+  HWY_INLINE void add(double* to, double cover) const { add_times(QuadLine<double>::load(to), row_, cover).store(to); }
+
+ private:
+  RowShade of_;
+  QuadLine<double> row_;
+};
+
+template <>
+class EdgeShade<CoverSums> {
+ public:
+  HWY_INLINE void set_row(int) {}
+  HWY_INLINE void add(double* to, double cover) const { *to += cover; }
+};
 
 // One stretch of an edge within a row of pixels, from x0 to x1 and dy high: coverage to its right, as differences.
 template <class Sums>
-HWY_INLINE void add_stretch(Sums& tile, int at_row, const double* shade, double x0, double x1, double dy) {
+HWY_INLINE void add_stretch(Sums& tile, int at_row, const EdgeShade<Sums>& shade, double x0, double x1, double dy) {
   if (x0 > x1) std::swap(x0, x1);
   const auto first = static_cast<int>(x0);
   const auto last = static_cast<int>(x1);
@@ -73,88 +72,83 @@ HWY_INLINE void add_stretch(Sums& tile, int at_row, const double* shade, double 
   const auto column = [&](int k) { return row + Sums::kLanes * static_cast<std::size_t>(k); };
   if (first == last) {
     const double right = dy * (0.5 * (x0 + x1) - first);
-    add<Sums>(column(first), shade, dy - right);
-    add<Sums>(column(first + 1), shade, right);
+    shade.add(column(first), dy - right);
+    shade.add(column(first + 1), right);
     return;
   }
   const double slope = dy / (x1 - x0);
   const double in_first = first + 1 - x0;
   double before = 0.5 * slope * in_first * in_first;
   double filled = slope * in_first;
-  add<Sums>(column(first), shade, before);
+  shade.add(column(first), before);
   for (int k = first + 1; k < last; ++k) {
     const double covered = filled + 0.5 * slope;
-    add<Sums>(column(k), shade, covered - before);
+    shade.add(column(k), covered - before);
     before = covered;
     filled += slope;
   }
   const double in_last = x1 - last;
   const double covered = dy - 0.5 * slope * in_last * in_last;
-  add<Sums>(column(last), shade, covered - before);
-  add<Sums>(column(last + 1), shade, dy - covered);
+  shade.add(column(last), covered - before);
+  shade.add(column(last + 1), dy - covered);
 }
 
-// The same of coverage alone, inside the tile's columns, where the edge gets no farther than a pixel to the side in a
-// row: three columns at the most, and nothing asked that depends on where it crosses from one to the next.
-HWY_INLINE void add_steep_edge(CoverSums& tile, Vec2 a, Vec2 b, double sign) {
+// An edge inside the tile's columns, from a down to b, clipped to its rows: calls `visit` with each row, where the edge
+// enters and leaves it and how high it is there.
+template <class Visit>
+HWY_INLINE void for_each_row(int height, Vec2 a, Vec2 b, const Visit& visit) {
   const double dx_dy = (b.x - a.x) / (b.y - a.y);
   const double top = std::max(a.y, 0.0);
-  const double bottom = std::min(b.y, static_cast<double>(tile.height));
+  const double bottom = std::min(b.y, static_cast<double>(height));
   const double low = std::min(a.x, b.x);
   const double high = std::max(a.x, b.x);
-  const double half_dy_dx = dx_dy != 0.0 ? 0.5 * sign / std::abs(dx_dy) : 0.0;
   double y = top;
   double x = std::clamp(a.x + dx_dy * (top - a.y), low, high);
   for (int row = static_cast<int>(top); y < bottom; ++row) {
     const double y_next = std::min<double>(row + 1, bottom);
     const double x_next = std::clamp(a.x + dx_dy * (y_next - a.y), low, high);
-    const double dy = sign * (y_next - y);
-    const auto first = static_cast<int>(std::min(x, x_next));
+    visit(row, x, x_next, y_next - y);
+    x = x_next;
+    y = y_next;
+  }
+}
+
+// Where an edge gets no farther than a pixel to the side in a row: three columns, and nothing asked that depends on
+// where it crosses from one to the next.
+template <class Sums>
+HWY_INLINE void add_steep_edge(Sums& tile, EdgeShade<Sums> shade, Vec2 a, Vec2 b, double sign) {
+  const double dx = std::abs(b.x - a.x);
+  const double half_dy_dx = dx != 0.0 ? 0.5 * sign * (b.y - a.y) / dx : 0.0;
+  for_each_row(tile.height, a, b, [&](int row, double x, double x_next, double height) HWY_ATTR {
+    const double dy = sign * height;
+    const double left = std::min(x, x_next), right = std::max(x, x_next);
+    const auto first = static_cast<int>(left), last = static_cast<int>(right);
     const double border = first + 1;
-    const double over = std::max(std::max(x, x_next) - border, 0.0);
+    const double over = std::max(right, border) - border;
     const double in_last = half_dy_dx * over * over;  // a triangle that the next column does not cover
     const double covered = dy * (border - 0.5 * (x + x_next)) + in_last;
     double* const column = tile.at(row, first);
-    column[0] += covered;
-    column[1] += dy - in_last - covered;
-    column[2] += in_last;
-    tile.touch(row, first, first + 1 + static_cast<int>(over > 0.0));
-    x = x_next;
-    y = y_next;
-  }
+    shade.set_row(row);
+    shade.add(column, covered);
+    shade.add(column + Sums::kLanes, dy - in_last - covered);
+    shade.add(column + 2 * Sums::kLanes, in_last);
+    tile.touch(row, first, last + 1);
+  });
 }
 
-// An edge inside the tile's columns, from a down to b, clipped to its rows.
 template <class Sums>
-HWY_INLINE void add_edge(Sums& tile, const RowShade& shade, Vec2 a, Vec2 b, double sign) {
-  if constexpr (Sums::kLanes == 1)
-    if (std::abs(b.x - a.x) <= b.y - a.y) return add_steep_edge(tile, a, b, sign);
-  const double dx_dy = (b.x - a.x) / (b.y - a.y);
-  const double top = std::max(a.y, 0.0);
-  const double bottom = std::min(b.y, static_cast<double>(tile.height));
-  const double low = std::min(a.x, b.x);
-  const double high = std::max(a.x, b.x);
-  double y = top;
-  double x = std::clamp(a.x + dx_dy * (top - a.y), low, high);
-  HWY_ALIGN double at_row[TileSums::kLanes];
-  const Tag d;
-  for (int row = static_cast<int>(top); y < bottom; ++row) {
-    const double y_next = std::min<double>(row + 1, bottom);
-    const double x_next = std::clamp(a.x + dx_dy * (y_next - a.y), low, high);
-    for (std::size_t k = 0; Sums::kLanes > 1 && k < TileSums::kLanes; k += hn::Lanes(d)) {
-      hn::Store(hn::MulAdd(hn::Load(d, shade.by_row + k), hn::Set(d, row), hn::Load(d, shade.level + k)), d,
-                at_row + k);
-    }
-    add_stretch(tile, row, at_row, x, x_next, sign * (y_next - y));
-    x = x_next;
-    y = y_next;
-  }
+HWY_INLINE void add_edge(Sums& tile, EdgeShade<Sums> shade, Vec2 a, Vec2 b, double sign) {
+  if (std::abs(b.x - a.x) <= b.y - a.y) return add_steep_edge(tile, shade, a, b, sign);
+  for_each_row(tile.height, a, b, [&](int row, double x, double x_next, double height) HWY_ATTR {
+    shade.set_row(row);
+    add_stretch(tile, row, shade, x, x_next, sign * height);
+  });
 }
 
 // An edge that for_each_edge() visits. Parts left of the tile count as on its border, or not where sums are carried;
 // parts to the right do not.
 template <class Sums>
-void add_clipped(Sums& tile, const RowShade& shade, Vec2 a, Vec2 b, double sign) {
+void add_clipped(Sums& tile, const EdgeShade<Sums>& shade, Vec2 a, Vec2 b, double sign) {
   const double width = tile.width;
   if (a.y > b.y) {
     std::swap(a, b);

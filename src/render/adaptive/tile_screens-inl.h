@@ -121,11 +121,10 @@ class LevelRun {
   }
   void stop() {
     if (first_ < 0) return;
-    HWY_ALIGN double at_row[TileSums::kLanes];
-    for (std::size_t k = 0; k < TileSums::kLanes; ++k) at_row[k] = shade_.level[k] + shade_.by_row[k] * row_;
+    const EdgeShade<TileSums> shade(shade_, row_);
     tile_.touch(row_, first_, end_);
-    add<TileSums>(tile_.at(row_, first_), at_row, 1.0);
-    add<TileSums>(tile_.at(row_, end_), at_row, -1.0);
+    shade.add(tile_.at(row_, first_), 1.0);
+    shade.add(tile_.at(row_, end_), -1.0);
     first_ = -1;
   }
 
@@ -145,7 +144,7 @@ struct CoveredRow {
 class QuadLight {
  public:
   explicit QuadLight(const RowShade& shade)
-      : level_(quad(shade.level)), slope_(quad(shade.level + TileSums::kPixel)), by_row_(quad(shade.by_row)) {}
+      : level_(to_floats(shade.line.level)), slope_(to_floats(shade.line.slope)), by_row_(to_floats(shade.by_row)) {}
 
   class Row {
    public:
@@ -172,11 +171,6 @@ class QuadLight {
   };
 
  private:
-  static Quad quad(const double* from) {
-    float v[TileSums::kPixel];
-    for (std::size_t c = 0; c < TileSums::kPixel; ++c) v[c] = static_cast<float>(from[c]);
-    return Quad::load(v);
-  }
   Quad level_, slope_, by_row_;
 };
 
@@ -187,11 +181,10 @@ class GreyLight {
 
  public:
   explicit GreyLight(const RowShade& shade) {
-    for (std::size_t k = 0; k < kLanes; ++k) {
-      const std::size_t c = k % TileSums::kPixel;
-      level_[k] = static_cast<float>(shade.level[c]);
-      slope_[k] = static_cast<float>(shade.level[TileSums::kPixel + c]);
-      by_row_[k] = static_cast<float>(shade.by_row[c]);
+    for (std::size_t k = 0; k < kLanes; k += kQuad) {
+      to_floats(shade.line.level).store(level_ + k);
+      to_floats(shade.line.slope).store(slope_ + k);
+      to_floats(shade.by_row).store(by_row_ + k);
     }
   }
 
@@ -352,8 +345,9 @@ void add_screened(TileSums& tile, const PolygonList& list, const Polygon& polygo
   cover.height = tile.height;
   cover.make();
   const auto corners = list.corners_of(polygon);
+  EdgeShade<CoverSums> none;
   for_each_edge(tile, list, polygon,
-                [&](Vec2 a, Vec2 b, std::size_t, double sign) { add_clipped(cover, RowShade{}, a, b, sign); });
+                [&](Vec2 a, Vec2 b, std::size_t, double sign) { add_clipped(cover, none, a, b, sign); });
   const PixelRows within = rows_under(tile, corners);
   const Screened& behind = list.screened[polygon.screened - 1];
   const auto add = [&](auto&& look) { add_pixels(tile, polygon, behind.map, within, look); };

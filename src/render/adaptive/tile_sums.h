@@ -41,7 +41,7 @@ struct CoverSums {
 // changed it has from the one before.
 struct TileSums {
   static constexpr std::size_t kLanes = 8;  // three channels and a spare: level, then slope along x
-  static constexpr std::size_t kPitch = TileGrid::kWidth + 2;  // and what edges on the right border change
+  static constexpr std::size_t kPitch = TileGrid::kWidth + 3;  // and what edges on the right border change
 
   static constexpr std::size_t kPixel = kLanes / 2;  // values of a pixel
   static constexpr std::size_t kPixelPitch =

@@ -15,6 +15,7 @@
 #include <hwy/highway.h>
 
 #include "render/adaptive/tile_edges-inl.h"
+#include "render/adaptive/tile_pixels-inl.h"
 #include "render/adaptive/tile_screens-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -28,99 +29,18 @@ void add_polygon(TileSums& tile, const PolygonList& list, const Polygon& polygon
     const auto row = static_cast<int>(std::floor(static_cast<double>(corners[0].y) - tile.y0));
     if (column < 0 || row < 0 || column >= tile.width || row >= tile.height) return;
     tile.touch(row, column, column + 1);
-    add<TileSums>(tile.at(row, column), shade.level, 1.0);
-    add<TileSums>(tile.at(row, column + 1), shade.level, -1.0);
+    const EdgeShade<TileSums> level(shade);
+    level.add(tile.at(row, column), 1.0);
+    level.add(tile.at(row, column + 1), -1.0);
     return;
   }
   for_each_edge(tile, list, polygon, [&](Vec2 a, Vec2 b, std::size_t corner, double sign) {
     const std::uint32_t partner = list.partner_of(polygon.first + corner);
     if (partner == PolygonList::kDrawnByPartner) return;
-    if (partner == PolygonList::kAlone) return add_clipped(tile, shade, a, b, sign);
-    add_clipped(tile, shade - row_shade(list.polygons[partner].shade, tile), a, b, sign);
+    const bool alone = partner == PolygonList::kAlone;
+    EdgeShade<TileSums> change(alone ? shade : shade - row_shade(list.polygons[partner].shade, tile));
+    add_clipped(tile, change, a, b, sign);
   });
-}
-
-// Running sums of a row and what came pixel by pixel, each pixel as four floats to where `store` puts them; both are
-// cleared. Blocks without changes or light are not looked at: reading and clearing them is most of the work.
-template <class Store>
-HWY_INLINE void sum_row(TileSums& tile, int row, Store store) {
-  constexpr std::size_t kHalf = TileSums::kLanes / 2;
-  const hn::CappedTag<double, kHalf> d;
-  const hn::Rebind<float, decltype(d)> df;
-  const auto zero = hn::Zero(d);
-  double* const sums = tile.at(row, 0);
-  const std::uint64_t touched = std::exchange(tile.touched[static_cast<std::size_t>(row)], 0);
-  const std::uint64_t lit = tile.lit[static_cast<std::size_t>(row)];
-  for (std::size_t k = 0; k < kHalf; k += hn::Lanes(d)) {
-    double* const carried = tile.carried[static_cast<std::size_t>(row)].data() + k;
-    auto level = hn::LoadU(d, carried);
-    auto slope = hn::LoadU(d, carried + kHalf);
-    for (int block = 0; block * TileSums::kBlock < tile.width; ++block) {
-      const auto first = static_cast<std::size_t>(block * TileSums::kBlock);
-      const auto count = std::min<std::size_t>(TileSums::kBlock, static_cast<std::size_t>(tile.width) - first);
-      const bool changes = (touched >> block & 1U) != 0;
-      float* const light = (lit >> block & 1U) != 0 ? tile.pixels_at(row) + k : nullptr;
-      const auto x0 = hn::Set(d, static_cast<double>(first));
-      const auto at_column = [&](std::size_t column) HWY_ATTR {
-        const auto x = hn::Add(x0, hn::Set(d, static_cast<double>(column)));
-        return hn::DemoteTo(df, hn::MulAdd(slope, x, level));
-      };
-      if (!changes && light == nullptr && count == TileSums::kBlock) {  // most of them; no sum that waits for another
-        for (std::size_t column = 0; column < TileSums::kBlock; ++column)
-          store(df, at_column(column), first + column, k);
-        continue;
-      }
-      for (std::size_t column = 0; column < count; ++column) {
-        if (changes) {
-          double* at = sums + TileSums::kLanes * (first + column) + k;
-          level = hn::Add(level, hn::LoadU(d, at));
-          slope = hn::Add(slope, hn::LoadU(d, at + kHalf));
-          hn::StoreU(zero, d, at);
-          hn::StoreU(zero, d, at + kHalf);
-        }
-        auto value = at_column(column);
-        if (light != nullptr) {
-          value = hn::Add(value, hn::LoadU(df, light + kHalf * (first + column)));
-          hn::StoreU(hn::Zero(df), df, light + kHalf * (first + column));
-        }
-        store(df, value, first + column, k);
-      }
-    }
-    double* const border = tile.at(row, tile.width) + k;
-    level = hn::Add(level, hn::LoadU(d, border));
-    slope = hn::Add(slope, hn::LoadU(d, border + kHalf));
-    hn::StoreU(hn::MulAdd(slope, hn::Set(d, static_cast<double>(tile.width)), level), d, carried);
-    hn::StoreU(slope, d, carried + kHalf);
-    hn::StoreU(zero, d, border);
-    hn::StoreU(zero, d, border + kHalf);
-  }
-  tile.lit[static_cast<std::size_t>(row)] = 0;
-}
-
-void sum_up(TileSums& tile, TileMode mode, Image& image) {
-  constexpr std::size_t kPixel = TileSums::kPixel;
-  // With whole pixels a store the fourth value is overwritten by the next pixel; the last one's stays beside the
-  // picture.
-  constexpr bool kWholePixels = hn::MaxLanes(hn::CappedTag<double, kPixel>()) == kPixel;
-  HWY_ALIGN float pixels[kPixel * TileGrid::kWidth];
-  const auto last = static_cast<std::size_t>(tile.width - 1);
-  for (int row = 0; row < tile.height; ++row) {
-    float* to = image.pixels.data() + image.index(tile.x0, tile.y0 + row);
-    const auto into = [&](auto place) {
-      sum_row(tile, row,
-              [&](auto d, auto value, std::size_t column, std::size_t k) { hn::StoreU(value, d, place(column) + k); });
-    };
-    if (kWholePixels && mode == TileMode::Write) {
-      into([&](std::size_t column) { return column == last ? pixels : to + 3 * column; });
-      std::copy_n(pixels, 3, to + 3 * last);
-    } else {
-      into([&](std::size_t column) { return pixels + kPixel * column; });
-      for (std::size_t k = 0; k < 3 * (last + 1); ++k) {
-        const float value = pixels[kPixel * (k / 3) + k % 3];
-        to[k] = mode == TileMode::Write ? value : to[k] + value;
-      }
-    }
-  }
 }
 
 void clear(const TileSums& tile, Image& image) {
@@ -153,7 +73,7 @@ void draw_tile(std::span<const TiledPolygons> lists, std::size_t at, TileSums& t
       any = true;
     }
   }
-  if (any) return sum_up(tile, mode, image);
+  if (any) return draw_pixels(tile, mode, image);
   tile.carried = {};  // all polygons end before it: rounding
   if (mode == TileMode::Write) clear(tile, image);
 }
