@@ -32,6 +32,7 @@ struct AffineGhost {
   std::vector<Affine> rims;  // to coordinates over the semi-diameter
   double flux = 3.0;         // of the whole box, green; red has twice as much, blue none
   int weights = 1;           // or 3
+  double bend_px = 0.0;      // by which corners at u = 1 are farther along y, with (u + 1)^4, and back at v = 0
 
   [[nodiscard]] Patch patch() const {
     Patch patch;
@@ -46,7 +47,8 @@ struct AffineGhost {
       const auto n = static_cast<std::size_t>(nodes);
       const Vec2 uv{points[k % n], points[k / n]};
       const auto set = [&](int field, double value) { patch.field(field)[k] = static_cast<float>(value); };
-      const Vec2 p = pixels(uv) - patch.origin_px;
+      const Vec2 bend{0.0, bend_px * std::pow(0.5 * (uv.x + 1.0), 4) * (2.0 * uv.y * uv.y - 1.0)};
+      const Vec2 p = pixels(uv) + bend - patch.origin_px;
       set(PatchLayout::kX, p.x);
       set(PatchLayout::kY, p.y);
       set(patch.layout.weight(0), weights == 1 ? 1.0 : 2.0);
@@ -160,6 +162,30 @@ TEST_CASE("one weight for all channels draws what one a channel draws") {
       CHECK(a.value[c] == doctest::Approx(b.value[c]).epsilon(1e-6));
       CHECK(a.along_x[c] == doctest::Approx(b.along_x[c]).epsilon(1e-4).scale(1e-6 * a.value[0]));
     }
+  }
+}
+
+TEST_CASE("cells of different sizes leave nothing between them, and overlap nowhere") {
+  AffineGhost ghost;
+  ghost.nodes = 9;
+  ghost.pixels = {{60.2, 0.0}, {0.0, 45.3}, {160.0, 100.0}};
+  for (const double bend_px : {-6.0, 6.0, 6.5}) {  // for which one mesh has them all
+    CAPTURE(bend_px);
+    ghost.bend_px = bend_px;
+    PolygonList list = painted(ghost, {}, 0.03);  // so that one mesh has them all
+    std::size_t most_corners = 0, fewest_corners = 100;
+    for (Polygon& p : list.polygons) {
+      p.shade = {p.shade.at, {1.0F, 1.0F, 1.0F}, {}, {}};
+      most_corners = std::max<std::size_t>(most_corners, p.count);
+      fewest_corners = std::min<std::size_t>(fewest_corners, p.count);
+    }
+    CHECK(most_corners > fewest_corners);
+    const Image image = test::drawn(list, kWidth, kHeight);
+    double farthest = 0.0;
+    for (int y = 100 - 40 + static_cast<int>(std::abs(bend_px)); y < 100 + 40 - static_cast<int>(std::abs(bend_px));
+         ++y)
+      for (int x = 101; x < 220; ++x) farthest = std::max(farthest, std::abs(image.at(x, y, 1) - 1.0));
+    CHECK(farthest < 1e-5);
   }
 }
 

@@ -1,4 +1,5 @@
-// What is drawn: convex polygons with an irradiance that changes linearly over each, in pixels of the frame.
+// What is drawn: polygons with an irradiance that changes linearly over each, in pixels of the frame; convex, but for
+// sides that follow a curve.
 #pragma once
 
 #include <array>
