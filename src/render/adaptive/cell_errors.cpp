@@ -65,7 +65,11 @@ double off_crossing(double from, double middle, double to) {
 
 }  // namespace
 
-CellPainter::CellMeasure CellPainter::measure(const Mesh& mesh, const Cell& cell, State state) const {
+bool CellPainter::shows_facets(double area_px, double mean, double off_plane) const {
+  return area_px > kFacet_px && mean > kFacetLevel * peak_ && off_plane > kFacet * kFacet * mean * mean;
+}
+
+CellPainter::CellMeasure CellPainter::measure(const Mesh& mesh, const Cell& cell, State state, bool on_plane) const {
   const std::array<std::size_t, 9> v{cell.corner[0], cell.side[0],   cell.corner[1], cell.side[3],  cell.middle,
                                      cell.side[1],   cell.corner[3], cell.side[2],   cell.corner[2]};
   CellMeasure m;
@@ -92,11 +96,12 @@ CellPainter::CellMeasure CellPainter::measure(const Mesh& mesh, const Cell& cell
     return m;
   }
   const auto e = [&](std::size_t k) { return static_cast<double>(mesh.brightness[v[k]]); };
-  m.off_plane = off_plane(e);
+  m.on_plane = on_plane;
+  if (!on_plane) m.off_plane = off_plane(e);
   const auto [lowest, highest] = std::ranges::minmax(v, {}, [&](std::size_t k) { return mesh.brightness[k]; });
   m.range = static_cast<double>(mesh.brightness[highest]) - mesh.brightness[lowest];
   m.area_px = std::abs(mesh.area[cell.middle]) * cell.size * cell.size;
-  if (m.area_px > kFacet_px && m.mean * cell.screen.most > kFacetLevel * peak_) {
+  if (!on_plane && m.area_px > kFacet_px && m.mean * cell.screen.most > kFacetLevel * peak_) {
     double facet = mesh.layout.weights == 1 ? m.off_plane : 0.0;
     for (int c = 0; c < 3 && mesh.layout.weights == 3; ++c)
       facet += off_plane([&](std::size_t k) { return mesh.irradiance(c, v[k]); }) / 3.0;
@@ -134,14 +139,14 @@ double CellPainter::squared_error(const Mesh& mesh, const Cell& cell, CellMeasur
   const double off_level = m.flux / std::max(drawn_px, 1e-12) - m.flux / std::max(m.image_px, 1e-12);
   const double width =
       std::min(1.0, m.area_px / std::max(m.longest_px, 1e-6));  // a sliver's flux is spread over a pixel
-  double error = kShadeBound * (m.off_plane + off_level * off_level) * m.area_px * width;
+  double error = m.on_plane ? 0.0 : kShadeBound * (m.off_plane + off_level * off_level) * m.area_px * width;
 
   const double left = sides == Sides::Bent ? kLeftByBend : 1.0;
   const double seen = m.mean * m.mean * width * width;
   const SidesOff off = sides_off(mesh, cell, state, left);
   error += kEdgeBound * seen * off.strips;
   // Where cells meet off their place, irradiance is taken from beside its own.
-  const double beside = m.range * std::min(off.shared_px / std::max(m.longest_px, 1e-6), 1.0);
+  const double beside = m.on_plane ? 0.0 : m.range * std::min(off.shared_px / std::max(m.longest_px, 1e-6), 1.0);
   error += kShadeBound * beside * beside * m.area_px * width;
   if (is_dirty(mesh, cell)) error += seen * shadow_error(mesh, cell);
   const auto along_edges = [&](double by, double edges) { return seen * std::min(by * by, by) * edges * m.longest_px; };

@@ -75,7 +75,7 @@ CellPainter::CellLevel CellPainter::cell_level(const Mesh& mesh, const Cell& cel
 }
 
 void CellPainter::draw(const Mesh& mesh, const ChosenCell& chosen, const std::bitset<Mesh::kVertices>& corners) {
-  const auto& [cell, state, sides] = chosen;
+  const auto& [cell, state, sides, plane] = chosen;
   const std::array<Vec2, 4> p{mesh.position(cell.corner[0]), mesh.position(cell.corner[1]),
                               mesh.position(cell.corner[2]), mesh.position(cell.corner[3])};
   const Outline outline = outline_of(cell, corners);
@@ -109,6 +109,7 @@ void CellPainter::draw(const Mesh& mesh, const ChosenCell& chosen, const std::bi
     shade.along_x[c] = static_cast<float>((level.along_d * f.y - level.along_f * d.y) * scale);
     shade.along_y[c] = static_cast<float>((level.along_f * d.x - level.along_d * f.x) * scale);
   }
+  if (plane) shade = *plane;
   const auto draw_seen = [&](const StopMap* map) {
     if (is_dirty(mesh, cell)) return draw_dirty(mesh, cell, state, shade, flux, map);
     draw_polygon(mesh, state, shade, flux, shape_of(cell, sides).all(), outline.all(), {map});

@@ -9,6 +9,7 @@
 #include <optional>
 #include <utility>
 
+#include "render/adaptive/cell_plane.h"
 #include "render/adaptive/mesh.h"
 #include "render/adaptive/outline_cutter.h"
 #include "render/adaptive/placed_polygon.h"
@@ -26,7 +27,7 @@ class CellPainter {
       : iris_(iris), width_(frame.width), height_(frame.height), budget_(budget), few_cells_(few_cells), peak_(peak),
         out_(out), cutter_(iris) {}
 
-  void paint(const Patch& patch) { paint(patch, 0); }
+  void paint(const Patch& patch) { paint(patch, 0, std::nullopt); }
 
   // Of patches from here on: lines that are straight in them are bent in the entrance plane, so that where cells of
   // different sizes meet, their sides would leave seams between them.
@@ -69,11 +70,14 @@ class CellPainter {
     Cell cell;
     State state = State::Open;
     Sides sides = Sides::Straight;
+    std::optional<Shade> plane;  // its irradiance is this, not its own
   };
   // What is drawn of a mesh. Each cell has for corners all vertices on its sides that any of them has, so that the
   // sides that two of them share are the same, whatever their sizes.
   struct ChosenCells {
     std::array<bool, 4> finer{};  // quarters that have meshes of their own
+    std::array<std::optional<Shade>, 4> plane{};  // of quarters
+    std::optional<MeshLight> light;               // where no plane is of all of it
     std::vector<ChosenCell> cells;
     std::bitset<Mesh::kVertices> corners;
 
@@ -81,6 +85,7 @@ class CellPainter {
   };
   // What its errors are made of, with straight sides or bent ones.
   struct CellMeasure {
+    bool on_plane = false;            // its irradiance is that of more cells
     std::optional<double> whole;      // the squared error whatever its sides are; infinite: it must not be drawn
     double most = 0.0;                // squared error
     double mean = 0.0, range = 0.0;   // brightness, and how much it varies
@@ -126,8 +131,8 @@ class CellPainter {
   };
 
   static void dim(Shade& shade, Flux& flux, const Flux& share);
-  void paint(const Patch& patch, int depth);
-  void choose(const Mesh& mesh, int ix, int iy, int size, ChosenCells& chosen);
+  void paint(const Patch& patch, int depth, const std::optional<Shade>& plane);
+  void choose(const Mesh& mesh, int ix, int iy, int size, const std::optional<Shade>& plane, ChosenCells& chosen);
   [[nodiscard]] static CellLevel cell_level(const Mesh& mesh, const Cell& cell, int weight);
   void draw(const Mesh& mesh, const ChosenCell& chosen, const std::bitset<Mesh::kVertices>& corners);
   void draw_folded(const Mesh& mesh, const Cell& cell, State state);
@@ -185,8 +190,10 @@ class CellPainter {
   [[nodiscard]] static bool misses_stop(const Mesh& mesh, const Cell& cell, int crossing);
   [[nodiscard]] State state_of(const Mesh& mesh, const Cell& cell) const;
   [[nodiscard]] bool off_frame(const Mesh& mesh, const Cell& cell) const;
-  [[nodiscard]] bool wants_finer_mesh(const Mesh& mesh, int ix, int iy) const;
-  [[nodiscard]] CellMeasure measure(const Mesh& mesh, const Cell& cell, State state) const;
+  [[nodiscard]] bool wants_finer_mesh(const Mesh& mesh, int ix, int iy, bool on_plane) const;
+  [[nodiscard]] std::optional<Shade> plane_for(const Mesh& mesh, int ix, int iy, int size, ChosenCells& chosen) const;
+  [[nodiscard]] bool shows_facets(double area_px, double mean, double off_plane) const;
+  [[nodiscard]] CellMeasure measure(const Mesh& mesh, const Cell& cell, State state, bool on_plane) const;
   [[nodiscard]] double squared_error(const Mesh& mesh, const Cell& cell, CellMeasure& of, State state,
                                      Sides sides) const;
   [[nodiscard]] SidesOff sides_off(const Mesh& mesh, const Cell& cell, State state, double left) const;
