@@ -18,15 +18,20 @@ constexpr double kStraight = 0.05;   // of a cell's budget, below which straight
 // Half the cell, a fourth of the deviation of a curve from its chord: a sixteenth of the squared error.
 constexpr double kGainOfHalving = 16.0;
 constexpr double kPlane = 0.1;  // of a cell's budget, that a plane may leave of the irradiance of many
+constexpr std::size_t kCellsAtFirst = 16;  // that there is room for
 constexpr double kWorthPlane_px = 1000.0;  // fewer pixels: sides between cells are short
 constexpr double kPlaneOff = 0.1;  // RMS, of its mean, however much the budget is
 
 // Of a mesh, that holds the cell of size 1 there.
 std::size_t quarter_at(int x, int y) { return static_cast<std::size_t>(2 * (y / kHalf) + x / kHalf); }
+MeshSquare quarter_square(std::size_t q) {
+  return {kHalf * static_cast<int>(q % 2), kHalf * static_cast<int>(q / 2), kHalf};
+}
 
 }  // namespace
 
-CellPainter::Cell CellPainter::cell_at(int ix, int iy, int size) {
+CellPainter::Cell CellPainter::cell_at(const MeshSquare& square) {
+  const auto [ix, iy, size] = square;
   Cell cell{.ix = ix, .iy = iy, .size = size};
   const int half = size / 2;
   cell.corner = {Mesh::at(ix, iy), Mesh::at(ix + size, iy), Mesh::at(ix + size, iy + size), Mesh::at(ix, iy + size)};
@@ -78,8 +83,9 @@ bool CellPainter::off_frame(const Mesh& mesh, const Cell& cell) const {
 
 std::optional<std::pair<CellPainter::Cell, CellPainter::State>> CellPainter::seen_cell(const Mesh& mesh,
                                                                                        const std::array<bool, 4>& finer,
-                                                                                       int ix, int iy, int size) const {
-  Cell cell = cell_at(ix, iy, size);
+                                                                                       const MeshSquare& square) const {
+  const auto [ix, iy, size] = square;
+  Cell cell = cell_at(square);
   const auto same_mesh = [&](int x, int y) {
     const auto inside = [](int v) { return v >= 0 && v < Mesh::kCells; };
     return inside(x) && inside(y) && !finer[quarter_at(x, y)];
@@ -92,10 +98,10 @@ std::optional<std::pair<CellPainter::Cell, CellPainter::State>> CellPainter::see
   return std::pair(cell, state);
 }
 
-bool CellPainter::wants_finer_mesh(const Mesh& mesh, int ix, int iy, bool on_plane) const {
-  for (int y = iy; y < iy + Mesh::kCells / 2; y += 2) {
-    for (int x = ix; x < ix + Mesh::kCells / 2; x += 2) {
-      const auto seen = seen_cell(mesh, {}, x, y, 2);
+bool CellPainter::wants_finer_mesh(const Mesh& mesh, const MeshSquare& square, bool on_plane) const {
+  for (int y = square.iy; y < square.iy + square.size; y += 2) {
+    for (int x = square.ix; x < square.ix + square.size; x += 2) {
+      const auto seen = seen_cell(mesh, {}, {x, y, 2});
       if (!seen) continue;
       const auto& [cell, state] = *seen;
       CellMeasure of = measure(mesh, cell, state, on_plane);
@@ -105,45 +111,56 @@ bool CellPainter::wants_finer_mesh(const Mesh& mesh, int ix, int iy, bool on_pla
   return false;
 }
 
-// Of a mesh's cells, where that is as good as each its own.
-std::optional<Shade> CellPainter::plane_for(const Mesh& mesh, int ix, int iy, int size, ChosenCells& chosen) const {
-  if (std::abs(mesh.area[Mesh::at(ix + size / 2, iy + size / 2)]) * size * size < kWorthPlane_px) return std::nullopt;
-  if (!chosen.light) chosen.light.emplace(mesh, screen_ ? ~0U << mesh.layout.crossings : ~0U);
-  const auto plane = chosen.light->plane(ix, iy, size);
-  if (!plane) return std::nullopt;
-  const double seen = seen_share(plane->mean, peak_);
-  if (plane->squared_error * seen * seen > kPlane * cell_budget()) return std::nullopt;
-  if (plane->squared_error > kPlaneOff * kPlaneOff * plane->mean * plane->mean * plane->area_px) return std::nullopt;
-  if (shows_facets(plane->area_px, plane->mean, plane->squared_error / plane->area_px)) return std::nullopt;
-  return plane->shade;
+// Whether a plane of some of a mesh's cells is worth its while and as good as each its own.
+bool CellPainter::serves(const IrradiancePlane& plane) const {
+  if (plane.area_px < kWorthPlane_px) return false;
+  const double seen = seen_share(plane.mean, peak_);
+  const double off_plane = plane.squared_error / plane.area_px;
+  return plane.squared_error * seen * seen <= kPlane * cell_budget() &&
+         off_plane <= kPlaneOff * kPlaneOff * plane.mean * plane.mean &&
+         !shows_facets(plane.area_px, plane.mean, off_plane);
 }
 
-void CellPainter::paint(const Patch& patch, int depth, const std::optional<Shade>& plane) {
+std::optional<Shade> CellPainter::plane_for(const Mesh& mesh, const MeshSquare& square) const {
+  const std::size_t middle = Mesh::at(square.ix + square.size / 2, square.iy + square.size / 2);
+  if (std::abs(mesh.area[middle]) * square.size * square.size < kWorthPlane_px) return std::nullopt;
+  const auto plane = LightSums(mesh, square, blocking(mesh)).plane(mesh, square);
+  return plane && serves(*plane) ? std::optional(plane->shade) : std::nullopt;
+}
+
+// Of all of it, or of those quarters that have one.
+void CellPainter::find_planes(const Mesh& mesh, ChosenCells& chosen) const {
+  const MeshSquare whole{0, 0, Mesh::kCells};
+  LightSums light(mesh, quarter_square(0), blocking(mesh));
+  for (std::size_t q = 1; q < 4; ++q) light.add({mesh, quarter_square(q), blocking(mesh)});
+  const auto plane = light.plane(mesh, whole);
+  if (plane && serves(*plane)) return chosen.plane.fill(chosen.keep(plane->shade));
+  for (std::size_t q = 0; q < 4; ++q) chosen.plane[q] = chosen.keep(plane_for(mesh, quarter_square(q)));
+}
+
+void CellPainter::paint(const Patch& patch, int depth, const Shade* plane) {
   const Mesh mesh = make_mesh(patch, iris_);
   ChosenCells chosen;
+  chosen.cells.reserve(kCellsAtFirst);
   chosen.plane.fill(plane);
   const auto find_finer = [&](std::size_t q) {
-    const int x = kHalf * static_cast<int>(q % 2), y = kHalf * static_cast<int>(q / 2);
-    return depth < kDeepest && wants_finer_mesh(mesh, x, y, chosen.plane[q].has_value());
+    return depth < kDeepest && wants_finer_mesh(mesh, quarter_square(q), chosen.plane[q] != nullptr);
   };
   for (std::size_t q = 0; q < 4; ++q) chosen.finer[q] = find_finer(q);
   // What so few nodes tell, nine vertices tell too.
   const bool whole = depth == 0 && patch.nodes <= 5 && std::ranges::none_of(chosen.finer, std::identity());
   if (whole) {
-    choose(mesh, 0, 0, Mesh::kCells, plane, chosen);
-  } else if (!plane) {
-    const auto all = plane_for(mesh, 0, 0, Mesh::kCells, chosen);
-    for (std::size_t q = 0; q < 4; ++q) {
-      chosen.plane[q] =
-          all ? all : plane_for(mesh, kHalf * static_cast<int>(q % 2), kHalf * static_cast<int>(q / 2), kHalf, chosen);
-      if (chosen.plane[q] && chosen.finer[q]) chosen.finer[q] = find_finer(q);
-    }
+    choose(mesh, {0, 0, Mesh::kCells}, plane, chosen);
+  } else if (plane == nullptr) {
+    find_planes(mesh, chosen);
+    for (std::size_t q = 0; q < 4; ++q)
+      if (chosen.plane[q] != nullptr && chosen.finer[q]) chosen.finer[q] = find_finer(q);
   }
   const int first = patch.nodes <= 9 ? kHalf : kHalf / 2;  // 9 nodes: 3 x 3 vertices tell a quarter
   for (int y = 0; y < Mesh::kCells; y += first) {
     for (int x = 0; x < Mesh::kCells; x += first) {
       const std::size_t q = quarter_at(x, y);
-      if (!whole && !chosen.finer[q]) choose(mesh, x, y, first, chosen.plane[q], chosen);
+      if (!whole && !chosen.finer[q]) choose(mesh, {x, y, first}, chosen.plane[q], chosen);
     }
   }
   for (const ChosenCell& cell : chosen.cells) draw(mesh, cell, chosen.corners);
@@ -154,27 +171,33 @@ void CellPainter::paint(const Patch& patch, int depth, const std::optional<Shade
 
 void CellPainter::ChosenCells::add(const ChosenCell& chosen) {
   cells.push_back(chosen);
-  for (const CellCorner& corner : shape_of(chosen.cell, chosen.sides).all()) corners.set(corner.vertex);
+  for (const std::size_t vertex : chosen.cell.corner) corners.set(vertex);
+  for (const std::size_t vertex : chosen.cell.side)
+    if (chosen.sides == Sides::Bent) corners.set(vertex);
 }
 
-void CellPainter::choose(const Mesh& mesh, int ix, int iy, int size, const std::optional<Shade>& plane,
-                         ChosenCells& chosen) {
-  const auto seen = seen_cell(mesh, chosen.finer, ix, iy, size);
+const Shade* CellPainter::ChosenCells::keep(const std::optional<Shade>& some) {
+  return some ? &planes.emplace_front(*some) : nullptr;
+}
+
+void CellPainter::choose(const Mesh& mesh, const MeshSquare& square, const Shade* plane, ChosenCells& chosen) {
+  const auto seen = seen_cell(mesh, chosen.finer, square);
   if (!seen) return;
   const auto& [cell, state] = *seen;
   const auto choose_it = [&](Sides sides) {
     cells_ += 1.0;
     chosen.add({cell, state, sides, plane});
   };
-  if (size == 1) return choose_it(Sides::Straight);
-  CellMeasure of = measure(mesh, cell, state, plane.has_value());
+  if (square.size == 1) return choose_it(Sides::Straight);
+  CellMeasure of = measure(mesh, cell, state, plane != nullptr);
   if (squared_error(mesh, cell, of, state, Sides::Straight) <= kStraight * cell_budget())
     return choose_it(Sides::Straight);
   const Sides sides = is_dirty(mesh, cell) ? Sides::Straight : most_bent(state);
   if (squared_error(mesh, cell, of, state, sides) <= cell_budget()) return choose_it(sides);
-  const auto common = plane ? plane : plane_for(mesh, ix, iy, size, chosen);
-  const int half = size / 2;
-  for (int k = 0; k < 4; ++k) choose(mesh, ix + (k % 2) * half, iy + (k / 2) * half, half, common, chosen);
+  const Shade* const common = plane != nullptr ? plane : chosen.keep(plane_for(mesh, square));
+  const int half = square.size / 2;
+  for (int k = 0; k < 4; ++k)
+    choose(mesh, {square.ix + (k % 2) * half, square.iy + (k / 2) * half, half}, common, chosen);
 }
 
 }  // namespace contrejour::adaptive

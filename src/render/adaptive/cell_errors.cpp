@@ -132,14 +132,16 @@ double CellPainter::squared_error(const Mesh& mesh, const Cell& cell, CellMeasur
   const double passed = cell.screen.most;
   if (passed == 0.0) return 0.0;
   if (m.whole) return passed * passed * *m.whole;
-  // What is drawn has the flux over the polygon's area for its mean.
-  const Shape shape = shape_of(cell, sides);
-  const double drawn_px =
-      std::abs(area_of(shape.count, [&](std::size_t k) { return mesh.position(shape.corners[k].vertex); }).signed_px);
-  const double off_level = m.flux / std::max(drawn_px, 1e-12) - m.flux / std::max(m.image_px, 1e-12);
   const double width =
       std::min(1.0, m.area_px / std::max(m.longest_px, 1e-6));  // a sliver's flux is spread over a pixel
-  double error = m.on_plane ? 0.0 : kShadeBound * (m.off_plane + off_level * off_level) * m.area_px * width;
+  double error = 0.0;
+  if (!m.on_plane) {  // what is drawn has the flux over the polygon's area for its mean
+    const Shape shape = shape_of(cell, sides);
+    const double drawn_px =
+        std::abs(area_of(shape.count, [&](std::size_t k) { return mesh.position(shape.corners[k].vertex); }).signed_px);
+    const double off_level = m.flux / std::max(drawn_px, 1e-12) - m.flux / std::max(m.image_px, 1e-12);
+    error = kShadeBound * (m.off_plane + off_level * off_level) * m.area_px * width;
+  }
 
   const double left = sides == Sides::Bent ? kLeftByBend : 1.0;
   const double seen = m.mean * m.mean * width * width;

@@ -109,7 +109,7 @@ void CellPainter::draw(const Mesh& mesh, const ChosenCell& chosen, const std::bi
     shade.along_x[c] = static_cast<float>((level.along_d * f.y - level.along_f * d.y) * scale);
     shade.along_y[c] = static_cast<float>((level.along_f * d.x - level.along_d * f.x) * scale);
   }
-  if (plane) shade = *plane;
+  if (plane != nullptr) shade = *plane;
   const auto draw_seen = [&](const StopMap* map) {
     if (is_dirty(mesh, cell)) return draw_dirty(mesh, cell, state, shade, flux, map);
     draw_polygon(mesh, state, shade, flux, shape_of(cell, sides).all(), outline.all(), {map});

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <bitset>
 #include <cstdint>
+#include <forward_list>
 #include <map>
 #include <optional>
 #include <utility>
@@ -27,7 +28,7 @@ class CellPainter {
       : iris_(iris), width_(frame.width), height_(frame.height), budget_(budget), few_cells_(few_cells), peak_(peak),
         out_(out), cutter_(iris) {}
 
-  void paint(const Patch& patch) { paint(patch, 0, std::nullopt); }
+  void paint(const Patch& patch) { paint(patch, 0, nullptr); }
 
   // Of patches from here on: lines that are straight in them are bent in the entrance plane, so that where cells of
   // different sizes meet, their sides would leave seams between them.
@@ -70,18 +71,19 @@ class CellPainter {
     Cell cell;
     State state = State::Open;
     Sides sides = Sides::Straight;
-    std::optional<Shade> plane;  // its irradiance is this, not its own
+    const Shade* plane = nullptr;  // its irradiance is this, not its own
   };
   // What is drawn of a mesh. Each cell has for corners all vertices on its sides that any of them has, so that the
   // sides that two of them share are the same, whatever their sizes.
   struct ChosenCells {
     std::array<bool, 4> finer{};  // quarters that have meshes of their own
-    std::array<std::optional<Shade>, 4> plane{};  // of quarters
-    std::optional<MeshLight> light;               // where no plane is of all of it
+    std::array<const Shade*, 4> plane{};  // of quarters, or null
+    std::forward_list<Shade> planes;
     std::vector<ChosenCell> cells;
     std::bitset<Mesh::kVertices> corners;
 
     void add(const ChosenCell& chosen);
+    const Shade* keep(const std::optional<Shade>& some);
   };
   // What its errors are made of, with straight sides or bent ones.
   struct CellMeasure {
@@ -131,8 +133,8 @@ class CellPainter {
   };
 
   static void dim(Shade& shade, Flux& flux, const Flux& share);
-  void paint(const Patch& patch, int depth, const std::optional<Shade>& plane);
-  void choose(const Mesh& mesh, int ix, int iy, int size, const std::optional<Shade>& plane, ChosenCells& chosen);
+  void paint(const Patch& patch, int depth, const Shade* plane);
+  void choose(const Mesh& mesh, const MeshSquare& square, const Shade* plane, ChosenCells& chosen);
   [[nodiscard]] static CellLevel cell_level(const Mesh& mesh, const Cell& cell, int weight);
   void draw(const Mesh& mesh, const ChosenCell& chosen, const std::bitset<Mesh::kVertices>& corners);
   void draw_folded(const Mesh& mesh, const Cell& cell, State state);
@@ -183,15 +185,18 @@ class CellPainter {
   // Of the next cell. How many there will be is not known before: their share falls as they become more, down to a
   // quarter. Falling on, it would spend most of them where light gathers and nothing is gained.
   [[nodiscard]] double cell_budget() const { return budget_ / std::clamp(cells_, few_cells_, kManyCells * few_cells_); }
-  [[nodiscard]] static Cell cell_at(int ix, int iy, int size);
+  [[nodiscard]] static Cell cell_at(const MeshSquare& square);
   // Of a cell that is neither closed nor off the frame; none if it is. finer: as in ChosenCells.
   [[nodiscard]] std::optional<std::pair<Cell, State>> seen_cell(const Mesh& mesh, const std::array<bool, 4>& finer,
-                                                                int ix, int iy, int size) const;
+                                                                const MeshSquare& square) const;
   [[nodiscard]] static bool misses_stop(const Mesh& mesh, const Cell& cell, int crossing);
   [[nodiscard]] State state_of(const Mesh& mesh, const Cell& cell) const;
   [[nodiscard]] bool off_frame(const Mesh& mesh, const Cell& cell) const;
-  [[nodiscard]] bool wants_finer_mesh(const Mesh& mesh, int ix, int iy, bool on_plane) const;
-  [[nodiscard]] std::optional<Shade> plane_for(const Mesh& mesh, int ix, int iy, int size, ChosenCells& chosen) const;
+  [[nodiscard]] bool wants_finer_mesh(const Mesh& mesh, const MeshSquare& square, bool on_plane) const;
+  [[nodiscard]] std::uint32_t blocking(const Mesh& mesh) const { return screen_ ? ~0U << mesh.layout.crossings : ~0U; }
+  [[nodiscard]] bool serves(const IrradiancePlane& plane) const;
+  [[nodiscard]] std::optional<Shade> plane_for(const Mesh& mesh, const MeshSquare& square) const;
+  void find_planes(const Mesh& mesh, ChosenCells& chosen) const;
   [[nodiscard]] bool shows_facets(double area_px, double mean, double off_plane) const;
   [[nodiscard]] CellMeasure measure(const Mesh& mesh, const Cell& cell, State state, bool on_plane) const;
   [[nodiscard]] double squared_error(const Mesh& mesh, const Cell& cell, CellMeasure& of, State state,

@@ -16,67 +16,50 @@ struct Plane {
   double squared_error = 0;
 };
 
+// Sums are of places from here: cells lie far from the patch's origin.
+Vec2 middle_of(const Mesh& mesh) { return mesh.position(Mesh::at(Mesh::kCells / 2, Mesh::kCells / 2)); }
+
 }  // namespace
 
-static_assert(Mesh::kCells % 2 == 0);
-
-void MeshLight::Sums::add(const Sums& other, int weights, double times) {
-  for (std::size_t k = 0; k < kMoments; ++k) pixels[k] += times * other.pixels[k];
-  for (std::size_t w = 0; w < static_cast<std::size_t>(weights); ++w)
-    for (std::size_t k = 0; k < 4; ++k) light[w][k] += times * other.light[w][k];
-}
-
-MeshLight::Sums MeshLight::vertex_sums(std::size_t vertex, double share) const {
-  const Vec2 p = mesh_.position(vertex) - origin_;
-  const double pixels = share * std::abs(mesh_.area[vertex]);
-  Sums out;
-  out.pixels = {pixels, pixels * p.x, pixels * p.y, pixels * p.x * p.x, pixels * p.x * p.y, pixels * p.y * p.y};
-  for (int w = 0; w < mesh_.layout.weights; ++w) {
-    const double irradiance = mesh_.irradiance(w, vertex), light = pixels * irradiance;
-    out.light[static_cast<std::size_t>(w)] = {light, light * p.x, light * p.y, light * irradiance};
-  }
-  return out;
-}
-
-// Simpson's rule over each block.
-MeshLight::MeshLight(const Mesh& mesh, std::uint32_t blocked)
-    : mesh_(mesh), origin_(mesh.position(Mesh::at(Mesh::kCells / 2, Mesh::kCells / 2))) {
-  const bool turned = mesh.area[Mesh::at(0, 0)] < 0.0F;
-  for (int y = 0; y < Mesh::kSide; ++y) {
-    for (int x = 0; x < Mesh::kSide; ++x) {
-      const std::size_t vertex = Mesh::at(x, y);
-      const float area = mesh.area[vertex];
-      const bool folds = !((area < 0.0F) == turned && area != 0.0F);
-      const Sums sums = vertex_sums(vertex, (mesh.outside[vertex] & blocked) != 0 ? kDark : 1.0);
-      const auto ends = [](int v) {
-        return std::array{std::max(v - 1, 0) / kBlock, std::min(v, Mesh::kCells - 1) / kBlock};
-      };
-      const auto [low_x, high_x] = ends(x);
-      const auto [low_y, high_y] = ends(y);
-      const double share = (x % kBlock == 0 ? 1.0 : 4.0) * (y % kBlock == 0 ? 1.0 : 4.0) / 9.0;  // of a cell
-      for (int by = low_y; by <= high_y; ++by) {
-        for (int bx = low_x; bx <= high_x; ++bx) {
-          const auto block = static_cast<std::size_t>(kBlocks * by + bx);
-          blocks_[block].add(sums, mesh.layout.weights, share);
-          folds_[block] = folds_[block] || folds;
-        }
-      }
+LightSums::LightSums(const Mesh& mesh, const MeshSquare& square, std::uint32_t blocked)
+    : weights_(mesh.layout.weights) {
+  constexpr std::array kSimpson{1.0 / 6.0, 4.0 / 6.0, 1.0 / 6.0};
+  const Vec2 origin = middle_of(mesh);
+  const int half = square.size / 2;
+  const bool turned = mesh.area[Mesh::at(square.ix, square.iy)] < 0.0F;
+  for (std::size_t k = 0; k < 9; ++k) {
+    const std::size_t vertex =
+        Mesh::at(square.ix + half * static_cast<int>(k % 3), square.iy + half * static_cast<int>(k / 3));
+    const double area = mesh.area[vertex];
+    folds_ = folds_ || !((area < 0.0) == turned && area != 0.0);
+    const Vec2 p = mesh.position(vertex) - origin;
+    const double cells = kSimpson[k % 3] * kSimpson[k / 3] * square.size * square.size;
+    const double pixels = ((mesh.outside[vertex] & blocked) != 0 ? kDark : 1.0) * cells * std::abs(area);
+    const double x = pixels * p.x, y = pixels * p.y;
+    const std::array<double, kMoments> moments{pixels, x, y, x * p.x, x * p.y, y * p.y};
+    for (std::size_t m = 0; m < kMoments; ++m) pixels_[m] += moments[m];
+    for (int w = 0; w < weights_; ++w) {
+      auto& sums = light_[static_cast<std::size_t>(w)];
+      const double irradiance = mesh.irradiance(w, vertex), light = pixels * irradiance;
+      sums[0] += light;
+      sums[1] += light * p.x;
+      sums[2] += light * p.y;
+      sums[3] += light * irradiance;
     }
   }
 }
 
-std::optional<IrradiancePlane> MeshLight::plane(int ix, int iy, int size) const {
-  const int weights = mesh_.layout.weights;
-  Sums sums;
-  for (int y = iy; y < iy + size; y += kBlock) {
-    for (int x = ix; x < ix + size; x += kBlock) {
-      const auto block = static_cast<std::size_t>(kBlocks * (y / kBlock) + x / kBlock);
-      if (folds_[block]) return std::nullopt;
-      sums.add(blocks_[block], weights, 1.0);
-    }
-  }
-  const auto& m = sums.pixels;
-  const Vec2 middle = Vec2{m[kX], m[kY]} * (1.0 / m[kOne]);
+void LightSums::add(const LightSums& other) {
+  folds_ = folds_ || other.folds_;
+  for (std::size_t m = 0; m < kMoments; ++m) pixels_[m] += other.pixels_[m];
+  for (std::size_t w = 0; w < static_cast<std::size_t>(weights_); ++w)
+    for (std::size_t k = 0; k < 4; ++k) light_[w][k] += other.light_[w][k];
+}
+
+std::optional<IrradiancePlane> LightSums::plane(const Mesh& mesh, const MeshSquare& square) const {
+  if (folds_) return std::nullopt;
+  const auto& m = pixels_;
+  const Vec2 origin = middle_of(mesh), middle = Vec2{m[kX], m[kY]} * (1.0 / m[kOne]);
   const double xx = m[kXX] - m[kX] * middle.x, xy = m[kXY] - m[kX] * middle.y, yy = m[kYY] - m[kY] * middle.y;
   const double across = 0.5 * (xx + yy - std::hypot(xx - yy, 2.0 * xy));
   if (!(across > kThinnest_px2 * m[kOne])) return std::nullopt;
@@ -88,22 +71,23 @@ std::optional<IrradiancePlane> MeshLight::plane(int ix, int iy, int size) const 
     return plane;
   };
   std::array<Plane, 3> planes;
-  for (std::size_t w = 0; w < static_cast<std::size_t>(weights); ++w) {
-    const Plane& plane = planes[w] = plane_of(sums.light[w]);
+  for (std::size_t w = 0; w < static_cast<std::size_t>(weights_); ++w) {
+    const Plane& plane = planes[w] = plane_of(light_[w]);
     for (int corner = 0; corner < 4; ++corner) {
-      const Vec2 p = mesh_.position(Mesh::at(ix + size * (corner % 2), iy + size * (corner / 2)));
-      if (plane.mean + dot(plane.slope, p - origin_ - middle) < 0.0) return std::nullopt;
+      const Vec2 p =
+          mesh.position(Mesh::at(square.ix + square.size * (corner % 2), square.iy + square.size * (corner / 2)));
+      if (plane.mean + dot(plane.slope, p - origin - middle) < 0.0) return std::nullopt;
     }
   }
 
   IrradiancePlane out;
   out.area_px = m[kOne];
-  const Vec2 at = middle + origin_ + mesh_.origin_px;
+  const Vec2 at = middle + origin + mesh.origin_px;
   out.shade.at = {static_cast<float>(at.x), static_cast<float>(at.y)};
   double squared_mean = 0.0;
   for (std::size_t c = 0; c < 3; ++c) {
-    const Plane& plane = planes[weights == 1 ? 0 : c];
-    const double gain = mesh_.gain[c];
+    const Plane& plane = planes[weights_ == 1 ? 0 : c];
+    const double gain = mesh.gain[c];
     out.shade.value[c] = static_cast<float>(gain * plane.mean);
     out.shade.along_x[c] = static_cast<float>(gain * plane.slope.x);
     out.shade.along_y[c] = static_cast<float>(gain * plane.slope.y);

@@ -11,6 +11,11 @@
 
 namespace contrejour::adaptive {
 
+// A square of a mesh's cells, from ix, iy on.
+struct MeshSquare {
+  int ix = 0, iy = 0, size = 0;
+};
+
 struct IrradiancePlane {
   Shade shade;
   double mean = 0.0;           // brightness
@@ -18,31 +23,24 @@ struct IrradiancePlane {
   double area_px = 0.0;
 };
 
-// Sums over a mesh's light, block by block of 2 x 2 cells.
-class MeshLight {
+// Sums over the light of squares of one mesh.
+class LightSums {
  public:
-  // blocked: bits of Mesh::outside; what they are set for counts little, being dark.
-  MeshLight(const Mesh& mesh, std::uint32_t blocked);
+  // By Simpson's rule over 3 x 3 vertices. blocked: bits of Mesh::outside; what they are set for counts little, being
+  // dark.
+  LightSums(const Mesh& mesh, const MeshSquare& square, std::uint32_t blocked);
+  void add(const LightSums& other);
 
-  // Through the irradiance at the vertices of size x size cells from ix, iy on, all of them even, by least squares over
-  // the pixels: as much light as they have. None where the map folds, where they are thinner than pixels, or where it
-  // would be negative.
-  [[nodiscard]] std::optional<IrradiancePlane> plane(int ix, int iy, int size) const;
+  // Through the irradiance at the vertices by least squares over the pixels: as much light as they have. None where the
+  // map folds, where the square is thinner than pixels, or where it would be negative at its corners.
+  [[nodiscard]] std::optional<IrradiancePlane> plane(const Mesh& mesh, const MeshSquare& square) const;
 
  private:
-  static constexpr int kBlock = 2, kBlocks = Mesh::kCells / kBlock;
   enum Moment : std::uint8_t { kOne, kX, kY, kXX, kXY, kYY, kMoments };
-  struct Sums {
-    std::array<double, kMoments> pixels{};
-    std::array<std::array<double, 4>, 3> light{};  // by weight: light, times x, y, and its irradiance
-    void add(const Sums& other, int weights, double times);
-  };
-  [[nodiscard]] Sums vertex_sums(std::size_t vertex, double share) const;
-
-  const Mesh& mesh_;
-  Vec2 origin_;
-  std::array<Sums, static_cast<std::size_t>(kBlocks) * kBlocks> blocks_;
-  std::array<bool, static_cast<std::size_t>(kBlocks) * kBlocks> folds_{};
+  int weights_ = 1;
+  bool folds_ = false;
+  std::array<double, kMoments> pixels_{};
+  std::array<std::array<double, 4>, 3> light_{};  // by weight: light, times x, y, and its irradiance
 };
 
 }  // namespace contrejour::adaptive
