@@ -58,56 +58,31 @@ class AnyScreen {
 // A row's coverage from its changes, which are cleared, some pixels after the other. What only rounding covers is not.
 class RunningCover {
  public:
-  RunningCover(double* changes, int count) : changes_(changes), count_(count), before_(hn::Zero(DoubleTag())) {}
+  HWY_INLINE explicit RunningCover(float* changes) : changes_(changes), before_(hn::Zero(FloatTag())) {}
 
-  // Of the pixels from k on: none beyond the row.
+  // Of the pixels from k on, by sums of two, four and eight neighbours.
   HWY_INLINE hn::Vec<FloatTag> next(int k) {
+    constexpr std::size_t kLanes = hn::MaxLanes(FloatTag());
     const FloatTag d;
-    const auto cover = seen(DoubleTag(), changes_ + k);
-    const int left = count_ - k;
-    if (left >= static_cast<int>(hn::Lanes(d))) return cover;
-    return hn::IfThenElseZero(hn::FirstN(d, static_cast<std::size_t>(left)), cover);
-  }
-
- private:
-  static constexpr std::size_t kFloats = hn::MaxLanes(FloatTag());
-  using DoubleTag = hn::CappedTag<double, kFloats>;
-  static constexpr std::size_t kDoubles = hn::MaxLanes(DoubleTag());
-
-  template <class D>
-  HWY_INLINE hn::Vec<FloatTag> seen(D d, double* changes) {
-    const hn::Rebind<float, D> df;
-    if constexpr (hn::MaxLanes(d) == kFloats) {
-      return hn::DemoteTo(df, next_sum(d, changes));
-    } else {
-      HWY_ALIGN float cover[kFloats];
-      for (std::size_t k = 0; k < kFloats; k += kDoubles)
-        hn::StoreU(hn::DemoteTo(df, next_sum(d, changes + k)), df, cover + k);
-      return hn::Load(FloatTag(), cover);
-    }
-  }
-  // By sums of two, four and eight neighbours.
-  template <class D>
-  HWY_INLINE hn::Vec<D> next_sum(D d, double* changes) {
-    auto sum = hn::LoadU(d, changes);
-    hn::StoreU(hn::Zero(d), d, changes);
-    for (std::size_t step = 1; step < kDoubles; step *= 2) {
-      HWY_ALIGN std::int64_t from[kDoubles];
-      HWY_ALIGN double has[kDoubles];
-      for (std::size_t k = 0; k < kDoubles; ++k) {
-        from[k] = static_cast<std::int64_t>(k < step ? 0 : k - step);
-        has[k] = k < step ? 0.0 : 1.0;
+    auto sum = hn::Load(d, changes_ + k);
+    hn::Store(hn::Zero(d), d, changes_ + k);
+    for (std::size_t step = 1; step < kLanes; step *= 2) {
+      HWY_ALIGN std::int32_t from[kLanes];
+      HWY_ALIGN float has[kLanes];
+      for (std::size_t lane = 0; lane < kLanes; ++lane) {
+        from[lane] = static_cast<std::int32_t>(lane < step ? 0 : lane - step);
+        has[lane] = lane < step ? 0.0F : 1.0F;
       }
       sum = hn::MulAdd(hn::Load(d, has), hn::TableLookupLanes(sum, hn::SetTableIndices(d, from)), sum);
     }
     sum = hn::Add(sum, before_);
-    before_ = hn::TableLookupLanes(sum, hn::IndicesFromVec(d, hn::Set(hn::RebindToSigned<D>(), kDoubles - 1)));
+    before_ = hn::TableLookupLanes(sum, hn::IndicesFromVec(d, hn::Set(IntTag(), kLanes - 1)));
     return hn::IfThenElseZero(hn::Gt(sum, hn::Set(d, TileSums::kUnseenCover)), sum);
   }
 
-  double* changes_;
-  int count_;
-  hn::Vec<DoubleTag> before_;  // the sum of all changes so far
+ private:
+  float* changes_;
+  hn::Vec<FloatTag> before_;  // the sum of all changes so far
 };
 
 // Whole pixels in a row that see the stop level: their light is left as changes along the row, as any polygon's is.
@@ -135,7 +110,7 @@ class LevelRun {
   int first_ = -1, end_ = -1;
 };
 
-// A row of what a polygon covers, in the tile.
+// A row of what a polygon covers, in the tile, from where a group begins.
 struct CoveredRow {
   int row, first, count;
 };
@@ -226,7 +201,7 @@ class GreyLight {
         const auto pixel = hn::Add(hn::ShiftRight<2>(hn::Iota(di, 0)), hn::Set(di, j));
         const auto each = hn::TableLookupLanes(passed, hn::IndicesFromVec(d, pixel));
         const auto column = hn::ConvertTo(d, hn::Add(pixel, hn::Set(di, k)));
-        hn::StoreU(hn::MulAdd(each, hn::MulAdd(slope_, column, level_), hn::LoadU(d, to)), d, to);
+        hn::Store(hn::MulAdd(each, hn::MulAdd(slope_, column, level_), hn::Load(d, to)), d, to);
       }
     }
 
@@ -247,22 +222,29 @@ class GreyLight {
   HWY_ALIGN float level_[kLanes], slope_[kLanes], by_row_[kLanes];
 };
 
-// Of a tile, those that a polygon may touch. last_column: as far as all of them are covered at the least; -1: not told.
+// Of a tile, the rows that a polygon may touch, and between which columns. covered_to: the column as far as all rows are
+// covered at the least; -1: not told.
 struct PixelRows {
-  int first, last, last_column;
+  int first, last;
+  int low_column, high_column;
+  int covered_to;
 };
 
 PixelRows rows_under(const TileSums& tile, std::span<const Point> corners) {
   Point low = corners[0], high = corners[0];
   for (const Point p : corners) {
-    low.y = std::min(low.y, p.y);
+    low = {std::min(low.x, p.x), std::min(low.y, p.y)};
     high = {std::max(high.x, p.x), std::max(high.y, p.y)};
   }
   const auto row = [&](float y) {
     return static_cast<int>(std::clamp(y - static_cast<float>(tile.y0), 0.0F, static_cast<float>(tile.height - 1)));
   };
+  const auto column = [&](float x) {
+    return static_cast<int>(std::clamp(x - static_cast<float>(tile.x0), 0.0F, static_cast<float>(tile.width)));
+  };
   // Edges beyond the right border leave no change: what is covered there ends with the tile.
-  return {row(low.y), row(high.y), high.x > static_cast<float>(tile.x0 + tile.width) ? tile.width - 1 : -1};
+  const bool is_beyond = high.x > static_cast<float>(tile.x0 + tile.width);
+  return {row(low.y), row(high.y), column(low.x), column(high.x), is_beyond ? tile.width - 1 : -1};
 }
 
 // Those of a polygon whose edges have left their changes in the tile.
@@ -271,9 +253,10 @@ class CoveredRows {
   CoveredRows(TileSums& tile, const PixelRows& within) {
     for (int row = within.first; row <= within.last; ++row) {
       const auto changed = std::exchange(tile.cover.changed[static_cast<std::size_t>(row)], {});
-      const int last = std::min(std::max(changed.last, within.last_column), tile.width - 1);
-      if (changed.last >= 0) *tile.cover.at(row, tile.width) = 0.0;  // the right border's
-      if (changed.first <= last) rows_[count_++] = {row, changed.first, last - changed.first + 1};
+      const int last = std::min(std::max(changed.last, within.covered_to), tile.width - 1);
+      if (changed.last >= tile.width) *tile.cover.at(row, tile.width) = 0.0F;  // the right border's
+      const int first = changed.first / kGroup * kGroup;
+      if (changed.first <= last) rows_[count_++] = {row, first, last - first + 1};
     }
   }
   [[nodiscard]] std::span<const CoveredRow> all() const { return {rows_, count_}; }
@@ -285,7 +268,7 @@ class CoveredRows {
 
 // Whether `count` pixels are all covered, but for rounding; none beyond them is.
 HWY_INLINE bool all_covered(hn::Vec<FloatTag> cover, int count) {
-  constexpr float kWhole = 1.0F - 1e-6F;
+  constexpr float kWhole = 1.0F - 1e-5F;
   const FloatTag d;
   const auto whole = hn::CountTrue(d, hn::Ge(cover, hn::Set(d, kWhole)));
   return static_cast<int>(whole) >= std::min(count, static_cast<int>(hn::Lanes(d)));
@@ -297,7 +280,7 @@ HWY_INLINE void add_row(TileSums& tile, const CoveredRow& r, const RowShade& sha
                         const Passed& passed, const LightRow& light) {
   const int lanes = static_cast<int>(hn::Lanes(FloatTag()));
   float* const to = tile.pixels_at(r.row) + TileSums::kPixel * static_cast<std::size_t>(r.first);
-  RunningCover covers(tile.cover.at(r.row, r.first), r.count);
+  RunningCover covers(tile.cover.at(r.row, r.first));
   LevelRun run(tile, r.row, shade);
   Groups lit = 0;
   for (int k = 0; k < r.count; k += lanes) {
@@ -339,16 +322,15 @@ void add_pixels(TileSums& tile, const Polygon& polygon, const StopMap& map, cons
 }
 
 void add_screened(TileSums& tile, const PolygonList& list, const Polygon& polygon) {
-  if (tile.by_pixel.empty()) tile.by_pixel.resize(TileSums::kPixel * TileSums::kPixelPitch * TileGrid::kHeight, 0.0F);
+  if (tile.by_pixel == nullptr) tile.by_pixel = std::make_unique<TileSums::Light>();
+  const PixelRows within = rows_under(tile, list.corners_of(polygon));
   CoverSums& cover = tile.cover;
   cover.width = tile.width;
   cover.height = tile.height;
-  cover.make();
-  const auto corners = list.corners_of(polygon);
+  cover.set_columns(within.low_column, within.high_column);
   EdgeShade<CoverSums> none;
   for_each_edge(tile, list, polygon,
                 [&](Vec2 a, Vec2 b, std::size_t, double sign) { add_clipped(cover, none, a, b, sign); });
-  const PixelRows within = rows_under(tile, corners);
   const Screened& behind = list.screened[polygon.screened - 1];
   const auto add = [&](auto&& look) { add_pixels(tile, polygon, behind.map, within, look); };
   if (behind.dirt != 0) return add(AnyScreen(behind.screen, behind.map, &list.dirt[behind.dirt - 1]));

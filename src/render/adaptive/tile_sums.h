@@ -6,35 +6,48 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <memory>
 #include <vector>
 
 #include "render/adaptive/tiles.h"
 
 namespace contrejour::adaptive {
 
-// A polygon's coverage alone, as changes along the rows of a tile. Edges left of it count as on its border.
+// A polygon's coverage alone, as changes along the rows of a tile, in floats: a row ends with the polygon, so that
+// rounding goes no farther. Edges left of the tile count as on its border. Rows lie close together, as wide as the
+// polygon: the same little memory for every one, as near to the processor as can be.
 struct CoverSums {
   static constexpr std::size_t kLanes = 1;
-  static constexpr std::size_t kPitch = TileGrid::kWidth + 32;  // beyond the last changes a vector of none
-  struct Columns {  // with changes; none if last < first
+  static constexpr int kGroup = 8;  // columns, of which whole ones are looked at
+  struct Columns {                  // with changes; none if last < first
     int first = std::numeric_limits<int>::max(), last = -1;
   };
 
   int width = 0, height = 0;
-  std::vector<double> sums;  // made with the first polygon
   std::array<Columns, TileGrid::kHeight> changed{};
 
   [[nodiscard]] static constexpr bool is_carried() { return false; }  // TileSums has another answer
-  void make() {
-    if (sums.empty()) sums.resize(kPitch * TileGrid::kHeight, 0.0);
+  // Of the tile, for a polygon that lies within the columns from first to last; all sums must be 0.
+  void set_columns(int first, int last) {
+    constexpr int kBeyond = 2;  // edges add to so many columns after the one they are in
+    first_ = first / kGroup * kGroup;
+    pitch_ = (last + kBeyond - first_) / kGroup * kGroup + kGroup;
+    if (room_ == nullptr) room_ = std::make_unique<Room>();
   }
-  [[nodiscard]] double* at(int row, int column) {
-    return sums.data() + static_cast<std::size_t>(row) * kPitch + static_cast<std::size_t>(column);
+  [[nodiscard]] float* at(int row, int column) {
+    return room_->sums.data() + static_cast<std::ptrdiff_t>(row) * pitch_ + (column - first_);
   }
   void touch(int row, int first, int last) {
     Columns& columns = changed[static_cast<std::size_t>(row)];
     columns = {std::min(columns.first, first), std::max(columns.last, last)};
   }
+
+ private:
+  struct alignas(64) Room {
+    std::array<float, static_cast<std::size_t>(TileGrid::kWidth + 2 * kGroup) * TileGrid::kHeight> sums{};
+  };
+  int first_ = 0, pitch_ = 0;
+  std::unique_ptr<Room> room_;  // made with the first polygon
 };
 
 // A tile's place in the frame, and its sums. Tiles of a row are drawn from left to right: what edges left of a tile
@@ -47,7 +60,7 @@ struct TileSums {
   static constexpr std::size_t kPixelPitch =
       TileGrid::kWidth + 24;  // no power of two: rows share no lines of the cache
   static constexpr int kBlock = 8;  // columns
-  static constexpr double kUnseenCover = 1e-7;  // of a pixel: rounding beside a polygon
+  static constexpr float kUnseenCover = 1e-6F;  // of a pixel: rounding beside a polygon
   static_assert(TileGrid::kWidth <= 64 * kBlock);
 
   int x0 = 0, y0 = 0, width = 0, height = 0;
@@ -56,7 +69,10 @@ struct TileSums {
   std::vector<double> sums = std::vector<double>(kLanes * kPitch * TileGrid::kHeight, 0.0);
   std::array<std::array<double, kLanes>, TileGrid::kHeight> carried{};  // by row: sums left of the first column
   Blocks lit{};                 // pixel by pixel
-  std::vector<float> by_pixel;  // light that came so, kPixel values each and a vector's beyond; empty: none yet
+  struct alignas(64) Light {
+    std::array<float, kPixel * kPixelPitch * TileGrid::kHeight> values{};
+  };
+  std::unique_ptr<Light> by_pixel;  // that came so, kPixel values each, whole blocks; null: none yet
   CoverSums cover;
 
   [[nodiscard]] bool is_carried() const { return x0 > 0; }  // what edges left of it changed
@@ -64,15 +80,13 @@ struct TileSums {
     return sums.data() + kLanes * (static_cast<std::size_t>(row) * kPitch + static_cast<std::size_t>(column));
   }
   [[nodiscard]] float* pixels_at(int row) {
-    return by_pixel.data() + kPixel * kPixelPitch * static_cast<std::size_t>(row);
+    return by_pixel->values.data() + kPixel * kPixelPitch * static_cast<std::size_t>(row);
   }
   // Columns first to last, last one included and the right border's left out.
   void touch(int row, int first, int last) { mark(touched, row, first, last); }
-  // groups: a bit for each kBlock columns from `first` on.
+  // groups: a bit for each kBlock columns from `first` on, where a block begins.
   void light_groups(int row, int first, std::uint64_t groups) {
-    const auto shift = static_cast<unsigned>(first / kBlock);
-    groups <<= shift;
-    lit[static_cast<std::size_t>(row)] |= first % kBlock == 0 ? groups : groups | groups << 1U;
+    lit[static_cast<std::size_t>(row)] |= groups << static_cast<unsigned>(first / kBlock);
   }
 
  private:
