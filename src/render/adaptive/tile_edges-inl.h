@@ -40,7 +40,7 @@ HWY_INLINE RowShade row_shade(const Shade& shade, const TileSums& tile) {
   return {{level, along_x}, along_y};
 }
 
-// What coverage is multiplied by: a polygon's irradiance row by row, or for coverage alone nothing.
+// What coverage is multiplied by: a polygon's irradiance row by row, or for coverage alone (tile_cover-inl.h) nothing.
 template <class Sums>
 class EdgeShade {
  public:
@@ -52,13 +52,6 @@ class EdgeShade {
  private:
   RowShade of_;
   QuadLine<double> row_;
-};
-
-template <>
-class EdgeShade<CoverSums> {
- public:
-  HWY_INLINE void set_row(int) {}
-  HWY_INLINE void add(float* to, double cover) const { *to += static_cast<float>(cover); }
 };
 
 // One stretch of an edge within a row of pixels, from x0 to x1 and dy high: coverage to its right, as differences.

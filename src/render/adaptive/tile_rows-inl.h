@@ -130,23 +130,25 @@ struct TablePlaces {
   hn::Vec<FloatTag> rest;
 };
 
-// Those of a table whose last entry is at `most`.
+// Those of a table whose last entry is at `most`. Whole steps by adding so much that no bits are left for parts of one:
+// conversions ask what is out of range.
 class TableEnd {
  public:
-  explicit HWY_INLINE TableEnd(float most)
-      : most_(hn::Set(FloatTag(), most)), last_(hn::Set(IntTag(), static_cast<std::int32_t>(most) - 1)) {}
+  explicit HWY_INLINE TableEnd(float most) : most_(hn::Set(FloatTag(), most)), last_(hn::Set(FloatTag(), most - 1.0F)) {}
 
-  // The last step is one that has an entry after it.
+  // The last step is one that has an entry after it. The rest of a place on a step may be 1.
   [[nodiscard]] HWY_INLINE TablePlaces places(hn::Vec<FloatTag> place) const {
+    constexpr float kNoParts = 12582912.0F;  // 1.5 * 2^23
     const FloatTag d;
+    const auto no_parts = hn::Set(d, kNoParts);
     const auto within = hn::Min(hn::IfThenElseZero(hn::Gt(place, hn::Zero(d)), place), most_);
-    const auto whole = hn::Min(hn::ConvertTo(IntTag(), within), last_);
-    return {whole, hn::Sub(within, hn::ConvertTo(d, whole))};
+    const auto rounded = hn::Add(hn::Min(hn::Sub(within, hn::Set(d, 0.5F)), last_), no_parts);
+    return {hn::Sub(hn::BitCast(IntTag(), rounded), hn::BitCast(IntTag(), no_parts)),
+            hn::Sub(within, hn::Sub(rounded, no_parts))};
   }
 
  private:
-  hn::Vec<FloatTag> most_;
-  hn::Vec<IntTag> last_;
+  hn::Vec<FloatTag> most_, last_;
 };
 
 // A table of ShortLight.

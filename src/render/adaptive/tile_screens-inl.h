@@ -17,6 +17,7 @@
 #include <utility>
 
 #include "render/adaptive/quad-inl.h"
+#include "render/adaptive/tile_cover-inl.h"
 #include "render/adaptive/tile_edges-inl.h"
 #include "render/adaptive/tile_fringes-inl.h"
 #include "render/adaptive/tile_patterns-inl.h"
@@ -185,14 +186,13 @@ class GreyLight {
    public:
     HWY_INLINE Row(const GreyLight& all, const CoveredRow& row)
         : slope_(hn::Load(WideTag(), all.slope_)),
-          level_(hn::MulAdd(
-              hn::Load(WideTag(), all.by_row_), hn::Set(WideTag(), static_cast<float>(row.row)),
-              hn::MulAdd(slope_, hn::Set(WideTag(), static_cast<float>(row.first)), hn::Load(WideTag(), all.level_)))) {
-    }
+          level_(hn::MulAdd(hn::Load(WideTag(), all.by_row_), hn::Set(WideTag(), static_cast<float>(row.row)),
+                            hn::MulAdd(slope_, columns(row.first), hn::Load(WideTag(), all.level_)))) {}
     template <class Look>
     HWY_INLINE void add(const Look& look, hn::Vec<FloatTag> cover, int k, float* to) const {
       const WideTag d;
       const hn::RebindToSigned<WideTag> di;
+      const auto first = hn::MulAdd(slope_, hn::Set(d, static_cast<float>(k)), level_);
       constexpr int kPixels = static_cast<int>(kLanes / TileSums::kPixel);  // of a wide vector
       const auto passed = wide(d, hn::Mul(cover, look.passed(k)));
       to += TileSums::kPixel * static_cast<std::size_t>(k);
@@ -200,12 +200,19 @@ class GreyLight {
       for (int j = 0; j < static_cast<int>(hn::Lanes(FloatTag())); j += kPixels, to += kLanes) {
         const auto pixel = hn::Add(hn::ShiftRight<2>(hn::Iota(di, 0)), hn::Set(di, j));
         const auto each = hn::TableLookupLanes(passed, hn::IndicesFromVec(d, pixel));
-        const auto column = hn::ConvertTo(d, hn::Add(pixel, hn::Set(di, k)));
-        hn::Store(hn::MulAdd(each, hn::MulAdd(slope_, column, level_), hn::Load(d, to)), d, to);
+        const auto light = j == 0 ? first : hn::MulAdd(slope_, hn::Set(d, static_cast<float>(j)), first);
+        hn::Store(hn::MulAdd(each, light, hn::Load(d, to)), d, to);
       }
     }
 
    private:
+    // Of the pixels from `first` on.
+    static HWY_INLINE hn::Vec<WideTag> columns(int first) {
+      const WideTag d;
+      const hn::RebindToSigned<WideTag> di;
+      return hn::Add(hn::Set(d, static_cast<float>(first)),
+                     hn::ConvertTo(d, hn::ShiftRight<2>(hn::Iota(di, 0))));
+    }
     template <class D>
     static HWY_INLINE hn::Vec<D> wide(D d, hn::Vec<FloatTag> v) {
       if constexpr (hn::MaxLanes(d) == hn::MaxLanes(FloatTag())) {
@@ -252,7 +259,7 @@ class CoveredRows {
  public:
   CoveredRows(TileSums& tile, const PixelRows& within) {
     for (int row = within.first; row <= within.last; ++row) {
-      const auto changed = std::exchange(tile.cover.changed[static_cast<std::size_t>(row)], {});
+      const auto changed = tile.cover.take_changed(row);
       const int last = std::min(std::max(changed.last, within.covered_to), tile.width - 1);
       if (changed.last >= tile.width) *tile.cover.at(row, tile.width) = 0.0F;  // the right border's
       const int first = changed.first / kGroup * kGroup;

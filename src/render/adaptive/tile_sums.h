@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <limits>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "render/adaptive/tiles.h"
@@ -19,12 +20,14 @@ namespace contrejour::adaptive {
 struct CoverSums {
   static constexpr std::size_t kLanes = 1;
   static constexpr int kGroup = 8;  // columns, of which whole ones are looked at
-  struct Columns {                  // with changes; none if last < first
-    int first = std::numeric_limits<int>::max(), last = -1;
+  using OfRows = std::array<std::int32_t, TileGrid::kHeight + kGroup>;  // and a vector beyond
+  struct Columns {
+    int first, last;
   };
+  static constexpr int kNoFirst = std::numeric_limits<int>::max(), kNoLast = -1;
 
   int width = 0, height = 0;
-  std::array<Columns, TileGrid::kHeight> changed{};
+  OfRows first_changed = filled(kNoFirst), last_changed = filled(kNoLast);  // columns
 
   [[nodiscard]] static constexpr bool is_carried() { return false; }  // TileSums has another answer
   // Of the tile, for a polygon that lies within the columns from first to last; all sums must be 0.
@@ -38,13 +41,24 @@ struct CoverSums {
     return room_->sums.data() + static_cast<std::ptrdiff_t>(row) * pitch_ + (column - first_);
   }
   void touch(int row, int first, int last) {
-    Columns& columns = changed[static_cast<std::size_t>(row)];
-    columns = {std::min(columns.first, first), std::max(columns.last, last)};
+    const auto at = static_cast<std::size_t>(row);
+    first_changed[at] = std::min(first_changed[at], first);
+    last_changed[at] = std::max(last_changed[at], last);
+  }
+  // A row's columns with changes, which are forgotten; none if last < first.
+  [[nodiscard]] Columns take_changed(int row) {
+    const auto at = static_cast<std::size_t>(row);
+    return {std::exchange(first_changed[at], kNoFirst), std::exchange(last_changed[at], kNoLast)};
   }
 
  private:
-  struct alignas(64) Room {
-    std::array<float, static_cast<std::size_t>(TileGrid::kWidth + 2 * kGroup) * TileGrid::kHeight> sums{};
+  static OfRows filled(std::int32_t value) {
+    OfRows out;
+    out.fill(value);
+    return out;
+  }
+  struct alignas(64) Room {  // and a vector beyond
+    std::array<float, static_cast<std::size_t>(TileGrid::kWidth + 2 * kGroup) * TileGrid::kHeight + kGroup> sums{};
   };
   int first_ = 0, pitch_ = 0;
   std::unique_ptr<Room> room_;  // made with the first polygon
