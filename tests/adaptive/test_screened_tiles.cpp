@@ -81,7 +81,7 @@ std::shared_ptr<BandScreen> grey(std::shared_ptr<BandScreen> band) {
 }
 
 double entry_of(const EdgeTable& table, std::size_t k, std::size_t channel) {
-  return static_cast<double>(table.is_grey() ? table.coding().light(table.coded()[k])
+  return static_cast<double>(table.is_grey() ? table.steps()[k].factor
                                              : table.entries()[EdgeTable::kStride * k + channel]);
 }
 

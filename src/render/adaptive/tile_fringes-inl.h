@@ -12,6 +12,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <span>
 #include <vector>
 
@@ -190,15 +191,45 @@ class Fringes {
 class GreyTable {
  public:
   explicit GreyTable(const EdgeTable& table)
-      : table_(table.coded(), table.coding()), end_(static_cast<float>(table.count() - 1)) {}
+      : steps_(table.steps().data()), end_(static_cast<float>(table.count() - 1)) {}
 
   [[nodiscard]] HWY_INLINE hn::Vec<FloatTag> at(hn::Vec<FloatTag> place) const {
-    const TablePlaces at = end_.places(place);
-    return hn::Sub(table_.between(ShortTable::Entries(at.whole), at.rest), table_.none());
+    const FloatTag d;
+    const TablePlaces at = end_.places_to_end(place);
+    HWY_ALIGN std::int32_t step[hn::MaxLanes(IntTag())];
+    hn::Store(at.whole, IntTag(), step);
+#if HWY_TARGET == HWY_SCALAR
+    return hn::MulAdd(at.rest, hn::Set(d, steps_[*step].rise), hn::Set(d, steps_[*step].factor));
+#else
+    const WordTag words;
+    constexpr std::size_t kHalf = hn::MaxLanes(WordTag());
+    const auto low = hn::BitCast(d, words_at(words, step)), high = hn::BitCast(d, words_at(words, step + kHalf));
+    return hn::MulAdd(at.rest, hn::ConcatOdd(d, high, low), hn::ConcatEven(d, high, low));
+#endif
   }
 
  private:
-  ShortTable table_;
+#if HWY_TARGET != HWY_SCALAR
+  using WordTag = hn::Repartition<std::uint64_t, FloatTag>;
+  // A step each, one by one: gathers are slower on many processors.
+  [[nodiscard]] std::uint64_t word(std::int32_t step) const {
+    static_assert(sizeof(EdgeTable::Step) == sizeof(std::uint64_t));
+    std::uint64_t out;
+    std::memcpy(&out, steps_ + step, sizeof out);
+    return out;
+  }
+  template <class D>
+  [[nodiscard]] HWY_INLINE hn::Vec<D> words_at(D d, const std::int32_t* step) const {
+    if constexpr (hn::MaxLanes(d) == 2) {
+      return hn::InterleaveLower(d, hn::Set(d, word(step[0])), hn::Set(d, word(step[1])));
+    } else {
+      const hn::Half<D> half;
+      return hn::Combine(d, words_at(half, step + hn::MaxLanes(half)), words_at(half, step));
+    }
+  }
+#endif
+
+  const EdgeTable::Step* steps_;
   TableEnd end_;
 };
 

@@ -43,7 +43,7 @@ struct PixelRow {
   // Of the pixels from k on.
   [[nodiscard]] HWY_INLINE hn::Vec<FloatTag> x(int k) const {
     const FloatTag d;
-    return hn::Add(hn::Set(d, from_x), hn::Iota(d, static_cast<float>(k)));
+    return hn::Add(hn::Add(hn::Set(d, from_x), hn::Iota(d, 0.0F)), hn::Set(d, static_cast<float>(k)));
   }
 };
 
@@ -131,23 +131,36 @@ struct TablePlaces {
 };
 
 // Those of a table whose last entry is at `most`. Whole steps by adding so much that no bits are left for parts of one:
-// conversions ask what is out of range.
+// conversions ask what is out of range. A place on an entry may count as one whole step after the one before.
 class TableEnd {
  public:
   explicit HWY_INLINE TableEnd(float most) : most_(hn::Set(FloatTag(), most)), last_(hn::Set(FloatTag(), most - 1.0F)) {}
 
-  // The last step is one that has an entry after it. The rest of a place on a step may be 1.
+  // The last step is one that has an entry after it.
   [[nodiscard]] HWY_INLINE TablePlaces places(hn::Vec<FloatTag> place) const {
-    constexpr float kNoParts = 12582912.0F;  // 1.5 * 2^23
-    const FloatTag d;
-    const auto no_parts = hn::Set(d, kNoParts);
-    const auto within = hn::Min(hn::IfThenElseZero(hn::Gt(place, hn::Zero(d)), place), most_);
-    const auto rounded = hn::Add(hn::Min(hn::Sub(within, hn::Set(d, 0.5F)), last_), no_parts);
-    return {hn::Sub(hn::BitCast(IntTag(), rounded), hn::BitCast(IntTag(), no_parts)),
-            hn::Sub(within, hn::Sub(rounded, no_parts))};
+    const auto all = within(place);
+    return places(all, hn::Min(below(all), last_));
+  }
+  // The last step may be at the last entry.
+  [[nodiscard]] HWY_INLINE TablePlaces places_to_end(hn::Vec<FloatTag> place) const {
+    const auto all = within(place);
+    return places(all, below(all));
   }
 
  private:
+  [[nodiscard]] HWY_INLINE hn::Vec<FloatTag> within(hn::Vec<FloatTag> place) const {
+    return hn::Min(hn::IfThenElseZero(hn::Gt(place, hn::Zero(FloatTag())), place), most_);
+  }
+  static HWY_INLINE hn::Vec<FloatTag> below(hn::Vec<FloatTag> place) {
+    return hn::Sub(place, hn::Set(FloatTag(), 0.5F));  // what rounding makes the step
+  }
+  static HWY_INLINE TablePlaces places(hn::Vec<FloatTag> place, hn::Vec<FloatTag> step) {
+    const auto no_parts = hn::Set(FloatTag(), 12582912.0F);  // 1.5 * 2^23
+    const auto rounded = hn::Add(step, no_parts);
+    return {hn::Sub(hn::BitCast(IntTag(), rounded), hn::BitCast(IntTag(), no_parts)),
+            hn::Sub(place, hn::Sub(rounded, no_parts))};
+  }
+
   hn::Vec<FloatTag> most_, last_;
 };
 

@@ -59,14 +59,16 @@ class AnyScreen {
 // A row's coverage from its changes, which are cleared, some pixels after the other. What only rounding covers is not.
 class RunningCover {
  public:
-  HWY_INLINE explicit RunningCover(float* changes) : changes_(changes), before_(hn::Zero(FloatTag())) {}
+  // Of the row of which no more than `count` pixels are covered, whatever its changes say.
+  HWY_INLINE RunningCover(float* changes, int count)
+      : changes_(changes), count_(count), before_(hn::Zero(FloatTag())) {}
 
   // Of the pixels from k on, by sums of two, four and eight neighbours.
   HWY_INLINE hn::Vec<FloatTag> next(int k) {
     constexpr std::size_t kLanes = hn::MaxLanes(FloatTag());
     const FloatTag d;
-    auto sum = hn::Load(d, changes_ + k);
-    hn::Store(hn::Zero(d), d, changes_ + k);
+    auto sum = hn::LoadU(d, changes_ + k);
+    hn::StoreU(hn::Zero(d), d, changes_ + k);
     for (std::size_t step = 1; step < kLanes; step *= 2) {
       HWY_ALIGN std::int32_t from[kLanes];
       HWY_ALIGN float has[kLanes];
@@ -78,11 +80,15 @@ class RunningCover {
     }
     sum = hn::Add(sum, before_);
     before_ = hn::TableLookupLanes(sum, hn::IndicesFromVec(d, hn::Set(IntTag(), kLanes - 1)));
-    return hn::IfThenElseZero(hn::Gt(sum, hn::Set(d, TileSums::kUnseenCover)), sum);
+    const auto cover = hn::IfThenElseZero(hn::Gt(sum, hn::Set(d, TileSums::kUnseenCover)), sum);
+    const int left = count_ - k;
+    if (left >= static_cast<int>(kLanes)) return cover;
+    return hn::IfThenElseZero(hn::FirstN(d, static_cast<std::size_t>(left)), cover);
   }
 
  private:
   float* changes_;
+  int count_;
   hn::Vec<FloatTag> before_;  // the sum of all changes so far
 };
 
@@ -111,7 +117,8 @@ class LevelRun {
   int first_ = -1, end_ = -1;
 };
 
-// A row of what a polygon covers, in the tile, from where a group begins.
+// A row of what a polygon covers, in the tile, from one of every kFirst columns on: lines of memory begin there.
+constexpr int kFirst = 4;
 struct CoveredRow {
   int row, first, count;
 };
@@ -262,7 +269,7 @@ class CoveredRows {
       const auto changed = tile.cover.take_changed(row);
       const int last = std::min(std::max(changed.last, within.covered_to), tile.width - 1);
       if (changed.last >= tile.width) *tile.cover.at(row, tile.width) = 0.0F;  // the right border's
-      const int first = changed.first / kGroup * kGroup;
+      const int first = changed.first / kFirst * kFirst;
       if (changed.first <= last) rows_[count_++] = {row, first, last - first + 1};
     }
   }
@@ -281,29 +288,47 @@ HWY_INLINE bool all_covered(hn::Vec<FloatTag> cover, int count) {
   return static_cast<int>(whole) >= std::min(count, static_cast<int>(hn::Lanes(d)));
 }
 
-// A row's pixels, but those of groups that see nothing.
+// What is drawn of a row, whose coverage ends with its changes but where the polygon goes on beyond the tile.
+struct RowOfPixels {
+  CoveredRow columns;
+  RunningCover cover;
+  float* to;
+
+  RowOfPixels(TileSums& tile, const CoveredRow& r, const PixelRows& within)
+      : columns(r), cover(tile.cover.at(r.row, r.first), within.covered_to < 0 ? kRowRoom : r.count),
+        to(tile.pixels_at(r.row) + TileSums::kPixel * static_cast<std::size_t>(r.first)) {}
+};
+
 template <class Passed, class LightRow>
-HWY_INLINE void add_row(TileSums& tile, const CoveredRow& r, const RowShade& shade, const SeenGroups& seen,
+HWY_INLINE void add_row(TileSums& tile, RowOfPixels row, const Passed& passed, const LightRow& light) {
+  const auto [at_row, first, count] = row.columns;
+  for (int k = 0; k < count; k += static_cast<int>(hn::MaxLanes(FloatTag())))
+    light.add(passed, row.cover.next(k), k, row.to);
+  tile.light_groups(at_row, first, first_groups((count + kGroup - 1) / kGroup));
+}
+
+// But those of groups that see nothing, or the stop level.
+template <class Passed, class LightRow>
+HWY_INLINE void add_row(TileSums& tile, RowOfPixels row, const RowShade& shade, const SeenGroups& seen,
                         const Passed& passed, const LightRow& light) {
-  const int lanes = static_cast<int>(hn::Lanes(FloatTag()));
-  float* const to = tile.pixels_at(r.row) + TileSums::kPixel * static_cast<std::size_t>(r.first);
-  RunningCover covers(tile.cover.at(r.row, r.first));
-  LevelRun run(tile, r.row, shade);
+  constexpr int kLanes = static_cast<int>(hn::MaxLanes(FloatTag()));
+  const auto [at_row, first, count] = row.columns;
+  LevelRun run(tile, at_row, shade);
   Groups lit = 0;
-  for (int k = 0; k < r.count; k += lanes) {
-    const auto cover = covers.next(k);
+  for (int k = 0; k < count; k += kLanes) {
+    const auto cover = row.cover.next(k);
     const Groups group = Groups{1} << static_cast<unsigned>(k / kGroup);
-    if ((seen.level & group) != 0 && all_covered(cover, r.count - k)) {
-      run.go_on(r.first + k, r.first + std::min(k + lanes, r.count));
+    if ((seen.level & group) != 0 && all_covered(cover, count - k)) {
+      run.go_on(first + k, first + std::min(k + kLanes, count));
       continue;
     }
     run.stop();
     if ((seen.dark & group) != 0) continue;
     lit |= group;
-    light.add(passed, cover, k, to);
+    light.add(passed, cover, k, row.to);
   }
   run.stop();
-  tile.light_groups(r.row, r.first, lit);
+  tile.light_groups(at_row, first, lit);
 }
 
 template <class Look>
@@ -321,10 +346,14 @@ void add_pixels(TileSums& tile, const Polygon& polygon, const StopMap& map, cons
   for (const CoveredRow& r : rows.all()) {
     const PixelRow pixels = pixels_of(r);
     look.set_row(pixels);
-    SeenGroups seen;
-    if (r.count > kShort) seen = look.seen(pixels);
-    const Groups varied = first_groups((r.count + kGroup - 1) / kGroup) & ~seen.dark;
-    add_row(tile, r, shade, seen, look.look(pixels, varied), typename Light::Row(light, r));
+    const RowOfPixels row(tile, r, within);
+    const Groups all = first_groups((r.count + kGroup - 1) / kGroup);
+    if (r.count <= kShort) {
+      add_row(tile, row, look.look(pixels, all), typename Light::Row(light, r));
+      continue;
+    }
+    const SeenGroups seen = look.seen(pixels);
+    add_row(tile, row, shade, seen, look.look(pixels, all & ~seen.dark), typename Light::Row(light, r));
   }
 }
 

@@ -34,7 +34,7 @@ struct CoverSums {
   void set_columns(int first, int last) {
     constexpr int kBeyond = 2;  // edges add to so many columns after the one they are in
     first_ = first / kGroup * kGroup;
-    pitch_ = (last + kBeyond - first_) / kGroup * kGroup + kGroup;
+    pitch_ = (last + kBeyond - first_) / kGroup * kGroup + 2 * kGroup;
     if (room_ == nullptr) room_ = std::make_unique<Room>();
   }
   [[nodiscard]] float* at(int row, int column) {
@@ -58,7 +58,7 @@ struct CoverSums {
     return out;
   }
   struct alignas(64) Room {  // and a vector beyond
-    std::array<float, static_cast<std::size_t>(TileGrid::kWidth + 2 * kGroup) * TileGrid::kHeight + kGroup> sums{};
+    std::array<float, static_cast<std::size_t>(TileGrid::kWidth + 3 * kGroup) * TileGrid::kHeight + kGroup> sums{};
   };
   int first_ = 0, pitch_ = 0;
   std::unique_ptr<Room> room_;  // made with the first polygon
@@ -98,9 +98,11 @@ struct TileSums {
   }
   // Columns first to last, last one included and the right border's left out.
   void touch(int row, int first, int last) { mark(touched, row, first, last); }
-  // groups: a bit for each kBlock columns from `first` on, where a block begins.
+  // groups: a bit for each kBlock columns from `first` on.
   void light_groups(int row, int first, std::uint64_t groups) {
-    lit[static_cast<std::size_t>(row)] |= groups << static_cast<unsigned>(first / kBlock);
+    const auto shift = static_cast<unsigned>(first / kBlock);
+    groups <<= shift;
+    lit[static_cast<std::size_t>(row)] |= first % kBlock == 0 ? groups : groups | groups << 1U;
   }
 
  private:
