@@ -13,7 +13,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <utility>
 
 #include "render/adaptive/quad-inl.h"
 #include "render/adaptive/tile_rows-inl.h"
@@ -43,17 +42,16 @@ class PatternPlaces {
    public:
     HWY_INLINE Along(const PatternPlaces& all, const PixelRow& row)
         : column_(all.column_.along()), line_(all.line_.along()), end_(all.most_), row_(row) {}
-    [[nodiscard]] HWY_INLINE TablePlaces across(int k) const { return end_.places(column_.at(row_.x(k))); }
-    [[nodiscard]] HWY_INLINE TablePlaces down(int k) const { return end_.places(line_.at(row_.x(k))); }
+    [[nodiscard]] HWY_INLINE TablePlaces across(int k) const { return across_at(row_.x(k)); }
+    [[nodiscard]] HWY_INLINE TablePlaces down(int k) const { return down_at(row_.x(k)); }
+    [[nodiscard]] HWY_INLINE TablePlaces across_at(hn::Vec<FloatTag> x) const { return end_.places(column_.at(x)); }
+    [[nodiscard]] HWY_INLINE TablePlaces down_at(hn::Vec<FloatTag> x) const { return end_.places(line_.at(x)); }
 
    private:
     RowForm::Along column_, line_;
     TableEnd end_;
     PixelRow row_;
   };
-  // Of a pixel so far along the row.
-  [[nodiscard]] std::pair<float, float> at(float x) const { return {column_.at(x), line_.at(x)}; }
-  [[nodiscard]] bool holds(float place) const { return place > 0.0F && place < most_; }
 
  private:
   float most_;
@@ -116,20 +114,21 @@ class GreyPattern {
   HWY_INLINE void set_row(const PixelRow& row) { places_.set_row(row); }
 
   // Asks for what a row of pixels will look up: patterns are far away, and most of their samples are wanted but once.
+  // Of every other pixel, and of those between in the next row: a line of memory holds several on the way to one of
+  // them.
   HWY_INLINE void fetch(const PixelRow& row) {
-    constexpr float kLine = 32.0F;  // samples, of memory
-    constexpr int kMost = 16;
+    constexpr int kEvery = 2, kLanes = static_cast<int>(hn::MaxLanes(FloatTag()));
+    const FloatTag d;
     places_.set_row(row);
-    const auto [x0, y0] = places_.at(row.from_x);
-    const auto [x1, y1] = places_.at(row.from_x + static_cast<float>(row.count - 1));
-    const float apart = std::max(std::abs(x1 - x0) * (1.0F / kLine), std::abs(y1 - y0));
-    const int pieces = apart < kMost ? static_cast<int>(apart) + 1 : kMost;
-    const float part = 1.0F / static_cast<float>(pieces);
-    for (int k = 0; k <= pieces; ++k) {
-      const float t = static_cast<float>(k) * part;
-      const float column = x0 + t * (x1 - x0), line = y0 + t * (y1 - y0);
-      if (places_.holds(column) && places_.holds(line))
-        table_.fetch(static_cast<std::ptrdiff_t>(line) * pitch_ + static_cast<std::ptrdiff_t>(column));
+    const PatternPlaces::Along places(places_, row);
+    const auto pitch = hn::Set(IntTag(), pitch_);
+    const auto ways = hn::Mul(hn::Iota(d, 0.0F), hn::Set(d, static_cast<float>(kEvery)));
+    for (int k = row.y % kEvery; k < row.count; k += kEvery * kLanes) {
+      const auto x = hn::Add(ways, hn::Set(d, row.from_x + static_cast<float>(k)));
+      HWY_ALIGN std::int32_t at[kLanes];
+      hn::Store(hn::Add(hn::Mul(places.down_at(x).whole, pitch), places.across_at(x).whole), IntTag(), at);
+      const int count = std::min(kLanes, (row.count - k + kEvery - 1) / kEvery);
+      for (int j = 0; j < count; ++j) table_.fetch(at[j]);
     }
   }
 

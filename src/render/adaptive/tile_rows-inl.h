@@ -57,7 +57,6 @@ class RowForm {
     level_ = form_.level + row.from_y * (form_.y + row.from_y * form_.yy);
     slope_ = form_.x + row.from_y * form_.xy;
   }
-  [[nodiscard]] float at(float x) const { return level_ + x * (slope_ + x * form_.xx); }
   // No less than what it changes by from a group's middle to its ends, for any of a row's.
   [[nodiscard]] float half_group(const PixelRow& row) const {
     const float far = std::max(std::abs(row.from_x), std::abs(row.from_x + static_cast<float>(row.count + kToMiddle)));
