@@ -44,6 +44,7 @@ HWY_INLINE void add_steep_cover(CoverSums& tile, Vec2 a, Vec2 b, double sign) {
   const auto from = all(top - first_row), to = all(bottom - first_row), one = hn::Set(d, 1.0F);
   const auto x_at = [&](hn::Vec<FloatTag> y)
                         HWY_ATTR { return hn::Min(hn::Max(hn::MulAdd(slope, y, at_zero), low), high); };
+  CoverSums::Changed& changed = tile.changed_by(sign);
   for (int k = 0; k < rows; k += kLanes) {
     const auto row = hn::Iota(d, static_cast<float>(k));
     const auto y0 = hn::Max(row, from), y1 = hn::Min(hn::Add(row, one), to);
@@ -70,8 +71,7 @@ HWY_INLINE void add_steep_cover(CoverSums& tile, Vec2 a, Vec2 b, double sign) {
     }
     const auto last = hn::Add(hn::ConvertTo(di, hn::Floor(right)), hn::Add(base, hn::Set(di, 1)));
     const auto used = hn::Lt(hn::Iota(di, 0), hn::Set(di, count));
-    std::int32_t *const firsts = tile.first_changed.data() + first_row + k, *const lasts =
-                                                                                tile.last_changed.data() + first_row + k;
+    std::int32_t *const firsts = changed.firsts(first_row + k), *const lasts = changed.lasts(first_row + k);
     const auto old_first = hn::LoadU(di, firsts), old_last = hn::LoadU(di, lasts);
     hn::StoreU(hn::IfThenElse(used, hn::Min(old_first, whole), old_first), di, firsts);
     hn::StoreU(hn::IfThenElse(used, hn::Max(old_last, last), old_last), di, lasts);
@@ -83,7 +83,7 @@ HWY_INLINE void add_steep_cover(CoverSums& tile, Vec2 a, Vec2 b, double sign) {
 HWY_INLINE void add_flat_cover(CoverSums& tile, int row, double left, double right, double dy, double half_rise) {
   const FloatTag d;
   const auto first = static_cast<int>(left), last = static_cast<int>(right);
-  tile.touch(row, first, last + 1);
+  tile.changed_by(dy).add(row, first, last + 1);
   float* const to = tile.at(row, first);
   const auto all = [&](double v) { return hn::Set(d, static_cast<float>(v)); };
   const auto from = all(left - first), width = all(right - left), one = hn::Set(d, 1.0F), none = hn::Zero(d);

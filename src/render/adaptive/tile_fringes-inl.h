@@ -146,7 +146,7 @@ class Edges {
   std::span<EdgePlaces> all_;
 };
 
-// In three channels.
+// In three channels, of some pixels at a time.
 class Fringes {
  public:
   static constexpr bool kGrey = false;
@@ -155,36 +155,47 @@ class Fringes {
 
   HWY_INLINE void set_row(const PixelRow& row) { edges_.set_row(row); }
   [[nodiscard]] HWY_INLINE SeenGroups seen(const PixelRow& row) const { return edges_.seen(row); }
-  HWY_INLINE const Fringes& look(const PixelRow& row, Groups groups) {
-    for_each_vector(groups, [&](int k) HWY_ATTR {
-      const int end = std::min(k + static_cast<int>(hn::Lanes(FloatTag())), row.count);
-      for (int j = k; j < end; ++j) Quad::all(1.0F).store(passed_ + TileSums::kPixel * static_cast<std::size_t>(j));
-      edges_.look(row, k, [&](hn::Vec<FloatTag> place) HWY_ATTR { multiply(k, end, place); });
-    });
-    return *this;
-  }
-  [[nodiscard]] HWY_INLINE Quad passed(int k) const {
-    return Quad::load(passed_ + TileSums::kPixel * static_cast<std::size_t>(k));
-  }
+
+  class Row {
+   public:
+    HWY_INLINE Row(const Fringes& all, const PixelRow& row) : all_(all), row_(row) {}
+    // Of a vector of pixels from k on, as passed() tells until the next.
+    HWY_INLINE void look_at(int k) const {
+      k_ = k;
+      for (std::size_t j = 0; j < kLanes; ++j) Quad::all(1.0F).store(passed_ + kQuad * j);
+      all_.edges_.look(row_, k, [&](hn::Vec<FloatTag> place) HWY_ATTR { multiply(place); });
+    }
+    [[nodiscard]] HWY_INLINE Quad passed(int k) const {
+      return Quad::load(passed_ + kQuad * static_cast<std::size_t>(k - k_));
+    }
+
+   private:
+    static constexpr std::size_t kLanes = hn::MaxLanes(FloatTag());
+
+    HWY_INLINE void multiply(hn::Vec<FloatTag> place) const {
+      if (hn::AllTrue(FloatTag(), hn::Ge(place, hn::Set(FloatTag(), all_.edges_.most())))) return;
+      const TablePlaces at = TableEnd(all_.edges_.most()).places(place);
+      HWY_ALIGN std::int32_t whole[kLanes];
+      HWY_ALIGN float rest[kLanes];
+      hn::Store(at.whole, IntTag(), whole);
+      hn::Store(at.rest, FloatTag(), rest);
+      for (std::size_t j = 0; j < kLanes; ++j) {
+        const float* const entry = all_.entries_ + EdgeTable::kStride * static_cast<std::size_t>(whole[j]);
+        const Quad factor = mix(Quad::load(entry), Quad::load(entry + EdgeTable::kStride), Quad::all(rest[j]));
+        (Quad::load(passed_ + kQuad * j) * factor).store(passed_ + kQuad * j);
+      }
+    }
+
+    const Fringes& all_;
+    PixelRow row_;
+    mutable int k_ = 0;
+    HWY_ALIGN mutable float passed_[kQuad * kLanes];
+  };
+  [[nodiscard]] HWY_INLINE Row look(const PixelRow& row, Groups /*groups*/) const { return {*this, row}; }
 
  private:
-  HWY_INLINE void multiply(int k, int end, hn::Vec<FloatTag> place) {
-    if (hn::AllTrue(FloatTag(), hn::Ge(place, hn::Set(FloatTag(), edges_.most())))) return;
-    const TablePlaces at = TableEnd(edges_.most()).places(place);
-    HWY_ALIGN std::int32_t whole[kGroup];
-    HWY_ALIGN float rest[kGroup];
-    hn::Store(at.whole, IntTag(), whole);
-    hn::Store(at.rest, FloatTag(), rest);
-    for (int j = k; j < end; ++j) {
-      const float* const entry = entries_ + EdgeTable::kStride * static_cast<std::size_t>(whole[j - k]);
-      const Quad factor = mix(Quad::load(entry), Quad::load(entry + EdgeTable::kStride), Quad::all(rest[j - k]));
-      (passed(j) * factor).store(passed_ + TileSums::kPixel * static_cast<std::size_t>(j));
-    }
-  }
-
   Edges edges_;
   const float* entries_;
-  HWY_ALIGN float passed_[TileSums::kPixel * TileGrid::kWidth];
 };
 
 // What fringes let through by place, one value for all channels.

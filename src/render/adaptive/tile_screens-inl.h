@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <span>
@@ -83,7 +84,12 @@ class RunningCover {
     const auto cover = hn::IfThenElseZero(hn::Gt(sum, hn::Set(d, TileSums::kUnseenCover)), sum);
     const int left = count_ - k;
     if (left >= static_cast<int>(kLanes)) return cover;
-    return hn::IfThenElseZero(hn::FirstN(d, static_cast<std::size_t>(left)), cover);
+    return hn::IfThenElseZero(hn::FirstN(d, static_cast<std::size_t>(std::max(left, 0))), cover);
+  }
+  // Of the pixel before the next.
+  [[nodiscard]] HWY_INLINE bool is_whole() const {
+    constexpr float kWhole = 1.0F - 1e-5F;  // for rounding
+    return hn::GetLane(before_) >= kWhole;
   }
 
  private:
@@ -93,34 +99,18 @@ class RunningCover {
 };
 
 // Whole pixels in a row that see the stop level: their light is left as changes along the row, as any polygon's is.
-class LevelRun {
- public:
-  LevelRun(TileSums& tile, int row, const RowShade& shade) : tile_(tile), row_(row), shade_(shade) {}
-
-  void go_on(int first, int end) {
-    if (first_ < 0) first_ = first;
-    end_ = end;
-  }
-  void stop() {
-    if (first_ < 0) return;
-    const EdgeShade<TileSums> shade(shade_, row_);
-    tile_.touch(row_, first_, end_);
-    shade.add(tile_.at(row_, first_), 1.0);
-    shade.add(tile_.at(row_, end_), -1.0);
-    first_ = -1;
-  }
-
- private:
-  TileSums& tile_;
-  int row_;
-  const RowShade& shade_;
-  int first_ = -1, end_ = -1;
-};
+HWY_INLINE void add_level(TileSums& tile, int row, int first, int end, const RowShade& shade) {
+  const EdgeShade<TileSums> level(shade, row);
+  tile.touch(row, first, end);
+  level.add(tile.at(row, first), 1.0);
+  level.add(tile.at(row, end), -1.0);
+}
 
 // A row of what a polygon covers, in the tile, from one of every kFirst columns on: lines of memory begin there.
 constexpr int kFirst = 4;
 struct CoveredRow {
   int row, first, count;
+  int even_first, even_end;  // columns of the tile between which coverage is the same, if any
 };
 
 // A polygon's irradiance times what passes, pixel by pixel.
@@ -141,6 +131,7 @@ class QuadLight {
       HWY_ALIGN float cover[kGroup] = {};
       hn::Store(covered, d, cover);
       const int from = k, end = std::min(k + static_cast<int>(hn::Lanes(d)), row_.count);
+      if constexpr (requires { look.look_at(k); }) look.look_at(k);
       for (; k < end; ++k) {
         const Quad irradiance = multiply_add(slope_, Quad::all(static_cast<float>(row_.first + k)), level_);
         float* const pixel = to + TileSums::kPixel * static_cast<std::size_t>(k);
@@ -266,11 +257,13 @@ class CoveredRows {
  public:
   CoveredRows(TileSums& tile, const PixelRows& within) {
     for (int row = within.first; row <= within.last; ++row) {
-      const auto changed = tile.cover.take_changed(row);
-      const int last = std::min(std::max(changed.last, within.covered_to), tile.width - 1);
-      if (changed.last >= tile.width) *tile.cover.at(row, tile.width) = 0.0F;  // the right border's
-      const int first = changed.first / kFirst * kFirst;
-      if (changed.first <= last) rows_[count_++] = {row, first, last - first + 1};
+      const auto begun = tile.cover.begun.take(row), ended = tile.cover.ended.take(row);
+      const int changed_first = std::min(begun.first, ended.first), changed_last = std::max(begun.last, ended.last);
+      const int last = std::min(std::max(changed_last, within.covered_to), tile.width - 1);
+      if (changed_last >= tile.width) *tile.cover.at(row, tile.width) = 0.0F;  // the right border's
+      const int first = changed_first / kFirst * kFirst;
+      if (changed_first <= last)
+        rows_[count_++] = {row, first, last - first + 1, begun.last, std::min(ended.first, tile.width)};
     }
   }
   [[nodiscard]] std::span<const CoveredRow> all() const { return {rows_, count_}; }
@@ -279,14 +272,6 @@ class CoveredRows {
   CoveredRow rows_[TileGrid::kHeight];
   std::size_t count_ = 0;
 };
-
-// Whether `count` pixels are all covered, but for rounding; none beyond them is.
-HWY_INLINE bool all_covered(hn::Vec<FloatTag> cover, int count) {
-  constexpr float kWhole = 1.0F - 1e-5F;
-  const FloatTag d;
-  const auto whole = hn::CountTrue(d, hn::Ge(cover, hn::Set(d, kWhole)));
-  return static_cast<int>(whole) >= std::min(count, static_cast<int>(hn::Lanes(d)));
-}
 
 // What is drawn of a row, whose coverage ends with its changes but where the polygon goes on beyond the tile.
 struct RowOfPixels {
@@ -301,34 +286,48 @@ struct RowOfPixels {
 
 template <class Passed, class LightRow>
 HWY_INLINE void add_row(TileSums& tile, RowOfPixels row, const Passed& passed, const LightRow& light) {
-  const auto [at_row, first, count] = row.columns;
+  const int count = row.columns.count;
   for (int k = 0; k < count; k += static_cast<int>(hn::MaxLanes(FloatTag())))
     light.add(passed, row.cover.next(k), k, row.to);
-  tile.light_groups(at_row, first, first_groups((count + kGroup - 1) / kGroup));
+  tile.light_groups(row.columns.row, row.columns.first, first_groups((count + kGroup - 1) / kGroup));
 }
 
-// But those of groups that see nothing, or the stop level.
+// But those of groups that see nothing, or the stop level. Where they are whole, as far as nothing changes, no sum is
+// asked for.
 template <class Passed, class LightRow>
 HWY_INLINE void add_row(TileSums& tile, RowOfPixels row, const RowShade& shade, const SeenGroups& seen,
                         const Passed& passed, const LightRow& light) {
   constexpr int kLanes = static_cast<int>(hn::MaxLanes(FloatTag()));
-  const auto [at_row, first, count] = row.columns;
-  LevelRun run(tile, at_row, shade);
-  Groups lit = 0;
-  for (int k = 0; k < count; k += kLanes) {
-    const auto cover = row.cover.next(k);
-    const Groups group = Groups{1} << static_cast<unsigned>(k / kGroup);
-    if ((seen.level & group) != 0 && all_covered(cover, count - k)) {
-      run.go_on(first + k, first + std::min(k + kLanes, count));
-      continue;
+  const CoveredRow& columns = row.columns;
+  const int groups = (columns.count + kGroup - 1) / kGroup;
+  const int even_first = (columns.even_first - columns.first + kGroup - 1) / kGroup;
+  const int even_end = (columns.even_end - columns.first) / kGroup;
+  Groups skipped = 0, lit = 0;
+  if (even_first < even_end)
+    skipped = (seen.dark | seen.level) & first_groups(even_end) & ~first_groups(even_first);
+  for (int group = 0; group < groups;) {
+    if ((skipped >> static_cast<unsigned>(group) & 1U) != 0) {
+      if (row.cover.is_whole()) {
+        group += std::countr_one(skipped >> static_cast<unsigned>(group));
+        continue;
+      }
+      skipped = 0;
     }
-    run.stop();
-    if ((seen.dark & group) != 0) continue;
-    lit |= group;
-    light.add(passed, cover, k, row.to);
+    const Groups bit = Groups{1} << static_cast<unsigned>(group);
+    const bool is_dark = (seen.dark & bit) != 0;
+    if (!is_dark) lit |= bit;
+    for (int k = kGroup * group; k < kGroup * (group + 1); k += kLanes) {
+      const auto cover = row.cover.next(k);
+      if (!is_dark) light.add(passed, cover, k, row.to);
+    }
+    ++group;
   }
-  run.stop();
-  tile.light_groups(at_row, first, lit);
+  for (Groups level = skipped & seen.level; level != 0;) {
+    const int from = std::countr_zero(level), end = from + std::countr_one(level >> static_cast<unsigned>(from));
+    add_level(tile, columns.row, columns.first + kGroup * from, columns.first + kGroup * end, shade);
+    level &= ~first_groups(end);
+  }
+  tile.light_groups(columns.row, columns.first, lit);
 }
 
 template <class Look>

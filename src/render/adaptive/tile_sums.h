@@ -20,14 +20,36 @@ namespace contrejour::adaptive {
 struct CoverSums {
   static constexpr std::size_t kLanes = 1;
   static constexpr int kGroup = 8;  // columns, of which whole ones are looked at
-  using OfRows = std::array<std::int32_t, TileGrid::kHeight + kGroup>;  // and a vector beyond
-  struct Columns {
+  struct Columns {  // none if last < first
     int first, last;
   };
-  static constexpr int kNoFirst = std::numeric_limits<int>::max(), kNoLast = -1;
+  // By row, and a vector beyond, the columns that some edges changed: coverage is what it was before the first one, and
+  // from the last one on what they make it.
+  class Changed {
+   public:
+    Changed() {
+      first_.fill(kNone.first);
+      last_.fill(kNone.last);
+    }
+    [[nodiscard]] std::int32_t* firsts(int row) { return first_.data() + row; }
+    [[nodiscard]] std::int32_t* lasts(int row) { return last_.data() + row; }
+    void add(int row, int first, int last) {
+      *firsts(row) = std::min(*firsts(row), first);
+      *lasts(row) = std::max(*lasts(row), last);
+    }
+    // A row's, which are forgotten.
+    [[nodiscard]] Columns take(int row) {
+      return {std::exchange(*firsts(row), kNone.first), std::exchange(*lasts(row), kNone.last)};
+    }
+
+   private:
+    static constexpr Columns kNone{std::numeric_limits<int>::max(), -1};
+    using OfRows = std::array<std::int32_t, TileGrid::kHeight + kGroup>;
+    OfRows first_, last_;
+  };
 
   int width = 0, height = 0;
-  OfRows first_changed = filled(kNoFirst), last_changed = filled(kNoLast);  // columns
+  Changed begun, ended;  // by edges that the polygon is to the right of, and by the others
 
   [[nodiscard]] static constexpr bool is_carried() { return false; }  // TileSums has another answer
   // Of the tile, for a polygon that lies within the columns from first to last; all sums must be 0.
@@ -40,23 +62,9 @@ struct CoverSums {
   [[nodiscard]] float* at(int row, int column) {
     return room_->sums.data() + static_cast<std::ptrdiff_t>(row) * pitch_ + (column - first_);
   }
-  void touch(int row, int first, int last) {
-    const auto at = static_cast<std::size_t>(row);
-    first_changed[at] = std::min(first_changed[at], first);
-    last_changed[at] = std::max(last_changed[at], last);
-  }
-  // A row's columns with changes, which are forgotten; none if last < first.
-  [[nodiscard]] Columns take_changed(int row) {
-    const auto at = static_cast<std::size_t>(row);
-    return {std::exchange(first_changed[at], kNoFirst), std::exchange(last_changed[at], kNoLast)};
-  }
+  [[nodiscard]] Changed& changed_by(double sign) { return sign > 0.0 ? begun : ended; }
 
  private:
-  static OfRows filled(std::int32_t value) {
-    OfRows out;
-    out.fill(value);
-    return out;
-  }
   struct alignas(64) Room {  // and a vector beyond
     std::array<float, static_cast<std::size_t>(TileGrid::kWidth + 3 * kGroup) * TileGrid::kHeight + kGroup> sums{};
   };
