@@ -91,7 +91,8 @@ HWY_INLINE void add_flat_cover(CoverSums& tile, int row, double left, double rig
   const auto within = [&](hn::Vec<FloatTag> u) HWY_ATTR { return hn::Min(hn::Max(u, none), width); };
   const auto beyond = [&](hn::Vec<FloatTag> u) HWY_ATTR { return hn::Min(hn::Max(hn::Sub(u, width), none), one); };
   for (int k = 0; k <= last + 1 - first; k += static_cast<int>(hn::Lanes(d))) {
-    const auto u = hn::Sub(hn::Iota(d, static_cast<float>(k)), from);  // from where it begins to the column's left border
+    const auto u =
+        hn::Sub(hn::Iota(d, static_cast<float>(k)), from);  // from where it begins to the column's left border
     const auto next = hn::Add(u, one);
     const auto before = within(hn::Sub(u, one)), here = within(u), after = within(next);
     const auto square = hn::Sub(hn::Mul(hn::Sub(after, here), hn::Add(after, here)),

@@ -156,40 +156,42 @@ class Fringes {
   HWY_INLINE void set_row(const PixelRow& row) { edges_.set_row(row); }
   [[nodiscard]] HWY_INLINE SeenGroups seen(const PixelRow& row) const { return edges_.seen(row); }
 
-  class Row {
+  // A vector of pixels, from k on.
+  class Passed {
    public:
-    HWY_INLINE Row(const Fringes& all, const PixelRow& row) : all_(all), row_(row) {}
-    // Of a vector of pixels from k on, as passed() tells until the next.
-    HWY_INLINE void look_at(int k) const {
-      k_ = k;
-      for (std::size_t j = 0; j < kLanes; ++j) Quad::all(1.0F).store(passed_ + kQuad * j);
-      all_.edges_.look(row_, k, [&](hn::Vec<FloatTag> place) HWY_ATTR { multiply(place); });
+    HWY_INLINE Passed(const Fringes& all, const PixelRow& row, int k) : first_(k) {
+      for (std::size_t j = 0; j < kLanes; ++j) Quad::all(1.0F).store(factors_ + kQuad * j);
+      all.edges_.look(row, k, [&](hn::Vec<FloatTag> place) HWY_ATTR { multiply(all, place); });
     }
     [[nodiscard]] HWY_INLINE Quad passed(int k) const {
-      return Quad::load(passed_ + kQuad * static_cast<std::size_t>(k - k_));
+      return Quad::load(factors_ + kQuad * static_cast<std::size_t>(k - first_));
     }
 
    private:
     static constexpr std::size_t kLanes = hn::MaxLanes(FloatTag());
 
-    HWY_INLINE void multiply(hn::Vec<FloatTag> place) const {
-      if (hn::AllTrue(FloatTag(), hn::Ge(place, hn::Set(FloatTag(), all_.edges_.most())))) return;
-      const TablePlaces at = TableEnd(all_.edges_.most()).places(place);
+    HWY_INLINE void multiply(const Fringes& all, hn::Vec<FloatTag> place) {
+      const FloatTag d;
+      if (hn::AllTrue(d, hn::Ge(place, hn::Set(d, all.edges_.most())))) return;
+      const TablePlaces at = TableEnd(all.edges_.most()).places(place);
       HWY_ALIGN std::int32_t whole[kLanes];
       HWY_ALIGN float rest[kLanes];
       hn::Store(at.whole, IntTag(), whole);
-      hn::Store(at.rest, FloatTag(), rest);
+      hn::Store(at.rest, d, rest);
       for (std::size_t j = 0; j < kLanes; ++j) {
-        const float* const entry = all_.entries_ + EdgeTable::kStride * static_cast<std::size_t>(whole[j]);
+        const float* const entry = all.entries_ + EdgeTable::kStride * static_cast<std::size_t>(whole[j]);
         const Quad factor = mix(Quad::load(entry), Quad::load(entry + EdgeTable::kStride), Quad::all(rest[j]));
-        (Quad::load(passed_ + kQuad * j) * factor).store(passed_ + kQuad * j);
+        (Quad::load(factors_ + kQuad * j) * factor).store(factors_ + kQuad * j);
       }
     }
 
-    const Fringes& all_;
-    PixelRow row_;
-    mutable int k_ = 0;
-    HWY_ALIGN mutable float passed_[kQuad * kLanes];
+    int first_;
+    HWY_ALIGN float factors_[kQuad * kLanes];
+  };
+  struct Row {
+    const Fringes& all;
+    PixelRow row;
+    [[nodiscard]] HWY_INLINE Passed vector(int k) const { return {all, row, k}; }
   };
   [[nodiscard]] HWY_INLINE Row look(const PixelRow& row, Groups /*groups*/) const { return {*this, row}; }
 

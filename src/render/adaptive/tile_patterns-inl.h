@@ -82,6 +82,7 @@ class Pattern {
     });
     return *this;
   }
+  [[nodiscard]] HWY_INLINE const Pattern& vector(int /*k*/) const { return *this; }
   [[nodiscard]] HWY_INLINE Quad passed(int j) const {
     const float* const above = level_.samples.data() + static_cast<std::size_t>(line_[j]) * pitch_ +
                                kStride * static_cast<std::size_t>(column_[j]);

@@ -133,7 +133,8 @@ struct TablePlaces {
 // conversions ask what is out of range. A place on an entry may count as one whole step after the one before.
 class TableEnd {
  public:
-  explicit HWY_INLINE TableEnd(float most) : most_(hn::Set(FloatTag(), most)), last_(hn::Set(FloatTag(), most - 1.0F)) {}
+  explicit HWY_INLINE TableEnd(float most)
+      : most_(hn::Set(FloatTag(), most)), last_(hn::Set(FloatTag(), most - 1.0F)) {}
 
   // The last step is one that has an entry after it.
   [[nodiscard]] HWY_INLINE TablePlaces places(hn::Vec<FloatTag> place) const {

@@ -15,7 +15,6 @@
 #include <cstdint>
 #include <span>
 #include <type_traits>
-#include <utility>
 
 #include "render/adaptive/quad-inl.h"
 #include "render/adaptive/tile_cover-inl.h"
@@ -39,6 +38,7 @@ class AnyScreen {
   void set_row(const PixelRow& row) { row_ = &row; }
   [[nodiscard]] static SeenGroups seen(const PixelRow& /*row*/) { return {}; }
   [[nodiscard]] const AnyScreen& look(const PixelRow& /*row*/, Groups /*groups*/) const { return *this; }
+  [[nodiscard]] const AnyScreen& vector(int /*k*/) const { return *this; }
   [[nodiscard]] Quad passed(int k) const {
     const Vec2 pixel = row_->pixel(k);
     std::array<StopPlace, kMaxStopCrossings> room;
@@ -131,11 +131,11 @@ class QuadLight {
       HWY_ALIGN float cover[kGroup] = {};
       hn::Store(covered, d, cover);
       const int from = k, end = std::min(k + static_cast<int>(hn::Lanes(d)), row_.count);
-      if constexpr (requires { look.look_at(k); }) look.look_at(k);
+      const auto& seen = look.vector(k);
       for (; k < end; ++k) {
         const Quad irradiance = multiply_add(slope_, Quad::all(static_cast<float>(row_.first + k)), level_);
         float* const pixel = to + TileSums::kPixel * static_cast<std::size_t>(k);
-        multiply_add(Quad::all(cover[k - from]) * irradiance, look.passed(k), Quad::load(pixel)).store(pixel);
+        multiply_add(Quad::all(cover[k - from]) * irradiance, seen.passed(k), Quad::load(pixel)).store(pixel);
       }
     }
 
@@ -208,8 +208,7 @@ class GreyLight {
     static HWY_INLINE hn::Vec<WideTag> columns(int first) {
       const WideTag d;
       const hn::RebindToSigned<WideTag> di;
-      return hn::Add(hn::Set(d, static_cast<float>(first)),
-                     hn::ConvertTo(d, hn::ShiftRight<2>(hn::Iota(di, 0))));
+      return hn::Add(hn::Set(d, static_cast<float>(first)), hn::ConvertTo(d, hn::ShiftRight<2>(hn::Iota(di, 0))));
     }
     template <class D>
     static HWY_INLINE hn::Vec<D> wide(D d, hn::Vec<FloatTag> v) {
@@ -227,8 +226,8 @@ class GreyLight {
   HWY_ALIGN float level_[kLanes], slope_[kLanes], by_row_[kLanes];
 };
 
-// Of a tile, the rows that a polygon may touch, and between which columns. covered_to: the column as far as all rows are
-// covered at the least; -1: not told.
+// Of a tile, the rows that a polygon may touch, and between which columns. covered_to: the column as far as all rows
+// are covered at the least; -1: not told.
 struct PixelRows {
   int first, last;
   int low_column, high_column;
@@ -262,8 +261,8 @@ class CoveredRows {
       const int last = std::min(std::max(changed_last, within.covered_to), tile.width - 1);
       if (changed_last >= tile.width) *tile.cover.at(row, tile.width) = 0.0F;  // the right border's
       const int first = changed_first / kFirst * kFirst;
-      if (changed_first <= last)
-        rows_[count_++] = {row, first, last - first + 1, begun.last, std::min(ended.first, tile.width)};
+      const int even_first = begun.last < 0 ? tile.width : begun.last, even_end = std::min(ended.first, tile.width);
+      if (changed_first <= last) rows_[count_++] = {row, first, last - first + 1, even_first, even_end};
     }
   }
   [[nodiscard]] std::span<const CoveredRow> all() const { return {rows_, count_}; }
@@ -303,8 +302,7 @@ HWY_INLINE void add_row(TileSums& tile, RowOfPixels row, const RowShade& shade, 
   const int even_first = (columns.even_first - columns.first + kGroup - 1) / kGroup;
   const int even_end = (columns.even_end - columns.first) / kGroup;
   Groups skipped = 0, lit = 0;
-  if (even_first < even_end)
-    skipped = (seen.dark | seen.level) & first_groups(even_end) & ~first_groups(even_first);
+  if (even_first < even_end) skipped = (seen.dark | seen.level) & first_groups(even_end) & ~first_groups(even_first);
   for (int group = 0; group < groups;) {
     if ((skipped >> static_cast<unsigned>(group) & 1U) != 0) {
       if (row.cover.is_whole()) {
@@ -332,7 +330,7 @@ HWY_INLINE void add_row(TileSums& tile, RowOfPixels row, const RowShade& shade, 
 
 template <class Look>
 void add_pixels(TileSums& tile, const Polygon& polygon, const StopMap& map, const PixelRows& within, Look& look) {
-  constexpr int kShort = 8 * kGroup;  // pixels: what groups of them see tells more work than it saves
+  constexpr int kShort = 4 * kGroup;  // pixels: what groups of them see tells more work than it saves
   const CoveredRows rows(tile, within);
   const auto pixels_of = [&](const CoveredRow& r) {
     return PixelRow(tile.x0 + r.first, r.count, tile.y0 + r.row, map.origin());

@@ -90,7 +90,7 @@ struct TileSums {
   Blocks touched{};  // by changes
   std::vector<double> sums = std::vector<double>(kLanes * kPitch * TileGrid::kHeight, 0.0);
   std::array<std::array<double, kLanes>, TileGrid::kHeight> carried{};  // by row: sums left of the first column
-  Blocks lit{};                 // pixel by pixel
+  Blocks lit{};  // pixel by pixel
   struct alignas(64) Light {
     std::array<float, kPixel * kPixelPitch * TileGrid::kHeight> values{};
   };
