@@ -55,10 +55,13 @@ class ProgressReport {
   std::mutex mutex_;
 };
 
+// As many threads as cores: where the caller is, since the workers of a new arena are woken first, for as long as a
+// short loop takes. Nothing else of the caller's is run meanwhile: it may hold a lock.
 // An arena of more slots than the machine has cores needs the process-wide limit raised for its lifetime;
 // results for 7 threads can then be tried on 2 cores.
 template <class Body>
 void run_in_arena(int threads, Body body) {
+  if (threads == core_count()) return oneapi::tbb::this_task_arena::isolate(body);
   const oneapi::tbb::global_control limit(
       oneapi::tbb::global_control::max_allowed_parallelism,
       static_cast<std::size_t>(std::max(threads, core_count())));

@@ -10,6 +10,7 @@
 #include "adaptive/scene.h"
 #include "render/adaptive/cell_painter.h"
 #include "render/adaptive/lobatto.h"
+#include "render/adaptive/shared_edges.h"
 #include "render/screens/iris_screens.h"
 
 using namespace contrejour;
@@ -32,6 +33,7 @@ struct AffineGhost {
   std::vector<Affine> rims;  // to coordinates over the semi-diameter
   double flux = 3.0;         // of the whole box, green; red has twice as much, blue none
   int weights = 1;           // or 3
+  double bend_px = 0.0;      // by which corners at u = 1 are farther along y, with (u + 1)^4, and back at v = 0
 
   [[nodiscard]] Patch patch() const {
     Patch patch;
@@ -46,7 +48,8 @@ struct AffineGhost {
       const auto n = static_cast<std::size_t>(nodes);
       const Vec2 uv{points[k % n], points[k / n]};
       const auto set = [&](int field, double value) { patch.field(field)[k] = static_cast<float>(value); };
-      const Vec2 p = pixels(uv) - patch.origin_px;
+      const Vec2 bend{0.0, bend_px * std::pow(0.5 * (uv.x + 1.0), 4) * (2.0 * uv.y * uv.y - 1.0)};
+      const Vec2 p = pixels(uv) + bend - patch.origin_px;
       set(PatchLayout::kX, p.x);
       set(PatchLayout::kY, p.y);
       set(patch.layout.weight(0), weights == 1 ? 1.0 : 2.0);
@@ -161,6 +164,88 @@ TEST_CASE("one weight for all channels draws what one a channel draws") {
       CHECK(a.along_x[c] == doctest::Approx(b.along_x[c]).epsilon(1e-4).scale(1e-6 * a.value[0]));
     }
   }
+}
+
+TEST_CASE("cells of different sizes leave nothing between them, and overlap nowhere") {
+  AffineGhost ghost;
+  ghost.nodes = 9;
+  ghost.pixels = {{60.2, 0.0}, {0.0, 45.3}, {160.0, 100.0}};
+  for (const double bend_px : {-6.0, 6.0, 6.5}) {  // for which one mesh has them all
+    CAPTURE(bend_px);
+    ghost.bend_px = bend_px;
+    PolygonList list = painted(ghost, {}, 0.03);  // so that one mesh has them all
+    std::size_t most_corners = 0, fewest_corners = 100;
+    for (Polygon& p : list.polygons) {
+      p.shade = {p.shade.at, {1.0F, 1.0F, 1.0F}, {}, {}};
+      most_corners = std::max<std::size_t>(most_corners, p.count);
+      fewest_corners = std::min<std::size_t>(fewest_corners, p.count);
+    }
+    CHECK(most_corners > fewest_corners);
+    const Image image = test::drawn(list, kWidth, kHeight);
+    double farthest = 0.0;
+    for (int y = 100 - 40 + static_cast<int>(std::abs(bend_px)); y < 100 + 40 - static_cast<int>(std::abs(bend_px));
+         ++y)
+      for (int x = 101; x < 220; ++x) farthest = std::max(farthest, std::abs(image.at(x, y, 1) - 1.0));
+    CHECK(farthest < 1e-5);
+  }
+}
+
+TEST_CASE("even light is one plane, whatever cuts it: nothing is drawn between its cells") {
+  AffineGhost ghost;
+  ghost.nodes = 9;
+  ghost.pixels = {{70.0, 11.0}, {-8.0, 55.0}, {160.0, 100.0}};
+  ghost.stops = {{{1.3, 0.2}, {-0.1, 1.25}, {0.05, -0.03}}};
+  PolygonList list = painted(ghost, {}, 1e-4);
+  REQUIRE(list.polygons.size() >= 4);
+  for (const Polygon& p : list.polygons) CHECK(p.shade == list.polygons.front().shade);
+  const Image before = test::drawn(list, kWidth, kHeight);
+  share_edges(list, TileGrid(kWidth, kHeight));
+  CHECK(std::ranges::count(list.partner, PolygonList::kNotDrawn) >= 8);
+  for (const std::uint32_t partner : list.partner)
+    CHECK((partner == PolygonList::kAlone || partner == PolygonList::kNotDrawn));
+  const Image after = test::drawn(list, kWidth, kHeight);
+  double worst = 0.0;
+  for (std::size_t k = 0; k < before.pixels.size(); ++k)
+    worst = std::max(worst, std::abs(static_cast<double>(before.pixels[k]) - after.pixels[k]));
+  CHECK(worst < 1e-5 * *std::ranges::max_element(before.pixels));
+}
+
+TEST_CASE("a plane has the light of what it is drawn for, and tells how far it is off") {
+  const IrisShape iris(Iris{});
+  AffineGhost ghost;
+  ghost.nodes = 9;
+  ghost.pixels = {{60.2, 7.0}, {-9.0, 45.3}, {160.0, 100.0}};
+  for (const double bend_px : {0.0, 5.0}) {
+    ghost.bend_px = bend_px;
+    const Mesh mesh = make_mesh(ghost.patch(), iris);
+    const MeshLight light(mesh, ~0U);
+    for (const int size : {8, 4, 2}) {
+      for (int at = 0; at < Mesh::kCells; at += size) {
+        const auto plane = light.plane(at, 0, size);
+        REQUIRE(plane.has_value());
+        const double share = size * size / 64.0;
+        CHECK(plane->shade.value[1] * plane->area_px == doctest::Approx(ghost.flux * share).epsilon(1e-5));
+        CHECK(plane->shade.value[0] == doctest::Approx(2.0 * plane->shade.value[1]));
+        // Against the irradiance at each vertex, as pixels see it.
+        double worst = 0.0;
+        for (int y = 0; y <= size; ++y) {
+          for (int x = at; x <= at + size; ++x) {
+            const std::size_t v = Mesh::at(x, y);
+            const Vec2 p = mesh.position(v) + mesh.origin_px;
+            const double there = plane->shade.value[1] + plane->shade.along_x[1] * (p.x - plane->shade.at.x) +
+                                 plane->shade.along_y[1] * (p.y - plane->shade.at.y);
+            worst = std::max(worst, std::abs(there / mesh.irradiance(0, v) - 1.0));
+          }
+        }
+        const double told = std::sqrt(plane->squared_error / plane->area_px) / plane->mean;
+        CHECK(worst < 6.0 * told + 1e-4);
+        CHECK(worst >= told - 1e-4);
+      }
+    }
+  }
+  ghost.bend_px = 60.0;  // folds
+  const Mesh folded = make_mesh(ghost.patch(), iris);
+  CHECK_FALSE(MeshLight(folded, ~0U).plane(0, 0, 8).has_value());
 }
 
 TEST_CASE("a round iris, or one of blades, leaves its own area") {

@@ -48,7 +48,7 @@ TEST_CASE("a round iris inside a cell leaves its area") {
   for (const double step : {0.8, 0.2, 0.05}) {
     const auto cell = cell_with<4>({Vec2{-2, -2}, Vec2{2, -2}, Vec2{2, 2}, Vec2{-2, 2}});
     const double whole = std::numbers::pi * r * r * kSide_px * kSide_px;
-    CHECK(area_of(cutter.open_part(cell, 1, 0, step)) == doctest::Approx(whole).epsilon(1e-6));
+    CHECK(area_of(cutter.open_part(cell, cell, 1, 0, step)) == doctest::Approx(whole).epsilon(1e-6));
   }
 }
 
@@ -63,8 +63,8 @@ TEST_CASE("a rim that bends within a cell of bent sides cuts along its curve") {
                                     height({0.5, 1}), height({0, 1}), height({0, 0.5})});
     const auto straight = cell_with<4>({height({0, 0}), height({1, 0}), height({1, 1}), height({0, 1})});
     const double whole = std::numbers::pi / 4.0 * r * r * kSide_px * kSide_px;
-    CHECK(area_of(cutter.open_part(bent, 0, 1, 0.1)) / whole == doctest::Approx(1.0).epsilon(0.06));
-    CHECK(std::abs(area_of(cutter.open_part(straight, 0, 1, 0.1)) / whole - 1.0) > 0.1);
+    CHECK(area_of(cutter.open_part(bent, bent, 0, 1, 0.1)) / whole == doctest::Approx(1.0).epsilon(0.06));
+    CHECK(std::abs(area_of(cutter.open_part(straight, straight, 0, 1, 0.1)) / whole - 1.0) > 0.1);
   }
 }
 
@@ -77,10 +77,10 @@ TEST_CASE("arcs and straight edges lie where bent stop coordinates put them") {
   const IrisShape round{Iris{}};
   OutlineCutter by_circle(round);
   const double disc = std::numbers::pi / 16.0 * kSide_px * kSide_px;  // the map keeps areas but for the scale
-  CHECK(area_of(by_circle.open_part(cell, 1, 0, 0.05)) == doctest::Approx(disc).epsilon(1e-3));
+  CHECK(area_of(by_circle.open_part(cell, cell, 1, 0, 0.05)) == doctest::Approx(disc).epsilon(1e-3));
   const IrisShape square{Iris{.blades = 4}};
   OutlineCutter by_lines(square);
-  CHECK(area_of(by_lines.open_part(cell, 1, 0, 0.05)) == doctest::Approx(disc * 2.0 / std::numbers::pi).epsilon(0.012));
+  CHECK(area_of(by_lines.open_part(cell, cell, 1, 0, 0.05)) == doctest::Approx(disc * 2.0 / std::numbers::pi).epsilon(0.012));
 }
 
 // One ghost of the Nikon became a polygon of 1e10 pixels where the map to the stop folds within a cell.
@@ -98,7 +98,7 @@ TEST_CASE("nothing is cut to beyond the cell, wherever its corners cross the sto
     const auto cell = cell_with<4>({stop[0], stop[1], stop[2], stop[3]});
     const std::span<const Corner> whole =
         round % 3 == 0 ? std::span<const Corner>(bent) : std::span<const Corner>(cell.data(), round % 3 == 1 ? 4 : 3);
-    const auto part = cutter.open_part(whole, 1, 0, 0.1);
+    const auto part = cutter.open_part(whole, whole, 1, 0, 0.1);
     if (part.size() > 4) ++cut;
     bool inside = true;
     for (const Corner& c : part) {

@@ -191,7 +191,7 @@ TEST_CASE("edges that neighbours share are drawn once, and nothing else changes"
   }
   const Image apart = test::drawn(list, width, height);
   share_edges(list, TileGrid(width, height));
-  const auto shared = std::count(list.partner.begin(), list.partner.end(), PolygonList::kDrawnByPartner);
+  const auto shared = std::count(list.partner.begin(), list.partner.end(), PolygonList::kNotDrawn);
   CHECK(shared > kCells * kCells / 3);
   CHECK(std::count(list.partner.begin(), list.partner.end(), PolygonList::kAlone) > 4 * kCells);
   const Image together = test::drawn(list, width, height);

@@ -18,6 +18,7 @@ constexpr double kPictureEdges = 6.0;  // that cut a cell, as long as it is, whe
 constexpr double kShadeBound = 4.0;  // the irradiance is linear over the cell in pixels, not in shares of it
 constexpr double kEdgeBound = 2.0;  // what edges are off is all seen, where levels are off by less than their bounds
 constexpr double kFoldBound = 0.5;  // of a fold's flux, that is out of place
+constexpr double kShownOfShared = 0.1;  // of how far sides that cells share are off, where edges cut them
 constexpr double kMostBend = 0.04;  // of a cell, that what cuts it may be off
 constexpr double kLeftByBend = 0.25;  // of a curve's deviation from its chord, where a corner in its middle bends it
 constexpr double kChordShare = 0.5;  // of a cell's error, that chords in place of an arc may make
@@ -64,7 +65,11 @@ double off_crossing(double from, double middle, double to) {
 
 }  // namespace
 
-CellPainter::CellMeasure CellPainter::measure(const Mesh& mesh, const Cell& cell, State state) const {
+bool CellPainter::shows_facets(double area_px, double mean, double off_plane) const {
+  return area_px > kFacet_px && mean > kFacetLevel * peak_ && off_plane > kFacet * kFacet * mean * mean;
+}
+
+CellPainter::CellMeasure CellPainter::measure(const Mesh& mesh, const Cell& cell, State state, bool on_plane) const {
   const std::array<std::size_t, 9> v{cell.corner[0], cell.side[0],   cell.corner[1], cell.side[3],  cell.middle,
                                      cell.side[1],   cell.corner[3], cell.side[2],   cell.corner[2]};
   CellMeasure m;
@@ -91,9 +96,12 @@ CellPainter::CellMeasure CellPainter::measure(const Mesh& mesh, const Cell& cell
     return m;
   }
   const auto e = [&](std::size_t k) { return static_cast<double>(mesh.brightness[v[k]]); };
-  m.off_plane = off_plane(e);
+  m.on_plane = on_plane;
+  if (!on_plane) m.off_plane = off_plane(e);
+  const auto [lowest, highest] = std::ranges::minmax(v, {}, [&](std::size_t k) { return mesh.brightness[k]; });
+  m.range = static_cast<double>(mesh.brightness[highest]) - mesh.brightness[lowest];
   m.area_px = std::abs(mesh.area[cell.middle]) * cell.size * cell.size;
-  if (m.area_px > kFacet_px && m.mean * cell.screen.most > kFacetLevel * peak_) {
+  if (!on_plane && m.area_px > kFacet_px && m.mean * cell.screen.most > kFacetLevel * peak_) {
     double facet = mesh.layout.weights == 1 ? m.off_plane : 0.0;
     for (int c = 0; c < 3 && mesh.layout.weights == 3; ++c)
       facet += off_plane([&](std::size_t k) { return mesh.irradiance(c, v[k]); }) / 3.0;
@@ -125,43 +133,56 @@ double CellPainter::squared_error(const Mesh& mesh, const Cell& cell, CellMeasur
   if (passed == 0.0) return 0.0;
   if (m.whole) return passed * passed * *m.whole;
   // What is drawn has the flux over the polygon's area for its mean.
-  const Outline outline = outline_of(cell, sides);
-  const double drawn_px = std::abs(
-      area_of(outline.count, [&](std::size_t k) { return mesh.position(outline.corners[k].vertex); }).signed_px);
+  const Shape shape = shape_of(cell, sides);
+  const double drawn_px =
+      std::abs(area_of(shape.count, [&](std::size_t k) { return mesh.position(shape.corners[k].vertex); }).signed_px);
   const double off_level = m.flux / std::max(drawn_px, 1e-12) - m.flux / std::max(m.image_px, 1e-12);
   const double width =
       std::min(1.0, m.area_px / std::max(m.longest_px, 1e-6));  // a sliver's flux is spread over a pixel
-  double error = kShadeBound * (m.off_plane + off_level * off_level) * m.area_px * width;
+  double error = m.on_plane ? 0.0 : kShadeBound * (m.off_plane + off_level * off_level) * m.area_px * width;
 
-  // Sides off their place: beside a cell with more corners they overlap or leave a gap, cut ones are seen.
   const double left = sides == Sides::Bent ? kLeftByBend : 1.0;
   const double seen = m.mean * m.mean * width * width;
-  double most_off = 0.0;
-  for (std::size_t k = 0; k < 4; ++k) {
-    const Vec2 a = mesh.position(cell.corner[k]);
-    const Vec2 c = mesh.position(cell.corner[(k + 1) % 4]);
-    const double off = left * length(mesh.position(cell.side[k]) - (a + c) * 0.5);
-    most_off = std::max(most_off, off);
-    error += kEdgeBound * seen * std::min(off * off, off) * length(c - a);
-  }
+  const SidesOff off = sides_off(mesh, cell, state, left);
+  error += kEdgeBound * seen * off.strips;
+  // Where cells meet off their place, irradiance is taken from beside its own.
+  const double beside = m.on_plane ? 0.0 : m.range * std::min(off.shared_px / std::max(m.longest_px, 1e-6), 1.0);
+  error += kShadeBound * beside * beside * m.area_px * width;
   if (is_dirty(mesh, cell)) error += seen * shadow_error(mesh, cell);
-  const auto along_edges = [&](double off, double edges) {
-    return seen * std::min(off * off, off) * edges * m.longest_px;
-  };
+  const auto along_edges = [&](double by, double edges) { return seen * std::min(by * by, by) * edges * m.longest_px; };
   if (state == State::Cut)
     error += kEdgeBound * along_edges(left * m.limit * m.longest_px, iris_.is_picture() ? kPictureEdges : 1.0);
   if (cell.screen.part == ScreenPart::Varied && m.longest_px > kOnePlace_px && error < m.most) {  // soft ones
     if (!m.map_error) m.map_error = map_error(mesh, cell, m.longest_px);
-    const double off = *m.map_error * m.longest_px;
-    const double shown = off < kLittleOff_px ? kSeenOfLittle : 1.0;
-    error += shown * along_edges(off, std::min(1.0, stop_size(mesh, cell) / (screen_->unit * m.longest_px)));
+    const double map_off = *m.map_error * m.longest_px;
+    const double shown = map_off < kLittleOff_px ? kSeenOfLittle : 1.0;
+    error += shown * along_edges(map_off, std::min(1.0, stop_size(mesh, cell) / (screen_->unit * m.longest_px)));
   }
   // Far above the frame's peak only the relative error counts.
   const double dimmed = passed * seen_share(m.mean, peak_);
   error = std::min(error, m.most) * dimmed * dimmed;
   if (!sides_bend_ || m.longest_px < kSeamLength_px || m.mean * passed * width < kFacetLevel * peak_) return error;
-  const double seam = most_off / kSeam_px;
+  const double seam = off.alone_px / kSeam_px;
   return std::max(error, cell_budget() * seam * seam);
+}
+
+// What a cell shares its sides with has the same corners there: nothing is left between them, and of edges that cut
+// both only the ends are off. Beside a cell of another mesh, or one that is drawn as triangles, sides overlap or leave
+// gaps.
+CellPainter::SidesOff CellPainter::sides_off(const Mesh& mesh, const Cell& cell, State state, double left) const {
+  const bool triangles = is_dirty(mesh, cell) || (state == State::Cut && iris_.is_picture() && !screen_);
+  SidesOff out;
+  for (std::size_t k = 0; k < 4; ++k) {
+    const Vec2 a = mesh.position(cell.corner[k]);
+    const Vec2 c = mesh.position(cell.corner[(k + 1) % 4]);
+    const double off_px = left * length(mesh.position(cell.side[k]) - (a + c) * 0.5);
+    const bool shared = cell.shared[k] && !triangles;
+    double& most_px = shared ? out.shared_px : out.alone_px;
+    most_px = std::max(most_px, off_px);
+    const double shown = !shared ? 1.0 : state == State::Cut ? kShownOfShared : 0.0;
+    out.strips += shown * std::min(off_px * off_px, off_px) * length(c - a);
+  }
+  return out;
 }
 
 // How far the lines that cut the cell are off when stop coordinates and rims are taken as linear along its sides, as

@@ -9,14 +9,10 @@
 namespace contrejour::adaptive {
 namespace {
 
-constexpr int kDeepest = 7;          // quarterings of a patch
 constexpr double kSliver = 1e-3;     // pixels: mean width below which a polygon is a line
 constexpr double kUnseenDetail = 0.3;  // pixels, of a picture as the iris
 constexpr double kSpeck = 0.05;      // pixels: a polygon no longer than this is a point
 constexpr int kMostPoints = 256;     // that stand for a line
-constexpr double kStraight = 0.05;   // of a cell's budget, below which straight sides do: others meet bent ones
-// Half the cell, a fourth of the deviation of a curve from its chord: a sixteenth of the squared error.
-constexpr double kGainOfHalving = 16.0;
 
 }  // namespace
 
@@ -30,124 +26,29 @@ void CellPainter::dim(Shade& shade, Flux& flux, const Flux& share) {
   }
 }
 
-CellPainter::Cell CellPainter::cell_at(int ix, int iy, int size) {
-  Cell cell{.ix = ix, .iy = iy, .size = size};
-  const int half = size / 2;
-  cell.corner = {Mesh::at(ix, iy), Mesh::at(ix + size, iy), Mesh::at(ix + size, iy + size), Mesh::at(ix, iy + size)};
-  cell.side = {Mesh::at(ix + half, iy), Mesh::at(ix + size, iy + half), Mesh::at(ix + half, iy + size),
-               Mesh::at(ix, iy + half)};
-  cell.middle = Mesh::at(ix + half, iy + half);
-  return cell;
-}
-
-CellPainter::Outline CellPainter::outline_of(const Cell& cell, Sides sides) {
+CellPainter::Shape CellPainter::shape_of(const Cell& cell, Sides sides) {
   constexpr std::array<Vec2, 4> kCorner{Vec2{0, 0}, Vec2{1, 0}, Vec2{1, 1}, Vec2{0, 1}};
   constexpr std::array<Vec2, 4> kSide{Vec2{0.5, 0}, Vec2{1, 0.5}, Vec2{0.5, 1}, Vec2{0, 0.5}};
-  Outline out;
+  Shape out;
   for (std::size_t k = 0; k < 4; ++k) {
-    out.corners[out.count++] = {cell.corner[k], kCorner[k]};
-    if (sides == Sides::Bent) out.corners[out.count++] = {cell.side[k], kSide[k]};
+    out.add({cell.corner[k], kCorner[k]});
+    if (sides == Sides::Bent) out.add({cell.side[k], kSide[k]});
   }
   return out;
 }
 
-// Whether a line keeps the cell's crossings of the stop away from its rim: they may lie all around it, all outside.
-bool CellPainter::misses_stop(const Mesh& mesh, const Cell& cell, int crossing) {
-  const Mesh::Field& x = mesh.field(PatchLayout::kStop + 2 * crossing);
-  const Mesh::Field& y = mesh.field(PatchLayout::kStop + 2 * crossing + 1);
-  const Vec2 middle{x[cell.middle], y[cell.middle]};
-  const double distance = length(middle);
-  const auto beyond = [&](std::size_t v) { return dot(middle, Vec2{x[v], y[v]}) > distance; };
-  return beyond(cell.middle) && std::all_of(cell.corner.begin(), cell.corner.end(), beyond) &&
-         std::all_of(cell.side.begin(), cell.side.end(), beyond);
-}
-
-// Closed for certain only where one rim or one crossing of the iris blocks all of it. A screen cuts nothing: it is dark
-// where its light ends.
-CellPainter::State CellPainter::state_of(const Mesh& mesh, const Cell& cell) const {
-  std::uint32_t any = 0;
-  std::uint32_t all = ~0U;
-  for (int y = cell.iy; y <= cell.iy + cell.size; ++y) {
-    for (int x = cell.ix; x <= cell.ix + cell.size; ++x) {
-      any |= mesh.outside[Mesh::at(x, y)];
-      all &= mesh.outside[Mesh::at(x, y)];
+CellPainter::Outline CellPainter::outline_of(const Cell& cell, const std::bitset<Mesh::kVertices>& corners) {
+  constexpr std::array<std::array<int, 2>, 4> kAlong{{{1, 0}, {0, 1}, {-1, 0}, {0, -1}}};
+  Outline out;
+  int x = 0, y = 0;
+  for (const auto& along : kAlong) {
+    for (int step = 0; step < cell.size; ++step, x += along[0], y += along[1]) {
+      const std::size_t vertex = Mesh::at(cell.ix + x, cell.iy + y);
+      if (corners[vertex])
+        out.add({vertex, Vec2{x / static_cast<double>(cell.size), y / static_cast<double>(cell.size)}});
     }
   }
-  all &= ~Mesh::kNearObscuration;
-  if ((screen_ ? any >> mesh.layout.crossings : any) == 0) return State::Open;
-  if (all >> mesh.layout.crossings != 0) return State::Closed;
-  for (int c = 0; c < mesh.layout.crossings; ++c) {
-    if ((all >> c & 1U) != 0 && misses_stop(mesh, cell, c)) return State::Closed;
-  }
-  return State::Cut;
-}
-
-bool CellPainter::off_frame(const Mesh& mesh, const Cell& cell) const {
-  Bounds b;
-  for (const std::size_t v : cell.corner) b.add(mesh.position(v));
-  for (const std::size_t v : cell.side) b.add(mesh.position(v));
-  const Vec2 low = b.low + mesh.origin_px;
-  const Vec2 high = b.high + mesh.origin_px;
-  return !(high.x > 0.0 && high.y > 0.0 && low.x < width_ && low.y < height_);
-}
-
-std::optional<std::pair<CellPainter::Cell, CellPainter::State>> CellPainter::seen_cell(const Mesh& mesh, int ix, int iy,
-                                                                                       int size) const {
-  Cell cell = cell_at(ix, iy, size);
-  const State state = state_of(mesh, cell);
-  if (state == State::Closed || off_frame(mesh, cell)) return std::nullopt;
-  cell.screen = view_of_screen(mesh, cell);
-  if (cell.screen.part == ScreenPart::Dark || (screen_ && is_dim(mesh, cell, 1.0))) return std::nullopt;
-  return std::pair(cell, state);
-}
-
-bool CellPainter::wants_finer_mesh(const Mesh& mesh, int ix, int iy) const {
-  for (int y = iy; y < iy + Mesh::kCells / 2; y += 2) {
-    for (int x = ix; x < ix + Mesh::kCells / 2; x += 2) {
-      const auto seen = seen_cell(mesh, x, y, 2);
-      if (!seen) continue;
-      const auto& [cell, state] = *seen;
-      CellMeasure of = measure(mesh, cell, state);
-      if (squared_error(mesh, cell, of, state, most_bent(state)) > kGainOfHalving * cell_budget()) return true;
-    }
-  }
-  return false;
-}
-
-void CellPainter::paint(const Patch& patch, int depth) {
-  const Mesh mesh = make_mesh(patch, iris_);
-  constexpr int kHalf = Mesh::kCells / 2;
-  if (depth == 0 && patch.nodes <= 5 && !wants_finer_mesh(mesh, 0, 0) && !wants_finer_mesh(mesh, kHalf, 0) &&
-      !wants_finer_mesh(mesh, 0, kHalf) && !wants_finer_mesh(mesh, kHalf, kHalf)) {
-    paint_cell(mesh, 0, 0, Mesh::kCells);  // what so few nodes tell, nine vertices tell too
-    return;
-  }
-  const int first = patch.nodes <= 9 ? kHalf : kHalf / 2;  // 9 nodes: 3 x 3 vertices tell a quarter
-  for (int qy = 0; qy < 2; ++qy) {
-    for (int qx = 0; qx < 2; ++qx) {
-      if (depth < kDeepest && wants_finer_mesh(mesh, qx * kHalf, qy * kHalf)) {
-        paint(quarter(patch, qx, qy), depth + 1);
-        continue;
-      }
-      for (int y = qy * kHalf; y < (qy + 1) * kHalf; y += first) {
-        for (int x = qx * kHalf; x < (qx + 1) * kHalf; x += first) paint_cell(mesh, x, y, first);
-      }
-    }
-  }
-}
-
-void CellPainter::paint_cell(const Mesh& mesh, int ix, int iy, int size) {
-  const auto seen = seen_cell(mesh, ix, iy, size);
-  if (!seen) return;
-  const auto& [cell, state] = *seen;
-  if (size == 1) return draw(mesh, cell, state, Sides::Straight);
-  CellMeasure of = measure(mesh, cell, state);
-  if (squared_error(mesh, cell, of, state, Sides::Straight) <= kStraight * cell_budget())
-    return draw(mesh, cell, state, Sides::Straight);
-  const Sides sides = is_dirty(mesh, cell) ? Sides::Straight : most_bent(state);
-  if (squared_error(mesh, cell, of, state, sides) <= cell_budget()) return draw(mesh, cell, state, sides);
-  const int half = size / 2;
-  for (int k = 0; k < 4; ++k) paint_cell(mesh, ix + (k % 2) * half, iy + (k / 2) * half, half);
+  return out;
 }
 
 CellPainter::CellLevel CellPainter::cell_level(const Mesh& mesh, const Cell& cell, int weight) {
@@ -173,11 +74,11 @@ CellPainter::CellLevel CellPainter::cell_level(const Mesh& mesh, const Cell& cel
   return level;
 }
 
-void CellPainter::draw(const Mesh& mesh, const Cell& cell, State state, Sides sides) {
-  cells_ += 1.0;
+void CellPainter::draw(const Mesh& mesh, const ChosenCell& chosen, const std::bitset<Mesh::kVertices>& corners) {
+  const auto& [cell, state, sides, plane] = chosen;
   const std::array<Vec2, 4> p{mesh.position(cell.corner[0]), mesh.position(cell.corner[1]),
                               mesh.position(cell.corner[2]), mesh.position(cell.corner[3])};
-  const Outline outline = outline_of(cell, sides);
+  const Outline outline = outline_of(cell, corners);
   const auto [area, centroid] =
       area_of(outline.count, [&](std::size_t k) { return mesh.position(outline.corners[k].vertex); });
   bool convex = true;
@@ -208,9 +109,10 @@ void CellPainter::draw(const Mesh& mesh, const Cell& cell, State state, Sides si
     shade.along_x[c] = static_cast<float>((level.along_d * f.y - level.along_f * d.y) * scale);
     shade.along_y[c] = static_cast<float>((level.along_f * d.x - level.along_d * f.x) * scale);
   }
+  if (plane) shade = *plane;
   const auto draw_seen = [&](const StopMap* map) {
     if (is_dirty(mesh, cell)) return draw_dirty(mesh, cell, state, shade, flux, map);
-    draw_polygon(mesh, state, shade, flux, outline.all(), {map});
+    draw_polygon(mesh, state, shade, flux, shape_of(cell, sides).all(), outline.all(), {map});
   };
   const bool varied = cell.screen.part == ScreenPart::Varied;
   const bool one_place = std::max(length(d), length(f)) < kOnePlace_px;
@@ -245,29 +147,35 @@ void CellPainter::draw_folded(const Mesh& mesh, const Cell& cell, State state) {
     if (mean) dim(shade, flux, mean_passed(mesh, cell, one_place ? 1 : kMeanParts));
     const auto map = varied && !mean ? std::optional(stop_map(mesh, t)) : std::nullopt;
     const auto dirt = is_dirty(mesh, cell) ? std::optional(dirt_triangle(mesh, t)) : std::nullopt;
-    draw_polygon(mesh, state, shade, flux, corners, {map ? &*map : nullptr, dirt ? &*dirt : nullptr});
+    draw_polygon(mesh, state, shade, flux, corners, corners, {map ? &*map : nullptr, dirt ? &*dirt : nullptr});
   }
 }
 
-void CellPainter::draw_polygon(const Mesh& mesh, State state, const Shade& shade, const Flux& flux,
-                               std::span<const CellCorner> corners, const Behind& behind) {
-  std::array<Corner, 8> whole;
+std::span<const Corner> CellPainter::placed(const Mesh& mesh, State state, std::span<const CellCorner> corners,
+                                            std::vector<Corner>& to) {
+  to.resize(corners.size());
   for (std::size_t k = 0; k < corners.size(); ++k) {
-    Corner& corner = whole[k];
-    corner.position = mesh.position(corners[k].vertex) + mesh.origin_px;
-    corner.uv = corners[k].uv;
-    for (int f = PatchLayout::kStop; state == State::Cut && f < mesh.layout.limits_end(); ++f) {
-      corner.limit[static_cast<std::size_t>(f - PatchLayout::kStop)] = mesh.field(f)[corners[k].vertex];
-    }
+    to[k].position = mesh.position(corners[k].vertex) + mesh.origin_px;
+    to[k].uv = corners[k].uv;
+    for (int f = PatchLayout::kStop; state == State::Cut && f < mesh.layout.limits_end(); ++f)
+      to[k].limit[static_cast<std::size_t>(f - PatchLayout::kStop)] = mesh.field(f)[corners[k].vertex];
   }
-  std::span<const Corner> polygon(whole.data(), corners.size());
-  if (state == State::Cut && screen_) {
-    polygon = cutter_.within_rims(polygon, mesh.layout.crossings, mesh.layout.rims);
-  } else if (state == State::Cut) {
-    if (iris_.is_picture()) return draw_pieces(mesh, polygon, shade, flux, behind);
-    polygon = cutter_.open_part(polygon, mesh.layout.crossings, mesh.layout.rims, arc_step(mesh, corners, shade));
-  }
-  draw_part(polygon, shade, flux, corners.size() == 3, behind);
+  return to;
+}
+
+void CellPainter::draw_polygon(const Mesh& mesh, State state, const Shade& shade, const Flux& flux,
+                               std::span<const CellCorner> shape, std::span<const CellCorner> outline,
+                               const Behind& behind) {
+  const bool triangle = shape.size() == 3;
+  if (state != State::Cut) return draw_part(placed(mesh, state, outline, outline_), shade, flux, triangle, behind);
+  const std::span<const Corner> whole = placed(mesh, state, shape, shape_);
+  if (iris_.is_picture() && !screen_) return draw_pieces(mesh, whole, shade, flux, behind);
+  const std::span<const Corner> along = outline.size() == shape.size() ? whole : placed(mesh, state, outline, outline_);
+  const PatchLayout& layout = mesh.layout;
+  const auto open = screen_
+                        ? cutter_.within_rims(whole, along, layout.crossings, layout.rims)
+                        : cutter_.open_part(whole, along, layout.crossings, layout.rims, arc_step(mesh, shape, shade));
+  draw_part(open, shade, flux, triangle, behind);
 }
 
 // What a picture as the iris leaves of a cell. Details that no pixel shows are drawn as their mean.

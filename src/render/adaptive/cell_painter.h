@@ -3,11 +3,13 @@
 #pragma once
 
 #include <algorithm>
+#include <bitset>
 #include <cstdint>
 #include <map>
 #include <optional>
 #include <utility>
 
+#include "render/adaptive/cell_plane.h"
 #include "render/adaptive/mesh.h"
 #include "render/adaptive/outline_cutter.h"
 #include "render/adaptive/placed_polygon.h"
@@ -25,7 +27,7 @@ class CellPainter {
       : iris_(iris), width_(frame.width), height_(frame.height), budget_(budget), few_cells_(few_cells), peak_(peak),
         out_(out), cutter_(iris) {}
 
-  void paint(const Patch& patch) { paint(patch, 0); }
+  void paint(const Patch& patch) { paint(patch, 0, std::nullopt); }
 
   // Of patches from here on: lines that are straight in them are bent in the entrance plane, so that where cells of
   // different sizes meet, their sides would leave seams between them.
@@ -60,13 +62,33 @@ class CellPainter {
     int ix = 0, iy = 0, size = 0;
     std::array<std::size_t, 4> corner{}, side{};
     std::size_t middle = 0;
+    std::array<bool, 4> shared{};  // sides that have cells of the same mesh beyond
     ScreenView screen{ScreenPart::Level, 1.0};  // all that is seen of it
+  };
+  enum class Sides : std::uint8_t { Straight, Bent };  // bent ones have a corner in their middle
+  struct ChosenCell {
+    Cell cell;
+    State state = State::Open;
+    Sides sides = Sides::Straight;
+    std::optional<Shade> plane;  // its irradiance is this, not its own
+  };
+  // What is drawn of a mesh. Each cell has for corners all vertices on its sides that any of them has, so that the
+  // sides that two of them share are the same, whatever their sizes.
+  struct ChosenCells {
+    std::array<bool, 4> finer{};  // quarters that have meshes of their own
+    std::array<std::optional<Shade>, 4> plane{};  // of quarters
+    std::optional<MeshLight> light;               // where no plane is of all of it
+    std::vector<ChosenCell> cells;
+    std::bitset<Mesh::kVertices> corners;
+
+    void add(const ChosenCell& chosen);
   };
   // What its errors are made of, with straight sides or bent ones.
   struct CellMeasure {
+    bool on_plane = false;            // its irradiance is that of more cells
     std::optional<double> whole;      // the squared error whatever its sides are; infinite: it must not be drawn
     double most = 0.0;                // squared error
-    double mean = 0.0;                // brightness
+    double mean = 0.0, range = 0.0;   // brightness, and how much it varies
     double off_plane = 0.0;           // mean square of what a plane leaves of it
     double area_px = 0.0;             // by the derivatives in its middle
     double image_px = 0.0, flux = 0.0;  // integrals over the cell
@@ -79,11 +101,20 @@ class CellPainter {
     std::size_t vertex = 0;
     Vec2 uv;
   };
-  enum class Sides : std::uint8_t { Straight, Bent };  // bent ones have a corner in their middle
-  struct Outline {
-    std::array<CellCorner, 8> corners;
+  template <std::size_t kMost>
+  struct Corners {
+    std::array<CellCorner, kMost> corners;
     std::size_t count = 0;
+    void add(const CellCorner& corner) { corners[count++] = corner; }
     [[nodiscard]] std::span<const CellCorner> all() const { return {corners.data(), count}; }
+  };
+  using Shape = Corners<8>;                    // a cell's corners, and if its sides bend their middles
+  using Outline = Corners<4 * Mesh::kCells>;  // and all that its neighbours have there
+
+  // How far a cell's sides are from where the map has them.
+  struct SidesOff {
+    double strips = 0.0;                        // squares of what is seen of them, times lengths, summed
+    double shared_px = 0.0, alone_px = 0.0;  // the most, of sides that cells share and others
   };
 
   static constexpr double kManyCells = 4.0;
@@ -100,13 +131,15 @@ class CellPainter {
   };
 
   static void dim(Shade& shade, Flux& flux, const Flux& share);
-  void paint(const Patch& patch, int depth);
-  void paint_cell(const Mesh& mesh, int ix, int iy, int size);
+  void paint(const Patch& patch, int depth, const std::optional<Shade>& plane);
+  void choose(const Mesh& mesh, int ix, int iy, int size, const std::optional<Shade>& plane, ChosenCells& chosen);
   [[nodiscard]] static CellLevel cell_level(const Mesh& mesh, const Cell& cell, int weight);
-  void draw(const Mesh& mesh, const Cell& cell, State state, Sides sides);
+  void draw(const Mesh& mesh, const ChosenCell& chosen, const std::bitset<Mesh::kVertices>& corners);
   void draw_folded(const Mesh& mesh, const Cell& cell, State state);
+  [[nodiscard]] static std::span<const Corner> placed(const Mesh& mesh, State state,
+                                                      std::span<const CellCorner> corners, std::vector<Corner>& to);
   void draw_polygon(const Mesh& mesh, State state, const Shade& shade, const Flux& flux,
-                    std::span<const CellCorner> corners, const Behind& behind);
+                    std::span<const CellCorner> shape, std::span<const CellCorner> outline, const Behind& behind);
   void draw_pieces(const Mesh& mesh, std::span<const Corner> cell, const Shade& shade, const Flux& flux,
                    const Behind& behind);
   void draw_part(std::span<const Corner> polygon, const Shade& shade, const Flux& flux, bool triangle,
@@ -151,20 +184,25 @@ class CellPainter {
   // quarter. Falling on, it would spend most of them where light gathers and nothing is gained.
   [[nodiscard]] double cell_budget() const { return budget_ / std::clamp(cells_, few_cells_, kManyCells * few_cells_); }
   [[nodiscard]] static Cell cell_at(int ix, int iy, int size);
-  // Of a cell that is neither closed nor off the frame; none if it is.
-  [[nodiscard]] std::optional<std::pair<Cell, State>> seen_cell(const Mesh& mesh, int ix, int iy, int size) const;
+  // Of a cell that is neither closed nor off the frame; none if it is. finer: as in ChosenCells.
+  [[nodiscard]] std::optional<std::pair<Cell, State>> seen_cell(const Mesh& mesh, const std::array<bool, 4>& finer,
+                                                                int ix, int iy, int size) const;
   [[nodiscard]] static bool misses_stop(const Mesh& mesh, const Cell& cell, int crossing);
   [[nodiscard]] State state_of(const Mesh& mesh, const Cell& cell) const;
   [[nodiscard]] bool off_frame(const Mesh& mesh, const Cell& cell) const;
-  [[nodiscard]] bool wants_finer_mesh(const Mesh& mesh, int ix, int iy) const;
-  [[nodiscard]] CellMeasure measure(const Mesh& mesh, const Cell& cell, State state) const;
+  [[nodiscard]] bool wants_finer_mesh(const Mesh& mesh, int ix, int iy, bool on_plane) const;
+  [[nodiscard]] std::optional<Shade> plane_for(const Mesh& mesh, int ix, int iy, int size, ChosenCells& chosen) const;
+  [[nodiscard]] bool shows_facets(double area_px, double mean, double off_plane) const;
+  [[nodiscard]] CellMeasure measure(const Mesh& mesh, const Cell& cell, State state, bool on_plane) const;
   [[nodiscard]] double squared_error(const Mesh& mesh, const Cell& cell, CellMeasure& of, State state,
                                      Sides sides) const;
+  [[nodiscard]] SidesOff sides_off(const Mesh& mesh, const Cell& cell, State state, double left) const;
   // A picture cuts triangles, within which corners on a cell's sides say nothing.
   [[nodiscard]] Sides most_bent(State state) const {
     return state == State::Cut && iris_.is_picture() ? Sides::Straight : Sides::Bent;
   }
-  [[nodiscard]] static Outline outline_of(const Cell& cell, Sides sides);
+  [[nodiscard]] static Shape shape_of(const Cell& cell, Sides sides);
+  [[nodiscard]] static Outline outline_of(const Cell& cell, const std::bitset<Mesh::kVertices>& corners);
   [[nodiscard]] static double obscuration_error(const Mesh::Field& field, const Cell& cell);
   [[nodiscard]] double limit_error(const Mesh& mesh, const Cell& cell) const;
   [[nodiscard]] double arc_step(const Mesh& mesh, std::span<const CellCorner> corners, const Shade& shade) const;
@@ -184,6 +222,7 @@ class CellPainter {
   std::vector<std::uint16_t> active_;
   PlacedPolygon rest_, strip_;  // of what is cut along edges
   std::vector<Corner> level_;
+  std::vector<Corner> shape_, outline_;  // of what is drawn
   OutlineCutter cutter_;
   std::vector<Point> points_;
 };

@@ -102,7 +102,7 @@ void CellPainter::draw_dirty(const Mesh& mesh, const Cell& cell, State state, co
                         std::array{cell.corner[0], cell.corner[2], cell.corner[3]}}) {
     const std::array<CellCorner, 3> corners{{{t[0], {0, 0}}, {t[1], {1, 0}}, {t[2], {1, 1}}}};
     const DirtTriangle dirt = dirt_triangle(mesh, t);
-    draw_polygon(mesh, state, shade, half, corners, {map, &dirt});
+    draw_polygon(mesh, state, shade, half, corners, corners, {map, &dirt});
   }
 }
 

@@ -14,7 +14,8 @@ struct Mesh {
   static constexpr int kCells = 8;
   static constexpr int kSide = kCells + 1;
   static constexpr int kStride = 16;
-  using Field = std::array<float, static_cast<std::size_t>(kSide) * kStride>;
+  static constexpr std::size_t kVertices = static_cast<std::size_t>(kSide) * kStride;
+  using Field = std::array<float, kVertices>;
 
   PatchLayout layout;
   Vec2 origin_px;
@@ -24,7 +25,7 @@ struct Mesh {
   Field brightness;                       // root mean square of the channels' irradiance, per pixel
   double cell_flux_area_mm2 = 0;          // of one cell
   Rgb gain;                               // as the patch's
-  std::array<std::uint32_t, static_cast<std::size_t>(kSide) * kStride> outside;  // bits: crossings, then rims
+  std::array<std::uint32_t, kVertices> outside;  // bits: crossings, then rims
   static constexpr std::uint32_t kNearObscuration = 1U << 31;  // a bit besides: one may begin before the next vertex
 
   [[nodiscard]] static std::size_t at(int ix, int iy) {

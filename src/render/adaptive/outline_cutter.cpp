@@ -266,25 +266,27 @@ std::optional<Vec2> OutlineCutter::uv_at_stop(const StopSeries& stop, Vec2 targe
   return uv;
 }
 
-std::span<const Corner> OutlineCutter::open_part(std::span<const Corner> whole, int crossings, int rims,
-                                                 double arc_step_rad) {
-  start_with(whole, crossings, rims);
+std::span<const Corner> OutlineCutter::open_part(std::span<const Corner> whole, std::span<const Corner> outline,
+                                                 int crossings, int rims, double arc_step_rad) {
+  start_with(whole, outline, crossings, rims);
   arc_step_ = arc_step_rad;
   for (int c = 0; c < crossings && !polygon_.empty(); ++c) cut_by_iris(static_cast<std::size_t>(2 * c));
   cut_by_rims(crossings, rims);
   return polygon_;
 }
 
-std::span<const Corner> OutlineCutter::within_rims(std::span<const Corner> whole, int crossings, int rims) {
-  start_with(whole, crossings, rims);
+std::span<const Corner> OutlineCutter::within_rims(std::span<const Corner> whole, std::span<const Corner> outline,
+                                                   int crossings, int rims) {
+  start_with(whole, outline, crossings, rims);
   cut_by_rims(crossings, rims);
   return polygon_;
 }
 
-void OutlineCutter::start_with(std::span<const Corner> whole, int crossings, int rims) {
+void OutlineCutter::start_with(std::span<const Corner> whole, std::span<const Corner> outline, int crossings,
+                               int rims) {
   whole_ = whole;
   limits_ = static_cast<std::size_t>(2 * crossings + rims);
-  polygon_.assign(whole.begin(), whole.end());
+  polygon_.assign(outline.begin(), outline.end());
 }
 
 void OutlineCutter::cut_by_rims(int crossings, int rims) {

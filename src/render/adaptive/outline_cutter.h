@@ -25,14 +25,16 @@ class OutlineCutter {
   explicit OutlineCutter(const IrisShape& iris) : iris_(iris) {}
 
   // whole: the cell's four corners at uv (0, 0), (1, 0), (1, 1), (0, 1), or the first three of them, or the four with
-  // the middle of the side that follows after each. Arcs get a corner
+  // the middle of the side that follows after each; between them is what they say. outline: those, and others on the
+  // sides between them. Arcs get a corner
   // every arc_step_rad / sqrt(r) at least, r their radius in stop radii. Empty when nothing is open. Valid until the
   // next call, as long as `whole` is.
-  [[nodiscard]] std::span<const Corner> open_part(std::span<const Corner> whole, int crossings, int rims,
-                                                  double arc_step_rad);
+  [[nodiscard]] std::span<const Corner> open_part(std::span<const Corner> whole, std::span<const Corner> outline,
+                                                  int crossings, int rims, double arc_step_rad);
 
   // The same where the iris does not cut.
-  [[nodiscard]] std::span<const Corner> within_rims(std::span<const Corner> whole, int crossings, int rims);
+  [[nodiscard]] std::span<const Corner> within_rims(std::span<const Corner> whole, std::span<const Corner> outline,
+                                                    int crossings, int rims);
 
   // The same for a picture: convex parts that do not overlap, each with the share of light that passes there. Details
   // are told apart down to `finest` of the cell's extent in the stop's plane.
@@ -63,7 +65,7 @@ class OutlineCutter {
     [[nodiscard]] Vec2 along_v(Vec2 uv) const;
   };
 
-  void start_with(std::span<const Corner> whole, int crossings, int rims);
+  void start_with(std::span<const Corner> whole, std::span<const Corner> outline, int crossings, int rims);
   void cut_by_iris(std::size_t limit);
   void cut_by_rims(int crossings, int rims);
   void cut_by_pieces(std::size_t limit, std::size_t first_rim, double finest, double open, const OpenPart& visit);

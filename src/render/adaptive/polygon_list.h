@@ -1,4 +1,5 @@
-// What is drawn: convex polygons with an irradiance that changes linearly over each, in pixels of the frame.
+// What is drawn: polygons with an irradiance that changes linearly over each, in pixels of the frame; convex, but for
+// sides that follow a curve.
 #pragma once
 
 #include <array>
@@ -17,6 +18,7 @@ namespace contrejour::adaptive {
 
 struct Point {
   float x = 0, y = 0;
+  friend bool operator==(const Point&, const Point&) = default;
 };
 
 using Channels = std::array<float, 4>;  // and a spare: four are read at once
@@ -25,6 +27,7 @@ using Channels = std::array<float, 4>;  // and a spare: four are read at once
 struct Shade {
   Point at;
   Channels value{}, along_x{}, along_y{};
+  friend bool operator==(const Shade&, const Shade&) = default;
 };
 
 // Positive where the corners turn from +x to +y.
@@ -62,11 +65,11 @@ struct Polygon {
 };
 
 struct PolygonList {
-  static constexpr std::uint32_t kAlone = ~0U, kDrawnByPartner = ~0U - 1;
+  static constexpr std::uint32_t kAlone = ~0U, kNotDrawn = ~0U - 1;
 
   std::vector<Point> corners;
-  // By corner, of the edge from there to the next: the other polygon that it is drawn for as well. Empty: all are
-  // alone.
+  // By corner, of the edge from there to the next: the other polygon that it is drawn for as well, if it is drawn.
+  // Empty: all are alone.
   std::vector<std::uint32_t> partner;
   std::vector<Polygon> polygons;
   std::vector<Screened> screened;

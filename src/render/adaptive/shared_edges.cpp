@@ -62,8 +62,9 @@ void share_edges(PolygonList& list, const TileGrid& grid) {
                       corners[k + 1 == polygon.count ? 0 : k + 1], polygon.turns_left};
       const Edge* const other = recent.take_or_keep(edge);
       if (other == nullptr) continue;
-      list.partner[edge.corner] = PolygonList::kDrawnByPartner;
-      list.partner[other->corner] = edge.polygon;
+      list.partner[edge.corner] = PolygonList::kNotDrawn;
+      const bool changes = list.polygons[other->polygon].shade != polygon.shade;
+      list.partner[other->corner] = changes ? edge.polygon : PolygonList::kNotDrawn;
     }
   }
 }

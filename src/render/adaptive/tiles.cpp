@@ -36,7 +36,7 @@ void add_polygon(TileSums& tile, const PolygonList& list, const Polygon& polygon
   }
   for_each_edge(tile, list, polygon, [&](Vec2 a, Vec2 b, std::size_t corner, double sign) {
     const std::uint32_t partner = list.partner_of(polygon.first + corner);
-    if (partner == PolygonList::kDrawnByPartner) return;
+    if (partner == PolygonList::kNotDrawn) return;
     const bool alone = partner == PolygonList::kAlone;
     EdgeShade<TileSums> change(alone ? shade : shade - row_shade(list.polygons[partner].shade, tile));
     add_clipped(tile, change, a, b, sign);
