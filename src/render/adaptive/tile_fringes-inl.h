@@ -193,7 +193,7 @@ class Fringes {
     PixelRow row;
     [[nodiscard]] HWY_INLINE Passed vector(int k) const { return {all, row, k}; }
   };
-  [[nodiscard]] HWY_INLINE Row look(const PixelRow& row, Groups /*groups*/) const { return {*this, row}; }
+  [[nodiscard]] HWY_INLINE Row look(const PixelRow& row) const { return {*this, row}; }
 
  private:
   Edges edges_;
@@ -267,7 +267,7 @@ class GreyFringe {
     EdgePlaces::Along edge_;
     PixelRow row_;
   };
-  [[nodiscard]] HWY_INLINE Row look(const PixelRow& row, Groups /*groups*/) const { return {*this, row}; }
+  [[nodiscard]] HWY_INLINE Row look(const PixelRow& row) const { return {*this, row}; }
 
  private:
   GreyTable table_;
@@ -295,7 +295,7 @@ class GreyFringes {
       return passed;
     }
   };
-  [[nodiscard]] HWY_INLINE Row look(const PixelRow& row, Groups /*groups*/) const { return {*this, row}; }
+  [[nodiscard]] HWY_INLINE Row look(const PixelRow& row) const { return {*this, row}; }
 
  private:
   Edges edges_;

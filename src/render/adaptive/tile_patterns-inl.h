@@ -22,7 +22,7 @@ namespace contrejour::adaptive::HWY_NAMESPACE {
 
 static_assert(screens::BandPattern::kStride == 4);
 
-// Places in a pattern's samples along rows.
+// Places in a pattern's samples along rows. Which pixels see nothing is not asked: hulls have cut off what is dark.
 class PatternPlaces {
  public:
   PatternPlaces(const screens::BandPattern::Level& level, double extent, const StopMap& map)
@@ -70,16 +70,15 @@ class Pattern {
   }
 
   HWY_INLINE void set_row(const PixelRow& row) { places_.set_row(row); }
-  [[nodiscard]] static SeenGroups seen(const PixelRow& /*row*/) { return {}; }  // hulls have cut off what is dark
-  HWY_INLINE const Pattern& look(const PixelRow& row, Groups groups) {
+  HWY_INLINE const Pattern& look(const PixelRow& row) {
     const PatternPlaces::Along places(places_, row);
-    for_each_vector(groups, [&](int k) HWY_ATTR {
+    for (int k = 0; k < row.count; k += static_cast<int>(hn::MaxLanes(FloatTag()))) {
       const TablePlaces across = places.across(k), down = places.down(k);
       hn::Store(across.whole, IntTag(), column_ + k);
       hn::Store(across.rest, FloatTag(), right_ + k);
       hn::Store(down.whole, IntTag(), line_ + k);
       hn::Store(down.rest, FloatTag(), below_ + k);
-    });
+    }
     return *this;
   }
   [[nodiscard]] HWY_INLINE const Pattern& vector(int /*k*/) const { return *this; }
@@ -133,8 +132,6 @@ class GreyPattern {
     }
   }
 
-  [[nodiscard]] static SeenGroups seen(const PixelRow& /*row*/) { return {}; }  // hulls have cut off what is dark
-
   class Row {
    public:
     HWY_INLINE Row(const GreyPattern& all, const PixelRow& row)
@@ -152,7 +149,7 @@ class GreyPattern {
     std::ptrdiff_t pitch_;
     hn::Vec<IntTag> down_;
   };
-  [[nodiscard]] HWY_INLINE Row look(const PixelRow& row, Groups /*groups*/) const { return {*this, row}; }
+  [[nodiscard]] HWY_INLINE Row look(const PixelRow& row) const { return {*this, row}; }
 
  private:
   GreyPattern(const screens::BandPattern& pattern, const screens::BandPattern::Level& level, const StopMap& map)

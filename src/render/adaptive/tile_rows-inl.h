@@ -93,15 +93,6 @@ constexpr std::size_t kRowRoom = TileGrid::kWidth + kGroup;
   return count >= 64 ? ~Groups{0} : (Groups{1} << static_cast<unsigned>(count)) - 1;
 }
 
-// Calls `visit(k)` for vectors of pixels from k on, as many as the groups have.
-template <class Visit>
-HWY_INLINE void for_each_vector(Groups groups, const Visit& visit) {
-  for (; groups != 0; groups &= groups - 1) {
-    const int from = kGroup * std::countr_zero(groups);
-    for (int k = 0; k < kGroup; k += static_cast<int>(hn::Lanes(FloatTag()))) visit(from + k);
-  }
-}
-
 // The groups of a row whose middles' places pass `test(places)`.
 template <class Test>
 HWY_INLINE Groups groups_that(const PixelRow& row, const Test& test) {

@@ -36,8 +36,7 @@ class AnyScreen {
       : screen_(screen), map_(map), dirt_(dirt) {}
 
   void set_row(const PixelRow& row) { row_ = &row; }
-  [[nodiscard]] static SeenGroups seen(const PixelRow& /*row*/) { return {}; }
-  [[nodiscard]] const AnyScreen& look(const PixelRow& /*row*/, Groups /*groups*/) const { return *this; }
+  [[nodiscard]] const AnyScreen& look(const PixelRow& /*row*/) const { return *this; }
   [[nodiscard]] const AnyScreen& vector(int /*k*/) const { return *this; }
   [[nodiscard]] Quad passed(int k) const {
     const Vec2 pixel = row_->pixel(k);
@@ -344,13 +343,13 @@ void add_pixels(TileSums& tile, const Polygon& polygon, const StopMap& map, cons
     const PixelRow pixels = pixels_of(r);
     look.set_row(pixels);
     const RowOfPixels row(tile, r, within);
-    const Groups all = first_groups((r.count + kGroup - 1) / kGroup);
-    if (r.count <= kShort) {
-      add_row(tile, row, look.look(pixels, all), typename Light::Row(light, r));
-      continue;
+    if constexpr (requires { look.seen(pixels); }) {
+      if (r.count > kShort) {
+        add_row(tile, row, shade, look.seen(pixels), look.look(pixels), typename Light::Row(light, r));
+        continue;
+      }
     }
-    const SeenGroups seen = look.seen(pixels);
-    add_row(tile, row, shade, seen, look.look(pixels, all & ~seen.dark), typename Light::Row(light, r));
+    add_row(tile, row, look.look(pixels), typename Light::Row(light, r));
   }
 }
 
