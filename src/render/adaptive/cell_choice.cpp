@@ -17,7 +17,7 @@ constexpr int kDeepest = 7;          // quarterings of a patch
 constexpr double kStraight = 0.05;   // of a cell's budget, below which straight sides do: others meet bent ones
 // Half the cell, a fourth of the deviation of a curve from its chord: a sixteenth of the squared error.
 constexpr double kGainOfHalving = 16.0;
-constexpr double kPlane = 0.3;  // of a cell's budget, that a plane may leave of the irradiance of many
+constexpr double kPlane = 0.1;  // of a cell's budget, that a plane may leave of the irradiance of many
 constexpr double kWorthPlane_px = 1000.0;  // fewer pixels: sides between cells are short
 constexpr double kPlaneOff = 0.1;  // RMS, of its mean, however much the budget is
 
