@@ -87,7 +87,7 @@ HWY_INLINE void add_flat_cover(CoverSums& tile, int row, double left, double rig
   float* const to = tile.at(row, first);
   const auto all = [&](double v) { return hn::Set(d, static_cast<float>(v)); };
   const auto from = all(left - first), width = all(right - left), one = hn::Set(d, 1.0F), none = hn::Zero(d);
-  const auto high = all(dy), half = all(half_rise);
+  const auto high = all(dy), half = all(half_rise), end = all(last + 1 - first);
   const auto within = [&](hn::Vec<FloatTag> u) HWY_ATTR { return hn::Min(hn::Max(u, none), width); };
   const auto beyond = [&](hn::Vec<FloatTag> u) HWY_ATTR { return hn::Min(hn::Max(hn::Sub(u, width), none), one); };
   for (int k = 0; k <= last + 1 - first; k += static_cast<int>(hn::Lanes(d))) {
@@ -98,7 +98,8 @@ HWY_INLINE void add_flat_cover(CoverSums& tile, int row, double left, double rig
     const auto square = hn::Sub(hn::Mul(hn::Sub(after, here), hn::Add(after, here)),
                                 hn::Mul(hn::Sub(here, before), hn::Add(here, before)));
     const auto change = hn::MulAdd(half, square, hn::Mul(high, hn::Sub(beyond(next), beyond(u))));
-    hn::StoreU(hn::Add(hn::LoadU(d, to + k), change), d, to + k);
+    const auto used = hn::Le(hn::Iota(d, static_cast<float>(k)), end);  // beyond is what rounding leaves
+    hn::StoreU(hn::Add(hn::LoadU(d, to + k), hn::IfThenElseZero(used, change)), d, to + k);
   }
 }
 

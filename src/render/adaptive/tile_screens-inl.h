@@ -258,9 +258,9 @@ class CoveredRows {
       const auto begun = tile.cover.begun.take(row), ended = tile.cover.ended.take(row);
       const int changed_first = std::min(begun.first, ended.first), changed_last = std::max(begun.last, ended.last);
       const int last = std::min(std::max(changed_last, within.covered_to), tile.width - 1);
-      if (changed_last >= tile.width) *tile.cover.at(row, tile.width) = 0.0F;  // the right border's
+      if (changed_last >= tile.width) std::fill_n(tile.cover.at(row, tile.width), 2, 0.0F);  // at the right border
       const int first = changed_first / kFirst * kFirst;
-      const int even_first = begun.last < 0 ? tile.width : begun.last, even_end = std::min(ended.first, tile.width);
+      const int even_first = begun.last < 0 ? tile.width : begun.last + 1, even_end = std::min(ended.first, tile.width);
       if (changed_first <= last) rows_[count_++] = {row, first, last - first + 1, even_first, even_end};
     }
   }
