@@ -81,7 +81,7 @@ std::shared_ptr<BandScreen> grey(std::shared_ptr<BandScreen> band) {
 }
 
 double entry_of(const EdgeTable& table, std::size_t k, std::size_t channel) {
-  return static_cast<double>(table.is_grey() ? table.coding().light(table.coded()[k])
+  return static_cast<double>(table.is_grey() ? table.steps()[k].factor
                                              : table.entries()[EdgeTable::kStride * k + channel]);
 }
 
@@ -161,6 +161,53 @@ TEST_CASE("edges' fringes: the table's, at every pixel") {
       return out;
     };
     CHECK(worst_difference(6, single, of_bound) < 2e-4);
+  }
+}
+
+TEST_CASE("light behind fringes: nothing of it stays beyond the frame, and parts of rows stay parts") {
+  const auto iris = blades();
+  bool alone = false;
+  SUBCASE("of several wavelengths") {}
+  SUBCASE("of one") { alone = true; }
+  const auto band = alone ? grey(edges(iris)) : edges(iris);
+  const EdgeTable table(*band, 1.0 / kRadius_px);
+  std::vector<std::uint16_t> all(iris->bounds().size());
+  for (std::size_t k = 0; k < all.size(); ++k) all[k] = static_cast<std::uint16_t>(k);
+  const Shade shade{{0.0F, 0.0F}, {1.0F, 2.0F, 3.0F, 0.0F}, {}, {}};
+  Fuzz fuzz(12);
+  // A frame with no whole blocks of columns, and the stop so large that rows see it level for many of them.
+  for (const int width : {61, 200, TileGrid::kWidth + 29}) {
+    for (int k = 0; k < 20; ++k) {
+      PolygonList list;
+      const double size = 40.0 * kRadius_px;
+      const Vec2 middle{fuzz(0.0, width), fuzz(0.0, kHeight)};
+      const StopMap map(pixels_about(middle, size), std::array{stop_about(k % 2 == 0 ? size : 0.05 * size)}, 0.2);
+      const auto x = [&] { return static_cast<float>(fuzz(-10.0, width + 30.0)); };
+      const auto y = [&] { return static_cast<float>(fuzz(-5.0, kHeight + 5.0)); };
+      for (int p = 0; p < 6; ++p) {
+        const float x0 = x(), x1 = x(), y0 = y(), y1 = y(),
+                    tilt = p % 2 == 0 ? 0.0F : static_cast<float>(fuzz(-9.0, 9.0));
+        const std::array corners{Point{x0, y0}, Point{x1, y0}, Point{x1 + tilt, y1}, Point{x0 + tilt, y1}};
+        list.add(corners, shade, Screened{map, band.get(), &table}, all);
+      }
+      // Beyond the right border from the middle of a block on, and what the next row of tiles has in those columns.
+      const float at = static_cast<float>(TileGrid::kWidth) + 5.5F, to = static_cast<float>(TileGrid::kHeight);
+      for (const auto& [x0, x1, y0, y1] : {std::array{at, at + 90.0F, 0.0F, to}, {9.0F, 70.0F, to + 1.0F, to + 8.0F}})
+        list.add(std::array{Point{x0, y0}, Point{x1, y0}, Point{x1, y1}, Point{x0, y1}}, shade,
+                 Screened{map, band.get(), &table}, all);
+      PlainImage plain(width, kHeight);
+      plain.add(list, [&](const Polygon&, Vec2 pixel) { return by_table(table, map.place(pixel)); });
+      const Image image = test::drawn(list, width, kHeight);
+      CHECK(plain.difference(image) < 2e-4);
+
+      // Whatever was drawn before with the same memory: as each row of tiles by itself.
+      const TileGrid grid(width, kHeight);
+      const TiledPolygons tiled{list, tile_lists(list, grid)};
+      Image by_row = image;
+      for (int row = grid.rows - 1; row >= 0; --row)
+        TileDrawer(grid).draw_rows({&tiled, 1}, row, row + 1, TileMode::Write, by_row);
+      CHECK(by_row.pixels == image.pixels);
+    }
   }
 }
 

@@ -35,8 +35,8 @@ EdgeTable::EdgeTable(const BandScreen& band, double width)
   }
   std::fill_n(&entries_[stride * (count_ - 1)], stride, 1.0F);
   if (!grey_) return;
-  coding_ = screens::ShortLight(*std::max_element(entries_.begin(), entries_.end()));
-  for (const float entry : entries_) coded_.push_back(coding_.coded(entry));
+  for (std::size_t k = 0; k < count_; ++k)
+    steps_.push_back({entries_[k], k + 1 < count_ ? entries_[k + 1] - entries_[k] : 0.0F});
   entries_ = {};
 }
 

@@ -2,12 +2,11 @@
 // adaptive looks up pixel by pixel. Differs: where two edges meet, the channels' means multiply, not each wavelength's.
 #pragma once
 
-#include <cstdint>
+#include <cstddef>
 #include <vector>
 
 #include "render/adaptive/polygon_screen.h"
 #include "render/screens/iris_screens.h"
-#include "render/screens/short_light.h"
 
 namespace contrejour::adaptive {
 
@@ -23,11 +22,13 @@ class EdgeTable {
   [[nodiscard]] double level_within() const { return level_within_; }  // and inside
 
   // The factors that a bound brings, from 0 at dark_beyond() outside it to 1 at level_within() inside, at even steps:
-  // coded where all channels are the same, else entries.
+  // steps where all channels are the same, else entries.
   [[nodiscard]] bool is_grey() const { return grey_; }
   [[nodiscard]] const float* entries() const { return entries_.data(); }
-  [[nodiscard]] const std::vector<std::uint16_t>& coded() const { return coded_; }
-  [[nodiscard]] const screens::ShortLight& coding() const { return coding_; }
+  struct Step {
+    float factor, rise;  // to the next; none at the last
+  };
+  [[nodiscard]] const std::vector<Step>& steps() const { return steps_; }
   [[nodiscard]] std::size_t count() const { return count_; }
   [[nodiscard]] double per_step() const { return per_step_; }  // entries a stop radius
 
@@ -37,8 +38,7 @@ class EdgeTable {
   double dark_beyond_, level_within_, per_step_;
   std::size_t count_;
   std::vector<float> entries_;
-  std::vector<std::uint16_t> coded_;
-  screens::ShortLight coding_;
+  std::vector<Step> steps_;
 };
 
 }  // namespace contrejour::adaptive

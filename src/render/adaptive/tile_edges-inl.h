@@ -40,7 +40,7 @@ HWY_INLINE RowShade row_shade(const Shade& shade, const TileSums& tile) {
   return {{level, along_x}, along_y};
 }
 
-// What coverage is multiplied by: a polygon's irradiance row by row, or for coverage alone nothing.
+// What coverage is multiplied by: a polygon's irradiance row by row, or for coverage alone (tile_cover-inl.h) nothing.
 template <class Sums>
 class EdgeShade {
  public:
@@ -54,22 +54,15 @@ class EdgeShade {
   QuadLine<double> row_;
 };
 
-template <>
-class EdgeShade<CoverSums> {
- public:
-  HWY_INLINE void set_row(int) {}
-  HWY_INLINE void add(double* to, double cover) const { *to += cover; }
-};
-
 // One stretch of an edge within a row of pixels, from x0 to x1 and dy high: coverage to its right, as differences.
 template <class Sums>
 HWY_INLINE void add_stretch(Sums& tile, int at_row, const EdgeShade<Sums>& shade, double x0, double x1, double dy) {
   if (x0 > x1) std::swap(x0, x1);
   const auto first = static_cast<int>(x0);
   const auto last = static_cast<int>(x1);
-  double* row = tile.at(at_row, 0);
+  auto* const from = tile.at(at_row, first);
   tile.touch(at_row, first, last + 1);
-  const auto column = [&](int k) { return row + Sums::kLanes * static_cast<std::size_t>(k); };
+  const auto column = [&](int k) { return from + Sums::kLanes * static_cast<std::size_t>(k - first); };
   if (first == last) {
     const double right = dy * (0.5 * (x0 + x1) - first);
     shade.add(column(first), dy - right);
@@ -127,7 +120,7 @@ HWY_INLINE void add_steep_edge(Sums& tile, EdgeShade<Sums> shade, Vec2 a, Vec2 b
     const double over = std::max(right, border) - border;
     const double in_last = half_dy_dx * over * over;  // a triangle that the next column does not cover
     const double covered = dy * (border - 0.5 * (x + x_next)) + in_last;
-    double* const column = tile.at(row, first);
+    auto* const column = tile.at(row, first);
     shade.set_row(row);
     shade.add(column, covered);
     shade.add(column + Sums::kLanes, dy - in_last - covered);

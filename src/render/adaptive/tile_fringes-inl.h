@@ -12,6 +12,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <span>
 #include <vector>
 
@@ -145,7 +146,7 @@ class Edges {
   std::span<EdgePlaces> all_;
 };
 
-// In three channels.
+// In three channels, of some pixels at a time.
 class Fringes {
  public:
   static constexpr bool kGrey = false;
@@ -154,51 +155,94 @@ class Fringes {
 
   HWY_INLINE void set_row(const PixelRow& row) { edges_.set_row(row); }
   [[nodiscard]] HWY_INLINE SeenGroups seen(const PixelRow& row) const { return edges_.seen(row); }
-  HWY_INLINE const Fringes& look(const PixelRow& row, Groups groups) {
-    for_each_vector(groups, [&](int k) HWY_ATTR {
-      const int end = std::min(k + static_cast<int>(hn::Lanes(FloatTag())), row.count);
-      for (int j = k; j < end; ++j) Quad::all(1.0F).store(passed_ + TileSums::kPixel * static_cast<std::size_t>(j));
-      edges_.look(row, k, [&](hn::Vec<FloatTag> place) HWY_ATTR { multiply(k, end, place); });
-    });
-    return *this;
-  }
-  [[nodiscard]] HWY_INLINE Quad passed(int k) const {
-    return Quad::load(passed_ + TileSums::kPixel * static_cast<std::size_t>(k));
-  }
+
+  // A vector of pixels, from k on.
+  class Passed {
+   public:
+    HWY_INLINE Passed(const Fringes& all, const PixelRow& row, int k) : first_(k) {
+      for (std::size_t j = 0; j < kLanes; ++j) Quad::all(1.0F).store(factors_ + kQuad * j);
+      all.edges_.look(row, k, [&](hn::Vec<FloatTag> place) HWY_ATTR { multiply(all, place); });
+    }
+    [[nodiscard]] HWY_INLINE Quad passed(int k) const {
+      return Quad::load(factors_ + kQuad * static_cast<std::size_t>(k - first_));
+    }
+
+   private:
+    static constexpr std::size_t kLanes = hn::MaxLanes(FloatTag());
+
+    HWY_INLINE void multiply(const Fringes& all, hn::Vec<FloatTag> place) {
+      const FloatTag d;
+      if (hn::AllTrue(d, hn::Ge(place, hn::Set(d, all.edges_.most())))) return;
+      const TablePlaces at = TableEnd(all.edges_.most()).places(place);
+      HWY_ALIGN std::int32_t whole[kLanes];
+      HWY_ALIGN float rest[kLanes];
+      hn::Store(at.whole, IntTag(), whole);
+      hn::Store(at.rest, d, rest);
+      for (std::size_t j = 0; j < kLanes; ++j) {
+        const float* const entry = all.entries_ + EdgeTable::kStride * static_cast<std::size_t>(whole[j]);
+        const Quad factor = mix(Quad::load(entry), Quad::load(entry + EdgeTable::kStride), Quad::all(rest[j]));
+        (Quad::load(factors_ + kQuad * j) * factor).store(factors_ + kQuad * j);
+      }
+    }
+
+    int first_;
+    HWY_ALIGN float factors_[kQuad * kLanes];
+  };
+  struct Row {
+    const Fringes& all;
+    PixelRow row;
+    [[nodiscard]] HWY_INLINE Passed vector(int k) const { return {all, row, k}; }
+  };
+  [[nodiscard]] HWY_INLINE Row look(const PixelRow& row) const { return {*this, row}; }
 
  private:
-  HWY_INLINE void multiply(int k, int end, hn::Vec<FloatTag> place) {
-    if (hn::AllTrue(FloatTag(), hn::Ge(place, hn::Set(FloatTag(), edges_.most())))) return;
-    const TablePlaces at = TableEnd(edges_.most()).places(place);
-    HWY_ALIGN std::int32_t whole[kGroup];
-    HWY_ALIGN float rest[kGroup];
-    hn::Store(at.whole, IntTag(), whole);
-    hn::Store(at.rest, FloatTag(), rest);
-    for (int j = k; j < end; ++j) {
-      const float* const entry = entries_ + EdgeTable::kStride * static_cast<std::size_t>(whole[j - k]);
-      const Quad factor = mix(Quad::load(entry), Quad::load(entry + EdgeTable::kStride), Quad::all(rest[j - k]));
-      (passed(j) * factor).store(passed_ + TileSums::kPixel * static_cast<std::size_t>(j));
-    }
-  }
-
   Edges edges_;
   const float* entries_;
-  HWY_ALIGN float passed_[TileSums::kPixel * TileGrid::kWidth];
 };
 
 // What fringes let through by place, one value for all channels.
 class GreyTable {
  public:
   explicit GreyTable(const EdgeTable& table)
-      : table_(table.coded(), table.coding()), end_(static_cast<float>(table.count() - 1)) {}
+      : steps_(table.steps().data()), end_(static_cast<float>(table.count() - 1)) {}
 
   [[nodiscard]] HWY_INLINE hn::Vec<FloatTag> at(hn::Vec<FloatTag> place) const {
-    const TablePlaces at = end_.places(place);
-    return hn::Sub(table_.between(ShortTable::Entries(at.whole), at.rest), table_.none());
+    const FloatTag d;
+    const TablePlaces at = end_.places_to_end(place);
+    HWY_ALIGN std::int32_t step[hn::MaxLanes(IntTag())];
+    hn::Store(at.whole, IntTag(), step);
+#if HWY_TARGET == HWY_SCALAR
+    return hn::MulAdd(at.rest, hn::Set(d, steps_[*step].rise), hn::Set(d, steps_[*step].factor));
+#else
+    const WordTag words;
+    constexpr std::size_t kHalf = hn::MaxLanes(WordTag());
+    const auto low = hn::BitCast(d, words_at(words, step)), high = hn::BitCast(d, words_at(words, step + kHalf));
+    return hn::MulAdd(at.rest, hn::ConcatOdd(d, high, low), hn::ConcatEven(d, high, low));
+#endif
   }
 
  private:
-  ShortTable table_;
+#if HWY_TARGET != HWY_SCALAR
+  using WordTag = hn::Repartition<std::uint64_t, FloatTag>;
+  // A step each, one by one: gathers are slower on many processors.
+  [[nodiscard]] std::uint64_t word(std::int32_t step) const {
+    static_assert(sizeof(EdgeTable::Step) == sizeof(std::uint64_t));
+    std::uint64_t out;
+    std::memcpy(&out, steps_ + step, sizeof out);
+    return out;
+  }
+  template <class D>
+  [[nodiscard]] HWY_INLINE hn::Vec<D> words_at(D d, const std::int32_t* step) const {
+    if constexpr (hn::MaxLanes(d) == 2) {
+      return hn::InterleaveLower(d, hn::Set(d, word(step[0])), hn::Set(d, word(step[1])));
+    } else {
+      const hn::Half<D> half;
+      return hn::Combine(d, words_at(half, step + hn::MaxLanes(half)), words_at(half, step));
+    }
+  }
+#endif
+
+  const EdgeTable::Step* steps_;
   TableEnd end_;
 };
 
@@ -223,7 +267,7 @@ class GreyFringe {
     EdgePlaces::Along edge_;
     PixelRow row_;
   };
-  [[nodiscard]] HWY_INLINE Row look(const PixelRow& row, Groups /*groups*/) const { return {*this, row}; }
+  [[nodiscard]] HWY_INLINE Row look(const PixelRow& row) const { return {*this, row}; }
 
  private:
   GreyTable table_;
@@ -251,7 +295,7 @@ class GreyFringes {
       return passed;
     }
   };
-  [[nodiscard]] HWY_INLINE Row look(const PixelRow& row, Groups /*groups*/) const { return {*this, row}; }
+  [[nodiscard]] HWY_INLINE Row look(const PixelRow& row) const { return {*this, row}; }
 
  private:
   Edges edges_;

@@ -13,7 +13,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <utility>
 
 #include "render/adaptive/quad-inl.h"
 #include "render/adaptive/tile_rows-inl.h"
@@ -23,7 +22,7 @@ namespace contrejour::adaptive::HWY_NAMESPACE {
 
 static_assert(screens::BandPattern::kStride == 4);
 
-// Places in a pattern's samples along rows.
+// Places in a pattern's samples along rows. Which pixels see nothing is not asked: hulls have cut off what is dark.
 class PatternPlaces {
  public:
   PatternPlaces(const screens::BandPattern::Level& level, double extent, const StopMap& map)
@@ -43,17 +42,16 @@ class PatternPlaces {
    public:
     HWY_INLINE Along(const PatternPlaces& all, const PixelRow& row)
         : column_(all.column_.along()), line_(all.line_.along()), end_(all.most_), row_(row) {}
-    [[nodiscard]] HWY_INLINE TablePlaces across(int k) const { return end_.places(column_.at(row_.x(k))); }
-    [[nodiscard]] HWY_INLINE TablePlaces down(int k) const { return end_.places(line_.at(row_.x(k))); }
+    [[nodiscard]] HWY_INLINE TablePlaces across(int k) const { return across_at(row_.x(k)); }
+    [[nodiscard]] HWY_INLINE TablePlaces down(int k) const { return down_at(row_.x(k)); }
+    [[nodiscard]] HWY_INLINE TablePlaces across_at(hn::Vec<FloatTag> x) const { return end_.places(column_.at(x)); }
+    [[nodiscard]] HWY_INLINE TablePlaces down_at(hn::Vec<FloatTag> x) const { return end_.places(line_.at(x)); }
 
    private:
     RowForm::Along column_, line_;
     TableEnd end_;
     PixelRow row_;
   };
-  // Of a pixel so far along the row.
-  [[nodiscard]] std::pair<float, float> at(float x) const { return {column_.at(x), line_.at(x)}; }
-  [[nodiscard]] bool holds(float place) const { return place > 0.0F && place < most_; }
 
  private:
   float most_;
@@ -72,18 +70,18 @@ class Pattern {
   }
 
   HWY_INLINE void set_row(const PixelRow& row) { places_.set_row(row); }
-  [[nodiscard]] static SeenGroups seen(const PixelRow& /*row*/) { return {}; }  // hulls have cut off what is dark
-  HWY_INLINE const Pattern& look(const PixelRow& row, Groups groups) {
+  HWY_INLINE const Pattern& look(const PixelRow& row) {
     const PatternPlaces::Along places(places_, row);
-    for_each_vector(groups, [&](int k) HWY_ATTR {
+    for (int k = 0; k < row.count; k += static_cast<int>(hn::MaxLanes(FloatTag()))) {
       const TablePlaces across = places.across(k), down = places.down(k);
       hn::Store(across.whole, IntTag(), column_ + k);
       hn::Store(across.rest, FloatTag(), right_ + k);
       hn::Store(down.whole, IntTag(), line_ + k);
       hn::Store(down.rest, FloatTag(), below_ + k);
-    });
+    }
     return *this;
   }
+  [[nodiscard]] HWY_INLINE const Pattern& vector(int /*k*/) const { return *this; }
   [[nodiscard]] HWY_INLINE Quad passed(int j) const {
     const float* const above = level_.samples.data() + static_cast<std::size_t>(line_[j]) * pitch_ +
                                kStride * static_cast<std::size_t>(column_[j]);
@@ -116,24 +114,23 @@ class GreyPattern {
   HWY_INLINE void set_row(const PixelRow& row) { places_.set_row(row); }
 
   // Asks for what a row of pixels will look up: patterns are far away, and most of their samples are wanted but once.
+  // Of every other pixel, and of those between in the next row: a line of memory holds several on the way to one of
+  // them.
   HWY_INLINE void fetch(const PixelRow& row) {
-    constexpr float kLine = 32.0F;  // samples, of memory
-    constexpr int kMost = 16;
+    constexpr int kEvery = 2, kLanes = static_cast<int>(hn::MaxLanes(FloatTag()));
+    const FloatTag d;
     places_.set_row(row);
-    const auto [x0, y0] = places_.at(row.from_x);
-    const auto [x1, y1] = places_.at(row.from_x + static_cast<float>(row.count - 1));
-    const float apart = std::max(std::abs(x1 - x0) * (1.0F / kLine), std::abs(y1 - y0));
-    const int pieces = apart < kMost ? static_cast<int>(apart) + 1 : kMost;
-    const float part = 1.0F / static_cast<float>(pieces);
-    for (int k = 0; k <= pieces; ++k) {
-      const float t = static_cast<float>(k) * part;
-      const float column = x0 + t * (x1 - x0), line = y0 + t * (y1 - y0);
-      if (places_.holds(column) && places_.holds(line))
-        table_.fetch(static_cast<std::ptrdiff_t>(line) * pitch_ + static_cast<std::ptrdiff_t>(column));
+    const PatternPlaces::Along places(places_, row);
+    const auto pitch = hn::Set(IntTag(), pitch_);
+    const auto ways = hn::Mul(hn::Iota(d, 0.0F), hn::Set(d, static_cast<float>(kEvery)));
+    for (int k = row.y % kEvery; k < row.count; k += kEvery * kLanes) {
+      const auto x = hn::Add(ways, hn::Set(d, row.from_x + static_cast<float>(k)));
+      HWY_ALIGN std::int32_t at[kLanes];
+      hn::Store(hn::Add(hn::Mul(places.down_at(x).whole, pitch), places.across_at(x).whole), IntTag(), at);
+      const int count = std::min(kLanes, (row.count - k + kEvery - 1) / kEvery);
+      for (int j = 0; j < count; ++j) table_.fetch(at[j]);
     }
   }
-
-  [[nodiscard]] static SeenGroups seen(const PixelRow& /*row*/) { return {}; }  // hulls have cut off what is dark
 
   class Row {
    public:
@@ -152,7 +149,7 @@ class GreyPattern {
     std::ptrdiff_t pitch_;
     hn::Vec<IntTag> down_;
   };
-  [[nodiscard]] HWY_INLINE Row look(const PixelRow& row, Groups /*groups*/) const { return {*this, row}; }
+  [[nodiscard]] HWY_INLINE Row look(const PixelRow& row) const { return {*this, row}; }
 
  private:
   GreyPattern(const screens::BandPattern& pattern, const screens::BandPattern::Level& level, const StopMap& map)

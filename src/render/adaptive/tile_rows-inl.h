@@ -43,7 +43,7 @@ struct PixelRow {
   // Of the pixels from k on.
   [[nodiscard]] HWY_INLINE hn::Vec<FloatTag> x(int k) const {
     const FloatTag d;
-    return hn::Add(hn::Set(d, from_x), hn::Iota(d, static_cast<float>(k)));
+    return hn::Add(hn::Add(hn::Set(d, from_x), hn::Iota(d, 0.0F)), hn::Set(d, static_cast<float>(k)));
   }
 };
 
@@ -57,7 +57,6 @@ class RowForm {
     level_ = form_.level + row.from_y * (form_.y + row.from_y * form_.yy);
     slope_ = form_.x + row.from_y * form_.xy;
   }
-  [[nodiscard]] float at(float x) const { return level_ + x * (slope_ + x * form_.xx); }
   // No less than what it changes by from a group's middle to its ends, for any of a row's.
   [[nodiscard]] float half_group(const PixelRow& row) const {
     const float far = std::max(std::abs(row.from_x), std::abs(row.from_x + static_cast<float>(row.count + kToMiddle)));
@@ -94,15 +93,6 @@ constexpr std::size_t kRowRoom = TileGrid::kWidth + kGroup;
   return count >= 64 ? ~Groups{0} : (Groups{1} << static_cast<unsigned>(count)) - 1;
 }
 
-// Calls `visit(k)` for vectors of pixels from k on, as many as the groups have.
-template <class Visit>
-HWY_INLINE void for_each_vector(Groups groups, const Visit& visit) {
-  for (; groups != 0; groups &= groups - 1) {
-    const int from = kGroup * std::countr_zero(groups);
-    for (int k = 0; k < kGroup; k += static_cast<int>(hn::Lanes(FloatTag()))) visit(from + k);
-  }
-}
-
 // The groups of a row whose middles' places pass `test(places)`.
 template <class Test>
 HWY_INLINE Groups groups_that(const PixelRow& row, const Test& test) {
@@ -130,23 +120,39 @@ struct TablePlaces {
   hn::Vec<FloatTag> rest;
 };
 
-// Those of a table whose last entry is at `most`.
+// Those of a table whose last entry is at `most`. Whole steps by adding so much that no bits are left for parts of one:
+// conversions ask what is out of range. A place on an entry may count as one whole step after the one before.
 class TableEnd {
  public:
   explicit HWY_INLINE TableEnd(float most)
-      : most_(hn::Set(FloatTag(), most)), last_(hn::Set(IntTag(), static_cast<std::int32_t>(most) - 1)) {}
+      : most_(hn::Set(FloatTag(), most)), last_(hn::Set(FloatTag(), most - 1.0F)) {}
 
   // The last step is one that has an entry after it.
   [[nodiscard]] HWY_INLINE TablePlaces places(hn::Vec<FloatTag> place) const {
-    const FloatTag d;
-    const auto within = hn::Min(hn::IfThenElseZero(hn::Gt(place, hn::Zero(d)), place), most_);
-    const auto whole = hn::Min(hn::ConvertTo(IntTag(), within), last_);
-    return {whole, hn::Sub(within, hn::ConvertTo(d, whole))};
+    const auto all = within(place);
+    return places(all, hn::Min(below(all), last_));
+  }
+  // The last step may be at the last entry.
+  [[nodiscard]] HWY_INLINE TablePlaces places_to_end(hn::Vec<FloatTag> place) const {
+    const auto all = within(place);
+    return places(all, below(all));
   }
 
  private:
-  hn::Vec<FloatTag> most_;
-  hn::Vec<IntTag> last_;
+  [[nodiscard]] HWY_INLINE hn::Vec<FloatTag> within(hn::Vec<FloatTag> place) const {
+    return hn::Min(hn::IfThenElseZero(hn::Gt(place, hn::Zero(FloatTag())), place), most_);
+  }
+  static HWY_INLINE hn::Vec<FloatTag> below(hn::Vec<FloatTag> place) {
+    return hn::Sub(place, hn::Set(FloatTag(), 0.5F));  // what rounding makes the step
+  }
+  static HWY_INLINE TablePlaces places(hn::Vec<FloatTag> place, hn::Vec<FloatTag> step) {
+    const auto no_parts = hn::Set(FloatTag(), 12582912.0F);  // 1.5 * 2^23
+    const auto rounded = hn::Add(step, no_parts);
+    return {hn::Sub(hn::BitCast(IntTag(), rounded), hn::BitCast(IntTag(), no_parts)),
+            hn::Sub(place, hn::Sub(rounded, no_parts))};
+  }
+
+  hn::Vec<FloatTag> most_, last_;
 };
 
 // A table of ShortLight.

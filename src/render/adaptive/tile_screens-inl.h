@@ -10,13 +10,14 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <span>
 #include <type_traits>
-#include <utility>
 
 #include "render/adaptive/quad-inl.h"
+#include "render/adaptive/tile_cover-inl.h"
 #include "render/adaptive/tile_edges-inl.h"
 #include "render/adaptive/tile_fringes-inl.h"
 #include "render/adaptive/tile_patterns-inl.h"
@@ -35,8 +36,8 @@ class AnyScreen {
       : screen_(screen), map_(map), dirt_(dirt) {}
 
   void set_row(const PixelRow& row) { row_ = &row; }
-  [[nodiscard]] static SeenGroups seen(const PixelRow& /*row*/) { return {}; }
-  [[nodiscard]] const AnyScreen& look(const PixelRow& /*row*/, Groups /*groups*/) const { return *this; }
+  [[nodiscard]] const AnyScreen& look(const PixelRow& /*row*/) const { return *this; }
+  [[nodiscard]] const AnyScreen& vector(int /*k*/) const { return *this; }
   [[nodiscard]] Quad passed(int k) const {
     const Vec2 pixel = row_->pixel(k);
     std::array<StopPlace, kMaxStopCrossings> room;
@@ -58,86 +59,57 @@ class AnyScreen {
 // A row's coverage from its changes, which are cleared, some pixels after the other. What only rounding covers is not.
 class RunningCover {
  public:
-  RunningCover(double* changes, int count) : changes_(changes), count_(count), before_(hn::Zero(DoubleTag())) {}
+  // Of the row of which no more than `count` pixels are covered, whatever its changes say.
+  HWY_INLINE RunningCover(float* changes, int count)
+      : changes_(changes), count_(count), before_(hn::Zero(FloatTag())) {}
 
-  // Of the pixels from k on: none beyond the row.
+  // Of the pixels from k on, by sums of two, four and eight neighbours.
   HWY_INLINE hn::Vec<FloatTag> next(int k) {
+    constexpr std::size_t kLanes = hn::MaxLanes(FloatTag());
     const FloatTag d;
-    const auto cover = seen(DoubleTag(), changes_ + k);
-    const int left = count_ - k;
-    if (left >= static_cast<int>(hn::Lanes(d))) return cover;
-    return hn::IfThenElseZero(hn::FirstN(d, static_cast<std::size_t>(left)), cover);
-  }
-
- private:
-  static constexpr std::size_t kFloats = hn::MaxLanes(FloatTag());
-  using DoubleTag = hn::CappedTag<double, kFloats>;
-  static constexpr std::size_t kDoubles = hn::MaxLanes(DoubleTag());
-
-  template <class D>
-  HWY_INLINE hn::Vec<FloatTag> seen(D d, double* changes) {
-    const hn::Rebind<float, D> df;
-    if constexpr (hn::MaxLanes(d) == kFloats) {
-      return hn::DemoteTo(df, next_sum(d, changes));
-    } else {
-      HWY_ALIGN float cover[kFloats];
-      for (std::size_t k = 0; k < kFloats; k += kDoubles)
-        hn::StoreU(hn::DemoteTo(df, next_sum(d, changes + k)), df, cover + k);
-      return hn::Load(FloatTag(), cover);
-    }
-  }
-  // By sums of two, four and eight neighbours.
-  template <class D>
-  HWY_INLINE hn::Vec<D> next_sum(D d, double* changes) {
-    auto sum = hn::LoadU(d, changes);
-    hn::StoreU(hn::Zero(d), d, changes);
-    for (std::size_t step = 1; step < kDoubles; step *= 2) {
-      HWY_ALIGN std::int64_t from[kDoubles];
-      HWY_ALIGN double has[kDoubles];
-      for (std::size_t k = 0; k < kDoubles; ++k) {
-        from[k] = static_cast<std::int64_t>(k < step ? 0 : k - step);
-        has[k] = k < step ? 0.0 : 1.0;
+    auto sum = hn::LoadU(d, changes_ + k);
+    hn::StoreU(hn::Zero(d), d, changes_ + k);
+    for (std::size_t step = 1; step < kLanes; step *= 2) {
+      HWY_ALIGN std::int32_t from[kLanes];
+      HWY_ALIGN float has[kLanes];
+      for (std::size_t lane = 0; lane < kLanes; ++lane) {
+        from[lane] = static_cast<std::int32_t>(lane < step ? 0 : lane - step);
+        has[lane] = lane < step ? 0.0F : 1.0F;
       }
       sum = hn::MulAdd(hn::Load(d, has), hn::TableLookupLanes(sum, hn::SetTableIndices(d, from)), sum);
     }
     sum = hn::Add(sum, before_);
-    before_ = hn::TableLookupLanes(sum, hn::IndicesFromVec(d, hn::Set(hn::RebindToSigned<D>(), kDoubles - 1)));
-    return hn::IfThenElseZero(hn::Gt(sum, hn::Set(d, TileSums::kUnseenCover)), sum);
+    before_ = hn::TableLookupLanes(sum, hn::IndicesFromVec(d, hn::Set(IntTag(), kLanes - 1)));
+    const auto cover = hn::IfThenElseZero(hn::Gt(sum, hn::Set(d, TileSums::kUnseenCover)), sum);
+    const int left = count_ - k;
+    if (left >= static_cast<int>(kLanes)) return cover;
+    return hn::IfThenElseZero(hn::FirstN(d, static_cast<std::size_t>(std::max(left, 0))), cover);
   }
-
-  double* changes_;
-  int count_;
-  hn::Vec<DoubleTag> before_;  // the sum of all changes so far
-};
-
-// Whole pixels in a row that see the stop level: their light is left as changes along the row, as any polygon's is.
-class LevelRun {
- public:
-  LevelRun(TileSums& tile, int row, const RowShade& shade) : tile_(tile), row_(row), shade_(shade) {}
-
-  void go_on(int first, int end) {
-    if (first_ < 0) first_ = first;
-    end_ = end;
-  }
-  void stop() {
-    if (first_ < 0) return;
-    const EdgeShade<TileSums> shade(shade_, row_);
-    tile_.touch(row_, first_, end_);
-    shade.add(tile_.at(row_, first_), 1.0);
-    shade.add(tile_.at(row_, end_), -1.0);
-    first_ = -1;
+  // Of the pixel before the next.
+  [[nodiscard]] HWY_INLINE bool is_whole() const {
+    constexpr float kWhole = 1.0F - 1e-5F;  // for rounding
+    return hn::GetLane(before_) >= kWhole;
   }
 
  private:
-  TileSums& tile_;
-  int row_;
-  const RowShade& shade_;
-  int first_ = -1, end_ = -1;
+  float* changes_;
+  int count_;
+  hn::Vec<FloatTag> before_;  // the sum of all changes so far
 };
 
-// A row of what a polygon covers, in the tile.
+// Whole pixels in a row that see the stop level: their light is left as changes along the row, as any polygon's is.
+HWY_INLINE void add_level(TileSums& tile, int row, int first, int end, const RowShade& shade) {
+  const EdgeShade<TileSums> level(shade, row);
+  tile.touch(row, first, end);
+  level.add(tile.at(row, first), 1.0);
+  level.add(tile.at(row, end), -1.0);
+}
+
+// A row of what a polygon covers, in the tile, from one of every kFirst columns on: lines of memory begin there.
+constexpr int kFirst = 4;
 struct CoveredRow {
   int row, first, count;
+  int even_first, even_end;  // columns of the tile between which coverage is the same, if any
 };
 
 // A polygon's irradiance times what passes, pixel by pixel.
@@ -158,10 +130,11 @@ class QuadLight {
       HWY_ALIGN float cover[kGroup] = {};
       hn::Store(covered, d, cover);
       const int from = k, end = std::min(k + static_cast<int>(hn::Lanes(d)), row_.count);
+      const auto& seen = look.vector(k);
       for (; k < end; ++k) {
         const Quad irradiance = multiply_add(slope_, Quad::all(static_cast<float>(row_.first + k)), level_);
         float* const pixel = to + TileSums::kPixel * static_cast<std::size_t>(k);
-        multiply_add(Quad::all(cover[k - from]) * irradiance, look.passed(k), Quad::load(pixel)).store(pixel);
+        multiply_add(Quad::all(cover[k - from]) * irradiance, seen.passed(k), Quad::load(pixel)).store(pixel);
       }
     }
 
@@ -210,14 +183,13 @@ class GreyLight {
    public:
     HWY_INLINE Row(const GreyLight& all, const CoveredRow& row)
         : slope_(hn::Load(WideTag(), all.slope_)),
-          level_(hn::MulAdd(
-              hn::Load(WideTag(), all.by_row_), hn::Set(WideTag(), static_cast<float>(row.row)),
-              hn::MulAdd(slope_, hn::Set(WideTag(), static_cast<float>(row.first)), hn::Load(WideTag(), all.level_)))) {
-    }
+          level_(hn::MulAdd(hn::Load(WideTag(), all.by_row_), hn::Set(WideTag(), static_cast<float>(row.row)),
+                            hn::MulAdd(slope_, columns(row.first), hn::Load(WideTag(), all.level_)))) {}
     template <class Look>
     HWY_INLINE void add(const Look& look, hn::Vec<FloatTag> cover, int k, float* to) const {
       const WideTag d;
       const hn::RebindToSigned<WideTag> di;
+      const auto first = hn::MulAdd(slope_, hn::Set(d, static_cast<float>(k)), level_);
       constexpr int kPixels = static_cast<int>(kLanes / TileSums::kPixel);  // of a wide vector
       const auto passed = wide(d, hn::Mul(cover, look.passed(k)));
       to += TileSums::kPixel * static_cast<std::size_t>(k);
@@ -225,12 +197,18 @@ class GreyLight {
       for (int j = 0; j < static_cast<int>(hn::Lanes(FloatTag())); j += kPixels, to += kLanes) {
         const auto pixel = hn::Add(hn::ShiftRight<2>(hn::Iota(di, 0)), hn::Set(di, j));
         const auto each = hn::TableLookupLanes(passed, hn::IndicesFromVec(d, pixel));
-        const auto column = hn::ConvertTo(d, hn::Add(pixel, hn::Set(di, k)));
-        hn::StoreU(hn::MulAdd(each, hn::MulAdd(slope_, column, level_), hn::LoadU(d, to)), d, to);
+        const auto light = j == 0 ? first : hn::MulAdd(slope_, hn::Set(d, static_cast<float>(j)), first);
+        hn::Store(hn::MulAdd(each, light, hn::Load(d, to)), d, to);
       }
     }
 
    private:
+    // Of the pixels from `first` on.
+    static HWY_INLINE hn::Vec<WideTag> columns(int first) {
+      const WideTag d;
+      const hn::RebindToSigned<WideTag> di;
+      return hn::Add(hn::Set(d, static_cast<float>(first)), hn::ConvertTo(d, hn::ShiftRight<2>(hn::Iota(di, 0))));
+    }
     template <class D>
     static HWY_INLINE hn::Vec<D> wide(D d, hn::Vec<FloatTag> v) {
       if constexpr (hn::MaxLanes(d) == hn::MaxLanes(FloatTag())) {
@@ -247,22 +225,29 @@ class GreyLight {
   HWY_ALIGN float level_[kLanes], slope_[kLanes], by_row_[kLanes];
 };
 
-// Of a tile, those that a polygon may touch. last_column: as far as all of them are covered at the least; -1: not told.
+// Of a tile, the rows that a polygon may touch, and between which columns. covered_to: the column as far as all rows
+// are covered at the least; -1: not told.
 struct PixelRows {
-  int first, last, last_column;
+  int first, last;
+  int low_column, high_column;
+  int covered_to;
 };
 
 PixelRows rows_under(const TileSums& tile, std::span<const Point> corners) {
   Point low = corners[0], high = corners[0];
   for (const Point p : corners) {
-    low.y = std::min(low.y, p.y);
+    low = {std::min(low.x, p.x), std::min(low.y, p.y)};
     high = {std::max(high.x, p.x), std::max(high.y, p.y)};
   }
   const auto row = [&](float y) {
     return static_cast<int>(std::clamp(y - static_cast<float>(tile.y0), 0.0F, static_cast<float>(tile.height - 1)));
   };
+  const auto column = [&](float x) {
+    return static_cast<int>(std::clamp(x - static_cast<float>(tile.x0), 0.0F, static_cast<float>(tile.width)));
+  };
   // Edges beyond the right border leave no change: what is covered there ends with the tile.
-  return {row(low.y), row(high.y), high.x > static_cast<float>(tile.x0 + tile.width) ? tile.width - 1 : -1};
+  const bool is_beyond = high.x > static_cast<float>(tile.x0 + tile.width);
+  return {row(low.y), row(high.y), column(low.x), column(high.x), is_beyond ? tile.width - 1 : -1};
 }
 
 // Those of a polygon whose edges have left their changes in the tile.
@@ -270,10 +255,13 @@ class CoveredRows {
  public:
   CoveredRows(TileSums& tile, const PixelRows& within) {
     for (int row = within.first; row <= within.last; ++row) {
-      const auto changed = std::exchange(tile.cover.changed[static_cast<std::size_t>(row)], {});
-      const int last = std::min(std::max(changed.last, within.last_column), tile.width - 1);
-      if (changed.last >= 0) *tile.cover.at(row, tile.width) = 0.0;  // the right border's
-      if (changed.first <= last) rows_[count_++] = {row, changed.first, last - changed.first + 1};
+      const auto begun = tile.cover.begun.take(row), ended = tile.cover.ended.take(row);
+      const int changed_first = std::min(begun.first, ended.first), changed_last = std::max(begun.last, ended.last);
+      const int last = std::min(std::max(changed_last, within.covered_to), tile.width - 1);
+      if (changed_last >= tile.width) std::fill_n(tile.cover.at(row, tile.width), 2, 0.0F);  // at the right border
+      const int first = changed_first / kFirst * kFirst;
+      const int even_first = begun.last < 0 ? tile.width : begun.last + 1, even_end = std::min(ended.first, tile.width);
+      if (changed_first <= last) rows_[count_++] = {row, first, last - first + 1, even_first, even_end};
     }
   }
   [[nodiscard]] std::span<const CoveredRow> all() const { return {rows_, count_}; }
@@ -283,42 +271,65 @@ class CoveredRows {
   std::size_t count_ = 0;
 };
 
-// Whether `count` pixels are all covered, but for rounding; none beyond them is.
-HWY_INLINE bool all_covered(hn::Vec<FloatTag> cover, int count) {
-  constexpr float kWhole = 1.0F - 1e-6F;
-  const FloatTag d;
-  const auto whole = hn::CountTrue(d, hn::Ge(cover, hn::Set(d, kWhole)));
-  return static_cast<int>(whole) >= std::min(count, static_cast<int>(hn::Lanes(d)));
+// What is drawn of a row, whose coverage ends with its changes but where the polygon goes on beyond the tile.
+struct RowOfPixels {
+  CoveredRow columns;
+  RunningCover cover;
+  float* to;
+
+  RowOfPixels(TileSums& tile, const CoveredRow& r, const PixelRows& within)
+      : columns(r), cover(tile.cover.at(r.row, r.first), within.covered_to < 0 ? kRowRoom : r.count),
+        to(tile.pixels_at(r.row) + TileSums::kPixel * static_cast<std::size_t>(r.first)) {}
+};
+
+template <class Passed, class LightRow>
+HWY_INLINE void add_row(TileSums& tile, RowOfPixels row, const Passed& passed, const LightRow& light) {
+  const int count = row.columns.count;
+  for (int k = 0; k < count; k += static_cast<int>(hn::MaxLanes(FloatTag())))
+    light.add(passed, row.cover.next(k), k, row.to);
+  tile.light_groups(row.columns.row, row.columns.first, first_groups((count + kGroup - 1) / kGroup));
 }
 
-// A row's pixels, but those of groups that see nothing.
+// But those of groups that see nothing, or the stop level. Where they are whole, as far as nothing changes, no sum is
+// asked for.
 template <class Passed, class LightRow>
-HWY_INLINE void add_row(TileSums& tile, const CoveredRow& r, const RowShade& shade, const SeenGroups& seen,
+HWY_INLINE void add_row(TileSums& tile, RowOfPixels row, const RowShade& shade, const SeenGroups& seen,
                         const Passed& passed, const LightRow& light) {
-  const int lanes = static_cast<int>(hn::Lanes(FloatTag()));
-  float* const to = tile.pixels_at(r.row) + TileSums::kPixel * static_cast<std::size_t>(r.first);
-  RunningCover covers(tile.cover.at(r.row, r.first), r.count);
-  LevelRun run(tile, r.row, shade);
-  Groups lit = 0;
-  for (int k = 0; k < r.count; k += lanes) {
-    const auto cover = covers.next(k);
-    const Groups group = Groups{1} << static_cast<unsigned>(k / kGroup);
-    if ((seen.level & group) != 0 && all_covered(cover, r.count - k)) {
-      run.go_on(r.first + k, r.first + std::min(k + lanes, r.count));
-      continue;
+  constexpr int kLanes = static_cast<int>(hn::MaxLanes(FloatTag()));
+  const CoveredRow& columns = row.columns;
+  const int groups = (columns.count + kGroup - 1) / kGroup;
+  const int even_first = (columns.even_first - columns.first + kGroup - 1) / kGroup;
+  const int even_end = (columns.even_end - columns.first) / kGroup;
+  Groups skipped = 0, lit = 0;
+  if (even_first < even_end) skipped = (seen.dark | seen.level) & first_groups(even_end) & ~first_groups(even_first);
+  for (int group = 0; group < groups;) {
+    if ((skipped >> static_cast<unsigned>(group) & 1U) != 0) {
+      if (row.cover.is_whole()) {
+        group += std::countr_one(skipped >> static_cast<unsigned>(group));
+        continue;
+      }
+      skipped = 0;
     }
-    run.stop();
-    if ((seen.dark & group) != 0) continue;
-    lit |= group;
-    light.add(passed, cover, k, to);
+    const Groups bit = Groups{1} << static_cast<unsigned>(group);
+    const bool is_dark = (seen.dark & bit) != 0;
+    if (!is_dark) lit |= bit;
+    for (int k = kGroup * group; k < kGroup * (group + 1); k += kLanes) {
+      const auto cover = row.cover.next(k);
+      if (!is_dark) light.add(passed, cover, k, row.to);
+    }
+    ++group;
   }
-  run.stop();
-  tile.light_groups(r.row, r.first, lit);
+  for (Groups level = skipped & seen.level; level != 0;) {
+    const int from = std::countr_zero(level), end = from + std::countr_one(level >> static_cast<unsigned>(from));
+    add_level(tile, columns.row, columns.first + kGroup * from, columns.first + kGroup * end, shade);
+    level &= ~first_groups(end);
+  }
+  tile.light_groups(columns.row, columns.first, lit);
 }
 
 template <class Look>
 void add_pixels(TileSums& tile, const Polygon& polygon, const StopMap& map, const PixelRows& within, Look& look) {
-  constexpr int kShort = 8 * kGroup;  // pixels: what groups of them see tells more work than it saves
+  constexpr int kShort = 4 * kGroup;  // pixels: what groups of them see tells more work than it saves
   const CoveredRows rows(tile, within);
   const auto pixels_of = [&](const CoveredRow& r) {
     return PixelRow(tile.x0 + r.first, r.count, tile.y0 + r.row, map.origin());
@@ -331,24 +342,27 @@ void add_pixels(TileSums& tile, const Polygon& polygon, const StopMap& map, cons
   for (const CoveredRow& r : rows.all()) {
     const PixelRow pixels = pixels_of(r);
     look.set_row(pixels);
-    SeenGroups seen;
-    if (r.count > kShort) seen = look.seen(pixels);
-    const Groups varied = first_groups((r.count + kGroup - 1) / kGroup) & ~seen.dark;
-    add_row(tile, r, shade, seen, look.look(pixels, varied), typename Light::Row(light, r));
+    const RowOfPixels row(tile, r, within);
+    if constexpr (requires { look.seen(pixels); }) {
+      if (r.count > kShort) {
+        add_row(tile, row, shade, look.seen(pixels), look.look(pixels), typename Light::Row(light, r));
+        continue;
+      }
+    }
+    add_row(tile, row, look.look(pixels), typename Light::Row(light, r));
   }
 }
 
 void add_screened(TileSums& tile, const PolygonList& list, const Polygon& polygon) {
-  if (tile.by_pixel.empty()) tile.by_pixel.resize(TileSums::kPixel * TileSums::kPixelPitch * TileGrid::kHeight, 0.0F);
+  if (tile.by_pixel == nullptr) tile.by_pixel = std::make_unique<TileSums::Light>();
+  const PixelRows within = rows_under(tile, list.corners_of(polygon));
   CoverSums& cover = tile.cover;
   cover.width = tile.width;
   cover.height = tile.height;
-  cover.make();
-  const auto corners = list.corners_of(polygon);
+  cover.set_columns(within.low_column, within.high_column);
   EdgeShade<CoverSums> none;
   for_each_edge(tile, list, polygon,
                 [&](Vec2 a, Vec2 b, std::size_t, double sign) { add_clipped(cover, none, a, b, sign); });
-  const PixelRows within = rows_under(tile, corners);
   const Screened& behind = list.screened[polygon.screened - 1];
   const auto add = [&](auto&& look) { add_pixels(tile, polygon, behind.map, within, look); };
   if (behind.dirt != 0) return add(AnyScreen(behind.screen, behind.map, &list.dirt[behind.dirt - 1]));

@@ -6,35 +6,70 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <memory>
+#include <utility>
 #include <vector>
 
 #include "render/adaptive/tiles.h"
 
 namespace contrejour::adaptive {
 
-// A polygon's coverage alone, as changes along the rows of a tile. Edges left of it count as on its border.
+// A polygon's coverage alone, as changes along the rows of a tile, in floats: a row ends with the polygon, so that
+// rounding goes no farther. Edges left of the tile count as on its border. Rows lie close together, as wide as the
+// polygon: the same little memory for every one, as near to the processor as can be.
 struct CoverSums {
   static constexpr std::size_t kLanes = 1;
-  static constexpr std::size_t kPitch = TileGrid::kWidth + 32;  // beyond the last changes a vector of none
-  struct Columns {  // with changes; none if last < first
-    int first = std::numeric_limits<int>::max(), last = -1;
+  static constexpr int kGroup = 8;  // columns, of which whole ones are looked at
+  struct Columns {  // none if last < first
+    int first, last;
+  };
+  // By row, and a vector beyond, the columns that some edges changed: coverage is what it was before the first one, and
+  // from the last one on what they make it.
+  class Changed {
+   public:
+    Changed() {
+      first_.fill(kNone.first);
+      last_.fill(kNone.last);
+    }
+    [[nodiscard]] std::int32_t* firsts(int row) { return first_.data() + row; }
+    [[nodiscard]] std::int32_t* lasts(int row) { return last_.data() + row; }
+    void add(int row, int first, int last) {
+      *firsts(row) = std::min(*firsts(row), first);
+      *lasts(row) = std::max(*lasts(row), last);
+    }
+    // A row's, which are forgotten.
+    [[nodiscard]] Columns take(int row) {
+      return {std::exchange(*firsts(row), kNone.first), std::exchange(*lasts(row), kNone.last)};
+    }
+
+   private:
+    static constexpr Columns kNone{std::numeric_limits<int>::max(), -1};
+    using OfRows = std::array<std::int32_t, TileGrid::kHeight + kGroup>;
+    OfRows first_, last_;
   };
 
   int width = 0, height = 0;
-  std::vector<double> sums;  // made with the first polygon
-  std::array<Columns, TileGrid::kHeight> changed{};
+  Changed begun, ended;  // by edges that the polygon is to the right of, and by the others
 
   [[nodiscard]] static constexpr bool is_carried() { return false; }  // TileSums has another answer
-  void make() {
-    if (sums.empty()) sums.resize(kPitch * TileGrid::kHeight, 0.0);
+  // Of the tile, for a polygon that lies within the columns from first to last; all sums must be 0.
+  void set_columns(int first, int last) {
+    constexpr int kBeyond = 2;  // edges add to so many columns after the one they are in
+    first_ = first / kGroup * kGroup;
+    pitch_ = (last + kBeyond - first_) / kGroup * kGroup + 2 * kGroup;
+    if (room_ == nullptr) room_ = std::make_unique<Room>();
   }
-  [[nodiscard]] double* at(int row, int column) {
-    return sums.data() + static_cast<std::size_t>(row) * kPitch + static_cast<std::size_t>(column);
+  [[nodiscard]] float* at(int row, int column) {
+    return room_->sums.data() + static_cast<std::ptrdiff_t>(row) * pitch_ + (column - first_);
   }
-  void touch(int row, int first, int last) {
-    Columns& columns = changed[static_cast<std::size_t>(row)];
-    columns = {std::min(columns.first, first), std::max(columns.last, last)};
-  }
+  [[nodiscard]] Changed& changed_by(double sign) { return sign > 0.0 ? begun : ended; }
+
+ private:
+  struct alignas(64) Room {  // and a vector beyond
+    std::array<float, static_cast<std::size_t>(TileGrid::kWidth + 3 * kGroup) * TileGrid::kHeight + kGroup> sums{};
+  };
+  int first_ = 0, pitch_ = 0;
+  std::unique_ptr<Room> room_;  // made with the first polygon
 };
 
 // A tile's place in the frame, and its sums. Tiles of a row are drawn from left to right: what edges left of a tile
@@ -47,7 +82,7 @@ struct TileSums {
   static constexpr std::size_t kPixelPitch =
       TileGrid::kWidth + 24;  // no power of two: rows share no lines of the cache
   static constexpr int kBlock = 8;  // columns
-  static constexpr double kUnseenCover = 1e-7;  // of a pixel: rounding beside a polygon
+  static constexpr float kUnseenCover = 1e-6F;  // of a pixel: rounding beside a polygon
   static_assert(TileGrid::kWidth <= 64 * kBlock);
 
   int x0 = 0, y0 = 0, width = 0, height = 0;
@@ -55,8 +90,11 @@ struct TileSums {
   Blocks touched{};  // by changes
   std::vector<double> sums = std::vector<double>(kLanes * kPitch * TileGrid::kHeight, 0.0);
   std::array<std::array<double, kLanes>, TileGrid::kHeight> carried{};  // by row: sums left of the first column
-  Blocks lit{};                 // pixel by pixel
-  std::vector<float> by_pixel;  // light that came so, kPixel values each and a vector's beyond; empty: none yet
+  Blocks lit{};  // pixel by pixel
+  struct alignas(64) Light {
+    std::array<float, kPixel * kPixelPitch * TileGrid::kHeight> values{};
+  };
+  std::unique_ptr<Light> by_pixel;  // that came so, kPixel values each, whole blocks; null: none yet
   CoverSums cover;
 
   [[nodiscard]] bool is_carried() const { return x0 > 0; }  // what edges left of it changed
@@ -64,7 +102,7 @@ struct TileSums {
     return sums.data() + kLanes * (static_cast<std::size_t>(row) * kPitch + static_cast<std::size_t>(column));
   }
   [[nodiscard]] float* pixels_at(int row) {
-    return by_pixel.data() + kPixel * kPixelPitch * static_cast<std::size_t>(row);
+    return by_pixel->values.data() + kPixel * kPixelPitch * static_cast<std::size_t>(row);
   }
   // Columns first to last, last one included and the right border's left out.
   void touch(int row, int first, int last) { mark(touched, row, first, last); }
