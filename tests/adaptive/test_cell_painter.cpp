@@ -98,6 +98,12 @@ PolygonList painted(const AffineGhost& ghost, const Iris& iris, double error = 1
   return list;
 }
 
+Mesh mesh_of(const Patch& patch, const IrisShape& iris) {
+  Mesh mesh;
+  make_mesh(patch, iris, mesh);
+  return mesh;
+}
+
 // By the polygons themselves: every one convex, its shade's mean is that at its centre of mass.
 double flux_of(const PolygonList& list, std::size_t channel) {
   double sum = 0.0;
@@ -217,7 +223,7 @@ TEST_CASE("a plane has the light of what it is drawn for, and tells how far it i
   ghost.pixels = {{60.2, 7.0}, {-9.0, 45.3}, {160.0, 100.0}};
   for (const double bend_px : {0.0, 5.0}) {
     ghost.bend_px = bend_px;
-    const Mesh mesh = make_mesh(ghost.patch(), iris);
+    const Mesh mesh = mesh_of(ghost.patch(), iris);
     for (const int size : {8, 4, 2}) {
       for (int at = 0; at < Mesh::kCells; at += size) {
         const MeshSquare square{at, 0, size};
@@ -244,7 +250,7 @@ TEST_CASE("a plane has the light of what it is drawn for, and tells how far it i
     }
   }
   ghost.bend_px = 60.0;  // folds
-  const Mesh folded = make_mesh(ghost.patch(), iris);
+  const Mesh folded = mesh_of(ghost.patch(), iris);
   const MeshSquare whole{0, 0, Mesh::kCells};
   CHECK_FALSE(LightSums(folded, whole, ~0U).plane(folded, whole).has_value());
 }

@@ -18,7 +18,6 @@ constexpr double kStraight = 0.05;   // of a cell's budget, below which straight
 // Half the cell, a fourth of the deviation of a curve from its chord: a sixteenth of the squared error.
 constexpr double kGainOfHalving = 16.0;
 constexpr double kPlane = 0.02;  // of a cell's budget, that a plane may leave of the irradiance of many
-constexpr std::size_t kCellsAtFirst = 16;  // that there is room for
 constexpr double kWorthPlane_px = 1000.0;  // fewer pixels: sides between cells are short
 constexpr double kPlaneOff = 0.1;  // RMS, of its mean, however much the budget is
 
@@ -139,10 +138,12 @@ void CellPainter::find_planes(const Mesh& mesh, ChosenCells& chosen) const {
 }
 
 void CellPainter::paint(const Patch& patch, int depth, const Shade* plane) {
-  const Mesh mesh = make_mesh(patch, iris_);
-  ChosenCells chosen;
-  chosen.cells.reserve(kCellsAtFirst);
-  chosen.plane.fill(plane);
+  const auto at = static_cast<std::size_t>(depth);
+  while (meshes_.size() <= at) meshes_.emplace_back();
+  Mesh& mesh = meshes_[at].first;
+  ChosenCells& chosen = meshes_[at].second;
+  make_mesh(patch, iris_, mesh);
+  chosen.start_with(plane);
   const auto find_finer = [&](std::size_t q) {
     return depth < kDeepest && wants_finer_mesh(mesh, quarter_square(q), chosen.plane[q] != nullptr);
   };
@@ -174,6 +175,14 @@ void CellPainter::ChosenCells::add(const ChosenCell& chosen) {
   for (const std::size_t vertex : chosen.cell.corner) corners.set(vertex);
   for (const std::size_t vertex : chosen.cell.side)
     if (chosen.sides == Sides::Bent) corners.set(vertex);
+}
+
+void CellPainter::ChosenCells::start_with(const Shade* given) {
+  finer.fill(false);
+  plane.fill(given);
+  planes.clear();
+  cells.clear();
+  corners.reset();
 }
 
 const Shade* CellPainter::ChosenCells::keep(const std::optional<Shade>& some) {

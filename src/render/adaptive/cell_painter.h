@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <bitset>
 #include <cstdint>
+#include <deque>
 #include <forward_list>
 #include <map>
 #include <optional>
@@ -82,6 +83,7 @@ class CellPainter {
     std::vector<ChosenCell> cells;
     std::bitset<Mesh::kVertices> corners;
 
+    void start_with(const Shade* given);
     void add(const ChosenCell& chosen);
     const Shade* keep(const std::optional<Shade>& some);
   };
@@ -228,6 +230,7 @@ class CellPainter {
   PlacedPolygon rest_, strip_;  // of what is cut along edges
   std::vector<Corner> level_;
   std::vector<Corner> shape_, outline_;  // of what is drawn
+  std::deque<std::pair<Mesh, ChosenCells>> meshes_;  // by depth, kept for their memory
   OutlineCutter cutter_;
   std::vector<Point> points_;
 };

@@ -132,9 +132,8 @@ double Mesh::irradiance(int weight, std::size_t vertex) const {
   return field(layout.weight(weight))[vertex] * cell_flux_area_mm2 / (std::abs(area[vertex]) + 1e-20);
 }
 
-Mesh make_mesh(const Patch& patch, const IrisShape& iris) {
+void make_mesh(const Patch& patch, const IrisShape& iris, Mesh& mesh) {
   const MeshMatrices& m = matrices(patch.nodes);
-  Mesh mesh;
   mesh.layout = patch.layout;
   mesh.origin_px = patch.origin_px;
   mesh.box = patch.box;
@@ -156,7 +155,6 @@ Mesh make_mesh(const Patch& patch, const IrisShape& iris) {
   mark_outside(mesh, iris);
   mark_near_obscurations(mesh);
   find_brightness(mesh);
-  return mesh;
 }
 
 }  // namespace contrejour::adaptive

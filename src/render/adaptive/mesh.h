@@ -45,6 +45,7 @@ struct Mesh {
   [[nodiscard]] double irradiance(int weight, std::size_t vertex) const;
 };
 
-[[nodiscard]] Mesh make_mesh(const Patch& patch, const IrisShape& iris);
+// Into `mesh`, whatever it was; its memory is used again.
+void make_mesh(const Patch& patch, const IrisShape& iris, Mesh& mesh);
 
 }  // namespace contrejour::adaptive
