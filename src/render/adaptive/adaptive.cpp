@@ -18,7 +18,6 @@ using namespace adaptive;
 // Polygons of so many bytes, or a little more, are alive at once.
 constexpr std::size_t kBatchBytes = std::size_t{32} << 20U;
 constexpr std::size_t kItemsAtOnce = 256;
-constexpr int kRowsAtOnce = 2;  // of tiles, by one thread
 constexpr double kLowestError = 1e-4;
 constexpr double kHighestError = 0.1;
 
@@ -102,11 +101,7 @@ class FramePainter {
   }
 
   void draw(const std::vector<TiledPolygons>& batch) {
-    const std::size_t strips = static_cast<std::size_t>((grid_.rows + kRowsAtOnce - 1) / kRowsAtOnce);
-    parallel_for(strips, quiet_, [&](std::size_t strip) {
-      const int first = static_cast<int>(strip) * kRowsAtOnce;
-      drawer_.draw_rows(batch, first, std::min(first + kRowsAtOnce, grid_.rows), mode_, flare_.image);
-    });
+    drawer_.draw(batch, mode_, context_, flare_.image);
     mode_ = TileMode::Add;
   }
 

@@ -253,7 +253,7 @@ double estimate_peak(const Scene& scene, const std::vector<Item>& items, const F
   if (context.cancelled()) return 0.0;
   for (std::size_t k = 0; about != nullptr && k < items.size(); ++k) about->push_back(size_of(polygons[k].list));
   Image image = Image::unwritten(small.width, small.height);
-  TileDrawer(grid).draw_rows(polygons, 0, grid.rows, TileMode::Write, image);
+  TileDrawer(grid).draw(polygons, TileMode::Write, context, image);
   double peak = quantile_of_samples(image, kPeakQuantile);
   if (!(peak > 0.0)) {
     for (const float value : image.pixels) peak = std::max(peak, static_cast<double>(value));

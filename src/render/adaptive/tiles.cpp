@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <utility>
 
+#include "base/tasks.h"
 #include "kernels/simd_targets.h"
 
 #undef HWY_TARGET_INCLUDE
@@ -144,6 +145,15 @@ std::unique_ptr<TileSums> TileDrawer::take() {
 void TileDrawer::give_back(std::unique_ptr<TileSums> sums) {
   const std::lock_guard lock(mutex_);
   unused_.push_back(std::move(sums));
+}
+
+void TileDrawer::draw(std::span<const TiledPolygons> lists, TileMode mode, const Context& context, Image& image) {
+  Context quiet = context;
+  quiet.progress = {};
+  parallel_for(static_cast<std::size_t>(grid_.rows), quiet, [&](std::size_t at) {
+    const int row = static_cast<int>(at);
+    draw_rows(lists, row, row + 1, mode, image);
+  });
 }
 
 void TileDrawer::draw_rows(std::span<const TiledPolygons> lists, int first, int last, TileMode mode, Image& image) {

@@ -10,6 +10,7 @@
 #include <span>
 #include <vector>
 
+#include "contrejour/context.h"
 #include "contrejour/image.h"
 #include "render/adaptive/polygon_list.h"
 
@@ -55,6 +56,9 @@ class TileDrawer {
  public:
   explicit TileDrawer(const TileGrid& grid);
   ~TileDrawer();
+
+  // Writes or adds to all pixels what the polygons bring.
+  void draw(std::span<const TiledPolygons> lists, TileMode mode, const Context& context, Image& image);
 
   // Writes or adds to the pixels of rows of tiles, from first to last without it, what the polygons bring, list after
   // list. Rows do not touch each other.
