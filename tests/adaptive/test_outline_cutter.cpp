@@ -80,7 +80,8 @@ TEST_CASE("arcs and straight edges lie where bent stop coordinates put them") {
   CHECK(area_of(by_circle.open_part(cell, cell, 1, 0, 0.05)) == doctest::Approx(disc).epsilon(1e-3));
   const IrisShape square{Iris{.blades = 4}};
   OutlineCutter by_lines(square);
-  CHECK(area_of(by_lines.open_part(cell, cell, 1, 0, 0.05)) == doctest::Approx(disc * 2.0 / std::numbers::pi).epsilon(0.012));
+  CHECK(area_of(by_lines.open_part(cell, cell, 1, 0, 0.05)) ==
+        doctest::Approx(disc * 2.0 / std::numbers::pi).epsilon(0.012));
 }
 
 // One ghost of the Nikon became a polygon of 1e10 pixels where the map to the stop folds within a cell.

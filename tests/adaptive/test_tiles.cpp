@@ -36,8 +36,8 @@ TEST_CASE("any convex polygon: its area in each pixel times the irradiance at th
   struct Size {
     int width, height, trials;
   };
-  for (const Size& size :
-       {Size{40, 24, 400}, Size{300, 40, 100}, Size{1, 1, 200}, Size{3, 50, 150}, Size{520, 2, 60}, Size{1300, 3, 60}}) {
+  for (const Size& size : {Size{40, 24, 400}, Size{300, 40, 100}, Size{1, 1, 200}, Size{3, 50, 150}, Size{520, 2, 60},
+                           Size{1300, 3, 60}}) {
     CAPTURE(size.width);
     Fuzz fuzz(static_cast<unsigned>(size.width));
     for (int k = 0; k < size.trials; ++k) {
