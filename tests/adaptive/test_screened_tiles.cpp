@@ -1,6 +1,7 @@
 // Polygons behind screens, pixel by pixel: every way of looking up what passes against the plain one.
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include <doctest/doctest.h>
 
@@ -120,6 +121,12 @@ double worst_difference(unsigned seed, const ScreenedOf& screened_of, const Plai
   return worst;
 }
 
+std::vector<std::uint16_t> bounds_of(const IrisShape& iris) {
+  std::vector<std::uint16_t> all(iris.bounds().size());
+  std::iota(all.begin(), all.end(), std::uint16_t{0});
+  return all;
+}
+
 }  // namespace
 
 TEST_CASE("edges' fringes: the table's, at every pixel") {
@@ -130,8 +137,7 @@ TEST_CASE("edges' fringes: the table's, at every pixel") {
   const auto band = alone ? grey(edges(iris)) : edges(iris);
   CHECK(band->is_grey() == alone);
   const EdgeTable table(*band, 1.0 / kRadius_px);
-  std::vector<std::uint16_t> all(iris->bounds().size());
-  for (std::size_t k = 0; k < all.size(); ++k) all[k] = static_cast<std::uint16_t>(k);
+  const std::vector<std::uint16_t> all = bounds_of(*iris);
   const auto share = [&](const Polygon&, Vec2 at) { return by_table(table, at); };
   const auto several = [&](PolygonList&, Vec2 middle, double size) {
     const StopMap map(pixels_about(middle, size), std::array{stop_about(size)}, 0.2);
@@ -171,8 +177,7 @@ TEST_CASE("light behind fringes: nothing of it stays beyond the frame, and parts
   SUBCASE("of one") { alone = true; }
   const auto band = alone ? grey(edges(iris)) : edges(iris);
   const EdgeTable table(*band, 1.0 / kRadius_px);
-  std::vector<std::uint16_t> all(iris->bounds().size());
-  for (std::size_t k = 0; k < all.size(); ++k) all[k] = static_cast<std::uint16_t>(k);
+  const std::vector<std::uint16_t> all = bounds_of(*iris);
   const Shade shade{{0.0F, 0.0F}, {1.0F, 2.0F, 3.0F, 0.0F}, {}, {}};
   Fuzz fuzz(12);
   // A frame with no whole blocks of columns, and the stop so large that rows see it level for many of them.

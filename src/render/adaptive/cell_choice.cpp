@@ -14,7 +14,7 @@ namespace {
 
 constexpr int kHalf = Mesh::kCells / 2;
 constexpr int kDeepest = 7;          // quarterings of a patch
-constexpr double kStraight = 0.05;   // of a cell's budget, below which straight sides do: others meet bent ones
+constexpr double kStraight = 0.05;   // of a cell's budget, below which straight sides do
 // Half the cell, a fourth of the deviation of a curve from its chord: a sixteenth of the squared error.
 constexpr double kGainOfHalving = 16.0;
 constexpr double kPlane = 0.02;  // of a cell's budget, that a plane may leave of the irradiance of many

@@ -31,8 +31,8 @@ class CellPainter {
 
   void paint(const Patch& patch) { paint(patch, 0, nullptr); }
 
-  // Of patches from here on: lines that are straight in them are bent in the entrance plane, so that where cells of
-  // different sizes meet, their sides would leave seams between them.
+  // Of patches from here on: lines that are straight in them are bent in the entrance plane, so that where meshes
+  // of different sizes meet, their sides would leave seams between them.
   void sides_bend(bool bend) { sides_bend_ = bend; }
   // From here on the light passes a screen: stop coordinates are in units of `unit` stop radii.
   void stand_behind(std::shared_ptr<const BandScreen> screen, double unit) {

@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "render/adaptive/cell_shape.h"
+
 namespace contrejour::adaptive {
 namespace {
 
@@ -23,7 +25,6 @@ Vec2 middle_of(const Mesh& mesh) { return mesh.position(Mesh::at(Mesh::kCells / 
 
 LightSums::LightSums(const Mesh& mesh, const MeshSquare& square, std::uint32_t blocked)
     : weights_(mesh.layout.weights) {
-  constexpr std::array kSimpson{1.0 / 6.0, 4.0 / 6.0, 1.0 / 6.0};
   const Vec2 origin = middle_of(mesh);
   const int half = square.size / 2;
   const bool turned = mesh.area[Mesh::at(square.ix, square.iy)] < 0.0F;

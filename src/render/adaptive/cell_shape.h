@@ -1,13 +1,17 @@
-// Bounds, areas and middles of what cells are drawn as.
+// Bounds, areas and middles of what cells are drawn as, and integrals over them.
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <limits>
 
 #include "contrejour/vec.h"
 
 namespace contrejour::adaptive {
+
+// Of one axis, over its beginning, middle and end.
+constexpr std::array kSimpson{1.0 / 6.0, 4.0 / 6.0, 1.0 / 6.0};
 
 struct Bounds {
   Vec2 low{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};

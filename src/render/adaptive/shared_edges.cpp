@@ -37,11 +37,10 @@ class RecentEdges {
   static std::size_t hash(Point p) {
     return (std::bit_cast<std::uint32_t>(p.x) * 0x9E3779B1U ^ std::bit_cast<std::uint32_t>(p.y) * 0x85EBCA77U) >> 7U;
   }
-  static bool equal(Point p, Point q) { return p.x == q.x && p.y == q.y; }
   // Each light on its own side.
   static bool same(const Edge& e, const Edge& f) {
-    const bool along = equal(e.a, f.a) && equal(e.b, f.b);
-    const bool against = equal(e.a, f.b) && equal(e.b, f.a);
+    const bool along = e.a == f.a && e.b == f.b;
+    const bool against = e.a == f.b && e.b == f.a;
     return e.turns_left == f.turns_left ? against : along;
   }
   std::array<Slot, kSlots> slots_;

@@ -22,10 +22,9 @@ HWY_BEFORE_NAMESPACE();
 namespace contrejour::adaptive::HWY_NAMESPACE {
 
 // Coverage is multiplied by nothing.
-template <>
-class EdgeShade<CoverSums> {};
+struct NoShade {};
 
-// As add_steep_edge() of other sums: three columns a row. x is seen from the column where the edge is farthest left,
+// As add_steep_edge(): three columns a row. x is seen from the column where the edge is farthest left,
 // rows from the first one: floats hold that.
 HWY_INLINE void add_steep_cover(CoverSums& tile, Vec2 a, Vec2 b, double sign) {
   const FloatTag d;
@@ -103,7 +102,7 @@ HWY_INLINE void add_flat_cover(CoverSums& tile, int row, double left, double rig
   }
 }
 
-HWY_INLINE void add_edge(CoverSums& tile, const EdgeShade<CoverSums>& /*none*/, Vec2 a, Vec2 b, double sign) {
+HWY_INLINE void add_edge(CoverSums& tile, NoShade /*none*/, Vec2 a, Vec2 b, double sign) {
   const double dx = std::abs(b.x - a.x), dy = b.y - a.y;
   if (dx <= dy) return add_steep_cover(tile, a, b, sign);
   const double half_rise = 0.5 * sign * dy / dx;

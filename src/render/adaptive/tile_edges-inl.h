@@ -40,8 +40,7 @@ HWY_INLINE RowShade row_shade(const Shade& shade, const TileSums& tile) {
   return {{level, along_x}, along_y};
 }
 
-// What coverage is multiplied by: a polygon's irradiance row by row, or for coverage alone (tile_cover-inl.h) nothing.
-template <class Sums>
+// What coverage is multiplied by: a polygon's irradiance row by row.
 class EdgeShade {
  public:
   HWY_INLINE explicit EdgeShade(const RowShade& of, int row = 0) : of_(of), row_(of.at(row)) {}
@@ -55,14 +54,13 @@ class EdgeShade {
 };
 
 // One stretch of an edge within a row of pixels, from x0 to x1 and dy high: coverage to its right, as differences.
-template <class Sums>
-HWY_INLINE void add_stretch(Sums& tile, int at_row, const EdgeShade<Sums>& shade, double x0, double x1, double dy) {
+HWY_INLINE void add_stretch(TileSums& tile, int at_row, const EdgeShade& shade, double x0, double x1, double dy) {
   if (x0 > x1) std::swap(x0, x1);
   const auto first = static_cast<int>(x0);
   const auto last = static_cast<int>(x1);
   auto* const from = tile.at(at_row, first);
   tile.touch(at_row, first, last + 1);
-  const auto column = [&](int k) { return from + Sums::kLanes * static_cast<std::size_t>(k - first); };
+  const auto column = [&](int k) { return from + TileSums::kLanes * static_cast<std::size_t>(k - first); };
   if (first == last) {
     const double right = dy * (0.5 * (x0 + x1) - first);
     shade.add(column(first), dy - right);
@@ -108,8 +106,7 @@ HWY_INLINE void for_each_row(int height, Vec2 a, Vec2 b, const Visit& visit) {
 
 // Where an edge gets no farther than a pixel to the side in a row: three columns, and nothing asked that depends on
 // where it crosses from one to the next.
-template <class Sums>
-HWY_INLINE void add_steep_edge(Sums& tile, EdgeShade<Sums> shade, Vec2 a, Vec2 b, double sign) {
+HWY_INLINE void add_steep_edge(TileSums& tile, EdgeShade shade, Vec2 a, Vec2 b, double sign) {
   const double dx = std::abs(b.x - a.x);
   const double half_dy_dx = dx != 0.0 ? 0.5 * sign * (b.y - a.y) / dx : 0.0;
   for_each_row(tile.height, a, b, [&](int row, double x, double x_next, double height) HWY_ATTR {
@@ -123,14 +120,13 @@ HWY_INLINE void add_steep_edge(Sums& tile, EdgeShade<Sums> shade, Vec2 a, Vec2 b
     auto* const column = tile.at(row, first);
     shade.set_row(row);
     shade.add(column, covered);
-    shade.add(column + Sums::kLanes, dy - in_last - covered);
-    shade.add(column + 2 * Sums::kLanes, in_last);
+    shade.add(column + TileSums::kLanes, dy - in_last - covered);
+    shade.add(column + 2 * TileSums::kLanes, in_last);
     tile.touch(row, first, last + 1);
   });
 }
 
-template <class Sums>
-HWY_INLINE void add_edge(Sums& tile, EdgeShade<Sums> shade, Vec2 a, Vec2 b, double sign) {
+HWY_INLINE void add_edge(TileSums& tile, EdgeShade shade, Vec2 a, Vec2 b, double sign) {
   if (std::abs(b.x - a.x) <= b.y - a.y) return add_steep_edge(tile, shade, a, b, sign);
   for_each_row(tile.height, a, b, [&](int row, double x, double x_next, double height) HWY_ATTR {
     shade.set_row(row);
@@ -139,9 +135,9 @@ HWY_INLINE void add_edge(Sums& tile, EdgeShade<Sums> shade, Vec2 a, Vec2 b, doub
 }
 
 // An edge that for_each_edge() visits. Parts left of the tile count as on its border, or not where sums are carried;
-// parts to the right do not.
-template <class Sums>
-void add_clipped(Sums& tile, const EdgeShade<Sums>& shade, Vec2 a, Vec2 b, double sign) {
+// parts to the right do not. Of coverage alone add_edge() is in tile_cover-inl.h.
+template <class Sums, class AnyShade>
+void add_clipped(Sums& tile, const AnyShade& shade, Vec2 a, Vec2 b, double sign) {
   const double width = tile.width;
   if (a.y > b.y) {
     std::swap(a, b);

@@ -85,7 +85,8 @@ class RowForm {
 // Pixels of a row by eights, a bit for each eight from the row's first pixel on: asked together what they see, so that
 // what is done for each pixel does not hang on it.
 using Groups = std::uint64_t;
-constexpr int kGroup = 8;
+constexpr int kGroup = CoverSums::kGroup;
+static_assert(kGroup == TileSums::kBlock);
 static_assert(TileGrid::kWidth <= 64 * kGroup && hn::MaxLanes(FloatTag()) <= kGroup);
 constexpr std::size_t kRowRoom = TileGrid::kWidth + kGroup;
 

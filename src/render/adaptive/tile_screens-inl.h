@@ -26,7 +26,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace contrejour::adaptive::HWY_NAMESPACE {
 
-static_assert(TileSums::kPixel == 4);
+static_assert(TileSums::kPixel == kQuad);
 
 // What passes any screen, several crossings of the stop among them, and dirt. Either may be null.
 class AnyScreen {
@@ -99,7 +99,7 @@ class RunningCover {
 
 // Whole pixels in a row that see the stop level: their light is left as changes along the row, as any polygon's is.
 HWY_INLINE void add_level(TileSums& tile, int row, int first, int end, const RowShade& shade) {
-  const EdgeShade<TileSums> level(shade, row);
+  const EdgeShade level(shade, row);
   tile.touch(row, first, end);
   level.add(tile.at(row, first), 1.0);
   level.add(tile.at(row, end), -1.0);
@@ -360,9 +360,8 @@ void add_screened(TileSums& tile, const PolygonList& list, const Polygon& polygo
   cover.width = tile.width;
   cover.height = tile.height;
   cover.set_columns(within.low_column, within.high_column);
-  EdgeShade<CoverSums> none;
   for_each_edge(tile, list, polygon,
-                [&](Vec2 a, Vec2 b, std::size_t, double sign) { add_clipped(cover, none, a, b, sign); });
+                [&](Vec2 a, Vec2 b, std::size_t, double sign) { add_clipped(cover, NoShade(), a, b, sign); });
   const Screened& behind = list.screened[polygon.screened - 1];
   const auto add = [&](auto&& look) { add_pixels(tile, polygon, behind.map, within, look); };
   if (behind.dirt != 0) return add(AnyScreen(behind.screen, behind.map, &list.dirt[behind.dirt - 1]));

@@ -18,7 +18,6 @@ namespace contrejour::adaptive {
 // rounding goes no farther. Edges left of the tile count as on its border. Rows lie close together, as wide as the
 // polygon: the same little memory for every one, as near to the processor as can be.
 struct CoverSums {
-  static constexpr std::size_t kLanes = 1;
   static constexpr int kGroup = 8;  // columns, of which whole ones are looked at
   struct Columns {  // none if last < first
     int first, last;

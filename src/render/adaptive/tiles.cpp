@@ -30,7 +30,7 @@ void add_polygon(TileSums& tile, const PolygonList& list, const Polygon& polygon
     const auto row = static_cast<int>(std::floor(static_cast<double>(corners[0].y) - tile.y0));
     if (column < 0 || row < 0 || column >= tile.width || row >= tile.height) return;
     tile.touch(row, column, column + 1);
-    const EdgeShade<TileSums> level(shade);
+    const EdgeShade level(shade);
     level.add(tile.at(row, column), 1.0);
     level.add(tile.at(row, column + 1), -1.0);
     return;
@@ -39,7 +39,7 @@ void add_polygon(TileSums& tile, const PolygonList& list, const Polygon& polygon
     const std::uint32_t partner = list.partner_of(polygon.first + corner);
     if (partner == PolygonList::kNotDrawn) return;
     const bool alone = partner == PolygonList::kAlone;
-    EdgeShade<TileSums> change(alone ? shade : shade - row_shade(list.polygons[partner].shade, tile));
+    EdgeShade change(alone ? shade : shade - row_shade(list.polygons[partner].shade, tile));
     add_clipped(tile, change, a, b, sign);
   });
 }
