@@ -1,9 +1,11 @@
 // How far fits may be off: by where a ghost's light is, not by where rays may go that nothing lets through.
+#include <algorithm>
 #include <cmath>
 #include <functional>
 
 #include <doctest/doctest.h>
 
+#include "render/adaptive/frame_error.h"
 #include "render/adaptive/lobatto.h"
 #include "render/adaptive/tolerance.h"
 
@@ -84,4 +86,20 @@ TEST_CASE("without a limit, or without light, anything will do") {
   const RaySheet sheet = sheet_of([](Vec2 p) { return p; });
   CHECK(tolerance_for(sheet, 1e-6, 1.0, frame_of_small_pixels(), {HUGE_VAL, 1.0}).position_px > 1e6);
   CHECK(tolerance_for(sheet, 0.0, 1.0, frame_of_small_pixels(), {1e-8, 1.0}).position_px > 1e6);
+}
+
+TEST_CASE("what some items cannot use of an even share is left to the others") {
+  CHECK(even_share({5.0, 5.0, 5.0, 5.0}, 4.0) == doctest::Approx(1.0));
+  // Two make no more than 0.1 and 0.4: the others have 3.5 for two.
+  CHECK(even_share({5.0, 0.1, 7.0, 0.4}, 4.0) == doctest::Approx(1.75));
+  CHECK(even_share({0.1, 0.2}, 4.0) == doctest::Approx(4.0));
+  CHECK(even_share({}, 4.0) == doctest::Approx(4.0));
+  // All of it and no more, whatever the items.
+  for (const double largest : {0.2, 1.0, 3.0, 100.0}) {
+    const std::vector<double> most{0.05, 0.3, largest, 2.0, 9.0};
+    const double share = even_share(most, 4.0);
+    double sum = 0.0;
+    for (const double of_item : most) sum += std::min(of_item, share);
+    CHECK(sum == doctest::Approx(4.0));
+  }
 }

@@ -1,11 +1,14 @@
 // Many wavelengths told by few: the order they are taken in, what they tell, and pictures made so.
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <set>
 
 #include "adaptive/scene.h"
 #include "contrejour/metrics.h"
+#include "render/adaptive/band_error.h"
 #include "render/adaptive/band_set.h"
 #include "render/adaptive/first_rays.h"
 #include "support/flares.h"
@@ -170,6 +173,77 @@ TEST_CASE("a band of several wavelengths carries the light of all, in each chann
     for (int c = 0; c < 3; ++c)
       CHECK(patch.gain[static_cast<std::size_t>(c)] * patch.field(patch.layout.weight_of(c))[node] ==
             doctest::Approx(sum[node][static_cast<std::size_t>(c)]).epsilon(2e-3).scale(0.01 * sum[node][1]));
+}
+
+TEST_CASE("a band drawn by itself carries the light of all its wavelengths, too") {
+  Rainbow rainbow("heliar", 16.0, {3, 4}, kAside);
+  const Rectangle& box = rainbow.scene.boxes.front();
+  BandSet alone(rainbow.tracers, Band{2, 11, {}});
+  std::vector<RaySheet> sheets = alone.trace(box, 5, PacketPrecision::Double);
+  alone.add_weights(sheets, PacketPrecision::Double);
+  REQUIRE(sheets.size() == 1);
+  REQUIRE(sheets.front().weight.size() == 3);
+  for (std::size_t c = 0; c < 3; ++c) {
+    std::vector<double> sum(sheets.front().count());
+    for (std::size_t pass = 2; pass < 11; ++pass) {
+      const std::vector<float> light = rainbow.tracers.at(pass).transmissions(box, 5, PacketPrecision::Double);
+      for (std::size_t node = 0; node < sum.size(); ++node)
+        sum[node] += rainbow.tracers.passes()[pass].gain[c] * light[node];
+    }
+    for (std::size_t node = 0; node < sum.size(); ++node)
+      CHECK(sheets.front().weight[c][node] == doctest::Approx(sum[node]).epsilon(1e-5));
+  }
+}
+
+namespace {
+
+// What band_error() says, added up over pixels: edges as steps, each pixel their mean.
+double counted_error(std::span<const SpectralEdge> edges, double drawn_px) {
+  constexpr int kOffsets = 200, kReach_px = 12;
+  double sum = 0.0;
+  for (int offset = 0; offset < kOffsets; ++offset) {
+    for (int pixel = -kReach_px; pixel <= kReach_px; ++pixel) {
+      const double left = pixel + (offset + 0.5) / kOffsets;
+      const auto right_of = [&](double edge_px) { return std::clamp(left + 1.0 - edge_px, 0.0, 1.0); };
+      double off = 0.0;
+      for (const SpectralEdge& edge : edges) off += edge.light * (right_of(edge.place_px) - right_of(drawn_px));
+      sum += off * off / kOffsets;
+    }
+  }
+  return sum;
+}
+
+}  // namespace
+
+TEST_CASE("edges drawn at one place are as wrong as counted pixel by pixel") {
+  const std::vector<SpectralEdge> far{{-4.3, 0.2}, {-1.1, 0.1}, {0.4, 0.3}, {2.0, 0.15}, {5.5, 0.25}};
+  const std::vector<SpectralEdge> near{{-0.21, 0.2}, {-0.05, 0.5}, {0.3, 0.3}};
+  for (const auto& edges : {far, near}) {
+    for (const double drawn_px : {0.0, 0.4, middle_of_light(edges)})
+      CHECK(band_error(edges, drawn_px) == doctest::Approx(counted_error(edges, drawn_px)).epsilon(2e-3));
+  }
+  // Displacements of less than a pixel cancel about the middle of the light.
+  CHECK(band_error(near, middle_of_light(near)) < 0.1 * band_error(near, near.front().place_px));
+  const std::vector<SpectralEdge> one{{3.0, 1.0}};
+  CHECK(band_error(one, 3.0) == 0.0);
+}
+
+TEST_CASE("told bands are seen at the middle of their light, traced ones at one of their wavelengths") {
+  Rainbow rainbow("heliar", 16.0, {3, 4}, kAside);
+  const Frame frame = frame_on_sensor(rainbow.scene.lens, 1920, 1080);
+  FirstRays rays = first_rays(rainbow.tracers, rainbow.samples, rainbow.scene.boxes.front(), 5, frame, {1e300, 1.0});
+  rays.tolerance.position_px = 1.0;
+  REQUIRE(rays.samples > 0);
+  bool several = false;
+  for (const Band& band : bands_for(rays, rainbow.passes, rainbow.samples, frame.pixel_pitch_mm)) {
+    REQUIRE(band.mix.size() == band.last - band.first);
+    CHECK(std::accumulate(band.mix.begin(), band.mix.end(), 0.0) == doctest::Approx(1.0));
+    several = several || band.mix.size() > 1;
+  }
+  CHECK(several);
+  rays.samples = 0;
+  for (const Band& band : bands_for(rays, rainbow.passes, rainbow.samples, frame.pixel_pitch_mm))
+    CHECK(band.mix.empty());
 }
 
 TEST_CASE("bands hold every wavelength once, more of them the less may be wrong") {

@@ -1,6 +1,7 @@
 #include "render/adaptive/adaptive.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "base/clock.h"
@@ -35,13 +36,22 @@ class Stopwatch {
 };
 
 // The error that one item may make: items' errors add in squares, being of either sign and in different places. What
-// cells are allowed is a bound that most of them stay far below: measured, all together make less than a tenth of it
-// (docs/physics/adaptive.md), so that six times as much still holds.
-ErrorBudget budget_per_item(double error, double peak, const Frame& frame, std::size_t items) {
+// cells are allowed is a bound that most of them stay far below, so that several times as much still holds: by how much
+// differs from ghost to ghost, and is the more certain of the sum over many. Items that cannot make their share leave
+// it to the others (docs/physics/adaptive.md).
+ErrorBudget budget_per_item(const FrameError& allowed, const std::vector<ItemSize>& sizes) {
   constexpr double kRoom = 6.2;
-  const double allowed = kRoom * error * peak;
-  const double pixels = static_cast<double>(frame.width) * frame.height;
-  return {allowed * allowed * pixels / static_cast<double>(std::max<std::size_t>(items, 1)), peak};
+  constexpr double kOneInMany = 5.0;  // of very many items, that may use all of their share
+  constexpr double kOff_px = 5.0;  // at the most
+  std::vector<double> most;
+  for (const ItemSize& size : sizes) {
+    const double seen = size.level * seen_share(size.level, allowed.peak);
+    most.push_back(seen * seen * std::min(size.area_px, kOff_px * 4.0 * std::sqrt(size.area_px)));
+  }
+  const double squared = kRoom * kRoom * allowed.squared();
+  const double count = std::max(static_cast<double>(sizes.size()), 1.0);
+  const double even = squared / std::max(std::sqrt(count), count / kOneInMany);
+  return {std::min(even, even_share(std::move(most), squared)), allowed.peak};
 }
 
 // Where no light was seen, drawn without care: far below any ghost's, so that errors relative to its own level count.
@@ -138,16 +148,15 @@ Result<Flare> render_adaptive(const LensState& lens, const FramePlan& plan, cons
   if (scene.dirt) dim_items(scene, items);
   const double bound_ms = watch.lap_ms();
   Screens screens(lens, settings);
-  std::vector<ItemSize> sizes;
-  const double peak =
-      estimate_peak(scene, items, settings.frame, quiet, work, screens.on() || scene.dirt ? &sizes : nullptr);
-  const FrameError allowed{settings.error, peak, static_cast<double>(settings.frame.width) * settings.frame.height};
-  if (screens.on() && peak > 0.0) work.add(screen_items(scene, screens, items, sizes, allowed, quiet));
-  if (scene.dirt && peak > 0.0) shadow_items(scene, items, sizes, allowed);
+  const RoughFrame rough = draw_roughly(scene, items, settings.frame, quiet, work);
+  const bool dark = !(rough.peak > 0.0);
+  const FrameError allowed{settings.error, dark ? faintest_peak(plan, settings.frame) : rough.peak,
+                           static_cast<double>(settings.frame.width) * settings.frame.height};
+  if (screens.on() && !dark) work.add(screen_items(scene, screens, items, rough.sizes, allowed, quiet));
+  if (scene.dirt && !dark) shadow_items(scene, items, rough.sizes, allowed);
   const double peak_ms = watch.lap_ms();
   FramePainter painter(scene, settings, context, flare);
-  painter.paint(items, budget_per_item(settings.error, peak > 0.0 ? peak : faintest_peak(plan, settings.frame),
-                                       settings.frame, items.size()));
+  painter.paint(items, budget_per_item(allowed, rough.sizes));
   if (context.cancelled()) return failure(ErrorCode::Cancelled, "interrupted");
 
   work.add(painter.work());

@@ -1,17 +1,23 @@
 #include "render/adaptive/band_set.h"
 
-#include <algorithm>
-
 namespace contrejour::adaptive {
 namespace {
 
-constexpr std::size_t kMostParts = 3;  // of one band: within it the rest would show no more
+std::vector<double> geometry_of(const Band& band, const WavelengthSamples& samples, std::size_t count) {
+  if (band.mix.empty()) return samples.factors(count, band.middle());
+  std::vector<double> mixed(count, 0.0);
+  for (std::size_t pass = band.first; pass < band.last; ++pass) {
+    const std::vector<double> factors = samples.factors(count, pass);
+    for (std::size_t k = 0; k < count; ++k) mixed[k] += band.mix[pass - band.first] * factors[k];
+  }
+  return mixed;
+}
 
-// What makes a band of the first `count` samples: the geometry of its middle and the light of all its wavelengths.
+// What makes a band of the first `count` samples: its geometry and the light of all its wavelengths.
 PatchBlend blend_of(const Band& band, std::span<const PlannedPass> passes, const WavelengthSamples& samples,
                     std::size_t count) {
   PatchBlend blend;
-  blend.geometry = samples.factors(count, band.middle());
+  blend.geometry = geometry_of(band, samples, count);
   if (band.last - band.first == 1) {
     blend.weight = {blend.geometry};
     blend.gain = passes[band.first].gain;
@@ -29,21 +35,8 @@ PatchBlend blend_of(const Band& band, std::span<const PlannedPass> passes, const
 
 }  // namespace
 
-BandSet::BandSet(GhostTracers& tracers, const Band& band) : tracers_(tracers), bands_{band} {
-  const std::size_t passes = band.last - band.first;
-  const std::size_t count = std::min(passes, kMostParts);
-  for (std::size_t part = 0; part < count; ++part) {
-    const std::size_t first = part * passes / count, last = (part + 1) * passes / count;
-    Part one{band.first + (first + last) / 2, {}};
-    for (std::size_t k = first; k < last; ++k) {
-      for (std::size_t c = 0; c < 3; ++c) one.gain[c] += tracers.passes()[band.first + k].gain[c];
-    }
-    parts_.push_back(one);
-  }
-  std::swap(parts_.front(), parts_[count / 2]);  // the one that rays are traced at
-  std::sort(parts_.begin() + 1, parts_.end(), [](const Part& a, const Part& b) { return a.pass < b.pass; });
-  traced_ = {parts_.front().pass};
-}
+BandSet::BandSet(GhostTracers& tracers, const Band& band)
+    : tracers_(tracers), bands_{band}, traced_{band.middle()} {}
 
 BandSet::BandSet(GhostTracers& tracers, const WavelengthSamples& samples, std::size_t count,
                  std::span<const Band> bands)
@@ -64,9 +57,14 @@ void BandSet::add_weights(std::vector<RaySheet>& sheets, PacketPrecision precisi
     return;
   }
   RaySheet& sheet = sheets.front();
-  add_light(sheet, sheet.transmission, parts_.front().gain);
-  for (const Part& part : std::span(parts_).subspan(1))
-    add_light(sheet, tracers_.at(part.pass).transmissions(sheet.box, sheet.nodes, precision), part.gain);
+  const Band& band = bands_.front();
+  for (std::size_t pass = band.first; pass < band.last; ++pass) {
+    const Rgb& gain = tracers_.passes()[pass].gain;
+    if (pass == traced_.front())
+      add_light(sheet, sheet.transmission, gain);
+    else
+      add_light(sheet, tracers_.at(pass).transmissions(sheet.box, sheet.nodes, precision), gain);
+  }
 }
 
 std::vector<Patch> BandSet::make_patches(std::span<const RaySheet> sheets, const Frame& frame) const {

@@ -15,7 +15,7 @@ namespace contrejour::adaptive {
 
 class BandSet {
  public:
-  // One: rays at its middle, transmissions at three of its wavelengths at most.
+  // One: rays at its middle, transmissions at all of its wavelengths.
   BandSet(GhostTracers& tracers, const Band& band);
   // All: rays at the first `count` of `samples`.
   BandSet(GhostTracers& tracers, const WavelengthSamples& samples, std::size_t count, std::span<const Band> bands);
@@ -32,14 +32,9 @@ class BandSet {
   void band_patch(std::span<const Patch> patches, std::size_t band, Patch& out) const;
 
  private:
-  struct Part {
-    std::size_t pass;
-    Rgb gain;
-  };
   GhostTracers& tracers_;
   std::vector<Band> bands_;
   std::vector<std::size_t> traced_;  // passes
-  std::vector<Part> parts_;          // of one band
   std::vector<PatchBlend> blends_;   // one a band; none: there is one band
 };
 

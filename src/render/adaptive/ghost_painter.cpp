@@ -178,7 +178,7 @@ void GhostPainter::paint(const FirstRays& rays, bool with_mirror_image, const Er
   const std::vector<Band> bands = bands_for(rays, tracers_.passes(), samples_, frame_.pixel_pitch_mm);
   BandScreens screens;
   for (const Band& band : bands) screens.push_back(screens_ != nullptr ? band_screen(rays, band) : nullptr);
-  const auto few_cells = kFewCells * static_cast<double>(bands.size());
+  const auto few_cells = kFewCells * std::max(static_cast<double>(bands.size()), 3.0);
   CellPainter cells(iris_, frame_, budget.squared_error, few_cells, budget.peak, out);
   cells.sides_bend(tracers_.is_bent());
   cells.stand_behind(SeenDirt{dirt_, &tracers_.light(), tracers_.plane_z_mm()});

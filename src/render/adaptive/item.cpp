@@ -236,8 +236,8 @@ Painted paint_item(const Scene& scene, const Item& item, const Frame& frame, con
   return paint(scene, item, item.light->passes, frame, grid, budget, kDeepest);
 }
 
-double estimate_peak(const Scene& scene, const std::vector<Item>& items, const Frame& frame, const Context& context,
-                     Work& work, std::vector<ItemSize>* about) {
+RoughFrame draw_roughly(const Scene& scene, const std::vector<Item>& items, const Frame& frame, const Context& context,
+                        Work& work) {
   const Frame small = smaller(frame, kPeakScale);
   const TileGrid grid(small.width, small.height);
   const ErrorBudget unlimited{std::numeric_limits<double>::infinity(), 1.0};
@@ -250,15 +250,17 @@ double estimate_peak(const Scene& scene, const std::vector<Item>& items, const F
     done[k] = painted.work;
   });
   for (const Work& w : done) work.add(w);
-  if (context.cancelled()) return 0.0;
-  for (std::size_t k = 0; about != nullptr && k < items.size(); ++k) about->push_back(size_of(polygons[k].list));
+  RoughFrame rough;
+  if (context.cancelled()) return rough;
+  for (const TiledPolygons& of_item : polygons) rough.sizes.push_back(size_of(of_item.list));
   Image image = Image::unwritten(small.width, small.height);
   TileDrawer(grid).draw(polygons, TileMode::Write, context, image);
-  double peak = quantile_of_samples(image, kPeakQuantile);
-  if (!(peak > 0.0)) {
-    for (const float value : image.pixels) peak = std::max(peak, static_cast<double>(value));
+  rough.peak = quantile_of_samples(image, kPeakQuantile);
+  if (!(rough.peak > 0.0)) {
+    for (const float value : image.pixels) rough.peak = std::max(rough.peak, static_cast<double>(value));
   }
-  return peak / (kPeakScale * kPeakScale);
+  rough.peak /= kPeakScale * kPeakScale;
+  return rough;
 }
 
 }  // namespace contrejour::adaptive

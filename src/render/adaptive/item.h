@@ -47,14 +47,16 @@ struct Painted {
 [[nodiscard]] Painted paint_item(const Scene& scene, const Item& item, const Frame& frame, const TileGrid& grid,
                                  const ErrorBudget& budget);
 
-// The level that 99.9 per cent of the frame's samples stay below (metrics.h), from a small frame drawn without care:
-// what errors are relative to.
-// about: what this tells of each item.
+// What a small frame, drawn without care, tells.
 struct ItemSize {
   double area_px = 0;  // of the polygons that it is drawn with
   double level = 0;    // root mean square over that area, pixel values
 };
-[[nodiscard]] double estimate_peak(const Scene& scene, const std::vector<Item>& items, const Frame& frame,
-                                   const Context& context, Work& work, std::vector<ItemSize>* about = nullptr);
+struct RoughFrame {
+  double peak = 0;  // what errors are relative to: the level that 99.9 per cent of samples stay below (metrics.h)
+  std::vector<ItemSize> sizes;  // one an item; none when cancelled
+};
+[[nodiscard]] RoughFrame draw_roughly(const Scene& scene, const std::vector<Item>& items, const Frame& frame,
+                                      const Context& context, Work& work);
 
 }  // namespace contrejour::adaptive

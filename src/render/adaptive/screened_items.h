@@ -9,7 +9,7 @@
 namespace contrejour::adaptive {
 
 // Gives screens, and boxes that hold the light beside the opening, to all items but those whose fringes together make
-// a small part of the error. sizes: of the items (estimate_peak). Incomplete when cancelled.
+// a small part of the error. sizes: of the items (draw_roughly). Incomplete when cancelled.
 [[nodiscard]] Work screen_items(const Scene& scene, Screens& screens, std::vector<Item>& items,
                                 const std::vector<ItemSize>& sizes, const FrameError& allowed, const Context& context);
 

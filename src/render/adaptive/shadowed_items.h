@@ -11,7 +11,7 @@ namespace contrejour::adaptive {
 void dim_items(const Scene& scene, std::vector<Item>& items);
 
 // Gives shadows to all items but those in which leaving them out makes a small part of the error, all together. sizes:
-// of the items (estimate_peak).
+// of the items (draw_roughly).
 void shadow_items(const Scene& scene, std::vector<Item>& items, const std::vector<ItemSize>& sizes,
                   const FrameError& allowed);
 

@@ -2,19 +2,21 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 #include <vector>
 
 #include "render/adaptive/first_rays.h"
 
 namespace contrejour::adaptive {
 
-// Passes from first to last without it, seen as at the one in their middle.
+// Passes from first to last without it, seen at one place: that of the one in their middle, or between them.
 struct Band {
   std::size_t first = 0, last = 0;
+  std::vector<double> mix{};  // of its passes' geometries, its own; empty: that of its middle
   [[nodiscard]] std::size_t middle() const { return (first + last) / 2; }
 };
 
-// As few as the rays' tolerance allows, of about as many passes each.
+// As few as the rays' tolerance allows. Where samples tell all wavelengths, seen at the middle of their light.
 [[nodiscard]] std::vector<Band> bands_for(const FirstRays& rays, std::span<const PlannedPass> passes,
                                           const WavelengthSamples& samples, double pixel_pitch_mm);
 
