@@ -72,8 +72,7 @@ Meeting meet(const hk::Ray3<double>& ray, const PathStep& step, bool centred) {
 }
 
 double distance_over_rim(const hk::OwnPlace<double>& own, const PathStep& step) {
-  const double r =
-      step.rim ? length(step.rim->place({own.x, own.y})) : std::hypot(own.x, own.y) / step.semi_diameter_mm;
+  const double r = length(step.rim_place({own.x, own.y}));
   return own.nz > 0.0 ? r : std::max(r, kBeyondEquator);
 }
 

@@ -22,6 +22,7 @@ constexpr double kMargin = 0.1;
 constexpr int kDeepest = 4;       // quarterings of a box
 // Boxes of the sharp stop are widened as the stop is up to here, farther by its root: what they lack they grow.
 constexpr double kMuchWider = 1.5;
+constexpr double kScreenedShare = 0.5;  // of an item's squared error, behind screens: cells come closer to theirs there
 constexpr int kPeakDeepest = 1;
 constexpr double kPeakQuantile = 0.999;
 constexpr int kPeakScale = 8;  // the frame's pixels over those of the small one, along a side
@@ -233,7 +234,9 @@ std::vector<Item> find_items(const Scene& scene, const Context& context, Work& w
 
 Painted paint_item(const Scene& scene, const Item& item, const Frame& frame, const TileGrid& grid,
                    const ErrorBudget& budget) {
-  return paint(scene, item, item.light->passes, frame, grid, budget, kDeepest);
+  ErrorBudget of_item = budget;
+  if (item.screens) of_item.squared_error *= kScreenedShare;
+  return paint(scene, item, item.light->passes, frame, grid, of_item, kDeepest);
 }
 
 RoughFrame draw_roughly(const Scene& scene, const std::vector<Item>& items, const Frame& frame, const Context& context,

@@ -32,24 +32,32 @@ struct Edge {
 struct EdgeRay {
   bool arrives = false;
   Vec2 sensor_mm, edge;
-  double transmission = 0.0;
 };
+
+// Where rays go, only: most are asked for nothing else, and coatings take as long as the way.
+OpticalPath without_coatings(OpticalPath path) {
+  for (PathStep& step : path.steps) step.coating = {};
+  return path;
+}
 
 // A ghost's rays by where they start in the plane of the entrance window.
 class Rays {
  public:
-  Rays(const OpticalPath& path, const LightSource& source, double z_mm) : path_(path), source_(source), z_mm_(z_mm) {}
+  Rays(const OpticalPath& path, const LightSource& source, double z_mm)
+      : coated_(path), path_(without_coatings(path)), source_(source), z_mm_(z_mm) {}
 
   [[nodiscard]] EdgeRay from(Vec2 start_mm, Vec2 tangents, const Edge& edge) const {
     if (!edge.rim) {
       const TracedRay ray = trace(path_, start(start_mm, tangents));
-      return {ray.status == RayStatus::Ok, ray.sensor_mm, ray.stop[edge.crossing], ray.transmission};
+      return {ray.status == RayStatus::Ok, ray.sensor_mm, ray.stop[edge.crossing]};
     }
     const RayRecord record = trace_recorded(path_, start(start_mm, tangents));
     if (record.ray.status != RayStatus::Ok) return {};
     const Vec3& at = record.steps[*edge.rim].position_mm;
-    return {true, record.ray.sensor_mm, {at.x, at.y}, record.ray.transmission};
+    return {true, record.ray.sensor_mm, {at.x, at.y}};
   }
+
+  [[nodiscard]] double transmission(Vec2 start_mm) const { return trace(coated_, start(start_mm, {})).transmission; }
 
   // The step whose rim most of some rays are farthest beyond.
   [[nodiscard]] std::optional<std::size_t> blocking_rim(const std::vector<Vec2>& starts_mm) const {
@@ -79,13 +87,15 @@ class Rays {
     return {from, light.direction_at(from)};
   }
 
-  const OpticalPath& path_;
+  const OpticalPath& coated_;
+  OpticalPath path_;
   LightSource source_;
   double z_mm_;
 };
 
 // First derivatives at a ray, of the sensor's place and the edge's.
 struct LocalMotion {
+  Vec2 start_mm;
   EdgeRay ray;
   LinearMap sensor_by_start, sensor_by_angle, edge_by_start;
   LinearMap shift;  // of the sensor's place by the light's direction at a fixed place of the edge
@@ -105,6 +115,7 @@ std::optional<LocalMotion> local_motion(const Rays& rays, Vec2 start, double ste
     return LinearMap{(beside[first].*place - here.*place) * per, (beside[first + 1].*place - here.*place) * per};
   };
   LocalMotion motion;
+  motion.start_mm = start;
   motion.ray = here;
   motion.sensor_by_start = derivative(&EdgeRay::sensor_mm, 0, s);
   motion.sensor_by_angle = derivative(&EdgeRay::sensor_mm, 2, t);
@@ -171,7 +182,7 @@ GhostMotion ghost_motion(const LensState& lens, Ghost ghost, const LightSource& 
   motion.at_mm = middle->ray.sensor_mm;
   motion.spread_mm = middle->sensor_by_start *
                      (pupil->is_open ? square_root(pupil->covariance * 4.0) : LinearMap{} * (kBlindRadius * width));
-  motion.density = middle->ray.transmission * source.direction.z / middle->spread();
+  motion.density = rays.transmission(middle->start_mm) * source.direction.z / middle->spread();
   if (!std::isfinite(motion.density)) return {};
   return motion;
 }

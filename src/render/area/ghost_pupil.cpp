@@ -24,6 +24,8 @@ struct Box {
   Vec2 low, high;
 };
 
+float length(float x, float y) { return std::sqrt(x * x + y * y); }
+
 class Grid {
  public:
   Grid(const OpticalPath& path, const ReflectanceTables& tables, const LightSource& source,
@@ -49,10 +51,10 @@ class Grid {
     for (std::size_t k = 0; k < kRays; ++k) {
       outside_[k] = std::numeric_limits<float>::infinity();
       if (field(0)[k] != 0.0F) continue;
-      outside_[k] = std::hypot(field(2)[k], field(3)[k]) - 1.0F;
+      outside_[k] = length(field(2)[k], field(3)[k]) - 1.0F;
       by_[k] = kRims;
       for (std::size_t c = 0; c < crossings; ++c) {
-        const float at_stop = std::hypot(field(4 + 2 * c)[k], field(5 + 2 * c)[k]) - 1.0F;
+        const float at_stop = length(field(4 + 2 * c)[k], field(5 + 2 * c)[k]) - 1.0F;
         if (!(at_stop > outside_[k])) continue;
         outside_[k] = at_stop;
         by_[k] = static_cast<int>(c);
@@ -72,7 +74,7 @@ class Grid {
   // From the middle of the stop.
   [[nodiscard]] float at_stop(int crossing, std::size_t k) const {
     const auto c = static_cast<std::size_t>(crossing);
-    return std::hypot(fields_[(4 + 2 * c) * kPadded + k], fields_[(5 + 2 * c) * kPadded + k]);
+    return length(fields_[(4 + 2 * c) * kPadded + k], fields_[(5 + 2 * c) * kPadded + k]);
   }
 
  private:
