@@ -4,6 +4,7 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -42,17 +43,45 @@ double ratio(double b, double a) {
   return a == 0 ? std::copysign(std::numeric_limits<double>::infinity(), b) : b / a;
 }
 
-// The value at a place of the sorted samples, and the one after it; the last stands for itself.
-std::pair<double, double> neighbours_at(std::vector<float>& samples, std::size_t place) {
-  const std::size_t from_top = samples.size() - place;
-  if (from_top <= samples.size() / kFewOf) {  // most samples take one comparison with the least of the largest
-    std::vector<float> largest(from_top);
-    std::partial_sort_copy(samples.begin(), samples.end(), largest.begin(), largest.end(), std::greater<>());
-    return {largest.back(), largest[from_top > 1 ? from_top - 2 : 0]};
+// Finite ones that are no smaller; most eights of samples have none and take one look.
+std::vector<float> samples_from(std::span<const float> samples, float least) {
+  constexpr std::size_t kAtOnce = 8;
+  constexpr float kMost = std::numeric_limits<float>::max();
+  std::vector<float> found;
+  const auto keep = [&](float value) {
+    if (value >= least && value <= kMost) found.push_back(value);
+  };
+  std::size_t k = 0;
+  for (; k + kAtOnce <= samples.size(); k += kAtOnce) {
+    bool any = false;
+    for (std::size_t i = 0; i < kAtOnce; ++i) any |= samples[k + i] >= least;
+    if (any) std::ranges::for_each(samples.subspan(k, kAtOnce), keep);
   }
-  const auto at = samples.begin() + static_cast<std::ptrdiff_t>(place);
-  std::nth_element(samples.begin(), at, samples.end());
-  return {*at, from_top > 1 ? *std::min_element(at + 1, samples.end()) : *at};
+  std::ranges::for_each(samples.subspan(k), keep);
+  return found;
+}
+
+// At least so many of the largest finite samples, and not many more if one in kStride tells where these begin.
+std::vector<float> some_of_the_largest(std::span<const float> samples, std::size_t wanted) {
+  constexpr std::size_t kStride = 61;
+  std::vector<float> some;
+  for (std::size_t k = 0; k < samples.size(); k += kStride)
+    if (std::isfinite(samples[k])) some.push_back(samples[k]);
+  const std::size_t above = 2 * wanted / kStride + 8;
+  if (above < some.size()) {
+    const auto at = some.begin() + static_cast<std::ptrdiff_t>(above);
+    std::nth_element(some.begin(), at, some.end(), std::greater<>());
+    std::vector<float> found = samples_from(samples, *at);
+    if (found.size() >= wanted) return found;
+  }
+  return samples_from(samples, std::numeric_limits<float>::lowest());
+}
+
+// The value that `above` others are no smaller than, and the one after it; the largest stands for itself.
+std::pair<double, double> neighbours_below(std::vector<float>& samples, std::size_t above) {
+  const auto at = samples.begin() + static_cast<std::ptrdiff_t>(above);
+  std::nth_element(samples.begin(), at, samples.end(), std::greater<>());
+  return {*at, above > 0 ? *std::min_element(samples.begin(), at) : *at};
 }
 
 bool same_non_finite(float a, float b) { return (std::isnan(a) && std::isnan(b)) || a == b; }
@@ -60,11 +89,15 @@ bool same_non_finite(float a, float b) { return (std::isnan(a) && std::isnan(b))
 }  // namespace
 
 double quantile_of_samples(const Image& image, double q) {
-  std::vector<float> samples = finite_samples(image);
-  if (samples.empty()) return 0;
-  const double place = std::clamp(q, 0.0, 1.0) * static_cast<double>(samples.size() - 1);
+  const auto count =
+      static_cast<std::size_t>(std::ranges::count_if(image.pixels, [](float v) { return std::isfinite(v); }));
+  if (count == 0) return 0;
+  const double place = std::clamp(q, 0.0, 1.0) * static_cast<double>(count - 1);
   const auto below = static_cast<std::size_t>(place);
-  const auto [low, high] = neighbours_at(samples, below);
+  const std::size_t above = count - 1 - below;
+  std::vector<float> samples =
+      above < count / kFewOf ? some_of_the_largest(image.pixels, above + 1) : finite_samples(image);
+  const auto [low, high] = neighbours_below(samples, above);
   return low + (place - static_cast<double>(below)) * (high - low);
 }
 
