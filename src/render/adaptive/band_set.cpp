@@ -35,8 +35,7 @@ PatchBlend blend_of(const Band& band, std::span<const PlannedPass> passes, const
 
 }  // namespace
 
-BandSet::BandSet(GhostTracers& tracers, const Band& band)
-    : tracers_(tracers), bands_{band}, traced_{band.middle()} {}
+BandSet::BandSet(GhostTracers& tracers, const Band& band) : tracers_(tracers), bands_{band}, traced_{band.middle()} {}
 
 BandSet::BandSet(GhostTracers& tracers, const WavelengthSamples& samples, std::size_t count,
                  std::span<const Band> bands)
