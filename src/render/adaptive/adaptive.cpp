@@ -42,11 +42,12 @@ class Stopwatch {
 ErrorBudget budget_per_item(const FrameError& allowed, const std::vector<ItemSize>& sizes) {
   constexpr double kRoom = 6.2;
   constexpr double kOneInMany = 5.0;  // of very many items, that may use all of their share
-  constexpr double kOff_px = 5.0;  // at the most
+  constexpr double kOff_px = 5.0;  // of outlines, at the most
   std::vector<double> most;
   for (const ItemSize& size : sizes) {
     const double seen = size.level * seen_share(size.level, allowed.peak);
-    most.push_back(seen * seen * std::min(size.area_px, kOff_px * 4.0 * std::sqrt(size.area_px)));
+    const double off = seen * seen * std::min(size.area_px, kOff_px * 4.0 * std::sqrt(size.area_px));
+    most.push_back(std::isfinite(off) ? off : std::numeric_limits<double>::infinity());  // lights beyond all numbers
   }
   const double squared = kRoom * kRoom * allowed.squared();
   const double count = std::max(static_cast<double>(sizes.size()), 1.0);

@@ -26,7 +26,8 @@ constexpr double kNoFit = std::numeric_limits<double>::infinity();
 constexpr double kMostLooser = 64.0, kRough = 10.0;
 constexpr double kHopeless = 2.0;  // times the tolerance, foretold of more nodes
 constexpr int kWorthBending = 2;     // quarterings that might be saved
-constexpr double kFewCells = 64.0;  // a band's squared error is shared among so many cells
+// A band's squared error is shared among so many cells; that of fewer bands as if they were three.
+constexpr double kFewCells = 64.0, kFewBands = 3.0;
 
 // Bounds of the cells between the nodes that may let light through, none if none may; the iris counts as its
 // circumscribed circle.
@@ -178,7 +179,7 @@ void GhostPainter::paint(const FirstRays& rays, bool with_mirror_image, const Er
   const std::vector<Band> bands = bands_for(rays, tracers_.passes(), samples_, frame_.pixel_pitch_mm);
   BandScreens screens;
   for (const Band& band : bands) screens.push_back(screens_ != nullptr ? band_screen(rays, band) : nullptr);
-  const auto few_cells = kFewCells * std::max(static_cast<double>(bands.size()), 3.0);
+  const auto few_cells = kFewCells * std::max(static_cast<double>(bands.size()), kFewBands);
   CellPainter cells(iris_, frame_, budget.squared_error, few_cells, budget.peak, out);
   cells.sides_bend(tracers_.is_bent());
   cells.stand_behind(SeenDirt{dirt_, &tracers_.light(), tracers_.plane_z_mm()});

@@ -91,10 +91,10 @@ class Joined {
   }
   [[nodiscard]] double more(std::size_t k) const { return with_next_[k] - wrong_[k] - wrong_[k + 1]; }
   [[nodiscard]] std::size_t least() const {
-    std::size_t least = 0;
+    std::size_t at = 0;
     for (std::size_t k = 1; k < with_next_.size(); ++k)
-      if (more(k) < more(least)) least = k;
-    return least;
+      if (more(k) < more(at)) at = k;
+    return at;
   }
 
   std::vector<SpectralEdge> edges_;  // of all passes
