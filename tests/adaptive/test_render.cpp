@@ -127,7 +127,6 @@ TEST_CASE("frames taken at random are within the error asked for, all but a few 
   CHECK(over_asked[kFrames / 2] < 0.3);
   CHECK(over_asked[kFrames * 9 / 10] < 0.6);
   CHECK(over_asked.back() < 1.2);
-          over_asked.back());
 }
 
 TEST_CASE("ghosts that fall beside the frame leave it dark") {
