@@ -11,7 +11,7 @@ namespace {
 constexpr double kFitShare = 0.3;  // of the allowed error, that fits may make: theirs is the same all over a ghost
 constexpr double kNoLimit = 1e9;
 // Of a ghost that bright beside the peak: wavelengths farther apart, in its sizes, give it colours that are seen.
-constexpr double kColourLevel = 1e-3, kColourShift = 0.1, kColourShift_px = 1.0;
+constexpr double kColourLevel = 1e-3, kColourShift = 0.02, kColourShift_px = 1.0;
 constexpr double kPeaks = 16.0;  // fits of what is so many times brighter than the peak need be no better
 
 // The light of a sheet's image where most of it is: its level, in units of light over pixels, and its area there.
