@@ -84,7 +84,7 @@ class Joined {
   }
   [[nodiscard]] double error_of(std::size_t first, std::size_t last) const {
     const auto edges = of(first, last);
-    const double drawn_px = between_ ? middle_of_light(edges) : edges[edges.size() / 2].place_px;
+    const double drawn_px = between_ ? middle_of_light(edges) : edges_[Band{first, last, {}}.middle()].place_px;
     for (const SpectralEdge& edge : edges)
       if (std::abs(edge.place_px - drawn_px) > farthest_px_) return std::numeric_limits<double>::infinity();
     return band_error(edges, drawn_px);
