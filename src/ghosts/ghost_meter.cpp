@@ -41,22 +41,39 @@ struct OpenTriangle {
   double flux_mm2 = 0;  // but for what all points share (LightSource)
 };
 
+// Of a cell, by its vertices in turn.
 template <class Visit>
-void for_each_open_triangle(const RayGrid& grid, Visit visit) {
+void for_each_open_half(const RayGrid& grid, const std::array<std::size_t, 4>& q, const Visit& visit) {
   const Vec2 step = grid.step_mm();
+  for (const auto& v : {std::array{q[0], q[1], q[2]}, std::array{q[0], q[2], q[3]}}) {
+    const auto blocked = [&](std::size_t k) { return grid.blocked[v[k]]; };
+    if (!(blocked(0) < kFailed && blocked(1) < kFailed && blocked(2) < kFailed)) continue;
+    const double open = share_below_zero(blocked(0), blocked(1), blocked(2));
+    if (open <= 0.0) continue;
+    const double transmission = (grid.transmission[v[0]] + grid.transmission[v[1]] + grid.transmission[v[2]]) / 3.0;
+    visit(OpenTriangle{v, open, open * transmission * 0.5 * step.x * step.y});
+  }
+}
+
+// Through all of the grid, but for what all points share; most cells are open or closed as a whole.
+double open_flux(const RayGrid& grid) {
+  const Vec2 step = grid.step_mm();
+  const double third_of_half = step.x * step.y / 6.0;
+  double flux = 0.0;
   for (int iy = 0; iy < grid.cells(); ++iy) {
     for (int ix = 0; ix < grid.cells(); ++ix) {
       const auto q = grid.corners(ix, iy);
-      for (const auto& v : {std::array{q[0], q[1], q[2]}, std::array{q[0], q[2], q[3]}}) {
-        const auto blocked = [&](std::size_t k) { return grid.blocked[v[k]]; };
-        if (!(blocked(0) < kFailed && blocked(1) < kFailed && blocked(2) < kFailed)) continue;
-        const double open = share_below_zero(blocked(0), blocked(1), blocked(2));
-        if (open <= 0.0) continue;
-        const double transmission = (grid.transmission[v[0]] + grid.transmission[v[1]] + grid.transmission[v[2]]) / 3.0;
-        visit(OpenTriangle{v, open, open * transmission * 0.5 * step.x * step.y});
-      }
+      const auto [lowest, highest] =
+          std::minmax({grid.blocked[q[0]], grid.blocked[q[1]], grid.blocked[q[2]], grid.blocked[q[3]]});
+      if (lowest > 0.0F) continue;
+      const auto light = [&](std::size_t k) { return static_cast<double>(grid.transmission[q[k]]); };
+      if (highest <= 0.0F)
+        flux += (2.0 * (light(0) + light(2)) + light(1) + light(3)) * third_of_half;
+      else
+        for_each_open_half(grid, q, [&](const OpenTriangle& t) { flux += t.flux_mm2; });
     }
   }
+  return flux;
 }
 
 void grow(Vec2& low, Vec2& high, Vec2 p) {
@@ -70,7 +87,7 @@ GhostMeasure measured(const RayGrid& grid, double shared_flux) {
   GhostMeasure m;
   m.min_mm = {kFar, kFar};
   m.max_mm = {-kFar, -kFar};
-  for_each_open_triangle(grid, [&](const OpenTriangle& t) {
+  const auto add = [&](const OpenTriangle& t) {
     const double flux = t.flux_mm2 * shared_flux;
     m.flux_mm2 += flux;
     std::array<Vec2, 3> p;
@@ -81,7 +98,9 @@ GhostMeasure measured(const RayGrid& grid, double shared_flux) {
     }
     const double lit_mm2 = 0.5 * std::abs(cross(p[1] - p[0], p[2] - p[0])) * t.open;
     if (lit_mm2 > 0.0) m.peak_per_mm2 = std::max(m.peak_per_mm2, flux / lit_mm2);
-  });
+  };
+  for (int iy = 0; iy < grid.cells(); ++iy)
+    for (int ix = 0; ix < grid.cells(); ++ix) for_each_open_half(grid, grid.corners(ix, iy), add);
   if (!(m.flux_mm2 > 0.0)) return {};
   m.centroid_mm = m.centroid_mm * (1.0 / m.flux_mm2);
   return m;
@@ -151,9 +170,7 @@ double GhostMeter::direct_flux(const LightSource& light) const {
       find_pupil_region(path, *tables_, iris, light, window, grid, PupilEffort::Finest, kDirectSearchSide);
   if (!region) return 0.0;
   trace_direct({path, *tables_, iris, light, window.z_mm, region->pupil_mm}, grid);
-  double flux = 0.0;
-  for_each_open_triangle(grid, [&](const OpenTriangle& t) { flux += t.flux_mm2; });
-  return flux * light.shared_flux();
+  return open_flux(grid) * light.shared_flux();
 }
 
 GhostMeasure GhostMeter::measure(Ghost ghost, const LightSource& light) const {

@@ -39,7 +39,12 @@ std::vector<CubicPoint> cubic_points(int side, int factor) {
 Vec2 RayGrid::step_mm() const { return (box_.high - box_.low) * (1.0 / (side_ - 1)); }
 
 void RayGrid::resize(std::size_t count) {
-  for (auto* v : {&sensor_x_mm, &sensor_y_mm, &transmission, &r_rel, &blocked, &x_mm_, &y_mm_}) v->resize(count);
+  for (auto* v : {&sensor_x_mm, &sensor_y_mm, &x_mm_, &y_mm_}) v->resize(count);
+  resize_light(count);
+}
+
+void RayGrid::resize_light(std::size_t count) {
+  for (auto* v : {&transmission, &r_rel, &blocked}) v->resize(count);
   for (std::size_t c = 0; c < static_cast<std::size_t>(stop_crossings_); ++c) {
     for (auto* v : {&stop_x[c], &stop_y[c], &iris_distance[c]}) v->resize(count);
   }
@@ -101,13 +106,15 @@ void RayGrid::mirror_rows(int from) {
 }
 
 void RayGrid::refine(const IrisShape& iris, int factor) {
-  for (auto* v : {&sensor_x_mm, &sensor_y_mm, &transmission, &r_rel}) refine(*v, factor);
+  sensor_x_mm.clear();
+  sensor_y_mm.clear();
+  for (auto* v : {&transmission, &r_rel}) refine(*v, factor);
   for (std::size_t c = 0; c < static_cast<std::size_t>(stop_crossings_); ++c) {
     for (auto* v : {&stop_x[c], &stop_y[c]}) refine(*v, factor);
   }
   side_ = factor * (side_ - 1) + 1;
   const std::size_t count = at(0, side_);
-  resize(count);
+  resize_light(count);
   find_blocked(iris, count);
 }
 

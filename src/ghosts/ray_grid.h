@@ -42,7 +42,7 @@ class RayGrid {
                              PacketPrecision precision);
 
   // Every cell into factor x factor, by cubics through the rays along each axis: what is smooth between rays in few of
-  // them. The grid needs four rays a side, all of which arrived.
+  // them. The grid needs four rays a side, all of which arrived; of where they land nothing is left.
   void refine(const IrisShape& iris, int factor);
 
   // Turns the sensor points about the axis; the crossings of the stop stay as they are.
@@ -76,6 +76,7 @@ class RayGrid {
 
  private:
   void resize(std::size_t count);
+  void resize_light(std::size_t count);
   void trace_rows(const OpticalPath& path, const ReflectanceTables& tables, const LightSource& light, double z_mm,
                   const Rectangle& box, int side, int rows, PacketPrecision precision);
   void mirror_rows(int from);

@@ -4,6 +4,7 @@
 #include <memory>
 #include <numbers>
 #include <random>
+#include <set>
 
 #include <doctest/doctest.h>
 
@@ -93,7 +94,8 @@ PolygonList painted(const AffineGhost& ghost, const Iris& iris, double error = 1
   PolygonList list;
   const IrisShape shape(iris);
   const Frame frame = frame_px();
-  CellPainter painter(shape, frame, error * error * level * level * area_px, 64.0, level, list);
+  CellRoom room;
+  CellPainter painter(shape, frame, error * error * level * level * area_px, 64.0, level, room, list);
   painter.paint(ghost.patch());
   return list;
 }
@@ -172,28 +174,82 @@ TEST_CASE("one weight for all channels draws what one a channel draws") {
   }
 }
 
-TEST_CASE("cells of different sizes leave nothing between them, and overlap nowhere") {
+// How far a picture of the ghost is from 1 where it lies, when all its polygons have this irradiance.
+double farthest_from_level(PolygonList list, double bend_px) {
+  for (Polygon& p : list.polygons) p.shade = {p.shade.at, {1.0F, 1.0F, 1.0F}, {}, {}};
+  const Image image = test::drawn(list, kWidth, kHeight);
+  const int beside = static_cast<int>(std::abs(bend_px));
+  double farthest = 0.0;
+  for (int y = 100 - 40 + beside; y < 100 + 40 - beside; ++y)
+    for (int x = 101; x < 220; ++x) farthest = std::max(farthest, std::abs(image.at(x, y, 1) - 1.0));
+  return farthest;
+}
+
+AffineGhost bent_ghost(double bend_px) {
   AffineGhost ghost;
   ghost.nodes = 9;
   ghost.pixels = {{60.2, 0.0}, {0.0, 45.3}, {160.0, 100.0}};
-  for (const double bend_px : {-6.0, 6.0, 6.5}) {  // for which one mesh has them all
-    CAPTURE(bend_px);
-    ghost.bend_px = bend_px;
-    PolygonList list = painted(ghost, {}, 0.03);  // so that one mesh has them all
-    std::size_t most_corners = 0, fewest_corners = 100;
-    for (Polygon& p : list.polygons) {
-      p.shade = {p.shade.at, {1.0F, 1.0F, 1.0F}, {}, {}};
-      most_corners = std::max<std::size_t>(most_corners, p.count);
-      fewest_corners = std::min<std::size_t>(fewest_corners, p.count);
+  ghost.bend_px = bend_px;
+  return ghost;
+}
+
+TEST_CASE("cells of different sizes leave nothing between them, and overlap nowhere") {
+  for (const double bend_px : {-6.0, 6.0, 6.5, 20.0}) {
+    for (const double error : {0.03, 0.003, 3e-4}) {  // one mesh has them all, or several of different depth
+      CAPTURE(bend_px);
+      CAPTURE(error);
+      const PolygonList list = painted(bent_ghost(bend_px), {}, error);
+      const auto [fewest, most] = std::ranges::minmax(list.polygons, {}, &Polygon::count);
+      CHECK(most.count > fewest.count);
+      CHECK(farthest_from_level(list, bend_px) < 1e-5);
     }
-    CHECK(most_corners > fewest_corners);
-    const Image image = test::drawn(list, kWidth, kHeight);
-    double farthest = 0.0;
-    for (int y = 100 - 40 + static_cast<int>(std::abs(bend_px)); y < 100 + 40 - static_cast<int>(std::abs(bend_px));
-         ++y)
-      for (int x = 101; x < 220; ++x) farthest = std::max(farthest, std::abs(image.at(x, y, 1) - 1.0));
-    CHECK(farthest < 1e-5);
   }
+}
+
+TEST_CASE("patches of one box leave nothing between them, whatever they count positions from") {
+  constexpr double kBend_px = 20.0;
+  const Patch whole = bent_ghost(kBend_px).patch();
+  PolygonList list;
+  const IrisShape iris{Iris{}};
+  CellRoom room;
+  CellPainter painter(iris, frame_px(), 1e-3, 64.0, 1e-3, room, list);
+  const MeshPlace place{0, 0};
+  for (std::size_t q = 0; q < 4; ++q) {
+    Patch part = quarter(whole, static_cast<int>(q % 2), static_cast<int>(q / 2));
+    const Vec2 moved{90.0 * static_cast<double>(q), -105.0};
+    part.origin_px = part.origin_px + moved;
+    for (std::size_t k = 0; k < part.size(); ++k) {
+      part.field(PatchLayout::kX)[k] -= static_cast<float>(moved.x);
+      part.field(PatchLayout::kY)[k] -= static_cast<float>(moved.y);
+    }
+    if (q != 3) {
+      painter.choose(part, 0, place.quarter(q));
+      continue;
+    }
+    for (std::size_t r = 0; r < 4; ++r)  // deeper than its neighbours
+      painter.choose(quarter(part, static_cast<int>(r % 2), static_cast<int>(r / 2)), 0, place.quarter(q).quarter(r));
+  }
+  painter.draw(0);
+  REQUIRE(list.polygons.size() > 20);
+  CHECK(farthest_from_level(list, kBend_px) < 1e-5);
+  // Every edge is another polygon's as well, backwards, but for those around the box.
+  using Edge = std::array<float, 4>;
+  std::set<Edge> edges;
+  const auto for_each_edge = [&](const auto& visit) {
+    for (const Polygon& p : list.polygons) {
+      const auto corners = list.corners_of(p);
+      for (std::size_t k = 0; k < corners.size(); ++k) visit(corners[k], corners[(k + 1) % corners.size()]);
+    }
+  };
+  for_each_edge([&](Point a, Point b) { edges.insert(Edge{a.x, a.y, b.x, b.y}); });
+  const Affine pixels = bent_ghost(kBend_px).pixels;
+  for_each_edge([&](Point a, Point b) {
+    if (edges.contains(Edge{b.x, b.y, a.x, a.y})) return;
+    const double u = (0.5 * (a.x + b.x) - pixels.offset.x) / pixels.along_u.x;
+    const double bend = kBend_px * std::pow(0.5 * (u + 1.0), 4);
+    const double v = (0.5 * (a.y + b.y) - bend - pixels.offset.y) / pixels.along_v.y;
+    CHECK(std::max(std::abs(u), std::abs(v)) > 0.97);
+  });
 }
 
 TEST_CASE("even light is one plane, whatever cuts it: nothing is drawn between its cells") {
@@ -450,7 +506,8 @@ TEST_CASE("light behind a screen that is too dim for its ripples to matter is dr
     band->unseen = unseen;
     PolygonList list;
     const IrisShape iris{Iris{}};
-    CellPainter painter(iris, frame_px(), 1e-4 * level * level, 64.0, level, list);
+    CellRoom room;
+    CellPainter painter(iris, frame_px(), 1e-4 * level * level, 64.0, level, room, list);
     painter.stand_behind(band, 1.0);
     painter.paint(ghost.patch());
     return list;

@@ -1,8 +1,10 @@
 #include "render/adaptive/adaptive.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "base/clock.h"
 #include "base/memory.h"
@@ -65,16 +67,32 @@ double faintest_peak(const FramePlan& plan, const Frame& frame) {
                   static_cast<double>(std::numeric_limits<float>::min()));
 }
 
+// Those that may take longest first, so that no thread is left with one of them at the end; then the others in their
+// order, as neighbours pass the same surfaces.
+std::vector<std::size_t> large_ones_first(std::span<const ItemSize> sizes, double peak) {
+  constexpr double kLarge = 1.0 / 16.0;  // of all
+  std::vector<double> seen;
+  for (const ItemSize& size : sizes)
+    seen.push_back(size.level * seen_share(size.level, peak) * std::sqrt(std::max(size.area_px, 0.0)));
+  const double large = kLarge * std::accumulate(seen.begin(), seen.end(), 0.0);
+  std::vector<std::size_t> order(sizes.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  const auto others = std::ranges::stable_partition(order, [&](std::size_t k) { return seen[k] > large; });
+  std::stable_sort(order.begin(), others.begin(), [&](std::size_t a, std::size_t b) { return seen[a] > seen[b]; });
+  return order;
+}
+
 // Items painted one batch after the other, each batch then drawn; in the items' order whatever the threads.
 class FramePainter {
  public:
-  FramePainter(const Scene& scene, const RenderSettings& settings, const Context& context, Flare& flare)
-      : scene_(scene), frame_(settings.frame), context_(context), quiet_(context), flare_(flare),
+  FramePainter(const Scene& scene, const RenderSettings& settings, Pool<GhostRoom>& rooms, const Context& context,
+               Flare& flare)
+      : scene_(scene), rooms_(rooms), frame_(settings.frame), context_(context), quiet_(context), flare_(flare),
         grid_(settings.frame.width, settings.frame.height), drawer_(grid_) {
     quiet_.progress = {};
   }
 
-  void paint(const std::vector<Item>& items, const ErrorBudget& budget) {
+  void paint(const std::vector<Item>& items, const std::vector<ItemSize>& sizes, const ErrorBudget& budget) {
     flare_.image = Image::unwritten(frame_.width, frame_.height);
     mode_ = TileMode::Write;
     if (items.empty()) draw({});
@@ -82,7 +100,7 @@ class FramePainter {
       std::vector<TiledPolygons> batch;
       for (std::size_t bytes = 0; done < items.size() && bytes < kBatchBytes && !context_.cancelled();) {
         const std::size_t count = std::min(kItemsAtOnce, items.size() - done);
-        bytes += paint_some({items.data() + done, count}, budget, batch);
+        bytes += paint_some({items.data() + done, count}, {sizes.data() + done, count}, budget, batch);
         done += count;
       }
       paint_ms_ += watch_.lap_ms();
@@ -97,10 +115,15 @@ class FramePainter {
   [[nodiscard]] double tiles_ms() const { return tiles_ms_; }
 
  private:
-  std::size_t paint_some(std::span<const Item> items, const ErrorBudget& budget, std::vector<TiledPolygons>& batch) {
+  std::size_t paint_some(std::span<const Item> items, std::span<const ItemSize> sizes, const ErrorBudget& budget,
+                         std::vector<TiledPolygons>& batch) {
     std::vector<Painted> painted(items.size());
-    parallel_for(items.size(), quiet_,
-                 [&](std::size_t k) { painted[k] = paint_item(scene_, items[k], frame_, grid_, budget); });
+    const std::vector<std::size_t> order = large_ones_first(sizes, budget.peak);
+    std::atomic<std::size_t> next = 0;
+    parallel_for(items.size(), quiet_, [&](std::size_t) {
+      const std::size_t k = order[next.fetch_add(1)];
+      painted[k] = paint_item(scene_, items[k], frame_, grid_, budget, rooms_);
+    });
     std::size_t bytes = 0;
     for (Painted& p : painted) {
       work_.add(p.work);
@@ -117,6 +140,7 @@ class FramePainter {
   }
 
   const Scene& scene_;
+  Pool<GhostRoom>& rooms_;
   const Frame& frame_;
   const Context& context_;
   Context quiet_;
@@ -149,15 +173,16 @@ Result<Flare> render_adaptive(const LensState& lens, const FramePlan& plan, cons
   if (scene.dirt) dim_items(scene, items);
   const double bound_ms = watch.lap_ms();
   Screens screens(lens, settings);
-  const RoughFrame rough = draw_roughly(scene, items, settings.frame, quiet, work);
+  Pool<GhostRoom> rooms;
+  const RoughFrame rough = draw_roughly(scene, items, settings.frame, rooms, quiet, work);
   const bool dark = !(rough.peak > 0.0);
   const FrameError allowed{settings.error, dark ? faintest_peak(plan, settings.frame) : rough.peak,
                            static_cast<double>(settings.frame.width) * settings.frame.height};
   if (screens.on() && !dark) work.add(screen_items(scene, screens, items, rough.sizes, allowed, quiet));
   if (scene.dirt && !dark) shadow_items(scene, items, rough.sizes, allowed);
   const double peak_ms = watch.lap_ms();
-  FramePainter painter(scene, settings, context, flare);
-  painter.paint(items, budget_per_item(allowed, rough.sizes));
+  FramePainter painter(scene, settings, rooms, context, flare);
+  painter.paint(items, rough.sizes, budget_per_item(allowed, rough.sizes));
   if (context.cancelled()) return failure(ErrorCode::Cancelled, "interrupted");
 
   work.add(painter.work());

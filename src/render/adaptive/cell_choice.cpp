@@ -29,7 +29,7 @@ MeshSquare quarter_square(std::size_t q) {
 
 }  // namespace
 
-CellPainter::Cell CellPainter::cell_at(const MeshSquare& square) {
+Cell CellPainter::cell_at(const BoxMesh& of, const MeshSquare& square) {
   const auto [ix, iy, size] = square;
   Cell cell{.ix = ix, .iy = iy, .size = size};
   const int half = size / 2;
@@ -37,6 +37,9 @@ CellPainter::Cell CellPainter::cell_at(const MeshSquare& square) {
   cell.side = {Mesh::at(ix + half, iy), Mesh::at(ix + size, iy + half), Mesh::at(ix + half, iy + size),
                Mesh::at(ix, iy + half)};
   cell.middle = Mesh::at(ix + half, iy + half);
+  const MeshPlace& at = of.place;
+  const int x = at.x + ix * at.step, y = at.y + iy * at.step, length = size * at.step;
+  cell.shared = {y > 0, x + length < MeshPlace::kWhole, y + length < MeshPlace::kWhole, x > 0};
   return cell;
 }
 
@@ -80,16 +83,9 @@ bool CellPainter::off_frame(const Mesh& mesh, const Cell& cell) const {
   return !(high.x > 0.0 && high.y > 0.0 && low.x < width_ && low.y < height_);
 }
 
-std::optional<std::pair<CellPainter::Cell, CellPainter::State>> CellPainter::seen_cell(const Mesh& mesh,
-                                                                                       const std::array<bool, 4>& finer,
-                                                                                       const MeshSquare& square) const {
-  const auto [ix, iy, size] = square;
-  Cell cell = cell_at(square);
-  const auto same_mesh = [&](int x, int y) {
-    const auto inside = [](int v) { return v >= 0 && v < Mesh::kCells; };
-    return inside(x) && inside(y) && !finer[quarter_at(x, y)];
-  };
-  cell.shared = {same_mesh(ix, iy - 1), same_mesh(ix + size, iy), same_mesh(ix, iy + size), same_mesh(ix - 1, iy)};
+std::optional<std::pair<Cell, CellState>> CellPainter::seen_cell(const BoxMesh& of, const MeshSquare& square) const {
+  const Mesh& mesh = of.mesh;
+  Cell cell = cell_at(of, square);
   const State state = state_of(mesh, cell);
   if (state == State::Closed || off_frame(mesh, cell)) return std::nullopt;
   cell.screen = view_of_screen(mesh, cell);
@@ -97,14 +93,14 @@ std::optional<std::pair<CellPainter::Cell, CellPainter::State>> CellPainter::see
   return std::pair(cell, state);
 }
 
-bool CellPainter::wants_finer_mesh(const Mesh& mesh, const MeshSquare& square, bool on_plane) const {
+bool CellPainter::wants_finer_mesh(const BoxMesh& in, const MeshSquare& square, bool on_plane) const {
   for (int y = square.iy; y < square.iy + square.size; y += 2) {
     for (int x = square.ix; x < square.ix + square.size; x += 2) {
-      const auto seen = seen_cell(mesh, {}, {x, y, 2});
+      const auto seen = seen_cell(in, {x, y, 2});
       if (!seen) continue;
       const auto& [cell, state] = *seen;
-      CellMeasure of = measure(mesh, cell, state, on_plane);
-      if (squared_error(mesh, cell, of, state, most_bent(state)) > kGainOfHalving * cell_budget()) return true;
+      CellMeasure of = measure(in.mesh, cell, state, on_plane);
+      if (squared_error(in.mesh, cell, of, state, most_bent(state)) > kGainOfHalving * cell_budget()) return true;
     }
   }
   return false;
@@ -128,85 +124,67 @@ std::optional<Shade> CellPainter::plane_for(const Mesh& mesh, const MeshSquare& 
 }
 
 // Of all of it, or of those quarters that have one.
-void CellPainter::find_planes(const Mesh& mesh, ChosenCells& chosen) const {
+void CellPainter::find_planes(BoxMesh& of) const {
   const MeshSquare whole{0, 0, Mesh::kCells};
-  LightSums light(mesh, quarter_square(0), blocking(mesh));
-  for (std::size_t q = 1; q < 4; ++q) light.add({mesh, quarter_square(q), blocking(mesh)});
-  const auto plane = light.plane(mesh, whole);
-  if (plane && serves(*plane)) return chosen.plane.fill(chosen.keep(plane->shade));
-  for (std::size_t q = 0; q < 4; ++q) chosen.plane[q] = chosen.keep(plane_for(mesh, quarter_square(q)));
+  LightSums light(of.mesh, quarter_square(0), blocking(of.mesh));
+  for (std::size_t q = 1; q < 4; ++q) light.add({of.mesh, quarter_square(q), blocking(of.mesh)});
+  const auto plane = light.plane(of.mesh, whole);
+  if (plane && serves(*plane)) return of.plane.fill(of.keep(plane->shade));
+  for (std::size_t q = 0; q < 4; ++q) of.plane[q] = of.keep(plane_for(of.mesh, quarter_square(q)));
 }
 
-void CellPainter::paint(const Patch& patch, int depth, const Shade* plane) {
-  const auto at = static_cast<std::size_t>(depth);
-  while (meshes_.size() <= at) meshes_.emplace_back();
-  Mesh& mesh = meshes_[at].first;
-  ChosenCells& chosen = meshes_[at].second;
-  make_mesh(patch, iris_, mesh);
-  chosen.start_with(plane);
+void CellPainter::choose(const Patch& patch, std::size_t band, const MeshPlace& place) {
+  if (chosen_.size() <= band) chosen_.resize(band + 1);
+  choose(patch, chosen_[band], place, 0, nullptr);
+}
+
+// patch: what the mesh at that place is made of.
+void CellPainter::choose(const Patch& patch, BoxCells& cells, const MeshPlace& place, int depth, const Shade* plane) {
+  BoxMesh& of = cells.add(place, plane);
+  make_mesh(patch, iris_, of.mesh);
   const auto find_finer = [&](std::size_t q) {
-    return depth < kDeepest && wants_finer_mesh(mesh, quarter_square(q), chosen.plane[q] != nullptr);
+    return depth < kDeepest && wants_finer_mesh(of, quarter_square(q), of.plane[q] != nullptr);
   };
-  for (std::size_t q = 0; q < 4; ++q) chosen.finer[q] = find_finer(q);
+  std::array<bool, 4> finer{};
+  for (std::size_t q = 0; q < 4; ++q) finer[q] = find_finer(q);
   // What so few nodes tell, nine vertices tell too.
-  const bool whole = depth == 0 && patch.nodes <= 5 && std::ranges::none_of(chosen.finer, std::identity());
-  if (whole) {
-    choose(mesh, {0, 0, Mesh::kCells}, plane, chosen);
-  } else if (plane == nullptr) {
-    find_planes(mesh, chosen);
+  const bool whole = depth == 0 && patch.nodes <= 5 && std::ranges::none_of(finer, std::identity());
+  if (!whole && plane == nullptr) {
+    find_planes(of);
     for (std::size_t q = 0; q < 4; ++q)
-      if (chosen.plane[q] != nullptr && chosen.finer[q]) chosen.finer[q] = find_finer(q);
+      if (of.plane[q] != nullptr && finer[q]) finer[q] = find_finer(q);
   }
   const int first = patch.nodes <= 9 ? kHalf : kHalf / 2;  // 9 nodes: 3 x 3 vertices tell a quarter
-  for (int y = 0; y < Mesh::kCells; y += first) {
+  if (whole) choose(of, {0, 0, Mesh::kCells}, plane);
+  for (int y = 0; y < Mesh::kCells && !whole; y += first) {
     for (int x = 0; x < Mesh::kCells; x += first) {
       const std::size_t q = quarter_at(x, y);
-      if (!whole && !chosen.finer[q]) choose(mesh, {x, y, first}, chosen.plane[q], chosen);
+      if (!finer[q]) choose(of, {x, y, first}, of.plane[q]);
     }
   }
-  for (const ChosenCell& cell : chosen.cells) draw(mesh, cell, chosen.corners);
   for (std::size_t q = 0; q < 4; ++q)
-    if (chosen.finer[q])
-      paint(quarter(patch, static_cast<int>(q % 2), static_cast<int>(q / 2)), depth + 1, chosen.plane[q]);
+    if (finer[q])
+      choose(quarter(patch, static_cast<int>(q % 2), static_cast<int>(q / 2)), cells, place.quarter(q), depth + 1,
+             of.plane[q]);
 }
 
-void CellPainter::ChosenCells::add(const ChosenCell& chosen) {
-  cells.push_back(chosen);
-  for (const std::size_t vertex : chosen.cell.corner) corners.set(vertex);
-  for (const std::size_t vertex : chosen.cell.side)
-    if (chosen.sides == Sides::Bent) corners.set(vertex);
-}
-
-void CellPainter::ChosenCells::start_with(const Shade* given) {
-  finer.fill(false);
-  plane.fill(given);
-  planes.clear();
-  cells.clear();
-  corners.reset();
-}
-
-const Shade* CellPainter::ChosenCells::keep(const std::optional<Shade>& some) {
-  return some ? &planes.emplace_front(*some) : nullptr;
-}
-
-void CellPainter::choose(const Mesh& mesh, const MeshSquare& square, const Shade* plane, ChosenCells& chosen) {
-  const auto seen = seen_cell(mesh, chosen.finer, square);
+void CellPainter::choose(BoxMesh& of, const MeshSquare& square, const Shade* plane) {
+  const auto seen = seen_cell(of, square);
   if (!seen) return;
   const auto& [cell, state] = *seen;
   const auto choose_it = [&](Sides sides) {
     cells_ += 1.0;
-    chosen.add({cell, state, sides, plane});
+    of.add({cell, state, sides, plane});
   };
   if (square.size == 1) return choose_it(Sides::Straight);
-  CellMeasure of = measure(mesh, cell, state, plane != nullptr);
-  if (squared_error(mesh, cell, of, state, Sides::Straight) <= kStraight * cell_budget())
+  CellMeasure measured = measure(of.mesh, cell, state, plane != nullptr);
+  if (squared_error(of.mesh, cell, measured, state, Sides::Straight) <= kStraight * cell_budget())
     return choose_it(Sides::Straight);
-  const Sides sides = is_dirty(mesh, cell) ? Sides::Straight : most_bent(state);
-  if (squared_error(mesh, cell, of, state, sides) <= cell_budget()) return choose_it(sides);
-  const Shade* const common = plane != nullptr ? plane : chosen.keep(plane_for(mesh, square));
+  const Sides sides = is_dirty(of.mesh, cell) ? Sides::Straight : most_bent(state);
+  if (squared_error(of.mesh, cell, measured, state, sides) <= cell_budget()) return choose_it(sides);
+  const Shade* const common = plane != nullptr ? plane : of.keep(plane_for(of.mesh, square));
   const int half = square.size / 2;
-  for (int k = 0; k < 4; ++k)
-    choose(mesh, {square.ix + (k % 2) * half, square.iy + (k / 2) * half, half}, common, chosen);
+  for (int k = 0; k < 4; ++k) choose(of, {square.ix + (k % 2) * half, square.iy + (k / 2) * half, half}, common);
 }
 
 }  // namespace contrejour::adaptive

@@ -18,7 +18,8 @@ constexpr double kPictureEdges = 6.0;  // that cut a cell, as long as it is, whe
 constexpr double kShadeBound = 4.0;  // the irradiance is linear over the cell in pixels, not in shares of it
 constexpr double kEdgeBound = 2.0;  // what edges are off is all seen, where levels are off by less than their bounds
 constexpr double kFoldBound = 0.5;  // of a fold's flux, that is out of place
-constexpr double kShownOfShared = 0.1;  // of how far sides that cells share are off, where edges cut them
+constexpr double kShownOfShared =
+    0.3;  // of how far sides that cells share are off, where edges cut them: found likewise
 constexpr double kMostBend = 0.04;  // of a cell, that what cuts it may be off
 constexpr double kLeftByBend = 0.25;  // of a curve's deviation from its chord, where a corner in its middle bends it
 constexpr double kChordShare = 0.5;  // of a cell's error, that chords in place of an arc may make
@@ -135,9 +136,10 @@ double CellPainter::squared_error(const Mesh& mesh, const Cell& cell, CellMeasur
       std::min(1.0, m.area_px / std::max(m.longest_px, 1e-6));  // a sliver's flux is spread over a pixel
   double error = 0.0;
   if (!m.on_plane) {  // what is drawn has the flux over the polygon's area for its mean
-    const Shape shape = shape_of(cell, sides);
+    const auto bent = [&](std::size_t k) { return mesh.position(k % 2 == 0 ? cell.corner[k / 2] : cell.side[k / 2]); };
+    const auto straight = [&](std::size_t k) { return mesh.position(cell.corner[k]); };
     const double drawn_px =
-        std::abs(area_of(shape.count, [&](std::size_t k) { return mesh.position(shape.corners[k].vertex); }).signed_px);
+        std::abs(sides == Sides::Bent ? area_of(8, bent).signed_px : area_of(4, straight).signed_px);
     const double off_level = m.flux / std::max(drawn_px, 1e-12) - m.flux / std::max(m.image_px, 1e-12);
     error = kShadeBound * (m.off_plane + off_level * off_level) * m.area_px * width;
   }
@@ -168,7 +170,7 @@ double CellPainter::squared_error(const Mesh& mesh, const Cell& cell, CellMeasur
 }
 
 // What a cell shares its sides with has the same corners there: nothing is left between them, and of edges that cut
-// both only the ends are off. Beside a cell of another mesh, or one that is drawn as triangles, sides overlap or leave
+// both only the ends are off. Beside a cell of another box, or one that is drawn as triangles, sides overlap or leave
 // gaps.
 CellPainter::SidesOff CellPainter::sides_off(const Mesh& mesh, const Cell& cell, State state, double left) const {
   const bool triangles = is_dirty(mesh, cell) || (state == State::Cut && iris_.is_picture() && !screen_);

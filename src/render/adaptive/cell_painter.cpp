@@ -26,27 +26,13 @@ void CellPainter::dim(Shade& shade, Flux& flux, const Flux& share) {
   }
 }
 
-CellPainter::Shape CellPainter::shape_of(const Cell& cell, Sides sides) {
+CellPainter::Shape CellPainter::shape_of(const Mesh& mesh, const Cell& cell, Sides sides) {
   constexpr std::array<Vec2, 4> kCorner{Vec2{0, 0}, Vec2{1, 0}, Vec2{1, 1}, Vec2{0, 1}};
   constexpr std::array<Vec2, 4> kSide{Vec2{0.5, 0}, Vec2{1, 0.5}, Vec2{0.5, 1}, Vec2{0, 0.5}};
   Shape out;
   for (std::size_t k = 0; k < 4; ++k) {
-    out.add({cell.corner[k], kCorner[k]});
-    if (sides == Sides::Bent) out.add({cell.side[k], kSide[k]});
-  }
-  return out;
-}
-
-CellPainter::Outline CellPainter::outline_of(const Cell& cell, const std::bitset<Mesh::kVertices>& corners) {
-  constexpr std::array<std::array<int, 2>, 4> kAlong{{{1, 0}, {0, 1}, {-1, 0}, {0, -1}}};
-  Outline out;
-  int x = 0, y = 0;
-  for (const auto& along : kAlong) {
-    for (int step = 0; step < cell.size; ++step, x += along[0], y += along[1]) {
-      const std::size_t vertex = Mesh::at(cell.ix + x, cell.iy + y);
-      if (corners[vertex])
-        out.add({vertex, Vec2{x / static_cast<double>(cell.size), y / static_cast<double>(cell.size)}});
-    }
+    out.add(CellCorner::at_vertex(mesh, cell.corner[k], kCorner[k]));
+    if (sides == Sides::Bent) out.add(CellCorner::at_vertex(mesh, cell.side[k], kSide[k]));
   }
   return out;
 }
@@ -74,13 +60,22 @@ CellPainter::CellLevel CellPainter::cell_level(const Mesh& mesh, const Cell& cel
   return level;
 }
 
-void CellPainter::draw(const Mesh& mesh, const ChosenCell& chosen, const std::bitset<Mesh::kVertices>& corners) {
+void CellPainter::draw(std::size_t band) {
+  if (band >= chosen_.size()) return;
+  BoxCells& cells = chosen_[band];
+  cells.join();
+  for (std::size_t k = 0; k < cells.count(); ++k)
+    for (const ChosenCell& chosen : cells[k].cells) draw(cells, cells[k], chosen);
+  cells.clear();
+}
+
+void CellPainter::draw(const BoxCells& cells, const BoxMesh& of, const ChosenCell& chosen) {
   const auto& [cell, state, sides, plane] = chosen;
+  const Mesh& mesh = of.mesh;
   const std::array<Vec2, 4> p{mesh.position(cell.corner[0]), mesh.position(cell.corner[1]),
                               mesh.position(cell.corner[2]), mesh.position(cell.corner[3])};
-  const Outline outline = outline_of(cell, corners);
-  const auto [area, centroid] =
-      area_of(outline.count, [&](std::size_t k) { return mesh.position(outline.corners[k].vertex); });
+  cells.outline(of, cell, all_corners_);
+  const auto [area, centroid] = area_of(all_corners_.size(), [&](std::size_t k) { return all_corners_[k].position; });
   bool convex = true;
   for (std::size_t k = 0; k < 4; ++k) {
     const Vec2 a = p[k];
@@ -112,7 +107,7 @@ void CellPainter::draw(const Mesh& mesh, const ChosenCell& chosen, const std::bi
   if (plane != nullptr) shade = *plane;
   const auto draw_seen = [&](const StopMap* map) {
     if (is_dirty(mesh, cell)) return draw_dirty(mesh, cell, state, shade, flux, map);
-    draw_polygon(mesh, state, shade, flux, shape_of(cell, sides).all(), outline.all(), {map});
+    draw_polygon(mesh, state, shade, flux, shape_of(mesh, cell, sides).all(), all_corners_, {map});
   };
   const bool varied = cell.screen.part == ScreenPart::Varied;
   const bool one_place = std::max(length(d), length(f)) < kOnePlace_px;
@@ -129,7 +124,9 @@ void CellPainter::draw_folded(const Mesh& mesh, const Cell& cell, State state) {
   const double flux_area = 0.5 * mesh.cell_flux_area_mm2 * cell.size * cell.size;
   for (const auto& t : {std::array{cell.corner[0], cell.corner[1], cell.corner[2]},
                         std::array{cell.corner[0], cell.corner[2], cell.corner[3]}}) {
-    const std::array<CellCorner, 3> corners{{{t[0], {0, 0}}, {t[1], {1, 0}}, {t[2], {1, 1}}}};
+    const std::array<CellCorner, 3> corners{CellCorner::at_vertex(mesh, t[0], {0, 0}),
+                                            CellCorner::at_vertex(mesh, t[1], {1, 0}),
+                                            CellCorner::at_vertex(mesh, t[2], {1, 1})};
     const std::array<Vec2, 3> p{mesh.position(t[0]), mesh.position(t[1]), mesh.position(t[2])};
     const double area = 0.5 * std::abs(cross(p[1] - p[0], p[2] - p[0]));
     const Vec2 middle = (p[0] + p[1] + p[2]) * (1.0 / 3.0) + mesh.origin_px;
@@ -155,10 +152,10 @@ std::span<const Corner> CellPainter::placed(const Mesh& mesh, State state, std::
                                             std::vector<Corner>& to) {
   to.resize(corners.size());
   for (std::size_t k = 0; k < corners.size(); ++k) {
-    to[k].position = mesh.position(corners[k].vertex) + mesh.origin_px;
+    to[k].position = corners[k].position + mesh.origin_px;
     to[k].uv = corners[k].uv;
     for (int f = PatchLayout::kStop; state == State::Cut && f < mesh.layout.limits_end(); ++f)
-      to[k].limit[static_cast<std::size_t>(f - PatchLayout::kStop)] = mesh.field(f)[corners[k].vertex];
+      to[k].limit[static_cast<std::size_t>(f - PatchLayout::kStop)] = corners[k].value_of(mesh.field(f));
   }
   return to;
 }

@@ -3,15 +3,13 @@
 #pragma once
 
 #include <algorithm>
-#include <bitset>
 #include <cstdint>
 #include <deque>
-#include <forward_list>
 #include <map>
 #include <optional>
 #include <utility>
 
-#include "render/adaptive/cell_plane.h"
+#include "render/adaptive/box_cells.h"
 #include "render/adaptive/mesh.h"
 #include "render/adaptive/outline_cutter.h"
 #include "render/adaptive/placed_polygon.h"
@@ -21,15 +19,24 @@
 
 namespace contrejour::adaptive {
 
+using CellRoom = std::deque<BoxCells>;  // by band
+
 class CellPainter {
  public:
   // budget: squared error that all cells together may make, in pixel values, summed over pixels, if they are no more
   // than few_cells or several times that. peak: of the frame.
-  CellPainter(const IrisShape& iris, const Frame& frame, double budget, double few_cells, double peak, PolygonList& out)
+  // room: for its cells, used again afterwards.
+  CellPainter(const IrisShape& iris, const Frame& frame, double budget, double few_cells, double peak, CellRoom& room,
+              PolygonList& out)
       : iris_(iris), width_(frame.width), height_(frame.height), budget_(budget), few_cells_(few_cells), peak_(peak),
-        out_(out), cutter_(iris) {}
+        out_(out), chosen_(room), cutter_(iris) {}
 
-  void paint(const Patch& patch) { paint(patch, 0, nullptr); }
+  // The cells of a patch of a band, which is where in a box.
+  void choose(const Patch& patch, std::size_t band, const MeshPlace& place);
+  // All that were chosen of a band.
+  void draw(std::size_t band);
+  // A patch that is all of its box.
+  void paint(const Patch& patch) { choose(patch, 0, {}), draw(0); }
 
   // Of patches from here on: lines that are straight in them are bent in the entrance plane, so that where meshes
   // of different sizes meet, their sides would leave seams between them.
@@ -45,7 +52,7 @@ class CellPainter {
   void stand_behind(const SeenDirt& dirt) { dirt_ = dirt; }
 
  private:
-  enum class State : std::uint8_t { Open, Cut, Closed };
+  using State = CellState;
   using Flux = std::array<double, 3>;
   // Where a triangle's light crosses the plane of the dirt, mm.
   struct DirtTriangle {
@@ -59,34 +66,6 @@ class CellPainter {
     const DirtTriangle* dirt = nullptr;
   };
 
-  // Vertices of a square of mesh cells: corners in turn, middles of the sides, the middle.
-  struct Cell {
-    int ix = 0, iy = 0, size = 0;
-    std::array<std::size_t, 4> corner{}, side{};
-    std::size_t middle = 0;
-    std::array<bool, 4> shared{};  // sides that have cells of the same mesh beyond
-    ScreenView screen{ScreenPart::Level, 1.0};  // all that is seen of it
-  };
-  enum class Sides : std::uint8_t { Straight, Bent };  // bent ones have a corner in their middle
-  struct ChosenCell {
-    Cell cell;
-    State state = State::Open;
-    Sides sides = Sides::Straight;
-    const Shade* plane = nullptr;  // its irradiance is this, not its own
-  };
-  // What is drawn of a mesh. Each cell has for corners all vertices on its sides that any of them has, so that the
-  // sides that two of them share are the same, whatever their sizes.
-  struct ChosenCells {
-    std::array<bool, 4> finer{};  // quarters that have meshes of their own
-    std::array<const Shade*, 4> plane{};  // of quarters, or null
-    std::forward_list<Shade> planes;
-    std::vector<ChosenCell> cells;
-    std::bitset<Mesh::kVertices> corners;
-
-    void start_with(const Shade* given);
-    void add(const ChosenCell& chosen);
-    const Shade* keep(const std::optional<Shade>& some);
-  };
   // What its errors are made of, with straight sides or bent ones.
   struct CellMeasure {
     bool on_plane = false;            // its irradiance is that of more cells
@@ -100,20 +79,12 @@ class CellPainter {
     double limit = 0.0;               // limit_error()
     std::optional<double> map_error;  // map_error(), once it is asked for
   };
-  // A corner of what is drawn: a vertex of the mesh, and where it is in the cell.
-  struct CellCorner {
-    std::size_t vertex = 0;
-    Vec2 uv;
-  };
-  template <std::size_t kMost>
-  struct Corners {
-    std::array<CellCorner, kMost> corners;
+  struct Shape {  // a cell's corners, and if its sides bend their middles
+    std::array<CellCorner, 8> corners;
     std::size_t count = 0;
     void add(const CellCorner& corner) { corners[count++] = corner; }
     [[nodiscard]] std::span<const CellCorner> all() const { return {corners.data(), count}; }
   };
-  using Shape = Corners<8>;                    // a cell's corners, and if its sides bend their middles
-  using Outline = Corners<4 * Mesh::kCells>;  // and all that its neighbours have there
 
   // How far a cell's sides are from where the map has them.
   struct SidesOff {
@@ -135,10 +106,10 @@ class CellPainter {
   };
 
   static void dim(Shade& shade, Flux& flux, const Flux& share);
-  void paint(const Patch& patch, int depth, const Shade* plane);
-  void choose(const Mesh& mesh, const MeshSquare& square, const Shade* plane, ChosenCells& chosen);
+  void choose(const Patch& patch, BoxCells& cells, const MeshPlace& place, int depth, const Shade* plane);
+  void choose(BoxMesh& of, const MeshSquare& square, const Shade* plane);
   [[nodiscard]] static CellLevel cell_level(const Mesh& mesh, const Cell& cell, int weight);
-  void draw(const Mesh& mesh, const ChosenCell& chosen, const std::bitset<Mesh::kVertices>& corners);
+  void draw(const BoxCells& cells, const BoxMesh& of, const ChosenCell& chosen);
   void draw_folded(const Mesh& mesh, const Cell& cell, State state);
   [[nodiscard]] static std::span<const Corner> placed(const Mesh& mesh, State state,
                                                       std::span<const CellCorner> corners, std::vector<Corner>& to);
@@ -187,18 +158,17 @@ class CellPainter {
   // Of the next cell. How many there will be is not known before: their share falls as they become more, down to a
   // quarter. Falling on, it would spend most of them where light gathers and nothing is gained.
   [[nodiscard]] double cell_budget() const { return budget_ / std::clamp(cells_, few_cells_, kManyCells * few_cells_); }
-  [[nodiscard]] static Cell cell_at(const MeshSquare& square);
-  // Of a cell that is neither closed nor off the frame; none if it is. finer: as in ChosenCells.
-  [[nodiscard]] std::optional<std::pair<Cell, State>> seen_cell(const Mesh& mesh, const std::array<bool, 4>& finer,
-                                                                const MeshSquare& square) const;
+  [[nodiscard]] static Cell cell_at(const BoxMesh& of, const MeshSquare& square);
+  // Of a cell that is neither closed nor off the frame; none if it is.
+  [[nodiscard]] std::optional<std::pair<Cell, State>> seen_cell(const BoxMesh& of, const MeshSquare& square) const;
   [[nodiscard]] static bool misses_stop(const Mesh& mesh, const Cell& cell, int crossing);
   [[nodiscard]] State state_of(const Mesh& mesh, const Cell& cell) const;
   [[nodiscard]] bool off_frame(const Mesh& mesh, const Cell& cell) const;
-  [[nodiscard]] bool wants_finer_mesh(const Mesh& mesh, const MeshSquare& square, bool on_plane) const;
+  [[nodiscard]] bool wants_finer_mesh(const BoxMesh& in, const MeshSquare& square, bool on_plane) const;
   [[nodiscard]] std::uint32_t blocking(const Mesh& mesh) const { return screen_ ? ~0U << mesh.layout.crossings : ~0U; }
   [[nodiscard]] bool serves(const IrradiancePlane& plane) const;
   [[nodiscard]] std::optional<Shade> plane_for(const Mesh& mesh, const MeshSquare& square) const;
-  void find_planes(const Mesh& mesh, ChosenCells& chosen) const;
+  void find_planes(BoxMesh& of) const;
   [[nodiscard]] bool shows_facets(double area_px, double mean, double off_plane) const;
   [[nodiscard]] CellMeasure measure(const Mesh& mesh, const Cell& cell, State state, bool on_plane) const;
   [[nodiscard]] double squared_error(const Mesh& mesh, const Cell& cell, CellMeasure& of, State state,
@@ -208,8 +178,7 @@ class CellPainter {
   [[nodiscard]] Sides most_bent(State state) const {
     return state == State::Cut && iris_.is_picture() ? Sides::Straight : Sides::Bent;
   }
-  [[nodiscard]] static Shape shape_of(const Cell& cell, Sides sides);
-  [[nodiscard]] static Outline outline_of(const Cell& cell, const std::bitset<Mesh::kVertices>& corners);
+  [[nodiscard]] static Shape shape_of(const Mesh& mesh, const Cell& cell, Sides sides);
   [[nodiscard]] static double obscuration_error(const Mesh::Field& field, const Cell& cell);
   [[nodiscard]] double limit_error(const Mesh& mesh, const Cell& cell) const;
   [[nodiscard]] double arc_step(const Mesh& mesh, std::span<const CellCorner> corners, const Shade& shade) const;
@@ -230,7 +199,8 @@ class CellPainter {
   PlacedPolygon rest_, strip_;  // of what is cut along edges
   std::vector<Corner> level_;
   std::vector<Corner> shape_, outline_;  // of what is drawn
-  std::deque<std::pair<Mesh, ChosenCells>> meshes_;  // by depth, kept for their memory
+  CellRoom& chosen_;
+  std::vector<CellCorner> all_corners_;  // of a cell
   OutlineCutter cutter_;
   std::vector<Point> points_;
 };

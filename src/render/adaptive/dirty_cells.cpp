@@ -100,7 +100,9 @@ void CellPainter::draw_dirty(const Mesh& mesh, const Cell& cell, State state, co
   const Flux half{0.5 * flux[0], 0.5 * flux[1], 0.5 * flux[2]};
   for (const auto& t : {std::array{cell.corner[0], cell.corner[1], cell.corner[2]},
                         std::array{cell.corner[0], cell.corner[2], cell.corner[3]}}) {
-    const std::array<CellCorner, 3> corners{{{t[0], {0, 0}}, {t[1], {1, 0}}, {t[2], {1, 1}}}};
+    const std::array<CellCorner, 3> corners{CellCorner::at_vertex(mesh, t[0], {0, 0}),
+                                            CellCorner::at_vertex(mesh, t[1], {1, 0}),
+                                            CellCorner::at_vertex(mesh, t[2], {1, 1})};
     const DirtTriangle dirt = dirt_triangle(mesh, t);
     draw_polygon(mesh, state, shade, half, corners, corners, {map, &dirt});
   }

@@ -104,9 +104,9 @@ std::vector<double> wavelengths_of(std::span<const PlannedPass> passes) {
 }  // namespace
 
 GhostPainter::GhostPainter(GhostTracers& tracers, const IrisShape& iris, const Frame& frame, int deepest,
-                           const GhostScreens* screens, const screens::DirtField* dirt)
+                           GhostRoom& room, const GhostScreens* screens, const screens::DirtField* dirt)
     : tracers_(tracers), samples_(wavelengths_of(tracers.passes()), kMostSamples), iris_(iris), frame_(frame),
-      deepest_(deepest), screens_(screens), dirt_(dirt) {}
+      deepest_(deepest), screens_(screens), dirt_(dirt), room_(room) {}
 
 PacketPrecision GhostPainter::precision_for(const Rectangle& box, const Tolerance& tolerance) const {
   const bool coarse = tolerance.position_px * frame_.pixel_pitch_mm > 2.0 * kFloatError_mm;
@@ -180,39 +180,61 @@ void GhostPainter::paint(const FirstRays& rays, bool with_mirror_image, const Er
   BandScreens screens;
   for (const Band& band : bands) screens.push_back(screens_ != nullptr ? band_screen(rays, band) : nullptr);
   const auto few_cells = kFewCells * std::max(static_cast<double>(bands.size()), kFewBands);
-  CellPainter cells(iris_, frame_, budget.squared_error, few_cells, budget.peak, out);
-  cells.sides_bend(tracers_.is_bent());
-  cells.stand_behind(SeenDirt{dirt_, &tracers_.light(), tracers_.plane_z_mm()});
-  CellPainter cells_of_image = cells;
+  const auto painter = [&](CellRoom& room) {
+    CellPainter cells(iris_, frame_, budget.squared_error, few_cells, budget.peak, room, out);
+    cells.sides_bend(tracers_.is_bent());
+    cells.stand_behind(SeenDirt{dirt_, &tracers_.light(), tracers_.plane_z_mm()});
+    return cells;
+  };
+  CellPainter cells = painter(room_.cells), cells_of_image = painter(room_.of_mirror_image);
   CellPainter* const mirror_image = with_mirror_image ? &cells_of_image : nullptr;
   if (rays.samples > 0) {
     BandSet all(tracers_, samples_, rays.samples, bands);
     std::vector<RaySheet> sheets;
     for (std::size_t k = 0; k < rays.samples; ++k) sheets.push_back(rays.sheets[samples_[k]]);
     all.add_weights(sheets, PacketPrecision::Double);
-    return paint_bands(all, sheets, {rays.tolerance, screens, cells, mirror_image});
+    paint_bands(all, sheets, {rays.tolerance, screens, cells, mirror_image});
   }
-  for (std::size_t k = 0; k < bands.size(); ++k) {
+  for (std::size_t k = 0; k < bands.size() && rays.samples == 0; ++k) {
     BandSet one(tracers_, bands[k]);
     const RaySheet sheet = band_sheet(rays, bands[k], tracers_.passes());
-    paint_bands(one, {&sheet, 1}, {rays.tolerance, {screens[k]}, cells, mirror_image});
+    paint_bands(one, {&sheet, 1}, {rays.tolerance, {screens[k]}, cells, mirror_image, k});
   }
+  for (CellPainter* const all : {&cells, mirror_image}) {
+    for (std::size_t k = 0; k < bands.size() && all != nullptr; ++k) {
+      stand_behind(screens[k], *all);
+      all->draw(k);
+    }
+  }
+}
+
+// A box that no other one touches.
+GhostPainter::BoxPart GhostPainter::whole(const Rectangle& box, int depth) {
+  const MeshPlace place{boxes_, is_symmetric(box) ? boxes_ : boxes_ + 1};
+  boxes_ += 2;
+  return {box, place, depth};
+}
+
+bool GhostPainter::is_symmetric(const Rectangle& box) const {
+  return tracers_.light().symmetric && box.low.y == -box.high.y;
 }
 
 // first: sheets of the fewest nodes, with weights.
 void GhostPainter::paint_bands(BandSet& bands, std::span<const RaySheet> first, const Painting& painting) {
+  const BoxPart part = whole(first.front().box);
   double first_misfit = kNoFit;
   if (all_arrive(first)) {
     const std::vector<Patch> patches = bands.make_patches(first, frame_);
     first_misfit = misfit(bands, patches, painting.tolerance);
-    if (first_misfit <= 1.0) return paint_patches(bands, first, patches, painting);
+    if (first_misfit <= 1.0) return paint_patches(bands, first, patches, part.place, painting);
   }
-  paint_box(bands, first.front().box, 0, first_misfit, painting);
+  paint_part(bands, part, first_misfit, painting);
 }
 
 // first_misfit: that of the fewest nodes, where it is known.
-void GhostPainter::paint_box(BandSet& bands, const Rectangle& box, int depth, std::optional<double> first_misfit,
-                             const Painting& painting) {
+void GhostPainter::paint_part(BandSet& bands, const BoxPart& part, std::optional<double> first_misfit,
+                              const Painting& painting) {
+  const Rectangle& box = part.box;
   double before = first_misfit.value_or(kNoFit);
   for (std::size_t k = first_misfit ? 1 : 0; k < kNodes.size(); ++k) {
     const PacketPrecision precision = precision_for(box, painting.tolerance);
@@ -221,24 +243,25 @@ void GhostPainter::paint_box(BandSet& bands, const Rectangle& box, int depth, st
     if (level && *level < screens_->unseen) return;
     const bool rough = level && *level < kRough * screens_->unseen;
     const double looser = level ? std::clamp(painting.tolerance.level / *level, 1.0, kMostLooser) : 1.0;
-    const auto part = lit_part(sheets);
-    if (!part) return;
-    if (depth < deepest_ && area(*part) < kWorthShrinking * area(box))
-      return paint_box(bands, *part, depth + 1, std::nullopt, painting);
+    const auto lit = lit_part(sheets);
+    if (!lit) return;
+    const bool last_part = part.depth >= deepest_;
+    if (!last_part && area(*lit) < kWorthShrinking * area(box))
+      return paint_part(bands, whole(*lit, part.depth + 1), std::nullopt, painting);
     const bool last = k + 1 == kNodes.size();
     const bool arrive = all_arrive(sheets);
-    if (!arrive && depth < deepest_ && !rough) break;
+    if (!arrive && !last_part && !rough) break;
     bands.add_weights(sheets, precision);
-    if (!arrive) return paint_between_rays(bands, box, sheets, depth, painting);
+    if (!arrive) return paint_between_rays(bands, part, sheets, painting);
     const std::vector<Patch> patches = bands.make_patches(sheets, frame_);
     const double now = misfit(bands, patches, painting.tolerance) / looser;
-    if (now <= 1.0 || rough || (last && depth >= deepest_)) return paint_patches(bands, sheets, patches, painting);
+    if (now <= 1.0 || rough || (last && last_part)) return paint_patches(bands, sheets, patches, part.place, painting);
     // Errors fall by a like factor for a like number of nodes, which the next step has twice more of.
     const double next = now * (now / before) * (now / before);
-    if (next > kHopeless && depth < deepest_) break;
+    if (next > kHopeless && !last_part) break;
     before = now;
   }
-  paint_quarters(bands, box, depth, painting);
+  paint_quarters(bands, part, painting);
 }
 
 // About the brightest pixel of a box behind a screen, or of its mirror image, as far as it matters. None: the iris is
@@ -271,29 +294,30 @@ double GhostPainter::misfit(const BandSet& bands, std::span<const Patch> patches
 
 // patches: of the sheets.
 void GhostPainter::paint_patches(const BandSet& bands, std::span<const RaySheet> sheets, std::span<const Patch> patches,
-                                 const Painting& painting) const {
-  const auto paint_all = [&](std::span<const Patch> of, CellPainter& cells) {
+                                 const MeshPlace& place, const Painting& painting) const {
+  const auto paint_all = [&](std::span<const Patch> of, const MeshPlace& at, CellPainter& cells) {
     Patch patch;
     for (std::size_t band = 0; band < bands.size(); ++band) {
       bands.band_patch(of, band, patch);
       stand_behind(painting.screens[band], cells);
-      cells.paint(patch);
+      cells.choose(patch, painting.first_band + band, at);
     }
   };
-  paint_all(patches, painting.cells);
+  paint_all(patches, place, painting.cells);
   if (painting.mirror_image == nullptr) return;
   std::vector<RaySheet> others;
   for (const RaySheet& sheet : sheets) others.push_back(mirrored(sheet));
-  paint_all(bands.make_patches(others, frame_), *painting.mirror_image);
+  paint_all(bands.make_patches(others, frame_), place.mirrored(), *painting.mirror_image);
 }
 
 // Straight lines between the rays that arrive, of each band by itself: they fail at different places.
-void GhostPainter::paint_between_rays(BandSet& bands, const Rectangle& box, std::span<const RaySheet> sheets, int depth,
+void GhostPainter::paint_between_rays(BandSet& bands, const BoxPart& part, std::span<const RaySheet> sheets,
                                       const Painting& painting) {
   if (bands.size() == 1 && sheets.size() == 1) {
     const auto paint_cells = [&](const RaySheet& sheet, CellPainter& cells) {
       stand_behind(painting.screens.front(), cells);
-      for (const Patch& patch : patches_of_cells(sheet, tracers_.light(), frame_)) cells.paint(patch);
+      for (const Patch& patch : patches_of_cells(sheet, tracers_.light(), frame_))
+        cells.choose(patch, painting.first_band, whole(patch.box).place);
     };
     paint_cells(sheets.front(), painting.cells);
     if (painting.mirror_image != nullptr) paint_cells(mirrored(sheets.front()), *painting.mirror_image);
@@ -301,21 +325,25 @@ void GhostPainter::paint_between_rays(BandSet& bands, const Rectangle& box, std:
   }
   for (std::size_t k = 0; k < bands.size(); ++k) {
     BandSet alone(tracers_, bands.band(k));
-    paint_box(alone, box, depth, std::nullopt,
-              {painting.tolerance, {painting.screens[k]}, painting.cells, painting.mirror_image});
+    paint_part(
+        alone, part, std::nullopt,
+        {painting.tolerance, {painting.screens[k]}, painting.cells, painting.mirror_image, painting.first_band + k});
   }
 }
 
 // Of a box that is its own mirror image those on one side of the axis tell the others.
-void GhostPainter::paint_quarters(BandSet& bands, const Rectangle& box, int depth, const Painting& painting) {
+void GhostPainter::paint_quarters(BandSet& bands, const BoxPart& part, const Painting& painting) {
+  const Rectangle& box = part.box;
   const Vec2 middle = (box.low + box.high) * 0.5;
-  const bool symmetric = tracers_.light().symmetric && box.low.y == -box.high.y;
-  Painting part = painting;
-  if (symmetric) part.mirror_image = &painting.cells;
-  for (const auto& [y0, y1] : {std::pair{middle.y, box.high.y}, std::pair{box.low.y, middle.y}}) {
-    if (symmetric && y0 < middle.y) return;
-    for (const auto& [x0, x1] : {std::pair{box.low.x, middle.x}, std::pair{middle.x, box.high.x}})
-      paint_box(bands, {{x0, y0}, {x1, y1}}, depth + 1, std::nullopt, part);
+  const bool symmetric = is_symmetric(box);
+  Painting of_quarter = painting;
+  if (symmetric) of_quarter.mirror_image = &painting.cells;
+  for (const std::size_t q : {2U, 3U, 0U, 1U}) {
+    const bool right = q % 2 != 0, upper = q / 2 != 0;
+    if (symmetric && !upper) return;
+    const Rectangle quarter{{right ? middle.x : box.low.x, upper ? middle.y : box.low.y},
+                            {right ? box.high.x : middle.x, upper ? box.high.y : middle.y}};
+    paint_part(bands, {quarter, part.place.quarter(q), part.depth + 1}, std::nullopt, of_quarter);
   }
 }
 

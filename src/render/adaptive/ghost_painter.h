@@ -20,11 +20,16 @@ struct GhostScreens {
   std::shared_ptr<RingingPatterns> patterns;
 };
 
+// For the cells of one ghost after the other: their memory is not asked for again.
+struct GhostRoom {
+  CellRoom cells, of_mirror_image;
+};
+
 class GhostPainter {
  public:
   // deepest: how often a box may be quartered before straight lines between rays must do.
   // screens: may be null; with them the iris is a circle. dirt: whose shadows are drawn; may be null.
-  GhostPainter(GhostTracers& tracers, const IrisShape& iris, const Frame& frame, int deepest,
+  GhostPainter(GhostTracers& tracers, const IrisShape& iris, const Frame& frame, int deepest, GhostRoom& room,
                const GhostScreens* screens = nullptr, const screens::DirtField* dirt = nullptr);
 
   // box: in the light's meridional frame. with_mirror_image: that of the box is painted, too.
@@ -38,6 +43,13 @@ class GhostPainter {
     BandScreens screens;  // those of the bands of the set
     CellPainter& cells;
     CellPainter* mirror_image = nullptr;  // of the boxes, if it is painted with them
+    std::size_t first_band = 0;           // of those of the set, of all
+  };
+  // A box, or a quarter of a quarter of one.
+  struct BoxPart {
+    Rectangle box;
+    MeshPlace place;
+    int depth = 0;
   };
 
   [[nodiscard]] std::optional<BentBox> bent_about(const FirstRays& rays, const Rectangle& box);
@@ -46,16 +58,17 @@ class GhostPainter {
   [[nodiscard]] std::shared_ptr<const BandScreen> band_screen(const FirstRays& rays, const Band& band) const;
 
   void paint_bands(BandSet& bands, std::span<const RaySheet> first, const Painting& painting);
-  void paint_box(BandSet& bands, const Rectangle& box, int depth, std::optional<double> first_misfit,
-                 const Painting& painting);
+  [[nodiscard]] BoxPart whole(const Rectangle& box, int depth = 0);
+  [[nodiscard]] bool is_symmetric(const Rectangle& box) const;
+  void paint_part(BandSet& bands, const BoxPart& part, std::optional<double> first_misfit, const Painting& painting);
   [[nodiscard]] double misfit(const BandSet& bands, std::span<const Patch> patches, const Tolerance& tolerance) const;
   void paint_patches(const BandSet& bands, std::span<const RaySheet> sheets, std::span<const Patch> patches,
-                     const Painting& painting) const;
-  void paint_between_rays(BandSet& bands, const Rectangle& box, std::span<const RaySheet> sheets, int depth,
+                     const MeshPlace& place, const Painting& painting) const;
+  void paint_between_rays(BandSet& bands, const BoxPart& part, std::span<const RaySheet> sheets,
                           const Painting& painting);
   [[nodiscard]] std::optional<double> level_behind(const BandSet& bands, std::span<const RaySheet> sheets,
                                                    const Painting& painting) const;
-  void paint_quarters(BandSet& bands, const Rectangle& box, int depth, const Painting& painting);
+  void paint_quarters(BandSet& bands, const BoxPart& part, const Painting& painting);
   void stand_behind(const std::shared_ptr<const BandScreen>& screen, CellPainter& cells) const;
 
   GhostTracers& tracers_;
@@ -65,6 +78,8 @@ class GhostPainter {
   int deepest_;
   const GhostScreens* screens_;
   const screens::DirtField* dirt_;
+  GhostRoom& room_;
+  int boxes_ = 0;  // so far
 };
 
 }  // namespace contrejour::adaptive

@@ -159,7 +159,7 @@ const IrisShape& round_iris() {
 }
 
 Painted paint(const Scene& scene, const Item& item, std::vector<PlannedPass> passes, const Frame& whole,
-              const TileGrid& grid, const ErrorBudget& budget, int deepest) {
+              const TileGrid& grid, const ErrorBudget& budget, Pool<GhostRoom>& rooms, int deepest) {
   Painted painted;
   const Frame frame = item.look->placed(whole);
   for (PlannedPass& pass : passes) pass.gain = item.look->tinted(pass.gain);
@@ -169,7 +169,8 @@ Painted paint(const Scene& scene, const Item& item, std::vector<PlannedPass> pas
   const LightFrame light(item.light->source, has_axial_symmetry(scene.lens, item.ghost));
   const IrisShape& iris = item.screens ? round_iris() : scene.iris;
   GhostTracers tracers(scene.lens, item.ghost, light, scene.plan.tables, passes, stop_times(item));
-  GhostPainter painter(tracers, iris, frame, deepest, item.screens.get(),
+  const auto room = rooms.lend();
+  GhostPainter painter(tracers, iris, frame, deepest, *room, item.screens.get(),
                        item.has_shadows ? scene.dirt.get() : nullptr);
   for (const Rectangle& box : item.boxes) {
     const bool aside = light.symmetric && box.low.y != -box.high.y;
@@ -233,14 +234,14 @@ std::vector<Item> find_items(const Scene& scene, const Context& context, Work& w
 }
 
 Painted paint_item(const Scene& scene, const Item& item, const Frame& frame, const TileGrid& grid,
-                   const ErrorBudget& budget) {
+                   const ErrorBudget& budget, Pool<GhostRoom>& rooms) {
   ErrorBudget of_item = budget;
   if (item.screens) of_item.squared_error *= kScreenedShare;
-  return paint(scene, item, item.light->passes, frame, grid, of_item, kDeepest);
+  return paint(scene, item, item.light->passes, frame, grid, of_item, rooms, kDeepest);
 }
 
-RoughFrame draw_roughly(const Scene& scene, const std::vector<Item>& items, const Frame& frame, const Context& context,
-                        Work& work) {
+RoughFrame draw_roughly(const Scene& scene, const std::vector<Item>& items, const Frame& frame, Pool<GhostRoom>& rooms,
+                        const Context& context, Work& work) {
   const Frame small = smaller(frame, kPeakScale);
   const TileGrid grid(small.width, small.height);
   const ErrorBudget unlimited{std::numeric_limits<double>::infinity(), 1.0};
@@ -248,7 +249,7 @@ RoughFrame draw_roughly(const Scene& scene, const std::vector<Item>& items, cons
   std::vector<Work> done(items.size());
   parallel_for(items.size(), context, [&](std::size_t k) {
     const PlannedPass pass = merged(*items[k].light);
-    Painted painted = paint(scene, items[k], {pass}, small, grid, unlimited, kPeakDeepest);
+    Painted painted = paint(scene, items[k], {pass}, small, grid, unlimited, rooms, kPeakDeepest);
     polygons[k] = std::move(painted.polygons);
     done[k] = painted.work;
   });

@@ -1,6 +1,7 @@
 // The units of work: a ghost of a light, with the parts of the pupil it comes through.
 #pragma once
 
+#include "base/pool.h"
 #include "render/adaptive/ghost_painter.h"
 #include "render/adaptive/tiles.h"
 
@@ -45,7 +46,7 @@ struct Painted {
 
 // An item in all wavelengths of its light.
 [[nodiscard]] Painted paint_item(const Scene& scene, const Item& item, const Frame& frame, const TileGrid& grid,
-                                 const ErrorBudget& budget);
+                                 const ErrorBudget& budget, Pool<GhostRoom>& rooms);
 
 // What a small frame, drawn without care, tells.
 struct ItemSize {
@@ -57,6 +58,6 @@ struct RoughFrame {
   std::vector<ItemSize> sizes;  // one an item; none when cancelled
 };
 [[nodiscard]] RoughFrame draw_roughly(const Scene& scene, const std::vector<Item>& items, const Frame& frame,
-                                      const Context& context, Work& work);
+                                      Pool<GhostRoom>& rooms, const Context& context, Work& work);
 
 }  // namespace contrejour::adaptive

@@ -134,19 +134,6 @@ TileLists tile_lists(const PolygonList& list, const TileGrid& grid) {
 TileDrawer::TileDrawer(const TileGrid& grid) : grid_(grid) {}
 TileDrawer::~TileDrawer() = default;
 
-std::unique_ptr<TileSums> TileDrawer::take() {
-  const std::lock_guard lock(mutex_);
-  if (unused_.empty()) return std::make_unique<TileSums>();
-  auto sums = std::move(unused_.back());
-  unused_.pop_back();
-  return sums;
-}
-
-void TileDrawer::give_back(std::unique_ptr<TileSums> sums) {
-  const std::lock_guard lock(mutex_);
-  unused_.push_back(std::move(sums));
-}
-
 void TileDrawer::draw(std::span<const TiledPolygons> lists, TileMode mode, const Context& context, Image& image) {
   Context quiet = context;
   quiet.progress = {};
@@ -157,8 +144,8 @@ void TileDrawer::draw(std::span<const TiledPolygons> lists, TileMode mode, const
 }
 
 void TileDrawer::draw_rows(std::span<const TiledPolygons> lists, int first, int last, TileMode mode, Image& image) {
-  auto taken = take();
-  TileSums& sums = *taken;
+  const auto lent = sums_.lend();
+  TileSums& sums = *lent;
   for (int row = first; row < last; ++row) {
     sums.y0 = row * TileGrid::kHeight;
     sums.height = std::min(TileGrid::kHeight, grid_.height - sums.y0);
@@ -170,7 +157,6 @@ void TileDrawer::draw_rows(std::span<const TiledPolygons> lists, int first, int 
       HWY_DYNAMIC_DISPATCH(draw_tile)(lists, tile, sums, mode, image);
     }
   }
-  give_back(std::move(taken));
 }
 
 }  // namespace contrejour::adaptive

@@ -5,11 +5,10 @@
 #pragma once
 
 #include <cstdint>
-#include <memory>
-#include <mutex>
 #include <span>
 #include <vector>
 
+#include "base/pool.h"
 #include "contrejour/context.h"
 #include "contrejour/image.h"
 #include "render/adaptive/polygon_list.h"
@@ -65,12 +64,8 @@ class TileDrawer {
   void draw_rows(std::span<const TiledPolygons> lists, int first, int last, TileMode mode, Image& image);
 
  private:
-  [[nodiscard]] std::unique_ptr<TileSums> take();
-  void give_back(std::unique_ptr<TileSums> sums);
-
   TileGrid grid_;
-  std::mutex mutex_;
-  std::vector<std::unique_ptr<TileSums>> unused_;  // a megabyte each, all zero: one a thread, not one a row
+  Pool<TileSums> sums_;  // a megabyte each, all zero: one a thread, not one a row
 };
 
 }  // namespace contrejour::adaptive

@@ -1,0 +1,47 @@
+// Things that are costly to make and used by one thread at a time: lent, and given back for the next one.
+// Thread-safety: safe.
+#pragma once
+
+#include <memory>
+#include <mutex>
+#include <utility>
+#include <vector>
+
+namespace contrejour {
+
+template <class Thing>
+class Pool {
+ public:
+  class Lent {
+   public:
+    Lent(Pool& pool, std::unique_ptr<Thing> thing) : pool_(pool), thing_(std::move(thing)) {}
+    Lent(const Lent&) = delete;
+    Lent& operator=(const Lent&) = delete;
+    ~Lent() { pool_.give_back(std::move(thing_)); }
+    [[nodiscard]] Thing& operator*() const { return *thing_; }
+
+   private:
+    Pool& pool_;
+    std::unique_ptr<Thing> thing_;
+  };
+
+  // As it was given back, or a new one.
+  [[nodiscard]] Lent lend() {
+    const std::lock_guard lock(mutex_);
+    if (unused_.empty()) return Lent(*this, std::make_unique<Thing>());
+    auto thing = std::move(unused_.back());
+    unused_.pop_back();
+    return Lent(*this, std::move(thing));
+  }
+
+ private:
+  void give_back(std::unique_ptr<Thing> thing) {
+    const std::lock_guard lock(mutex_);
+    unused_.push_back(std::move(thing));
+  }
+
+  std::mutex mutex_;
+  std::vector<std::unique_ptr<Thing>> unused_;
+};
+
+}  // namespace contrejour
