@@ -94,9 +94,10 @@ PolygonList painted(const AffineGhost& ghost, const Iris& iris, double error = 1
   PolygonList list;
   const IrisShape shape(iris);
   const Frame frame = frame_px();
-  CellRoom room;
-  CellPainter painter(shape, frame, error * error * level * level * area_px, 64.0, level, room, list);
-  painter.paint(ghost.patch());
+  BoxCells room;
+  CellPainter painter(shape, frame, {error * error * level * level * area_px, level}, 64.0, room, list);
+  painter.choose(ghost.patch(), {});
+  painter.draw();
   return list;
 }
 
@@ -211,8 +212,8 @@ TEST_CASE("patches of one box leave nothing between them, whatever they count po
   const Patch whole = bent_ghost(kBend_px).patch();
   PolygonList list;
   const IrisShape iris{Iris{}};
-  CellRoom room;
-  CellPainter painter(iris, frame_px(), 1e-3, 64.0, 1e-3, room, list);
+  BoxCells room;
+  CellPainter painter(iris, frame_px(), {1e-3, 1e-3}, 64.0, room, list);
   const MeshPlace place{0, 0};
   for (std::size_t q = 0; q < 4; ++q) {
     Patch part = quarter(whole, static_cast<int>(q % 2), static_cast<int>(q / 2));
@@ -223,13 +224,13 @@ TEST_CASE("patches of one box leave nothing between them, whatever they count po
       part.field(PatchLayout::kY)[k] -= static_cast<float>(moved.y);
     }
     if (q != 3) {
-      painter.choose(part, 0, place.quarter(q));
+      painter.choose(part, place.quarter(q));
       continue;
     }
     for (std::size_t r = 0; r < 4; ++r)  // deeper than its neighbours
-      painter.choose(quarter(part, static_cast<int>(r % 2), static_cast<int>(r / 2)), 0, place.quarter(q).quarter(r));
+      painter.choose(quarter(part, static_cast<int>(r % 2), static_cast<int>(r / 2)), place.quarter(q).quarter(r));
   }
-  painter.draw(0);
+  painter.draw();
   REQUIRE(list.polygons.size() > 20);
   CHECK(farthest_from_level(list, kBend_px) < 1e-5);
   // Every edge is another polygon's as well, backwards, but for those around the box.
@@ -506,10 +507,11 @@ TEST_CASE("light behind a screen that is too dim for its ripples to matter is dr
     band->unseen = unseen;
     PolygonList list;
     const IrisShape iris{Iris{}};
-    CellRoom room;
-    CellPainter painter(iris, frame_px(), 1e-4 * level * level, 64.0, level, room, list);
+    BoxCells room;
+    CellPainter painter(iris, frame_px(), {1e-4 * level * level, level}, 64.0, room, list);
     painter.stand_behind(band, 1.0);
-    painter.paint(ghost.patch());
+    painter.choose(ghost.patch(), {});
+    painter.draw();
     return list;
   };
   const PolygonList looked_up = behind(0.0), means = behind(0.03 * level), bright = behind(1e-3 * level);

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <limits>
 
 #include <doctest/doctest.h>
 
@@ -69,6 +70,17 @@ TEST_CASE("a ghost most of whose light gathers is held to the level there") {
   // The left half of the pupil on a tenth of its width.
   const Tolerance gathered = of(sheet_of([](Vec2 p) { return Vec2{p.x < 0.0 ? 0.2 * p.x : 2.0 * p.x, 2.0 * p.y}; }));
   CHECK(gathered.level == doctest::Approx(0.5 * (1.0 + 10.0) * level).epsilon(1e-5));
+}
+
+TEST_CASE("where no ray tells where a ghost lies, a small frame does") {
+  RaySheet failed = sheet_of([](Vec2 p) { return p * 2.0; });
+  std::fill(failed.r_rel.begin(), failed.r_rel.end(), std::numeric_limits<float>::infinity());
+  CHECK(of(failed).level == doctest::Approx(4e-6));  // all of it in one pixel
+  const auto about = [&](double level, double area_px) {
+    return tolerance_for(failed, 1.0, 1.0, frame_of_small_pixels(), {1e-8, 1.0, {level, area_px}});
+  };
+  CHECK(about(1e-7, 400.0 * 400.0).level == doctest::Approx(4e-7));
+  CHECK(about(1e-7, 400.0 * 400.0).position_px > 100.0 * about(0.0, 0.0).position_px);
 }
 
 TEST_CASE("colours of what is seen beside the peak stay within a fiftieth of a ghost's size, or a pixel") {

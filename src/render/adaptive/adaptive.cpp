@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <numeric>
 
@@ -54,7 +55,7 @@ ErrorBudget budget_per_item(const FrameError& allowed, const std::vector<ItemSiz
   const double squared = kRoom * kRoom * allowed.squared();
   const double count = std::max(static_cast<double>(sizes.size()), 1.0);
   const double even = squared / std::max(std::sqrt(count), count / kOneInMany);
-  return {std::min(even, even_share(std::move(most), squared)), allowed.peak};
+  return {std::min(even, even_share(std::move(most), squared)), allowed.peak, {}};
 }
 
 // Where no light was seen, drawn without care: far below any ghost's, so that errors relative to its own level count.
@@ -67,25 +68,25 @@ double faintest_peak(const FramePlan& plan, const Frame& frame) {
                   static_cast<double>(std::numeric_limits<float>::min()));
 }
 
-// Those that may take longest first, so that no thread is left with one of them at the end; then the others in their
+// Those that may take longest first, so that no thread is left with one of them at the end; of about the same in their
 // order, as neighbours pass the same surfaces.
-std::vector<std::size_t> large_ones_first(std::span<const ItemSize> sizes, double peak) {
-  constexpr double kLarge = 1.0 / 16.0;  // of all
-  std::vector<double> seen;
-  for (const ItemSize& size : sizes)
-    seen.push_back(size.level * seen_share(size.level, peak) * std::sqrt(std::max(size.area_px, 0.0)));
-  const double large = kLarge * std::accumulate(seen.begin(), seen.end(), 0.0);
+std::vector<std::size_t> longest_first(std::span<const ItemSize> sizes, double peak) {
+  std::vector<int> doublings;
+  for (const ItemSize& size : sizes) {
+    // In rays of the small frame; by measuring, what is seen of all of an item takes about as long.
+    const double seen = size.level * seen_share(size.level, peak) / peak * std::sqrt(std::max(size.area_px, 0.0));
+    doublings.push_back(std::ilogb(std::max(size.rays + seen, 1.0)));
+  }
   std::vector<std::size_t> order(sizes.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
-  const auto others = std::ranges::stable_partition(order, [&](std::size_t k) { return seen[k] > large; });
-  std::stable_sort(order.begin(), others.begin(), [&](std::size_t a, std::size_t b) { return seen[a] > seen[b]; });
+  std::ranges::stable_sort(order, std::greater(), [&](std::size_t k) { return doublings[k]; });
   return order;
 }
 
 // Items painted one batch after the other, each batch then drawn; in the items' order whatever the threads.
 class FramePainter {
  public:
-  FramePainter(const Scene& scene, const RenderSettings& settings, Pool<GhostRoom>& rooms, const Context& context,
+  FramePainter(const Scene& scene, const RenderSettings& settings, Pool<BoxCells>& rooms, const Context& context,
                Flare& flare)
       : scene_(scene), rooms_(rooms), frame_(settings.frame), context_(context), quiet_(context), flare_(flare),
         grid_(settings.frame.width, settings.frame.height), drawer_(grid_) {
@@ -118,11 +119,11 @@ class FramePainter {
   std::size_t paint_some(std::span<const Item> items, std::span<const ItemSize> sizes, const ErrorBudget& budget,
                          std::vector<TiledPolygons>& batch) {
     std::vector<Painted> painted(items.size());
-    const std::vector<std::size_t> order = large_ones_first(sizes, budget.peak);
+    const std::vector<std::size_t> order = longest_first(sizes, budget.peak);
     std::atomic<std::size_t> next = 0;
     parallel_for(items.size(), quiet_, [&](std::size_t) {
       const std::size_t k = order[next.fetch_add(1)];
-      painted[k] = paint_item(scene_, items[k], frame_, grid_, budget, rooms_);
+      painted[k] = paint_item(scene_, items[k], sizes[k], frame_, grid_, budget, rooms_);
     });
     std::size_t bytes = 0;
     for (Painted& p : painted) {
@@ -140,7 +141,7 @@ class FramePainter {
   }
 
   const Scene& scene_;
-  Pool<GhostRoom>& rooms_;
+  Pool<BoxCells>& rooms_;
   const Frame& frame_;
   const Context& context_;
   Context quiet_;
@@ -173,7 +174,7 @@ Result<Flare> render_adaptive(const LensState& lens, const FramePlan& plan, cons
   if (scene.dirt) dim_items(scene, items);
   const double bound_ms = watch.lap_ms();
   Screens screens(lens, settings);
-  Pool<GhostRoom> rooms;
+  Pool<BoxCells> rooms;
   const RoughFrame rough = draw_roughly(scene, items, settings.frame, rooms, quiet, work);
   const bool dark = !(rough.peak > 0.0);
   const FrameError allowed{settings.error, dark ? faintest_peak(plan, settings.frame) : rough.peak,

@@ -133,14 +133,9 @@ void CellPainter::find_planes(BoxMesh& of) const {
   for (std::size_t q = 0; q < 4; ++q) of.plane[q] = of.keep(plane_for(of.mesh, quarter_square(q)));
 }
 
-void CellPainter::choose(const Patch& patch, std::size_t band, const MeshPlace& place) {
-  if (chosen_.size() <= band) chosen_.resize(band + 1);
-  choose(patch, chosen_[band], place, 0, nullptr);
-}
-
 // patch: what the mesh at that place is made of.
-void CellPainter::choose(const Patch& patch, BoxCells& cells, const MeshPlace& place, int depth, const Shade* plane) {
-  BoxMesh& of = cells.add(place, plane);
+void CellPainter::choose(const Patch& patch, const MeshPlace& place, int depth, const Shade* plane) {
+  BoxMesh& of = chosen_.add(place, plane);
   make_mesh(patch, iris_, of.mesh);
   const auto find_finer = [&](std::size_t q) {
     return depth < kDeepest && wants_finer_mesh(of, quarter_square(q), of.plane[q] != nullptr);
@@ -164,7 +159,7 @@ void CellPainter::choose(const Patch& patch, BoxCells& cells, const MeshPlace& p
   }
   for (std::size_t q = 0; q < 4; ++q)
     if (finer[q])
-      choose(quarter(patch, static_cast<int>(q % 2), static_cast<int>(q / 2)), cells, place.quarter(q), depth + 1,
+      choose(quarter(patch, static_cast<int>(q % 2), static_cast<int>(q / 2)), place.quarter(q), depth + 1,
              of.plane[q]);
 }
 

@@ -60,21 +60,20 @@ CellPainter::CellLevel CellPainter::cell_level(const Mesh& mesh, const Cell& cel
   return level;
 }
 
-void CellPainter::draw(std::size_t band) {
-  if (band >= chosen_.size()) return;
-  BoxCells& cells = chosen_[band];
-  cells.join();
-  for (std::size_t k = 0; k < cells.count(); ++k)
-    for (const ChosenCell& chosen : cells[k].cells) draw(cells, cells[k], chosen);
-  cells.clear();
+void CellPainter::draw() {
+  chosen_.join();
+  for (std::size_t k = 0; k < chosen_.count(); ++k)
+    for (const ChosenCell& cell : chosen_[k].cells) draw(chosen_[k], cell);
+  chosen_.clear();
+  cells_ = 0.0;
 }
 
-void CellPainter::draw(const BoxCells& cells, const BoxMesh& of, const ChosenCell& chosen) {
+void CellPainter::draw(const BoxMesh& of, const ChosenCell& chosen) {
   const auto& [cell, state, sides, plane] = chosen;
   const Mesh& mesh = of.mesh;
   const std::array<Vec2, 4> p{mesh.position(cell.corner[0]), mesh.position(cell.corner[1]),
                               mesh.position(cell.corner[2]), mesh.position(cell.corner[3])};
-  cells.outline(of, cell, all_corners_);
+  chosen_.outline(of, cell, all_corners_);
   const auto [area, centroid] = area_of(all_corners_.size(), [&](std::size_t k) { return all_corners_[k].position; });
   bool convex = true;
   for (std::size_t k = 0; k < 4; ++k) {

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <deque>
 #include <map>
 #include <optional>
 #include <utility>
@@ -15,28 +14,23 @@
 #include "render/adaptive/placed_polygon.h"
 #include "render/adaptive/polygon_list.h"
 #include "render/adaptive/seen_dirt.h"
+#include "render/adaptive/tolerance.h"
 #include "render/screens/shadow_cutter.h"
 
 namespace contrejour::adaptive {
 
-using CellRoom = std::deque<BoxCells>;  // by band
-
 class CellPainter {
  public:
-  // budget: squared error that all cells together may make, in pixel values, summed over pixels, if they are no more
-  // than few_cells or several times that. peak: of the frame.
-  // room: for its cells, used again afterwards.
-  CellPainter(const IrisShape& iris, const Frame& frame, double budget, double few_cells, double peak, CellRoom& room,
+  // budget: of each band; its squared error is what all cells together may make, if they are no more than few_cells or
+  // several times that. room: for cells, used again afterwards.
+  CellPainter(const IrisShape& iris, const Frame& frame, const ErrorBudget& budget, double few_cells, BoxCells& room,
               PolygonList& out)
-      : iris_(iris), width_(frame.width), height_(frame.height), budget_(budget), few_cells_(few_cells), peak_(peak),
-        out_(out), chosen_(room), cutter_(iris) {}
+      : iris_(iris), width_(frame.width), height_(frame.height), budget_(budget.squared_error), few_cells_(few_cells),
+        peak_(budget.peak), out_(out), chosen_(room), cutter_(iris) {}
 
-  // The cells of a patch of a band, which is where in a box.
-  void choose(const Patch& patch, std::size_t band, const MeshPlace& place);
-  // All that were chosen of a band.
-  void draw(std::size_t band);
-  // A patch that is all of its box.
-  void paint(const Patch& patch) { choose(patch, 0, {}), draw(0); }
+  // The cells of a patch, which is where in a box, and then all that were chosen of a band.
+  void choose(const Patch& patch, const MeshPlace& place) { choose(patch, place, 0, nullptr); }
+  void draw();
 
   // Of patches from here on: lines that are straight in them are bent in the entrance plane, so that where meshes
   // of different sizes meet, their sides would leave seams between them.
@@ -68,15 +62,15 @@ class CellPainter {
 
   // What its errors are made of, with straight sides or bent ones.
   struct CellMeasure {
-    bool on_plane = false;            // its irradiance is that of more cells
-    std::optional<double> whole;      // the squared error whatever its sides are; infinite: it must not be drawn
-    double most = 0.0;                // squared error
-    double mean = 0.0, range = 0.0;   // brightness, and how much it varies
-    double off_plane = 0.0;           // mean square of what a plane leaves of it
-    double area_px = 0.0;             // by the derivatives in its middle
+    bool on_plane = false;  // its irradiance is that of more cells
+    std::optional<double> whole;  // the squared error whatever its sides are; infinite: it must not be drawn
+    double most = 0.0;  // squared error
+    double mean = 0.0, range = 0.0;  // brightness, and how much it varies
+    double off_plane = 0.0;  // mean square of what a plane leaves of it
+    double area_px = 0.0;  // by the derivatives in its middle
     double image_px = 0.0, flux = 0.0;  // integrals over the cell
     double longest_px = 0.0;
-    double limit = 0.0;               // limit_error()
+    double limit = 0.0;  // limit_error()
     std::optional<double> map_error;  // map_error(), once it is asked for
   };
   struct Shape {  // a cell's corners, and if its sides bend their middles
@@ -88,12 +82,12 @@ class CellPainter {
 
   // How far a cell's sides are from where the map has them.
   struct SidesOff {
-    double strips = 0.0;                        // squares of what is seen of them, times lengths, summed
+    double strips = 0.0;  // squares of what is seen of them, times lengths, summed
     double shared_px = 0.0, alone_px = 0.0;  // the most, of sides that cells share and others
   };
 
   static constexpr double kManyCells = 4.0;
-  static constexpr double kSoft_px = 0.2;      // of cells, for maps to be drawn with
+  static constexpr double kSoft_px = 0.2;  // of cells, for maps to be drawn with
   static constexpr double kOnePlace_px = 0.4;  // a cell no longer than this sees the stop at one place
   // Times what is not seen, so 0.1 of the error that all pixels may have: where light is dimmer than that it is its
   // mean over a cell, by so many parts along each side.
@@ -106,10 +100,10 @@ class CellPainter {
   };
 
   static void dim(Shade& shade, Flux& flux, const Flux& share);
-  void choose(const Patch& patch, BoxCells& cells, const MeshPlace& place, int depth, const Shade* plane);
+  void choose(const Patch& patch, const MeshPlace& place, int depth, const Shade* plane);
   void choose(BoxMesh& of, const MeshSquare& square, const Shade* plane);
   [[nodiscard]] static CellLevel cell_level(const Mesh& mesh, const Cell& cell, int weight);
-  void draw(const BoxCells& cells, const BoxMesh& of, const ChosenCell& chosen);
+  void draw(const BoxMesh& of, const ChosenCell& chosen);
   void draw_folded(const Mesh& mesh, const Cell& cell, State state);
   [[nodiscard]] static std::span<const Corner> placed(const Mesh& mesh, State state,
                                                       std::span<const CellCorner> corners, std::vector<Corner>& to);
@@ -186,7 +180,7 @@ class CellPainter {
   const IrisShape& iris_;
   int width_, height_;
   double budget_, few_cells_;
-  double cells_ = 0.0;  // drawn so far
+  double cells_ = 0.0;  // of this band so far
   bool sides_bend_ = false;
   double peak_;
   PolygonList& out_;
@@ -199,7 +193,7 @@ class CellPainter {
   PlacedPolygon rest_, strip_;  // of what is cut along edges
   std::vector<Corner> level_;
   std::vector<Corner> shape_, outline_;  // of what is drawn
-  CellRoom& chosen_;
+  BoxCells& chosen_;
   std::vector<CellCorner> all_corners_;  // of a cell
   OutlineCutter cutter_;
   std::vector<Point> points_;

@@ -13,78 +13,11 @@
 namespace contrejour::adaptive {
 namespace {
 
-constexpr std::array kNodes{5, 9, 17};
-// Float places a ray on the sensor to some 1e-3 mm at worst; it must be given room enough at the entrance, too.
-constexpr double kFloatError_mm = 1e-3;
-constexpr double kFloatBox_mm = 0.05;
-constexpr double kWorthShrinking = 0.5;  // a box whose lit part has no more of its area is shrunk to it
 constexpr double kLightLeft = 0.05;  // of a channel's absolute sum over wavelengths, for its parts to mean anything
 constexpr std::size_t kMostSamples = 9;  // of wavelengths, that are tried
-constexpr double kNoFit = std::numeric_limits<double>::infinity();
-// Behind a screen: how much worse fits of dim light may be, and what is so dim, over what does not count at all, that
-// any will do.
-constexpr double kMostLooser = 64.0, kRough = 10.0;
-constexpr double kHopeless = 2.0;  // times the tolerance, foretold of more nodes
 constexpr int kWorthBending = 2;     // quarterings that might be saved
 // A band's squared error is shared among so many cells; that of fewer bands as if they were three.
-constexpr double kFewCells = 64.0, kFewBands = 3.0;
-
-// Bounds of the cells between the nodes that may let light through, none if none may; the iris counts as its
-// circumscribed circle.
-std::optional<Rectangle> lit_part(const RaySheet& sheet) {
-  const auto n = static_cast<std::size_t>(sheet.nodes);
-  const auto& points = lobatto_points(sheet.nodes);
-  const Vec2 half = (sheet.box.high - sheet.box.low) * 0.5;
-  std::optional<Rectangle> part;
-  for (std::size_t cell = 0; cell + n < sheet.count(); ++cell) {
-    const std::size_t ix = cell % n;
-    const std::size_t iy = cell / n;
-    if (ix == n - 1) continue;
-    std::array<Extremes, 1 + kMaxStopCrossings> extremes;
-    bool any = false;
-    for (const std::size_t k : {cell, cell + 1, cell + n, cell + n + 1}) {
-      if (std::isinf(sheet.r_rel[k])) continue;
-      any = true;
-      extremes[0].add(sheet.r_rel[k] - 1.0F);
-      for (std::size_t c = 0; c < sheet.stop.size(); ++c) {
-        const float x = sheet.stop[c][0][k];
-        const float y = sheet.stop[c][1][k];
-        extremes[1 + c].add(std::sqrt(x * x + y * y) - 1.0F);
-      }
-    }
-    for (std::size_t l = 0; l < 1 + sheet.stop.size(); ++l) any = any && extremes[l].may_pass(1.0F);
-    if (!any) continue;
-    const Vec2 low = sheet.box.low + Vec2{half.x * (1.0 + points[ix]), half.y * (1.0 + points[iy])};
-    const Vec2 high = sheet.box.low + Vec2{half.x * (1.0 + points[ix + 1]), half.y * (1.0 + points[iy + 1])};
-    if (!part) part = {low, high};
-    part->low = {std::min(part->low.x, low.x), std::min(part->low.y, low.y)};
-    part->high = {std::max(part->high.x, high.x), std::max(part->high.y, high.y)};
-  }
-  return part;
-}
-
-double area(const Rectangle& r) { return (r.high.x - r.low.x) * (r.high.y - r.low.y); }
-
-// Of the cells of any of the sheets, which are of one box.
-std::optional<Rectangle> lit_part(std::span<const RaySheet> sheets) {
-  std::optional<Rectangle> part;
-  for (const RaySheet& sheet : sheets) {
-    const auto one = lit_part(sheet);
-    if (one) part = part ? both(*part, *one) : *one;
-  }
-  return part;
-}
-
-// A patch's error over what is allowed.
-double misfit(const Patch& patch, const Tolerance& tolerance) {
-  const PatchError e = estimated_error(patch);
-  return std::max({e.position_px / tolerance.position_px, e.stop / tolerance.stop, e.rim / (2.0 * tolerance.stop),
-                   e.weight / tolerance.weight});
-}
-
-bool all_arrive(std::span<const RaySheet> sheets) {
-  return std::all_of(sheets.begin(), sheets.end(), [](const RaySheet& sheet) { return sheet.failed == 0; });
-}
+constexpr double kFewCells = 96.0, kFewBands = 3.0;
 
 // A band's first rays: the geometry of its middle and the light of all its passes.
 RaySheet band_sheet(const FirstRays& rays, const Band& band, std::span<const PlannedPass> passes) {
@@ -104,15 +37,9 @@ std::vector<double> wavelengths_of(std::span<const PlannedPass> passes) {
 }  // namespace
 
 GhostPainter::GhostPainter(GhostTracers& tracers, const IrisShape& iris, const Frame& frame, int deepest,
-                           GhostRoom& room, const GhostScreens* screens, const screens::DirtField* dirt)
+                           BoxCells& room, const GhostScreens* screens, const screens::DirtField* dirt)
     : tracers_(tracers), samples_(wavelengths_of(tracers.passes()), kMostSamples), iris_(iris), frame_(frame),
       deepest_(deepest), screens_(screens), dirt_(dirt), room_(room) {}
-
-PacketPrecision GhostPainter::precision_for(const Rectangle& box, const Tolerance& tolerance) const {
-  const bool coarse = tolerance.position_px * frame_.pixel_pitch_mm > 2.0 * kFloatError_mm;
-  const Vec2 size = box.high - box.low;
-  return coarse && std::min(size.x, size.y) > kFloatBox_mm ? PacketPrecision::Float : PacketPrecision::Double;
-}
 
 // The screens of a band's wavelengths, at most three, each with the light of those nearest.
 std::shared_ptr<const BandScreen> GhostPainter::band_screen(const FirstRays& rays, const Band& of) const {
@@ -153,10 +80,10 @@ std::shared_ptr<const BandScreen> GhostPainter::band_screen(const FirstRays& ray
 }
 
 void GhostPainter::paint(const Rectangle& box, bool with_mirror_image, const ErrorBudget& budget, PolygonList& out) {
-  FirstRays rays = first_rays(tracers_, samples_, box, kNodes.front(), frame_, budget);
+  FirstRays rays = first_rays(tracers_, samples_, box, PatchFitter::kFewestNodes, frame_, budget);
   if (const auto bent = bent_about(rays, box)) {
     tracers_.bend(bent->bend);
-    rays = first_rays(tracers_, samples_, bent->box, kNodes.front(), frame_, budget);
+    rays = first_rays(tracers_, samples_, bent->box, PatchFitter::kFewestNodes, frame_, budget);
   }
   paint(rays, with_mirror_image, budget, out);
   tracers_.bend({});
@@ -179,176 +106,52 @@ void GhostPainter::paint(const FirstRays& rays, bool with_mirror_image, const Er
   const std::vector<Band> bands = bands_for(rays, tracers_.passes(), samples_, frame_.pixel_pitch_mm);
   BandScreens screens;
   for (const Band& band : bands) screens.push_back(screens_ != nullptr ? band_screen(rays, band) : nullptr);
-  const auto few_cells = kFewCells * std::max(static_cast<double>(bands.size()), kFewBands);
-  const auto painter = [&](CellRoom& room) {
-    CellPainter cells(iris_, frame_, budget.squared_error, few_cells, budget.peak, room, out);
+  PatchFitter fitter(tracers_, frame_, deepest_, screens_ != nullptr ? screens_->unseen : 0.0);
+  const auto each = std::max(static_cast<double>(bands.size()), kFewBands);
+  const auto paint_all = [&](const BandSet& set, std::span<const std::shared_ptr<const BandScreen>> of_set,
+                             const std::vector<FittedPart>& parts) {
+    if (parts.empty()) return;
+    CellPainter cells(iris_, frame_, {budget.squared_error / each, budget.peak}, kFewCells, room_, out);
     cells.sides_bend(tracers_.is_bent());
     cells.stand_behind(SeenDirt{dirt_, &tracers_.light(), tracers_.plane_z_mm()});
-    return cells;
+    for (std::size_t band = 0; band < set.size(); ++band) {
+      if (of_set[band]) cells.stand_behind(of_set[band], tracers_.stop_times());
+      paint_band(set, band, parts, cells);
+    }
   };
-  CellPainter cells = painter(room_.cells), cells_of_image = painter(room_.of_mirror_image);
-  CellPainter* const mirror_image = with_mirror_image ? &cells_of_image : nullptr;
+  const auto fit_and_paint = [&](BandSet& set, std::span<const RaySheet> first, const BandScreens& of_set) {
+    const FittedBox fitted = fitter.fit(set, first, rays.tolerance, of_set, with_mirror_image);
+    paint_all(set, of_set, fitted.parts);
+    paint_all(set, of_set, fitted.mirror_image);
+  };
   if (rays.samples > 0) {
     BandSet all(tracers_, samples_, rays.samples, bands);
     std::vector<RaySheet> sheets;
     for (std::size_t k = 0; k < rays.samples; ++k) sheets.push_back(rays.sheets[samples_[k]]);
     all.add_weights(sheets, PacketPrecision::Double);
-    paint_bands(all, sheets, {rays.tolerance, screens, cells, mirror_image});
-  }
-  for (std::size_t k = 0; k < bands.size() && rays.samples == 0; ++k) {
-    BandSet one(tracers_, bands[k]);
-    const RaySheet sheet = band_sheet(rays, bands[k], tracers_.passes());
-    paint_bands(one, {&sheet, 1}, {rays.tolerance, {screens[k]}, cells, mirror_image, k});
-  }
-  for (CellPainter* const all : {&cells, mirror_image}) {
-    for (std::size_t k = 0; k < bands.size() && all != nullptr; ++k) {
-      stand_behind(screens[k], *all);
-      all->draw(k);
-    }
-  }
-}
-
-// A box that no other one touches.
-GhostPainter::BoxPart GhostPainter::whole(const Rectangle& box, int depth) {
-  const MeshPlace place{boxes_, is_symmetric(box) ? boxes_ : boxes_ + 1};
-  boxes_ += 2;
-  return {box, place, depth};
-}
-
-bool GhostPainter::is_symmetric(const Rectangle& box) const {
-  return tracers_.light().symmetric && box.low.y == -box.high.y;
-}
-
-// first: sheets of the fewest nodes, with weights.
-void GhostPainter::paint_bands(BandSet& bands, std::span<const RaySheet> first, const Painting& painting) {
-  const BoxPart part = whole(first.front().box);
-  double first_misfit = kNoFit;
-  if (all_arrive(first)) {
-    const std::vector<Patch> patches = bands.make_patches(first, frame_);
-    first_misfit = misfit(bands, patches, painting.tolerance);
-    if (first_misfit <= 1.0) return paint_patches(bands, first, patches, part.place, painting);
-  }
-  paint_part(bands, part, first_misfit, painting);
-}
-
-// first_misfit: that of the fewest nodes, where it is known.
-void GhostPainter::paint_part(BandSet& bands, const BoxPart& part, std::optional<double> first_misfit,
-                              const Painting& painting) {
-  const Rectangle& box = part.box;
-  double before = first_misfit.value_or(kNoFit);
-  for (std::size_t k = first_misfit ? 1 : 0; k < kNodes.size(); ++k) {
-    const PacketPrecision precision = precision_for(box, painting.tolerance);
-    std::vector<RaySheet> sheets = bands.trace(box, kNodes[k], precision);
-    const std::optional<double> level = level_behind(bands, sheets, painting);
-    if (level && *level < screens_->unseen) return;
-    const bool rough = level && *level < kRough * screens_->unseen;
-    const double looser = level ? std::clamp(painting.tolerance.level / *level, 1.0, kMostLooser) : 1.0;
-    const auto lit = lit_part(sheets);
-    if (!lit) return;
-    const bool last_part = part.depth >= deepest_;
-    if (!last_part && area(*lit) < kWorthShrinking * area(box))
-      return paint_part(bands, whole(*lit, part.depth + 1), std::nullopt, painting);
-    const bool last = k + 1 == kNodes.size();
-    const bool arrive = all_arrive(sheets);
-    if (!arrive && !last_part && !rough) break;
-    bands.add_weights(sheets, precision);
-    if (!arrive) return paint_between_rays(bands, part, sheets, painting);
-    const std::vector<Patch> patches = bands.make_patches(sheets, frame_);
-    const double now = misfit(bands, patches, painting.tolerance) / looser;
-    if (now <= 1.0 || rough || (last && last_part)) return paint_patches(bands, sheets, patches, part.place, painting);
-    // Errors fall by a like factor for a like number of nodes, which the next step has twice more of.
-    const double next = now * (now / before) * (now / before);
-    if (next > kHopeless && !last_part) break;
-    before = now;
-  }
-  paint_quarters(bands, part, painting);
-}
-
-// About the brightest pixel of a box behind a screen, or of its mirror image, as far as it matters. None: the iris is
-// sharp, or that is not told: of several bands, or where no four rays side by side arrive.
-std::optional<double> GhostPainter::level_behind(const BandSet& bands, std::span<const RaySheet> sheets,
-                                                 const Painting& painting) const {
-  if (screens_ == nullptr || bands.size() > 1 || sheets.size() > 1) return std::nullopt;
-  Rgb gain{};
-  for (std::size_t k = bands.band(0).first; k < bands.band(0).last; ++k)
-    for (std::size_t c = 0; c < 3; ++c) gain[c] += tracers_.passes()[k].gain[c];
-  const double pixel_mm2 = frame_.pixel_pitch_mm * frame_.pixel_pitch_mm;
-  const double scale = std::max({std::abs(gain[0]), std::abs(gain[1]), std::abs(gain[2])}) * pixel_mm2;
-  const double enough = std::max(painting.tolerance.level, kRough * screens_->unseen);
-  const auto brightest = brightest_passed(sheets.front(), painting.mirror_image != nullptr, *painting.screens.front(),
-                                          tracers_.stop_times(), tracers_.light(), enough / scale);
-  return brightest ? std::optional(*brightest * scale) : std::nullopt;
-}
-
-// The worst of three bands', at most: those between them are blended like them.
-double GhostPainter::misfit(const BandSet& bands, std::span<const Patch> patches, const Tolerance& tolerance) const {
-  Patch patch;
-  double worst = 0.0;
-  const std::size_t step = std::max<std::size_t>(1, (bands.size() - 1) / 2);
-  for (std::size_t band = 0; band < bands.size(); band += step) {
-    bands.band_patch(patches, band, patch);
-    worst = std::max(worst, adaptive::misfit(patch, tolerance));
-  }
-  return worst;
-}
-
-// patches: of the sheets.
-void GhostPainter::paint_patches(const BandSet& bands, std::span<const RaySheet> sheets, std::span<const Patch> patches,
-                                 const MeshPlace& place, const Painting& painting) const {
-  const auto paint_all = [&](std::span<const Patch> of, const MeshPlace& at, CellPainter& cells) {
-    Patch patch;
-    for (std::size_t band = 0; band < bands.size(); ++band) {
-      bands.band_patch(of, band, patch);
-      stand_behind(painting.screens[band], cells);
-      cells.choose(patch, painting.first_band + band, at);
-    }
-  };
-  paint_all(patches, place, painting.cells);
-  if (painting.mirror_image == nullptr) return;
-  std::vector<RaySheet> others;
-  for (const RaySheet& sheet : sheets) others.push_back(mirrored(sheet));
-  paint_all(bands.make_patches(others, frame_), place.mirrored(), *painting.mirror_image);
-}
-
-// Straight lines between the rays that arrive, of each band by itself: they fail at different places.
-void GhostPainter::paint_between_rays(BandSet& bands, const BoxPart& part, std::span<const RaySheet> sheets,
-                                      const Painting& painting) {
-  if (bands.size() == 1 && sheets.size() == 1) {
-    const auto paint_cells = [&](const RaySheet& sheet, CellPainter& cells) {
-      stand_behind(painting.screens.front(), cells);
-      for (const Patch& patch : patches_of_cells(sheet, tracers_.light(), frame_))
-        cells.choose(patch, painting.first_band, whole(patch.box).place);
-    };
-    paint_cells(sheets.front(), painting.cells);
-    if (painting.mirror_image != nullptr) paint_cells(mirrored(sheets.front()), *painting.mirror_image);
-    return;
+    return fit_and_paint(all, sheets, screens);
   }
   for (std::size_t k = 0; k < bands.size(); ++k) {
-    BandSet alone(tracers_, bands.band(k));
-    paint_part(
-        alone, part, std::nullopt,
-        {painting.tolerance, {painting.screens[k]}, painting.cells, painting.mirror_image, painting.first_band + k});
+    BandSet one(tracers_, bands[k]);
+    const RaySheet sheet = band_sheet(rays, bands[k], tracers_.passes());
+    fit_and_paint(one, {&sheet, 1}, {screens[k]});
   }
 }
 
-// Of a box that is its own mirror image those on one side of the axis tell the others.
-void GhostPainter::paint_quarters(BandSet& bands, const BoxPart& part, const Painting& painting) {
-  const Rectangle& box = part.box;
-  const Vec2 middle = (box.low + box.high) * 0.5;
-  const bool symmetric = is_symmetric(box);
-  Painting of_quarter = painting;
-  if (symmetric) of_quarter.mirror_image = &painting.cells;
-  for (const std::size_t q : {2U, 3U, 0U, 1U}) {
-    const bool right = q % 2 != 0, upper = q / 2 != 0;
-    if (symmetric && !upper) return;
-    const Rectangle quarter{{right ? middle.x : box.low.x, upper ? middle.y : box.low.y},
-                            {right ? box.high.x : middle.x, upper ? box.high.y : middle.y}};
-    paint_part(bands, {quarter, part.place.quarter(q), part.depth + 1}, std::nullopt, of_quarter);
+// One of the set's.
+void GhostPainter::paint_band(const BandSet& set, std::size_t band, std::span<const FittedPart> parts,
+                              CellPainter& cells) {
+  Patch patch;
+  for (const FittedPart& part : parts) {
+    if (!part.only_band)
+      set.band_patch(part.patches, band, patch);
+    else if (*part.only_band == band)
+      patch = part.patches.front();
+    else
+      continue;
+    cells.choose(patch, part.place);
   }
-}
-
-void GhostPainter::stand_behind(const std::shared_ptr<const BandScreen>& screen, CellPainter& cells) const {
-  if (screen) cells.stand_behind(screen, tracers_.stop_times());
+  cells.draw();
 }
 
 }  // namespace contrejour::adaptive

@@ -159,7 +159,7 @@ const IrisShape& round_iris() {
 }
 
 Painted paint(const Scene& scene, const Item& item, std::vector<PlannedPass> passes, const Frame& whole,
-              const TileGrid& grid, const ErrorBudget& budget, Pool<GhostRoom>& rooms, int deepest) {
+              const TileGrid& grid, const ErrorBudget& budget, Pool<BoxCells>& rooms, int deepest) {
   Painted painted;
   const Frame frame = item.look->placed(whole);
   for (PlannedPass& pass : passes) pass.gain = item.look->tinted(pass.gain);
@@ -194,7 +194,7 @@ PlannedPass merged(const PlannedLight& light) {
 }
 
 // In pixels of the whole frame.
-ItemSize size_of(const PolygonList& list) {
+Spread spread_of(const PolygonList& list) {
   double area = 0.0, squares = 0.0;
   for (const Polygon& polygon : list.polygons) {
     const auto p = list.corners_of(polygon);
@@ -206,7 +206,7 @@ ItemSize size_of(const PolygonList& list) {
     squares += 0.5 * std::abs(twice) * (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]) / 3.0;
   }
   constexpr double kPixels = kPeakScale * kPeakScale;
-  return {area * kPixels, area > 0.0 ? std::sqrt(squares / area) / kPixels : 0.0};
+  return {area > 0.0 ? std::sqrt(squares / area) / kPixels : 0.0, area * kPixels};
 }
 
 Frame smaller(const Frame& frame, int by) {
@@ -233,14 +233,15 @@ std::vector<Item> find_items(const Scene& scene, const Context& context, Work& w
   return items;
 }
 
-Painted paint_item(const Scene& scene, const Item& item, const Frame& frame, const TileGrid& grid,
-                   const ErrorBudget& budget, Pool<GhostRoom>& rooms) {
+Painted paint_item(const Scene& scene, const Item& item, const ItemSize& size, const Frame& frame, const TileGrid& grid,
+                   const ErrorBudget& budget, Pool<BoxCells>& rooms) {
   ErrorBudget of_item = budget;
+  of_item.about = size;
   if (item.screens) of_item.squared_error *= kScreenedShare;
   return paint(scene, item, item.light->passes, frame, grid, of_item, rooms, kDeepest);
 }
 
-RoughFrame draw_roughly(const Scene& scene, const std::vector<Item>& items, const Frame& frame, Pool<GhostRoom>& rooms,
+RoughFrame draw_roughly(const Scene& scene, const std::vector<Item>& items, const Frame& frame, Pool<BoxCells>& rooms,
                         const Context& context, Work& work) {
   const Frame small = smaller(frame, kPeakScale);
   const TileGrid grid(small.width, small.height);
@@ -256,7 +257,9 @@ RoughFrame draw_roughly(const Scene& scene, const std::vector<Item>& items, cons
   for (const Work& w : done) work.add(w);
   RoughFrame rough;
   if (context.cancelled()) return rough;
-  for (const TiledPolygons& of_item : polygons) rough.sizes.push_back(size_of(of_item.list));
+  for (std::size_t k = 0; k < items.size(); ++k) {
+    rough.sizes.push_back({spread_of(polygons[k].list), static_cast<double>(done[k].rays)});
+  }
   Image image = Image::unwritten(small.width, small.height);
   TileDrawer(grid).draw(polygons, TileMode::Write, context, image);
   rough.peak = quantile_of_samples(image, kPeakQuantile);

@@ -44,20 +44,21 @@ struct Painted {
 // Its boxes as wide as the light that its screens let through.
 [[nodiscard]] Work widen_boxes(const Scene& scene, Item& item);
 
-// An item in all wavelengths of its light.
-[[nodiscard]] Painted paint_item(const Scene& scene, const Item& item, const Frame& frame, const TileGrid& grid,
-                                 const ErrorBudget& budget, Pool<GhostRoom>& rooms);
-
-// What a small frame, drawn without care, tells.
-struct ItemSize {
-  double area_px = 0;  // of the polygons that it is drawn with
-  double level = 0;    // root mean square over that area, pixel values
+// What a small frame, drawn without care, tells: area is that of the polygons that it is drawn with, level the root
+// mean square over it.
+struct ItemSize : Spread {
+  double rays = 0;  // that it took
 };
+
+// An item in all wavelengths of its light. size: as a small frame tells.
+[[nodiscard]] Painted paint_item(const Scene& scene, const Item& item, const ItemSize& size, const Frame& frame,
+                                 const TileGrid& grid, const ErrorBudget& budget, Pool<BoxCells>& rooms);
+
 struct RoughFrame {
   double peak = 0;  // what errors are relative to: the level that 99.9 per cent of samples stay below (metrics.h)
   std::vector<ItemSize> sizes;  // one an item; none when cancelled
 };
 [[nodiscard]] RoughFrame draw_roughly(const Scene& scene, const std::vector<Item>& items, const Frame& frame,
-                                      Pool<GhostRoom>& rooms, const Context& context, Work& work);
+                                      Pool<BoxCells>& rooms, const Context& context, Work& work);
 
 }  // namespace contrejour::adaptive

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "render/adaptive/sheet_cells.h"
 
@@ -14,14 +15,9 @@ constexpr double kNoLimit = 1e9;
 constexpr double kColourLevel = 1e-3, kColourShift = 0.02, kColourShift_px = 1.0;
 constexpr double kPeaks = 16.0;  // fits of what is so many times brighter than the peak need be no better
 
-// The light of a sheet's image where most of it is: its level, in units of light over pixels, and its area there.
-struct Spread {
-  double level = 0.0, area_px = 1.0;
-};
-
-// pupil_light: of a mm^2 of the pupil, which lies evenly over the image of each cell between rays. Cells far outside a
-// rim do not count: the rays at a box's border may be flung anywhere.
-Spread spread_of(const RaySheet& sheet, double pupil_light, const Frame& frame) {
+// Of a sheet's image. pupil_light: of a mm^2 of the pupil, which lies evenly over the image of each cell between rays.
+// Cells far outside a rim do not count: the rays at a box's border may be flung anywhere. None: no cell counts.
+std::optional<Spread> spread_of(const RaySheet& sheet, double pupil_light, const Frame& frame) {
   const SheetCells cells(sheet);
   const double pixel_mm2 = frame.pixel_pitch_mm * frame.pixel_pitch_mm;
   const auto rim = [&](std::size_t k) { return sheet.r_rel[k]; };
@@ -35,9 +31,17 @@ Spread spread_of(const RaySheet& sheet, double pupil_light, const Frame& frame) 
     light += here;
     squares += here * here / std::max(cells.image_mm2(first) / pixel_mm2, 1.0);
   }
+  if (!(light > 0.0)) return std::nullopt;
+  return Spread{squares / light, light * light / squares};
+}
+
+// The same where no cell tells: about what a small frame shows, or else all light in one pixel.
+Spread guessed_spread(const RaySheet& sheet, double pupil_light, const Spread& about) {
+  constexpr double kGathers = 4.0;  // in so much less of its area
+  if (about.area_px > 1.0 && about.level > 0.0)
+    return {about.level * kGathers, std::max(about.area_px / kGathers, 1.0)};
   const Vec2 size = sheet.box.high - sheet.box.low;
-  if (!(light > 0.0)) return {pupil_light * size.x * size.y, 1.0};
-  return {squares / light, light * light / squares};
+  return {pupil_light * size.x * size.y, 1.0};
 }
 
 }  // namespace
@@ -46,7 +50,8 @@ Spread spread_of(const RaySheet& sheet, double pupil_light, const Frame& frame) 
 Tolerance tolerance_for(const RaySheet& sheet, double weight, double shared_flux, const Frame& frame,
                         const ErrorBudget& budget) {
   if (!std::isfinite(budget.squared_error) || !(weight > 0.0)) return {kNoLimit, kNoLimit, kNoLimit, 0.0, kNoLimit};
-  const Spread spread = spread_of(sheet, weight * shared_flux, frame);
+  const double pupil_light = weight * shared_flux;
+  const Spread spread = spread_of(sheet, pupil_light, frame).value_or(guessed_spread(sheet, pupil_light, budget.about));
   const double side = std::sqrt(spread.area_px);
   Tolerance t;
   t.level = std::min(spread.level, kPeaks * budget.peak);

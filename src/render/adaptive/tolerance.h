@@ -6,10 +6,17 @@
 
 namespace contrejour::adaptive {
 
+// What is seen of a ghost, or of some part of one: its level where most of its light is, a pixel's value, and its area
+// there.
+struct Spread {
+  double level = 0.0, area_px = 0.0;
+};
+
 // What may go wrong in all that a painter is asked to paint at once.
 struct ErrorBudget {
   double squared_error = 0;  // pixel values squared, summed over the frame; infinite: no limit
   double peak = 1;           // of the frame's pixel values
+  Spread about = {};         // what it is about, where rays do not tell; none: not known
 };
 
 struct Tolerance {

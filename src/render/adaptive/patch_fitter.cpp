@@ -1,0 +1,226 @@
+#include "render/adaptive/patch_fitter.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "render/adaptive/extremes.h"
+#include "render/adaptive/lobatto.h"
+#include "render/adaptive/screened_boxes.h"
+
+namespace contrejour::adaptive {
+namespace {
+
+constexpr std::array kNodes{PatchFitter::kFewestNodes, 9, 17};
+// Float places a ray on the sensor to some 1e-3 mm at worst; it must be given room enough at the entrance, too.
+constexpr double kFloatError_mm = 1e-3;
+constexpr double kFloatBox_mm = 0.05;
+constexpr double kWorthShrinking = 0.5;  // a box whose lit part has no more of its area is shrunk to it
+constexpr double kNoFit = std::numeric_limits<double>::infinity();
+// Behind a screen: how much worse fits of dim light may be, and what is so dim, over what does not count at all, that
+// any will do.
+constexpr double kMostLooser = 64.0, kRough = 10.0;
+constexpr double kHopeless = 2.0;  // times the tolerance, foretold of more nodes
+
+// Bounds of the cells between the nodes that may let light through, none if none may; the iris counts as its
+// circumscribed circle.
+std::optional<Rectangle> lit_part(const RaySheet& sheet) {
+  const auto n = static_cast<std::size_t>(sheet.nodes);
+  const auto& points = lobatto_points(sheet.nodes);
+  const Vec2 half = (sheet.box.high - sheet.box.low) * 0.5;
+  std::optional<Rectangle> part;
+  for (std::size_t cell = 0; cell + n < sheet.count(); ++cell) {
+    const std::size_t ix = cell % n;
+    const std::size_t iy = cell / n;
+    if (ix == n - 1) continue;
+    std::array<Extremes, 1 + kMaxStopCrossings> extremes;
+    bool any = false;
+    for (const std::size_t k : {cell, cell + 1, cell + n, cell + n + 1}) {
+      if (std::isinf(sheet.r_rel[k])) continue;
+      any = true;
+      extremes[0].add(sheet.r_rel[k] - 1.0F);
+      for (std::size_t c = 0; c < sheet.stop.size(); ++c) {
+        const float x = sheet.stop[c][0][k];
+        const float y = sheet.stop[c][1][k];
+        extremes[1 + c].add(std::sqrt(x * x + y * y) - 1.0F);
+      }
+    }
+    for (std::size_t l = 0; l < 1 + sheet.stop.size(); ++l) any = any && extremes[l].may_pass(1.0F);
+    if (!any) continue;
+    const Vec2 low = sheet.box.low + Vec2{half.x * (1.0 + points[ix]), half.y * (1.0 + points[iy])};
+    const Vec2 high = sheet.box.low + Vec2{half.x * (1.0 + points[ix + 1]), half.y * (1.0 + points[iy + 1])};
+    if (!part) part = {low, high};
+    part->low = {std::min(part->low.x, low.x), std::min(part->low.y, low.y)};
+    part->high = {std::max(part->high.x, high.x), std::max(part->high.y, high.y)};
+  }
+  return part;
+}
+
+double area(const Rectangle& r) { return (r.high.x - r.low.x) * (r.high.y - r.low.y); }
+
+// Of the cells of any of the sheets, which are of one box.
+std::optional<Rectangle> lit_part(std::span<const RaySheet> sheets) {
+  std::optional<Rectangle> part;
+  for (const RaySheet& sheet : sheets) {
+    const auto one = lit_part(sheet);
+    if (one) part = part ? both(*part, *one) : *one;
+  }
+  return part;
+}
+
+// A patch's error over what is allowed.
+double misfit(const Patch& patch, const Tolerance& tolerance) {
+  const PatchError e = estimated_error(patch);
+  return std::max({e.position_px / tolerance.position_px, e.stop / tolerance.stop, e.rim / (2.0 * tolerance.stop),
+                   e.weight / tolerance.weight});
+}
+
+bool all_arrive(std::span<const RaySheet> sheets) {
+  return std::all_of(sheets.begin(), sheets.end(), [](const RaySheet& sheet) { return sheet.failed == 0; });
+}
+
+// The worst of three bands', at most: those between them are blended like them.
+double misfit(const BandSet& bands, std::span<const Patch> patches, const Tolerance& tolerance) {
+  Patch patch;
+  double worst = 0.0;
+  const std::size_t step = std::max<std::size_t>(1, (bands.size() - 1) / 2);
+  for (std::size_t band = 0; band < bands.size(); band += step) {
+    bands.band_patch(patches, band, patch);
+    worst = std::max(worst, misfit(patch, tolerance));
+  }
+  return worst;
+}
+
+}  // namespace
+
+FittedBox PatchFitter::fit(BandSet& bands, std::span<const RaySheet> first, const Tolerance& tolerance,
+                           const BandScreens& screens, bool with_mirror_image) {
+  FittedBox out;
+  const Fitting fitting{bands, tolerance, screens, out.parts, with_mirror_image ? &out.mirror_image : nullptr};
+  const BoxPart part = whole(first.front().box);
+  double first_misfit = kNoFit;
+  if (all_arrive(first)) {
+    std::vector<Patch> patches = bands.make_patches(first, frame_);
+    first_misfit = misfit(bands, patches, tolerance);
+    if (first_misfit <= 1.0) {
+      keep(part.place, first, std::move(patches), fitting);
+      return out;
+    }
+  }
+  fit(part, first_misfit, fitting);
+  return out;
+}
+
+// A box that no other one touches.
+PatchFitter::BoxPart PatchFitter::whole(const Rectangle& box, int depth) {
+  const MeshPlace place{boxes_, is_symmetric(box) ? boxes_ : boxes_ + 1};
+  boxes_ += 2;
+  return {box, place, depth};
+}
+
+bool PatchFitter::is_symmetric(const Rectangle& box) const {
+  return tracers_.light().symmetric && box.low.y == -box.high.y;
+}
+
+PacketPrecision PatchFitter::precision_for(const Rectangle& box, const Tolerance& tolerance) const {
+  const bool coarse = tolerance.position_px * frame_.pixel_pitch_mm > 2.0 * kFloatError_mm;
+  const Vec2 size = box.high - box.low;
+  return coarse && std::min(size.x, size.y) > kFloatBox_mm ? PacketPrecision::Float : PacketPrecision::Double;
+}
+
+// first_misfit: that of the fewest nodes, where it is known.
+void PatchFitter::fit(const BoxPart& part, std::optional<double> first_misfit, const Fitting& fitting) {
+  BandSet& bands = fitting.bands;
+  const Rectangle& box = part.box;
+  double before = first_misfit.value_or(kNoFit);
+  for (std::size_t k = first_misfit ? 1 : 0; k < kNodes.size(); ++k) {
+    const PacketPrecision precision = precision_for(box, fitting.tolerance);
+    std::vector<RaySheet> sheets = bands.trace(box, kNodes[k], precision);
+    const std::optional<double> level = level_behind(sheets, fitting);
+    if (level && *level < unseen_) return;
+    const bool rough = level && *level < kRough * unseen_;
+    const double looser = level ? std::clamp(fitting.tolerance.level / *level, 1.0, kMostLooser) : 1.0;
+    const auto lit = lit_part(sheets);
+    if (!lit) return;
+    const bool last_part = part.depth >= deepest_;
+    if (!last_part && area(*lit) < kWorthShrinking * area(box))
+      return fit(whole(*lit, part.depth + 1), std::nullopt, fitting);
+    const bool last = k + 1 == kNodes.size();
+    const bool arrive = all_arrive(sheets);
+    if (!arrive && !last_part && !rough) break;
+    bands.add_weights(sheets, precision);
+    if (!arrive) return fit_between_rays(part, sheets, fitting);
+    std::vector<Patch> patches = bands.make_patches(sheets, frame_);
+    const double now = misfit(bands, patches, fitting.tolerance) / looser;
+    if (now <= 1.0 || rough || (last && last_part)) return keep(part.place, sheets, std::move(patches), fitting);
+    // Errors fall by a like factor for a like number of nodes, which the next step has twice more of.
+    const double next = now * (now / before) * (now / before);
+    if (next > kHopeless && !last_part) break;
+    before = now;
+  }
+  fit_quarters(part, fitting);
+}
+
+// patches: of the sheets.
+void PatchFitter::keep(const MeshPlace& place, std::span<const RaySheet> sheets, std::vector<Patch> patches,
+                       const Fitting& fitting) const {
+  fitting.parts.push_back({place, std::move(patches), fitting.only_band});
+  if (fitting.mirror_image == nullptr) return;
+  std::vector<RaySheet> others;
+  for (const RaySheet& sheet : sheets) others.push_back(mirrored(sheet));
+  fitting.mirror_image->push_back({place.mirrored(), fitting.bands.make_patches(others, frame_), fitting.only_band});
+}
+
+// Straight lines between the rays that arrive, of each band by itself: they fail at different places.
+void PatchFitter::fit_between_rays(const BoxPart& part, std::span<const RaySheet> sheets, const Fitting& fitting) {
+  if (fitting.bands.size() == 1 && sheets.size() == 1) {
+    const auto add_cells = [&](const RaySheet& sheet, std::vector<FittedPart>& parts) {
+      for (Patch& patch : patches_of_cells(sheet, tracers_.light(), frame_))
+        parts.push_back({whole(patch.box).place, {std::move(patch)}, fitting.only_band.value_or(0)});
+    };
+    add_cells(sheets.front(), fitting.parts);
+    if (fitting.mirror_image != nullptr) add_cells(mirrored(sheets.front()), *fitting.mirror_image);
+    return;
+  }
+  for (std::size_t k = 0; k < fitting.bands.size(); ++k) {
+    BandSet alone(tracers_, fitting.bands.band(k));
+    fit(part, std::nullopt,
+        {alone, fitting.tolerance, fitting.screens.subspan(k, 1), fitting.parts, fitting.mirror_image, k});
+  }
+}
+
+// Of a box that is its own mirror image those on one side of the axis tell the others.
+void PatchFitter::fit_quarters(const BoxPart& part, const Fitting& fitting) {
+  const Rectangle& box = part.box;
+  const Vec2 middle = (box.low + box.high) * 0.5;
+  const bool symmetric = is_symmetric(box);
+  Fitting of_quarter = fitting;
+  if (symmetric) of_quarter.mirror_image = &fitting.parts;
+  for (const std::size_t q : {2U, 3U, 0U, 1U}) {
+    const bool right = q % 2 != 0, upper = q / 2 != 0;
+    if (symmetric && !upper) return;
+    const Rectangle quarter{{right ? middle.x : box.low.x, upper ? middle.y : box.low.y},
+                            {right ? box.high.x : middle.x, upper ? box.high.y : middle.y}};
+    fit({quarter, part.place.quarter(q), part.depth + 1}, std::nullopt, of_quarter);
+  }
+}
+
+// About the brightest pixel of a box behind a screen, or of its mirror image, as far as it matters. None: the iris is
+// sharp, or that is not told: of several bands, or where no four rays side by side arrive.
+std::optional<double> PatchFitter::level_behind(std::span<const RaySheet> sheets, const Fitting& fitting) const {
+  const BandSet& bands = fitting.bands;
+  if (fitting.screens.front() == nullptr || bands.size() > 1 || sheets.size() > 1) return std::nullopt;
+  Rgb gain{};
+  for (std::size_t k = bands.band(0).first; k < bands.band(0).last; ++k)
+    for (std::size_t c = 0; c < 3; ++c) gain[c] += tracers_.passes()[k].gain[c];
+  const double pixel_mm2 = frame_.pixel_pitch_mm * frame_.pixel_pitch_mm;
+  const double scale = std::max({std::abs(gain[0]), std::abs(gain[1]), std::abs(gain[2])}) * pixel_mm2;
+  const double enough = std::max(fitting.tolerance.level, kRough * unseen_);
+  const auto brightest = brightest_passed(sheets.front(), fitting.mirror_image != nullptr, *fitting.screens.front(),
+                                          tracers_.stop_times(), tracers_.light(), enough / scale);
+  return brightest ? std::optional(*brightest * scale) : std::nullopt;
+}
+
+}  // namespace contrejour::adaptive

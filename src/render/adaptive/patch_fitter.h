@@ -1,0 +1,78 @@
+// A box of the pupil as patches: polynomials through exact rays at few points, tested; more rays or smaller boxes where
+// the test fails.
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "render/adaptive/band_set.h"
+#include "render/adaptive/box_cells.h"
+#include "render/adaptive/polygon_screen.h"
+#include "render/adaptive/tolerance.h"
+
+namespace contrejour::adaptive {
+
+// A part of a box, with what BandSet::band_patch() makes each band's patch of; or with the patch of one band alone.
+struct FittedPart {
+  MeshPlace place;
+  std::vector<Patch> patches;
+  std::optional<std::size_t> only_band = std::nullopt;
+};
+
+struct FittedBox {
+  std::vector<FittedPart> parts;
+  std::vector<FittedPart> mirror_image;  // of the box, if that is wanted
+};
+
+using BandScreens = std::vector<std::shared_ptr<const BandScreen>>;  // one a band; null: the iris is sharp
+
+class PatchFitter {
+ public:
+  static constexpr int kFewestNodes = 5;
+
+  // deepest: how often a box may be quartered before straight lines between rays must do. unseen: pixel values behind
+  // screens that do not count.
+  PatchFitter(GhostTracers& tracers, const Frame& frame, int deepest, double unseen)
+      : tracers_(tracers), frame_(frame), deepest_(deepest), unseen_(unseen) {}
+
+  // first: of the box, rays at kFewestNodes, with weights.
+  [[nodiscard]] FittedBox fit(BandSet& bands, std::span<const RaySheet> first, const Tolerance& tolerance,
+                              const BandScreens& screens, bool with_mirror_image);
+
+ private:
+  // A box, or a quarter of a quarter of one.
+  struct BoxPart {
+    Rectangle box;
+    MeshPlace place;
+    int depth = 0;
+  };
+  struct Fitting {
+    BandSet& bands;
+    const Tolerance& tolerance;
+    std::span<const std::shared_ptr<const BandScreen>> screens;  // those of the bands
+    std::vector<FittedPart>& parts;
+    std::vector<FittedPart>* mirror_image;  // null: is not wanted
+    std::optional<std::size_t> only_band = std::nullopt;  // of more that are fitted, the one that the set is
+  };
+
+  [[nodiscard]] BoxPart whole(const Rectangle& box, int depth = 0);
+  [[nodiscard]] bool is_symmetric(const Rectangle& box) const;
+  void fit(const BoxPart& part, std::optional<double> first_misfit, const Fitting& fitting);
+  void fit_quarters(const BoxPart& part, const Fitting& fitting);
+  void fit_between_rays(const BoxPart& part, std::span<const RaySheet> sheets, const Fitting& fitting);
+  void keep(const MeshPlace& place, std::span<const RaySheet> sheets, std::vector<Patch> patches,
+            const Fitting& fitting) const;
+  [[nodiscard]] PacketPrecision precision_for(const Rectangle& box, const Tolerance& tolerance) const;
+  [[nodiscard]] std::optional<double> level_behind(std::span<const RaySheet> sheets, const Fitting& fitting) const;
+
+  GhostTracers& tracers_;
+  const Frame& frame_;
+  int deepest_;
+  double unseen_;
+  int boxes_ = 0;  // so far
+};
+
+}  // namespace contrejour::adaptive
