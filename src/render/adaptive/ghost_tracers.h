@@ -13,11 +13,11 @@ namespace contrejour::adaptive {
 
 class GhostTracers {
  public:
-  // Everything must outlive this. stop_times: as SheetTracer's.
-  GhostTracers(const LensState& lens, Ghost ghost, const LightFrame& light, const TablesByWavelength& tables,
-               std::span<const PlannedPass> passes, double stop_times)
+  // Everything must outlive this. plane_z_mm: of the light's entrance window. stop_times: as SheetTracer's.
+  GhostTracers(const LensState& lens, Ghost ghost, const LightFrame& light, double plane_z_mm,
+               const TablesByWavelength& tables, std::span<const PlannedPass> passes, double stop_times)
       : lens_(lens), ghost_(ghost), light_(light), tables_(tables), passes_(passes), stop_times_(stop_times),
-        plane_z_mm_(entrance_window(lens, light.source).z_mm), tracers_(passes.size()) {}
+        plane_z_mm_(plane_z_mm), tracers_(passes.size()) {}
 
   [[nodiscard]] SheetTracer& at(std::size_t pass) {
     std::optional<SheetTracer>& tracer = tracers_[pass];

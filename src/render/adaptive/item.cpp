@@ -82,14 +82,13 @@ double stop_times(const Item& item) { return item.screens ? item.screens->reach 
 // Of a lens without symmetries: one box, by grids over all of the window.
 Work find_askew_box(const Scene& scene, Item& item) {
   const LightSource& light = item.light->source;
-  const EntranceWindow window = entrance_window(scene.lens, light);
   const IrisShape circle{Iris{}};
   Work work;
   RayGrid grid;
   std::optional<Rectangle> box;
   for (const double lambda_nm : outer_wavelengths(*item.light)) {
     const OpticalPath path = widened(ghost_path(scene.lens, item.ghost, lambda_nm), stop_times(item));
-    const auto region = find_pupil_region(path, *scene.plan.tables.at(lambda_nm), circle, light, window, grid);
+    const auto region = find_pupil_region(path, *scene.plan.tables.at(lambda_nm), circle, light, item.window, grid);
     if (!region) continue;
     box = box ? both(*box, region->pupil_mm) : region->pupil_mm;
     work.add({region->rays, region->rays * path.steps.size()});
@@ -101,13 +100,12 @@ Work find_askew_box(const Scene& scene, Item& item) {
 // What comes through near some boxes, at all wavelengths of the light; mirror images are left to their originals.
 Work fit_boxes(const Scene& scene, Item& item, const std::vector<Rectangle>& near) {
   const LightFrame light(item.light->source);
-  const EntranceWindow window = entrance_window(scene.lens, light.source);
-  const LightRays rays{{0.0, 0.0, window.z_mm}, light.source};
+  const LightRays rays{{0.0, 0.0, item.window.z_mm}, light.source};
   std::vector<std::optional<Rectangle>> fitted(near.size());
   Work work;
   for (const double lambda_nm : outer_wavelengths(*item.light)) {
     const OpticalPath path = widened(ghost_path(scene.lens, item.ghost, lambda_nm), stop_times(item));
-    BoxFitter fitter(path, *scene.plan.tables.at(lambda_nm), rays, window);
+    BoxFitter fitter(path, *scene.plan.tables.at(lambda_nm), rays, item.window);
     for (std::size_t k = 0; k < near.size(); ++k) {
       const auto fit = fitter.fit(near[k]);
       if (fit) fitted[k] = fitted[k] ? both(*fitted[k], *fit) : *fit;
@@ -131,7 +129,7 @@ Work find_boxes(const Scene& scene, Item& item) {
   const double middle_nm = middle_pass(*item.light).lambda_nm;
   const OpticalPath path = ghost_path(scene.lens, item.ghost, middle_nm);
   const PupilBoxes found =
-      find_pupil_boxes(path, *scene.plan.tables.at(middle_nm), light, entrance_window(scene.lens, light.source));
+      find_pupil_boxes(path, *scene.plan.tables.at(middle_nm), light, item.window);
   Work work{found.rays, found.rays * path.steps.size()};
   std::vector<Rectangle> near;
   for (const Rectangle& box : found.boxes)
@@ -168,7 +166,7 @@ Painted paint(const Scene& scene, const Item& item, std::vector<PlannedPass> pas
       for (double& gain : pass.gain) gain *= item.past_dirt;
   const LightFrame light(item.light->source, has_axial_symmetry(scene.lens, item.ghost));
   const IrisShape& iris = item.screens ? round_iris() : scene.iris;
-  GhostTracers tracers(scene.lens, item.ghost, light, scene.plan.tables, passes, stop_times(item));
+  GhostTracers tracers(scene.lens, item.ghost, light, item.window.z_mm, scene.plan.tables, passes, stop_times(item));
   const auto room = rooms.lend();
   GhostPainter painter(tracers, iris, frame, deepest, *room, item.screens.get(),
                        item.has_shadows ? scene.dirt.get() : nullptr);
@@ -222,11 +220,13 @@ Frame smaller(const Frame& frame, int by) {
 }  // namespace
 
 std::vector<Item> find_items(const Scene& scene, const Context& context, Work& work) {
+  const std::vector<PlannedLight>& lights = scene.plan.lights;
+  std::vector<EntranceWindow> windows;
+  for (const PlannedLight& light : lights) windows.push_back(entrance_window(scene.lens, light.source));
   std::vector<Item> items;
-  for (std::size_t g = 0; g < scene.plan.ghosts.size(); ++g) {
-    for (const PlannedLight& light : scene.plan.lights)
-      items.push_back({scene.plan.ghosts[g], &scene.plan.looks[g], &light, {}});
-  }
+  for (std::size_t g = 0; g < scene.plan.ghosts.size(); ++g)
+    for (std::size_t k = 0; k < lights.size(); ++k)
+      items.push_back({scene.plan.ghosts[g], &scene.plan.looks[g], &lights[k], windows[k], {}});
   std::vector<Work> done(items.size());
   parallel_for(items.size(), context, [&](std::size_t k) { done[k] = find_boxes(scene, items[k]); });
   for (const Work& w : done) work.add(w);

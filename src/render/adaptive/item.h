@@ -27,6 +27,7 @@ struct Item {
   Ghost ghost;
   const GhostLook* look = nullptr;
   const PlannedLight* light = nullptr;
+  EntranceWindow window;  // of the light
   std::vector<Rectangle> boxes;  // in the light's meridional frame; none: nothing gets through
   std::shared_ptr<const GhostScreens> screens = nullptr;  // null: the iris is sharp
   bool has_shadows = false;  // of dirt; without them

@@ -200,18 +200,12 @@ Corner OutlineCutter::corner_at(Vec2 uv) const {
   return out;
 }
 
-Vec2 OutlineCutter::StopSeries::at(Vec2 uv) const {
+OutlineCutter::StopSeries::Place OutlineCutter::StopSeries::place(Vec2 uv) const {
   const double u = uv.x, v = uv.y;
-  return term[0] + (term[1] + term[4] * u + term[6] * (u * v)) * u +
-         (term[2] + term[3] * u + term[5] * v + term[7] * (u * v)) * v;
-}
-
-Vec2 OutlineCutter::StopSeries::along_u(Vec2 uv) const {
-  return term[1] + term[4] * (2.0 * uv.x) + (term[3] + term[6] * (2.0 * uv.x) + term[7] * uv.y) * uv.y;
-}
-
-Vec2 OutlineCutter::StopSeries::along_v(Vec2 uv) const {
-  return term[2] + term[5] * (2.0 * uv.y) + (term[3] + term[7] * (2.0 * uv.y) + term[6] * uv.x) * uv.x;
+  const Vec2 bend_u = term[4] + term[6] * v, bend_v = term[5] + term[7] * u;
+  return {term[0] + (term[1] + bend_u * u) * u + (term[2] + term[3] * u + bend_v * v) * v,
+          term[1] + bend_u * (2.0 * u) + (term[3] + term[7] * v) * v,
+          term[2] + bend_v * (2.0 * v) + (term[3] + term[6] * u) * u};
 }
 
 // What shares_at() says, sorted by powers of u and v.
@@ -250,18 +244,20 @@ std::optional<Vec2> OutlineCutter::uv_at_stop(const StopSeries& stop, Vec2 targe
   const bool triangle = whole_.size() == 3;
   Vec2 uv = near_uv;
   for (int step = 0; step < kMostSteps; ++step) {
-    const Vec2 off = target - stop.at(uv);
-    const Vec2 du = stop.along_u(uv), dv = stop.along_v(uv);
-    const double determinant = cross(du, dv);
-    if (determinant == 0.0) return std::nullopt;
+    const auto [at, du, dv] = stop.place(uv);
+    const Vec2 off = target - at;
+    const double per_determinant = 1.0 / cross(du, dv);
+    if (!std::isfinite(per_determinant)) return std::nullopt;
     const Vec2 before = uv;
-    uv = uv + Vec2{cross(off, dv) / determinant, cross(du, off) / determinant};
+    const Vec2 next = uv + Vec2{cross(off, dv), cross(du, off)} * per_determinant;
     // An arc does not leave the cell that it was found in.
-    uv = {std::clamp(uv.x, 0.0, 1.0), std::clamp(uv.y, 0.0, triangle ? uv.x : 1.0)};
+    uv = {std::clamp(next.x, 0.0, 1.0), std::clamp(next.y, 0.0, triangle ? std::clamp(next.x, 0.0, 1.0) : 1.0)};
     const Vec2 moved = uv - before;
-    if (dot(moved, moved) < kNear * kNear) break;
+    if (dot(moved, moved) >= kNear * kNear) continue;
+    if (uv.x == next.x && uv.y == next.y) return uv;
+    break;
   }
-  const Vec2 off = target - stop.at(uv);
+  const Vec2 off = target - stop.place(uv).at;
   if (!(dot(off, off) <= kMiss * kMiss)) return std::nullopt;
   return uv;
 }

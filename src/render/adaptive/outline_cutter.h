@@ -60,9 +60,10 @@ class OutlineCutter {
   struct StopSeries {
     std::array<Vec2, 8> term{};
 
-    [[nodiscard]] Vec2 at(Vec2 uv) const;
-    [[nodiscard]] Vec2 along_u(Vec2 uv) const;
-    [[nodiscard]] Vec2 along_v(Vec2 uv) const;
+    struct Place {
+      Vec2 at, along_u, along_v;
+    };
+    [[nodiscard]] Place place(Vec2 uv) const;
   };
 
   void start_with(std::span<const Corner> whole, std::span<const Corner> outline, int crossings, int rims);

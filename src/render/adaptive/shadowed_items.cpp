@@ -17,7 +17,7 @@ Rectangle crossed(const Scene& scene, const Item& item) {
   const double r = scene.dirt->stop_radius_mm();
   if (!scene.dirt->on_front()) return {{-r, -r}, {r, r}};
   const LightFrame light(item.light->source, has_axial_symmetry(scene.lens, item.ghost));
-  const SeenDirt seen{scene.dirt.get(), &light, entrance_window(scene.lens, light.source).z_mm};
+  const SeenDirt seen{scene.dirt.get(), &light, item.window.z_mm};
   Rectangle all{seen.front_place(item.boxes.front().low), seen.front_place(item.boxes.front().low)};
   for (const Rectangle& box : item.boxes) {
     for (const Vec2 corner : {box.low, box.high, Vec2{box.low.x, box.high.y}, Vec2{box.high.x, box.low.y}}) {
