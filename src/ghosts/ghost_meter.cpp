@@ -154,17 +154,18 @@ void trace_direct(const Pupil& pupil, RayGrid& grid) {
 }  // namespace
 
 GhostMeter::GhostMeter(LensState lens, double lambda_nm)
-    : lens_(std::move(lens)), lambda_nm_(lambda_nm), tables_(std::make_shared<ReflectanceTables>(lens_, lambda_nm)) {}
-GhostMeter::GhostMeter(LensState lens, std::shared_ptr<const ReflectanceTables> tables)
+    : lens_(std::make_shared<const LensState>(std::move(lens))), lambda_nm_(lambda_nm),
+      tables_(std::make_shared<ReflectanceTables>(*lens_, lambda_nm)) {}
+GhostMeter::GhostMeter(std::shared_ptr<const LensState> lens, std::shared_ptr<const ReflectanceTables> tables)
     : lens_(std::move(lens)), lambda_nm_(tables->lambda_nm()), tables_(std::move(tables)) {}
 GhostMeter::~GhostMeter() = default;
 GhostMeter::GhostMeter(GhostMeter&&) noexcept = default;
 GhostMeter& GhostMeter::operator=(GhostMeter&&) noexcept = default;
 
 double GhostMeter::direct_flux(const LightSource& light) const {
-  const OpticalPath path = direct_path(lens_, lambda_nm_);
-  const IrisShape iris(lens_.iris);
-  const EntranceWindow window = entrance_window(lens_, light);
+  const OpticalPath path = direct_path(*lens_, lambda_nm_);
+  const IrisShape iris(lens_->iris);
+  const EntranceWindow window = entrance_window(*lens_, light);
   RayGrid grid;
   const auto region =
       find_pupil_region(path, *tables_, iris, light, window, grid, PupilEffort::Finest, kDirectSearchSide);
@@ -174,9 +175,9 @@ double GhostMeter::direct_flux(const LightSource& light) const {
 }
 
 GhostMeasure GhostMeter::measure(Ghost ghost, const LightSource& light) const {
-  const OpticalPath path = ghost_path(lens_, ghost, lambda_nm_);
-  const IrisShape iris(lens_.iris);
-  const EntranceWindow window = entrance_window(lens_, light);
+  const OpticalPath path = ghost_path(*lens_, ghost, lambda_nm_);
+  const IrisShape iris(lens_->iris);
+  const EntranceWindow window = entrance_window(*lens_, light);
   RayGrid grid;
   const auto region = find_pupil_region(path, *tables_, iris, light, window, grid);
   if (!region) return {};

@@ -35,8 +35,8 @@ struct Rainbow {
   Rainbow(const char* lens, double f_number, Ghost ghost, Vec3 towards)
       : scene(test::lens_at_f(lens, f_number), ghost, towards), passes(passes_of()),
         samples(evenly(400.0, 700.0, 16), 9),
-        tracers(scene.lens, ghost, scene.light, entrance_window(scene.lens, scene.light.source).z_mm, scene.tables, passes,
-                1.0) {
+        tracers(scene.lens, ghost, scene.light, entrance_window(scene.lens, scene.light.source).z_mm, scene.tables,
+                passes, 1.0) {
     for (const PlannedPass& pass : passes)
       scene.tables[pass.lambda_nm] = std::make_shared<const ReflectanceTables>(scene.lens, pass.lambda_nm);
   }

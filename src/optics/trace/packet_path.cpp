@@ -100,7 +100,7 @@ PacketPath::PacketPath(const OpticalPath& path, const ReflectanceTables& tables,
   steps_.reserve(path.steps.size());
   for (const PathStep& from : path.steps) {
     const ReflectanceTables::Entry& entry = tables.of(from.surface);
-    PacketStep step;
+    PacketStep& step = steps_.emplace_back();  // in place: a copy would wait for every field
     step.event = from.event;
     if (from.event == PathEvent::Stop) step.crossing = stop_crossings_++;
     step.from_denser = from.n_in > from.n_out;
@@ -128,7 +128,6 @@ PacketPath::PacketPath(const OpticalPath& path, const ReflectanceTables& tables,
     step.share = from.share;
     if (from.rim || from.absorption_per_mm != 0.0 || from.share != 1.0) geometry_ = PathGeometry::General;
     before_mm = vertex_mm;
-    steps_.push_back(step);
   }
   sensor_gap_mm_ = path.sensor_z_mm - before_mm.z;
   sensor_offset_mm_ = {-before_mm.x, -before_mm.y};

@@ -128,8 +128,7 @@ Work find_boxes(const Scene& scene, Item& item) {
   const LightFrame light(item.light->source);
   const double middle_nm = middle_pass(*item.light).lambda_nm;
   const OpticalPath path = ghost_path(scene.lens, item.ghost, middle_nm);
-  const PupilBoxes found =
-      find_pupil_boxes(path, *scene.plan.tables.at(middle_nm), light, item.window);
+  const PupilBoxes found = find_pupil_boxes(path, *scene.plan.tables.at(middle_nm), light, item.window);
   Work work{found.rays, found.rays * path.steps.size()};
   std::vector<Rectangle> near;
   for (const Rectangle& box : found.boxes)

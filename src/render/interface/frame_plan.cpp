@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <optional>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -80,12 +82,31 @@ BandsBySpectrum bands_by_spectrum(std::span<const Light> lights, const RenderSet
   return all;
 }
 
-TablesByWavelength tables_of(const LensState& lens, const BandsBySpectrum& spectra, const Context& context) {
-  std::vector<double> lambda_nm;
-  for (const auto& [spectrum, metered] : spectra) {
-    for (const SpectralBand& band : metered.bands) lambda_nm.push_back(band.lambda_nm);
-  }
-  return tables_for(lens, lambda_nm, context);
+// What takes long before any flux is known, side by side: where lights are measured, and tables of all their
+// wavelengths.
+struct Preparation {
+  std::vector<LightSource> measured;  // one a light
+  TablesByWavelength tables;
+};
+
+// None when cancelled.
+std::optional<Preparation> prepare(const LensState& lens, std::span<const Light> lights, const Frame& frame,
+                                   const BandsBySpectrum& spectra, const Context& context) {
+  Preparation out;
+  for (const Light& light : lights) out.measured.push_back(light.source());
+  for (const auto& [spectrum, metered] : spectra)
+    for (const SpectralBand& band : metered.bands) out.tables.try_emplace(band.lambda_nm);
+  std::vector<TablesByWavelength::value_type*> tables;
+  for (auto& entry : out.tables) tables.push_back(&entry);
+  const bool done = parallel_for(lights.size() + tables.size(), context, [&](std::size_t k) {
+    if (k < lights.size()) {
+      out.measured[k] = measured_source(lens, frame, out.measured[k]);
+    } else {
+      auto& [lambda_nm, table] = *tables[k - lights.size()];
+      table = std::make_shared<const ReflectanceTables>(lens, lambda_nm);
+    }
+  });
+  return done ? std::optional(std::move(out)) : std::nullopt;
 }
 
 const MeteredBands& bands_for(const Light& light, const BandsBySpectrum& spectra) {
@@ -118,18 +139,15 @@ PlannedLight plan_light(const Light& light, const MeteredBands& metered, std::sp
   return planned;
 }
 
-// False when cancelled.
-bool plan_lights(const LensState& lens, std::span<const Light> lights, const RenderSettings& settings,
-                 const BandsBySpectrum& spectra, const Context& context, std::vector<PlannedLight>& planned) {
+// False when cancelled. sources: where lights are measured.
+bool plan_lights(const LensState& lens, std::span<const Light> lights, std::span<const LightSource> sources,
+                 const RenderSettings& settings, const BandsBySpectrum& spectra, const Context& context,
+                 std::vector<PlannedLight>& planned) {
   std::vector<MeteredLight> measured;
-  for (const Light& light : lights) {
-    const MeteredBands& of = bands_for(light, spectra);
-    measured.push_back({light.source(), of.bands, of.meters});
+  for (std::size_t k = 0; k < lights.size(); ++k) {
+    const MeteredBands& of = bands_for(lights[k], spectra);
+    measured.push_back({sources[k], of.bands, of.meters});
   }
-  if (!parallel_for(lights.size(), context, [&](std::size_t k) {
-        measured[k].source = measured_source(lens, settings.frame, lights[k].source());
-      }))
-    return false;
   if (!measure_fluxes(measured, context)) return false;
   for (std::size_t k = 0; k < lights.size(); ++k) {
     planned.push_back(plan_light(lights[k], bands_for(lights[k], spectra), measured[k].flux_mm2,
@@ -154,12 +172,14 @@ Result<FramePlan> plan_frame(const LensState& lens, std::span<const Light> light
   Context quiet = context;
   quiet.progress = {};
   BandsBySpectrum spectra = bands_by_spectrum(lights, settings);
-  plan.tables = tables_of(lens, spectra, context);
-  if (context.cancelled()) return failure(ErrorCode::Cancelled, "interrupted");
-  for (auto& [spectrum, metered] : spectra) {
-    for (const SpectralBand& band : metered.bands) metered.meters.emplace_back(lens, plan.tables.at(band.lambda_nm));
-  }
-  if (!plan_lights(lens, lights, settings, spectra, quiet, plan.lights))
+  auto prepared = prepare(lens, lights, settings.frame, spectra, quiet);
+  if (!prepared) return failure(ErrorCode::Cancelled, "interrupted");
+  plan.tables = std::move(prepared->tables);
+  const auto shared_lens = std::make_shared<const LensState>(lens);
+  for (auto& [spectrum, metered] : spectra)
+    for (const SpectralBand& band : metered.bands)
+      metered.meters.emplace_back(shared_lens, plan.tables.at(band.lambda_nm));
+  if (!plan_lights(lens, lights, prepared->measured, settings, spectra, quiet, plan.lights))
     return failure(ErrorCode::Cancelled, "interrupted");
   return plan;
 }
