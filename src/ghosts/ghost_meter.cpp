@@ -58,22 +58,20 @@ void for_each_open_half(const RayGrid& grid, const std::array<std::size_t, 4>& q
 // Through all of the grid, but for what all points share; most cells are open or closed as a whole.
 double open_flux(const RayGrid& grid) {
   const Vec2 step = grid.step_mm();
-  const double third_of_half = step.x * step.y / 6.0;
-  double flux = 0.0;
+  double flux = 0.0, whole = 0.0;  // whole: six times their mean transmissions
   for (int iy = 0; iy < grid.cells(); ++iy) {
+    const float* const blocked[2]{&grid.blocked[grid.at(0, iy)], &grid.blocked[grid.at(0, iy + 1)]};
+    const float* const light[2]{&grid.transmission[grid.at(0, iy)], &grid.transmission[grid.at(0, iy + 1)]};
     for (int ix = 0; ix < grid.cells(); ++ix) {
-      const auto q = grid.corners(ix, iy);
-      const auto [lowest, highest] =
-          std::minmax({grid.blocked[q[0]], grid.blocked[q[1]], grid.blocked[q[2]], grid.blocked[q[3]]});
-      if (lowest > 0.0F) continue;
-      const auto light = [&](std::size_t k) { return static_cast<double>(grid.transmission[q[k]]); };
-      if (highest <= 0.0F)
-        flux += (2.0 * (light(0) + light(2)) + light(1) + light(3)) * third_of_half;
+      const float a = blocked[0][ix], b = blocked[0][ix + 1], c = blocked[1][ix + 1], d = blocked[1][ix];
+      if (std::min(std::min(a, b), std::min(c, d)) > 0.0F) continue;
+      if (std::max(std::max(a, b), std::max(c, d)) <= 0.0F)
+        whole += 2.0F * (light[0][ix] + light[1][ix + 1]) + light[0][ix + 1] + light[1][ix];
       else
-        for_each_open_half(grid, q, [&](const OpenTriangle& t) { flux += t.flux_mm2; });
+        for_each_open_half(grid, grid.corners(ix, iy), [&](const OpenTriangle& t) { flux += t.flux_mm2; });
     }
   }
-  return flux;
+  return flux + whole * step.x * step.y / 6.0;
 }
 
 void grow(Vec2& low, Vec2& high, Vec2 p) {

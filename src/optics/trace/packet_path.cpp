@@ -80,13 +80,15 @@ int ReflectanceTables::add(const SurfaceState& surface, int direction, bool tran
   static_assert(kIntervals % kSpacing == 0 && kNodes >= 4);
   std::array<double, kNodes> nodes{};
   for (std::size_t k = 0; k < kNodes; ++k) nodes[k] = exact(static_cast<int>(k * kSpacing));
+  values_.resize(values_.size() + kIntervals + 1);
+  float* to = values_.data() + offset;
   for (std::size_t k = 0; k + 1 < kNodes; ++k) {
     const std::size_t first = std::clamp<std::size_t>(k, 1, kNodes - 3) - 1;
     for (const auto& w : kCubic[k - first])
-      values_.push_back(static_cast<float>(nodes[first] * w[0] + nodes[first + 1] * w[1] + nodes[first + 2] * w[2] +
-                                           nodes[first + 3] * w[3]));
+      *to++ = static_cast<float>(nodes[first] * w[0] + nodes[first + 1] * w[1] + nodes[first + 2] * w[2] +
+                                 nodes[first + 3] * w[3]);
   }
-  values_.push_back(static_cast<float>(nodes.back()));
+  *to = static_cast<float>(nodes.back());
   return offset;
 }
 
