@@ -91,9 +91,9 @@ FirstRays first_rays(GhostTracers& tracers, const WavelengthSamples& samples, co
   FirstRays rays;
   rays.sheets.resize(passes.size());
   rays.transmission.resize(passes.size());
-  const auto trace = [&](std::size_t pass) {
-    rays.sheets[pass] = tracers.at(pass).trace(box, nodes, PacketPrecision::Double);
-  };
+  // Of anything that will do, nothing is fitted.
+  const auto precision = std::isfinite(budget.squared_error) ? PacketPrecision::Double : PacketPrecision::Float;
+  const auto trace = [&](std::size_t pass) { rays.sheets[pass] = tracers.at(pass).trace(box, nodes, precision); };
   const auto find_tolerance = [&](const RaySheet& middle) {
     rays.tolerance = tolerance_for(middle, largest_weight(rays, middle, passes), tracers.light().source.shared_flux(),
                                    frame, budget);

@@ -1,8 +1,8 @@
 #include "render/adaptive/shared_edges.h"
 
 #include <algorithm>
-#include <array>
 #include <bit>
+#include <vector>
 
 namespace contrejour::adaptive {
 namespace {
@@ -17,9 +17,12 @@ struct Edge {
 // The edges seen last, by their ends: one a slot, the older one gives way.
 class RecentEdges {
  public:
+  explicit RecentEdges(std::size_t edges)
+      : slots_(std::clamp<std::size_t>(std::bit_ceil(kRoom * edges), 1, kMostSlots)) {}
+
   // The one at the same place, which is then forgotten; otherwise keeps this one.
   [[nodiscard]] const Edge* take_or_keep(const Edge& edge) {
-    Slot& slot = slots_[(hash(edge.a) + hash(edge.b)) % kSlots];
+    Slot& slot = slots_[(hash(edge.a) + hash(edge.b)) & (slots_.size() - 1)];
     if (slot.used && same(slot.edge, edge)) {
       slot.used = false;
       return &slot.edge;
@@ -29,7 +32,7 @@ class RecentEdges {
   }
 
  private:
-  static constexpr std::size_t kSlots = 1024;
+  static constexpr std::size_t kRoom = 2, kMostSlots = 4096;  // a power of two
   struct Slot {
     bool used = false;
     Edge edge;
@@ -43,14 +46,15 @@ class RecentEdges {
     const bool against = e.a == f.b && e.b == f.a;
     return e.turns_left == f.turns_left ? against : along;
   }
-  std::array<Slot, kSlots> slots_;
+  std::vector<Slot> slots_;
 };
 
 }  // namespace
 
 void share_edges(PolygonList& list, const TileGrid& grid) {
   list.partner.assign(list.corners.size(), PolygonList::kAlone);
-  RecentEdges recent;
+  if (list.polygons.size() < 2) return;
+  RecentEdges recent(list.corners.size());
   for (std::size_t p = 0; p < list.polygons.size(); ++p) {
     const Polygon& polygon = list.polygons[p];
     if (polygon.count < 3 || polygon.screened != 0) continue;
