@@ -1,5 +1,6 @@
 // hullin2011's accelerations: what each switch may change and what not.
 #include <cmath>
+#include <memory>
 #include <numbers>
 
 #include <doctest/doctest.h>
@@ -39,12 +40,11 @@ Image one_ghost(const LensState& lens, Ghost ghost, const Light& light, const Re
   plan.ghosts = {ghost};
   plan.looks = {{}};
   plan.lights = {{normalized(light.direction), {}}};
-  std::vector<double> lambda_nm;
+  TablesByWavelength tables;
   for (const SpectralBand& band : spectral_bands(settings.wavelengths, light.spectrum, settings.colour_space)) {
     plan.lights[0].passes.push_back({band.lambda_nm, band.weight});
-    lambda_nm.push_back(band.lambda_nm);
+    tables[band.lambda_nm] = std::make_shared<const ReflectanceTables>(lens, band.lambda_nm);
   }
-  const TablesByWavelength tables = tables_for(lens, lambda_nm, {});
   const Screens screens(lens, settings);
   Image image(settings.frame.width, settings.frame.height, 3);
   for (const bundle::Item& item : bundle::items_of(plan, settings.bundle)) {
