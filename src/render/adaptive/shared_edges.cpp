@@ -18,7 +18,7 @@ struct Edge {
 class RecentEdges {
  public:
   explicit RecentEdges(std::size_t edges)
-      : slots_(std::clamp<std::size_t>(std::bit_ceil(kRoom * edges), 1, kMostSlots)) {}
+      : slots_(std::min(std::bit_ceil(kRoom * std::max<std::size_t>(edges, 1)), kMostSlots)) {}
 
   // The one at the same place, which is then forgotten; otherwise keeps this one.
   [[nodiscard]] const Edge* take_or_keep(const Edge& edge) {
@@ -32,7 +32,7 @@ class RecentEdges {
   }
 
  private:
-  static constexpr std::size_t kRoom = 2, kMostSlots = 4096;  // a power of two
+  static constexpr std::size_t kRoom = 8, kMostSlots = 4096;  // slots an edge; a power of two
   struct Slot {
     bool used = false;
     Edge edge;
