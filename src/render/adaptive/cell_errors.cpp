@@ -30,7 +30,7 @@ constexpr double kLittleOff_px = 0.5, kSeenOfLittle = 0.1;
 // Of a cell that large, and so bright beside the peak: a plane that is farther off shows as a facet, however little it
 // is of the peak.
 constexpr double kFacet = 0.02, kFacet_px = 400.0, kFacetLevel = 2e-4;
-// Where sides bend for no reason of the image's, beside cells of another mesh: gaps this wide show as lines, of cells
+// Where sides bend for no reason of the image's, beside cells of another box: gaps this wide show as lines, of cells
 // that long.
 constexpr double kSeam_px = 0.07, kSeamLength_px = 8.0;
 

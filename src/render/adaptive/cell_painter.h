@@ -32,8 +32,8 @@ class CellPainter {
   void choose(const Patch& patch, const MeshPlace& place) { choose(patch, place, 0, nullptr); }
   void draw();
 
-  // Of patches from here on: lines that are straight in them are bent in the entrance plane, so that where meshes
-  // of different sizes meet, their sides would leave seams between them.
+  // Of patches from here on: lines that are straight in them are bent in the entrance plane, so that their sides would
+  // leave seams beside another box.
   void sides_bend(bool bend) { sides_bend_ = bend; }
   // From here on the light passes a screen: stop coordinates are in units of `unit` stop radii.
   void stand_behind(std::shared_ptr<const BandScreen> screen, double unit) {

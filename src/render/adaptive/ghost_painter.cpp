@@ -2,12 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
 
-#include "render/adaptive/extremes.h"
-#include "render/adaptive/lobatto.h"
-#include "render/adaptive/screened_boxes.h"
 #include "render/screens/ringing_patterns.h"
 
 namespace contrejour::adaptive {
@@ -16,7 +12,8 @@ namespace {
 constexpr double kLightLeft = 0.05;  // of a channel's absolute sum over wavelengths, for its parts to mean anything
 constexpr std::size_t kMostSamples = 9;  // of wavelengths, that are tried
 constexpr int kWorthBending = 2;     // quarterings that might be saved
-// A band's squared error is shared among so many cells; that of fewer bands as if they were three.
+// Bands, of three at least, have even shares of a ghost's squared error, so many cells of each of them even shares of
+// that.
 constexpr double kFewCells = 96.0, kFewBands = 3.0;
 
 // A band's first rays: the geometry of its middle and the light of all its passes.

@@ -194,13 +194,10 @@ PlannedPass merged(const PlannedLight& light) {
 Spread spread_of(const PolygonList& list) {
   double area = 0.0, squares = 0.0;
   for (const Polygon& polygon : list.polygons) {
-    const auto p = list.corners_of(polygon);
-    double twice = 0.0;
-    for (std::size_t k = 2; k < p.size(); ++k)
-      twice += cross(Vec2{p[k - 1].x - p[0].x, p[k - 1].y - p[0].y}, Vec2{p[k].x - p[0].x, p[k].y - p[0].y});
+    const double polygon_px = 0.5 * std::abs(twice_signed_area(list.corners_of(polygon)));
     const auto& v = polygon.shade.value;
-    area += 0.5 * std::abs(twice);
-    squares += 0.5 * std::abs(twice) * (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]) / 3.0;
+    area += polygon_px;
+    squares += polygon_px * (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]) / 3.0;
   }
   constexpr double kPixels = kPeakScale * kPeakScale;
   return {area > 0.0 ? std::sqrt(squares / area) / kPixels : 0.0, area * kPixels};
