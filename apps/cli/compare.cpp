@@ -13,8 +13,8 @@ namespace contrejour::cli {
 namespace {
 
 constexpr const char* kExamples =
-    "PSNR is 10 log10(P^2 / mean square error) over the RGB samples, both pictures clipped at P, the 99.9th percentile\n"
-    "of A. The flux ratio is the sum of B over the sum of A, per channel.\n\n"
+    "PSNR is 10 log10(P^2 / mean square error) over the RGB samples, both pictures clipped at P and -P, P being the\n"
+    "99.9th percentile of A. The flux ratio is the sum of B over the sum of A, per channel.\n\n"
     "Examples:\n"
     "  contrejour compare reference.exr bundle.exr\n"
     "  contrejour compare reference.exr bundle.exr --json";

@@ -14,7 +14,8 @@
 namespace contrejour {
 
 struct Comparison {
-  std::optional<double> psnr_db;    // 10 log10(P^2 / mean square error), both clipped at P; none when then equal
+  // 10 log10(P^2 / mean square error), both clipped at P and -P; none when then equal.
+  std::optional<double> psnr_db;
   double peak = 0;                  // P: A's 99.9th percentile over pixels and channels; if 0, A's largest, then B's
   double max_abs_error = 0;         // before clipping
   std::vector<double> flux_ratio;   // per channel, sum of B over sum of A; 1 when both are 0

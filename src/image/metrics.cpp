@@ -126,8 +126,9 @@ Result<Comparison> compare(const Image& a, const Image& b) {
     }
     const double difference = static_cast<double>(va) - vb;
     result.max_abs_error = std::max(result.max_abs_error, std::abs(difference));
-    const double clipped = std::min<double>(va, result.peak) - std::min<double>(vb, result.peak);
-    square_error += clipped * clipped;
+    const auto clipped = [&](double value) { return std::clamp(value, -result.peak, result.peak); };
+    const double seen = clipped(va) - clipped(vb);
+    square_error += seen * seen;
   }
   for (std::size_t c = 0; c < channels; ++c) result.flux_ratio.push_back(ratio(sum_b[c], sum_a[c]));
   if (square_error > 0) {

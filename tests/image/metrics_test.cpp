@@ -54,6 +54,17 @@ TEST_CASE("what lies above the peak counts for the largest error only") {
   CHECK(c.max_abs_error == 300);
 }
 
+TEST_CASE("what lies as far below zero, as colours beyond the gamut do, counts likewise") {
+  Image a(100, 100, 3), b(100, 100, 3);
+  for (auto& v : a.pixels) v = 1;
+  b.pixels = a.pixels;
+  a.at(3, 3, 0) = -200;
+  b.at(3, 3, 0) = -150;
+  CHECK_FALSE(compare(a, b).value().psnr_db.has_value());
+  b.at(3, 3, 0) = 1;  // from one end to the other: two peaks
+  CHECK(compare(a, b).value().psnr_db.value() == doctest::Approx(10 * std::log10(3e4 / 4)).epsilon(1e-12));
+}
+
 TEST_CASE("a peak of 0 falls back to the largest value") {
   Image a(100, 100, 3), b(100, 100, 3);
   a.at(0, 0, 0) = 8;
