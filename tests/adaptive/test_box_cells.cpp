@@ -63,7 +63,7 @@ TEST_CASE("patches of one box leave nothing between them, whatever they count po
   PolygonList list;
   const IrisShape iris{Iris{}};
   BoxCells room;
-  CellPainter painter(iris, frame_px(), {1e-3, 1e-3}, 64.0, room, list);
+  CellPainter painter(iris, frame_px(), {3e-4, 1e-3}, 64.0, room, list);
   const MeshPlace place{0, 0};
   for (std::size_t q = 0; q < 4; ++q) {
     Patch part = quarter(whole, static_cast<int>(q % 2), static_cast<int>(q / 2));

@@ -38,24 +38,19 @@ class Stopwatch {
   Clock::time_point last_ = Clock::now();
 };
 
-// The error that one item may make: items' errors add in squares, being of either sign and in different places. What
-// cells are allowed is a bound that most of them stay far below, so that several times as much still holds: by how much
-// differs from ghost to ghost, and is the more certain of the sum over many. Items that cannot make their share leave
-// it to the others (docs/physics/adaptive.md).
+// The error that one item may make. Items' errors add in squares, being of either sign and in different places, and
+// what cells are allowed is a bound that most of them stay far below: all items together may be allowed so many times
+// what the frame is. By how much they stay below differs from ghost to ghost, which a few items do not make up for; and
+// more cells come nearer to the sum: of items whose first rays fail, which take the small frame more of them, and where
+// less error is asked for. Found by measuring random frames (docs/physics/adaptive.md).
 ErrorBudget budget_per_item(const FrameError& allowed, const std::vector<ItemSize>& sizes) {
-  constexpr double kRoom = 6.2;
-  constexpr double kOneInMany = 5.0;  // of very many items, that may use all of their share
-  constexpr double kOff_px = 5.0;  // of outlines, at the most
-  std::vector<double> most;
-  for (const ItemSize& size : sizes) {
-    const double seen = size.level * seen_share(size.level, allowed.peak);
-    const double off = seen * seen * std::min(size.area_px, kOff_px * 4.0 * std::sqrt(size.area_px));
-    most.push_back(std::isfinite(off) ? off : std::numeric_limits<double>::infinity());  // lights beyond all numbers
-  }
-  const double squared = kRoom * kRoom * allowed.squared();
-  const double count = std::max(static_cast<double>(sizes.size()), 1.0);
-  const double even = squared / std::max(std::sqrt(count), count / kOneInMany);
-  return {std::min(even, even_share(std::move(most), squared)), allowed.peak, {}};
+  constexpr double kRoom = 8.5, kRoomAt = 0.003;
+  constexpr double kFew = 16.0;
+  constexpr double kRaysOfOne = 20.0;
+  double items = kFew;
+  for (const ItemSize& size : sizes) items += std::max(size.rays / kRaysOfOne, 1.0);
+  const double room = kRoom * kRoom * std::sqrt(allowed.error / kRoomAt);
+  return {room * allowed.squared() / items, allowed.peak, {}};
 }
 
 // Where no light was seen, drawn without care: far below any ghost's, so that errors relative to its own level count.

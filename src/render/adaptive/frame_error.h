@@ -14,12 +14,9 @@ struct FrameError {
 
 // What counts of a level's error: all of it up to the peak, and far above that only its share of the level.
 [[nodiscard]] inline double seen_share(double level, double peak) {
-  constexpr double kPeaks = 32.0;  // over the peak, where half counts
+  constexpr double kPeaks = 4.0;  // over the peak, where half counts
   return 1.0 / (1.0 + level / (kPeaks * peak));
 }
-
-// What each of some items may make for all to make no more than allowed, where none makes more than its `most`.
-[[nodiscard]] double even_share(std::vector<double> most, double allowed);
 
 // Of some items' squared errors, by rising error: those beyond what the smallest may make together.
 [[nodiscard]] std::vector<std::size_t> worth_drawing(std::vector<std::size_t> some, const std::vector<double>& error,

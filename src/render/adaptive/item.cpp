@@ -22,10 +22,13 @@ constexpr double kMargin = 0.1;
 constexpr int kDeepest = 4;       // quarterings of a box
 // Boxes of the sharp stop are widened as the stop is up to here, farther by its root: what they lack they grow.
 constexpr double kMuchWider = 1.5;
-constexpr double kScreenedShare = 0.5;  // of an item's squared error, behind screens: cells come closer to theirs there
+// Of an item's squared error, behind screens: cells come closer to theirs there.
+constexpr double kScreenedShare = 0.75;
 constexpr int kPeakDeepest = 1;
 constexpr double kPeakQuantile = 0.999;
-constexpr int kPeakScale = 8;  // the frame's pixels over those of the small one, along a side
+// The frame's pixels over those of the small one, along a side: where the small one has so many, no more.
+constexpr int kMostPeakScale = 8;
+constexpr double kPeakPixels = 2500.0;
 
 const PlannedPass& middle_pass(const PlannedLight& light) { return light.passes[light.passes.size() / 2]; }
 
@@ -155,19 +158,52 @@ const IrisShape& round_iris() {
   return circle;
 }
 
-Painted paint(const Scene& scene, const Item& item, std::vector<PlannedPass> passes, const Frame& whole,
-              const TileGrid& grid, const ErrorBudget& budget, Pool<BoxCells>& rooms, int deepest) {
+// Those of an item's light.
+std::vector<PlannedPass> passes_of(const Item& item) {
+  std::vector<PlannedPass> passes = item.light->passes;
+  for (PlannedPass& pass : passes) {
+    pass.gain = item.look->tinted(pass.gain);
+    for (double& gain : pass.gain) gain *= item.has_shadows ? 1.0 : item.past_dirt;
+  }
+  return passes;
+}
+
+// Of a wavelength's light, by a ghost's surfaces, about.
+double reflected(const Ghost& ghost, const ReflectanceTables& tables) {
+  double share = 1.0;
+  for (const int surface : {ghost.i, ghost.j, ghost.k, ghost.l})
+    if (surface > 0) share *= tables.near_normal(surface - 1);
+  return share;
+}
+
+// All on the middle one's way. How much of each is reflected counts: films reflect the middle one least, whose light in
+// place of theirs would be a third of the peak.
+PlannedPass merged(const Scene& scene, const Item& item, std::span<const PlannedPass> passes) {
+  const auto by = [&](const PlannedPass& pass) { return reflected(item.ghost, *scene.plan.tables.at(pass.lambda_nm)); };
+  const PlannedPass& middle = passes[passes.size() / 2];
+  const double by_middle = by(middle);
+  PlannedPass all{middle.lambda_nm, {}};
+  for (const PlannedPass& pass : passes) {
+    const double times = by_middle > 0.0 ? by(pass) / by_middle : 1.0;
+    for (std::size_t c = 0; c < 3; ++c) all.gain[c] += times * pass.gain[c];
+  }
+  return all;
+}
+
+enum class Care { Little, Much };
+
+// With little care in one wavelength.
+Painted paint(const Scene& scene, const Item& item, Care care, const Frame& whole, const TileGrid& grid,
+              const ErrorBudget& budget, Pool<BoxCells>& rooms) {
   Painted painted;
   const Frame frame = item.look->placed(whole);
-  for (PlannedPass& pass : passes) pass.gain = item.look->tinted(pass.gain);
-  if (!item.has_shadows && item.past_dirt != 1.0)
-    for (PlannedPass& pass : passes)
-      for (double& gain : pass.gain) gain *= item.past_dirt;
   const LightFrame light(item.light->source, has_axial_symmetry(scene.lens, item.ghost));
   const IrisShape& iris = item.screens ? round_iris() : scene.iris;
+  std::vector<PlannedPass> passes = passes_of(item);
+  if (care == Care::Little) passes = {merged(scene, item, passes)};
   GhostTracers tracers(scene.lens, item.ghost, light, item.window.z_mm, scene.plan.tables, passes, stop_times(item));
   const auto room = rooms.lend();
-  GhostPainter painter(tracers, iris, frame, deepest, *room, item.screens.get(),
+  GhostPainter painter(tracers, iris, frame, care == Care::Much ? kDeepest : kPeakDeepest, *room, item.screens.get(),
                        item.has_shadows ? scene.dirt.get() : nullptr);
   for (const Rectangle& box : item.boxes) {
     const bool aside = light.symmetric && box.low.y != -box.high.y;
@@ -181,26 +217,20 @@ Painted paint(const Scene& scene, const Item& item, std::vector<PlannedPass> pas
   return painted;
 }
 
-// All wavelengths as if they were the middle one.
-PlannedPass merged(const PlannedLight& light) {
-  PlannedPass all{middle_pass(light).lambda_nm, {}};
-  for (const PlannedPass& pass : light.passes) {
-    for (std::size_t c = 0; c < 3; ++c) all.gain[c] += pass.gain[c];
-  }
-  return all;
-}
-
 // In pixels of the whole frame.
-Spread spread_of(const PolygonList& list) {
-  double area = 0.0, squares = 0.0;
+Spread spread_of(const PolygonList& list, int scale) {
+  const double pixels = scale * scale;
+  const double least_px = 1.0 / pixels;
+  double light = 0.0, squares = 0.0;
   for (const Polygon& polygon : list.polygons) {
     const double polygon_px = 0.5 * std::abs(twice_signed_area(list.corners_of(polygon)));
     const auto& v = polygon.shade.value;
-    area += polygon_px;
-    squares += polygon_px * (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]) / 3.0;
+    const double here = polygon_px * std::sqrt((v[0] * v[0] + v[1] * v[1] + v[2] * v[2]) / 3.0);
+    light += here;
+    squares += here * here / std::max(polygon_px, least_px);
   }
-  constexpr double kPixels = kPeakScale * kPeakScale;
-  return {area > 0.0 ? std::sqrt(squares / area) / kPixels : 0.0, area * kPixels};
+  if (!(squares > 0.0)) return {};
+  return {squares / light / pixels, light * light / squares * pixels};
 }
 
 Frame smaller(const Frame& frame, int by) {
@@ -234,19 +264,20 @@ Painted paint_item(const Scene& scene, const Item& item, const ItemSize& size, c
   ErrorBudget of_item = budget;
   of_item.about = size;
   if (item.screens) of_item.squared_error *= kScreenedShare;
-  return paint(scene, item, item.light->passes, frame, grid, of_item, rooms, kDeepest);
+  return paint(scene, item, Care::Much, frame, grid, of_item, rooms);
 }
 
 RoughFrame draw_roughly(const Scene& scene, const std::vector<Item>& items, const Frame& frame, Pool<BoxCells>& rooms,
                         const Context& context, Work& work) {
-  const Frame small = smaller(frame, kPeakScale);
+  const double pixels = static_cast<double>(frame.width) * frame.height;
+  const int scale = std::clamp(static_cast<int>(std::sqrt(pixels / kPeakPixels)), 1, kMostPeakScale);
+  const Frame small = smaller(frame, scale);
   const TileGrid grid(small.width, small.height);
   const ErrorBudget unlimited{std::numeric_limits<double>::infinity(), 1.0};
   std::vector<TiledPolygons> polygons(items.size());
   std::vector<Work> done(items.size());
   parallel_for(items.size(), context, [&](std::size_t k) {
-    const PlannedPass pass = merged(*items[k].light);
-    Painted painted = paint(scene, items[k], {pass}, small, grid, unlimited, rooms, kPeakDeepest);
+    Painted painted = paint(scene, items[k], Care::Little, small, grid, unlimited, rooms);
     polygons[k] = std::move(painted.polygons);
     done[k] = painted.work;
   });
@@ -254,7 +285,7 @@ RoughFrame draw_roughly(const Scene& scene, const std::vector<Item>& items, cons
   RoughFrame rough;
   if (context.cancelled()) return rough;
   for (std::size_t k = 0; k < items.size(); ++k) {
-    rough.sizes.push_back({spread_of(polygons[k].list), static_cast<double>(done[k].rays)});
+    rough.sizes.push_back({spread_of(polygons[k].list, scale), static_cast<double>(done[k].rays)});
   }
   Image image = Image::unwritten(small.width, small.height);
   TileDrawer(grid).draw(polygons, TileMode::Write, context, image);
@@ -262,7 +293,7 @@ RoughFrame draw_roughly(const Scene& scene, const std::vector<Item>& items, cons
   if (!(rough.peak > 0.0)) {
     for (const float value : image.pixels) rough.peak = std::max(rough.peak, static_cast<double>(value));
   }
-  rough.peak /= kPeakScale * kPeakScale;
+  rough.peak /= scale * scale;
   return rough;
 }
 

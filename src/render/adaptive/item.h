@@ -45,8 +45,7 @@ struct Painted {
 // Its boxes as wide as the light that its screens let through.
 [[nodiscard]] Work widen_boxes(const Scene& scene, Item& item);
 
-// What a small frame, drawn without care, tells: area is that of the polygons that it is drawn with, level the root
-// mean square over it.
+// What a small frame, drawn without care, tells.
 struct ItemSize : Spread {
   double rays = 0;  // that it took
 };

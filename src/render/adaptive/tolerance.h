@@ -16,7 +16,7 @@ struct Spread {
 struct ErrorBudget {
   double squared_error = 0;  // pixel values squared, summed over the frame; infinite: no limit
   double peak = 1;           // of the frame's pixel values
-  Spread about = {};         // what it is about, where rays do not tell; none: not known
+  Spread about = {};         // what is known of its light beforehand; none: nothing
 };
 
 struct Tolerance {
