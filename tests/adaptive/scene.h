@@ -27,7 +27,7 @@ inline Image drawn(std::span<const adaptive::PolygonList> lists, int width, int 
   for (const adaptive::PolygonList& list : lists) tiled.push_back({list, adaptive::tile_lists(list, grid)});
   Image image = Image::unwritten(width, height);
   std::fill(image.pixels.begin(), image.pixels.end(), std::numeric_limits<float>::quiet_NaN());  // all are written
-  adaptive::TileDrawer(grid).draw_rows(tiled, 0, grid.rows, adaptive::TileMode::Write, image);
+  adaptive::TileDrawer().draw_rows(tiled, 0, grid.rows, adaptive::TileMode::Write, image);
   return image;
 }
 

@@ -25,7 +25,8 @@ RoughFrame rough_frame(const LensState& lens, const Light& light, const RenderSe
   Work work;
   const std::vector<Item> items = find_items(scene, {}, work);
   Pool<BoxCells> rooms;
-  return draw_roughly(scene, items, settings.frame, rooms, {}, work);
+  TileDrawer drawer;
+  return draw_roughly(scene, items, settings.frame, rooms, drawer, {}, work);
 }
 
 }  // namespace

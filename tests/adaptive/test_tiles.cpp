@@ -121,7 +121,7 @@ TEST_CASE("many polygons: the sum of each, whatever lists they come in") {
   const TiledPolygons tiled{all, tile_lists(all, grid)};
   Image added = once;
   for (int row = grid.rows - 1; row >= 0; --row)
-    TileDrawer(grid).draw_rows({&tiled, 1}, row, row + 1, TileMode::Add, added);
+    TileDrawer().draw_rows({&tiled, 1}, row, row + 1, TileMode::Add, added);
   for (std::size_t k = 0; k < once.pixels.size(); ++k) CHECK(added.pixels[k] == 2.0F * once.pixels[k]);
 }
 

@@ -81,10 +81,10 @@ std::vector<std::size_t> longest_first(std::span<const ItemSize> sizes, double p
 // Items painted one batch after the other, each batch then drawn; in the items' order whatever the threads.
 class FramePainter {
  public:
-  FramePainter(const Scene& scene, const RenderSettings& settings, Pool<BoxCells>& rooms, const Context& context,
-               Flare& flare)
-      : scene_(scene), rooms_(rooms), frame_(settings.frame), context_(context), quiet_(context), flare_(flare),
-        grid_(settings.frame.width, settings.frame.height), drawer_(grid_) {
+  FramePainter(const Scene& scene, const RenderSettings& settings, Pool<BoxCells>& rooms, TileDrawer& drawer,
+               const Context& context, Flare& flare)
+      : scene_(scene), rooms_(rooms), drawer_(drawer), frame_(settings.frame), context_(context), quiet_(context),
+        flare_(flare), grid_(settings.frame.width, settings.frame.height) {
     quiet_.progress = {};
   }
 
@@ -137,12 +137,12 @@ class FramePainter {
 
   const Scene& scene_;
   Pool<BoxCells>& rooms_;
+  TileDrawer& drawer_;
   const Frame& frame_;
   const Context& context_;
   Context quiet_;
   Flare& flare_;
   TileGrid grid_;
-  TileDrawer drawer_;
   TileMode mode_ = TileMode::Write;
   Work work_;
   Stopwatch watch_;
@@ -170,14 +170,15 @@ Result<Flare> render_adaptive(const LensState& lens, const FramePlan& plan, cons
   const double bound_ms = watch.lap_ms();
   Screens screens(lens, settings);
   Pool<BoxCells> rooms;
-  const RoughFrame rough = draw_roughly(scene, items, settings.frame, rooms, quiet, work);
+  TileDrawer drawer;
+  const RoughFrame rough = draw_roughly(scene, items, settings.frame, rooms, drawer, quiet, work);
   const bool dark = !(rough.peak > 0.0);
   const FrameError allowed{settings.error, dark ? faintest_peak(plan, settings.frame) : rough.peak,
                            static_cast<double>(settings.frame.width) * settings.frame.height};
   if (screens.on() && !dark) work.add(screen_items(scene, screens, items, rough.sizes, allowed, quiet));
   if (scene.dirt && !dark) shadow_items(scene, items, rough.sizes, allowed);
   const double peak_ms = watch.lap_ms();
-  FramePainter painter(scene, settings, rooms, context, flare);
+  FramePainter painter(scene, settings, rooms, drawer, context, flare);
   painter.paint(items, rough.sizes, budget_per_item(allowed, rough.sizes));
   if (context.cancelled()) return failure(ErrorCode::Cancelled, "interrupted");
 

@@ -268,7 +268,7 @@ Painted paint_item(const Scene& scene, const Item& item, const ItemSize& size, c
 }
 
 RoughFrame draw_roughly(const Scene& scene, const std::vector<Item>& items, const Frame& frame, Pool<BoxCells>& rooms,
-                        const Context& context, Work& work) {
+                        TileDrawer& drawer, const Context& context, Work& work) {
   const double pixels = static_cast<double>(frame.width) * frame.height;
   const int scale = std::clamp(static_cast<int>(std::sqrt(pixels / kPeakPixels)), 1, kMostPeakScale);
   const Frame small = smaller(frame, scale);
@@ -288,7 +288,7 @@ RoughFrame draw_roughly(const Scene& scene, const std::vector<Item>& items, cons
     rough.sizes.push_back({spread_of(polygons[k].list, scale), static_cast<double>(done[k].rays)});
   }
   Image image = Image::unwritten(small.width, small.height);
-  TileDrawer(grid).draw(polygons, TileMode::Write, context, image);
+  drawer.draw(polygons, TileMode::Write, context, image);
   rough.peak = quantile_of_samples(image, kPeakQuantile);
   if (!(rough.peak > 0.0)) {
     for (const float value : image.pixels) rough.peak = std::max(rough.peak, static_cast<double>(value));

@@ -59,6 +59,6 @@ struct RoughFrame {
   std::vector<ItemSize> sizes;  // one an item; none when cancelled
 };
 [[nodiscard]] RoughFrame draw_roughly(const Scene& scene, const std::vector<Item>& items, const Frame& frame,
-                                      Pool<BoxCells>& rooms, const Context& context, Work& work);
+                                      Pool<BoxCells>& rooms, TileDrawer& drawer, const Context& context, Work& work);
 
 }  // namespace contrejour::adaptive

@@ -24,7 +24,28 @@ namespace contrejour::adaptive::HWY_NAMESPACE {
 // Coverage is multiplied by nothing.
 struct NoShade {};
 
-// As add_steep_edge(): three columns a row. x is seen from the column where the edge is farthest left,
+// An edge inside the tile's columns, from a down to b, clipped to its rows: calls `visit` with each row, where the edge
+// enters and leaves it and how high it is there.
+template <class Visit>
+HWY_INLINE void for_each_row(int height, Vec2 a, Vec2 b, const Visit& visit) {
+  const double dx_dy = (b.x - a.x) / (b.y - a.y);
+  const double top = std::max(a.y, 0.0);
+  const double bottom = std::min(b.y, static_cast<double>(height));
+  const double low = std::min(a.x, b.x);
+  const double high = std::max(a.x, b.x);
+  double y = top;
+  double x = std::clamp(a.x + dx_dy * (top - a.y), low, high);
+  for (int row = static_cast<int>(top); y < bottom; ++row) {
+    const double y_next = std::min<double>(row + 1, bottom);
+    const double x_next = std::clamp(a.x + dx_dy * (y_next - a.y), low, high);
+    visit(row, x, x_next, y_next - y);
+    x = x_next;
+    y = y_next;
+  }
+}
+
+// Where an edge gets no farther than a pixel to the side in a row: three columns, and nothing asked that depends on
+// where it crosses from one to the next. x is seen from the column where the edge is farthest left,
 // rows from the first one: floats hold that.
 HWY_INLINE void add_steep_cover(CoverSums& tile, Vec2 a, Vec2 b, double sign) {
   const FloatTag d;

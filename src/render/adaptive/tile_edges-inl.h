@@ -12,6 +12,7 @@
 #include <cmath>
 #include <utility>
 
+#include "render/adaptive/pixels-inl.h"
 #include "render/adaptive/quad-inl.h"
 #include "render/adaptive/tile_sums.h"
 
@@ -40,98 +41,121 @@ HWY_INLINE RowShade row_shade(const Shade& shade, const TileSums& tile) {
   return {{level, along_x}, along_y};
 }
 
-// What coverage is multiplied by: a polygon's irradiance row by row.
-class EdgeShade {
- public:
-  HWY_INLINE explicit EdgeShade(const RowShade& of, int row = 0) : of_(of), row_(of.at(row)) {}
-  HWY_INLINE void set_row(int y) { row_ = of_.at(y); }
-  // Adds `cover` of the row's irradiance to one column's sums.
-  HWY_INLINE void add(double* to, double cover) const { add_times(QuadLine<double>::load(to), row_, cover).store(to); }
+// What a stretch of an edge within a row of pixels covers: `all` beyond it, more and more from its left end on.
+struct StretchCover {
+  double to_left;  // from where columns are counted to the left end
+  double width;
+  double all, half_rise;  // over a column, a half
 
- private:
-  RowShade of_;
-  QuadLine<double> row_;
+  // Of columns side by side from `first` on.
+  [[nodiscard]] HWY_INLINE hn::Vec<RowTag<double>> at(int first) const {
+    const RowTag<double> d;
+    const auto none = hn::Zero(d), one = hn::Set(d, 1.0), end = hn::Set(d, width);
+    const auto within = [&](hn::Vec<RowTag<double>> u) HWY_ATTR { return hn::Min(hn::Max(u, none), end); };
+    const auto u = hn::Sub(hn::Iota(d, static_cast<double>(first)), hn::Set(d, to_left)), next = hn::Add(u, one);
+    const auto here = within(u), after = within(next);
+    const auto beyond = hn::Min(hn::Max(hn::Sub(next, end), none), one);  // to the last bit where all is
+    const auto rise = hn::Mul(hn::Set(d, half_rise), hn::Mul(hn::Sub(after, here), hn::Add(after, here)));
+    return hn::MulAdd(hn::Set(d, all), beyond, rise);
+  }
 };
 
-// One stretch of an edge within a row of pixels, from x0 to x1 and dy high: coverage to its right, as differences.
-HWY_INLINE void add_stretch(TileSums& tile, int at_row, const EdgeShade& shade, double x0, double x1, double dy) {
-  if (x0 > x1) std::swap(x0, x1);
-  const auto first = static_cast<int>(x0);
-  const auto last = static_cast<int>(x1);
-  auto* const from = tile.at(at_row, first);
-  tile.touch(at_row, first, last + 1);
-  const auto column = [&](int k) { return from + TileSums::kLanes * static_cast<std::size_t>(k - first); };
-  if (first == last) {
-    const double right = dy * (0.5 * (x0 + x1) - first);
-    shade.add(column(first), dy - right);
-    shade.add(column(first + 1), right);
-    return;
+// Stretches of an edge inside the tile's columns, which leads down, clipped to its rows: some rows at once.
+class EdgeRows {
+ public:
+  static constexpr int kAtOnce = static_cast<int>(hn::MaxLanes(RowTag<double>()));
+
+  HWY_INLINE EdgeRows(const TileSums& tile, Vec2 a, Vec2 b)
+      : a_(a), top_(std::max(a.y, 0.0)), bottom_(std::min(b.y, static_cast<double>(tile.height))),
+        low_(std::min(a.x, b.x)), high_(std::max(a.x, b.x)), dx_dy_((b.x - a.x) / (b.y - a.y)),
+        last_block_(tile.blocks() - 1) {}
+
+  [[nodiscard]] HWY_INLINE int first_row() const { return static_cast<int>(top_); }
+  [[nodiscard]] HWY_INLINE int end_row() const { return static_cast<int>(std::ceil(bottom_)); }
+  HWY_INLINE void set_rows(int first) {
+    const Tag d;
+    const IndexTag di;
+    const auto row = hn::Iota(d, static_cast<double>(first));
+    const auto y0 = hn::Max(row, hn::Set(d, top_));
+    const auto y1 = hn::Min(hn::Add(row, hn::Set(d, 1.0)), hn::Set(d, bottom_));
+    const auto x_at = [&](hn::Vec<Tag> y) HWY_ATTR {
+      const auto x = hn::MulAdd(hn::Set(d, dx_dy_), hn::Sub(y, hn::Set(d, a_.y)), hn::Set(d, a_.x));
+      return hn::Min(hn::Max(x, hn::Set(d, low_)), hn::Set(d, high_));
+    };
+    const auto x0 = x_at(y0), x1 = x_at(y1);
+    const auto left = hn::Min(x0, x1), right = hn::Max(x0, x1);
+    const auto block_at = [&](hn::Vec<Tag> x) HWY_ATTR {
+      return hn::Min(hn::DemoteTo(di, hn::Mul(x, hn::Set(d, 1.0 / TileSums::kBlock))), hn::Set(di, last_block_));
+    };
+    const auto first_block = block_at(left);
+    hn::Store(first_block, di, first_);
+    hn::Store(block_at(right), di, last_);
+    const auto from = hn::Mul(hn::PromoteTo(d, first_block), hn::Set(d, double{TileSums::kBlock}));
+    hn::Store(hn::Sub(left, from), d, to_left_);
+    hn::Store(hn::Sub(right, left), d, width_);
+    hn::Store(hn::Sub(y1, y0), d, height_);
   }
-  const double slope = dy / (x1 - x0);
-  const double in_first = first + 1 - x0;
-  double before = 0.5 * slope * in_first * in_first;
-  double filled = slope * in_first;
-  shade.add(column(first), before);
-  for (int k = first + 1; k < last; ++k) {
-    const double covered = filled + 0.5 * slope;
-    shade.add(column(k), covered - before);
-    before = covered;
-    filled += slope;
+  [[nodiscard]] HWY_INLINE int first_block(int k) const { return first_[k]; }
+  [[nodiscard]] HWY_INLINE int last_block(int k) const { return last_[k]; }
+  [[nodiscard]] HWY_INLINE double height(int k) const { return height_[k]; }
+  // Columns are counted from its first block on.
+  [[nodiscard]] HWY_INLINE StretchCover cover(int k, double all, double half_rise) const {
+    return {to_left_[k], width_[k], all, half_rise};
   }
-  const double in_last = x1 - last;
-  const double covered = dy - 0.5 * slope * in_last * in_last;
-  shade.add(column(last), covered - before);
-  shade.add(column(last + 1), dy - covered);
+
+ private:
+  using Tag = RowTag<double>;
+  using IndexTag = hn::Rebind<std::int32_t, Tag>;
+  Vec2 a_;
+  double top_, bottom_, low_, high_, dx_dy_;
+  int last_block_;
+  HWY_ALIGN double to_left_[kAtOnce], width_[kAtOnce], height_[kAtOnce];
+  HWY_ALIGN std::int32_t first_[kAtOnce], last_[kAtOnce];
+};
+
+// Adds what a stretch changes of a row's pixels. Columns are counted from the first block on.
+HWY_INLINE void add_stretch(TileSums& tile, int row, int first_block, int last_block, const StretchCover& cover,
+                            const PixelLine<double>& light) {
+  using Pixels = PixelsOf<double>;
+  double* to = tile.pixels_at(row) + TileSums::kPixel * static_cast<std::size_t>(TileSums::kBlock * first_block);
+  const int columns = TileSums::kBlock * (last_block + 1 - first_block);
+  for (int column = 0; column < columns; column += Pixels::kCount, to += kChannels * Pixels::kLanes)
+    multiply_add(Pixels::of(cover.at(column)), light.at(column), Pixels::load(to)).store(to);
+  tile.touch(row, first_block, last_block);
 }
 
-// An edge inside the tile's columns, from a down to b, clipped to its rows: calls `visit` with each row, where the edge
-// enters and leaves it and how high it is there.
-template <class Visit>
-HWY_INLINE void for_each_row(int height, Vec2 a, Vec2 b, const Visit& visit) {
-  const double dx_dy = (b.x - a.x) / (b.y - a.y);
-  const double top = std::max(a.y, 0.0);
-  const double bottom = std::min(b.y, static_cast<double>(height));
-  const double low = std::min(a.x, b.x);
-  const double high = std::max(a.x, b.x);
-  double y = top;
-  double x = std::clamp(a.x + dx_dy * (top - a.y), low, high);
-  for (int row = static_cast<int>(top); y < bottom; ++row) {
-    const double y_next = std::min<double>(row + 1, bottom);
-    const double x_next = std::clamp(a.x + dx_dy * (y_next - a.y), low, high);
-    visit(row, x, x_next, y_next - y);
-    x = x_next;
-    y = y_next;
-  }
+HWY_INLINE void add_change(TileSums& tile, int row, int block, const QuadLine<double>& line, double times) {
+  double* const change = tile.change_after(row, block);
+  add_times(QuadLine<double>::load(change), line, times).store(change);
 }
 
-// Where an edge gets no farther than a pixel to the side in a row: three columns, and nothing asked that depends on
-// where it crosses from one to the next.
-HWY_INLINE void add_steep_edge(TileSums& tile, EdgeShade shade, Vec2 a, Vec2 b, double sign) {
+// At a column's left border, across all of the row.
+HWY_INLINE void add_step(TileSums& tile, int row, int column, const QuadLine<double>& line, double times) {
+  const int block = std::min(column / TileSums::kBlock, tile.blocks() - 1), from = TileSums::kBlock * block;
+  const PixelLine<double> light(QuadLine<double>{line.at(from), line.slope});
+  add_stretch(tile, row, block, block, {static_cast<double>(column - from), 0.0, times, 0.0}, light);
+  add_change(tile, row, block, line, times);
+}
+
+HWY_INLINE void add_edge(TileSums& tile, const RowShade& shade, Vec2 a, Vec2 b, double sign) {
+  constexpr double kSteepest = 1e100;  // as high as a number's square may be
+  EdgeRows rows(tile, a, b);
+  const int first = rows.first_row(), end = rows.end_row();
   const double dx = std::abs(b.x - a.x);
-  const double half_dy_dx = dx != 0.0 ? 0.5 * sign * (b.y - a.y) / dx : 0.0;
-  for_each_row(tile.height, a, b, [&](int row, double x, double x_next, double height) HWY_ATTR {
-    const double dy = sign * height;
-    const double left = std::min(x, x_next), right = std::max(x, x_next);
-    const auto first = static_cast<int>(left), last = static_cast<int>(right);
-    const double border = first + 1;
-    const double over = std::max(right, border) - border;
-    const double in_last = half_dy_dx * over * over;  // a triangle that the next column does not cover
-    const double covered = dy * (border - 0.5 * (x + x_next)) + in_last;
-    auto* const column = tile.at(row, first);
-    shade.set_row(row);
-    shade.add(column, covered);
-    shade.add(column + TileSums::kLanes, dy - in_last - covered);
-    shade.add(column + 2 * TileSums::kLanes, in_last);
-    tile.touch(row, first, last + 1);
-  });
-}
-
-HWY_INLINE void add_edge(TileSums& tile, EdgeShade shade, Vec2 a, Vec2 b, double sign) {
-  if (std::abs(b.x - a.x) <= b.y - a.y) return add_steep_edge(tile, shade, a, b, sign);
-  for_each_row(tile.height, a, b, [&](int row, double x, double x_next, double height) HWY_ATTR {
-    shade.set_row(row);
-    add_stretch(tile, row, shade, x, x_next, sign * height);
-  });
+  const double half_rise = dx != 0.0 ? 0.5 * sign * std::min((b.y - a.y) / dx, kSteepest) : 0.0;
+  const PixelLine<double> light(shade.line);
+  const auto by_row = PixelsOf<double>::each(shade.by_row);
+  for (int row = first; row < end;) {
+    rows.set_rows(row);
+    const int count = std::min(EdgeRows::kAtOnce, end - row);
+    for (int k = 0; k < count; ++k, ++row) {
+      const int first_block = rows.first_block(k), last_block = rows.last_block(k);
+      const double all = sign * rows.height(k);
+      add_stretch(tile, row, first_block, last_block, rows.cover(k, all, half_rise),
+                  light.raised(by_row, row).from(TileSums::kBlock * first_block));
+      add_change(tile, row, last_block, shade.at(row), all);
+    }
+  }
 }
 
 // An edge that for_each_edge() visits. Parts left of the tile count as on its border, or not where sums are carried;

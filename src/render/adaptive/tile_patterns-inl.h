@@ -99,7 +99,7 @@ class Pattern {
   const screens::BandPattern::Level& level_;
   PatternPlaces places_;
   std::size_t pitch_;
-  std::array<std::array<float, TileSums::kPixel>, screens::BandPattern::kMost> channel_{};
+  std::array<std::array<float, kQuad>, screens::BandPattern::kMost> channel_{};
   HWY_ALIGN std::int32_t column_[kRowRoom], line_[kRowRoom];
   HWY_ALIGN float right_[kRowRoom], below_[kRowRoom];
 };

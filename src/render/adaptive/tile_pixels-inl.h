@@ -13,81 +13,61 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
-#include <type_traits>
 #include <utility>
 
 #include "contrejour/image.h"
+#include "render/adaptive/pixels-inl.h"
 #include "render/adaptive/quad-inl.h"
 #include "render/adaptive/tile_sums.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace contrejour::adaptive::HWY_NAMESPACE {
 
-// A block of columns from x0 on, each pixel as four floats, three of them apart: a float after the last one is
-// overwritten. Changes and light are taken, beyond the tile's border, too; `line` is the row's sums before the block,
-// then after it.
-template <bool kChanges, bool kLight>
-HWY_INLINE void draw_block(TileSums& tile, int row, int x0, QuadLine<double>& line, float* to) {
-  [[maybe_unused]] double* const changes = tile.at(row, x0);
-  [[maybe_unused]] float* const light = kLight ? tile.pixels_at(row) + kQuad * static_cast<std::size_t>(x0) : nullptr;
+// A block's pixels, of the row at `to`. What touched it is taken, beyond the tile's border, too; `line` is the row's
+// before the block, then after it.
+template <bool kTouched>
+HWY_INLINE void draw_block(TileSums& tile, int row, int block, QuadLine<double>& line, float* to) {
+  const int first = TileSums::kBlock * block;
   // Seen from here, not from the tile's border, a float holds it.
-  [[maybe_unused]] const QuadLine<float> level{to_floats(line.at(x0)), to_floats(line.slope)};
-  for (std::size_t k = 0; k < TileSums::kBlock; ++k) {
-    Quad value;
-    if constexpr (kChanges) {
-      line = line + QuadLine<double>::load(changes + TileSums::kLanes * k);
-      QuadLine<double>::zero().store(changes + TileSums::kLanes * k);
-      value = to_floats(line.at(x0 + static_cast<double>(k)));
-    } else {
-      value = level.at(static_cast<float>(k));
-    }
-    if constexpr (kLight) {
-      value = value + Quad::load(light + kQuad * k);
-      Quad::all(0.0F).store(light + kQuad * k);
-    }
-    value.store(to + 3 * k);
+  const PixelLine<float> level(QuadLine<float>{to_floats(line.at(first)), to_floats(line.slope)});
+  for (int k = 0; k < TileSums::kBlock; k += PixelsOf<float>::kCount) {
+    const std::size_t at = TileSums::kPixel * static_cast<std::size_t>(first + k);
+    PixelsOf<float> value = level.at(k);
+    if constexpr (kTouched) value = value + taken<float>(tile.pixels_at(row) + at);
+    value.store(to + at);
+  }
+  if constexpr (kTouched) {
+    double* const change = tile.change_after(row, block);
+    line = line + QuadLine<double>::load(change);
+    QuadLine<double>::zero().store(change);
   }
 }
 
-// Running sums of a row and what came pixel by pixel; both are cleared. Blocks without changes or light are not looked
-// at.
+// Running sums of a row and what came pixel by pixel; both are cleared. Blocks that nothing touched are not looked at.
 HWY_INLINE void draw_row(TileSums& tile, int row, TileMode mode, float* to) {
   const auto at_row = static_cast<std::size_t>(row);
-  const std::uint64_t changed = std::exchange(tile.touched[at_row], 0);
-  const std::uint64_t lit = std::exchange(tile.lit[at_row], 0);
+  const std::uint64_t touched = std::exchange(tile.touched[at_row], 0);
   double* const carried = tile.carried[at_row].data();
   QuadLine<double> line = QuadLine<double>::load(carried);
 
-  // Beside the frame, since columns are no whole vectors: few wide writes wait less for memory than many small ones.
-  HWY_ALIGN float pixels[3 * TileGrid::kWidth + 1];
-  const int blocks = (tile.width + TileSums::kBlock - 1) / TileSums::kBlock;
+  // Beside the frame: its memory is written in one go.
+  HWY_ALIGN float pixels[TileSums::kPixel * TileGrid::kWidth];
+  const int blocks = tile.blocks();
   for (int block = 0; block < blocks;) {
     // As far as they are of one kind: what comes next has no pattern.
-    const bool has_changes = (changed >> block & 1U) != 0, has_light = (lit >> block & 1U) != 0;
-    const std::uint64_t others = (has_changes ? ~changed : changed) | (has_light ? ~lit : lit);
-    const int end = std::min(block + std::countr_zero(others >> block), blocks);
-    const auto draw = [&](auto changes, auto light) HWY_ATTR {
-      for (; block < end; ++block) {
-        const int x0 = TileSums::kBlock * block;
-        draw_block<changes(), light()>(tile, row, x0, line, pixels + 3 * x0);
-      }
-    };
-    constexpr std::true_type kYes;
-    constexpr std::false_type kNo;
-    if (has_changes)
-      has_light ? draw(kYes, kYes) : draw(kYes, kNo);
+    const auto from_here = touched >> static_cast<unsigned>(block);
+    const bool is_touched = (from_here & 1U) != 0;
+    const int end = std::min(block + (is_touched ? std::countr_one(from_here) : std::countr_zero(from_here)), blocks);
+    if (is_touched)
+      for (; block < end; ++block) draw_block<true>(tile, row, block, line, pixels);
     else
-      has_light ? draw(kNo, kYes) : draw(kNo, kNo);
+      for (; block < end; ++block) draw_block<false>(tile, row, block, line, pixels);
   }
-  const std::size_t count = 3 * static_cast<std::size_t>(tile.width);
+  const std::size_t count = TileSums::kPixel * static_cast<std::size_t>(tile.width);
   if (mode == TileMode::Write)
     std::copy_n(pixels, count, to);
   else
     std::transform(pixels, pixels + count, to, to, std::plus<>());
-
-  double* const border = tile.at(row, tile.width);
-  line = line + QuadLine<double>::load(border);
-  QuadLine<double>::zero().store(border);
   line.level = line.at(tile.width);
   line.store(carried);
 }

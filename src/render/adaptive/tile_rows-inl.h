@@ -17,6 +17,7 @@
 #include <cstring>
 #include <vector>
 
+#include "render/adaptive/pixels-inl.h"
 #include "render/adaptive/polygon_list.h"
 #include "render/adaptive/tile_sums.h"
 #include "render/screens/short_light.h"
@@ -24,8 +25,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace contrejour::adaptive::HWY_NAMESPACE {
 
-namespace hn = hwy::HWY_NAMESPACE;
-using FloatTag = hn::CappedTag<float, 8>;  // rows of polygons are some twenty pixels long
+using FloatTag = RowTag<float>;
 using IntTag = hn::RebindToSigned<FloatTag>;
 
 constexpr float kToMiddle = 3.5F;  // pixels, of a group of eight

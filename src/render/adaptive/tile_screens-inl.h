@@ -26,8 +26,6 @@
 HWY_BEFORE_NAMESPACE();
 namespace contrejour::adaptive::HWY_NAMESPACE {
 
-static_assert(TileSums::kPixel == kQuad);
-
 // What passes any screen, several crossings of the stop among them, and dirt. Either may be null.
 class AnyScreen {
  public:
@@ -99,10 +97,9 @@ class RunningCover {
 
 // Whole pixels in a row that see the stop level: their light is left as changes along the row, as any polygon's is.
 HWY_INLINE void add_level(TileSums& tile, int row, int first, int end, const RowShade& shade) {
-  const EdgeShade level(shade, row);
-  tile.touch(row, first, end);
-  level.add(tile.at(row, first), 1.0);
-  level.add(tile.at(row, end), -1.0);
+  const QuadLine<double> line = shade.at(row);
+  add_step(tile, row, first, line, 1.0);
+  add_step(tile, row, end, line, -1.0);
 }
 
 // A row of what a polygon covers, in the tile, from one of every kFirst columns on: lines of memory begin there.
@@ -125,7 +122,7 @@ class QuadLight {
           row_(row) {}
     // Adds some pixels from k on to the row's at `to`, as far as they are covered.
     template <class Look>
-    HWY_INLINE void add(const Look& look, hn::Vec<FloatTag> covered, int k, float* to) const {
+    HWY_INLINE void add(const Look& look, hn::Vec<FloatTag> covered, int k, double* to) const {
       const FloatTag d;
       HWY_ALIGN float cover[kGroup] = {};
       hn::Store(covered, d, cover);
@@ -133,8 +130,9 @@ class QuadLight {
       const auto& seen = look.vector(k);
       for (; k < end; ++k) {
         const Quad irradiance = multiply_add(slope_, Quad::all(static_cast<float>(row_.first + k)), level_);
-        float* const pixel = to + TileSums::kPixel * static_cast<std::size_t>(k);
-        multiply_add(Quad::all(cover[k - from]) * irradiance, seen.passed(k), Quad::load(pixel)).store(pixel);
+        const Quad light = Quad::all(cover[k - from]) * irradiance * seen.passed(k);
+        double* const pixel = to + TileSums::kPixel * static_cast<std::size_t>(k);
+        (DoubleQuad::load(pixel) + to_doubles(light)).store(pixel);
       }
     }
 
@@ -149,80 +147,29 @@ class QuadLight {
 
 // The same where one value serves all channels: whole vectors of pixels at once, which have nothing beyond the row.
 class GreyLight {
-  using WideTag = hn::CappedTag<float, 16>;
-  static constexpr std::size_t kLanes = std::max<std::size_t>(hn::MaxLanes(WideTag()), TileSums::kPixel);
+  using Pixels = PixelsOf<float>;
 
  public:
-  explicit GreyLight(const RowShade& shade) {
-    for (std::size_t k = 0; k < kLanes; k += kQuad) {
-      to_floats(shade.line.level).store(level_ + k);
-      to_floats(shade.line.slope).store(slope_ + k);
-      to_floats(shade.by_row).store(by_row_ + k);
-    }
-  }
+  explicit GreyLight(const RowShade& shade)
+      : line_(QuadLine<float>{to_floats(shade.line.level), to_floats(shade.line.slope)}),
+        by_row_(Pixels::each(to_floats(shade.by_row))) {}
 
-#if HWY_TARGET == HWY_SCALAR
-  class Row {
-   public:
-    Row(const GreyLight& all, const CoveredRow& row) : all_(all), row_(row) {}
-    template <class Look>
-    void add(const Look& look, hn::Vec<FloatTag> cover, int k, float* to) const {
-      const float passed = hn::GetLane(cover) * hn::GetLane(look.passed(k));
-      for (std::size_t c = 0; c < TileSums::kPixel; ++c)
-        to[TileSums::kPixel * static_cast<std::size_t>(k) + c] +=
-            passed * (all_.level_[c] + all_.by_row_[c] * static_cast<float>(row_.row) +
-                      all_.slope_[c] * static_cast<float>(row_.first + k));
-    }
-
-   private:
-    const GreyLight& all_;
-    CoveredRow row_;
-  };
-#else
   class Row {
    public:
     HWY_INLINE Row(const GreyLight& all, const CoveredRow& row)
-        : slope_(hn::Load(WideTag(), all.slope_)),
-          level_(hn::MulAdd(hn::Load(WideTag(), all.by_row_), hn::Set(WideTag(), static_cast<float>(row.row)),
-                            hn::MulAdd(slope_, columns(row.first), hn::Load(WideTag(), all.level_)))) {}
+        : light_(all.line_.raised(all.by_row_, row.row).from(row.first)) {}
     template <class Look>
-    HWY_INLINE void add(const Look& look, hn::Vec<FloatTag> cover, int k, float* to) const {
-      const WideTag d;
-      const hn::RebindToSigned<WideTag> di;
-      const auto first = hn::MulAdd(slope_, hn::Set(d, static_cast<float>(k)), level_);
-      constexpr int kPixels = static_cast<int>(kLanes / TileSums::kPixel);  // of a wide vector
-      const auto passed = wide(d, hn::Mul(cover, look.passed(k)));
-      to += TileSums::kPixel * static_cast<std::size_t>(k);
-      // Lane k of a vector is of its pixel k / 4.
-      for (int j = 0; j < static_cast<int>(hn::Lanes(FloatTag())); j += kPixels, to += kLanes) {
-        const auto pixel = hn::Add(hn::ShiftRight<2>(hn::Iota(di, 0)), hn::Set(di, j));
-        const auto each = hn::TableLookupLanes(passed, hn::IndicesFromVec(d, pixel));
-        const auto light = j == 0 ? first : hn::MulAdd(slope_, hn::Set(d, static_cast<float>(j)), first);
-        hn::Store(hn::MulAdd(each, light, hn::Load(d, to)), d, to);
-      }
+    HWY_INLINE void add(const Look& look, hn::Vec<FloatTag> cover, int k, double* to) const {
+      add_to(to + kChannels * static_cast<std::size_t>(k), Pixels::of(hn::Mul(cover, look.passed(k))) * light_.at(k));
     }
 
    private:
-    // Of the pixels from `first` on.
-    static HWY_INLINE hn::Vec<WideTag> columns(int first) {
-      const WideTag d;
-      const hn::RebindToSigned<WideTag> di;
-      return hn::Add(hn::Set(d, static_cast<float>(first)), hn::ConvertTo(d, hn::ShiftRight<2>(hn::Iota(di, 0))));
-    }
-    template <class D>
-    static HWY_INLINE hn::Vec<D> wide(D d, hn::Vec<FloatTag> v) {
-      if constexpr (hn::MaxLanes(d) == hn::MaxLanes(FloatTag())) {
-        return v;
-      } else {
-        return hn::ZeroExtendVector(d, v);
-      }
-    }
-    hn::Vec<WideTag> slope_, level_;
+    PixelLine<float> light_;
   };
-#endif
 
  private:
-  HWY_ALIGN float level_[kLanes], slope_[kLanes], by_row_[kLanes];
+  PixelLine<float> line_;  // of the tile's first row
+  Pixels by_row_;
 };
 
 // Of a tile, the rows that a polygon may touch, and between which columns. covered_to: the column as far as all rows
@@ -275,7 +222,7 @@ class CoveredRows {
 struct RowOfPixels {
   CoveredRow columns;
   RunningCover cover;
-  float* to;
+  double* to;
 
   RowOfPixels(TileSums& tile, const CoveredRow& r, const PixelRows& within)
       : columns(r), cover(tile.cover.at(r.row, r.first), within.covered_to < 0 ? kRowRoom : r.count),
@@ -287,7 +234,7 @@ HWY_INLINE void add_row(TileSums& tile, RowOfPixels row, const Passed& passed, c
   const int count = row.columns.count;
   for (int k = 0; k < count; k += static_cast<int>(hn::MaxLanes(FloatTag())))
     light.add(passed, row.cover.next(k), k, row.to);
-  tile.light_groups(row.columns.row, row.columns.first, first_groups((count + kGroup - 1) / kGroup));
+  tile.touch_groups(row.columns.row, row.columns.first, first_groups((count + kGroup - 1) / kGroup));
 }
 
 // But those of groups that see nothing, or the stop level. Where they are whole, as far as nothing changes, no sum is
@@ -324,7 +271,7 @@ HWY_INLINE void add_row(TileSums& tile, RowOfPixels row, const RowShade& shade, 
     add_level(tile, columns.row, columns.first + kGroup * from, columns.first + kGroup * end, shade);
     level &= ~first_groups(end);
   }
-  tile.light_groups(columns.row, columns.first, lit);
+  tile.touch_groups(columns.row, columns.first, lit);
 }
 
 template <class Look>
@@ -354,7 +301,6 @@ void add_pixels(TileSums& tile, const Polygon& polygon, const StopMap& map, cons
 }
 
 void add_screened(TileSums& tile, const PolygonList& list, const Polygon& polygon) {
-  if (tile.by_pixel == nullptr) tile.by_pixel = std::make_unique<TileSums::Light>();
   const PixelRows within = rows_under(tile, list.corners_of(polygon));
   CoverSums& cover = tile.cover;
   cover.width = tile.width;

@@ -8,7 +8,6 @@
 #include <limits>
 #include <memory>
 #include <utility>
-#include <vector>
 
 #include "render/adaptive/tiles.h"
 
@@ -71,54 +70,51 @@ struct CoverSums {
   std::unique_ptr<Room> room_;  // made with the first polygon
 };
 
-// A tile's place in the frame, and its sums. Tiles of a row are drawn from left to right: what edges left of a tile
-// changed it has from the one before.
+// A tile's place in the frame, and its sums. An edge changes the pixels of the blocks of columns that it lies in, each
+// by itself, and the line that light is along the row from the next block on. Tiles of a row are drawn from left to
+// right: what edges left of a tile changed it has from the one before.
 struct TileSums {
-  static constexpr std::size_t kLanes = 8;  // three channels and a spare: level, then slope along x
-  static constexpr std::size_t kPitch = TileGrid::kWidth + 3;  // and what edges on the right border change
-
-  static constexpr std::size_t kPixel = kLanes / 2;  // values of a pixel
-  static constexpr std::size_t kPixelPitch =
-      TileGrid::kWidth + 24;  // no power of two: rows share no lines of the cache
   static constexpr int kBlock = 8;  // columns
+  static constexpr int kMostBlocks = TileGrid::kWidth / kBlock;
+  static constexpr std::size_t kPixel = 3;  // values
+  static constexpr std::size_t kLine = 8;  // three and a spare: level at the tile's first column, then slope along x
   static constexpr float kUnseenCover = 1e-6F;  // of a pixel: rounding beside a polygon
-  static_assert(TileGrid::kWidth <= 64 * kBlock);
+  static_assert(TileGrid::kWidth % kBlock == 0 && kMostBlocks <= 64);
 
   int x0 = 0, y0 = 0, width = 0, height = 0;
   using Blocks = std::array<std::uint64_t, TileGrid::kHeight>;  // by row, a bit for each block of columns
-  Blocks touched{};  // by changes
-  std::vector<double> sums = std::vector<double>(kLanes * kPitch * TileGrid::kHeight, 0.0);
-  std::array<std::array<double, kLanes>, TileGrid::kHeight> carried{};  // by row: sums left of the first column
-  Blocks lit{};  // pixel by pixel
-  struct alignas(64) Light {
-    std::array<float, kPixel * kPixelPitch * TileGrid::kHeight> values{};
-  };
-  std::unique_ptr<Light> by_pixel;  // that came so, kPixel values each, whole blocks; null: none yet
+  Blocks touched{};  // that have light of their own, or after which lines change
+  std::array<std::array<double, kLine>, TileGrid::kHeight> carried{};  // by row: the line left of the first column
   CoverSums cover;
 
   [[nodiscard]] bool is_carried() const { return x0 > 0; }  // what edges left of it changed
-  [[nodiscard]] double* at(int row, int column) {
-    return sums.data() + kLanes * (static_cast<std::size_t>(row) * kPitch + static_cast<std::size_t>(column));
+  [[nodiscard]] int blocks() const { return (width + kBlock - 1) / kBlock; }
+  // What the line changes by after a block.
+  [[nodiscard]] double* change_after(int row, int block) {
+    return room_->changes.data() + kLine * static_cast<std::size_t>(row * kMostBlocks + block);
   }
-  [[nodiscard]] float* pixels_at(int row) {
-    return by_pixel->values.data() + kPixel * kPixelPitch * static_cast<std::size_t>(row);
+  [[nodiscard]] double* pixels_at(int row) {
+    return room_->pixels.data() + kPixel * kPixelPitch * static_cast<std::size_t>(row);
   }
-  // Columns first to last, last one included and the right border's left out.
-  void touch(int row, int first, int last) { mark(touched, row, first, last); }
+  // Blocks from first to last, last one included.
+  void touch(int row, int first, int last) {
+    const std::uint64_t to_last = ~std::uint64_t{0} >> static_cast<unsigned>(63 - last);
+    touched[static_cast<std::size_t>(row)] |= to_last & (~std::uint64_t{0} << static_cast<unsigned>(first));
+  }
   // groups: a bit for each kBlock columns from `first` on.
-  void light_groups(int row, int first, std::uint64_t groups) {
-    const auto shift = static_cast<unsigned>(first / kBlock);
-    groups <<= shift;
-    lit[static_cast<std::size_t>(row)] |= first % kBlock == 0 ? groups : groups | groups << 1U;
+  void touch_groups(int row, int first, std::uint64_t groups) {
+    groups <<= static_cast<unsigned>(first / kBlock);
+    touched[static_cast<std::size_t>(row)] |= first % kBlock == 0 ? groups : groups | groups << 1U;
   }
 
  private:
-  static void mark(Blocks& blocks, int row, int first, int last) {
-    const int most = TileGrid::kWidth / kBlock - 1;
-    const int low = std::min(first / kBlock, most);
-    const int high = std::min(last / kBlock, most);
-    blocks[static_cast<std::size_t>(row)] |= (~std::uint64_t{0} >> (most - high)) & (~std::uint64_t{0} << low);
-  }
+  // No power of two: rows share no lines of the cache. Groups that begin within a block end beyond the last one.
+  static constexpr std::size_t kPixelPitch = TileGrid::kWidth + 24;
+  struct alignas(64) Room {
+    std::array<double, kLine * kMostBlocks * TileGrid::kHeight> changes{};
+    std::array<double, kPixel * kPixelPitch * TileGrid::kHeight + 1> pixels{};  // and a spare
+  };
+  std::unique_ptr<Room> room_ = std::make_unique<Room>();
 };
 
 }  // namespace contrejour::adaptive

@@ -29,18 +29,16 @@ void add_polygon(TileSums& tile, const PolygonList& list, const Polygon& polygon
     const auto column = static_cast<int>(std::floor(static_cast<double>(corners[0].x) - tile.x0));
     const auto row = static_cast<int>(std::floor(static_cast<double>(corners[0].y) - tile.y0));
     if (column < 0 || row < 0 || column >= tile.width || row >= tile.height) return;
-    tile.touch(row, column, column + 1);
-    const EdgeShade level(shade);
-    level.add(tile.at(row, column), 1.0);
-    level.add(tile.at(row, column + 1), -1.0);
+    double* const pixel = tile.pixels_at(row) + TileSums::kPixel * static_cast<std::size_t>(column);
+    (DoubleQuad::load(pixel) + shade.at(row).at(column)).store(pixel);
+    tile.touch(row, column / TileSums::kBlock, column / TileSums::kBlock);
     return;
   }
   for_each_edge(tile, list, polygon, [&](Vec2 a, Vec2 b, std::size_t corner, double sign) {
     const std::uint32_t partner = list.partner_of(polygon.first + corner);
     if (partner == PolygonList::kNotDrawn) return;
     const bool alone = partner == PolygonList::kAlone;
-    EdgeShade change(alone ? shade : shade - row_shade(list.polygons[partner].shade, tile));
-    add_clipped(tile, change, a, b, sign);
+    add_clipped(tile, alone ? shade : shade - row_shade(list.polygons[partner].shade, tile), a, b, sign);
   });
 }
 
@@ -131,29 +129,31 @@ TileLists tile_lists(const PolygonList& list, const TileGrid& grid) {
   return out;
 }
 
-TileDrawer::TileDrawer(const TileGrid& grid) : grid_(grid) {}
+TileDrawer::TileDrawer() = default;
 TileDrawer::~TileDrawer() = default;
 
 void TileDrawer::draw(std::span<const TiledPolygons> lists, TileMode mode, const Context& context, Image& image) {
   Context quiet = context;
   quiet.progress = {};
-  parallel_for(static_cast<std::size_t>(grid_.rows), quiet, [&](std::size_t at) {
+  const TileGrid grid(image.width, image.height);
+  parallel_for(static_cast<std::size_t>(grid.rows), quiet, [&](std::size_t at) {
     const int row = static_cast<int>(at);
     draw_rows(lists, row, row + 1, mode, image);
   });
 }
 
 void TileDrawer::draw_rows(std::span<const TiledPolygons> lists, int first, int last, TileMode mode, Image& image) {
+  const TileGrid grid(image.width, image.height);
   const auto lent = sums_.lend();
   TileSums& sums = *lent;
   for (int row = first; row < last; ++row) {
     sums.y0 = row * TileGrid::kHeight;
-    sums.height = std::min(TileGrid::kHeight, grid_.height - sums.y0);
+    sums.height = std::min(TileGrid::kHeight, grid.height - sums.y0);
     sums.carried = {};
-    for (int column = 0; column < grid_.columns; ++column) {
+    for (int column = 0; column < grid.columns; ++column) {
       sums.x0 = column * TileGrid::kWidth;
-      sums.width = std::min(TileGrid::kWidth, grid_.width - sums.x0);
-      const auto tile = static_cast<std::size_t>(row * grid_.columns + column);
+      sums.width = std::min(TileGrid::kWidth, grid.width - sums.x0);
+      const auto tile = static_cast<std::size_t>(row * grid.columns + column);
       HWY_DYNAMIC_DISPATCH(draw_tile)(lists, tile, sums, mode, image);
     }
   }

@@ -18,7 +18,7 @@ namespace contrejour::adaptive {
 // The frame cut into rectangles whose sums stay in the cache.
 struct TileGrid {
   static constexpr int kWidth = 512;
-  static constexpr int kHeight = 32;
+  static constexpr int kHeight = 64;
 
   int width = 0, height = 0;  // pixels
   int columns = 0, rows = 0;  // tiles
@@ -50,10 +50,10 @@ enum class TileMode : std::uint8_t { Write, Add };
 
 struct TileSums;
 
-// Draws polygons into rows of tiles. Rows may be drawn by several threads at once.
+// Draws polygons, whose tiles are those of an image, into rows of them. Rows may be drawn by several threads at once.
 class TileDrawer {
  public:
-  explicit TileDrawer(const TileGrid& grid);
+  TileDrawer();
   ~TileDrawer();
 
   // Writes or adds to all pixels what the polygons bring.
@@ -64,7 +64,6 @@ class TileDrawer {
   void draw_rows(std::span<const TiledPolygons> lists, int first, int last, TileMode mode, Image& image);
 
  private:
-  TileGrid grid_;
   Pool<TileSums> sums_;  // a megabyte each, all zero: one a thread, not one a row
 };
 
