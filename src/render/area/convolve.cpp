@@ -1,7 +1,6 @@
 #include "render/area/convolve.h"
 
 #include <algorithm>
-#include <bit>
 #include <cassert>
 #include <cmath>
 #include <cstddef>
@@ -92,12 +91,10 @@ void widen(std::vector<std::uint8_t>& marks, int kernel_width) {
 
 std::vector<std::uint8_t> lit_blocks(std::span<const float> row) {
   std::vector<std::uint8_t> lit;
-  for (std::size_t at = 0; at < row.size(); at += kBlockFloats) {
-    std::uint32_t bits = 0;
-    for (std::size_t k = at; k < std::min(at + kBlockFloats, row.size()); ++k)
-      bits |= std::bit_cast<std::uint32_t>(row[k]);
-    lit.push_back(bits != 0 ? 1 : 0);
-  }
+  std::size_t at = 0;
+  for (; at + kBlockFloats <= row.size(); at += kBlockFloats) lit.push_back(has_light(row.data() + at) ? 1 : 0);
+  const auto rest = row.subspan(at);
+  if (!rest.empty()) lit.push_back(std::ranges::any_of(rest, [](float v) { return v != 0.0F; }) ? 1 : 0);
   return lit;
 }
 
@@ -108,13 +105,8 @@ std::vector<std::uint8_t> rough_blocks(const Image& picture, int y, const std::v
   const float *const above = picture.row(y - 1).data(), *const here = picture.row(y).data(),
                      *const below = picture.row(y + 1).data();
   for (std::size_t b = 1; b + 1 < lit.size(); ++b) {
-    if (lit[b] == 0) continue;
-    std::uint32_t any = 0;
-    for (std::size_t k = b * kBlockFloats; k < (b + 1) * kBlockFloats; ++k) {
-      const float across = here[k - 3] - 2.0F * here[k] + here[k + 3], down = above[k] - 2.0F * here[k] + below[k];
-      any |= static_cast<std::uint32_t>(std::abs(across) > most) | static_cast<std::uint32_t>(std::abs(down) > most);
-    }
-    rough[b] = any != 0 ? 1 : 0;
+    const std::size_t at = b * kBlockFloats;
+    if (lit[b] != 0) rough[b] = is_rough(above + at, here + at, below + at, most) ? 1 : 0;
   }
   return rough;
 }

@@ -13,6 +13,28 @@ namespace contrejour::area::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 using Tag = hn::CappedTag<float, 8>;
 
+bool has_light(const float* block) {
+  const Tag d;
+  const hn::RebindToUnsigned<Tag> du;
+  auto bits = hn::Zero(du);
+  for (std::size_t k = 0; k < kBlockFloats; k += hn::Lanes(d))
+    bits = hn::Or(bits, hn::BitCast(du, hn::LoadU(d, block + k)));
+  return !hn::AllTrue(du, hn::Eq(bits, hn::Zero(du)));
+}
+
+bool is_rough(const float* above, const float* block, const float* below, float most) {
+  const Tag d;
+  const auto limit = hn::Set(d, most);
+  auto rough = hn::Zero(d);
+  for (std::size_t k = 0; k < kBlockFloats; k += hn::Lanes(d)) {
+    const auto twice = hn::Add(hn::LoadU(d, block + k), hn::LoadU(d, block + k));
+    const auto second = [&](const float* a, const float* b)
+                            HWY_ATTR { return hn::Abs(hn::Sub(hn::Add(hn::LoadU(d, a), hn::LoadU(d, b)), twice)); };
+    rough = hn::Max(rough, hn::Max(second(block + k - 3, block + k + 3), second(above + k, below + k)));
+  }
+  return !hn::AllTrue(d, hn::Le(rough, limit));
+}
+
 // Half a block at a time, three vectors of up to 8 with one pattern each, so that sums stay in registers.
 void add_half(const BlockTerm* terms, std::size_t count, std::size_t offset, float* to) {
   const Tag d;
@@ -75,8 +97,16 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace contrejour::area {
 
+HWY_EXPORT(has_light);
+HWY_EXPORT(is_rough);
 HWY_EXPORT(add_block);
 HWY_EXPORT(add_coloured_block);
+
+bool has_light(const float* block) { return HWY_DYNAMIC_DISPATCH(has_light)(block); }
+
+bool is_rough(const float* above, const float* block, const float* below, float most) {
+  return HWY_DYNAMIC_DISPATCH(is_rough)(above, block, below, most);
+}
 
 void add_block(std::span<const BlockTerm> terms, float* to) {
   HWY_DYNAMIC_DISPATCH(add_block)(terms.data(), terms.size(), to);

@@ -1,4 +1,4 @@
-// The innermost loop of a convolution, by vectors.
+// The innermost loops of a convolution, by vectors.
 #pragma once
 
 #include <cstddef>
@@ -15,6 +15,12 @@ struct BlockTerm {
   const float* weights = nullptr;  // one each, or three for the channels, these repeated to kPatternFloats
   std::size_t count = 0;
 };
+
+// Whether any of the values of a block is not 0.
+[[nodiscard]] bool has_light(const float* block);
+// Whether any second difference along a row or from row to row is more than that, of a block with a pixel before and
+// after it.
+[[nodiscard]] bool is_rough(const float* above, const float* block, const float* below, float most);
 
 void add_block(std::span<const BlockTerm> terms, float* to);          // one weight for all channels
 void add_coloured_block(std::span<const BlockTerm> terms, float* to);  // one for each

@@ -1,18 +1,17 @@
 #include "render/area/layers.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
-#include <cstring>
 
 #include "base/tasks.h"
 #include "render/area/convolve.h"
+#include "render/area/halves.h"
 
 namespace contrejour::area {
 namespace {
 
-constexpr int kStencil = 2;  // pixels beside its own that a pixel's halves are found from
+constexpr int kStencil = static_cast<int>(kHalvesStencil);
 constexpr int kRowsAtOnce = 16;  // coarse ones, by one thread
 
 int floor_half(int n) { return n >= 0 ? n / 2 : -((1 - n) / 2); }
@@ -36,57 +35,28 @@ Axis coarser_axis(int full, int origin, double scale, int first) {
   return axis;
 }
 
-// By how much more than half of a coarse value goes to the first of the two places that it covers: averages of a
-// polynomial of degree 4 stay averages of it (Donoho 1993, average interpolation).
-float lean(float before2, float before1, float after1, float after2) {
-  return (22.0F * (before1 - after1) - 3.0F * (before2 - after2)) * (1.0F / 256.0F);
-}
-
 // The two fine rows that a coarse row covers, of a coarse picture that has kStencil pixels more on every side.
 class RowHalver {
  public:
   explicit RowHalver(const Image& coarse)
-      : coarse_(coarse), count_(coarse.row(0).size()), rows_{Row(count_), Row(count_)}, first_(count_ + 1),
-        second_(count_ + 1), fine_(2 * count_ + 1) {}
+      : coarse_(coarse), count_(coarse.row(0).size()), upper_(count_), lower_(count_), fine_(2 * count_) {}
 
   void take(int y) {
     const auto row = [&](int by) { return coarse_.row(y + by).data(); };
-    const float *const before2 = row(-2), *const before1 = row(-1), *const here = row(0), *const after1 = row(1),
-                       *const after2 = row(2);
-    float *const upper = rows_[0].data(), *const lower = rows_[1].data();
-    for (std::size_t k = 0; k < count_; ++k) {
-      const float more = lean(before2[k], before1[k], after1[k], after2[k]);
-      upper[k] = 0.5F * here[k] + more;
-      lower[k] = 0.5F * here[k] - more;
-    }
+    halve_down({row(-2), row(-1), row(0), row(1), row(2)}, count_, upper_.data(), lower_.data());
   }
 
   // The upper or the lower one, of twice as many pixels as the coarse row's; the outermost 2 kStencil on either side
   // mean nothing.
   [[nodiscard]] const float* fine(bool lower) {
-    const float* const row = rows_[lower ? 1 : 0].data();
-    float *const first = first_.data(), *const second = second_.data();
-    for (std::size_t k = 6; k + 6 < count_; ++k) {
-      const float more = lean(row[k - 6], row[k - 3], row[k + 3], row[k + 6]);
-      first[k] = 0.5F * row[k] + more;
-      second[k] = 0.5F * row[k] - more;
-    }
-    // Four floats at once, the last of which the next pixel overwrites.
-    float* out = fine_.data() + 12;
-    for (std::size_t k = 6; k + 6 < count_; k += 3, out += 6) {
-      std::memcpy(out, first + k, 4 * sizeof(float));
-      std::memcpy(out + 3, second + k, 4 * sizeof(float));
-    }
+    halve_across(lower ? lower_.data() : upper_.data(), count_, fine_.data());
     return fine_.data();
   }
 
  private:
-  using Row = std::vector<float>;
-
   const Image& coarse_;
   std::size_t count_;
-  std::array<Row, 2> rows_;
-  Row first_, second_, fine_;
+  std::vector<float> upper_, lower_, fine_;
 };
 
 }  // namespace

@@ -1,0 +1,101 @@
+#include "render/area/halves.h"
+
+#include <cstdint>
+
+#include "kernels/simd_targets.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "render/area/halves.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+HWY_BEFORE_NAMESPACE();
+namespace contrejour::area::HWY_NAMESPACE {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+template <class D>
+struct Halves {
+  hn::Vec<D> first, second;
+};
+
+// What goes to the two halves of some values, from the values before and after them. By how much more than half of it
+// the first has: 22 / 256 and 3 / 256 of the differences.
+template <class D>
+HWY_INLINE Halves<D> halves_of(D d, const RowsAround& at, std::size_t k) {
+  const auto value = [&](std::size_t row) HWY_ATTR { return hn::LoadU(d, at[row] + k); };
+  const auto half = hn::Mul(hn::Set(d, 0.5F), value(2));
+  const auto near = hn::Mul(hn::Set(d, 22.0F / 256.0F), hn::Sub(value(1), value(3)));
+  const auto more = hn::NegMulAdd(hn::Set(d, 3.0F / 256.0F), hn::Sub(value(0), value(4)), near);
+  return {hn::Add(half, more), hn::Sub(half, more)};
+}
+
+using Tag = hn::CappedTag<float, 8>;
+using One = hn::CappedTag<float, 1>;
+
+void halve_down(const RowsAround& rows, std::size_t count, float* upper, float* lower) {
+  const auto halve = [&](auto d, std::size_t k) HWY_ATTR {
+    const auto halves = halves_of(d, rows, k);
+    hn::StoreU(halves.first, d, upper + k);
+    hn::StoreU(halves.second, d, lower + k);
+  };
+  std::size_t k = 0;
+  for (; k + hn::Lanes(Tag()) <= count; k += hn::Lanes(Tag())) halve(Tag(), k);
+  for (; k < count; ++k) halve(One(), k);
+}
+
+// Whole pixels of some halves side by side: of two pixels, or of one; some floats after them are overwritten.
+template <class D>
+HWY_INLINE void store_side_by_side(D d, const Halves<D>& halves, float* to) {
+  if constexpr (hn::MaxLanes(d) == 8) {
+    HWY_ALIGN static constexpr std::int32_t kOfFirst[16] = {0, 1, 2, 0, 0, 0, 3, 4, 5, 0, 0, 0, 0, 0, 0, 0};
+    HWY_ALIGN static constexpr std::int32_t kOfSecond[16] = {0, 0, 0, 0, 1, 2, 0, 0, 0, 3, 4, 5, 0, 0, 0, 0};
+    HWY_ALIGN static constexpr std::int32_t kIsSecond[16] = {0, 0, 0, 1, 1, 1, 0, 0, 0, 1, 1, 1, 0, 0, 0, 0};
+    const hn::RebindToSigned<D> di;
+    for (std::size_t k = 0; k < 16; k += 8) {
+      const auto first = hn::TableLookupLanes(halves.first, hn::SetTableIndices(d, kOfFirst + k));
+      const auto second = hn::TableLookupLanes(halves.second, hn::SetTableIndices(d, kOfSecond + k));
+      const auto is_second = hn::RebindMask(d, hn::Ne(hn::Load(di, kIsSecond + k), hn::Zero(di)));
+      hn::StoreU(hn::IfThenElse(is_second, second, first), d, to + k);
+    }
+  } else {
+    hn::StoreU(halves.first, d, to);
+    hn::StoreU(halves.second, d, to + 3);
+  }
+}
+
+void halve_across(const float* row, std::size_t count, float* fine) {
+  constexpr std::size_t kLanes = hn::MaxLanes(Tag()), kPixels = kLanes / 3, kBorder = 3 * kHalvesStencil;
+  const RowsAround around{row - 6, row - 3, row, row + 3, row + 6};
+  std::size_t k = kBorder;
+  if constexpr (kPixels > 0) {
+    for (; k + kLanes + kBorder <= count; k += 3 * kPixels)
+      store_side_by_side(Tag(), halves_of(Tag(), around, k), fine + 2 * k);
+  }
+  for (; k + kBorder < count; ++k) {
+    const auto halves = halves_of(One(), around, k);
+    float* const to = fine + 2 * (k - k % 3) + k % 3;
+    hn::StoreU(halves.first, One(), to);
+    hn::StoreU(halves.second, One(), to + 3);
+  }
+}
+
+}  // namespace contrejour::area::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace contrejour::area {
+
+HWY_EXPORT(halve_down);
+HWY_EXPORT(halve_across);
+
+void halve_down(const RowsAround& rows, std::size_t count, float* upper, float* lower) {
+  HWY_DYNAMIC_DISPATCH(halve_down)(rows, count, upper, lower);
+}
+
+void halve_across(const float* row, std::size_t count, float* fine) {
+  HWY_DYNAMIC_DISPATCH(halve_across)(row, count, fine);
+}
+
+}  // namespace contrejour::area
+#endif  // HWY_ONCE
