@@ -122,21 +122,29 @@ class QuadLight {
           row_(row) {}
     // Adds some pixels from k on to the row's at `to`, as far as they are covered.
     template <class Look>
-    HWY_INLINE void add(const Look& look, hn::Vec<FloatTag> covered, int k, double* to) const {
+    HWY_INLINE void add(const Look& look, hn::Vec<FloatTag> cover, int k, double* to) const {
+      const auto& seen = look.vector(k);
+      add_times([&](int pixel) HWY_ATTR { return seen.passed(pixel); }, cover, k, to);
+    }
+    // All passes.
+    HWY_INLINE void add_level(hn::Vec<FloatTag> cover, int k, double* to) const {
+      add_times([](int) HWY_ATTR { return Quad::all(1.0F); }, cover, k, to);
+    }
+
+   private:
+    template <class Passed>
+    HWY_INLINE void add_times(const Passed& passed, hn::Vec<FloatTag> covered, int k, double* to) const {
       const FloatTag d;
       HWY_ALIGN float cover[kGroup] = {};
       hn::Store(covered, d, cover);
       const int from = k, end = std::min(k + static_cast<int>(hn::Lanes(d)), row_.count);
-      const auto& seen = look.vector(k);
       for (; k < end; ++k) {
         const Quad irradiance = multiply_add(slope_, Quad::all(static_cast<float>(row_.first + k)), level_);
-        const Quad light = Quad::all(cover[k - from]) * irradiance * seen.passed(k);
+        const Quad light = Quad::all(cover[k - from]) * irradiance * passed(k);
         double* const pixel = to + TileSums::kPixel * static_cast<std::size_t>(k);
         (DoubleQuad::load(pixel) + to_doubles(light)).store(pixel);
       }
     }
-
-   private:
     Quad level_, slope_;
     CoveredRow row_;
   };
@@ -160,7 +168,11 @@ class GreyLight {
         : light_(all.line_.raised(all.by_row_, row.row).from(row.first)) {}
     template <class Look>
     HWY_INLINE void add(const Look& look, hn::Vec<FloatTag> cover, int k, double* to) const {
-      add_to(to + kChannels * static_cast<std::size_t>(k), Pixels::of(hn::Mul(cover, look.passed(k))) * light_.at(k));
+      add_level(hn::Mul(cover, look.passed(k)), k, to);
+    }
+    // All passes.
+    HWY_INLINE void add_level(hn::Vec<FloatTag> cover, int k, double* to) const {
+      add_to(to + kChannels * static_cast<std::size_t>(k), Pixels::of(cover) * light_.at(k));
     }
 
    private:
@@ -258,11 +270,14 @@ HWY_INLINE void add_row(TileSums& tile, RowOfPixels row, const RowShade& shade, 
       skipped = 0;
     }
     const Groups bit = Groups{1} << static_cast<unsigned>(group);
-    const bool is_dark = (seen.dark & bit) != 0;
+    const bool is_dark = (seen.dark & bit) != 0, is_level = (seen.level & bit) != 0;
     if (!is_dark) lit |= bit;
     for (int k = kGroup * group; k < kGroup * (group + 1); k += kLanes) {
       const auto cover = row.cover.next(k);
-      if (!is_dark) light.add(passed, cover, k, row.to);
+      if (is_level)
+        light.add_level(cover, k, row.to);
+      else if (!is_dark)
+        light.add(passed, cover, k, row.to);
     }
     ++group;
   }
