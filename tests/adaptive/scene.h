@@ -68,11 +68,15 @@ struct GhostScene {
       : lens(std::move(state)), ghost(of), lambda_nm(wavelength_nm), direction(towards), light(towards),
         window(entrance_window(lens, light.source)), path(ghost_path(lens, ghost, lambda_nm)) {
     tables[lambda_nm] = std::make_shared<const ReflectanceTables>(lens, lambda_nm);
-    boxes = adaptive::find_pupil_boxes(path, *tables.at(lambda_nm), light, window).boxes;
+    boxes = adaptive::find_pupil_boxes(packets(), window).boxes;
+  }
+
+  [[nodiscard]] PacketPath packets() const {
+    return {path, *tables.at(lambda_nm), {{0.0, 0.0, window.z_mm}, light.source}};
   }
 
   [[nodiscard]] adaptive::RaySheet sheet(const Rectangle& box, int nodes, Rgb gain = {1, 1, 1}) const {
-    adaptive::SheetTracer tracer(lens, ghost, light, window.z_mm, lambda_nm, *tables.at(lambda_nm));
+    adaptive::SheetTracer tracer(packets(), light);
     adaptive::RaySheet sheet = tracer.trace(box, nodes, PacketPrecision::Double);
     adaptive::add_light(sheet, sheet.transmission, gain);
     return sheet;

@@ -21,9 +21,7 @@ test::GhostScene scene_of(Ghost ghost, double f_number = 16.0, double lambda_nm 
   return {lens, ghost, direction_to_land_at(lens, at, lens.design_wavelength_nm), lambda_nm};
 }
 
-ClearanceGrid grid_of(const test::GhostScene& scene) {
-  return {scene.path, *scene.tables.at(scene.lambda_nm), {{0.0, 0.0, scene.window.z_mm}, scene.light.source}};
-}
+ClearanceGrid grid_of(const test::GhostScene& scene) { return ClearanceGrid(scene.packets()); }
 
 bool is_open(const test::GhostScene& scene, const TracedRay& ray) {
   return ray.status == RayStatus::Ok && ray.r_rel <= 1.0 && blocked_by(ray, scene.path, Iris{}) <= 0.0;
@@ -110,8 +108,7 @@ TEST_CASE("a sheet of a bent box: rays of the entrance plane, and their light ti
   const auto bent = bent_box(grids, scene.boxes.front());
   REQUIRE(bent.has_value());
   REQUIRE(bent->bend.stretch(bent->box.high.y) < 0.9);
-  SheetTracer tracer(scene.lens, scene.ghost, scene.light, scene.window.z_mm, scene.lambda_nm,
-                     *scene.tables.at(scene.lambda_nm));
+  SheetTracer tracer(scene.packets(), scene.light);
   tracer.bend(bent->bend);
   const RaySheet sheet = tracer.trace(bent->box, 5, PacketPrecision::Double);
   REQUIRE(sheet.failed == 0);

@@ -21,7 +21,9 @@ struct System {
 RoughFrame rough_frame(const LensState& lens, const Light& light, const RenderSettings& settings) {
   const auto plan = plan_frame(lens, {&light, 1}, settings, {});
   REQUIRE(plan.has_value());
-  const Scene scene{lens, *plan, IrisShape(lens.iris)};
+  StepsByWavelength steps;
+  for (const auto& [lambda_nm, tables] : plan->tables) steps.try_emplace(lambda_nm, lens, *tables);
+  const Scene scene{lens, *plan, std::move(steps), IrisShape(lens.iris)};
   Work work;
   const std::vector<Item> items = find_items(scene, {}, work);
   Pool<BoxCells> rooms;

@@ -30,11 +30,16 @@ bool in_any(const std::vector<Rectangle>& boxes, Vec2 p) {
   });
 }
 
+PacketPath packets_of(const OpticalPath& path, const ReflectanceTables& tables, const LightFrame& light,
+                      const EntranceWindow& window) {
+  return {path, tables, {{0.0, 0.0, window.z_mm}, light.source}};
+}
+
 // The boxes of one ghost against a grid of 65 x 65 rays over the rectangle that another search finds.
 void add(const LensState& lens, Ghost ghost, const ReflectanceTables& tables, const LightFrame& light, Tally& tally) {
   const OpticalPath path = ghost_path(lens, ghost, tables.lambda_nm());
   const EntranceWindow window = entrance_window(lens, light.source);
-  const PupilBoxes found = find_pupil_boxes(path, tables, light, window);
+  const PupilBoxes found = find_pupil_boxes(packets_of(path, tables, light, window), window);
   ++tally.searches;
   tally.rays += found.rays;
   const IrisShape circle(Iris{});
@@ -108,7 +113,8 @@ TEST_CASE("boxes are mirror images of each other or of themselves, and fit") {
   const EntranceWindow window = entrance_window(lens, light.source);
   int boxes = 0;
   for (const Ghost ghost : enumerate_ghosts(lens, GhostScope::All)) {
-    const auto found = find_pupil_boxes(ghost_path(lens, ghost, 550.0), tables, light, window).boxes;
+    const auto found =
+        find_pupil_boxes(packets_of(ghost_path(lens, ghost, 550.0), tables, light, window), window).boxes;
     for (const Rectangle& box : found) {
       ++boxes;
       CHECK(box.low.x < box.high.x);
@@ -128,6 +134,7 @@ TEST_CASE("where no light gets through there are no boxes") {
   const EntranceWindow window = entrance_window(lens, light.source);
   const auto ghosts = enumerate_ghosts(lens, GhostScope::OneSideOfStop);
   for (std::size_t k = 0; k < ghosts.size(); k += 7) {
-    CHECK(find_pupil_boxes(ghost_path(lens, ghosts[k], 550.0), tables, light, window).boxes.empty());
+    CHECK(
+        find_pupil_boxes(packets_of(ghost_path(lens, ghosts[k], 550.0), tables, light, window), window).boxes.empty());
   }
 }

@@ -27,7 +27,7 @@ struct Setting {
       : lens(test::lens_at_f(name, f_number)), light(Vec3{std::sin(angle_rad), 0.0, std::cos(angle_rad)}),
         window(entrance_window(lens, light.source)), path(ghost_path(lens, ghost, 550.0)), tables(lens, 550.0) {}
 
-  [[nodiscard]] LightRays rays() const { return {{0.0, 0.0, window.z_mm}, light.source}; }
+  [[nodiscard]] PacketPath packets() const { return {path, tables, {{0.0, 0.0, window.z_mm}, light.source}}; }
   [[nodiscard]] Rectangle half() const { return {{window.min_mm.x, 0.0}, window.max_mm}; }
 };
 
@@ -60,7 +60,7 @@ TEST_CASE("a box aimed at the stop from a coarse grid holds what gets through, b
   for (const Ghost ghost : enumerate_ghosts(test::lens_at_f("canon-70-200", 32.0), GhostScope::OneSideOfStop)) {
     if (ghost.i % 4 != 1) continue;
     const Setting s("canon-70-200", 32.0, ghost, 0.05);
-    ClearanceGrid grid(s.path, s.tables, s.rays());
+    ClearanceGrid grid(s.packets());
     grid.trace(s.half(), 12, 6);
     for (const auto& piece : grid.pieces(1.0F)) {
       const auto aim = aim_at_stop(grid, piece);
@@ -84,20 +84,20 @@ TEST_CASE("a pupil a three-hundredth of the window wide, among rays that fail, i
   const auto open = open_bounds(s, {{-9.0, -0.5}, {-3.0, 0.5}}, 301);
   REQUIRE(open.has_value());
   CHECK(open->high.x - open->low.x < 0.5);
-  ClearanceGrid grid(s.path, s.tables, s.rays());
+  ClearanceGrid grid(s.packets());
   grid.trace(s.half(), 12, 6);
   bool seen = false;
   for (int k = 0; k <= 12; ++k) seen = seen || grid.is_open(grid.at(k, 0));
   CHECK_FALSE(seen);
 
-  MeridianScan scan(s.path, s.tables, s.rays());
+  MeridianScan scan(s.packets());
   const auto found = scan.find({s.window.min_mm.x, s.window.max_mm.x}, {});
   CHECK(std::any_of(found.begin(), found.end(),
                     [&](const Interval& i) { return i.low <= open->low.x && i.high >= open->high.x; }));
   CHECK(scan.rays() < 150);
 
   // Nothing is found twice.
-  MeridianScan again(s.path, s.tables, s.rays());
+  MeridianScan again(s.packets());
   const Rectangle box{{open->low.x - 1.0, -1.0}, {open->high.x + 1.0, 1.0}};
   for (const Interval& i : again.find({s.window.min_mm.x, s.window.max_mm.x}, {&box, 1})) {
     CHECK((i.high <= open->low.x || i.low >= open->high.x));
@@ -109,7 +109,7 @@ TEST_CASE("boxes fitted at another wavelength grow to hold what gets through, an
   const auto open = open_bounds(s, {s.window.min_mm, s.window.max_mm}, 201);
   REQUIRE(open.has_value());
   const Vec2 size = open->high - open->low;
-  BoxFitter fitter(s.path, s.tables, s.rays(), s.window);
+  BoxFitter fitter(s.packets(), s.window);
   const auto grown = fitter.fit({open->low + size * 0.2, open->high - size * 0.2});
   REQUIRE(grown.has_value());
   CHECK(holds(*grown, *open));

@@ -30,15 +30,18 @@ struct Rainbow {
   test::GhostScene scene;
   std::vector<PlannedPass> passes;
   WavelengthSamples samples;
+  StepsByWavelength steps;
   GhostTracers tracers;
 
   Rainbow(const char* lens, double f_number, Ghost ghost, Vec3 towards)
       : scene(test::lens_at_f(lens, f_number), ghost, towards), passes(passes_of()),
         samples(evenly(400.0, 700.0, 16), 9),
-        tracers(scene.lens, ghost, scene.light, entrance_window(scene.lens, scene.light.source).z_mm, scene.tables,
-                passes, 1.0) {
-    for (const PlannedPass& pass : passes)
-      scene.tables[pass.lambda_nm] = std::make_shared<const ReflectanceTables>(scene.lens, pass.lambda_nm);
+        tracers(steps, ghost, scene.light, entrance_window(scene.lens, scene.light.source).z_mm, passes, 1.0) {
+    for (const PlannedPass& pass : passes) {
+      const auto& tables = scene.tables[pass.lambda_nm] =
+          std::make_shared<const ReflectanceTables>(scene.lens, pass.lambda_nm);
+      steps.try_emplace(pass.lambda_nm, scene.lens, *tables);
+    }
   }
   static std::vector<PlannedPass> passes_of() {
     std::vector<PlannedPass> passes;

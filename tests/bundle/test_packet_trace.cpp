@@ -1,11 +1,14 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include <doctest/doctest.h>
 #include <hwy/targets.h>
 
 #include "bundle/scene.h"
+#include "optics/trace/lens_steps.h"
 #include "optics/trace/packet_trace.h"
 
 using namespace contrejour;
@@ -230,4 +233,84 @@ TEST_CASE("tabulated coatings are within 1e-5 of the exact ones, from both sides
       CHECK(worst < 1e-5);
     }
   }
+}
+
+namespace {
+
+// Lenses of every kind of step.
+std::vector<LensState> lenses_of_all_kinds() {
+  std::vector<LensState> lenses;
+  const auto add = [&](const char* name, const LensSettings& settings) -> LensState& {
+    const auto prescription = find_lens(name);
+    REQUIRE(prescription.has_value());
+    const auto state = lens_at(*prescription, settings);
+    REQUIRE(state.has_value());
+    return lenses.emplace_back(*state);
+  };
+  LensSettings plain;
+  plain.f_number = 8.0;
+  add("heliar", plain);
+  add("canon-rf-50", plain);  // aspheres
+  LensSettings crooked = plain;
+  crooked.build = {0.01, 0.2, 5};
+  crooked.absorption = true;
+  add("heliar", crooked);
+  LensSettings sensor = plain;
+  sensor.sensor.plates.emplace_back().thickness_mm = 2.0;
+  sensor.sensor.reflectance = 0.1;
+  sensor.sensor.orders = 1;
+  add("heliar", sensor);
+  LensState& rims = add("planar-50", plain);
+  rims.surfaces[1].aperture = {ApertureKind::Rectangle, {9.0, 7.0}, {0.5, -0.3}, 0.3};
+  rims.surfaces[3].aperture = {ApertureKind::Ellipse, {9.0, 8.0}, {0.1, 0.2}, 0.5};
+  rims.surfaces[4].obscuration = {{1.0, 2.0}, {0.2, 0.1}, 0.4};
+  return lenses;
+}
+
+bool same(const PacketStep& a, const PacketStep& b) {
+  return a.event == b.event && a.crossing == b.crossing && a.from_denser == b.from_denser &&
+         a.reflectance == b.reflectance && a.transmittance == b.transmittance && a.direction == b.direction &&
+         a.gap_mm == b.gap_mm && a.curvature_per_mm == b.curvature_per_mm &&
+         a.inverse_semi_diameter_per_mm == b.inverse_semi_diameter_per_mm &&
+         a.inverse_semi_diameter_squared == b.inverse_semi_diameter_squared && a.eta == b.eta &&
+         (a.shape == nullptr) == (b.shape == nullptr) && a.axis == b.axis && a.offset_mm == b.offset_mm &&
+         a.rim.place({1.0, 2.0}) == b.rim.place({1.0, 2.0}) && a.blocks_within == b.blocks_within &&
+         a.absorption_per_mm == b.absorption_per_mm && a.kick == b.kick && a.share == b.share;
+}
+
+}  // namespace
+
+TEST_CASE("ways put together from a lens's steps are those of the ghosts' paths") {
+  const LightRays rays{{1.0, 2.0, -3.0}, normalized({0.1, -0.05, 1.0})};
+  const std::vector<float> x_mm{0.0F, 1.0F, -2.0F, 3.0F}, y_mm{0.0F, -1.0F, 0.5F, 2.0F};
+  std::size_t of_shapes = 0, general = 0, with_order = 0, of_four = 0;
+  for (const LensState& lens : lenses_of_all_kinds()) {
+    CAPTURE(lens.name);
+    const ReflectanceTables tables(lens, 480.0);
+    const LensSteps steps(lens, tables);
+    const auto ghosts = enumerate_ghosts(lens, GhostScope::All, Reflections::UpToFour);
+    for (std::size_t g = 0; g < ghosts.size(); g += 1 + ghosts.size() / 200) {
+      CAPTURE(g);
+      OpticalPath path = ghost_path(lens, ghosts[g], 480.0);
+      path.stop_radius_mm *= 1.5;
+      const PacketPath plain(path, tables, rays), quick(steps, ghosts[g], rays, 1.5);
+      REQUIRE(plain.steps().size() == quick.steps().size());
+      CHECK(std::ranges::equal(plain.steps(), quick.steps(), same));
+      CHECK(plain.geometry() == quick.geometry());
+      CHECK(plain.stop_crossings() == quick.stop_crossings());
+      CHECK(plain.sensor_gap_mm() == quick.sensor_gap_mm());
+      CHECK(plain.sensor_offset_mm() == quick.sensor_offset_mm());
+      CHECK(plain.inverse_stop_radius_per_mm() == doctest::Approx(quick.inverse_stop_radius_per_mm()).epsilon(1e-14));
+      Batch one(x_mm.size()), other(x_mm.size());
+      for (auto [of, batch] : {std::pair(&plain, &one), std::pair(&quick, &other)})
+        trace_packets(*of, PacketPrecision::Double, x_mm.data(), y_mm.data(), x_mm.size(), batch->arrays());
+      CHECK(one.columns[2] == other.columns[2]);
+      CHECK(one.columns[3] == other.columns[3]);
+      of_shapes += plain.geometry() == PathGeometry::Shapes ? 1 : 0;
+      general += plain.geometry() == PathGeometry::General ? 1 : 0;
+      with_order += ghosts[g].order != std::array<int, 2>{0, 0} ? 1 : 0;
+      of_four += ghosts[g].reflects_four_times() ? 1 : 0;
+    }
+  }
+  CHECK(std::min({of_shapes, general, with_order, of_four}) > 10);
 }

@@ -30,7 +30,7 @@ class ReflectanceTables {
   // Of a rim that bends nothing: no reflectance; of lenses that have such.
   [[nodiscard]] int none() const { return none_; }
   [[nodiscard]] const Entry& of(int surface) const { return entries_[static_cast<std::size_t>(surface)]; }
-  // Mean reflectance of a surface, 0-based, up to 30 degrees from normal incidence; of the stop, and beyond the last
+  // Mean reflectance of a surface, 0-based, up to 32 degrees from normal incidence; of the stop, and beyond the last
   // surface: 1.
   [[nodiscard]] double near_normal(int surface) const;
   [[nodiscard]] const float* values() const { return values_.data(); }
@@ -92,10 +92,15 @@ struct PacketStart {
   double flux = 1;        // LightSource::flux_at: times (this way over another ray's)^3
 };
 
+class LensSteps;
+
 // A path made ready for tracing rays that start from one plane. The tables must outlive it.
 class PacketPath {
  public:
   PacketPath(const OpticalPath& path, const ReflectanceTables& tables, const LightRays& rays);
+  // A ghost's, put together from steps that are there, at a sixth of the cost. They must outlive it. stop_times: the
+  // stop counts as so many times as large.
+  PacketPath(const LensSteps& steps, const Ghost& ghost, const LightRays& rays, double stop_times = 1.0);
 
   // The same light through other points of the plane.
   void start_from(Vec2 origin_mm);

@@ -7,6 +7,7 @@
 
 #include "contrejour/trace.h"
 #include "kernels/shape_constants.h"
+#include "optics/trace/path_steps.h"
 
 namespace contrejour {
 namespace {
@@ -46,95 +47,79 @@ double share_of_order(int order, double fill) {
   return fill * sinc * sinc;
 }
 
-class PathBuilder {
- public:
-  PathBuilder(const LensState& lens, double lambda_nm) : lens_(lens) {
-    path_.lambda_nm = lambda_nm;
-    path_.sensor_z_mm = lens.sensor_z_mm;
-    path_.stop_radius_mm = lens.stop_radius_mm;
-    path_.centred =
-        std::all_of(lens.surfaces.begin(), lens.surfaces.end(), [](const SurfaceState& s) { return s.is_centred(); });
-    path_.steps.reserve(3 * lens.surfaces.size());
-  }
+// In the medium before the step, and after the way to it.
+void add_rim(OpticalPath& path, PathStep& step, const Rim& rim) {
+  PathStep only = step;
+  only.event = PathEvent::Refract;
+  only.coating = {};
+  only.n_out = only.n_in;
+  only.rim = rim;
+  only.is_rim_only = true;
+  path.steps.push_back(std::move(only));
+  step.absorption_per_mm = 0.0;
+}
 
-  // Refracts at every surface from first to last, which may be none.
-  void pass_forward(int first, int last) {
-    for (int k = first; k <= last; ++k)
-      if (lens_.surfaces[static_cast<std::size_t>(k)].kind != SurfaceKind::Sensor) add(k, +1, PathEvent::Refract);
-  }
-  void pass_backward(int first, int last) {
-    for (int k = first; k >= last; --k) add(k, -1, PathEvent::Refract);
-  }
-  void reflect(int surface, int direction) { add(surface, direction, PathEvent::Reflect); }
-  void reflect_by_grating(int surface, std::array<int, 2> order) {
-    reflect(surface, +1);
-    const SensorGrating& grating = lens_.sensor_grating;
-    if (grating.orders == 0 || lens_.surfaces[static_cast<std::size_t>(surface)].kind != SurfaceKind::Sensor) return;
-    PathStep& step = path_.steps.back();
-    const double per_order = path_.lambda_nm * 1e-6 / grating.pitch_mm;
-    step.kick = {order[0] * per_order, order[1] * per_order};
-    step.share = share_of_order(order[0], grating.fill) * share_of_order(order[1], grating.fill);
-  }
-  [[nodiscard]] OpticalPath take() { return std::move(path_); }
+// All but the last become steps of their own.
+void add_rims(OpticalPath& path, PathStep& step, const std::vector<Rim>& rims) {
+  if (rims.empty()) return;
+  for (std::size_t k = 0; k + 1 < rims.size(); ++k) add_rim(path, step, rims[k]);
+  step.rim = rims.back();
+}
 
- private:
-  void add(int surface, int direction, PathEvent event) {
-    PathStep step = step_at(lens_, surface, direction, event, path_.lambda_nm);
-    const SurfaceState& s = lens_.surfaces[static_cast<std::size_t>(surface)];
-    if (s.obscuration.any()) {
-      add_rim(step, rim_of(s.obscuration));
-      path_.steps.back().blocks_within = path_.obscured = true;
-    }
-    if (step.event != PathEvent::Stop) add_rims(step, rims_of(s.aperture, s.semi_diameter_mm));
-    path_.steps.push_back(std::move(step));
-    if (path_.steps.back().event == PathEvent::Stop) ++path_.stop_crossings;
-  }
-
-  // All but the last become steps of their own.
-  void add_rims(PathStep& step, const std::vector<Rim>& rims) {
-    if (rims.empty()) return;
-    for (std::size_t k = 0; k + 1 < rims.size(); ++k) add_rim(step, rims[k]);
-    step.rim = rims.back();
-  }
-
-  // In the medium before the step, and after the way to it.
-  void add_rim(PathStep& step, const Rim& rim) {
-    PathStep only = step;
-    only.event = PathEvent::Refract;
-    only.coating = {};
-    only.n_out = only.n_in;
-    only.rim = rim;
-    only.is_rim_only = true;
-    path_.steps.push_back(std::move(only));
-    step.absorption_per_mm = 0.0;
-  }
-
-  const LensState& lens_;
-  OpticalPath path_;
-};
+OpticalPath empty_path(const LensState& lens, double lambda_nm) {
+  OpticalPath path;
+  path.lambda_nm = lambda_nm;
+  path.sensor_z_mm = lens.sensor_z_mm;
+  path.stop_radius_mm = lens.stop_radius_mm;
+  path.centred = std::ranges::all_of(lens.surfaces, &SurfaceState::is_centred);
+  path.steps.reserve(3 * lens.surfaces.size());
+  return path;
+}
 
 }  // namespace
 
+void add_steps(OpticalPath& path, const LensState& lens, int surface, int direction, PathEvent event) {
+  PathStep step = step_at(lens, surface, direction, event, path.lambda_nm);
+  const SurfaceState& s = lens.surfaces[static_cast<std::size_t>(surface)];
+  if (s.obscuration.any()) {
+    add_rim(path, step, rim_of(s.obscuration));
+    path.steps.back().blocks_within = path.obscured = true;
+  }
+  if (step.event != PathEvent::Stop) add_rims(path, step, rims_of(s.aperture, s.semi_diameter_mm));
+  path.steps.push_back(std::move(step));
+  if (path.steps.back().event == PathEvent::Stop) ++path.stop_crossings;
+}
+
+std::optional<GratingTurn> grating_turn(const LensState& lens, int surface, std::array<int, 2> order,
+                                        double lambda_nm) {
+  const SensorGrating& grating = lens.sensor_grating;
+  if (grating.orders == 0 || lens.surfaces[static_cast<std::size_t>(surface)].kind != SurfaceKind::Sensor)
+    return std::nullopt;
+  const double per_order = lambda_nm * 1e-6 / grating.pitch_mm;
+  return GratingTurn{{order[0] * per_order, order[1] * per_order},
+                     share_of_order(order[0], grating.fill) * share_of_order(order[1], grating.fill)};
+}
+
 OpticalPath direct_path(const LensState& lens, double lambda_nm) {
-  PathBuilder builder(lens, lambda_nm);
-  builder.pass_forward(0, static_cast<int>(lens.surfaces.size()) - 1);
-  return builder.take();
+  OpticalPath path = empty_path(lens, lambda_nm);
+  for (std::size_t k = 0; k < lens.surfaces.size(); ++k)
+    if (lens.surfaces[k].kind != SurfaceKind::Sensor)
+      add_steps(path, lens, static_cast<int>(k), +1, PathEvent::Refract);
+  return path;
 }
 
 OpticalPath ghost_path(const LensState& lens, Ghost ghost, double lambda_nm) {
-  PathBuilder builder(lens, lambda_nm);
-  int behind = -1;  // the surface that the light comes from, forward
-  const auto there_and_back = [&](int far, int near, std::array<int, 2> order) {
-    builder.pass_forward(behind + 1, far - 1);
-    builder.reflect_by_grating(far, order);
-    builder.pass_backward(far - 1, near + 1);
-    builder.reflect(near, -1);
-    behind = near;
-  };
-  there_and_back(ghost.j - 1, ghost.i - 1, ghost.order);
-  if (ghost.reflects_four_times()) there_and_back(ghost.l - 1, ghost.k - 1, {0, 0});
-  builder.pass_forward(behind + 1, static_cast<int>(lens.surfaces.size()) - 1);
-  return builder.take();
+  OpticalPath path = empty_path(lens, lambda_nm);
+  walk_ghost(
+      lens, ghost,
+      [&](int surface, int direction, PathEvent event) { add_steps(path, lens, surface, direction, event); },
+      [&](int surface, std::array<int, 2> order) {
+        const auto turn = grating_turn(lens, surface, order, lambda_nm);
+        if (!turn) return;
+        path.steps.back().kick = turn->kick;
+        path.steps.back().share = turn->share;
+      });
+  return path;
 }
 
 OpticalPath without_obscurations(const OpticalPath& path) {

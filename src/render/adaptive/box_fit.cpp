@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace contrejour::adaptive {
 namespace {
@@ -13,9 +14,8 @@ constexpr float kReach = 0.5F;     // ClearanceGrid::may_pass
 
 }  // namespace
 
-BoxFitter::BoxFitter(const OpticalPath& path, const ReflectanceTables& tables, const LightRays& rays,
-                     const EntranceWindow& window)
-    : grid_(path, tables, rays),
+BoxFitter::BoxFitter(PacketPath path, const EntranceWindow& window)
+    : grid_(std::move(path)),
       window_{{window.min_mm.x, 0.0}, {window.max_mm.x, std::max(std::abs(window.min_mm.y), window.max_mm.y)}} {}
 
 std::optional<Rectangle> BoxFitter::fit(const Rectangle& box) {

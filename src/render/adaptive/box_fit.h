@@ -9,9 +9,8 @@ namespace contrejour::adaptive {
 
 class BoxFitter {
  public:
-  // rays: the light's, from any point of the entrance plane.
-  BoxFitter(const OpticalPath& path, const ReflectanceTables& tables, const LightRays& rays,
-            const EntranceWindow& window);
+  // path: from any point of the entrance plane.
+  BoxFitter(PacketPath path, const EntranceWindow& window);
 
   // box: one that touches y = 0 is symmetric in y, others lie above it; so is the answer. None if nothing comes
   // through.

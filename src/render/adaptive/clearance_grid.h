@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "contrejour/trace.h"
@@ -18,8 +19,8 @@ struct GridCell {
 
 class ClearanceGrid {
  public:
-  ClearanceGrid(const OpticalPath& path, const ReflectanceTables& tables, const LightRays& rays)
-      : path_(path, tables, rays) {}
+  // path: from any point of the entrance plane.
+  explicit ClearanceGrid(PacketPath path) : path_(std::move(path)) {}
 
   // box: y >= 0.
   void trace(const Rectangle& box, int columns, int rows);

@@ -3,26 +3,30 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <span>
 #include <vector>
 
+#include "optics/trace/lens_steps.h"
 #include "render/adaptive/ray_sheet.h"
 
 namespace contrejour::adaptive {
 
+using StepsByWavelength = std::map<double, LensSteps>;
+
 class GhostTracers {
  public:
-  // Everything must outlive this. plane_z_mm: of the light's entrance window. stop_times: as SheetTracer's.
-  GhostTracers(const LensState& lens, Ghost ghost, const LightFrame& light, double plane_z_mm,
-               const TablesByWavelength& tables, std::span<const PlannedPass> passes, double stop_times)
-      : lens_(lens), ghost_(ghost), light_(light), tables_(tables), passes_(passes), stop_times_(stop_times),
-        plane_z_mm_(plane_z_mm), tracers_(passes.size()) {}
+  // Everything must outlive this. plane_z_mm: of the light's entrance window. stop_times: the stop is taken to be so
+  // many times as large (stop_screen.h).
+  GhostTracers(const StepsByWavelength& steps, Ghost ghost, const LightFrame& light, double plane_z_mm,
+               std::span<const PlannedPass> passes, double stop_times)
+      : steps_(steps), ghost_(ghost), light_(light), passes_(passes), stop_times_(stop_times), plane_z_mm_(plane_z_mm),
+        tracers_(passes.size()) {}
 
   [[nodiscard]] SheetTracer& at(std::size_t pass) {
     std::optional<SheetTracer>& tracer = tracers_[pass];
-    const double lambda_nm = passes_[pass].lambda_nm;
-    if (!tracer) tracer.emplace(lens_, ghost_, light_, plane_z_mm_, lambda_nm, *tables_.at(lambda_nm), stop_times_);
+    if (!tracer) tracer.emplace(path(pass), light_);
     tracer->bend(bend_);
     return *tracer;
   }
@@ -30,9 +34,7 @@ class GhostTracers {
   void bend(const Bend& bend) { bend_ = bend; }
   [[nodiscard]] bool is_bent() const { return bend_.is_bent(); }
   // What blocks rays of a pass.
-  [[nodiscard]] ClearanceGrid clearance(std::size_t pass) {
-    return {at(pass).path(), *tables_.at(passes_[pass].lambda_nm), {{0.0, 0.0, plane_z_mm_}, light_.source}};
-  }
+  [[nodiscard]] ClearanceGrid clearance(std::size_t pass) const { return ClearanceGrid(path(pass)); }
 
   [[nodiscard]] const LightFrame& light() const { return light_; }
   [[nodiscard]] std::span<const PlannedPass> passes() const { return passes_; }
@@ -48,16 +50,18 @@ class GhostTracers {
   [[nodiscard]] std::uint64_t surface_hits() const { return clearance_hits_ + sum(&SheetTracer::surface_hits); }
 
  private:
+  [[nodiscard]] PacketPath path(std::size_t pass) const {
+    return {steps_.at(passes_[pass].lambda_nm), ghost_, {{0.0, 0.0, plane_z_mm_}, light_.source}, stop_times_};
+  }
   [[nodiscard]] std::uint64_t sum(std::uint64_t (SheetTracer::*of)() const) const {
     std::uint64_t total = 0;
     for (const auto& tracer : tracers_) total += tracer ? ((*tracer).*of)() : 0;
     return total;
   }
 
-  const LensState& lens_;
+  const StepsByWavelength& steps_;
   Ghost ghost_;
   const LightFrame& light_;
-  const TablesByWavelength& tables_;
   std::span<const PlannedPass> passes_;
   double stop_times_;
   double plane_z_mm_;

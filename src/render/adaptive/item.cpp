@@ -107,8 +107,7 @@ Work fit_boxes(const Scene& scene, Item& item, const std::vector<Rectangle>& nea
   std::vector<std::optional<Rectangle>> fitted(near.size());
   Work work;
   for (const double lambda_nm : outer_wavelengths(*item.light)) {
-    const OpticalPath path = widened(ghost_path(scene.lens, item.ghost, lambda_nm), stop_times(item));
-    BoxFitter fitter(path, *scene.plan.tables.at(lambda_nm), rays, item.window);
+    BoxFitter fitter({scene.steps.at(lambda_nm), item.ghost, rays, stop_times(item)}, item.window);
     for (std::size_t k = 0; k < near.size(); ++k) {
       const auto fit = fitter.fit(near[k]);
       if (fit) fitted[k] = fitted[k] ? both(*fitted[k], *fit) : *fit;
@@ -130,9 +129,9 @@ Work find_boxes(const Scene& scene, Item& item) {
   if (!has_axial_symmetry(scene.lens, item.ghost)) return find_askew_box(scene, item);
   const LightFrame light(item.light->source);
   const double middle_nm = middle_pass(*item.light).lambda_nm;
-  const OpticalPath path = ghost_path(scene.lens, item.ghost, middle_nm);
-  const PupilBoxes found = find_pupil_boxes(path, *scene.plan.tables.at(middle_nm), light, item.window);
-  Work work{found.rays, found.rays * path.steps.size()};
+  const PacketPath path(scene.steps.at(middle_nm), item.ghost, {{0.0, 0.0, item.window.z_mm}, light.source});
+  const PupilBoxes found = find_pupil_boxes(path, item.window);
+  Work work{found.rays, found.rays * path.steps().size()};
   std::vector<Rectangle> near;
   for (const Rectangle& box : found.boxes)
     if (!is_mirror_image(box)) near.push_back(with_margin_aside(box));
@@ -201,7 +200,7 @@ Painted paint(const Scene& scene, const Item& item, Care care, const Frame& whol
   const IrisShape& iris = item.screens ? round_iris() : scene.iris;
   std::vector<PlannedPass> passes = passes_of(item);
   if (care == Care::Little) passes = {merged(scene, item, passes)};
-  GhostTracers tracers(scene.lens, item.ghost, light, item.window.z_mm, scene.plan.tables, passes, stop_times(item));
+  GhostTracers tracers(scene.steps, item.ghost, light, item.window.z_mm, passes, stop_times(item));
   const auto room = rooms.lend();
   GhostPainter painter(tracers, iris, frame, care == Care::Much ? kDeepest : kPeakDeepest, *room, item.screens.get(),
                        item.has_shadows ? scene.dirt.get() : nullptr);

@@ -11,6 +11,7 @@ namespace contrejour::adaptive {
 struct Scene {
   const LensState& lens;
   const FramePlan& plan;
+  StepsByWavelength steps;  // of the plan's wavelengths
   IrisShape iris;
   std::shared_ptr<const screens::DirtField> dirt = nullptr;  // null: the lens is clean
 };

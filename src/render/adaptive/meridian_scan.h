@@ -4,6 +4,7 @@
 #pragma once
 
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "contrejour/trace.h"
@@ -18,8 +19,8 @@ struct Interval {
 
 class MeridianScan {
  public:
-  MeridianScan(const OpticalPath& path, const ReflectanceTables& tables, const LightRays& rays)
-      : path_(path, tables, rays) {}
+  // path: from any point of the entrance plane.
+  explicit MeridianScan(PacketPath path) : path_(std::move(path)) {}
 
   // Parts of the line through which light may pass and which no box reaches.
   [[nodiscard]] std::vector<Interval> find(Interval line, std::span<const Rectangle> boxes);

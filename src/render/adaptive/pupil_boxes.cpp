@@ -41,10 +41,8 @@ struct Part {
 
 class Search {
  public:
-  Search(const OpticalPath& path, const ReflectanceTables& tables, const LightFrame& light,
-         const EntranceWindow& window)
-      : grid_(path, tables, {{0.0, 0.0, window.z_mm}, light.source}),
-        meridian_(path, tables, {{0.0, 0.0, window.z_mm}, light.source}),
+  Search(const PacketPath& path, const EntranceWindow& window)
+      : grid_(path), meridian_(path),
         half_{{window.min_mm.x, 0.0}, {window.max_mm.x, std::max(std::abs(window.min_mm.y), window.max_mm.y)}} {}
 
   PupilBoxes run() {
@@ -120,9 +118,6 @@ class Search {
 
 }  // namespace
 
-PupilBoxes find_pupil_boxes(const OpticalPath& path, const ReflectanceTables& tables, const LightFrame& light,
-                            const EntranceWindow& window) {
-  return Search(path, tables, light, window).run();
-}
+PupilBoxes find_pupil_boxes(const PacketPath& path, const EntranceWindow& window) { return Search(path, window).run(); }
 
 }  // namespace contrejour::adaptive

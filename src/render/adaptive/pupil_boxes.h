@@ -16,8 +16,8 @@ struct PupilBoxes {
   std::uint64_t rays = 0;
 };
 
-// The iris counts as its circumscribed circle.
-[[nodiscard]] PupilBoxes find_pupil_boxes(const OpticalPath& path, const ReflectanceTables& tables,
-                                          const LightFrame& light, const EntranceWindow& window);
+// path: of a light in the meridional frame, from any point of the entrance plane. The iris counts as its circumscribed
+// circle.
+[[nodiscard]] PupilBoxes find_pupil_boxes(const PacketPath& path, const EntranceWindow& window);
 
 }  // namespace contrejour::adaptive

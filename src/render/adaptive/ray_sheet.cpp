@@ -68,10 +68,9 @@ RaySheet mirrored(const RaySheet& sheet) {
   return out;
 }
 
-SheetTracer::SheetTracer(const LensState& lens, Ghost ghost, const LightFrame& light, double plane_z_mm,
-                         double lambda_nm, const ReflectanceTables& tables, double stop_times)
-    : light_(light), path_(widened(ghost_path(lens, ghost, lambda_nm), stop_times)),
-      packets_(path_, tables, {{0.0, 0.0, plane_z_mm}, light.source}) {}
+SheetTracer::SheetTracer(PacketPath path, const LightFrame& light)
+    : light_(light), path_(std::move(path)),
+      is_obscured_(std::ranges::any_of(path_.steps(), &PacketStep::blocks_within)) {}
 
 RaySheet SheetTracer::trace(const Rectangle& box, int nodes, PacketPrecision precision) {
   RaySheet sheet;
@@ -79,7 +78,7 @@ RaySheet SheetTracer::trace(const Rectangle& box, int nodes, PacketPrecision pre
   sheet.nodes = nodes;
   const std::size_t count = sheet.count();
   for (auto* v : {&sheet.sensor_x_mm, &sheet.sensor_y_mm, &sheet.r_rel, &sheet.transmission}) v->resize(count);
-  sheet.stop.resize(static_cast<std::size_t>(path_.stop_crossings));
+  sheet.stop.resize(static_cast<std::size_t>(path_.stop_crossings()));
   for (auto& s : sheet.stop) {
     s[0].resize(count);
     s[1].resize(count);
@@ -112,15 +111,15 @@ RaySheet SheetTracer::trace(const Rectangle& box, int nodes, PacketPrecision pre
     }
     for (std::size_t step = 0; step < steps(); ++step) complete(sheet.rim_squared.data() + step * count, nodes, 1.0F);
   }
-  if (path_.obscured) leave_obscurations_out(sheet);
+  if (is_obscured_) leave_obscurations_out(sheet);
   sheet.failed = static_cast<int>(std::count(sheet.r_rel.begin(), sheet.r_rel.end(), kFailed));
   return sheet;
 }
 
 // Of relative heights, which searches take to be those of convex openings.
 void SheetTracer::leave_obscurations_out(RaySheet& sheet) const {
-  const std::vector<PathStep>& steps = path_.steps;
-  for (const PathStep& step : steps) sheet.blocks_within.push_back(step.blocks_within);
+  const std::vector<PacketStep>& steps = path_.steps();
+  for (const PacketStep& step : steps) sheet.blocks_within.push_back(step.blocks_within);
   for (std::size_t node = 0; node < sheet.count(); ++node) {
     if (sheet.r_rel[node] == kFailed) continue;
     float squared = 0.0F;
@@ -144,7 +143,7 @@ std::vector<float> SheetTracer::transmissions(const Rectangle& box, int nodes, P
                    {},
                    nullptr,
                    0};
-  for (std::size_t c = 0; c < static_cast<std::size_t>(path_.stop_crossings); ++c) {
+  for (std::size_t c = 0; c < static_cast<std::size_t>(path_.stop_crossings()); ++c) {
     out.stop_x[c] = discarded(3 + 2 * c);
     out.stop_y[c] = discarded(4 + 2 * c);
   }
@@ -172,8 +171,8 @@ void SheetTracer::trace_rows(const Rectangle& box, int nodes, int first_row, Pac
       y_mm_.push_back(static_cast<float>(y));
     }
   }
-  packets_.start_from(box.low);
-  trace_packets(packets_, precision, x_mm_.data(), y_mm_.data(), x_mm_.size(), out);
+  path_.start_from(box.low);
+  trace_packets(path_, precision, x_mm_.data(), y_mm_.data(), x_mm_.size(), out);
   rays_ += x_mm_.size();
   for (std::size_t k = 0; k < x_mm_.size(); ++k)
     out.transmission[k] *= static_cast<float>(bend_.stretch(box.low.y + y_mm_[k]));

@@ -42,9 +42,8 @@ void add_light(RaySheet& sheet, std::span<const float> transmission, const Rgb& 
 
 class SheetTracer {
  public:
-  // stop_times: the stop is taken to be so many times as large (stop_screen.h). The tables must outlive the tracer.
-  SheetTracer(const LensState& lens, Ghost ghost, const LightFrame& light, double plane_z_mm, double lambda_nm,
-              const ReflectanceTables& tables, double stop_times = 1.0);
+  // path: of that light, from any point of the entrance plane.
+  SheetTracer(PacketPath path, const LightFrame& light);
 
   // A sheet without weights. A box that is its own mirror image costs half of its rays.
   [[nodiscard]] RaySheet trace(const Rectangle& box, int nodes, PacketPrecision precision);
@@ -54,8 +53,7 @@ class SheetTracer {
   // Of boxes from here on.
   void bend(const Bend& bend) { bend_ = bend; }
 
-  [[nodiscard]] const OpticalPath& path() const { return path_; }
-  [[nodiscard]] std::size_t steps() const { return path_.steps.size(); }
+  [[nodiscard]] std::size_t steps() const { return path_.steps().size(); }
   [[nodiscard]] std::uint64_t rays() const { return rays_; }
   [[nodiscard]] std::uint64_t surface_hits() const { return rays_ * steps(); }
 
@@ -65,8 +63,8 @@ class SheetTracer {
   void leave_obscurations_out(RaySheet& sheet) const;
 
   LightFrame light_;
-  OpticalPath path_;
-  PacketPath packets_;
+  PacketPath path_;
+  bool is_obscured_;
   Bend bend_;
   std::vector<float> x_mm_, y_mm_, scratch_;
   std::uint64_t rays_ = 0;

@@ -1,0 +1,36 @@
+// A lens at one wavelength: every step that the way of a ghost may take, ready for packets.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "optics/trace/packet_trace.h"
+
+namespace contrejour {
+
+class LensSteps {
+ public:
+  // Both must outlive this.
+  LensSteps(const LensState& lens, const ReflectanceTables& tables);
+
+  // Of a surface, light from the front or from behind: rims of its own first. Lengths from the vertex before are those
+  // of no path.
+  struct AtSurface {
+    std::vector<PacketStep> steps;
+    Vec3 vertex_mm;
+    PathGeometry geometry = PathGeometry::Spheres;
+    std::vector<std::shared_ptr<const ShapeConstants>> shapes;  // that steps point to
+  };
+  [[nodiscard]] const AtSurface& at(int surface, int direction) const {
+    return surfaces_[static_cast<std::size_t>(surface)][direction > 0 ? 0 : 1];
+  }
+  [[nodiscard]] const LensState& lens() const { return lens_; }
+  [[nodiscard]] const ReflectanceTables& tables() const { return tables_; }
+
+ private:
+  const LensState& lens_;
+  const ReflectanceTables& tables_;
+  std::vector<std::array<AtSurface, 2>> surfaces_;
+};
+
+}  // namespace contrejour
