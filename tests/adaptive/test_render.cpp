@@ -290,3 +290,28 @@ TEST_CASE("a ghost alone, of which nothing is seen when it is drawn without care
     CHECK(ours == doctest::Approx(truth).epsilon(0.01));
   }
 }
+
+TEST_CASE("the outline of a dim ghost lies where a finer one does, with no corners") {
+  const LensState lens = test::lens_at_f("heliar", 16.0);
+  RenderSettings settings = settings_for(lens, 1920, 1080);
+  settings.wavelengths = 3;
+  const Light light = test::light_at(lens, settings.frame, {0.70, 0.33});
+  // Of a ghost a hundredth as bright as the peak, above all others: where its light begins, down some columns.
+  const auto outline = [&](double error) {
+    settings.error = error;
+    const Image image = image_of("adaptive", lens, light, settings);
+    std::vector<double> rows;
+    for (int x = 430; x < 860; ++x) {
+      const auto level = static_cast<double>(image.at(x, 120, 2));
+      int y = 1;
+      while (y < 120 && image.at(x, y, 2) < 0.5 * level) ++y;
+      const double before = image.at(x, y - 1, 2), here = image.at(x, y, 2);
+      rows.push_back(y - (here - 0.5 * level) / std::max(here - before, 1e-30));
+    }
+    return rows;
+  };
+  const std::vector<double> plain = outline(0.003), fine = outline(1e-4);
+  double most_off = 0.0;
+  for (std::size_t k = 0; k < plain.size(); ++k) most_off = std::max(most_off, std::abs(plain[k] - fine[k]));
+  CHECK(most_off < 1.2);  // pixels
+}

@@ -23,6 +23,8 @@ constexpr double kShownOfShared =
 constexpr double kMostBend = 0.04;  // of a cell, that what cuts it may be off
 constexpr double kLeftByBend = 0.25;  // of a curve's deviation from its chord, where a corner in its middle bends it
 constexpr double kChordShare = 0.5;  // of a cell's error, that chords in place of an arc may make
+// What chords may miss their arc by, whatever the budget: of ghosts as bright as kFacetLevel their corners show.
+constexpr double kMostOfChord_px = 0.5, kMostOfSeenChord_px = 0.25;
 constexpr double kObscurationBend = 3.0;  // its edge goes on bending where that corner is: found by measuring
 // Ripples in their place to less than so many pixels: they are as broad as that or fade, so that this much of their
 // error shows. Found by measuring; all displacements alike would cost a bright spot 1 dB.
@@ -30,9 +32,9 @@ constexpr double kLittleOff_px = 0.5, kSeenOfLittle = 0.1;
 // Of a cell that large, and so bright beside the peak: a plane that is farther off shows as a facet, however little it
 // is of the peak.
 constexpr double kFacet = 0.02, kFacet_px = 400.0, kFacetLevel = 2e-4;
-// Where sides bend for no reason of the image's, beside cells of another box: gaps this wide show as lines, of cells
-// that long.
-constexpr double kSeam_px = 0.07, kSeamLength_px = 8.0;
+// Of ghosts that bright, and cells that long: gaps this wide show as lines, where sides bend for no reason of the
+// image's beside cells of another box; where an edge crosses a side so far off its place it has a corner.
+constexpr double kShownLength_px = 8.0, kSeam_px = 0.07, kCorner_px = 1.0;
 
 // Mean square of what a plane through a cell's nine vertices, row by row, leaves of their values.
 template <class ValueAt>
@@ -164,9 +166,10 @@ double CellPainter::squared_error(const Mesh& mesh, const Cell& cell, CellMeasur
   // Far above the frame's peak only the relative error counts.
   const double dimmed = passed * seen_share(m.mean, peak_);
   error = std::min(error, m.most) * dimmed * dimmed;
-  if (!sides_bend_ || m.longest_px < kSeamLength_px || m.mean * passed * width < kFacetLevel * peak_) return error;
-  const double seam = off.alone_px / kSeam_px;
-  return std::max(error, cell_budget() * seam * seam);
+  if (m.longest_px < kShownLength_px || m.mean * passed * width < kFacetLevel * peak_) return error;
+  const auto shown = [&](double off_px) { return cell_budget() * off_px * off_px; };
+  if (state == State::Cut) error = std::max(error, shown(off.shared_px / kCorner_px));
+  return sides_bend_ ? std::max(error, shown(off.alone_px / kSeam_px)) : error;
 }
 
 // What a cell shares its sides with has the same corners there: nothing is left between them, and of edges that cut
@@ -260,8 +263,9 @@ double CellPainter::arc_step(const Mesh& mesh, std::span<const CellCorner> corne
   const double longest = std::max(b.size().x, b.size().y);
   const double level = std::max({std::abs(shade.value[0]), std::abs(shade.value[1]), std::abs(shade.value[2])});
   const double seen = level * seen_share(level, peak_);
-  const double off_px =
-      std::clamp(kChordShare * std::sqrt(cell_budget() / std::max(longest, 1.0)) / std::max(seen, 1e-300), 0.02, 0.5);
+  const double most_px = level > kFacetLevel * peak_ ? kMostOfSeenChord_px : kMostOfChord_px;
+  const double off_px = std::clamp(
+      kChordShare * std::sqrt(cell_budget() / std::max(longest, 1.0)) / std::max(seen, 1e-300), 0.02, most_px);
   const double pixels_per_radius = longest / std::max(reach, 1e-9);
   return std::clamp(std::sqrt(8.0 * off_px / pixels_per_radius), 0.02, 0.8);
 }
