@@ -1,4 +1,4 @@
-// A polygon's edges as changes of coverage, or of coverage times irradiance, along the rows of a tile.
+// A polygon's edges as coverage times irradiance, and what they change of that, along the rows of a tile.
 #if defined(CONTREJOUR_ADAPTIVE_TILE_EDGES_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef CONTREJOUR_ADAPTIVE_TILE_EDGES_INL_H_
 #undef CONTREJOUR_ADAPTIVE_TILE_EDGES_INL_H_

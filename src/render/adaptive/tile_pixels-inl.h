@@ -43,7 +43,7 @@ HWY_INLINE void draw_block(TileSums& tile, int row, int block, QuadLine<double>&
   }
 }
 
-// Running sums of a row and what came pixel by pixel; both are cleared. Blocks that nothing touched are not looked at.
+// A row's line and what blocks have of their own, which is cleared; of blocks that nothing touched it is not looked at.
 HWY_INLINE void draw_row(TileSums& tile, int row, TileMode mode, float* to) {
   const auto at_row = static_cast<std::size_t>(row);
   const std::uint64_t touched = std::exchange(tile.touched[at_row], 0);

@@ -1,4 +1,4 @@
-// What edges leave behind in a tile, until running sums along its rows turn it into pixels.
+// What edges leave behind in a tile, until a pass along its rows turns it into pixels.
 #pragma once
 
 #include <algorithm>

@@ -1,6 +1,6 @@
-// Polygons onto the frame, tile by tile. Each edge leaves, row by row, the change of coverage times irradiance that
-// it makes; one running sum along the rows then turns the changes of all polygons into pixels at once. So a polygon
-// costs what its outline costs, not its area, and overlapping ghosts share one pass over the frame.
+// Polygons onto the frame, tile by tile. Row by row each edge adds coverage times irradiance to the few pixels beside it
+// and changes what light is along the row from there on; one pass along the rows then makes pixels of the changes of all
+// polygons at once. So a polygon costs what its outline costs, not its area, and overlapping ghosts share that pass.
 // Accuracy: exact coverage of a pixel by a polygon, irradiance taken at the pixel's centre; sums in double.
 #pragma once
 

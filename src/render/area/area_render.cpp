@@ -110,11 +110,13 @@ std::vector<Drawing> drawings_of(const FramePlan& plan, const std::vector<LightP
       settings.error * settings.error * frame.width * frame.height / static_cast<double>(pieces.size());
   std::vector<std::vector<GhostMotion>> motions(pieces.size());
   for (std::vector<GhostMotion>& one : motions) one.resize(plan.ghosts.size());
+  std::vector<EntranceWindow> windows;
+  for (const PlannedLight& light : plan.lights) windows.push_back(entrance_window(lens, light.source));
   parallel_for(pieces.size() * plan.ghosts.size(), context, [&](std::size_t k) {
     const std::size_t p = k / plan.ghosts.size(), g = k % plan.ghosts.size();
     if (pieces[p].samples.empty() || plan.lights[p].passes.empty()) return;
-    motions[p][g] =
-        ghost_motion(lens, plan.ghosts[g], plan.lights[p].source, *plan.tables.at(middle_wavelength(plan.lights[p])));
+    motions[p][g] = ghost_motion(lens, plan.ghosts[g], plan.lights[p].source, windows[p],
+                                 *plan.tables.at(middle_wavelength(plan.lights[p])));
   });
   std::vector<Drawing> drawings;
   Drawing points{plan.ghosts, {}, nullptr, 0, kNowhere, 1.0, 0.0};

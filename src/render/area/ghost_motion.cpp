@@ -147,10 +147,9 @@ LinearMap median_shift(const std::vector<LocalMotion>& all) {
 
 }  // namespace
 
-GhostMotion ghost_motion(const LensState& lens, Ghost ghost, const LightSource& source,
+GhostMotion ghost_motion(const LensState& lens, Ghost ghost, const LightSource& source, const EntranceWindow& window,
                          const ReflectanceTables& tables) {
   const OpticalPath path = ghost_path(lens, ghost, tables.lambda_nm());
-  const EntranceWindow window = entrance_window(lens, source);
   const auto pupil = find_ghost_pupil(path, tables, source, window);
   if (!pupil) return {};
   const Rays rays(path, source, window.z_mm);

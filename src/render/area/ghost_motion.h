@@ -17,7 +17,8 @@ struct GhostMotion {
 };
 
 // At the wavelength of the tables.
+// window: of the light.
 [[nodiscard]] GhostMotion ghost_motion(const LensState& lens, Ghost ghost, const LightSource& source,
-                                       const ReflectanceTables& tables);
+                                       const EntranceWindow& window, const ReflectanceTables& tables);
 
 }  // namespace contrejour::area
