@@ -127,23 +127,6 @@ class PixelLine {
   Pixels slope_, level_;
 };
 
-// Adds floats to doubles.
-template <class T>
-HWY_INLINE void add_to(double* to, const PixelsOf<T>& light) {
-  const RowTag<double> d;
-  constexpr std::size_t kStep = hn::MaxLanes(RowTag<double>());
-  const auto add = [&](auto floats, double* at)
-                       HWY_ATTR { hn::StoreU(hn::Add(hn::PromoteTo(d, floats), hn::LoadU(d, at)), d, at); };
-  for (std::size_t p = 0; p < kChannels; ++p, to += PixelsOf<T>::kLanes) {
-    if constexpr (PixelsOf<T>::kLanes == kStep) {
-      add(light.part[p], to);
-    } else {
-      add(LowerHalf(light.part[p]), to);
-      add(UpperHalf(hn::Half<RowTag<T>>(), light.part[p]), to + kStep);
-    }
-  }
-}
-
 // Doubles as floats; none are left.
 template <class T>
 HWY_INLINE PixelsOf<T> taken(double* from) {

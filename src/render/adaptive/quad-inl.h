@@ -76,12 +76,6 @@ HWY_INLINE DoubleQuad to_doubles(const float* from) {
   return out;
 }
 
-HWY_INLINE DoubleQuad to_doubles(const Quad& q) {
-  HWY_ALIGN float four[kQuad];
-  q.store(four);
-  return to_doubles(four);
-}
-
 template <class Doubles>
 HWY_INLINE Quad to_floats(const Doubles& q) {
   static_assert(std::is_same_v<Doubles, DoubleQuad>);

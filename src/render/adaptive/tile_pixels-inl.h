@@ -13,6 +13,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <type_traits>
 #include <utility>
 
 #include "contrejour/image.h"
@@ -25,7 +26,7 @@ namespace contrejour::adaptive::HWY_NAMESPACE {
 
 // A block's pixels, of the row at `to`. What touched it is taken, beyond the tile's border, too; `line` is the row's
 // before the block, then after it.
-template <bool kTouched>
+template <bool kTouched, bool kLit>
 HWY_INLINE void draw_block(TileSums& tile, int row, int block, QuadLine<double>& line, float* to) {
   const int first = TileSums::kBlock * block;
   // Seen from here, not from the tile's border, a float holds it.
@@ -34,6 +35,11 @@ HWY_INLINE void draw_block(TileSums& tile, int row, int block, QuadLine<double>&
     const std::size_t at = TileSums::kPixel * static_cast<std::size_t>(first + k);
     PixelsOf<float> value = level.at(k);
     if constexpr (kTouched) value = value + taken<float>(tile.pixels_at(row) + at);
+    if constexpr (kLit) {
+      float* const light = tile.light_at(row) + at;
+      value = value + PixelsOf<float>::load(light);
+      PixelsOf<float>::all(0.0F).store(light);
+    }
     value.store(to + at);
   }
   if constexpr (kTouched) {
@@ -46,7 +52,7 @@ HWY_INLINE void draw_block(TileSums& tile, int row, int block, QuadLine<double>&
 // A row's line and what blocks have of their own, which is cleared; of blocks that nothing touched it is not looked at.
 HWY_INLINE void draw_row(TileSums& tile, int row, TileMode mode, float* to) {
   const auto at_row = static_cast<std::size_t>(row);
-  const std::uint64_t touched = std::exchange(tile.touched[at_row], 0);
+  const std::uint64_t touched = std::exchange(tile.touched[at_row], 0), lit = std::exchange(tile.lit[at_row], 0);
   double* const carried = tile.carried[at_row].data();
   QuadLine<double> line = QuadLine<double>::load(carried);
 
@@ -55,13 +61,19 @@ HWY_INLINE void draw_row(TileSums& tile, int row, TileMode mode, float* to) {
   const int blocks = tile.blocks();
   for (int block = 0; block < blocks;) {
     // As far as they are of one kind: what comes next has no pattern.
-    const auto from_here = touched >> static_cast<unsigned>(block);
-    const bool is_touched = (from_here & 1U) != 0;
-    const int end = std::min(block + (is_touched ? std::countr_one(from_here) : std::countr_zero(from_here)), blocks);
-    if (is_touched)
-      for (; block < end; ++block) draw_block<true>(tile, row, block, line, pixels);
+    const auto at = static_cast<unsigned>(block);
+    const bool is_touched = (touched >> at & 1U) != 0, is_lit = (lit >> at & 1U) != 0;
+    const std::uint64_t others = (is_touched ? ~touched : touched) | (is_lit ? ~lit : lit);
+    const int end = std::min(block + std::countr_zero(others >> at), blocks);
+    const auto draw = [&](auto of_touched, auto of_lit) HWY_ATTR {
+      for (; block < end; ++block) draw_block<of_touched(), of_lit()>(tile, row, block, line, pixels);
+    };
+    constexpr std::true_type kYes;
+    constexpr std::false_type kNo;
+    if (is_lit)
+      is_touched ? draw(kYes, kYes) : draw(kNo, kYes);
     else
-      for (; block < end; ++block) draw_block<false>(tile, row, block, line, pixels);
+      is_touched ? draw(kYes, kNo) : draw(kNo, kNo);
   }
   const std::size_t count = TileSums::kPixel * static_cast<std::size_t>(tile.width);
   if (mode == TileMode::Write)

@@ -14,7 +14,6 @@
 #include <cmath>
 #include <cstdint>
 #include <span>
-#include <type_traits>
 
 #include "render/adaptive/quad-inl.h"
 #include "render/adaptive/tile_cover-inl.h"
@@ -109,74 +108,43 @@ struct CoveredRow {
   int even_first, even_end;  // columns of the tile between which coverage is the same, if any
 };
 
-// A polygon's irradiance times what passes, pixel by pixel.
-class QuadLight {
- public:
-  explicit QuadLight(const RowShade& shade)
-      : level_(to_floats(shade.line.level)), slope_(to_floats(shade.line.slope)), by_row_(to_floats(shade.by_row)) {}
-
-  class Row {
-   public:
-    HWY_INLINE Row(const QuadLight& all, const CoveredRow& row)
-        : level_(multiply_add(all.by_row_, Quad::all(static_cast<float>(row.row)), all.level_)), slope_(all.slope_),
-          row_(row) {}
-    // Adds some pixels from k on to the row's at `to`, as far as they are covered.
-    template <class Look>
-    HWY_INLINE void add(const Look& look, hn::Vec<FloatTag> cover, int k, double* to) const {
-      const auto& seen = look.vector(k);
-      add_times([&](int pixel) HWY_ATTR { return seen.passed(pixel); }, cover, k, to);
-    }
-    // All passes.
-    HWY_INLINE void add_level(hn::Vec<FloatTag> cover, int k, double* to) const {
-      add_times([](int) HWY_ATTR { return Quad::all(1.0F); }, cover, k, to);
-    }
-
-   private:
-    template <class Passed>
-    HWY_INLINE void add_times(const Passed& passed, hn::Vec<FloatTag> covered, int k, double* to) const {
-      const FloatTag d;
-      HWY_ALIGN float cover[kGroup] = {};
-      hn::Store(covered, d, cover);
-      const int from = k, end = std::min(k + static_cast<int>(hn::Lanes(d)), row_.count);
-      for (; k < end; ++k) {
-        const Quad irradiance = multiply_add(slope_, Quad::all(static_cast<float>(row_.first + k)), level_);
-        const Quad light = Quad::all(cover[k - from]) * irradiance * passed(k);
-        double* const pixel = to + TileSums::kPixel * static_cast<std::size_t>(k);
-        (DoubleQuad::load(pixel) + to_doubles(light)).store(pixel);
-      }
-    }
-    Quad level_, slope_;
-    CoveredRow row_;
-  };
-
- private:
-  Quad level_, slope_, by_row_;
-};
-
-// The same where one value serves all channels: whole vectors of pixels at once, which have nothing beyond the row.
-class GreyLight {
+// A polygon's irradiance times what passes, some pixels at once, which have nothing beyond the row.
+template <bool kGrey>  // one value serves all channels
+class PixelLight {
   using Pixels = PixelsOf<float>;
 
  public:
-  explicit GreyLight(const RowShade& shade)
+  explicit PixelLight(const RowShade& shade)
       : line_(QuadLine<float>{to_floats(shade.line.level), to_floats(shade.line.slope)}),
         by_row_(Pixels::each(to_floats(shade.by_row))) {}
 
   class Row {
    public:
-    HWY_INLINE Row(const GreyLight& all, const CoveredRow& row)
-        : light_(all.line_.raised(all.by_row_, row.row).from(row.first)) {}
+    HWY_INLINE Row(const PixelLight& all, const CoveredRow& row)
+        : light_(all.line_.raised(all.by_row_, row.row).from(row.first)), count_(row.count) {}
+    // Adds the pixels from k on to the row's at `to`, as far as they are covered.
     template <class Look>
-    HWY_INLINE void add(const Look& look, hn::Vec<FloatTag> cover, int k, double* to) const {
-      add_level(hn::Mul(cover, look.passed(k)), k, to);
+    HWY_INLINE void add(const Look& look, hn::Vec<FloatTag> cover, int k, float* to) const {
+      if constexpr (kGrey) {
+        add_level(hn::Mul(cover, look.passed(k)), k, to);
+      } else {
+        const auto& seen = look.vector(k);
+        HWY_ALIGN float passed[kChannels * Pixels::kLanes + 1] = {};
+        for (int j = 0; j < std::min(Pixels::kCount, count_ - k); ++j)
+          seen.passed(k + j).store(passed + kChannels * static_cast<std::size_t>(j));
+        add_shares(Pixels::of(cover) * Pixels::load(passed), k, to);
+      }
     }
     // All passes.
-    HWY_INLINE void add_level(hn::Vec<FloatTag> cover, int k, double* to) const {
-      add_to(to + kChannels * static_cast<std::size_t>(k), Pixels::of(cover) * light_.at(k));
-    }
+    HWY_INLINE void add_level(hn::Vec<FloatTag> cover, int k, float* to) const { add_shares(Pixels::of(cover), k, to); }
 
    private:
+    HWY_INLINE void add_shares(const Pixels& shares, int k, float* to) const {
+      float* const at = to + kChannels * static_cast<std::size_t>(k);
+      multiply_add(shares, light_.at(k), Pixels::load(at)).store(at);
+    }
     PixelLine<float> light_;
+    int count_;
   };
 
  private:
@@ -234,11 +202,11 @@ class CoveredRows {
 struct RowOfPixels {
   CoveredRow columns;
   RunningCover cover;
-  double* to;
+  float* to;
 
   RowOfPixels(TileSums& tile, const CoveredRow& r, const PixelRows& within)
       : columns(r), cover(tile.cover.at(r.row, r.first), within.covered_to < 0 ? kRowRoom : r.count),
-        to(tile.pixels_at(r.row) + TileSums::kPixel * static_cast<std::size_t>(r.first)) {}
+        to(tile.light_at(r.row) + TileSums::kPixel * static_cast<std::size_t>(r.first)) {}
 };
 
 template <class Passed, class LightRow>
@@ -246,7 +214,7 @@ HWY_INLINE void add_row(TileSums& tile, RowOfPixels row, const Passed& passed, c
   const int count = row.columns.count;
   for (int k = 0; k < count; k += static_cast<int>(hn::MaxLanes(FloatTag())))
     light.add(passed, row.cover.next(k), k, row.to);
-  tile.touch_groups(row.columns.row, row.columns.first, first_groups((count + kGroup - 1) / kGroup));
+  tile.light_groups(row.columns.row, row.columns.first, first_groups((count + kGroup - 1) / kGroup));
 }
 
 // But those of groups that see nothing, or the stop level. Where they are whole, as far as nothing changes, no sum is
@@ -286,7 +254,7 @@ HWY_INLINE void add_row(TileSums& tile, RowOfPixels row, const RowShade& shade, 
     add_level(tile, columns.row, columns.first + kGroup * from, columns.first + kGroup * end, shade);
     level &= ~first_groups(end);
   }
-  tile.touch_groups(columns.row, columns.first, lit);
+  tile.light_groups(columns.row, columns.first, lit);
 }
 
 template <class Look>
@@ -299,7 +267,7 @@ void add_pixels(TileSums& tile, const Polygon& polygon, const StopMap& map, cons
   if constexpr (requires(const PixelRow& row) { look.fetch(row); })
     for (const CoveredRow& r : rows.all()) look.fetch(pixels_of(r));
   const RowShade shade = row_shade(polygon.shade, tile);
-  using Light = std::conditional_t<Look::kGrey, GreyLight, QuadLight>;
+  using Light = PixelLight<Look::kGrey>;
   const Light light(shade);
   for (const CoveredRow& r : rows.all()) {
     const PixelRow pixels = pixels_of(r);
@@ -316,6 +284,7 @@ void add_pixels(TileSums& tile, const Polygon& polygon, const StopMap& map, cons
 }
 
 void add_screened(TileSums& tile, const PolygonList& list, const Polygon& polygon) {
+  tile.make_light();
   const PixelRows within = rows_under(tile, list.corners_of(polygon));
   CoverSums& cover = tile.cover;
   cover.width = tile.width;

@@ -83,7 +83,8 @@ struct TileSums {
 
   int x0 = 0, y0 = 0, width = 0, height = 0;
   using Blocks = std::array<std::uint64_t, TileGrid::kHeight>;  // by row, a bit for each block of columns
-  Blocks touched{};  // that have light of their own, or after which lines change
+  Blocks touched{};  // by edges: those have light of their own, and the line may change after them
+  Blocks lit{};  // by pixels behind screens
   std::array<std::array<double, kLine>, TileGrid::kHeight> carried{};  // by row: the line left of the first column
   CoverSums cover;
 
@@ -101,10 +102,17 @@ struct TileSums {
     const std::uint64_t to_last = ~std::uint64_t{0} >> static_cast<unsigned>(63 - last);
     touched[static_cast<std::size_t>(row)] |= to_last & (~std::uint64_t{0} << static_cast<unsigned>(first));
   }
+  // What comes pixel by pixel, of which no part takes another's away: floats.
+  void make_light() {
+    if (light_ == nullptr) light_ = std::make_unique<Light>();
+  }
+  [[nodiscard]] float* light_at(int row) {
+    return light_->values.data() + kPixel * kPixelPitch * static_cast<std::size_t>(row);
+  }
   // groups: a bit for each kBlock columns from `first` on.
-  void touch_groups(int row, int first, std::uint64_t groups) {
+  void light_groups(int row, int first, std::uint64_t groups) {
     groups <<= static_cast<unsigned>(first / kBlock);
-    touched[static_cast<std::size_t>(row)] |= first % kBlock == 0 ? groups : groups | groups << 1U;
+    lit[static_cast<std::size_t>(row)] |= first % kBlock == 0 ? groups : groups | groups << 1U;
   }
 
  private:
@@ -114,7 +122,11 @@ struct TileSums {
     std::array<double, kLine * kMostBlocks * TileGrid::kHeight> changes{};
     std::array<double, kPixel * kPixelPitch * TileGrid::kHeight + 1> pixels{};  // and a spare
   };
+  struct alignas(64) Light {
+    std::array<float, kPixel * kPixelPitch * TileGrid::kHeight> values{};
+  };
   std::unique_ptr<Room> room_ = std::make_unique<Room>();
+  std::unique_ptr<Light> light_;  // made with the first polygon behind a screen
 };
 
 }  // namespace contrejour::adaptive
