@@ -20,19 +20,26 @@ constexpr double kEdgeError = 0.3;
 constexpr double kHullRipple = 0.5, kHullFlux = 0.003;
 constexpr double kUnseen = 0.01;  // of the error that all pixels may have
 constexpr double kOutline = 1.5;  // over a disc's of the same area
+// Along an outline, pixels whose time its coverage and cells take, too; and what a pixel must take of the error, over
+// the dimmest ripple's square, to be worth its time. Found by measuring.
+constexpr double kBeside_px = 8.0, kWorth = 0.8;
+// Of what is left out: no less where many ghosts turn out not to be worth drawing.
+constexpr double kLeastRippleShare = 0.5;
 
 // An item's rim: how bright it is seen, and what fringes along it weigh: squared errors summed over t (EdgeProfile) are
 // so many times as large in pixels.
 struct Rim {
   double level = 0.0, weight = 0.0;
   double stop_area = 0.0;  // likewise of a pattern's, summed over the stop's plane in stop radii
+  double unit_px = 0.0;  // t = 1, across the rim
 };
 
 Rim rim_of(const ItemSize& size, double peak, double fresnel_number) {
   const double seen = size.level * seen_share(size.level, peak);
   // unit = R / sqrt(2 F), the outline 2 pi R, pi R^2 the area.
-  return {seen, kOutline * seen * seen * 2.0 * size.area_px / std::sqrt(2.0 * std::max(fresnel_number, 0.5)),
-          seen * seen * size.area_px / std::numbers::pi};
+  const double per_unit = std::sqrt(2.0 * std::max(fresnel_number, 0.5));
+  return {seen, kOutline * seen * seen * 2.0 * size.area_px / per_unit, seen * seen * size.area_px / std::numbers::pi,
+          std::sqrt(size.area_px / std::numbers::pi) / per_unit};
 }
 
 // What an item's fringes differ from its sharp rim, squared, over its pixels.
@@ -87,6 +94,36 @@ double dimmest_ripple(const std::vector<Drawn>& items, double allowed) {
   return low;
 }
 
+const screens::EdgeProfile* edge_profile(const Drawn& item) {
+  const auto& middle = item.screens->by_pass[item.screens->by_pass.size() / 2].screen;
+  const auto* const edge = dynamic_cast<const screens::EdgeScreen*>(middle.get());
+  return edge != nullptr ? &edge->profile() : nullptr;
+}
+
+// Whether what fringes down to the dimmest ripple take of the error is worth their pixels and those beside them.
+bool is_worth_drawing(const Drawn& item, const screens::EdgeProfile& profile, double dimmest) {
+  const double ripple = dimmest / item.rim.level;
+  const auto range = profile.range_above(ripple);
+  const double taken = profile.squared_error({0.0, 0.0}) - profile.squared_error(range);
+  const double units = range.level - range.dark + kBeside_px / std::max(item.rim.unit_px, 1e-9);
+  return taken >= kWorth * ripple * ripple * units;
+}
+
+// Leaves out screens whose fringes are not worth drawing; what that leaves out is less for ripples. The dimmest that
+// are drawn.
+double leave_out_small(std::vector<Drawn>& items, double allowed) {
+  const double dimmest = dimmest_ripple(items, allowed);
+  double sharp = 0.0;
+  for (Drawn& item : items) {
+    if (!item.screens || !(item.rim.level > 0.0)) continue;
+    const screens::EdgeProfile* const profile = edge_profile(item);
+    if (profile == nullptr || is_worth_drawing(item, *profile, dimmest)) continue;
+    sharp += item.rim.weight * profile->squared_error({0.0, 0.0});
+    item.screens = nullptr;
+  }
+  return sharp > 0.0 ? dimmest_ripple(items, std::max(allowed - sharp, kLeastRippleShare * allowed)) : dimmest;
+}
+
 // How far fringes are drawn: as far as ripples are no dimmer than that.
 void set_range(const Drawn& item, double dimmest) {
   GhostScreens& screens = *item.screens;
@@ -132,7 +169,7 @@ Work screen_items(const Scene& scene, Screens& screens, std::vector<Item>& items
   if (!screens.prepare(wanted, context)) return {};
   std::vector<Drawn> drawn;
   for (const std::size_t k : chosen) drawn.push_back({screens_of(screens, items[k]), rims[k]});
-  const double dimmest = dimmest_ripple(drawn, kRippleShare * squares);
+  const double dimmest = leave_out_small(drawn, kRippleShare * squares);
 
   std::vector<Work> work(chosen.size());
   parallel_for(chosen.size(), context, [&](std::size_t at) {
