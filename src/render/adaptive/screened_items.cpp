@@ -68,6 +68,16 @@ struct Drawn {
   Rim rim;
 };
 
+const StopScreen& middle_screen(const Drawn& item) {
+  return *item.screens->by_pass[item.screens->by_pass.size() / 2].screen;
+}
+
+// Of the middle wavelength's fringes along edges; null where they are a pattern.
+const screens::EdgeProfile* edge_profile(const Drawn& item) {
+  const auto* const edge = dynamic_cast<const screens::EdgeScreen*>(&middle_screen(item));
+  return edge != nullptr ? &edge->profile() : nullptr;
+}
+
 // The dimmest ripples that are drawn, in levels: for all items the same, since what a ripple's pixel costs is the same.
 // Those left out together make the error that is allowed.
 double dimmest_ripple(const std::vector<Drawn>& items, double allowed) {
@@ -75,11 +85,10 @@ double dimmest_ripple(const std::vector<Drawn>& items, double allowed) {
     double sum = 0.0;
     for (const Drawn& item : items) {
       if (!item.screens || !(item.rim.level > 0.0)) continue;
-      const auto& middle = item.screens->by_pass[item.screens->by_pass.size() / 2].screen;
       const double ripple = dimmest / item.rim.level;
-      if (const auto* const edge = dynamic_cast<const screens::EdgeScreen*>(middle.get()))
-        sum += item.rim.weight * edge->profile().squared_error(edge->profile().range_above(ripple));
-      if (const auto* const pattern = dynamic_cast<const screens::TextureScreen*>(middle.get()))
+      if (const auto* const profile = edge_profile(item))
+        sum += item.rim.weight * profile->squared_error(profile->range_above(ripple));
+      if (const auto* const pattern = dynamic_cast<const screens::TextureScreen*>(&middle_screen(item)))
         sum += item.rim.stop_area * pattern->texture().squared_beyond(pattern->texture().reach_above(ripple));
     }
     return sum;
@@ -92,12 +101,6 @@ double dimmest_ripple(const std::vector<Drawn>& items, double allowed) {
     (error(middle) > allowed ? high : low) = middle;
   }
   return low;
-}
-
-const screens::EdgeProfile* edge_profile(const Drawn& item) {
-  const auto& middle = item.screens->by_pass[item.screens->by_pass.size() / 2].screen;
-  const auto* const edge = dynamic_cast<const screens::EdgeScreen*>(middle.get());
-  return edge != nullptr ? &edge->profile() : nullptr;
 }
 
 // Whether what fringes down to the dimmest ripple take of the error is worth their pixels and those beside them.

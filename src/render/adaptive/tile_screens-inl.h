@@ -15,6 +15,7 @@
 #include <cstdint>
 #include <span>
 
+#include "render/adaptive/pixels-inl.h"
 #include "render/adaptive/quad-inl.h"
 #include "render/adaptive/tile_cover-inl.h"
 #include "render/adaptive/tile_edges-inl.h"
