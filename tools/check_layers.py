@@ -26,6 +26,10 @@ FOLDERS = {
     "src/render/screens": "render/screens",
     "src/render/starburst": "render/starburst",
     "src/render/driver": "render/driver",
+    "src/render/adaptive/pupils": "render/adaptive/pupils",
+    "src/render/adaptive/maps": "render/adaptive/maps",
+    "src/render/adaptive/tiles": "render/adaptive/tiles",
+    "src/render/adaptive/cells": "render/adaptive/cells",
     "src/measure": "measure",
     "src/gpu": "gpu",
     "apps/params": "apps/params",
@@ -79,7 +83,8 @@ PUBLIC = {
     "write_lens.h": "lens_files",
 }
 
-# "*renderers" stands for every src/render/<method>, "public" for include/contrejour.
+# "*renderers" stands for every src/render/<method>, "renderer" for one without a row of its own, "public" for
+# include/contrejour.
 MAY_INCLUDE = {
     "base": [],
     "kernels": ["base"],
@@ -93,6 +98,11 @@ MAY_INCLUDE = {
     "diffraction": ["lens", "image"],
     "render/interface": ["lens", "ghosts", "image"],
     "renderer": ["render/screens", "render/interface", "trace", "ghosts", "diffraction", "kernels", "image"],
+    "renderer:adaptive": ["renderer", "render/adaptive/cells"],
+    "render/adaptive/pupils": ["trace", "ghosts"],
+    "render/adaptive/maps": ["render/adaptive/pupils", "render/screens"],
+    "render/adaptive/tiles": ["render/screens", "image"],
+    "render/adaptive/cells": ["render/adaptive/maps", "render/adaptive/tiles"],
     "render/area": ["render/interface"],
     "render/screens": ["render/interface", "ghosts", "diffraction"],
     "render/starburst": ["render/interface", "ghosts", "diffraction", "render/area"],
@@ -112,7 +122,7 @@ FENCED = [
     (r"pugixml", ("src/optics/lens_files",), "one reader of XML"),
     (r"yaml-cpp/", ("src/base",), "one wrapper that keeps its exceptions in"),
     (r"gemmi/|pocketfft", ("src/diffraction",), "one wrapper of the FFT"),
-    (r"Eigen/", ("src/diffraction", "src/optics/coating", "src/render/adaptive"),
+    (r"Eigen/", ("src/diffraction", "src/optics/coating", "src/render/adaptive/pupils"),
      "one wrapper of the eigen solver, two of least squares"),
 ]
 
@@ -140,7 +150,7 @@ def closure(layer, allowed=MAY_INCLUDE):
     seen, todo = set(), [layer]
     while todo:
         name = todo.pop()
-        for lower in allowed["renderer" if name.startswith("renderer:") else name]:
+        for lower in allowed["renderer" if name not in allowed and name.startswith("renderer:") else name]:
             if lower == "*renderers":
                 lower = "renderer"
             if lower not in seen and lower != "public":

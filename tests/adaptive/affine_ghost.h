@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "contrejour/frame.h"
-#include "render/adaptive/cell_painter.h"
-#include "render/adaptive/lobatto.h"
+#include "render/adaptive/cells/cell_painter.h"
+#include "render/adaptive/maps/lobatto.h"
 
 namespace contrejour::test {
 

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "contrejour/image.h"
-#include "render/adaptive/polygon_list.h"
+#include "render/adaptive/tiles/polygon_list.h"
 
 namespace contrejour::test {
 

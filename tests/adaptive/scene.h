@@ -6,8 +6,9 @@
 
 #include <doctest/doctest.h>
 
-#include "render/adaptive/pupil_boxes.h"
-#include "render/adaptive/tiles.h"
+#include "render/adaptive/maps/ray_sheet.h"
+#include "render/adaptive/pupils/pupil_boxes.h"
+#include "render/adaptive/tiles/tiles.h"
 #include "support/scenes.h"
 
 namespace contrejour::test {

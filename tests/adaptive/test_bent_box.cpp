@@ -3,9 +3,9 @@
 #include <doctest/doctest.h>
 
 #include "adaptive/scene.h"
-#include "render/adaptive/bent_box.h"
-#include "render/adaptive/lobatto.h"
-#include "render/adaptive/ray_sheet.h"
+#include "render/adaptive/maps/lobatto.h"
+#include "render/adaptive/maps/ray_sheet.h"
+#include "render/adaptive/pupils/bent_box.h"
 #include "support/flares.h"
 
 using namespace contrejour;

@@ -9,7 +9,7 @@
 #include "adaptive/affine_ghost.h"
 #include "adaptive/plain_image.h"
 #include "adaptive/scene.h"
-#include "render/adaptive/shared_edges.h"
+#include "render/adaptive/cells/shared_edges.h"
 
 using namespace contrejour;
 using namespace contrejour::adaptive;

@@ -9,7 +9,7 @@
 
 #include "adaptive/affine_ghost.h"
 #include "adaptive/scene.h"
-#include "render/adaptive/cell_painter.h"
+#include "render/adaptive/cells/cell_painter.h"
 #include "render/screens/iris_screens.h"
 
 using namespace contrejour;
@@ -266,7 +266,7 @@ TEST_CASE("light behind a screen that is too dim for its ripples to matter is dr
       samples.push_back(static_cast<float>(std::exp(-4.0 * (x * x + y * y)) * (1.0 + 0.3 * std::cos(50.0 * x))));
     }
   const auto texture = std::make_shared<const screens::PatternTexture>(kSide, kExtent, samples);
-  const auto band = std::make_shared<BandScreen>();
+  const auto band = std::make_shared<screens::BandScreen>();
   band->parts.push_back(
       {std::make_shared<const screens::TextureScreen>(std::make_shared<const IrisShape>(Iris{}), texture),
        {1.0F, 1.0F, 1.0F}});

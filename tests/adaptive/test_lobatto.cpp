@@ -4,7 +4,7 @@
 
 #include <doctest/doctest.h>
 
-#include "render/adaptive/lobatto.h"
+#include "render/adaptive/maps/lobatto.h"
 
 using namespace contrejour::adaptive;
 

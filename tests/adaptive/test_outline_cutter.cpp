@@ -4,7 +4,7 @@
 #include <numbers>
 #include <random>
 
-#include "render/adaptive/outline_cutter.h"
+#include "render/adaptive/cells/outline_cutter.h"
 
 using namespace contrejour;
 using namespace contrejour::adaptive;

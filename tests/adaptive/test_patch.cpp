@@ -5,7 +5,7 @@
 #include <doctest/doctest.h>
 
 #include "adaptive/scene.h"
-#include "render/adaptive/patch.h"
+#include "render/adaptive/maps/patch.h"
 
 using namespace contrejour;
 using namespace contrejour::adaptive;

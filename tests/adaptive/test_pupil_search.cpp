@@ -6,10 +6,10 @@
 #include <doctest/doctest.h>
 
 #include "adaptive/scene.h"
-#include "render/adaptive/box_fit.h"
-#include "render/adaptive/clearance_grid.h"
-#include "render/adaptive/meridian_scan.h"
-#include "render/adaptive/stop_aim.h"
+#include "render/adaptive/pupils/box_fit.h"
+#include "render/adaptive/pupils/clearance_grid.h"
+#include "render/adaptive/pupils/meridian_scan.h"
+#include "render/adaptive/pupils/stop_aim.h"
 
 using namespace contrejour;
 using namespace contrejour::adaptive;

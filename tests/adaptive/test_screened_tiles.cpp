@@ -33,8 +33,8 @@ std::shared_ptr<const IrisShape> blades() {
   return std::make_shared<const IrisShape>(iris);
 }
 
-std::shared_ptr<BandScreen> edges(const std::shared_ptr<const IrisShape>& iris) {
-  auto band = std::make_shared<BandScreen>();
+std::shared_ptr<screens::BandScreen> edges(const std::shared_ptr<const IrisShape>& iris) {
+  auto band = std::make_shared<screens::BandScreen>();
   const auto profile = std::make_shared<const screens::EdgeProfile>(0.05);
   int k = 0;
   for (const double f : {200.0, 160.0, 120.0}) {
@@ -49,8 +49,8 @@ std::shared_ptr<BandScreen> edges(const std::shared_ptr<const IrisShape>& iris) 
 }
 
 // A smooth pattern, brightest off the middle, with a colour of its own.
-std::shared_ptr<BandScreen> patterns(const std::shared_ptr<const IrisShape>& iris) {
-  auto band = std::make_shared<BandScreen>();
+std::shared_ptr<screens::BandScreen> patterns(const std::shared_ptr<const IrisShape>& iris) {
+  auto band = std::make_shared<screens::BandScreen>();
   std::vector<std::shared_ptr<const screens::PatternTexture>> textures;
   std::vector<const screens::PatternTexture*> all;
   for (const double extent : {1.5, 1.7, 2.0}) {
@@ -71,7 +71,7 @@ std::shared_ptr<BandScreen> patterns(const std::shared_ptr<const IrisShape>& iri
 }
 
 // One wavelength's alone: all channels see the same.
-std::shared_ptr<BandScreen> grey(std::shared_ptr<BandScreen> band) {
+std::shared_ptr<screens::BandScreen> grey(std::shared_ptr<screens::BandScreen> band) {
   band->parts.resize(1);
   band->parts.front().channel = {1.0F, 1.0F, 1.0F};
   if (band->pattern) {
@@ -258,7 +258,7 @@ TEST_CASE("any screen: what it says of every crossing") {
     }
     [[nodiscard]] ScreenPart over(Vec2, double, double) const override { return ScreenPart::Varied; }
   };
-  BandScreen band;
+  screens::BandScreen band;
   band.parts.push_back({std::make_shared<const Stripes>(), {1.0F, 0.5F, 0.0F}});
   const auto screened = [&](PolygonList&, Vec2 middle, double size) {
     const StopMap map(pixels_about(middle, size), std::array{stop_about(size), stop_about(2.0 * size)}, 0.2);

@@ -3,7 +3,7 @@
 
 #include <doctest/doctest.h>
 
-#include "render/adaptive/stop_map.h"
+#include "render/adaptive/tiles/stop_map.h"
 
 using namespace contrejour;
 using namespace contrejour::adaptive;

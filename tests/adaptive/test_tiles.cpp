@@ -5,7 +5,7 @@
 
 #include "adaptive/plain_image.h"
 #include "adaptive/scene.h"
-#include "render/adaptive/shared_edges.h"
+#include "render/adaptive/cells/shared_edges.h"
 
 using namespace contrejour;
 using namespace contrejour::adaptive;

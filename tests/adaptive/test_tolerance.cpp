@@ -6,9 +6,9 @@
 
 #include <doctest/doctest.h>
 
-#include "render/adaptive/frame_error.h"
-#include "render/adaptive/lobatto.h"
-#include "render/adaptive/tolerance.h"
+#include "render/adaptive/cells/frame_error.h"
+#include "render/adaptive/maps/lobatto.h"
+#include "render/adaptive/maps/tolerance.h"
 
 using namespace contrejour;
 using namespace contrejour::adaptive;

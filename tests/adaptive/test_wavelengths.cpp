@@ -8,9 +8,9 @@
 
 #include "adaptive/scene.h"
 #include "contrejour/metrics.h"
-#include "render/adaptive/band_error.h"
-#include "render/adaptive/band_set.h"
-#include "render/adaptive/first_rays.h"
+#include "render/adaptive/maps/band_error.h"
+#include "render/adaptive/maps/band_set.h"
+#include "render/adaptive/maps/first_rays.h"
 #include "support/flares.h"
 
 using namespace contrejour;

@@ -55,6 +55,14 @@ class Planted(unittest.TestCase):
         self.assertIn("no renderer includes another", found)
         self.forbidden("src/render/tiled/a.cpp", '"render/driver/d.h"', "src/render/driver/d.h")
 
+    def test_stages_of_a_renderer(self):
+        self.allowed("src/render/adaptive/a.cpp", '"render/adaptive/tiles/t.h"', "src/render/adaptive/tiles/t.h")
+        self.allowed("src/render/adaptive/cells/a.cpp", '"render/adaptive/maps/m.h"', "src/render/adaptive/maps/m.h")
+        self.allowed("src/render/adaptive/maps/a.cpp", '"render/screens/s.h"', "src/render/screens/s.h")
+        self.forbidden("src/render/adaptive/tiles/a.cpp", '"render/adaptive/maps/m.h"', "src/render/adaptive/maps/m.h")
+        self.forbidden("src/render/adaptive/pupils/a.cpp", '"render/adaptive/a.h"', "src/render/adaptive/a.h")
+        self.forbidden("src/render/bundle/a.cpp", '"render/adaptive/tiles/t.h"', "src/render/adaptive/tiles/t.h")
+
     def test_nobody_includes_gpu(self):
         for source in ("src/render/bundle/a.cpp", "src/render/driver/a.cpp", "src/measure/a.cpp"):
             self.forbidden(source, '"gpu/device.h"', "src/gpu/device.h")

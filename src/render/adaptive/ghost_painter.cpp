@@ -39,9 +39,9 @@ GhostPainter::GhostPainter(GhostTracers& tracers, const IrisShape& iris, const F
       deepest_(deepest), screens_(screens), dirt_(dirt), room_(room) {}
 
 // The screens of a band's wavelengths, at most three, each with the light of those nearest.
-std::shared_ptr<const BandScreen> GhostPainter::band_screen(const FirstRays& rays, const Band& of) const {
+std::shared_ptr<const screens::BandScreen> GhostPainter::band_screen(const FirstRays& rays, const Band& of) const {
   const std::size_t passes = of.last - of.first, count = std::min<std::size_t>(passes, 3);
-  auto band = std::make_shared<BandScreen>();
+  auto band = std::make_shared<screens::BandScreen>();
   std::array<double, 3> sum{}, size{};
   std::vector<std::array<double, 3>> light(count);
   for (std::size_t part = 0; part < count; ++part) {
@@ -105,7 +105,7 @@ void GhostPainter::paint(const FirstRays& rays, bool with_mirror_image, const Er
   for (const Band& band : bands) screens.push_back(screens_ != nullptr ? band_screen(rays, band) : nullptr);
   PatchFitter fitter(tracers_, frame_, deepest_, screens_ != nullptr ? screens_->unseen : 0.0);
   const auto each = std::max(static_cast<double>(bands.size()), kFewBands);
-  const auto paint_all = [&](const BandSet& set, std::span<const std::shared_ptr<const BandScreen>> of_set,
+  const auto paint_all = [&](const BandSet& set, std::span<const std::shared_ptr<const screens::BandScreen>> of_set,
                              const std::vector<FittedPart>& parts) {
     if (parts.empty()) return;
     CellPainter cells(iris_, frame_, {budget.squared_error / each, budget.peak}, kFewCells, room_, out);

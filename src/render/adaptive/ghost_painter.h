@@ -2,7 +2,7 @@
 // rays tell, patches of polynomials, cells as the error allows, band by band.
 #pragma once
 
-#include "render/adaptive/cell_painter.h"
+#include "render/adaptive/cells/cell_painter.h"
 #include "render/adaptive/patch_fitter.h"
 
 namespace contrejour::adaptive {
@@ -34,7 +34,7 @@ class GhostPainter {
  private:
   [[nodiscard]] std::optional<BentBox> bent_about(const FirstRays& rays, const Rectangle& box);
   void paint(const FirstRays& rays, bool with_mirror_image, const ErrorBudget& budget, PolygonList& out);
-  [[nodiscard]] std::shared_ptr<const BandScreen> band_screen(const FirstRays& rays, const Band& band) const;
+  [[nodiscard]] std::shared_ptr<const screens::BandScreen> band_screen(const FirstRays& rays, const Band& band) const;
   static void paint_band(const BandSet& set, std::size_t band, std::span<const FittedPart> parts, CellPainter& cells);
 
   GhostTracers& tracers_;

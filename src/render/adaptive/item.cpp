@@ -9,9 +9,9 @@
 #include "base/tasks.h"
 #include "contrejour/metrics.h"
 #include "ghosts/pupil_search.h"
-#include "render/adaptive/box_fit.h"
-#include "render/adaptive/pupil_boxes.h"
-#include "render/adaptive/shared_edges.h"
+#include "render/adaptive/cells/shared_edges.h"
+#include "render/adaptive/pupils/box_fit.h"
+#include "render/adaptive/pupils/pupil_boxes.h"
 
 namespace contrejour::adaptive {
 namespace {

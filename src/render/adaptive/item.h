@@ -3,7 +3,7 @@
 
 #include "base/pool.h"
 #include "render/adaptive/ghost_painter.h"
-#include "render/adaptive/tiles.h"
+#include "render/adaptive/tiles/tiles.h"
 
 namespace contrejour::adaptive {
 

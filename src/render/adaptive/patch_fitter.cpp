@@ -6,9 +6,9 @@
 #include <limits>
 #include <utility>
 
-#include "render/adaptive/extremes.h"
-#include "render/adaptive/lobatto.h"
-#include "render/adaptive/screened_boxes.h"
+#include "render/adaptive/maps/lobatto.h"
+#include "render/adaptive/maps/screened_boxes.h"
+#include "render/adaptive/pupils/extremes.h"
 
 namespace contrejour::adaptive {
 namespace {

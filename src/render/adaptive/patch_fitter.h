@@ -8,10 +8,10 @@
 #include <span>
 #include <vector>
 
-#include "render/adaptive/band_set.h"
-#include "render/adaptive/box_cells.h"
-#include "render/adaptive/polygon_screen.h"
-#include "render/adaptive/tolerance.h"
+#include "render/adaptive/cells/box_cells.h"
+#include "render/adaptive/maps/band_set.h"
+#include "render/adaptive/maps/tolerance.h"
+#include "render/screens/band_screen.h"
 
 namespace contrejour::adaptive {
 
@@ -27,7 +27,7 @@ struct FittedBox {
   std::vector<FittedPart> mirror_image;  // of the box, if that is wanted
 };
 
-using BandScreens = std::vector<std::shared_ptr<const BandScreen>>;  // one a band; null: the iris is sharp
+using BandScreens = std::vector<std::shared_ptr<const screens::BandScreen>>;  // one a band; null: the iris is sharp
 
 class PatchFitter {
  public:
@@ -52,7 +52,7 @@ class PatchFitter {
   struct Fitting {
     BandSet& bands;
     const Tolerance& tolerance;
-    std::span<const std::shared_ptr<const BandScreen>> screens;  // those of the bands
+    std::span<const std::shared_ptr<const screens::BandScreen>> screens;  // those of the bands
     std::vector<FittedPart>& parts;
     std::vector<FittedPart>* mirror_image;  // null: is not wanted
     std::optional<std::size_t> only_band = std::nullopt;  // of more that are fitted, the one that the set is

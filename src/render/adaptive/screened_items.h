@@ -2,7 +2,7 @@
 // that theirs are far below the frame's error.
 #pragma once
 
-#include "render/adaptive/frame_error.h"
+#include "render/adaptive/cells/frame_error.h"
 #include "render/adaptive/item.h"
 #include "render/screens/screens.h"
 

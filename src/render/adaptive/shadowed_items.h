@@ -2,7 +2,7 @@
 // others are dimmed by what dirt takes of them in the mean.
 #pragma once
 
-#include "render/adaptive/frame_error.h"
+#include "render/adaptive/cells/frame_error.h"
 #include "render/adaptive/item.h"
 
 namespace contrejour::adaptive {

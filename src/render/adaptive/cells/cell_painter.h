@@ -1,0 +1,202 @@
+// A patch as polygons: cells as large as the error allows, small where the map folds and at the edges that the iris
+// and the rims cut.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <utility>
+
+#include "render/adaptive/cells/box_cells.h"
+#include "render/adaptive/cells/mesh.h"
+#include "render/adaptive/cells/outline_cutter.h"
+#include "render/adaptive/cells/placed_polygon.h"
+#include "render/adaptive/maps/seen_dirt.h"
+#include "render/adaptive/maps/tolerance.h"
+#include "render/adaptive/tiles/polygon_list.h"
+#include "render/screens/shadow_cutter.h"
+
+namespace contrejour::adaptive {
+
+class CellPainter {
+ public:
+  // budget: of each band; its squared error is what all cells together may make, if they are no more than few_cells or
+  // several times that. room: for cells, used again afterwards.
+  CellPainter(const IrisShape& iris, const Frame& frame, const ErrorBudget& budget, double few_cells, BoxCells& room,
+              PolygonList& out)
+      : iris_(iris), width_(frame.width), height_(frame.height), budget_(budget.squared_error), few_cells_(few_cells),
+        peak_(budget.peak), out_(out), chosen_(room), cutter_(iris) {}
+
+  // The cells of a patch, which is where in a box, and then all that were chosen of a band.
+  void choose(const Patch& patch, const MeshPlace& place) { choose(patch, place, 0, nullptr); }
+  void draw();
+
+  // Of patches from here on: lines that are straight in them are bent in the entrance plane, so that their sides would
+  // leave seams beside another box.
+  void sides_bend(bool bend) { sides_bend_ = bend; }
+  // From here on the light passes a screen: stop coordinates are in units of `unit` stop radii.
+  void stand_behind(std::shared_ptr<const screens::BandScreen> screen, double unit) {
+    if (screen == screen_) return;
+    screen_ = std::move(screen);
+    screen_unit_ = unit;
+    out_.screens.push_back(screen_);
+  }
+  // And past dirt.
+  void stand_behind(const SeenDirt& dirt) { dirt_ = dirt; }
+
+ private:
+  using State = CellState;
+  using Flux = std::array<double, 3>;
+  // Where a triangle's light crosses the plane of the dirt, mm.
+  struct DirtTriangle {
+    std::array<Vec2, 3> pixel;
+    std::array<std::array<Vec2, 3>, kMaxStopCrossings> place_mm;
+    std::size_t crossings = 0;
+  };
+  // What a polygon's light has come through, where that is not level; the polygon is then within the triangle.
+  struct Behind {
+    const StopMap* screen = nullptr;
+    const DirtTriangle* dirt = nullptr;
+  };
+
+  // What its errors are made of, with straight sides or bent ones.
+  struct CellMeasure {
+    bool on_plane = false;  // its irradiance is that of more cells
+    std::optional<double> whole;  // the squared error whatever its sides are; infinite: it must not be drawn
+    double most = 0.0;  // squared error
+    double mean = 0.0, range = 0.0;  // brightness, and how much it varies
+    double off_plane = 0.0;  // mean square of what a plane leaves of it
+    double area_px = 0.0;  // by the derivatives in its middle
+    double image_px = 0.0, flux = 0.0;  // integrals over the cell
+    double longest_px = 0.0;
+    double limit = 0.0;  // limit_error()
+    std::optional<double> map_error;  // map_error(), once it is asked for
+  };
+  struct Shape {  // a cell's corners, and if its sides bend their middles
+    std::array<CellCorner, 8> corners;
+    std::size_t count = 0;
+    void add(const CellCorner& corner) { corners[count++] = corner; }
+    [[nodiscard]] std::span<const CellCorner> all() const { return {corners.data(), count}; }
+  };
+
+  // How far a cell's sides are from where the map has them.
+  struct SidesOff {
+    double strips = 0.0;  // squares of what is seen of them, times lengths, summed
+    double shared_px = 0.0, alone_px = 0.0;  // the most, of sides that cells share and others
+  };
+
+  static constexpr double kManyCells = 4.0;
+  static constexpr double kSoft_px = 0.2;  // of cells, for maps to be drawn with
+  static constexpr double kOnePlace_px = 0.4;  // a cell no longer than this sees the stop at one place
+  // Times what is not seen, so 0.1 of the error that all pixels may have: where light is dimmer than that it is its
+  // mean over a cell, by so many parts along each side.
+  static constexpr double kMeanBelow = 10.0;
+  static constexpr int kMeanParts = 3;
+
+  // By one of the weights, without gain: its mean, and how the irradiance rises along the diagonals, over its mean.
+  struct CellLevel {
+    double weight = 0.0, along_d = 0.0, along_f = 0.0;
+  };
+
+  static void dim(Shade& shade, Flux& flux, const Flux& share);
+  void choose(const Patch& patch, const MeshPlace& place, int depth, const Shade* plane);
+  void choose(BoxMesh& of, const MeshSquare& square, const Shade* plane);
+  [[nodiscard]] static CellLevel cell_level(const Mesh& mesh, const Cell& cell, int weight);
+  void draw(const BoxMesh& of, const ChosenCell& chosen);
+  void draw_folded(const Mesh& mesh, const Cell& cell, State state);
+  [[nodiscard]] static std::span<const Corner> placed(const Mesh& mesh, State state,
+                                                      std::span<const CellCorner> corners, std::vector<Corner>& to);
+  void draw_polygon(const Mesh& mesh, State state, const Shade& shade, const Flux& flux,
+                    std::span<const CellCorner> shape, std::span<const CellCorner> outline, const Behind& behind);
+  void draw_pieces(const Mesh& mesh, std::span<const Corner> cell, const Shade& shade, const Flux& flux,
+                   const Behind& behind);
+  void draw_part(std::span<const Corner> polygon, const Shade& shade, const Flux& flux, bool triangle,
+                 const Behind& behind);
+  void add_seen(std::span<const Corner> polygon, double area_px, const Shade& shade, const Flux& flux,
+                const Behind& behind);
+  void add_shadows(std::span<const Corner> polygon, const Shade& shade, const Flux& flux, const Behind& behind);
+  void draw_dirty(const Mesh& mesh, const Cell& cell, State state, const Shade& shade, const Flux& flux,
+                  const StopMap* map);
+  [[nodiscard]] DirtTriangle dirt_triangle(const Mesh& mesh, const std::array<std::size_t, 3>& triangle) const;
+  [[nodiscard]] PastDirt past_dirt(const DirtTriangle& dirt) const;
+  [[nodiscard]] int dirt_crossings(const Mesh& mesh) const;
+  [[nodiscard]] Vec2 dirt_place(const Mesh& mesh, std::size_t vertex, int crossing) const;
+  [[nodiscard]] bool is_dirty(const Mesh& mesh, const Cell& cell) const;  // false where the lens is clean
+  [[nodiscard]] double shadow_error(const Mesh& mesh, const Cell& cell) const;
+  void draw_screened(std::span<const Corner> polygon, double area_px, const Shade& shade, const Flux& flux,
+                     const StopMap& map);
+  void add_fringed(std::span<const PlacedCorner> polygon, const Shade& shade, const StopMap& map,
+                   const EdgeTable& table);
+  [[nodiscard]] std::array<double, 3> mean_passed(const Mesh& mesh, const Cell& cell, int parts) const;
+  [[nodiscard]] Vec2 stop_place(const Mesh& mesh, std::size_t vertex, int crossing) const;
+  [[nodiscard]] StopMap stop_map(const Mesh& mesh, const Cell& cell, double softness_px) const;
+  [[nodiscard]] StopMap stop_map(const Mesh& mesh, const std::array<std::size_t, 3>& triangle) const;
+  template <class SeriesOf>
+  [[nodiscard]] StopMap stop_map(const Mesh& mesh, double softness_px, const SeriesOf& series_of) const;
+  [[nodiscard]] double map_error(const Mesh& mesh, const Cell& cell, double longest_px) const;
+  [[nodiscard]] const EdgeTable& table_for(double width);
+  [[nodiscard]] screens::ScreenView view_of_screen(const Mesh& mesh, const Cell& cell) const;
+  [[nodiscard]] bool is_dim(const Mesh& mesh, const Cell& cell, double times) const;
+  [[nodiscard]] double stop_size(const Mesh& mesh, const Cell& cell) const;
+  // Into the room for what is added next.
+  template <class AnyCorner>
+  [[nodiscard]] std::span<const Point> points_of(std::span<const AnyCorner> polygon) {
+    points_.clear();
+    for (const AnyCorner& c : polygon)
+      points_.push_back({static_cast<float>(c.position.x), static_cast<float>(c.position.y)});
+    return points_;
+  }
+  void draw_line(std::span<const Corner> polygon, const Flux& flux);
+
+  // Of the next cell. How many there will be is not known before: their share falls as they become more, down to a
+  // quarter. Falling on, it would spend most of them where light gathers and nothing is gained.
+  [[nodiscard]] double cell_budget() const { return budget_ / std::clamp(cells_, few_cells_, kManyCells * few_cells_); }
+  [[nodiscard]] static Cell cell_at(const BoxMesh& of, const MeshSquare& square);
+  // Of a cell that is neither closed nor off the frame; none if it is.
+  [[nodiscard]] std::optional<std::pair<Cell, State>> seen_cell(const BoxMesh& of, const MeshSquare& square) const;
+  [[nodiscard]] static bool misses_stop(const Mesh& mesh, const Cell& cell, int crossing);
+  [[nodiscard]] State state_of(const Mesh& mesh, const Cell& cell) const;
+  [[nodiscard]] bool off_frame(const Mesh& mesh, const Cell& cell) const;
+  [[nodiscard]] bool wants_finer_mesh(const BoxMesh& in, const MeshSquare& square, bool on_plane) const;
+  [[nodiscard]] std::uint32_t blocking(const Mesh& mesh) const { return screen_ ? ~0U << mesh.layout.crossings : ~0U; }
+  [[nodiscard]] bool serves(const IrradiancePlane& plane) const;
+  [[nodiscard]] std::optional<Shade> plane_for(const Mesh& mesh, const MeshSquare& square) const;
+  void find_planes(BoxMesh& of) const;
+  [[nodiscard]] bool shows_facets(double area_px, double mean, double off_plane) const;
+  [[nodiscard]] CellMeasure measure(const Mesh& mesh, const Cell& cell, State state, bool on_plane) const;
+  [[nodiscard]] double squared_error(const Mesh& mesh, const Cell& cell, CellMeasure& of, State state,
+                                     Sides sides) const;
+  [[nodiscard]] SidesOff sides_off(const Mesh& mesh, const Cell& cell, State state, double left) const;
+  // A picture cuts triangles, within which corners on a cell's sides say nothing.
+  [[nodiscard]] Sides most_bent(State state) const {
+    return state == State::Cut && iris_.is_picture() ? Sides::Straight : Sides::Bent;
+  }
+  [[nodiscard]] static Shape shape_of(const Mesh& mesh, const Cell& cell, Sides sides);
+  [[nodiscard]] static double obscuration_error(const Mesh::Field& field, const Cell& cell);
+  [[nodiscard]] double limit_error(const Mesh& mesh, const Cell& cell) const;
+  [[nodiscard]] double arc_step(const Mesh& mesh, std::span<const CellCorner> corners, const Shade& shade) const;
+
+  const IrisShape& iris_;
+  int width_, height_;
+  double budget_, few_cells_;
+  double cells_ = 0.0;  // of this band so far
+  bool sides_bend_ = false;
+  double peak_;
+  PolygonList& out_;
+  std::shared_ptr<const screens::BandScreen> screen_;  // null: the iris is sharp
+  double screen_unit_ = 1.0;
+  SeenDirt dirt_;
+  screens::ShadowCutter shadows_;
+  std::map<std::pair<const screens::BandScreen*, int>, const EdgeTable*> tables_;  // of screens, by width
+  std::vector<std::uint16_t> active_;
+  PlacedPolygon rest_, strip_;  // of what is cut along edges
+  std::vector<Corner> level_;
+  std::vector<Corner> shape_, outline_;  // of what is drawn
+  BoxCells& chosen_;
+  std::vector<CellCorner> all_corners_;  // of a cell
+  OutlineCutter cutter_;
+  std::vector<Point> points_;
+};
+
+}  // namespace contrejour::adaptive

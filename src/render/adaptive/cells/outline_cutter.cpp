@@ -1,0 +1,348 @@
+#include "render/adaptive/cells/outline_cutter.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+namespace contrejour::adaptive {
+namespace {
+
+constexpr double kSmallAngle = 1e-3;  // radians: smaller ones may be rounding
+constexpr double kLongestStep = 0.8;  // radians
+
+}  // namespace
+
+// Keeps where value(corner), linear along the sides, is <= 0. Sutherland-Hodgman; in a cell of bent sides what is cut
+// bends with them.
+template <class Value>
+void OutlineCutter::cut_where_positive(Value value) {
+  next_.clear();
+  exits_.clear();
+  for (std::size_t k = 0; k < polygon_.size(); ++k) {
+    const Corner& a = polygon_[k];
+    const Corner& b = polygon_[k + 1 == polygon_.size() ? 0 : k + 1];
+    const double fa = value(a);
+    const double fb = value(b);
+    if (fa <= 0.0) next_.push_back(a);
+    if ((fa <= 0.0) == (fb <= 0.0)) continue;
+    if (fa <= 0.0) exits_.push_back(next_.size());
+    next_.push_back(between(a, b, fa / (fa - fb)));
+  }
+  if (whole_.size() == kBentCorners) bend_cuts(value);
+  polygon_.swap(next_);
+}
+
+// Where the outline leaves, a corner on the way to where it comes back: the cut is a parabola over the chord between
+// them, and the triangle of its area is 4/3 as high.
+template <class Value>
+void OutlineCutter::bend_cuts(Value value) {
+  constexpr double kTrial = 0.125;  // of the chord, aside from its middle either way, to see how the value changes
+  constexpr double kMost = 0.5;
+  for (std::size_t k = exits_.size(); k-- > 0;) {
+    const Vec2 from = next_[exits_[k]].uv;
+    const Vec2 chord = next_[exits_[k] + 1 == next_.size() ? 0 : exits_[k] + 1].uv - from;
+    const Vec2 middle = from + chord * 0.5;
+    const Vec2 aside{-chord.y, chord.x};
+    const double here = value(corner_at(middle));
+    const double there = value(corner_at(middle + aside * kTrial)) - here;
+    const double back = value(corner_at(middle - aside * kTrial)) - here;
+    const double slope = 0.5 * (there - back);
+    const double curvature = 0.5 * (there + back);
+    const double root = std::sqrt(slope * slope - 4.0 * curvature * here);
+    const double height = -2.0 * here / (slope + std::copysign(root, slope)) * kTrial;
+    if (!(std::abs(height) < kMost)) continue;  // NaN where it has no zero
+    const Vec2 uv = middle + aside * (4.0 / 3.0 * height);
+    next_.insert(next_.begin() + static_cast<std::ptrdiff_t>(exits_[k]) + 1,
+                 corner_at({std::clamp(uv.x, 0.0, 1.0), std::clamp(uv.y, 0.0, 1.0)}));
+  }
+}
+
+// The stop coordinates are linear along each side, which then meets the circle exactly; where the outline leaves the
+// circle an arc takes it to where it comes back.
+void OutlineCutter::cut_by_circle(const Circle& circle) {
+  const auto stop = [&circle](const Corner& c) { return circle.unit_from_stop(c); };
+  next_.clear();
+  exits_.clear();
+  double twice_area = 0.0;
+  for (std::size_t k = 0; k < polygon_.size(); ++k) {
+    const Corner& a = polygon_[k];
+    const Corner& b = polygon_[k + 1 == polygon_.size() ? 0 : k + 1];
+    const Vec2 s = stop(a);
+    const Vec2 along = stop(b) - s;
+    twice_area += cross(s, stop(b));
+    const bool starts_inside = dot(s, s) <= 1.0;
+    const bool ends_inside = dot(stop(b), stop(b)) <= 1.0;
+    if (starts_inside) next_.push_back(a);
+    if (starts_inside && ends_inside) continue;
+    // Where the side meets the circle; corners were judged above, and rounding must not judge otherwise.
+    const double aa = dot(along, along);
+    const double half_b = dot(s, along);
+    const double under = half_b * half_b - aa * (dot(s, s) - 1.0);
+    const bool meets = under > 0.0 && aa > 0.0;
+    const double enters = meets ? (-half_b - std::sqrt(under)) / aa : 1.0;  // a tangent side is met at its end
+    const double leaves = meets ? (-half_b + std::sqrt(under)) / aa : 0.0;
+    const bool passes_through = !starts_inside && !ends_inside;
+    if (passes_through && !(meets && enters > 0.0 && leaves < 1.0)) continue;
+    if (!starts_inside) next_.push_back(between(a, b, std::clamp(enters, 0.0, 1.0)));
+    if (!ends_inside) {
+      exits_.push_back(next_.size());
+      next_.push_back(between(a, b, std::clamp(leaves, 0.0, 1.0)));
+    }
+  }
+  // A circle that a single side cuts, or none.
+  const bool nearly_whole = next_.size() <= 2 && surrounds_centre(circle);
+  const double turn = twice_area > 0.0 ? 1.0 : -1.0;
+  polygon_.clear();
+  if (next_.empty()) {
+    if (nearly_whole) add_circle(circle, turn);
+    return;
+  }
+  std::size_t exit = 0;
+  for (std::size_t k = 0; k < next_.size(); ++k) {
+    polygon_.push_back(next_[k]);
+    if (exit == exits_.size() || exits_[exit] != k) continue;
+    ++exit;
+    const Vec2 from = stop(next_[k]);
+    const Vec2 to = stop(next_[k + 1 == next_.size() ? 0 : k + 1]);
+    double angle = std::atan2(cross(from, to), dot(from, to));
+    // Only where a single side cuts the circle is a small angle backwards nearly a whole turn, not rounding.
+    if (angle * turn < 0.0 && (std::abs(angle) > kSmallAngle || nearly_whole)) angle += turn * 2.0 * std::numbers::pi;
+    if (angle * turn > 0.0) add_arc(circle, from, angle, next_[k].uv);
+  }
+}
+
+bool OutlineCutter::surrounds_centre(const Circle& circle) const {
+  bool left = false;
+  bool right = false;
+  for (std::size_t k = 0; k < polygon_.size(); ++k) {
+    const Corner& a = polygon_[k];
+    const Corner& b = polygon_[k + 1 == polygon_.size() ? 0 : k + 1];
+    const double side = cross(circle.unit_from_stop(a), circle.unit_from_stop(b));
+    (side > 0.0 ? left : right) = true;
+  }
+  return left != right;
+}
+
+// As flat on a circle of any size as arc_step_ is on the rim.
+double OutlineCutter::step_on(const Circle& circle) const {
+  return std::min(arc_step_ / std::sqrt(circle.radius), kLongestStep);
+}
+
+// Corners along an arc, angles seen from the circle's centre; its ends lie on the circle and are not among them. The
+// others lie a little outside, so that the chords enclose the arc's area: (n - 2) r^2 + 2 r = n step / sin(step).
+// from: the arc's beginning, seen from the centre, at near_uv or about.
+void OutlineCutter::add_arc(const Circle& circle, Vec2 from, double angle, Vec2 near_uv) {
+  const int steps = static_cast<int>(std::ceil(std::abs(angle) / step_on(circle)));
+  if (steps < 2) return;
+  const double step = angle / steps;
+  const double excess = steps * step / std::sin(step);
+  const double radius = steps == 2 ? 0.5 * excess : (std::sqrt(1.0 + (steps - 2) * excess) - 1.0) / (steps - 2);
+  const double start = std::atan2(from.y, from.x) + step;
+  add_corners(circle, Vec2{std::cos(start), std::sin(start)} * radius, step, steps - 1, near_uv);
+}
+
+// The whole circle as a regular polygon of its area.
+void OutlineCutter::add_circle(const Circle& circle, double turn) {
+  const int steps = std::max(3, static_cast<int>(std::ceil(2.0 * std::numbers::pi / step_on(circle))));
+  const double step = 2.0 * std::numbers::pi / steps;
+  add_corners(circle, {std::sqrt(step / std::sin(step)), 0.0}, turn * step, steps, {0.5, 0.5});
+}
+
+// At so many places, each turned by a step about the circle's centre from the one before.
+void OutlineCutter::add_corners(const Circle& circle, Vec2 first, double step, int count, Vec2 near_uv) {
+  const StopSeries stop = stop_series(circle.limit);
+  const Vec2 turn{std::cos(step), std::sin(step)};
+  for (int k = 0; k < count; ++k) {
+    if (const auto uv = uv_at_stop(stop, circle.stop_from_unit(first), near_uv)) {
+      polygon_.push_back(corner_at(*uv));
+      near_uv = *uv;
+    }
+    first = {first.x * turn.x - first.y * turn.y, first.x * turn.y + first.y * turn.x};
+  }
+}
+
+Corner OutlineCutter::between(const Corner& a, const Corner& b, double t) const {
+  Corner c;
+  c.position = a.position + (b.position - a.position) * t;
+  c.uv = a.uv + (b.uv - a.uv) * t;
+  for (std::size_t l = 0; l < limits_; ++l) c.limit[l] = a.limit[l] + static_cast<float>(t) * (b.limit[l] - a.limit[l]);
+  return c;
+}
+
+// What each of the whole cell's corners adds to a point between them: linear in a triangle, bilinear in a cell of four
+// corners, quadratic along the sides of one of eight (serendipity; Zienkiewicz and Taylor, The Finite Element Method).
+OutlineCutter::Shares OutlineCutter::shares_at(Vec2 uv) const {
+  const double u = uv.x;
+  const double v = uv.y;
+  if (whole_.size() == 3) return {1.0 - u, u - v, v};
+  Shares s{(1.0 - u) * (1.0 - v), u * (1.0 - v), u * v, (1.0 - u) * v};
+  if (whole_.size() != kBentCorners) return s;
+  const double across_u = 4.0 * u * (1.0 - u);
+  const double across_v = 4.0 * v * (1.0 - v);
+  const std::array<double, 4> side{across_u * (1.0 - v), across_v * u, across_u * v, across_v * (1.0 - u)};
+  Shares bent{};
+  for (std::size_t k = 0; k < 4; ++k) {
+    bent[2 * k] = s[k] - 0.5 * (side[k] + side[(k + 3) % 4]);
+    bent[2 * k + 1] = side[k];
+  }
+  return bent;
+}
+
+Corner OutlineCutter::corner_at(Vec2 uv) const {
+  const Shares share = shares_at(uv);
+  Corner out;
+  out.uv = uv;
+  for (std::size_t k = 0; k < whole_.size(); ++k) {
+    out.position = out.position + whole_[k].position * share[k];
+    for (std::size_t l = 0; l < limits_; ++l) out.limit[l] += static_cast<float>(share[k]) * whole_[k].limit[l];
+  }
+  return out;
+}
+
+OutlineCutter::StopSeries::Place OutlineCutter::StopSeries::place(Vec2 uv) const {
+  const double u = uv.x, v = uv.y;
+  const Vec2 bend_u = term[4] + term[6] * v, bend_v = term[5] + term[7] * u;
+  return {term[0] + (term[1] + bend_u * u) * u + (term[2] + term[3] * u + bend_v * v) * v,
+          term[1] + bend_u * (2.0 * u) + (term[3] + term[7] * v) * v,
+          term[2] + bend_v * (2.0 * v) + (term[3] + term[6] * u) * u};
+}
+
+// What shares_at() says, sorted by powers of u and v.
+OutlineCutter::StopSeries OutlineCutter::stop_series(std::size_t limit) const {
+  const auto stop = [&](std::size_t k) { return Vec2{whole_[k].limit[limit], whole_[k].limit[limit + 1]}; };
+  StopSeries s;
+  s.term[0] = stop(0);
+  if (whole_.size() == 3) {
+    s.term[1] = stop(1) - stop(0);
+    s.term[2] = stop(2) - stop(1);
+    return s;
+  }
+  const std::size_t by = whole_.size() == kBentCorners ? 2 : 1;
+  const std::array<Vec2, 4> corner{stop(0), stop(by), stop(2 * by), stop(3 * by)};
+  if (by == 2) {  // along each side c + u (d - c) + u (u - 1) bend
+    const auto bend = [&](std::size_t a, std::size_t side, std::size_t b) {
+      return (corner[a] + corner[b] - stop(side) * 2.0) * 2.0;
+    };
+    const Vec2 at_v0 = bend(0, 1, 1), at_u1 = bend(1, 3, 2), at_v1 = bend(3, 5, 2), at_u0 = bend(0, 7, 3);
+    s.term[4] = at_v0;
+    s.term[5] = at_u0;
+    s.term[6] = at_v1 - at_v0;
+    s.term[7] = at_u1 - at_u0;
+  }
+  s.term[1] = corner[1] - corner[0] - s.term[4];
+  s.term[2] = corner[3] - corner[0] - s.term[5];
+  s.term[3] = corner[2] - corner[1] - corner[3] + corner[0] - s.term[6] - s.term[7];
+  return s;
+}
+
+// The point of the cell whose ray crosses the stop there, by Newton's method. None where the map bends too much for it.
+std::optional<Vec2> OutlineCutter::uv_at_stop(const StopSeries& stop, Vec2 target, Vec2 near_uv) const {
+  constexpr double kMiss = 0.1;  // stop radii
+  constexpr double kNear = 1e-3;  // of the cell: one step more is as good as exact
+  constexpr int kMostSteps = 4;
+  const bool triangle = whole_.size() == 3;
+  Vec2 uv = near_uv;
+  for (int step = 0; step < kMostSteps; ++step) {
+    const auto [at, du, dv] = stop.place(uv);
+    const Vec2 off = target - at;
+    const double per_determinant = 1.0 / cross(du, dv);
+    if (!std::isfinite(per_determinant)) return std::nullopt;
+    const Vec2 before = uv;
+    const Vec2 next = uv + Vec2{cross(off, dv), cross(du, off)} * per_determinant;
+    // An arc does not leave the cell that it was found in.
+    uv = {std::clamp(next.x, 0.0, 1.0), std::clamp(next.y, 0.0, triangle ? std::clamp(next.x, 0.0, 1.0) : 1.0)};
+    const Vec2 moved = uv - before;
+    if (dot(moved, moved) >= kNear * kNear) continue;
+    if (uv.x == next.x && uv.y == next.y) return uv;
+    break;
+  }
+  const Vec2 off = target - stop.place(uv).at;
+  if (!(dot(off, off) <= kMiss * kMiss)) return std::nullopt;
+  return uv;
+}
+
+std::span<const Corner> OutlineCutter::open_part(std::span<const Corner> whole, std::span<const Corner> outline,
+                                                 int crossings, int rims, double arc_step_rad) {
+  start_with(whole, outline, crossings, rims);
+  arc_step_ = arc_step_rad;
+  for (int c = 0; c < crossings && !polygon_.empty(); ++c) cut_by_iris(static_cast<std::size_t>(2 * c));
+  cut_by_rims(crossings, rims);
+  return polygon_;
+}
+
+std::span<const Corner> OutlineCutter::within_rims(std::span<const Corner> whole, std::span<const Corner> outline,
+                                                   int crossings, int rims) {
+  start_with(whole, outline, crossings, rims);
+  cut_by_rims(crossings, rims);
+  return polygon_;
+}
+
+void OutlineCutter::start_with(std::span<const Corner> whole, std::span<const Corner> outline, int crossings,
+                               int rims) {
+  whole_ = whole;
+  limits_ = static_cast<std::size_t>(2 * crossings + rims);
+  polygon_.assign(outline.begin(), outline.end());
+}
+
+void OutlineCutter::cut_by_rims(int crossings, int rims) {
+  for (int r = 0; r < rims && !polygon_.empty(); ++r) {
+    const auto limit = static_cast<std::size_t>(2 * crossings + r);
+    cut_where_positive([&](const Corner& p) { return static_cast<double>(p.limit[limit]) - 1.0; });
+  }
+}
+
+// In triangles, over which the stop coordinates are linear: cuts of neighbouring pieces then meet.
+void OutlineCutter::for_each_open_part(std::span<const Corner> whole, int crossings, int rims, double finest,
+                                       const OpenPart& visit) {
+  limits_ = static_cast<std::size_t>(2 * crossings + rims);
+  whole_ = {};
+  for (std::size_t k = 2; k < whole.size(); ++k) {
+    polygon_.assign({whole[0], whole[k - 1], whole[k]});
+    cut_by_rims(crossings, rims);
+    cut_by_pieces(0, static_cast<std::size_t>(2 * crossings), finest, 1.0, visit);
+  }
+}
+
+void OutlineCutter::cut_by_pieces(std::size_t limit, std::size_t first_rim, double finest, double open,
+                                  const OpenPart& visit) {
+  if (polygon_.size() < 3) return;
+  if (limit == first_rim) return visit(polygon_, open);
+  const std::vector<Corner> before = polygon_;
+  Vec2 low{before[0].limit[limit], before[0].limit[limit + 1]};
+  Vec2 high = low;
+  for (const Corner& c : before) {
+    low = {std::min<double>(low.x, c.limit[limit]), std::min<double>(low.y, c.limit[limit + 1])};
+    high = {std::max<double>(high.x, c.limit[limit]), std::max<double>(high.y, c.limit[limit + 1])};
+  }
+  const double detail = finest * std::max(high.x - low.x, high.y - low.y);
+  iris_.for_each_piece(low, high, detail, [&](std::span<const IrisBound> half_planes, double share) {
+    polygon_ = before;
+    for (const IrisBound& bound : half_planes)
+      if (!is_inside(limit, bound)) cut_by_line(limit, bound);
+    cut_by_pieces(limit + 2, first_rim, finest, open * share, visit);
+  });
+}
+
+bool OutlineCutter::is_inside(std::size_t limit, const IrisBound& half_plane) const {
+  return std::all_of(polygon_.begin(), polygon_.end(),
+                     [&](const Corner& c) { return half_plane.distance({c.limit[limit], c.limit[limit + 1]}) <= 0.0; });
+}
+
+void OutlineCutter::cut_by_line(std::size_t limit, const IrisBound& bound) {
+  cut_where_positive([&](const Corner& p) {
+    return bound.normal.x * p.limit[limit] + bound.normal.y * p.limit[limit + 1] - bound.apothem;
+  });
+}
+
+void OutlineCutter::cut_by_iris(std::size_t limit) {
+  for (const IrisBound& bound : iris_.bounds()) {
+    if (polygon_.empty()) return;
+    if (bound.straight())
+      cut_by_line(limit, bound);
+    else
+      cut_by_circle({limit, bound.centre, bound.radius});
+  }
+}
+
+}  // namespace contrejour::adaptive

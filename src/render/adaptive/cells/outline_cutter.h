@@ -1,0 +1,100 @@
+// What the iris and the rims leave of a cell: its outline, cut along arcs and lines.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <functional>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "ghosts/iris_shape.h"
+#include "render/adaptive/maps/patch.h"
+
+namespace contrejour::adaptive {
+
+// A corner of a polygon with what may cut it: stop coordinates, two a crossing, then squared heights at rims.
+struct Corner {
+  Vec2 position;  // pixels of the frame
+  Vec2 uv;        // in the cell or triangle: shares of areas there are shares of flux
+  std::array<float, 2 * kMaxStopCrossings + kMostRims> limit{};
+};
+
+class OutlineCutter {
+ public:
+  explicit OutlineCutter(const IrisShape& iris) : iris_(iris) {}
+
+  // whole: the cell's four corners at uv (0, 0), (1, 0), (1, 1), (0, 1), or the first three of them, or the four with
+  // the middle of the side that follows after each; between them is what they say. outline: those, and others on the
+  // sides between them. Arcs get a corner
+  // every arc_step_rad / sqrt(r) at least, r their radius in stop radii. Empty when nothing is open. Valid until the
+  // next call, as long as `whole` is.
+  [[nodiscard]] std::span<const Corner> open_part(std::span<const Corner> whole, std::span<const Corner> outline,
+                                                  int crossings, int rims, double arc_step_rad);
+
+  // The same where the iris does not cut.
+  [[nodiscard]] std::span<const Corner> within_rims(std::span<const Corner> whole, std::span<const Corner> outline,
+                                                    int crossings, int rims);
+
+  // The same for a picture: convex parts that do not overlap, each with the share of light that passes there. Details
+  // are told apart down to `finest` of the cell's extent in the stop's plane.
+  using OpenPart = std::function<void(std::span<const Corner> part, double open)>;
+  void for_each_open_part(std::span<const Corner> whole, int crossings, int rims, double finest, const OpenPart& visit);
+
+ private:
+  static constexpr std::size_t kBentCorners = 8;  // of a cell whose sides bend in their middles
+
+  // In the plane of a crossing, whose coordinates are a corner's from `limit` on.
+  struct Circle {
+    std::size_t limit = 0;
+    Vec2 centre;
+    double radius = 1.0;
+
+    [[nodiscard]] Vec2 unit_from_stop(const Corner& c) const {
+      return (Vec2{c.limit[limit], c.limit[limit + 1]} - centre) * (1.0 / radius);
+    }
+    [[nodiscard]] Vec2 stop_from_unit(Vec2 p) const { return centre + p * radius; }
+  };
+
+  // Stop coordinates of a crossing over the cell: sum of term[k] times 1, u, v, u v, u^2, v^2, u^2 v, u v^2.
+  struct StopSeries {
+    std::array<Vec2, 8> term{};
+
+    struct Place {
+      Vec2 at, along_u, along_v;
+    };
+    [[nodiscard]] Place place(Vec2 uv) const;
+  };
+
+  void start_with(std::span<const Corner> whole, std::span<const Corner> outline, int crossings, int rims);
+  void cut_by_iris(std::size_t limit);
+  void cut_by_rims(int crossings, int rims);
+  void cut_by_pieces(std::size_t limit, std::size_t first_rim, double finest, double open, const OpenPart& visit);
+  void cut_by_line(std::size_t limit, const IrisBound& bound);
+  void cut_by_circle(const Circle& circle);
+  template <class Value>
+  void cut_where_positive(Value value);
+  template <class Value>
+  void bend_cuts(Value value);
+  void add_arc(const Circle& circle, Vec2 from, double angle, Vec2 near_uv);
+  void add_circle(const Circle& circle, double turn);
+  void add_corners(const Circle& circle, Vec2 first, double step, int count, Vec2 near_uv);
+  [[nodiscard]] bool is_inside(std::size_t limit, const IrisBound& half_plane) const;
+  [[nodiscard]] double step_on(const Circle& circle) const;
+  [[nodiscard]] bool surrounds_centre(const Circle& circle) const;
+  [[nodiscard]] Corner between(const Corner& a, const Corner& b, double t) const;
+  using Shares = std::array<double, kBentCorners>;
+  [[nodiscard]] Shares shares_at(Vec2 uv) const;
+  [[nodiscard]] Corner corner_at(Vec2 uv) const;
+  [[nodiscard]] StopSeries stop_series(std::size_t limit) const;
+  [[nodiscard]] std::optional<Vec2> uv_at_stop(const StopSeries& stop, Vec2 target, Vec2 near_uv) const;
+
+  const IrisShape& iris_;
+  std::span<const Corner> whole_;
+  double arc_step_ = 0.1;  // radians
+  std::size_t limits_ = 0;  // of a corner's that are in use
+  std::vector<Corner> polygon_, next_;
+  std::vector<std::size_t> exits_;  // of next_: where the outline leaves the circle
+};
+
+}  // namespace contrejour::adaptive

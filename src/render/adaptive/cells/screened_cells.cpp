@@ -1,0 +1,216 @@
+// Cells whose light passes a screen instead of the sharp iris: where it varies, places in the stop are polynomials of
+// the pixel; large cells are cut into strips along the edges that bring fringes and what is level between them.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "render/adaptive/cells/cell_painter.h"
+#include "render/adaptive/cells/cell_shape.h"
+
+namespace contrejour::adaptive {
+namespace {
+
+constexpr double kWidthsPerOctave = 2.0;  // of edges' tables
+constexpr double kScreenDisc = 1.2;  // of a cell's distance from its middle in the stop, for cells that bend
+constexpr double kExact = 1e-3;   // of a cell's size, for maps to be judged by
+constexpr double kWorthCutting_px = 400.0;  // of area: smaller cells are looked up all over
+constexpr double kSagittaRoom = 0.5;  // of an arc's, for circles about the same centre with a smaller radius
+
+// A crossing of the stop at a mesh's vertices, stop radii.
+class StopPlaces {
+ public:
+  StopPlaces(const Mesh& mesh, int crossing, double unit)
+      : x_(mesh.field(PatchLayout::kStop + 2 * crossing).data()),
+        y_(mesh.field(PatchLayout::kStop + 2 * crossing + 1).data()), unit_(unit) {}
+  [[nodiscard]] Vec2 at(std::size_t vertex) const { return Vec2{x_[vertex], y_[vertex]} * unit_; }
+
+ private:
+  const float *x_, *y_;
+  double unit_;
+};
+
+// Across a bound, straight: normal . p is at most `outer` on the bound's inner side, and at most `inner` nowhere but
+// there, as far as some polygon sees it.
+struct EdgeLine {
+  Vec2 normal;
+  double outer = 0.0, inner = 0.0;
+};
+
+EdgeLine line_along(const IrisBound& bound, std::span<const PlacedCorner> polygon) {
+  if (bound.straight()) return {bound.normal, bound.apothem, bound.apothem};
+  Vec2 middle{};
+  for (const PlacedCorner& c : polygon) middle = middle + c.stop * (1.0 / static_cast<double>(polygon.size()));
+  const Vec2 from = middle - bound.centre;
+  const double far = length(from);
+  double sideways = 0.0;
+  const Vec2 normal = far > 0.0 ? from * (1.0 / far) : Vec2{1.0, 0.0};
+  for (const PlacedCorner& c : polygon) sideways = std::max(sideways, std::abs(cross(normal, c.stop - bound.centre)));
+  const double reach = dot(normal, bound.centre) + bound.radius;
+  const double sagitta = bound.radius - std::sqrt(std::max(0.0, bound.radius * bound.radius - sideways * sideways));
+  return {normal, reach, reach - sagitta * (1.0 + kSagittaRoom)};
+}
+
+}  // namespace
+
+Vec2 CellPainter::stop_place(const Mesh& mesh, std::size_t vertex, int crossing) const {
+  return StopPlaces(mesh, crossing, screen_unit_).at(vertex);
+}
+
+// About a cell's last crossings of the stop.
+screens::ScreenView CellPainter::view_of_screen(const Mesh& mesh, const Cell& cell) const {
+  const int last = mesh.layout.crossings - 1;
+  if (!screen_ || last < 0) return {ScreenPart::Level, 1.0};
+  const StopPlaces stop(mesh, last, screen_unit_);
+  const Vec2 middle = stop.at(cell.middle);
+  double squared = 0.0;
+  const auto hold = [&](std::size_t v) {
+    const Vec2 from = stop.at(v) - middle;
+    squared = std::max(squared, dot(from, from));
+  };
+  for (const std::size_t v : cell.corner) hold(v);
+  for (const std::size_t v : cell.side) hold(v);
+  screens::ScreenView view = screen_->over(middle, kScreenDisc * std::sqrt(squared));
+  if (view.part == ScreenPart::Level && last > 0) view.part = ScreenPart::Varied;  // earlier crossings are sharp
+  return view;
+}
+
+// Whether what passes the screen is nowhere in the cell brighter than so many times what is not seen.
+bool CellPainter::is_dim(const Mesh& mesh, const Cell& cell, double times) const {
+  float brightest = mesh.brightness[cell.middle];
+  for (const std::size_t v : cell.corner) brightest = std::max(brightest, mesh.brightness[v]);
+  for (const std::size_t v : cell.side) brightest = std::max(brightest, mesh.brightness[v]);
+  return cell.screen.most * brightest < times * screen_->unseen;
+}
+
+double CellPainter::stop_size(const Mesh& mesh, const Cell& cell) const {
+  const StopPlaces stop(mesh, mesh.layout.crossings - 1, screen_unit_);
+  const auto at = [&](std::size_t v) { return stop.at(v); };
+  return std::max(length(at(cell.corner[2]) - at(cell.corner[0])), length(at(cell.corner[3]) - at(cell.corner[1])));
+}
+
+StopMap CellPainter::stop_map(const Mesh& mesh, const Cell& cell, double softness_px) const {
+  const auto series = [&](const auto& at) {
+    const std::array corner{at(cell.corner[0]), at(cell.corner[1]), at(cell.corner[2]), at(cell.corner[3])};
+    if (cell.size == 1) return CellSeries::of_corners(corner);  // that is all there is
+    return CellSeries::of(corner, {at(cell.side[0]), at(cell.side[1]), at(cell.side[2]), at(cell.side[3])},
+                          at(cell.middle));
+  };
+  return stop_map(mesh, softness_px, series);
+}
+
+StopMap CellPainter::stop_map(const Mesh& mesh, const std::array<std::size_t, 3>& triangle) const {
+  return stop_map(mesh, kSoft_px, [&](const auto& at) {
+    return CellSeries::of_triangle({at(triangle[0]), at(triangle[1]), at(triangle[2])});
+  });
+}
+
+template <class SeriesOf>
+StopMap CellPainter::stop_map(const Mesh& mesh, double softness_px, const SeriesOf& series_of) const {
+  std::array<CellSeries, kMaxStopCrossings> stop;
+  for (int c = 0; c < mesh.layout.crossings; ++c)
+    stop[static_cast<std::size_t>(c)] =
+        series_of([places = StopPlaces(mesh, c, screen_unit_)](std::size_t v) { return places.at(v); });
+  return {series_of([&](std::size_t v) { return mesh.position(v) + mesh.origin_px; }),
+          {stop.data(), static_cast<std::size_t>(mesh.layout.crossings)},
+          softness_px};
+}
+
+// How far places in the stop are off where they are polynomials of the pixel, as a share of the cell.
+double CellPainter::map_error(const Mesh& mesh, const Cell& cell, double longest_px) const {
+  const double size = stop_size(mesh, cell);
+  if (!(size > 0.0)) return 0.0;
+  const StopMap map = stop_map(mesh, cell, kExact * longest_px);
+  double squared = 0.0;
+  for (int c = 0; c < mesh.layout.crossings; ++c) {
+    const StopPlaces stop(mesh, c, screen_unit_);
+    const auto check = [&](std::size_t v) {
+      const Vec2 off = map.place(mesh.position(v) + mesh.origin_px, static_cast<std::size_t>(c)) - stop.at(v);
+      squared = std::max(squared, dot(off, off));
+    };
+    for (const std::size_t v : cell.corner) check(v);
+    for (const std::size_t v : cell.side) check(v);
+  }
+  return std::sqrt(squared) / size;
+}
+
+// For pixels of about that width.
+const EdgeTable& CellPainter::table_for(double width) {
+  const int octave = static_cast<int>(std::lround(kWidthsPerOctave * std::log2(std::max(width, 1e-9))));
+  const auto [at, is_new] = tables_.try_emplace(std::pair(screen_.get(), octave), nullptr);
+  if (is_new) {
+    out_.tables.push_back(std::make_shared<const EdgeTable>(*screen_, std::exp2(octave / kWidthsPerOctave)));
+    at->second = out_.tables.back().get();
+  }
+  return *at->second;
+}
+
+// What passes to a cell in the mean, by `parts` x `parts` pieces of it.
+std::array<double, 3> CellPainter::mean_passed(const Mesh& mesh, const Cell& cell, int parts) const {
+  std::array<double, 3> sum{};
+  for (int k = 0; k < parts * parts; ++k) {
+    const double u = (k % parts + 0.5) / parts, v = (k / parts + 0.5) / parts;
+    std::array<StopPlace, kMaxStopCrossings> places;
+    for (int c = 0; c < mesh.layout.crossings; ++c) {
+      const StopPlaces stop(mesh, c, screen_unit_);
+      const std::array at{stop.at(cell.corner[0]), stop.at(cell.corner[1]), stop.at(cell.corner[2]),
+                          stop.at(cell.corner[3])};
+      const Vec2 middle = parts == 1
+                              ? stop.at(cell.middle)
+                              : (at[0] * (1.0 - u) + at[1] * u) * (1.0 - v) + (at[3] * (1.0 - u) + at[2] * u) * v;
+      places[static_cast<std::size_t>(c)] = {middle,
+                                             std::sqrt(0.5 * std::abs(cross(at[2] - at[0], at[3] - at[1]))) / parts};
+    }
+    const auto passed = screen_->share({places.data(), static_cast<std::size_t>(mesh.layout.crossings)});
+    for (std::size_t c = 0; c < 3; ++c) sum[c] += passed[c] / (parts * parts);
+  }
+  return sum;
+}
+
+// All of a polygon's pixels look up what passes. A large one behind a pattern: as far as that is worth drawing. Behind
+// edges' fringes: the parts along each edge that brings any there, cut off by straight lines; the rest is level.
+void CellPainter::draw_screened(std::span<const Corner> polygon, double area_px, const Shade& shade, const Flux& flux,
+                                const StopMap& map) {
+  const bool large = area_px >= kWorthCutting_px;
+  const double room = map.bend();  // cuts are straight, places are not
+  rest_.place(polygon, map);
+  if (screen_->edges == nullptr || map.crossings() > 1) {
+    for (std::size_t k = 0; large && screen_->pattern && k < screens::PatternHull::kLines; ++k)
+      rest_.keep_within({screens::PatternHull::normals()[k], screen_->hull.most(k) + room}, map);
+    if (!rest_.is_empty()) out_.add(points_of(rest_.corners()), shade, Screened{map, screen_.get()}, {});
+    return;
+  }
+  const EdgeTable& table = table_for(map.width());
+  if (!large || table.iris().is_picture()) return add_fringed(rest_.corners(), shade, map, table);
+  for (const IrisBound& bound : table.iris().bounds()) {
+    if (rest_.is_empty()) return;
+    const EdgeLine line = line_along(bound, rest_.corners());
+    rest_.keep_within({line.normal, line.outer + table.dark_beyond() + room}, map);
+  }
+  for (const IrisBound& bound : table.iris().bounds()) {
+    if (rest_.is_empty()) return;
+    const EdgeLine line = line_along(bound, rest_.corners());
+    strip_.take(rest_);
+    strip_.keep_within({line.normal * -1.0, table.level_within() + room - line.inner}, map);
+    if (strip_.is_empty()) continue;
+    rest_.keep_within({line.normal, line.inner - table.level_within() - room}, map);
+    add_fringed(strip_.corners(), shade, map, table);
+  }
+  level_.clear();
+  for (const PlacedCorner& c : rest_.corners()) level_.push_back({c.position, c.uv, {}});
+  draw_part(level_, shade, flux, true, {});
+}
+
+void CellPainter::add_fringed(std::span<const PlacedCorner> polygon, const Shade& shade, const StopMap& map,
+                              const EdgeTable& table) {
+  active_.clear();
+  const auto& bounds = table.iris().bounds();
+  for (std::size_t k = 0; k < bounds.size() && !table.iris().is_picture(); ++k) {
+    double nearest = -std::numeric_limits<double>::infinity();
+    for (const PlacedCorner& c : polygon) nearest = std::max(nearest, bounds[k].distance(c.stop));
+    // Distances are convex: none within is larger than at the corners, but for pixels that reach beyond.
+    if (nearest + map.width() + map.bend() > -table.level_within()) active_.push_back(static_cast<std::uint16_t>(k));
+  }
+  out_.add(points_of(polygon), shade, Screened{map, screen_.get(), &table}, active_);
+}
+
+}  // namespace contrejour::adaptive

@@ -1,0 +1,275 @@
+#include "render/adaptive/maps/patch.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "render/adaptive/maps/lobatto.h"
+
+namespace contrejour::adaptive {
+namespace {
+
+// A rim counts once a ray of the sheet passes beyond this share of it, squared.
+constexpr float kNearRim = 0.94F;
+
+// Matrices for one number of nodes.
+struct NodeMatrices {
+  Matrix coefficients;
+  std::array<Matrix, 2> half;  // to the nodes of the low and of the high half
+
+  explicit NodeMatrices(int nodes) : coefficients(coefficient_matrix(nodes)) {
+    for (std::size_t side = 0; side < 2; ++side) {
+      auto points = lobatto_points(nodes);
+      for (double& p : points) p = 0.5 * (p + (side == 0 ? -1.0 : 1.0));
+      half[side] = interpolation_matrix(nodes, points);
+    }
+  }
+};
+
+const NodeMatrices& matrices(int nodes) {
+  static const std::map<int, NodeMatrices> all{
+      {2, NodeMatrices(2)}, {5, NodeMatrices(5)}, {9, NodeMatrices(9)}, {17, NodeMatrices(17)}};
+  return all.at(nodes);
+}
+
+// along_y^T * field * along_x, both nodes by nodes.
+void transform(const float* field, int nodes, const Matrix& along_x, const Matrix& along_y, float* out) {
+  const int stride = along_x.stride;
+  std::array<float, 17 * 32> half{};
+  std::array<float, 17 * 32> whole{};
+  multiply(field, nodes, nodes, nodes, along_x, half.data());
+  multiply_transposed(along_y, half.data(), stride, whole.data());
+  for (int row = 0; row < nodes; ++row) std::copy_n(whole.data() + row * stride, nodes, out + row * nodes);
+}
+
+bool blocks_within(const RaySheet& sheet, std::size_t step) {
+  return !sheet.blocks_within.empty() && sheet.blocks_within[step];
+}
+
+// The largest of at least one value: eight at a time, as a single maximum would have to wait for its last comparison.
+float highest_of(const float* values, std::size_t count) {
+  std::array<float, 8> most;
+  most.fill(values[0]);
+  std::size_t k = 0;
+  for (; k + most.size() <= count; k += most.size()) {
+    for (std::size_t lane = 0; lane < most.size(); ++lane) most[lane] = std::max(most[lane], values[k + lane]);
+  }
+  for (; k < count; ++k) most[0] = std::max(most[0], values[k]);
+  return *std::max_element(most.begin(), most.end());
+}
+
+// Indices of the steps whose rims may cut the sheet, those that cut deepest first. What an obscuration blocks may lie
+// between the rays: no square rises above its highest value there by more than its values differ.
+std::vector<std::size_t> rims_in_play(std::span<const RaySheet> sheets) {
+  std::vector<std::pair<float, std::size_t>> found;
+  const std::size_t count = sheets.front().count();
+  for (std::size_t at = 0; at < sheets.front().rim_squared.size(); at += count) {
+    float highest = 0.0F;
+    for (const RaySheet& sheet : sheets) {
+      const float* rim = sheet.rim_squared.data() + at;
+      float high = highest_of(rim, count);
+      if (blocks_within(sheet, at / count)) high += high - *std::min_element(rim, rim + count);
+      highest = std::max(highest, high);
+    }
+    if (highest > kNearRim) found.emplace_back(-highest, at / count);
+  }
+  std::sort(found.begin(), found.end());
+  std::vector<std::size_t> steps;
+  for (const auto& [height, step] : found) steps.push_back(step);
+  return steps;
+}
+
+// The rims of `steps` in fields of their own; more than there is room for share the last one.
+void copy_rims(const RaySheet& sheet, const std::vector<std::size_t>& steps, Patch& patch) {
+  for (std::size_t k = 0; k < steps.size(); ++k) {
+    const float* rim = sheet.rim_squared.data() + steps[k] * sheet.count();
+    const int to_rim = std::min(static_cast<int>(k), kMostRims - 1);
+    float* to = patch.field(patch.layout.rim(to_rim));
+    if (blocks_within(sheet, steps[k])) patch.layout.obscurations |= 1U << to_rim;
+    const bool shared = k >= static_cast<std::size_t>(kMostRims);
+    for (std::size_t node = 0; node < patch.size(); ++node)
+      to[node] = shared ? std::max(to[node], rim[node]) : rim[node];
+  }
+}
+
+// Whether nothing between four rays gets through: all beyond one rim, or on one side of the stop beyond its circle.
+// What lies between them is a mean of theirs.
+bool is_closed(const RaySheet& sheet, const std::array<std::size_t, 4>& corners) {
+  const auto all = [&](auto beyond) { return std::all_of(corners.begin(), corners.end(), beyond); };
+  for (std::size_t at = 0; at < sheet.rim_squared.size(); at += sheet.count()) {
+    if (all([&](std::size_t k) { return sheet.rim_squared[at + k] > 1.0F; })) return true;
+  }
+  for (const auto& crossing : sheet.stop) {
+    for (const auto& coordinate : crossing) {
+      if (all([&](std::size_t k) { return coordinate[k] > 1.0F; })) return true;
+      if (all([&](std::size_t k) { return coordinate[k] < -1.0F; })) return true;
+    }
+  }
+  return false;
+}
+
+double largest_size(const float* field, std::size_t count) {
+  float largest = 0.0F;
+  for (std::size_t k = 0; k < count; ++k) largest = std::max(largest, std::abs(field[k]));
+  return largest;
+}
+
+// Sum of the coefficients of highest degree in either direction.
+double tail(const float* field, int nodes) {
+  const Matrix& to_coefficients = matrices(nodes).coefficients;
+  std::array<float, 17 * 17> c{};
+  transform(field, nodes, to_coefficients, to_coefficients, c.data());
+  double sum = 0.0;
+  for (int k = 0; k < nodes; ++k) {
+    sum += std::abs(c[static_cast<std::size_t>(nodes * nodes - nodes + k)]);
+    if (k < nodes - 1) sum += std::abs(c[static_cast<std::size_t>(k * nodes + nodes - 1)]);
+  }
+  return sum;
+}
+
+Vec2 on_frame(const RaySheet& sheet, std::size_t node, const LightFrame& light, const Frame& frame) {
+  return frame.pixel_from_sensor(light.into_place({sheet.sensor_x_mm[node], sheet.sensor_y_mm[node]}));
+}
+
+// A pixel's corner near the middle of the sheet's image.
+Vec2 origin_of(const RaySheet& sheet, const LightFrame& light, const Frame& frame) {
+  const Vec2 middle = on_frame(sheet, sheet.count() / 2, light, frame);
+  return {std::floor(middle.x), std::floor(middle.y)};
+}
+
+// steps: those whose rims are kept.
+Patch make_patch(const RaySheet& sheet, const std::vector<std::size_t>& steps, Vec2 origin_px, const LightFrame& light,
+                 const Frame& frame) {
+  Patch patch;
+  patch.nodes = sheet.nodes;
+  patch.box = sheet.box;
+  patch.layout = {static_cast<int>(sheet.stop.size()), std::min(static_cast<int>(steps.size()), kMostRims),
+                  static_cast<int>(sheet.weight.size())};
+  patch.gain = sheet.gain;
+  patch.values.resize(static_cast<std::size_t>(patch.layout.fields()) * sheet.count());
+  const Vec2 size = sheet.box.high - sheet.box.low;
+  patch.flux_area_mm2 = size.x * size.y * light.source.shared_flux();
+  patch.origin_px = origin_px;
+  for (std::size_t k = 0; k < sheet.count(); ++k) {
+    const Vec2 p = on_frame(sheet, k, light, frame) - origin_px;
+    patch.field(PatchLayout::kX)[k] = static_cast<float>(p.x);
+    patch.field(PatchLayout::kY)[k] = static_cast<float>(p.y);
+    for (std::size_t c = 0; c < sheet.stop.size(); ++c) {
+      const Vec2 s = light.into_place({sheet.stop[c][0][k], sheet.stop[c][1][k]});
+      patch.field(PatchLayout::kStop + 2 * static_cast<int>(c))[k] = static_cast<float>(s.x);
+      patch.field(PatchLayout::kStop + 2 * static_cast<int>(c) + 1)[k] = static_cast<float>(s.y);
+    }
+  }
+  for (int k = 0; k < patch.layout.weights; ++k)
+    std::ranges::copy(sheet.weight[static_cast<std::size_t>(k)], patch.field(patch.layout.weight(k)));
+  copy_rims(sheet, steps, patch);
+  return patch;
+}
+
+}  // namespace
+
+Patch make_patch(const RaySheet& sheet, const LightFrame& light, const Frame& frame) {
+  return make_patch(sheet, rims_in_play({&sheet, 1}), origin_of(sheet, light, frame), light, frame);
+}
+
+std::vector<Patch> make_patches(std::span<const RaySheet> sheets, const LightFrame& light, const Frame& frame) {
+  const auto steps = rims_in_play(sheets);
+  const Vec2 origin_px = origin_of(sheets.front(), light, frame);
+  std::vector<Patch> patches;
+  for (const RaySheet& sheet : sheets) patches.push_back(make_patch(sheet, steps, origin_px, light, frame));
+  return patches;
+}
+
+void blend(std::span<const Patch> patches, const PatchBlend& factors, Patch& out) {
+  const Patch& first = patches.front();
+  out.layout = first.layout;
+  out.layout.weights = static_cast<int>(factors.weight.size());
+  out.nodes = first.nodes;
+  out.box = first.box;
+  out.origin_px = first.origin_px;
+  out.flux_area_mm2 = first.flux_area_mm2;
+  out.gain = factors.gain;
+  out.values.assign(static_cast<std::size_t>(out.layout.fields()) * first.size(), 0.0F);
+  const auto add = [&](const float* from, double factor, int field, int count) {
+    const auto times = static_cast<float>(factor);
+    float* to = out.field(field);
+    for (std::size_t k = 0; k < static_cast<std::size_t>(count) * out.size(); ++k) to[k] += times * from[k];
+  };
+  for (std::size_t k = 0; k < patches.size(); ++k) {
+    const float* weight = patches[k].field(first.layout.weight(0));
+    add(patches[k].field(0), factors.geometry[k], 0, first.layout.limits_end());
+    for (int w = 0; w < out.layout.weights; ++w)
+      add(weight, factors.weight[static_cast<std::size_t>(w)][k], out.layout.weight(w), 1);
+  }
+}
+
+std::vector<Patch> patches_of_cells(const RaySheet& sheet, const LightFrame& light, const Frame& frame) {
+  const auto& points = lobatto_points(sheet.nodes);
+  const Vec2 half = (sheet.box.high - sheet.box.low) * 0.5;
+  const auto n = static_cast<std::size_t>(sheet.nodes);
+  std::vector<Patch> patches;
+  for (std::size_t iy = 0; iy + 1 < n; ++iy) {
+    for (std::size_t ix = 0; ix + 1 < n; ++ix) {
+      const std::array<std::size_t, 4> corners{iy * n + ix, iy * n + ix + 1, (iy + 1) * n + ix, (iy + 1) * n + ix + 1};
+      if (std::any_of(corners.begin(), corners.end(), [&](std::size_t k) { return std::isinf(sheet.r_rel[k]); }))
+        continue;
+      if (is_closed(sheet, corners)) continue;
+      const auto pick = [&](const std::vector<float>& from, std::vector<float>& to, std::size_t offset = 0) {
+        for (const std::size_t k : corners) to.push_back(from[offset + k]);
+      };
+      RaySheet cell;
+      cell.nodes = 2;
+      cell.box = {sheet.box.low + Vec2{half.x * (1.0 + points[ix]), half.y * (1.0 + points[iy])},
+                  sheet.box.low + Vec2{half.x * (1.0 + points[ix + 1]), half.y * (1.0 + points[iy + 1])}};
+      pick(sheet.sensor_x_mm, cell.sensor_x_mm);
+      pick(sheet.sensor_y_mm, cell.sensor_y_mm);
+      pick(sheet.r_rel, cell.r_rel);
+      cell.gain = sheet.gain;
+      cell.weight.resize(sheet.weight.size());
+      for (std::size_t k = 0; k < sheet.weight.size(); ++k) pick(sheet.weight[k], cell.weight[k]);
+      cell.stop.resize(sheet.stop.size());
+      for (std::size_t c = 0; c < sheet.stop.size(); ++c) {
+        for (std::size_t axis = 0; axis < 2; ++axis) pick(sheet.stop[c][axis], cell.stop[c][axis]);
+      }
+      for (std::size_t at = 0; at < sheet.rim_squared.size(); at += sheet.count())
+        pick(sheet.rim_squared, cell.rim_squared, at);
+      cell.blocks_within = sheet.blocks_within;
+      patches.push_back(make_patch(cell, light, frame));
+    }
+  }
+  return patches;
+}
+
+PatchError estimated_error(const Patch& patch) {
+  PatchError error;
+  const PatchLayout& layout = patch.layout;
+  error.position_px =
+      std::max(tail(patch.field(PatchLayout::kX), patch.nodes), tail(patch.field(PatchLayout::kY), patch.nodes));
+  for (int k = 0; k < 2 * layout.crossings; ++k)
+    error.stop = std::max(error.stop, tail(patch.field(PatchLayout::kStop + k), patch.nodes));
+  for (int k = 0; k < layout.rims; ++k) error.rim = std::max(error.rim, tail(patch.field(layout.rim(k)), patch.nodes));
+  double largest = 0.0;
+  for (int k = 0; k < layout.weights; ++k) {
+    const float* field = patch.field(layout.weight(k));
+    largest = std::max(largest, largest_size(field, patch.size()));
+    error.weight = std::max(error.weight, tail(field, patch.nodes));
+  }
+  if (largest > 0.0) error.weight /= largest;
+  return error;
+}
+
+Patch quarter(const Patch& patch, int ix, int iy) {
+  const NodeMatrices& m = matrices(patch.nodes);
+  Patch out = patch;
+  const Vec2 half = (patch.box.high - patch.box.low) * 0.5;
+  out.box.low = patch.box.low + Vec2{half.x * ix, half.y * iy};
+  out.box.high = out.box.low + half;
+  out.flux_area_mm2 = 0.25 * patch.flux_area_mm2;
+  for (int f = 0; f < patch.layout.fields(); ++f) {
+    transform(patch.field(f), patch.nodes, m.half[static_cast<std::size_t>(ix)], m.half[static_cast<std::size_t>(iy)],
+              out.field(f));
+  }
+  return out;
+}
+
+}  // namespace contrejour::adaptive

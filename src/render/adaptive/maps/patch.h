@@ -1,0 +1,79 @@
+// A part of a ghost as polynomials over a box of the entrance plane: where its rays land, what they carry and how
+// close they pass to whatever may block them.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "contrejour/frame.h"
+#include "render/adaptive/maps/ray_sheet.h"
+
+namespace contrejour::adaptive {
+
+// Fields of a patch in turn: position in pixels (2), stop coordinates (2 a crossing), the square of the relative height
+// at every rim that comes into play, and what rays carry: to each channel, or, of a single wavelength, to all alike.
+struct PatchLayout {
+  int crossings = 0;
+  int rims = 0;
+  int weights = 1;  // or 3
+  std::uint32_t obscurations = 0;  // bit k: rim k blocks within; its field is 2 less the square
+
+  static constexpr int kX = 0, kY = 1, kStop = 2;
+  [[nodiscard]] int rim(int k) const { return kStop + 2 * crossings + k; }
+  [[nodiscard]] int limits_end() const { return rim(rims); }  // stop coordinates and rims end here
+  [[nodiscard]] bool is_obscuration(int k) const { return (obscurations >> k & 1U) != 0; }
+  [[nodiscard]] int weight(int k) const { return limits_end() + k; }
+  [[nodiscard]] int weight_of(int channel) const { return weight(weights == 1 ? 0 : channel); }
+  [[nodiscard]] int fields() const { return weight(weights); }
+};
+
+inline constexpr int kMostRims = 12;
+
+struct Patch {
+  PatchLayout layout;
+  int nodes = 0;  // a side, Lobatto points
+  Rectangle box;  // mm of the entrance plane, in the light's frame
+  Vec2 origin_px;  // what positions are counted from
+  double flux_area_mm2 = 0;  // of the box, times cos(theta): flux is gain times weight times this, over the whole box
+  Rgb gain{1.0, 1.0, 1.0};  // per channel
+  std::vector<float> values;  // [(field * nodes + row) * nodes + column]
+
+  [[nodiscard]] std::size_t size() const { return static_cast<std::size_t>(nodes) * static_cast<std::size_t>(nodes); }
+  [[nodiscard]] const float* field(int f) const { return values.data() + static_cast<std::size_t>(f) * size(); }
+  [[nodiscard]] float* field(int f) { return values.data() + static_cast<std::size_t>(f) * size(); }
+};
+
+// All rays of the sheet must have arrived. Rims that every ray clears by a good margin are left out.
+[[nodiscard]] Patch make_patch(const RaySheet& sheet, const LightFrame& light, const Frame& frame);
+
+// Patches of sheets of one box at several wavelengths, counted from one origin and with the same rims.
+[[nodiscard]] std::vector<Patch> make_patches(std::span<const RaySheet> sheets, const LightFrame& light,
+                                              const Frame& frame);
+
+// What makes the patch of a further wavelength, or of a band, of such patches: factors, one for each of them.
+struct PatchBlend {
+  std::vector<double> geometry;
+  std::vector<std::vector<double>> weight;  // of their weights, one each, to those of the blend
+  Rgb gain{1.0, 1.0, 1.0};
+};
+void blend(std::span<const Patch> patches, const PatchBlend& factors, Patch& out);
+
+// Straight lines between neighbouring rays that arrived, a patch for each four between which any light may pass.
+[[nodiscard]] std::vector<Patch> patches_of_cells(const RaySheet& sheet, const LightFrame& light, const Frame& frame);
+
+// How much the polynomials may still be wrong, by the size of their highest terms.
+struct PatchError {
+  double position_px = 0;
+  double stop = 0;  // stop radii
+  double rim = 0;  // of squared relative heights
+  double weight = 0;  // relative to the largest
+};
+[[nodiscard]] PatchError estimated_error(const Patch& patch);
+
+// The quarter of a patch on the low (0) or high (1) side of each axis, as a patch of its own.
+[[nodiscard]] Patch quarter(const Patch& patch, int ix, int iy);
+
+}  // namespace contrejour::adaptive

@@ -1,0 +1,73 @@
+// Exact rays of one ghost and light at one wavelength, at the Lobatto points of a box of the entrance plane.
+// All in the light's meridional frame: the light comes from -x or along the axis, so a centred lens is symmetric
+// in y and half the rays are the mirror images of the others; hullin2011 4.2, "symmetries".
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "ghosts/ray_grid.h"
+#include "render/adaptive/maps/light_frame.h"
+#include "render/adaptive/pupils/bent_box.h"
+#include "render/interface/frame_plan.h"
+
+namespace contrejour::adaptive {
+
+// Of the clear height: rays beyond tell nothing of the image, which those at a box's border may be flung far from.
+constexpr float kNearlyThrough = 1.2F;
+
+// One value a node, rows of `nodes` by rising y.
+struct RaySheet {
+  Rectangle box;  // mm, in the plane of the entrance window
+  int nodes = 0;
+  int failed = 0;  // nodes whose ray does not arrive; their values mean nothing
+  std::vector<float> sensor_x_mm, sensor_y_mm;
+  std::vector<float> transmission;
+  std::vector<std::vector<float>> weight;    // what add_light() made of transmissions: one, or one a channel
+  Rgb gain{1.0, 1.0, 1.0};                   // of weights to channels
+  std::vector<float> r_rel;                  // infinite where the ray fails; without obscurations
+  std::vector<std::array<std::vector<float>, 2>> stop;  // by crossing: x and y over the stop radius
+  std::vector<float> rim_squared;            // [step * nodes^2 + node]
+  std::vector<bool> blocks_within;           // by step; empty where none does
+
+  [[nodiscard]] std::size_t count() const { return static_cast<std::size_t>(nodes) * static_cast<std::size_t>(nodes); }
+};
+
+// Adds gain * transmission, one value a node, to the sheet's light. The first is one weight for all channels.
+void add_light(RaySheet& sheet, std::span<const float> transmission, const Rgb& gain);
+
+// The sheet of the box on the other side of the axis y = 0, of a lens and light that are symmetric there.
+[[nodiscard]] RaySheet mirrored(const RaySheet& sheet);
+
+class SheetTracer {
+ public:
+  // path: of that light, from any point of the entrance plane.
+  SheetTracer(PacketPath path, const LightFrame& light);
+
+  // A sheet without weights. A box that is its own mirror image costs half of its rays.
+  [[nodiscard]] RaySheet trace(const Rectangle& box, int nodes, PacketPrecision precision);
+  // Of the rays through the same nodes.
+  [[nodiscard]] std::vector<float> transmissions(const Rectangle& box, int nodes, PacketPrecision precision);
+
+  // Of boxes from here on.
+  void bend(const Bend& bend) { bend_ = bend; }
+
+  [[nodiscard]] std::size_t steps() const { return path_.steps().size(); }
+  [[nodiscard]] std::uint64_t rays() const { return rays_; }
+  [[nodiscard]] std::uint64_t surface_hits() const { return rays_ * steps(); }
+
+ private:
+  [[nodiscard]] int first_traced_row(const Rectangle& box, int nodes) const;
+  void trace_rows(const Rectangle& box, int nodes, int first_row, PacketPrecision precision, TracedArrays out);
+  void leave_obscurations_out(RaySheet& sheet) const;
+
+  LightFrame light_;
+  PacketPath path_;
+  bool is_obscured_;
+  Bend bend_;
+  std::vector<float> x_mm_, y_mm_, scratch_;
+  std::uint64_t rays_ = 0;
+};
+
+}  // namespace contrejour::adaptive

@@ -1,0 +1,105 @@
+#include "render/adaptive/maps/screened_boxes.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include "render/adaptive/maps/sheet_cells.h"
+
+namespace contrejour::adaptive {
+namespace {
+
+constexpr double kScreenDisc = 1.2;    // of a cell's distance from its middle in the stop, for cells that bend
+constexpr double kFolded_mm2 = 1e-12;  // of a cell's image
+
+// Rays of a sheet, and what their light sees.
+class ScreenedSheet {
+ public:
+  ScreenedSheet(const RaySheet& sheet, bool with_mirror_image, const screens::BandScreen& screen, double unit,
+                const LightFrame& light)
+      : sheet_(sheet), mirror_image_(with_mirror_image), screen_(screen), unit_(unit), light_(light),
+        flux_mm2_(light.source.shared_flux()), cells_(sheet) {}
+
+  [[nodiscard]] const SheetCells& cells() const { return cells_; }
+  [[nodiscard]] bool arrives(std::size_t ray) const { return !std::isinf(sheet_.r_rel[ray]); }
+
+  // The irradiance without a screen between four rays side by side.
+  [[nodiscard]] double level(std::size_t first) const {
+    double transmission = 0.0;
+    for (const std::size_t v : cells_.corners(first))
+      transmission = std::max(transmission, std::abs(static_cast<double>(sheet_.transmission[v])));
+    return transmission * flux_mm2_ * cells_.entrance_mm2(first) / std::max(cells_.image_mm2(first), kFolded_mm2);
+  }
+  // About how wide it is in the stop.
+  [[nodiscard]] double radius(std::size_t first) const {
+    const Vec2 middle = middle_of(first, 1.0);
+    double radius = 0.0;
+    for (const std::size_t v : cells_.corners(first)) radius = std::max(radius, length(stop(v, 1.0) - middle));
+    return kScreenDisc * radius;
+  }
+  // The largest share that passes to it, or within `radius` of a ray.
+  [[nodiscard]] double passed(std::size_t first) const {
+    const double about = radius(first);
+    double most = screen_.over(middle_of(first, 1.0), about).most;
+    if (mirror_image_) most = std::max(most, screen_.over(middle_of(first, -1.0), about).most);
+    return most;
+  }
+  [[nodiscard]] double passed_about(std::size_t ray, double radius) const {
+    double most = screen_.over(stop(ray, 1.0), radius).most;
+    if (mirror_image_) most = std::max(most, screen_.over(stop(ray, -1.0), radius).most);
+    return most;
+  }
+
+ private:
+  // turned: -1 in the mirror image.
+  [[nodiscard]] Vec2 stop(std::size_t v, double turned) const {
+    return light_.into_place({sheet_.stop.back()[0][v], turned * sheet_.stop.back()[1][v]}) * unit_;
+  }
+  [[nodiscard]] Vec2 middle_of(std::size_t first, double turned) const {
+    Vec2 sum{};
+    for (const std::size_t v : cells_.corners(first)) sum = sum + stop(v, turned) * 0.25;
+    return sum;
+  }
+
+  const RaySheet& sheet_;
+  bool mirror_image_;
+  const screens::BandScreen& screen_;
+  double unit_;
+  const LightFrame& light_;
+  double flux_mm2_;
+  SheetCells cells_;
+};
+
+}  // namespace
+
+std::optional<double> brightest_passed(const RaySheet& sheet, bool with_mirror_image, const screens::BandScreen& screen,
+                                       double unit, const LightFrame& light, double enough) {
+  if (sheet.stop.empty()) return std::nullopt;
+  const ScreenedSheet screened(sheet, with_mirror_image, screen, unit, light);
+  const SheetCells& cells = screened.cells();
+  const std::size_t count = cells.end();
+  std::vector<std::size_t> broken;  // cells with rays that fail
+  double level = 0.0, radius = 0.0; // of any that is whole
+  std::optional<double> brightest;
+  for (std::size_t k = 0; k < count; ++k) {
+    const std::size_t first = (k + count / 2) % count;  // what is in the middle is most likely bright
+    if (!cells.has(first)) continue;
+    const auto rays = cells.corners(first);
+    if (!std::all_of(rays.begin(), rays.end(), [&](std::size_t v) { return screened.arrives(v); })) {
+      broken.push_back(first);
+      continue;
+    }
+    const double here = screened.level(first);
+    level = std::max(level, here);
+    radius = std::max(radius, screened.radius(first));
+    if (here > brightest.value_or(-1.0)) brightest = std::max(brightest.value_or(0.0), screened.passed(first) * here);
+    if (*brightest > enough) return brightest;
+  }
+  for (std::size_t k = 0; brightest && level > *brightest && k < broken.size(); ++k)
+    for (const std::size_t v : cells.corners(broken[k]))
+      if (screened.arrives(v)) brightest = std::max(*brightest, screened.passed_about(v, 2.0 * radius) * level);
+  return brightest;
+}
+
+}  // namespace contrejour::adaptive

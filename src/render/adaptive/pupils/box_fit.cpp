@@ -1,0 +1,41 @@
+#include "render/adaptive/pupils/box_fit.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace contrejour::adaptive {
+namespace {
+
+constexpr int kColumns = 8;
+constexpr double kWidening = 0.2;  // of a box's size, on a side at which light comes through the very border
+constexpr int kMostWidenings = 4;
+constexpr float kReach = 0.5F;     // ClearanceGrid::may_pass
+
+}  // namespace
+
+BoxFitter::BoxFitter(PacketPath path, const EntranceWindow& window)
+    : grid_(std::move(path)),
+      window_{{window.min_mm.x, 0.0}, {window.max_mm.x, std::max(std::abs(window.min_mm.y), window.max_mm.y)}} {}
+
+std::optional<Rectangle> BoxFitter::fit(const Rectangle& box) {
+  Rectangle half{{box.low.x, std::max(box.low.y, 0.0)}, box.high};
+  for (int step = 0;; ++step) {
+    grid_.trace(half, kColumns, half.low.y == 0.0 ? kColumns / 2 : kColumns);
+    if (step == kMostWidenings) break;
+    const Rectangle next = grid_.grown(kWidening, window_);
+    if (next.low == half.low && next.high == half.high) break;
+    half = next;
+  }
+  std::optional<Rectangle> hull;
+  for (const auto& piece : grid_.pieces(kReach)) {
+    const Rectangle one = grid_.hull(piece);
+    if (!hull) hull = one;
+    hull->low = {std::min(hull->low.x, one.low.x), std::min(hull->low.y, one.low.y)};
+    hull->high = {std::max(hull->high.x, one.high.x), std::max(hull->high.y, one.high.y)};
+  }
+  if (hull && hull->low.y == 0.0) hull->low.y = -hull->high.y;
+  return hull;
+}
+
+}  // namespace contrejour::adaptive

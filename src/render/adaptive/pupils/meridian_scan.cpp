@@ -1,0 +1,117 @@
+#include "render/adaptive/pupils/meridian_scan.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace contrejour::adaptive {
+namespace {
+
+constexpr int kFirstIntervals = 47;
+constexpr int kParts = 3;  // of an interval that is looked into
+constexpr int kRounds = 2;
+constexpr std::size_t kMostLooks = 12;  // intervals a round
+constexpr float kReach = 0.5F;          // of what the ends of an interval differ, beyond them
+
+bool reaches(const Interval& i, std::span<const Rectangle> boxes) {
+  return std::any_of(boxes.begin(), boxes.end(), [&](const Rectangle& b) {
+    return b.low.y <= 0.0 && b.high.y >= 0.0 && i.low < b.high.x && i.high > b.low.x;
+  });
+}
+
+}  // namespace
+
+void MeridianScan::trace(const std::vector<double>& x_mm) {
+  const std::size_t count = x_mm.size();
+  const std::size_t padded = clearance_padded(count);
+  constexpr std::size_t kFields = 4 + 2 * kMaxStopCrossings;
+  x_mm_.assign(padded, 0.0F);
+  double closest = x_mm.back() - x_mm.front();
+  for (std::size_t k = 0; k < count; ++k) {
+    x_mm_[k] = static_cast<float>(x_mm[k] - x_mm.front());
+    if (k > 0) closest = std::min(closest, x_mm[k] - x_mm[k - 1]);
+  }
+  fields_.resize((1 + kFields) * padded);
+  const auto field = [&](std::size_t k) { return fields_.data() + k * padded; };
+  std::fill_n(field(kFields), padded, 0.0F);
+  const ClearanceArrays out{
+      field(0), field(1), field(2), field(3), {field(4), field(6), field(8)}, {field(5), field(7), field(9)}};
+  path_.start_from({x_mm.front(), 0.0});
+  trace_clearance(path_, search_precision(closest), x_mm_.data(), field(kFields), count, out);
+  rays_ += count;
+  const std::size_t known = nodes_.size();
+  for (std::size_t k = 0; k < count; ++k) {
+    Node node{x_mm[k], out.failing[k], out.passed[k], {}};
+    node.place[0] = out.rim_x[k];
+    for (std::size_t c = 0; c < static_cast<std::size_t>(path_.stop_crossings()); ++c) {
+      node.place[1 + c] = out.stop_x[c][k];
+    }
+    nodes_.push_back(node);
+  }
+  std::inplace_merge(nodes_.begin(), nodes_.begin() + static_cast<std::ptrdiff_t>(known), nodes_.end(),
+                     [](const Node& a, const Node& b) { return a.x_mm < b.x_mm; });
+}
+
+bool MeridianScan::is_open(const Node& node) const {
+  if (node.failing != 0.0F) return false;
+  for (std::size_t c = 0; c < 1 + static_cast<std::size_t>(path_.stop_crossings()); ++c) {
+    if (!(std::abs(node.place[c]) <= 1.0F)) return false;
+  }
+  return true;
+}
+
+// Between node k and the next; where one of them fails by what the other, and the line from the one before it, say.
+bool MeridianScan::may_pass(std::size_t k) const {
+  const Node& a = nodes_[k];
+  const Node& b = nodes_[k + 1];
+  if (a.failing != 0.0F && b.failing != 0.0F) return false;
+  if (a.failing != 0.0F) return is_open(b);
+  if (b.failing != 0.0F) return is_open(a);
+  for (std::size_t c = 0; c < 1 + static_cast<std::size_t>(path_.stop_crossings()); ++c) {
+    const float more = kReach * std::abs(a.place[c] - b.place[c]);
+    if (std::min(a.place[c], b.place[c]) - more > 1.0F || std::max(a.place[c], b.place[c]) + more < -1.0F) return false;
+  }
+  return true;
+}
+
+// Whether rays between node k and the next ought to be traced to tell.
+bool MeridianScan::is_worth_a_look(std::size_t k) const {
+  const Node& a = nodes_[k];
+  const Node& b = nodes_[k + 1];
+  if (a.failing == 0.0F && b.failing == 0.0F) return may_pass(k) && !(is_open(a) && is_open(b));
+  if (a.failing == 0.0F || b.failing == 0.0F || a.passed != b.passed) return true;
+  // Both fail at the same test: one may pass between them if the failing falls fast enough from either side.
+  const auto falls_to_zero = [&](const Node& outer, const Node& inner) {
+    const double steps = (b.x_mm - a.x_mm) / std::abs(inner.x_mm - outer.x_mm);
+    return outer.passed == inner.passed && inner.failing < (outer.failing - inner.failing) * steps;
+  };
+  return (k > 0 && falls_to_zero(nodes_[k - 1], a)) || (k + 2 < nodes_.size() && falls_to_zero(nodes_[k + 2], b));
+}
+
+std::vector<Interval> MeridianScan::find(Interval line, std::span<const Rectangle> boxes) {
+  std::vector<double> x_mm;
+  for (int k = 0; k <= kFirstIntervals; ++k) x_mm.push_back(line.low + (line.high - line.low) * k / kFirstIntervals);
+  trace(x_mm);
+  for (int round = 0; round < kRounds; ++round) {
+    x_mm.clear();
+    for (std::size_t k = 0; k + 1 < nodes_.size() && x_mm.size() < kMostLooks * (kParts - 1); ++k) {
+      const Interval i{nodes_[k].x_mm, nodes_[k + 1].x_mm};
+      if (reaches(i, boxes) || !is_worth_a_look(k)) continue;
+      for (int p = 1; p < kParts; ++p) x_mm.push_back(i.low + (i.high - i.low) * p / kParts);
+    }
+    if (x_mm.empty()) break;
+    trace(x_mm);
+  }
+  std::vector<Interval> found;
+  for (std::size_t k = 0; k + 1 < nodes_.size(); ++k) {
+    const Interval i{nodes_[k].x_mm, nodes_[k + 1].x_mm};
+    if (!may_pass(k) || reaches(i, boxes)) continue;
+    if (!found.empty() && found.back().high == i.low) {
+      found.back().high = i.high;
+    } else {
+      found.push_back(i);
+    }
+  }
+  return found;
+}
+
+}  // namespace contrejour::adaptive

@@ -1,0 +1,123 @@
+#include "render/adaptive/pupils/pupil_boxes.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "render/adaptive/pupils/clearance_grid.h"
+#include "render/adaptive/pupils/meridian_scan.h"
+#include "render/adaptive/pupils/stop_aim.h"
+
+namespace contrejour::adaptive {
+namespace {
+
+constexpr int kFirstColumns = 12;  // of the first grid, over the window; half as many rows from y = 0 up
+constexpr int kColumns = 8;        // of the others; half as many rows for boxes that touch y = 0
+constexpr int kMostColumns = 32;
+constexpr float kFirstReach = 1.0F;  // ClearanceGrid::may_pass
+constexpr float kReach = 0.5F;
+constexpr double kGrowth = 1.0;  // of a box's size, on a side at which rays get through
+constexpr int kMostGrowths = 2;
+constexpr int kDeepest = 12;     // grids, each in a part of the one before
+constexpr int kMostDark = 2;     // of them in a row without a ray that gets through
+constexpr std::uint64_t kMostRays = 3000;
+constexpr double kTight = 0.4;         // open corners' share of all at which cells fit well enough
+constexpr double kWorthZooming = 0.6;  // of the area
+constexpr double kSettled = 0.15;      // stop radii by which an aim may be off
+
+double area(const Rectangle& r) { return std::max(r.high.x - r.low.x, 0.0) * std::max(r.high.y - r.low.y, 0.0); }
+
+Rectangle common(const Rectangle& a, const Rectangle& b) {
+  return {{std::max(a.low.x, b.low.x), std::max(a.low.y, b.low.y)},
+          {std::min(a.high.x, b.high.x), std::min(a.high.y, b.high.y)}};
+}
+
+// A part of the upper half of the entrance plane that is still to be searched.
+struct Part {
+  Rectangle box;
+  int columns = kColumns;
+  int depth = 0;
+  int dark = 0;  // grids since one had a ray that gets through
+};
+
+class Search {
+ public:
+  Search(const PacketPath& path, const EntranceWindow& window)
+      : grid_(path), meridian_(path),
+        half_{{window.min_mm.x, 0.0}, {window.max_mm.x, std::max(std::abs(window.min_mm.y), window.max_mm.y)}} {}
+
+  PupilBoxes run() {
+    grid_.trace(half_, kFirstColumns, kFirstColumns / 2);
+    consider({half_}, kFirstReach);
+    search_parts();
+    for (const Interval& i : meridian_.find({half_.low.x, half_.high.x}, boxes_)) {
+      const double width = i.high - i.low;
+      parts_.push_back({common({{i.low - 0.5 * width, 0.0}, {i.high + 0.5 * width, width}}, half_)});
+    }
+    search_parts();
+    return {std::move(boxes_), grid_.rays() + meridian_.rays()};
+  }
+
+ private:
+  void search_parts() {
+    while (!parts_.empty()) {
+      Part part = parts_.back();
+      parts_.pop_back();
+      for (int step = 0; step <= kMostGrowths; ++step) {
+        grid_.trace(part.box, part.columns, part.box.low.y == 0.0 ? part.columns / 2 : part.columns);
+        const Rectangle next = grid_.grown(kGrowth, half_);
+        if (next.low == part.box.low && next.high == part.box.high) break;
+        part.box = next;
+      }
+      consider(part, kReach);
+    }
+  }
+
+  // Each piece of the grid, which lies over `part`, becomes a box or a part of its own, or is given up.
+  void consider(const Part& part, float reach) {
+    for (const auto& piece : grid_.pieces(reach)) {
+      const Rectangle hull = grid_.hull(piece);
+      int open = 0;
+      for (const GridCell& cell : piece) open += grid_.open_corners(cell);
+      Rectangle next = hull;
+      const auto aim = aim_at_stop(grid_, piece);
+      if (aim && area(common(hull, aim->box)) > 0.0) {
+        next = common(hull, aim->box);
+        if (aim->error < kSettled && open > 0) {
+          add_box(next);
+          continue;
+        }
+      }
+      const bool shrunk = area(next) < kWorthZooming * area(grid_.box());
+      const bool tight = open >= kTight * 4.0 * static_cast<double>(piece.size());
+      const int dark = open > 0 ? 0 : part.dark + 1;
+      const bool last = part.depth == kDeepest || grid_.rays() > kMostRays || (!shrunk && part.columns >= kMostColumns);
+      if (open > 0 && ((tight && !shrunk) || last)) {
+        add_box(next);
+      } else if (!last && dark < kMostDark) {
+        parts_.push_back({next, shrunk ? part.columns : 2 * part.columns, part.depth + 1, dark});
+      }
+    }
+  }
+
+  // With its mirror image, or one box where it reaches down to the axis.
+  void add_box(const Rectangle& b) {
+    if (b.low.y <= 0.0) {
+      boxes_.push_back({{b.low.x, -b.high.y}, b.high});
+    } else {
+      boxes_.push_back(b);
+      boxes_.push_back({{b.low.x, -b.high.y}, {b.high.x, -b.low.y}});
+    }
+  }
+
+  ClearanceGrid grid_;
+  MeridianScan meridian_;
+  Rectangle half_;
+  std::vector<Part> parts_;
+  std::vector<Rectangle> boxes_;
+};
+
+}  // namespace
+
+PupilBoxes find_pupil_boxes(const PacketPath& path, const EntranceWindow& window) { return Search(path, window).run(); }
+
+}  // namespace contrejour::adaptive

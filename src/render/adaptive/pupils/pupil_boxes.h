@@ -1,0 +1,23 @@
+// Where on the entrance plane a ghost's rays get through, in a few hundred rays: boxes that together hold every one
+// of them. Cells of a coarse lattice that may let light through are quartered until quartering gains no more.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "ghosts/ray_grid.h"
+#include "optics/trace/packet_trace.h"
+
+namespace contrejour::adaptive {
+
+struct PupilBoxes {
+  std::vector<Rectangle> boxes;  // in the meridional frame; those that touch y = 0 are symmetric in y, of the others
+                                 // each comes with its mirror image
+  std::uint64_t rays = 0;
+};
+
+// path: of a light in the meridional frame, from any point of the entrance plane. The iris counts as its circumscribed
+// circle.
+[[nodiscard]] PupilBoxes find_pupil_boxes(const PacketPath& path, const EntranceWindow& window);
+
+}  // namespace contrejour::adaptive

@@ -1,0 +1,308 @@
+// What passes near the edges of an iris, where they bring fringes: tables of distance.
+#if defined(CONTREJOUR_ADAPTIVE_TILE_FRINGES_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef CONTREJOUR_ADAPTIVE_TILE_FRINGES_INL_H_
+#undef CONTREJOUR_ADAPTIVE_TILE_FRINGES_INL_H_
+#else
+#define CONTREJOUR_ADAPTIVE_TILE_FRINGES_INL_H_
+#endif
+
+#include <hwy/highway.h>
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <span>
+#include <vector>
+
+#include "render/adaptive/tiles/edge_table.h"
+#include "render/adaptive/tiles/quad-inl.h"
+#include "render/adaptive/tiles/tile_rows-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace contrejour::adaptive::HWY_NAMESPACE {
+
+static_assert(EdgeTable::kStride == 4);
+
+// Places in a table of fringes along rows, by distance from an edge: a bound's, or a picture's outline.
+class EdgePlaces {
+ public:
+  EdgePlaces() = default;
+  EdgePlaces(const EdgeTable& table, const IrisBound& bound, const StopMap& map) {
+    const double scale = table.per_step();
+    if (bound.straight()) {
+      kind_ = Kind::Straight;
+      x_ = RowForm(map.form(bound.normal * -scale, (table.dark_beyond() + bound.apothem) * scale));
+      return;
+    }
+    kind_ = Kind::Curved;
+    x_ = RowForm(map.form({scale, 0.0}, -bound.centre.x * scale));
+    y_ = RowForm(map.form({0.0, scale}, -bound.centre.y * scale));
+    edge_ = static_cast<float>((table.dark_beyond() + bound.radius) * scale);
+  }
+  EdgePlaces(const EdgeTable& table, const StopMap& map)
+      : kind_(Kind::Picture), x_(map.form({1.0, 0.0}, 0.0)), y_(map.form({0.0, 1.0}, 0.0)), table_(&table) {}
+
+  HWY_INLINE void set_row(const PixelRow& row) {
+    x_.set_row(row);
+    if (kind_ != Kind::Straight) y_.set_row(row);
+  }
+  // `count` of the pixels count, no more.
+  [[nodiscard]] HWY_INLINE hn::Vec<FloatTag> at(hn::Vec<FloatTag> pixel_x, int count) const {
+    return kind_ == Kind::Picture ? of_picture(x_.at(pixel_x), y_.at(pixel_x), count) : along().at(pixel_x);
+  }
+  // Along a row as vectors of its own; not of a picture.
+  struct Along {
+    bool straight;
+    RowForm::Along x, y;
+    hn::Vec<FloatTag> edge;
+    [[nodiscard]] HWY_INLINE hn::Vec<FloatTag> at(hn::Vec<FloatTag> pixel_x) const {
+      const auto from_x = x.at(pixel_x);
+      if (straight) return from_x;
+      const auto from_y = y.at(pixel_x);
+      return hn::Sub(edge, hn::Sqrt(hn::MulAdd(from_x, from_x, hn::Mul(from_y, from_y))));
+    }
+  };
+  [[nodiscard]] HWY_INLINE Along along() const {
+    return {kind_ == Kind::Straight, x_.along(), y_.along(), hn::Set(FloatTag(), edge_)};
+  }
+  // most: the last place of the table.
+  [[nodiscard]] HWY_INLINE SeenGroups seen(const PixelRow& row, float most) const {
+    if (kind_ == Kind::Picture) return {};
+    const FloatTag d;
+    const float across = x_.half_group(row), down = kind_ == Kind::Straight ? 0.0F : y_.half_group(row);
+    const float apart = across + down;
+    const auto level = hn::Set(d, most + apart), dark = hn::Set(d, -apart);
+    SeenGroups out;
+    out.level = groups_that(row, [&](hn::Vec<FloatTag> x) HWY_ATTR { return hn::Ge(at(x, 0), level); });
+    out.dark = groups_that(row, [&](hn::Vec<FloatTag> x) HWY_ATTR { return hn::Le(at(x, 0), dark); });
+    return out;
+  }
+
+ private:
+  enum class Kind : std::uint8_t { Straight, Curved, Picture };
+
+  [[nodiscard]] hn::Vec<FloatTag> of_picture(hn::Vec<FloatTag> x, hn::Vec<FloatTag> y, int count) const {
+    const FloatTag d;
+    HWY_ALIGN float at_x[kGroup], at_y[kGroup], place[kGroup] = {};
+    hn::Store(x, d, at_x);
+    hn::Store(y, d, at_y);
+    for (int k = 0; k < std::min(count, static_cast<int>(hn::Lanes(d))); ++k) {
+      const double distance =
+          table_->iris().picture_distance({static_cast<double>(at_x[k]), static_cast<double>(at_y[k])});
+      place[k] = static_cast<float>((table_->dark_beyond() - distance) * table_->per_step());
+    }
+    return hn::Load(d, place);
+  }
+
+  Kind kind_ = Kind::Straight;
+  RowForm x_, y_;  // of a straight edge x is the place; of a curved one they are steps from its centre
+  float edge_ = 0;  // the place at a curved one's centre
+  const EdgeTable* table_ = nullptr;
+};
+
+// What some edges bring together: the product of what each does.
+class Edges {
+ public:
+  Edges(const EdgeTable& table, std::span<const std::uint16_t> active, const StopMap& map)
+      : most_(static_cast<float>(table.count() - 1)) {
+    const IrisShape& iris = table.iris();
+    const std::size_t count = iris.is_picture() ? 1 : active.size();
+    if (count > few_.size()) many_.resize(count);
+    all_ = {many_.empty() ? few_.data() : many_.data(), count};
+    for (std::size_t k = 0; k < count; ++k)
+      all_[k] = iris.is_picture() ? EdgePlaces(table, map) : EdgePlaces(table, iris.bounds()[active[k]], map);
+  }
+  Edges(const Edges&) = delete;
+  Edges& operator=(const Edges&) = delete;
+  ~Edges() = default;
+
+  HWY_INLINE void set_row(const PixelRow& row) {
+    for (EdgePlaces& edge : all_) edge.set_row(row);
+  }
+  [[nodiscard]] float most() const { return most_; }
+
+  [[nodiscard]] HWY_INLINE SeenGroups seen(const PixelRow& row) const {
+    SeenGroups out{0, ~Groups{0}};
+    for (const EdgePlaces& edge : all_) {
+      const SeenGroups one = edge.seen(row, most_);
+      out.dark |= one.dark;
+      out.level &= one.level;
+    }
+    return out;
+  }
+  // Calls `multiply(place)` for each edge, with the places of the pixels from k on.
+  template <class Multiply>
+  HWY_INLINE void look(const PixelRow& row, int k, const Multiply& multiply) const {
+    const auto x = row.x(k);
+    for (const EdgePlaces& edge : all_) multiply(edge.at(x, row.count - k));
+  }
+
+ private:
+  float most_;  // place in the table
+  std::array<EdgePlaces, 4> few_;
+  std::vector<EdgePlaces> many_;
+  std::span<EdgePlaces> all_;
+};
+
+// In three channels, of some pixels at a time.
+class Fringes {
+ public:
+  static constexpr bool kGrey = false;
+  Fringes(const EdgeTable& table, std::span<const std::uint16_t> active, const StopMap& map)
+      : edges_(table, active, map), entries_(table.entries()) {}
+
+  HWY_INLINE void set_row(const PixelRow& row) { edges_.set_row(row); }
+  [[nodiscard]] HWY_INLINE SeenGroups seen(const PixelRow& row) const { return edges_.seen(row); }
+
+  // A vector of pixels, from k on.
+  class Passed {
+   public:
+    HWY_INLINE Passed(const Fringes& all, const PixelRow& row, int k) : first_(k) {
+      for (std::size_t j = 0; j < kLanes; ++j) Quad::all(1.0F).store(factors_ + kQuad * j);
+      all.edges_.look(row, k, [&](hn::Vec<FloatTag> place) HWY_ATTR { multiply(all, place); });
+    }
+    [[nodiscard]] HWY_INLINE Quad passed(int k) const {
+      return Quad::load(factors_ + kQuad * static_cast<std::size_t>(k - first_));
+    }
+
+   private:
+    static constexpr std::size_t kLanes = hn::MaxLanes(FloatTag());
+
+    HWY_INLINE void multiply(const Fringes& all, hn::Vec<FloatTag> place) {
+      const FloatTag d;
+      if (hn::AllTrue(d, hn::Ge(place, hn::Set(d, all.edges_.most())))) return;
+      const TablePlaces at = TableEnd(all.edges_.most()).places(place);
+      HWY_ALIGN std::int32_t whole[kLanes];
+      HWY_ALIGN float rest[kLanes];
+      hn::Store(at.whole, IntTag(), whole);
+      hn::Store(at.rest, d, rest);
+      for (std::size_t j = 0; j < kLanes; ++j) {
+        const float* const entry = all.entries_ + EdgeTable::kStride * static_cast<std::size_t>(whole[j]);
+        const Quad factor = mix(Quad::load(entry), Quad::load(entry + EdgeTable::kStride), Quad::all(rest[j]));
+        (Quad::load(factors_ + kQuad * j) * factor).store(factors_ + kQuad * j);
+      }
+    }
+
+    int first_;
+    HWY_ALIGN float factors_[kQuad * kLanes];
+  };
+  struct Row {
+    const Fringes& all;
+    PixelRow row;
+    [[nodiscard]] HWY_INLINE Passed vector(int k) const { return {all, row, k}; }
+  };
+  [[nodiscard]] HWY_INLINE Row look(const PixelRow& row) const { return {*this, row}; }
+
+ private:
+  Edges edges_;
+  const float* entries_;
+};
+
+// What fringes let through by place, one value for all channels.
+class GreyTable {
+ public:
+  explicit GreyTable(const EdgeTable& table)
+      : steps_(table.steps().data()), end_(static_cast<float>(table.count() - 1)) {}
+
+  [[nodiscard]] HWY_INLINE hn::Vec<FloatTag> at(hn::Vec<FloatTag> place) const {
+    const FloatTag d;
+    const TablePlaces at = end_.places_to_end(place);
+    HWY_ALIGN std::int32_t step[hn::MaxLanes(IntTag())];
+    hn::Store(at.whole, IntTag(), step);
+#if HWY_TARGET == HWY_SCALAR
+    return hn::MulAdd(at.rest, hn::Set(d, steps_[*step].rise), hn::Set(d, steps_[*step].factor));
+#else
+    const WordTag words;
+    constexpr std::size_t kHalf = hn::MaxLanes(WordTag());
+    const auto low = hn::BitCast(d, words_at(words, step)), high = hn::BitCast(d, words_at(words, step + kHalf));
+    return hn::MulAdd(at.rest, hn::ConcatOdd(d, high, low), hn::ConcatEven(d, high, low));
+#endif
+  }
+
+ private:
+#if HWY_TARGET != HWY_SCALAR
+  using WordTag = hn::Repartition<std::uint64_t, FloatTag>;
+  // A step each, one by one: gathers are slower on many processors.
+  [[nodiscard]] std::uint64_t word(std::int32_t step) const {
+    static_assert(sizeof(EdgeTable::Step) == sizeof(std::uint64_t));
+    std::uint64_t out;
+    std::memcpy(&out, steps_ + step, sizeof out);
+    return out;
+  }
+  template <class D>
+  [[nodiscard]] HWY_INLINE hn::Vec<D> words_at(D d, const std::int32_t* step) const {
+    if constexpr (hn::MaxLanes(d) == 2) {
+      return hn::InterleaveLower(d, hn::Set(d, word(step[0])), hn::Set(d, word(step[1])));
+    } else {
+      const hn::Half<D> half;
+      return hn::Combine(d, words_at(half, step + hn::MaxLanes(half)), words_at(half, step));
+    }
+  }
+#endif
+
+  const EdgeTable::Step* steps_;
+  TableEnd end_;
+};
+
+// One edge of the iris in one value for all channels.
+class GreyFringe {
+ public:
+  static constexpr bool kGrey = true;
+  GreyFringe(const EdgeTable& table, const IrisBound& bound, const StopMap& map)
+      : table_(table), most_(static_cast<float>(table.count() - 1)), edge_(table, bound, map) {}
+
+  HWY_INLINE void set_row(const PixelRow& row) { edge_.set_row(row); }
+  [[nodiscard]] HWY_INLINE SeenGroups seen(const PixelRow& row) const { return edge_.seen(row, most_); }
+
+  class Row {
+   public:
+    HWY_INLINE Row(const GreyFringe& all, const PixelRow& row)
+        : table_(all.table_), edge_(all.edge_.along()), row_(row) {}
+    [[nodiscard]] HWY_INLINE hn::Vec<FloatTag> passed(int k) const { return table_.at(edge_.at(row_.x(k))); }
+
+   private:
+    GreyTable table_;
+    EdgePlaces::Along edge_;
+    PixelRow row_;
+  };
+  [[nodiscard]] HWY_INLINE Row look(const PixelRow& row) const { return {*this, row}; }
+
+ private:
+  GreyTable table_;
+  float most_;
+  EdgePlaces edge_;
+};
+
+// Several.
+class GreyFringes {
+ public:
+  static constexpr bool kGrey = true;
+  GreyFringes(const EdgeTable& table, std::span<const std::uint16_t> active, const StopMap& map)
+      : edges_(table, active, map), table_(table) {}
+
+  HWY_INLINE void set_row(const PixelRow& row) { edges_.set_row(row); }
+  [[nodiscard]] HWY_INLINE SeenGroups seen(const PixelRow& row) const { return edges_.seen(row); }
+
+  struct Row {
+    const GreyFringes& all;
+    PixelRow row;
+    [[nodiscard]] HWY_INLINE hn::Vec<FloatTag> passed(int k) const {
+      auto passed = hn::Set(FloatTag(), 1.0F);
+      all.edges_.look(row, k,
+                      [&](hn::Vec<FloatTag> place) HWY_ATTR { passed = hn::Mul(passed, all.table_.at(place)); });
+      return passed;
+    }
+  };
+  [[nodiscard]] HWY_INLINE Row look(const PixelRow& row) const { return {*this, row}; }
+
+ private:
+  Edges edges_;
+  GreyTable table_;
+};
+
+}  // namespace contrejour::adaptive::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif

@@ -1,0 +1,95 @@
+// What edges left in a tile, and light that came pixel by pixel, as pixels of the frame.
+#if defined(CONTREJOUR_ADAPTIVE_TILE_PIXELS_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef CONTREJOUR_ADAPTIVE_TILE_PIXELS_INL_H_
+#undef CONTREJOUR_ADAPTIVE_TILE_PIXELS_INL_H_
+#else
+#define CONTREJOUR_ADAPTIVE_TILE_PIXELS_INL_H_
+#endif
+
+#include <hwy/highway.h>
+
+#include <algorithm>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <type_traits>
+#include <utility>
+
+#include "contrejour/image.h"
+#include "render/adaptive/tiles/pixels-inl.h"
+#include "render/adaptive/tiles/quad-inl.h"
+#include "render/adaptive/tiles/tile_sums.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace contrejour::adaptive::HWY_NAMESPACE {
+
+// A block's pixels, of the row at `to`. What touched it is taken, beyond the tile's border, too; `line` is the row's
+// before the block, then after it.
+template <bool kTouched, bool kLit>
+HWY_INLINE void draw_block(TileSums& tile, int row, int block, QuadLine<double>& line, float* to) {
+  const int first = TileSums::kBlock * block;
+  // Seen from here, not from the tile's border, a float holds it.
+  const PixelLine<float> level(QuadLine<float>{to_floats(line.at(first)), to_floats(line.slope)});
+  for (int k = 0; k < TileSums::kBlock; k += PixelsOf<float>::kCount) {
+    const std::size_t at = TileSums::kPixel * static_cast<std::size_t>(first + k);
+    PixelsOf<float> value = level.at(k);
+    if constexpr (kTouched) value = value + taken<float>(tile.pixels_at(row) + at);
+    if constexpr (kLit) {
+      float* const light = tile.light_at(row) + at;
+      value = value + PixelsOf<float>::load(light);
+      PixelsOf<float>::all(0.0F).store(light);
+    }
+    value.store(to + at);
+  }
+  if constexpr (kTouched) {
+    double* const change = tile.change_after(row, block);
+    line = line + QuadLine<double>::load(change);
+    QuadLine<double>::zero().store(change);
+  }
+}
+
+// A row's line and what blocks have of their own, which is cleared; of blocks that nothing touched it is not looked at.
+HWY_INLINE void draw_row(TileSums& tile, int row, TileMode mode, float* to) {
+  const auto at_row = static_cast<std::size_t>(row);
+  const std::uint64_t touched = std::exchange(tile.touched[at_row], 0), lit = std::exchange(tile.lit[at_row], 0);
+  double* const carried = tile.carried[at_row].data();
+  QuadLine<double> line = QuadLine<double>::load(carried);
+
+  // Beside the frame: its memory is written in one go.
+  HWY_ALIGN float pixels[TileSums::kPixel * TileGrid::kWidth];
+  const int blocks = tile.blocks();
+  for (int block = 0; block < blocks;) {
+    // As far as they are of one kind: what comes next has no pattern.
+    const auto at = static_cast<unsigned>(block);
+    const bool is_touched = (touched >> at & 1U) != 0, is_lit = (lit >> at & 1U) != 0;
+    const std::uint64_t others = (is_touched ? ~touched : touched) | (is_lit ? ~lit : lit);
+    const int end = std::min(block + std::countr_zero(others >> at), blocks);
+    const auto draw = [&](auto of_touched, auto of_lit) HWY_ATTR {
+      for (; block < end; ++block) draw_block<of_touched(), of_lit()>(tile, row, block, line, pixels);
+    };
+    constexpr std::true_type kYes;
+    constexpr std::false_type kNo;
+    if (is_lit)
+      is_touched ? draw(kYes, kYes) : draw(kNo, kYes);
+    else
+      is_touched ? draw(kYes, kNo) : draw(kNo, kNo);
+  }
+  const std::size_t count = TileSums::kPixel * static_cast<std::size_t>(tile.width);
+  if (mode == TileMode::Write)
+    std::copy_n(pixels, count, to);
+  else
+    std::transform(pixels, pixels + count, to, to, std::plus<>());
+  line.level = line.at(tile.width);
+  line.store(carried);
+}
+
+void draw_pixels(TileSums& tile, TileMode mode, Image& image) {
+  for (int row = 0; row < tile.height; ++row)
+    draw_row(tile, row, mode, image.pixels.data() + image.index(tile.x0, tile.y0 + row));
+}
+
+}  // namespace contrejour::adaptive::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif

@@ -1,0 +1,224 @@
+// A row of pixels, where its light crosses the stop, and where that is in tables.
+#if defined(CONTREJOUR_ADAPTIVE_TILE_ROWS_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef CONTREJOUR_ADAPTIVE_TILE_ROWS_INL_H_
+#undef CONTREJOUR_ADAPTIVE_TILE_ROWS_INL_H_
+#else
+#define CONTREJOUR_ADAPTIVE_TILE_ROWS_INL_H_
+#endif
+
+#include <hwy/cache_control.h>
+#include <hwy/highway.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <vector>
+
+#include "render/adaptive/tiles/pixels-inl.h"
+#include "render/adaptive/tiles/polygon_list.h"
+#include "render/adaptive/tiles/tile_sums.h"
+#include "render/screens/short_light.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace contrejour::adaptive::HWY_NAMESPACE {
+
+using FloatTag = RowTag<float>;
+using IntTag = hn::RebindToSigned<FloatTag>;
+
+constexpr float kToMiddle = 3.5F;  // pixels, of a group of eight
+
+// Some pixels of a row of the frame, and how far the first is from a map's origin.
+struct PixelRow {
+  int first = 0, count = 0;  // columns of the frame
+  int y = 0;
+  float from_x = 0, from_y = 0;  // pixels
+
+  PixelRow(int first_column, int columns, int row, Vec2 origin)
+      : first(first_column), count(columns), y(row), from_x(static_cast<float>(first_column + 0.5 - origin.x)),
+        from_y(static_cast<float>(row + 0.5 - origin.y)) {}
+  [[nodiscard]] Vec2 pixel(int k) const { return {first + k + 0.5, y + 0.5}; }
+  // Of the pixels from k on.
+  [[nodiscard]] HWY_INLINE hn::Vec<FloatTag> x(int k) const {
+    const FloatTag d;
+    return hn::Add(hn::Add(hn::Set(d, from_x), hn::Iota(d, 0.0F)), hn::Set(d, static_cast<float>(k)));
+  }
+};
+
+// A form of the place in the stop along a row.
+class RowForm {
+ public:
+  RowForm() = default;
+  explicit RowForm(const StopMap::Form& form) : form_(form) {}
+
+  HWY_INLINE void set_row(const PixelRow& row) {
+    level_ = form_.level + row.from_y * (form_.y + row.from_y * form_.yy);
+    slope_ = form_.x + row.from_y * form_.xy;
+  }
+  // No less than what it changes by from a group's middle to its ends, for any of a row's.
+  [[nodiscard]] float half_group(const PixelRow& row) const {
+    const float far = std::max(std::abs(row.from_x), std::abs(row.from_x + static_cast<float>(row.count + kToMiddle)));
+    return kToMiddle * kRoom * (std::abs(slope_) + 2.0F * far * std::abs(form_.xx));
+  }
+
+  // The same as vectors of its own, which nothing that is written between two pixels can change.
+  struct Along {
+    hn::Vec<FloatTag> level, slope, bend;
+    [[nodiscard]] HWY_INLINE hn::Vec<FloatTag> at(hn::Vec<FloatTag> x) const {
+      return hn::MulAdd(x, hn::MulAdd(x, bend, slope), level);
+    }
+  };
+  [[nodiscard]] HWY_INLINE Along along() const {
+    const FloatTag d;
+    return {hn::Set(d, level_), hn::Set(d, slope_), hn::Set(d, form_.xx)};
+  }
+  [[nodiscard]] HWY_INLINE hn::Vec<FloatTag> at(hn::Vec<FloatTag> x) const { return along().at(x); }
+
+ private:
+  static constexpr float kRoom = 1.01F;  // for rounding
+  StopMap::Form form_;
+  float level_ = 0, slope_ = 0;
+};
+
+// Pixels of a row by eights, a bit for each eight from the row's first pixel on: asked together what they see, so that
+// what is done for each pixel does not hang on it.
+using Groups = std::uint64_t;
+constexpr int kGroup = CoverSums::kGroup;
+static_assert(kGroup == TileSums::kBlock);
+static_assert(TileGrid::kWidth <= 64 * kGroup && hn::MaxLanes(FloatTag()) <= kGroup);
+constexpr std::size_t kRowRoom = TileGrid::kWidth + kGroup;
+
+[[nodiscard]] inline Groups first_groups(int count) {
+  return count >= 64 ? ~Groups{0} : (Groups{1} << static_cast<unsigned>(count)) - 1;
+}
+
+// The groups of a row whose middles' places pass `test(places)`.
+template <class Test>
+HWY_INLINE Groups groups_that(const PixelRow& row, const Test& test) {
+  const FloatTag d;
+  const int lanes = static_cast<int>(hn::Lanes(d));
+  const auto step = hn::Set(d, static_cast<float>(kGroup));
+  Groups out = 0;
+  for (int group = 0; kGroup * group < row.count; group += lanes) {
+    const auto x = hn::MulAdd(hn::Iota(d, static_cast<float>(group)), step, hn::Set(d, row.from_x + kToMiddle));
+    std::uint8_t bits[8] = {};
+    hn::StoreMaskBits(d, test(x), bits);
+    out |= Groups{bits[0]} << static_cast<unsigned>(group);
+  }
+  return out;
+}
+
+// Groups that see nothing of a screen, and those that see the stop level; of others nothing is known.
+struct SeenGroups {
+  Groups dark = 0, level = 0;
+};
+
+// Places between entries of a table: whole steps, and the rest. Places that are no numbers count as 0.
+struct TablePlaces {
+  hn::Vec<IntTag> whole;
+  hn::Vec<FloatTag> rest;
+};
+
+// Those of a table whose last entry is at `most`. Whole steps by adding so much that no bits are left for parts of one:
+// conversions ask what is out of range. A place on an entry may count as one whole step after the one before.
+class TableEnd {
+ public:
+  explicit HWY_INLINE TableEnd(float most)
+      : most_(hn::Set(FloatTag(), most)), last_(hn::Set(FloatTag(), most - 1.0F)) {}
+
+  // The last step is one that has an entry after it.
+  [[nodiscard]] HWY_INLINE TablePlaces places(hn::Vec<FloatTag> place) const {
+    const auto all = within(place);
+    return places(all, hn::Min(below(all), last_));
+  }
+  // The last step may be at the last entry.
+  [[nodiscard]] HWY_INLINE TablePlaces places_to_end(hn::Vec<FloatTag> place) const {
+    const auto all = within(place);
+    return places(all, below(all));
+  }
+
+ private:
+  [[nodiscard]] HWY_INLINE hn::Vec<FloatTag> within(hn::Vec<FloatTag> place) const {
+    return hn::Min(hn::IfThenElseZero(hn::Gt(place, hn::Zero(FloatTag())), place), most_);
+  }
+  static HWY_INLINE hn::Vec<FloatTag> below(hn::Vec<FloatTag> place) {
+    return hn::Sub(place, hn::Set(FloatTag(), 0.5F));  // what rounding makes the step
+  }
+  static HWY_INLINE TablePlaces places(hn::Vec<FloatTag> place, hn::Vec<FloatTag> step) {
+    const auto no_parts = hn::Set(FloatTag(), 12582912.0F);  // 1.5 * 2^23
+    const auto rounded = hn::Add(step, no_parts);
+    return {hn::Sub(hn::BitCast(IntTag(), rounded), hn::BitCast(IntTag(), no_parts)),
+            hn::Sub(place, hn::Sub(rounded, no_parts))};
+  }
+
+  hn::Vec<FloatTag> most_, last_;
+};
+
+// A table of ShortLight.
+class ShortTable {
+ public:
+  ShortTable(const std::vector<std::uint16_t>& coded, const screens::ShortLight& coding)
+      : coded_(coded.data()), lowest_(hn::Set(IntTag(), coding.lowest())), none_(hn::Set(FloatTag(), coding.none())) {}
+
+  // Entries to look up between.
+  class Entries {
+   public:
+    explicit HWY_INLINE Entries(hn::Vec<IntTag> place) {
+      hn::Store(hn::BitCast(hn::RebindToUnsigned<FloatTag>(), place), hn::RebindToUnsigned<FloatTag>(), at_);
+    }
+
+   private:
+    friend ShortTable;
+    HWY_ALIGN std::uint32_t at_[hn::MaxLanes(IntTag())];
+  };
+  // Between entries and the ones after them, each `farther` on; more than the light by none().
+  [[nodiscard]] HWY_INLINE hn::Vec<FloatTag> between(const Entries& entries, hn::Vec<FloatTag> rest,
+                                                     std::ptrdiff_t farther = 0) const {
+    constexpr int kShift = screens::ShortLight::kShift;
+    const FloatTag d;
+    const IntTag di;
+    const auto pair = pairs(di, coded_ + farther, entries.at_);
+    const auto bits = hn::Set(di, 0xFFFF << kShift);
+    const auto low = hn::BitCast(d, hn::Add(hn::And(hn::ShiftLeft<kShift>(pair), bits), lowest_));
+    const auto high = hn::BitCast(d, hn::Add(hn::And(hn::ShiftRight<16 - kShift>(pair), bits), lowest_));
+    constexpr bool kLowFirst = std::endian::native == std::endian::little;
+    const auto first = kLowFirst ? low : high, second = kLowFirst ? high : low;
+    return hn::MulAdd(rest, hn::Sub(second, first), first);
+  }
+  HWY_INLINE void fetch(std::ptrdiff_t entry) const { hwy::Prefetch(coded_ + entry); }
+  [[nodiscard]] HWY_INLINE hn::Vec<FloatTag> none() const { return none_; }
+
+ private:
+  // Two entries each, side by side in a word. One by one: gathers are slower on many processors.
+  static HWY_INLINE std::int32_t pair(const std::uint16_t* entry) {
+    std::int32_t out;
+    std::memcpy(&out, entry, sizeof out);
+    return out;
+  }
+#if HWY_TARGET == HWY_SCALAR
+  static HWY_INLINE hn::Vec<IntTag> pairs(IntTag d, const std::uint16_t* from, const std::uint32_t* at) {
+    return hn::Set(d, pair(from + *at));
+  }
+#else
+  template <class D>
+  static HWY_INLINE hn::Vec<D> pairs(D d, const std::uint16_t* from, const std::uint32_t* at) {
+    if constexpr (hn::MaxLanes(d) == 2) {
+      return hn::InterleaveLower(d, hn::Set(d, pair(from + at[0])), hn::Set(d, pair(from + at[1])));
+    } else {
+      const hn::Half<D> half;
+      return hn::Combine(d, pairs(half, from, at + hn::MaxLanes(half)), pairs(half, from, at));
+    }
+  }
+#endif
+
+  const std::uint16_t* coded_;
+  hn::Vec<IntTag> lowest_;
+  hn::Vec<FloatTag> none_;
+};
+
+}  // namespace contrejour::adaptive::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif

@@ -1,0 +1,318 @@
+// Polygons behind a screen: their coverage first, then pixel by pixel the light that passes.
+#if defined(CONTREJOUR_ADAPTIVE_TILE_SCREENS_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef CONTREJOUR_ADAPTIVE_TILE_SCREENS_INL_H_
+#undef CONTREJOUR_ADAPTIVE_TILE_SCREENS_INL_H_
+#else
+#define CONTREJOUR_ADAPTIVE_TILE_SCREENS_INL_H_
+#endif
+
+#include <hwy/highway.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <span>
+
+#include "render/adaptive/tiles/pixels-inl.h"
+#include "render/adaptive/tiles/quad-inl.h"
+#include "render/adaptive/tiles/tile_cover-inl.h"
+#include "render/adaptive/tiles/tile_edges-inl.h"
+#include "render/adaptive/tiles/tile_fringes-inl.h"
+#include "render/adaptive/tiles/tile_patterns-inl.h"
+#include "render/adaptive/tiles/tile_rows-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace contrejour::adaptive::HWY_NAMESPACE {
+
+// What passes any screen, several crossings of the stop among them, and dirt. Either may be null.
+class AnyScreen {
+ public:
+  static constexpr bool kGrey = false;
+  AnyScreen(const screens::BandScreen* screen, const StopMap& map, const PastDirt* dirt = nullptr)
+      : screen_(screen), map_(map), dirt_(dirt) {}
+
+  void set_row(const PixelRow& row) { row_ = &row; }
+  [[nodiscard]] const AnyScreen& look(const PixelRow& /*row*/) const { return *this; }
+  [[nodiscard]] const AnyScreen& vector(int /*k*/) const { return *this; }
+  [[nodiscard]] Quad passed(int k) const {
+    const Vec2 pixel = row_->pixel(k);
+    std::array<StopPlace, kMaxStopCrossings> room;
+    std::array<double, 3> share{1.0, 1.0, 1.0};
+    if (screen_ != nullptr) share = screen_->share(map_.places(pixel, room));
+    const float all[] = {static_cast<float>(share[0]), static_cast<float>(share[1]), static_cast<float>(share[2]),
+                         0.0F};
+    if (dirt_ == nullptr) return Quad::load(all);
+    return Quad::load(all) * Quad::all(static_cast<float>(dirt_->passed(pixel)));
+  }
+
+ private:
+  const screens::BandScreen* screen_;
+  const StopMap& map_;
+  const PastDirt* dirt_;
+  const PixelRow* row_ = nullptr;
+};
+
+// A row's coverage from its changes, which are cleared, some pixels after the other. What only rounding covers is not.
+class RunningCover {
+ public:
+  // Of the row of which no more than `count` pixels are covered, whatever its changes say.
+  HWY_INLINE RunningCover(float* changes, int count)
+      : changes_(changes), count_(count), before_(hn::Zero(FloatTag())) {}
+
+  // Of the pixels from k on, by sums of two, four and eight neighbours.
+  HWY_INLINE hn::Vec<FloatTag> next(int k) {
+    constexpr std::size_t kLanes = hn::MaxLanes(FloatTag());
+    const FloatTag d;
+    auto sum = hn::LoadU(d, changes_ + k);
+    hn::StoreU(hn::Zero(d), d, changes_ + k);
+    for (std::size_t step = 1; step < kLanes; step *= 2) {
+      HWY_ALIGN std::int32_t from[kLanes];
+      HWY_ALIGN float has[kLanes];
+      for (std::size_t lane = 0; lane < kLanes; ++lane) {
+        from[lane] = static_cast<std::int32_t>(lane < step ? 0 : lane - step);
+        has[lane] = lane < step ? 0.0F : 1.0F;
+      }
+      sum = hn::MulAdd(hn::Load(d, has), hn::TableLookupLanes(sum, hn::SetTableIndices(d, from)), sum);
+    }
+    sum = hn::Add(sum, before_);
+    before_ = hn::TableLookupLanes(sum, hn::IndicesFromVec(d, hn::Set(IntTag(), kLanes - 1)));
+    const auto cover = hn::IfThenElseZero(hn::Gt(sum, hn::Set(d, TileSums::kUnseenCover)), sum);
+    const int left = count_ - k;
+    if (left >= static_cast<int>(kLanes)) return cover;
+    return hn::IfThenElseZero(hn::FirstN(d, static_cast<std::size_t>(std::max(left, 0))), cover);
+  }
+  // Of the pixel before the next.
+  [[nodiscard]] HWY_INLINE bool is_whole() const {
+    constexpr float kWhole = 1.0F - 1e-5F;  // for rounding
+    return hn::GetLane(before_) >= kWhole;
+  }
+
+ private:
+  float* changes_;
+  int count_;
+  hn::Vec<FloatTag> before_;  // the sum of all changes so far
+};
+
+// Whole pixels in a row that see the stop level: their light is left as changes along the row, as any polygon's is.
+HWY_INLINE void add_level(TileSums& tile, int row, int first, int end, const RowShade& shade) {
+  const QuadLine<double> line = shade.at(row);
+  add_step(tile, row, first, line, 1.0);
+  add_step(tile, row, end, line, -1.0);
+}
+
+// A row of what a polygon covers, in the tile, from one of every kFirst columns on: lines of memory begin there.
+constexpr int kFirst = 4;
+struct CoveredRow {
+  int row, first, count;
+  int even_first, even_end;  // columns of the tile between which coverage is the same, if any
+};
+
+// A polygon's irradiance times what passes, some pixels at once, which have nothing beyond the row.
+template <bool kGrey>  // one value serves all channels
+class PixelLight {
+  using Pixels = PixelsOf<float>;
+
+ public:
+  explicit PixelLight(const RowShade& shade)
+      : line_(QuadLine<float>{to_floats(shade.line.level), to_floats(shade.line.slope)}),
+        by_row_(Pixels::each(to_floats(shade.by_row))) {}
+
+  class Row {
+   public:
+    HWY_INLINE Row(const PixelLight& all, const CoveredRow& row)
+        : light_(all.line_.raised(all.by_row_, row.row).from(row.first)), count_(row.count) {}
+    // Adds the pixels from k on to the row's at `to`, as far as they are covered.
+    template <class Look>
+    HWY_INLINE void add(const Look& look, hn::Vec<FloatTag> cover, int k, float* to) const {
+      if constexpr (kGrey) {
+        add_level(hn::Mul(cover, look.passed(k)), k, to);
+      } else {
+        const auto& seen = look.vector(k);
+        HWY_ALIGN float passed[kChannels * Pixels::kLanes + 1] = {};
+        for (int j = 0; j < std::min(Pixels::kCount, count_ - k); ++j)
+          seen.passed(k + j).store(passed + kChannels * static_cast<std::size_t>(j));
+        add_shares(Pixels::of(cover) * Pixels::load(passed), k, to);
+      }
+    }
+    // All passes.
+    HWY_INLINE void add_level(hn::Vec<FloatTag> cover, int k, float* to) const { add_shares(Pixels::of(cover), k, to); }
+
+   private:
+    HWY_INLINE void add_shares(const Pixels& shares, int k, float* to) const {
+      float* const at = to + kChannels * static_cast<std::size_t>(k);
+      multiply_add(shares, light_.at(k), Pixels::load(at)).store(at);
+    }
+    PixelLine<float> light_;
+    int count_;
+  };
+
+ private:
+  PixelLine<float> line_;  // of the tile's first row
+  Pixels by_row_;
+};
+
+// Of a tile, the rows that a polygon may touch, and between which columns. covered_to: the column as far as all rows
+// are covered at the least; -1: not told.
+struct PixelRows {
+  int first, last;
+  int low_column, high_column;
+  int covered_to;
+};
+
+PixelRows rows_under(const TileSums& tile, std::span<const Point> corners) {
+  Point low = corners[0], high = corners[0];
+  for (const Point p : corners) {
+    low = {std::min(low.x, p.x), std::min(low.y, p.y)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y)};
+  }
+  const auto row = [&](float y) {
+    return static_cast<int>(std::clamp(y - static_cast<float>(tile.y0), 0.0F, static_cast<float>(tile.height - 1)));
+  };
+  const auto column = [&](float x) {
+    return static_cast<int>(std::clamp(x - static_cast<float>(tile.x0), 0.0F, static_cast<float>(tile.width)));
+  };
+  // Edges beyond the right border leave no change: what is covered there ends with the tile.
+  const bool is_beyond = high.x > static_cast<float>(tile.x0 + tile.width);
+  return {row(low.y), row(high.y), column(low.x), column(high.x), is_beyond ? tile.width - 1 : -1};
+}
+
+// Those of a polygon whose edges have left their changes in the tile.
+class CoveredRows {
+ public:
+  CoveredRows(TileSums& tile, const PixelRows& within) {
+    for (int row = within.first; row <= within.last; ++row) {
+      const auto begun = tile.cover.begun.take(row), ended = tile.cover.ended.take(row);
+      const int changed_first = std::min(begun.first, ended.first), changed_last = std::max(begun.last, ended.last);
+      const int last = std::min(std::max(changed_last, within.covered_to), tile.width - 1);
+      if (changed_last >= tile.width) std::fill_n(tile.cover.at(row, tile.width), 2, 0.0F);  // at the right border
+      const int first = changed_first / kFirst * kFirst;
+      const int even_first = begun.last < 0 ? tile.width : begun.last + 1, even_end = std::min(ended.first, tile.width);
+      if (changed_first <= last) rows_[count_++] = {row, first, last - first + 1, even_first, even_end};
+    }
+  }
+  [[nodiscard]] std::span<const CoveredRow> all() const { return {rows_, count_}; }
+
+ private:
+  CoveredRow rows_[TileGrid::kHeight];
+  std::size_t count_ = 0;
+};
+
+// What is drawn of a row, whose coverage ends with its changes but where the polygon goes on beyond the tile.
+struct RowOfPixels {
+  CoveredRow columns;
+  RunningCover cover;
+  float* to;
+
+  RowOfPixels(TileSums& tile, const CoveredRow& r, const PixelRows& within)
+      : columns(r), cover(tile.cover.at(r.row, r.first), within.covered_to < 0 ? kRowRoom : r.count),
+        to(tile.light_at(r.row) + TileSums::kPixel * static_cast<std::size_t>(r.first)) {}
+};
+
+template <class Passed, class LightRow>
+HWY_INLINE void add_row(TileSums& tile, RowOfPixels row, const Passed& passed, const LightRow& light) {
+  const int count = row.columns.count;
+  for (int k = 0; k < count; k += static_cast<int>(hn::MaxLanes(FloatTag())))
+    light.add(passed, row.cover.next(k), k, row.to);
+  tile.light_groups(row.columns.row, row.columns.first, first_groups((count + kGroup - 1) / kGroup));
+}
+
+// But those of groups that see nothing, or the stop level. Where they are whole, as far as nothing changes, no sum is
+// asked for.
+template <class Passed, class LightRow>
+HWY_INLINE void add_row(TileSums& tile, RowOfPixels row, const RowShade& shade, const SeenGroups& seen,
+                        const Passed& passed, const LightRow& light) {
+  constexpr int kLanes = static_cast<int>(hn::MaxLanes(FloatTag()));
+  const CoveredRow& columns = row.columns;
+  const int groups = (columns.count + kGroup - 1) / kGroup;
+  const int even_first = (columns.even_first - columns.first + kGroup - 1) / kGroup;
+  const int even_end = (columns.even_end - columns.first) / kGroup;
+  Groups skipped = 0, lit = 0;
+  if (even_first < even_end) skipped = (seen.dark | seen.level) & first_groups(even_end) & ~first_groups(even_first);
+  for (int group = 0; group < groups;) {
+    if ((skipped >> static_cast<unsigned>(group) & 1U) != 0) {
+      if (row.cover.is_whole()) {
+        group += std::countr_one(skipped >> static_cast<unsigned>(group));
+        continue;
+      }
+      skipped = 0;
+    }
+    const Groups bit = Groups{1} << static_cast<unsigned>(group);
+    const bool is_dark = (seen.dark & bit) != 0, is_level = (seen.level & bit) != 0;
+    if (!is_dark) lit |= bit;
+    for (int k = kGroup * group; k < kGroup * (group + 1); k += kLanes) {
+      const auto cover = row.cover.next(k);
+      if (is_level)
+        light.add_level(cover, k, row.to);
+      else if (!is_dark)
+        light.add(passed, cover, k, row.to);
+    }
+    ++group;
+  }
+  for (Groups level = skipped & seen.level; level != 0;) {
+    const int from = std::countr_zero(level), end = from + std::countr_one(level >> static_cast<unsigned>(from));
+    add_level(tile, columns.row, columns.first + kGroup * from, columns.first + kGroup * end, shade);
+    level &= ~first_groups(end);
+  }
+  tile.light_groups(columns.row, columns.first, lit);
+}
+
+template <class Look>
+void add_pixels(TileSums& tile, const Polygon& polygon, const StopMap& map, const PixelRows& within, Look& look) {
+  constexpr int kShort = 4 * kGroup;  // pixels: what groups of them see tells more work than it saves
+  const CoveredRows rows(tile, within);
+  const auto pixels_of = [&](const CoveredRow& r) {
+    return PixelRow(tile.x0 + r.first, r.count, tile.y0 + r.row, map.origin());
+  };
+  if constexpr (requires(const PixelRow& row) { look.fetch(row); })
+    for (const CoveredRow& r : rows.all()) look.fetch(pixels_of(r));
+  const RowShade shade = row_shade(polygon.shade, tile);
+  using Light = PixelLight<Look::kGrey>;
+  const Light light(shade);
+  for (const CoveredRow& r : rows.all()) {
+    const PixelRow pixels = pixels_of(r);
+    look.set_row(pixels);
+    const RowOfPixels row(tile, r, within);
+    if constexpr (requires { look.seen(pixels); }) {
+      if (r.count > kShort) {
+        add_row(tile, row, shade, look.seen(pixels), look.look(pixels), typename Light::Row(light, r));
+        continue;
+      }
+    }
+    add_row(tile, row, look.look(pixels), typename Light::Row(light, r));
+  }
+}
+
+void add_screened(TileSums& tile, const PolygonList& list, const Polygon& polygon) {
+  tile.make_light();
+  const PixelRows within = rows_under(tile, list.corners_of(polygon));
+  CoverSums& cover = tile.cover;
+  cover.width = tile.width;
+  cover.height = tile.height;
+  cover.set_columns(within.low_column, within.high_column);
+  for_each_edge(tile, list, polygon,
+                [&](Vec2 a, Vec2 b, std::size_t, double sign) { add_clipped(cover, NoShade(), a, b, sign); });
+  const Screened& behind = list.screened[polygon.screened - 1];
+  const auto add = [&](auto&& look) { add_pixels(tile, polygon, behind.map, within, look); };
+  if (behind.dirt != 0) return add(AnyScreen(behind.screen, behind.map, &list.dirt[behind.dirt - 1]));
+  if (behind.edges != nullptr) {
+    const std::span<const std::uint16_t> active(list.bounds.data() + behind.first, behind.count);
+    const IrisShape& iris = behind.edges->iris();
+    if (behind.edges->is_grey() && active.size() == 1 && !iris.is_picture())
+      return add(GreyFringe(*behind.edges, iris.bounds()[active[0]], behind.map));
+    if (behind.edges->is_grey()) return add(GreyFringes(*behind.edges, active, behind.map));
+    return add(Fringes(*behind.edges, active, behind.map));
+  }
+  if (behind.screen->pattern && behind.map.crossings() == 1) {
+    const screens::BandPattern& pattern = *behind.screen->pattern;
+    if (!pattern.of_one()) return add(Pattern(*behind.screen, behind.map));
+    if (behind.screen->is_grey()) return add(GreyPattern(pattern, behind.map));
+  }
+  add(AnyScreen(behind.screen, behind.map));
+}
+
+}  // namespace contrejour::adaptive::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif

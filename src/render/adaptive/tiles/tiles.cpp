@@ -1,0 +1,163 @@
+#include "render/adaptive/tiles/tiles.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <utility>
+
+#include "base/tasks.h"
+#include "kernels/simd_targets.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "render/adaptive/tiles/tiles.cpp"
+#include <hwy/cache_control.h>
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+#include "render/adaptive/tiles/tile_edges-inl.h"
+#include "render/adaptive/tiles/tile_pixels-inl.h"
+#include "render/adaptive/tiles/tile_screens-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace contrejour::adaptive::HWY_NAMESPACE {
+
+void add_polygon(TileSums& tile, const PolygonList& list, const Polygon& polygon) {
+  const auto corners = list.corners_of(polygon);
+  const RowShade shade = row_shade(polygon.shade, tile);
+  if (corners.size() == 1) {
+    const auto column = static_cast<int>(std::floor(static_cast<double>(corners[0].x) - tile.x0));
+    const auto row = static_cast<int>(std::floor(static_cast<double>(corners[0].y) - tile.y0));
+    if (column < 0 || row < 0 || column >= tile.width || row >= tile.height) return;
+    double* const pixel = tile.pixels_at(row) + TileSums::kPixel * static_cast<std::size_t>(column);
+    (DoubleQuad::load(pixel) + shade.at(row).at(column)).store(pixel);
+    tile.touch(row, column / TileSums::kBlock, column / TileSums::kBlock);
+    return;
+  }
+  for_each_edge(tile, list, polygon, [&](Vec2 a, Vec2 b, std::size_t corner, double sign) {
+    const std::uint32_t partner = list.partner_of(polygon.first + corner);
+    if (partner == PolygonList::kNotDrawn) return;
+    const bool alone = partner == PolygonList::kAlone;
+    add_clipped(tile, alone ? shade : shade - row_shade(list.polygons[partner].shade, tile), a, b, sign);
+  });
+}
+
+void clear(const TileSums& tile, Image& image) {
+  for (int row = 0; row < tile.height; ++row) {
+    std::fill_n(image.pixels.data() + image.index(tile.x0, tile.y0 + row), 3 * static_cast<std::size_t>(tile.width),
+                0.0F);
+  }
+}
+
+// Polygons of a tile lie far apart in memory: those that come soon are asked for.
+HWY_INLINE void fetch_ahead(const TiledPolygons& p, std::uint32_t k, std::uint32_t end) {
+  constexpr std::uint32_t kPolygon = 8, kRest = 4;  // so many before
+  if (k + kPolygon < end) hwy::Prefetch(&p.list.polygons[p.tiles.index[k + kPolygon]].screened);
+  if (k + kRest >= end) return;
+  const Polygon& polygon = p.list.polygons[p.tiles.index[k + kRest]];
+  hwy::Prefetch(p.list.corners.data() + polygon.first);
+  if (polygon.screened != 0) hwy::Prefetch(&p.list.screened[polygon.screened - 1]);
+}
+
+void draw_tile(std::span<const TiledPolygons> lists, std::size_t at, TileSums& tile, TileMode mode, Image& image) {
+  bool any = false;
+  for (const TiledPolygons& p : lists) {
+    for (std::uint32_t k = p.tiles.start[at]; k < p.tiles.start[at + 1]; ++k) {
+      fetch_ahead(p, k, p.tiles.start[at + 1]);
+      const Polygon& polygon = p.list.polygons[p.tiles.index[k]];
+      if (polygon.screened != 0)
+        add_screened(tile, p.list, polygon);
+      else
+        add_polygon(tile, p.list, polygon);
+      any = true;
+    }
+  }
+  if (any) return draw_pixels(tile, mode, image);
+  tile.carried = {};  // all polygons end before it: rounding
+  if (mode == TileMode::Write) clear(tile, image);
+}
+
+}  // namespace contrejour::adaptive::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace contrejour::adaptive {
+namespace {
+
+HWY_EXPORT(draw_tile);
+
+}  // namespace
+
+TileRange tiles_under(std::span<const Point> corners, const TileGrid& grid) {
+  Point low = corners[0];
+  Point high = corners[0];
+  for (const Point p : corners) {
+    low = {std::min(low.x, p.x), std::min(low.y, p.y)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y)};
+  }
+  const auto w = static_cast<float>(grid.width);
+  const auto h = static_cast<float>(grid.height);
+  if (!(high.x >= 0.0F && high.y >= 0.0F && low.x < w && low.y < h)) return {};
+  const auto tile = [](float v, float size, int length) {
+    return static_cast<int>(std::clamp(v, 0.0F, size - 1.0F)) / length;
+  };
+  return {tile(low.x, w, TileGrid::kWidth), tile(low.y, h, TileGrid::kHeight), tile(high.x, w, TileGrid::kWidth),
+          tile(high.y, h, TileGrid::kHeight)};
+}
+
+// Counts, then fills.
+TileLists tile_lists(const PolygonList& list, const TileGrid& grid) {
+  TileLists out;
+  out.start.assign(grid.count() + 1, 0);
+  std::vector<TileRange> ranges;
+  ranges.reserve(list.polygons.size());
+  const auto for_each_tile = [&](const TileRange& r, auto visit) {
+    for (int y = r.y0; y <= r.y1; ++y) {
+      for (int x = r.x0; x <= r.x1; ++x) visit(static_cast<std::size_t>(y * grid.columns + x));
+    }
+  };
+  for (const Polygon& p : list.polygons) {
+    ranges.push_back(tiles_under(list.corners_of(p), grid));
+    for_each_tile(ranges.back(), [&](std::size_t t) { ++out.start[t + 1]; });
+  }
+  for (std::size_t t = 0; t < grid.count(); ++t) out.start[t + 1] += out.start[t];
+  out.index.resize(out.start.back());
+  std::vector<std::uint32_t> next(out.start.begin(), out.start.end() - 1);
+  for (std::size_t k = 0; k < ranges.size(); ++k) {
+    for_each_tile(ranges[k], [&](std::size_t t) { out.index[next[t]++] = static_cast<std::uint32_t>(k); });
+  }
+  return out;
+}
+
+TileDrawer::TileDrawer() = default;
+TileDrawer::~TileDrawer() = default;
+
+void TileDrawer::draw(std::span<const TiledPolygons> lists, TileMode mode, const Context& context, Image& image) {
+  Context quiet = context;
+  quiet.progress = {};
+  const TileGrid grid(image.width, image.height);
+  parallel_for(static_cast<std::size_t>(grid.rows), quiet, [&](std::size_t at) {
+    const int row = static_cast<int>(at);
+    draw_rows(lists, row, row + 1, mode, image);
+  });
+}
+
+void TileDrawer::draw_rows(std::span<const TiledPolygons> lists, int first, int last, TileMode mode, Image& image) {
+  const TileGrid grid(image.width, image.height);
+  const auto lent = sums_.lend();
+  TileSums& sums = *lent;
+  for (int row = first; row < last; ++row) {
+    sums.y0 = row * TileGrid::kHeight;
+    sums.height = std::min(TileGrid::kHeight, grid.height - sums.y0);
+    sums.carried = {};
+    for (int column = 0; column < grid.columns; ++column) {
+      sums.x0 = column * TileGrid::kWidth;
+      sums.width = std::min(TileGrid::kWidth, grid.width - sums.x0);
+      const auto tile = static_cast<std::size_t>(row * grid.columns + column);
+      HWY_DYNAMIC_DISPATCH(draw_tile)(lists, tile, sums, mode, image);
+    }
+  }
+}
+
+}  // namespace contrejour::adaptive
+#endif  // HWY_ONCE

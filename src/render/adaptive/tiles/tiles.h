@@ -1,0 +1,70 @@
+// Polygons onto the frame, tile by tile. Row by row each edge adds coverage times irradiance to the few pixels beside
+// it and changes what light is along the row from there on; one pass along the rows then makes pixels of the changes of
+// all polygons at once. So a polygon costs what its outline costs, not its area, and overlapping ghosts share that
+// pass. Accuracy: exact coverage of a pixel by a polygon, irradiance taken at the pixel's centre; sums in double.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "base/pool.h"
+#include "contrejour/context.h"
+#include "contrejour/image.h"
+#include "render/adaptive/tiles/polygon_list.h"
+
+namespace contrejour::adaptive {
+
+// The frame cut into rectangles whose sums stay in the cache.
+struct TileGrid {
+  static constexpr int kWidth = 512;
+  static constexpr int kHeight = 64;
+
+  int width = 0, height = 0;  // pixels
+  int columns = 0, rows = 0;  // tiles
+
+  TileGrid(int w, int h) : width(w), height(h), columns((w + kWidth - 1) / kWidth), rows((h + kHeight - 1) / kHeight) {}
+  [[nodiscard]] std::size_t count() const { return static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows); }
+};
+
+// The tiles under the bounds of a polygon, last ones included; none if x1 < x0.
+struct TileRange {
+  int x0 = 0, y0 = 0, x1 = -1, y1 = -1;
+};
+[[nodiscard]] TileRange tiles_under(std::span<const Point> corners, const TileGrid& grid);
+
+// For each tile the polygons of a list that may touch it, in their order: index[start[t] .. start[t + 1]).
+struct TileLists {
+  std::vector<std::uint32_t> start, index;
+  [[nodiscard]] std::size_t bytes() const { return (start.size() + index.size()) * sizeof(std::uint32_t); }
+};
+
+[[nodiscard]] TileLists tile_lists(const PolygonList& list, const TileGrid& grid);
+
+struct TiledPolygons {
+  PolygonList list;
+  TileLists tiles;
+};
+
+enum class TileMode : std::uint8_t { Write, Add };
+
+struct TileSums;
+
+// Draws polygons, whose tiles are those of an image, into rows of them. Rows may be drawn by several threads at once.
+class TileDrawer {
+ public:
+  TileDrawer();
+  ~TileDrawer();
+
+  // Writes or adds to all pixels what the polygons bring.
+  void draw(std::span<const TiledPolygons> lists, TileMode mode, const Context& context, Image& image);
+
+  // Writes or adds to the pixels of rows of tiles, from first to last without it, what the polygons bring, list after
+  // list. Rows do not touch each other.
+  void draw_rows(std::span<const TiledPolygons> lists, int first, int last, TileMode mode, Image& image);
+
+ private:
+  Pool<TileSums> sums_;  // a megabyte each, all zero: one a thread, not one a row
+};
+
+}  // namespace contrejour::adaptive
