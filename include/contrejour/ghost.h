@@ -59,8 +59,6 @@ class ReflectanceTables;
 class GhostMeter {
  public:
   GhostMeter(LensState lens, double lambda_nm);
-  // With the lens's tables for the wavelength, where a caller has them already; neither may be null.
-  GhostMeter(std::shared_ptr<const LensState> lens, std::shared_ptr<const ReflectanceTables> tables);
   ~GhostMeter();
   GhostMeter(GhostMeter&&) noexcept;
   GhostMeter& operator=(GhostMeter&&) noexcept;
@@ -72,9 +70,8 @@ class GhostMeter {
   [[nodiscard]] GhostMeasure measure(Ghost ghost, const LightSource& light) const;
 
  private:
-  std::shared_ptr<const LensState> lens_;
-  double lambda_nm_;
-  std::shared_ptr<const ReflectanceTables> tables_;
+  LensState lens_;
+  std::unique_ptr<const ReflectanceTables> tables_;
 };
 
 }  // namespace contrejour

@@ -11,6 +11,7 @@ constexpr double kRoundingShare = 1e-3;
 // Below this many pixels a cell's own shape is not seen, only its flux.
 constexpr double kUnseenCell_px = 0.25;
 constexpr int kProbeRays = 64;
+constexpr double kFloatPupil_mm = 1.0;
 
 // The cubic through f(0) to f(3), at t.
 std::array<float, 4> cubic_weights(double t) {
@@ -176,6 +177,11 @@ void RayGrid::find_blocked(const IrisShape& iris, std::size_t count) {
       blocked[k] = iris_distance[c][k] > blocked[k] ? iris_distance[c][k] : blocked[k];
     }
   }
+}
+
+PacketPrecision flux_precision(const Rectangle& pupil) {
+  const Vec2 size = pupil.high - pupil.low;
+  return std::min(size.x, size.y) > kFloatPupil_mm ? PacketPrecision::Float : PacketPrecision::Double;
 }
 
 // The middle row is traced both ways. What changes from ray to ray in their difference is rounding; what

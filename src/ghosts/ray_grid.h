@@ -91,6 +91,10 @@ class RayGrid {
   std::vector<float> x_mm_, y_mm_;  // entrance points from box_.low
 };
 
+// Of rays whose fluxes are asked for, which need shares of cells and no places on the sensor: float, unless the pupil
+// is tiny.
+[[nodiscard]] PacketPrecision flux_precision(const Rectangle& pupil);
+
 // Float or double: whatever keeps the rounding of neighbouring rays well below their distance on the sensor.
 [[nodiscard]] PacketPrecision precision_for(const OpticalPath& path, const ReflectanceTables& tables,
                                             const LightSource& light, double z_mm, const Rectangle& box, int side,

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "contrejour/first_order.h"
@@ -34,26 +35,31 @@ class Meridian {
   struct Chief {
     double height_mm = 0;  // at that plane
     double landing_mm = 0;
+    double per_mm = 0;  // what a place in the stop changes by with the height, stop radii; 0: not known
   };
 
   // Secant search for the ray through the stop's centre, from a first guess.
-  [[nodiscard]] std::optional<Chief> chief(double field_rad, double guess_mm) const {
-    double h0 = guess_mm;
-    double h1 = guess_mm + 1e-3;
-    auto r0 = at(field_rad, h0);
-    auto r1 = at(field_rad, h1);
-    for (int k = 0; k < kAimSteps; ++k) {
-      if (r0.status != RayStatus::Ok || r1.status != RayStatus::Ok) return std::nullopt;
-      if (std::abs(r1.stop[0].y) < kAimed) return Chief{h1, r1.sensor_mm.y};
-      const double change = r1.stop[0].y - r0.stop[0].y;
-      if (change == 0.0) return std::nullopt;
-      const double next = h1 - r1.stop[0].y * (h1 - h0) / change;
-      h0 = h1;
-      r0 = r1;
-      h1 = next;
-      r1 = at(field_rad, h1);
+  [[nodiscard]] std::optional<Chief> chief(double field_rad, const Chief& guess) const {
+    constexpr double kFirstStep_mm = 1e-3;
+    double height_mm = guess.height_mm, per_mm = guess.per_mm;
+    TracedRay ray = at(field_rad, height_mm);
+    for (int k = 0; k < kAimSteps && ray.status == RayStatus::Ok; ++k) {
+      const double place = ray.stop[0].y;
+      if (per_mm != 0.0 && std::abs(place) < kAimed) return Chief{height_mm, ray.sensor_mm.y, per_mm};
+      const double step_mm = per_mm != 0.0 ? -place / per_mm : kFirstStep_mm;
+      height_mm += step_mm;
+      ray = at(field_rad, height_mm);
+      per_mm = (ray.stop[0].y - place) / step_mm;
     }
     return std::nullopt;
+  }
+
+  // Without a walk, where the paraxial pupil tells where to begin: the ray through its centre nearly meets the stop's.
+  [[nodiscard]] std::optional<Chief> chief_near_axis(double field_rad) const {
+    constexpr double kNear = 0.05;  // stop radii
+    const TracedRay first = at(field_rad, 0.0);
+    if (first.status != RayStatus::Ok || std::abs(first.stop[0].y) > kNear) return std::nullopt;
+    return chief(field_rad, {});
   }
 
   // Of the ray at this height in the plane of the pupil, where it meets z = 0.
@@ -81,13 +87,21 @@ struct FieldPoint {
   Meridian::Chief chief;
 };
 
+// By the parabola through the last three.
+Meridian::Chief next_guess(std::span<const FieldPoint> points) {
+  Meridian::Chief guess = points.back().chief;
+  const auto height_mm = [&](std::size_t back) { return points[points.size() - 1 - back].chief.height_mm; };
+  if (points.size() >= 3) guess.height_mm += 2.0 * height_mm(0) - 3.0 * height_mm(1) + height_mm(2);
+  return guess;
+}
+
 // Up to the first point that is far enough, or the last angle whose chief ray exists and still lands farther out than
 // the one before.
 template <class FarEnough>
 std::vector<FieldPoint> walk_field(const Meridian& meridian, FarEnough far_enough) {
   std::vector<FieldPoint> points{{0.0, {}}};
   for (double field = kFieldStep_rad; field < kLastField_rad; field += kFieldStep_rad) {
-    const auto chief = meridian.chief(field, points.back().chief.height_mm);
+    const auto chief = meridian.chief(field, next_guess(points));
     if (!chief || !(std::abs(chief->landing_mm) > std::abs(points.back().chief.landing_mm))) break;
     points.push_back({field, *chief});
     if (far_enough(points.back())) break;
@@ -106,7 +120,7 @@ double extrapolated_landing(const LensState& lens, const FieldPoint& last, doubl
 }
 
 double landing_at(const Meridian& meridian, const FieldPoint& near, double field_rad) {
-  const auto chief = meridian.chief(field_rad, near.chief.height_mm);
+  const auto chief = meridian.chief(field_rad, near.chief);
   return std::abs(chief ? chief->landing_mm : near.chief.landing_mm);
 }
 
@@ -135,12 +149,13 @@ double chief_height_for(const LensState& lens, double lambda_nm, double distance
   const Meridian meridian(lens, lambda_nm, distance_mm);
   const auto points = walk_past(meridian, field_rad);
   const auto k = std::min(static_cast<std::size_t>(field_rad / kFieldStep_rad), points.size() - 1);
-  const auto chief = meridian.chief(field_rad, points[k].chief.height_mm);
+  const auto chief = meridian.chief(field_rad, points[k].chief);
   return meridian.height_at_vertex(field_rad, chief ? chief->height_mm : points[k].chief.height_mm);
 }
 
 double radius_for(const LensState& lens, double lambda_nm, double distance_mm, double field_rad) {
   const Meridian meridian(lens, lambda_nm, distance_mm);
+  if (const auto chief = meridian.chief_near_axis(field_rad)) return std::abs(chief->landing_mm);
   const auto points = walk_past(meridian, field_rad);
   if (field_rad >= points.back().field_rad) return extrapolated_landing(lens, points.back(), field_rad);
   const auto k = static_cast<std::size_t>(field_rad / kFieldStep_rad);

@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "base/tasks.h"
+#include "ghosts/direct_meter.h"
 #include "render/interface/wavelength_samples.h"
 
 namespace contrejour {
@@ -37,21 +39,33 @@ bool foretell(const MeteredLight& light, const WavelengthSamples& samples) {
 
 }  // namespace
 
-bool measure_fluxes(std::span<MeteredLight> lights, const Context& context) {
+bool measure_fluxes(const LensState& lens, const TablesByWavelength& tables, std::span<MeteredLight> lights,
+                    const Context& context) {
   using Place = std::pair<std::size_t, std::size_t>;  // light, band
+  std::vector<DirectMeter> meters;
   std::vector<WavelengthSamples> samples;
   std::vector<Place> first, others;
   for (std::size_t k = 0; k < lights.size(); ++k) {
     const std::size_t bands = lights[k].bands.size();
+    meters.emplace_back(lens, lights[k].source);
     samples.push_back(samples_of(lights[k].bands));
     lights[k].flux_mm2.assign(bands, 0.0);
     const bool few = samples[k].size() < kSamples;
     for (std::size_t at = 0; at < (few ? bands : kSamples); ++at) first.emplace_back(k, few ? at : samples[k][at]);
   }
+  const auto tables_of = [&](std::size_t k, std::size_t band) -> const ReflectanceTables& {
+    return *tables.at(lights[k].bands[band].lambda_nm);
+  };
+  // Of the middle wavelength, for the others.
+  std::vector<std::optional<Rectangle>> pupil(lights.size());
+  if (!parallel_for(lights.size(), context,
+                    [&](std::size_t k) { pupil[k] = meters[k].pupil(tables_of(k, lights[k].bands.size() / 2)); }))
+    return false;
   const auto measure = [&](const std::vector<Place>& places) {
     return parallel_for(places.size(), context, [&](std::size_t at) {
       const auto [k, band] = places[at];
-      lights[k].flux_mm2[band] = lights[k].meters[band].direct_flux(lights[k].source);
+      const ReflectanceTables& of_band = tables_of(k, band);
+      lights[k].flux_mm2[band] = pupil[k] ? meters[k].flux_mm2(of_band, *pupil[k]) : meters[k].flux_mm2(of_band);
     });
   };
   if (!measure(first)) return false;
@@ -80,9 +94,9 @@ LightSource measured_source(const LensState& lens, const Frame& frame, const Lig
   return {direction_to_land_at(lens, sensor_mm, lens.design_wavelength_nm, light.distance_mm), light.distance_mm};
 }
 
-Rgb direct_light(std::span<const SpectralBand> bands, std::span<const GhostMeter> meters,
-                 std::span<const double> flux_mm2, double distance_mm) {
-  const auto sum = [&](auto flux_of) {
+Rgb direct_light(std::span<const SpectralBand> bands, std::span<const double> flux_mm2,
+                 const std::function<double(std::size_t band)>& flux_on_axis_mm2) {
+  const auto sum = [&](const auto& flux_of) {
     Rgb whole{};
     for (std::size_t k = 0; k < bands.size(); ++k) {
       const double flux = flux_of(k);
@@ -91,8 +105,7 @@ Rgb direct_light(std::span<const SpectralBand> bands, std::span<const GhostMeter
     return whole;
   };
   const Rgb whole = sum([&](std::size_t k) { return flux_mm2[k]; });
-  const LightSource on_axis({0.0, 0.0, 1.0}, distance_mm);
-  return whole == Rgb{} ? sum([&](std::size_t k) { return meters[k].direct_flux(on_axis); }) : whole;
+  return whole == Rgb{} ? sum(flux_on_axis_mm2) : whole;
 }
 
 }  // namespace contrejour

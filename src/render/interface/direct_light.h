@@ -1,13 +1,15 @@
 // What a light's own image is, in the units that ghosts are measured against: docs/physics/radiometry.md.
 #pragma once
 
+#include <functional>
 #include <span>
 #include <vector>
 
 #include "contrejour/colour.h"
 #include "contrejour/context.h"
 #include "contrejour/frame.h"
-#include "contrejour/ghost.h"
+#include "contrejour/lens.h"
+#include "render/interface/wavelength_tables.h"
 
 namespace contrejour {
 
@@ -15,22 +17,21 @@ namespace contrejour {
 // to its centre.
 [[nodiscard]] LightSource measured_source(const LensState& lens, const Frame& frame, const LightSource& light);
 
-// A light where it is measured, its bands, the meters made for them and, once found, their direct fluxes in mm^2 at E0
-// = 1.
+// A light where it is measured, its bands' wavelengths and, once found, their direct fluxes in mm^2 at E0 = 1.
 struct MeteredLight {
   LightSource source;
   std::span<const SpectralBand> bands;
-  std::span<const GhostMeter> meters;
   std::vector<double> flux_mm2 = {};
 };
 
-// Finds all fluxes. Where there are many bands, few are measured if they foretell the next to 2e-4
-// (wavelength_samples.h), and they tell the others, good to 2e-5. False when cancelled.
-[[nodiscard]] bool measure_fluxes(std::span<MeteredLight> lights, const Context& context);
+// Finds all fluxes. tables: of all the bands' wavelengths. Where there are many bands, few are measured if they
+// foretell the next to 2e-4 (wavelength_samples.h), and they tell the others, good to 2e-5. False when cancelled.
+[[nodiscard]] bool measure_fluxes(const LensState& lens, const TablesByWavelength& tables,
+                                  std::span<MeteredLight> lights, const Context& context);
 
-// Sum over the bands of w[c] * Phi, mm^2 at E0 = 1, from each band's direct flux where the light is measured. One that
-// does not get through there is measured on the axis, at this distance; meters[k] is made for bands[k].
-[[nodiscard]] Rgb direct_light(std::span<const SpectralBand> bands, std::span<const GhostMeter> meters,
-                               std::span<const double> flux_mm2, double distance_mm);
+// Sum over the bands of w[c] * Phi, mm^2 at E0 = 1, from each band's direct flux where the light is measured. Of one
+// that does not get through there, of a band's flux on the axis, at the light's distance.
+[[nodiscard]] Rgb direct_light(std::span<const SpectralBand> bands, std::span<const double> flux_mm2,
+                               const std::function<double(std::size_t band)>& flux_on_axis_mm2);
 
 }  // namespace contrejour

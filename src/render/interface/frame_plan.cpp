@@ -10,6 +10,7 @@
 
 #include "base/clock.h"
 #include "base/tasks.h"
+#include "ghosts/direct_meter.h"
 #include "render/interface/direct_light.h"
 #include "render/interface/ghost_selection.h"
 
@@ -64,20 +65,15 @@ std::vector<SpectralBand> bands_of(const Light& light, const RenderSettings& set
   return bands;
 }
 
-// Lights of one spectrum share their bands, and the meters made for them.
-struct MeteredBands {
-  std::vector<SpectralBand> bands;
-  std::vector<GhostMeter> meters;
-};
-
-using BandsBySpectrum = std::vector<std::pair<Spectrum, MeteredBands>>;
+// Lights of one spectrum share their bands.
+using BandsBySpectrum = std::vector<std::pair<Spectrum, std::vector<SpectralBand>>>;
 
 BandsBySpectrum bands_by_spectrum(std::span<const Light> lights, const RenderSettings& settings) {
   BandsBySpectrum all;
   for (const Light& light : lights) {
     const auto same = [&](const auto& entry) { return entry.first == light.spectrum; };
     if (std::any_of(all.begin(), all.end(), same)) continue;
-    all.emplace_back(light.spectrum, MeteredBands{bands_of(light, settings), {}});
+    all.emplace_back(light.spectrum, bands_of(light, settings));
   }
   return all;
 }
@@ -94,8 +90,8 @@ std::optional<Preparation> prepare(const LensState& lens, std::span<const Light>
                                    const BandsBySpectrum& spectra, const Context& context) {
   Preparation out;
   for (const Light& light : lights) out.measured.push_back(light.source());
-  for (const auto& [spectrum, metered] : spectra)
-    for (const SpectralBand& band : metered.bands) out.tables.try_emplace(band.lambda_nm);
+  for (const auto& [spectrum, bands] : spectra)
+    for (const SpectralBand& band : bands) out.tables.try_emplace(band.lambda_nm);
   std::vector<TablesByWavelength::value_type*> tables;
   for (auto& entry : out.tables) tables.push_back(&entry);
   const bool done = parallel_for(lights.size() + tables.size(), context, [&](std::size_t k) {
@@ -109,7 +105,7 @@ std::optional<Preparation> prepare(const LensState& lens, std::span<const Light>
   return done ? std::optional(std::move(out)) : std::nullopt;
 }
 
-const MeteredBands& bands_for(const Light& light, const BandsBySpectrum& spectra) {
+const std::vector<SpectralBand>& bands_for(const Light& light, const BandsBySpectrum& spectra) {
   return std::find_if(spectra.begin(), spectra.end(), [&](const auto& entry) { return entry.first == light.spectrum; })
       ->second;
 }
@@ -124,11 +120,14 @@ double edge_gain(const LensState& lens, const Light& light, const RenderSettings
   return std::lerp(1.0, at_corner, std::min(1.0, landing_mm / corner_mm));
 }
 
-PlannedLight plan_light(const Light& light, const MeteredBands& metered, std::span<const double> flux_mm2,
-                        double ghost_gain) {
+PlannedLight plan_light(const LensState& lens, const TablesByWavelength& tables, const Light& light,
+                        const MeteredLight& metered, double ghost_gain) {
   PlannedLight planned;
   planned.source = light.source();
-  const Rgb whole = direct_light(metered.bands, metered.meters, flux_mm2, light.distance_mm);
+  const Rgb whole = direct_light(metered.bands, metered.flux_mm2, [&](std::size_t k) {
+    const LightSource on_axis({0.0, 0.0, 1.0}, light.distance_mm);
+    return DirectMeter(lens, on_axis).flux_mm2(*tables.at(metered.bands[k].lambda_nm));
+  });
   for (const SpectralBand& band : metered.bands) {
     PlannedPass pass{band.lambda_nm, {}, band.spread_nm};
     for (std::size_t c = 0; c < whole.size(); ++c) {
@@ -139,21 +138,19 @@ PlannedLight plan_light(const Light& light, const MeteredBands& metered, std::sp
   return planned;
 }
 
-// False when cancelled. sources: where lights are measured.
-bool plan_lights(const LensState& lens, std::span<const Light> lights, std::span<const LightSource> sources,
-                 const RenderSettings& settings, const BandsBySpectrum& spectra, const Context& context,
-                 std::vector<PlannedLight>& planned) {
-  std::vector<MeteredLight> measured;
+// None when cancelled.
+std::optional<std::vector<PlannedLight>> plan_lights(const LensState& lens, std::span<const Light> lights,
+                                                     const RenderSettings& settings, const BandsBySpectrum& spectra,
+                                                     const Preparation& prepared, const Context& context) {
+  std::vector<MeteredLight> metered;
+  for (std::size_t k = 0; k < lights.size(); ++k)
+    metered.push_back({prepared.measured[k], bands_for(lights[k], spectra)});
+  if (!measure_fluxes(lens, prepared.tables, metered, context)) return std::nullopt;
+  std::vector<PlannedLight> planned;
   for (std::size_t k = 0; k < lights.size(); ++k) {
-    const MeteredBands& of = bands_for(lights[k], spectra);
-    measured.push_back({sources[k], of.bands, of.meters});
+    planned.push_back(plan_light(lens, prepared.tables, lights[k], metered[k], edge_gain(lens, lights[k], settings)));
   }
-  if (!measure_fluxes(measured, context)) return false;
-  for (std::size_t k = 0; k < lights.size(); ++k) {
-    planned.push_back(plan_light(lights[k], bands_for(lights[k], spectra), measured[k].flux_mm2,
-                                 edge_gain(lens, lights[k], settings)));
-  }
-  return true;
+  return planned;
 }
 
 }  // namespace
@@ -171,16 +168,13 @@ Result<FramePlan> plan_frame(const LensState& lens, std::span<const Light> light
   plan.skipped_flux = selected->skipped_flux;
   Context quiet = context;
   quiet.progress = {};
-  BandsBySpectrum spectra = bands_by_spectrum(lights, settings);
+  const BandsBySpectrum spectra = bands_by_spectrum(lights, settings);
   auto prepared = prepare(lens, lights, settings.frame, spectra, quiet);
   if (!prepared) return failure(ErrorCode::Cancelled, "interrupted");
+  auto planned = plan_lights(lens, lights, settings, spectra, *prepared, quiet);
+  if (!planned) return failure(ErrorCode::Cancelled, "interrupted");
+  plan.lights = std::move(*planned);
   plan.tables = std::move(prepared->tables);
-  const auto shared_lens = std::make_shared<const LensState>(lens);
-  for (auto& [spectrum, metered] : spectra)
-    for (const SpectralBand& band : metered.bands)
-      metered.meters.emplace_back(shared_lens, plan.tables.at(band.lambda_nm));
-  if (!plan_lights(lens, lights, prepared->measured, settings, spectra, quiet, plan.lights))
-    return failure(ErrorCode::Cancelled, "interrupted");
   return plan;
 }
 

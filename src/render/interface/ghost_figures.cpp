@@ -70,7 +70,9 @@ Result<std::vector<GhostFigures>> ghost_figures(const LensState& lens, const Fig
   const LightSource measured = measured_source(lens, request.frame, request.light.source());
   std::vector<double> direct_mm2;
   for (const GhostMeter& meter : meters) direct_mm2.push_back(meter.direct_flux(measured));
-  const Rgb whole = direct_light(request.bands, meters, direct_mm2, measured.distance_mm);
+  const LightSource on_axis({0.0, 0.0, 1.0}, measured.distance_mm);
+  const Rgb whole =
+      direct_light(request.bands, direct_mm2, [&](std::size_t k) { return meters[k].direct_flux(on_axis); });
   std::vector<GhostFigures> all(ghosts.size());
   const bool done = parallel_for(ghosts.size(), context,
                                  [&](std::size_t g) { all[g] = figures_of(lens, ghosts[g], request, meters, whole); });
