@@ -275,17 +275,16 @@ RoughFrame draw_roughly(const Scene& scene, const std::vector<Item>& items, cons
   const ErrorBudget unlimited{std::numeric_limits<double>::infinity(), 1.0};
   std::vector<TiledPolygons> polygons(items.size());
   std::vector<Work> done(items.size());
+  RoughFrame rough;
+  rough.sizes.resize(items.size());
   parallel_for(items.size(), context, [&](std::size_t k) {
     Painted painted = paint(scene, items[k], Care::Little, small, grid, unlimited, rooms);
     polygons[k] = std::move(painted.polygons);
     done[k] = painted.work;
+    rough.sizes[k] = {spread_of(polygons[k].list, scale), static_cast<double>(done[k].rays)};
   });
   for (const Work& w : done) work.add(w);
-  RoughFrame rough;
-  if (context.cancelled()) return rough;
-  for (std::size_t k = 0; k < items.size(); ++k) {
-    rough.sizes.push_back({spread_of(polygons[k].list, scale), static_cast<double>(done[k].rays)});
-  }
+  if (context.cancelled()) return {};
   Image image = Image::unwritten(small.width, small.height);
   drawer.draw(polygons, TileMode::Write, context, image);
   rough.peak = quantile_of_samples(image, kPeakQuantile);

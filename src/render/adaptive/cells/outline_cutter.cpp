@@ -29,7 +29,7 @@ void OutlineCutter::cut_where_positive(Value value) {
     if (fa <= 0.0) exits_.push_back(next_.size());
     next_.push_back(between(a, b, fa / (fa - fb)));
   }
-  if (whole_.size() == kBentCorners) bend_cuts(value);
+  if (whole_.is_bent()) bend_cuts(value);
   polygon_.swap(next_);
 }
 
@@ -44,9 +44,9 @@ void OutlineCutter::bend_cuts(Value value) {
     const Vec2 chord = next_[exits_[k] + 1 == next_.size() ? 0 : exits_[k] + 1].uv - from;
     const Vec2 middle = from + chord * 0.5;
     const Vec2 aside{-chord.y, chord.x};
-    const double here = value(corner_at(middle));
-    const double there = value(corner_at(middle + aside * kTrial)) - here;
-    const double back = value(corner_at(middle - aside * kTrial)) - here;
+    const double here = value(whole_.at(middle));
+    const double there = value(whole_.at(middle + aside * kTrial)) - here;
+    const double back = value(whole_.at(middle - aside * kTrial)) - here;
     const double slope = 0.5 * (there - back);
     const double curvature = 0.5 * (there + back);
     const double root = std::sqrt(slope * slope - 4.0 * curvature * here);
@@ -54,7 +54,7 @@ void OutlineCutter::bend_cuts(Value value) {
     if (!(std::abs(height) < kMost)) continue;  // NaN where it has no zero
     const Vec2 uv = middle + aside * (4.0 / 3.0 * height);
     next_.insert(next_.begin() + static_cast<std::ptrdiff_t>(exits_[k]) + 1,
-                 corner_at({std::clamp(uv.x, 0.0, 1.0), std::clamp(uv.y, 0.0, 1.0)}));
+                 whole_.at({std::clamp(uv.x, 0.0, 1.0), std::clamp(uv.y, 0.0, 1.0)}));
   }
 }
 
@@ -151,115 +151,22 @@ void OutlineCutter::add_circle(const Circle& circle, double turn) {
 
 // At so many places, each turned by a step about the circle's centre from the one before.
 void OutlineCutter::add_corners(const Circle& circle, Vec2 first, double step, int count, Vec2 near_uv) {
-  const StopSeries stop = stop_series(circle.limit);
   const Vec2 turn{std::cos(step), std::sin(step)};
+  arc_.clear();
   for (int k = 0; k < count; ++k) {
-    if (const auto uv = uv_at_stop(stop, circle.stop_from_unit(first), near_uv)) {
-      polygon_.push_back(corner_at(*uv));
-      near_uv = *uv;
-    }
+    arc_.push_back(circle.stop_from_unit(first));
     first = {first.x * turn.x - first.y * turn.y, first.x * turn.y + first.y * turn.x};
   }
+  whole_.add_crossing(arc_, circle.limit, near_uv, polygon_);
 }
 
 Corner OutlineCutter::between(const Corner& a, const Corner& b, double t) const {
   Corner c;
   c.position = a.position + (b.position - a.position) * t;
   c.uv = a.uv + (b.uv - a.uv) * t;
-  for (std::size_t l = 0; l < limits_; ++l) c.limit[l] = a.limit[l] + static_cast<float>(t) * (b.limit[l] - a.limit[l]);
+  for (std::size_t l = 0; l < whole_.limits(); ++l)
+    c.limit[l] = a.limit[l] + static_cast<float>(t) * (b.limit[l] - a.limit[l]);
   return c;
-}
-
-// What each of the whole cell's corners adds to a point between them: linear in a triangle, bilinear in a cell of four
-// corners, quadratic along the sides of one of eight (serendipity; Zienkiewicz and Taylor, The Finite Element Method).
-OutlineCutter::Shares OutlineCutter::shares_at(Vec2 uv) const {
-  const double u = uv.x;
-  const double v = uv.y;
-  if (whole_.size() == 3) return {1.0 - u, u - v, v};
-  Shares s{(1.0 - u) * (1.0 - v), u * (1.0 - v), u * v, (1.0 - u) * v};
-  if (whole_.size() != kBentCorners) return s;
-  const double across_u = 4.0 * u * (1.0 - u);
-  const double across_v = 4.0 * v * (1.0 - v);
-  const std::array<double, 4> side{across_u * (1.0 - v), across_v * u, across_u * v, across_v * (1.0 - u)};
-  Shares bent{};
-  for (std::size_t k = 0; k < 4; ++k) {
-    bent[2 * k] = s[k] - 0.5 * (side[k] + side[(k + 3) % 4]);
-    bent[2 * k + 1] = side[k];
-  }
-  return bent;
-}
-
-Corner OutlineCutter::corner_at(Vec2 uv) const {
-  const Shares share = shares_at(uv);
-  Corner out;
-  out.uv = uv;
-  for (std::size_t k = 0; k < whole_.size(); ++k) {
-    out.position = out.position + whole_[k].position * share[k];
-    for (std::size_t l = 0; l < limits_; ++l) out.limit[l] += static_cast<float>(share[k]) * whole_[k].limit[l];
-  }
-  return out;
-}
-
-OutlineCutter::StopSeries::Place OutlineCutter::StopSeries::place(Vec2 uv) const {
-  const double u = uv.x, v = uv.y;
-  const Vec2 bend_u = term[4] + term[6] * v, bend_v = term[5] + term[7] * u;
-  return {term[0] + (term[1] + bend_u * u) * u + (term[2] + term[3] * u + bend_v * v) * v,
-          term[1] + bend_u * (2.0 * u) + (term[3] + term[7] * v) * v,
-          term[2] + bend_v * (2.0 * v) + (term[3] + term[6] * u) * u};
-}
-
-// What shares_at() says, sorted by powers of u and v.
-OutlineCutter::StopSeries OutlineCutter::stop_series(std::size_t limit) const {
-  const auto stop = [&](std::size_t k) { return Vec2{whole_[k].limit[limit], whole_[k].limit[limit + 1]}; };
-  StopSeries s;
-  s.term[0] = stop(0);
-  if (whole_.size() == 3) {
-    s.term[1] = stop(1) - stop(0);
-    s.term[2] = stop(2) - stop(1);
-    return s;
-  }
-  const std::size_t by = whole_.size() == kBentCorners ? 2 : 1;
-  const std::array<Vec2, 4> corner{stop(0), stop(by), stop(2 * by), stop(3 * by)};
-  if (by == 2) {  // along each side c + u (d - c) + u (u - 1) bend
-    const auto bend = [&](std::size_t a, std::size_t side, std::size_t b) {
-      return (corner[a] + corner[b] - stop(side) * 2.0) * 2.0;
-    };
-    const Vec2 at_v0 = bend(0, 1, 1), at_u1 = bend(1, 3, 2), at_v1 = bend(3, 5, 2), at_u0 = bend(0, 7, 3);
-    s.term[4] = at_v0;
-    s.term[5] = at_u0;
-    s.term[6] = at_v1 - at_v0;
-    s.term[7] = at_u1 - at_u0;
-  }
-  s.term[1] = corner[1] - corner[0] - s.term[4];
-  s.term[2] = corner[3] - corner[0] - s.term[5];
-  s.term[3] = corner[2] - corner[1] - corner[3] + corner[0] - s.term[6] - s.term[7];
-  return s;
-}
-
-// The point of the cell whose ray crosses the stop there, by Newton's method. None where the map bends too much for it.
-std::optional<Vec2> OutlineCutter::uv_at_stop(const StopSeries& stop, Vec2 target, Vec2 near_uv) const {
-  constexpr double kMiss = 0.1;  // stop radii
-  constexpr double kNear = 1e-3;  // of the cell: one step more is as good as exact
-  constexpr int kMostSteps = 4;
-  const bool triangle = whole_.size() == 3;
-  Vec2 uv = near_uv;
-  for (int step = 0; step < kMostSteps; ++step) {
-    const auto [at, du, dv] = stop.place(uv);
-    const Vec2 off = target - at;
-    const double per_determinant = 1.0 / cross(du, dv);
-    if (!std::isfinite(per_determinant)) return std::nullopt;
-    const Vec2 before = uv;
-    const Vec2 next = uv + Vec2{cross(off, dv), cross(du, off)} * per_determinant;
-    // An arc does not leave the cell that it was found in.
-    uv = {std::clamp(next.x, 0.0, 1.0), std::clamp(next.y, 0.0, triangle ? std::clamp(next.x, 0.0, 1.0) : 1.0)};
-    const Vec2 moved = uv - before;
-    if (dot(moved, moved) >= kNear * kNear) continue;
-    if (uv.x == next.x && uv.y == next.y) return uv;
-    break;
-  }
-  const Vec2 off = target - stop.place(uv).at;
-  if (!(dot(off, off) <= kMiss * kMiss)) return std::nullopt;
-  return uv;
 }
 
 std::span<const Corner> OutlineCutter::open_part(std::span<const Corner> whole, std::span<const Corner> outline,
@@ -280,8 +187,7 @@ std::span<const Corner> OutlineCutter::within_rims(std::span<const Corner> whole
 
 void OutlineCutter::start_with(std::span<const Corner> whole, std::span<const Corner> outline, int crossings,
                                int rims) {
-  whole_ = whole;
-  limits_ = static_cast<std::size_t>(2 * crossings + rims);
+  whole_ = {whole, static_cast<std::size_t>(2 * crossings + rims)};
   polygon_.assign(outline.begin(), outline.end());
 }
 
@@ -295,8 +201,7 @@ void OutlineCutter::cut_by_rims(int crossings, int rims) {
 // In triangles, over which the stop coordinates are linear: cuts of neighbouring pieces then meet.
 void OutlineCutter::for_each_open_part(std::span<const Corner> whole, int crossings, int rims, double finest,
                                        const OpenPart& visit) {
-  limits_ = static_cast<std::size_t>(2 * crossings + rims);
-  whole_ = {};
+  whole_ = {{}, static_cast<std::size_t>(2 * crossings + rims)};
   for (std::size_t k = 2; k < whole.size(); ++k) {
     polygon_.assign({whole[0], whole[k - 1], whole[k]});
     cut_by_rims(crossings, rims);

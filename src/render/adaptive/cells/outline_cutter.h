@@ -1,24 +1,15 @@
 // What the iris and the rims leave of a cell: its outline, cut along arcs and lines.
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <functional>
-#include <optional>
 #include <span>
 #include <vector>
 
 #include "ghosts/iris_shape.h"
-#include "render/adaptive/maps/patch.h"
+#include "render/adaptive/cells/whole_cell.h"
 
 namespace contrejour::adaptive {
-
-// A corner of a polygon with what may cut it: stop coordinates, two a crossing, then squared heights at rims.
-struct Corner {
-  Vec2 position;  // pixels of the frame
-  Vec2 uv;        // in the cell or triangle: shares of areas there are shares of flux
-  std::array<float, 2 * kMaxStopCrossings + kMostRims> limit{};
-};
 
 class OutlineCutter {
  public:
@@ -42,8 +33,6 @@ class OutlineCutter {
   void for_each_open_part(std::span<const Corner> whole, int crossings, int rims, double finest, const OpenPart& visit);
 
  private:
-  static constexpr std::size_t kBentCorners = 8;  // of a cell whose sides bend in their middles
-
   // In the plane of a crossing, whose coordinates are a corner's from `limit` on.
   struct Circle {
     std::size_t limit = 0;
@@ -54,16 +43,6 @@ class OutlineCutter {
       return (Vec2{c.limit[limit], c.limit[limit + 1]} - centre) * (1.0 / radius);
     }
     [[nodiscard]] Vec2 stop_from_unit(Vec2 p) const { return centre + p * radius; }
-  };
-
-  // Stop coordinates of a crossing over the cell: sum of term[k] times 1, u, v, u v, u^2, v^2, u^2 v, u v^2.
-  struct StopSeries {
-    std::array<Vec2, 8> term{};
-
-    struct Place {
-      Vec2 at, along_u, along_v;
-    };
-    [[nodiscard]] Place place(Vec2 uv) const;
   };
 
   void start_with(std::span<const Corner> whole, std::span<const Corner> outline, int crossings, int rims);
@@ -83,18 +62,13 @@ class OutlineCutter {
   [[nodiscard]] double step_on(const Circle& circle) const;
   [[nodiscard]] bool surrounds_centre(const Circle& circle) const;
   [[nodiscard]] Corner between(const Corner& a, const Corner& b, double t) const;
-  using Shares = std::array<double, kBentCorners>;
-  [[nodiscard]] Shares shares_at(Vec2 uv) const;
-  [[nodiscard]] Corner corner_at(Vec2 uv) const;
-  [[nodiscard]] StopSeries stop_series(std::size_t limit) const;
-  [[nodiscard]] std::optional<Vec2> uv_at_stop(const StopSeries& stop, Vec2 target, Vec2 near_uv) const;
 
   const IrisShape& iris_;
-  std::span<const Corner> whole_;
+  WholeCell whole_;
   double arc_step_ = 0.1;  // radians
-  std::size_t limits_ = 0;  // of a corner's that are in use
   std::vector<Corner> polygon_, next_;
   std::vector<std::size_t> exits_;  // of next_: where the outline leaves the circle
+  std::vector<Vec2> arc_;  // places in the stop
 };
 
 }  // namespace contrejour::adaptive
