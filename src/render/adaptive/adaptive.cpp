@@ -167,12 +167,12 @@ Result<Flare> render_adaptive(const LensState& lens, const FramePlan& plan, cons
   Stopwatch watch;
 
   Flare flare;
-  const Scene scene{lens, plan, steps_of(lens, plan), IrisShape(lens.iris), screens::DirtField::of(lens)};
+  const Scene scene{lens, plan, steps_of(lens, plan), IrisShape(lens.iris)};
   Context quiet = context;
   quiet.progress = {};
   Work work;
   std::vector<Item> items = find_items(scene, quiet, work);
-  if (scene.dirt) dim_items(scene, items);
+  if (scene.plan.dirt) dim_items(scene, items);
   const double bound_ms = watch.lap_ms();
   Screens screens(lens, settings);
   Pool<BoxCells> rooms;
@@ -182,7 +182,7 @@ Result<Flare> render_adaptive(const LensState& lens, const FramePlan& plan, cons
   const FrameError allowed{settings.error, dark ? faintest_peak(plan, settings.frame) : rough.peak,
                            static_cast<double>(settings.frame.width) * settings.frame.height};
   if (screens.on() && !dark) work.add(screen_items(scene, screens, items, rough.sizes, allowed, quiet));
-  if (scene.dirt && !dark) shadow_items(scene, items, rough.sizes, allowed);
+  if (scene.plan.dirt && !dark) shadow_items(scene, items, rough.sizes, allowed);
   const double peak_ms = watch.lap_ms();
   FramePainter painter(scene, settings, rooms, drawer, context, flare);
   painter.paint(items, rough.sizes, budget_per_item(allowed, rough.sizes));

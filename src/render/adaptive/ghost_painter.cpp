@@ -34,7 +34,7 @@ std::vector<double> wavelengths_of(std::span<const PlannedPass> passes) {
 }  // namespace
 
 GhostPainter::GhostPainter(GhostTracers& tracers, const IrisShape& iris, const Frame& frame, int deepest,
-                           BoxCells& room, const GhostScreens* screens, const screens::DirtField* dirt)
+                           BoxCells& room, const GhostScreens* screens, const DirtField* dirt)
     : tracers_(tracers), samples_(wavelengths_of(tracers.passes()), kMostSamples), iris_(iris), frame_(frame),
       deepest_(deepest), screens_(screens), dirt_(dirt), room_(room) {}
 

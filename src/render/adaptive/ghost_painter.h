@@ -26,7 +26,7 @@ class GhostPainter {
   // room: for cells, used again afterwards. screens: may be null; with them the iris is a circle. dirt: whose shadows
   // are drawn; may be null.
   GhostPainter(GhostTracers& tracers, const IrisShape& iris, const Frame& frame, int deepest, BoxCells& room,
-               const GhostScreens* screens = nullptr, const screens::DirtField* dirt = nullptr);
+               const GhostScreens* screens = nullptr, const DirtField* dirt = nullptr);
 
   // box: in the light's meridional frame. with_mirror_image: that of the box is painted, too.
   void paint(const Rectangle& box, bool with_mirror_image, const ErrorBudget& budget, PolygonList& out);
@@ -43,7 +43,7 @@ class GhostPainter {
   const Frame& frame_;
   int deepest_;
   const GhostScreens* screens_;
-  const screens::DirtField* dirt_;
+  const DirtField* dirt_;
   BoxCells& room_;
 };
 

@@ -203,7 +203,7 @@ Painted paint(const Scene& scene, const Item& item, Care care, const Frame& whol
   GhostTracers tracers(scene.steps, item.ghost, light, item.window.z_mm, passes, stop_times(item));
   const auto room = rooms.lend();
   GhostPainter painter(tracers, iris, frame, care == Care::Much ? kDeepest : kPeakDeepest, *room, item.screens.get(),
-                       item.has_shadows ? scene.dirt.get() : nullptr);
+                       item.has_shadows ? scene.plan.dirt.get() : nullptr);
   for (const Rectangle& box : item.boxes) {
     const bool aside = light.symmetric && box.low.y != -box.high.y;
     const bool has_image = aside && std::ranges::count(item.boxes, mirrored(box)) > 0;

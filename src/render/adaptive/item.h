@@ -13,7 +13,6 @@ struct Scene {
   const FramePlan& plan;
   StepsByWavelength steps;  // of the plan's wavelengths
   IrisShape iris;
-  std::shared_ptr<const screens::DirtField> dirt = nullptr;  // null: the lens is clean
 };
 
 struct Work {

@@ -14,10 +14,10 @@ constexpr double kRoom = 0.07;  // of an item's boxes, beside its light (item.cp
 
 // In the plane of the dirt: about the box that the item's light crosses, mm.
 Rectangle crossed(const Scene& scene, const Item& item) {
-  const double r = scene.dirt->stop_radius_mm();
-  if (!scene.dirt->on_front()) return {{-r, -r}, {r, r}};
+  const double r = scene.plan.dirt->stop_radius_mm();
+  if (!scene.plan.dirt->on_front()) return {{-r, -r}, {r, r}};
   const LightFrame light(item.light->source, has_axial_symmetry(scene.lens, item.ghost));
-  const SeenDirt seen{scene.dirt.get(), &light, item.window.z_mm};
+  const SeenDirt seen{scene.plan.dirt.get(), &light, item.window.z_mm};
   Rectangle all{seen.front_place(item.boxes.front().low), seen.front_place(item.boxes.front().low)};
   for (const Rectangle& box : item.boxes) {
     for (const Vec2 corner : {box.low, box.high, Vec2{box.low.x, box.high.y}, Vec2{box.high.x, box.low.y}}) {
@@ -36,7 +36,7 @@ double shadow_error(const Scene& scene, const Item& item, const ItemSize& size, 
   const Rectangle box = crossed(scene, item);
   const double area_mm2 = 0.25 * std::numbers::pi * (box.high.x - box.low.x) * (box.high.y - box.low.y);
   const double seen = size.level * seen_share(size.level, peak);
-  return seen * seen * size.area_px * scene.dirt->variance(std::sqrt(area_mm2 / size.area_px));
+  return seen * seen * size.area_px * scene.plan.dirt->variance(std::sqrt(area_mm2 / size.area_px));
 }
 
 }  // namespace
@@ -45,7 +45,7 @@ void dim_items(const Scene& scene, std::vector<Item>& items) {
   for (Item& item : items) {
     if (item.boxes.empty()) continue;
     const Rectangle box = crossed(scene, item);
-    item.past_dirt = scene.dirt->mean_within(box.low, box.high);
+    item.past_dirt = scene.plan.dirt->mean_within(box.low, box.high);
   }
 }
 

@@ -47,6 +47,7 @@ FramePlan part_of(const FramePlan& plan, std::vector<Ghost> ghosts, std::vector<
   part.ghosts = std::move(ghosts);
   part.lights = std::move(lights);
   part.tables = plan.tables;
+  part.dirt = plan.dirt;
   part.skipped_flux = plan.skipped_flux;
   return part;
 }

@@ -68,7 +68,6 @@ Result<Flare> render_bundle(const LensState& lens, const FramePlan& plan, const 
   }
   const TablesByWavelength& tables = plan.tables;
   const auto bounds = bounds_for(plan, lens, settings, tables, context);
-  const auto dirt = screens::DirtField::of(lens);
   Screens screens(lens, settings);
   if (!screens.prepare(plan, context)) return failure(ErrorCode::Cancelled, "interrupted");
   times.bounds_ms = whole.elapsed_ms();
@@ -85,8 +84,8 @@ Result<Flare> render_bundle(const LensState& lens, const FramePlan& plan, const 
   const bool done = ordered_pipeline(
       items.size(), context,
       [&](std::size_t k) {
-        return bundle::ItemRenderer(items[k], lens, settings, tables, screens, bounds ? &*bounds : nullptr, dirt.get(),
-                                    context)
+        return bundle::ItemRenderer(items[k], lens, settings, tables, screens, bounds ? &*bounds : nullptr,
+                                    plan.dirt.get(), context)
             .render();
       },
       [&](std::size_t, const RenderedItem& item) {

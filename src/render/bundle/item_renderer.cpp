@@ -72,7 +72,7 @@ std::vector<Item> items_of(const FramePlan& plan, const BundleOptions& options) 
 
 ItemRenderer::ItemRenderer(const Item& item, const LensState& lens, const RenderSettings& settings,
                            const TablesByWavelength& tables, const Screens& screens, const PupilBounds* bounds,
-                           const screens::DirtField* dirt, const Context& context)
+                           const DirtField* dirt, const Context& context)
     : item_(item), settings_(settings), frame_(item.look->placed(settings.frame)), context_(context),
       grid_(lens, settings, tables, screens, bounds), dirt_(dirt) {}
 

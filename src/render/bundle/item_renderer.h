@@ -8,8 +8,8 @@
 #include "render/bundle/band_blur.h"
 #include "render/bundle/flux_box.h"
 #include "render/bundle/ghost_grid.h"
+#include "render/interface/dirt_field.h"
 #include "render/interface/frame_plan.h"
-#include "render/screens/dirt_field.h"
 
 namespace contrejour::bundle {
 
@@ -34,7 +34,7 @@ class ItemRenderer {
  public:
   ItemRenderer(const Item& item, const LensState& lens, const RenderSettings& settings,
                const TablesByWavelength& tables, const Screens& screens, const PupilBounds* bounds,
-               const screens::DirtField* dirt, const Context& context);
+               const DirtField* dirt, const Context& context);
 
   // Incomplete when the context is cancelled.
   [[nodiscard]] RenderedItem render();
@@ -53,7 +53,7 @@ class ItemRenderer {
   Frame frame_;  // as the ghost is placed in it
   const Context& context_;
   GhostGrid grid_;
-  const screens::DirtField* dirt_;  // null: the lens is clean
+  const DirtField* dirt_;  // null: the lens is clean
 };
 
 }  // namespace contrejour::bundle

@@ -1,10 +1,13 @@
 #include <algorithm>
 #include <array>
+#include <memory>
+#include <utility>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include "contrejour/render.h"
+#include "contrejour/ringing.h"
 #include "render/adaptive/adaptive.h"
 #include "render/area/area_render.h"
 #include "render/bundle/bundle.h"
@@ -50,6 +53,12 @@ Result<Flare> render_with_lights(const Method& method, const LensState& lens, st
   return flare;
 }
 
+// Pictures of one frame share its ringing patterns, as lights with a size have many.
+RenderSettings with_patterns(RenderSettings settings) {
+  settings.ringing.patterns = std::make_shared<RingingPatterns>();
+  return settings;
+}
+
 }  // namespace
 
 std::vector<std::string_view> render_methods() {
@@ -62,6 +71,8 @@ Result<Flare> render(std::string_view method, const LensState& lens, std::span<c
                      const RenderSettings& settings, const Context& context) {
   for (const Method& known : kMethods) {
     if (known.name != method) continue;
+    if (settings.ringing.mode != RingingMode::None && !settings.ringing.patterns)
+      return render(method, lens, lights, with_patterns(settings), context);
     const bool adds_lights = settings.starburst.on || settings.glare.share != 0.0;
     return adds_lights ? render_with_lights(known, lens, lights, settings, context)
                        : render_ghosts(known, lens, lights, settings, context);

@@ -78,11 +78,12 @@ BandsBySpectrum bands_by_spectrum(std::span<const Light> lights, const RenderSet
   return all;
 }
 
-// What takes long before any flux is known, side by side: where lights are measured, and tables of all their
-// wavelengths.
+// What takes long before any flux is known, side by side: where lights are measured, tables of all their wavelengths,
+// and the lens's dirt.
 struct Preparation {
   std::vector<LightSource> measured;  // one a light
   TablesByWavelength tables;
+  std::shared_ptr<const DirtField> dirt;
 };
 
 // None when cancelled.
@@ -94,9 +95,11 @@ std::optional<Preparation> prepare(const LensState& lens, std::span<const Light>
     for (const SpectralBand& band : bands) out.tables.try_emplace(band.lambda_nm);
   std::vector<TablesByWavelength::value_type*> tables;
   for (auto& entry : out.tables) tables.push_back(&entry);
-  const bool done = parallel_for(lights.size() + tables.size(), context, [&](std::size_t k) {
+  const bool done = parallel_for(lights.size() + tables.size() + 1, context, [&](std::size_t k) {
     if (k < lights.size()) {
       out.measured[k] = measured_source(lens, frame, out.measured[k]);
+    } else if (k == lights.size() + tables.size()) {
+      out.dirt = DirtField::of(lens);
     } else {
       auto& [lambda_nm, table] = *tables[k - lights.size()];
       table = std::make_shared<const ReflectanceTables>(lens, lambda_nm);
@@ -175,6 +178,7 @@ Result<FramePlan> plan_frame(const LensState& lens, std::span<const Light> light
   if (!planned) return failure(ErrorCode::Cancelled, "interrupted");
   plan.lights = std::move(*planned);
   plan.tables = std::move(prepared->tables);
+  plan.dirt = std::move(prepared->dirt);
   return plan;
 }
 

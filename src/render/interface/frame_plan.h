@@ -2,10 +2,12 @@
 // flux becomes pixel values. So selection, colour and radiometry are the same in all of them.
 #pragma once
 
+#include <memory>
 #include <span>
 #include <vector>
 
 #include "contrejour/render.h"
+#include "render/interface/dirt_field.h"
 #include "render/interface/ghost_look.h"
 #include "render/interface/wavelength_tables.h"
 
@@ -30,6 +32,7 @@ struct FramePlan {
   std::vector<GhostLook> looks;  // one a ghost
   std::vector<PlannedLight> lights;
   TablesByWavelength tables;  // for every wavelength of the passes
+  std::shared_ptr<const DirtField> dirt = nullptr;  // null: the lens is clean
   std::optional<double> skipped_flux;  // as RenderStatistics::ghosts_skipped_flux
 };
 

@@ -66,7 +66,7 @@ struct Extent {
 class CellWalker {
  public:
   CellWalker(const OpticalPath& path, const Iris& iris, const LightSource& light, double z_mm, const Frame& frame,
-             const CellLimits& limits, const LitPolygon& lit, const StopScreen* screen, const screens::DirtField* dirt)
+             const CellLimits& limits, const LitPolygon& lit, const StopScreen* screen, const DirtField* dirt)
       : path_(path), iris_(iris), light_(light), z_mm_(z_mm), frame_(frame), limits_(limits), lit_(lit),
         screen_(screen), dirt_(dirt) {
     if (iris.field) hull_ = iris.field->hull();
@@ -183,7 +183,7 @@ class CellWalker {
   // at: the middle of a part, along two sides.
   static constexpr int kParts = 2;
   [[nodiscard]] double past_dirt(const std::array<const Sample*, 3>& t, Vec2 at) const {
-    std::array<screens::DirtPlace, kMaxStopCrossings> places;
+    std::array<DirtPlace, kMaxStopCrossings> places;
     for (std::size_t c = 0; c < dirt_crossings(); ++c) {
       const Vec2 a = t[0]->dirt_mm[c], u = t[1]->dirt_mm[c] - a, v = t[2]->dirt_mm[c] - a;
       places[c] = {a + (u * at.x + v * at.y) * (1.0 / kParts), std::sqrt(0.5 * std::abs(cross(u, v))) / kParts};
@@ -378,7 +378,7 @@ class CellWalker {
   CellLimits limits_;
   const LitPolygon& lit_;
   const StopScreen* screen_;
-  const screens::DirtField* dirt_;
+  const DirtField* dirt_;
   std::vector<IrisBound> hull_;  // of a picture's opening
   CellCounts counts_;
 };
@@ -400,7 +400,7 @@ CellLimits CellLimits::for_density(double density) {
 CellCounts for_each_lit_polygon(const OpticalPath& path, const Iris& iris, const LightSource& light,
                                 const EntranceWindow& window, const Frame& frame, const CellLimits& limits,
                                 const std::function<bool()>& stop, const LitPolygon& lit, const StopScreen* screen,
-                                const screens::DirtField* dirt) {
+                                const DirtField* dirt) {
   CellWalker walker(path, iris, light, window.z_mm, frame, limits, lit, screen, dirt);
   const int n = limits.root_cells;
   const auto row_of = [&](int iy) {

@@ -36,7 +36,7 @@ struct RenderedItem {
 };
 
 RenderedItem render_item(const Item& item, const LensState& lens, const RenderSettings& settings,
-                         const Screens& screens, const screens::DirtField* dirt, const Context& context) {
+                         const Screens& screens, const DirtField* dirt, const Context& context) {
   RenderedItem out{{settings.frame.width, settings.frame.height}, {}, 0};
   const LightSource& light = item.light->source;
   const auto screen = screens.of(item.ghost, item.pass->lambda_nm, light);
@@ -60,8 +60,6 @@ Result<Flare> render_reference(const LensState& lens, const FramePlan& plan, con
   Screens screens(lens, settings);
   if (!screens.prepare(plan, context)) return failure(ErrorCode::Cancelled, "interrupted");
 
-  const auto dirt = screens::DirtField::of(lens);
-
   Flare flare;
   flare.image = Image(settings.frame.width, settings.frame.height, 3);
   RenderStatistics& stats = flare.statistics;
@@ -69,7 +67,7 @@ Result<Flare> render_reference(const LensState& lens, const FramePlan& plan, con
   const auto items = items_of(plan);
   const bool done = ordered_pipeline(
       items.size(), context,
-      [&](std::size_t k) { return render_item(items[k], lens, settings, screens, dirt.get(), context); },
+      [&](std::size_t k) { return render_item(items[k], lens, settings, screens, plan.dirt.get(), context); },
       [&](std::size_t k, const RenderedItem& rendered) {
         rendered.flux.add_to(sum, items[k].look->tinted(items[k].pass->gain));
         stats.rays += rendered.counts.rays;

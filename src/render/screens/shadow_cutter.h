@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-#include "render/screens/dirt_field.h"
+#include "render/interface/dirt_field.h"
 
 namespace contrejour::screens {
 

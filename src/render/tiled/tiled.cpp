@@ -119,7 +119,7 @@ struct Job {
   std::vector<std::shared_ptr<const StopScreen>>
       screens;  // one an item, null where the iris is sharp; none at all: so everywhere
   IrisShape round = IrisShape(Iris{});  // for those that have one
-  std::shared_ptr<const screens::DirtField> dirt = screens::DirtField::of(lens);  // null: the lens is clean
+  const DirtField* dirt = nullptr;  // null: the lens is clean
 };
 
 void list_items(const FramePlan& plan, const Screens& screens, Job& job) {
@@ -163,12 +163,8 @@ TracedItem trace_item(const Job& job, std::size_t index, Workspace& workspace) {
       precision_for(path, tables, item.light, window.z_mm, region->pupil_mm, side, job.settings.frame.pixel_pitch_mm);
   workspace.grid.trace(path, tables, iris, item.light, window.z_mm, region->pupil_mm, side, precision);
   count_rays(static_cast<std::uint64_t>(side) * static_cast<std::uint64_t>(side));
-  const tiled::TracedPass traced{item.light.shared_flux(),
-                                 static_cast<std::uint32_t>(index),
-                                 item.shift_mm,
-                                 job.dirt.get(),
-                                 item.light,
-                                 window.z_mm};
+  const tiled::TracedPass traced{
+      item.light.shared_flux(), static_cast<std::uint32_t>(index), item.shift_mm, job.dirt, item.light, window.z_mm};
   out.counts.primitives = workspace.builder.build(workspace.grid, traced, out.buffer);
   out.counts.trace_ms = ms_since(start);
   return out;
@@ -204,12 +200,13 @@ Result<Flare> render_tiled(const LensState& lens, const FramePlan& plan, const R
   Screens screens(lens, settings);
   if (!screens.prepare(plan, context)) return failure(ErrorCode::Cancelled, "interrupted");
   Job job{lens, settings, context, tables, IrisShape(lens.iris), {}, {}, {}};
+  job.dirt = plan.dirt.get();
   list_items(plan, screens, job);
   std::vector<const StopScreen*> screen_of_pass;
   for (const auto& screen : job.screens) screen_of_pass.push_back(screen.get());
 
   const auto traced = Clock::now();
-  tiled::TiledFrame frame(settings, context, job.iris, job.gains, {}, screen_of_pass, job.dirt.get());
+  tiled::TiledFrame frame(settings, context, job.iris, job.gains, {}, screen_of_pass, job.dirt);
   Counts counts;
   trace_all(job, frame, counts);
   const double trace_ms = ms_since(traced) - frame.draw_ms();

@@ -25,7 +25,7 @@ class TiledFrame {
   // gains, screens: by Primitive::pass. All must outlive the frame.
   TiledFrame(const RenderSettings& settings, const Context& context, const IrisShape& iris, std::span<const Gain> gains,
              const HeldLimits& limits = {}, std::span<const StopScreen* const> screens = {},
-             const screens::DirtField* dirt = nullptr);
+             const DirtField* dirt = nullptr);
 
   // Takes primitives, in the order in which pixels add them up.
   void add(const PrimitiveBuffer& buffer);
@@ -49,7 +49,7 @@ class TiledFrame {
   const IrisShape& iris_;
   std::span<const Gain> gains_;
   std::span<const StopScreen* const> screens_;
-  const screens::DirtField* dirt_;
+  const DirtField* dirt_;
   HeldLimits limits_;
   TileGrid coarse_grid_, dense_grid_;
   Image image_;

@@ -2,12 +2,12 @@
 #pragma once
 
 #include "render/adaptive/maps/light_frame.h"
-#include "render/screens/dirt_field.h"
+#include "render/interface/dirt_field.h"
 
 namespace contrejour::adaptive {
 
 struct SeenDirt {
-  const screens::DirtField* field = nullptr;  // null: none is to be seen
+  const DirtField* field = nullptr;  // null: none is to be seen
   const LightFrame* light = nullptr;
   double entrance_z_mm = 0.0;  // of the plane that rays are counted in
 

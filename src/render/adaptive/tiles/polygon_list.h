@@ -12,7 +12,7 @@
 #include "contrejour/vec.h"
 #include "render/adaptive/tiles/edge_table.h"
 #include "render/adaptive/tiles/stop_map.h"
-#include "render/screens/dirt_field.h"
+#include "render/interface/dirt_field.h"
 
 namespace contrejour::adaptive {
 
@@ -42,7 +42,7 @@ struct Shade {
 
 // Dirt before a polygon that is looked up pixel by pixel, and how pixels see its plane, in mm.
 struct PastDirt {
-  const screens::DirtField* field;
+  const DirtField* field;
   StopMap map;
   [[nodiscard]] double passed(Vec2 pixel) const;
 };

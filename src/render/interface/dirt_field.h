@@ -13,7 +13,7 @@
 #include "contrejour/lens.h"
 #include "contrejour/light_source.h"
 
-namespace contrejour::screens {
+namespace contrejour {
 
 // A place where light crosses the dirt's plane, and the side of the square about it that is asked about.
 struct DirtPlace {
@@ -77,4 +77,4 @@ class DirtField {
   double covered_ = 0.0, edges_per_mm_ = 0.0;
 };
 
-}  // namespace contrejour::screens
+}  // namespace contrejour

@@ -1,10 +1,10 @@
-#include "render/screens/dirt_field.h"
+#include "render/interface/dirt_field.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
-namespace contrejour::screens {
+namespace contrejour {
 namespace {
 
 constexpr double kFrontExtent = 2.0;  // clear radii: inclined beams cross the vertex's plane beside the first surface
@@ -228,4 +228,4 @@ void DirtField::find_within(Vec2 low_mm, Vec2 high_mm, std::vector<std::uint32_t
   found.erase(std::unique(found.begin(), found.end()), found.end());
 }
 
-}  // namespace contrejour::screens
+}  // namespace contrejour
