@@ -117,8 +117,7 @@ Result<void> write_picture_png(const std::filesystem::path& file, const Picture&
   const bool grey = picture.rgb_source[0] == picture.rgb_source[2];
   for (std::size_t c = 0; c < (grey ? 1U : 3U); ++c) sources.push_back(static_cast<std::size_t>(picture.rgb_source[c]));
   for (std::size_t k = 0; k < picture.channels.size(); ++k)
-    if (picture.channels[k].name == "A" && picture.channels[k].x_sampling * picture.channels[k].y_sampling == 1)
-      sources.push_back(k);
+    if (is_alpha(picture.channels[k])) sources.push_back(k);
 
   const SampleType type =
       picture.channels[sources[0]].type == SampleType::UInt8 ? SampleType::UInt8 : SampleType::UInt16;

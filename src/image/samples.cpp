@@ -98,6 +98,10 @@ float rgb_value(const Picture& picture, int c, std::size_t pixel, const Rgb& gre
 
 }  // namespace
 
+bool is_alpha(const PictureChannel& channel) {
+  return channel.name == "A" && channel.x_sampling == 1 && channel.y_sampling == 1;
+}
+
 float srgb_decode(double coded) {
   return static_cast<float>(coded <= 0.04045 ? coded / 12.92 : std::pow((coded + 0.055) / 1.055, 2.4));
 }
@@ -156,18 +160,36 @@ int rgb_component(const Picture& picture, std::size_t k) {
 
 std::vector<float> alpha_of(const Picture& picture) {
   for (const PictureChannel& channel : picture.channels)
-    if (channel.name == "A" && channel.x_sampling == 1 && channel.y_sampling == 1)
-      return decode_samples(channel, Coding::Linear);
+    if (is_alpha(channel)) return decode_samples(channel, Coding::Linear);
   return {};
 }
+
+namespace {
+
+// The alpha of a PNG, whose colours are shares of it: no less than the brightest of them, so that light that was added
+// where a picture is transparent is there, and over black looks as it is. In the type's steps, upwards.
+std::vector<float> alpha_to_write(const Picture& picture, SampleType type) {
+  std::vector<float> alpha = alpha_of(picture);
+  const float steps = type == SampleType::UInt8 ? 255.0F : 65535.0F;
+  for (std::size_t i = 0; i < alpha.size(); ++i) {
+    float brightest = 0.0F;
+    for (std::size_t c = 0; c < 3; ++c) brightest = std::max(brightest, picture.rgb.pixels[3 * i + c]);
+    if (brightest > alpha[i]) alpha[i] = std::min(std::ceil(brightest * steps) / steps, 1.0F);
+  }
+  return alpha;
+}
+
+}  // namespace
 
 std::vector<std::byte> samples_to_write(const Picture& picture, std::size_t k, SampleType type) {
   const PictureChannel& channel = picture.channels[k];
   const int component = rgb_component(picture, k);
-  if (component < 0 && type == channel.type) return channel.samples;
+  const bool is_png_alpha = component < 0 && is_png(type) && is_alpha(channel);
+  if (component < 0 && type == channel.type && !is_png_alpha) return channel.samples;
   const std::size_t size = size_of(type);
   if (component < 0) {
-    const std::vector<float> values = decode_samples(channel, Coding::Linear);
+    const std::vector<float> values =
+        is_png_alpha ? alpha_to_write(picture, type) : decode_samples(channel, Coding::Linear);
     std::vector<std::byte> out(values.size() * size);
     for (std::size_t i = 0; i < values.size(); ++i)
       encode_sample(type, Coding::Linear, values[i], out.data() + i * size);
@@ -177,13 +199,15 @@ std::vector<std::byte> samples_to_write(const Picture& picture, std::size_t k, S
   const std::size_t count = sample_count(picture.data_window, 1, 1);
   const std::vector<float> read = type == channel.type ? decode_samples(channel, Coding::Colour) : std::vector<float>{};
   const bool has_bits = read.size() == count;  // a new picture has none
-  const std::vector<float> alpha = is_png(channel.type) || is_png(type) ? alpha_of(picture) : std::vector<float>{};
+  const std::vector<float> alpha_read = is_png(channel.type) ? alpha_of(picture) : std::vector<float>{};
+  const std::vector<float> alpha = is_png(type) ? alpha_to_write(picture, type) : std::vector<float>{};
   const Rgb grey = grey_weights(picture);
   std::vector<std::byte> out(count * size);
   for (std::size_t i = 0; i < count; ++i) {
     const float a = alpha.empty() ? 1 : alpha[i];
     const float value = rgb_value(picture, component, i, grey);
-    if (has_bits && same_bits(value, is_png(channel.type) ? read[i] * a : read[i])) {
+    if (has_bits && same_bits(value, alpha_read.empty() ? read[i] : read[i] * alpha_read[i]) &&
+        (alpha_read.empty() || alpha_read[i] == a)) {
       std::memcpy(out.data() + i * size, channel.samples.data() + i * size, size);
     } else {
       const float coded = !is_png(type) ? value : (a > 0 ? value / a : 0);

@@ -25,13 +25,15 @@ void encode_sample(SampleType type, Coding coding, float value, std::byte* out);
 [[nodiscard]] std::size_t sample_count(const PixelWindow& window, int x_sampling, int y_sampling);
 
 // What a file shall hold of channel k: where rgb is as it was read, the bits that were read; elsewhere rgb encoded as
-// `type`. A type other than the channel's own codes all samples anew. Rows from the top.
+// `type`. A type other than the channel's own codes all samples anew. Rows from the top. A PNG's alpha is raised to the
+// brightest of a pixel's colours, which are coded as shares of it: light that was added where nothing was stays.
 [[nodiscard]] std::vector<std::byte> samples_to_write(const Picture& picture, std::size_t k, SampleType type);
 
 // Which of rgb (0..2) comes from channel k, 3 for all of them (grey), -1 for none.
 [[nodiscard]] int rgb_component(const Picture& picture, std::size_t k);
 
-// The alpha channel "A" where it has a sample for each pixel, else empty. Colours are multiplied by it in memory and
+[[nodiscard]] bool is_alpha(const PictureChannel& channel);  // "A", with a sample for each pixel
+// The samples of the picture's alpha, where there is one, else empty. Colours are multiplied by it in memory and
 // in OpenEXR, not in PNG.
 [[nodiscard]] std::vector<float> alpha_of(const Picture& picture);
 

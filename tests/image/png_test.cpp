@@ -1,4 +1,5 @@
 #include <cmath>
+#include <cstring>
 
 #include "contrejour/metrics.h"
 #include "test_pictures.h"
@@ -82,6 +83,50 @@ TEST_CASE("a changed PNG pixel is coded as sRGB and clipped") {
   CHECK(channel(back, "R").samples[4 * 16 + 6] == std::byte{0});
   CHECK(channel(back, "R").samples[4 * 16 + 7] == std::byte{0});
   CHECK(channel(back, "G").samples == channel(picture, "G").samples);
+}
+
+TEST_CASE("light that is added where a picture is transparent is in its PNG") {
+  for (const SampleType type : {SampleType::UInt8, SampleType::UInt16}) {
+    const ScratchFolder folder;
+    must_write(folder / "a.png", with_values(all_codes(type, true)));
+    const Picture before = must_read(folder / "a.png");
+    const int side = before.rgb.width;
+    Picture lit = before;
+    for (int y = 1; y < side; y += 2)  // alpha falls from opaque to transparent
+      for (int x = 0; x < side; ++x)
+        for (int c = 0; c < 3; ++c) lit.rgb.at(x, y, c) += 0.05F * static_cast<float>((c + 1) * (x + 1)) / side;
+    must_write(folder / "b.png", lit);
+    const Picture back = must_read(folder / "b.png");
+    const std::size_t size = size_of(type);
+    // A code's step: of a colour, the steepest of sRGB's, and of alpha.
+    const double step = type == SampleType::UInt8 ? 1.2 / 255 : 1.2 / 65535;
+    for (int y = 0; y < side; ++y)
+      for (int x = 0; x < side; ++x) {
+        const auto pixel = static_cast<std::size_t>(y * side + x);
+        if (y % 2 == 0) {
+          for (const char* name : {"R", "G", "B", "A"})
+            REQUIRE(std::memcmp(channel(back, name).samples.data() + pixel * size,
+                                channel(before, name).samples.data() + pixel * size, size) == 0);
+          continue;
+        }
+        for (int c = 0; c < 3; ++c)
+          REQUIRE(std::abs(back.rgb.at(x, y, c) - std::min(lit.rgb.at(x, y, c), 1.0F)) < step);
+      }
+  }
+  // A light in front of nothing, from an OpenEXR file's alpha.
+  const ScratchFolder folder;
+  Image image(3, 1, 4);
+  image.pixels = {0.5F, 0.25F, 0, 0, 3, 1, 0, 0.5F, 0.25F, 0.25F, 0.25F, 0.5F};
+  must_write(folder / "a.exr", picture_of(image));
+  must_write(folder / "a.png", must_read(folder / "a.exr"));
+  const Picture png = must_read(folder / "a.png");
+  const std::vector<float> seen{0.5F, 0.25F, 0, 1, 1, 0, 0.25F, 0.25F, 0.25F};
+  for (std::size_t k = 0; k < seen.size(); ++k) CHECK(png.rgb.pixels[k] == doctest::Approx(seen[k]).epsilon(1e-4));
+  std::uint16_t alpha[3];
+  std::memcpy(alpha, channel(png, "A").samples.data(), sizeof alpha);
+  CHECK(alpha[0] == 32768);
+  CHECK(alpha[1] == 65535);
+  CHECK(alpha[2] == 32768);
 }
 
 TEST_CASE("between PNG and OpenEXR the light stays") {
