@@ -1,4 +1,5 @@
 // contrejour apply: a photograph in, the same photograph with the lens's flare out.
+#include <cmath>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -103,15 +104,29 @@ Result<Flare> render_plan(const ApplyOptions& options, const LensState& lens, co
   return render(*options.values.text("method"), lens, plan.lights, settings, task.context());
 }
 
+// The same, so much brighter.
+Picture exposed(Picture picture, double stops) {
+  const auto times = static_cast<float>(std::exp2(stops));
+  for (float& value : picture.rgb.pixels) value *= times;
+  return picture;
+}
+
+// A PNG is to look at: --exposure, where it is given, is for it as for previews.
+Result<void> write_output(const ApplyOptions& options, const fs::path& file, const Picture& picture, bool is_input,
+                          const Context& context) {
+  if (lower_extension(options.output) == ".png" && options.values.text("exposure")) {
+    const PreviewSettings look = preview_settings(options.values, picture.rgb, UsualExposure::AsItIs);
+    return write_picture(file, exposed(picture, look.exposure_stops), context);
+  }
+  return is_input ? copy_input(options, picture, file, context) : write_picture(file, picture, context);
+}
+
 Result<void> write_all(const ApplyOptions& options, const ApplyFiles& files, Picture& picture,
                        const params::FlarePlan& plan, const Image& flare) {
   const LongTask task("writing", 0);
-  if (plan.lights.empty()) {
-    if (auto ok = copy_input(options, picture, files.output, task.context()); !ok) return ok;
-  } else {
-    params::add_flare(picture.rgb, flare);
-    if (auto ok = write_picture(files.output, picture, task.context()); !ok) return ok;
-  }
+  const bool is_input = plan.lights.empty();
+  if (!is_input) params::add_flare(picture.rgb, flare);
+  if (auto ok = write_output(options, files.output, picture, is_input, task.context()); !ok) return ok;
   if (files.flare_only) {
     auto ok = write_flare_only(*files.flare_only, picture, flare, plan.space, task.context());
     if (!ok) return ok;
@@ -176,9 +191,9 @@ void add_apply(CLI::App& app, Action& action) {
   command->add_flag("--json", options->json, "report what was found as JSON");
   add_look_options(*command, options->look);
   add_parameters(*command, options->values, {"exposure"});
-  add_parameters(*command, options->values,
-                 {"threshold", "softness", "max-lights", "min-pixels", "light-shape", "spectrum", "light-distance",
-                  "gain"});
+  add_parameters(
+      *command, options->values,
+      {"threshold", "softness", "max-lights", "min-pixels", "light-shape", "spectrum", "light-distance", "gain"});
   add_lens_parameters(*command, options->values);
   add_parameters(*command, options->values, {"hfov"});
   add_rendering_parameters(*command, options->values);

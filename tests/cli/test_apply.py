@@ -88,6 +88,20 @@ class Apply(ProgramTest):
         right = math.degrees(math.atan(math.tan(math.radians(5)) * (60.5 - WIDTH / 2) / (WIDTH / 2)))
         self.assertAlmostEqual(light["azimuth_deg"], right, delta=0.01)
 
+    def test_a_png_is_exposed(self):
+        """As --exposure says, with and without lights; nothing else of what is written is."""
+        self.write("in.exr", dark([(60, 20, 5000.0)], level=0.2))
+        for more in ([], ["--threshold", "1e6"]):
+            arguments = ["apply", "heliar", "in.exr", *more, *QUICK]
+            self.run_program(*arguments, "-o", "as-it-is.png")
+            self.run_program(*arguments, "-o", "darker.png", "--exposure", "-1", "--flare-only", "b.exr")
+            for ratio in self.json_of("compare", "as-it-is.png", "darker.png")["flux_ratio"]:
+                self.assertAlmostEqual(ratio, 0.5, delta=0.01)
+            self.run_program(*arguments, "-o", "o.exr", "--flare-only", "a.exr")
+            self.run_program(*arguments, "-o", "p.exr", "--exposure", "-1")
+            self.assertEqual((self.folder / "o.exr").read_bytes(), (self.folder / "p.exr").read_bytes())
+            self.assertEqual(exr.Picture(self.folder / "a.exr").channels, exr.Picture(self.folder / "b.exr").channels)
+
     def test_no_lights_is_bit_identical(self):
         """Half floats, an extra channel, NaN, an odd attribute: nothing changes, not even how it is packed."""
         values = [0.1 + 0.001 * (k % 7) for k in range(WIDTH * HEIGHT)]
