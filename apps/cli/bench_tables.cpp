@@ -178,7 +178,9 @@ void add_bench_tables(CLI::App& bench, Action& action) {
       ->check(CLI::Validator(problem_with_systems, "", "systems"))
       ->option_text("LIST");
   BenchRunning& running = options->running;
-  command->add_option("--runs", running.runs, "of so many runs the fastest counts")
+  command
+      ->add_option("--runs", running.runs,
+                   "of so many runs the fastest counts; of more, two and up, where they take milliseconds")
       ->capture_default_str()
       ->check(CLI::Range(1, 1000));
   command->add_flag("--reference", running.reference, "PSNR against the reference renderer (slow)");
