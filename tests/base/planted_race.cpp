@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "base/tasks.h"
+#include "support/tsan_suppressions.h"
 
 int main() {
   contrejour::Context context;

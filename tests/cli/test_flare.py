@@ -325,8 +325,11 @@ class Bench(ProgramTest):
         self.assertEqual([(t["name"], t["must"], t["aim"]) for t in self.targets()],
                          [("bundle / adaptive at f/3.5", 5, 20), ("tiled / adaptive at f/3.5", 5, 20)])
         self.check_holds(self.targets())
-        self.assertEqual({(r["method"], r["f_number"], r["settings"]["runs"]) for r in rows},
-                         {("bundle", 3.5, 1), ("tiled", 3.5, 1), ("adaptive", 3.5, 2)})
+        self.assertEqual({(r["method"], r["f_number"]) for r in rows},
+                         {("bundle", 3.5), ("tiled", 3.5), ("adaptive", 3.5)})
+        for row in rows:  # adaptive's few milliseconds are repeated
+            runs = row["settings"]["runs"]
+            self.assertTrue(runs > 2 if row["method"] == "adaptive" else runs == 1, row)
 
 
 if __name__ == "__main__":

@@ -95,7 +95,7 @@ Result<BenchRow> measure(const BenchScene& scene, const BenchRequest& request, c
   BenchRow row{scene.system, request, scene.lens.f_number, scene.settings, {}, runs_of(scene, request, running), {},
                {},           {}};
   row.settings.tiled = request.tiled;
-  // Some milliseconds find the machine cold, and are repeated for longer than they are asked for.
+  // Rows of milliseconds find the machine cold: from two runs on they are repeated until it is warm.
   constexpr double kWarm_ms = 300.0;
   const int asked = std::exchange(row.runs, 0);
   double all_ms = 0.0;
