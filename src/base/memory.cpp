@@ -12,10 +12,26 @@
 
 namespace contrejour {
 
+namespace {
+
+// Of a cache, or a multiple. Asking for aligned memory instead, the C library would never use it twice.
+constexpr std::size_t kLine = 64;
+
+// Where a line begins in memory that has room for one more, with a pointer to that memory before it.
+void* at_line(void* memory, std::size_t bytes) {
+  void* first = static_cast<void**>(memory) + 1;
+  std::size_t space = bytes + kLine;
+  first = std::align(kLine, bytes, first, space);
+  static_cast<void**>(first)[-1] = memory;
+  return first;
+}
+
+}  // namespace
+
 void* allocate_large(std::size_t bytes) {
-  void* memory = ::operator new(bytes);
+  void* memory = at_line(::operator new(bytes + sizeof(void*) + kLine), bytes);
 #if defined(__linux__)
-  // Those large pages that lie within. Asking for aligned memory instead, the C library would never use it twice.
+  // Those large pages that lie within.
   constexpr std::size_t kLargePage = std::size_t{2} << 20U;
   std::size_t space = bytes;
   void* first = memory;
@@ -25,7 +41,9 @@ void* allocate_large(std::size_t bytes) {
   return memory;
 }
 
-void free_large(void* memory) noexcept { ::operator delete(memory); }
+void free_large(void* memory) noexcept {
+  if (memory != nullptr) ::operator delete(static_cast<void**>(memory)[-1]);
+}
 
 std::uint64_t peak_memory_bytes() {
 #if defined(__unix__) || defined(__APPLE__)

@@ -28,7 +28,7 @@ inline Image drawn(std::span<const adaptive::PolygonList> lists, int width, int 
   for (const adaptive::PolygonList& list : lists) tiled.push_back({list, adaptive::tile_lists(list, grid)});
   Image image = Image::unwritten(width, height);
   std::fill(image.pixels.begin(), image.pixels.end(), std::numeric_limits<float>::quiet_NaN());  // all are written
-  adaptive::TileDrawer().draw_rows(tiled, 0, grid.rows, adaptive::TileMode::Write, image);
+  adaptive::TileDrawer().draw_rows(tiled, {0, grid.rows}, adaptive::TileMode::Write, image);
   return image;
 }
 
@@ -59,7 +59,7 @@ struct GhostScene {
   Ghost ghost;
   double lambda_nm = 550.0;
   Vec3 direction;  // of the light, in place
-  adaptive::LightFrame light;
+  LightFrame light;
   EntranceWindow window;
   OpticalPath path;
   TablesByWavelength tables;

@@ -3,6 +3,7 @@
 
 #include "adaptive/scene.h"
 #include "contrejour/metrics.h"
+#include "render/adaptive/adaptive.h"
 #include "render/adaptive/item.h"
 #include "render/interface/frame_plan.h"
 #include "support/flares.h"
@@ -32,6 +33,66 @@ RoughFrame rough_frame(const LensState& lens, const Light& light, const RenderSe
 }
 
 }  // namespace
+
+// The front of a fisheye bulges: the window of a light far off the axis reaches beyond the rim, to its side.
+TEST_CASE("where around the axis a light stands changes nothing of where its rays are looked for") {
+  const LensState lens = test::lens_at_f("muller-fisheye-10", 8.0, 0.0);
+  RenderSettings settings;
+  settings.frame = frame_on_sensor(lens, 64, 36);
+  const auto items_for = [&](double turn) {
+    Light light;
+    light.direction = normalized(Vec3{2.5 * std::cos(turn), 2.5 * std::sin(turn), 1.0});
+    const auto plan = plan_frame(lens, {&light, 1}, settings, {});
+    REQUIRE(plan.has_value());
+    StepsByWavelength steps;
+    for (const auto& [lambda_nm, tables] : plan->tables) steps.try_emplace(lambda_nm, lens, *tables);
+    Work work;
+    std::vector<Rectangle> found;
+    for (const Item& item : find_items({lens, *plan, std::move(steps), IrisShape(lens.iris)}, {}, work)) {
+      found.push_back({item.window.min_mm, item.window.max_mm});
+      found.insert(found.end(), item.boxes.begin(), item.boxes.end());
+    }
+    return found;
+  };
+  const std::vector<Rectangle> along_x = items_for(0.0), aside = items_for(0.8);
+  REQUIRE(along_x.size() == aside.size());
+  for (std::size_t k = 0; k < aside.size(); ++k) {
+    CHECK(length(aside[k].low - along_x[k].low) < 1e-3);
+    CHECK(length(aside[k].high - along_x[k].high) < 1e-3);
+  }
+}
+
+TEST_CASE("a plan that asks for lit rows only gets them, as they are in the whole picture") {
+  const LensState lens = test::lens_at_f("itoh-zoom", 32.0, 123.0);
+  RenderSettings settings;
+  settings.frame = frame_on_sensor(lens, 640, 360);
+  const Light light = test::light_at(lens, settings.frame, {0.7, 0.33});
+  auto plan = plan_frame(lens, {&light, 1}, settings, {});
+  REQUIRE(plan.has_value());
+  const auto drawn = [&](std::vector<Ghost> ghosts, bool lit_rows_only) {
+    FramePlan part = *plan;
+    part.looks.resize(ghosts.size());
+    part.ghosts = std::move(ghosts);
+    part.lit_rows_only = lit_rows_only;
+    auto flare = render_adaptive(lens, part, settings, {});
+    REQUIRE(flare.has_value());
+    return std::move(*flare);
+  };
+  int shorter = 0, dark = 0;
+  for (const Ghost& ghost : plan->ghosts) {
+    const DrawnFlare whole = drawn({ghost}, false), part = drawn({ghost}, true);
+    REQUIRE(whole.image.height == 360);
+    CHECK(whole.top == 0);
+    shorter += part.image.height < 360 ? 1 : 0;
+    dark += part.image.height == 0 ? 1 : 0;
+    Image all(640, 360);
+    std::ranges::copy(part.image.pixels, all.row(part.top).begin());
+    CHECK(all.pixels == whole.image.pixels);
+  }
+  CHECK(shorter > 10);
+  CHECK(dark > 0);
+  CHECK(drawn({}, true).image.height == 0);
+}
 
 // Films reflect the middle wavelength least: its light in place of all would be a third of the peak.
 TEST_CASE("the peak that errors are relative to is the picture's, whatever its size and wavelengths") {

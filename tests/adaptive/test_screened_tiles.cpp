@@ -210,7 +210,7 @@ TEST_CASE("light behind fringes: nothing of it stays beyond the frame, and parts
       const TiledPolygons tiled{list, tile_lists(list, grid)};
       Image by_row = image;
       for (int row = grid.rows - 1; row >= 0; --row)
-        TileDrawer().draw_rows({&tiled, 1}, row, row + 1, TileMode::Write, by_row);
+        TileDrawer().draw_rows({&tiled, 1}, {row, row + 1}, TileMode::Write, by_row);
       CHECK(by_row.pixels == image.pixels);
     }
   }

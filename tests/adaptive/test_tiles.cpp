@@ -121,8 +121,28 @@ TEST_CASE("many polygons: the sum of each, whatever lists they come in") {
   const TiledPolygons tiled{all, tile_lists(all, grid)};
   Image added = once;
   for (int row = grid.rows - 1; row >= 0; --row)
-    TileDrawer().draw_rows({&tiled, 1}, row, row + 1, TileMode::Add, added);
+    TileDrawer().draw_rows({&tiled, 1}, {row, row + 1}, TileMode::Add, added);
   for (std::size_t k = 0; k < once.pixels.size(); ++k) CHECK(added.pixels[k] == 2.0F * once.pixels[k]);
+}
+
+TEST_CASE("rows of tiles that polygons touch, drawn by themselves, are those of the whole picture") {
+  const int width = 600, height = 5 * TileGrid::kHeight + 10;
+  const TileGrid grid(width, height);
+  PolygonList list;
+  const auto top = static_cast<float>(2 * TileGrid::kHeight + 5);
+  list.add(std::array{Point{10, top}, Point{590, top + 9}, Point{300, top + 80}},
+           Shade{{10, top}, {1.0F, 2.0F, 3.0F}, {}, {}});
+  const std::array tiled{TiledPolygons{{}, tile_lists({}, grid)}, TiledPolygons{list, tile_lists(list, grid)}};
+  const TileRows rows = lit_rows(tiled, grid);
+  CHECK(rows.first == 2);
+  CHECK(rows.last == 4);
+  CHECK(lit_rows({tiled.data(), 1}, grid).first == lit_rows({tiled.data(), 1}, grid).last);
+  const int first = rows.first * TileGrid::kHeight;
+  Image part = Image::unwritten(width, (rows.last - rows.first) * TileGrid::kHeight);
+  TileDrawer().draw(tiled, TileMode::Write, {}, part, first);
+  Image all(width, height);
+  std::ranges::copy(part.pixels, all.row(first).begin());
+  CHECK(all.pixels == test::drawn(list, width, height).pixels);
 }
 
 TEST_CASE("tiles right of a caustic of ten million times the level around it do not see it") {

@@ -88,16 +88,15 @@ std::vector<std::size_t> longest_first(std::span<const ItemSize> sizes, double p
 class FramePainter {
  public:
   FramePainter(const Scene& scene, const RenderSettings& settings, Pool<BoxCells>& rooms, TileDrawer& drawer,
-               const Context& context, Flare& flare)
+               const Context& context, DrawnFlare& flare)
       : scene_(scene), rooms_(rooms), drawer_(drawer), frame_(settings.frame), context_(context), quiet_(context),
         flare_(flare), grid_(settings.frame.width, settings.frame.height) {
     quiet_.progress = {};
   }
 
   void paint(const std::vector<Item>& items, const std::vector<ItemSize>& sizes, const ErrorBudget& budget) {
-    flare_.image = Image::unwritten(frame_.width, frame_.height);
     mode_ = TileMode::Write;
-    if (items.empty()) draw({});
+    if (items.empty()) draw({}, true);
     for (std::size_t done = 0; done < items.size() && !context_.cancelled();) {
       std::vector<TiledPolygons> batch;
       for (std::size_t bytes = 0; done < items.size() && bytes < kBatchBytes && !context_.cancelled();) {
@@ -106,7 +105,7 @@ class FramePainter {
         done += count;
       }
       paint_ms_ += watch_.lap_ms();
-      draw(batch);
+      draw(batch, done == items.size());
       tiles_ms_ += watch_.lap_ms();
       if (context_.progress) context_.progress(static_cast<double>(done) / static_cast<double>(items.size()));
     }
@@ -136,8 +135,15 @@ class FramePainter {
     return bytes;
   }
 
-  void draw(const std::vector<TiledPolygons>& batch) {
-    drawer_.draw(batch, mode_, context_, flare_.image);
+  void draw(const std::vector<TiledPolygons>& batch, bool is_last) {
+    if (mode_ == TileMode::Write) {
+      const bool all_rows = !is_last || !scene_.plan.lit_rows_only;
+      const TileRows rows = all_rows ? TileRows{0, grid_.rows} : lit_rows(batch, grid_);
+      flare_.top = rows.first * TileGrid::kHeight;
+      flare_.image = Image::unwritten(frame_.width,
+                                      std::max(std::min(rows.last * TileGrid::kHeight, frame_.height) - flare_.top, 0));
+    }
+    drawer_.draw(batch, mode_, context_, flare_.image, flare_.top);
     mode_ = TileMode::Add;
   }
 
@@ -147,7 +153,7 @@ class FramePainter {
   const Frame& frame_;
   const Context& context_;
   Context quiet_;
-  Flare& flare_;
+  DrawnFlare& flare_;
   TileGrid grid_;
   TileMode mode_ = TileMode::Write;
   Work work_;
@@ -157,8 +163,8 @@ class FramePainter {
 
 }  // namespace
 
-Result<Flare> render_adaptive(const LensState& lens, const FramePlan& plan, const RenderSettings& settings,
-                              const Context& context) {
+Result<DrawnFlare> render_adaptive(const LensState& lens, const FramePlan& plan, const RenderSettings& settings,
+                                   const Context& context) {
   if (!(settings.error >= kLowestError && settings.error <= kHighestError)) {
     return failure(ErrorCode::InvalidArgument,
                    "an error of " + std::to_string(settings.error) + " is out of range; choose 0.0001 to 0.1");
@@ -166,7 +172,7 @@ Result<Flare> render_adaptive(const LensState& lens, const FramePlan& plan, cons
   Stopwatch whole;
   Stopwatch watch;
 
-  Flare flare;
+  DrawnFlare flare;
   const Scene scene{lens, plan, steps_of(lens, plan), IrisShape(lens.iris)};
   Context quiet = context;
   quiet.progress = {};

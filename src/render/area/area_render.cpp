@@ -10,6 +10,7 @@
 #include "render/area/blur_classes.h"
 #include "render/area/kernel.h"
 #include "render/area/layers.h"
+#include "render/interface/light_frame.h"
 
 namespace contrejour {
 namespace {
@@ -49,6 +50,7 @@ FramePlan part_of(const FramePlan& plan, std::vector<Ghost> ghosts, std::vector<
   part.tables = plan.tables;
   part.dirt = plan.dirt;
   part.skipped_flux = plan.skipped_flux;
+  part.lit_rows_only = true;
   return part;
 }
 
@@ -111,8 +113,8 @@ std::vector<Drawing> drawings_of(const FramePlan& plan, const std::vector<LightP
       settings.error * settings.error * frame.width * frame.height / static_cast<double>(pieces.size());
   std::vector<std::vector<GhostMotion>> motions(pieces.size());
   for (std::vector<GhostMotion>& one : motions) one.resize(plan.ghosts.size());
-  std::vector<EntranceWindow> windows;
-  for (const PlannedLight& light : plan.lights) windows.push_back(entrance_window(lens, light.source));
+  std::vector<LightWindows> windows;
+  for (const PlannedLight& light : plan.lights) windows.emplace_back(lens, light.source);
   parallel_for(pieces.size() * plan.ghosts.size(), context, [&](std::size_t k) {
     const std::size_t p = k / plan.ghosts.size(), g = k % plan.ghosts.size();
     if (pieces[p].samples.empty() || plan.lights[p].passes.empty()) return;
@@ -167,10 +169,10 @@ class AreaPainter {
     const auto start = Clock::now();
     layers_.descend_to(drawing.level, context_);
     if (piece != nullptr)
-      layers_.add(picture->image, at, make_kernel(*piece, drawing.px_from_tangents, at.moved),
+      layers_.add(picture->image, picture->top, at, make_kernel(*piece, drawing.px_from_tangents, at.moved),
                   kUnseen * settings_.error * drawing.peak, context_);
     else
-      layers_.add_sharp(std::move(picture->image), context_);
+      layers_.add_sharp(std::move(picture->image), picture->top, context_);
     ms_ += ms_since(start);
     return {};
   }

@@ -75,46 +75,78 @@ float roughest_second_difference(const Kernel& kernel, double unseen) {
   return static_cast<float>(unseen / widest);
 }
 
-// By blocks of kBlock pixels of a row of the sum, what a kernel finds where it takes a row of the picture.
-struct RowBlocks {
-  std::vector<std::uint8_t> lit;    // any light
-  std::vector<std::uint8_t> rough;  // light that is not linear
-  bool any = false;                 // light at all
+// Marks of blocks of kBlock pixels of a row, a bit each.
+class BlockMarks {
+ public:
+  BlockMarks() = default;
+  explicit BlockMarks(std::size_t blocks) : words_((blocks + kBits - 1) / kBits, 0) {}
+
+  void set(std::size_t block) { words_[block / kBits] |= std::uint64_t{1} << (block % kBits); }
+  void reset(std::size_t block) { words_[block / kBits] &= ~(std::uint64_t{1} << (block % kBits)); }
+  [[nodiscard]] bool test(std::size_t block) const { return (words_[block / kBits] >> (block % kBits) & 1U) != 0; }
+  [[nodiscard]] bool any() const {
+    return std::ranges::any_of(words_, [](std::uint64_t word) { return word != 0; });
+  }
+  void add(const BlockMarks& other) {
+    words_.resize(other.words_.size(), 0);
+    for (std::size_t k = 0; k < words_.size(); ++k) words_[k] |= other.words_[k];
+  }
+  // Blocks before a marked one as well, so many.
+  void spread_back(std::size_t blocks) {
+    for (std::size_t n = 0; n < blocks; ++n)
+      for (std::size_t k = 0; k < words_.size(); ++k)
+        words_[k] |= words_[k] >> 1U | (k + 1 < words_.size() ? words_[k + 1] << (kBits - 1) : 0);
+  }
+
+ private:
+  static constexpr std::size_t kBits = 64;
+  std::vector<std::uint64_t> words_;
 };
 
-// From marks of the picture's own blocks.
-void widen(std::vector<std::uint8_t>& marks, int kernel_width) {
-  const auto more = static_cast<std::size_t>((kBlock + kernel_width - 2) / kBlock);  // that a block's sums reach into
-  for (std::size_t b = 0; b < marks.size(); ++b)
-    for (std::size_t k = b + 1; k <= std::min(b + more, marks.size() - 1); ++k) marks[b] |= marks[k];
-}
+// Of a row of the sum, what a kernel finds where it takes a row of the picture.
+struct RowBlocks {
+  BlockMarks lit;    // any light
+  BlockMarks rough;  // light that is not linear
+};
 
-std::vector<std::uint8_t> lit_blocks(std::span<const float> row) {
-  std::vector<std::uint8_t> lit;
+std::size_t blocks_of(std::size_t floats) { return (floats + kBlockFloats - 1) / kBlockFloats; }
+
+BlockMarks lit_blocks(std::span<const float> row) {
+  BlockMarks lit(blocks_of(row.size()));
   std::size_t at = 0;
-  for (; at + kBlockFloats <= row.size(); at += kBlockFloats) lit.push_back(has_light(row.data() + at) ? 1 : 0);
-  const auto rest = row.subspan(at);
-  if (!rest.empty()) lit.push_back(std::ranges::any_of(rest, [](float v) { return v != 0.0F; }) ? 1 : 0);
+  for (; at + kBlockFloats <= row.size(); at += kBlockFloats)
+    if (has_light(row.data() + at)) lit.set(at / kBlockFloats);
+  if (std::ranges::any_of(row.subspan(at), [](float v) { return v != 0.0F; })) lit.set(at / kBlockFloats);
   return lit;
 }
 
 // Lit ones where second differences are more than that; those at the picture's border count as such.
-std::vector<std::uint8_t> rough_blocks(const Image& picture, int y, const std::vector<std::uint8_t>& lit, float most) {
-  std::vector<std::uint8_t> rough(lit);
+BlockMarks rough_blocks(const Image& picture, int y, const BlockMarks& lit, float most) {
+  BlockMarks rough(lit);
   if (most < 0.0F || y == 0 || y + 1 == picture.height) return rough;
   const float *const above = picture.row(y - 1).data(), *const here = picture.row(y).data(),
                      *const below = picture.row(y + 1).data();
-  for (std::size_t b = 1; b + 1 < lit.size(); ++b) {
+  for (std::size_t b = 1; b + 1 < blocks_of(picture.row(y).size()); ++b) {
     const std::size_t at = b * kBlockFloats;
-    if (lit[b] != 0) rough[b] = is_rough(above + at, here + at, below + at, most) ? 1 : 0;
+    if (lit.test(b) && !is_rough(above + at, here + at, below + at, most)) rough.reset(b);
   }
   return rough;
+}
+
+RowBlocks row_blocks(const Image& picture, int y, float most, int kernel_width) {
+  const auto reached = static_cast<std::size_t>((kBlock + kernel_width - 2) / kBlock);  // by the sums of a block
+  RowBlocks blocks;
+  blocks.lit = lit_blocks(picture.row(y));
+  if (blocks.lit.any()) blocks.rough = rough_blocks(picture, y, blocks.lit, most);
+  blocks.lit.spread_back(reached);
+  blocks.rough.spread_back(reached);
+  return blocks;
 }
 
 // Rows of the picture and of the kernel that meet in a row of the sum.
 struct Meeting {
   const float* picture = nullptr;
-  const std::uint8_t* lit = nullptr;  // RowBlocks
+  const BlockMarks* lit = nullptr;  // RowBlocks
   const KernelRow* kernel = nullptr;
 };
 
@@ -123,7 +155,7 @@ void add_at(const std::vector<Meeting>& meetings, int x, const KernelRows& kerne
             float* to) {
   terms.clear();
   for (const Meeting& m : meetings) {
-    if (m.lit[x / kBlock] == 0) continue;
+    if (!m.lit->test(static_cast<std::size_t>(x / kBlock))) continue;
     const int first = x + kernel.width - 1 - m.kernel->first;
     terms.push_back({m.picture + 3 * static_cast<std::ptrdiff_t>(first), m.kernel->weights.data(),
                      static_cast<std::size_t>(m.kernel->count)});
@@ -143,51 +175,46 @@ void add_pixel(const std::vector<Meeting>& meetings, int x, const KernelRows& ke
 
 }  // namespace
 
-void convolve(Image& to, ConvolveMode mode, const Image& picture, const Kernel& kernel, double unseen,
+void convolve(Image& to, ConvolveMode mode, const Image& picture, int top, const Kernel& kernel, double unseen,
               const Context& context) {
-  assert(picture.width == to.width + kernel.width() - 1 && picture.height == to.height + kernel.height() - 1);
+  assert(picture.width == to.width + kernel.width() - 1);
+  assert(top >= 0 && top + picture.height <= to.height + kernel.height() - 1);
   const KernelRows rows = rows_of(kernel);
   std::vector<RowBlocks> blocks(static_cast<std::size_t>(picture.height));
   const float roughest = roughest_second_difference(kernel, unseen);
-  parallel_for(blocks.size(), context, [&](std::size_t at) {
-    const int y = static_cast<int>(at);
-    blocks[at].lit = lit_blocks(picture.row(y));
-    blocks[at].any = std::ranges::any_of(blocks[at].lit, [](std::uint8_t b) { return b != 0; });
-    if (!blocks[at].any) return;
-    blocks[at].rough = rough_blocks(picture, y, blocks[at].lit, roughest);
-    widen(blocks[at].lit, rows.width);
-    widen(blocks[at].rough, rows.width);
-  });
+  parallel_for(blocks.size(), context,
+               [&](std::size_t at) { blocks[at] = row_blocks(picture, static_cast<int>(at), roughest, rows.width); });
   parallel_for(static_cast<std::size_t>(to.height), context, [&](std::size_t at) {
     const int y = static_cast<int>(at);
     if (mode == ConvolveMode::Write) std::ranges::fill(to.row(y), 0.0F);
     std::vector<Meeting> meetings;
     RowBlocks together;
     for (const KernelRow& row : rows.rows) {
-      const auto source = static_cast<std::size_t>(y + rows.height - 1 - row.row);
-      if (!blocks[source].any) continue;
-      together.lit.resize(blocks[source].lit.size());
-      together.rough.resize(blocks[source].lit.size());
-      meetings.push_back({picture.row(static_cast<int>(source)).data(), blocks[source].lit.data(), &row});
-      for (std::size_t b = 0; b < together.lit.size(); ++b) {
-        together.lit[b] |= blocks[source].lit[b];
-        together.rough[b] |= blocks[source].rough[b];
-      }
+      const int from = y + rows.height - 1 - row.row - top;
+      if (from < 0 || from >= picture.height) continue;
+      const RowBlocks& source = blocks[static_cast<std::size_t>(from)];
+      if (!source.lit.any()) continue;
+      meetings.push_back({picture.row(from).data(), &source.lit, &row});
+      together.lit.add(source.lit);
+      together.rough.add(source.rough);
     }
     if (meetings.empty()) return;
     std::vector<BlockTerm> terms;
     float* const out = to.row(y).data();
+    const int middle = y + kernel.reach.down - top;
+    const bool is_dark = middle < 0 || middle >= picture.height;
     const float* const straight =
-        picture.row(y + kernel.reach.down).data() + 3 * static_cast<std::ptrdiff_t>(kernel.reach.right);
+        is_dark ? nullptr : picture.row(middle).data() + 3 * static_cast<std::ptrdiff_t>(kernel.reach.right);
     int x = 0;
     for (; x + kBlock <= to.width; x += kBlock) {
       const auto b = static_cast<std::size_t>(x / kBlock);
       const std::ptrdiff_t first = 3 * static_cast<std::ptrdiff_t>(x);
-      if (together.rough[b] != 0)
+      if (together.rough.test(b))
         add_at(meetings, x, rows, terms, out + first);
-      else if (together.lit[b] != 0)
+      else if (together.lit.test(b) && !is_dark)
         for (std::size_t k = 0; k < kBlockFloats; ++k) out[first + k] += straight[first + k];
     }
+    if (x == to.width || !together.lit.test(static_cast<std::size_t>(x / kBlock))) return;
     for (; x < to.width; ++x) add_pixel(meetings, x, rows, out + 3 * static_cast<std::ptrdiff_t>(x));
   });
 }

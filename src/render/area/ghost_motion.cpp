@@ -147,10 +147,12 @@ LinearMap median_shift(const std::vector<LocalMotion>& all) {
 
 }  // namespace
 
-GhostMotion ghost_motion(const LensState& lens, Ghost ghost, const LightSource& source, const EntranceWindow& window,
+GhostMotion ghost_motion(const LensState& lens, Ghost ghost, const LightSource& source, const LightWindows& windows,
                          const ReflectanceTables& tables) {
   const OpticalPath path = ghost_path(lens, ghost, tables.lambda_nm());
-  const auto pupil = find_ghost_pupil(path, tables, source, window);
+  const LightFrame light(source, has_axial_symmetry(lens, ghost));
+  const EntranceWindow& window = windows.of(light.symmetric);
+  const auto pupil = find_ghost_pupil(path, tables, light, window);
   if (!pupil) return {};
   const Rays rays(path, source, window.z_mm);
   Edge edge;

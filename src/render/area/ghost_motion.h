@@ -4,6 +4,7 @@
 #include "contrejour/light_source.h"
 #include "optics/trace/packet_trace.h"
 #include "render/area/linear_map.h"
+#include "render/interface/light_frame.h"
 
 namespace contrejour::area {
 
@@ -16,9 +17,8 @@ struct GhostMotion {
   double density = 0.0;  // the irradiance there over the light's; 0: no ray was found that gets through, or nearly
 };
 
-// At the wavelength of the tables.
-// window: of the light.
+// At the wavelength of the tables. windows: of the light.
 [[nodiscard]] GhostMotion ghost_motion(const LensState& lens, Ghost ghost, const LightSource& source,
-                                       const EntranceWindow& window, const ReflectanceTables& tables);
+                                       const LightWindows& windows, const ReflectanceTables& tables);
 
 }  // namespace contrejour::area

@@ -12,10 +12,11 @@
 namespace contrejour::area {
 namespace {
 
-constexpr int kSide = 13;             // rays along a side of a grid
+constexpr int kSide = 13;  // rays along a side of a grid: odd, so that a row of them runs along its middle
 constexpr std::size_t kRays = static_cast<std::size_t>(kSide) * kSide;
 constexpr std::size_t kPadded = clearance_padded(kRays);
-constexpr int kEnough = 30;           // rays that get through, for the shape of what they fill to be known
+constexpr std::size_t kToMiddle = static_cast<std::size_t>(kSide / 2) * kSide;  // rays before the middle row
+constexpr int kEnough = 30;  // rays that get through, for the shape of what they fill to be known
 constexpr int kMostGrids = 4;
 constexpr float kNearlyThrough = 0.1F;  // outside what stops it, over that one's radius
 constexpr std::size_t kMostBeyondRims = 5;
@@ -26,17 +27,20 @@ struct Box {
 
 float length(float x, float y) { return std::sqrt(x * x + y * y); }
 
+// In the light's own frame. Where that is symmetric and the box is, half of the rays tell of the others.
 class Grid {
  public:
-  Grid(const OpticalPath& path, const ReflectanceTables& tables, const LightSource& source,
-       const EntranceWindow& window)
-      : path_(path, tables, {{0.0, 0.0, window.z_mm}, source}), box_{window.min_mm, window.max_mm} {}
+  Grid(const OpticalPath& path, const ReflectanceTables& tables, const LightFrame& light, const EntranceWindow& window)
+      : path_(path, tables, {{0.0, 0.0, window.z_mm}, light.source}), symmetric_(light.symmetric),
+        box_{window.min_mm, window.max_mm} {}
 
   void trace(const Box& box) {
     box_ = box;
     cell_ = (box.high - box.low) * (1.0 / (kSide - 1));
-    for (std::size_t k = 0; k < kPadded; ++k) {
-      const Vec2 from = start(std::min(k, kRays - 1)) - box.low;
+    first_ = symmetric_ && box.low.y == -box.high.y ? kToMiddle : 0;
+    const std::size_t count = kRays - first_;
+    for (std::size_t k = 0; k < clearance_padded(count); ++k) {
+      const Vec2 from = start(first_ + std::min(k, count - 1)) - box.low;
       x_mm_[k] = static_cast<float>(from.x);
       y_mm_[k] = static_cast<float>(from.y);
     }
@@ -47,8 +51,8 @@ class Grid {
       out.stop_y[c] = field(5 + 2 * c);
     }
     path_.start_from(box.low);
-    trace_clearance(path_, search_precision(std::min(cell_.x, cell_.y)), x_mm_.data(), y_mm_.data(), kRays, out);
-    for (std::size_t k = 0; k < kRays; ++k) {
+    trace_clearance(path_, search_precision(std::min(cell_.x, cell_.y)), x_mm_.data(), y_mm_.data(), count, out);
+    for (std::size_t k = 0; k < count; ++k) {
       outside_[k] = std::numeric_limits<float>::infinity();
       if (field(0)[k] != 0.0F) continue;
       outside_[k] = length(field(2)[k], field(3)[k]) - 1.0F;
@@ -68,21 +72,28 @@ class Grid {
     return box_.low + Vec2{static_cast<double>(k % kSide) * cell_.x, static_cast<double>(k / kSide) * cell_.y};
   }
   // By how much a ray is outside what it comes closest to, or is blocked by, over that one's radius; and which it is.
-  [[nodiscard]] float outside(std::size_t k) const { return outside_[k]; }
-  [[nodiscard]] bool is_open(std::size_t k) const { return outside_[k] <= 0.0F; }
-  [[nodiscard]] int by(std::size_t k) const { return by_[k]; }
+  [[nodiscard]] float outside(std::size_t k) const { return outside_[traced(k)]; }
+  [[nodiscard]] bool is_open(std::size_t k) const { return outside(k) <= 0.0F; }
+  [[nodiscard]] int by(std::size_t k) const { return by_[traced(k)]; }
   // From the middle of the stop.
   [[nodiscard]] float at_stop(int crossing, std::size_t k) const {
     const auto c = static_cast<std::size_t>(crossing);
-    return length(fields_[(4 + 2 * c) * kPadded + k], fields_[(5 + 2 * c) * kPadded + k]);
+    const std::size_t at = traced(k);
+    return length(fields_[(4 + 2 * c) * kPadded + at], fields_[(5 + 2 * c) * kPadded + at]);
   }
 
  private:
+  // Where results are of a ray, or of its mirror image.
+  [[nodiscard]] std::size_t traced(std::size_t k) const {
+    return k >= first_ ? k - first_ : (kSide - 1 - k / kSide) * kSide + k % kSide - first_;
+  }
   [[nodiscard]] float* field(std::size_t k) { return fields_.data() + k * kPadded; }
 
   PacketPath path_;
+  bool symmetric_;
   Box box_;
   Vec2 cell_;
+  std::size_t first_ = 0;  // ray that is traced
   std::array<float, kPadded> x_mm_{}, y_mm_{};
   std::array<float, (4 + 2 * kMaxStopCrossings) * kPadded> fields_{};
   std::array<float, kRays> outside_{};
@@ -158,11 +169,20 @@ GhostPupil pupil_of(const Grid& grid, int open) {
   return pupil;
 }
 
+GhostPupil in_place(GhostPupil pupil, const LightFrame& light) {
+  const LinearMap turn{light.into_place({1.0, 0.0}), light.into_place({0.0, 1.0})};
+  pupil.at_mm = turn(pupil.at_mm);
+  pupil.covariance = turn * pupil.covariance * transposed(turn);
+  for (Vec2& border_mm : pupil.border_mm) border_mm = turn(border_mm);
+  for (Vec2& beyond_mm : pupil.beyond_rims_mm) beyond_mm = turn(beyond_mm);
+  return pupil;
+}
+
 }  // namespace
 
 std::optional<GhostPupil> find_ghost_pupil(const OpticalPath& path, const ReflectanceTables& tables,
-                                           const LightSource& source, const EntranceWindow& window) {
-  Grid grid(path, tables, source, window);
+                                           const LightFrame& light, const EntranceWindow& window) {
+  Grid grid(path, tables, light, window);
   std::optional<Box> box = grid.box();
   int open = 0;
   for (int k = 0; k < kMostGrids && box && open < kEnough; ++k) {
@@ -171,13 +191,13 @@ std::optional<GhostPupil> find_ghost_pupil(const OpticalPath& path, const Reflec
     for (std::size_t ray = 0; ray < kRays; ++ray) open += grid.is_open(ray) ? 1 : 0;
     box = next_box(grid);
   }
-  if (open > 0) return pupil_of(grid, open);
+  if (open > 0) return in_place(pupil_of(grid, open), light);
   std::size_t least = 0;
   for (std::size_t k = 0; k < kRays; ++k)
     if (grid.outside(k) < grid.outside(least)) least = k;
   if (!(grid.outside(least) < kNearlyThrough)) return std::nullopt;
   GhostPupil pupil;
-  pupil.at_mm = grid.start(least);
+  pupil.at_mm = light.into_place(grid.start(least));
   return pupil;
 }
 

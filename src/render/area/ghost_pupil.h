@@ -7,6 +7,7 @@
 
 #include "optics/trace/packet_trace.h"
 #include "render/area/linear_map.h"
+#include "render/interface/light_frame.h"
 
 namespace contrejour::area {
 
@@ -26,8 +27,9 @@ struct GhostPupil {
   [[nodiscard]] bool is_whole() const { return is_open && bound != kRims && bound_share > 0.85; }
 };
 
-// None where no ray gets through, nor nearly. The iris counts as its circumscribed circle.
+// None where no ray gets through, nor nearly. The iris counts as its circumscribed circle. Light, path and window are
+// those of the light's frame, the pupil is in place.
 [[nodiscard]] std::optional<GhostPupil> find_ghost_pupil(const OpticalPath& path, const ReflectanceTables& tables,
-                                                         const LightSource& source, const EntranceWindow& window);
+                                                         const LightFrame& light, const EntranceWindow& window);
 
 }  // namespace contrejour::area

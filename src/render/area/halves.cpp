@@ -30,7 +30,7 @@ HWY_INLINE Halves<D> halves_of(D d, const RowsAround& at, std::size_t k) {
   return {hn::Add(half, more), hn::Sub(half, more)};
 }
 
-using Tag = hn::CappedTag<float, 8>;
+using Tag = hn::CappedTag<float, 16>;
 using One = hn::CappedTag<float, 1>;
 
 void halve_down(const RowsAround& rows, std::size_t count, float* upper, float* lower) {
@@ -44,18 +44,31 @@ void halve_down(const RowsAround& rows, std::size_t count, float* upper, float* 
   for (; k < count; ++k) halve(One(), k);
 }
 
-// Whole pixels of some halves side by side: of two pixels, or of one; some floats after them are overwritten.
+// For each float of two vectors of whole pixels, halves side by side, the lane that it comes from, and of which half.
+template <std::size_t kLanes>
+struct SideBySide {
+  alignas(64) std::int32_t lane[2 * kLanes];
+  alignas(64) std::int32_t is_second[2 * kLanes];
+  constexpr SideBySide() : lane(), is_second() {
+    for (std::size_t k = 0; k < 2 * kLanes; ++k) {
+      lane[k] = static_cast<std::int32_t>((k / 6 * 3 + k % 3) % kLanes);
+      is_second[k] = k / 3 % 2 == 1 ? 1 : 0;
+    }
+  }
+};
+
+// As many whole pixels as a vector holds; some floats after them are overwritten.
 template <class D>
 HWY_INLINE void store_side_by_side(D d, const Halves<D>& halves, float* to) {
-  if constexpr (hn::MaxLanes(d) == 8) {
-    HWY_ALIGN static constexpr std::int32_t kOfFirst[16] = {0, 1, 2, 0, 0, 0, 3, 4, 5, 0, 0, 0, 0, 0, 0, 0};
-    HWY_ALIGN static constexpr std::int32_t kOfSecond[16] = {0, 0, 0, 0, 1, 2, 0, 0, 0, 3, 4, 5, 0, 0, 0, 0};
-    HWY_ALIGN static constexpr std::int32_t kIsSecond[16] = {0, 0, 0, 1, 1, 1, 0, 0, 0, 1, 1, 1, 0, 0, 0, 0};
+  constexpr std::size_t kLanes = hn::MaxLanes(d);
+  if constexpr (kLanes >= 6) {
+    static constexpr SideBySide<kLanes> kPlaces;
     const hn::RebindToSigned<D> di;
-    for (std::size_t k = 0; k < 16; k += 8) {
-      const auto first = hn::TableLookupLanes(halves.first, hn::SetTableIndices(d, kOfFirst + k));
-      const auto second = hn::TableLookupLanes(halves.second, hn::SetTableIndices(d, kOfSecond + k));
-      const auto is_second = hn::RebindMask(d, hn::Ne(hn::Load(di, kIsSecond + k), hn::Zero(di)));
+    for (std::size_t k = 0; k < 2 * kLanes; k += kLanes) {
+      const auto lanes = hn::SetTableIndices(d, kPlaces.lane + k);
+      const auto is_second = hn::RebindMask(d, hn::Ne(hn::Load(di, kPlaces.is_second + k), hn::Zero(di)));
+      const auto first = hn::TableLookupLanes(halves.first, lanes);
+      const auto second = hn::TableLookupLanes(halves.second, lanes);
       hn::StoreU(hn::IfThenElse(is_second, second, first), d, to + k);
     }
   } else {

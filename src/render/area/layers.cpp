@@ -5,6 +5,7 @@
 #include <cstddef>
 
 #include "base/tasks.h"
+#include "image/pixel_writer.h"
 #include "render/area/convolve.h"
 #include "render/area/halves.h"
 
@@ -89,25 +90,27 @@ LayerFrame Layers::frame_for(int level, KernelReach reach) const {
   return out;
 }
 
-void Layers::add(const Image& picture, const LayerFrame& drawn, const Kernel& kernel, double unseen,
+void Layers::add(const Image& picture, int top, const LayerFrame& drawn, const Kernel& kernel, double unseen,
                  const Context& context) {
   Layer& layer = layers_[static_cast<std::size_t>(drawn.level)];
   const auto mode = layer.sum.pixels.empty() ? ConvolveMode::Write : ConvolveMode::Add;
   if (mode == ConvolveMode::Write) layer.sum = Image::unwritten(layer.width, layer.height);
-  convolve(layer.sum, mode, picture, kernel, unseen * std::exp2(2 * drawn.level), context);
+  convolve(layer.sum, mode, picture, top, kernel, unseen * std::exp2(2 * drawn.level), context);
 }
 
-void Layers::add_sharp(Image picture, const Context& context) {
+void Layers::add_sharp(Image picture, int top, const Context& context) {
   Image& sum = layers_[0].sum;
-  if (sum.pixels.empty()) {
+  if (sum.pixels.empty() && picture.height == frame_.height) {
     descend_to(1, context);
     if (!layers_[1].sum.pixels.empty()) add_halves(layers_[1], layers_[0], picture, true, context);
     layers_[1].sum = {};
     sum = std::move(picture);
     return;
   }
-  parallel_for(static_cast<std::size_t>(sum.height), context, [&](std::size_t row) {
-    const auto out = sum.row(static_cast<int>(row));
+  descend_to(0, context);
+  if (sum.pixels.empty()) sum = Image(frame_.width, frame_.height);
+  parallel_for(static_cast<std::size_t>(picture.height), context, [&](std::size_t row) {
+    const auto out = sum.row(top + static_cast<int>(row));
     const auto in = picture.row(static_cast<int>(row));
     for (std::size_t k = 0; k < out.size(); ++k) out[k] += in[k];
   });
@@ -129,6 +132,7 @@ void Layers::add_halves(const Layer& coarse, const Layer& place, Image& fine, bo
   const auto strips = static_cast<std::size_t>((rows + kRowsAtOnce - 1) / kRowsAtOnce);
   parallel_for(strips, context, [&](std::size_t strip) {
     RowHalver halver(coarse.sum);
+    const PixelWriter writer(fine);
     const int begin = top + static_cast<int>(strip) * kRowsAtOnce, end = std::min(begin + kRowsAtOnce, top + rows);
     for (int y = begin; y < end; ++y) {
       halver.take(y - coarse.top);
@@ -138,7 +142,7 @@ void Layers::add_halves(const Layer& coarse, const Layer& place, Image& fine, bo
         const float* const from = halver.fine(lower) + static_cast<std::ptrdiff_t>(3) * (place.left - 2 * coarse.left);
         const auto to = fine.row(fine_y);
         for (std::size_t k = 0; is_written && k < to.size(); ++k) to[k] += from[k];
-        if (!is_written) std::copy_n(from, to.size(), to.data());
+        if (!is_written) writer.write(from, to.size(), to.data());
       }
     }
   });

@@ -31,9 +31,11 @@ class Layers {
 
   // reach: of the kernel, in pixels of the level.
   [[nodiscard]] LayerFrame frame_for(int level, KernelReach reach) const;
+  // Pictures begin with their frame's row `top`, and all of its rows that are not given are dark.
   // unseen: what a pixel of the frame may be off by (convolve.h).
-  void add(const Image& picture, const LayerFrame& drawn, const Kernel& kernel, double unseen, const Context& context);
-  void add_sharp(Image picture, const Context& context);  // of the frame itself
+  void add(const Image& picture, int top, const LayerFrame& drawn, const Kernel& kernel, double unseen,
+           const Context& context);
+  void add_sharp(Image picture, int top, const Context& context);  // of the frame itself
   // Nothing coarser is to come: what there is goes down. Not to be asked for; what follows then is added where there
   // are sums already, and only where it has light.
   void descend_to(int level, const Context& context);

@@ -57,7 +57,7 @@ std::vector<std::pair<std::string, double>> named(const PhaseTimes& times, const
 
 }  // namespace
 
-Result<Flare> render_bundle(const LensState& lens, const FramePlan& plan, const RenderSettings& settings,
+Result<DrawnFlare> render_bundle(const LensState& lens, const FramePlan& plan, const RenderSettings& settings,
                             const Context& context) {
   PhaseTimes times;
   double total_ms = 0.0;
@@ -73,7 +73,7 @@ Result<Flare> render_bundle(const LensState& lens, const FramePlan& plan, const 
   times.bounds_ms = whole.elapsed_ms();
   if (context.cancelled()) return failure(ErrorCode::Cancelled, "interrupted");
 
-  Flare flare;
+  DrawnFlare flare;
   flare.image = Image(settings.frame.width, settings.frame.height, 3);
   Counts counts;
   if (bounds) {

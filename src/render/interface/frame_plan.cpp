@@ -194,9 +194,10 @@ Result<Flare> render_planned(PlannedRenderer method, const LensState& lens, std:
   const auto plan = plan_frame(lens, lights, settings, context);
   if (!plan) return tl::unexpected<Error>(plan.error());
   const double plan_ms = ms_since(start);
-  auto flare = method(lens, *plan, settings, context);
-  if (flare) count_plan(flare->statistics, plan_ms);
-  return flare;
+  auto drawn = method(lens, *plan, settings, context);
+  if (!drawn) return tl::unexpected<Error>(drawn.error());
+  count_plan(drawn->statistics, plan_ms);
+  return Flare{std::move(drawn->image), std::move(drawn->statistics)};
 }
 
 }  // namespace contrejour

@@ -34,16 +34,24 @@ struct FramePlan {
   TablesByWavelength tables;  // for every wavelength of the passes
   std::shared_ptr<const DirtField> dirt = nullptr;  // null: the lens is clean
   std::optional<double> skipped_flux;  // as RenderStatistics::ghosts_skipped_flux
+  bool lit_rows_only = false;          // rows above and below all light may be left out: DrawnFlare::top
 };
 
 // Errors: InvalidArgument for settings out of range, Cancelled.
 [[nodiscard]] Result<FramePlan> plan_frame(const LensState& lens, std::span<const Light> lights,
                                            const RenderSettings& settings, const Context& context);
 
+// What a method draws: rows of the frame from `top` on. The others are dark.
+struct DrawnFlare {
+  Image image;
+  int top = 0;
+  RenderStatistics statistics;
+};
+
 // A method: draws what a plan says. Its picture depends on ghosts, lights and gains of the plan and on the settings'
 // frame and options, no longer on settings.selection, scope, wavelengths and colour space.
-using PlannedRenderer = Result<Flare> (*)(const LensState& lens, const FramePlan& plan, const RenderSettings& settings,
-                                          const Context& context);
+using PlannedRenderer = Result<DrawnFlare> (*)(const LensState& lens, const FramePlan& plan,
+                                               const RenderSettings& settings, const Context& context);
 
 // Puts the phase "plan" before the others, and into their total.
 void count_plan(RenderStatistics& statistics, double plan_ms);

@@ -51,7 +51,7 @@ RenderedItem render_item(const Item& item, const LensState& lens, const RenderSe
 
 }  // namespace
 
-Result<Flare> render_reference(const LensState& lens, const FramePlan& plan, const RenderSettings& settings,
+Result<DrawnFlare> render_reference(const LensState& lens, const FramePlan& plan, const RenderSettings& settings,
                                const Context& context) {
   const auto start = Clock::now();
   if (!(settings.reference_density > 0.0) || settings.reference_density > 64.0) {
@@ -60,7 +60,7 @@ Result<Flare> render_reference(const LensState& lens, const FramePlan& plan, con
   Screens screens(lens, settings);
   if (!screens.prepare(plan, context)) return failure(ErrorCode::Cancelled, "interrupted");
 
-  Flare flare;
+  DrawnFlare flare;
   flare.image = Image(settings.frame.width, settings.frame.height, 3);
   RenderStatistics& stats = flare.statistics;
   std::vector<double> sum(flare.image.pixels.size());

@@ -191,7 +191,7 @@ bool trace_all(const Job& job, tiled::TiledFrame& frame, Counts& counts) {
 
 }  // namespace
 
-Result<Flare> render_tiled(const LensState& lens, const FramePlan& plan, const RenderSettings& settings,
+Result<DrawnFlare> render_tiled(const LensState& lens, const FramePlan& plan, const RenderSettings& settings,
                            const Context& context) {
   const auto start = Clock::now();
   if (const auto ok = check(settings); !ok) return tl::unexpected<Error>(ok.error());
@@ -214,7 +214,7 @@ Result<Flare> render_tiled(const LensState& lens, const FramePlan& plan, const R
   if (context.cancelled()) return failure(ErrorCode::Cancelled, "interrupted");
   if (context.progress) context.progress(1.0);
 
-  Flare flare;
+  DrawnFlare flare;
   RenderStatistics& stats = flare.statistics;
   stats.method = "tiled";
   stats.rays = counts.rays;

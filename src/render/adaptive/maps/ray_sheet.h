@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "ghosts/ray_grid.h"
-#include "render/adaptive/maps/light_frame.h"
+#include "render/interface/light_frame.h"
 #include "render/adaptive/pupils/bent_box.h"
 #include "render/interface/frame_plan.h"
 

@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "render/adaptive/maps/light_frame.h"
+#include "render/interface/light_frame.h"
 #include "render/adaptive/maps/ray_sheet.h"
 #include "render/screens/band_screen.h"
 

@@ -1,7 +1,7 @@
 // Dirt as a ghost's rays come upon it.
 #pragma once
 
-#include "render/adaptive/maps/light_frame.h"
+#include "render/interface/light_frame.h"
 #include "render/interface/dirt_field.h"
 
 namespace contrejour::adaptive {

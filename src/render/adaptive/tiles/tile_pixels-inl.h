@@ -16,9 +16,9 @@
 #include <type_traits>
 #include <utility>
 
-#include "contrejour/image.h"
 #include "render/adaptive/tiles/pixels-inl.h"
 #include "render/adaptive/tiles/quad-inl.h"
+#include "render/adaptive/tiles/tile_canvas.h"
 #include "render/adaptive/tiles/tile_sums.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -50,13 +50,13 @@ HWY_INLINE void draw_block(TileSums& tile, int row, int block, QuadLine<double>&
 }
 
 // A row's line and what blocks have of their own, which is cleared; of blocks that nothing touched it is not looked at.
-HWY_INLINE void draw_row(TileSums& tile, int row, TileMode mode, float* to) {
+HWY_INLINE void draw_row(TileSums& tile, int row, const TileCanvas& canvas) {
   const auto at_row = static_cast<std::size_t>(row);
   const std::uint64_t touched = std::exchange(tile.touched[at_row], 0), lit = std::exchange(tile.lit[at_row], 0);
   double* const carried = tile.carried[at_row].data();
   QuadLine<double> line = QuadLine<double>::load(carried);
 
-  // Beside the frame: its memory is written in one go.
+  // Beside the frame, whose memory is written in one go.
   HWY_ALIGN float pixels[TileSums::kPixel * TileGrid::kWidth];
   const int blocks = tile.blocks();
   for (int block = 0; block < blocks;) {
@@ -76,17 +76,17 @@ HWY_INLINE void draw_row(TileSums& tile, int row, TileMode mode, float* to) {
       is_touched ? draw(kYes, kNo) : draw(kNo, kNo);
   }
   const std::size_t count = TileSums::kPixel * static_cast<std::size_t>(tile.width);
-  if (mode == TileMode::Write)
-    std::copy_n(pixels, count, to);
+  float* const to = canvas.at(tile, row);
+  if (canvas.mode == TileMode::Write)
+    canvas.writer.write(pixels, count, to);
   else
     std::transform(pixels, pixels + count, to, to, std::plus<>());
   line.level = line.at(tile.width);
   line.store(carried);
 }
 
-void draw_pixels(TileSums& tile, TileMode mode, Image& image) {
-  for (int row = 0; row < tile.height; ++row)
-    draw_row(tile, row, mode, image.pixels.data() + image.index(tile.x0, tile.y0 + row));
+void draw_pixels(TileSums& tile, const TileCanvas& canvas) {
+  for (int row = 0; row < tile.height; ++row) draw_row(tile, row, canvas);
 }
 
 }  // namespace contrejour::adaptive::HWY_NAMESPACE

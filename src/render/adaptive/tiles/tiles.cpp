@@ -42,11 +42,9 @@ void add_polygon(TileSums& tile, const PolygonList& list, const Polygon& polygon
   });
 }
 
-void clear(const TileSums& tile, Image& image) {
-  for (int row = 0; row < tile.height; ++row) {
-    std::fill_n(image.pixels.data() + image.index(tile.x0, tile.y0 + row), 3 * static_cast<std::size_t>(tile.width),
-                0.0F);
-  }
+void clear(const TileSums& tile, const TileCanvas& canvas) {
+  for (int row = 0; row < tile.height; ++row)
+    canvas.writer.clear(3 * static_cast<std::size_t>(tile.width), canvas.at(tile, row));
 }
 
 // Polygons of a tile lie far apart in memory: those that come soon are asked for.
@@ -59,7 +57,7 @@ HWY_INLINE void fetch_ahead(const TiledPolygons& p, std::uint32_t k, std::uint32
   if (polygon.screened != 0) hwy::Prefetch(&p.list.screened[polygon.screened - 1]);
 }
 
-void draw_tile(std::span<const TiledPolygons> lists, std::size_t at, TileSums& tile, TileMode mode, Image& image) {
+void draw_tile(std::span<const TiledPolygons> lists, std::size_t at, TileSums& tile, const TileCanvas& canvas) {
   bool any = false;
   for (const TiledPolygons& p : lists) {
     for (std::uint32_t k = p.tiles.start[at]; k < p.tiles.start[at + 1]; ++k) {
@@ -72,9 +70,9 @@ void draw_tile(std::span<const TiledPolygons> lists, std::size_t at, TileSums& t
       any = true;
     }
   }
-  if (any) return draw_pixels(tile, mode, image);
+  if (any) return draw_pixels(tile, canvas);
   tile.carried = {};  // all polygons end before it: rounding
-  if (mode == TileMode::Write) clear(tile, image);
+  if (canvas.mode == TileMode::Write) clear(tile, canvas);
 }
 
 }  // namespace contrejour::adaptive::HWY_NAMESPACE
@@ -129,24 +127,40 @@ TileLists tile_lists(const PolygonList& list, const TileGrid& grid) {
   return out;
 }
 
+TileRows lit_rows(std::span<const TiledPolygons> lists, const TileGrid& grid) {
+  const auto columns = static_cast<std::size_t>(grid.columns);
+  const auto is_lit = [&](int row) {
+    const std::size_t first = static_cast<std::size_t>(row) * columns;
+    return std::ranges::any_of(
+        lists, [&](const TiledPolygons& p) { return p.tiles.start[first] != p.tiles.start[first + columns]; });
+  };
+  TileRows rows{0, grid.rows};
+  while (rows.first < rows.last && !is_lit(rows.first)) ++rows.first;
+  while (rows.first < rows.last && !is_lit(rows.last - 1)) --rows.last;
+  return rows;
+}
+
 TileDrawer::TileDrawer() = default;
 TileDrawer::~TileDrawer() = default;
 
-void TileDrawer::draw(std::span<const TiledPolygons> lists, TileMode mode, const Context& context, Image& image) {
+void TileDrawer::draw(std::span<const TiledPolygons> lists, TileMode mode, const Context& context, Image& image,
+                      int top) {
   Context quiet = context;
   quiet.progress = {};
   const TileGrid grid(image.width, image.height);
+  const int first = top / TileGrid::kHeight;
   parallel_for(static_cast<std::size_t>(grid.rows), quiet, [&](std::size_t at) {
-    const int row = static_cast<int>(at);
-    draw_rows(lists, row, row + 1, mode, image);
+    const int row = first + static_cast<int>(at);
+    draw_rows(lists, {row, row + 1}, mode, image, top);
   });
 }
 
-void TileDrawer::draw_rows(std::span<const TiledPolygons> lists, int first, int last, TileMode mode, Image& image) {
-  const TileGrid grid(image.width, image.height);
+void TileDrawer::draw_rows(std::span<const TiledPolygons> lists, TileRows rows, TileMode mode, Image& image, int top) {
+  const TileGrid grid(image.width, top + image.height);
   const auto lent = sums_.lend();
   TileSums& sums = *lent;
-  for (int row = first; row < last; ++row) {
+  const TileCanvas canvas{image, top, mode, PixelWriter(image)};
+  for (int row = rows.first; row < rows.last; ++row) {
     sums.y0 = row * TileGrid::kHeight;
     sums.height = std::min(TileGrid::kHeight, grid.height - sums.y0);
     sums.carried = {};
@@ -154,7 +168,7 @@ void TileDrawer::draw_rows(std::span<const TiledPolygons> lists, int first, int 
       sums.x0 = column * TileGrid::kWidth;
       sums.width = std::min(TileGrid::kWidth, grid.width - sums.x0);
       const auto tile = static_cast<std::size_t>(row * grid.columns + column);
-      HWY_DYNAMIC_DISPATCH(draw_tile)(lists, tile, sums, mode, image);
+      HWY_DYNAMIC_DISPATCH(draw_tile)(lists, tile, sums, canvas);
     }
   }
 }

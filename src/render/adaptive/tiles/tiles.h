@@ -27,6 +27,11 @@ struct TileGrid {
   [[nodiscard]] std::size_t count() const { return static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows); }
 };
 
+// Some rows of a grid's tiles, from first to last without it.
+struct TileRows {
+  int first = 0, last = 0;
+};
+
 // The tiles under the bounds of a polygon, last ones included; none if x1 < x0.
 struct TileRange {
   int x0 = 0, y0 = 0, x1 = -1, y1 = -1;
@@ -46,22 +51,26 @@ struct TiledPolygons {
   TileLists tiles;
 };
 
+// From the first that a polygon may touch to the last.
+[[nodiscard]] TileRows lit_rows(std::span<const TiledPolygons> lists, const TileGrid& grid);
+
 enum class TileMode : std::uint8_t { Write, Add };
 
 struct TileSums;
 
-// Draws polygons, whose tiles are those of an image, into rows of them. Rows may be drawn by several threads at once.
+// Draws polygons into a picture of a frame, or of those of its rows from `top` on, where a row of tiles begins. Rows of
+// tiles may be drawn by several threads at once.
 class TileDrawer {
  public:
   TileDrawer();
   ~TileDrawer();
 
   // Writes or adds to all pixels what the polygons bring.
-  void draw(std::span<const TiledPolygons> lists, TileMode mode, const Context& context, Image& image);
+  void draw(std::span<const TiledPolygons> lists, TileMode mode, const Context& context, Image& image, int top = 0);
 
-  // Writes or adds to the pixels of rows of tiles, from first to last without it, what the polygons bring, list after
-  // list. Rows do not touch each other.
-  void draw_rows(std::span<const TiledPolygons> lists, int first, int last, TileMode mode, Image& image);
+  // Writes or adds to the pixels of the frame's rows of tiles, from first to last without it, what the polygons bring,
+  // list after list. Rows do not touch each other.
+  void draw_rows(std::span<const TiledPolygons> lists, TileRows rows, TileMode mode, Image& image, int top = 0);
 
  private:
   Pool<TileSums> sums_;  // a megabyte each, all zero: one a thread, not one a row

@@ -4,9 +4,10 @@
 
 #include <cmath>
 
+#include "contrejour/trace.h"
 #include "ghosts/meridian.h"
 
-namespace contrejour::adaptive {
+namespace contrejour {
 
 struct LightFrame {
   LightSource source;  // its direction: y = 0, x >= 0 where symmetric
@@ -26,4 +27,17 @@ struct LightFrame {
       : source(m.light), cos_turn(std::cos(m.turn_rad)), sin_turn(std::sin(m.turn_rad)) {}
 };
 
-}  // namespace contrejour::adaptive
+// A light's entrance window in frames of either kind: where a front bulges, how far it reaches depends on the frame.
+class LightWindows {
+ public:
+  LightWindows(const LensState& lens, const LightSource& light)
+      : in_meridian_(entrance_window(lens, LightFrame(light).source)), in_place_(entrance_window(lens, light)) {}
+  [[nodiscard]] const EntranceWindow& of(bool has_axial_symmetry) const {
+    return has_axial_symmetry ? in_meridian_ : in_place_;
+  }
+
+ private:
+  EntranceWindow in_meridian_, in_place_;
+};
+
+}  // namespace contrejour
