@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 #include <numeric>
+#include <span>
 
 namespace contrejour::screens {
 namespace {
@@ -39,6 +40,23 @@ const std::array<PatternHull, kSectors>& sector_hulls() {
     return hulls;
   }();
   return all;
+}
+
+// How many pass a test of some of which all that do come first, looked for from a guess on: what lies far from there is
+// not touched.
+template <class T, class Test>
+std::size_t count_passing(std::span<const T> all, std::size_t guess, const Test& test) {
+  std::size_t low = std::min(guess, all.size()), high = low;
+  for (std::size_t step = 1; high < all.size() && test(all[high]); step *= 2) {
+    low = high + 1;
+    high = std::min(high + step, all.size());
+  }
+  for (std::size_t step = 1; low > 0 && !test(all[low - 1]); step *= 2) {
+    high = low - 1;
+    low -= std::min(low, step);
+  }
+  const auto between = all.subspan(low, high - low);
+  return low + static_cast<std::size_t>(std::ranges::partition_point(between, test) - between.begin());
 }
 
 }  // namespace
@@ -105,10 +123,10 @@ PatternHull PatternTexture::hull_above(double level, double flux) const {
   const double most_flux = flux * rest_.front().flux / kSectors;
   const auto bright = [&](const SectorRest& rest) { return rest.brightest > level || rest.flux > most_flux; };
   PatternHull hull;
+  std::size_t dark = steps / 2;
   for (std::size_t sector = 0; sector < kSectors; ++sector) {
-    const auto first = sector_rest_.begin() + static_cast<std::ptrdiff_t>(sector * steps);
-    const auto dark = std::partition_point(first, first + static_cast<std::ptrdiff_t>(steps), bright);
-    const double radius = std::min(static_cast<double>(dark - first) * 2.0 * extent_ / side(), extent_);
+    dark = count_passing(std::span(sector_rest_).subspan(sector * steps, steps), dark, bright);
+    const double radius = std::min(static_cast<double>(dark) * 2.0 * extent_ / side(), extent_);
     hull.hold(sector_hulls()[sector], radius);
   }
   return hull;
