@@ -19,7 +19,7 @@ constexpr std::size_t kLine = 64;
 
 // Where a line begins in memory that has room for one more, with a pointer to that memory before it.
 void* at_line(void* memory, std::size_t bytes) {
-  void* first = static_cast<void**>(memory) + 1;
+  void* first = static_cast<std::byte*>(memory) + sizeof(void*);
   std::size_t space = bytes + kLine;
   first = std::align(kLine, bytes, first, space);
   static_cast<void**>(first)[-1] = memory;

@@ -125,24 +125,31 @@ TEST_CASE("many polygons: the sum of each, whatever lists they come in") {
   for (std::size_t k = 0; k < once.pixels.size(); ++k) CHECK(added.pixels[k] == 2.0F * once.pixels[k]);
 }
 
-TEST_CASE("rows of tiles that polygons touch, drawn by themselves, are those of the whole picture") {
-  const int width = 600, height = 5 * TileGrid::kHeight + 10;
+TEST_CASE(
+    "the tiles that polygons touch, drawn by themselves and a margin beside them, are those of the whole picture") {
+  const int width = 4 * TileGrid::kWidth + 70, height = 5 * TileGrid::kHeight + 10;
   const TileGrid grid(width, height);
   PolygonList list;
-  const auto top = static_cast<float>(2 * TileGrid::kHeight + 5);
-  list.add(std::array{Point{10, top}, Point{590, top + 9}, Point{300, top + 80}},
+  const auto top = static_cast<float>(2 * TileGrid::kHeight + 5), left = static_cast<float>(TileGrid::kWidth + 90);
+  list.add(std::array{Point{left, top}, Point{left + 580, top + 9}, Point{left + 300, top + 80}},
            Shade{{10, top}, {1.0F, 2.0F, 3.0F}, {}, {}});
   const std::array tiled{TiledPolygons{{}, tile_lists({}, grid)}, TiledPolygons{list, tile_lists(list, grid)}};
-  const TileRows rows = lit_rows(tiled, grid);
-  CHECK(rows.first == 2);
-  CHECK(rows.last == 4);
-  CHECK(lit_rows({tiled.data(), 1}, grid).first == lit_rows({tiled.data(), 1}, grid).last);
-  const int first = rows.first * TileGrid::kHeight;
-  Image part = Image::unwritten(width, (rows.last - rows.first) * TileGrid::kHeight);
-  TileDrawer().draw(tiled, TileMode::Write, {}, part, first);
-  Image all(width, height);
-  std::ranges::copy(part.pixels, all.row(first).begin());
-  CHECK(all.pixels == test::drawn(list, width, height).pixels);
+  const TileRange lit = lit_tiles(tiled, grid);
+  CHECK((lit.x0 == 1 && lit.x1 == 2 && lit.y0 == 2 && lit.y1 == 3));
+  const TileRange none = lit_tiles({tiled.data(), 1}, grid);
+  CHECK((none.x1 < none.x0 && none.y1 < none.y0));
+  const Image whole = test::drawn(list, width, height);
+  for (const int margin : {0, 1, 50, 700}) {
+    CAPTURE(margin);
+    const int x0 = std::max(TileGrid::kWidth - margin, 0), y0 = std::max(2 * TileGrid::kHeight - margin, 0);
+    Image part = Image::unwritten(std::min(3 * TileGrid::kWidth + margin, width) - x0,
+                                  std::min(4 * TileGrid::kHeight + margin, height) - y0);
+    std::ranges::fill(part.pixels, std::numeric_limits<float>::quiet_NaN());
+    TileDrawer().draw_part(tiled, grid, {.threads = 2}, part, x0, y0);
+    Image all(width, height);
+    for (int y = 0; y < part.height; ++y) std::ranges::copy(part.row(y), &all.at(x0, y0 + y));
+    CHECK(all.pixels == whole.pixels);
+  }
 }
 
 TEST_CASE("tiles right of a caustic of ten million times the level around it do not see it") {

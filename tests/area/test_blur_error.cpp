@@ -43,7 +43,7 @@ Image blurred_disc(double radius_px, double blur_px, int level) {
       for (int c = 0; c < 3; ++c) picture.at(x, y, c) = static_cast<float>(scale * scale * inside / (kFine * kFine));
     }
   }
-  layers.add(picture, 0, at, make_kernel(piece, map, at.moved), 0.0, {});
+  layers.add({picture}, at, make_kernel(piece, map, at.moved), 0.0, {});
   return std::move(layers).flattened({});
 }
 

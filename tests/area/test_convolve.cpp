@@ -33,15 +33,32 @@ Kernel random_kernel(KernelReach reach, unsigned seed) {
   return kernel;
 }
 
-// Some rows of a picture, all others of which become dark.
-Image cut_to_rows(Image& picture, int top, int rows) {
-  Image cut(picture.width, rows);
-  for (int y = 0; y < picture.height; ++y) {
-    const bool is_kept = y >= top && y < top + rows;
-    if (is_kept) std::ranges::copy(picture.row(y), cut.row(y - top).begin());
-    if (!is_kept) std::ranges::fill(picture.row(y), 0.0F);
-  }
+struct Window {
+  int left = 0, top = 0, width = 0, height = 0;
+  [[nodiscard]] bool holds(int x, int y) const { return x >= left && y >= top && x < left + width && y < top + height; }
+};
+
+// All but a window of it becomes dark.
+void darken_around(Image& picture, const Window& lit) {
+  for (int y = 0; y < picture.height; ++y)
+    for (int x = 0; x < picture.width; ++x)
+      for (int c = 0; c < 3; ++c)
+        if (!lit.holds(x, y)) picture.at(x, y, c) = 0.0F;
+}
+
+Image cut_out(const Image& picture, const Window& window) {
+  Image cut(window.width, window.height);
+  for (int y = 0; y < cut.height; ++y)
+    for (int x = 0; x < cut.width; ++x)
+      for (int c = 0; c < 3; ++c) cut.at(x, y, c) = picture.at(window.left + x, window.top + y, c);
   return cut;
+}
+
+double largest_difference(const Image& a, const Image& b) {
+  double worst = 0.0;
+  for (std::size_t k = 0; k < a.pixels.size(); ++k)
+    worst = std::max(worst, static_cast<double>(std::abs(a.pixels[k] - b.pixels[k])));
+  return worst;
 }
 
 // The light's flux and first and second moments about a place.
@@ -78,8 +95,8 @@ TEST_CASE("a convolution is the plain sum, at any width and number of threads") 
     const Kernel kernel = random_kernel({3, 1, 2, 4}, 7);
     const Image picture = random_picture(width + kernel.width() - 1, 21 + kernel.height() - 1, 3);
     Image sum(width, 21), again(width, 21);
-    convolve(sum, ConvolveMode::Add, picture, 0, kernel, 0.0, {.threads = 1});
-    convolve(again, ConvolveMode::Add, picture, 0, kernel, 0.0, {.threads = 3});
+    convolve(sum, ConvolveMode::Add, {picture}, kernel, 0.0, {.threads = 1});
+    convolve(again, ConvolveMode::Add, {picture}, kernel, 0.0, {.threads = 3});
     CHECK(sum.pixels == again.pixels);
     double worst = 0.0;
     for (int y = 0; y < sum.height; ++y) {
@@ -99,31 +116,36 @@ TEST_CASE("a convolution is the plain sum, at any width and number of threads") 
   }
 }
 
-TEST_CASE("rows without light may be left out, wherever they are, of smooth pictures, too") {
+TEST_CASE("a part of a picture with all of its light is as good, wherever it lies, of smooth pictures, too") {
   Kernel disc;
   disc.reach = {2, 2, 2, 2};
   for (int k = 0; k < 25; ++k) disc.weight.push_back({0.04, 0.04, 0.04});
   for (const Kernel& kernel : {random_kernel({3, 1, 2, 4}, 7), disc}) {
-    for (const int top : {0, 3, 11}) {
-      for (const int rows : {0, 1, 2, 9}) {
-        CAPTURE(top);
-        CAPTURE(rows);
-        Image whole(70 + kernel.width() - 1, 30 + kernel.height() - 1);
-        for (std::size_t k = 0; k < whole.pixels.size(); ++k) whole.pixels[k] = 1e-3F * static_cast<float>(k % 217);
-        for (float& v : whole.row(top)) v = 0.0F;  // light may begin with the row after
-        const Image cut = cut_to_rows(whole, top, rows);
-        Image by_whole = random_picture(70, 30, 5), by_rows = by_whole;
-        for (const ConvolveMode mode : {ConvolveMode::Add, ConvolveMode::Write}) {
-          convolve(by_whole, mode, whole, 0, kernel, 0.01, {.threads = 2});
-          convolve(by_rows, mode, cut, top, kernel, 0.01, {.threads = 2});
-          double worst = 0.0;
-          for (std::size_t k = 0; k < by_whole.pixels.size(); ++k)
-            worst = std::max(worst, static_cast<double>(std::abs(by_whole.pixels[k] - by_rows.pixels[k])));
-          CHECK(worst < 0.01);  // rows at a picture's border count as rough
+    const int beside_x = kernel.width() - 1, beside_y = kernel.height() - 1;
+    for (const Window& lit : {Window{20, 11, 33, 9}, Window{0, 0, 30, 5}, Window{40, 20, 30 + beside_x, 10 + beside_y},
+                              Window{17, 9, 1, 1}}) {
+      CAPTURE(lit.left);
+      Image whole(70 + beside_x, 30 + beside_y);
+      for (std::size_t k = 0; k < whole.pixels.size(); ++k) whole.pixels[k] = 1e-3F * static_cast<float>(k % 217);
+      darken_around(whole, lit);
+      Window part{std::max(lit.left - beside_x, 0), std::max(lit.top - beside_y, 0), 0, 0};
+      part.width = std::min(lit.left + lit.width + beside_x, whole.width) - part.left;
+      part.height = std::min(lit.top + lit.height + beside_y, whole.height) - part.top;
+      const Image cut = cut_out(whole, part);
+      Image by_whole = random_picture(70, 30, 5), by_part = by_whole;
+      for (const ConvolveMode mode : {ConvolveMode::Add, ConvolveMode::Write}) {
+        for (const double unseen : {0.0, 0.01}) {
+          convolve(by_whole, mode, {whole}, kernel, unseen, {.threads = 2});
+          convolve(by_part, mode, {cut, part.left, part.top}, kernel, unseen, {.threads = 2});
+          CHECK(largest_difference(by_whole, by_part) < 1e-5 + 2.0 * unseen);  // blocks begin elsewhere
         }
       }
     }
   }
+  Image dark = random_picture(7, 5, 1);
+  const Image before = dark;
+  convolve(dark, ConvolveMode::Add, {Image{}}, disc, 0.0, {});
+  CHECK(dark.pixels == before.pixels);
 }
 
 TEST_CASE("white kernels, and what is linear under them") {
@@ -146,8 +168,8 @@ TEST_CASE("white kernels, and what is linear under them") {
             x + 0.3 * y < 70.0 ? 1.0F + 0.01F * static_cast<float>(x + c * y) + (x > 30 ? 1e-3F : 0.0F) : 0.0F;
   Image exact(width, height), loose(width, height);
   std::ranges::fill(exact.pixels, std::numeric_limits<float>::quiet_NaN());
-  convolve(exact, ConvolveMode::Write, picture, 0, disc, 0.0, {.threads = 1});
-  convolve(loose, ConvolveMode::Add, picture, 0, disc, 0.01, {.threads = 2});
+  convolve(exact, ConvolveMode::Write, {picture}, disc, 0.0, {.threads = 1});
+  convolve(loose, ConvolveMode::Add, {picture}, disc, 0.01, {.threads = 2});
   double worst = 0.0, worst_loose = 0.0;
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < width; ++x) {
@@ -187,7 +209,7 @@ TEST_CASE("a spot at any level comes back at its place, with its flux and the sh
     const int x = static_cast<int>(px.x), y = static_cast<int>(px.y);
     for (int c = 0; c < 3; ++c) spot.at(x, y, c) = 1.0F + static_cast<float>(c);
     const Vec2 expected = frame.pixel_from_sensor(at.frame.sensor_from_pixel({x + 0.5, y + 0.5}));
-    layers.add(spot, 0, at, make_kernel(piece, at_level, at.moved), 0.0, {});
+    layers.add({spot}, at, make_kernel(piece, at_level, at.moved), 0.0, {});
     const Image flat = std::move(layers).flattened({});
     for (int c = 0; c < 3; ++c) {
       const Moments m = moments_of(flat, c);
@@ -209,8 +231,9 @@ TEST_CASE("layers that go down early sum to the same") {
       const Kernel kernel = random_kernel({2, 1, 1, 2}, 5);
       const LayerFrame at = layers.frame_for(level, kernel.reach);
       if (early) layers.descend_to(std::max(level, 1), {});
-      layers.add(random_picture(at.frame.width, at.frame.height, 9), 0, at, kernel, 0.0, {});
-      if (level > 0) layers.add_sharp(random_picture(70, 50, 4), 0, {});
+      const Image picture = random_picture(at.frame.width, at.frame.height, 9);
+      layers.add({picture}, at, kernel, 0.0, {});
+      if (level > 0) layers.add_sharp(random_picture(70, 50, 4), {});
     }
     return std::move(layers).flattened({});
   };
@@ -221,24 +244,25 @@ TEST_CASE("layers that go down early sum to the same") {
   CHECK(worst < 1e-5);
 }
 
-TEST_CASE("some rows of a sharp picture are added where they belong, before and after other light") {
+TEST_CASE("a part of a sharp picture is added where it belongs, with and without other light") {
   const Frame frame{70, 50, 0, 0, 70, 50, 0.1};
+  const Window lit{13, 20, 31, 7};
   Image whole = random_picture(70, 50, 4);
-  const Image rows = cut_to_rows(whole, 20, 7);
+  darken_around(whole, lit);
+  const Image cut = cut_out(whole, lit);
   for (const bool has_blurred : {false, true}) {
-    const auto drawn = [&](const Image& sharp, int top) {
+    const auto drawn = [&](const auto& add) {
       Layers layers(frame);
       const Kernel kernel = random_kernel({2, 1, 1, 2}, 5);
       const LayerFrame at = layers.frame_for(2, kernel.reach);
-      if (has_blurred) layers.add(random_picture(at.frame.width, at.frame.height, 9), 0, at, kernel, 0.0, {});
-      layers.add_sharp(sharp, top, {});
+      const Image blurred = random_picture(at.frame.width, at.frame.height, 9);
+      if (has_blurred) layers.add({blurred}, at, kernel, 0.0, {});
+      add(layers);
       return std::move(layers).flattened({});
     };
-    const Image by_whole = drawn(whole, 0), by_rows = drawn(rows, 20);
-    double worst = 0.0;
-    for (std::size_t k = 0; k < by_whole.pixels.size(); ++k)
-      worst = std::max(worst, static_cast<double>(std::abs(by_whole.pixels[k] - by_rows.pixels[k])));
-    CHECK(worst < 1e-5);
+    const Image by_whole = drawn([&](Layers& layers) { layers.add_sharp(whole, {}); });
+    const Image by_part = drawn([&](Layers& layers) { layers.add_sharp(PicturePart{cut, lit.left, lit.top}, {}); });
+    CHECK(largest_difference(by_whole, by_part) < 1e-5);
   }
 }
 
@@ -255,7 +279,7 @@ TEST_CASE("what is drawn at two levels at once comes down as if added at the fin
     for (int x = 0; x < picture.width; ++x)
       for (int c = 0; c < 3; ++c)
         picture.at(x, y, c) = static_cast<float>(16.0 * mean(4.0 * (at.left + x), 4.0 * (at.left + x + 1)));
-  layers.add(picture, 0, at, delta, 0.0, {});
+  layers.add({picture}, at, delta, 0.0, {});
   const Image flat = std::move(layers).flattened({});
   for (int x = 0; x < 64; ++x) CHECK(flat.at(x, 20, 1) == doctest::Approx(mean(x, x + 1)).epsilon(1e-4));
 }

@@ -136,15 +136,22 @@ class FramePainter {
   }
 
   void draw(const std::vector<TiledPolygons>& batch, bool is_last) {
-    if (mode_ == TileMode::Write) {
-      const bool all_rows = !is_last || !scene_.plan.lit_rows_only;
-      const TileRows rows = all_rows ? TileRows{0, grid_.rows} : lit_rows(batch, grid_);
-      flare_.top = rows.first * TileGrid::kHeight;
-      flare_.image = Image::unwritten(frame_.width,
-                                      std::max(std::min(rows.last * TileGrid::kHeight, frame_.height) - flare_.top, 0));
-    }
-    drawer_.draw(batch, mode_, context_, flare_.image, flare_.top);
+    const bool is_first = mode_ == TileMode::Write;
+    if (is_first && is_last && scene_.plan.dark_margin_px) return draw_lit_part(batch, *scene_.plan.dark_margin_px);
+    if (is_first) flare_.image = Image::unwritten(frame_.width, frame_.height);
+    drawer_.draw(batch, mode_, context_, flare_.image);
     mode_ = TileMode::Add;
+  }
+
+  void draw_lit_part(const std::vector<TiledPolygons>& all, int margin_px) {
+    const TileRange lit = lit_tiles(all, grid_);
+    if (lit.x1 < lit.x0) return;
+    flare_.left = std::max(lit.x0 * TileGrid::kWidth - margin_px, 0);
+    flare_.top = std::max(lit.y0 * TileGrid::kHeight - margin_px, 0);
+    const int right = std::min((lit.x1 + 1) * TileGrid::kWidth + margin_px, frame_.width);
+    const int bottom = std::min((lit.y1 + 1) * TileGrid::kHeight + margin_px, frame_.height);
+    flare_.image = Image::unwritten(right - flare_.left, bottom - flare_.top);
+    drawer_.draw_part(all, grid_, context_, flare_.image, flare_.left, flare_.top);
   }
 
   const Scene& scene_;

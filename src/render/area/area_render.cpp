@@ -8,6 +8,7 @@
 #include "base/memory.h"
 #include "base/tasks.h"
 #include "render/area/blur_classes.h"
+#include "render/area/convolve.h"
 #include "render/area/kernel.h"
 #include "render/area/layers.h"
 #include "render/interface/light_frame.h"
@@ -50,7 +51,6 @@ FramePlan part_of(const FramePlan& plan, std::vector<Ghost> ghosts, std::vector<
   part.tables = plan.tables;
   part.dirt = plan.dirt;
   part.skipped_flux = plan.skipped_flux;
-  part.lit_rows_only = true;
   return part;
 }
 
@@ -158,21 +158,27 @@ class AreaPainter {
     const LightPiece* const piece = drawing.piece;
     RenderSettings drawn = settings_;
     drawn.error = std::max(settings_.error, std::min(settings_.error * drawing.room, kLargestError));
+    FramePlan part = part_of(plan_, drawing.ghosts, drawing.lights);
     LayerFrame at;
+    part.dark_margin_px = 0;
     if (piece != nullptr) {
-      at = layers_.frame_for(drawing.level, reach_of(*piece, drawing.px_from_tangents));
+      const KernelReach reach = reach_of(*piece, drawing.px_from_tangents);
+      at = layers_.frame_for(drawing.level, reach);
       drawn.frame = at.frame;
+      part.dark_margin_px = std::max(reach.left + reach.right, reach.up + reach.down);
     }
-    auto picture = method_(lens_, part_of(plan_, drawing.ghosts, drawing.lights), drawn, context_);
+    auto picture = method_(lens_, part, drawn, context_);
     if (!picture) return tl::unexpected(picture.error());
     add(statistics_, picture->statistics);
     const auto start = Clock::now();
     layers_.descend_to(drawing.level, context_);
+    const PicturePart lit{picture->image, picture->left, picture->top};
+    const bool is_whole = lit.image.width == drawn.frame.width && lit.image.height == drawn.frame.height;
     if (piece != nullptr)
-      layers_.add(picture->image, picture->top, at, make_kernel(*piece, drawing.px_from_tangents, at.moved),
+      layers_.add(lit, at, make_kernel(*piece, drawing.px_from_tangents, at.moved),
                   kUnseen * settings_.error * drawing.peak, context_);
     else
-      layers_.add_sharp(std::move(picture->image), picture->top, context_);
+      is_whole ? layers_.add_sharp(std::move(picture->image), context_) : layers_.add_sharp(lit, context_);
     ms_ += ms_since(start);
     return {};
   }

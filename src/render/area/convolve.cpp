@@ -175,23 +175,26 @@ void add_pixel(const std::vector<Meeting>& meetings, int x, const KernelRows& ke
 
 }  // namespace
 
-void convolve(Image& to, ConvolveMode mode, const Image& picture, int top, const Kernel& kernel, double unseen,
+void convolve(Image& to, ConvolveMode mode, PicturePart part, const Kernel& kernel, double unseen,
               const Context& context) {
-  assert(picture.width == to.width + kernel.width() - 1);
-  assert(top >= 0 && top + picture.height <= to.height + kernel.height() - 1);
+  const Image& picture = part.image;
   const KernelRows rows = rows_of(kernel);
+  assert(part.left >= 0 && part.left + picture.width <= to.width + rows.width - 1);
+  assert(part.top >= 0 && part.top + picture.height <= to.height + rows.height - 1);
   std::vector<RowBlocks> blocks(static_cast<std::size_t>(picture.height));
   const float roughest = roughest_second_difference(kernel, unseen);
   parallel_for(blocks.size(), context,
                [&](std::size_t at) { blocks[at] = row_blocks(picture, static_cast<int>(at), roughest, rows.width); });
+  const int width = picture.width - rows.width + 1;  // of the sum, that the part tells
   parallel_for(static_cast<std::size_t>(to.height), context, [&](std::size_t at) {
-    const int y = static_cast<int>(at);
-    if (mode == ConvolveMode::Write) std::ranges::fill(to.row(y), 0.0F);
+    const auto to_row = to.row(static_cast<int>(at));
+    if (mode == ConvolveMode::Write) std::ranges::fill(to_row, 0.0F);
+    const int y = static_cast<int>(at) - part.top;
+    if (y < 0 || y + rows.height > picture.height || width <= 0) return;
     std::vector<Meeting> meetings;
     RowBlocks together;
     for (const KernelRow& row : rows.rows) {
-      const int from = y + rows.height - 1 - row.row - top;
-      if (from < 0 || from >= picture.height) continue;
+      const int from = y + rows.height - 1 - row.row;
       const RowBlocks& source = blocks[static_cast<std::size_t>(from)];
       if (!source.lit.any()) continue;
       meetings.push_back({picture.row(from).data(), &source.lit, &row});
@@ -200,22 +203,20 @@ void convolve(Image& to, ConvolveMode mode, const Image& picture, int top, const
     }
     if (meetings.empty()) return;
     std::vector<BlockTerm> terms;
-    float* const out = to.row(y).data();
-    const int middle = y + kernel.reach.down - top;
-    const bool is_dark = middle < 0 || middle >= picture.height;
+    float* const out = to_row.data() + 3 * static_cast<std::ptrdiff_t>(part.left);
     const float* const straight =
-        is_dark ? nullptr : picture.row(middle).data() + 3 * static_cast<std::ptrdiff_t>(kernel.reach.right);
+        picture.row(y + kernel.reach.down).data() + 3 * static_cast<std::ptrdiff_t>(kernel.reach.right);
     int x = 0;
-    for (; x + kBlock <= to.width; x += kBlock) {
+    for (; x + kBlock <= width; x += kBlock) {
       const auto b = static_cast<std::size_t>(x / kBlock);
       const std::ptrdiff_t first = 3 * static_cast<std::ptrdiff_t>(x);
       if (together.rough.test(b))
         add_at(meetings, x, rows, terms, out + first);
-      else if (together.lit.test(b) && !is_dark)
+      else if (together.lit.test(b))
         for (std::size_t k = 0; k < kBlockFloats; ++k) out[first + k] += straight[first + k];
     }
-    if (x == to.width || !together.lit.test(static_cast<std::size_t>(x / kBlock))) return;
-    for (; x < to.width; ++x) add_pixel(meetings, x, rows, out + 3 * static_cast<std::ptrdiff_t>(x));
+    if (x == width || !together.lit.test(static_cast<std::size_t>(x / kBlock))) return;
+    for (; x < width; ++x) add_pixel(meetings, x, rows, out + 3 * static_cast<std::ptrdiff_t>(x));
   });
 }
 

@@ -90,29 +90,32 @@ LayerFrame Layers::frame_for(int level, KernelReach reach) const {
   return out;
 }
 
-void Layers::add(const Image& picture, int top, const LayerFrame& drawn, const Kernel& kernel, double unseen,
+void Layers::add(PicturePart picture, const LayerFrame& drawn, const Kernel& kernel, double unseen,
                  const Context& context) {
   Layer& layer = layers_[static_cast<std::size_t>(drawn.level)];
   const auto mode = layer.sum.pixels.empty() ? ConvolveMode::Write : ConvolveMode::Add;
   if (mode == ConvolveMode::Write) layer.sum = Image::unwritten(layer.width, layer.height);
-  convolve(layer.sum, mode, picture, top, kernel, unseen * std::exp2(2 * drawn.level), context);
+  convolve(layer.sum, mode, picture, kernel, unseen * std::exp2(2 * drawn.level), context);
 }
 
-void Layers::add_sharp(Image picture, int top, const Context& context) {
+void Layers::add_sharp(Image picture, const Context& context) {
   Image& sum = layers_[0].sum;
-  if (sum.pixels.empty() && picture.height == frame_.height) {
-    descend_to(1, context);
-    if (!layers_[1].sum.pixels.empty()) add_halves(layers_[1], layers_[0], picture, true, context);
-    layers_[1].sum = {};
-    sum = std::move(picture);
-    return;
-  }
+  if (!sum.pixels.empty()) return add_sharp(PicturePart{picture}, context);
+  descend_to(1, context);
+  if (!layers_[1].sum.pixels.empty()) add_halves(layers_[1], layers_[0], picture, true, context);
+  layers_[1].sum = {};
+  sum = std::move(picture);
+}
+
+void Layers::add_sharp(PicturePart picture, const Context& context) {
   descend_to(0, context);
+  Image& sum = layers_[0].sum;
   if (sum.pixels.empty()) sum = Image(frame_.width, frame_.height);
-  parallel_for(static_cast<std::size_t>(picture.height), context, [&](std::size_t row) {
-    const auto out = sum.row(top + static_cast<int>(row));
-    const auto in = picture.row(static_cast<int>(row));
-    for (std::size_t k = 0; k < out.size(); ++k) out[k] += in[k];
+  parallel_for(static_cast<std::size_t>(picture.image.height), context, [&](std::size_t row) {
+    const int y = static_cast<int>(row);
+    const auto in = picture.image.row(y);
+    float* const out = sum.row(picture.top + y).data() + 3 * static_cast<std::ptrdiff_t>(picture.left);
+    for (std::size_t k = 0; k < in.size(); ++k) out[k] += in[k];
   });
 }
 

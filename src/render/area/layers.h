@@ -9,6 +9,7 @@
 #include "contrejour/context.h"
 #include "contrejour/frame.h"
 #include "contrejour/image.h"
+#include "render/area/convolve.h"
 #include "render/area/kernel.h"
 
 namespace contrejour::area {
@@ -31,11 +32,11 @@ class Layers {
 
   // reach: of the kernel, in pixels of the level.
   [[nodiscard]] LayerFrame frame_for(int level, KernelReach reach) const;
-  // Pictures begin with their frame's row `top`, and all of its rows that are not given are dark.
   // unseen: what a pixel of the frame may be off by (convolve.h).
-  void add(const Image& picture, int top, const LayerFrame& drawn, const Kernel& kernel, double unseen,
-           const Context& context);
-  void add_sharp(Image picture, int top, const Context& context);  // of the frame itself
+  void add(PicturePart picture, const LayerFrame& drawn, const Kernel& kernel, double unseen, const Context& context);
+  // Of the frame itself.
+  void add_sharp(Image picture, const Context& context);
+  void add_sharp(PicturePart picture, const Context& context);
   // Nothing coarser is to come: what there is goes down. Not to be asked for; what follows then is added where there
   // are sums already, and only where it has light.
   void descend_to(int level, const Context& context);

@@ -34,17 +34,18 @@ struct FramePlan {
   TablesByWavelength tables;  // for every wavelength of the passes
   std::shared_ptr<const DirtField> dirt = nullptr;  // null: the lens is clean
   std::optional<double> skipped_flux;  // as RenderStatistics::ghosts_skipped_flux
-  bool lit_rows_only = false;          // rows above and below all light may be left out: DrawnFlare::top
+  // May be left out of a picture: rows and columns beside all of its light, but for so many next to it.
+  std::optional<int> dark_margin_px;
 };
 
 // Errors: InvalidArgument for settings out of range, Cancelled.
 [[nodiscard]] Result<FramePlan> plan_frame(const LensState& lens, std::span<const Light> lights,
                                            const RenderSettings& settings, const Context& context);
 
-// What a method draws: rows of the frame from `top` on. The others are dark.
+// What a method draws: the part of the frame that begins there. All else is dark.
 struct DrawnFlare {
   Image image;
-  int top = 0;
+  int left = 0, top = 0;
   RenderStatistics statistics;
 };
 

@@ -83,7 +83,7 @@ Result<void> add_part(Layers& layers, const Area& area, int level, const Fade* f
         picture.at(window.x0 + x, window.y0 + y, c) = static_cast<float>(share) * part.at(x, y, c);
     }
   });
-  layers.add(picture, 0, at, make_kernel(area.piece, map, at.moved), 0.0, context);
+  layers.add({picture}, at, make_kernel(area.piece, map, at.moved), 0.0, context);
   return {};
 }
 

@@ -1,6 +1,9 @@
 // The picture that tiles are drawn into.
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
+
 #include "contrejour/image.h"
 #include "image/pixel_writer.h"
 #include "render/adaptive/tiles/tile_sums.h"
@@ -8,14 +11,25 @@
 
 namespace contrejour::adaptive {
 
+// Of a frame, or of the part of it that begins at (left, top).
 struct TileCanvas {
   Image& image;
-  int top = 0;  // the frame's row that it begins with
+  int left = 0, top = 0;
   TileMode mode = TileMode::Write;
   PixelWriter writer;
 
+  TileCanvas(Image& of, int x, int y, TileMode how) : image(of), left(x), top(y), mode(how), writer(of) {}
+
+  // A row of a tile that lies within.
   [[nodiscard]] float* at(const TileSums& tile, int row) const {
-    return image.pixels.data() + image.index(tile.x0, tile.y0 + row - top);
+    return image.pixels.data() + image.index(tile.x0 - left, tile.y0 + row - top);
+  }
+  // Makes a tile dark, as far as it lies within.
+  void clear(const TileSums& tile) const {
+    const int x0 = std::max(tile.x0 - left, 0), x1 = std::min(tile.x0 + tile.width - left, image.width);
+    const int y0 = std::max(tile.y0 - top, 0), y1 = std::min(tile.y0 + tile.height - top, image.height);
+    for (int y = y0; y < y1 && x0 < x1; ++y)
+      writer.clear(TileSums::kPixel * static_cast<std::size_t>(x1 - x0), image.pixels.data() + image.index(x0, y));
   }
 };
 

@@ -15,6 +15,7 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#include "render/adaptive/tiles/tile_canvas.h"
 #include "render/adaptive/tiles/tile_edges-inl.h"
 #include "render/adaptive/tiles/tile_pixels-inl.h"
 #include "render/adaptive/tiles/tile_screens-inl.h"
@@ -42,11 +43,6 @@ void add_polygon(TileSums& tile, const PolygonList& list, const Polygon& polygon
   });
 }
 
-void clear(const TileSums& tile, const TileCanvas& canvas) {
-  for (int row = 0; row < tile.height; ++row)
-    canvas.writer.clear(3 * static_cast<std::size_t>(tile.width), canvas.at(tile, row));
-}
-
 // Polygons of a tile lie far apart in memory: those that come soon are asked for.
 HWY_INLINE void fetch_ahead(const TiledPolygons& p, std::uint32_t k, std::uint32_t end) {
   constexpr std::uint32_t kPolygon = 8, kRest = 4;  // so many before
@@ -72,7 +68,7 @@ void draw_tile(std::span<const TiledPolygons> lists, std::size_t at, TileSums& t
   }
   if (any) return draw_pixels(tile, canvas);
   tile.carried = {};  // all polygons end before it: rounding
-  if (canvas.mode == TileMode::Write) clear(tile, canvas);
+  if (canvas.mode == TileMode::Write) canvas.clear(tile);
 }
 
 }  // namespace contrejour::adaptive::HWY_NAMESPACE
@@ -127,49 +123,61 @@ TileLists tile_lists(const PolygonList& list, const TileGrid& grid) {
   return out;
 }
 
-TileRows lit_rows(std::span<const TiledPolygons> lists, const TileGrid& grid) {
-  const auto columns = static_cast<std::size_t>(grid.columns);
-  const auto is_lit = [&](int row) {
-    const std::size_t first = static_cast<std::size_t>(row) * columns;
-    return std::ranges::any_of(
-        lists, [&](const TiledPolygons& p) { return p.tiles.start[first] != p.tiles.start[first + columns]; });
-  };
-  TileRows rows{0, grid.rows};
-  while (rows.first < rows.last && !is_lit(rows.first)) ++rows.first;
-  while (rows.first < rows.last && !is_lit(rows.last - 1)) --rows.last;
-  return rows;
+TileRange lit_tiles(std::span<const TiledPolygons> lists, const TileGrid& grid) {
+  TileRange lit{grid.columns, grid.rows, -1, -1};
+  for (int y = 0; y < grid.rows; ++y) {
+    for (int x = 0; x < grid.columns; ++x) {
+      const auto at =
+          static_cast<std::size_t>(y) * static_cast<std::size_t>(grid.columns) + static_cast<std::size_t>(x);
+      const auto touches = [&](const TiledPolygons& p) { return p.tiles.start[at] != p.tiles.start[at + 1]; };
+      if (std::ranges::any_of(lists, touches))
+        lit = {std::min(lit.x0, x), std::min(lit.y0, y), std::max(lit.x1, x), std::max(lit.y1, y)};
+    }
+  }
+  return lit;
 }
 
 TileDrawer::TileDrawer() = default;
 TileDrawer::~TileDrawer() = default;
 
-void TileDrawer::draw(std::span<const TiledPolygons> lists, TileMode mode, const Context& context, Image& image,
-                      int top) {
+void TileDrawer::draw(std::span<const TiledPolygons> lists, TileMode mode, const Context& context, Image& image) {
   Context quiet = context;
   quiet.progress = {};
   const TileGrid grid(image.width, image.height);
-  const int first = top / TileGrid::kHeight;
   parallel_for(static_cast<std::size_t>(grid.rows), quiet, [&](std::size_t at) {
-    const int row = first + static_cast<int>(at);
-    draw_rows(lists, {row, row + 1}, mode, image, top);
+    const int row = static_cast<int>(at);
+    draw_rows(lists, {row, row + 1}, mode, image);
   });
 }
 
-void TileDrawer::draw_rows(std::span<const TiledPolygons> lists, TileRows rows, TileMode mode, Image& image, int top) {
-  const TileGrid grid(image.width, top + image.height);
+void TileDrawer::draw_part(std::span<const TiledPolygons> lists, const TileGrid& grid, const Context& context,
+                           Image& image, int left, int top) {
+  Context quiet = context;
+  quiet.progress = {};
+  const int first = top / TileGrid::kHeight;
+  const int last = (top + image.height + TileGrid::kHeight - 1) / TileGrid::kHeight;
+  parallel_for(static_cast<std::size_t>(last - first), quiet, [&](std::size_t at) {
+    draw_row(lists, grid, first + static_cast<int>(at), TileCanvas(image, left, top, TileMode::Write));
+  });
+}
+
+void TileDrawer::draw_rows(std::span<const TiledPolygons> lists, TileRows rows, TileMode mode, Image& image) {
+  const TileCanvas canvas(image, 0, 0, mode);
+  for (int row = rows.first; row < rows.last; ++row) draw_row(lists, {image.width, image.height}, row, canvas);
+}
+
+void TileDrawer::draw_row(std::span<const TiledPolygons> lists, const TileGrid& grid, int row,
+                          const TileCanvas& canvas) {
   const auto lent = sums_.lend();
   TileSums& sums = *lent;
-  const TileCanvas canvas{image, top, mode, PixelWriter(image)};
-  for (int row = rows.first; row < rows.last; ++row) {
-    sums.y0 = row * TileGrid::kHeight;
-    sums.height = std::min(TileGrid::kHeight, grid.height - sums.y0);
-    sums.carried = {};
-    for (int column = 0; column < grid.columns; ++column) {
-      sums.x0 = column * TileGrid::kWidth;
-      sums.width = std::min(TileGrid::kWidth, grid.width - sums.x0);
-      const auto tile = static_cast<std::size_t>(row * grid.columns + column);
-      HWY_DYNAMIC_DISPATCH(draw_tile)(lists, tile, sums, canvas);
-    }
+  sums.y0 = row * TileGrid::kHeight;
+  sums.height = std::min(TileGrid::kHeight, grid.height - sums.y0);
+  sums.carried = {};
+  for (int column = 0; column < grid.columns; ++column) {
+    sums.x0 = column * TileGrid::kWidth;
+    sums.width = std::min(TileGrid::kWidth, grid.width - sums.x0);
+    const auto tile = static_cast<std::size_t>(row * grid.columns + column);
+    HWY_DYNAMIC_DISPATCH(draw_tile)(lists, tile, sums, canvas);
   }
 }
 

@@ -51,28 +51,33 @@ struct TiledPolygons {
   TileLists tiles;
 };
 
-// From the first that a polygon may touch to the last.
-[[nodiscard]] TileRows lit_rows(std::span<const TiledPolygons> lists, const TileGrid& grid);
+// All that polygons may touch, and what is between; none if x1 < x0.
+[[nodiscard]] TileRange lit_tiles(std::span<const TiledPolygons> lists, const TileGrid& grid);
 
 enum class TileMode : std::uint8_t { Write, Add };
 
+struct TileCanvas;
 struct TileSums;
 
-// Draws polygons into a picture of a frame, or of those of its rows from `top` on, where a row of tiles begins. Rows of
-// tiles may be drawn by several threads at once.
+// Draws polygons. Rows of tiles may be drawn by several threads at once.
 class TileDrawer {
  public:
   TileDrawer();
   ~TileDrawer();
 
-  // Writes or adds to all pixels what the polygons bring.
-  void draw(std::span<const TiledPolygons> lists, TileMode mode, const Context& context, Image& image, int top = 0);
+  // Writes or adds to all pixels of a frame what the polygons bring.
+  void draw(std::span<const TiledPolygons> lists, TileMode mode, const Context& context, Image& image);
+  // Writes all pixels of a part of a frame, from (left, top) on, that holds all tiles which polygons may touch.
+  void draw_part(std::span<const TiledPolygons> lists, const TileGrid& grid, const Context& context, Image& image,
+                 int left, int top);
 
-  // Writes or adds to the pixels of the frame's rows of tiles, from first to last without it, what the polygons bring,
-  // list after list. Rows do not touch each other.
-  void draw_rows(std::span<const TiledPolygons> lists, TileRows rows, TileMode mode, Image& image, int top = 0);
+  // Writes or adds to the pixels of a frame's rows of tiles what the polygons bring, list after list. Rows do not touch
+  // each other.
+  void draw_rows(std::span<const TiledPolygons> lists, TileRows rows, TileMode mode, Image& image);
 
  private:
+  void draw_row(std::span<const TiledPolygons> lists, const TileGrid& grid, int row, const TileCanvas& canvas);
+
   Pool<TileSums> sums_;  // a megabyte each, all zero: one a thread, not one a row
 };
 
