@@ -22,6 +22,7 @@ double apart(const LinearMap& a, const LinearMap& b) {
 TEST_CASE("in a light's own frame, by half of the rays, a pupil is where it is in the lens's") {
   const LensState lens = test::bundled("heliar", {.f_number = 8.0});
   const ReflectanceTables tables(lens, 550.0);
+  const LensSteps steps(lens, tables);
   int found = 0, whole = 0;
   for (const double turn : {0.0, 0.4, 2.5, -1.2}) {
     const double tangent = 0.12;
@@ -31,9 +32,8 @@ TEST_CASE("in a light's own frame, by half of the rays, a pupil is where it is i
       CAPTURE(turn);
       CAPTURE(ghost.i);
       CAPTURE(ghost.j);
-      const OpticalPath path = ghost_path(lens, ghost, 550.0);
-      const auto half = find_ghost_pupil(path, tables, LightFrame(source, true), window);
-      const auto all = find_ghost_pupil(path, tables, LightFrame(source, false), window);
+      const auto half = find_ghost_pupil(steps, ghost, LightFrame(source, true), window);
+      const auto all = find_ghost_pupil(steps, ghost, LightFrame(source, false), window);
       REQUIRE(half.has_value() == all.has_value());
       if (!half || !half->is_open || !all->is_open) continue;
       ++found;

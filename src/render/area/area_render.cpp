@@ -1,12 +1,14 @@
 #include "render/area/area_render.h"
 
 #include <algorithm>
+#include <map>
 #include <utility>
 #include <vector>
 
 #include "base/clock.h"
 #include "base/memory.h"
 #include "base/tasks.h"
+#include "optics/trace/lens_steps.h"
 #include "render/area/blur_classes.h"
 #include "render/area/convolve.h"
 #include "render/area/kernel.h"
@@ -115,11 +117,15 @@ std::vector<Drawing> drawings_of(const FramePlan& plan, const std::vector<LightP
   for (std::vector<GhostMotion>& one : motions) one.resize(plan.ghosts.size());
   std::vector<LightWindows> windows;
   for (const PlannedLight& light : plan.lights) windows.emplace_back(lens, light.source);
+  std::map<double, LensSteps> steps;
+  for (const PlannedLight& light : plan.lights)
+    if (!light.passes.empty())
+      steps.try_emplace(middle_wavelength(light), lens, *plan.tables.at(middle_wavelength(light)));
   parallel_for(pieces.size() * plan.ghosts.size(), context, [&](std::size_t k) {
     const std::size_t p = k / plan.ghosts.size(), g = k % plan.ghosts.size();
     if (pieces[p].samples.empty() || plan.lights[p].passes.empty()) return;
-    motions[p][g] = ghost_motion(lens, plan.ghosts[g], plan.lights[p].source, windows[p],
-                                 *plan.tables.at(middle_wavelength(plan.lights[p])));
+    motions[p][g] =
+        ghost_motion(steps.at(middle_wavelength(plan.lights[p])), plan.ghosts[g], plan.lights[p].source, windows[p]);
   });
   std::vector<Drawing> drawings;
   Drawing points{plan.ghosts, {}, nullptr, 0, kNowhere, 1.0, 0.0};

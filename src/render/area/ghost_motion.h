@@ -2,7 +2,7 @@
 #pragma once
 
 #include "contrejour/light_source.h"
-#include "optics/trace/packet_trace.h"
+#include "optics/trace/lens_steps.h"
 #include "render/area/linear_map.h"
 #include "render/interface/light_frame.h"
 
@@ -17,8 +17,8 @@ struct GhostMotion {
   double density = 0.0;  // the irradiance there over the light's; 0: no ray was found that gets through, or nearly
 };
 
-// At the wavelength of the tables. windows: of the light.
-[[nodiscard]] GhostMotion ghost_motion(const LensState& lens, Ghost ghost, const LightSource& source,
-                                       const LightWindows& windows, const ReflectanceTables& tables);
+// At the wavelength of the steps. windows: of the light.
+[[nodiscard]] GhostMotion ghost_motion(const LensSteps& steps, Ghost ghost, const LightSource& source,
+                                       const LightWindows& windows);
 
 }  // namespace contrejour::area

@@ -30,8 +30,8 @@ float length(float x, float y) { return std::sqrt(x * x + y * y); }
 // In the light's own frame. Where that is symmetric and the box is, half of the rays tell of the others.
 class Grid {
  public:
-  Grid(const OpticalPath& path, const ReflectanceTables& tables, const LightFrame& light, const EntranceWindow& window)
-      : path_(path, tables, {{0.0, 0.0, window.z_mm}, light.source}), symmetric_(light.symmetric),
+  Grid(const LensSteps& steps, const Ghost& ghost, const LightFrame& light, const EntranceWindow& window)
+      : path_(steps, ghost, {{0.0, 0.0, window.z_mm}, light.source}), symmetric_(light.symmetric),
         box_{window.min_mm, window.max_mm} {}
 
   void trace(const Box& box) {
@@ -180,9 +180,9 @@ GhostPupil in_place(GhostPupil pupil, const LightFrame& light) {
 
 }  // namespace
 
-std::optional<GhostPupil> find_ghost_pupil(const OpticalPath& path, const ReflectanceTables& tables,
-                                           const LightFrame& light, const EntranceWindow& window) {
-  Grid grid(path, tables, light, window);
+std::optional<GhostPupil> find_ghost_pupil(const LensSteps& steps, const Ghost& ghost, const LightFrame& light,
+                                           const EntranceWindow& window) {
+  Grid grid(steps, ghost, light, window);
   std::optional<Box> box = grid.box();
   int open = 0;
   for (int k = 0; k < kMostGrids && box && open < kEnough; ++k) {

@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "optics/trace/packet_trace.h"
+#include "optics/trace/lens_steps.h"
 #include "render/area/linear_map.h"
 #include "render/interface/light_frame.h"
 
@@ -27,9 +27,9 @@ struct GhostPupil {
   [[nodiscard]] bool is_whole() const { return is_open && bound != kRims && bound_share > 0.85; }
 };
 
-// None where no ray gets through, nor nearly. The iris counts as its circumscribed circle. Light, path and window are
-// those of the light's frame, the pupil is in place.
-[[nodiscard]] std::optional<GhostPupil> find_ghost_pupil(const OpticalPath& path, const ReflectanceTables& tables,
+// At the wavelength of the steps. None where no ray gets through, nor nearly. The iris counts as its circumscribed
+// circle. The window is that of the light's frame, the pupil is in place.
+[[nodiscard]] std::optional<GhostPupil> find_ghost_pupil(const LensSteps& steps, const Ghost& ghost,
                                                          const LightFrame& light, const EntranceWindow& window);
 
 }  // namespace contrejour::area
