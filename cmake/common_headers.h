@@ -1,5 +1,5 @@
-// What most files include of other projects, read once for all of them in sanitized builds: CommonHeaders.cmake. Nothing
-// of our own, so that no change here compiles everything anew.
+// What most files include of other projects, read once for all of them in sanitized builds: CommonHeaders.cmake.
+// Nothing of our own, so that no change here compiles everything anew.
 #include <algorithm>
 #include <array>
 #include <atomic>

@@ -44,7 +44,8 @@ std::string report_text(const FlarePlan& plan) {
     const DetectedLight& area = plan.found.lights[k];
     const LightAngles angles = angles_from_direction(plan.lights[k].direction);
     table.add({fmt::format("{}", k + 1), fmt::format("{:.1f}", area.centroid_px.x),
-               fmt::format("{:.1f}", area.centroid_px.y), fmt::format("{:.3f}", angles.azimuth_rad / params::kDegree_rad),
+               fmt::format("{:.1f}", area.centroid_px.y),
+               fmt::format("{:.3f}", angles.azimuth_rad / params::kDegree_rad),
                fmt::format("{:.3f}", angles.elevation_rad / params::kDegree_rad), fmt::format("{:.4g}", area.flux[0]),
                fmt::format("{:.4g}", area.flux[1]), fmt::format("{:.4g}", area.flux[2]),
                fmt::format("{:.2f}", area.rms_radius_px), fmt::format("{}", area.pixel_count),

@@ -6,10 +6,11 @@ namespace contrejour::cli {
 void add_lens(CLI::App& app, Action& action) {
   CLI::App* lens = app.add_subcommand("lens", "list, describe, draw, trace, check and convert lenses");
   lens->require_subcommand(1);
-  lens->footer("Examples:\n"
-               "  contrejour lens list\n"
-               "  contrejour lens info canon-70-200 --focal 135\n"
-               "  contrejour lens draw heliar -o heliar.svg --ghost 2,5");
+  lens->footer(
+      "Examples:\n"
+      "  contrejour lens list\n"
+      "  contrejour lens info canon-70-200 --focal 135\n"
+      "  contrejour lens draw heliar -o heliar.svg --ghost 2,5");
   add_lens_list(*lens, action);
   add_lens_info(*lens, action);
   add_lens_draw(*lens, action);

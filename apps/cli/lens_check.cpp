@@ -79,7 +79,8 @@ Json verdict_json(const Verdict& v) {
 std::string optional_text(const std::optional<double>& value) { return value ? fmt::format("{:.3f}", *value) : "-"; }
 
 std::string verdicts_text(const std::vector<Verdict>& verdicts) {
-  TextTable table({"<lens", "<verdict", "surfaces", "stop", "focal mm", "stated", "back focus mm", "stated", "warnings"});
+  TextTable table(
+      {"<lens", "<verdict", "surfaces", "stop", "focal mm", "stated", "back focus mm", "stated", "warnings"});
   for (const Verdict& v : verdicts) {
     if (v.refused) {
       table.add({v.file, "refused"});
@@ -127,10 +128,11 @@ void add_lens_check(CLI::App& lens, Action& action) {
   command->add_option("FILE", options->files, "lens files or names (default: all that come with the program)")
       ->option_text("...");
   command->add_flag("--json", options->json, "as JSON");
-  command->footer("Ends with 1 if any is refused.\n\n"
-                  "Examples:\n"
-                  "  contrejour lens check my-lens.toml other.toml\n"
-                  "  contrejour lens check");
+  command->footer(
+      "Ends with 1 if any is refused.\n\n"
+      "Examples:\n"
+      "  contrejour lens check my-lens.toml other.toml\n"
+      "  contrejour lens check");
   command->callback([options, &action] { action = [options] { return run_check(*options); }; });
 }
 

@@ -16,7 +16,8 @@ namespace contrejour::cli {
 namespace {
 
 constexpr const char* kExamples =
-    "Without a ghost: the rays that image the axis and the corner of the field. With one: the light's rays to its image\n"
+    "Without a ghost: the rays that image the axis and the corner of the field. With one: the light's rays to its "
+    "image\n"
     "and, in another colour, those the ghost's path lets through (dashed, if none gets through). The section lies in\n"
     "the plane of the light.\n\n"
     "Examples:\n"

@@ -71,12 +71,14 @@ void add_lens_parameters(CLI::App& command, params::Values& values) {
   add_parameters(command, values, {"tilt", "decentre", "build-seed", "absorption"});
   add_parameters(command, values,
                  {"cover-glass", "sensor-reflectance", "sensor-orders", "sensor-pitch", "sensor-fill"});
-  add_parameters(command, values, {"dust", "dust-size", "scratches", "scratch-length", "scratch-width", "scratch-angle"});
+  add_parameters(command, values,
+                 {"dust", "dust-size", "scratches", "scratch-length", "scratch-width", "scratch-angle"});
   add_parameters(command, values, {"scratch-spread", "dirt-image", "dirt-on", "dirt-seed", "dirt-time"});
 }
 
 void add_rendering_parameters(CLI::App& command, params::Values& values) {
-  add_parameters(command, values, {"method", "device", "wavelengths", "colour-space", "ghosts", "reflections", "select", "threads"});
+  add_parameters(command, values,
+                 {"method", "device", "wavelengths", "colour-space", "ghosts", "reflections", "select", "threads"});
   add_parameters(command, values, {"grid", "scale-grid"});
   add_parameters(command, values,
                  {"grid-levels", "mirror", "pupil-table", "spectral-filter", "flat-shading", "anisotropic"});

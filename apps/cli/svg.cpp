@@ -55,17 +55,19 @@ void Svg::text(Vec2 place, const std::string& words, const std::string& style) {
 
 void Svg::begin_clip(Vec2 corner, Vec2 size) {
   ++clips_;
-  body_ += fmt::format("<clipPath id=\"clip{}\"><rect x=\"{:.2f}\" y=\"{:.2f}\" width=\"{:.2f}\" height=\"{:.2f}\"/>"
-                       "</clipPath>\n<g clip-path=\"url(#clip{})\">\n",
-                       clips_, corner.x, corner.y, size.x, size.y, clips_);
+  body_ += fmt::format(
+      "<clipPath id=\"clip{}\"><rect x=\"{:.2f}\" y=\"{:.2f}\" width=\"{:.2f}\" height=\"{:.2f}\"/>"
+      "</clipPath>\n<g clip-path=\"url(#clip{})\">\n",
+      clips_, corner.x, corner.y, size.x, size.y, clips_);
 }
 
 void Svg::end_clip() { body_ += "</g>\n"; }
 
 std::string Svg::finish() const {
-  return fmt::format("<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0:.0f}\" height=\"{1:.0f}\" "
-                     "viewBox=\"0 0 {0:.0f} {1:.0f}\" font-family=\"Helvetica, Arial, sans-serif\">\n{2}</svg>\n",
-                     width_, height_, body_);
+  return fmt::format(
+      "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0:.0f}\" height=\"{1:.0f}\" "
+      "viewBox=\"0 0 {0:.0f} {1:.0f}\" font-family=\"Helvetica, Arial, sans-serif\">\n{2}</svg>\n",
+      width_, height_, body_);
 }
 
 }  // namespace contrejour::cli

@@ -7,8 +7,8 @@
 #include <system_error>
 #include <utility>
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include "contrejour/image_io.h"
 #include "contrejour/lens.h"

@@ -20,8 +20,8 @@ Rgb pixel(const StreetScene& scene, const StreetSettings& settings, int x, int y
   for (int k = 0; k < kSamples * kSamples; ++k) {
     const double px = x + (k % kSamples + hash01(x, y, 2 * k)) / kSamples;
     const double py = y + (k / kSamples + hash01(x, y, 2 * k + 1)) / kSamples;
-    const Vec3 direction = normalized({(px - 0.5 * settings.width) * scale + 1e-9,
-                                       ((0.5 + kHorizonDown) * settings.height - py) * scale, 1.0});
+    const Vec3 direction = normalized(
+        {(px - 0.5 * settings.width) * scale + 1e-9, ((0.5 + kHorizonDown) * settings.height - py) * scale, 1.0});
     const Rgb seen = scene.radiance({0.5, kEye_m, 0.0}, direction);
     for (std::size_t c = 0; c < sum.size(); ++c) sum[c] += seen[c] / (kSamples * kSamples);
   }

@@ -102,7 +102,8 @@ Rgb StreetScene::wall(Vec3 place, double side) const {
   }
   const double stone = 0.05 + 0.05 * hash01(static_cast<std::int64_t>(std::floor(place.z / kHouse_m)), where, 3);
   const double grain = 0.92 + 0.08 * std::sin(1.7 * place.y + 2.0 * std::sin(0.9 * place.z));
-  const Rgb albedo = in_window ? Rgb{0.02, 0.02, 0.025} : Rgb{stone * grain, 0.92 * stone * grain, 0.80 * stone * grain};
+  const Rgb albedo =
+      in_window ? Rgb{0.02, 0.02, 0.025} : Rgb{stone * grain, 0.92 * stone * grain, 0.80 * stone * grain};
   return albedo * (lamp_light(place, {-side, 0.0, 0.0}) + Rgb{0.012, 0.014, 0.022});
 }
 

@@ -113,7 +113,8 @@ Result<FlarePlan> plan_flare(const Picture& picture, const LensState& lens, cons
     fewer_merged.max_lights = std::max(detection.max_lights, kMostImages);
     const auto apart = detect_lights(picture.rgb, fewer_merged);
     if (!apart) return tl::unexpected(apart.error());
-    plan.imaged_lights = std::make_shared<const std::vector<Light>>(lights_of(*apart, *spectrum, picture, plan, lens, values));
+    plan.imaged_lights =
+        std::make_shared<const std::vector<Light>>(lights_of(*apart, *spectrum, picture, plan, lens, values));
   }
   return plan;
 }

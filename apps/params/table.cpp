@@ -43,6 +43,7 @@ Result<void> check_exposure(std::string_view text) {
 
 constexpr double kBig = 1e12;
 
+// clang-format off: a parameter in two or three lines, its help in the last.
 const Parameter kTable[] = {
     {.name = "focal", .group = "Lens", .kind = Kind::Real, .unit = "mm", .minimum = 0.01, .maximum = 1e5,
      .help = "focal length of a zoom (default: its shortest)"},
@@ -245,6 +246,7 @@ const Parameter kTable[] = {
     {.name = "wavelength", .group = "Lens", .kind = Kind::Real, .unit = "nm", .minimum = 300, .maximum = 1100,
      .help = "wavelength (default: the lens's design wavelength)", .scene = true},
 };
+// clang-format on
 
 }  // namespace
 

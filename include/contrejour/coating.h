@@ -102,12 +102,11 @@ enum class FilmOrder { AsListed, Reversed };
                                          FilmOrder order = FilmOrder::AsListed);
 
 // Power reflectance of a coated surface for unpolarised light that comes from n_in at cos_in (0..1);
-// 1 under total reflection. T = 1 - R for lossless films. A DesignedCoating is worked out at every call: place it first.
-[[nodiscard]] double reflectance(const Coating& coating, double n_in, double n_out, double cos_in,
-                                 double lambda_nm);
+// 1 under total reflection. T = 1 - R for lossless films. A DesignedCoating is worked out at every call: place it
+// first.
+[[nodiscard]] double reflectance(const Coating& coating, double n_in, double n_out, double cos_in, double lambda_nm);
 
 // Unpolarised transmittance: 1 - R unless a film absorbs.
-[[nodiscard]] double transmittance(const Coating& coating, double n_in, double n_out, double cos_in,
-                                   double lambda_nm);
+[[nodiscard]] double transmittance(const Coating& coating, double n_in, double n_out, double cos_in, double lambda_nm);
 
 }  // namespace contrejour

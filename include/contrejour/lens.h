@@ -111,11 +111,11 @@ struct SensorPlate {
 // What light meets behind the lens. The plates lengthen the way to the focus, and the sensor moves with it.
 struct SensorStack {
   std::vector<SensorPlate> plates;  // from the lens to the sensor
-  double reflectance = 0.0;         // of the sensor's whole area, at all angles and wavelengths; 0: light ends there
+  double reflectance = 0.0;  // of the sensor's whole area, at all angles and wavelengths; 0: light ends there
   // Its pixels as a grating of reflecting squares: orders up to this number in x and in y, each a ghost of its own.
   int orders = 0;
   double pitch_mm = 0.005;  // of the grating
-  double fill = 0.8;        // side of a square over the pitch
+  double fill = 0.8;  // side of a square over the pitch
 
   static constexpr int kMostOrders = 20;
   static constexpr std::size_t kMostPlates = 10;
@@ -190,8 +190,8 @@ struct LensState {
 [[nodiscard]] Result<void> validate(const Prescription& lens);
 
 // Sets zoom (any focal length within the range), stop and focus. Errors: focal length or f-number out of
-// range, object inside the front focal point, a sensor stack that the lens leaves no room for, an iris that lets nothing through, an iris or dirt that has numbers out
-// of its range.
+// range, object inside the front focal point, a sensor stack that the lens leaves no room for, an iris that lets
+// nothing through, an iris or dirt that has numbers out of its range.
 [[nodiscard]] Result<LensState> lens_at(const Prescription& lens, const LensSettings& settings = {});
 
 // Reads a lens in any format that is known, by content and extension. Bounded in memory and time. Glasses that the file

@@ -1,5 +1,5 @@
-// A light, as a renderer takes it: distant, or at a finite distance in front of the lens; a point, a disc, or a shape of
-// its own.
+// A light, as a renderer takes it: distant, or at a finite distance in front of the lens; a point, a disc, or a shape
+// of its own.
 #pragma once
 
 #include <limits>

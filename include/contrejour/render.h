@@ -57,8 +57,8 @@ struct StarburstOptions {
   // Where a photograph holds the lights' own images already: a share from 0 to 1 a pixel that is left out of starburst
   // and glare, one channel, as large as the frame. Null: nothing is left out.
   std::shared_ptr<const Image> left_out = nullptr;
-  // Whose images are drawn, with starburst and glare, where these are not the lights that the ghosts are of: lights that
-  // were merged for the ghosts' sake keep their images apart. Null: the same.
+  // Whose images are drawn, with starburst and glare, where these are not the lights that the ghosts are of: lights
+  // that were merged for the ghosts' sake keep their images apart. Null: the same.
   std::shared_ptr<const std::vector<Light>> lights = nullptr;
 };
 
@@ -85,10 +85,10 @@ struct GhostRampStop {
 };
 
 struct GhostOptions {
-  double gain = 1.0;       // of all ghosts
+  double gain = 1.0;  // of all ghosts
   double edge_gain = 1.0;  // and this when the light is at the frame's corner, in proportion nearer to the middle
   std::vector<GhostAdjustment> adjustments;  // those of one ghost add up
-  std::vector<GhostRampStop> ramp;           // places rising
+  std::vector<GhostRampStop> ramp;  // places rising
   // hullin2011 4.2, imperfect symmetry: each ghost is set off by its own random way, normally distributed with this
   // root mean square, of the frame's height.
   double scatter = 0.0;
@@ -99,7 +99,7 @@ struct GhostOptions {
 enum class RingingMode {
   None,
   Fresnel,  // each ghost's own fringes, from how far out of focus it is
-  Hullin,   // hullin2011 eq. 5: one pattern for all ghosts, by experience
+  Hullin,  // hullin2011 eq. 5: one pattern for all ghosts, by experience
 };
 class RingingPatterns;
 struct RingingOptions {
@@ -117,11 +117,11 @@ struct RenderSettings {
   ColourSpace colour_space = ColourSpace::Rec709;
   std::vector<double> lambda_nm;  // instead of bands: these wavelengths, equal weights, for tests and tables
 
-  int grid = 256;                // `bundle`, `tiled`: rays along each side of a ghost's grid, 16 to 512
-  bool scale_grid = false;       // `bundle`, `tiled`: fewer rays for small ghosts, bodonyi2023 eq. 13
+  int grid = 256;  // `bundle`, `tiled`: rays along each side of a ghost's grid, 16 to 512
+  bool scale_grid = false;  // `bundle`, `tiled`: fewer rays for small ghosts, bodonyi2023 eq. 13
   BundleOptions bundle;
   TiledOptions tiled;
-  double error = 0.003;          // `adaptive`: RMS error to stay below, over the frame's peak; 1e-4 to 0.1
+  double error = 0.003;  // `adaptive`: RMS error to stay below, over the frame's peak; 1e-4 to 0.1
   double reference_density = 1;  // `reference`: 2 halves the cells
   StarburstOptions starburst;
   GlareOptions glare;
@@ -144,9 +144,9 @@ struct RenderStatistics {
 
   // `tiled`; `primitives` counts them before merging.
   std::uint64_t primitives_merged = 0;  // what merging leaves
-  std::uint64_t tile_indices = 0;       // entries of all dense tiles' lists
-  std::uint64_t primitive_bytes = 0;    // of the primitives held at once
-  std::uint64_t tile_list_bytes = 0;    // of the dense tiles' lists held at once
+  std::uint64_t tile_indices = 0;  // entries of all dense tiles' lists
+  std::uint64_t primitive_bytes = 0;  // of the primitives held at once
+  std::uint64_t tile_list_bytes = 0;  // of the dense tiles' lists held at once
 };
 
 struct Flare {

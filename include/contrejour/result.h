@@ -37,8 +37,7 @@ struct Error {
 template <class T>
 using Result = tl::expected<T, Error>;
 
-[[nodiscard]] inline tl::unexpected<Error> failure(ErrorCode code, std::string message,
-                                                   SourcePlace place = {}) {
+[[nodiscard]] inline tl::unexpected<Error> failure(ErrorCode code, std::string message, SourcePlace place = {}) {
   return tl::unexpected<Error>(Error{code, std::move(message), std::move(place)});
 }
 

@@ -80,7 +80,7 @@ struct TracedRay {
   Vec3 direction;
   double transmission = 0;  // product of R and T along the path
   double r_rel = 0;         // largest distance from the axis over clear semi-diameter; > 1 is blocked
-  double obscured = -1;     // how deep the ray passes within an obscuration, over its radius, at most; > 0 is blocked
+  double obscured = -1;  // how deep the ray passes within an obscuration, over its radius, at most; > 0 is blocked
   // Stop coordinates over the stop radius at each crossing; iris_distance() of each must be <= 0.
   std::array<Vec2, kMaxStopCrossings> stop{};
 };

@@ -62,9 +62,8 @@ class ProgressReport {
 template <class Body>
 void run_in_arena(int threads, Body body) {
   if (threads == core_count()) return oneapi::tbb::this_task_arena::isolate(body);
-  const oneapi::tbb::global_control limit(
-      oneapi::tbb::global_control::max_allowed_parallelism,
-      static_cast<std::size_t>(std::max(threads, core_count())));
+  const oneapi::tbb::global_control limit(oneapi::tbb::global_control::max_allowed_parallelism,
+                                          static_cast<std::size_t>(std::max(threads, core_count())));
   oneapi::tbb::task_arena arena(threads);
   arena.execute(body);
 }
@@ -103,21 +102,20 @@ bool detail::ordered_pipeline_erased(std::size_t count, const Context& context,
   char started = 0;
   char consumed = 0;
   hand_over(&started);
-  const auto take = tbb::make_filter<void, std::size_t>(
-      tbb::filter_mode::serial_in_order, [&](tbb::flow_control& flow) -> std::size_t {
-        if (next >= count || context.cancelled()) {
-          flow.stop();
-          return 0;
-        }
-        return next++;
-      });
-  const auto work = tbb::make_filter<std::size_t, Item>(
-      tbb::filter_mode::parallel, [&](std::size_t i) {
-        take_over(&started);
-        Item item{i, produce(i)};
-        hand_over(item.product.get());
-        return item;
-      });
+  const auto take = tbb::make_filter<void, std::size_t>(tbb::filter_mode::serial_in_order,
+                                                        [&](tbb::flow_control& flow) -> std::size_t {
+                                                          if (next >= count || context.cancelled()) {
+                                                            flow.stop();
+                                                            return 0;
+                                                          }
+                                                          return next++;
+                                                        });
+  const auto work = tbb::make_filter<std::size_t, Item>(tbb::filter_mode::parallel, [&](std::size_t i) {
+    take_over(&started);
+    Item item{i, produce(i)};
+    hand_over(item.product.get());
+    return item;
+  });
   const auto give = tbb::make_filter<Item, void>(tbb::filter_mode::serial_in_order, [&](const Item& item) {
     take_over(item.product.get());
     if (!context.cancelled()) {
@@ -127,9 +125,7 @@ bool detail::ordered_pipeline_erased(std::size_t count, const Context& context,
     }
     hand_over(&consumed);  // a product that nobody wants, too: the caller frees what it was made with
   });
-  run_in_arena(threads, [&] {
-    tbb::parallel_pipeline(2 * static_cast<std::size_t>(threads), take & work & give);
-  });
+  run_in_arena(threads, [&] { tbb::parallel_pipeline(2 * static_cast<std::size_t>(threads), take & work & give); });
   take_over(&consumed);
   return !context.cancelled();
 }

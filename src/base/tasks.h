@@ -28,8 +28,7 @@ template <class Produce, class Consume>
 bool ordered_pipeline(std::size_t count, const Context& context, Produce produce, Consume consume) {
   using Product = decltype(produce(std::size_t{}));
   return detail::ordered_pipeline_erased(
-      count, context,
-      [&](std::size_t i) -> std::shared_ptr<void> { return std::make_shared<Product>(produce(i)); },
+      count, context, [&](std::size_t i) -> std::shared_ptr<void> { return std::make_shared<Product>(produce(i)); },
       [&](std::size_t i, void* product) { consume(i, *static_cast<Product*>(product)); });
 }
 

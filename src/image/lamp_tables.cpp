@@ -1,7 +1,10 @@
-// Lamps as the CIE tabulates them, re-typed; nothing here is computed. Their chromaticities are tested against the CIE's.
+// Lamps as the CIE tabulates them, re-typed; nothing here is computed. Their chromaticities are tested against the
+// CIE's.
 #include "image/lamp_tables.h"
 
 namespace contrejour::cie {
+
+// clang-format off: rows of twelve, as they are printed.
 
 // LED of a blue chip and phosphor, about 4100 K: illuminant LED-B3, CIE 15:2018 table 12.1.
 const std::array<double, kLampCount> kLedB3 = {
@@ -46,5 +49,6 @@ const std::array<double, kLampCount> kFluorescentFl11 = {
     1.46, 1.94, 2.0, 1.2, 1.35, 4.1, 5.58, 2.51, 0.57, 0.27, 0.23, 0.21,
     0.24, 0.24, 0.2, 0.24, 0.32, 0.26, 0.16, 0.12, 0.09,
 };
+// clang-format on
 
 }  // namespace contrejour::cie

@@ -50,8 +50,7 @@ TEST_CASE("loops over nothing succeed and call nothing") {
   Context context = with_threads(2);
   context.progress = [&](double) { ++calls; };
   CHECK(parallel_for(0, context, [&](std::size_t) { ++calls; }));
-  CHECK(ordered_pipeline(
-      0, context, [&](std::size_t i) { return i; }, [&](std::size_t, std::size_t) { ++calls; }));
+  CHECK(ordered_pipeline(0, context, [&](std::size_t i) { return i; }, [&](std::size_t, std::size_t) { ++calls; }));
   CHECK(calls == 0);
 }
 
@@ -222,9 +221,8 @@ TEST_CASE("cancelling half way stops soon and says so") {
 
 TEST_CASE("loops may nest") {
   std::atomic<int> visits = 0;
-  CHECK(parallel_for(8, with_threads(2), [&](std::size_t) {
-    parallel_for(16, with_threads(2), [&](std::size_t) { ++visits; });
-  }));
+  CHECK(parallel_for(8, with_threads(2),
+                     [&](std::size_t) { parallel_for(16, with_threads(2), [&](std::size_t) { ++visits; }); }));
   CHECK(visits == 128);
 }
 

@@ -9,8 +9,8 @@
 
 #include "contrejour/ghost.h"
 #include "contrejour/lens.h"
-#include "render/bundle/cell_raster.h"
 #include "ghosts/pupil_search.h"
+#include "render/bundle/cell_raster.h"
 #include "render/reference/flux_image.h"
 #include "render/reference/pupil_cells.h"
 

@@ -30,7 +30,7 @@ int main() {
     return 1;
   }
   const double flux = std::accumulate(flare->image.pixels.begin(), flare->image.pixels.end(), 0.0);
-  std::printf("%s: %d ghosts, flux %.6g of a light of 2700\n", lens->name.c_str(),
-              flare->statistics.ghosts_rendered, flux);
+  std::printf("%s: %d ghosts, flux %.6g of a light of 2700\n", lens->name.c_str(), flare->statistics.ghosts_rendered,
+              flux);
   return flux > 0 ? 0 : 1;
 }

@@ -18,7 +18,8 @@ constexpr double kWidest = 0.0;
 LensState heliar(double f_number, const Iris& iris, IrisClosing closing) {
   const auto lens = find_lens("heliar");
   REQUIRE(lens.has_value());
-  const auto state = lens_at(*lens, {.f_number = f_number > 0.0 ? f_number : lens->f_number, .iris = iris, .iris_closing = closing});
+  const auto state =
+      lens_at(*lens, {.f_number = f_number > 0.0 ? f_number : lens->f_number, .iris = iris, .iris_closing = closing});
   REQUIRE(state.has_value());
   return *state;
 }

@@ -9,8 +9,8 @@
 
 #include "contrejour/first_order.h"
 #include "contrejour/trace.h"
-#include "support/csv_lens.h"
 #include "shared_data.h"
+#include "support/csv_lens.h"
 
 using namespace contrejour;
 

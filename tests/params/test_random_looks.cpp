@@ -29,8 +29,11 @@ const std::map<std::string_view, Words> kTexts = {
     {"ghost", {"2-5:gain=0.5", "1-2:colour=1,0,0.5,offset=0.1,-0.2", "2-3:offset=3,0"}},
     {"ghost-ramp", {"0:1,0.5,0.2", "-1:1,0.5,0/0:1,1,1/1:0,0,2"}},
 };
-const std::map<std::string_view, std::pair<double, double>> kNarrowed = {
-    {"grid", {16, 32}}, {"wavelengths", {1, 3}}, {"density", {0.05, 0.1}}, {"fnumber", {3.0, 64}}, {"sensor-orders", {0, 1}}};
+const std::map<std::string_view, std::pair<double, double>> kNarrowed = {{"grid", {16, 32}},
+                                                                         {"wavelengths", {1, 3}},
+                                                                         {"density", {0.05, 0.1}},
+                                                                         {"fnumber", {3.0, 64}},
+                                                                         {"sensor-orders", {0, 1}}};
 
 // Without symmetry a search for pupils takes most of a look's time; how often such settings are left out.
 const std::map<std::string_view, double> kDear = {

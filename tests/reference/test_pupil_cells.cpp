@@ -154,7 +154,8 @@ TEST_CASE("every ghost of a zoom at a small stop carries the flux that counted r
   check_every_ghost(test::bundled("itoh-zoom", {.focal_length_mm = 123.0, .f_number = 32.0}), {0.70, 0.33}, 1);
 }
 
-TEST_CASE("ghosts of a lens that is obscured in front, askew on glass and at the stop carry the flux that counted rays do") {
+TEST_CASE(
+    "ghosts of a lens that is obscured in front, askew on glass and at the stop carry the flux that counted rays do") {
   LensState lens = test::bundled("heliar", {.f_number = 6.0});
   SurfaceState &front = lens.surfaces.front(), &rear = lens.surfaces.back();
   SurfaceState& stop = lens.surfaces[static_cast<std::size_t>(lens.stop_index)];

@@ -59,13 +59,12 @@ TEST_CASE("rims that are an ellipse and a turned rectangle, as in the reference,
   check_all(*lens, {0.66, 0.37});
 }
 
-TEST_CASE("obscurations on the front, askew on glass and before the stop, as in the reference, and unlike open surfaces") {
+TEST_CASE(
+    "obscurations on the front, askew on glass and before the stop, as in the reference, and unlike open surfaces") {
   auto tessar = find_lens("tessar");
   REQUIRE(tessar.has_value());
   const double front_mm = tessar->surfaces.front().semi_diameter_mm, rear_mm = tessar->surfaces.back().semi_diameter_mm;
-  SUBCASE("centred") {
-    tessar->surfaces.front().obscuration = {{0.3 * front_mm, 0.3 * front_mm}, {}, 0.0};
-  }
+  SUBCASE("centred") { tessar->surfaces.front().obscuration = {{0.3 * front_mm, 0.3 * front_mm}, {}, 0.0}; }
   SUBCASE("askew, and of more than one surface") {
     tessar->surfaces.front().obscuration = {{0.25 * front_mm, 0.2 * front_mm}, {0.1 * front_mm, 0.0}, 0.5};
     tessar->surfaces.back().obscuration = {{0.2 * rear_mm, 0.2 * rear_mm}, {}, 0.0};

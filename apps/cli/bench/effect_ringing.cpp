@@ -33,20 +33,20 @@ Result<std::vector<Target>> rows_of(const EffectScene& scene) {
   if (!new_ms) return tl::unexpected(new_ms.error());
   const auto cost = cost_in_turns(scene, {scene.render, light}, {ringing, light});
   if (!cost) return tl::unexpected(cost.error());
-  return std::vector<Target>{Target{.name = "frame, rims ringing / sharp",
-                                    .system = scene.lens.name,
-                                    .value = cost->ratio(),
-                                    .must = kFrame,
-                                    .aim = kFrame,
-                                    .note = cost_text(scene, *cost)},
-                             Target{.name = "first frame, ringing of a new iris",
-                                    .system = scene.lens.name,
-                                    .value = *new_ms,
-                                    .must = kPatterns_ms,
-                                    .aim = kPatterns_ms,
-                                    .unit = "ms",
-                                    .note = fmt::format("f/{:g}, {} patterns", scene.lens.f_number,
-                                                        ringing.ringing.patterns->count())}};
+  return std::vector<Target>{
+      Target{.name = "frame, rims ringing / sharp",
+             .system = scene.lens.name,
+             .value = cost->ratio(),
+             .must = kFrame,
+             .aim = kFrame,
+             .note = cost_text(scene, *cost)},
+      Target{.name = "first frame, ringing of a new iris",
+             .system = scene.lens.name,
+             .value = *new_ms,
+             .must = kPatterns_ms,
+             .aim = kPatterns_ms,
+             .unit = "ms",
+             .note = fmt::format("f/{:g}, {} patterns", scene.lens.f_number, ringing.ringing.patterns->count())}};
 }
 
 }  // namespace

@@ -70,7 +70,8 @@ std::vector<SurfaceState> place_surfaces(const Prescription& lens, const std::ve
     const Glass after = s.kind == SurfaceKind::Stop ? medium : s.glass_after;
     const bool replaces = coating && s.kind == SurfaceKind::Refracting && is_air(medium) != is_air(after);
     out.push_back({s.kind, z, s.curvature_per_mm, s.semi_diameter_mm, medium, after,
-                   coatings.place(replaces ? *coating : s.coating, medium, after), s.pose, s.shape, s.aperture, s.obscuration});
+                   coatings.place(replaces ? *coating : s.coating, medium, after), s.pose, s.shape, s.aperture,
+                   s.obscuration});
     medium = after;
     z += thickness[k];
   }

@@ -1,7 +1,7 @@
-// How clear of everything that blocks rays run along one path, but for obscurations, for searches: no sensor points, no transmissions, but
-// where and by how much a ray fails, which tells the way to where rays do not.
-// Accuracy for rays that come near to getting through: 1e-3 of the clear radius in float (typically 1e-5), 1e-5 in
-// double; what is found ought to be traced again.
+// How clear of everything that blocks rays run along one path, but for obscurations, for searches: no sensor points, no
+// transmissions, but where and by how much a ray fails, which tells the way to where rays do not. Accuracy for rays
+// that come near to getting through: 1e-3 of the clear radius in float (typically 1e-5), 1e-5 in double; what is found
+// ought to be traced again.
 #pragma once
 
 #include <array>

@@ -57,8 +57,8 @@ float roughest_second_difference(const Kernel& kernel, double unseen) {
   constexpr double kBeside = 1e-6;
   Rgb sum{}, x{}, y{}, squares{};
   for (std::size_t k = 0; k < kernel.weight.size(); ++k) {
-    const double dx = static_cast<double>(k % static_cast<std::size_t>(kernel.width())) - kernel.reach.left;
-    const double dy = static_cast<double>(k / static_cast<std::size_t>(kernel.width())) - kernel.reach.up;
+    const int column = static_cast<int>(k) % kernel.width(), row = static_cast<int>(k) / kernel.width();
+    const double dx = column - kernel.reach.left, dy = row - kernel.reach.up;
     for (std::size_t c = 0; c < 3; ++c) {
       const double w = kernel.weight[k][c];
       sum[c] += w;

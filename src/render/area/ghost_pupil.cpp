@@ -69,7 +69,8 @@ class Grid {
   [[nodiscard]] const Box& box() const { return box_; }
   [[nodiscard]] Vec2 cell() const { return cell_; }
   [[nodiscard]] Vec2 start(std::size_t k) const {
-    return box_.low + Vec2{static_cast<double>(k % kSide) * cell_.x, static_cast<double>(k / kSide) * cell_.y};
+    const std::size_t column = k % kSide, row = k / kSide;
+    return box_.low + Vec2{static_cast<double>(column) * cell_.x, static_cast<double>(row) * cell_.y};
   }
   // By how much a ray is outside what it comes closest to, or is blocked by, over that one's radius; and which it is.
   [[nodiscard]] float outside(std::size_t k) const { return outside_[traced(k)]; }

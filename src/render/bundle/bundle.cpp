@@ -58,7 +58,7 @@ std::vector<std::pair<std::string, double>> named(const PhaseTimes& times, const
 }  // namespace
 
 Result<DrawnFlare> render_bundle(const LensState& lens, const FramePlan& plan, const RenderSettings& settings,
-                            const Context& context) {
+                                 const Context& context) {
   PhaseTimes times;
   double total_ms = 0.0;
   const Stopwatch whole(total_ms);

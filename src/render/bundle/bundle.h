@@ -6,7 +6,7 @@ namespace contrejour {
 
 // hullin2011: a uniform grid of rays per ghost, light and wavelength, its cells rasterised with interpolated
 // aperture coordinates and clipping, ghost by ghost.
-[[nodiscard]] Result<DrawnFlare> render_bundle(const LensState& lens, const FramePlan& plan, const RenderSettings& settings,
-                                          const Context& context);
+[[nodiscard]] Result<DrawnFlare> render_bundle(const LensState& lens, const FramePlan& plan,
+                                               const RenderSettings& settings, const Context& context);
 
 }  // namespace contrejour

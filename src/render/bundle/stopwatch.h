@@ -12,9 +12,7 @@ class Stopwatch {
   Stopwatch(const Stopwatch&) = delete;
   Stopwatch& operator=(const Stopwatch&) = delete;
 
-  [[nodiscard]] double elapsed_ms() const {
-    return ms_since(start_);
-  }
+  [[nodiscard]] double elapsed_ms() const { return ms_since(start_); }
 
  private:
   Clock::time_point start_ = Clock::now();

@@ -52,7 +52,7 @@ RenderedItem render_item(const Item& item, const LensState& lens, const RenderSe
 }  // namespace
 
 Result<DrawnFlare> render_reference(const LensState& lens, const FramePlan& plan, const RenderSettings& settings,
-                               const Context& context) {
+                                    const Context& context) {
   const auto start = Clock::now();
   if (!(settings.reference_density > 0.0) || settings.reference_density > 64.0) {
     return failure(ErrorCode::InvalidArgument, "the reference's density is out of range; choose a value up to 64");

@@ -7,6 +7,6 @@ namespace contrejour {
 // The truth in every test: double precision, dense cells with exact footprints, no shortcut that other
 // renderers use.
 [[nodiscard]] Result<DrawnFlare> render_reference(const LensState& lens, const FramePlan& plan,
-                                             const RenderSettings& settings, const Context& context);
+                                                  const RenderSettings& settings, const Context& context);
 
 }  // namespace contrejour

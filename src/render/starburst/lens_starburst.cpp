@@ -43,8 +43,7 @@ Result<Starburst> lens_starburst(const LensState& lens, const LightSource& light
   Context quiet = context;
   quiet.progress = {};
   const LightSource along(normalized(light.direction), light.distance_mm);
-  const auto weighted =
-      transmitted(bands, transmissions(lens, along, pupil->rays_mm, bands, quiet), pupil->open_share);
+  const auto weighted = transmitted(bands, transmissions(lens, along, pupil->rays_mm, bands, quiet), pupil->open_share);
   StarburstSettings scaled = made;
   scaled.pupil_radius_mm = pupil->radius;
   const PupilOutline* const outline = pupil->outline ? &*pupil->outline : nullptr;

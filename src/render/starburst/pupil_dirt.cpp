@@ -57,8 +57,8 @@ std::vector<Vec2> part_within(const std::vector<Vec2>& polygon, const Box& box) 
 
 class PupilDirtPainter {
  public:
-  PupilDirtPainter(const LensState& lens, const LightSource& light, const PupilRays& pupil, const std::vector<std::size_t>& used,
-                   int degree, ExitPupil& out)
+  PupilDirtPainter(const LensState& lens, const LightSource& light, const PupilRays& pupil,
+                   const std::vector<std::size_t>& used, int degree, ExitPupil& out)
       : dirt_(lens.dirt), out_(out), places_(places_of(lens, light, pupil, used)), box_(box_of(places_)),
         cosines_(cosines_of(pupil, used)), to_pupil_(fit(places_, cosines_, degree)), degree_(degree) {
     const std::size_t surface = dirt_.plane == DirtPlane::Front ? 0 : static_cast<std::size_t>(lens.stop_index);
@@ -249,8 +249,8 @@ class PupilDirtPainter {
 
 }  // namespace
 
-void add_dirt(const LensState& lens, const LightSource& light, const PupilRays& pupil, const std::vector<std::size_t>& used,
-              int degree, double power_mm2, ExitPupil& out) {
+void add_dirt(const LensState& lens, const LightSource& light, const PupilRays& pupil,
+              const std::vector<std::size_t>& used, int degree, double power_mm2, ExitPupil& out) {
   if (!lens.dirt.any() || !(power_mm2 > 0.0)) return;
   PupilDirtPainter(lens, light, pupil, used, degree, out).paint(power_mm2);
 }

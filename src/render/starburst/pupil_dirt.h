@@ -11,7 +11,7 @@ namespace contrejour {
 
 // Dims the mask, takes what dirt blocks from its flux, and gives its outline the shapes. used: rays that get through or
 // all but do; degree: of the polynomials through them; power_mm2: what the clean mask lets through, in its own units.
-void add_dirt(const LensState& lens, const LightSource& light, const PupilRays& pupil, const std::vector<std::size_t>& used,
-              int degree, double power_mm2, ExitPupil& out);
+void add_dirt(const LensState& lens, const LightSource& light, const PupilRays& pupil,
+              const std::vector<std::size_t>& used, int degree, double power_mm2, ExitPupil& out);
 
 }  // namespace contrejour

@@ -192,7 +192,7 @@ bool trace_all(const Job& job, tiled::TiledFrame& frame, Counts& counts) {
 }  // namespace
 
 Result<DrawnFlare> render_tiled(const LensState& lens, const FramePlan& plan, const RenderSettings& settings,
-                           const Context& context) {
+                                const Context& context) {
   const auto start = Clock::now();
   if (const auto ok = check(settings); !ok) return tl::unexpected<Error>(ok.error());
   const TablesByWavelength& tables = plan.tables;

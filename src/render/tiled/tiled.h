@@ -6,7 +6,7 @@ namespace contrejour {
 
 // bodonyi2023: the cells of all ghosts' ray grids, merged where the map is flat, in one buffer; lists of them by
 // screen tile; and every pixel adds up what its tile's list puts there, in one pass over the frame.
-[[nodiscard]] Result<DrawnFlare> render_tiled(const LensState& lens, const FramePlan& plan, const RenderSettings& settings,
-                                         const Context& context);
+[[nodiscard]] Result<DrawnFlare> render_tiled(const LensState& lens, const FramePlan& plan,
+                                              const RenderSettings& settings, const Context& context);
 
 }  // namespace contrejour

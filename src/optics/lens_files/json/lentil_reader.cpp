@@ -9,9 +9,9 @@
 #include "contrejour/first_order.h"
 #include "optics/lens_files/complete.h"
 #include "optics/lens_files/glass_finder.h"
-#include "optics/lens_files/tables/heights.h"
 #include "optics/lens_files/json/json_lens.h"
 #include "optics/lens_files/plain_number.h"
+#include "optics/lens_files/tables/heights.h"
 
 namespace contrejour {
 namespace {

@@ -6,9 +6,9 @@
 
 #include "base/near_name.h"
 #include "optics/lens_files/complete.h"
-#include "optics/lens_files/tables/heights.h"
 #include "optics/lens_files/json/json_lens.h"
 #include "optics/lens_files/plain_number.h"
+#include "optics/lens_files/tables/heights.h"
 
 namespace contrejour {
 namespace {

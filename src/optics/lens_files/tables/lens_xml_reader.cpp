@@ -10,11 +10,11 @@
 
 #include "base/near_name.h"
 #include "base/trimmed.h"
+#include "optics/lens/validate.h"
 #include "optics/lens_files/complete.h"
-#include "optics/lens_files/tables/heights.h"
 #include "optics/lens_files/plain_number.h"
 #include "optics/lens_files/read_lens.h"
-#include "optics/lens/validate.h"
+#include "optics/lens_files/tables/heights.h"
 
 namespace contrejour {
 namespace {

@@ -7,8 +7,8 @@
 
 #include "base/near_name.h"
 #include "contrejour/film_design.h"
-#include "optics/lens_files/toml/toml_formula.h"
 #include "optics/lens/validate.h"
+#include "optics/lens_files/toml/toml_formula.h"
 
 namespace contrejour {
 

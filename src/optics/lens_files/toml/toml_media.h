@@ -4,9 +4,9 @@
 #include <map>
 #include <string>
 
+#include "base/toml_fields.h"
 #include "contrejour/coating.h"
 #include "contrejour/glass.h"
-#include "base/toml_fields.h"
 #include "optics/lens_files/glass_finder.h"
 
 namespace contrejour {
@@ -30,8 +30,7 @@ MediumTable<Coating> read_coating_table(const toml::table& lens, TomlErrors& err
 // table is a catalogue's.
 Glass read_glass(const toml::node& node, const std::string& what, MediumTable<Glass>& table, GlassFinder& finder,
                  TomlErrors& errors);
-Coating read_coating(const toml::node& node, const std::string& what, MediumTable<Coating>& table,
-                     TomlErrors& errors);
+Coating read_coating(const toml::node& node, const std::string& what, MediumTable<Coating>& table, TomlErrors& errors);
 
 void refuse_unused(const MediumTable<Glass>& glasses, const MediumTable<Coating>& coatings, TomlErrors& errors);
 

@@ -1,18 +1,18 @@
 // Our own lens format, docs/formats/lens-toml.md: names and types here, plausibility in validate().
+#include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <algorithm>
 
 #include <fmt/format.h>
 
+#include "base/near_name.h"
+#include "base/toml_fields.h"
 #include "base/units.h"
 #include "contrejour/lens.h"
-#include "base/near_name.h"
+#include "optics/lens/validate.h"
 #include "optics/lens_files/read_lens.h"
-#include "base/toml_fields.h"
 #include "optics/lens_files/toml/toml_media.h"
 #include "optics/lens_files/toml/toml_shape.h"
-#include "optics/lens/validate.h"
 
 namespace contrejour {
 
@@ -37,9 +37,7 @@ struct Reader {
 
   Reader(const std::string& file, const GlassCatalogue* own) : errors(file), finder(own) {}
 
-  [[nodiscard]] Glass glass_before() const {
-    return lens.surfaces.empty() ? air() : lens.surfaces.back().glass_after;
-  }
+  [[nodiscard]] Glass glass_before() const { return lens.surfaces.empty() ? air() : lens.surfaces.back().glass_after; }
 
   void read_lens_table(const toml::table& root);
   void read_sensor(TomlFields& fields);
@@ -54,8 +52,8 @@ struct Reader {
 
 void Reader::read_lens_table(const toml::table& root) {
   TomlFields fields(root, "lens",
-                    {"name", "source", "f_number", "sensor_mm", "half_field_deg", "sensor_distance_mm", "default_coating", "surfaces",
-                     "groups", "zoom", "stated", "glass", "coating"},
+                    {"name", "source", "f_number", "sensor_mm", "half_field_deg", "sensor_distance_mm",
+                     "default_coating", "surfaces", "groups", "zoom", "stated", "glass", "coating"},
                     errors);
   lens.name = fields.required_text("name", "give the lens a name");
   lens.source = fields.required_text("source", "say where its figures come from, e.g. the patent's number");
@@ -76,8 +74,8 @@ void Reader::read_lens_table(const toml::table& root) {
 void Reader::read_stated(TomlFields& fields) {
   const toml::table* table = fields.table("stated");
   if (table == nullptr) return;
-  TomlFields stated(*table, "stated",
-                    {"focal_length_mm", "back_focal_distance_mm", "wavelength_nm", "tolerance"}, errors);
+  TomlFields stated(*table, "stated", {"focal_length_mm", "back_focal_distance_mm", "wavelength_nm", "tolerance"},
+                    errors);
   lens.stated.focal_length_mm = stated.number("focal_length_mm", kFinite);
   lens.stated.back_focal_distance_mm = stated.number("back_focal_distance_mm", kFinite);
   lens.stated.wavelength_nm = stated.number("wavelength_nm", {300.0, 1100.0}).value_or(kLineD_nm);
@@ -117,8 +115,8 @@ void Reader::read_surfaces(TomlFields& fields) {
   lens.surfaces.reserve(rows->size());
   for (const toml::node& node : *rows) {
     if (!node.is_table()) {
-      return fields.fail(node, fmt::format("surface {} must be a row {{ radius_mm = ..., ... }}",
-                                           lens.surfaces.size() + 1));
+      return fields.fail(node,
+                         fmt::format("surface {} must be a row {{ radius_mm = ..., ... }}", lens.surfaces.size() + 1));
     }
     read_surface(*node.as_table(), lens.surfaces.size() + 1 == rows->size());
     if (errors.failed()) return;
@@ -127,10 +125,11 @@ void Reader::read_surfaces(TomlFields& fields) {
 }
 
 void Reader::read_surface(const toml::table& row, bool last) {
-  TomlFields fields(row, fmt::format("surface {}", lens.surfaces.size() + 1),
-                    {"radius_mm", "curvature_per_mm", "thickness_mm", "semi_diameter_mm", "glass", "coating",
-                     "stop", "conic", "asphere", "toroid", "biconic", "ellipse", "rectangle", "obscuration", "decentre_mm", "tilt_deg", "axis"},
-                    errors);
+  TomlFields fields(
+      row, fmt::format("surface {}", lens.surfaces.size() + 1),
+      {"radius_mm", "curvature_per_mm", "thickness_mm", "semi_diameter_mm", "glass", "coating", "stop", "conic",
+       "asphere", "toroid", "biconic", "ellipse", "rectangle", "obscuration", "decentre_mm", "tilt_deg", "axis"},
+      errors);
   Surface surface;
   surface.source_line = line_of(row);
   surface.semi_diameter_mm =
@@ -180,7 +179,8 @@ void Reader::read_zoom(TomlFields& fields) {
   if (rows == nullptr) return;
   if (rows->size() < 2 || rows->size() > static_cast<std::size_t>(kMaxZoomPositions)) {
     return fields.fail(*rows, fmt::format("zoom has {} positions; give 2 to {}, or leave zoom out for a lens of "
-                                          "one focal length", rows->size(), kMaxZoomPositions));
+                                          "one focal length",
+                                          rows->size(), kMaxZoomPositions));
   }
   for (const toml::node& node : *rows) {
     if (!node.is_table()) {
@@ -192,8 +192,8 @@ void Reader::read_zoom(TomlFields& fields) {
 }
 
 void Reader::read_zoom_position(const toml::table& row) {
-  TomlFields fields(row, fmt::format("zoom position {}", lens.zoom.size() + 1),
-                    {"focal_length_mm", "thickness_mm"}, errors);
+  TomlFields fields(row, fmt::format("zoom position {}", lens.zoom.size() + 1), {"focal_length_mm", "thickness_mm"},
+                    errors);
   ZoomPosition position;
   position.source_line = line_of(row);
   position.focal_length_mm =
@@ -221,8 +221,8 @@ void Reader::read_zoom_position(const toml::table& row) {
 
 Result<Prescription> read_lens_toml(std::string_view text, const std::string& file, const GlassCatalogue* glasses) {
   if (text.size() > kMaxLensFileBytes) {
-    return failure(ErrorCode::Parse, fmt::format("{} bytes; a lens file has at most {}", text.size(),
-                                                 kMaxLensFileBytes), {file, 0, 0});
+    return failure(ErrorCode::Parse,
+                   fmt::format("{} bytes; a lens file has at most {}", text.size(), kMaxLensFileBytes), {file, 0, 0});
   }
   const Result<toml::table> root = parse_toml(text, file, "docs/formats/lens-toml.md");
   if (!root) return tl::unexpected(root.error());

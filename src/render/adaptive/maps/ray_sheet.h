@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "ghosts/ray_grid.h"
-#include "render/interface/light_frame.h"
 #include "render/adaptive/pupils/bent_box.h"
 #include "render/interface/frame_plan.h"
+#include "render/interface/light_frame.h"
 
 namespace contrejour::adaptive {
 

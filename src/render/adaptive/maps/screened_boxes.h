@@ -3,8 +3,8 @@
 
 #include <optional>
 
-#include "render/interface/light_frame.h"
 #include "render/adaptive/maps/ray_sheet.h"
+#include "render/interface/light_frame.h"
 #include "render/screens/band_screen.h"
 
 namespace contrejour::adaptive {

@@ -107,7 +107,7 @@ TileLists tile_lists(const PolygonList& list, const TileGrid& grid) {
   ranges.reserve(list.polygons.size());
   const auto for_each_tile = [&](const TileRange& r, auto visit) {
     for (int y = r.y0; y <= r.y1; ++y) {
-      for (int x = r.x0; x <= r.x1; ++x) visit(static_cast<std::size_t>(y * grid.columns + x));
+      for (int x = r.x0; x <= r.x1; ++x) visit(grid.index(x, y));
     }
   };
   for (const Polygon& p : list.polygons) {
@@ -127,8 +127,7 @@ TileRange lit_tiles(std::span<const TiledPolygons> lists, const TileGrid& grid) 
   TileRange lit{grid.columns, grid.rows, -1, -1};
   for (int y = 0; y < grid.rows; ++y) {
     for (int x = 0; x < grid.columns; ++x) {
-      const auto at =
-          static_cast<std::size_t>(y) * static_cast<std::size_t>(grid.columns) + static_cast<std::size_t>(x);
+      const std::size_t at = grid.index(x, y);
       const auto touches = [&](const TiledPolygons& p) { return p.tiles.start[at] != p.tiles.start[at + 1]; };
       if (std::ranges::any_of(lists, touches))
         lit = {std::min(lit.x0, x), std::min(lit.y0, y), std::max(lit.x1, x), std::max(lit.y1, y)};
@@ -176,8 +175,7 @@ void TileDrawer::draw_row(std::span<const TiledPolygons> lists, const TileGrid& 
   for (int column = 0; column < grid.columns; ++column) {
     sums.x0 = column * TileGrid::kWidth;
     sums.width = std::min(TileGrid::kWidth, grid.width - sums.x0);
-    const auto tile = static_cast<std::size_t>(row * grid.columns + column);
-    HWY_DYNAMIC_DISPATCH(draw_tile)(lists, tile, sums, canvas);
+    HWY_DYNAMIC_DISPATCH(draw_tile)(lists, grid.index(column, row), sums, canvas);
   }
 }
 

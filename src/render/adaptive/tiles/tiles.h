@@ -24,7 +24,10 @@ struct TileGrid {
   int columns = 0, rows = 0;  // tiles
 
   TileGrid(int w, int h) : width(w), height(h), columns((w + kWidth - 1) / kWidth), rows((h + kHeight - 1) / kHeight) {}
-  [[nodiscard]] std::size_t count() const { return static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows); }
+  [[nodiscard]] std::size_t count() const { return index(0, rows); }
+  [[nodiscard]] std::size_t index(int column, int row) const {
+    return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) + static_cast<std::size_t>(column);
+  }
 };
 
 // Some rows of a grid's tiles, from first to last without it.
