@@ -89,7 +89,8 @@ std::vector<BenchRequest> scenes_of(const std::vector<BenchRequest>& requests) {
   return scenes;
 }
 
-// Probes come first: peak memory is of no meaning once other methods have run.
+// Probes come first: peak memory is of no meaning once other methods have run. What ratios are made of is measured one
+// after the other.
 Result<BenchRows> measure_all(const TablesOptions& options) {
   BenchRows rows;
   BenchRunning running = options.running;
@@ -102,11 +103,15 @@ Result<BenchRows> measure_all(const TablesOptions& options) {
     if (const auto ok = probe(systems, options.values, running.threads, rows); !ok) return tl::unexpected(ok.error());
   }
   const auto requests = requests_of(options);
-  for (const BenchRequest& of : scenes_of(requests)) {
-    for (const PaperSystem* system : systems) {
-      const auto scene = bench_scene(*system, of.lights, of.variant, options.values);
-      if (!scene) return tl::unexpected(scene.error());
-      if (const auto ok = measure_scene(*scene, requests, running, rows); !ok) return tl::unexpected(ok.error());
+  std::vector visits{measure_scene};
+  if (running.runs > 1) visits.push_back(measure_again);
+  for (const PaperSystem* system : systems) {
+    for (const auto& visit : visits) {
+      for (const BenchRequest& of : scenes_of(requests)) {
+        const auto scene = bench_scene(*system, of.lights, of.variant, options.values);
+        if (!scene) return tl::unexpected(scene.error());
+        if (const auto ok = visit(*scene, requests, running, rows); !ok) return tl::unexpected(ok.error());
+      }
     }
   }
   return rows;

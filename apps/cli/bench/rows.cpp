@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cassert>
 
+#include "cli/flare_report.h"
+
 namespace contrejour::cli {
 
 bool same(const BenchRequest& a, const BenchRequest& b) {
@@ -19,6 +21,16 @@ double BenchRow::phase_ms(std::initializer_list<std::string_view> phases) const 
     if (std::find(phases.begin(), phases.end(), phase) != phases.end()) sum += ms;
   }
   return sum;
+}
+
+void BenchRows::add_again(const BenchRow& row) {
+  const auto is_same = [&](const BenchRow& other) {
+    return other.system == row.system && same(other.request, row.request);
+  };
+  const auto found = std::find_if(rows_.begin(), rows_.end(), is_same);
+  assert(found != rows_.end());
+  found->runs += row.runs;
+  if (total_ms(row.statistics) < total_ms(found->statistics)) found->statistics = row.statistics;
 }
 
 const BenchRow& BenchRows::at(const PaperSystem& system, const BenchRequest& request) const {
