@@ -180,7 +180,8 @@ Result<void> measure_again(const BenchScene& scene, const std::vector<BenchReque
   constexpr double kMilliseconds = 100.0;
   for (const BenchRequest& request : requests) {
     if (!is_of(request, scene)) continue;
-    if (total_ms(rows.at(*scene.system, request).statistics) > kMilliseconds) continue;
+    const BenchRow& measured = rows.at(*scene.system, request);
+    if (measured.runs == 1 || total_ms(measured.statistics) > kMilliseconds) continue;
     Truths none;
     const auto row = measure(scene, request, running, none);
     if (!row) return tl::unexpected(row.error());

@@ -34,7 +34,8 @@ struct BenchRunning {
 [[nodiscard]] Result<void> measure_scene(const BenchScene& scene, const std::vector<BenchRequest>& requests,
                                          const BenchRunning& running, BenchRows& rows);
 
-// Its rows that took milliseconds once more: a machine's bad moments last longer than they do.
+// Its rows that took milliseconds once more, but those that are to run once: a machine's bad moments last longer than
+// they do.
 [[nodiscard]] Result<void> measure_again(const BenchScene& scene, const std::vector<BenchRequest>& requests,
                                          const BenchRunning& running, BenchRows& rows);
 
