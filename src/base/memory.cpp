@@ -11,13 +11,12 @@
 #endif
 
 namespace contrejour {
-
 namespace {
 
-// Of a cache, or a multiple. Asking for aligned memory instead, the C library would never use it twice.
-constexpr std::size_t kLine = 64;
+constexpr std::size_t kLine = 64;  // of a cache, or a multiple
 
-// Where a line begins in memory that has room for one more, with a pointer to that memory before it.
+// Where a line begins in memory that has room for one more, with a pointer to that memory before it. Asked for aligned
+// memory instead, the C library would never use it twice.
 void* at_line(void* memory, std::size_t bytes) {
   void* first = static_cast<std::byte*>(memory) + sizeof(void*);
   std::size_t space = bytes + kLine;

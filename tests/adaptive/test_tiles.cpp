@@ -145,7 +145,7 @@ TEST_CASE(
     Image part = Image::unwritten(std::min(3 * TileGrid::kWidth + margin, width) - x0,
                                   std::min(4 * TileGrid::kHeight + margin, height) - y0);
     std::ranges::fill(part.pixels, std::numeric_limits<float>::quiet_NaN());
-    TileDrawer().draw_part(tiled, grid, {.threads = 2}, part, x0, y0);
+    TileDrawer().draw_part(tiled, grid, TileMode::Write, {.threads = 2}, part, x0, y0);
     Image all(width, height);
     for (int y = 0; y < part.height; ++y) std::ranges::copy(part.row(y), &all.at(x0, y0 + y));
     CHECK(all.pixels == whole.pixels);

@@ -151,7 +151,7 @@ class FramePainter {
     const int right = std::min((lit.x1 + 1) * TileGrid::kWidth + margin_px, frame_.width);
     const int bottom = std::min((lit.y1 + 1) * TileGrid::kHeight + margin_px, frame_.height);
     flare_.image = Image::unwritten(right - flare_.left, bottom - flare_.top);
-    drawer_.draw_part(all, grid_, context_, flare_.image, flare_.left, flare_.top);
+    drawer_.draw_part(all, grid_, mode_, context_, flare_.image, flare_.left, flare_.top);
   }
 
   const Scene& scene_;

@@ -140,23 +140,18 @@ TileDrawer::TileDrawer() = default;
 TileDrawer::~TileDrawer() = default;
 
 void TileDrawer::draw(std::span<const TiledPolygons> lists, TileMode mode, const Context& context, Image& image) {
-  Context quiet = context;
-  quiet.progress = {};
-  const TileGrid grid(image.width, image.height);
-  parallel_for(static_cast<std::size_t>(grid.rows), quiet, [&](std::size_t at) {
-    const int row = static_cast<int>(at);
-    draw_rows(lists, {row, row + 1}, mode, image);
-  });
+  draw_part(lists, {image.width, image.height}, mode, context, image, 0, 0);
 }
 
-void TileDrawer::draw_part(std::span<const TiledPolygons> lists, const TileGrid& grid, const Context& context,
-                           Image& image, int left, int top) {
+void TileDrawer::draw_part(std::span<const TiledPolygons> lists, const TileGrid& grid, TileMode mode,
+                           const Context& context, Image& image, int left, int top) {
   Context quiet = context;
   quiet.progress = {};
   const int first = top / TileGrid::kHeight;
   const int last = (top + image.height + TileGrid::kHeight - 1) / TileGrid::kHeight;
   parallel_for(static_cast<std::size_t>(last - first), quiet, [&](std::size_t at) {
-    draw_row(lists, grid, first + static_cast<int>(at), TileCanvas(image, left, top, TileMode::Write));
+    // A canvas a thread, as writers are.
+    draw_row(lists, grid, first + static_cast<int>(at), TileCanvas(image, left, top, mode));
   });
 }
 

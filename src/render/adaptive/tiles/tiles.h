@@ -70,9 +70,9 @@ class TileDrawer {
 
   // Writes or adds to all pixels of a frame what the polygons bring.
   void draw(std::span<const TiledPolygons> lists, TileMode mode, const Context& context, Image& image);
-  // Writes all pixels of a part of a frame, from (left, top) on, that holds all tiles which polygons may touch.
-  void draw_part(std::span<const TiledPolygons> lists, const TileGrid& grid, const Context& context, Image& image,
-                 int left, int top);
+  // The same for a part of a frame, from (left, top) on, that holds all tiles which polygons may touch.
+  void draw_part(std::span<const TiledPolygons> lists, const TileGrid& grid, TileMode mode, const Context& context,
+                 Image& image, int left, int top);
 
   // Writes or adds to the pixels of a frame's rows of tiles what the polygons bring, list after list. Rows do not touch
   // each other.
