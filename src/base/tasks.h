@@ -1,5 +1,5 @@
 // Threads for long computations: the same result, bit for bit, for any number of them.
-// Both loops stop early when the context is cancelled and then return false.
+// Both loops stop early when the context is cancelled and then return false: what they were to fill is filled in part.
 #pragma once
 
 #include <cstddef>
@@ -7,8 +7,12 @@
 #include <memory>
 
 #include "contrejour/context.h"
+#include "contrejour/result.h"
 
 namespace contrejour {
+
+// What a computation returns whose context was cancelled.
+inline tl::unexpected<Error> interrupted() { return failure(ErrorCode::Cancelled, "interrupted"); }
 
 // Calls body(i) for i in [0, count) on the context's threads, in any order; progress by items done.
 bool parallel_for(std::size_t count, const Context& context, const std::function<void(std::size_t)>& body);

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "base/tasks.h"
 #include "base/units.h"
 #include "diffraction/chirp_z.h"
 
@@ -38,7 +39,7 @@ Result<FraunhoferPattern> fraunhofer_pattern(const PupilMask& mask, const Fraunh
   std::vector<std::complex<double>> wave(samples * samples);
   for (std::size_t k = 0; k < wave.size(); ++k) wave[k] = mask.at(k);
   wave = transform.transform_2d(wave, steps);
-  if (context.cancelled()) return failure(ErrorCode::Cancelled, "interrupted");
+  if (context.cancelled()) return interrupted();
   FraunhoferPattern pattern{settings.grid, {}};
 
   // Goodman 2005 eq. 4-25: E = |integral of U exp(-2 pi i x.xi / (lambda d))|^2 / (lambda d)^2, whose integral is that

@@ -135,7 +135,7 @@ void fill(StarburstOctave& octave, std::size_t first_angle, double first_px, dou
 Result<Starburst> make_starburst(const PupilMask& mask, const PupilOutline* outline,
                                  std::span<const SpectralBand> bands, const StarburstSettings& settings,
                                  const Context& context) {
-  if (context.cancelled()) return failure(ErrorCode::Cancelled, "interrupted");
+  if (context.cancelled()) return interrupted();
   if (const auto problem = problem_with(bands, settings)) return invalid(*problem);
   if (const auto problem = problem_with(mask, outline)) return invalid(*problem);
   if (!(mask.open_area_mm2() > 0.0) || (outline && outline->opening.closed())) return Starburst();
@@ -143,7 +143,7 @@ Result<Starburst> make_starburst(const PupilMask& mask, const PupilOutline* outl
   steps.progress = {};
   const Shifts shifts = shifts_of(bands);
   const StarburstPattern pattern(mask, outline, settings.pupil_radius_mm, steps);
-  if (context.cancelled()) return failure(ErrorCode::Cancelled, "interrupted");
+  if (context.cancelled()) return interrupted();
 
   // rho = x / (lambda N), N = distance / (2 pupil radius): hullin2011 eq. 2.
   const double rho_per_px =
@@ -170,7 +170,7 @@ Result<Starburst> make_starburst(const PupilMask& mask, const PupilOutline* outl
     fill(rings->octaves[ring.octave], ring.first_angle, rings->first_px * std::exp2(static_cast<double>(ring.octave)),
          rho_per_px, pattern, shifts);
   });
-  if (!finished) return failure(ErrorCode::Cancelled, "interrupted");
+  if (!finished) return interrupted();
   return Starburst(std::move(rings));
 }
 

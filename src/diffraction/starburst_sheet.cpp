@@ -131,7 +131,7 @@ Result<StarburstSheet> lay_out(const Starburst& starburst, int width, int height
     read_rings(*starburst.rings(), -samples->reach_x, static_cast<double>(row), row_size / 3,
                samples->rgb.data() + row * row_size);
   });
-  if (!done) return failure(ErrorCode::Cancelled, "interrupted");
+  if (!done) return interrupted();
   return StarburstSheet(std::move(samples));
 }
 

@@ -265,7 +265,7 @@ Result<ZoomPupilBounds> ZoomPupilBounds::build(const Prescription& lens, const S
       const auto state = lens_at(lens, set);
       if (!state) return tl::unexpected<Error>(state.error());
       row.push_back({state->focal_length_mm, state->stop_radius_mm, PupilBounds(*state, range, context)});
-      if (context.cancelled()) return failure(ErrorCode::Cancelled, "interrupted");
+      if (context.cancelled()) return interrupted();
     }
   }
   return table;

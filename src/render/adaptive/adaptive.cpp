@@ -97,11 +97,12 @@ class FramePainter {
   void paint(const std::vector<Item>& items, const std::vector<ItemSize>& sizes, const ErrorBudget& budget) {
     mode_ = TileMode::Write;
     if (items.empty()) draw({}, true);
-    for (std::size_t done = 0; done < items.size() && !context_.cancelled();) {
+    for (std::size_t done = 0; done < items.size();) {
       std::vector<TiledPolygons> batch;
-      for (std::size_t bytes = 0; done < items.size() && bytes < kBatchBytes && !context_.cancelled();) {
+      for (std::size_t bytes = 0; done < items.size() && bytes < kBatchBytes;) {
         const std::size_t count = std::min(kItemsAtOnce, items.size() - done);
         bytes += paint_some({items.data() + done, count}, {sizes.data() + done, count}, budget, batch);
+        if (context_.cancelled()) return;  // some may be unpainted
         done += count;
       }
       paint_ms_ += watch_.lap_ms();
@@ -185,21 +186,24 @@ Result<DrawnFlare> render_adaptive(const LensState& lens, const FramePlan& plan,
   quiet.progress = {};
   Work work;
   std::vector<Item> items = find_items(scene, quiet, work);
+  if (context.cancelled()) return interrupted();
   if (scene.plan.dirt) dim_items(scene, items);
   const double bound_ms = watch.lap_ms();
   Screens screens(lens, settings);
   Pool<BoxCells> rooms;
   TileDrawer drawer;
   const RoughFrame rough = draw_roughly(scene, items, settings.frame, rooms, drawer, quiet, work);
+  if (context.cancelled()) return interrupted();
   const bool dark = !(rough.peak > 0.0);
   const FrameError allowed{settings.error, dark ? faintest_peak(plan, settings.frame) : rough.peak,
                            static_cast<double>(settings.frame.width) * settings.frame.height};
   if (screens.on() && !dark) work.add(screen_items(scene, screens, items, rough.sizes, allowed, quiet));
+  if (context.cancelled()) return interrupted();
   if (scene.plan.dirt && !dark) shadow_items(scene, items, rough.sizes, allowed);
   const double peak_ms = watch.lap_ms();
   FramePainter painter(scene, settings, rooms, drawer, context, flare);
   painter.paint(items, rough.sizes, budget_per_item(allowed, rough.sizes));
-  if (context.cancelled()) return failure(ErrorCode::Cancelled, "interrupted");
+  if (context.cancelled()) return interrupted();
 
   work.add(painter.work());
   RenderStatistics& stats = flare.statistics;

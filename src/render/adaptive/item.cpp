@@ -290,6 +290,7 @@ RoughFrame draw_roughly(const Scene& scene, const std::vector<Item>& items, cons
   if (context.cancelled()) return {};
   Image image = Image::unwritten(small.width, small.height);
   drawer.draw(polygons, TileMode::Write, context, image);
+  if (context.cancelled()) return {};
   rough.peak = quantile_of_samples(image, kPeakQuantile);
   if (!(rough.peak > 0.0)) {
     for (const float value : image.pixels) rough.peak = std::max(rough.peak, static_cast<double>(value));

@@ -227,12 +227,13 @@ Result<Flare> render_areas(PlannedRenderer method, const LensState& lens, std::s
   Context quiet = context;
   quiet.progress = {};
   const std::vector<Drawing> drawings = drawings_of(*plan, pieces, lens, settings, quiet);
+  if (context.cancelled()) return interrupted();
   const double drawings_ms = ms_since(start);
 
   AreaPainter painter(method, lens, *plan, settings, context);
   for (std::size_t k = 0; k < drawings.size(); ++k) {
     if (const auto painted = painter.paint(drawings[k]); !painted) return tl::unexpected(painted.error());
-    if (context.cancelled()) return failure(ErrorCode::Cancelled, "interrupted");
+    if (context.cancelled()) return interrupted();
     if (context.progress) context.progress(static_cast<double>(k + 1) / static_cast<double>(drawings.size()));
   }
   Flare flare = std::move(painter).finish(drawings_ms);

@@ -69,9 +69,9 @@ Result<DrawnFlare> render_bundle(const LensState& lens, const FramePlan& plan, c
   const TablesByWavelength& tables = plan.tables;
   const auto bounds = bounds_for(plan, lens, settings, tables, context);
   Screens screens(lens, settings);
-  if (!screens.prepare(plan, context)) return failure(ErrorCode::Cancelled, "interrupted");
+  if (!screens.prepare(plan, context)) return interrupted();
   times.bounds_ms = whole.elapsed_ms();
-  if (context.cancelled()) return failure(ErrorCode::Cancelled, "interrupted");
+  if (context.cancelled()) return interrupted();
 
   DrawnFlare flare;
   flare.image = Image(settings.frame.width, settings.frame.height, 3);
@@ -93,7 +93,7 @@ Result<DrawnFlare> render_bundle(const LensState& lens, const FramePlan& plan, c
         add_to(flare.image, item);
         counts.add(item.counts);
       });
-  if (!done) return failure(ErrorCode::Cancelled, "interrupted");
+  if (!done) return interrupted();
   times.items_ms = whole.elapsed_ms() - times.bounds_ms;
 
   RenderStatistics& stats = flare.statistics;

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "base/tasks.h"
 #include "contrejour/render.h"
 #include "contrejour/ringing.h"
 #include "render/adaptive/adaptive.h"
@@ -74,8 +75,9 @@ Result<Flare> render(std::string_view method, const LensState& lens, std::span<c
     if (settings.ringing.mode != RingingMode::None && !settings.ringing.patterns)
       return render(method, lens, lights, with_patterns(settings), context);
     const bool adds_lights = settings.starburst.on || settings.glare.share != 0.0;
-    return adds_lights ? render_with_lights(known, lens, lights, settings, context)
-                       : render_ghosts(known, lens, lights, settings, context);
+    auto flare = (adds_lights ? render_with_lights : render_ghosts)(known, lens, lights, settings, context);
+    if (context.cancelled()) return interrupted();  // some of its loops may have stopped early
+    return flare;
   }
   return failure(ErrorCode::InvalidArgument,
                  fmt::format("there is no method '{}'; choose one of {}", method, fmt::join(render_methods(), ", ")));

@@ -173,9 +173,9 @@ Result<FramePlan> plan_frame(const LensState& lens, std::span<const Light> light
   quiet.progress = {};
   const BandsBySpectrum spectra = bands_by_spectrum(lights, settings);
   auto prepared = prepare(lens, lights, settings.frame, spectra, quiet);
-  if (!prepared) return failure(ErrorCode::Cancelled, "interrupted");
+  if (!prepared) return interrupted();
   auto planned = plan_lights(lens, lights, settings, spectra, *prepared, quiet);
-  if (!planned) return failure(ErrorCode::Cancelled, "interrupted");
+  if (!planned) return interrupted();
   plan.lights = std::move(*planned);
   plan.tables = std::move(prepared->tables);
   plan.dirt = std::move(prepared->dirt);

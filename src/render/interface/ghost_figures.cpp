@@ -76,7 +76,7 @@ Result<std::vector<GhostFigures>> ghost_figures(const LensState& lens, const Fig
   std::vector<GhostFigures> all(ghosts.size());
   const bool done = parallel_for(ghosts.size(), context,
                                  [&](std::size_t g) { all[g] = figures_of(lens, ghosts[g], request, meters, whole); });
-  if (!done) return failure(ErrorCode::Cancelled, "interrupted");
+  if (!done) return interrupted();
   std::stable_sort(all.begin(), all.end(),
                    [](const GhostFigures& a, const GhostFigures& b) { return a.relative_flux > b.relative_flux; });
   return all;

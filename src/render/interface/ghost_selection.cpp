@@ -29,7 +29,7 @@ Result<std::vector<double>> ghost_fluxes(const LensState& lens, std::span<const 
       flux[g] += weight * meter.measure(ghosts[g], light.source()).flux_mm2;
     }
   });
-  if (!done) return failure(ErrorCode::Cancelled, "interrupted");
+  if (!done) return interrupted();
   return flux;
 }
 

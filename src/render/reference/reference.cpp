@@ -58,7 +58,7 @@ Result<DrawnFlare> render_reference(const LensState& lens, const FramePlan& plan
     return failure(ErrorCode::InvalidArgument, "the reference's density is out of range; choose a value up to 64");
   }
   Screens screens(lens, settings);
-  if (!screens.prepare(plan, context)) return failure(ErrorCode::Cancelled, "interrupted");
+  if (!screens.prepare(plan, context)) return interrupted();
 
   DrawnFlare flare;
   flare.image = Image(settings.frame.width, settings.frame.height, 3);
@@ -74,7 +74,7 @@ Result<DrawnFlare> render_reference(const LensState& lens, const FramePlan& plan
         stats.surface_hits += rendered.counts.rays * rendered.surfaces;
         stats.primitives += rendered.counts.polygons;
       });
-  if (!done) return failure(ErrorCode::Cancelled, "interrupted");
+  if (!done) return interrupted();
 
   for (std::size_t i = 0; i < sum.size(); ++i) flare.image.pixels[i] = static_cast<float>(sum[i]);
   stats.method = "reference";

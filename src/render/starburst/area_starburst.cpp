@@ -114,7 +114,7 @@ Result<void> add_area_starbursts(Image& image, std::span<const ImagedLight> area
     area.centre_px = imaged.centre_px + area.px_from_tangents(area.piece.middle);
     for (std::size_t c = 0; c < 3; ++c) area.flux[c] = settings.starburst.gain * imaged.flux[c];
     if (auto ok = add_area(layers, area, settings.frame.pixel_pitch_mm, make, context); !ok) return ok;
-    if (context.cancelled()) return failure(ErrorCode::Cancelled, "interrupted");
+    if (context.cancelled()) return interrupted();
   }
   const Image sum = std::move(layers).flattened(context);
   parallel_for(static_cast<std::size_t>(image.height), context, [&](std::size_t row) {

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "contrejour/lens_starburst.h"
+#include "base/tasks.h"
 #include "render/starburst/pupil_dirt.h"
 #include "render/starburst/pupil_outline.h"
 #include "render/starburst/pupil_rays.h"
@@ -303,10 +304,10 @@ Result<ExitPupil> exit_pupil(const LensState& lens, const LightSource& light, do
   quiet.progress = {};
   const LightSource along(normalized(light.direction), light.distance_mm);
   const auto pupil = trace_pupil(lens, IrisOpening(lens.iris), along, lambda_nm, quiet);
-  if (context.cancelled()) return failure(ErrorCode::Cancelled, "interrupted");
+  if (context.cancelled()) return interrupted();
   ExitPupil out;
   if (pupil) out = pupil_of(*pupil, lens, along, samples_across, quiet);
-  if (context.cancelled()) return failure(ErrorCode::Cancelled, "interrupted");
+  if (context.cancelled()) return interrupted();
   return out;
 }
 

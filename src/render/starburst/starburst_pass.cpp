@@ -113,7 +113,7 @@ Result<void> draw_group(Image& image, const LightGroup& group, const Starburst& 
       add_starburst(image, sheet, light.centre_px, flux, context);
     else
       add_starburst(image, starburst, light.centre_px, flux, context);
-    if (context.cancelled()) return failure(ErrorCode::Cancelled, "interrupted");
+    if (context.cancelled()) return interrupted();
   }
   return {};
 }
@@ -198,7 +198,7 @@ Result<void> draw_light_images(Image& image, RenderStatistics& statistics, const
     add_glare(image, imaged, settings.glare.share, r0_mm / settings.frame.pixel_pitch_mm, quiet);
     count_time(statistics, "glare", ms_since(start));
   }
-  if (context.cancelled()) return failure(ErrorCode::Cancelled, "interrupted");
+  if (context.cancelled()) return interrupted();
   return {};
 }
 

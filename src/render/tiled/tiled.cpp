@@ -196,9 +196,9 @@ Result<DrawnFlare> render_tiled(const LensState& lens, const FramePlan& plan, co
   const auto start = Clock::now();
   if (const auto ok = check(settings); !ok) return tl::unexpected<Error>(ok.error());
   const TablesByWavelength& tables = plan.tables;
-  if (context.cancelled()) return failure(ErrorCode::Cancelled, "interrupted");
+  if (context.cancelled()) return interrupted();
   Screens screens(lens, settings);
-  if (!screens.prepare(plan, context)) return failure(ErrorCode::Cancelled, "interrupted");
+  if (!screens.prepare(plan, context)) return interrupted();
   Job job{lens, settings, context, tables, IrisShape(lens.iris), {}, {}, {}};
   job.dirt = plan.dirt.get();
   list_items(plan, screens, job);
@@ -211,7 +211,7 @@ Result<DrawnFlare> render_tiled(const LensState& lens, const FramePlan& plan, co
   trace_all(job, frame, counts);
   const double trace_ms = ms_since(traced) - frame.draw_ms();
   frame.draw();
-  if (context.cancelled()) return failure(ErrorCode::Cancelled, "interrupted");
+  if (context.cancelled()) return interrupted();
   if (context.progress) context.progress(1.0);
 
   DrawnFlare flare;
