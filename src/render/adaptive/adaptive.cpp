@@ -8,7 +8,6 @@
 #include <numeric>
 
 #include "base/clock.h"
-#include "base/memory.h"
 #include "base/tasks.h"
 #include "render/adaptive/item.h"
 #include "render/adaptive/screened_items.h"
@@ -212,7 +211,6 @@ Result<DrawnFlare> render_adaptive(const LensState& lens, const FramePlan& plan,
   stats.surface_hits = work.surface_hits;
   stats.ghosts_rendered = static_cast<int>(plan.ghosts.size());
   stats.ghosts_skipped_flux = plan.skipped_flux;
-  stats.peak_memory_bytes = peak_memory_bytes();
   stats.time_ms = {{"bound", bound_ms},
                    {"peak", peak_ms},
                    {"paint", painter.paint_ms()},

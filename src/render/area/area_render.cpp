@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "base/clock.h"
-#include "base/memory.h"
 #include "base/tasks.h"
 #include "optics/trace/lens_steps.h"
 #include "render/area/blur_classes.h"
@@ -14,6 +13,7 @@
 #include "render/area/kernel.h"
 #include "render/area/layers.h"
 #include "render/interface/light_frame.h"
+#include "render/interface/statistics.h"
 
 namespace contrejour {
 namespace {
@@ -64,36 +64,6 @@ double value_of_irradiance(const PlannedLight& light, const Frame& frame) {
   for (const PlannedPass& pass : light.passes)
     for (std::size_t c = 0; c < 3; ++c) gain[c] += pass.gain[c];
   return *std::ranges::max_element(gain) * frame.pixel_pitch_mm * frame.pixel_pitch_mm;
-}
-
-// Sums over all that was drawn.
-void add(RenderStatistics& sum, const RenderStatistics& one) {
-  sum.method = one.method;
-  sum.device = one.device;
-  sum.rays += one.rays;
-  sum.surface_hits += one.surface_hits;
-  sum.primitives += one.primitives;
-  sum.primitives_merged += one.primitives_merged;
-  sum.tile_indices += one.tile_indices;
-  sum.primitive_bytes = std::max(sum.primitive_bytes, one.primitive_bytes);
-  sum.tile_list_bytes = std::max(sum.tile_list_bytes, one.tile_list_bytes);
-  sum.peak_memory_bytes = std::max(sum.peak_memory_bytes, one.peak_memory_bytes);
-  for (const auto& [phase, ms] : one.time_ms) {
-    const auto same = std::find_if(sum.time_ms.begin(), sum.time_ms.end(),
-                                   [&name = phase](const auto& entry) { return entry.first == name; });
-    if (same != sum.time_ms.end())
-      same->second += ms;
-    else
-      sum.time_ms.emplace_back(phase, ms);
-  }
-}
-
-// Before the total, and in it.
-void count_phase(RenderStatistics& statistics, const char* phase, double ms) {
-  auto& times = statistics.time_ms;
-  const auto total = std::find_if(times.begin(), times.end(), [](const auto& entry) { return entry.first == "total"; });
-  if (total != times.end()) total->second += ms;
-  times.insert(total, {phase, ms});
 }
 
 // A picture of some ghosts of some lights, and the kernel that it is blurred by.
@@ -195,8 +165,7 @@ class AreaPainter {
     RenderStatistics& stats = flare.statistics;
     stats.ghosts_rendered = static_cast<int>(plan_.ghosts.size());
     stats.ghosts_skipped_flux = plan_.skipped_flux;
-    stats.peak_memory_bytes = std::max(stats.peak_memory_bytes, peak_memory_bytes());
-    count_phase(stats, "areas", before_ms + ms_ + ms_since(start));
+    count_last(stats, "areas", before_ms + ms_ + ms_since(start));
     return flare;
   }
 
@@ -237,7 +206,7 @@ Result<Flare> render_areas(PlannedRenderer method, const LensState& lens, std::s
     if (context.progress) context.progress(static_cast<double>(k + 1) / static_cast<double>(drawings.size()));
   }
   Flare flare = std::move(painter).finish(drawings_ms);
-  count_plan(flare.statistics, plan_ms);
+  count_first(flare.statistics, "plan", plan_ms);
   return flare;
 }
 

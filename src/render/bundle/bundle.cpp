@@ -4,7 +4,6 @@
 #include <cmath>
 #include <optional>
 
-#include "base/memory.h"
 #include "base/tasks.h"
 #include "render/bundle/item_renderer.h"
 #include "render/bundle/stopwatch.h"
@@ -103,7 +102,6 @@ Result<DrawnFlare> render_bundle(const LensState& lens, const FramePlan& plan, c
   stats.primitives = counts.primitives;
   stats.ghosts_rendered = static_cast<int>(plan.ghosts.size());
   stats.ghosts_skipped_flux = plan.skipped_flux;
-  stats.peak_memory_bytes = peak_memory_bytes();
   stats.time_ms = named(times, counts, whole.elapsed_ms());
   return flare;
 }

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "base/memory.h"
 #include "base/tasks.h"
 #include "contrejour/render.h"
 #include "contrejour/ringing.h"
@@ -77,6 +78,7 @@ Result<Flare> render(std::string_view method, const LensState& lens, std::span<c
     const bool adds_lights = settings.starburst.on || settings.glare.share != 0.0;
     auto flare = (adds_lights ? render_with_lights : render_ghosts)(known, lens, lights, settings, context);
     if (context.cancelled()) return interrupted();  // some of its loops may have stopped early
+    if (flare) flare->statistics.peak_memory_bytes = peak_memory_bytes();
     return flare;
   }
   return failure(ErrorCode::InvalidArgument,

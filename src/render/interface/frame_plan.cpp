@@ -13,6 +13,7 @@
 #include "ghosts/direct_meter.h"
 #include "render/interface/direct_light.h"
 #include "render/interface/ghost_selection.h"
+#include "render/interface/statistics.h"
 
 namespace contrejour {
 namespace {
@@ -182,12 +183,6 @@ Result<FramePlan> plan_frame(const LensState& lens, std::span<const Light> light
   return plan;
 }
 
-void count_plan(RenderStatistics& statistics, double plan_ms) {
-  auto& times = statistics.time_ms;
-  times.insert(times.begin(), {"plan", plan_ms});
-  if (times.back().first == "total") times.back().second += plan_ms;
-}
-
 Result<Flare> render_planned(PlannedRenderer method, const LensState& lens, std::span<const Light> lights,
                              const RenderSettings& settings, const Context& context) {
   const auto start = Clock::now();
@@ -196,7 +191,7 @@ Result<Flare> render_planned(PlannedRenderer method, const LensState& lens, std:
   const double plan_ms = ms_since(start);
   auto drawn = method(lens, *plan, settings, context);
   if (!drawn) return tl::unexpected<Error>(drawn.error());
-  count_plan(drawn->statistics, plan_ms);
+  count_first(drawn->statistics, "plan", plan_ms);
   return Flare{std::move(drawn->image), std::move(drawn->statistics)};
 }
 

@@ -54,9 +54,6 @@ struct DrawnFlare {
 using PlannedRenderer = Result<DrawnFlare> (*)(const LensState& lens, const FramePlan& plan,
                                                const RenderSettings& settings, const Context& context);
 
-// Puts the phase "plan" before the others, and into their total.
-void count_plan(RenderStatistics& statistics, double plan_ms);
-
 // Plans, then draws; the statistics' phases begin with "plan". Errors: those of both.
 [[nodiscard]] Result<Flare> render_planned(PlannedRenderer method, const LensState& lens, std::span<const Light> lights,
                                            const RenderSettings& settings, const Context& context);

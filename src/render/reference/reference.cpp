@@ -1,7 +1,6 @@
 #include "render/reference/reference.h"
 
 #include "base/clock.h"
-#include "base/memory.h"
 #include "base/tasks.h"
 #include "render/interface/frame_plan.h"
 #include "render/reference/flux_image.h"
@@ -80,7 +79,6 @@ Result<DrawnFlare> render_reference(const LensState& lens, const FramePlan& plan
   stats.method = "reference";
   stats.ghosts_rendered = static_cast<int>(plan.ghosts.size());
   stats.ghosts_skipped_flux = plan.skipped_flux;
-  stats.peak_memory_bytes = peak_memory_bytes();
   stats.time_ms = {{"render", ms_since(start)}, {"total", ms_since(start)}};
   return flare;
 }

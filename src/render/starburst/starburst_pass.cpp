@@ -8,10 +8,10 @@
 #include <fmt/format.h>
 
 #include "base/clock.h"
-#include "base/memory.h"
 #include "base/tasks.h"
 #include "contrejour/lens_starburst.h"
 #include "render/interface/direct_light.h"
+#include "render/interface/statistics.h"
 #include "render/starburst/area_starburst.h"
 #include "render/starburst/glare.h"
 #include "render/starburst/light_groups.h"
@@ -150,14 +150,6 @@ void add_except(Image& image, const Image& layer, const Image& left_out, const C
   });
 }
 
-void count_time(RenderStatistics& statistics, const char* phase, double ms) {
-  auto total = std::find_if(statistics.time_ms.begin(), statistics.time_ms.end(),
-                            [](const auto& entry) { return entry.first == "total"; });
-  if (total != statistics.time_ms.end()) total->second += ms;
-  statistics.time_ms.insert(total, {phase, ms});
-  statistics.peak_memory_bytes = std::max(statistics.peak_memory_bytes, peak_memory_bytes());
-}
-
 Result<void> check_left_out(const Image& left_out, const Frame& frame) {
   if (left_out.width != frame.width || left_out.height != frame.height || left_out.channels != 1 ||
       left_out.pixels.size() != left_out.index(0, left_out.height))
@@ -190,13 +182,13 @@ Result<void> draw_light_images(Image& image, RenderStatistics& statistics, const
     const auto groups = group_lights(lights, points, settings.frame);
     if (auto drawn = draw_groups(image, groups, lens, lights, settings, context); !drawn) return drawn;
     if (auto drawn = draw_areas(image, areas, lens, lights, settings, quiet); !drawn) return drawn;
-    count_time(statistics, "starburst", ms_since(start));
+    count_last(statistics, "starburst", ms_since(start));
     start = Clock::now();
   }
   if (settings.glare.share > 0.0 && !context.cancelled()) {
     const double r0_mm = std::abs(lens.focal_length_mm) * std::tan(settings.glare.width_rad);
     add_glare(image, imaged, settings.glare.share, r0_mm / settings.frame.pixel_pitch_mm, quiet);
-    count_time(statistics, "glare", ms_since(start));
+    count_last(statistics, "glare", ms_since(start));
   }
   if (context.cancelled()) return interrupted();
   return {};

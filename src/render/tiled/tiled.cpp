@@ -8,7 +8,6 @@
 #include <fmt/format.h>
 
 #include "base/clock.h"
-#include "base/memory.h"
 #include "base/tasks.h"
 #include "ghosts/pupil_search.h"
 #include "render/interface/frame_plan.h"
@@ -228,7 +227,6 @@ Result<DrawnFlare> render_tiled(const LensState& lens, const FramePlan& plan, co
   stats.time_ms = {{"search", counts.search_ms * share}, {"trace", counts.trace_ms * share}};
   frame.report(stats);
   flare.image = frame.take_image();
-  stats.peak_memory_bytes = peak_memory_bytes();
   stats.time_ms.emplace_back("total", ms_since(start));
   return flare;
 }
