@@ -231,7 +231,7 @@ TEST_CASE("patterns: each wavelength's own, in its part of the channels") {
   const auto sample = [&](int column, int row, std::size_t part) {
     if (column < 0 || row < 0 || column >= samples.side || row >= samples.side) return 0.0;
     const auto at = static_cast<std::size_t>((row + 1) * samples.pitch() + column + 1);
-    return static_cast<double>(alone ? samples.coding.light(samples.coded[at])
+    return static_cast<double>(alone ? samples.coding.light(samples.coded[at].here)
                                      : samples.samples[screens::BandPattern::kStride * at + part]);
   };
   const auto share = [&](const Polygon&, Vec2 at) {

@@ -140,9 +140,9 @@ TEST_CASE("a pattern of one wavelength is the texture's, coded") {
     for (const int column : {0, 48, 95}) {
       const auto at = static_cast<std::size_t>((row + 1) * level.pitch() + column + 1);
       const double sample = static_cast<double>(ramp[static_cast<std::size_t>(96 * row + column)]);
-      CHECK(static_cast<double>(level.coding.light(level.coded[at])) == doctest::Approx(sample).epsilon(1.3e-4));
+      CHECK(static_cast<double>(level.coding.light(level.coded[at].here)) == doctest::Approx(sample).epsilon(1.3e-4));
     }
-  CHECK(level.coded.front() == 0);
+  CHECK(level.coded.front().here == 0);
   CHECK(static_cast<double>(band.brightest({1.4, -1.4}, 0.01)) == doctest::Approx(0.02 * 93 * 93).epsilon(0.03));
 }
 

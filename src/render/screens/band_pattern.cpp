@@ -43,7 +43,12 @@ BandPattern::Level halved(const BandPattern::Level& fine, std::size_t stride) {
 
 void code(BandPattern::Level& level) {
   level.coding = ShortLight(*std::max_element(level.samples.begin(), level.samples.end()));
-  for (const float sample : level.samples) level.coded.push_back(level.coding.coded(sample));
+  level.coded.resize(level.samples.size());
+  const auto pitch = static_cast<std::size_t>(level.pitch());
+  for (std::size_t k = 0; k < level.samples.size(); ++k) {
+    level.coded[k].here = level.coding.coded(level.samples[k]);
+    if (k >= pitch) level.coded[k - pitch].below = level.coded[k].here;
+  }
   level.samples = {};
 }
 
@@ -77,15 +82,14 @@ float BandPattern::brightest(Vec2 middle, double distance) const {
     return place > 0.0 ? static_cast<int>(std::min(place, level.side + 0.0)) : 0;  // 0 as well if that is no number
   };
   const int x = at(middle.x), y = at(-middle.y);
-  float most = 0.0F;
-  for (const int row : {y, y + 1}) {
-    const std::size_t from = static_cast<std::size_t>(row * level.pitch() + x) * stride_;
-    const auto largest = [&](const auto& samples) {
-      return *std::max_element(samples.data() + from, samples.data() + from + 2 * stride_);
-    };
-    most = std::max(most, of_one() ? level.coding.light(largest(level.coded)) : largest(level.samples));
+  const std::size_t from = static_cast<std::size_t>(y * level.pitch() + x) * stride_;
+  if (of_one()) {
+    const Level::Pair left = level.coded[from], right = level.coded[from + 1];
+    return level.coding.light(std::max({left.here, left.below, right.here, right.below}));
   }
-  return most;
+  const auto largest = [&](const float* two) { return *std::max_element(two, two + 2 * stride_); };
+  const float* const samples = level.samples.data() + from;
+  return std::max(largest(samples), largest(samples + static_cast<std::size_t>(level.pitch()) * stride_));
 }
 
 }  // namespace contrejour::screens

@@ -23,9 +23,12 @@ class BandPattern {
   // Samples of the square from -extent to extent, rows from the top, with a border of dark ones about it.
   struct Level {
     int side = 0;  // without the border
-    std::vector<float> samples;        // of several wavelengths
-    std::vector<std::uint16_t> coded;  // of one
-    ShortLight coding;                 // likewise
+    std::vector<float> samples;  // of several wavelengths
+    struct Pair {
+      std::uint16_t here = 0, below = 0;
+    };
+    std::vector<Pair> coded;  // of one, each beside the one a row below: four neighbours lie within eight bytes
+    ShortLight coding;        // likewise
     [[nodiscard]] int pitch() const { return side + 2; }
   };
   [[nodiscard]] double extent() const { return extent_; }

@@ -10,9 +10,9 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
 #include <span>
 #include <vector>
 
@@ -193,7 +193,7 @@ class Fringes {
     PixelRow row;
     [[nodiscard]] HWY_INLINE Passed vector(int k) const { return {all, row, k}; }
   };
-  [[nodiscard]] HWY_INLINE Row look(const PixelRow& row) const { return {*this, row}; }
+  [[nodiscard]] HWY_INLINE Row look(const PixelRow& row, Groups /*wanted*/) const { return {*this, row}; }
 
  private:
   Edges edges_;
@@ -206,42 +206,21 @@ class GreyTable {
   explicit GreyTable(const EdgeTable& table)
       : steps_(table.steps().data()), end_(static_cast<float>(table.count() - 1)) {}
 
+  [[nodiscard]] HWY_INLINE TablePlaces places(hn::Vec<FloatTag> place) const { return end_.places_to_end(place); }
+  // Within steps of the table: so far of each.
+  [[nodiscard]] HWY_INLINE hn::Vec<FloatTag> at(const std::int32_t* step, hn::Vec<FloatTag> rest) const {
+    static_assert(sizeof(EdgeTable::Step) == 8);
+    const HalfWords<float> steps(steps_, step);
+    return hn::MulAdd(rest, steps.second, steps.first);
+  }
   [[nodiscard]] HWY_INLINE hn::Vec<FloatTag> at(hn::Vec<FloatTag> place) const {
-    const FloatTag d;
-    const TablePlaces at = end_.places_to_end(place);
+    const TablePlaces at_place = places(place);
     HWY_ALIGN std::int32_t step[hn::MaxLanes(IntTag())];
-    hn::Store(at.whole, IntTag(), step);
-#if HWY_TARGET == HWY_SCALAR
-    return hn::MulAdd(at.rest, hn::Set(d, steps_[*step].rise), hn::Set(d, steps_[*step].factor));
-#else
-    const WordTag words;
-    constexpr std::size_t kHalf = hn::MaxLanes(WordTag());
-    const auto low = hn::BitCast(d, words_at(words, step)), high = hn::BitCast(d, words_at(words, step + kHalf));
-    return hn::MulAdd(at.rest, hn::ConcatOdd(d, high, low), hn::ConcatEven(d, high, low));
-#endif
+    hn::Store(at_place.whole, IntTag(), step);
+    return at(step, at_place.rest);
   }
 
  private:
-#if HWY_TARGET != HWY_SCALAR
-  using WordTag = hn::Repartition<std::uint64_t, FloatTag>;
-  // A step each, one by one: gathers are slower on many processors.
-  [[nodiscard]] std::uint64_t word(std::int32_t step) const {
-    static_assert(sizeof(EdgeTable::Step) == sizeof(std::uint64_t));
-    std::uint64_t out;
-    std::memcpy(&out, steps_ + step, sizeof out);
-    return out;
-  }
-  template <class D>
-  [[nodiscard]] HWY_INLINE hn::Vec<D> words_at(D d, const std::int32_t* step) const {
-    if constexpr (hn::MaxLanes(d) == 2) {
-      return hn::InterleaveLower(d, hn::Set(d, word(step[0])), hn::Set(d, word(step[1])));
-    } else {
-      const hn::Half<D> half;
-      return hn::Combine(d, words_at(half, step + hn::MaxLanes(half)), words_at(half, step));
-    }
-  }
-#endif
-
   const EdgeTable::Step* steps_;
   TableEnd end_;
 };
@@ -256,18 +235,30 @@ class GreyFringe {
   HWY_INLINE void set_row(const PixelRow& row) { edge_.set_row(row); }
   [[nodiscard]] HWY_INLINE SeenGroups seen(const PixelRow& row) const { return edge_.seen(row, most_); }
 
+  // Places first: looking up then waits for nothing but the table.
   class Row {
    public:
-    HWY_INLINE Row(const GreyFringe& all, const PixelRow& row)
-        : table_(all.table_), edge_(all.edge_.along()), row_(row) {}
-    [[nodiscard]] HWY_INLINE hn::Vec<FloatTag> passed(int k) const { return table_.at(edge_.at(row_.x(k))); }
+    HWY_INLINE Row(const GreyFringe& all, const PixelRow& row, Groups wanted) : table_(all.table_) {
+      const EdgePlaces::Along edge = all.edge_.along();
+      for (; wanted != 0; wanted &= wanted - 1) {
+        const int first = kGroup * std::countr_zero(wanted);
+        for (int k = first; k < first + kGroup; k += static_cast<int>(hn::MaxLanes(FloatTag()))) {
+          const TablePlaces at = table_.places(edge.at(row.x(k)));
+          hn::Store(at.whole, IntTag(), step_ + k);
+          hn::Store(at.rest, FloatTag(), rest_ + k);
+        }
+      }
+    }
+    [[nodiscard]] HWY_INLINE hn::Vec<FloatTag> passed(int k) const {
+      return table_.at(step_ + k, hn::Load(FloatTag(), rest_ + k));
+    }
 
    private:
     GreyTable table_;
-    EdgePlaces::Along edge_;
-    PixelRow row_;
+    HWY_ALIGN std::int32_t step_[kRowRoom];
+    HWY_ALIGN float rest_[kRowRoom];
   };
-  [[nodiscard]] HWY_INLINE Row look(const PixelRow& row) const { return {*this, row}; }
+  [[nodiscard]] HWY_INLINE Row look(const PixelRow& row, Groups wanted) const { return {*this, row, wanted}; }
 
  private:
   GreyTable table_;
@@ -295,7 +286,7 @@ class GreyFringes {
       return passed;
     }
   };
-  [[nodiscard]] HWY_INLINE Row look(const PixelRow& row) const { return {*this, row}; }
+  [[nodiscard]] HWY_INLINE Row look(const PixelRow& row, Groups /*wanted*/) const { return {*this, row}; }
 
  private:
   Edges edges_;

@@ -42,10 +42,8 @@ class PatternPlaces {
    public:
     HWY_INLINE Along(const PatternPlaces& all, const PixelRow& row)
         : column_(all.column_.along()), line_(all.line_.along()), end_(all.most_), row_(row) {}
-    [[nodiscard]] HWY_INLINE TablePlaces across(int k) const { return across_at(row_.x(k)); }
-    [[nodiscard]] HWY_INLINE TablePlaces down(int k) const { return down_at(row_.x(k)); }
-    [[nodiscard]] HWY_INLINE TablePlaces across_at(hn::Vec<FloatTag> x) const { return end_.places(column_.at(x)); }
-    [[nodiscard]] HWY_INLINE TablePlaces down_at(hn::Vec<FloatTag> x) const { return end_.places(line_.at(x)); }
+    [[nodiscard]] HWY_INLINE TablePlaces across(int k) const { return end_.places(column_.at(row_.x(k))); }
+    [[nodiscard]] HWY_INLINE TablePlaces down(int k) const { return end_.places(line_.at(row_.x(k))); }
 
    private:
     RowForm::Along column_, line_;
@@ -70,7 +68,7 @@ class Pattern {
   }
 
   HWY_INLINE void set_row(const PixelRow& row) { places_.set_row(row); }
-  HWY_INLINE const Pattern& look(const PixelRow& row) {
+  HWY_INLINE const Pattern& look(const PixelRow& row, Groups /*wanted*/) {
     const PatternPlaces::Along places(places_, row);
     for (int k = 0; k < row.count; k += static_cast<int>(hn::MaxLanes(FloatTag()))) {
       const TablePlaces across = places.across(k), down = places.down(k);
@@ -104,52 +102,51 @@ class Pattern {
   HWY_ALIGN float right_[kRowRoom], below_[kRowRoom];
 };
 
-// Of a single wavelength, one value for all channels.
+// A row's places in a table: the first of four samples, and how far to the others.
+struct RowPlaces {
+  HWY_ALIGN std::int32_t place[kRowRoom];
+  HWY_ALIGN float across[kRowRoom], down[kRowRoom];
+};
+
+// Of a single wavelength, one value for all channels. Places of all of a row's pixels come first, while the row before
+// it is looked up, and ask for their samples: patterns are far away, and most of their samples are wanted but once.
 class GreyPattern {
  public:
   static constexpr bool kGrey = true;
   GreyPattern(const screens::BandPattern& pattern, const StopMap& map)
       : GreyPattern(pattern, pattern.level_for(map.width()), map) {}
 
-  HWY_INLINE void set_row(const PixelRow& row) { places_.set_row(row); }
-
-  // Asks for what a row of pixels will look up: patterns are far away, and most of their samples are wanted but once.
-  // Of every other pixel, and of those between in the next row: a line of memory holds several on the way to one of
-  // them.
-  HWY_INLINE void fetch(const PixelRow& row) {
-    constexpr int kEvery = 2, kLanes = static_cast<int>(hn::MaxLanes(FloatTag()));
-    const FloatTag d;
+  // Makes ready for the row that comes next.
+  HWY_INLINE void expect_row(const PixelRow& row) {
+    constexpr int kLanes = static_cast<int>(hn::MaxLanes(FloatTag()));
+    constexpr int kEvery = 2;  // pixels: a line of memory holds several samples
+    RowPlaces& to = rows_[1 - now_];
     places_.set_row(row);
     const PatternPlaces::Along places(places_, row);
     const auto pitch = hn::Set(IntTag(), pitch_);
-    const auto ways = hn::Mul(hn::Iota(d, 0.0F), hn::Set(d, static_cast<float>(kEvery)));
-    for (int k = row.y % kEvery; k < row.count; k += kEvery * kLanes) {
-      const auto x = hn::Add(ways, hn::Set(d, row.from_x + static_cast<float>(k)));
-      HWY_ALIGN std::int32_t at[kLanes];
-      hn::Store(hn::Add(hn::Mul(places.down_at(x).whole, pitch), places.across_at(x).whole), IntTag(), at);
-      const int count = std::min(kLanes, (row.count - k + kEvery - 1) / kEvery);
-      for (int j = 0; j < count; ++j) table_.fetch(at[j]);
+    for (int k = 0; k < row.count; k += kLanes) {
+      const TablePlaces across = places.across(k), down = places.down(k);
+      hn::Store(hn::Add(hn::Mul(down.whole, pitch), across.whole), IntTag(), to.place + k);
+      hn::Store(across.rest, FloatTag(), to.across + k);
+      hn::Store(down.rest, FloatTag(), to.down + k);
     }
+    for (int k = row.y % kEvery; k < row.count; k += kEvery) table_.fetch(to.place[k]);
   }
+  HWY_INLINE void set_row(const PixelRow& /*expected*/) { now_ = 1 - now_; }
 
   class Row {
    public:
-    HWY_INLINE Row(const GreyPattern& all, const PixelRow& row)
-        : places_(all.places_, row), table_(all.table_), pitch_(all.pitch_), down_(hn::Set(IntTag(), all.pitch_)) {}
+    explicit HWY_INLINE Row(const GreyPattern& all) : places_(all.rows_[all.now_]), table_(all.table_) {}
     [[nodiscard]] HWY_INLINE hn::Vec<FloatTag> passed(int k) const {
-      const TablePlaces across = places_.across(k), down = places_.down(k);
-      const ShortTable::Entries place(hn::Add(hn::Mul(down.whole, down_), across.whole));
-      const auto above = table_.between(place, across.rest), below = table_.between(place, across.rest, pitch_);
-      return hn::Sub(hn::MulAdd(down.rest, hn::Sub(below, above), above), table_.none());
+      const FloatTag d;
+      return table_.among(places_.place + k, hn::Load(d, places_.across + k), hn::Load(d, places_.down + k));
     }
 
    private:
-    PatternPlaces::Along places_;
+    const RowPlaces& places_;
     ShortTable table_;
-    std::ptrdiff_t pitch_;
-    hn::Vec<IntTag> down_;
   };
-  [[nodiscard]] HWY_INLINE Row look(const PixelRow& row) const { return {*this, row}; }
+  [[nodiscard]] HWY_INLINE Row look(const PixelRow& /*row*/, Groups /*wanted*/) const { return Row(*this); }
 
  private:
   GreyPattern(const screens::BandPattern& pattern, const screens::BandPattern::Level& level, const StopMap& map)
@@ -158,6 +155,8 @@ class GreyPattern {
   PatternPlaces places_;
   ShortTable table_;
   std::int32_t pitch_;
+  int now_ = 0;
+  RowPlaces rows_[2];
 };
 
 }  // namespace contrejour::adaptive::HWY_NAMESPACE

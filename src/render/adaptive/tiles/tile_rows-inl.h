@@ -15,12 +15,13 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <type_traits>
 #include <vector>
 
 #include "render/adaptive/tiles/pixels-inl.h"
 #include "render/adaptive/tiles/polygon_list.h"
 #include "render/adaptive/tiles/tile_sums.h"
-#include "render/screens/short_light.h"
+#include "render/screens/band_pattern.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace contrejour::adaptive::HWY_NAMESPACE {
@@ -156,30 +157,70 @@ class TableEnd {
   hn::Vec<FloatTag> most_, last_;
 };
 
-// A table of ShortLight.
+#if HWY_TARGET != HWY_SCALAR
+// Eight bytes each, from these entries of a table on. One by one: gathers are slower on many processors.
+template <class D, class Entry>
+HWY_INLINE hn::Vec<D> words_at(D d, const Entry* table, const std::int32_t* at) {
+  static_assert(std::is_same_v<hn::TFromD<D>, std::uint64_t>);
+  if constexpr (hn::MaxLanes(d) == 2) {
+    std::uint64_t word[2];
+    std::memcpy(&word[0], table + at[0], sizeof word[0]);
+    std::memcpy(&word[1], table + at[1], sizeof word[1]);
+    return hn::InterleaveLower(d, hn::Set(d, word[0]), hn::Set(d, word[1]));
+  } else {
+    const hn::Half<D> half;
+    return hn::Combine(d, words_at(half, table, at + hn::MaxLanes(half)), words_at(half, table, at));
+  }
+}
+#endif
+
+// The first and the second four bytes of eight each, from these entries of a table on.
+template <class T>
+struct HalfWords {
+  hn::Vec<RowTag<T>> first, second;
+
+  template <class Entry>
+  HWY_INLINE HalfWords(const Entry* table, const std::int32_t* at) {
+    static_assert(sizeof(T) == 4);
+    const RowTag<T> d;
+#if HWY_TARGET == HWY_SCALAR
+    T words[2];
+    std::memcpy(words, table + *at, sizeof words);
+    first = hn::Set(d, words[0]);
+    second = hn::Set(d, words[1]);
+#else
+    const hn::Repartition<std::uint64_t, RowTag<T>> words;
+    const auto low = hn::BitCast(d, words_at(words, table, at));
+    const auto high = hn::BitCast(d, words_at(words, table, at + hn::MaxLanes(words)));
+    first = hn::ConcatEven(d, high, low);
+    second = hn::ConcatOdd(d, high, low);
+#endif
+  }
+};
+
+// A table of ShortLight, in pairs of a sample and the one below.
 class ShortTable {
  public:
-  ShortTable(const std::vector<std::uint16_t>& coded, const screens::ShortLight& coding)
-      : coded_(coded.data()), lowest_(hn::Set(IntTag(), coding.lowest())), none_(hn::Set(FloatTag(), coding.none())) {}
+  using Pair = screens::BandPattern::Level::Pair;
 
-  // Entries to look up between.
-  class Entries {
-   public:
-    explicit HWY_INLINE Entries(hn::Vec<IntTag> place) {
-      hn::Store(hn::BitCast(hn::RebindToUnsigned<FloatTag>(), place), hn::RebindToUnsigned<FloatTag>(), at_);
-    }
+  ShortTable(const std::vector<Pair>& pairs, const screens::ShortLight& coding)
+      : pairs_(pairs.data()), lowest_(hn::Set(IntTag(), coding.lowest())), none_(hn::Set(FloatTag(), coding.none())) {}
 
-   private:
-    friend ShortTable;
-    HWY_ALIGN std::uint32_t at_[hn::MaxLanes(IntTag())];
-  };
-  // Between entries and the ones after them, each `farther` on; more than the light by none().
-  [[nodiscard]] HWY_INLINE hn::Vec<FloatTag> between(const Entries& entries, hn::Vec<FloatTag> rest,
-                                                     std::ptrdiff_t farther = 0) const {
+  // Between four samples: from these on, so far to the next and to the ones below.
+  [[nodiscard]] HWY_INLINE hn::Vec<FloatTag> among(const std::int32_t* place, hn::Vec<FloatTag> across,
+                                                   hn::Vec<FloatTag> down) const {
+    const HalfWords<std::int32_t> pairs(pairs_, place);
+    const auto left = between(pairs.first, down), right = between(pairs.second, down);
+    return hn::Sub(hn::MulAdd(across, hn::Sub(right, left), left), none_);
+  }
+  HWY_INLINE void fetch(std::ptrdiff_t place) const { hwy::Prefetch(pairs_ + place); }
+
+ private:
+  // More than the light by none_.
+  [[nodiscard]] HWY_INLINE hn::Vec<FloatTag> between(hn::Vec<IntTag> pair, hn::Vec<FloatTag> rest) const {
     constexpr int kShift = screens::ShortLight::kShift;
     const FloatTag d;
     const IntTag di;
-    const auto pair = pairs(di, coded_ + farther, entries.at_);
     const auto bits = hn::Set(di, 0xFFFF << kShift);
     const auto low = hn::BitCast(d, hn::Add(hn::And(hn::ShiftLeft<kShift>(pair), bits), lowest_));
     const auto high = hn::BitCast(d, hn::Add(hn::And(hn::ShiftRight<16 - kShift>(pair), bits), lowest_));
@@ -187,33 +228,8 @@ class ShortTable {
     const auto first = kLowFirst ? low : high, second = kLowFirst ? high : low;
     return hn::MulAdd(rest, hn::Sub(second, first), first);
   }
-  HWY_INLINE void fetch(std::ptrdiff_t entry) const { hwy::Prefetch(coded_ + entry); }
-  [[nodiscard]] HWY_INLINE hn::Vec<FloatTag> none() const { return none_; }
 
- private:
-  // Two entries each, side by side in a word. One by one: gathers are slower on many processors.
-  static HWY_INLINE std::int32_t pair(const std::uint16_t* entry) {
-    std::int32_t out;
-    std::memcpy(&out, entry, sizeof out);
-    return out;
-  }
-#if HWY_TARGET == HWY_SCALAR
-  static HWY_INLINE hn::Vec<IntTag> pairs(IntTag d, const std::uint16_t* from, const std::uint32_t* at) {
-    return hn::Set(d, pair(from + *at));
-  }
-#else
-  template <class D>
-  static HWY_INLINE hn::Vec<D> pairs(D d, const std::uint16_t* from, const std::uint32_t* at) {
-    if constexpr (hn::MaxLanes(d) == 2) {
-      return hn::InterleaveLower(d, hn::Set(d, pair(from + at[0])), hn::Set(d, pair(from + at[1])));
-    } else {
-      const hn::Half<D> half;
-      return hn::Combine(d, pairs(half, from, at + hn::MaxLanes(half)), pairs(half, from, at));
-    }
-  }
-#endif
-
-  const std::uint16_t* coded_;
+  const Pair* pairs_;
   hn::Vec<IntTag> lowest_;
   hn::Vec<FloatTag> none_;
 };

@@ -34,7 +34,7 @@ class AnyScreen {
       : screen_(screen), map_(map), dirt_(dirt) {}
 
   void set_row(const PixelRow& row) { row_ = &row; }
-  [[nodiscard]] const AnyScreen& look(const PixelRow& /*row*/) const { return *this; }
+  [[nodiscard]] const AnyScreen& look(const PixelRow& /*row*/, Groups /*wanted*/) const { return *this; }
   [[nodiscard]] const AnyScreen& vector(int /*k*/) const { return *this; }
   [[nodiscard]] Quad passed(int k) const {
     const Vec2 pixel = row_->pixel(k);
@@ -265,22 +265,30 @@ void add_pixels(TileSums& tile, const Polygon& polygon, const StopMap& map, cons
   const auto pixels_of = [&](const CoveredRow& r) {
     return PixelRow(tile.x0 + r.first, r.count, tile.y0 + r.row, map.origin());
   };
-  if constexpr (requires(const PixelRow& row) { look.fetch(row); })
-    for (const CoveredRow& r : rows.all()) look.fetch(pixels_of(r));
+  const auto expect = [&](const auto& row) {
+    if constexpr (requires { look.expect_row(pixels_of(*row)); })
+      if (row != rows.all().end()) look.expect_row(pixels_of(*row));
+  };
+  expect(rows.all().begin());
   const RowShade shade = row_shade(polygon.shade, tile);
   using Light = PixelLight<Look::kGrey>;
   const Light light(shade);
-  for (const CoveredRow& r : rows.all()) {
+  for (auto at = rows.all().begin(); at != rows.all().end(); ++at) {
+    const CoveredRow& r = *at;
     const PixelRow pixels = pixels_of(r);
     look.set_row(pixels);
+    expect(at + 1);
     const RowOfPixels row(tile, r, within);
+    const typename Light::Row light_of_row(light, r);
+    const Groups all = first_groups((r.count + kGroup - 1) / kGroup);
     if constexpr (requires { look.seen(pixels); }) {
       if (r.count > kShort) {
-        add_row(tile, row, shade, look.seen(pixels), look.look(pixels), typename Light::Row(light, r));
+        const SeenGroups seen = look.seen(pixels);
+        add_row(tile, row, shade, seen, look.look(pixels, all & ~(seen.dark | seen.level)), light_of_row);
         continue;
       }
     }
-    add_row(tile, row, look.look(pixels), typename Light::Row(light, r));
+    add_row(tile, row, look.look(pixels, all), light_of_row);
   }
 }
 
