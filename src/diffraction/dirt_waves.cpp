@@ -132,7 +132,12 @@ DirtWaves::Direction DirtWaves::along(double direction_rad, double window_rad) c
     if (ends >= 1.0) continue;
     const double radius =
         s.half_turn_rad > 0.0 ? 0.5 * s.length / s.half_turn_rad : std::numeric_limits<double>::infinity();
-    d.near_.push_back({s.length, radius, s.width, (1.0 - ends) * s.weight, tau});
+    const auto end = [](double angle) -> Direction::Line::End {
+      const double half = 0.5 * std::clamp(angle, -kPi, kPi);
+      return {std::sin(half), std::cos(half)};
+    };
+    d.near_.push_back({s.length, radius, s.width, (1.0 - ends) * s.weight, std::sin(tau), std::cos(tau),
+                       end(tau - s.half_turn_rad), end(tau + s.half_turn_rad)});
   }
   return d;
 }
@@ -140,23 +145,21 @@ DirtWaves::Direction DirtWaves::along(double direction_rad, double window_rad) c
 // A slit's width and, along it: straight, (L sinc(k L sin(tau) / 2))^2, averaged over the window; bent, by Fresnel's
 // integrals (EdgeWaves' arc): phase k R cos(s) = k R - (pi / 2) u^2, u = sqrt(4 k R / pi) sin(s / 2).
 double DirtWaves::Direction::line_power(const Line& line, double k) const {
-  const double across = line.weight * square(line.width) * sinc_squared(0.5 * k * line.width * std::cos(line.tau));
+  const double across = line.weight * square(line.width) * sinc_squared(0.5 * k * line.width * line.cosine);
   if (k * square(line.length) < 8.0 * kFlatPhase * line.radius) {
-    const double q = 0.5 * k * line.length * std::sin(line.tau);
-    const double h =
-        std::max(0.25 * k * line.length * std::cos(line.tau) * window_rad_, kSpectralBlur * (std::abs(q) - kPi));
+    const double q = 0.5 * k * line.length * line.sine;
+    const double h = std::max(0.25 * k * line.length * line.cosine * window_rad_, kSpectralBlur * (std::abs(q) - kPi));
     const double along =
         h < 0.05 ? sinc_squared(q) : (integral_of_sinc_squared(q + h) - integral_of_sinc_squared(q - h)) / (2.0 * h);
     return across * square(line.length) * along;
   }
   const double per_sine = std::sqrt(4.0 * k * line.radius / kPi);
-  const double half_turn = 0.5 * line.length / line.radius;
   const int steps = std::clamp(static_cast<int>(std::ceil(0.5 * per_sine * window_rad_ / kStepU)), 1, kMaxSteps);
   double sum = 0.0;
   for (int i = 0; i < steps; ++i) {
-    const double tau = line.tau + window_rad_ * ((i + 0.5) / steps - 0.5);
-    const auto u_of = [&](double s) { return per_sine * std::sin(0.5 * std::clamp(s, -kPi, kPi)); };
-    sum += fresnel_power(u_of(tau - half_turn), u_of(tau + half_turn));
+    const double half_turn = 0.5 * window_rad_ * ((i + 0.5) / steps - 0.5);  // small: a sine's tangent is the sine
+    const auto u_of = [&](const Line::End& end) { return per_sine * (end.sine + half_turn * end.cosine); };
+    sum += fresnel_power(u_of(line.first), u_of(line.last));
   }
   return across * kPi * line.radius / k * sum / steps;
 }

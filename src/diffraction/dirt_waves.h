@@ -27,7 +27,11 @@ class DirtWaves {
     struct Line {
       double length = 0, radius = 0;  // radius: infinite when straight
       double width = 0, weight = 0;
-      double tau = 0;  // the direction's angle from the normal at the line's middle, within a quarter turn
+      double sine = 0, cosine = 0;  // of the direction's angle from the normal at the line's middle
+      struct End {
+        double sine = 0, cosine = 0;  // of half that angle from the normal at an end
+      };
+      End first, last;
     };
     [[nodiscard]] double line_power(const Line& line, double k) const;
 

@@ -10,6 +10,7 @@
 #include "base/tasks.h"
 #include "contrejour/starburst.h"
 #include "diffraction/ring_reader.h"
+#include "diffraction/sheet_rows.h"
 #include "diffraction/starburst_core.h"
 #include "diffraction/starburst_rings.h"
 
@@ -206,11 +207,10 @@ void add_starburst(Image& image, const Starburst& starburst, Vec2 centre_px, con
   parallel_for(static_cast<std::size_t>(image.height), context, [&](std::size_t row) {
     const double y = static_cast<double>(row) + 0.5 - centre_px.y;
     if (std::abs(y) > rings.radius_px) return;
-    std::vector<float> rgb(3 * width);
+    std::vector<float> rgb(3 * (width + 1));
     read_rings(rings, 0.5 - centre_px.x, y, width, rgb.data());
     read_core_row(rings, centre_px, y, width, rgb.data());
-    const std::span<float> pixels = image.row(static_cast<int>(row));
-    for (std::size_t i = 0; i < pixels.size(); ++i) pixels[i] += scale[i % 3] * rgb[i];
+    add_between(rgb.data(), 0.0F, scale, 3 * width, image.row(static_cast<int>(row)).data());
   });
 }
 

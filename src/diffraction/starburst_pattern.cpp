@@ -6,11 +6,13 @@
 #include <utility>
 #include <vector>
 
+#include "base/tasks.h"
 #include "diffraction/starburst_rings.h"
 
 namespace contrejour {
 namespace {
 
+constexpr double kPi = std::numbers::pi;
 constexpr double kSampleRho = 0.45;  // fringes are 1 apart at least: samples of an average stand closer
 // From spectrum to edge waves, in samples across: where aliases of the edges are below 1 per cent, and with dirt, which
 // only the spectrum has, where they are 10. Of a picture there is nothing else to go to.
@@ -55,7 +57,7 @@ double sector_mean(const Sector& sector, Radius radius, Value value) {
 double power_lost_at_edges(const PupilMask& mask, const PupilOutline& outline) {
   const double size_mm = std::sqrt(std::abs(cross(outline.x_mm, outline.y_mm)));
   double edges_mm = outline.opening.perimeter() * size_mm;
-  for (const double area : outline.obscured_mm2) edges_mm += 2.0 * std::sqrt(std::numbers::pi * area);
+  for (const double area : outline.obscured_mm2) edges_mm += 2.0 * std::sqrt(kPi * area);
   return 1.0 + edges_mm * mask.grid.pitch_mm / (6.0 * outline.area_mm2());
 }
 
@@ -67,7 +69,7 @@ std::optional<DirtWaves> waves_of_obscurations(const PupilOutline& outline, doub
   std::vector<DirtStroke> discs;
   for (const double area : outline.obscured_mm2) {
     DirtStroke disc;
-    disc.width_mm = 2.0 * std::sqrt(area / std::numbers::pi) * kObscurationUnits / pupil_radius_mm;
+    disc.width_mm = 2.0 * std::sqrt(area / kPi) * kObscurationUnits / pupil_radius_mm;
     discs.push_back(disc);
   }
   return DirtWaves(discs);
@@ -128,6 +130,7 @@ StarburstPattern::StarburstPattern(const PupilMask& mask, const PupilOutline* ou
   dirt_x_ = dirt.x_mm * (1.0 / pupil_radius_mm);
   dirt_y_ = dirt.y_mm * (1.0 / pupil_radius_mm);
   dirt_scale_ = square(cross(dirt_x_, dirt_y_) * pupil_radius_mm) / (4.0 * power_mm2_);
+  measure_grain(context);
 }
 
 void StarburstPattern::sample(double angle_rad, double window_rad, double first_rho, int rows, float* out,
@@ -158,7 +161,6 @@ void StarburstPattern::sample(double angle_rad, double window_rad, double first_
 }
 
 double StarburstPattern::Tail::times_rho3(double rho) const {
-  constexpr double kPi = std::numbers::pi;
   double sum = scattered;
   if (edges) sum += scale * rho * rho * rho * edges->power(kPi * stretch * rho);
   if (obscurations) sum += obscurations_scale * rho * rho * rho * obscurations->power(kPi * rho / kObscurationUnits);
@@ -193,12 +195,8 @@ StarburstPattern::Tail StarburstPattern::tail_along(double angle_rad, double win
   if (edges_) add_edges(angle_rad, window_rad, tail);
   if (clean_) return tail;
   if (dirt_) {
-    Tail dirt;
-    add_dirt(angle_rad, window_rad, dirt);
-    dirt.dirt_scale *= grain_along(angle_rad, window_rad, tail, dirt);
-    tail.dirt = std::move(dirt.dirt);
-    tail.dirt_stretch = dirt.dirt_stretch;
-    tail.dirt_scale = dirt.dirt_scale;
+    add_dirt(angle_rad, window_rad, tail);
+    tail.dirt_scale *= grain_along(angle_rad, window_rad);
     return tail;
   }
   double sum = 0.0;
@@ -210,22 +208,35 @@ StarburstPattern::Tail StarburstPattern::tail_along(double angle_rad, double win
   return tail;
 }
 
-// The spectrum less what edges send over what shapes send one by one, in the mean over the spectrum's outermost part.
-double StarburstPattern::grain_along(double angle_rad, double window_rad, const Tail& edges, const Tail& dirt) const {
+// What the spectrum has more than edges send, and what shapes send one by one, in the mean over the spectrum's
+// outermost part. In directions as close as the spectrum's samples: starbursts have many times as many.
+void StarburstPattern::measure_grain(const Context& context) {
   const double from = kScatteredFrom * tail_end_, length = tail_end_ - from;
-  const int across = std::max(1, static_cast<int>(std::ceil(tail_end_ * window_rad / kSampleRho)));
+  const auto directions = static_cast<std::size_t>(std::ceil(kPi * tail_end_ / kSampleRho));
+  const double window = kPi / static_cast<double>(directions);
   const int down = std::max(1, static_cast<int>(length / kGrainRho));
-  double sum = sector_mean(
-      {angle_rad, window_rad, along_angle(angle_rad), across, down},
-      [&](double share) { return from + length * share; },
-      [&](double rho, double x, double y) { return grid_.density(x, y) * rho * rho * rho; });
-  double of_dirt = 0.0;
-  for (int i = 0; i < kModelPlaces; ++i) {
-    const double rho = from + length * (i + 0.5) / kModelPlaces;
-    sum -= edges.times_rho3(rho) / kModelPlaces;
-    of_dirt += dirt.times_rho3(rho) / kModelPlaces;
-  }
-  return of_dirt > 0.0 ? std::clamp(sum / of_dirt, kLeastGrain, kMostGrain) : 1.0;
+  std::vector<double> halo(directions), shapes(directions);
+  parallel_for(directions, context, [&](std::size_t i) {
+    const double angle = (static_cast<double>(i) + 0.5) * window;
+    halo[i] = sector_mean(
+        {angle, window, along_angle(angle), 1, down}, [&](double share) { return from + length * share; },
+        [&](double rho, double x, double y) { return grid_.density(x, y) * rho * rho * rho; });
+    Tail edges, dirt;
+    add_edges(angle, window, edges);
+    add_dirt(angle, window, dirt);
+    for (int k = 0; k < kModelPlaces; ++k) {
+      const double rho = from + length * (k + 0.5) / kModelPlaces;
+      halo[i] -= edges.times_rho3(rho) / kModelPlaces;
+      shapes[i] += dirt.times_rho3(rho) / kModelPlaces;
+    }
+  });
+  halo_ = DirectionMeans(halo);
+  shapes_ = DirectionMeans(shapes);
+}
+
+double StarburstPattern::grain_along(double angle_rad, double window_rad) const {
+  const double shapes = shapes_.over(angle_rad, window_rad);
+  return shapes > 0.0 ? std::clamp(halo_.over(angle_rad, window_rad) / shapes, kLeastGrain, kMostGrain) : 1.0;
 }
 
 double StarburstPattern::spectrum_average(double angle_rad, Vec2 along, double window_rad, double rho) const {

@@ -8,6 +8,7 @@
 #include "contrejour/context.h"
 #include "contrejour/pupil_mask.h"
 #include "contrejour/starburst.h"
+#include "diffraction/direction_means.h"
 #include "diffraction/dirt_waves.h"
 #include "diffraction/edge_waves.h"
 #include "diffraction/power_grid.h"
@@ -40,7 +41,8 @@ class StarburstPattern {
   [[nodiscard]] Tail tail_along(double angle_rad, double window_rad) const;
   void add_edges(double angle_rad, double window_rad, Tail& tail) const;
   void add_dirt(double angle_rad, double window_rad, Tail& tail) const;
-  [[nodiscard]] double grain_along(double angle_rad, double window_rad, const Tail& edges, const Tail& dirt) const;
+  void measure_grain(const Context& context);
+  [[nodiscard]] double grain_along(double angle_rad, double window_rad) const;
   [[nodiscard]] double spectrum_average(double angle_rad, Vec2 along, double window_rad, double rho) const;
 
   double across_, power_mm2_;
@@ -54,6 +56,7 @@ class StarburstPattern {
   std::optional<DirtWaves> dirt_;
   double dirt_scale_ = 0;
   Vec2 dirt_x_, dirt_y_;  // the dirt's unit vectors in pupil radii
+  DirectionMeans halo_, shapes_;  // times rho^3, where the spectrum ends: its own less the edges', and of all dirt
 };
 
 }  // namespace contrejour

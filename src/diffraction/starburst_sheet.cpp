@@ -107,10 +107,10 @@ void draw_rows(Image& image, const StarburstSamples& samples, Vec2 centre_px, co
       add_between(blended.data(), place.right, scale, 3 * width, pixels);
       continue;
     }
-    core.assign(3 * width, 0.0F);
+    core.assign(3 * (width + 1), 0.0F);
     add_between(blended.data(), place.right, {1.0F, 1.0F, 1.0F}, 3 * width, core.data());
     read_core_row(*samples.starburst.rings(), centre_px, y, width, core.data());
-    for (std::size_t i = 0; i < core.size(); ++i) pixels[i] += scale[i % 3] * core[i];
+    add_between(core.data(), 0.0F, scale, 3 * width, pixels);
   }
 }
 
