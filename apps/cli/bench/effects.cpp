@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include "cli/bench/repeats.h"
 #include "contrejour/trace.h"
 #include "params/settings.h"
 
@@ -69,17 +70,19 @@ Result<EffectScene> with_lens(const EffectScene& scene, const EffectSystem& syst
 }
 
 Result<EffectCost> cost_in_turns(const EffectScene& scene, const EffectRender& without, const EffectRender& with) {
-  std::array<double, 2> ms{};
-  ms.fill(std::numeric_limits<double>::infinity());
-  for (int k = 0; k < 2 * scene.runs; ++k) {
-    const EffectRender& one = k % 2 == 0 ? without : with;
-    const double start = processor_ms();
-    const auto flare = render("adaptive", scene.lens, {&one.light, 1}, one.settings, scene.context);
-    if (!flare) return tl::unexpected(flare.error());
-    double& fastest = ms[static_cast<std::size_t>(k % 2)];
-    fastest = std::min(fastest, processor_ms() - start);
+  EffectCost cost{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
+  double all_ms = 0.0;
+  for (int turn = 0; another_run(turn, scene.runs, all_ms); ++turn) {
+    for (const auto& [one, fastest_ms] : {std::pair(&without, &cost.without_ms), std::pair(&with, &cost.with_ms)}) {
+      const double start = processor_ms();
+      const auto flare = render("adaptive", scene.lens, {&one->light, 1}, one->settings, scene.context);
+      if (!flare) return tl::unexpected(flare.error());
+      const double ms = processor_ms() - start;
+      *fastest_ms = std::min(*fastest_ms, ms);
+      all_ms += ms;
+    }
   }
-  return EffectCost{ms[0], ms[1]};
+  return cost;
 }
 
 std::string cost_text(const EffectScene& scene, const EffectCost& cost) {
@@ -89,11 +92,13 @@ std::string cost_text(const EffectScene& scene, const EffectCost& cost) {
 
 Result<double> fastest_ms(int runs, const std::function<Result<void>()>& run) {
   using Clock = std::chrono::steady_clock;
-  double fastest = std::numeric_limits<double>::infinity();
-  for (int k = 0; k < runs; ++k) {
+  double fastest = std::numeric_limits<double>::infinity(), all_ms = 0.0;
+  for (int k = 0; another_run(k, runs, all_ms); ++k) {
     const auto start = Clock::now();
     if (const auto ok = run(); !ok) return tl::unexpected(ok.error());
-    fastest = std::min(fastest, std::chrono::duration<double, std::milli>(Clock::now() - start).count());
+    const double ms = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+    fastest = std::min(fastest, ms);
+    all_ms += ms;
   }
   return fastest;
 }

@@ -40,8 +40,8 @@ struct EffectSystem {
 };
 [[nodiscard]] Result<EffectScene> with_lens(const EffectScene& scene, const EffectSystem& system);
 
-// Renders with an effect and without, in turns, so that what changes while they run changes both. Of so many runs the
-// fastest, in processor time of all threads together, which other programs do not take from.
+// Renders with an effect and without, in turns, so that what changes while they run changes both. Of the scene's runs
+// (repeats.h) the fastest, in processor time of all threads together, which other programs do not take from.
 struct EffectRender {
   RenderSettings settings;
   Light light;
@@ -56,7 +56,7 @@ struct EffectCost {
 // "f/8, 40.1 ms, 30.0 ms of processor time".
 [[nodiscard]] std::string cost_text(const EffectScene& scene, const EffectCost& cost);
 
-// Of so many runs the fastest, in ms of the clock.
+// Of so many runs (repeats.h) the fastest, in ms of the clock.
 [[nodiscard]] Result<double> fastest_ms(int runs, const std::function<Result<void>()>& run);
 
 // A new iris's, a kept one's, a new dirt's.

@@ -10,6 +10,7 @@
 
 #include <fmt/format.h>
 
+#include "cli/bench/repeats.h"
 #include "cli/bench/tables.h"
 #include "cli/flare_report.h"
 #include "cli/long_task.h"
@@ -95,11 +96,9 @@ Result<BenchRow> measure(const BenchScene& scene, const BenchRequest& request, c
   BenchRow row{scene.system, request, scene.lens.f_number, scene.settings, {}, runs_of(scene, request, running), {},
                {},           {}};
   row.settings.tiled = request.tiled;
-  // Rows of milliseconds find the machine cold: from two runs on they are repeated until it is warm.
-  constexpr double kWarm_ms = 300.0;
   const int asked = std::exchange(row.runs, 0);
   double all_ms = 0.0;
-  for (int run = 0; run < asked || (asked > 1 && all_ms < kWarm_ms); ++run) {
+  for (int run = 0; another_run(run, asked, all_ms); ++run) {
     ++row.runs;
     auto flare = render_scene(scene, request, running.threads);
     if (!flare) return tl::unexpected(flare.error());
