@@ -15,6 +15,7 @@
 #include "adaptive/scene.h"
 #include "contrejour/image_io.h"
 #include "contrejour/metrics.h"
+#include "contrejour/ringing.h"
 #include "support/flares.h"
 
 using namespace contrejour;
@@ -35,6 +36,12 @@ double psnr_db(const Image& truth, const Image& image) {
   const auto difference = compare(truth, image);
   REQUIRE(difference.has_value());
   return difference->psnr_db.value_or(1000.0);
+}
+
+Rgb channel_sums(const Image& image) {
+  Rgb sums{};
+  for (std::size_t k = 0; k < image.pixels.size(); ++k) sums[k % 3] += image.pixels[k];
+  return sums;
 }
 
 double peak_of(const Image& image) { return *std::max_element(image.pixels.begin(), image.pixels.end()); }
@@ -288,6 +295,30 @@ TEST_CASE("a ghost alone, of which nothing is seen when it is drawn without care
     const double truth = test::sum(test::flare_of("reference", lens, {&light, 1}, settings).image);
     CHECK(truth > 0.0);
     CHECK(ours == doctest::Approx(truth).epsilon(0.01));
+  }
+}
+
+TEST_CASE("a ghost nearly in focus keeps its light, however few pixels it is") {
+  const LensState lens = test::bundled("itoh-zoom", {.f_number = 32.0, .iris = {7}});
+  const Light light{.direction = normalized(Vec3{-0.295885, -0.285027, 0.911708})};
+  RenderSettings settings;
+  settings.wavelengths = 3;
+  settings.selection = SelectList{{{1, 3}}};
+  settings.grid = 512;
+  for (const RingingMode ringing : {RingingMode::None, RingingMode::Fresnel}) {
+    settings.ringing.mode = ringing;
+    for (const int width : {640, 960, 1280, 1920}) {
+      settings.frame = frame_on_sensor(lens, width, width * 9 / 16);
+      const auto truth = channel_sums(test::flare_of("bundle", lens, {&light, 1}, settings).image);
+      for (const double error : kPresets) {
+        CAPTURE(width);
+        CAPTURE(error);
+        settings.error = error;
+        const auto ours = channel_sums(test::flare_of("adaptive", lens, {&light, 1}, settings).image);
+        for (const std::size_t c : {0U, 2U})  // of green there is little, less than red's and blue's colours leave
+          CHECK(ours[c] / truth[c] == doctest::Approx(1.0).epsilon(ringing == RingingMode::None ? 0.003 : 0.025));
+      }
+    }
   }
 }
 

@@ -73,6 +73,21 @@ TEST_CASE("a ghost keeps its light, whatever its Fresnel number [slow]") {
   }
 }
 
+TEST_CASE("ghosts whose cells are larger than the iris have light nowhere else [slow]") {
+  const LensState lens = bundled("itoh-zoom", {.focal_length_mm = 123.0, .f_number = 32.0});
+  RenderSettings settings;
+  settings.frame = frame_on_sensor(lens, 960, 540);
+  settings.wavelengths = 3;
+  const Light light = light_at(lens, settings.frame, {0.52, 0.55});
+  for (const Ghost ghost : {Ghost{1, 2}, Ghost{14, 17}, Ghost{16, 18}, Ghost{17, 19}}) {
+    CAPTURE(ghost.i);
+    settings.selection = SelectList{{ghost}};
+    const Image sharp = image_of(bounds_of("adaptive"), lens, light, settings);
+    const Image rung = image_of(bounds_of("adaptive"), lens, light, ringing(settings));
+    CHECK(sum(rung) / sum(sharp) == doctest::Approx(1.0).epsilon(0.03));
+  }
+}
+
 TEST_CASE("at a low Fresnel number a ghost widens smoothly and ends") {
   const double radius_mm = std::sqrt(1.5 * 550e-6 * 12.0);
   const LensState lens = plate_of(radius_mm, Iris{});

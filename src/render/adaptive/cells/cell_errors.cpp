@@ -157,7 +157,8 @@ double CellPainter::squared_error(const Mesh& mesh, const Cell& cell, CellMeasur
   const auto along_edges = [&](double by, double edges) { return seen * std::min(by * by, by) * edges * m.longest_px; };
   if (state == State::Cut)
     error += kEdgeBound * along_edges(left * m.limit * m.longest_px, iris_.is_picture() ? kPictureEdges : 1.0);
-  if (cell.screen.part == ScreenPart::Varied && m.longest_px > kOnePlace_px && error < m.most) {  // soft ones
+  if (cell.screen.part == ScreenPart::Varied && error < m.most &&
+      !sees_by_parts(mesh, cell, m.longest_px)) {  // soft ones
     if (!m.map_error) m.map_error = map_error(mesh, cell, m.longest_px);
     const double map_off = *m.map_error * m.longest_px;
     const double shown = map_off < kLittleOff_px ? kSeenOfLittle : 1.0;

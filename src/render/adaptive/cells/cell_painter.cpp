@@ -81,17 +81,28 @@ void CellPainter::draw(const BoxMesh& of, const ChosenCell& chosen) {
     convex =
         convex && cross(p[(k + 1) % 4] - a, p[(k + 2) % 4] - a) * area > 0.0 && mesh.area[cell.corner[k]] * area > 0.0;
   }
-  if (!convex) return draw_folded(mesh, cell, state);
+  const Vec2 d = p[2] - p[0];
+  const Vec2 f = p[3] - p[1];
+  const bool varied = cell.screen.part == ScreenPart::Varied;
+  const double longest = std::max(length(d), length(f));
+  const bool by_parts = varied && sees_by_parts(mesh, cell, longest);
+  std::optional<Flux> mean;
+  if (varied && (by_parts || is_dim(mesh, cell, kMeanBelow))) {
+    const CellParts parts =
+        parts_of(mesh, cell, by_parts ? parts_across(mesh, cell, longest) : CellParts::kFewestAcross);
+    if (by_parts && state == State::Open && !is_dirty(mesh, cell) && parts.are_uneven())
+      return draw_parts(mesh, cell, parts);
+    mean = parts.mean();
+  }
+  if (!convex) return draw_folded(mesh, cell, state, mean);
 
   Shade shade;
   Flux flux{};
   const Vec2 middle = centroid + mesh.origin_px;
   shade.at = {static_cast<float>(middle.x), static_cast<float>(middle.y)};
-  const Vec2 d = p[2] - p[0];
-  const Vec2 f = p[3] - p[1];
   const double flux_area = mesh.cell_flux_area_mm2 * cell.size * cell.size;
   // Pixels see the irradiance at their centres, which may lie well outside a cell smaller than they are.
-  const double width = std::abs(area) / std::max(length(d), length(f));
+  const double width = std::abs(area) / longest;
   const double sloped = std::clamp(width - 1.0, 0.0, 1.0);
   CellLevel level;
   for (std::size_t c = 0; c < 3; ++c) {
@@ -108,18 +119,36 @@ void CellPainter::draw(const BoxMesh& of, const ChosenCell& chosen) {
     if (is_dirty(mesh, cell)) return draw_dirty(mesh, cell, state, shade, flux, map);
     draw_polygon(mesh, state, shade, flux, shape_of(mesh, cell, sides).all(), all_corners_, {map});
   };
-  const bool varied = cell.screen.part == ScreenPart::Varied;
-  const bool one_place = std::max(length(d), length(f)) < kOnePlace_px;
-  if (varied && (one_place || is_dim(mesh, cell, kMeanBelow))) {
-    dim(shade, flux, mean_passed(mesh, cell, one_place ? 1 : kMeanParts));
-    return draw_seen(nullptr);
-  }
-  const auto map = varied ? std::optional(stop_map(mesh, cell, kSoft_px)) : std::nullopt;
+  if (mean) dim(shade, flux, *mean);
+  const auto map = varied && !mean ? std::optional(stop_map(mesh, cell, kSoft_px)) : std::nullopt;
   draw_seen(map ? &*map : nullptr);
 }
 
+// Each part as a polygon of its own, with its share of the cell's flux.
+void CellPainter::draw_parts(const Mesh& mesh, const Cell& cell, const CellParts& parts) {
+  std::array<Vec2, 4> corner;
+  for (std::size_t k = 0; k < 4; ++k) corner[k] = mesh.position(cell.corner[k]) + mesh.origin_px;
+  Flux flux{};
+  for (std::size_t c = 0; c < 3; ++c) {
+    const int weight = static_cast<int>(c) < mesh.layout.weights ? static_cast<int>(c) : 0;
+    flux[c] = mesh.gain[c] * cell_level(mesh, cell, weight).weight * mesh.cell_flux_area_mm2 * cell.size * cell.size;
+  }
+  for (std::size_t k = 0; k < parts.count(); ++k) {
+    Flux passed = flux;
+    for (std::size_t c = 0; c < 3; ++c) passed[c] *= parts.room[k][c];
+    if (passed == Flux{}) continue;
+    std::array<Corner, 4> part;
+    for (std::size_t j = 0; j < 4; ++j) {
+      part[j].uv = parts.corner(k, j);
+      part[j].position = CellParts::between(corner, part[j].uv);
+    }
+    const Vec2 middle = (part[0].position + part[2].position) * 0.5;
+    draw_part(part, {.at = {static_cast<float>(middle.x), static_cast<float>(middle.y)}}, passed, false, {});
+  }
+}
+
 // Two triangles, each with its own flux spread evenly.
-void CellPainter::draw_folded(const Mesh& mesh, const Cell& cell, State state) {
+void CellPainter::draw_folded(const Mesh& mesh, const Cell& cell, State state, const std::optional<Flux>& mean) {
   const double flux_area = 0.5 * mesh.cell_flux_area_mm2 * cell.size * cell.size;
   for (const auto& t : {std::array{cell.corner[0], cell.corner[1], cell.corner[2]},
                         std::array{cell.corner[0], cell.corner[2], cell.corner[3]}}) {
@@ -137,11 +166,8 @@ void CellPainter::draw_folded(const Mesh& mesh, const Cell& cell, State state) {
       flux[c] = mesh.gain[c] * (w[t[0]] + w[t[1]] + w[t[2]]) / 3.0 * flux_area;
       shade.value[c] = static_cast<float>(flux[c] / std::max(area, 1e-12));
     }
-    const bool varied = cell.screen.part == ScreenPart::Varied;
-    const bool one_place = length(p[2] - p[0]) < kOnePlace_px;
-    const bool mean = varied && (one_place || is_dim(mesh, cell, kMeanBelow));
-    if (mean) dim(shade, flux, mean_passed(mesh, cell, one_place ? 1 : kMeanParts));
-    const auto map = varied && !mean ? std::optional(stop_map(mesh, t)) : std::nullopt;
+    if (mean) dim(shade, flux, *mean);
+    const auto map = cell.screen.part == ScreenPart::Varied && !mean ? std::optional(stop_map(mesh, t)) : std::nullopt;
     const auto dirt = is_dirty(mesh, cell) ? std::optional(dirt_triangle(mesh, t)) : std::nullopt;
     draw_polygon(mesh, state, shade, flux, corners, corners, {map ? &*map : nullptr, dirt ? &*dirt : nullptr});
   }
@@ -189,6 +215,14 @@ void CellPainter::draw_pieces(const Mesh& mesh, std::span<const Corner> cell, co
                              });
 }
 
+// Of a small polygon, so much of a cell's flux to the pixel: near a focus irradiance varies within cells that pixels do
+// not tell apart, and what the iris leaves of them has not its share of their area.
+Shade CellPainter::even_shade(const Shade& of, const Flux& flux, double share_per_px) {
+  Shade even{.at = of.at};
+  for (std::size_t c = 0; c < 3; ++c) even.value[c] = static_cast<float>(flux[c] * share_per_px);
+  return even;
+}
+
 // triangle: flux is that of half the square of uv.
 void CellPainter::draw_part(std::span<const Corner> polygon, const Shade& shade, const Flux& flux, bool triangle,
                             const Behind& behind) {
@@ -206,9 +240,9 @@ void CellPainter::draw_part(std::span<const Corner> polygon, const Shade& shade,
   const double longest = std::max(b.size().x, b.size().y);
   const bool one_pixel = std::floor(b.low.x) == std::floor(b.high.x) && std::floor(b.low.y) == std::floor(b.high.y);
   const bool sliver = std::abs(twice_area) < kSliver * longest;
+  const double area = 0.5 * std::abs(twice_area), share = 0.5 * std::abs(twice_share) * (triangle ? 2.0 : 1.0);
   if (!one_pixel && !sliver && longest > kSpeck)
-    return add_seen(polygon, 0.5 * std::abs(twice_area), shade, flux, behind);
-  const double share = 0.5 * std::abs(twice_share) * (triangle ? 2.0 : 1.0);
+    return add_seen(polygon, area, longest < kSmall_px ? even_shade(shade, flux, share / area) : shade, flux, behind);
   Flux passed{flux[0] * share, flux[1] * share, flux[2] * share};
   const Vec2 middle = (b.low + b.high) * 0.5;
   if (behind.screen != nullptr) {

@@ -60,6 +60,26 @@ class CellPainter {
     const DirtTriangle* dirt = nullptr;
   };
 
+  // What passes the screen of a cell's light, by parts as large as each other.
+  struct CellParts {
+    static constexpr std::size_t kFewestAcross = 3, kMostAcross = 10;
+    std::size_t across;
+    std::array<Flux, kMostAcross * kMostAcross> room;
+
+    [[nodiscard]] std::size_t count() const { return across * across; }
+    [[nodiscard]] std::span<const Flux> passed() const { return {room.data(), count()}; }
+    // In the cell, each way from 0 to 1.
+    [[nodiscard]] Vec2 middle(std::size_t part) const { return place(part, {0.5, 0.5}); }
+    [[nodiscard]] Vec2 corner(std::size_t part, std::size_t which) const;
+    // There, between what is at the cell's corners.
+    [[nodiscard]] static Vec2 between(const std::array<Vec2, 4>& corner, Vec2 uv);
+    [[nodiscard]] Flux mean() const;
+    [[nodiscard]] bool are_uneven() const;
+
+   private:
+    [[nodiscard]] Vec2 place(std::size_t part, Vec2 in_part) const;
+  };
+
   // What its errors are made of, with straight sides or bent ones.
   struct CellMeasure {
     bool on_plane = false;  // its irradiance is that of more cells
@@ -88,11 +108,11 @@ class CellPainter {
 
   static constexpr double kManyCells = 4.0;
   static constexpr double kSoft_px = 0.2;  // of cells, for maps to be drawn with
-  static constexpr double kOnePlace_px = 0.4;  // a cell no longer than this sees the stop at one place
+  // Of smaller polygons it is their flux that counts, whatever irradiance their places say.
+  static constexpr double kSmall_px = 2.0;
   // Times what is not seen, so 0.1 of the error that all pixels may have: where light is dimmer than that it is its
-  // mean over a cell, by so many parts along each side.
+  // mean over a cell.
   static constexpr double kMeanBelow = 10.0;
-  static constexpr int kMeanParts = 3;
 
   // By one of the weights, without gain: its mean, and how the irradiance rises along the diagonals, over its mean.
   struct CellLevel {
@@ -100,11 +120,13 @@ class CellPainter {
   };
 
   static void dim(Shade& shade, Flux& flux, const Flux& share);
+  [[nodiscard]] static Shade even_shade(const Shade& of, const Flux& flux, double share_per_px);
   void choose(const Patch& patch, const MeshPlace& place, int depth, const Shade* plane);
   void choose(BoxMesh& of, const MeshSquare& square, const Shade* plane);
   [[nodiscard]] static CellLevel cell_level(const Mesh& mesh, const Cell& cell, int weight);
   void draw(const BoxMesh& of, const ChosenCell& chosen);
-  void draw_folded(const Mesh& mesh, const Cell& cell, State state);
+  void draw_folded(const Mesh& mesh, const Cell& cell, State state, const std::optional<Flux>& mean);
+  void draw_parts(const Mesh& mesh, const Cell& cell, const CellParts& parts);
   [[nodiscard]] static std::span<const Corner> placed(const Mesh& mesh, State state,
                                                       std::span<const CellCorner> corners, std::vector<Corner>& to);
   void draw_polygon(const Mesh& mesh, State state, const Shade& shade, const Flux& flux,
@@ -124,11 +146,12 @@ class CellPainter {
   [[nodiscard]] Vec2 dirt_place(const Mesh& mesh, std::size_t vertex, int crossing) const;
   [[nodiscard]] bool is_dirty(const Mesh& mesh, const Cell& cell) const;  // false where the lens is clean
   [[nodiscard]] double shadow_error(const Mesh& mesh, const Cell& cell) const;
-  void draw_screened(std::span<const Corner> polygon, double area_px, const Shade& shade, const Flux& flux,
-                     const StopMap& map);
+  void draw_screened(std::span<const Corner> polygon, double area_px, const Shade& shade, const StopMap& map);
   void add_fringed(std::span<const PlacedCorner> polygon, const Shade& shade, const StopMap& map,
                    const EdgeTable& table);
-  [[nodiscard]] std::array<double, 3> mean_passed(const Mesh& mesh, const Cell& cell, int parts) const;
+  [[nodiscard]] bool sees_by_parts(const Mesh& mesh, const Cell& cell, double longest_px) const;
+  [[nodiscard]] std::size_t parts_across(const Mesh& mesh, const Cell& cell, double longest_px) const;
+  [[nodiscard]] CellParts parts_of(const Mesh& mesh, const Cell& cell, std::size_t across) const;
   [[nodiscard]] Vec2 stop_place(const Mesh& mesh, std::size_t vertex, int crossing) const;
   [[nodiscard]] StopMap stop_map(const Mesh& mesh, const Cell& cell, double softness_px) const;
   [[nodiscard]] StopMap stop_map(const Mesh& mesh, const std::array<std::size_t, 3>& triangle) const;
@@ -191,7 +214,6 @@ class CellPainter {
   std::map<std::pair<const screens::BandScreen*, int>, const EdgeTable*> tables_;  // of screens, by width
   std::vector<std::uint16_t> active_;
   PlacedPolygon rest_, strip_;  // of what is cut along edges
-  std::vector<Corner> level_;
   std::vector<Corner> shape_, outline_;  // of what is drawn
   BoxCells& chosen_;
   std::vector<CellCorner> all_corners_;  // of a cell

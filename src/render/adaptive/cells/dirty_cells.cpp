@@ -121,7 +121,7 @@ void CellPainter::add_seen(std::span<const Corner> polygon, double area_px, cons
     seen.dirt = static_cast<std::uint32_t>(out_.dirt.size());
     return out_.add(points_of(polygon), shade, seen, {});
   }
-  if (behind.screen != nullptr) return draw_screened(polygon, area_px, shade, flux, *behind.screen);
+  if (behind.screen != nullptr) return draw_screened(polygon, area_px, shade, *behind.screen);
   out_.add(points_of(polygon), shade);
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "render/adaptive/cells/bound_view.h"
 #include "render/adaptive/cells/cell_painter.h"
 #include "render/adaptive/cells/cell_shape.h"
 
@@ -13,8 +14,12 @@ namespace {
 constexpr double kWidthsPerOctave = 2.0;  // of edges' tables
 constexpr double kScreenDisc = 1.2;  // of a cell's distance from its middle in the stop, for cells that bend
 constexpr double kExact = 1e-3;   // of a cell's size, for maps to be judged by
+constexpr double kOnePlace_px = 0.4;  // a cell no longer is a point to pixels
+constexpr double kCoarse = 0.5;   // stop radii a pixel: they see all of the stop in four or fewer
+constexpr double kPart = 0.5;     // stop radii, and
+constexpr double kPart_px = 0.4;  // pixels, across a part of a small cell
+constexpr double kEven = 0.2;     // of the brightest: parts that differ by less are not told apart
 constexpr double kWorthCutting_px = 400.0;  // of area: smaller cells are looked up all over
-constexpr double kSagittaRoom = 0.5;  // of an arc's, for circles about the same centre with a smaller radius
 
 // A crossing of the stop at a mesh's vertices, stop radii.
 class StopPlaces {
@@ -28,27 +33,6 @@ class StopPlaces {
   const float *x_, *y_;
   double unit_;
 };
-
-// Across a bound, straight: normal . p is at most `outer` on the bound's inner side, and at most `inner` nowhere but
-// there, as far as some polygon sees it.
-struct EdgeLine {
-  Vec2 normal;
-  double outer = 0.0, inner = 0.0;
-};
-
-EdgeLine line_along(const IrisBound& bound, std::span<const PlacedCorner> polygon) {
-  if (bound.straight()) return {bound.normal, bound.apothem, bound.apothem};
-  Vec2 middle{};
-  for (const PlacedCorner& c : polygon) middle = middle + c.stop * (1.0 / static_cast<double>(polygon.size()));
-  const Vec2 from = middle - bound.centre;
-  const double far = length(from);
-  double sideways = 0.0;
-  const Vec2 normal = far > 0.0 ? from * (1.0 / far) : Vec2{1.0, 0.0};
-  for (const PlacedCorner& c : polygon) sideways = std::max(sideways, std::abs(cross(normal, c.stop - bound.centre)));
-  const double reach = dot(normal, bound.centre) + bound.radius;
-  const double sagitta = bound.radius - std::sqrt(std::max(0.0, bound.radius * bound.radius - sideways * sideways));
-  return {normal, reach, reach - sagitta * (1.0 + kSagittaRoom)};
-}
 
 }  // namespace
 
@@ -144,31 +128,70 @@ const EdgeTable& CellPainter::table_for(double width) {
   return *at->second;
 }
 
-// What passes to a cell in the mean, by `parts` x `parts` pieces of it.
-std::array<double, 3> CellPainter::mean_passed(const Mesh& mesh, const Cell& cell, int parts) const {
-  std::array<double, 3> sum{};
-  for (int k = 0; k < parts * parts; ++k) {
-    const double u = (k % parts + 0.5) / parts, v = (k / parts + 0.5) / parts;
-    std::array<StopPlace, kMaxStopCrossings> places;
-    for (int c = 0; c < mesh.layout.crossings; ++c) {
-      const StopPlaces stop(mesh, c, screen_unit_);
-      const std::array at{stop.at(cell.corner[0]), stop.at(cell.corner[1]), stop.at(cell.corner[2]),
-                          stop.at(cell.corner[3])};
-      const Vec2 middle = parts == 1
-                              ? stop.at(cell.middle)
-                              : (at[0] * (1.0 - u) + at[1] * u) * (1.0 - v) + (at[3] * (1.0 - u) + at[2] * u) * v;
-      places[static_cast<std::size_t>(c)] = {middle,
-                                             std::sqrt(0.5 * std::abs(cross(at[2] - at[0], at[3] - at[1]))) / parts};
-    }
-    const auto passed = screen_->share({places.data(), static_cast<std::size_t>(mesh.layout.crossings)});
-    for (std::size_t c = 0; c < 3; ++c) sum[c] += passed[c] / (parts * parts);
-  }
+Vec2 CellPainter::CellParts::place(std::size_t part, Vec2 in_part) const {
+  const Vec2 first{static_cast<double>(part % across), static_cast<double>(part / across)};
+  return (first + in_part) * (1.0 / static_cast<double>(across));
+}
+
+Vec2 CellPainter::CellParts::corner(std::size_t part, std::size_t which) const {
+  return place(part, {which == 1 || which == 2 ? 1.0 : 0.0, which >= 2 ? 1.0 : 0.0});
+}
+
+Vec2 CellPainter::CellParts::between(const std::array<Vec2, 4>& corner, Vec2 uv) {
+  return (corner[0] * (1.0 - uv.x) + corner[1] * uv.x) * (1.0 - uv.y) +
+         (corner[3] * (1.0 - uv.x) + corner[2] * uv.x) * uv.y;
+}
+
+CellPainter::Flux CellPainter::CellParts::mean() const {
+  Flux sum{};
+  for (const Flux& one : passed())
+    for (std::size_t c = 0; c < 3; ++c) sum[c] += one[c] / static_cast<double>(count());
   return sum;
+}
+
+// So that it shows where in the cell its light is.
+bool CellPainter::CellParts::are_uneven() const {
+  for (std::size_t c = 0; c < 3; ++c) {
+    const auto [least, most] = std::ranges::minmax(passed(), {}, [&](const Flux& one) { return one[c]; });
+    if (most[c] - least[c] > kEven * most[c]) return true;
+  }
+  return false;
+}
+
+// Where pixels are too far apart to look up what passes: their middles may lie outside the cell, where its light does
+// not go, and see a place of the stop far from all of its own.
+bool CellPainter::sees_by_parts(const Mesh& mesh, const Cell& cell, double longest_px) const {
+  return longest_px < kOnePlace_px || (longest_px < kSmall_px && stop_size(mesh, cell) > kCoarse * longest_px);
+}
+
+std::size_t CellPainter::parts_across(const Mesh& mesh, const Cell& cell, double longest_px) const {
+  const double finest = std::max(longest_px / kPart_px, stop_size(mesh, cell) / kPart);
+  return static_cast<std::size_t>(
+      std::clamp(std::ceil(finest), 0.0 + CellParts::kFewestAcross, 0.0 + CellParts::kMostAcross));
+}
+
+CellPainter::CellParts CellPainter::parts_of(const Mesh& mesh, const Cell& cell, std::size_t across) const {
+  CellParts parts;
+  parts.across = across;
+  const auto crossings = static_cast<std::size_t>(mesh.layout.crossings);
+  std::array<std::array<Vec2, 4>, kMaxStopCrossings> corner;
+  std::array<StopPlace, kMaxStopCrossings> places;
+  for (std::size_t c = 0; c < crossings; ++c) {
+    const StopPlaces stop(mesh, static_cast<int>(c), screen_unit_);
+    for (std::size_t k = 0; k < 4; ++k) corner[c][k] = stop.at(cell.corner[k]);
+    const double area = 0.5 * std::abs(cross(corner[c][2] - corner[c][0], corner[c][3] - corner[c][1]));
+    places[c].width = std::sqrt(area) / static_cast<double>(parts.across);
+  }
+  for (std::size_t k = 0; k < parts.count(); ++k) {
+    for (std::size_t c = 0; c < crossings; ++c) places[c].at = CellParts::between(corner[c], parts.middle(k));
+    parts.room[k] = screen_->share({places.data(), crossings});
+  }
+  return parts;
 }
 
 // All of a polygon's pixels look up what passes. A large one behind a pattern: as far as that is worth drawing. Behind
 // edges' fringes: the parts along each edge that brings any there, cut off by straight lines; the rest is level.
-void CellPainter::draw_screened(std::span<const Corner> polygon, double area_px, const Shade& shade, const Flux& flux,
+void CellPainter::draw_screened(std::span<const Corner> polygon, double area_px, const Shade& shade,
                                 const StopMap& map) {
   const bool large = area_px >= kWorthCutting_px;
   const double room = map.bend();  // cuts are straight, places are not
@@ -183,21 +206,25 @@ void CellPainter::draw_screened(std::span<const Corner> polygon, double area_px,
   if (!large || table.iris().is_picture()) return add_fringed(rest_.corners(), shade, map, table);
   for (const IrisBound& bound : table.iris().bounds()) {
     if (rest_.is_empty()) return;
-    const EdgeLine line = line_along(bound, rest_.corners());
-    rest_.keep_within({line.normal, line.outer + table.dark_beyond() + room}, map);
+    const BoundView view(bound, rest_.corners());
+    rest_.keep_within({view.normal(), view.outer() + table.dark_beyond() + room}, map);
   }
+  const auto draw_beyond = [&](const HalfPlane& kept) {
+    strip_.take(rest_);
+    strip_.keep_within({kept.normal * -1.0, -kept.most}, map);
+    if (strip_.is_empty()) return;
+    rest_.keep_within(kept, map);
+    add_fringed(strip_.corners(), shade, map, table);
+  };
   for (const IrisBound& bound : table.iris().bounds()) {
     if (rest_.is_empty()) return;
-    const EdgeLine line = line_along(bound, rest_.corners());
-    strip_.take(rest_);
-    strip_.keep_within({line.normal * -1.0, table.level_within() + room - line.inner}, map);
-    if (strip_.is_empty()) continue;
-    rest_.keep_within({line.normal, line.inner - table.level_within() - room}, map);
-    add_fringed(strip_.corners(), shade, map, table);
+    const BoundView view(bound, rest_.corners());
+    const Band level = view.deeper_than(table.level_within() + room);
+    if (level.is_empty()) return add_fringed(rest_.corners(), shade, map, table);
+    draw_beyond({view.normal(), level.most});
+    if (std::isfinite(level.least)) draw_beyond({view.normal() * -1.0, -level.least});
   }
-  level_.clear();
-  for (const PlacedCorner& c : rest_.corners()) level_.push_back({c.position, c.uv, {}});
-  draw_part(level_, shade, flux, true, {});
+  if (!rest_.is_empty()) out_.add(points_of(rest_.corners()), shade);
 }
 
 void CellPainter::add_fringed(std::span<const PlacedCorner> polygon, const Shade& shade, const StopMap& map,
