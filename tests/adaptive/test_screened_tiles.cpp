@@ -195,9 +195,14 @@ TEST_CASE("light behind fringes: nothing of it stays beyond the frame, and parts
         const std::array corners{Point{x0, y0}, Point{x1, y0}, Point{x1 + tilt, y1}, Point{x0 + tilt, y1}};
         list.add(corners, shade, Screened{map, band.get(), &table}, all);
       }
-      // Beyond the right border from the middle of a block on, and what the next row of tiles has in those columns.
+      // Beyond the right border from the middle of a block on, as far as it and as far as the last column, and what the
+      // next row of tiles has in those columns.
       const float at = static_cast<float>(TileGrid::kWidth) + 5.5F, to = static_cast<float>(TileGrid::kHeight);
-      for (const auto& [x0, x1, y0, y1] : {std::array{at, at + 90.0F, 0.0F, to}, {9.0F, 70.0F, to + 1.0F, to + 8.0F}})
+      const auto border = static_cast<float>(width);
+      for (const auto& [x0, x1, y0, y1] : {std::array{at, at + 90.0F, 0.0F, to},
+                                           {border - 9.3F, border, 0.0F, to},
+                                           {border - 9.3F, border - 0.4F, 0.0F, to},
+                                           {9.0F, 70.0F, to + 1.0F, to + 8.0F}})
         list.add(std::array{Point{x0, y0}, Point{x1, y0}, Point{x1, y1}, Point{x0, y1}}, shade,
                  Screened{map, band.get(), &table}, all);
       PlainImage plain(width, kHeight);

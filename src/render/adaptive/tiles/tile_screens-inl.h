@@ -173,8 +173,8 @@ PixelRows rows_under(const TileSums& tile, std::span<const Point> corners) {
   const auto column = [&](float x) {
     return static_cast<int>(std::clamp(x - static_cast<float>(tile.x0), 0.0F, static_cast<float>(tile.width)));
   };
-  // Edges beyond the right border leave no change: what is covered there ends with the tile.
-  const bool is_beyond = high.x > static_cast<float>(tile.x0 + tile.width);
+  // Edges beyond the right border, or on it, leave no change: what is covered there ends with the tile.
+  const bool is_beyond = high.x >= static_cast<float>(tile.x0 + tile.width);
   return {row(low.y), row(high.y), column(low.x), column(high.x), is_beyond ? tile.width - 1 : -1};
 }
 
@@ -199,14 +199,14 @@ class CoveredRows {
   std::size_t count_ = 0;
 };
 
-// What is drawn of a row, whose coverage ends with its changes but where the polygon goes on beyond the tile.
+// What is drawn of a row, whose coverage ends with its changes but at the tile's border, beyond which there are none.
 struct RowOfPixels {
   CoveredRow columns;
   RunningCover cover;
   float* to;
 
-  RowOfPixels(TileSums& tile, const CoveredRow& r, const PixelRows& within)
-      : columns(r), cover(tile.cover.at(r.row, r.first), within.covered_to < 0 ? kRowRoom : r.count),
+  RowOfPixels(TileSums& tile, const CoveredRow& r)
+      : columns(r), cover(tile.cover.at(r.row, r.first), r.first + r.count < tile.width ? kRowRoom : r.count),
         to(tile.light_at(r.row) + TileSums::kPixel * static_cast<std::size_t>(r.first)) {}
 };
 
@@ -278,7 +278,7 @@ void add_pixels(TileSums& tile, const Polygon& polygon, const StopMap& map, cons
     const PixelRow pixels = pixels_of(r);
     look.set_row(pixels);
     expect(at + 1);
-    const RowOfPixels row(tile, r, within);
+    const RowOfPixels row(tile, r);
     const typename Light::Row light_of_row(light, r);
     const Groups all = first_groups((r.count + kGroup - 1) / kGroup);
     if constexpr (requires { look.seen(pixels); }) {
