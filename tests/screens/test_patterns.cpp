@@ -146,6 +146,21 @@ TEST_CASE("a pattern of one wavelength is the texture's, coded") {
   CHECK(static_cast<double>(band.brightest({1.4, -1.4}, 0.01)) == doctest::Approx(0.02 * 93 * 93).epsilon(0.03));
 }
 
+TEST_CASE("about a place so wide that it is all of a pattern, it is as bright as that is") {
+  constexpr int kSide = 48;  // halved down to 3
+  std::vector<float> samples(kSide * kSide);
+  for (int row = 20; row < 28; ++row)
+    for (int column = 20; column < 28; ++column) samples[static_cast<std::size_t>(row * kSide + column)] = 1.0F;
+  const PatternTexture texture(kSide, 3.0, samples);
+  const BandPattern pattern(std::array{&texture});
+  const double mean = 64.0 / 256.0;  // over the middle one of 3 x 3
+  for (const Vec2 place : {Vec2{-2.5, -0.5}, Vec2{0.8, -2.4}, Vec2{0.0, 0.0}, Vec2{9.0, 9.0}})
+    for (const double distance : {2.1, 3.0, 20.0})
+      CHECK(pattern.brightest(place, distance) == doctest::Approx(mean).epsilon(1e-3));
+  CHECK(pattern.brightest({-2.5, -0.5}, 0.2) < 1e-4);
+  CHECK(pattern.brightest({0.1, 0.1}, 0.2) > 0.9);
+}
+
 TEST_CASE("patterns side by side are each what they are alone") {
   std::vector<float> ramp;
   for (int row = 0; row < 96; ++row)

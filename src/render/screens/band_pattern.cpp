@@ -64,6 +64,7 @@ BandPattern::BandPattern(std::span<const PatternTexture* const> parts) : stride_
   levels_.push_back(dark_level(side, stride_));
   for (std::size_t k = 0; k < parts.size(); ++k) lay_out(*parts[k], extent_, k, stride_, levels_.back());
   while (levels_.back().side % 2 == 0 && levels_.back().side > 2) levels_.push_back(halved(levels_.back(), stride_));
+  brightest_of_last_ = std::ranges::max(levels_.back().samples);
   if (of_one())
     for (Level& level : levels_) code(level);
 }
@@ -76,7 +77,8 @@ const BandPattern::Level& BandPattern::level_for(double width) const {
 float BandPattern::brightest(Vec2 middle, double distance) const {
   const double pitches = distance * 0.5 * levels_.front().side / extent_;
   const std::size_t fit = pitches > 1.0 ? static_cast<std::size_t>(std::ilogb(pitches)) + 1 : 0;
-  const Level& level = levels_[std::min(fit, levels_.size() - 1)];
+  if (fit >= levels_.size()) return brightest_of_last_;  // four of its samples lie nearer than that
+  const Level& level = levels_[fit];
   const auto at = [&](double p) {  // the first of the two samples about there, the border's included
     const double place = (p / extent_ + 1.0) * 0.5 * level.side + 0.5;
     return place > 0.0 ? static_cast<int>(std::min(place, level.side + 0.0)) : 0;  // 0 as well if that is no number

@@ -34,13 +34,15 @@ class BandPattern {
   [[nodiscard]] double extent() const { return extent_; }
   // The level whose samples, looked up bilinearly, stand for means over about that width.
   [[nodiscard]] const Level& level_for(double width) const;
-  // The largest sample about there at the level whose samples are so far apart.
+  // The largest sample about there at the level whose samples are so far apart; if there is none, of all the last
+  // one's.
   [[nodiscard]] float brightest(Vec2 middle, double distance) const;
 
  private:
   double extent_ = 0.0;
   std::size_t stride_;
   std::vector<Level> levels_;
+  float brightest_of_last_ = 0.0F;
 };
 
 }  // namespace contrejour::screens
