@@ -11,6 +11,7 @@ void add_bench(CLI::App& app, Action& action) {
       "  contrejour bench effects --threads 2");
   add_bench_tables(*bench, action);
   add_bench_effects(*bench, action);
+  add_bench_lenses(*bench, action);
 }
 
 }  // namespace contrejour::cli

@@ -45,4 +45,11 @@ Machine this_machine() {
   return {processor_name(), std::thread::hardware_concurrency(), system_name(), compiler_name()};
 }
 
+Json machine_json(const Machine& machine) {
+  return {{"processor", machine.processor},
+          {"cores", machine.cores},
+          {"system", machine.system},
+          {"compiler", machine.compiler}};
+}
+
 }  // namespace contrejour::cli

@@ -3,6 +3,8 @@
 
 #include <string>
 
+#include "cli/console.h"
+
 namespace contrejour::cli {
 
 struct Machine {
@@ -12,5 +14,6 @@ struct Machine {
 };
 
 [[nodiscard]] Machine this_machine();
+[[nodiscard]] Json machine_json(const Machine& machine);
 
 }  // namespace contrejour::cli

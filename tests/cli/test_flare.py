@@ -240,6 +240,35 @@ class Compare(ProgramTest):
         self.error_of("compare", "a.exr", "b.exr", code=1)
 
 
+class LensesBench(ProgramTest):
+    def test_figures_of_files(self):
+        (self.folder / "list.txt").write_text("# lenses\nbad.lens\n\ntessar.toml\n")
+        self.run_program("lens", "convert", "tessar", "tessar.toml")
+        (self.folder / "bad.lens").write_text("no lens")
+        done = self.run_program("bench", "lenses", "heliar", "--list", "list.txt", "--json", "l.json", "--runs", 1,
+                                "--error", "0.1", "--wavelengths", 1, code=1)
+        text = done.stdout.decode()
+        self.assertIn("left out: bad.lens:1: not a lens file", text)
+        self.assertIn("90th percentile", text)
+        bench = json.loads((self.folder / "l.json").read_text())
+        self.assertEqual([lens["lens"] for lens in bench["lenses"]], ["heliar", "tessar.toml"])
+        self.assertEqual(len(bench["left_out"]), 1)
+        for lens in [bench["yardstick"], *bench["lenses"]]:
+            self.assertEqual([frame["frame"] for frame in lens["frames"]],
+                             ["f/8 320x180", "f/8 1920x1080", "wide open 320x180", "wide open 1920x1080"])
+            for frame, yard in zip(lens["frames"], bench["yardstick"]["frames"]):
+                ghost, canon_ghost = (f["first_ms"] / f["ghosts"] for f in (frame, yard))
+                self.assertAlmostEqual(frame["ghost_ratio"], ghost / canon_ghost, 9)
+                self.assertGreater(frame["warm_ms"], 0)
+        self.assertEqual(bench["yardstick"]["frames"][1]["f_number"], 8)
+        ratios = sorted(lens["frames"][1]["ghost_ratio"] for lens in bench["lenses"])
+        summary = bench["summary"]["f8"]["ghost_ratio_large"]
+        self.assertAlmostEqual(summary["median"], sum(ratios) / 2, 9)
+        self.assertAlmostEqual(summary["ninetieth_percentile"], 0.1 * ratios[0] + 0.9 * ratios[1], 9)
+        self.assertEqual(summary["worst"], ratios[1])
+        self.error_of("bench", "lenses", code=1)
+
+
 class Bench(ProgramTest):
     QUICK_SYSTEM = ["--systems", "heliar", "--size", "48x27", "--grid", "16"]
 

@@ -6,7 +6,8 @@ from program import ProgramTest
 
 COMMANDS = [["render"], ["apply"], ["ghosts"], ["compare"], ["lens", "list"], ["lens", "info"], ["lens", "draw"],
             ["lens", "trace"], ["lens", "check"], ["lens", "convert"],
-            ["glass", "list"], ["glass", "show"], ["glass", "closest"], ["look", "list"], ["look", "show"], ["bench", "tables"]]
+            ["glass", "list"], ["glass", "show"], ["glass", "closest"], ["look", "list"], ["look", "show"], ["bench", "tables"],
+            ["bench", "lenses"]]
 
 
 class Usage(ProgramTest):

@@ -106,18 +106,11 @@ Json target_json(const Target& target) {
 }  // namespace
 
 Json bench_json(const BenchRows& rows, const std::vector<Target>& targets) {
-  const Machine machine = this_machine();
   Json list = Json::array();
   for (const BenchRow& row : rows.all()) list.push_back(row_json(row));
   Json target_list = Json::array();
   for (const Target& target : targets) target_list.push_back(target_json(target));
-  return {{"machine",
-           {{"processor", machine.processor},
-            {"cores", machine.cores},
-            {"system", machine.system},
-            {"compiler", machine.compiler}}},
-          {"rows", list},
-          {"targets", target_list}};
+  return {{"machine", machine_json(this_machine())}, {"rows", list}, {"targets", target_list}};
 }
 
 std::string machine_text() {
