@@ -67,6 +67,7 @@ PUBLIC = {
     "light_source.h": "kernels",
     "machine_speed.h": "measure",
     "metrics.h": "image",
+    "output_file.h": "base",
     "pupil_mask.h": "diffraction",
     "render.h": "render/interface",
     "result.h": "base",

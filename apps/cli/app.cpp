@@ -11,6 +11,7 @@
 #include "cli/command.h"
 #include "cli/console.h"
 #include "cli/interrupt.h"
+#include "cli/terminal.h"
 #include "params/nearest_word.h"
 
 namespace contrejour::cli {
@@ -135,6 +136,7 @@ int run_checked(std::vector<std::string> arguments) {
 }  // namespace
 
 int run(std::vector<std::string> arguments) {
+  occupy_standard_streams();
   try {
     return run_checked(std::move(arguments));
   } catch (const std::bad_alloc&) {

@@ -1,11 +1,12 @@
 // contrejour apply: a photograph in, the same photograph with the lens's flare out.
 #include <cmath>
 #include <filesystem>
+#include <fstream>
 #include <memory>
-#include <optional>
 #include <string>
-#include <system_error>
+#include <string_view>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -24,8 +25,6 @@
 
 namespace contrejour::cli {
 namespace {
-
-namespace fs = std::filesystem;
 
 constexpr const char* kExamples =
     "Bright areas of the picture become lights where they are, and the flare they make in the lens is added. All else\n"
@@ -48,60 +47,59 @@ struct ApplyOptions {
 };
 
 struct ApplyFiles {
-  fs::path output;
-  std::optional<fs::path> flare_only, preview, look;
+  OutputFile* output = nullptr;
+  OutputFile *flare_only = nullptr, *preview = nullptr, *look = nullptr;  // where they are asked for
 };
 
 Result<ApplyFiles> open_files(const ApplyOptions& options, Outputs& outputs) {
   ApplyFiles files;
-  const auto output = outputs.add(options.output);
-  if (!output) return tl::unexpected(output.error());
-  files.output = *output;
-  if (!options.flare_only.empty()) {
-    const auto file = outputs.add(options.flare_only);
-    if (!file) return tl::unexpected(file.error());
-    files.flare_only = *file;
-  }
-  if (!options.look.save.empty()) {
-    const auto file = outputs.add(options.look.save);
-    if (!file) return tl::unexpected(file.error());
-    files.look = *file;
-  }
-  if (!options.preview.empty()) {
-    const auto file = outputs.add(options.preview);
-    if (!file) return tl::unexpected(file.error());
-    files.preview = *file;
-  }
+  const std::pair<const std::string&, OutputFile*&> all[] = {{options.output, files.output},
+                                                             {options.flare_only, files.flare_only},
+                                                             {options.look.save, files.look},
+                                                             {options.preview, files.preview}};
+  if (auto ok = outputs.add_all(all); !ok) return tl::unexpected(ok.error());
   return files;
 }
 
-// No lights: the file itself, so that not even its compression changes. Only another format needs rewriting.
-Result<void> copy_input(const ApplyOptions& options, const Picture& picture, const fs::path& output,
+// No lights: the file itself, so that not even its compression changes. Only another format needs rewriting, and what
+// cannot be read twice.
+Result<void> copy_input(const ApplyOptions& options, const Picture& picture, OutputFile& output,
                         const Context& context) {
   const std::string format = picture.header != nullptr ? ".exr" : ".png";
-  if (lower_extension(options.output) != format) return write_picture(output, picture, context);
-  std::error_code error;
-  fs::copy_file(options.input, output, fs::copy_options::overwrite_existing, error);
-  if (error) return failure(ErrorCode::Io, "cannot copy the picture: " + error.message(), {options.output});
+  if (lower_extension(options.output) != format || !std::filesystem::is_regular_file(options.input))
+    return write_picture(output, picture, context);
+  std::ifstream input(options.input, std::ios::binary);
+  std::vector<char> piece(std::size_t{1} << 20);
+  while (input) {
+    input.read(piece.data(), static_cast<std::streamsize>(piece.size()));
+    const std::string_view part(piece.data(), static_cast<std::size_t>(input.gcount()));
+    if (auto ok = output.write(part); !ok) return ok;
+  }
+  if (input.bad() || !input.eof()) return failure(ErrorCode::Io, "cannot read the picture again", {options.input});
   return {};
 }
 
-Result<void> write_flare_only(const fs::path& file, const Picture& picture, const Image& flare, ColourSpace space,
-                              const Context& context) {
+Result<void> write_flare_only(OutputFile& file, const Picture& picture, const Image& flare,
+                              const params::FlarePlan& plan, const Context& context) {
   Picture alone = picture_of(flare);
   alone.data_window = picture.data_window;
   alone.display_window = picture.display_window;
-  set_colour_space(alone, space);
+  set_colour_space(alone, plan.space);
+  set_pixel_aspect(alone, plan.pixel_aspect);
   return write_picture(file, alone, context);
 }
 
 Result<Flare> render_plan(const ApplyOptions& options, const LensState& lens, const params::FlarePlan& plan) {
-  if (plan.lights.empty()) return Flare{Image(plan.frame.width, plan.frame.height), {}};
-  RenderSettings settings = params::render_settings(options.values, plan.frame, plan.space);
+  if (plan.lights.empty()) return Flare{Image(plan.grid.width, plan.grid.height), {}};
+  RenderSettings settings = params::render_settings(options.values, plan.grid.frame, plan.space);
   settings.starburst.left_out = plan.already_there;
   settings.starburst.lights = plan.imaged_lights;
   const LongTask task("rendering", options.values.integer("threads"));
-  return render(*options.values.text("method"), lens, plan.lights, settings, task.context());
+  auto flare = render(*options.values.text("method"), lens, plan.lights, settings, task.context());
+  if (!flare) return flare;
+  flare->image = params::picture_of_frame(flare->image, plan.grid);
+  if (auto finite = check_finite(flare->image); !finite) return tl::unexpected(finite.error());
+  return flare;
 }
 
 // The same, so much brighter.
@@ -112,7 +110,7 @@ Picture exposed(Picture picture, double stops) {
 }
 
 // A PNG is to look at: --exposure, where it is given, is for it as for previews.
-Result<void> write_output(const ApplyOptions& options, const fs::path& file, const Picture& picture, bool is_input,
+Result<void> write_output(const ApplyOptions& options, OutputFile& file, const Picture& picture, bool is_input,
                           const Context& context) {
   if (lower_extension(options.output) == ".png" && options.values.text("exposure")) {
     const PreviewSettings look = preview_settings(options.values, picture.rgb, UsualExposure::AsItIs);
@@ -126,13 +124,13 @@ Result<void> write_all(const ApplyOptions& options, const ApplyFiles& files, Pic
   const LongTask task("writing", 0);
   const bool is_input = plan.lights.empty();
   if (!is_input) params::add_flare(picture.rgb, flare);
-  if (auto ok = write_output(options, files.output, picture, is_input, task.context()); !ok) return ok;
+  if (auto ok = write_output(options, *files.output, picture, is_input, task.context()); !ok) return ok;
   if (files.flare_only) {
-    auto ok = write_flare_only(*files.flare_only, picture, flare, plan.space, task.context());
+    auto ok = write_flare_only(*files.flare_only, picture, flare, plan, task.context());
     if (!ok) return ok;
   }
   if (files.look) {
-    auto ok = write_text(*files.look, params::write_look({{}, {}, options.lens, options.values}));
+    auto ok = files.look->write(params::write_look({{}, {}, options.lens, options.values}));
     if (!ok) return ok;
   }
   if (!files.preview) return {};
@@ -143,8 +141,9 @@ Result<void> write_all(const ApplyOptions& options, const ApplyFiles& files, Pic
 void report(const ApplyOptions& options, const LensState& lens, const params::FlarePlan& plan,
             const RenderStatistics& stats) {
   if (!options.json) {
-    print(report_text(plan));
-    print(fmt::format("{}: {} ghosts, {:.2f} s\n", options.output, stats.ghosts_rendered, total_ms(stats) / 1000.0));
+    print_summary(report_text(plan));
+    print_summary(
+        fmt::format("{}: {} ghosts, {:.2f} s\n", options.output, stats.ghosts_rendered, total_ms(stats) / 1000.0));
     return;
   }
   Json json = {{"lens", lens.name}, {"input", options.input}, {"output", options.output}};
@@ -170,6 +169,9 @@ Result<int> run_apply(ApplyOptions options) {
     return tl::unexpected(error);
   }
   if (plan->space_is_guessed) print_warnings({kGuessedSpace});
+  if (plan->found.capped_pixels > 0 && !options.values.given("max-value"))
+    print_warnings({fmt::format("{} pixels are brighter than {:g} and count as of that level (--max-value)",
+                                plan->found.capped_pixels, plan->found.max_value)});
   const auto flare = render_plan(options, *lens, *plan);
   if (!flare) return tl::unexpected(flare.error());
   if (auto ok = write_all(options, *files, *picture, *plan, flare->image); !ok) return tl::unexpected(ok.error());
@@ -191,11 +193,11 @@ void add_apply(CLI::App& app, Action& action) {
   command->add_flag("--json", options->json, "report what was found as JSON");
   add_look_options(*command, options->look);
   add_parameters(*command, options->values, {"exposure"});
-  add_parameters(
-      *command, options->values,
-      {"threshold", "softness", "max-lights", "min-pixels", "light-shape", "spectrum", "light-distance", "gain"});
+  add_parameters(*command, options->values,
+                 {"threshold", "softness", "max-lights", "min-pixels", "max-value", "light-shape", "spectrum",
+                  "light-distance", "gain"});
   add_lens_parameters(*command, options->values);
-  add_parameters(*command, options->values, {"hfov"});
+  add_parameters(*command, options->values, {"hfov", "pixel-aspect"});
   add_rendering_parameters(*command, options->values);
   command->footer(kExamples);
   command->callback([options, &action] {

@@ -18,7 +18,7 @@ Json report_json(const FlarePlan& plan) {
   Json lights = Json::array();
   for (std::size_t k = 0; k < plan.lights.size(); ++k) {
     const DetectedLight& area = plan.found.lights[k];
-    const Vec2 uv = plan.frame.uv_from_sensor(plan.frame.sensor_from_pixel(area.centroid_px));
+    const Vec2 uv = plan.grid.frame.uv_from_sensor(plan.grid.sensor_from_pixel(area.centroid_px));
     const LightAngles angles = angles_from_direction(plan.lights[k].direction);
     lights.push_back({{"centroid_px", {area.centroid_px.x, area.centroid_px.y}},
                       {"uv", {uv.x, uv.y}},
@@ -31,7 +31,10 @@ Json report_json(const FlarePlan& plan) {
                       {"peak", area.peak},
                       {"merged_areas", area.merged_areas}});
   }
-  return {{"threshold", plan.found.threshold}, {"areas_found", plan.found.areas_found}, {"lights", lights}};
+  return {{"threshold", plan.found.threshold},
+          {"areas_found", plan.found.areas_found},
+          {"capped_pixels", plan.found.capped_pixels},
+          {"lights", lights}};
 }
 
 std::string report_text(const FlarePlan& plan) {

@@ -132,7 +132,7 @@ Result<int> run_show(const ShowOptions& options) {
     if (!file) return tl::unexpected(file.error());
     const std::string title =
         fmt::format("{} on n = {:.4f}: reflectance", describe(coating), refractive_index(*glass, kLineD_nm));
-    if (const auto ok = write_text(*file, reflectance_plot(coating, *glass, title)); !ok)
+    if (const auto ok = (*file)->write(reflectance_plot(coating, *glass, title)); !ok)
       return tl::unexpected(ok.error());
     if (const auto ok = outputs.commit(); !ok) return tl::unexpected(ok.error());
   }

@@ -2,21 +2,36 @@
 
 #include <cstdio>
 
+#include "cli/printable.h"
+#include "cli/terminal.h"
+
 namespace contrejour::cli {
 
-void print(const std::string& text) { std::fwrite(text.data(), 1, text.size(), stdout); }
+namespace {
+
+void write_to(std::FILE* stream, const std::string& text) { std::fwrite(text.data(), 1, text.size(), stream); }
+
+}  // namespace
+
+void print(const std::string& text) { write_to(stdout, printable(text, Lines::Keep)); }
+
+void print_summary(const std::string& text) {
+  std::fflush(stdout);
+  write_unchecked(printable(text, Lines::Keep));
+}
 
 void print_error(const std::string& message) {
   std::fflush(stdout);
-  const std::string line = "contrejour: " + message + "\n";
-  std::fwrite(line.data(), 1, line.size(), stderr);
+  write_to(stderr, "contrejour: " + printable(message, Lines::Join) + "\n");
 }
 
 void print_warnings(const std::vector<std::string>& warnings) {
   for (const std::string& warning : warnings) print_error("warning: " + warning);
 }
 
-std::string json_text(const Json& json) { return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n"; }
+std::string json_text(const Json& json) {
+  return printable_json(json.dump(2, ' ', false, Json::error_handler_t::replace)) + "\n";
+}
 
 void print_json(const Json& json) { print(json_text(json)); }
 

@@ -10,8 +10,10 @@ namespace contrejour::cli {
 
 using Json = nlohmann::ordered_json;
 
-void print(const std::string& text);             // as it is, on the standard output
-void print_error(const std::string& message);    // "contrejour: message"
+// What is printed holds no control characters but line ends and tabs (printable.h), whatever files' names and texts do.
+void print(const std::string& text);  // a result, on the standard output
+void print_summary(const std::string& text);  // likewise, but of no matter: what was asked for is in files
+void print_error(const std::string& message);  // "contrejour: message", in one line
 void print_warnings(const std::vector<std::string>& warnings);
 
 // Two spaces of indent, every digit of a number, bytes that are not UTF-8 replaced; ends with a newline.

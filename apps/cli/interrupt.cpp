@@ -19,6 +19,9 @@ void catch_interrupts() {
     // A shell's background job ignores SIGINT; so it stays.
     if (std::signal(number, on_interrupt) == SIG_IGN) std::signal(number, SIG_IGN);
   }
+#if defined(SIGXFSZ)
+  std::signal(SIGXFSZ, SIG_IGN);
+#endif
 }
 
 }  // namespace contrejour::cli

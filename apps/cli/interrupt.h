@@ -6,6 +6,6 @@
 namespace contrejour::cli {
 
 [[nodiscard]] const std::atomic<bool>& interrupt_flag();
-void catch_interrupts();
+void catch_interrupts();  // and lets writing beyond a limit of files' sizes fail as on a full disk
 
 }  // namespace contrejour::cli

@@ -34,10 +34,10 @@ Result<int> run_convert(const ConvertOptions& options) {
   if (!lens) return tl::unexpected(lens.error());
   const auto out = written(*lens, options.output);
   if (!out) return tl::unexpected(out.error());
-  if (const auto ok = write_text(*file, out->text); !ok) return tl::unexpected(ok.error());
+  if (const auto ok = (*file)->write(out->text); !ok) return tl::unexpected(ok.error());
   if (const auto ok = outputs.commit(); !ok) return tl::unexpected(ok.error());
   print_warnings(out->losses);
-  print(fmt::format("{}: {}, {} surfaces\n", options.output, lens->name, lens->surfaces.size()));
+  print_summary(fmt::format("{}: {}, {} surfaces\n", options.output, lens->name, lens->surfaces.size()));
   return kDone;
 }
 

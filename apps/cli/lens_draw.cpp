@@ -55,7 +55,7 @@ Result<int> run_draw(const DrawOptions& options) {
   if (!angle_rad) return tl::unexpected(angle_rad.error());
   request.ghost_light_rad = *angle_rad;
   const std::string drawing = draw_section(make_section(*lens, request));
-  if (const auto ok = write_text(*file, drawing); !ok) return tl::unexpected(ok.error());
+  if (const auto ok = (*file)->write(drawing); !ok) return tl::unexpected(ok.error());
   if (const auto ok = outputs.commit(); !ok) return tl::unexpected(ok.error());
   return kDone;
 }

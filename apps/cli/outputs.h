@@ -1,39 +1,32 @@
-// The files a command writes: all of them appear when everything worked, none otherwise.
-// Each is written beside its destination under a temporary name and renamed at the end; a destination that is no
-// regular file (a pipe, a device) is written directly. Not for sharing by threads.
+// The files a command writes: all of them appear when everything worked, none otherwise (output_file.h).
+// Not for sharing by threads.
 #pragma once
 
-#include <filesystem>
+#include <deque>
+#include <span>
 #include <string>
-#include <string_view>
-#include <vector>
+#include <utility>
 
+#include "contrejour/output_file.h"
 #include "contrejour/result.h"
 
 namespace contrejour::cli {
 
 class Outputs {
  public:
-  Outputs() = default;
-  Outputs(const Outputs&) = delete;
-  Outputs& operator=(const Outputs&) = delete;
-  ~Outputs();  // removes what was not committed
+  // What to write into; null for an empty name: a file that was not asked for. Finds out at once whether that folder
+  // can be written to, so that long work does not end with nowhere to put it. Errors: Io; InvalidArgument for a file
+  // named twice.
+  [[nodiscard]] Result<OutputFile*> add(const std::string& destination);
 
-  // Where to write what shall end at `destination`. Finds out at once whether that folder can be written to, so
-  // that long work does not end with nowhere to put it. Errors: Io; InvalidArgument for a file named twice.
-  [[nodiscard]] Result<std::filesystem::path> add(const std::filesystem::path& destination);
+  // The same for several: each name, and where to say what to write into.
+  [[nodiscard]] Result<void> add_all(std::span<const std::pair<const std::string&, OutputFile*&>> files);
 
   // Errors: Io, Cancelled.
   [[nodiscard]] Result<void> commit();
 
  private:
-  struct Pending {
-    std::filesystem::path destination, temporary;
-  };
-  std::vector<Pending> pending_;
-  std::vector<std::filesystem::path> named_;
+  std::deque<OutputFile> files_;  // which stay where they are
 };
-
-[[nodiscard]] Result<void> write_text(const std::filesystem::path& file, std::string_view text);
 
 }  // namespace contrejour::cli

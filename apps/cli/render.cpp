@@ -1,7 +1,7 @@
 // contrejour render: a lens and lights -> the flare as an image.
 #include <memory>
-#include <optional>
 #include <string>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -16,6 +16,7 @@
 #include "cli/outputs.h"
 #include "contrejour/image_io.h"
 #include "contrejour/render.h"
+#include "params/pixel_grid.h"
 #include "params/settings.h"
 
 namespace contrejour::cli {
@@ -38,57 +39,66 @@ struct RenderOptions {
 };
 
 struct RenderFiles {
-  std::filesystem::path output;
-  std::optional<std::filesystem::path> preview, stats, look;
+  OutputFile* output = nullptr;
+  OutputFile *preview = nullptr, *stats = nullptr, *look = nullptr;  // where they are asked for
 };
 
 Result<RenderFiles> open_files(const RenderOptions& options, Outputs& outputs) {
   RenderFiles files;
-  const auto output = outputs.add(options.output);
-  if (!output) return tl::unexpected(output.error());
-  files.output = *output;
-  const auto add = [&](const std::string& name, std::optional<std::filesystem::path>& file) -> Result<void> {
-    if (name.empty()) return {};
-    const auto path = outputs.add(name);
-    if (!path) return tl::unexpected(path.error());
-    file = *path;
-    return {};
-  };
-  if (const auto ok = add(options.preview, files.preview); !ok) return tl::unexpected(ok.error());
-  if (const auto ok = add(options.stats, files.stats); !ok) return tl::unexpected(ok.error());
-  if (const auto ok = add(options.look.save, files.look); !ok) return tl::unexpected(ok.error());
+  const std::pair<const std::string&, OutputFile*&> all[] = {{options.output, files.output},
+                                                             {options.preview, files.preview},
+                                                             {options.stats, files.stats},
+                                                             {options.look.save, files.look}};
+  if (auto ok = outputs.add_all(all); !ok) return tl::unexpected(ok.error());
   return files;
 }
 
-Result<Flare> render_flare(const RenderOptions& options) {
+struct RenderedFlare {
+  Flare flare;
+  double pixel_aspect = 1.0;
+};
+
+Result<RenderedFlare> render_flare(const RenderOptions& options) {
   const params::Values& values = options.values;
   const auto lens = open_lens(options.lens, values);
   if (!lens) return tl::unexpected(lens.error());
-  const Frame frame = params::whole_frame(values, *lens, *params::parse_size(*values.text("size")));
+  const params::PixelSize size = *params::parse_size(*values.text("size"));
+  const PixelWindow window{0, 0, size.width, size.height};
+  const double aspect = values.real("pixel-aspect").value_or(params::squeeze_of(*lens));
+  const auto grid = params::pixel_grid(values, *lens, window, window, aspect);
+  if (!grid) return tl::unexpected(grid.error());
+  const Frame& frame = grid->frame;
   const ColourSpace space = params::colour_space(values, ColourSpace::Rec709);
   const auto lights = params::lights(values, *lens, frame, space);
   if (!lights) return tl::unexpected(lights.error());
   const LongTask task("rendering", values.integer("threads"));
-  return render(*values.text("method"), *lens, *lights, params::render_settings(values, frame, space), task.context());
+  auto flare =
+      render(*values.text("method"), *lens, *lights, params::render_settings(values, frame, space), task.context());
+  if (!flare) return tl::unexpected(flare.error());
+  flare->image = params::picture_of_frame(flare->image, *grid);
+  if (auto finite = check_finite(flare->image); !finite) return tl::unexpected(finite.error());
+  return RenderedFlare{std::move(*flare), aspect};
 }
 
-Result<void> write_flare(const RenderOptions& options, const RenderFiles& files, const Flare& flare,
+Result<void> write_flare(const RenderOptions& options, const RenderFiles& files, const RenderedFlare& rendered,
                          const Context& context) {
+  const Flare& flare = rendered.flare;
   const PreviewSettings look = preview_settings(options.values, flare.image, UsualExposure::Automatic);
   if (lower_extension(options.output) == ".png") {
-    if (auto ok = write_preview_png(files.output, flare.image, look, context); !ok) return ok;
+    if (auto ok = write_preview_png(*files.output, flare.image, look, context); !ok) return ok;
   } else {
     Picture picture = picture_of(flare.image);
     set_colour_space(picture, params::colour_space(options.values, ColourSpace::Rec709));
-    if (auto ok = write_picture(files.output, picture, context); !ok) return ok;
+    set_pixel_aspect(picture, rendered.pixel_aspect);
+    if (auto ok = write_picture(*files.output, picture, context); !ok) return ok;
   }
   if (files.preview) {
     if (auto ok = write_preview_png(*files.preview, flare.image, look, context); !ok) return ok;
   }
   if (files.look) {
-    if (auto ok = write_text(*files.look, params::write_look({{}, {}, options.lens, options.values})); !ok) return ok;
+    if (auto ok = files.look->write(params::write_look({{}, {}, options.lens, options.values})); !ok) return ok;
   }
-  if (files.stats) return write_text(*files.stats, json_text(stats_json(flare.statistics)));
+  if (files.stats) return files.stats->write(json_text(stats_json(flare.statistics)));
   return {};
 }
 
@@ -98,13 +108,14 @@ Result<int> run_render(RenderOptions options) {
   Outputs outputs;
   const auto files = open_files(options, outputs);
   if (!files) return tl::unexpected(files.error());
-  const auto flare = render_flare(options);
-  if (!flare) return tl::unexpected(flare.error());
+  const auto rendered = render_flare(options);
+  if (!rendered) return tl::unexpected(rendered.error());
   const LongTask task("writing", 0);
-  if (auto ok = write_flare(options, *files, *flare, task.context()); !ok) return tl::unexpected(ok.error());
+  if (auto ok = write_flare(options, *files, *rendered, task.context()); !ok) return tl::unexpected(ok.error());
   if (auto ok = outputs.commit(); !ok) return tl::unexpected(ok.error());
-  print(fmt::format("{}: {} x {}, {} ghosts, {:.2f} s\n", options.output, flare->image.width, flare->image.height,
-                    flare->statistics.ghosts_rendered, total_ms(flare->statistics) / 1000.0));
+  print_summary(fmt::format("{}: {} x {}, {} ghosts, {:.2f} s\n", options.output, rendered->flare.image.width,
+                            rendered->flare.image.height, rendered->flare.statistics.ghosts_rendered,
+                            total_ms(rendered->flare.statistics) / 1000.0));
   return kDone;
 }
 
@@ -121,7 +132,7 @@ void add_render(CLI::App& app, Action& action) {
   add_parameters(*command, options->values, {"exposure"});
   add_parameters(*command, options->values, {"light", "light-at", "value", "colour", "light-size", "light-distance"});
   add_lens_parameters(*command, options->values);
-  add_parameters(*command, options->values, {"size", "hfov"});
+  add_parameters(*command, options->values, {"size", "hfov", "pixel-aspect"});
   add_rendering_parameters(*command, options->values);
   command->footer(kExamples);
   command->callback([options, &action] {

@@ -5,6 +5,9 @@
 #if defined(_WIN32)
 #include <io.h>
 #else
+#include <cerrno>
+
+#include <fcntl.h>
 #include <unistd.h>
 #endif
 
@@ -15,6 +18,28 @@ bool error_stream_is_terminal() {
   return _isatty(_fileno(stderr)) != 0;
 #else
   return isatty(fileno(stderr)) != 0;
+#endif
+}
+
+void write_unchecked(std::string_view text) {
+  while (!text.empty()) {
+#if defined(_WIN32)
+    const int written = _write(_fileno(stdout), text.data(), static_cast<unsigned>(text.size()));
+#else
+    const ssize_t written = write(fileno(stdout), text.data(), text.size());
+#endif
+    if (written <= 0) return;
+    text.remove_prefix(static_cast<std::size_t>(written));
+  }
+}
+
+void occupy_standard_streams() {
+#if !defined(_WIN32)
+  for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
+    if (fcntl(stream, F_GETFD) != -1 || errno != EBADF) continue;
+    // The lowest number that is free is this one. What is printed fails: it is open for reading.
+    if (open("/dev/null", O_RDONLY) < 0) return;
+  }
 #endif
 }
 

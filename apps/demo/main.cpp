@@ -80,7 +80,7 @@ Result<std::size_t> show_applied(const LensState& lens, const params::Values& va
   const Step step("The street through the lens");
   const auto plan = params::plan_flare(picture_of(street), lens, values);
   if (!plan) return tl::unexpected(plan.error());
-  const auto settings = params::render_settings(values, plan->frame, plan->space);
+  const auto settings = params::render_settings(values, plan->grid.frame, plan->space);
   const auto flare = render(*values.text("method"), lens, plan->lights, settings);
   if (!flare) return tl::unexpected(flare.error());
   params::add_flare(street, flare->image);

@@ -16,28 +16,12 @@ constexpr double kPoint_px = 1.0;         // root mean square radius: what is sm
 constexpr int kLargestShape_px = 512;     // a side of a shape
 constexpr int kMostImages = 32;           // lights that keep their own starburst, where ghosts' are merged
 
-Result<Frame> frame_of(const Picture& picture, const LensState& lens, const Values& values) {
-  const PixelWindow& whole = picture.display_window;
-  if (whole.width < 1 || whole.height < 1) {
-    return failure(ErrorCode::Unsupported, "the display window has no pixels; nothing says where the axis is");
-  }
-  if (static_cast<double>(whole.width) * whole.height > kMaxPixels) {
-    return failure(ErrorCode::Unsupported, "the display window is larger than 2^28 pixels");
-  }
-  Frame frame = whole_frame(values, lens, {whole.width, whole.height});
-  frame.width = picture.data_window.width;
-  frame.height = picture.data_window.height;
-  frame.origin_x = picture.data_window.x - whole.x;
-  frame.origin_y = picture.data_window.y - whole.y;
-  return frame;
-}
-
-Light light_of(const DetectedLight& area, const Spectrum& spectrum, const Frame& frame, const LensState& lens,
+Light light_of(const DetectedLight& area, const Spectrum& spectrum, const PixelGrid& grid, const LensState& lens,
                const Values& values) {
   const double gain = values.number("gain");
   Light light;
   light.distance_mm = *parse_distance_mm(*values.text("light-distance"));
-  light.direction = direction_to_land_at(lens, frame.sensor_from_pixel(area.centroid_px), lens.design_wavelength_nm,
+  light.direction = direction_to_land_at(lens, grid.sensor_from_pixel(area.centroid_px), lens.design_wavelength_nm,
                                          light.distance_mm);
   light.value = {area.flux[0] * gain, area.flux[1] * gain, area.flux[2] * gain};
   light.spectrum = spectrum;
@@ -46,10 +30,10 @@ Light light_of(const DetectedLight& area, const Spectrum& spectrum, const Frame&
 
 // Angles of a pixel's sides, as tangents, about a light's direction: by how its image moves. None where no light gets
 // through.
-std::optional<LightShape> shape_about(const LightSource& source, const Frame& frame, const LensState& lens) {
+std::optional<LightShape> shape_about(const LightSource& source, const PixelGrid& grid, const LensState& lens) {
   constexpr double kStep = 1e-3;
   const auto at = [&](Vec2 tangents) {
-    return frame.pixel_from_sensor(landing_of(lens, source_beside(source, tangents), lens.design_wavelength_nm));
+    return grid.pixel_from_sensor(landing_of(lens, source_beside(source, tangents), lens.design_wavelength_nm));
   };
   const Vec2 x = (at({kStep, 0.0}) - at({-kStep, 0.0})) * (0.5 / kStep);
   const Vec2 y = (at({0.0, kStep}) - at({0.0, -kStep})) * (0.5 / kStep);
@@ -65,7 +49,7 @@ std::optional<LightShape> shape_about(const LightSource& source, const Frame& fr
 void give_shape(Light& light, const DetectedLight& area, const Picture& picture, const FlarePlan& plan,
                 const Detection& found, const LensState& lens, double softness) {
   if (!(area.rms_radius_px > kPoint_px)) return;
-  auto shape = shape_about(light.source(), plan.frame, lens);
+  auto shape = shape_about(light.source(), plan.grid, lens);
   if (!shape) return;
   shape->level = picture_of_areas(picture.rgb, found, softness, area);
   shape->centre_px = area.centroid_px - Vec2{static_cast<double>(area.min_x), static_cast<double>(area.min_y)};
@@ -80,7 +64,7 @@ std::vector<Light> lights_of(const Detection& found, const Spectrum& spectrum, c
                              const FlarePlan& plan, const LensState& lens, const Values& values) {
   std::vector<Light> lights;
   for (const DetectedLight& area : found.lights) {
-    lights.push_back(light_of(area, spectrum, plan.frame, lens, values));
+    lights.push_back(light_of(area, spectrum, plan.grid, lens, values));
     if (values.is_on("light-shape"))
       give_shape(lights.back(), area, picture, plan, found, lens, values.number("softness"));
   }
@@ -94,9 +78,10 @@ Result<FlarePlan> plan_flare(const Picture& picture, const LensState& lens, cons
   const auto named = colour_space_of(picture);
   plan.space_is_guessed = !named && !values.given("colour-space");
   plan.space = colour_space(values, named.value_or(ColourSpace::Rec709));
-  auto frame = frame_of(picture, lens, values);
-  if (!frame) return tl::unexpected(frame.error());
-  plan.frame = *frame;
+  plan.pixel_aspect = values.real("pixel-aspect").value_or(pixel_aspect_of(picture));
+  const auto grid = pixel_grid(values, lens, picture.data_window, picture.display_window, plan.pixel_aspect);
+  if (!grid) return tl::unexpected(grid.error());
+  plan.grid = *grid;
   const auto spectrum = find_spectrum(*values.text("spectrum"));
   if (!spectrum) return tl::unexpected(spectrum.error());
   const DetectionSettings detection = detection_settings(values);
@@ -104,8 +89,8 @@ Result<FlarePlan> plan_flare(const Picture& picture, const LensState& lens, cons
   if (!found) return tl::unexpected(found.error());
   plan.found = std::move(*found);
   if (values.is_on("starburst") || values.number("glare") > 0.0)
-    plan.already_there =
-        std::make_shared<const Image>(light_shares(picture.rgb, plan.found.threshold, detection.softness));
+    plan.already_there = std::make_shared<const Image>(
+        frame_of_picture(light_shares(picture.rgb, plan.found.threshold, detection.softness), plan.grid));
   plan.lights = lights_of(plan.found, *spectrum, picture, plan, lens, values);
   if (plan.already_there && values.is_on("light-shape") && plan.found.areas_found > detection.max_lights) {
     DetectionSettings fewer_merged = detection;

@@ -5,10 +5,10 @@
 #include <memory>
 #include <vector>
 
-#include "contrejour/frame.h"
 #include "contrejour/image_io.h"
 #include "contrejour/light.h"
 #include "contrejour/light_detection.h"
+#include "params/pixel_grid.h"
 #include "params/values.h"
 
 namespace contrejour::params {
@@ -16,7 +16,8 @@ namespace contrejour::params {
 struct FlarePlan {
   ColourSpace space = ColourSpace::Rec709;
   bool space_is_guessed = false;  // the file names primaries that are neither Rec.709's nor ACEScg's
-  Frame frame;                    // the data window within the display window
+  double pixel_aspect = 1.0;      // of the picture's pixels as it is shown
+  PixelGrid grid;                 // the data window within the display window; its frame is what is rendered
   Detection found;
   std::vector<Light> lights;      // one for each found, in the same order
   // With --starburst or --glare: the lights whose images are drawn, fewer of them merged. Null: the same as the
@@ -26,7 +27,7 @@ struct FlarePlan {
       already_there;  // with --starburst or --glare: the share of each pixel that is a light's own image
 };
 
-// Errors: Unsupported for display windows with no pixels or beyond 2^28 of them; those of detect_lights.
+// Errors: those of pixel_grid and detect_lights.
 [[nodiscard]] Result<FlarePlan> plan_flare(const Picture& picture, const LensState& lens, const Values& values);
 
 // Adds the flare. Samples that are not finite stay what they are, and so do those it adds nothing to.

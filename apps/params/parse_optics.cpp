@@ -1,5 +1,6 @@
 // The texts that stand for optical things: lights, ghosts, coatings.
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -17,6 +18,10 @@ namespace contrejour::params {
 namespace {
 
 constexpr double kLargestLight_deg = 90.0;
+constexpr double kMostValue = 1e15;         // of a light: any colour of it is within kMostLightValue, or nearly any
+constexpr double kMostGain = 1e12;          // as of the gains in the table
+constexpr double kFarthestOffset = 1000.0;  // in the frame's height
+constexpr double kFarthestPlace = 1e6;      // of a ramp
 
 tl::unexpected<Error> invalid(std::string message) { return failure(ErrorCode::InvalidArgument, std::move(message)); }
 
@@ -25,12 +30,14 @@ std::optional<std::string_view> after(std::string_view text, std::string_view pr
   return text.substr(prefix.size());
 }
 
-Result<Rgb> parse_rgb(std::string_view text) {
+Result<Rgb> parse_rgb(std::string_view text, double most = kMostValue) {
   const auto numbers = parse_reals(text, 3);
   if (!numbers) return tl::unexpected(numbers.error());
   if (*std::min_element(numbers->begin(), numbers->end()) < 0.0) {
     return invalid(fmt::format("\"{}\" is negative somewhere; a light has no negative channel", text));
   }
+  if (*std::max_element(numbers->begin(), numbers->end()) > most)
+    return invalid(fmt::format("\"{}\" is too large somewhere; {:.0e} is the limit", text, most));
   return Rgb{(*numbers)[0], (*numbers)[1], (*numbers)[2]};
 }
 
@@ -114,6 +121,8 @@ Result<LightValue> parse_light_value(std::string_view text) {
   const auto value = parse_real(text);
   if (!value) return tl::unexpected(value.error());
   if (*value < 0.0) return invalid(fmt::format("{} is negative; a light's value is at least 0", text));
+  if (*value > kMostValue)
+    return invalid(fmt::format("{} is too large; a light's value is at most {:.0e}", text, kMostValue));
   return LightValue{{*value, *value, *value}, false};
 }
 
@@ -209,15 +218,19 @@ Result<GhostAdjustment> parse_ghost_adjustment(std::string_view text) {
   for (const auto& [name, value] : settings) {
     if (name == "gain") {
       const auto gain = parse_real(value);
-      if (!gain || *gain < 0.0) return invalid(fmt::format("\"{}\" is no gain; give a number of 0 or more", value));
+      if (!gain || !(*gain >= 0.0 && *gain <= kMostGain))
+        return invalid(fmt::format("\"{}\" is no gain; give a number from 0 to {:.0e}", value, kMostGain));
       out.gain = *gain;
     } else if (name == "colour") {
-      const auto rgb = parse_rgb(value);
+      const auto rgb = parse_rgb(value, kMostGain);
       if (!rgb) return tl::unexpected(rgb.error());
       out.colour = *rgb;
     } else if (name == "offset") {
       const auto xy = parse_reals(value, 2);
       if (!xy) return tl::unexpected(xy.error());
+      if (std::max(std::abs((*xy)[0]), std::abs((*xy)[1])) > kFarthestOffset)
+        return invalid(
+            fmt::format("\"{}\" is too far off; {} times the frame's height is the limit", value, kFarthestOffset));
       out.offset = {(*xy)[0], (*xy)[1]};
     } else {
       return invalid(fmt::format("a ghost has no \"{}\"; set gain, colour or offset", name));
@@ -233,7 +246,9 @@ Result<std::vector<GhostRampStop>> parse_ghost_ramp(std::string_view text) {
     const auto place = parse_real(halves[0]);
     if (halves.size() != 2 || !place)
       return invalid(fmt::format("\"{}\" is not a place and a colour; write -1:1,0.5,0.2/1:1,1,1", part));
-    const auto rgb = parse_rgb(halves[1]);
+    if (std::abs(*place) > kFarthestPlace)
+      return invalid(fmt::format("\"{}\" is no place of a ramp; stay within {}", halves[0], kFarthestPlace));
+    const auto rgb = parse_rgb(halves[1], kMostGain);
     if (!rgb) return tl::unexpected(rgb.error());
     if (!ramp.empty() && !(*place > ramp.back().place)) return invalid("let the places of a ramp rise");
     ramp.push_back({*place, *rgb});

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "contrejour/first_order.h"
 #include "contrejour/trace.h"
 #include "params/mask_images.h"
 
@@ -144,11 +145,18 @@ Result<LensSettings> lens_settings(const Values& values) {
   return settings;
 }
 
+double pixel_pitch_mm(const Values& values, const LensState& lens, Vec2 square_pixels) {
+  const auto hfov_deg = values.real("hfov");
+  if (!hfov_deg) return std::min(lens.sensor_width_mm / square_pixels.x, lens.sensor_height_mm / square_pixels.y);
+  const double focal_length_mm =
+      lens.has_axial_symmetry() ? lens.focal_length_mm : first_order(lens, lens.design_wavelength_nm).focal_length_x_mm;
+  return 2.0 * focal_length_mm * std::tan(0.5 * *hfov_deg * kDegree_rad) / square_pixels.x;
+}
+
 Frame whole_frame(const Values& values, const LensState& lens, PixelSize size) {
   Frame frame = frame_on_sensor(lens, size.width, size.height);
-  if (const auto hfov_deg = values.real("hfov")) {
-    frame.pixel_pitch_mm = 2.0 * lens.focal_length_mm * std::tan(0.5 * *hfov_deg * kDegree_rad) / size.width;
-  }
+  frame.pixel_pitch_mm =
+      pixel_pitch_mm(values, lens, {static_cast<double>(size.width), static_cast<double>(size.height)});
   return frame;
 }
 
@@ -227,6 +235,7 @@ DetectionSettings detection_settings(const Values& values) {
   settings.softness = values.number("softness");
   settings.max_lights = values.integer("max-lights");
   settings.min_pixels = values.integer("min-pixels");
+  settings.max_value = values.number("max-value");
   return settings;
 }
 

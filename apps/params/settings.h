@@ -18,7 +18,11 @@ inline constexpr double kDegree_rad = 0.017453292519943295;
 // Errors: a picture of the iris or of dirt that cannot be read or is none.
 [[nodiscard]] Result<LensSettings> lens_settings(const Values& values);
 
-// A whole frame of these pixels: on the lens's sensor, or as wide as --hfov says.
+// The pitch of a whole frame of so many square pixels, across and down: on the lens's sensor, or as wide as --hfov
+// says.
+[[nodiscard]] double pixel_pitch_mm(const Values& values, const LensState& lens, Vec2 square_pixels);
+
+// A whole frame of these pixels.
 [[nodiscard]] Frame whole_frame(const Values& values, const LensState& lens, PixelSize size);
 
 [[nodiscard]] Reflections reflections(const Values& values);

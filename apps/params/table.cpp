@@ -140,6 +140,9 @@ const Parameter kTable[] = {
      .scene = true, .check = parses<parse_size>},
     {.name = "hfov", .group = "Frame", .kind = Kind::Real, .unit = "deg", .minimum = 0.01, .maximum = 175,
      .help = "horizontal field of view of the whole frame (default: the frame on the lens's sensor)", .scene = true},
+    {.name = "pixel-aspect", .group = "Frame", .kind = Kind::Real, .minimum = 0.1, .maximum = 10,
+     .help = "width over height of the picture's pixels as it is shown, 2 for many anamorphic plates (default: as the "
+             "file says; of a rendered frame, square on the sensor)", .scene = true},
 
     {.name = "method", .group = "Rendering", .unit = "METHOD", .fallback = "adaptive",
      .help = "adaptive, bundle (hullin2011), tiled (bodonyi2023) or reference (exact and slow)", .check = check_method},
@@ -231,6 +234,9 @@ const Parameter kTable[] = {
      .fallback = "8", .help = "more are merged into the nearest of these, without losing flux", .scene = true},
     {.name = "min-pixels", .group = "Finding lights", .kind = Kind::Integer, .minimum = 1, .maximum = 1000000000,
      .fallback = "1", .help = "smaller areas, such as hot pixels, are no lights", .scene = true},
+    {.name = "max-value", .group = "Finding lights", .kind = Kind::Real, .minimum = 1e-6, .maximum = 1e10,
+     .fallback = "1e10", .help = "brighter pixels count as of this level, in their colour: hot pixels, a sun too bright",
+     .scene = true},
     {.name = "light-shape", .group = "Finding lights", .kind = Kind::Switch, .fallback = "on",
      .help = "lights have the shape of their pixels, for ghosts and starburst; off: points where their middles are",
      .scene = true},

@@ -22,6 +22,8 @@
 
 namespace contrejour {
 
+class OutputFile;
+
 // Pixels x in [x, x + width), y in [y, y + height); the origin may be anywhere, also negative.
 struct PixelWindow {
   int x = 0, y = 0;
@@ -75,6 +77,11 @@ struct ReadOptions {
 [[nodiscard]] std::optional<ColourSpace> colour_space_of(const Picture& picture);
 void set_colour_space(Picture& picture, ColourSpace space);  // writes the chromaticities attribute
 
+// Width over height of the pixels as they are shown; 1 where the file does not say, or says what no pixel is (not from
+// 0.1 to 10).
+[[nodiscard]] double pixel_aspect_of(const Picture& picture);
+void set_pixel_aspect(Picture& picture, double aspect);  // writes the pixelAspectRatio attribute; from 0.1 to 10
+
 // Text attributes of an OpenEXR file, e.g. "comments"; setting replaces one of any type.
 [[nodiscard]] std::optional<std::string> text_attribute(const Picture& picture, const std::string& name);
 void set_text_attribute(Picture& picture, const std::string& name, const std::string& text);
@@ -83,6 +90,8 @@ void set_text_attribute(Picture& picture, const std::string& name, const std::st
 // By the extension: .exr, or .png as sRGB (colours clipped to 0..1; 8 bit if it came from 8 bit, else 16).
 [[nodiscard]] Result<void> write_picture(const std::filesystem::path& file, const Picture& picture,
                                          const Context& context = {});
+// Into a file that the caller commits (output_file.h), together with others if need be.
+[[nodiscard]] Result<void> write_picture(OutputFile& file, const Picture& picture, const Context& context = {});
 [[nodiscard]] Result<void> write_exr(const std::filesystem::path& file, const Image& image,
                                      SampleType type = SampleType::Float, const Context& context = {});
 
@@ -93,5 +102,7 @@ struct PreviewSettings {
 };
 [[nodiscard]] Result<void> write_preview_png(const std::filesystem::path& file, const Image& rgb,
                                              const PreviewSettings& settings = {}, const Context& context = {});
+[[nodiscard]] Result<void> write_preview_png(OutputFile& file, const Image& rgb, const PreviewSettings& settings = {},
+                                             const Context& context = {});
 
 }  // namespace contrejour

@@ -37,6 +37,15 @@ struct Light {
 
 inline constexpr double kSunRadius_rad = 0.00465;  // 0.53 degrees across
 
+// The largest value of a light in any channel, and of its value times all gains on the way into a picture: 32-bit
+// floats hold it, and sums of its squares over the largest picture. A light of 1e16 is the sun over 1e10 pixels.
+inline constexpr double kMostLightValue = 1e16;
+
+// Errors: InvalidArgument for a direction that is not finite or leads away from the camera, a distance that is not
+// above 0, values that are not finite, exceed kMostLightValue or have a luminance below 0 in this space, a spectrum of
+// which nothing is visible, a temperature that is not from 500 to 100000 K; those of check_extent.
+[[nodiscard]] Result<void> check_light(const Light& light, ColourSpace space);
+
 // Errors: InvalidArgument for a negative radius or one above 45 degrees; for a shape without light, that reaches
 // farther from its direction than 45 degrees, of more than 4096 pixels a side, with levels that are negative or not
 // finite; for both at once.

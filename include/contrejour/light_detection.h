@@ -1,7 +1,8 @@
 // Bright areas of a scene-linear photograph -> lights: connected areas (8 neighbours) above a threshold.
 // A pixel's level is its largest channel; its weight rises from 0 at the threshold to 1 at threshold * (1 + softness),
 // so a light that brightens frame by frame fades in (docs/formats/images.md). NaN, infinite and negative samples count
-// as 0. Deterministic; O(pixels). Thread-safety: pure.
+// as 0, and pixels brighter than max_value as of that level, in their colour. Deterministic; O(pixels). Thread-safety:
+// pure.
 #pragma once
 
 #include <cstdint>
@@ -20,6 +21,10 @@ struct DetectionSettings {
   double softness = 0.25;           // >= 0; 0 makes the threshold hard
   int max_lights = 32;              // >= 1; the rest is merged into the nearest of these
   int min_pixels = 1;               // smaller areas (hot pixels) are no lights
+  double max_value = kMostLevel;    // > 0, at most kMostLevel: what a pixel's level counts for at most
+
+  // Beyond every light: the sun's disc is 1.6e9 cd/m^2.
+  static constexpr double kMostLevel = 1e10;
 };
 
 struct DetectedLight {
@@ -28,7 +33,7 @@ struct DetectedLight {
   double rms_radius_px = 0;  // flux-weighted, about the centroid; of a single pixel sqrt(1/6)
   int min_x = 0, min_y = 0, max_x = 0, max_y = 0;  // pixels, inclusive
   std::int64_t pixel_count = 0;
-  double peak = 0;       // largest level
+  double peak = 0;       // largest level, as it is in the picture
   int merged_areas = 1;  // how many areas this light stands for
   std::vector<int> areas;  // which, of Detection::areas
 };
@@ -37,6 +42,8 @@ struct Detection {
   double threshold = 0;               // the one used
   std::vector<DetectedLight> lights;  // by flux (r + g + b), largest first
   int areas_found = 0;                // before merging
+  double max_value = DetectionSettings::kMostLevel;  // as in the settings
+  std::int64_t capped_pixels = 0;     // of areas, that are brighter than that
   std::vector<DetectedLight> areas;   // all, in the order of their first pixels, those too small to be lights too
   std::vector<std::int32_t> area_of_pixel;  // rows from the top; -1: none
 };

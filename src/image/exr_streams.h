@@ -1,4 +1,4 @@
-// OpenEXR's streams over memory and over an AtomicFile.
+// OpenEXR's streams over memory and over an OutputFile.
 #pragma once
 
 #include <cstring>
@@ -8,7 +8,7 @@
 
 #include <ImfIO.h>
 
-#include "base/atomic_file.h"
+#include "contrejour/output_file.h"
 
 namespace contrejour {
 
@@ -34,9 +34,9 @@ class MemoryInput final : public Imf::IStream {
 
 // Never throws: OpenEXR's writers write in their destructors too, where an exception ends the program. The first error
 // is kept, to be asked for; after it nothing more is written.
-class AtomicFileOutput final : public Imf::OStream {
+class OutputFileStream final : public Imf::OStream {
  public:
-  explicit AtomicFileOutput(AtomicFile& file) : Imf::OStream(file.destination().string().c_str()), file_(file) {}
+  explicit OutputFileStream(OutputFile& file) : Imf::OStream(file.destination().string().c_str()), file_(file) {}
 
   void write(const char from[], int count) override {
     const auto size = static_cast<std::size_t>(count);
@@ -56,7 +56,7 @@ class AtomicFileOutput final : public Imf::OStream {
     if (!result) error_ = result.error();
   }
 
-  AtomicFile& file_;
+  OutputFile& file_;
   std::uint64_t position_ = 0;
   std::optional<Error> error_;
 };

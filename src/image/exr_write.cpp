@@ -61,7 +61,7 @@ Imf::Header header_to_write(const Picture& picture) {
 }
 
 // Whether it came to the end; false when cancelled or the stream has failed.
-bool write_scan_lines(AtomicFileOutput& stream, const Imf::Header& header, const Imf::FrameBuffer& frame_buffer,
+bool write_scan_lines(OutputFileStream& stream, const Imf::Header& header, const Imf::FrameBuffer& frame_buffer,
                       int height, const Context& context) {
   Imf::OutputFile out(stream, header);
   out.setFrameBuffer(frame_buffer);
@@ -72,7 +72,7 @@ bool write_scan_lines(AtomicFileOutput& stream, const Imf::Header& header, const
   return true;
 }
 
-bool write_tiles(AtomicFileOutput& stream, const Imf::Header& header, const Imf::FrameBuffer& frame_buffer,
+bool write_tiles(OutputFileStream& stream, const Imf::Header& header, const Imf::FrameBuffer& frame_buffer,
                  const Context& context) {
   Imf::TiledOutputFile out(stream, header);
   out.setFrameBuffer(frame_buffer);
@@ -87,8 +87,8 @@ bool write_tiles(AtomicFileOutput& stream, const Imf::Header& header, const Imf:
 
 }  // namespace
 
-Result<void> write_picture_exr(const std::filesystem::path& file, const Picture& picture, const Context& context) {
-  const SourcePlace place{file.string()};
+Result<void> write_picture_exr(OutputFile& file, const Picture& picture, const Context& context) {
+  const SourcePlace place{file.destination().string()};
   const Imf::Header header = header_to_write(picture);
   std::vector<std::vector<std::byte>> samples(picture.channels.size());
   Imf::FrameBuffer frame_buffer;
@@ -103,9 +103,7 @@ Result<void> write_picture_exr(const std::filesystem::path& file, const Picture&
                                                        channel.x_sampling, channel.y_sampling));
   }
 
-  Result<AtomicFile> out = AtomicFile::create(file);
-  if (!out) return tl::unexpected(out.error());
-  AtomicFileOutput stream(*out);
+  OutputFileStream stream(file);
   bool finished = false;
   try {
     finished = header.hasTileDescription()
@@ -116,7 +114,7 @@ Result<void> write_picture_exr(const std::filesystem::path& file, const Picture&
   }
   if (stream.error()) return tl::unexpected(*stream.error());
   if (!finished || context.cancelled()) return failure(ErrorCode::Cancelled, "cancelled", place);
-  return out->commit();
+  return {};
 }
 
 }  // namespace contrejour

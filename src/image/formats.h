@@ -5,6 +5,7 @@
 #include <string>
 
 #include "contrejour/image_io.h"
+#include "contrejour/output_file.h"
 
 namespace contrejour {
 
@@ -12,9 +13,16 @@ namespace contrejour {
                                        const ReadOptions& options);
 [[nodiscard]] Result<Picture> read_png(std::span<const std::byte> bytes, const std::string& name,
                                        const ReadLimits& limits);
-[[nodiscard]] Result<void> write_picture_exr(const std::filesystem::path& file, const Picture& picture,
-                                             const Context& context);
-[[nodiscard]] Result<void> write_picture_png(const std::filesystem::path& file, const Picture& picture,
-                                             const Context& context);
+// A file that holds what write(OutputFile&) puts into it, or none.
+template <class Write>
+[[nodiscard]] Result<void> write_whole(const std::filesystem::path& file, const Write& write) {
+  auto out = OutputFile::create(file);
+  if (!out) return tl::unexpected(out.error());
+  if (Result<void> written = write(*out); !written) return written;
+  return out->commit();
+}
+
+[[nodiscard]] Result<void> write_picture_exr(OutputFile& file, const Picture& picture, const Context& context);
+[[nodiscard]] Result<void> write_picture_png(OutputFile& file, const Picture& picture, const Context& context);
 
 }  // namespace contrejour

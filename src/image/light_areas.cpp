@@ -51,7 +51,7 @@ DetectedLight light_of_run(const Image& rgb, int y, int begin, int end, const Ar
   for (int x = begin; x < end; ++x) {
     const float* const pixel = rgb.pixels.data() + rgb.index(x, y);
     const double level = level_of(pixel);
-    const double weight = share_of_light(level, settings);
+    const double weight = weight_of(level, settings);
     double brightness = 0;
     for (std::size_t c = 0; c < 3; ++c) {
       const double value = weight * usable_sample(pixel[c]);
@@ -92,6 +92,10 @@ bool is_bright(const float* pixel, const AreaSettings& settings) {
 double share_of_light(double level, const AreaSettings& settings) {
   const double above = level - settings.threshold, ramp = settings.softness * settings.threshold;
   return above >= ramp ? 1 : above / ramp;
+}
+
+double weight_of(double level, const AreaSettings& settings) {
+  return share_of_light(level, settings) * std::min(1.0, settings.max_value / level);
 }
 
 float usable_sample(float value) { return value > 0 && std::isfinite(value) ? value : 0; }

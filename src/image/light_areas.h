@@ -15,12 +15,16 @@ namespace contrejour {
 struct AreaSettings {
   double threshold = 1;
   double softness = 0.25;
+  double max_value = DetectionSettings::kMostLevel;
 };
 
 [[nodiscard]] bool is_bright(const float* rgb, const AreaSettings& settings);
 
 // 0..1: how much of a bright pixel of this level counts to a light.
 [[nodiscard]] double share_of_light(double level, const AreaSettings& settings);
+
+// What a bright pixel of this level gives to its light, over its samples: the share, less what is beyond max_value.
+[[nodiscard]] double weight_of(double level, const AreaSettings& settings);
 
 // The areas in the order of their first pixels (rows from the top); 8 neighbours connect.
 // area_of_pixel: which of them each pixel belongs to, -1 none.

@@ -49,6 +49,8 @@ Result<void> check(const Image& rgb, const DetectionSettings& settings) {
     return failure(ErrorCode::InvalidArgument, "the threshold for lights must be 0 or more");
   if (!(std::isfinite(settings.softness) && settings.softness >= 0))
     return failure(ErrorCode::InvalidArgument, "the softness of the threshold must be 0 or more");
+  if (!(settings.max_value > 0 && settings.max_value <= DetectionSettings::kMostLevel))
+    return failure(ErrorCode::InvalidArgument, "the most that a pixel counts for must be above 0 and at most 1e10");
   if (settings.max_lights < 1 || settings.min_pixels < 1)
     return failure(ErrorCode::InvalidArgument, "the largest number of lights and their least size must be 1 or more");
   return {};
@@ -61,7 +63,12 @@ Result<Detection> detect_lights(const Image& rgb, const DetectionSettings& setti
   if (!usable) return tl::unexpected(usable.error());
   Detection detection;
   detection.threshold = settings.threshold ? *settings.threshold : automatic_threshold(rgb);
-  detection.areas = bright_areas(rgb, {detection.threshold, settings.softness}, detection.area_of_pixel);
+  detection.max_value = settings.max_value;
+  detection.areas =
+      bright_areas(rgb, {detection.threshold, settings.softness, settings.max_value}, detection.area_of_pixel);
+  for (std::size_t k = 0; k < detection.area_of_pixel.size(); ++k)
+    if (detection.area_of_pixel[k] >= 0 && level_of(rgb.pixels.data() + 3 * k) > settings.max_value)
+      ++detection.capped_pixels;
   detection.lights = detection.areas;
   std::erase_if(detection.lights, [&](const DetectedLight& l) { return l.pixel_count < settings.min_pixels; });
   detection.areas_found = static_cast<int>(detection.lights.size());
@@ -72,7 +79,7 @@ Result<Detection> detect_lights(const Image& rgb, const DetectionSettings& setti
 }
 
 Image picture_of_areas(const Image& rgb, const Detection& detection, double softness, const DetectedLight& light) {
-  const AreaSettings settings{detection.threshold, softness};
+  const AreaSettings settings{detection.threshold, softness, detection.max_value};
   Image out(light.max_x - light.min_x + 1, light.max_y - light.min_y + 1);
   std::vector<bool> is_its(detection.areas.size());
   for (const int area : light.areas) is_its[static_cast<std::size_t>(area)] = true;
@@ -83,16 +90,16 @@ Image picture_of_areas(const Image& rgb, const Detection& detection, double soft
                                   static_cast<std::size_t>(x)];
       if (area < 0 || !is_its[static_cast<std::size_t>(area)]) continue;
       const float* const pixel = rgb.pixels.data() + rgb.index(x, y);
-      const double share = share_of_light(level_of(pixel), settings);
+      const double weight = weight_of(level_of(pixel), settings);
       for (int c = 0; c < 3; ++c)
-        out.at(x - light.min_x, y - light.min_y, c) = static_cast<float>(share * usable_sample(pixel[c]));
+        out.at(x - light.min_x, y - light.min_y, c) = static_cast<float>(weight * usable_sample(pixel[c]));
     }
   }
   return out;
 }
 
 Image light_shares(const Image& rgb, double threshold, double softness) {
-  const AreaSettings settings{threshold, softness};
+  const AreaSettings settings{threshold, softness, DetectionSettings::kMostLevel};
   Image shares(rgb.width, rgb.height, 1);
   for (int y = 0; y < rgb.height; ++y) {
     for (int x = 0; x < rgb.width; ++x) {

@@ -17,6 +17,7 @@
 namespace contrejour {
 namespace {
 
+constexpr double kMostPixelAspect = 10.0;  // anamorphic plates have 2; and its inverse the least
 constexpr double kChromaticityTolerance = 2e-3;  // files round theirs to three or four digits
 
 template <class Action>
@@ -36,6 +37,22 @@ bool near(const Imf::Chromaticities& a, const Primaries& b) {
 
 Imath::V2f vector_of(const std::array<double, 2>& xy) { return {static_cast<float>(xy[0]), static_cast<float>(xy[1])}; }
 
+bool starts_with(std::span<const std::byte> bytes, std::initializer_list<unsigned char> magic) {
+  return bytes.size() >= magic.size() && std::equal(magic.begin(), magic.end(), bytes.begin(),
+                                                    [](unsigned char a, std::byte b) { return std::byte{a} == b; });
+}
+
+enum class Format { OpenExr, Png };
+
+// By its first bytes.
+Result<Format> format_of(std::span<const std::byte> bytes, const std::string& name) {
+  if (bytes.empty()) return failure(ErrorCode::Parse, "the file is empty", {name});
+  if (starts_with(bytes, {0x76, 0x2f, 0x31, 0x01})) return Format::OpenExr;
+  if (starts_with(bytes, {0x89, 'P', 'N', 'G'})) return Format::Png;
+  return failure(ErrorCode::Parse, "neither an OpenEXR nor a PNG file; convert it to one of these", {name});
+}
+
+// No more than the first bytes of what is no picture: a device may have no end.
 Result<std::vector<std::byte>> read_bytes(const std::filesystem::path& file, std::uint64_t max_bytes) {
   const SourcePlace place{file.string()};
   std::error_code error;
@@ -44,10 +61,14 @@ Result<std::vector<std::byte>> read_bytes(const std::filesystem::path& file, std
   std::ifstream stream(file, std::ios::binary);
   if (!stream) return failure(ErrorCode::Io, std::string("cannot open: ") + std::strerror(errno), place);
   // In pieces: a pipe has no size, and a file's own may be a lie (/dev/zero).
-  constexpr std::size_t kPiece = std::size_t{1} << 20;
+  constexpr std::size_t kPiece = std::size_t{1} << 20, kMagic = 4;
   const std::uintmax_t expected = std::filesystem::file_size(file, error);
   std::vector<std::byte> bytes;
   if (!error && expected <= max_bytes) bytes.reserve(static_cast<std::size_t>(expected) + 1);
+  bytes.resize(kMagic);
+  stream.read(reinterpret_cast<char*>(bytes.data()), kMagic);
+  bytes.resize(static_cast<std::size_t>(stream.gcount()));
+  if (const auto format = format_of(bytes, place.file); !format) return tl::unexpected(format.error());
   while (stream) {
     const std::size_t have = bytes.size();
     const std::size_t step = bytes.capacity() > have ? std::min(kPiece, bytes.capacity() - have) : kPiece;
@@ -61,15 +82,32 @@ Result<std::vector<std::byte>> read_bytes(const std::filesystem::path& file, std
   return bytes;
 }
 
-bool starts_with(std::span<const std::byte> bytes, std::initializer_list<unsigned char> magic) {
-  return bytes.size() >= magic.size() && std::equal(magic.begin(), magic.end(), bytes.begin(),
-                                                    [](unsigned char a, std::byte b) { return std::byte{a} == b; });
-}
-
 std::string lower_extension(const std::filesystem::path& file) {
   std::string extension = file.extension().string();
   for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   return extension;
+}
+
+// What the writers rely on: the image fills the window, and each channel has its samples, or is one of the image's.
+Result<void> check_picture(const Picture& picture) {
+  const PixelWindow& window = picture.data_window;
+  const auto wrong = [](const char* what) { return failure(ErrorCode::InvalidArgument, what); };
+  if (window.width < 1 || window.height < 1 || picture.rgb.channels != 3 || picture.rgb.width != window.width ||
+      picture.rgb.height != window.height || picture.rgb.pixels.size() != 3 * sample_count(window, 1, 1))
+    return wrong("the picture is empty or its image does not fill its window");
+  for (const int source : picture.rgb_source)
+    if (source < 0 || static_cast<std::size_t>(source) >= picture.channels.size())
+      return wrong("the picture has no channels for its colours");
+  for (std::size_t k = 0; k < picture.channels.size(); ++k) {
+    const PictureChannel& channel = picture.channels[k];
+    if (channel.x_sampling < 1 || channel.y_sampling < 1) return wrong("a channel's sampling must be 1 or more");
+    const std::size_t bytes = sample_count(window, channel.x_sampling, channel.y_sampling) * size_of(channel.type);
+    const bool is_colour = rgb_component(picture, k) >= 0;
+    if (is_colour && channel.x_sampling * channel.y_sampling != 1) return wrong("a colour channel is subsampled");
+    if (channel.samples.size() != bytes && !(is_colour && channel.samples.empty()))
+      return wrong("a channel does not fill the picture's window");
+  }
+  return {};
 }
 
 }  // namespace
@@ -85,10 +123,9 @@ Imf::Header without_attribute(const Imf::Header& header, const std::string& name
 }
 
 Result<Picture> read_picture(std::span<const std::byte> bytes, const std::string& name, const ReadOptions& options) {
-  if (bytes.empty()) return failure(ErrorCode::Parse, "the file is empty", {name});
-  if (starts_with(bytes, {0x76, 0x2f, 0x31, 0x01})) return read_exr(bytes, name, options);
-  if (starts_with(bytes, {0x89, 'P', 'N', 'G'})) return read_png(bytes, name, options.limits);
-  return failure(ErrorCode::Parse, "neither an OpenEXR nor a PNG file; convert it to one of these", {name});
+  const auto format = format_of(bytes, name);
+  if (!format) return tl::unexpected(format.error());
+  return *format == Format::OpenExr ? read_exr(bytes, name, options) : read_png(bytes, name, options.limits);
 }
 
 Result<Picture> read_picture(const std::filesystem::path& file, const ReadOptions& options) {
@@ -141,6 +178,16 @@ void set_colour_space(Picture& picture, ColourSpace space) {
   });
 }
 
+double pixel_aspect_of(const Picture& picture) {
+  const double aspect = picture.header ? static_cast<double>(picture.header->header.pixelAspectRatio()) : 1.0;
+  return aspect >= 1.0 / kMostPixelAspect && aspect <= kMostPixelAspect ? aspect : 1.0;
+}
+
+void set_pixel_aspect(Picture& picture, double aspect) {
+  if (!(aspect >= 1.0 / kMostPixelAspect && aspect <= kMostPixelAspect)) return;
+  change_header(picture, [&](Imf::Header& header) { header.pixelAspectRatio() = static_cast<float>(aspect); });
+}
+
 std::optional<std::string> text_attribute(const Picture& picture, const std::string& name) {
   if (!picture.header) return std::nullopt;
   const auto* found = picture.header->header.findTypedAttribute<Imf::StringAttribute>(name);
@@ -162,11 +209,16 @@ std::vector<std::string> attribute_names(const Picture& picture) {
 }
 
 Result<void> write_picture(const std::filesystem::path& file, const Picture& picture, const Context& context) {
-  const std::string extension = lower_extension(file);
-  const SourcePlace place{file.string()};
-  const std::size_t pixels = sample_count(picture.data_window, 1, 1);
-  if (pixels == 0 || picture.rgb.channels != 3 || picture.rgb.pixels.size() != 3 * pixels)
-    return failure(ErrorCode::InvalidArgument, "the picture is empty or its image does not fill its window", place);
+  return write_whole(file, [&](OutputFile& out) { return write_picture(out, picture, context); });
+}
+
+Result<void> write_picture(OutputFile& file, const Picture& picture, const Context& context) {
+  const std::string extension = lower_extension(file.destination());
+  const SourcePlace place{file.destination().string()};
+  if (auto sound = check_picture(picture); !sound) {
+    sound.error().place = place;
+    return sound;
+  }
   try {
     if (extension == ".exr") return write_picture_exr(file, picture, context);
     if (extension == ".png") return write_picture_png(file, picture, context);
@@ -181,7 +233,8 @@ Result<void> write_exr(const std::filesystem::path& file, const Image& image, Sa
   if (image.width <= 0 || image.height <= 0 || image.pixels.size() != image.index(0, image.height))
     return failure(ErrorCode::InvalidArgument, "the image is empty", {file.string()});
   try {
-    return write_picture_exr(file, picture_of(image, type), context);
+    const Picture picture = picture_of(image, type);
+    return write_whole(file, [&](OutputFile& out) { return write_picture_exr(out, picture, context); });
   } catch (const std::exception& e) {
     return failure(ErrorCode::Io, std::string("cannot write: ") + e.what(), {file.string()});
   }

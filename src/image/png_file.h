@@ -5,6 +5,7 @@
 #include <functional>
 
 #include "contrejour/image_io.h"
+#include "contrejour/output_file.h"
 
 namespace contrejour {
 
@@ -14,8 +15,8 @@ struct PngLayout {
   int bits = 8;      // or 16, native-endian in the rows
 };
 
-// Calls fill(y, row) for each row from the top. Marked as sRGB. Errors: Io, Cancelled; then there is no file.
-[[nodiscard]] Result<void> write_png_file(const std::filesystem::path& file, const PngLayout& layout,
+// Calls fill(y, row) for each row from the top. Marked as sRGB. Errors: Io, Cancelled.
+[[nodiscard]] Result<void> write_png_file(OutputFile& file, const PngLayout& layout,
                                           const std::function<void(int y, std::byte* row)>& fill,
                                           const Context& context);
 

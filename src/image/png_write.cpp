@@ -8,7 +8,6 @@
 #include <fmt/format.h>
 #include <png.h>
 
-#include "base/atomic_file.h"
 #include "image/formats.h"
 #include "image/png_file.h"
 #include "image/samples.h"
@@ -20,13 +19,13 @@ constexpr int kCompressionLevel = 4;  // a third of level 6's time for files a f
 constexpr int kRowsBetweenCancelChecks = 64;
 
 struct Writer {
-  AtomicFile& file;
+  OutputFile& file;
   std::optional<Error> error;
   char message[160] = "";
   png_structp png = nullptr;
   png_infop info = nullptr;
 
-  explicit Writer(AtomicFile& out) : file(out) {}
+  explicit Writer(OutputFile& out) : file(out) {}
   Writer(const Writer&) = delete;
   Writer& operator=(const Writer&) = delete;
   ~Writer() { png_destroy_write_struct(&png, &info); }
@@ -87,12 +86,10 @@ tl::unexpected<Error> failed(const Writer& writer, const SourcePlace& place) {
 
 }  // namespace
 
-Result<void> write_png_file(const std::filesystem::path& file, const PngLayout& layout,
+Result<void> write_png_file(OutputFile& file, const PngLayout& layout,
                             const std::function<void(int y, std::byte* row)>& fill, const Context& context) {
-  const SourcePlace place{file.string()};
-  Result<AtomicFile> out = AtomicFile::create(file);
-  if (!out) return tl::unexpected(out.error());
-  Writer writer(*out);
+  const SourcePlace place{file.destination().string()};
+  Writer writer(file);
   writer.png = png_create_write_struct(PNG_LIBPNG_VER_STRING, &writer, on_error, on_warning);
   writer.info = writer.png == nullptr ? nullptr : png_create_info_struct(writer.png);
   if (writer.info == nullptr) throw std::bad_alloc();
@@ -108,10 +105,10 @@ Result<void> write_png_file(const std::filesystem::path& file, const PngLayout& 
   }
   if (!write_end(writer)) return failed(writer, place);
   if (context.cancelled()) return failure(ErrorCode::Cancelled, "cancelled", place);
-  return out->commit();
+  return {};
 }
 
-Result<void> write_picture_png(const std::filesystem::path& file, const Picture& picture, const Context& context) {
+Result<void> write_picture_png(OutputFile& file, const Picture& picture, const Context& context) {
   // Colour and alpha; a PNG has no place for other channels.
   std::vector<std::size_t> sources;
   const bool grey = picture.rgb_source[0] == picture.rgb_source[2];

@@ -1,6 +1,7 @@
 // Scene-linear images to look at.
 #include <cmath>
 
+#include "image/formats.h"
 #include "image/png_file.h"
 #include "image/samples.h"
 
@@ -20,7 +21,12 @@ float roll_off(float value) {
 
 Result<void> write_preview_png(const std::filesystem::path& file, const Image& rgb, const PreviewSettings& settings,
                                const Context& context) {
-  const SourcePlace place{file.string()};
+  return write_whole(file, [&](OutputFile& out) { return write_preview_png(out, rgb, settings, context); });
+}
+
+Result<void> write_preview_png(OutputFile& file, const Image& rgb, const PreviewSettings& settings,
+                               const Context& context) {
+  const SourcePlace place{file.destination().string()};
   const bool complete =
       rgb.width > 0 && rgb.height > 0 && rgb.channels > 0 && rgb.pixels.size() == rgb.index(0, rgb.height);
   if (!complete) return failure(ErrorCode::InvalidArgument, "the image is empty", place);

@@ -13,8 +13,8 @@ def attribute(name, kind, data):
     return name.encode() + b"\0" + kind.encode() + b"\0" + struct.pack("<i", len(data)) + data
 
 
-def write(path, channels, width, height, origin=(0, 0), display=None, extra=()):
-    """channels: name -> (HALF or FLOAT, list of width * height numbers); display: (x, y, width, height)."""
+def write(path, channels, width, height, origin=(0, 0), display=None, extra=(), aspect=1):
+    """channels: name -> (HALF or FLOAT, list of width * height numbers); display: (x, y, width, height); aspect: of pixels."""
     names = sorted(channels)
     chlist = b"".join(n.encode() + b"\0" + struct.pack("<iBBBBii", channels[n][0], 0, 0, 0, 0, 1, 1) for n in names)
     x, y = origin
@@ -24,7 +24,7 @@ def write(path, channels, width, height, origin=(0, 0), display=None, extra=()):
     header += attribute("dataWindow", "box2i", struct.pack("<4i", x, y, x + width - 1, y + height - 1))
     header += attribute("displayWindow", "box2i", struct.pack("<4i", dx, dy, dx + dw - 1, dy + dh - 1))
     header += attribute("lineOrder", "lineOrder", b"\0")
-    header += attribute("pixelAspectRatio", "float", struct.pack("<f", 1))
+    header += attribute("pixelAspectRatio", "float", struct.pack("<f", aspect))
     header += attribute("screenWindowCenter", "v2f", struct.pack("<2f", 0, 0))
     header += attribute("screenWindowWidth", "float", struct.pack("<f", 1))
     for item in extra:
@@ -79,6 +79,7 @@ class Picture:
         self.width, self.height, self.origin = x1 - x0 + 1, y1 - y0 + 1, (x0, y0)
         d = struct.unpack("<4i", self.attributes["displayWindow"][1])
         self.display = (d[0], d[1], d[2] - d[0] + 1, d[3] - d[1] + 1)
+        self.aspect = struct.unpack("<f", self.attributes["pixelAspectRatio"][1])[0]
         kinds = self.read_channel_list()
         self.channels = {name: [] for name in kinds}
         lines = ZIP_LINES[self.attributes["compression"][1][0]]

@@ -142,6 +142,64 @@ class Apply(ProgramTest):
         self.assertAlmostEqual(whole["azimuth_deg"], crop["azimuth_deg"], delta=1e-9)
         self.assertAlmostEqual(whole["elevation_deg"], crop["elevation_deg"], delta=1e-9)
 
+    def test_pixels_that_are_not_square(self):
+        """A plate of half as many columns, twice as wide each: the same lights, and each pixel has what two had."""
+        self.write("square.exr", dark([(60, 20, 2500.0), (61, 20, 2500.0)], level=0.0))
+        square = self.json_of("apply", "heliar", "square.exr", "-o", "o.exr", "--flare-only", "fine.exr", *QUICK)
+        wide = {c: (exr.FLOAT, dark([(30, 20, 5000.0)], level=0.0, width=WIDTH // 2)) for c in "RGB"}
+        exr.write(self.folder / "wide.exr", wide, WIDTH // 2, HEIGHT, aspect=2)
+        exr.write(self.folder / "silent.exr", wide, WIDTH // 2, HEIGHT)
+        for name, more in (("wide.exr", []), ("silent.exr", ["--pixel-aspect", "2"])):
+            report = self.json_of("apply", "heliar", name, "-o", "o.exr", "--flare-only", "coarse.exr", *more, *QUICK)
+            for key in ("azimuth_deg", "elevation_deg"):
+                self.assertAlmostEqual(report["lights"][0][key], square["lights"][0][key], delta=1e-9)
+            fine, coarse = exr.Picture(self.folder / "fine.exr"), exr.Picture(self.folder / "coarse.exr")
+            self.assertEqual((coarse.width, coarse.height, coarse.aspect), (WIDTH // 2, HEIGHT, 2))
+            peak = max(coarse.channels["G"])
+            for k, value in enumerate(coarse.channels["G"]):
+                self.assertAlmostEqual(value, fine.channels["G"][2 * k] + fine.channels["G"][2 * k + 1], delta=1e-4 * peak)
+        # Higher than wide; a crop; an aspect that no pixel has counts as none.
+        self.json_of("apply", "heliar", "silent.exr", "-o", "o.exr", "--pixel-aspect", "0.7", "--starburst", *QUICK)
+        exr.write(self.folder / "odd.exr", wide, WIDTH // 2, HEIGHT, aspect=1000)
+        odd = self.json_of("apply", "heliar", "odd.exr", "-o", "o.exr", *QUICK)
+        silent = self.json_of("apply", "heliar", "silent.exr", "-o", "o.exr", *QUICK)
+        self.assertEqual(odd["lights"], silent["lights"])
+
+    def test_pixels_of_an_anamorphic_plate(self):
+        """What such a lens squeezes its pixels stretch: they are square on the sensor."""
+        info = self.json_of("lens", "info", "schneider-anamorphic-31")
+        squeeze = info["focal_length_mm"] / info["focal_length_x_mm"]
+        exr.write(self.folder / "in.exr", {c: (exr.FLOAT, dark([(75, 10, 5000.0)], level=0.0)) for c in "RGB"}, WIDTH,
+                  HEIGHT, aspect=squeeze)
+        self.run_program("apply", "schneider-anamorphic-31", "-f", "8", "in.exr", "-o", "o.exr", "--flare-only",
+                         "flare.exr", "--softness", "0", *QUICK)
+        self.run_program("render", "schneider-anamorphic-31", "-f", "8", "-o", "r.exr", "--size", f"{WIDTH}x{HEIGHT}",
+                         "--value", "5000,5000,5000", "--light-at", f"{75.5 / WIDTH!r},{10.5 / HEIGHT!r}", *QUICK)
+        self.assertAlmostEqual(exr.Picture(self.folder / "r.exr").aspect, squeeze, delta=1e-6)
+        result = self.json_of("compare", "r.exr", "flare.exr")
+        self.assertTrue(result["psnr_db"] is None or result["psnr_db"] > 80, result)
+
+    def test_what_is_finite_stays_finite(self):
+        """Pixels near a float's end count as 1e10; --max-value says of less."""
+        values = dark([(x, y, 3e38) for x in range(50, 55) for y in range(20, 25)])
+        self.write("in.exr", values)
+        done = self.run_program("apply", "heliar", "in.exr", "-o", "out.exr", "--starburst", "--glare", "0.1", *QUICK)
+        self.assertIn(b"25 pixels are brighter than 1e+10", done.stderr)
+        for channel in exr.Picture(self.folder / "out.exr").channels.values():
+            self.assertTrue(all(math.isfinite(v) for v in channel))
+        arguments = ["apply", "heliar", "in.exr", "-o", "out.exr", "--softness", "0", *QUICK]
+        report = self.json_of(*arguments, "--max-value", "40")
+        self.assertAlmostEqual(report["lights"][0]["flux"][1], 25 * 40, delta=1e-3)
+        self.assertEqual(report["capped_pixels"], 25)
+        self.write("tinted.exr", values)
+        exr.write(self.folder / "tinted.exr", {"R": (exr.FLOAT, dark([(60, 20, 100.0)])),
+                                               "G": (exr.FLOAT, dark([(60, 20, 50.0)])),
+                                               "B": (exr.FLOAT, dark([(60, 20, 25.0)]))}, WIDTH, HEIGHT)
+        arguments[2] = "tinted.exr"
+        flux = self.json_of(*arguments, "--max-value", "10")["lights"][0]["flux"]
+        for got, want in zip(flux, (10, 5, 2.5)):
+            self.assertAlmostEqual(got, want, delta=1e-6)
+
     def test_output_may_be_the_input(self):
         self.write("in.exr", dark([(60, 20, 5000.0)]))
         self.run_program("apply", "heliar", "in.exr", "-o", "other.exr", *QUICK)

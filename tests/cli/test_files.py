@@ -1,9 +1,11 @@
 #!/usr/bin/env python3
 """Files: hostile ones are refused, places that cannot be written to fail at once, and nothing is left half-written."""
+import json
 import os
 import signal
 import struct
 import subprocess
+import threading
 import time
 import unittest
 
@@ -46,6 +48,45 @@ class Hostile(ProgramTest):
         self.assertEqual(self.files(), [])
 
 
+    @unittest.skipUnless(os.path.exists("/dev/zero"), "needs /dev/zero")
+    def test_files_without_an_end(self):
+        began = time.monotonic()
+        self.assertIn("/dev/zero", self.error_of("compare", "/dev/zero", "/dev/zero", code=1))
+        self.error_of("apply", "heliar", "/dev/zero", "-o", "o.exr", code=1)
+        self.error_of("render", "/dev/zero", "-o", "o.exr", code=1)
+        self.error_of("render", "heliar", "-o", "o.exr", "--iris-image", "/dev/zero", code=1)
+        self.error_of("render", "heliar", "-o", "o.exr", "--colour", "/dev/zero", code=2)
+        self.error_of("render", "--look", "/dev/zero", "-o", "o.exr", code=1)
+        self.assertLess(time.monotonic() - began, 20)
+        self.assertEqual(self.files(), [])
+
+
+class Terminal(ProgramTest):
+    """Names in files and on the command line may hold what a terminal obeys; none of it is printed."""
+
+    def check(self, text):
+        for bad in (b"\x1b", b"\x07", b"\x9b", b"\x7f", "\u009b".encode(), "\u202e".encode()):
+            self.assertNotIn(bad, text)
+
+    def test_messages_and_results(self):
+        wild = "a\x1b[31mb\u009b1mc\u202ed\x07\x7f"
+        self.check(self.run_program("render", wild + ".toml", "-o", "o.exr", code=1).stderr)
+        self.check(self.run_program("render", "heliar", "-o", "o.exr", "--" + wild, code=2).stderr)
+        self.check(self.run_program("render", "heliar", "-o", "o.exr", "--value", wild, code=2).stderr)
+        named = self.run_program("lens", "convert", "heliar", "l.toml") and (self.folder / "l.toml").read_text()
+        name = next(line for line in named.splitlines() if line.startswith("name"))
+        self.assertIn('"', name)
+        evil = 'name = "\\u001b[31mred\\u009b\\u007f\\u202e"'
+        (self.folder / "l.toml").write_text(named.replace(name, evil))
+        self.check(self.run_program("lens", "info", "l.toml").stdout)
+        shown = self.run_program("lens", "info", "l.toml", "--json").stdout
+        self.check(shown)
+        self.assertEqual(json.loads(shown)["name"], "\x1b[31mred\u009b\x7f\u202e")
+        latin = os.fsdecode(b"caf\xe9\x9b31m.toml")
+        done = subprocess.run([PROGRAM, "render", latin, "-o", "o.exr"], cwd=self.folder, capture_output=True)
+        self.check(done.stderr)
+
+
 class Outputs(ProgramTest):
     def test_places_that_cannot_be_written_fail_before_the_work(self):
         began = time.monotonic()
@@ -80,6 +121,57 @@ class Outputs(ProgramTest):
         self.assertTrue((self.folder / "link.exr").is_symlink())
         exr.Picture(self.folder / "real.exr")
 
+    @unittest.skipUnless(POSIX, "symbolic links")
+    def test_a_link_to_nothing_yet_stays_a_link(self):
+        os.symlink("real.exr", self.folder / "link.exr")
+        os.symlink("real.png", self.folder / "link.png")
+        self.run_program("render", "heliar", "-o", "link.exr", "--preview", "link.png", *QUICK)
+        for ending in ("exr", "png"):
+            self.assertTrue((self.folder / f"link.{ending}").is_symlink())
+            self.assertFalse((self.folder / f"real.{ending}").is_symlink())
+        exr.Picture(self.folder / "real.exr")
+
+    @unittest.skipUnless(POSIX, "pipes")
+    def test_a_picture_goes_into_a_pipe(self):
+        self.run_program("render", "heliar", "-o", "a.exr", "--preview", "a.png", *QUICK)
+        for name in ("b.exr", "b.png"):
+            os.mkfifo(self.folder / name)
+        got = {}
+        readers = [threading.Thread(target=lambda n=name: got.update({n: (self.folder / n).read_bytes()}), daemon=True)
+                   for name in ("b.exr", "b.png")]
+        for reader in readers:
+            reader.start()
+        self.run_program("render", "heliar", "-o", "b.exr", "--preview", "b.png", *QUICK)
+        for reader in readers:
+            reader.join(60)
+        self.assertEqual(got["b.exr"], (self.folder / "a.exr").read_bytes())
+        self.assertEqual(got["b.png"], (self.folder / "a.png").read_bytes())
+
+    @unittest.skipUnless(POSIX, "limits")
+    def test_a_limit_of_sizes_is_a_full_disk(self):
+        import resource
+        done = subprocess.run([PROGRAM, "render", "heliar", "-o", "a.exr", *QUICK], cwd=self.folder, capture_output=True,
+                              preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (4096, 4096)))
+        self.assertEqual(done.returncode, 1, done.stderr)
+        self.assertIn(b"a.exr", done.stderr)
+        self.assertEqual(self.files(), [])
+
+    @unittest.skipUnless(POSIX, "closed streams")
+    def test_closed_streams(self):
+        self.run_program("render", "heliar", "-o", "a.exr", *QUICK)
+        whole = (self.folder / "a.exr").read_bytes()
+        for closed in (">&-", "2>&-", ">&- 2>&-", "<&- >&- 2>&-"):
+            with self.subTest(closed):
+                script = f'"$0" render heliar -o b.exr --size 96x64 --grid 32 {closed}'
+                done = subprocess.run(["sh", "-c", script, PROGRAM], cwd=self.folder, capture_output=True)
+                self.assertEqual((done.returncode, done.stderr), (0, b""))
+                self.assertEqual((self.folder / "b.exr").read_bytes(), whole)
+        done = subprocess.run(["sh", "-c", '"$0" lens list >&-', PROGRAM], cwd=self.folder, capture_output=True)
+        self.assertEqual(done.returncode, 1)
+        with open("/dev/full", "wb") as full:
+            done = subprocess.run([PROGRAM, "render", "heliar", "-o", "a.exr", *QUICK], cwd=self.folder, stdout=full)
+        self.assertEqual(done.returncode, 0)
+
     def test_a_failed_command_leaves_the_old_file(self):
         (self.folder / "out.exr").write_bytes(b"old")
         (self.folder / "bad.exr").write_bytes(b"bad")
@@ -89,6 +181,19 @@ class Outputs(ProgramTest):
 
 @unittest.skipUnless(POSIX, "signals")
 class Interrupt(ProgramTest):
+    def test_killed_while_files_wait_for_each_other(self):
+        """The picture is complete, and waits for a pipe that nobody reads: nothing of it is left."""
+        os.mkfifo(self.folder / "stats.json")
+        (self.folder / "a.exr").write_bytes(b"old")
+        running = subprocess.Popen([PROGRAM, "render", "heliar", "-o", "a.exr", "--preview", "a.png", "--stats",
+                                    "stats.json", *QUICK], cwd=self.folder, stdout=subprocess.PIPE)
+        time.sleep(3.0)
+        self.assertIsNone(running.poll())
+        running.kill()
+        running.communicate(timeout=60)
+        self.assertEqual(self.files(), ["a.exr", "stats.json"])
+        self.assertEqual((self.folder / "a.exr").read_bytes(), b"old")
+
     def interrupt(self, number, *arguments):
         running = subprocess.Popen([PROGRAM, *arguments], cwd=self.folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
         time.sleep(1.0)

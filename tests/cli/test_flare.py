@@ -29,6 +29,18 @@ class Render(ProgramTest):
         self.assertEqual((stats["method"], stats["ghosts_rendered"]), ("adaptive", 13))
         self.assertEqual(self.files(), ["a.exr", "a.json", "a.png"])
 
+    def test_the_brightest_lights(self):
+        """What is drawn of a light is in proportion to its value, as far as values go."""
+        for more in ([], ["--starburst", "--glare", "0.1"], ["--ringing", "fresnel"], ["--light-size", "0.5"],
+                     *(["--method", method] for method in ("bundle", "tiled"))):
+            with self.subTest(more):
+                self.render("one.exr", *more)
+                most = self.render("most.exr", "--value", "1e15", *more)
+                one = exr.Picture(self.folder / "one.exr")
+                peak = max(one.channels["G"])
+                for a, b in zip(one.channels["G"], most.channels["G"]):
+                    self.assertAlmostEqual(a, b * 1e-15, delta=1e-3 * peak)
+
     def test_starburst(self):
         """Off it changes no bit; on, the picture holds the light's own image beside the ghosts."""
         def bytes_of(name, *arguments):

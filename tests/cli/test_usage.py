@@ -27,6 +27,11 @@ class Usage(ProgramTest):
                 [*render, "--size", "20000x20000"], [*render, "--size", "99999999999x1"],
                 [*render, "-f", "nan"], [*render, "-f", "inf"], [*render, "-f", "0"], [*render, "-f", "8", "-f", "11"],
                 [*render, "--value", "-1"], [*render, "--value", "1e400"], [*render, "--value", "1,2"],
+                [*render, "--value", "1e300"], [*render, "--value", "1,1,1e39"], [*render, "--light", "1,2:1e16"],
+                [*render, "--ghost", "2-5:gain=1e308"], [*render, "--ghost", "2-5:colour=1,1e300,1"],
+                [*render, "--ghost", "2-5:offset=1e300,0"], [*render, "--ghost-ramp=0:1e308,1,1"],
+                [*render, "--ghost-ramp=-1e308:1,1,1/1e308:1,1,1"], [*render, "--colour", "1e300,1,1"],
+                [*render, "--pixel-aspect", "0"], [*render, "--pixel-aspect", "inf"],
                 [*render, "--colour", "mauve"], [*render, "--colour", "20K"], [*render, "--light", "1"],
                 [*render, "--light", "nan,0"], [*render, "--light", "1,2:3:D65:4:5"], [*render, "--focus", "-1"],
                 [*render, "--method", "magic"], [*render, "--device", "toaster"], [*render, "--grid", "8"],
@@ -38,6 +43,8 @@ class Usage(ProgramTest):
                 ["apply", "heliar", "in.exr", "-o", "o.exr", "--threshold", "nan"],
                 ["apply", "heliar", "in.exr", "-o", "o.exr", "--gain", "-1"],
                 ["apply", "heliar", "in.exr", "-o", "o.exr", "--max-lights", "0"],
+                ["apply", "heliar", "in.exr", "-o", "o.exr", "--max-value", "0"],
+                ["apply", "heliar", "in.exr", "-o", "o.exr", "--max-value", "1e11"],
                 ["apply", "heliar", "in.exr", "-o", "o.exr", "--hfov", "180"],
                 ["lens", "trace", "heliar", "--ray", "0,0,0"], ["lens", "trace", "heliar", "--ray", "0,0,0,0,0,0"],
                 ["lens", "trace", "heliar", "--ray", "0,0,0,0,0,-1"],
@@ -56,7 +63,10 @@ class Usage(ProgramTest):
 
     def test_values_a_lens_refuses_are_failures(self):
         for wrong in (["-f", "0.5"], ["--focal", "50"], ["--focus", "1mm"], ["--light", "95,0"],
-                      ["--value", "1,1,1", "--colour", "1,1,1"]):
+                      ["--value", "1,1,1", "--colour", "1,1,1"], ["--value", "1e15", "--ghost-gain", "1e12"],
+                      ["--value", "1e15", "--ghost-edge-gain", "1e12"], ["--value", "1e15", "--ghost", "2-5:gain=1e3"],
+                      ["--value", "1e12", "--colour", "1e12,1,1"], ["--value", "1e15", "--starburst", "--starburst-gain", "100"],
+                      ["--value", "1e15", "--ghost-ramp=0:1e3,1,1"]):
             with self.subTest(wrong):
                 self.error_of("render", "heliar", "-o", "a.exr", "--size", "8x8", "--grid", "16", *wrong, code=1)
         self.error_of("lens", "trace", "heliar", "--ray", "0,0,0,0,0,1", "--ghost", "2,40", code=1)

@@ -43,7 +43,7 @@ Outcome applied(const Picture& picture, const LensState& lens, const Values& val
   out.flare = Image(kWidth, kHeight);
   for (const Light& light : plan->lights) out.value += light.value[1];
   if (plan->lights.empty()) return out;
-  RenderSettings settings = render_settings(values, plan->frame, plan->space);
+  RenderSettings settings = render_settings(values, plan->grid.frame, plan->space);
   settings.starburst.left_out = plan->already_there;
   settings.starburst.lights = plan->imaged_lights;
   auto flare = render("adaptive", lens, plan->lights, settings);

@@ -119,7 +119,6 @@ std::string machine_text() {
 }
 
 Result<void> BenchFile::open(const std::string& destination) {
-  if (destination.empty()) return {};
   const auto file = outputs_.add(destination);
   if (!file) return tl::unexpected(file.error());
   file_ = *file;
@@ -127,8 +126,8 @@ Result<void> BenchFile::open(const std::string& destination) {
 }
 
 Result<void> BenchFile::write(const BenchRows& rows, const std::vector<Target>& targets) {
-  if (file_.empty()) return {};
-  if (const auto ok = write_text(file_, json_text(bench_json(rows, targets))); !ok) return ok;
+  if (file_ == nullptr) return {};
+  if (const auto ok = file_->write(json_text(bench_json(rows, targets))); !ok) return ok;
   return outputs_.commit();
 }
 

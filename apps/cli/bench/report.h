@@ -22,7 +22,7 @@ class BenchFile {
 
  private:
   Outputs outputs_;
-  std::filesystem::path file_;
+  OutputFile* file_ = nullptr;  // null: not asked for
 };
 
 // What it was measured on, in a line.

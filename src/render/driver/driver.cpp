@@ -46,7 +46,7 @@ Result<Flare> render_ghosts(const Method& method, const LensState& lens, std::sp
 
 Result<Flare> render_with_lights(const Method& method, const LensState& lens, std::span<const Light> lights,
                                  const RenderSettings& settings, const Context& context) {
-  if (const auto good = check_light_images(settings); !good) return tl::unexpected(good.error());
+  if (const auto good = check_light_images(lights, settings); !good) return tl::unexpected(good.error());
   auto flare = render_ghosts(method, lens, lights, settings, part_of(context, 0.0, kGhostsShare));
   if (!flare) return flare;
   const auto added = add_light_images(*flare, lens, settings.starburst.lights ? *settings.starburst.lights : lights,

@@ -23,11 +23,6 @@ constexpr double kMaxPixels = 268435456.0;  // 2^28
 
 Error invalid(std::string message) { return {ErrorCode::InvalidArgument, std::move(message), {}}; }
 
-bool is_finite(const Light& light) {
-  const Vec3 d = light.direction;
-  return std::isfinite(d.x + d.y + d.z) && std::isfinite(light.value[0] + light.value[1] + light.value[2]);
-}
-
 std::optional<Error> problem_with(const LensState& lens, std::span<const Light> lights,
                                   const RenderSettings& settings) {
   const Frame& f = settings.frame;
@@ -44,15 +39,9 @@ std::optional<Error> problem_with(const LensState& lens, std::span<const Light> 
         fmt::format("{} wavelengths is out of range; choose 1 to {}", settings.wavelengths, kMaxWavelengths));
   }
   for (std::size_t k = 0; k < lights.size(); ++k) {
-    if (!is_finite(lights[k])) return invalid(fmt::format("light {} has a value that is not a finite number", k + 1));
-    if (!(lights[k].direction.z > 0.0)) return invalid(fmt::format("light {} is beside or behind the camera", k + 1));
-    const auto* const table = std::get_if<TabulatedSpectrum>(&lights[k].spectrum);
-    if (table != nullptr && !is_visible(*table))
-      return invalid(fmt::format("light {} has a spectrum of which nothing is visible", k + 1));
-    if (const auto good = check_source(lens, lights[k].source()); !good)
-      return invalid(fmt::format("light {}: {}", k + 1, good.error().message));
-    if (const auto ok = check_extent(lights[k]); !ok)
-      return invalid(fmt::format("light {}: {}", k + 1, ok.error().message));
+    auto good = check_light(lights[k], settings.colour_space);
+    if (good) good = check_source(lens, lights[k].source());
+    if (!good) return invalid(fmt::format("light {}: {}", k + 1, good.error().message));
   }
   return std::nullopt;
 }
@@ -169,6 +158,8 @@ Result<FramePlan> plan_frame(const LensState& lens, std::span<const Light> light
   FramePlan plan;
   plan.ghosts = selected->ghosts;
   plan.looks = ghost_looks(lens, plan.ghosts, settings.ghosts, settings.frame);
+  if (const auto good = check_brightness(lights, plan.ghosts, plan.looks, settings.ghosts); !good)
+    return tl::unexpected(good.error());
   plan.skipped_flux = selected->skipped_flux;
   Context quiet = context;
   quiet.progress = {};

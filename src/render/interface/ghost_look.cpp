@@ -64,20 +64,41 @@ double first_order_place(const LensState& lens, Ghost ghost) {
 
 Result<void> check_ghost_options(const LensState& lens, const GhostOptions& options) {
   if (!is_gain(options.gain) || !is_gain(options.edge_gain)) return invalid("a gain of ghosts must be 0 or more");
-  if (!is_gain(options.scatter)) return invalid("ghosts are scattered by a share of the frame's height, 0 or more");
+  if (!(options.scatter >= 0.0 && options.scatter <= kFarthestOffset))
+    return invalid(fmt::format("ghosts are scattered by 0 to {} times the frame's height", kFarthestOffset));
   for (const GhostAdjustment& a : options.adjustments) {
     if (!has_ghost(lens, a.ghost))
       return invalid(fmt::format("there is no ghost {} in this lens; `contrejour ghosts` lists those there are",
                                  ghost_name(a.ghost)));
-    if (!is_gain(a.gain) || !is_colour(a.colour) || !std::isfinite(a.offset.x + a.offset.y))
-      return invalid(
-          fmt::format("ghost {}: give a gain and colours of 0 or more, and a finite offset", ghost_name(a.ghost)));
+    if (!is_gain(a.gain) || !is_colour(a.colour))
+      return invalid(fmt::format("ghost {}: give a gain and colours of 0 or more", ghost_name(a.ghost)));
+    if (!(std::abs(a.offset.x) <= kFarthestOffset && std::abs(a.offset.y) <= kFarthestOffset))
+      return invalid(fmt::format("ghost {}: give an offset of at most {} times the frame's height", ghost_name(a.ghost),
+                                 kFarthestOffset));
   }
   for (std::size_t k = 0; k < options.ramp.size(); ++k) {
     const GhostRampStop& stop = options.ramp[k];
-    if (!std::isfinite(stop.place) || !is_colour(stop.colour))
-      return invalid("a ramp's places must be finite and its colours 0 or more");
+    if (!(std::abs(stop.place) <= kFarthestPlace) || !is_colour(stop.colour))
+      return invalid(fmt::format("a ramp's places must lie within {} and its colours be 0 or more", kFarthestPlace));
     if (k > 0 && !(stop.place > options.ramp[k - 1].place)) return invalid("let the places of a ramp rise");
+  }
+  return {};
+}
+
+Result<void> check_brightness(std::span<const Light> lights, std::span<const Ghost> ghosts,
+                              std::span<const GhostLook> looks, const GhostOptions& options) {
+  const double edge_gain = std::max(1.0, options.edge_gain);
+  for (std::size_t c = 0; c < 3 && !looks.empty(); ++c) {
+    const auto strongest = std::max_element(
+        looks.begin(), looks.end(), [c](const GhostLook& a, const GhostLook& b) { return a.tint[c] < b.tint[c]; });
+    const double gain = edge_gain * strongest->tint[c];
+    for (std::size_t k = 0; k < lights.size(); ++k) {
+      const double value = lights[k].value[c];
+      if (std::abs(value) * gain <= kMostLightValue) continue;
+      return invalid(fmt::format("light {}: its value of {:.4g} times the gains of ghost {}, {:.4g}, is beyond {:.0e}",
+                                 k + 1, value, ghost_name(ghosts[static_cast<std::size_t>(strongest - looks.begin())]),
+                                 gain, kMostLightValue));
+    }
   }
   return {};
 }

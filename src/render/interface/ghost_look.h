@@ -20,9 +20,15 @@ struct GhostLook {
   }
 };
 
-// Errors: InvalidArgument for numbers that are not finite, negative gains and colours, places of a ramp that do not
-// rise, ghosts that the lens does not have.
+// Errors: InvalidArgument for numbers that are not finite, negative gains and colours, offsets and scatter beyond
+// kFarthestOffset of the frame's height, places of a ramp that do not rise or lie beyond kFarthestPlace, ghosts that
+// the lens does not have.
+inline constexpr double kFarthestOffset = 1000.0, kFarthestPlace = 1e6;
 [[nodiscard]] Result<void> check_ghost_options(const LensState& lens, const GhostOptions& options);
+
+// Errors: InvalidArgument for a light whose value times a ghost's gains exceeds kMostLightValue.
+[[nodiscard]] Result<void> check_brightness(std::span<const Light> lights, std::span<const Ghost> ghosts,
+                                            std::span<const GhostLook> looks, const GhostOptions& options);
 
 // One a ghost.
 [[nodiscard]] std::vector<GhostLook> ghost_looks(const LensState& lens, std::span<const Ghost> ghosts,

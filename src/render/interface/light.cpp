@@ -3,6 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <string>
+#include <utility>
+
+#include <fmt/format.h>
 
 namespace contrejour {
 namespace {
@@ -13,7 +17,7 @@ constexpr int kLargestSide = 4096;
 
 Vec3 cross_product(Vec3 a, Vec3 b) { return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x}; }
 
-tl::unexpected<Error> invalid(const char* message) { return failure(ErrorCode::InvalidArgument, message); }
+tl::unexpected<Error> invalid(std::string message) { return failure(ErrorCode::InvalidArgument, std::move(message)); }
 
 Result<void> check_shape(const LightShape& shape) {
   const Image& level = shape.level;
@@ -35,7 +39,28 @@ Result<void> check_shape(const LightShape& shape) {
   return {};
 }
 
+bool is_visible_spectrum(const Spectrum& spectrum) {
+  if (const auto* const table = std::get_if<TabulatedSpectrum>(&spectrum)) return is_visible(*table);
+  const auto* const body = std::get_if<BlackBody>(&spectrum);
+  return body == nullptr || (body->temperature_k >= 500.0 && body->temperature_k <= 100000.0);
+}
+
 }  // namespace
+
+Result<void> check_light(const Light& light, ColourSpace space) {
+  const Vec3 d = light.direction;
+  if (!std::isfinite(d.x + d.y + d.z)) return invalid("its direction is not a finite number");
+  if (!(d.z > 0.0)) return invalid("it is beside or behind the camera");
+  if (!(light.distance_mm > 0.0)) return invalid("its distance must be above 0");
+  for (const double value : light.value) {
+    if (!std::isfinite(value)) return invalid("its value is not a finite number");
+    if (std::abs(value) > kMostLightValue)
+      return invalid(fmt::format("its value of {:.4g} is too large; {:.0e} is the limit", value, kMostLightValue));
+  }
+  if (luminance(light.value, space) < 0.0) return invalid("its value is negative");
+  if (!is_visible_spectrum(light.spectrum)) return invalid("nothing of its spectrum is visible");
+  return check_extent(light);
+}
 
 // A light to the right sends its light to the left: direction is away from it.
 Vec3 direction_from_angles(double azimuth_rad, double elevation_rad) {

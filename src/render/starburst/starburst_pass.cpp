@@ -161,12 +161,19 @@ Result<void> check_left_out(const Image& left_out, const Frame& frame) {
   return {};
 }
 
-Result<void> check_light(const Light& light) {
-  const Vec3 d = light.direction;
-  if (!(d.z > 0.0) || !std::isfinite(d.x + d.y + d.z) ||
-      !std::isfinite(light.value[0] + light.value[1] + light.value[2]))
-    return tl::unexpected(invalid("a light whose image is drawn must lie before the camera and have a finite value"));
-  return check_extent(light);
+Result<void> check_imaged(std::span<const Light> lights, const RenderSettings& settings) {
+  const double gain = settings.starburst.gain;
+  for (std::size_t k = 0; k < lights.size(); ++k) {
+    if (auto good = check_light(lights[k], settings.colour_space); !good)
+      return tl::unexpected(invalid(fmt::format("imaged light {}: {}", k + 1, good.error().message)));
+    const Rgb& value = lights[k].value;
+    const double most = std::max({std::abs(value[0]), std::abs(value[1]), std::abs(value[2])});
+    if (!(most * gain <= kMostLightValue))
+      return tl::unexpected(invalid(
+          fmt::format("imaged light {}: its value of {:.4g} times the starburst's gain, {:.4g}, is beyond {:.0e}",
+                      k + 1, most, gain, kMostLightValue)));
+  }
+  return {};
 }
 
 // Both, onto an image; times by phase.
@@ -196,7 +203,7 @@ Result<void> draw_light_images(Image& image, RenderStatistics& statistics, const
 
 }  // namespace
 
-Result<void> check_light_images(const RenderSettings& settings) {
+Result<void> check_light_images(std::span<const Light> lights, const RenderSettings& settings) {
   const StarburstOptions& starburst = settings.starburst;
   const GlareOptions& glare = settings.glare;
   if (!(starburst.gain >= 0.0) || !std::isfinite(starburst.gain))
@@ -205,9 +212,9 @@ Result<void> check_light_images(const RenderSettings& settings) {
     return tl::unexpected(invalid(fmt::format("glare is a share of the light from 0 to 1, not {}", glare.share)));
   if (!(glare.width_rad > 0.0 && glare.width_rad < 0.5 * std::numbers::pi))
     return tl::unexpected(invalid(fmt::format("glare cannot be {} radians wide", glare.width_rad)));
-  if (starburst.lights)
-    for (const Light& light : *starburst.lights)
-      if (auto usable = check_light(light); !usable) return usable;
+  if (auto usable = check_imaged(starburst.lights ? std::span<const Light>(*starburst.lights) : lights, settings);
+      !usable)
+    return usable;
   for (const double lambda_nm : settings.lambda_nm)
     if (!(lambda_nm > 0.0) || !std::isfinite(lambda_nm))
       return tl::unexpected(invalid(fmt::format("no light has a wavelength of {} nm", lambda_nm)));

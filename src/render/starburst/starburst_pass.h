@@ -7,8 +7,8 @@
 
 namespace contrejour {
 
-// Are the options of starburst and glare usable? Errors: InvalidArgument.
-[[nodiscard]] Result<void> check_light_images(const RenderSettings& settings);
+// Are the options of starburst and glare usable, and the lights that they are of? Errors: InvalidArgument.
+[[nodiscard]] Result<void> check_light_images(std::span<const Light> lights, const RenderSettings& settings);
 
 // Adds them to the flare's image, and the phases "starburst" and "glare" to its times. Lights and frame are those of a
 // render that succeeded. Errors: Cancelled.
