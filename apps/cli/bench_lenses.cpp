@@ -91,16 +91,12 @@ Result<int> run_first_frame(const LensesOptions& options) {
 Result<int> run_lenses(const LensesOptions& options) {
   if (options.first_frame && options.files.size() == 1) return run_first_frame(options);
   Outputs outputs;
-  std::filesystem::path json;
-  if (!options.json.empty()) {
-    const auto file = outputs.add(options.json);
-    if (!file) return tl::unexpected(file.error());
-    json = *file;
-  }
+  const auto json = outputs.add(options.json);
+  if (!json) return tl::unexpected(json.error());
   const auto bench = measure_all(options);
   if (!bench) return tl::unexpected(bench.error());
-  if (!json.empty()) {
-    if (const auto ok = write_text(json, json_text(lens_bench_json(*bench, options.running))); !ok)
+  if (*json != nullptr) {
+    if (const auto ok = (*json)->write(json_text(lens_bench_json(*bench, options.running))); !ok)
       return tl::unexpected(ok.error());
     if (const auto ok = outputs.commit(); !ok) return tl::unexpected(ok.error());
   }
