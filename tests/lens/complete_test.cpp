@@ -53,6 +53,25 @@ TEST_CASE("rims that cross by much are errors in the radii or thicknesses") {
   CHECK(lens.error().message.find("it crosses surface 1") != std::string::npos);
 }
 
+TEST_CASE("surfaces in contact whose radii differ a little are parted by as little") {
+  auto lens = singlet(20.0, 5.0);
+  Surface behind{.curvature_per_mm = -0.0101, .thickness_mm = 5.0, .semi_diameter_mm = 8.0};  // 0.0033 mm at the rim
+  behind.glass_after = Glass{"", ConstantIndex{1.6}};
+  Surface last{.curvature_per_mm = 0.0, .thickness_mm = 5.0, .semi_diameter_mm = 8.0};
+  lens.surfaces[0].semi_diameter_mm = lens.surfaces[1].semi_diameter_mm = 8.0;
+  lens.surfaces[1].thickness_mm = 0.0;
+  lens.surfaces.insert(lens.surfaces.begin() + 2, {behind, last});
+  const auto whole = completed(lens);
+  REQUIRE_MESSAGE(whole.has_value(), (whole ? "" : whole.error().to_string()));
+  CHECK(whole->surfaces[1].semi_diameter_mm == 8.0);
+  CHECK(whole->surfaces[1].thickness_mm > 0.003);
+  CHECK(whole->surfaces[1].thickness_mm < 0.004);
+  REQUIRE(whole->warnings.size() == 1);
+  CHECK(whole->warnings[0].find("surfaces 2 and 3") != std::string::npos);
+  lens.surfaces[2].curvature_per_mm = -0.02;  // 0.3 mm: an error
+  CHECK_FALSE(completed(lens).has_value());
+}
+
 TEST_CASE("a sphere drawn beyond its own radius ends there") {
   auto lens = singlet(19.0, 5.0);
   lens.surfaces[0].curvature_per_mm = 1.0 / 18.0;

@@ -91,7 +91,7 @@ TEST_CASE("what is wrong with an OpenLensFlare lens, and where") {
   check_refused(edited("<thickness>5</thickness>", ""), 6, "without <thickness>");
   check_refused(edited("lensSpherical", "mirror"), 6, "element type 'mirror' is not known");
   check_refused(edited("lensSpherical", "lensAspherical"), 6, "nowhere said");
-  check_refused(edited("apertureStop", "lensSpherical"), 6, "stop");
+  check_refused(edited("apertureStop", "lensSpherical"), 6, "not all of the lens");  // which states 100 mm
   check_refused(edited("lensSpherical", "sensor"), 9, "behind the sensor");
   check_refused(edited("</elements>", "</element>"), 27, "not valid XML");
   check_refused("<a/>", 0, "it is a <a>");

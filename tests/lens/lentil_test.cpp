@@ -88,7 +88,7 @@ TEST_CASE("cylinders of Lentil") {
 TEST_CASE("what is wrong with a lens of Lentil, and where") {
   check_refused(kSample, "", 0, "2 lenses; name one as FILE#KEY, with a key of 0001, 0002");
   check_refused(kSample, "0003", 0, "no lens has the key '0003'; there are 0001, 0002");
-  check_refused(kSample, "0002", 15, "no element is the iris");
+  check_refused(kSample, "0002", 16, "no surface is the stop, and the lens has no power");
   check_refused(edited("\"cyl-x\"", "\"dome\""), "0002", 16, "'dome' is not known");
   check_refused(edited("\"thickness\": 5", "\"thickness\": [5, 6, 7]"), "0001", 5, "several thicknesses");
   check_refused(edited("\"radius\": 50", "\"radius\": null"), "0001", 5, "radius: is missing");
@@ -115,7 +115,8 @@ TEST_CASE("Lentil's samples") {
     CHECK(state->focal_length_mm == doctest::Approx(focal_mm).epsilon(1e-3));
     check_round_trip(*lens);
   }
-  for (const char* key : {"2002", "9991", "9994"}) {
+  check_warns(*read_lens(path->string() + "#9994"), "no surface is the stop");  // a single lens
+  for (const char* key : {"2002", "9991"}) {
     const auto lens = find_lens(path->string() + "#" + key);
     REQUIRE_FALSE(lens.has_value());
     CHECK(lens.error().code == ErrorCode::Unsupported);

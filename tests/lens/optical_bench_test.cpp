@@ -133,7 +133,7 @@ TEST_CASE("what is wrong with an Optical Bench file, and where") {
                 "focal length for distant");
   check_refused(edited("F-Number\t4\t4.5", "F-Number\t\t"), 0, "no F-Number");
   check_refused("[lens data]\n", 0, "no column");
-  check_refused(edited("5\tAS", "5\tFS"), 13, "stop");
+  check_warns(read_or_fail(read_optical_bench, edited("5\tAS", "5\tFS")), "no surface is the stop; the opening");
   check_refused(edited("-0.5\t\t9", "-9.5\t\t9"), 17, "thickness_mm");
   std::string endless = kSample + "[notes]\n";
   for (int k = 0; k < 3000; ++k) endless += "a\n";

@@ -6,6 +6,7 @@
 #include "base/decode_text.h"
 #include "contrejour/first_order.h"
 #include "contrejour/lens.h"
+#include "lens/reader_checks.h"
 #include "optics/lens_files/read_lens.h"
 #include "shared_data.h"
 
@@ -61,7 +62,8 @@ TEST_CASE("what is wrong with a PBRT lens, and where") {
   check_refused(kSample + "\n1 2 3 4 5", 10, "is not a surface");
   check_refused(kSample + "\n1 2 x 4", 10, "is not a surface");
   check_refused(kSample + "\n1 2 inf 4", 10, "is not a surface");
-  check_refused("50 5 1.6 20\n-60 3 1 20\n", 1, "stop");
+  check_refused("-50 5 1.6 20\n60 3 1 20\n", 1, "no surface is the stop, and the lens forms no image");
+  check_warns(read_or_fail(read_pbrt, "50 5 1.6 20\n-60 3 1 20\n"), "no surface is the stop");
   check_refused("", 0, "surface");
 }
 

@@ -1,4 +1,7 @@
 #include <cmath>
+#include <cstdio>
+#include <limits>
+#include <string>
 
 #include <doctest/doctest.h>
 
@@ -97,6 +100,37 @@ TEST_CASE("focusing near moves the sensor to the conjugate plane (Newton's equat
   CHECK_FALSE(lens_at(prime_lens(), {.object_distance_mm = -5.0}).has_value());
 }
 
+TEST_CASE("what has no image says which objects have one") {
+  const auto message = [](const Prescription& lens, double object_mm) {
+    const auto state = lens_at(lens, {.object_distance_mm = object_mm});
+    REQUIRE_FALSE(state.has_value());
+    return state.error().message;
+  };
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  CHECK(message(prime_lens(), 10.0).find("focus farther away than its front focal point at") != std::string::npos);
+  Prescription negative = prime_lens();
+  for (Surface& surface : negative.surfaces) surface.curvature_per_mm *= -1.0;
+  CHECK(message(negative, kInfinity).find("nor of any other, as its focal length is -") != std::string::npos);
+  CHECK(message(negative, 500.0).find("nor of any other") != std::string::npos);
+  // A second lens beyond the first one's focus: distant objects are in focus in front of it, near ones behind.
+  Prescription relay = prime_lens();
+  relay.surfaces.back().thickness_mm = 45.0;
+  for (Surface surface : prime_lens().surfaces) {
+    if (surface.kind == SurfaceKind::Stop) surface.kind = SurfaceKind::Refracting;
+    relay.surfaces.push_back(surface);
+  }
+  const auto far = lens_at(relay);
+  REQUIRE_FALSE(far.has_value());
+  const std::string text = far.error().message;
+  double least_mm = 0.0, most_mm = 0.0;
+  const std::size_t from = text.find("only objects from ");
+  REQUIRE(from != std::string::npos);
+  REQUIRE(std::sscanf(text.c_str() + from, "only objects from %lf to %lf mm", &least_mm, &most_mm) == 2);
+  CHECK(lens_at(relay, {.object_distance_mm = least_mm + 0.1 * (most_mm - least_mm)}).has_value());
+  CHECK(lens_at(relay, {.object_distance_mm = most_mm - 1.0}).has_value());
+  CHECK_FALSE(lens_at(relay, {.object_distance_mm = most_mm + 1.0}).has_value());
+}
+
 TEST_CASE("a coating setting replaces glass-to-air coatings only") {
   Prescription lens = prime_lens();
   lens.surfaces[0].glass_after = crown();
@@ -121,6 +155,10 @@ TEST_CASE("figures that the source states and the surfaces do not have are warni
   const auto far = lens_at(*zoom, {.focal_length_mm = 200.0});
   REQUIRE(far.has_value());
   CHECK(far->warnings.empty());
+  zoom->stated.back_focal_distance_mm = 52.45;
+  REQUIRE(lens_at(*zoom)->warnings.size() == 1);
+  CHECK(lens_at(*zoom)->warnings[0] ==
+        "its source states a focal length of 75 mm; the surfaces have 72.12 mm, and the stated back focal distance");
   zoom->stated.tolerance = 0.2;
   CHECK(lens_at(*zoom)->warnings.empty());
 }

@@ -190,6 +190,29 @@ double f_number_filling(const LensState& state, double stop_mm, double too_wide)
   return narrow;
 }
 
+struct ImagePlane {
+  double distant_mm = 0, image_mm = 0;  // from the last vertex: of distant objects, of that one
+};
+ImagePlane image_plane(const LensState& state, double object_distance_mm, Section section) {
+  const Abcd m =
+      abcd_between(state.surfaces, 0, static_cast<int>(state.surfaces.size()) - 1, state.design_wavelength_nm, section);
+  const double distant_mm = -m.a / m.c;
+  if (std::isinf(object_distance_mm)) return {distant_mm, distant_mm};
+  // The ray from the axial object point: y = d u at the first vertex.
+  return {distant_mm, -(m.a * object_distance_mm + m.b) / (m.c * object_distance_mm + m.d)};
+}
+
+bool images_distant_objects(const LensState& state) {
+  return image_plane(state, std::numeric_limits<double>::infinity(), Section::Y).distant_mm > 0.0;
+}
+
+// Numbers that form no image give no marginal ray to size the stop by: its own size is the widest, and it closes in
+// proportion.
+double wanted_stop_mm(const LensState& state, const Prescription& lens, double f_number) {
+  if (images_distant_objects(state)) return round_stop_mm(state, f_number);
+  return state.surfaces[static_cast<std::size_t>(state.stop_index)].semi_diameter_mm * lens.f_number / f_number;
+}
+
 Result<void> set_stop(LensState& state, const Prescription& lens, const std::optional<double>& f_number) {
   const SurfaceState& stop = state.surfaces[static_cast<std::size_t>(state.stop_index)];
   state.f_number = f_number.value_or(lens.f_number);
@@ -200,7 +223,7 @@ Result<void> set_stop(LensState& state, const Prescription& lens, const std::opt
                    lens.file);
   }
   state.f_number = std::max(state.f_number, lens.f_number);
-  state.stop_radius_mm = round_stop_mm(state, state.f_number);
+  state.stop_radius_mm = wanted_stop_mm(state, lens, state.f_number);
   if (state.stop_radius_mm > stop.semi_diameter_mm) {
     if (state.stop_radius_mm > stop.semi_diameter_mm * (1.0 + kStopTolerance)) {
       const double widest_of_stop = f_number_filling(state, stop.semi_diameter_mm, state.f_number);
@@ -221,28 +244,40 @@ Result<void> set_iris(LensState& state, const Prescription& lens, const LensSett
   if (settings.iris_closing == IrisClosing::Scaled) return {};
   const double widest_mm = state.surfaces[static_cast<std::size_t>(state.stop_index)].semi_diameter_mm;
   const ClosedIris closed =
-      close_iris(settings.iris, state.stop_radius_mm, std::min(widest_mm, round_stop_mm(state, lens.f_number)));
+      close_iris(settings.iris, state.stop_radius_mm, std::min(widest_mm, wanted_stop_mm(state, lens, lens.f_number)));
   state.iris = closed.iris;
   state.stop_radius_mm = closed.stop_radius_mm;
   return {};
 }
 
-double front_focal_distance_mm(const LensState& state) {
+// Which objects have an image behind the lens, if any: those whose distance d from the first vertex makes
+// -(a d + b) / (c d + d') positive, of the lens's matrix.
+std::string no_image_text(const LensState& state, double object_distance_mm) {
   const Abcd m =
       abcd_between(state.surfaces, 0, static_cast<int>(state.surfaces.size()) - 1, state.design_wavelength_nm);
-  return -m.d / m.c;
-}
-
-struct ImagePlane {
-  double distant_mm = 0, image_mm = 0;  // from the last vertex: of distant objects, of that one
-};
-ImagePlane image_plane(const LensState& state, double object_distance_mm, Section section) {
-  const Abcd m =
-      abcd_between(state.surfaces, 0, static_cast<int>(state.surfaces.size()) - 1, state.design_wavelength_nm, section);
-  const double distant_mm = -m.a / m.c;
-  if (std::isinf(object_distance_mm)) return {distant_mm, distant_mm};
-  // The ray from the axial object point: y = d u at the first vertex.
-  return {distant_mm, -(m.a * object_distance_mm + m.b) / (m.c * object_distance_mm + m.d)};
+  const std::string object = std::isinf(object_distance_mm)
+                                 ? "distant objects"
+                                 : fmt::format("an object {:g} mm in front of it", object_distance_mm);
+  const std::string what = fmt::format("the lens forms no image of {} behind it", object);
+  if (!(m.c < 0.0))
+    return fmt::format(
+        "{}, nor of any other, as its focal length is {:.4g} mm; check its radii, or give a converter or "
+        "an attachment with its lens in one file",
+        what, -1.0 / m.c);
+  const double front_focus_mm = -m.d / m.c;  // of the first vertex, to the left positive
+  const double least_mm = std::max(0.0, front_focus_mm);
+  if (m.a > 0.0) return fmt::format("{}; focus farther away than its front focal point at {:.1f} mm", what, least_mm);
+  const double most_mm = m.a < 0.0 ? -m.b / m.a : std::numeric_limits<double>::infinity();
+  const double focus_mm = -m.a / m.c;
+  if (most_mm > least_mm)
+    return fmt::format(
+        "{}: its rear focal point is at {:.4g} mm from the last surface; only objects from {:.1f} to "
+        "{:.1f} mm in front of it have one",
+        what, focus_mm, least_mm, most_mm);
+  return fmt::format(
+      "{}, nor of any other: its rear focal point is at {:.4g} mm from the last surface; check its radii "
+      "and thicknesses",
+      what, focus_mm);
 }
 
 // The sensor follows the paraxial image, half-way between its two places where there are two; a prescription that fixes
@@ -258,11 +293,7 @@ Result<void> set_focus(LensState& state, const Prescription& lens, double object
   double image_mm = plane.image_mm;
   if (lens.sensor_distance_mm) image_mm += *lens.sensor_distance_mm - plane.distant_mm;
   if (!(object_distance_mm > 0.0) || !std::isfinite(image_mm) || image_mm <= 0.0) {
-    return failure(ErrorCode::InvalidArgument,
-                   fmt::format("no image forms behind the lens for an object {:g} mm in front of it; focus farther "
-                               "away than its front focal point at {:.1f} mm",
-                               object_distance_mm, front_focal_distance_mm(state)),
-                   lens.file);
+    return failure(ErrorCode::InvalidArgument, no_image_text(state, object_distance_mm), lens.file);
   }
   state.sensor_z_mm = last_z + image_mm;
   return {};
@@ -284,17 +315,22 @@ void warn_of_glasses(LensState& state) {
   }
 }
 
-// Published data is often wrong: figures that its source states and that the surfaces do not have.
+// Published data is often wrong: figures that its source states and that the surfaces do not have. Where the focus is as
+// stated the surfaces are, and the stated focal length is another lens's or another setting's.
 void warn_of_stated(LensState& state, const StatedFigures& stated) {
-  const auto compare = [&](const char* what, const std::optional<double>& claimed_mm, double computed_mm) {
-    if (!claimed_mm || std::abs(computed_mm - *claimed_mm) <= stated.tolerance * std::abs(state.focal_length_mm))
-      return;
-    state.warnings.push_back(
-        fmt::format("its source states a {} of {:g} mm; the surfaces have {:.4g} mm", what, *claimed_mm, computed_mm));
+  const double back_mm = image_plane(state, std::numeric_limits<double>::infinity(), Section::Y).distant_mm;
+  const auto is_as_stated = [&](const std::optional<double>& claimed_mm, double computed_mm) {
+    return claimed_mm && std::abs(computed_mm - *claimed_mm) <= stated.tolerance * std::abs(state.focal_length_mm);
   };
-  compare("focal length", stated.focal_length_mm, state.focal_length_mm);
-  const double infinity = std::numeric_limits<double>::infinity();
-  compare("back focal distance", stated.back_focal_distance_mm, image_plane(state, infinity, Section::Y).distant_mm);
+  const auto compare = [&](const char* what, const std::optional<double>& claimed_mm, double computed_mm,
+                           const char* more) {
+    if (!claimed_mm || is_as_stated(claimed_mm, computed_mm)) return;
+    state.warnings.push_back(fmt::format("its source states a {} of {:g} mm; the surfaces have {:.4g} mm{}", what,
+                                         *claimed_mm, computed_mm, more));
+  };
+  compare("focal length", stated.focal_length_mm, state.focal_length_mm,
+          is_as_stated(stated.back_focal_distance_mm, back_mm) ? ", and the stated back focal distance" : "");
+  compare("back focal distance", stated.back_focal_distance_mm, back_mm, "");
 }
 
 }  // namespace

@@ -13,6 +13,9 @@
 namespace contrejour {
 namespace {
 
+// Neighbours that cross at their rims by no more than a drawing's line is wide, as two radii given for one contact do.
+constexpr double kSlightCrossing_mm = 0.02;
+
 constexpr double kPlausibleFNumber = 1.0;  // until the real one is known
 constexpr int kHalvings = 50;
 
@@ -100,10 +103,23 @@ class RimFitter {
     if (smallest_gap(before, behind, gap_mm, rim_mm).gap_mm >= -kTouch_mm) return;
     const auto fits = [&](double h_mm) { return smallest_gap(before, behind, gap_mm, h_mm).gap_mm >= 0.0; };
     const bool either_open = open_[front] || open_[back];
-    if (!either_open && !fits(least_share_ * rim_mm)) return;  // shrink() would refuse; hostile files have many such
+    if (!either_open && !fits(least_share_ * rim_mm)) {  // shrink() would refuse; hostile files have many such
+      part_slightly(front, back, smallest_gap(before, behind, gap_mm, rim_mm).gap_mm);
+      return;
+    }
     const double fits_mm = largest_fitting(rim_mm, fits);
     for (const std::size_t k : {front, back})
       if (lens_.surfaces[k].semi_diameter_mm <= rim_mm) shrink(k, fits_mm);
+  }
+
+  // Moves the lens behind by what it is too near; a gap that zooming sets stays as it is.
+  void part_slightly(std::size_t front, std::size_t back, double smallest_mm) {
+    if (!lens_.zoom.empty() || smallest_mm < -kSlightCrossing_mm) return;
+    lens_.surfaces[back - 1].thickness_mm -= smallest_mm;
+    lens_.warnings.push_back(fmt::format(
+        "surfaces {} and {} (lines {} and {}) cross by {:.2g} mm within their rims; their gap is made so "
+        "much wider",
+        front + 1, back + 1, lens_.surfaces[front].source_line, lens_.surfaces[back].source_line, -smallest_mm));
   }
 
   void warn() {
@@ -131,13 +147,15 @@ Result<double> widest_f_number(Prescription lens) {
   return state->f_number;
 }
 
-// The real marginal ray at the stop, which first-order optics only nears.
+// The real marginal ray at the stop, which first-order optics only nears. Numbers that form no image have none: then
+// what the stop has.
 Result<double> stop_opening_mm(Prescription lens) {
   constexpr double kWide_mm = 1e4;
+  const double own_mm = lens.surfaces[stop_of(lens)].semi_diameter_mm;
   lens.surfaces[stop_of(lens)].semi_diameter_mm = kWide_mm;
   const auto state = lens_at(lens, without_films());
   if (!state) return tl::unexpected(state.error());
-  return state->stop_radius_mm;
+  return state->stop_radius_mm < kWide_mm ? state->stop_radius_mm : own_mm;
 }
 
 }  // namespace
@@ -151,14 +169,12 @@ Result<Prescription> completed(Prescription lens, const std::optional<Beam>& bea
     if (const auto sized = size_for_beam(lens, *beam, open); !sized) return tl::unexpected(sized.error());
   }
   RimFitter(lens, open, least_share).fit();
-  const bool wants_f_number = lens.f_number == 0.0;
-  if (wants_f_number) lens.f_number = kPlausibleFNumber;
-  if (const auto valid = validate(lens); !valid) return tl::unexpected(valid.error());
-  if (wants_f_number) {
+  if (lens.f_number == 0.0) {
+    lens.f_number = kPlausibleFNumber;
     const auto widest = widest_f_number(lens);
     if (!widest) return tl::unexpected(widest.error());
     lens.f_number = *widest;
-  } else if (open[stop]) {
+  } else if (stop < lens.surfaces.size() && open[stop]) {
     const auto opening_mm = stop_opening_mm(lens);
     if (!opening_mm) return tl::unexpected(opening_mm.error());
     lens.surfaces[stop].semi_diameter_mm = *opening_mm;

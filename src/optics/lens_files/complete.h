@@ -22,7 +22,8 @@ inline constexpr double kLeastShare = 0.75;
 // A prescription as a reader found it, made whole and checked:
 // - semi-diameters of 0, not told, become what the beam needs by first-order optics, the widest field unvignetted;
 // - where neighbours cross at their rims, or a surface ends before its rim, the smaller semi-diameters shrink to where
-//   they do not, those told to least_share of themselves at the least;
+//   they do not, those told to least_share of themselves at the least; where that is not enough and they cross by some
+//   hundredths of a millimetre, as two radii given for one contact do, their gap becomes so much wider;
 // - an f-number of 0 becomes that of the ray parallel to the axis that just passes the stop's whole opening.
 // Each change that a file's own numbers suffer is a warning. Errors: those of validate(), and none of an image behind
 // the lens where the f-number is wanted.

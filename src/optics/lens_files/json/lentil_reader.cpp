@@ -10,6 +10,7 @@
 #include "optics/lens_files/complete.h"
 #include "optics/lens_files/glass_finder.h"
 #include "optics/lens_files/json/json_lens.h"
+#include "optics/lens_files/missing_stop.h"
 #include "optics/lens_files/plain_number.h"
 #include "optics/lens_files/tables/heights.h"
 
@@ -46,14 +47,13 @@ class Reader {
     const JsonField elements = entry_[kElements];
     refuse_many_surfaces(elements);
     for (std::size_t k = 0; k < elements.size() && !errors_.first; ++k) read_element(elements[k]);
-    if (!has_stop_)
-      elements.fail("no element is the iris, so this is a part of a lens; give one of material \"iris\"",
-                    ErrorCode::Unsupported);
+    if (lens_.surfaces.empty()) elements.fail("no elements; give the lens's surfaces");
     if (errors_.first) return stopped_by(errors_);
     const double back_mm = lens_.surfaces.back().thickness_mm;
     if (back_mm > 0.0) lens_.stated.back_focal_distance_mm = back_mm;
     state_focal_length();
     if (errors_.first) return stopped_by(errors_);
+    if (const auto placed = place_missing_stop(lens_); !placed) return tl::unexpected(placed.error());
     keep_sensor_without_image(lens_);
     return completed(std::move(lens_));
   }
@@ -71,7 +71,6 @@ class Reader {
     surface.glass_after = medium_;
     if (lower_case(element["material"].text()) == "iris") {
       surface.kind = SurfaceKind::Stop;
-      has_stop_ = true;
     } else {
       surface.glass_after = glass_of(element);
       read_shape(element, surface);
@@ -135,7 +134,6 @@ class Reader {
   GlassFinder glasses_;
   Prescription lens_;
   Glass medium_ = air();
-  bool has_stop_ = false;
 };
 
 std::string first_keys(const JsonField& root) {

@@ -13,6 +13,8 @@
 #include "contrejour/lens.h"
 #include "optics/lens/validate.h"
 #include "optics/lens_files/complete.h"
+#include "optics/lens_files/lost_gap.h"
+#include "optics/lens_files/missing_stop.h"
 #include "optics/lens_files/plain_number.h"
 #include "optics/lens_files/read_lens.h"
 #include "optics/lens_files/tables/heights.h"
@@ -67,7 +69,9 @@ class Reader {
     finish();
     if (error_) return tl::unexpected(*error_);
     const auto beam = full_frame_beam(lens_);
-    return completed(std::move(lens_), beam, kLeastShareWithoutAspheres);
+    auto lens = completed(std::move(lens_), beam, kLeastShareWithoutAspheres);
+    if (lens) warn_of_lost_gap(*lens);
+    return lens;
   }
 
  private:
@@ -200,11 +204,6 @@ class Reader {
 
   void finish() {
     if (error_) return;
-    const auto is_stop = [](const Surface& s) { return s.kind == SurfaceKind::Stop; };
-    if (std::none_of(lens_.surfaces.begin(), lens_.surfaces.end(), is_stop))
-      return fail(lens_.surfaces.front().source_line,
-                  "no surface is the stop (teleconverters, close-up lenses and mirror lenses come without one); write "
-                  "`stop` in place of its radius");
     if (lens_.name.empty()) lens_.name = "lens of FlareSim";
     if (lens_.source.empty()) lens_.source = "a FlareSim file that does not say it";
     lens_.stated.back_focal_distance_mm = lens_.surfaces.back().thickness_mm;
@@ -212,8 +211,12 @@ class Reader {
     place_openings(lens_);
     if (!f_number_) f_number_ = title_f_number_ ? title_f_number_ : f_number_in(lens_.name);
     choose_heights();
-    keep_sensor_without_image(lens_);
     lens_.f_number = f_number_.value_or(0.0);
+    if (const auto placed = place_missing_stop(lens_); !placed) {
+      error_ = placed.error();
+      return;
+    }
+    keep_sensor_without_image(lens_);
     if (!cemented_.empty())
       lens_.warnings.push_back(
           fmt::format("films between two glasses are left out: cemented faces are bare (line{} {})",

@@ -12,6 +12,7 @@
 #include "base/trimmed.h"
 #include "optics/lens/validate.h"
 #include "optics/lens_files/complete.h"
+#include "optics/lens_files/missing_stop.h"
 #include "optics/lens_files/plain_number.h"
 #include "optics/lens_files/read_lens.h"
 #include "optics/lens_files/tables/heights.h"
@@ -141,6 +142,10 @@ class Reader {
       lens_.warnings.push_back(
           fmt::format("films between two glasses are left out: cemented faces are bare (line{} {})",
                       cemented_.size() == 1 ? "" : "s", fmt::join(cemented_, ", ")));
+    if (const auto placed = place_missing_stop(lens_); !placed) {
+      error_ = placed.error();
+      return;
+    }
     keep_sensor_without_image(lens_);
   }
 

@@ -14,6 +14,7 @@
 #include "base/trimmed.h"
 #include "contrejour/lens.h"
 #include "optics/lens_files/complete.h"
+#include "optics/lens_files/missing_stop.h"
 #include "optics/lens_files/plain_number.h"
 #include "optics/lens_files/read_lens.h"
 #include "optics/lens_files/tables/heights.h"
@@ -66,6 +67,7 @@ class Reader {
     place_openings(lens_);
     state_figures();
     if (error_) return tl::unexpected(*error_);
+    if (const auto placed = place_missing_stop(lens_); !placed) return tl::unexpected(placed.error());
     return completed(std::move(lens_));
   }
 

@@ -11,6 +11,7 @@
 #include "base/trimmed.h"
 #include "contrejour/lens.h"
 #include "optics/lens_files/complete.h"
+#include "optics/lens_files/missing_stop.h"
 #include "optics/lens_files/plain_number.h"
 #include "optics/lens_files/read_lens.h"
 
@@ -101,6 +102,7 @@ Result<Prescription> read_pbrt(const LensText& in) {
   if (error) return tl::unexpected(*error);
   if (lens.name.empty()) lens.name = "lens of PBRT";
   if (lens.source.empty()) lens.source = "a PBRT file that does not say it";
+  if (const auto placed = place_missing_stop(lens); !placed) return tl::unexpected(placed.error());
   return completed(std::move(lens));  // the f-number is nowhere told
 }
 

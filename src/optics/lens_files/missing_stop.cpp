@@ -1,0 +1,254 @@
+#include "optics/lens_files/missing_stop.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <optional>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "contrejour/first_order.h"
+#include "optics/lens_files/complete.h"
+
+namespace contrejour {
+namespace {
+
+// For questions that rims and stops have no part in.
+constexpr double kNoRim_mm = 1e-3, kAnyFNumber = 8.0;
+constexpr double kLeastRoom = 0.02;  // of the lens's length: a narrower gap holds no iris
+constexpr double kSameFocalLength = 0.2;  // relative: farther off, the rows are not all of the lens
+constexpr std::array kPlaces{0.05, 0.5, 0.95};  // within a gap
+constexpr int kFields = 60;
+constexpr double kWidestField_rad = std::numbers::pi / 3.0;
+
+// Heights at every row, just in front of it, of a ray along the axis at height 1 and of one through the first vertex at
+// slope 1; their slopes behind the row.
+struct RowRays {
+  double axial = 0, tilted = 0, axial_slope = 0, tilted_slope = 0;
+};
+
+std::vector<RowRays> rays_of(const LensState& state) {
+  std::vector<RowRays> rays;
+  for (int k = 1; k < static_cast<int>(state.surfaces.size()); ++k) {  // 0 is the stop that is not one
+    const Abcd m = abcd_between(state.surfaces, 0, k, state.design_wavelength_nm);
+    rays.push_back({m.a, m.b, m.c, m.d});
+  }
+  return rays;
+}
+
+bool has_stop(const Prescription& lens) {
+  return std::any_of(lens.surfaces.begin(), lens.surfaces.end(),
+                     [](const Surface& s) { return s.kind == SurfaceKind::Stop; });
+}
+
+bool is_opening(const Prescription& lens, std::size_t k) {
+  const Surface& s = lens.surfaces[k];
+  return k > 0 && s.curvature_per_mm == 0.0 && s.shape.is_sphere() && is_air(s.glass_after) &&
+         is_air(lens.surfaces[k - 1].glass_after);
+}
+
+// With a stop of no meaning in front, so that the lens can be set up.
+Result<LensState> set_up(Prescription lens) {
+  for (const Surface& surface : lens.surfaces)
+    if (surface.thickness_mm < 0.0)
+      return failure(ErrorCode::Unsupported,
+                     "no surface is the stop, and a gap is negative, as behind a mirror; lenses of refracting surfaces "
+                     "alone are computed",
+                     {lens.file.file, surface.source_line, 0});
+  for (Surface& surface : lens.surfaces) {
+    surface.semi_diameter_mm = kNoRim_mm;
+    surface.aperture = {};
+    surface.obscuration = {};
+  }
+  Surface stop;
+  stop.kind = SurfaceKind::Stop;
+  stop.semi_diameter_mm = kNoRim_mm;
+  stop.source_line = lens.surfaces.front().source_line;
+  stop.glass_after = air();
+  lens.surfaces.insert(lens.surfaces.begin(), stop);
+  for (ZoomPosition& position : lens.zoom)
+    for (auto& [index, thickness_mm] : position.thickness_mm) ++index;
+  lens.f_number = kAnyFNumber;
+  if (const auto valid = validate(lens); !valid) return tl::unexpected(valid.error());
+  auto state = lens_at(lens, without_films());
+  if (state) return state;
+  return failure(ErrorCode::Unsupported, fmt::format("no surface is the stop, and {}", state.error().message),
+                 {lens.file.file, stop.source_line, 0});
+}
+
+// Where a stop could be: so far behind the row's vertex.
+struct Place {
+  std::size_t row = 0;
+  double behind_mm = 0;
+};
+
+class StopFinder {
+ public:
+  StopFinder(const Prescription& lens, const LensState& state) : lens_(lens), rays_(rays_of(state)) {
+    pupil_radius_mm_ = lens.f_number > 0.0 ? 0.5 * std::abs(state.focal_length_mm) / lens.f_number : widest_mm();
+  }
+
+  // None where no gap has room.
+  [[nodiscard]] std::optional<Place> find() const {
+    double length_mm = 0.0;
+    for (std::size_t k = 0; k + 1 < lens_.surfaces.size(); ++k) length_mm += lens_.surfaces[k].thickness_mm;
+    std::optional<Place> best;
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t k = 0; k + 1 < lens_.surfaces.size(); ++k) {
+      const double gap_mm = lens_.surfaces[k].thickness_mm;
+      if (!is_air(lens_.surfaces[k].glass_after) || !(gap_mm >= kLeastRoom * length_mm)) continue;
+      for (const double share : kPlaces) {
+        const Place place{k, share * gap_mm};
+        const double misfit = misfit_of(place);
+        if (misfit < least) {
+          least = misfit;
+          best = place;
+        }
+      }
+    }
+    return best;
+  }
+
+  // Of the beam along the axis.
+  [[nodiscard]] double beam_radius_mm(const Place& place) const {
+    const RowRays& at = rays_[place.row];
+    return pupil_radius_mm_ * std::abs(at.axial + place.behind_mm * at.axial_slope);
+  }
+  [[nodiscard]] double pupil_radius_mm() const { return pupil_radius_mm_; }
+
+ private:
+  [[nodiscard]] double widest_mm() const {
+    double least_mm = std::numeric_limits<double>::infinity();
+    for (std::size_t k = 0; k < rays_.size(); ++k) {
+      const double rim_mm = lens_.surfaces[k].semi_diameter_mm;
+      if (rim_mm > 0.0 && rays_[k].axial != 0.0) least_mm = std::min(least_mm, rim_mm / std::abs(rays_[k].axial));
+    }
+    return std::isfinite(least_mm) ? least_mm : kNoRim_mm;
+  }
+
+  // Least squares of the logarithms of rims over beams, of the field that fits best.
+  [[nodiscard]] double misfit_of(const Place& place) const {
+    const RowRays& at = rays_[place.row];
+    const double axial = at.axial + place.behind_mm * at.axial_slope;
+    const double tilted = at.tilted + place.behind_mm * at.tilted_slope;
+    double least = std::numeric_limits<double>::infinity();
+    if (axial == 0.0) return least;
+    for (int f = 1; f <= kFields; ++f) {
+      const double slope = std::tan(kWidestField_rad * f / kFields);
+      double sum = 0.0;
+      for (std::size_t k = 0; k < rays_.size(); ++k) {
+        const double rim_mm = lens_.surfaces[k].semi_diameter_mm;
+        if (!(rim_mm > 0.0)) continue;
+        const double chief = rays_[k].tilted - tilted / axial * rays_[k].axial;
+        const double beam_mm = pupil_radius_mm_ * std::abs(rays_[k].axial) + slope * std::abs(chief);
+        const double off = std::log(std::max(beam_mm, kNoRim_mm) / rim_mm);
+        sum += off * off;
+      }
+      least = std::min(least, sum);
+    }
+    return least;
+  }
+
+  const Prescription& lens_;
+  std::vector<RowRays> rays_;
+  double pupil_radius_mm_ = 0;
+};
+
+void insert_stop(Prescription& lens, std::size_t at, Surface stop) {
+  lens.surfaces.insert(lens.surfaces.begin() + static_cast<std::ptrdiff_t>(at), std::move(stop));
+  for (ZoomPosition& position : lens.zoom)
+    for (auto& [index, thickness_mm] : position.thickness_mm)
+      if (index >= static_cast<int>(at)) ++index;
+}
+
+// An opening at either end of the gap, if there is one.
+std::optional<std::size_t> opening_beside(const Prescription& lens, std::size_t row) {
+  if (is_opening(lens, row)) return row;
+  if (is_opening(lens, row + 1)) return row + 1;
+  return std::nullopt;
+}
+
+bool is_zoom_gap(const Prescription& lens, std::size_t row) {
+  if (lens.zoom.empty()) return false;
+  const auto& moved = lens.zoom.front().thickness_mm;
+  return std::any_of(moved.begin(), moved.end(), [&](const auto& gap) { return gap.first == static_cast<int>(row); });
+}
+
+constexpr const char* kRemedy = "mark the stop in the file to have it elsewhere";
+
+// Makes the row the stop.
+void make_stop(Prescription& lens, std::size_t row) {
+  Surface& surface = lens.surfaces[row];
+  surface.kind = SurfaceKind::Stop;
+  surface.coating = {};
+  lens.warnings.push_back(
+      fmt::format("no surface is the stop; the opening {} (line {}) is taken for it, as the rims "
+                  "of the surfaces say; {}",
+                  row + 1, surface.source_line, kRemedy));
+}
+
+// The stop moves with the lens in front of it: a gap that zooming changes changes behind the stop.
+void put_stop(Prescription& lens, const Place& place, double radius_mm) {
+  Surface& before = lens.surfaces[place.row];
+  Surface stop;
+  stop.kind = SurfaceKind::Stop;
+  stop.source_line = before.source_line;
+  stop.glass_after = air();
+  stop.semi_diameter_mm = lens.f_number > 0.0 ? 0.0 : radius_mm;
+  const double behind_mm = is_zoom_gap(lens, place.row) ? 0.0 : place.behind_mm;
+  stop.thickness_mm = before.thickness_mm - behind_mm;
+  before.thickness_mm = behind_mm;
+  lens.warnings.push_back(
+      fmt::format("no surface is the stop; it is put {:.4g} mm behind surface {} (line {}), where "
+                  "the rims of the surfaces say; {}",
+                  behind_mm, place.row + 1, before.source_line, kRemedy));
+  const int moved = static_cast<int>(place.row);
+  insert_stop(lens, place.row + 1, std::move(stop));
+  for (ZoomPosition& position : lens.zoom)
+    for (auto& [index, thickness_mm] : position.thickness_mm)
+      if (index == moved) index = moved + 1;
+}
+
+void put_stop_in_front(Prescription& lens, double radius_mm) {
+  Surface stop;
+  stop.kind = SurfaceKind::Stop;
+  stop.source_line = lens.surfaces.front().source_line;
+  stop.glass_after = air();
+  stop.semi_diameter_mm = lens.f_number > 0.0 ? 0.0 : radius_mm;
+  lens.warnings.push_back(
+      fmt::format("no surface is the stop, and no gap has room for an iris; it is put in front of "
+                  "the first surface (line {}); {}",
+                  stop.source_line, kRemedy));
+  insert_stop(lens, 0, std::move(stop));
+}
+
+}  // namespace
+
+Result<void> place_missing_stop(Prescription& lens) {
+  if (lens.surfaces.empty() || has_stop(lens)) return {};
+  const auto state = set_up(lens);
+  if (!state) return tl::unexpected(state.error());
+  const auto& stated_mm = lens.stated.focal_length_mm;
+  if (stated_mm && !(std::abs(state->focal_length_mm / *stated_mm - 1.0) <= kSameFocalLength))
+    return failure(
+        ErrorCode::Unsupported,
+        fmt::format("no surface is the stop, and the focal length is {:.4g} mm where {:g} mm is stated: this "
+                    "is not all of the lens (a converter alone, or a mirror lens without its mirrors)",
+                    state->focal_length_mm, *stated_mm),
+        {lens.file.file, lens.surfaces.front().source_line, 0});
+  const StopFinder finder(lens, *state);
+  const auto place = finder.find();
+  if (!place) {
+    put_stop_in_front(lens, finder.pupil_radius_mm());
+  } else if (const auto opening = opening_beside(lens, place->row)) {
+    make_stop(lens, *opening);
+  } else {
+    put_stop(lens, *place, finder.beam_radius_mm(*place));
+  }
+  return {};
+}
+
+}  // namespace contrejour
