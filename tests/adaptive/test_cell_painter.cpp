@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <numbers>
 #include <random>
@@ -66,6 +67,16 @@ TEST_CASE("nothing in the way: the box itself, level") {
     const Vec2 p = ghost.pixels(uv);
     CHECK(image.at(static_cast<int>(p.x), static_cast<int>(p.y), 1) / level == doctest::Approx(1.0).epsilon(1e-4));
   }
+}
+
+// As the small frame is drawn that the peak is read from: bright ghosts had been missing there altogether.
+TEST_CASE("without a limit to its error, too, a ghost within a rim that passes inside all corners is drawn") {
+  AffineGhost ghost;
+  ghost.pixels = {{60.2, 11.0}, {-8.0, 45.3}, {160.0, 100.0}};
+  ghost.rims = {{{1.2, 0.1}, {-0.2, 1.3}, {0.1, 0.0}}};
+  const double open = ghost.flux * ghost.open_share({});
+  CHECK(flux_of(painted(ghost, {}, std::numeric_limits<double>::infinity()), 1) / open ==
+        doctest::Approx(1.0).epsilon(0.05));
 }
 
 TEST_CASE("one weight for all channels draws what one a channel draws") {

@@ -1,6 +1,7 @@
 // Which cells a patch is drawn as: from the top down, each as large as its error allows.
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <functional>
 #include <optional>
 
@@ -173,10 +174,13 @@ void CellPainter::choose(BoxMesh& of, const MeshSquare& square, const Shade* pla
   };
   if (square.size == 1) return choose_it(Sides::Straight);
   CellMeasure measured = measure(of.mesh, cell, state, plane != nullptr);
-  if (squared_error(of.mesh, cell, measured, state, Sides::Straight) <= kStraight * cell_budget())
-    return choose_it(Sides::Straight);
+  const auto is_within = [&](Sides sides, double budget) {
+    const double error = squared_error(of.mesh, cell, measured, state, sides);
+    return std::isfinite(error) && error <= budget;  // an infinite budget allows no cell that must not be drawn
+  };
+  if (is_within(Sides::Straight, kStraight * cell_budget())) return choose_it(Sides::Straight);
   const Sides sides = is_dirty(of.mesh, cell) ? Sides::Straight : most_bent(state);
-  if (squared_error(of.mesh, cell, measured, state, sides) <= cell_budget()) return choose_it(sides);
+  if (is_within(sides, cell_budget())) return choose_it(sides);
   const Shade* const common = plane != nullptr ? plane : of.keep(plane_for(of.mesh, square));
   const int half = square.size / 2;
   for (int k = 0; k < 4; ++k) choose(of, {square.ix + (k % 2) * half, square.iy + (k / 2) * half, half}, common);
