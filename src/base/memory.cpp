@@ -15,12 +15,13 @@ namespace {
 
 constexpr std::size_t kLine = 64;  // of a cache, or a multiple
 
-// Where a line begins in memory that has room for one more, with a pointer to that memory before it. Asked for aligned
+// Memory that begins at a multiple of `alignment`, with a pointer to what was asked for before it. Asked for aligned
 // memory instead, the C library would never use it twice.
-void* at_line(void* memory, std::size_t bytes) {
+void* allocate_at(std::size_t alignment, std::size_t bytes) {
+  void* const memory = ::operator new(bytes + sizeof(void*) + alignment);
   void* first = static_cast<std::byte*>(memory) + sizeof(void*);
-  std::size_t space = bytes + kLine;
-  first = std::align(kLine, bytes, first, space);
+  std::size_t space = bytes + alignment;
+  first = std::align(alignment, bytes, first, space);
   static_cast<void**>(first)[-1] = memory;
   return first;
 }
@@ -28,16 +29,17 @@ void* at_line(void* memory, std::size_t bytes) {
 }  // namespace
 
 void* allocate_large(std::size_t bytes) {
-  void* memory = at_line(::operator new(bytes + sizeof(void*) + kLine), bytes);
 #if defined(__linux__)
-  // Those large pages that lie within.
+  // From a large page's beginning, so that all but the last lie within: of a frame of 25 MB those at both ends were a
+  // thousand small ones, which cost a fault each when they are first written.
   constexpr std::size_t kLargePage = std::size_t{2} << 20U;
-  std::size_t space = bytes;
-  void* first = memory;
-  if (std::align(kLargePage, kLargePage, first, space) != nullptr)
-    madvise(first, space / kLargePage * kLargePage, MADV_HUGEPAGE);  // a wish: refused, the memory is as good
+  if (bytes >= kLargePage) {
+    void* const memory = allocate_at(kLargePage, bytes);
+    madvise(memory, bytes, MADV_HUGEPAGE);  // a wish: refused, the memory is as good
+    return memory;
+  }
 #endif
-  return memory;
+  return allocate_at(kLine, bytes);
 }
 
 void free_large(void* memory) noexcept {

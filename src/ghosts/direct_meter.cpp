@@ -16,6 +16,9 @@ constexpr int kSmooth = 6;  // so many times fewer
 constexpr int kRims = 2;
 constexpr int kPicture = 4;  // so many times as many for a picture's details
 constexpr int kFirstSide = 17;  // of the search
+// A light beyond the image circle has no pupil: whole grids of rays show that, so they must not be the finest. The
+// direct image's opening has no islands, and spans many cells of this.
+constexpr PupilEffort kEffort = PupilEffort::Finer;
 constexpr double kMargin = 0.02;  // of a pupil's size, on each side, for another wavelength's
 constexpr float kNearRim = 0.1F;  // of the clear height; of the stop radius
 constexpr float kFailed = std::numeric_limits<float>::infinity();
@@ -84,7 +87,7 @@ DirectMeter::DirectMeter(const LensState& lens, const LightSource& light)
 std::optional<Rectangle> DirectMeter::pupil(const ReflectanceTables& tables) const {
   RayGrid grid;
   const auto region = find_pupil_region(direct_path(lens_, tables.lambda_nm()), tables, iris_, light_, window_, grid,
-                                        PupilEffort::Finest, kFirstSide);
+                                        kEffort, kFirstSide);
   return region ? std::optional(region->pupil_mm) : std::nullopt;
 }
 

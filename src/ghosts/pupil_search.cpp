@@ -88,6 +88,13 @@ double area(const Rectangle& r) { return (r.high.x - r.low.x) * (r.high.y - r.lo
 
 int first_grid_side(PupilEffort effort) { return kFirstSides[static_cast<std::size_t>(effort)]; }
 
+PupilEffort effort_for_grid(int side) {
+  constexpr int kFiner = 12;  // that the finest grid of a search may be, each way
+  for (const PupilEffort effort : {PupilEffort::Finest, PupilEffort::Finer})
+    if (first_grid_side(effort) <= kFiner * side) return effort;
+  return PupilEffort::Once;
+}
+
 std::optional<PupilRegion> find_pupil_region(const OpticalPath& path, const ReflectanceTables& tables,
                                              const IrisShape& iris, const LightSource& light,
                                              const EntranceWindow& window, RayGrid& scratch, PupilEffort effort,

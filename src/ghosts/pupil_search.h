@@ -23,6 +23,8 @@ enum class PupilEffort {
 };
 inline constexpr int kSearchSide = 49;  // rays a side of a search's grids, where nobody asks for less
 [[nodiscard]] int first_grid_side(PupilEffort effort);  // rays a side of the finest of them
+// For a ghost that is to be drawn by so many rays a side, so that searching costs in proportion to drawing.
+[[nodiscard]] PupilEffort effort_for_grid(int side);
 
 // None when nothing gets through. Differs: hullin2011 precomputes tables over light directions (pupil_bounds.h);
 // packets are quick enough to search for every light anew. A side below kSearchSide is for well-behaved paths.

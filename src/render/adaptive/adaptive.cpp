@@ -9,6 +9,7 @@
 
 #include "base/clock.h"
 #include "base/tasks.h"
+#include "render/adaptive/faint_items.h"
 #include "render/adaptive/item.h"
 #include "render/adaptive/screened_items.h"
 #include "render/adaptive/shadowed_items.h"
@@ -198,6 +199,7 @@ Result<DrawnFlare> render_adaptive(const LensState& lens, const FramePlan& plan,
                            static_cast<double>(settings.frame.width) * settings.frame.height};
   if (screens.on() && !dark) work.add(screen_items(scene, screens, items, rough.sizes, allowed, quiet));
   if (context.cancelled()) return interrupted();
+  if (!dark) mark_faint_items(items, rough.sizes, allowed);
   if (scene.plan.dirt && !dark) shadow_items(scene, items, rough.sizes, allowed);
   const double peak_ms = watch.lap_ms();
   FramePainter painter(scene, settings, rooms, drawer, context, flare);

@@ -189,9 +189,9 @@ PlannedPass merged(const Scene& scene, const Item& item, std::span<const Planned
   return all;
 }
 
-enum class Care { Little, Much };
+// Rough: with little care, and all wavelengths on the way of one.
+enum class Care { Rough, Little, Much };
 
-// With little care in one wavelength.
 Painted paint(const Scene& scene, const Item& item, Care care, const Frame& whole, const TileGrid& grid,
               const ErrorBudget& budget, Pool<BoxCells>& rooms) {
   Painted painted;
@@ -199,7 +199,7 @@ Painted paint(const Scene& scene, const Item& item, Care care, const Frame& whol
   const LightFrame light(item.light->source, has_axial_symmetry(scene.lens, item.ghost));
   const IrisShape& iris = item.screens ? round_iris() : scene.iris;
   std::vector<PlannedPass> passes = passes_of(item);
-  if (care == Care::Little) passes = {merged(scene, item, passes)};
+  if (care == Care::Rough) passes = {merged(scene, item, passes)};
   GhostTracers tracers(scene.steps, item.ghost, light, item.window.z_mm, passes, stop_times(item));
   const auto room = rooms.lend();
   GhostPainter painter(tracers, iris, frame, care == Care::Much ? kDeepest : kPeakDeepest, *room, item.screens.get(),
@@ -266,7 +266,8 @@ Painted paint_item(const Scene& scene, const Item& item, const ItemSize& size, c
   ErrorBudget of_item = budget;
   of_item.about = size;
   if (item.screens) of_item.squared_error *= kScreenedShare;
-  return paint(scene, item, Care::Much, frame, grid, of_item, rooms);
+  if (item.is_faint) of_item.squared_error = std::numeric_limits<double>::infinity();
+  return paint(scene, item, item.is_faint ? Care::Little : Care::Much, frame, grid, of_item, rooms);
 }
 
 RoughFrame draw_roughly(const Scene& scene, const std::vector<Item>& items, const Frame& frame, Pool<BoxCells>& rooms,
@@ -281,7 +282,7 @@ RoughFrame draw_roughly(const Scene& scene, const std::vector<Item>& items, cons
   RoughFrame rough;
   rough.sizes.resize(items.size());
   parallel_for(items.size(), context, [&](std::size_t k) {
-    Painted painted = paint(scene, items[k], Care::Little, small, grid, unlimited, rooms);
+    Painted painted = paint(scene, items[k], Care::Rough, small, grid, unlimited, rooms);
     polygons[k] = std::move(painted.polygons);
     done[k] = painted.work;
     rough.sizes[k] = {spread_of(polygons[k].list, scale), static_cast<double>(done[k].rays)};

@@ -32,6 +32,7 @@ struct Item {
   std::shared_ptr<const GhostScreens> screens = nullptr;  // null: the iris is sharp
   bool has_shadows = false;  // of dirt; without them
   double past_dirt = 1.0;    // all of it is dimmed to this share
+  bool is_faint = false;     // drawn with little care
 };
 
 // One for each ghost and light, those first that come first in the plan.

@@ -6,9 +6,8 @@
 #include <limits>
 #include <utility>
 
-#include "render/adaptive/maps/lobatto.h"
+#include "render/adaptive/maps/lit_part.h"
 #include "render/adaptive/maps/screened_boxes.h"
-#include "render/adaptive/pupils/extremes.h"
 
 namespace contrejour::adaptive {
 namespace {
@@ -24,51 +23,7 @@ constexpr double kNoFit = std::numeric_limits<double>::infinity();
 constexpr double kMostLooser = 64.0, kRough = 10.0;
 constexpr double kHopeless = 2.0;  // times the tolerance, foretold of more nodes
 
-// Bounds of the cells between the nodes that may let light through, none if none may; the iris counts as its
-// circumscribed circle.
-std::optional<Rectangle> lit_part(const RaySheet& sheet) {
-  const auto n = static_cast<std::size_t>(sheet.nodes);
-  const auto& points = lobatto_points(sheet.nodes);
-  const Vec2 half = (sheet.box.high - sheet.box.low) * 0.5;
-  std::optional<Rectangle> part;
-  for (std::size_t cell = 0; cell + n < sheet.count(); ++cell) {
-    const std::size_t ix = cell % n;
-    const std::size_t iy = cell / n;
-    if (ix == n - 1) continue;
-    std::array<Extremes, 1 + kMaxStopCrossings> extremes;
-    bool any = false;
-    for (const std::size_t k : {cell, cell + 1, cell + n, cell + n + 1}) {
-      if (std::isinf(sheet.r_rel[k])) continue;
-      any = true;
-      extremes[0].add(sheet.r_rel[k] - 1.0F);
-      for (std::size_t c = 0; c < sheet.stop.size(); ++c) {
-        const float x = sheet.stop[c][0][k];
-        const float y = sheet.stop[c][1][k];
-        extremes[1 + c].add(std::sqrt(x * x + y * y) - 1.0F);
-      }
-    }
-    for (std::size_t l = 0; l < 1 + sheet.stop.size(); ++l) any = any && extremes[l].may_pass(1.0F);
-    if (!any) continue;
-    const Vec2 low = sheet.box.low + Vec2{half.x * (1.0 + points[ix]), half.y * (1.0 + points[iy])};
-    const Vec2 high = sheet.box.low + Vec2{half.x * (1.0 + points[ix + 1]), half.y * (1.0 + points[iy + 1])};
-    if (!part) part = {low, high};
-    part->low = {std::min(part->low.x, low.x), std::min(part->low.y, low.y)};
-    part->high = {std::max(part->high.x, high.x), std::max(part->high.y, high.y)};
-  }
-  return part;
-}
-
 double area(const Rectangle& r) { return (r.high.x - r.low.x) * (r.high.y - r.low.y); }
-
-// Of the cells of any of the sheets, which are of one box.
-std::optional<Rectangle> lit_part(std::span<const RaySheet> sheets) {
-  std::optional<Rectangle> part;
-  for (const RaySheet& sheet : sheets) {
-    const auto one = lit_part(sheet);
-    if (one) part = part ? both(*part, *one) : *one;
-  }
-  return part;
-}
 
 // A patch's error over what is allowed.
 double misfit(const Patch& patch, const Tolerance& tolerance) {
@@ -142,7 +97,7 @@ void PatchFitter::fit(const BoxPart& part, std::optional<double> first_misfit, c
     if (level && *level < unseen_) return;
     const bool rough = level && *level < kRough * unseen_;
     const double looser = level ? std::clamp(fitting.tolerance.level / *level, 1.0, kMostLooser) : 1.0;
-    const auto lit = lit_part(sheets);
+    const auto lit = lit_part(sheets, tracers_.light(), frame_, fitting.mirror_image != nullptr);
     if (!lit) return;
     const bool last_part = part.depth >= deepest_;
     if (!last_part && area(*lit) < kWorthShrinking * area(box))

@@ -56,7 +56,7 @@ std::optional<GhostPupil> GhostGrid::find(Ghost ghost, const LightSource& light,
 
   const auto region = from_table ? bounds_->find(ghost, pupil.meridian.angle_rad())
                                  : find_pupil_region(pupil.path, tables_of(pupil), IrisShape(pupil.iris),
-                                                     pupil.meridian.light, window, rays_);
+                                                     pupil.meridian.light, window, rays_, search_effort());
   if (!region) return std::nullopt;
   pupil.region = *region;
   count_rays(region->rays, pupil.path);
@@ -65,6 +65,10 @@ std::optional<GhostPupil> GhostGrid::find(Ghost ghost, const LightSource& light,
     pupil.figures = figures_of(pupil);
   }
   return pupil;
+}
+
+PupilEffort GhostGrid::search_effort() const {
+  return settings_.bundle.grid_levels ? PupilEffort::Finest : effort_for_grid(settings_.grid);
 }
 
 MapFigures GhostGrid::figures_of(const GhostPupil& pupil) {

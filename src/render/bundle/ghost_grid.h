@@ -51,6 +51,7 @@ class GhostGrid {
   // A lens without axial symmetry has no mirror image.
   [[nodiscard]] bool mirrors() const { return settings_.bundle.mirror_symmetry && lens_.has_axial_symmetry(); }
   [[nodiscard]] const ReflectanceTables& tables_of(const GhostPupil& pupil) const;
+  [[nodiscard]] PupilEffort search_effort() const;
   [[nodiscard]] MapFigures figures_of(const GhostPupil& pupil);
   [[nodiscard]] int side_of(const GhostPupil& pupil) const;
   void count_rays(std::uint64_t rays, const OpticalPath& path);

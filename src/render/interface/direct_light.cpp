@@ -56,7 +56,7 @@ bool measure_fluxes(const LensState& lens, const TablesByWavelength& tables, std
   const auto tables_of = [&](std::size_t k, std::size_t band) -> const ReflectanceTables& {
     return *tables.at(lights[k].bands[band].lambda_nm);
   };
-  // Of the middle wavelength, for the others.
+  // Of the middle wavelength, for the others: where nothing of it gets through, no more than a sliver of theirs does.
   std::vector<std::optional<Rectangle>> pupil(lights.size());
   if (!parallel_for(lights.size(), context,
                     [&](std::size_t k) { pupil[k] = meters[k].pupil(tables_of(k, lights[k].bands.size() / 2)); }))
@@ -64,8 +64,7 @@ bool measure_fluxes(const LensState& lens, const TablesByWavelength& tables, std
   const auto measure = [&](const std::vector<Place>& places) {
     return parallel_for(places.size(), context, [&](std::size_t at) {
       const auto [k, band] = places[at];
-      const ReflectanceTables& of_band = tables_of(k, band);
-      lights[k].flux_mm2[band] = pupil[k] ? meters[k].flux_mm2(of_band, *pupil[k]) : meters[k].flux_mm2(of_band);
+      lights[k].flux_mm2[band] = pupil[k] ? meters[k].flux_mm2(tables_of(k, band), *pupil[k]) : 0.0;
     });
   };
   if (!measure(first)) return false;

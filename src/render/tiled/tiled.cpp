@@ -150,7 +150,8 @@ TracedItem trace_item(const Job& job, std::size_t index, Workspace& workspace) {
   };
 
   auto start = Clock::now();
-  const auto region = find_pupil_region(path, tables, iris, item.light, window, workspace.grid);
+  const auto region =
+      find_pupil_region(path, tables, iris, item.light, window, workspace.grid, effort_for_grid(job.settings.grid));
   out.counts.search_ms = ms_since(start);
   if (!region) return out;
   count_rays(region->rays);

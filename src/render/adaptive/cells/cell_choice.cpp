@@ -141,6 +141,8 @@ void CellPainter::choose(const Patch& patch, const MeshPlace& place, int depth, 
   const auto find_finer = [&](std::size_t q) {
     return depth < kDeepest && wants_finer_mesh(of, quarter_square(q), of.plane[q] != nullptr);
   };
+  // Straight lines between four rays: a finer mesh of them shows nothing more.
+  if (patch.nodes == 2) return choose(of, {0, 0, Mesh::kCells}, plane);
   std::array<bool, 4> finer{};
   for (std::size_t q = 0; q < 4; ++q) finer[q] = find_finer(q);
   // What so few nodes tell, nine vertices tell too.

@@ -1,0 +1,27 @@
+#include "render/adaptive/faint_items.h"
+
+namespace contrejour::adaptive {
+namespace {
+
+constexpr double kFaintLevel = 3e-5;  // of the peak: at four stops more light a two-thousandth of it
+// Of the frame's squared error, what the squares of faint items' light may come to: they are drawn to a tenth or
+// better.
+constexpr double kFaintShare = 0.05;
+
+}  // namespace
+
+void mark_faint_items(std::vector<Item>& items, const std::vector<ItemSize>& sizes, const FrameError& allowed) {
+  std::vector<std::size_t> dim;
+  std::vector<double> squared(items.size());
+  for (std::size_t k = 0; k < items.size(); ++k) {
+    const ItemSize& size = sizes[k];
+    if (items[k].boxes.empty() || !(size.area_px > 0.0) || size.level > kFaintLevel * allowed.peak) continue;
+    squared[k] = size.level * size.level * size.area_px;
+    items[k].is_faint = true;
+    dim.push_back(k);
+  }
+  for (const std::size_t k : worth_drawing(std::move(dim), squared, kFaintShare * allowed.squared()))
+    items[k].is_faint = false;
+}
+
+}  // namespace contrejour::adaptive

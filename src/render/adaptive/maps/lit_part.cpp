@@ -1,0 +1,136 @@
+#include "render/adaptive/maps/lit_part.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "render/adaptive/maps/lobatto.h"
+#include "render/adaptive/pupils/extremes.h"
+
+namespace contrejour::adaptive {
+namespace {
+
+// Between four rays light may land beyond them by as much as they are apart; where one of them fails, by a root that is
+// steepest there: two and a half times the last difference, and some.
+constexpr float kReach = 1.0F, kReachBesideFailure = 3.0F;
+
+struct PixelBounds {
+  float low_x = std::numeric_limits<float>::infinity(), low_y = low_x, high_x = -low_x, high_y = -low_x;
+  void add(float x, float y) {
+    low_x = std::min(low_x, x), high_x = std::max(high_x, x);
+    low_y = std::min(low_y, y), high_y = std::max(high_y, y);
+  }
+  [[nodiscard]] bool touches(const Frame& frame, float reach) const {
+    const float more_x = reach * (high_x - low_x), more_y = reach * (high_y - low_y);
+    return high_x + more_x > 0.0F && high_y + more_y > 0.0F && low_x - more_x < static_cast<float>(frame.width) &&
+           low_y - more_y < static_cast<float>(frame.height);
+  }
+};
+
+class LitCells {
+ public:
+  LitCells(const RaySheet& sheet, const LightFrame& light, const Frame& frame, bool with_mirror_image)
+      : sheet_(sheet), frame_(frame), n_(static_cast<std::size_t>(sheet.nodes)) {
+    place(light, 1.0);
+    if (with_mirror_image) place(light, -1.0);
+  }
+
+  [[nodiscard]] std::optional<Rectangle> part() const {
+    std::optional<Rectangle> all;
+    for (std::size_t row = 0; row + 1 < n_; ++row) {
+      for (std::size_t column = 0; column + 1 < n_; ++column) {
+        if (!may_be_lit(row * n_ + column)) continue;
+        const Rectangle cell{place_of(column, row), place_of(column + 1, row + 1)};
+        all = all ? both(*all, cell) : cell;
+      }
+    }
+    return all;
+  }
+
+ private:
+  [[nodiscard]] bool arrives(std::size_t node) const { return std::isfinite(sheet_.r_rel[node]); }
+
+  // Pixels of all nodes, of the box or of its mirror image.
+  void place(const LightFrame& light, double side) {
+    std::vector<std::array<float, 2>>& pixels = pixels_.emplace_back(sheet_.count());
+    for (std::size_t k = 0; k < sheet_.count(); ++k) {
+      const Vec2 p = frame_.pixel_from_sensor(light.into_place({sheet_.sensor_x_mm[k], side * sheet_.sensor_y_mm[k]}));
+      pixels[k] = {static_cast<float>(p.x), static_cast<float>(p.y)};
+    }
+  }
+
+  [[nodiscard]] Vec2 place_of(std::size_t column, std::size_t row) const {
+    const auto& points = lobatto_points(sheet_.nodes);
+    const Vec2 half = (sheet_.box.high - sheet_.box.low) * 0.5;
+    return sheet_.box.low + Vec2{half.x * (1.0 + points[column]), half.y * (1.0 + points[row])};
+  }
+
+  [[nodiscard]] bool may_be_lit(std::size_t first) const {
+    const std::array<std::size_t, 4> corners{first, first + 1, first + n_, first + n_ + 1};
+    const auto known = std::ranges::count_if(corners, [&](std::size_t k) { return arrives(k); });
+    if (known == 0 || !may_pass(corners)) return false;
+    return std::ranges::any_of(pixels_, [&](const auto& pixels) {
+      return known == 4 ? bounds_of(pixels, corners).touches(frame_, kReach) : lands_near(pixels, corners);
+    });
+  }
+
+  [[nodiscard]] bool may_pass(const std::array<std::size_t, 4>& corners) const {
+    std::array<Extremes, 1 + kMaxStopCrossings> extremes;
+    for (const std::size_t k : corners) {
+      if (!arrives(k)) continue;
+      extremes[0].add(sheet_.r_rel[k] - 1.0F);
+      for (std::size_t c = 0; c < sheet_.stop.size(); ++c) {
+        const float x = sheet_.stop[c][0][k], y = sheet_.stop[c][1][k];
+        extremes[1 + c].add(std::sqrt(x * x + y * y) - 1.0F);
+      }
+    }
+    return std::all_of(extremes.begin(), extremes.begin() + 1 + static_cast<std::ptrdiff_t>(sheet_.stop.size()),
+                       [](const Extremes& e) { return e.may_pass(1.0F); });
+  }
+
+  template <class Nodes>
+  [[nodiscard]] PixelBounds bounds_of(const std::vector<std::array<float, 2>>& pixels, const Nodes& nodes) const {
+    PixelBounds bounds;
+    for (const std::size_t k : nodes)
+      if (arrives(k)) bounds.add(pixels[k][0], pixels[k][1]);
+    return bounds;
+  }
+
+  // Of a cell some corner of which fails: any other about which the rays land near the frame.
+  [[nodiscard]] bool lands_near(const std::vector<std::array<float, 2>>& pixels,
+                                const std::array<std::size_t, 4>& corners) const {
+    return std::ranges::any_of(corners, [&](std::size_t k) {
+      return arrives(k) && bounds_of(pixels, around(k)).touches(frame_, kReachBesideFailure);
+    });
+  }
+
+  [[nodiscard]] std::vector<std::size_t> around(std::size_t node) const {
+    const std::size_t column = node % n_, row = node / n_;
+    std::vector<std::size_t> nodes;
+    for (std::size_t y = row > 0 ? row - 1 : 0; y <= std::min(row + 1, n_ - 1); ++y)
+      for (std::size_t x = column > 0 ? column - 1 : 0; x <= std::min(column + 1, n_ - 1); ++x)
+        nodes.push_back(y * n_ + x);
+    return nodes;
+  }
+
+  const RaySheet& sheet_;
+  const Frame& frame_;
+  std::size_t n_;
+  std::vector<std::vector<std::array<float, 2>>> pixels_;
+};
+
+}  // namespace
+
+std::optional<Rectangle> lit_part(std::span<const RaySheet> sheets, const LightFrame& light, const Frame& frame,
+                                  bool with_mirror_image) {
+  std::optional<Rectangle> all;
+  for (const RaySheet& sheet : sheets) {
+    const auto one = LitCells(sheet, light, frame, with_mirror_image).part();
+    if (one) all = all ? both(*all, *one) : *one;
+  }
+  return all;
+}
+
+}  // namespace contrejour::adaptive
