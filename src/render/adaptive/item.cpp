@@ -276,7 +276,9 @@ RoughFrame draw_roughly(const Scene& scene, const std::vector<Item>& items, cons
   const int scale = std::clamp(static_cast<int>(std::sqrt(pixels / kPeakPixels)), 1, kMostPeakScale);
   const Frame small = smaller(frame, scale);
   const TileGrid grid(small.width, small.height);
-  const ErrorBudget unlimited{std::numeric_limits<double>::infinity(), 1.0};
+  // No level is high beside a peak that is not known yet, whatever the light's value.
+  constexpr double kUnknown = std::numeric_limits<double>::infinity();
+  const ErrorBudget unlimited{kUnknown, kUnknown};
   std::vector<TiledPolygons> polygons(items.size());
   std::vector<Work> done(items.size());
   RoughFrame rough;
