@@ -33,7 +33,11 @@ struct Iris {
 // corner. point: position in the stop plane divided by the stop radius.
 [[nodiscard]] double iris_distance(const Iris& iris, Vec2 point);
 
-// Area of the opening over the area of the rim's circle.
+// The share of light that passes there, 0 to 1: within an opening 1 but for a picture's half-tones (iris_field.h), of
+// which it is the mean over an upright square of the picture, `width` stop radii wide. A wave's amplitude is its root.
+[[nodiscard]] double iris_transmittance(const Iris& iris, Vec2 point, double width = 0.0);
+
+// Area of the opening, weighted with its transmittance, over the area of the rim's circle.
 [[nodiscard]] double iris_area_fraction(const Iris& iris);
 
 // A circle or half-plane that bounds the opening.

@@ -1,8 +1,11 @@
-// A picture as the opening of the aperture stop: a signed distance field over the stop plane, and the same opening as
-// convex pieces. Right side up as the photographer sees the stop; the picture's longer side spans the stop's diameter,
-// the rim cuts its corners off, beside it nothing passes. Units: stop radii. Accuracy: the edge lies where the picture,
-// interpolated, crosses its level, to a fifth of a sample (2 / samples()); pieces to kTolerance more. Thread-safety:
-// constant after it is made. docs/physics/diffraction.md.
+// A picture as the opening of the aperture stop: a signed distance field over the stop plane, the same opening as
+// convex pieces, and the transmittance of what is open. Right side up as the photographer sees the stop; the picture's
+// longer side spans the stop's diameter, the rim cuts its corners off, beside it nothing passes. Units: stop radii. A
+// picture of black and white whose edges are drawn smoothly is a mask: open where it is at least half as bright as at
+// its brightest. One with half-tones lets its own share of the light pass everywhere, over that at its brightest; open
+// is then what is not dark, brighter than 1/256.
+// Accuracy: the edge lies where the picture, interpolated, crosses its level, to a fifth of a sample (2 / samples());
+// pieces to kTolerance more. Thread-safety: constant after it is made. docs/physics/diffraction.md.
 #pragma once
 
 #include <array>
@@ -28,14 +31,20 @@ class IrisField {
  public:
   static constexpr double kTolerance = 3e-4;  // stop radii, that a piece's edge is off the field's
 
-  // level: of width x height pixels, rows from the top. Light passes where it is at least half of the highest.
+  // level: of width x height pixels, rows from the top, linear light.
   // Errors: no pixels, levels that are negative or not finite, pictures that let nothing through.
   [[nodiscard]] static Result<std::shared_ptr<const IrisField>> from_levels(std::span<const float> level, int width,
                                                                             int height);
 
   // From the edge, negative inside, bilinear between samples; inside no more than the true one, and exact near edges.
   [[nodiscard]] double distance(Vec2 p) const;
-  [[nodiscard]] double area() const { return nodes_[0].open_area; }  // of a rim of radius 1: pi when all is open
+  // Integral of the transmittance over the rim's circle: pi when all is open.
+  [[nodiscard]] double area() const { return area_; }
+  [[nodiscard]] bool has_tones() const { return tones_ != nullptr; }
+  // The share of light that passes, 0 to 1, as the mean over an upright square about p. Half-tones are bilinear between
+  // samples and go on beyond the rim, as do means of squares that it crosses, since edges are cut by geometry. Without
+  // half-tones: 1 where distance() <= 0 and else 0, whatever the width.
+  [[nodiscard]] double transmittance(Vec2 p, double width = 0.0) const;
   [[nodiscard]] const std::vector<IrisBound>& hull() const { return hull_; }  // half-planes that hold all of it
   [[nodiscard]] int samples() const { return side_ - 2; }  // across the stop's diameter
 
@@ -83,6 +92,8 @@ class IrisField {
     }
   }
 
+  double area_ = 0.0;
+  std::shared_ptr<const class IrisTones> tones_;
   int side_ = 0;  // nodes of the field along a side: the picture's samples and a ring around them
   std::vector<float> field_;  // [row from below * side_ + column]
   std::vector<Node> nodes_;  // the root first

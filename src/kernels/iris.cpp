@@ -74,6 +74,11 @@ double iris_distance(const Iris& iris, Vec2 point) {
   return worst;
 }
 
+double iris_transmittance(const Iris& iris, Vec2 point, double width) {
+  if (iris_distance(iris, point) > 0.0) return 0.0;
+  return iris.field ? iris.field->transmittance(turned(point, -iris.rotation_rad), width) : 1.0;
+}
+
 double iris_area_fraction(const Iris& iris) {
   if (iris.field) return iris.field->area() / std::numbers::pi;
   if (iris.blades < 3) return 1.0;

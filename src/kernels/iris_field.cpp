@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "kernels/iris_samples.h"
+#include "kernels/iris_tones.h"
 
 namespace contrejour {
 namespace {
@@ -60,7 +61,9 @@ bool half_plane(Vec2 a, Vec2 b, Vec2 inner, IrisBound& out) {
 // straight.
 class IrisFieldMaker {
  public:
-  explicit IrisFieldMaker(StopSamples distances) : side_(distances.side), pitch_(2.0 / (distances.side - 2)) {
+  // tones: null where there are none.
+  IrisFieldMaker(StopSamples distances, std::shared_ptr<const IrisTones> tones)
+      : side_(distances.side), pitch_(2.0 / (distances.side - 2)) {
     field_.side_ = side_;
     field_.field_ = std::move(distances.value);
     for (int j = 0; j < side_; ++j)
@@ -72,6 +75,8 @@ class IrisFieldMaker {
     while (size < side_ - 1) size *= 2;
     field_.nodes_.emplace_back();
     fill(0, 0, 0, size);
+    field_.area_ = tones ? tones->flux() : field_.nodes_[0].open_area;
+    field_.tones_ = std::move(tones);
     find_hull();
   }
 
@@ -251,11 +256,22 @@ Result<std::shared_ptr<const IrisField>> IrisField::from_levels(std::span<const 
   }
   if (!(highest > 0.0F))
     return refused("the picture of the iris is black: nothing would pass; draw what is open white");
-  IrisFieldMaker maker(distances_from_level(samples_over_stop(level, width, height), kEdge * highest));
+  const StopSamples samples = samples_over_stop(level, width, height);
+  std::shared_ptr<const IrisTones> tones;
+  const bool is_averaged = samples.side - 2 < std::max(width, height);
+  if (is_averaged ? has_half_tones(samples.value, samples.side, samples.side, highest)
+                  : has_half_tones(level, width, height, highest))
+    tones = std::make_shared<const IrisTones>(samples, highest);
+  IrisFieldMaker maker(distances_from_level(samples, (tones ? IrisTones::kDark : kEdge) * highest), tones);
   auto field = std::make_shared<const IrisField>(maker.take());
   if (!(field->area() > 0.0))
     return refused("the picture of the iris leaves nothing open within the stop's circle, or too fine to see");
   return field;
+}
+
+double IrisField::transmittance(Vec2 p, double width) const {
+  if (tones_) return tones_->mean(p, width);
+  return distance(p) <= 0.0 ? 1.0 : 0.0;
 }
 
 double IrisField::distance(Vec2 p) const {

@@ -134,6 +134,63 @@ TEST_CASE("an iris of a picture turns with it") {
   CHECK(iris_area_fraction(iris) == doctest::Approx(iris.field->area() / kPi));
 }
 
+TEST_CASE("smooth edges are no half-tones: such a picture lets all of the light pass or none") {
+  for (const auto& field : {flower_field(), flower_field(64), drawn_field(300, [](Vec2 p) { return p.x > 0.1 * p.y; }),
+                            drawn_field(30, [](Vec2 p) { return length(p - Vec2{0.2, 0.1}) < 0.6; })}) {
+    CHECK_FALSE(field->has_tones());
+    for (int k = 0; k < 500; ++k) {
+      const Vec2 p = scattered(k);
+      CHECK(field->transmittance(p) == (field->distance(p) <= 0.0 ? 1.0 : 0.0));
+      CHECK(field->transmittance(p, 0.1) == field->transmittance(p));
+    }
+  }
+}
+
+TEST_CASE("half-tones let their share of the light pass") {
+  const auto tone = [](Vec2 p) { return 0.5 + 0.4 * p.x - 0.1 * p.y * p.y; };
+  const auto in_ring = [](Vec2 p) { return length(p) > 0.2 && length(p - Vec2{0.3, 0.0}) > 0.1; };
+  for (const int side : {100, 301, 1500}) {
+    CAPTURE(side);
+    const auto field = drawn_field(side, [&](Vec2 p) { return in_ring(p) ? tone(p) : 0.0; });
+    REQUIRE(field->has_tones());
+    const double highest = tone({1.0 - 1.0 / side, 0.0}), pixel = 2.0 / std::min(side, field->samples());
+    double light = 0.0, area = 0.0;
+    for (int k = 0; k < 40000; ++k) {
+      const Vec2 p = scattered(k);
+      const double from_edge = std::min(std::abs(length(p) - 0.2), std::abs(length(p - Vec2{0.3, 0.0}) - 0.1));
+      if (length(p) > 1.0) {
+        CHECK(field->distance(p) > 0.0);
+        continue;
+      }
+      area += 1.0;
+      light += in_ring(p) ? tone(p) / highest : 0.0;
+      if (from_edge < 2.0 * pixel || length(p) > 1.0 - pixel) continue;
+      CHECK((field->distance(p) <= 0.0) == in_ring(p));
+      CHECK(field->transmittance(p) == doctest::Approx(in_ring(p) ? tone(p) / highest : 0.0).epsilon(2e-3));
+      if (in_ring(p) && from_edge > 0.1 && length(p) < 0.9)  // quadratic: the square's mean by hand
+        CHECK(field->transmittance(p, 0.12) ==
+              doctest::Approx((tone(p) - 0.1 * 0.0144 / 12.0) / highest).epsilon(2e-3));
+    }
+    CHECK(field->area() == doctest::Approx(light / area * kPi).epsilon(2e-3));
+    Iris iris;
+    iris.field = field;
+    iris.rotation_rad = 0.5 * kPi;
+    CHECK(iris_transmittance(iris, {0.1, 0.6}) == field->transmittance({0.6, -0.1}));
+    CHECK(iris_transmittance(iris, {0.0, 0.1}) == 0.0);
+    CHECK(iris_area_fraction(iris) == doctest::Approx(field->area() / kPi));
+  }
+}
+
+TEST_CASE("a grey line is a half-tone, an even grey is none") {
+  const auto line = drawn_field(200, [](Vec2 p) { return std::abs(p.x - 0.005) < 0.005 ? 0.5 : 1.0; });
+  REQUIRE(line->has_tones());
+  CHECK(line->transmittance({0.005, 0.3}) == doctest::Approx(0.5));
+  CHECK(line->transmittance({0.1, 0.3}) == doctest::Approx(1.0));
+  CHECK_FALSE(drawn_field(50, [](Vec2) { return 0.4; })->has_tones());
+  CHECK(iris_transmittance(Iris{6}, {0.1, 0.2}) == 1.0);
+  CHECK(iris_transmittance(Iris{6}, {0.9, 0.9}) == 0.0);
+}
+
 TEST_CASE("pictures that are none are refused") {
   constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
   constexpr float kInf = std::numeric_limits<float>::infinity();
