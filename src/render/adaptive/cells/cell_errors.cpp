@@ -21,6 +21,7 @@ constexpr double kFoldBound = 0.5;  // of a fold's flux, that is out of place
 constexpr double kShownOfShared =
     0.3;  // of how far sides that cells share are off, where edges cut them: found likewise
 constexpr double kMostBend = 0.04;  // of a cell, that what cuts it may be off
+constexpr double kMostOff = 0.01;   // likewise, of what corners in the middles of its sides leave of that
 constexpr double kLeftByBend = 0.25;  // of a curve's deviation from its chord, where a corner in its middle bends it
 constexpr double kChordShare = 0.5;  // of a cell's error, that chords in place of an arc may make
 // What chords may miss their arc by, whatever the budget: of ghosts as bright as kFacetLevel their corners show.
@@ -147,6 +148,7 @@ double CellPainter::squared_error(const Mesh& mesh, const Cell& cell, CellMeasur
   }
 
   const double left = sides == Sides::Bent ? kLeftByBend : 1.0;
+  if (state == State::Cut && left * m.limit * passed > kMostOff) return std::numeric_limits<double>::infinity();
   const double seen = m.mean * m.mean * width * width;
   const SidesOff off = sides_off(mesh, cell, state, left);
   error += kEdgeBound * seen * off.strips;

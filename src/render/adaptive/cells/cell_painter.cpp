@@ -94,6 +94,7 @@ void CellPainter::draw(const BoxMesh& of, const ChosenCell& chosen) {
       return draw_parts(mesh, cell, parts);
     mean = parts.mean();
   }
+  rise_ = {};
   if (!convex) return draw_folded(mesh, cell, state, mean);
 
   Shade shade;
@@ -104,6 +105,7 @@ void CellPainter::draw(const BoxMesh& of, const ChosenCell& chosen) {
   // Pixels see the irradiance at their centres, which may lie well outside a cell smaller than they are.
   const double width = std::abs(area) / longest;
   const double sloped = std::clamp(width - 1.0, 0.0, 1.0);
+  rise_ = weight_rise(mesh, cell);
   CellLevel level;
   for (std::size_t c = 0; c < 3; ++c) {
     if (static_cast<int>(c) < mesh.layout.weights) level = cell_level(mesh, cell, static_cast<int>(c));
@@ -122,6 +124,15 @@ void CellPainter::draw(const BoxMesh& of, const ChosenCell& chosen) {
   if (mean) dim(shade, flux, *mean);
   const auto map = varied && !mean ? std::optional(stop_map(mesh, cell, kSoft_px)) : std::nullopt;
   draw_seen(map ? &*map : nullptr);
+}
+
+// By the first weight, which the others resemble.
+Vec2 CellPainter::weight_rise(const Mesh& mesh, const Cell& cell) {
+  const Mesh::Field& w = mesh.field(mesh.layout.weight(0));
+  const std::array<double, 4> at{w[cell.corner[0]], w[cell.corner[1]], w[cell.corner[2]], w[cell.corner[3]]};
+  const double sum = at[0] + at[1] + at[2] + at[3];
+  if (!(sum > 0.0)) return {};
+  return Vec2{at[1] + at[2] - at[0] - at[3], at[2] + at[3] - at[0] - at[1]} * (2.0 / sum);
 }
 
 // Each part as a polygon of its own, with its share of the cell's flux.
@@ -223,6 +234,24 @@ Shade CellPainter::even_shade(const Shade& of, const Flux& flux, double share_pe
   return even;
 }
 
+// Likewise of one of a few pixels, which keeps how its irradiance rises.
+Shade CellPainter::with_flux(std::span<const Corner> polygon, const Shade& of, const Flux& flux, double share) const {
+  constexpr double kMost = 2.0;
+  const Vec2 aside = area_of(polygon.size(), [&](std::size_t k) { return polygon[k].uv; }).centroid - Vec2{0.5, 0.5};
+  share *= std::max(1.0 + dot(rise_, aside), 0.0);
+  const auto [area, middle] = area_of(polygon.size(), [&](std::size_t k) { return polygon[k].position; });
+  const Vec2 from = middle - Vec2{of.at.x, of.at.y};
+  Shade out = of;
+  for (std::size_t c = 0; c < 3; ++c) {
+    const double has = (of.value[c] + of.along_x[c] * from.x + of.along_y[c] * from.y) * std::abs(area);
+    const double times = flux[c] * share / has;
+    if (!(times > 1.0 / kMost && times < kMost)) continue;
+    for (Channels Shade::* part : {&Shade::value, &Shade::along_x, &Shade::along_y})
+      (out.*part)[c] *= static_cast<float>(times);
+  }
+  return out;
+}
+
 // triangle: flux is that of half the square of uv.
 void CellPainter::draw_part(std::span<const Corner> polygon, const Shade& shade, const Flux& flux, bool triangle,
                             const Behind& behind) {
@@ -241,8 +270,11 @@ void CellPainter::draw_part(std::span<const Corner> polygon, const Shade& shade,
   const bool one_pixel = std::floor(b.low.x) == std::floor(b.high.x) && std::floor(b.low.y) == std::floor(b.high.y);
   const bool sliver = std::abs(twice_area) < kSliver * longest;
   const double area = 0.5 * std::abs(twice_area), share = 0.5 * std::abs(twice_share) * (triangle ? 2.0 : 1.0);
-  if (!one_pixel && !sliver && longest > kSpeck)
-    return add_seen(polygon, area, longest < kSmall_px ? even_shade(shade, flux, share / area) : shade, flux, behind);
+  if (!one_pixel && !sliver && longest > kSpeck) {
+    if (longest < kSmall_px) return add_seen(polygon, area, even_shade(shade, flux, share / area), flux, behind);
+    const bool few = longest < kFew_px && !triangle;  // halves of a cell have not halves of its flux
+    return add_seen(polygon, area, few ? with_flux(polygon, shade, flux, share) : shade, flux, behind);
+  }
   Flux passed{flux[0] * share, flux[1] * share, flux[2] * share};
   const Vec2 middle = (b.low + b.high) * 0.5;
   if (behind.screen != nullptr) {

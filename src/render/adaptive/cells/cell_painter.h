@@ -110,6 +110,8 @@ class CellPainter {
   static constexpr double kSoft_px = 0.2;  // of cells, for maps to be drawn with
   // Of smaller polygons it is their flux that counts, whatever irradiance their places say.
   static constexpr double kSmall_px = 2.0;
+  // Of smaller ones it counts too: what cuts them is straight in the entrance plane, where it may bend in the picture.
+  static constexpr double kFew_px = 8.0;
   // Times what is not seen, so 0.1 of the error that all pixels may have: where light is dimmer than that it is its
   // mean over a cell.
   static constexpr double kMeanBelow = 10.0;
@@ -121,6 +123,8 @@ class CellPainter {
 
   static void dim(Shade& shade, Flux& flux, const Flux& share);
   [[nodiscard]] static Shade even_shade(const Shade& of, const Flux& flux, double share_per_px);
+  [[nodiscard]] Shade with_flux(std::span<const Corner> polygon, const Shade& of, const Flux& flux, double share) const;
+  [[nodiscard]] static Vec2 weight_rise(const Mesh& mesh, const Cell& cell);
   void choose(const Patch& patch, const MeshPlace& place, int depth, const Shade* plane);
   void choose(BoxMesh& of, const MeshSquare& square, const Shade* plane);
   [[nodiscard]] static CellLevel cell_level(const Mesh& mesh, const Cell& cell, int weight);
@@ -217,6 +221,7 @@ class CellPainter {
   std::vector<Corner> shape_, outline_;  // of what is drawn
   BoxCells& chosen_;
   std::vector<CellCorner> all_corners_;  // of a cell
+  Vec2 rise_;  // of what its rays carry, from side to side both ways, over the mean
   OutlineCutter cutter_;
   std::vector<Point> points_;
 };

@@ -59,6 +59,7 @@ class OutlineCutter {
   void add_circle(const Circle& circle, double turn);
   void add_corners(const Circle& circle, Vec2 first, double step, int count, Vec2 near_uv);
   [[nodiscard]] bool is_inside(std::size_t limit, const IrisBound& half_plane) const;
+  [[nodiscard]] double width_in_stop() const;
   [[nodiscard]] double step_on(const Circle& circle) const;
   [[nodiscard]] bool surrounds_centre(const Circle& circle) const;
   [[nodiscard]] Corner between(const Corner& a, const Corner& b, double t) const;
@@ -66,6 +67,7 @@ class OutlineCutter {
   const IrisShape& iris_;
   WholeCell whole_;
   double arc_step_ = 0.1;  // radians
+  int cuts_ = 0, arcs_ = 0;  // bounds that cut so far, and those of them that are circles
   std::vector<Corner> polygon_, next_;
   std::vector<std::size_t> exits_;  // of next_: where the outline leaves the circle
   std::vector<Vec2> arc_;  // places in the stop
