@@ -9,6 +9,7 @@
 #include "render/adaptive/pupils/box_fit.h"
 #include "render/adaptive/pupils/clearance_grid.h"
 #include "render/adaptive/pupils/meridian_scan.h"
+#include "render/adaptive/pupils/pupil_boxes.h"
 #include "render/adaptive/pupils/stop_aim.h"
 
 using namespace contrejour;
@@ -102,6 +103,16 @@ TEST_CASE("a pupil a three-hundredth of the window wide, among rays that fail, i
   for (const Interval& i : again.find({s.window.min_mm.x, s.window.max_mm.x}, {&box, 1})) {
     CHECK((i.high <= open->low.x || i.low >= open->high.x));
   }
+}
+
+TEST_CASE("a pupil between the meridian's rays, all of which fail, is found where they fail least") {
+  const Setting s("nikon-80-200", 2.8, {7, 19}, 0.2332);
+  const auto open = open_bounds(s, {{-30.35, -0.05}, {-30.2, 0.05}}, 101);
+  REQUIRE(open.has_value());
+  CHECK(open->high.x - open->low.x < 0.2);
+  const PupilBoxes found = find_pupil_boxes(s.packets(), s.window);
+  CHECK(std::ranges::any_of(found.boxes, [&](const Rectangle& box) { return holds(box, *open); }));
+  CHECK(found.rays < 400);
 }
 
 TEST_CASE("boxes fitted at another wavelength grow to hold what gets through, and shrink to it") {

@@ -322,6 +322,21 @@ TEST_CASE("a ghost nearly in focus keeps its light, however few pixels it is") {
   }
 }
 
+TEST_CASE("ghosts whose pupils end where rays fail keep their light") {
+  // A frame of 160 degrees: the rays at such an end come from steep refraction, and land as a root of their distance.
+  const LensState lens = test::bundled("planar-50");
+  const Light light{.direction = normalized(Vec3{0.142665, 0.060187, 0.987940})};
+  RenderSettings settings;
+  settings.wavelengths = 1;
+  settings.frame = frame_on_sensor(lens, 160, 90);
+  settings.frame.pixel_pitch_mm = 2.0 * lens.focal_length_mm * std::tan(1.396263) / 160.0;
+  for (const auto& [ghost, part] : {std::pair{Ghost{8, 12}, 0.01}, {Ghost{10, 12}, 0.025}}) {
+    settings.selection = SelectList{{ghost}};
+    const double truth = test::sum(image_of("bundle", lens, light, settings));
+    CHECK(test::sum(image_of("adaptive", lens, light, settings)) / truth == doctest::Approx(1.0).epsilon(part));
+  }
+}
+
 TEST_CASE("the outline of a dim ghost lies where a finer one does, with no corners") {
   const LensState lens = test::lens_at_f("heliar", 16.0);
   RenderSettings settings = settings_for(lens, 1920, 1080);

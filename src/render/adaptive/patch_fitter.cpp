@@ -8,6 +8,7 @@
 
 #include "render/adaptive/maps/lit_part.h"
 #include "render/adaptive/maps/screened_boxes.h"
+#include "render/adaptive/maps/sheet_cells.h"
 
 namespace contrejour::adaptive {
 namespace {
@@ -21,6 +22,7 @@ constexpr double kNoFit = std::numeric_limits<double>::infinity();
 // Behind a screen: how much worse fits of dim light may be, and what is so dim, over what does not count at all, that
 // any will do.
 constexpr double kMostLooser = 64.0, kRough = 10.0;
+constexpr int kBesideFailure = 1;  // quarterings more, where too much light would be lost between rays that fail
 constexpr double kHopeless = 2.0;  // times the tolerance, foretold of more nodes
 
 double area(const Rectangle& r) { return (r.high.x - r.low.x) * (r.high.y - r.low.y); }
@@ -34,6 +36,26 @@ double misfit(const Patch& patch, const Tolerance& tolerance) {
 
 bool all_arrive(std::span<const RaySheet> sheets) {
   return std::all_of(sheets.begin(), sheets.end(), [](const RaySheet& sheet) { return sheet.failed == 0; });
+}
+
+bool gets_through(const RaySheet& sheet, std::size_t node) {
+  const auto passes = [&](const auto& at) { return std::hypot(at[0][node], at[1][node]) <= 1.0F; };
+  return sheet.r_rel[node] <= 1.0F && std::ranges::all_of(sheet.stop, passes);
+}
+
+// Of the entrance, between rays that get through and such as fail, where straight lines from ray to ray leave light
+// out.
+double beside_failure_mm2(const RaySheet& sheet) {
+  const SheetCells cells(sheet);
+  double sum_mm2 = 0.0;
+  for (std::size_t first = 0; first < cells.end(); ++first) {
+    if (!cells.has(first)) continue;
+    const auto corners = cells.corners(first);
+    if (std::ranges::any_of(corners, [&](std::size_t k) { return std::isinf(sheet.r_rel[k]); }) &&
+        std::ranges::any_of(corners, [&](std::size_t k) { return gets_through(sheet, k); }))
+      sum_mm2 += cells.entrance_mm2(first);
+  }
+  return sum_mm2;
 }
 
 // The worst of three bands', at most: those between them are blended like them.
@@ -105,6 +127,10 @@ void PatchFitter::fit(const BoxPart& part, std::optional<double> first_misfit, c
     const bool last = k + 1 == kNodes.size();
     const bool arrive = all_arrive(sheets);
     if (!arrive && !last_part && !rough) break;
+    if (!arrive && !rough && beside_failure_mm2(sheets.front()) > fitting.tolerance.lost_mm2) {
+      if (!last) continue;
+      if (part.depth < deepest_ + kBesideFailure) break;
+    }
     bands.add_weights(sheets, precision);
     if (!arrive) return fit_between_rays(part, sheets, fitting);
     std::vector<Patch> patches = bands.make_patches(sheets, frame_);

@@ -54,7 +54,7 @@ Spread brighter(const std::optional<Spread>& told, const Spread& known) {
 // Edges displaced by d over a length of about 4 L, and levels off by a share w over L^2 pixels.
 Tolerance tolerance_for(const RaySheet& sheet, double weight, double shared_flux, const Frame& frame,
                         const ErrorBudget& budget) {
-  constexpr Tolerance kAny{kNoLimit, kNoLimit, kNoLimit, 0.0, kNoLimit};
+  constexpr Tolerance kAny{kNoLimit, kNoLimit, kNoLimit, 0.0, kNoLimit, kNoLimit};
   if (!(weight > 0.0)) return kAny;
   const double pupil_light = weight * shared_flux;
   const std::optional<Spread> told = spread_of(sheet, pupil_light, frame);
@@ -72,6 +72,7 @@ Tolerance tolerance_for(const RaySheet& sheet, double weight, double shared_flux
   const double error = kFitShare * std::sqrt(budget.squared_error) / t.level;  // in levels, summed
   t.position_px = std::clamp(std::min(error / (2.0 * std::sqrt(side)), error / 8.0), 0.005, kMost * side + kLittle_px);
   t.stop = 2.0 * t.position_px / side;
+  t.lost_mm2 = error * error * t.level / pupil_light;
   t.weight = std::clamp(error / side, 1e-4, 0.5);
   return t;
 }

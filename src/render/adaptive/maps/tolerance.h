@@ -22,6 +22,7 @@ struct ErrorBudget {
 struct Tolerance {
   double position_px = 0, stop = 0, weight = 0;  // stop radii; relative to the largest weight
   double level = 0;  // of the ghost that this is for, a pixel's value
+  double lost_mm2 = 0;   // of the entrance, whose light may be lost in one part of a box
   double colour_px = 0;  // that wavelengths may be off for colours to stay what they are, however dim
 };
 

@@ -11,6 +11,9 @@ constexpr int kParts = 3;  // of an interval that is looked into
 constexpr int kRounds = 2;
 constexpr std::size_t kMostLooks = 12;  // intervals a round
 constexpr float kReach = 0.5F;          // of what the ends of an interval differ, beyond them
+constexpr int kDeepRounds = 12;         // closer to rays that fail last, each a kParts-th as far apart
+constexpr std::size_t kMostRuns = 3;    // of rays that fail last, a round
+constexpr double kHopeless = 0.25;      // of the least that fails: more than that would still fail between rays
 
 bool reaches(const Interval& i, std::span<const Rectangle> boxes) {
   return std::any_of(boxes.begin(), boxes.end(), [&](const Rectangle& b) {
@@ -87,6 +90,50 @@ bool MeridianScan::is_worth_a_look(std::size_t k) const {
   return (k > 0 && falls_to_zero(nodes_[k - 1], a)) || (k + 2 < nodes_.size() && falls_to_zero(nodes_[k + 2], b));
 }
 
+void MeridianScan::look_into(Interval i, std::vector<double>& x_mm) {
+  for (int p = 1; p < kParts; ++p) x_mm.push_back(i.low + (i.high - i.low) * p / kParts);
+}
+
+// Whether failing less and less from node `from` over `least` may end beyond it, before the next node there fails at an
+// earlier test; or, where all three fail at the same test, between them.
+bool MeridianScan::may_end(std::size_t least, std::ptrdiff_t step) const {
+  const auto at = [&](std::ptrdiff_t by) -> const Node* {
+    const std::ptrdiff_t k = static_cast<std::ptrdiff_t>(least) + by;
+    const bool exists = k >= 0 && k < static_cast<std::ptrdiff_t>(nodes_.size());
+    return exists ? &nodes_[static_cast<std::size_t>(k)] : nullptr;
+  };
+  const Node &here = *at(0), *const next = at(step), *const before = at(-step);
+  if (next == nullptr) return false;
+  if (before == nullptr || before->passed != here.passed) return true;  // too few to tell
+  const double slope = (here.failing - before->failing) / std::abs(here.x_mm - before->x_mm);
+  return here.failing + slope * std::abs(next->x_mm - here.x_mm) < kHopeless * here.failing;
+}
+
+// Where all rays fail: closer about those that fail at the last test, and there where they fail least; rays that get
+// through pass that test as well. False when there is nothing to be looked at.
+bool MeridianScan::look_deeper(std::vector<double>& x_mm) const {
+  const float deepest = std::ranges::max(nodes_, {}, &Node::passed).passed;
+  std::vector<std::size_t> least;  // of each run of nodes at that test, the node that fails least
+  for (std::size_t k = 0; k < nodes_.size(); ++k) {
+    if (nodes_[k].passed != deepest) continue;
+    const bool starts = k == 0 || nodes_[k - 1].passed != deepest;
+    if (starts)
+      least.push_back(k);
+    else if (nodes_[k].failing < nodes_[least.back()].failing)
+      least.back() = k;
+  }
+  std::ranges::stable_sort(least, {}, [&](std::size_t k) { return nodes_[k].failing; });
+  if (least.size() > kMostRuns) least.resize(kMostRuns);
+  for (const std::size_t k : least) {
+    if (k > 0 && may_end(k, -1)) look_into({nodes_[k - 1].x_mm, nodes_[k].x_mm}, x_mm);
+    if (k + 1 < nodes_.size() && may_end(k, 1)) look_into({nodes_[k].x_mm, nodes_[k + 1].x_mm}, x_mm);
+  }
+  std::ranges::sort(x_mm);
+  const auto [first, last] = std::ranges::unique(x_mm);
+  x_mm.erase(first, last);
+  return !x_mm.empty();
+}
+
 std::vector<Interval> MeridianScan::find(Interval line, std::span<const Rectangle> boxes) {
   std::vector<double> x_mm;
   for (int k = 0; k <= kFirstIntervals; ++k) x_mm.push_back(line.low + (line.high - line.low) * k / kFirstIntervals);
@@ -95,10 +142,15 @@ std::vector<Interval> MeridianScan::find(Interval line, std::span<const Rectangl
     x_mm.clear();
     for (std::size_t k = 0; k + 1 < nodes_.size() && x_mm.size() < kMostLooks * (kParts - 1); ++k) {
       const Interval i{nodes_[k].x_mm, nodes_[k + 1].x_mm};
-      if (reaches(i, boxes) || !is_worth_a_look(k)) continue;
-      for (int p = 1; p < kParts; ++p) x_mm.push_back(i.low + (i.high - i.low) * p / kParts);
+      if (!reaches(i, boxes) && is_worth_a_look(k)) look_into(i, x_mm);
     }
     if (x_mm.empty()) break;
+    trace(x_mm);
+  }
+  const auto fails = [](const Node& node) { return node.failing != 0.0F; };
+  for (int round = 0; boxes.empty() && round < kDeepRounds && std::ranges::all_of(nodes_, fails); ++round) {
+    x_mm.clear();
+    if (!look_deeper(x_mm)) break;
     trace(x_mm);
   }
   std::vector<Interval> found;

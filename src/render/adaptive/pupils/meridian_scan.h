@@ -37,6 +37,9 @@ class MeridianScan {
   [[nodiscard]] bool may_pass(std::size_t k) const;
   [[nodiscard]] bool is_worth_a_look(std::size_t k) const;
   [[nodiscard]] bool is_open(const Node& node) const;
+  static void look_into(Interval i, std::vector<double>& x_mm);
+  [[nodiscard]] bool may_end(std::size_t least, std::ptrdiff_t step) const;
+  [[nodiscard]] bool look_deeper(std::vector<double>& x_mm) const;
 
   PacketPath path_;
   std::vector<Node> nodes_;  // by rising x
