@@ -1,9 +1,10 @@
 // The starburst: a light's own image, spread by diffraction at the pupil, in colour.
 // Units: pixels; flux per pixel relative to the light's, so that the whole plane sums to the light's RGB.
-// Accuracy: flux within 1e-3; the tail far beyond the spectrum's samples within 10 per cent of the fringes' mean
+// Accuracy: flux within 1e-3; pixels are integrals of the pattern, so any window of them holds its flux within 1 per
+// cent; the tail far beyond the spectrum's samples within 10 per cent of the fringes' mean
 // (docs/physics/diffraction.md). Errors: InvalidArgument for settings, bands or masks that no starburst comes of,
-// Cancelled. Thread-safety: a Starburst is a value to share; results do not depend on the threads.
-// Source: hullin2011 3.3 and eq. 2; Differs: in absolute scale, which hullin2011 leaves to the user (eq. 3 and 4).
+// Cancelled. Thread-safety: a Starburst is a value to share; results do not depend on the threads. Source:
+// hullin2011 3.3 and eq. 2; Differs: in absolute scale, which hullin2011 leaves to the user (eq. 3 and 4).
 #pragma once
 
 #include <cmath>
@@ -85,7 +86,7 @@ struct StarburstSamples;
 
 // A starburst laid out over pixels, to be drawn again and again, wherever the light moves, in a few milliseconds a
 // frame. It is a value to share and to keep for as long as lens, light direction and pixel pitch stay (or nearly).
-// Accuracy: within 8 pixels of the centre placed to an eighth of a pixel; from 16 on straight lines between samples a
+// Accuracy: within 16 pixels of the centre placed to an eighth of a pixel; from 20 on straight lines between samples a
 // pixel apart: smooth parts to 1 per cent (5 where the pattern's own fringes are finer than pixels), spikes narrower
 // than pixels up to half a pixel wider. The flux is the same to 1e-4.
 class StarburstSheet {

@@ -112,6 +112,21 @@ double DirtWaves::specks_power(double k) const {
   return std::exp2((1.0 - t) * specks_[i] + t * specks_[i + 1]);
 }
 
+std::vector<double> DirtWaves::brightest_end_normals(std::size_t scratches) const {
+  std::vector<Stroke> brightest = scratches_;
+  // A slit's flux across it is its width times its area.
+  const auto flux = [](const Stroke& s) { return s.weight * square(s.width) * s.length; };
+  std::stable_sort(brightest.begin(), brightest.end(),
+                   [&](const Stroke& a, const Stroke& b) { return flux(a) > flux(b); });
+  brightest.resize(std::min(brightest.size(), scratches));
+  std::vector<double> normals;
+  for (const Stroke& s : brightest) {
+    normals.push_back(s.normal_rad - s.half_turn_rad);
+    if (s.half_turn_rad > 0.0) normals.push_back(s.normal_rad + s.half_turn_rad);
+  }
+  return normals;
+}
+
 DirtWaves::Direction DirtWaves::along(double direction_rad, double window_rad) const {
   Direction d;
   d.waves_ = this;

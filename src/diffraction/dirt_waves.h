@@ -43,6 +43,8 @@ class DirtWaves {
 
   // Valid as long as this is.
   [[nodiscard]] Direction along(double direction_rad, double window_rad) const;
+  // Normals at the ends of the brightest scratches, so many of them; both are the same where one is straight.
+  [[nodiscard]] std::vector<double> brightest_end_normals(std::size_t scratches) const;
 
  private:
   struct Stroke {

@@ -47,6 +47,16 @@ EdgeWaves::EdgeWaves(const IrisOpening& opening) {
   }
 }
 
+std::vector<double> EdgeWaves::end_normals() const {
+  std::vector<double> normals;
+  for (const Outline& o : outline_) {
+    if (o.full_circle) continue;
+    normals.push_back(o.normal_middle_rad - o.half_span_rad);
+    if (o.half_span_rad > 0.0) normals.push_back(o.normal_middle_rad + o.half_span_rad);
+  }
+  return normals;
+}
+
 EdgeWaves::Direction EdgeWaves::along(double direction_rad, double window_rad) const {
   Direction direction;
   direction.window_rad_ = window_rad;

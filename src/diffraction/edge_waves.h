@@ -47,6 +47,8 @@ class EdgeWaves {
   };
 
   [[nodiscard]] Direction along(double direction_rad, double window_rad) const;
+  // Normals at the edges' ends, where what they send begins and ends; of a straight one both are the same.
+  [[nodiscard]] std::vector<double> end_normals() const;
 
  private:
   struct Outline {

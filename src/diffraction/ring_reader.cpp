@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "diffraction/sharp_zone.h"
 #include "kernels/simd_targets.h"
 
 #undef HWY_TARGET_INCLUDE
@@ -20,29 +21,41 @@ using Pixel = hn::CappedTag<float, 4>;
 
 constexpr float kInverse_pi = 0.318309886F;
 
-// Rows above and directions on both sides of one place.
-HWY_INLINE void read_place(const StarburstRings& rings, float octaves, float turns, float* rgb) {
+// A place among the rings: between a row and the next, and in half turns.
+struct RingPlace {
+  std::size_t row = 0;
+  float below = 0.0F;  // 0..1, from the row to the next
+  float turns = 0.0F;
+};
+
+// Means over pixels at the rows and the bins' edges on both sides.
+HWY_INLINE void read_means(const StarburstOctave& octave, std::size_t bin, const RingPlace& at, float* rgb) {
+  const Pixel d;
+  const auto t = hn::Set(d, at.below);
+  const auto s = hn::Set(d, std::min(at.turns * static_cast<float>(octave.bins) - static_cast<float>(bin), 1.0F));
+  const float *above = octave.at(at.row, bin), *below = octave.at(at.row + 1, bin);
+  HWY_ALIGN float value[4];
+  for (std::size_t c = 0; c < 4; c += hn::Lanes(d)) {
+    const auto first = hn::LoadU(d, above + c), second = hn::LoadU(d, below + c);
+    const auto upper = hn::MulAdd(s, hn::Sub(hn::LoadU(d, above + 4 + c), first), first);
+    const auto lower = hn::MulAdd(s, hn::Sub(hn::LoadU(d, below + 4 + c), second), second);
+    hn::Store(hn::MulAdd(t, hn::Sub(lower, upper), upper), d, value + c);
+  }
+  std::copy_n(value, 3, rgb);
+}
+
+HWY_INLINE void read_place(const StarburstRings& rings, float octaves, float turns, Vec2 p, float* rgb) {
   const std::size_t o = std::min(static_cast<std::size_t>(octaves), rings.octaves.size() - 1);
   const StarburstOctave& octave = rings.octaves[o];
   const float row = (octaves - static_cast<float>(o)) * kRowsPerOctave;
-  const std::size_t row0 = std::min(static_cast<std::size_t>(row), static_cast<std::size_t>(kRowsPerOctave - 1));
-  const float place = turns * static_cast<float>(octave.angles) + 0.5F;  // 0.5 so that it never is negative
-  const auto whole = static_cast<std::size_t>(place);
-  const std::size_t a0 = whole == 0 || whole > octave.angles ? octave.angles - 1 : whole - 1;
-  const std::size_t a1 = whole >= octave.angles ? 0 : whole;
-  const Pixel d;
-  const auto t = hn::Set(d, std::min(row - static_cast<float>(row0), 1.0F));
-  const auto s = hn::Set(d, place - static_cast<float>(whole));
-  const float *p00 = octave.at(row0, a0), *p01 = octave.at(row0, a1);
-  const float *p10 = octave.at(row0 + 1, a0), *p11 = octave.at(row0 + 1, a1);
-  HWY_ALIGN float value[4];
-  for (std::size_t c = 0; c < 4; c += hn::Lanes(d)) {
-    const auto first = hn::LoadU(d, p00 + c), second = hn::LoadU(d, p10 + c);
-    const auto above = hn::MulAdd(s, hn::Sub(hn::LoadU(d, p01 + c), first), first);
-    const auto below = hn::MulAdd(s, hn::Sub(hn::LoadU(d, p11 + c), second), second);
-    hn::Store(hn::MulAdd(t, hn::Sub(below, above), above), d, value + c);
-  }
-  std::copy_n(value, 3, rgb);
+  RingPlace at;
+  at.row = std::min(static_cast<std::size_t>(row), static_cast<std::size_t>(kRowsPerOctave - 1));
+  at.below = std::min(row - static_cast<float>(at.row), 1.0F);
+  at.turns = turns;
+  const std::size_t bin = std::min(static_cast<std::size_t>(turns * static_cast<float>(octave.bins)), octave.bins - 1);
+  if (octave.zones.empty() || octave.zone_of_bin[bin] == 0) return read_means(octave, bin, at, rgb);
+  const SharpZone& zone = octave.zones[static_cast<std::size_t>(octave.zone_of_bin[bin] - 1)];
+  read_zone(zone, octave.bins, row, turns, p, rgb);
 }
 
 void read_rings(const StarburstRings& rings, double x0, double y, std::size_t count, float* rgb) {
@@ -50,6 +63,7 @@ void read_rings(const StarburstRings& rings, double x0, double y, std::size_t co
   const std::size_t lanes = hn::Lanes(d);
   const auto first2 = static_cast<float>(1.0 / (rings.first_px * rings.first_px));
   const auto last_octaves = static_cast<float>(rings.octaves.size());
+  const double near2 = kNear_px * kNear_px - y * y;
   HWY_ALIGN float octaves[16], turns[16];
   for (std::size_t i = 0; i < count; i += lanes) {
     const auto x = hn::Add(hn::Set(d, static_cast<float>(x0 + static_cast<double>(i))), hn::Iota(d, 0.0F));
@@ -63,8 +77,9 @@ void read_rings(const StarburstRings& rings, double x0, double y, std::size_t co
               turns);
     for (std::size_t k = 0; k < std::min(lanes, count - i); ++k) {
       float* const out = rgb + 3 * (i + k);
-      if (octaves[k] >= 0.0F && octaves[k] < last_octaves)
-        read_place(rings, octaves[k], turns[k], out);
+      const double from_x = x0 + static_cast<double>(i + k);
+      if (from_x * from_x >= near2 && octaves[k] < last_octaves)
+        read_place(rings, octaves[k], turns[k], {from_x, -y}, out);
       else
         std::fill_n(out, 3, 0.0F);
     }

@@ -1,4 +1,5 @@
-// A starburst's density at places: rows and directions of its rings interpolated.
+// A starburst on pixels beyond kNear_px: rows and directions of its rings interpolated, and sharp directions summed up
+// over each pixel.
 #pragma once
 
 #include <cstddef>
@@ -7,8 +8,8 @@
 
 namespace contrejour {
 
-// At count places (x0 + i, y) pixels right of and below the centre: rgb[3 i + c]. 0 within the first row and beyond
-// the radius.
+// Of count pixels whose middles lie (x0 + i, y) pixels right of and below the centre, the mean density: rgb[3 i + c].
+// 0 within kNear_px and beyond the radius.
 void read_rings(const StarburstRings& rings, double x0, double y, std::size_t count, float* rgb);
 
 }  // namespace contrejour

@@ -16,13 +16,14 @@ constexpr double kPi = std::numbers::pi;
 constexpr double kSampleRho = 0.45;  // fringes are 1 apart at least: samples of an average stand closer
 // From spectrum to edge waves, in samples across: where aliases of the edges are below 1 per cent, and with dirt, which
 // only the spectrum has, where they are 10. Of a picture there is nothing else to go to.
-constexpr double kTailEnd = 0.2, kTailEndWithDirt = 0.35, kTailEndOfPicture = 1.0;
+constexpr double kTailEnd = 0.12, kTailEndWithDirt = 0.35, kTailEndOfPicture = 1.0;
 constexpr double kTailFade = 0.625;  // of that, where it begins
 constexpr double kCleanWithin = 2e-3;  // relative: as much as edges' samples may be off
 constexpr double kScatteredFrom = 0.7;  // of the tail's end: the spectrum there says what goes on beyond
 constexpr double kGrainRho = 1.0;  // between samples that tell it: it is as wide
 constexpr int kModelPlaces = 6;  // and what it is compared with is smooth
 constexpr double kLeastGrain = 0.25, kMostGrain = 4.0;  // of the shapes' sum, where they interfere
+constexpr std::size_t kSharpStrokes = 16;  // the brightest: of many together none stands out
 constexpr int kRowsPerStep = 4;  // between which the tail times rho^3 is interpolated
 
 Vec2 along_angle(double angle_rad) { return {std::cos(angle_rad), std::sin(angle_rad)}; }
@@ -131,6 +132,21 @@ StarburstPattern::StarburstPattern(const PupilMask& mask, const PupilOutline* ou
   dirt_y_ = dirt.y_mm * (1.0 / pupil_radius_mm);
   dirt_scale_ = square(cross(dirt_x_, dirt_y_) * pupil_radius_mm) / (4.0 * power_mm2_);
   measure_grain(context);
+}
+
+// A normal n of a shape that unit vectors x and y lay down is seen along the u for which (x.u, y.u) is along n.
+std::vector<double> StarburstPattern::sharp_directions() const {
+  std::vector<double> directions;
+  const auto add = [&](const std::vector<double>& normals, Vec2 x, Vec2 y) {
+    for (const double normal : normals) {
+      const Vec2 n{std::cos(normal), std::sin(normal)};
+      const Vec2 u{n.x * y.y - n.y * x.y, n.y * x.x - n.x * y.x};
+      directions.push_back(std::atan2(u.y, u.x));
+    }
+  };
+  if (edges_) add(edges_->end_normals(), outline_x_, outline_y_);
+  if (dirt_) add(dirt_->brightest_end_normals(kSharpStrokes), dirt_x_, dirt_y_);
+  return directions;
 }
 
 void StarburstPattern::sample(double angle_rad, double window_rad, double first_rho, int rows, float* out,

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <optional>
+#include <vector>
 
 #include "contrejour/context.h"
 #include "contrejour/pupil_mask.h"
@@ -23,17 +24,21 @@ class StarburstPattern {
   // Averages over rings and a window of directions, at radii from first_rho on, row by row; out is [row * stride].
   void sample(double angle_rad, double window_rad, double first_rho, int rows, float* out, std::size_t stride) const;
 
+  // Directions (radians, either way) along which the pattern may be sharp, however far out: normals of straight edges
+  // and scratches, and those at the ends of bent ones.
+  [[nodiscard]] std::vector<double> sharp_directions() const;
+
  private:
   // Of one direction, beyond the spectrum.
   struct Tail {
     std::optional<EdgeWaves::Direction> edges;
-    double scale = 0;      // of these
-    double stretch = 1;    // frequencies of the opening over those of the pupil
+    double scale = 0;  // of these
+    double stretch = 1;  // frequencies of the opening over those of the pupil
     double scattered = 0;  // times rho^-3: what else there is
     std::optional<DirtWaves::Direction> obscurations;
     double obscurations_scale = 0;
     std::optional<DirtWaves::Direction> dirt;
-    double dirt_scale = 0;    // of these
+    double dirt_scale = 0;  // of these
     double dirt_stretch = 1;  // wave numbers in the dirt's plane over rho
 
     [[nodiscard]] double times_rho3(double rho) const;

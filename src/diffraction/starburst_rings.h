@@ -1,33 +1,66 @@
 // A starburst as rings about its centre: pixels' RGB by logarithm of the radius and by direction.
 // A wavelength scales the pattern, which here is a shift from row to row; so a whole spectrum is one short sum down the
 // rows, and no more than that is blurred. Real masks give patterns that are the same at p and -p: half a turn is kept.
+// Directions are counted in half turns from straight down, counter-clockwise, 0 to 1.
 #pragma once
 
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
+#include <memory>
 #include <vector>
+
+#include "contrejour/vec.h"
 
 namespace contrejour {
 
 constexpr int kRowsPerOctave = 92;  // 4 nm at 550 nm
+constexpr double kNear_px = 48.0;  // within, pixels are summed up exactly (near_field.h)
 
 [[nodiscard]] inline double row_ratio(double rows) { return std::exp2(rows / kRowsPerOctave); }
 
-// Radii from one to twice that, kRowsPerOctave + 1 rows, each of `angles` directions over half a turn: direction i is
-// (i + 0.5) pi / angles from straight down, counter-clockwise.
-struct StarburstOctave {
-  std::size_t angles = 0;
-  std::vector<float> rgb0;  // density per square pixel, [(row * angles + angle) * 4 + channel]; the fourth is 0
+// Directions about a spike's, in cells finer than pixels where it is sharp.
+struct SharpZone {
+  std::size_t first_bin = 0;  // where its first cell begins; it may run past the last bin, to the first ones
+  std::vector<float> edge;  // of its cells, in bins from there
+  std::vector<float> rgb0;  // mean density over each cell, [(row * cells + cell) * 4 + channel]; the fourth is 0
 
-  [[nodiscard]] const float* at(std::size_t row, std::size_t angle) const {
-    return rgb0.data() + (row * angles + angle) * 4;
+  [[nodiscard]] std::size_t cells() const { return edge.size() - 1; }
+};
+
+// Radii from one to twice that, kRowsPerOctave + 1 rows, half a turn in equal bins.
+struct StarburstOctave {
+  std::size_t bins = 0;
+  // Density per square pixel, averaged over the square pixel about each bin's beginning, and the last one's end:
+  // [(row * (bins + 1) + bin) * 4 + channel]; the fourth is 0.
+  std::vector<float> rgb0;
+  std::vector<SharpZone> zones;
+  std::vector<std::uint16_t> zone_of_bin;  // 1 more than the zone that pixels of the bin are read from; 0: from rgb0
+
+  [[nodiscard]] const float* at(std::size_t row, std::size_t bin) const {
+    return rgb0.data() + (row * (bins + 1) + bin) * 4;
   }
 };
 
+// The same not averaged, in cells that need not be equal.
+struct CellOctave {
+  std::vector<double> edge;  // of the cells, in half turns: from 0 to 1
+  std::vector<float> rgb0;  // mean density over each cell, [(row * cells + cell) * 4 + channel]
+
+  [[nodiscard]] std::size_t cells() const { return edge.size() - 1; }
+  [[nodiscard]] const float* at(std::size_t row, std::size_t cell) const {
+    return rgb0.data() + (row * cells() + cell) * 4;
+  }
+};
+
+class NearField;
+
 struct StarburstRings {
-  double first_px = 0;  // radius of the first octave's first row; within it the density is that row's mean
+  double first_px = 0;  // radius of the first octave's first row; within it the density is that row's
   double radius_px = 0;  // nothing is kept beyond
-  std::vector<StarburstOctave> octaves;
+  std::vector<StarburstOctave> octaves;  // those within kNear_px have no means over pixels
+  std::vector<CellOctave> near_cells;  // the first octaves, as far as pixels within kNear_px reach
+  std::shared_ptr<const NearField> near;
 };
 
 }  // namespace contrejour

@@ -6,6 +6,7 @@
 
 #include "base/tasks.h"
 #include "contrejour/starburst.h"
+#include "diffraction/near_field.h"
 #include "diffraction/ring_reader.h"
 #include "diffraction/sheet_rows.h"
 #include "diffraction/starburst_core.h"
@@ -13,12 +14,15 @@
 
 namespace contrejour {
 
-// Samples at whole pixels from the centre: x from -reach_x to reach_x, y (down) from 0 to reach_y.
+// Means over pixels whose middles lie whole pixels from the centre: x from -reach_x to reach_x, y (down) from 0 to
+// reach_y; the core is left out of them.
 struct StarburstSamples {
   Starburst starburst;
   int reach_x = 0, reach_y = 0;
   std::vector<float> rgb;
-  std::vector<double> core;  // core_flux
+  // The core on cells a kCellsPerPixel-th of a pixel wide about the centre, summed from the first row and column on:
+  // flux within (x, y) cells is at [(y * (kCoreCells + 1) + x) * 3 + c].
+  std::vector<double> core;
 
   [[nodiscard]] std::size_t row_size() const { return 3 * (2 * static_cast<std::size_t>(reach_x) + 1); }
   // From the sample x of a row y >= 0.
@@ -30,8 +34,36 @@ struct StarburstSamples {
 namespace {
 
 constexpr double kMostPixels = 67108864.0;  // 2^26: 1.6 GB
-constexpr double kCore_px = 17.0;  // rows within hold pixels of the core
+// Near the centre straight lines between samples would not do. What is the core's fades between these radii.
+constexpr double kCoreFrom_px = 16.0, kCoreTo_px = 20.0;
+constexpr int kCellsPerPixel = 8;
+constexpr int kCorePixels = 42;
+constexpr int kCoreCells = kCorePixels * kCellsPerPixel;
 constexpr int kRowsAtOnce = 8;     // neighbouring rows read the same samples
+
+double core_share(double r_px) {
+  const double t = std::clamp((r_px - kCoreFrom_px) / (kCoreTo_px - kCoreFrom_px), 0.0, 1.0);
+  return 1.0 - t * t * (3.0 - 2.0 * t);
+}
+
+std::vector<double> core_flux(const StarburstRings& rings, const Context& context) {
+  constexpr auto kSide = static_cast<std::size_t>(kCoreCells);
+  const NearField core(rings.near_cells, rings.first_px, core_share);
+  std::vector<double> below((kSide + 1) * (kSide + 1) * 3);
+  constexpr double kCell_px = 1.0 / kCellsPerPixel;
+  parallel_for(kSide, context, [&](std::size_t y) {
+    const double top = 0.5 * kCorePixels - static_cast<double>(y) * kCell_px;
+    double sum[3] = {};
+    for (std::size_t x = 0; x < kSide; ++x) {
+      const double left = static_cast<double>(x) * kCell_px - 0.5 * kCorePixels;
+      const auto flux = core.flux({{left, top - kCell_px}, {left + kCell_px, top}});
+      for (std::size_t c = 0; c < 3; ++c) below[((y + 1) * (kSide + 1) + x + 1) * 3 + c] = sum[c] += flux[c];
+    }
+  });
+  const std::size_t row_size = (kSide + 1) * 3;
+  for (std::size_t k = row_size; k < below.size(); ++k) below[k] += below[k - row_size];
+  return below;
+}
 
 void turn_about(const float* from, std::size_t places, float* to) {
   for (std::size_t i = 0; i < places; ++i, to += 3) std::copy_n(from + 3 * (places - 1 - i), 3, to);
@@ -98,19 +130,10 @@ void draw_rows(Image& image, const StarburstSamples& samples, Vec2 centre_px, co
                int first, int end) {
   const Placed place = placed(centre_px);
   const auto width = static_cast<std::size_t>(image.width);
-  std::vector<float> blended(3 * (width + 1)), turned(3 * (width + 1)), core;
+  std::vector<float> blended(3 * (width + 1)), turned(3 * (width + 1));
   for (int row = first; row < end; ++row) {
     blend_at(samples, place.x, place.y + row, place.down, width + 1, turned, blended.data());
-    const double y = row + 0.5 - centre_px.y;
-    float* const pixels = image.row(row).data();
-    if (std::abs(y) > kCore_px) {
-      add_between(blended.data(), place.right, scale, 3 * width, pixels);
-      continue;
-    }
-    core.assign(3 * (width + 1), 0.0F);
-    add_between(blended.data(), place.right, {1.0F, 1.0F, 1.0F}, 3 * width, core.data());
-    read_core_row(*samples.starburst.rings(), centre_px, y, width, core.data());
-    add_between(core.data(), 0.0F, scale, 3 * width, pixels);
+    add_between(blended.data(), place.right, scale, 3 * width, image.row(row).data());
   }
 }
 
@@ -125,11 +148,15 @@ Result<StarburstSheet> lay_out(const Starburst& starburst, int width, int height
   samples->reach_x = width + 1;
   samples->reach_y = height + 1;
   samples->core = core_flux(*starburst.rings(), context);
+  const NearField beside(starburst.rings()->near_cells, starburst.rings()->first_px,
+                         [](double r_px) { return 1.0 - core_share(r_px); });
   const std::size_t row_size = samples->row_size();
   samples->rgb.resize(row_size * (static_cast<std::size_t>(samples->reach_y) + 1));
   const bool done = parallel_for(static_cast<std::size_t>(samples->reach_y) + 1, context, [&](std::size_t row) {
-    read_rings(*starburst.rings(), -samples->reach_x, static_cast<double>(row), row_size / 3,
-               samples->rgb.data() + row * row_size);
+    const auto y = static_cast<double>(row);
+    float* const to = samples->rgb.data() + row * row_size;
+    read_rings(*starburst.rings(), -samples->reach_x, y, row_size / 3, to);
+    add_near_row(beside, {samples->reach_x + 0.5, 0.0}, y, row_size / 3, to);
   });
   if (!done) return interrupted();
   return StarburstSheet(std::move(samples));

@@ -1,8 +1,10 @@
 // Starbursts: flux, spikes, scale, and the rings against exact patterns of one wavelength.
 #include <algorithm>
 #include <cmath>
+#include <complex>
 #include <limits>
 #include <numbers>
+#include <random>
 #include <string>
 #include <vector>
 
@@ -303,6 +305,108 @@ TEST_CASE("a pupil seen askew: its outline's tail goes on from its samples' spec
   CHECK(sum_found / sum_truth == doctest::Approx(1.0).epsilon(0.02));
 }
 
+// The pattern of a polygon's opening by its Fourier integral over the plane (Lee & Mittra 1983), in all wavelengths.
+class ExactStarburst {
+ public:
+  ExactStarburst(const Iris& iris, const StarburstSettings& settings) : settings_(settings), bands_(sunlight()) {
+    const IrisOpening opening(iris);
+    for (const IrisEdge& edge : opening.edges()) corners_.push_back(edge.start);
+    area_ = opening.area();
+  }
+
+  // Green in a square of pixels, offsets from the centre, y down: stratified samples, each of the next wavelength.
+  double flux(Vec2 corner, double side, int samples_per_px) const {
+    const int count = static_cast<int>(side * samples_per_px);
+    const double step = side / count;
+    std::mt19937 random(7);
+    std::uniform_real_distribution<double> within(0.0, 1.0);
+    double sum = 0.0, band = 0.11;
+    for (int k = 0; k < count * count; ++k) {
+      band += 0.6180339887498949;
+      band -= std::floor(band);
+      const double x = within(random), y = within(random);
+      const Vec2 p{corner.x + (k % count + x) * step, corner.y + (k / count + y) * step};
+      sum += density(p, bands_[static_cast<std::size_t>(band * static_cast<double>(bands_.size()))]);
+    }
+    return sum * step * step * static_cast<double>(bands_.size());
+  }
+
+ private:
+  double density(Vec2 px, const SpectralBand& band) const {
+    const double lambda_d = band.lambda_nm * 1e-6 * settings_.distance_mm, a = settings_.pupil_radius_mm;
+    const Vec2 k = Vec2{px.x, -px.y} * (2.0 * kPi * a * settings_.pixel_pitch_mm / lambda_d);
+    std::complex<double> sum;
+    for (std::size_t j = 0; j < corners_.size(); ++j) {
+      const Vec2 from = corners_[j], step = corners_[(j + 1) % corners_.size()] - from;
+      const double half = 0.5 * dot(k, step);
+      const double sinc = std::abs(half) < 1e-9 ? 1.0 : std::sin(half) / half;
+      sum += std::polar(cross(k, step) * sinc, -dot(k, from + step * 0.5));
+    }
+    const double k2 = dot(k, k), scale = a * settings_.pixel_pitch_mm / lambda_d;
+    return band.weight[1] * std::norm(sum) / (k2 * k2) * scale * scale / area_;
+  }
+
+  StarburstSettings settings_;
+  std::vector<SpectralBand> bands_;
+  std::vector<Vec2> corners_;
+  double area_ = 0.0;
+};
+
+TEST_CASE("windows of pixels hold the exact pattern's flux at any pitch, on spikes, opposite ones, and between them") {
+  struct Case {
+    Iris iris;
+    double f_number, pitch_mm;
+  };
+  for (const Case& c : {Case{{7, 0.1}, 8.0, 0.056}, Case{{6, 0.0}, 11.0, 0.012}, Case{{5, 0.3}, 16.0, 0.004}}) {
+    CAPTURE(c.pitch_mm);
+    const StarburstSettings settings = settings_of(c.f_number, c.pitch_mm, 400.0);
+    const ExactStarburst exact(c.iris, settings);
+    const Vec2 centre{150.31, 149.87};
+    const Image image = drawn(c.iris, settings, 300, centre, sunlight());
+    const double step = 2.0 * kPi / c.iris.blades;
+    for (const double radius : {9.0, 31.0, 130.0}) {
+      for (const double turn : {0.5 * step, 0.5 * step + kPi, 0.68 * step}) {
+        for (const int side : {1, 5}) {
+          CAPTURE(radius);
+          CAPTURE(turn);
+          CAPTURE(side);
+          const double angle = c.iris.rotation_rad + turn;
+          const int x0 = static_cast<int>(centre.x + radius * std::cos(angle)) - side / 2;
+          const int y0 = static_cast<int>(centre.y - radius * std::sin(angle)) - side / 2;
+          double sum = 0.0;
+          for (int k = 0; k < side * side; ++k) sum += image.at(x0 + k % side, y0 + k / side, 1);
+          const Vec2 corner{x0 - centre.x, y0 - centre.y};
+          const double truth = exact.flux(corner, side, side == 1 ? 200 : 64);
+          CHECK(sum / truth == doctest::Approx(1.0).epsilon(0.01));
+        }
+      }
+    }
+  }
+}
+
+// Thin spikes: 13 fringes to a pixel.
+TEST_CASE("as a light moves by tenths of a pixel no spike flickers") {
+  constexpr int kSide = 200;
+  for (const Iris& iris : {Iris{7, 0.1}, Iris{6, 0.0}, Iris{8, 0.3}}) {
+    const Starburst starburst = make_starburst(IrisOpening(iris), sunlight(), settings_of(8.0, 0.056, 300.0)).value();
+    std::vector<double> before;
+    for (int k = 0; k <= 10; ++k) {
+      Image image(kSide, kSide);
+      add_starburst(image, starburst, {0.5 * kSide + 0.1 * k, 0.5 * kSide + 0.03 * k}, {1.0, 1.0, 1.0});
+      // Of rows and columns far from the centre, and of all directions' squares: what they hold.
+      std::vector<double> held;
+      for (int at = 10; at < 60; at += 10) {
+        double row = 0.0, column = 0.0;
+        for (int i = 0; i < kSide; ++i) row += image.at(i, at, 1), column += image.at(at, i, 1);
+        held.push_back(row);
+        held.push_back(column);
+      }
+      for (std::size_t i = 0; i < before.size(); ++i) CHECK(held[i] / before[i] == doctest::Approx(1.0).epsilon(0.01));
+      before = held;
+    }
+  }
+}
+
 TEST_CASE("laid out, a starburst is drawn as without, and moves smoothly") {
   for (const Iris& iris : {Iris{}, Iris{6, 0.2, 0.3}, Iris{8, 0.1}}) {
     const Starburst starburst = make_starburst(IrisOpening(iris), sunlight(), settings_of(16.0, 0.01, 700.0)).value();
@@ -322,7 +426,9 @@ TEST_CASE("laid out, a starburst is drawn as without, and moves smoothly") {
           const double a = direct.at(x, y, 1), b = laid.at(x, y, 1);
           CHECK(b >= 0.0);
           if (r < 10.0) core_error += std::abs(b - a);
-          if (r > 10.0 && r < 15.0) CHECK(b / a == doctest::Approx(1.0).epsilon(1e-4));
+          // Placed to an eighth of a pixel, between eighths by straight lines: a thin spike's edge is that wide.
+          const bool on_eighth = centre.x == 200.0 || centre.x == 420.0;
+          if (r > 10.0 && r < 14.0) CHECK(b / a == doctest::Approx(1.0).epsilon(on_eighth ? 3e-3 : 0.06));
           if (iris.blades > 0 || r < 18.0) continue;
           (r < 80.0 ? worst_near : worst_far) = std::max(r < 80.0 ? worst_near : worst_far, std::abs(b / a - 1.0));
         }

@@ -1,0 +1,23 @@
+// A light's wavelengths as shifts of a pattern's rows: a wavelength scales the pattern, and rows grow by one ratio.
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "contrejour/colour.h"
+
+namespace contrejour {
+
+// What each band adds, by how many rows it moves the pattern outwards.
+struct BandShifts {
+  double lambda_nm = 0;  // not moved
+  int first = 0;  // rows
+  std::vector<std::array<float, 3>> weight;
+
+  [[nodiscard]] int last() const { return first + static_cast<int>(weight.size()) - 1; }
+};
+
+[[nodiscard]] BandShifts shifts_of(std::span<const SpectralBand> bands);
+
+}  // namespace contrejour

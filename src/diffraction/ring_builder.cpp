@@ -1,0 +1,170 @@
+#include "diffraction/ring_builder.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+#include <span>
+#include <vector>
+
+#include "base/tasks.h"
+#include "diffraction/band_sum.h"
+#include "diffraction/near_field.h"
+#include "diffraction/pixel_means.h"
+#include "diffraction/ring_cells.h"
+
+namespace contrejour {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+constexpr double kFlatRho = 0.05;  // the pattern is flat to 1 per cent within
+// Widths of bins at an octave's outer radius: pixels beyond kNear_px are read between means over pixels; within, the
+// cells themselves are summed up, and a pixel's sides may cut through them. Nearest to the centre spikes are too close
+// together to be cut out one by one.
+constexpr double kBin_px = 0.7, kNearBin_px = 0.35, kInnerBin_px = 1.0 / 16.0;
+constexpr double kInner_px = 16.0, kNearEnd_px = 1.45 * kNear_px;  // an octave's outer radius
+constexpr double kBin_rho = 0.05;  // or as wide as this, where the pattern itself is smoother than pixels
+constexpr double kSharpBin_rho = 0.2;  // in bins narrower than this a spike's middle is no sharper than they are
+constexpr std::size_t kFewestBins = 96;
+constexpr double kMostBins = 32768;  // 0.7 pixels apart 7300 pixels from the centre; 50 MB an octave
+constexpr double kFinest_px = 1.0 / 16.0, kCoarse_px = 2.0;  // windows that differ where a direction is sharp
+constexpr double kSharp = 1.1;  // by this factor
+constexpr std::size_t kBlock = kDirectionsAtOnce;
+
+double angle_of(double turns) { return (turns - 0.5) * kPi; }
+
+// What is the same for all octaves.
+struct RingSource {
+  const StarburstPattern& pattern;
+  const BandShifts& shifts;
+  double rho_per_px;
+};
+
+// An octave while its cells are filled: rows from kRowMargin before its first.
+struct OctaveCells {
+  double first_px = 0.0;
+  RingCells cells;
+  std::vector<float> rgb0;  // [(row * cells + cell) * 4 + channel]
+};
+
+// One block of cells.
+void fill(OctaveCells& octave, std::size_t first_cell, const RingSource& source) {
+  // Row r of the result takes row r - shift of the pattern.
+  const BandShifts& shifts = source.shifts;
+  const int lead = shifts.last() + static_cast<int>(kRowMargin), rows = static_cast<int>(kRowsGiven);
+  const int pattern_rows = rows + shifts.last() - shifts.first;
+  const std::size_t cells = octave.cells.cells(), count = std::min(kBlock, cells - first_cell);
+  std::vector<float> densities(static_cast<std::size_t>(pattern_rows) * kBlock);
+  for (std::size_t a = 0; a < count; ++a) {
+    const double from = octave.cells.edge[first_cell + a], to = octave.cells.edge[first_cell + a + 1];
+    source.pattern.sample(angle_of(0.5 * (from + to)), (to - from) * kPi,
+                          octave.first_px * row_ratio(-lead) * source.rho_per_px, pattern_rows, densities.data() + a,
+                          kBlock);
+  }
+  const auto density = static_cast<float>(source.rho_per_px * source.rho_per_px);  // per rho^2 -> per square pixel
+  DirectionSums sum;
+  for (int row = 0; row < rows; ++row) {
+    sum_bands(shifts.weight, densities.data() + static_cast<std::size_t>(row + shifts.last() - shifts.first) * kBlock,
+              sum);
+    float* const to = octave.rgb0.data() + (static_cast<std::size_t>(row) * cells + first_cell) * 4;
+    for (std::size_t a = 0; a < count; ++a)
+      for (std::size_t c = 0; c < 3; ++c) to[a * 4 + c] = density * sum[c][a];
+  }
+}
+
+// Is the pattern in a direction sharper than pixels: a narrow window brighter than a wide one about it, or one side
+// darker than the other?
+bool is_sharp(const StarburstPattern& pattern, double turns, double radius_px, double rho_per_px) {
+  const auto mean = [&](double offset_px, double width_px) {
+    float value = 0.0F;
+    pattern.sample(angle_of(turns) + offset_px / radius_px, width_px / radius_px, radius_px * rho_per_px, 1, &value, 1);
+    return static_cast<double>(value);
+  };
+  const double wide = mean(0.0, kCoarse_px), low = mean(-0.25 * kCoarse_px, 0.5 * kCoarse_px);
+  return mean(0.0, kFinest_px) > kSharp * wide || std::max(low, 2.0 * wide - low) > kSharp * wide;
+}
+
+OctaveCells laid_out(double first_px, std::span<const double> sharp, const RingSource& source) {
+  const double outer_px = 2.0 * first_px;
+  const double finest_px = outer_px <= kInner_px ? kInnerBin_px : outer_px <= kNearEnd_px ? kNearBin_px : kBin_px;
+  const double wanted = kPi * outer_px * std::min(1.0 / finest_px, source.rho_per_px / kBin_rho);
+  const auto bins = static_cast<std::size_t>(std::ceil(std::min(wanted, kMostBins) / kBlock)) * kBlock;
+  OctaveCells octave{first_px, {}, {}};
+  const std::size_t enough = std::max(kFewestBins, bins);
+  const double bins_per_px = static_cast<double>(enough) / (kPi * outer_px);
+  std::vector<double> cut;
+  if (outer_px > kInner_px && source.rho_per_px > kSharpBin_rho * bins_per_px)
+    for (const double turns : sharp)
+      if (is_sharp(source.pattern, turns, first_px * std::numbers::sqrt2, source.rho_per_px)) cut.push_back(turns);
+  octave.cells = cut_into_cells(enough, cut, bins_per_px);
+  octave.rgb0.resize(kRowsGiven * octave.cells.cells() * 4);
+  return octave;
+}
+
+CellOctave near_octave(const OctaveCells& from) {
+  const std::size_t row_size = from.cells.cells() * 4;
+  return {from.cells.edge,
+          {from.rgb0.data() + kRowMargin * row_size, from.rgb0.data() + (kRowMargin + kRowsPerOctave + 1) * row_size}};
+}
+
+StarburstOctave far_octave(const OctaveCells& from, const Context& context) {
+  StarburstOctave octave;
+  octave.bins = from.cells.bins;
+  const std::vector<float> means = means_over_bins(from.cells, from.rgb0, kRowsGiven);
+  octave.rgb0.resize((kRowsPerOctave + 1) * (octave.bins + 1) * 4);
+  parallel_for(static_cast<std::size_t>(kRowsPerOctave + 1), context, [&](std::size_t row) {
+    average_over_pixels(means, octave.bins, from.first_px, row, octave.rgb0.data() + row * (octave.bins + 1) * 4);
+  });
+  const std::span<const float> rows(from.rgb0);
+  add_sharp_zones(from.cells, rows.subspan(kRowMargin * from.cells.cells() * 4), kRowsPerOctave + 1, octave);
+  return octave;
+}
+
+// So many octaves that the innermost is flat, and the last ends where the starburst does.
+std::vector<OctaveCells> octaves_to(double radius_px, const RingSource& source) {
+  std::vector<double> sharp;
+  for (const double angle : source.pattern.sharp_directions()) {
+    const double turns = angle / kPi + 0.5;
+    sharp.push_back(turns - std::floor(turns));
+  }
+  const double flat_px = std::min({0.5, kFlatRho / source.rho_per_px, 0.5 * radius_px});
+  const auto count = static_cast<int>(std::max(1.0, std::ceil(std::log2(radius_px / flat_px))));
+  std::vector<OctaveCells> octaves;
+  for (int o = 0; o < count; ++o) octaves.push_back(laid_out(radius_px * std::exp2(o - count), sharp, source));
+  return octaves;
+}
+
+std::shared_ptr<StarburstRings> rings_of(std::span<const OctaveCells> octaves, double radius_px,
+                                         const Context& context) {
+  auto rings = std::make_shared<StarburstRings>();
+  rings->radius_px = radius_px;
+  rings->first_px = octaves.front().first_px;
+  for (const OctaveCells& octave : octaves) {
+    if (octave.first_px < kNear_px + 1.0) rings->near_cells.push_back(near_octave(octave));
+    // Rounding may look for a place at kNear_px an octave too far in.
+    rings->octaves.push_back(2.0 * octave.first_px > 0.99 * kNear_px ? far_octave(octave, context) : StarburstOctave());
+  }
+  rings->near = std::make_shared<const NearField>(rings->near_cells, rings->first_px, [](double) { return 1.0; });
+  return rings;
+}
+
+}  // namespace
+
+std::shared_ptr<const StarburstRings> build_rings(const StarburstPattern& pattern, const BandShifts& shifts,
+                                                  double rho_per_px, double radius_px, const Context& context) {
+  const RingSource source{pattern, shifts, rho_per_px};
+  std::vector<OctaveCells> octaves = octaves_to(radius_px, source);
+  struct Block {
+    std::size_t octave, first_cell;
+  };
+  std::vector<Block> blocks;
+  for (std::size_t o = 0; o < octaves.size(); ++o)
+    for (std::size_t cell = 0; cell < octaves[o].cells.cells(); cell += kBlock) blocks.push_back({o, cell});
+  const bool finished = parallel_for(
+      blocks.size(), context, [&](std::size_t b) { fill(octaves[blocks[b].octave], blocks[b].first_cell, source); });
+  Context quiet = context;
+  quiet.progress = {};
+  return finished ? rings_of(octaves, radius_px, quiet) : nullptr;
+}
+
+}  // namespace contrejour
