@@ -193,14 +193,16 @@ TEST_CASE("a spot at any level comes back at its place, with its flux and the sh
   Light light;
   light.radius_rad = 0.01;
   const LightPiece piece = pieces_of(light).front();
-  for (int level = 0; level < 5; ++level) {
+  for (int k = 0; k < 10; ++k) {
+    const int level = k / 2;
+    const Halving how = k % 2 == 0 ? Halving::Interpolating : Halving::Smooth;
     CAPTURE(level);
     const double radius_px = 5.0 * std::exp2(level) + 2.0;
     const double turn = 0.4;
     const LinearMap map = LinearMap{{std::cos(turn), std::sin(turn)}, {-0.7 * std::sin(turn), 0.7 * std::cos(turn)}} *
                           (radius_px / std::tan(light.radius_rad));
     const LinearMap at_level = map * std::exp2(-level);
-    Layers layers(frame);
+    Layers layers(frame, how);
     const LayerFrame at = layers.frame_for(level, reach_of(piece, at_level));
     // The pixel of this level that holds a point of the sensor, filled: the frame says where that is.
     const Vec2 place = frame.sensor_from_pixel({300.0, 250.0});
@@ -209,8 +211,10 @@ TEST_CASE("a spot at any level comes back at its place, with its flux and the sh
     const int x = static_cast<int>(px.x), y = static_cast<int>(px.y);
     for (int c = 0; c < 3; ++c) spot.at(x, y, c) = 1.0F + static_cast<float>(c);
     const Vec2 expected = frame.pixel_from_sensor(at.frame.sensor_from_pixel({x + 0.5, y + 0.5}));
-    layers.add({spot}, at, make_kernel(piece, at_level, at.moved), 0.0, {});
+    const double spread = how == Halving::Smooth ? smooth_variance(level) : 0.0;
+    layers.add({spot}, at, make_kernel(piece, at_level, at.moved, spread), 0.0, {});
     const Image flat = std::move(layers).flattened({});
+    CHECK(std::ranges::all_of(flat.pixels, [](float v) { return v >= 0.0F; }));
     for (int c = 0; c < 3; ++c) {
       const Moments m = moments_of(flat, c);
       CHECK(m.flux == doctest::Approx(1.0 + c).epsilon(1e-5));

@@ -52,7 +52,7 @@ TEST_CASE("halves across a row keep the light of polynomials of degree 4") {
     for (std::size_t pixels = 5; pixels < 40; ++pixels) {
       std::vector<float> row(3 * pixels), fine(6 * pixels, std::numeric_limits<float>::quiet_NaN());
       for (std::size_t k = 0; k < row.size(); ++k) row[k] = static_cast<float>(light_of_pixel(k / 3, pixels, k % 3));
-      halve_across(row.data(), row.size(), fine.data());
+      halve_across(Halving::Interpolating, row.data(), row.size(), fine.data());
       double worst = 0.0;
       for (std::size_t k = 2 * kBorder; k < fine.size() - 2 * kBorder; ++k)
         worst = std::max(worst, std::abs(fine[k] - light_of_pixel(k / 3, 2 * pixels, k % 3)));
@@ -72,13 +72,46 @@ TEST_CASE("halves down rows keep the light of polynomials of degree 4") {
         around[y] = rows[y].data();
       }
       std::vector<float> upper(count), lower(count);
-      halve_down(around, count, upper.data(), lower.data());
+      halve_down(Halving::Interpolating, around, count, upper.data(), lower.data());
       double worst = 0.0;
       for (std::size_t k = 0; k < count; ++k) {
         worst = std::max(worst, std::abs(upper[k] - light_of_pixel(2 * kHalvesStencil, 2 * rows.size(), k % 3)));
         worst = std::max(worst, std::abs(lower[k] - light_of_pixel(2 * kHalvesStencil + 1, 2 * rows.size(), k % 3)));
       }
       CHECK(worst < 1e-6);
+    }
+  });
+}
+
+// Pixels that differ by up to eight decades from one to the next.
+std::vector<float> spiky_row(std::size_t pixels) {
+  std::vector<float> row(3 * pixels);
+  for (std::size_t k = 0; k < row.size(); ++k)
+    row[k] = std::pow(10.0F, -4.0F + 4.0F * std::sin(12.9898F * static_cast<float>(k * k)));
+  return row;
+}
+
+TEST_CASE("halves of what is not negative are not, however much pixels differ, and keep their light") {
+  on_every_target([] {
+    constexpr std::size_t kPixels = 61;
+    const std::vector<float> row = spiky_row(kPixels);
+    for (const Halving how : {Halving::Interpolating, Halving::Smooth}) {
+      std::vector<float> fine(6 * kPixels, std::numeric_limits<float>::quiet_NaN());
+      halve_across(how, row.data(), row.size(), fine.data());
+      double coarse_sum = 0.0, fine_sum = 0.0;
+      for (std::size_t k = 2 * kBorder; k < fine.size() - 2 * kBorder; ++k) {
+        CHECK(fine[k] >= 0.0F);
+        fine_sum += fine[k];
+      }
+      for (std::size_t k = kBorder; k < row.size() - kBorder; ++k) coarse_sum += row[k];
+      // A smooth half of the last pixel goes to the one beyond, and comes from there.
+      for (const std::size_t at : {kBorder, row.size() - kBorder})
+        for (std::size_t c = 0; c < 3 && how == Halving::Smooth; ++c) {
+          const bool first = at == kBorder;
+          const double in = row[first ? at - 3 + c : at + c], out = row[first ? at + c : at - 3 + c];
+          coarse_sum += 0.125 * (in - out);
+        }
+      CHECK(fine_sum == doctest::Approx(coarse_sum).epsilon(1e-6));
     }
   });
 }

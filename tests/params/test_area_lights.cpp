@@ -104,6 +104,50 @@ TEST_CASE("a disc of pixels that leaves the picture fades as its visible area do
   CHECK(total(last.flare) == 0.0);
 }
 
+// A window of coloured panes, a thin lamp and a spark, 8 decades brighter than the wall.
+Picture picture_of_window() {
+  Image rgb(kWidth, kHeight);
+  for (int y = 0; y < kHeight; ++y) {
+    for (int x = 0; x < kWidth; ++x) {
+      const bool pane = y >= 10 && y < 34 && x >= 20 && x < 56 && x % 12 > 1 && y % 12 > 1;
+      const bool lamp = y == 50 && x >= 10 && x < 70, spark = x == 80 && y == 20;
+      const float level = spark ? 1e4F : lamp ? 50.0F : pane ? 100.0F + 5.0F * static_cast<float>(x % 7) : 1e-4F;
+      rgb.at(x, y, 0) = level;
+      rgb.at(x, y, 1) = (pane && x < 32 ? 0.1F : 0.7F) * level;
+      rgb.at(x, y, 2) = (pane && x > 44 ? 0.9F : 0.3F) * level;
+    }
+  }
+  return picture_of(rgb);
+}
+
+// Colours beyond the gamut are negative in a channel: a lens of daylight's films sends few, and pale ones.
+TEST_CASE("a photograph's flare lowers no channel by more than a tenth of what it adds to another") {
+  const Picture picture = picture_of_window();
+  for (const char* name : {"heliar", "schneider-anamorphic-31", "distagon-25"}) {
+    CAPTURE(name);
+    const auto lens = lens_at(find_lens(name).value(), {.f_number = 8.0, .iris = {6}});
+    REQUIRE(lens.has_value());
+    for (const char* most : {"16", "1"}) {
+      const Values values = values_of({{"threshold", "2"},
+                                       {"max-lights", most},
+                                       {"starburst", "on"},
+                                       {"glare", "0.05"},
+                                       {"gain", "100"},
+                                       {"ghosts", "all"},
+                                       {"select", "brightest:12"}});
+      const Image flare = applied(picture, *lens, values).flare;
+      double worst = 0.0, brightest = 0.0;
+      for (std::size_t k = 0; k < flare.pixels.size(); k += 3) {
+        const auto [low, high] = std::minmax({flare.pixels[k], flare.pixels[k + 1], flare.pixels[k + 2]});
+        brightest = std::max<double>(brightest, high);
+        if (low < 0.0F) worst = std::max(worst, low < -high ? 1.0 : -static_cast<double>(low) / high);
+      }
+      CHECK(brightest > 0.0);
+      CHECK(worst < 0.1);
+    }
+  }
+}
+
 TEST_CASE("two lights merged for the ghosts keep their starbursts at their places") {
   const LensState lens = planar();
   Image rgb(kWidth, kHeight);

@@ -19,21 +19,36 @@ struct Halves {
   hn::Vec<D> first, second;
 };
 
-// What goes to the two halves of some values, from the values before and after them. By how much more than half of it
-// the first has: 22 / 256 and 3 / 256 of the differences.
-template <class D>
-HWY_INLINE Halves<D> halves_of(D d, const RowsAround& at, std::size_t k) {
-  const auto value = [&](std::size_t row) HWY_ATTR { return hn::LoadU(d, at[row] + k); };
-  const auto half = hn::Mul(hn::Set(d, 0.5F), value(2));
-  const auto near = hn::Mul(hn::Set(d, 22.0F / 256.0F), hn::Sub(value(1), value(3)));
-  const auto more = hn::NegMulAdd(hn::Set(d, 3.0F / 256.0F), hn::Sub(value(0), value(4)), near);
-  return {hn::Add(half, more), hn::Sub(half, more)};
-}
+// What goes to the two halves of some values, from the values before and after them.
+struct Interpolating {
+  // By how much more than half of it the first has: 22 / 256 and 3 / 256 of the differences.
+  template <class D>
+  HWY_INLINE Halves<D> operator()(D d, const RowsAround& at, std::size_t k) const {
+    const auto value = [&](std::size_t row) HWY_ATTR { return hn::LoadU(d, at[row] + k); };
+    const auto half = hn::Mul(hn::Set(d, 0.5F), value(2));
+    const auto near = hn::Mul(hn::Set(d, 22.0F / 256.0F), hn::Sub(value(1), value(3)));
+    const auto more = hn::NegMulAdd(hn::Set(d, 3.0F / 256.0F), hn::Sub(value(0), value(4)), near);
+    const auto least = hn::Min(hn::Min(value(0), value(1)), hn::Min(hn::Min(value(3), value(4)), half));
+    const auto limited = hn::Min(hn::Max(more, hn::Neg(half)), half);
+    const auto kept = hn::IfThenElse(hn::Ge(least, hn::Zero(d)), limited, more);
+    return {hn::Add(half, kept), hn::Sub(half, kept)};
+  }
+};
+struct Smooth {
+  template <class D>
+  HWY_INLINE Halves<D> operator()(D d, const RowsAround& at, std::size_t k) const {
+    const auto eighth = hn::Set(d, 0.125F);
+    const auto own = hn::Mul(hn::Set(d, 0.375F), hn::LoadU(d, at[2] + k));
+    return {hn::MulAdd(eighth, hn::LoadU(d, at[1] + k), own), hn::MulAdd(eighth, hn::LoadU(d, at[3] + k), own)};
+  }
+};
 
 using Tag = hn::CappedTag<float, 16>;
 using One = hn::CappedTag<float, 1>;
 
-void halve_down(const RowsAround& rows, std::size_t count, float* upper, float* lower) {
+template <class HalvesOf>
+HWY_INLINE void halve_down_by(const HalvesOf& halves_of, const RowsAround& rows, std::size_t count, float* upper,
+                              float* lower) {
   const auto halve = [&](auto d, std::size_t k) HWY_ATTR {
     const auto halves = halves_of(d, rows, k);
     hn::StoreU(halves.first, d, upper + k);
@@ -77,7 +92,8 @@ HWY_INLINE void store_side_by_side(D d, const Halves<D>& halves, float* to) {
   }
 }
 
-void halve_across(const float* row, std::size_t count, float* fine) {
+template <class HalvesOf>
+HWY_INLINE void halve_across_by(const HalvesOf& halves_of, const float* row, std::size_t count, float* fine) {
   constexpr std::size_t kLanes = hn::MaxLanes(Tag()), kPixels = kLanes / 3, kBorder = 3 * kHalvesStencil;
   const RowsAround around{row - 6, row - 3, row, row + 3, row + 6};
   std::size_t k = kBorder;
@@ -93,6 +109,16 @@ void halve_across(const float* row, std::size_t count, float* fine) {
   }
 }
 
+void halve_down(Halving how, const RowsAround& rows, std::size_t count, float* upper, float* lower) {
+  if (how == Halving::Smooth) return halve_down_by(Smooth(), rows, count, upper, lower);
+  halve_down_by(Interpolating(), rows, count, upper, lower);
+}
+
+void halve_across(Halving how, const float* row, std::size_t count, float* fine) {
+  if (how == Halving::Smooth) return halve_across_by(Smooth(), row, count, fine);
+  halve_across_by(Interpolating(), row, count, fine);
+}
+
 }  // namespace contrejour::area::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
@@ -102,12 +128,12 @@ namespace contrejour::area {
 HWY_EXPORT(halve_down);
 HWY_EXPORT(halve_across);
 
-void halve_down(const RowsAround& rows, std::size_t count, float* upper, float* lower) {
-  HWY_DYNAMIC_DISPATCH(halve_down)(rows, count, upper, lower);
+void halve_down(Halving how, const RowsAround& rows, std::size_t count, float* upper, float* lower) {
+  HWY_DYNAMIC_DISPATCH(halve_down)(how, rows, count, upper, lower);
 }
 
-void halve_across(const float* row, std::size_t count, float* fine) {
-  HWY_DYNAMIC_DISPATCH(halve_across)(row, count, fine);
+void halve_across(Halving how, const float* row, std::size_t count, float* fine) {
+  HWY_DYNAMIC_DISPATCH(halve_across)(how, row, count, fine);
 }
 
 }  // namespace contrejour::area

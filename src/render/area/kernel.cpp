@@ -11,13 +11,13 @@ constexpr double kFinest = 0.4;  // pixels between the points that a square is l
 constexpr int kMostPoints = 64;  // of them along a side
 constexpr double kTentVariance = 1.0 / 6.0;  // of a point laid on its four nearest pixels, in squares of a pixel
 
-// Narrower by the variance that the tents add. The level's pixels add none: what drawing in squares spreads, going down
-// to finer pixels, which takes squares' means for what they are, puts back.
-LinearMap narrowed(const LightPiece& piece, const LinearMap& map) {
+// Narrower by the variance that the tents and what follows add. The level's pixels add none: what drawing in squares
+// spreads, going down to finer pixels, which takes squares' means for what they are, puts back.
+LinearMap narrowed(const LightPiece& piece, const LinearMap& map, double added) {
   const LinearMap wanted = mapped_covariance(map, piece.covariance);
   const LinearMap root = square_root(wanted);
   if (!(root.determinant() > 1e-12)) return map;
-  LinearMap less = wanted - LinearMap{} * kTentVariance;
+  LinearMap less = wanted - LinearMap{} * added;
   const Vec2 e = eigenvalues(less);
   // Of what is no wider than the pixels nothing is left across.
   if (e.x < 0.0) {
@@ -48,11 +48,11 @@ KernelReach reach_of(const LightPiece& piece, const LinearMap& map) {
   return {whole(-low.x), whole(high.x), whole(-low.y), whole(high.y)};
 }
 
-Kernel make_kernel(const LightPiece& piece, const LinearMap& px_from_tangents, Vec2 moved) {
+Kernel make_kernel(const LightPiece& piece, const LinearMap& px_from_tangents, Vec2 moved, double spread) {
   Kernel kernel;
   kernel.reach = reach_of(piece, px_from_tangents);
   kernel.weight.resize(static_cast<std::size_t>(kernel.width()) * static_cast<std::size_t>(kernel.height()));
-  const LinearMap map = narrowed(piece, px_from_tangents);
+  const LinearMap map = narrowed(piece, px_from_tangents, kTentVariance + spread);
   const Vec2 right = map(piece.right), down = map(piece.down);
   const int columns = points_along(right), rows = points_along(down);
   const double share = 1.0 / (static_cast<double>(columns) * rows);

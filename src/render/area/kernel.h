@@ -21,8 +21,10 @@ struct Kernel {
 
 // The map from tangents to pixels of the level that it is for. The shape is laid on pixels as points, each on its four
 // nearest, and drawn so much narrower that its second moments are right. moved: pixels that the picture to be convolved
-// was drawn right and down of its place.
-[[nodiscard]] Kernel make_kernel(const LightPiece& piece, const LinearMap& px_from_tangents, Vec2 moved);
+// was drawn right and down of its place. spread: a variance that what is done afterwards adds, in squares of a pixel,
+// as smooth halves do; the shape is narrower by it, too.
+[[nodiscard]] Kernel make_kernel(const LightPiece& piece, const LinearMap& px_from_tangents, Vec2 moved,
+                                 double spread = 0.0);
 
 // Its size before it is made: no pixel lies farther out.
 [[nodiscard]] KernelReach reach_of(const LightPiece& piece, const LinearMap& px_from_tangents);

@@ -39,30 +39,32 @@ Axis coarser_axis(int full, int origin, double scale, int first) {
 // The two fine rows that a coarse row covers, of a coarse picture that has kStencil pixels more on every side.
 class RowHalver {
  public:
-  explicit RowHalver(const Image& coarse)
-      : coarse_(coarse), count_(coarse.row(0).size()), upper_(count_), lower_(count_), fine_(2 * count_) {}
+  RowHalver(const Image& coarse, Halving halving)
+      : coarse_(coarse), halving_(halving), count_(coarse.row(0).size()), upper_(count_), lower_(count_),
+        fine_(2 * count_) {}
 
   void take(int y) {
     const auto row = [&](int by) { return coarse_.row(y + by).data(); };
-    halve_down({row(-2), row(-1), row(0), row(1), row(2)}, count_, upper_.data(), lower_.data());
+    halve_down(halving_, {row(-2), row(-1), row(0), row(1), row(2)}, count_, upper_.data(), lower_.data());
   }
 
   // The upper or the lower one, of twice as many pixels as the coarse row's; the outermost 2 kStencil on either side
   // mean nothing.
   [[nodiscard]] const float* fine(bool lower) {
-    halve_across(lower ? lower_.data() : upper_.data(), count_, fine_.data());
+    halve_across(halving_, lower ? lower_.data() : upper_.data(), count_, fine_.data());
     return fine_.data();
   }
 
  private:
   const Image& coarse_;
+  Halving halving_;
   std::size_t count_;
   std::vector<float> upper_, lower_, fine_;
 };
 
 }  // namespace
 
-Layers::Layers(const Frame& frame) : frame_(frame), layers_(kLevels) {
+Layers::Layers(const Frame& frame, Halving halving) : frame_(frame), halving_(halving), layers_(kLevels) {
   layers_[0] = {0, 0, frame.width, frame.height, {}};
   for (std::size_t k = 1; k < layers_.size(); ++k) {
     const Layer& fine = layers_[k - 1];
@@ -130,11 +132,12 @@ void Layers::descend_to(int level, const Context& context) {
   }
 }
 
-void Layers::add_halves(const Layer& coarse, const Layer& place, Image& fine, bool is_written, const Context& context) {
+void Layers::add_halves(const Layer& coarse, const Layer& place, Image& fine, bool is_written,
+                        const Context& context) const {
   const int top = floor_half(place.top), rows = floor_half(place.top + place.height - 1) + 1 - top;
   const auto strips = static_cast<std::size_t>((rows + kRowsAtOnce - 1) / kRowsAtOnce);
   parallel_for(strips, context, [&](std::size_t strip) {
-    RowHalver halver(coarse.sum);
+    RowHalver halver(coarse.sum, halving_);
     const PixelWriter writer(fine);
     const int begin = top + static_cast<int>(strip) * kRowsAtOnce, end = std::min(begin + kRowsAtOnce, top + rows);
     for (int y = begin; y < end; ++y) {

@@ -1,6 +1,6 @@
 // Pictures of one frame at several resolutions, added up: pixels of level k are 2^k of the frame's along each side.
 // A picture drawn at a level holds flux per pixel of that level, is convolved with a kernel there, and goes down to the
-// frame's pixels by halves, each of which keeps the flux of every pixel and is exact for polynomials of degree 4.
+// frame's pixels by halves (halves.h), which keep its flux.
 // Thread-safety: one at a time; results do not depend on the threads.
 #pragma once
 
@@ -10,6 +10,7 @@
 #include "contrejour/frame.h"
 #include "contrejour/image.h"
 #include "render/area/convolve.h"
+#include "render/area/halves.h"
 #include "render/area/kernel.h"
 
 namespace contrejour::area {
@@ -28,7 +29,7 @@ struct LayerFrame {
 
 class Layers {
  public:
-  explicit Layers(const Frame& frame);
+  explicit Layers(const Frame& frame, Halving halving = Halving::Interpolating);
 
   // reach: of the kernel, in pixels of the level.
   [[nodiscard]] LayerFrame frame_for(int level, KernelReach reach) const;
@@ -49,9 +50,10 @@ class Layers {
     Image sum;  // without pixels while nothing was added
   };
 
-  static void add_halves(const Layer& coarse, const Layer& place, Image& fine, bool is_written, const Context& context);
+  void add_halves(const Layer& coarse, const Layer& place, Image& fine, bool is_written, const Context& context) const;
 
   Frame frame_;
+  Halving halving_;
   std::vector<Layer> layers_;
 };
 

@@ -27,14 +27,14 @@ double flux_in_pixel(double x, double y, double r0_px) {
 
 }  // namespace
 
-void add_glare(Image& image, std::span<const ImagedLight> lights, double share, double r0_px, const Context& context) {
+void add_glare(Image& image, std::span<const ImagedLight> lights, double r0_px, const Context& context) {
   const auto width = static_cast<std::size_t>(image.width);
   parallel_for(static_cast<std::size_t>(image.height), context, [&](std::size_t row) {
     std::vector<std::array<double, 3>> sum(width);
     for (const ImagedLight& light : lights) {
       const double y = static_cast<double>(row) + 0.5 - light.centre_px.y;
       for (std::size_t x = 0; x < width; ++x) {
-        const double flux = share * flux_in_pixel(static_cast<double>(x) + 0.5 - light.centre_px.x, y, r0_px);
+        const double flux = flux_in_pixel(static_cast<double>(x) + 0.5 - light.centre_px.x, y, r0_px);
         for (std::size_t c = 0; c < 3; ++c) sum[x][c] += flux * light.flux[c];
       }
     }

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/tasks.h"
+#include "render/starburst/lens_pattern.h"
 
 namespace contrejour {
 namespace {
@@ -34,20 +35,26 @@ std::vector<SpectralBand> transmitted(std::span<const SpectralBand> bands, const
 
 }  // namespace
 
-Result<Starburst> lens_starburst(const LensState& lens, const LightSource& light, std::span<const SpectralBand> bands,
-                                 const LensStarburstSettings& settings, const Context& context) {
-  const StarburstSettings made{1.0, 1.0, settings.pixel_pitch_mm, settings.radius_px};
+Result<StarburstSource> lens_pattern(const LensState& lens, const LightSource& light,
+                                     std::span<const SpectralBand> bands, const LensStarburstSettings& settings,
+                                     const Context& context) {
+  StarburstSettings made{1.0, 1.0, settings.pixel_pitch_mm, settings.radius_px};
   const auto pupil = exit_pupil(lens, light, lens.design_wavelength_nm, made.samples_across, context);
   if (!pupil) return tl::unexpected(pupil.error());
-  if (!(pupil->radius > 0.0) || !(pupil->open_share > 0.0)) return Starburst();
+  if (!(pupil->radius > 0.0) || !(pupil->open_share > 0.0)) return StarburstSource();
   Context quiet = context;
   quiet.progress = {};
   const LightSource along(normalized(light.direction), light.distance_mm);
   const auto weighted = transmitted(bands, transmissions(lens, along, pupil->rays_mm, bands, quiet), pupil->open_share);
-  StarburstSettings scaled = made;
-  scaled.pupil_radius_mm = pupil->radius;
-  const PupilOutline* const outline = pupil->outline ? &*pupil->outline : nullptr;
-  return make_starburst(pupil->mask, outline, weighted, scaled, context);
+  made.pupil_radius_mm = pupil->radius;
+  return StarburstSource::make(pupil->mask, pupil->outline ? &*pupil->outline : nullptr, weighted, made, quiet);
+}
+
+Result<Starburst> lens_starburst(const LensState& lens, const LightSource& light, std::span<const SpectralBand> bands,
+                                 const LensStarburstSettings& settings, const Context& context) {
+  const auto source = lens_pattern(lens, light, bands, settings, context);
+  if (!source) return tl::unexpected(source.error());
+  return source->at(settings.pixel_pitch_mm, settings.radius_px, context);
 }
 
 }  // namespace contrejour

@@ -12,8 +12,9 @@
 #include "contrejour/lens_starburst.h"
 #include "render/interface/direct_light.h"
 #include "render/interface/statistics.h"
-#include "render/starburst/area_starburst.h"
+#include "render/starburst/area_spread.h"
 #include "render/starburst/glare.h"
+#include "render/starburst/lens_pattern.h"
 #include "render/starburst/light_groups.h"
 
 namespace contrejour {
@@ -23,6 +24,7 @@ constexpr int kBands = 120;  // 3.3 nm; hullin2011 3.3 finds 5 nm fine enough
 constexpr std::size_t kWorthLayingOut = 3;  // lights
 constexpr double kMostLaidOut = 8388608.0;  // pixels of a frame: 200 MB
 constexpr double kFarthest_diagonals = 4.0;  // lights farther from the frame's middle draw no starburst
+constexpr int kSamplesForDirt = 128;  // across a pupil of which only what dirt lets through is asked
 
 Error invalid(std::string message) { return {ErrorCode::InvalidArgument, std::move(message), {}}; }
 
@@ -97,8 +99,7 @@ Result<Starburst> starburst_of(const LightGroup& group, const LensState& lens, s
 }
 
 // Many lights are worth laying the starburst out once.
-Result<void> draw_group(Image& image, const LightGroup& group, const Starburst& starburst, double gain,
-                        const Context& context) {
+Result<void> draw_group(Image& image, const LightGroup& group, const Starburst& starburst, const Context& context) {
   StarburstSheet sheet;
   const bool lays_out =
       group.size() >= kWorthLayingOut && static_cast<double>(image.width) * image.height <= kMostLaidOut;
@@ -108,11 +109,10 @@ Result<void> draw_group(Image& image, const LightGroup& group, const Starburst& 
     sheet = *laid;
   }
   for (const ImagedLight& light : group) {
-    const Rgb flux{gain * light.flux[0], gain * light.flux[1], gain * light.flux[2]};
     if (lays_out)
-      add_starburst(image, sheet, light.centre_px, flux, context);
+      add_starburst(image, sheet, light.centre_px, light.flux, context);
     else
-      add_starburst(image, starburst, light.centre_px, flux, context);
+      add_starburst(image, starburst, light.centre_px, light.flux, context);
     if (context.cancelled()) return interrupted();
   }
   return {};
@@ -125,21 +125,90 @@ Result<void> draw_groups(Image& image, const std::vector<LightGroup>& groups, co
   for (std::size_t g = 0; g < groups.size(); ++g) {
     const auto starburst = starburst_of(groups[g], lens, lights, settings, quiet);
     if (!starburst) return tl::unexpected(starburst.error());
-    const auto drawn = draw_group(image, groups[g], *starburst, settings.starburst.gain, quiet);
+    const auto drawn = draw_group(image, groups[g], *starburst, quiet);
     if (!drawn) return drawn;
     if (context.progress) context.progress(static_cast<double>(g + 1) / static_cast<double>(groups.size()));
   }
   return {};
 }
 
-Result<void> draw_areas(Image& image, const std::vector<ImagedLight>& areas, const LensState& lens,
-                        std::span<const Light> lights, const RenderSettings& settings, const Context& context) {
-  if (areas.empty()) return {};
-  const auto make = [&](std::size_t light, double pixel_pitch_mm, double radius_px) {
-    return lens_starburst(lens, lights[light].source(), bands_of(lights[light], settings), {pixel_pitch_mm, radius_px},
-                          context);
+// Lights that are points, and lights that have a size.
+struct SortedLights {
+  std::vector<ImagedLight> points, areas;
+};
+
+SortedLights sorted_by_size(const std::vector<ImagedLight>& imaged, std::span<const Light> lights) {
+  SortedLights sorted;
+  for (const ImagedLight& light : imaged)
+    (lights[light.light].is_point() ? sorted.points : sorted.areas).push_back(light);
+  return sorted;
+}
+
+void multiply_flux(std::vector<ImagedLight>& lights, double factor) {
+  for (ImagedLight& light : lights)
+    for (double& value : light.flux) value *= factor;
+}
+
+// What glare scatters is missing from the light's own image, so that both together sum to its value.
+Result<void> draw_starbursts(Image& image, SortedLights imaged, const LensState& lens, std::span<const Light> lights,
+                             const RenderSettings& settings, const Context& context) {
+  const double gain = settings.starburst.gain * (1.0 - settings.glare.share);
+  multiply_flux(imaged.points, gain);
+  multiply_flux(imaged.areas, gain);
+  const auto groups = group_lights(lights, imaged.points, settings.frame);
+  if (auto drawn = draw_groups(image, groups, lens, lights, settings, context); !drawn) return drawn;
+  Context quiet = context;
+  quiet.progress = {};
+  // A light is asked for again and again, in pixels of several pitches.
+  std::optional<std::size_t> known;
+  StarburstSource source;
+  const auto add_point = [&](Image& part, std::size_t light, const PointSpread& spread, Vec2 centre_px,
+                             const Rgb& flux) -> Result<void> {
+    if (known != light) {
+      auto made = lens_pattern(lens, lights[light].source(), bands_of(lights[light], settings),
+                               {spread.pixel_pitch_mm, spread.radius_px}, quiet);
+      if (!made) return tl::unexpected(made.error());
+      source = *std::move(made);
+      known = light;
+    }
+    const auto starburst = source.at(spread.pixel_pitch_mm, spread.radius_px, quiet);
+    if (!starburst) return tl::unexpected(starburst.error());
+    add_starburst(part, *starburst, centre_px, flux, quiet);
+    return {};
   };
-  return add_area_starbursts(image, areas, lens, lights, settings, make, context);
+  return add_area_spread(image, imaged.areas, lens, lights, settings.frame, add_point, quiet);
+}
+
+// Light that dirt blocks is scattered no more.
+Result<void> take_dirt_off(std::vector<ImagedLight>& imaged, const LensState& lens, std::span<const Light> lights,
+                           const Frame& frame, const Context& context) {
+  std::vector<ImagedLight> left;
+  for (LightGroup& group : group_lights(lights, imaged, frame)) {
+    const auto pupil =
+        exit_pupil(lens, lights[group.front().light].source(), lens.design_wavelength_nm, kSamplesForDirt, context);
+    if (!pupil) return tl::unexpected(pupil.error());
+    multiply_flux(group, pupil->open_share);
+    left.insert(left.end(), group.begin(), group.end());
+  }
+  imaged = std::move(left);
+  return {};
+}
+
+Result<void> draw_glare(Image& image, std::vector<ImagedLight> imaged, const LensState& lens,
+                        std::span<const Light> lights, const RenderSettings& settings, const Context& context) {
+  if (lens.dirt.any())
+    if (auto ok = take_dirt_off(imaged, lens, lights, settings.frame, context); !ok) return ok;
+  multiply_flux(imaged, settings.glare.share);
+  const double r0_mm = std::abs(lens.focal_length_mm) * std::tan(settings.glare.width_rad);
+  const SortedLights sorted = sorted_by_size(imaged, lights);
+  add_glare(image, sorted.points, r0_mm / settings.frame.pixel_pitch_mm, context);
+  const auto add_point = [&](Image& part, std::size_t light, const PointSpread& spread, Vec2 centre_px,
+                             const Rgb& flux) -> Result<void> {
+    const ImagedLight point{light, centre_px, flux};
+    add_glare(part, {&point, 1}, r0_mm / spread.pixel_pitch_mm, context);
+    return {};
+  };
+  return add_area_spread(image, sorted.areas, lens, lights, settings.frame, add_point, context);
 }
 
 void add_except(Image& image, const Image& layer, const Image& left_out, const Context& context) {
@@ -184,17 +253,13 @@ Result<void> draw_light_images(Image& image, RenderStatistics& statistics, const
   quiet.progress = {};
   const auto imaged = image_lights(lens, lights, settings, quiet);
   if (settings.starburst.on && !context.cancelled()) {
-    std::vector<ImagedLight> points, areas;
-    for (const ImagedLight& light : imaged) (lights[light.light].is_point() ? points : areas).push_back(light);
-    const auto groups = group_lights(lights, points, settings.frame);
-    if (auto drawn = draw_groups(image, groups, lens, lights, settings, context); !drawn) return drawn;
-    if (auto drawn = draw_areas(image, areas, lens, lights, settings, quiet); !drawn) return drawn;
+    auto drawn = draw_starbursts(image, sorted_by_size(imaged, lights), lens, lights, settings, context);
+    if (!drawn) return drawn;
     count_last(statistics, "starburst", ms_since(start));
     start = Clock::now();
   }
   if (settings.glare.share > 0.0 && !context.cancelled()) {
-    const double r0_mm = std::abs(lens.focal_length_mm) * std::tan(settings.glare.width_rad);
-    add_glare(image, imaged, settings.glare.share, r0_mm / settings.frame.pixel_pitch_mm, quiet);
+    if (auto drawn = draw_glare(image, imaged, lens, lights, settings, quiet); !drawn) return drawn;
     count_last(statistics, "glare", ms_since(start));
   }
   if (context.cancelled()) return interrupted();

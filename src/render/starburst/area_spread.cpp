@@ -1,0 +1,177 @@
+#include "render/starburst/area_spread.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "base/tasks.h"
+#include "render/area/image_motion.h"
+#include "render/area/kernel.h"
+#include "render/area/layers.h"
+
+namespace contrejour {
+namespace {
+
+using namespace area;
+
+// The finest features of a light's shape are so large in pixels of the coarsest level, or larger.
+constexpr double kFeaturePixels = 16.0;
+constexpr double kOutlinePixels = 32.0;  // the shape's shorter radius in pixels in which its features are looked for
+// From each level to the next, in its own pixels from a point's image: there the pattern is far wider than a pixel.
+constexpr double kFadeFrom = 4.0, kFadeTo = 10.0;
+// Products of kernel and picture, of all lights together and of one at least: where there are more, pixels are larger.
+constexpr double kMostProducts = 6e8, kLeastProducts = 3e7;
+
+// A light, its shape, and how the shape lies on the frame.
+struct Area {
+  std::size_t light = 0;
+  LightPiece piece;
+  LinearMap px_from_tangents;
+  Vec2 centre_px;
+  Rgb flux{};
+};
+
+// A level's share of a point's spread by the distance from its image: the levels' shares sum to 1.
+struct Share {
+  int level = 0, finest = 0, coarsest = 0;
+
+  [[nodiscard]] double at(double r_px) const {
+    return (level == coarsest ? 1.0 : within(level, r_px)) - (level == finest ? 0.0 : within(level - 1, r_px));
+  }
+  [[nodiscard]] double reach_px() const {
+    return level == coarsest ? std::numeric_limits<double>::infinity() : kFadeTo * std::exp2(level);
+  }
+
+ private:
+  static double within(int level, double r_px) {
+    const double t = std::clamp((r_px * std::exp2(-level) - kFadeFrom) / (kFadeTo - kFadeFrom), 0.0, 1.0);
+    return 1.0 - t * t * (3.0 - 2.0 * t);
+  }
+};
+
+int level_of_width(double px) { return px < 1.0 ? 0 : std::min(static_cast<int>(std::log2(px)), kLevels - 1); }
+
+// A rectangle of pixels.
+struct Window {
+  int x0 = 0, y0 = 0, x1 = 0, y1 = 0;
+};
+
+double farthest_corner(Vec2 from, int width, int height) {
+  return length(Vec2{std::max(std::abs(from.x), std::abs(width - from.x)),
+                     std::max(std::abs(from.y), std::abs(height - from.y))});
+}
+
+double weight_at(const Kernel& kernel, int x, int y) {
+  const Rgb& w =
+      kernel
+          .weight[static_cast<std::size_t>(y) * static_cast<std::size_t>(kernel.width()) + static_cast<std::size_t>(x)];
+  return w[0] + w[1] + w[2];
+}
+
+// Twice the shape's light over its total variation: a disc's radius, and that of each of several like discs, whatever
+// lies between them; of a strip its width. In pixels of the kernel.
+double feature_radius(const Kernel& kernel) {
+  double light = 0.0, variation = 0.0;
+  for (int y = 0; y + 1 < kernel.height(); ++y) {
+    for (int x = 0; x + 1 < kernel.width(); ++x) {
+      const double here = weight_at(kernel, x, y);
+      light += here;
+      variation += std::hypot(weight_at(kernel, x + 1, y) - here, weight_at(kernel, x, y + 1) - here);
+    }
+  }
+  return variation > 0.0 ? 2.0 * light / variation : 0.0;
+}
+
+// The levels that a light is drawn at, as coarse as its features allow, and as its products have to be.
+Share levels_of(const Area& area, const Frame& frame, double most_products) {
+  const Vec2 e = eigenvalues(mapped_covariance(area.px_from_tangents, area.piece.covariance));
+  const int level = level_of_width(2.0 * std::sqrt(std::max(e.x, 0.0)) / kOutlinePixels);
+  const Kernel kernel = make_kernel(area.piece, area.px_from_tangents * std::exp2(-level), {});
+  const auto lit =
+      static_cast<double>(std::ranges::count_if(kernel.weight, [](const Rgb& w) { return w[0] + w[1] + w[2] > 0.0; }));
+  const double pixels = static_cast<double>(frame.width) * frame.height;
+  const auto products = [&](int at, double across_px) {
+    const double of_picture = std::min(across_px * across_px, pixels * std::exp2(-2 * at));
+    return std::max(1.0, lit * std::exp2(2 * (level - at))) * of_picture;
+  };
+  Share share{0, 0, level_of_width(feature_radius(kernel) * std::exp2(level) / kFeaturePixels)};
+  while (share.coarsest + 1 < kLevels && products(share.coarsest, std::sqrt(pixels)) > most_products) ++share.coarsest;
+  while (share.finest < share.coarsest && products(share.finest, 2.0 * kFadeTo) > most_products) ++share.finest;
+  return share;
+}
+
+// Of a frame's pixels those within a radius, and so many more on each side, as far as there are any.
+Window window_about(Vec2 centre, double radius, KernelReach margin, const Frame& frame) {
+  const auto within = [](double v, int most) {
+    return static_cast<int>(std::clamp(v, 0.0, static_cast<double>(most)));
+  };
+  const int across = margin.left + margin.right, down = margin.up + margin.down;
+  return {within(std::floor(centre.x - radius) - across, frame.width),
+          within(std::floor(centre.y - radius) - down, frame.height),
+          within(std::ceil(centre.x + radius) + across, frame.width),
+          within(std::ceil(centre.y + radius) + down, frame.height)};
+}
+
+// A point's spread at one level, times its share, blurred.
+Result<void> add_level(Layers& layers, const Area& area, const Share& share, double pitch_mm,
+                       const AddPointSpread& add_point, const Context& context) {
+  const double scale = std::exp2(share.level);
+  const LinearMap map = area.px_from_tangents * (1.0 / scale);
+  const KernelReach reach = reach_of(area.piece, map);
+  const LayerFrame at = layers.frame_for(share.level, reach);
+  const Vec2 centre =
+      area.centre_px * (1.0 / scale) - Vec2{static_cast<double>(at.left), static_cast<double>(at.top)} + at.moved;
+  const Window window = window_about(centre, share.reach_px() / scale, reach, at.frame);
+  if (window.x0 >= window.x1 || window.y0 >= window.y1) return {};
+  Image part(window.x1 - window.x0, window.y1 - window.y0);
+  const Vec2 in_part = centre - Vec2{static_cast<double>(window.x0), static_cast<double>(window.y0)};
+  const double farthest_px = std::min(farthest_corner(in_part, part.width, part.height), share.reach_px() / scale);
+  if (auto ok = add_point(part, area.light, {pitch_mm * scale, 2.0 + farthest_px}, in_part, area.flux); !ok) return ok;
+  parallel_for(static_cast<std::size_t>(part.height), context, [&](std::size_t row) {
+    const int y = static_cast<int>(row);
+    for (int x = 0; x < part.width; ++x)
+      for (int c = 0; c < 3; ++c)
+        part.at(x, y, c) *= static_cast<float>(share.at(scale * length(Vec2{x + 0.5, y + 0.5} - in_part)));
+  });
+  layers.add({part, window.x0, window.y0}, at, make_kernel(area.piece, map, at.moved, smooth_variance(share.level)),
+             0.0, context);
+  return {};
+}
+
+Result<void> add_area(Layers& layers, const Area& area, const Frame& frame, double most_products,
+                      const AddPointSpread& add_point, const Context& context) {
+  Share share = levels_of(area, frame, most_products);
+  for (share.level = share.finest; share.level <= share.coarsest; ++share.level)
+    if (auto ok = add_level(layers, area, share, frame.pixel_pitch_mm, add_point, context); !ok) return ok;
+  return {};
+}
+
+}  // namespace
+
+Result<void> add_area_spread(Image& image, std::span<const ImagedLight> areas, const LensState& lens,
+                             std::span<const Light> lights, const Frame& frame, const AddPointSpread& add_point,
+                             const Context& context) {
+  if (areas.empty()) return {};
+  Layers layers(frame, Halving::Smooth);
+  const double most_products = std::max(kMostProducts / static_cast<double>(areas.size()), kLeastProducts);
+  for (const ImagedLight& imaged : areas) {
+    const Light& light = lights[imaged.light];
+    Area area;
+    area.light = imaged.light;
+    area.piece = pieces_of(light, 1).front();
+    area.px_from_tangents = image_motion_px(lens, frame, light.source());
+    area.centre_px = imaged.centre_px + area.px_from_tangents(area.piece.middle);
+    area.flux = imaged.flux;
+    if (auto ok = add_area(layers, area, frame, most_products, add_point, context); !ok) return ok;
+    if (context.cancelled()) return interrupted();
+  }
+  const Image sum = std::move(layers).flattened(context);
+  parallel_for(static_cast<std::size_t>(image.height), context, [&](std::size_t row) {
+    const auto to = image.row(static_cast<int>(row));
+    const auto from = sum.row(static_cast<int>(row));
+    for (std::size_t k = 0; k < to.size(); ++k) to[k] += from[k];
+  });
+  return {};
+}
+
+}  // namespace contrejour
