@@ -106,7 +106,7 @@ Result<FlarePlan> plan_flare(const Picture& picture, const LensState& lens, cons
 
 void add_flare(Image& rgb, const Image& flare) {
   for (std::size_t k = 0; k < rgb.pixels.size(); ++k) {
-    if (std::isfinite(rgb.pixels[k]) && flare.pixels[k] != 0.0F) rgb.pixels[k] += flare.pixels[k];
+    if (std::isfinite(rgb.pixels[k]) && flare.pixels[k] > 0.0F) rgb.pixels[k] += flare.pixels[k];
   }
 }
 

@@ -30,7 +30,8 @@ struct FlarePlan {
 // Errors: those of pixel_grid and detect_lights.
 [[nodiscard]] Result<FlarePlan> plan_flare(const Picture& picture, const LensState& lens, const Values& values);
 
-// Adds the flare. Samples that are not finite stay what they are, and so do those it adds nothing to.
+// Adds the flare, and takes nothing away: a channel in which the flare is negative, as colours beyond the gamut are,
+// stays what it is. So do samples that are not finite.
 void add_flare(Image& rgb, const Image& flare);
 
 }  // namespace contrejour::params
