@@ -20,7 +20,7 @@ namespace contrejour {
 // makes the pattern: the wave from cosines k has the phase 2 pi k.x / lambda at x. In a plane of mm they are the exit
 // pupil as if it stood 1 mm from the sensor: radius 1 / (2 N) on the axis.
 struct ExitPupil {
-  PupilMask mask;  // amplitude: square root of the flux per solid cosine; its mean over the area is 1
+  PupilMask mask;  // amplitude: square root of the flux per solid cosine; its mean over the area is 1, less half-tones
   std::optional<PupilOutline>
       outline;  // the iris, cut by the rims that vignette it; none where that differs from the mask, or for a picture
   double radius = 0;  // of the circle about the middle of the mask that holds the pupil; 0: no light gets through

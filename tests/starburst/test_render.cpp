@@ -12,6 +12,7 @@
 #include "contrejour/first_order.h"
 #include "contrejour/lens_starburst.h"
 #include "support/flares.h"
+#include "support/pictures.h"
 #include "support/scenes.h"
 
 using namespace contrejour;
@@ -155,6 +156,28 @@ TEST_CASE("a stop with a dark middle has narrower rings, and the flux that is le
   };
   const double ring = 4.9;
   CHECK(at(ring) / profile[0] == doctest::Approx(closed(ring)).epsilon(0.08));
+}
+
+// Two slits whose wave amplitudes are 1 and a beat with the contrast 2 a / (1 + a^2) (Young; Born & Wolf 7.3.1).
+TEST_CASE("half-tones of an iris's picture dim the wave: fringes of a bright and a grey slit") {
+  const auto is_slit = [](Vec2 p, double x) { return std::abs(p.x - x) < 0.06 && std::abs(p.y) < 0.5; };
+  for (const double grey : {1.0, 0.36, 0.16}) {
+    CAPTURE(grey);
+    LensSettings chosen{.f_number = 16.0};
+    chosen.iris.field = test::drawn_field(256, [&](Vec2 p) {
+      return is_slit(p, 0.5) ? 1.0 : is_slit(p, -0.5) ? grey : 0.0;
+    });
+    REQUIRE(chosen.iris.field->has_tones() == (grey < 1.0));
+    const LensState lens = test::bundled("heliar", chosen);
+    // Apart by the stop's radius: fringes 2 lambda N wide, of 20 pixels.
+    const double period_mm = 2.0 * 550e-6 * 16.0;
+    RenderSettings settings = starburst_alone({201, 1, 0, 0, 201, 1, period_mm / 20.0});
+    settings.lambda_nm = {550.0};
+    const Image image = drawn(lens, Light{}, settings);
+    const double bright = image.at(100, 0, 1), dark = 0.5 * (image.at(90, 0, 1) + image.at(110, 0, 1));
+    const double amplitude = std::sqrt(grey);
+    CHECK((bright - dark) / (bright + dark) == doctest::Approx(2.0 * amplitude / (1.0 + grey)).epsilon(0.02));
+  }
 }
 
 TEST_CASE("upright: spikes stand across the blades' edges as the photographer sees the iris") {

@@ -8,8 +8,10 @@
 
 #include <fmt/format.h>
 
-#include "contrejour/lens_starburst.h"
 #include "base/tasks.h"
+#include "contrejour/iris_field.h"
+#include "contrejour/lens_starburst.h"
+#include "render/starburst/mask_places.h"
 #include "render/starburst/pupil_dirt.h"
 #include "render/starburst/pupil_outline.h"
 #include "render/starburst/pupil_rays.h"
@@ -249,6 +251,32 @@ double shade(const SmoothFit& amplitude, double area, ExitPupil& out) {
   return out.flux_mm2 / (mean * mean);
 }
 
+// A picture's half-tones, after hullin2011 3.2: amplitudes by the root of the share of light that passes each sample.
+// Returns the share of the mask's power.
+double shade_by_tones(const Iris& iris, const PupilRays& pupil, const std::vector<std::size_t>& used, int degree,
+                      ExitPupil& out) {
+  if (!iris.field || !iris.field->has_tones()) return 1.0;
+  std::vector<Vec2> cosines, stops;
+  for (const std::size_t k : used) cosines.push_back(pupil.rays[k].cosines);
+  for (const std::size_t k : used) stops.push_back(pupil.rays[k].stop);
+  const MaskGrid& grid = out.mask.grid;
+  const MaskPlaces places(cosines, stops, degree, out.middle, grid);
+  double all = 0.0, passed = 0.0;
+  std::size_t k = 0;
+  for (int row = 0; row < grid.side; ++row) {
+    for (int column = 0; column < grid.side; ++column, ++k) {
+      float& value = out.mask.amplitude[k];
+      if (!(value > 0.0F)) continue;
+      const double share = iris_transmittance(iris, places.at(column, row), places.sample());
+      all += static_cast<double>(value) * value;
+      passed += share * value * value;
+      value *= static_cast<float>(std::sqrt(share));
+    }
+  }
+  out.flux_mm2 *= passed / all;
+  return passed / all;
+}
+
 Result<void> check(const LensState& lens, const LightSource& light, double lambda_nm, int samples_across) {
   if (!(lambda_nm > 0.0) || !std::isfinite(lambda_nm))
     return failure(ErrorCode::InvalidArgument, fmt::format("no light has a wavelength of {} nm", lambda_nm));
@@ -288,8 +316,9 @@ ExitPupil pupil_of(const PupilRays& pupil, const LensState& lens, const LightSou
   if (!(open_samples > 0.0)) return {};
   const double open_area = open_samples * out.mask.grid.pitch_mm * out.mask.grid.pitch_mm;
   out.outline = outline_of(pupil, {rims, open, used}, lens.iris, open_area);
-  const double power_mm2 =
+  double power_mm2 =
       shade(amplitude_of(pupil, used, light.shared_flux()), out.outline ? out.outline->area_mm2() : open_area, out);
+  power_mm2 *= shade_by_tones(lens.iris, pupil, used, degree, out);
   add_dirt(lens, light, pupil, used, degree, power_mm2, out);
   keep_rays(pupil, open, out);
   return out;

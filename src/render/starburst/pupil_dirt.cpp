@@ -6,6 +6,7 @@
 #include <memory>
 #include <utility>
 
+#include "render/starburst/mask_places.h"
 #include "render/starburst/smooth_fit.h"
 
 namespace contrejour {
@@ -18,7 +19,6 @@ constexpr int kLookAcross = 5;        // and places a side of a speck
 constexpr double kOpen = 0.5;         // amplitude
 constexpr int kBisections = 12;
 constexpr int kMostSubsamples = 4;    // a side of a mask's sample, where a picture is finer
-constexpr int kKnotStep = 8;          // samples, between which places are taken as linear
 
 struct Box {
   Vec2 low, high;
@@ -60,7 +60,7 @@ class PupilDirtPainter {
   PupilDirtPainter(const LensState& lens, const LightSource& light, const PupilRays& pupil,
                    const std::vector<std::size_t>& used, int degree, ExitPupil& out)
       : dirt_(lens.dirt), out_(out), places_(places_of(lens, light, pupil, used)), box_(box_of(places_)),
-        cosines_(cosines_of(pupil, used)), to_pupil_(fit(places_, cosines_, degree)), degree_(degree) {
+        cosines_(cosines_of(pupil, used)), to_pupil_(fit_places(places_, cosines_, degree)), degree_(degree) {
     const std::size_t surface = dirt_.plane == DirtPlane::Front ? 0 : static_cast<std::size_t>(lens.stop_index);
     clear_radius_mm_ = lens.surfaces[surface].semi_diameter_mm;
   }
@@ -85,7 +85,7 @@ class PupilDirtPainter {
     if (!(left > 0.0) || !out_.outline || polygons.empty()) return;
     PupilDirt dirt;
     for (const DirtStroke& stroke : strokes) add_open_part(stroke, clean, dirt.strokes);
-    const SmoothFit straight = fit(places_, cosines_, 1);
+    const SmoothFit straight = fit_places(places_, cosines_, 1);
     const auto step = [&](Vec2 to) {
       return Vec2{straight(to, 0) - straight({}, 0), straight(to, 1) - straight({}, 1)};
     };
@@ -115,13 +115,6 @@ class PupilDirtPainter {
     for (const std::size_t k : used) cosines.push_back(pupil.rays[k].cosines);
     return cosines;
   }
-  static SmoothFit fit(const std::vector<Vec2>& from, const std::vector<Vec2>& to, int degree) {
-    std::vector<double> values;
-    for (const Vec2 p : to) values.push_back(p.x);
-    for (const Vec2 p : to) values.push_back(p.y);
-    return {from, values, degree};
-  }
-
   [[nodiscard]] Vec2 seen(Vec2 place) const {
     double cosines[2];
     to_pupil_.evaluate(place, cosines);
@@ -196,45 +189,25 @@ class PupilDirtPainter {
   }
 
   void dim_by_picture(MaskPower& power) {
-    const SmoothFit from_pupil = fit(cosines_, places_, degree_);
     const MaskGrid& grid = out_.mask.grid;
-    const int knots = grid.side / kKnotStep + 2;
-    std::vector<Vec2> at_knot;
-    for (int row = 0; row < knots; ++row)
-      for (int column = 0; column < knots; ++column)
-        at_knot.push_back(place_over_clear_radius(from_pupil, grid.place_mm(column * kKnotStep, row * kKnotStep)));
-    const double sample = length(at_knot[1] - at_knot[0]) / kKnotStep;
-    const int sub = std::clamp(static_cast<int>(std::ceil(sample / dirt_.picture->pixel())), 1, kMostSubsamples);
+    const MaskPlaces places(cosines_, places_, degree_, out_.middle, grid);
+    const double per_clear_radius = 1.0 / clear_radius_mm_;
+    const double finer = places.sample() * per_clear_radius / dirt_.picture->pixel();
+    const int sub = std::clamp(static_cast<int>(std::ceil(finer)), 1, kMostSubsamples);
     std::size_t k = 0;
     for (int row = 0; row < grid.side; ++row) {
       for (int column = 0; column < grid.side; ++column, ++k) {
         if (!(out_.mask.amplitude[k] > 0.0F)) continue;
         double sum = 0.0;
         for (int i = 0; i < sub * sub; ++i) {
-          const double x = (column + (i % sub + 0.5) / sub - 0.5) / kKnotStep;
-          const double y = (row + (i / sub + 0.5) / sub - 0.5) / kKnotStep;
-          sum += dirt_.picture->transmission(between_knots(at_knot, knots, x, y));
+          const Vec2 at = places.at(column + (i % sub + 0.5) / sub - 0.5, row + (i / sub + 0.5) / sub - 0.5);
+          sum += dirt_.picture->transmission(at * per_clear_radius);
         }
         const double share = sum / (sub * sub);
         out_.mask.amplitude[k] *= static_cast<float>(std::sqrt(share));
         power[k] *= static_cast<float>(share);
       }
     }
-  }
-  // Outside the rays' cosines, where the polynomials hold nothing, the nearest place within them.
-  [[nodiscard]] Vec2 place_over_clear_radius(const SmoothFit& from_pupil, Vec2 mask_mm) const {
-    const Box box = box_of(cosines_);
-    const Vec2 at = out_.middle + mask_mm;
-    double place[2];
-    from_pupil.evaluate({std::clamp(at.x, box.low.x, box.high.x), std::clamp(at.y, box.low.y, box.high.y)}, place);
-    return Vec2{place[0], place[1]} * (1.0 / clear_radius_mm_);
-  }
-  static Vec2 between_knots(const std::vector<Vec2>& at_knot, int knots, double x, double y) {
-    const int column = std::clamp(static_cast<int>(x), 0, knots - 2),
-              row = std::clamp(static_cast<int>(y), 0, knots - 2);
-    const double s = x - column, t = y - row;
-    const Vec2* const p = at_knot.data() + row * knots + column;
-    return (p[0] * (1.0 - s) + p[1] * s) * (1.0 - t) + (p[knots] * (1.0 - s) + p[knots + 1] * s) * t;
   }
 
   const Dirt& dirt_;
