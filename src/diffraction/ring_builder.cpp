@@ -120,32 +120,18 @@ StarburstOctave far_octave(const OctaveCells& from, const Context& context) {
   return octave;
 }
 
-// So many octaves that the innermost is flat, and the last ends where the starburst does.
-std::vector<OctaveCells> octaves_to(double radius_px, const RingSource& source) {
+std::vector<double> sharp_turns(const StarburstPattern& pattern) {
   std::vector<double> sharp;
-  for (const double angle : source.pattern.sharp_directions()) {
+  for (const double angle : pattern.sharp_directions()) {
     const double turns = angle / kPi + 0.5;
     sharp.push_back(turns - std::floor(turns));
   }
-  const double flat_px = std::min({0.5, kFlatRho / source.rho_per_px, 0.5 * radius_px});
-  const auto count = static_cast<int>(std::max(1.0, std::ceil(std::log2(radius_px / flat_px))));
-  std::vector<OctaveCells> octaves;
-  for (int o = 0; o < count; ++o) octaves.push_back(laid_out(radius_px * std::exp2(o - count), sharp, source));
-  return octaves;
+  return sharp;
 }
 
-std::shared_ptr<StarburstRings> rings_of(std::span<const OctaveCells> octaves, double radius_px,
-                                         const Context& context) {
-  auto rings = std::make_shared<StarburstRings>();
-  rings->radius_px = radius_px;
-  rings->first_px = octaves.front().first_px;
-  for (const OctaveCells& octave : octaves) {
-    if (octave.first_px < kNear_px + 1.0) rings->near_cells.push_back(near_octave(octave));
-    // Rounding may look for a place at kNear_px an octave too far in.
-    rings->octaves.push_back(2.0 * octave.first_px > 0.99 * kNear_px ? far_octave(octave, context) : StarburstOctave());
-  }
-  rings->near = std::make_shared<const NearField>(rings->near_cells, rings->first_px, [](double) { return 1.0; });
-  return rings;
+bool fill_all(OctaveCells& octave, const RingSource& source, const Context& context) {
+  const std::size_t blocks = (octave.cells.cells() + kBlock - 1) / kBlock;
+  return parallel_for(blocks, context, [&](std::size_t block) { fill(octave, block * kBlock, source); });
 }
 
 }  // namespace
@@ -153,18 +139,28 @@ std::shared_ptr<StarburstRings> rings_of(std::span<const OctaveCells> octaves, d
 std::shared_ptr<const StarburstRings> build_rings(const StarburstPattern& pattern, const BandShifts& shifts,
                                                   double rho_per_px, double radius_px, const Context& context) {
   const RingSource source{pattern, shifts, rho_per_px};
-  std::vector<OctaveCells> octaves = octaves_to(radius_px, source);
-  struct Block {
-    std::size_t octave, first_cell;
-  };
-  std::vector<Block> blocks;
-  for (std::size_t o = 0; o < octaves.size(); ++o)
-    for (std::size_t cell = 0; cell < octaves[o].cells.cells(); cell += kBlock) blocks.push_back({o, cell});
-  const bool finished = parallel_for(
-      blocks.size(), context, [&](std::size_t b) { fill(octaves[blocks[b].octave], blocks[b].first_cell, source); });
+  const std::vector<double> sharp = sharp_turns(pattern);
+  // So many octaves that the innermost is flat, and the last ends where the starburst does.
+  const double flat_px = std::min({0.5, kFlatRho / rho_per_px, 0.5 * radius_px});
+  const auto count = static_cast<int>(std::max(1.0, std::ceil(std::log2(radius_px / flat_px))));
+  auto rings = std::make_shared<StarburstRings>();
+  rings->radius_px = radius_px;
+  rings->first_px = radius_px * std::exp2(-count);
   Context quiet = context;
   quiet.progress = {};
-  return finished ? rings_of(octaves, radius_px, quiet) : nullptr;
+  // One after the other: only what is kept of each takes memory.
+  for (int o = 0; o < count; ++o) {
+    OctaveCells octave = laid_out(radius_px * std::exp2(o - count), sharp, source);
+    if (!fill_all(octave, source, quiet)) return nullptr;
+    if (octave.first_px < kNear_px + 1.0) rings->near_cells.push_back(near_octave(octave));
+    // Rounding may look for a place at kNear_px an octave too far in.
+    const bool is_far = 2.0 * octave.first_px > 0.99 * kNear_px;
+    rings->octaves.push_back(is_far ? far_octave(octave, quiet) : StarburstOctave());
+    if (context.progress) context.progress((o + 1.0) / count);
+  }
+  if (context.cancelled()) return nullptr;
+  rings->near = std::make_shared<const NearField>(rings->near_cells, rings->first_px, [](double) { return 1.0; });
+  return rings;
 }
 
 }  // namespace contrejour
