@@ -324,6 +324,21 @@ class Bench(ProgramTest):
                 self.assertGreaterEqual(row["primitives"], row["primitives_merged"])
                 self.assertGreater(row["psnr_bundle_db"], 10)
 
+    def test_the_papers_ghosts_films_and_grids(self):
+        def rows(*arguments):
+            self.run_program("bench", "tables", "--tables", "3", "--size", "48x27", "--grid", "16", "--json", "t.json", *arguments)
+            return json.loads((self.folder / "t.json").read_text())["rows"]
+
+        ghosts = {row["settings"]["lens"]: row["ghosts_rendered"] for row in rows("--paper-ghosts")}
+        self.assertEqual(ghosts, {"heliar": 11, "itoh-zoom": 64, "nikon-80-200": 139, "canon-70-200": 304})  # 6
+        one = ["--systems", "heliar", "--paper-ghosts"]
+        plain = rows(*one)
+        for option in (["--coating", "quarter-wave:620:1.38"], ["--scale-grid-sigma", "0.01"], ["--scale-grid-phi", "0"]):
+            with self.subTest(option):
+                self.assertNotEqual([row["psnr_bundle_db"] for row in rows(*one, *option)],
+                                    [row["psnr_bundle_db"] for row in plain])
+        self.error_of("bench", "tables", "--coating", "quarter-wave:0", code=2)
+
     def test_chosen_tables_measure_no_more_than_they_need(self):
         text, rows = self.tables("--tables", "4")
         self.assertNotIn("Table 2", text)

@@ -116,10 +116,11 @@ Result<BenchRow> measure(const BenchScene& scene, const BenchRequest& request, c
   return row;
 }
 
-Result<LensState> lens_of(const PaperSystem& system, const SceneVariant& variant) {
+Result<LensState> lens_of(const PaperSystem& system, const SceneVariant& variant, const params::Values& values) {
   const auto prescription = find_lens(std::string(system.lens));
   if (!prescription) return tl::unexpected(prescription.error());
   LensSettings settings;
+  if (const auto coating = values.text("coating")) settings.coating = *params::parse_coating(*coating);
   if (!variant.full_aperture) settings.f_number = system.f_number;
   if (system.focal_length_mm > 0.0) settings.focal_length_mm = system.focal_length_mm;
   return lens_at(*prescription, settings);
@@ -129,7 +130,7 @@ Result<LensState> lens_of(const PaperSystem& system, const SceneVariant& variant
 
 Result<BenchScene> bench_scene(const PaperSystem& system, int light_count, const SceneVariant& variant,
                                const params::Values& values) {
-  auto lens = lens_of(system, variant);
+  auto lens = lens_of(system, variant, values);
   if (!lens) return tl::unexpected(lens.error());
   BenchScene scene{&system, variant, std::move(*lens), {}, {}};
   params::PixelSize size = *params::parse_size(*values.text("size"));
@@ -146,6 +147,14 @@ Result<BenchScene> bench_scene(const PaperSystem& system, int light_count, const
   scene.settings.scale_grid = true;  // the paper's eq. 13
   if (variant.wavelengths > 0) scene.settings.wavelengths = variant.wavelengths;
   return scene;
+}
+
+SelectList papers_ghosts(const BenchScene& scene) {
+  SelectList list;
+  const int last = static_cast<int>(scene.lens.surfaces.size());
+  for (const Ghost& ghost : enumerate_ghosts(scene.lens, GhostScope::OneSideOfStop))
+    if (ghost.i != last && ghost.j != last) list.ghosts.push_back(ghost);
+  return list;
 }
 
 Result<void> measure_scene(const BenchScene& scene, const std::vector<BenchRequest>& requests,

@@ -15,7 +15,7 @@ using bundle::Counts;
 using bundle::RenderedItem;
 using bundle::Stopwatch;
 
-constexpr int kLowestGrid = 16;
+constexpr int kLowestGrid = 4;  // hullin2011 7.1
 constexpr int kHighestGrid = 512;
 
 // hullin2011's precomputation, for the angles of the lights at hand and all below: none unless asked for.
@@ -63,7 +63,7 @@ Result<DrawnFlare> render_bundle(const LensState& lens, const FramePlan& plan, c
   const Stopwatch whole(total_ms);
   if (settings.grid < kLowestGrid || settings.grid > kHighestGrid) {
     return failure(ErrorCode::InvalidArgument,
-                   "a grid of " + std::to_string(settings.grid) + " rays a side is out of range; choose 16 to 512");
+                   "a grid of " + std::to_string(settings.grid) + " rays a side is out of range; choose 4 to 512");
   }
   const TablesByWavelength& tables = plan.tables;
   const auto bounds = bounds_for(plan, lens, settings, tables, context);
