@@ -1,4 +1,6 @@
 // The whole renderer, where it has something of its own; what all renderers promise is in tests/renderers.
+#include <cmath>
+
 #include <doctest/doctest.h>
 
 #include "bundle/scene.h"
@@ -54,25 +56,39 @@ TEST_CASE("sigma and phi of eq. 13 set how many rays small ghosts get") {
   CHECK(rays(1.0, 0.0) == full);
 }
 
-TEST_CASE("a grid of 4 rays a side does for well-behaved ghosts (hullin2011 7.1)") {
-  const LensState lens = test::lens("tessar", 16.0);
+TEST_CASE("a grid of 4 rays a side does for well-behaved ghosts, a third of them here (hullin2011 7.1)") {
+  const LensState lens = test::lens("heliar", 14.0);
   RenderSettings settings = settings_for(lens, 160, 90, 4);
-  const Light light = light_at(lens, settings.frame, {0.55, 0.45});
-  const Flare coarse = bundle_of(lens, {&light, 1}, settings);
-  settings.grid = 256;
-  const Flare fine = bundle_of(lens, {&light, 1}, settings);
-  const auto difference = compare(fine.image, coarse.image);
-  REQUIRE(difference.has_value());
-  CHECK(difference->psnr_db.value_or(1e9) > 30.0);
-  CHECK(difference->flux_ratio[1] == doctest::Approx(1.0).epsilon(0.05));
+  const Light light = light_at(lens, settings.frame, {0.70, 0.33});
+  const std::vector<Ghost> ghosts = enumerate_ghosts(lens, GhostScope::OneSideOfStop);
+  std::size_t good = 0;
+  for (const Ghost& ghost : ghosts) {
+    settings.selection = SelectList{{ghost}};
+    settings.grid = 4;
+    const Flare coarse = bundle_of(lens, {&light, 1}, settings);
+    settings.grid = 128;
+    const auto difference = compare(bundle_of(lens, {&light, 1}, settings).image, coarse.image);
+    REQUIRE(difference.has_value());
+    good += difference->psnr_db.value_or(1e9) >= 35.0 ? 1 : 0;
+  }
+  CHECK(good >= ghosts.size() / 3);
 }
 
 TEST_CASE("grids out of range are refused") {
   const LensState lens = test::lens("heliar", 16.0);
   const Light light;
-  for (const int grid : {3, 513, -1}) {
-    const auto refused = render_planned(render_bundle, lens, {&light, 1}, settings_for(lens, 32, 18, grid), {});
+  const auto refuses = [&](const RenderSettings& settings) {
+    const auto refused = render_planned(render_bundle, lens, {&light, 1}, settings, {});
     REQUIRE_FALSE(refused.has_value());
     CHECK(refused.error().code == ErrorCode::InvalidArgument);
+  };
+  for (const int grid : {3, 513, -1}) refuses(settings_for(lens, 32, 18, grid));
+  for (const double bad : {-0.5, 1e7, std::nan("")}) {
+    RenderSettings settings = settings_for(lens, 32, 18, 16);
+    settings.scale_grid_sigma = bad;
+    refuses(settings);
+    settings.scale_grid_sigma = 1.0;
+    settings.scale_grid_phi = bad;
+    refuses(settings);
   }
 }

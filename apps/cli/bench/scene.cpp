@@ -7,6 +7,7 @@
 #include <limits>
 #include <system_error>
 #include <utility>
+#include <variant>
 
 #include <fmt/format.h>
 
@@ -59,8 +60,12 @@ Result<Flare> render_scene(const BenchScene& scene, const BenchRequest& request,
 
 fs::path cache_file(const BenchScene& scene, const std::string& folder) {
   const RenderSettings& s = scene.settings;
-  return fs::path(folder) / fmt::format("{}-{}-{}x{}-{}nm-{:g}.exr", scene.system->key, scene.lights.size(),
-                                        s.frame.width, s.frame.height, s.wavelengths, s.reference_density);
+  std::string name = fmt::format("{}-{}-{}x{}-{}nm-{:g}", scene.system->key, scene.lights.size(), s.frame.width,
+                                 s.frame.height, s.wavelengths, s.reference_density);
+  if (std::holds_alternative<SelectList>(s.selection)) name += "-paper-ghosts";
+  if (!scene.coating.empty()) name += "-" + scene.coating;
+  std::ranges::replace(name, '/', '_');  // of a file with reflectances
+  return fs::path(folder) / (name + ".exr");
 }
 
 Result<Image> reference_image(const BenchScene& scene, const BenchRunning& running) {
@@ -145,6 +150,7 @@ Result<BenchScene> bench_scene(const PaperSystem& system, int light_count, const
   }
   scene.settings = params::render_settings(values, frame, ColourSpace::Rec709);
   scene.settings.scale_grid = true;  // the paper's eq. 13
+  scene.coating = values.text("coating").value_or("");
   if (variant.wavelengths > 0) scene.settings.wavelengths = variant.wavelengths;
   return scene;
 }

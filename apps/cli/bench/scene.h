@@ -17,6 +17,7 @@ struct BenchScene {
   LensState lens;
   std::vector<Light> lights;
   RenderSettings settings;
+  std::string coating{};  // as it was asked for; none: the lens's own
 };
 
 // The first two lights are where the paper's are; more are spread over the frame, always in the same places.
