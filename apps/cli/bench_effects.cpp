@@ -47,16 +47,16 @@ Result<int> run_effects(const EffectsOptions& options) {
 
 void add_bench_effects(CLI::App& bench, Action& action) {
   const auto options = std::make_shared<EffectsOptions>();
-  CLI::App* command =
-      bench.add_subcommand("effects", "starburst, dirt and lights with a size: times beside their targets");
+  CLI::App* command = bench.add_subcommand(
+      "effects", "starburst, dirt, lights with a size and many lights: times beside their targets");
   add_output(*command, "--json", options->json, {".json"}, "write the targets to this file");
   command->add_option("--runs", options->runs, "of so many runs the fastest counts")
       ->capture_default_str()
       ->check(CLI::Range(1, 1000));
   add_parameters(*command, options->values, {"size", "threads"});
   command->footer(
-      "planar-50 at f/8 with 7 blades and one light; the sun beside a point with other lenses too. Targets in ms are\n"
-      "for two cores.\n\n"
+      "planar-50 at f/8 with 7 blades and one light; the sun beside a point with other lenses too; many lights with the\n"
+      "Heliar at 64x36. Targets in ms are for two cores.\n\n"
       "Examples:\n"
       "  contrejour bench effects --threads 2\n"
       "  contrejour bench effects --runs 10 --json effects.json");

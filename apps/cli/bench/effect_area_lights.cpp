@@ -15,7 +15,7 @@ Result<Target> row(const EffectScene& scene) {
   const Light& point = scene.lights.front();
   Light sun = point;
   sun.radius_rad = kSunRadius_rad;
-  const auto cost = cost_in_turns(scene, {scene.render, point}, {scene.render, sun});
+  const auto cost = cost_in_turns(scene, {scene.render, {point}}, {scene.render, {sun}});
   if (!cost) return tl::unexpected(cost.error());
   return Target{.name = "the sun / a point",
                 .system = scene.lens.name,

@@ -31,7 +31,7 @@ Result<std::vector<Target>> rows_of(const EffectScene& scene) {
     return {};
   });
   if (!new_ms) return tl::unexpected(new_ms.error());
-  const auto cost = cost_in_turns(scene, {scene.render, light}, {ringing, light});
+  const auto cost = cost_in_turns(scene, {scene.render, {light}}, {ringing, {light}});
   if (!cost) return tl::unexpected(cost.error());
   return std::vector<Target>{
       Target{.name = "frame, rims ringing / sharp",

@@ -26,7 +26,7 @@ double processor_ms() { return 1e3 * static_cast<double>(std::clock()) / CLOCKS_
 }  // namespace
 
 std::span<const MeasureEffect> effects() {
-  static constexpr std::array kEffects{measure_starbursts, measure_ringing, measure_area_lights};
+  static constexpr std::array kEffects{measure_starbursts, measure_ringing, measure_area_lights, measure_many_lights};
   return kEffects;
 }
 
@@ -75,7 +75,7 @@ Result<EffectCost> cost_in_turns(const EffectScene& scene, const EffectRender& w
   for (int turn = 0; another_run(turn, scene.runs, all_ms); ++turn) {
     for (const auto& [one, fastest_ms] : {std::pair(&without, &cost.without_ms), std::pair(&with, &cost.with_ms)}) {
       const double start = processor_ms();
-      const auto flare = render("adaptive", scene.lens, {&one->light, 1}, one->settings, scene.context);
+      const auto flare = render("adaptive", scene.lens, one->lights, one->settings, scene.context);
       if (!flare) return tl::unexpected(flare.error());
       const double ms = processor_ms() - start;
       *fastest_ms = std::min(*fastest_ms, ms);

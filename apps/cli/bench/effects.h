@@ -44,7 +44,7 @@ struct EffectSystem {
 // (repeats.h) the fastest, in processor time of all threads together, which other programs do not take from.
 struct EffectRender {
   RenderSettings settings;
-  Light light;
+  std::vector<Light> lights;
 };
 struct EffectCost {
   double without_ms = 0.0, with_ms = 0.0;
@@ -64,6 +64,9 @@ struct EffectCost {
 
 // Frames with ringing beside frames without, its patterns kept and new, with several lenses.
 [[nodiscard]] Result<std::vector<Target>> measure_ringing(const EffectScene& scene);
+
+// A light of many beside one alone.
+[[nodiscard]] Result<std::vector<Target>> measure_many_lights(const EffectScene& scene);
 
 // The sun beside a point, with several lenses.
 [[nodiscard]] Result<std::vector<Target>> measure_area_lights(const EffectScene& scene);

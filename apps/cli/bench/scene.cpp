@@ -11,6 +11,7 @@
 
 #include <fmt/format.h>
 
+#include "cli/bench/even_places.h"
 #include "cli/bench/repeats.h"
 #include "cli/bench/tables.h"
 #include "cli/flare_report.h"
@@ -28,15 +29,8 @@ namespace fs = std::filesystem;
 constexpr Vec2 kPaperLights_uv[] = {{0.70, 0.33}, {0.25, 0.75}};
 constexpr const char* kReference = "reference";
 
-// Lights beyond the paper's fill the frame evenly: the R2 sequence of Roberts 2018 ("The unreasonable effectiveness of
-// quasirandom sequences"), whose steps are the powers of 1 / 1.32471795724474602596.
-Vec2 light_uv(std::size_t k) {
-  if (k < std::size(kPaperLights_uv)) return kPaperLights_uv[k];
-  constexpr double kStep_u = 0.7548776662466927;
-  constexpr double kStep_v = 0.5698402909980532;
-  const auto n = static_cast<double>(k);
-  return {std::fmod(0.5 + n * kStep_u, 1.0), std::fmod(0.5 + n * kStep_v, 1.0)};
-}
+// Lights beyond the paper's fill the frame evenly.
+Vec2 light_uv(std::size_t k) { return k < std::size(kPaperLights_uv) ? kPaperLights_uv[k] : evenly_spread(k); }
 
 bool is_of(const BenchRequest& request, const BenchScene& scene) {
   return static_cast<std::size_t>(request.lights) == scene.lights.size() && request.variant == scene.variant;

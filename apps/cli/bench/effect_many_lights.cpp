@@ -1,0 +1,43 @@
+// Many lights: what each costs beside one alone, in a small frame, where nothing but the number of lights counts.
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "cli/bench/effects.h"
+#include "cli/bench/even_places.h"
+#include "contrejour/trace.h"
+
+namespace contrejour::cli {
+namespace {
+
+constexpr double kMust = 1.0, kAim = 0.5;
+constexpr int kWidth = 64, kHeight = 36;
+constexpr EffectSystem kSystem{"heliar", 0.0, 8.0};
+
+}  // namespace
+
+Result<std::vector<Target>> measure_many_lights(const EffectScene& scene) {
+  auto small = with_lens(scene, kSystem);
+  if (!small) return tl::unexpected(small.error());
+  small->render.frame = frame_on_sensor(small->lens, kWidth, kHeight);
+  std::vector<Target> rows;
+  for (const int count : {10, 100, 1000}) {
+    std::vector<Light> lights(static_cast<std::size_t>(count), small->lights.front());
+    for (std::size_t k = 0; k < lights.size(); ++k) {
+      lights[k].direction = direction_to_land_at(small->lens, small->render.frame.sensor_from_uv(evenly_spread(k)),
+                                                 small->lens.design_wavelength_nm);
+    }
+    const auto cost = cost_in_turns(*small, {small->render, {lights.front()}}, {small->render, lights});
+    if (!cost) return tl::unexpected(cost.error());
+    rows.push_back({.name = "a light of many / one alone",
+                    .system = small->lens.name,
+                    .lights = count,
+                    .value = cost->ratio() / count,
+                    .must = kMust,
+                    .aim = kAim,
+                    .note = fmt::format("{} x {}, {}", kWidth, kHeight, cost_text(*small, *cost))});
+  }
+  return rows;
+}
+
+}  // namespace contrejour::cli
