@@ -40,6 +40,7 @@ RENDERERS = "src/render"
 
 # Public header -> the layer that implements it.
 PUBLIC = {
+    "check_lens.h": "lens",
     "coating.h": "coating",
     "colour.h": "image",
     "context.h": "base",

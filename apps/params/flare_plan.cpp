@@ -47,11 +47,11 @@ std::optional<LightShape> shape_about(const LightSource& source, const PixelGrid
 
 // The light's own pixels as its extent, if it is larger than a point and they can be one.
 void give_shape(Light& light, const DetectedLight& area, const Picture& picture, const FlarePlan& plan,
-                const Detection& found, const LensState& lens, double softness) {
+                const Detection& found, const LensState& lens) {
   if (!(area.rms_radius_px > kPoint_px)) return;
   auto shape = shape_about(light.source(), plan.grid, lens);
   if (!shape) return;
-  shape->level = picture_of_areas(picture.rgb, found, softness, area);
+  shape->level = picture_of_areas(picture.rgb, found, area);
   shape->centre_px = area.centroid_px - Vec2{static_cast<double>(area.min_x), static_cast<double>(area.min_y)};
   const int side = std::max(shape->level.width, shape->level.height);
   Light shaped = light;
@@ -65,8 +65,7 @@ std::vector<Light> lights_of(const Detection& found, const Spectrum& spectrum, c
   std::vector<Light> lights;
   for (const DetectedLight& area : found.lights) {
     lights.push_back(light_of(area, spectrum, plan.grid, lens, values));
-    if (values.is_on("light-shape"))
-      give_shape(lights.back(), area, picture, plan, found, lens, values.number("softness"));
+    if (values.is_on("light-shape")) give_shape(lights.back(), area, picture, plan, found, lens);
   }
   return lights;
 }
@@ -89,8 +88,8 @@ Result<FlarePlan> plan_flare(const Picture& picture, const LensState& lens, cons
   if (!found) return tl::unexpected(found.error());
   plan.found = std::move(*found);
   if (values.is_on("starburst") || values.number("glare") > 0.0)
-    plan.already_there = std::make_shared<const Image>(
-        frame_of_picture(light_shares(picture.rgb, plan.found.threshold, detection.softness), plan.grid));
+    plan.already_there =
+        std::make_shared<const Image>(frame_of_picture(light_shares(picture.rgb, plan.found), plan.grid));
   plan.lights = lights_of(plan.found, *spectrum, picture, plan, lens, values);
   if (plan.already_there && values.is_on("light-shape") && plan.found.areas_found > detection.max_lights) {
     DetectionSettings fewer_merged = detection;

@@ -15,15 +15,17 @@ namespace contrejour {
 
 class FractionalFourier {
  public:
-  explicit FractionalFourier(int side);  // finds the eigenvectors: N^3
+  static constexpr int kMostSamples = 4096;
+
+  explicit FractionalFourier(int side);  // 1 to kMostSamples, else a square of none; finds the eigenvectors: N^3
 
   [[nodiscard]] int side() const { return side_; }
 
-  // Both steps below.
+  // Both steps below. Empty when cancelled, for a square of another size, and for an order that is not finite.
   [[nodiscard]] std::vector<std::complex<double>> transform(std::span<const std::complex<double>> square, double order,
                                                             const Context& context = {}) const;
 
-  // The square by eigenvectors once, and from that any number of orders. Empty when cancelled.
+  // The square by eigenvectors once, and from that any number of orders. Empty likewise.
   [[nodiscard]] std::vector<std::complex<double>> analyse(std::span<const std::complex<double>> square,
                                                           const Context& context = {}) const;
   [[nodiscard]] std::vector<std::complex<double>> at_order(std::span<const std::complex<double>> analysis, double order,

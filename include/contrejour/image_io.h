@@ -70,7 +70,8 @@ struct ReadOptions {
 [[nodiscard]] Result<Picture> read_picture(std::span<const std::byte> bytes, const std::string& name,
                                            const ReadOptions& options = {});
 
-// A new picture of an image of 1 (grey), 3 or 4 (RGB and alpha) channels, both windows at the origin.
+// A new picture of an image of 1 (grey), 3 or 4 (RGB and alpha) channels, both windows at the
+// origin; an empty one for an image that is none.
 [[nodiscard]] Picture picture_of(const Image& image, SampleType type = SampleType::Float);
 
 // The working space the file's chromaticities name: Rec709 when it has none, nothing when it is another one.
@@ -82,7 +83,8 @@ void set_colour_space(Picture& picture, ColourSpace space);  // writes the chrom
 [[nodiscard]] double pixel_aspect_of(const Picture& picture);
 void set_pixel_aspect(Picture& picture, double aspect);  // writes the pixelAspectRatio attribute; from 0.1 to 10
 
-// Text attributes of an OpenEXR file, e.g. "comments"; setting replaces one of any type.
+// Text attributes of an OpenEXR file, e.g. "comments"; setting replaces one of any type, and does
+// nothing for a name that is none (1 to 255 bytes).
 [[nodiscard]] std::optional<std::string> text_attribute(const Picture& picture, const std::string& name);
 void set_text_attribute(Picture& picture, const std::string& name, const std::string& text);
 [[nodiscard]] std::vector<std::string> attribute_names(const Picture& picture);

@@ -40,6 +40,7 @@ struct DetectedLight {
 
 struct Detection {
   double threshold = 0;               // the one used
+  double softness = 0.25;             // as in the settings
   std::vector<DetectedLight> lights;  // by flux (r + g + b), largest first
   int areas_found = 0;                // before merging
   double max_value = DetectionSettings::kMostLevel;  // as in the settings
@@ -51,14 +52,14 @@ struct Detection {
 // Errors: InvalidArgument (not three channels, settings out of range).
 [[nodiscard]] Result<Detection> detect_lights(const Image& rgb, const DetectionSettings& settings = {});
 
-// How much of each pixel belongs to a light, 0..1, one channel: the weight that detect_lights gives it. Areas that are
-// too small to be lights count too.
-[[nodiscard]] Image light_shares(const Image& rgb, double threshold, double softness);
+// How much of each pixel belongs to a light, 0..1, one channel: the weight that detect_lights gave it. Areas that are
+// too small to be lights count too. Nothing for a detection in an image of another size.
+[[nodiscard]] Image light_shares(const Image& rgb, const Detection& detection);
 
 // What some areas look like: the part of the picture that holds them, weight * value in each pixel that is theirs and 0
-// elsewhere, three channels. Its pixel (0, 0) is the picture's (min_x, min_y).
-[[nodiscard]] Image picture_of_areas(const Image& rgb, const Detection& detection, double softness,
-                                     const DetectedLight& light);
+// elsewhere, three channels. Its pixel (0, 0) is the picture's (min_x, min_y). Nothing for a detection in an image of
+// another size.
+[[nodiscard]] Image picture_of_areas(const Image& rgb, const Detection& detection, const DetectedLight& light);
 
 // The level above which a thing is a light and not a lit surface, from the picture's own statistics.
 [[nodiscard]] double automatic_threshold(const Image& rgb);

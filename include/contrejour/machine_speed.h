@@ -10,10 +10,11 @@ namespace contrejour {
 
 // Surfaces hit per millisecond by rays traced in packets (float, the widest instruction set there is) along the lens's
 // longest ghost at 550 nm, from buffers that stay in the cache: RenderStatistics::surface_hits counts the same.
-// 0 for a lens without ghosts, or when cancelled.
+// 0 for a lens without ghosts, a state that is none (check_lens.h), or when cancelled.
 [[nodiscard]] double peak_hits_per_ms(const LensState& lens, const Context& context = {});
 
-// Milliseconds to write width x height RGB floats once, into memory that is there already.
+// Milliseconds to write width x height RGB floats once, into memory that is there already; 0 for no pixels or more than
+// 2^28.
 [[nodiscard]] double frame_pass_ms(int width, int height, const Context& context = {});
 
 }  // namespace contrejour

@@ -18,15 +18,19 @@
 namespace contrejour {
 
 struct MaskGrid {
+  static constexpr int kMostSamples = 16384;  // a side
+
   int side = 512;  // samples
   double pitch_mm = 0.01;
 
+  [[nodiscard]] bool is_usable() const { return side >= 1 && side <= kMostSamples && pitch_mm > 0.0 && pitch_mm < 1e6; }
   [[nodiscard]] Vec2 place_mm(int column, int row) const {
     return {(column + 0.5 - 0.5 * side) * pitch_mm, (0.5 * side - 0.5 - row) * pitch_mm};
   }
 };
 
-// The smallest grid that has a circle of this radius inside, with so many samples across it.
+// The smallest grid that has a circle of this radius inside, with so many samples across it; of no samples where that
+// is none, or larger than kMostSamples.
 [[nodiscard]] MaskGrid grid_over(double radius_mm, int samples_across);
 
 struct PupilMask {
@@ -34,6 +38,11 @@ struct PupilMask {
   std::vector<float> amplitude;  // [row * side + column], 0..1: the square root of the transmission
   std::vector<float> phase_rad;  // as many, or empty: flat
 
+  // Samples for all of the grid; what is not is taken for a mask that lets nothing through.
+  [[nodiscard]] bool is_complete() const {
+    const auto samples = static_cast<std::size_t>(grid.side) * static_cast<std::size_t>(grid.side);
+    return grid.is_usable() && amplitude.size() == samples && (real() || phase_rad.size() == samples);
+  }
   [[nodiscard]] bool real() const { return phase_rad.empty(); }
   [[nodiscard]] std::complex<double> at(std::size_t sample) const {
     return real() ? std::complex<double>(amplitude[sample]) : std::polar<double>(amplitude[sample], phase_rad[sample]);
@@ -41,7 +50,8 @@ struct PupilMask {
   [[nodiscard]] double open_area_mm2() const;  // integral of amplitude squared
 };
 
-// From a signed distance in mm, negative where light passes: each sample is its open share.
+// Empty for a grid that is none. From a signed distance in mm, negative where light passes: each sample is its open
+// share.
 [[nodiscard]] PupilMask make_mask(const MaskGrid& grid, const std::function<double(Vec2 mm)>& distance_mm,
                                   const Context& context = {});
 [[nodiscard]] PupilMask make_mask(const MaskGrid& grid, const IrisOpening& opening, double stop_radius_mm,

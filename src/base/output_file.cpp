@@ -192,6 +192,7 @@ Result<OutputFile> OutputFile::create(const fs::path& destination, const OutputF
   const fs::file_status status = fs::status(destination, error);
   if (destination.filename().empty() || fs::is_directory(status))
     return io_failure(destination, "cannot write here; give a file's name", EISDIR);
+  if (error == std::errc::filename_too_long) return io_failure(destination, "cannot write here", ENAMETOOLONG);
   if (fs::exists(status) && !fs::is_regular_file(status)) {
     state->is_regular = false;
     state->target = destination;

@@ -3,7 +3,6 @@
 // Differs: from hullin2011, which takes Ozaktas's fast algorithm: with that one orders add to a few per cent only.
 #include "contrejour/fractional_fourier.h"
 
-#include <cassert>
 #include <cmath>
 #include <numbers>
 
@@ -66,8 +65,8 @@ Context without_progress(Context context) {
 
 }  // namespace
 
-FractionalFourier::FractionalFourier(int side) : side_(side) {
-  assert(side >= 1);
+FractionalFourier::FractionalFourier(int side) : side_(side >= 1 && side <= kMostSamples ? side : 0) {
+  if (side_ == 0) return;
   const auto n = static_cast<std::size_t>(side);
   const int middle = side / 2;
   for (const bool even : {true, false}) {
@@ -88,7 +87,7 @@ FractionalFourier::FractionalFourier(int side) : side_(side) {
 
 std::vector<std::complex<double>> FractionalFourier::analyse(std::span<const std::complex<double>> square,
                                                              const Context& context) const {
-  assert(square.size() == basis_.size());
+  if (square.size() != basis_.size() || side_ == 0) return {};
   std::vector<std::complex<double>> result(square.begin(), square.end());
   if (!sandwich(Square(basis_.data(), side_, side_), result, without_progress(context))) return {};
   return result;
@@ -96,7 +95,7 @@ std::vector<std::complex<double>> FractionalFourier::analyse(std::span<const std
 
 std::vector<std::complex<double>> FractionalFourier::at_order(std::span<const std::complex<double>> analysis,
                                                               double order, const Context& context) const {
-  if (analysis.size() != basis_.size()) return {};
+  if (analysis.size() != basis_.size() || side_ == 0 || !std::isfinite(order)) return {};
   std::vector<std::complex<double>> result(analysis.begin(), analysis.end());
   // Candan 2000 eq. 21: exp(-i pi k a / 2) for degree k. Whole turns are taken off before the sine.
   const auto n = static_cast<std::size_t>(side_);

@@ -26,7 +26,7 @@ Result<FraunhoferPattern> fraunhofer_pattern(const PupilMask& mask, const Fraunh
     return failure(
         ErrorCode::InvalidArgument,
         fmt::format("a pattern of {} points a side is out of range; choose 1 to {}", settings.grid.side, kMostPoints));
-  const double open_mm2 = mask.open_area_mm2();
+  const double open_mm2 = mask.is_complete() ? mask.open_area_mm2() : 0.0;
   if (!(open_mm2 > 0.0) || !std::isfinite(open_mm2 * settings.flux))
     return failure(ErrorCode::InvalidArgument, "a mask that lets nothing through has no pattern");
   Context steps = context;  // its two passes would each report from 0

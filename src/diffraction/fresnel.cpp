@@ -1,6 +1,5 @@
 #include "contrejour/fresnel.h"
 
-#include <cassert>
 #include <cmath>
 #include <complex>
 #include <numbers>
@@ -118,9 +117,26 @@ double far_up_to(const PupilMask& mask, double stop_radius_mm) {
 
 double fresnel_extent(double fresnel_number) { return 1.0 + 2.0 / std::sqrt(fresnel_number) + 4.0 / fresnel_number; }
 
+namespace {
+
+// Whether a pattern of it fits into memory: kMostPadded samples a side.
+bool is_usable(const PupilMask& mask, double stop_radius_mm, const FresnelSettings& settings) {
+  constexpr double kMostPadded = 32768.0;
+  if (!mask.is_complete() || !(stop_radius_mm > 0.0) || !(settings.fresnel_number > 0.0) || settings.side < 1 ||
+      settings.side > MaskGrid::kMostSamples)
+    return false;
+  const double extent = settings.extent > 0.0 ? settings.extent : fresnel_extent(settings.fresnel_number);
+  const double pitch = mask.grid.pitch_mm / stop_radius_mm;
+  if (!std::isfinite(extent) || !(pitch > 0.0) || !std::isfinite(mask.grid.side * pitch)) return false;
+  return settings.fresnel_number <= far_up_to(mask, stop_radius_mm) ||
+         mask.grid.side + 2.0 * extent / pitch <= kMostPadded;
+}
+
+}  // namespace
+
 FresnelPattern fresnel_pattern(const PupilMask& mask, double stop_radius_mm, const FresnelSettings& settings,
                                const Context& context) {
-  assert(settings.fresnel_number > 0.0 && settings.side > 0);
+  if (!is_usable(mask, stop_radius_mm, settings)) return {};
   Context steps = context;
   steps.progress = {};
   const double f = settings.fresnel_number;

@@ -1,7 +1,6 @@
 #include "contrejour/pupil_mask.h"
 
 #include <algorithm>
-#include <cassert>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -11,6 +10,8 @@
 
 namespace contrejour {
 namespace {
+
+constexpr double kFarthest = 1e8;  // samples, of a polygon's corner
 
 // Share of the unit square about the origin where normal . p + distance <= 0; normal is unit.
 double half_plane_share(Vec2 normal, double distance) {
@@ -36,7 +37,7 @@ double open_share(const std::function<double(Vec2)>& distance_mm, Vec2 p, double
 std::size_t square(int side) { return static_cast<std::size_t>(side) * static_cast<std::size_t>(side); }
 
 Result<void> check_picture(const Image& image, int channel) {
-  if (image.width <= 0 || image.height <= 0)
+  if (image.width <= 0 || image.height <= 0 || image.pixels.size() != image.index(0, image.height))
     return failure(ErrorCode::InvalidArgument, "the picture of the aperture is empty");
   if (channel < 0 || channel >= image.channels)
     return failure(
@@ -64,7 +65,7 @@ float sample_bilinear(const Image& image, int channel, double x, double y) {
 }  // namespace
 
 MaskGrid grid_over(double radius_mm, int samples_across) {
-  assert(radius_mm > 0.0 && samples_across >= 2);
+  if (!(radius_mm > 0.0) || samples_across < 2 || samples_across > MaskGrid::kMostSamples - 2) return {0, 0.0};
   return {samples_across + 2, 2.0 * radius_mm / samples_across};
 }
 
@@ -75,6 +76,7 @@ double PupilMask::open_area_mm2() const {
 }
 
 PupilMask make_mask(const MaskGrid& grid, const std::function<double(Vec2)>& distance_mm, const Context& context) {
+  if (!grid.is_usable() || !distance_mm) return {{0, 0.0}, {}, {}};
   PupilMask mask{grid, std::vector<float>(square(grid.side)), {}};
   parallel_for(static_cast<std::size_t>(grid.side), context, [&](std::size_t row) {
     for (int column = 0; column < grid.side; ++column)
@@ -92,6 +94,9 @@ PupilMask make_mask(const MaskGrid& grid, const IrisOpening& opening, double sto
 Result<PupilMask> mask_of_image(const Image& image, int channel, double width_mm) {
   if (const auto good = check_picture(image, channel); !good) return tl::unexpected(good.error());
   const int side = std::max(image.width, image.height);
+  if (!MaskGrid{side, width_mm / side}.is_usable())
+    return failure(ErrorCode::InvalidArgument,
+                   fmt::format("an aperture of {} samples cannot be {} mm wide", side, width_mm));
   PupilMask mask{{side, width_mm / side}, std::vector<float>(square(side)), {}};
   const int left = (side - image.width) / 2, top = (side - image.height) / 2;
   for (int y = 0; y < image.height; ++y)
@@ -103,6 +108,7 @@ Result<PupilMask> mask_of_image(const Image& image, int channel, double width_mm
 
 Result<PupilMask> with_dirt(PupilMask mask, const Image& dirt, int channel) {
   if (const auto good = check_picture(dirt, channel); !good) return tl::unexpected(good.error());
+  if (!mask.is_complete()) return failure(ErrorCode::InvalidArgument, "the mask has not a sample for each place");
   const double scale_x = static_cast<double>(dirt.width) / mask.grid.side;
   const double scale_y = static_cast<double>(dirt.height) / mask.grid.side;
   std::size_t k = 0;
@@ -114,14 +120,18 @@ Result<PupilMask> with_dirt(PupilMask mask, const Image& dirt, int channel) {
 
 void dim(PupilMask& mask, MaskPower& power, std::span<const DimPolygon> polygons) {
   power.resize(mask.amplitude.size(), 1.0F);
+  if (!mask.is_complete()) return;
   PolygonCover cover(mask.grid.side);
   const double per_mm = 1.0 / mask.grid.pitch_mm, half = 0.5 * mask.grid.side;
   std::vector<Vec2> corners;
   for (const DimPolygon& polygon : polygons) {
-    const double lost = 1.0 - std::clamp(polygon.transmission, 0.0, 1.0);
+    const double lost = 1.0 - (polygon.transmission >= 0.0 ? std::min(polygon.transmission, 1.0) : 0.0);
     const double amplitude_lost = 1.0 - std::sqrt(1.0 - lost);
     corners.clear();
     for (const Vec2 p : polygon.corners_mm) corners.push_back({half + p.x * per_mm, half - p.y * per_mm});
+    const bool is_near = std::all_of(corners.begin(), corners.end(),
+                                     [](Vec2 p) { return std::abs(p.x) <= kFarthest && std::abs(p.y) <= kFarthest; });
+    if (!is_near || corners.size() < 3) continue;
     cover.for_each(corners, [&](std::size_t sample, double share) {
       mask.amplitude[sample] *= static_cast<float>(1.0 - share * amplitude_lost);
       power[sample] *= static_cast<float>(1.0 - share * lost);

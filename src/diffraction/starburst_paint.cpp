@@ -1,7 +1,6 @@
 // Rings of a starburst onto pixels: near the centre cell by cell, farther out from the rings' means over pixels.
 #include <algorithm>
 #include <array>
-#include <cassert>
 #include <cmath>
 #include <vector>
 
@@ -31,7 +30,7 @@ void add_near_row(const NearField& near, Vec2 centre_px, double y, std::size_t w
 }
 
 void add_starburst(Image& image, const Starburst& starburst, Vec2 centre_px, const Rgb& flux, const Context& context) {
-  assert(image.channels == 3);
+  if (image.channels != 3 || image.pixels.size() != image.index(0, image.height)) return;
   if (starburst.rings() == nullptr || !is_drawable(centre_px)) return;
   const StarburstRings& rings = *starburst.rings();
   const auto width = static_cast<std::size_t>(image.width);

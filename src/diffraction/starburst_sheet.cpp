@@ -1,6 +1,5 @@
 // A starburst laid out over pixels: half the plane, the other half is the same turned about the centre.
 #include <algorithm>
-#include <cassert>
 #include <cmath>
 #include <vector>
 
@@ -163,7 +162,7 @@ Result<StarburstSheet> lay_out(const Starburst& starburst, int width, int height
 }
 
 void add_starburst(Image& image, const StarburstSheet& sheet, Vec2 centre_px, const Rgb& flux, const Context& context) {
-  assert(image.channels == 3);
+  if (image.channels != 3 || image.pixels.size() != image.index(0, image.height)) return;
   if (sheet.samples() == nullptr || !is_drawable(centre_px)) return;
   const StarburstSamples& samples = *sheet.samples();
   if (!reaches(samples, image, centre_px)) return add_starburst(image, samples.starburst, centre_px, flux, context);

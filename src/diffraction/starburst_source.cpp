@@ -19,7 +19,8 @@ namespace {
 constexpr double kLargestRadius_px = 1e6;
 constexpr int kMostSamples = 4096;  // the spectrum of as many takes 1 GB
 
-bool is_positive(double value) { return value > 0.0 && std::isfinite(value); }
+// Lengths of any optics, mm or nm: beyond, ratios of them leave what a double holds.
+bool is_positive(double value) { return value >= 1e-9 && value <= 1e9; }
 
 tl::unexpected<Error> invalid(const std::string& message) { return failure(ErrorCode::InvalidArgument, message); }
 

@@ -4,6 +4,7 @@
 #include <span>
 #include <variant>
 
+#include "contrejour/check_lens.h"
 #include "contrejour/ghost.h"
 
 namespace contrejour {
@@ -17,6 +18,7 @@ bool reflects(const SurfaceState& s) {
 // 0-based, ascending.
 std::vector<int> reflecting_surfaces(const LensState& lens) {
   std::vector<int> found;
+  if (lens.surfaces.size() > kMostLensSurfaces) return found;
   for (std::size_t k = 0; k < lens.surfaces.size(); ++k)
     if (reflects(lens.surfaces[k])) found.push_back(static_cast<int>(k));
   return found;
@@ -54,7 +56,7 @@ void add_orders(const LensState& lens, Ghost ghost, std::vector<Ghost>& to) {
     to.push_back(ghost);
     return;
   }
-  const int most = lens.sensor_grating.orders;
+  const int most = std::min(lens.sensor_grating.orders, SensorStack::kMostOrders);
   for (int x = -most; x <= most; ++x) {
     for (int y = -most; y <= most; ++y) {
       ghost.order = {x, y};
@@ -98,14 +100,10 @@ std::vector<Ghost> enumerate_ghosts(const LensState& lens, GhostScope scope, Ref
 }
 
 bool has_ghost(const LensState& lens, const Ghost& ghost) {
-  const auto turns_at = [&](int surface) {
-    return surface >= 1 && surface <= static_cast<int>(lens.surfaces.size()) &&
-           reflects(lens.surfaces[static_cast<std::size_t>(surface - 1)]);
-  };
-  if (!turns_at(ghost.i) || !turns_at(ghost.j) || ghost.i >= ghost.j) return false;
-  if (ghost.reflects_four_times() || ghost.k != 0) {
-    if (!turns_at(ghost.k) || !turns_at(ghost.l) || ghost.k >= ghost.l || ghost.l <= ghost.i) return false;
-  }
+  if (!has_surfaces_of(lens, ghost)) return false;
+  const auto turns_at = [&](int surface) { return reflects(lens.surfaces[static_cast<std::size_t>(surface - 1)]); };
+  if (!turns_at(ghost.i) || !turns_at(ghost.j)) return false;
+  if (ghost.reflects_four_times() && !(turns_at(ghost.k) && turns_at(ghost.l))) return false;
   const int most = ends_at_grating(lens, ghost) ? lens.sensor_grating.orders : 0;
   return std::abs(ghost.order[0]) <= most && std::abs(ghost.order[1]) <= most &&
          is_in_scope(lens, ghost, GhostScope::All);

@@ -4,6 +4,7 @@
 #include <limits>
 #include <utility>
 
+#include "contrejour/check_lens.h"
 #include "contrejour/ghost.h"
 #include "ghosts/direct_meter.h"
 #include "ghosts/open_halves.h"
@@ -47,15 +48,20 @@ GhostMeasure measured(const RayGrid& grid, double shared_flux) {
 
 }  // namespace
 
-GhostMeter::GhostMeter(LensState lens, double lambda_nm)
-    : lens_(std::move(lens)), tables_(std::make_unique<ReflectanceTables>(lens_, lambda_nm)) {}
+GhostMeter::GhostMeter(LensState lens, double lambda_nm) : lens_(std::move(lens)) {
+  if (check_lens(lens_) && is_wavelength(lambda_nm)) tables_ = std::make_unique<ReflectanceTables>(lens_, lambda_nm);
+}
 GhostMeter::~GhostMeter() = default;
 GhostMeter::GhostMeter(GhostMeter&&) noexcept = default;
 GhostMeter& GhostMeter::operator=(GhostMeter&&) noexcept = default;
 
-double GhostMeter::direct_flux(const LightSource& light) const { return DirectMeter(lens_, light).flux_mm2(*tables_); }
+double GhostMeter::direct_flux(const LightSource& light) const {
+  if (!tables_ || !check_source(lens_, light)) return 0.0;
+  return DirectMeter(lens_, light).flux_mm2(*tables_);
+}
 
 GhostMeasure GhostMeter::measure(Ghost ghost, const LightSource& light) const {
+  if (!tables_ || !check_source(lens_, light) || !has_surfaces_of(lens_, ghost)) return {};
   const OpticalPath path = ghost_path(lens_, ghost, tables_->lambda_nm());
   const IrisShape iris(lens_.iris);
   const EntranceWindow window = entrance_window(lens_, light);

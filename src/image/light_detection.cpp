@@ -42,8 +42,24 @@ void merge_tail(std::vector<DetectedLight>& lights, std::size_t kept) {
   std::sort(lights.begin(), lights.end(), comes_first);
 }
 
+bool is_picture(const Image& rgb) {
+  return rgb.channels == 3 && rgb.width >= 0 && rgb.height >= 0 && rgb.pixels.size() == rgb.index(0, rgb.height);
+}
+
+// Made of an image of this size.
+bool is_of(const Detection& detection, const Image& rgb) {
+  const auto areas = static_cast<std::int32_t>(detection.areas.size());
+  return is_picture(rgb) && 3 * detection.area_of_pixel.size() == rgb.pixels.size() &&
+         std::all_of(detection.area_of_pixel.begin(), detection.area_of_pixel.end(),
+                     [areas](std::int32_t area) { return area < areas; });
+}
+
+AreaSettings settings_of(const Detection& detection) {
+  return {detection.threshold, detection.softness, detection.max_value};
+}
+
 Result<void> check(const Image& rgb, const DetectionSettings& settings) {
-  if (rgb.channels != 3 || rgb.width < 0 || rgb.height < 0 || rgb.pixels.size() != rgb.index(0, rgb.height))
+  if (!is_picture(rgb))
     return failure(ErrorCode::InvalidArgument, "lights are looked for in an image of three channels");
   if (settings.threshold && !(std::isfinite(*settings.threshold) && *settings.threshold >= 0))
     return failure(ErrorCode::InvalidArgument, "the threshold for lights must be 0 or more");
@@ -63,9 +79,9 @@ Result<Detection> detect_lights(const Image& rgb, const DetectionSettings& setti
   if (!usable) return tl::unexpected(usable.error());
   Detection detection;
   detection.threshold = settings.threshold ? *settings.threshold : automatic_threshold(rgb);
+  detection.softness = settings.softness;
   detection.max_value = settings.max_value;
-  detection.areas =
-      bright_areas(rgb, {detection.threshold, settings.softness, settings.max_value}, detection.area_of_pixel);
+  detection.areas = bright_areas(rgb, settings_of(detection), detection.area_of_pixel);
   for (std::size_t k = 0; k < detection.area_of_pixel.size(); ++k)
     if (detection.area_of_pixel[k] >= 0 && level_of(rgb.pixels.data() + 3 * k) > settings.max_value)
       ++detection.capped_pixels;
@@ -78,16 +94,18 @@ Result<Detection> detect_lights(const Image& rgb, const DetectionSettings& setti
   return detection;
 }
 
-Image picture_of_areas(const Image& rgb, const Detection& detection, double softness, const DetectedLight& light) {
-  const AreaSettings settings{detection.threshold, softness, detection.max_value};
+Image picture_of_areas(const Image& rgb, const Detection& detection, const DetectedLight& light) {
+  if (!is_of(detection, rgb) || light.min_x < 0 || light.min_y < 0 || light.max_x >= rgb.width ||
+      light.max_y >= rgb.height || light.min_x > light.max_x || light.min_y > light.max_y)
+    return {};
+  const AreaSettings settings = settings_of(detection);
   Image out(light.max_x - light.min_x + 1, light.max_y - light.min_y + 1);
   std::vector<bool> is_its(detection.areas.size());
-  for (const int area : light.areas) is_its[static_cast<std::size_t>(area)] = true;
+  for (const int area : light.areas)
+    if (area >= 0 && static_cast<std::size_t>(area) < is_its.size()) is_its[static_cast<std::size_t>(area)] = true;
   for (int y = light.min_y; y <= light.max_y; ++y) {
     for (int x = light.min_x; x <= light.max_x; ++x) {
-      const std::int32_t area =
-          detection.area_of_pixel[static_cast<std::size_t>(y) * static_cast<std::size_t>(rgb.width) +
-                                  static_cast<std::size_t>(x)];
+      const std::int32_t area = detection.area_of_pixel[rgb.index(x, y) / 3];
       if (area < 0 || !is_its[static_cast<std::size_t>(area)]) continue;
       const float* const pixel = rgb.pixels.data() + rgb.index(x, y);
       const double weight = weight_of(level_of(pixel), settings);
@@ -98,15 +116,13 @@ Image picture_of_areas(const Image& rgb, const Detection& detection, double soft
   return out;
 }
 
-Image light_shares(const Image& rgb, double threshold, double softness) {
-  const AreaSettings settings{threshold, softness, DetectionSettings::kMostLevel};
+Image light_shares(const Image& rgb, const Detection& detection) {
+  if (!is_of(detection, rgb)) return {};
+  const AreaSettings settings = settings_of(detection);
   Image shares(rgb.width, rgb.height, 1);
-  for (int y = 0; y < rgb.height; ++y) {
-    for (int x = 0; x < rgb.width; ++x) {
-      const float* const pixel = rgb.pixels.data() + rgb.index(x, y);
-      if (is_bright(pixel, settings)) shares.at(x, y) = static_cast<float>(share_of_light(level_of(pixel), settings));
-    }
-  }
+  for (std::size_t k = 0; k < shares.pixels.size(); ++k)
+    if (detection.area_of_pixel[k] >= 0)
+      shares.pixels[k] = static_cast<float>(share_of_light(level_of(rgb.pixels.data() + 3 * k), settings));
   return shares;
 }
 

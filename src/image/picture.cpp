@@ -140,6 +140,8 @@ Result<Picture> read_picture(const std::filesystem::path& file, const ReadOption
 
 Picture picture_of(const Image& image, SampleType type) {
   Picture picture;
+  if (image.width < 1 || image.height < 1 || image.channels < 1 || image.pixels.size() != image.index(0, image.height))
+    return picture;
   picture.data_window = picture.display_window = {0, 0, image.width, image.height};
   picture.rgb = Image(image.width, image.height, 3);
   const std::size_t channels = static_cast<std::size_t>(image.channels);
@@ -195,6 +197,8 @@ std::optional<std::string> text_attribute(const Picture& picture, const std::str
 }
 
 void set_text_attribute(Picture& picture, const std::string& name, const std::string& text) {
+  constexpr std::size_t kLongestName = 255;
+  if (name.empty() || name.size() > kLongestName || name.find('\0') != std::string::npos) return;
   change_header(picture, [&](Imf::Header& header) {
     header = without_attribute(header, name);
     header.insert(name, Imf::StringAttribute(text));

@@ -1,6 +1,5 @@
 // The visible spectrum in N bands: docs/physics/colour.md.
 #include <algorithm>
-#include <cassert>
 #include <cmath>
 
 #include "image/cie_tables.h"
@@ -39,6 +38,8 @@ Sample operator*(double s, const Sample& a) {
   }
   return scaled;
 }
+
+constexpr int kMostBands = 100000;
 
 // Of many bands of one line some stand at the same whole nanometre; no two may share a wavelength.
 constexpr double kApart_nm = 1e-6;
@@ -113,12 +114,12 @@ void make_sum_one(std::vector<SpectralBand>& bands, std::size_t c) {
 }  // namespace
 
 std::vector<SpectralBand> spectral_bands(int count, const Spectrum& light, ColourSpace space) {
-  assert(count >= 1);
+  if (count < 1 || count > kMostBands) return {};
   const Samples samples = sample_light(light, space);
   const Cumulative cumulative(samples);
   const Sample& total = cumulative.total();
 
-  std::vector<SpectralBand> bands(static_cast<std::size_t>(std::max(count, 1)));
+  std::vector<SpectralBand> bands(static_cast<std::size_t>(count));
   Sample begin{};
   for (std::size_t k = 0; k < bands.size(); ++k) {
     const bool last = k + 1 == bands.size();

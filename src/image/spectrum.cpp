@@ -34,6 +34,12 @@ double illuminant_d65(double lambda_nm) {
   return ((1 - t) * cie::kIlluminantD65[i] + t * cie::kIlluminantD65[i + 1]) / 100;
 }
 
+// Nothing where there is no table.
+const std::vector<SpectrumPoint>& points_of(const TabulatedSpectrum& table) {
+  static const std::vector<SpectrumPoint> kNone;
+  return table.points ? *table.points : kNone;
+}
+
 double tabulated(const std::vector<SpectrumPoint>& points, double lambda_nm) {
   const auto after = std::lower_bound(points.begin(), points.end(), lambda_nm,
                                       [](const SpectrumPoint& p, double nm) { return p.lambda_nm < nm; });
@@ -47,6 +53,7 @@ double tabulated(const std::vector<SpectrumPoint>& points, double lambda_nm) {
 // Integral of the table times max(0, 1 - |l - lambda|) over l: both are straight between the points, lambda and
 // lambda +- 1, and Simpson's rule is exact for their product.
 double tabulated_near(const std::vector<SpectrumPoint>& points, double lambda_nm) {
+  if (points.empty() || !std::isfinite(lambda_nm)) return 0;
   std::vector<double> knots{lambda_nm - 1, lambda_nm, lambda_nm + 1};
   const auto first = std::lower_bound(points.begin(), points.end(), lambda_nm - 1,
                                       [](const SpectrumPoint& p, double nm) { return p.lambda_nm < nm; });
@@ -72,7 +79,7 @@ struct PowerAt {
   double operator()(BlackBody body) const {
     return relative_planck(lambda_nm, kSecondRadiationNmK / body.temperature_k);
   }
-  double operator()(const TabulatedSpectrum& table) const { return tabulated(*table.points, lambda_nm); }
+  double operator()(const TabulatedSpectrum& table) const { return tabulated(points_of(table), lambda_nm); }
 };
 
 }  // namespace
@@ -81,7 +88,7 @@ double spectral_power(const Spectrum& spectrum, double lambda_nm) { return std::
 
 double spectral_power_near(const Spectrum& spectrum, double lambda_nm) {
   const auto* const table = std::get_if<TabulatedSpectrum>(&spectrum);
-  return table != nullptr ? tabulated_near(*table->points, lambda_nm) : spectral_power(spectrum, lambda_nm);
+  return table != nullptr ? tabulated_near(points_of(*table), lambda_nm) : spectral_power(spectrum, lambda_nm);
 }
 
 bool is_visible(const TabulatedSpectrum& spectrum) {

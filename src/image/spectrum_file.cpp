@@ -94,6 +94,7 @@ Result<TabulatedSpectrum> read_spectrum(const std::filesystem::path& file) {
 }
 
 std::string write_spectrum(const TabulatedSpectrum& spectrum) {
+  if (!spectrum.points) return "";
   std::string text = "wavelength_nm,power\n";
   for (const SpectrumPoint& p : *spectrum.points) text += fmt::format("{},{}\n", p.lambda_nm, p.power);
   return text;

@@ -13,6 +13,8 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 constexpr double kCell_mm = 2.0;
+constexpr double kFarthest_mm = 1e4;
+constexpr double kMostSteps = 1e4;  // along an outline
 constexpr double kMostDeviations = 2.5;  // of a log-normal size
 constexpr double kElongation = 0.8;  // of specks: the line within one is up to so much of its width long
 constexpr double kNearlyStraight = 1e-6;  // rad
@@ -200,7 +202,8 @@ Result<void> check_dirt(const Dirt& dirt) {
 }
 
 std::vector<DirtStroke> dirt_within(const Dirt& dirt, Vec2 low_mm, Vec2 high_mm) {
-  if (!(dirt.opacity > 0.0)) return {};
+  const auto is_near = [](Vec2 p) { return std::abs(p.x) <= kFarthest_mm && std::abs(p.y) <= kFarthest_mm; };
+  if (!check_dirt(dirt) || !(dirt.opacity > 0.0) || !is_near(low_mm) || !is_near(high_mm)) return {};
   DirtMaker maker(dirt, low_mm, high_mm);
   const double largest = largest_over_median();
   maker.add(Kind::Dust, dirt.dust_per_cm2, largest * dirt.dust_mm);
@@ -212,7 +215,8 @@ std::vector<Vec2> dirt_outline(const DirtStroke& stroke, double low, double high
   constexpr int kEndSteps = 8;  // over half a turn: off by 1 - cos(pi / 16) of half a width
   constexpr double kStep_rad = 0.05;  // along a bent line
   const double half = 0.5 * stroke.width_mm;
-  const int steps = std::max(1, static_cast<int>(std::ceil((high - low) * std::abs(stroke.bend_rad) / kStep_rad)));
+  const double wanted = std::ceil((high - low) * std::abs(stroke.bend_rad) / kStep_rad);
+  const int steps = wanted >= 1.0 ? static_cast<int>(std::min(wanted, kMostSteps)) : 1;
   std::vector<Vec2> outline;
   const auto add_side = [&](double from, double to, double side) {
     for (int i = 0; i <= steps; ++i) {

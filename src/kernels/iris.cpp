@@ -60,7 +60,7 @@ IrisBound edge_bound(const Iris& iris, double normal_rad, double offset) {
 
 double iris_distance(const Iris& iris, Vec2 point) {
   if (iris.field) return iris.field->distance(turned(point, -iris.rotation_rad));
-  if (iris.blades < 3) return length(point) - 1.0;
+  if (blade_count(iris) == 0) return length(point) - 1.0;
   if (is_regular(iris)) {
     const double blades = folded_distance(iris, point);
     // Straight blades that reach the rim leave nothing for the rim to cut.
@@ -81,7 +81,7 @@ double iris_transmittance(const Iris& iris, Vec2 point, double width) {
 
 double iris_area_fraction(const Iris& iris) {
   if (iris.field) return iris.field->area() / std::numbers::pi;
-  if (iris.blades < 3) return 1.0;
+  if (blade_count(iris) == 0) return 1.0;
   const double sector = 2.0 * std::numbers::pi / iris.blades;
   if (is_regular(iris) && iris.curvature < kStraight && iris.blade_radius <= 1.0)
     return iris.blade_radius * iris.blade_radius * std::sin(sector) / sector;

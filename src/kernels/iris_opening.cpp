@@ -154,7 +154,7 @@ bool same_bound(const IrisBound& a, const IrisBound& b) {
 std::vector<IrisBound> iris_bounds(const Iris& iris) {
   std::vector<IrisBound> bounds{kIrisRim};
   const double sector = 2.0 * std::numbers::pi / std::max(iris.blades, 1);
-  for (int k = 0; iris.blades >= 3 && k < iris.blades; ++k)
+  for (int k = 0; k < blade_count(iris); ++k)
     add_unless_known(bounds, edge_bound(iris, iris.rotation_rad + (k + 0.5) * sector, edge_offset(iris, k)));
   return bounds;
 }

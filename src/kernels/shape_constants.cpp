@@ -1,5 +1,6 @@
 #include "kernels/shape_constants.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace contrejour {
@@ -7,7 +8,7 @@ namespace {
 
 void set_powers(ShapeConstants& constants, const std::vector<double>& powers) {
   double scale = 1.0;
-  for (std::size_t k = 0; k < powers.size(); ++k) {
+  for (std::size_t k = 0; k < std::min<std::size_t>(powers.size(), SurfaceShape::kHighestPower); ++k) {
     scale *= constants.reach_mm;
     if (powers[k] == 0.0) continue;
     const bool is_even = k % 2 == 1;

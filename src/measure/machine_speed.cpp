@@ -8,6 +8,7 @@
 
 #include "base/clock.h"
 #include "base/tasks.h"
+#include "contrejour/check_lens.h"
 #include "contrejour/ghost.h"
 #include "contrejour/image.h"
 #include "optics/trace/packet_trace.h"
@@ -16,6 +17,7 @@ namespace contrejour {
 namespace {
 
 constexpr int kRounds = 5;
+constexpr double kMostPixels = 268435456.0;  // as of a render
 constexpr double kLambda_nm = 550.0;
 // Enough rays for long vectors, few enough for a core's own cache.
 constexpr std::size_t kRaysPerSide = 32;
@@ -66,6 +68,7 @@ double fastest_ms(const Body& body) {
 }  // namespace
 
 double peak_hits_per_ms(const LensState& lens, const Context& context) {
+  if (!check_lens(lens)) return 0.0;
   const auto ghosts = enumerate_ghosts(lens, GhostScope::OneSideOfStop);
   if (ghosts.empty()) return 0.0;
   const Ghost longest =
@@ -86,6 +89,7 @@ double peak_hits_per_ms(const LensState& lens, const Context& context) {
 }
 
 double frame_pass_ms(int width, int height, const Context& context) {
+  if (width < 1 || height < 1 || static_cast<double>(width) * height > kMostPixels) return 0.0;
   Image image(width, height, 3);
   const auto row_floats = static_cast<std::size_t>(width) * 3;
   float value = 0.0F;

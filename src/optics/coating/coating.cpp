@@ -97,6 +97,8 @@ Between between(const std::vector<double>& list, double value) {
 
 // Measured from the side of the lower index; from the other the same at the angle that belongs to it.
 double reflectance_of(const MeasuredCoating& measured, double n_in, double n_out, double cos_in, double lambda_nm) {
+  const std::size_t wanted = measured.lambda_nm.size() * measured.angle_deg.size();
+  if (wanted == 0 || measured.reflectance.size() != wanted) return std::nan("");
   const double cos2_out = cos_squared_behind(n_in, n_out, cos_in);
   if (cos2_out <= 0.0) return 1.0;
   const double outside = n_in > n_out ? std::sqrt(cos2_out) : cos_in;

@@ -84,7 +84,7 @@ std::vector<double> reflectances(const FilmStack& stack, const Glass& glass, std
 }
 
 FilmStack refined(const FilmStack& start, const Glass& glass, const FilmGoal& goal) {
-  if (start.layers.empty() || goal.lambda_nm.empty()) return start;
+  if (start.layers.empty() || goal.lambda_nm.empty() || !goal.off) return start;
   const Residuals residuals(start, glass, goal);
   Eigen::NumericalDiff<Residuals> differentiable(residuals, 1e-8);
   Eigen::LevenbergMarquardt<Eigen::NumericalDiff<Residuals>> method(differentiable);

@@ -17,6 +17,7 @@ const FilmTable* find_table(std::string_view name) {
 // Lagrange's cubic through the four samples about a place; in the first and last gaps, through those at the end.
 double between(const std::array<double, FilmTable::kSamples>& samples, double place) {
   constexpr auto kLast = static_cast<double>(FilmTable::kSamples - 1);
+  if (std::isnan(place)) return place;
   const double within = std::clamp(place, 0.0, kLast);
   const double first = std::clamp(std::floor(within) - 1.0, 0.0, kLast - 3.0);
   const auto s = samples.begin() + static_cast<std::ptrdiff_t>(first);

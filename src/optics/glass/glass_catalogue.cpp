@@ -85,8 +85,11 @@ const GlassCatalogue& bundled_glasses() {
 }
 
 std::size_t GlassCatalogue::size() const { return rows_.size(); }
-GlassSummary GlassCatalogue::summary(std::size_t k) const { return rows_[k].summary; }
+GlassSummary GlassCatalogue::summary(std::size_t k) const {
+  return k < rows_.size() ? rows_[k].summary : GlassSummary{};
+}
 CatalogueEntry GlassCatalogue::entry(std::size_t k) const {
+  if (k >= rows_.size()) return {};
   const Row& row = rows_[k];
   return row.entry ? *row.entry : entry_of_line(row.line, row.summary.maker);
 }
@@ -99,6 +102,7 @@ std::vector<std::string> GlassCatalogue::makers() const {
 }
 
 bool GlassCatalogue::is_of(std::size_t k, std::span<const std::string> makers) const {
+  if (k >= rows_.size()) return false;
   return makers.empty() || std::any_of(makers.begin(), makers.end(), [&](const std::string& maker) {
            return rows_[k].maker_key == maker_key(maker);
          });

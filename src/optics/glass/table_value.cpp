@@ -46,6 +46,7 @@ double slope(const Points& p, std::size_t k) {
 
 double table_value(std::span<const double> points, double x) {
   const Points p{points};
+  if (p.size() == 0) return std::nan("");
   const std::size_t last = p.size() - 1;
   if (x <= p.x(0)) return p.y(0);
   if (x >= p.x(last)) return p.y(last);

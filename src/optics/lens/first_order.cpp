@@ -1,6 +1,9 @@
 #include "contrejour/first_order.h"
 
 #include <cmath>
+#include <limits>
+
+#include "contrejour/check_lens.h"
 
 namespace contrejour {
 namespace {
@@ -38,9 +41,13 @@ Abcd refraction_backward(const SurfaceState& s, double lambda_nm, Section sectio
   return refraction(n.after, n.before, -curvature_of(s, section));
 }
 
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr Abcd kNone{kNan, kNan, kNan, kNan};
+
 }  // namespace
 
 Abcd abcd_between(std::span<const SurfaceState> surfaces, int first, int last, double lambda_nm, Section section) {
+  if (first < 0 || last >= static_cast<int>(surfaces.size())) return kNone;
   Abcd m;
   for (int k = first; k <= last; ++k) {
     const auto& s = surfaces[static_cast<std::size_t>(k)];
@@ -51,6 +58,7 @@ Abcd abcd_between(std::span<const SurfaceState> surfaces, int first, int last, d
 }
 
 Abcd abcd_ghost(const LensState& lens, const Ghost& ghost, double lambda_nm, Section section) {
+  if (!has_surfaces_of(lens, ghost)) return kNone;
   const auto& all = lens.surfaces;
   const auto surface = [&](int k) -> const SurfaceState& { return all[static_cast<std::size_t>(k)]; };
   const int last = static_cast<int>(all.size()) - 1;
@@ -77,6 +85,7 @@ Abcd abcd_ghost(const LensState& lens, const Ghost& ghost, double lambda_nm, Sec
 }
 
 FirstOrder first_order(const LensState& lens, double lambda_nm) {
+  if (!has_stop(lens)) return {kNan, kNan, kNan, kNan, kNan, kNan, kNan, kNan, kNan, kNan, kNan, kNan};
   const int last = static_cast<int>(lens.surfaces.size()) - 1;
   const Abcd whole = abcd_between(lens.surfaces, 0, last, lambda_nm);
   const Abcd front = abcd_between(lens.surfaces, 0, lens.stop_index, lambda_nm);

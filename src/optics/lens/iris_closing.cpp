@@ -6,10 +6,11 @@
 
 #include <fmt/format.h>
 
+#include "kernels/iris_blades.h"
+
 namespace contrejour {
 namespace {
 
-constexpr int kMostBlades = 100;
 constexpr double kMostAsymmetry = 0.5;
 constexpr double kMostRotation_rad = 1e6;  // beyond, angles lose digits that are seen
 constexpr double kOpen = 1e-9;        // relative to the hole's area: less is not closed at all

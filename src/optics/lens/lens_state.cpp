@@ -14,6 +14,7 @@
 #include "optics/lens/build_errors.h"
 #include "optics/lens/iris_closing.h"
 #include "optics/lens/sensor_stack.h"
+#include "optics/lens/validate.h"
 
 namespace contrejour {
 namespace {
@@ -24,6 +25,7 @@ constexpr double kNominalTolerance = 1e-6;   // relative: the same nominal focal
 constexpr double kPrimeTolerance = 5e-3;     // relative: asking a prime for its own focal length
 constexpr double kFNumberTolerance = 5e-2;   // relative: what patents call 2.92 is sold as 2.8
 constexpr double kStopTolerance = 1e-2;      // relative: a stop that misses the widest f-number by less is no news
+constexpr double kNarrowest = 1e5;           // f-number
 constexpr int kZoomBisections = 60;          // to the last bit of the interpolation parameter
 
 // Thicknesses at one zoom position, or between two.
@@ -216,7 +218,7 @@ double wanted_stop_mm(const LensState& state, const Prescription& lens, double f
 Result<void> set_stop(LensState& state, const Prescription& lens, const std::optional<double>& f_number) {
   const SurfaceState& stop = state.surfaces[static_cast<std::size_t>(state.stop_index)];
   state.f_number = f_number.value_or(lens.f_number);
-  if (!(state.f_number >= lens.f_number * (1.0 - kFNumberTolerance)) || !std::isfinite(state.f_number)) {
+  if (!(state.f_number >= lens.f_number * (1.0 - kFNumberTolerance)) || state.f_number > kNarrowest) {
     return failure(ErrorCode::InvalidArgument,
                    fmt::format("f/{:g} is out of range; this lens opens to f/{:.3g}, choose that or a larger number",
                                state.f_number, lens.f_number),
@@ -315,8 +317,8 @@ void warn_of_glasses(LensState& state) {
   }
 }
 
-// Published data is often wrong: figures that its source states and that the surfaces do not have. Where the focus is as
-// stated the surfaces are, and the stated focal length is another lens's or another setting's.
+// Published data is often wrong: figures that its source states and that the surfaces do not have. Where the focus is
+// as stated the surfaces are, and the stated focal length is another lens's or another setting's.
 void warn_of_stated(LensState& state, const StatedFigures& stated) {
   const double back_mm = image_plane(state, std::numeric_limits<double>::infinity(), Section::Y).distant_mm;
   const auto is_as_stated = [&](const std::optional<double>& claimed_mm, double computed_mm) {
@@ -339,6 +341,9 @@ Result<LensState> lens_at(const Prescription& lens, const LensSettings& settings
   if (const auto valid = validate(lens); !valid) return tl::unexpected<Error>(valid.error());
   if (const auto good = check_build_errors(settings.build); !good) return tl::unexpected<Error>(good.error());
   if (const auto good = check_sensor_stack(settings.sensor); !good) return tl::unexpected<Error>(good.error());
+  if (settings.coating) {
+    if (const auto problem = coating_problem(*settings.coating)) return failure(ErrorCode::InvalidArgument, *problem);
+  }
   const auto zoom = choose_zoom(lens, settings.focal_length_mm);
   if (!zoom) return tl::unexpected<Error>(zoom.error());
 

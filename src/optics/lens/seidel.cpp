@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "contrejour/check_lens.h"
 #include "contrejour/first_order.h"
 
 namespace contrejour {
@@ -78,6 +79,7 @@ SeidelSums& SeidelSums::operator+=(const SeidelSums& other) {
 }
 
 std::vector<SeidelSums> seidel_by_surface(const LensState& lens, const SeidelRequest& request) {
+  if (!has_stop(lens)) return {};
   const FirstOrder figures = first_order(lens, request.lambda_nm);
   const double slope = std::tan(request.half_field_rad);
   ParaxialRay marginal{0.5 * figures.entrance_pupil_diameter_mm, 0.0};

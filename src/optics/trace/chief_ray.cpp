@@ -4,11 +4,13 @@
 // own shapes, and from the centred lens's where elements are moved or tilted.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <optional>
 #include <span>
 #include <vector>
 
+#include "contrejour/check_lens.h"
 #include "contrejour/first_order.h"
 #include "contrejour/trace.h"
 #include "optics/trace/anamorphic_chief_ray.h"
@@ -20,6 +22,7 @@ namespace {
 constexpr double kFieldStep_rad = 0.005;
 constexpr double kLastField_rad = 0.49 * std::numbers::pi;
 constexpr int kFieldBisections = 60;
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 // Field angle: of the light's direction. Height at the plane of the paraxial entrance pupil, where that is behind the
 // light, or else of the first vertex.
@@ -193,6 +196,7 @@ Vec3 askew_direction(const LensState& lens, Vec2 sensor_mm, double lambda_nm, do
 
 // A positive lens images the sky point in direction d (the way the light travels) on the side d points to.
 Vec3 direction_to_land_at(const LensState& lens, Vec2 sensor_mm, double lambda_nm, double distance_mm) {
+  if (!has_stop(lens) || !std::isfinite(sensor_mm.x + sensor_mm.y)) return {kNan, kNan, kNan};
   if (is_anamorphic(lens)) return anamorphic_direction(lens, sensor_mm, lambda_nm, distance_mm);
   if (!is_centred(lens)) return askew_direction(lens, sensor_mm, lambda_nm, distance_mm);
   const double radius = length(sensor_mm);
@@ -204,6 +208,8 @@ Vec3 direction_to_land_at(const LensState& lens, Vec2 sensor_mm, double lambda_n
 }
 
 Vec2 landing_of(const LensState& lens, const LightSource& source, double lambda_nm) {
+  const Vec3 d = source.direction;
+  if (!has_stop(lens) || !std::isfinite(d.x + d.y + d.z)) return {kNan, kNan};
   if (is_anamorphic(lens)) return anamorphic_landing(lens, source, lambda_nm);
   const Vec2 across{source.direction.x, source.direction.y};
   const double sine = length(across);

@@ -63,6 +63,7 @@ Result<void> check_source(const LensState& lens, const LightSource& source) {
   if (!std::isfinite(d.x + d.y + d.z) || !(d.z > 0.0)) return refuse("the light is beside or behind the camera");
   if (!(source.distance_mm > 0.0))
     return refuse(fmt::format("a light cannot be at a distance of {} mm; give more than 0", source.distance_mm));
+  if (lens.surfaces.empty()) return refuse("the lens state has no surfaces; make it with lens_at()");
   const SurfaceState& first = lens.surfaces.front();
   const double front_mm = lowest_mm(first) + first.z_mm - askew_forward_mm(first);
   if (!source.is_distant() && !(source.point_mm().z <= front_mm - kNearestLight_mm))
@@ -76,6 +77,7 @@ Result<void> check_source(const LensState& lens, const LightSource& source) {
 // The cap of surface 1, seen along the light, is more than its rim when the light comes in obliquely onto a
 // bulging surface: each ring of the cap is projected along the light onto the plane of the rim.
 EntranceWindow entrance_window(const LensState& lens, const LightSource& source) {
+  if (lens.surfaces.empty()) return {};
   const SurfaceState& first = lens.surfaces.front();
   const double rim = first.semi_diameter_mm;
   EntranceWindow window;

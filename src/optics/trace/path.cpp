@@ -5,6 +5,7 @@
 #include <numbers>
 #include <utility>
 
+#include "contrejour/check_lens.h"
 #include "contrejour/trace.h"
 #include "kernels/shape_constants.h"
 #include "optics/trace/path_steps.h"
@@ -110,6 +111,7 @@ OpticalPath direct_path(const LensState& lens, double lambda_nm) {
 
 OpticalPath ghost_path(const LensState& lens, Ghost ghost, double lambda_nm) {
   OpticalPath path = empty_path(lens, lambda_nm);
+  if (!has_surfaces_of(lens, ghost)) return path;
   walk_ghost(
       lens, ghost,
       [&](int surface, int direction, PathEvent event) { add_steps(path, lens, surface, direction, event); },

@@ -106,8 +106,9 @@ bool advance(State& state, const PathStep& step, const OpticalPath& path, double
     state.out.transmission *= std::exp(-step.absorption_per_mm * (state.ray.z - from_z_mm) / state.ray.dz);
   if (angle_of_incidence_rad != nullptr) *angle_of_incidence_rad = std::acos(std::min(1.0, hit.cos_in));
   if (step.event == PathEvent::Stop) {
-    state.out.stop[static_cast<std::size_t>(state.crossings++)] =
-        Vec2{met.own.x, met.own.y} * (1.0 / path.stop_radius_mm);
+    if (state.crossings < kMaxStopCrossings)
+      state.out.stop[static_cast<std::size_t>(state.crossings++)] =
+          Vec2{met.own.x, met.own.y} * (1.0 / path.stop_radius_mm);
     return true;
   }
   const double distance = distance_over_rim(met.own, step);
@@ -217,7 +218,7 @@ RayRecord trace_recorded(const OpticalPath& path, const Ray& ray) {
 
 double blocked_by(const TracedRay& ray, const OpticalPath& path, const Iris& iris) {
   double worst = std::max(ray.r_rel - 1.0, ray.obscured);
-  for (int k = 0; k < path.stop_crossings; ++k) {
+  for (int k = 0; k < std::min(path.stop_crossings, kMaxStopCrossings); ++k) {
     worst = std::max(worst, iris_distance(iris, ray.stop[static_cast<std::size_t>(k)]));
   }
   return worst;

@@ -8,6 +8,7 @@
 
 #include "base/memory.h"
 #include "base/tasks.h"
+#include "contrejour/check_lens.h"
 #include "contrejour/render.h"
 #include "contrejour/ringing.h"
 #include "render/adaptive/adaptive.h"
@@ -71,6 +72,7 @@ std::vector<std::string_view> render_methods() {
 
 Result<Flare> render(std::string_view method, const LensState& lens, std::span<const Light> lights,
                      const RenderSettings& settings, const Context& context) {
+  if (auto good = check_lens(lens); !good) return tl::unexpected(good.error());
   for (const Method& known : kMethods) {
     if (known.name != method) continue;
     if (settings.ringing.mode != RingingMode::None && !settings.ringing.patterns)

@@ -11,6 +11,7 @@
 #include "base/clock.h"
 #include "base/tasks.h"
 #include "ghosts/direct_meter.h"
+#include "render/interface/check_frame.h"
 #include "render/interface/direct_light.h"
 #include "render/interface/ghost_selection.h"
 #include "render/interface/statistics.h"
@@ -19,21 +20,12 @@ namespace contrejour {
 namespace {
 
 constexpr int kMaxWavelengths = 1024;
-constexpr double kMaxPixels = 268435456.0;  // 2^28
 
 Error invalid(std::string message) { return {ErrorCode::InvalidArgument, std::move(message), {}}; }
 
 std::optional<Error> problem_with(const LensState& lens, std::span<const Light> lights,
                                   const RenderSettings& settings) {
-  const Frame& f = settings.frame;
-  if (f.width <= 0 || f.height <= 0 || f.full_width <= 0 || f.full_height <= 0) {
-    return invalid(
-        fmt::format("a frame of {} x {} pixels has no pixels; give a size of at least 1x1", f.width, f.height));
-  }
-  if (static_cast<double>(f.width) * f.height > kMaxPixels) {
-    return invalid(fmt::format("a frame of {} x {} pixels is too large; 2^28 pixels are the limit", f.width, f.height));
-  }
-  if (!(f.pixel_pitch_mm > 0.0) || !std::isfinite(f.pixel_pitch_mm)) return invalid("the pixel pitch must be positive");
+  if (const auto good = check_frame(settings.frame); !good) return good.error();
   if (settings.lambda_nm.empty() && (settings.wavelengths < 1 || settings.wavelengths > kMaxWavelengths)) {
     return invalid(
         fmt::format("{} wavelengths is out of range; choose 1 to {}", settings.wavelengths, kMaxWavelengths));

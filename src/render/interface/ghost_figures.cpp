@@ -5,8 +5,12 @@
 #include <limits>
 #include <span>
 
+#include <fmt/format.h>
+
 #include "base/tasks.h"
+#include "contrejour/check_lens.h"
 #include "contrejour/first_order.h"
+#include "render/interface/check_frame.h"
 #include "render/interface/direct_light.h"
 
 namespace contrejour {
@@ -59,10 +63,21 @@ GhostFigures figures_of(const LensState& lens, Ghost ghost, const FiguresRequest
   return figures;
 }
 
+Result<void> check_request(const LensState& lens, const FiguresRequest& request) {
+  if (auto good = check_lens(lens); !good) return good;
+  if (auto good = check_frame(request.frame); !good) return good;
+  for (const SpectralBand& band : request.bands) {
+    if (!is_wavelength(band.lambda_nm) || !std::isfinite(band.weight[0] + band.weight[1] + band.weight[2]))
+      return failure(ErrorCode::InvalidArgument, fmt::format("no band of a light is at {} nm", band.lambda_nm));
+  }
+  return {};
+}
+
 }  // namespace
 
 Result<std::vector<GhostFigures>> ghost_figures(const LensState& lens, const FiguresRequest& request,
                                                 const Context& context) {
+  if (const auto good = check_request(lens, request); !good) return tl::unexpected(good.error());
   if (const auto good = check_source(lens, request.light.source()); !good) return tl::unexpected(good.error());
   const std::vector<Ghost> ghosts = enumerate_ghosts(lens, request.scope, request.reflections);
   std::vector<GhostMeter> meters;

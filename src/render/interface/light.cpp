@@ -81,8 +81,9 @@ Result<void> check_extent(const Light& light) {
 }
 
 LightShape coarser(const LightShape& shape, int by) {
-  if (by <= 1) return shape;
   const Image& fine = shape.level;
+  if (by <= 1 || fine.pixels.empty() || fine.pixels.size() != fine.index(0, fine.height)) return shape;
+  by = std::min(by, std::max(fine.width, fine.height));
   LightShape out{Image((fine.width + by - 1) / by, (fine.height + by - 1) / by, fine.channels),
                  shape.centre_px * (1.0 / by), shape.right * by, shape.down * by};
   for (int y = 0; y < fine.height; ++y)

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "base/tasks.h"
+#include "contrejour/check_lens.h"
 #include "contrejour/iris_field.h"
 #include "contrejour/lens_starburst.h"
 #include "render/starburst/mask_places.h"
@@ -278,14 +279,13 @@ double shade_by_tones(const Iris& iris, const PupilRays& pupil, const std::vecto
 }
 
 Result<void> check(const LensState& lens, const LightSource& light, double lambda_nm, int samples_across) {
-  if (!(lambda_nm > 0.0) || !std::isfinite(lambda_nm))
+  if (!is_wavelength(lambda_nm))
     return failure(ErrorCode::InvalidArgument, fmt::format("no light has a wavelength of {} nm", lambda_nm));
   if (samples_across < kFewestSamples || samples_across > kMostSamples)
     return failure(ErrorCode::InvalidArgument,
                    fmt::format("{} samples across the pupil are out of range; choose {} to {}", samples_across,
                                kFewestSamples, kMostSamples));
-  if (!(lens.stop_radius_mm > 0.0) || lens.surfaces.empty())
-    return failure(ErrorCode::InvalidArgument, "the lens has no open stop");
+  if (auto good = check_lens(lens); !good) return good;
   return check_source(lens, light);
 }
 

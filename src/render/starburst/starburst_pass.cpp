@@ -9,6 +9,7 @@
 
 #include "base/clock.h"
 #include "base/tasks.h"
+#include "contrejour/check_lens.h"
 #include "contrejour/lens_starburst.h"
 #include "render/interface/direct_light.h"
 #include "render/interface/statistics.h"
@@ -281,7 +282,7 @@ Result<void> check_light_images(std::span<const Light> lights, const RenderSetti
       !usable)
     return usable;
   for (const double lambda_nm : settings.lambda_nm)
-    if (!(lambda_nm > 0.0) || !std::isfinite(lambda_nm))
+    if (!is_wavelength(lambda_nm))
       return tl::unexpected(invalid(fmt::format("no light has a wavelength of {} nm", lambda_nm)));
   return starburst.left_out ? check_left_out(*starburst.left_out, settings.frame) : Result<void>();
 }
