@@ -1,8 +1,9 @@
-// Pictures in files: OpenEXR (single part, flat, scan lines or tiles, any channels) and PNG (8 and 16 bit).
-// A Picture keeps all that its file holds, so that writing it back changes only the samples whose rgb value was
-// changed; every other sample keeps its bits, NaN included. docs/formats/images.md says what is kept and what not.
-// Errors: Io, Parse (damaged file), Unsupported (multi-part, deep, subsampled colour), Cancelled; place.file is set.
-// No exception leaves. A failed or cancelled write leaves no file. Thread-safety: pure functions.
+// Pictures in files: OpenEXR (flat, scan lines or tiles, any channels; of several parts the first with colour, the
+// others are kept as they are) and PNG (8 and 16 bit). A Picture keeps all that its file holds, so that writing it back
+// changes only the samples whose rgb value was changed; every other sample keeps its bits, NaN included.
+// docs/formats/images.md says what is kept and what not. Errors: Io, Parse (damaged file), Unsupported (deep, no
+// colour, subsampled colour), Cancelled; place.file is set. No exception leaves. A failed or cancelled write leaves no
+// file. Thread-safety: pure functions.
 #pragma once
 
 #include <array>
@@ -39,29 +40,31 @@ struct PictureChannel {
   std::string name;
   SampleType type = SampleType::Half;
   int x_sampling = 1, y_sampling = 1;  // > 1: one sample for so many pixels
-  bool perceptually_linear = false;    // OpenEXR's pLinear, a hint to its lossy codecs
+  bool perceptually_linear = false;  // OpenEXR's pLinear, a hint to its lossy codecs
   std::vector<std::byte> samples;
 };
 
 struct PictureHeader;  // an OpenEXR file's attributes, kept whole
 
 struct Picture {
-  Image rgb;                 // scene-linear, three channels, over the data window; change this
-  PixelWindow data_window;   // where rgb lies
+  Image rgb;  // scene-linear, three channels, over the data window; change this
+  PixelWindow data_window;  // where rgb lies
   PixelWindow display_window;
-  std::vector<PictureChannel> channels;         // every channel as it was read, those behind rgb included
-  std::array<int, 3> rgb_source{-1, -1, -1};    // the channels behind r, g, b; all the same one for a grey picture
+  std::vector<PictureChannel> channels;  // every channel as it was read, those behind rgb included
+  std::array<int, 3> rgb_source{-1, -1, -1};  // the channels behind r, g, b; all the same one for a grey picture
   std::shared_ptr<const PictureHeader> header;  // null: not from an OpenEXR file
 };
 
 // What a reader takes on before it allocates; beyond it the file is refused.
 struct ReadLimits {
   std::uint64_t max_pixels = std::uint64_t{1} << 28;  // in the data window
-  std::uint64_t max_bytes = std::uint64_t{8} << 30;   // of all channels, uncompressed; and of the file
+  std::uint64_t max_bytes = std::uint64_t{8} << 30;  // of all channels, uncompressed; and of the file
 };
 
 struct ReadOptions {
-  std::string layer;  // colour from LAYER.R, .G, .B; empty: R, G, B, else Y, else the first layer with R, G, B
+  // Colour from LAYER.R, .G, .B, or from the part of this name; empty: R, G, B, else Y, else the only channel there is,
+  // else the first layer with R, G, B.
+  std::string layer;
   ReadLimits limits;
 };
 
@@ -99,12 +102,15 @@ void set_text_attribute(Picture& picture, const std::string& name, const std::st
 
 // An 8-bit sRGB PNG to look at. NaN and negative values show as black.
 struct PreviewSettings {
-  double exposure_stops = 0;      // values times 2^stops
+  double exposure_stops = 0;  // values times 2^stops
   bool roll_off_highlights = true;  // bends values above 0.8 towards 1 instead of clipping them
 };
 [[nodiscard]] Result<void> write_preview_png(const std::filesystem::path& file, const Image& rgb,
                                              const PreviewSettings& settings = {}, const Context& context = {});
 [[nodiscard]] Result<void> write_preview_png(OutputFile& file, const Image& rgb, const PreviewSettings& settings = {},
                                              const Context& context = {});
+// The same as bytes, to be put into something else.
+[[nodiscard]] Result<std::vector<std::byte>> preview_png(const Image& rgb, const PreviewSettings& settings = {},
+                                                         const Context& context = {});
 
 }  // namespace contrejour

@@ -129,7 +129,7 @@ std::string printable(std::string_view text) {
 
 }  // namespace
 
-Result<std::size_t> check_exr_header(std::span<const std::byte> bytes, const std::string& name) {
+Result<ExrHeaderSize> check_exr_header(std::span<const std::byte> bytes, const std::string& name) {
   const SourcePlace place{name};
   ByteReader in(bytes);
   const auto magic = in.u32(), version = in.u32();
@@ -137,15 +137,19 @@ Result<std::size_t> check_exr_header(std::span<const std::byte> bytes, const std
   if ((*version & kVersionMask) != 2)
     return failure(ErrorCode::Unsupported, fmt::format("OpenEXR version {} is not known", *version & kVersionMask),
                    place);
-  if ((*version & kDeepFlag) != 0)
+  const bool is_multi_part = (*version & kMultiPartFlag) != 0;
+  if ((*version & kDeepFlag) != 0 && !is_multi_part)
     return failure(ErrorCode::Unsupported, "deep OpenEXR pictures are not read; flatten it first", place);
-  if ((*version & kMultiPartFlag) != 0)
-    return failure(ErrorCode::Unsupported, "multi-part OpenEXR files are not read; save one part as its own file",
-                   place);
+  bool is_first = true;  // attribute of its part: an empty name ends a part, and a part of none ends the header
   while (true) {
     const auto attribute = in.name();
     if (!attribute) return failure(ErrorCode::Parse, "the OpenEXR header is damaged or cut off", place);
-    if (attribute->empty()) return in.position();
+    if (attribute->empty()) {
+      if (!is_multi_part || is_first) return ExrHeaderSize{in.position(), is_multi_part};
+      is_first = true;
+      continue;
+    }
+    is_first = false;
     const auto type = in.name();
     const auto size = type ? in.u32() : std::nullopt;
     const auto value = size ? in.take(*size) : std::nullopt;

@@ -9,8 +9,13 @@
 
 namespace contrejour {
 
-// The size of magic, version and attributes. Errors: Parse (an attribute is larger than the file or not of its type's
-// size), Unsupported (multi-part, deep, newer version).
-[[nodiscard]] Result<std::size_t> check_exr_header(std::span<const std::byte> bytes, const std::string& name);
+struct ExrHeaderSize {
+  std::size_t bytes = 0;  // of magic, version and attributes
+  bool is_multi_part = false;
+};
+
+// Errors: Parse (an attribute is larger than the file or not of its type's size), Unsupported (deep and single-part,
+// newer version).
+[[nodiscard]] Result<ExrHeaderSize> check_exr_header(std::span<const std::byte> bytes, const std::string& name);
 
 }  // namespace contrejour

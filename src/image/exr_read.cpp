@@ -6,6 +6,8 @@
 #include <ImfChannelList.h>
 #include <ImfFrameBuffer.h>
 #include <ImfInputFile.h>
+#include <ImfInputPart.h>
+#include <ImfMultiPartInputFile.h>
 #include <ImfPartType.h>
 #include <ImfRgbaFile.h>
 #include <ImfStandardAttributes.h>
@@ -30,11 +32,10 @@ struct CheckedHeader {
 };
 
 // All that can be known to be wrong before anything of the picture's size is allocated.
-Result<CheckedHeader> read_header(std::span<const std::byte> bytes, const std::string& name, const ReadLimits& limits) {
-  const Result<std::size_t> size = check_exr_header(bytes, name);
-  if (!size) return tl::unexpected(size.error());
+Result<CheckedHeader> read_header(std::span<const std::byte> bytes, const std::string& name, std::size_t size,
+                                  const ReadLimits& limits) {
   CheckedHeader checked;
-  checked.size = *size;
+  checked.size = size;
   std::uint32_t version_field = 0;
   for (std::size_t i = 0; i < 4; ++i)
     version_field |= std::to_integer<std::uint32_t>(bytes[kVersionOffset + i]) << (8 * i);
@@ -52,9 +53,9 @@ Result<CheckedHeader> read_header(std::span<const std::byte> bytes, const std::s
   return checked;
 }
 
-void read_channels(std::span<const std::byte> bytes, const std::string& name, Picture& picture) {
-  MemoryInput stream(bytes, name);
-  Imf::InputFile file(stream);
+// All channels of an InputFile or an InputPart.
+template <class File>
+void read_channels(File& file, Picture& picture) {
   const Imath::Box2i window = file.header().dataWindow();
   Imf::FrameBuffer frame_buffer;
   for (auto i = file.header().channels().begin(); i != file.header().channels().end(); ++i) {
@@ -86,11 +87,26 @@ std::optional<std::array<int, 3>> triple(const Picture& picture, const std::stri
   return std::nullopt;
 }
 
+// A picture of one channel is grey, whatever its name, if that is none of what is no light.
+int only_channel(const Picture& picture) {
+  int only = -1;
+  for (std::size_t k = 0; k < picture.channels.size(); ++k) {
+    const std::string& name = picture.channels[k].name;
+    if (name == "A" || name == "alpha") continue;
+    const bool is_no_light =
+        name == "Z" || name == "ZBack" || name == "depth" || name == "id" || name == "RY" || name == "BY";
+    if (only >= 0 || is_no_light) return -1;
+    only = static_cast<int>(k);
+  }
+  return only;
+}
+
 std::optional<std::array<int, 3>> colour_channels(const Picture& picture, const std::string& layer) {
   const std::string prefix = layer.empty() ? "" : layer + ".";
   if (const auto rgb = triple(picture, prefix)) return rgb;
   if (const int grey = index_of(picture, prefix + "Y"); grey >= 0) return std::array<int, 3>{grey, grey, grey};
   if (!layer.empty()) return std::nullopt;
+  if (const int grey = only_channel(picture); grey >= 0) return std::array<int, 3>{grey, grey, grey};
   for (const PictureChannel& channel : picture.channels) {  // in the order of their names
     const std::size_t dot = channel.name.rfind('.');
     if (dot == std::string::npos) continue;
@@ -155,19 +171,89 @@ Result<void> fill_rgb(const std::string& name, const std::string& layer, Picture
   return {};
 }
 
-Result<Picture> read(std::span<const std::byte> bytes, const std::string& name, const ReadOptions& options) {
-  Result<CheckedHeader> checked = read_header(bytes, name, options.limits);
-  if (!checked) return tl::unexpected(checked.error());
+Picture empty_picture(const Imf::Header& header) {
   Picture picture;
-  picture.data_window = window_of(checked->header.dataWindow());
-  picture.display_window = window_of(checked->header.displayWindow());
-  read_channels(bytes, name, picture);
+  picture.data_window = window_of(header.dataWindow());
+  picture.display_window = window_of(header.displayWindow());
+  return picture;
+}
+
+Result<Picture> read_single(std::span<const std::byte> bytes, const std::string& name, std::size_t header_size,
+                            const ReadOptions& options) {
+  Result<CheckedHeader> checked = read_header(bytes, name, header_size, options.limits);
+  if (!checked) return tl::unexpected(checked.error());
+  Picture picture = empty_picture(checked->header);
+  MemoryInput stream(bytes, name);
+  Imf::InputFile file(stream);
+  read_channels(file, picture);
   const bool chroma = index_of(picture, "Y") >= 0 && index_of(picture, "RY") >= 0 && index_of(picture, "BY") >= 0;
   if (options.layer.empty() && chroma && index_of(picture, "R") < 0) convert_luminance_chroma(bytes, name, picture);
   picture.header = std::make_shared<PictureHeader>(PictureHeader{std::move(checked->header)});
   const Result<void> filled = fill_rgb(name, options.layer, picture);
   if (!filled) return tl::unexpected(filled.error());
   return picture;
+}
+
+// A picture that has a part's channels, without samples: for what asks only for their names.
+Picture names_of(const Imf::Header& header) {
+  Picture picture = empty_picture(header);
+  for (auto i = header.channels().begin(); i != header.channels().end(); ++i)
+    picture.channels.push_back({i.name(),
+                                sample_type_of(i.channel().type),
+                                i.channel().xSampling,
+                                i.channel().ySampling,
+                                i.channel().pLinear,
+                                {}});
+  return picture;
+}
+
+struct ChosenPart {
+  int part = 0;
+  std::string layer;  // of it
+};
+
+// The first flat part with colour; with a layer the part of that name, or the first that has it.
+Result<ChosenPart> choose_part(const Imf::MultiPartInputFile& file, const std::string& name, const std::string& layer) {
+  std::string names;
+  for (int part = 0; part < file.parts(); ++part) {
+    const Imf::Header& header = file.header(part);
+    const std::string own = header.hasName() ? header.name() : std::string();
+    if (names.size() < 200) names += (names.empty() ? "" : ", ") + own;
+    if (header.hasType() && Imf::isDeepData(header.type())) continue;
+    const Picture channels = names_of(header);
+    if (!layer.empty() && own == layer && colour_channels(channels, "")) return ChosenPart{part, ""};
+    if (colour_channels(channels, layer)) return ChosenPart{part, layer};
+  }
+  return failure(ErrorCode::Unsupported,
+                 fmt::format("no colour in {}; the file's parts are {}",
+                             layer.empty() ? "any flat part" : "layer '" + layer + "'", names),
+                 {name});
+}
+
+Result<Picture> read_part(std::span<const std::byte> bytes, const std::string& name, std::size_t header_size,
+                          const ReadOptions& options) {
+  MemoryInput stream(bytes, name);
+  Imf::MultiPartInputFile file(stream);
+  const auto chosen = choose_part(file, name, options.layer);
+  if (!chosen) return tl::unexpected(chosen.error());
+  const Imf::Header& header = file.header(chosen->part);
+  if (const auto fits = check_exr_size(header, header_size, bytes.size(), options.limits, name); !fits)
+    return tl::unexpected(fits.error());
+  Picture picture = empty_picture(header);
+  Imf::InputPart part(file, chosen->part);
+  read_channels(part, picture);
+  const auto parts = std::make_shared<const PictureParts>(PictureParts{{bytes.begin(), bytes.end()}, chosen->part});
+  picture.header = std::make_shared<PictureHeader>(PictureHeader{header, parts});
+  const Result<void> filled = fill_rgb(name, chosen->layer, picture);
+  if (!filled) return tl::unexpected(filled.error());
+  return picture;
+}
+
+Result<Picture> read(std::span<const std::byte> bytes, const std::string& name, const ReadOptions& options) {
+  const auto size = check_exr_header(bytes, name);
+  if (!size) return tl::unexpected(size.error());
+  return size->is_multi_part ? read_part(bytes, name, size->bytes, options)
+                             : read_single(bytes, name, size->bytes, options);
 }
 
 }  // namespace

@@ -1,10 +1,22 @@
 // Picture -> OpenEXR: docs/formats/images.md.
 #include <algorithm>
+#include <stdexcept>
 
 #include <ImfChannelList.h>
+#include <ImfDeepScanLineInputPart.h>
+#include <ImfDeepScanLineOutputPart.h>
+#include <ImfDeepTiledInputPart.h>
+#include <ImfDeepTiledOutputPart.h>
 #include <ImfFrameBuffer.h>
+#include <ImfInputPart.h>
+#include <ImfMultiPartInputFile.h>
+#include <ImfMultiPartOutputFile.h>
 #include <ImfOutputFile.h>
+#include <ImfOutputPart.h>
+#include <ImfPartType.h>
+#include <ImfTiledInputPart.h>
 #include <ImfTiledOutputFile.h>
+#include <ImfTiledOutputPart.h>
 #include <fmt/format.h>
 
 #include "image/exr_streams.h"
@@ -60,10 +72,10 @@ Imf::Header header_to_write(const Picture& picture) {
   return header;
 }
 
-// Whether it came to the end; false when cancelled or the stream has failed.
-bool write_scan_lines(OutputFileStream& stream, const Imf::Header& header, const Imf::FrameBuffer& frame_buffer,
-                      int height, const Context& context) {
-  Imf::OutputFile out(stream, header);
+// To an OutputFile or an OutputPart. Whether it came to the end; false when cancelled or the stream has failed.
+template <class File>
+bool write_scan_lines(File& out, const OutputFileStream& stream, const Imf::FrameBuffer& frame_buffer, int height,
+                      const Context& context) {
   out.setFrameBuffer(frame_buffer);
   for (int row = 0; row < height; row += kRowsBetweenCancelChecks) {
     if (context.cancelled() || stream.error()) return false;
@@ -72,15 +84,68 @@ bool write_scan_lines(OutputFileStream& stream, const Imf::Header& header, const
   return true;
 }
 
-bool write_tiles(OutputFileStream& stream, const Imf::Header& header, const Imf::FrameBuffer& frame_buffer,
+// To a TiledOutputFile or a TiledOutputPart.
+template <class File>
+bool write_tiles(File& out, const OutputFileStream& stream, const Imf::FrameBuffer& frame_buffer,
                  const Context& context) {
-  Imf::TiledOutputFile out(stream, header);
   out.setFrameBuffer(frame_buffer);
   const int rows = out.numYTiles();
   for (int i = 0; i < rows; ++i) {
     if (context.cancelled() || stream.error()) return false;
-    const int row = header.lineOrder() == Imf::DECREASING_Y ? rows - 1 - i : i;
+    const int row = out.header().lineOrder() == Imf::DECREASING_Y ? rows - 1 - i : i;
     out.writeTiles(0, out.numXTiles() - 1, row, row);
+  }
+  return true;
+}
+
+bool write_single(OutputFileStream& stream, const Imf::Header& header, const Imf::FrameBuffer& frame_buffer, int height,
+                  const Context& context) {
+  if (header.hasTileDescription()) {
+    Imf::TiledOutputFile out(stream, header);
+    return write_tiles(out, stream, frame_buffer, context);
+  }
+  Imf::OutputFile out(stream, header);
+  return write_scan_lines(out, stream, frame_buffer, height, context);
+}
+
+template <class InputPart, class OutputPart>
+void copy_part(Imf::MultiPartInputFile& from, Imf::MultiPartOutputFile& to, int part) {
+  InputPart in(from, part);
+  OutputPart out(to, part);
+  out.copyPixels(in);
+}
+
+// As it is packed.
+void copy_part(Imf::MultiPartInputFile& from, Imf::MultiPartOutputFile& to, int part) {
+  const std::string& type = from.header(part).type();
+  if (type == Imf::SCANLINEIMAGE) return copy_part<Imf::InputPart, Imf::OutputPart>(from, to, part);
+  if (type == Imf::TILEDIMAGE) return copy_part<Imf::TiledInputPart, Imf::TiledOutputPart>(from, to, part);
+  if (type == Imf::DEEPSCANLINE)
+    return copy_part<Imf::DeepScanLineInputPart, Imf::DeepScanLineOutputPart>(from, to, part);
+  if (type == Imf::DEEPTILE) return copy_part<Imf::DeepTiledInputPart, Imf::DeepTiledOutputPart>(from, to, part);
+  throw std::runtime_error("a part of type '" + type + "' is not known");
+}
+
+// The picture in its own part, the others as they were.
+bool write_parts(OutputFileStream& stream, const PictureParts& parts, const Imf::Header& header,
+                 const Imf::FrameBuffer& frame_buffer, int height, const Context& context) {
+  MemoryInput source(parts.file, "the picture that was read");
+  Imf::MultiPartInputFile in(source);
+  std::vector<Imf::Header> headers;
+  for (int part = 0; part < in.parts(); ++part) headers.push_back(part == parts.part ? header : in.header(part));
+  // The first part's display window and pixel aspect hold for all: the format wants them equal.
+  Imf::MultiPartOutputFile out(stream, headers.data(), static_cast<int>(headers.size()), true);
+  for (int part = 0; part < in.parts(); ++part) {
+    if (context.cancelled() || stream.error()) return false;
+    if (part != parts.part) {
+      copy_part(in, out, part);
+    } else if (header.hasTileDescription()) {
+      Imf::TiledOutputPart own(out, part);
+      if (!write_tiles(own, stream, frame_buffer, context)) return false;
+    } else {
+      Imf::OutputPart own(out, part);
+      if (!write_scan_lines(own, stream, frame_buffer, height, context)) return false;
+    }
   }
   return true;
 }
@@ -106,9 +171,10 @@ Result<void> write_picture_exr(OutputFile& file, const Picture& picture, const C
   OutputFileStream stream(file);
   bool finished = false;
   try {
-    finished = header.hasTileDescription()
-                   ? write_tiles(stream, header, frame_buffer, context)
-                   : write_scan_lines(stream, header, frame_buffer, picture.data_window.height, context);
+    const PictureParts* const parts = picture.header ? picture.header->parts.get() : nullptr;
+    const int height = picture.data_window.height;
+    finished = parts != nullptr ? write_parts(stream, *parts, header, frame_buffer, height, context)
+                                : write_single(stream, header, frame_buffer, height, context);
   } catch (const std::exception& e) {
     return failure(ErrorCode::Io, fmt::format("cannot write: {}", e.what()), place);
   }

@@ -22,7 +22,7 @@ constexpr double kChromaticityTolerance = 2e-3;  // files round theirs to three 
 
 template <class Action>
 void change_header(Picture& picture, Action action) {
-  auto changed = std::make_shared<PictureHeader>(PictureHeader{header_of(picture)});
+  auto changed = picture.header ? std::make_shared<PictureHeader>(*picture.header) : std::make_shared<PictureHeader>();
   action(changed->header);
   picture.header = std::move(changed);
 }

@@ -1,14 +1,25 @@
 // What a Picture keeps of an OpenEXR file beside its samples.
 #pragma once
 
+#include <cstddef>
+#include <memory>
+#include <vector>
+
 #include <ImfHeader.h>
 
 #include "contrejour/image_io.h"
 
 namespace contrejour {
 
+// A file of several parts, whole, so that those without the picture can be copied.
+struct PictureParts {
+  std::vector<std::byte> file;
+  int part = 0;  // the picture's
+};
+
 struct PictureHeader {
   Imf::Header header;
+  std::shared_ptr<const PictureParts> parts = nullptr;  // null: a file of one part
 };
 
 [[nodiscard]] Imf::Header header_of(const Picture& picture);  // a copy, or a new one's attributes

@@ -1,8 +1,9 @@
-// Rows of 8 or 16 bits to a PNG file.
+// Rows of 8 or 16 bits as PNG.
 #pragma once
 
 #include <cstddef>
 #include <functional>
+#include <span>
 
 #include "contrejour/image_io.h"
 #include "contrejour/output_file.h"
@@ -15,7 +16,14 @@ struct PngLayout {
   int bits = 8;      // or 16, native-endian in the rows
 };
 
-// Calls fill(y, row) for each row from the top. Marked as sRGB. Errors: Io, Cancelled.
+// Where a file's bytes go, in order.
+using PngSink = std::function<Result<void>(std::span<const std::byte>)>;
+
+// Calls fill(y, row) for each row from the top. Marked as sRGB. place: for errors. Errors: the sink's, Io, Cancelled.
+[[nodiscard]] Result<void> write_png(const PngSink& sink, const SourcePlace& place, const PngLayout& layout,
+                                     const std::function<void(int y, std::byte* row)>& fill, const Context& context);
+
+// The same to a file.
 [[nodiscard]] Result<void> write_png_file(OutputFile& file, const PngLayout& layout,
                                           const std::function<void(int y, std::byte* row)>& fill,
                                           const Context& context);

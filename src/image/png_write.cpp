@@ -19,13 +19,13 @@ constexpr int kCompressionLevel = 4;  // a third of level 6's time for files a f
 constexpr int kRowsBetweenCancelChecks = 64;
 
 struct Writer {
-  OutputFile& file;
+  const PngSink& sink;
   std::optional<Error> error;
   char message[160] = "";
   png_structp png = nullptr;
   png_infop info = nullptr;
 
-  explicit Writer(OutputFile& out) : file(out) {}
+  explicit Writer(const PngSink& out) : sink(out) {}
   Writer(const Writer&) = delete;
   Writer& operator=(const Writer&) = delete;
   ~Writer() { png_destroy_write_struct(&png, &info); }
@@ -40,7 +40,7 @@ struct Writer {
 void on_warning(png_structp, png_const_charp) {}
 
 bool write_bytes(Writer& writer, const png_byte* from, std::size_t size) {
-  const Result<void> written = writer.file.write(std::span(reinterpret_cast<const std::byte*>(from), size));
+  const Result<void> written = writer.sink(std::span(reinterpret_cast<const std::byte*>(from), size));
   if (!written) writer.error = written.error();
   return written.has_value();
 }
@@ -86,10 +86,9 @@ tl::unexpected<Error> failed(const Writer& writer, const SourcePlace& place) {
 
 }  // namespace
 
-Result<void> write_png_file(OutputFile& file, const PngLayout& layout,
-                            const std::function<void(int y, std::byte* row)>& fill, const Context& context) {
-  const SourcePlace place{file.destination().string()};
-  Writer writer(file);
+Result<void> write_png(const PngSink& sink, const SourcePlace& place, const PngLayout& layout,
+                       const std::function<void(int y, std::byte* row)>& fill, const Context& context) {
+  Writer writer(sink);
   writer.png = png_create_write_struct(PNG_LIBPNG_VER_STRING, &writer, on_error, on_warning);
   writer.info = writer.png == nullptr ? nullptr : png_create_info_struct(writer.png);
   if (writer.info == nullptr) throw std::bad_alloc();
@@ -106,6 +105,12 @@ Result<void> write_png_file(OutputFile& file, const PngLayout& layout,
   if (!write_end(writer)) return failed(writer, place);
   if (context.cancelled()) return failure(ErrorCode::Cancelled, "cancelled", place);
   return {};
+}
+
+Result<void> write_png_file(OutputFile& file, const PngLayout& layout,
+                            const std::function<void(int y, std::byte* row)>& fill, const Context& context) {
+  return write_png([&file](std::span<const std::byte> bytes) { return file.write(bytes); },
+                   {file.destination().string()}, layout, fill, context);
 }
 
 Result<void> write_picture_png(OutputFile& file, const Picture& picture, const Context& context) {

@@ -17,16 +17,8 @@ float roll_off(float value) {
   return 1 - room * std::exp((kRollOffStart - value) / room);
 }
 
-}  // namespace
-
-Result<void> write_preview_png(const std::filesystem::path& file, const Image& rgb, const PreviewSettings& settings,
-                               const Context& context) {
-  return write_whole(file, [&](OutputFile& out) { return write_preview_png(out, rgb, settings, context); });
-}
-
-Result<void> write_preview_png(OutputFile& file, const Image& rgb, const PreviewSettings& settings,
-                               const Context& context) {
-  const SourcePlace place{file.destination().string()};
+Result<void> write_preview(const PngSink& sink, const SourcePlace& place, const Image& rgb,
+                           const PreviewSettings& settings, const Context& context) {
   const bool complete =
       rgb.width > 0 && rgb.height > 0 && rgb.channels > 0 && rgb.pixels.size() == rgb.index(0, rgb.height);
   if (!complete) return failure(ErrorCode::InvalidArgument, "the image is empty", place);
@@ -41,10 +33,33 @@ Result<void> write_preview_png(OutputFile& file, const Image& rgb, const Preview
       }
   };
   try {
-    return write_png_file(file, {rgb.width, rgb.height, channels, 8}, fill, context);
+    return write_png(sink, place, {rgb.width, rgb.height, channels, 8}, fill, context);
   } catch (const std::exception& e) {
     return failure(ErrorCode::Io, std::string("cannot write: ") + e.what(), place);
   }
+}
+
+}  // namespace
+
+Result<void> write_preview_png(const std::filesystem::path& file, const Image& rgb, const PreviewSettings& settings,
+                               const Context& context) {
+  return write_whole(file, [&](OutputFile& out) { return write_preview_png(out, rgb, settings, context); });
+}
+
+Result<void> write_preview_png(OutputFile& file, const Image& rgb, const PreviewSettings& settings,
+                               const Context& context) {
+  return write_preview([&file](std::span<const std::byte> bytes) { return file.write(bytes); },
+                       {file.destination().string()}, rgb, settings, context);
+}
+
+Result<std::vector<std::byte>> preview_png(const Image& rgb, const PreviewSettings& settings, const Context& context) {
+  std::vector<std::byte> png;
+  const auto append = [&png](std::span<const std::byte> bytes) -> Result<void> {
+    png.insert(png.end(), bytes.begin(), bytes.end());
+    return {};
+  };
+  if (auto ok = write_preview(append, {}, rgb, settings, context); !ok) return tl::unexpected(ok.error());
+  return png;
 }
 
 }  // namespace contrejour

@@ -4,9 +4,13 @@
 #include <random>
 
 #include <ImfChannelList.h>
+#include <ImfDeepFrameBuffer.h>
+#include <ImfDeepScanLineInputPart.h>
+#include <ImfDeepScanLineOutputPart.h>
 #include <ImfFrameBuffer.h>
 #include <ImfHeader.h>
 #include <ImfIntAttribute.h>
+#include <ImfMultiPartInputFile.h>
 #include <ImfMultiPartOutputFile.h>
 #include <ImfOutputFile.h>
 #include <ImfOutputPart.h>
@@ -14,7 +18,9 @@
 #include <ImfRgbaFile.h>
 #include <ImfStandardAttributes.h>
 #include <ImfStringAttribute.h>
+#include <ImfTiledInputPart.h>
 #include <ImfTiledOutputFile.h>
+#include <ImfTiledOutputPart.h>
 
 #include "shared_data.h"
 #include "test_pictures.h"
@@ -61,6 +67,14 @@ class GivenFile {
     }
   }
 
+  void write_part(Imf::MultiPartOutputFile& file, int part) const {
+    const Imath::Box2i window = header_.dataWindow();
+    Imf::OutputPart out(file, part);
+    out.setFrameBuffer(frame_buffer_);
+    out.writePixels(window.max.y - window.min.y + 1);
+  }
+
+  [[nodiscard]] const Imf::Header& header() const { return header_; }
   [[nodiscard]] const std::vector<std::byte>& data(std::size_t i) const { return data_[i]; }
 
  private:
@@ -248,22 +262,133 @@ TEST_CASE("new images, colour space and text") {
   CHECK_FALSE(write_picture(folder / "new.tiff", aces).has_value());
 }
 
-TEST_CASE("multi-part and deep files are refused by name") {
+namespace {
+
+// A tiled depth, the picture, and a deep part, in a file.
+struct Parts {
+  Parts() {
+    header.setName("beauty");
+    header.setType(Imf::SCANLINEIMAGE);
+    Imf::Header depth = windowed_header(Imf::PIZ_COMPRESSION), deep(8, 4);
+    depth.setName("depth");
+    depth.setType(Imf::TILEDIMAGE);
+    depth.setTileDescription({16, 16, Imf::MIPMAP_LEVELS});
+    depth.channels().insert("Z", Imf::Channel(Imf::FLOAT));
+    deep.setName("deep");
+    deep.setType(Imf::DEEPSCANLINE);
+    deep.displayWindow() = header.displayWindow();
+    deep.pixelAspectRatio() = header.pixelAspectRatio();
+    deep.compression() = Imf::ZIPS_COMPRESSION;
+    deep.channels().insert("R", Imf::Channel(Imf::HALF));
+    headers = {depth, header, deep};
+    headers[1].channels() = given.header().channels();
+  }
+
+  void write(const std::filesystem::path& file) const {
+    Imf::MultiPartOutputFile out(file.c_str(), headers.data(), 3);
+    given.write_part(out, 1);
+    const Imath::Box2i window = header.dataWindow();
+    std::vector<float> z(
+        static_cast<std::size_t>((window.max.x - window.min.x + 1) * (window.max.y - window.min.y + 1)));
+    for (std::size_t k = 0; k < z.size(); ++k) z[k] = static_cast<float>(k) * 0.5F;
+    Imf::FrameBuffer frame_buffer;
+    frame_buffer.insert("Z", Imf::Slice::Make(Imf::FLOAT, z.data(), window));
+    Imf::TiledOutputPart tiles(out, 0);
+    tiles.setFrameBuffer(frame_buffer);
+    for (int level = 0; level < tiles.numLevels(); ++level)
+      tiles.writeTiles(0, tiles.numXTiles(level) - 1, 0, tiles.numYTiles(level) - 1, level);
+    Imf::DeepScanLineOutputPart lines(out, 2);
+    std::vector<unsigned int> counts(32, 1);
+    half sample = 0.5F;
+    std::vector<half*> pointers(32, &sample);
+    Imf::DeepFrameBuffer deep_buffer;
+    deep_buffer.insertSampleCountSlice(
+        Imf::Slice(Imf::UINT, reinterpret_cast<char*>(counts.data()), sizeof(unsigned int), 8 * sizeof(unsigned int)));
+    deep_buffer.insert("R", Imf::DeepSlice(Imf::HALF, reinterpret_cast<char*>(pointers.data()), sizeof(half*),
+                                           8 * sizeof(half*), sizeof(half)));
+    lines.setFrameBuffer(deep_buffer);
+    lines.writePixels(4);
+  }
+
+  Imf::Header header = windowed_header(Imf::ZIP_COMPRESSION);
+  GivenFile given{header, kMixed};
+  std::vector<Imf::Header> headers;
+};
+
+}  // namespace
+
+TEST_CASE("of several parts the first with colour is the picture, and the others come back as they were") {
   const ScratchFolder folder;
-  std::vector<Imf::Header> headers(2, Imf::Header(8, 8));
-  for (std::size_t i = 0; i < 2; ++i) {
-    headers[i].setName("part" + std::to_string(i));
-    headers[i].setType(Imf::SCANLINEIMAGE);
-    headers[i].channels().insert("R", Imf::Channel(Imf::HALF));
+  Parts().write(folder / "in.exr");
+  Picture picture = must_read(folder / "in.exr");
+  CHECK(channel(picture, "G").type == SampleType::Float);
+  CHECK(text_attribute(picture, "shot") == "A001_C003");
+  must_write(folder / "same.exr", picture);
+  check_same_channels(picture, must_read(folder / "same.exr"));
+  picture.rgb.at(3, 2, 1) = 7.5F;
+  set_text_attribute(picture, "comments", "flared");
+  must_write(folder / "out.exr", picture);
+  const Picture back = must_read(folder / "out.exr");
+  CHECK(back.rgb.at(3, 2, 1) == 7.5F);
+  CHECK(text_attribute(back, "comments") == "flared");
+  CHECK(channel(back, "Z").samples == channel(picture, "Z").samples);
+
+  Imf::MultiPartInputFile in((folder / "in.exr").c_str()), out((folder / "out.exr").c_str());
+  REQUIRE(out.parts() == 3);
+  for (const int part : {0, 2}) CHECK(out.header(part).name() == in.header(part).name());
+  Imf::TiledInputPart before(in, 0), after(out, 0);
+  CHECK(after.numLevels() == before.numLevels());
+  for (int level = 0; level < before.numLevels(); ++level) {
+    const char *packed_before = nullptr, *packed_after = nullptr;
+    int size_before = 0, size_after = 0, dx = 0, dy = 0, lx = level, ly = level;
+    before.rawTileData(dx, dy, lx, ly, packed_before, size_before);
+    after.rawTileData(dx, dy, lx, ly, packed_after, size_after);
+    REQUIRE(size_before == size_after);
+    CHECK(std::equal(packed_before, packed_before + size_before, packed_after));
   }
-  {
-    Imf::MultiPartOutputFile out((folder / "parts.exr").c_str(), headers.data(), 2);
+  Imf::DeepScanLineInputPart deep(out, 2);
+  CHECK(deep.header().channels().findChannel("R") != nullptr);
+}
+
+TEST_CASE("parts and layers by name, files without colour, damaged ones") {
+  const ScratchFolder folder;
+  Parts parts;
+  parts.write(folder / "in.exr");
+  CHECK(must_read(folder / "in.exr", {"beauty", {}}).rgb_source == must_read(folder / "in.exr").rgb_source);
+  CHECK_FALSE(read_picture(folder / "in.exr", {"depth", {}}).has_value());
+  const auto rim = read_picture(folder / "in.exr", {"rim", {}});
+  REQUIRE_FALSE(rim.has_value());
+  CHECK(rim.error().message.find("depth, beauty, deep") != std::string::npos);
+  CHECK(rim.error().place.file == (folder / "in.exr").string());
+
+  const std::vector<std::byte> whole = bytes_of(folder / "in.exr");
+  for (std::size_t size = 0; size < whole.size(); size += whole.size() / 40 + 1) {
+    const auto cut = read_picture(std::span(whole).first(size), "cut");
+    if (cut) CHECK_FALSE(cut->rgb.pixels.empty());
   }
-  const auto parts = read_picture(folder / "parts.exr");
-  REQUIRE_FALSE(parts.has_value());
-  CHECK(parts.error().code == ErrorCode::Unsupported);
-  CHECK(parts.error().message.find("multi-part") != std::string::npos);
-  CHECK(parts.error().place.file == (folder / "parts.exr").string());
+  std::mt19937 random(3);
+  for (int round = 0; round < 60; ++round) {
+    std::vector<std::byte> damaged = whole;
+    damaged[random() % std::min<std::size_t>(damaged.size(), 3000)] = static_cast<std::byte>(random());
+    const auto read = read_picture(damaged, "damaged");
+    if (read) static_cast<void>(write_picture(folder / "damaged.exr", *read));
+  }
+}
+
+TEST_CASE("a picture of one channel is grey, whatever its name") {
+  const ScratchFolder folder;
+  const Imf::Header header = windowed_header(Imf::ZIP_COMPRESSION);
+  for (const char* name : {"L", "R", "luminance.550nm"}) {
+    GivenFile(header, {{name, Imf::HALF}, {"A", Imf::HALF}}).write(folder / "one.exr");
+    Picture picture = must_read(folder / "one.exr");
+    CHECK(picture.rgb_source[0] == picture.rgb_source[2]);
+    for (int c = 0; c < 3; ++c) picture.rgb.at(2, 1, c) = 3.0F;
+    must_write(folder / "two.exr", picture);
+    const Picture back = must_read(folder / "two.exr");
+    CHECK(back.rgb.at(2, 1, 2) == 3.0F);
+    CHECK(channel(back, name).type == SampleType::Half);
+    CHECK(channel(back, "A").samples == channel(picture, "A").samples);
+  }
 }
 
 TEST_CASE("a cancelled write leaves nothing and keeps what was there") {
