@@ -44,6 +44,7 @@ PUBLIC = {
     "coating.h": "coating",
     "colour.h": "image",
     "context.h": "base",
+    "direct_image.h": "render/interface",
     "dirt.h": "kernels",
     "film_design.h": "coating",
     "film_material.h": "coating",

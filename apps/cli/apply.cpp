@@ -20,8 +20,10 @@
 #include "cli/look_choice.h"
 #include "cli/options.h"
 #include "cli/outputs.h"
+#include "params/detected_picture.h"
 #include "params/flare_plan.h"
 #include "params/settings.h"
+#include "params/visibility.h"
 
 namespace contrejour::cli {
 namespace {
@@ -29,18 +31,21 @@ namespace {
 constexpr const char* kExamples =
     "Bright areas of the picture become lights where they are, and the flare they make in the lens is added. All else\n"
     "in the file stays as it is; a picture without lights comes back unchanged, bit for bit. IN and OUT may be the\n"
-    "same file. Without --hfov the picture is taken to fill the lens's sensor.\n\n"
+    "same file. Without --hfov the picture is taken to fill the lens's sensor. --light and --light-at add lights that\n"
+    "the picture does not show, such as a sun outside it.\n\n"
     "Examples:\n"
     "  contrejour apply canon-70-200 --focal 135 plate.exr -o out.exr --preview out.png\n"
     "  contrejour apply heliar -f 16 plate.exr -o out.exr --flare-only flare.exr --hfov 40 --json\n"
-    "  contrejour apply nikon-80-200 plate.exr -o out.exr --threshold 50 --max-lights 8 --gain 2";
+    "  contrejour apply nikon-80-200 plate.exr -o out.exr --threshold 50 --max-lights 8 --stops 3\n"
+    "  contrejour apply planar-50 plate.exr -o out.exr --region 0.6,0,1,0.4 --detected lights.png\n"
+    "  contrejour apply heliar plate.exr -o out.exr --no-detect --light-at 1.1,-0.1:2e6";
 
 // The lights' colours stay right; only the flare's own tint is then slightly off.
 constexpr const char* kGuessedSpace =
     "the picture's primaries are neither Rec.709 nor ACEScg; its flare is computed as for Rec.709 (--colour-space)";
 
 struct ApplyOptions {
-  std::string lens, input, output, flare_only, preview;
+  std::string lens, input, output, flare_only, detected, preview;
   bool json = false;
   LookOptions look;
   params::Values values;
@@ -48,13 +53,14 @@ struct ApplyOptions {
 
 struct ApplyFiles {
   OutputFile* output = nullptr;
-  OutputFile *flare_only = nullptr, *preview = nullptr, *look = nullptr;  // where they are asked for
+  OutputFile *flare_only = nullptr, *detected = nullptr, *preview = nullptr, *look = nullptr;  // where asked for
 };
 
 Result<ApplyFiles> open_files(const ApplyOptions& options, Outputs& outputs) {
   ApplyFiles files;
   const std::pair<const std::string&, OutputFile*&> all[] = {{options.output, files.output},
                                                              {options.flare_only, files.flare_only},
+                                                             {options.detected, files.detected},
                                                              {options.look.save, files.look},
                                                              {options.preview, files.preview}};
   if (auto ok = outputs.add_all(all); !ok) return tl::unexpected(ok.error());
@@ -79,14 +85,22 @@ Result<void> copy_input(const ApplyOptions& options, const Picture& picture, Out
   return {};
 }
 
-Result<void> write_flare_only(OutputFile& file, const Picture& picture, const Image& flare,
-                              const params::FlarePlan& plan, const Context& context) {
-  Picture alone = picture_of(flare);
+// A picture of its own that lies where the input does.
+Result<void> write_beside(OutputFile& file, const Picture& picture, const Image& image, const params::FlarePlan& plan,
+                          const Context& context) {
+  Picture alone = picture_of(image);
   alone.data_window = picture.data_window;
   alone.display_window = picture.display_window;
   set_colour_space(alone, plan.space);
   set_pixel_aspect(alone, plan.pixel_aspect);
   return write_picture(file, alone, context);
+}
+
+Result<void> write_detected(const ApplyOptions& options, OutputFile& file, const Picture& picture,
+                            const params::FlarePlan& plan, const Context& context) {
+  if (lower_extension(options.detected) == ".exr")
+    return write_beside(file, picture, params::pixels_of_lights(picture.rgb, plan.found), plan, context);
+  return write_preview_png(file, params::map_of_lights(picture.rgb, plan.found, plan.space), {}, context);
 }
 
 Result<Flare> render_plan(const ApplyOptions& options, const LensState& lens, const params::FlarePlan& plan) {
@@ -123,10 +137,13 @@ Result<void> write_all(const ApplyOptions& options, const ApplyFiles& files, Pic
                        const params::FlarePlan& plan, const Image& flare) {
   const LongTask task("writing", 0);
   const bool is_input = plan.lights.empty();
+  if (files.detected) {
+    if (auto ok = write_detected(options, *files.detected, picture, plan, task.context()); !ok) return ok;
+  }
   if (!is_input) params::add_flare(picture.rgb, flare);
   if (auto ok = write_output(options, *files.output, picture, is_input, task.context()); !ok) return ok;
   if (files.flare_only) {
-    auto ok = write_flare_only(*files.flare_only, picture, flare, plan, task.context());
+    auto ok = write_beside(*files.flare_only, picture, flare, plan, task.context());
     if (!ok) return ok;
   }
   if (files.look) {
@@ -139,15 +156,16 @@ Result<void> write_all(const ApplyOptions& options, const ApplyFiles& files, Pic
 }
 
 void report(const ApplyOptions& options, const LensState& lens, const params::FlarePlan& plan,
-            const RenderStatistics& stats) {
+            const params::FlareVisibility& visibility, const RenderStatistics& stats) {
   if (!options.json) {
-    print_summary(report_text(plan));
+    print_summary(report_text(plan) + visibility_text(visibility, plan.lights.size()));
     print_summary(
         fmt::format("{}: {} ghosts, {:.2f} s\n", options.output, stats.ghosts_rendered, total_ms(stats) / 1000.0));
     return;
   }
   Json json = {{"lens", lens.name}, {"input", options.input}, {"output", options.output}};
   json.update(report_json(plan));
+  json["flare"] = visibility_json(visibility);
   json["statistics"] = plan.lights.empty() ? Json() : stats_json(stats);
   print_json(json);
 }
@@ -174,10 +192,20 @@ Result<int> run_apply(ApplyOptions options) {
                                 plan->found.capped_pixels, plan->found.max_value)});
   const auto flare = render_plan(options, *lens, *plan);
   if (!flare) return tl::unexpected(flare.error());
+  const params::FlareVisibility visibility =
+      params::visibility_of(picture->rgb, flare->image, plan->found, plan->space);
   if (auto ok = write_all(options, *files, *picture, *plan, flare->image); !ok) return tl::unexpected(ok.error());
   if (auto ok = outputs.commit(); !ok) return tl::unexpected(ok.error());
-  report(options, *lens, *plan, flare->statistics);
+  report(options, *lens, *plan, visibility, flare->statistics);
   return kDone;
+}
+
+// Of LENS IN only one is there.
+CLI::ParseError missing_argument(const std::string& given) {
+  const std::string ending = lower_extension(given);
+  if (ending != ".exr" && ending != ".png") return CLI::RequiredError("IN");
+  return CLI::RequiredError(
+      fmt::format("LENS before {} (`contrejour lens list`; or a look that names one, --look)", given));
 }
 
 }  // namespace
@@ -189,20 +217,24 @@ void add_apply(CLI::App& app, Action& action) {
   command->add_option("IN", options->input, "a scene-linear EXR, or a PNG")->option_text(" ");
   add_output(*command, "-o,--output", options->output, {".exr", ".png"}, "the photograph with flare")->required();
   add_output(*command, "--flare-only", options->flare_only, {".exr"}, "only what the flare adds");
+  add_output(*command, "--detected", options->detected, {".exr", ".png"},
+             "what counts as lights: its pixels, or (PNG) the picture in grey with each light in a colour");
   add_output(*command, "--preview", options->preview, {".png"}, "a PNG of the result to look at");
   command->add_flag("--json", options->json, "report what was found as JSON");
   add_look_options(*command, options->look);
   add_parameters(*command, options->values, {"exposure"});
   add_parameters(*command, options->values,
-                 {"threshold", "softness", "max-lights", "min-pixels", "max-value", "light-shape", "spectrum",
-                  "light-distance", "gain"});
+                 {"detect", "region", "threshold", "softness", "max-lights", "min-pixels", "max-value", "light-shape",
+                  "spectrum", "gain", "stops"});
+  add_parameters(*command, options->values,
+                 {"light", "light-at", "value", "colour", "light-size", "light-distance", "iso", "shutter"});
   add_lens_parameters(*command, options->values);
   add_parameters(*command, options->values, {"hfov", "pixel-aspect"});
   add_rendering_parameters(*command, options->values);
   command->footer(kExamples);
   command->callback([options, &action] {
     if (options->input.empty()) {
-      if (options->look.look.empty()) throw CLI::RequiredError("IN");
+      if (options->look.look.empty()) throw missing_argument(options->lens);
       std::swap(options->lens, options->input);  // the look's lens
     }
     action = [options] { return run_apply(*options); };

@@ -1,14 +1,18 @@
-// What `apply` found in the picture: as JSON, or as a table.
+// What `apply` found in the picture, and how plainly its flare shows: as JSON, or as text.
 #pragma once
 
 #include <string>
 
 #include "cli/console.h"
 #include "params/flare_plan.h"
+#include "params/visibility.h"
 
 namespace contrejour::cli {
 
 [[nodiscard]] Json report_json(const params::FlarePlan& plan);
 [[nodiscard]] std::string report_text(const params::FlarePlan& plan);
+
+[[nodiscard]] Json visibility_json(const params::FlareVisibility& visibility);
+[[nodiscard]] std::string visibility_text(const params::FlareVisibility& visibility, std::size_t lights);
 
 }  // namespace contrejour::cli

@@ -130,7 +130,8 @@ void add_render(CLI::App& app, Action& action) {
   add_output(*command, "--stats", options->stats, {".json"}, "times and counts");
   add_look_options(*command, options->look);
   add_parameters(*command, options->values, {"exposure"});
-  add_parameters(*command, options->values, {"light", "light-at", "value", "colour", "light-size", "light-distance"});
+  add_parameters(*command, options->values,
+                 {"light", "light-at", "value", "colour", "light-size", "light-distance", "iso", "shutter"});
   add_lens_parameters(*command, options->values);
   add_parameters(*command, options->values, {"size", "hfov", "pixel-aspect"});
   add_rendering_parameters(*command, options->values);

@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <string>
 #include <utility>
+
+#include <fmt/format.h>
 
 #include "contrejour/spectrum_file.h"
 #include "contrejour/trace.h"
@@ -18,7 +21,7 @@ constexpr int kMostImages = 32;           // lights that keep their own starburs
 
 Light light_of(const DetectedLight& area, const Spectrum& spectrum, const PixelGrid& grid, const LensState& lens,
                const Values& values) {
-  const double gain = values.number("gain");
+  const double gain = params::gain(values);
   Light light;
   light.distance_mm = *parse_distance_mm(*values.text("light-distance"));
   light.direction = direction_to_land_at(lens, grid.sensor_from_pixel(area.centroid_px), lens.design_wavelength_nm,
@@ -70,6 +73,71 @@ std::vector<Light> lights_of(const Detection& found, const Spectrum& spectrum, c
   return lights;
 }
 
+std::vector<PixelRegion> regions_of(const Values& values, const PixelGrid& grid) {
+  std::vector<PixelRegion> regions;
+  const auto pixel = [&](Vec2 uv) { return grid.pixel_from_sensor(grid.frame.sensor_from_uv(uv)); };
+  const auto whole = [](double px) { return static_cast<int>(std::clamp(std::round(px), -1e9, 1e9)); };
+  for (const std::string& text : values.list("region")) {
+    const UvRegion region = *parse_region(text);
+    const Vec2 from = pixel(region.from), to = pixel(region.to);
+    regions.push_back({whole(from.x), whole(from.y), whole(to.x), whole(to.y)});
+  }
+  return regions;
+}
+
+Result<void> find_lights(const Picture& picture, const LensState& lens, const Values& values, FlarePlan& plan) {
+  const auto spectrum = find_spectrum(*values.text("spectrum"));
+  if (!spectrum) return tl::unexpected(spectrum.error());
+  DetectionSettings detection = detection_settings(values);
+  detection.regions = regions_of(values, plan.grid);
+  auto found = detect_lights(picture.rgb, detection);
+  if (!found) return tl::unexpected(found.error());
+  plan.found = std::move(*found);
+  if (values.is_on("starburst") || values.number("glare") > 0.0)
+    plan.already_there =
+        std::make_shared<const Image>(frame_of_picture(light_shares(picture.rgb, plan.found), plan.grid));
+  plan.lights = lights_of(plan.found, *spectrum, picture, plan, lens, values);
+  if (!plan.already_there || !values.is_on("light-shape") || plan.found.areas_found <= detection.max_lights) return {};
+  detection.threshold = plan.found.threshold;
+  detection.max_lights = std::max(detection.max_lights, kMostImages);
+  const auto apart = detect_lights(picture.rgb, detection);
+  if (!apart) return tl::unexpected(apart.error());
+  plan.imaged_lights =
+      std::make_shared<const std::vector<Light>>(lights_of(*apart, *spectrum, picture, plan, lens, values));
+  return {};
+}
+
+// A value of 1, which is render's, would be that of one white pixel: nothing to be seen, and no one's intention.
+Result<void> check_values_given(const Values& values) {
+  if (values.given("value")) return {};
+  for (const char* name : {"light", "light-at"}) {
+    for (const std::string& text : values.list(name)) {
+      if (const auto light = parse_light(text); light && light->value) continue;
+      return failure(ErrorCode::InvalidArgument,
+                     fmt::format("--{0} {1} does not say how bright the light is; add what its image sums to, as in "
+                                 "--{0} {1}:50000, or give --value",
+                                 name, text.substr(0, text.find(':'))));
+    }
+  }
+  return {};
+}
+
+Result<void> add_given_lights(const LensState& lens, const Values& values, FlarePlan& plan) {
+  if (auto valued = check_values_given(values); !valued) return valued;
+  auto given = given_lights(values, lens, plan.grid.frame, plan.space);
+  if (!given) return tl::unexpected(given.error());
+  plan.given_lights = given->size();
+  if (given->empty()) return {};
+  for (Light& light : *given)
+    for (double& value : light.value) value *= gain(values);
+  plan.lights.insert(plan.lights.end(), given->begin(), given->end());
+  if (!plan.imaged_lights) return {};
+  std::vector<Light> imaged = *plan.imaged_lights;
+  imaged.insert(imaged.end(), given->begin(), given->end());
+  plan.imaged_lights = std::make_shared<const std::vector<Light>>(std::move(imaged));
+  return {};
+}
+
 }  // namespace
 
 Result<FlarePlan> plan_flare(const Picture& picture, const LensState& lens, const Values& values) {
@@ -81,25 +149,10 @@ Result<FlarePlan> plan_flare(const Picture& picture, const LensState& lens, cons
   const auto grid = pixel_grid(values, lens, picture.data_window, picture.display_window, plan.pixel_aspect);
   if (!grid) return tl::unexpected(grid.error());
   plan.grid = *grid;
-  const auto spectrum = find_spectrum(*values.text("spectrum"));
-  if (!spectrum) return tl::unexpected(spectrum.error());
-  const DetectionSettings detection = detection_settings(values);
-  auto found = detect_lights(picture.rgb, detection);
-  if (!found) return tl::unexpected(found.error());
-  plan.found = std::move(*found);
-  if (values.is_on("starburst") || values.number("glare") > 0.0)
-    plan.already_there =
-        std::make_shared<const Image>(frame_of_picture(light_shares(picture.rgb, plan.found), plan.grid));
-  plan.lights = lights_of(plan.found, *spectrum, picture, plan, lens, values);
-  if (plan.already_there && values.is_on("light-shape") && plan.found.areas_found > detection.max_lights) {
-    DetectionSettings fewer_merged = detection;
-    fewer_merged.threshold = plan.found.threshold;
-    fewer_merged.max_lights = std::max(detection.max_lights, kMostImages);
-    const auto apart = detect_lights(picture.rgb, fewer_merged);
-    if (!apart) return tl::unexpected(apart.error());
-    plan.imaged_lights =
-        std::make_shared<const std::vector<Light>>(lights_of(*apart, *spectrum, picture, plan, lens, values));
+  if (values.is_on("detect")) {
+    if (auto found = find_lights(picture, lens, values, plan); !found) return tl::unexpected(found.error());
   }
+  if (auto added = add_given_lights(lens, values, plan); !added) return tl::unexpected(added.error());
   return plan;
 }
 

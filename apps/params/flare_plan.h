@@ -19,7 +19,8 @@ struct FlarePlan {
   double pixel_aspect = 1.0;      // of the picture's pixels as it is shown
   PixelGrid grid;                 // the data window within the display window; its frame is what is rendered
   Detection found;
-  std::vector<Light> lights;      // one for each found, in the same order
+  std::vector<Light> lights;      // one for each found, in the same order, then those given
+  std::size_t given_lights = 0;   // how many these are
   // With --starburst or --glare: the lights whose images are drawn, fewer of them merged. Null: the same as the
   // ghosts'.
   std::shared_ptr<const std::vector<Light>> imaged_lights;
@@ -27,7 +28,7 @@ struct FlarePlan {
       already_there;  // with --starburst or --glare: the share of each pixel that is a light's own image
 };
 
-// Errors: those of pixel_grid and detect_lights.
+// Errors: those of pixel_grid, detect_lights and given_lights; InvalidArgument for a given light without a value.
 [[nodiscard]] Result<FlarePlan> plan_flare(const Picture& picture, const LensState& lens, const Values& values);
 
 // Adds the flare, and takes nothing away: a channel in which the flare is negative, as colours beyond the gamut are,

@@ -23,16 +23,7 @@ Result<void> check_range(const Parameter& p, double value, std::string_view text
   return failure(ErrorCode::InvalidArgument, fmt::format("{} is out of range: give a number {}", text, range_of(p)));
 }
 
-}  // namespace
-
-const Parameter& parameter(std::string_view name) {
-  const auto all = all_parameters();
-  const auto found = std::find_if(all.begin(), all.end(), [&](const Parameter& p) { return p.name == name; });
-  assert(found != all.end());
-  return *found;
-}
-
-Result<void> check_value(const Parameter& p, std::string_view text) {
+Result<void> check_kind(const Parameter& p, std::string_view text) {
   switch (p.kind) {
     case Kind::Real: {
       const auto value = parse_real(text);
@@ -48,11 +39,23 @@ Result<void> check_value(const Parameter& p, std::string_view text) {
     case Kind::Switch:
       if (text == "on" || text == "off") return {};
       return failure(ErrorCode::InvalidArgument, fmt::format("\"{}\" is neither on nor off", text));
-    case Kind::Text:
-      if (p.check != nullptr) return p.check(text);
-      return {};
+    case Kind::Text: return {};
   }
   return {};
+}
+
+}  // namespace
+
+const Parameter& parameter(std::string_view name) {
+  const auto all = all_parameters();
+  const auto found = std::find_if(all.begin(), all.end(), [&](const Parameter& p) { return p.name == name; });
+  assert(found != all.end());
+  return *found;
+}
+
+Result<void> check_value(const Parameter& p, std::string_view text) {
+  if (auto ok = check_kind(p, text); !ok) return ok;
+  return p.check != nullptr ? p.check(text) : Result<void>();
 }
 
 }  // namespace contrejour::params

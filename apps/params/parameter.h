@@ -18,7 +18,7 @@ enum class Kind {
   Integer,
   Choice,   // one of `choices`
   Switch,   // on or off
-  Text,     // anything `check` accepts
+  Text,     // anything that `check` accepts
 };
 
 struct Parameter {
@@ -34,7 +34,7 @@ struct Parameter {
   std::vector<std::string_view> choices{};
   bool repeats = false;         // may be given several times
   bool scene = false;           // of one picture: where its lights are, how large it is; a look has all others
-  Result<void> (*check)(std::string_view text) = nullptr;
+  Result<void> (*check)(std::string_view text) = nullptr;  // besides what its kind and range say
 };
 
 [[nodiscard]] std::span<const Parameter> all_parameters();

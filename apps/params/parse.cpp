@@ -80,6 +80,17 @@ Result<PixelSize> parse_size(std::string_view text) {
   return size;
 }
 
+Result<UvRegion> parse_region(std::string_view text) {
+  const auto sides = parse_reals(text, 4);
+  if (!sides) return tl::unexpected(sides.error());
+  const UvRegion region{{(*sides)[0], (*sides)[1]}, {(*sides)[2], (*sides)[3]}};
+  if (region.from.x < region.to.x && region.from.y < region.to.y) return region;
+  return failure(ErrorCode::InvalidArgument,
+                 fmt::format("\"{}\" holds nothing; write left,top,right,bottom, as in 0.5,0,1,0.5 for the top right "
+                             "quarter",
+                             text));
+}
+
 Result<double> parse_distance_mm(std::string_view text) {
   if (text == "inf") return std::numeric_limits<double>::infinity();
   std::string_view number = text;

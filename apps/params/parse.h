@@ -27,14 +27,28 @@ struct PixelSize {
 inline constexpr double kMaxPixels = 268435456.0;  // 2^28, as the renderers and readers have it
 [[nodiscard]] Result<PixelSize> parse_size(std::string_view text);  // "1920x1080"
 
+// "0.1,0.2,0.4,0.5": a part of the picture, 0,0 its top left corner and 1,1 its bottom right one.
+struct UvRegion {
+  Vec2 from, to;
+};
+[[nodiscard]] Result<UvRegion> parse_region(std::string_view text);
+
 // "2000", "2000mm", "200cm", "2m" or "inf".
 [[nodiscard]] Result<double> parse_distance_mm(std::string_view text);
 
-// What a light's direct image sums to: one number (its luminance, coloured by the light's colour) or three (as
-// they are, per channel).
+// What a light's direct image sums to: one number (its luminance, coloured by the light's colour), of a unit that
+// photometry.h turns into it, or three (as they are, per channel).
 struct LightValue {
-  Rgb rgb{1, 1, 1};
+  enum class Unit {
+    Sum,      // what the image sums to
+    Stops,    // over white, of each pixel of a disc: "12stops"
+    Lux,      // at the lens: "100000lx"
+    Candela,  // of a light at a distance: "800cd"
+    Nits,     // cd/m^2 of a disc: "1.6e9nits"
+  };
+  Rgb rgb{1, 1, 1};  // or all the same amount of the unit
   bool per_channel = false;
+  Unit unit = Unit::Sum;
 };
 [[nodiscard]] Result<LightValue> parse_light_value(std::string_view text);
 

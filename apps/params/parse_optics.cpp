@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -19,6 +20,11 @@ namespace {
 
 constexpr double kLargestLight_deg = 90.0;
 constexpr double kMostValue = 1e15;         // of a light: any colour of it is within kMostLightValue, or nearly any
+constexpr double kMostStops = 40.0;
+constexpr std::pair<std::string_view, LightValue::Unit> kValueUnits[] = {{"stops", LightValue::Unit::Stops},
+                                                                         {"lx", LightValue::Unit::Lux},
+                                                                         {"nits", LightValue::Unit::Nits},
+                                                                         {"cd", LightValue::Unit::Candela}};
 constexpr double kMostGain = 1e12;          // as of the gains in the table
 constexpr double kFarthestOffset = 1000.0;  // in the frame's height
 constexpr double kFarthestPlace = 1e6;      // of a ramp
@@ -118,12 +124,28 @@ Result<LightValue> parse_light_value(std::string_view text) {
     if (!rgb) return tl::unexpected(rgb.error());
     return LightValue{*rgb, true};
   }
-  const auto value = parse_real(text);
+  LightValue::Unit unit = LightValue::Unit::Sum;
+  std::string_view number = text;
+  for (const auto& [suffix, named] : kValueUnits) {
+    if (!text.ends_with(suffix)) continue;
+    number.remove_suffix(suffix.size());
+    unit = named;
+    break;
+  }
+  const auto value = parse_real(number);
+  if (!value && unit == LightValue::Unit::Sum)
+    return invalid(
+        fmt::format("\"{}\" is no brightness; write what the image sums to (5000, or R,G,B), 12stops over "
+                    "white, 100000lx at the lens, 800cd or 1.6e9nits",
+                    text));
   if (!value) return tl::unexpected(value.error());
-  if (*value < 0.0) return invalid(fmt::format("{} is negative; a light's value is at least 0", text));
+  const bool is_stops = unit == LightValue::Unit::Stops;
+  if (is_stops && std::abs(*value) > kMostStops)
+    return invalid(fmt::format("{} is out of range; choose -{} to {} stops", text, kMostStops, kMostStops));
+  if (!is_stops && *value < 0.0) return invalid(fmt::format("{} is negative; a light's value is at least 0", text));
   if (*value > kMostValue)
     return invalid(fmt::format("{} is too large; a light's value is at most {:.0e}", text, kMostValue));
-  return LightValue{{*value, *value, *value}, false};
+  return LightValue{{*value, *value, *value}, false, unit};
 }
 
 Result<LightColour> parse_light_colour(std::string_view text) {

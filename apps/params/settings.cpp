@@ -9,6 +9,7 @@
 #include "contrejour/first_order.h"
 #include "contrejour/trace.h"
 #include "params/mask_images.h"
+#include "params/photometry.h"
 
 namespace contrejour::params {
 namespace {
@@ -25,11 +26,7 @@ Result<Vec3> direction_of_angles(Vec2 angles_deg) {
   return direction_from_angles(angles_deg.x * kDegree_rad, angles_deg.y * kDegree_rad);
 }
 
-Result<Light> finish_light(const LightSource& place, const LightValue& value, const LightColour& colour,
-                           ColourSpace space) {
-  Light light;
-  light.direction = place.direction;
-  light.distance_mm = place.distance_mm;
+Result<Light> finish_light(Light light, const LightValue& value, const LightColour& colour, ColourSpace space) {
   light.spectrum = colour.spectrum;
   light.value = value.rgb;
   if (value.per_channel) {
@@ -193,17 +190,28 @@ RenderSettings render_settings(const Values& values, const Frame& frame, ColourS
   return settings;
 }
 
-Result<std::vector<Light>> lights(const Values& values, const LensState& lens, const Frame& frame, ColourSpace space) {
+namespace {
+
+// The lights given, and one at `usual` if there are none.
+Result<std::vector<Light>> lights_or(std::optional<Vec2> usual, const Values& values, const LensState& lens,
+                                     const Frame& frame, ColourSpace space) {
   const LightValue value = *parse_light_value(*values.text("value"));
   const auto colour = parse_light_colour(*values.text("colour"));  // a file may be gone since it was checked
   if (!colour) return tl::unexpected(colour.error());
   const double distance_mm = *parse_distance_mm(*values.text("light-distance"));
   std::vector<Light> all;
+  const Exposure exposure{values.number("iso"), *parse_shutter(*values.text("shutter"))};
   const auto add = [&](Vec3 direction, const LightText& text) -> Result<void> {
-    auto light =
-        finish_light({direction, distance_mm}, text.value.value_or(value), text.colour.value_or(*colour), space);
+    LightValue own = text.value.value_or(value);
+    Light place;
+    place.direction = direction;
+    place.distance_mm = distance_mm;
+    place.radius_rad = 0.5 * text.size_deg.value_or(values.number("light-size")) * kDegree_rad;
+    const auto sum = sum_of(own, place, lens, frame, exposure);
+    if (!sum) return tl::unexpected(sum.error());
+    if (!own.per_channel) own.rgb = {*sum, *sum, *sum};
+    auto light = finish_light(place, own, text.colour.value_or(*colour), space);
     if (!light) return tl::unexpected(light.error());
-    light->radius_rad = 0.5 * text.size_deg.value_or(values.number("light-size")) * kDegree_rad;
     all.push_back(*light);
     return {};
   };
@@ -223,11 +231,24 @@ Result<std::vector<Light>> lights(const Values& values, const LensState& lens, c
     if (!text) return tl::unexpected(text.error());
     if (const auto added = add_at(*text); !added) return tl::unexpected(added.error());
   }
-  if (all.empty()) {
-    if (const auto added = add_at({kUsualPlace, {}, {}, {}}); !added) return tl::unexpected(added.error());
+  if (all.empty() && usual) {
+    if (const auto added = add_at({*usual, {}, {}, {}}); !added) return tl::unexpected(added.error());
   }
   return all;
 }
+
+}  // namespace
+
+Result<std::vector<Light>> lights(const Values& values, const LensState& lens, const Frame& frame, ColourSpace space) {
+  return lights_or(kUsualPlace, values, lens, frame, space);
+}
+
+Result<std::vector<Light>> given_lights(const Values& values, const LensState& lens, const Frame& frame,
+                                        ColourSpace space) {
+  return lights_or(std::nullopt, values, lens, frame, space);
+}
+
+double gain(const Values& values) { return values.number("gain") * std::exp2(values.number("stops")); }
 
 DetectionSettings detection_settings(const Values& values) {
   DetectionSettings settings;

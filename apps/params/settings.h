@@ -35,6 +35,14 @@ inline constexpr double kDegree_rad = 0.017453292519943295;
 [[nodiscard]] Result<std::vector<Light>> lights(const Values& values, const LensState& lens, const Frame& frame,
                                                 ColourSpace space);
 
+// The same without the usual one: nothing where none is given.
+[[nodiscard]] Result<std::vector<Light>> given_lights(const Values& values, const LensState& lens, const Frame& frame,
+                                                      ColourSpace space);
+
+// What apply multiplies lights by: --gain and --stops.
+[[nodiscard]] double gain(const Values& values);
+
+// Regions are left out: they need the picture (flare_plan.h).
 [[nodiscard]] DetectionSettings detection_settings(const Values& values);
 
 }  // namespace contrejour::params

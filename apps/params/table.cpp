@@ -9,6 +9,7 @@
 #include "contrejour/spectrum_file.h"
 #include "params/parameter.h"
 #include "params/parse.h"
+#include "params/photometry.h"
 
 namespace contrejour::params {
 namespace {
@@ -41,6 +42,12 @@ Result<void> check_exposure(std::string_view text) {
   return failure(ErrorCode::InvalidArgument, fmt::format("\"{}\" is neither auto nor stops from -100 to 100", text));
 }
 
+Result<void> check_blades(std::string_view text) {
+  if (text != "1" && text != "2") return {};
+  return failure(ErrorCode::InvalidArgument,
+                 fmt::format("{} straight edges close no opening: give 3 blades or more, or 0 for a circle", text));
+}
+
 constexpr double kBig = 1e12;
 
 // clang-format off: a parameter in two or three lines, its help in the last.
@@ -53,7 +60,7 @@ const Parameter kTable[] = {
      .help = "distance of the object in focus from the first surface: 2000 (mm), 2m, inf",
      .check = parses<parse_distance_mm>},
     {.name = "blades", .group = "Lens", .kind = Kind::Integer, .minimum = 0, .maximum = 100, .fallback = "0",
-     .help = "blades of the iris, 3 or more; 0: a circle"},
+     .help = "blades of the iris, 3 or more; 0: a circle", .check = check_blades},
     {.name = "blade-rotation", .group = "Lens", .kind = Kind::Real, .unit = "deg", .minimum = -3600, .maximum = 3600,
      .fallback = "0", .help = "the iris's first corner, counter-clockwise from the right"},
     {.name = "blade-curvature", .group = "Lens", .kind = Kind::Real, .minimum = 0, .maximum = 1, .fallback = "0",
@@ -99,7 +106,7 @@ const Parameter kTable[] = {
     {.name = "dirt-time", .group = "Lens", .kind = Kind::Real, .unit = "TURNS", .minimum = -1e6, .maximum = 1e6,
      .fallback = "0", .help = "0: dirt lies still; else it has wandered, and is back at every whole number"},
     {.name = "coating", .group = "Lens", .unit = "COATING",
-     .help = "films on every surface to the air instead of the lens's own: none, quarter-wave:550:1.38, "
+     .help = "coating layers on every surface to the air instead of the lens's own: none, quarter-wave:550:1.38, "
              "hullin:550:1.38, stack:MgF2@99.6,ZrO2@0.5w, v-coat, broadband-5:550, measured:FILE (a table, R over nm and degrees), "
              "...",
      .check = parses<parse_coating>},
@@ -126,7 +133,15 @@ const Parameter kTable[] = {
      .help = "a light whose image lands there: 0,0 top left, 1,1 bottom right, outside too; may be repeated",
      .repeats = true, .scene = true, .check = parses<parse_light>},
     {.name = "value", .group = "Lights", .unit = "V|R,G,B", .fallback = "1",
-     .help = "what a light's own image sums to over its pixels", .scene = true, .check = parses<parse_light_value>},
+     .help = "brightness: what a light's own image sums to over its pixels, white being 1 (a lamp of 50 pixels, each 100 "
+             "times white: 5000); or 12stops over white in each pixel of a disc (--light-size), 100000lx at the lens, "
+             "800cd (--light-distance), 1.6e9nits of a disc, at --iso and --shutter",
+     .scene = true, .check = parses<parse_light_value>},
+    {.name = "iso", .group = "Lights", .kind = Kind::Real, .minimum = 0.1, .maximum = 1e8, .fallback = "100",
+     .help = "exposure index, for lights in lx, cd and nits", .scene = true},
+    {.name = "shutter", .group = "Lights", .unit = "SECONDS", .fallback = "1/50",
+     .help = "exposure time, 1/50 or 0.02, for lights in lx, cd and nits; the f-number is the lens's", .scene = true,
+     .check = parses<parse_shutter>},
     {.name = "colour", .group = "Lights", .unit = "COLOUR", .fallback = "D65",
      .help = "D65, A, E, a temperature such as 3200K, led, sodium, sodium-low, fluorescent, fluorescent-narrow, a "
              "file of wavelengths and powers, or R,G,B", .scene = true, .check = parses<parse_light_colour>},
@@ -214,11 +229,11 @@ const Parameter kTable[] = {
     {.name = "starburst-gain", .group = "Rendering", .kind = Kind::Real, .minimum = 0, .maximum = kBig, .fallback = "1",
      .help = "starburst times so much; 1 is physically right"},
     {.name = "glare", .group = "Rendering", .kind = Kind::Real, .minimum = 0, .maximum = 1, .fallback = "0",
-     .help = "share of each light that the lens scatters about its image; good lenses: 0.005 to 0.03"},
+     .help = "veiling glare: share of each light that the lens scatters about its image; good lenses: 0.005 to 0.03"},
     {.name = "glare-width", .group = "Rendering", .kind = Kind::Real, .unit = "deg", .minimum = 0.001, .maximum = 80,
      .fallback = "1", .help = "angle from the light within which glare is flat; beyond, it falls as the cube"},
     {.name = "ringing", .group = "Rendering", .kind = Kind::Choice, .unit = "HOW", .fallback = "none",
-     .help = "fringes along ghosts' rims: fresnel: each ghost's own, as far as it is out of focus; hullin: one pattern for "
+     .help = "diffraction fringes along ghosts' rims: fresnel: each ghost's own, as far as it is out of focus; hullin: one pattern for "
              "all (hullin2011)",
      .choices = {"none", "fresnel", "hullin"}},  // as the enum
     {.name = "ringing-alpha", .group = "Rendering", .kind = Kind::Real, .minimum = 0, .maximum = 1,
@@ -226,6 +241,12 @@ const Parameter kTable[] = {
     {.name = "threads", .group = "Rendering", .kind = Kind::Integer, .minimum = 0, .maximum = 1024, .fallback = "0",
      .help = "threads; 0: all cores. The picture does not depend on it", .scene = true},
 
+    {.name = "detect", .group = "Finding lights", .kind = Kind::Switch, .fallback = "on",
+     .help = "bright areas of the picture are lights; off: only those given with --light and --light-at", .scene = true},
+    {.name = "region", .group = "Finding lights", .unit = "U,V,U,V",
+     .help = "find lights only between these corners, 0,0 top left, 1,1 bottom right, and there dimmer ones too; may be "
+             "repeated",
+     .repeats = true, .scene = true, .check = parses<parse_region>},
     {.name = "threshold", .group = "Finding lights", .kind = Kind::Real, .minimum = 0, .maximum = kBig,
      .help = "level above which a pixel belongs to a light (default: from the picture)", .scene = true},
     {.name = "softness", .group = "Finding lights", .kind = Kind::Real, .minimum = 0, .maximum = 1000,
@@ -245,6 +266,8 @@ const Parameter kTable[] = {
      .scene = true, .check = check_spectrum},
     {.name = "gain", .group = "Finding lights", .kind = Kind::Real, .minimum = 0, .maximum = kBig, .fallback = "1",
      .help = "flare times so much; 1 is physically right"},
+    {.name = "stops", .group = "Finding lights", .kind = Kind::Real, .unit = "STOPS", .minimum = -40, .maximum = 40,
+     .fallback = "0", .help = "flare so many stops brighter, besides --gain; 0 is physically right"},
 
     {.name = "exposure", .group = "Output", .unit = "STOPS|auto",
      .help = "brightness of PNG pictures to look at; auto: by the brightest parts",

@@ -16,12 +16,18 @@
 
 namespace contrejour {
 
+// Pixels [x0, x1) x [y0, y1).
+struct PixelRegion {
+  int x0 = 0, y0 = 0, x1 = 0, y1 = 0;
+};
+
 struct DetectionSettings {
   std::optional<double> threshold;  // level, scene-linear; none: automatic_threshold
   double softness = 0.25;           // >= 0; 0 makes the threshold hard
   int max_lights = 32;              // >= 1; the rest is merged into the nearest of these
   int min_pixels = 1;               // smaller areas (hot pixels) are no lights
   double max_value = kMostLevel;    // > 0, at most kMostLevel: what a pixel's level counts for at most
+  std::vector<PixelRegion> regions;  // only within these; none: everywhere
 
   // Beyond every light: the sun's disc is 1.6e9 cd/m^2.
   static constexpr double kMostLevel = 1e10;
@@ -38,8 +44,26 @@ struct DetectedLight {
   std::vector<int> areas;  // which, of Detection::areas
 };
 
+// Where a threshold is from.
+enum class ThresholdSource {
+  Given,
+  Gap,        // between lit surfaces and what lights them
+  Clipped,    // the picture ends at white, as those of 8 bits do
+  Brightest,  // no gap, as before a window or the sky: what is within two stops of the brightest
+  Region,     // likewise, of the regions: nothing in them is above the threshold of the whole picture
+  None,       // no light: nothing is far brighter than the rest, or than white
+};
+
+struct Threshold {
+  double level = 0;
+  ThresholdSource source = ThresholdSource::None;
+};
+
 struct Detection {
   double threshold = 0;               // the one used
+  ThresholdSource source = ThresholdSource::Given;
+  double brightest = 0;               // level, within the regions
+  Vec2 brightest_px;                  // the middle of the first such pixel
   double softness = 0.25;             // as in the settings
   std::vector<DetectedLight> lights;  // by flux (r + g + b), largest first
   int areas_found = 0;                // before merging
@@ -61,7 +85,8 @@ struct Detection {
 // another size.
 [[nodiscard]] Image picture_of_areas(const Image& rgb, const Detection& detection, const DetectedLight& light);
 
-// The level above which a thing is a light and not a lit surface, from the picture's own statistics.
-[[nodiscard]] double automatic_threshold(const Image& rgb);
+// The level above which a thing is a light and not a lit surface, from the picture's own statistics
+// (docs/formats/images.md). Nothing is above it where the source is None.
+[[nodiscard]] Threshold automatic_threshold(const Image& rgb);
 
 }  // namespace contrejour

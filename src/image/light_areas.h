@@ -31,6 +31,9 @@ struct AreaSettings {
 [[nodiscard]] std::vector<DetectedLight> bright_areas(const Image& rgb, const AreaSettings& settings,
                                                       std::vector<std::int32_t>& area_of_pixel);
 
+// Two stops below the brightest thousandth of the pixels that are not black.
+[[nodiscard]] double threshold_of_brightest(const Image& rgb);
+
 [[nodiscard]] double total_flux(const DetectedLight& light);
 
 // Both lights as one: fluxes add, centroid and radius are those of the union.

@@ -72,13 +72,51 @@ Result<void> check(const Image& rgb, const DetectionSettings& settings) {
   return {};
 }
 
+Image black_outside(const Image& rgb, const std::vector<PixelRegion>& regions) {
+  Image within(rgb.width, rgb.height);
+  for (const PixelRegion& region : regions) {
+    const int x0 = std::clamp(region.x0, 0, rgb.width), x1 = std::clamp(region.x1, x0, rgb.width);
+    for (int y = std::max(0, region.y0); y < std::min(rgb.height, region.y1); ++y)
+      std::copy(rgb.pixels.begin() + static_cast<std::ptrdiff_t>(rgb.index(x0, y)),
+                rgb.pixels.begin() + static_cast<std::ptrdiff_t>(rgb.index(x1, y)),
+                within.pixels.begin() + static_cast<std::ptrdiff_t>(rgb.index(x0, y)));
+  }
+  return within;
+}
+
+void find_brightest(const Image& rgb, Detection& detection) {
+  for (int y = 0; y < rgb.height; ++y) {
+    for (int x = 0; x < rgb.width; ++x) {
+      const double level = level_of(rgb.pixels.data() + rgb.index(x, y));
+      if (!(level > detection.brightest)) continue;
+      detection.brightest = level;
+      detection.brightest_px = {x + 0.5, y + 0.5};
+    }
+  }
+}
+
+// Of the whole picture; where nothing in the regions is above that, who chose them means what is brightest there.
+Threshold threshold_for(const Image& picture, const Image& within, double brightest,
+                        const DetectionSettings& settings) {
+  if (settings.threshold) return {*settings.threshold, ThresholdSource::Given};
+  const Threshold automatic = automatic_threshold(picture);
+  if (settings.regions.empty() || automatic.level < brightest) return automatic;
+  const double level = threshold_of_brightest(within);
+  return level > 0.0 ? Threshold{level, ThresholdSource::Region} : automatic;
+}
+
 }  // namespace
 
-Result<Detection> detect_lights(const Image& rgb, const DetectionSettings& settings) {
-  const Result<void> usable = check(rgb, settings);
+Result<Detection> detect_lights(const Image& picture, const DetectionSettings& settings) {
+  const Result<void> usable = check(picture, settings);
   if (!usable) return tl::unexpected(usable.error());
+  const Image within = settings.regions.empty() ? Image() : black_outside(picture, settings.regions);
+  const Image& rgb = settings.regions.empty() ? picture : within;
   Detection detection;
-  detection.threshold = settings.threshold ? *settings.threshold : automatic_threshold(rgb);
+  find_brightest(rgb, detection);
+  const Threshold threshold = threshold_for(picture, rgb, detection.brightest, settings);
+  detection.threshold = threshold.level;
+  detection.source = threshold.source;
   detection.softness = settings.softness;
   detection.max_value = settings.max_value;
   detection.areas = bright_areas(rgb, settings_of(detection), detection.area_of_pixel);

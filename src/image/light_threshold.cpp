@@ -16,6 +16,9 @@ constexpr double kLightOverSurface = 16;  // ... and a light is this much bright
 constexpr double kClippedWhite = 1;  // an 8-bit picture's lights end here,
 constexpr double kClippedThreshold = 0.8;  // and at the default softness count in full there
 constexpr int kMostSteps = 200;
+constexpr double kBrightShare = 0.999;  // of the pixels that are not black: hot pixels are no measure
+constexpr double kBelowBrightest = 4;   // two stops: panes of a window, sky beside the sun
+constexpr double kMiddle = 0.5;
 
 // Levels by the upper 16 of a float's bits: 128 bins an octave.
 class Histogram {
@@ -29,6 +32,18 @@ class Histogram {
   }
 
   [[nodiscard]] double largest() const { return largest_; }
+
+  // Exceeded by a share of 1 - q of the pixels that are not black.
+  [[nodiscard]] double quantile_of_lit(double q) const {
+    double lit = 0;
+    for (std::size_t i = 1; i < kBins; ++i) lit += static_cast<double>(counts_[i]);
+    double above = (1.0 - q) * lit;
+    for (std::size_t i = kBins - 1; i > 0; --i) {
+      above -= static_cast<double>(counts_[i]);
+      if (above < 0) return std::min(largest(), edge(i + 1));
+    }
+    return 0;
+  }
 
   // Quantile of the pixels below a level, linear within a bin.
   [[nodiscard]] double quantile_below(double level, double q) const {
@@ -66,20 +81,32 @@ class Histogram {
   float largest_ = 0;
 };
 
+double threshold_of_brightest(const Histogram& histogram) {
+  return histogram.quantile_of_lit(kBrightShare) / kBelowBrightest;
+}
+
 }  // namespace
 
 // The least level, white or above, that leaves a gap: nearly all pixels below it are kLightOverSurface times darker.
 // Found from below, so that a large lamp does not pass for a bright surface.
-double automatic_threshold(const Image& rgb) {
+Threshold automatic_threshold(const Image& rgb) {
   const Histogram histogram(rgb);
-  if (histogram.largest() == kClippedWhite) return kClippedThreshold;
+  if (histogram.largest() == kClippedWhite) return {kClippedThreshold, ThresholdSource::Clipped};
   double threshold = kLeastThreshold;
   for (int step = 0; step < kMostSteps && threshold < histogram.largest(); ++step) {
     const double next = kLightOverSurface * histogram.quantile_below(threshold, kSurfaceShare);
     if (!(next > threshold)) break;
     threshold = next;
   }
-  return threshold;
+  if (threshold < histogram.largest()) return {threshold, ThresholdSource::Gap};
+  const double level = std::max(kLeastThreshold, threshold_of_brightest(histogram));
+  const bool stands_out = level < histogram.largest() &&
+                          kBelowBrightest * level >= kLightOverSurface * histogram.quantile_below(level, kMiddle);
+  if (stands_out) return {level, ThresholdSource::Brightest};
+  return {threshold > histogram.largest() ? threshold : std::nextafter(threshold, 2.0 * threshold),
+          ThresholdSource::None};
 }
+
+double threshold_of_brightest(const Image& rgb) { return threshold_of_brightest(Histogram(rgb)); }
 
 }  // namespace contrejour

@@ -200,6 +200,84 @@ class Apply(ProgramTest):
         for got, want in zip(flux, (10, 5, 2.5)):
             self.assertAlmostEqual(got, want, delta=1e-6)
 
+    def test_nothing_found_says_what_was_seen(self):
+        """No light: the picture's brightest pixel, and what to try; the suggestions work."""
+        self.write("in.exr", dark([(30, 10, 0.9)], level=0.2))
+        said = self.run_program("apply", "heliar", "in.exr", "-o", "out.exr", *QUICK).stdout.decode()
+        for words in ("no lights", "the brightest has 0.9, at 30.5, 10.5 px", "--threshold 0.45", "--region", "--light-at 0.339,0.175:"):
+            self.assertIn(words, said)
+        report = self.json_of("apply", "heliar", "in.exr", "-o", "out.exr", *QUICK)
+        self.assertEqual((report["threshold_source"], report["lights"]), ("none", []))
+        self.assertAlmostEqual(report["brightest"]["value"], 0.9, delta=1e-6)
+        for more in (["--threshold", "0.45"], ["--region", "0.3,0.1,0.4,0.3"]):
+            report = self.json_of("apply", "heliar", "in.exr", "-o", "out.exr", *more, *QUICK)
+            self.assertEqual([light["centroid_px"] for light in report["lights"]], [[30.5, 10.5]])
+        self.write("black.exr", dark(level=0.0))
+        self.assertIn(b"all is black", self.run_program("apply", "heliar", "black.exr", "-o", "out.exr", *QUICK).stdout)
+
+    def test_a_window_without_a_gap(self):
+        """Ten stops that fall evenly: the two brightest of them are the light."""
+        self.write("in.exr", [100.0 * 2.0 ** (-x / 9) for _ in range(HEIGHT) for x in range(WIDTH)])
+        report = self.json_of("apply", "heliar", "in.exr", "-o", "out.exr", *QUICK)
+        self.assertEqual(report["threshold_source"], "brightest")
+        self.assertEqual(len(report["lights"]), 1)
+        self.assertAlmostEqual(report["lights"][0]["bounds_px"][2], 18, delta=1)
+
+    def test_regions(self):
+        self.write("in.exr", dark([(60, 20, 5000.0), (20, 40, 900.0)]))
+        arguments = ["apply", "heliar", "in.exr", "-o", "out.exr", *QUICK]
+        left = self.json_of(*arguments, "--region", "0,0,0.5,1")
+        self.assertEqual([light["centroid_px"] for light in left["lights"]], [[20.5, 40.5]])
+        both = self.json_of(*arguments, "--region", "0,0.5,0.5,1", "--region", "0.5,0,1,0.5")
+        self.assertEqual(both["lights"], self.json_of(*arguments)["lights"])
+        self.assertIn("left,top,right,bottom", self.error_of(*arguments, "--region", "0.5,0,0.5,1", code=2))
+
+    def test_lights_by_hand(self):
+        """Besides those found or alone, also outside the picture; as bright as render makes them."""
+        self.write("in.exr", dark([(75, 10, 5000.0)]))
+        self.write("black.exr", dark(level=0.0))
+        place, value = "1.1,-0.1", "9000,8000,7000"
+        arguments = ["-o", "o.exr", "--flare-only", "flare.exr", "--light-at", f"{place}:{value}", *QUICK]
+        report = self.json_of("apply", "heliar", "in.exr", "--no-detect", *arguments)
+        self.assertEqual((report["lights"], report["threshold"]), ([], None))
+        self.assertEqual(report["given_lights"][0]["flux"], [9000, 8000, 7000])
+        self.run_program("render", "heliar", "-o", "r.exr", "--size", f"{WIDTH}x{HEIGHT}", "--light-at", f"{place}:{value}",
+                         *QUICK)
+        result = self.json_of("compare", "r.exr", "flare.exr")
+        self.assertTrue(result["psnr_db"] is None or result["psnr_db"] > 100, result)
+        alone = exr.Picture(self.folder / "flare.exr").total()
+        report = self.json_of("apply", "heliar", "in.exr", *arguments)
+        self.assertEqual((len(report["lights"]), len(report["given_lights"])), (1, 1))
+        self.assertGreater(exr.Picture(self.folder / "flare.exr").total(), 1.01 * alone)
+        self.run_program("apply", "heliar", "black.exr", *arguments, "--starburst", "--stops", "1")
+        error = self.error_of("apply", "heliar", "in.exr", "-o", "o.exr", "--light-at", "0.5,0.5", code=1)
+        self.assertIn("how bright", error)
+        self.run_program("apply", "heliar", "in.exr", "-o", "o.exr", "--light-at", "0.5,0.5", "--value", "100", *QUICK)
+
+    def test_pictures_of_what_was_detected(self):
+        self.write("in.exr", dark([(60, 20, 5000.0), (20, 40, 900.0)], level=0.2))
+        arguments = ["apply", "heliar", "in.exr", "-o", "out.exr", "--softness", "0", *QUICK]
+        self.run_program(*arguments, "--detected", "lights.exr", "--max-value", "1000")
+        values = exr.Picture(self.folder / "lights.exr").channels["G"]
+        self.assertEqual({k: v for k, v in enumerate(values) if v}, {20 * WIDTH + 60: 1000, 40 * WIDTH + 20: 900})
+        self.run_program(*arguments, "--detected", "lights.png")
+        self.assertTrue((self.folder / "lights.png").read_bytes().startswith(b"\x89PNG"))
+        self.run_program(*arguments, "--no-detect", "--detected", "lights.exr")
+        self.assertEqual(exr.Picture(self.folder / "lights.exr").total(), 0)
+
+    def test_how_plainly_the_flare_shows(self):
+        """So many stops more make it plain, and then none more are asked for."""
+        self.write("in.exr", dark([(60, 20, 5000.0)], level=0.2))
+        arguments = ["apply", "heliar", "in.exr", "-o", "out.exr", *QUICK]
+        stops = self.json_of(*arguments)["flare"]["stops_to_plain"]
+        self.assertGreater(stops, 1)
+        self.assertIn(f"{stops:.1f} stops more would make it plain (--stops)".encode(), self.run_program(*arguments).stdout)
+        plain = self.json_of(*arguments, "--stops", repr(stops))["flare"]
+        self.assertAlmostEqual(plain["stops_to_plain"], 0, delta=0.01)
+        self.assertAlmostEqual(plain["over_picture"], 0.25, delta=0.01)
+        double = self.json_of(*arguments, "--gain", "2")["flare"]
+        self.assertEqual(double, self.json_of(*arguments, "--stops", "1")["flare"])
+
     def test_output_may_be_the_input(self):
         self.write("in.exr", dark([(60, 20, 5000.0)]))
         self.run_program("apply", "heliar", "in.exr", "-o", "other.exr", *QUICK)

@@ -149,6 +149,33 @@ class Render(ProgramTest):
             for p, q, r in zip(a.channels[name], b.channels[name], both.channels[name]):
                 self.assertAlmostEqual(p + q, r, delta=1e-5 * peak)
 
+    def test_brightness_in_other_terms(self):
+        """Stops over white, lux, candela and nits, against what they mean for a thin pupil without losses."""
+        def flux(value, *arguments):
+            return self.render("a.exr", "--light-at", "0.5,0.5", "--value", value, *arguments).total("G")
+
+        info = self.json_of("lens", "info", "heliar", "-f", "16")
+        pitch = min(info["sensor_width_mm"] / 96, info["sensor_height_mm"] / 64)
+        disc = ("--light-size", "2")
+        pixels = math.pi * (info["focal_length_mm"] * math.tan(math.radians(1)) / pitch) ** 2
+        of_disc = flux("1", *disc)
+        self.assertAlmostEqual(flux("5stops", *disc) / of_disc, 32 * pixels, delta=1e-3 * 32 * pixels)
+        one = flux("1")
+        lux = flux("2000lx", "--iso", "400", "--shutter", "1/100") / one
+        without_losses = 2000 * math.pi / 4 * info["entrance_pupil_diameter_mm"] ** 2 / pitch ** 2 * 0.01 * 400 * 0.18 / 10
+        self.assertLess(lux, without_losses)
+        self.assertGreater(lux, 0.6 * without_losses)
+        self.assertAlmostEqual(flux("2000lx") / one, lux / 4 * 2, delta=1e-3 * lux)  # ISO 100, 1/50 s
+        nits = flux("1e6nits", *disc) / of_disc
+        self.assertAlmostEqual(nits, lux / 4 * 2 * 500 * math.pi * math.sin(math.radians(1)) ** 2, delta=1e-3 * nits)
+        near = ("--light-distance", "5m")
+        self.assertAlmostEqual(flux("50cd", *near), flux("2lx", *near), delta=1e-5 * one)
+        for value, word in (("5stops", "--light-size"), ("7nits", "--light-size"), ("7cd", "--light-distance")):
+            self.assertIn(word, self.error_of("render", "heliar", "-o", "a.exr", "--value", value, code=1))
+        for value in ("50stops", "-1lx", "3parsecs", "stops"):
+            self.error_of("render", "heliar", "-o", "a.exr", "--value", value, code=2)
+        self.error_of("render", "heliar", "-o", "a.exr", "--shutter", "1/0", code=2)
+
     def test_colour(self):
         warm = self.render("w.exr", "--colour", "2800K", "--coating", "none")
         white = self.render("d.exr", "--coating", "none")

@@ -214,7 +214,8 @@ TEST_CASE("the automatic threshold takes lamps, small and large, and not paper")
 
   Image clipped = image;  // as an 8-bit picture holds it
   for (float& v : clipped.pixels) v = std::min(v, 1.0F);
-  CHECK(automatic_threshold(clipped) == 0.8);
+  CHECK(automatic_threshold(clipped).level == 0.8);
+  CHECK(automatic_threshold(clipped).source == ThresholdSource::Clipped);
 }
 
 TEST_CASE("in the sample photographs: the flame, the lamps, and no paper") {
@@ -232,7 +233,70 @@ TEST_CASE("in the sample photographs: the flame, the lamps, and no paper") {
     CHECK(std::abs(found.lights[1].centroid_px.x - 859) < 5);
     CHECK(found.lights[1].flux[0] > 5 * found.lights[2].flux[0]);
   }
-  for (const char* name : {"Carrots", "Desk", "Tree"})
-    if (const auto file = test::shared_data(std::string("hdr/openexr-images/ScanLines/") + name + ".exr"))
-      CHECK(detect_lights(read_picture(*file).value().rgb, {}).value().lights.empty());
+  if (const auto file = test::shared_data("hdr/openexr-images/ScanLines/Desk.exr")) {  // a stained-glass window
+    const Detection found = detect_lights(read_picture(*file).value().rgb, {}).value();
+    CHECK(found.source == ThresholdSource::Brightest);
+    CHECK(found.threshold < 0.5 * found.brightest);
+    REQUIRE_FALSE(found.lights.empty());
+    const DetectedLight& first = found.lights[0];
+    CHECK(first.min_x > 80);
+    CHECK(first.max_x < 560);
+    CHECK(first.max_y < 480);
+    for (const DetectedLight& light : found.lights) CHECK(light.centroid_px.y < 600);  // not what it shines on
+  }
+  if (const auto file = test::shared_data("hdr/openexr-images/ScanLines/Tree.exr")) {  // the sky behind it
+    const Detection found = detect_lights(read_picture(*file).value().rgb, {}).value();
+    CHECK(found.source == ThresholdSource::Brightest);
+    REQUIRE_FALSE(found.lights.empty());
+    CHECK(found.lights[0].centroid_px.y < 400);
+    CHECK(found.lights[0].pixel_count > 10000);
+  }
+  if (const auto file = test::shared_data("hdr/openexr-images/ScanLines/Carrots.exr")) {  // nothing but lit things
+    const Detection found = detect_lights(read_picture(*file).value().rgb, {}).value();
+    CHECK(found.source == ThresholdSource::None);
+    CHECK(found.lights.empty());
+    CHECK(found.brightest == doctest::Approx(0.9663).epsilon(1e-3));
+    CHECK(found.brightest_px.x > 0.0);
+  }
+}
+
+TEST_CASE("a window or a sky without a gap to what it lights: what is within two stops of the brightest") {
+  // Levels fall evenly over ten stops, as of a window and the room it lights: no gap anywhere.
+  Image image(200, 100);
+  for (int y = 0; y < image.height; ++y)
+    for (int x = 0; x < image.width; ++x)
+      for (int c = 0; c < 3; ++c) image.at(x, y, c) = static_cast<float>(100.0 * std::exp2(-0.06 * x));
+  const Detection found = detect_lights(image, {}).value();
+  CHECK(found.source == ThresholdSource::Brightest);
+  CHECK(found.threshold == doctest::Approx(25.0).epsilon(0.05));
+  REQUIRE(found.lights.size() == 1);
+  CHECK(found.lights[0].max_x == doctest::Approx(33).epsilon(0.05));
+  CHECK(found.brightest == 100.0);
+  CHECK(found.brightest_px == Vec2{0.5, 0.5});
+
+  for (float& v : image.pixels) v *= 1e-3F;  // all of it below white
+  CHECK(automatic_threshold(image).source == ThresholdSource::None);
+  CHECK(detect_lights(image, {}).value().lights.empty());
+}
+
+TEST_CASE("lights are looked for within regions alone, and there more keenly") {
+  Image image(100, 60);
+  fill(image, 0, 0, 99, 59, {0.2, 0.2, 0.2});
+  fill(image, 10, 10, 12, 12, {500, 500, 500});
+  fill(image, 70, 40, 72, 42, {0.9, 0.9, 0.9});  // a lamp that is not brighter than white
+  CHECK(detect_lights(image, {}).value().lights.size() == 1);
+  DetectionSettings settings;
+  settings.regions = {{60, 30, 100, 60}};
+  const Detection dim = detect_lights(image, settings).value();
+  CHECK(dim.source == ThresholdSource::Region);
+  REQUIRE(dim.lights.size() == 1);
+  CHECK(dim.lights[0].centroid_px == Vec2{71.5, 41.5});
+  CHECK(dim.brightest == doctest::Approx(0.9));
+  settings.regions.push_back({-5, -5, 11, 1000});  // half the other, beyond the border
+  const Detection both = detect_lights(image, settings).value();
+  CHECK(both.source == ThresholdSource::Gap);
+  REQUIRE(both.lights.size() == 1);
+  CHECK(both.lights[0].pixel_count == 3);
+  settings.regions = {{50, 0, 50, 60}, {80, 50, 20, 10}};  // of no pixels
+  CHECK(detect_lights(image, settings).value().lights.empty());
 }

@@ -7,15 +7,12 @@
 
 #include "contrejour/colour.h"
 #include "contrejour/context.h"
+#include "contrejour/direct_image.h"
 #include "contrejour/frame.h"
 #include "contrejour/lens.h"
 #include "render/interface/wavelength_tables.h"
 
 namespace contrejour {
-
-// Where a light is measured, at its own distance: outside the frame at the nearest point of the frame's edge on the way
-// to its centre.
-[[nodiscard]] LightSource measured_source(const LensState& lens, const Frame& frame, const LightSource& light);
 
 // A light where it is measured, its bands' wavelengths and, once found, their direct fluxes in mm^2 at E0 = 1.
 struct MeteredLight {
