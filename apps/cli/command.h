@@ -33,6 +33,7 @@ void add_lens_draw(CLI::App& lens, Action& action);
 void add_lens_convert(CLI::App& lens, Action& action);
 void add_lens_check(CLI::App& lens, Action& action);
 void add_lens_trace(CLI::App& lens, Action& action);
+void add_lens_browse(CLI::App& lens, Action& action);
 
 void add_glass_list(CLI::App& glass, Action& action);
 void add_glass_show(CLI::App& glass, Action& action);

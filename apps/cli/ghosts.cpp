@@ -112,6 +112,7 @@ void add_ghosts(CLI::App& app, Action& action) {
   command->add_flag("--json", options->json, "as JSON");
   add_parameters(*command, options->values, {"light", "light-at", "colour", "light-distance"});
   add_lens_parameters(*command, options->values);
+  hide_parameters(*command, kDirt);
   add_parameters(*command, options->values,
                  {"wavelength", "size", "hfov", "wavelengths", "ghosts", "reflections", "threads"});
   command->footer(kExamples);

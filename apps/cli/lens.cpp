@@ -4,7 +4,7 @@
 namespace contrejour::cli {
 
 void add_lens(CLI::App& app, Action& action) {
-  CLI::App* lens = app.add_subcommand("lens", "list, describe, draw, trace, check and convert lenses");
+  CLI::App* lens = app.add_subcommand("lens", "list, describe, draw, browse, trace, check and convert lenses");
   lens->require_subcommand(1);
   lens->footer(
       "Examples:\n"
@@ -15,6 +15,7 @@ void add_lens(CLI::App& app, Action& action) {
   add_lens_info(*lens, action);
   add_lens_draw(*lens, action);
   add_lens_trace(*lens, action);
+  add_lens_browse(*lens, action);
   add_lens_check(*lens, action);
   add_lens_convert(*lens, action);
 }

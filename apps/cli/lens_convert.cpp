@@ -50,14 +50,14 @@ void add_lens_convert(CLI::App& lens, Action& action) {
   command->add_option("IN", options->input, "a lens file in any format that is read, or a name")
       ->required()
       ->option_text(" ");
-  add_output(*command, "OUT", options->output, {".toml", ".zmx", ".seq"}, "the file to write")
-      ->required()
-      ->option_text(" ");
+  add_output(*command, "OUT,-o,--output", options->output, {".toml", ".zmx", ".seq"},
+             "the file to write, as the second name or after -o")
+      ->required();
   command->footer(
       "Examples:\n"
       "  contrejour lens convert heliar my-heliar.toml\n"
       "  contrejour lens convert other.zmx tidy.toml\n"
-      "  contrejour lens convert canon-70-200 canon.zmx");
+      "  contrejour lens convert canon-70-200 -o canon.zmx");
   command->callback([options, &action] { action = [options] { return run_convert(*options); }; });
 }
 

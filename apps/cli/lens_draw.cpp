@@ -64,12 +64,16 @@ Result<int> run_draw(const DrawOptions& options) {
 
 void add_lens_draw(CLI::App& lens, Action& action) {
   const auto options = std::make_shared<DrawOptions>();
-  CLI::App* command = lens.add_subcommand("draw", "a section with rays, as SVG");
+  CLI::App* command = lens.add_subcommand("draw", "the layout: a section with rays, as SVG");
+  command->alias("layout");
   add_lens_argument(*command, options->lens);
   add_output(*command, "-o,--output", options->output, {".svg"}, "the drawing")->required();
   add_ghost_option(*command, options->ghost, "show this ghost's path");
   add_parameters(*command, options->values, {"light"});
   add_lens_parameters(*command, options->values);
+  for (const auto names : {std::span<const std::string_view>(kIris), {kGrating}, {kDirt}})
+    hide_parameters(*command, names);
+  hide_parameters(*command, std::array<std::string_view, 2>{"absorption", "coating"});
   add_parameters(*command, options->values, {"wavelength"});
   command->footer(kExamples);
   command->callback([options, &action] {

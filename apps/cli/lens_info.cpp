@@ -294,6 +294,9 @@ void add_lens_info(CLI::App& lens, Action& action) {
   command->add_flag("--json", options->json, "as JSON");
   command->add_flag("--seidel", options->seidel, "third-order aberrations too, by surface (as JSON always)");
   add_lens_parameters(*command, options->values);
+  for (const auto names : {std::span<const std::string_view>(kIris), {kGrating}, {kDirt}})
+    hide_parameters(*command, names);
+  hide_parameters(*command, std::array<std::string_view, 1>{"absorption"});
   add_parameters(*command, options->values, {"wavelength"});
   command->footer(kExamples);
   command->callback([options, &action] { action = [options] { return run_info(*options); }; });

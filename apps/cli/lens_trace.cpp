@@ -145,6 +145,7 @@ void add_lens_trace(CLI::App& lens, Action& action) {
   command->add_flag("--json", options->json, "as JSON");
   add_parameters(*command, options->values, {"wavelength"});
   add_lens_parameters(*command, options->values);
+  hide_parameters(*command, kDirt);
   command->footer(kExamples);
   command->callback([options, &action] { action = [options] { return run_trace(*options); }; });
 }

@@ -77,7 +77,8 @@ void add_show(CLI::App& look, Action& action) {
 }  // namespace
 
 void add_look(CLI::App& app, Action& action) {
-  CLI::App* look = app.add_subcommand("look", "settings of a flare under one name");
+  CLI::App* look = app.add_subcommand("look", "presets: settings of a flare under one name");
+  look->alias("preset");
   look->require_subcommand(1);
   add_list(*look, action);
   add_show(*look, action);

@@ -6,10 +6,10 @@ namespace contrejour::cli {
 
 void add_look_options(CLI::App& command, LookOptions& options) {
   command
-      .add_option("--look", options.look,
-                  "settings to start from: a bundled look (see `contrejour look list`) or a file; options override it")
+      .add_option("--look,--preset", options.look,
+                  "preset to start from: a bundled look (see `contrejour look list`) or a file; options override it")
       ->option_text("LOOK");
-  add_output(command, "--save-look", options.save, {".toml"}, "all settings of this flare, as a look");
+  add_output(command, "--save-look,--save-preset", options.save, {".toml"}, "all settings of this flare, as a preset");
 }
 
 Result<void> fill_from_look(const LookOptions& options, std::string& lens, params::Values& values) {

@@ -61,19 +61,24 @@ void add_parameter(CLI::App& command, params::Values& values, const Parameter& p
 }  // namespace
 
 void add_parameters(CLI::App& command, params::Values& values, std::initializer_list<std::string_view> names) {
+  add_parameters(command, values, std::span(names.begin(), names.size()));
+}
+
+void add_parameters(CLI::App& command, params::Values& values, std::span<const std::string_view> names) {
   for (const std::string_view name : names) add_parameter(command, values, params::parameter(name));
 }
 
 void add_lens_parameters(CLI::App& command, params::Values& values) {
   add_parameters(command, values, {"focal", "fnumber", "focus", "coating"});
-  add_parameters(command, values, {"blades", "blade-rotation", "blade-curvature", "blade-asymmetry", "blade-seed"});
-  add_parameters(command, values, {"blade-closing", "iris-image"});
-  add_parameters(command, values, {"tilt", "decentre", "build-seed", "absorption"});
-  add_parameters(command, values,
-                 {"cover-glass", "sensor-reflectance", "sensor-orders", "sensor-pitch", "sensor-fill"});
-  add_parameters(command, values,
-                 {"dust", "dust-size", "scratches", "scratch-length", "scratch-width", "scratch-angle"});
-  add_parameters(command, values, {"scratch-spread", "dirt-image", "dirt-on", "dirt-seed", "dirt-time"});
+  add_parameters(command, values, kIris);
+  add_parameters(command, values, {"blade-closing", "tilt", "decentre", "build-seed", "absorption"});
+  add_parameters(command, values, {"cover-glass", "sensor-reflectance"});
+  add_parameters(command, values, kGrating);
+  add_parameters(command, values, kDirt);
+}
+
+void hide_parameters(CLI::App& command, std::span<const std::string_view> names) {
+  for (const std::string_view name : names) command.get_option("--" + std::string(name))->group("");
 }
 
 void add_rendering_parameters(CLI::App& command, params::Values& values) {

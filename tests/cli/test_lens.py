@@ -1,6 +1,9 @@
 #!/usr/bin/env python3
 """contrejour lens ... and ghosts."""
+import base64
 import math
+import re
+import struct
 import unittest
 import xml.etree.ElementTree
 
@@ -93,6 +96,38 @@ class Lens(ProgramTest):
         done = self.run_program("lens", "check", "mine.toml", "bad.toml", code=1)
         self.assertIn("refused", done.stdout.decode())
         self.assertIn("bad.toml:2:", done.stderr.decode())
+
+    def test_browse(self):
+        """A card for each lens with its two pictures; what is refused is listed; names are text."""
+        self.run_program("lens", "convert", "tessar", "t.toml")
+        text = (self.folder / "t.toml").read_text()
+        name = re.search('^name = "(.*)"', text, re.M)
+        (self.folder / "sub").mkdir()
+        (self.folder / "sub" / "t.toml").write_text(text.replace(name.group(0), 'name = "<script>A & B"'))
+        (self.folder / "sub" / "broken.toml").write_text("surfaces = 3\n")
+        self.run_program("lens", "browse", "heliar", "sub", "-f", "2", "--size", "64x36", "--wavelengths", "1", "-o", "page.html")
+        page = (self.folder / "page.html").read_text()
+        self.assertEqual(page.count('class="card"'), 2)
+        self.assertIn("&lt;script&gt;A &amp; B", page)
+        self.assertNotIn("<script>A", page)
+        self.assertRegex(page, r"<li>sub/broken\.toml: .*broken\.toml:")
+        pictures = [base64.b64decode(data) for data in re.findall('data:image/png;base64,([^"]*)', page)]
+        self.assertEqual([struct.unpack(">2I", png[16:24]) for png in pictures], [(64, 36), (64, 36)])
+        self.run_program("lens", "draw", "heliar", "-f", "3.5", "-o", "heliar.svg")
+        sections = [base64.b64decode(data) for data in re.findall(r'data:image/svg\+xml;base64,([^"]*)', page)]
+        self.assertEqual(len(sections), 2)
+        self.assertEqual(sections[0], (self.folder / "heliar.svg").read_bytes())
+        self.error_of("lens", "browse", "sub/broken.toml", "-o", "none.html", code=1)
+        self.assertFalse((self.folder / "none.html").exists())
+
+    def test_convert_with_a_named_output(self):
+        self.run_program("lens", "convert", "heliar", "a.toml")
+        self.run_program("lens", "convert", "heliar", "-o", "b.toml")
+        self.run_program("lens", "convert", "--output", "c.toml", "heliar")
+        for name in ("b.toml", "c.toml"):
+            self.assertEqual((self.folder / "a.toml").read_bytes(), (self.folder / name).read_bytes())
+        self.error_of("lens", "convert", "heliar", code=2)
+        self.error_of("lens", "convert", "heliar", "-o", "a.json", code=2)
 
     def test_convert_to_design_programs_and_back(self):
         a = self.json_of("lens", "info", "canon-70-200")

@@ -5,7 +5,7 @@ import unittest
 from program import ProgramTest
 
 COMMANDS = [["render"], ["apply"], ["ghosts"], ["compare"], ["lens", "list"], ["lens", "info"], ["lens", "draw"],
-            ["lens", "trace"], ["lens", "check"], ["lens", "convert"],
+            ["lens", "trace"], ["lens", "check"], ["lens", "convert"], ["lens", "browse"],
             ["glass", "list"], ["glass", "show"], ["glass", "closest"], ["look", "list"], ["look", "show"], ["bench", "tables"],
             ["bench", "lenses"]]
 
@@ -18,6 +18,30 @@ class Usage(ProgramTest):
             self.assertEqual(done.stderr, b"")
         self.assertIn("render", self.run_program("--help").stdout.decode())
         self.assertRegex(self.run_program("--version").stdout.decode(), r"^contrejour \d+\.\d+\.\d+\n$")
+
+    def test_help_shows_only_what_a_command_uses(self):
+        """What is left out of a help is taken and changes nothing of what is shown; what is in it is used by one."""
+        def help_of(*command):
+            return self.run_program(*command, "--help").stdout.decode()
+
+        for command in (["render"], ["apply"]):
+            for option in ("--dust ", "--blades ", "--coating ", "--absorption"):
+                self.assertIn(option, help_of(*command))
+        self.assertNotIn("--dust", help_of("ghosts"))
+        self.assertNotIn("--dirt-image", help_of("lens", "trace"))
+        for command in (["lens", "info"], ["lens", "draw"]):
+            for option in ("--dust", "--blades", "--sensor-pitch", "--absorption"):
+                self.assertNotIn(option, help_of(*command))
+        unused = ["--dust", "9", "--scratch-angle", "20", "--blades", "7", "--sensor-orders", "2", "--absorption"]
+        plain, dirty = (self.run_program("lens", "info", "heliar", *more).stdout for more in ([], unused))
+        self.assertEqual(plain, dirty)
+
+    def test_the_lens_is_missing(self):
+        """A picture in the lens's place is told from a lens without a picture."""
+        (self.folder / "plate.exr").write_bytes(b"")
+        self.assertIn("LENS before plate.exr", self.error_of("apply", "plate.exr", "-o", "out.exr", code=2))
+        self.assertIn("LENS before A.PNG", self.error_of("apply", "A.PNG", "-o", "out.exr", code=2))
+        self.assertIn("IN is required", self.error_of("apply", "heliar", "-o", "out.exr", code=2))
 
     def test_wrong_options(self):
         render = ["render", "heliar", "-o", "a.exr"]
@@ -37,7 +61,7 @@ class Usage(ProgramTest):
                 [*render, "--method", "magic"], [*render, "--device", "toaster"], [*render, "--grid", "8"],
                 [*render, "--wavelengths", "0"], [*render, "--wavelengths", "2.5"], [*render, "--threads", "-1"],
                 [*render, "--threads", "100000"], [*render, "--select", "best"], [*render, "--coating", "paint"],
-                [*render, "--blades", "-3"], [*render, "--blade-curvature", "1.1"], [*render, "--blade-asymmetry", "-0.1"],
+                [*render, "--blades", "-3"], [*render, "--blades", "1"], [*render, "--blades", "2"], [*render, "--blade-curvature", "1.1"], [*render, "--blade-asymmetry", "-0.1"],
                 [*render, "--blade-seed", "-1"], [*render, "--blade-closing", "slowly"], [*render, "--iris-image"],
                 [*render, "--preview", "a.exr"], [*render, "--stats", "a.txt"],
                 ["apply", "heliar", "in.exr", "-o", "o.exr", "--threshold", "nan"],

@@ -1,0 +1,130 @@
+#include "cli/lens_page.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <span>
+
+#include <fmt/format.h>
+
+namespace contrejour::cli {
+namespace {
+
+constexpr const char* kHead = R"(<!DOCTYPE html>
+<html lang="en">
+<head>
+<meta charset="utf-8">
+<meta name="viewport" content="width=device-width">
+<title>Lenses</title>
+<style>
+body { font: 15px/1.4 sans-serif; margin: 1.5em; background: #181a1d; color: #ddd; }
+#cards { display: grid; grid-template-columns: repeat(auto-fill, minmax(340px, 1fr)); gap: 1em; }
+.card { background: #24272b; border-radius: 6px; overflow: hidden; }
+.card img { width: 100%; display: block; background: #000; }
+.card img.section { background: #fff; height: 150px; object-fit: contain; }
+.card h2 { font-size: 1em; margin: .6em .8em 0; overflow-wrap: anywhere; }
+.card p { margin: .2em .8em .8em; color: #aaa; overflow-wrap: anywhere; }
+input, select { font: inherit; background: #24272b; color: inherit; border: 1px solid #555; padding: .3em; }
+[hidden] { display: none; }
+</style>
+</head>
+<body>
+)";
+
+constexpr const char* kTools = R"(<p>
+<input id="search" type="search" placeholder="search" aria-label="search">
+<select id="order" aria-label="order">
+<option value="place">as listed</option>
+<option value="focal">by focal length</option>
+<option value="fnumber">by f-number</option>
+<option value="ghosts">by number of ghosts</option>
+<option value="flare">by brightness of the flare</option>
+</select>
+</p>
+)";
+
+constexpr const char* kScript = R"(<script>
+const cards = document.getElementById("cards"), search = document.getElementById("search"), order = document.getElementById("order");
+function show() {
+  const words = search.value.toLowerCase().split(/\s+/);
+  const all = [...cards.children];
+  for (const card of all) card.hidden = !words.every(word => card.dataset.words.includes(word));
+  const falling = order.value === "ghosts" || order.value === "flare" ? -1 : 1;
+  all.sort((a, b) => falling * (a.dataset[order.value] - b.dataset[order.value]) || a.dataset.place - b.dataset.place);
+  cards.append(...all);
+}
+search.addEventListener("input", show);
+order.addEventListener("change", show);
+</script>
+</body>
+</html>
+)";
+
+std::string escaped(const std::string& text) {
+  std::string out;
+  for (const char c : text) {
+    switch (c) {
+      case '&': out += "&amp;"; break;
+      case '<': out += "&lt;"; break;
+      case '>': out += "&gt;"; break;
+      case '"': out += "&quot;"; break;
+      default: out += static_cast<unsigned char>(c) < 0x20 || c == 0x7f ? ' ' : c;
+    }
+  }
+  return out;
+}
+
+std::string lower(std::string text) {
+  for (char& c : text)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  return text;
+}
+
+// RFC 4648, section 4.
+std::string base64(std::span<const std::byte> bytes) {
+  constexpr const char* kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string out;
+  for (std::size_t k = 0; k < bytes.size(); k += 3) {
+    const std::size_t count = std::min<std::size_t>(3, bytes.size() - k);
+    std::uint32_t group = 0;
+    for (std::size_t i = 0; i < 3; ++i)
+      group = group << 8 | (i < count ? std::to_integer<std::uint32_t>(bytes[k + i]) : 0);
+    for (std::size_t i = 0; i < 4; ++i) out += i <= count ? kDigits[group >> (18 - 6 * i) & 63] : '=';
+  }
+  return out;
+}
+
+std::string card_html(const LensCard& card, std::size_t place) {
+  std::string html = fmt::format(
+      "<div class=\"card\" data-place=\"{}\" data-focal=\"{:.6g}\" data-fnumber=\"{:.6g}\" data-ghosts=\"{}\" "
+      "data-flare=\"{:.6g}\" data-words=\"{}\">\n",
+      place, card.focal_length_mm, card.f_number, card.ghosts, card.flare,
+      escaped(lower(card.id + " " + card.name + " " + card.source)));
+  html += "<img alt=\"flare\" src=\"data:image/png;base64," + base64(card.picture) + "\">\n";
+  // As a picture: the names of parts within an SVG are its own then, not the page's.
+  html += "<img class=\"section\" alt=\"section\" src=\"data:image/svg+xml;base64," +
+          base64(std::as_bytes(std::span(card.section))) + "\">\n";
+  html += fmt::format(
+      "<h2>{}</h2>\n<p>{} mm f/{:.3g}, {} surfaces, {} ghosts; flare {:.2g} of the light, shown {:+.1f} "
+      "stops<br>{}<br>{}</p>\n</div>\n",
+      escaped(card.name), escaped(card.focal_lengths), card.f_number, card.surfaces, card.ghosts, card.flare,
+      card.exposure_stops, escaped(card.id), escaped(card.source));
+  return html;
+}
+
+}  // namespace
+
+std::string lens_page(const std::vector<LensCard>& cards, const std::vector<RefusedLens>& refused) {
+  std::string html =
+      std::string(kHead) + fmt::format("<h1>{} lenses</h1>\n", cards.size()) + kTools + "<div id=\"cards\">\n";
+  for (std::size_t k = 0; k < cards.size(); ++k) html += card_html(cards[k], k);
+  html += "</div>\n";
+  if (!refused.empty()) {
+    html += fmt::format("<h1>{} refused</h1>\n<ul>\n", refused.size());
+    for (const RefusedLens& lens : refused)
+      html += fmt::format("<li>{}: {}</li>\n", escaped(lens.id), escaped(lens.reason));
+    html += "</ul>\n";
+  }
+  return html + kScript;
+}
+
+}  // namespace contrejour::cli
