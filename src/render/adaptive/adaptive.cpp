@@ -195,7 +195,8 @@ Result<DrawnFlare> render_adaptive(const LensState& lens, const FramePlan& plan,
   const RoughFrame rough = draw_roughly(scene, items, settings.frame, rooms, drawer, quiet, work);
   if (context.cancelled()) return interrupted();
   const bool dark = !(rough.peak > 0.0);
-  const FrameError allowed{settings.error, dark ? faintest_peak(plan, settings.frame) : rough.peak,
+  const FrameError allowed{settings.error,
+                           std::max(dark ? faintest_peak(plan, settings.frame) : rough.peak, plan.least_peak),
                            static_cast<double>(settings.frame.width) * settings.frame.height};
   if (screens.on() && !dark) work.add(screen_items(scene, screens, items, rough.sizes, allowed, quiet));
   if (context.cancelled()) return interrupted();

@@ -249,12 +249,11 @@ std::vector<Item> find_items(const Scene& scene, const Context& context, Work& w
   std::vector<LightWindows> windows;
   for (const PlannedLight& light : lights) windows.emplace_back(scene.lens, light.source);
   std::vector<Item> items;
-  for (std::size_t g = 0; g < scene.plan.ghosts.size(); ++g) {
+  for_each_pair(scene.plan, [&](std::size_t g, std::size_t k) {
     const Ghost& ghost = scene.plan.ghosts[g];
-    const bool symmetric = has_axial_symmetry(scene.lens, ghost);
-    for (std::size_t k = 0; k < lights.size(); ++k)
-      items.push_back({ghost, &scene.plan.looks[g], &lights[k], windows[k].of(symmetric), {}});
-  }
+    items.push_back(
+        {ghost, &scene.plan.looks[g], &lights[k], windows[k].of(has_axial_symmetry(scene.lens, ghost)), {}});
+  });
   std::vector<Work> done(items.size());
   parallel_for(items.size(), context, [&](std::size_t k) { done[k] = find_boxes(scene, items[k]); });
   for (const Work& w : done) work.add(w);

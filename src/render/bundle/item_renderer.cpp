@@ -57,16 +57,15 @@ PixelBox box_around(const std::vector<std::optional<FluxBox>>& layers) {
 
 std::vector<Item> items_of(const FramePlan& plan, const BundleOptions& options) {
   std::vector<Item> items;
-  for (std::size_t g = 0; g < plan.ghosts.size(); ++g) {
-    for (const PlannedLight& light : plan.lights) {
-      const std::span<const PlannedPass> all(light.passes);
-      const std::size_t together = is_blurred(options, all.size()) ? all.size() : kPassesPerItem;
-      for (std::size_t first = 0; first < all.size(); first += together) {
-        items.push_back(
-            {plan.ghosts[g], &plan.looks[g], &light, all.subspan(first, std::min(together, all.size() - first))});
-      }
+  for_each_pair(plan, [&](std::size_t g, std::size_t k) {
+    const PlannedLight& light = plan.lights[k];
+    const std::span<const PlannedPass> all(light.passes);
+    const std::size_t together = is_blurred(options, all.size()) ? all.size() : kPassesPerItem;
+    for (std::size_t first = 0; first < all.size(); first += together) {
+      items.push_back(
+          {plan.ghosts[g], &plan.looks[g], &light, all.subspan(first, std::min(together, all.size() - first))});
     }
-  }
+  });
   return items;
 }
 

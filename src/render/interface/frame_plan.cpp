@@ -123,18 +123,17 @@ PlannedLight plan_light(const LensState& lens, const TablesByWavelength& tables,
   return planned;
 }
 
-// None when cancelled.
+// measured: one a light. None when cancelled.
 std::optional<std::vector<PlannedLight>> plan_lights(const LensState& lens, std::span<const Light> lights,
                                                      const RenderSettings& settings, const BandsBySpectrum& spectra,
-                                                     const Preparation& prepared, const Context& context) {
+                                                     std::span<const LightSource> measured,
+                                                     const TablesByWavelength& tables, const Context& context) {
   std::vector<MeteredLight> metered;
-  for (std::size_t k = 0; k < lights.size(); ++k)
-    metered.push_back({prepared.measured[k], bands_for(lights[k], spectra)});
-  if (!measure_fluxes(lens, prepared.tables, metered, context)) return std::nullopt;
+  for (std::size_t k = 0; k < lights.size(); ++k) metered.push_back({measured[k], bands_for(lights[k], spectra)});
+  if (!measure_fluxes(lens, tables, metered, context)) return std::nullopt;
   std::vector<PlannedLight> planned;
-  for (std::size_t k = 0; k < lights.size(); ++k) {
-    planned.push_back(plan_light(lens, prepared.tables, lights[k], metered[k], edge_gain(lens, lights[k], settings)));
-  }
+  for (std::size_t k = 0; k < lights.size(); ++k)
+    planned.push_back(plan_light(lens, tables, lights[k], metered[k], edge_gain(lens, lights[k], settings)));
   return planned;
 }
 
@@ -158,12 +157,25 @@ Result<FramePlan> plan_frame(const LensState& lens, std::span<const Light> light
   const BandsBySpectrum spectra = bands_by_spectrum(lights, settings);
   auto prepared = prepare(lens, lights, settings.frame, spectra, quiet);
   if (!prepared) return interrupted();
-  auto planned = plan_lights(lens, lights, settings, spectra, *prepared, quiet);
+  auto planned = plan_lights(lens, lights, settings, spectra, prepared->measured, prepared->tables, quiet);
   if (!planned) return interrupted();
   plan.lights = std::move(*planned);
   plan.tables = std::move(prepared->tables);
   plan.dirt = std::move(prepared->dirt);
   return plan;
+}
+
+Result<std::vector<PlannedLight>> plan_more_lights(const FramePlan& plan, const LensState& lens,
+                                                   std::span<const Light> lights, const RenderSettings& settings,
+                                                   const Context& context) {
+  std::vector<LightSource> measured(lights.size());
+  parallel_for(lights.size(), context,
+               [&](std::size_t k) { measured[k] = measured_source(lens, settings.frame, lights[k].source()); });
+  const BandsBySpectrum spectra = bands_by_spectrum(lights, settings);
+  if (context.cancelled()) return interrupted();
+  auto planned = plan_lights(lens, lights, settings, spectra, measured, plan.tables, context);
+  if (!planned) return interrupted();
+  return std::move(*planned);
 }
 
 Result<Flare> render_planned(PlannedRenderer method, const LensState& lens, std::span<const Light> lights,

@@ -2,6 +2,7 @@
 // flux becomes pixel values. So selection, colour and radiometry are the same in all of them.
 #pragma once
 
+#include <cstddef>
 #include <memory>
 #include <span>
 #include <vector>
@@ -27,6 +28,10 @@ struct PlannedLight {
   std::vector<PlannedPass> passes;  // by rising wavelength
 };
 
+struct GhostOfLight {
+  std::size_t ghost = 0, light = 0;  // in the plan
+};
+
 struct FramePlan {
   std::vector<Ghost> ghosts;
   std::vector<GhostLook> looks;  // one a ghost
@@ -34,13 +39,33 @@ struct FramePlan {
   TablesByWavelength tables;  // for every wavelength of the passes
   std::shared_ptr<const DirtField> dirt = nullptr;  // null: the lens is clean
   std::optional<double> skipped_flux;  // as RenderStatistics::ghosts_skipped_flux
+  // Which ghosts of which lights are drawn, by rising ghost, then light; none: all of them.
+  std::vector<GhostOfLight> pairs = {};
+  // What errors may be relative to where the picture's own peak is lower: it becomes part of a brighter one. Pixel
+  // values.
+  double least_peak = 0.0;
   // May be left out of a picture: rows and columns beside all of its light, but for so many next to it.
   std::optional<int> dark_margin_px;
 };
 
+// Calls visit(ghost, light) for those that are drawn.
+template <class Visit>
+void for_each_pair(const FramePlan& plan, const Visit& visit) {
+  for (const GhostOfLight& pair : plan.pairs) visit(pair.ghost, pair.light);
+  if (!plan.pairs.empty()) return;
+  for (std::size_t g = 0; g < plan.ghosts.size(); ++g)
+    for (std::size_t k = 0; k < plan.lights.size(); ++k) visit(g, k);
+}
+
 // Errors: InvalidArgument for settings out of range, Cancelled.
 [[nodiscard]] Result<FramePlan> plan_frame(const LensState& lens, std::span<const Light> lights,
                                            const RenderSettings& settings, const Context& context);
+
+// More lights for a plan that has their spectra. Cancelled is the one error.
+[[nodiscard]] Result<std::vector<PlannedLight>> plan_more_lights(const FramePlan& plan, const LensState& lens,
+                                                                 std::span<const Light> lights,
+                                                                 const RenderSettings& settings,
+                                                                 const Context& context);
 
 // What a method draws: the part of the frame that begins there. All else is dark.
 struct DrawnFlare {

@@ -20,11 +20,10 @@ struct Item {
 
 std::vector<Item> items_of(const FramePlan& plan) {
   std::vector<Item> items;
-  for (std::size_t g = 0; g < plan.ghosts.size(); ++g) {
-    for (const PlannedLight& light : plan.lights) {
-      for (const PlannedPass& pass : light.passes) items.push_back({plan.ghosts[g], &plan.looks[g], &light, &pass});
-    }
-  }
+  for_each_pair(plan, [&](std::size_t g, std::size_t k) {
+    const PlannedLight& light = plan.lights[k];
+    for (const PlannedPass& pass : light.passes) items.push_back({plan.ghosts[g], &plan.looks[g], &light, &pass});
+  });
   return items;
 }
 

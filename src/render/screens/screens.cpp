@@ -50,10 +50,11 @@ double Screens::fresnel_number(const Ghost& ghost, double lambda_nm, const Light
 
 bool Screens::prepare(const FramePlan& plan, const Context& context) {
   std::vector<Wanted> wanted;
-  for (const Ghost& ghost : plan.ghosts)
-    for (const PlannedLight& light : plan.lights)
-      for (const PlannedPass& pass : light.passes)
-        wanted.push_back({ghost, pass.lambda_nm, pass.spread_nm, light.source});
+  for_each_pair(plan, [&](std::size_t g, std::size_t k) {
+    const PlannedLight& light = plan.lights[k];
+    for (const PlannedPass& pass : light.passes)
+      wanted.push_back({plan.ghosts[g], pass.lambda_nm, pass.spread_nm, light.source});
+  });
   return prepare(wanted, context);
 }
 

@@ -122,17 +122,16 @@ struct Job {
 };
 
 void list_items(const FramePlan& plan, const Screens& screens, Job& job) {
-  for (std::size_t g = 0; g < plan.ghosts.size(); ++g) {
+  for_each_pair(plan, [&](std::size_t g, std::size_t k) {
     const GhostLook& look = plan.looks[g];
-    for (const PlannedLight& light : plan.lights) {
-      for (const PlannedPass& pass : light.passes) {
-        if (screens.on()) job.screens.push_back(screens.of(plan.ghosts[g], pass.lambda_nm, light.source));
-        const Rgb gain = look.tinted(pass.gain);
-        job.items.push_back({plan.ghosts[g], look.shift_mm, light.source, pass.lambda_nm});
-        job.gains.push_back({static_cast<float>(gain[0]), static_cast<float>(gain[1]), static_cast<float>(gain[2])});
-      }
+    const PlannedLight& light = plan.lights[k];
+    for (const PlannedPass& pass : light.passes) {
+      if (screens.on()) job.screens.push_back(screens.of(plan.ghosts[g], pass.lambda_nm, light.source));
+      const Rgb gain = look.tinted(pass.gain);
+      job.items.push_back({plan.ghosts[g], look.shift_mm, light.source, pass.lambda_nm});
+      job.gains.push_back({static_cast<float>(gain[0]), static_cast<float>(gain[1]), static_cast<float>(gain[2])});
     }
-  }
+  });
 }
 
 TracedItem trace_item(const Job& job, std::size_t index, Workspace& workspace) {
