@@ -55,16 +55,13 @@ double squares(const Image& a, const Image& b) {
 
 BlurredGhost ghost_of(double radius_px, double blur_px) { return {{blur_px, blur_px}, {radius_px, radius_px}, 1.0}; }
 
-// What edges count by at that level (blur_error.cpp).
-double seen_squares(double level) { return std::pow(1.0 / (1.0 + level / 4.0), 2); }
-
 }  // namespace
 
 TEST_CASE("coarse pixels cost about what is foreseen") {
   for (const auto& [blur, level] : {std::pair{6.0, 1}, {6.0, 2}, {12.0, 2}, {12.0, 3}}) {
     CAPTURE(blur);
     CAPTURE(level);
-    const double made = squares(blurred_disc(50.0, blur, level), blurred_disc(50.0, blur, 0)) * seen_squares(1.0);
+    const double made = squares(blurred_disc(50.0, blur, level), blurred_disc(50.0, blur, 0));
     const double foreseen = level_error(ghost_of(50.0, blur), level);
     CHECK(made < 2.0 * foreseen);
     CHECK(made > 0.1 * foreseen);
@@ -73,8 +70,8 @@ TEST_CASE("coarse pixels cost about what is foreseen") {
 
 TEST_CASE("another ghost's blur costs about what is foreseen") {
   for (const double other : {9.0, 11.0, 14.0}) {
-    const double made = squares(blurred_disc(50.0, other, 0), blurred_disc(50.0, 10.0, 0)) * seen_squares(1.0);
-    const double foreseen = misfit_error(ghost_of(50.0, 10.0), std::abs(other - 10.0));
+    const double made = squares(blurred_disc(50.0, other, 0), blurred_disc(50.0, 10.0, 0));
+    const double foreseen = 2.0 * kPi * (50.0 + 10.0) * misfit_error(1.0, 10.0, std::abs(other - 10.0));
     CHECK(made < 2.0 * foreseen);
     CHECK(made > 0.3 * foreseen);
   }

@@ -50,7 +50,7 @@ TEST_CASE("a ghost that the stop bounds moves as its ray through the middle of t
       CAPTURE(ghost.i);
       CAPTURE(ghost.j);
       const GhostMotion motion = ghost_motion(steps, ghost, source, windows);
-      if (!(motion.density > 0.0)) continue;
+      if (!motion.is_open) continue;
       const OpticalPath path = ghost_path(lens, ghost, 550.0);
       if (path.stop_crossings != 1) continue;
       const double z_mm = windows.of(true).z_mm, tangent = 1e-4;

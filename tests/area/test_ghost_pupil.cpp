@@ -41,8 +41,10 @@ TEST_CASE("in a light's own frame, by half of the rays, a pupil is where it is i
       const double radius_mm = 2.0 * std::sqrt(0.5 * trace_of(all->covariance));
       CHECK(length(half->at_mm - all->at_mm) < 0.6 * radius_mm);
       CHECK(apart(half->covariance, all->covariance) < 0.25);
-      CHECK(half->border_mm.size() == all->border_mm.size());
-      for (const Vec2 border_mm : half->border_mm) CHECK(length(border_mm - all->at_mm) < 3.0 * radius_mm);
+      CHECK(half->area_mm2 == doctest::Approx(all->area_mm2).epsilon(0.25));
+      CHECK(half->border_mm == doctest::Approx(all->border_mm).epsilon(0.4));
+      CHECK_FALSE(half->border.empty());
+      for (const BorderRay& ray : half->border) CHECK(length(ray.start_mm - all->at_mm) < 3.0 * radius_mm);
     }
   }
   CHECK(found > 30);

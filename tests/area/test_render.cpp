@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <ctime>
 #include <limits>
 #include <memory>
 #include <numbers>
@@ -72,6 +73,66 @@ TEST_CASE("the sun is the sum of points over its disc") {
     CHECK(db > least_db);
     CHECK(db > psnr_db(truth.image, still.image) + 6.0);
   }
+}
+
+TEST_CASE("large lights are the sum of points over them, whose caustics and rims they move differently") {
+  struct Case {
+    const char* lens;
+    LensSettings settings;
+    Frame (*frame)(const LensState&);
+    double degrees, least_db;
+    Vec2 angles_rad;
+  };
+  const auto sensor = [](const LensState& lens) { return frame_on_sensor(lens, 160, 106); };
+  const auto narrow = [](const LensState& lens) {
+    Frame frame = frame_on_sensor(lens, 160, 130);
+    frame.pixel_pitch_mm = 2.0 * lens.focal_length_mm * std::tan(10.5 * kPi / 180.0) / frame.width;
+    return frame;
+  };
+  const Case cases[] = {{"planar-50", {}, narrow, 2.0, 45.0, {-3.4 * kPi / 180.0, 4.0 * kPi / 180.0}},
+                        {"nikon-80-200", {.focal_length_mm = 140.0, .f_number = 16.0}, sensor, 2.0, 42.5, {0.05, 0.03}},
+                        {"canon-70-200", {.focal_length_mm = 70.0, .f_number = 8.0}, sensor, 1.0, 48.0, {0.1, 0.06}}};
+  for (const Case& at : cases) {
+    CAPTURE(at.lens);
+    const LensState lens = test::bundled(at.lens, at.settings);
+    RenderSettings settings = test::green(at.frame(lens));
+    Light light = sun(at.angles_rad.x, at.angles_rad.y);
+    light.radius_rad = 0.5 * at.degrees * kPi / 180.0;
+    const Image ours = test::flare_of("adaptive", lens, {&light, 1}, settings).image;
+    settings.error = 0.001;
+    const Image truth = test::flare_of("adaptive", lens, points_over(light, 120), settings).image;
+    CHECK(psnr_db(truth, ours) > at.least_db);
+    CHECK(test::sum(ours) == doctest::Approx(test::sum(truth)).epsilon(0.015));
+  }
+}
+
+TEST_CASE("many lights with a size take at most four times as long as points") {
+  const LensState lens = test::bundled("planar-50", {});
+  RenderSettings settings;
+  settings.frame = frame_on_sensor(lens, 240, 160);
+  // A pane, and spots beside it, as areas of a photograph that are merged have; each in colours of its own.
+  Image level(40, 40, 3);
+  for (int k = 0; k < 1600; ++k)
+    for (int c = 0; c < 3; ++c)
+      level.at(k % 40, k / 40, c) = (k % 40 / 8 == 2 && k / 40 / 8 == 2) || k % 97 == 0 ? 1.0F + (k + c) % 3 : 0.0F;
+  const double pixel = 0.002;
+  std::vector<Light> points, shapes;
+  for (int k = 0; k < 8; ++k) {
+    points.push_back(test::light_at(lens, settings.frame, {0.15 + 0.1 * k, 0.2 + 0.3 * (k % 3)}));
+    shapes.push_back(points.back());
+    shapes.back().shape =
+        std::make_shared<const LightShape>(LightShape{level, {20.0, 20.0}, {pixel, 0.0}, {0.0, -pixel}});
+  }
+  const auto seconds = [&](const std::vector<Light>& lights) {
+    double least = std::numeric_limits<double>::infinity();
+    for (int run = 0; run < 2; ++run) {
+      const std::clock_t start = std::clock();
+      test::flare_of("adaptive", lens, lights, settings, {.threads = 1});
+      least = std::min(least, static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC);
+    }
+    return least;
+  };
+  CHECK(seconds(shapes) < 4.0 * seconds(points));
 }
 
 TEST_CASE("every method blurs alike") {

@@ -14,7 +14,6 @@ constexpr double kRadiusPixels = 2.5;  // a blur's radius in pixels of its level
 constexpr double kSpotPixels = 6.0;    // where they are much smaller, so that the light's shape shows
 constexpr double kLeastPixels = 1.25;  // whatever the error
 constexpr double kLongest = 30.0;      // its longer radius, whatever the shorter one is
-constexpr double kPeaks = 4.0;         // brighter than this many peaks only relative errors count
 
 int level_of_width(double px) { return px < 1.0 ? 0 : std::min(static_cast<int>(std::log2(px)), kLevels - 1); }
 
@@ -36,31 +35,35 @@ double coarse_edge_error(double u) {
   return std::min(kSharpest, kSmooth * (squares + squares * squares * squares));
 }
 
-// Blurred by a disc of another radius: 0.11 = integral of u^2 S'(u)^2 over S, a disc's mean across. An edge much
-// sharper than that is moved.
-double misfit_edge_error(double softness_px, double off_px) {
-  constexpr double kByWidth = 0.108;
-  return off_px * std::min(kByWidth * off_px / softness_px, 0.5);
-}
-
 // Of ghost and blur the larger is the shape that shows, its edge as soft as the smaller is wide.
 double softness_px(const BlurredGhost& g) { return std::max(std::min(g.blur_px.x, g.size_px.x), 1e-3); }
 
-// Length of the edge times the square of its height, as far as comparisons count it.
-double edge_squares(const BlurredGhost& g) {
-  const double seen = g.level / (1.0 + g.level / kPeaks);
-  return seen * seen * std::numbers::pi * (g.blur_px.x + g.blur_px.y + g.size_px.x + g.size_px.y);
+double outline_px(const BlurredGhost& g) {
+  return std::numbers::pi * (g.blur_px.x + g.blur_px.y + g.size_px.x + g.size_px.y);
 }
+
+// Above the peak errors do not count: so much at most.
+double clipped(double squares, double most) { return squares > 0.0 ? squares / (1.0 + squares / most) : 0.0; }
 
 }  // namespace
 
-double level_error(const BlurredGhost& g, int level) {
-  const double width = std::exp2(level);
-  return edge_squares(g) * width * coarse_edge_error(softness_px(g) / width);
+// Blurred by a disc of another radius: 0.11 = integral of u^2 S'(u)^2 over S, a disc's mean across. An edge much
+// sharper than that is moved.
+double misfit_error(double height, double softness_px, double off_px) {
+  constexpr double kByWidth = 0.108;
+  return clipped(height * height * off_px * std::min(kByWidth * off_px / softness_px, 0.5), off_px);
 }
 
-double misfit_error(const BlurredGhost& g, double off_px) {
-  return edge_squares(g) * misfit_edge_error(softness_px(g), off_px);
+double level_error(const BlurredGhost& g, int level) {
+  const double width = std::exp2(level);
+  return outline_px(g) * clipped(g.level * g.level * width * coarse_edge_error(softness_px(g) / width), width);
+}
+
+double pixel_error(const BlurredGhost& g) {
+  constexpr double kNarrow = 0.8;  // below, errors fall as the blur's fourth moments do
+  const double error =
+      coarse_edge_error(std::max(g.blur_px.y, kNarrow)) * std::pow(std::min(g.blur_px.y / kNarrow, 1.0), 4.0);
+  return outline_px(g) * clipped(g.level * g.level * error, 1.0);
 }
 
 std::vector<int> levels_of(std::span<const BlurredGhost> ghosts, double allowed_squares) {

@@ -21,8 +21,11 @@ struct BlurredGhost {
 // Of a picture of pixels 2^level as wide.
 [[nodiscard]] double level_error(const BlurredGhost& ghost, int level);
 
-// Of a blur whose radius is off by so many pixels.
-[[nodiscard]] double misfit_error(const BlurredGhost& ghost, double off_px);
+// Of the frame's own pixels, on which kernels narrower than some of them have the right width, but not the shape.
+[[nodiscard]] double pixel_error(const BlurredGhost& ghost);
+
+// For a pixel's length of an edge of such a height over the peak, whose blur's radius is off by so many pixels.
+[[nodiscard]] double misfit_error(double height, double softness_px, double off_px);
 
 // Levels of all (layers.h): fine enough to be safe, and coarser for as many as together make no more error than that.
 [[nodiscard]] std::vector<int> levels_of(std::span<const BlurredGhost> ghosts, double allowed_squares);

@@ -4,11 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <limits>
-#include <map>
 #include <optional>
-#include <utility>
-#include <vector>
 
 #include "contrejour/light.h"
 #include "render/area/ghost_pupil.h"
@@ -20,175 +16,247 @@ constexpr double kRayStep = 1e-3;      // of the entrance window's width,
 constexpr double kPupilStep = 0.1;     // or of the pupil's standard deviation, whichever is less
 constexpr double kAngleStep = 1e-4;    // tangent: 0.01 mm on many sensors, of which floats tell a thousandth
 constexpr double kStrange = 2.0;       // as far as a ghost moves at a fixed place of the front
-constexpr double kBlindRadius = 0.35;  // of the entrance window's diagonal: a pupil's that no ray was found in
 
 double size(const LinearMap& map) { return length(map.x) + length(map.y); }
 
-// Which place a ghost's border keeps as the light moves: one in the stop, or at the rim of a step of the path.
-struct Edge {
-  std::size_t crossing = 0;
-  std::optional<std::size_t> rim;
+// What a ray passes, and where it lands.
+struct PassingRay {
+  bool arrives = false;
+  Vec2 sensor_mm;
+  std::array<Vec2, kMaxStopCrossings> stop{};  // over its radius
+  double rim_squared = 0.0;  // of the rim that the first ray of its start comes closest to
+  double transmission = 0.0;
 };
 
-struct EdgeRay {
-  bool arrives = false;
-  Vec2 sensor_mm, edge;
-};
+// A ray and four beside it: from places to the right and up, and of lights there.
+using RayFive = std::array<PassingRay, 5>;
 
 // A ghost's rays by where they start in the plane of the entrance window.
 class Rays {
  public:
   Rays(const LensSteps& steps, Ghost ghost, const LightSource& source, double z_mm)
-      : steps_(steps), ghost_(ghost), path_(ghost_path(steps.lens(), ghost, steps.tables().lambda_nm())),
-        source_(source), z_mm_(z_mm) {}
+      : source_(source), z_mm_(z_mm),
+        paths_{path(steps, ghost, {}), path(steps, ghost, {kAngleStep, 0.0}), path(steps, ghost, {0.0, kAngleStep})} {}
 
-  // Of the light so far beside its place.
-  [[nodiscard]] std::vector<EdgeRay> from(const std::vector<Vec2>& starts_mm, Vec2 tangents, const Edge& edge) const {
-    const LightSource light = tangents == Vec2{} ? source_ : source_beside(source_, tangents);
-    return edge.rim ? past_rim(starts_mm, light, *edge.rim) : through_stop(starts_mm, light, edge.crossing);
-  }
-
-  [[nodiscard]] double transmission(Vec2 start_mm) const { return trace(path_, start(start_mm, source_)).transmission; }
-
-  // The step whose rim most of some rays are farthest beyond.
-  [[nodiscard]] std::optional<std::size_t> blocking_rim(const std::vector<Vec2>& starts_mm) const {
-    std::map<std::size_t, int> votes;
-    for (const Vec2 start_mm : starts_mm) {
-      const RayRecord record = trace_recorded(path_, start(start_mm, source_));
-      std::size_t worst = 0;
-      double farthest = 0.0;
-      for (std::size_t k = 0; k < record.steps.size(); ++k) {
-        if (path_.steps[k].event == PathEvent::Stop) continue;
-        const Vec3& at = record.steps[k].position_mm;
-        const double out = length(path_.steps[k].rim_place({at.x, at.y}));
-        if (!(out > farthest)) continue;
-        farthest = out;
-        worst = k;
-      }
-      if (farthest > 1.0) ++votes[worst];
+  [[nodiscard]] std::vector<RayFive> around(const std::vector<Vec2>& starts_mm, double step_mm) {
+    const std::size_t count = starts_mm.size();
+    std::vector<RayFive> fives(count);
+    std::vector<Vec2> near(starts_mm);
+    for (const Vec2 at : starts_mm) near.push_back(at + Vec2{step_mm, 0.0});
+    for (const Vec2 at : starts_mm) near.push_back(at + Vec2{0.0, step_mm});
+    trace(0, near);
+    nearest_rim_.resize(count);
+    for (std::size_t k = 0; k < count; ++k) {
+      nearest_rim_[k] = nearest_rim(k);
+      for (std::size_t j = 0; j < 3; ++j) fives[k][j] = ray(j * count + k, nearest_rim_[k]);
     }
-    const auto most = std::ranges::max_element(votes, {}, [](const auto& vote) { return vote.second; });
-    return most == votes.end() ? std::nullopt : std::optional(most->first);
+    for (std::size_t light = 1; light <= 2; ++light) {
+      trace(light, starts_mm);
+      for (std::size_t k = 0; k < count; ++k) fives[k][2 + light] = ray(k, nearest_rim_[k]);
+    }
+    return fives;
   }
 
  private:
-  [[nodiscard]] Ray start(Vec2 start_mm, const LightSource& light) const {
-    const Vec3 from{start_mm.x, start_mm.y, z_mm_};
-    return {from, light.direction_at(from)};
+  [[nodiscard]] PacketPath path(const LensSteps& steps, Ghost ghost, Vec2 tangents) const {
+    return {steps, ghost, {{0.0, 0.0, z_mm_}, tangents == Vec2{} ? source_ : source_beside(source_, tangents)}};
   }
 
-  [[nodiscard]] std::vector<EdgeRay> past_rim(const std::vector<Vec2>& starts_mm, const LightSource& light,
-                                              std::size_t rim) const {
-    std::vector<EdgeRay> rays;
-    for (const Vec2 start_mm : starts_mm) {
-      const RayRecord record = trace_recorded(path_, start(start_mm, light));
-      if (record.ray.status != RayStatus::Ok) {
-        rays.emplace_back();
-        continue;
-      }
-      const Vec3& at = record.steps[rim].position_mm;
-      rays.push_back({true, record.ray.sensor_mm, {at.x, at.y}});
-    }
-    return rays;
-  }
-
-  [[nodiscard]] std::vector<EdgeRay> through_stop(const std::vector<Vec2>& starts_mm, const LightSource& light,
-                                                  std::size_t crossing) const {
+  void trace(std::size_t light, const std::vector<Vec2>& starts_mm) {
+    PacketPath& path = paths_[light];
     const Vec2 origin_mm = starts_mm.front();
-    const PacketPath path(steps_, ghost_, {{origin_mm.x, origin_mm.y, z_mm_}, light});
-    const std::size_t count = starts_mm.size();
-    std::vector<float> room((6 + 2 * kMaxStopCrossings) * count);
-    const auto field = [&](std::size_t k) { return room.data() + k * count; };
-    float *const x_mm = field(0), *const y_mm = field(1);
-    for (std::size_t k = 0; k < count; ++k) {
-      x_mm[k] = static_cast<float>(starts_mm[k].x - origin_mm.x);
-      y_mm[k] = static_cast<float>(starts_mm[k].y - origin_mm.y);
+    path.start_from(origin_mm);
+    count_ = starts_mm.size();
+    room_.resize((6 + 2 * kMaxStopCrossings + path.steps().size()) * count_);
+    for (std::size_t k = 0; k < count_; ++k) {
+      field(0)[k] = static_cast<float>(starts_mm[k].x - origin_mm.x);
+      field(1)[k] = static_cast<float>(starts_mm[k].y - origin_mm.y);
     }
     TracedArrays out{.sensor_x_mm = field(2), .sensor_y_mm = field(3), .transmission = field(4), .r_rel = field(5)};
     for (std::size_t c = 0; c < kMaxStopCrossings; ++c) {
       out.stop_x[c] = field(6 + 2 * c);
       out.stop_y[c] = field(7 + 2 * c);
     }
-    trace_packets(path, PacketPrecision::Double, x_mm, y_mm, count, out);
-    std::vector<EdgeRay> rays;
-    for (std::size_t k = 0; k < count; ++k)
-      rays.push_back({std::isfinite(out.r_rel[k]),
-                      {out.sensor_x_mm[k], out.sensor_y_mm[k]},
-                      {out.stop_x[crossing][k], out.stop_y[crossing][k]}});
-    return rays;
+    out.rim_squared = field(kRimsFrom);
+    out.rim_stride = count_;
+    trace_packets(path, PacketPrecision::Double, field(0), field(1), count_, out);
   }
 
-  const LensSteps& steps_;
-  Ghost ghost_;
-  OpticalPath path_;
+  [[nodiscard]] std::size_t nearest_rim(std::size_t k) {
+    const std::vector<PacketStep>& steps = paths_[0].steps();
+    std::size_t nearest = steps.size();
+    for (std::size_t s = 0; s < steps.size(); ++s) {
+      if (steps[s].event == PathEvent::Stop) continue;
+      if (nearest == steps.size() || field(kRimsFrom + s)[k] > field(kRimsFrom + nearest)[k]) nearest = s;
+    }
+    return nearest;
+  }
+
+  [[nodiscard]] PassingRay ray(std::size_t k, std::size_t rim) {
+    PassingRay ray;
+    ray.arrives = std::isfinite(field(5)[k]);
+    ray.sensor_mm = {field(2)[k], field(3)[k]};
+    for (std::size_t c = 0; c < static_cast<std::size_t>(paths_[0].stop_crossings()); ++c)
+      ray.stop[c] = {field(6 + 2 * c)[k], field(7 + 2 * c)[k]};
+    if (rim < paths_[0].steps().size()) ray.rim_squared = field(kRimsFrom + rim)[k];
+    ray.transmission = field(4)[k];
+    return ray;
+  }
+
+  [[nodiscard]] float* field(std::size_t k) { return room_.data() + k * count_; }
+
+  static constexpr std::size_t kRimsFrom = 6 + 2 * kMaxStopCrossings;
   LightSource source_;
   double z_mm_;
+  std::array<PacketPath, 3> paths_;  // of the light, of one to the right, of one above
+  std::size_t count_ = 0;
+  std::vector<float> room_;
+  std::vector<std::size_t> nearest_rim_;
 };
 
-// First derivatives at a ray, of the sensor's place and the edge's.
-struct LocalMotion {
-  Vec2 start_mm;
-  EdgeRay ray;
-  LinearMap sensor_by_start, sensor_by_angle, edge_by_start;
-  LinearMap shift;  // of the sensor's place by the light's direction at a fixed place of the edge
-
-  [[nodiscard]] double spread() const { return std::abs(sensor_by_start.determinant()); }
-};
-
-// None where rays fail, or where places at the edge say nothing of the start.
-std::optional<LocalMotion> local_motion(Vec2 start_mm, double step_mm, const std::array<EdgeRay, 5>& rays) {
-  const EdgeRay& here = rays[0];
-  if (!std::ranges::all_of(rays, &EdgeRay::arrives)) return std::nullopt;
-  const auto derivative = [&](Vec2 EdgeRay::* place, std::size_t first, double step) {
-    return LinearMap{(rays[first].*place - here.*place) * (1.0 / step),
-                     (rays[first + 1].*place - here.*place) * (1.0 / step)};
-  };
-  LocalMotion motion;
-  motion.start_mm = start_mm;
-  motion.ray = here;
-  motion.sensor_by_start = derivative(&EdgeRay::sensor_mm, 1, step_mm);
-  motion.sensor_by_angle = derivative(&EdgeRay::sensor_mm, 3, kAngleStep);
-  motion.edge_by_start = derivative(&EdgeRay::edge, 1, step_mm);
-  if (!std::isnormal(motion.edge_by_start.determinant()) || !std::isnormal(motion.spread())) return std::nullopt;
-  // dp = p_a da + p_d dd with e_a da + e_d dd = 0.
-  motion.shift = motion.sensor_by_angle -
-                 motion.sensor_by_start * inverse(motion.edge_by_start) * derivative(&EdgeRay::edge, 3, kAngleStep);
-  if (!std::isfinite(size(motion.shift))) return std::nullopt;
-  return motion;
-}
-
-// At those of some starts that have one.
-std::vector<LocalMotion> local_motions(const Rays& rays, const std::vector<Vec2>& starts_mm, double step_mm,
-                                       const Edge& edge) {
-  if (starts_mm.empty()) return {};
-  std::vector<Vec2> around;
-  for (const Vec2 start_mm : starts_mm)
-    for (const Vec2 aside : {Vec2{}, Vec2{step_mm, 0.0}, Vec2{0.0, step_mm}}) around.push_back(start_mm + aside);
-  const std::vector<EdgeRay> near = rays.from(around, {}, edge), right = rays.from(starts_mm, {kAngleStep, 0.0}, edge),
-                             up = rays.from(starts_mm, {0.0, kAngleStep}, edge);
-  std::vector<LocalMotion> motions;
-  for (std::size_t k = 0; k < starts_mm.size(); ++k)
-    if (const auto motion =
-            local_motion(starts_mm[k], step_mm, {near[3 * k], near[3 * k + 1], near[3 * k + 2], right[k], up[k]}))
-      motions.push_back(*motion);
-  return motions;
-}
-
-// The one that differs least from all, each counted by its brightness: a mean would follow those few near a fold.
-LinearMap median_shift(const std::vector<LocalMotion>& all) {
-  LinearMap best = all.front().shift;
-  double least = std::numeric_limits<double>::infinity();
-  for (const LocalMotion& one : all) {
-    double off = 0.0;
-    for (const LocalMotion& other : all) {
-      const LinearMap apart = one.shift - other.shift;
-      off += std::sqrt(dot(apart.x, apart.x) + dot(apart.y, apart.y)) / other.spread();
-    }
-    if (!(off < least)) continue;
-    least = off;
-    best = one.shift;
+// First derivatives at a ray.
+class LocalMotion {
+ public:
+  LocalMotion(const RayFive& rays, double step_mm) : rays_(rays), step_mm_(step_mm) {
+    sensor_by_start = derivative(1, step_mm, [](const PassingRay& ray) { return ray.sensor_mm; });
+    sensor_by_angle = derivative(3, kAngleStep, [](const PassingRay& ray) { return ray.sensor_mm; });
   }
-  return best;
+
+  [[nodiscard]] bool is_usable() const {
+    return std::ranges::all_of(rays_, &PassingRay::arrives) && std::isnormal(sensor_by_start.determinant());
+  }
+  [[nodiscard]] const PassingRay& ray() const { return rays_[0]; }
+  [[nodiscard]] double density() const { return ray().transmission / std::abs(sensor_by_start.determinant()); }
+
+  [[nodiscard]] LinearMap stop_by_start(std::size_t crossing) const {
+    return derivative(1, step_mm_, [&](const PassingRay& ray) { return ray.stop[crossing]; });
+  }
+  // How the start moves as the light does, for the ray to cross the stop where it did.
+  [[nodiscard]] LinearMap start_at_stop(std::size_t crossing) const {
+    const LinearMap by_start = stop_by_start(crossing);
+    if (!std::isnormal(by_start.determinant())) return kNowhere;
+    return inverse(by_start) * derivative(3, kAngleStep, [&](const PassingRay& ray) { return ray.stop[crossing]; }) *
+           -1.0;
+  }
+  // Of the sensor's place, where the start moves so.
+  [[nodiscard]] LinearMap shift(const LinearMap& start_by_angle) const {
+    return sensor_by_angle + sensor_by_start * start_by_angle;
+  }
+
+  // What blocks beside it, as a height that is too large there: how it rises with the start, and with the light.
+  struct Bound {
+    Vec2 by_start, by_angle;
+  };
+  [[nodiscard]] Bound bound(int which) const {
+    const auto height = [&](const PassingRay& ray) {
+      if (which == kRims) return ray.rim_squared;
+      const Vec2 at = ray.stop[static_cast<std::size_t>(which)];
+      return dot(at, at);
+    };
+    const double here = height(rays_[0]);
+    return {Vec2{height(rays_[1]) - here, height(rays_[2]) - here} * (1.0 / step_mm_),
+            Vec2{height(rays_[3]) - here, height(rays_[4]) - here} * (1.0 / kAngleStep)};
+  }
+
+  LinearMap sensor_by_start, sensor_by_angle;
+
+ private:
+  template <class Place>
+  [[nodiscard]] LinearMap derivative(std::size_t first, double step, const Place& place) const {
+    return {(place(rays_[first]) - place(rays_[0])) * (1.0 / step),
+            (place(rays_[first + 1]) - place(rays_[0])) * (1.0 / step)};
+  }
+
+  const RayFive& rays_;
+  double step_mm_;
+};
+
+Vec2 across(Vec2 v) { return {-v.y, v.x}; }
+
+// Along a normal of the sensor, by the light's tangents.
+Vec2 along(Vec2 normal, const LinearMap& map) { return {dot(normal, map.x), dot(normal, map.y)}; }
+
+// A place of the outline moves along its normal as far as what blocks there makes it.
+std::optional<GhostFeature> border_feature(const LocalMotion& at, int which) {
+  const LocalMotion::Bound bound = at.bound(which);
+  const double steepness = dot(bound.by_start, bound.by_start);
+  const Vec2 edge = at.sensor_by_start(across(bound.by_start));
+  if (!std::isnormal(steepness) || !(length(edge) > 0.0)) return std::nullopt;
+  const Vec2 normal = across(edge) * (1.0 / length(edge));
+  const double by_height = dot(normal, at.sensor_by_start(bound.by_start)) / steepness;
+  return GhostFeature{normal, along(normal, at.sensor_by_angle) - bound.by_angle * by_height, at.ray().sensor_mm,
+                      at.density(), true};
+}
+
+// Where light gathers it does so along the image of what the map from the pupil hardly spreads.
+GhostFeature inner_feature(const LocalMotion& at, const LinearMap& shift) {
+  const LinearMap squares = at.sensor_by_start * transposed(at.sensor_by_start);
+  const double turn = 0.5 * std::atan2(2.0 * squares.x.y, squares.x.x - squares.y.y);
+  const Vec2 normal{-std::sin(turn), std::cos(turn)};
+  return {normal, along(normal, shift), at.ray().sensor_mm, at.density(), false};
+}
+
+// How the whole pupil moves in the plane of the starts, by its border: least squares.
+LinearMap pupil_motion(const std::vector<LocalMotion>& border, const std::vector<int>& bounds) {
+  LinearMap squares = kNowhere, sums = kNowhere;
+  for (std::size_t k = 0; k < border.size(); ++k) {
+    const LocalMotion::Bound bound = border[k].bound(bounds[k]);
+    const double steepness = dot(bound.by_start, bound.by_start);
+    if (!std::isnormal(steepness)) continue;
+    const Vec2 m = bound.by_start;
+    squares = squares + LinearMap{m * (m.x / steepness), m * (m.y / steepness)};
+    sums = sums + LinearMap{m * (-bound.by_angle.x / steepness), m * (-bound.by_angle.y / steepness)};
+  }
+  const double trace = trace_of(squares);
+  if (!(squares.determinant() > 1e-3 * trace * trace)) return kNowhere;
+  return inverse(squares) * sums;
+}
+
+Vec2 area_rate(const GhostPupil& pupil, const std::vector<LocalMotion>& border, const std::vector<int>& bounds) {
+  Vec2 rate;
+  for (std::size_t k = 0; k < border.size(); ++k) {
+    const LocalMotion::Bound bound = border[k].bound(bounds[k]);
+    const double steepness = length(bound.by_start);
+    if (std::isnormal(steepness)) rate = rate - bound.by_angle * (1.0 / steepness);
+  }
+  if (border.empty() || !(pupil.area_mm2 > 0.0)) return {};
+  return rate * (pupil.border_mm / static_cast<double>(border.size()) / pupil.area_mm2);
+}
+
+// Middle and spread of where some even share of the light lands.
+void set_extent(GhostMotion& motion, const std::vector<LocalMotion>& inside, double area_mm2) {
+  double light = 0.0;
+  for (const LocalMotion& at : inside) {
+    motion.at_mm = motion.at_mm + at.ray().sensor_mm * at.ray().transmission;
+    light += at.ray().transmission;
+  }
+  motion.at_mm = motion.at_mm * (1.0 / light);
+  LinearMap covariance = kNowhere;
+  const auto count = static_cast<double>(inside.size());
+  for (const LocalMotion& at : inside) {
+    const Vec2 d = at.ray().sensor_mm - motion.at_mm;
+    const double share = at.ray().transmission / light;
+    // And what lies between these rays, as wide as the map there spreads it.
+    const double part = area_mm2 / count / 12.0;
+    covariance = covariance + LinearMap{d * (d.x * share), d * (d.y * share)} +
+                 at.sensor_by_start * transposed(at.sensor_by_start) * (part * share);
+  }
+  motion.spread_mm = square_root(covariance * 4.0);
+  motion.flux_mm2 = light / count * area_mm2;
+}
+
+// Of one that no ray was found to get through, by the ray that is blocked least.
+GhostMotion blind_motion(const LocalMotion& at, const GhostPupil& pupil, double cosine) {
+  GhostMotion motion;
+  motion.outside = pupil.outside;
+  if (!at.is_usable()) return motion;
+  motion.shift_mm = at.shift(at.start_at_stop(0));
+  // Places in the stop may say nothing of what is far from it: then those at the front do.
+  if (!(size(motion.shift_mm) <= kStrange * size(at.sensor_by_angle))) motion.shift_mm = at.sensor_by_angle;
+  motion.at_mm = at.ray().sensor_mm;
+  motion.spread_mm = at.sensor_by_start * std::sqrt(pupil.area_mm2);
+  motion.flux_mm2 = at.ray().transmission * pupil.area_mm2 * cosine;
+  return motion;
 }
 
 }  // namespace
@@ -198,38 +266,49 @@ GhostMotion ghost_motion(const LensSteps& steps, Ghost ghost, const LightSource&
   const EntranceWindow& window = windows.of(light.symmetric);
   const auto pupil = find_ghost_pupil(steps, ghost, light, window);
   if (!pupil) return {};
-  const Rays rays(steps, ghost, source, window.z_mm);
-  Edge edge;
-  if (pupil->bound == kRims)
-    edge.rim = rays.blocking_rim(pupil->beyond_rims_mm);
-  else
-    edge.crossing = static_cast<std::size_t>(pupil->bound);
-  const double width = length(window.max_mm - window.min_mm);
-  const double step_mm = pupil->is_open
-                             ? std::min(kRayStep * width, kPupilStep * std::sqrt(trace_of(pupil->covariance)))
-                             : kRayStep * width;
-  std::vector<LocalMotion> all = local_motions(rays, {pupil->at_mm}, step_mm, edge);
-  if (all.empty()) return {};
-  if (pupil->is_whole()) {
-    // To the middle of the stop itself, by Newton's step.
-    const LocalMotion& near = all.front();
-    const Vec2 start_mm = pupil->at_mm - inverse(near.edge_by_start)(near.ray.edge);
-    if (auto nearer = local_motions(rays, {start_mm}, step_mm, edge); !nearer.empty()) all = std::move(nearer);
+  Rays rays(steps, ghost, source, window.z_mm);
+  double step_mm = kRayStep * length(window.max_mm - window.min_mm);
+  if (!pupil->is_open)
+    return blind_motion(LocalMotion(rays.around({pupil->at_mm}, step_mm).front(), step_mm), *pupil, source.direction.z);
+  step_mm = std::min(step_mm, kPupilStep * std::sqrt(trace_of(pupil->covariance)));
+
+  std::vector<Vec2> starts_mm{pupil->at_mm};
+  starts_mm.insert(starts_mm.end(), pupil->inside_mm.begin(), pupil->inside_mm.end());
+  for (const BorderRay& ray : pupil->border) starts_mm.push_back(ray.start_mm);
+  const std::vector<RayFive> fives = rays.around(starts_mm, step_mm);
+  std::vector<LocalMotion> inside, border;
+  std::vector<int> bounds;
+  for (std::size_t k = 0; k < fives.size(); ++k) {
+    const LocalMotion at(fives[k], step_mm);
+    if (!at.is_usable()) continue;
+    if (k < 1 + pupil->inside_mm.size()) {
+      inside.push_back(at);
+    } else {
+      border.push_back(at);
+      bounds.push_back(pupil->border[k - 1 - pupil->inside_mm.size()].bound);
+    }
   }
-  const LocalMotion middle = all.front();
-  const std::vector<LocalMotion> others = local_motions(rays, pupil->border_mm, step_mm, edge);
-  all.insert(all.end(), others.begin(), others.end());
+  if (inside.empty()) return {};
 
   GhostMotion motion;
-  motion.shift_mm = median_shift(all);
-  // Of what was not seen to get through, places in the stop may say nothing: then those at the front do.
-  if (!pupil->is_open && size(motion.shift_mm) > kStrange * size(middle.sensor_by_angle))
-    motion.shift_mm = middle.sensor_by_angle;
-  motion.at_mm = middle.ray.sensor_mm;
-  motion.spread_mm = middle.sensor_by_start *
-                     (pupil->is_open ? square_root(pupil->covariance * 4.0) : LinearMap{} * (kBlindRadius * width));
-  motion.density = rays.transmission(middle.start_mm) * source.direction.z / middle.spread();
-  if (!std::isfinite(motion.density)) return {};
+  motion.is_open = true;
+  const LinearMap start_by_angle = pupil_motion(border, bounds);
+  const auto shift_of = [&](const LocalMotion& at) {
+    if (pupil->bound != kRims) return at.shift(at.start_at_stop(static_cast<std::size_t>(pupil->bound)));
+    return at.shift(start_by_angle);
+  };
+  motion.shift_mm = shift_of(inside.front());
+  set_extent(motion, inside, pupil->area_mm2);
+  motion.flux_mm2 *= source.direction.z;
+  motion.area_rate = area_rate(*pupil, border, bounds);
+  for (std::size_t k = 0; k < border.size(); ++k)
+    if (const auto feature = border_feature(border[k], bounds[k])) motion.features.push_back(*feature);
+  for (const LocalMotion& at : inside) motion.features.push_back(inner_feature(at, shift_of(at)));
+  for (GhostFeature& feature : motion.features) feature.density *= source.direction.z;
+  std::erase_if(motion.features, [](const GhostFeature& f) {
+    return !std::isfinite(f.density + f.shift_mm.x + f.shift_mm.y + f.normal.x + f.normal.y);
+  });
+  if (!std::isfinite(motion.flux_mm2 + size(motion.shift_mm) + size(motion.spread_mm))) return {};
   return motion;
 }
 

@@ -5,8 +5,10 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <numbers>
 #include <numeric>
 
+#include "ghosts/open_halves.h"
 #include "optics/trace/clearance.h"
 
 namespace contrejour::area {
@@ -18,8 +20,9 @@ constexpr std::size_t kPadded = clearance_padded(kRays);
 constexpr std::size_t kToMiddle = static_cast<std::size_t>(kSide / 2) * kSide;  // rays before the middle row
 constexpr int kEnough = 30;  // rays that get through, for the shape of what they fill to be known
 constexpr int kMostGrids = 4;
-constexpr float kNearlyThrough = 0.1F;  // outside what stops it, over that one's radius
-constexpr std::size_t kMostBeyondRims = 5;
+constexpr std::size_t kMostInside = 12;  // rays that are told of,
+constexpr std::size_t kMostBorder = 12;  // and of those at the border
+constexpr double kRowsPerLength = 0.25 * std::numbers::pi;  // pairs of neighbours across a border count it longer
 
 struct Box {
   Vec2 low, high;
@@ -118,16 +121,25 @@ std::optional<Box> next_box(const Grid& grid) {
   return hull;
 }
 
+// So many of them at most, at even distances in their order.
+template <class T>
+std::vector<T> thinned(const std::vector<T>& all, std::size_t most) {
+  if (all.size() <= most) return all;
+  std::vector<T> some;
+  for (std::size_t k = 0; k < most; ++k) some.push_back(all[(2 * k + 1) * all.size() / (2 * most)]);
+  return some;
+}
+
 // Pairs of neighbours of which one gets through and the other does not, by what blocks that.
 void find_border(const Grid& grid, GhostPupil& pupil) {
   std::array<int, kMaxStopCrossings + 1> pairs{};
-  std::vector<Vec2> beyond;
+  std::vector<BorderRay> border;
   const auto count = [&](std::size_t a, std::size_t b) {
     if (grid.is_open(a) == grid.is_open(b)) return;
-    const std::size_t blocked = grid.is_open(a) ? b : a;
+    const std::size_t open = grid.is_open(a) ? a : b, blocked = grid.is_open(a) ? b : a;
     if (!std::isfinite(grid.outside(blocked))) return;
     ++pairs[static_cast<std::size_t>(grid.by(blocked))];
-    if (grid.by(blocked) == kRims) beyond.push_back(grid.start(blocked));
+    border.push_back({grid.start(open), grid.by(blocked)});
   };
   for (std::size_t k = 0; k < kRays; ++k) {
     if (k % kSide + 1 < kSide) count(k, k + 1);
@@ -136,27 +148,37 @@ void find_border(const Grid& grid, GhostPupil& pupil) {
   const auto most = std::ranges::max_element(pairs);
   pupil.bound = static_cast<int>(most - pairs.begin());
   pupil.bound_share = static_cast<double>(*most) / std::max(std::accumulate(pairs.begin(), pairs.end(), 0), 1);
-  const std::size_t step = beyond.size() / kMostBeyondRims + 1;
-  for (std::size_t k = 0; k < beyond.size(); k += step) pupil.beyond_rims_mm.push_back(beyond[k]);
+  pupil.border_mm = kRowsPerLength * static_cast<double>(border.size()) * std::sqrt(grid.cell().x * grid.cell().y);
+  pupil.border = thinned(border, kMostBorder);
+}
+
+// What cells leave of their halves where straight lines between rays say that light is blocked.
+double open_area(const Grid& grid) {
+  const auto blocked = [&](std::size_t k) { return std::min(static_cast<double>(grid.outside(k)), 1.0); };
+  double halves = 0.0;
+  for (std::size_t k = 0; k + kSide < kRays; ++k) {
+    if (k % kSide + 1 == kSide) continue;
+    const double a = blocked(k), b = blocked(k + 1), c = blocked(k + kSide), d = blocked(k + kSide + 1);
+    halves += share_below_zero(a, b, d) + share_below_zero(a, d, c);
+  }
+  return 0.5 * halves * grid.cell().x * grid.cell().y;
 }
 
 GhostPupil pupil_of(const Grid& grid, int open) {
   GhostPupil pupil;
   pupil.is_open = true;
   Vec2 mean;
-  for (std::size_t k = 0; k < kRays; ++k)
-    if (grid.is_open(k)) mean = mean + grid.start(k) * (1.0 / open);
+  std::vector<Vec2> inside_mm;
+  for (std::size_t k = 0; k < kRays; ++k) {
+    if (!grid.is_open(k)) continue;
+    mean = mean + grid.start(k) * (1.0 / open);
+    inside_mm.push_back(grid.start(k));
+  }
+  pupil.inside_mm = thinned(inside_mm, kMostInside);
   const Vec2 cell = grid.cell();
   pupil.covariance = {{cell.x * cell.x / 12.0, 0.0}, {0.0, cell.y * cell.y / 12.0}};
+  pupil.area_mm2 = open_area(grid);
   find_border(grid, pupil);
-  for (const Vec2 along : {Vec2{1.0, 0.0}, Vec2{0.0, 1.0}, Vec2{-1.0, 0.0}, Vec2{0.0, -1.0}}) {
-    std::size_t farthest = kRays;
-    for (std::size_t k = 0; k < kRays; ++k)
-      if (grid.is_open(k) &&
-          (farthest == kRays || dot(grid.start(k) - mean, along) > dot(grid.start(farthest) - mean, along)))
-        farthest = k;
-    pupil.border_mm.push_back(grid.start(farthest));
-  }
   double nearest = std::numeric_limits<double>::infinity();
   for (std::size_t k = 0; k < kRays; ++k) {
     if (!grid.is_open(k)) continue;
@@ -174,8 +196,8 @@ GhostPupil in_place(GhostPupil pupil, const LightFrame& light) {
   const LinearMap turn{light.into_place({1.0, 0.0}), light.into_place({0.0, 1.0})};
   pupil.at_mm = turn(pupil.at_mm);
   pupil.covariance = turn * pupil.covariance * transposed(turn);
-  for (Vec2& border_mm : pupil.border_mm) border_mm = turn(border_mm);
-  for (Vec2& beyond_mm : pupil.beyond_rims_mm) beyond_mm = turn(beyond_mm);
+  for (Vec2& inside_mm : pupil.inside_mm) inside_mm = turn(inside_mm);
+  for (BorderRay& ray : pupil.border) ray.start_mm = turn(ray.start_mm);
   return pupil;
 }
 
@@ -196,8 +218,10 @@ std::optional<GhostPupil> find_ghost_pupil(const LensSteps& steps, const Ghost& 
   std::size_t least = 0;
   for (std::size_t k = 0; k < kRays; ++k)
     if (grid.outside(k) < grid.outside(least)) least = k;
-  if (!(grid.outside(least) < kNearlyThrough)) return std::nullopt;
+  if (!std::isfinite(grid.outside(least))) return std::nullopt;
   GhostPupil pupil;
+  pupil.outside = grid.outside(least);
+  pupil.area_mm2 = grid.cell().x * grid.cell().y;
   pupil.at_mm = light.into_place(grid.start(least));
   return pupil;
 }

@@ -9,6 +9,7 @@ namespace {
 constexpr double kFarthest = 2.0;  // pixels beyond the shape: the tents it is laid with, and a picture that was moved
 constexpr double kFinest = 0.4;  // pixels between the points that a square is laid as
 constexpr int kMostPoints = 64;  // of them along a side
+constexpr int kHalvings = 6;  // of how narrow it may be
 constexpr double kTentVariance = 1.0 / 6.0;  // of a point laid on its four nearest pixels, in squares of a pixel
 
 // Narrower by the variance that the tents and what follows add. The level's pixels add none: what drawing in squares
@@ -48,11 +49,13 @@ KernelReach reach_of(const LightPiece& piece, const LinearMap& map) {
   return {whole(-low.x), whole(high.x), whole(-low.y), whole(high.y)};
 }
 
-Kernel make_kernel(const LightPiece& piece, const LinearMap& px_from_tangents, Vec2 moved, double spread) {
+namespace {
+
+// The shape on pixels, drawn by a map.
+Kernel laid(const LightPiece& piece, const KernelReach& reach, const LinearMap& map, Vec2 moved) {
   Kernel kernel;
-  kernel.reach = reach_of(piece, px_from_tangents);
+  kernel.reach = reach;
   kernel.weight.resize(static_cast<std::size_t>(kernel.width()) * static_cast<std::size_t>(kernel.height()));
-  const LinearMap map = narrowed(piece, px_from_tangents, kTentVariance + spread);
   const Vec2 right = map(piece.right), down = map(piece.down);
   const int columns = points_along(right), rows = points_along(down);
   const double share = 1.0 / (static_cast<double>(columns) * rows);
@@ -75,6 +78,39 @@ Kernel make_kernel(const LightPiece& piece, const LinearMap& px_from_tangents, V
     }
   }
   return kernel;
+}
+
+// Sum over both axes.
+double variance_of(const Kernel& kernel) {
+  double sum = 0.0, squares = 0.0;
+  Vec2 mean;
+  for (std::size_t k = 0; k < kernel.weight.size(); ++k) {
+    const Rgb& weight = kernel.weight[k];
+    const double w = weight[0] + weight[1] + weight[2];
+    const Vec2 at{static_cast<double>(k % static_cast<std::size_t>(kernel.width())),
+                  static_cast<double>(k / static_cast<std::size_t>(kernel.width()))};
+    sum += w;
+    mean = mean + at * w;
+    squares += w * dot(at, at);
+  }
+  return squares / sum - dot(mean, mean) / (sum * sum);
+}
+
+}  // namespace
+
+Kernel make_kernel(const LightPiece& piece, const LinearMap& px_from_tangents, Vec2 moved, double spread) {
+  const KernelReach reach = reach_of(piece, px_from_tangents);
+  const LinearMap wanted = mapped_covariance(px_from_tangents, piece.covariance);
+  const double added = kTentVariance + spread;
+  if (eigenvalues(wanted).y > added) return laid(piece, reach, narrowed(piece, px_from_tangents, added), moved);
+  // What is narrower than a pixel's tent all round: as much narrower as makes it as wide as it ought to be.
+  const double variance = trace_of(wanted) - 2.0 * spread;
+  double low = 0.0, high = 1.0;
+  for (int k = 0; k < kHalvings; ++k) {
+    const double middle = 0.5 * (low + high);
+    (variance_of(laid(piece, reach, px_from_tangents * middle, moved)) > variance ? high : low) = middle;
+  }
+  return laid(piece, reach, px_from_tangents * low, moved);
 }
 
 }  // namespace contrejour::area

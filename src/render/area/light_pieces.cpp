@@ -7,17 +7,17 @@
 namespace contrejour::area {
 namespace {
 
-constexpr int kDiscSide = 32;         // pixels across a disc
+constexpr int kDiscSide = 32;         // pixels across a disc,
+constexpr int kPieceSide = 12;        // or across a piece of it where these are more
 constexpr int kDiscSubsamples = 8;    // along a pixel of its rim
-constexpr double kPiece = 0.05;       // tangent: pieces are at most so wide (docs/physics/area-lights.md)
 constexpr int kMostSamplesAcross = 64;  // of a piece
 
 // Even in every direction, of radius 1 pixel-count / 2.
-Image disc() {
-  Image level(kDiscSide, kDiscSide, 1);
-  const double radius = 0.5 * kDiscSide;
-  for (int y = 0; y < kDiscSide; ++y) {
-    for (int x = 0; x < kDiscSide; ++x) {
+Image disc(int side) {
+  Image level(side, side, 1);
+  const double radius = 0.5 * side;
+  for (int y = 0; y < side; ++y) {
+    for (int x = 0; x < side; ++x) {
       int inside = 0;
       for (int k = 0; k < kDiscSubsamples * kDiscSubsamples; ++k) {
         const double u = x + (k % kDiscSubsamples + 0.5) / kDiscSubsamples - radius;
@@ -30,10 +30,11 @@ Image disc() {
   return level;
 }
 
-LightShape shape_of(const Light& light) {
+LightShape shape_of(const Light& light, int across) {
   if (light.shape) return *light.shape;
-  const double pixel = 2.0 * std::tan(light.radius_rad) / kDiscSide;
-  return {disc(), {0.5 * kDiscSide, 0.5 * kDiscSide}, {pixel, 0.0}, {0.0, -pixel}};
+  const int side = std::max(kDiscSide, kPieceSide * across);
+  const double pixel = 2.0 * std::tan(light.radius_rad) / side;
+  return {disc(side), {0.5 * side, 0.5 * side}, {pixel, 0.0}, {0.0, -pixel}};
 }
 
 // Tents over so many equal parts of the pixels [0, length); they add up to 1 everywhere.
@@ -47,10 +48,6 @@ struct Tents {
     return std::max(0.0, 1.0 - std::abs(place - tent));
   }
 };
-
-int parts_for(double tangent, int most) {
-  return std::clamp(static_cast<int>(std::ceil(tangent / kPiece - 1e-9)), 1, most);
-}
 
 // Of each channel, or where one has none, of all together.
 Rgb channel_sums(const Image& level) {
@@ -130,27 +127,55 @@ LightPiece piece_of(const Light& light, const LightShape& shape, const Rgb& whol
 
 }  // namespace
 
-std::vector<LightPiece> pieces_of(const Light& light, int most_across) {
+LightPiece soft_piece() {
+  constexpr int kSide = 16;
+  LightPiece piece;
+  Rgb sum{};
+  for (int k = 0; k < kSide * kSide; ++k) {
+    const double u = (k % kSide + 0.5) * 2.0 / kSide - 1.0, v = (k / kSide + 0.5) * 2.0 / kSide - 1.0;
+    const double share = (1.0 - std::abs(u)) * (1.0 - std::abs(v));
+    piece.samples.push_back({{u, v}, {share, share, share}});
+    for (double& s : sum) s += share;
+  }
+  for (ShapeSample& s : piece.samples)
+    for (std::size_t c = 0; c < 3; ++c) s.share[c] /= sum[c];
+  piece.right = {2.0 / kSide, 0.0};
+  piece.down = {0.0, -2.0 / kSide};
+  centre(piece);
+  const double scale = 1.0 / std::sqrt(piece.covariance.x.x);
+  for (ShapeSample& s : piece.samples) s.at = s.at * scale;
+  piece.right = piece.right * scale;
+  piece.down = piece.down * scale;
+  piece.covariance = {};
+  piece.is_even = true;
+  return piece;
+}
+
+std::vector<LightPiece> pieces_of(const Light& light, int across) {
   std::vector<LightPiece> pieces;
   if (light.is_point()) {
-    pieces.push_back({light, {}, {}, {}, kNowhere, {}, true});
+    pieces.push_back({light, {}, {}, {}, kNowhere, {}, true, true});
     return pieces;
   }
-  const LightShape given = shape_of(light);
-  const int parts_x = parts_for(given.level.width * length(given.right), most_across);
-  const int parts_y = parts_for(given.level.height * length(given.down), most_across);
+  const LightShape given = shape_of(light, across);
+  const double width = given.level.width * length(given.right), height = given.level.height * length(given.down);
+  const auto parts = [&](double side) {
+    return std::max(1, static_cast<int>(std::ceil(across * side / std::max(width, height) - 1e-9)));
+  };
+  const int parts_x = parts(width), parts_y = parts(height);
   const int by = std::max(given.level.width / (kMostSamplesAcross * parts_x),
                           given.level.height / (kMostSamplesAcross * parts_y)) +
                  1;
   const LightShape shape = coarser(given, light.shape ? by : 1);
   const Rgb whole = channel_sums(shape.level);
-  const Tents across{parts_x, static_cast<double>(shape.level.width)};
-  const Tents down{parts_y, static_cast<double>(shape.level.height)};
+  const Tents columns{parts_x, static_cast<double>(shape.level.width)};
+  const Tents rows{parts_y, static_cast<double>(shape.level.height)};
   for (int row = 0; row < parts_y; ++row) {
     for (int column = 0; column < parts_x; ++column) {
-      LightPiece piece = piece_of(light, shape, whole, across, column, down, row);
+      LightPiece piece = piece_of(light, shape, whole, columns, column, rows, row);
       if (piece.samples.empty() || !(piece.point.direction.z > 0.0)) continue;
       piece.is_disc = !light.shape && parts_x == 1 && parts_y == 1;
+      piece.is_even = piece.is_disc || parts_x * parts_y > 1;
       pieces.push_back(std::move(piece));
     }
   }
@@ -159,7 +184,7 @@ std::vector<LightPiece> pieces_of(const Light& light, int most_across) {
     Light point = light;
     point.radius_rad = 0.0;
     point.shape = nullptr;
-    pieces.push_back({point, {}, {}, {}, kNowhere, {}, true});
+    pieces.push_back({point, {}, {}, {}, kNowhere, {}, true, true});
   }
   return pieces;
 }

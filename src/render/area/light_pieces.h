@@ -22,11 +22,16 @@ struct LightPiece {
   LinearMap covariance;  // of the light over the piece, about its middle
   Vec2 middle;           // from the light's direction
   bool is_disc = false;  // the same in every orientation
+  bool is_even = false;  // about the same from both sides: discs, and where neighbours fade into one another
 };
 
-// Neighbouring pieces fade into one another, so that their ghosts do. A point is one piece. Values sum to the light's;
-// of a light that reaches behind the camera that part is left out.
-inline constexpr int kMostPiecesAcross = 4;
-[[nodiscard]] std::vector<LightPiece> pieces_of(const Light& light, int most_across = kMostPiecesAcross);
+// What stands for a piece of any light, of which only how wide it is counts: a tent across, of variance 1 along each
+// axis, as if of a light.
+[[nodiscard]] LightPiece soft_piece();
+
+// So many pieces along the longer side, of about as wide ones along the other. Neighbours fade into one another, so
+// that their ghosts do. A point is one piece. Values sum to the light's; of a light that reaches behind the camera that
+// part is left out.
+[[nodiscard]] std::vector<LightPiece> pieces_of(const Light& light, int across = 1);
 
 }  // namespace contrejour::area

@@ -1,0 +1,76 @@
+// How the ghosts of lights with a size move and how large they are, and into how many pieces each light is cut for
+// which of them.
+#pragma once
+
+#include <cstddef>
+#include <map>
+#include <set>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "contrejour/render.h"
+#include "optics/trace/lens_steps.h"
+#include "render/area/piece_choice.h"
+#include "render/interface/frame_plan.h"
+
+namespace contrejour::area {
+
+// A light, cut into so many pieces across.
+struct PartedLight {
+  std::size_t light = 0;
+  int across = 1;
+  std::vector<LightPiece> pieces;     // points have one without samples
+  std::vector<PlannedLight> planned;  // one a piece
+};
+
+[[nodiscard]] std::vector<PartedLight> whole_lights(std::span<const Light> lights);
+[[nodiscard]] std::vector<Light> points_of(std::span<const PartedLight> lights);  // their pieces' middles, in turn
+
+// The ghosts that one cutting of a light is drawn for.
+struct SurveyedLight {
+  PartedLight parts;
+  std::vector<std::size_t> ghosts;            // of the plan
+  std::vector<GhostBlur> wholes;              // likewise: of the light uncut
+  std::vector<std::vector<GhostBlur>> blurs;  // by piece, then as `ghosts`
+};
+
+struct SurveyedFrame {
+  std::vector<SurveyedLight> lights;
+  double peak = 0.0;  // about what the brightest parts of the picture reach, a pixel's value
+};
+
+class AreaSurvey {
+ public:
+  // All must outlive it.
+  AreaSurvey(const LensState& lens, const FramePlan& plan, std::span<const Light> lights,
+             const RenderSettings& settings, const Context& context);
+
+  // wholes: whole_lights(), with their plans. Errors: Cancelled.
+  [[nodiscard]] Result<SurveyedFrame> of(std::vector<PartedLight> wholes) const;
+
+ private:
+  using Cut = std::pair<std::size_t, int>;  // a light, and its pieces across
+  struct Place {                            // a ghost of a piece
+    std::size_t light = 0, piece = 0, ghost = 0;
+  };
+  [[nodiscard]] std::vector<GhostMotion> motions(std::span<const PartedLight> lights,
+                                                 std::span<const Place> places) const;
+  [[nodiscard]] GhostBlur blur(const PartedLight& light, const Place& place, const GhostMotion& motion) const;
+  [[nodiscard]] double value_of(const PlannedLight& light, std::size_t ghost) const;
+  [[nodiscard]] Result<std::vector<PartedLight>> cut(const std::set<Cut>& wanted) const;
+  [[nodiscard]] std::vector<GhostOfArea> uncut(const std::vector<PartedLight>& wholes) const;
+  [[nodiscard]] Result<void> look_at_parts(std::span<GhostOfArea> ghosts, const std::vector<PartedLight>& wholes,
+                                           const AreaBudget& budget) const;
+  [[nodiscard]] Result<std::vector<SurveyedLight>> cut_as_chosen(std::span<const GhostOfArea> ghosts,
+                                                                 std::vector<PartedLight> wholes) const;
+
+  const LensState& lens_;
+  const FramePlan& plan_;
+  std::span<const Light> lights_;
+  const RenderSettings& settings_;
+  const Context& context_;
+  std::map<double, LensSteps> steps_;
+};
+
+}  // namespace contrejour::area
