@@ -1,9 +1,11 @@
 #include "diffraction/ring_builder.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <numbers>
+#include <numeric>
 #include <span>
 #include <vector>
 
@@ -29,6 +31,10 @@ constexpr std::size_t kFewestBins = 96;
 constexpr double kMostBins = 32768;  // 0.7 pixels apart 7300 pixels from the centre; 50 MB an octave
 constexpr double kFinest_px = 1.0 / 16.0, kCoarse_px = 2.0;  // windows that differ where a direction is sharp
 constexpr double kSharp = 1.1;  // by this factor
+constexpr double kFringesAside = 8.0;
+constexpr std::size_t kPartsOfBin = 4;
+constexpr double kStandsOut = 1.7;  // a part of a bin, over their mean
+constexpr std::size_t kMostParts = 48;
 constexpr std::size_t kBlock = kDirectionsAtOnce;
 
 double angle_of(double turns) { return (turns - 0.5) * kPi; }
@@ -84,6 +90,69 @@ bool is_sharp(const StarburstPattern& pattern, double turns, double radius_px, d
   return mean(0.0, kFinest_px) > kSharp * wide || std::max(low, 2.0 * wide - low) > kSharp * wide;
 }
 
+// What a few rings at the end of what the spectrum tells hold in a window of directions.
+class SpectrumEnd {
+ public:
+  SpectrumEnd(const StarburstPattern& pattern, double last_rho) : pattern_(pattern), last_rho_(last_rho) {}
+
+  [[nodiscard]] double held(double turns, double window_turns) const {
+    double sum = 0.0;
+    for (const double r : {0.6, 0.8, 1.0}) {  // fringes are dark at some
+      float value = 0.0F;
+      pattern_.sample(angle_of(turns), window_turns * kPi, r * last_rho_, 1, &value, 1);
+      sum += value * r * r;
+    }
+    return sum;
+  }
+
+  // The middle of what is brightest within a window about a direction.
+  [[nodiscard]] double brightest(double turns, double window_turns) const {
+    constexpr int kSteps = 12, kRounds = 3;
+    for (int round = 0; round < kRounds; ++round, window_turns *= 0.4) {
+      double sum = 0.0, moment = 0.0;
+      for (int k = 0; k < kSteps; ++k) {
+        const double offset = ((k + 0.5) / kSteps - 0.5) * window_turns;
+        const double here = held(turns + offset, window_turns / kSteps);
+        sum += here * here;
+        moment += here * here * offset;
+      }
+      if (sum > 0.0) turns += moment / sum;
+    }
+    return turns - std::floor(turns);
+  }
+
+ private:
+  const StarburstPattern& pattern_;
+  double last_rho_;
+};
+
+// Where nobody knows which directions may be sharp, as of a picture's edges: parts of a few fringes' width that hold
+// more than their share. Of many together none stands out.
+std::vector<double> sharp_parts(const StarburstPattern& pattern, const Context& context) {
+  const SpectrumEnd end(pattern, pattern.spectrum_end());
+  const auto bins = static_cast<std::size_t>(std::ceil(kPi * pattern.spectrum_end() / kFringesAside));
+  const double part = 1.0 / static_cast<double>(kPartsOfBin * bins);
+  std::vector<double> held(kPartsOfBin * bins);
+  const auto middle = [&](std::size_t k) { return (static_cast<double>(k) + 0.5) * part; };
+  parallel_for(held.size(), context, [&](std::size_t k) { held[k] = end.held(middle(k), part); });
+  const auto mean = [&](std::size_t from, std::size_t count) {
+    const auto first = held.begin() + static_cast<std::ptrdiff_t>(from);
+    return std::accumulate(first, first + static_cast<std::ptrdiff_t>(count), 0.0) / static_cast<double>(count);
+  };
+  const double mean_of_all = mean(0, held.size());
+  std::vector<double> found;
+  for (std::size_t k = 0; k < held.size(); ++k) {
+    const double beside = mean(k / kPartsOfBin * kPartsOfBin, kPartsOfBin);
+    if (held[k] > kStandsOut * std::max(beside, mean_of_all)) found.push_back(middle(k));
+  }
+  if (found.size() > kMostParts) return {};
+  for (double& turns : found) turns = end.brightest(turns, 2.0 * part);
+  std::sort(found.begin(), found.end());
+  const auto is_same = [&](double a, double b) { return b - a < 0.5 * part; };  // found on both sides of a bin's end
+  found.erase(std::unique(found.begin(), found.end(), is_same), found.end());
+  return found;
+}
+
 OctaveCells laid_out(double first_px, std::span<const double> sharp, const RingSource& source) {
   const double outer_px = 2.0 * first_px;
   const double finest_px = outer_px <= kInner_px ? kInnerBin_px : outer_px <= kNearEnd_px ? kNearBin_px : kBin_px;
@@ -120,9 +189,11 @@ StarburstOctave far_octave(const OctaveCells& from, const Context& context) {
   return octave;
 }
 
-std::vector<double> sharp_turns(const StarburstPattern& pattern) {
+std::vector<double> sharp_turns(const StarburstPattern& pattern, const Context& context) {
+  const std::vector<double> directions = pattern.sharp_directions();
+  if (directions.empty()) return sharp_parts(pattern, context);
   std::vector<double> sharp;
-  for (const double angle : pattern.sharp_directions()) {
+  for (const double angle : directions) {
     const double turns = angle / kPi + 0.5;
     sharp.push_back(turns - std::floor(turns));
   }
@@ -139,7 +210,6 @@ bool fill_all(OctaveCells& octave, const RingSource& source, const Context& cont
 std::shared_ptr<const StarburstRings> build_rings(const StarburstPattern& pattern, const BandShifts& shifts,
                                                   double rho_per_px, double radius_px, const Context& context) {
   const RingSource source{pattern, shifts, rho_per_px};
-  const std::vector<double> sharp = sharp_turns(pattern);
   // So many octaves that the innermost is flat, and the last ends where the starburst does.
   const double flat_px = std::min({0.5, kFlatRho / rho_per_px, 0.5 * radius_px});
   const auto count = static_cast<int>(std::max(1.0, std::ceil(std::log2(radius_px / flat_px))));
@@ -148,6 +218,7 @@ std::shared_ptr<const StarburstRings> build_rings(const StarburstPattern& patter
   rings->first_px = radius_px * std::exp2(-count);
   Context quiet = context;
   quiet.progress = {};
+  const std::vector<double> sharp = sharp_turns(pattern, quiet);
   // One after the other: only what is kept of each takes memory.
   for (int o = 0; o < count; ++o) {
     OctaveCells octave = laid_out(radius_px * std::exp2(o - count), sharp, source);

@@ -28,6 +28,8 @@ class StarburstPattern {
   // and scratches, and those at the ends of bent ones.
   [[nodiscard]] std::vector<double> sharp_directions() const;
 
+  [[nodiscard]] double spectrum_end() const { return tail_start_; }  // rho, from which on a tail takes over
+
  private:
   // Of one direction, beyond the spectrum.
   struct Tail {
