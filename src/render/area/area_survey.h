@@ -16,7 +16,7 @@
 
 namespace contrejour::area {
 
-// A light, cut into so many pieces across.
+// A light, cut into that number of pieces across.
 struct PartedLight {
   std::size_t light = 0;
   int across = 1;

@@ -20,7 +20,7 @@ constexpr std::size_t kPadded = clearance_padded(kRays);
 constexpr std::size_t kToMiddle = static_cast<std::size_t>(kSide / 2) * kSide;  // rays before the middle row
 constexpr int kEnough = 30;  // rays that get through, for the shape of what they fill to be known
 constexpr int kMostGrids = 4;
-constexpr std::size_t kMostInside = 12;  // rays that are told of,
+constexpr std::size_t kMostInside = 12;  // rays inside that are kept,
 constexpr std::size_t kMostBorder = 12;  // and of those at the border
 constexpr double kRowsPerLength = 0.25 * std::numbers::pi;  // pairs of neighbours across a border count it longer
 
@@ -121,7 +121,7 @@ std::optional<Box> next_box(const Grid& grid) {
   return hull;
 }
 
-// So many of them at most, at even distances in their order.
+// At most that number of them, at even distances in their order.
 template <class T>
 std::vector<T> thinned(const std::vector<T>& all, std::size_t most) {
   if (all.size() <= most) return all;
