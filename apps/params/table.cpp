@@ -43,7 +43,8 @@ Result<void> check_exposure(std::string_view text) {
 }
 
 Result<void> check_blades(std::string_view text) {
-  if (text != "1" && text != "2") return {};
+  const auto blades = parse_integer(text);
+  if (!blades || (*blades != 1 && *blades != 2)) return {};
   return failure(ErrorCode::InvalidArgument,
                  fmt::format("{} straight edges close no opening: give 3 blades or more, or 0 for a circle", text));
 }

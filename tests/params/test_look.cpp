@@ -47,6 +47,8 @@ TEST_CASE("a look's values are the table's, by its names") {
 TEST_CASE("what a look cannot hold is refused with its line and what to do") {
   check_refused("\nfnumbr = 5.6", 2, "did you mean fnumber?");
   check_refused("blades = 300", 1, "from 0 to 100");
+  check_refused("blades = 2", 1, "3 blades or more");
+  check_refused("blades = \"+02\"", 1, "3 blades or more");
   check_refused("blades = 2.5", 1, "blades");
   check_refused("# a comment\n\nsize = \"4x4\"", 3, "scene");
   check_refused("mirror = 1", 1, "true or false");

@@ -80,8 +80,11 @@ class RandomLook {
   std::string value_of(const Parameter& p) {
     switch (p.kind) {
       case Kind::Real: return std::to_string(std::clamp(number(p), p.minimum, p.maximum));
-      case Kind::Integer:
-        return std::to_string(static_cast<long>(std::clamp(std::floor(number(p)), p.minimum, p.maximum)));
+      case Kind::Integer: {
+        const std::string whole =
+            std::to_string(static_cast<long>(std::clamp(std::floor(number(p)), p.minimum, p.maximum)));
+        return check_value(p, whole) ? whole : std::string(p.fallback);  // an iris of one blade is none
+      }
       case Kind::Choice:
         if (p.name == "ringing" && chance(0.85)) return {};  // tenths of a second
         return '"' + std::string(any(p.choices)) + '"';
