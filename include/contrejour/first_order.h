@@ -5,6 +5,7 @@
 // Source: any textbook; Greivenkamp, Field Guide to Geometrical Optics. Thread-safety: pure functions.
 #pragma once
 
+#include <optional>
 #include <span>
 
 #include "contrejour/ghost_id.h"
@@ -29,10 +30,25 @@ struct Abcd {
 [[nodiscard]] Abcd abcd_ghost(const LensState& lens, const Ghost& ghost, double lambda_nm,
                               Section section = Section::Y);
 
+// A ghost's path. In the y-z section, for a distant light.
+struct GhostFirstOrder {
+  // Sensor -> where a bundle near the axis and parallel to it comes to a focus after the path, positive behind the
+  // sensor: -a / c. None: it stays parallel.
+  std::optional<double> focus_mm;
+  double blur_mm = 0;  // diameter on the sensor of the light on the axis that the stop lets through; 0 in focus
+  // Sensor -> image of the stop by what the light meets after it crosses the stop for the last time. Near 0 the ghost
+  // is an image of the stop that stands still wherever the light is: a pupil ghost.
+  std::optional<double> stop_image_mm;
+  // Where its chief ray (through the middle of the stop, at the first crossing) lands, over where the light's own image
+  // is: 1 with it, 0 in the middle of the picture, -1 opposite.
+  double place = 0;
+};
+[[nodiscard]] GhostFirstOrder ghost_first_order(const LensState& lens, const Ghost& ghost, double lambda_nm);
+
 // Of the y-z section; the f-number and the pupils' diameters are its own too.
 struct FirstOrder {
   double focal_length_mm = 0;
-  double back_focal_distance_mm = 0;   // last vertex -> rear focal point
+  double back_focal_distance_mm = 0;  // last vertex -> rear focal point
   double front_focal_distance_mm = 0;  // first vertex -> front focal point; negative in front of the lens
   double entrance_pupil_position_mm = 0;  // first vertex -> entrance pupil
   double entrance_pupil_diameter_mm = 0;
@@ -40,8 +56,8 @@ struct FirstOrder {
   double exit_pupil_diameter_mm = 0;
   double f_number = 0;
   double sensor_position_mm = 0;  // last vertex -> sensor
-  double half_field_rad = 0;      // of the sensor's half diagonal, rectilinear
-  double focal_length_x_mm = 0;          // of the x-z section: the same where there is axial symmetry
+  double half_field_rad = 0;  // of the sensor's half diagonal, rectilinear
+  double focal_length_x_mm = 0;  // of the x-z section: the same where there is axial symmetry
   double back_focal_distance_x_mm = 0;
 };
 

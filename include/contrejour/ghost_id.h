@@ -15,6 +15,9 @@ struct Ghost {
   std::array<int, 2> order{0, 0};  // of diffraction in x and y at the sensor, where its pixels are a grating
 
   [[nodiscard]] bool reflects_four_times() const { return l != 0; }
+  [[nodiscard]] bool reflects_at(int surface) const {
+    return surface == i || surface == j || (reflects_four_times() && (surface == k || surface == l));
+  }
   [[nodiscard]] int farthest() const { return l > j ? l : j; }
   friend auto operator<=>(const Ghost&, const Ghost&) = default;
 };

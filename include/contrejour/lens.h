@@ -121,11 +121,18 @@ struct SensorStack {
   static constexpr std::size_t kMostPlates = 10;
 };
 
+// A coating for one surface of a lens, whatever the lens has there.
+struct SurfaceCoating {
+  int surface = 0;  // 1-based; one that bounds glass, cemented or not
+  Coating coating;
+};
+
 struct LensSettings {
   std::optional<double> focal_length_mm = std::nullopt;  // zoom; default: the first position
   std::optional<double> f_number = std::nullopt;  // default: the widest
   double object_distance_mm = std::numeric_limits<double>::infinity();  // from surface 1; focus
   std::optional<Coating> coating = std::nullopt;  // in place of every glass-to-air coating
+  std::vector<SurfaceCoating> coating_at = {};  // and then of single surfaces'; of two for one the last counts
   Iris iris = {};
   IrisClosing iris_closing = IrisClosing::Scaled;  // Mechanism sets the iris's blade_radius
   BuildErrors build = {};
@@ -190,8 +197,8 @@ struct LensState {
 [[nodiscard]] Result<void> validate(const Prescription& lens);
 
 // Sets zoom (any focal length within the range), stop and focus. Errors: focal length or f-number out of
-// range, object inside the front focal point, a sensor stack that the lens leaves no room for, an iris that lets
-// nothing through, an iris or dirt that has numbers out of its range.
+// range, a coating for a surface that is none of glass, object inside the front focal point, a sensor stack that the
+// lens leaves no room for, an iris that lets nothing through, an iris or dirt that has numbers out of its range.
 [[nodiscard]] Result<LensState> lens_at(const Prescription& lens, const LensSettings& settings = {});
 
 // Reads a lens in any format that is known, by content and extension. Bounded in memory and time. Glasses that the file

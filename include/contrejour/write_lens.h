@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "contrejour/ghost_id.h"
 #include "contrejour/lens.h"
 #include "contrejour/result.h"
 
@@ -20,5 +21,11 @@ struct WrittenLens {
 
 [[nodiscard]] Result<WrittenLens> write_lens_zmx(const Prescription& lens);
 [[nodiscard]] Result<WrittenLens> write_lens_seq(const Prescription& lens);
+
+// The path of one of its ghosts through a lens as it is set: every surface as often as the light meets it, in that
+// order, mirrors where it turns, gaps negative where it goes back. For other programs: read_lens() refuses mirrors.
+// Errors: InvalidArgument for a ghost that there is none of; Unsupported for an order of diffraction.
+[[nodiscard]] Result<WrittenLens> write_ghost_zmx(const LensState& lens, const Ghost& ghost);
+[[nodiscard]] Result<WrittenLens> write_ghost_seq(const LensState& lens, const Ghost& ghost);
 
 }  // namespace contrejour

@@ -1,9 +1,13 @@
 #include "contrejour/first_order.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 #include "contrejour/check_lens.h"
+#include "optics/lens/ghost_walk.h"
 
 namespace contrejour {
 namespace {
@@ -57,31 +61,77 @@ Abcd abcd_between(std::span<const SurfaceState> surfaces, int first, int last, d
   return m;
 }
 
+namespace {
+
+// From surface 1 to the sensor plane, and to every crossing of the stop on the way.
+struct GhostMatrices {
+  Abcd to_sensor;
+  std::vector<Abcd> to_stop;
+};
+
+GhostMatrices matrices_of(const LensState& lens, const Ghost& ghost, double lambda_nm, Section section) {
+  GhostMatrices out;
+  const SurfaceState* at = nullptr;  // the surface that acted last
+  const auto act = [&](int k, const auto& element_of) {
+    const SurfaceState& surface = lens.surfaces[static_cast<std::size_t>(k)];
+    if (at != nullptr) out.to_sensor = transfer(std::abs(surface.z_mm - at->z_mm)) * out.to_sensor;
+    out.to_sensor = element_of(surface) * out.to_sensor;
+    at = &surface;
+    if (k == lens.stop_index) out.to_stop.push_back(out.to_sensor);
+  };
+  walk_surfaces(
+      lens, ghost,
+      [&](int k, int direction) {
+        act(k, [&](const SurfaceState& s) {
+          return direction > 0 ? refraction_forward(s, lambda_nm, section) : refraction_backward(s, lambda_nm, section);
+        });
+      },
+      [&](int k, int direction, std::array<int, 2>) {
+        act(k, [&](const SurfaceState& s) { return reflection(direction * curvature_of(s, section)); });
+      });
+  out.to_sensor = transfer(lens.sensor_z_mm - at->z_mm) * out.to_sensor;
+  return out;
+}
+
+Abcd inverse(const Abcd& m) {
+  const double det = m.a * m.d - m.b * m.c;
+  return {m.d / det, -m.b / det, -m.c / det, m.a / det};
+}
+
+std::optional<double> if_finite(double value) { return std::isfinite(value) ? std::optional(value) : std::nullopt; }
+
+// Landing over the tangent of the field angle, of the ray through the middle of the stop: y = -b / a (of the way to
+// the stop) at slope 1 meets it there.
+double chief_landing_mm(const Abcd& to_stop, const Abcd& to_sensor) {
+  return to_sensor.b - to_sensor.a * to_stop.b / to_stop.a;
+}
+
+}  // namespace
+
 Abcd abcd_ghost(const LensState& lens, const Ghost& ghost, double lambda_nm, Section section) {
   if (!has_surfaces_of(lens, ghost)) return kNone;
-  const auto& all = lens.surfaces;
-  const auto surface = [&](int k) -> const SurfaceState& { return all[static_cast<std::size_t>(k)]; };
-  const int last = static_cast<int>(all.size()) - 1;
-  int at = -1;  // the surface that acted last
-  Abcd m;
-  const auto act = [&](int k, const Abcd& element) {
-    if (at >= 0) m = transfer(std::abs(surface(k).z_mm - surface(at).z_mm)) * m;
-    m = element * m;
-    at = k;
-  };
-  const auto forward_to = [&](int end) {
-    for (int k = at + 1; k < end; ++k) act(k, refraction_forward(surface(k), lambda_nm, section));
-  };
-  const auto there_and_back = [&](int far, int near) {
-    forward_to(far);
-    act(far, reflection(curvature_of(surface(far), section)));
-    for (int k = far - 1; k > near; --k) act(k, refraction_backward(surface(k), lambda_nm, section));
-    act(near, reflection(-curvature_of(surface(near), section)));
-  };
-  there_and_back(ghost.j - 1, ghost.i - 1);
-  if (ghost.reflects_four_times()) there_and_back(ghost.l - 1, ghost.k - 1);
-  forward_to(last + 1);
-  return transfer(lens.sensor_z_mm - surface(last).z_mm) * m;
+  return matrices_of(lens, ghost, lambda_nm, section).to_sensor;
+}
+
+GhostFirstOrder ghost_first_order(const LensState& lens, const Ghost& ghost, double lambda_nm) {
+  GhostFirstOrder g;
+  if (!has_surfaces_of(lens, ghost) || !has_stop(lens)) return g;
+  const GhostMatrices m = matrices_of(lens, ghost, lambda_nm, Section::Y);
+  const int last = static_cast<int>(lens.surfaces.size()) - 1;
+  const Abcd to_sensor_plane = transfer(lens.sensor_z_mm - lens.surfaces.back().z_mm);
+  const Abcd direct = to_sensor_plane * abcd_between(lens.surfaces, 0, last, lambda_nm);
+  const Abcd direct_to_stop = abcd_between(lens.surfaces, 0, lens.stop_index, lambda_nm);
+
+  g.focus_mm = if_finite(-m.to_sensor.a / m.to_sensor.c);
+  // A bundle on the axis is as wide as the crossing lets it that magnifies it most.
+  double height_mm = std::numeric_limits<double>::infinity();
+  for (const Abcd& to_stop : m.to_stop) height_mm = std::min(height_mm, lens.stop_radius_mm / std::abs(to_stop.a));
+  g.blur_mm = 2.0 * std::abs(m.to_sensor.a) * height_mm;
+  // y = b u on the sensor of rays from the middle of the stop, at slopes of d u.
+  const Abcd from_stop = m.to_sensor * inverse(m.to_stop.back());
+  g.stop_image_mm = if_finite(-from_stop.b / from_stop.d);
+  g.place = chief_landing_mm(m.to_stop.front(), m.to_sensor) / chief_landing_mm(direct_to_stop, direct);
+  return g;
 }
 
 FirstOrder first_order(const LensState& lens, double lambda_nm) {

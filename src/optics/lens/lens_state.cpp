@@ -61,8 +61,18 @@ class CoatingPlacer {
   std::vector<Placed> placed_;
 };
 
+// What lies on a surface between two media: its own coating, or what the settings have in its place.
+const Coating& coating_on(std::size_t index, const Surface& surface, bool borders_air, const LensSettings& settings) {
+  const int number = static_cast<int>(index) + 1;
+  const auto& own = settings.coating_at;
+  const auto at = std::find_if(own.rbegin(), own.rend(), [&](const SurfaceCoating& c) { return c.surface == number; });
+  if (at != own.rend()) return at->coating;
+  const bool replaces = settings.coating && surface.kind == SurfaceKind::Refracting && borders_air;
+  return replaces ? *settings.coating : surface.coating;
+}
+
 std::vector<SurfaceState> place_surfaces(const Prescription& lens, const std::vector<double>& thickness,
-                                         const std::optional<Coating>& coating) {
+                                         const LensSettings& settings) {
   std::vector<SurfaceState> out;
   CoatingPlacer coatings;
   Glass medium = air();
@@ -70,10 +80,9 @@ std::vector<SurfaceState> place_surfaces(const Prescription& lens, const std::ve
   for (std::size_t k = 0; k < lens.surfaces.size(); ++k) {
     const Surface& s = lens.surfaces[k];
     const Glass after = s.kind == SurfaceKind::Stop ? medium : s.glass_after;
-    const bool replaces = coating && s.kind == SurfaceKind::Refracting && is_air(medium) != is_air(after);
+    const Coating& coating = coating_on(k, s, is_air(medium) != is_air(after), settings);
     out.push_back({s.kind, z, s.curvature_per_mm, s.semi_diameter_mm, medium, after,
-                   coatings.place(replaces ? *coating : s.coating, medium, after), s.pose, s.shape, s.aperture,
-                   s.obscuration});
+                   coatings.place(coating, medium, after), s.pose, s.shape, s.aperture, s.obscuration});
     medium = after;
     z += thickness[k];
   }
@@ -335,10 +344,45 @@ void warn_of_stated(LensState& state, const StatedFigures& stated) {
   compare("back focal distance", stated.back_focal_distance_mm, back_mm, "");
 }
 
+Result<void> check_coatings(const Prescription& lens, const LensSettings& settings) {
+  const auto refused = [&](const std::string& what) { return failure(ErrorCode::InvalidArgument, what, lens.file); };
+  if (const auto problem = settings.coating ? coating_problem(*settings.coating) : std::nullopt)
+    return refused("the coating: " + *problem);
+  for (const SurfaceCoating& at : settings.coating_at) {
+    const int count = static_cast<int>(lens.surfaces.size());
+    if (at.surface < 1 || at.surface > count)
+      return refused(fmt::format("a coating for surface {}: the lens has surfaces 1 to {}", at.surface, count));
+    const auto k = static_cast<std::size_t>(at.surface - 1);
+    if (lens.surfaces[k].kind == SurfaceKind::Stop)
+      return refused(
+          fmt::format("a coating for surface {}, which is the stop; `contrejour lens info` lists those of "
+                      "glass",
+                      at.surface));
+    if (const auto problem = coating_problem(at.coating))
+      return refused(fmt::format("the coating of surface {}: {}", at.surface, *problem));
+  }
+  return {};
+}
+
+// Films between two like media are no coating.
+Result<void> check_coated(const LensState& state, const Prescription& lens, const LensSettings& settings) {
+  for (const SurfaceCoating& at : settings.coating_at) {
+    const SurfaceState& surface = state.surfaces[static_cast<std::size_t>(at.surface - 1)];
+    if (surface.before == surface.after)
+      return failure(ErrorCode::InvalidArgument,
+                     fmt::format("a coating for surface {}, which is between two like media; `contrejour lens info` "
+                                 "lists those that bound glass",
+                                 at.surface),
+                     lens.file);
+  }
+  return {};
+}
+
 }  // namespace
 
 Result<LensState> lens_at(const Prescription& lens, const LensSettings& settings) {
   if (const auto valid = validate(lens); !valid) return tl::unexpected<Error>(valid.error());
+  if (const auto good = check_coatings(lens, settings); !good) return tl::unexpected<Error>(good.error());
   if (const auto good = check_build_errors(settings.build); !good) return tl::unexpected<Error>(good.error());
   if (const auto good = check_sensor_stack(settings.sensor); !good) return tl::unexpected<Error>(good.error());
   if (settings.coating) {
@@ -350,7 +394,8 @@ Result<LensState> lens_at(const Prescription& lens, const LensSettings& settings
   LensState state;
   state.name = lens.name;
   state.warnings = lens.warnings;
-  state.surfaces = place_surfaces(lens, thicknesses(lens, zoom->position, zoom->towards_next), settings.coating);
+  state.surfaces = place_surfaces(lens, thicknesses(lens, zoom->position, zoom->towards_next), settings);
+  if (const auto good = check_coated(state, lens, settings); !good) return tl::unexpected<Error>(good.error());
   const auto stop = std::find_if(lens.surfaces.begin(), lens.surfaces.end(),
                                  [](const Surface& s) { return s.kind == SurfaceKind::Stop; });
   state.stop_index = static_cast<int>(stop - lens.surfaces.begin());

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <map>
 #include <vector>
 
 #include "optics/trace/packet_trace.h"
@@ -32,5 +33,7 @@ class LensSteps {
   const ReflectanceTables& tables_;
   std::vector<std::array<AtSurface, 2>> surfaces_;
 };
+
+using StepsByWavelength = std::map<double, LensSteps>;
 
 }  // namespace contrejour

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "contrejour/trace.h"
+#include "optics/lens/ghost_walk.h"
 
 namespace contrejour {
 
@@ -23,23 +24,12 @@ struct GratingTurn {
 // is reflected `turn(surface, order)` after that.
 template <class Visit, class Turn>
 void walk_ghost(const LensState& lens, const Ghost& ghost, const Visit& visit, const Turn& turn) {
-  const int last = static_cast<int>(lens.surfaces.size()) - 1;
-  int behind = -1;  // the surface that the light comes from, forward
-  const auto pass_forward = [&](int to) {
-    for (int k = behind + 1; k <= to; ++k)
-      if (lens.surfaces[static_cast<std::size_t>(k)].kind != SurfaceKind::Sensor) visit(k, +1, PathEvent::Refract);
-  };
-  const auto there_and_back = [&](int far, int near, std::array<int, 2> order) {
-    pass_forward(far - 1);
-    visit(far, +1, PathEvent::Reflect);
-    turn(far, order);
-    for (int k = far - 1; k > near; --k) visit(k, -1, PathEvent::Refract);
-    visit(near, -1, PathEvent::Reflect);
-    behind = near;
-  };
-  there_and_back(ghost.j - 1, ghost.i - 1, ghost.order);
-  if (ghost.reflects_four_times()) there_and_back(ghost.l - 1, ghost.k - 1, {0, 0});
-  pass_forward(last);
+  walk_surfaces(
+      lens, ghost, [&](int surface, int direction) { visit(surface, direction, PathEvent::Refract); },
+      [&](int surface, int direction, std::array<int, 2> order) {
+        visit(surface, direction, PathEvent::Reflect);
+        if (direction > 0) turn(surface, order);
+      });
 }
 
 }  // namespace contrejour

@@ -80,10 +80,14 @@ Result<std::vector<double>> sensor_distances_mm(const Prescription& lens) {
   return out;
 }
 
-Result<std::vector<double>> write_surfaces(const Prescription& lens, const SurfaceWriter& write) {
-  if (const auto valid = validate(lens); !valid) return tl::unexpected(valid.error());
-  auto sensor_mm = sensor_distances_mm(lens);
-  if (!sensor_mm) return sensor_mm;
+Result<std::vector<double>> write_surfaces(const WritableDesign& rows, const SurfaceWriter& write) {
+  const Prescription& lens = rows.lens;
+  Result<std::vector<double>> sensor_mm = std::vector<double>{rows.sensor_mm};
+  if (!rows.is_path()) {
+    if (const auto valid = validate(lens); !valid) return tl::unexpected(valid.error());
+    sensor_mm = sensor_distances_mm(lens);
+    if (!sensor_mm) return sensor_mm;
+  }
   for (std::size_t k = 0; k < lens.surfaces.size(); ++k) {
     const bool last = k + 1 == lens.surfaces.size();
     if (const auto problem = write(k, last ? sensor_mm->front() : lens.surfaces[k].thickness_mm))

@@ -42,10 +42,25 @@ struct CataloguedName {
 // one. Errors: those of lens_at.
 [[nodiscard]] Result<std::vector<double>> sensor_distances_mm(const Prescription& lens);
 
-// Has each surface written with the gap behind it, the last one's to the sensor, as sensor_distances_mm() has it, which
-// is returned. Errors: those of validate() and lens_at; Unsupported, with the surface, for what `write` says is wrong.
+// What is written: a lens as it is, or a path through one (ghost_rows.h), which is no lens: its rows may be mirrors,
+// its gaps negative.
+struct WritableDesign {
+  Prescription lens;
+  std::vector<bool> is_mirror = {};  // by surface; empty: none is
+  // Of a path, which has no f-number and no image of its own:
+  double sensor_mm = 0;  // from the last surface
+  double pupil_mm = 0;  // diameter of the bundle that comes in
+  double field_deg = 0;  // largest angle of light
+
+  [[nodiscard]] bool is_path() const { return !is_mirror.empty(); }
+  [[nodiscard]] bool reflects(std::size_t surface) const { return is_path() && is_mirror[surface]; }
+};
+
+// Has each surface written with the gap behind it, the last one's to the sensor, which is returned: of a lens as
+// sensor_distances_mm() has it. Errors: of a lens those of validate() and lens_at; Unsupported, with the surface, for
+// what `write` says is wrong.
 using SurfaceWriter = std::function<std::optional<std::string>(std::size_t surface, double gap_mm)>;
-[[nodiscard]] Result<std::vector<double>> write_surfaces(const Prescription& lens, const SurfaceWriter& write);
+[[nodiscard]] Result<std::vector<double>> write_surfaces(const WritableDesign& rows, const SurfaceWriter& write);
 
 // The radius that reads back as this curvature, or as near as one can; "0" for a plane.
 [[nodiscard]] std::string radius_text(double curvature_per_mm);

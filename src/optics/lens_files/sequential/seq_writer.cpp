@@ -9,6 +9,7 @@
 #include "base/units.h"
 #include "optics/lens_files/glass_finder.h"
 #include "optics/lens_files/sequential/design_writer.h"
+#include "optics/lens_files/sequential/ghost_rows.h"
 #include "optics/lens_files/sequential/seq_commands.h"
 #include "optics/lens_files/sequential/seq_surface.h"
 
@@ -28,11 +29,12 @@ std::string list_text(const std::vector<double>& values) {
 
 class Writer {
  public:
-  explicit Writer(const Prescription& lens) : lens_(lens), written_{"", common_losses(lens)} {}
+  explicit Writer(const WritableDesign& rows)
+      : design_(rows), lens_(rows.lens), written_{"", common_losses(rows.lens)} {}
 
   Result<WrittenLens> write() {
     std::string rows = "SO    0.0 0.1e14\n";
-    const auto sensor_mm = write_surfaces(lens_, [&](std::size_t k, double gap_mm) -> std::optional<std::string> {
+    const auto sensor_mm = write_surfaces(design_, [&](std::size_t k, double gap_mm) -> std::optional<std::string> {
       const auto row = row_text(k, gap_mm);
       if (!row) return row.error().message;
       rows += *row;
@@ -47,8 +49,10 @@ class Writer {
  private:
   [[nodiscard]] std::string header() const {
     std::string out = fmt::format("RDM;LEN\n! {}\nTITLE '{}'\n", plain_title(lens_.source), plain_title(lens_.name));
-    out += fmt::format("FNO   {}\nDIM   M\n", number_text(lens_.f_number));
+    out += design_.is_path() ? fmt::format("EPD   {}\nDIM   M\n", number_text(design_.pupil_mm))
+                             : fmt::format("FNO   {}\nDIM   M\n", number_text(lens_.f_number));
     out += fmt::format("WL    656.2725 {} 486.1327\nREF   2\nWTW   1 1 1\n", number_text(lens_.stated.wavelength_nm));
+    if (design_.is_path()) return out + fmt::format("XAN   0.0 0.0\nYAN   0.0 {}\n", number_text(design_.field_deg));
     // The picture's middle, and its corner.
     out += fmt::format("XIM   0.0 {}\nYIM   0.0 {}\n", number_text(0.5 * lens_.sensor_width_mm),
                        number_text(0.5 * lens_.sensor_height_mm));
@@ -62,7 +66,7 @@ class Writer {
     const bool crossed = shape.kind == ShapeKind::Toroid && shape.turn_rad == 0.5 * std::numbers::pi;
     const double own = crossed ? shape.curvature_x_per_mm : s.curvature_per_mm;
     std::string out = "S     " + (own == 0.0 ? "0.0" : radius_text(own)) + " " + number_text(gap_mm) +
-                      glass_text(s.glass_after) + "\n";
+                      (design_.reflects(k) ? " REFL" : glass_text(s.glass_after)) + "\n";
     if (!radius_is_exact(own)) out += "  CUY " + number_text(own) + "\n";
     if (s.kind == SurfaceKind::Stop) out += "  STO\n";
     const double turn_rad = crossed ? 0.0 : s.shape.turn_rad;
@@ -243,6 +247,7 @@ class Writer {
     return out + fmt::format("ZOO THI S{}{}\n", lens_.surfaces.size(), list_text(sensor_mm));
   }
 
+  const WritableDesign& design_;
   const Prescription& lens_;
   WrittenLens written_;
   GlassFinder finder_;
@@ -251,6 +256,12 @@ class Writer {
 
 }  // namespace
 
-Result<WrittenLens> write_lens_seq(const Prescription& lens) { return Writer(lens).write(); }
+Result<WrittenLens> write_lens_seq(const Prescription& lens) { return Writer(WritableDesign{lens}).write(); }
+
+Result<WrittenLens> write_ghost_seq(const LensState& lens, const Ghost& ghost) {
+  const auto rows = ghost_rows(lens, ghost);
+  if (!rows) return tl::unexpected(rows.error());
+  return Writer(*rows).write();
+}
 
 }  // namespace contrejour

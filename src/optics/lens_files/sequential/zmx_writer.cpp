@@ -9,6 +9,7 @@
 #include "optics/lens_files/glass_finder.h"
 #include "optics/lens_files/sequential/design_text.h"
 #include "optics/lens_files/sequential/design_writer.h"
+#include "optics/lens_files/sequential/ghost_rows.h"
 
 namespace contrejour {
 namespace {
@@ -32,11 +33,12 @@ Powers powers_of(const SurfaceShape& shape) {
 
 class Writer {
  public:
-  explicit Writer(const Prescription& lens) : lens_(lens), written_{"", common_losses(lens)} {}
+  explicit Writer(const WritableDesign& rows)
+      : design_(rows), lens_(rows.lens), written_{"", common_losses(rows.lens)} {}
 
   Result<WrittenLens> write() {
     collect_makers();
-    const auto sensor_mm = write_surfaces(lens_, [&](std::size_t k, double gap_mm) { return add_row(k, gap_mm); });
+    const auto sensor_mm = write_surfaces(design_, [&](std::size_t k, double gap_mm) { return add_row(k, gap_mm); });
     if (!sensor_mm) return tl::unexpected(sensor_mm.error());
     if (!lens_.sensor_distance_mm) rows_ += "  MAZH 0 0\n";
     written_.text = header() + surf("  TYPE STANDARD\n  CURV 0\n", "INFINITY", 0) + rows_;
@@ -62,7 +64,9 @@ class Writer {
   [[nodiscard]] std::string header() const {
     std::string out = "VERS 140124 258 36214\nMODE SEQ\n";
     out += "NAME " + plain_title(lens_.name) + "\nNOTE 0 " + plain_title(lens_.source) + "\n";
-    out += "UNIT MM X W X CM MR CPMM\nFNUM " + number_text(lens_.f_number) + " 0\nENVD 20 1 0\n";
+    // A path's bundle is what its stop lets through.
+    const std::string opening = design_.is_path() ? "FLOA" : "FNUM " + number_text(lens_.f_number) + " 0";
+    out += "UNIT MM X W X CM MR CPMM\n" + opening + "\nENVD 20 1 0\n";
     if (!makers_.empty()) {
       out += "GCAT";
       for (const std::string& maker : makers_) out += " " + maker;
@@ -70,8 +74,10 @@ class Writer {
     }
     // The picture's middle, and its corner.
     const double half_width = 0.5 * lens_.sensor_width_mm, half_height = 0.5 * lens_.sensor_height_mm;
-    out += "FTYP 3 0 2 3 0 0 0\n";
-    out += fmt::format("XFLN 0 {}\nYFLN 0 {}\nFWGN 1 1\n", number_text(half_width), number_text(half_height));
+    out += design_.is_path() ? "FTYP 0 0 2 3 0 0 0\n" : "FTYP 3 0 2 3 0 0 0\n";
+    out += design_.is_path()
+               ? fmt::format("XFLN 0 0\nYFLN 0 {}\nFWGN 1 1\n", number_text(design_.field_deg))
+               : fmt::format("XFLN 0 {}\nYFLN 0 {}\nFWGN 1 1\n", number_text(half_width), number_text(half_height));
     const double nm = lens_.stated.wavelength_nm;
     const auto um = text_giving(nm, nm / 1e3, [](double read) { return read * 1e3; });
     out += fmt::format("WAVM 1 0.4861327 1\nWAVM 2 {} 1\nWAVM 3 0.6562725 1\nPWAV 2\n",
@@ -109,7 +115,8 @@ class Writer {
       return "a rim that is no circle and an obscuration; a surface of Zemax has one aperture";
     const auto rim = s.obscuration.any() ? obscuration_rows(s, turn_rad) : aperture_rows(k, turn_rad);
     if (!rim) return "its rim is turned otherwise than itself; Zemax has no such apertures";
-    const std::string body = *shape + glass_row(s) + *rim;
+    const std::string glass = design_.reflects(k) ? "  GLAS MIRROR 0 0 1.5 40 0 0 0 0 0 0\n" : glass_row(s);
+    const std::string body = *shape + glass + *rim;
     const bool askew = !(s.pose == SurfacePose{}) || turn_rad != 0.0;
     if (!askew) {
       gap_at_.push_back({next_, 0.0});
@@ -277,6 +284,7 @@ class Writer {
     double less_mm = 0;  // a shift along the axis is taken from it
   };
 
+  const WritableDesign& design_;
   const Prescription& lens_;
   WrittenLens written_;
   GlassFinder finder_;
@@ -288,6 +296,12 @@ class Writer {
 
 }  // namespace
 
-Result<WrittenLens> write_lens_zmx(const Prescription& lens) { return Writer(lens).write(); }
+Result<WrittenLens> write_lens_zmx(const Prescription& lens) { return Writer(WritableDesign{lens}).write(); }
+
+Result<WrittenLens> write_ghost_zmx(const LensState& lens, const Ghost& ghost) {
+  const auto rows = ghost_rows(lens, ghost);
+  if (!rows) return tl::unexpected(rows.error());
+  return Writer(*rows).write();
+}
 
 }  // namespace contrejour
