@@ -26,7 +26,6 @@ FOLDERS = {
     "src/render/screens": "render/screens",
     "src/render/starburst": "render/starburst",
     "src/render/driver": "render/driver",
-    "src/render/adaptive/pupils": "render/adaptive/pupils",
     "src/render/adaptive/maps": "render/adaptive/maps",
     "src/render/adaptive/tiles": "render/adaptive/tiles",
     "src/render/adaptive/cells": "render/adaptive/cells",
@@ -102,8 +101,7 @@ MAY_INCLUDE = {
     "render/interface": ["lens", "ghosts", "image"],
     "renderer": ["render/screens", "render/interface", "trace", "ghosts", "diffraction", "kernels", "image"],
     "renderer:adaptive": ["renderer", "render/adaptive/cells"],
-    "render/adaptive/pupils": ["trace", "ghosts"],
-    "render/adaptive/maps": ["render/adaptive/pupils", "render/screens"],
+    "render/adaptive/maps": ["render/screens"],
     "render/adaptive/tiles": ["render/screens", "image"],
     "render/adaptive/cells": ["render/adaptive/maps", "render/adaptive/tiles"],
     "render/area": ["render/interface"],
@@ -125,7 +123,7 @@ FENCED = [
     (r"pugixml", ("src/optics/lens_files",), "one reader of XML"),
     (r"yaml-cpp/", ("src/base",), "one wrapper that keeps its exceptions in"),
     (r"gemmi/|pocketfft", ("src/diffraction",), "one wrapper of the FFT"),
-    (r"Eigen/", ("src/diffraction", "src/optics/coating", "src/render/adaptive/pupils"),
+    (r"Eigen/", ("src/diffraction", "src/optics/coating", "src/ghosts/pupils"),
      "one wrapper of the eigen solver, two of least squares"),
 ]
 

@@ -12,8 +12,9 @@
 namespace contrejour {
 
 enum class GhostScope {
-  OneSideOfStop,  // the stop is crossed once (both reflections on one side of it): both papers' default
-  All,            // every pair, the iris acting at every crossing
+  OneSideOfStop,  // the stop is crossed once (both reflections on one side of it): what both papers draw. The others
+                  // carry up to half of the light of all ghosts.
+  All,            // every pair, the iris acting at every crossing: what a lens does
 };
 
 enum class Reflections {
@@ -24,6 +25,9 @@ enum class Reflections {
 // Ordered by (i, j, k, l, order). The stop never reflects; a sensor that is a grating does in all its orders.
 [[nodiscard]] std::vector<Ghost> enumerate_ghosts(const LensState& lens, GhostScope scope,
                                                   Reflections reflections = Reflections::Two);
+
+// Is there any ghost that reflects at this surface, 1-based?
+[[nodiscard]] bool reflects_at(const LensState& lens, int surface);
 
 // Is it among those of the widest scope?
 [[nodiscard]] bool has_ghost(const LensState& lens, const Ghost& ghost);
@@ -43,19 +47,18 @@ struct SelectSurface {
 };
 using GhostSelection = std::variant<SelectAll, SelectBrightest, SelectByFlux, SelectList, SelectSurface>;
 
-// A ghost for one light and wavelength, measured by a grid over the entrance window.
+// A ghost for one light and wavelength.
 struct GhostMeasure {
   double flux_mm2 = 0;  // integral over the entrance plane of cos(theta) * transmission, unblocked, E0 = 1
   Vec2 centroid_mm;     // on the sensor, flux-weighted
   Vec2 min_mm, max_mm;  // footprint on the sensor
-  double peak_per_mm2 = 0;          // largest irradiance of a grid cell over E0
+  double peak_per_mm2 = 0;  // largest irradiance over E0: mean over a square of the pixel's size, if one was given
 };
 
-class ReflectanceTables;
-
-// Measures a lens's ghosts at one wavelength, by grids of rays over the part of the entrance window that gets
-// through. Fluxes are good to 1e-3, the direct image's to 5e-4. Made once (tens of milliseconds for a long zoom),
-// then used for any light, from any thread.
+// Measures a lens's ghosts at one wavelength: polynomials through a few exact rays in each part of the entrance plane
+// that gets through. Fluxes are good to 1e-3, the direct image's to 5e-4, middles and footprints to a hundredth of the
+// footprint's size, peaks to a quarter. Made once (tens of milliseconds for a long zoom), then used for any light, from
+// any thread; a ghost takes some tenths of a millisecond.
 class GhostMeter {
  public:
   GhostMeter(LensState lens, double lambda_nm);
@@ -66,12 +69,13 @@ class GhostMeter {
   // Flux of the direct image of a light, mm^2 at E0 = 1 (docs/physics/radiometry.md: Phi).
   [[nodiscard]] double direct_flux(const LightSource& light) const;
 
-  // All zero when no light gets through.
-  [[nodiscard]] GhostMeasure measure(Ghost ghost, const LightSource& light) const;
+  // All zero when no light gets through. pixel_mm: side of the squares that the peak is a mean over; 0: none, it is
+  // that of a cell of a mesh over the pupil, and infinite caustics are only as high as that shows.
+  [[nodiscard]] GhostMeasure measure(Ghost ghost, const LightSource& light, double pixel_mm = 0.0) const;
 
  private:
-  LensState lens_;
-  std::unique_ptr<const ReflectanceTables> tables_;
+  struct State;
+  std::unique_ptr<const State> state_;
 };
 
 }  // namespace contrejour

@@ -74,6 +74,7 @@ struct GhostAdjustment {
   double gain = 1.0;
   Rgb colour{1, 1, 1};
   Vec2 offset;  // in the picture, to the right and up, of the frame's height
+  int surface = 0;  // 1-based, in place of a ghost: all ghosts that reflect there
 };
 
 // A colour that ghosts are multiplied by, over where they lie: 1 at the light's image, 0 in the frame's middle, -1
@@ -87,7 +88,7 @@ struct GhostRampStop {
 struct GhostOptions {
   double gain = 1.0;  // of all ghosts
   double edge_gain = 1.0;  // and this when the light is at the frame's corner, in proportion nearer to the middle
-  std::vector<GhostAdjustment> adjustments;  // those of one ghost add up
+  std::vector<GhostAdjustment> adjustments;  // gains and colours of one ghost multiply, its offsets add up
   std::vector<GhostRampStop> ramp;  // places rising
   // hullin2011 4.2, imperfect symmetry: each ghost is set off by its own random way, normally distributed with this
   // root mean square, of the frame's height.
@@ -110,7 +111,7 @@ struct RingingOptions {
 
 struct RenderSettings {
   Frame frame;
-  GhostScope scope = GhostScope::OneSideOfStop;
+  GhostScope scope = GhostScope::All;
   Reflections reflections = Reflections::Two;
   GhostSelection selection = SelectAll{};
   int wavelengths = 3;

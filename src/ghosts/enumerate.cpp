@@ -99,9 +99,14 @@ std::vector<Ghost> enumerate_ghosts(const LensState& lens, GhostScope scope, Ref
   return ghosts;
 }
 
+bool reflects_at(const LensState& lens, int surface) {
+  return surface >= 1 && surface <= static_cast<int>(lens.surfaces.size()) &&
+         reflects(lens.surfaces[static_cast<std::size_t>(surface - 1)]);
+}
+
 bool has_ghost(const LensState& lens, const Ghost& ghost) {
   if (!has_surfaces_of(lens, ghost)) return false;
-  const auto turns_at = [&](int surface) { return reflects(lens.surfaces[static_cast<std::size_t>(surface - 1)]); };
+  const auto turns_at = [&](int surface) { return reflects_at(lens, surface); };
   if (!turns_at(ghost.i) || !turns_at(ghost.j)) return false;
   if (ghost.reflects_four_times() && !(turns_at(ghost.k) && turns_at(ghost.l))) return false;
   const int most = ends_at_grating(lens, ghost) ? lens.sensor_grating.orders : 0;

@@ -6,9 +6,10 @@
 
 #include <doctest/doctest.h>
 
-#include "render/adaptive/maps/ray_sheet.h"
-#include "render/adaptive/pupils/pupil_boxes.h"
+#include "ghosts/pupils/pupil_boxes.h"
+#include "ghosts/pupils/ray_sheet.h"
 #include "render/adaptive/tiles/tiles.h"
+#include "render/interface/wavelength_tables.h"
 #include "support/scenes.h"
 
 namespace contrejour::test {
@@ -69,17 +70,17 @@ struct GhostScene {
       : lens(std::move(state)), ghost(of), lambda_nm(wavelength_nm), direction(towards), light(towards),
         window(entrance_window(lens, light.source)), path(ghost_path(lens, ghost, lambda_nm)) {
     tables[lambda_nm] = std::make_shared<const ReflectanceTables>(lens, lambda_nm);
-    boxes = adaptive::find_pupil_boxes(packets(), window).boxes;
+    boxes = pupils::find_pupil_boxes(packets(), window).boxes;
   }
 
   [[nodiscard]] PacketPath packets() const {
     return {path, *tables.at(lambda_nm), {{0.0, 0.0, window.z_mm}, light.source}};
   }
 
-  [[nodiscard]] adaptive::RaySheet sheet(const Rectangle& box, int nodes, Rgb gain = {1, 1, 1}) const {
-    adaptive::SheetTracer tracer(packets(), light);
-    adaptive::RaySheet sheet = tracer.trace(box, nodes, PacketPrecision::Double);
-    adaptive::add_light(sheet, sheet.transmission, gain);
+  [[nodiscard]] pupils::RaySheet sheet(const Rectangle& box, int nodes, Rgb gain = {1, 1, 1}) const {
+    pupils::SheetTracer tracer(packets(), light);
+    pupils::RaySheet sheet = tracer.trace(box, nodes, PacketPrecision::Double);
+    pupils::add_light(sheet, sheet.transmission, gain);
     return sheet;
   }
 

@@ -3,13 +3,14 @@
 #include <doctest/doctest.h>
 
 #include "adaptive/scene.h"
-#include "render/adaptive/maps/lobatto.h"
-#include "render/adaptive/maps/ray_sheet.h"
-#include "render/adaptive/pupils/bent_box.h"
+#include "ghosts/pupils/bent_box.h"
+#include "ghosts/pupils/lobatto.h"
+#include "ghosts/pupils/ray_sheet.h"
 #include "support/flares.h"
 
 using namespace contrejour;
 using namespace contrejour::adaptive;
+using namespace contrejour::pupils;
 
 namespace {
 
@@ -127,6 +128,7 @@ TEST_CASE("cells of different sizes in a bent box leave no seams, dim as the gho
   const LensState lens = test::lens_at_f("heliar", 16.0);
   RenderSettings settings;
   settings.frame = frame_on_sensor(lens, 960, 540);
+  settings.scope = GhostScope::OneSideOfStop;
   settings.wavelengths = 12;
   const Light light = test::light_at(lens, settings.frame, {0.70, 0.33});
   const Image image = test::flare_of("adaptive", lens, {&light, 1}, settings).image;

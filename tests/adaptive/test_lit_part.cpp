@@ -7,7 +7,6 @@
 
 #include "render/adaptive/faint_items.h"
 #include "render/adaptive/maps/lit_part.h"
-#include "render/adaptive/maps/lobatto.h"
 
 using namespace contrejour;
 using namespace contrejour::adaptive;

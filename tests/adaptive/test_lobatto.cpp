@@ -4,9 +4,9 @@
 
 #include <doctest/doctest.h>
 
-#include "render/adaptive/maps/lobatto.h"
+#include "ghosts/pupils/lobatto.h"
 
-using namespace contrejour::adaptive;
+using namespace contrejour::pupils;
 
 namespace {
 

@@ -9,6 +9,7 @@
 
 using namespace contrejour;
 using namespace contrejour::adaptive;
+using namespace contrejour::pupils;
 
 namespace {
 

@@ -6,14 +6,15 @@
 #include <doctest/doctest.h>
 
 #include "adaptive/scene.h"
-#include "render/adaptive/pupils/box_fit.h"
-#include "render/adaptive/pupils/clearance_grid.h"
-#include "render/adaptive/pupils/meridian_scan.h"
-#include "render/adaptive/pupils/pupil_boxes.h"
-#include "render/adaptive/pupils/stop_aim.h"
+#include "ghosts/pupils/box_fit.h"
+#include "ghosts/pupils/clearance_grid.h"
+#include "ghosts/pupils/meridian_scan.h"
+#include "ghosts/pupils/pupil_boxes.h"
+#include "ghosts/pupils/stop_aim.h"
 
 using namespace contrejour;
 using namespace contrejour::adaptive;
+using namespace contrejour::pupils;
 
 namespace {
 

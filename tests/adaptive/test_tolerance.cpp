@@ -6,12 +6,13 @@
 
 #include <doctest/doctest.h>
 
+#include "ghosts/pupils/lobatto.h"
 #include "render/adaptive/cells/frame_error.h"
-#include "render/adaptive/maps/lobatto.h"
 #include "render/adaptive/maps/tolerance.h"
 
 using namespace contrejour;
 using namespace contrejour::adaptive;
+using namespace contrejour::pupils;
 
 namespace {
 

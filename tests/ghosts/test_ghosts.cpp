@@ -1,8 +1,14 @@
+#include <algorithm>
 #include <cmath>
+#include <limits>
+#include <map>
 #include <numbers>
+#include <utility>
+#include <vector>
 
 #include <doctest/doctest.h>
 
+#include "contrejour/frame.h"
 #include "contrejour/ghost.h"
 #include "ghosts/pupil_search.h"
 #include "support/scenes.h"
@@ -14,7 +20,89 @@ namespace {
 
 constexpr double kGreen_nm = 550.0;
 
+// A ghost from a dense grid of exact rays, each counted or not: shares nothing with what the meter does but the search
+// of the window.
+struct Counted {
+  double flux_mm2 = 0.0, peak_per_mm2 = 0.0;
+  Vec2 centroid_mm, min_mm{1e9, 1e9}, max_mm{-1e9, -1e9};
+};
+
+Counted counted(const LensState& lens, Ghost ghost, const LightSource& light, int side, double pixel_mm) {
+  const OpticalPath path = ghost_path(lens, ghost, kGreen_nm);
+  const ReflectanceTables tables(lens, kGreen_nm);
+  const EntranceWindow window = entrance_window(lens, light);
+  RayGrid scratch;
+  const auto region = find_pupil_region(path, tables, IrisShape(lens.iris), light, window, scratch);
+  Counted out;
+  if (!region) return out;
+  const Vec2 size = region->pupil_mm.high - region->pupil_mm.low;
+  const double cell_mm2 = size.x * size.y / (static_cast<double>(side) * side) * light.shared_flux();
+  std::vector<std::pair<Vec2, double>> landed;
+  for (int iy = 0; iy < side; ++iy) {
+    for (int ix = 0; ix < side; ++ix) {
+      const Vec2 p = region->pupil_mm.low + Vec2{size.x * (ix + 0.5) / side, size.y * (iy + 0.5) / side};
+      const TracedRay ray = trace(path, {{p.x, p.y, window.z_mm}, light.direction});
+      if (ray.status != RayStatus::Ok || blocked_by(ray, path, lens.iris) > 0.0) continue;
+      const double flux = ray.transmission * cell_mm2;
+      landed.emplace_back(ray.sensor_mm, flux);
+      out.flux_mm2 += flux;
+      out.centroid_mm = out.centroid_mm + ray.sensor_mm * flux;
+      out.min_mm = {std::min(out.min_mm.x, ray.sensor_mm.x), std::min(out.min_mm.y, ray.sensor_mm.y)};
+      out.max_mm = {std::max(out.max_mm.x, ray.sensor_mm.x), std::max(out.max_mm.y, ray.sensor_mm.y)};
+    }
+  }
+  out.centroid_mm = out.centroid_mm * (1.0 / out.flux_mm2);
+  // The fullest of pixels at four places of their corner.
+  for (const Vec2 corner : {Vec2{0, 0}, Vec2{0.5, 0}, Vec2{0, 0.5}, Vec2{0.5, 0.5}}) {
+    std::map<std::pair<long, long>, double> pixels;
+    for (const auto& [at, flux] : landed)
+      pixels[{std::lround(at.x / pixel_mm + corner.x), std::lround(at.y / pixel_mm + corner.y)}] += flux;
+    for (const auto& [at, flux] : pixels) out.peak_per_mm2 = std::max(out.peak_per_mm2, flux / (pixel_mm * pixel_mm));
+  }
+  return out;
+}
+
 }  // namespace
+
+TEST_CASE("ghosts as many exact rays have them: flux, middle, bounds and peak") {
+  struct Case {
+    const char* lens;
+    LensSettings settings;
+    Ghost ghost;
+  };
+  const Iris pentagon{5, 0.3, 0.2};
+  const Case cases[] = {
+      {"heliar", {.f_number = 8.0}, {2, 5}},
+      {"tessar", {.f_number = 8.0, .iris = pentagon}, {1, 8}},  // a small bright one that crosses the stop three times
+      {"planar-50", {.f_number = 2.8}, {6, 14}},
+      {"planar-50", {.f_number = 8.0, .iris = pentagon}, {8, 12}},
+      {"canon-70-200", {.focal_length_mm = 135.0, .f_number = 8.0}, {16, 18}},
+      {"canon-70-200", {.focal_length_mm = 200.0, .f_number = 4.0}, {3, 14}},
+      {"master-prime-50", {.f_number = 4.0, .iris = pentagon}, {10, 14}},
+      {"nakamura-22", {.f_number = 5.6}, {2, 5}},
+      {"muller-fisheye-10", {.f_number = 8.0}, {8, 11}},
+  };
+  for (const Case& c : cases) {
+    CAPTURE(c.lens);
+    CAPTURE(ghost_name(c.ghost));
+    const LensState lens = bundled(c.lens, c.settings);
+    const Frame frame = frame_on_sensor(lens, 480, 320);
+    const LightSource light(direction_to_land_at(lens, frame.sensor_from_uv({0.7, 0.35}), kGreen_nm));
+    const GhostMeasure m = GhostMeter(lens, kGreen_nm).measure(c.ghost, light, frame.pixel_pitch_mm);
+    const Counted truth = counted(lens, c.ghost, light, 500, frame.pixel_pitch_mm);
+    REQUIRE(truth.flux_mm2 > 0.0);
+    const Vec2 size = truth.max_mm - truth.min_mm;
+    const double extent = std::max(size.x, size.y);
+    CHECK(m.flux_mm2 / truth.flux_mm2 == doctest::Approx(1.0).epsilon(2e-3));  // the count is good to 1e-3
+    CHECK(length(m.centroid_mm - truth.centroid_mm) < 0.01 * extent);
+    CHECK((m.max_mm.x - m.min_mm.x) / size.x == doctest::Approx(1.0).epsilon(0.015));
+    CHECK((m.max_mm.y - m.min_mm.y) / size.y == doctest::Approx(1.0).epsilon(0.015));
+    // Where many rays fall into each pixel the fullest is no chance.
+    const double pixels = size.x * size.y / (frame.pixel_pitch_mm * frame.pixel_pitch_mm);
+    const double rays_a_pixel = 500.0 * 500.0 / pixels;
+    if (rays_a_pixel > 4.0) CHECK(m.peak_per_mm2 / truth.peak_per_mm2 == doctest::Approx(1.0).epsilon(0.25));
+  }
+}
 
 TEST_CASE("the papers' ghost counts: 13, 73, 142 and 312 with both reflections on one side of the stop") {
   const auto count = [](const char* name, GhostScope scope) {

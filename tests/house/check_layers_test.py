@@ -60,7 +60,7 @@ class Planted(unittest.TestCase):
         self.allowed("src/render/adaptive/cells/a.cpp", '"render/adaptive/maps/m.h"', "src/render/adaptive/maps/m.h")
         self.allowed("src/render/adaptive/maps/a.cpp", '"render/screens/s.h"', "src/render/screens/s.h")
         self.forbidden("src/render/adaptive/tiles/a.cpp", '"render/adaptive/maps/m.h"', "src/render/adaptive/maps/m.h")
-        self.forbidden("src/render/adaptive/pupils/a.cpp", '"render/adaptive/a.h"', "src/render/adaptive/a.h")
+        self.forbidden("src/render/adaptive/maps/a.cpp", '"render/adaptive/a.h"', "src/render/adaptive/a.h")
         self.forbidden("src/render/bundle/a.cpp", '"render/adaptive/tiles/t.h"', "src/render/adaptive/tiles/t.h")
 
     def test_nobody_includes_gpu(self):

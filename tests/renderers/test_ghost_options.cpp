@@ -41,7 +41,7 @@ TEST_CASE("gains and colours of one ghost, and of all") {
     const Image other = image_of(bounds, s.lens, s.light, s.only({kOther}));
     RenderSettings both = s.only({kGhost, kOther});
     both.ghosts.gain = 3.0;
-    both.ghosts.adjustments = {{kGhost, 0.5, {1.0, 0.25, 0.0}, {}}};
+    both.ghosts.adjustments = {{.ghost = kGhost, .gain = 0.5, .colour = {1.0, 0.25, 0.0}}};
     const Image image = image_of(bounds, s.lens, s.light, both);
     const double factor[] = {1.5, 0.375, 0.0};
     for (std::size_t c = 0; c < 3; ++c) {
@@ -55,7 +55,7 @@ TEST_CASE("everything off, said or not, is the same to the last bit") {
   const Scene s;
   RenderSettings said = s.settings;
   said.ghosts.ramp = {{-1.0, {1, 1, 1}}, {1.0, {1, 1, 1}}};
-  said.ghosts.adjustments = {{{1, 2}, 1.0, {1, 1, 1}, {}}, {{2, 3}, 1.0, {1, 1, 1}, {}}};
+  said.ghosts.adjustments = {{.ghost = {1, 2}}, {.ghost = {2, 3}}};
   said.ghosts.scatter_seed = 7;
   for_each_method([&](const Bounds& bounds) {
     CHECK(image_of(bounds, s.lens, s.light, said).pixels == image_of(bounds, s.lens, s.light, s.settings).pixels);
@@ -67,7 +67,7 @@ TEST_CASE("an offset moves a ghost by so many pixels, to the right and up") {
   const Ghost kGhost{1, 2};
   RenderSettings settings = s.only({kGhost});
   // 8 pixels to the right and 4 up, of a frame 64 pixels high.
-  settings.ghosts.adjustments = {{kGhost, 1.0, {1, 1, 1}, {8.0 / 64.0, 4.0 / 64.0}}};
+  settings.ghosts.adjustments = {{.ghost = kGhost, .offset = {8.0 / 64.0, 4.0 / 64.0}}};
   for_each_method([&](const Bounds& bounds) {
     const Image still = image_of(bounds, s.lens, s.light, s.only({kGhost}));
     const Image moved = image_of(bounds, s.lens, s.light, settings);
@@ -99,7 +99,8 @@ TEST_CASE("first-order places are where chief rays of ghosts land") {
       CAPTURE(ghosts[g].i);
       CAPTURE(ghosts[g].j);
       const double expected = landing(ghost_path(lens, ghosts[g], lambda_nm)) / direct_mm;
-      CHECK(first_order_place(lens, ghosts[g]) == doctest::Approx(expected).epsilon(1e-3));
+      CHECK(ghost_first_order(lens, ghosts[g], lens.design_wavelength_nm).place ==
+            doctest::Approx(expected).epsilon(1e-3));
     }
   }
 }
@@ -112,7 +113,7 @@ TEST_CASE("a ramp colours ghosts by where they lie; scatter is seeded and has it
   options.ramp = {{-1.0, {0, 0, 4}}, {0.0, {1, 2, 0}}, {1.0, {3, 0, 0}}};
   const auto looks = ghost_looks(lens, ghosts, options, frame);
   for (std::size_t g = 0; g < ghosts.size(); ++g) {
-    const double place = std::clamp(first_order_place(lens, ghosts[g]), -1.0, 1.0);
+    const double place = std::clamp(ghost_first_order(lens, ghosts[g], lens.design_wavelength_nm).place, -1.0, 1.0);
     CHECK(looks[g].tint[0] == doctest::Approx(place < 0.0 ? 1.0 + place : 1.0 + 2.0 * place));
     CHECK(looks[g].tint[1] == doctest::Approx(2.0 * (1.0 - std::abs(place))));
     CHECK(looks[g].tint[2] == doctest::Approx(place < 0.0 ? -4.0 * place : 0.0));
@@ -162,8 +163,8 @@ TEST_CASE("numbers that cannot be are refused") {
   CHECK(refuses([&](GhostOptions& o) { o.ramp = {{0.0, {1, 1, 1}}, {0.0, {1, 1, 1}}}; }));
   CHECK(refuses([&](GhostOptions& o) { o.ramp = {{nan, {1, 1, 1}}}; }));
   CHECK(refuses([&](GhostOptions& o) { o.ramp = {{0.0, {1, -1, 1}}}; }));
-  CHECK(refuses_one({{2, 99}, 1.0, {1, 1, 1}, {}}));
-  CHECK(refuses_one({{1, 2}, -1.0, {1, 1, 1}, {}}));
-  CHECK(refuses_one({{1, 2}, 1.0, {1, nan, 1}, {}}));
-  CHECK(refuses_one({{1, 2}, 1.0, {1, 1, 1}, {nan, 0}}));
+  CHECK(refuses_one({.ghost = {2, 99}}));
+  CHECK(refuses_one({.ghost = {1, 2}, .gain = -1.0}));
+  CHECK(refuses_one({.ghost = {1, 2}, .colour = {1, nan, 1}}));
+  CHECK(refuses_one({.ghost = {1, 2}, .offset = {nan, 0}}));
 }

@@ -2,6 +2,7 @@
 // rays tell, patches of polynomials, cells as the error allows, band by band.
 #pragma once
 
+#include "contrejour/render.h"
 #include "render/adaptive/cells/cell_painter.h"
 #include "render/adaptive/patch_fitter.h"
 

@@ -3,25 +3,18 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <optional>
+#include <span>
 #include <utility>
 
 #include "base/tasks.h"
 #include "contrejour/metrics.h"
-#include "ghosts/pupil_search.h"
+#include "ghosts/pupils/ghost_pupil.h"
 #include "render/adaptive/cells/shared_edges.h"
-#include "render/adaptive/pupils/box_fit.h"
-#include "render/adaptive/pupils/pupil_boxes.h"
 
 namespace contrejour::adaptive {
 namespace {
 
-// Of a box's size, on every side: polynomials through its rays are least good at its border, where the ghost's edge
-// would be if the box were tight. Half of this saves no rays and costs a decibel; twice this takes a third more rays.
-constexpr double kMargin = 0.1;
 constexpr int kDeepest = 4;       // quarterings of a box
-// Boxes of the sharp stop are widened as the stop is up to here, farther by its root: what they lack they grow.
-constexpr double kMuchWider = 1.5;
 // Of an item's squared error, behind screens: cells come closer to theirs there.
 constexpr double kScreenedShare = 0.75;
 constexpr int kPeakDeepest = 1;
@@ -30,124 +23,34 @@ constexpr double kPeakQuantile = 0.999;
 constexpr int kMostPeakScale = 8;
 constexpr double kPeakPixels = 2500.0;
 
-const PlannedPass& middle_pass(const PlannedLight& light) { return light.passes[light.passes.size() / 2]; }
-
-bool overlap(const Rectangle& a, const Rectangle& b) {
-  return a.low.x < b.high.x && b.low.x < a.high.x && a.low.y < b.high.y && b.low.y < a.high.y;
-}
-
-// Boxes that overlap, which would be painted twice there, as one that holds both.
-void merge_overlapping(std::vector<Rectangle>& boxes) {
-  for (std::size_t a = 0; a < boxes.size(); ++a) {
-    for (std::size_t b = a + 1; b < boxes.size(); ++b) {
-      if (!overlap(boxes[a], boxes[b])) continue;
-      boxes[a] = both(boxes[a], boxes[b]);
-      boxes.erase(boxes.begin() + static_cast<std::ptrdiff_t>(b));
-      return merge_overlapping(boxes);
-    }
-  }
-}
-
-Rectangle with_margin(const Rectangle& box) {
-  const Vec2 margin = (box.high - box.low) * kMargin;
-  Rectangle out{box.low - margin, box.high + margin};
-  return out;
-}
-
-// Likewise, of a box of a symmetric pupil: it stays on its side of the axis of symmetry.
-Rectangle with_margin_aside(const Rectangle& box) {
-  Rectangle out = with_margin(box);
-  if (box.low.y >= 0.0) out.low.y = std::max(out.low.y, 0.0);
-  return out;
-}
-
-// So many times as large; one of a symmetric pupil stays on its side of the axis of symmetry.
-Rectangle about_middle(const Rectangle& box, double times) {
-  const Vec2 more = (box.high - box.low) * (0.5 * (times - 1.0));
-  Rectangle out{box.low - more, box.high + more};
-  if (box.low.y >= 0.0) out.low.y = std::max(out.low.y, 0.0);
-  return out;
-}
-
-// Of a box on the other side of the axis of symmetry.
-bool is_mirror_image(const Rectangle& box) { return box.high.y <= 0.0; }
-
-// The wavelengths at which a pupil is searched that is to hold for all.
-std::vector<double> outer_wavelengths(const PlannedLight& light) {
-  std::vector<double> outer_nm{light.passes.front().lambda_nm};
-  if (light.passes.size() > 1) outer_nm.push_back(light.passes.back().lambda_nm);
-  return outer_nm;
+std::vector<double> wavelengths_of(const PlannedLight& light) {
+  std::vector<double> lambda_nm;
+  for (const PlannedPass& pass : light.passes) lambda_nm.push_back(pass.lambda_nm);
+  return lambda_nm;
 }
 
 // Where the item has screens the stop counts as larger, to hold the light beside its opening.
 double stop_times(const Item& item) { return item.screens ? item.screens->reach : 1.0; }
 
-// Of a lens without symmetries: one box, by grids over all of the window.
-Work find_askew_box(const Scene& scene, Item& item) {
-  const LightSource& light = item.light->source;
-  const IrisShape circle{Iris{}};
-  Work work;
-  RayGrid grid;
-  std::optional<Rectangle> box;
-  for (const double lambda_nm : outer_wavelengths(*item.light)) {
-    const OpticalPath path = widened(ghost_path(scene.lens, item.ghost, lambda_nm), stop_times(item));
-    const auto region = find_pupil_region(path, *scene.plan.tables.at(lambda_nm), circle, light, item.window, grid);
-    if (!region) continue;
-    box = box ? both(*box, region->pupil_mm) : region->pupil_mm;
-    work.add({region->rays, region->rays * path.steps.size()});
-  }
-  if (box) item.boxes.push_back(with_margin(*box));
-  return work;
+PupilRequest request_of(const Scene& scene, const Item& item, std::span<const double> lambda_nm) {
+  return {scene.steps, item.ghost, item.light->source, item.window, lambda_nm, stop_times(item)};
 }
 
-// What comes through near some boxes, at all wavelengths of the light; mirror images are left to their originals.
-Work fit_boxes(const Scene& scene, Item& item, const std::vector<Rectangle>& near) {
-  const LightFrame light(item.light->source);
-  const LightRays rays{{0.0, 0.0, item.window.z_mm}, light.source};
-  std::vector<std::optional<Rectangle>> fitted(near.size());
-  Work work;
-  for (const double lambda_nm : outer_wavelengths(*item.light)) {
-    BoxFitter fitter({scene.steps.at(lambda_nm), item.ghost, rays, stop_times(item)}, item.window);
-    for (std::size_t k = 0; k < near.size(); ++k) {
-      const auto fit = fitter.fit(near[k]);
-      if (fit) fitted[k] = fitted[k] ? both(*fitted[k], *fit) : *fit;
-    }
-    work.add({fitter.rays(), fitter.surface_hits()});
-  }
-  for (std::size_t k = 0; k < near.size(); ++k) {
-    Rectangle box = fitted[k].value_or(near[k]);
-    if (box.low.y < 0.0) box.low.y = -box.high.y;
-    item.boxes.push_back(box);
-    if (box.low.y >= 0.0) item.boxes.push_back({{box.low.x, -box.high.y}, {box.high.x, -box.low.y}});
-  }
-  merge_overlapping(item.boxes);
-  return work;
+Work take_boxes(Item& item, GhostPupil pupil) {
+  item.boxes = std::move(pupil.boxes);
+  return {pupil.rays, pupil.surface_hits};
 }
 
-// Where rays get through: found at the middle wavelength, then fitted to the outer ones.
 Work find_boxes(const Scene& scene, Item& item) {
-  if (!has_axial_symmetry(scene.lens, item.ghost)) return find_askew_box(scene, item);
-  const LightFrame light(item.light->source);
-  const double middle_nm = middle_pass(*item.light).lambda_nm;
-  const PacketPath path(scene.steps.at(middle_nm), item.ghost, {{0.0, 0.0, item.window.z_mm}, light.source});
-  const PupilBoxes found = find_pupil_boxes(path, item.window);
-  Work work{found.rays, found.rays * path.steps().size()};
-  std::vector<Rectangle> near;
-  for (const Rectangle& box : found.boxes)
-    if (!is_mirror_image(box)) near.push_back(with_margin_aside(box));
-  if (!near.empty()) work.add(fit_boxes(scene, item, near));
-  return work;
+  const std::vector<double> lambda_nm = wavelengths_of(*item.light);
+  return take_boxes(item, find_ghost_pupil(request_of(scene, item, lambda_nm)));
 }
 
 }  // namespace
 
 Work widen_boxes(const Scene& scene, Item& item) {
-  std::vector<Rectangle> sharp = std::exchange(item.boxes, {});
-  if (!has_axial_symmetry(scene.lens, item.ghost)) return find_askew_box(scene, item);
-  std::erase_if(sharp, is_mirror_image);
-  const double times = std::min(stop_times(item), std::sqrt(kMuchWider * stop_times(item)));
-  for (Rectangle& box : sharp) box = about_middle(box, times);
-  return fit_boxes(scene, item, sharp);
+  const std::vector<double> lambda_nm = wavelengths_of(*item.light);
+  return take_boxes(item, refit_ghost_pupil(request_of(scene, item, lambda_nm), std::move(item.boxes)));
 }
 
 namespace {
@@ -255,7 +158,10 @@ std::vector<Item> find_items(const Scene& scene, const Context& context, Work& w
         {ghost, &scene.plan.looks[g], &lights[k], windows[k].of(has_axial_symmetry(scene.lens, ghost)), {}});
   });
   std::vector<Work> done(items.size());
-  parallel_for(items.size(), context, [&](std::size_t k) { done[k] = find_boxes(scene, items[k]); });
+  const std::vector<GhostPupil>& known = scene.plan.pupils;
+  parallel_for(items.size(), context, [&](std::size_t k) {
+    done[k] = known.empty() ? find_boxes(scene, items[k]) : take_boxes(items[k], known[k]);
+  });
   for (const Work& w : done) work.add(w);
   return items;
 }

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "render/adaptive/maps/lit_part.h"
+#include "render/adaptive/maps/rays.h"
 #include "render/adaptive/maps/screened_boxes.h"
 #include "render/adaptive/maps/sheet_cells.h"
 

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "base/tasks.h"
-#include "render/interface/light_frame.h"
+#include "ghosts/light_frame.h"
 
 namespace contrejour::area {
 namespace {

@@ -4,9 +4,9 @@
 #include <vector>
 
 #include "contrejour/light_source.h"
+#include "ghosts/light_frame.h"
 #include "optics/trace/lens_steps.h"
 #include "render/area/linear_map.h"
-#include "render/interface/light_frame.h"
 
 namespace contrejour::area {
 

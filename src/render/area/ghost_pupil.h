@@ -5,9 +5,9 @@
 #include <optional>
 #include <vector>
 
+#include "ghosts/light_frame.h"
 #include "optics/trace/lens_steps.h"
 #include "render/area/linear_map.h"
-#include "render/interface/light_frame.h"
 
 namespace contrejour::area {
 

@@ -143,15 +143,9 @@ Result<FramePlan> plan_frame(const LensState& lens, std::span<const Light> light
                              const Context& context) {
   if (const auto problem = problem_with(lens, lights, settings)) return tl::unexpected<Error>(*problem);
   if (const auto good = check_ghost_options(lens, settings.ghosts); !good) return tl::unexpected(good.error());
-  const auto selected = select_ghosts(lens, lights, settings, context);
-  if (!selected) return tl::unexpected<Error>(selected.error());
+  if (const auto good = check_selection(lens, settings.selection); !good) return tl::unexpected(good.error());
 
   FramePlan plan;
-  plan.ghosts = selected->ghosts;
-  plan.looks = ghost_looks(lens, plan.ghosts, settings.ghosts, settings.frame);
-  if (const auto good = check_brightness(lights, plan.ghosts, plan.looks, settings.ghosts); !good)
-    return tl::unexpected(good.error());
-  plan.skipped_flux = selected->skipped_flux;
   Context quiet = context;
   quiet.progress = {};
   const BandsBySpectrum spectra = bands_by_spectrum(lights, settings);
@@ -162,6 +156,14 @@ Result<FramePlan> plan_frame(const LensState& lens, std::span<const Light> light
   plan.lights = std::move(*planned);
   plan.tables = std::move(prepared->tables);
   plan.dirt = std::move(prepared->dirt);
+  auto selected = select_ghosts(lens, plan.lights, plan.tables, settings, quiet);
+  if (!selected) return tl::unexpected<Error>(selected.error());
+  plan.ghosts = std::move(selected->ghosts);
+  plan.looks = ghost_looks(lens, plan.ghosts, settings.ghosts, settings.frame);
+  if (const auto good = check_brightness(lights, plan.ghosts, plan.looks, settings.ghosts); !good)
+    return tl::unexpected(good.error());
+  plan.skipped_flux = selected->skipped_flux;
+  plan.pupils = std::move(selected->pupils);
   return plan;
 }
 

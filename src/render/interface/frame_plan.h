@@ -8,25 +8,13 @@
 #include <vector>
 
 #include "contrejour/render.h"
+#include "ghosts/pupils/ghost_pupil.h"
 #include "render/interface/dirt_field.h"
 #include "render/interface/ghost_look.h"
+#include "render/interface/planned_light.h"
 #include "render/interface/wavelength_tables.h"
 
 namespace contrejour {
-
-// A ghost, a light and a wavelength: the unit of rendering work.
-struct PlannedPass {
-  double lambda_nm = 550;
-  // Pixel value per mm^2 of flux (E0 = 1, LightSource's flux included) that a ghost path puts into the pixel:
-  // gain[c] = V[c] * w[c] / sum over bands of w[c] * Phi, times GhostOptions::edge_gain; looks come on top.
-  Rgb gain{};
-  double spread_nm = 0;  // root mean square, of the wavelengths it stands for about its own
-};
-
-struct PlannedLight {
-  LightSource source;
-  std::vector<PlannedPass> passes;  // by rising wavelength
-};
 
 struct GhostOfLight {
   std::size_t ghost = 0, light = 0;  // in the plan
@@ -38,6 +26,8 @@ struct FramePlan {
   std::vector<PlannedLight> lights;
   TablesByWavelength tables;  // for every wavelength of the passes
   std::shared_ptr<const DirtField> dirt = nullptr;  // null: the lens is clean
+  // Where ghosts come through, by ghost and then by light, if selection had to find out; else empty.
+  std::vector<pupils::GhostPupil> pupils = {};
   std::optional<double> skipped_flux;  // as RenderStatistics::ghosts_skipped_flux
   // Which ghosts of which lights are drawn, by rising ghost, then light; none: all of them.
   std::vector<GhostOfLight> pairs = {};

@@ -9,21 +9,16 @@
 
 #include "base/tasks.h"
 #include "contrejour/check_lens.h"
-#include "contrejour/first_order.h"
+#include "ghosts/direct_meter.h"
+#include "ghosts/light_frame.h"
+#include "ghosts/pupils/ghost_light.h"
 #include "render/interface/check_frame.h"
 #include "render/interface/direct_light.h"
 
 namespace contrejour {
 namespace {
 
-// A parallel bundle at height y leaves at the sensor with height a y and slope c y: it meets the axis -a / c on.
-std::optional<double> paraxial_focus_mm(const LensState& lens, Ghost ghost) {
-  const Abcd m = abcd_ghost(lens, ghost, lens.design_wavelength_nm);
-  const double focus = -m.a / m.c;
-  return std::isfinite(focus) ? std::optional<double>(focus) : std::nullopt;
-}
-
-struct Footprint {
+struct Footprint_px {
   Vec2 low{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
   Vec2 high{-std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
 
@@ -33,35 +28,98 @@ struct Footprint {
   }
 };
 
-GhostFigures figures_of(const LensState& lens, Ghost ghost, const FiguresRequest& request,
-                        std::span<const GhostMeter> meters, const Rgb& whole) {
-  GhostFigures figures;
-  figures.ghost = ghost;
-  figures.paraxial_focus_mm = paraxial_focus_mm(lens, ghost);
-  Rgb flux{};
-  Vec2 centroid_mm;
-  double weight_sum = 0.0;
-  Footprint footprint;
-  for (std::size_t k = 0; k < request.bands.size(); ++k) {
-    const SpectralBand& band = request.bands[k];
-    const GhostMeasure m = meters[k].measure(ghost, request.light.source());
-    for (std::size_t c = 0; c < flux.size(); ++c) flux[c] += band.weight[c] * m.flux_mm2;
-    if (m.flux_mm2 <= 0.0) continue;
-    const double brightness = luminance(band.weight, ColourSpace::Rec709);
-    figures.peak_irradiance += brightness * m.peak_per_mm2;
-    centroid_mm = centroid_mm + m.centroid_mm * (brightness * m.flux_mm2);
-    weight_sum += brightness * m.flux_mm2;
-    footprint.add(request.frame.pixel_from_sensor(m.min_mm));
-    footprint.add(request.frame.pixel_from_sensor(m.max_mm));
+// The lens at the bands' wavelengths, and what all ghosts have in common.
+class FigureMaker {
+ public:
+  FigureMaker(const LensState& lens, const FiguresRequest& request)
+      : lens_(lens), request_(request), windows_(lens, request.light.source()), iris_(lens.iris) {
+    for (const SpectralBand& band : request.bands) lambda_nm_.push_back(band.lambda_nm);
+    std::sort(lambda_nm_.begin(), lambda_nm_.end());
+    lambda_nm_.erase(std::unique(lambda_nm_.begin(), lambda_nm_.end()), lambda_nm_.end());
   }
-  for (std::size_t c = 0; c < flux.size(); ++c) figures.rgb[c] = whole[c] != 0.0 ? flux[c] / whole[c] : 0.0;
-  figures.relative_flux = luminance(figures.rgb, ColourSpace::Rec709);
-  if (weight_sum > 0.0) {
-    figures.centroid_px = request.frame.pixel_from_sensor(centroid_mm * (1.0 / weight_sum));
-    figures.size_px = footprint.high - footprint.low;
+
+  // False when cancelled.
+  [[nodiscard]] bool prepare(const Context& context) {
+    if (lambda_nm_.empty()) return true;
+    for (const double nm : lambda_nm_) tables_.try_emplace(nm);
+    const bool done = parallel_for(lambda_nm_.size(), context, [&](std::size_t k) {
+      tables_.at(lambda_nm_[k]) = std::make_shared<const ReflectanceTables>(lens_, lambda_nm_[k]);
+    });
+    if (!done) return false;
+    for (const double nm : lambda_nm_) steps_.try_emplace(nm, lens_, *tables_.at(nm));
+    MeteredLight light{measured_source(lens_, request_.frame, request_.light.source()), request_.bands};
+    if (!measure_fluxes(lens_, tables_, {&light, 1}, context)) return false;
+    const DirectMeter on_axis(lens_, {{0.0, 0.0, 1.0}, light.source.distance_mm});
+    whole_ = direct_light(request_.bands, light.flux_mm2,
+                          [&](std::size_t k) { return on_axis.flux_mm2(*tables_.at(request_.bands[k].lambda_nm)); });
+    return true;
   }
-  return figures;
-}
+
+  [[nodiscard]] GhostFigures figures_of(const Ghost& ghost) const {
+    GhostFigures figures;
+    figures.ghost = ghost;
+    add_first_order(figures);
+    const LightSource light = request_.light.source();
+    const EntranceWindow window = windows_.of(has_axial_symmetry(lens_, ghost));
+    const pupils::PupilRequest pupil_request{steps_, ghost, light, window, lambda_nm_};
+    const pupils::GhostPupil pupil = find_ghost_pupil(pupil_request);
+    Rgb flux{};
+    Vec2 centroid_mm;
+    double weight_sum = 0.0, luminances = 0.0;
+    Footprint_px footprint;
+    for (const SpectralBand& band : request_.bands) {
+      const GhostMeasure m = measure_ghost(pupil_request, pupil, band.lambda_nm, iris_, request_.frame.pixel_pitch_mm);
+      const double brightness = luminance(band.weight, ColourSpace::Rec709);
+      luminances += brightness;
+      figures.reflectance += brightness * reflectance_of(ghost, band.lambda_nm);
+      for (std::size_t c = 0; c < flux.size(); ++c) flux[c] += band.weight[c] * m.flux_mm2;
+      if (m.flux_mm2 <= 0.0) continue;
+      figures.peak_irradiance += brightness * m.peak_per_mm2;
+      centroid_mm = centroid_mm + m.centroid_mm * (brightness * m.flux_mm2);
+      weight_sum += brightness * m.flux_mm2;
+      footprint.add(request_.frame.pixel_from_sensor(m.min_mm));
+      footprint.add(request_.frame.pixel_from_sensor(m.max_mm));
+    }
+    if (luminances > 0.0) figures.reflectance /= luminances;
+    for (std::size_t c = 0; c < flux.size(); ++c) figures.rgb[c] = whole_[c] != 0.0 ? flux[c] / whole_[c] : 0.0;
+    figures.relative_flux = luminance(figures.rgb, ColourSpace::Rec709);
+    if (weight_sum > 0.0) {
+      figures.centroid_mm = centroid_mm * (1.0 / weight_sum);
+      figures.centroid_px = request_.frame.pixel_from_sensor(figures.centroid_mm);
+      figures.size_px = footprint.high - footprint.low;
+      figures.size_mm = figures.size_px * request_.frame.pixel_pitch_mm;
+    }
+    return figures;
+  }
+
+ private:
+  void add_first_order(GhostFigures& figures) const {
+    figures.first_order = ghost_first_order(lens_, figures.ghost, lens_.design_wavelength_nm);
+    const double diagonal_mm = std::hypot(lens_.sensor_width_mm, lens_.sensor_height_mm);
+    figures.in_focus = figures.first_order.blur_mm <= GhostFigures::kSharpBlur * diagonal_mm;
+    figures.pupil_ghost = std::abs(figures.first_order.place) <= GhostFigures::kStillPlace;
+  }
+
+  [[nodiscard]] double reflectance_of(const Ghost& ghost, double lambda_nm) const {
+    double product = 1.0;
+    for (const int number : {ghost.i, ghost.j, ghost.k, ghost.l}) {
+      if (number == 0) continue;
+      const SurfaceState& surface = lens_.surfaces[static_cast<std::size_t>(number - 1)];
+      product *= reflectance(surface.coating, refractive_index(surface.before, lambda_nm),
+                             refractive_index(surface.after, lambda_nm), 1.0, lambda_nm);
+    }
+    return product;
+  }
+
+  const LensState& lens_;
+  const FiguresRequest& request_;
+  LightWindows windows_;
+  IrisShape iris_;
+  std::vector<double> lambda_nm_;  // rising
+  TablesByWavelength tables_;
+  StepsByWavelength steps_;
+  Rgb whole_{};
+};
 
 Result<void> check_request(const LensState& lens, const FiguresRequest& request) {
   if (auto good = check_lens(lens); !good) return good;
@@ -80,17 +138,12 @@ Result<std::vector<GhostFigures>> ghost_figures(const LensState& lens, const Fig
   if (const auto good = check_request(lens, request); !good) return tl::unexpected(good.error());
   if (const auto good = check_source(lens, request.light.source()); !good) return tl::unexpected(good.error());
   const std::vector<Ghost> ghosts = enumerate_ghosts(lens, request.scope, request.reflections);
-  std::vector<GhostMeter> meters;
-  for (const SpectralBand& band : request.bands) meters.emplace_back(lens, band.lambda_nm);
-  const LightSource measured = measured_source(lens, request.frame, request.light.source());
-  std::vector<double> direct_mm2;
-  for (const GhostMeter& meter : meters) direct_mm2.push_back(meter.direct_flux(measured));
-  const LightSource on_axis({0.0, 0.0, 1.0}, measured.distance_mm);
-  const Rgb whole =
-      direct_light(request.bands, direct_mm2, [&](std::size_t k) { return meters[k].direct_flux(on_axis); });
+  FigureMaker maker(lens, request);
+  Context quiet = context;
+  quiet.progress = {};
+  if (!maker.prepare(quiet)) return interrupted();
   std::vector<GhostFigures> all(ghosts.size());
-  const bool done = parallel_for(ghosts.size(), context,
-                                 [&](std::size_t g) { all[g] = figures_of(lens, ghosts[g], request, meters, whole); });
+  const bool done = parallel_for(ghosts.size(), context, [&](std::size_t g) { all[g] = maker.figures_of(ghosts[g]); });
   if (!done) return interrupted();
   std::stable_sort(all.begin(), all.end(),
                    [](const GhostFigures& a, const GhostFigures& b) { return a.relative_flux > b.relative_flux; });

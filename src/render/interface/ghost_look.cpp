@@ -16,15 +16,8 @@ tl::unexpected<Error> invalid(std::string message) { return failure(ErrorCode::I
 bool is_gain(double value) { return value >= 0.0 && std::isfinite(value); }
 bool is_colour(const Rgb& rgb) { return std::all_of(rgb.begin(), rgb.end(), is_gain); }
 
-// Landing over the tangent of the field angle, of the first-order ray through the middle of the stop (at its first
-// crossing): y = -b / a (of the way to the stop) at slope 1 meets it there.
-double chief_landing_mm(const Abcd& to_stop, const Abcd& to_sensor) {
-  return to_sensor.b - to_sensor.a * to_stop.b / to_stop.a;
-}
-
-Abcd inverse(const Abcd& m) {
-  const double det = m.a * m.d - m.b * m.c;
-  return {m.d / det, -m.b / det, -m.c / det, m.a / det};
+std::string name_of(const GhostAdjustment& a) {
+  return a.surface != 0 ? fmt::format("ghost of surface {}", a.surface) : fmt::format("ghost {}", ghost_name(a.ghost));
 }
 
 Rgb ramp_at(const std::vector<GhostRampStop>& ramp, double place) {
@@ -48,33 +41,18 @@ Vec2 scattered(Ghost ghost, std::uint32_t seed) {
 
 }  // namespace
 
-double first_order_place(const LensState& lens, Ghost ghost) {
-  const double lambda_nm = lens.design_wavelength_nm;
-  const auto& surfaces = lens.surfaces;
-  const int last = static_cast<int>(surfaces.size()) - 1;
-  const Abcd to_sensor_plane{1.0, lens.sensor_z_mm - surfaces.back().z_mm, 0.0, 1.0};
-  const Abcd to_stop = abcd_between(surfaces, 0, lens.stop_index, lambda_nm);
-  const Abcd direct = to_sensor_plane * abcd_between(surfaces, 0, last, lambda_nm);
-  const Abcd by_ghost = abcd_ghost(lens, ghost, lambda_nm);
-  // A ghost of surfaces before the stop is the direct way from the stop on, after its own way there.
-  const bool before_stop = ghost.farthest() - 1 < lens.stop_index;
-  const Abcd ghost_to_stop = before_stop ? to_stop * inverse(direct) * by_ghost : to_stop;
-  return chief_landing_mm(ghost_to_stop, by_ghost) / chief_landing_mm(to_stop, direct);
-}
-
 Result<void> check_ghost_options(const LensState& lens, const GhostOptions& options) {
   if (!is_gain(options.gain) || !is_gain(options.edge_gain)) return invalid("a gain of ghosts must be 0 or more");
   if (!(options.scatter >= 0.0 && options.scatter <= kFarthestOffset))
     return invalid(fmt::format("ghosts are scattered by 0 to {} times the frame's height", kFarthestOffset));
   for (const GhostAdjustment& a : options.adjustments) {
-    if (!has_ghost(lens, a.ghost))
-      return invalid(fmt::format("there is no ghost {} in this lens; `contrejour ghosts` lists those there are",
-                                 ghost_name(a.ghost)));
+    const std::string whose = name_of(a);
+    if (a.surface != 0 ? !reflects_at(lens, a.surface) : !has_ghost(lens, a.ghost))
+      return invalid(fmt::format("there is no {} in this lens; `contrejour ghosts` lists those there are", whose));
     if (!is_gain(a.gain) || !is_colour(a.colour))
-      return invalid(fmt::format("ghost {}: give a gain and colours of 0 or more", ghost_name(a.ghost)));
+      return invalid(fmt::format("{}: give a gain and colours of 0 or more", whose));
     if (!(std::abs(a.offset.x) <= kFarthestOffset && std::abs(a.offset.y) <= kFarthestOffset))
-      return invalid(fmt::format("ghost {}: give an offset of at most {} times the frame's height", ghost_name(a.ghost),
-                                 kFarthestOffset));
+      return invalid(fmt::format("{}: give an offset of at most {} times the frame's height", whose, kFarthestOffset));
   }
   for (std::size_t k = 0; k < options.ramp.size(); ++k) {
     const GhostRampStop& stop = options.ramp[k];
@@ -114,9 +92,10 @@ std::vector<GhostLook> ghost_looks(const LensState& lens, std::span<const Ghost>
     const auto tint = [&](const Rgb& colour, double gain) {
       for (std::size_t c = 0; c < colour.size(); ++c) look.tint[c] *= colour[c] * gain;
     };
-    if (!options.ramp.empty()) tint(ramp_at(options.ramp, first_order_place(lens, ghost)), 1.0);
+    if (!options.ramp.empty())
+      tint(ramp_at(options.ramp, ghost_first_order(lens, ghost, lens.design_wavelength_nm).place), 1.0);
     for (const GhostAdjustment& a : options.adjustments) {
-      if (a.ghost != ghost) continue;
+      if (a.surface != 0 ? !ghost.reflects_at(a.surface) : a.ghost != ghost) continue;
       tint(a.colour, a.gain);
       offset = offset + a.offset;
     }

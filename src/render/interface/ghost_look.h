@@ -34,8 +34,4 @@ inline constexpr double kFarthestOffset = 1000.0, kFarthestPlace = 1e6;
 [[nodiscard]] std::vector<GhostLook> ghost_looks(const LensState& lens, std::span<const Ghost> ghosts,
                                                  const GhostOptions& options, const Frame& frame);
 
-// Where a ghost lies over where the light's image does, by first-order chief rays of a distant light: infinite for a
-// light whose own chief ray stays on the axis.
-[[nodiscard]] double first_order_place(const LensState& lens, Ghost ghost);
-
 }  // namespace contrejour

@@ -9,44 +9,127 @@
 #include <fmt/format.h>
 
 #include "base/tasks.h"
+#include "ghosts/light_frame.h"
+#include "ghosts/pupils/ghost_light.h"
+#include "render/interface/wavelength_samples.h"
 
 namespace contrejour {
 namespace {
 
-constexpr double kGreen_nm = 550.0;  // ghosts are ranked there
+using pupils::GhostPupil;
+using pupils::PupilRequest;
 
-// Flux of each ghost summed over the lights, weighted by their luminance, in green.
-Result<std::vector<double>> ghost_fluxes(const LensState& lens, std::span<const Ghost> ghosts,
-                                         std::span<const Light> lights, const RenderSettings& settings,
-                                         const Context& context) {
-  std::vector<double> flux(ghosts.size(), 0.0);
-  Context quiet = context;
-  quiet.progress = {};
-  const GhostMeter meter(lens, kGreen_nm);
-  const bool done = parallel_for(ghosts.size(), quiet, [&](std::size_t g) {
-    for (const Light& light : lights) {
-      const double weight = std::abs(luminance(light.value, settings.colour_space));
-      flux[g] += weight * meter.measure(ghosts[g], light.source()).flux_mm2;
+constexpr std::size_t kMostMeasured = 5;  // wavelengths of a light: polynomials through these give the others
+constexpr std::size_t kMostKept = 1U << 16U;  // pupils, beyond which they are looked for again rather than kept
+
+// The pupils of ghosts, and what they add to the picture: by ghost and then by light.
+struct Measured {
+  std::vector<GhostPupil> pupils;
+  std::vector<Rgb> flux;  // of each ghost by all lights, in pixel values, sizes summed
+};
+
+// A light's wavelengths that are measured, and what it makes of their fluxes.
+class MeasuredLight {
+ public:
+  explicit MeasuredLight(const LensState& lens, const PlannedLight& light)
+      : light_(light), windows_(lens, light.source) {
+    for (const PlannedPass& pass : light.passes) all_nm_.push_back(pass.lambda_nm);
+    const WavelengthSamples samples(all_nm_, kMostMeasured);
+    std::vector<std::size_t> chosen;
+    for (std::size_t k = 0; k < samples.size(); ++k) chosen.push_back(samples[k]);
+    std::vector<std::size_t> order(chosen.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return chosen[a] < chosen[b]; });
+    for (const std::size_t k : order) {
+      measured_nm_.push_back(all_nm_[chosen[k]]);
+      Rgb gain{};
+      for (std::size_t pass = 0; pass < all_nm_.size(); ++pass) {
+        const double factor = samples.factors(samples.size(), pass)[k];
+        for (std::size_t c = 0; c < 3; ++c) gain[c] += factor * light.passes[pass].gain[c];
+      }
+      gain_.push_back(gain);
     }
+  }
+
+  [[nodiscard]] PupilRequest request(const LensState& lens, const StepsByWavelength& steps, const Ghost& ghost) const {
+    return {steps, ghost, light_.source, windows_.of(has_axial_symmetry(lens, ghost)), all_nm_};
+  }
+  [[nodiscard]] Rgb flux(PupilRequest request, const GhostPupil& pupil, const IrisShape& iris) const {
+    request.lambda_nm = measured_nm_;
+    const std::vector<double> by_wavelength = rough_fluxes(request, pupil, iris);
+    Rgb sum{};
+    for (std::size_t k = 0; k < gain_.size(); ++k)
+      for (std::size_t c = 0; c < 3; ++c) sum[c] += gain_[k][c] * by_wavelength[k];
+    return sum;
+  }
+
+ private:
+  const PlannedLight& light_;
+  LightWindows windows_;
+  std::vector<double> all_nm_, measured_nm_;  // rising
+  std::vector<Rgb> gain_;  // one for each that is measured
+};
+
+Result<Measured> measure_ghosts(const LensState& lens, std::span<const Ghost> ghosts,
+                                std::span<const PlannedLight> lights, const TablesByWavelength& tables,
+                                const Context& context) {
+  StepsByWavelength steps;
+  for (const auto& [lambda_nm, table] : tables) steps.try_emplace(lambda_nm, lens, *table);
+  std::vector<MeasuredLight> measured;
+  for (const PlannedLight& light : lights) measured.emplace_back(lens, light);
+  const IrisShape iris(lens.iris);
+  const std::size_t count = ghosts.size() * lights.size();
+  std::vector<Rgb> flux(count);
+  Measured out;
+  out.pupils.resize(count <= kMostKept ? count : 0);
+  const bool done = parallel_for(count, context, [&](std::size_t k) {
+    const MeasuredLight& light = measured[k % lights.size()];
+    const PupilRequest request = light.request(lens, steps, ghosts[k / lights.size()]);
+    GhostPupil pupil = find_ghost_pupil(request);
+    flux[k] = light.flux(request, pupil, iris);
+    if (!out.pupils.empty()) out.pupils[k] = std::move(pupil);
   });
   if (!done) return interrupted();
+  out.flux.resize(ghosts.size());
+  for (std::size_t k = 0; k < count; ++k)
+    for (std::size_t c = 0; c < 3; ++c) out.flux[k / lights.size()][c] += std::abs(flux[k][c]);
+  return out;
+}
+
+// Of each ghost the shares of the flux of all, channel by channel.
+std::vector<Rgb> shares_of(std::vector<Rgb> flux) {
+  Rgb whole{};
+  for (const Rgb& one : flux)
+    for (std::size_t c = 0; c < 3; ++c) whole[c] += one[c];
+  for (Rgb& one : flux)
+    for (std::size_t c = 0; c < 3; ++c) one[c] = whole[c] > 0.0 ? one[c] / whole[c] : 0.0;
   return flux;
 }
 
-// Indices of the ghosts by falling flux, ties in ghost order.
-std::vector<std::size_t> by_falling_flux(const std::vector<double>& flux) {
-  std::vector<std::size_t> order(flux.size());
+double largest(const Rgb& rgb) { return *std::max_element(rgb.begin(), rgb.end()); }
+
+// Indices of the ghosts, the brightest first, ties in ghost order.
+std::vector<std::size_t> by_falling_share(const std::vector<Rgb>& share) {
+  std::vector<std::size_t> order(share.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return flux[a] > flux[b]; });
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return largest(share[a]) > largest(share[b]); });
   return order;
 }
 
-std::size_t count_to_keep(const SelectByFlux& select, const std::vector<double>& flux,
+// As few as leave no channel without more than the share that may be dropped.
+std::size_t count_to_keep(const SelectByFlux& select, const std::vector<Rgb>& share,
                           const std::vector<std::size_t>& order) {
-  const double allowed = std::accumulate(flux.begin(), flux.end(), 0.0) * select.drop_percent / 100.0;
-  double dropped = 0.0;
+  const double allowed = select.drop_percent / 100.0;
+  Rgb dropped{};
   std::size_t keep = order.size();
-  while (keep > 0 && dropped + flux[order[keep - 1]] <= allowed) dropped += flux[order[--keep]];
+  while (keep > 0) {
+    Rgb next = dropped;
+    for (std::size_t c = 0; c < 3; ++c) next[c] += share[order[keep - 1]][c];
+    if (largest(next) > allowed) break;
+    dropped = next;
+    --keep;
+  }
   return keep;
 }
 
@@ -61,22 +144,22 @@ Result<void> check_list(const LensState& lens, const std::vector<Ghost>& list) {
 }
 
 // The first so many of the order, back in (i, j) order.
-GhostChoice first_of(const std::vector<Ghost>& all, const std::vector<double>& flux,
-                     const std::vector<std::size_t>& order, std::size_t count) {
+GhostChoice first_of(const std::vector<Ghost>& all, std::size_t lights, Measured& measured,
+                     const std::vector<Rgb>& share, const std::vector<std::size_t>& order, std::size_t count) {
   std::vector<bool> is_kept(all.size(), false);
   for (std::size_t k = 0; k < std::min(count, order.size()); ++k) is_kept[order[k]] = true;
   GhostChoice out;
-  double total = 0.0;
-  double skipped = 0.0;
+  Rgb skipped{};
   for (std::size_t g = 0; g < all.size(); ++g) {
-    total += flux[g];
-    if (is_kept[g]) {
-      out.ghosts.push_back(all[g]);
-    } else {
-      skipped += flux[g];
+    if (!is_kept[g]) {
+      for (std::size_t c = 0; c < 3; ++c) skipped[c] += share[g][c];
+      continue;
     }
+    out.ghosts.push_back(all[g]);
+    for (std::size_t light = 0; light < lights && !measured.pupils.empty(); ++light)
+      out.pupils.push_back(std::move(measured.pupils[g * lights + light]));
   }
-  out.skipped_flux = total > 0.0 ? skipped / total : 0.0;
+  out.skipped_flux = largest(skipped);
   return out;
 }
 
@@ -90,7 +173,8 @@ GhostChoice those_where(const std::vector<Ghost>& all, Condition condition) {
 // One selection of ghosts each.
 struct Selector {
   const LensState& lens;
-  std::span<const Light> lights;
+  std::span<const PlannedLight> lights;
+  const TablesByWavelength& tables;
   const RenderSettings& settings;
   const Context& context;
 
@@ -98,41 +182,45 @@ struct Selector {
     return enumerate_ghosts(lens, settings.scope, settings.reflections);
   }
 
-  Result<GhostChoice> operator()(const SelectAll&) const { return GhostChoice{in_scope(), 0.0}; }
+  Result<GhostChoice> operator()(const SelectAll&) const { return GhostChoice{in_scope(), 0.0, {}}; }
   Result<GhostChoice> operator()(const SelectBrightest& select) const {
     return by_flux([&](const auto&, const auto&) { return static_cast<std::size_t>(std::max(0, select.count)); });
   }
   Result<GhostChoice> operator()(const SelectByFlux& select) const {
-    return by_flux([&](const auto& flux, const auto& order) { return count_to_keep(select, flux, order); });
+    return by_flux([&](const auto& share, const auto& order) { return count_to_keep(select, share, order); });
   }
   Result<GhostChoice> operator()(const SelectList& select) const {
-    if (const auto ok = check_list(lens, select.ghosts); !ok) return tl::unexpected<Error>(ok.error());
     const std::set<Ghost> once(select.ghosts.begin(), select.ghosts.end());
-    return GhostChoice{{once.begin(), once.end()}, std::nullopt};
+    return GhostChoice{{once.begin(), once.end()}};
   }
   Result<GhostChoice> operator()(const SelectSurface& select) const {
-    return those_where(in_scope(), [&](const Ghost& g) {
-      return g.i == select.surface || g.j == select.surface || g.k == select.surface || g.l == select.surface;
-    });
+    return those_where(in_scope(), [&](const Ghost& g) { return g.reflects_at(select.surface); });
   }
 
  private:
-  // count(flux, order): how many to keep, given the fluxes and the ghosts' indices by falling flux.
+  // count(shares, order): how many to keep, given the ghosts' shares of the flux and their indices by falling share.
   template <class Count>
   [[nodiscard]] Result<GhostChoice> by_flux(Count count) const {
     const auto all = in_scope();
-    const auto flux = ghost_fluxes(lens, all, lights, settings, context);
-    if (!flux) return tl::unexpected<Error>(flux.error());
-    const auto order = by_falling_flux(*flux);
-    return first_of(all, *flux, order, count(*flux, order));
+    auto measured = measure_ghosts(lens, all, lights, tables, context);
+    if (!measured) return tl::unexpected<Error>(measured.error());
+    const std::vector<Rgb> share = shares_of(measured->flux);
+    const auto order = by_falling_share(share);
+    return first_of(all, lights.size(), *measured, share, order, count(share, order));
   }
 };
 
 }  // namespace
 
-Result<GhostChoice> select_ghosts(const LensState& lens, std::span<const Light> lights, const RenderSettings& settings,
+Result<void> check_selection(const LensState& lens, const GhostSelection& selection) {
+  const auto* const list = std::get_if<SelectList>(&selection);
+  return list != nullptr ? check_list(lens, list->ghosts) : Result<void>();
+}
+
+Result<GhostChoice> select_ghosts(const LensState& lens, std::span<const PlannedLight> lights,
+                                  const TablesByWavelength& tables, const RenderSettings& settings,
                                   const Context& context) {
-  return std::visit(Selector{lens, lights, settings, context}, settings.selection);
+  return std::visit(Selector{lens, lights, tables, settings, context}, settings.selection);
 }
 
 }  // namespace contrejour

@@ -6,17 +6,29 @@
 #include <vector>
 
 #include "contrejour/render.h"
+#include "ghosts/pupils/ghost_pupil.h"
+#include "render/interface/planned_light.h"
+#include "render/interface/wavelength_tables.h"
 
 namespace contrejour {
 
 struct GhostChoice {
   std::vector<Ghost> ghosts;  // in (i, j) order
-  std::optional<double> skipped_flux;  // share of the flux of all ghosts that the others carry, where measured
+  // Of the flux of all ghosts the share that the others carry, in the channel that loses most; none where it was not
+  // measured.
+  std::optional<double> skipped_flux = std::nullopt;
+  // Where each comes through, lights in turn, if that had to be found out.
+  std::vector<pupils::GhostPupil> pupils = {};
 };
 
-// Ghosts are measured only where their flux decides: SelectBrightest and SelectByFlux.
-// Errors: InvalidArgument for a listed ghost the lens does not have, Cancelled.
-[[nodiscard]] Result<GhostChoice> select_ghosts(const LensState& lens, std::span<const Light> lights,
-                                                const RenderSettings& settings, const Context& context);
+// Errors: InvalidArgument for a listed ghost that the lens does not have.
+[[nodiscard]] Result<void> check_selection(const LensState& lens, const GhostSelection& selection);
+
+// Ghosts are measured only where their flux decides: SelectBrightest and SelectByFlux. What counts is what they add to
+// the picture's channels, by the lights' values and spectra: a ghost is as bright as its largest share of the flux of
+// all ghosts in any channel. tables: of the lights' wavelengths. Errors: Cancelled.
+[[nodiscard]] Result<GhostChoice> select_ghosts(const LensState& lens, std::span<const PlannedLight> lights,
+                                                const TablesByWavelength& tables, const RenderSettings& settings,
+                                                const Context& context);
 
 }  // namespace contrejour

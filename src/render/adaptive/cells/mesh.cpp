@@ -4,7 +4,7 @@
 #include <cmath>
 #include <map>
 
-#include "render/adaptive/maps/lobatto.h"
+#include "render/adaptive/maps/rays.h"
 
 namespace contrejour::adaptive {
 namespace {

@@ -9,11 +9,10 @@
 #include <vector>
 
 #include "optics/trace/lens_steps.h"
-#include "render/adaptive/maps/ray_sheet.h"
+#include "render/adaptive/maps/rays.h"
+#include "render/interface/planned_light.h"
 
 namespace contrejour::adaptive {
-
-using StepsByWavelength = std::map<double, LensSteps>;
 
 class GhostTracers {
  public:

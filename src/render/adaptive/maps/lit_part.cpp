@@ -6,9 +6,6 @@
 #include <limits>
 #include <vector>
 
-#include "render/adaptive/maps/lobatto.h"
-#include "render/adaptive/pupils/extremes.h"
-
 namespace contrejour::adaptive {
 namespace {
 
@@ -38,20 +35,10 @@ class LitCells {
   }
 
   [[nodiscard]] std::optional<Rectangle> part() const {
-    std::optional<Rectangle> all;
-    for (std::size_t row = 0; row + 1 < n_; ++row) {
-      for (std::size_t column = 0; column + 1 < n_; ++column) {
-        if (!may_be_lit(row * n_ + column)) continue;
-        const Rectangle cell{place_of(column, row), place_of(column + 1, row + 1)};
-        all = all ? both(*all, cell) : cell;
-      }
-    }
-    return all;
+    return bounds_of_cells(sheet_, [&](const CellCorners& corners) { return may_be_lit(corners); });
   }
 
  private:
-  [[nodiscard]] bool arrives(std::size_t node) const { return std::isfinite(sheet_.r_rel[node]); }
-
   // Pixels of all nodes, of the box or of its mirror image.
   void place(const LightFrame& light, double side) {
     std::vector<std::array<float, 2>>& pixels = pixels_.emplace_back(sheet_.count());
@@ -61,48 +48,26 @@ class LitCells {
     }
   }
 
-  [[nodiscard]] Vec2 place_of(std::size_t column, std::size_t row) const {
-    const auto& points = lobatto_points(sheet_.nodes);
-    const Vec2 half = (sheet_.box.high - sheet_.box.low) * 0.5;
-    return sheet_.box.low + Vec2{half.x * (1.0 + points[column]), half.y * (1.0 + points[row])};
-  }
-
-  [[nodiscard]] bool may_be_lit(std::size_t first) const {
-    const std::array<std::size_t, 4> corners{first, first + 1, first + n_, first + n_ + 1};
-    const auto known = std::ranges::count_if(corners, [&](std::size_t k) { return arrives(k); });
-    if (known == 0 || !may_pass(corners)) return false;
+  [[nodiscard]] bool may_be_lit(const CellCorners& corners) const {
+    if (!may_pass(sheet_, corners)) return false;
+    const bool all_known = std::ranges::all_of(corners, [&](std::size_t k) { return sheet_.arrives(k); });
     return std::ranges::any_of(pixels_, [&](const auto& pixels) {
-      return known == 4 ? bounds_of(pixels, corners).touches(frame_, kReach) : lands_near(pixels, corners);
+      return all_known ? bounds_of(pixels, corners).touches(frame_, kReach) : lands_near(pixels, corners);
     });
-  }
-
-  [[nodiscard]] bool may_pass(const std::array<std::size_t, 4>& corners) const {
-    std::array<Extremes, 1 + kMaxStopCrossings> extremes;
-    for (const std::size_t k : corners) {
-      if (!arrives(k)) continue;
-      extremes[0].add(sheet_.r_rel[k] - 1.0F);
-      for (std::size_t c = 0; c < sheet_.stop.size(); ++c) {
-        const float x = sheet_.stop[c][0][k], y = sheet_.stop[c][1][k];
-        extremes[1 + c].add(std::sqrt(x * x + y * y) - 1.0F);
-      }
-    }
-    return std::all_of(extremes.begin(), extremes.begin() + 1 + static_cast<std::ptrdiff_t>(sheet_.stop.size()),
-                       [](const Extremes& e) { return e.may_pass(1.0F); });
   }
 
   template <class Nodes>
   [[nodiscard]] PixelBounds bounds_of(const std::vector<std::array<float, 2>>& pixels, const Nodes& nodes) const {
     PixelBounds bounds;
     for (const std::size_t k : nodes)
-      if (arrives(k)) bounds.add(pixels[k][0], pixels[k][1]);
+      if (sheet_.arrives(k)) bounds.add(pixels[k][0], pixels[k][1]);
     return bounds;
   }
 
   // Of a cell some corner of which fails: any other about which the rays land near the frame.
-  [[nodiscard]] bool lands_near(const std::vector<std::array<float, 2>>& pixels,
-                                const std::array<std::size_t, 4>& corners) const {
+  [[nodiscard]] bool lands_near(const std::vector<std::array<float, 2>>& pixels, const CellCorners& corners) const {
     return std::ranges::any_of(corners, [&](std::size_t k) {
-      return arrives(k) && bounds_of(pixels, around(k)).touches(frame_, kReachBesideFailure);
+      return sheet_.arrives(k) && bounds_of(pixels, around(k)).touches(frame_, kReachBesideFailure);
     });
   }
 

@@ -5,7 +5,7 @@
 #include <span>
 
 #include "contrejour/frame.h"
-#include "render/adaptive/maps/ray_sheet.h"
+#include "render/adaptive/maps/rays.h"
 
 namespace contrejour::adaptive {
 

@@ -4,20 +4,16 @@
 #include <cmath>
 #include <map>
 
-#include "render/adaptive/maps/lobatto.h"
+#include "render/adaptive/maps/rays.h"
 
 namespace contrejour::adaptive {
 namespace {
 
-// A rim counts once a ray of the sheet passes beyond this share of it, squared.
-constexpr float kNearRim = 0.94F;
-
 // Matrices for one number of nodes.
 struct NodeMatrices {
-  Matrix coefficients;
   std::array<Matrix, 2> half;  // to the nodes of the low and of the high half
 
-  explicit NodeMatrices(int nodes) : coefficients(coefficient_matrix(nodes)) {
+  explicit NodeMatrices(int nodes) {
     for (std::size_t side = 0; side < 2; ++side) {
       auto points = lobatto_points(nodes);
       for (double& p : points) p = 0.5 * (p + (side == 0 ? -1.0 : 1.0));
@@ -32,60 +28,13 @@ const NodeMatrices& matrices(int nodes) {
   return all.at(nodes);
 }
 
-// along_y^T * field * along_x, both nodes by nodes.
-void transform(const float* field, int nodes, const Matrix& along_x, const Matrix& along_y, float* out) {
-  const int stride = along_x.stride;
-  std::array<float, 17 * 32> half{};
-  std::array<float, 17 * 32> whole{};
-  multiply(field, nodes, nodes, nodes, along_x, half.data());
-  multiply_transposed(along_y, half.data(), stride, whole.data());
-  for (int row = 0; row < nodes; ++row) std::copy_n(whole.data() + row * stride, nodes, out + row * nodes);
-}
-
-bool blocks_within(const RaySheet& sheet, std::size_t step) {
-  return !sheet.blocks_within.empty() && sheet.blocks_within[step];
-}
-
-// The largest of at least one value: eight at a time, as a single maximum would have to wait for its last comparison.
-float highest_of(const float* values, std::size_t count) {
-  std::array<float, 8> most;
-  most.fill(values[0]);
-  std::size_t k = 0;
-  for (; k + most.size() <= count; k += most.size()) {
-    for (std::size_t lane = 0; lane < most.size(); ++lane) most[lane] = std::max(most[lane], values[k + lane]);
-  }
-  for (; k < count; ++k) most[0] = std::max(most[0], values[k]);
-  return *std::max_element(most.begin(), most.end());
-}
-
-// Indices of the steps whose rims may cut the sheet, those that cut deepest first. What an obscuration blocks may lie
-// between the rays: no square rises above its highest value there by more than its values differ.
-std::vector<std::size_t> rims_in_play(std::span<const RaySheet> sheets) {
-  std::vector<std::pair<float, std::size_t>> found;
-  const std::size_t count = sheets.front().count();
-  for (std::size_t at = 0; at < sheets.front().rim_squared.size(); at += count) {
-    float highest = 0.0F;
-    for (const RaySheet& sheet : sheets) {
-      const float* rim = sheet.rim_squared.data() + at;
-      float high = highest_of(rim, count);
-      if (blocks_within(sheet, at / count)) high += high - *std::min_element(rim, rim + count);
-      highest = std::max(highest, high);
-    }
-    if (highest > kNearRim) found.emplace_back(-highest, at / count);
-  }
-  std::sort(found.begin(), found.end());
-  std::vector<std::size_t> steps;
-  for (const auto& [height, step] : found) steps.push_back(step);
-  return steps;
-}
-
 // The rims of `steps` in fields of their own; more than there is room for share the last one.
 void copy_rims(const RaySheet& sheet, const std::vector<std::size_t>& steps, Patch& patch) {
   for (std::size_t k = 0; k < steps.size(); ++k) {
     const float* rim = sheet.rim_squared.data() + steps[k] * sheet.count();
     const int to_rim = std::min(static_cast<int>(k), kMostRims - 1);
     float* to = patch.field(patch.layout.rim(to_rim));
-    if (blocks_within(sheet, steps[k])) patch.layout.obscurations |= 1U << to_rim;
+    if (sheet.blocks_at(steps[k])) patch.layout.obscurations |= 1U << to_rim;
     const bool shared = k >= static_cast<std::size_t>(kMostRims);
     for (std::size_t node = 0; node < patch.size(); ++node)
       to[node] = shared ? std::max(to[node], rim[node]) : rim[node];
@@ -112,19 +61,6 @@ double largest_size(const float* field, std::size_t count) {
   float largest = 0.0F;
   for (std::size_t k = 0; k < count; ++k) largest = std::max(largest, std::abs(field[k]));
   return largest;
-}
-
-// Sum of the coefficients of highest degree in either direction.
-double tail(const float* field, int nodes) {
-  const Matrix& to_coefficients = matrices(nodes).coefficients;
-  std::array<float, 17 * 17> c{};
-  transform(field, nodes, to_coefficients, to_coefficients, c.data());
-  double sum = 0.0;
-  for (int k = 0; k < nodes; ++k) {
-    sum += std::abs(c[static_cast<std::size_t>(nodes * nodes - nodes + k)]);
-    if (k < nodes - 1) sum += std::abs(c[static_cast<std::size_t>(k * nodes + nodes - 1)]);
-  }
-  return sum;
 }
 
 Vec2 on_frame(const RaySheet& sheet, std::size_t node, const LightFrame& light, const Frame& frame) {
@@ -243,16 +179,17 @@ std::vector<Patch> patches_of_cells(const RaySheet& sheet, const LightFrame& lig
 PatchError estimated_error(const Patch& patch) {
   PatchError error;
   const PatchLayout& layout = patch.layout;
-  error.position_px =
-      std::max(tail(patch.field(PatchLayout::kX), patch.nodes), tail(patch.field(PatchLayout::kY), patch.nodes));
+  error.position_px = std::max(highest_terms(patch.field(PatchLayout::kX), patch.nodes),
+                               highest_terms(patch.field(PatchLayout::kY), patch.nodes));
   for (int k = 0; k < 2 * layout.crossings; ++k)
-    error.stop = std::max(error.stop, tail(patch.field(PatchLayout::kStop + k), patch.nodes));
-  for (int k = 0; k < layout.rims; ++k) error.rim = std::max(error.rim, tail(patch.field(layout.rim(k)), patch.nodes));
+    error.stop = std::max(error.stop, highest_terms(patch.field(PatchLayout::kStop + k), patch.nodes));
+  for (int k = 0; k < layout.rims; ++k)
+    error.rim = std::max(error.rim, highest_terms(patch.field(layout.rim(k)), patch.nodes));
   double largest = 0.0;
   for (int k = 0; k < layout.weights; ++k) {
     const float* field = patch.field(layout.weight(k));
     largest = std::max(largest, largest_size(field, patch.size()));
-    error.weight = std::max(error.weight, tail(field, patch.nodes));
+    error.weight = std::max(error.weight, highest_terms(field, patch.nodes));
   }
   if (largest > 0.0) error.weight /= largest;
   return error;

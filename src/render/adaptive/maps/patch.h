@@ -8,8 +8,9 @@
 #include <span>
 #include <vector>
 
+#include "contrejour/colour.h"
 #include "contrejour/frame.h"
-#include "render/adaptive/maps/ray_sheet.h"
+#include "render/adaptive/maps/rays.h"
 
 namespace contrejour::adaptive {
 

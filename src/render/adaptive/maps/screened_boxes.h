@@ -3,8 +3,8 @@
 
 #include <optional>
 
-#include "render/adaptive/maps/ray_sheet.h"
-#include "render/interface/light_frame.h"
+#include "ghosts/light_frame.h"
+#include "render/adaptive/maps/rays.h"
 #include "render/screens/band_screen.h"
 
 namespace contrejour::adaptive {

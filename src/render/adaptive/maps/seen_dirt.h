@@ -1,8 +1,8 @@
 // Dirt as a ghost's rays come upon it.
 #pragma once
 
+#include "ghosts/light_frame.h"
 #include "render/interface/dirt_field.h"
-#include "render/interface/light_frame.h"
 
 namespace contrejour::adaptive {
 

@@ -6,8 +6,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "render/adaptive/maps/lobatto.h"
-#include "render/adaptive/maps/ray_sheet.h"
+#include "render/adaptive/maps/rays.h"
 
 namespace contrejour::adaptive {
 

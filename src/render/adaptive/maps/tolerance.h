@@ -2,7 +2,7 @@
 #pragma once
 
 #include "contrejour/frame.h"
-#include "render/adaptive/maps/ray_sheet.h"
+#include "render/adaptive/maps/rays.h"
 
 namespace contrejour::adaptive {
 

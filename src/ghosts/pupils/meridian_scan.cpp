@@ -1,9 +1,9 @@
-#include "render/adaptive/pupils/meridian_scan.h"
+#include "ghosts/pupils/meridian_scan.h"
 
 #include <algorithm>
 #include <cmath>
 
-namespace contrejour::adaptive {
+namespace contrejour::pupils {
 namespace {
 
 constexpr int kFirstIntervals = 47;
@@ -166,4 +166,4 @@ std::vector<Interval> MeridianScan::find(Interval line, std::span<const Rectangl
   return found;
 }
 
-}  // namespace contrejour::adaptive
+}  // namespace contrejour::pupils

@@ -1,13 +1,13 @@
-#include "render/adaptive/pupils/pupil_boxes.h"
+#include "ghosts/pupils/pupil_boxes.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "render/adaptive/pupils/clearance_grid.h"
-#include "render/adaptive/pupils/meridian_scan.h"
-#include "render/adaptive/pupils/stop_aim.h"
+#include "ghosts/pupils/clearance_grid.h"
+#include "ghosts/pupils/meridian_scan.h"
+#include "ghosts/pupils/stop_aim.h"
 
-namespace contrejour::adaptive {
+namespace contrejour::pupils {
 namespace {
 
 constexpr int kFirstColumns = 12;  // of the first grid, over the window; half as many rows from y = 0 up
@@ -120,4 +120,4 @@ class Search {
 
 PupilBoxes find_pupil_boxes(const PacketPath& path, const EntranceWindow& window) { return Search(path, window).run(); }
 
-}  // namespace contrejour::adaptive
+}  // namespace contrejour::pupils

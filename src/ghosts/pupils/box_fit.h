@@ -3,9 +3,9 @@
 
 #include <optional>
 
-#include "render/adaptive/pupils/clearance_grid.h"
+#include "ghosts/pupils/clearance_grid.h"
 
-namespace contrejour::adaptive {
+namespace contrejour::pupils {
 
 class BoxFitter {
  public:
@@ -24,4 +24,4 @@ class BoxFitter {
   Rectangle window_;  // its upper half
 };
 
-}  // namespace contrejour::adaptive
+}  // namespace contrejour::pupils

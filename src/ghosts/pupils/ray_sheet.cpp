@@ -1,16 +1,33 @@
-#include "render/adaptive/maps/ray_sheet.h"
+#include "ghosts/pupils/ray_sheet.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 
-#include "render/adaptive/maps/lobatto.h"
-#include "render/interface/stop_screen.h"
+#include "ghosts/pupils/extremes.h"
+#include "ghosts/pupils/lobatto.h"
 
-namespace contrejour::adaptive {
+namespace contrejour::pupils {
 namespace {
 
 constexpr float kFailed = std::numeric_limits<float>::infinity();
+
+// A rim counts once a ray of the sheet passes beyond this share of it, squared.
+constexpr float kNearRim = 0.94F;
+
+// The largest of at least one value: eight at a time, as a single maximum would have to wait for its last comparison.
+float highest_of(const float* values, std::size_t count) {
+  std::array<float, 8> most;
+  most.fill(values[0]);
+  std::size_t k = 0;
+  for (; k + most.size() <= count; k += most.size()) {
+    for (std::size_t lane = 0; lane < most.size(); ++lane) most[lane] = std::max(most[lane], values[k + lane]);
+  }
+  for (; k < count; ++k) most[0] = std::max(most[0], values[k]);
+  return *std::max_element(most.begin(), most.end());
+}
 
 // Rows below the middle from those above.
 void complete(float* values, int nodes, float sign) {
@@ -31,7 +48,7 @@ void turn_over(float* values, int nodes, float sign) {
 
 }  // namespace
 
-void add_light(RaySheet& sheet, std::span<const float> transmission, const Rgb& gain) {
+void add_light(RaySheet& sheet, std::span<const float> transmission, const std::array<double, 3>& gain) {
   if (sheet.weight.empty()) {
     sheet.weight.emplace_back(transmission.begin(), transmission.end());
     sheet.gain = gain;
@@ -66,6 +83,60 @@ RaySheet mirrored(const RaySheet& sheet) {
   }
   turn(out.rim_squared, 1.0F);
   return out;
+}
+
+bool may_pass(const RaySheet& sheet, const CellCorners& corners) {
+  std::array<Extremes, 1 + kMaxStopCrossings> extremes;
+  bool any = false;
+  for (const std::size_t k : corners) {
+    if (!sheet.arrives(k)) continue;
+    any = true;
+    extremes[0].add(sheet.r_rel[k] - 1.0F);
+    for (std::size_t c = 0; c < sheet.stop.size(); ++c) {
+      const float x = sheet.stop[c][0][k], y = sheet.stop[c][1][k];
+      extremes[1 + c].add(std::sqrt(x * x + y * y) - 1.0F);
+    }
+  }
+  return any && std::all_of(extremes.begin(), extremes.begin() + 1 + static_cast<std::ptrdiff_t>(sheet.stop.size()),
+                            [](const Extremes& e) { return e.may_pass(1.0F); });
+}
+
+std::optional<Rectangle> bounds_of_cells(const RaySheet& sheet, const std::function<bool(const CellCorners&)>& counts) {
+  const auto n = static_cast<std::size_t>(sheet.nodes);
+  const auto& points = lobatto_points(sheet.nodes);
+  const Vec2 half = (sheet.box.high - sheet.box.low) * 0.5;
+  const auto place_of = [&](std::size_t column, std::size_t row) {
+    return sheet.box.low + Vec2{half.x * (1.0 + points[column]), half.y * (1.0 + points[row])};
+  };
+  std::optional<Rectangle> all;
+  for (std::size_t row = 0; row + 1 < n; ++row) {
+    for (std::size_t column = 0; column + 1 < n; ++column) {
+      const std::size_t first = row * n + column;
+      if (!counts({first, first + 1, first + n, first + n + 1})) continue;
+      const Rectangle cell{place_of(column, row), place_of(column + 1, row + 1)};
+      all = all ? both(*all, cell) : cell;
+    }
+  }
+  return all;
+}
+
+std::vector<std::size_t> rims_in_play(std::span<const RaySheet> sheets) {
+  std::vector<std::pair<float, std::size_t>> found;
+  const std::size_t count = sheets.front().count();
+  for (std::size_t at = 0; at < sheets.front().rim_squared.size(); at += count) {
+    float highest = 0.0F;
+    for (const RaySheet& sheet : sheets) {
+      const float* rim = sheet.rim_squared.data() + at;
+      float high = highest_of(rim, count);
+      if (sheet.blocks_at(at / count)) high += high - *std::min_element(rim, rim + count);
+      highest = std::max(highest, high);
+    }
+    if (highest > kNearRim) found.emplace_back(-highest, at / count);
+  }
+  std::sort(found.begin(), found.end());
+  std::vector<std::size_t> steps;
+  for (const auto& [height, step] : found) steps.push_back(step);
+  return steps;
 }
 
 SheetTracer::SheetTracer(PacketPath path, const LightFrame& light)
@@ -178,4 +249,4 @@ void SheetTracer::trace_rows(const Rectangle& box, int nodes, int first_row, Pac
     out.transmission[k] *= static_cast<float>(bend_.stretch(box.low.y + y_mm_[k]));
 }
 
-}  // namespace contrejour::adaptive
+}  // namespace contrejour::pupils

@@ -1,9 +1,9 @@
-#include "render/adaptive/pupils/stop_aim.h"
+#include "ghosts/pupils/stop_aim.h"
 
 #include <algorithm>
 #include <cmath>
 
-namespace contrejour::adaptive {
+namespace contrejour::pupils {
 namespace {
 
 constexpr double kMargin = 0.06;        // of the stop's radius
@@ -152,4 +152,4 @@ std::optional<Aim> aim_at_stop(const ClearanceGrid& grid, const std::vector<Grid
   return all;
 }
 
-}  // namespace contrejour::adaptive
+}  // namespace contrejour::pupils

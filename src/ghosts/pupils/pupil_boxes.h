@@ -8,7 +8,7 @@
 #include "ghosts/ray_grid.h"
 #include "optics/trace/packet_trace.h"
 
-namespace contrejour::adaptive {
+namespace contrejour::pupils {
 
 struct PupilBoxes {
   std::vector<Rectangle> boxes;  // in the meridional frame; those that touch y = 0 are symmetric in y, of the others
@@ -20,4 +20,4 @@ struct PupilBoxes {
 // circle.
 [[nodiscard]] PupilBoxes find_pupil_boxes(const PacketPath& path, const EntranceWindow& window);
 
-}  // namespace contrejour::adaptive
+}  // namespace contrejour::pupils

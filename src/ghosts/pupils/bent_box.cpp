@@ -1,4 +1,4 @@
-#include "render/adaptive/pupils/bent_box.h"
+#include "ghosts/pupils/bent_box.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 
 #include <Eigen/Dense>
 
-namespace contrejour::adaptive {
+namespace contrejour::pupils {
 namespace {
 
 constexpr int kColumns = 64, kRows = 12;     // of the upper half
@@ -185,4 +185,4 @@ std::optional<BentBox> bent_box(std::span<ClearanceGrid> wavelengths, const Rect
   return std::nullopt;
 }
 
-}  // namespace contrejour::adaptive
+}  // namespace contrejour::pupils

@@ -1,5 +1,6 @@
-#include "render/adaptive/maps/lobatto.h"
+#include "ghosts/pupils/lobatto.h"
 
+#include <algorithm>
 #include <array>
 #include <cassert>
 #include <cmath>
@@ -8,12 +9,12 @@
 #include "kernels/simd_targets.h"
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "render/adaptive/maps/lobatto.cpp"
+#define HWY_TARGET_INCLUDE "ghosts/pupils/lobatto.cpp"
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
 HWY_BEFORE_NAMESPACE();
-namespace contrejour::adaptive::HWY_NAMESPACE {
+namespace contrejour::pupils::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 using Tag = hn::CappedTag<float, 16>;
@@ -68,11 +69,11 @@ void multiply_rows(const float* a, std::size_t a_rows, std::size_t a_row_step, s
   }
 }
 
-}  // namespace contrejour::adaptive::HWY_NAMESPACE
+}  // namespace contrejour::pupils::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace contrejour::adaptive {
+namespace contrejour::pupils {
 namespace {
 
 HWY_EXPORT(multiply_rows);
@@ -189,5 +190,31 @@ void multiply_transposed(const Matrix& a, const float* b, int b_stride, float* o
    static_cast<std::size_t>(a.rows), b, static_cast<std::size_t>(b_stride), out);
 }
 
-}  // namespace contrejour::adaptive
+void transform(const float* field, int nodes, const Matrix& along_x, const Matrix& along_y, float* out) {
+  const int stride = along_x.stride;
+  std::array<float, 17 * 32> half{};
+  std::array<float, 17 * 32> whole{};
+  multiply(field, nodes, nodes, nodes, along_x, half.data());
+  multiply_transposed(along_y, half.data(), stride, whole.data());
+  for (int row = 0; row < nodes; ++row) std::copy_n(whole.data() + row * stride, nodes, out + row * nodes);
+}
+
+double highest_terms(const float* field, int nodes) {
+  static const auto all = [] {
+    std::array<Matrix, kMostPatchNodes + 1> matrices;
+    for (int n = 2; n <= kMostPatchNodes; ++n) matrices[static_cast<std::size_t>(n)] = coefficient_matrix(n);
+    return matrices;
+  }();
+  const Matrix& to_coefficients = all[static_cast<std::size_t>(nodes)];
+  std::array<float, kMostPatchNodes * kMostPatchNodes> c{};
+  transform(field, nodes, to_coefficients, to_coefficients, c.data());
+  double sum = 0.0;
+  for (int k = 0; k < nodes; ++k) {
+    sum += std::abs(c[static_cast<std::size_t>(nodes * nodes - nodes + k)]);
+    if (k < nodes - 1) sum += std::abs(c[static_cast<std::size_t>(k * nodes + nodes - 1)]);
+  }
+  return sum;
+}
+
+}  // namespace contrejour::pupils
 #endif  // HWY_ONCE

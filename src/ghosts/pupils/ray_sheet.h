@@ -3,16 +3,20 @@
 // in y and half the rays are the mirror images of the others; hullin2011 4.2, "symmetries".
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
+#include <functional>
+#include <limits>
+#include <optional>
 #include <span>
 #include <vector>
 
+#include "ghosts/light_frame.h"
+#include "ghosts/pupils/bent_box.h"
 #include "ghosts/ray_grid.h"
-#include "render/adaptive/pupils/bent_box.h"
-#include "render/interface/frame_plan.h"
-#include "render/interface/light_frame.h"
 
-namespace contrejour::adaptive {
+namespace contrejour::pupils {
 
 // Of the clear height: rays beyond tell nothing of the image, which those at a box's border may be flung far from.
 constexpr float kNearlyThrough = 1.2F;
@@ -25,20 +29,35 @@ struct RaySheet {
   std::vector<float> sensor_x_mm, sensor_y_mm;
   std::vector<float> transmission;
   std::vector<std::vector<float>> weight;    // what add_light() made of transmissions: one, or one a channel
-  Rgb gain{1.0, 1.0, 1.0};                   // of weights to channels
+  std::array<double, 3> gain{1.0, 1.0, 1.0};                   // of weights to channels
   std::vector<float> r_rel;                  // infinite where the ray fails; without obscurations
   std::vector<std::array<std::vector<float>, 2>> stop;  // by crossing: x and y over the stop radius
   std::vector<float> rim_squared;            // [step * nodes^2 + node]
   std::vector<bool> blocks_within;           // by step; empty where none does
 
+  [[nodiscard]] bool arrives(std::size_t node) const { return r_rel[node] < std::numeric_limits<float>::infinity(); }
+  [[nodiscard]] bool blocks_at(std::size_t step) const { return !blocks_within.empty() && blocks_within[step]; }
   [[nodiscard]] std::size_t count() const { return static_cast<std::size_t>(nodes) * static_cast<std::size_t>(nodes); }
 };
 
 // Adds gain * transmission, one value a node, to the sheet's light. The first is one weight for all channels.
-void add_light(RaySheet& sheet, std::span<const float> transmission, const Rgb& gain);
+void add_light(RaySheet& sheet, std::span<const float> transmission, const std::array<double, 3>& gain);
 
 // The sheet of the box on the other side of the axis y = 0, of a lens and light that are symmetric there.
 [[nodiscard]] RaySheet mirrored(const RaySheet& sheet);
+
+// Nodes about a cell of the sheet: the second is the next in the first's row, the others in the row above.
+using CellCorners = std::array<std::size_t, 4>;
+// Whether light may get through between some nodes; the iris counts as its circumscribed circle.
+[[nodiscard]] bool may_pass(const RaySheet& sheet, const CellCorners& corners);
+// Bounds of the cells between the nodes that count; none if none does.
+[[nodiscard]] std::optional<Rectangle> bounds_of_cells(const RaySheet& sheet,
+                                                       const std::function<bool(const CellCorners&)>& counts);
+
+// Indices of the steps whose rims may cut any of the sheets, which are of one box: those that cut deepest first. What
+// an obscuration blocks may lie between the rays: no square rises above its highest value there by more than its values
+// differ.
+[[nodiscard]] std::vector<std::size_t> rims_in_play(std::span<const RaySheet> sheets);
 
 class SheetTracer {
  public:
@@ -70,4 +89,4 @@ class SheetTracer {
   std::uint64_t rays_ = 0;
 };
 
-}  // namespace contrejour::adaptive
+}  // namespace contrejour::pupils

@@ -11,7 +11,7 @@
 #include "ghosts/ray_grid.h"
 #include "optics/trace/clearance.h"
 
-namespace contrejour::adaptive {
+namespace contrejour::pupils {
 
 struct Interval {
   double low = 0, high = 0;  // x, mm
@@ -47,4 +47,4 @@ class MeridianScan {
   std::uint64_t rays_ = 0;
 };
 
-}  // namespace contrejour::adaptive
+}  // namespace contrejour::pupils

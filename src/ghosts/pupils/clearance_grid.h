@@ -11,7 +11,7 @@
 #include "ghosts/ray_grid.h"
 #include "optics/trace/clearance.h"
 
-namespace contrejour::adaptive {
+namespace contrejour::pupils {
 
 struct GridCell {
   int column = 0, row = 0;
@@ -79,4 +79,4 @@ class ClearanceGrid {
   std::vector<std::uint8_t> open_;
 };
 
-}  // namespace contrejour::adaptive
+}  // namespace contrejour::pupils

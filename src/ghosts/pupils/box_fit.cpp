@@ -1,10 +1,10 @@
-#include "render/adaptive/pupils/box_fit.h"
+#include "ghosts/pupils/box_fit.h"
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
-namespace contrejour::adaptive {
+namespace contrejour::pupils {
 namespace {
 
 constexpr int kColumns = 8;
@@ -38,4 +38,4 @@ std::optional<Rectangle> BoxFitter::fit(const Rectangle& box) {
   return hull;
 }
 
-}  // namespace contrejour::adaptive
+}  // namespace contrejour::pupils

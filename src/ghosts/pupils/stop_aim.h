@@ -4,9 +4,9 @@
 
 #include <optional>
 
-#include "render/adaptive/pupils/clearance_grid.h"
+#include "ghosts/pupils/clearance_grid.h"
 
-namespace contrejour::adaptive {
+namespace contrejour::pupils {
 
 struct Aim {
   // Holds what crosses inside the stop's rim but for a tenth of its half: slopes are of the second order, over cells
@@ -19,4 +19,4 @@ struct Aim {
 // not tell: rays that fail, a map that folds or bends, cells that may let light through elsewhere.
 [[nodiscard]] std::optional<Aim> aim_at_stop(const ClearanceGrid& grid, const std::vector<GridCell>& piece);
 
-}  // namespace contrejour::adaptive
+}  // namespace contrejour::pupils

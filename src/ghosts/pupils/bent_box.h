@@ -7,9 +7,9 @@
 #include <optional>
 #include <span>
 
-#include "render/adaptive/pupils/clearance_grid.h"
+#include "ghosts/pupils/clearance_grid.h"
 
-namespace contrejour::adaptive {
+namespace contrejour::pupils {
 
 // How far a side lies from where a straight one would, along x: by_y2 y^2 + by_y4 y^4, mm.
 struct Side {
@@ -43,4 +43,4 @@ struct BentBox {
 // as grids of 845 rays tell, one a wavelength. None where there is none.
 [[nodiscard]] std::optional<BentBox> bent_box(std::span<ClearanceGrid> wavelengths, const Rectangle& box);
 
-}  // namespace contrejour::adaptive
+}  // namespace contrejour::pupils

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <limits>
 
-namespace contrejour::adaptive {
+namespace contrejour::pupils {
 
 // Lowest and highest of a function at a cell's corners; the cell is open where the function is <= 0. It is taken to
 // be nearly linear: below its lowest corner by no more than `reach` times what the corners differ.
@@ -21,4 +21,4 @@ class Extremes {
   float highest_ = -std::numeric_limits<float>::infinity();
 };
 
-}  // namespace contrejour::adaptive
+}  // namespace contrejour::pupils

@@ -1,10 +1,10 @@
-#include "render/adaptive/pupils/clearance_grid.h"
+#include "ghosts/pupils/clearance_grid.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-namespace contrejour::adaptive {
+namespace contrejour::pupils {
 namespace {
 
 struct Range {
@@ -170,4 +170,4 @@ Rectangle ClearanceGrid::hull(const std::vector<GridCell>& cells) const {
           {box_.low.x + (high.column + 1) * size.x, box_.low.y + (high.row + 1) * size.y}};
 }
 
-}  // namespace contrejour::adaptive
+}  // namespace contrejour::pupils

@@ -1,0 +1,213 @@
+#include "ghosts/pupils/footprint.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <utility>
+
+namespace contrejour::pupils {
+namespace {
+
+constexpr std::array<std::array<std::size_t, 3>, 2> kHalves{{{0, 1, 2}, {0, 2, 3}}};
+
+// mm^2 of the entrance plane times transmission, of one of a cell's halves.
+double light_of(const OpenMesh& mesh, const OpenCell& cell, std::size_t half) {
+  double sum = 0.0;
+  for (const std::size_t corner : kHalves[half]) sum += mesh.transmission[cell.vertex[corner]];
+  return cell.open[half] * 0.5 * cell.area_mm2 * sum / 3.0;
+}
+
+double light_of(const OpenMesh& mesh, const OpenCell& cell) {
+  return light_of(mesh, cell, 0) + light_of(mesh, cell, 1);
+}
+
+// About how bright a cell's light is over a square of pixels at its middle: spread over its image, if that is larger.
+double level_of(const OpenMesh& mesh, const OpenCell& cell, double pixel_mm) {
+  const auto at = [&](std::size_t corner) { return mesh.landing_mm(cell.vertex[corner]); };
+  const Vec2 first = at(2) - at(0), second = at(3) - at(1);
+  const double image_mm2 = 0.5 * std::abs(cross(first, second)) * 0.5 * (cell.open[0] + cell.open[1]);
+  const double long_mm = std::max({length(first), length(second), pixel_mm});
+  return light_of(mesh, cell) / (long_mm * std::max(image_mm2 / long_mm, pixel_mm));
+}
+
+// What of a triangle lies in a square, as a share of its area.
+class SquareWindow {
+ public:
+  SquareWindow(Vec2 middle, double side) : low_(middle - Vec2{0.5 * side, 0.5 * side}), side_(side) {}
+
+  [[nodiscard]] bool may_meet(const OpenMesh& mesh, const OpenCell& cell) const {
+    bool left = true, right = true, below = true, above = true;
+    for (const std::size_t vertex : cell.vertex) {
+      const Vec2 p = mesh.landing_mm(vertex);
+      left = left && p.x < low_.x;
+      right = right && p.x > low_.x + side_;
+      below = below && p.y < low_.y;
+      above = above && p.y > low_.y + side_;
+    }
+    return !(left || right || below || above);
+  }
+
+  [[nodiscard]] double share_of(const std::array<Vec2, 3>& triangle) const {
+    Vec2 low = triangle[0], high = triangle[0];
+    for (const Vec2 p : triangle) {
+      low = {std::min(low.x, p.x), std::min(low.y, p.y)};
+      high = {std::max(high.x, p.x), std::max(high.y, p.y)};
+    }
+    if (high.x < low_.x || high.y < low_.y || low.x > low_.x + side_ || low.y > low_.y + side_) return 0.0;
+    const double whole = std::abs(cross(triangle[1] - triangle[0], triangle[2] - triangle[0]));
+    const double extent = std::max(high.x - low.x, high.y - low.y);
+    constexpr double kLine = 1e-6;
+    if (whole <= kLine * extent * extent) return share_of_line(low, high);
+    return std::min(1.0, twice_area_within(triangle) / whole);
+  }
+
+ private:
+  // Of a triangle that is a line, from corner to corner of its bounds about.
+  [[nodiscard]] double share_of_line(Vec2 from, Vec2 to) const {
+    constexpr int kSteps = 16;
+    int inside = 0;
+    for (int k = 0; k < kSteps; ++k) {
+      const Vec2 p = from + (to - from) * ((k + 0.5) / kSteps);
+      inside += p.x >= low_.x && p.x <= low_.x + side_ && p.y >= low_.y && p.y <= low_.y + side_ ? 1 : 0;
+    }
+    return static_cast<double>(inside) / kSteps;
+  }
+
+  // Sutherland and Hodgman's clipping, side by side.
+  [[nodiscard]] double twice_area_within(const std::array<Vec2, 3>& triangle) const {
+    std::array<Vec2, 8> polygon{triangle[0], triangle[1], triangle[2]}, next;
+    std::size_t count = 3;
+    const auto clip = [&](const auto& inside_by) {
+      std::size_t kept = 0;
+      for (std::size_t k = 0; k < count; ++k) {
+        const Vec2 a = polygon[k], b = polygon[(k + 1) % count];
+        const double from = inside_by(a), to = inside_by(b);
+        if (from >= 0.0) next[kept++] = a;
+        if ((from < 0.0) != (to < 0.0)) next[kept++] = a + (b - a) * (from / (from - to));
+      }
+      polygon = next;
+      count = kept;
+    };
+    clip([&](Vec2 p) { return p.x - low_.x; });
+    clip([&](Vec2 p) { return low_.x + side_ - p.x; });
+    clip([&](Vec2 p) { return p.y - low_.y; });
+    clip([&](Vec2 p) { return low_.y + side_ - p.y; });
+    double twice = 0.0;
+    for (std::size_t k = 0; k < count; ++k) twice += cross(polygon[k], polygon[(k + 1) % count]);
+    return std::abs(twice);
+  }
+
+  Vec2 low_;
+  double side_;
+};
+
+}  // namespace
+
+void Footprint::grow(Vec2 p) {
+  sum_.min_mm = {std::min(sum_.min_mm.x, p.x), std::min(sum_.min_mm.y, p.y)};
+  sum_.max_mm = {std::max(sum_.max_mm.x, p.x), std::max(sum_.max_mm.y, p.y)};
+}
+
+// The open corners, and where the edge crosses the sides.
+void Footprint::add_bounds(const OpenMesh& mesh, const OpenCell& cell) {
+  for (std::size_t half = 0; half < 2; ++half) {
+    if (cell.open[half] <= 0.0) continue;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::size_t a = cell.vertex[kHalves[half][k]], b = cell.vertex[kHalves[half][(k + 1) % 3]];
+      const double from = mesh.blocked[a], to = mesh.blocked[b];
+      if (from <= 0.0) grow(mesh.landing_mm(a));
+      if ((from <= 0.0) != (to <= 0.0))
+        grow(mesh.landing_mm(a) + (mesh.landing_mm(b) - mesh.landing_mm(a)) * (from / (from - to)));
+    }
+  }
+}
+
+// Where the peak may be: at the brightest cell, or where many parts of the pupil come together, which a table of
+// squares shows that are hashed by their places. (Squares that share an entry make a place that is no peak, at worst.)
+std::vector<Vec2> Footprint::bright_places() const {
+  constexpr std::size_t kEntries = 1U << 13U, kMostPlaces = 6;
+  constexpr double kFarthest = 1e15;  // squares, which can be counted
+  std::vector<std::pair<double, Vec2>> table(kEntries);
+  std::pair<double, Vec2> brightest{0.0, {}};
+  for (const Part& part : parts_) {
+    for (const OpenCell& cell : part.cells) {
+      const double level = level_of(part.mesh, cell, pixel_mm_);
+      Vec2 middle;
+      for (const std::size_t vertex : cell.vertex) middle = middle + part.mesh.landing_mm(vertex) * 0.25;
+      if (level > brightest.first) brightest = {level, middle};
+      if (!(std::abs(middle.x) + std::abs(middle.y) < kFarthest * pixel_mm_)) continue;
+      const auto column = static_cast<std::int64_t>(std::floor(middle.x / pixel_mm_));
+      const auto row = static_cast<std::int64_t>(std::floor(middle.y / pixel_mm_));
+      constexpr std::uint64_t kFirst = 0x9E3779B97F4A7C15U, kSecond = 0xC2B2AE3D27D4EB4FU;  // large and odd
+      const std::uint64_t key = static_cast<std::uint64_t>(column) * kFirst + static_cast<std::uint64_t>(row) * kSecond;
+      auto& entry = table[(key >> 40U) % kEntries];
+      entry.second = (entry.second * entry.first + middle * level) * (1.0 / (entry.first + level));
+      entry.first += level;
+    }
+  }
+  const auto is_brighter = [](const auto& a, const auto& b) { return a.first > b.first; };
+  std::partial_sort(table.begin(), table.begin() + kMostPlaces, table.end(), is_brighter);
+  std::vector<Vec2> places{brightest.second};
+  for (std::size_t k = 0; k < kMostPlaces; ++k)
+    if (table[k].first > 0.0) places.push_back(table[k].second);
+  return places;
+}
+
+// All that lands in a square about a place, from wherever in the pupil, over its area.
+double Footprint::mean_about(Vec2 place) const {
+  const SquareWindow window(place, pixel_mm_);
+  double light = 0.0;
+  for (const Part& part : parts_) {
+    for (const OpenCell& cell : part.cells) {
+      if (!window.may_meet(part.mesh, cell)) continue;
+      for (std::size_t half = 0; half < 2; ++half) {
+        std::array<Vec2, 3> triangle;
+        for (std::size_t k = 0; k < 3; ++k) triangle[k] = part.mesh.landing_mm(cell.vertex[kHalves[half][k]]);
+        if (cell.open[half] > 0.0) light += light_of(part.mesh, cell, half) * window.share_of(triangle);
+      }
+    }
+  }
+  return light / (pixel_mm_ * pixel_mm_);
+}
+
+double Footprint::peak_per_mm2() const {
+  double peak = 0.0;
+  if (pixel_mm_ > 0.0) {
+    for (const Vec2 place : bright_places()) peak = std::max(peak, mean_about(place));
+    return peak;
+  }
+  for (const Part& part : parts_)
+    for (const OpenCell& cell : part.cells) peak = std::max(peak, level_of(part.mesh, cell, 0.0));
+  return peak;
+}
+
+void Footprint::add(const OpenMesh& mesh) {
+  std::vector<OpenCell> cells = open_cells(mesh);
+  if (cells.empty()) return;
+  if (!(sum_.flux_mm2 > 0.0)) {
+    constexpr double kFar = std::numeric_limits<double>::infinity();
+    sum_.min_mm = {kFar, kFar};
+    sum_.max_mm = {-kFar, -kFar};
+  }
+  for (const OpenCell& cell : cells) {
+    for (std::size_t half = 0; half < 2; ++half) {
+      const double flux = light_of(mesh, cell, half) * shared_flux_;
+      sum_.flux_mm2 += flux;
+      for (const std::size_t corner : kHalves[half])
+        sum_.centroid_mm = sum_.centroid_mm + mesh.landing_mm(cell.vertex[corner]) * (flux / 3.0);
+    }
+    add_bounds(mesh, cell);
+  }
+  parts_.push_back({mesh, std::move(cells)});
+}
+
+GhostMeasure Footprint::measure() const {
+  if (!(sum_.flux_mm2 > 0.0)) return {};
+  GhostMeasure m = sum_;
+  m.centroid_mm = m.centroid_mm * (1.0 / m.flux_mm2);
+  m.peak_per_mm2 = peak_per_mm2() * shared_flux_;
+  return m;
+}
+
+}  // namespace contrejour::pupils

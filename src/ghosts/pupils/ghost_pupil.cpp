@@ -1,0 +1,142 @@
+#include "ghosts/pupils/ghost_pupil.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include "ghosts/light_frame.h"
+#include "ghosts/pupil_search.h"
+#include "ghosts/pupils/box_fit.h"
+#include "ghosts/pupils/pupil_boxes.h"
+
+namespace contrejour::pupils {
+namespace {
+
+// Of a box's size, on every side: polynomials through its rays are least good at its border, where the ghost's edge
+// would be if the box were tight. Half of this saves no rays and costs a decibel; twice this takes a third more rays.
+constexpr double kMargin = 0.1;
+// Boxes of the sharp stop are widened as the stop is up to here, farther by its root: what they lack they grow.
+constexpr double kMuchWider = 1.5;
+
+bool overlap(const Rectangle& a, const Rectangle& b) {
+  return a.low.x < b.high.x && b.low.x < a.high.x && a.low.y < b.high.y && b.low.y < a.high.y;
+}
+
+// Boxes that overlap, whose light would count twice there, as one that holds both.
+void merge_overlapping(std::vector<Rectangle>& boxes) {
+  for (std::size_t a = 0; a < boxes.size(); ++a) {
+    for (std::size_t b = a + 1; b < boxes.size(); ++b) {
+      if (!overlap(boxes[a], boxes[b])) continue;
+      boxes[a] = both(boxes[a], boxes[b]);
+      boxes.erase(boxes.begin() + static_cast<std::ptrdiff_t>(b));
+      return merge_overlapping(boxes);
+    }
+  }
+}
+
+Rectangle with_margin(const Rectangle& box) {
+  const Vec2 margin = (box.high - box.low) * kMargin;
+  return {box.low - margin, box.high + margin};
+}
+
+// Likewise, of a box of a symmetric pupil: it stays on its side of the axis of symmetry.
+Rectangle with_margin_aside(const Rectangle& box) {
+  Rectangle out = with_margin(box);
+  if (box.low.y >= 0.0) out.low.y = std::max(out.low.y, 0.0);
+  return out;
+}
+
+// So many times as large; one of a symmetric pupil stays on its side of the axis of symmetry.
+Rectangle about_middle(const Rectangle& box, double times) {
+  const Vec2 more = (box.high - box.low) * (0.5 * (times - 1.0));
+  Rectangle out{box.low - more, box.high + more};
+  if (box.low.y >= 0.0) out.low.y = std::max(out.low.y, 0.0);
+  return out;
+}
+
+// The wavelengths at which a pupil is searched that is to hold for all.
+std::vector<double> outer_wavelengths(std::span<const double> lambda_nm) {
+  std::vector<double> outer_nm{lambda_nm.front()};
+  if (lambda_nm.size() > 1) outer_nm.push_back(lambda_nm.back());
+  return outer_nm;
+}
+
+bool is_symmetric(const PupilRequest& request) {
+  return has_axial_symmetry(request.steps.begin()->second.lens(), request.ghost);
+}
+
+// Of a lens without symmetries: one box, by grids over all of the window.
+GhostPupil find_askew_box(const PupilRequest& request) {
+  const IrisShape circle{Iris{}};
+  GhostPupil pupil;
+  RayGrid grid;
+  std::optional<Rectangle> box;
+  for (const double lambda_nm : outer_wavelengths(request.lambda_nm)) {
+    const LensSteps& steps = request.steps.at(lambda_nm);
+    OpticalPath path = ghost_path(steps.lens(), request.ghost, lambda_nm);
+    path.stop_radius_mm *= request.stop_times;
+    const auto region = find_pupil_region(path, steps.tables(), circle, request.light, request.window, grid);
+    if (!region) continue;
+    box = box ? both(*box, region->pupil_mm) : region->pupil_mm;
+    pupil.rays += region->rays;
+    pupil.surface_hits += region->rays * path.steps.size();
+  }
+  if (box) pupil.boxes.push_back(with_margin(*box));
+  return pupil;
+}
+
+// What comes through near some boxes, at all wavelengths; mirror images are left to their originals.
+void fit_boxes(const PupilRequest& request, const std::vector<Rectangle>& near, GhostPupil& pupil) {
+  const LightFrame light(request.light);
+  const LightRays rays{{0.0, 0.0, request.window.z_mm}, light.source};
+  std::vector<std::optional<Rectangle>> fitted(near.size());
+  for (const double lambda_nm : outer_wavelengths(request.lambda_nm)) {
+    BoxFitter fitter({request.steps.at(lambda_nm), request.ghost, rays, request.stop_times}, request.window);
+    for (std::size_t k = 0; k < near.size(); ++k) {
+      const auto fit = fitter.fit(near[k]);
+      if (fit) fitted[k] = fitted[k] ? both(*fitted[k], *fit) : *fit;
+    }
+    pupil.rays += fitter.rays();
+    pupil.surface_hits += fitter.surface_hits();
+  }
+  for (std::size_t k = 0; k < near.size(); ++k) {
+    Rectangle box = fitted[k].value_or(near[k]);
+    if (box.low.y < 0.0) box.low.y = -box.high.y;
+    pupil.boxes.push_back(box);
+    if (box.low.y >= 0.0) pupil.boxes.push_back(mirrored(box));
+  }
+  merge_overlapping(pupil.boxes);
+}
+
+}  // namespace
+
+bool is_mirror_image(const Rectangle& box) { return box.high.y <= 0.0; }
+
+GhostPupil find_ghost_pupil(const PupilRequest& request) {
+  if (request.lambda_nm.empty()) return {};
+  if (!is_symmetric(request)) return find_askew_box(request);
+  const LightFrame light(request.light);
+  const double middle_nm = request.lambda_nm[request.lambda_nm.size() / 2];
+  const PacketPath path(request.steps.at(middle_nm), request.ghost, {{0.0, 0.0, request.window.z_mm}, light.source});
+  const PupilBoxes found = find_pupil_boxes(path, request.window);
+  GhostPupil pupil{{}, found.rays, found.rays * path.steps().size()};
+  std::vector<Rectangle> near;
+  for (const Rectangle& box : found.boxes)
+    if (!is_mirror_image(box)) near.push_back(with_margin_aside(box));
+  if (!near.empty()) fit_boxes(request, near, pupil);
+  return pupil;
+}
+
+GhostPupil refit_ghost_pupil(const PupilRequest& request, std::vector<Rectangle> boxes) {
+  if (request.lambda_nm.empty()) return {};
+  if (!is_symmetric(request)) return find_askew_box(request);
+  std::erase_if(boxes, is_mirror_image);
+  const double times = std::min(request.stop_times, std::sqrt(kMuchWider * request.stop_times));
+  for (Rectangle& box : boxes) box = about_middle(box, times);
+  GhostPupil pupil;
+  fit_boxes(request, boxes, pupil);
+  return pupil;
+}
+
+}  // namespace contrejour::pupils

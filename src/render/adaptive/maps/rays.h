@@ -1,0 +1,11 @@
+// Rays through boxes of a pupil (ghosts/pupils), by their own names within this renderer.
+#pragma once
+
+#include "ghosts/pupils/lobatto.h"
+#include "ghosts/pupils/ray_sheet.h"
+
+namespace contrejour::adaptive {
+
+using namespace pupils;
+
+}  // namespace contrejour::adaptive
