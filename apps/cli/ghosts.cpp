@@ -1,4 +1,4 @@
-// contrejour ghosts: each ghost of a lens, the brightest first.
+// contrejour ghosts: each ghost of a lens, the brightest first; or what becomes of them as something changes.
 #include <memory>
 #include <string>
 
@@ -6,51 +6,55 @@
 
 #include "cli/command.h"
 #include "cli/console.h"
+#include "cli/ghost_report.h"
+#include "cli/ghost_request.h"
+#include "cli/ghost_sweep.h"
+#include "cli/heat_map.h"
 #include "cli/lens_choice.h"
 #include "cli/long_task.h"
 #include "cli/options.h"
-#include "cli/text_table.h"
-#include "contrejour/ghost_figures.h"
+#include "cli/outputs.h"
+#include "contrejour/write_lens.h"
 #include "params/settings.h"
 
 namespace contrejour::cli {
 namespace {
 
 constexpr const char* kExamples =
-    "relative flux: the ghost's flux over the direct image's, wherever it lands. peak: its largest irradiance over "
+    "flux: the ghost's over the direct image's, wherever it lands. peak: its largest irradiance, mean over a pixel, "
+    "over "
     "the\n"
-    "light's at the front of the lens. Colours are relative to a white light. focus: from the sensor to where the\n"
-    "ghost's near-axis light focuses, positive behind the sensor.\n\n"
+    "light's at the front of the lens. R x R: product of its surfaces' reflectances at normal incidence. Places and "
+    "sizes\n"
+    "in pixels of --size and in mm on the sensor, where right and up in the picture is negative. R, G, B: flux by "
+    "channel\n"
+    "for a white light. focus: from the sensor to where the ghost's near-axis light focuses, positive behind the "
+    "sensor;\n"
+    "blur: the first-order size of its spot there. Flags: focus, a spot of at most 1 per cent of the picture's "
+    "diagonal;\n"
+    "pupil, an image of the stop that stays in the middle of the picture wherever the light is.\n\n"
     "Examples:\n"
     "  contrejour ghosts heliar -f 16\n"
-    "  contrejour ghosts canon-70-200 --focal 200 --light 4,3 --json";
+    "  contrejour ghosts canon-70-200 --focal 200 --light 4,3 --sort peak --csv\n"
+    "  contrejour ghosts canon-70-200 -f 8 --sweep field --sort peak -o map.svg\n"
+    "  contrejour ghosts heliar --coating-at 4:v-coat --sweep fnumber:4.5:22 --steps 6 --json\n"
+    "  contrejour ghosts heliar -f 8 --path 2-5 -o ghost.zmx";
 
 struct GhostsOptions {
-  std::string lens;
-  bool json = false;
+  std::string lens, sort = "flux", sweep, path, output;
+  int steps = 13;
+  bool json = false, csv = false;
   params::Values values;
 };
 
-// Pairs in the order of the reflections: of each pair the light meets the second first.
-Json surfaces_json(const Ghost& ghost) {
-  Json surfaces = {ghost.i, ghost.j};
-  if (ghost.reflects_four_times()) surfaces.insert(surfaces.end(), {ghost.k, ghost.l});
-  return surfaces;
+GhostOrder order_of(const std::string& sort) {
+  if (sort == "peak") return GhostOrder::Peak;
+  if (sort == "size") return GhostOrder::Size;
+  return sort == "focus" ? GhostOrder::Focus : GhostOrder::Flux;
 }
 
-Json ghosts_json(const LensState& lens, const FiguresRequest& request, const std::vector<GhostFigures>& figures) {
+Json report_json(const LensState& lens, const FiguresRequest& request, const std::vector<GhostFigures>& figures) {
   const LightAngles angles = angles_from_direction(request.light.direction);
-  Json ghosts = Json::array();
-  for (const GhostFigures& g : figures) {
-    ghosts.push_back({{"surfaces", surfaces_json(g.ghost)},
-                      {"order", g.ghost.order},
-                      {"relative_flux", g.relative_flux},
-                      {"peak_irradiance", g.peak_irradiance},
-                      {"centroid_px", {g.centroid_px.x, g.centroid_px.y}},
-                      {"size_px", {g.size_px.x, g.size_px.y}},
-                      {"rgb", g.rgb},
-                      {"paraxial_focus_mm", g.paraxial_focus_mm ? Json(*g.paraxial_focus_mm) : Json()}});
-  }
   return {{"lens", lens.name},
           {"light",
            {{"azimuth_deg", angles.azimuth_rad / params::kDegree_rad},
@@ -59,57 +63,119 @@ Json ghosts_json(const LensState& lens, const FiguresRequest& request, const std
            {{"width", request.frame.width},
             {"height", request.frame.height},
             {"pixel_pitch_mm", request.frame.pixel_pitch_mm}}},
-          {"ghosts", ghosts}};
+          {"ghosts", ghosts_json(figures)}};
 }
 
-std::string ghosts_text(const std::vector<GhostFigures>& figures) {
-  TextTable table(
-      {"ghost", "relative flux", "peak", "x px", "y px", "width px", "height px", "R", "G", "B", "focus mm"});
-  for (const GhostFigures& g : figures) {
-    const auto number = [](double value) { return fmt::format("{:.3g}", value); };
-    const auto place = [](double value) { return fmt::format("{:.1f}", value); };
-    table.add({ghost_name(g.ghost), number(g.relative_flux), number(g.peak_irradiance), place(g.centroid_px.x),
-               place(g.centroid_px.y), place(g.size_px.x), place(g.size_px.y), number(g.rgb[0]), number(g.rgb[1]),
-               number(g.rgb[2]), g.paraxial_focus_mm ? place(*g.paraxial_focus_mm) : "-"});
-  }
-  return table.text();
-}
-
-std::vector<SpectralBand> bands_for(const params::Values& values, const Light& light) {
-  if (const auto lambda_nm = values.real("wavelength")) return {{*lambda_nm, {1.0, 1.0, 1.0}}};
-  return spectral_bands(values.integer("wavelengths"), light.spectrum, ColourSpace::Rec709);
-}
-
-Result<int> run_ghosts(const GhostsOptions& options) {
+Result<int> run_figures(const GhostsOptions& options) {
   const params::Values& values = options.values;
   const auto lens = open_lens(options.lens, values);
   if (!lens) return tl::unexpected(lens.error());
-  FiguresRequest request;
-  request.frame = params::whole_frame(values, *lens, *params::parse_size(*values.text("size")));
-  const auto lights = params::lights(values, *lens, request.frame, ColourSpace::Rec709);
-  if (!lights) return tl::unexpected(lights.error());
-  request.light = lights->front();
-  request.scope = *values.text("ghosts") == "all" ? GhostScope::All : GhostScope::OneSideOfStop;
-  request.reflections = params::reflections(values);
-  request.bands = bands_for(values, request.light);
+  const auto request = figures_request(values, *lens);
+  if (!request) return tl::unexpected(request.error());
   const LongTask task("measuring", values.integer("threads"));
-  const auto figures = ghost_figures(*lens, request, task.context());
+  auto figures = ghost_figures(*lens, *request, task.context());
   if (!figures) return tl::unexpected(figures.error());
+  sort_ghosts(*figures, order_of(options.sort));
   if (options.json) {
-    print_json(ghosts_json(*lens, request, *figures));
+    print_json(report_json(*lens, *request, *figures));
   } else {
-    print(ghosts_text(*figures));
+    print(options.csv ? ghosts_csv(*figures) : ghosts_text(*figures));
   }
   return kDone;
+}
+
+Result<int> run_sweep(const GhostsOptions& options) {
+  Outputs outputs;
+  const auto map = outputs.add(options.output);
+  if (!map) return tl::unexpected(map.error());
+  const SweepQuantity quantity = options.sort == "peak" ? SweepQuantity::Peak : SweepQuantity::Flux;
+  auto sweep = sweep_ghosts(options.lens, options.values, *parse_sweep(options.sweep), options.steps);
+  if (!sweep) return tl::unexpected(sweep.error());
+  sort_by_worst(*sweep, quantity);
+  if (*map != nullptr) {
+    if (const auto ok = (*map)->write(heat_map(*sweep, quantity)); !ok) return tl::unexpected(ok.error());
+    if (const auto ok = outputs.commit(); !ok) return tl::unexpected(ok.error());
+  }
+  if (options.json) {
+    print_json(sweep_json(*sweep));
+  } else {
+    print(options.csv ? sweep_csv(*sweep) : sweep_text(*sweep));
+  }
+  return kDone;
+}
+
+Result<int> run_path(const GhostsOptions& options) {
+  Outputs outputs;
+  const auto file = outputs.add(options.output);
+  if (!file) return tl::unexpected(file.error());
+  const auto lens = open_lens(options.lens, options.values);
+  if (!lens) return tl::unexpected(lens.error());
+  const auto ghost = choose_ghost(*lens, options.path);
+  if (!ghost) return tl::unexpected(ghost.error());
+  const bool zemax = lower_extension(options.output) == ".zmx";
+  const auto written = zemax ? write_ghost_zmx(*lens, *ghost) : write_ghost_seq(*lens, *ghost);
+  if (!written) return tl::unexpected(written.error());
+  if (const auto ok = (*file)->write(written->text); !ok) return tl::unexpected(ok.error());
+  if (const auto ok = outputs.commit(); !ok) return tl::unexpected(ok.error());
+  print_warnings(written->losses);
+  return kDone;
+}
+
+// What does not go together.
+void check(const GhostsOptions& options) {
+  const params::Values& values = options.values;
+  if (values.list("light").size() + values.list("light-at").size() > 1)
+    throw CLI::ValidationError("--light", "the figures are of one light; give one");
+  const std::string ending = lower_extension(options.output);
+  if (!options.path.empty()) {
+    if (!options.sweep.empty()) throw CLI::ValidationError("--path", "is of one lens; leave --sweep out");
+    if (ending != ".zmx" && ending != ".seq")
+      throw CLI::ValidationError("--output", "give a .zmx or .seq for the path");
+    return;
+  }
+  if (options.sweep.empty()) {
+    if (!options.output.empty())
+      throw CLI::ValidationError("--output", "is the heat map of a --sweep, or the file of a --path; give one of them");
+    return;
+  }
+  if (!options.output.empty() && ending != ".svg")
+    throw CLI::ValidationError("--output", "give an .svg for the heat map");
+  if (options.sort == "size" || options.sort == "focus")
+    throw CLI::ValidationError("--sort", "a sweep is sorted by the worst flux or peak");
+  const SweepAxis axis = parse_sweep(options.sweep)->axis;
+  if ((axis == SweepAxis::Focal && values.given("focal")) || (axis == SweepAxis::FNumber && values.given("fnumber")))
+    throw CLI::ValidationError("--sweep", "gives what the other option sets; leave that out");
 }
 
 }  // namespace
 
 void add_ghosts(CLI::App& app, Action& action) {
   const auto options = std::make_shared<GhostsOptions>();
-  CLI::App* command = app.add_subcommand("ghosts", "each ghost: flux, peak, place, size, colour, focus");
+  CLI::App* command = app.add_subcommand("ghosts", "each ghost: flux, peak, place, size, colour, focus; sweeps");
   add_lens_argument(*command, options->lens);
-  command->add_flag("--json", options->json, "as JSON");
+  CLI::Option* json = command->add_flag("--json", options->json, "as JSON");
+  command->add_flag("--csv", options->csv, "as comma-separated values")->excludes(json);
+  command
+      ->add_option("--sort", options->sort,
+                   "flux, peak (the brightest first), size (the smallest), focus (the nearest)")
+      ->check(CLI::IsMember({"flux", "peak", "size", "focus"}))
+      ->option_text("flux|peak|size|focus");
+  const auto problem = [](const std::string& text) {
+    const auto range = parse_sweep(text);
+    return range ? std::string() : range.error().message;
+  };
+  command
+      ->add_option("--sweep", options->sweep,
+                   "each ghost's worst case over field angles (of --light's azimuth), focal lengths or f-numbers")
+      ->check(CLI::Validator(problem, "", "sweep"))
+      ->option_text("field|focal|fnumber[:FROM:TO]");
+  command->add_option("--steps", options->steps, "of a sweep (default: 13)")
+      ->check(CLI::Range(2, 200))
+      ->option_text("N");
+  add_ghost_option(*command, "--path", options->path,
+                   "write this ghost's path, surface by surface as the light meets them, for design programs");
+  add_output(*command, "-o,--output", options->output, {".svg", ".zmx", ".seq"},
+             "a sweep's heat map, ghosts by steps (.svg); a path (.zmx, .seq)");
   add_parameters(*command, options->values, {"light", "light-at", "colour", "light-distance"});
   add_lens_parameters(*command, options->values);
   hide_parameters(*command, kDirt);
@@ -117,10 +183,11 @@ void add_ghosts(CLI::App& app, Action& action) {
                  {"wavelength", "size", "hfov", "wavelengths", "ghosts", "reflections", "threads"});
   command->footer(kExamples);
   command->callback([options, &action] {
-    if (options->values.list("light").size() + options->values.list("light-at").size() > 1) {
-      throw CLI::ValidationError("--light", "the figures are of one light; give one");
-    }
-    action = [options] { return run_ghosts(*options); };
+    check(*options);
+    action = [options] {
+      if (!options->path.empty()) return run_path(*options);
+      return options->sweep.empty() ? run_figures(*options) : run_sweep(*options);
+    };
   });
 }
 

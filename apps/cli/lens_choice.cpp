@@ -1,5 +1,7 @@
 #include "cli/lens_choice.h"
 
+#include <utility>
+
 #include <fmt/format.h>
 
 #include "cli/console.h"
@@ -21,29 +23,52 @@ Result<Prescription> prescription_of(const std::string& lens) {
 }
 
 Result<LensState> open_lens(const std::string& lens, const params::Values& values) {
-  const auto prescription = prescription_of(lens);
+  auto prescription = prescription_of(lens);
   if (!prescription) return tl::unexpected(prescription.error());
-  const auto settings = params::lens_settings(values);
-  if (!settings) return tl::unexpected(settings.error());
-  auto state = lens_at(*prescription, *settings);
+  auto state = params::lens_of(std::move(*prescription), values);
   if (state) print_warnings(state->warnings);
   return state;
 }
 
-CLI::Option* add_ghost_option(CLI::App& command, std::string& ghost, const std::string& help) {
+namespace {
+
+// Refuses what is no ghost while the command line is read.
+template <auto parse>
+CLI::Option* checked(CLI::Option* option) {
   const auto problem = [](const std::string& text) {
-    const auto parsed = params::parse_ghost(text);
+    const auto parsed = parse(text);
     return parsed ? std::string() : parsed.error().message;
   };
-  return command.add_option("--ghost", ghost, help)->check(CLI::Validator(problem, "", "ghost"))->option_text("I,J");
+  return option->check(CLI::Validator(problem, "", "ghost"))->option_text("I-J");
 }
 
-Result<Ghost> choose_ghost(const LensState& lens, const std::string& text) {
-  const Ghost ghost = *params::parse_ghost(text);
+Result<Ghost> of_lens(const LensState& lens, const Ghost& ghost) {
   if (has_ghost(lens, ghost)) return ghost;
   return failure(ErrorCode::InvalidArgument,
                  fmt::format("there is no ghost {}: the lens has {} surfaces and number {}, the stop, does not reflect",
                              ghost_name(ghost), lens.surfaces.size(), lens.stop_index + 1));
+}
+
+}  // namespace
+
+CLI::Option* add_ghost_option(CLI::App& command, const std::string& flag, std::string& ghost, const std::string& help) {
+  return checked<params::parse_ghost>(command.add_option(flag, ghost, help));
+}
+
+CLI::Option* add_ghosts_option(CLI::App& command, std::vector<std::string>& ghosts, const std::string& help) {
+  CLI::Option* option = command.add_option("--ghost", ghosts, help)->type_size(1)->expected(1);
+  return checked<params::parse_ghosts>(option->multi_option_policy(CLI::MultiOptionPolicy::TakeAll));
+}
+
+Result<Ghost> choose_ghost(const LensState& lens, const std::string& text) {
+  return of_lens(lens, *params::parse_ghost(text));
+}
+
+Result<std::vector<Ghost>> choose_ghosts(const LensState& lens, const std::string& text) {
+  std::vector<Ghost> ghosts = *params::parse_ghosts(text);
+  for (const Ghost& ghost : ghosts)
+    if (const auto good = of_lens(lens, ghost); !good) return tl::unexpected(good.error());
+  return ghosts;
 }
 
 double wavelength_nm(const params::Values& values, const LensState& lens) {

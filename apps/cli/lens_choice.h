@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 
@@ -20,9 +21,13 @@ CLI::Option* add_lens_argument(CLI::App& command, std::string& lens);
 // Finds and sets it; prints its warnings. Errors: those of find_lens and lens_at.
 [[nodiscard]] Result<LensState> open_lens(const std::string& lens, const params::Values& values);
 
-// The --ghost I,J option, and the ghost it names. Errors: the lens has no such ghost.
-CLI::Option* add_ghost_option(CLI::App& command, std::string& ghost, const std::string& help);
+// An option that names a ghost, as --ghost I-J, and the ghost it names. Errors: the lens has no such ghost.
+CLI::Option* add_ghost_option(CLI::App& command, const std::string& flag, std::string& ghost, const std::string& help);
 [[nodiscard]] Result<Ghost> choose_ghost(const LensState& lens, const std::string& text);
+
+// The same, for any number of ghosts.
+CLI::Option* add_ghosts_option(CLI::App& command, std::vector<std::string>& ghosts, const std::string& help);
+[[nodiscard]] Result<std::vector<Ghost>> choose_ghosts(const LensState& lens, const std::string& text);
 
 // --wavelength, or the lens's own.
 [[nodiscard]] double wavelength_nm(const params::Values& values, const LensState& lens);

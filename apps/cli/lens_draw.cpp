@@ -2,6 +2,7 @@
 #include <cmath>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "cli/command.h"
 #include "cli/console.h"
@@ -16,16 +17,19 @@ namespace contrejour::cli {
 namespace {
 
 constexpr const char* kExamples =
-    "Without a ghost: the rays that image the axis and the corner of the field. With one: the light's rays to its "
+    "Without a ghost: the rays that image the axis and the corner of the field. With some: the light's rays to its "
     "image\n"
-    "and, in another colour, those the ghost's path lets through (dashed, if none gets through). The section lies in\n"
-    "the plane of the light.\n\n"
+    "and, each in another colour, those that the ghosts' paths let through (dashed, if none gets through). The "
+    "section\n"
+    "lies in the plane of the light.\n\n"
     "Examples:\n"
     "  contrejour lens draw heliar -o heliar.svg\n"
-    "  contrejour lens draw canon-70-200 --focal 135 -f 8 --ghost 3,14 --light 0,4 -o ghost.svg";
+    "  contrejour lens draw canon-70-200 --focal 135 -f 8 --ghost 3-14 --light 0,4 -o ghost.svg\n"
+    "  contrejour lens draw heliar --ghost 2-5,4-5 -o two.svg";
 
 struct DrawOptions {
-  std::string lens, output, ghost;
+  std::string lens, output;
+  std::vector<std::string> ghosts;
   params::Values values;
 };
 
@@ -46,10 +50,10 @@ Result<int> run_draw(const DrawOptions& options) {
   if (!lens) return tl::unexpected(lens.error());
   SectionRequest request;
   request.lambda_nm = wavelength_nm(options.values, *lens);
-  if (!options.ghost.empty()) {
-    const auto ghost = choose_ghost(*lens, options.ghost);
-    if (!ghost) return tl::unexpected(ghost.error());
-    request.ghost = *ghost;
+  for (const std::string& text : options.ghosts) {
+    const auto ghosts = choose_ghosts(*lens, text);
+    if (!ghosts) return tl::unexpected(ghosts.error());
+    request.ghosts.insert(request.ghosts.end(), ghosts->begin(), ghosts->end());
   }
   const auto angle_rad = light_angle_rad(options.values, *lens);
   if (!angle_rad) return tl::unexpected(angle_rad.error());
@@ -68,16 +72,16 @@ void add_lens_draw(CLI::App& lens, Action& action) {
   command->alias("layout");
   add_lens_argument(*command, options->lens);
   add_output(*command, "-o,--output", options->output, {".svg"}, "the drawing")->required();
-  add_ghost_option(*command, options->ghost, "show this ghost's path");
+  add_ghosts_option(*command, options->ghosts, "show this ghost's path; may be repeated, or several with commas");
   add_parameters(*command, options->values, {"light"});
   add_lens_parameters(*command, options->values);
   for (const auto names : {std::span<const std::string_view>(kIris), {kGrating}, {kDirt}})
     hide_parameters(*command, names);
-  hide_parameters(*command, std::array<std::string_view, 2>{"absorption", "coating"});
+  hide_parameters(*command, std::array<std::string_view, 3>{"absorption", "coating", "coating-at"});
   add_parameters(*command, options->values, {"wavelength"});
   command->footer(kExamples);
   command->callback([options, &action] {
-    if (options->values.given("light") && options->ghost.empty()) {
+    if (options->values.given("light") && options->ghosts.empty()) {
       throw CLI::ValidationError("--light", "is for a ghost's path; give --ghost as well");
     }
     if (options->values.list("light").size() > 1) throw CLI::ValidationError("--light", "one light is drawn; give one");

@@ -268,9 +268,7 @@ std::string info_text(const Info& info) {
 Result<int> run_info(const InfoOptions& options) {
   auto lens = prescription_of(options.lens);
   if (!lens) return tl::unexpected(lens.error());
-  const auto settings = params::lens_settings(options.values);
-  if (!settings) return tl::unexpected(settings.error());
-  auto state = lens_at(*lens, *settings);
+  auto state = params::lens_of(*lens, options.values);
   if (!state) return tl::unexpected(state.error());
   const double lambda_nm = wavelength_nm(options.values, *state);
   const FirstOrder figures = first_order(*state, lambda_nm);

@@ -49,7 +49,7 @@ Json list_json(const std::vector<Entry>& all) {
                     {"zoom", zoom},
                     {"f_number", entry.lens.f_number},
                     {"surface_count", entry.lens.surfaces.size()},
-                    {"ghost_count", enumerate_ghosts(entry.state, GhostScope::OneSideOfStop).size()}});
+                    {"ghost_count", enumerate_ghosts(entry.state, GhostScope::All).size()}});
   }
   return {{"lenses", list}};
 }
@@ -59,7 +59,7 @@ std::string list_text(const std::vector<Entry>& all) {
   for (const Entry& entry : all) {
     table.add({entry.id, focal_lengths(entry), fmt::format("{:g}", entry.lens.f_number),
                fmt::format("{}", entry.lens.surfaces.size()),
-               fmt::format("{}", enumerate_ghosts(entry.state, GhostScope::OneSideOfStop).size()), entry.lens.name,
+               fmt::format("{}", enumerate_ghosts(entry.state, GhostScope::All).size()), entry.lens.name,
                entry.lens.source});
   }
   return table.text();

@@ -141,7 +141,7 @@ void add_lens_trace(CLI::App& lens, Action& action) {
       ->required()
       ->check(CLI::Validator(problem_with_ray, "", "ray"))
       ->option_text("X,Y,Z,DX,DY,DZ");
-  add_ghost_option(*command, options->ghost, "along this ghost (default: straight through)");
+  add_ghost_option(*command, "--ghost", options->ghost, "along this ghost (default: straight through)");
   command->add_flag("--json", options->json, "as JSON");
   add_parameters(*command, options->values, {"wavelength"});
   add_lens_parameters(*command, options->values);

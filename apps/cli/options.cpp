@@ -69,10 +69,10 @@ void add_parameters(CLI::App& command, params::Values& values, std::span<const s
 }
 
 void add_lens_parameters(CLI::App& command, params::Values& values) {
-  add_parameters(command, values, {"focal", "fnumber", "focus", "coating"});
+  add_parameters(command, values, {"focal", "fnumber", "focus", "coating", "coating-at"});
   add_parameters(command, values, kIris);
   add_parameters(command, values, {"blade-closing", "tilt", "decentre", "build-seed", "absorption"});
-  add_parameters(command, values, {"cover-glass", "sensor-reflectance"});
+  add_parameters(command, values, {"sensor", "cover-glass", "sensor-reflectance"});
   add_parameters(command, values, kGrating);
   add_parameters(command, values, kDirt);
 }

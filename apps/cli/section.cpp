@@ -10,7 +10,7 @@ namespace {
 
 constexpr int kScan = 2001;       // rays tried across the entrance window
 constexpr int kImagingRays = 5;
-constexpr int kGhostRays = 9;
+constexpr int kGhostRays = 9, kFewGhostRays = 5;  // of one alone, of each of several
 constexpr double kLead = 0.10;    // free space in front of the lens, of its length
 constexpr double kFieldOfGhostLight = 0.33;
 
@@ -45,7 +45,8 @@ SectionRay record(const OpticalPath& path, Vec3 origin, Vec3 direction, double l
 }
 
 // `count` rays, evenly over those that get through.
-void add_fan(Section& section, const OpticalPath& path, Vec3 direction, RayKind kind, int count) {
+void add_fan(Section& section, const OpticalPath& path, Vec3 direction, RayKind kind, int count,
+             std::size_t ghost = 0) {
   const EntranceWindow window = entrance_window(section.lens, direction);
   const std::vector<Line> lines = scan(path, window, direction);
   if (lines.empty()) return;
@@ -54,6 +55,7 @@ void add_fan(Section& section, const OpticalPath& path, Vec3 direction, RayKind 
     const Line& line = lines[static_cast<std::size_t>(std::lround(at))];
     SectionRay ray = record(path, {0.0, line.y_mm, window.z_mm}, direction, section.left_mm);
     ray.kind = kind;
+    ray.ghost = ghost;
     ray.blocked = !line.open;
     section.rays.push_back(std::move(ray));
   }
@@ -120,11 +122,11 @@ Section make_section(const LensState& lens, const SectionRequest& request) {
   Section section;
   section.lens = as_drawn(lens);
   section.elements = find_elements(lens);
-  section.ghost = request.ghost;
+  section.ghosts = request.ghosts;
   set_bounds(section);
   const OpticalPath direct = direct_path(lens, request.lambda_nm);
   const Vec3 field = direction_to_land_at(lens, {0.0, -half_diagonal_mm(lens)}, request.lambda_nm);
-  if (!request.ghost) {
+  if (request.ghosts.empty()) {
     add_fan(section, direct, field, RayKind::Field, kImagingRays);
     add_fan(section, direct, {0.0, 0.0, 1.0}, RayKind::Axis, kImagingRays);
     return section;
@@ -134,7 +136,9 @@ Section make_section(const LensState& lens, const SectionRequest& request) {
   section.ghost_light_deg = light_rad * 180.0 / 3.14159265358979323846;
   const Vec3 light = direction_from_angles(0.0, light_rad);
   add_fan(section, direct, light, RayKind::Axis, kImagingRays);
-  add_fan(section, ghost_path(lens, *request.ghost, request.lambda_nm), light, RayKind::Ghost, kGhostRays);
+  const int rays = request.ghosts.size() > 1 ? kFewGhostRays : kGhostRays;
+  for (std::size_t g = 0; g < request.ghosts.size(); ++g)
+    add_fan(section, ghost_path(lens, request.ghosts[g], request.lambda_nm), light, RayKind::Ghost, rays, g);
   return section;
 }
 

@@ -2,6 +2,7 @@
 // Points are (z, y) in mm. A light off the axis lies in the plane of the section.
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <vector>
 
@@ -14,6 +15,7 @@ enum class RayKind { Axis, Field, Ghost };
 
 struct SectionRay {
   RayKind kind = RayKind::Axis;
+  std::size_t ghost = 0;  // which of the section's, of that kind
   std::vector<Vec2> points_mm;
   std::vector<Vec2> reflections_mm;
   bool blocked = false;  // drawn although it meets a rim, because no ray gets through
@@ -27,7 +29,7 @@ struct Section {
   LensState lens;
   std::vector<Element> elements;
   std::vector<SectionRay> rays;
-  std::optional<Ghost> ghost;
+  std::vector<Ghost> ghosts;
   double ghost_light_deg = 0;  // up
   double left_mm = 0, right_mm = 0, half_height_mm = 0;
 };
@@ -37,7 +39,7 @@ struct Section {
 
 struct SectionRequest {
   double lambda_nm = kLineD_nm;
-  std::optional<Ghost> ghost;
+  std::vector<Ghost> ghosts;
   std::optional<double> ghost_light_rad;  // default: a third of the field
 };
 

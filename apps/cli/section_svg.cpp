@@ -12,7 +12,7 @@ namespace contrejour::cli {
 namespace {
 
 constexpr double kWidth_px = 1400, kMargin_px = 48, kTop_px = 96, kBottom_px = 84, kTallest_px = 760;
-constexpr double kLabelGap_px = 19;
+constexpr double kLabelGap_px = 19, kLegendColumn_px = 210;
 constexpr const char* kInk = "#26323d";
 constexpr const char* kQuiet = "#8a97a3";
 
@@ -22,11 +22,14 @@ struct RayStyle {
   double opacity;
 };
 
-RayStyle style_of(RayKind kind) {
+// Of several ghosts, in turn; more than there are begin again.
+constexpr std::array kGhostInks{"#d5482c", "#8e44ad", "#c98a00", "#138d75", "#c2185b", "#6d4c41"};
+
+RayStyle style_of(RayKind kind, std::size_t ghost = 0) {
   switch (kind) {
     case RayKind::Axis: return {"#2f6fb5", 1.1, 0.85};
     case RayKind::Field: return {"#2d8f6a", 1.1, 0.85};
-    case RayKind::Ghost: return {"#d5482c", 1.2, 0.9};
+    case RayKind::Ghost: return {kGhostInks[ghost % kGhostInks.size()], 1.2, 0.9};
   }
   return {kInk, 1, 1};
 }
@@ -118,7 +121,7 @@ void draw_rays(Svg& svg, const Page& page, const Section& section) {
   for (const SectionRay& ray : section.rays) {
     std::vector<Vec2> points;
     for (const Vec2 p : ray.points_mm) points.push_back(page.at(p));
-    const RayStyle style = style_of(ray.kind);
+    const RayStyle style = style_of(ray.kind, ray.ghost);
     svg.polyline(points,
                  fmt::format("stroke=\"{}\" stroke-width=\"{}\" stroke-opacity=\"{}\" stroke-linejoin=\"round\"{}",
                              style.colour, style.width, style.opacity, ray.blocked ? " stroke-dasharray=\"5 4\"" : ""));
@@ -199,9 +202,12 @@ void draw_numbers(Svg& svg, const Page& page, const Section& section) {
   const double label_y = page.bottom() + 30;
   for (std::size_t k = 0; k < surfaces.size(); ++k) {
     const int number = static_cast<int>(k) + 1;
-    const auto turns = [&](const Ghost& g) { return g.i == number || g.j == number || g.k == number || g.l == number; };
-    const bool reflects = section.ghost && turns(*section.ghost);
-    const char* colour = reflects ? style_of(RayKind::Ghost).colour : kInk;
+    const auto& ghosts = section.ghosts;
+    const auto first =
+        std::find_if(ghosts.begin(), ghosts.end(), [&](const Ghost& g) { return g.reflects_at(number); });
+    const bool reflects = first != ghosts.end();
+    const char* colour =
+        reflects ? style_of(RayKind::Ghost, static_cast<std::size_t>(first - ghosts.begin())).colour : kInk;
     svg.polyline({rims[k], {rims[k].x, page.bottom() + 4}, {places[k], label_y - 12}},
                  fmt::format("stroke=\"{}\" stroke-width=\"0.6\" stroke-opacity=\"0.7\"", kQuiet));
     svg.text({places[k], label_y}, fmt::format("{}", k + 1),
@@ -217,25 +223,38 @@ void draw_numbers(Svg& svg, const Page& page, const Section& section) {
            fmt::format("font-size=\"11\" text-anchor=\"end\" font-style=\"italic\" fill=\"{}\"", kInk));
 }
 
-void draw_legend(Svg& svg, const Section& section) {
-  std::vector<std::pair<RayKind, std::string>> entries;
-  if (section.ghost) {
-    entries.emplace_back(RayKind::Axis, fmt::format("image of a light {:.1f}° up", section.ghost_light_deg));
-    entries.emplace_back(RayKind::Ghost, "ghost " + ghost_name(*section.ghost));
-  } else {
-    entries.emplace_back(RayKind::Axis, "axis");
-    entries.emplace_back(RayKind::Field, "corner of the field");
+struct LegendEntry {
+  RayStyle style;
+  std::string words;
+};
+
+std::vector<LegendEntry> legend_of(const Section& section) {
+  const RayStyle axis = style_of(RayKind::Axis);
+  if (section.ghosts.empty()) return {{axis, "axis"}, {style_of(RayKind::Field), "corner of the field"}};
+  std::vector<LegendEntry> entries{{axis, fmt::format("image of a light {:.1f}° up", section.ghost_light_deg)}};
+  for (std::size_t g = 0; g < section.ghosts.size(); ++g) {
+    const auto is_blocked = [&](const SectionRay& ray) {
+      return ray.kind == RayKind::Ghost && ray.ghost == g && ray.blocked;
+    };
+    const bool blocked = std::any_of(section.rays.begin(), section.rays.end(), is_blocked);
+    entries.push_back(
+        {style_of(RayKind::Ghost, g), "ghost " + ghost_name(section.ghosts[g]) + (blocked ? " (blocked)" : "")});
   }
-  const auto blocked = [](const SectionRay& ray) { return ray.kind == RayKind::Ghost && ray.blocked; };
-  if (std::any_of(section.rays.begin(), section.rays.end(), blocked)) entries.back().second += " (blocked)";
+  return entries;
+}
+
+void draw_legend(Svg& svg, const Section& section) {
   double y = 40;
-  for (const auto& [kind, words] : entries) {
-    const RayStyle style = style_of(kind);
-    svg.line({kWidth_px - kMargin_px - 28, y - 4}, {kWidth_px - kMargin_px, y - 4},
-             fmt::format("stroke=\"{}\" stroke-width=\"2.4\"", style.colour));
-    svg.text({kWidth_px - kMargin_px - 36, y}, words,
-             fmt::format("font-size=\"13\" text-anchor=\"end\" fill=\"{}\"", kInk));
-    y += 20;
+  double right = kWidth_px - kMargin_px;
+  for (const LegendEntry& entry : legend_of(section)) {
+    svg.line({right - 28, y - 4}, {right, y - 4},
+             fmt::format("stroke=\"{}\" stroke-width=\"2.4\"", entry.style.colour));
+    svg.text({right - 36, y}, entry.words, fmt::format("font-size=\"13\" text-anchor=\"end\" fill=\"{}\"", kInk));
+    y += 18;
+    if (y > kTop_px - 4) {  // the next column, to the left
+      y = 40;
+      right -= kLegendColumn_px;
+    }
   }
 }
 

@@ -68,11 +68,15 @@ struct LightText {
 };
 [[nodiscard]] Result<LightText> parse_light(std::string_view text);
 
-// "all", "brightest:N", "flux:P", "surface:K", "list:1-2,3-4".
+// A ghost as ghost_name() writes it: "2-5", "2-5-1-4", "7-12@1,-2"; also "5-2" and "2,5".
+[[nodiscard]] Result<Ghost> parse_ghost(std::string_view text);
+// Several, with commas between: "2-5,3-7"; "2,5,3,7" are the same two.
+[[nodiscard]] Result<std::vector<Ghost>> parse_ghosts(std::string_view text);
+// "all", "brightest:N", "flux:P", "surface:K", "list:2-5,3-7".
 [[nodiscard]] Result<GhostSelection> parse_selection(std::string_view text);
-[[nodiscard]] Result<Ghost> parse_ghost(std::string_view text);  // "2-5" or "2,5"; "2-5-1-4", "7-12@1,-2": ghost_name()
 
-// "2-5:gain=0.5,colour=1,0.8,0.6,offset=0.01,-0.02"; each part may be left out.
+// "2-5:gain=0.5,colour=1,0.8,0.6,offset=0.01,-0.02", or "5:..." for all ghosts that reflect at surface 5; each part may
+// be left out.
 [[nodiscard]] Result<GhostAdjustment> parse_ghost_adjustment(std::string_view text);
 // "-1:1,0.5,0.2/0:1,1,1/1:0.6,0.8,1"
 [[nodiscard]] Result<std::vector<GhostRampStop>> parse_ghost_ramp(std::string_view text);
@@ -82,6 +86,9 @@ struct LightText {
 
 // "none", "quarter-wave[:NM[:N]]", "hullin[:NM[:N]]", "stack:N@NM,N@NM,..." from air to glass, "measured:FILE".
 [[nodiscard]] Result<Coating> parse_coating(std::string_view text);
+
+// "12:v-coat:550": a surface by its number, and its coating.
+[[nodiscard]] Result<SurfaceCoating> parse_coating_at(std::string_view text);
 
 // A plane plate in front of the sensor: "2", "2:N-BK7", "2:1.52:0.8": mm thick, glass or index (N-BK7), gap behind (1).
 [[nodiscard]] Result<SensorPlate> parse_cover_glass(std::string_view text);

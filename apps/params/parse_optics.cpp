@@ -189,18 +189,21 @@ Result<LightText> parse_light(std::string_view text) {
 Result<Ghost> parse_ghost(std::string_view text) {
   const std::size_t at = text.find('@');
   const std::string_view surfaces = text.substr(0, at);
-  const auto parts = split(surfaces, surfaces.find(',') != std::string_view::npos ? ',' : '-');
   std::vector<int> numbers;
-  for (const std::string_view part : parts) {
+  for (const std::string_view part : split(surfaces, surfaces.find(',') != std::string_view::npos ? ',' : '-')) {
     const auto number = parse_integer(part);
     numbers.push_back(number ? *number : 0);
   }
-  const auto fits = [&](std::size_t k) { return numbers[k] >= 1 && numbers[k] < numbers[k + 1]; };
+  // The light meets the later surface of a pair first, in whichever order they are named.
+  const auto sorted = [&](std::size_t k) {
+    if (numbers[k] > numbers[k + 1]) std::swap(numbers[k], numbers[k + 1]);
+    return numbers[k] >= 1 && numbers[k] < numbers[k + 1];
+  };
   Ghost ghost;
-  bool good = (numbers.size() == 2 || numbers.size() == 4) && fits(0);
+  bool good = (numbers.size() == 2 || numbers.size() == 4) && sorted(0);
   if (good) ghost = {numbers[0], numbers[1]};
   if (good && numbers.size() == 4) {
-    good = fits(2);
+    good = sorted(2);
     ghost.k = numbers[2];
     ghost.l = numbers[3];
   }
@@ -213,17 +216,39 @@ Result<Ghost> parse_ghost(std::string_view text) {
   }
   if (good) return ghost;
   return invalid(
-      fmt::format("\"{}\" is not a ghost; write its two surfaces, the smaller first, as in 2-5; of four "
-                  "reflections both pairs, as in 2-5-1-4; an order at the sensor as in 7-12@1,-2",
+      fmt::format("\"{}\" is not a ghost; write its two surfaces, as in 2-5; of four reflections both pairs, as in "
+                  "2-5-1-4; an order at the sensor as in 7-12@1,-2",
                   text));
+}
+
+// A comma is between two ghosts, and within one that is written with commas, or of an order: there a number without a
+// partner takes the next.
+Result<std::vector<Ghost>> parse_ghosts(std::string_view text) {
+  const auto parts = split(text, ',');
+  const auto lacks_one = [](std::string_view part) {
+    return part.find('@') != std::string_view::npos || part.find('-', 1) == std::string_view::npos;
+  };
+  std::vector<Ghost> ghosts;
+  for (std::size_t k = 0; k < parts.size(); ++k) {
+    std::string name(parts[k]);
+    if (lacks_one(parts[k]) && k + 1 < parts.size()) name.append(",").append(parts[++k]);
+    const auto ghost = parse_ghost(name);
+    if (!ghost) return tl::unexpected(ghost.error());
+    ghosts.push_back(*ghost);
+  }
+  return ghosts;
 }
 
 Result<GhostAdjustment> parse_ghost_adjustment(std::string_view text) {
   const std::size_t colon = text.find(':');
-  const auto ghost = parse_ghost(text.substr(0, colon));
-  if (!ghost) return tl::unexpected(ghost.error());
   GhostAdjustment out;
-  out.ghost = *ghost;
+  if (const auto surface = parse_integer(text.substr(0, colon)); surface && *surface >= 1) {
+    out.surface = *surface;
+  } else {
+    const auto ghost = parse_ghost(text.substr(0, colon));
+    if (!ghost) return tl::unexpected(ghost.error());
+    out.ghost = *ghost;
+  }
   if (colon == std::string_view::npos) return out;
   // A part without a name goes on with the list before it.
   std::vector<std::pair<std::string_view, std::string>> settings;
@@ -232,7 +257,7 @@ Result<GhostAdjustment> parse_ghost_adjustment(std::string_view text) {
     if (equals != std::string_view::npos) {
       settings.emplace_back(part.substr(0, equals), part.substr(equals + 1));
     } else if (!settings.empty()) {
-      settings.back().second += "," + std::string(part);
+      settings.back().second.append(",").append(part);
     } else {
       return invalid(fmt::format("\"{}\" is not a ghost and what to do with it; write 2-5:gain=0.5", text));
     }
@@ -290,17 +315,13 @@ Result<GhostSelection> parse_selection(std::string_view text) {
     const auto surface = parse_integer(*number);
     if (surface && *surface >= 1) return SelectSurface{*surface};
   } else if (const auto list = after(text, "list:")) {
-    SelectList select;
-    for (const std::string_view part : split(*list, ',')) {
-      const auto ghost = parse_ghost(part);
-      if (!ghost) return tl::unexpected(ghost.error());
-      select.ghosts.push_back(*ghost);
-    }
-    return select;
+    const auto ghosts = parse_ghosts(*list);
+    if (!ghosts) return tl::unexpected(ghosts.error());
+    return SelectList{*ghosts};
   }
   return invalid(
       fmt::format("\"{}\" is no choice of ghosts; write all, brightest:N, flux:PERCENT, surface:K or "
-                  "list:1-2,3-4",
+                  "list:2-5,3-7",
                   text));
 }
 
@@ -335,6 +356,16 @@ Result<Coating> parse_coating(std::string_view text) {
                     text, fmt::join(coating_design_names(), ", ")));
   }
   return coating;
+}
+
+Result<SurfaceCoating> parse_coating_at(std::string_view text) {
+  const std::size_t colon = text.find(':');
+  const auto surface = parse_integer(text.substr(0, colon));
+  if (colon == std::string_view::npos || !surface || *surface < 1)
+    return invalid(fmt::format("\"{}\" is not a surface and its coating; write 12:v-coat:550", text));
+  auto coating = parse_coating(text.substr(colon + 1));
+  if (!coating) return tl::unexpected(coating.error());
+  return SurfaceCoating{*surface, std::move(*coating)};
 }
 
 Result<SensorPlate> parse_cover_glass(std::string_view text) {

@@ -10,6 +10,7 @@
 #include "contrejour/trace.h"
 #include "params/mask_images.h"
 #include "params/photometry.h"
+#include "params/sensor_format.h"
 
 namespace contrejour::params {
 namespace {
@@ -113,6 +114,11 @@ Result<LensSettings> lens_settings(const Values& values) {
   settings.f_number = values.real("fnumber");
   settings.object_distance_mm = *parse_distance_mm(*values.text("focus"));
   if (const auto coating = values.text("coating")) settings.coating = *parse_coating(*coating);
+  for (const std::string& text : values.list("coating-at")) {
+    auto coating = parse_coating_at(text);  // a file may be gone since it was checked
+    if (!coating) return tl::unexpected(coating.error());
+    settings.coating_at.push_back(std::move(*coating));
+  }
   settings.build = {values.number("tilt") * kDegree_rad, values.number("decentre"),
                     static_cast<std::uint32_t>(values.integer("build-seed"))};
   settings.iris.blades = values.integer("blades");
@@ -142,6 +148,17 @@ Result<LensSettings> lens_settings(const Values& values) {
   return settings;
 }
 
+Result<LensState> lens_of(Prescription lens, const Values& values) {
+  const auto settings = lens_settings(values);
+  if (!settings) return tl::unexpected(settings.error());
+  if (const auto sensor = values.text("sensor")) {
+    const SensorFormat format = *parse_sensor(*sensor);
+    lens.sensor_width_mm = format.width_mm;
+    lens.sensor_height_mm = format.height_mm;
+  }
+  return lens_at(lens, *settings);
+}
+
 double pixel_pitch_mm(const Values& values, const LensState& lens, Vec2 square_pixels) {
   const auto hfov_deg = values.real("hfov");
   if (!hfov_deg) return std::min(lens.sensor_width_mm / square_pixels.x, lens.sensor_height_mm / square_pixels.y);
@@ -163,6 +180,10 @@ ColourSpace colour_space(const Values& values, ColourSpace otherwise) {
   return *name == "acescg" ? ColourSpace::AcesCg : ColourSpace::Rec709;
 }
 
+GhostScope ghost_scope(const Values& values) {
+  return *values.text("ghosts") == "all" ? GhostScope::All : GhostScope::OneSideOfStop;
+}
+
 Reflections reflections(const Values& values) {
   return *values.text("reflections") == "4" ? Reflections::UpToFour : Reflections::Two;
 }
@@ -170,7 +191,7 @@ Reflections reflections(const Values& values) {
 RenderSettings render_settings(const Values& values, const Frame& frame, ColourSpace space) {
   RenderSettings settings;
   settings.frame = frame;
-  settings.scope = *values.text("ghosts") == "all" ? GhostScope::All : GhostScope::OneSideOfStop;
+  settings.scope = ghost_scope(values);
   settings.reflections = reflections(values);
   settings.selection = *parse_selection(*values.text("select"));
   settings.wavelengths = values.integer("wavelengths");

@@ -18,6 +18,9 @@ inline constexpr double kDegree_rad = 0.017453292519943295;
 // Errors: a picture of the iris or of dirt that cannot be read or is none.
 [[nodiscard]] Result<LensSettings> lens_settings(const Values& values);
 
+// The lens as --sensor and the lens's settings have it. Errors: those of lens_settings() and lens_at().
+[[nodiscard]] Result<LensState> lens_of(Prescription lens, const Values& values);
+
 // The pitch of a whole frame of so many square pixels, across and down: on the lens's sensor, or as wide as --hfov
 // says.
 [[nodiscard]] double pixel_pitch_mm(const Values& values, const LensState& lens, Vec2 square_pixels);
@@ -25,6 +28,7 @@ inline constexpr double kDegree_rad = 0.017453292519943295;
 // A whole frame of these pixels.
 [[nodiscard]] Frame whole_frame(const Values& values, const LensState& lens, PixelSize size);
 
+[[nodiscard]] GhostScope ghost_scope(const Values& values);
 [[nodiscard]] Reflections reflections(const Values& values);
 
 [[nodiscard]] ColourSpace colour_space(const Values& values, ColourSpace otherwise);

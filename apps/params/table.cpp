@@ -10,6 +10,7 @@
 #include "params/parameter.h"
 #include "params/parse.h"
 #include "params/photometry.h"
+#include "params/sensor_format.h"
 
 namespace contrejour::params {
 namespace {
@@ -111,12 +112,19 @@ const Parameter kTable[] = {
              "hullin:550:1.38, stack:MgF2@99.6,ZrO2@0.5w, v-coat, broadband-5:550, measured:FILE (a table, R over nm and degrees), "
              "...",
      .check = parses<parse_coating>},
+    {.name = "coating-at", .group = "Lens", .unit = "SURFACE:COATING",
+     .help = "a coating for one surface: 12:v-coat:550, 3:none; may be repeated", .repeats = true,
+     .check = parses<parse_coating_at>},
     {.name = "absorption", .group = "Lens", .kind = Kind::Switch,
      .help = "glass absorbs on the way through it, where its catalogue says how much"},
     {.name = "cover-glass", .group = "Lens", .unit = "MM[:GLASS[:GAP]]",
      .help = "a plane plate before the sensor, of N-BK7 and 1 mm in front of what follows unless given: 2, 2:1.52:0.8; "
              "from the lens on; may be repeated",
      .repeats = true, .check = parses<parse_cover_glass>},
+    {.name = "sensor", .group = "Lens", .unit = "NAME|WxH",
+     .help = "size of the sensor in place of the lens's own: mm as 24.9x18.7, or full-frame, aps-c, four-thirds, "
+             "one-inch, medium-format, super35, super16, 65mm, imax, alexa-lf, ... (docs/cli.md)",
+     .scene = true, .check = parses<parse_sensor>},
     {.name = "sensor-reflectance", .group = "Lens", .kind = Kind::Real, .minimum = 0, .maximum = 1, .fallback = "0",
      .help = "share of the light that the sensor sends back into the lens; some 0.05 to 0.2"},
     {.name = "sensor-orders", .group = "Lens", .kind = Kind::Integer, .minimum = 0,
@@ -169,16 +177,17 @@ const Parameter kTable[] = {
     {.name = "colour-space", .group = "Rendering", .kind = Kind::Choice, .unit = "SPACE",
      .help = "linear working space: rec709 or acescg (default: the picture's, else rec709)",
      .choices = {"rec709", "acescg"}},
-    {.name = "ghosts", .group = "Rendering", .kind = Kind::Choice, .unit = "SCOPE", .fallback = "one-side",
-     .help = "one-side: both reflections on one side of the stop; all: every pair", .choices = {"one-side", "all"}},
+    {.name = "ghosts", .group = "Rendering", .kind = Kind::Choice, .unit = "SCOPE", .fallback = "all",
+     .help = "all: every pair of surfaces; one-side: both reflections on one side of the stop, as in the papers",
+     .choices = {"one-side", "all"}},
     {.name = "reflections", .group = "Rendering", .kind = Kind::Choice, .unit = "N", .fallback = "2",
      .help = "2, or 4: ghosts of four reflections besides, very many and very dim", .choices = {"2", "4"}},
     {.name = "select", .group = "Rendering", .unit = "CHOICE", .fallback = "all",
-     .help = "all, brightest:N, flux:PERCENT (leave out the weakest that carry so much), surface:K, list:1-2,3-4",
+     .help = "all, brightest:N, flux:PERCENT (leave out the weakest that carry so much), surface:K, list:2-5,3-7",
      .check = parses<parse_selection>},
-    {.name = "ghost", .group = "Rendering", .unit = "I-J:gain=G,colour=R,G,B,offset=X,Y",
-     .help = "one ghost by its surfaces: times a gain, a colour, set off to the right and up by shares of the frame's "
-             "height; may be repeated",
+    {.name = "ghost", .group = "Rendering", .unit = "I-J|K:gain=G,colour=R,G,B,offset=X,Y",
+     .help = "one ghost by its surfaces (2-5), or all that reflect at one (5): times a gain, a colour, set off to the "
+             "right and up by shares of the frame's height; may be repeated",
      .repeats = true, .check = parses<parse_ghost_adjustment>},
     {.name = "ghost-gain", .group = "Rendering", .kind = Kind::Real, .minimum = 0, .maximum = kBig, .fallback = "1",
      .help = "all ghosts times so much; 1 is physically right"},

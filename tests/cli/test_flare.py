@@ -26,7 +26,7 @@ class Render(ProgramTest):
         self.assertLessEqual({"method", "device", "time_ms", "rays", "surface_hits", "primitives", "ghosts_rendered",
                               "ghosts_skipped_flux", "peak_memory_bytes"}, set(stats))
         self.assertIn("total", stats["time_ms"])
-        self.assertEqual((stats["method"], stats["ghosts_rendered"]), ("adaptive", 13))
+        self.assertEqual((stats["method"], stats["ghosts_rendered"]), ("adaptive", 28))
         self.assertEqual(self.files(), ["a.exr", "a.json", "a.png"])
 
     def test_the_brightest_lights(self):
@@ -98,7 +98,7 @@ class Render(ProgramTest):
         self.assertEqual(ramped.total("R"), 0)
         self.assertGreater(ramped.total("B"), 0)
         picture("e.exr", "--ghost-scatter", "0.1", "--ghost-seed", "4")
-        for wrong in (["--ghost", "2-5:gain"], ["--ghost", "5-2:gain=1"], ["--ghost", "2-5:gain=-1"],
+        for wrong in (["--ghost", "2-5:gain"], ["--ghost", "5-5:gain=1"], ["--ghost", "2-5:gain=-1"],
                       ["--ghost", "2-5:shape=1"], ["--ghost", "2-5:offset=1"], ["--ghost-ramp", "0:1,1,1/0:1,1,1"],
                       ["--ghost-ramp", "1,1,1"], ["--ghost-gain", "-1"]):
             self.error_of("render", "heliar", "-o", "w.exr", *wrong, code=2)

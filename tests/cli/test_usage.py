@@ -72,7 +72,7 @@ class Usage(ProgramTest):
                 ["apply", "heliar", "in.exr", "-o", "o.exr", "--hfov", "180"],
                 ["lens", "trace", "heliar", "--ray", "0,0,0"], ["lens", "trace", "heliar", "--ray", "0,0,0,0,0,0"],
                 ["lens", "trace", "heliar", "--ray", "0,0,0,0,0,-1"],
-                ["lens", "trace", "heliar", "--ray", "0,0,0,0,0,1", "--ghost", "5,2"],
+                ["lens", "trace", "heliar", "--ray", "0,0,0,0,0,1", "--ghost", "5,5"],
                 ["lens", "draw", "heliar", "-o", "a.png"], ["lens", "draw", "heliar", "-o", "a.svg", "--light", "1,1"],
                 ["lens", "convert", "heliar", "a.json"], ["ghosts", "heliar", "--light", "1,1", "2,2"],
                 ["glass"], ["glass", "show"], ["glass", "closest", "1.5"], ["glass", "closest", "nan", "60"],

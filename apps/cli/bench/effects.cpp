@@ -45,6 +45,7 @@ Result<EffectScene> effect_scene(const params::Values& values, int runs) {
   if (!lights) return tl::unexpected(lights.error());
   scene.lights = std::move(*lights);
   scene.render = params::render_settings(values, frame, ColourSpace::Rec709);
+  scene.render.scope = GhostScope::OneSideOfStop;  // as in the papers' tables, so that figures can be compared
   scene.runs = runs;
   scene.context.threads = values.integer("threads");
   return scene;

@@ -138,6 +138,7 @@ Result<BenchScene> bench_scene(const PaperSystem& system, int light_count, const
   }
   scene.settings = params::render_settings(values, frame, ColourSpace::Rec709);
   scene.settings.scale_grid = true;  // the paper's eq. 13
+  scene.settings.scope = GhostScope::OneSideOfStop;  // the paper's ghosts
   if (variant.wavelengths > 0) scene.settings.wavelengths = variant.wavelengths;
   return scene;
 }

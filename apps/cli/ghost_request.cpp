@@ -1,0 +1,27 @@
+#include "cli/ghost_request.h"
+
+#include "params/settings.h"
+
+namespace contrejour::cli {
+namespace {
+
+std::vector<SpectralBand> bands_for(const params::Values& values, const Light& light) {
+  if (const auto lambda_nm = values.real("wavelength")) return {{*lambda_nm, {1.0, 1.0, 1.0}}};
+  return spectral_bands(values.integer("wavelengths"), light.spectrum, ColourSpace::Rec709);
+}
+
+}  // namespace
+
+Result<FiguresRequest> figures_request(const params::Values& values, const LensState& lens) {
+  FiguresRequest request;
+  request.frame = params::whole_frame(values, lens, *params::parse_size(*values.text("size")));
+  const auto lights = params::lights(values, lens, request.frame, ColourSpace::Rec709);
+  if (!lights) return tl::unexpected(lights.error());
+  request.light = lights->front();
+  request.scope = params::ghost_scope(values);
+  request.reflections = params::reflections(values);
+  request.bands = bands_for(values, request.light);
+  return request;
+}
+
+}  // namespace contrejour::cli

@@ -1,0 +1,56 @@
+// Ghosts of a lens while one thing changes: the light's field angle, the focal length, the f-number.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "cli/console.h"
+#include "contrejour/ghost_figures.h"
+#include "params/values.h"
+
+namespace contrejour::cli {
+
+enum class SweepAxis { Field, Focal, FNumber };
+
+struct SweepRange {
+  SweepAxis axis = SweepAxis::Field;
+  std::optional<std::array<double, 2>> ends;  // none: the whole of it
+};
+// "field", "focal", "fnumber", "field:FROM:TO"
+[[nodiscard]] Result<SweepRange> parse_sweep(std::string_view text);
+
+// What one ghost does over the sweep, one value a step.
+struct SweptGhost {
+  Ghost ghost;
+  std::vector<double> relative_flux, peak_irradiance;
+};
+
+struct GhostSweep {
+  std::string lens;
+  SweepAxis axis = SweepAxis::Field;
+  std::vector<double> value;  // rising
+  std::vector<SweptGhost> ghosts;
+};
+
+// Everything but what the sweep changes is as the values say; field angles lie on the light's side of the axis.
+// Errors: those of the lens and its settings, a lens that has no zoom to sweep, Cancelled.
+[[nodiscard]] Result<GhostSweep> sweep_ghosts(const std::string& lens, const params::Values& values,
+                                              const SweepRange& range, int steps);
+
+// What counts of a ghost: its flux, or its peak.
+enum class SweepQuantity { Flux, Peak };
+[[nodiscard]] const std::vector<double>& quantity_of(const SweptGhost& ghost, SweepQuantity quantity);
+// The step at which it is largest.
+[[nodiscard]] std::size_t worst_step(const SweptGhost& ghost, SweepQuantity quantity);
+// The worst ghost first.
+void sort_by_worst(GhostSweep& sweep, SweepQuantity quantity);
+
+[[nodiscard]] std::string axis_name(SweepAxis axis);  // with its unit, for headings
+[[nodiscard]] Json sweep_json(const GhostSweep& sweep);
+[[nodiscard]] std::string sweep_text(const GhostSweep& sweep);
+[[nodiscard]] std::string sweep_csv(const GhostSweep& sweep);
+
+}  // namespace contrejour::cli

@@ -1,0 +1,14 @@
+// A sweep as a picture: a row a ghost, the worst first, a column a step, colours by decades.
+#pragma once
+
+#include <string>
+
+#include "cli/ghost_sweep.h"
+
+namespace contrejour::cli {
+
+// SVG of a sorted sweep, of at most kMostRows ghosts.
+inline constexpr std::size_t kMostRows = 80;
+[[nodiscard]] std::string heat_map(const GhostSweep& sweep, SweepQuantity quantity);
+
+}  // namespace contrejour::cli
