@@ -323,6 +323,36 @@ TEST_CASE("a ghost nearly in focus keeps its light, however few pixels it is") {
   }
 }
 
+TEST_CASE("ringing of a ghost alone comes to the truth as the error falls, whatever makes it") {
+  // Fringes as fine as pixels, of patterns and of edges, and a ghost of five pixels, whose cells are smaller than one.
+  struct Case {
+    const char* lens;
+    LensSettings settings;
+    Vec2 uv;
+    RingingMode mode;
+    Ghost ghost;
+    int width, height;
+  };
+  const Case cases[] = {
+      {"distagon-25", {.f_number = 11.0, .iris = {5}}, {0.28, 0.22}, RingingMode::Hullin, {13, 16}, 192, 108},
+      {"cooke-triplet", {.f_number = 22.0, .iris = {9}}, {0.40, 0.58}, RingingMode::Fresnel, {2, 3}, 192, 108},
+      {"canon-70-200", {.f_number = 32.0, .iris = {5}}, {0.58, 0.24}, RingingMode::Hullin, {9, 19}, 192, 108}};
+  for (const Case& of : cases) {
+    CAPTURE(of.lens);
+    const LensState lens = test::bundled(of.lens, of.settings);
+    RenderSettings settings = settings_for(lens, of.width, of.height);
+    settings.ringing.mode = of.mode;
+    settings.selection = SelectList{{of.ghost}};
+    settings.reference_density = 2.0;
+    const Light light = test::light_at(lens, settings.frame, of.uv);
+    const Image truth = image_of("reference", lens, light, settings);
+    settings.error = 0.003;
+    CHECK(psnr_db(truth, image_of("adaptive", lens, light, settings)) > 45.0);
+    settings.error = 0.0003;
+    CHECK(psnr_db(truth, image_of("adaptive", lens, light, settings)) > 57.0);
+  }
+}
+
 TEST_CASE("ghosts whose pupils end where rays fail keep their light") {
   // A frame of 160 degrees: the rays at such an end come from steep refraction, and land as a root of their distance.
   const LensState lens = test::bundled("planar-50");

@@ -99,7 +99,21 @@ std::array<double, 3> by_table(const EdgeTable& table, Vec2 at) {
   return all;
 }
 
-// Random polygons anywhere about a screen's place; `screened` says how they look up, `share` what they ought to find.
+// The mean of what a pixel's looks find.
+std::array<double, 3> mean_of_looks(const PlainImage::Share& share, const Polygon& p, const Screened& behind,
+                                    Vec2 pixel) {
+  const int looks = behind.looks;
+  std::array<double, 3> mean{};
+  for (int k = 0; k < looks * looks; ++k) {
+    const Vec2 off{(k % looks + 0.5) / looks - 0.5, (k / looks + 0.5) / looks - 0.5};
+    const auto one = share(p, behind.map.place(pixel + off));
+    for (std::size_t c = 0; c < 3; ++c) mean[c] += one[c] / (looks * looks);
+  }
+  return mean;
+}
+
+// Random polygons anywhere about a screen's place; `screened` says how they look up, `share` what they ought to find at
+// each of the looks into a pixel, one to three across it.
 template <class ScreenedOf>
 double worst_difference(unsigned seed, const ScreenedOf& screened_of, const PlainImage::Share& share) {
   Fuzz fuzz(seed);
@@ -109,12 +123,13 @@ double worst_difference(unsigned seed, const ScreenedOf& screened_of, const Plai
     const Vec2 middle{fuzz(-20.0, kWidth + 20.0), fuzz(-10.0, kHeight + 10.0)};
     const double size = std::pow(10.0, fuzz(0.0, 2.2));
     const auto corners = fuzz.ellipse(middle, size, k % 3 == 0 ? 0.05 : fuzz(0.3, 1.0), k % 4 == 1);
-    const auto [behind, active] = screened_of(list, middle, size);
+    auto [behind, active] = screened_of(list, middle, size);
+    behind.looks = 1 + k % 3;
     list.add(corners, fuzz.shade(middle), behind, active);
     if (k % 2 == 0) list.add(fuzz.ellipse(middle, 20.0, 1.0, false), fuzz.shade(middle));  // sums and pixels together
     PlainImage plain(kWidth, kHeight);
     plain.add(list, [&](const Polygon& p, Vec2 pixel) {
-      return p.screened > 0 ? share(p, list.screened[p.screened - 1].map.place(pixel)) : std::array{1.0, 1.0, 1.0};
+      return p.screened > 0 ? mean_of_looks(share, p, list.screened[p.screened - 1], pixel) : std::array{1.0, 1.0, 1.0};
     });
     worst = std::max(worst, plain.difference(test::drawn(list, kWidth, kHeight)));
   }

@@ -4,6 +4,7 @@
 
 #include "contrejour/ringing.h"
 #include "renderers/methods.h"
+#include "support/pictures.h"
 
 using namespace contrejour;
 using namespace contrejour::test;
@@ -133,6 +134,38 @@ TEST_CASE("methods agree [slow]") {
   settings.lambda_nm.clear();
   settings.reference_density = 0.7;
   check(lens, light_at(lens, settings.frame, {0.7, 0.33}), ringing(settings));
+}
+
+TEST_CASE("half-tones of a picture as the iris dim every place of a ghost, with fringes and without") {
+  constexpr double kOpen = 0.9;  // stop radii
+  const auto disc = [](Vec2 p) { return length(p) < kOpen ? 1.0 : 0.0; };
+  const auto shaded = [](Vec2 p) { return length(p) < kOpen ? 0.6 + 0.4 * p.x : 0.0; };
+  Iris plain, toned;
+  plain.field = drawn_field(200, disc);
+  toned.field = drawn_field(200, shaded);
+  REQUIRE(toned.field->has_tones());
+  struct Case {
+    RingingMode mode;
+    double fresnel_number;
+  };
+  for (const auto& [mode, f] :
+       {Case{RingingMode::None, 300.0}, {RingingMode::Fresnel, 300.0}, {RingingMode::Fresnel, 30.0}}) {
+    CAPTURE(f);
+    const double radius_mm = std::sqrt(f * 550e-6 * 12.0);
+    const RenderSettings settings = ringing(green(square_frame(64, radius_mm / 16.0)), mode);
+    for_each_method([&](const Bounds& bounds) {
+      const Image bright = image_of(bounds, plate_of(radius_mm, plain), Light{}, settings);
+      const Image dim = image_of(bounds, plate_of(radius_mm, toned), Light{}, settings);
+      const double brightest = 0.6 + 0.4 * kOpen;  // of the picture, which counts as all that passes
+      CHECK(sum(dim) / sum(bright) == doctest::Approx(0.6 / brightest).epsilon(0.02));
+      // Means over a half disc: x is 4 r / (3 pi) there.
+      const double off = 0.4 * 4.0 * kOpen / (3.0 * std::numbers::pi);
+      double left = 0.0, right = 0.0;
+      for (int y = 0; y < dim.height; ++y)
+        for (int x = 0; x < dim.width; ++x) (2 * x < dim.width ? left : right) += dim.at(x, y);
+      CHECK(std::min(left, right) / std::max(left, right) == doctest::Approx((0.6 - off) / (0.6 + off)).epsilon(0.03));
+    });
+  }
 }
 
 TEST_CASE("every crossing but the last is sharp: ghosts that cross the stop three times agree, too") {

@@ -155,7 +155,10 @@ Work screen_items(const Scene& scene, Screens& screens, std::vector<Item>& items
   std::vector<double> error(items.size());
   std::vector<Rim> rims(items.size());
   for (const std::size_t k : all) error[k] = fringe_error(rim_of(sizes[k], allowed.peak, 0.5));  // at the most
-  std::vector<std::size_t> chosen = worth_drawing(all, error, 0.5 * kSharpShare * squares);
+  const auto worth = [&](std::vector<std::size_t> some) {
+    return screens.has_tones() ? some : worth_drawing(std::move(some), error, 0.5 * kSharpShare * squares);
+  };
+  std::vector<std::size_t> chosen = worth(all);
   for (const std::size_t k : chosen) {
     const auto& passes = items[k].light->passes;
     const double f =
@@ -163,7 +166,7 @@ Work screen_items(const Scene& scene, Screens& screens, std::vector<Item>& items
     rims[k] = rim_of(sizes[k], allowed.peak, f);
     error[k] = fringe_error(rims[k]);
   }
-  chosen = worth_drawing(std::move(chosen), error, 0.5 * kSharpShare * squares);
+  chosen = worth(std::move(chosen));
 
   std::vector<Screens::Wanted> wanted;
   for (const std::size_t k : chosen)

@@ -7,6 +7,9 @@
 namespace contrejour::screens {
 namespace {
 
+// Stop radii: pixels across the rim see it from beyond it.
+constexpr double kSharpReach = 1.05;
+
 // Of a square `width` wide on a straight edge, `distance` from its middle.
 double sharp_share(double distance, double width) {
   if (!(width > 0.0)) return distance <= 0.0 ? 1.0 : 0.0;
@@ -22,11 +25,15 @@ double IrisScreen::distance(Vec2 p) const {
   return largest;
 }
 
+double IrisScreen::tone(const StopPlace& place) const {
+  return iris_->has_tones() ? iris_->picture_transmittance(place.at, place.width) : 1.0;
+}
+
 double IrisScreen::share(std::span<const StopPlace> places) const {
   if (places.empty()) return 1.0;
   double all = pattern(places.back());
   for (const StopPlace& earlier : places.first(places.size() - 1))
-    if (all > 0.0) all *= sharp_share(distance(earlier.at), earlier.width);
+    if (all > 0.0) all *= sharp_share(distance(earlier.at), earlier.width) * tone(earlier);
   return all;
 }
 
@@ -50,6 +57,19 @@ ScreenPart EdgeScreen::over(Vec2 middle, double radius, double tolerance) const 
   const double from_edge = distance(middle);
   if (scale_ * (from_edge - radius) > -EdgeProfile::kDarkBelow) return ScreenPart::Dark;
   return scale_ * (-from_edge - radius) > profile_->level_above(tolerance) ? ScreenPart::Level : ScreenPart::Varied;
+}
+
+double TonedScreen::reach() const { return edges_ ? edges_->reach() : kSharpReach; }
+
+double TonedScreen::pattern(const StopPlace& place) const {
+  const double from_edge = distance(place.at);
+  const double open = edges_ ? edges_->edge(from_edge, place.width) : sharp_share(from_edge, place.width);
+  return open > 0.0 ? open * tone(place) : 0.0;
+}
+
+ScreenPart TonedScreen::over(Vec2 middle, double radius, double tolerance) const {
+  const bool dark = edges_ ? edges_->over(middle, radius, tolerance) == ScreenPart::Dark : distance(middle) > radius;
+  return dark ? ScreenPart::Dark : ScreenPart::Varied;
 }
 
 double TextureScreen::reach() const { return texture_->extent(); }

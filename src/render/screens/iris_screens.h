@@ -21,6 +21,7 @@ class IrisScreen : public StopScreen {
 
  protected:
   [[nodiscard]] virtual double pattern(const StopPlace& place) const = 0;
+  [[nodiscard]] double tone(const StopPlace& place) const;  // of a picture's half-tones; else 1
 
  private:
   std::shared_ptr<const IrisShape> iris_;
@@ -48,6 +49,23 @@ class EdgeScreen final : public IrisScreen {
  private:
   std::shared_ptr<const EdgeProfile> profile_;
   double scale_;  // of the profile's places over stop radii
+};
+
+// Half-tones of a picture as the iris, whose outline is sharp or brings fringes.
+class TonedScreen final : public IrisScreen {
+ public:
+  // edges: null where the outline is sharp.
+  TonedScreen(std::shared_ptr<const IrisShape> iris, std::shared_ptr<const EdgeScreen> edges)
+      : IrisScreen(std::move(iris)), edges_(std::move(edges)) {}
+
+  [[nodiscard]] double reach() const override;
+  [[nodiscard]] ScreenPart over(Vec2 middle, double radius, double tolerance) const override;
+
+ protected:
+  [[nodiscard]] double pattern(const StopPlace& place) const override;
+
+ private:
+  std::shared_ptr<const EdgeScreen> edges_;
 };
 
 // For small Fresnel numbers, and for any other pattern.

@@ -7,6 +7,7 @@
 
 #include "base/tasks.h"
 #include "contrejour/fresnel.h"
+#include "contrejour/iris_field.h"
 #include "render/screens/resampled.h"
 
 namespace contrejour {
@@ -32,8 +33,15 @@ int rung_of(double fresnel_number) {
 }
 
 PupilMask mask_of(const Iris& iris, const MaskGrid& grid, const Context& context) {
-  if (iris.field) return make_mask(grid, [&](Vec2 p) { return iris_distance(iris, p); }, context);
-  return make_mask(grid, IrisOpening(iris), 1.0, context);
+  if (!iris.field) return make_mask(grid, IrisOpening(iris), 1.0, context);
+  PupilMask mask = make_mask(grid, [&](Vec2 p) { return iris_distance(iris, p); }, context);
+  // A wave's amplitude is the root of the share of light that passes (hullin2011 3.2).
+  for (std::size_t k = 0; iris.field->has_tones() && k < mask.amplitude.size(); ++k) {
+    const auto side = static_cast<std::size_t>(grid.side);
+    const Vec2 place = grid.place_mm(static_cast<int>(k % side), static_cast<int>(k / side));
+    mask.amplitude[k] *= static_cast<float>(std::sqrt(iris_transmittance(iris, place, grid.pitch_mm)));
+  }
+  return mask;
 }
 
 // Round, dark at its rim, and as bright in all as the opening.

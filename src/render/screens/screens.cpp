@@ -42,6 +42,7 @@ Screens::Screens(const LensState& lens, const RenderSettings& settings)
 }
 
 double Screens::fresnel_number(const Ghost& ghost, double lambda_nm, const LightSource& light) const {
+  if (options_.mode == RingingMode::None) return std::numeric_limits<double>::infinity();
   if (options_.mode == RingingMode::Fresnel)
     return screens::stop_wave(ghost_path(lens_, ghost, lambda_nm), distance_along_axis(light)).fresnel_number;
   return kFractionalFresnel /
@@ -66,7 +67,20 @@ bool Screens::prepare(std::span<const Wanted> wanted, const Context& context) {
   Contents& patterns = options_.patterns->contents();
   const std::scoped_lock lock(patterns.mutex());
   patterns.use(lens_.iris);
-  return options_.mode == RingingMode::Fresnel ? prepare_fresnel(missing, context) : prepare_hullin(missing, context);
+  const bool done = options_.mode == RingingMode::None      ? true
+                    : options_.mode == RingingMode::Fresnel ? prepare_fresnel(missing, context)
+                                                            : prepare_hullin(missing, context);
+  if (done && has_tones()) add_tones(missing);
+  return done;
+}
+
+// Patterns hold a picture's half-tones; what has sharp or fringed edges is dimmed by them.
+void Screens::add_tones(std::span<const Wanted> wanted) {
+  for (const Wanted& w : wanted) {
+    auto& screen = screens_[key_of(w.ghost, w.lambda_nm, w.light)];
+    auto edges = std::dynamic_pointer_cast<const EdgeScreen>(screen);
+    if (!screen || edges) screen = std::make_shared<const screens::TonedScreen>(iris_, std::move(edges));
+  }
 }
 
 // How each ghost's light crosses the stop; none when cancelled.

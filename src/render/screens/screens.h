@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "contrejour/iris_field.h"
 #include "contrejour/render.h"
 #include "render/interface/frame_plan.h"
 #include "render/interface/stop_screen.h"
@@ -25,7 +26,9 @@ class Screens {
 
   Screens(const LensState& lens, const RenderSettings& settings);
 
-  [[nodiscard]] bool on() const { return options_.mode != RingingMode::None; }
+  [[nodiscard]] bool on() const { return options_.mode != RingingMode::None || has_tones(); }
+  // A picture's half-tones dim all of a ghost, in or out of focus: none can do without its screen.
+  [[nodiscard]] bool has_tones() const { return lens_.iris.field != nullptr && lens_.iris.field->has_tones(); }
 
   // About how far out of focus the stop's edge is in a ghost; infinite where it is sharp.
   [[nodiscard]] double fresnel_number(const Ghost& ghost, double lambda_nm, const LightSource& light) const;
@@ -54,6 +57,7 @@ class Screens {
   [[nodiscard]] double order(double lambda_nm) const;  // of the fractional transform
   bool prepare_fresnel(std::span<const Wanted> wanted, const Context& context);
   bool prepare_hullin(std::span<const Wanted> wanted, const Context& context);
+  void add_tones(std::span<const Wanted> wanted);
 
   const LensState& lens_;
   RingingOptions options_;

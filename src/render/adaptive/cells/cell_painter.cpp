@@ -90,7 +90,7 @@ void CellPainter::draw(const BoxMesh& of, const ChosenCell& chosen) {
   if (varied && (by_parts || is_dim(mesh, cell, kMeanBelow))) {
     const CellParts parts =
         parts_of(mesh, cell, by_parts ? parts_across(mesh, cell, longest) : CellParts::kFewestAcross);
-    if (by_parts && state == State::Open && !is_dirty(mesh, cell) && parts.are_uneven())
+    if (by_parts && state == State::Open && !is_dirty(mesh, cell) && are_uneven(mesh, cell, parts))
       return draw_parts(mesh, cell, parts);
     mean = parts.mean();
   }
@@ -119,10 +119,12 @@ void CellPainter::draw(const BoxMesh& of, const ChosenCell& chosen) {
   if (plane != nullptr) shade = *plane;
   const auto draw_seen = [&](const StopMap* map) {
     if (is_dirty(mesh, cell)) return draw_dirty(mesh, cell, state, shade, flux, map);
-    draw_polygon(mesh, state, shade, flux, shape_of(mesh, cell, sides).all(), all_corners_, {map});
+    draw_polygon(mesh, state, shade, flux, shape_of(mesh, cell, sides).all(), all_corners_,
+                 {map, nullptr, cell.screen.most});
   };
   if (mean) dim(shade, flux, *mean);
-  const auto map = varied && !mean ? std::optional(stop_map(mesh, cell, kSoft_px)) : std::nullopt;
+  const auto map =
+      varied && !mean ? std::optional(stop_map(mesh, cell, std::min(kSoft_px, kSoft * longest))) : std::nullopt;
   draw_seen(map ? &*map : nullptr);
 }
 
@@ -180,7 +182,8 @@ void CellPainter::draw_folded(const Mesh& mesh, const Cell& cell, State state, c
     if (mean) dim(shade, flux, *mean);
     const auto map = cell.screen.part == ScreenPart::Varied && !mean ? std::optional(stop_map(mesh, t)) : std::nullopt;
     const auto dirt = is_dirty(mesh, cell) ? std::optional(dirt_triangle(mesh, t)) : std::nullopt;
-    draw_polygon(mesh, state, shade, flux, corners, corners, {map ? &*map : nullptr, dirt ? &*dirt : nullptr});
+    draw_polygon(mesh, state, shade, flux, corners, corners,
+                 {map ? &*map : nullptr, dirt ? &*dirt : nullptr, cell.screen.most});
   }
 }
 

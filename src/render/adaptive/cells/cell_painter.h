@@ -58,6 +58,7 @@ class CellPainter {
   struct Behind {
     const StopMap* screen = nullptr;
     const DirtTriangle* dirt = nullptr;
+    double most = 1.0;  // that passes the screen
   };
 
   // What passes the screen of a cell's light, by parts as large as each other.
@@ -74,7 +75,7 @@ class CellPainter {
     // There, between what is at the cell's corners.
     [[nodiscard]] static Vec2 between(const std::array<Vec2, 4>& corner, Vec2 uv);
     [[nodiscard]] Flux mean() const;
-    [[nodiscard]] bool are_uneven() const;
+    [[nodiscard]] bool are_uneven(double room) const;
 
    private:
     [[nodiscard]] Vec2 place(std::size_t part, Vec2 in_part) const;
@@ -107,7 +108,8 @@ class CellPainter {
   };
 
   static constexpr double kManyCells = 4.0;
-  static constexpr double kSoft_px = 0.2;  // of cells, for maps to be drawn with
+  static constexpr double kSoft_px = 0.2;  // of cells, for maps to be drawn with;
+  static constexpr double kSoft = 0.05;  // and over their length at the most, or maps of small ones would be flat
   // Of smaller polygons it is their flux that counts, whatever irradiance their places say.
   static constexpr double kSmall_px = 2.0;
   // Of smaller ones it counts too: what cuts them is straight in the entrance plane, where it may bend in the picture.
@@ -150,8 +152,9 @@ class CellPainter {
   [[nodiscard]] Vec2 dirt_place(const Mesh& mesh, std::size_t vertex, int crossing) const;
   [[nodiscard]] bool is_dirty(const Mesh& mesh, const Cell& cell) const;  // false where the lens is clean
   [[nodiscard]] double shadow_error(const Mesh& mesh, const Cell& cell) const;
-  void draw_screened(std::span<const Corner> polygon, double area_px, const Shade& shade, const StopMap& map);
-  void add_fringed(std::span<const PlacedCorner> polygon, const Shade& shade, const StopMap& map,
+  void draw_screened(std::span<const Corner> polygon, double area_px, const Shade& shade, const StopMap& map,
+                     int looks);
+  void add_fringed(std::span<const PlacedCorner> polygon, const Shade& shade, const StopMap& map, int looks,
                    const EdgeTable& table);
   [[nodiscard]] bool sees_by_parts(const Mesh& mesh, const Cell& cell, double longest_px) const;
   [[nodiscard]] std::size_t parts_across(const Mesh& mesh, const Cell& cell, double longest_px) const;
@@ -163,8 +166,11 @@ class CellPainter {
   [[nodiscard]] StopMap stop_map(const Mesh& mesh, double softness_px, const SeriesOf& series_of) const;
   [[nodiscard]] double map_error(const Mesh& mesh, const Cell& cell, double longest_px) const;
   [[nodiscard]] const EdgeTable& table_for(double width);
+  [[nodiscard]] int looks_across_pixel(const Shade& shade, double passed, const StopMap& map) const;
   [[nodiscard]] screens::ScreenView view_of_screen(const Mesh& mesh, const Cell& cell) const;
   [[nodiscard]] bool is_dim(const Mesh& mesh, const Cell& cell, double times) const;
+  [[nodiscard]] static double brightest(const Mesh& mesh, const Cell& cell);
+  [[nodiscard]] bool are_uneven(const Mesh& mesh, const Cell& cell, const CellParts& parts) const;
   [[nodiscard]] double stop_size(const Mesh& mesh, const Cell& cell) const;
   // Into the room for what is added next.
   template <class AnyCorner>

@@ -111,7 +111,7 @@ void CellPainter::draw_dirty(const Mesh& mesh, const Cell& cell, State state, co
 void CellPainter::add_seen(std::span<const Corner> polygon, double area_px, const Shade& shade, const Flux& flux,
                            const Behind& behind) {
   if (behind.dirt != nullptr && dirt_.field->is_shapes()) {
-    add_seen(polygon, area_px, shade, flux, {behind.screen});
+    add_seen(polygon, area_px, shade, flux, {behind.screen, nullptr, behind.most});
     return add_shadows(polygon, shade, flux, behind);
   }
   if (behind.dirt != nullptr) {
@@ -121,7 +121,9 @@ void CellPainter::add_seen(std::span<const Corner> polygon, double area_px, cons
     seen.dirt = static_cast<std::uint32_t>(out_.dirt.size());
     return out_.add(points_of(polygon), shade, seen, {});
   }
-  if (behind.screen != nullptr) return draw_screened(polygon, area_px, shade, *behind.screen);
+  if (behind.screen != nullptr)
+    return draw_screened(polygon, area_px, shade, *behind.screen,
+                         looks_across_pixel(shade, behind.most, *behind.screen));
   out_.add(points_of(polygon), shade);
 }
 
@@ -151,7 +153,7 @@ void CellPainter::add_shadows(std::span<const Corner> polygon, const Shade& shad
                         part[k].uv = in_cell.place(shadow[k]);
                         if (k > 1) twice_area += cross(shadow[k - 1] - shadow[0], shadow[k] - shadow[0]);
                       }
-                      add_seen(part, 0.5 * std::abs(twice_area), taken, lost, {behind.screen});
+                      add_seen(part, 0.5 * std::abs(twice_area), taken, lost, {behind.screen, nullptr, behind.most});
                     });
 }
 

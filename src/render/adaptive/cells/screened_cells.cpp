@@ -7,18 +7,20 @@
 #include "render/adaptive/cells/bound_view.h"
 #include "render/adaptive/cells/cell_painter.h"
 #include "render/adaptive/cells/cell_shape.h"
+#include "render/adaptive/cells/frame_error.h"
 
 namespace contrejour::adaptive {
 namespace {
 
 constexpr double kWidthsPerOctave = 2.0;  // of edges' tables
 constexpr double kScreenDisc = 1.2;  // of a cell's distance from its middle in the stop, for cells that bend
+constexpr double kPixelReach = 0.75;  // pixels, from a pixel's middle to its corners
 constexpr double kExact = 1e-3;   // of a cell's size, for maps to be judged by
-constexpr double kOnePlace_px = 0.4;  // a cell no longer is a point to pixels
+constexpr double kOnePlace_px = 1.0;  // a cell no longer is a point to pixels
 constexpr double kCoarse = 0.5;   // stop radii a pixel: they see all of the stop in four or fewer
 constexpr double kPart = 0.5;     // stop radii, and
 constexpr double kPart_px = 0.4;  // pixels, across a part of a small cell
-constexpr double kEven = 0.2;     // of the brightest: parts that differ by less are not told apart
+constexpr double kEven = 5000.0;  // times what pixels may miss: parts that differ by less are not told apart
 constexpr double kWorthCutting_px = 400.0;  // of area: smaller cells are looked up all over
 
 // A crossing of the stop at a mesh's vertices, stop radii.
@@ -53,17 +55,28 @@ screens::ScreenView CellPainter::view_of_screen(const Mesh& mesh, const Cell& ce
   };
   for (const std::size_t v : cell.corner) hold(v);
   for (const std::size_t v : cell.side) hold(v);
-  screens::ScreenView view = screen_->over(middle, kScreenDisc * std::sqrt(squared));
+  double squared_px = 0.0;
+  for (const std::size_t v : cell.corner) {
+    const Vec2 from = mesh.position(v) - mesh.position(cell.middle);
+    squared_px = std::max(squared_px, dot(from, from));
+  }
+  // Its pixels see what is beside it: what one cell of a pixel is drawn by its neighbours have to be drawn by, too.
+  const double radius = std::sqrt(squared), per_px = radius / std::max(std::sqrt(squared_px), kPixelReach);
+  screens::ScreenView view = screen_->over(middle, kScreenDisc * radius + kPixelReach * per_px);
   if (view.part == ScreenPart::Level && last > 0) view.part = ScreenPart::Varied;  // earlier crossings are sharp
   return view;
 }
 
 // Whether what passes the screen is nowhere in the cell brighter than so many times what is not seen.
 bool CellPainter::is_dim(const Mesh& mesh, const Cell& cell, double times) const {
+  return cell.screen.most * brightest(mesh, cell) < times * screen_->unseen;
+}
+
+double CellPainter::brightest(const Mesh& mesh, const Cell& cell) {
   float brightest = mesh.brightness[cell.middle];
   for (const std::size_t v : cell.corner) brightest = std::max(brightest, mesh.brightness[v]);
   for (const std::size_t v : cell.side) brightest = std::max(brightest, mesh.brightness[v]);
-  return cell.screen.most * brightest < times * screen_->unseen;
+  return static_cast<double>(brightest);
 }
 
 double CellPainter::stop_size(const Mesh& mesh, const Cell& cell) const {
@@ -150,12 +163,18 @@ CellPainter::Flux CellPainter::CellParts::mean() const {
 }
 
 // So that it shows where in the cell its light is.
-bool CellPainter::CellParts::are_uneven() const {
+bool CellPainter::CellParts::are_uneven(double room) const {
   for (std::size_t c = 0; c < 3; ++c) {
     const auto [least, most] = std::ranges::minmax(passed(), {}, [&](const Flux& one) { return one[c]; });
-    if (most[c] - least[c] > kEven * most[c]) return true;
+    if (most[c] - least[c] > room) return true;
   }
   return false;
+}
+
+// Whether more of its light passes one part of a cell than another, as far as that is seen.
+bool CellPainter::are_uneven(const Mesh& mesh, const Cell& cell, const CellParts& parts) const {
+  const double level = brightest(mesh, cell);
+  return parts.are_uneven(kEven * screen_->unseen / std::max(level * seen_share(level, peak_), 1e-300));
 }
 
 // Where pixels are too far apart to look up what passes: their middles may lie outside the cell, where its light does
@@ -189,21 +208,36 @@ CellPainter::CellParts CellPainter::parts_of(const Mesh& mesh, const Cell& cell,
   return parts;
 }
 
+// One look-up stands for a square in the stop as large as the pixel's image there, which is no square; that is off by a
+// part of the ripples that are as fine as pixels. Many look-ups into parts of the pixel are off by less as the square
+// of how many there are across it. Edges' ripples are fainter the finer they are.
+int CellPainter::looks_across_pixel(const Shade& shade, double passed, const StopMap& map) const {
+  constexpr double kMost = 6.0;
+  constexpr double kOneServes = 8000.0;  // times what pixels may miss; found by measuring
+  const double level = std::max({std::abs(shade.value[0]), std::abs(shade.value[1]), std::abs(shade.value[2])});
+  const double fineness = screen_->edges != nullptr ? std::min(1.0, map.width() / screen_->unit) : 1.0;
+  const double seen = level * seen_share(level, peak_) * passed * fineness;
+  const double room = kOneServes * screen_->unseen;
+  return room > 0.0 ? static_cast<int>(std::lround(std::clamp(std::sqrt(seen / room), 1.0, kMost))) : 1;
+}
+
 // All of a polygon's pixels look up what passes. A large one behind a pattern: as far as that is worth drawing. Behind
 // edges' fringes: the parts along each edge that brings any there, cut off by straight lines; the rest is level.
-void CellPainter::draw_screened(std::span<const Corner> polygon, double area_px, const Shade& shade,
-                                const StopMap& map) {
+void CellPainter::draw_screened(std::span<const Corner> polygon, double area_px, const Shade& shade, const StopMap& map,
+                                int looks) {
   const bool large = area_px >= kWorthCutting_px;
   const double room = map.bend();  // cuts are straight, places are not
   rest_.place(polygon, map);
   if (screen_->edges == nullptr || map.crossings() > 1) {
     for (std::size_t k = 0; large && screen_->pattern && k < screens::PatternHull::kLines; ++k)
       rest_.keep_within({screens::PatternHull::normals()[k], screen_->hull.most(k) + room}, map);
-    if (!rest_.is_empty()) out_.add(points_of(rest_.corners()), shade, Screened{map, screen_.get()}, {});
+    if (!rest_.is_empty())
+      out_.add(points_of(rest_.corners()), shade,
+               Screened{.map = map.narrowed(looks), .screen = screen_.get(), .looks = looks}, {});
     return;
   }
-  const EdgeTable& table = table_for(map.width());
-  if (!large || table.iris().is_picture()) return add_fringed(rest_.corners(), shade, map, table);
+  const EdgeTable& table = table_for(map.width() / looks);
+  if (!large || table.iris().is_picture()) return add_fringed(rest_.corners(), shade, map, looks, table);
   for (const IrisBound& bound : table.iris().bounds()) {
     if (rest_.is_empty()) return;
     const BoundView view(bound, rest_.corners());
@@ -214,20 +248,20 @@ void CellPainter::draw_screened(std::span<const Corner> polygon, double area_px,
     strip_.keep_within({kept.normal * -1.0, -kept.most}, map);
     if (strip_.is_empty()) return;
     rest_.keep_within(kept, map);
-    add_fringed(strip_.corners(), shade, map, table);
+    add_fringed(strip_.corners(), shade, map, looks, table);
   };
   for (const IrisBound& bound : table.iris().bounds()) {
     if (rest_.is_empty()) return;
     const BoundView view(bound, rest_.corners());
     const Band level = view.deeper_than(table.level_within() + room);
-    if (level.is_empty()) return add_fringed(rest_.corners(), shade, map, table);
+    if (level.is_empty()) return add_fringed(rest_.corners(), shade, map, looks, table);
     draw_beyond({view.normal(), level.most});
     if (std::isfinite(level.least)) draw_beyond({view.normal() * -1.0, -level.least});
   }
   if (!rest_.is_empty()) out_.add(points_of(rest_.corners()), shade);
 }
 
-void CellPainter::add_fringed(std::span<const PlacedCorner> polygon, const Shade& shade, const StopMap& map,
+void CellPainter::add_fringed(std::span<const PlacedCorner> polygon, const Shade& shade, const StopMap& map, int looks,
                               const EdgeTable& table) {
   active_.clear();
   const auto& bounds = table.iris().bounds();
@@ -235,9 +269,11 @@ void CellPainter::add_fringed(std::span<const PlacedCorner> polygon, const Shade
     double nearest = -std::numeric_limits<double>::infinity();
     for (const PlacedCorner& c : polygon) nearest = std::max(nearest, bounds[k].distance(c.stop));
     // Distances are convex: none within is larger than at the corners, but for pixels that reach beyond.
-    if (nearest + map.width() + map.bend() > -table.level_within()) active_.push_back(static_cast<std::uint16_t>(k));
+    if (nearest + 2.0 * map.pixel_reach() + map.bend() > -table.level_within())
+      active_.push_back(static_cast<std::uint16_t>(k));
   }
-  out_.add(points_of(polygon), shade, Screened{map, screen_.get(), &table}, active_);
+  out_.add(points_of(polygon), shade,
+           Screened{.map = map.narrowed(looks), .screen = screen_.get(), .edges = &table, .looks = looks}, active_);
 }
 
 }  // namespace contrejour::adaptive

@@ -54,6 +54,7 @@ struct Screened {
   const EdgeTable* edges = nullptr;  // of `screen`, where it is edges' fringes
   std::uint32_t first = 0, count = 0;  // of PolygonList::bounds: those whose fringes are within
   std::uint32_t dirt = 0;              // k + 1: PolygonList::dirt[k]; 0: none
+  int looks = 1;  // across a pixel, and as many down it; `map` has the width of one's part of it
 };
 
 struct Polygon {

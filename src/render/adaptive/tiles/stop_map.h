@@ -40,6 +40,11 @@ class StopMap {
     return t.level + t.x * q.x + t.y * q.y + t.xx * (q.x * q.x) + t.xy * (q.x * q.y) + t.yy * (q.y * q.y);
   }
   [[nodiscard]] double width() const { return crossing_[crossings_ - 1].width; }  // of a pixel there, stop radii
+  // How far from its middle a pixel sees, at the most; to the first order, stop radii.
+  [[nodiscard]] double pixel_reach() const {
+    const Crossing& t = crossing_[crossings_ - 1];
+    return 0.5 * (length(t.x) + length(t.y));
+  }
   [[nodiscard]] double bend() const { return bend_; }  // how far from linear it is at the cell's corners, stop radii
   [[nodiscard]] int crossings() const { return static_cast<int>(crossings_); }
 
@@ -58,6 +63,12 @@ class StopMap {
     return {static_cast<float>(dot(weights, t.level) + more), of(t.x), of(t.y), of(t.xx), of(t.xy), of(t.yy)};
   }
   [[nodiscard]] Vec2 origin() const { return origin_px_; }
+  // The same for places whose pixels are parts of these, so many times as narrow.
+  [[nodiscard]] StopMap narrowed(int times) const {
+    StopMap out = *this;
+    for (Crossing& crossing : out.crossing_) crossing.width /= times;
+    return out;
+  }
 
  private:
   struct Crossing {

@@ -36,11 +36,20 @@ struct PixelRow {
   int first = 0, count = 0;  // columns of the frame
   int y = 0;
   float from_x = 0, from_y = 0;  // pixels
+  Vec2 in_pixel{0.5, 0.5};
 
   PixelRow(int first_column, int columns, int row, Vec2 origin)
       : first(first_column), count(columns), y(row), from_x(static_cast<float>(first_column + 0.5 - origin.x)),
         from_y(static_cast<float>(row + 0.5 - origin.y)) {}
-  [[nodiscard]] Vec2 pixel(int k) const { return {first + k + 0.5, y + 0.5}; }
+  // Another place in each of its pixels, so far from where this one looks.
+  [[nodiscard]] PixelRow moved(Vec2 by) const {
+    PixelRow out = *this;
+    out.from_x += static_cast<float>(by.x);
+    out.from_y += static_cast<float>(by.y);
+    out.in_pixel = in_pixel + by;
+    return out;
+  }
+  [[nodiscard]] Vec2 pixel(int k) const { return Vec2{first + 0.0 + k, y + 0.0} + in_pixel; }
   // Of the pixels from k on.
   [[nodiscard]] HWY_INLINE hn::Vec<FloatTag> x(int k) const {
     const FloatTag d;

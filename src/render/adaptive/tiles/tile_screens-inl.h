@@ -54,6 +54,63 @@ class AnyScreen {
   const PixelRow* row_ = nullptr;
 };
 
+// Any of these, looked up at the middles of so many parts of each pixel across and down: their mean.
+template <class Look>
+class MeanOfLooks {
+ public:
+  static constexpr bool kGrey = Look::kGrey;
+  MeanOfLooks(Look& look, int across) : look_(look), across_(across) {}
+
+  void set_row(const PixelRow& /*row*/) const {}
+  HWY_INLINE const MeanOfLooks& look(const PixelRow& row, Groups wanted) {
+    std::fill_n(sum_, kNumbers * static_cast<std::size_t>(row.count + kLanes), 0.0F);
+    const auto middle = [&](int part) { return (part + 0.5) / across_ - 0.5; };
+    for (int part = 0; part < across_ * across_; ++part) {
+      const PixelRow moved = row.moved({middle(part % across_), middle(part / across_)});
+      if constexpr (requires { look_.expect_row(moved); }) look_.expect_row(moved);
+      look_.set_row(moved);
+      add(look_.look(moved, wanted), row.count);
+    }
+    return *this;
+  }
+  [[nodiscard]] HWY_INLINE hn::Vec<FloatTag> passed(int k) const
+    requires kGrey
+  {
+    return hn::LoadU(FloatTag(), sum_ + k);
+  }
+  [[nodiscard]] const MeanOfLooks& vector(int /*k*/) const { return *this; }
+  [[nodiscard]] HWY_INLINE Quad passed(int k) const
+    requires(!kGrey)
+  {
+    return Quad::load(sum_ + kQuad * static_cast<std::size_t>(k));
+  }
+
+ private:
+  static constexpr int kLanes = static_cast<int>(hn::MaxLanes(FloatTag()));
+  static constexpr std::size_t kNumbers = kGrey ? 1 : kQuad;  // a pixel
+
+  template <class Row>
+  HWY_INLINE void add(const Row& one, int count) {
+    const float share = 1.0F / static_cast<float>(across_ * across_);
+    for (int k = 0; k < count; k += kLanes) {
+      if constexpr (kGrey) {
+        const FloatTag d;
+        hn::StoreU(hn::MulAdd(one.passed(k), hn::Set(d, share), hn::LoadU(d, sum_ + k)), d, sum_ + k);
+      } else {
+        const auto& seen = one.vector(k);
+        for (int j = k; j < std::min(k + kLanes, count); ++j) {
+          float* const to = sum_ + kQuad * static_cast<std::size_t>(j);
+          multiply_add(seen.passed(j), Quad::all(share), Quad::load(to)).store(to);
+        }
+      }
+    }
+  }
+
+  Look& look_;
+  int across_;
+  HWY_ALIGN float sum_[kNumbers * (kRowRoom + static_cast<std::size_t>(kLanes))];
+};
+
 // A row's coverage from its changes, which are cleared, some pixels after the other. What only rounding covers is not.
 class RunningCover {
  public:
@@ -302,7 +359,11 @@ void add_screened(TileSums& tile, const PolygonList& list, const Polygon& polygo
   for_each_edge(tile, list, polygon,
                 [&](Vec2 a, Vec2 b, std::size_t, double sign) { add_clipped(cover, NoShade(), a, b, sign); });
   const Screened& behind = list.screened[polygon.screened - 1];
-  const auto add = [&](auto&& look) { add_pixels(tile, polygon, behind.map, within, look); };
+  const auto add = [&](auto&& look) {
+    if (behind.looks <= 1) return add_pixels(tile, polygon, behind.map, within, look);
+    MeanOfLooks mean(look, behind.looks);
+    add_pixels(tile, polygon, behind.map, within, mean);
+  };
   if (behind.dirt != 0) return add(AnyScreen(behind.screen, behind.map, &list.dirt[behind.dirt - 1]));
   if (behind.edges != nullptr) {
     const std::span<const std::uint16_t> active(list.bounds.data() + behind.first, behind.count);
