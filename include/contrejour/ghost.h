@@ -58,7 +58,7 @@ struct GhostMeasure {
 // Measures a lens's ghosts at one wavelength: polynomials through a few exact rays in each part of the entrance plane
 // that gets through. Fluxes are good to 1e-3, the direct image's to 5e-4, middles and footprints to a hundredth of the
 // footprint's size, peaks to a quarter. Made once (tens of milliseconds for a long zoom), then used for any light, from
-// any thread; a ghost takes some tenths of a millisecond.
+// any thread; a ghost takes a millisecond or two.
 class GhostMeter {
  public:
   GhostMeter(LensState lens, double lambda_nm);
