@@ -200,7 +200,7 @@ Result<int> run_apply(ApplyOptions options) {
   return kDone;
 }
 
-// Of LENS IN only one is there.
+// The error where only one of LENS and IN was given.
 CLI::ParseError missing_argument(const std::string& given) {
   const std::string ending = lower_extension(given);
   if (ending != ".exr" && ending != ".png") return CLI::RequiredError("IN");

@@ -1,4 +1,4 @@
-// What is asked about a lens's ghosts, as the command's values say.
+// A question about a lens's ghosts, read from the command's values.
 #pragma once
 
 #include "contrejour/ghost_figures.h"

@@ -22,7 +22,7 @@ struct SweepRange {
 // "field", "focal", "fnumber", "field:FROM:TO"
 [[nodiscard]] Result<SweepRange> parse_sweep(std::string_view text);
 
-// What one ghost does over the sweep, one value a step.
+// One ghost's figures over the sweep, one value a step.
 struct SweptGhost {
   Ghost ghost;
   std::vector<double> relative_flux, peak_irradiance;
@@ -40,7 +40,7 @@ struct GhostSweep {
 [[nodiscard]] Result<GhostSweep> sweep_ghosts(const std::string& lens, const params::Values& values,
                                               const SweepRange& range, int steps);
 
-// What counts of a ghost: its flux, or its peak.
+// The figure that a sweep compares: a ghost's flux, or its peak.
 enum class SweepQuantity { Flux, Peak };
 [[nodiscard]] const std::vector<double>& quantity_of(const SweptGhost& ghost, SweepQuantity quantity);
 // The step at which it is largest.

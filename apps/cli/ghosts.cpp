@@ -121,7 +121,7 @@ Result<int> run_path(const GhostsOptions& options) {
   return kDone;
 }
 
-// What does not go together.
+// Refuses options that do not go together.
 void check(const GhostsOptions& options) {
   const params::Values& values = options.values;
   if (values.list("light").size() + values.list("light-at").size() > 1)

@@ -22,7 +22,7 @@ struct RayStyle {
   double opacity;
 };
 
-// Of several ghosts, in turn; more than there are begin again.
+// Inks for several ghosts, in turn; more ghosts than inks begin again.
 constexpr std::array kGhostInks{"#d5482c", "#8e44ad", "#c98a00", "#138d75", "#c2185b", "#6d4c41"};
 
 RayStyle style_of(RayKind kind, std::size_t ghost = 0) {

@@ -27,7 +27,7 @@ double gathering_mm2(const LensState& lens, const Frame& frame, const LightSourc
   return own_mm2 > 0.0 ? own_mm2 : meter.direct_flux(LightSource({0.0, 0.0, 1.0}, source.distance_mm));
 }
 
-// Of lux at the lens: E A / a lux on a pixel of area a, for so long.
+// The value of a light that gives so many lux at the lens: E A / a lux on a pixel of area a, for the exposure's time.
 double sum_of_lux(double lux, const Light& light, const LensState& lens, const Frame& frame, const Exposure& exposure) {
   const double pixel_mm2 = frame.pixel_pitch_mm * frame.pixel_pitch_mm;
   const double on_pixels_lux = lux * gathering_mm2(lens, frame, light.source()) / pixel_mm2;

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kSquare = 1e-4;  // aspects this near to 1 are of files that were rounded
 
-// Of a line of pixels: where those of the frame lie in those of the picture.
+// Where a row's or a column's pixels of the frame lie among those of the picture.
 struct Axis {
   int picture = 0;  // pixels of it
   double corner = 0, per_pixel = 1;

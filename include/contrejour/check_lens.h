@@ -15,7 +15,7 @@ namespace contrejour {
 // sensor. Its numbers are finite and within the ranges of a prescription (validate()); places lie within 1e7 mm.
 [[nodiscard]] Result<void> check_lens(const LensState& lens);
 
-// Of a prescription, of both sides of the plates before the sensor, and the sensor.
+// The most surfaces of a prescription, both sides of each plate before the sensor, and the sensor.
 inline constexpr std::size_t kMostLensSurfaces = 200 + 2 * SensorStack::kMostPlates + 1;
 
 // One that light can have: X-rays and heat, and all between.

@@ -11,7 +11,7 @@ namespace contrejour {
 template <class Real>
 class PixelProfile {
  public:
-  // Of a direction's cosines, in either order, for pixels so wide in the caller's unit of distance.
+  // a, b: a direction's cosines, in either order; width: the pixels', in the caller's unit of distance.
   PixelProfile(Real a, Real b, Real width) {
     const Real wide = std::max(std::abs(a), std::abs(b)) * width, narrow = std::min(std::abs(a), std::abs(b)) * width;
     level_ = Real(0.5) * (wide - narrow);

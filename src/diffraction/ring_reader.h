@@ -8,8 +8,8 @@
 
 namespace contrejour {
 
-// Of count pixels whose middles lie (x0 + i, y) pixels right of and below the centre, the mean density: rgb[3 i + c].
-// 0 within kNear_px and beyond the radius.
+// Writes the mean density of count pixels, whose middles lie (x0 + i, y) pixels right of and below the centre: rgb[3 i
+// + c], 0 within kNear_px and beyond the radius.
 void read_rings(const StarburstRings& rings, double x0, double y, std::size_t count, float* rgb);
 
 }  // namespace contrejour

@@ -30,7 +30,7 @@ class IrisShape {
   // Signed distances of many points of the stop plane, in stop radii.
   void distances(const float* x, const float* y, std::size_t count, float* out) const;
   [[nodiscard]] double picture_distance(Vec2 p) const { return field_->distance(picture_from_stop(p)); }
-  // Of a picture with half-tones: the share of light that passes, as the mean over a square (IrisField).
+  // The share of light that a picture with half-tones passes, as the mean over a square (IrisField).
   [[nodiscard]] bool has_tones() const { return field_ != nullptr && field_->has_tones(); }
   [[nodiscard]] double picture_transmittance(Vec2 p, double width) const {
     return field_->transmittance(picture_from_stop(p), width);

@@ -95,7 +95,8 @@ void find_brightest(const Image& rgb, Detection& detection) {
   }
 }
 
-// Of the whole picture; where nothing in the regions is above that, who chose them means what is brightest there.
+// The whole picture's threshold; where nothing in the regions is above it, whoever chose them means what is brightest
+// there.
 Threshold threshold_for(const Image& picture, const Image& within, double brightest,
                         const DetectionSettings& settings) {
   if (settings.threshold) return {*settings.threshold, ThresholdSource::Given};

@@ -16,7 +16,7 @@ namespace {
 constexpr int kNodes = 9;
 constexpr float kFails = std::numeric_limits<float>::infinity();
 
-// Of a pupil of 2 x 2 mm about the axis, on a sensor of 2 x 2 mm (200 x 200 pixels).
+// The rays of a pupil of 2 x 2 mm about the axis, on a sensor of 2 x 2 mm (200 x 200 pixels).
 RaySheet sheet_of(const std::function<Vec2(Vec2)>& sensor_mm, const std::function<float(Vec2)>& r_rel) {
   RaySheet sheet;
   sheet.nodes = kNodes;

@@ -52,7 +52,7 @@ TEST_CASE("a round iris inside a cell leaves its area") {
   }
 }
 
-// Of ghosts of some pixels, whose error allows steps as long as these, up to 7 per cent of the light was lost.
+// Ghosts of some pixels, whose error allows steps as long as these, had lost up to 7 per cent of their light.
 TEST_CASE("a short arc through a cell leaves the area below it, however long its chords may be") {
   const IrisShape iris{Iris{}};
   OutlineCutter cutter(iris);

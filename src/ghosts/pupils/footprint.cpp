@@ -63,7 +63,7 @@ class SquareWindow {
   }
 
  private:
-  // Of a triangle that is a line, from corner to corner of its bounds about.
+  // The share of a triangle that is a line, from about one corner of its bounds to the other.
   [[nodiscard]] double share_of_line(Vec2 from, Vec2 to) const {
     constexpr int kSteps = 16;
     int inside = 0;

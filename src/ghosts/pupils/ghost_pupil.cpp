@@ -13,8 +13,9 @@
 namespace contrejour::pupils {
 namespace {
 
-// Of a box's size, on every side: polynomials through its rays are least good at its border, where the ghost's edge
-// would be if the box were tight. Half of this saves no rays and costs a decibel; twice this takes a third more rays.
+// A share of a box's size, added on every side: polynomials through its rays are least good at its border, where the
+// ghost's edge would be if the box were tight. Half of this saves no rays and costs a decibel; twice this takes a third
+// more rays.
 constexpr double kMargin = 0.1;
 // Boxes of the sharp stop are widened as the stop is up to here, farther by its root: what they lack they grow.
 constexpr double kMuchWider = 1.5;
@@ -66,7 +67,7 @@ bool is_symmetric(const PupilRequest& request) {
   return has_axial_symmetry(request.steps.begin()->second.lens(), request.ghost);
 }
 
-// Of a lens without symmetries: one box, by grids over all of the window.
+// A lens without symmetries has one box, found by grids over all of the window.
 GhostPupil find_askew_box(const PupilRequest& request) {
   const IrisShape circle{Iris{}};
   GhostPupil pupil;

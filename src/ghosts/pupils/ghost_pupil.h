@@ -31,7 +31,7 @@ struct GhostPupil {
 // From the boxes of a smaller stop: what comes through near them.
 [[nodiscard]] GhostPupil refit_ghost_pupil(const PupilRequest& request, std::vector<Rectangle> boxes);
 
-// Of a box on the other side of the axis of symmetry.
+// Is it the image of a box on the other side of the axis of symmetry?
 [[nodiscard]] bool is_mirror_image(const Rectangle& box);
 
 }  // namespace contrejour::pupils

@@ -45,12 +45,12 @@ void multiply(const float* a, int a_rows, int a_stride, int inner, const Matrix&
 // out = transpose(a) * b, for `b` with rows of b_stride floats; out has a.columns rows of b_stride.
 void multiply_transposed(const Matrix& a, const float* b, int b_stride, float* out);
 
-// Of a field over a square of nodes, up to kMostPatchNodes a side, rows by rising y: transpose(along_y) * field *
-// along_x, as many rows and columns. out may be the field.
+// Computes, for a field over a square of nodes, up to kMostPatchNodes a side, rows by rising y: transpose(along_y) *
+// field * along_x, as many rows and columns. out may be the field.
 constexpr int kMostPatchNodes = 17;
 void transform(const float* field, int nodes, const Matrix& along_x, const Matrix& along_y, float* out);
 
-// Of such a field, the sum of the sizes of its Chebyshev coefficients of highest degree in either direction: about how
+// The sum of the sizes of such a field's Chebyshev coefficients of highest degree in either direction: about how
 // far the polynomial through it may be off between the nodes.
 [[nodiscard]] double highest_terms(const float* field, int nodes);
 

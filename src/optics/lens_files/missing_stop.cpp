@@ -112,7 +112,7 @@ class StopFinder {
     return best;
   }
 
-  // Of the beam along the axis.
+  // The radius of the beam along the axis.
   [[nodiscard]] double beam_radius_mm(const Place& place) const {
     const RowRays& at = rays_[place.row];
     return pupil_radius_mm_ * std::abs(at.axial + place.behind_mm * at.axial_slope);

@@ -4,8 +4,8 @@ namespace contrejour::adaptive {
 namespace {
 
 constexpr double kFaintLevel = 3e-5;  // of the peak: at four stops more light a two-thousandth of it
-// Of the frame's squared error, what the squares of faint items' light may come to: they are drawn to a tenth or
-// better.
+// The share of the frame's squared error that the squares of faint items' light may come to: they are drawn to a tenth
+// or better.
 constexpr double kFaintShare = 0.05;
 
 }  // namespace

@@ -70,7 +70,7 @@ std::vector<PlannedPass> passes_of(const Item& item) {
   return passes;
 }
 
-// Of a wavelength's light, by a ghost's surfaces, about.
+// About the share of a wavelength's light that a ghost's surfaces reflect.
 double reflected(const Ghost& ghost, const ReflectanceTables& tables) {
   double share = 1.0;
   for (const int surface : {ghost.i, ghost.j, ghost.k, ghost.l})

@@ -44,8 +44,8 @@ bool gets_through(const RaySheet& sheet, std::size_t node) {
   return sheet.r_rel[node] <= 1.0F && std::ranges::all_of(sheet.stop, passes);
 }
 
-// Of the entrance, between rays that get through and such as fail, where straight lines from ray to ray leave light
-// out.
+// The area of the entrance between rays that get through and rays that fail, where straight lines from ray to ray leave
+// light out.
 double beside_failure_mm2(const RaySheet& sheet) {
   const SheetCells cells(sheet);
   double sum_mm2 = 0.0;

@@ -10,7 +10,7 @@
 namespace contrejour::area {
 namespace {
 
-// Of the frame's squared error, what uncut lights may make.
+// The share of the frame's squared error that uncut lights may make.
 constexpr double kPiecesShare = 1.5;
 
 double middle_wavelength(const PlannedLight& light) { return light.passes[light.passes.size() / 2].lambda_nm; }

@@ -21,7 +21,8 @@ struct BlurredGhost {
 // Of a picture of pixels 2^level as wide.
 [[nodiscard]] double level_error(const BlurredGhost& ghost, int level);
 
-// Of the frame's own pixels, on which kernels narrower than some of them have the right width, but not the shape.
+// The error that the frame's own pixels make, on which kernels narrower than some of them have the right width, but not
+// the shape.
 [[nodiscard]] double pixel_error(const BlurredGhost& ghost);
 
 // For a pixel's length of an edge of such a height over the peak, whose blur's radius is off by so many pixels.

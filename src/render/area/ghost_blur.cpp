@@ -136,7 +136,7 @@ void set_features(GhostBlur& ghost, const GhostMotion& motion, const Frame& fram
   }
 }
 
-// Of radii, for the blur that a map makes.
+// Sets the radii of the blur that a map makes.
 void set_blur(GhostBlur& ghost, const LightPiece& piece, const Frame& frame) {
   ghost.blur_px = radii_of(mapped_covariance(ghost.px, piece.covariance));
   const double largest = kLargestBlur * std::hypot(frame.width, frame.height);

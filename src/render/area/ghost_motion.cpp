@@ -138,7 +138,7 @@ class LocalMotion {
     return inverse(by_start) * derivative(3, kAngleStep, [&](const PassingRay& ray) { return ray.stop[crossing]; }) *
            -1.0;
   }
-  // Of the sensor's place, where the start moves so.
+  // How the place on the sensor moves with the angle, where the start moves so.
   [[nodiscard]] LinearMap shift(const LinearMap& start_by_angle) const {
     return sensor_by_angle + sensor_by_start * start_by_angle;
   }
@@ -245,7 +245,7 @@ void set_extent(GhostMotion& motion, const std::vector<LocalMotion>& inside, dou
   motion.flux_mm2 = light / count * area_mm2;
 }
 
-// Of one that no ray was found to get through, by the ray that is blocked least.
+// The motion of a ghost that no ray was found to get through, by the ray that is blocked least.
 GhostMotion blind_motion(const LocalMotion& at, const GhostPupil& pupil, double cosine) {
   GhostMotion motion;
   motion.outside = pupil.outside;

@@ -30,7 +30,7 @@ double softness_px(const GhostBlur& ghost) { return std::max(std::min(ghost.blur
 
 double radius_of(const LightPiece& piece) { return radii_of(piece.covariance).y; }
 
-// Of the area of its pupil over the light, that a linear change of it leaves out.
+// The share of the pupil's area over the light that a linear change of it leaves out.
 double foreseen_flux(const GhostMotion& motion, const LightPiece& whole) {
   const double closing = 2.0 * std::sqrt(std::max(dot(motion.area_rate, whole.covariance(motion.area_rate)), 0.0));
   return std::min(0.125 * closing * closing, 1.0);
@@ -104,7 +104,7 @@ void foresee_errors(GhostOfArea& ghost, const LightPiece& whole, std::span<const
 void choose_pieces(std::span<GhostOfArea> ghosts, const AreaBudget& budget) {
   using Gain = std::pair<double, std::size_t>;
   const auto next = [](int across) { return *std::ranges::upper_bound(kAcross, across); };
-  // Of one step finer, for each piece more.
+  // The gain of one step finer, for each piece more.
   const auto refine = [&](double allowed, const auto& left) {
     std::priority_queue<Gain> steps;
     double sum = 0.0;

@@ -15,7 +15,7 @@ struct GhostOfArea {
   std::size_t light = 0, ghost = 0;  // in the plan
   GhostMotion motion;  // of the light's middle,
   GhostBlur blur;      // for all of it
-  // Of the pieces of the light cut in two across, where that is looked at.
+  // Those of the pieces of the light cut in two across, where that is looked at.
   std::vector<GhostMotion> part_motions;
   std::vector<GhostBlur> part_blurs;
   // If the light stays whole: errors squared and summed over the frame, in squares of the peak, and of the flux.

@@ -56,7 +56,8 @@ bool measure_fluxes(const LensState& lens, const TablesByWavelength& tables, std
   const auto tables_of = [&](std::size_t k, std::size_t band) -> const ReflectanceTables& {
     return *tables.at(lights[k].bands[band].lambda_nm);
   };
-  // Of the middle wavelength, for the others: where nothing of it gets through, no more than a sliver of theirs does.
+  // The middle wavelength's pupil serves the others: where nothing of it gets through, no more than a sliver of theirs
+  // does.
   std::vector<std::optional<Rectangle>> pupil(lights.size());
   if (!parallel_for(lights.size(), context,
                     [&](std::size_t k) { pupil[k] = meters[k].pupil(tables_of(k, lights[k].bands.size() / 2)); }))

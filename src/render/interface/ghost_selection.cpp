@@ -96,7 +96,7 @@ Result<Measured> measure_ghosts(const LensState& lens, std::span<const Ghost> gh
   return out;
 }
 
-// Of each ghost the shares of the flux of all, channel by channel.
+// Each ghost's shares of the flux of all, channel by channel.
 std::vector<Rgb> shares_of(std::vector<Rgb> flux) {
   Rgb whole{};
   for (const Rgb& one : flux)

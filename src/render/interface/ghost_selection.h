@@ -14,7 +14,7 @@ namespace contrejour {
 
 struct GhostChoice {
   std::vector<Ghost> ghosts;  // in (i, j) order
-  // Of the flux of all ghosts the share that the others carry, in the channel that loses most; none where it was not
+  // The share of the flux of all ghosts that the others carry, in the channel that loses most; none where it was not
   // measured.
   std::optional<double> skipped_flux = std::nullopt;
   // Where each comes through, lights in turn, if that had to be found out.

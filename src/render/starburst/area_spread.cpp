@@ -100,7 +100,7 @@ Share levels_of(const Area& area, const Frame& frame, double most_products) {
   return share;
 }
 
-// Of a frame's pixels those within a radius, and so many more on each side, as far as there are any.
+// The frame's pixels within a radius, and a margin of more on each side, as far as there are any.
 Window window_about(Vec2 centre, double radius, KernelReach margin, const Frame& frame) {
   const auto within = [](double v, int most) {
     return static_cast<int>(std::clamp(v, 0.0, static_cast<double>(most)));

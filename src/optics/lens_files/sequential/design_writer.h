@@ -47,7 +47,7 @@ struct CataloguedName {
 struct WritableDesign {
   Prescription lens;
   std::vector<bool> is_mirror = {};  // by surface; empty: none is
-  // Of a path, which has no f-number and no image of its own:
+  // For a path, which has no f-number and no image of its own:
   double sensor_mm = 0;  // from the last surface
   double pupil_mm = 0;  // diameter of the bundle that comes in
   double field_deg = 0;  // largest angle of light

@@ -112,7 +112,7 @@ class CellPainter {
   static constexpr double kSoft = 0.05;  // and over their length at the most, or maps of small ones would be flat
   // Of smaller polygons it is their flux that counts, whatever irradiance their places say.
   static constexpr double kSmall_px = 2.0;
-  // Of smaller ones it counts too: what cuts them is straight in the entrance plane, where it may bend in the picture.
+  // In smaller ones it counts too: what cuts them is straight in the entrance plane, where it may bend in the picture.
   static constexpr double kFew_px = 8.0;
   // Times what is not seen, so 0.1 of the error that all pixels may have: where light is dimmer than that it is its
   // mean over a cell.

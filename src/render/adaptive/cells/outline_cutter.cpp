@@ -192,7 +192,8 @@ std::span<const Corner> OutlineCutter::open_part(std::span<const Corner> whole, 
   return polygon_;
 }
 
-// Of what is open, in stop radii: its area over half of its length. Of nothing, that of what coarse arcs may have lost.
+// The width of what is open, in stop radii: its area over half of its length. Where nothing is open, the width of what
+// coarse arcs may have lost.
 double OutlineCutter::width_in_stop() const {
   constexpr double kLost = 0.1;
   if (polygon_.size() < 3) return kLost;

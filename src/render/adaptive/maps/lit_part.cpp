@@ -64,7 +64,7 @@ class LitCells {
     return bounds;
   }
 
-  // Of a cell some corner of which fails: any other about which the rays land near the frame.
+  // Does a cell with a failed corner have another one about which the rays land near the frame?
   [[nodiscard]] bool lands_near(const std::vector<std::array<float, 2>>& pixels, const CellCorners& corners) const {
     return std::ranges::any_of(corners, [&](std::size_t k) {
       return sheet_.arrives(k) && bounds_of(pixels, around(k)).touches(frame_, kReachBesideFailure);
