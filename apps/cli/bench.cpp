@@ -12,6 +12,7 @@ void add_bench(CLI::App& app, Action& action) {
   add_bench_tables(*bench, action);
   add_bench_effects(*bench, action);
   add_bench_lenses(*bench, action);
+  add_bench_hullin(*bench, action);
 }
 
 }  // namespace contrejour::cli

@@ -24,7 +24,9 @@ constexpr const char* kExamples =
     "--grid).\n"
     "The paper's figures are a GeForce RTX 3060's. --reference adds the PSNR against the reference renderer, which "
     "takes\n"
-    "hours at full size; --cache keeps its pictures for the next time.\n\n"
+    "hours at full size; --cache keeps its pictures for the next time. Lenses have their own coatings; the paper's "
+    "are\n"
+    "--coating quarter-wave:620:1.38.\n\n"
     "Examples:\n"
     "  contrejour bench tables\n"
     "  contrejour bench tables --tables 2,4 --systems heliar,nikon --size 960x540 --json tables.json\n"
@@ -108,8 +110,9 @@ Result<BenchRows> measure_all(const TablesOptions& options) {
   for (const PaperSystem* system : systems) {
     for (const auto& visit : visits) {
       for (const BenchRequest& of : scenes_of(requests)) {
-        const auto scene = bench_scene(*system, of.lights, of.variant, options.values);
+        auto scene = bench_scene(*system, of.lights, of.variant, options.values);
         if (!scene) return tl::unexpected(scene.error());
+        if (running.paper_ghosts) scene->settings.selection = papers_ghosts(*scene);
         if (const auto ok = visit(*scene, requests, running, rows); !ok) return tl::unexpected(ok.error());
       }
     }
@@ -188,9 +191,13 @@ void add_bench_tables(CLI::App& bench, Action& action) {
                    "of so many runs the fastest counts; of more, two and up, where they take milliseconds")
       ->capture_default_str()
       ->check(CLI::Range(1, 1000));
+  command->add_flag("--paper-ghosts", running.paper_ghosts,
+                    "only the paper's 11, 64, 139 and 304 ghosts: none that reflects at the last surface");
   command->add_flag("--reference", running.reference, "PSNR against the reference renderer (slow)");
   command->add_option("--cache", running.cache, "keep the reference renderer's pictures here")->option_text("FOLDER");
-  add_parameters(*command, options->values, {"size", "wavelengths", "grid", "density", "threads"});
+  add_parameters(
+      *command, options->values,
+      {"size", "wavelengths", "grid", "scale-grid-sigma", "scale-grid-phi", "coating", "density", "threads"});
   command->footer(kExamples);
   command->callback([options, &action] { action = [options] { return run_tables(*options); }; });
 }

@@ -44,5 +44,6 @@ void add_coating_fit(CLI::App& coating, Action& action);
 void add_bench_tables(CLI::App& bench, Action& action);
 void add_bench_effects(CLI::App& bench, Action& action);
 void add_bench_lenses(CLI::App& bench, Action& action);
+void add_bench_hullin(CLI::App& bench, Action& action);
 
 }  // namespace contrejour::cli

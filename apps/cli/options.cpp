@@ -84,7 +84,7 @@ void hide_parameters(CLI::App& command, std::span<const std::string_view> names)
 void add_rendering_parameters(CLI::App& command, params::Values& values) {
   add_parameters(command, values,
                  {"method", "device", "wavelengths", "colour-space", "ghosts", "reflections", "select", "threads"});
-  add_parameters(command, values, {"grid", "scale-grid"});
+  add_parameters(command, values, {"grid", "scale-grid", "scale-grid-sigma", "scale-grid-phi"});
   add_parameters(command, values,
                  {"grid-levels", "mirror", "pupil-table", "spectral-filter", "flat-shading", "anisotropic"});
   add_parameters(command, values, {"merge-steps", "merge-threshold", "tile", "coarse-tile", "interpolation"});

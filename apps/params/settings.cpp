@@ -198,6 +198,8 @@ RenderSettings render_settings(const Values& values, const Frame& frame, ColourS
   settings.colour_space = space;
   settings.grid = values.integer("grid");
   settings.scale_grid = values.is_on("scale-grid");
+  settings.scale_grid_sigma = values.number("scale-grid-sigma");
+  settings.scale_grid_phi = values.number("scale-grid-phi");
   settings.bundle = bundle_options(values);
   settings.tiled = tiled_options(values);
   settings.error = *parse_error_bound(*values.text("error"));

@@ -118,8 +118,10 @@ struct RenderSettings {
   ColourSpace colour_space = ColourSpace::Rec709;
   std::vector<double> lambda_nm;  // instead of bands: these wavelengths, equal weights, for tests and tables
 
-  int grid = 256;  // `bundle`, `tiled`: rays along each side of a ghost's grid, 16 to 512
+  int grid = 256;  // `bundle`, `tiled`: rays along each side of a ghost's grid, 4 to 512
   bool scale_grid = false;  // `bundle`, `tiled`: fewer rays for small ghosts, bodonyi2023 eq. 13
+  double scale_grid_sigma = 1.0;  // its sigma and phi: the share of the sensor times sigma, to the power of phi; 0 and
+  double scale_grid_phi = 0.5;  // more, up to 1e6 and 4
   BundleOptions bundle;
   TiledOptions tiled;
   double error = 0.003;  // `adaptive`: RMS error to stay below, over the frame's peak; 1e-4 to 0.1

@@ -308,6 +308,49 @@ class LensesBench(ProgramTest):
         self.error_of("bench", "lenses", code=1)
 
 
+class HullinBench(ProgramTest):
+    """hullin2011's figures, as small as they still show what they are about."""
+
+    def figure(self, key, lens, *arguments):
+        done = self.run_program("bench", "hullin", "--figures", key, "--lenses", lens, "--size", "96x54", "--json",
+                                "h.json", *arguments)
+        rows = json.loads((self.folder / "h.json").read_text())["rows"]
+        self.assertTrue(all(row["figure"] == key and row["lens"] == lens and row["time_ms"] > 0 for row in rows))
+        return done.stdout.decode(), rows
+
+    def test_wide_open_and_closed(self):
+        text, rows = self.figure("15", "tessar", "--pictures", "pictures")
+        self.assertIn("Figure 15", text)
+        self.assertEqual([(round(row["f_number"] / 4.5), row["rendered"]) for row in rows],
+                         [(1, "high quality"), (1, "normal quality"), (4, "high quality"), (4, "normal quality")])
+        self.assertEqual([row["ghosts_rendered"] for row in rows], [9, 6, 9, 6])  # without 40 per cent of nine
+        self.assertGreater(rows[1]["psnr_db"], 20)
+        pictures = sorted(p.name for p in (self.folder / "pictures").iterdir())
+        self.assertEqual(len(pictures), 8)
+        self.assertIn("15-tessar-f18-high-quality.png", pictures)
+
+    def test_qualities(self):
+        text, rows = self.figure("17", "nikon-80-200", "--grid", "16")
+        self.assertEqual([row["ghosts_rendered"] for row in rows], [142, 142, 114, 86])
+        self.assertEqual([row["paper_ms"] and round(1e3 / row["paper_ms"], 1) for row in rows], [6.1, None, None, 20.6])
+        self.assertIn("faster than all ghosts", text)
+
+    def test_dense_rays_and_bundles(self):
+        _, rows = self.figure("19", "canon-70-200", "--grid", "32", "--density", "0.1")
+        self.assertEqual([row["rendered"] for row in rows], ["dense rays", "ray bundles", "adaptive"])
+        self.assertEqual([row["ghosts_rendered"] for row in rows], [312] * 3)
+        self.assertGreater(rows[1]["psnr_db"], 20)
+        self.assertGreater(rows[2]["psnr_db"], 20)
+
+    def test_coarse_grids(self):
+        _, rows = self.figure("grids", "tessar")
+        decibels = [row["psnr_db"] for row in rows]
+        self.assertEqual(decibels, sorted(decibels))
+        good = [int(row["note"].split("; ")[1].split()[0]) for row in rows]
+        self.assertEqual(good, sorted(good))
+        self.assertGreater(good[-1], 6)
+
+
 class Bench(ProgramTest):
     QUICK_SYSTEM = ["--systems", "heliar", "--size", "48x27", "--grid", "16"]
 
@@ -350,6 +393,23 @@ class Bench(ProgramTest):
             if row["method"] == "tiled":
                 self.assertGreaterEqual(row["primitives"], row["primitives_merged"])
                 self.assertGreater(row["psnr_bundle_db"], 10)
+
+    def test_the_papers_ghosts_films_and_grids(self):
+        def rows(*arguments):
+            self.run_program("bench", "tables", "--tables", "3", "--size", "48x27", "--grid", "16", "--json", "t.json",
+                             *arguments)
+            return json.loads((self.folder / "t.json").read_text())["rows"]
+
+        ghosts = {row["settings"]["lens"]: row["ghosts_rendered"] for row in rows("--paper-ghosts")}
+        self.assertEqual(ghosts, {"heliar": 11, "itoh-zoom": 64, "nikon-80-200": 139, "canon-70-200": 304})  # 6
+        one = ["--systems", "heliar", "--paper-ghosts"]
+        plain = rows(*one)
+        for option in (["--coating", "quarter-wave:620:1.38"], ["--scale-grid-sigma", "0.01"],
+                       ["--scale-grid-phi", "0"]):
+            with self.subTest(option):
+                self.assertNotEqual([row["psnr_bundle_db"] for row in rows(*one, *option)],
+                                    [row["psnr_bundle_db"] for row in plain])
+        self.error_of("bench", "tables", "--coating", "quarter-wave:0", code=2)
 
     def test_chosen_tables_measure_no_more_than_they_need(self):
         text, rows = self.tables("--tables", "4")

@@ -7,7 +7,7 @@ from program import ProgramTest
 COMMANDS = [["render"], ["apply"], ["ghosts"], ["compare"], ["lens", "list"], ["lens", "info"], ["lens", "draw"],
             ["lens", "trace"], ["lens", "check"], ["lens", "convert"], ["lens", "browse"],
             ["glass", "list"], ["glass", "show"], ["glass", "closest"], ["look", "list"], ["look", "show"], ["bench", "tables"],
-            ["bench", "lenses"]]
+            ["bench", "lenses"], ["bench", "hullin"]]
 
 
 class Usage(ProgramTest):
@@ -58,7 +58,7 @@ class Usage(ProgramTest):
                 [*render, "--pixel-aspect", "0"], [*render, "--pixel-aspect", "inf"],
                 [*render, "--colour", "mauve"], [*render, "--colour", "20K"], [*render, "--light", "1"],
                 [*render, "--light", "nan,0"], [*render, "--light", "1,2:3:D65:4:5"], [*render, "--focus", "-1"],
-                [*render, "--method", "magic"], [*render, "--device", "toaster"], [*render, "--grid", "8"],
+                [*render, "--method", "magic"], [*render, "--device", "toaster"], [*render, "--grid", "3"],
                 [*render, "--wavelengths", "0"], [*render, "--wavelengths", "2.5"], [*render, "--threads", "-1"],
                 [*render, "--threads", "100000"], [*render, "--select", "best"], [*render, "--coating", "paint"],
                 [*render, "--blades", "-3"], [*render, "--blades", "1"], [*render, "--blades", "2"], [*render, "--blade-curvature", "1.1"], [*render, "--blade-asymmetry", "-0.1"],
@@ -76,7 +76,8 @@ class Usage(ProgramTest):
                 ["lens", "draw", "heliar", "-o", "a.png"], ["lens", "draw", "heliar", "-o", "a.svg", "--light", "1,1"],
                 ["lens", "convert", "heliar", "a.json"], ["ghosts", "heliar", "--light", "1,1", "2,2"],
                 ["glass"], ["glass", "show"], ["glass", "closest", "1.5"], ["glass", "closest", "nan", "60"],
-                ["bench", "tables", "--systems", "brownie"], ["bench", "tables", "--methods", "magic"]):
+                ["bench", "tables", "--systems", "brownie"], ["bench", "tables", "--methods", "magic"],
+                ["bench", "hullin", "--figures", "18"], ["bench", "hullin", "--lenses", "brownie"]):
             with self.subTest(wrong):
                 self.assertIn("--help)", self.error_of(*wrong, code=2))
         self.assertEqual(self.files(), [])

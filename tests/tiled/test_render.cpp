@@ -222,7 +222,7 @@ TEST_CASE("settings out of range are refused, a set cancel flag is obeyed") {
     const auto flare = render_planned(render_tiled, lens, {&light, 1}, settings, {});
     return !flare.has_value() && flare.error().code == ErrorCode::InvalidArgument;
   };
-  CHECK(refused([](RenderSettings& s) { s.grid = 15; }));
+  CHECK(refused([](RenderSettings& s) { s.grid = 3; }));
   CHECK(refused([](RenderSettings& s) { s.tiled.merge_steps = -1; }));
   CHECK(refused([](RenderSettings& s) { s.tiled.merge_threshold = std::numeric_limits<double>::quiet_NaN(); }));
   CHECK(refused([](RenderSettings& s) { s.tiled.dense_tile = 0; }));

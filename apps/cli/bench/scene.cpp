@@ -7,6 +7,7 @@
 #include <limits>
 #include <system_error>
 #include <utility>
+#include <variant>
 
 #include <fmt/format.h>
 
@@ -53,8 +54,12 @@ Result<Flare> render_scene(const BenchScene& scene, const BenchRequest& request,
 
 fs::path cache_file(const BenchScene& scene, const std::string& folder) {
   const RenderSettings& s = scene.settings;
-  return fs::path(folder) / fmt::format("{}-{}-{}x{}-{}nm-{:g}.exr", scene.system->key, scene.lights.size(),
-                                        s.frame.width, s.frame.height, s.wavelengths, s.reference_density);
+  std::string name = fmt::format("{}-{}-{}x{}-{}nm-{:g}", scene.system->key, scene.lights.size(), s.frame.width,
+                                 s.frame.height, s.wavelengths, s.reference_density);
+  if (std::holds_alternative<SelectList>(s.selection)) name += "-paper-ghosts";
+  if (!scene.coating.empty()) name += "-" + scene.coating;
+  std::ranges::replace(name, '/', '_');  // of a file with reflectances
+  return fs::path(folder) / (name + ".exr");
 }
 
 Result<Image> reference_image(const BenchScene& scene, const BenchRunning& running) {
@@ -110,10 +115,11 @@ Result<BenchRow> measure(const BenchScene& scene, const BenchRequest& request, c
   return row;
 }
 
-Result<LensState> lens_of(const PaperSystem& system, const SceneVariant& variant) {
+Result<LensState> lens_of(const PaperSystem& system, const SceneVariant& variant, const params::Values& values) {
   const auto prescription = find_lens(std::string(system.lens));
   if (!prescription) return tl::unexpected(prescription.error());
   LensSettings settings;
+  if (const auto coating = values.text("coating")) settings.coating = *params::parse_coating(*coating);
   if (!variant.full_aperture) settings.f_number = system.f_number;
   if (system.focal_length_mm > 0.0) settings.focal_length_mm = system.focal_length_mm;
   return lens_at(*prescription, settings);
@@ -123,7 +129,7 @@ Result<LensState> lens_of(const PaperSystem& system, const SceneVariant& variant
 
 Result<BenchScene> bench_scene(const PaperSystem& system, int light_count, const SceneVariant& variant,
                                const params::Values& values) {
-  auto lens = lens_of(system, variant);
+  auto lens = lens_of(system, variant, values);
   if (!lens) return tl::unexpected(lens.error());
   BenchScene scene{&system, variant, std::move(*lens), {}, {}};
   params::PixelSize size = *params::parse_size(*values.text("size"));
@@ -139,8 +145,17 @@ Result<BenchScene> bench_scene(const PaperSystem& system, int light_count, const
   scene.settings = params::render_settings(values, frame, ColourSpace::Rec709);
   scene.settings.scale_grid = true;  // the paper's eq. 13
   scene.settings.scope = GhostScope::OneSideOfStop;  // the paper's ghosts
+  scene.coating = values.text("coating").value_or("");
   if (variant.wavelengths > 0) scene.settings.wavelengths = variant.wavelengths;
   return scene;
+}
+
+SelectList papers_ghosts(const BenchScene& scene) {
+  SelectList list;
+  const int last = static_cast<int>(scene.lens.surfaces.size());
+  for (const Ghost& ghost : enumerate_ghosts(scene.lens, GhostScope::OneSideOfStop))
+    if (ghost.i != last && ghost.j != last) list.ghosts.push_back(ghost);
+  return list;
 }
 
 Result<void> measure_scene(const BenchScene& scene, const std::vector<BenchRequest>& requests,

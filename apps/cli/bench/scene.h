@@ -17,15 +17,21 @@ struct BenchScene {
   LensState lens;
   std::vector<Light> lights;
   RenderSettings settings;
+  std::string coating{};  // as it was asked for; none: the lens's own
 };
 
 // The first two lights are where the paper's are; more are spread over the frame, always in the same places.
 [[nodiscard]] Result<BenchScene> bench_scene(const PaperSystem& system, int light_count, const SceneVariant& variant,
                                              const params::Values& values);
 
+// Those that the paper counts: all of one side of the stop, but none that reflects at the last surface
+// (docs/physics/tiled.md).
+[[nodiscard]] SelectList papers_ghosts(const BenchScene& scene);
+
 struct BenchRunning {
   int runs = 1, threads = 0;
-  bool reference = false;  // compare the paper's scenes with the reference renderer
+  bool paper_ghosts = false;  // papers_ghosts() alone
+  bool reference = false;     // compare the paper's scenes with the reference renderer
   std::string cache;       // where its pictures are kept; may be empty
 };
 

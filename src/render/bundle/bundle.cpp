@@ -7,6 +7,7 @@
 #include "base/tasks.h"
 #include "render/bundle/item_renderer.h"
 #include "render/bundle/stopwatch.h"
+#include "render/interface/grid_side.h"
 
 namespace contrejour {
 namespace {
@@ -14,9 +15,6 @@ namespace {
 using bundle::Counts;
 using bundle::RenderedItem;
 using bundle::Stopwatch;
-
-constexpr int kLowestGrid = 16;
-constexpr int kHighestGrid = 512;
 
 // hullin2011's precomputation, for the angles of the lights at hand and all below: none unless asked for.
 std::optional<PupilBounds> bounds_for(const FramePlan& plan, const LensState& lens, const RenderSettings& settings,
@@ -61,10 +59,7 @@ Result<DrawnFlare> render_bundle(const LensState& lens, const FramePlan& plan, c
   PhaseTimes times;
   double total_ms = 0.0;
   const Stopwatch whole(total_ms);
-  if (settings.grid < kLowestGrid || settings.grid > kHighestGrid) {
-    return failure(ErrorCode::InvalidArgument,
-                   "a grid of " + std::to_string(settings.grid) + " rays a side is out of range; choose 16 to 512");
-  }
+  if (const auto ok = check_grid(settings); !ok) return tl::unexpected(ok.error());
   const TablesByWavelength& tables = plan.tables;
   const auto bounds = bounds_for(plan, lens, settings, tables, context);
   Screens screens(lens, settings);

@@ -20,8 +20,6 @@
 namespace contrejour {
 namespace {
 
-constexpr int kLowestGrid = 16;
-constexpr int kHighestGrid = 512;
 constexpr int kMostMergeSteps = 9;  // a grid of 512 in one primitive
 constexpr int kLargestTile = 4096;
 // bodonyi2023 eq. 13 ends at this share of the grid.
@@ -31,9 +29,7 @@ constexpr double kTracingProgress = 0.7;  // of the whole, for the bar
 Result<void> check(const RenderSettings& settings) {
   const TiledOptions& o = settings.tiled;
   const auto refuse = [](std::string message) { return failure(ErrorCode::InvalidArgument, std::move(message)); };
-  if (settings.grid < kLowestGrid || settings.grid > kHighestGrid) {
-    return refuse(fmt::format("a grid of {} rays a side is out of range; choose 16 to 512", settings.grid));
-  }
+  if (auto ok = check_grid(settings); !ok) return ok;
   if (o.merge_steps < 0 || o.merge_steps > kMostMergeSteps) {
     return refuse(fmt::format("{} merge steps is out of range; choose 0 to {}", o.merge_steps, kMostMergeSteps));
   }
