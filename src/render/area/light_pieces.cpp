@@ -159,8 +159,12 @@ std::vector<LightPiece> pieces_of(const Light& light, int across) {
   }
   const LightShape given = shape_of(light, across);
   const double width = given.level.width * length(given.right), height = given.level.height * length(given.down);
+  const double longest = std::max(width, height);
+  // A shape without a size, or of one that is no number, stays whole: planning refuses what is wrong with it.
+  const bool has_size = longest > 0.0 && std::isfinite(width) && std::isfinite(height);
   const auto parts = [&](double side) {
-    return std::max(1, static_cast<int>(std::ceil(across * side / std::max(width, height) - 1e-9)));
+    if (!has_size) return 1;
+    return std::max(1, static_cast<int>(std::ceil(across * side / longest - 1e-9)));
   };
   const int parts_x = parts(width), parts_y = parts(height);
   const int by = std::max(given.level.width / (kMostSamplesAcross * parts_x),
