@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cstdint>
 #include <cstdlib>
 #include <limits>
 #include <span>
@@ -30,7 +31,7 @@ bool ends_at_grating(const LensState& lens, const Ghost& ghost) {
 }
 
 int stop_crossings(const LensState& lens, const Ghost& ghost) {
-  const int stop = lens.stop_index + 1;
+  const auto stop = static_cast<std::int64_t>(lens.stop_index) + 1;  // a strange lens may have any index
   int crossings = 0, at = 0;
   const auto go_to = [&](int surface) {
     crossings += (at < stop) != (surface < stop) ? 1 : 0;
