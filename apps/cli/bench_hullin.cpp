@@ -1,8 +1,10 @@
 // contrejour bench hullin: figures of hullin2011, measured on this machine.
+#include <algorithm>
 #include <filesystem>
 #include <memory>
 #include <set>
 #include <string>
+#include <string_view>
 #include <system_error>
 #include <vector>
 

@@ -73,7 +73,7 @@ struct GhostAdjustment {
   Ghost ghost;
   double gain = 1.0;
   Rgb colour{1, 1, 1};
-  Vec2 offset;  // in the picture, to the right and up, of the frame's height
+  Vec2 offset{};  // in the picture, to the right and up, of the frame's height
   int surface = 0;  // 1-based, in place of a ghost: all ghosts that reflect there
 };
 

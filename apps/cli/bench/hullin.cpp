@@ -106,7 +106,7 @@ struct Drawn {
   int ghosts = 0;
 };
 
-// The fastest of so many runs.
+// Renders several times and keeps the fastest time.
 Result<Drawn> draw(const HullinScene& scene, const std::string& method, const RenderSettings& settings,
                    const HullinRunning& running) {
   Drawn drawn{{}, std::numeric_limits<double>::infinity(), 0};
