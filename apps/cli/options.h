@@ -21,8 +21,8 @@ void add_parameters(CLI::App& command, params::Values& values, std::span<const s
 // Every parameter that sets the lens: focal, fnumber, focus, coating, and those below.
 void add_lens_parameters(CLI::App& command, params::Values& values);
 
-inline constexpr std::array<std::string_view, 6> kIris = {"blades",          "blade-rotation", "blade-curvature",
-                                                          "blade-asymmetry", "blade-seed",     "iris-image"};
+inline constexpr std::array<std::string_view, 7> kIris = {
+    "blades", "blade-rotation", "blade-curvature", "blade-asymmetry", "blade-seed", "blade-spread", "iris-image"};
 inline constexpr std::array<std::string_view, 3> kGrating = {"sensor-orders", "sensor-pitch", "sensor-fill"};
 inline constexpr std::array<std::string_view, 11> kDirt = {
     "dust",           "dust-size",  "scratches", "scratch-length", "scratch-width", "scratch-angle",

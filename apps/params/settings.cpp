@@ -126,6 +126,7 @@ Result<LensSettings> lens_settings(const Values& values) {
   settings.iris.curvature = values.number("blade-curvature");
   settings.iris.asymmetry = values.number("blade-asymmetry");
   settings.iris.seed = static_cast<std::uint32_t>(values.integer("blade-seed"));
+  settings.iris.slope_spread = values.number("blade-spread");
   settings.iris_closing = choice<IrisClosing>(values, "blade-closing");
   if (const auto file = values.text("iris-image")) {
     auto field = read_iris_image(*file);

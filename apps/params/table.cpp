@@ -71,13 +71,17 @@ const Parameter kTable[] = {
      .help = "blades stand nearer or farther by up to this share, each by its own"},
     {.name = "blade-seed", .group = "Lens", .kind = Kind::Integer, .minimum = 0, .maximum = 1000000000,
      .fallback = "0", .help = "which of the irises of such asymmetry"},
+    {.name = "blade-spread", .group = "Lens", .kind = Kind::Real, .minimum = 0, .maximum = 0.5, .fallback = "0.1",
+     .help = "how far curved blades are from exact arcs: RMS of their slopes over the angle by which each bends; "
+             "smears the ends of the fans in a starburst"},
     {.name = "blade-closing", .group = "Lens", .kind = Kind::Choice, .unit = "HOW", .fallback = "scaled",
      .help = "scaled: one shape at every f-number, its corners on the round stop's rim; mechanism: round wide open, "
              "then blades come out of the rim and leave the round stop's area",
      .choices = {"scaled", "mechanism"}},  // as the enum
     {.name = "iris-image", .group = "Lens", .unit = "FILE",
-     .help = "a picture (PNG, EXR) as the iris in place of blades, its longer side across the stop: light passes where "
-             "it is at least half as bright as at its brightest"},
+     .help = "a picture (PNG, EXR) as the iris in place of blades, its longer side across the stop: its level over its "
+             "brightest is the share of light that passes; one of black and white with smooth edges is a mask, open "
+             "where it is at least half as bright as at its brightest"},
     {.name = "tilt", .group = "Lens", .kind = Kind::Real, .unit = "deg", .minimum = 0, .maximum = 5, .fallback = "0",
      .help = "each element, or group of cemented ones, is tilted by its own random angle, RMS"},
     {.name = "decentre", .group = "Lens", .kind = Kind::Real, .unit = "mm", .minimum = 0, .maximum = 20,

@@ -26,6 +26,9 @@ struct Iris {
   std::uint32_t seed = 0;  // which of these irises
   std::vector<double> blade_offset = {};  // further shares, edge by edge, > 0 outwards; missing ones are 0
   std::shared_ptr<const IrisField> field = nullptr;  // a picture (iris_field.h) in place of blades, turned as they are
+  // 0..0.5: RMS of the slopes of a curved edge about its arc's, over the angle by which the arc bends. No blade is
+  // exact: the ends of the fans in a starburst are smeared by it. Ghosts are the exact arcs'.
+  double slope_spread = 0.1;
   friend bool operator==(const Iris&, const Iris&) = default;
 };
 
@@ -36,6 +39,9 @@ struct Iris {
 // The share of light that passes there, 0 to 1: within an opening 1 but for a picture's half-tones (iris_field.h), of
 // which it is the mean over an upright square of the picture, `width` stop radii wide. A wave's amplitude is its root.
 [[nodiscard]] double iris_transmittance(const Iris& iris, Vec2 point, double width = 0.0);
+
+// RMS of the edges' slopes about those of IrisOpening, in radians: 0 for straight edges, pictures and without blades.
+[[nodiscard]] double iris_slope_spread_rad(const Iris& iris);
 
 // Area of the opening, weighted with its transmittance, over the area of the rim's circle.
 [[nodiscard]] double iris_area_fraction(const Iris& iris);

@@ -48,6 +48,7 @@ struct PupilOutline {
   Vec2 x_mm, y_mm;
   std::shared_ptr<const PupilDirt> dirt = nullptr;  // null: none, or none that has shapes
   std::vector<double> obscured_mm2 = {};  // areas in the mask's plane of discs within the opening that are dark
+  double slope_spread_rad = 0.0;  // RMS of the edges' slopes about the opening's (iris_slope_spread_rad)
 
   // Of what is open.
   [[nodiscard]] double area_mm2() const {

@@ -116,7 +116,7 @@ StarburstPattern::StarburstPattern(const PupilMask& mask, const PupilOutline* ou
   tail_end_ = grid_.up_to();
   tail_start_ = tail_end_ * kTailFade;
   if (!outline) return;
-  edges_.emplace(outline->opening);
+  edges_.emplace(outline->opening, outline->slope_spread_rad, context);
   outline_x_ = outline->x_mm * (1.0 / pupil_radius_mm);
   outline_y_ = outline->y_mm * (1.0 / pupil_radius_mm);
   // |F|^2 in stop radii, over 4 for d^2 rho = 4 d^2 f, over the mask's power; the edges' part by the mean amplitude.

@@ -11,8 +11,8 @@
 #include "contrejour/starburst.h"
 #include "diffraction/direction_means.h"
 #include "diffraction/dirt_waves.h"
-#include "diffraction/edge_waves.h"
 #include "diffraction/power_grid.h"
+#include "diffraction/uneven_edges.h"
 
 namespace contrejour {
 
@@ -33,7 +33,7 @@ class StarburstPattern {
  private:
   // Of one direction, beyond the spectrum.
   struct Tail {
-    std::optional<EdgeWaves::Direction> edges;
+    std::optional<UnevenEdges::Direction> edges;
     double scale = 0;  // of these
     double stretch = 1;  // frequencies of the opening over those of the pupil
     double scattered = 0;  // times rho^-3: what else there is
@@ -55,7 +55,7 @@ class StarburstPattern {
   double across_, power_mm2_;
   bool clean_;  // nothing dims the mask but its outline
   PowerGrid grid_;
-  std::optional<EdgeWaves> edges_;
+  std::optional<UnevenEdges> edges_;
   double tail_start_ = 0, tail_end_ = 0, edge_scale_ = 0;
   Vec2 outline_x_, outline_y_;  // the opening's unit vectors in pupil radii
   std::optional<DirtWaves> obscurations_;

@@ -74,6 +74,11 @@ double iris_distance(const Iris& iris, Vec2 point) {
   return worst;
 }
 
+double iris_slope_spread_rad(const Iris& iris) {
+  if (iris.field || blade_count(iris) == 0 || iris.curvature < kStraight) return 0.0;
+  return iris.slope_spread * 2.0 * std::asin(std::min(iris.curvature, 1.0) * std::sin(std::numbers::pi / iris.blades));
+}
+
 double iris_transmittance(const Iris& iris, Vec2 point, double width) {
   if (iris_distance(iris, point) > 0.0) return 0.0;
   return iris.field ? iris.field->transmittance(turned(point, -iris.rotation_rad), width) : 1.0;

@@ -1,13 +1,16 @@
 // The far power spectrum of openings against plain contour sums, and the special functions against quadrature.
+#include <algorithm>
 #include <cmath>
 #include <complex>
 #include <numbers>
 #include <span>
+#include <vector>
 
 #include <doctest/doctest.h>
 
 #include "diffraction/edge_waves.h"
 #include "diffraction/special_functions.h"
+#include "diffraction/uneven_edges.h"
 
 using namespace contrejour;
 
@@ -114,4 +117,52 @@ TEST_CASE("a circle cut by another one: two fans, no direction brighter than a w
       CHECK(brightest > 0.9 * 4.0 * kPi);
     }
   }
+}
+
+namespace {
+
+// The darkest of the directions, and the largest step between two, over their mean; and that mean.
+struct Evenness {
+  double darkest = 0.0, step = 0.0, mean = 0.0;
+};
+Evenness evenness(const UnevenEdges& edges, double k) {
+  constexpr int kDirections = 2880;
+  std::vector<double> power;
+  Evenness found;
+  for (int i = 0; i < kDirections; ++i) {
+    power.push_back(edges.along(kPi * (i + 0.5) / kDirections, kPi / kDirections).power(k));
+    found.mean += power.back() / kDirections;
+  }
+  found.darkest = *std::min_element(power.begin(), power.end()) / found.mean;
+  for (std::size_t i = 1; i < power.size(); ++i)
+    found.step = std::max(found.step, std::abs(power[i] - power[i - 1]) / found.mean);
+  return found;
+}
+
+}  // namespace
+
+// Nine blades of curvature 0.5 have fans 19.7 degrees wide, 20 apart, alternately of blades on either side.
+TEST_CASE("fans that end where others begin leave a dark line between exact arcs, and none between uneven ones") {
+  const Iris iris{9, 0.0, 0.5};
+  const IrisOpening opening(iris);
+  const double boundary = kPi / 18.0;  // half way between two fans
+  CHECK(averaged(opening, 1600.0, boundary, 1e-3) * std::pow(1600.0, 3) / (2.0 * kPi * 2.0) < 0.55);
+  const double spread = iris_slope_spread_rad(iris);
+  CHECK(spread == doctest::Approx(iris.slope_spread * 2.0 * std::asin(0.5 * std::sin(kPi / 9.0))));
+  for (const double k : {1600.0, 6400.0, 25600.0}) {
+    CAPTURE(k);
+    const Evenness exact = evenness(UnevenEdges(opening, 0.0, {}), k),
+                   uneven = evenness(UnevenEdges(opening, spread, {}), k);
+    CHECK(exact.darkest < 0.55);
+    CHECK(uneven.darkest > 0.85);
+    CHECK(uneven.mean / exact.mean == doctest::Approx(1.0).epsilon(1e-3));
+    CHECK(uneven.step < 0.02);
+  }
+  // Straight edges stay exact, and arcs that make a circle together one.
+  CHECK(iris_slope_spread_rad(Iris{9}) == 0.0);
+  CHECK(iris_slope_spread_rad(Iris{}) == 0.0);
+  const Iris nearly_round{7, 0.0, 0.9999};
+  const UnevenEdges round(IrisOpening(nearly_round), iris_slope_spread_rad(nearly_round), {});
+  CHECK(evenness(round, 1600.0).darkest > 0.9);
+  CHECK(evenness(round, 1600.0).mean * std::pow(1600.0, 3) == doctest::Approx(4.0 * kPi).epsilon(0.05));
 }

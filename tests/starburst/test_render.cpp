@@ -180,6 +180,39 @@ TEST_CASE("half-tones of an iris's picture dim the wave: fringes of a bright and
   }
 }
 
+TEST_CASE("curved blades' fans follow one another without dark lines, the middle and the flux stay an exact iris's") {
+  RenderSettings settings;
+  const auto image_of = [&](double slope_spread) {
+    Iris iris{9, 0.0, 0.5};
+    iris.slope_spread = slope_spread;
+    const LensState lens = test::bundled("heliar", {.f_number = 8.0, .iris = iris});
+    settings = starburst_alone(frame_on_sensor(lens, 600, 600));
+    return drawn(lens, Light{}, settings);
+  };
+  const Image usual = image_of(Iris{}.slope_spread), exact = image_of(0.0);
+  // Over the mean of all directions, rings of some pixels summed up.
+  const auto darkest = [](const Image& image) {
+    constexpr int kDirections = 720;
+    std::vector<double> sum(kDirections, 0.0);
+    double mean = 0.0;
+    for (int k = 0; k < kDirections; ++k) {
+      const double angle = 2.0 * kPi * k / kDirections;
+      for (double r = 200.0; r < 280.0; r += 2.0)
+        sum[static_cast<std::size_t>(k)] +=
+            r * r * r *
+            image.at(static_cast<int>(300.0 + r * std::cos(angle)), static_cast<int>(300.0 - r * std::sin(angle)), 1);
+      mean += sum[static_cast<std::size_t>(k)] / kDirections;
+    }
+    return *std::min_element(sum.begin(), sum.end()) / mean;
+  };
+  CHECK(darkest(exact) < 0.6);
+  CHECK(darkest(usual) > 0.75);
+  for (std::size_t c = 0; c < 3; ++c)
+    CHECK(flux_of(usual, c) / flux_of(exact, c) == doctest::Approx(1.0).epsilon(1e-3));
+  for (int y = 296; y < 304; ++y)
+    for (int x = 296; x < 304; ++x) CHECK(usual.at(x, y, 1) == doctest::Approx(exact.at(x, y, 1)).epsilon(1e-3));
+}
+
 TEST_CASE("upright: spikes stand across the blades' edges as the photographer sees the iris") {
   for (const int blades : {5, 6}) {
     const double rotation = 0.23;

@@ -317,10 +317,10 @@ TEST_CASE("irises and dirt stand any numbers") {
     for (const int blades : {-5, 0, 3, 7, 1 << 20}) {
       Iris iris;
       iris.blades = blades;
-      iris.rotation_rad = iris.curvature = iris.blade_radius = iris.asymmetry = v;
+      iris.rotation_rad = iris.curvature = iris.blade_radius = iris.asymmetry = iris.slope_spread = v;
       iris.blade_offset = {v, v};
       use(iris_distance(iris, {v, v}));
-      use(iris_area_fraction(iris));
+      use(iris_area_fraction(iris) + iris_slope_spread_rad(iris));
       const std::vector<IrisBound> cut = {{{v, v}, v, {v, v}, v}};
       const IrisOpening opening(iris, cut);
       use(opening.distance({v, v}));

@@ -12,6 +12,7 @@ namespace contrejour {
 namespace {
 
 constexpr double kMostAsymmetry = 0.5;
+constexpr double kMostSlopeSpread = 0.5;
 constexpr double kMostRotation_rad = 1e6;  // beyond, angles lose digits that are seen
 constexpr double kOpen = 1e-9;        // relative to the hole's area: less is not closed at all
 constexpr double kSameRadius = 1e-9;  // relative: the opening's reach is the rim, or its corners' circle
@@ -73,6 +74,9 @@ Result<void> check_iris(const Iris& iris) {
     return refused(fmt::format("blades cannot stand {} stop radii out; choose more than 0", iris.blade_radius));
   if (!(iris.asymmetry >= 0.0 && iris.asymmetry <= kMostAsymmetry))
     return refused(fmt::format("blades cannot have the asymmetry {}; choose 0 to {}", iris.asymmetry, kMostAsymmetry));
+  if (!(iris.slope_spread >= 0.0 && iris.slope_spread <= kMostSlopeSpread))
+    return refused(fmt::format("blades' slopes cannot spread by {} of their bend; choose 0 to {}", iris.slope_spread,
+                               kMostSlopeSpread));
   if (!std::all_of(iris.blade_offset.begin(), iris.blade_offset.end(), [](double o) { return std::isfinite(o); }))
     return refused("a blade's offset is not finite");
   if (IrisOpening(iris).closed()) return refused("these blades let nothing through; move them outwards");

@@ -98,6 +98,7 @@ std::optional<PupilOutline> outline_of(const PupilRays& pupil, const OutlineRays
   const auto axes = axes_in_cosines(pupil, of.open, stops);
   PupilOutline outline{IrisOpening(iris, cuts), axes[0], axes[1]};
   outline.obscured_mm2 = obscured_areas(pupil, of.rims, of.used);
+  outline.slope_spread_rad = iris_slope_spread_rad(iris);
   if (!(std::abs(outline.area_mm2() / open_area - 1.0) < kOutlineAgrees)) return std::nullopt;
   return outline;
 }
