@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
 #include <limits>
 #include <numbers>
 
@@ -168,26 +169,64 @@ double EdgeWaves::Direction::corner_terms() const {
   return sum;
 }
 
+// Where arcs meet nearly without a corner both may have their end near the direction: 2 Re(A conj(B)) of their Fresnel
+// integrals, with phases from the corner, where both have one. So arcs of one circle send what one without ends sends.
+EdgeWaves::Direction::Joined EdgeWaves::Direction::joined_arcs(const Edge& before, const Edge& after, double k,
+                                                               double window_rad) {
+  const auto is_arc = [&](const Edge& e) {
+    return e.radius > 0.0 && !e.full_circle && k < e.far_from && k * square(e.length) >= 8.0 * kFlatPhase * e.radius;
+  };
+  if (!is_arc(before) || !is_arc(after)) return {};
+  const double scale_before = std::sqrt(4.0 * k * before.radius / kPi),
+               scale_after = std::sqrt(4.0 * k * after.radius / kPi);
+  const auto u_of = [](double scale, double tau) { return scale * std::sin(0.5 * std::clamp(tau, -kPi, kPi)); };
+  const double farther =
+      std::max(std::abs(u_of(scale_before, before.tau_end)), std::abs(u_of(scale_after, after.tau_start)));
+  // Beside an arc so short that its other end is as near, that end's neighbour would count as well.
+  const double shorter = std::min(scale_before * 0.5 * (before.tau_end - before.tau_start),
+                                  scale_after * 0.5 * (after.tau_end - after.tau_start));
+  constexpr double kFade = kAsymptoticFrom - kUniformEnd;
+  const double share =
+      std::min(smoothstep((kAsymptoticFrom - farther) / kFade), smoothstep((shorter - kUniformEnd) / kFade));
+  if (!(share > 0.0)) return {};
+  const double du = 0.5 * std::max(scale_before, scale_after) * window_rad;
+  const int steps = std::clamp(static_cast<int>(std::ceil(du / kStepU)), 1, kMaxSteps);
+  const auto wave = [&](double from, double to, double corner) {
+    const FresnelIntegrals a = fresnel_integrals(from), b = fresnel_integrals(to);
+    return std::complex<double>(b.c - a.c, b.s - a.s) * std::polar(1.0, -0.5 * kPi * square(corner));
+  };
+  double sum = 0.0;
+  for (int i = 0; i < steps; ++i) {
+    const double shift = window_rad * ((i + 0.5) / steps - 0.5);
+    const double end = u_of(scale_before, before.tau_end + shift), start = u_of(scale_after, after.tau_start + shift);
+    sum += std::real(wave(u_of(scale_before, before.tau_start + shift), end, end) *
+                     std::conj(wave(start, u_of(scale_after, after.tau_end + shift), start)));
+  }
+  return {2.0 * kPi * k * std::sqrt(before.radius * after.radius) * sum / steps, share};
+}
+
 // Corners: |sum of both edges' ends|^2, without what oscillates (Komrska 1982 eq. 10, averaged). Near an edge's normal
 // the cotangent goes to infinity where the wave does not: there the edge's own power bounds it.
 double EdgeWaves::Direction::power(double k) const {
   const double per_k4 = 1.0 / square(square(k));
   if (k >= far_from_) return (constant_ + slope_ * k) * per_k4;
   double sum = 0.0, last_bound = 0.0, first_bound = 0.0;
+  const auto corner = [&](const Edge& before, double bound_before, const Edge& after, double bound_after) {
+    const Joined joined = joined_arcs(before, after, k, window_rad_);
+    const double cotangents = std::clamp(before.cot_end, -bound_before, bound_before) *
+                              std::clamp(after.cot_start, -bound_after, bound_after);
+    return joined.share * joined.power - (1.0 - joined.share) * 2.0 * cotangents;
+  };
   for (std::size_t j = 0; j < edges_.size(); ++j) {
     const Edge& edge = edges_[j];
     const double own = edge_power(edge, k, window_rad_);
     const double bound = k >= edge.far_from ? kNever : std::sqrt(own);
     sum += own;
     if (j == 0) first_bound = bound;
-    if (j > 0)
-      sum -=
-          2.0 * std::clamp(edges_[j - 1].cot_end, -last_bound, last_bound) * std::clamp(edge.cot_start, -bound, bound);
+    if (j > 0) sum += corner(edges_[j - 1], last_bound, edge, bound);
     last_bound = bound;
   }
-  if (edges_.size() > 1)
-    sum -= 2.0 * std::clamp(edges_.back().cot_end, -last_bound, last_bound) *
-           std::clamp(edges_.front().cot_start, -first_bound, first_bound);
+  if (edges_.size() > 1) sum += corner(edges_.back(), last_bound, edges_.front(), first_bound);
   return std::max(sum, 0.0) * per_k4;
 }
 

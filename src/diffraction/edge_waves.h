@@ -40,6 +40,12 @@ class EdgeWaves {
     [[nodiscard]] static double edge_power(const Edge& edge, double k, double window_rad);
     static void find_far(Edge& edge, double window_rad);
     [[nodiscard]] double corner_terms() const;
+    // What two edges' waves from their common corner add to the sum of both powers, and how far that is to be used in
+    // place of the cotangents' product.
+    struct Joined {
+      double power = 0.0, share = 0.0;
+    };
+    [[nodiscard]] static Joined joined_arcs(const Edge& before, const Edge& after, double k, double window_rad);
 
     double window_rad_ = 0;
     std::vector<Edge> edges_;

@@ -100,6 +100,31 @@ TEST_CASE("edges and corners send what the contour integral says [slow]") {
   }
 }
 
+TEST_CASE("arcs that meet nearly without a corner are nearly one: no dark line there") {
+  for (const double curvature : {0.9, 0.97, 0.9999}) {
+    const IrisOpening opening(Iris{9, 0.0, curvature});
+    const EdgeWaves edges(opening);
+    for (const double k : {400.0, 1600.0}) {
+      CAPTURE(curvature);
+      CAPTURE(k);
+      double worst = 0.0, off = 0.0, sum = 0.0, expected_sum = 0.0;
+      constexpr int kDirections = 80;
+      const double window = kPi / 9.0 / kDirections;  // as often as the pattern comes back
+      for (int i = 0; i < kDirections; ++i) {
+        const double angle = window * (i + 0.5);
+        const double expected = averaged(opening, k, angle, window), found = edges.along(angle, window).power(k);
+        worst = std::max(worst, std::abs(found - expected));
+        off += std::abs(found - expected) / kDirections;
+        sum += found / kDirections;
+        expected_sum += expected / kDirections;
+      }
+      CHECK(sum / expected_sum == doctest::Approx(1.0).epsilon(0.015));
+      CHECK(off / expected_sum < 0.05);
+      CHECK(worst / expected_sum < 0.15);
+    }
+  }
+}
+
 // Arcs whose normals turn by half a turn or nearly: both ends may lie square to a direction at once.
 TEST_CASE("a circle cut by another one: two fans, no direction brighter than a whole circle's") {
   for (const Vec2 centre : {Vec2{-0.15, -0.07}, Vec2{0.6, 0.1}, Vec2{-0.05, 0.0}}) {
