@@ -36,7 +36,10 @@ GhostMeasure GhostMeter::measure(Ghost ghost, const LightSource& light, double p
   const double lambda_nm = state_->tables.lambda_nm();
   const EntranceWindow window = LightWindows(state_->lens, light).of(has_axial_symmetry(state_->lens, ghost));
   const pupils::PupilRequest request{state_->steps, ghost, light, window, {&lambda_nm, 1}};
-  return measure_ghost(request, find_ghost_pupil(request), lambda_nm, state_->iris, pixel_mm);
+  const pupils::Footprint footprint = footprint_of(request, find_ghost_pupil(request), lambda_nm, state_->iris);
+  GhostMeasure measure = footprint.measure();
+  measure.peak_per_mm2 = footprint.peak_per_mm2(pixel_mm);
+  return measure;
 }
 
 }  // namespace contrejour

@@ -35,6 +35,16 @@ std::vector<CubicPoint> cubic_points(int side, int factor) {
   return points;
 }
 
+// Vectors about the axis.
+void turn(double cosine, double sine, std::vector<float>& x, std::vector<float>& y) {
+  const auto c = static_cast<float>(cosine), s = static_cast<float>(sine);
+  for (std::size_t k = 0; k < x.size(); ++k) {
+    const float along = x[k], across = y[k];
+    x[k] = c * along - s * across;
+    y[k] = s * along + c * across;
+  }
+}
+
 }  // namespace
 
 Vec2 RayGrid::step_mm() const { return (box_.high - box_.low) * (1.0 / (side_ - 1)); }
@@ -51,31 +61,39 @@ void RayGrid::resize_light(std::size_t count) {
   }
 }
 
-// The first rows of the grid; all arrays are made for the whole.
-void RayGrid::trace_rows(const OpticalPath& path, const ReflectanceTables& tables, const LightSource& light,
-                         double z_mm, const Rectangle& box, int side, int rows, PacketPrecision precision) {
-  side_ = side;
-  box_ = box;
-  stop_crossings_ = path.stop_crossings;
-  obscured_ = path.obscured;
-  resize(static_cast<std::size_t>(side) * static_cast<std::size_t>(side));
-  const Vec2 step = step_mm();
-  for (int iy = 0; iy < rows; ++iy) {
-    std::fill_n(y_mm_.begin() + static_cast<std::ptrdiff_t>(at(0, iy)), side, static_cast<float>(iy * step.y));
-    for (int ix = 0; ix < side; ++ix) x_mm_[at(ix, iy)] = static_cast<float>(ix * step.x);
-  }
+void RayGrid::prepare(const PacketPath& packets, std::size_t count) {
+  stop_crossings_ = packets.stop_crossings();
+  obscured_ = std::ranges::any_of(packets.steps(), &PacketStep::blocks_within);
+  resize(count);
+}
+
+void RayGrid::trace_packets_of(const PacketPath& packets, const float* x_mm, const float* y_mm, std::size_t count,
+                               PacketPrecision precision) {
   TracedArrays out{sensor_x_mm.data(), sensor_y_mm.data(), transmission.data(), r_rel.data(), {}, {}, nullptr, 0};
   for (std::size_t c = 0; c < static_cast<std::size_t>(stop_crossings_); ++c) {
     out.stop_x[c] = stop_x[c].data();
     out.stop_y[c] = stop_y[c].data();
   }
-  const PacketPath packets(path, tables, {{box.low.x, box.low.y, z_mm}, light});
-  trace_packets(packets, precision, x_mm_.data(), y_mm_.data(), at(0, rows), out);
+  trace_packets(packets, precision, x_mm, y_mm, count, out);
+}
+
+// The first rows of the grid; all arrays are made for the whole.
+void RayGrid::trace_rows(const PacketPath& packets, const Rectangle& box, int side, int rows,
+                         PacketPrecision precision) {
+  side_ = side;
+  box_ = box;
+  prepare(packets, at(0, side));
+  const Vec2 step = step_mm();
+  for (int iy = 0; iy < rows; ++iy) {
+    std::fill_n(y_mm_.begin() + static_cast<std::ptrdiff_t>(at(0, iy)), side, static_cast<float>(iy * step.y));
+    for (int ix = 0; ix < side; ++ix) x_mm_[at(ix, iy)] = static_cast<float>(ix * step.x);
+  }
+  trace_packets_of(packets, x_mm_.data(), y_mm_.data(), at(0, rows), precision);
 }
 
 void RayGrid::trace(const OpticalPath& path, const ReflectanceTables& tables, const IrisShape& iris,
                     const LightSource& light, double z_mm, const Rectangle& box, int side, PacketPrecision precision) {
-  trace_rows(path, tables, light, z_mm, box, side, side, precision);
+  trace_rows({path, tables, {{box.low.x, box.low.y, z_mm}, light}}, box, side, side, precision);
   find_blocked(iris, at(0, side));
 }
 
@@ -83,10 +101,37 @@ std::size_t RayGrid::trace_mirrored(const OpticalPath& path, const ReflectanceTa
                                     const LightSource& light, double z_mm, const Rectangle& box, int side,
                                     PacketPrecision precision) {
   const int rows = (side + 1) / 2;
-  trace_rows(path, tables, light, z_mm, box, side, rows, precision);
+  trace_rows({path, tables, {{box.low.x, box.low.y, z_mm}, light}}, box, side, rows, precision);
   mirror_rows(rows);
   find_blocked(iris, at(0, side));
   return at(0, rows);
+}
+
+std::size_t RayGrid::trace(PacketPath& packets, const IrisShape& iris, const LightFrame& light, const Rectangle& box,
+                           int side, PacketPrecision precision) {
+  const int rows = light.symmetric && box.low.y == -box.high.y ? (side + 1) / 2 : side;
+  packets.start_from(box.low);
+  trace_rows(packets, box, side, rows, precision);
+  mirror_rows(rows);
+  put_in_place(iris, light);
+  return at(0, rows);
+}
+
+void RayGrid::trace_points(PacketPath& packets, const IrisShape& iris, const LightFrame& light, Vec2 origin_mm,
+                           std::span<const float> x_mm, std::span<const float> y_mm, PacketPrecision precision) {
+  side_ = 0;
+  prepare(packets, x_mm.size());
+  packets.start_from(origin_mm);
+  trace_packets_of(packets, x_mm.data(), y_mm.data(), x_mm.size(), precision);
+  put_in_place(iris, light);
+}
+
+// From a light's own frame.
+void RayGrid::put_in_place(const IrisShape& iris, const LightFrame& light) {
+  turn(light.cos_turn, light.sin_turn, sensor_x_mm, sensor_y_mm);
+  for (std::size_t c = 0; c < static_cast<std::size_t>(stop_crossings_); ++c)
+    turn(light.cos_turn, light.sin_turn, stop_x[c], stop_y[c]);
+  find_blocked(iris, blocked.size());
 }
 
 // Fills the rows behind from those before: what is a y changes its sign, the rest stays.
@@ -143,14 +188,7 @@ void RayGrid::refine(std::vector<float>& values, int factor) const {
 }
 
 void RayGrid::turn_sensor(double angle_rad) {
-  const auto cosine = static_cast<float>(std::cos(angle_rad));
-  const auto sine = static_cast<float>(std::sin(angle_rad));
-  for (std::size_t k = 0; k < sensor_x_mm.size(); ++k) {
-    const float x = sensor_x_mm[k];
-    const float y = sensor_y_mm[k];
-    sensor_x_mm[k] = cosine * x - sine * y;
-    sensor_y_mm[k] = sine * x + cosine * y;
-  }
+  turn(std::cos(angle_rad), std::sin(angle_rad), sensor_x_mm, sensor_y_mm);
 }
 
 float RayGrid::slack(std::span<const std::size_t> corners) const {

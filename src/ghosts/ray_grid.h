@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "ghosts/iris_shape.h"
+#include "ghosts/light_frame.h"
 #include "optics/trace/packet_trace.h"
 
 namespace contrejour {
@@ -40,6 +41,15 @@ class RayGrid {
   std::size_t trace_mirrored(const OpticalPath& path, const ReflectanceTables& tables, const IrisShape& iris,
                              const LightSource& light, double z_mm, const Rectangle& box, int side,
                              PacketPrecision precision);
+
+  // The same from packets that are ready, of a light in its own frame: mirrored where the light and the box are
+  // symmetric in y, places on the sensor and in the stop turned into place.
+  std::size_t trace(PacketPath& packets, const IrisShape& iris, const LightFrame& light, const Rectangle& box, int side,
+                    PacketPrecision precision);
+
+  // Likewise of rays through any points, given from an origin: one row of them, no grid.
+  void trace_points(PacketPath& packets, const IrisShape& iris, const LightFrame& light, Vec2 origin_mm,
+                    std::span<const float> x_mm, std::span<const float> y_mm, PacketPrecision precision);
 
   // Every cell into factor x factor, by cubics through the rays along each axis: what is smooth between rays in few of
   // them. The grid needs four rays a side, all of which arrived; of where they land nothing is left.
@@ -77,8 +87,11 @@ class RayGrid {
  private:
   void resize(std::size_t count);
   void resize_light(std::size_t count);
-  void trace_rows(const OpticalPath& path, const ReflectanceTables& tables, const LightSource& light, double z_mm,
-                  const Rectangle& box, int side, int rows, PacketPrecision precision);
+  void prepare(const PacketPath& packets, std::size_t count);
+  void trace_packets_of(const PacketPath& packets, const float* x_mm, const float* y_mm, std::size_t count,
+                        PacketPrecision precision);
+  void put_in_place(const IrisShape& iris, const LightFrame& light);
+  void trace_rows(const PacketPath& packets, const Rectangle& box, int side, int rows, PacketPrecision precision);
   void mirror_rows(int from);
   void refine(std::vector<float>& values, int factor) const;
   void find_blocked(const IrisShape& iris, std::size_t count);

@@ -4,26 +4,51 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <utility>
+
+#include "ghosts/open_halves.h"
 
 namespace contrejour::pupils {
 namespace {
 
 constexpr std::array<std::array<std::size_t, 3>, 2> kHalves{{{0, 1, 2}, {0, 2, 3}}};
 
+// A cell that lets light through: its vertices in turn, and of each of the triangles 0, 1, 2 and 0, 2, 3 the share that
+// is open.
+struct OpenCell {
+  std::array<std::size_t, 4> vertex;
+  std::array<double, 2> open;
+};
+
+// Cells of which all rays arrive.
+template <class Visit>
+void for_each_open_cell(const LitMesh& mesh, const Visit& visit) {
+  for (const Block& block : mesh.blocks) {
+    for (const auto& v : kCellsOfBlock) {
+      OpenCell cell{{block.vertex[v[0]], block.vertex[v[1]], block.vertex[v[2]], block.vertex[v[3]]}, {1.0, 1.0}};
+      const auto blocked = [&](std::size_t k) { return mesh.blocked[cell.vertex[k]]; };
+      const float a = blocked(0), b = blocked(1), c = blocked(2), d = blocked(3);
+      const float highest = std::max(std::max(a, b), std::max(c, d));
+      if (std::min(std::min(a, b), std::min(c, d)) > 0.0F || highest == std::numeric_limits<float>::infinity())
+        continue;
+      if (highest > 0.0F) cell.open = {share_below_zero(a, b, c), share_below_zero(a, c, d)};
+      visit(cell);
+    }
+  }
+}
+
 // mm^2 of the entrance plane times transmission, of one of a cell's halves.
-double light_of(const OpenMesh& mesh, const OpenCell& cell, std::size_t half) {
+double light_of(const LitMesh& mesh, const OpenCell& cell, std::size_t half) {
   double sum = 0.0;
   for (const std::size_t corner : kHalves[half]) sum += mesh.transmission[cell.vertex[corner]];
-  return cell.open[half] * 0.5 * cell.area_mm2 * sum / 3.0;
+  return cell.open[half] * 0.5 * mesh.cell_mm2() * sum / 3.0;
 }
 
-double light_of(const OpenMesh& mesh, const OpenCell& cell) {
-  return light_of(mesh, cell, 0) + light_of(mesh, cell, 1);
-}
+double light_of(const LitMesh& mesh, const OpenCell& cell) { return light_of(mesh, cell, 0) + light_of(mesh, cell, 1); }
 
 // About how bright a cell's light is over a square of pixels at its middle: spread over its image, if that is larger.
-double level_of(const OpenMesh& mesh, const OpenCell& cell, double pixel_mm) {
+double level_of(const LitMesh& mesh, const OpenCell& cell, double pixel_mm) {
   const auto at = [&](std::size_t corner) { return mesh.landing_mm(cell.vertex[corner]); };
   const Vec2 first = at(2) - at(0), second = at(3) - at(1);
   const double image_mm2 = 0.5 * std::abs(cross(first, second)) * 0.5 * (cell.open[0] + cell.open[1]);
@@ -36,7 +61,7 @@ class SquareWindow {
  public:
   SquareWindow(Vec2 middle, double side) : low_(middle - Vec2{0.5 * side, 0.5 * side}), side_(side) {}
 
-  [[nodiscard]] bool may_meet(const OpenMesh& mesh, const OpenCell& cell) const {
+  [[nodiscard]] bool may_meet(const LitMesh& mesh, const OpenCell& cell) const {
     bool left = true, right = true, below = true, above = true;
     for (const std::size_t vertex : cell.vertex) {
       const Vec2 p = mesh.landing_mm(vertex);
@@ -102,49 +127,30 @@ class SquareWindow {
   double side_;
 };
 
-}  // namespace
-
-void Footprint::grow(Vec2 p) {
-  sum_.min_mm = {std::min(sum_.min_mm.x, p.x), std::min(sum_.min_mm.y, p.y)};
-  sum_.max_mm = {std::max(sum_.max_mm.x, p.x), std::max(sum_.max_mm.y, p.y)};
-}
-
-// The open corners, and where the edge crosses the sides.
-void Footprint::add_bounds(const OpenMesh& mesh, const OpenCell& cell) {
-  for (std::size_t half = 0; half < 2; ++half) {
-    if (cell.open[half] <= 0.0) continue;
-    for (std::size_t k = 0; k < 3; ++k) {
-      const std::size_t a = cell.vertex[kHalves[half][k]], b = cell.vertex[kHalves[half][(k + 1) % 3]];
-      const double from = mesh.blocked[a], to = mesh.blocked[b];
-      if (from <= 0.0) grow(mesh.landing_mm(a));
-      if ((from <= 0.0) != (to <= 0.0))
-        grow(mesh.landing_mm(a) + (mesh.landing_mm(b) - mesh.landing_mm(a)) * (from / (from - to)));
-    }
-  }
-}
+constexpr double kLeast_mm = 1e-9, kMost_mm = 1e9;  // of a square
 
 // Where the peak may be: at the brightest cell, or where many parts of the pupil come together, which a table of
 // squares shows that are hashed by their places. (Squares that share an entry make a place that is no peak, at worst.)
-std::vector<Vec2> Footprint::bright_places() const {
-  constexpr std::size_t kEntries = 1U << 13U, kMostPlaces = 6;
+std::vector<Vec2> bright_places(const std::vector<LitMesh>& meshes, double pixel_mm) {
+  constexpr std::size_t kBits = 11, kMostPlaces = 6;
   constexpr double kFarthest = 1e15;  // squares, which can be counted
-  std::vector<std::pair<double, Vec2>> table(kEntries);
+  std::vector<std::pair<double, Vec2>> table(std::size_t{1} << kBits);
   std::pair<double, Vec2> brightest{0.0, {}};
-  for (const Part& part : parts_) {
-    for (const OpenCell& cell : part.cells) {
-      const double level = level_of(part.mesh, cell, pixel_mm_);
+  for (const LitMesh& mesh : meshes) {
+    for_each_open_cell(mesh, [&](const OpenCell& cell) {
+      const double level = level_of(mesh, cell, pixel_mm);
       Vec2 middle;
-      for (const std::size_t vertex : cell.vertex) middle = middle + part.mesh.landing_mm(vertex) * 0.25;
+      for (const std::size_t vertex : cell.vertex) middle = middle + mesh.landing_mm(vertex) * 0.25;
       if (level > brightest.first) brightest = {level, middle};
-      if (!(std::abs(middle.x) + std::abs(middle.y) < kFarthest * pixel_mm_)) continue;
-      const auto column = static_cast<std::int64_t>(std::floor(middle.x / pixel_mm_));
-      const auto row = static_cast<std::int64_t>(std::floor(middle.y / pixel_mm_));
+      if (!(std::abs(middle.x) + std::abs(middle.y) < kFarthest * pixel_mm)) return;
+      const auto column = static_cast<std::int64_t>(std::floor(middle.x / pixel_mm));
+      const auto row = static_cast<std::int64_t>(std::floor(middle.y / pixel_mm));
       constexpr std::uint64_t kFirst = 0x9E3779B97F4A7C15U, kSecond = 0xC2B2AE3D27D4EB4FU;  // large and odd
       const std::uint64_t key = static_cast<std::uint64_t>(column) * kFirst + static_cast<std::uint64_t>(row) * kSecond;
-      auto& entry = table[(key >> 40U) % kEntries];
+      auto& entry = table[key >> (64U - kBits)];
       entry.second = (entry.second * entry.first + middle * level) * (1.0 / (entry.first + level));
       entry.first += level;
-    }
+    });
   }
   const auto is_brighter = [](const auto& a, const auto& b) { return a.first > b.first; };
   std::partial_sort(table.begin(), table.begin() + kMostPlaces, table.end(), is_brighter);
@@ -155,59 +161,75 @@ std::vector<Vec2> Footprint::bright_places() const {
 }
 
 // All that lands in a square about a place, from wherever in the pupil, over its area.
-double Footprint::mean_about(Vec2 place) const {
-  const SquareWindow window(place, pixel_mm_);
+double mean_about(Vec2 place, const std::vector<LitMesh>& meshes, double pixel_mm) {
+  const SquareWindow window(place, pixel_mm);
   double light = 0.0;
-  for (const Part& part : parts_) {
-    for (const OpenCell& cell : part.cells) {
-      if (!window.may_meet(part.mesh, cell)) continue;
+  for (const LitMesh& mesh : meshes) {
+    for_each_open_cell(mesh, [&](const OpenCell& cell) {
+      if (!window.may_meet(mesh, cell)) return;
       for (std::size_t half = 0; half < 2; ++half) {
         std::array<Vec2, 3> triangle;
-        for (std::size_t k = 0; k < 3; ++k) triangle[k] = part.mesh.landing_mm(cell.vertex[kHalves[half][k]]);
-        if (cell.open[half] > 0.0) light += light_of(part.mesh, cell, half) * window.share_of(triangle);
+        for (std::size_t k = 0; k < 3; ++k) triangle[k] = mesh.landing_mm(cell.vertex[kHalves[half][k]]);
+        if (cell.open[half] > 0.0) light += light_of(mesh, cell, half) * window.share_of(triangle);
       }
-    }
+    });
   }
-  return light / (pixel_mm_ * pixel_mm_);
+  return light / (pixel_mm * pixel_mm);
 }
 
-double Footprint::peak_per_mm2() const {
+}  // namespace
+
+Footprint::Footprint(std::vector<LitMesh> meshes, double shared_flux)
+    : meshes_(std::move(meshes)), shared_flux_(shared_flux) {
+  constexpr double kFar = std::numeric_limits<double>::infinity();
+  measure_.min_mm = {kFar, kFar};
+  measure_.max_mm = {-kFar, -kFar};
+  for (const LitMesh& mesh : meshes_) add(mesh);
+  if (measure_.flux_mm2 > 0.0) {
+    measure_.centroid_mm = measure_.centroid_mm * (1.0 / measure_.flux_mm2);
+    measure_.flux_mm2 *= shared_flux_;
+  } else {
+    measure_ = {};
+    meshes_.clear();
+  }
+}
+
+void Footprint::grow(Vec2 p) {
+  measure_.min_mm = {std::min(measure_.min_mm.x, p.x), std::min(measure_.min_mm.y, p.y)};
+  measure_.max_mm = {std::max(measure_.max_mm.x, p.x), std::max(measure_.max_mm.y, p.y)};
+}
+
+// Bounds are those of rays that get through, and of where the edge crosses the sides of cells.
+void Footprint::add(const LitMesh& mesh) {
+  for (std::size_t k = 0; k < mesh.weight.size(); ++k) {
+    if (mesh.weight[k] == 0.0) continue;
+    const double flux = mesh.weight[k] * mesh.transmission[k];
+    measure_.flux_mm2 += flux;
+    measure_.centroid_mm = measure_.centroid_mm + mesh.landing_mm(k) * flux;
+  }
+  for (std::size_t k = 0; k < mesh.blocked.size(); ++k)
+    if (mesh.blocked[k] <= 0.0F) grow(mesh.landing_mm(k));
+  for_each_open_cell(mesh, [&](const OpenCell& cell) {
+    if (cell.open[0] == 1.0 && cell.open[1] == 1.0) return;
+    for (std::size_t corner = 0; corner < 4; ++corner) {
+      const std::size_t a = cell.vertex[corner], b = cell.vertex[(corner + 1) % 4];
+      const double from = mesh.blocked[a], to = mesh.blocked[b];
+      if ((from <= 0.0) != (to <= 0.0))
+        grow(mesh.landing_mm(a) + (mesh.landing_mm(b) - mesh.landing_mm(a)) * (from / (from - to)));
+    }
+  });
+}
+
+double Footprint::peak_per_mm2(double pixel_mm) const {
   double peak = 0.0;
-  if (pixel_mm_ > 0.0) {
-    for (const Vec2 place : bright_places()) peak = std::max(peak, mean_about(place));
-    return peak;
+  if (pixel_mm >= kLeast_mm && pixel_mm <= kMost_mm) {
+    for (const Vec2 place : bright_places(meshes_, pixel_mm))
+      peak = std::max(peak, mean_about(place, meshes_, pixel_mm));
+    return peak * shared_flux_;
   }
-  for (const Part& part : parts_)
-    for (const OpenCell& cell : part.cells) peak = std::max(peak, level_of(part.mesh, cell, 0.0));
-  return peak;
-}
-
-void Footprint::add(const OpenMesh& mesh) {
-  std::vector<OpenCell> cells = open_cells(mesh);
-  if (cells.empty()) return;
-  if (!(sum_.flux_mm2 > 0.0)) {
-    constexpr double kFar = std::numeric_limits<double>::infinity();
-    sum_.min_mm = {kFar, kFar};
-    sum_.max_mm = {-kFar, -kFar};
-  }
-  for (const OpenCell& cell : cells) {
-    for (std::size_t half = 0; half < 2; ++half) {
-      const double flux = light_of(mesh, cell, half) * shared_flux_;
-      sum_.flux_mm2 += flux;
-      for (const std::size_t corner : kHalves[half])
-        sum_.centroid_mm = sum_.centroid_mm + mesh.landing_mm(cell.vertex[corner]) * (flux / 3.0);
-    }
-    add_bounds(mesh, cell);
-  }
-  parts_.push_back({mesh, std::move(cells)});
-}
-
-GhostMeasure Footprint::measure() const {
-  if (!(sum_.flux_mm2 > 0.0)) return {};
-  GhostMeasure m = sum_;
-  m.centroid_mm = m.centroid_mm * (1.0 / m.flux_mm2);
-  m.peak_per_mm2 = peak_per_mm2() * shared_flux_;
-  return m;
+  for (const LitMesh& mesh : meshes_)
+    for_each_open_cell(mesh, [&](const OpenCell& cell) { peak = std::max(peak, level_of(mesh, cell, 0.0)); });
+  return peak * shared_flux_;
 }
 
 }  // namespace contrejour::pupils

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <span>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -66,19 +68,25 @@ class FigureMaker {
     Rgb flux{};
     Vec2 centroid_mm;
     double weight_sum = 0.0, luminances = 0.0;
-    Footprint_px footprint;
+    Footprint_px bounds;
+    std::optional<pupils::Footprint> brightest;  // of the band that the ghost is brightest in
+    double highest = 0.0;
     for (const SpectralBand& band : request_.bands) {
-      const GhostMeasure m = measure_ghost(pupil_request, pupil, band.lambda_nm, iris_, request_.frame.pixel_pitch_mm);
+      pupils::Footprint footprint = footprint_of(pupil_request, pupil, band.lambda_nm, iris_);
+      const GhostMeasure& m = footprint.measure();
       const double brightness = luminance(band.weight, ColourSpace::Rec709);
       luminances += brightness;
       figures.reflectance += brightness * reflectance_of(ghost, band.lambda_nm);
       for (std::size_t c = 0; c < flux.size(); ++c) flux[c] += band.weight[c] * m.flux_mm2;
       if (m.flux_mm2 <= 0.0) continue;
-      figures.peak_irradiance += brightness * m.peak_per_mm2;
-      centroid_mm = centroid_mm + m.centroid_mm * (brightness * m.flux_mm2);
-      weight_sum += brightness * m.flux_mm2;
-      footprint.add(request_.frame.pixel_from_sensor(m.min_mm));
-      footprint.add(request_.frame.pixel_from_sensor(m.max_mm));
+      const double weight = brightness * m.flux_mm2;
+      centroid_mm = centroid_mm + m.centroid_mm * weight;
+      weight_sum += weight;
+      bounds.add(request_.frame.pixel_from_sensor(m.min_mm));
+      bounds.add(request_.frame.pixel_from_sensor(m.max_mm));
+      if (weight <= highest) continue;
+      highest = weight;
+      brightest = std::move(footprint);
     }
     if (luminances > 0.0) figures.reflectance /= luminances;
     for (std::size_t c = 0; c < flux.size(); ++c) figures.rgb[c] = whole_[c] != 0.0 ? flux[c] / whole_[c] : 0.0;
@@ -86,8 +94,13 @@ class FigureMaker {
     if (weight_sum > 0.0) {
       figures.centroid_mm = centroid_mm * (1.0 / weight_sum);
       figures.centroid_px = request_.frame.pixel_from_sensor(figures.centroid_mm);
-      figures.size_px = footprint.high - footprint.low;
+      figures.size_px = bounds.high - bounds.low;
       figures.size_mm = figures.size_px * request_.frame.pixel_pitch_mm;
+    }
+    // Light is spread nearly alike in all bands: the others add to the peak what they add to the flux.
+    if (brightest) {
+      const double share = weight_sum / brightest->measure().flux_mm2;
+      figures.peak_irradiance = share * brightest->peak_per_mm2(request_.frame.pixel_pitch_mm);
     }
     return figures;
   }

@@ -54,12 +54,12 @@ class MeasuredLight {
   [[nodiscard]] PupilRequest request(const LensState& lens, const StepsByWavelength& steps, const Ghost& ghost) const {
     return {steps, ghost, light_.source, windows_.of(has_axial_symmetry(lens, ghost)), all_nm_};
   }
-  [[nodiscard]] Rgb flux(PupilRequest request, const GhostPupil& pupil, const IrisShape& iris) const {
-    request.lambda_nm = measured_nm_;
-    const std::vector<double> by_wavelength = rough_fluxes(request, pupil, iris);
+  [[nodiscard]] Rgb flux(const PupilRequest& request, const GhostPupil& pupil, const IrisShape& iris) const {
     Rgb sum{};
-    for (std::size_t k = 0; k < gain_.size(); ++k)
-      for (std::size_t c = 0; c < 3; ++c) sum[c] += gain_[k][c] * by_wavelength[k];
+    for (std::size_t k = 0; k < gain_.size(); ++k) {
+      const double flux = rough_flux(request, pupil, measured_nm_[k], iris);
+      for (std::size_t c = 0; c < 3; ++c) sum[c] += gain_[k][c] * flux;
+    }
     return sum;
   }
 

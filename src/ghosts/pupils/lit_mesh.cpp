@@ -1,0 +1,273 @@
+#include "ghosts/pupils/lit_mesh.h"
+
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "ghosts/open_halves.h"
+#include "ghosts/pupils/extremes.h"
+
+namespace contrejour::pupils {
+namespace {
+
+constexpr float kFailed = std::numeric_limits<float>::infinity();
+constexpr int kMostShrinkings = 3;
+constexpr double kWorthShrinking = 0.5;  // of the area
+constexpr double kFull = 0.4;            // open rays' share of all at which a box is not searched for a smaller one
+constexpr int kDeepest = 5;              // finer meshes, each of cells of half the size
+constexpr std::size_t kMostFiner = 400;  // blocks of a box that are traced again
+constexpr std::array<std::size_t, 4> kWholeBlock{0, 2, 8, 6};
+constexpr std::uint32_t kFinerSide = 5;  // vertices along a side of a block that is traced again
+
+double area(const Rectangle& r) { return (r.high.x - r.low.x) * (r.high.y - r.low.y); }
+
+// Integrals over what is open in a block of a mesh, as weights of its vertices. A function that is linear over
+// triangles is integrated, the edge of what is open a straight line in each: off by a term of second order in the size
+// of cells. The four cells taken for one are off by four times as much, so that both tell what is lost (Richardson
+// 1911).
+class BlockWeights {
+ public:
+  BlockWeights(const LitMesh& mesh, const Block& block) : mesh_(mesh), block_(block) {
+    for (std::size_t k = 0; k < blocked_.size(); ++k) {
+      blocked_[k] = mesh.blocked[block.vertex[k]];
+      lowest_ = std::min(lowest_, blocked_[k]);
+      highest_ = std::max(highest_, blocked_[k]);
+    }
+  }
+
+  [[nodiscard]] bool is_dark() const { return lowest_ > 0.0F; }
+
+  void find() {
+    const double cell_mm2 = mesh_.cell_mm2();
+    if (highest_ <= 0.0F) return find_open(cell_mm2);
+    for (const auto& cell : kCellsOfBlock) add_cell(cell, cell_mm2, fine_);
+    if (highest_ < kFailed) add_cell(kWholeBlock, 4.0 * cell_mm2, coarse_);
+  }
+  [[nodiscard]] double light() const { return light_of(fine_); }
+  // By how much that may be off.
+  [[nodiscard]] double uncertain() const {
+    return highest_ < kFailed ? std::abs(light() - light_of(coarse_)) : beside_;
+  }
+  void add_to(std::vector<double>& weight) const {
+    const double extrapolated = highest_ < kFailed ? 1.0 / 3.0 : 0.0;
+    for (std::size_t k = 0; k < blocked_.size(); ++k)
+      weight[block_.vertex[k]] += fine_[k] + extrapolated * (fine_[k] - coarse_[k]);
+  }
+
+ private:
+  using Nine = std::array<double, 9>;
+
+  [[nodiscard]] double light_of(const Nine& weight) const {
+    double light = 0.0;
+    for (std::size_t k = 0; k < blocked_.size(); ++k) light += weight[k] * mesh_.transmission[block_.vertex[k]];
+    return light;
+  }
+  void find_open(double cell_mm2) {
+    constexpr Nine kFine{1.0 / 3.0, 0.5, 1.0 / 6.0, 0.5, 1.0, 0.5, 1.0 / 6.0, 0.5, 1.0 / 3.0};
+    constexpr Nine kCoarse{4.0 / 3.0, 0.0, 2.0 / 3.0, 0.0, 0.0, 0.0, 2.0 / 3.0, 0.0, 4.0 / 3.0};
+    for (std::size_t k = 0; k < blocked_.size(); ++k) {
+      fine_[k] = cell_mm2 * kFine[k];
+      coarse_[k] = cell_mm2 * kCoarse[k];
+    }
+  }
+  void add_cell(const std::array<std::size_t, 4>& v, double mm2, Nine& weight) {
+    add_triangle({v[0], v[1], v[2]}, 0.5 * mm2, weight);
+    add_triangle({v[0], v[2], v[3]}, 0.5 * mm2, weight);
+  }
+  // Where a ray fails nothing tells how far light reaches: rays that get through stand for a third of it each, which
+  // is right in the mean over where the edge may be.
+  void add_triangle(const std::array<std::size_t, 3>& v, double mm2, Nine& weight) {
+    const std::array<float, 3> blocked{blocked_[v[0]], blocked_[v[1]], blocked_[v[2]]};
+    if (*std::ranges::max_element(blocked) < kFailed) {
+      const double open = mm2 / 3.0 * share_below_zero(blocked[0], blocked[1], blocked[2]);
+      for (const std::size_t k : v) weight[k] += open;
+      if (*std::ranges::max_element(blocked) > 0.0F)
+        for (const std::size_t k : v) beside_ += mm2 / 3.0 * mesh_.transmission[block_.vertex[k]];
+      return;
+    }
+    for (const std::size_t k : v) {
+      if (blocked_[k] > 0.0F) continue;
+      weight[k] += mm2 / 3.0;
+      beside_ += mm2 / 3.0 * mesh_.transmission[block_.vertex[k]];
+    }
+  }
+
+  const LitMesh& mesh_;
+  const Block& block_;
+  std::array<float, 9> blocked_;
+  float lowest_ = kFailed, highest_ = -kFailed;
+  Nine fine_{}, coarse_{};
+  double beside_ = 0.0;  // light in triangles that are open in part
+};
+
+std::ptrdiff_t count_open(const RayGrid& grid) {
+  return std::ranges::count_if(grid.blocked, [](float blocked) { return blocked <= 0.0F; });
+}
+
+// The smallest about y = 0 that holds it.
+Rectangle symmetric(const Rectangle& r) {
+  const double y = std::max(r.high.y, -r.low.y);
+  return {{r.low.x, -y}, {r.high.x, y}};
+}
+
+// Whether light may pass through a cell, if nothing goes farther beyond its values at the corners than they differ.
+bool may_pass(const RayGrid& grid, const std::array<std::size_t, 4>& corners) {
+  constexpr float kReach = 1.0F;
+  std::array<Extremes, 1 + kMaxStopCrossings> extremes;
+  const auto crossings = static_cast<std::size_t>(grid.stop_crossings());
+  bool any = false;
+  for (const std::size_t k : corners) {
+    if (grid.blocked[k] <= 0.0F) return true;
+    if (grid.blocked[k] == kFailed) continue;
+    any = true;
+    extremes[0].add(grid.r_rel[k] - 1.0F);
+    for (std::size_t c = 0; c < crossings; ++c)
+      extremes[1 + c].add(std::hypot(grid.stop_x[c][k], grid.stop_y[c][k]) - 1.0F);
+  }
+  return any && std::all_of(extremes.begin(), extremes.begin() + 1 + static_cast<std::ptrdiff_t>(crossings),
+                            [](const Extremes& e) { return e.may_pass(kReach); });
+}
+
+// Of cells that may let light through.
+std::optional<Rectangle> bounds_of_light(const RayGrid& grid) {
+  const int cells = grid.cells();
+  int left = cells, right = 0, bottom = cells, top = 0;
+  for (int iy = 0; iy < cells; ++iy) {
+    for (int ix = 0; ix < cells; ++ix) {
+      const bool within = ix >= left && ix < right && iy >= bottom && iy < top;
+      if (within || !may_pass(grid, grid.corners(ix, iy))) continue;
+      left = std::min(left, ix);
+      right = std::max(right, ix + 1);
+      bottom = std::min(bottom, iy);
+      top = std::max(top, iy + 1);
+    }
+  }
+  if (right == 0) return std::nullopt;
+  const Vec2 step = grid.step_mm(), low = grid.box().low;
+  return Rectangle{low + Vec2{left * step.x, bottom * step.y}, low + Vec2{right * step.x, top * step.y}};
+}
+
+// Fills a mesh's weights, but for blocks that are uncertain by more than is allowed, as many at most: these it takes
+// out and gives.
+std::vector<Block> weigh(LitMesh& mesh, double allowed, std::size_t most) {
+  mesh.weight.assign(mesh.blocked.size(), 0.0);
+  std::vector<Block> certain, uncertain;
+  for (const Block& block : mesh.blocks) {
+    BlockWeights weights(mesh, block);
+    if (weights.is_dark()) continue;
+    weights.find();
+    if (weights.uncertain() > allowed && uncertain.size() < most) {
+      uncertain.push_back(block);
+    } else {
+      certain.push_back(block);
+      weights.add_to(mesh.weight);
+    }
+  }
+  mesh.blocks = std::move(certain);
+  return uncertain;
+}
+
+double light_of(const LitMesh& mesh) {
+  double light = 0.0;
+  for (const Block& block : mesh.blocks) {
+    BlockWeights weights(mesh, block);
+    if (weights.is_dark()) continue;
+    weights.find();
+    light += weights.light();
+  }
+  return light;
+}
+
+// Of a grid of vertices that begins at one, as many a row.
+void add_blocks(std::uint32_t first, std::uint32_t side, Vec2 low_mm, Vec2 step_mm, std::vector<Block>& blocks) {
+  for (std::uint32_t row = 0; row + 2 < side; row += 2) {
+    for (std::uint32_t column = 0; column + 2 < side; column += 2) {
+      const std::uint32_t k = first + row * side + column;
+      blocks.push_back(
+          {{k, k + 1, k + 2, k + side, k + side + 1, k + side + 2, k + 2 * side, k + 2 * side + 1, k + 2 * side + 2},
+           low_mm + Vec2{column * step_mm.x, row * step_mm.y}});
+    }
+  }
+}
+
+}  // namespace
+
+void MeshTracer::trace_grid(const Rectangle& box, int side) {
+  const Vec2 size = box.high - box.low;
+  rays_.trace(path_, iris_, light_, box, side, search_precision(std::min(size.x, size.y) / (side - 1)));
+}
+
+std::optional<LitMesh> MeshTracer::coarse_mesh(Rectangle box) {
+  trace_grid(box, density_.side);
+  const auto is_full = [&] { return count_open(rays_) >= kFull * density_.side * density_.side; };
+  for (int k = 0; k < kMostShrinkings && !is_full(); ++k) {
+    const auto lit = bounds_of_light(rays_);
+    if (!lit) return std::nullopt;
+    if (area(*lit) >= kWorthShrinking * area(box)) break;
+    box = box.low.y == -box.high.y ? symmetric(*lit) : *lit;
+    trace_grid(box, density_.side);
+  }
+  if (count_open(rays_) < density_.enough_open) trace_grid(box, 2 * density_.side - 1);
+  LitMesh mesh{box.low, rays_.step_mm(), rays_.sensor_x_mm, rays_.sensor_y_mm, rays_.transmission, rays_.blocked, {},
+               {}};
+  add_blocks(0, static_cast<std::uint32_t>(rays_.side()), {}, mesh.step_mm, mesh.blocks);
+  return mesh;
+}
+
+// Over blocks of a coarser one, whose rays are used again.
+LitMesh MeshTracer::finer_mesh(const LitMesh& coarse, const std::vector<Block>& blocks) {
+  constexpr std::uint32_t kCount = kFinerSide * kFinerSide;
+  const Vec2 step = coarse.step_mm * 0.5;
+  x_mm_.clear();
+  y_mm_.clear();
+  const auto is_coarse = [](std::uint32_t k) { return k % kFinerSide % 2 == 0 && k / kFinerSide % 2 == 0; };
+  for (const Block& block : blocks) {
+    for (std::uint32_t k = 0; k < kCount; ++k) {
+      if (is_coarse(k)) continue;
+      x_mm_.push_back(static_cast<float>(block.low_mm.x + k % kFinerSide * step.x));
+      y_mm_.push_back(static_cast<float>(block.low_mm.y + k / kFinerSide * step.y));
+    }
+  }
+  rays_.trace_points(path_, iris_, light_, coarse.origin_mm, x_mm_, y_mm_, search_precision(std::min(step.x, step.y)));
+  LitMesh mesh{coarse.origin_mm, step, {}, {}, {}, {}, {}, {}};
+  const auto fill = [&](const std::vector<float>& from, const std::vector<float>& traced, std::vector<float>& to) {
+    to.reserve(kCount * blocks.size());
+    std::size_t next = 0;
+    for (const Block& block : blocks)
+      for (std::uint32_t k = 0; k < kCount; ++k)
+        to.push_back(is_coarse(k) ? from[block.vertex[k / kFinerSide / 2 * 3 + k % kFinerSide / 2]] : traced[next++]);
+  };
+  fill(coarse.x_mm, rays_.sensor_x_mm, mesh.x_mm);
+  fill(coarse.y_mm, rays_.sensor_y_mm, mesh.y_mm);
+  fill(coarse.transmission, rays_.transmission, mesh.transmission);
+  fill(coarse.blocked, rays_.blocked, mesh.blocked);
+  std::uint32_t first = 0;
+  for (const Block& block : blocks) {
+    add_blocks(first, kFinerSide, block.low_mm, step, mesh.blocks);
+    first += kCount;
+  }
+  return mesh;
+}
+
+std::vector<LitMesh> MeshTracer::trace(const std::vector<Rectangle>& boxes) {
+  std::vector<LitMesh> meshes;
+  for (const Rectangle& box : boxes)
+    if (auto mesh = coarse_mesh(box)) meshes.push_back(std::move(*mesh));
+  double whole = 0.0;
+  for (const LitMesh& mesh : meshes) whole += light_of(mesh);
+  const std::size_t coarse = meshes.size();
+  for (std::size_t k = 0; k < coarse; ++k) {
+    std::size_t left = kMostFiner;
+    std::size_t at = k;
+    for (int depth = 0; depth <= kDeepest; ++depth) {
+      const std::vector<Block> uncertain = weigh(meshes[at], density_.uncertain * whole, depth < kDeepest ? left : 0);
+      if (uncertain.empty()) break;
+      left -= uncertain.size();
+      meshes.push_back(finer_mesh(meshes[at], uncertain));
+      at = meshes.size() - 1;
+    }
+  }
+  return meshes;
+}
+
+}  // namespace contrejour::pupils
