@@ -1,13 +1,17 @@
 #include "cli/ghost_request.h"
 
+#include "params/parse.h"
 #include "params/settings.h"
 
 namespace contrejour::cli {
 namespace {
 
+constexpr int kMeasuredBands = 6;  // unless others are asked for: fluxes to some per cent
+
 std::vector<SpectralBand> bands_for(const params::Values& values, const Light& light) {
   if (const auto lambda_nm = values.real("wavelength")) return {{*lambda_nm, {1.0, 1.0, 1.0}}};
-  return spectral_bands(values.integer("wavelengths"), light.spectrum, ColourSpace::Rec709);
+  const int given = *params::parse_wavelengths(*values.text("wavelengths"));
+  return spectral_bands(given == kWavelengthsByNeed ? kMeasuredBands : given, light.spectrum, ColourSpace::Rec709);
 }
 
 }  // namespace

@@ -64,6 +64,16 @@ Result<std::vector<double>> parse_reals(std::string_view text, std::size_t count
   return values;
 }
 
+Result<int> parse_wavelengths(std::string_view text) {
+  if (text == "auto") return kWavelengthsByNeed;
+  int count = 0;
+  if (!read_whole(text, count) || count < 1 || count > 1024) {
+    return failure(ErrorCode::InvalidArgument,
+                   fmt::format("\"{}\" is not a number of wavelengths; write auto, or one from 1 to 1024", text));
+  }
+  return count;
+}
+
 Result<PixelSize> parse_size(std::string_view text) {
   PixelSize size;
   const std::size_t cross = text.find('x');

@@ -195,7 +195,7 @@ RenderSettings render_settings(const Values& values, const Frame& frame, ColourS
   settings.scope = ghost_scope(values);
   settings.reflections = reflections(values);
   settings.selection = *parse_selection(*values.text("select"));
-  settings.wavelengths = values.integer("wavelengths");
+  settings.wavelengths = *parse_wavelengths(*values.text("wavelengths"));
   settings.colour_space = space;
   settings.grid = values.integer("grid");
   settings.scale_grid = values.is_on("scale-grid");

@@ -109,12 +109,16 @@ struct RingingOptions {
   std::shared_ptr<RingingPatterns> patterns = nullptr;  // ringing.h: kept from frame to frame, if given
 };
 
+inline constexpr int kWavelengthsByNeed = 0;
+
 struct RenderSettings {
   Frame frame;
   GhostScope scope = GhostScope::All;
   Reflections reflections = Reflections::Two;
   GhostSelection selection = SelectAll{};
-  int wavelengths = 3;
+  // Bands of the visible spectrum; or by need: as many for each ghost as its dispersion and the coatings ask for, 32 at
+  // most (docs/physics/colour.md). The light of each channel is that of 96 bands to 2 per cent by any method.
+  int wavelengths = kWavelengthsByNeed;
   ColourSpace colour_space = ColourSpace::Rec709;
   std::vector<double> lambda_nm;  // instead of bands: these wavelengths, equal weights, for tests and tables
 

@@ -8,8 +8,8 @@
 
 #include "ghosts/pupils/pupil_boxes.h"
 #include "ghosts/pupils/ray_sheet.h"
+#include "optics/trace/by_wavelength.h"
 #include "render/adaptive/tiles/tiles.h"
-#include "render/interface/wavelength_tables.h"
 #include "support/scenes.h"
 
 namespace contrejour::test {
@@ -68,13 +68,12 @@ struct GhostScene {
 
   GhostScene(LensState state, Ghost of, Vec3 towards, double wavelength_nm = 550.0)
       : lens(std::move(state)), ghost(of), lambda_nm(wavelength_nm), direction(towards), light(towards),
-        window(entrance_window(lens, light.source)), path(ghost_path(lens, ghost, lambda_nm)) {
-    tables[lambda_nm] = std::make_shared<const ReflectanceTables>(lens, lambda_nm);
+        window(entrance_window(lens, light.source)), path(ghost_path(lens, ghost, lambda_nm)), tables(lens) {
     boxes = pupils::find_pupil_boxes(packets(), window).boxes;
   }
 
   [[nodiscard]] PacketPath packets() const {
-    return {path, *tables.at(lambda_nm), {{0.0, 0.0, window.z_mm}, light.source}};
+    return {path, tables.at(lambda_nm), {{0.0, 0.0, window.z_mm}, light.source}};
   }
 
   [[nodiscard]] pupils::RaySheet sheet(const Rectangle& box, int nodes, Rgb gain = {1, 1, 1}) const {

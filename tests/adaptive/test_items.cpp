@@ -22,8 +22,7 @@ struct System {
 RoughFrame rough_frame(const LensState& lens, const Light& light, const RenderSettings& settings) {
   const auto plan = plan_frame(lens, {&light, 1}, settings, {});
   REQUIRE(plan.has_value());
-  StepsByWavelength steps;
-  for (const auto& [lambda_nm, tables] : plan->tables) steps.try_emplace(lambda_nm, lens, *tables);
+  const StepsByWavelength steps(lens, plan->tables);
   const Scene scene{lens, *plan, std::move(steps), IrisShape(lens.iris)};
   Work work;
   const std::vector<Item> items = find_items(scene, {}, work);
@@ -38,14 +37,14 @@ RoughFrame rough_frame(const LensState& lens, const Light& light, const RenderSe
 TEST_CASE("where around the axis a light stands changes nothing of where its rays are looked for") {
   const LensState lens = test::lens_at_f("muller-fisheye-10", 8.0, 0.0);
   RenderSettings settings;
+  settings.wavelengths = 3;
   settings.frame = frame_on_sensor(lens, 64, 36);
   const auto items_for = [&](double turn) {
     Light light;
     light.direction = normalized(Vec3{2.5 * std::cos(turn), 2.5 * std::sin(turn), 1.0});
     const auto plan = plan_frame(lens, {&light, 1}, settings, {});
     REQUIRE(plan.has_value());
-    StepsByWavelength steps;
-    for (const auto& [lambda_nm, tables] : plan->tables) steps.try_emplace(lambda_nm, lens, *tables);
+    const StepsByWavelength steps(lens, plan->tables);
     Work work;
     std::vector<Rectangle> found;
     for (const Item& item : find_items({lens, *plan, std::move(steps), IrisShape(lens.iris)}, {}, work)) {
@@ -65,6 +64,7 @@ TEST_CASE("where around the axis a light stands changes nothing of where its ray
 TEST_CASE("a plan that lets dark parts be left out gets the rest, as it is in the whole picture") {
   const LensState lens = test::lens_at_f("itoh-zoom", 32.0, 123.0);
   RenderSettings settings;
+  settings.wavelengths = 3;
   settings.frame = frame_on_sensor(lens, 640, 360);
   const Light light = test::light_at(lens, settings.frame, {0.7, 0.33});
   auto plan = plan_frame(lens, {&light, 1}, settings, {});

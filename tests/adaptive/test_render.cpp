@@ -287,6 +287,7 @@ TEST_CASE("every instruction set of this machine draws the same, with fringes, t
 TEST_CASE("a ghost alone, of which nothing is seen when it is drawn without care") {
   const LensState lens = test::bundled("tessar", {.f_number = 11.0});
   RenderSettings settings;
+  settings.wavelengths = 3;
   settings.frame = frame_on_sensor(lens, 240, 160);
   settings.reference_density = 0.25;
   const Light light = test::light_at(lens, settings.frame, {0.70, 0.33});

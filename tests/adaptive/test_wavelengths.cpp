@@ -26,6 +26,8 @@ std::vector<double> evenly(double from_nm, double to_nm, std::size_t count) {
 }
 
 // A ghost of a light at sixteen wavelengths.
+constexpr ErrorBudget kSome{1e150 * 1e-12, 1e-6};
+
 struct Rainbow {
   test::GhostScene scene;
   std::vector<PlannedPass> passes;
@@ -35,14 +37,8 @@ struct Rainbow {
 
   Rainbow(const char* lens, double f_number, Ghost ghost, Vec3 towards)
       : scene(test::lens_at_f(lens, f_number), ghost, towards), passes(passes_of()),
-        samples(evenly(400.0, 700.0, 16), 9),
-        tracers(steps, ghost, scene.light, entrance_window(scene.lens, scene.light.source).z_mm, passes, 1.0) {
-    for (const PlannedPass& pass : passes) {
-      const auto& tables = scene.tables[pass.lambda_nm] =
-          std::make_shared<const ReflectanceTables>(scene.lens, pass.lambda_nm);
-      steps.try_emplace(pass.lambda_nm, scene.lens, *tables);
-    }
-  }
+        samples(evenly(400.0, 700.0, 16), 9), steps(scene.lens, scene.tables),
+        tracers(steps, ghost, scene.light, entrance_window(scene.lens, scene.light.source).z_mm, passes, 1.0) {}
   static std::vector<PlannedPass> passes_of() {
     std::vector<PlannedPass> passes;
     for (const double lambda_nm : evenly(400.0, 700.0, 16)) passes.push_back({lambda_nm, {1.0, 0.5, 0.25}});
@@ -116,8 +112,14 @@ TEST_CASE("few wavelengths tell the transmissions of sixteen") {
       for (std::size_t k = 0; k < 16; ++k) {
         const RaySheet sheet = rainbow.tracers.at(k).trace(box, 5, PacketPrecision::Double);
         const float most = *std::max_element(sheet.transmission.begin(), sheet.transmission.end());
-        for (std::size_t node = 0; node < sheet.count(); ++node)
-          CHECK(std::abs(rays.transmission[k][node] - sheet.transmission[node]) <= 0.004 * most);
+        double told = 0.0, traced_light = 0.0;
+        for (std::size_t node = 0; node < sheet.count(); ++node) {
+          CHECK(std::abs(rays.transmission[k][node] - sheet.transmission[node]) <=
+                (allowed > 1.0 ? 0.12 : 0.03) * most);
+          told += rays.transmission[k][node];
+          traced_light += sheet.transmission[node];
+        }
+        CHECK(told == doctest::Approx(traced_light).epsilon(0.008));
       }
     }
   }
@@ -129,11 +131,13 @@ TEST_CASE("bands told by samples have the patches of rays traced at their wavele
   const Frame frame = frame_on_sensor(rainbow.scene.lens, 1920, 1080);
   std::vector<Band> bands;
   for (std::size_t k = 0; k < 16; ++k) bands.push_back({k, k + 1});
-  BandSet told(rainbow.tracers, rainbow.samples, 6, bands);
+  const FirstRays rays = first_rays(rainbow.tracers, rainbow.samples, box, 5, frame, kSome);
+  REQUIRE(rays.samples > 0);
+  BandSet told(rainbow.tracers, rainbow.samples, rays, bands);
   std::vector<RaySheet> sheets = told.trace(box, 9, PacketPrecision::Double);
   told.add_weights(sheets, PacketPrecision::Double);
   const std::vector<Patch> patches = told.make_patches(sheets, frame);
-  REQUIRE(patches.size() == 6);
+  REQUIRE(patches.size() == rays.samples);
   for (std::size_t k = 0; k < 16; ++k) {
     CAPTURE(k);
     Patch patch;
@@ -152,7 +156,7 @@ TEST_CASE("bands told by samples have the patches of rays traced at their wavele
       CHECK(patch.field(PatchLayout::kStop)[node] ==
             doctest::Approx(traced.field(PatchLayout::kStop)[node]).epsilon(1e-5).scale(1.0));
       CHECK(patch.field(patch.layout.weight(0))[node] ==
-            doctest::Approx(traced.field(traced.layout.weight(0))[node]).epsilon(2e-3));
+            doctest::Approx(traced.field(traced.layout.weight(0))[node]).epsilon(1.5e-2));
     }
   }
 }
@@ -162,7 +166,9 @@ TEST_CASE("a band of several wavelengths carries the light of all, in each chann
   const Rectangle& box = rainbow.scene.boxes.front();
   const Frame frame = frame_on_sensor(rainbow.scene.lens, 1920, 1080);
   const std::vector<Band> bands{{0, 5}, {5, 16}};
-  BandSet told(rainbow.tracers, rainbow.samples, 6, bands);
+  const FirstRays rays = first_rays(rainbow.tracers, rainbow.samples, box, 5, frame, kSome);
+  REQUIRE(rays.samples > 0);
+  BandSet told(rainbow.tracers, rainbow.samples, rays, bands);
   std::vector<RaySheet> sheets = told.trace(box, 9, PacketPrecision::Double);
   told.add_weights(sheets, PacketPrecision::Double);
   Patch patch;
@@ -177,7 +183,7 @@ TEST_CASE("a band of several wavelengths carries the light of all, in each chann
   for (std::size_t node = 0; node < patch.size(); ++node)
     for (int c = 0; c < 3; ++c)
       CHECK(patch.gain[static_cast<std::size_t>(c)] * patch.field(patch.layout.weight_of(c))[node] ==
-            doctest::Approx(sum[node][static_cast<std::size_t>(c)]).epsilon(2e-3).scale(0.01 * sum[node][1]));
+            doctest::Approx(sum[node][static_cast<std::size_t>(c)]).epsilon(8e-3).scale(0.01 * sum[node][1]));
 }
 
 TEST_CASE("a band drawn by itself carries the light of all its wavelengths, too") {
@@ -296,6 +302,18 @@ TEST_CASE("however much may be wrong, wavelengths of a band are no farther apart
   CHECK(bands_within(0.3 * spread_px) >= 2);
   CHECK(bands_within(0.1 * spread_px) >= 4);
   CHECK(bands_within(1e-9) == 16);
+}
+
+TEST_CASE("by default a fisheye's ghosts are continuous spectra, not bars") {
+  const LensState lens = test::lens_at_f("muller-fisheye-10", 11.0);
+  RenderSettings settings;
+  settings.frame = frame_on_sensor(lens, 384, 216);
+  const Light light = test::light_at(lens, settings.frame, {0.70, 0.33});
+  const Image ours = test::flare_of("adaptive", lens, {&light, 1}, settings).image;
+  settings.wavelengths = 96;
+  const auto difference = compare(test::flare_of("adaptive", lens, {&light, 1}, settings).image, ours);
+  REQUIRE(difference.has_value());
+  CHECK(difference->psnr_db.value_or(1000.0) >= 48.0);  // with three wavelengths 34
 }
 
 TEST_CASE("sixteen wavelengths as in the reference") {

@@ -109,6 +109,7 @@ TEST_CASE("large lights are the sum of points over them, whose caustics and rims
 TEST_CASE("many lights with a size take at most four times as long as points") {
   const LensState lens = test::bundled("planar-50", {});
   RenderSettings settings;
+  settings.wavelengths = 3;
   settings.frame = frame_on_sensor(lens, 240, 160);
   // A pane, and spots beside it, as areas of a photograph that are merged have; each in colours of its own.
   Image level(40, 40, 3);
@@ -246,6 +247,7 @@ LightShape panes(double radius_rad) {
 
 RenderSettings starburst_alone(const LensState& lens, int width, int height) {
   RenderSettings settings;
+  settings.wavelengths = 3;
   settings.frame = frame_on_sensor(lens, width, height);
   settings.selection = SelectList{};
   settings.starburst.on = true;
@@ -302,6 +304,7 @@ TEST_CASE("starburst and glare of wide lights add light everywhere, whatever the
 TEST_CASE("lights whose images are drawn may be others than the ghosts'") {
   const LensState lens = test::bundled("heliar", {.f_number = 16.0});
   RenderSettings settings;
+  settings.wavelengths = 3;
   settings.frame = frame_on_sensor(lens, 120, 80);
   settings.selection = SelectList{};
   settings.starburst.on = true;

@@ -40,10 +40,9 @@ Image one_ghost(const LensState& lens, Ghost ghost, const Light& light, const Re
   plan.ghosts = {ghost};
   plan.looks = {{}};
   plan.lights = {{normalized(light.direction), {}}};
-  TablesByWavelength tables;
+  const TablesByWavelength tables(lens);
   for (const SpectralBand& band : spectral_bands(settings.wavelengths, light.spectrum, settings.colour_space)) {
     plan.lights[0].passes.push_back({band.lambda_nm, band.weight});
-    tables[band.lambda_nm] = std::make_shared<const ReflectanceTables>(lens, band.lambda_nm);
   }
   const Screens screens(lens, settings);
   Image image(settings.frame.width, settings.frame.height, 3);

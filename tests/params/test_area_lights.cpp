@@ -121,8 +121,8 @@ Picture picture_of_window() {
   return picture_of(rgb);
 }
 
-// Colours beyond the gamut are negative in a channel: a lens of daylight's films sends few, and pale ones.
-TEST_CASE("a photograph's flare lowers no channel by more than a tenth of what it adds to another") {
+// Of one wavelength, whose light has one sign in all channels: spectral colours beyond the gamut are negative in one.
+TEST_CASE("a photograph's flare lowers no channel") {
   const Picture picture = picture_of_window();
   struct Case {
     const char *lens, *most_lights;
@@ -137,16 +137,12 @@ TEST_CASE("a photograph's flare lowers no channel by more than a tenth of what i
                                      {"glare", "0.05"},
                                      {"gain", "100"},
                                      {"ghosts", "all"},
+                                     {"wavelengths", "1"},
                                      {"select", "surface:3"}});
     const Image flare = applied(picture, *lens, values).flare;
-    double worst = 0.0, brightest = 0.0;
-    for (std::size_t k = 0; k < flare.pixels.size(); k += 3) {
-      const auto [low, high] = std::minmax({flare.pixels[k], flare.pixels[k + 1], flare.pixels[k + 2]});
-      brightest = std::max<double>(brightest, high);
-      if (low < 0.0F) worst = std::max(worst, low < -high ? 1.0 : -static_cast<double>(low) / high);
-    }
-    CHECK(brightest > 0.0);
-    CHECK(worst < 0.1);
+    const auto [low, high] = std::ranges::minmax(flare.pixels);
+    CHECK(high > 0.0F);
+    CHECK(low >= 0.0F);
   }
 }
 

@@ -26,14 +26,12 @@ const std::map<std::string_view, Words> kTexts = {
      {"adaptive", "adaptive", "adaptive", "bundle", "bundle", "bundle", "tiled", "tiled", "tiled", "reference"}},
     {"select", {"list:1-2,2-5", "list:1-5", "list:2-3", "list:3-5", "surface:2", "brightest:3"}},
     {"error", {"preview", "standard", "0.1"}},
+    {"wavelengths", {"1", "1", "1", "1", "2", "2", "2", "3", "3", "auto"}},
     {"ghost", {"2-5:gain=0.5", "1-2:colour=1,0,0.5,offset=0.1,-0.2", "2-3:offset=3,0"}},
     {"ghost-ramp", {"0:1,0.5,0.2", "-1:1,0.5,0/0:1,1,1/1:0,0,2"}},
 };
-const std::map<std::string_view, std::pair<double, double>> kNarrowed = {{"grid", {16, 32}},
-                                                                         {"wavelengths", {1, 3}},
-                                                                         {"density", {0.05, 0.1}},
-                                                                         {"fnumber", {3.0, 64}},
-                                                                         {"sensor-orders", {0, 1}}};
+const std::map<std::string_view, std::pair<double, double>> kNarrowed = {
+    {"grid", {16, 32}}, {"density", {0.05, 0.1}}, {"fnumber", {3.0, 64}}, {"sensor-orders", {0, 1}}};
 
 // Without symmetry a search for pupils takes most of a look's time; how often such settings are left out.
 const std::map<std::string_view, double> kDear = {
@@ -52,7 +50,8 @@ class RandomLook {
       if (!value.empty()) out += std::string(p.name) + " = " + value + "\n";
     }
     // Whatever else: nothing that takes seconds.
-    for (const auto& [name, value] : std::map<std::string_view, std::string>{{"grid", "16"}, {"density", "0.05"}}) {
+    for (const auto& [name, value] :
+         std::map<std::string_view, std::string>{{"grid", "16"}, {"density", "0.05"}, {"wavelengths", "2"}}) {
       if (out.find(std::string(name) + " = ") == std::string::npos) out += std::string(name) + " = " + value + "\n";
     }
     return out;

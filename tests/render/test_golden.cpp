@@ -33,6 +33,7 @@ const Golden kGolden[] = {
 Image rendered(const Golden& golden) {
   const LensState lens = test::bundled(golden.lens, golden.settings);
   RenderSettings settings;
+  settings.wavelengths = 3;
   settings.scope = GhostScope::OneSideOfStop;  // as the pictures kept have it
   settings.frame = frame_on_sensor(lens, 96, 64);
   settings.grid = 96;

@@ -89,9 +89,7 @@ TEST_CASE("direct fluxes of many wavelengths, few of them measured, are those me
     const Light light = test::light_at(lens, frame, c.uv);
     const LightSource source = measured_source(lens, frame, light.source());
     const auto bands = spectral_bands(16, light.spectrum, ColourSpace::Rec709);
-    TablesByWavelength tables;
-    for (const SpectralBand& band : bands)
-      tables[band.lambda_nm] = std::make_shared<ReflectanceTables>(lens, band.lambda_nm);
+    const TablesByWavelength tables(lens);
     const auto measured = [&](const SpectralBand& band) {
       return GhostMeter(lens, band.lambda_nm).direct_flux(source);
     };
@@ -111,6 +109,7 @@ TEST_CASE("selections keep what they say") {
   const LensState lens = test::bundled("heliar", {.f_number = 8.0});
   const Light light = test::light_at(lens, frame_on_sensor(lens, 60, 40), {0.7, 0.4});
   RenderSettings settings;
+  settings.wavelengths = 3;
   settings.frame = frame();
   const auto kept = [&](GhostSelection selection) {
     settings.selection = std::move(selection);
@@ -155,6 +154,7 @@ TEST_CASE("settings out of range are refused with a message, not rendered") {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   Light light;
   RenderSettings good;
+  good.wavelengths = 3;
   good.frame = frame();
   const auto refused = [&](const RenderSettings& settings, const Light& l) {
     const auto planned = plan(lens, {&l, 1}, settings);
@@ -169,7 +169,7 @@ TEST_CASE("settings out of range are refused with a message, not rendered") {
   bad.frame.height = bad.frame.full_height = 1 << 20;
   CHECK(refused(bad, light));
   bad = good;
-  bad.wavelengths = 0;
+  bad.wavelengths = -1;
   CHECK(refused(bad, light));
   Light odd = light;
   odd.direction = {0.0, nan, 1.0};

@@ -24,6 +24,7 @@ constexpr double kPi = std::numbers::pi;
 // No ghosts, so that the picture is the starburst alone.
 RenderSettings starburst_alone(const Frame& frame) {
   RenderSettings settings;
+  settings.wavelengths = 3;
   settings.frame = frame;
   settings.selection = SelectList{};
   settings.starburst.on = true;

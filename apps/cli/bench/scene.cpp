@@ -27,6 +27,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr Vec2 kPaperLights_uv[] = {{0.70, 0.33}, {0.25, 0.75}};
+constexpr int kPapersWavelengths = 3;  // hullin2011 7.2, standard quality
 constexpr const char* kReference = "reference";
 
 // Lights beyond the paper's fill the frame evenly.
@@ -146,6 +147,7 @@ Result<BenchScene> bench_scene(const PaperSystem& system, int light_count, const
   scene.settings.scale_grid = true;  // the paper's eq. 13
   scene.settings.scope = GhostScope::OneSideOfStop;  // the paper's ghosts
   scene.coating = values.text("coating").value_or("");
+  if (!values.given("wavelengths")) scene.settings.wavelengths = kPapersWavelengths;
   if (variant.wavelengths > 0) scene.settings.wavelengths = variant.wavelengths;
   return scene;
 }

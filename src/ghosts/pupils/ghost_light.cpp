@@ -11,7 +11,7 @@ namespace {
 constexpr MeshDensity kFine{33, 120, 1e-4}, kRough{9, 12, 2e-2};
 
 LightFrame frame_of(const PupilRequest& request) {
-  return LightFrame(request.light, has_axial_symmetry(request.steps.begin()->second.lens(), request.ghost));
+  return LightFrame(request.light, has_axial_symmetry(request.steps.lens(), request.ghost));
 }
 
 MeshTracer tracer_of(const PupilRequest& request, const LightFrame& light, const IrisShape& iris, double lambda_nm,

@@ -64,7 +64,7 @@ std::vector<double> outer_wavelengths(std::span<const double> lambda_nm) {
 }
 
 bool is_symmetric(const PupilRequest& request) {
-  return has_axial_symmetry(request.steps.begin()->second.lens(), request.ghost);
+  return has_axial_symmetry(request.steps.lens(), request.ghost);
 }
 
 // A lens without symmetries has one box, found by grids over all of the window.

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "ghosts/ray_grid.h"
-#include "optics/trace/lens_steps.h"
+#include "optics/trace/by_wavelength.h"
 
 namespace contrejour::pupils {
 

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <array>
-#include <map>
 #include <vector>
 
 #include "optics/trace/packet_trace.h"
@@ -33,7 +32,5 @@ class LensSteps {
   const ReflectanceTables& tables_;
   std::vector<std::array<AtSurface, 2>> surfaces_;
 };
-
-using StepsByWavelength = std::map<double, LensSteps>;
 
 }  // namespace contrejour

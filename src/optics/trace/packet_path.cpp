@@ -44,16 +44,6 @@ ReflectanceTables::ReflectanceTables(const LensState& lens, double lambda_nm) : 
   }
 }
 
-double ReflectanceTables::near_normal(int surface) const {
-  const auto k = static_cast<std::size_t>(surface);
-  const int offset = k < entries_.size() ? entries_[k].reflectance[0] : -1;
-  if (offset < 0) return 1.0;
-  constexpr std::array kCosines{0.85, 0.8875, 0.925, 0.9625, 1.0};
-  double sum = 0.0;
-  for (const double u : kCosines) sum += values_[static_cast<std::size_t>(offset + static_cast<int>(u * kIntervals))];
-  return sum / kCosines.size();
-}
-
 // That of a surface before it which reflects alike, or one of its own.
 ReflectanceTables::Entry ReflectanceTables::entry_of(const SurfaceState& surface, const LensState& lens) {
   const bool absorbs = may_absorb(surface.coating);

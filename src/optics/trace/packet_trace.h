@@ -30,9 +30,6 @@ class ReflectanceTables {
   // Of a rim that bends nothing: no reflectance; of lenses that have such.
   [[nodiscard]] int none() const { return none_; }
   [[nodiscard]] const Entry& of(int surface) const { return entries_[static_cast<std::size_t>(surface)]; }
-  // Mean reflectance of a surface, 0-based, up to 32 degrees from normal incidence; of the stop, and beyond the last
-  // surface: 1.
-  [[nodiscard]] double near_normal(int surface) const;
   [[nodiscard]] const float* values() const { return values_.data(); }
   [[nodiscard]] double lambda_nm() const { return lambda_nm_; }
 

@@ -53,12 +53,6 @@ ErrorBudget budget_per_item(const FrameError& allowed, const std::vector<ItemSiz
   return {room * allowed.squared() / items, allowed.peak, {}};
 }
 
-StepsByWavelength steps_of(const LensState& lens, const FramePlan& plan) {
-  StepsByWavelength steps;
-  for (const auto& [lambda_nm, tables] : plan.tables) steps.try_emplace(lambda_nm, lens, *tables);
-  return steps;
-}
-
 // Where no light was seen, drawn without care: far below any ghost's, so that errors relative to its own level count.
 double faintest_peak(const FramePlan& plan, const Frame& frame) {
   constexpr double kFaintest = 1e-9;  // irradiance over the light's
@@ -181,7 +175,7 @@ Result<DrawnFlare> render_adaptive(const LensState& lens, const FramePlan& plan,
   Stopwatch watch;
 
   DrawnFlare flare;
-  const Scene scene{lens, plan, steps_of(lens, plan), IrisShape(lens.iris)};
+  const Scene scene{lens, plan, StepsByWavelength(lens, plan.tables), IrisShape(lens.iris)};
   Context quiet = context;
   quiet.progress = {};
   Work work;

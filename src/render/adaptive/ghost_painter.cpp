@@ -10,7 +10,7 @@ namespace contrejour::adaptive {
 namespace {
 
 constexpr double kLightLeft = 0.05;  // of a channel's absolute sum over wavelengths, for its parts to mean anything
-constexpr std::size_t kMostSamples = 9;  // of wavelengths, that are tried
+constexpr std::size_t kMostSamples = 13;  // of wavelengths, that are tried
 constexpr int kWorthBending = 2;     // quarterings that might be saved
 // Bands, of three at least, have even shares of a ghost's squared error, so many cells of each of them even shares of
 // that.
@@ -122,7 +122,7 @@ void GhostPainter::paint(const FirstRays& rays, bool with_mirror_image, const Er
     paint_all(set, of_set, fitted.mirror_image);
   };
   if (rays.samples > 0) {
-    BandSet all(tracers_, samples_, rays.samples, bands);
+    BandSet all(tracers_, samples_, rays, bands);
     std::vector<RaySheet> sheets;
     for (std::size_t k = 0; k < rays.samples; ++k) sheets.push_back(rays.sheets[samples_[k]]);
     all.add_weights(sheets, PacketPrecision::Double);

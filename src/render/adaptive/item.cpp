@@ -70,18 +70,10 @@ std::vector<PlannedPass> passes_of(const Item& item) {
   return passes;
 }
 
-// About the share of a wavelength's light that a ghost's surfaces reflect.
-double reflected(const Ghost& ghost, const ReflectanceTables& tables) {
-  double share = 1.0;
-  for (const int surface : {ghost.i, ghost.j, ghost.k, ghost.l})
-    if (surface > 0) share *= tables.near_normal(surface - 1);
-  return share;
-}
-
 // All on the middle one's way. How much of each is reflected counts: films reflect the middle one least, whose light in
 // place of theirs would be a third of the peak.
 PlannedPass merged(const Scene& scene, const Item& item, std::span<const PlannedPass> passes) {
-  const auto by = [&](const PlannedPass& pass) { return reflected(item.ghost, *scene.plan.tables.at(pass.lambda_nm)); };
+  const auto by = [&](const PlannedPass& pass) { return scene.plan.reflected.of(item.ghost, pass.lambda_nm); };
   const PlannedPass& middle = passes[passes.size() / 2];
   const double by_middle = by(middle);
   PlannedPass all{middle.lambda_nm, {}};

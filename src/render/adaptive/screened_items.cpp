@@ -18,6 +18,7 @@ constexpr double kEdgeError = 0.3;
 // Patterns are cut off where they are so much of the dimmest ripple, and no more than that share of the light is
 // beyond.
 constexpr double kHullRipple = 0.5, kHullFlux = 0.003;
+constexpr std::size_t kMostScreens = 8;  // of a ghost's wavelengths
 constexpr double kUnseen = 0.01;  // of the error that all pixels may have
 constexpr double kOutline = 1.5;  // over a disc's of the same area
 // Along an outline, pixels whose time its coverage and cells take, too; and what a pixel must take of the error, over
@@ -45,11 +46,29 @@ Rim rim_of(const ItemSize& size, double peak, double fresnel_number) {
 // What an item's fringes differ from its sharp rim, squared, over its pixels.
 double fringe_error(const Rim& rim) { return kEdgeError * rim.weight; }
 
+// Of each pass the one whose screen it has: of many neighbours share that of their middle, spread over all of them.
+std::vector<PlannedPass> screened_passes(std::span<const PlannedPass> passes) {
+  std::vector<PlannedPass> out(passes.begin(), passes.end());
+  const std::size_t groups = std::min(passes.size(), kMostScreens);
+  for (std::size_t g = 0; g < groups; ++g) {
+    const std::size_t first = g * passes.size() / groups, last = (g + 1) * passes.size() / groups;
+    if (last - first == 1) continue;
+    PlannedPass middle = passes[(first + last) / 2];
+    double squares = 0.0;
+    for (const PlannedPass& pass : passes.subspan(first, last - first))
+      squares += std::pow(pass.lambda_nm - middle.lambda_nm, 2.0) + pass.spread_nm * pass.spread_nm;
+    middle.spread_nm = std::sqrt(squares / static_cast<double>(last - first));
+    std::fill(out.begin() + static_cast<std::ptrdiff_t>(first), out.begin() + static_cast<std::ptrdiff_t>(last),
+              middle);
+  }
+  return out;
+}
+
 // Screens of all passes; one whose fringes are not seen takes the next one's, a little wider. Null: none is seen.
 std::shared_ptr<GhostScreens> screens_of(const Screens& screens, const Item& item) {
   auto all = std::make_shared<GhostScreens>();
   all->patterns = screens.patterns();
-  for (const PlannedPass& pass : item.light->passes)
+  for (const PlannedPass& pass : screened_passes(item.light->passes))
     all->by_pass.push_back({screens.of(item.ghost, pass.lambda_nm, item.light->source), {}});
   const auto seen = [](const GhostScreens::OfPass& pass) { return pass.screen != nullptr; };
   const auto any = std::find_if(all->by_pass.rbegin(), all->by_pass.rend(), seen);
@@ -170,7 +189,7 @@ Work screen_items(const Scene& scene, Screens& screens, std::vector<Item>& items
 
   std::vector<Screens::Wanted> wanted;
   for (const std::size_t k : chosen)
-    for (const PlannedPass& pass : items[k].light->passes)
+    for (const PlannedPass& pass : screened_passes(items[k].light->passes))
       wanted.push_back({items[k].ghost, pass.lambda_nm, pass.spread_nm, items[k].light->source});
   if (!screens.prepare(wanted, context)) return {};
   std::vector<Drawn> drawn;

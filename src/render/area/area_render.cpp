@@ -35,7 +35,9 @@ FramePlan part_of(const FramePlan& plan, const Drawing& drawing) {
   for (const GhostOfLight& pair : drawing.pairs) part.pairs.push_back({places.at(pair.ghost), pair.light});
   std::ranges::sort(part.pairs, {}, [](const GhostOfLight& pair) { return std::pair(pair.ghost, pair.light); });
   part.lights = drawing.lights;
+  part.by_need = plan.by_need;
   part.tables = plan.tables;
+  part.reflected = plan.reflected;
   part.dirt = plan.dirt;
   return part;
 }

@@ -15,14 +15,6 @@ constexpr double kPiecesShare = 1.5;
 
 double middle_wavelength(const PlannedLight& light) { return light.passes[light.passes.size() / 2].lambda_nm; }
 
-// Of a wavelength's light, by a ghost's surfaces, about.
-double reflected(const Ghost& ghost, const ReflectanceTables& tables) {
-  double share = 1.0;
-  for (const int surface : {ghost.i, ghost.j, ghost.k, ghost.l})
-    if (surface > 0) share *= tables.near_normal(surface - 1);
-  return share;
-}
-
 }  // namespace
 
 std::vector<PartedLight> whole_lights(std::span<const Light> lights) {
@@ -40,15 +32,11 @@ std::vector<Light> points_of(std::span<const PartedLight> lights) {
 
 AreaSurvey::AreaSurvey(const LensState& lens, const FramePlan& plan, std::span<const Light> lights,
                        const RenderSettings& settings, const Context& context)
-    : lens_(lens), plan_(plan), lights_(lights), settings_(settings), context_(context) {
-  for (const PlannedLight& light : plan.lights)
-    if (!light.passes.empty())
-      steps_.try_emplace(middle_wavelength(light), lens, *plan.tables.at(middle_wavelength(light)));
-}
+    : lens_(lens), plan_(plan), lights_(lights), settings_(settings), context_(context), steps_(lens, plan.tables) {}
 
 // A pixel's value for an irradiance over the light's at the middle wavelength, in the brightest channel.
 double AreaSurvey::value_of(const PlannedLight& light, std::size_t ghost) const {
-  const auto by = [&](double lambda_nm) { return reflected(plan_.ghosts[ghost], *plan_.tables.at(lambda_nm)); };
+  const auto by = [&](double lambda_nm) { return plan_.reflected.of(plan_.ghosts[ghost], lambda_nm); };
   const double middle = by(middle_wavelength(light));
   Rgb gain{};
   for (const PlannedPass& pass : light.passes) {

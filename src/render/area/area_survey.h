@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "contrejour/render.h"
-#include "optics/trace/lens_steps.h"
+#include "optics/trace/by_wavelength.h"
 #include "render/area/piece_choice.h"
 #include "render/interface/frame_plan.h"
 
@@ -70,7 +70,7 @@ class AreaSurvey {
   std::span<const Light> lights_;
   const RenderSettings& settings_;
   const Context& context_;
-  std::map<double, LensSteps> steps_;
+  StepsByWavelength steps_;
 };
 
 }  // namespace contrejour::area

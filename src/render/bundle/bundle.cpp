@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 #include "base/tasks.h"
 #include "render/bundle/item_renderer.h"
 #include "render/bundle/stopwatch.h"
 #include "render/interface/grid_side.h"
+#include "render/interface/passes_by_need.h"
 
 namespace contrejour {
 namespace {
@@ -18,15 +20,20 @@ using bundle::Stopwatch;
 
 // hullin2011's precomputation, for the angles of the lights at hand and all below: none unless asked for.
 std::optional<PupilBounds> bounds_for(const FramePlan& plan, const LensState& lens, const RenderSettings& settings,
-                                      const TablesByWavelength& tables, const Context& context) {
-  if (!settings.bundle.precomputed_bounds || tables.empty() || !lens.has_axial_symmetry()) return std::nullopt;
+                                      const Context& context) {
+  if (!settings.bundle.precomputed_bounds || !lens.has_axial_symmetry()) return std::nullopt;
   PupilBoundsRange range;
   range.ghosts = plan.ghosts;
-  range.lambda_nm = {tables.begin()->first};
-  if (tables.size() > 1) range.lambda_nm.push_back(tables.rbegin()->first);
+  double shortest_nm = std::numeric_limits<double>::infinity(), longest_nm = 0.0;
   for (const PlannedLight& light : plan.lights) {
+    if (light.passes.empty()) continue;
+    shortest_nm = std::min(shortest_nm, light.passes.front().lambda_nm);
+    longest_nm = std::max(longest_nm, light.passes.back().lambda_nm);
     range.largest_angle_rad = std::max(range.largest_angle_rad, meridian_of(light.source).angle_rad());
   }
+  if (!(longest_nm > 0.0)) return std::nullopt;
+  range.lambda_nm = {shortest_nm};
+  if (longest_nm > shortest_nm) range.lambda_nm.push_back(longest_nm);
   return PupilBounds(lens, range, context);
 }
 
@@ -54,14 +61,17 @@ std::vector<std::pair<std::string, double>> named(const PhaseTimes& times, const
 
 }  // namespace
 
-Result<DrawnFlare> render_bundle(const LensState& lens, const FramePlan& plan, const RenderSettings& settings,
+Result<DrawnFlare> render_bundle(const LensState& lens, const FramePlan& given, const RenderSettings& settings,
                                  const Context& context) {
   PhaseTimes times;
   double total_ms = 0.0;
   const Stopwatch whole(total_ms);
   if (const auto ok = check_grid(settings); !ok) return tl::unexpected(ok.error());
+  const auto by_need = with_passes_by_need(given, lens, settings.frame, context);
+  if (!by_need) return interrupted();
+  const FramePlan& plan = *by_need;
   const TablesByWavelength& tables = plan.tables;
-  const auto bounds = bounds_for(plan, lens, settings, tables, context);
+  const auto bounds = bounds_for(plan, lens, settings, context);
   Screens screens(lens, settings);
   if (!screens.prepare(plan, context)) return interrupted();
   times.bounds_ms = whole.elapsed_ms();

@@ -32,7 +32,7 @@ GhostGrid::GhostGrid(const LensState& lens, const RenderSettings& settings, cons
                      const Screens& screens, const PupilBounds* bounds)
     : lens_(lens), settings_(settings), tables_(tables), screens_(screens), bounds_(bounds) {}
 
-const ReflectanceTables& GhostGrid::tables_of(const GhostPupil& pupil) const { return *tables_.at(pupil.lambda_nm); }
+const ReflectanceTables& GhostGrid::tables_of(const GhostPupil& pupil) const { return tables_.at(pupil.lambda_nm); }
 
 void GhostGrid::count_rays(std::uint64_t rays, const OpticalPath& path) {
   counts_.rays += rays;

@@ -7,8 +7,8 @@
 #include "contrejour/render.h"
 #include "ghosts/meridian.h"
 #include "ghosts/pupil_bounds.h"
+#include "optics/trace/by_wavelength.h"
 #include "render/bundle/map_figures.h"
-#include "render/interface/wavelength_tables.h"
 #include "render/screens/screens.h"
 
 namespace contrejour::bundle {

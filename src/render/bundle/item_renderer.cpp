@@ -57,13 +57,13 @@ PixelBox box_around(const std::vector<std::optional<FluxBox>>& layers) {
 
 std::vector<Item> items_of(const FramePlan& plan, const BundleOptions& options) {
   std::vector<Item> items;
-  for_each_pair(plan, [&](std::size_t g, std::size_t k) {
+  for_each_pair_with_passes(plan, [&](std::size_t g, std::size_t k, std::span<const PlannedPass> all) {
     const PlannedLight& light = plan.lights[k];
-    const std::span<const PlannedPass> all(light.passes);
-    const std::size_t together = is_blurred(options, all.size()) ? all.size() : kPassesPerItem;
+    const bool blurred = is_blurred(options, all.size());
+    const std::size_t together = blurred ? all.size() : kPassesPerItem;
     for (std::size_t first = 0; first < all.size(); first += together) {
-      items.push_back(
-          {plan.ghosts[g], &plan.looks[g], &light, all.subspan(first, std::min(together, all.size() - first))});
+      items.push_back({plan.ghosts[g], &plan.looks[g], &light,
+                       all.subspan(first, std::min(together, all.size() - first)), blurred});
     }
   });
   return items;
@@ -76,8 +76,7 @@ ItemRenderer::ItemRenderer(const Item& item, const LensState& lens, const Render
       grid_(lens, settings, tables, screens, bounds), dirt_(dirt) {}
 
 RenderedItem ItemRenderer::render() {
-  const bool blur = is_blurred(settings_.bundle, item_.light->passes.size());
-  RenderedItem out = merge(blur ? draw_and_blur() : draw_all());
+  RenderedItem out = merge(item_.are_blurred ? draw_and_blur() : draw_all());
   out.counts = grid_.counts();
   return out;
 }

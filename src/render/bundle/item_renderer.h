@@ -18,6 +18,7 @@ struct Item {
   const GhostLook* look = nullptr;
   const PlannedLight* light = nullptr;
   std::span<const PlannedPass> passes;
+  bool are_blurred = false;  // into each other
 };
 
 // RGB over the pixels that the item touches.

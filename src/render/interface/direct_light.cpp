@@ -1,6 +1,7 @@
 #include "render/interface/direct_light.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 #include <utility>
@@ -12,14 +13,18 @@
 namespace contrejour {
 namespace {
 
-constexpr std::size_t kSamples = 7;    // of many bands: six, and one that they foretell
-constexpr std::size_t kManyBands = 10;  // fewer are all measured
-constexpr double kForetold = 2e-4;     // of the largest flux
+// Of many bands so many are measured at first: six, and one that they foretell; then more, until they foretell the
+// last.
+constexpr std::array<std::size_t, 3> kSamples{7, 10, 13};
+constexpr std::size_t kManyBands = 16;  // fewer are all measured
+constexpr double kForetold = 2e-4;      // of the largest flux
 
+// Some of many bands; none of few.
 WavelengthSamples samples_of(std::span<const SpectralBand> bands) {
   std::vector<double> lambda_nm;
   for (const SpectralBand& band : bands) lambda_nm.push_back(band.lambda_nm);
-  return {lambda_nm, bands.size() >= kManyBands ? kSamples : 0};
+  WavelengthSamples samples(lambda_nm, bands.size() >= kManyBands ? kSamples.back() : 0);
+  return samples.size() == kSamples.back() ? samples : WavelengthSamples({}, 0);
 }
 
 double told(const MeteredLight& light, const WavelengthSamples& samples, std::size_t count, std::size_t band) {
@@ -29,60 +34,102 @@ double told(const MeteredLight& light, const WavelengthSamples& samples, std::si
   return flux;
 }
 
-// Of the samples' fluxes, whether all but the last foretell it.
-bool foretell(const MeteredLight& light, const WavelengthSamples& samples) {
+// Of the first `count` samples' fluxes, whether all but the last foretell it.
+bool foretell(const MeteredLight& light, const WavelengthSamples& samples, std::size_t count) {
   double most = 0.0;
-  for (std::size_t k = 0; k < samples.size(); ++k) most = std::max(most, light.flux_mm2[samples[k]]);
-  const std::size_t last = samples.size() - 1;
-  return std::abs(told(light, samples, last, samples[last]) - light.flux_mm2[samples[last]]) <= kForetold * most;
+  for (std::size_t k = 0; k < count; ++k) most = std::max(most, light.flux_mm2[samples[k]]);
+  const std::size_t last = samples[count - 1];
+  return std::abs(told(light, samples, count - 1, last) - light.flux_mm2[last]) <= kForetold * most;
 }
+
+// One light's fluxes, as they are found.
+class LightMeter {
+ public:
+  LightMeter(const LensState& lens, MeteredLight& light)
+      : light_(light), meter_(lens, light.source), samples_(samples_of(light.bands)) {
+    light.flux_mm2.assign(light.bands.size(), 0.0);
+  }
+
+  // The middle wavelength's pupil serves the others: where nothing of it gets through, no more than a sliver of theirs
+  // does.
+  void find_pupil(const TablesByWavelength& tables) {
+    pupil_ = meter_.pupil(tables.at(light_.bands[light_.bands.size() / 2].lambda_nm));
+  }
+
+  // The bands to measure next; none: all fluxes are there.
+  [[nodiscard]] std::vector<std::size_t> next_bands() const {
+    std::vector<std::size_t> next;
+    if (is_done_) return next;
+    if (samples_.size() > 0 && round_ < kSamples.size()) {
+      for (std::size_t k = measured(); k < kSamples[round_]; ++k) next.push_back(samples_[k]);
+      return next;
+    }
+    std::vector<bool> known(light_.bands.size(), false);
+    for (std::size_t k = 0; k < measured(); ++k) known[samples_[k]] = true;
+    for (std::size_t band = 0; band < known.size(); ++band)
+      if (!known[band]) next.push_back(band);
+    return next;
+  }
+
+  void measure(std::size_t band, const TablesByWavelength& tables) {
+    light_.flux_mm2[band] = pupil_ ? meter_.flux_mm2(tables.at(light_.bands[band].lambda_nm), *pupil_) : 0.0;
+  }
+
+  // Once all next_bands() are measured.
+  void end_round() {
+    const bool all = samples_.size() == 0 || round_ == kSamples.size();
+    if (!all && foretell(light_, samples_, kSamples[round_])) tell_others(kSamples[round_]);
+    is_done_ = is_done_ || all;
+    ++round_;
+  }
+
+ private:
+  [[nodiscard]] std::size_t measured() const { return samples_.size() > 0 && round_ > 0 ? kSamples[round_ - 1] : 0; }
+
+  void tell_others(std::size_t count) {
+    const std::vector<double> measured = light_.flux_mm2;
+    std::vector<double> fluxes(measured.size());
+    for (std::size_t band = 0; band < fluxes.size(); ++band)
+      fluxes[band] = std::max(0.0, told(light_, samples_, count, band));
+    for (std::size_t k = 0; k < count; ++k) fluxes[samples_[k]] = measured[samples_[k]];
+    light_.flux_mm2 = fluxes;
+    is_done_ = true;
+  }
+
+  MeteredLight& light_;
+  DirectMeter meter_;
+  WavelengthSamples samples_;  // none: all bands are measured
+  std::optional<Rectangle> pupil_;
+  std::size_t round_ = 0;
+  bool is_done_ = false;
+};
 
 }  // namespace
 
+std::vector<std::size_t> measured_first(std::span<const SpectralBand> bands) {
+  const WavelengthSamples samples = samples_of(bands);
+  std::vector<std::size_t> first{bands.size() / 2};
+  const std::size_t count = samples.size() > 0 ? kSamples.front() : bands.size();
+  for (std::size_t k = 0; k < count; ++k) first.push_back(samples.size() > 0 ? samples[k] : k);
+  return first;
+}
+
 bool measure_fluxes(const LensState& lens, const TablesByWavelength& tables, std::span<MeteredLight> lights,
                     const Context& context) {
-  using Place = std::pair<std::size_t, std::size_t>;  // light, band
-  std::vector<DirectMeter> meters;
-  std::vector<WavelengthSamples> samples;
-  std::vector<Place> first, others;
-  for (std::size_t k = 0; k < lights.size(); ++k) {
-    const std::size_t bands = lights[k].bands.size();
-    meters.emplace_back(lens, lights[k].source);
-    samples.push_back(samples_of(lights[k].bands));
-    lights[k].flux_mm2.assign(bands, 0.0);
-    const bool few = samples[k].size() < kSamples;
-    for (std::size_t at = 0; at < (few ? bands : kSamples); ++at) first.emplace_back(k, few ? at : samples[k][at]);
+  std::vector<LightMeter> meters;
+  meters.reserve(lights.size());
+  for (MeteredLight& light : lights) meters.emplace_back(lens, light);
+  if (!parallel_for(meters.size(), context, [&](std::size_t k) { meters[k].find_pupil(tables); })) return false;
+  while (true) {
+    std::vector<std::pair<std::size_t, std::size_t>> places;  // light, band
+    for (std::size_t k = 0; k < meters.size(); ++k)
+      for (const std::size_t band : meters[k].next_bands()) places.emplace_back(k, band);
+    if (places.empty()) return true;
+    if (!parallel_for(places.size(), context,
+                      [&](std::size_t at) { meters[places[at].first].measure(places[at].second, tables); }))
+      return false;
+    for (LightMeter& meter : meters) meter.end_round();
   }
-  const auto tables_of = [&](std::size_t k, std::size_t band) -> const ReflectanceTables& {
-    return *tables.at(lights[k].bands[band].lambda_nm);
-  };
-  // The middle wavelength's pupil serves the others: where nothing of it gets through, no more than a sliver of theirs
-  // does.
-  std::vector<std::optional<Rectangle>> pupil(lights.size());
-  if (!parallel_for(lights.size(), context,
-                    [&](std::size_t k) { pupil[k] = meters[k].pupil(tables_of(k, lights[k].bands.size() / 2)); }))
-    return false;
-  const auto measure = [&](const std::vector<Place>& places) {
-    return parallel_for(places.size(), context, [&](std::size_t at) {
-      const auto [k, band] = places[at];
-      lights[k].flux_mm2[band] = pupil[k] ? meters[k].flux_mm2(tables_of(k, band), *pupil[k]) : 0.0;
-    });
-  };
-  if (!measure(first)) return false;
-  for (std::size_t k = 0; k < lights.size(); ++k) {
-    if (samples[k].size() < kSamples) continue;
-    std::vector<bool> done(lights[k].bands.size(), false);
-    for (std::size_t at = 0; at < kSamples; ++at) done[samples[k][at]] = true;
-    const bool foretold = foretell(lights[k], samples[k]);
-    for (std::size_t band = 0; band < done.size(); ++band) {
-      if (done[band]) continue;
-      if (foretold)
-        lights[k].flux_mm2[band] = std::max(0.0, told(lights[k], samples[k], kSamples, band));
-      else
-        others.emplace_back(k, band);
-    }
-  }
-  return measure(others);
 }
 
 LightSource measured_source(const LensState& lens, const Frame& frame, const LightSource& light) {

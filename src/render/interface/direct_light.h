@@ -10,7 +10,7 @@
 #include "contrejour/direct_image.h"
 #include "contrejour/frame.h"
 #include "contrejour/lens.h"
-#include "render/interface/wavelength_tables.h"
+#include "optics/trace/by_wavelength.h"
 
 namespace contrejour {
 
@@ -21,7 +21,10 @@ struct MeteredLight {
   std::vector<double> flux_mm2 = {};
 };
 
-// Finds all fluxes. tables: of all the bands' wavelengths. Where there are many bands, few are measured if they
+// The bands that measure_fluxes() measures whatever they foretell, and that whose pupil it finds.
+[[nodiscard]] std::vector<std::size_t> measured_first(std::span<const SpectralBand> bands);
+
+// Finds all fluxes. Where there are many bands, few are measured if they
 // foretell the next to 2e-4 (wavelength_samples.h), and they tell the others, good to 2e-5. False when cancelled.
 [[nodiscard]] bool measure_fluxes(const LensState& lens, const TablesByWavelength& tables,
                                   std::span<MeteredLight> lights, const Context& context);

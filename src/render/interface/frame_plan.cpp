@@ -4,6 +4,7 @@
 #include <cmath>
 #include <memory>
 #include <optional>
+#include <set>
 #include <utility>
 
 #include <fmt/format.h>
@@ -20,15 +21,16 @@ namespace contrejour {
 namespace {
 
 constexpr int kMaxWavelengths = 1024;
+constexpr int kBandsByNeed = 32;  // what a caustic of a fisheye in a large frame asks for
 
 Error invalid(std::string message) { return {ErrorCode::InvalidArgument, std::move(message), {}}; }
 
 std::optional<Error> problem_with(const LensState& lens, std::span<const Light> lights,
                                   const RenderSettings& settings) {
   if (const auto good = check_frame(settings.frame); !good) return good.error();
-  if (settings.lambda_nm.empty() && (settings.wavelengths < 1 || settings.wavelengths > kMaxWavelengths)) {
-    return invalid(
-        fmt::format("{} wavelengths is out of range; choose 1 to {}", settings.wavelengths, kMaxWavelengths));
+  if (settings.lambda_nm.empty() && (settings.wavelengths < 0 || settings.wavelengths > kMaxWavelengths)) {
+    return invalid(fmt::format("{} wavelengths is out of range; choose 1 to {}, or 0 for as many as are needed",
+                               settings.wavelengths, kMaxWavelengths));
   }
   for (std::size_t k = 0; k < lights.size(); ++k) {
     auto good = check_light(lights[k], settings.colour_space);
@@ -39,7 +41,8 @@ std::optional<Error> problem_with(const LensState& lens, std::span<const Light> 
 }
 
 std::vector<SpectralBand> bands_of(const Light& light, const RenderSettings& settings) {
-  if (settings.lambda_nm.empty()) return spectral_bands(settings.wavelengths, light.spectrum, settings.colour_space);
+  const int count = settings.wavelengths == kWavelengthsByNeed ? kBandsByNeed : settings.wavelengths;
+  if (settings.lambda_nm.empty()) return spectral_bands(count, light.spectrum, settings.colour_space);
   std::vector<SpectralBand> bands;
   const double share = 1.0 / static_cast<double>(settings.lambda_nm.size());
   for (const double lambda_nm : settings.lambda_nm) bands.push_back({lambda_nm, {share, share, share}});
@@ -60,8 +63,15 @@ BandsBySpectrum bands_by_spectrum(std::span<const Light> lights, const RenderSet
   return all;
 }
 
-// What takes long before any flux is known, side by side: where lights are measured, tables of all their wavelengths,
-// and the lens's dirt.
+std::vector<double> wavelengths_of(const BandsBySpectrum& spectra) {
+  std::vector<double> all;
+  for (const auto& [spectrum, bands] : spectra)
+    for (const SpectralBand& band : bands) all.push_back(band.lambda_nm);
+  return all;
+}
+
+// What takes long before any flux is known, side by side: where lights are measured, tables of the wavelengths that
+// their fluxes are measured at, and the lens's dirt.
 struct Preparation {
   std::vector<LightSource> measured;  // one a light
   TablesByWavelength tables;
@@ -72,19 +82,19 @@ struct Preparation {
 std::optional<Preparation> prepare(const LensState& lens, std::span<const Light> lights, const Frame& frame,
                                    const BandsBySpectrum& spectra, const Context& context) {
   Preparation out;
+  out.tables = TablesByWavelength(lens);
   for (const Light& light : lights) out.measured.push_back(light.source());
+  std::set<double> wavelengths;
   for (const auto& [spectrum, bands] : spectra)
-    for (const SpectralBand& band : bands) out.tables.try_emplace(band.lambda_nm);
-  std::vector<TablesByWavelength::value_type*> tables;
-  for (auto& entry : out.tables) tables.push_back(&entry);
-  const bool done = parallel_for(lights.size() + tables.size() + 1, context, [&](std::size_t k) {
+    for (const std::size_t band : measured_first(bands)) wavelengths.insert(bands[band].lambda_nm);
+  const std::vector<double> lambda_nm(wavelengths.begin(), wavelengths.end());
+  const bool done = parallel_for(lights.size() + lambda_nm.size() + 1, context, [&](std::size_t k) {
     if (k < lights.size()) {
       out.measured[k] = measured_source(lens, frame, out.measured[k]);
-    } else if (k == lights.size() + tables.size()) {
+    } else if (k == lights.size() + lambda_nm.size()) {
       out.dirt = DirtField::of(lens);
     } else {
-      auto& [lambda_nm, table] = *tables[k - lights.size()];
-      table = std::make_shared<const ReflectanceTables>(lens, lambda_nm);
+      (void)out.tables.at(lambda_nm[k - lights.size()]);
     }
   });
   return done ? std::optional(std::move(out)) : std::nullopt;
@@ -111,7 +121,7 @@ PlannedLight plan_light(const LensState& lens, const TablesByWavelength& tables,
   planned.source = light.source();
   const Rgb whole = direct_light(metered.bands, metered.flux_mm2, [&](std::size_t k) {
     const LightSource on_axis({0.0, 0.0, 1.0}, light.distance_mm);
-    return DirectMeter(lens, on_axis).flux_mm2(*tables.at(metered.bands[k].lambda_nm));
+    return DirectMeter(lens, on_axis).flux_mm2(tables.at(metered.bands[k].lambda_nm));
   });
   for (const SpectralBand& band : metered.bands) {
     PlannedPass pass{band.lambda_nm, {}, band.spread_nm};
@@ -156,6 +166,8 @@ Result<FramePlan> plan_frame(const LensState& lens, std::span<const Light> light
   plan.lights = std::move(*planned);
   plan.tables = std::move(prepared->tables);
   plan.dirt = std::move(prepared->dirt);
+  plan.by_need = settings.lambda_nm.empty() && settings.wavelengths == kWavelengthsByNeed;
+  plan.reflected = ReflectedShares(lens, wavelengths_of(spectra));
   auto selected = select_ghosts(lens, plan.lights, plan.tables, settings, quiet);
   if (!selected) return tl::unexpected<Error>(selected.error());
   plan.ghosts = std::move(selected->ghosts);

@@ -9,10 +9,11 @@
 
 #include "contrejour/render.h"
 #include "ghosts/pupils/ghost_pupil.h"
+#include "optics/trace/by_wavelength.h"
 #include "render/interface/dirt_field.h"
 #include "render/interface/ghost_look.h"
 #include "render/interface/planned_light.h"
-#include "render/interface/wavelength_tables.h"
+#include "render/interface/reflected_share.h"
 
 namespace contrejour {
 
@@ -24,7 +25,11 @@ struct FramePlan {
   std::vector<Ghost> ghosts;
   std::vector<GhostLook> looks;  // one a ghost
   std::vector<PlannedLight> lights;
-  TablesByWavelength tables;  // for every wavelength of the passes
+  bool by_need = false;  // the lights' passes are as fine as any ghost may ask for; few ghosts need all
+  // Those that each pair needs, as for_each_pair() goes through them (passes_by_need.h); empty: all of its light's.
+  std::vector<std::vector<PlannedPass>> passes = {};
+  TablesByWavelength tables;  // made when they are asked for
+  ReflectedShares reflected;  // at every wavelength of the lights' passes
   std::shared_ptr<const DirtField> dirt = nullptr;  // null: the lens is clean
   // Where ghosts come through, by ghost and then by light, if selection had to find out; else empty.
   std::vector<pupils::GhostPupil> pupils = {};
@@ -45,6 +50,15 @@ void for_each_pair(const FramePlan& plan, const Visit& visit) {
   if (!plan.pairs.empty()) return;
   for (std::size_t g = 0; g < plan.ghosts.size(); ++g)
     for (std::size_t k = 0; k < plan.lights.size(); ++k) visit(g, k);
+}
+
+// Likewise visit(ghost, light, passes).
+template <class Visit>
+void for_each_pair_with_passes(const FramePlan& plan, const Visit& visit) {
+  std::size_t pair = 0;
+  for_each_pair(plan, [&](std::size_t g, std::size_t k) {
+    visit(g, k, std::span<const PlannedPass>(plan.passes.empty() ? plan.lights[k].passes : plan.passes[pair++]));
+  });
 }
 
 // Errors: InvalidArgument for settings out of range, Cancelled.

@@ -34,7 +34,8 @@ struct Footprint_px {
 class FigureMaker {
  public:
   FigureMaker(const LensState& lens, const FiguresRequest& request)
-      : lens_(lens), request_(request), windows_(lens, request.light.source()), iris_(lens.iris) {
+      : lens_(lens), request_(request), windows_(lens, request.light.source()), iris_(lens.iris), tables_(lens),
+        steps_(lens, tables_) {
     for (const SpectralBand& band : request.bands) lambda_nm_.push_back(band.lambda_nm);
     std::sort(lambda_nm_.begin(), lambda_nm_.end());
     lambda_nm_.erase(std::unique(lambda_nm_.begin(), lambda_nm_.end()), lambda_nm_.end());
@@ -43,17 +44,13 @@ class FigureMaker {
   // False when cancelled.
   [[nodiscard]] bool prepare(const Context& context) {
     if (lambda_nm_.empty()) return true;
-    for (const double nm : lambda_nm_) tables_.try_emplace(nm);
-    const bool done = parallel_for(lambda_nm_.size(), context, [&](std::size_t k) {
-      tables_.at(lambda_nm_[k]) = std::make_shared<const ReflectanceTables>(lens_, lambda_nm_[k]);
-    });
-    if (!done) return false;
-    for (const double nm : lambda_nm_) steps_.try_emplace(nm, lens_, *tables_.at(nm));
+    if (!parallel_for(lambda_nm_.size(), context, [&](std::size_t k) { (void)tables_.at(lambda_nm_[k]); }))
+      return false;
     MeteredLight light{measured_source(lens_, request_.frame, request_.light.source()), request_.bands};
     if (!measure_fluxes(lens_, tables_, {&light, 1}, context)) return false;
     const DirectMeter on_axis(lens_, {{0.0, 0.0, 1.0}, light.source.distance_mm});
     whole_ = direct_light(request_.bands, light.flux_mm2,
-                          [&](std::size_t k) { return on_axis.flux_mm2(*tables_.at(request_.bands[k].lambda_nm)); });
+                          [&](std::size_t k) { return on_axis.flux_mm2(tables_.at(request_.bands[k].lambda_nm)); });
     return true;
   }
 

@@ -73,8 +73,7 @@ class MeasuredLight {
 Result<Measured> measure_ghosts(const LensState& lens, std::span<const Ghost> ghosts,
                                 std::span<const PlannedLight> lights, const TablesByWavelength& tables,
                                 const Context& context) {
-  StepsByWavelength steps;
-  for (const auto& [lambda_nm, table] : tables) steps.try_emplace(lambda_nm, lens, *table);
+  const StepsByWavelength steps(lens, tables);
   std::vector<MeasuredLight> measured;
   for (const PlannedLight& light : lights) measured.emplace_back(lens, light);
   const IrisShape iris(lens.iris);

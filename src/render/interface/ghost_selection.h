@@ -7,8 +7,8 @@
 
 #include "contrejour/render.h"
 #include "ghosts/pupils/ghost_pupil.h"
+#include "optics/trace/by_wavelength.h"
 #include "render/interface/planned_light.h"
-#include "render/interface/wavelength_tables.h"
 
 namespace contrejour {
 

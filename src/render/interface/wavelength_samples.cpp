@@ -34,4 +34,23 @@ std::vector<double> WavelengthSamples::factors(std::size_t count, std::size_t wa
   return factors;
 }
 
+std::vector<double> WavelengthSamples::shares(std::size_t count, std::size_t wavelength) const {
+  std::vector<double> shares(count, 0.0);
+  const double place = place_[wavelength];
+  std::size_t below = count, above = count;
+  for (std::size_t k = 0; k < count; ++k) {
+    const double at = place_[order_[k]];
+    if (at <= place && (below == count || at > place_[order_[below]])) below = k;
+    if (at >= place && (above == count || at < place_[order_[above]])) above = k;
+  }
+  if (below == count || above == count || below == above) {
+    shares[below == count ? above : below] = 1.0;
+    return shares;
+  }
+  const double from = place_[order_[below]], to = place_[order_[above]];
+  shares[above] = (place - from) / (to - from);
+  shares[below] = 1.0 - shares[above];
+  return shares;
+}
+
 }  // namespace contrejour

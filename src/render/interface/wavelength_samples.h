@@ -24,6 +24,8 @@ class WavelengthSamples {
 
   // What the values at the first `count` in Leja's order are multiplied by to tell the one at any wavelength.
   [[nodiscard]] std::vector<double> factors(std::size_t count, std::size_t wavelength) const;
+  // The same for values that films make uneven: those of the straight line between the two neighbours in place.
+  [[nodiscard]] std::vector<double> shares(std::size_t count, std::size_t wavelength) const;
 
  private:
   std::vector<double> place_;

@@ -51,10 +51,9 @@ double Screens::fresnel_number(const Ghost& ghost, double lambda_nm, const Light
 
 bool Screens::prepare(const FramePlan& plan, const Context& context) {
   std::vector<Wanted> wanted;
-  for_each_pair(plan, [&](std::size_t g, std::size_t k) {
-    const PlannedLight& light = plan.lights[k];
-    for (const PlannedPass& pass : light.passes)
-      wanted.push_back({plan.ghosts[g], pass.lambda_nm, pass.spread_nm, light.source});
+  for_each_pair_with_passes(plan, [&](std::size_t g, std::size_t k, std::span<const PlannedPass> passes) {
+    for (const PlannedPass& pass : passes)
+      wanted.push_back({plan.ghosts[g], pass.lambda_nm, pass.spread_nm, plan.lights[k].source});
   });
   return prepare(wanted, context);
 }

@@ -10,9 +10,10 @@
 #include "base/clock.h"
 #include "base/tasks.h"
 #include "ghosts/pupil_search.h"
+#include "optics/trace/by_wavelength.h"
 #include "render/interface/frame_plan.h"
 #include "render/interface/grid_side.h"
-#include "render/interface/wavelength_tables.h"
+#include "render/interface/passes_by_need.h"
 #include "render/screens/screens.h"
 #include "render/tiled/primitive_builder.h"
 #include "render/tiled/tiled_frame.h"
@@ -118,10 +119,10 @@ struct Job {
 };
 
 void list_items(const FramePlan& plan, const Screens& screens, Job& job) {
-  for_each_pair(plan, [&](std::size_t g, std::size_t k) {
+  for_each_pair_with_passes(plan, [&](std::size_t g, std::size_t k, std::span<const PlannedPass> passes) {
     const GhostLook& look = plan.looks[g];
     const PlannedLight& light = plan.lights[k];
-    for (const PlannedPass& pass : light.passes) {
+    for (const PlannedPass& pass : passes) {
       if (screens.on()) job.screens.push_back(screens.of(plan.ghosts[g], pass.lambda_nm, light.source));
       const Rgb gain = look.tinted(pass.gain);
       job.items.push_back({plan.ghosts[g], look.shift_mm, light.source, pass.lambda_nm});
@@ -137,7 +138,7 @@ TracedItem trace_item(const Job& job, std::size_t index, Workspace& workspace) {
   const IrisShape& iris = screen != nullptr ? job.round : job.iris;
   OpticalPath path = ghost_path(job.lens, item.ghost, item.lambda_nm);
   if (screen != nullptr) path = widened(std::move(path), screen->reach());
-  const ReflectanceTables& tables = *job.tables.at(item.lambda_nm);
+  const ReflectanceTables& tables = job.tables.at(item.lambda_nm);
   const EntranceWindow window = entrance_window(job.lens, item.light);
   const auto count_rays = [&](std::uint64_t rays) {
     out.counts.rays += rays;
@@ -186,15 +187,16 @@ bool trace_all(const Job& job, tiled::TiledFrame& frame, Counts& counts) {
 
 }  // namespace
 
-Result<DrawnFlare> render_tiled(const LensState& lens, const FramePlan& plan, const RenderSettings& settings,
+Result<DrawnFlare> render_tiled(const LensState& lens, const FramePlan& given, const RenderSettings& settings,
                                 const Context& context) {
   const auto start = Clock::now();
   if (const auto ok = check(settings); !ok) return tl::unexpected<Error>(ok.error());
-  const TablesByWavelength& tables = plan.tables;
-  if (context.cancelled()) return interrupted();
+  const auto by_need = with_passes_by_need(given, lens, settings.frame, context);
+  if (!by_need) return interrupted();
+  const FramePlan& plan = *by_need;
   Screens screens(lens, settings);
   if (!screens.prepare(plan, context)) return interrupted();
-  Job job{lens, settings, context, tables, IrisShape(lens.iris), {}, {}, {}};
+  Job job{lens, settings, context, plan.tables, IrisShape(lens.iris), {}, {}, {}};
   job.dirt = plan.dirt.get();
   list_items(plan, screens, job);
   std::vector<const StopScreen*> screen_of_pass;

@@ -13,21 +13,20 @@ std::vector<double> geometry_of(const Band& band, const WavelengthSamples& sampl
   return mixed;
 }
 
-// What makes a band of the first `count` samples: its geometry and the light of all its wavelengths.
+// What makes a band of the samples: its geometry and the light of all its wavelengths.
 PatchBlend blend_of(const Band& band, std::span<const PlannedPass> passes, const WavelengthSamples& samples,
-                    std::size_t count) {
+                    const FirstRays& rays) {
+  const std::size_t count = rays.samples;
   PatchBlend blend;
   blend.geometry = geometry_of(band, samples, count);
-  if (band.last - band.first == 1) {
-    blend.weight = {blend.geometry};
-    blend.gain = passes[band.first].gain;
-    return blend;
-  }
-  blend.weight.assign(3, std::vector<double>(count, 0.0));
+  const bool is_one = band.last - band.first == 1;
+  blend.weight.assign(is_one ? 1 : 3, std::vector<double>(count, 0.0));
+  if (is_one) blend.gain = passes[band.first].gain;
   for (std::size_t pass = band.first; pass < band.last; ++pass) {
-    const std::vector<double> factors = samples.factors(count, pass);
-    for (std::size_t c = 0; c < 3; ++c) {
-      for (std::size_t k = 0; k < count; ++k) blend.weight[c][k] += passes[pass].gain[c] * factors[k];
+    const std::vector<double> factors = light_factors(samples, count, pass, rays.straight);
+    for (std::size_t c = 0; c < blend.weight.size(); ++c) {
+      const double gain = is_one ? 1.0 : passes[pass].gain[c];
+      for (std::size_t k = 0; k < count; ++k) blend.weight[c][k] += gain * rays.light[pass] * factors[k];
     }
   }
   return blend;
@@ -37,11 +36,11 @@ PatchBlend blend_of(const Band& band, std::span<const PlannedPass> passes, const
 
 BandSet::BandSet(GhostTracers& tracers, const Band& band) : tracers_(tracers), bands_{band}, traced_{band.middle()} {}
 
-BandSet::BandSet(GhostTracers& tracers, const WavelengthSamples& samples, std::size_t count,
+BandSet::BandSet(GhostTracers& tracers, const WavelengthSamples& samples, const FirstRays& rays,
                  std::span<const Band> bands)
     : tracers_(tracers), bands_(bands.begin(), bands.end()) {
-  for (std::size_t k = 0; k < count; ++k) traced_.push_back(samples[k]);
-  for (const Band& band : bands) blends_.push_back(blend_of(band, tracers.passes(), samples, count));
+  for (std::size_t k = 0; k < rays.samples; ++k) traced_.push_back(samples[k]);
+  for (const Band& band : bands) blends_.push_back(blend_of(band, tracers.passes(), samples, rays));
 }
 
 std::vector<RaySheet> BandSet::trace(const Rectangle& box, int nodes, PacketPrecision precision) {

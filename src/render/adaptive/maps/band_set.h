@@ -17,8 +17,8 @@ class BandSet {
  public:
   // One: rays at its middle, transmissions at all of its wavelengths.
   BandSet(GhostTracers& tracers, const Band& band);
-  // All: rays at the first `count` of `samples`.
-  BandSet(GhostTracers& tracers, const WavelengthSamples& samples, std::size_t count, std::span<const Band> bands);
+  // All: rays at those samples that tell in the first rays.
+  BandSet(GhostTracers& tracers, const WavelengthSamples& samples, const FirstRays& rays, std::span<const Band> bands);
 
   [[nodiscard]] std::size_t size() const { return bands_.size(); }
   [[nodiscard]] const Band& band(std::size_t k) const { return bands_[k]; }

@@ -3,31 +3,40 @@
 #include <algorithm>
 #include <cmath>
 
+#include "render/adaptive/maps/pass_light.h"
+
 namespace contrejour::adaptive {
 namespace {
 
 constexpr std::size_t kFirstSamples = 3;  // which tell the tolerance, and the fourth
+constexpr std::size_t kMostTraced = 9;    // of many passes; where they do not foretell the last of them, all are
 constexpr std::size_t kManyPasses = 6;    // fewer are all traced
 constexpr double kForetoldShare = 0.5;    // of the tolerance: that of the fits comes on top
-constexpr double kMostLight = 0.004;      // of a transmission, whatever the tolerance: what many ghosts lack adds up
-
-// What the first `count` samples tell of a pass's transmissions.
-std::vector<float> told_transmission(const FirstRays& rays, const WavelengthSamples& samples, std::size_t count,
-                                     std::size_t pass) {
-  const std::vector<double> factors = samples.factors(count, pass);
-  std::vector<float> told(rays.sheets[samples[0]].count(), 0.0F);
+constexpr double kMostTint = 0.03;        // of a transmission, that its pattern over the ghost may be off
+// What the first `count` samples tell of a pass's transmissions, but for a factor.
+std::vector<float> pattern_of(const FirstRays& rays, const WavelengthSamples& samples, std::size_t count,
+                              std::size_t pass) {
+  const std::vector<double> shares = light_factors(samples, count, pass, rays.straight);
+  std::vector<float> pattern(rays.sheets[samples[0]].count(), 0.0F);
   for (std::size_t k = 0; k < count; ++k) {
-    const auto factor = static_cast<float>(factors[k]);
+    if (shares[k] == 0.0) continue;
+    const auto share = static_cast<float>(shares[k]);
     const std::vector<float>& transmission = rays.sheets[samples[k]].transmission;
-    for (std::size_t node = 0; node < told.size(); ++node) told[node] += factor * transmission[node];
+    for (std::size_t node = 0; node < pattern.size(); ++node) pattern[node] += share * transmission[node];
   }
-  return told;
+  return pattern;
 }
 
+// Those of passes without rays: the samples' pattern times `light`.
 void tell_transmissions(FirstRays& rays, const WavelengthSamples& samples, std::size_t count) {
   for (std::size_t pass = 0; pass < rays.sheets.size(); ++pass) {
     const RaySheet& sheet = rays.sheets[pass];
-    rays.transmission[pass] = sheet.nodes > 0 ? sheet.transmission : told_transmission(rays, samples, count, pass);
+    if (sheet.nodes > 0) {
+      rays.transmission[pass] = sheet.transmission;
+      continue;
+    }
+    rays.transmission[pass] = pattern_of(rays, samples, count, pass);
+    for (float& t : rays.transmission[pass]) t *= static_cast<float>(rays.light[pass]);
   }
 }
 
@@ -46,8 +55,34 @@ double largest_weight(const FirstRays& rays, const RaySheet& middle, std::span<c
   return largest;
 }
 
+double sum_of(std::span<const float> values, const std::vector<bool>& counts) {
+  double sum = 0.0;
+  for (std::size_t k = 0; k < values.size(); ++k) sum += counts[k] ? values[k] : 0.0F;
+  return sum;
+}
+
+// Whether the first `count` samples foretell how the next one's transmission varies over the nodes that count: as
+// polynomials, or on straight lines.
+bool foretells_pattern(FirstRays& rays, const WavelengthSamples& samples, std::size_t count,
+                       const std::vector<bool>& counts, double allowed) {
+  const std::vector<float>& is = rays.sheets[samples[count]].transmission;
+  const float most = *std::max_element(is.begin(), is.end());
+  const double sum = sum_of(is, counts);
+  for (const bool straight : {false, true}) {
+    rays.straight = straight;
+    const std::vector<float> pattern = pattern_of(rays, samples, count, samples[count]);
+    const double told = sum_of(pattern, counts);
+    const double times = told > 0.0 ? sum / told : 0.0;
+    bool holds = true;
+    for (std::size_t node = 0; node < is.size(); ++node)
+      holds = holds && (!counts[node] || std::abs(times * pattern[node] - is[node]) <= allowed * most);
+    if (holds) return true;
+  }
+  return false;
+}
+
 // Whether the first `count` samples foretell the next.
-bool foretells(const FirstRays& rays, const WavelengthSamples& samples, std::size_t count, const Tolerance& tolerance,
+bool foretells(FirstRays& rays, const WavelengthSamples& samples, std::size_t count, const Tolerance& tolerance,
                double pixel_pitch_mm) {
   const RaySheet& next = rays.sheets[samples[count]];
   const std::vector<double> factors = samples.factors(count, samples[count]);
@@ -67,19 +102,38 @@ bool foretells(const FirstRays& rays, const WavelengthSamples& samples, std::siz
     }
     return true;
   };
-  const float most = *std::max_element(next.transmission.begin(), next.transmission.end());
   const double off_mm = tolerance.position_px * pixel_pitch_mm;
-  const double off_light = std::min(tolerance.weight, kMostLight) * most;
   using Values = const std::vector<float>&;
   if (!holds([](const RaySheet& s) -> Values { return s.sensor_x_mm; }, off_mm) ||
-      !holds([](const RaySheet& s) -> Values { return s.sensor_y_mm; }, off_mm) ||
-      !holds([](const RaySheet& s) -> Values { return s.transmission; }, off_light))
+      !holds([](const RaySheet& s) -> Values { return s.sensor_y_mm; }, off_mm))
     return false;
   for (std::size_t c = 0; c < next.stop.size(); ++c) {
     for (std::size_t axis = 0; axis < 2; ++axis) {
       if (!holds([&](const RaySheet& s) -> Values { return s.stop[c][axis]; }, tolerance.stop)) return false;
     }
   }
+  return foretells_pattern(rays, samples, count, arrives, std::min(tolerance.weight, kMostTint));
+}
+
+// What the patterns that the first `count` samples tell are multiplied by. Polynomials that tell much else than what is
+// there give way to straight lines. False where nothing is known.
+bool find_light(FirstRays& rays, GhostTracers& tracers, const WavelengthSamples& samples, std::size_t count) {
+  constexpr double kMost = 1.5;
+  PassLight passes(tracers, rays.sheets, samples, count);
+  if (!passes.any()) return false;
+  const std::vector<double> light = passes.of_all();
+  const auto find = [&] {
+    bool close = true;
+    for (std::size_t pass = 0; pass < light.size(); ++pass) {
+      const double told = passes.sum(pattern_of(rays, samples, count, pass));
+      rays.light[pass] = rays.sheets[pass].nodes > 0 ? 1.0 : told > 0.0 ? light[pass] / told : 0.0;
+      close = close && rays.light[pass] <= kMost && rays.light[pass] >= 1.0 / kMost;
+    }
+    return close;
+  };
+  if (find() || rays.straight) return true;
+  rays.straight = true;
+  find();
   return true;
 }
 
@@ -91,6 +145,7 @@ FirstRays first_rays(GhostTracers& tracers, const WavelengthSamples& samples, co
   FirstRays rays;
   rays.sheets.resize(passes.size());
   rays.transmission.resize(passes.size());
+  rays.light.assign(passes.size(), 1.0);
   // Of anything that will do, nothing is fitted.
   const auto precision = std::isfinite(budget.squared_error) ? PacketPrecision::Double : PacketPrecision::Float;
   const auto trace = [&](std::size_t pass) { rays.sheets[pass] = tracers.at(pass).trace(box, nodes, precision); };
@@ -98,23 +153,33 @@ FirstRays first_rays(GhostTracers& tracers, const WavelengthSamples& samples, co
     rays.tolerance = tolerance_for(middle, largest_weight(rays, middle, passes), tracers.light().source.shared_flux(),
                                    frame, budget);
   };
-  for (std::size_t k = 0; passes.size() >= kManyPasses && k < samples.size(); ++k) {
+  const std::size_t most = passes.size() >= kManyPasses ? std::min(samples.size(), kMostTraced) : 0;
+  for (std::size_t k = 0; k < most; ++k) {
     trace(samples[k]);
     if (k + 1 == kFirstSamples) {
       tell_transmissions(rays, samples, kFirstSamples);
       find_tolerance(rays.sheets[samples[k]]);
     }
     if (k < kFirstSamples || !foretells(rays, samples, k, rays.tolerance, frame.pixel_pitch_mm)) continue;
+    if (!find_light(rays, tracers, samples, k + 1)) break;
     rays.samples = k + 1;
     tell_transmissions(rays, samples, rays.samples);
+    find_tolerance(rays.sheets[samples[kFirstSamples - 1]]);
     return rays;
   }
+  std::ranges::fill(rays.light, 1.0);
+  rays.straight = false;
   for (std::size_t pass = 0; pass < passes.size(); ++pass) {
     if (rays.sheets[pass].nodes == 0) trace(pass);
   }
   tell_transmissions(rays, samples, 0);
   find_tolerance(rays.sheets[passes.size() / 2]);
   return rays;
+}
+
+std::vector<double> light_factors(const WavelengthSamples& samples, std::size_t count, std::size_t pass,
+                                  bool straight) {
+  return straight ? samples.shares(count, pass) : samples.factors(count, pass);
 }
 
 std::array<double, 3> light_of(const FirstRays& rays, std::span<const PlannedPass> passes, std::size_t pass) {

@@ -3,11 +3,11 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <map>
 #include <optional>
 #include <span>
 #include <vector>
 
+#include "optics/trace/by_wavelength.h"
 #include "optics/trace/lens_steps.h"
 #include "render/adaptive/maps/rays.h"
 #include "render/interface/planned_light.h"

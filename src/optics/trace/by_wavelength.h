@@ -1,0 +1,72 @@
+// What is made of a lens for single wavelengths, each when it is first asked for: few of many are, since polynomials
+// tell the others (wavelength_samples.h).
+#pragma once
+
+#include <functional>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <utility>
+
+#include "optics/trace/lens_steps.h"
+#include "optics/trace/packet_trace.h"
+
+namespace contrejour {
+
+// One T for each wavelength, made by whichever thread asks first and kept from then on. Copies share them.
+template <class T>
+class ByWavelength {
+ public:
+  using Make = std::function<T(double lambda_nm)>;
+
+  ByWavelength() = default;  // to be assigned
+  explicit ByWavelength(Make make) : shared_(std::make_shared<Shared>(std::move(make))) {}
+
+  [[nodiscard]] const T& at(double lambda_nm) const {
+    Entry& entry = shared_->entry(lambda_nm);
+    std::call_once(entry.once, [&] { entry.value.emplace(shared_->make(lambda_nm)); });
+    return *entry.value;
+  }
+
+ private:
+  struct Entry {
+    std::once_flag once;
+    std::optional<T> value;
+  };
+  struct Shared {
+    Make make;
+    std::mutex mutex;
+    std::map<double, Entry> entries;
+
+    explicit Shared(Make make_one) : make(std::move(make_one)) {}
+    Entry& entry(double lambda_nm) {
+      const std::scoped_lock lock(mutex);
+      return entries[lambda_nm];
+    }
+  };
+
+  std::shared_ptr<Shared> shared_;
+};
+
+// The lens must outlive both.
+class TablesByWavelength : public ByWavelength<ReflectanceTables> {
+ public:
+  TablesByWavelength() = default;  // to be assigned
+  explicit TablesByWavelength(const LensState& lens)
+      : ByWavelength([&lens](double lambda_nm) { return ReflectanceTables(lens, lambda_nm); }) {}
+};
+
+class StepsByWavelength : public ByWavelength<LensSteps> {
+ public:
+  StepsByWavelength(const LensState& lens, const TablesByWavelength& tables)
+      : ByWavelength([&lens, tables](double lambda_nm) { return LensSteps(lens, tables.at(lambda_nm)); }), lens_(lens) {
+  }
+
+  [[nodiscard]] const LensState& lens() const { return lens_; }
+
+ private:
+  const LensState& lens_;
+};
+
+}  // namespace contrejour

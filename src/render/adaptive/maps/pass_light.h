@@ -1,0 +1,41 @@
+// How much light each of a ghost's many passes carries through a box, by a few rays more than its first ones: films
+// make that less even over wavelengths than where the light lands.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "render/adaptive/maps/ghost_tracers.h"
+#include "render/interface/wavelength_samples.h"
+
+namespace contrejour::adaptive {
+
+// At 3 x 3 of the first rays' nodes, those whose rays arrive at the first `count` samples.
+class PassLight {
+ public:
+  // Everything must outlive this. sheets: one a pass, those of the first `count` samples traced.
+  PassLight(GhostTracers& tracers, std::span<const RaySheet> sheets, const WavelengthSamples& samples,
+            std::size_t count);
+
+  [[nodiscard]] bool any() const;  // whether a node counts
+
+  // Of values at all nodes of the first rays, over those that count.
+  [[nodiscard]] double sum(std::span<const float> transmission) const;
+
+  // One a pass, as sum(): measured at 7, 10 or 13 wavelengths, which tell the others once they foretell the last to
+  // 0.4 per cent of the largest; else at all.
+  [[nodiscard]] std::vector<double> of_all();
+
+ private:
+  [[nodiscard]] double of(std::size_t pass);
+  [[nodiscard]] double told(const std::vector<double>& light, std::size_t count, std::size_t pass) const;
+
+  GhostTracers& tracers_;
+  std::span<const RaySheet> sheets_;
+  const WavelengthSamples& samples_;
+  std::vector<std::size_t> at_;  // among the first rays' nodes
+  std::vector<bool> counts_;
+};
+
+}  // namespace contrejour::adaptive
