@@ -100,6 +100,23 @@ TEST_CASE("the same bits for any tiles, and however often the buffer is emptied"
   CHECK(drawn({}) == drawn({1000, 5}));
 }
 
+// Streaks some hundredths of a pixel wide lay between all pixels' middles, or had one pixel hold thirty times their
+// light.
+TEST_CASE("streaks thinner than a pixel keep their light") {
+  const LensState lens = test::lens_at_f("schneider-anamorphic-31", 8.0);
+  for (const int width : {120, 160, 240}) {
+    CAPTURE(width);
+    RenderSettings settings = settings_for(lens, width, width * 9 / 16, 64);
+    settings.selection = SelectList{{{1, 3}, {2, 3}, {3, 4}, {3, 6}}};
+    settings.scope = GhostScope::All;
+    const Light light = test::light_at(lens, settings.frame, {0.6, 0.3});
+    const auto truth = render_planned(render_bundle, lens, {&light, 1}, settings, {});
+    REQUIRE(truth.has_value());
+    const double ratio = test::sum(tiled_of(lens, {&light, 1}, settings).image) / test::sum(truth->image);
+    CHECK(ratio == doctest::Approx(1.0).epsilon(0.25));
+  }
+}
+
 // Against bundle the error is that of one sample a pixel: some 40 dB, whatever the grid.
 TEST_CASE("against bundle on the same grid, and merged against unmerged") {
   for (const System& system :

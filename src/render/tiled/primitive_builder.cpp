@@ -12,6 +12,11 @@ constexpr float kSmoothRatio = 1.5F;
 // Below this share of its extent squared a primitive's area is mostly rounding: it holds no pixel's middle.
 constexpr double kSliver = 1e-7;
 
+// Pixels are coloured by what lies at their middles. A ghost narrower than this, evenly lit, may lie between them all,
+// or have all of its light counted many times: it is made as wide, with its flux.
+constexpr double kLeastWidth_px = 3.0;
+constexpr double kMostWidening = 1e6;  // of one with a width that is no more than rounding
+
 // Squared, by the diagonals of the bounds.
 double extent_squared(const Primitive& p) {
   const auto [x0, x1] = std::minmax_element(p.x.begin(), p.x.end());
@@ -40,6 +45,39 @@ void PrimitiveBuilder::place_vertices(const RayGrid& grid, Vec2 shift_mm) {
   for (std::size_t k = 0; k < count; ++k) {
     x_[k] = static_cast<float>(axis.x - grid.sensor_x_mm[k] * scale);
     y_[k] = static_cast<float>(axis.y + grid.sensor_y_mm[k] * scale);
+  }
+}
+
+// Along the two axes of the lit vertices' spread.
+void PrimitiveBuilder::widen(const RayGrid& grid) {
+  double count = 0.0, mx = 0.0, my = 0.0, xx = 0.0, xy = 0.0, yy = 0.0;
+  for (std::size_t k = 0; k < x_.size(); ++k) {
+    if (!(grid.blocked[k] <= 0.0F)) continue;
+    const double x = x_[k], y = y_[k];
+    count += 1.0, mx += x, my += y;
+  }
+  if (count < 3.0) return;
+  mx /= count, my /= count;
+  for (std::size_t k = 0; k < x_.size(); ++k) {
+    if (!(grid.blocked[k] <= 0.0F)) continue;
+    const double x = x_[k] - mx, y = y_[k] - my;
+    xx += x * x, xy += x * y, yy += y * y;
+  }
+  const double half_turn = 0.5 * std::atan2(2.0 * xy, xx - yy);
+  const Vec2 along{std::cos(half_turn), std::sin(half_turn)};
+  const double mean = 0.5 * (xx + yy), half_difference = std::hypot(0.5 * (xx - yy), xy);
+  // Of an even spread the variance is a twelfth of the width's square.
+  const auto times = [&](double squares) {
+    const double width_px = std::sqrt(12.0 * std::max(squares, 0.0) / count);
+    return std::clamp(kLeastWidth_px / std::max(width_px, 1e-12), 1.0, kMostWidening);
+  };
+  const double by_along = times(mean + half_difference), by_across = times(mean - half_difference);
+  if (by_along == 1.0 && by_across == 1.0) return;
+  for (std::size_t k = 0; k < x_.size(); ++k) {
+    const Vec2 from{x_[k] - mx, y_[k] - my};
+    const double a = by_along * dot(from, along), b = by_across * (along.x * from.y - along.y * from.x);
+    x_[k] = static_cast<float>(mx + a * along.x - b * along.y);
+    y_[k] = static_cast<float>(my + a * along.y + b * along.x);
   }
 }
 
@@ -299,6 +337,7 @@ std::uint64_t PrimitiveBuilder::build(const RayGrid& grid, const TracedPass& tra
   out_ = &out;
   levels_.resize(static_cast<std::size_t>(merge_steps_) + 1);
   place_vertices(grid, traced.shift_mm);
+  widen(grid);
   find_cells(grid);
   find_irradiance(grid);
   merge(grid);

@@ -51,6 +51,7 @@ class PrimitiveBuilder {
   void merge(const RayGrid& grid);
   [[nodiscard]] bool is_flat(const RayGrid& grid, int step, int ix, int iy) const;
   [[nodiscard]] bool is_open(const RayGrid& grid, int step, int ix, int iy) const;
+  void widen(const RayGrid& grid);  // what is too narrow for pixels' middles
   [[nodiscard]] double twice_area(std::size_t i, std::size_t j, std::size_t k) const;
   [[nodiscard]] bool is_convex(const std::array<std::size_t, 4>& corners) const;
 
