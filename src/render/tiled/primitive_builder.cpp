@@ -12,9 +12,9 @@ constexpr float kSmoothRatio = 1.5F;
 // Below this share of its extent squared a primitive's area is mostly rounding: it holds no pixel's middle.
 constexpr double kSliver = 1e-7;
 
-// Pixels are coloured by what lies at their middles. A ghost narrower than this, evenly lit, may lie between them all,
-// or have all of its light counted many times: it is made as wide, with its flux.
-constexpr double kLeastWidth_px = 3.0;
+// Pixels are coloured by what lies at their middles. A streak narrower than the first, evenly lit, may lie between them
+// all, or have all of its light counted many times: it is made as wide as the second, with its flux.
+constexpr double kNarrow_px = 0.25, kWidened_px = 3.0;
 constexpr double kMostWidening = 1e6;  // of one with a width that is no more than rounding
 
 // Squared, by the diagonals of the bounds.
@@ -69,7 +69,7 @@ void PrimitiveBuilder::widen(const RayGrid& grid) {
   // Of an even spread the variance is a twelfth of the width's square.
   const auto times = [&](double squares) {
     const double width_px = std::sqrt(12.0 * std::max(squares, 0.0) / count);
-    return std::clamp(kLeastWidth_px / std::max(width_px, 1e-12), 1.0, kMostWidening);
+    return width_px < kNarrow_px ? std::min(kWidened_px / std::max(width_px, 1e-12), kMostWidening) : 1.0;
   };
   const double by_along = times(mean + half_difference), by_across = times(mean - half_difference);
   if (by_along == 1.0 && by_across == 1.0) return;
