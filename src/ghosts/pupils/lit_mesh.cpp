@@ -128,7 +128,7 @@ bool may_pass(const RayGrid& grid, const std::array<std::size_t, 4>& corners) {
                             [](const Extremes& e) { return e.may_pass(kReach); });
 }
 
-// Of cells that may let light through.
+// The bounds cover the cells that may let light through.
 std::optional<Rectangle> bounds_of_light(const RayGrid& grid) {
   const int cells = grid.cells();
   int left = cells, right = 0, bottom = cells, top = 0;
@@ -178,7 +178,7 @@ double light_of(const LitMesh& mesh) {
   return light;
 }
 
-// Of a grid of vertices that begins at one, as many a row.
+// The vertices are those of a grid that begins at one vertex and has the same number of vertices in every row.
 void add_blocks(std::uint32_t first, std::uint32_t side, Vec2 low_mm, Vec2 step_mm, std::vector<Block>& blocks) {
   for (std::uint32_t row = 0; row + 2 < side; row += 2) {
     for (std::uint32_t column = 0; column + 2 < side; column += 2) {

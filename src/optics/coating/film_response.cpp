@@ -60,7 +60,7 @@ Fields through_film(const Fields& back, double cosine, double admittance_sin, do
        cosine * back.h.imag() - admittance_sin * back.e.real()}};
 }
 
-// Of both polarisations, p being scaled by the cosine behind so that grazing exit stays finite.
+// The fields of both polarisations; p is scaled by the cosine behind the films so that grazing exit stays finite.
 struct BothFields {
   Fields s, p;
 };

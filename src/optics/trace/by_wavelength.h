@@ -1,5 +1,5 @@
-// What is made of a lens for single wavelengths, each when it is first asked for: few of many are, since polynomials
-// tell the others (wavelength_samples.h).
+// Tables and trace steps of a lens at single wavelengths, each made when it is first asked for: rays are traced at few
+// of many wavelengths, and polynomials give the others (wavelength_samples.h).
 #pragma once
 
 #include <functional>

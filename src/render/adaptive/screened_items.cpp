@@ -46,7 +46,8 @@ Rim rim_of(const ItemSize& size, double peak, double fresnel_number) {
 // What an item's fringes differ from its sharp rim, squared, over its pixels.
 double fringe_error(const Rim& rim) { return kEdgeError * rim.weight; }
 
-// Of each pass the one whose screen it has: of many neighbours share that of their middle, spread over all of them.
+// Gives for each pass the pass whose screen it uses: where there are many, neighbours share the screen of their middle
+// one, with the spread of all their wavelengths.
 std::vector<PlannedPass> screened_passes(std::span<const PlannedPass> passes) {
   std::vector<PlannedPass> out(passes.begin(), passes.end());
   const std::size_t groups = std::min(passes.size(), kMostScreens);

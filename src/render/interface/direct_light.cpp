@@ -13,11 +13,10 @@
 namespace contrejour {
 namespace {
 
-// Of many bands so many are measured at first: six, and one that they foretell; then more, until they foretell the
-// last.
+// How many of many bands are measured at first: six, and one that they predict; then more, until they predict the last.
 constexpr std::array<std::size_t, 3> kSamples{7, 10, 13};
 constexpr std::size_t kManyBands = 16;  // fewer are all measured
-constexpr double kForetold = 2e-4;      // of the largest flux
+constexpr double kForetold = 2e-4;  // of the largest flux
 
 // Some of many bands; none of few.
 WavelengthSamples samples_of(std::span<const SpectralBand> bands) {
@@ -34,7 +33,7 @@ double told(const MeteredLight& light, const WavelengthSamples& samples, std::si
   return flux;
 }
 
-// Of the first `count` samples' fluxes, whether all but the last foretell it.
+// Whether the first `count` - 1 samples' fluxes predict the next one's.
 bool foretell(const MeteredLight& light, const WavelengthSamples& samples, std::size_t count) {
   double most = 0.0;
   for (std::size_t k = 0; k < count; ++k) most = std::max(most, light.flux_mm2[samples[k]]);

@@ -52,7 +52,7 @@ void for_each_pair(const FramePlan& plan, const Visit& visit) {
     for (std::size_t k = 0; k < plan.lights.size(); ++k) visit(g, k);
 }
 
-// Likewise visit(ghost, light, passes).
+// Calls visit(ghost, light, passes) in the same way.
 template <class Visit>
 void for_each_pair_with_passes(const FramePlan& plan, const Visit& visit) {
   std::size_t pair = 0;

@@ -17,7 +17,7 @@ constexpr std::size_t kSamples = 7;     // wavelengths with rays
 constexpr int kSide = 9;                // rays a side
 constexpr float kNearlyThrough = 0.2F;  // RayGrid::blocked of rays that show where the image is
 
-// What a few rays of a ghost show of all passes.
+// The transmission of a ghost in every pass and the shift of its image, from a few rays.
 struct GhostSpectrum {
   WavelengthSamples samples;
   std::vector<double> carried;  // one a pass: the mean transmission

@@ -48,7 +48,7 @@ void PrimitiveBuilder::place_vertices(const RayGrid& grid, Vec2 shift_mm) {
   }
 }
 
-// Along the two axes of the lit vertices' spread.
+// Widens the ghost along each principal axis of its lit vertices that is too narrow for pixels' middles.
 void PrimitiveBuilder::widen(const RayGrid& grid) {
   double count = 0.0, mx = 0.0, my = 0.0, xx = 0.0, xy = 0.0, yy = 0.0;
   for (std::size_t k = 0; k < x_.size(); ++k) {
@@ -66,7 +66,7 @@ void PrimitiveBuilder::widen(const RayGrid& grid) {
   const double half_turn = 0.5 * std::atan2(2.0 * xy, xx - yy);
   const Vec2 along{std::cos(half_turn), std::sin(half_turn)};
   const double mean = 0.5 * (xx + yy), half_difference = std::hypot(0.5 * (xx - yy), xy);
-  // Of an even spread the variance is a twelfth of the width's square.
+  // The variance of an even spread is a twelfth of its width squared.
   const auto times = [&](double squares) {
     const double width_px = std::sqrt(12.0 * std::max(squares, 0.0) / count);
     return width_px < kNarrow_px ? std::min(kWidened_px / std::max(width_px, 1e-12), kMostWidening) : 1.0;

@@ -13,7 +13,7 @@ constexpr std::size_t kMostTraced = 9;    // of many passes; where they do not f
 constexpr std::size_t kManyPasses = 6;    // fewer are all traced
 constexpr double kForetoldShare = 0.5;    // of the tolerance: that of the fits comes on top
 constexpr double kMostTint = 0.03;        // of a transmission, that its pattern over the ghost may be off
-// What the first `count` samples tell of a pass's transmissions, but for a factor.
+// A pass's transmissions, up to a factor, interpolated from those of the first `count` samples.
 std::vector<float> pattern_of(const FirstRays& rays, const WavelengthSamples& samples, std::size_t count,
                               std::size_t pass) {
   const std::vector<double> shares = light_factors(samples, count, pass, rays.straight);

@@ -27,7 +27,7 @@ struct FirstRays {
 [[nodiscard]] FirstRays first_rays(GhostTracers& tracers, const WavelengthSamples& samples, const Rectangle& box,
                                    int nodes, const Frame& frame, const ErrorBudget& budget);
 
-// What the transmissions of the first `count` samples are multiplied by to tell a pass's, but for FirstRays::light.
+// The factors by which the transmissions of the first `count` samples add up to a pass's, before FirstRays::light.
 [[nodiscard]] std::vector<double> light_factors(const WavelengthSamples& samples, std::size_t count, std::size_t pass,
                                                 bool straight);
 

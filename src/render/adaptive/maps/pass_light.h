@@ -20,7 +20,7 @@ class PassLight {
 
   [[nodiscard]] bool any() const;  // whether a node counts
 
-  // Of values at all nodes of the first rays, over those that count.
+  // Adds up the values at the nodes that count; `transmission` has one at every node of the first rays.
   [[nodiscard]] double sum(std::span<const float> transmission) const;
 
   // One a pass, as sum(): measured at 7, 10 or 13 wavelengths, which tell the others once they foretell the last to
