@@ -25,5 +25,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   if (pixels == 0 || picture->rgb.pixels.size() != 3 * pixels) std::abort();
   for (const int source : picture->rgb_source)
     if (source < 0 || static_cast<std::size_t>(source) >= picture->channels.size()) std::abort();
+  for (const int source : picture->chroma_source)
+    if (source < -1 || source >= static_cast<int>(picture->channels.size())) std::abort();
   return 0;
 }

@@ -38,7 +38,8 @@ constexpr const char* kExamples =
     "  contrejour apply heliar -f 16 plate.exr -o out.exr --flare-only flare.exr --hfov 40 --json\n"
     "  contrejour apply nikon-80-200 plate.exr -o out.exr --threshold 50 --max-lights 8 --stops 3\n"
     "  contrejour apply planar-50 plate.exr -o out.exr --region 0.6,0,1,0.4 --detected lights.png\n"
-    "  contrejour apply heliar plate.exr -o out.exr --no-detect --light-at 1.1,-0.1:2e6";
+    "  contrejour apply heliar plate.exr -o out.exr --no-detect --light-at 1.1,-0.1:2e6\n"
+    "  contrejour apply heliar comp.exr -o out.exr --layer beauty";
 
 // The lights' colours stay right; only the flare's own tint is then slightly off.
 constexpr const char* kGuessedSpace =
@@ -47,6 +48,7 @@ constexpr const char* kGuessedSpace =
 struct ApplyOptions {
   std::string lens, input, output, flare_only, detected, preview;
   bool json = false;
+  ReadOptions read;
   LookOptions look;
   params::Values values;
 };
@@ -178,7 +180,7 @@ Result<int> run_apply(ApplyOptions options) {
   if (!files) return tl::unexpected(files.error());
   const auto lens = open_lens(options.lens, options.values);
   if (!lens) return tl::unexpected(lens.error());
-  auto picture = read_picture(options.input);
+  auto picture = read_picture(options.input, options.read);
   if (!picture) return tl::unexpected(picture.error());
   auto plan = params::plan_flare(*picture, *lens, options.values);
   if (!plan) {
@@ -215,6 +217,7 @@ void add_apply(CLI::App& app, Action& action) {
   CLI::App* command = app.add_subcommand("apply", "put the flare of a lens on a photograph");
   add_lens_argument(*command, options->lens);
   command->add_option("IN", options->input, "a scene-linear EXR, or a PNG")->option_text(" ");
+  add_picture_choice(*command, options->read);
   add_output(*command, "-o,--output", options->output, {".exr", ".png"}, "the photograph with flare")->required();
   add_output(*command, "--flare-only", options->flare_only, {".exr"}, "only what the flare adds");
   add_output(*command, "--detected", options->detected, {".exr", ".png"},

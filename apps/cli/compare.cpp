@@ -1,6 +1,8 @@
 // contrejour compare: how far picture B is from picture A.
+#include <algorithm>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -17,12 +19,34 @@ constexpr const char* kExamples =
     "99.9th percentile of A. The flux ratio is the sum of B over the sum of A, per channel.\n\n"
     "Examples:\n"
     "  contrejour compare reference.exr bundle.exr\n"
-    "  contrejour compare reference.exr bundle.exr --json";
+    "  contrejour compare reference.exr bundle.exr --json\n"
+    "  contrejour compare comp.exr flare.exr --layer beauty --layer \"\"";
 
 struct CompareOptions {
   std::string a, b;
+  std::vector<std::string> layers, parts;  // one for both pictures, or A's and B's
   bool json = false;
 };
+
+// Of picture 0 or 1.
+ReadOptions read_options(const CompareOptions& options, std::size_t picture) {
+  const auto chosen = [picture](const std::vector<std::string>& names) {
+    return names.empty() ? std::string() : names[std::min(picture, names.size() - 1)];
+  };
+  ReadOptions read;
+  read.layer = chosen(options.layers);
+  read.part = chosen(options.parts);
+  return read;
+}
+
+// One name each time, so that pictures may follow it.
+void add_names(CLI::App& command, const std::string& flag, std::vector<std::string>& names, const std::string& help) {
+  command.add_option(flag, names, help)->allow_extra_args(false)->option_text("NAME");
+}
+
+void check_names(const std::string& flag, const std::vector<std::string>& names) {
+  if (names.size() > 2) throw CLI::ValidationError(flag, "at most twice: for A and for B");
+}
 
 Json comparison_json(const Comparison& c) {
   return {{"psnr_db", c.psnr_db ? Json(*c.psnr_db) : Json()},
@@ -41,9 +65,9 @@ std::string comparison_text(const Comparison& c) {
 }
 
 Result<int> run_compare(const CompareOptions& options) {
-  const auto a = read_picture(options.a);
+  const auto a = read_picture(options.a, read_options(options, 0));
   if (!a) return tl::unexpected(a.error());
-  const auto b = read_picture(options.b);
+  const auto b = read_picture(options.b, read_options(options, 1));
   if (!b) return tl::unexpected(b.error());
   const auto comparison = compare(a->rgb, b->rgb);
   if (!comparison) {
@@ -69,9 +93,15 @@ void add_compare(CLI::App& app, Action& action) {
   CLI::App* command = app.add_subcommand("compare", "PSNR, largest error and flux ratio of two pictures");
   command->add_option("A", options->a, "the picture taken as true")->required()->option_text(" ");
   command->add_option("B", options->b, "the other")->required()->option_text(" ");
+  add_names(*command, "--layer", options->layers, "this layer of EXR files; given twice: A's, then B's (\"\": none)");
+  add_names(*command, "--part", options->parts, "this part of EXR files, by name or by number from 0; likewise");
   command->add_flag("--json", options->json, "as JSON");
   command->footer(kExamples);
-  command->callback([options, &action] { action = [options] { return run_compare(*options); }; });
+  command->callback([options, &action] {
+    check_names("--layer", options->layers);
+    check_names("--part", options->parts);
+    action = [options] { return run_compare(*options); };
+  });
 }
 
 }  // namespace contrejour::cli

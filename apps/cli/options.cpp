@@ -95,6 +95,12 @@ void add_rendering_parameters(CLI::App& command, params::Values& values) {
                  {"ghost", "ghost-gain", "ghost-edge-gain", "ghost-ramp", "ghost-scatter", "ghost-seed"});
 }
 
+void add_picture_choice(CLI::App& command, ReadOptions& read) {
+  command.add_option("--layer", read.layer, "the EXR's layer NAME.R, NAME.G, NAME.B, or its part of that name")
+      ->option_text("NAME");
+  command.add_option("--part", read.part, "a part of an EXR, by its name or its number from 0")->option_text("NAME|N");
+}
+
 std::string lower_extension(const std::string& file) {
   std::string extension = std::filesystem::path(file).extension().string();
   std::transform(extension.begin(), extension.end(), extension.begin(),

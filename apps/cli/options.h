@@ -10,6 +10,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "contrejour/image_io.h"
 #include "params/values.h"
 
 namespace contrejour::cli {
@@ -38,6 +39,9 @@ void add_rendering_parameters(CLI::App& command, params::Values& values);
 // -o FILE or another file that is written; its name must end so (".exr"), in any case.
 CLI::Option* add_output(CLI::App& command, const std::string& flags, std::string& file,
                         std::initializer_list<std::string_view> endings, const std::string& help);
+
+// --layer and --part: which of the pictures of an EXR file is read.
+void add_picture_choice(CLI::App& command, ReadOptions& read);
 
 [[nodiscard]] std::string lower_extension(const std::string& file);
 

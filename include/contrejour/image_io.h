@@ -1,9 +1,10 @@
 // Pictures in files: OpenEXR (flat, scan lines or tiles, any channels; of several parts the first with colour, the
 // others are kept as they are) and PNG (8 and 16 bit). A Picture keeps all that its file holds, so that writing it back
-// changes only the samples whose rgb value was changed; every other sample keeps its bits, NaN included.
-// docs/formats/images.md says what is kept and what not. Errors: Io, Parse (damaged file), Unsupported (deep, no
-// colour, subsampled colour), Cancelled; place.file is set. No exception leaves. A failed or cancelled write leaves no
-// file. Thread-safety: pure functions.
+// changes only the samples whose rgb value was changed; every other sample keeps its bits, NaN included. Of luminance
+// with chroma of half the size, chroma within 13 pixels of a change is filtered anew. docs/formats/images.md says what
+// is kept and what not. Errors: Io, Parse (damaged file), Unsupported (deep, no colour, no such layer or part,
+// subsampled colour), Cancelled; place.file is set. No exception leaves. A failed or cancelled write leaves no file.
+// Thread-safety: pure functions.
 #pragma once
 
 #include <array>
@@ -52,6 +53,7 @@ struct Picture {
   PixelWindow display_window;
   std::vector<PictureChannel> channels;  // every channel as it was read, those behind rgb included
   std::array<int, 3> rgb_source{-1, -1, -1};  // the channels behind r, g, b; all the same one for a grey picture
+  std::array<int, 2> chroma_source{-1, -1};  // of half the size: (R - Y) / Y and (B - Y) / Y; rgb_source is then Y
   std::shared_ptr<const PictureHeader> header;  // null: not from an OpenEXR file
 };
 
@@ -66,6 +68,8 @@ struct ReadOptions {
   // else the first layer with R, G, B.
   std::string layer;
   ReadLimits limits;
+  // Of a file of several parts only this one, by its name or its number from 0; empty: the first with that colour.
+  std::string part = {};
 };
 
 // The format is told by the content, not by the name.

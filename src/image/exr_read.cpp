@@ -1,6 +1,4 @@
 // OpenEXR -> Picture: docs/formats/images.md.
-#include <algorithm>
-#include <cstring>
 #include <new>
 
 #include <ImfChannelList.h>
@@ -9,15 +7,16 @@
 #include <ImfInputPart.h>
 #include <ImfMultiPartInputFile.h>
 #include <ImfPartType.h>
-#include <ImfRgbaFile.h>
 #include <ImfStandardAttributes.h>
 #include <ImfVersion.h>
 #include <fmt/format.h>
 
 #include "image/exr_attributes.h"
+#include "image/exr_choice.h"
 #include "image/exr_limits.h"
 #include "image/exr_streams.h"
 #include "image/formats.h"
+#include "image/luminance_chroma.h"
 #include "image/picture_header.h"
 #include "image/samples.h"
 
@@ -70,96 +69,22 @@ void read_channels(File& file, Picture& picture) {
   file.readPixels(window.min.y, window.max.y);
 }
 
-int index_of(const Picture& picture, const std::string& name) {
-  const auto found = std::find_if(picture.channels.begin(), picture.channels.end(),
-                                  [&](const PictureChannel& channel) { return channel.name == name; });
-  return found == picture.channels.end() ? -1 : static_cast<int>(found - picture.channels.begin());
-}
-
-std::optional<std::array<int, 3>> triple(const Picture& picture, const std::string& prefix) {
-  static constexpr std::array<std::array<const char*, 3>, 3> kNames = {
-      {{"R", "G", "B"}, {"r", "g", "b"}, {"red", "green", "blue"}}};
-  for (const auto& names : kNames) {
-    const std::array<int, 3> found = {index_of(picture, prefix + names[0]), index_of(picture, prefix + names[1]),
-                                      index_of(picture, prefix + names[2])};
-    if (*std::min_element(found.begin(), found.end()) >= 0) return found;
-  }
-  return std::nullopt;
-}
-
-// A picture of one channel is grey, whatever its name, if that is none of what is no light.
-int only_channel(const Picture& picture) {
-  int only = -1;
-  for (std::size_t k = 0; k < picture.channels.size(); ++k) {
-    const std::string& name = picture.channels[k].name;
-    if (name == "A" || name == "alpha") continue;
-    const bool is_no_light =
-        name == "Z" || name == "ZBack" || name == "depth" || name == "id" || name == "RY" || name == "BY";
-    if (only >= 0 || is_no_light) return -1;
-    only = static_cast<int>(k);
-  }
-  return only;
-}
-
-std::optional<std::array<int, 3>> colour_channels(const Picture& picture, const std::string& layer) {
-  const std::string prefix = layer.empty() ? "" : layer + ".";
-  if (const auto rgb = triple(picture, prefix)) return rgb;
-  if (const int grey = index_of(picture, prefix + "Y"); grey >= 0) return std::array<int, 3>{grey, grey, grey};
-  if (!layer.empty()) return std::nullopt;
-  if (const int grey = only_channel(picture); grey >= 0) return std::array<int, 3>{grey, grey, grey};
-  for (const PictureChannel& channel : picture.channels) {  // in the order of their names
-    const std::size_t dot = channel.name.rfind('.');
-    if (dot == std::string::npos) continue;
-    if (const auto rgb = triple(picture, channel.name.substr(0, dot + 1))) return rgb;
-  }
-  return std::nullopt;
-}
-
-std::string list_of_names(const Picture& picture) {
-  std::string list;
-  for (const PictureChannel& channel : picture.channels) {
-    if (list.size() > 200) return list + " ...";
-    list += (list.empty() ? "" : ", ") + channel.name;
-  }
-  return list;
-}
-
-// Luminance and half-size chroma become R, G, B halves, as OpenEXR's own reader makes them.
-void convert_luminance_chroma(std::span<const std::byte> bytes, const std::string& name, Picture& picture) {
-  MemoryInput stream(bytes, name);
-  Imf::RgbaInputFile file(stream);
-  const Imath::Box2i window = file.dataWindow();
-  const std::size_t count = sample_count(picture.data_window, 1, 1);
-  std::vector<Imf::Rgba> pixels(count);
-  const auto width = static_cast<std::ptrdiff_t>(picture.data_window.width);
-  file.setFrameBuffer(pixels.data() - window.min.x - window.min.y * width, 1, static_cast<std::size_t>(width));
-  file.readPixels(window.min.y, window.max.y);
-  std::erase_if(picture.channels,
-                [](const PictureChannel& c) { return c.name == "Y" || c.name == "RY" || c.name == "BY"; });
-  constexpr half Imf::Rgba::* kComponents[] = {&Imf::Rgba::r, &Imf::Rgba::g, &Imf::Rgba::b};
-  constexpr const char* kNames[] = {"R", "G", "B"};
-  for (std::size_t c = 0; c < 3; ++c) {
-    PictureChannel channel{kNames[c], SampleType::Half, 1, 1, false, std::vector<std::byte>(2 * count)};
-    for (std::size_t i = 0; i < count; ++i) {
-      const std::uint16_t bits = (pixels[i].*kComponents[c]).bits();
-      std::memcpy(channel.samples.data() + 2 * i, &bits, sizeof bits);
-    }
-    picture.channels.push_back(std::move(channel));
-  }
-}
-
 Result<void> fill_rgb(const std::string& name, const std::string& layer, Picture& picture) {
   const auto found = colour_channels(picture, layer);
-  if (!found)
-    return failure(ErrorCode::Unsupported,
-                   fmt::format("no colour in {}; its channels are {}",
-                               layer.empty() ? "the picture" : "layer '" + layer + "'", list_of_names(picture)),
-                   {name});
-  picture.rgb_source = *found;
+  if (!found) return no_colour(picture, layer, name);
+  picture.rgb_source = found->rgb;
+  picture.chroma_source = found->chroma;
+  if (is_luminance_chroma(picture)) {
+    if (!has_chroma_sizes(picture))
+      return failure(ErrorCode::Unsupported,
+                     "channels RY and BY have not half the size of Y; save the picture as R, G, B", {name});
+    picture.rgb = rgb_of_luminance_chroma(picture);
+    return {};
+  }
   picture.rgb = Image(picture.data_window.width, picture.data_window.height, 3);
-  const bool grey = (*found)[0] == (*found)[2];
+  const bool grey = found->rgb[0] == found->rgb[2];
   for (std::size_t c = 0; c < 3; ++c) {
-    const PictureChannel& channel = picture.channels[static_cast<std::size_t>((*found)[c])];
+    const PictureChannel& channel = picture.channels[static_cast<std::size_t>(found->rgb[c])];
     if (channel.x_sampling != 1 || channel.y_sampling != 1)
       return failure(ErrorCode::Unsupported,
                      fmt::format("colour channel '{}' is subsampled; save it at full size", channel.name), {name});
@@ -182,59 +107,22 @@ Result<Picture> read_single(std::span<const std::byte> bytes, const std::string&
                             const ReadOptions& options) {
   Result<CheckedHeader> checked = read_header(bytes, name, header_size, options.limits);
   if (!checked) return tl::unexpected(checked.error());
+  if (const auto only = check_only_part(checked->header, name, options); !only) return tl::unexpected(only.error());
   Picture picture = empty_picture(checked->header);
   MemoryInput stream(bytes, name);
   Imf::InputFile file(stream);
   read_channels(file, picture);
-  const bool chroma = index_of(picture, "Y") >= 0 && index_of(picture, "RY") >= 0 && index_of(picture, "BY") >= 0;
-  if (options.layer.empty() && chroma && index_of(picture, "R") < 0) convert_luminance_chroma(bytes, name, picture);
   picture.header = std::make_shared<PictureHeader>(PictureHeader{std::move(checked->header)});
   const Result<void> filled = fill_rgb(name, options.layer, picture);
   if (!filled) return tl::unexpected(filled.error());
   return picture;
 }
 
-// A picture that has a part's channels, without samples: for what asks only for their names.
-Picture names_of(const Imf::Header& header) {
-  Picture picture = empty_picture(header);
-  for (auto i = header.channels().begin(); i != header.channels().end(); ++i)
-    picture.channels.push_back({i.name(),
-                                sample_type_of(i.channel().type),
-                                i.channel().xSampling,
-                                i.channel().ySampling,
-                                i.channel().pLinear,
-                                {}});
-  return picture;
-}
-
-struct ChosenPart {
-  int part = 0;
-  std::string layer;  // of it
-};
-
-// The first flat part with colour; with a layer the part of that name, or the first that has it.
-Result<ChosenPart> choose_part(const Imf::MultiPartInputFile& file, const std::string& name, const std::string& layer) {
-  std::string names;
-  for (int part = 0; part < file.parts(); ++part) {
-    const Imf::Header& header = file.header(part);
-    const std::string own = header.hasName() ? header.name() : std::string();
-    if (names.size() < 200) names += (names.empty() ? "" : ", ") + own;
-    if (header.hasType() && Imf::isDeepData(header.type())) continue;
-    const Picture channels = names_of(header);
-    if (!layer.empty() && own == layer && colour_channels(channels, "")) return ChosenPart{part, ""};
-    if (colour_channels(channels, layer)) return ChosenPart{part, layer};
-  }
-  return failure(ErrorCode::Unsupported,
-                 fmt::format("no colour in {}; the file's parts are {}",
-                             layer.empty() ? "any flat part" : "layer '" + layer + "'", names),
-                 {name});
-}
-
 Result<Picture> read_part(std::span<const std::byte> bytes, const std::string& name, std::size_t header_size,
                           const ReadOptions& options) {
   MemoryInput stream(bytes, name);
   Imf::MultiPartInputFile file(stream);
-  const auto chosen = choose_part(file, name, options.layer);
+  const auto chosen = choose_part(file, name, options);
   if (!chosen) return tl::unexpected(chosen.error());
   const Imf::Header& header = file.header(chosen->part);
   if (const auto fits = check_exr_size(header, header_size, bytes.size(), options.limits, name); !fits)

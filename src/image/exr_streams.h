@@ -1,10 +1,12 @@
 // OpenEXR's streams over memory and over an OutputFile.
 #pragma once
 
+#include <algorithm>
 #include <cstring>
 #include <optional>
 #include <span>
 #include <stdexcept>
+#include <vector>
 
 #include <ImfIO.h>
 
@@ -29,6 +31,25 @@ class MemoryInput final : public Imf::IStream {
 
  private:
   std::span<const std::byte> bytes_;
+  std::size_t position_ = 0;
+};
+
+// Into a caller's bytes, for files that are read again at once.
+class MemoryOutput final : public Imf::OStream {
+ public:
+  explicit MemoryOutput(std::vector<std::byte>& bytes) : Imf::OStream("memory"), bytes_(bytes) {}
+
+  void write(const char from[], int count) override {
+    const auto size = static_cast<std::size_t>(count);
+    bytes_.resize(std::max(bytes_.size(), position_ + size));
+    std::memcpy(bytes_.data() + position_, from, size);
+    position_ += size;
+  }
+  uint64_t tellp() override { return position_; }
+  void seekp(uint64_t position) override { position_ = static_cast<std::size_t>(position); }
+
+ private:
+  std::vector<std::byte>& bytes_;
   std::size_t position_ = 0;
 };
 

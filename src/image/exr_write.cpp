@@ -1,6 +1,7 @@
 // Picture -> OpenEXR: docs/formats/images.md.
 #include <algorithm>
 #include <stdexcept>
+#include <utility>
 
 #include <ImfChannelList.h>
 #include <ImfDeepScanLineInputPart.h>
@@ -21,6 +22,7 @@
 
 #include "image/exr_streams.h"
 #include "image/formats.h"
+#include "image/luminance_chroma.h"
 #include "image/picture_header.h"
 #include "image/samples.h"
 
@@ -70,6 +72,21 @@ Imf::Header header_to_write(const Picture& picture) {
     header.channels().insert(channel.name, Imf::Channel(pixel_type(exr_type(channel.type)), channel.x_sampling,
                                                         channel.y_sampling, channel.perceptually_linear));
   return header;
+}
+
+// What the file shall hold, by channel.
+std::vector<std::vector<std::byte>> samples_of_channels(const Picture& picture) {
+  std::vector<std::vector<std::byte>> samples(picture.channels.size());
+  for (std::size_t k = 0; k < samples.size(); ++k) {
+    const bool is_luminance = is_luminance_chroma(picture) && rgb_component(picture, k) >= 0;
+    if (!is_luminance) samples[k] = samples_to_write(picture, k, exr_type(picture.channels[k].type));
+  }
+  if (!is_luminance_chroma(picture)) return samples;
+  auto [luminance, red, blue] = luminance_chroma_to_write(picture);
+  samples[static_cast<std::size_t>(picture.rgb_source[0])] = std::move(luminance);
+  samples[static_cast<std::size_t>(picture.chroma_source[0])] = std::move(red);
+  samples[static_cast<std::size_t>(picture.chroma_source[1])] = std::move(blue);
+  return samples;
 }
 
 // To an OutputFile or an OutputPart. Whether it came to the end; false when cancelled or the stream has failed.
@@ -155,12 +172,11 @@ bool write_parts(OutputFileStream& stream, const PictureParts& parts, const Imf:
 Result<void> write_picture_exr(OutputFile& file, const Picture& picture, const Context& context) {
   const SourcePlace place{file.destination().string()};
   const Imf::Header header = header_to_write(picture);
-  std::vector<std::vector<std::byte>> samples(picture.channels.size());
+  std::vector<std::vector<std::byte>> samples = samples_of_channels(picture);
   Imf::FrameBuffer frame_buffer;
   for (std::size_t k = 0; k < samples.size(); ++k) {
     const PictureChannel& channel = picture.channels[k];
     const SampleType type = exr_type(channel.type);
-    samples[k] = samples_to_write(picture, k, type);
     if (samples[k].size() != sample_count(picture.data_window, channel.x_sampling, channel.y_sampling) * size_of(type))
       return failure(ErrorCode::InvalidArgument,
                      fmt::format("channel '{}' does not fill the picture's window", channel.name), place);

@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "image/formats.h"
+#include "image/luminance_chroma.h"
 #include "image/picture_header.h"
 #include "image/rgb_spaces.h"
 #include "image/samples.h"
@@ -107,6 +108,14 @@ Result<void> check_picture(const Picture& picture) {
     if (channel.samples.size() != bytes && !(is_colour && channel.samples.empty()))
       return wrong("a channel does not fill the picture's window");
   }
+  if (!is_luminance_chroma(picture)) return {};
+  for (const int source : picture.chroma_source)
+    if (source < 0 || static_cast<std::size_t>(source) >= picture.channels.size() || source == picture.rgb_source[0])
+      return wrong("the picture has no channels for its chroma");
+  const bool is_one = picture.rgb_source[0] == picture.rgb_source[1] && picture.rgb_source[0] == picture.rgb_source[2];
+  const PictureChannel& luminance = picture.channels[static_cast<std::size_t>(picture.rgb_source[0])];
+  if (!is_one || luminance.samples.empty() || !has_chroma_sizes(picture))
+    return wrong("the picture's chroma has not half the size of its luminance");
   return {};
 }
 
@@ -125,7 +134,10 @@ Imf::Header without_attribute(const Imf::Header& header, const std::string& name
 Result<Picture> read_picture(std::span<const std::byte> bytes, const std::string& name, const ReadOptions& options) {
   const auto format = format_of(bytes, name);
   if (!format) return tl::unexpected(format.error());
-  return *format == Format::OpenExr ? read_exr(bytes, name, options) : read_png(bytes, name, options.limits);
+  if (*format == Format::OpenExr) return read_exr(bytes, name, options);
+  if (!options.layer.empty() || !options.part.empty())
+    return failure(ErrorCode::Unsupported, "a PNG has neither layers nor parts", {name});
+  return read_png(bytes, name, options.limits);
 }
 
 Result<Picture> read_picture(const std::filesystem::path& file, const ReadOptions& options) {

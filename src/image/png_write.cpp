@@ -9,6 +9,7 @@
 #include <png.h>
 
 #include "image/formats.h"
+#include "image/luminance_chroma.h"
 #include "image/png_file.h"
 #include "image/samples.h"
 
@@ -114,6 +115,7 @@ Result<void> write_png_file(OutputFile& file, const PngLayout& layout,
 }
 
 Result<void> write_picture_png(OutputFile& file, const Picture& picture, const Context& context) {
+  if (is_luminance_chroma(picture)) return write_picture_png(file, with_rgb_channels(picture), context);
   // Colour and alpha; a PNG has no place for other channels.
   std::vector<std::size_t> sources;
   const bool grey = picture.rgb_source[0] == picture.rgb_source[2];

@@ -35,6 +35,28 @@ class Apply(ProgramTest):
             self.assertEqual(struct.pack("<f", a + f), struct.pack("<f", b))
         self.assertEqual(self.files(), ["flare.exr", "in.exr", "out.exr", "out.png"])
 
+    def test_a_layer_of_several(self):
+        """The flare goes into the layer that is named; every other channel keeps its bits."""
+        street, sky = dark([(60, 20, 5000.0)]), dark([(20, 40, 900.0)], level=0.02)
+        channels = {f"key.{c}": (exr.HALF, street) for c in "RGB"} | {f"fill.{c}": (exr.FLOAT, sky) for c in "RGB"}
+        channels["Z"] = (exr.FLOAT, sky)
+        exr.write(self.folder / "in.exr", channels, WIDTH, HEIGHT)
+        for layer, centroid in (("key", [60.5, 20.5]), ("fill", [20.5, 40.5])):
+            report = self.json_of("apply", "heliar", "in.exr", "-o", "out.exr", "--layer", layer, "--gain", "1000", *QUICK)
+            self.assertEqual([light["centroid_px"] for light in report["lights"]], [centroid])
+            before, after = exr.Picture(self.folder / "in.exr"), exr.Picture(self.folder / "out.exr")
+            for name in channels:
+                changed = before.channels[name] != after.channels[name]
+                self.assertEqual(changed, name.startswith(layer + "."), name)
+        error = self.error_of("apply", "heliar", "in.exr", "-o", "no.exr", "--layer", "rim", code=1)
+        self.assertIn("layers with colour are fill, key", error)
+        self.assertIn("one part", self.error_of("apply", "heliar", "in.exr", "-o", "no.exr", "--part", "beauty", code=1))
+        self.assertNotIn("no.exr", self.files())
+        exr.write(self.folder / "flat.exr", {c: (exr.HALF, street) for c in "RGB"}, WIDTH, HEIGHT)
+        compare = ["compare", "in.exr", "flat.exr", "--layer", "key", "--layer", ""]
+        self.assertIsNone(self.json_of(*compare)["psnr_db"])
+        self.assertIn("at most twice", self.error_of(*compare, "--layer", "fill", code=2))
+
     def test_up_right_is_up_right(self):
         self.write("in.exr", dark([(75, 10, 5000.0)]))
         light = self.json_of("apply", "heliar", "in.exr", "-o", "out.exr", *QUICK)["lights"][0]

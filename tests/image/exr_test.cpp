@@ -9,6 +9,7 @@
 #include <ImfDeepScanLineOutputPart.h>
 #include <ImfFrameBuffer.h>
 #include <ImfHeader.h>
+#include <ImfInputFile.h>
 #include <ImfIntAttribute.h>
 #include <ImfMultiPartInputFile.h>
 #include <ImfMultiPartOutputFile.h>
@@ -22,6 +23,7 @@
 #include <ImfTiledOutputFile.h>
 #include <ImfTiledOutputPart.h>
 
+#include "contrejour/metrics.h"
 #include "shared_data.h"
 #include "test_pictures.h"
 
@@ -85,7 +87,8 @@ class GivenFile {
 
 const std::vector<Given> kMixed = {{"R", Imf::HALF},         {"G", Imf::FLOAT},        {"B", Imf::HALF},
                                    {"A", Imf::HALF},         {"Z", Imf::FLOAT},        {"id", Imf::UINT},
-                                   {"diffuse.R", Imf::HALF}, {"mask.half", Imf::HALF}, {"chroma", Imf::HALF, 2}};
+                                   {"diffuse.R", Imf::HALF}, {"diffuse.G", Imf::HALF}, {"diffuse.B", Imf::HALF},
+                                   {"mask.half", Imf::HALF}, {"chroma", Imf::HALF, 2}};
 
 Imf::Header windowed_header(Imf::Compression compression) {
   Imf::Header header({{-10, 5}, {300, 200}}, {{-8, -16}, {55, 33}}, 1.5F, {0.25F, -1}, 2.5F);
@@ -219,20 +222,172 @@ TEST_CASE("grey pictures, layers, integer colours") {
   CHECK(depth.error().message.find("Z") != std::string::npos);
 }
 
-TEST_CASE("luminance and chroma become RGB") {
-  const ScratchFolder folder;
-  std::vector<Imf::Rgba> pixels(32 * 16, Imf::Rgba(0.5F, 0.25F, 0.125F, 1));
-  {
-    Imf::RgbaOutputFile out((folder / "yc.exr").c_str(), 32, 16, Imf::WRITE_YC);
-    out.setFrameBuffer(pixels.data(), 1, 32);
-    out.writePixels(16);
+namespace {
+
+// A colourful picture of smooth colours around edges, written by OpenEXR's own luminance and chroma writer.
+std::vector<Imf::Rgba> colourful(int width, int height) {
+  std::vector<Imf::Rgba> pixels;
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      const float u = static_cast<float>(x) / static_cast<float>(width),
+                  v = static_cast<float>(y) / static_cast<float>(height);
+      const float level = x > width / 2 ? 2.0F : 0.1F;
+      pixels.emplace_back(level * (0.2F + u), level * (0.5F + 0.3F * v), level * (0.8F - 0.5F * u), 1.0F - 0.5F * v);
+    }
   }
+  return pixels;
+}
+
+void write_luminance_chroma(const std::filesystem::path& file, int width, int height,
+                            const Imf::Chromaticities* primaries = nullptr) {
+  Imf::Header header(width, height);
+  header.compression() = Imf::PIZ_COMPRESSION;
+  header.insert("shot", Imf::StringAttribute("A001_C003"));
+  if (primaries != nullptr) Imf::addChromaticities(header, *primaries);
+  Imf::RgbaOutputFile out(file.c_str(), header, Imf::WRITE_YCA);
+  out.setYCRounding(10, 10);
+  const std::vector<Imf::Rgba> pixels = colourful(width, height);
+  out.setFrameBuffer(pixels.data(), 1, static_cast<std::size_t>(width));
+  out.writePixels(height);
+}
+
+// As programs see it that know nothing of this library.
+Image rgb_by_openexr(const std::filesystem::path& file) {
+  Imf::RgbaInputFile in(file.c_str());
+  const Imath::Box2i window = in.dataWindow();
+  Image rgb(window.max.x + 1, window.max.y + 1, 3);
+  std::vector<Imf::Rgba> pixels(rgb.pixels.size() / 3);
+  in.setFrameBuffer(pixels.data(), 1, static_cast<std::size_t>(rgb.width));
+  in.readPixels(0, window.max.y);
+  for (std::size_t i = 0; i < pixels.size(); ++i) {
+    rgb.pixels[3 * i] = pixels[i].r;
+    rgb.pixels[3 * i + 1] = pixels[i].g;
+    rgb.pixels[3 * i + 2] = pixels[i].b;
+  }
+  return rgb;
+}
+
+// A soft orange ghost around (40, 24), 12 pixels wide.
+void add_ghost(Picture& picture) {
+  for (int y = 0; y < picture.rgb.height; ++y) {
+    for (int x = 0; x < picture.rgb.width; ++x) {
+      const float dx = static_cast<float>(x - 40) / 12, dy = static_cast<float>(y - 24) / 12;
+      const float level = std::max(0.0F, 1 - dx * dx - dy * dy);
+      picture.rgb.at(x, y, 0) += 0.8F * level;
+      picture.rgb.at(x, y, 1) += 0.4F * level;
+      picture.rgb.at(x, y, 2) += 0.1F * level;
+    }
+  }
+}
+
+}  // namespace
+
+TEST_CASE("luminance and chroma are read as OpenEXR reads them, and come back as they were") {
+  const ScratchFolder folder;
+  write_luminance_chroma(folder / "yc.exr", 96, 64);
   const Picture picture = must_read(folder / "yc.exr");
-  CHECK(picture.rgb.at(9, 9, 0) == doctest::Approx(0.5).epsilon(2e-3));
-  CHECK(picture.rgb.at(9, 9, 1) == doctest::Approx(0.25).epsilon(2e-3));
-  CHECK(picture.rgb.at(9, 9, 2) == doctest::Approx(0.125).epsilon(2e-3));
-  must_write(folder / "rgb.exr", picture);
-  CHECK(must_read(folder / "rgb.exr").rgb.pixels == picture.rgb.pixels);
+  CHECK(picture.rgb.pixels == rgb_by_openexr(folder / "yc.exr").pixels);
+  CHECK(picture.rgb.at(9, 9, 1) == doctest::Approx(0.1 * (0.5 + 0.3 * 9 / 64)).epsilon(2e-2));
+  must_write(folder / "out.exr", picture);
+  const Picture out = must_read(folder / "out.exr");
+  check_same_channels(picture, out);
+  CHECK(out.channels.size() == 4);  // A, BY, RY, Y
+  CHECK(channel(out, "RY").x_sampling == 2);
+  CHECK(attribute_names(picture) == attribute_names(out));
+  CHECK(Imf::RgbaInputFile((folder / "out.exr").c_str()).compression() == Imf::PIZ_COMPRESSION);
+  must_write(folder / "out.png", picture);
+  CHECK(must_read(folder / "out.png").channels.size() == 4);
+}
+
+TEST_CASE("what is added to luminance and chroma is there for other programs, and beyond its reach every bit is kept") {
+  const Imf::Chromaticities aces({0.713F, 0.293F}, {0.165F, 0.830F}, {0.128F, 0.044F}, {0.32168F, 0.33767F});
+  for (const Imf::Chromaticities* primaries : {static_cast<const Imf::Chromaticities*>(nullptr), &aces}) {
+    const ScratchFolder folder;
+    write_luminance_chroma(folder / "yc.exr", 96, 64, primaries);
+    Picture picture = must_read(folder / "yc.exr");
+    const Picture before = picture;
+    add_ghost(picture);
+    must_write(folder / "out.exr", picture);
+    const Image wanted = picture.rgb, got = rgb_by_openexr(folder / "out.exr");
+    const auto comparison = compare(wanted, got);
+    REQUIRE(comparison.has_value());
+    CHECK(comparison->psnr_db.value_or(200) > 50);
+    for (const double ratio : comparison->flux_ratio) CHECK(ratio == doctest::Approx(1).epsilon(2e-3));
+    const Picture after = must_read(folder / "out.exr");
+    CHECK(channel(after, "A").samples == channel(before, "A").samples);
+    int kept = 0;
+    for (int y = 0; y < 64; ++y) {
+      for (int x = 0; x < 96; ++x) {
+        const int dx = std::max(std::abs(x - 40) - 12, 0), dy = std::max(std::abs(y - 24) - 12, 0);
+        const auto same = [&](const char* name, std::size_t at) {
+          return std::memcmp(channel(before, name).samples.data() + 2 * at,
+                             channel(after, name).samples.data() + 2 * at, 2) == 0;
+        };
+        if (dx > 0 || dy > 0) CHECK(same("Y", static_cast<std::size_t>(y * 96 + x)));
+        if (x % 2 != 0 || y % 2 != 0 || std::max(dx, dy) <= 13) continue;
+        const auto at = static_cast<std::size_t>(y / 2 * 48 + x / 2);
+        CHECK(same("RY", at));
+        CHECK(same("BY", at));
+        ++kept;
+      }
+    }
+    CHECK(kept > 600);
+  }
+}
+
+TEST_CASE("a light on black luminance and chroma has its colour") {
+  const ScratchFolder folder;
+  std::vector<Imf::Rgba> pixels(96 * 64, Imf::Rgba(0, 0, 0, 1));
+  {
+    Imf::RgbaOutputFile out((folder / "yc.exr").c_str(), 96, 64, Imf::WRITE_YC);
+    out.setFrameBuffer(pixels.data(), 1, 96);
+    out.writePixels(64);
+  }
+  Picture picture = must_read(folder / "yc.exr");
+  add_ghost(picture);
+  picture.rgb.at(80, 10, 0) = std::numeric_limits<float>::infinity();
+  must_write(folder / "out.exr", picture);
+  const Image got = rgb_by_openexr(folder / "out.exr");
+  CHECK(got.at(40, 24, 0) == doctest::Approx(0.8).epsilon(0.01));
+  CHECK(got.at(40, 24, 1) == doctest::Approx(0.4).epsilon(0.01));
+  CHECK(got.at(40, 24, 2) == doctest::Approx(0.1).epsilon(0.05));
+  CHECK(got.at(5, 60, 0) == 0);
+}
+
+TEST_CASE("luminance and chroma in a layer and in one of several parts") {
+  const ScratchFolder folder;
+  write_luminance_chroma(folder / "yc.exr", 96, 64);
+  Picture layer = must_read(folder / "yc.exr");
+  for (PictureChannel& c : layer.channels) c.name = "key." + c.name;
+  must_write(folder / "layer.exr", layer);
+  CHECK(must_read(folder / "layer.exr", {"key", {}}).rgb.pixels == layer.rgb.pixels);
+
+  Imf::InputFile in((folder / "yc.exr").c_str());
+  Imf::Header first = in.header(), second = in.header();
+  first.setName("depth");
+  first.setType(Imf::SCANLINEIMAGE);
+  first.channels() = Imf::ChannelList();
+  first.channels().insert("Z", Imf::Channel(Imf::FLOAT));
+  second.setName("beauty");
+  second.setType(Imf::SCANLINEIMAGE);
+  const Imf::Header headers[] = {first, second};
+  {
+    Imf::MultiPartOutputFile out((folder / "parts.exr").c_str(), headers, 2);
+    std::vector<float> z(96 * 64, 3.0F);
+    Imf::FrameBuffer frame_buffer;
+    frame_buffer.insert("Z", Imf::Slice::Make(Imf::FLOAT, z.data(), first.dataWindow()));
+    Imf::OutputPart depth(out, 0), beauty(out, 1);
+    depth.setFrameBuffer(frame_buffer);
+    depth.writePixels(64);
+    beauty.copyPixels(in);
+  }
+  Picture part = must_read(folder / "parts.exr");
+  CHECK(part.rgb.pixels == layer.rgb.pixels);
+  add_ghost(part);
+  must_write(folder / "out.exr", part);
+  const auto comparison = compare(part.rgb, must_read(folder / "out.exr", {"", {}, "beauty"}).rgb);
+  REQUIRE(comparison.has_value());
+  CHECK(comparison->psnr_db.value_or(200) > 50);
 }
 
 TEST_CASE("new images, colour space and text") {
@@ -358,7 +513,7 @@ TEST_CASE("parts and layers by name, files without colour, damaged ones") {
   CHECK_FALSE(read_picture(folder / "in.exr", {"depth", {}}).has_value());
   const auto rim = read_picture(folder / "in.exr", {"rim", {}});
   REQUIRE_FALSE(rim.has_value());
-  CHECK(rim.error().message.find("depth, beauty, deep") != std::string::npos);
+  CHECK(rim.error().message.find("0 depth (no colour), 1 beauty (layers diffuse), 2 deep (deep)") != std::string::npos);
   CHECK(rim.error().place.file == (folder / "in.exr").string());
 
   const std::vector<std::byte> whole = bytes_of(folder / "in.exr");
@@ -373,6 +528,67 @@ TEST_CASE("parts and layers by name, files without colour, damaged ones") {
     const auto read = read_picture(damaged, "damaged");
     if (read) static_cast<void>(write_picture(folder / "damaged.exr", *read));
   }
+}
+
+namespace {
+
+// Two parts, each with colours and a layer of the same names.
+void write_two_parts(const std::filesystem::path& file) {
+  const std::vector<Given> channels = {{"R", Imf::HALF},     {"G", Imf::HALF},     {"B", Imf::HALF},
+                                       {"key.R", Imf::HALF}, {"key.G", Imf::HALF}, {"key.B", Imf::HALF}};
+  std::vector<Imf::Header> headers;
+  std::vector<GivenFile> given;
+  for (const char* name : {"left", "0"}) {
+    Imf::Header header = windowed_header(Imf::ZIP_COMPRESSION);
+    header.setName(name);
+    header.setType(Imf::SCANLINEIMAGE);
+    given.emplace_back(header, channels);
+    headers.push_back(given.back().header());
+  }
+  Imf::MultiPartOutputFile out(file.c_str(), headers.data(), 2);
+  for (int part = 0; part < 2; ++part) given[static_cast<std::size_t>(part)].write_part(out, part);
+}
+
+std::string error_of(const std::filesystem::path& file, const ReadOptions& options) {
+  const auto picture = read_picture(file, options);
+  REQUIRE_FALSE(picture.has_value());
+  CHECK(picture.error().code == ErrorCode::Unsupported);
+  CHECK(picture.error().place.file == file.string());
+  return picture.error().message;
+}
+
+}  // namespace
+
+TEST_CASE("one of several parts by name or number, and its layers; the rest comes back bit for bit") {
+  const ScratchFolder folder;
+  write_two_parts(folder / "in.exr");
+  const auto name_of = [](const Picture& picture) { return text_attribute(picture, "name"); };
+  CHECK(name_of(must_read(folder / "in.exr")) == "left");
+  CHECK(name_of(must_read(folder / "in.exr", {"", {}, "left"})) == "left");
+  CHECK(name_of(must_read(folder / "in.exr", {"", {}, "1"})) == "0");
+  CHECK(name_of(must_read(folder / "in.exr", {"", {}, "0"})) == "0");  // a name comes before a number
+  CHECK(error_of(folder / "in.exr", {"", {}, "2"}) ==
+        "no part '2'; the file's parts are 0 left (layers key), 1 0 (layers key)");
+  CHECK(error_of(folder / "in.exr", {"rim", {}, "1"}).find("no layer 'rim' in part '1'") == 0);
+
+  Picture picture = must_read(folder / "in.exr", {"key", {}, "1"});
+  CHECK(channel(picture, "key.R").name == picture.channels[static_cast<std::size_t>(picture.rgb_source[0])].name);
+  picture.rgb.at(3, 2, 0) = 7.5F;
+  must_write(folder / "out.exr", picture);
+  const ReadOptions left{"", {}, "left"}, right{"", {}, "1"};
+  check_same_channels(must_read(folder / "in.exr", left), must_read(folder / "out.exr", left));
+  const Picture before = must_read(folder / "in.exr", right), after = must_read(folder / "out.exr", right);
+  for (const char* same : {"R", "G", "B", "key.G", "key.B"})
+    CHECK(channel(before, same).samples == channel(after, same).samples);
+  CHECK(channel(before, "key.R").samples != channel(after, "key.R").samples);
+
+  GivenFile(windowed_header(Imf::ZIP_COMPRESSION), kMixed).write(folder / "single.exr");
+  CHECK(must_read(folder / "single.exr", {"", {}, "0"}).rgb_source[0] >= 0);
+  CHECK(error_of(folder / "single.exr", {"", {}, "left"}) == "no part 'left'; the file has one part, 0");
+  CHECK(error_of(folder / "single.exr", {"rim", {}}) ==
+        "no colour in layer 'rim'; the picture's layers with colour are diffuse");
+  must_write(folder / "flat.png", picture_of(Image(4, 4)));
+  CHECK(error_of(folder / "flat.png", {"key", {}}).find("neither layers nor parts") != std::string::npos);
 }
 
 TEST_CASE("a picture of one channel is grey, whatever its name") {

@@ -57,11 +57,13 @@ TEST_CASE("what cannot be written is an error") {
   fs::create_directories(folder);
   const fs::path exr = folder / "a.exr", png = folder / "a.png";
   Picture broken = picture_of(Image(4, 4));
-  std::vector<Picture> pictures = {Picture{}, broken, broken, broken, broken, picture_of(Image{})};
+  std::vector<Picture> pictures = {Picture{}, broken, broken, broken, broken, picture_of(Image{}), broken, broken};
   pictures[1].rgb_source = {0, 1, 99};
   pictures[2].rgb_source = {-1, -1, -1};
   pictures[3].channels[1].samples.resize(3);
   pictures[4].data_window = {0, 0, 1 << 30, 1 << 30};
+  pictures[6].chroma_source = {1, 99};
+  pictures[7].chroma_source = {1, 2};
   Image lying;
   lying.width = lying.height = 100;
   pictures.push_back(picture_of(lying));

@@ -1,0 +1,39 @@
+// Which channels of which part of an OpenEXR file are its colours: docs/formats/images.md.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+
+#include <ImfMultiPartInputFile.h>
+
+#include "contrejour/image_io.h"
+
+namespace contrejour {
+
+// Indices of the channels behind r, g and b, and of those that hold chroma (then all of rgb are the luminance).
+struct ColourChannels {
+  std::array<int, 3> rgb{-1, -1, -1};
+  std::array<int, 2> chroma{-1, -1};
+};
+
+// Of the layer, or without one of what ReadOptions says.
+[[nodiscard]] std::optional<ColourChannels> colour_channels(const Picture& picture, const std::string& layer);
+
+// Of a picture without that colour; names its layers and channels.
+[[nodiscard]] tl::unexpected<Error> no_colour(const Picture& picture, const std::string& layer,
+                                              const std::string& name);
+
+struct ChosenPart {
+  int part = 0;
+  std::string layer;  // of that part
+};
+
+// Errors: Unsupported (no such part or layer, with those that there are; a deep part).
+[[nodiscard]] Result<ChosenPart> choose_part(const Imf::MultiPartInputFile& file, const std::string& name,
+                                             const ReadOptions& options);
+// The same for a file of one part, which is number 0 and may have a name.
+[[nodiscard]] Result<void> check_only_part(const Imf::Header& header, const std::string& name,
+                                           const ReadOptions& options);
+
+}  // namespace contrejour
