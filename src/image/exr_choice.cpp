@@ -103,16 +103,11 @@ bool is_deep(const Imf::Header& header) { return header.hasType() && Imf::isDeep
 
 std::string part_name(const Imf::Header& header) { return header.hasName() ? header.name() : std::string(); }
 
-// By its name, else by its number from 0.
-bool is_part(const Imf::Header& header, int number, const std::string& wanted) {
-  return part_name(header) == wanted || std::to_string(number) == wanted;
-}
-
 // "0 depth, 1 beauty (layers key, fill)", of every part.
-std::string list_of_parts(const Imf::MultiPartInputFile& file) {
-  std::vector<std::string> parts;
-  for (int part = 0; part < file.parts(); ++part) {
-    const Imf::Header& header = file.header(part);
+std::string list_of_parts(std::span<const Imf::Header* const> parts) {
+  std::vector<std::string> texts;
+  for (std::size_t part = 0; part < parts.size(); ++part) {
+    const Imf::Header& header = *parts[part];
     const Picture channels = names_of(header);
     std::string text = fmt::format("{} {}", part, part_name(header));
     if (is_deep(header)) {
@@ -122,17 +117,17 @@ std::string list_of_parts(const Imf::MultiPartInputFile& file) {
     } else if (const std::string layers = list_of(layers_of(channels)); !layers.empty()) {
       text += " (layers " + layers + ")";
     }
-    parts.push_back(text);
+    texts.push_back(text);
   }
-  return list_of(parts);
+  return list_of(texts);
 }
 
-// The part that is asked for by name or number: one that has both is meant by its name.
-std::optional<int> wanted_part(const Imf::MultiPartInputFile& file, const std::string& wanted) {
-  for (int part = 0; part < file.parts(); ++part)
-    if (part_name(file.header(part)) == wanted) return part;
-  for (int part = 0; part < file.parts(); ++part)
-    if (is_part(file.header(part), part, wanted)) return part;
+// By its name, else by its number from 0.
+std::optional<std::size_t> wanted_part(std::span<const Imf::Header* const> parts, const std::string& wanted) {
+  for (std::size_t part = 0; part < parts.size(); ++part)
+    if (part_name(*parts[part]) == wanted) return part;
+  for (std::size_t part = 0; part < parts.size(); ++part)
+    if (std::to_string(part) == wanted) return part;
   return std::nullopt;
 }
 
@@ -166,35 +161,37 @@ tl::unexpected<Error> no_colour(const Picture& picture, const std::string& layer
       {name});
 }
 
-Result<ChosenPart> choose_part(const Imf::MultiPartInputFile& file, const std::string& name,
+Result<ChosenPart> choose_part(std::span<const Imf::Header* const> parts, const std::string& name,
                                const ReadOptions& options) {
   const auto wrong = [&](const std::string& what) {
-    return failure(ErrorCode::Unsupported, fmt::format("{}; the file's parts are {}", what, list_of_parts(file)),
+    return failure(ErrorCode::Unsupported, fmt::format("{}; the file's parts are {}", what, list_of_parts(parts)),
                    {name});
   };
   const std::string& layer = options.layer;
-  int first = 0, end = file.parts();
+  std::size_t first = 0, end = parts.size();
   if (!options.part.empty()) {
-    const auto part = wanted_part(file, options.part);
+    const auto part = wanted_part(parts, options.part);
     if (!part) return wrong(fmt::format("no part '{}'", options.part));
-    if (is_deep(file.header(*part))) return wrong(fmt::format("part '{}' is deep", options.part));
+    if (is_deep(*parts[*part])) return wrong(fmt::format("part '{}' is deep", options.part));
     first = *part;
     end = first + 1;
   }
-  for (int part = first; part < end; ++part) {
-    const Imf::Header& header = file.header(part);
+  for (std::size_t part = first; part < end; ++part) {
+    const Imf::Header& header = *parts[part];
     if (is_deep(header)) continue;
     const Picture channels = names_of(header);
-    if (colour_channels(channels, layer)) return ChosenPart{part, layer};
+    if (colour_channels(channels, layer)) return ChosenPart{static_cast<int>(part), layer};
     // A part may be what others call a layer.
-    if (!layer.empty() && part_name(header) == layer && colour_channels(channels, "")) return ChosenPart{part, ""};
+    if (!layer.empty() && part_name(header) == layer && colour_channels(channels, ""))
+      return ChosenPart{static_cast<int>(part), ""};
   }
   const std::string where = options.part.empty() ? "any flat part" : "part '" + options.part + "'";
   return wrong(layer.empty() ? "no colour in " + where : fmt::format("no layer '{}' in {}", layer, where));
 }
 
 Result<void> check_only_part(const Imf::Header& header, const std::string& name, const ReadOptions& options) {
-  if (options.part.empty() || is_part(header, 0, options.part)) return {};
+  const Imf::Header* const only[] = {&header};
+  if (options.part.empty() || wanted_part(only, options.part)) return {};
   return failure(ErrorCode::Unsupported,
                  fmt::format("no part '{}'; the file has one part, {}", options.part,
                              header.hasName() ? "0 " + header.name() : "0"),

@@ -3,9 +3,10 @@
 
 #include <array>
 #include <optional>
+#include <span>
 #include <string>
 
-#include <ImfMultiPartInputFile.h>
+#include <ImfHeader.h>
 
 #include "contrejour/image_io.h"
 
@@ -30,7 +31,7 @@ struct ChosenPart {
 };
 
 // Errors: Unsupported (no such part or layer, with those that there are; a deep part).
-[[nodiscard]] Result<ChosenPart> choose_part(const Imf::MultiPartInputFile& file, const std::string& name,
+[[nodiscard]] Result<ChosenPart> choose_part(std::span<const Imf::Header* const> parts, const std::string& name,
                                              const ReadOptions& options);
 // The same for a file of one part, which is number 0 and may have a name.
 [[nodiscard]] Result<void> check_only_part(const Imf::Header& header, const std::string& name,

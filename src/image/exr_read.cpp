@@ -1,5 +1,6 @@
 // OpenEXR -> Picture: docs/formats/images.md.
 #include <new>
+#include <vector>
 
 #include <ImfChannelList.h>
 #include <ImfFrameBuffer.h>
@@ -122,7 +123,9 @@ Result<Picture> read_part(std::span<const std::byte> bytes, const std::string& n
                           const ReadOptions& options) {
   MemoryInput stream(bytes, name);
   Imf::MultiPartInputFile file(stream);
-  const auto chosen = choose_part(file, name, options);
+  std::vector<const Imf::Header*> headers;
+  for (int part = 0; part < file.parts(); ++part) headers.push_back(&file.header(part));
+  const auto chosen = choose_part(headers, name, options);
   if (!chosen) return tl::unexpected(chosen.error());
   const Imf::Header& header = file.header(chosen->part);
   if (const auto fits = check_exr_size(header, header_size, bytes.size(), options.limits, name); !fits)

@@ -75,11 +75,10 @@ class FilteredChroma {
  public:
   FilteredChroma(const std::vector<Imf::Rgba>& chroma, int width, int height)
       : width_(width), height_(height), rows_(chroma.size()) {
-    std::vector<Imf::Rgba> padded(static_cast<std::size_t>(width + 2 * kReach));
+    std::vector<Imf::Rgba> padded(static_cast<std::size_t>(width) + 2 * std::size_t{kReach});
     for (int y = 0; y < height; ++y) {
       const Imf::Rgba* const row = chroma.data() + at(y);
-      for (int x = -kReach; x < width + kReach; ++x)
-        padded[static_cast<std::size_t>(x + kReach)] = row[std::clamp(x, 0, width - 1)];
+      for (int x = -kReach; x < width + kReach; ++x) padded.data()[x + kReach] = row[std::clamp(x, 0, width - 1)];
       Imf::RgbaYca::decimateChromaHoriz(width, padded.data(), rows_.data() + at(y));
     }
   }
@@ -184,7 +183,8 @@ std::array<std::vector<std::byte>, 3> luminance_chroma_to_write(const Picture& p
   for (int y = 0; y < height; y += 2) {
     filtered.row(y, row);
     for (int x = 0; x < width; x += 2) {
-      const auto at = static_cast<std::size_t>(y / 2 * (width / 2) + x / 2);
+      const std::size_t at =
+          static_cast<std::size_t>(y / 2) * static_cast<std::size_t>(width / 2) + static_cast<std::size_t>(x / 2);
       add_to_sample(*red, red_read, at, row[static_cast<std::size_t>(x)].r, samples[1]);
       add_to_sample(*blue, blue_read, at, row[static_cast<std::size_t>(x)].b, samples[2]);
     }
