@@ -1,6 +1,7 @@
 // Every renderer sees the same dirt: shadows in ghosts, on the stop and on the front.
 #include <array>
 #include <cmath>
+#include <complex>
 #include <numbers>
 #include <vector>
 
@@ -156,6 +157,53 @@ TEST_CASE("ringing and dirt together, and dirt before a near light, as the refer
   ringing.frame.ringing.mode = RingingMode::Fresnel;
   check(ringing, 44.0);  // fringes as pixels' means leave some 45 in so small a frame
   check(heliar_scene(some_dirt(DirtPlane::Front), 300.0), 49.5);  // 49.9 to 50.5, by the order cells are drawn in
+}
+
+// No renderer's own code: the wave behind slits, by quadrature (Born & Wolf 8.7.3). F = a^2 / (550 nm * 12 mm).
+TEST_CASE("with ringing, scratches have the fringes of slits") {
+  LensState lens = plate();
+  lens.dirt = {.scratches_per_cm2 = 1.5,
+               .scratch_length_mm = Dirt::kLongest_mm,
+               .scratch_width_mm = 0.1,
+               .scratch_spread_rad = 0.0,
+               .scratch_bend_rad = 0.0,
+               .plane = DirtPlane::Stop,
+               .seed = 3};
+  constexpr int kHigh = 160;
+  RenderSettings settings = green({8, kHigh, 396, 400 - kHigh / 2, 800, 800, 0.01});
+  const double unit_mm = std::sqrt(550e-6 * 12.0);
+  const auto edge = [&](double mm) {  // far inside 1
+    std::complex<double> sum(0.5, 0.0);
+    constexpr double kStep = 1e-3;
+    const double end = mm / unit_mm;
+    for (int k = 0; k < static_cast<int>(std::abs(end) / kStep); ++k)
+      sum += std::copysign(kStep, end) * std::polar(1.0, std::numbers::pi * (std::pow((k + 0.5) * kStep, 2.0) - 0.25));
+    return sum;
+  };
+  std::vector<DirtStroke> seen;  // by the frame and as far about it as fringes go
+  for (const DirtStroke& s : dirt_within(lens.dirt, {-3.0, -3.0}, {3.0, 3.0}))
+    if (std::abs(s.middle_mm.y) < 1.1 && std::abs(s.middle_mm.x) < 0.4 * s.length_mm) seen.push_back(s);
+  REQUIRE(seen.size() >= 2);
+  const double level = 0.04 * 0.04 * 1e-4 / (std::numbers::pi * kPlateRadius_mm * kPlateRadius_mm);
+  settings.error = 1e-3;
+  for_each_method([&](const Bounds& bounds) {
+    const Image sharp = image_of(bounds, lens, Light{}, settings);
+    RenderSettings ringing = settings;
+    ringing.ringing.mode = RingingMode::Fresnel;
+    const Image image = image_of(bounds, lens, Light{}, ringing);
+    double squares = 0.0, from_sharp = 0.0;
+    for (int row = 0; row < kHigh; ++row) {
+      const double y = settings.frame.sensor_from_pixel({4.5, row + 0.5}).y;
+      std::complex<double> wave = 1.0;
+      for (const DirtStroke& s : seen)
+        wave *= 1.0 - (edge(y - s.middle_mm.y + 0.5 * s.width_mm) - edge(y - s.middle_mm.y - 0.5 * s.width_mm));
+      squares += std::pow(image.at(4, row) / level - std::norm(wave), 2.0);
+      from_sharp += std::pow(image.at(4, row) - sharp.at(4, row), 2.0) / (level * level);
+    }
+    // One wavelength's fringes beyond the third are left out.
+    CHECK(std::sqrt(squares / kHigh) < 0.09);
+    CHECK(std::sqrt(from_sharp / kHigh) > 0.15);
+  });
 }
 
 // No renderer's own code: rays through the front, counted in pixels.

@@ -195,7 +195,8 @@ Result<DrawnFlare> render_adaptive(const LensState& lens, const FramePlan& plan,
   if (screens.on() && !dark) work.add(screen_items(scene, screens, items, rough.sizes, allowed, quiet));
   if (context.cancelled()) return interrupted();
   if (!dark) mark_faint_items(items, rough.sizes, allowed);
-  if (scene.plan.dirt && !dark) shadow_items(scene, items, rough.sizes, allowed);
+  if (scene.plan.dirt && !dark) shadow_items(scene, screens, items, rough.sizes, allowed, quiet);
+  if (context.cancelled()) return interrupted();
   const double peak_ms = watch.lap_ms();
   FramePainter painter(scene, settings, rooms, drawer, context, flare);
   painter.paint(items, rough.sizes, budget_per_item(allowed, rough.sizes));

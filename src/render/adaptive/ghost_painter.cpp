@@ -34,20 +34,25 @@ std::vector<double> wavelengths_of(std::span<const PlannedPass> passes) {
 }  // namespace
 
 GhostPainter::GhostPainter(GhostTracers& tracers, const IrisShape& iris, const Frame& frame, int deepest,
-                           BoxCells& room, const GhostScreens* screens, const DirtField* dirt)
+                           BoxCells& room, const GhostScreens* screens,
+                           std::span<const std::shared_ptr<const DirtScreen>> dirt)
     : tracers_(tracers), samples_(wavelengths_of(tracers.passes()), kMostSamples), iris_(iris), frame_(frame),
       deepest_(deepest), screens_(screens), dirt_(dirt), room_(room) {}
 
-// The screens of a band's wavelengths, at most three, each with the light of those nearest.
-std::shared_ptr<const screens::BandScreen> GhostPainter::band_screen(const FirstRays& rays, const Band& of) const {
-  const std::size_t passes = of.last - of.first, count = std::min<std::size_t>(passes, 3);
-  auto band = std::make_shared<screens::BandScreen>();
+// A band's wavelengths in three parts at the most: each one's middle pass, and its share of each channel's light.
+struct GhostPainter::BandPart {
+  std::size_t middle = 0;
+  std::array<float, 3> channel{};
+};
+
+std::vector<GhostPainter::BandPart> GhostPainter::parts_of(const FirstRays& rays, const Band& band) const {
+  const std::size_t passes = band.last - band.first, count = std::min<std::size_t>(passes, 3);
+  std::vector<BandPart> parts(count);
   std::array<double, 3> sum{}, size{};
   std::vector<std::array<double, 3>> light(count);
   for (std::size_t part = 0; part < count; ++part) {
-    const std::size_t from = of.first + part * passes / count, to = of.first + (part + 1) * passes / count;
-    band->parts.push_back({screens_->by_pass[(from + to) / 2].screen, {}});
-    band->hull.hold(screens_->by_pass[(from + to) / 2].hull);
+    const std::size_t from = band.first + part * passes / count, to = band.first + (part + 1) * passes / count;
+    parts[part].middle = (from + to) / 2;
     for (std::size_t k = from; k < to; ++k) {
       const auto of_pass = light_of(rays, tracers_.passes(), k);
       for (std::size_t c = 0; c < 3; ++c) light[part][c] += of_pass[c];
@@ -56,8 +61,34 @@ std::shared_ptr<const screens::BandScreen> GhostPainter::band_screen(const First
   }
   for (std::size_t part = 0; part < count; ++part)
     for (std::size_t c = 0; c < 3; ++c)
-      band->parts[part].channel[c] = static_cast<float>(
+      parts[part].channel[c] = static_cast<float>(
           std::abs(sum[c]) > kLightLeft * size[c] ? light[part][c] / sum[c] : 1.0 / static_cast<double>(count));
+  return parts;
+}
+
+std::shared_ptr<const screens::BandDirt> GhostPainter::band_dirt(const FirstRays& rays, const Band& of) const {
+  auto band = std::make_shared<screens::BandDirt>();
+  if (dirt_.size() == 1) {
+    band->parts.push_back({dirt_.front().get()});
+    return band;
+  }
+  for (const BandPart& part : parts_of(rays, of)) {
+    const DirtScreen* const screen = dirt_[part.middle].get();
+    if (band->parts.empty() || band->parts.back().screen != screen) {
+      band->parts.push_back({screen, part.channel});
+    } else {
+      for (std::size_t c = 0; c < 3; ++c) band->parts.back().channel[c] += part.channel[c];
+    }
+  }
+  return band;
+}
+
+std::shared_ptr<const screens::BandScreen> GhostPainter::band_screen(const FirstRays& rays, const Band& of) const {
+  auto band = std::make_shared<screens::BandScreen>();
+  for (const BandPart& part : parts_of(rays, of)) {
+    band->parts.push_back({screens_->by_pass[part.middle].screen, part.channel});
+    band->hull.hold(screens_->by_pass[part.middle].hull);
+  }
   bool all_edges = true;
   std::vector<const screens::PatternTexture*> textures;
   for (const auto& part : band->parts) {
@@ -90,7 +121,7 @@ void GhostPainter::paint(const Rectangle& box, bool with_mirror_image, const Err
 // in the straight one.
 std::optional<BentBox> GhostPainter::bent_about(const FirstRays& rays, const Rectangle& box) {
   const bool fail = std::ranges::any_of(rays.sheets, [](const RaySheet& sheet) { return sheet.failed > 0; });
-  if (!fail || deepest_ < kWorthBending || dirt_ != nullptr || !tracers_.light().symmetric || box.low.y != -box.high.y)
+  if (!fail || deepest_ < kWorthBending || !dirt_.empty() || !tracers_.light().symmetric || box.low.y != -box.high.y)
     return std::nullopt;
   std::vector<ClearanceGrid> grids{tracers_.clearance(0)};
   if (tracers_.passes().size() > 1) grids.push_back(tracers_.clearance(tracers_.passes().size() - 1));
@@ -102,36 +133,42 @@ std::optional<BentBox> GhostPainter::bent_about(const FirstRays& rays, const Rec
 void GhostPainter::paint(const FirstRays& rays, bool with_mirror_image, const ErrorBudget& budget, PolygonList& out) {
   const std::vector<Band> bands = bands_for(rays, tracers_.passes(), samples_, frame_.pixel_pitch_mm);
   BandScreens screens;
-  for (const Band& band : bands) screens.push_back(screens_ != nullptr ? band_screen(rays, band) : nullptr);
+  std::vector<std::shared_ptr<const screens::BandDirt>> dirt;
+  for (const Band& band : bands) {
+    screens.push_back(screens_ != nullptr ? band_screen(rays, band) : nullptr);
+    dirt.push_back(!dirt_.empty() ? band_dirt(rays, band) : nullptr);
+  }
   PatchFitter fitter(tracers_, frame_, deepest_, screens_ != nullptr ? screens_->unseen : 0.0);
   const auto each = std::max(static_cast<double>(bands.size()), kFewBands);
   const auto paint_all = [&](const BandSet& set, std::span<const std::shared_ptr<const screens::BandScreen>> of_set,
+                             std::span<const std::shared_ptr<const screens::BandDirt>> dirt_of_set,
                              const std::vector<FittedPart>& parts) {
     if (parts.empty()) return;
     CellPainter cells(iris_, frame_, {budget.squared_error / each, budget.peak}, kFewCells, room_, out);
     cells.sides_bend(tracers_.is_bent());
-    cells.stand_behind(SeenDirt{dirt_, &tracers_.light(), tracers_.plane_z_mm()});
     for (std::size_t band = 0; band < set.size(); ++band) {
+      cells.stand_behind(SeenDirt{dirt_of_set[band], &tracers_.light(), tracers_.plane_z_mm()});
       if (of_set[band]) cells.stand_behind(of_set[band], tracers_.stop_times());
       paint_band(set, band, parts, cells);
     }
   };
-  const auto fit_and_paint = [&](BandSet& set, std::span<const RaySheet> first, const BandScreens& of_set) {
+  const auto fit_and_paint = [&](BandSet& set, std::span<const RaySheet> first, const BandScreens& of_set,
+                                 std::span<const std::shared_ptr<const screens::BandDirt>> dirt_of_set) {
     const FittedBox fitted = fitter.fit(set, first, rays.tolerance, of_set, with_mirror_image);
-    paint_all(set, of_set, fitted.parts);
-    paint_all(set, of_set, fitted.mirror_image);
+    paint_all(set, of_set, dirt_of_set, fitted.parts);
+    paint_all(set, of_set, dirt_of_set, fitted.mirror_image);
   };
   if (rays.samples > 0) {
     BandSet all(tracers_, samples_, rays, bands);
     std::vector<RaySheet> sheets;
     for (std::size_t k = 0; k < rays.samples; ++k) sheets.push_back(rays.sheets[samples_[k]]);
     all.add_weights(sheets, PacketPrecision::Double);
-    return fit_and_paint(all, sheets, screens);
+    return fit_and_paint(all, sheets, screens, dirt);
   }
   for (std::size_t k = 0; k < bands.size(); ++k) {
     BandSet one(tracers_, bands[k]);
     const RaySheet sheet = band_sheet(rays, bands[k], tracers_.passes());
-    fit_and_paint(one, {&sheet, 1}, {screens[k]});
+    fit_and_paint(one, {&sheet, 1}, {screens[k]}, std::span(dirt).subspan(k, 1));
   }
 }
 

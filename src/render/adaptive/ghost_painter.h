@@ -25,17 +25,20 @@ class GhostPainter {
  public:
   // deepest: how often a box may be quartered before straight lines between rays must do.
   // room: for cells, used again afterwards. screens: may be null; with them the iris is a circle. dirt: whose shadows
-  // are drawn; may be null.
+  // are drawn, one a pass or one for all; none where the lens is clean.
   GhostPainter(GhostTracers& tracers, const IrisShape& iris, const Frame& frame, int deepest, BoxCells& room,
-               const GhostScreens* screens = nullptr, const DirtField* dirt = nullptr);
+               const GhostScreens* screens = nullptr, std::span<const std::shared_ptr<const DirtScreen>> dirt = {});
 
   // box: in the light's meridional frame. with_mirror_image: that of the box is painted, too.
   void paint(const Rectangle& box, bool with_mirror_image, const ErrorBudget& budget, PolygonList& out);
 
  private:
+  struct BandPart;
+  [[nodiscard]] std::vector<BandPart> parts_of(const FirstRays& rays, const Band& band) const;
   [[nodiscard]] std::optional<BentBox> bent_about(const FirstRays& rays, const Rectangle& box);
   void paint(const FirstRays& rays, bool with_mirror_image, const ErrorBudget& budget, PolygonList& out);
   [[nodiscard]] std::shared_ptr<const screens::BandScreen> band_screen(const FirstRays& rays, const Band& band) const;
+  [[nodiscard]] std::shared_ptr<const screens::BandDirt> band_dirt(const FirstRays& rays, const Band& band) const;
   static void paint_band(const BandSet& set, std::size_t band, std::span<const FittedPart> parts, CellPainter& cells);
 
   GhostTracers& tracers_;
@@ -44,7 +47,7 @@ class GhostPainter {
   const Frame& frame_;
   int deepest_;
   const GhostScreens* screens_;
-  const DirtField* dirt_;
+  std::span<const std::shared_ptr<const DirtScreen>> dirt_;
   BoxCells& room_;
 };
 

@@ -63,9 +63,11 @@ const IrisShape& round_iris() {
 // Those of an item's light.
 std::vector<PlannedPass> passes_of(const Item& item) {
   std::vector<PlannedPass> passes = item.light->passes;
-  for (PlannedPass& pass : passes) {
-    pass.gain = item.look->tinted(pass.gain);
-    for (double& gain : pass.gain) gain *= item.has_shadows ? 1.0 : item.past_dirt;
+  for (std::size_t k = 0; k < passes.size(); ++k) {
+    passes[k].gain = item.look->tinted(passes[k].gain);
+    const auto& shadows = item.shadows;
+    const double past_dirt = shadows.empty() ? item.past_dirt : shadows[std::min(k, shadows.size() - 1)]->level();
+    for (double& gain : passes[k].gain) gain *= past_dirt;
   }
   return passes;
 }
@@ -98,7 +100,7 @@ Painted paint(const Scene& scene, const Item& item, Care care, const Frame& whol
   GhostTracers tracers(scene.steps, item.ghost, light, item.window.z_mm, passes, stop_times(item));
   const auto room = rooms.lend();
   GhostPainter painter(tracers, iris, frame, care == Care::Much ? kDeepest : kPeakDeepest, *room, item.screens.get(),
-                       item.has_shadows ? scene.plan.dirt.get() : nullptr);
+                       item.shadows);
   for (const Rectangle& box : item.boxes) {
     const bool aside = light.symmetric && box.low.y != -box.high.y;
     const bool has_image = aside && std::ranges::count(item.boxes, mirrored(box)) > 0;

@@ -31,8 +31,9 @@ struct Item {
   EntranceWindow window;  // of the light
   std::vector<Rectangle> boxes;  // in the light's meridional frame; none: nothing gets through
   std::shared_ptr<const GhostScreens> screens = nullptr;  // null: the iris is sharp
-  bool has_shadows = false;  // of dirt; without them
-  double past_dirt = 1.0;    // all of it is dimmed to this share
+  // What dirt lets through: one a pass, or one for all; none: no shadows, and
+  std::vector<std::shared_ptr<const DirtScreen>> shadows = {};
+  double past_dirt = 1.0;  // all of it is dimmed to this share
   bool is_faint = false;     // drawn with little care
 };
 

@@ -46,25 +46,6 @@ Rim rim_of(const ItemSize& size, double peak, double fresnel_number) {
 // What an item's fringes differ from its sharp rim, squared, over its pixels.
 double fringe_error(const Rim& rim) { return kEdgeError * rim.weight; }
 
-// Gives for each pass the pass whose screen it uses: where there are many, neighbours share the screen of their middle
-// one, with the spread of all their wavelengths.
-std::vector<PlannedPass> screened_passes(std::span<const PlannedPass> passes) {
-  std::vector<PlannedPass> out(passes.begin(), passes.end());
-  const std::size_t groups = std::min(passes.size(), kMostScreens);
-  for (std::size_t g = 0; g < groups; ++g) {
-    const std::size_t first = g * passes.size() / groups, last = (g + 1) * passes.size() / groups;
-    if (last - first == 1) continue;
-    PlannedPass middle = passes[(first + last) / 2];
-    double squares = 0.0;
-    for (const PlannedPass& pass : passes.subspan(first, last - first))
-      squares += std::pow(pass.lambda_nm - middle.lambda_nm, 2.0) + pass.spread_nm * pass.spread_nm;
-    middle.spread_nm = std::sqrt(squares / static_cast<double>(last - first));
-    std::fill(out.begin() + static_cast<std::ptrdiff_t>(first), out.begin() + static_cast<std::ptrdiff_t>(last),
-              middle);
-  }
-  return out;
-}
-
 // Screens of all passes; one whose fringes are not seen takes the next one's, a little wider. Null: none is seen.
 std::shared_ptr<GhostScreens> screens_of(const Screens& screens, const Item& item) {
   auto all = std::make_shared<GhostScreens>();
@@ -166,6 +147,23 @@ void set_range(const Drawn& item, double dimmest) {
 }
 
 }  // namespace
+
+std::vector<PlannedPass> screened_passes(std::span<const PlannedPass> passes) {
+  std::vector<PlannedPass> out(passes.begin(), passes.end());
+  const std::size_t groups = std::min(passes.size(), kMostScreens);
+  for (std::size_t g = 0; g < groups; ++g) {
+    const std::size_t first = g * passes.size() / groups, last = (g + 1) * passes.size() / groups;
+    if (last - first == 1) continue;
+    PlannedPass middle = passes[(first + last) / 2];
+    double squares = 0.0;
+    for (const PlannedPass& pass : passes.subspan(first, last - first))
+      squares += std::pow(pass.lambda_nm - middle.lambda_nm, 2.0) + pass.spread_nm * pass.spread_nm;
+    middle.spread_nm = std::sqrt(squares / static_cast<double>(last - first));
+    std::fill(out.begin() + static_cast<std::ptrdiff_t>(first), out.begin() + static_cast<std::ptrdiff_t>(last),
+              middle);
+  }
+  return out;
+}
 
 Work screen_items(const Scene& scene, Screens& screens, std::vector<Item>& items, const std::vector<ItemSize>& sizes,
                   const FrameError& allowed, const Context& context) {

@@ -6,10 +6,13 @@
 #include <numbers>
 #include <numeric>
 
+#include "render/adaptive/screened_items.h"
+
 namespace contrejour::adaptive {
 namespace {
 
 constexpr double kUnshadowedShare = 0.15;  // of the frame's squared error, that ghosts without shadows may make
+constexpr double kBlurOfUnit = 0.5;  // shapes narrower than this of a fringe's width are blurred, at least
 constexpr double kRoom = 0.07;  // of an item's boxes, beside its light (item.cpp)
 
 // In the plane of the dirt: about the box that the item's light crosses, mm.
@@ -17,11 +20,11 @@ Rectangle crossed(const Scene& scene, const Item& item) {
   const double r = scene.plan.dirt->stop_radius_mm();
   if (!scene.plan.dirt->on_front()) return {{-r, -r}, {r, r}};
   const LightFrame light(item.light->source, has_axial_symmetry(scene.lens, item.ghost));
-  const SeenDirt seen{scene.plan.dirt.get(), &light, item.window.z_mm};
-  Rectangle all{seen.front_place(item.boxes.front().low), seen.front_place(item.boxes.front().low)};
+  const auto seen = [&](Vec2 entrance) { return front_place(*scene.plan.dirt, light, item.window.z_mm, entrance); };
+  Rectangle all{seen(item.boxes.front().low), seen(item.boxes.front().low)};
   for (const Rectangle& box : item.boxes) {
     for (const Vec2 corner : {box.low, box.high, Vec2{box.low.x, box.high.y}, Vec2{box.high.x, box.low.y}}) {
-      const Vec2 p = seen.front_place(corner);
+      const Vec2 p = seen(corner);
       all.low = {std::min(all.low.x, p.x), std::min(all.low.y, p.y)};
       all.high = {std::max(all.high.x, p.x), std::max(all.high.y, p.y)};
     }
@@ -31,12 +34,28 @@ Rectangle crossed(const Scene& scene, const Item& item) {
 }
 
 // What an item without shadows differs from itself with them, squared, over its pixels.
-double shadow_error(const Scene& scene, const Item& item, const ItemSize& size, double peak) {
+double shadow_error(const Scene& scene, const Screens& screens, const Item& item, const ItemSize& size, double peak) {
   if (!(size.area_px > 0.0)) return std::numeric_limits<double>::infinity();  // a careless look did not find it
   const Rectangle box = crossed(scene, item);
   const double area_mm2 = 0.25 * std::numbers::pi * (box.high.x - box.low.x) * (box.high.y - box.low.y);
   const double seen = size.level * seen_share(size.level, peak);
-  return seen * seen * size.area_px * scene.plan.dirt->variance(std::sqrt(area_mm2 / size.area_px));
+  const PlannedPass& pass = item.light->passes[item.light->passes.size() / 2];
+  const Screens::Wanted wanted{item.ghost, pass.lambda_nm, pass.spread_nm, item.light->source};
+  const double blur_mm = kBlurOfUnit * screens.dirt_unit_mm(wanted, scene.plan.dirt->on_front());
+  return seen * seen * size.area_px * scene.plan.dirt->variance(std::max(std::sqrt(area_mm2 / size.area_px), blur_mm));
+}
+
+// One for all where they are sharp at every wavelength.
+std::vector<std::shared_ptr<const DirtScreen>> shadows_of(const Scene& scene, const Screens& screens,
+                                                          const Item& item) {
+  std::vector<std::shared_ptr<const DirtScreen>> shadows;
+  bool all_sharp = true;
+  for (const PlannedPass& pass : screened_passes(item.light->passes)) {
+    auto fringed = screens.dirt_of(item.ghost, pass.lambda_nm, item.light->source);
+    all_sharp = all_sharp && fringed == nullptr;
+    shadows.push_back(fringed ? std::move(fringed) : scene.plan.dirt);
+  }
+  return all_sharp ? std::vector<std::shared_ptr<const DirtScreen>>{scene.plan.dirt} : shadows;
 }
 
 }  // namespace
@@ -49,17 +68,22 @@ void dim_items(const Scene& scene, std::vector<Item>& items) {
   }
 }
 
-void shadow_items(const Scene& scene, std::vector<Item>& items, const std::vector<ItemSize>& sizes,
-                  const FrameError& allowed) {
+void shadow_items(const Scene& scene, Screens& screens, std::vector<Item>& items, const std::vector<ItemSize>& sizes,
+                  const FrameError& allowed, const Context& context) {
   std::vector<std::size_t> lit;
   std::vector<double> error(items.size());
   for (std::size_t k = 0; k < items.size(); ++k) {
     if (items[k].boxes.empty()) continue;
-    error[k] = shadow_error(scene, items[k], sizes[k], allowed.peak);
+    error[k] = shadow_error(scene, screens, items[k], sizes[k], allowed.peak);
     lit.push_back(k);
   }
-  for (const std::size_t k : worth_drawing(std::move(lit), error, kUnshadowedShare * allowed.squared()))
-    items[k].has_shadows = true;
+  const auto chosen = worth_drawing(std::move(lit), error, kUnshadowedShare * allowed.squared());
+  std::vector<Screens::Wanted> wanted;
+  for (const std::size_t k : chosen)
+    for (const PlannedPass& pass : screened_passes(items[k].light->passes))
+      wanted.push_back({items[k].ghost, pass.lambda_nm, pass.spread_nm, items[k].light->source});
+  if (!screens.prepare_dirt(wanted, scene.plan.dirt, context)) return;
+  for (const std::size_t k : chosen) items[k].shadows = shadows_of(scene, screens, items[k]);
 }
 
 }  // namespace contrejour::adaptive

@@ -4,6 +4,7 @@
 
 #include "render/adaptive/cells/frame_error.h"
 #include "render/adaptive/item.h"
+#include "render/screens/screens.h"
 
 namespace contrejour::adaptive {
 
@@ -11,8 +12,8 @@ namespace contrejour::adaptive {
 void dim_items(const Scene& scene, std::vector<Item>& items);
 
 // Gives shadows to all items but those in which leaving them out makes a small part of the error, all together. sizes:
-// of the items (draw_roughly).
-void shadow_items(const Scene& scene, std::vector<Item>& items, const std::vector<ItemSize>& sizes,
-                  const FrameError& allowed);
+// of the items (draw_roughly). Incomplete when cancelled.
+void shadow_items(const Scene& scene, Screens& screens, std::vector<Item>& items, const std::vector<ItemSize>& sizes,
+                  const FrameError& allowed, const Context& context);
 
 }  // namespace contrejour::adaptive

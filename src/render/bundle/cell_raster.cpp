@@ -222,7 +222,7 @@ bool CellRaster::is_dirty(const std::array<std::size_t, 4>& corners) const {
     const Vec2 middle = (p[0] + p[1] + p[2] + p[3]) * 0.25;
     double radius = 0.0;
     for (const Vec2 corner : p) radius = std::max(radius, length(corner - middle));
-    if (!screen_.dirt->is_clean(middle, kScreenDisc * radius)) return true;
+    if (!screen_.dirt->is_clean(middle, kScreenDisc * radius, c)) return true;
   }
   return false;
 }
@@ -233,7 +233,7 @@ double CellRaster::past_dirt(const Triangle& t, Vec2 uv, double pixels) const {
   for (std::size_t c = 0; c < dirt_crossings(); ++c) {
     const Vec2 origin = dirt_place(t[0], c), u = dirt_place(t[1], c) - origin, v = dirt_place(t[2], c) - origin;
     const double width = std::sqrt(0.5 * std::abs(cross(u, v)) / std::max(pixels, 1.0));
-    passed *= screen_.dirt->transmission({origin + u * uv.x + v * uv.y, width});
+    passed *= screen_.dirt->transmission({origin + u * uv.x + v * uv.y, width}, c);
   }
   return passed;
 }
@@ -250,7 +250,7 @@ void CellRaster::draw_shadows(FluxBox& out, std::span<const Vec2> polygon, const
   }
   const double area = std::abs(signed_area(p[0], p[1], p[2]));
   const auto screened_at = [&](Vec2 pixel) { return screened(t, place_in(p, pixel), area); };
-  shadows_.for_each(*screen_.dirt, {views.data(), dirt_crossings()}, polygon, finest_mm,
+  shadows_.for_each(*screen_.dirt->outlines(), {views.data(), dirt_crossings()}, polygon, finest_mm,
                     [&](std::span<const Vec2> shadow, double blocked) {
                       const Density lost{density.point, -blocked * density.value, density.gradient * -blocked};
                       ++primitives_;
@@ -329,10 +329,10 @@ void CellRaster::draw_polygon(FluxBox& out, const Cell& cell, const Triangle& t,
                               double share, double open) {
   const std::array<Vec2, 3> p{pixel_[t[0]], pixel_[t[1]], pixel_[t[2]]};
   const double area = std::abs(signed_area(p[0], p[1], p[2]));
-  const bool by_pixels = screens_pixels_ || (dirty_ && !screen_.dirt->is_shapes());
+  const bool by_pixels = screens_pixels_ || (dirty_ && screen_.dirt->outlines() == nullptr);
   const auto screened_at = [&](Vec2 pixel) {
     const double passed = screens_pixels_ ? screened(t, place_in(p, pixel), area) : 1.0;
-    return dirty_ && !screen_.dirt->is_shapes() ? passed * past_dirt(t, place_in(p, pixel), area) : passed;
+    return dirty_ && screen_.dirt->outlines() == nullptr ? passed * past_dirt(t, place_in(p, pixel), area) : passed;
   };
   ++primitives_;
   const double flux = triangle_flux(t) * open;
@@ -357,7 +357,7 @@ void CellRaster::draw_polygon(FluxBox& out, const Cell& cell, const Triangle& t,
     out.add_polygon(polygon, density, screened_at);
   else
     out.add_polygon(polygon, density);
-  if (dirty_ && screen_.dirt->is_shapes()) draw_shadows(out, polygon, t, density);
+  if (dirty_ && screen_.dirt->outlines() != nullptr) draw_shadows(out, polygon, t, density);
 }
 
 bool CellRaster::failed(std::span<const std::size_t> vertices) const {

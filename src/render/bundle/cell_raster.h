@@ -25,7 +25,7 @@ struct CellStyle {
 // place.
 struct CellScreen {
   const StopScreen* screen = nullptr;
-  const DirtField* dirt = nullptr;
+  const DirtScreen* dirt = nullptr;
   LightSource light;
   double entrance_z_mm = 0.0;
   double turn_rad = 0.0;

@@ -46,6 +46,7 @@ std::optional<GhostPupil> GhostGrid::find(Ghost ghost, const LightSource& light,
   pupil.lambda_nm = lambda_nm;
   pupil.path = ghost_path(lens_, ghost, lambda_nm);
   pupil.screen = screens_.of(ghost, lambda_nm, light);
+  pupil.dirt = screens_.dirt_of(ghost, lambda_nm, light);
   if (pupil.screen) pupil.path = widened(std::move(pupil.path), pupil.screen->reach());
   const bool from_table = bounds_ != nullptr && light.is_distant() && !pupil.screen;
   const bool in_meridian = mirrors() || from_table;

@@ -29,6 +29,7 @@ struct GhostPupil {
   double plane_z_mm = 0;
   PupilRegion region;
   std::shared_ptr<const StopScreen> screen;  // null: the iris is sharp; else it is a circle, and the path a widened one
+  std::shared_ptr<const DirtScreen> dirt;  // null: its shadows are sharp
   std::optional<MapFigures> figures;  // in the frame of the sensor, where a look was asked for
 };
 

@@ -71,7 +71,7 @@ std::vector<Item> items_of(const FramePlan& plan, const BundleOptions& options) 
 
 ItemRenderer::ItemRenderer(const Item& item, const LensState& lens, const RenderSettings& settings,
                            const TablesByWavelength& tables, const Screens& screens, const PupilBounds* bounds,
-                           const DirtField* dirt, const Context& context)
+                           const DirtScreen* dirt, const Context& context)
     : item_(item), settings_(settings), frame_(item.look->placed(settings.frame)), context_(context),
       grid_(lens, settings, tables, screens, bounds), dirt_(dirt) {}
 
@@ -127,9 +127,11 @@ FluxBox ItemRenderer::draw(const GhostPupil& pupil, const Frame& frame) {
   const bool fine = special && !points;
   const Frame drawn = fine ? finer(frame, kFineness) : frame;
   const IrisShape iris(pupil.iris);
-  CellRaster raster(grid_.rays(), iris, drawn, item_.light->source.shared_flux(), {options.smooth_shading, points},
+  const DirtScreen* const dirt = pupil.dirt ? pupil.dirt.get() : dirt_;
+  const double flux_of_light = item_.light->source.shared_flux() * (dirt != nullptr ? dirt->level() : 1.0);
+  CellRaster raster(grid_.rays(), iris, drawn, flux_of_light, {options.smooth_shading, points},
                     {.screen = pupil.screen.get(),
-                     .dirt = dirt_,
+                     .dirt = dirt,
                      .light = pupil.meridian.light,
                      .entrance_z_mm = pupil.plane_z_mm,
                      .turn_rad = pupil.meridian.turn_rad});

@@ -8,7 +8,7 @@
 #include "render/bundle/band_blur.h"
 #include "render/bundle/flux_box.h"
 #include "render/bundle/ghost_grid.h"
-#include "render/interface/dirt_field.h"
+#include "render/interface/dirt_screen.h"
 #include "render/interface/frame_plan.h"
 
 namespace contrejour::bundle {
@@ -35,7 +35,7 @@ class ItemRenderer {
  public:
   ItemRenderer(const Item& item, const LensState& lens, const RenderSettings& settings,
                const TablesByWavelength& tables, const Screens& screens, const PupilBounds* bounds,
-               const DirtField* dirt, const Context& context);
+               const DirtScreen* dirt, const Context& context);
 
   // Incomplete when the context is cancelled.
   [[nodiscard]] RenderedItem render();
@@ -54,7 +54,7 @@ class ItemRenderer {
   Frame frame_;  // as the ghost is placed in it
   const Context& context_;
   GhostGrid grid_;
-  const DirtField* dirt_;  // null: the lens is clean
+  const DirtScreen* dirt_;  // null: the lens is clean
 };
 
 }  // namespace contrejour::bundle

@@ -53,11 +53,11 @@ std::shared_ptr<const DirtField> DirtField::of(const LensState& lens) {
 }
 
 DirtField::DirtField(const LensState& lens)
-    : on_front_(lens.dirt.plane == DirtPlane::Front), stop_radius_mm_(lens.stop_radius_mm),
-      front_z_mm_(lens.surfaces.front().z_mm),
-      clear_radius_mm_(lens.surfaces[on_front_ ? 0 : static_cast<std::size_t>(lens.stop_index)].semi_diameter_mm),
-      extent_mm_(on_front_ ? kFrontExtent * clear_radius_mm_ : kStopExtent * stop_radius_mm_),
-      cell_mm_(2.0 * extent_mm_ / kCells), picture_(lens.dirt.picture) {
+    : DirtScreen({lens.dirt.plane == DirtPlane::Front, lens.stop_radius_mm, lens.surfaces.front().z_mm}),
+      clear_radius_mm_(lens.surfaces[on_front() ? 0 : static_cast<std::size_t>(lens.stop_index)].semi_diameter_mm),
+      extent_mm_(on_front() ? kFrontExtent * clear_radius_mm_ : kStopExtent * lens.stop_radius_mm),
+      cell_mm_(2.0 * extent_mm_ / kCells), picture_(lens.dirt.picture),
+      dirty_(kCells, extent_mm_, [](int, int) { return false; }) {
   shapes_ = dirt_within(lens.dirt, {-extent_mm_, -extent_mm_}, {extent_mm_, extent_mm_});
   std::vector<std::vector<std::uint32_t>> cells(static_cast<std::size_t>(kCells) * kCells);
   std::vector<double> left(cells.size(), 1.0);  // past the shapes that cover a cell and all about it
@@ -99,13 +99,12 @@ void DirtField::count(const DirtStroke& s) {
 }
 
 void DirtField::sum_up_cells() {
+  dirty_ = CellFlags(kCells, extent_mm_, [&](int x, int y) { return !shapes_about(x, y).empty(); });
   for (int y = 0; y < kCells; ++y) {
     passed_.push_back(0.0);
-    dirty_.push_back(0);
     for (int x = 0; x < kCells; ++x) {
       const Vec2 middle{(x + 0.5) * cell_mm_ - extent_mm_, (y + 0.5) * cell_mm_ - extent_mm_};
       const bool clean = !picture_ && shapes_about(x, y).empty();
-      dirty_.push_back(static_cast<std::uint16_t>(dirty_.back() + (shapes_about(x, y).empty() ? 0 : 1)));
       const double passed =
           clean ? 1.0
                 : mean_of_parts(kPointsOfCell, [&](Vec2 off) { return transmission({middle + off * cell_mm_, 0.0}); });
@@ -142,16 +141,6 @@ double DirtField::variance(double pixel_mm) const {
   return std::min(sum, kMost);
 }
 
-Vec2 DirtField::front_place(Vec2 entrance_mm, double z_mm, const LightSource& light) const {
-  const Vec3 along = light.direction_at({entrance_mm.x, entrance_mm.y, z_mm});
-  return entrance_mm + Vec2{along.x, along.y} * ((front_z_mm_ - z_mm) / along.z);
-}
-
-int DirtField::cell_of(double coordinate_mm) const {
-  const double at = (coordinate_mm + extent_mm_) / cell_mm_;
-  return at > 0.0 ? static_cast<int>(std::min(at, kCells - 1.0)) : 0;  // NaN: 0
-}
-
 std::span<const std::uint32_t> DirtField::shapes_about(int x, int y) const {
   const auto cell = static_cast<std::size_t>(y * kCells + x);
   return {shapes_of_cell_.data() + first_[cell], first_[cell + 1] - first_[cell]};
@@ -171,7 +160,7 @@ double DirtField::small_transmission(Vec2 at, double width) const {
   return all;
 }
 
-double DirtField::transmission(const DirtPlace& place) const {
+double DirtField::transmission(const DirtPlace& place, std::size_t /*crossing*/) const {
   if (!std::isfinite(place.at_mm.x + place.at_mm.y)) return 1.0;
   const double of_picture = picture_ ? picture_transmission(place) : 1.0;
   if (shapes_.empty()) return of_picture;
@@ -181,13 +170,6 @@ double DirtField::transmission(const DirtPlace& place) const {
          });
 }
 
-double DirtField::transmission(std::span<const DirtPlace> places) const {
-  double all = 1.0;
-  for (const DirtPlace& place : places)
-    if (all > 0.0) all *= transmission(place);
-  return all;
-}
-
 double DirtField::picture_transmission(const DirtPlace& place) const {
   const Vec2 at = place.at_mm * (1.0 / clear_radius_mm_);
   const double width = place.width_mm / clear_radius_mm_;
@@ -195,16 +177,12 @@ double DirtField::picture_transmission(const DirtPlace& place) const {
   return mean_of_parts(parts, [&](Vec2 off) { return picture_->transmission(at + off * width); });
 }
 
-bool DirtField::is_clean(Vec2 middle_mm, double radius_mm) const {
+bool DirtField::is_clean(Vec2 middle_mm, double radius_mm, std::size_t /*crossing*/) const {
   if (picture_) return false;
   const int left = cell_of(middle_mm.x - radius_mm), right = cell_of(middle_mm.x + radius_mm);
   const int low = cell_of(middle_mm.y - radius_mm), high = cell_of(middle_mm.y + radius_mm);
-  const auto is_near = [&](int y) {
-    const std::uint16_t* const row = dirty_.data() + y * (kCells + 1);
-    return row[right + 1] != row[left];
-  };
   for (int y = low; y <= high; ++y) {
-    if (!is_near(y)) continue;
+    if (!dirty_.any(left, right, y)) continue;
     if (high - low > kFewCells) return false;
     for (int x = left; x <= right; ++x)
       for (const std::uint32_t k : shapes_about(x, y))

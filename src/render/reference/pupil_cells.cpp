@@ -66,7 +66,7 @@ struct Extent {
 class CellWalker {
  public:
   CellWalker(const OpticalPath& path, const Iris& iris, const LightSource& light, double z_mm, const Frame& frame,
-             const CellLimits& limits, const LitPolygon& lit, const StopScreen* screen, const DirtField* dirt)
+             const CellLimits& limits, const LitPolygon& lit, const StopScreen* screen, const DirtScreen* dirt)
       : path_(path), iris_(iris), light_(light), z_mm_(z_mm), frame_(frame), limits_(limits), lit_(lit),
         screen_(screen), dirt_(dirt) {
     if (iris.field) hull_ = iris.field->hull();
@@ -155,7 +155,7 @@ class CellWalker {
         if (!s.traced()) return true;
         radius = std::max(radius, length(s.dirt_mm[c] - middle.dirt_mm[c]));
       }
-      if (!dirt_->is_clean(middle.dirt_mm[c], kScreenDisc * radius)) return true;
+      if (!dirt_->is_clean(middle.dirt_mm[c], kScreenDisc * radius, c)) return true;
     }
     return false;
   }
@@ -378,7 +378,7 @@ class CellWalker {
   CellLimits limits_;
   const LitPolygon& lit_;
   const StopScreen* screen_;
-  const DirtField* dirt_;
+  const DirtScreen* dirt_;
   std::vector<IrisBound> hull_;  // of a picture's opening
   CellCounts counts_;
 };
@@ -400,7 +400,7 @@ CellLimits CellLimits::for_density(double density) {
 CellCounts for_each_lit_polygon(const OpticalPath& path, const Iris& iris, const LightSource& light,
                                 const EntranceWindow& window, const Frame& frame, const CellLimits& limits,
                                 const std::function<bool()>& stop, const LitPolygon& lit, const StopScreen* screen,
-                                const DirtField* dirt) {
+                                const DirtScreen* dirt) {
   CellWalker walker(path, iris, light, window.z_mm, frame, limits, lit, screen, dirt);
   const int n = limits.root_cells;
   const auto row_of = [&](int iy) {

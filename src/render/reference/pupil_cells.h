@@ -9,7 +9,7 @@
 
 #include "contrejour/frame.h"
 #include "contrejour/trace.h"
-#include "render/interface/dirt_field.h"
+#include "render/interface/dirt_screen.h"
 #include "render/interface/stop_screen.h"
 
 namespace contrejour::reference {
@@ -44,6 +44,6 @@ struct CellCounts {
 CellCounts for_each_lit_polygon(const OpticalPath& path, const Iris& iris, const LightSource& light,
                                 const EntranceWindow& window, const Frame& frame, const CellLimits& limits,
                                 const std::function<bool()>& stop, const LitPolygon& lit,
-                                const StopScreen* screen = nullptr, const DirtField* dirt = nullptr);
+                                const StopScreen* screen = nullptr, const DirtScreen* dirt = nullptr);
 
 }  // namespace contrejour::reference

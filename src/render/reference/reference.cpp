@@ -34,16 +34,20 @@ struct RenderedItem {
 };
 
 RenderedItem render_item(const Item& item, const LensState& lens, const RenderSettings& settings,
-                         const Screens& screens, const DirtField* dirt, const Context& context) {
+                         const Screens& screens, const DirtScreen* sharp_dirt, const Context& context) {
   RenderedItem out{{settings.frame.width, settings.frame.height}, {}, 0};
   const LightSource& light = item.light->source;
   const auto screen = screens.of(item.ghost, item.pass->lambda_nm, light);
+  const auto fringed = screens.dirt_of(item.ghost, item.pass->lambda_nm, light);
+  const DirtScreen* const dirt = fringed ? fringed.get() : sharp_dirt;
+  const double past_dirt = dirt != nullptr ? dirt->level() : 1.0;
   const OpticalPath path = widened(ghost_path(lens, item.ghost, item.pass->lambda_nm), screen ? screen->reach() : 1.0);
   out.surfaces = path.steps.size();
   out.counts = reference::for_each_lit_polygon(
       path, screen ? Iris{} : lens.iris, light, entrance_window(lens, light), item.look->placed(settings.frame),
       reference::CellLimits::for_density(settings.reference_density), [&] { return context.cancelled(); },
-      [&](std::span<const Vec2> pixels, double flux) { out.flux.add_polygon(pixels, flux); }, screen.get(), dirt);
+      [&](std::span<const Vec2> pixels, double flux) { out.flux.add_polygon(pixels, past_dirt * flux); }, screen.get(),
+      dirt);
   return out;
 }
 

@@ -70,7 +70,7 @@ BandPattern::BandPattern(std::span<const PatternTexture* const> parts) : stride_
 }
 
 const BandPattern::Level& BandPattern::level_for(double width) const {
-  const double level = std::round(PatternTexture::level_for(width, levels_.front().side, extent_));
+  const double level = std::round(HalvedPicture::level_for(width, levels_.front().side, extent_));
   return levels_[std::min(static_cast<std::size_t>(std::max(level, 0.0)), levels_.size() - 1)];
 }
 

@@ -61,24 +61,14 @@ std::size_t count_passing(std::span<const T> all, std::size_t guess, const Test&
 
 }  // namespace
 
-PatternTexture::PatternTexture(int side, double extent, std::vector<float> samples) : extent_(extent) {
-  levels_.push_back({side, std::move(samples)});
-  while (levels_.back().side % 2 == 0 && levels_.back().side > 2) {
-    const Level& fine = levels_.back();
-    Level half{fine.side / 2, {}};
-    const auto at = [&](int x, int y) { return fine.samples[static_cast<std::size_t>(y * fine.side + x)]; };
-    for (int y = 0; y < half.side; ++y)
-      for (int x = 0; x < half.side; ++x)
-        half.samples.push_back(
-            0.25F * (at(2 * x, 2 * y) + at(2 * x + 1, 2 * y) + at(2 * x, 2 * y + 1) + at(2 * x + 1, 2 * y + 1)));
-    levels_.push_back(std::move(half));
-  }
+PatternTexture::PatternTexture(int side, double extent, std::vector<float> samples)
+    : picture_(side, extent, std::move(samples)) {
   find_rests();
 }
 
 // By sector and ring, each what it holds itself.
 std::vector<PatternTexture::SectorRest> PatternTexture::sector_rings() const {
-  const auto pitch = static_cast<float>(2.0 * extent_ / side());
+  const auto pitch = static_cast<float>(2.0 * extent() / side());
   const float area = pitch * pitch;
   const std::size_t steps = rings() + 1;
   std::vector<SectorRest> out(kSectors * steps);
@@ -126,7 +116,7 @@ PatternHull PatternTexture::hull_above(double level, double flux) const {
   std::size_t dark = steps / 2;
   for (std::size_t sector = 0; sector < kSectors; ++sector) {
     dark = count_passing(std::span(sector_rest_).subspan(sector * steps, steps), dark, bright);
-    const double radius = std::min(static_cast<double>(dark) * 2.0 * extent_ / side(), extent_);
+    const double radius = std::min(static_cast<double>(dark) * 2.0 * extent() / side(), extent());
     hull.hold(sector_hulls()[sector], radius);
   }
   return hull;
@@ -136,50 +126,20 @@ double PatternTexture::reach_above(double level) const {
   const double most_flux = kFluxBeyond * rest_.front().flux;
   const auto bright = [&](const Rest& rest) { return rest.brightest > level || rest.flux > most_flux; };
   const auto first = std::partition_point(rest_.begin(), rest_.end(), bright);
-  return std::min(static_cast<double>(first - rest_.begin()) * 2.0 * extent_ / side(), extent_);
+  return std::min(static_cast<double>(first - rest_.begin()) * 2.0 * extent() / side(), extent());
 }
 
 const PatternTexture::Rest& PatternTexture::rest_beyond(double radius) const {
-  const double ring = std::max(radius, 0.0) * 0.5 * side() / extent_;
+  const double ring = std::max(radius, 0.0) * 0.5 * side() / extent();
   return rest_[std::min(static_cast<std::size_t>(ring), rest_.size() - 1)];
 }
 
 double PatternTexture::brightest_beyond(double radius) const { return rest_beyond(radius).brightest; }
 double PatternTexture::squared_beyond(double radius) const { return rest_beyond(radius).squared; }
 
-double PatternTexture::bilinear(const Level& level, Vec2 p) const {
-  const double scale = 0.5 * level.side / extent_;
-  const double x = (p.x + extent_) * scale - 0.5, y = (extent_ - p.y) * scale - 0.5;
-  if (!(x > -1.0 && y > -1.0 && x < level.side && y < level.side)) return 0.0;
-  const int x0 = static_cast<int>(std::floor(x)), y0 = static_cast<int>(std::floor(y));
-  const double s = x - x0, t = y - y0;
-  const auto sample = [&](int column, int row) {
-    const bool inside = column >= 0 && row >= 0 && column < level.side && row < level.side;
-    return inside ? static_cast<double>(level.samples[static_cast<std::size_t>(row * level.side + column)]) : 0.0;
-  };
-  return (1.0 - t) * ((1.0 - s) * sample(x0, y0) + s * sample(x0 + 1, y0)) +
-         t * ((1.0 - s) * sample(x0, y0 + 1) + s * sample(x0 + 1, y0 + 1));
-}
-
-// A bilinear look-up among samples w wide blurs by w / 2, root mean square, a square by its width over the root of 12.
-double PatternTexture::level_for(double width, int side, double extent) {
-  const double samples = width / std::numbers::sqrt3 * 0.5 * side / extent;
-  return samples > 1.0 ? std::log2(samples) : 0.0;
-}
-
-// Between two levels.
-double PatternTexture::at(Vec2 p, double width) const {
-  const double level = std::min(level_for(width, side(), extent_), static_cast<double>(levels_.size() - 1));
-  const auto fine = std::min(static_cast<std::size_t>(level), levels_.size() - 1);
-  const double rest = level - static_cast<double>(fine);
-  const double value = bilinear(levels_[fine], p);
-  return rest > 0.0 && fine + 1 < levels_.size() ? std::lerp(value, bilinear(levels_[fine + 1], p), rest) : value;
-}
-
 double PatternTexture::flux() const {
-  const Level& all = levels_.front();
-  const double pitch = 2.0 * extent_ / all.side;
-  return std::accumulate(all.samples.begin(), all.samples.end(), 0.0) * pitch * pitch;
+  const double pitch = 2.0 * extent() / side();
+  return std::accumulate(samples().begin(), samples().end(), 0.0) * pitch * pitch;
 }
 
 }  // namespace contrejour::screens

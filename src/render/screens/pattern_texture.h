@@ -1,11 +1,12 @@
-// A pattern over the stop plane for look-ups: the mean over a square about any place, from samples halved again and
-// again. Units: stop radii. Thread-safety: constant after it is made.
+// A pattern over the stop plane for look-ups: the mean over a square about any place, and what lies beyond any radius.
+// Units: stop radii. Thread-safety: constant after it is made.
 #pragma once
 
 #include <span>
 #include <vector>
 
 #include "contrejour/vec.h"
+#include "render/screens/halved_picture.h"
 #include "render/screens/pattern_hull.h"
 
 namespace contrejour::screens {
@@ -16,12 +17,10 @@ class PatternTexture {
   // multiple of 16 or so, for as many halvings. Outside the square there is nothing.
   PatternTexture(int side, double extent, std::vector<float> samples);
 
-  [[nodiscard]] double extent() const { return extent_; }
-  [[nodiscard]] int side() const { return levels_.front().side; }
-  [[nodiscard]] std::span<const float> samples() const { return levels_.front().samples; }
-  // How often samples are halved for a bilinear look-up among them to stand for the mean over a width; 0 and more.
-  [[nodiscard]] static double level_for(double width, int side, double extent);
-  [[nodiscard]] double at(Vec2 p, double width) const;
+  [[nodiscard]] double extent() const { return picture_.extent(); }
+  [[nodiscard]] int side() const { return picture_.side(); }
+  [[nodiscard]] std::span<const float> samples() const { return picture_.samples(); }
+  [[nodiscard]] double at(Vec2 p, double width) const { return picture_.at(p, width); }
   [[nodiscard]] double flux() const;  // integral over the plane
 
   // Beyond this radius it is nowhere brighter than `level`, and a small part of its flux at the most.
@@ -33,12 +32,6 @@ class PatternTexture {
   [[nodiscard]] double squared_beyond(double radius) const;
 
  private:
-  struct Level {
-    int side = 0;
-    std::vector<float> samples;
-  };
-  [[nodiscard]] double bilinear(const Level& level, Vec2 p) const;
-
   struct Rest {  // beyond a radius
     double brightest = 0.0, squared = 0.0, flux = 0.0;
   };
@@ -51,8 +44,7 @@ class PatternTexture {
   void find_rests();
   [[nodiscard]] std::size_t rings() const { return static_cast<std::size_t>(side() / 2); }  // a sample wide
 
-  double extent_;
-  std::vector<Level> levels_;
+  HalvedPicture picture_;
   std::vector<Rest> rest_;  // by even steps of the radius to the extent
   std::vector<SectorRest> sector_rest_;  // likewise, sector after sector
 };

@@ -81,7 +81,9 @@ RingingPatterns::RingingPatterns() : contents_(std::make_unique<Contents>()) {}
 RingingPatterns::~RingingPatterns() = default;
 std::size_t RingingPatterns::count() const { return contents_->count(); }
 
-std::size_t RingingPatterns::Contents::count() const { return rungs_.size() + patterns_.size() + by_orders_.size(); }
+std::size_t RingingPatterns::Contents::count() const {
+  return rungs_.size() + patterns_.size() + by_orders_.size() + dirt.count();
+}
 
 RingingPatterns::Contents::Key RingingPatterns::Contents::key_of(const Wanted& wanted) {
   return {rung_of(wanted.fresnel_number), static_cast<int>(std::lround(wanted.spread / kSpreadStep))};

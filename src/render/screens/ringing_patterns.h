@@ -12,6 +12,7 @@
 #include "contrejour/pupil_mask.h"
 #include "contrejour/ringing.h"
 #include "render/screens/band_pattern.h"
+#include "render/screens/dirt_fringes.h"
 #include "render/screens/edge_profile.h"
 #include "render/screens/pattern_texture.h"
 
@@ -49,6 +50,8 @@ struct RingingPatterns::Contents {
   [[nodiscard]] Band band(std::span<const screens::PatternTexture* const> parts);
 
   [[nodiscard]] std::size_t count() const;
+
+  screens::DirtFringes dirt;
 
   std::mutex& mutex() { return mutex_; }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <optional>
 
 #include "base/tasks.h"
 #include "contrejour/ringing.h"
@@ -20,6 +21,7 @@ using Contents = RingingPatterns::Contents;
 
 // A first fringe is 1.9 of an edge's unit 1 / sqrt(2 F) wide; where that unit is so many pixels, none is seen.
 constexpr double kUnseenUnit_px = 0.15;
+constexpr double kUnseenShadow_px = 0.7;  // of sqrt(lambda z), what dirt's edges are blurred by
 // An order a stands for F = cot(pi a / 2) times the square of the stop's radius in the transform's units.
 constexpr double kFractionalFresnel = 72.0;
 constexpr double kSharpOrder = 1e-4;  // smaller ones leave the mask as it is: fringes of a hundredth of a stop radius
@@ -55,7 +57,7 @@ bool Screens::prepare(const FramePlan& plan, const Context& context) {
     for (const PlannedPass& pass : passes)
       wanted.push_back({plan.ghosts[g], pass.lambda_nm, pass.spread_nm, plan.lights[k].source});
   });
-  return prepare(wanted, context);
+  return prepare(wanted, context) && prepare_dirt(wanted, plan.dirt, context);
 }
 
 bool Screens::prepare(std::span<const Wanted> wanted, const Context& context) {
@@ -161,6 +163,73 @@ bool Screens::prepare_hullin(std::span<const Wanted> wanted, const Context& cont
 std::shared_ptr<const StopScreen> Screens::of(const Ghost& ghost, double lambda_nm, const LightSource& light) const {
   const auto found = screens_.find(key_of(ghost, lambda_nm, light));
   return found == screens_.end() ? nullptr : found->second;
+}
+
+// How the sensor sees the dirt's plane at each crossing. Patterns end where the iris's do (kLowestFresnel). By orders
+// the iris's Fresnel number is what they stand for, wherever the dirt lies.
+std::vector<screens::PlaneWave> Screens::dirt_waves(const Wanted& wanted, bool on_front) const {
+  const OpticalPath path = ghost_path(lens_, wanted.ghost, wanted.lambda_nm);
+  const double light_mm = distance_along_axis(wanted.light), lambda_mm = wanted.lambda_nm * 1e-6;
+  const std::vector<screens::PlaneWave> stops = screens::stop_crossing_waves(path, light_mm);
+  std::vector<screens::PlaneWave> waves = on_front ? std::vector{screens::front_wave(path, light_mm)} : stops;
+  if (stops.empty()) return waves;
+  for (screens::PlaneWave& wave : waves) {
+    const screens::PlaneWave& stop = on_front ? stops.back() : wave;
+    const double beam_mm = lens_.stop_radius_mm * stop.magnification / wave.magnification;
+    const double f = options_.mode == RingingMode::Hullin ? fresnel_number(wanted.ghost, wanted.lambda_nm, wanted.light)
+                                                          : Contents::kLowestFresnel;
+    const double by_f_mm = beam_mm * beam_mm / (lambda_mm * f);
+    wave.distance_mm = options_.mode == RingingMode::Hullin ? by_f_mm : std::min(wave.distance_mm, by_f_mm);
+  }
+  return waves;
+}
+
+double Screens::dirt_unit_mm(const Wanted& wanted, bool on_front) const {
+  if (options_.mode == RingingMode::None) return 0.0;
+  const auto waves = dirt_waves(wanted, on_front);
+  return waves.empty() ? 0.0 : std::sqrt(wanted.lambda_nm * 1e-6 * waves.back().distance_mm);
+}
+
+bool Screens::prepare_dirt(std::span<const Wanted> wanted, const std::shared_ptr<const DirtField>& dirt,
+                           const Context& context) {
+  if (options_.mode == RingingMode::None || !dirt || dirt->shapes().empty() || dirt->has_picture()) return true;
+  std::vector<Wanted> missing;
+  for (const Wanted& w : wanted)
+    if (dirt_.try_emplace(key_of(w.ghost, w.lambda_nm, w.light)).second) missing.push_back(w);
+  using screens::DirtFringes;
+  std::vector<std::vector<std::optional<DirtFringes::Wanted>>> planes;  // by crossing; none where it is sharp
+  std::vector<DirtFringes::Wanted> all;
+  for (const Wanted& w : missing) {
+    auto& of_crossing = planes.emplace_back();
+    for (const screens::PlaneWave& wave : dirt_waves(w, dirt->on_front())) {
+      const double lambda_z_mm2 = w.lambda_nm * 1e-6 * wave.distance_mm;
+      const double seen_mm = std::sqrt(lambda_z_mm2) * wave.magnification;
+      const bool is_seen = seen_mm > kUnseenShadow_px * pixel_pitch_mm_ && std::isfinite(lambda_z_mm2);
+      of_crossing.push_back(is_seen ? std::optional(DirtFringes::Wanted{lambda_z_mm2, w.spread_nm / w.lambda_nm})
+                                    : std::nullopt);
+      if (is_seen) all.push_back(*of_crossing.back());
+    }
+  }
+  Contents& patterns = options_.patterns->contents();
+  const std::scoped_lock lock(patterns.mutex());
+  patterns.dirt.use(lens_.dirt, *dirt);
+  Context quiet = context;
+  quiet.progress = {};
+  if (!patterns.dirt.make(*dirt, all, quiet)) return false;
+  for (std::size_t k = 0; k < missing.size(); ++k) {
+    std::vector<std::shared_ptr<const screens::FringedPlane>> crossings;
+    for (const auto& plane : planes[k]) crossings.push_back(plane ? patterns.dirt.plane(*plane) : nullptr);
+    if (std::ranges::all_of(crossings, [](const auto& plane) { return plane == nullptr; })) continue;
+    dirt_[key_of(missing[k].ghost, missing[k].lambda_nm, missing[k].light)] =
+        std::make_shared<const screens::FringedDirt>(dirt, std::move(crossings));
+  }
+  return true;
+}
+
+std::shared_ptr<const DirtScreen> Screens::dirt_of(const Ghost& ghost, double lambda_nm,
+                                                   const LightSource& light) const {
+  const auto found = dirt_.find(key_of(ghost, lambda_nm, light));
+  return found == dirt_.end() ? nullptr : found->second;
 }
 
 }  // namespace contrejour

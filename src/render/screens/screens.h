@@ -9,6 +9,7 @@
 
 #include "contrejour/iris_field.h"
 #include "contrejour/render.h"
+#include "render/interface/dirt_screen.h"
 #include "render/interface/frame_plan.h"
 #include "render/interface/stop_screen.h"
 #include "render/screens/stop_wave.h"
@@ -41,9 +42,19 @@ class Screens {
   // Those of all ghosts and passes of a plan.
   bool prepare(const FramePlan& plan, const Context& context);
 
+  // Likewise the fringes of dirt's shadows; those of the iris need not be there.
+  bool prepare_dirt(std::span<const Wanted> wanted, const std::shared_ptr<const DirtField>& dirt,
+                    const Context& context);
+
+  // About how wide the fringes of dirt's shadows are in its plane, at the last crossing of the stop; 0 without ringing.
+  [[nodiscard]] double dirt_unit_mm(const Wanted& wanted, bool on_front) const;
+
   // Null: the iris is sharp, and so it is for what was not prepared.
   [[nodiscard]] std::shared_ptr<const StopScreen> of(const Ghost& ghost, double lambda_nm,
                                                      const LightSource& light) const;
+  // Null: shadows of dirt are sharp, and so they are for what was not prepared.
+  [[nodiscard]] std::shared_ptr<const DirtScreen> dirt_of(const Ghost& ghost, double lambda_nm,
+                                                          const LightSource& light) const;
 
  private:
   struct Key {
@@ -55,6 +66,7 @@ class Screens {
   [[nodiscard]] std::vector<screens::StopWave> waves_of(std::span<const Wanted> wanted, const Context& context) const;
   [[nodiscard]] bool is_sharp(double footprint, double fresnel_number) const;
   [[nodiscard]] double order(double lambda_nm) const;  // of the fractional transform
+  [[nodiscard]] std::vector<screens::PlaneWave> dirt_waves(const Wanted& wanted, bool on_front) const;
   bool prepare_fresnel(std::span<const Wanted> wanted, const Context& context);
   bool prepare_hullin(std::span<const Wanted> wanted, const Context& context);
   void add_tones(std::span<const Wanted> wanted);
@@ -64,6 +76,7 @@ class Screens {
   double pixel_pitch_mm_;
   std::shared_ptr<const class IrisShape> iris_;
   std::map<Key, std::shared_ptr<const StopScreen>> screens_;
+  std::map<Key, std::shared_ptr<const DirtScreen>> dirt_;
 };
 
 }  // namespace contrejour

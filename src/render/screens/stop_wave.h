@@ -6,6 +6,7 @@
 #pragma once
 
 #include <limits>
+#include <vector>
 
 #include "contrejour/trace.h"
 
@@ -20,5 +21,15 @@ struct StopWave {
 // values hold for all of them. A path that does not cross the stop has no edge: an infinite Fresnel number.
 [[nodiscard]] StopWave stop_wave(const OpticalPath& path,
                                  double light_distance_mm = std::numeric_limits<double>::infinity());
+
+// How the sensor sees a plane that the light crosses on its way, its beam narrowed to a point of it.
+struct PlaneWave {
+  double distance_mm = 0.0;  // effective: |B / (n (A + B c))|, infinite where the plane is the sensor's far field
+  double magnification = 1.0;  // of distances in the plane, on the sensor: |A + B c|
+};
+
+// At each crossing of the stop, in turn; of the first surface's vertex. Two sections: means of both.
+[[nodiscard]] std::vector<PlaneWave> stop_crossing_waves(const OpticalPath& path, double light_distance_mm);
+[[nodiscard]] PlaneWave front_wave(const OpticalPath& path, double light_distance_mm);
 
 }  // namespace contrejour::screens

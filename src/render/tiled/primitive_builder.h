@@ -6,7 +6,7 @@
 
 #include "contrejour/render.h"
 #include "ghosts/ray_grid.h"
-#include "render/interface/dirt_field.h"
+#include "render/interface/dirt_screen.h"
 #include "render/tiled/primitive.h"
 
 namespace contrejour::tiled {
@@ -16,7 +16,7 @@ struct TracedPass {
   double shared_flux = 1;  // LightSource's
   std::uint32_t pass = 0;
   Vec2 shift_mm = {};      // of the ghost, on the sensor
-  const DirtField* dirt = nullptr;  // where it lies on the front, whose places are then kept; or null
+  const DirtScreen* dirt = nullptr;  // where it lies on the front, whose places are then kept; or null
   LightSource light = {};
   double entrance_z_mm = 0.0;  // of the grid
 };

@@ -124,7 +124,8 @@ CONTREJOUR_INLINE_IF_FAST P past_dirt(const TraversalInput& input, const Primiti
   hn::Store(hn::IfThenElseZero(inside, hn::Set(d, 1.0F)), d, share.data());
   const bool on_front = (p.flags & kFront) != 0;
   const StopScreen* const screen = input.screens.empty() ? nullptr : input.screens[p.pass];
-  const double unit_mm = on_front ? 1.0 : input.dirt->stop_radius_mm() * (screen != nullptr ? screen->reach() : 1.0);
+  const DirtScreen& dirt = *input.dirt[p.pass];
+  const double unit_mm = on_front ? 1.0 : dirt.stop_radius_mm() * (screen != nullptr ? screen->reach() : 1.0);
   for (std::size_t c = 0; c < (on_front ? 1 : p.crossings); ++c) {
     const StopPlaces corners =
         on_front ? input.buffer.more_crossings[p.more_crossings + p.more_places() - 1] : places_of(input, p, c);
@@ -132,8 +133,7 @@ CONTREJOUR_INLINE_IF_FAST P past_dirt(const TraversalInput& input, const Primiti
     hn::Store((interpolate(weights, corners.y) / weights.total).v, d, y.data());
     const double width_mm = pixel_at_stop(p, corners) * unit_mm;
     for (std::size_t k = 0; k < hn::Lanes(d); ++k)
-      if (share[k] > 0.0F)
-        share[k] *= static_cast<float>(input.dirt->transmission({Vec2{x[k], y[k]} * unit_mm, width_mm}));
+      if (share[k] > 0.0F) share[k] *= static_cast<float>(dirt.transmission({Vec2{x[k], y[k]} * unit_mm, width_mm}, c));
   }
   return P(hn::Load(d, share.data()));
 }
@@ -184,7 +184,7 @@ CONTREJOUR_INLINE_IF_FAST void add_primitive(const TraversalInput& input, const 
     } else if ((p.flags & kOpen) == 0) {
       inside = hn::And(inside, unblocked(input, p, weights));
     }
-    if (input.dirt != nullptr) value = value * past_dirt(input, p, weights, inside);
+    if (!input.dirt.empty()) value = value * past_dirt(input, p, weights, inside);
     const auto lit = hn::IfThenElseZero(inside, value.v);
     for (std::size_t c = 0; c < 3; ++c) {
       float* out = tile.value[c].data() + k;

@@ -8,7 +8,7 @@
 
 #include "contrejour/render.h"
 #include "ghosts/iris_shape.h"
-#include "render/interface/dirt_field.h"
+#include "render/interface/dirt_screen.h"
 #include "render/interface/stop_screen.h"
 #include "render/tiled/primitive.h"
 #include "render/tiled/tile_lists.h"
@@ -24,7 +24,7 @@ struct TraversalInput {
   std::span<const Gain> gains;  // by Primitive::pass
   const IrisShape& iris;
   std::span<const StopScreen* const> screens;  // by Primitive::pass; null ones, or none at all: the sharp iris
-  const DirtField* dirt = nullptr;    // null: the lens is clean
+  std::span<const DirtScreen* const> dirt;  // likewise; none at all: the lens is clean
   TiledOptions::Interpolation interpolation = TiledOptions::Interpolation::LoopDeRose;
 };
 

@@ -115,7 +115,7 @@ struct Job {
   std::vector<std::shared_ptr<const StopScreen>>
       screens;  // one an item, null where the iris is sharp; none at all: so everywhere
   IrisShape round = IrisShape(Iris{});  // for those that have one
-  const DirtField* dirt = nullptr;  // null: the lens is clean
+  std::vector<std::shared_ptr<const DirtScreen>> dirt = {};  // one an item; none at all: the lens is clean
 };
 
 void list_items(const FramePlan& plan, const Screens& screens, Job& job) {
@@ -124,7 +124,12 @@ void list_items(const FramePlan& plan, const Screens& screens, Job& job) {
     const PlannedLight& light = plan.lights[k];
     for (const PlannedPass& pass : passes) {
       if (screens.on()) job.screens.push_back(screens.of(plan.ghosts[g], pass.lambda_nm, light.source));
-      const Rgb gain = look.tinted(pass.gain);
+      if (plan.dirt) {
+        auto fringed = screens.dirt_of(plan.ghosts[g], pass.lambda_nm, light.source);
+        job.dirt.push_back(fringed ? std::move(fringed) : plan.dirt);
+      }
+      Rgb gain = look.tinted(pass.gain);
+      for (double& value : gain) value *= plan.dirt ? job.dirt.back()->level() : 1.0;
       job.items.push_back({plan.ghosts[g], look.shift_mm, light.source, pass.lambda_nm});
       job.gains.push_back({static_cast<float>(gain[0]), static_cast<float>(gain[1]), static_cast<float>(gain[2])});
     }
@@ -159,8 +164,12 @@ TracedItem trace_item(const Job& job, std::size_t index, Workspace& workspace) {
       precision_for(path, tables, item.light, window.z_mm, region->pupil_mm, side, job.settings.frame.pixel_pitch_mm);
   workspace.grid.trace(path, tables, iris, item.light, window.z_mm, region->pupil_mm, side, precision);
   count_rays(static_cast<std::uint64_t>(side) * static_cast<std::uint64_t>(side));
-  const tiled::TracedPass traced{
-      item.light.shared_flux(), static_cast<std::uint32_t>(index), item.shift_mm, job.dirt, item.light, window.z_mm};
+  const tiled::TracedPass traced{item.light.shared_flux(),
+                                 static_cast<std::uint32_t>(index),
+                                 item.shift_mm,
+                                 job.dirt.empty() ? nullptr : job.dirt[index].get(),
+                                 item.light,
+                                 window.z_mm};
   out.counts.primitives = workspace.builder.build(workspace.grid, traced, out.buffer);
   out.counts.trace_ms = ms_since(start);
   return out;
@@ -197,13 +206,14 @@ Result<DrawnFlare> render_tiled(const LensState& lens, const FramePlan& given, c
   Screens screens(lens, settings);
   if (!screens.prepare(plan, context)) return interrupted();
   Job job{lens, settings, context, plan.tables, IrisShape(lens.iris), {}, {}, {}};
-  job.dirt = plan.dirt.get();
   list_items(plan, screens, job);
   std::vector<const StopScreen*> screen_of_pass;
   for (const auto& screen : job.screens) screen_of_pass.push_back(screen.get());
+  std::vector<const DirtScreen*> dirt_of_pass;
+  for (const auto& dirt : job.dirt) dirt_of_pass.push_back(dirt.get());
 
   const auto traced = Clock::now();
-  tiled::TiledFrame frame(settings, context, job.iris, job.gains, {}, screen_of_pass, job.dirt);
+  tiled::TiledFrame frame(settings, context, job.iris, job.gains, {}, screen_of_pass, dirt_of_pass);
   Counts counts;
   trace_all(job, frame, counts);
   const double trace_ms = ms_since(traced) - frame.draw_ms();

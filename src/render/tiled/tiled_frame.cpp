@@ -10,7 +10,7 @@ namespace {}  // namespace
 
 TiledFrame::TiledFrame(const RenderSettings& settings, const Context& context, const IrisShape& iris,
                        std::span<const Gain> gains, const HeldLimits& limits,
-                       std::span<const StopScreen* const> screens, const DirtField* dirt)
+                       std::span<const StopScreen* const> screens, std::span<const DirtScreen* const> dirt)
     : settings_(settings), context_(context), iris_(iris), gains_(gains), screens_(screens), dirt_(dirt),
       limits_(limits),
       coarse_grid_{settings.frame.width, settings.frame.height, std::max(1, settings.tiled.coarse_tile)},

@@ -22,10 +22,10 @@ struct HeldLimits {
 
 class TiledFrame {
  public:
-  // gains, screens: by Primitive::pass. All must outlive the frame.
+  // gains, screens, dirt: by Primitive::pass. All must outlive the frame.
   TiledFrame(const RenderSettings& settings, const Context& context, const IrisShape& iris, std::span<const Gain> gains,
              const HeldLimits& limits = {}, std::span<const StopScreen* const> screens = {},
-             const DirtField* dirt = nullptr);
+             std::span<const DirtScreen* const> dirt = {});
 
   // Takes primitives, in the order in which pixels add them up.
   void add(const PrimitiveBuffer& buffer);
@@ -49,7 +49,7 @@ class TiledFrame {
   const IrisShape& iris_;
   std::span<const Gain> gains_;
   std::span<const StopScreen* const> screens_;
-  const DirtField* dirt_;
+  std::span<const DirtScreen* const> dirt_;
   HeldLimits limits_;
   TileGrid coarse_grid_, dense_grid_;
   Image image_;

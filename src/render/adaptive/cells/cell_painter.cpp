@@ -286,8 +286,8 @@ void CellPainter::draw_part(std::span<const Corner> polygon, const Shade& shade,
     for (std::size_t c = 0; c < 3; ++c) passed[c] *= screened[c];
   }
   if (behind.dirt != nullptr) {
-    const double left = past_dirt(*behind.dirt).passed(middle);
-    for (double& value : passed) value *= left;
+    const auto left = past_dirt(*behind.dirt).passed(middle);
+    for (std::size_t c = 0; c < 3; ++c) passed[c] *= left[c];
   }
   draw_line(polygon, passed);
 }

@@ -43,7 +43,10 @@ class CellPainter {
     out_.screens.push_back(screen_);
   }
   // And past dirt.
-  void stand_behind(const SeenDirt& dirt) { dirt_ = dirt; }
+  void stand_behind(const SeenDirt& dirt) {
+    if (dirt.band && dirt.band != dirt_.band) out_.band_dirt.push_back(dirt.band);
+    dirt_ = dirt;
+  }
 
  private:
   using State = CellState;

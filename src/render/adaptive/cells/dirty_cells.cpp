@@ -23,18 +23,19 @@ Vec2 pixels_between(const screens::PlaneView& view, Vec2 off_mm) {
 
 }  // namespace
 
-double PastDirt::passed(Vec2 pixel) const {
+std::array<double, 3> PastDirt::passed(Vec2 pixel) const {
   std::array<StopPlace, kMaxStopCrossings> room;
-  double all = 1.0;
-  for (const StopPlace& place : map.places(pixel, room)) all *= field->transmission({place.at, place.width});
-  return all;
+  std::array<DirtPlace, kMaxStopCrossings> places;
+  std::size_t count = 0;
+  for (const StopPlace& place : map.places(pixel, room)) places[count++] = {place.at, place.width};
+  return band->transmission({places.data(), count});
 }
 
-int CellPainter::dirt_crossings(const Mesh& mesh) const { return dirt_.field->on_front() ? 1 : mesh.layout.crossings; }
+int CellPainter::dirt_crossings(const Mesh& mesh) const { return dirt_.plane().on_front() ? 1 : mesh.layout.crossings; }
 
 Vec2 CellPainter::dirt_place(const Mesh& mesh, std::size_t vertex, int crossing) const {
-  if (dirt_.field->on_front()) return dirt_.front_place(mesh.entrance_mm(vertex));
-  return stop_place(mesh, vertex, crossing) * dirt_.field->stop_radius_mm();
+  if (dirt_.plane().on_front()) return dirt_.front_place(mesh.entrance_mm(vertex));
+  return stop_place(mesh, vertex, crossing) * dirt_.plane().stop_radius_mm();
 }
 
 bool CellPainter::is_dirty(const Mesh& mesh, const Cell& cell) const {
@@ -43,7 +44,7 @@ bool CellPainter::is_dirty(const Mesh& mesh, const Cell& cell) const {
     const Vec2 middle = dirt_place(mesh, cell.middle, c);
     double radius = 0.0;
     for (const std::size_t v : cell.corner) radius = std::max(radius, length(dirt_place(mesh, v, c) - middle));
-    if (!dirt_.field->is_clean(middle, kDirtDisc * radius)) return true;
+    if (!dirt_.band->is_clean(middle, kDirtDisc * radius, static_cast<std::size_t>(c))) return true;
   }
   return false;
 }
@@ -51,8 +52,9 @@ bool CellPainter::is_dirty(const Mesh& mesh, const Cell& cell) const {
 // How far shadows are off their place in the cell's two triangles, squared, over the pixels along their edges.
 double CellPainter::shadow_error(const Mesh& mesh, const Cell& cell) const {
   double most = 0.0;
+  const DirtScreen::Edges soft = dirt_.band->edges();
   for (int c = 0; c < dirt_crossings(mesh); ++c) {
-    double off = 0.0, area_mm2 = 0.0, longest_px = 0.0;
+    double off = 0.0, area_mm2 = 0.0, longest_px = 0.0, width_px = 1.0;
     for (const std::size_t third : {std::size_t{1}, std::size_t{3}}) {
       const std::array<std::size_t, 3> corner{cell.corner[0], cell.corner[third], cell.corner[2]};
       // Sides 0 and 1 meet in corner 1, sides 2 and 3 in corner 3.
@@ -66,12 +68,13 @@ double CellPainter::shadow_error(const Mesh& mesh, const Cell& cell) const {
       if (!(std::abs(cross(view.along_x, view.along_y)) > 0.0)) continue;
       for (const std::size_t v : between)
         off = std::max(off, length(pixels_between(view, dirt_place(mesh, v, c) - view.place(mesh.position(v)))));
+      width_px = std::max(width_px, soft.softness_mm / pixel_mm(view));
       area_mm2 += 0.5 * std::abs(cross(place[1] - place[0], place[2] - place[0]));
       longest_px = std::max(longest_px, length(position[2] - position[0]));
     }
     const double side_mm = std::sqrt(area_mm2);
-    const double edges = side_mm > 0.0 ? area_mm2 * dirt_.field->edges_per_mm() / side_mm : 0.0;
-    most = std::max(most, std::min(off * off, off) * std::min(edges, kMostEdges) * longest_px);
+    const double edges = side_mm > 0.0 ? area_mm2 * soft.per_mm / side_mm : 0.0;
+    most = std::max(most, std::min(off * off / width_px, off) * std::min(edges, kMostEdges) * longest_px);
   }
   return most;
 }
@@ -91,7 +94,7 @@ CellPainter::DirtTriangle CellPainter::dirt_triangle(const Mesh& mesh,
 PastDirt CellPainter::past_dirt(const DirtTriangle& dirt) const {
   std::array<CellSeries, kMaxStopCrossings> places;
   for (std::size_t c = 0; c < dirt.crossings; ++c) places[c] = CellSeries::of_triangle(dirt.place_mm[c]);
-  return {dirt_.field, {CellSeries::of_triangle(dirt.pixel), {places.data(), dirt.crossings}, kSoft_px}};
+  return {dirt_.band.get(), {CellSeries::of_triangle(dirt.pixel), {places.data(), dirt.crossings}, kSoft_px}};
 }
 
 // Two triangles, over each of which places in the dirt's plane are linear.
@@ -110,7 +113,7 @@ void CellPainter::draw_dirty(const Mesh& mesh, const Cell& cell, State state, co
 
 void CellPainter::add_seen(std::span<const Corner> polygon, double area_px, const Shade& shade, const Flux& flux,
                            const Behind& behind) {
-  if (behind.dirt != nullptr && dirt_.field->is_shapes()) {
+  if (behind.dirt != nullptr && dirt_.band->outlines() != nullptr) {
     add_seen(polygon, area_px, shade, flux, {behind.screen, nullptr, behind.most});
     return add_shadows(polygon, shade, flux, behind);
   }
@@ -141,7 +144,7 @@ void CellPainter::add_shadows(std::span<const Corner> polygon, const Shade& shad
   std::vector<Vec2> outline;
   for (const Corner& c : polygon) outline.push_back(c.position);
   std::vector<Corner> part;
-  shadows_.for_each(*dirt_.field, {views.data(), dirt.crossings}, outline, finest_mm,
+  shadows_.for_each(*dirt_.band->outlines(), {views.data(), dirt.crossings}, outline, finest_mm,
                     [&](std::span<const Vec2> shadow, double blocked) {
                       Shade taken = shade;
                       Flux lost = flux;

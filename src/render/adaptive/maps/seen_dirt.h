@@ -1,20 +1,27 @@
 // Dirt as a ghost's rays come upon it.
 #pragma once
 
+#include <memory>
+
 #include "ghosts/light_frame.h"
-#include "render/interface/dirt_field.h"
+#include "render/screens/band_dirt.h"
 
 namespace contrejour::adaptive {
 
+// Where a ray crosses the front, in the lens's frame. entrance_mm: in the plane z = z_mm and the light's frame.
+[[nodiscard]] inline Vec2 front_place(const DirtScreen& dirt, const LightFrame& light, double z_mm, Vec2 entrance_mm) {
+  return light.into_place(dirt.front_place(entrance_mm, z_mm, light.source));
+}
+
 struct SeenDirt {
-  const DirtField* field = nullptr;  // null: none is to be seen
+  std::shared_ptr<const screens::BandDirt> band = nullptr;  // null: none is to be seen
   const LightFrame* light = nullptr;
   double entrance_z_mm = 0.0;  // of the plane that rays are counted in
 
-  [[nodiscard]] explicit operator bool() const { return field != nullptr; }
-  // entrance_mm: in the light's frame.
+  [[nodiscard]] explicit operator bool() const { return band != nullptr; }
+  [[nodiscard]] const DirtScreen& plane() const { return band->first(); }
   [[nodiscard]] Vec2 front_place(Vec2 entrance_mm) const {
-    return light->into_place(field->front_place(entrance_mm, entrance_z_mm, light->source));
+    return adaptive::front_place(plane(), *light, entrance_z_mm, entrance_mm);
   }
 };
 

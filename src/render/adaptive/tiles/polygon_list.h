@@ -12,7 +12,7 @@
 #include "contrejour/vec.h"
 #include "render/adaptive/tiles/edge_table.h"
 #include "render/adaptive/tiles/stop_map.h"
-#include "render/interface/dirt_field.h"
+#include "render/screens/band_dirt.h"
 
 namespace contrejour::adaptive {
 
@@ -42,9 +42,9 @@ struct Shade {
 
 // Dirt before a polygon that is looked up pixel by pixel, and how pixels see its plane, in mm.
 struct PastDirt {
-  const DirtField* field;
+  const screens::BandDirt* band;
   StopMap map;
-  [[nodiscard]] double passed(Vec2 pixel) const;
+  [[nodiscard]] std::array<double, 3> passed(Vec2 pixel) const;
 };
 
 // A screen in the stop before a polygon: how its pixels see the stop, and what they look up there.
@@ -78,6 +78,7 @@ struct PolygonList {
   std::vector<std::uint16_t> bounds;
   std::vector<std::shared_ptr<const screens::BandScreen>> screens;  // that `screened` points to
   std::vector<std::shared_ptr<const EdgeTable>> tables;
+  std::vector<std::shared_ptr<const screens::BandDirt>> band_dirt;  // that `dirt` points to
 
   void add(std::span<const Point> polygon, const Shade& shade) {
     polygons.push_back({static_cast<std::uint32_t>(corners.size()), static_cast<std::uint32_t>(polygon.size()), shade,

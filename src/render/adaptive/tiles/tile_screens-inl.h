@@ -41,10 +41,13 @@ class AnyScreen {
     std::array<StopPlace, kMaxStopCrossings> room;
     std::array<double, 3> share{1.0, 1.0, 1.0};
     if (screen_ != nullptr) share = screen_->share(map_.places(pixel, room));
+    if (dirt_ != nullptr) {
+      const auto past_dirt = dirt_->passed(pixel);
+      for (std::size_t c = 0; c < 3; ++c) share[c] *= past_dirt[c];
+    }
     const float all[] = {static_cast<float>(share[0]), static_cast<float>(share[1]), static_cast<float>(share[2]),
                          0.0F};
-    if (dirt_ == nullptr) return Quad::load(all);
-    return Quad::load(all) * Quad::all(static_cast<float>(dirt_->passed(pixel)));
+    return Quad::load(all);
   }
 
  private:
