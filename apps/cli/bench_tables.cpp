@@ -55,7 +55,7 @@ std::vector<std::string> methods_of(const TablesOptions& options) {
   if (!options.methods.empty()) return words(options.methods);
   std::vector<std::string> list;
   for (const std::string_view method : render_methods()) {
-    if (method != "reference") list.emplace_back(method);
+    if (!method_traits(method)->is_slow) list.emplace_back(method);
   }
   return list;
 }

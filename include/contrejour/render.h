@@ -161,7 +161,17 @@ struct Flare {
   RenderStatistics statistics;
 };
 
-[[nodiscard]] std::vector<std::string_view> render_methods();
+// What a method is like. Ask this, not its name.
+struct MethodTraits {
+  bool is_exact = false;  // converges to the true flare as its density rises: the others are judged by it
+  bool is_slow = false;  // takes minutes where others take seconds
+  bool integrates_pixels = true;  // a pixel holds all the light that falls on it; false: it is sampled at its middle
+  bool spends_error =
+      false;  // spreads the error that it is allowed over the frame: a ghost's own differs from frame to frame
+};
+
+[[nodiscard]] std::vector<std::string_view> render_methods();  // the default first
+[[nodiscard]] std::optional<MethodTraits> method_traits(std::string_view method);  // none: there is no such method
 
 [[nodiscard]] Result<Flare> render(std::string_view method, const LensState& lens, std::span<const Light> lights,
                                    const RenderSettings& settings, const Context& context = {});

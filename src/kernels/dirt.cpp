@@ -8,6 +8,8 @@
 
 #include <fmt/format.h>
 
+#include "base/split_mix.h"
+
 namespace contrejour {
 namespace {
 
@@ -21,13 +23,7 @@ constexpr double kNearlyStraight = 1e-6;  // rad
 
 enum class Kind : std::uint64_t { Dust = 1, Scratch = 2 };
 
-// Steele, Lea & Flood 2014: SplitMix64's increment and finalizer.
-std::uint64_t mixed(std::uint64_t z) {
-  z += 0x9e3779b97f4a7c15U;
-  z = (z ^ (z >> 30U)) * 0xbf58476d1ce4e5b9U;
-  z = (z ^ (z >> 27U)) * 0x94d049bb133111ebU;
-  return z ^ (z >> 31U);
-}
+std::uint64_t mixed(std::uint64_t z) { return split_mix(z + kSplitMixIncrement); }
 
 // Numbers of one shape or square, from 0 to below 1, in turn.
 class Numbers {
@@ -41,7 +37,7 @@ class Numbers {
   }
   double next() {
     state_ = mixed(state_);
-    return static_cast<double>(state_ >> 11U) * 0x1p-53;
+    return unit_interval(state_);
   }
   double next_signed() { return 2.0 * next() - 1.0; }
   // Of the normal distribution (Box & Muller 1958), not farther out than the sizes go.

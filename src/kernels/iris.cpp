@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/split_mix.h"
 #include "contrejour/iris_field.h"
 #include "kernels/iris_blades.h"
 
@@ -37,12 +38,8 @@ double edge_offset(const Iris& iris, int blade) {
   const auto k = static_cast<std::size_t>(blade);
   const double given = k < iris.blade_offset.size() ? iris.blade_offset[k] : 0.0;
   if (iris.asymmetry == 0.0) return given;
-  // Steele, Lea & Flood 2014, SplitMix64's finalizer: seeds and blades next to each other give unrelated numbers.
-  std::uint64_t z = (std::uint64_t{iris.seed} << 32) + 0x9e3779b97f4a7c15U * (k + 1);
-  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9U;
-  z = (z ^ (z >> 27)) * 0x94d049bb133111ebU;
-  z ^= z >> 31;
-  return given + iris.asymmetry * (static_cast<double>(z >> 11) * 0x1p-52 - 1.0);
+  const std::uint64_t bits = split_mix((std::uint64_t{iris.seed} << 32) + kSplitMixIncrement * (k + 1));
+  return given + iris.asymmetry * (2.0 * unit_interval(bits) - 1.0);
 }
 
 IrisBound edge_bound(const Iris& iris, double normal_rad, double offset) {

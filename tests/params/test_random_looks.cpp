@@ -149,8 +149,8 @@ TEST_CASE("each end of each range, all else as usual [slow]") {
       std::string text = std::string(p.name) + " = " +
                          (p.kind == Kind::Integer ? std::to_string(static_cast<long>(end)) : std::to_string(end)) +
                          "\n";
-      for (const std::string_view method : {"adaptive", "bundle", "tiled", "reference"}) {
-        const bool reference = method == "reference";  // minutes for most others
+      for (const std::string_view method : render_methods()) {
+        const bool reference = method_traits(method)->is_slow;  // minutes for most others
         if (reference != (p.name == "density") || (reference && end > 1.0)) continue;
         std::string rest = "method = \"" + std::string(method) + "\"\n";
         if (p.name != "grid") rest += "grid = 24\n";

@@ -23,7 +23,7 @@ struct Bounds {
   double addition = 1e-5;  // of the peak: two lights against the sum of each, a window against its part of the frame
   double jump = 0.02;  // of the peak, beyond the reference's own change, as the light moves 0.01 pixel
   double rms = 1.0;  // of the frame's peak, at most: what a method promises by itself
-  bool covers_pixels = true;  // a pixel holds all the light on it; false: it is sampled at its middle
+  MethodTraits traits = {};
 };
 
 // A method that is not listed must meet the defaults.
@@ -32,15 +32,16 @@ inline Bounds bounds_of(std::string_view method) {
       {.method = "reference", .psnr_db = 200.0, .flux = 1e-6},
       {.method = "bundle", .psnr_db = 57.0},
       // One sample a pixel: edges are steps, and ghosts of a few pixels are off in flux.
-      {.method = "tiled", .psnr_db = 28.0, .flux = 0.05, .jump = 1.0, .covers_pixels = false},
+      {.method = "tiled", .psnr_db = 28.0, .flux = 0.05, .jump = 1.0},
       // Where it spends its error depends on all the light in the frame: the largest difference of two pictures that
       // may each have an RMS error of 0.003.
       {.method = "adaptive", .psnr_db = 50.0, .addition = 1e-2, .rms = RenderSettings{}.error},
   };
-  for (const Bounds& bounds : all) {
-    if (bounds.method == method) return bounds;
-  }
-  return {.method = method};
+  Bounds found{.method = method};
+  for (const Bounds& bounds : all)
+    if (bounds.method == method) found = bounds;
+  found.traits = method_traits(method).value_or(MethodTraits{});
+  return found;
 }
 
 // body(bounds) for every method of the driver.

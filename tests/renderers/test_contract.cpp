@@ -103,7 +103,7 @@ TEST_CASE("finer pixels share the light of coarser ones") {
   for_each_method([&](const Bounds& bounds) {
     const Image once = image_of(bounds, lens, light, coarse);
     const Image twice = binned(image_of(bounds, lens, light, fine));
-    CHECK(psnr_db(once, twice) >= std::min(bounds.psnr_db, 55.0) - (bounds.covers_pixels ? 0.0 : 6.0));
+    CHECK(psnr_db(once, twice) >= std::min(bounds.psnr_db, 55.0) - (bounds.traits.integrates_pixels ? 0.0 : 6.0));
     CHECK(sum(twice) / sum(once) == doctest::Approx(1.0).epsilon(std::max(bounds.flux, 2e-3)));
   });
 }
@@ -118,7 +118,7 @@ TEST_CASE("a frame of one pixel holds what all pixels of the same area hold") {
   for_each_method([&](const Bounds& bounds) {
     const double all = sum(image_of(bounds, lens, light, many));
     const double single = sum(image_of(bounds, lens, light, one));
-    if (bounds.covers_pixels) CHECK(single == doctest::Approx(all).epsilon(0.01));
+    if (bounds.traits.integrates_pixels) CHECK(single == doctest::Approx(all).epsilon(0.01));
   });
 }
 
@@ -198,7 +198,7 @@ TEST_CASE("a light that moves by a hundredth of a pixel changes no pixel by a ju
   const Image truth = truth_of(lens, light_after(0), settings);
   const double natural = largest_difference(truth, truth_of(lens, light_after(1), settings));
   for_each_method([&](const Bounds& bounds) {
-    if (bounds.method == "reference") return;
+    if (bounds.traits.is_exact) return;
     Image before = image_of(bounds, lens, light_after(0), settings);
     for (int step = 1; step <= kSteps; ++step) {
       Image after = image_of(bounds, lens, light_after(step), settings);

@@ -98,14 +98,15 @@ TEST_CASE("a plate's ghost has the shadows of its dirt where it lies, and loses 
     }
     REQUIRE(passed < 0.97);
     for_each_method([&](const Bounds& bounds) {
-      if (bounds.method == "reference" && opacity < 1.0) return;
+      if (bounds.traits.is_slow && opacity < 1.0) return;
       const Image image = image_of(bounds, lens, Light{}, settings);
       double squares = 0.0;
       for (int k = 0; k < kSide * kSide; ++k)
         squares += std::pow(image.at(k % kSide, k / kSide) / level - expected[static_cast<std::size_t>(k)], 2.0);
       // Counting is off by some hundredths in pixels that an edge crosses; one sample a pixel is a step at the rim.
-      CHECK(std::sqrt(squares / (kSide * kSide)) < (bounds.covers_pixels ? 0.015 : 0.06));
-      CHECK(sum(image) / 3.0 / (0.04 * 0.04) == doctest::Approx(passed).epsilon(bounds.covers_pixels ? 2e-3 : 0.02));
+      CHECK(std::sqrt(squares / (kSide * kSide)) < (bounds.traits.integrates_pixels ? 0.015 : 0.06));
+      CHECK(sum(image) / 3.0 / (0.04 * 0.04) ==
+            doctest::Approx(passed).epsilon(bounds.traits.integrates_pixels ? 2e-3 : 0.02));
     });
   }
 }
@@ -134,7 +135,7 @@ TEST_CASE("ghosts of a lens lose what dirt blocks, and every renderer shows it w
     CHECK(sum(truth) < 0.99 * sum(without));
     CHECK(psnr_db(without, truth) < 45.0);
     for_each_method([&](const Bounds& bounds) {
-      if (bounds.method == "reference") return;
+      if (bounds.traits.is_exact) return;
       Bounds asked = bounds;
       asked.psnr_db = std::min(bounds.psnr_db, 50.0);  // bundle: places are linear over cells of a grid of 128
       check_against(truth, image_of(bounds, s.dirty, s.light, s.frame), asked);
@@ -147,7 +148,7 @@ TEST_CASE("ringing and dirt together, and dirt before a near light, as the refer
     const Image truth = truth_of(s.dirty, s.light, s.frame);
     CHECK(psnr_db(truth, truth_of(s.clean, s.light, s.frame)) < 45.0);
     for_each_method([&](const Bounds& bounds) {
-      if (bounds.method == "reference") return;
+      if (bounds.traits.is_exact) return;
       const Image image = image_of(bounds, s.dirty, s.light, s.frame);
       CHECK(psnr_db(truth, image) >= std::min(bounds.psnr_db, psnr));
       CHECK(sum(image) / sum(truth) == doctest::Approx(1.0).epsilon(std::max(bounds.flux, 0.01)));
@@ -246,7 +247,7 @@ TEST_CASE("shadows of the front lie where rays through the front say [slow]") {
     }
     REQUIRE(counted > 30);
     CHECK(flux_passed < 0.95 * flux);
-    CHECK(std::sqrt(squares / counted) < (bounds.covers_pixels ? 0.05 : 0.1));
+    CHECK(std::sqrt(squares / counted) < (bounds.traits.integrates_pixels ? 0.05 : 0.1));
     CHECK(sum(dark) / sum(lit) == doctest::Approx(flux_passed / flux).epsilon(0.01));
   });
 }
@@ -254,7 +255,7 @@ TEST_CASE("shadows of the front lie where rays through the front say [slow]") {
 TEST_CASE("without dirt the same bits as ever; threads do not matter") {
   LensScene s = heliar_scene(some_dirt(DirtPlane::Front));
   for_each_method([&](const Bounds& bounds) {
-    if (bounds.method == "reference") return;
+    if (bounds.traits.is_exact) return;
     LensState none = s.clean;
     none.dirt = Dirt{.dust_per_cm2 = 100.0, .opacity = 0.0, .seed = 4, .time = 0.2};
     const auto expected = image_of(bounds, s.clean, s.light, s.frame).pixels;
@@ -296,7 +297,7 @@ TEST_CASE("as much dirt as there may be leaves little light, and none of it nega
       lens.dirt.dust_mm = dust_mm;
       lens.dirt.scratches_per_cm2 = dust_mm > 0.1 ? 0.0 : Dirt::kMostScratchesPerCm2;
       for_each_method([&](const Bounds& bounds) {
-        if (bounds.method == "reference") return;
+        if (bounds.traits.is_exact) return;
         const Image image = image_of(bounds, lens, Light{}, settings);
         for (const float v : image.pixels) CHECK_UNARY(v > -1e-4 * level && v < 1.05 * level);
         if (dust_mm >= 4.0) CHECK(sum(image) == doctest::Approx(0.0));

@@ -78,7 +78,7 @@ TEST_CASE("an offset moves a ghost by so many pixels, to the right and up") {
     }
     CHECK(peak_of(still) > 0.0);
     // What is outside the frame at first changes what adaptive makes of its error; a sample a pixel may flip.
-    CHECK(worst <= (bounds.method == "adaptive" ? 0.02 : bounds.covers_pixels ? 1e-4 : 1.0) * peak_of(still));
+    CHECK(worst <= (bounds.traits.spends_error ? 0.02 : bounds.traits.integrates_pixels ? 1e-4 : 1.0) * peak_of(still));
   });
 }
 

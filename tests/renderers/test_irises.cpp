@@ -60,8 +60,8 @@ void check_plate(const Iris& iris) {
     }
     // Counting is off by up to 1/16 where an edge runs along a pixel's side, a picture's details of 0.3 pixels are
     // means.
-    CHECK(std::sqrt(squares / (80 * 80)) < (bounds.covers_pixels ? 0.012 : 0.15));
-    CHECK(worst < (bounds.covers_pixels ? 0.1 : 1.001));
+    CHECK(std::sqrt(squares / (80 * 80)) < (bounds.traits.integrates_pixels ? 0.012 : 0.15));
+    CHECK(worst < (bounds.traits.integrates_pixels ? 0.1 : 1.001));
     CHECK(sum(image) / 3.0 / (0.04 * 0.04) == doctest::Approx(1.0).epsilon(std::max(bounds.flux, 5e-3)));
   });
 }
@@ -90,7 +90,7 @@ TEST_CASE("every number of blades, the ends of every range") {
       const LensState lens = plate_with({blades, -2.0, curvature, 1.0, 0.5, static_cast<std::uint32_t>(blades)});
       const RenderSettings settings = green({40, 40, 0, 0, 40, 40, 0.16});
       for_each_method([&](const Bounds& bounds) {
-        if (bounds.method == "reference" && blades % 8 != 0) return;
+        if (bounds.traits.is_slow && blades % 8 != 0) return;
         const double flux = sum(image_of(bounds, lens, Light{}, settings)) / 3.0 / (0.04 * 0.04);
         CHECK(flux == doctest::Approx(1.0).epsilon(std::max(bounds.flux, 2e-3)));
       });
@@ -104,7 +104,7 @@ TEST_CASE("blades that leave a circle give the round iris's bits") {
                                light_at(bundled("heliar"), settings.frame, {0.7, 0.33}), settings);
   CHECK(sum(round) > 0.0);
   for_each_method([&](const Bounds& bounds) {
-    if (bounds.method == "reference") return;
+    if (bounds.traits.is_exact) return;
     const auto drawn = [&](const LensSettings& lens_settings) {
       const LensState lens = bundled("heliar", lens_settings);
       return image_of(bounds, lens, light_at(lens, settings.frame, {0.7, 0.33}), settings).pixels;
@@ -121,7 +121,7 @@ TEST_CASE("blades that leave a circle give the round iris's bits") {
       worst = std::max(worst, std::abs(static_cast<double>(stopped[k]) - closed[k]));
       peak = std::max(peak, static_cast<double>(stopped[k]));
     }
-    if (bounds.covers_pixels) CHECK(worst <= 1e-3 * peak);
+    if (bounds.traits.integrates_pixels) CHECK(worst <= 1e-3 * peak);
   });
 }
 
@@ -133,7 +133,7 @@ TEST_CASE("a white picture is the round iris, to the error of its edge [slow]") 
   const Light light = light_at(round, settings.frame, {0.7, 0.33});
   for_each_method([&](const Bounds& bounds) {
     CHECK(psnr_db(image_of(bounds, round, light, settings), image_of(bounds, white, light, settings)) >=
-          (bounds.covers_pixels ? 55.0 : 40.0));
+          (bounds.traits.integrates_pixels ? 55.0 : 40.0));
   });
 }
 
@@ -161,7 +161,7 @@ TEST_CASE("curved and uneven blades, as in the reference [slow]") {
     const Image truth = truth_of(lens, light, settings);
     CHECK(sum(truth) > 0.0);
     for_each_method([&](const Bounds& bounds) {
-      if (bounds.method != "reference") check_against(truth, image_of(bounds, lens, light, settings), bounds);
+      if (!bounds.traits.is_exact) check_against(truth, image_of(bounds, lens, light, settings), bounds);
     });
   }
 }
@@ -175,7 +175,7 @@ TEST_CASE("a picture as the iris, as in the reference [slow]") {
     const Image truth = truth_of(lens, light, settings);
     CHECK(sum(truth) > 0.0);
     for_each_method([&](Bounds bounds) {
-      if (bounds.method == "reference") return;
+      if (bounds.traits.is_exact) return;
       check_against(truth, image_of(bounds, lens, light, settings), bounds);
     });
   }

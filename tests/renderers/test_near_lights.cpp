@@ -81,7 +81,7 @@ TEST_CASE("a light at a kilometre is a distant one; at infinity to the last bit"
   for_each_method([&](const Bounds& bounds) {
     const Image truth = image_of(bounds, lens, distant, settings);
     // A sample a pixel steps at edges: there one of a thousand may flip.
-    CHECK(psnr_db(truth, image_of(bounds, lens, far, settings)) > (bounds.covers_pixels ? 60.0 : 40.0));
+    CHECK(psnr_db(truth, image_of(bounds, lens, far, settings)) > (bounds.traits.integrates_pixels ? 60.0 : 40.0));
     CHECK(image_of(bounds, lens, farther, settings).pixels == truth.pixels);
   });
 }
@@ -108,7 +108,7 @@ TEST_CASE("lights at half a metre and nearer, as in the reference") {
     // It is not what a distant light gives.
     CHECK(psnr_db(truth, image_of(bounds_of("bundle"), lens, light_at(lens, settings.frame, c.uv), settings)) < 40.0);
     for_each_method([&](const Bounds& bounds) {
-      if (bounds.method == "reference") return;
+      if (bounds.traits.is_exact) return;
       check_against(truth, image_of(bounds, lens, light, settings), bounds);
     });
   }
@@ -153,7 +153,7 @@ TEST_CASE("lights that cannot be: refused with a reason, the nearest that can re
     for_each_method([&](const Bounds& bounds) {
       const Image image = image_of(bounds, lens, light, settings);  // every value is a finite number
       // So few pixels, sampled at their middles, may miss small ghosts.
-      CHECK(sum(image) / sum(truth) == doctest::Approx(1.0).epsilon(bounds.covers_pixels ? 0.05 : 0.5));
+      CHECK(sum(image) / sum(truth) == doctest::Approx(1.0).epsilon(bounds.traits.integrates_pixels ? 0.05 : 0.5));
     });
   }
 }

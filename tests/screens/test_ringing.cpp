@@ -66,10 +66,10 @@ TEST_CASE("a ghost keeps its light, whatever its Fresnel number [slow]") {
     const double half_mm = radius_mm * std::min(1.2 + 4.0 / std::sqrt(std::max(f, 0.5)) + 4.0 / std::max(f, 0.5), 12.5);
     const RenderSettings settings = green(square_frame(128, half_mm / 64.0));
     for_each_method([&](const Bounds& bounds) {
-      if (bounds.method == "reference" && f > 100.0) return;
+      if (bounds.traits.is_slow && f > 100.0) return;
       const double sharp = sum(image_of(bounds, lens, Light{}, settings));
       const double rung = sum(image_of(bounds, lens, Light{}, ringing(settings)));
-      CHECK(rung / sharp == doctest::Approx(1.0).epsilon(bounds.covers_pixels ? 0.01 : 0.04));
+      CHECK(rung / sharp == doctest::Approx(1.0).epsilon(bounds.traits.integrates_pixels ? 0.01 : 0.04));
     });
   }
 }
@@ -115,12 +115,12 @@ TEST_CASE("methods agree [slow]") {
   const auto check = [](const LensState& lens, const Light& light, const RenderSettings& settings) {
     const Image truth = truth_of(lens, light, settings);
     for_each_method([&](const Bounds& bounds) {
-      if (bounds.method == "reference") return;
+      if (bounds.traits.is_exact) return;
       RenderSettings fine = settings;
       fine.error = 1e-3;
       const Image image = image_of(bounds, lens, light, fine);
-      CHECK(psnr_db(truth, image) >= (bounds.covers_pixels ? 42.0 : 28.0));
-      CHECK(sum(image) / sum(truth) == doctest::Approx(1.0).epsilon(bounds.covers_pixels ? 0.01 : 0.06));
+      CHECK(psnr_db(truth, image) >= (bounds.traits.integrates_pixels ? 42.0 : 28.0));
+      CHECK(sum(image) / sum(truth) == doctest::Approx(1.0).epsilon(bounds.traits.integrates_pixels ? 0.01 : 0.06));
     });
   };
   const Iris curved{5, 0.3, 0.4};
@@ -190,7 +190,7 @@ TEST_CASE("off, order 0 and fringes finer than pixels give the sharp iris's bits
   const LensState plain = plate_of(kPlateRadius_mm, Iris{6, 0.2});
   const RenderSettings coarse = green(square_frame(16, 0.6));
   for_each_method([&](const Bounds& bounds) {
-    if (bounds.method == "reference") return;
+    if (bounds.traits.is_exact) return;
     const auto expected = image_of(bounds, lens, light, settings).pixels;
     RenderSettings off = settings;
     off.ringing = {RingingMode::None, 0.5, std::make_shared<RingingPatterns>()};

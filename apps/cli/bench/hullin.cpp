@@ -111,7 +111,7 @@ Result<Drawn> draw(const HullinScene& scene, const std::string& method, const Re
                    const HullinRunning& running) {
   Drawn drawn{{}, std::numeric_limits<double>::infinity(), 0};
   double all_ms = 0.0;
-  for (int run = 0; another_run(run, method == "reference" ? 1 : running.runs, all_ms); ++run) {
+  for (int run = 0; another_run(run, method_traits(method)->is_slow ? 1 : running.runs, all_ms); ++run) {
     const LongTask task(fmt::format("{}, {}", scene.lens.name, method), running.threads);
     auto flare = render(method, scene.lens, {&scene.light, 1}, settings, task.context());
     if (!flare) return tl::unexpected(flare.error());

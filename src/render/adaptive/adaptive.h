@@ -1,6 +1,6 @@
 #pragma once
 
-#include "render/interface/frame_plan.h"
+#include "render/interface/method.h"
 
 namespace contrejour {
 
@@ -8,5 +8,7 @@ namespace contrejour {
 // error asks for (docs/physics/adaptive.md).
 [[nodiscard]] Result<DrawnFlare> render_adaptive(const LensState& lens, const FramePlan& plan,
                                                  const RenderSettings& settings, const Context& context);
+
+inline constexpr Method kAdaptive{"adaptive", {.spends_error = true}, render_adaptive};
 
 }  // namespace contrejour

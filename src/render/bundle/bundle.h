@@ -1,6 +1,6 @@
 #pragma once
 
-#include "render/interface/frame_plan.h"
+#include "render/interface/method.h"
 
 namespace contrejour {
 
@@ -8,5 +8,7 @@ namespace contrejour {
 // aperture coordinates and clipping, ghost by ghost.
 [[nodiscard]] Result<DrawnFlare> render_bundle(const LensState& lens, const FramePlan& plan,
                                                const RenderSettings& settings, const Context& context);
+
+inline constexpr Method kBundle{"bundle", {}, render_bundle};
 
 }  // namespace contrejour

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <array>
 #include <memory>
 #include <utility>
 
@@ -11,24 +10,12 @@
 #include "contrejour/check_lens.h"
 #include "contrejour/render.h"
 #include "contrejour/ringing.h"
-#include "render/adaptive/adaptive.h"
 #include "render/area/area_render.h"
-#include "render/bundle/bundle.h"
-#include "render/reference/reference.h"
+#include "render/driver/registry.h"
 #include "render/starburst/starburst_pass.h"
-#include "render/tiled/tiled.h"
 
 namespace contrejour {
 namespace {
-
-struct Method {
-  std::string_view name;
-  PlannedRenderer draw;
-};
-
-// The default first.
-constexpr std::array kMethods{Method{"adaptive", render_adaptive}, Method{"bundle", render_bundle},
-                              Method{"tiled", render_tiled}, Method{"reference", render_reference}};
 
 constexpr double kGhostsShare = 0.9;  // of the progress, where the lights' own images follow
 
@@ -64,27 +51,20 @@ RenderSettings with_patterns(RenderSettings settings) {
 
 }  // namespace
 
-std::vector<std::string_view> render_methods() {
-  std::vector<std::string_view> names;
-  for (const Method& method : kMethods) names.push_back(method.name);
-  return names;
-}
-
 Result<Flare> render(std::string_view method, const LensState& lens, std::span<const Light> lights,
                      const RenderSettings& settings, const Context& context) {
   if (auto good = check_lens(lens); !good) return tl::unexpected(good.error());
-  for (const Method& known : kMethods) {
-    if (known.name != method) continue;
-    if (settings.ringing.mode != RingingMode::None && !settings.ringing.patterns)
-      return render(method, lens, lights, with_patterns(settings), context);
-    const bool adds_lights = settings.starburst.on || settings.glare.share != 0.0;
-    auto flare = (adds_lights ? render_with_lights : render_ghosts)(known, lens, lights, settings, context);
-    if (context.cancelled()) return interrupted();  // some of its loops may have stopped early
-    if (flare) flare->statistics.peak_memory_bytes = peak_memory_bytes();
-    return flare;
-  }
-  return failure(ErrorCode::InvalidArgument,
-                 fmt::format("there is no method '{}'; choose one of {}", method, fmt::join(render_methods(), ", ")));
+  const Method* const known = find_method(method);
+  if (known == nullptr)
+    return failure(ErrorCode::InvalidArgument,
+                   fmt::format("there is no method '{}'; choose one of {}", method, fmt::join(render_methods(), ", ")));
+  if (settings.ringing.mode != RingingMode::None && !settings.ringing.patterns)
+    return render(method, lens, lights, with_patterns(settings), context);
+  const bool adds_lights = settings.starburst.on || settings.glare.share != 0.0;
+  auto flare = (adds_lights ? render_with_lights : render_ghosts)(*known, lens, lights, settings, context);
+  if (context.cancelled()) return interrupted();  // some of its loops may have stopped early
+  if (flare) flare->statistics.peak_memory_bytes = peak_memory_bytes();
+  return flare;
 }
 
 }  // namespace contrejour

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "render/interface/frame_plan.h"
+#include "render/interface/method.h"
 
 namespace contrejour {
 
@@ -8,5 +8,7 @@ namespace contrejour {
 // renderers use.
 [[nodiscard]] Result<DrawnFlare> render_reference(const LensState& lens, const FramePlan& plan,
                                                   const RenderSettings& settings, const Context& context);
+
+inline constexpr Method kReference{"reference", {.is_exact = true, .is_slow = true}, render_reference};
 
 }  // namespace contrejour

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "render/interface/frame_plan.h"
+#include "render/interface/method.h"
 
 namespace contrejour {
 
@@ -8,5 +8,7 @@ namespace contrejour {
 // screen tile; and every pixel adds up what its tile's list puts there, in one pass over the frame.
 [[nodiscard]] Result<DrawnFlare> render_tiled(const LensState& lens, const FramePlan& plan,
                                               const RenderSettings& settings, const Context& context);
+
+inline constexpr Method kTiled{"tiled", {.integrates_pixels = false}, render_tiled};
 
 }  // namespace contrejour

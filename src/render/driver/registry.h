@@ -1,0 +1,14 @@
+// The one list of renderers. A new one adds its line to registry.cpp.
+// Thread-safety: constant.
+#pragma once
+
+#include <span>
+
+#include "render/interface/method.h"
+
+namespace contrejour {
+
+[[nodiscard]] std::span<const Method> all_methods();  // the default first
+[[nodiscard]] const Method* find_method(std::string_view name);  // null: there is none
+
+}  // namespace contrejour
