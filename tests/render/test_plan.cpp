@@ -199,6 +199,7 @@ TEST_CASE("selections by flux keep the light of every channel, of the lights' ow
   settings.frame = frame_on_sensor(lens, 96, 64);
   settings.wavelengths = 5;
   Light light = test::light_at(lens, settings.frame, {0.7, 0.33});
+  settings.frame.pixel_pitch_mm *= 1000.0;  // all light lands inside the frame
   const auto flux_of = [&](const FramePlan& planned) {
     Rgb sum{};
     for (const PlannedPass& pass : planned.lights[0].passes) {
@@ -230,6 +231,81 @@ TEST_CASE("selections by flux keep the light of every channel, of the lights' ow
         CHECK(planned->skipped_flux.value() == doctest::Approx(most_lost).epsilon(0.05).scale(0.01));
     }
   }
+}
+
+namespace {
+
+Rgb sum_of(const Image& image) {
+  Rgb sum{};
+  for (std::size_t k = 0; k < image.pixels.size(); ++k) sum[k % 3] += image.pixels[k];
+  return sum;
+}
+
+double most_lost(const Rgb& kept, const Rgb& all) {
+  double lost = 0.0;
+  for (std::size_t c = 0; c < 3; ++c) lost = std::max(lost, 1.0 - kept[c] / all[c]);
+  return lost;
+}
+
+}  // namespace
+
+// Weighed by all their light, ghosts that land beside the frame were kept in place of those that are seen: these frames
+// lost up to two and a half times what was said.
+TEST_CASE("selections by flux weigh what lands inside the frame, as drawn") {
+  struct Case {
+    const char* lens;
+    LensSettings settings;
+    Vec2 uv;
+    double offset;  // of the brightest ghost of all, to the right
+  };
+  for (const Case& c : {Case{"canon-70-200", {.focal_length_mm = 135.0, .f_number = 8.0}, {0.95, 0.9}, 0.0},
+                        Case{"nikon-80-200", {.focal_length_mm = 140.0, .f_number = 4.0}, {0.8, 0.7}, 0.0},
+                        Case{"heliar", {.f_number = 8.0}, {0.9, 0.9}, 3.0}}) {
+    CAPTURE(c.lens);
+    const LensState lens = test::bundled(c.lens, c.settings);
+    RenderSettings settings;
+    settings.frame = frame_on_sensor(lens, 192, 128);
+    settings.wavelengths = 3;
+    settings.scope = GhostScope::OneSideOfStop;
+    const Light light = test::light_at(lens, settings.frame, c.uv);
+    const auto drawn = [&](GhostSelection selection) {
+      settings.selection = std::move(selection);
+      auto flare = render("adaptive", lens, {&light, 1}, settings);
+      REQUIRE(flare.has_value());
+      return std::move(*flare);
+    };
+    if (c.offset != 0.0) {
+      settings.selection = SelectBrightest{1};
+      const auto first = plan(lens, {&light, 1}, settings);
+      REQUIRE(first.has_value());
+      settings.ghosts.adjustments.push_back({.ghost = first->ghosts[0], .offset = {c.offset, 0.0}});
+    }
+    const Rgb all = sum_of(drawn(SelectAll{}).image);
+    for (const GhostSelection& selection :
+         {GhostSelection{SelectBrightest{3}}, GhostSelection{SelectByFlux{10.0}}, GhostSelection{SelectByFlux{2.0}}}) {
+      const Flare some = drawn(selection);
+      const double lost = most_lost(sum_of(some.image), all);
+      CAPTURE(lost);
+      CHECK(some.statistics.ghosts_skipped_flux.value() == doctest::Approx(lost).epsilon(0.05).scale(0.03));
+    }
+  }
+}
+
+TEST_CASE("windows of a frame show the same ghosts") {
+  const LensState lens = test::bundled("heliar", {.f_number = 8.0});
+  RenderSettings settings;
+  settings.frame = frame_on_sensor(lens, 96, 64);
+  settings.wavelengths = 3;
+  settings.selection = SelectByFlux{10.0};
+  const Light light = test::light_at(lens, settings.frame, {0.8, 0.7});
+  const auto whole = plan(lens, {&light, 1}, settings);
+  REQUIRE(whole.has_value());
+  settings.frame.width = settings.frame.height = 8;
+  settings.frame.origin_x = 40;
+  const auto window = plan(lens, {&light, 1}, settings);
+  REQUIRE(window.has_value());
+  CHECK(window->ghosts == whole->ghosts);
+  CHECK(window->skipped_flux == whole->skipped_flux);
 }
 
 // As hullin2011 means them: measuring all ghosts had taken longer than drawing them. Both times are of this process,

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "ghosts/open_halves.h"
+#include "ghosts/pupils/triangle_window.h"
 
 namespace contrejour::pupils {
 namespace {
@@ -56,77 +57,6 @@ double level_of(const LitMesh& mesh, const OpenCell& cell, double pixel_mm) {
   return light_of(mesh, cell) / (long_mm * std::max(image_mm2 / long_mm, pixel_mm));
 }
 
-// What of a triangle lies in a square, as a share of its area.
-class SquareWindow {
- public:
-  SquareWindow(Vec2 middle, double side) : low_(middle - Vec2{0.5 * side, 0.5 * side}), side_(side) {}
-
-  [[nodiscard]] bool may_meet(const LitMesh& mesh, const OpenCell& cell) const {
-    bool left = true, right = true, below = true, above = true;
-    for (const std::size_t vertex : cell.vertex) {
-      const Vec2 p = mesh.landing_mm(vertex);
-      left = left && p.x < low_.x;
-      right = right && p.x > low_.x + side_;
-      below = below && p.y < low_.y;
-      above = above && p.y > low_.y + side_;
-    }
-    return !(left || right || below || above);
-  }
-
-  [[nodiscard]] double share_of(const std::array<Vec2, 3>& triangle) const {
-    Vec2 low = triangle[0], high = triangle[0];
-    for (const Vec2 p : triangle) {
-      low = {std::min(low.x, p.x), std::min(low.y, p.y)};
-      high = {std::max(high.x, p.x), std::max(high.y, p.y)};
-    }
-    if (high.x < low_.x || high.y < low_.y || low.x > low_.x + side_ || low.y > low_.y + side_) return 0.0;
-    const double whole = std::abs(cross(triangle[1] - triangle[0], triangle[2] - triangle[0]));
-    const double extent = std::max(high.x - low.x, high.y - low.y);
-    constexpr double kLine = 1e-6;
-    if (whole <= kLine * extent * extent) return share_of_line(low, high);
-    return std::min(1.0, twice_area_within(triangle) / whole);
-  }
-
- private:
-  // The share of a triangle that is a line, from about one corner of its bounds to the other.
-  [[nodiscard]] double share_of_line(Vec2 from, Vec2 to) const {
-    constexpr int kSteps = 16;
-    int inside = 0;
-    for (int k = 0; k < kSteps; ++k) {
-      const Vec2 p = from + (to - from) * ((k + 0.5) / kSteps);
-      inside += p.x >= low_.x && p.x <= low_.x + side_ && p.y >= low_.y && p.y <= low_.y + side_ ? 1 : 0;
-    }
-    return static_cast<double>(inside) / kSteps;
-  }
-
-  // Sutherland and Hodgman's clipping, side by side.
-  [[nodiscard]] double twice_area_within(const std::array<Vec2, 3>& triangle) const {
-    std::array<Vec2, 8> polygon{triangle[0], triangle[1], triangle[2]}, next;
-    std::size_t count = 3;
-    const auto clip = [&](const auto& inside_by) {
-      std::size_t kept = 0;
-      for (std::size_t k = 0; k < count; ++k) {
-        const Vec2 a = polygon[k], b = polygon[(k + 1) % count];
-        const double from = inside_by(a), to = inside_by(b);
-        if (from >= 0.0) next[kept++] = a;
-        if ((from < 0.0) != (to < 0.0)) next[kept++] = a + (b - a) * (from / (from - to));
-      }
-      polygon = next;
-      count = kept;
-    };
-    clip([&](Vec2 p) { return p.x - low_.x; });
-    clip([&](Vec2 p) { return low_.x + side_ - p.x; });
-    clip([&](Vec2 p) { return p.y - low_.y; });
-    clip([&](Vec2 p) { return low_.y + side_ - p.y; });
-    double twice = 0.0;
-    for (std::size_t k = 0; k < count; ++k) twice += cross(polygon[k], polygon[(k + 1) % count]);
-    return std::abs(twice);
-  }
-
-  Vec2 low_;
-  double side_;
-};
-
 constexpr double kLeast_mm = 1e-9, kMost_mm = 1e9;  // of a square
 
 // Where the peak may be: at the brightest cell, or where many parts of the pupil come together, which a table of
@@ -160,21 +90,29 @@ std::vector<Vec2> bright_places(const std::vector<LitMesh>& meshes, double pixel
   return places;
 }
 
-// All that lands in a square about a place, from wherever in the pupil, over its area.
-double mean_about(Vec2 place, const std::vector<LitMesh>& meshes, double pixel_mm) {
-  const SquareWindow window(place, pixel_mm);
+// All that lands in a window, from wherever in the pupil: mm^2 of the entrance plane times transmission.
+double light_within(const TriangleWindow& window, const std::vector<LitMesh>& meshes) {
   double light = 0.0;
   for (const LitMesh& mesh : meshes) {
     for_each_open_cell(mesh, [&](const OpenCell& cell) {
-      if (!window.may_meet(mesh, cell)) return;
+      std::array<Vec2, 4> image;
+      for (std::size_t k = 0; k < image.size(); ++k) image[k] = mesh.landing_mm(cell.vertex[k]);
+      if (window.misses(image)) return;
+      const bool whole = window.holds(image);
       for (std::size_t half = 0; half < 2; ++half) {
-        std::array<Vec2, 3> triangle;
-        for (std::size_t k = 0; k < 3; ++k) triangle[k] = mesh.landing_mm(cell.vertex[kHalves[half][k]]);
-        if (cell.open[half] > 0.0) light += light_of(mesh, cell, half) * window.share_of(triangle);
+        if (!(cell.open[half] > 0.0)) continue;
+        const auto& v = kHalves[half];
+        light += light_of(mesh, cell, half) * (whole ? 1.0 : window.share_of({image[v[0]], image[v[1]], image[v[2]]}));
       }
     });
   }
-  return light / (pixel_mm * pixel_mm);
+  return light;
+}
+
+// Over the area of a square about a place.
+double mean_about(Vec2 place, const std::vector<LitMesh>& meshes, double pixel_mm) {
+  const Vec2 half{0.5 * pixel_mm, 0.5 * pixel_mm};
+  return light_within(TriangleWindow({place - half, place + half}), meshes) / (pixel_mm * pixel_mm);
 }
 
 }  // namespace
@@ -218,6 +156,15 @@ void Footprint::add(const LitMesh& mesh) {
         grow(mesh.landing_mm(a) + (mesh.landing_mm(b) - mesh.landing_mm(a)) * (from / (from - to)));
     }
   });
+}
+
+double Footprint::flux_within_mm2(const Rectangle& sensor_mm) const {
+  const TriangleWindow window(sensor_mm);
+  if (window.holds(std::array{measure_.min_mm, measure_.max_mm})) return measure_.flux_mm2;
+  double whole = 0.0;
+  for (const LitMesh& mesh : meshes_)
+    for_each_open_cell(mesh, [&](const OpenCell& cell) { whole += light_of(mesh, cell); });
+  return whole > 0.0 ? measure_.flux_mm2 * (light_within(window, meshes_) / whole) : 0.0;
 }
 
 double Footprint::peak_per_mm2(double pixel_mm) const {

@@ -1,7 +1,8 @@
 #include "ghosts/pupils/ghost_light.h"
 
-#include <numeric>
-#include <utility>
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
 
 #include "ghosts/pupils/lit_mesh.h"
 
@@ -21,11 +22,65 @@ MeshTracer tracer_of(const PupilRequest& request, const LightFrame& light, const
   return {PacketPath(request.steps.at(lambda_nm), request.ghost, rays, request.stop_times), light, iris, density};
 }
 
-double light_of(const std::vector<LitMesh>& meshes) {
-  double light = 0.0;
-  for (const LitMesh& mesh : meshes)
-    light += std::inner_product(mesh.weight.begin(), mesh.weight.end(), mesh.transmission.begin(), 0.0);
-  return light;
+// Points of the entrance plane that stand for what is open.
+struct PupilSamples {
+  Vec2 origin_mm;
+  std::vector<float> x_mm, y_mm;     // from there
+  std::vector<double> weight;        // the share of what is open that each stands for, but for a factor
+  double light = 0.0;                // weights times transmissions, summed
+  double apart_mm = 0.0;             // of neighbouring rays, at least
+};
+
+// What a mesh's vertices stand for, added to the samples at equal steps of what is open, block by block and so all over
+// it. sum_mm2: what was open of meshes before.
+void add_samples(const LitMesh& mesh, double step_mm2, double& sum_mm2, PupilSamples& samples) {
+  std::vector<bool> seen(mesh.weight.size(), false);
+  const Vec2 origin = mesh.origin_mm - samples.origin_mm;
+  for (const Block& block : mesh.blocks) {
+    for (std::size_t k = 0; k < block.vertex.size(); ++k) {
+      const std::size_t vertex = block.vertex[k];
+      if (seen[vertex]) continue;
+      seen[vertex] = true;
+      const double before = std::round(sum_mm2 / step_mm2);
+      sum_mm2 += std::max(mesh.weight[vertex], 0.0);
+      const double steps = std::round(sum_mm2 / step_mm2) - before;
+      if (!(steps > 0.0)) continue;
+      const Vec2 place = origin + block.low_mm;
+      samples.x_mm.push_back(static_cast<float>(place.x + static_cast<double>(k % 3) * mesh.step_mm.x));
+      samples.y_mm.push_back(static_cast<float>(place.y + static_cast<double>(k / 3) * mesh.step_mm.y));
+      samples.weight.push_back(steps);
+      samples.light += steps * mesh.transmission[vertex];
+    }
+  }
+}
+
+// Of what is open anywhere.
+PupilSamples samples_of(const std::vector<LitMesh>& meshes) {
+  constexpr int kSamples = 32;
+  PupilSamples samples;
+  samples.origin_mm = meshes.front().origin_mm;
+  samples.apart_mm = meshes.front().step_mm.x;
+  double open_mm2 = 0.0;
+  for (const LitMesh& mesh : meshes) {
+    samples.apart_mm = std::min({samples.apart_mm, mesh.step_mm.x, mesh.step_mm.y});
+    for (const double weight : mesh.weight) open_mm2 += std::max(weight, 0.0);
+  }
+  double sum_mm2 = 0.0;
+  for (const LitMesh& mesh : meshes) add_samples(mesh, open_mm2 / kSamples, sum_mm2, samples);
+  return samples;
+}
+
+// How much more light gets through there at another wavelength.
+double ratio_at(const PupilRequest& request, const LightFrame& light, const IrisShape& iris, double lambda_nm,
+                const PupilSamples& samples, RayGrid& rays) {
+  const LightRays from{{0.0, 0.0, request.window.z_mm}, light.source};
+  PacketPath path(request.steps.at(lambda_nm), request.ghost, from, request.stop_times);
+  rays.trace_points(path, iris, light, samples.origin_mm, samples.x_mm, samples.y_mm,
+                    search_precision(samples.apart_mm));
+  double sum = 0.0;
+  for (std::size_t k = 0; k < samples.weight.size(); ++k)
+    if (std::isfinite(rays.blocked[k])) sum += samples.weight[k] * rays.transmission[k];
+  return sum / samples.light;
 }
 
 }  // namespace
@@ -36,9 +91,30 @@ Footprint footprint_of(const PupilRequest& request, const GhostPupil& pupil, dou
   return {tracer.trace(pupil.boxes), light.source.shared_flux()};
 }
 
-double rough_flux(const PupilRequest& request, const GhostPupil& pupil, double lambda_nm, const IrisShape& iris) {
+std::vector<double> rough_fluxes_within(const PupilRequest& request, const GhostPupil& searched,
+                                        std::span<const double> lambda_nm, const IrisShape& iris,
+                                        const Rectangle& sensor_mm) {
+  std::vector<double> fluxes(lambda_nm.size(), 0.0);
+  if (searched.boxes.empty()) return fluxes;
+  const std::vector<Rectangle> boxes = disjoint(searched.boxes);
   const LightFrame light = frame_of(request);
-  return light_of(tracer_of(request, light, iris, lambda_nm, kRough).trace(pupil.boxes)) * light.source.shared_flux();
+  const auto footprint_at = [&](double nm) {
+    return Footprint(tracer_of(request, light, iris, nm, kRough).trace(boxes), light.source.shared_flux());
+  };
+  const double middle_nm = middle_wavelength(request);
+  const Footprint middle = footprint_at(middle_nm);
+  const double middle_flux = middle.flux_within_mm2(sensor_mm);
+  const bool is_dark = !(middle.measure().flux_mm2 > 0.0);  // as coatings may be at one wavelength
+  if (!is_dark && !(middle_flux > 0.0)) return fluxes;
+  const PupilSamples samples = is_dark ? PupilSamples{} : samples_of(middle.meshes());
+  RayGrid rays;
+  for (std::size_t k = 0; k < lambda_nm.size(); ++k) {
+    const double nm = lambda_nm[k];
+    fluxes[k] = nm == middle_nm       ? middle_flux
+                : samples.light > 0.0 ? middle_flux * ratio_at(request, light, iris, nm, samples, rays)
+                                      : footprint_at(nm).flux_within_mm2(sensor_mm);
+  }
+  return fluxes;
 }
 
 }  // namespace contrejour::pupils

@@ -20,20 +20,11 @@ constexpr double kMargin = 0.1;
 // Boxes of the sharp stop are widened as the stop is up to here, farther by its root: what they lack they grow.
 constexpr double kMuchWider = 1.5;
 
+// What comes through at no place of a fine grid at the first wavelength is not searched as finely at another.
+constexpr PupilEffort kEffortAfterNone = PupilEffort::Finer;
+
 bool overlap(const Rectangle& a, const Rectangle& b) {
   return a.low.x < b.high.x && b.low.x < a.high.x && a.low.y < b.high.y && b.low.y < a.high.y;
-}
-
-// Boxes that overlap, whose light would count twice there, as one that holds both.
-void merge_overlapping(std::vector<Rectangle>& boxes) {
-  for (std::size_t a = 0; a < boxes.size(); ++a) {
-    for (std::size_t b = a + 1; b < boxes.size(); ++b) {
-      if (!overlap(boxes[a], boxes[b])) continue;
-      boxes[a] = both(boxes[a], boxes[b]);
-      boxes.erase(boxes.begin() + static_cast<std::ptrdiff_t>(b));
-      return merge_overlapping(boxes);
-    }
-  }
 }
 
 Rectangle with_margin(const Rectangle& box) {
@@ -63,21 +54,28 @@ std::vector<double> outer_wavelengths(std::span<const double> lambda_nm) {
   return outer_nm;
 }
 
-bool is_symmetric(const PupilRequest& request) {
-  return has_axial_symmetry(request.steps.lens(), request.ghost);
-}
+bool is_symmetric(const PupilRequest& request) { return has_axial_symmetry(request.steps.lens(), request.ghost); }
 
-// A lens without symmetries has one box, found by grids over all of the window.
+// A lens without symmetries has one box, found by grids over all of the window. At another wavelength light comes
+// through about where it does at the first.
 GhostPupil find_askew_box(const PupilRequest& request) {
   const IrisShape circle{Iris{}};
   GhostPupil pupil;
   RayGrid grid;
   std::optional<Rectangle> box;
+  bool is_first = true;
   for (const double lambda_nm : outer_wavelengths(request.lambda_nm)) {
     const LensSteps& steps = request.steps.at(lambda_nm);
     OpticalPath path = ghost_path(steps.lens(), request.ghost, lambda_nm);
     path.stop_radius_mm *= request.stop_times;
-    const auto region = find_pupil_region(path, steps.tables(), circle, request.light, request.window, grid);
+    std::optional<PupilRegion> region;
+    if (box)
+      region =
+          find_pupil_region_in(with_margin(*box), path, steps.tables(), circle, request.light, request.window, grid);
+    if (!region)
+      region = find_pupil_region(path, steps.tables(), circle, request.light, request.window, grid,
+                                 box || is_first ? PupilEffort::Finest : kEffortAfterNone);
+    is_first = false;
     if (!region) continue;
     box = box ? both(*box, region->pupil_mm) : region->pupil_mm;
     pupil.rays += region->rays;
@@ -107,26 +105,53 @@ void fit_boxes(const PupilRequest& request, const std::vector<Rectangle>& near, 
     pupil.boxes.push_back(box);
     if (box.low.y >= 0.0) pupil.boxes.push_back(mirrored(box));
   }
-  merge_overlapping(pupil.boxes);
+  pupil.boxes = disjoint(std::move(pupil.boxes));
 }
 
 }  // namespace
 
 bool is_mirror_image(const Rectangle& box) { return box.high.y <= 0.0; }
 
+double middle_wavelength(const PupilRequest& request) { return request.lambda_nm[request.lambda_nm.size() / 2]; }
+
+std::vector<Rectangle> disjoint(std::vector<Rectangle> boxes) {
+  for (std::size_t a = 0; a < boxes.size(); ++a) {
+    for (std::size_t b = a + 1; b < boxes.size(); ++b) {
+      if (!overlap(boxes[a], boxes[b])) continue;
+      boxes[a] = both(boxes[a], boxes[b]);
+      boxes.erase(boxes.begin() + static_cast<std::ptrdiff_t>(b));
+      return disjoint(std::move(boxes));
+    }
+  }
+  return boxes;
+}
+
 GhostPupil find_ghost_pupil(const PupilRequest& request) {
+  return fit_ghost_pupil(request, search_ghost_pupil(request));
+}
+
+GhostPupil search_ghost_pupil(const PupilRequest& request) {
   if (request.lambda_nm.empty()) return {};
   if (!is_symmetric(request)) return find_askew_box(request);
   const LightFrame light(request.light);
-  const double middle_nm = request.lambda_nm[request.lambda_nm.size() / 2];
+  const double middle_nm = middle_wavelength(request);
   const PacketPath path(request.steps.at(middle_nm), request.ghost, {{0.0, 0.0, request.window.z_mm}, light.source});
   const PupilBoxes found = find_pupil_boxes(path, request.window);
   GhostPupil pupil{{}, found.rays, found.rays * path.steps().size()};
-  std::vector<Rectangle> near;
-  for (const Rectangle& box : found.boxes)
-    if (!is_mirror_image(box)) near.push_back(with_margin_aside(box));
-  if (!near.empty()) fit_boxes(request, near, pupil);
+  for (const Rectangle& box : found.boxes) {
+    if (is_mirror_image(box)) continue;
+    pupil.boxes.push_back(with_margin_aside(box));
+    if (pupil.boxes.back().low.y >= 0.0) pupil.boxes.push_back(mirrored(pupil.boxes.back()));
+  }
   return pupil;
+}
+
+GhostPupil fit_ghost_pupil(const PupilRequest& request, GhostPupil searched) {
+  if (searched.boxes.empty() || !is_symmetric(request)) return searched;
+  std::erase_if(searched.boxes, is_mirror_image);
+  const std::vector<Rectangle> near = std::exchange(searched.boxes, {});
+  fit_boxes(request, near, searched);
+  return searched;
 }
 
 GhostPupil refit_ghost_pupil(const PupilRequest& request, std::vector<Rectangle> boxes) {

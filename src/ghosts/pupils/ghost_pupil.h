@@ -28,10 +28,21 @@ struct GhostPupil {
 
 [[nodiscard]] GhostPupil find_ghost_pupil(const PupilRequest& request);
 
+// The same in two steps, the second for ghosts that turn out to matter: boxes for the middle wavelength, which may
+// overlap, and from them those for all. (Lenses without symmetries are searched in one.)
+[[nodiscard]] GhostPupil search_ghost_pupil(const PupilRequest& request);
+[[nodiscard]] GhostPupil fit_ghost_pupil(const PupilRequest& request, GhostPupil searched);
+
+// Boxes that overlap, whose light would count twice there, as one that holds both.
+[[nodiscard]] std::vector<Rectangle> disjoint(std::vector<Rectangle> boxes);
+
 // From the boxes of a smaller stop: what comes through near them.
 [[nodiscard]] GhostPupil refit_ghost_pupil(const PupilRequest& request, std::vector<Rectangle> boxes);
 
 // Is it the image of a box on the other side of the axis of symmetry?
 [[nodiscard]] bool is_mirror_image(const Rectangle& box);
+
+// That a pupil is searched at.
+[[nodiscard]] double middle_wavelength(const PupilRequest& request);
 
 }  // namespace contrejour::pupils

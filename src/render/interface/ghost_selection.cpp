@@ -11,6 +11,7 @@
 #include "base/tasks.h"
 #include "ghosts/light_frame.h"
 #include "ghosts/pupils/ghost_light.h"
+#include "render/interface/ghost_look.h"
 #include "render/interface/wavelength_samples.h"
 
 namespace contrejour {
@@ -22,11 +23,21 @@ using pupils::PupilRequest;
 constexpr std::size_t kMostMeasured = 5;  // wavelengths of a light: polynomials through these give the others
 constexpr std::size_t kMostKept = 1U << 16U;  // pupils, beyond which they are looked for again rather than kept
 
-// The pupils of ghosts, and what they add to the picture: by ghost and then by light.
+// The pupils of ghosts, as far as they were searched, and what they add to the picture: by ghost and then by light.
 struct Measured {
   std::vector<GhostPupil> pupils;
-  std::vector<Rgb> flux;  // of each ghost by all lights, in pixel values, sizes summed
+  std::vector<Rgb> flux;  // of each ghost by all lights inside the picture, in pixel values, sizes summed
 };
+
+// What of the sensor is seen, for a ghost that is set off by its look: all of the frame, of which a window may be
+// drawn, so that windows of one frame have the same ghosts; and what a window shows beside it.
+Rectangle seen_mm(const Frame& frame, const GhostLook& look) {
+  const Frame placed = look.placed(frame);
+  const double left = std::min(-frame.origin_x, 0), top = std::min(-frame.origin_y, 0);
+  const double right = std::max(frame.full_width - frame.origin_x, frame.width);
+  const double bottom = std::max(frame.full_height - frame.origin_y, frame.height);
+  return {placed.sensor_from_pixel({right, top}), placed.sensor_from_pixel({left, bottom})};
+}
 
 // A light's wavelengths that are measured, and what it makes of their fluxes.
 class MeasuredLight {
@@ -54,13 +65,13 @@ class MeasuredLight {
   [[nodiscard]] PupilRequest request(const LensState& lens, const StepsByWavelength& steps, const Ghost& ghost) const {
     return {steps, ghost, light_.source, windows_.of(has_axial_symmetry(lens, ghost)), all_nm_};
   }
-  [[nodiscard]] Rgb flux(const PupilRequest& request, const GhostPupil& pupil, const IrisShape& iris) const {
+  [[nodiscard]] Rgb flux(const PupilRequest& request, const GhostPupil& searched, const IrisShape& iris,
+                         const GhostLook& look, const Frame& frame) const {
     Rgb sum{};
-    for (std::size_t k = 0; k < gain_.size(); ++k) {
-      const double flux = rough_flux(request, pupil, measured_nm_[k], iris);
-      for (std::size_t c = 0; c < 3; ++c) sum[c] += gain_[k][c] * flux;
-    }
-    return sum;
+    const std::vector<double> flux = rough_fluxes_within(request, searched, measured_nm_, iris, seen_mm(frame, look));
+    for (std::size_t k = 0; k < gain_.size(); ++k)
+      for (std::size_t c = 0; c < 3; ++c) sum[c] += gain_[k][c] * flux[k];
+    return look.tinted(sum);
   }
 
  private:
@@ -70,30 +81,54 @@ class MeasuredLight {
   std::vector<Rgb> gain_;  // one for each that is measured
 };
 
-Result<Measured> measure_ghosts(const LensState& lens, std::span<const Ghost> ghosts,
-                                std::span<const PlannedLight> lights, const TablesByWavelength& tables,
-                                const Context& context) {
-  const StepsByWavelength steps(lens, tables);
-  std::vector<MeasuredLight> measured;
-  for (const PlannedLight& light : lights) measured.emplace_back(lens, light);
-  const IrisShape iris(lens.iris);
-  const std::size_t count = ghosts.size() * lights.size();
-  std::vector<Rgb> flux(count);
-  Measured out;
-  out.pupils.resize(count <= kMostKept ? count : 0);
-  const bool done = parallel_for(count, context, [&](std::size_t k) {
-    const MeasuredLight& light = measured[k % lights.size()];
-    const PupilRequest request = light.request(lens, steps, ghosts[k / lights.size()]);
-    GhostPupil pupil = find_ghost_pupil(request);
-    flux[k] = light.flux(request, pupil, iris);
-    if (!out.pupils.empty()) out.pupils[k] = std::move(pupil);
-  });
-  if (!done) return interrupted();
-  out.flux.resize(ghosts.size());
-  for (std::size_t k = 0; k < count; ++k)
-    for (std::size_t c = 0; c < 3; ++c) out.flux[k / lights.size()][c] += std::abs(flux[k][c]);
-  return out;
-}
+// All pairs of some ghosts and lights: by ghost and then by light.
+class GhostMeasuring {
+ public:
+  GhostMeasuring(const LensState& lens, std::span<const PlannedLight> lights, const TablesByWavelength& tables,
+                 const RenderSettings& settings)
+      : lens_(lens), settings_(settings), steps_(lens, tables), iris_(lens.iris) {
+    for (const PlannedLight& light : lights) lights_.emplace_back(lens, light);
+  }
+
+  // Errors: Cancelled.
+  [[nodiscard]] Result<Measured> measure(std::span<const Ghost> ghosts, const Context& context) const {
+    const std::vector<GhostLook> looks = ghost_looks(lens_, ghosts, settings_.ghosts, settings_.frame);
+    const std::size_t count = ghosts.size() * lights_.size();
+    std::vector<Rgb> flux(count);
+    Measured out;
+    out.pupils.resize(count <= kMostKept ? count : 0);
+    const bool done = parallel_for(count, context, [&](std::size_t k) {
+      const std::size_t g = k / lights_.size();
+      const PupilRequest request = request_of(k, ghosts[g]);
+      GhostPupil searched = search_ghost_pupil(request);
+      flux[k] = lights_[k % lights_.size()].flux(request, searched, iris_, looks[g], settings_.frame);
+      if (!out.pupils.empty()) out.pupils[k] = std::move(searched);
+    });
+    if (!done) return interrupted();
+    out.flux.resize(ghosts.size());
+    for (std::size_t k = 0; k < count; ++k)
+      for (std::size_t c = 0; c < 3; ++c) out.flux[k / lights_.size()][c] += std::abs(flux[k][c]);
+    return out;
+  }
+
+  // Pupils that were searched, at all wavelengths. False when cancelled.
+  [[nodiscard]] bool fit(std::span<const Ghost> ghosts, std::vector<GhostPupil>& pupils, const Context& context) const {
+    return parallel_for(pupils.size(), context, [&](std::size_t k) {
+      pupils[k] = fit_ghost_pupil(request_of(k, ghosts[k / lights_.size()]), std::move(pupils[k]));
+    });
+  }
+
+ private:
+  [[nodiscard]] PupilRequest request_of(std::size_t pair, const Ghost& ghost) const {
+    return lights_[pair % lights_.size()].request(lens_, steps_, ghost);
+  }
+
+  const LensState& lens_;
+  const RenderSettings& settings_;
+  StepsByWavelength steps_;
+  IrisShape iris_;
+  std::vector<MeasuredLight> lights_;
+};
 
 // Each ghost's shares of the flux of all, channel by channel.
 std::vector<Rgb> shares_of(std::vector<Rgb> flux) {
@@ -201,11 +236,14 @@ struct Selector {
   template <class Count>
   [[nodiscard]] Result<GhostChoice> by_flux(Count count) const {
     const auto all = in_scope();
-    auto measured = measure_ghosts(lens, all, lights, tables, context);
+    const GhostMeasuring measuring(lens, lights, tables, settings);
+    auto measured = measuring.measure(all, context);
     if (!measured) return tl::unexpected<Error>(measured.error());
     const std::vector<Rgb> share = shares_of(measured->flux);
     const auto order = by_falling_share(share);
-    return first_of(all, lights.size(), *measured, share, order, count(share, order));
+    GhostChoice choice = first_of(all, lights.size(), *measured, share, order, count(share, order));
+    if (!measuring.fit(choice.ghosts, choice.pupils, context)) return interrupted();
+    return choice;
   }
 };
 

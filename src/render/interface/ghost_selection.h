@@ -14,8 +14,8 @@ namespace contrejour {
 
 struct GhostChoice {
   std::vector<Ghost> ghosts;  // in (i, j) order
-  // The share of the flux of all ghosts that the others carry, in the channel that loses most; none where it was not
-  // measured.
+  // The share of the flux of all ghosts inside the frame that the others carry, in the channel that loses most; none
+  // where it was not measured.
   std::optional<double> skipped_flux = std::nullopt;
   // Where each comes through, lights in turn, if that had to be found out.
   std::vector<pupils::GhostPupil> pupils = {};
@@ -25,8 +25,8 @@ struct GhostChoice {
 [[nodiscard]] Result<void> check_selection(const LensState& lens, const GhostSelection& selection);
 
 // Ghosts are measured only where their flux decides: SelectBrightest and SelectByFlux. What counts is what they add to
-// the picture's channels, by the lights' values and spectra: a ghost is as bright as its largest share of the flux of
-// all ghosts in any channel. tables: of the lights' wavelengths. Errors: Cancelled.
+// the picture's channels inside the frame, by the lights' values and spectra and by their looks: a ghost is as bright
+// as its largest share of the flux of all ghosts in any channel. tables: of the lights' wavelengths. Errors: Cancelled.
 [[nodiscard]] Result<GhostChoice> select_ghosts(const LensState& lens, std::span<const PlannedLight> lights,
                                                 const TablesByWavelength& tables, const RenderSettings& settings,
                                                 const Context& context);
