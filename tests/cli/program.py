@@ -17,7 +17,7 @@ class ProgramTest(unittest.TestCase):
         self.folder = pathlib.Path(holder.name)
 
     def run_program(self, *arguments, code=0, folder=None):
-        done = subprocess.run([PROGRAM, *map(str, arguments)], cwd=folder or self.folder, capture_output=True, timeout=120)
+        done = subprocess.run([PROGRAM, *map(str, arguments)], cwd=folder or self.folder, capture_output=True, timeout=300)
         self.assertEqual(done.returncode, code, f"{arguments[:30]}: {done.stdout.decode()}{done.stderr.decode()}")
         return done
 
