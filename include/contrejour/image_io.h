@@ -68,7 +68,8 @@ struct ReadOptions {
   // else the first layer with R, G, B.
   std::string layer;
   ReadLimits limits;
-  // Of a file of several parts only this one, by its name or its number from 0; empty: the first with that colour.
+  // The one part that is read of a file with several, by its name or its number from 0; empty: the first with that
+  // colour.
   std::string part = {};
 };
 

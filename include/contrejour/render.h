@@ -161,7 +161,7 @@ struct Flare {
   RenderStatistics statistics;
 };
 
-// What a method is like. Ask this, not its name.
+// Properties of a method, for code that would otherwise compare its name.
 struct MethodTraits {
   bool is_exact = false;  // converges to the true flare as its density rises: the others are judged by it
   bool is_slow = false;  // takes minutes where others take seconds

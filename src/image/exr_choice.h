@@ -18,10 +18,10 @@ struct ColourChannels {
   std::array<int, 2> chroma{-1, -1};
 };
 
-// Of the layer, or without one of what ReadOptions says.
+// The colour channels of a layer; without a layer, those that ReadOptions names.
 [[nodiscard]] std::optional<ColourChannels> colour_channels(const Picture& picture, const std::string& layer);
 
-// Of a picture without that colour; names its layers and channels.
+// The error for a picture without that colour; it names the picture's layers and channels.
 [[nodiscard]] tl::unexpected<Error> no_colour(const Picture& picture, const std::string& layer,
                                               const std::string& name);
 

@@ -16,7 +16,7 @@ class Footprint {
   // All but the peak.
   [[nodiscard]] const GhostMeasure& measure() const { return measure_; }
   [[nodiscard]] const std::vector<LitMesh>& meshes() const { return meshes_; }
-  // What of the flux lands in a part of the sensor.
+  // The flux that lands inside a rectangle of the sensor.
   [[nodiscard]] double flux_within_mm2(const Rectangle& sensor_mm) const;
   // The mean over the brightest square of pixel_mm a side; 0: that of a cell.
   [[nodiscard]] double peak_per_mm2(double pixel_mm) const;

@@ -31,8 +31,8 @@ struct PupilSamples {
   double apart_mm = 0.0;             // of neighbouring rays, at least
 };
 
-// What a mesh's vertices stand for, added to the samples at equal steps of what is open, block by block and so all over
-// it. sum_mm2: what was open of meshes before.
+// Adds a mesh's vertices as samples, one at each equal step of the open area that they stand for, block by block, so
+// that samples lie all over the mesh. sum_mm2: the open area of the meshes before.
 void add_samples(const LitMesh& mesh, double step_mm2, double& sum_mm2, PupilSamples& samples) {
   std::vector<bool> seen(mesh.weight.size(), false);
   const Vec2 origin = mesh.origin_mm - samples.origin_mm;
@@ -54,7 +54,7 @@ void add_samples(const LitMesh& mesh, double step_mm2, double& sum_mm2, PupilSam
   }
 }
 
-// Of what is open anywhere.
+// The samples of all meshes together.
 PupilSamples samples_of(const std::vector<LitMesh>& meshes) {
   constexpr int kSamples = 32;
   PupilSamples samples;

@@ -14,9 +14,9 @@ namespace contrejour::pupils {
 [[nodiscard]] Footprint footprint_of(const PupilRequest& request, const GhostPupil& pupil, double lambda_nm,
                                      const IrisShape& iris);
 
-// What of a ghost's flux lands in a part of the sensor, mm^2 at E0 = 1, at each of some wavelengths: to about a
-// hundredth of all its flux. Where light comes through and lands is found at the request's middle wavelength; at the
-// others the same rays tell how much is reflected. searched: of search_ghost_pupil() or find_ghost_pupil().
+// The flux of a ghost that lands inside a rectangle of the sensor, mm^2 at E0 = 1, at each of some wavelengths: to
+// about a hundredth of all its flux. Where light comes through and lands is found at the request's middle wavelength;
+// at the others the same rays tell how much is reflected. searched: of search_ghost_pupil() or find_ghost_pupil().
 [[nodiscard]] std::vector<double> rough_fluxes_within(const PupilRequest& request, const GhostPupil& searched,
                                                       std::span<const double> lambda_nm, const IrisShape& iris,
                                                       const Rectangle& sensor_mm);

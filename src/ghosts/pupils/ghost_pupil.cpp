@@ -20,7 +20,7 @@ constexpr double kMargin = 0.1;
 // Boxes of the sharp stop are widened as the stop is up to here, farther by its root: what they lack they grow.
 constexpr double kMuchWider = 1.5;
 
-// What comes through at no place of a fine grid at the first wavelength is not searched as finely at another.
+// A ghost that a fine grid did not find at the first wavelength is searched less finely at another.
 constexpr PupilEffort kEffortAfterNone = PupilEffort::Finer;
 
 bool overlap(const Rectangle& a, const Rectangle& b) {

@@ -12,7 +12,7 @@
 
 namespace contrejour::pupils {
 
-// What of a triangle lies in a rectangle, as a share of its area.
+// The fraction of a triangle's area that lies inside a rectangle.
 class TriangleWindow {
  public:
   explicit TriangleWindow(const Rectangle& window) : low_(window.low), high_(window.high) {}

@@ -56,7 +56,7 @@ class DirtScreen {
   }
   // Whether all of a disc has a transmission of 1. A large one counts as not clean where dirt comes near its bounds.
   [[nodiscard]] virtual bool is_clean(Vec2 middle_mm, double radius_mm, std::size_t crossing) const = 0;
-  // Of the shadows' edges: their length over area, times opacity^2, and about how wide they are (0: sharp).
+  // The shadows' edges: their length per area, times opacity^2, and about how wide they are (0: sharp).
   struct Edges {
     double per_mm = 0.0, softness_mm = 0.0;
   };

@@ -29,8 +29,8 @@ struct Measured {
   std::vector<Rgb> flux;  // of each ghost by all lights inside the picture, in pixel values, sizes summed
 };
 
-// What of the sensor is seen, for a ghost that is set off by its look: all of the frame, of which a window may be
-// drawn, so that windows of one frame have the same ghosts; and what a window shows beside it.
+// The rectangle of the sensor in which a ghost's light counts, moved by the ghost's offset: the whole frame, even where
+// a window of it is drawn, so that all windows have the same ghosts, and what a window shows beside the frame.
 Rectangle seen_mm(const Frame& frame, const GhostLook& look) {
   const Frame placed = look.placed(frame);
   const double left = std::min(-frame.origin_x, 0), top = std::min(-frame.origin_y, 0);

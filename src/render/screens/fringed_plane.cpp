@@ -38,7 +38,7 @@ double mean_half_chord(double r, double low, double high) {
   return (integral(high) - integral(low)) / (high - low);
 }
 
-// Of a stroke's line that lies in the square from -extent to extent.
+// The fraction of a stroke's line that lies in the square from -extent to extent.
 double share_within(const DirtStroke& s, double extent) {
   constexpr int kPlaces = 32;
   int inside = 0;
@@ -68,7 +68,6 @@ FringedPlane::FringedPlane(std::span<const DirtStroke> shapes, double extent_mm,
   double pitch_mm = pitch_mm_;
   for (Level& level : levels_) {
     if (!(pitch_mm > 0.0)) break;
-    level.extent_mm = extent_mm;
     level.per_mm = 1.0 / pitch_mm;
     level.tiles = static_cast<unsigned>(2.0 * extent_mm / (Tile::kSide * pitch_mm)) + 1;
     level.tile = std::vector<std::atomic<const Tile*>>(static_cast<std::size_t>(level.tiles) * level.tiles);
@@ -104,7 +103,7 @@ FringedPlane::Shape FringedPlane::shape_of(const DirtStroke& stroke) const {
   return shape;
 }
 
-// Of a round one, width in units: by rings.
+// Sums over rings about a round speck's axis; width in units.
 FringedPlane::Speck FringedPlane::speck_of(double width) const {
   Speck out{0.0, 0.0};
   const Shape shape = shape_of({{}, 0.0, 0.0, width * unit_mm_, 0.0, 1.0});
@@ -190,7 +189,7 @@ FringedPlane::Wave FringedPlane::speck_wave(const Shape& shape, Vec2 own) const 
   return sum;
 }
 
-// Of a slit along its line, which a bent one's place is told from by its circle.
+// The wave of a slit along the scratch's line. Places beside a bent scratch are measured along and across its circle.
 FringedPlane::Wave FringedPlane::scratch_wave(const Shape& shape, Vec2 at_mm) const {
   const DirtStroke& s = shape.stroke;
   const double half_width = 0.5 * s.width_mm * per_mm_;
@@ -208,7 +207,7 @@ FringedPlane::Wave FringedPlane::scratch_wave(const Shape& shape, Vec2 at_mm) co
   return across * slit(std::atan2(dot(shape.along, about), to_middle) * radius_mm * per_mm_, half_length);
 }
 
-// By counting: each cell's shapes in a row, by rising index.
+// A counting sort: each cell's shapes lie in a row, by rising index.
 void FringedPlane::sort_into_cells() {
   double reach = 0.0;
   for (const Shape& shape : shapes_) reach = std::max(reach, shape.reach_mm);
@@ -289,7 +288,7 @@ std::unique_ptr<FringedPlane::Tile> FringedPlane::sampled_tile(unsigned tile_x, 
   return tile;
 }
 
-// Of a level's samples; those beside the plane are 0.
+// One sample of a level; 0 beside the plane.
 float FringedPlane::sample(std::size_t level, long column, long row) const {
   constexpr long kSide = Tile::kSide;
   const long samples = kSide * static_cast<long>(levels_[level].tiles);

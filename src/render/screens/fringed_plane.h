@@ -3,9 +3,11 @@
 // exact for shapes apart from each other and for sharp ones over each other.
 // A scratch's wave is that of a slit of its width along its line, a speck's the sum of some slices', its outline's
 // where that is sharp. What a shape sends farther than its fringes are drawn, or is too weak to be drawn at all, is
-// spread evenly over the plane: so each takes as much light as its sharp shadow does. Units: mm. Accuracy: 5 per cent
-// of the level, root mean square, within StraightEdge::kTaperFrom units of a shape; waves weaker than kLeastWave are
-// left out. Thread-safety: const members may run at once. docs/physics/diffraction.md, "Dirt".
+// spread evenly over the plane: so each takes as much light as its sharp shadow does.
+//
+// Units: mm; a "unit" is sqrt(lambda z), about a fringe's width. Accuracy: 5 per cent of the level, root mean square,
+// within StraightEdge::kTaperFrom units of a shape; waves weaker than kLeastWave are left out.
+// Thread-safety: const members may run at once. docs/physics/diffraction.md, "Dirt".
 #pragma once
 
 #include <array>
@@ -45,7 +47,6 @@ class FringedPlane {
   static constexpr double kSamplesOfUnit = 8.0;
   static constexpr int kMostSlices = 16;
   using Wave = std::complex<float>;
-  // Lengths in units.
   struct Shape {
     DirtStroke stroke;
     float amplitude = 1.0F;  // that an opaque place takes away
@@ -54,10 +55,10 @@ class FringedPlane {
     double radius_mm = 0.0;  // of that, positive where it lies to the left; 0: straight
     double inner_cosine = 2.0;  // of the angle about it within which its ends are not seen
     int slices = 0;  // of a speck, along it; 0: by its edge, or a scratch
-    std::array<float, kMostSlices> half_length{};  // each slice's
+    std::array<float, kMostSlices> half_length{};  // each slice's, in units
     [[nodiscard]] double around_mm() const { return stroke.reach_mm() + reach_mm; }
   };
-  // Of round specks of about one size: their power over their area, and how far from the edge their wave is strong.
+  // Round specks of about one size: the power of their wave over their area, and how far from the edge it is strong.
   struct Speck {
     double power = 1.0, reach = 0.0;
   };
@@ -81,7 +82,7 @@ class FringedPlane {
   // Samples of 1 - transmission by tiles, made where first looked at: by whom does not matter. Each level's are half as
   // dense as those of the one below and smoothed by 1, 2, 1.
   struct Level {
-    double extent_mm = 0.0, per_mm = 0.0;  // the samples' place and density
+    double per_mm = 0.0;  // samples
     unsigned tiles = 0;  // a side
     mutable std::vector<std::atomic<const Tile*>> tile;
   };
