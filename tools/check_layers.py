@@ -29,9 +29,10 @@ FOLDERS = {
     "src/render/adaptive/maps": "render/adaptive/maps",
     "src/render/adaptive/tiles": "render/adaptive/tiles",
     "src/render/adaptive/cells": "render/adaptive/cells",
+    "src/settings": "settings",
+    "src/compositing": "compositing",
     "src/measure": "measure",
     "src/gpu": "gpu",
-    "apps/params": "apps/params",
     "apps": "apps",
     "python": "apps",
 }
@@ -83,6 +84,16 @@ PUBLIC = {
     "trace.h": "trace",
     "vec.h": "base",
     "write_lens.h": "lens_files",
+    "look.h": "settings",
+    "nearest_word.h": "settings",
+    "parameter.h": "settings",
+    "parameter_text.h": "settings",
+    "parameter_values.h": "settings",
+    "settings.h": "settings",
+    "detected_picture.h": "compositing",
+    "flare_plan.h": "compositing",
+    "flare_visibility.h": "compositing",
+    "pixel_grid.h": "compositing",
 }
 
 # "*renderers" stands for every src/render/<method>, "renderer" for one without a row of its own, "public" for
@@ -108,10 +119,11 @@ MAY_INCLUDE = {
     "render/screens": ["render/interface", "ghosts", "diffraction"],
     "render/starburst": ["render/interface", "ghosts", "diffraction", "render/area"],
     "render/driver": ["*renderers", "render/area", "render/starburst"],
+    "settings": ["render/interface"],
+    "compositing": ["settings"],
     "measure": ["trace", "ghosts", "image", "render/interface"],
     "gpu": ["render/interface", "kernels", "image"],
-    "apps/params": ["public"],
-    "apps": ["public", "apps/params"],
+    "apps": ["public"],
 }
 
 # Libraries that stay in one place: pattern of the include, folders that may name it, why.
@@ -194,11 +206,9 @@ def judge(source, layer, target):
     public_target = target.startswith("include/")
     if source.startswith("include/") and not public_target:
         return "a public header may include public headers only: users do not have this one"
-    if layer.startswith("apps"):
-        allowed = public_target or target.startswith("apps/params/")
-        if layer == "apps" and not allowed:  # a program's own folder is its own
-            allowed = target.split("/")[:2] == source.split("/")[:2]
-        return None if allowed else "apps may include include/contrejour, apps/params and their own folder only"
+    if layer == "apps":
+        allowed = public_target or target.split("/")[:2] == source.split("/")[:2]  # a program's own folder is its own
+        return None if allowed else "apps may include include/contrejour and their own folder only"
     other = layer_of(target)
     if other is None:
         return f"{target} belongs to no layer: add it to the table in tools/check_layers.py"

@@ -12,7 +12,7 @@
 #include "cli/console.h"
 #include "cli/interrupt.h"
 #include "cli/terminal.h"
-#include "params/nearest_word.h"
+#include "contrejour/nearest_word.h"
 
 namespace contrejour::cli {
 namespace {

@@ -20,10 +20,10 @@
 #include "cli/look_choice.h"
 #include "cli/options.h"
 #include "cli/outputs.h"
-#include "params/detected_picture.h"
-#include "params/flare_plan.h"
-#include "params/settings.h"
-#include "params/visibility.h"
+#include "contrejour/detected_picture.h"
+#include "contrejour/flare_plan.h"
+#include "contrejour/flare_visibility.h"
+#include "contrejour/settings.h"
 
 namespace contrejour::cli {
 namespace {

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "cli/text_table.h"
-#include "params/settings.h"
+#include "contrejour/settings.h"
 
 namespace contrejour::cli {
 namespace {

@@ -4,8 +4,8 @@
 #include <string>
 
 #include "cli/console.h"
-#include "params/flare_plan.h"
-#include "params/visibility.h"
+#include "contrejour/flare_plan.h"
+#include "contrejour/flare_visibility.h"
 
 namespace contrejour::cli {
 

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "cli/glass_choice.h"
-#include "params/parse.h"
+#include "contrejour/parameter_text.h"
 
 namespace contrejour::cli {
 

@@ -14,7 +14,7 @@
 #include "cli/reflectance_plot.h"
 #include "cli/reflected_colour.h"
 #include "cli/text_table.h"
-#include "params/parse.h"
+#include "contrejour/parameter_text.h"
 
 namespace contrejour::cli {
 namespace {

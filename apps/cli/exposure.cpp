@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "contrejour/metrics.h"
-#include "params/parse.h"
+#include "contrejour/parameter_text.h"
 
 namespace contrejour::cli {
 namespace {

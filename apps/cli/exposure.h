@@ -3,7 +3,7 @@
 
 #include "contrejour/image.h"
 #include "contrejour/image_io.h"
-#include "params/values.h"
+#include "contrejour/parameter_values.h"
 
 namespace contrejour::cli {
 

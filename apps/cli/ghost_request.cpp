@@ -1,7 +1,7 @@
 #include "cli/ghost_request.h"
 
-#include "params/parse.h"
-#include "params/settings.h"
+#include "contrejour/parameter_text.h"
+#include "contrejour/settings.h"
 
 namespace contrejour::cli {
 namespace {

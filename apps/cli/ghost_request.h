@@ -2,7 +2,7 @@
 #pragma once
 
 #include "contrejour/ghost_figures.h"
-#include "params/values.h"
+#include "contrejour/parameter_values.h"
 
 namespace contrejour::cli {
 

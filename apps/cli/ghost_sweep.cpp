@@ -11,8 +11,8 @@
 #include "cli/lens_choice.h"
 #include "cli/long_task.h"
 #include "cli/text_table.h"
+#include "contrejour/settings.h"
 #include "contrejour/trace.h"
-#include "params/settings.h"
 
 namespace contrejour::cli {
 namespace {

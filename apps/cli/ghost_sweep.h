@@ -9,7 +9,7 @@
 
 #include "cli/console.h"
 #include "contrejour/ghost_figures.h"
-#include "params/values.h"
+#include "contrejour/parameter_values.h"
 
 namespace contrejour::cli {
 

@@ -14,8 +14,8 @@
 #include "cli/long_task.h"
 #include "cli/options.h"
 #include "cli/outputs.h"
+#include "contrejour/settings.h"
 #include "contrejour/write_lens.h"
-#include "params/settings.h"
 
 namespace contrejour::cli {
 namespace {

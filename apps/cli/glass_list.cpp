@@ -8,7 +8,7 @@
 #include "cli/console.h"
 #include "cli/glass_choice.h"
 #include "cli/text_table.h"
-#include "params/parse.h"
+#include "contrejour/parameter_text.h"
 
 namespace contrejour::cli {
 namespace {

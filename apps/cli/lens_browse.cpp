@@ -20,7 +20,7 @@
 #include "contrejour/ghost.h"
 #include "contrejour/image_io.h"
 #include "contrejour/render.h"
-#include "params/settings.h"
+#include "contrejour/settings.h"
 
 namespace contrejour::cli {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "cli/console.h"
 #include "cli/glass_choice.h"
-#include "params/settings.h"
+#include "contrejour/settings.h"
 
 namespace contrejour::cli {
 

@@ -8,7 +8,7 @@
 
 #include "contrejour/ghost.h"
 #include "contrejour/lens.h"
-#include "params/values.h"
+#include "contrejour/parameter_values.h"
 
 namespace contrejour::cli {
 

@@ -11,7 +11,7 @@
 #include "cli/outputs.h"
 #include "cli/section_svg.h"
 #include "contrejour/light.h"
-#include "params/settings.h"
+#include "contrejour/settings.h"
 
 namespace contrejour::cli {
 namespace {

@@ -14,7 +14,7 @@
 #include "cli/text_table.h"
 #include "contrejour/first_order.h"
 #include "contrejour/seidel.h"
-#include "params/settings.h"
+#include "contrejour/settings.h"
 
 namespace contrejour::cli {
 namespace {

@@ -12,8 +12,8 @@
 #include "cli/lens_choice.h"
 #include "cli/options.h"
 #include "cli/text_table.h"
+#include "contrejour/settings.h"
 #include "contrejour/trace.h"
-#include "params/settings.h"
 
 namespace contrejour::cli {
 namespace {

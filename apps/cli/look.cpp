@@ -7,7 +7,7 @@
 #include "cli/command.h"
 #include "cli/console.h"
 #include "cli/text_table.h"
-#include "params/look.h"
+#include "contrejour/look.h"
 
 namespace contrejour::cli {
 namespace {

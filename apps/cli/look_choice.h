@@ -7,8 +7,8 @@
 
 #include <CLI/CLI.hpp>
 
+#include "contrejour/look.h"
 #include "contrejour/result.h"
-#include "params/look.h"
 
 namespace contrejour::cli {
 

@@ -11,7 +11,7 @@
 #include <CLI/CLI.hpp>
 
 #include "contrejour/image_io.h"
-#include "params/values.h"
+#include "contrejour/parameter_values.h"
 
 namespace contrejour::cli {
 

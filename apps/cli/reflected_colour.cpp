@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "params/parse.h"
+#include "contrejour/parameter_text.h"
 
 namespace contrejour::cli {
 namespace {

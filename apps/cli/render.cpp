@@ -15,9 +15,9 @@
 #include "cli/options.h"
 #include "cli/outputs.h"
 #include "contrejour/image_io.h"
+#include "contrejour/pixel_grid.h"
 #include "contrejour/render.h"
-#include "params/pixel_grid.h"
-#include "params/settings.h"
+#include "contrejour/settings.h"
 
 namespace contrejour::cli {
 namespace {

@@ -10,13 +10,13 @@
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
+#include "contrejour/flare_plan.h"
 #include "contrejour/image_io.h"
 #include "contrejour/lens.h"
 #include "contrejour/metrics.h"
 #include "contrejour/render.h"
+#include "contrejour/settings.h"
 #include "demo/street.h"
-#include "params/flare_plan.h"
-#include "params/settings.h"
 
 namespace contrejour::demo {
 namespace {

@@ -74,13 +74,18 @@ class Planted(unittest.TestCase):
         self.assertIn("users do not have", self.forbidden("include/contrejour/lens.h", '"base/units.h"', "src/base/units.h"))
         self.forbidden("include/contrejour/vec.h", '"contrejour/render.h"')
 
-    def test_apps_see_public_headers_and_parameters(self):
+    def test_apps_see_public_headers_and_their_own(self):
         self.allowed("apps/cli/main.cpp", '"contrejour/render.h"')
-        self.allowed("apps/cli/main.cpp", '"params/table.h"', "apps/params/table.h")
         self.allowed("apps/cli/main.cpp", '"command.h"', "apps/cli/command.h")
         self.forbidden("apps/cli/main.cpp", '"base/tasks.h"', "src/base/tasks.h")
         self.forbidden("apps/demo/main.cpp", '"../cli/command.h"', "apps/cli/command.h")
-        self.forbidden("apps/params/table.cpp", '"cli/command.h"', "apps/cli/command.h")
+        self.forbidden("apps/cli/main.cpp", '"settings/photometry.h"', "src/settings/photometry.h")
+
+    def test_settings_and_compositing_lie_above_the_renderers(self):
+        self.allowed("src/settings/a.cpp", '"contrejour/render.h"')
+        self.allowed("src/compositing/a.cpp", '"settings/photometry.h"', "src/settings/photometry.h")
+        self.forbidden("src/settings/a.cpp", '"contrejour/flare_plan.h"')
+        self.forbidden("src/render/driver/a.cpp", '"contrejour/parameter_values.h"')
 
     def test_fenced_libraries(self):
         self.forbidden("src/render/bundle/a.cpp", "<vulkan/vulkan.h>")

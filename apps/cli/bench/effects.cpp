@@ -10,8 +10,8 @@
 #include <fmt/format.h>
 
 #include "cli/bench/repeats.h"
+#include "contrejour/settings.h"
 #include "contrejour/trace.h"
-#include "params/settings.h"
 
 namespace contrejour::cli {
 namespace {

@@ -10,9 +10,9 @@
 
 #include "cli/bench/target.h"
 #include "contrejour/lens.h"
+#include "contrejour/parameter_values.h"
 #include "contrejour/render.h"
 #include "contrejour/result.h"
-#include "params/values.h"
 
 namespace contrejour::cli {
 

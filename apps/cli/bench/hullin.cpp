@@ -16,8 +16,8 @@
 #include "contrejour/ghost.h"
 #include "contrejour/metrics.h"
 #include "contrejour/render.h"
+#include "contrejour/settings.h"
 #include "contrejour/trace.h"
-#include "params/settings.h"
 
 namespace contrejour::cli {
 namespace {

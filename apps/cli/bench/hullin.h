@@ -10,8 +10,8 @@
 
 #include "cli/console.h"
 #include "contrejour/image.h"
+#include "contrejour/parameter_values.h"
 #include "contrejour/result.h"
-#include "params/values.h"
 
 namespace contrejour::cli {
 

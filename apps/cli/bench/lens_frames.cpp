@@ -10,7 +10,7 @@
 #include "cli/bench/fresh_process.h"
 #include "cli/lens_choice.h"
 #include "cli/long_task.h"
-#include "params/settings.h"
+#include "contrejour/settings.h"
 
 namespace contrejour::cli {
 namespace {

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "contrejour/parameter_values.h"
 #include "contrejour/result.h"
-#include "params/values.h"
 
 namespace contrejour::cli {
 

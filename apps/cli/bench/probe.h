@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "cli/bench/rows.h"
+#include "contrejour/parameter_values.h"
 #include "contrejour/result.h"
-#include "params/values.h"
 
 namespace contrejour::cli {
 

@@ -8,7 +8,7 @@
 #include "cli/bench/tables.h"
 #include "cli/flare_report.h"
 #include "cli/machine.h"
-#include "params/parameter.h"
+#include "contrejour/parameter.h"
 
 namespace contrejour::cli {
 namespace {

@@ -18,8 +18,8 @@
 #include "cli/long_task.h"
 #include "contrejour/image_io.h"
 #include "contrejour/metrics.h"
+#include "contrejour/settings.h"
 #include "contrejour/trace.h"
-#include "params/settings.h"
 
 namespace contrejour::cli {
 namespace {

@@ -6,8 +6,8 @@
 
 #include "cli/bench/rows.h"
 #include "contrejour/image.h"
+#include "contrejour/parameter_values.h"
 #include "contrejour/result.h"
-#include "params/values.h"
 
 namespace contrejour::cli {
 

@@ -1,0 +1,37 @@
+// Looks: every setting of a flare but the scene's (lights, size, exposure), as a file (docs/formats/look.md).
+// Errors: Parse with file, line and remedy; Io; InvalidArgument for a name that is neither bundled nor a file.
+// Thread-safety: pure functions.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "contrejour/parameter_values.h"
+
+namespace contrejour::params {
+
+struct Look {
+  std::string name;         // to people
+  std::string description;  // one line
+  std::string lens;         // the lens it was made for, empty: none; it may be used with any
+  Values values;
+};
+
+[[nodiscard]] bool belongs_to_look(const Parameter& parameter);
+
+[[nodiscard]] Result<Look> read_look(std::string_view toml, const std::string& file);
+// With a value for every parameter of a look that has one, given or not: later defaults do not change it.
+[[nodiscard]] std::string write_look(const Look& look);
+
+// Looks that come with the program, by name.
+struct BundledLook {
+  std::string_view name;
+  std::string_view toml;
+};
+[[nodiscard]] std::vector<BundledLook> bundled_looks();
+
+// A bundled name, or else a file.
+[[nodiscard]] Result<Look> find_look(const std::string& name_or_file);
+
+}  // namespace contrejour::params

@@ -1,0 +1,165 @@
+#include "contrejour/flare_plan.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "contrejour/settings.h"
+#include "contrejour/spectrum_file.h"
+#include "contrejour/trace.h"
+
+namespace contrejour::params {
+namespace {
+
+constexpr double kPoint_px = 1.0;         // root mean square radius: what is smaller is a point
+constexpr int kLargestShape_px = 512;     // a side of a shape
+constexpr int kMostImages = 32;           // lights that keep their own starburst, where ghosts' are merged
+
+Light light_of(const DetectedLight& area, const Spectrum& spectrum, const PixelGrid& grid, const LensState& lens,
+               const Values& values) {
+  const double gain = params::gain(values);
+  Light light;
+  light.distance_mm = *parse_distance_mm(*values.text("light-distance"));
+  light.direction = direction_to_land_at(lens, grid.sensor_from_pixel(area.centroid_px), lens.design_wavelength_nm,
+                                         light.distance_mm);
+  light.value = {area.flux[0] * gain, area.flux[1] * gain, area.flux[2] * gain};
+  light.spectrum = spectrum;
+  return light;
+}
+
+// Angles of a pixel's sides, as tangents, about a light's direction: by how its image moves. None where no light gets
+// through.
+std::optional<LightShape> shape_about(const LightSource& source, const PixelGrid& grid, const LensState& lens) {
+  constexpr double kStep = 1e-3;
+  const auto at = [&](Vec2 tangents) {
+    return grid.pixel_from_sensor(landing_of(lens, source_beside(source, tangents), lens.design_wavelength_nm));
+  };
+  const Vec2 x = (at({kStep, 0.0}) - at({-kStep, 0.0})) * (0.5 / kStep);
+  const Vec2 y = (at({0.0, kStep}) - at({0.0, -kStep})) * (0.5 / kStep);
+  const double determinant = cross(x, y);
+  if (!std::isnormal(determinant)) return std::nullopt;
+  LightShape shape;
+  shape.right = {y.y / determinant, -x.y / determinant};
+  shape.down = {-y.x / determinant, x.x / determinant};
+  return shape;
+}
+
+// The light's own pixels as its extent, if it is larger than a point and they can be one.
+void give_shape(Light& light, const DetectedLight& area, const Picture& picture, const FlarePlan& plan,
+                const Detection& found, const LensState& lens) {
+  if (!(area.rms_radius_px > kPoint_px)) return;
+  auto shape = shape_about(light.source(), plan.grid, lens);
+  if (!shape) return;
+  shape->level = picture_of_areas(picture.rgb, found, area);
+  shape->centre_px = area.centroid_px - Vec2{static_cast<double>(area.min_x), static_cast<double>(area.min_y)};
+  const int side = std::max(shape->level.width, shape->level.height);
+  Light shaped = light;
+  shaped.shape = std::make_shared<const LightShape>(
+      side > kLargestShape_px ? coarser(*shape, side / kLargestShape_px + 1) : std::move(*shape));
+  if (check_extent(shaped)) light = shaped;
+}
+
+std::vector<Light> lights_of(const Detection& found, const Spectrum& spectrum, const Picture& picture,
+                             const FlarePlan& plan, const LensState& lens, const Values& values) {
+  std::vector<Light> lights;
+  for (const DetectedLight& area : found.lights) {
+    lights.push_back(light_of(area, spectrum, plan.grid, lens, values));
+    if (values.is_on("light-shape")) give_shape(lights.back(), area, picture, plan, found, lens);
+  }
+  return lights;
+}
+
+std::vector<PixelRegion> regions_of(const Values& values, const PixelGrid& grid) {
+  std::vector<PixelRegion> regions;
+  const auto pixel = [&](Vec2 uv) { return grid.pixel_from_sensor(grid.frame.sensor_from_uv(uv)); };
+  const auto whole = [](double px) { return static_cast<int>(std::clamp(std::round(px), -1e9, 1e9)); };
+  for (const std::string& text : values.list("region")) {
+    const UvRegion region = *parse_region(text);
+    const Vec2 from = pixel(region.from), to = pixel(region.to);
+    regions.push_back({whole(from.x), whole(from.y), whole(to.x), whole(to.y)});
+  }
+  return regions;
+}
+
+Result<void> find_lights(const Picture& picture, const LensState& lens, const Values& values, FlarePlan& plan) {
+  const auto spectrum = find_spectrum(*values.text("spectrum"));
+  if (!spectrum) return tl::unexpected(spectrum.error());
+  DetectionSettings detection = detection_settings(values);
+  detection.regions = regions_of(values, plan.grid);
+  auto found = detect_lights(picture.rgb, detection);
+  if (!found) return tl::unexpected(found.error());
+  plan.found = std::move(*found);
+  if (values.is_on("starburst") || values.number("glare") > 0.0)
+    plan.already_there =
+        std::make_shared<const Image>(frame_of_picture(light_shares(picture.rgb, plan.found), plan.grid));
+  plan.lights = lights_of(plan.found, *spectrum, picture, plan, lens, values);
+  if (!plan.already_there || !values.is_on("light-shape") || plan.found.areas_found <= detection.max_lights) return {};
+  detection.threshold = plan.found.threshold;
+  detection.max_lights = std::max(detection.max_lights, kMostImages);
+  const auto apart = detect_lights(picture.rgb, detection);
+  if (!apart) return tl::unexpected(apart.error());
+  plan.imaged_lights =
+      std::make_shared<const std::vector<Light>>(lights_of(*apart, *spectrum, picture, plan, lens, values));
+  return {};
+}
+
+// A value of 1, which is render's, would be that of one white pixel: nothing to be seen, and no one's intention.
+Result<void> check_values_given(const Values& values) {
+  if (values.given("value")) return {};
+  for (const char* name : {"light", "light-at"}) {
+    for (const std::string& text : values.list(name)) {
+      if (const auto light = parse_light(text); light && light->value) continue;
+      return failure(ErrorCode::InvalidArgument,
+                     fmt::format("--{0} {1} does not say how bright the light is; add what its image sums to, as in "
+                                 "--{0} {1}:50000, or give --value",
+                                 name, text.substr(0, text.find(':'))));
+    }
+  }
+  return {};
+}
+
+Result<void> add_given_lights(const LensState& lens, const Values& values, FlarePlan& plan) {
+  if (auto valued = check_values_given(values); !valued) return valued;
+  auto given = given_lights(values, lens, plan.grid.frame, plan.space);
+  if (!given) return tl::unexpected(given.error());
+  plan.given_lights = given->size();
+  if (given->empty()) return {};
+  for (Light& light : *given)
+    for (double& value : light.value) value *= gain(values);
+  plan.lights.insert(plan.lights.end(), given->begin(), given->end());
+  if (!plan.imaged_lights) return {};
+  std::vector<Light> imaged = *plan.imaged_lights;
+  imaged.insert(imaged.end(), given->begin(), given->end());
+  plan.imaged_lights = std::make_shared<const std::vector<Light>>(std::move(imaged));
+  return {};
+}
+
+}  // namespace
+
+Result<FlarePlan> plan_flare(const Picture& picture, const LensState& lens, const Values& values) {
+  FlarePlan plan;
+  const auto named = colour_space_of(picture);
+  plan.space_is_guessed = !named && !values.given("colour-space");
+  plan.space = colour_space(values, named.value_or(ColourSpace::Rec709));
+  plan.pixel_aspect = values.real("pixel-aspect").value_or(pixel_aspect_of(picture));
+  const auto grid = pixel_grid(values, lens, picture.data_window, picture.display_window, plan.pixel_aspect);
+  if (!grid) return tl::unexpected(grid.error());
+  plan.grid = *grid;
+  if (values.is_on("detect")) {
+    if (auto found = find_lights(picture, lens, values, plan); !found) return tl::unexpected(found.error());
+  }
+  if (auto added = add_given_lights(lens, values, plan); !added) return tl::unexpected(added.error());
+  return plan;
+}
+
+void add_flare(Image& rgb, const Image& flare) {
+  for (std::size_t k = 0; k < rgb.pixels.size(); ++k) {
+    if (std::isfinite(rgb.pixels[k]) && flare.pixels[k] > 0.0F) rgb.pixels[k] += flare.pixels[k];
+  }
+}
+
+}  // namespace contrejour::params

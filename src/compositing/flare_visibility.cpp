@@ -1,0 +1,49 @@
+#include "contrejour/flare_visibility.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace contrejour::params {
+namespace {
+
+constexpr double kShown = 0.995;  // quantile of the pixels: a ghost of a two hundredth of the frame is seen
+constexpr double kBlack = 0.01;   // of white
+// A flare that adds a quarter to what it lies on is plain to anyone; one of some hundredths is there to be found.
+constexpr double kPlain = 0.25;
+
+double quantile(std::vector<float>& values, double share) {
+  if (values.empty()) return 0.0;
+  const auto at = values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+  std::nth_element(values.begin(), at, values.end());
+  return *at;
+}
+
+double luminance_of(const Image& rgb, std::size_t pixel, ColourSpace space) {
+  const float* const p = rgb.pixels.data() + 3 * pixel;
+  const double y = luminance({p[0], p[1], p[2]}, space);
+  return std::isfinite(y) ? std::max(0.0, y) : 0.0;
+}
+
+}  // namespace
+
+FlareVisibility visibility_of(const Image& rgb, const Image& flare, const Detection& found, ColourSpace space) {
+  FlareVisibility visibility;
+  if (rgb.pixels.size() != flare.pixels.size()) return visibility;
+  const std::size_t count = rgb.pixels.size() / 3;
+  const bool has_areas = found.area_of_pixel.size() == count;
+  std::vector<float> brightness, ratio;
+  for (std::size_t k = 0; k < count; ++k) {
+    if (has_areas && found.area_of_pixel[k] >= 0) continue;
+    const double added = luminance_of(flare, k, space);
+    brightness.push_back(static_cast<float>(added));
+    ratio.push_back(static_cast<float>(added / (luminance_of(rgb, k, space) + kBlack)));
+  }
+  visibility.brightest = quantile(brightness, kShown);
+  visibility.over_picture = quantile(ratio, kShown);
+  if (visibility.over_picture > 0.0)
+    visibility.stops_to_plain = std::max(0.0, std::log2(kPlain / visibility.over_picture));
+  return visibility;
+}
+
+}  // namespace contrejour::params

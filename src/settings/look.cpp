@@ -1,0 +1,147 @@
+#include "contrejour/look.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <iterator>
+#include <system_error>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "contrejour/key_values.h"
+#include "contrejour/nearest_word.h"
+#include "contrejour/parameter_text.h"
+
+namespace contrejour::params {
+namespace {
+
+constexpr std::string_view kPage = "docs/formats/look.md";
+
+// In alphabetical order; written by embed_text.cmake when the program is built.
+constexpr BundledLook kBundled[] = {
+#include "bundled_looks.inc"
+};
+
+std::vector<std::string> known_keys() {
+  std::vector<std::string> keys{"name", "description", "lens"};
+  for (const Parameter& p : all_parameters()) {
+    if (belongs_to_look(p)) keys.emplace_back(p.name);
+  }
+  return keys;
+}
+
+Error unknown_key(const KeyValue& given) {
+  for (const Parameter& p : all_parameters()) {
+    if (p.name != given.key) continue;
+    return {ErrorCode::Parse, fmt::format("{} belongs to a scene, not to a look; give --{} instead", p.name, p.name),
+            given.place};
+  }
+  const std::string near = nearest_word(given.key, known_keys());
+  const std::string remedy = near.empty() ? fmt::format("see {}", kPage) : fmt::format("did you mean {}?", near);
+  return {ErrorCode::Parse, fmt::format("unknown key \"{}\"; {}", given.key.substr(0, 60), remedy), given.place};
+}
+
+std::string* heading(Look& look, std::string_view key) {
+  if (key == "name") return &look.name;
+  if (key == "description") return &look.description;
+  if (key == "lens") return &look.lens;
+  return nullptr;
+}
+
+Result<void> set(Look& look, const KeyValue& given) {
+  const auto wrong = [&](std::string_view what) {
+    return failure(ErrorCode::Parse, fmt::format("{}: {}", given.key, what), given.place);
+  };
+  if (std::string* text = heading(look, given.key)) {
+    if (given.kind != KeyValue::Kind::Text) return wrong("give text in quotes");
+    *text = given.texts.front();
+    return {};
+  }
+  const auto all = all_parameters();
+  const auto found = std::find_if(all.begin(), all.end(),
+                                  [&](const Parameter& p) { return p.name == given.key && belongs_to_look(p); });
+  if (found == all.end()) return tl::unexpected(unknown_key(given));
+  if (found->kind == Kind::Switch) {
+    if (given.kind != KeyValue::Kind::Boolean) return wrong("give true or false");
+    return look.values.set(found->name, given.texts.front() == "true" ? "on" : "off");
+  }
+  if (given.kind == KeyValue::Kind::Boolean) return wrong("give a value, not true or false");
+  if (given.kind == KeyValue::Kind::TextList && !found->repeats) return wrong("give one value, not a list");
+  for (const std::string& text : given.texts) {
+    if (const auto ok = look.values.set(found->name, text); !ok) return wrong(ok.error().message);
+  }
+  return {};
+}
+
+Result<Look> look_of(const Result<std::vector<KeyValue>>& given) {
+  if (!given) return tl::unexpected(given.error());
+  Look look;
+  for (const KeyValue& value : *given) {
+    if (const auto ok = set(look, value); !ok) return tl::unexpected(ok.error());
+  }
+  return look;
+}
+
+KeyValue::Kind kind_of(const Parameter& p) {
+  if (p.repeats) return KeyValue::Kind::TextList;
+  if (p.kind == Kind::Switch) return KeyValue::Kind::Boolean;
+  return p.kind == Kind::Real || p.kind == Kind::Integer ? KeyValue::Kind::Number : KeyValue::Kind::Text;
+}
+
+// As TOML has numbers: it takes neither ".5" nor "+5" nor "08", which the command line does.
+std::string number_text(const Parameter& p, const std::string& given) {
+  return p.kind == Kind::Integer ? fmt::format("{}", *parse_integer(given)) : fmt::format("{}", *parse_real(given));
+}
+
+}  // namespace
+
+bool belongs_to_look(const Parameter& parameter) { return !parameter.scene; }
+
+Result<Look> read_look(std::string_view toml, const std::string& file) {
+  return look_of(read_key_values(toml, file, kPage));
+}
+
+std::string write_look(const Look& look) {
+  std::vector<KeyValue> out;
+  const auto add_heading = [&](std::string key, const std::string& text) {
+    if (!text.empty()) out.push_back({std::move(key), KeyValue::Kind::Text, {text}});
+  };
+  add_heading("name", look.name);
+  add_heading("description", look.description);
+  add_heading("lens", look.lens);
+  for (const Parameter& p : all_parameters()) {
+    if (!belongs_to_look(p)) continue;
+    KeyValue value{std::string(p.name), kind_of(p), {}};
+    if (p.repeats) {
+      value.texts = look.values.list(p.name);
+    } else if (p.kind == Kind::Switch) {
+      value.texts = {look.values.is_on(p.name) ? "true" : "false"};
+    } else if (const auto text = look.values.text(p.name)) {
+      value.texts = {value.kind == KeyValue::Kind::Number ? number_text(p, *text) : *text};
+    }
+    if (!value.texts.empty()) out.push_back(std::move(value));
+  }
+  return write_key_values(out);
+}
+
+std::vector<BundledLook> bundled_looks() { return {std::begin(kBundled), std::end(kBundled)}; }
+
+Result<Look> find_look(const std::string& name_or_file) {
+  std::vector<std::string> names;
+  for (const BundledLook& look : kBundled) {
+    if (look.name == name_or_file) return read_look(look.toml, std::string(look.name) + ".toml");
+    names.emplace_back(look.name);
+  }
+  std::error_code code;
+  const std::filesystem::path path(name_or_file);
+  if (path.has_parent_path() || path.has_extension() || std::filesystem::exists(path, code)) {
+    return look_of(read_key_values(path, kPage));
+  }
+  const std::string near = nearest_word(name_or_file, names);
+  const std::string remedy = near.empty() ? fmt::format("bundled are {}; or name a file", fmt::join(names, ", "))
+                                          : fmt::format("did you mean {}? `contrejour look list` shows all", near);
+  return failure(ErrorCode::InvalidArgument,
+                 fmt::format("no look and no file is called \"{}\"; {}", name_or_file.substr(0, 60), remedy));
+}
+
+}  // namespace contrejour::params

@@ -1,0 +1,80 @@
+#include "settings/photometry.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <fmt/format.h>
+
+#include "contrejour/direct_image.h"
+#include "contrejour/first_order.h"
+#include "contrejour/ghost.h"
+
+namespace contrejour::params {
+namespace {
+
+constexpr double kMiddleGrey = 0.18;
+constexpr double kGreyExposure_lx_s = 10.0;  // at ISO 1; ISO 12232:2019, standard output sensitivity
+constexpr double kWhiteExposure_lx_s = kGreyExposure_lx_s / kMiddleGrey;
+constexpr double kMm_per_m = 1000.0;
+
+tl::unexpected<Error> invalid(std::string message) { return failure(ErrorCode::InvalidArgument, std::move(message)); }
+
+// mm^2 of the plane before the lens that gather the light of its image; on the axis, where no light gets to the edge.
+double gathering_mm2(const LensState& lens, const Frame& frame, const LightSource& source) {
+  const GhostMeter meter(lens, lens.design_wavelength_nm);
+  const double own_mm2 = meter.direct_flux(measured_source(lens, frame, source));
+  return own_mm2 > 0.0 ? own_mm2 : meter.direct_flux(LightSource({0.0, 0.0, 1.0}, source.distance_mm));
+}
+
+// The value of a light that gives so many lux at the lens: E A / a lux on a pixel of area a, for the exposure's time.
+double sum_of_lux(double lux, const Light& light, const LensState& lens, const Frame& frame, const Exposure& exposure) {
+  const double pixel_mm2 = frame.pixel_pitch_mm * frame.pixel_pitch_mm;
+  const double on_pixels_lux = lux * gathering_mm2(lens, frame, light.source()) / pixel_mm2;
+  return on_pixels_lux * exposure.shutter_s * exposure.iso / kWhiteExposure_lx_s;
+}
+
+// On the axis.
+double pixels_of_disc(double radius_rad, const LensState& lens, const Frame& frame) {
+  const double radius = std::tan(radius_rad) / frame.pixel_pitch_mm;
+  const FirstOrder figures = first_order(lens, lens.design_wavelength_nm);
+  return std::numbers::pi * radius * radius * std::abs(figures.focal_length_mm * figures.focal_length_x_mm);
+}
+
+}  // namespace
+
+Result<double> sum_of(const LightValue& value, const Light& light, const LensState& lens, const Frame& frame,
+                      const Exposure& exposure) {
+  using Unit = LightValue::Unit;
+  const double amount = value.rgb[0];
+  const bool has_size = light.radius_rad > 0.0;
+  switch (value.unit) {
+    case Unit::Sum: return amount;
+    case Unit::Stops:
+      if (!has_size) return invalid("stops over white are those of a disc; say how large it is with --light-size");
+      return std::exp2(amount) * pixels_of_disc(light.radius_rad, lens, frame);
+    case Unit::Nits: {
+      if (!has_size) return invalid("nits are those of a disc; say how large it is with --light-size, or give lux");
+      const double sine = std::sin(light.radius_rad);
+      return sum_of_lux(amount * std::numbers::pi * sine * sine, light, lens, frame, exposure);
+    }
+    case Unit::Candela: {
+      if (light.source().is_distant())
+        return invalid("candela are those of a light at a distance; give --light-distance, or lux at the lens");
+      const double distance_m = light.distance_mm / kMm_per_m;
+      return sum_of_lux(amount / (distance_m * distance_m), light, lens, frame, exposure);
+    }
+    case Unit::Lux: return sum_of_lux(amount, light, lens, frame, exposure);
+  }
+  return amount;
+}
+
+Result<double> parse_shutter(std::string_view text) {
+  const auto parts = split(text, '/');
+  const auto over = parse_real(parts[0]), under = parts.size() > 1 ? parse_real(parts[1]) : Result<double>(1.0);
+  const double seconds = over && under ? *over / *under : 0.0;
+  if (parts.size() <= 2 && seconds >= 1e-6 && seconds <= 1e6) return seconds;
+  return invalid(fmt::format("\"{}\" is no shutter time; write 1/50 or 0.02, from 1e-6 to 1e6 s", text));
+}
+
+}  // namespace contrejour::params
