@@ -8,6 +8,12 @@ else()
   add_compile_options(-ffp-contract=off)
 endif()
 
+# Files that are compiled as one (JumboBuild.cmake) see each other's unnamed namespaces. A function there that has the name
+# of one in a header hides it, and a double given to it would become an integer without a word.
+if(PROJECT_IS_TOP_LEVEL AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+  add_compile_options(-Werror=float-conversion)
+endif()
+
 if(CONTREJOUR_SANITIZE)
   add_compile_options(-fsanitize=${CONTREJOUR_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)
   # What these look for ends in accesses that AddressSanitizer reports; they double the time packet kernels compile.

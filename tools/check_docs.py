@@ -47,7 +47,7 @@ def check_links(root, page):
 
 
 def check_tree(root):
-    pages = [root / "README.md", root / "CHANGELOG.md", *sorted((root / "docs").rglob("*.md"))]
+    pages = [root / "README.md", root / "CHANGELOG.md", root / "CONTRIBUTING.md", *sorted((root / "docs").rglob("*.md"))]
     pages = [page for page in pages if page.exists()]
     faults = [fault for page in pages for fault in check_links(root, page)]
     text = "\n".join(page.read_text(encoding="utf-8") for page in pages)

@@ -28,7 +28,7 @@
 namespace contrejour::cli {
 namespace {
 
-constexpr const char* kExamples =
+constexpr const char* kApplyExamples =
     "Bright areas of the picture become lights where they are, and the flare they make in the lens is added. All else\n"
     "in the file stays as it is; a picture without lights comes back unchanged, bit for bit. IN and OUT may be the\n"
     "same file. Without --hfov the picture is taken to fill the lens's sensor. --light and --light-at add lights that\n"
@@ -234,7 +234,7 @@ void add_apply(CLI::App& app, Action& action) {
   add_lens_parameters(*command, options->values);
   add_parameters(*command, options->values, {"hfov", "pixel-aspect"});
   add_rendering_parameters(*command, options->values);
-  command->footer(kExamples);
+  command->footer(kApplyExamples);
   command->callback([options, &action] {
     if (options->input.empty()) {
       if (options->look.look.empty()) throw missing_argument(options->lens);

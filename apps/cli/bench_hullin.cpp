@@ -24,7 +24,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kExamples =
+constexpr const char* kBenchHullinExamples =
     "`bundle` is the paper's method; its figures are those of a GeForce GTX 285 (17) and a GTX 580 (19). Pixels are\n"
     "covered exactly here, which stands for the paper's supersampling. The reference renderer of figure 19 takes\n"
     "minutes at full size.\n\n"
@@ -112,7 +112,7 @@ void add_bench_hullin(CLI::App& bench, Action& action) {
       ->capture_default_str()
       ->check(CLI::Range(1, 1000));
   add_parameters(*command, options->values, {"size", "grid", "density", "exposure", "threads"});
-  command->footer(kExamples);
+  command->footer(kBenchHullinExamples);
   command->callback([options, &action] { action = [options] { return run_hullin(*options); }; });
 }
 

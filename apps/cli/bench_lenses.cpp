@@ -17,7 +17,7 @@
 namespace contrejour::cli {
 namespace {
 
-constexpr const char* kExamples =
+constexpr const char* kBenchLensesExamples =
     "One light at u,v = 0.7,0.35, at f/8 (a slower lens: its widest) and wide open, 320x180 and 1920x1080 pixels. A\n"
     "first frame is one of a fresh process of this program; warm ones are rendered here, after one that does not\n"
     "count. Times are those of rendering: reading the lens and writing a file are not in them. A ghost's cost is the\n"
@@ -127,7 +127,7 @@ void add_bench_lenses(CLI::App& bench, Action& action) {
   command->add_flag("--first-frame", options->first_frame)->group("");
   add_parameters(*command, options->values, {"focal", "fnumber", "size"});
   for (const char* hidden : {"--focal", "--fnumber", "--size"}) command->get_option(hidden)->group("");
-  command->footer(kExamples);
+  command->footer(kBenchLensesExamples);
   command->callback([options, &action] { action = [options] { return run_lenses(*options); }; });
 }
 

@@ -19,7 +19,7 @@
 namespace contrejour::cli {
 namespace {
 
-constexpr const char* kExamples =
+constexpr const char* kBenchTablesExamples =
     "Five systems, one and two lights, at the paper's f-numbers and grids (256 x 256, fewer for small ghosts; "
     "--grid).\n"
     "The paper's figures are a GeForce RTX 3060's. --reference adds the PSNR against the reference renderer, which "
@@ -198,7 +198,7 @@ void add_bench_tables(CLI::App& bench, Action& action) {
   add_parameters(
       *command, options->values,
       {"size", "wavelengths", "grid", "scale-grid-sigma", "scale-grid-phi", "coating", "density", "threads"});
-  command->footer(kExamples);
+  command->footer(kBenchTablesExamples);
   command->callback([options, &action] { action = [options] { return run_tables(*options); }; });
 }
 

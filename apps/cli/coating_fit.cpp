@@ -16,7 +16,7 @@
 namespace contrejour::cli {
 namespace {
 
-constexpr const char* kExamples =
+constexpr const char* kCoatingFitExamples =
     "COLOUR is that of the reflection of white light on a coated surface, seen straight on: #rrggbb picked from a\n"
     "picture, or R,G,B scene-linear. Each family of coatings is tried; what --coating takes is printed with its\n"
     "difference from that colour in u'v' (0.002 is hardly seen) and its reflectance of daylight.\n\n"
@@ -135,7 +135,7 @@ void add_coating_fit(CLI::App& coating, Action& action) {
   command->add_option("colour", options->colour, "of the reflection")->required()->type_name("COLOUR");
   add_glass_option(*command, options->glass);
   command->add_flag("--json", options->json, "as JSON");
-  command->footer(kExamples);
+  command->footer(kCoatingFitExamples);
   command->callback([options, &action] { action = [options] { return run_fit(*options); }; });
 }
 

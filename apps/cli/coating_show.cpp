@@ -19,15 +19,15 @@
 namespace contrejour::cli {
 namespace {
 
-constexpr const char* kExamples =
+constexpr const char* kCoatingShowExamples =
     "R is the unpolarised reflectance from air. A coating is written as for --coating.\n\n"
     "Examples:\n"
     "  contrejour coating show quarter-wave\n"
     "  contrejour coating show broadband-5:540 --glass 1.85,23.8 -o r.svg\n"
     "  contrejour coating show stack:MgF2@0.25w,ZrO2@0.5w,Al2O3@0.25w --json";
 
-constexpr double kFirst_nm = 400.0, kLast_nm = 700.0, kStep_nm = 20.0;
-constexpr std::array kAngles_deg{0.0, 30.0, 60.0};
+constexpr double kTableFirst_nm = 400.0, kTableLast_nm = 700.0, kTableStep_nm = 20.0;
+constexpr std::array kTableAngles_deg{0.0, 30.0, 60.0};
 
 struct ShowOptions {
   std::string coating, glass, output;
@@ -76,9 +76,10 @@ void print_text(const Coating& coating, const Glass& glass) {
   std::string out = fmt::format("{} on n_d = {:.4f}\n\n", describe(coating), refractive_index(glass, kLineD_nm));
   if (const auto* stack = std::get_if<FilmStack>(&coating.films)) out += layers_text(*stack, 550.0);
   TextTable table({"nm", "R %", "30 deg", "60 deg"});
-  for (double nm = kFirst_nm; nm <= kLast_nm; nm += kStep_nm) {
+  for (double nm = kTableFirst_nm; nm <= kTableLast_nm; nm += kTableStep_nm) {
     std::vector<std::string> row{fmt::format("{:g}", nm)};
-    for (const double angle : kAngles_deg) row.push_back(fmt::format("{:.3f}", percent_at(coating, glass, nm, angle)));
+    for (const double angle : kTableAngles_deg)
+      row.push_back(fmt::format("{:.3f}", percent_at(coating, glass, nm, angle)));
     table.add(row);
   }
   const Summary s = summary_of(coating, glass);
@@ -101,9 +102,9 @@ void print_as_json(const Coating& coating, const Glass& glass) {
     }
   }
   Json rows = Json::array();
-  for (double nm = kFirst_nm; nm <= kLast_nm; nm += kStep_nm) {
+  for (double nm = kTableFirst_nm; nm <= kTableLast_nm; nm += kTableStep_nm) {
     Json row{{"lambda_nm", nm}};
-    for (const double angle : kAngles_deg)
+    for (const double angle : kTableAngles_deg)
       row[fmt::format("reflectance_{:g}deg", angle)] = 0.01 * percent_at(coating, glass, nm, angle);
     rows.push_back(row);
   }
@@ -151,7 +152,7 @@ void add_coating_show(CLI::App& coating, Action& action) {
   add_glass_option(*command, options->glass);
   add_output(*command, "-o,--output", options->output, {".svg"}, "a drawing of it");
   command->add_flag("--json", options->json, "as JSON");
-  command->footer(kExamples);
+  command->footer(kCoatingShowExamples);
   command->callback([options, &action] { action = [options] { return run_show(*options); }; });
 }
 

@@ -14,7 +14,7 @@
 namespace contrejour::cli {
 namespace {
 
-constexpr const char* kExamples =
+constexpr const char* kCompareExamples =
     "PSNR is 10 log10(P^2 / mean square error) over the RGB samples, both pictures clipped at P and -P, P being the\n"
     "99.9th percentile of A. The flux ratio is the sum of B over the sum of A, per channel.\n\n"
     "Examples:\n"
@@ -96,7 +96,7 @@ void add_compare(CLI::App& app, Action& action) {
   add_names(*command, "--layer", options->layers, "this layer of EXR files; given twice: A's, then B's (\"\": none)");
   add_names(*command, "--part", options->parts, "this part of EXR files, by name or by number from 0; likewise");
   command->add_flag("--json", options->json, "as JSON");
-  command->footer(kExamples);
+  command->footer(kCompareExamples);
   command->callback([options, &action] {
     check_names("--layer", options->layers);
     check_names("--part", options->parts);

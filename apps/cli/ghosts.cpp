@@ -20,7 +20,7 @@
 namespace contrejour::cli {
 namespace {
 
-constexpr const char* kExamples =
+constexpr const char* kGhostsExamples =
     "flux: the ghost's over the direct image's, wherever it lands. peak: its largest irradiance, mean over a pixel, "
     "over "
     "the\n"
@@ -181,7 +181,7 @@ void add_ghosts(CLI::App& app, Action& action) {
   hide_parameters(*command, kDirt);
   add_parameters(*command, options->values,
                  {"wavelength", "size", "hfov", "wavelengths", "ghosts", "reflections", "threads"});
-  command->footer(kExamples);
+  command->footer(kGhostsExamples);
   command->callback([options, &action] {
     check(*options);
     action = [options] {

@@ -27,7 +27,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kExamples =
+constexpr const char* kLensBrowseExamples =
     "The page needs no network. The pictures are exposed each by its own brightest parts; the cards say by how "
     "much.\n\n"
     "Examples:\n"
@@ -159,7 +159,7 @@ void add_lens_browse(CLI::App& lens, Action& action) {
                  {"size", "hfov", "exposure", "method", "error", "wavelengths", "ghosts", "threads"});
   static_cast<void>(options->values.set("size", kPictureSize));
   command->get_option("--size")->description(fmt::format("size of the pictures in pixels (default: {})", kPictureSize));
-  command->footer(kExamples);
+  command->footer(kLensBrowseExamples);
   command->callback([options, &action] { action = [options] { return run_browse(*options); }; });
 }
 

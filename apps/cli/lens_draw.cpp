@@ -16,7 +16,7 @@
 namespace contrejour::cli {
 namespace {
 
-constexpr const char* kExamples =
+constexpr const char* kLensDrawExamples =
     "Without a ghost: the rays that image the axis and the corner of the field. With some: the light's rays to its "
     "image\n"
     "and, each in another colour, those that the ghosts' paths let through (dashed, if none gets through). The "
@@ -79,7 +79,7 @@ void add_lens_draw(CLI::App& lens, Action& action) {
     hide_parameters(*command, names);
   hide_parameters(*command, std::array<std::string_view, 3>{"absorption", "coating", "coating-at"});
   add_parameters(*command, options->values, {"wavelength"});
-  command->footer(kExamples);
+  command->footer(kLensDrawExamples);
   command->callback([options, &action] {
     if (options->values.given("light") && options->ghosts.empty()) {
       throw CLI::ValidationError("--light", "is for a ghost's path; give --ghost as well");

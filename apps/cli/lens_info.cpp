@@ -19,7 +19,7 @@
 namespace contrejour::cli {
 namespace {
 
-constexpr const char* kExamples =
+constexpr const char* kLensInfoExamples =
     "Indices and figures are for --wavelength; n_d is always for the d line. A plane has no radius. The last "
     "surface's\n"
     "thickness leads to the sensor. Entrance pupil and front focal point are measured from surface 1, back focus and\n"
@@ -296,7 +296,7 @@ void add_lens_info(CLI::App& lens, Action& action) {
     hide_parameters(*command, names);
   hide_parameters(*command, std::array<std::string_view, 1>{"absorption"});
   add_parameters(*command, options->values, {"wavelength"});
-  command->footer(kExamples);
+  command->footer(kLensInfoExamples);
   command->callback([options, &action] { action = [options] { return run_info(*options); }; });
 }
 

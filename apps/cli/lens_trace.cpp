@@ -18,7 +18,7 @@
 namespace contrejour::cli {
 namespace {
 
-constexpr const char* kExamples =
+constexpr const char* kLensTraceExamples =
     "The ray starts at X,Y,Z mm (z = 0 at the first vertex) and goes to DX,DY,DZ, of any length, DZ > 0. A ghost I,J\n"
     "reflects first at surface J, then at I. Spheres go on beyond their rims; \"blocked\" says whether the ray passed\n"
     "outside an aperture.\n\n"
@@ -146,7 +146,7 @@ void add_lens_trace(CLI::App& lens, Action& action) {
   add_parameters(*command, options->values, {"wavelength"});
   add_lens_parameters(*command, options->values);
   hide_parameters(*command, kDirt);
-  command->footer(kExamples);
+  command->footer(kLensTraceExamples);
   command->callback([options, &action] { action = [options] { return run_trace(*options); }; });
 }
 

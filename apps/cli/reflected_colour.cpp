@@ -12,7 +12,7 @@
 namespace contrejour::cli {
 namespace {
 
-constexpr double kFirst_nm = 380.0, kLast_nm = 780.0, kStep_nm = 5.0;
+constexpr double kColourFirst_nm = 380.0, kColourLast_nm = 780.0, kColourStep_nm = 5.0;
 
 // IEC 61966-2-1.
 double encoded(double linear) {
@@ -37,20 +37,20 @@ std::optional<Rgb> parse_hex(const std::string& text) {
 
 std::vector<double> reflected_wavelengths_nm() {
   std::vector<double> nm;
-  for (double l = kFirst_nm; l <= kLast_nm; l += kStep_nm) nm.push_back(l);
+  for (double l = kColourFirst_nm; l <= kColourLast_nm; l += kColourStep_nm) nm.push_back(l);
   return nm;
 }
 
 Xyz reflected_colour(std::span<const double> reflectance) {
   Xyz sum{};
   double white = 0.0;
-  double nm = kFirst_nm;
+  double nm = kColourFirst_nm;
   for (const double r : reflectance) {
     const Xyz observer = colour_matching(nm);
     const double power = spectral_power(IlluminantD65{}, nm);
     for (std::size_t c = 0; c < 3; ++c) sum[c] += r * power * observer[c];
     white += power * observer[1];
-    nm += kStep_nm;
+    nm += kColourStep_nm;
   }
   for (double& v : sum) v /= white;
   return sum;

@@ -22,7 +22,7 @@
 namespace contrejour::cli {
 namespace {
 
-constexpr const char* kExamples =
+constexpr const char* kRenderExamples =
     "Without a light there is one at u,v = 0.70,0.33. The image holds what the flare adds to a photograph, in the\n"
     "lights' own units; a light's own image is not in it. A PNG is made to look at: --exposure says how bright.\n\n"
     "Examples:\n"
@@ -135,7 +135,7 @@ void add_render(CLI::App& app, Action& action) {
   add_lens_parameters(*command, options->values);
   add_parameters(*command, options->values, {"size", "hfov", "pixel-aspect"});
   add_rendering_parameters(*command, options->values);
-  command->footer(kExamples);
+  command->footer(kRenderExamples);
   command->callback([options, &action] {
     if (options->lens.empty() && options->look.look.empty()) throw CLI::RequiredError("LENS");
     action = [options] { return run_render(*options); };

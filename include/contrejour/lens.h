@@ -127,9 +127,11 @@ struct SurfaceCoating {
   Coating coating;
 };
 
+inline constexpr double kLargestFNumber = 1e5;
+
 struct LensSettings {
   std::optional<double> focal_length_mm = std::nullopt;  // zoom; default: the first position
-  std::optional<double> f_number = std::nullopt;  // default: the widest
+  std::optional<double> f_number = std::nullopt;  // default: the widest; at most kLargestFNumber
   double object_distance_mm = std::numeric_limits<double>::infinity();  // from surface 1; focus
   std::optional<Coating> coating = std::nullopt;  // in place of every glass-to-air coating
   std::vector<SurfaceCoating> coating_at = {};  // and then of single surfaces'; of two for one the last counts

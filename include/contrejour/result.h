@@ -41,4 +41,8 @@ using Result = tl::expected<T, Error>;
   return tl::unexpected<Error>(Error{code, std::move(message), std::move(place)});
 }
 
+[[nodiscard]] inline tl::unexpected<Error> invalid_argument(std::string message) {
+  return failure(ErrorCode::InvalidArgument, std::move(message));
+}
+
 }  // namespace contrejour

@@ -53,9 +53,9 @@ class CountingIterator {
 };
 
 // nlohmann's events, made a tree; false stops it.
-class TreeBuilder {
+class JsonTreeBuilder {
  public:
-  explicit TreeBuilder(const Place& place) : place_(place) { open_.push_back({}); }
+  explicit JsonTreeBuilder(const Place& place) : place_(place) { open_.push_back({}); }
 
   bool null() { return add({}); }
   bool boolean(bool value) { return add({.kind = JsonNode::Kind::Bool, .truth = value}); }
@@ -163,7 +163,7 @@ Result<JsonNode> parse_json(std::string_view text, const std::string& file) {
                    {file, 0, 0});
   const std::string plain = without_pythons_words(text);
   Place place;
-  TreeBuilder builder(place);
+  JsonTreeBuilder builder(place);
   const char* begin = plain.data();
   const char* end = begin + plain.size();
   bool whole = false;

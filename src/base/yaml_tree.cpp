@@ -24,7 +24,7 @@ struct Stop : std::runtime_error {
 };
 
 // Builds the tree; `open_` are the lists and maps that have begun.
-class TreeBuilder : public YAML::EventHandler {
+class YamlTreeBuilder : public YAML::EventHandler {
  public:
   [[nodiscard]] YamlNode take() { return std::move(root_); }
 
@@ -143,7 +143,7 @@ Result<YamlNode> parse_yaml(std::string_view text, const std::string& file) {
     ViewBuffer buffer(text);
     std::istream stream(&buffer);
     YAML::Parser parser(stream);
-    TreeBuilder builder;
+    YamlTreeBuilder builder;
     parser.HandleNextDocument(builder);
     return builder.take();
   } catch (const Stop& stop) {

@@ -4,34 +4,26 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <numbers>
 
+#include "base/scalar.h"
 #include "diffraction/special_functions.h"
 
 namespace contrejour {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr double kSpeckWithin = 1.0;      // lengths of its line in widths: up to that a stroke is a speck
-constexpr double kFlatPhase = 0.1;        // rad: a line whose phase bends by less is straight
+constexpr double kDirtFlatPhase = 0.1;        // rad: a line whose phase bends by less is straight
 constexpr double kFringes = 14.0;         // rad, from which on sinc^2 and Airy's rings are their means
 constexpr double kBeside = 12.0;          // widths over lengths: angles beyond the fan where ends alone are counted
-constexpr double kSpectralBlur = 0.15;    // half a channel's band over its middle: it blurs fringes beyond the first
-constexpr double kUniformEnd = 2.5;       // Fresnel's u from which on fringes fade into their mean,
-constexpr double kMeanFrom = 4.0;         // and from which on they are that
-constexpr double kFirst = 0x1p-6;         // per mm: k of the specks' table
+constexpr double kDirtSpectralBlur = 0.15;  // half a channel's band over its middle: it blurs fringes beyond the first
+constexpr double kDirtUniformEnd = 2.5;  // Fresnel's u from which on fringes fade into their mean,
+constexpr double kMeanFrom = 4.0;  // and from which on they are that
+constexpr double kFirst = 0x1p-6;  // per mm: k of the specks' table
 constexpr int kStepsPerOctave = 8;
 constexpr int kOctaves = 26;
 constexpr double kSizesPerOctave = 16.0;  // specks are put together by size
-constexpr double kStepU = 0.5;            // of Fresnel's u in an average over directions
-constexpr int kMaxSteps = 8;
-
-double square(double x) { return x * x; }
-
-double smoothstep(double t) {
-  t = std::clamp(t, 0.0, 1.0);
-  return t * t * (3.0 - 2.0 * t);
-}
+constexpr double kDirtStepU = 0.5;  // of Fresnel's u in an average over directions
+constexpr int kDirtMaxSteps = 8;
 
 // (sin x / x)^2, its mean where fringes are finer than a spectrum tells apart.
 double sinc_squared(double x) {
@@ -68,9 +60,9 @@ double fresnel_power(double from, double to) {
     const FresnelIntegrals a = fresnel_integrals(from), b = fresnel_integrals(to);
     exact = square(b.c - a.c) + square(b.s - a.s);
   }
-  if (nearest > kUniformEnd)
+  if (nearest > kDirtUniformEnd)
     mean = (from < 0.0 && to > 0.0 ? 2.0 : 0.0) + (1.0 / square(from) + 1.0 / square(to)) / square(kPi);
-  const double t = smoothstep((nearest - kUniformEnd) / (kMeanFrom - kUniformEnd));
+  const double t = smooth_step((nearest - kDirtUniformEnd) / (kMeanFrom - kDirtUniformEnd));
   return (1.0 - t) * exact + t * mean;
 }
 
@@ -136,7 +128,7 @@ DirtWaves::Direction DirtWaves::along(double direction_rad, double window_rad) c
     tau -= kPi * std::round(tau / kPi);  // u and -u give the same power
     // Beside the fan the ends alone send light, as k^-2 times a slit's, from where their fringes are fine.
     const double beside = std::abs(tau) - s.half_turn_rad - 0.5 * window_rad;
-    const double ends = smoothstep(beside * s.length / (kBeside * s.width) - 1.0);  // the share counted so
+    const double ends = smooth_step(beside * s.length / (kBeside * s.width) - 1.0);  // the share counted so
     if (ends > 0.0) {
       // 2 / (k sin(tau))^2 * (w sinc(k w cos(tau) / 2))^2, whose mean is 4 / (k^2 sin(tau) cos(tau))^2 at large k.
       const double sine2 = square(std::sin(beside));
@@ -161,15 +153,17 @@ DirtWaves::Direction DirtWaves::along(double direction_rad, double window_rad) c
 // integrals (EdgeWaves' arc): phase k R cos(s) = k R - (pi / 2) u^2, u = sqrt(4 k R / pi) sin(s / 2).
 double DirtWaves::Direction::line_power(const Line& line, double k) const {
   const double across = line.weight * square(line.width) * sinc_squared(0.5 * k * line.width * line.cosine);
-  if (k * square(line.length) < 8.0 * kFlatPhase * line.radius) {
+  if (k * square(line.length) < 8.0 * kDirtFlatPhase * line.radius) {
     const double q = 0.5 * k * line.length * line.sine;
-    const double h = std::max(0.25 * k * line.length * line.cosine * window_rad_, kSpectralBlur * (std::abs(q) - kPi));
+    const double h =
+        std::max(0.25 * k * line.length * line.cosine * window_rad_, kDirtSpectralBlur * (std::abs(q) - kPi));
     const double along =
         h < 0.05 ? sinc_squared(q) : (integral_of_sinc_squared(q + h) - integral_of_sinc_squared(q - h)) / (2.0 * h);
     return across * square(line.length) * along;
   }
   const double per_sine = std::sqrt(4.0 * k * line.radius / kPi);
-  const int steps = std::clamp(static_cast<int>(std::ceil(0.5 * per_sine * window_rad_ / kStepU)), 1, kMaxSteps);
+  const int steps =
+      std::clamp(static_cast<int>(std::ceil(0.5 * per_sine * window_rad_ / kDirtStepU)), 1, kDirtMaxSteps);
   double sum = 0.0;
   for (int i = 0; i < steps; ++i) {
     const double half_turn = 0.5 * window_rad_ * ((i + 0.5) / steps - 0.5);  // small: a sine's tangent is the sine

@@ -4,14 +4,13 @@
 #include <cmath>
 #include <complex>
 #include <limits>
-#include <numbers>
 
+#include "base/scalar.h"
 #include "diffraction/special_functions.h"
 
 namespace contrejour {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr double kFlatPhase = 0.1;     // rad: an arc whose phase bends by less is a straight edge
 constexpr double kUniformEnd = 2.5;    // Fresnel's u from which on the asymptotic form is faded in,
 constexpr double kAsymptoticFrom = 4.0;  // and from which on it is used alone: the spectrum blurs the fringes there
@@ -21,14 +20,7 @@ constexpr double kNever = std::numeric_limits<double>::infinity();
 constexpr double kStepU = 0.5;         // of Fresnel's u in an average over directions
 constexpr int kMaxSteps = 16;
 
-double square(double x) { return x * x; }
-
 double wrap(double angle, double period) { return angle - period * std::round(angle / period); }
-
-double smoothstep(double t) {
-  t = std::clamp(t, 0.0, 1.0);
-  return t * t * (3.0 - 2.0 * t);
-}
 
 }  // namespace
 
@@ -142,7 +134,7 @@ double EdgeWaves::Direction::arc_power(const Edge& edge, double k, double window
     if (nearest > kUniformEnd)
       asymptotic = (start < 0.0 && end > 0.0 ? stationary : 0.0) + std::min(square(edge.cot_start), stationary) +
                    std::min(square(edge.cot_end), stationary);
-    const double t = smoothstep((nearest - kUniformEnd) / (kAsymptoticFrom - kUniformEnd));
+    const double t = smooth_step((nearest - kUniformEnd) / (kAsymptoticFrom - kUniformEnd));
     return (1.0 - t) * uniform + t * asymptotic;
   };
   const double start = u_of(edge.tau_start), end = u_of(edge.tau_end);
@@ -187,7 +179,7 @@ EdgeWaves::Direction::Joined EdgeWaves::Direction::joined_arcs(const Edge& befor
                                   scale_after * 0.5 * (after.tau_end - after.tau_start));
   constexpr double kFade = kAsymptoticFrom - kUniformEnd;
   const double share =
-      std::min(smoothstep((kAsymptoticFrom - farther) / kFade), smoothstep((shorter - kUniformEnd) / kFade));
+      std::min(smooth_step((kAsymptoticFrom - farther) / kFade), smooth_step((shorter - kUniformEnd) / kFade));
   if (!(share > 0.0)) return {};
   const double du = 0.5 * std::max(scale_before, scale_after) * window_rad;
   const int steps = std::clamp(static_cast<int>(std::ceil(du / kStepU)), 1, kMaxSteps);

@@ -16,7 +16,7 @@ namespace {
 using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 using Square = Eigen::Map<const RowMajor>;
 
-constexpr int kRowsAtOnce = 32;
+constexpr int kTransformedAtOnce = 32;
 
 // S restricted to even or odd vectors is tridiagonal: columns are its eigenvectors, by falling eigenvalue.
 Eigen::MatrixXd eigenvectors_of(int side, bool even) {
@@ -46,9 +46,11 @@ bool sandwich(const Eigen::Ref<const RowMajor>& left, std::vector<std::complex<d
       real.data()[k] = square[static_cast<std::size_t>(k)].real();
       imaginary.data()[k] = square[static_cast<std::size_t>(k)].imag();
     }
-    const bool finished =
-        parallel_for(static_cast<std::size_t>((side + kRowsAtOnce - 1) / kRowsAtOnce), context, [&](std::size_t block) {
-          const int first = static_cast<int>(block) * kRowsAtOnce, count = std::min(kRowsAtOnce, side - first);
+    const bool finished = parallel_for(
+        static_cast<std::size_t>((side + kTransformedAtOnce - 1) / kTransformedAtOnce), context,
+        [&](std::size_t block) {
+          const int first = static_cast<int>(block) * kTransformedAtOnce,
+                    count = std::min(kTransformedAtOnce, side - first);
           const RowMajor a = left.middleRows(first, count) * real, b = left.middleRows(first, count) * imaginary;
           for (int r = 0; r < count; ++r)
             for (int c = 0; c < side; ++c) square[static_cast<std::size_t>(c * side + first + r)] = {a(r, c), b(r, c)};

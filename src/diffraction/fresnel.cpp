@@ -2,9 +2,9 @@
 
 #include <cmath>
 #include <complex>
-#include <numbers>
 #include <span>
 
+#include "base/scalar.h"
 #include "base/units.h"
 #include "diffraction/chirp_z.h"
 #include "diffraction/complex_product.h"
@@ -16,12 +16,11 @@ namespace {
 
 using Wave = std::vector<std::complex<double>>;
 
-constexpr double kPi = std::numbers::pi;
 constexpr double kSamplesPerFresnel =
     16.0;  // across the stop, for each unit of F: a turn of the chirp has 8 at the rim
 constexpr double kTaper = 0.8;               // of the band limit, from where on the spectrum is faded out
 
-std::size_t square(std::size_t side) { return side * side; }
+std::size_t samples_of_square(std::size_t side) { return side * side; }
 
 double fade(double f, double limit) {
   const double t = (std::abs(f) / limit - kTaper) / (1.0 - kTaper);
@@ -43,7 +42,7 @@ std::vector<double> intensities(const Wave& wave, double scale) {
 Wave padded_wave(const PupilMask& mask, std::size_t padded) {
   const auto side = static_cast<std::size_t>(mask.grid.side);
   const std::size_t first = (padded - side) / 2;
-  Wave wave(square(padded));
+  Wave wave(samples_of_square(padded));
   for (std::size_t r = 0; r < side; ++r)
     for (std::size_t c = 0; c < side; ++c) wave[(first + r) * padded + first + c] = mask.at(r * side + c);
   return wave;
@@ -88,7 +87,7 @@ std::vector<double> fresnel_near(const PupilMask& mask, double stop_radius_mm, d
   const RegularPoints places = pattern_points(side, extent);
   const ChirpZ back({padded, -static_cast<double>(half) * step, step}, {places.count, -places.first, -places.step});
   const Wave pattern = back.transform_2d(spectrum, context);
-  return intensities(pattern, 1.0 / square(padded) / square(padded));
+  return intensities(pattern, 1.0 / samples_of_square(padded) / square(padded));
 }
 
 // Goodman 2005 eq. 4-17 in stop radii: U(x) = F integral of U(s) exp(i pi F s^2) exp(-2 pi i F x.s) d^2 s.
@@ -102,7 +101,7 @@ std::vector<double> fresnel_far(const PupilMask& mask, double stop_radius_mm, do
     const double s = from.first + static_cast<double>(k) * from.step;
     chirp[k] = std::polar(1.0, kPi * fresnel_number * s * s);
   }
-  Wave wave(square(samples));
+  Wave wave(samples_of_square(samples));
   for (std::size_t r = 0; r < samples; ++r)
     for (std::size_t c = 0; c < samples; ++c)
       wave[r * samples + c] = product(product(mask.at(r * samples + c), chirp[r]), chirp[c]);

@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
+
+#include "base/scalar.h"
 
 namespace contrejour {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr std::size_t kRows = kRowsPerOctave;
 constexpr double kBetweenRays_px = 0.1;  // at an octave's end: between them chords change evenly enough
 

@@ -3,23 +3,22 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 
+#include "base/scalar.h"
 #include "diffraction/pixel_profile.h"
 
 namespace contrejour {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr std::size_t kSameDirection = 8;  // bins over which a pixel's profile is taken as the same
-constexpr std::size_t kMostBins = 3;       // on each side of a pixel's middle, that it reaches
+constexpr std::size_t kMaxPixelBins = 3;       // on each side of a pixel's middle, that it reaches
 
 // Shares of a pixel, by parts of it so wide, that lie beside its middle on one side: they sum to one half.
-std::array<float, kMostBins> shares_from_middle(const PixelProfile<double>& profile, double width_px) {
-  std::array<float, kMostBins> shares{};
+std::array<float, kMaxPixelBins> shares_from_middle(const PixelProfile<double>& profile, double width_px) {
+  std::array<float, kMaxPixelBins> shares{};
   double below = 0.5;
-  for (std::size_t k = 0; k < kMostBins; ++k) {
-    const double next = k + 1 == kMostBins ? 1.0 : profile.share_below(static_cast<double>(k + 1) * width_px);
+  for (std::size_t k = 0; k < kMaxPixelBins; ++k) {
+    const double next = k + 1 == kMaxPixelBins ? 1.0 : profile.share_below(static_cast<double>(k + 1) * width_px);
     shares[k] = static_cast<float>(next - below);
     below = next;
   }
@@ -57,20 +56,20 @@ void average_rows(std::span<const float> bins_rgb0, std::size_t bins, double rad
 void average_over_pixels(std::span<const float> bins_rgb0, std::size_t bins, double first_px, std::size_t row,
                          float* to) {
   const double radius_px = first_px * row_ratio(static_cast<double>(row));
-  // Whole turns, so that pixels reach beyond the first and the last bin: kMostBins more on each side.
+  // Whole turns, so that pixels reach beyond the first and the last bin: kMaxPixelBins more on each side.
   std::vector<float> line(bins * 4);
   average_rows(bins_rgb0, bins, radius_px, row, line);
-  std::vector<float> around((bins + 2 * kMostBins) * 4);
-  for (std::size_t b = 0; b < bins + 2 * kMostBins; ++b)
-    std::copy_n(line.data() + (b + bins - kMostBins) % bins * 4, 4, around.data() + b * 4);
+  std::vector<float> around((bins + 2 * kMaxPixelBins) * 4);
+  for (std::size_t b = 0; b < bins + 2 * kMaxPixelBins; ++b)
+    std::copy_n(line.data() + (b + bins - kMaxPixelBins) % bins * 4, 4, around.data() + b * 4);
   const double width_px = radius_px * kPi / static_cast<double>(bins);
   for (std::size_t b = 0; b <= bins; b += kSameDirection) {
     const double angle = (static_cast<double>(b) + 0.5 * kSameDirection) / static_cast<double>(bins) * kPi;
     const auto share = shares_from_middle(PixelProfile<double>(std::cos(angle), std::sin(angle), 1.0), width_px);
     for (std::size_t i = b * 4; i < std::min(bins + 1, b + kSameDirection) * 4; ++i) {
-      const float* const middle = around.data() + kMostBins * 4 + i;
+      const float* const middle = around.data() + kMaxPixelBins * 4 + i;
       float sum = 0.0F;
-      for (std::size_t k = 0; k < kMostBins; ++k)
+      for (std::size_t k = 0; k < kMaxPixelBins; ++k)
         sum += share[k] * (middle[4 * k] + *(middle - 4 * (static_cast<std::ptrdiff_t>(k) + 1)));
       to[i] = sum;
     }

@@ -34,7 +34,7 @@ double open_share(const std::function<double(Vec2)>& distance_mm, Vec2 p, double
   return size > 0.0 ? half_plane_share(gradient * (1.0 / size), d) : 0.5;
 }
 
-std::size_t square(int side) { return static_cast<std::size_t>(side) * static_cast<std::size_t>(side); }
+std::size_t pixels_of(int side) { return static_cast<std::size_t>(side) * static_cast<std::size_t>(side); }
 
 Result<void> check_picture(const Image& image, int channel) {
   if (image.width <= 0 || image.height <= 0 || image.pixels.size() != image.index(0, image.height))
@@ -77,7 +77,7 @@ double PupilMask::open_area_mm2() const {
 
 PupilMask make_mask(const MaskGrid& grid, const std::function<double(Vec2)>& distance_mm, const Context& context) {
   if (!grid.is_usable() || !distance_mm) return {{0, 0.0}, {}, {}};
-  PupilMask mask{grid, std::vector<float>(square(grid.side)), {}};
+  PupilMask mask{grid, std::vector<float>(pixels_of(grid.side)), {}};
   parallel_for(static_cast<std::size_t>(grid.side), context, [&](std::size_t row) {
     for (int column = 0; column < grid.side; ++column)
       mask.amplitude[row * static_cast<std::size_t>(grid.side) + static_cast<std::size_t>(column)] =
@@ -97,7 +97,7 @@ Result<PupilMask> mask_of_image(const Image& image, int channel, double width_mm
   if (!MaskGrid{side, width_mm / side}.is_usable())
     return failure(ErrorCode::InvalidArgument,
                    fmt::format("an aperture of {} samples cannot be {} mm wide", side, width_mm));
-  PupilMask mask{{side, width_mm / side}, std::vector<float>(square(side)), {}};
+  PupilMask mask{{side, width_mm / side}, std::vector<float>(pixels_of(side)), {}};
   const int left = (side - image.width) / 2, top = (side - image.height) / 2;
   for (int y = 0; y < image.height; ++y)
     for (int x = 0; x < image.width; ++x)

@@ -9,6 +9,7 @@
 #include <span>
 #include <vector>
 
+#include "base/scalar.h"
 #include "base/tasks.h"
 #include "diffraction/band_sum.h"
 #include "diffraction/near_field.h"
@@ -18,7 +19,6 @@
 namespace contrejour {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr double kFlatRho = 0.05;  // the pattern is flat to 1 per cent within
 // Widths of bins at an octave's outer radius: pixels beyond kNear_px are read between means over pixels; within, the
 // cells themselves are summed up, and a pixel's sides may cut through them. Nearest to the centre spikes are too close

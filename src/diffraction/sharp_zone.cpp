@@ -9,7 +9,7 @@
 namespace contrejour {
 namespace {
 
-constexpr float kPi = std::numbers::pi_v<float>;
+constexpr float kPiF = std::numbers::pi_v<float>;
 
 // The middle of a pixel's chord along a direction, that far aside of the pixel's middle, from where the direction's
 // normal through the middle meets it.
@@ -33,7 +33,7 @@ void read_zone(const SharpZone& zone, std::size_t bins, float row, float turns, 
   if (place < 0.0F) place += whole;
   const auto r = static_cast<float>(length(p));
   const float along_x = static_cast<float>(p.x) / r, along_y = static_cast<float>(p.y) / r;
-  const float px_per_bin = r * kPi / whole;
+  const float px_per_bin = r * kPiF / whole;
   const float rows_per_px = kRowsPerOctave / (std::numbers::ln2_v<float> * r);
   const PixelProfile<float> profile(along_x, along_y, 1.0F);
   const std::size_t cells = zone.cells();

@@ -2,17 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <utility>
 #include <vector>
 
+#include "base/scalar.h"
 #include "base/tasks.h"
 #include "diffraction/starburst_rings.h"
 
 namespace contrejour {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr double kSampleRho = 0.45;  // fringes are 1 apart at least: samples of an average stand closer
 // From spectrum to edge waves, in samples across: where aliases of the edges are below 1 per cent, and with dirt, which
 // only the spectrum has, where they are 10. Of a picture there is nothing else to go to.
@@ -87,8 +86,6 @@ double mean_amplitude(const PupilMask& mask, const PupilOutline& outline) {
   for (const float a : mask.amplitude) sum += a;
   return sum * mask.grid.pitch_mm * mask.grid.pitch_mm / outline.area_mm2();
 }
-
-double square(double x) { return x * x; }
 
 // A direction in the plane of a shape that unit vectors x and y lay down.
 struct Seen {

@@ -22,8 +22,6 @@ constexpr int kMostSamples = 4096;  // the spectrum of as many takes 1 GB
 // Lengths of any optics, mm or nm: beyond, ratios of them leave what a double holds.
 bool is_positive(double value) { return value >= 1e-9 && value <= 1e9; }
 
-tl::unexpected<Error> invalid(const std::string& message) { return failure(ErrorCode::InvalidArgument, message); }
-
 std::optional<std::string> problem_with(std::span<const SpectralBand> bands, const StarburstSettings& settings) {
   const std::pair<double, const char*> lengths[] = {{settings.distance_mm, "distance of the exit pupil, in mm,"},
                                                     {settings.pupil_radius_mm, "radius of the exit pupil, in mm,"},
@@ -66,8 +64,8 @@ Result<StarburstSource> StarburstSource::make(const PupilMask& mask, const Pupil
                                               std::span<const SpectralBand> bands, const StarburstSettings& settings,
                                               const Context& context) {
   if (context.cancelled()) return interrupted();
-  if (const auto problem = problem_with(bands, settings)) return invalid(*problem);
-  if (const auto problem = problem_with(mask, outline)) return invalid(*problem);
+  if (const auto problem = problem_with(bands, settings)) return invalid_argument(*problem);
+  if (const auto problem = problem_with(mask, outline)) return invalid_argument(*problem);
   StarburstSource source;
   if (!(mask.open_area_mm2() > 0.0) || (outline && outline->opening.closed())) return source;
   Context steps = context;
@@ -97,7 +95,7 @@ Result<Starburst> make_starburst(const PupilMask& mask, const PupilOutline* outl
 
 Result<Starburst> make_starburst(const IrisOpening& opening, std::span<const SpectralBand> bands,
                                  const StarburstSettings& settings, const Context& context) {
-  if (const auto problem = problem_with(bands, settings)) return invalid(*problem);
+  if (const auto problem = problem_with(bands, settings)) return invalid_argument(*problem);
   if (opening.closed()) return Starburst();
   Context steps = context;
   steps.progress = {};

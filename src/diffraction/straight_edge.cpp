@@ -3,17 +3,13 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/scalar.h"
+
 namespace contrejour {
 namespace {
 
 using Complex = std::complex<double>;
-constexpr double kPi = std::numbers::pi;
 constexpr int kBandSamples = 9;
-
-double smooth_step(double x) {
-  const double t = std::clamp(x, 0.0, 1.0);
-  return t * t * (3.0 - 2.0 * t);
-}
 
 // exp(-i pi / 4) times the integral of exp(i pi t^2) from -infinity to each of the steps, one wavelength's.
 std::vector<Complex> edge_by_steps(double first, double step, std::size_t count) {

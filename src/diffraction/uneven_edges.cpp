@@ -4,12 +4,12 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/scalar.h"
 #include "base/tasks.h"
 
 namespace contrejour {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr double kStepOfSpread = 1.0 / 5.0;  // between the table's directions
 constexpr double kMostSpreads = 3.5;         // on either side: 0.05 per cent of the slopes lie beyond
 constexpr double kFirstK = 64.0;  // the mask's samples go farther out than that

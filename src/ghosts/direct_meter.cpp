@@ -21,7 +21,6 @@ constexpr int kFirstSide = 17;  // of the search
 constexpr PupilEffort kEffort = PupilEffort::Finer;
 constexpr double kMargin = 0.02;  // of a pupil's size, on each side, for another wavelength's
 constexpr float kNearRim = 0.1F;  // of the clear height; of the stop radius
-constexpr float kFailed = std::numeric_limits<float>::infinity();
 
 // Most cells are open or closed as a whole.
 double open_flux(const RayGrid& grid) {

@@ -9,7 +9,7 @@
 namespace contrejour {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kUnbounded = std::numeric_limits<double>::infinity();
 
 void straight_distances(const IrisBound& bound, const float* x, const float* y, std::size_t count, float* out,
                         bool first) {
@@ -54,7 +54,7 @@ IrisShape::IrisShape(const Iris& iris) {
     if (std::any_of(opening.edges().begin(), opening.edges().end(), lies_on_it)) bounds_.push_back(bound);
   }
   is_circle_ = bounds_.size() == 1 && bounds_.front() == kIrisRim;
-  if (bounds_.empty()) bounds_.push_back({{1.0, 0.0}, -kInfinity, {}});  // closed: nothing is on its inner side
+  if (bounds_.empty()) bounds_.push_back({{1.0, 0.0}, -kUnbounded, {}});  // closed: nothing is on its inner side
 }
 
 IrisShape IrisShape::hull() const {

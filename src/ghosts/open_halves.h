@@ -31,7 +31,6 @@ struct OpenTriangle {
 // Of a cell, by its vertices in turn.
 template <class Visit>
 void for_each_open_half(const RayGrid& grid, const std::array<std::size_t, 4>& q, const Visit& visit) {
-  constexpr float kFailed = std::numeric_limits<float>::infinity();
   const Vec2 step = grid.step_mm();
   for (const auto& v : {std::array{q[0], q[1], q[2]}, std::array{q[0], q[2], q[3]}}) {
     const auto blocked = [&](std::size_t k) { return grid.blocked[v[k]]; };

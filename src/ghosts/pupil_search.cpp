@@ -82,8 +82,6 @@ PacketPrecision precision_for(const Rectangle& box, int side) {
   return search_precision(std::min(size.x, size.y) / side);
 }
 
-double area(const Rectangle& r) { return (r.high.x - r.low.x) * (r.high.y - r.low.y); }
-
 }  // namespace
 
 int first_grid_side(PupilEffort effort) { return kFirstSides[static_cast<std::size_t>(effort)]; }
@@ -113,10 +111,10 @@ std::optional<PupilRegion> find_pupil_region(const OpticalPath& path, const Refl
     part = search(kFirstSides[k]);
   }
   for (int step = 1; part.any; ++step) {
-    const double before = area(region.pupil_mm);
+    const double before = area_of(region.pupil_mm);
     region.pupil_mm = part.pupil_mm;
     region.sensor_mm = part.sensor_mm;
-    if (area(part.pupil_mm) > kShrinkEnough * before || step == kSearchSteps) return region;
+    if (area_of(part.pupil_mm) > kShrinkEnough * before || step == kSearchSteps) return region;
     part = search(side);
   }
   return std::nullopt;

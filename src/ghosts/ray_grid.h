@@ -21,6 +21,8 @@ struct Rectangle {
   friend bool operator==(const Rectangle&, const Rectangle&) = default;
 };
 
+[[nodiscard]] inline double area_of(const Rectangle& r) { return (r.high.x - r.low.x) * (r.high.y - r.low.y); }
+
 // The smallest that holds both.
 [[nodiscard]] inline Rectangle both(const Rectangle& a, const Rectangle& b) {
   return {{std::min(a.low.x, b.low.x), std::min(a.low.y, b.low.y)},

@@ -29,7 +29,7 @@
 namespace contrejour {
 namespace {
 
-constexpr int kRowsBetweenCancelChecks = 256;
+constexpr int kExrRowsBetweenCancelChecks = 256;
 
 // PNG's integers become linear: 8 bits fit a half, 16 need a float.
 SampleType exr_type(SampleType type) {
@@ -94,9 +94,9 @@ template <class File>
 bool write_scan_lines(File& out, const OutputFileStream& stream, const Imf::FrameBuffer& frame_buffer, int height,
                       const Context& context) {
   out.setFrameBuffer(frame_buffer);
-  for (int row = 0; row < height; row += kRowsBetweenCancelChecks) {
+  for (int row = 0; row < height; row += kExrRowsBetweenCancelChecks) {
     if (context.cancelled() || stream.error()) return false;
-    out.writePixels(std::min(kRowsBetweenCancelChecks, height - row));
+    out.writePixels(std::min(kExrRowsBetweenCancelChecks, height - row));
   }
   return true;
 }

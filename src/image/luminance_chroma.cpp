@@ -1,7 +1,6 @@
 #include "image/luminance_chroma.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <cstdint>
 
@@ -12,6 +11,7 @@
 #include <ImfRgbaYca.h>
 #include <ImfStandardAttributes.h>
 
+#include "base/scalar.h"
 #include "image/exr_streams.h"
 #include "image/picture_header.h"
 #include "image/samples.h"
@@ -31,8 +31,6 @@ Imf::Chromaticities chromaticities_of(const Picture& picture) {
   const Imf::Header header = header_of(picture);
   return Imf::hasChromaticities(header) ? Imf::chromaticities(header) : Imf::Chromaticities();
 }
-
-bool same_bits(float a, float b) { return std::bit_cast<std::uint32_t>(a) == std::bit_cast<std::uint32_t>(b); }
 
 // Luminance, and red and blue over it less 1; all 0 where a colour has none (RGBAtoYCA of ImfRgbaYca.h).
 struct Yca {

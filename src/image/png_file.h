@@ -8,6 +8,8 @@
 #include "contrejour/image_io.h"
 #include "contrejour/output_file.h"
 
+struct png_struct_def;
+
 namespace contrejour {
 
 struct PngLayout {
@@ -22,6 +24,9 @@ using PngSink = std::function<Result<void>(std::span<const std::byte>)>;
 // Calls fill(y, row) for each row from the top. Marked as sRGB. place: for errors. Errors: the sink's, Io, Cancelled.
 [[nodiscard]] Result<void> write_png(const PngSink& sink, const SourcePlace& place, const PngLayout& layout,
                                      const std::function<void(int y, std::byte* row)>& fill, const Context& context);
+
+// What libpng calls with a warning: nothing that makes a picture useless is one.
+inline void ignore_png_warning(png_struct_def*, const char*) {}
 
 // The same to a file.
 [[nodiscard]] Result<void> write_png_file(OutputFile& file, const PngLayout& layout,

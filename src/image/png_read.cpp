@@ -9,6 +9,7 @@
 #include <png.h>
 
 #include "image/formats.h"
+#include "image/png_file.h"
 #include "image/samples.h"
 
 namespace contrejour {
@@ -18,7 +19,7 @@ constexpr std::uint64_t kLargestDeflate = 1100;  // deflate shrinks by 1032 at m
 constexpr png_alloc_size_t kLargestChunk = 8U << 20;  // of those that are not pixels
 constexpr png_uint_32 kLargestSide = 0x7fffffff;
 
-struct Reader {
+struct PngReader {
   std::span<const std::byte> bytes;
   std::size_t position = 0;
   char message[160] = "";
@@ -28,22 +29,20 @@ struct Reader {
   int channels = 0, bits = 0;
   std::size_t row_bytes = 0;
 
-  explicit Reader(std::span<const std::byte> file) : bytes(file) {}
-  Reader(const Reader&) = delete;
-  Reader& operator=(const Reader&) = delete;
-  ~Reader() { png_destroy_read_struct(&png, &info, nullptr); }
+  explicit PngReader(std::span<const std::byte> file) : bytes(file) {}
+  PngReader(const PngReader&) = delete;
+  PngReader& operator=(const PngReader&) = delete;
+  ~PngReader() { png_destroy_read_struct(&png, &info, nullptr); }
 };
 
-[[noreturn]] void on_error(png_structp png, png_const_charp message) {
-  auto* const reader = static_cast<Reader*>(png_get_error_ptr(png));
+[[noreturn]] void on_read_error(png_structp png, png_const_charp message) {
+  auto* const reader = static_cast<PngReader*>(png_get_error_ptr(png));
   std::strncpy(reader->message, message, sizeof reader->message - 1);
   png_longjmp(png, 1);
 }
 
-void on_warning(png_structp, png_const_charp) {}
-
 void on_read(png_structp png, png_bytep to, std::size_t size) {
-  auto* const reader = static_cast<Reader*>(png_get_io_ptr(png));
+  auto* const reader = static_cast<PngReader*>(png_get_io_ptr(png));
   if (size > reader->bytes.size() - reader->position) png_error(png, "the file is cut off");
   std::memcpy(to, reader->bytes.data() + reader->position, size);
   reader->position += size;
@@ -52,7 +51,7 @@ void on_read(png_structp png, png_bytep to, std::size_t size) {
 // Chunks nobody reads here; compressed ones can grow a thousandfold, each.
 constexpr png_byte kSkippedChunks[] = "tEXt\0zTXt\0iTXt\0iCCP\0sPLT\0eXIf\0hIST\0sCAL\0pCAL";
 
-bool read_header(Reader& r) {
+bool read_header(PngReader& r) {
   if (setjmp(png_jmpbuf(r.png)) != 0) return false;
   png_set_keep_unknown_chunks(r.png, PNG_HANDLE_CHUNK_NEVER, kSkippedChunks, sizeof kSkippedChunks / 5);
   png_set_read_fn(r.png, &r, on_read);
@@ -66,7 +65,7 @@ bool read_header(Reader& r) {
 }
 
 // Any PNG as 1 to 4 channels of 8 or 16 bits. libpng allocates rows here, so the size must have been checked.
-bool begin_pixels(Reader& r) {
+bool begin_pixels(PngReader& r) {
   if (setjmp(png_jmpbuf(r.png)) != 0) return false;
   png_set_expand(r.png);  // palette to RGB, fewer bits to 8, a transparent colour to alpha
   if constexpr (std::endian::native == std::endian::little) png_set_swap(r.png);
@@ -78,18 +77,18 @@ bool begin_pixels(Reader& r) {
   return true;
 }
 
-bool read_rows(Reader& r, png_bytep* rows) {
+bool read_rows(PngReader& r, png_bytep* rows) {
   if (setjmp(png_jmpbuf(r.png)) != 0) return false;
   png_read_image(r.png, rows);
   png_read_end(r.png, nullptr);
   return true;
 }
 
-tl::unexpected<Error> damaged(const Reader& reader, const std::string& name) {
+tl::unexpected<Error> damaged(const PngReader& reader, const std::string& name) {
   return failure(ErrorCode::Parse, fmt::format("the PNG file is damaged: {}", reader.message), {name});
 }
 
-Result<void> check_size(const Reader& r, const std::string& name, const ReadLimits& limits) {
+Result<void> check_size(const PngReader& r, const std::string& name, const ReadLimits& limits) {
   const std::uint64_t pixels = std::uint64_t{r.width} * r.height;
   // At most four channels, twice (interleaved and apart), and the linear image.
   const std::uint64_t bytes_per_pixel = 2 * 4 * (r.bits == 16 ? 2 : 1) + 3 * sizeof(float);
@@ -105,7 +104,7 @@ Result<void> check_size(const Reader& r, const std::string& name, const ReadLimi
   return {};
 }
 
-Picture picture_from_rows(const Reader& r, const std::vector<std::byte>& interleaved) {
+Picture picture_from_rows(const PngReader& r, const std::vector<std::byte>& interleaved) {
   static constexpr const char* kNames[4][4] = {{"Y"}, {"Y", "A"}, {"R", "G", "B"}, {"R", "G", "B", "A"}};
   Picture picture;
   picture.data_window = picture.display_window = {0, 0, static_cast<int>(r.width), static_cast<int>(r.height)};
@@ -131,8 +130,8 @@ Picture picture_from_rows(const Reader& r, const std::vector<std::byte>& interle
 }
 
 Result<Picture> read(std::span<const std::byte> bytes, const std::string& name, const ReadLimits& limits) {
-  Reader reader(bytes);
-  reader.png = png_create_read_struct(PNG_LIBPNG_VER_STRING, &reader, on_error, on_warning);
+  PngReader reader(bytes);
+  reader.png = png_create_read_struct(PNG_LIBPNG_VER_STRING, &reader, on_read_error, ignore_png_warning);
   reader.info = reader.png == nullptr ? nullptr : png_create_info_struct(reader.png);
   if (reader.info == nullptr) throw std::bad_alloc();
   if (!read_header(reader)) return damaged(reader, name);

@@ -17,42 +17,40 @@ namespace contrejour {
 namespace {
 
 constexpr int kCompressionLevel = 4;  // a third of level 6's time for files a few per cent larger
-constexpr int kRowsBetweenCancelChecks = 64;
+constexpr int kPngRowsBetweenCancelChecks = 64;
 
-struct Writer {
+struct PngWriter {
   const PngSink& sink;
   std::optional<Error> error;
   char message[160] = "";
   png_structp png = nullptr;
   png_infop info = nullptr;
 
-  explicit Writer(const PngSink& out) : sink(out) {}
-  Writer(const Writer&) = delete;
-  Writer& operator=(const Writer&) = delete;
-  ~Writer() { png_destroy_write_struct(&png, &info); }
+  explicit PngWriter(const PngSink& out) : sink(out) {}
+  PngWriter(const PngWriter&) = delete;
+  PngWriter& operator=(const PngWriter&) = delete;
+  ~PngWriter() { png_destroy_write_struct(&png, &info); }
 };
 
-[[noreturn]] void on_error(png_structp png, png_const_charp message) {
-  auto* const writer = static_cast<Writer*>(png_get_error_ptr(png));
+[[noreturn]] void on_write_error(png_structp png, png_const_charp message) {
+  auto* const writer = static_cast<PngWriter*>(png_get_error_ptr(png));
   std::strncpy(writer->message, message, sizeof writer->message - 1);
   png_longjmp(png, 1);
 }
 
-void on_warning(png_structp, png_const_charp) {}
-
-bool write_bytes(Writer& writer, const png_byte* from, std::size_t size) {
+bool write_bytes(PngWriter& writer, const png_byte* from, std::size_t size) {
   const Result<void> written = writer.sink(std::span(reinterpret_cast<const std::byte*>(from), size));
   if (!written) writer.error = written.error();
   return written.has_value();
 }
 
 void on_write(png_structp png, png_bytep from, std::size_t size) {
-  if (!write_bytes(*static_cast<Writer*>(png_get_io_ptr(png)), from, size)) png_error(png, "cannot write");
+  if (!write_bytes(*static_cast<PngWriter*>(png_get_io_ptr(png)), from, size)) png_error(png, "cannot write");
 }
 
 void on_flush(png_structp) {}
 
-bool write_header(Writer& w, const PngLayout& layout) {
+bool write_header(PngWriter& w, const PngLayout& layout) {
   static constexpr int kColourTypes[] = {PNG_COLOR_TYPE_GRAY, PNG_COLOR_TYPE_GRAY_ALPHA, PNG_COLOR_TYPE_RGB,
                                          PNG_COLOR_TYPE_RGB_ALPHA};
   if (setjmp(png_jmpbuf(w.png)) != 0) return false;
@@ -68,19 +66,19 @@ bool write_header(Writer& w, const PngLayout& layout) {
   return true;
 }
 
-bool write_row(Writer& w, const std::byte* row) {
+bool write_row(PngWriter& w, const std::byte* row) {
   if (setjmp(png_jmpbuf(w.png)) != 0) return false;
   png_write_row(w.png, reinterpret_cast<png_const_bytep>(row));
   return true;
 }
 
-bool write_end(Writer& w) {
+bool write_end(PngWriter& w) {
   if (setjmp(png_jmpbuf(w.png)) != 0) return false;
   png_write_end(w.png, w.info);
   return true;
 }
 
-tl::unexpected<Error> failed(const Writer& writer, const SourcePlace& place) {
+tl::unexpected<Error> failed(const PngWriter& writer, const SourcePlace& place) {
   if (writer.error) return tl::unexpected(*writer.error);
   return failure(ErrorCode::Io, fmt::format("cannot write: {}", writer.message), place);
 }
@@ -89,8 +87,8 @@ tl::unexpected<Error> failed(const Writer& writer, const SourcePlace& place) {
 
 Result<void> write_png(const PngSink& sink, const SourcePlace& place, const PngLayout& layout,
                        const std::function<void(int y, std::byte* row)>& fill, const Context& context) {
-  Writer writer(sink);
-  writer.png = png_create_write_struct(PNG_LIBPNG_VER_STRING, &writer, on_error, on_warning);
+  PngWriter writer(sink);
+  writer.png = png_create_write_struct(PNG_LIBPNG_VER_STRING, &writer, on_write_error, ignore_png_warning);
   writer.info = writer.png == nullptr ? nullptr : png_create_info_struct(writer.png);
   if (writer.info == nullptr) throw std::bad_alloc();
 
@@ -98,7 +96,7 @@ Result<void> write_png(const PngSink& sink, const SourcePlace& place, const PngL
   std::vector<std::byte> row(static_cast<std::size_t>(layout.width) * static_cast<std::size_t>(layout.channels) *
                              static_cast<std::size_t>(layout.bits / 8));
   for (int y = 0; y < layout.height; ++y) {
-    if (y % kRowsBetweenCancelChecks == 0 && context.cancelled())
+    if (y % kPngRowsBetweenCancelChecks == 0 && context.cancelled())
       return failure(ErrorCode::Cancelled, "cancelled", place);
     fill(y, row.data());
     if (!write_row(writer, row.data())) return failed(writer, place);

@@ -2,12 +2,13 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 #include <cstring>
 #include <limits>
 
 #include <half.h>
+
+#include "base/scalar.h"
 
 namespace contrejour {
 namespace {
@@ -77,8 +78,6 @@ float decode_sample(SampleType type, Coding coding, const std::byte* from) {
   }
   return 0;
 }
-
-bool same_bits(float a, float b) { return std::bit_cast<std::uint32_t>(a) == std::bit_cast<std::uint32_t>(b); }
 
 bool is_png(SampleType type) { return type == SampleType::UInt8 || type == SampleType::UInt16; }
 

@@ -4,16 +4,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include <fmt/format.h>
 
+#include "base/scalar.h"
 #include "base/split_mix.h"
 
 namespace contrejour {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr double kCell_mm = 2.0;
 constexpr double kFarthest_mm = 1e4;
 constexpr double kMostSteps = 1e4;  // along an outline

@@ -29,8 +29,6 @@ constexpr double kMostGain = 1e12;          // as of the gains in the table
 constexpr double kFarthestOffset = 1000.0;  // in the frame's height
 constexpr double kFarthestPlace = 1e6;      // of a ramp
 
-tl::unexpected<Error> invalid(std::string message) { return failure(ErrorCode::InvalidArgument, std::move(message)); }
-
 std::optional<std::string_view> after(std::string_view text, std::string_view prefix) {
   if (!text.starts_with(prefix)) return std::nullopt;
   return text.substr(prefix.size());
@@ -40,10 +38,10 @@ Result<Rgb> parse_rgb(std::string_view text, double most = kMostValue) {
   const auto numbers = parse_reals(text, 3);
   if (!numbers) return tl::unexpected(numbers.error());
   if (*std::min_element(numbers->begin(), numbers->end()) < 0.0) {
-    return invalid(fmt::format("\"{}\" is negative somewhere; a light has no negative channel", text));
+    return invalid_argument(fmt::format("\"{}\" is negative somewhere; a light has no negative channel", text));
   }
   if (*std::max_element(numbers->begin(), numbers->end()) > most)
-    return invalid(fmt::format("\"{}\" is too large somewhere; {:.0e} is the limit", text, most));
+    return invalid_argument(fmt::format("\"{}\" is too large somewhere; {:.0e} is the limit", text, most));
   return Rgb{(*numbers)[0], (*numbers)[1], (*numbers)[2]};
 }
 
@@ -56,11 +54,12 @@ Result<Film> parse_film(std::string_view text) {
   const auto lambda = parse_real(parts[0]);
   const auto n = parts.size() > 1 ? parse_real(parts[1]) : Result<double>(film.n);
   if (text[0] != ':' || parts.size() > 2 || !lambda || !n) {
-    return invalid(
+    return invalid_argument(
         fmt::format("\"{}\" is not \":wavelength\" or \":wavelength:index\", as in quarter-wave:550:1.38", text));
   }
-  if (!(*lambda >= 100.0 && *lambda <= 10000.0)) return invalid("a film's wavelength must be from 100 to 10000 nm");
-  if (!(*n >= 1.0 && *n <= 10.0)) return invalid("a film's index must be from 1 to 10");
+  if (!(*lambda >= 100.0 && *lambda <= 10000.0))
+    return invalid_argument("a film's wavelength must be from 100 to 10000 nm");
+  if (!(*n >= 1.0 && *n <= 10.0)) return invalid_argument("a film's index must be from 1 to 10");
   film.lambda0_nm = *lambda;
   film.n = *n;
   return film;
@@ -92,7 +91,8 @@ std::optional<Result<DesignedCoating>> parse_design(std::string_view text) {
   if (parts.size() == 1) return Result<DesignedCoating>(*design);
   const auto lambda = parts.size() == 2 ? parse_real(parts[1]) : Result<double>(0.0);
   if (!lambda || !(*lambda >= 100.0 && *lambda <= 5000.0))
-    return Result<DesignedCoating>(invalid(fmt::format("\"{}\": write a design's wavelength as in v-coat:550", text)));
+    return Result<DesignedCoating>(
+        invalid_argument(fmt::format("\"{}\": write a design's wavelength as in v-coat:550", text)));
   design->lambda0_nm = *lambda;
   return Result<DesignedCoating>(*design);
 }
@@ -105,14 +105,14 @@ Result<FilmStack> parse_stack(std::string_view text) {
     const auto thickness =
         material && parts.size() == 2 ? parse_thickness(parts[1], *material) : std::optional<double>();
     if (!thickness || !(*thickness >= 0.0 && *thickness <= 1e6)) {
-      return invalid(
+      return invalid_argument(
           fmt::format("\"{}\" is not a film; write index or material @ nanometres or waves, as in "
                       "stack:1.38@99.6,ZrO2@0.5w",
                       layer));
     }
     stack.layers.push_back({*material, *thickness});
   }
-  if (stack.layers.size() > 1000) return invalid("a stack may have 1000 films");
+  if (stack.layers.size() > 1000) return invalid_argument("a stack may have 1000 films");
   return stack;
 }
 
@@ -134,17 +134,18 @@ Result<LightValue> parse_light_value(std::string_view text) {
   }
   const auto value = parse_real(number);
   if (!value && unit == LightValue::Unit::Sum)
-    return invalid(
+    return invalid_argument(
         fmt::format("\"{}\" is no brightness; write what the image sums to (5000, or R,G,B), 12stops over "
                     "white, 100000lx at the lens, 800cd or 1.6e9nits",
                     text));
   if (!value) return tl::unexpected(value.error());
   const bool is_stops = unit == LightValue::Unit::Stops;
   if (is_stops && std::abs(*value) > kMostStops)
-    return invalid(fmt::format("{} is out of range; choose -{} to {} stops", text, kMostStops, kMostStops));
-  if (!is_stops && *value < 0.0) return invalid(fmt::format("{} is negative; a light's value is at least 0", text));
+    return invalid_argument(fmt::format("{} is out of range; choose -{} to {} stops", text, kMostStops, kMostStops));
+  if (!is_stops && *value < 0.0)
+    return invalid_argument(fmt::format("{} is negative; a light's value is at least 0", text));
   if (*value > kMostValue)
-    return invalid(fmt::format("{} is too large; a light's value is at most {:.0e}", text, kMostValue));
+    return invalid_argument(fmt::format("{} is too large; a light's value is at most {:.0e}", text, kMostValue));
   return LightValue{{*value, *value, *value}, false, unit};
 }
 
@@ -161,7 +162,8 @@ Result<LightColour> parse_light_colour(std::string_view text) {
 
 Result<LightText> parse_light(std::string_view text) {
   const auto parts = split(text, ':');
-  if (parts.size() > 4) return invalid(fmt::format("\"{}\" has too many parts; write A,B:VALUE:COLOUR:SIZE", text));
+  if (parts.size() > 4)
+    return invalid_argument(fmt::format("\"{}\" has too many parts; write A,B:VALUE:COLOUR:SIZE", text));
   const auto place = parse_reals(parts[0], 2);
   if (!place) return tl::unexpected(place.error());
   LightText light;
@@ -180,7 +182,7 @@ Result<LightText> parse_light(std::string_view text) {
     const auto size_deg = parse_real(parts[3]);
     if (!size_deg) return tl::unexpected(size_deg.error());
     if (!(*size_deg >= 0.0 && *size_deg <= kLargestLight_deg))
-      return invalid(fmt::format("a light {} degrees across is out of range; choose 0 to 90", parts[3]));
+      return invalid_argument(fmt::format("a light {} degrees across is out of range; choose 0 to 90", parts[3]));
     light.size_deg = *size_deg;
   }
   return light;
@@ -215,7 +217,7 @@ Result<Ghost> parse_ghost(std::string_view text) {
     if (good) ghost.order = {*x, *y};
   }
   if (good) return ghost;
-  return invalid(
+  return invalid_argument(
       fmt::format("\"{}\" is not a ghost; write its two surfaces, as in 2-5; of four reflections both pairs, as in "
                   "2-5-1-4; an order at the sensor as in 7-12@1,-2",
                   text));
@@ -259,14 +261,14 @@ Result<GhostAdjustment> parse_ghost_adjustment(std::string_view text) {
     } else if (!settings.empty()) {
       settings.back().second.append(",").append(part);
     } else {
-      return invalid(fmt::format("\"{}\" is not a ghost and what to do with it; write 2-5:gain=0.5", text));
+      return invalid_argument(fmt::format("\"{}\" is not a ghost and what to do with it; write 2-5:gain=0.5", text));
     }
   }
   for (const auto& [name, value] : settings) {
     if (name == "gain") {
       const auto gain = parse_real(value);
       if (!gain || !(*gain >= 0.0 && *gain <= kMostGain))
-        return invalid(fmt::format("\"{}\" is no gain; give a number from 0 to {:.0e}", value, kMostGain));
+        return invalid_argument(fmt::format("\"{}\" is no gain; give a number from 0 to {:.0e}", value, kMostGain));
       out.gain = *gain;
     } else if (name == "colour") {
       const auto rgb = parse_rgb(value, kMostGain);
@@ -276,11 +278,11 @@ Result<GhostAdjustment> parse_ghost_adjustment(std::string_view text) {
       const auto xy = parse_reals(value, 2);
       if (!xy) return tl::unexpected(xy.error());
       if (std::max(std::abs((*xy)[0]), std::abs((*xy)[1])) > kFarthestOffset)
-        return invalid(
+        return invalid_argument(
             fmt::format("\"{}\" is too far off; {} times the frame's height is the limit", value, kFarthestOffset));
       out.offset = {(*xy)[0], (*xy)[1]};
     } else {
-      return invalid(fmt::format("a ghost has no \"{}\"; set gain, colour or offset", name));
+      return invalid_argument(fmt::format("a ghost has no \"{}\"; set gain, colour or offset", name));
     }
   }
   return out;
@@ -292,12 +294,12 @@ Result<std::vector<GhostRampStop>> parse_ghost_ramp(std::string_view text) {
     const auto halves = split(part, ':');
     const auto place = parse_real(halves[0]);
     if (halves.size() != 2 || !place)
-      return invalid(fmt::format("\"{}\" is not a place and a colour; write -1:1,0.5,0.2/1:1,1,1", part));
+      return invalid_argument(fmt::format("\"{}\" is not a place and a colour; write -1:1,0.5,0.2/1:1,1,1", part));
     if (std::abs(*place) > kFarthestPlace)
-      return invalid(fmt::format("\"{}\" is no place of a ramp; stay within {}", halves[0], kFarthestPlace));
+      return invalid_argument(fmt::format("\"{}\" is no place of a ramp; stay within {}", halves[0], kFarthestPlace));
     const auto rgb = parse_rgb(halves[1], kMostGain);
     if (!rgb) return tl::unexpected(rgb.error());
-    if (!ramp.empty() && !(*place > ramp.back().place)) return invalid("let the places of a ramp rise");
+    if (!ramp.empty() && !(*place > ramp.back().place)) return invalid_argument("let the places of a ramp rise");
     ramp.push_back({*place, *rgb});
   }
   return ramp;
@@ -319,7 +321,7 @@ Result<GhostSelection> parse_selection(std::string_view text) {
     if (!ghosts) return tl::unexpected(ghosts.error());
     return SelectList{*ghosts};
   }
-  return invalid(
+  return invalid_argument(
       fmt::format("\"{}\" is no choice of ghosts; write all, brightest:N, flux:PERCENT, surface:K or "
                   "list:2-5,3-7",
                   text));
@@ -350,7 +352,7 @@ Result<Coating> parse_coating(std::string_view text) {
     if (!*design) return tl::unexpected(design->error());
     coating.films = **design;
   } else {
-    return invalid(
+    return invalid_argument(
         fmt::format("\"{}\" is no coating; write none, quarter-wave:550:1.38, hullin:550:1.38, "
                     "stack:1.38@99.6,ZrO2@0.5w, measured:FILE or a design ({})",
                     text, fmt::join(coating_design_names(), ", ")));
@@ -362,7 +364,7 @@ Result<SurfaceCoating> parse_coating_at(std::string_view text) {
   const std::size_t colon = text.find(':');
   const auto surface = parse_integer(text.substr(0, colon));
   if (colon == std::string_view::npos || !surface || *surface < 1)
-    return invalid(fmt::format("\"{}\" is not a surface and its coating; write 12:v-coat:550", text));
+    return invalid_argument(fmt::format("\"{}\" is not a surface and its coating; write 12:v-coat:550", text));
   auto coating = parse_coating(text.substr(colon + 1));
   if (!coating) return tl::unexpected(coating.error());
   return SurfaceCoating{*surface, std::move(*coating)};
@@ -375,7 +377,7 @@ Result<SensorPlate> parse_cover_glass(std::string_view text) {
   const std::string glass(parts.size() > 1 ? parts[1] : "N-BK7");
   const auto gap_mm = parts.size() > 2 ? parse_real(parts[2]) : Result<double>(plate.gap_mm);
   if (!thickness_mm || !gap_mm || parts.size() > 3) {
-    return invalid(
+    return invalid_argument(
         fmt::format("\"{}\" is no plate; write its thickness in mm, and if you like its glass or index and "
                     "the gap behind it, as in 2, 2:N-BK7 or 2:1.52:0.8",
                     text));

@@ -18,8 +18,6 @@ constexpr double kGreyExposure_lx_s = 10.0;  // at ISO 1; ISO 12232:2019, standa
 constexpr double kWhiteExposure_lx_s = kGreyExposure_lx_s / kMiddleGrey;
 constexpr double kMm_per_m = 1000.0;
 
-tl::unexpected<Error> invalid(std::string message) { return failure(ErrorCode::InvalidArgument, std::move(message)); }
-
 // mm^2 of the plane before the lens that gather the light of its image; on the axis, where no light gets to the edge.
 double gathering_mm2(const LensState& lens, const Frame& frame, const LightSource& source) {
   const GhostMeter meter(lens, lens.design_wavelength_nm);
@@ -51,16 +49,19 @@ Result<double> sum_of(const LightValue& value, const Light& light, const LensSta
   switch (value.unit) {
     case Unit::Sum: return amount;
     case Unit::Stops:
-      if (!has_size) return invalid("stops over white are those of a disc; say how large it is with --light-size");
+      if (!has_size)
+        return invalid_argument("stops over white are those of a disc; say how large it is with --light-size");
       return std::exp2(amount) * pixels_of_disc(light.radius_rad, lens, frame);
     case Unit::Nits: {
-      if (!has_size) return invalid("nits are those of a disc; say how large it is with --light-size, or give lux");
+      if (!has_size)
+        return invalid_argument("nits are those of a disc; say how large it is with --light-size, or give lux");
       const double sine = std::sin(light.radius_rad);
       return sum_of_lux(amount * std::numbers::pi * sine * sine, light, lens, frame, exposure);
     }
     case Unit::Candela: {
       if (light.source().is_distant())
-        return invalid("candela are those of a light at a distance; give --light-distance, or lux at the lens");
+        return invalid_argument(
+            "candela are those of a light at a distance; give --light-distance, or lux at the lens");
       const double distance_m = light.distance_mm / kMm_per_m;
       return sum_of_lux(amount / (distance_m * distance_m), light, lens, frame, exposure);
     }
@@ -74,7 +75,7 @@ Result<double> parse_shutter(std::string_view text) {
   const auto over = parse_real(parts[0]), under = parts.size() > 1 ? parse_real(parts[1]) : Result<double>(1.0);
   const double seconds = over && under ? *over / *under : 0.0;
   if (parts.size() <= 2 && seconds >= 1e-6 && seconds <= 1e6) return seconds;
-  return invalid(fmt::format("\"{}\" is no shutter time; write 1/50 or 0.02, from 1e-6 to 1e6 s", text));
+  return invalid_argument(fmt::format("\"{}\" is no shutter time; write 1/50 or 0.02, from 1e-6 to 1e6 s", text));
 }
 
 }  // namespace contrejour::params

@@ -11,6 +11,7 @@
 #include "optics/trace/by_wavelength.h"
 #include "render/adaptive/tiles/tiles.h"
 #include "support/scenes.h"
+#include "support/sum_of_channel.h"
 
 namespace contrejour::test {
 
@@ -35,12 +36,6 @@ inline Image drawn(std::span<const adaptive::PolygonList> lists, int width, int 
 
 inline Image drawn(const adaptive::PolygonList& list, int width, int height) {
   return drawn({&list, 1}, width, height);
-}
-
-inline double sum_of_channel(const Image& image, int channel) {
-  double sum = 0.0;
-  for (std::size_t k = static_cast<std::size_t>(channel); k < image.pixels.size(); k += 3) sum += image.pixels[k];
-  return sum;
 }
 
 // Positive where the corners turn from +x to +y.

@@ -48,7 +48,7 @@ TEST_CASE("what a polygon has between two lines is as deep within a bound as ask
     const Vec2 up = Vec2{-along.y, along.x} * (size * (0.6 + 0.5 * any(random)));
     const BoundView view(bound, rectangle(middle, across, up));
     const double depth = 0.3 * (1.0 + any(random));
-    const Band band = view.deeper_than(depth);
+    const Strip band = view.deeper_than(depth);
     for (int k = 0; k < 100; ++k) {
       const Vec2 p = middle + across * any(random) + up * any(random);
       const double place = dot(view.normal(), p);
@@ -63,7 +63,7 @@ TEST_CASE("what a polygon has between two lines is as deep within a bound as ask
 
 TEST_CASE("lines lie close to a bound that a polygon sees little of, and nowhere in one that it holds all of") {
   const IrisBound unit = circle({}, 1.0);
-  const Band narrow = BoundView(unit, rectangle({0.9, 0.0}, {0.2, 0.0}, {0.0, 0.1})).deeper_than(0.05);
+  const Strip narrow = BoundView(unit, rectangle({0.9, 0.0}, {0.2, 0.0}, {0.0, 0.1})).deeper_than(0.05);
   CHECK(narrow.most == doctest::Approx(std::sqrt(0.95 * 0.95 - 0.01)));
   CHECK(narrow.least == doctest::Approx(-narrow.most));
   CHECK(BoundView(unit, rectangle({0.1, 0.0}, {1.3, 0.0}, {0.0, 1.2})).deeper_than(0.1).is_empty());
@@ -71,7 +71,7 @@ TEST_CASE("lines lie close to a bound that a polygon sees little of, and nowhere
   IrisBound straight;
   straight.normal = {0.0, 1.0};
   straight.apothem = 0.5;
-  const Band half_plane = BoundView(straight, rectangle({}, {2.0, 0.0}, {0.0, 2.0})).deeper_than(0.1);
+  const Strip half_plane = BoundView(straight, rectangle({}, {2.0, 0.0}, {0.0, 2.0})).deeper_than(0.1);
   CHECK(half_plane.most == doctest::Approx(0.4));
   CHECK(std::isinf(half_plane.least));
 }

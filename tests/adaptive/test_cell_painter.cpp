@@ -3,13 +3,13 @@
 #include <cmath>
 #include <limits>
 #include <memory>
-#include <numbers>
 #include <random>
 
 #include <doctest/doctest.h>
 
 #include "adaptive/affine_ghost.h"
 #include "adaptive/scene.h"
+#include "base/scalar.h"
 #include "render/adaptive/cells/cell_painter.h"
 #include "render/screens/iris_screens.h"
 
@@ -52,8 +52,6 @@ void check_flux(const AffineGhost& ghost, const Iris& iris, double share, double
   const Image image = test::drawn(list, kWidth, kHeight);
   CHECK(test::sum_of_channel(image, 1) == doctest::Approx(ghost.flux * share).epsilon(epsilon));
 }
-
-constexpr double kPi = std::numbers::pi;
 
 }  // namespace
 

@@ -16,7 +16,7 @@ using test::PlainImage;
 
 namespace {
 
-constexpr int kWidth = TileGrid::kWidth + 30, kHeight = TileGrid::kHeight + 9;
+constexpr int kScreenedWidth = TileGrid::kWidth + 30, kScreenedHeight = TileGrid::kHeight + 9;
 constexpr double kRadius_px = 30.0;  // of the stop
 
 // The stop about a place in the frame, a little bent: a field of a cell so many pixels wide and as high.
@@ -120,18 +120,18 @@ double worst_difference(unsigned seed, const ScreenedOf& screened_of, const Plai
   double worst = 0.0;
   for (int k = 0; k < 60; ++k) {
     PolygonList list;
-    const Vec2 middle{fuzz(-20.0, kWidth + 20.0), fuzz(-10.0, kHeight + 10.0)};
+    const Vec2 middle{fuzz(-20.0, kScreenedWidth + 20.0), fuzz(-10.0, kScreenedHeight + 10.0)};
     const double size = std::pow(10.0, fuzz(0.0, 2.2));
     const auto corners = fuzz.ellipse(middle, size, k % 3 == 0 ? 0.05 : fuzz(0.3, 1.0), k % 4 == 1);
     auto [behind, active] = screened_of(list, middle, size);
     behind.looks = 1 + k % 3;
     list.add(corners, fuzz.shade(middle), behind, active);
     if (k % 2 == 0) list.add(fuzz.ellipse(middle, 20.0, 1.0, false), fuzz.shade(middle));  // sums and pixels together
-    PlainImage plain(kWidth, kHeight);
+    PlainImage plain(kScreenedWidth, kScreenedHeight);
     plain.add(list, [&](const Polygon& p, Vec2 pixel) {
       return p.screened > 0 ? mean_of_looks(share, p, list.screened[p.screened - 1], pixel) : std::array{1.0, 1.0, 1.0};
     });
-    worst = std::max(worst, plain.difference(test::drawn(list, kWidth, kHeight)));
+    worst = std::max(worst, plain.difference(test::drawn(list, kScreenedWidth, kScreenedHeight)));
   }
   return worst;
 }
@@ -200,10 +200,10 @@ TEST_CASE("light behind fringes: nothing of it stays beyond the frame, and parts
     for (int k = 0; k < 20; ++k) {
       PolygonList list;
       const double size = 40.0 * kRadius_px;
-      const Vec2 middle{fuzz(0.0, width), fuzz(0.0, kHeight)};
+      const Vec2 middle{fuzz(0.0, width), fuzz(0.0, kScreenedHeight)};
       const StopMap map(pixels_about(middle, size), std::array{stop_about(k % 2 == 0 ? size : 0.05 * size)}, 0.2);
       const auto x = [&] { return static_cast<float>(fuzz(-10.0, width + 30.0)); };
-      const auto y = [&] { return static_cast<float>(fuzz(-5.0, kHeight + 5.0)); };
+      const auto y = [&] { return static_cast<float>(fuzz(-5.0, kScreenedHeight + 5.0)); };
       for (int p = 0; p < 6; ++p) {
         const float x0 = x(), x1 = x(), y0 = y(), y1 = y(),
                     tilt = p % 2 == 0 ? 0.0F : static_cast<float>(fuzz(-9.0, 9.0));
@@ -220,13 +220,13 @@ TEST_CASE("light behind fringes: nothing of it stays beyond the frame, and parts
                                            {9.0F, 70.0F, to + 1.0F, to + 8.0F}})
         list.add(std::array{Point{x0, y0}, Point{x1, y0}, Point{x1, y1}, Point{x0, y1}}, shade,
                  Screened{map, band.get(), &table}, all);
-      PlainImage plain(width, kHeight);
+      PlainImage plain(width, kScreenedHeight);
       plain.add(list, [&](const Polygon&, Vec2 pixel) { return by_table(table, map.place(pixel)); });
-      const Image image = test::drawn(list, width, kHeight);
+      const Image image = test::drawn(list, width, kScreenedHeight);
       CHECK(plain.difference(image) < 2e-4);
 
       // Whatever was drawn before with the same memory: as each row of tiles by itself.
-      const TileGrid grid(width, kHeight);
+      const TileGrid grid(width, kScreenedHeight);
       const TiledPolygons tiled{list, tile_lists(list, grid)};
       Image by_row = image;
       for (int row = grid.rows - 1; row >= 0; --row)
@@ -287,14 +287,14 @@ TEST_CASE("any screen: what it says of every crossing") {
   Fuzz fuzz(8);
   for (int k = 0; k < 20; ++k) {
     PolygonList list;
-    const Vec2 middle{fuzz(0.0, kWidth), fuzz(0.0, kHeight)};
+    const Vec2 middle{fuzz(0.0, kScreenedWidth), fuzz(0.0, kScreenedHeight)};
     const double size = fuzz(2.0, 80.0);
     list.add(fuzz.ellipse(middle, size, 0.7, false), fuzz.shade(middle), screened(list, middle, size).first, {});
-    PlainImage plain(kWidth, kHeight);
+    PlainImage plain(kScreenedWidth, kScreenedHeight);
     plain.add(list, [&](const Polygon&, Vec2 pixel) {
       std::array<StopPlace, kMaxStopCrossings> room;
       return band.share(list.screened[0].map.places(pixel, room));
     });
-    CHECK(plain.difference(test::drawn(list, kWidth, kHeight)) < 2e-6);
+    CHECK(plain.difference(test::drawn(list, kScreenedWidth, kScreenedHeight)) < 2e-6);
   }
 }

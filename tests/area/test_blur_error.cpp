@@ -1,10 +1,10 @@
 // Estimated errors of coarse pixels and of borrowed blurs, against discs blurred and compared.
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include <doctest/doctest.h>
 
+#include "base/scalar.h"
 #include "render/area/blur_error.h"
 #include "render/area/layers.h"
 
@@ -13,7 +13,6 @@ using namespace contrejour::area;
 
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr int kSide = 240;
 
 Light disc_light() {

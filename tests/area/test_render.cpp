@@ -5,12 +5,12 @@
 #include <ctime>
 #include <limits>
 #include <memory>
-#include <numbers>
 #include <utility>
 #include <vector>
 
 #include <doctest/doctest.h>
 
+#include "base/scalar.h"
 #include "contrejour/metrics.h"
 #include "support/flares.h"
 #include "support/scenes.h"
@@ -18,8 +18,6 @@
 using namespace contrejour;
 
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 // Points spread evenly over a disc (Vogel's spiral).
 std::vector<Light> points_over(const Light& disc, int count) {

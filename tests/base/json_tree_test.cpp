@@ -4,10 +4,12 @@
 
 #include <doctest/doctest.h>
 
+#include "base/repeated.h"
+
 namespace contrejour {
 namespace {
 
-void check_refused(const std::string& text, const std::string& words, int line) {
+void check_json_refused(const std::string& text, const std::string& words, int line) {
   CAPTURE(text.substr(0, 80));
   const auto tree = parse_json(text, "x.json");
   REQUIRE_FALSE(tree.has_value());
@@ -16,12 +18,6 @@ void check_refused(const std::string& text, const std::string& words, int line) 
   CHECK(tree.error().message.size() < 500);
   CHECK(tree.error().place.file == "x.json");
   CHECK(tree.error().place.line == line);
-}
-
-std::string repeated(const std::string& piece, std::size_t times) {
-  std::string out;
-  for (std::size_t k = 0; k < times; ++k) out += piece;
-  return out;
 }
 
 TEST_CASE("a JSON tree with the line of each value") {
@@ -55,15 +51,15 @@ TEST_CASE("Python's numbers that are none in JSON") {
 }
 
 TEST_CASE("what is no JSON, and where") {
-  check_refused("", "not valid JSON", 1);
-  check_refused("{\n\"a\": 1,\n}", "not valid JSON", 3);
-  check_refused("{\"a\": 1} 2", "not valid JSON", 1);
-  check_refused("[1e999]", "not valid JSON", 1);
-  check_refused("[\"\xff\"]", "not valid JSON", 1);
-  check_refused(std::string("[\n").append(repeated("[", 500'000)), "nested deeper than 64", 2);
-  check_refused(repeated("{\"a\":", 100'000), "nested deeper than 64", 1);
-  check_refused(std::string("[").append(repeated("1,", 300'000)).append("1]"), "more than 200000 values", 1);
-  check_refused(repeated(" ", kJsonMaxBytes + 1), "bytes", 0);
+  check_json_refused("", "not valid JSON", 1);
+  check_json_refused("{\n\"a\": 1,\n}", "not valid JSON", 3);
+  check_json_refused("{\"a\": 1} 2", "not valid JSON", 1);
+  check_json_refused("[1e999]", "not valid JSON", 1);
+  check_json_refused("[\"\xff\"]", "not valid JSON", 1);
+  check_json_refused(std::string("[\n").append(repeated("[", 500'000)), "nested deeper than 64", 2);
+  check_json_refused(repeated("{\"a\":", 100'000), "nested deeper than 64", 1);
+  check_json_refused(std::string("[").append(repeated("1,", 300'000)).append("1]"), "more than 200000 values", 1);
+  check_json_refused(repeated(" ", kJsonMaxBytes + 1), "bytes", 0);
   CHECK(parse_json(repeated("[", 60) + repeated("]", 60), "x.json").has_value());
 }
 

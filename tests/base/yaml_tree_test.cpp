@@ -2,10 +2,12 @@
 
 #include <doctest/doctest.h>
 
+#include "base/repeated.h"
+
 namespace contrejour {
 namespace {
 
-void check_refused(const std::string& text, const std::string& words, int line = 0) {
+void check_yaml_refused(const std::string& text, const std::string& words, int line = 0) {
   CAPTURE(text.substr(0, 80));
   const auto tree = parse_yaml(text, "x.yml");
   REQUIRE_FALSE(tree.has_value());
@@ -13,12 +15,6 @@ void check_refused(const std::string& text, const std::string& words, int line =
   CHECK(tree.error().message.find(words) != std::string::npos);
   CHECK(tree.error().place.file == "x.yml");
   if (line != 0) CHECK(tree.error().place.line == line);
-}
-
-std::string repeated(const std::string& piece, std::size_t times) {
-  std::string out;
-  for (std::size_t k = 0; k < times; ++k) out += piece;
-  return out;
 }
 
 TEST_CASE("a tree with lines") {
@@ -38,18 +34,18 @@ TEST_CASE("a tree with lines") {
 }
 
 TEST_CASE("what is refused, and where") {
-  check_refused("a: 1\nb: [1, 2\n", "not valid YAML");
-  check_refused("a: 1\n\tb: 2\n", "not valid YAML");
-  check_refused("a: &x 1\nb: *x\n", "aliases", 2);
-  check_refused("a: 1\n? [b]\n: 2\n", "key must be a word");
-  check_refused("a: 1\n? \n: 2\n", "key");
-  check_refused(repeated("[", 100'000), "nested deeper", 1);
-  check_refused("a: 1\nb: " + repeated("{a: ", 100'000), "nested deeper", 2);
-  check_refused(repeated("[\n", 100'000), "nested deeper");
-  check_refused("a: " + repeated("[", 20) + repeated("]", 20), "nested deeper");
-  check_refused(repeated("- ", 100'000), "nested deeper");
-  check_refused("a:\n" + repeated("  - 1\n", 20'000), "more than 10000 values", 10000);
-  check_refused(std::string(2U << 20U, ' '), "at most");
+  check_yaml_refused("a: 1\nb: [1, 2\n", "not valid YAML");
+  check_yaml_refused("a: 1\n\tb: 2\n", "not valid YAML");
+  check_yaml_refused("a: &x 1\nb: *x\n", "aliases", 2);
+  check_yaml_refused("a: 1\n? [b]\n: 2\n", "key must be a word");
+  check_yaml_refused("a: 1\n? \n: 2\n", "key");
+  check_yaml_refused(repeated("[", 100'000), "nested deeper", 1);
+  check_yaml_refused("a: 1\nb: " + repeated("{a: ", 100'000), "nested deeper", 2);
+  check_yaml_refused(repeated("[\n", 100'000), "nested deeper");
+  check_yaml_refused("a: " + repeated("[", 20) + repeated("]", 20), "nested deeper");
+  check_yaml_refused(repeated("- ", 100'000), "nested deeper");
+  check_yaml_refused("a:\n" + repeated("  - 1\n", 20'000), "more than 10000 values", 10000);
+  check_yaml_refused(std::string(2U << 20U, ' '), "at most");
 }
 
 }  // namespace

@@ -1,19 +1,15 @@
 // Means over windows of directions: of a constant, of a step, of a wave, around half a turn and on.
 #include <cmath>
-#include <numbers>
 #include <vector>
 
 #include <doctest/doctest.h>
 
+#include "base/scalar.h"
 #include "diffraction/direction_means.h"
 
 using namespace contrejour;
 
-namespace {
-
-constexpr double kPi = std::numbers::pi;
-
-}  // namespace
+namespace {}  // namespace
 
 TEST_CASE("means over windows of directions go on beyond half a turn") {
   constexpr int kParts = 90;

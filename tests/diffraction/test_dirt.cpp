@@ -2,18 +2,17 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <random>
 
 #include <doctest/doctest.h>
 
+#include "base/scalar.h"
 #include "contrejour/dirt.h"
+#include "diffraction/inside_polygon.h"
 
 using namespace contrejour;
 
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 // Those whose middles lie in a square of 100 mm.
 std::vector<DirtStroke> in_square(const Dirt& dirt) {
@@ -49,15 +48,6 @@ double area_of(const std::vector<Vec2>& polygon) {
   double twice = 0.0;
   for (std::size_t k = 0; k < polygon.size(); ++k) twice += cross(polygon[k], polygon[(k + 1) % polygon.size()]);
   return 0.5 * twice;
-}
-
-bool contains(const std::vector<Vec2>& polygon, Vec2 p) {
-  bool inside = false;
-  for (std::size_t k = 0; k < polygon.size(); ++k) {
-    const Vec2 a = polygon[k], b = polygon[(k + 1) % polygon.size()];
-    if ((a.y > p.y) != (b.y > p.y) && p.x < a.x + (b.x - a.x) * (p.y - a.y) / (b.y - a.y)) inside = !inside;
-  }
-  return inside;
 }
 
 }  // namespace
@@ -200,7 +190,7 @@ TEST_CASE("a stroke's outline and its distance are those of points about its lin
         for (int k = 0; k <= 2000; ++k) nearest = std::min(nearest, length(p - s.at(k / 2000.0 - 0.5)));
         const double expected = nearest - 0.1;
         CHECK(s.distance_mm(p) == doctest::Approx(expected).epsilon(1e-3));
-        if (std::abs(expected) > 0.004) CHECK(contains(outline, p) == (expected < 0.0));
+        if (std::abs(expected) > 0.004) CHECK(test::inside_polygon(outline, p) == (expected < 0.0));
         CHECK((expected > 0.0 || length(p - s.middle_mm) <= s.reach_mm()));
       }
     }

@@ -3,29 +3,20 @@
 #include <cmath>
 #include <complex>
 #include <memory>
-#include <numbers>
 #include <random>
 
 #include <doctest/doctest.h>
 
+#include "base/scalar.h"
 #include "contrejour/starburst.h"
 #include "diffraction/dirt_waves.h"
+#include "diffraction/inside_polygon.h"
 #include "diffraction/polygon_cover.h"
+#include "support/sum_of_channel.h"
 
 using namespace contrejour;
 
 namespace {
-
-constexpr double kPi = std::numbers::pi;
-
-bool contains(const std::vector<Vec2>& polygon, Vec2 p) {
-  bool inside = false;
-  for (std::size_t k = 0; k < polygon.size(); ++k) {
-    const Vec2 a = polygon[k], b = polygon[(k + 1) % polygon.size()];
-    if ((a.y > p.y) != (b.y > p.y) && p.x < a.x + (b.x - a.x) * (p.y - a.y) / (b.y - a.y)) inside = !inside;
-  }
-  return inside;
-}
 
 std::vector<double> cover(int side, const std::vector<Vec2>& polygon) {
   std::vector<double> shares(static_cast<std::size_t>(side * side));
@@ -47,12 +38,6 @@ double power_of(const std::vector<Vec2>& polygon, Vec2 k) {
     sum += cross(k, edge) * sinc * std::polar(1.0, -dot(k, (a + b) * 0.5));
   }
   return std::norm(sum) / (dot(k, k) * dot(k, k));
-}
-
-double flux_of(const Image& image, int channel) {
-  double sum = 0.0;
-  for (std::size_t k = static_cast<std::size_t>(channel); k < image.pixels.size(); k += 3) sum += image.pixels[k];
-  return sum;
 }
 
 constexpr double kRadius_mm = 3.0;
@@ -116,7 +101,7 @@ TEST_CASE("a polygon covers its exact share of every sample, however it lies and
       for (int column = 0; column < kSide; ++column) {
         int inside = 0;
         for (int i = 0; i < kSub * kSub; ++i)
-          inside += contains(polygon, {column + (i % kSub + 0.5) / kSub, row + (i / kSub + 0.5) / kSub});
+          inside += test::inside_polygon(polygon, {column + (i % kSub + 0.5) / kSub, row + (i / kSub + 0.5) / kSub});
         CHECK(std::abs(shares[static_cast<std::size_t>(row * kSide + column)] - inside / double(kSub * kSub)) < 0.02);
       }
     }
@@ -201,7 +186,7 @@ TEST_CASE("what dirt takes out of the samples it sends farther: the plane's flux
     // Pixels of 1 mm: all of the plane within 300 mm.
     const Image image = drawn(dirty_pupil(c.strokes), 1.0, 600);
     for (int channel = 0; channel < 3; ++channel)
-      CHECK(flux_of(image, channel) == doctest::Approx(1.0).epsilon(1.5e-3));
+      CHECK(test::sum_of_channel(image, channel) == doctest::Approx(1.0).epsilon(1.5e-3));
   }
 }
 

@@ -2,12 +2,12 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
-#include <numbers>
 #include <span>
 #include <vector>
 
 #include <doctest/doctest.h>
 
+#include "base/scalar.h"
 #include "diffraction/edge_waves.h"
 #include "diffraction/special_functions.h"
 #include "diffraction/uneven_edges.h"
@@ -15,8 +15,6 @@
 using namespace contrejour;
 
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 // |integral over the opening of exp(-i k u.x)|^2 by Green's theorem, the outline cut into short straight pieces.
 double contour_power(const IrisOpening& opening, double k, double angle) {

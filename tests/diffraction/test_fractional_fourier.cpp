@@ -1,11 +1,11 @@
 // What defines the fractional Fourier transform, each to 1e-6, for even and odd sides; and Hermite-Gauss functions.
 #include <cmath>
 #include <complex>
-#include <numbers>
 #include <vector>
 
 #include <doctest/doctest.h>
 
+#include "base/scalar.h"
 #include "contrejour/fractional_fourier.h"
 
 using namespace contrejour;
@@ -13,7 +13,6 @@ using namespace contrejour;
 namespace {
 
 using Square = std::vector<std::complex<double>>;
-constexpr double kPi = std::numbers::pi;
 
 Square some_square(int side) {
   Square square(static_cast<std::size_t>(side * side));

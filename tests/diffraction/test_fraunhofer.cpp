@@ -1,17 +1,15 @@
 // Fraunhofer patterns in absolute units: Airy's for a circle, a rectangle's sinc, and flux.
 #include <cmath>
 #include <complex>
-#include <numbers>
 
 #include <doctest/doctest.h>
 
+#include "base/scalar.h"
 #include "contrejour/fraunhofer.h"
 
 using namespace contrejour;
 
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 PupilMask circle(double radius_mm, int samples = 400) {
   return make_mask(grid_over(radius_mm, samples), IrisOpening(Iris{}), radius_mm);

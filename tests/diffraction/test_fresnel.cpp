@@ -2,10 +2,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 #include <doctest/doctest.h>
 
+#include "base/scalar.h"
 #include "contrejour/fraunhofer.h"
 #include "contrejour/fresnel.h"
 #include "diffraction/fresnel_methods.h"
@@ -13,8 +13,6 @@
 using namespace contrejour;
 
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 PupilMask circle(int samples = 512) { return make_mask(grid_over(1.0, samples), IrisOpening(Iris{}), 1.0); }
 

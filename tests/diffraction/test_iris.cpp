@@ -2,19 +2,17 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 #include <vector>
 
 #include <doctest/doctest.h>
 
+#include "base/scalar.h"
 #include "contrejour/iris.h"
 #include "ghosts/iris_shape.h"
 
 using namespace contrejour;
 
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 Vec2 polar(double r, double angle) { return {r * std::cos(angle), r * std::sin(angle)}; }
 

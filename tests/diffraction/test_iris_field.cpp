@@ -2,17 +2,15 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <vector>
 
+#include "base/scalar.h"
 #include "support/pictures.h"
 
 using namespace contrejour;
 using namespace contrejour::test;
 
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 Vec2 scattered(int k) {  // all over the square, R2 sequence
   const double x = k * 0.7548776662466927, y = k * 0.5698402909980532;

@@ -3,21 +3,20 @@
 #include <cmath>
 #include <complex>
 #include <limits>
-#include <numbers>
 #include <random>
 #include <string>
 #include <vector>
 
 #include <doctest/doctest.h>
 
+#include "base/scalar.h"
 #include "contrejour/fraunhofer.h"
 #include "contrejour/starburst.h"
+#include "support/sum_of_channel.h"
 
 using namespace contrejour;
 
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 std::vector<SpectralBand> sunlight() { return spectral_bands(120, IlluminantD65{}, ColourSpace::Rec709); }
 
@@ -34,12 +33,6 @@ Image drawn(const Iris& iris, const StarburstSettings& settings, int side, Vec2 
 
 Image drawn(const Iris& iris, const StarburstSettings& settings, int side) {
   return drawn(iris, settings, side, {0.5 * side, 0.5 * side}, sunlight());
-}
-
-double flux_of(const Image& image, int channel) {
-  double sum = 0.0;
-  for (std::size_t k = static_cast<std::size_t>(channel); k < image.pixels.size(); k += 3) sum += image.pixels[k];
-  return sum;
 }
 
 // Green on a circle about the middle, each direction's mean over a few radii.
@@ -88,7 +81,7 @@ TEST_CASE("the plane gets the light's flux in every channel, wherever in a pixel
       const double rho = 300.0 * c.pitch_mm / (550e-6 * c.f_number) * kPi / std::sqrt(8.0);
       const double outside = opening.perimeter() / opening.area() / (kPi * kPi * rho);
       for (int channel = 0; channel < 3; ++channel)
-        CHECK(flux_of(image, channel) + outside == doctest::Approx(1.0).epsilon(5e-4));
+        CHECK(test::sum_of_channel(image, channel) + outside == doctest::Approx(1.0).epsilon(5e-4));
     }
   }
 }
@@ -216,7 +209,7 @@ TEST_CASE("a scratch adds a streak across itself, and no light is lost") {
   Image with(1100, 1100), without(1100, 1100);
   add_starburst(with, make_starburst(scratched, &outline, sunlight(), settings).value(), {550, 550}, {1, 1, 1});
   add_starburst(without, make_starburst(clean, &outline, sunlight(), settings).value(), {550, 550}, {1, 1, 1});
-  for (int c = 0; c < 3; ++c) CHECK(flux_of(with, c) == doctest::Approx(1.0).epsilon(2e-3));
+  for (int c = 0; c < 3; ++c) CHECK(test::sum_of_channel(with, c) == doctest::Approx(1.0).epsilon(2e-3));
   for (const int r : {60, 150, 400}) {  // the spectrum, where it fades, and the tail
     const float across = with.at(550, 550 + r, 1) / without.at(550, 550 + r, 1);
     const float along = with.at(550 + r, 550, 1) / without.at(550 + r, 550, 1);
@@ -427,7 +420,8 @@ TEST_CASE("laid out, a starburst is drawn as without, and moves smoothly") {
       add_starburst(laid, sheet, centre, {1.0, 2.0, 3.0});
       const bool cut = centre.x > 390.0 && centre.x < 410.0;  // the frame's edge goes through the core
       for (int c = 0; c < 3; ++c)
-        CHECK(flux_of(laid, c) / flux_of(direct, c) == doctest::Approx(1.0).epsilon(cut ? 0.02 : 1e-4));
+        CHECK(test::sum_of_channel(laid, c) / test::sum_of_channel(direct, c) ==
+              doctest::Approx(1.0).epsilon(cut ? 0.02 : 1e-4));
       double worst_near = 0.0, worst_far = 0.0, core_error = 0.0;
       for (int y = 0; y < 300; ++y) {
         for (int x = 0; x < 400; ++x) {

@@ -11,14 +11,14 @@
 #include "contrejour/frame.h"
 #include "contrejour/ghost.h"
 #include "ghosts/pupil_search.h"
+#include "ghosts/wavelengths.h"
 #include "support/scenes.h"
 
 using namespace contrejour;
 using test::bundled;
+using test::kGreen_nm;
 
 namespace {
-
-constexpr double kGreen_nm = 550.0;
 
 // A ghost from a dense grid of exact rays, each counted or not: shares nothing with what the meter does but the search
 // of the window.

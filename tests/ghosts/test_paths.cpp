@@ -9,15 +9,15 @@
 #include "contrejour/first_order.h"
 #include "contrejour/ghost.h"
 #include "contrejour/glass_catalogue.h"
+#include "ghosts/wavelengths.h"
 #include "optics/trace/packet_trace.h"
 #include "support/scenes.h"
 
 using namespace contrejour;
 using test::bundled;
+using test::kGreen_nm;
 
 namespace {
-
-constexpr double kGreen_nm = 550.0;
 
 // Every way by its turns: at j, i, l, k, with the stop crossed at most so often.
 std::set<std::vector<int>> ways_by_hand(const LensState& lens, int reflections, int most_crossings) {

@@ -7,14 +7,15 @@
 
 #include "ghosts/meridian.h"
 #include "ghosts/pupil_bounds.h"
+#include "ghosts/wavelengths.h"
 #include "support/scenes.h"
 
 using namespace contrejour;
 using test::bundled;
+using test::kGreen_nm;
 
 namespace {
 
-constexpr double kGreen_nm = 550.0;
 constexpr int kSide = 65;  // rays a side that are looked at
 
 double corner_angle_rad(const LensState& lens) {

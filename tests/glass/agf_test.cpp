@@ -8,7 +8,7 @@
 #include "contrejour/glass_catalogue.h"
 #include "shared_data.h"
 
-namespace contrejour::test {
+namespace contrejour::test::agf {
 namespace {
 
 using Clock = std::chrono::steady_clock;
@@ -229,4 +229,4 @@ TEST_CASE("all catalogues at hand are read whole") {
 }
 
 }  // namespace
-}  // namespace contrejour::test
+}  // namespace contrejour::test::agf

@@ -12,7 +12,7 @@
 #include "glass/known_differences.h"
 #include "shared_data.h"
 
-namespace contrejour::test {
+namespace contrejour::test::bundled {
 namespace {
 
 constexpr double kLines_nm[] = {kLineI_nm, kLineH_nm, kLineG_nm,      kLineFPrime_nm, kLineF_nm,
@@ -198,4 +198,4 @@ TEST_CASE("loading the whole catalogue costs less than 5 ms of processor time [s
 }
 
 }  // namespace
-}  // namespace contrejour::test
+}  // namespace contrejour::test::bundled

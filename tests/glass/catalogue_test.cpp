@@ -6,7 +6,7 @@
 
 #include <doctest/doctest.h>
 
-namespace contrejour::test {
+namespace contrejour::test::catalogue {
 namespace {
 
 CatalogueEntry entry(const std::string& maker, const std::string& name, double n_d, double v_d,
@@ -148,4 +148,4 @@ TEST_CASE("paths that are no catalogues") {
 }
 
 }  // namespace
-}  // namespace contrejour::test
+}  // namespace contrejour::test::catalogue

@@ -8,7 +8,7 @@
 #include "contrejour/glass_catalogue.h"
 #include "shared_data.h"
 
-namespace contrejour::test {
+namespace contrejour::test::formulas {
 namespace {
 
 using F = DispersionFormula;
@@ -141,4 +141,4 @@ TEST_CASE("Buchdahl coefficients published for Schott's glasses give the glasses
 }
 
 }  // namespace
-}  // namespace contrejour::test
+}  // namespace contrejour::test::formulas

@@ -5,7 +5,7 @@
 #include "contrejour/glass_catalogue.h"
 #include "shared_data.h"
 
-namespace contrejour::test {
+namespace contrejour::test::rii {
 namespace {
 
 using Clock = std::chrono::steady_clock;
@@ -170,4 +170,4 @@ TEST_CASE("all pages at hand") {
 }
 
 }  // namespace
-}  // namespace contrejour::test
+}  // namespace contrejour::test::rii

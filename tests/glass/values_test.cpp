@@ -7,7 +7,7 @@
 
 #include "contrejour/glass_catalogue.h"
 
-namespace contrejour::test {
+namespace contrejour::test::values {
 namespace {
 
 using F = DispersionFormula;
@@ -250,4 +250,4 @@ TEST_CASE("what is no glass") {
 }
 
 }  // namespace
-}  // namespace contrejour::test
+}  // namespace contrejour::test::values

@@ -10,7 +10,7 @@
 #include "contrejour/first_order.h"
 #include "contrejour/lens.h"
 
-namespace contrejour::test {
+namespace contrejour::test::bundled {
 namespace {
 
 LensState state_of(std::string_view name, std::optional<double> focal_length_mm = {}) {
@@ -221,4 +221,4 @@ TEST_CASE("reading a bundled lens takes less than 20 ms") {
 }
 
 }  // namespace
-}  // namespace contrejour::test
+}  // namespace contrejour::test::bundled

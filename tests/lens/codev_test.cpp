@@ -18,7 +18,7 @@
 #include "optics/lens_files/read_lens.h"
 #include "shared_data.h"
 
-namespace contrejour::test {
+namespace contrejour::test::codev {
 namespace {
 
 // A doublet, a dummy, the stop and an asphere; the image near the focus. Mixed letter case, as people write it.
@@ -404,4 +404,4 @@ TEST_CASE("the double Gauss's marginal ray is rayoptics', surface by surface") {
   CHECK(std::abs(record.ray.sensor_mm.x - expected.at(12).at(0).at(0).get<double>()) < kPrinted);
 }
 
-}  // namespace contrejour::test
+}  // namespace contrejour::test::codev

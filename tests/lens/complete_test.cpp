@@ -9,7 +9,7 @@
 #include "contrejour/first_order.h"
 #include "optics/lens_files/plain_number.h"
 
-namespace contrejour::test {
+namespace contrejour::test::complete {
 namespace {
 
 // A biconvex lens of 100 mm radii, n = 1.5, 4 mm thick, f near 100 mm, and a stop 5 mm behind it.
@@ -157,4 +157,4 @@ TEST_CASE("numbers as lens files write them") {
   CHECK(tidy_curvature(1e-3) == 1e-3);
 }
 
-}  // namespace contrejour::test
+}  // namespace contrejour::test::complete

@@ -5,7 +5,7 @@
 #include "lens/reader_checks.h"
 #include "shared_data.h"
 
-namespace contrejour::test {
+namespace contrejour::test::deeplens {
 namespace {
 
 const std::string kSample = R"json({
@@ -120,4 +120,4 @@ TEST_CASE("DeepLens' samples") {
   CHECK(refused == 4);
 }
 
-}  // namespace contrejour::test
+}  // namespace contrejour::test::deeplens

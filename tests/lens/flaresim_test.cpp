@@ -7,7 +7,7 @@
 #include "lens/reader_checks.h"
 #include "shared_data.h"
 
-namespace contrejour::test {
+namespace contrejour::test::flaresim {
 namespace {
 
 const std::string kSample =
@@ -182,4 +182,4 @@ TEST_CASE("FlareSim's samples: diameters under the heading semi_ap, focal length
   CHECK(stop_fits == 244);
 }
 
-}  // namespace contrejour::test
+}  // namespace contrejour::test::flaresim

@@ -12,7 +12,7 @@
 #include "optics/lens_files/sequential/forbes.h"
 #include "shared_data.h"
 
-namespace contrejour::test {
+namespace contrejour::test::forbes {
 namespace {
 
 double term(ForbesKind kind, std::size_t m, double x) {
@@ -136,4 +136,4 @@ TEST_CASE("a lens of Zemax' Qbfs brings all of its light to one point, as its ma
   }
 }
 
-}  // namespace contrejour::test
+}  // namespace contrejour::test::forbes

@@ -8,7 +8,7 @@
 #include "contrejour/glass_catalogue.h"
 #include "contrejour/lens.h"
 
-namespace contrejour::test {
+namespace contrejour::test::glass_names {
 namespace {
 
 std::string lens_with(const std::string& glass, const std::string& tables = "") {
@@ -135,4 +135,4 @@ TEST_CASE("a formula beyond where it holds is a warning") {
 }
 
 }  // namespace
-}  // namespace contrejour::test
+}  // namespace contrejour::test::glass_names

@@ -8,7 +8,7 @@
 
 #include "contrejour/lens.h"
 
-namespace contrejour::test {
+namespace contrejour::test::hostile {
 namespace {
 
 using Clock = std::chrono::steady_clock;
@@ -130,4 +130,4 @@ TEST_CASE("a lens with bytes changed at random") {
 }
 
 }  // namespace
-}  // namespace contrejour::test
+}  // namespace contrejour::test::hostile

@@ -6,7 +6,7 @@
 #include "lens/reader_checks.h"
 #include "shared_data.h"
 
-namespace contrejour::test {
+namespace contrejour::test::lens_xml {
 namespace {
 
 std::string element(const std::string& type, const std::string& height, const std::string& thickness,
@@ -151,4 +151,4 @@ TEST_CASE("XML samples: focal lengths and focus as computed by another program")
   }
 }
 
-}  // namespace contrejour::test
+}  // namespace contrejour::test::lens_xml

@@ -5,7 +5,7 @@
 #include "lens/reader_checks.h"
 #include "shared_data.h"
 
-namespace contrejour::test {
+namespace contrejour::test::lentil {
 namespace {
 
 const std::string kSample = R"({
@@ -154,4 +154,4 @@ TEST_CASE("a key for a file with one lens") {
   CHECK(lens.error().message.find("leave '#1' out") != std::string::npos);
 }
 
-}  // namespace contrejour::test
+}  // namespace contrejour::test::lentil

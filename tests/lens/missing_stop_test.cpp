@@ -15,7 +15,7 @@
 #include "optics/lens_files/lost_gap.h"
 #include "shared_data.h"
 
-namespace contrejour::test {
+namespace contrejour::test::missing_stop {
 namespace {
 
 std::size_t stop_of(const Prescription& lens) {
@@ -187,4 +187,4 @@ TEST_CASE("gaps that FlareSim's converter lost: the patent's, and Optical Bench'
   check_warns(*read_lens(*nikon), "a gap of 46.39 mm behind surface 18");  // US5751485 example 9: 31.24 + 15.26
 }
 
-}  // namespace contrejour::test
+}  // namespace contrejour::test::missing_stop

@@ -12,7 +12,7 @@
 #include "optics/lens_files/read_lens.h"
 #include "shared_data.h"
 
-namespace contrejour::test {
+namespace contrejour::test::optical_bench {
 namespace {
 
 // A triplet that zooms a little, with an asphere and an opening of its own.
@@ -173,4 +173,4 @@ TEST_CASE("Optical Bench's samples: read, and as their figures say") {
   CHECK(read == 24);
 }
 
-}  // namespace contrejour::test
+}  // namespace contrejour::test::optical_bench

@@ -10,7 +10,7 @@
 #include "lens/reader_checks.h"
 #include "shared_data.h"
 
-namespace contrejour::test {
+namespace contrejour::test::optiland {
 namespace {
 
 std::string surface(const std::string& geometry, const std::string& z, const std::string& material,
@@ -222,4 +222,4 @@ TEST_CASE("Optiland's sample scripts, as it would save them: its asserted focal 
   CHECK(compared == 16);
 }
 
-}  // namespace contrejour::test
+}  // namespace contrejour::test::optiland

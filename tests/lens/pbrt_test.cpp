@@ -10,7 +10,7 @@
 #include "optics/lens_files/read_lens.h"
 #include "shared_data.h"
 
-namespace contrejour::test {
+namespace contrejour::test::pbrt {
 namespace {
 
 const std::string kSample =
@@ -84,4 +84,4 @@ TEST_CASE("PBRT's samples: as their names say") {
   }
 }
 
-}  // namespace contrejour::test
+}  // namespace contrejour::test::pbrt

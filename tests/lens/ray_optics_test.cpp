@@ -9,7 +9,7 @@
 #include "lens/reader_checks.h"
 #include "shared_data.h"
 
-namespace contrejour::test {
+namespace contrejour::test::ray_optics {
 namespace {
 
 std::string object(const std::string& type, const std::string& content) {
@@ -210,4 +210,4 @@ TEST_CASE("ray-optics' samples") {
   CHECK(refused == 15);
 }
 
-}  // namespace contrejour::test
+}  // namespace contrejour::test::ray_optics

@@ -5,7 +5,7 @@
 
 #include "contrejour/lens.h"
 
-namespace contrejour::test {
+namespace contrejour::test::reading {
 namespace {
 
 namespace fs = std::filesystem;
@@ -86,4 +86,4 @@ TEST_CASE("bundled names, and what was meant") {
 }
 
 }  // namespace
-}  // namespace contrejour::test
+}  // namespace contrejour::test::reading

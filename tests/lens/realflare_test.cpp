@@ -6,7 +6,7 @@
 #include "lens/reader_checks.h"
 #include "shared_data.h"
 
-namespace contrejour::test {
+namespace contrejour::test::realflare {
 namespace {
 
 const std::string kSample = R"({
@@ -134,4 +134,4 @@ TEST_CASE("Realflare's samples") {
   }
 }
 
-}  // namespace contrejour::test
+}  // namespace contrejour::test::realflare

@@ -9,7 +9,7 @@
 #include "base/text_file.h"
 #include "contrejour/lens.h"
 
-namespace contrejour::test {
+namespace contrejour::test::round_trip {
 namespace {
 
 void check_same(const Prescription& a, const Prescription& b) {
@@ -227,4 +227,4 @@ TEST_CASE("radii are written with the digits they were typed with") {
 }
 
 }  // namespace
-}  // namespace contrejour::test
+}  // namespace contrejour::test::round_trip

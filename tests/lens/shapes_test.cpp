@@ -5,7 +5,7 @@
 
 #include "contrejour/lens.h"
 
-namespace contrejour::test {
+namespace contrejour::test::shapes {
 namespace {
 
 std::string lens_with(const std::string& row, const std::string& more = "") {
@@ -135,4 +135,4 @@ TEST_CASE("what is wrong with a shape is said with its line") {
 }
 
 }  // namespace
-}  // namespace contrejour::test
+}  // namespace contrejour::test::shapes

@@ -7,7 +7,7 @@
 
 #include "contrejour/lens.h"
 
-namespace contrejour::test {
+namespace contrejour::test::toml_errors {
 namespace {
 
 // The text's error, which must begin with "x.toml:LINE: " and hold `words`.
@@ -208,4 +208,4 @@ TEST_CASE("what is no TOML") {
 }
 
 }  // namespace
-}  // namespace contrejour::test
+}  // namespace contrejour::test::toml_errors

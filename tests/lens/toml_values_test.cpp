@@ -8,7 +8,7 @@
 
 #include "contrejour/lens.h"
 
-namespace contrejour::test {
+namespace contrejour::test::toml_values {
 namespace {
 
 Prescription read(const std::string& text) {
@@ -128,4 +128,4 @@ TEST_CASE("the example of the format's page") {
 }
 
 }  // namespace
-}  // namespace contrejour::test
+}  // namespace contrejour::test::toml_values

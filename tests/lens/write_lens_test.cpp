@@ -13,7 +13,7 @@
 #include "optics/lens_files/read_lens.h"
 #include "shared_data.h"
 
-namespace contrejour::test {
+namespace contrejour::test::write_lens {
 namespace {
 
 Prescription toml(const std::string& text) {
@@ -174,4 +174,4 @@ TEST_CASE("every sample that is read is the same through Zemax and CODE V [slow]
   CHECK(written > 80);
 }
 
-}  // namespace contrejour::test
+}  // namespace contrejour::test::write_lens

@@ -15,7 +15,7 @@
 #include "optics/lens_files/read_lens.h"
 #include "shared_data.h"
 
-namespace contrejour::test {
+namespace contrejour::test::zemax {
 namespace {
 
 // A doublet, a dummy, the stop and an asphere; the image near the focus.
@@ -454,4 +454,4 @@ TEST_CASE("Zemax' samples: read, or refused for what they hold") {
   CHECK(seen == kOutcomes.size());
 }
 
-}  // namespace contrejour::test
+}  // namespace contrejour::test::zemax

@@ -9,7 +9,7 @@
 #include "lens/reader_checks.h"
 #include "optics/lens_files/read_lens.h"
 
-namespace contrejour::test {
+namespace contrejour::test::zemax_variants {
 namespace {
 
 // Two lenses with the stop between.
@@ -183,4 +183,4 @@ TEST_CASE("a curved image surface is a warning") {
   check_warns(must_read(pair("SURF 6\n", "SURF 6\n  CURV -0.01\n")), "the image surface (line 33) is curved");
 }
 
-}  // namespace contrejour::test
+}  // namespace contrejour::test::zemax_variants

@@ -1,17 +1,15 @@
 // Blades over the f-number, and irises that are none.
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 #include <doctest/doctest.h>
 
+#include "base/scalar.h"
 #include "contrejour/lens.h"
 
 using namespace contrejour;
 
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 constexpr double kWidest = 0.0;
 

@@ -12,7 +12,7 @@ using namespace contrejour::test;
 
 namespace {
 
-constexpr double kPlateRadius_mm = 3.0;
+constexpr double kIrisPlateRadius_mm = 3.0;
 
 Iris flower(double rotation_rad) {
   Iris iris;
@@ -33,7 +33,7 @@ double share_of_pixel(const Iris& iris, const Frame& frame, int x, int y) {
   int open = 0;
   for (int k = 0; k < kSide * kSide; ++k) {
     const Vec2 pixel{x + (k % kSide + 0.5) / kSide, y + (k / kSide + 0.5) / kSide};
-    open += iris_distance(iris, frame.sensor_from_pixel(pixel) * (1.0 / kPlateRadius_mm)) <= 0.0 ? 1 : 0;
+    open += iris_distance(iris, frame.sensor_from_pixel(pixel) * (1.0 / kIrisPlateRadius_mm)) <= 0.0 ? 1 : 0;
   }
   return static_cast<double>(open) / (kSide * kSide);
 }
@@ -41,7 +41,7 @@ double share_of_pixel(const Iris& iris, const Frame& frame, int x, int y) {
 void check_plate(const Iris& iris) {
   const LensState lens = plate_with(iris);
   const RenderSettings settings = green({80, 80, 0, 0, 80, 80, 0.08});
-  const double area_mm2 = iris_area_fraction(iris) * std::numbers::pi * kPlateRadius_mm * kPlateRadius_mm;
+  const double area_mm2 = iris_area_fraction(iris) * std::numbers::pi * kIrisPlateRadius_mm * kIrisPlateRadius_mm;
   const double level = 0.04 * 0.04 * 0.08 * 0.08 / area_mm2;  // R^2 of the light, level over the opening
   std::vector<double> share(80 * 80);
   for (int k = 0; k < 80 * 80; ++k)

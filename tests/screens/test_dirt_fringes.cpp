@@ -1,11 +1,11 @@
 // Shadows of dirt out of focus, against Fresnel's integral over the shapes, summed point by point.
 #include <cmath>
 #include <complex>
-#include <numbers>
 #include <vector>
 
 #include <doctest/doctest.h>
 
+#include "base/scalar.h"
 #include "diffraction/straight_edge.h"
 #include "render/screens/fringed_plane.h"
 
@@ -14,7 +14,6 @@ using screens::FringedPlane;
 
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr double kExtent_mm = 4.0;
 
 // Goodman 2005 eq. 4-17 without exp(i k z): each shape's wave, those of shapes over each other left to the caller.

@@ -4,11 +4,11 @@
 #include <atomic>
 #include <cmath>
 #include <complex>
-#include <numbers>
 #include <vector>
 
 #include <doctest/doctest.h>
 
+#include "base/scalar.h"
 #include "contrejour/first_order.h"
 #include "contrejour/lens_starburst.h"
 #include "support/flares.h"
@@ -18,8 +18,6 @@
 using namespace contrejour;
 
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 // No ghosts, so that the picture is the starburst alone.
 RenderSettings starburst_alone(const Frame& frame) {

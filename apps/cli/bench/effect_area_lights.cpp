@@ -6,10 +6,11 @@
 namespace contrejour::cli {
 namespace {
 
-constexpr double kMust = 2.0, kAim = 1.5;
+constexpr double kAreaLightsMust = 2.0, kAreaLightsAim = 1.5;
 
 // Beside the scene's own lens.
-constexpr EffectSystem kSystems[] = {{"heliar", 0.0, 16.0}, {"itoh-zoom", 123.0, 32.0}, {"nikon-80-200", 140.0, 16.0}};
+constexpr EffectSystem kAreaLightsSystems[] = {
+    {"heliar", 0.0, 16.0}, {"itoh-zoom", 123.0, 32.0}, {"nikon-80-200", 140.0, 16.0}};
 
 Result<Target> row(const EffectScene& scene) {
   const Light& point = scene.lights.front();
@@ -20,8 +21,8 @@ Result<Target> row(const EffectScene& scene) {
   return Target{.name = "the sun / a point",
                 .system = scene.lens.name,
                 .value = cost->ratio(),
-                .must = kMust,
-                .aim = kAim,
+                .must = kAreaLightsMust,
+                .aim = kAreaLightsAim,
                 .note = cost_text(scene, *cost)};
 }
 
@@ -32,7 +33,7 @@ Result<std::vector<Target>> measure_area_lights(const EffectScene& scene) {
   auto own = row(scene);
   if (!own) return tl::unexpected(own.error());
   rows.push_back(std::move(*own));
-  for (const EffectSystem& system : kSystems) {
+  for (const EffectSystem& system : kAreaLightsSystems) {
     const auto other = with_lens(scene, system);
     if (!other) return tl::unexpected(other.error());
     auto one = row(*other);

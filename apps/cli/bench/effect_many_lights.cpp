@@ -10,7 +10,7 @@
 namespace contrejour::cli {
 namespace {
 
-constexpr double kMust = 1.0, kAim = 0.5;
+constexpr double kManyLightsMust = 1.0, kManyLightsAim = 0.5;
 constexpr int kWidth = 64, kHeight = 36;
 constexpr EffectSystem kSystem{"heliar", 0.0, 8.0};
 
@@ -33,8 +33,8 @@ Result<std::vector<Target>> measure_many_lights(const EffectScene& scene) {
                     .system = small->lens.name,
                     .lights = count,
                     .value = cost->ratio() / count,
-                    .must = kMust,
-                    .aim = kAim,
+                    .must = kManyLightsMust,
+                    .aim = kManyLightsAim,
                     .note = fmt::format("{} x {}, {}", kWidth, kHeight, cost_text(*small, *cost))});
   }
   return rows;

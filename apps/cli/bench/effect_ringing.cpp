@@ -13,11 +13,11 @@ namespace {
 constexpr double kFrame = 1.3, kPatterns_ms = 2000.0;
 
 // Beside the scene's own lens. The long zoom has the most ghosts, 312; at f/32 half of them have patterns.
-constexpr EffectSystem kSystems[] = {{"heliar", 0.0, 16.0},
-                                     {"itoh-zoom", 123.0, 32.0},
-                                     {"nikon-80-200", 140.0, 16.0},
-                                     {"canon-70-200", 135.0, 8.0},
-                                     {"canon-70-200", 135.0, 32.0}};
+constexpr EffectSystem kRingingSystems[] = {{"heliar", 0.0, 16.0},
+                                            {"itoh-zoom", 123.0, 32.0},
+                                            {"nikon-80-200", 140.0, 16.0},
+                                            {"canon-70-200", 135.0, 8.0},
+                                            {"canon-70-200", 135.0, 32.0}};
 
 // New patterns' frame and kept ones', beside the frame without.
 Result<std::vector<Target>> rows_of(const EffectScene& scene) {
@@ -53,7 +53,7 @@ Result<std::vector<Target>> rows_of(const EffectScene& scene) {
 
 Result<std::vector<Target>> measure_ringing(const EffectScene& scene) {
   auto rows = rows_of(scene);
-  for (const EffectSystem& system : kSystems) {
+  for (const EffectSystem& system : kRingingSystems) {
     if (!rows) return rows;
     const auto other = with_lens(scene, system);
     if (!other) return tl::unexpected(other.error());

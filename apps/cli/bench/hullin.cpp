@@ -27,12 +27,12 @@ constexpr double kFourStops = 4.0;  // in f-numbers
 constexpr double kRankedAt_nm = 550.0;
 
 // Figure 15's lens layouts are those of primes and zooms of the same kinds; the text names none but the zooms.
-constexpr HullinSystem kSystems[] = {{"tessar"},
-                                     {"heliar"},
-                                     {"angenieux-double-gauss"},
-                                     {"itoh-zoom", 123.0},
-                                     {"nikon-80-200", 140.0},
-                                     {"canon-70-200", 135.0}};
+constexpr HullinSystem kHullinSystems[] = {{"tessar"},
+                                           {"heliar"},
+                                           {"angenieux-double-gauss"},
+                                           {"itoh-zoom", 123.0},
+                                           {"nikon-80-200", 140.0},
+                                           {"canon-70-200", 135.0}};
 constexpr HullinSystem kNikon[] = {{"nikon-80-200", 140.0}};
 constexpr HullinSystem kCanon[] = {{"canon-70-200", 135.0}};
 constexpr HullinSystem kWellBehaved[] = {{"tessar"}, {"heliar"}, {"itoh-zoom", 123.0}, {"nikon-80-200", 140.0}};
@@ -282,7 +282,7 @@ Result<std::vector<HullinRow>> grids(const HullinSystem& system, const params::V
 }
 
 constexpr HullinFigure kFigures[] = {
-    {"15", "Figure 15: lenses wide open and closed by four stops", kSystems, figure_15},
+    {"15", "Figure 15: lenses wide open and closed by four stops", kHullinSystems, figure_15},
     {"17",
      "Figure 17: high quality (7 bands, filtered) and normal (RGB, without the weakest 40 per cent of the ghosts)",
      kNikon, figure_17},

@@ -16,7 +16,7 @@ namespace contrejour::cli {
 namespace {
 
 constexpr double kFNumber = 8.0;
-constexpr const char* kLight_uv = "0.7,0.35";
+constexpr const char* kLightAt = "0.7,0.35";
 constexpr double kLongFrame_ms = 2000.0;  // is not repeated
 
 struct FrameScene {
@@ -115,7 +115,7 @@ Result<params::Values> values_of(const BenchedLens& lens, const FrameCase& frame
 
 Result<double> frame_ms(const std::string& lens, const params::Values& values, const FrameRunning& running) {
   params::Values all = values;
-  if (const auto ok = all.set("light-at", kLight_uv); !ok) return tl::unexpected(ok.error());
+  if (const auto ok = all.set("light-at", kLightAt); !ok) return tl::unexpected(ok.error());
   const auto scene = scene_of(lens, all);
   if (!scene) return tl::unexpected(scene.error());
   const auto rendered = render_scene(*scene, lens, all, running);
@@ -128,7 +128,7 @@ Result<FrameCost> frame_cost(const BenchedLens& lens, const FrameCase& frame_cas
   const auto all = values_of(lens, frame_case, values);
   if (!all) return tl::unexpected(all.error());
   params::Values with_light = *all;
-  if (const auto ok = with_light.set("light-at", kLight_uv); !ok) return tl::unexpected(ok.error());
+  if (const auto ok = with_light.set("light-at", kLightAt); !ok) return tl::unexpected(ok.error());
   const auto scene = scene_of(lens.file, with_light);  // says what is wrong with the lens before a fresh process does
   if (!scene) return tl::unexpected(scene.error());
   FrameCost cost;

@@ -4,7 +4,7 @@ namespace contrejour::cli {
 namespace {
 
 // The Heliar's last cells of tables 5, 6 and 7 (one light, heavy merge) are lost in the text at hand.
-constexpr PaperSystem kSystems[] = {
+constexpr PaperSystem kPaperFiguresSystems[] = {
     {"heliar",
      "Heliar Tronnier",
      "heliar",
@@ -64,6 +64,6 @@ constexpr PaperSystem kSystems[] = {
 
 }  // namespace
 
-std::span<const PaperSystem> paper_systems() { return kSystems; }
+std::span<const PaperSystem> paper_systems() { return kPaperFiguresSystems; }
 
 }  // namespace contrejour::cli

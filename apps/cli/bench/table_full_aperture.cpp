@@ -10,11 +10,11 @@ BenchRequest wide_open(BenchRequest request) {
   return request;
 }
 
-std::vector<BenchRequest> requests(const std::vector<std::string>&) {
+std::vector<BenchRequest> full_aperture_requests(const std::vector<std::string>&) {
   return {wide_open(adaptive_of(1)), wide_open(bundle_of(1)), wide_open(tiled_of(1))};
 }
 
-std::vector<Target> targets(const BenchRows& rows) {
+std::vector<Target> full_aperture_targets(const BenchRows& rows) {
   std::vector<Target> list;
   for (const BenchRequest& slow : {bundle_of(1), tiled_of(1)}) {
     for (const PaperSystem* system : rows.systems()) {
@@ -27,12 +27,14 @@ std::vector<Target> targets(const BenchRows& rows) {
   return list;
 }
 
-std::string text(const BenchRows& rows, const std::vector<std::string>&) { return targets_text(targets(rows)); }
+std::string full_aperture_text(const BenchRows& rows, const std::vector<std::string>&) {
+  return targets_text(full_aperture_targets(rows));
+}
 
 }  // namespace
 
 const BenchTable kFullApertureTable{"full-aperture",
                                     "Targets at each lens's widest aperture, one light; bundle and tiled run once",
-                                    requests, text, targets};
+                                    full_aperture_requests, full_aperture_text, full_aperture_targets};
 
 }  // namespace contrejour::cli

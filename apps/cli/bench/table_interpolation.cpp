@@ -16,13 +16,13 @@ BenchRequest interpolated(std::size_t k) {
   return request;
 }
 
-std::vector<BenchRequest> requests(const std::vector<std::string>&) {
+std::vector<BenchRequest> interpolation_requests(const std::vector<std::string>&) {
   std::vector<BenchRequest> list;
   for (std::size_t k = 0; k < kInPaperOrder.size(); ++k) list.push_back(interpolated(k));
   return list;
 }
 
-std::string text(const BenchRows& rows, const std::vector<std::string>&) {
+std::string interpolation_text(const BenchRows& rows, const std::vector<std::string>&) {
   TextTable table({"<system", "triangle", "paper", "mean value", "paper", "hom. triangle", "paper", "Wachspress",
                    "paper", "Loop-DeRose", "paper"});
   for (const PaperSystem* system : rows.systems()) {
@@ -38,6 +38,7 @@ std::string text(const BenchRows& rows, const std::vector<std::string>&) {
 
 }  // namespace
 
-const BenchTable kInterpolationTable{"8", "Table 8: tile traversal by interpolation, ms; one light", requests, text};
+const BenchTable kInterpolationTable{"8", "Table 8: tile traversal by interpolation, ms; one light",
+                                     interpolation_requests, interpolation_text};
 
 }  // namespace contrejour::cli

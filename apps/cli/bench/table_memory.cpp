@@ -25,7 +25,7 @@ Stored indices(const BenchRow& row, std::size_t merging) {
           paper * kPaperIndexBytes};
 }
 
-std::vector<BenchRequest> requests(const std::vector<std::string>&) {
+std::vector<BenchRequest> memory_requests(const std::vector<std::string>&) {
   std::vector<BenchRequest> list;
   for (const int lights : {1, 2}) {
     for (std::size_t k = 0; k < kMergings; ++k) list.push_back(tiled_merged(lights, k));
@@ -34,7 +34,7 @@ std::vector<BenchRequest> requests(const std::vector<std::string>&) {
 }
 
 template <auto stored>
-std::string text(const BenchRows& rows, const std::vector<std::string>&) {
+std::string memory_text(const BenchRows& rows, const std::vector<std::string>&) {
   TextTable table({"lights", "<system", "none", "paper", "MiB", "paper", "light", "paper", "MiB", "paper", "heavy",
                    "paper", "MiB", "paper"});
   for (const int lights : {1, 2}) {
@@ -56,9 +56,9 @@ std::string text(const BenchRows& rows, const std::vector<std::string>&) {
 }  // namespace
 
 const BenchTable kPrimitivesTable{"5", "Table 5: primitives and their memory by merging; MiB: the most held at once",
-                                  requests, text<primitives>};
+                                  memory_requests, memory_text<primitives>};
 const BenchTable kIndicesTable{
-    "6", "Table 6: entries of the dense tiles' lists and their memory by merging; MiB: the most held at once", requests,
-    text<indices>};
+    "6", "Table 6: entries of the dense tiles' lists and their memory by merging; MiB: the most held at once",
+    memory_requests, memory_text<indices>};
 
 }  // namespace contrejour::cli

@@ -6,13 +6,13 @@
 namespace contrejour::cli {
 namespace {
 
-std::vector<BenchRequest> requests(const std::vector<std::string>&) {
+std::vector<BenchRequest> merging_requests(const std::vector<std::string>&) {
   std::vector<BenchRequest> list{bundle_of(1)};
   for (std::size_t k = 0; k < kMergings; ++k) list.push_back(tiled_merged(1, k));
   return list;
 }
 
-std::string text(const BenchRows& rows, const std::vector<std::string>&) {
+std::string merging_text(const BenchRows& rows, const std::vector<std::string>&) {
   TextTable table({"<system", "none ms", "paper", "dB", "paper", "light ms", "paper", "dB", "paper", "dB of none",
                    "heavy ms", "paper", "dB", "paper", "dB of none"});
   for (const PaperSystem* system : rows.systems()) {
@@ -34,6 +34,6 @@ std::string text(const BenchRows& rows, const std::vector<std::string>&) {
 
 const BenchTable kMergingTable{
     "7", "Table 7: merging, total ms and PSNR of bundle, dB; one light. dB of none: of the picture without merging",
-    requests, text};
+    merging_requests, merging_text};
 
 }  // namespace contrejour::cli

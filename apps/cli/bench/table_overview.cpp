@@ -22,7 +22,7 @@ double paper_total_ms(const BenchRow& row) {
   return row.request.method == "bundle" ? row.paper().bundle_total_ms : row.paper().tiled_total_ms;
 }
 
-std::vector<BenchRequest> requests(const std::vector<std::string>& methods) {
+std::vector<BenchRequest> overview_requests(const std::vector<std::string>& methods) {
   std::vector<BenchRequest> list;
   for (const int lights : {1, 2}) {
     for (const std::string& method : methods) list.push_back({lights, method});
@@ -30,7 +30,7 @@ std::vector<BenchRequest> requests(const std::vector<std::string>& methods) {
   return list;
 }
 
-std::string text(const BenchRows& rows, const std::vector<std::string>& methods) {
+std::string overview_text(const BenchRows& rows, const std::vector<std::string>& methods) {
   TextTable table({"<system", "f/", "lights", "<method", "total ms", "paper ms", "dB of reference", "M rays", "M hits",
                    "M primitives", "paper M", "<by phase, ms"});
   for (const int lights : {1, 2}) {
@@ -51,7 +51,7 @@ std::string text(const BenchRows& rows, const std::vector<std::string>& methods)
 }  // namespace
 
 const BenchTable kOverviewTable{
-    "overview", "Every method; the paper's total is its previous method's for bundle, its tiled one's else", requests,
-    text};
+    "overview", "Every method; the paper's total is its previous method's for bundle, its tiled one's else",
+    overview_requests, overview_text};
 
 }  // namespace contrejour::cli

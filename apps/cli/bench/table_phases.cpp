@@ -8,11 +8,11 @@
 namespace contrejour::cli {
 namespace {
 
-std::vector<BenchRequest> requests(const std::vector<std::string>&) {
+std::vector<BenchRequest> phases_requests(const std::vector<std::string>&) {
   return {tiled_of(1), bundle_of(1), tiled_of(2), bundle_of(2)};
 }
 
-std::string text(const BenchRows& rows, const std::vector<std::string>&) {
+std::string phases_text(const BenchRows& rows, const std::vector<std::string>&) {
   TextTable table({"lights", "<system", "tiled: rays, coarse", "paper", "dense", "paper", "traversal", "paper", "total",
                    "paper", "bundle: rays", "paper", "raster", "paper", "total", "paper", "raster ratio", "paper"});
   for (const int lights : {1, 2}) {
@@ -42,6 +42,6 @@ std::string text(const BenchRows& rows, const std::vector<std::string>&) {
 const BenchTable kPhasesTable{"2",
                               "Table 2: phases and totals, ms; light merge, tiles of 8 and 128. Raster ratio: bundle's "
                               "raster over dense tiles and traversal",
-                              requests, text};
+                              phases_requests, phases_text};
 
 }  // namespace contrejour::cli

@@ -7,11 +7,11 @@
 namespace contrejour::cli {
 namespace {
 
-std::vector<BenchRequest> requests(const std::vector<std::string>&) {
+std::vector<BenchRequest> quality_requests(const std::vector<std::string>&) {
   return {tiled_of(1), bundle_of(1), tiled_of(2), bundle_of(2)};
 }
 
-std::string text(const BenchRows& rows, const std::vector<std::string>&) {
+std::string quality_text(const BenchRows& rows, const std::vector<std::string>&) {
   TextTable table({"lights", "<system", "tiled of bundle", "paper", "tiled of reference", "bundle of reference"});
   for (const int lights : {1, 2}) {
     for (const PaperSystem* system : rows.systems()) {
@@ -27,6 +27,6 @@ std::string text(const BenchRows& rows, const std::vector<std::string>&) {
 }  // namespace
 
 const BenchTable kQualityTable{"3", "Table 3: PSNR, dB (clipped at the 99.9th percentile of the picture compared with)",
-                               requests, text};
+                               quality_requests, quality_text};
 
 }  // namespace contrejour::cli

@@ -17,7 +17,7 @@ constexpr int kScale = 2;  // 4K over 1080p
 BenchRequest many_wavelengths() { return {.method = "adaptive", .variant = {.wavelengths = kManyWavelengths}}; }
 BenchRequest large_frame() { return {.method = "adaptive", .variant = {.scale = kScale}}; }
 
-std::vector<BenchRequest> requests(const std::vector<std::string>&) {
+std::vector<BenchRequest> targets_requests(const std::vector<std::string>&) {
   return {adaptive_of(1), tiled_of(1),        bundle_of(1),  adaptive_of(2),          tiled_of(2),
           bundle_of(2),   many_wavelengths(), large_frame(), adaptive_of(kManyLights)};
 }
@@ -105,7 +105,7 @@ void add_of_growth(const BenchRows& rows, const PaperSystem& system, std::vector
                         large, usual, 1.0, 4.0, 3.0));
 }
 
-std::vector<Target> targets(const BenchRows& rows) {
+std::vector<Target> measured_targets(const BenchRows& rows) {
   std::vector<Target> list;
   for (const PaperSystem* system : rows.systems()) {
     for (const int lights : {1, 2}) add_of_paper(rows, *system, lights, list);
@@ -142,8 +142,8 @@ std::string times_text(const BenchRows& rows) {
   return table.text();
 }
 
-std::string text(const BenchRows& rows, const std::vector<std::string>&) {
-  return times_text(rows) + "\n" + targets_text(targets(rows));
+std::string times_and_targets(const BenchRows& rows, const std::vector<std::string>&) {
+  return times_text(rows) + "\n" + targets_text(measured_targets(rows));
 }
 
 }  // namespace
@@ -151,9 +151,9 @@ std::string text(const BenchRows& rows, const std::vector<std::string>&) {
 const BenchTable kTargetsTable{
     "targets",
     "Targets of adaptive, all measured in this run: first its times beside the paper's totals on a GeForce RTX 3060",
-    requests,
-    text,
-    targets,
+    targets_requests,
+    times_and_targets,
+    measured_targets,
     true};
 
 }  // namespace contrejour::cli

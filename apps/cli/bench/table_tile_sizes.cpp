@@ -14,13 +14,13 @@ BenchRequest of_tiles(std::size_t k) {
   return request;
 }
 
-std::vector<BenchRequest> requests(const std::vector<std::string>&) {
+std::vector<BenchRequest> tile_sizes_requests(const std::vector<std::string>&) {
   std::vector<BenchRequest> list;
   for (std::size_t k = 0; k < 4; ++k) list.push_back(of_tiles(k));
   return list;
 }
 
-std::string text(const BenchRows& rows, const std::vector<std::string>&) {
+std::string tile_sizes_text(const BenchRows& rows, const std::vector<std::string>&) {
   TextTable table({"<system", "8, no coarse", "paper", "8, coarse", "paper", "16, no coarse", "paper", "16, coarse",
                    "paper", "<lists and traversal alone, likewise"});
   for (const PaperSystem* system : rows.systems()) {
@@ -41,6 +41,6 @@ std::string text(const BenchRows& rows, const std::vector<std::string>&) {
 }  // namespace
 
 const BenchTable kTileSizesTable{"4", "Table 4: total ms by tile size, without and with coarse tiles of 128; one light",
-                                 requests, text};
+                                 tile_sizes_requests, tile_sizes_text};
 
 }  // namespace contrejour::cli

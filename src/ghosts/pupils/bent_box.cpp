@@ -10,9 +10,9 @@
 namespace contrejour::pupils {
 namespace {
 
-constexpr int kColumns = 64, kRows = 12;     // of the upper half
+constexpr int kBentColumns = 64, kBentRows = 12;     // of the upper half
 constexpr std::size_t kFewestRows = 4;       // with light, to fit a side to
-constexpr double kMargin = 0.1;              // of the light's extent, on a side where nothing fails that near
+constexpr double kBentMargin = 0.1;              // of the light's extent, on a side where nothing fails that near
 constexpr double kLeastMargin = 0.03;        // nearer to what fails polynomials are poor
 constexpr double kTopMargin = 0.02;          // of its height, where a pupil beside a rim is narrow
 constexpr double kLeastStretch = 0.1;
@@ -149,7 +149,7 @@ std::optional<BentBox> box_about(std::span<const Probe> probes, const Bend& bend
   const double width = light.high - light.low;
   least_stretch = std::min(least_stretch, bend.stretch(top));
   if (least_stretch < kLeastStretch || !(width > 0.0)) return std::nullopt;
-  Extent room{light.low - kMargin * width, light.high + kMargin * width};
+  Extent room{light.low - kBentMargin * width, light.high + kBentMargin * width};
   for (const Probe& probe : probes) keep_failing_out(room, probe.grid, 0.5 * (light.low + light.high), top, bend);
   const double least = kLeastMargin * width;
   if (room.low > light.low - least || room.high < light.high + least) return std::nullopt;
@@ -161,7 +161,7 @@ std::optional<BentBox> box_about(std::span<const Probe> probes, const Bend& bend
 std::optional<BentBox> bent_box(std::span<ClearanceGrid> wavelengths, const Rectangle& box) {
   std::vector<Probe> probes;
   const auto probe = [&](ClearanceGrid& grid) {
-    grid.trace({{box.low.x, 0.0}, box.high}, kColumns, kRows);
+    grid.trace({{box.low.x, 0.0}, box.high}, kBentColumns, kBentRows);
     probes.push_back({grid, lit_rows(grid), top_of(grid)});
     return probes.back().rows.size() >= kFewestRows;
   };

@@ -7,10 +7,10 @@
 namespace contrejour::pupils {
 namespace {
 
-constexpr int kColumns = 8;
+constexpr int kFitColumns = 8;
 constexpr double kWidening = 0.2;  // of a box's size, on a side at which light comes through the very border
 constexpr int kMostWidenings = 4;
-constexpr float kReach = 0.5F;     // ClearanceGrid::may_pass
+constexpr float kFitReach = 0.5F;     // ClearanceGrid::may_pass
 
 }  // namespace
 
@@ -21,14 +21,14 @@ BoxFitter::BoxFitter(PacketPath path, const EntranceWindow& window)
 std::optional<Rectangle> BoxFitter::fit(const Rectangle& box) {
   Rectangle half{{box.low.x, std::max(box.low.y, 0.0)}, box.high};
   for (int step = 0;; ++step) {
-    grid_.trace(half, kColumns, half.low.y == 0.0 ? kColumns / 2 : kColumns);
+    grid_.trace(half, kFitColumns, half.low.y == 0.0 ? kFitColumns / 2 : kFitColumns);
     if (step == kMostWidenings) break;
     const Rectangle next = grid_.grown(kWidening, window_);
     if (next.low == half.low && next.high == half.high) break;
     half = next;
   }
   std::optional<Rectangle> hull;
-  for (const auto& piece : grid_.pieces(kReach)) {
+  for (const auto& piece : grid_.pieces(kFitReach)) {
     const Rectangle one = grid_.hull(piece);
     if (!hull) hull = one;
     hull->low = {std::min(hull->low.x, one.low.x), std::min(hull->low.y, one.low.y)};

@@ -16,7 +16,7 @@ namespace {
 // A share of a box's size, added on every side: polynomials through its rays are least good at its border, where the
 // ghost's edge would be if the box were tight. Half of this saves no rays and costs a decibel; twice this takes a third
 // more rays.
-constexpr double kMargin = 0.1;
+constexpr double kPupilMargin = 0.1;
 // Boxes of the sharp stop are widened as the stop is up to here, farther by its root: what they lack they grow.
 constexpr double kMuchWider = 1.5;
 
@@ -28,7 +28,7 @@ bool overlap(const Rectangle& a, const Rectangle& b) {
 }
 
 Rectangle with_margin(const Rectangle& box) {
-  const Vec2 margin = (box.high - box.low) * kMargin;
+  const Vec2 margin = (box.high - box.low) * kPupilMargin;
   return {box.low - margin, box.high + margin};
 }
 

@@ -10,7 +10,6 @@
 namespace contrejour::pupils {
 namespace {
 
-constexpr float kFailed = std::numeric_limits<float>::infinity();
 constexpr int kMostShrinkings = 3;
 constexpr double kWorthShrinking = 0.5;  // of the area
 constexpr double kFull = 0.4;            // open rays' share of all at which a box is not searched for a smaller one
@@ -18,8 +17,6 @@ constexpr int kDeepest = 5;              // finer meshes, each of cells of half 
 constexpr std::size_t kMostFiner = 400;  // blocks of a box that are traced again
 constexpr std::array<std::size_t, 4> kWholeBlock{0, 2, 8, 6};
 constexpr std::uint32_t kFinerSide = 5;  // vertices along a side of a block that is traced again
-
-double area(const Rectangle& r) { return (r.high.x - r.low.x) * (r.high.y - r.low.y); }
 
 // Integrals over what is open in a block of a mesh, as weights of its vertices. A function that is linear over
 // triangles is integrated, the edge of what is open a straight line in each: off by a term of second order in the size
@@ -203,7 +200,7 @@ std::optional<LitMesh> MeshTracer::coarse_mesh(Rectangle box) {
   for (int k = 0; k < kMostShrinkings && !is_full(); ++k) {
     const auto lit = bounds_of_light(rays_);
     if (!lit) return std::nullopt;
-    if (area(*lit) >= kWorthShrinking * area(box)) break;
+    if (area_of(*lit) >= kWorthShrinking * area_of(box)) break;
     box = box.low.y == -box.high.y ? symmetric(*lit) : *lit;
     trace_grid(box, density_.side);
   }

@@ -10,7 +10,7 @@ constexpr int kFirstIntervals = 47;
 constexpr int kParts = 3;  // of an interval that is looked into
 constexpr int kRounds = 2;
 constexpr std::size_t kMostLooks = 12;  // intervals a round
-constexpr float kReach = 0.5F;          // of what the ends of an interval differ, beyond them
+constexpr float kIntervalReach = 0.5F;          // of what the ends of an interval differ, beyond them
 constexpr int kDeepRounds = 12;         // closer to rays that fail last, each a kParts-th as far apart
 constexpr std::size_t kMostRuns = 3;    // of rays that fail last, a round
 constexpr double kHopeless = 0.25;      // of the least that fails: more than that would still fail between rays
@@ -70,7 +70,7 @@ bool MeridianScan::may_pass(std::size_t k) const {
   if (a.failing != 0.0F) return is_open(b);
   if (b.failing != 0.0F) return is_open(a);
   for (std::size_t c = 0; c < 1 + static_cast<std::size_t>(path_.stop_crossings()); ++c) {
-    const float more = kReach * std::abs(a.place[c] - b.place[c]);
+    const float more = kIntervalReach * std::abs(a.place[c] - b.place[c]);
     if (std::min(a.place[c], b.place[c]) - more > 1.0F || std::max(a.place[c], b.place[c]) + more < -1.0F) return false;
   }
   return true;

@@ -11,20 +11,20 @@ namespace contrejour::pupils {
 namespace {
 
 constexpr int kFirstColumns = 12;  // of the first grid, over the window; half as many rows from y = 0 up
-constexpr int kColumns = 8;        // of the others; half as many rows for boxes that touch y = 0
+constexpr int kZoomColumns = 8;        // of the others; half as many rows for boxes that touch y = 0
 constexpr int kMostColumns = 32;
 constexpr float kFirstReach = 1.0F;  // ClearanceGrid::may_pass
-constexpr float kReach = 0.5F;
+constexpr float kBoxReach = 0.5F;
 constexpr double kGrowth = 1.0;  // of a box's size, on a side at which rays get through
 constexpr int kMostGrowths = 2;
-constexpr int kDeepest = 12;     // grids, each in a part of the one before
+constexpr int kDeepestZoom = 12;     // grids, each in a part of the one before
 constexpr int kMostDark = 2;     // of them in a row without a ray that gets through
 constexpr std::uint64_t kMostRays = 3000;
 constexpr double kTight = 0.4;         // open corners' share of all at which cells fit well enough
 constexpr double kWorthZooming = 0.6;  // of the area
 constexpr double kSettled = 0.15;      // stop radii by which an aim may be off
 
-double area(const Rectangle& r) { return std::max(r.high.x - r.low.x, 0.0) * std::max(r.high.y - r.low.y, 0.0); }
+double area_if_any(const Rectangle& r) { return std::max(r.high.x - r.low.x, 0.0) * std::max(r.high.y - r.low.y, 0.0); }
 
 Rectangle common(const Rectangle& a, const Rectangle& b) {
   return {{std::max(a.low.x, b.low.x), std::max(a.low.y, b.low.y)},
@@ -34,7 +34,7 @@ Rectangle common(const Rectangle& a, const Rectangle& b) {
 // A part of the upper half of the entrance plane that is still to be searched.
 struct Part {
   Rectangle box;
-  int columns = kColumns;
+  int columns = kZoomColumns;
   int depth = 0;
   int dark = 0;  // grids since one had a ray that gets through
 };
@@ -68,7 +68,7 @@ class Search {
         if (next.low == part.box.low && next.high == part.box.high) break;
         part.box = next;
       }
-      consider(part, kReach);
+      consider(part, kBoxReach);
     }
   }
 
@@ -80,17 +80,18 @@ class Search {
       for (const GridCell& cell : piece) open += grid_.open_corners(cell);
       Rectangle next = hull;
       const auto aim = aim_at_stop(grid_, piece);
-      if (aim && area(common(hull, aim->box)) > 0.0) {
+      if (aim && area_if_any(common(hull, aim->box)) > 0.0) {
         next = common(hull, aim->box);
         if (aim->error < kSettled && open > 0) {
           add_box(next);
           continue;
         }
       }
-      const bool shrunk = area(next) < kWorthZooming * area(grid_.box());
+      const bool shrunk = area_if_any(next) < kWorthZooming * area_if_any(grid_.box());
       const bool tight = open >= kTight * 4.0 * static_cast<double>(piece.size());
       const int dark = open > 0 ? 0 : part.dark + 1;
-      const bool last = part.depth == kDeepest || grid_.rays() > kMostRays || (!shrunk && part.columns >= kMostColumns);
+      const bool last =
+          part.depth == kDeepestZoom || grid_.rays() > kMostRays || (!shrunk && part.columns >= kMostColumns);
       if (open > 0 && ((tight && !shrunk) || last)) {
         add_box(next);
       } else if (!last && dark < kMostDark) {

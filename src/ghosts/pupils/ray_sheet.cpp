@@ -12,8 +12,6 @@
 namespace contrejour::pupils {
 namespace {
 
-constexpr float kFailed = std::numeric_limits<float>::infinity();
-
 // A rim counts once a ray of the sheet passes beyond this share of it, squared.
 constexpr float kNearRim = 0.94F;
 

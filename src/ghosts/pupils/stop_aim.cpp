@@ -6,7 +6,7 @@
 namespace contrejour::pupils {
 namespace {
 
-constexpr double kMargin = 0.06;        // of the stop's radius
+constexpr double kStopMargin = 0.06;        // of the stop's radius
 constexpr double kFarthest = 2.0;       // cells from the ray that is aimed from
 constexpr double kThirdOrder = 1.0;     // what the second differences leave out, as a share of what they add
 constexpr double kLargestError = 0.75;  // with more of it a box says no more than the grid
@@ -125,7 +125,7 @@ std::optional<Aim> aim_at_crossing(const ClearanceGrid& grid, int crossing, cons
   const Vec2 away{std::abs(zero->x), std::abs(zero->y)};
   const double error = bend(half) + kThirdOrder * bend(away);
   if (!(error <= kLargestError)) return {};
-  const Vec2 reach = half * (1.0 + kMargin + error);
+  const Vec2 reach = half * (1.0 + kStopMargin + error);
   const Vec2 middle{about->column + zero->x, about->row + zero->y};
   const CellBox cells{middle - reach, middle + reach};
   if (!agrees(grid, crossing, piece, *q, *about, cells)) return {};

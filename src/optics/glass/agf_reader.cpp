@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::size_t kMaxGlasses = 20000;
 constexpr std::size_t kMaxWarnings = 100;
-constexpr std::size_t kMaxNumbers = 10;      // of one tag
+constexpr std::size_t kMaxTagNumbers = 10;      // of one tag
 constexpr std::size_t kMaxTransmittances = 2000;
 // A transmittance is printed to three decimals: what reads 0 is less than half the last.
 constexpr double kLeastTransmittance = 0.0005;
@@ -60,9 +60,9 @@ struct Draft {
   std::string problem;  // the first, with its line
 };
 
-class Reader {
+class AgfReader {
  public:
-  Reader(const std::string& file, const std::string& maker) : file_(file), maker_(maker) {}
+  AgfReader(const std::string& file, const std::string& maker) : file_(file), maker_(maker) {}
 
   Result<GlassFile> read(std::string_view text);
 
@@ -92,7 +92,7 @@ class Reader {
   GlassFile found_;
 };
 
-void Reader::begin_glass(const std::vector<std::string_view>& words) {
+void AgfReader::begin_glass(const std::vector<std::string_view>& words) {
   end_glass();
   ++named_;
   draft_.emplace();
@@ -113,16 +113,16 @@ void Reader::begin_glass(const std::vector<std::string_view>& words) {
   if (status >= 0.0 && status <= 4.0) draft_->status = static_cast<GlassStatus>(static_cast<int>(status));
 }
 
-void Reader::read_numbers(const std::vector<std::string_view>& words, std::size_t first, std::vector<double>& to) {
+void AgfReader::read_numbers(const std::vector<std::string_view>& words, std::size_t first, std::vector<double>& to) {
   for (std::size_t k = first; k < words.size(); ++k) {
     const auto value = number_of(words[k]);
     if (!value) return problem(fmt::format("'{}' is not a number", shortened(words[k])));
-    if (to.size() == kMaxNumbers) return problem(fmt::format("more than {} numbers", kMaxNumbers));
+    if (to.size() == kMaxTagNumbers) return problem(fmt::format("more than {} numbers", kMaxTagNumbers));
     to.push_back(*value);
   }
 }
 
-void Reader::read_range(const std::vector<std::string_view>& words) {
+void AgfReader::read_range(const std::vector<std::string_view>& words) {
   if (words.size() < 3) return;
   const auto first = number_of(words[1]), last = number_of(words[2]);
   if (!first || !last) return problem("LD needs the first and the last wavelength, in um");
@@ -131,7 +131,7 @@ void Reader::read_range(const std::vector<std::string_view>& words) {
 
 // Wavelength um, transmittance, thickness mm. A row with a blank, no thickness or less than no
 // light is a figure that was not measured.
-void Reader::read_transmittance(const std::vector<std::string_view>& words) {
+void AgfReader::read_transmittance(const std::vector<std::string_view>& words) {
   if (words.size() < 4) return;
   const auto um = number_of(words[1]), tau = number_of(words[2]), mm = number_of(words[3]);
   if (!um || !tau || !mm) return problem("IT needs a wavelength (um), a transmittance and a thickness (mm)");
@@ -142,7 +142,7 @@ void Reader::read_transmittance(const std::vector<std::string_view>& words) {
   draft_->absorption.push_back({*um * 1e3, -std::log(std::clamp(*tau, kLeastTransmittance, 1.0)) / *mm + 0.0});
 }
 
-void Reader::read_line(std::string_view line) {
+void AgfReader::read_line(std::string_view line) {
   const auto words = words_of(line);
   if (words.empty()) return;
   const std::string_view tag = words[0];
@@ -180,7 +180,7 @@ GlassData data_of(Draft& draft) {
   return data;
 }
 
-void Reader::check_stated(const Draft& draft, const Glass& glass) {
+void AgfReader::check_stated(const Draft& draft, const Glass& glass) {
   const double n_d = refractive_index(glass, kLineD_nm);
   if (draft.n_d == 0.0 || std::abs(n_d - draft.n_d) <= kStatedTolerance) return;
   const auto range = wavelength_range_nm(glass);
@@ -189,7 +189,7 @@ void Reader::check_stated(const Draft& draft, const Glass& glass) {
                    draft.line, draft.name, draft.n_d, n_d));
 }
 
-void Reader::end_glass() {
+void AgfReader::end_glass() {
   open_ = nullptr;
   if (!draft_) return;
   Draft draft = std::move(*draft_);
@@ -207,7 +207,7 @@ void Reader::end_glass() {
   found_.glasses.push_back(std::move(entry));
 }
 
-Result<GlassFile> Reader::read(std::string_view text) {
+Result<GlassFile> AgfReader::read(std::string_view text) {
   while (!text.empty()) {
     const std::size_t end = std::min(text.find('\n'), text.size());
     ++line_;
@@ -236,7 +236,7 @@ Result<GlassFile> read_agf(std::string_view bytes, const std::string& file, cons
     return failure(ErrorCode::Parse,
                    fmt::format("{} bytes; a catalogue has at most {}", bytes.size(), kMaxGlassFileBytes), {file, 0, 0});
   }
-  return Reader(file, maker).read(decode_text(bytes));
+  return AgfReader(file, maker).read(decode_text(bytes));
 }
 
 }  // namespace contrejour

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "base/near_name.h"
+#include "base/scalar.h"
 #include "contrejour/glass.h"
 #include "optics/glass/formulas.h"
 
@@ -17,8 +18,6 @@ constexpr double kHuge = 1e30;       // of a coefficient
 constexpr double kMaxIndex = 100.0;
 constexpr int kSamples = 33;         // of the range, to see that n is a number throughout
 constexpr double kColdest_c = -273.15, kHottest_c = 3000.0;
-
-bool within(double value, double low, double high) { return value >= low && value <= high; }
 
 std::string count_problem(const GlassData& data) {
   const CoefficientCount count = coefficient_count(data.formula);

@@ -19,7 +19,7 @@ namespace {
 
 constexpr double kZeroCelsius_k = 273.15;
 constexpr double kRoomRounding_k = 0.2;  // the database rounds 293.15 K to 293
-constexpr std::size_t kMaxNumbers = 200000;
+constexpr std::size_t kMaxTableNumbers = 200000;
 
 struct Numbers {
   std::vector<double> values;
@@ -43,7 +43,7 @@ Numbers numbers_of(std::string_view text, int line) {
     const std::size_t next = static_cast<std::size_t>(end - text.data());
     const bool whole =
         code == std::errc{} && (next == text.size() || kSpace.find(text[next]) != std::string_view::npos);
-    if (!whole || !std::isfinite(value) || numbers.values.size() == kMaxNumbers) {
+    if (!whole || !std::isfinite(value) || numbers.values.size() == kMaxTableNumbers) {
       numbers.bad_line = line;
       return numbers;
     }
@@ -53,9 +53,9 @@ Numbers numbers_of(std::string_view text, int line) {
   return numbers;
 }
 
-class Reader {
+class RiiReader {
  public:
-  Reader(const std::string& file, const YamlNode& root) : file_(file), root_(root) {}
+  RiiReader(const std::string& file, const YamlNode& root) : file_(file), root_(root) {}
 
   Result<GlassData> read();
 
@@ -78,7 +78,7 @@ class Reader {
   std::vector<std::pair<double, double>> k_;  // nm, k
 };
 
-Result<std::vector<double>> Reader::numbers(const YamlNode& block, std::string_view key) {
+Result<std::vector<double>> RiiReader::numbers(const YamlNode& block, std::string_view key) {
   const YamlNode* node = block.find(key);
   if (node == nullptr || node->kind != YamlNode::Kind::Scalar)
     return fail(block.line, fmt::format("{} is missing; it holds the numbers", key));
@@ -87,7 +87,7 @@ Result<std::vector<double>> Reader::numbers(const YamlNode& block, std::string_v
   return std::move(found.values);
 }
 
-Result<void> Reader::read_formula(const YamlNode& block, DispersionFormula formula) {
+Result<void> RiiReader::read_formula(const YamlNode& block, DispersionFormula formula) {
   if (has_n_) return fail(block.line, "a second formula or table of n; one is read");
   auto coefficients = numbers(block, "coefficients");
   if (!coefficients) return tl::unexpected(coefficients.error());
@@ -104,7 +104,7 @@ Result<void> Reader::read_formula(const YamlNode& block, DispersionFormula formu
 
 // Rows of wavelength (um) and n, k or both. The database has rows that fall, and a few wavelengths twice: sorted, the
 // first of each kept.
-Result<void> Reader::read_table(const YamlNode& block, bool has_n, bool has_k) {
+Result<void> RiiReader::read_table(const YamlNode& block, bool has_n, bool has_k) {
   if (has_n && has_n_) return fail(block.line, "a second formula or table of n; one is read");
   const auto values = numbers(block, "data");
   if (!values) return tl::unexpected(values.error());
@@ -130,7 +130,7 @@ Result<void> Reader::read_table(const YamlNode& block, bool has_n, bool has_k) {
   return {};
 }
 
-Result<void> Reader::read_block(const YamlNode& block) {
+Result<void> RiiReader::read_block(const YamlNode& block) {
   const YamlNode* type = block.find("type");
   if (type == nullptr) return fail(block.line, "a block of DATA has no type");
   const std::string& name = type->scalar;
@@ -149,7 +149,7 @@ Result<void> Reader::read_block(const YamlNode& block) {
 
 // Temperature in K; whether index and wavelength are against vacuum, which older files say under SPECS. Nothing said
 // means air, as in catalogues.
-void Reader::read_conditions() {
+void RiiReader::read_conditions() {
   const auto truth = [](const YamlNode* node) {
     return node != nullptr && (node->scalar == "true" || node->scalar == "yes");
   };
@@ -168,7 +168,7 @@ void Reader::read_conditions() {
   }
 }
 
-void Reader::read_thermal() {
+void RiiReader::read_thermal() {
   for (const std::string_view group : {"PROPERTIES", "SPECS"}) {
     const YamlNode* properties = root_.find(group);
     const YamlNode* thermal = properties == nullptr ? nullptr : properties->find("thermal_dispersion");
@@ -183,7 +183,7 @@ void Reader::read_thermal() {
 }
 
 // k -> absorption coefficient: 4 pi k / lambda.
-void Reader::set_absorption() {
+void RiiReader::set_absorption() {
   std::sort(k_.begin(), k_.end());
   for (const auto& [nm, k] : k_) {
     const bool again = !data_.absorption.empty() && data_.absorption.back().lambda_nm == nm;
@@ -191,7 +191,7 @@ void Reader::set_absorption() {
   }
 }
 
-Result<GlassData> Reader::read() {
+Result<GlassData> RiiReader::read() {
   const YamlNode* blocks = root_.find("DATA");
   if (blocks == nullptr || blocks->kind != YamlNode::Kind::List) {
     return fail(root_.line, "no DATA: this is not a page of optical constants; name another file",
@@ -245,7 +245,7 @@ Result<GlassFile> read_glass_yaml(std::string_view bytes, const std::string& fil
   }
   const auto root = parse_yaml(decode_text(bytes), file);
   if (!root) return tl::unexpected(root.error());
-  auto data = Reader(file, *root).read();
+  auto data = RiiReader(file, *root).read();
   if (!data) return tl::unexpected(data.error());
   auto glass = make_glass(name, std::move(*data));
   if (!glass) return failure(ErrorCode::Parse, glass.error().message, {file, 0, 0});

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "base/scalar.h"
 #include "optics/lens/iris_closing.h"
 #include "optics/lens/validate.h"
 
@@ -13,16 +14,12 @@ namespace {
 
 constexpr double kFarthest_mm = 1e7;  // from the first vertex
 constexpr double kLargest_mm = 1e5;
-constexpr double kNarrowest = 1e5;  // f-number, as lens_at() has it
 constexpr double kFirst_nm = 380.0, kLast_nm = 780.0;
 constexpr double kMostIndex = 5.0;  // as of a prescription's glasses
 
-tl::unexpected<Error> refused(std::string what) { return failure(ErrorCode::InvalidArgument, std::move(what)); }
 tl::unexpected<Error> refused_at(std::size_t index, const std::string& what) {
-  return refused(fmt::format("surface {}: {}", index + 1, what));
+  return invalid_argument(fmt::format("surface {}: {}", index + 1, what));
 }
-
-bool within(double value, double low, double high) { return value >= low && value <= high; }
 
 // At the ends of the visible and the design wavelength: a glass file was checked in between when it was read.
 bool is_medium(const Glass& glass, double design_nm) {
@@ -63,17 +60,18 @@ Result<void> check_surface(const LensState& lens, std::size_t index) {
 }
 
 Result<void> check_surfaces(const LensState& lens) {
-  if (lens.surfaces.empty()) return refused("the lens state has no surfaces; make it with lens_at()");
+  if (lens.surfaces.empty()) return invalid_argument("the lens state has no surfaces; make it with lens_at()");
   if (lens.surfaces.size() > kMostLensSurfaces)
-    return refused(fmt::format("{} surfaces; at most {} are computed", lens.surfaces.size(), kMostLensSurfaces));
+    return invalid_argument(
+        fmt::format("{} surfaces; at most {} are computed", lens.surfaces.size(), kMostLensSurfaces));
   const auto count = [&](SurfaceKind kind) {
     return std::count_if(lens.surfaces.begin(), lens.surfaces.end(),
                          [&](const SurfaceState& s) { return s.kind == kind; });
   };
   const bool named =
       has_stop(lens) && lens.surfaces[static_cast<std::size_t>(lens.stop_index)].kind == SurfaceKind::Stop;
-  if (!named || count(SurfaceKind::Stop) != 1) return refused("stop_index must name the only stop");
-  if (count(SurfaceKind::Refracting) == 0) return refused("no surface refracts; a stop alone is no lens");
+  if (!named || count(SurfaceKind::Stop) != 1) return invalid_argument("stop_index must name the only stop");
+  if (count(SurfaceKind::Refracting) == 0) return invalid_argument("no surface refracts; a stop alone is no lens");
   for (std::size_t k = 0; k < lens.surfaces.size(); ++k)
     if (auto good = check_surface(lens, k); !good) return good;
   return {};
@@ -82,22 +80,23 @@ Result<void> check_surfaces(const LensState& lens) {
 Result<void> check_figures(const LensState& lens) {
   const auto positive = [](double value, double most) { return value > 0.0 && value <= most; };
   if (!within(lens.design_wavelength_nm, 100.0, 1e5))
-    return refused(fmt::format("a design wavelength of {} nm", lens.design_wavelength_nm));
+    return invalid_argument(fmt::format("a design wavelength of {} nm", lens.design_wavelength_nm));
   if (!positive(lens.stop_radius_mm, kLargest_mm))
-    return refused(fmt::format("a stop of radius {} mm lets no light through", lens.stop_radius_mm));
+    return invalid_argument(fmt::format("a stop of radius {} mm lets no light through", lens.stop_radius_mm));
   if (!within(lens.sensor_z_mm, -kFarthest_mm, kFarthest_mm))
-    return refused(fmt::format("a sensor at {} mm", lens.sensor_z_mm));
+    return invalid_argument(fmt::format("a sensor at {} mm", lens.sensor_z_mm));
   if (!positive(lens.sensor_width_mm, kLargest_mm) || !positive(lens.sensor_height_mm, kLargest_mm))
-    return refused(fmt::format("a sensor of {} x {} mm", lens.sensor_width_mm, lens.sensor_height_mm));
+    return invalid_argument(fmt::format("a sensor of {} x {} mm", lens.sensor_width_mm, lens.sensor_height_mm));
   if (std::isnan(lens.focal_length_mm) || lens.focal_length_mm == 0.0)
-    return refused(fmt::format("a focal length of {} mm", lens.focal_length_mm));
-  if (!positive(lens.f_number, kNarrowest)) return refused(fmt::format("an f-number of {}", lens.f_number));
+    return invalid_argument(fmt::format("a focal length of {} mm", lens.focal_length_mm));
+  if (!positive(lens.f_number, kLargestFNumber))
+    return invalid_argument(fmt::format("an f-number of {}", lens.f_number));
   if (!(lens.object_distance_mm > 0.0))
-    return refused(fmt::format("an object at a distance of {} mm", lens.object_distance_mm));
+    return invalid_argument(fmt::format("an object at a distance of {} mm", lens.object_distance_mm));
   const SensorGrating& grating = lens.sensor_grating;
   if (grating.orders < 0 || grating.orders > SensorStack::kMostOrders || !positive(grating.pitch_mm, kLargest_mm) ||
       !positive(grating.fill, 1.0))
-    return refused("the sensor's grating is none: its orders, pitch or fill are out of range");
+    return invalid_argument("the sensor's grating is none: its orders, pitch or fill are out of range");
   return {};
 }
 

@@ -25,7 +25,6 @@ constexpr double kNominalTolerance = 1e-6;   // relative: the same nominal focal
 constexpr double kPrimeTolerance = 5e-3;     // relative: asking a prime for its own focal length
 constexpr double kFNumberTolerance = 5e-2;   // relative: what patents call 2.92 is sold as 2.8
 constexpr double kStopTolerance = 1e-2;      // relative: a stop that misses the widest f-number by less is no news
-constexpr double kNarrowest = 1e5;           // f-number
 constexpr int kZoomBisections = 60;          // to the last bit of the interpolation parameter
 
 // Thicknesses at one zoom position, or between two.
@@ -227,7 +226,7 @@ double wanted_stop_mm(const LensState& state, const Prescription& lens, double f
 Result<void> set_stop(LensState& state, const Prescription& lens, const std::optional<double>& f_number) {
   const SurfaceState& stop = state.surfaces[static_cast<std::size_t>(state.stop_index)];
   state.f_number = f_number.value_or(lens.f_number);
-  if (!(state.f_number >= lens.f_number * (1.0 - kFNumberTolerance)) || state.f_number > kNarrowest) {
+  if (!(state.f_number >= lens.f_number * (1.0 - kFNumberTolerance)) || state.f_number > kLargestFNumber) {
     return failure(ErrorCode::InvalidArgument,
                    fmt::format("f/{:g} is out of range; this lens opens to f/{:.3g}, choose that or a larger number",
                                state.f_number, lens.f_number),

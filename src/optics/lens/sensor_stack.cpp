@@ -12,16 +12,17 @@ namespace {
 constexpr double kThickest_mm = 100.0, kWidestGap_mm = 1000.0;
 constexpr double kFinestPitch_mm = 1e-4, kWidestPitch_mm = 1.0;
 
-tl::unexpected<Error> refused(std::string message) { return failure(ErrorCode::InvalidArgument, std::move(message)); }
-
 Result<void> check_plate(const SensorPlate& plate) {
   if (!(plate.thickness_mm > 0.0 && plate.thickness_mm <= kThickest_mm) ||
       !(plate.gap_mm >= 0.0 && plate.gap_mm <= kWidestGap_mm)) {
-    return refused(fmt::format("a plate of {} mm, {} mm before what follows; give a thickness to {} and a gap to {} mm",
-                               plate.thickness_mm, plate.gap_mm, kThickest_mm, kWidestGap_mm));
+    return invalid_argument(
+        fmt::format("a plate of {} mm, {} mm before what follows; give a thickness to {} and a gap to {} mm",
+                    plate.thickness_mm, plate.gap_mm, kThickest_mm, kWidestGap_mm));
   }
-  if (const auto problem = glass_problem(plate.glass)) return refused("a plate before the sensor: " + *problem);
-  if (const auto problem = coating_problem(plate.coating)) return refused("a plate before the sensor: " + *problem);
+  if (const auto problem = glass_problem(plate.glass))
+    return invalid_argument("a plate before the sensor: " + *problem);
+  if (const auto problem = coating_problem(plate.coating))
+    return invalid_argument("a plate before the sensor: " + *problem);
   return {};
 }
 
@@ -36,17 +37,17 @@ Coating reflecting(double share) { return {"sensor", MeasuredCoating{{kLineD_nm}
 
 Result<void> check_sensor_stack(const SensorStack& stack) {
   if (stack.plates.size() > SensorStack::kMostPlates)
-    return refused(
+    return invalid_argument(
         fmt::format("{} plates before the sensor; give {} at most", stack.plates.size(), SensorStack::kMostPlates));
   for (const SensorPlate& plate : stack.plates)
     if (const auto good = check_plate(plate); !good) return good;
   if (!(stack.reflectance >= 0.0 && stack.reflectance <= 1.0))
-    return refused(fmt::format("a sensor that reflects {}; give a share from 0 to 1", stack.reflectance));
+    return invalid_argument(fmt::format("a sensor that reflects {}; give a share from 0 to 1", stack.reflectance));
   const bool fits = stack.orders >= 0 && stack.orders <= SensorStack::kMostOrders &&
                     stack.pitch_mm >= kFinestPitch_mm && stack.pitch_mm <= kWidestPitch_mm && stack.fill > 0.0 &&
                     stack.fill <= 1.0;
   if (fits) return {};
-  return refused(
+  return invalid_argument(
       fmt::format("pixels of {} um, {} of them filled, {} orders; give a pitch from {} to {} um, a fill to "
                   "1 and {} orders at most",
                   stack.pitch_mm * 1e3, stack.fill, stack.orders, kFinestPitch_mm * 1e3, kWidestPitch_mm * 1e3,

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "base/near_name.h"
+#include "base/scalar.h"
 #include "contrejour/lens.h"
 #include "optics/lens/rims.h"
 
@@ -45,8 +46,6 @@ struct RowFailure {
     return failure(ErrorCode::InvalidArgument, std::move(message), {lens.file.file, line, 0});
   }
 };
-
-bool within(double value, double low, double high) { return value >= low && value <= high; }
 
 Result<void> check_lens_values(const Prescription& lens) {
   const RowFailure fail{lens};

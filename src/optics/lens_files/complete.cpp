@@ -20,7 +20,6 @@ constexpr double kPlausibleFNumber = 1.0;  // until the real one is known
 constexpr int kHalvings = 50;
 
 // A rim that is missing: any small one, for questions that rims have no part in.
-constexpr double kNoRim_mm = 1e-3;
 
 std::size_t stop_of(const Prescription& lens) {
   const auto is_stop = [](const Surface& s) { return s.kind == SurfaceKind::Stop; };

@@ -16,6 +16,9 @@ struct Beam {
 // For questions that films have no part in: to design those of a coating takes milliseconds.
 [[nodiscard]] inline LensSettings without_films() { return {.coating = Coating{}}; }
 
+// For questions that rims and f-number have no part in.
+inline constexpr double kNoRim_mm = 1e-3, kAnyFNumber = 8.0;
+
 // What is left of a semi-diameter that a file tells; less, and its other numbers are wrong.
 inline constexpr double kLeastShare = 0.75;
 

@@ -16,8 +16,6 @@
 namespace contrejour {
 namespace {
 
-// For questions that rims and stops have no part in.
-constexpr double kNoRim_mm = 1e-3, kAnyFNumber = 8.0;
 constexpr double kLeastRoom = 0.02;  // of the lens's length: a narrower gap holds no iris
 constexpr double kSameFocalLength = 0.2;  // relative: farther off, the rows are not all of the lens
 constexpr std::array kPlaces{0.05, 0.5, 0.95};  // within a gap

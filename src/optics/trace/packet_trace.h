@@ -7,6 +7,7 @@
 
 #include <array>
 #include <cstddef>
+#include <limits>
 #include <memory>
 #include <vector>
 
@@ -124,8 +125,10 @@ class PacketPath {
   int stop_crossings_ = 0;
 };
 
+inline constexpr float kFailed = std::numeric_limits<float>::infinity();  // the relative height of a ray that fails
+
 // Where the results go. Transmissions of a light at a finite distance are times LightSource::flux_at. A ray that fails
-// has r_rel = infinity, transmission 0 and a sensor point of no meaning. A place p within an obscuration or near it,
+// has r_rel = kFailed, transmission 0 and a sensor point of no meaning. A place p within an obscuration or near it,
 // over its radius, counts as a relative height of 2 - p: more than 1 where it blocks, and as even as that of a rim.
 struct TracedArrays {
   float* sensor_x_mm = nullptr;

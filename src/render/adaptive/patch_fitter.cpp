@@ -26,8 +26,6 @@ constexpr double kMostLooser = 64.0, kRough = 10.0;
 constexpr int kBesideFailure = 1;  // quarterings more, where too much light would be lost between rays that fail
 constexpr double kHopeless = 2.0;  // times the tolerance, foretold of more nodes
 
-double area(const Rectangle& r) { return (r.high.x - r.low.x) * (r.high.y - r.low.y); }
-
 // A patch's error over what is allowed.
 double misfit(const Patch& patch, const Tolerance& tolerance) {
   const PatchError e = estimated_error(patch);
@@ -123,7 +121,7 @@ void PatchFitter::fit(const BoxPart& part, std::optional<double> first_misfit, c
     const auto lit = lit_part(sheets, tracers_.light(), frame_, fitting.mirror_image != nullptr);
     if (!lit) return;
     const bool last_part = part.depth >= deepest_;
-    if (!last_part && area(*lit) < kWorthShrinking * area(box))
+    if (!last_part && area_of(*lit) < kWorthShrinking * area_of(box))
       return fit(whole(*lit, part.depth + 1), std::nullopt, fitting);
     const bool last = k + 1 == kNodes.size();
     const bool arrive = all_arrive(sheets);

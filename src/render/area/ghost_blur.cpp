@@ -25,8 +25,6 @@ LinearMap pixels_from(const LinearMap& mm, double pitch_mm) {
 
 double variance(Vec2 row, const LinearMap& covariance) { return dot(row, covariance(row)); }
 
-Vec2 along(Vec2 normal, const LinearMap& map) { return {dot(normal, map.x), dot(normal, map.y)}; }
-
 bool touches(const Frame& frame, Vec2 px, double radius_px) {
   return px.x > -radius_px && px.y > -radius_px && px.x < frame.width + radius_px && px.y < frame.height + radius_px;
 }

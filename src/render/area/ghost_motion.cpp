@@ -173,9 +173,6 @@ class LocalMotion {
 
 Vec2 across(Vec2 v) { return {-v.y, v.x}; }
 
-// Along a normal of the sensor, by the light's tangents.
-Vec2 along(Vec2 normal, const LinearMap& map) { return {dot(normal, map.x), dot(normal, map.y)}; }
-
 // A place of the outline moves along its normal as far as what blocks there makes it.
 std::optional<GhostFeature> border_feature(const LocalMotion& at, int which) {
   const LocalMotion::Bound bound = at.bound(which);

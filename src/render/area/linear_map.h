@@ -50,6 +50,9 @@ inline LinearMap mapped_covariance(const LinearMap& map, const LinearMap& covari
   return map * covariance * transposed(map);
 }
 
+// How far the map moves a place along that direction, by each of its two variables.
+inline Vec2 along(Vec2 direction, const LinearMap& map) { return {dot(direction, map.x), dot(direction, map.y)}; }
+
 inline double trace_of(const LinearMap& a) { return a.x.x + a.y.y; }
 
 }  // namespace contrejour::area

@@ -5,11 +5,11 @@
 #include <limits>
 
 #include "kernels/iris_blades.h"
+#include "optics/trace/packet_trace.h"
 
 namespace contrejour::bundle {
 namespace {
 
-constexpr float kFailed = std::numeric_limits<float>::infinity();
 // Cells around a vertex that differ by more than this in area do not sample a smooth map.
 constexpr float kSmoothRatio = 1.5F;
 // A change of irradiance within a smaller cell, in pixels of area, is not seen.

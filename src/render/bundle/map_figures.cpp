@@ -6,10 +6,11 @@
 #include <limits>
 #include <numbers>
 
+#include "optics/trace/packet_trace.h"
+
 namespace contrejour::bundle {
 namespace {
 
-constexpr float kFailed = std::numeric_limits<float>::infinity();
 constexpr double kVeryAnisotropic = 1000.0;
 constexpr int kLowestLevel = 16;
 constexpr int kHighestLevel = 512;

@@ -13,7 +13,7 @@ namespace contrejour {
 namespace {
 
 constexpr double kMostPixels = 268435456.0;  // 2^28
-constexpr int kFarthest = 1 << 28;           // a line of all pixels
+constexpr int kFarthestPixel = 1 << 28;           // a line of all pixels
 constexpr double kLeastPitch_mm = 1e-8, kMostPitch_mm = 1e6;
 
 }  // namespace
@@ -33,11 +33,11 @@ Result<void> check_frame(const Frame& f) {
         fmt::format("a frame of {} x {} pixels has no pixels; give a size of at least 1x1", f.width, f.height));
   if (static_cast<double>(f.width) * f.height > kMostPixels)
     return invalid(fmt::format("a frame of {} x {} pixels is too large; 2^28 pixels are the limit", f.width, f.height));
-  const auto is_near = [](int pixels) { return pixels >= -kFarthest && pixels <= kFarthest; };
+  const auto is_near = [](int pixels) { return pixels >= -kFarthestPixel && pixels <= kFarthestPixel; };
   if (!is_near(f.origin_x) || !is_near(f.origin_y) || !is_near(f.full_width) || !is_near(f.full_height))
     return invalid(
         fmt::format("a frame of {} x {} pixels at {}, {} is too large or too far away; {} pixels are the limit",
-                    f.full_width, f.full_height, f.origin_x, f.origin_y, kFarthest));
+                    f.full_width, f.full_height, f.origin_x, f.origin_y, kFarthestPixel));
   if (!(f.pixel_pitch_mm >= kLeastPitch_mm && f.pixel_pitch_mm <= kMostPitch_mm))
     return invalid(fmt::format("a pixel pitch of {} mm is out of range; choose {} to {}", f.pixel_pitch_mm,
                                kLeastPitch_mm, kMostPitch_mm));

@@ -11,8 +11,6 @@
 namespace contrejour {
 namespace {
 
-tl::unexpected<Error> invalid(std::string message) { return failure(ErrorCode::InvalidArgument, std::move(message)); }
-
 bool is_gain(double value) { return value >= 0.0 && std::isfinite(value); }
 bool is_colour(const Rgb& rgb) { return std::all_of(rgb.begin(), rgb.end(), is_gain); }
 
@@ -42,23 +40,27 @@ Vec2 scattered(Ghost ghost, std::uint32_t seed) {
 }  // namespace
 
 Result<void> check_ghost_options(const LensState& lens, const GhostOptions& options) {
-  if (!is_gain(options.gain) || !is_gain(options.edge_gain)) return invalid("a gain of ghosts must be 0 or more");
+  if (!is_gain(options.gain) || !is_gain(options.edge_gain))
+    return invalid_argument("a gain of ghosts must be 0 or more");
   if (!(options.scatter >= 0.0 && options.scatter <= kFarthestOffset))
-    return invalid(fmt::format("ghosts are scattered by 0 to {} times the frame's height", kFarthestOffset));
+    return invalid_argument(fmt::format("ghosts are scattered by 0 to {} times the frame's height", kFarthestOffset));
   for (const GhostAdjustment& a : options.adjustments) {
     const std::string whose = name_of(a);
     if (a.surface != 0 ? !reflects_at(lens, a.surface) : !has_ghost(lens, a.ghost))
-      return invalid(fmt::format("there is no {} in this lens; `contrejour ghosts` lists those there are", whose));
+      return invalid_argument(
+          fmt::format("there is no {} in this lens; `contrejour ghosts` lists those there are", whose));
     if (!is_gain(a.gain) || !is_colour(a.colour))
-      return invalid(fmt::format("{}: give a gain and colours of 0 or more", whose));
+      return invalid_argument(fmt::format("{}: give a gain and colours of 0 or more", whose));
     if (!(std::abs(a.offset.x) <= kFarthestOffset && std::abs(a.offset.y) <= kFarthestOffset))
-      return invalid(fmt::format("{}: give an offset of at most {} times the frame's height", whose, kFarthestOffset));
+      return invalid_argument(
+          fmt::format("{}: give an offset of at most {} times the frame's height", whose, kFarthestOffset));
   }
   for (std::size_t k = 0; k < options.ramp.size(); ++k) {
     const GhostRampStop& stop = options.ramp[k];
     if (!(std::abs(stop.place) <= kFarthestPlace) || !is_colour(stop.colour))
-      return invalid(fmt::format("a ramp's places must lie within {} and its colours be 0 or more", kFarthestPlace));
-    if (k > 0 && !(stop.place > options.ramp[k - 1].place)) return invalid("let the places of a ramp rise");
+      return invalid_argument(
+          fmt::format("a ramp's places must lie within {} and its colours be 0 or more", kFarthestPlace));
+    if (k > 0 && !(stop.place > options.ramp[k - 1].place)) return invalid_argument("let the places of a ramp rise");
   }
   return {};
 }
@@ -73,9 +75,9 @@ Result<void> check_brightness(std::span<const Light> lights, std::span<const Gho
     for (std::size_t k = 0; k < lights.size(); ++k) {
       const double value = lights[k].value[c];
       if (std::abs(value) * gain <= kMostLightValue) continue;
-      return invalid(fmt::format("light {}: its value of {:.4g} times the gains of ghost {}, {:.4g}, is beyond {:.0e}",
-                                 k + 1, value, ghost_name(ghosts[static_cast<std::size_t>(strongest - looks.begin())]),
-                                 gain, kMostLightValue));
+      return invalid_argument(fmt::format(
+          "light {}: its value of {:.4g} times the gains of ghost {}, {:.4g}, is beyond {:.0e}", k + 1, value,
+          ghost_name(ghosts[static_cast<std::size_t>(strongest - looks.begin())]), gain, kMostLightValue));
     }
   }
   return {};

@@ -12,29 +12,28 @@ namespace contrejour {
 namespace {
 
 constexpr double kLargestRadius_rad = 0.25 * std::numbers::pi;
-constexpr double kFarthest = 1.0 + 1e-9;  // tangent of 45 degrees
+constexpr double kLargestTangent = 1.0 + 1e-9;  // tangent of 45 degrees
 constexpr int kLargestSide = 4096;
 
 Vec3 cross_product(Vec3 a, Vec3 b) { return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x}; }
-
-tl::unexpected<Error> invalid(std::string message) { return failure(ErrorCode::InvalidArgument, std::move(message)); }
 
 Result<void> check_shape(const LightShape& shape) {
   const Image& level = shape.level;
   if (level.width < 1 || level.height < 1 || level.width > kLargestSide || level.height > kLargestSide ||
       (level.channels != 1 && level.channels != 3) || level.pixels.size() != level.index(0, level.height))
-    return invalid("a light's shape must be a picture of one or three channels and 1 to 4096 pixels a side");
+    return invalid_argument("a light's shape must be a picture of one or three channels and 1 to 4096 pixels a side");
   double sum = 0.0;
   for (const float v : level.pixels) {
-    if (!(v >= 0.0F) || !std::isfinite(v)) return invalid("the levels of a light's shape must be finite and 0 or more");
+    if (!(v >= 0.0F) || !std::isfinite(v))
+      return invalid_argument("the levels of a light's shape must be finite and 0 or more");
     sum += v;
   }
-  if (!(sum > 0.0)) return invalid("a light's shape is dark everywhere");
+  if (!(sum > 0.0)) return invalid_argument("a light's shape is dark everywhere");
   for (const int corner : {0, 1, 2, 3}) {
     const Vec2 px{corner % 2 == 0 ? 0.0 : level.width, corner / 2 == 0 ? 0.0 : level.height};
     const Vec2 from = px - shape.centre_px;
-    if (!(length(shape.right * from.x + shape.down * from.y) <= kFarthest))
-      return invalid("a light's shape must lie within 45 degrees of its direction");
+    if (!(length(shape.right * from.x + shape.down * from.y) <= kLargestTangent))
+      return invalid_argument("a light's shape must lie within 45 degrees of its direction");
   }
   return {};
 }
@@ -49,16 +48,17 @@ bool is_visible_spectrum(const Spectrum& spectrum) {
 
 Result<void> check_light(const Light& light, ColourSpace space) {
   const Vec3 d = light.direction;
-  if (!std::isfinite(d.x + d.y + d.z)) return invalid("its direction is not a finite number");
-  if (!(d.z > 0.0)) return invalid("it is beside or behind the camera");
-  if (!(light.distance_mm > 0.0)) return invalid("its distance must be above 0");
+  if (!std::isfinite(d.x + d.y + d.z)) return invalid_argument("its direction is not a finite number");
+  if (!(d.z > 0.0)) return invalid_argument("it is beside or behind the camera");
+  if (!(light.distance_mm > 0.0)) return invalid_argument("its distance must be above 0");
   for (const double value : light.value) {
-    if (!std::isfinite(value)) return invalid("its value is not a finite number");
+    if (!std::isfinite(value)) return invalid_argument("its value is not a finite number");
     if (std::abs(value) > kMostLightValue)
-      return invalid(fmt::format("its value of {:.4g} is too large; {:.0e} is the limit", value, kMostLightValue));
+      return invalid_argument(
+          fmt::format("its value of {:.4g} is too large; {:.0e} is the limit", value, kMostLightValue));
   }
-  if (luminance(light.value, space) < 0.0) return invalid("its value is negative");
-  if (!is_visible_spectrum(light.spectrum)) return invalid("nothing of its spectrum is visible");
+  if (luminance(light.value, space) < 0.0) return invalid_argument("its value is negative");
+  if (!is_visible_spectrum(light.spectrum)) return invalid_argument("nothing of its spectrum is visible");
   return check_extent(light);
 }
 
@@ -74,9 +74,9 @@ LightAngles angles_from_direction(Vec3 direction) {
 
 Result<void> check_extent(const Light& light) {
   if (!(light.radius_rad >= 0.0 && light.radius_rad <= kLargestRadius_rad))
-    return invalid("a light's radius must be from 0 to 45 degrees");
+    return invalid_argument("a light's radius must be from 0 to 45 degrees");
   if (!light.shape) return {};
-  if (light.radius_rad > 0.0) return invalid("a light has a radius and a shape; give one of them");
+  if (light.radius_rad > 0.0) return invalid_argument("a light has a radius and a shape; give one of them");
   return check_shape(*light.shape);
 }
 

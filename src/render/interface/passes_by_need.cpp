@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::size_t kFewest = 3;      // bands of a ghost
 constexpr double kApart_px = 1.5;       // the most between the images at a band's ends
-constexpr std::size_t kSamples = 7;     // wavelengths with rays
+constexpr std::size_t kRayWavelengths = 7;     // wavelengths with rays
 constexpr int kSide = 9;                // rays a side
 constexpr float kNearlyThrough = 0.2F;  // RayGrid::blocked of rays that show where the image is
 
@@ -54,7 +54,7 @@ class GhostProbe {
     if (!pupil) return std::nullopt;
     std::vector<double> lambda_nm;
     for (const PlannedPass& pass : light_.passes) lambda_nm.push_back(pass.lambda_nm);
-    GhostSpectrum out{WavelengthSamples(lambda_nm, kSamples), std::vector<double>(lambda_nm.size(), 0.0)};
+    GhostSpectrum out{WavelengthSamples(lambda_nm, kRayWavelengths), std::vector<double>(lambda_nm.size(), 0.0)};
     std::vector<RayGrid> grids(out.samples.size());
     for (std::size_t k = 0; k < grids.size(); ++k) {
       const double at_nm = lambda_nm[out.samples[k]];

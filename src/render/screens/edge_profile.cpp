@@ -4,10 +4,11 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/scalar.h"
+
 namespace contrejour::screens {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr double kStep = 1.0 / 128.0;  // a fringe at t = 32 is eight of them
 constexpr double kShadowTaper = 1.5, kLightTaper = 8.0;  // where the table fades to its ends
 constexpr int kBandSamples = 33;
@@ -53,11 +54,6 @@ class OneWavelength {
   double first_;
   std::vector<double> value_;
 };
-
-double smooth_step(double x) {
-  const double t = std::clamp(x, 0.0, 1.0);
-  return t * t * (3.0 - 2.0 * t);
-}
 
 }  // namespace
 

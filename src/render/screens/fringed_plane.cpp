@@ -7,10 +7,11 @@
 #include <numbers>
 #include <numeric>
 
+#include "base/scalar.h"
+
 namespace contrejour::screens {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr double kSharpSpeck = 5.5;  // units wide: from here on a speck's rim is nearly straight
 constexpr double kSlicesOfUnit = 3.5;
 constexpr double kSizesPerOctave = 4.0;  // of specks, that are told apart by what they send away

@@ -23,7 +23,6 @@ namespace {
 
 constexpr int kDegree = 8;            // of places at stop and rims
 constexpr int kAmplitudeDegree = 4;
-constexpr std::size_t kRaysPerTerm = 3;
 constexpr double kFitBeyond = 0.06;   // relative radii: rays so far outside still shape the borders
 constexpr double kNearRim = 0.05;     // a rim that comes so near to the pupil may cut it somewhere between the rays
 constexpr double kObscures = 3.0;  // of an obscuration's radius, less one: small ones may lie between the rays
@@ -161,7 +160,7 @@ std::vector<std::size_t> rays_within(const PupilRays& pupil, double beyond) {
 }
 
 int degree_for(std::size_t rays, int wanted) {
-  while (wanted > 0 && SmoothFit::terms(wanted) * kRaysPerTerm > rays) --wanted;
+  while (wanted > 0 && SmoothFit::terms(wanted) * SmoothFit::kPlacesPerTerm > rays) --wanted;
   return wanted;
 }
 
@@ -294,7 +293,7 @@ ExitPupil pupil_of(const PupilRays& pupil, const LensState& lens, const LightSou
   ExitPupil out;
   const std::vector<std::size_t> open = open_rays(pupil), used = rays_within(pupil, kFitBeyond);
   const int degree = degree_for(used.size(), kDegree);
-  if (open.size() < kRaysPerTerm * SmoothFit::terms(1) || degree < 1) return out;
+  if (open.size() < SmoothFit::kPlacesPerTerm * SmoothFit::terms(1) || degree < 1) return out;
   const std::vector<std::size_t> rims = vignetting_rims(pupil);
 
   std::vector<std::size_t> fitted, held_out;

@@ -10,7 +10,6 @@
 namespace contrejour {
 namespace {
 
-constexpr std::size_t kRaysPerTerm = 3;
 constexpr double kRimShare = 0.1;     // about a rim, where it is looked at as a circle seen from the stop
 constexpr double kOutlineAgrees = 0.15;  // of the area
 
@@ -37,7 +36,7 @@ std::optional<IrisBound> rim_seen_from_stop(const PupilRays& pupil, std::size_t 
     stops.push_back(ray.stop);
     outside.push_back(beyond);
   }
-  if (stops.size() < kRaysPerTerm * SmoothFit::terms(2)) return std::nullopt;
+  if (stops.size() < SmoothFit::kPlacesPerTerm * SmoothFit::terms(2)) return std::nullopt;
   const SmoothFit level(stops, outside, 2);
   std::vector<double> minus_squares;
   constexpr double h = 1e-5;

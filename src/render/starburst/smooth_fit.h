@@ -13,6 +13,7 @@ namespace contrejour {
 class SmoothFit {
  public:
   static constexpr int kHighestDegree = 8;
+  static constexpr std::size_t kPlacesPerTerm = 3;  // at least, for a fit that follows what is measured
 
   // values[f * places.size() + i]: of function f at places[i]. degree: in both coordinates together.
   SmoothFit(std::span<const Vec2> places, std::span<const double> values, int degree);

@@ -16,9 +16,9 @@
 namespace contrejour {
 namespace {
 
-class Reader {
+class DeepLensReader {
  public:
-  Reader(const JsonField& root, const LensText& in)
+  DeepLensReader(const JsonField& root, const LensText& in)
       : errors_{in.file, {}}, root_(root.reporting_to(errors_)), finder_(in.glasses) {
     lens_.file = {in.file, 0, 0};
     lens_.name = stem_of(in.file);
@@ -176,6 +176,8 @@ bool is_deeplens(const JsonField& root) {
   return first["type"].is_text() && (first["d_next"].is_there() || first["mat2"].is_there());
 }
 
-Result<Prescription> read_deeplens(const JsonField& root, const LensText& in) { return Reader(root, in).read(); }
+Result<Prescription> read_deeplens(const JsonField& root, const LensText& in) {
+  return DeepLensReader(root, in).read();
+}
 
 }  // namespace contrejour

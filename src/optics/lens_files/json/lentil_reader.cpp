@@ -33,9 +33,9 @@ std::string name_of(const JsonField& entry, std::string_view key) {
   return key.empty() ? name : fmt::format("{} ({})", name, key);
 }
 
-class Reader {
+class LentilReader {
  public:
-  Reader(const JsonField& entry, std::string_view key, const LensText& in)
+  LentilReader(const JsonField& entry, std::string_view key, const LensText& in)
       : errors_{in.file, {}}, entry_(entry.reporting_to(errors_)), glasses_(in.glasses) {
     lens_.file = {in.file, entry.line(), 0};
     lens_.name = name_of(entry_, key);
@@ -136,7 +136,7 @@ class Reader {
   Glass medium_ = air();
 };
 
-std::string first_keys(const JsonField& root) {
+std::string first_lens_keys(const JsonField& root) {
   constexpr std::size_t kMost = 10;
   std::string keys;
   std::size_t shown = 0;
@@ -155,12 +155,12 @@ bool is_lentil(const JsonField& root) {
 }
 
 Result<Prescription> read_lentil(const JsonField& root, const LensText& in) {
-  if (is_entry(root)) return Reader(root, "", in).read();
+  if (is_entry(root)) return LentilReader(root, "", in).read();
   std::vector<std::size_t> entries;
   for (std::size_t k = 0; k < root.size(); ++k)
     if (is_entry(root[k]) && (in.key.empty() || root.key(k) == in.key)) entries.push_back(k);
-  if (entries.size() == 1) return Reader(root[entries.front()], root.key(entries.front()), in).read();
-  const std::string keys = first_keys(root);
+  if (entries.size() == 1) return LentilReader(root[entries.front()], root.key(entries.front()), in).read();
+  const std::string keys = first_lens_keys(root);
   return failure(ErrorCode::InvalidArgument,
                  in.key.empty() ? fmt::format("{} lenses; name one as FILE#KEY, with a key of {}{}", entries.size(),
                                               keys, entries.size() > 10 ? ", ..." : "")

@@ -25,9 +25,9 @@ std::string plain(std::string_view text) {
   return out;
 }
 
-class Reader {
+class OptilandReader {
  public:
-  Reader(const JsonField& root, const LensText& in)
+  OptilandReader(const JsonField& root, const LensText& in)
       : errors_{in.file, {}}, root_(root.reporting_to(errors_)), finder_(in.glasses) {
     design_ = design_from("Optiland", in.file);
     design_.name = root_["name"].text();
@@ -266,6 +266,8 @@ class Reader {
 
 bool is_optiland(const JsonField& root) { return root["surface_group"].is_map(); }
 
-Result<Prescription> read_optiland(const JsonField& root, const LensText& in) { return Reader(root, in).read(); }
+Result<Prescription> read_optiland(const JsonField& root, const LensText& in) {
+  return OptilandReader(root, in).read();
+}
 
 }  // namespace contrejour

@@ -31,9 +31,9 @@ JsonField either(const JsonField& field, std::initializer_list<const char*> name
   return field[*names.begin()];
 }
 
-class Reader {
+class RoaReader {
  public:
-  Reader(const JsonField& root, const LensText& in)
+  RoaReader(const JsonField& root, const LensText& in)
       : errors_{in.file, {}}, model_(content_of(root.reporting_to(errors_)["optical_model"])),
         sequence_(content_of(model_["seq_model"])), finder_(in.glasses) {
     design_ = design_from("ray-optics", in.file);
@@ -298,6 +298,6 @@ class Reader {
 
 bool is_roa(const JsonField& root) { return root["optical_model"].is_map(); }
 
-Result<Prescription> read_roa(const JsonField& root, const LensText& in) { return Reader(root, in).read(); }
+Result<Prescription> read_roa(const JsonField& root, const LensText& in) { return RoaReader(root, in).read(); }
 
 }  // namespace contrejour

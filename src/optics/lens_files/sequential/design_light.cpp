@@ -13,7 +13,7 @@
 namespace contrejour {
 namespace {
 
-constexpr double kAnyFNumber = 1.0, kNoRim_mm = 1e-3;  // for questions that neither has a part in
+constexpr double kNoFNumber = 1.0;  // for questions that it has no part in
 constexpr double kWidestHalfField_rad = 1.4;  // 80 degrees; a fisheye's rim is its surfaces' own
 constexpr double kRectilinear_rad = 1.05;  // 60 degrees; beyond, images of wide lenses are f times the angle, or less
 
@@ -28,7 +28,7 @@ struct Paraxial {
 };
 
 Result<Paraxial> paraxial(Prescription rows) {
-  rows.f_number = kAnyFNumber;
+  rows.f_number = kNoFNumber;
   rows.zoom.clear();
   rows.sensor_distance_mm.reset();
   for (Surface& surface : rows.surfaces) {

@@ -23,9 +23,9 @@ namespace {
 
 constexpr std::size_t kMostSurfaces = 1000;
 
-class Reader {
+class SeqReader {
  public:
-  explicit Reader(const LensText& in)
+  explicit SeqReader(const LensText& in)
       : errors_{in.file, {}}, finder_(in.glasses), surface_reader_(errors_.file),
         design_(design_from("CODE V", in.file)) {
     const std::vector<SeqCommand> commands = seq_commands(in.text);
@@ -243,6 +243,6 @@ bool looks_like_seq(std::string_view text) {
   return object && surface;
 }
 
-Result<Prescription> read_seq(const LensText& in) { return Reader(in).read(); }
+Result<Prescription> read_seq(const LensText& in) { return SeqReader(in).read(); }
 
 }  // namespace contrejour

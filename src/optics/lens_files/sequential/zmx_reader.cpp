@@ -19,9 +19,9 @@ namespace {
 
 constexpr std::size_t kMostSurfaces = 1000;
 
-class Reader {
+class ZmxReader {
  public:
-  explicit Reader(const LensText& in)
+  explicit ZmxReader(const LensText& in)
       : errors_{in.file, {}}, finder_(in.glasses), design_(design_from("Zemax", in.file)) {
     read_rows(in.text);
   }
@@ -144,6 +144,6 @@ bool looks_like_zmx(std::string_view text) {
   return surfaces && (text.find("CURV") != std::string_view::npos || text.find("DISZ") != std::string_view::npos);
 }
 
-Result<Prescription> read_zmx(const LensText& in) { return Reader(in).read(); }
+Result<Prescription> read_zmx(const LensText& in) { return ZmxReader(in).read(); }
 
 }  // namespace contrejour

@@ -22,7 +22,7 @@
 namespace contrejour {
 namespace {
 
-constexpr std::string_view kSpace = " \t\r\v\f";
+constexpr std::string_view kFlareSimSpace = " \t\r\v\f";
 constexpr double kAirIndex = 1.0001;  // FlareSim: no more than it is air, and a V_d below 0.1 no dispersion
 constexpr double kSameIndex = 1e-3;
 // Its files have no aspheres: what a strong one would reach, its sphere does not.
@@ -43,13 +43,13 @@ std::optional<double> f_number_in(std::string_view text) {
   return found;
 }
 
-std::vector<std::string_view> words_of(std::string_view line) {
+std::vector<std::string_view> flaresim_words(std::string_view line) {
   std::vector<std::string_view> words;
   constexpr std::size_t kMost = 16;
   while (words.size() < kMost) {
-    line = trimmed(line, kSpace);
+    line = trimmed(line, kFlareSimSpace);
     if (line.empty()) break;
-    const std::size_t end = std::min(line.find_first_of(kSpace), line.size());
+    const std::size_t end = std::min(line.find_first_of(kFlareSimSpace), line.size());
     words.push_back(line.substr(0, end));
     line.remove_prefix(end);
   }
@@ -58,9 +58,9 @@ std::vector<std::string_view> words_of(std::string_view line) {
 
 bool is_stop_word(std::string_view word) { return word == "stop" || word == "STOP" || word == "Stop"; }
 
-class Reader {
+class FlareSimReader {
  public:
-  explicit Reader(const LensText& in) : in_(in) { lens_.file = {in.file, 0, 0}; }
+  explicit FlareSimReader(const LensText& in) : in_(in) { lens_.file = {in.file, 0, 0}; }
 
   [[nodiscard]] Result<Prescription> read() {
     split();
@@ -84,16 +84,16 @@ class Reader {
     bool in_surfaces = false;
     for (int line = 1; !text.empty() && !error_; ++line) {
       const std::size_t end = std::min(text.find('\n'), text.size());
-      const std::string_view whole = trimmed(text.substr(0, end), kSpace);
+      const std::string_view whole = trimmed(text.substr(0, end), kFlareSimSpace);
       text.remove_prefix(std::min(end + 1, text.size()));
       if (whole.starts_with('#')) {
-        read_comment(trimmed(whole.substr(1), kSpace));
+        read_comment(trimmed(whole.substr(1), kFlareSimSpace));
       } else if (in_surfaces) {
-        read_surface(words_of(whole.substr(0, whole.find('#'))), line);
+        read_surface(flaresim_words(whole.substr(0, whole.find('#'))), line);
       } else if (whole.starts_with("surfaces:")) {
         in_surfaces = true;
       } else if (whole.starts_with("name:")) {
-        lens_.name = trimmed(whole.substr(5), kSpace);
+        lens_.name = trimmed(whole.substr(5), kFlareSimSpace);
       } else if (whole.starts_with("focal_length:")) {
         read_focal_length(whole.substr(13), line);
       } else if (!whole.empty() && whole.find(':') == std::string_view::npos) {
@@ -104,7 +104,7 @@ class Reader {
 
   // "Patent: US004448497", "14 surfaces, 7 glass elements, f/1.4": written by the converter; or anything.
   void read_comment(std::string_view comment) {
-    if (comment.starts_with("Patent:")) lens_.source = trimmed(comment.substr(7), kSpace);
+    if (comment.starts_with("Patent:")) lens_.source = trimmed(comment.substr(7), kFlareSimSpace);
     if (comment.find("Optical Bench") != std::string_view::npos) from_optical_bench_ = true;
     if (comment.find("glass elements") != std::string_view::npos) {
       if (const auto value = f_number_in(comment)) f_number_ = value;
@@ -114,8 +114,8 @@ class Reader {
   }
 
   void read_focal_length(std::string_view text, int line) {
-    text = trimmed(text.substr(0, text.find('#')), kSpace);
-    if (text.ends_with("mm")) text = trimmed(text.substr(0, text.size() - 2), kSpace);
+    text = trimmed(text.substr(0, text.find('#')), kFlareSimSpace);
+    if (text.ends_with("mm")) text = trimmed(text.substr(0, text.size() - 2), kFlareSimSpace);
     const auto value = plain_number(text);
     if (!value) return fail(line, fmt::format("'{}' is no focal length; give it in mm", shortened(text)));
     if (*value > 0.0) lens_.stated.focal_length_mm = value;  // 0: not told
@@ -261,7 +261,7 @@ class Reader {
 bool looks_like_flaresim(std::string_view text) {
   while (!text.empty()) {
     const std::size_t end = std::min(text.find('\n'), text.size());
-    const std::string_view line = trimmed(text.substr(0, end), kSpace);
+    const std::string_view line = trimmed(text.substr(0, end), kFlareSimSpace);
     text.remove_prefix(std::min(end + 1, text.size()));
     if (line.starts_with("surfaces:")) return true;
     if (line.empty() || line.starts_with('#')) continue;
@@ -274,6 +274,6 @@ bool looks_like_flaresim(std::string_view text) {
   return false;
 }
 
-Result<Prescription> read_flaresim(const LensText& in) { return Reader(in).read(); }
+Result<Prescription> read_flaresim(const LensText& in) { return FlareSimReader(in).read(); }
 
 }  // namespace contrejour

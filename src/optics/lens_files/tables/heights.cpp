@@ -13,9 +13,6 @@ namespace {
 constexpr double kFocalTolerance = 0.2;
 constexpr double kSemiFrom = 0.7, kDiameterFrom = 1.7, kDiameterTo = 3.0;  // of the stop to the marginal ray
 
-// For questions that rims and stops have no part in.
-constexpr double kNoRim_mm = 1e-3, kAnyFNumber = 8.0;
-
 // Height of the real marginal ray at the stop at that f-number.
 std::optional<double> needed_at_stop_mm(Prescription lens, double f_number) {
   constexpr double kWide_mm = 1e4;

@@ -20,11 +20,11 @@
 namespace contrejour {
 namespace {
 
-constexpr std::string_view kSpace = " \t\r\n";
+constexpr std::string_view kXmlSpace = " \t\r\n";
 
-class Reader {
+class LensXmlReader {
  public:
-  Reader(const pugi::xml_node& system, const LensText& in) : system_(system), in_(in) {
+  LensXmlReader(const pugi::xml_node& system, const LensText& in) : system_(system), in_(in) {
     lens_.file = {in.file, line_of(system), 0};
   }
 
@@ -59,7 +59,7 @@ class Reader {
   }
 
   static std::string text_of(const pugi::xml_node& node, const char* child) {
-    return std::string(trimmed(node.child(child).child_value(), kSpace));
+    return std::string(trimmed(node.child(child).child_value(), kXmlSpace));
   }
 
   double number_or(const pugi::xml_node& node, const char* child, double fallback) {
@@ -188,7 +188,7 @@ class Reader {
 }  // namespace
 
 bool looks_like_lens_xml(std::string_view text) {
-  const std::size_t first = text.find_first_not_of(kSpace);
+  const std::size_t first = text.find_first_not_of(kXmlSpace);
   return first != std::string_view::npos && text[first] == '<' && text.find("<opticalSystem") != std::string_view::npos;
 }
 
@@ -207,7 +207,7 @@ Result<Prescription> read_lens_xml(const LensText& in) {
         ErrorCode::Parse,
         fmt::format("XML, but no lens of OpenLensFlare: it is a <{}>; give an <opticalSystem>", shortened(root.name())),
         {in.file, 0, 0});
-  return Reader(root, in).read();
+  return LensXmlReader(root, in).read();
 }
 
 }  // namespace contrejour

@@ -52,9 +52,9 @@ std::optional<double> number_of(std::string_view cell) {
   return plain_number(cell);
 }
 
-class Reader {
+class OpticalBenchReader {
  public:
-  Reader(std::string_view text, const std::string& file) : file_(file) {
+  OpticalBenchReader(std::string_view text, const std::string& file) : file_(file) {
     lens_.file = {file, 0, 0};
     split(text);
   }
@@ -302,6 +302,6 @@ class Reader {
 
 bool looks_like_optical_bench(std::string_view text) { return text.find("[lens data]") != std::string_view::npos; }
 
-Result<Prescription> read_optical_bench(const LensText& in) { return Reader(in.text, in.file).read(); }
+Result<Prescription> read_optical_bench(const LensText& in) { return OpticalBenchReader(in.text, in.file).read(); }
 
 }  // namespace contrejour

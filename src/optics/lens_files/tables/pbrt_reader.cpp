@@ -18,20 +18,20 @@
 namespace contrejour {
 namespace {
 
-constexpr std::string_view kSpace = " \t\r\"";
+constexpr std::string_view kPbrtSpace = " \t\r\"";
 
 // Exactly four numbers between spaces.
 std::optional<std::array<double, 4>> four_numbers(std::string_view line) {
   std::array<double, 4> numbers{};
   for (double& number : numbers) {
-    line = trimmed(line, kSpace);
-    const std::size_t end = std::min(line.find_first_of(kSpace), line.size());
+    line = trimmed(line, kPbrtSpace);
+    const std::size_t end = std::min(line.find_first_of(kPbrtSpace), line.size());
     const auto cell = plain_number(line.substr(0, end));
     if (!cell) return std::nullopt;
     number = *cell;
     line.remove_prefix(end);
   }
-  return trimmed(line, kSpace).empty() ? std::optional(numbers) : std::nullopt;
+  return trimmed(line, kPbrtSpace).empty() ? std::optional(numbers) : std::nullopt;
 }
 
 // body(number, line without its comment, comment) for each line, until it returns false.
@@ -43,7 +43,7 @@ void for_each_line(std::string_view text, const Body& body) {
     text.remove_prefix(std::min(end + 1, text.size()));
     const std::size_t hash = line.find('#');
     const std::string_view comment = hash == std::string_view::npos ? std::string_view() : line.substr(hash + 1);
-    if (!body(number, trimmed(line.substr(0, hash), kSpace), trimmed(comment, kSpace))) return;
+    if (!body(number, trimmed(line.substr(0, hash), kPbrtSpace), trimmed(comment, kPbrtSpace))) return;
   }
 }
 

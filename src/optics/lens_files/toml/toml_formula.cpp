@@ -9,8 +9,8 @@ namespace contrejour {
 namespace {
 
 // make_glass() knows what is plausible; here any finite number passes.
-constexpr double kHuge = 1e30;
-constexpr NumberRange kFinite{-kHuge, kHuge};
+constexpr double kLargestCoefficient = 1e30;
+constexpr NumberRange kFiniteCoefficient{-kLargestCoefficient, kLargestCoefficient};
 constexpr std::size_t kMaxNumbers = 100000;
 
 std::vector<double> read_list(TomlFields& fields, std::string_view key, std::size_t least, std::size_t most) {
@@ -21,7 +21,7 @@ std::vector<double> read_list(TomlFields& fields, std::string_view key, std::siz
     fields.fail_here(fmt::format("{} must be a list of {} numbers", key, how_many));
     return values;
   }
-  for (const toml::node& node : *list) values.push_back(fields.number_at(node, key, kFinite));
+  for (const toml::node& node : *list) values.push_back(fields.number_at(node, key, kFiniteCoefficient));
   return values;
 }
 
@@ -54,7 +54,7 @@ GlassData read_data(TomlFields& fields, TomlErrors& errors) {
     const auto t = read_list(fields, "thermal", 6, 6);
     if (t.size() == 6) data.thermal = ThermalDispersion{t[0], t[1], t[2], t[3], t[4], t[5]};
   }
-  data.reference_temperature_c = fields.number("temperature_c", kFinite).value_or(data.reference_temperature_c);
+  data.reference_temperature_c = fields.number("temperature_c", kFiniteCoefficient).value_or(data.reference_temperature_c);
   data.index_in_vacuum = fields.boolean("index_in_vacuum").value_or(false);
   data.wavelength_in_vacuum = fields.boolean("wavelength_in_vacuum").value_or(false);
   if (fields.has("absorption_per_mm")) read_absorption(fields, data);

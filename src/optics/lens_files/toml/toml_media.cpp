@@ -9,14 +9,13 @@
 #include "contrejour/film_design.h"
 #include "optics/lens/validate.h"
 #include "optics/lens_files/toml/toml_formula.h"
+#include "optics/lens_files/toml/toml_values.h"
 
 namespace contrejour {
 
 namespace {
 
 // glass_problem() and coating_problem() know what is plausible; here any finite number passes.
-constexpr double kHuge = 1e9;
-constexpr NumberRange kFinite{-kHuge, kHuge};
 
 std::array<double, 3> read_triple(TomlFields& fields, std::string_view key, bool& ok) {
   std::array<double, 3> values{};
@@ -161,11 +160,6 @@ Coating read_coating_keys(const toml::table& table, std::string name, const std:
   return coating;
 }
 
-// The names that mean something without a table.
-bool reserved_name(std::string_view name) {
-  return name == "air" || name == "none" || name == "quarter-wave" || find_coating_design(name);
-}
-
 template <class Medium, class Read>
 MediumTable<Medium> read_medium_table(const toml::table& lens, std::string_view key, Read read, TomlErrors& errors) {
   MediumTable<Medium> media;
@@ -177,7 +171,7 @@ MediumTable<Medium> read_medium_table(const toml::table& lens, std::string_view 
   }
   for (const auto& [name, entry] : *node->as_table()) {
     const std::string what = fmt::format("{} '{}'", key, shortened(name.str()));
-    if (reserved_name(name.str()) || name.str().empty()) {
+    if (is_reserved_name(name.str()) || name.str().empty()) {
       errors.fail(name.source(), fmt::format("{}: this name has a meaning already; choose another", what));
       return media;
     }

@@ -13,21 +13,20 @@
 #include "optics/lens_files/read_lens.h"
 #include "optics/lens_files/toml/toml_media.h"
 #include "optics/lens_files/toml/toml_shape.h"
+#include "optics/lens_files/toml/toml_values.h"
 
 namespace contrejour {
 
 namespace {
 
 // Wider than any lens; what is plausible validate() says with the surface's line.
-constexpr double kHuge = 1e9;
-constexpr NumberRange kFinite{-kHuge, kHuge};
 // Beyond this the image circle of a distortion-free lens says nothing about a real one.
 constexpr double kMaxHalfField_deg = 80.0;
 
 int line_of(const toml::node& node) { return static_cast<int>(node.source().begin.line); }
 
 // A lens while it is being read; air before the first surface.
-struct Reader {
+struct TomlReader {
   TomlErrors errors;
   MediumTable<Glass> glasses;
   MediumTable<Coating> coatings;
@@ -35,7 +34,7 @@ struct Reader {
   Coating default_coating;
   Prescription lens;
 
-  Reader(const std::string& file, const GlassCatalogue* own) : errors(file), finder(own) {}
+  TomlReader(const std::string& file, const GlassCatalogue* own) : errors(file), finder(own) {}
 
   [[nodiscard]] Glass glass_before() const { return lens.surfaces.empty() ? air() : lens.surfaces.back().glass_after; }
 
@@ -50,7 +49,7 @@ struct Reader {
   void read_zoom_position(const toml::table& row);
 };
 
-void Reader::read_lens_table(const toml::table& root) {
+void TomlReader::read_lens_table(const toml::table& root) {
   TomlFields fields(root, "lens",
                     {"name", "source", "f_number", "sensor_mm", "half_field_deg", "sensor_distance_mm",
                      "default_coating", "surfaces", "groups", "zoom", "stated", "glass", "coating"},
@@ -71,7 +70,7 @@ void Reader::read_lens_table(const toml::table& root) {
   if (!errors.failed()) refuse_unused(glasses, coatings, errors);
 }
 
-void Reader::read_stated(TomlFields& fields) {
+void TomlReader::read_stated(TomlFields& fields) {
   const toml::table* table = fields.table("stated");
   if (table == nullptr) return;
   TomlFields stated(*table, "stated", {"focal_length_mm", "back_focal_distance_mm", "wavelength_nm", "tolerance"},
@@ -82,7 +81,7 @@ void Reader::read_stated(TomlFields& fields) {
   lens.stated.tolerance = stated.number("tolerance", {1e-6, 0.5}).value_or(lens.stated.tolerance);
 }
 
-void Reader::read_sensor(TomlFields& fields) {
+void TomlReader::read_sensor(TomlFields& fields) {
   lens.sensor_distance_mm = fields.number("sensor_distance_mm", {1e-6, 1e5});
   if (fields.has("sensor_mm") == fields.has("half_field_deg")) {
     fields.fail_here("give the sensor either as sensor_mm = [36, 24] or by half_field_deg");
@@ -106,7 +105,7 @@ void Reader::read_sensor(TomlFields& fields) {
   lens.sensor_height_mm = 2.0 * radius_mm * 2.0 / std::sqrt(13.0);
 }
 
-void Reader::read_surfaces(TomlFields& fields) {
+void TomlReader::read_surfaces(TomlFields& fields) {
   const toml::array* rows = fields.array("surfaces");
   if (rows == nullptr) return fields.fail_here("surfaces is missing; list them from the front to the back");
   if (rows->size() > static_cast<std::size_t>(kMaxSurfaces)) {
@@ -124,7 +123,7 @@ void Reader::read_surfaces(TomlFields& fields) {
   if (lens.surfaces.empty()) fields.fail(*rows, "surfaces is empty; list them from the front to the back");
 }
 
-void Reader::read_surface(const toml::table& row, bool last) {
+void TomlReader::read_surface(const toml::table& row, bool last) {
   TomlFields fields(
       row, fmt::format("surface {}", lens.surfaces.size() + 1),
       {"radius_mm", "curvature_per_mm", "thickness_mm", "semi_diameter_mm", "glass", "coating", "stop", "conic",
@@ -156,7 +155,7 @@ void Reader::read_surface(const toml::table& row, bool last) {
   if (!errors.failed()) lens.surfaces.push_back(std::move(surface));
 }
 
-void Reader::read_stop(TomlFields& fields, Surface& surface) {
+void TomlReader::read_stop(TomlFields& fields, Surface& surface) {
   const auto is_stop = fields.boolean("stop");
   if (is_stop == false) return fields.fail(*fields.find("stop"), "stop = false says nothing; leave it out");
   for (const std::string_view key : {"radius_mm", "curvature_per_mm", "glass", "coating", "conic", "asphere", "toroid",
@@ -168,13 +167,13 @@ void Reader::read_stop(TomlFields& fields, Surface& surface) {
 }
 
 // What the row says; else the lens's default where glass meets air; else bare, as cemented faces are.
-Coating Reader::coating_of(TomlFields& fields, const Surface& surface) {
+Coating TomlReader::coating_of(TomlFields& fields, const Surface& surface) {
   if (const toml::node* own = fields.find("coating")) return read_coating(*own, fields.what(), coatings, errors);
   const bool glass_to_air = is_air(glass_before()) != is_air(surface.glass_after);
   return glass_to_air ? default_coating : Coating{};
 }
 
-void Reader::read_zoom(TomlFields& fields) {
+void TomlReader::read_zoom(TomlFields& fields) {
   const toml::array* rows = fields.array("zoom");
   if (rows == nullptr) return;
   if (rows->size() < 2 || rows->size() > static_cast<std::size_t>(kMaxZoomPositions)) {
@@ -191,7 +190,7 @@ void Reader::read_zoom(TomlFields& fields) {
   }
 }
 
-void Reader::read_zoom_position(const toml::table& row) {
+void TomlReader::read_zoom_position(const toml::table& row) {
   TomlFields fields(row, fmt::format("zoom position {}", lens.zoom.size() + 1), {"focal_length_mm", "thickness_mm"},
                     errors);
   ZoomPosition position;
@@ -226,7 +225,7 @@ Result<Prescription> read_lens_toml(std::string_view text, const std::string& fi
   }
   const Result<toml::table> root = parse_toml(text, file, "docs/formats/lens-toml.md");
   if (!root) return tl::unexpected(root.error());
-  Reader reader(file, glasses);
+  TomlReader reader(file, glasses);
   reader.lens.file = {file, 1, 0};
   reader.read_lens_table(*root);
   if (reader.errors.failed()) return tl::unexpected(reader.errors.error());

@@ -10,12 +10,11 @@
 #include "base/near_name.h"
 #include "base/units.h"
 #include "optics/lens/carried.h"
+#include "optics/lens_files/toml/toml_values.h"
 
 namespace contrejour {
 namespace {
 
-constexpr double kHuge = 1e9;
-constexpr NumberRange kFinite{-kHuge, kHuge};
 constexpr NumberRange kTilt_deg{-89.0, 89.0};
 constexpr double kUnit = 1e-12;  // an axis as long as 1 to this is left as it is
 

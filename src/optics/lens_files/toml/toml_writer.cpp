@@ -9,6 +9,7 @@
 #include "optics/lens_files/glass_finder.h"
 #include "optics/lens_files/toml/toml_formula.h"
 #include "optics/lens_files/toml/toml_shape.h"
+#include "optics/lens_files/toml/toml_values.h"
 
 namespace contrejour {
 
@@ -73,10 +74,6 @@ struct FilmsText {
 std::string keys_of(const Glass& glass) { return std::visit(DispersionText{}, glass.dispersion); }
 std::string keys_of(const Coating& coating) { return std::visit(FilmsText{}, coating.films); }
 
-bool reserved_name(std::string_view name) {
-  return name == "air" || name == "none" || name == "quarter-wave" || find_coating_design(name);
-}
-
 // Named media go to a table at the end of the file; one that cannot (no name, or a name that another medium of
 // the same name took) stands in the surface's row.
 class MediaTable {
@@ -86,7 +83,7 @@ class MediaTable {
     const std::string keys = keys_of(medium);
     if (medium.name.empty()) return fmt::format("{{ {} }}", keys);
     const std::string inline_text = fmt::format("{{ name = {}, {} }}", toml_string(medium.name), keys);
-    if (reserved_name(medium.name)) return inline_text;
+    if (is_reserved_name(medium.name)) return inline_text;
     if (is_known(medium)) {
       const auto [entry, is_new] = keys_.emplace(medium.name, "");
       return entry->second.empty() ? toml_string(medium.name) : inline_text;

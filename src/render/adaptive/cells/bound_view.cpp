@@ -19,7 +19,7 @@ BoundView::BoundView(const IrisBound& bound, std::span<const PlacedCorner> polyg
 }
 
 // An arc's: a rectangle about its centre, as wide as the polygon, whose corners are that deep.
-Band BoundView::deeper_than(double depth) const {
+Strip BoundView::deeper_than(double depth) const {
   if (std::isinf(radius_)) return {.most = outer_ - depth};
   const double radius = radius_ - depth, centre = outer_ - radius_;
   if (radius <= sideways_) return {centre, centre};

@@ -11,7 +11,7 @@
 namespace contrejour::adaptive {
 
 // Where normal . p is between two values.
-struct Band {
+struct Strip {
   double least = -std::numeric_limits<double>::infinity(), most = 0.0;
   [[nodiscard]] bool is_empty() const { return !(least < most); }
 };
@@ -24,8 +24,8 @@ class BoundView {
   [[nodiscard]] Vec2 normal() const { return normal_; }
   // Nothing within the bound has a larger normal . p.
   [[nodiscard]] double outer() const { return outer_; }
-  // Every place of the polygon in this band is within the bound, at least so far from it.
-  [[nodiscard]] Band deeper_than(double depth) const;
+  // Every place of the polygon in this strip is within the bound, at least so far from it.
+  [[nodiscard]] Strip deeper_than(double depth) const;
 
  private:
   Vec2 normal_;

@@ -253,7 +253,7 @@ void CellPainter::draw_screened(std::span<const Corner> polygon, double area_px,
   for (const IrisBound& bound : table.iris().bounds()) {
     if (rest_.is_empty()) return;
     const BoundView view(bound, rest_.corners());
-    const Band level = view.deeper_than(table.level_within() + room);
+    const Strip level = view.deeper_than(table.level_within() + room);
     if (level.is_empty()) return add_fringed(rest_.corners(), shade, map, looks, table);
     draw_beyond({view.normal(), level.most});
     if (std::isfinite(level.least)) draw_beyond({view.normal() * -1.0, -level.least});

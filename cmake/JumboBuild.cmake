@@ -1,0 +1,24 @@
+# contrejour_jumbo(TARGET): compiles several of the target's files as one, which reads the headers they share once. A whole
+# build takes a third of the time so. Names in anonymous namespaces must differ within a target: what has the same name
+# is mostly the same function, which then belongs in a header.
+#
+# Kernels that Highway compiles once an instruction set include themselves, and so stay files of their own.
+option(CONTREJOUR_JUMBO "Compile files in batches: builds everything sooner, a changed file later" ON)
+set(CONTREJOUR_JUMBO_BATCH 12 CACHE STRING "Files a batch")
+
+function(contrejour_jumbo target)
+  if(NOT CONTREJOUR_JUMBO)
+    return()
+  endif()
+  get_target_property(sources ${target} SOURCES)
+  foreach(source IN LISTS sources)
+    get_filename_component(path ${source} ABSOLUTE)
+    if(EXISTS ${path})
+      file(STRINGS ${path} own_unit REGEX "hwy/foreach_target.h")
+      if(own_unit)
+        set_source_files_properties(${source} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+      endif()
+    endif()
+  endforeach()
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE ${CONTREJOUR_JUMBO_BATCH})
+endfunction()

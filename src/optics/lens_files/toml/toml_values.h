@@ -1,0 +1,19 @@
+// What the reader and the writer of lens files agree on.
+#pragma once
+
+#include <string_view>
+
+#include "base/toml_fields.h"
+#include "contrejour/coating.h"
+
+namespace contrejour {
+
+inline constexpr double kHuge = 1e9;
+inline constexpr NumberRange kFinite{-kHuge, kHuge};
+
+// The names of media and coatings that mean something without a table.
+[[nodiscard]] inline bool is_reserved_name(std::string_view name) {
+  return name == "air" || name == "none" || name == "quarter-wave" || find_coating_design(name);
+}
+
+}  // namespace contrejour

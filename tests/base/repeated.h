@@ -1,0 +1,14 @@
+// Long texts for readers that must refuse them.
+#pragma once
+
+#include <string>
+
+namespace contrejour {
+
+inline std::string repeated(const std::string& piece, std::size_t times) {
+  std::string out;
+  for (std::size_t k = 0; k < times; ++k) out += piece;
+  return out;
+}
+
+}  // namespace contrejour
