@@ -107,11 +107,11 @@ Result<void> write_detected(const ApplyOptions& options, OutputFile& file, const
 
 Result<Flare> render_plan(const ApplyOptions& options, const LensState& lens, const params::FlarePlan& plan) {
   if (plan.lights.empty()) return Flare{Image(plan.grid.width, plan.grid.height), {}};
-  RenderSettings settings = params::render_settings(options.values, plan.grid.frame, plan.space);
+  FrameSettings settings = params::frame_settings(options.values, plan.grid.frame, plan.space);
   settings.starburst.left_out = plan.already_there;
   settings.starburst.lights = plan.imaged_lights;
   const LongTask task("rendering", options.values.integer("threads"));
-  auto flare = render(*options.values.text("method"), lens, plan.lights, settings, task.context());
+  auto flare = render(params::method_options(options.values), lens, plan.lights, settings, task.context());
   if (!flare) return flare;
   flare->image = params::picture_of_frame(flare->image, plan.grid);
   if (auto finite = check_finite(flare->image); !finite) return tl::unexpected(finite.error());

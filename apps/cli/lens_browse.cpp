@@ -95,8 +95,8 @@ Result<LensCard> card_of(const std::string& id, const params::Values& values, co
   const ColourSpace space = ColourSpace::Rec709;
   const auto lights = params::lights(values, *state, frame, space);
   if (!lights) return tl::unexpected(lights.error());
-  const RenderSettings settings = params::render_settings(values, frame, space);
-  const auto flare = render(*values.text("method"), *state, *lights, settings, context);
+  const FrameSettings settings = params::frame_settings(values, frame, space);
+  const auto flare = render(params::method_options(values), *state, *lights, settings, context);
   if (!flare) return tl::unexpected(flare.error());
   const PreviewSettings look = preview_settings(values, flare->image, UsualExposure::Automatic);
   auto picture = preview_png(flare->image, look, context);

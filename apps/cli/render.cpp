@@ -72,8 +72,8 @@ Result<RenderedFlare> render_flare(const RenderOptions& options) {
   const auto lights = params::lights(values, *lens, frame, space);
   if (!lights) return tl::unexpected(lights.error());
   const LongTask task("rendering", values.integer("threads"));
-  auto flare =
-      render(*values.text("method"), *lens, *lights, params::render_settings(values, frame, space), task.context());
+  auto flare = render(params::method_options(values), *lens, *lights, params::frame_settings(values, frame, space),
+                      task.context());
   if (!flare) return tl::unexpected(flare.error());
   flare->image = params::picture_of_frame(flare->image, *grid);
   if (auto finite = check_finite(flare->image); !finite) return tl::unexpected(finite.error());

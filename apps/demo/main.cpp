@@ -60,8 +60,8 @@ Result<void> show_lens_flare(const LensState& lens, const params::Values& values
   const Frame frame = frame_on_sensor(lens, 960, 540);
   const auto lights = params::lights(values, lens, frame, ColourSpace::Rec709);
   if (!lights) return tl::unexpected(lights.error());
-  const auto settings = params::render_settings(values, frame, ColourSpace::Rec709);
-  const auto flare = render(*values.text("method"), lens, *lights, settings);
+  const auto settings = params::frame_settings(values, frame, ColourSpace::Rec709);
+  const auto flare = render(params::method_options(values), lens, *lights, settings);
   if (!flare) return tl::unexpected(flare.error());
   return write_both(folder, "flare", flare->image, stops_for_flare(flare->image));
 }
@@ -80,8 +80,8 @@ Result<std::size_t> show_applied(const LensState& lens, const params::Values& va
   const Step step("The street through the lens");
   const auto plan = params::plan_flare(picture_of(street), lens, values);
   if (!plan) return tl::unexpected(plan.error());
-  const auto settings = params::render_settings(values, plan->grid.frame, plan->space);
-  const auto flare = render(*values.text("method"), lens, plan->lights, settings);
+  const auto settings = params::frame_settings(values, plan->grid.frame, plan->space);
+  const auto flare = render(params::method_options(values), lens, plan->lights, settings);
   if (!flare) return tl::unexpected(flare.error());
   params::add_flare(street, flare->image);
   if (auto ok = write_both(folder, "street-flare-only", flare->image, 0.0); !ok) return tl::unexpected(ok.error());

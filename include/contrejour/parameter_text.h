@@ -21,7 +21,7 @@ namespace contrejour::params {
 [[nodiscard]] Result<std::vector<double>> parse_reals(std::string_view text, std::size_t count);  // "1,2,3"
 [[nodiscard]] std::vector<std::string_view> split(std::string_view text, char separator);
 
-// "auto" (RenderSettings::wavelengths' kWavelengthsByNeed) or how many, up to 1024.
+// "auto" (FrameSettings::wavelengths' kWavelengthsByNeed) or how many, up to 1024.
 [[nodiscard]] Result<int> parse_wavelengths(std::string_view text);
 
 struct PixelSize {

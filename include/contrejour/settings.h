@@ -1,9 +1,10 @@
-// A user's values -> what the library takes: lens settings, frame, lights, render and detection settings. Angles, which
-// the table has in degrees, are in radians there; lengths are in mm, wavelengths in nm.
+// A user's values -> what the library takes: lens settings, frame, lights, a method's options, frame and detection
+// settings. Angles, which the table has in degrees, are in radians there; lengths are in mm, wavelengths in nm.
 // Errors: InvalidArgument; Io, Parse and Unsupported of files that a value names. Thread-safety: pure functions, which
 // may read such files.
 #pragma once
 
+#include <string_view>
 #include <vector>
 
 #include "contrejour/lens.h"
@@ -34,7 +35,16 @@ inline constexpr double kDegree_rad = 0.017453292519943295;
 [[nodiscard]] Reflections reflections(const Values& values);
 
 [[nodiscard]] ColourSpace colour_space(const Values& values, ColourSpace otherwise);
-[[nodiscard]] RenderSettings render_settings(const Values& values, const Frame& frame, ColourSpace space);
+[[nodiscard]] FrameSettings frame_settings(const Values& values, const Frame& frame, ColourSpace space);
+
+// The options of the method that --method names, or of another one. Errors: there is no such method.
+[[nodiscard]] MethodOptions method_options(const Values& values);
+[[nodiscard]] Result<MethodOptions> method_options(const Values& values, std::string_view method);
+
+[[nodiscard]] AdaptiveOptions adaptive_options(const Values& values);
+[[nodiscard]] BundleOptions bundle_options(const Values& values);
+[[nodiscard]] TiledOptions tiled_options(const Values& values);
+[[nodiscard]] ReferenceOptions reference_options(const Values& values);
 
 // The lights given, each with its own value and colour or the common ones; none given: one at u, v = 0.70, 0.33.
 // Errors: a light beside or behind the camera; R,G,B given for both value and colour.

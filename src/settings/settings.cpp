@@ -47,25 +47,11 @@ Enum choice(const Values& values, std::string_view name) {
   return static_cast<Enum>(std::find(words.begin(), words.end(), *values.text(name)) - words.begin());
 }
 
-BundleOptions bundle_options(const Values& values) {
-  BundleOptions options;
-  options.smooth_shading = !values.is_on("flat-shading");
-  options.grid_levels = values.is_on("grid-levels");
-  options.mirror_symmetry = values.is_on("mirror");
-  options.precomputed_bounds = values.is_on("pupil-table");
-  options.spectral_filter = values.is_on("spectral-filter");
-  options.anisotropic = choice<BundleOptions::Anisotropic>(values, "anisotropic");
-  return options;
-}
-
-TiledOptions tiled_options(const Values& values) {
-  TiledOptions options;
-  options.merge_steps = values.integer("merge-steps");
-  options.merge_threshold = values.number("merge-threshold");
-  options.dense_tile = values.integer("tile");
-  options.coarse_tile = values.integer("coarse-tile");
-  options.interpolation = choice<TiledOptions::Interpolation>(values, "interpolation");
-  return options;
+GridOptions grid_options(const Values& values) {
+  return {.rays = values.integer("grid"),
+          .scale = values.is_on("scale-grid"),
+          .sigma = values.number("scale-grid-sigma"),
+          .phi = values.number("scale-grid-phi")};
 }
 
 GhostOptions ghost_options(const Values& values) {
@@ -189,22 +175,50 @@ Reflections reflections(const Values& values) {
   return *values.text("reflections") == "4" ? Reflections::UpToFour : Reflections::Two;
 }
 
-RenderSettings render_settings(const Values& values, const Frame& frame, ColourSpace space) {
-  RenderSettings settings;
+AdaptiveOptions adaptive_options(const Values& values) { return {.error = *parse_error_bound(*values.text("error"))}; }
+
+BundleOptions bundle_options(const Values& values) {
+  return {.grid = grid_options(values),
+          .smooth_shading = !values.is_on("flat-shading"),
+          .grid_levels = values.is_on("grid-levels"),
+          .mirror_symmetry = values.is_on("mirror"),
+          .precomputed_bounds = values.is_on("pupil-table"),
+          .spectral_filter = values.is_on("spectral-filter"),
+          .anisotropic = choice<BundleOptions::Anisotropic>(values, "anisotropic")};
+}
+
+TiledOptions tiled_options(const Values& values) {
+  return {.grid = grid_options(values),
+          .merge_steps = values.integer("merge-steps"),
+          .merge_threshold = values.number("merge-threshold"),
+          .dense_tile = values.integer("tile"),
+          .coarse_tile = values.integer("coarse-tile"),
+          .interpolation = choice<TiledOptions::Interpolation>(values, "interpolation")};
+}
+
+ReferenceOptions reference_options(const Values& values) { return {.density = values.number("density")}; }
+
+Result<MethodOptions> method_options(const Values& values, std::string_view method) {
+  auto options = contrejour::method_options(method);
+  if (!options) return options;
+  if (auto* const adaptive = options->get_if<AdaptiveOptions>()) *adaptive = adaptive_options(values);
+  if (auto* const bundle = options->get_if<BundleOptions>()) *bundle = bundle_options(values);
+  if (auto* const tiled = options->get_if<TiledOptions>()) *tiled = tiled_options(values);
+  if (auto* const reference = options->get_if<ReferenceOptions>()) *reference = reference_options(values);
+  return options;
+}
+
+MethodOptions method_options(const Values& values) { return *method_options(values, *values.text("method")); }
+
+FrameSettings frame_settings(const Values& values, const Frame& frame, ColourSpace space) {
+  FrameSettings settings;
   settings.frame = frame;
   settings.scope = ghost_scope(values);
   settings.reflections = reflections(values);
   settings.selection = *parse_selection(*values.text("select"));
   settings.wavelengths = *parse_wavelengths(*values.text("wavelengths"));
   settings.colour_space = space;
-  settings.grid = values.integer("grid");
-  settings.scale_grid = values.is_on("scale-grid");
-  settings.scale_grid_sigma = values.number("scale-grid-sigma");
-  settings.scale_grid_phi = values.number("scale-grid-phi");
-  settings.bundle = bundle_options(values);
-  settings.tiled = tiled_options(values);
-  settings.error = *parse_error_bound(*values.text("error"));
-  settings.reference_density = values.number("density");
+  settings.area_error = *parse_error_bound(*values.text("error"));
   settings.starburst.on = values.is_on("starburst");
   settings.starburst.gain = values.number("starburst-gain");
   settings.glare.share = values.number("glare");

@@ -126,13 +126,13 @@ TEST_CASE("a sheet of a bent box: rays of the entrance plane, and their light ti
 
 TEST_CASE("cells of different sizes in a bent box leave no seams, dim as the ghost is") {
   const LensState lens = test::lens_at_f("heliar", 16.0);
-  RenderSettings settings;
+  test::Settings settings;
   settings.frame = frame_on_sensor(lens, 960, 540);
   settings.scope = GhostScope::OneSideOfStop;
   settings.wavelengths = 12;
   const Light light = test::light_at(lens, settings.frame, {0.70, 0.33});
   const Image image = test::flare_of("adaptive", lens, {&light, 1}, settings).image;
-  settings.error = 3e-4;
+  settings.set_error(3e-4);
   const Image truth = test::flare_of("adaptive", lens, {&light, 1}, settings).image;
   // Within ghost 1-5 and beside all other edges.
   double worst = 0.0;

@@ -19,7 +19,7 @@ struct System {
   Vec2 uv;
 };
 
-RoughFrame rough_frame(const LensState& lens, const Light& light, const RenderSettings& settings) {
+RoughFrame rough_frame(const LensState& lens, const Light& light, const test::Settings& settings) {
   const auto plan = plan_frame(lens, {&light, 1}, settings, {});
   REQUIRE(plan.has_value());
   const StepsByWavelength steps(lens, plan->tables);
@@ -36,7 +36,7 @@ RoughFrame rough_frame(const LensState& lens, const Light& light, const RenderSe
 // The front of a fisheye bulges: the window of a light far off the axis reaches beyond the rim, to its side.
 TEST_CASE("where around the axis a light stands changes nothing of where its rays are looked for") {
   const LensState lens = test::lens_at_f("muller-fisheye-10", 8.0, 0.0);
-  RenderSettings settings;
+  test::Settings settings;
   settings.wavelengths = 3;
   settings.frame = frame_on_sensor(lens, 64, 36);
   const auto items_for = [&](double turn) {
@@ -63,7 +63,7 @@ TEST_CASE("where around the axis a light stands changes nothing of where its ray
 
 TEST_CASE("a plan that lets dark parts be left out gets the rest, as it is in the whole picture") {
   const LensState lens = test::lens_at_f("itoh-zoom", 32.0, 123.0);
-  RenderSettings settings;
+  test::Settings settings;
   settings.wavelengths = 3;
   settings.frame = frame_on_sensor(lens, 640, 360);
   const Light light = test::light_at(lens, settings.frame, {0.7, 0.33});
@@ -74,7 +74,8 @@ TEST_CASE("a plan that lets dark parts be left out gets the rest, as it is in th
     part.looks.resize(ghosts.size());
     part.ghosts = std::move(ghosts);
     part.dark_margin_px = margin_px;
-    auto flare = render_adaptive(lens, part, settings, {});
+    RenderCache cache;
+    auto flare = render_adaptive({lens, part, settings, cache}, {}, {});
     REQUIRE(flare.has_value());
     return std::move(*flare);
   };
@@ -106,7 +107,7 @@ TEST_CASE("the peak that errors are relative to is the picture's, whatever its s
         CAPTURE(system.name);
         CAPTURE(width);
         CAPTURE(wavelengths);
-        RenderSettings settings;
+        test::Settings settings;
         settings.frame = frame_on_sensor(lens, width, width * 9 / 16);
         settings.wavelengths = wavelengths;
         const Light light = test::light_at(lens, settings.frame, system.uv);

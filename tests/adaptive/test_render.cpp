@@ -15,7 +15,6 @@
 #include "adaptive/scene.h"
 #include "contrejour/image_io.h"
 #include "contrejour/metrics.h"
-#include "contrejour/ringing.h"
 #include "support/flares.h"
 
 using namespace contrejour;
@@ -24,11 +23,11 @@ namespace {
 
 constexpr double kPresets[] = {0.01, 0.003, 0.001};  // preview, standard, final
 
-RenderSettings settings_for(const LensState& lens, int width, int height) {
+test::Settings settings_for(const LensState& lens, int width, int height) {
   return test::green(frame_on_sensor(lens, width, height));
 }
 
-Image image_of(std::string_view method, const LensState& lens, const Light& light, const RenderSettings& settings) {
+Image image_of(std::string_view method, const LensState& lens, const Light& light, const test::Settings& settings) {
   return test::flare_of(method, lens, {&light, 1}, settings).image;
 }
 
@@ -64,7 +63,7 @@ struct System {
 std::vector<double> changes_of(const System& system) {
   constexpr int kSteps = 100;
   const LensState lens = test::bundled(system.name, system.settings);
-  const RenderSettings settings = settings_for(lens, 96, 64);
+  const test::Settings settings = settings_for(lens, 96, 64);
   std::vector<double> changes;
   Image before;
   for (int step = 0; step <= kSteps; ++step) {
@@ -88,13 +87,13 @@ TEST_CASE("closer to the reference with every preset, within its error or 50 dB 
         System{"muller-fisheye-10", {.f_number = 16.0}, {0.8, 0.5}, 58.0}}) {
     CAPTURE(system.name);
     const LensState lens = test::bundled(system.name, system.settings);
-    RenderSettings settings = settings_for(lens, 160, 90);
+    test::Settings settings = settings_for(lens, 160, 90);
     const Light light = test::light_at(lens, settings.frame, system.uv);
     const Image truth = image_of("reference", lens, light, settings);
     double before_db = 0.0;
     for (const double error : kPresets) {
       CAPTURE(error);
-      settings.error = error;
+      settings.set_error(error);
       const double db = psnr_db(truth, image_of("adaptive", lens, light, settings));
       CHECK(db >= before_db - 0.1);  // the reference's own error shows from 64 dB on
       CHECK(db >= std::min(50.0, -20.0 * std::log10(error)));
@@ -118,14 +117,14 @@ TEST_CASE("frames taken at random are within the error asked for, all but a few 
     const char* const name = kLenses[random() % kLenses.size()];
     const LensState lens = test::lens_at_f(name, kStops[random() % kStops.size()]);
     const int width = 96 << random() % 2U;
-    RenderSettings settings = settings_for(lens, width, width * 9 / 16);
+    test::Settings settings = settings_for(lens, width, width * 9 / 16);
     settings.lambda_nm.clear();
     settings.wavelengths = 1 + 2 * static_cast<int>(random() % 2U);
     const double u = anywhere();
     const Light light = test::light_at(lens, settings.frame, {u, anywhere()});
     const Image image = image_of("adaptive", lens, light, settings);
-    const double asked = settings.error;
-    settings.error = 1e-4;
+    const double asked = settings.adaptive.error;
+    settings.set_error(1e-4);
     const auto off = compare(image_of("adaptive", lens, light, settings), image);
     REQUIRE(off.has_value());
     over_asked.push_back(std::pow(10.0, -off->psnr_db.value_or(1000.0) / 20.0) / asked);
@@ -138,7 +137,7 @@ TEST_CASE("frames taken at random are within the error asked for, all but a few 
 
 TEST_CASE("ghosts that fall beside the frame leave it dark") {
   const LensState lens = test::lens_at_f("nikon-80-200", 16.0, 140.0);
-  RenderSettings settings = settings_for(lens, 480, 270);
+  test::Settings settings = settings_for(lens, 480, 270);
   settings.lambda_nm.clear();
   const Light light = test::light_at(lens, settings.frame, {0.70, 0.33});
   for (const Ghost ghost : {Ghost{13, 17}, Ghost{1, 10}, Ghost{5, 7}, Ghost{6, 19}, Ghost{14, 15}}) {
@@ -154,7 +153,7 @@ TEST_CASE("ghosts that fall beside the frame leave it dark") {
 // The reference takes many minutes here; tests/renderers holds the bundle to it.
 TEST_CASE("the Canon at 200 mm wide open, its brightest ghosts, as by the bundle [slow]") {
   const LensState lens = test::lens_at_f("canon-70-200", 2.8, 200.0);
-  RenderSettings settings = settings_for(lens, 96, 54);
+  test::Settings settings = settings_for(lens, 96, 54);
   settings.selection = SelectBrightest{24};
   const Light light = test::light_at(lens, settings.frame, {0.70, 0.33});
   const Image truth = image_of("bundle", lens, light, settings);
@@ -165,10 +164,10 @@ TEST_CASE("the Canon at 200 mm wide open, its brightest ghosts, as by the bundle
 
 TEST_CASE("sixteen wavelengths as by the bundle, the same bits for 1, 2 and 7 threads") {
   const LensState lens = test::lens_at_f("heliar", 16.0);
-  RenderSettings settings = settings_for(lens, 96, 64);
+  test::Settings settings = settings_for(lens, 96, 64);
   settings.lambda_nm.clear();
   settings.wavelengths = 16;
-  settings.grid = 128;
+  settings.set_grid(128);
   const Light light = test::light_at(lens, settings.frame, {0.70, 0.33});
   const Image truth = image_of("bundle", lens, light, settings);
   const Image one = test::flare_of("adaptive", lens, {&light, 1}, settings, {.threads = 1}).image;
@@ -180,8 +179,8 @@ TEST_CASE("sixteen wavelengths as by the bundle, the same bits for 1, 2 and 7 th
 
 TEST_CASE("every pair of surfaces, an iris of blades, lights on the axis and off it, as by the bundle") {
   const LensState lens = test::lens_at_f("heliar", 8.0, 0.0, {7, 0.4});
-  RenderSettings settings = settings_for(lens, 96, 64);
-  settings.grid = 256;
+  test::Settings settings = settings_for(lens, 96, 64);
+  settings.set_grid(256);
   for (const GhostScope scope : {GhostScope::OneSideOfStop, GhostScope::All}) {
     settings.scope = scope;
     for (const Vec2 uv : {Vec2{0.5, 0.5}, Vec2{0.31, 0.62}}) {
@@ -212,7 +211,7 @@ TEST_CASE("frames of one pixel, of one row, of one column") {
   const LensState lens = test::lens_at_f("heliar", 16.0);
   Frame whole = frame_on_sensor(lens, 90, 60);
   const Light light = test::light_at(lens, whole, {0.70, 0.33});
-  RenderSettings settings = settings_for(lens, 90, 60);
+  test::Settings settings = settings_for(lens, 90, 60);
   const double all = test::sum(image_of("adaptive", lens, light, settings));
   struct Size {
     int width, height;
@@ -243,17 +242,17 @@ TEST_CASE("frames of one pixel, of one row, of one column") {
 
 TEST_CASE("errors out of range are refused, no light is no flare, an interrupted render says so") {
   const LensState lens = test::lens_at_f("heliar", 16.0);
-  RenderSettings settings = settings_for(lens, 32, 18);
+  test::Settings settings = settings_for(lens, 32, 18);
   const Light light;
   for (const double error :
        {0.0, -0.01, 0.9e-4, 0.11, std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
-    settings.error = error;
+    settings.set_error(error);
     const auto refused = render("adaptive", lens, {&light, 1}, settings);
     REQUIRE_FALSE(refused.has_value());
     CHECK(refused.error().code == ErrorCode::InvalidArgument);
   }
   for (const double error : {1e-4, 0.1}) {
-    settings.error = error;
+    settings.set_error(error);
     CHECK(render("adaptive", lens, {&light, 1}, settings).has_value());
   }
   CHECK(test::flare_of("adaptive", lens, {}, settings).image.pixels == Pixels(32 * 18 * 3, 0.0F));
@@ -267,7 +266,7 @@ TEST_CASE("errors out of range are refused, no light is no flare, an interrupted
 
 TEST_CASE("every instruction set of this machine draws the same, with fringes, too") {
   const LensState lens = test::lens_at_f("heliar", 16.0);
-  RenderSettings settings = settings_for(lens, 523, 40);
+  test::Settings settings = settings_for(lens, 523, 40);
   settings.wavelengths = 3;
   const Light light = test::light_at(lens, settings.frame, {0.70, 0.33});
   for (const RingingMode mode : {RingingMode::None, RingingMode::Fresnel}) {
@@ -286,10 +285,10 @@ TEST_CASE("every instruction set of this machine draws the same, with fringes, t
 
 TEST_CASE("a ghost alone, of which nothing is seen when it is drawn without care") {
   const LensState lens = test::bundled("tessar", {.f_number = 11.0});
-  RenderSettings settings;
+  test::Settings settings;
   settings.wavelengths = 3;
   settings.frame = frame_on_sensor(lens, 240, 160);
-  settings.reference_density = 0.25;
+  settings.reference.density = 0.25;
   const Light light = test::light_at(lens, settings.frame, {0.70, 0.33});
   for (const Ghost ghost : {Ghost{2, 4}, Ghost{6, 7}}) {
     settings.selection = SelectList{{ghost}};
@@ -303,10 +302,10 @@ TEST_CASE("a ghost alone, of which nothing is seen when it is drawn without care
 TEST_CASE("a ghost nearly in focus keeps its light, however few pixels it is") {
   const LensState lens = test::bundled("itoh-zoom", {.f_number = 32.0, .iris = {7}});
   const Light light{.direction = normalized(Vec3{-0.295885, -0.285027, 0.911708})};
-  RenderSettings settings;
+  test::Settings settings;
   settings.wavelengths = 3;
   settings.selection = SelectList{{{1, 3}}};
-  settings.grid = 512;
+  settings.set_grid(512);
   for (const RingingMode ringing : {RingingMode::None, RingingMode::Fresnel}) {
     settings.ringing.mode = ringing;
     for (const int width : {640, 960, 1280, 1920}) {
@@ -315,7 +314,7 @@ TEST_CASE("a ghost nearly in focus keeps its light, however few pixels it is") {
       for (const double error : kPresets) {
         CAPTURE(width);
         CAPTURE(error);
-        settings.error = error;
+        settings.set_error(error);
         const auto ours = channel_sums(test::flare_of("adaptive", lens, {&light, 1}, settings).image);
         for (const std::size_t c : {0U, 2U})  // of green there is little, less than red's and blue's colours leave
           CHECK(ours[c] / truth[c] == doctest::Approx(1.0).epsilon(ringing == RingingMode::None ? 0.003 : 0.025));
@@ -341,15 +340,15 @@ TEST_CASE("ringing of a ghost alone comes to the truth as the error falls, whate
   for (const Case& of : cases) {
     CAPTURE(of.lens);
     const LensState lens = test::bundled(of.lens, of.settings);
-    RenderSettings settings = settings_for(lens, of.width, of.height);
+    test::Settings settings = settings_for(lens, of.width, of.height);
     settings.ringing.mode = of.mode;
     settings.selection = SelectList{{of.ghost}};
-    settings.reference_density = 2.0;
+    settings.reference.density = 2.0;
     const Light light = test::light_at(lens, settings.frame, of.uv);
     const Image truth = image_of("reference", lens, light, settings);
-    settings.error = 0.003;
+    settings.set_error(0.003);
     CHECK(psnr_db(truth, image_of("adaptive", lens, light, settings)) > 45.0);
-    settings.error = 0.0003;
+    settings.set_error(0.0003);
     CHECK(psnr_db(truth, image_of("adaptive", lens, light, settings)) > 57.0);
   }
 }
@@ -358,7 +357,7 @@ TEST_CASE("ghosts whose pupils end where rays fail keep their light") {
   // A frame of 160 degrees: the rays at such an end come from steep refraction, and land as a root of their distance.
   const LensState lens = test::bundled("planar-50");
   const Light light{.direction = normalized(Vec3{0.142665, 0.060187, 0.987940})};
-  RenderSettings settings;
+  test::Settings settings;
   settings.wavelengths = 1;
   settings.frame = frame_on_sensor(lens, 160, 90);
   settings.frame.pixel_pitch_mm = 2.0 * lens.focal_length_mm * std::tan(1.396263) / 160.0;
@@ -371,12 +370,12 @@ TEST_CASE("ghosts whose pupils end where rays fail keep their light") {
 
 TEST_CASE("the outline of a dim ghost lies where a finer one does, with no corners") {
   const LensState lens = test::lens_at_f("heliar", 16.0);
-  RenderSettings settings = settings_for(lens, 1920, 1080);
+  test::Settings settings = settings_for(lens, 1920, 1080);
   settings.wavelengths = 3;
   const Light light = test::light_at(lens, settings.frame, {0.70, 0.33});
   // Of a ghost a hundredth as bright as the peak, above all others: where its light begins, down some columns.
   const auto outline = [&](double error) {
-    settings.error = error;
+    settings.set_error(error);
     const Image image = image_of("adaptive", lens, light, settings);
     std::vector<double> rows;
     for (int x = 430; x < 860; ++x) {

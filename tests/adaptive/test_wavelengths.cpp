@@ -306,7 +306,7 @@ TEST_CASE("however much may be wrong, wavelengths of a band are no farther apart
 
 TEST_CASE("by default a fisheye's ghosts are continuous spectra, not bars") {
   const LensState lens = test::lens_at_f("muller-fisheye-10", 11.0);
-  RenderSettings settings;
+  test::Settings settings;
   settings.frame = frame_on_sensor(lens, 384, 216);
   const Light light = test::light_at(lens, settings.frame, {0.70, 0.33});
   const Image ours = test::flare_of("adaptive", lens, {&light, 1}, settings).image;
@@ -320,7 +320,7 @@ TEST_CASE("sixteen wavelengths as in the reference") {
   for (const auto& [name, f_number] : {std::pair{"heliar", 16.0}, std::pair{"tessar", 8.0}}) {
     CAPTURE(name);
     const LensState lens = test::lens_at_f(name, f_number);
-    RenderSettings settings;
+    test::Settings settings;
     settings.scope = GhostScope::OneSideOfStop;  // half as many ghosts in half the time
     settings.frame = frame_on_sensor(lens, 160, 90);
     settings.wavelengths = 16;

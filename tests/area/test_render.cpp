@@ -59,8 +59,8 @@ TEST_CASE("the sun is the sum of points over its disc") {
   for (const auto& [name, f_number, least_db, angles] : cases) {
     CAPTURE(name);
     const LensState lens = test::bundled(name, {.f_number = f_number, .iris = {7}});
-    RenderSettings settings = test::green(frame_on_sensor(lens, 240, 160));
-    settings.error = 0.001;
+    test::Settings settings = test::green(frame_on_sensor(lens, 240, 160));
+    settings.set_error(0.001);
     const Light light = sun(angles.x, angles.y);
     const Flare ours = test::flare_of("adaptive", lens, {&light, 1}, settings);
     const Flare truth = test::flare_of("adaptive", lens, points_over(light, 150), settings);
@@ -93,11 +93,11 @@ TEST_CASE("large lights are the sum of points over them, whose caustics and rims
   for (const Case& at : cases) {
     CAPTURE(at.lens);
     const LensState lens = test::bundled(at.lens, at.settings);
-    RenderSettings settings = test::green(at.frame(lens));
+    test::Settings settings = test::green(at.frame(lens));
     Light light = sun(at.angles_rad.x, at.angles_rad.y);
     light.radius_rad = 0.5 * at.degrees * kPi / 180.0;
     const Image ours = test::flare_of("adaptive", lens, {&light, 1}, settings).image;
-    settings.error = 0.001;
+    settings.set_error(0.001);
     const Image truth = test::flare_of("adaptive", lens, points_over(light, 120), settings).image;
     CHECK(psnr_db(truth, ours) > at.least_db);
     CHECK(test::sum(ours) == doctest::Approx(test::sum(truth)).epsilon(0.015));
@@ -106,7 +106,7 @@ TEST_CASE("large lights are the sum of points over them, whose caustics and rims
 
 TEST_CASE("many lights with a size take at most four times as long as points") {
   const LensState lens = test::bundled("planar-50", {});
-  RenderSettings settings;
+  test::Settings settings;
   settings.wavelengths = 3;
   settings.frame = frame_on_sensor(lens, 240, 160);
   // A pane, and spots beside it, as areas of a photograph that are merged have; each in colours of its own.
@@ -136,9 +136,9 @@ TEST_CASE("many lights with a size take at most four times as long as points") {
 
 TEST_CASE("every method blurs alike") {
   const LensState lens = test::bundled("heliar", {.f_number = 16.0});
-  RenderSettings settings = test::green(frame_on_sensor(lens, 96, 64));
-  settings.grid = 96;
-  settings.reference_density = 0.25;
+  test::Settings settings = test::green(frame_on_sensor(lens, 96, 64));
+  settings.set_grid(96);
+  settings.reference.density = 0.25;
   settings.selection = SelectList{{{3, 4}, {7, 9}}};
   Light light = sun(0.1, 0.05);
   light.radius_rad *= 3.0;
@@ -149,7 +149,7 @@ TEST_CASE("every method blurs alike") {
 
 TEST_CASE("size zero is the point, bit for bit; a very small disc is nearly that") {
   const LensState lens = test::bundled("heliar", {.f_number = 11.0});
-  RenderSettings settings = test::green(frame_on_sensor(lens, 120, 80));
+  test::Settings settings = test::green(frame_on_sensor(lens, 120, 80));
   Light light = sun(0.1, 0.05);
   light.radius_rad = 0.0;
   const Flare point = test::flare_of("adaptive", lens, {&light, 1}, settings);
@@ -167,7 +167,7 @@ TEST_CASE("the flux does not depend on the size") {
   for (const double shift_mm : {0.0, -4.5}) {
     Frame frame{240, 240, 0, 0, 240, 240, 0.05};
     frame.origin_x = static_cast<int>(shift_mm / frame.pixel_pitch_mm);
-    RenderSettings settings = test::green(frame);
+    test::Settings settings = test::green(frame);
     Light light;
     double flux = 0.0;
     for (const double radius : {0.0, 0.002, 0.01, 0.05, 0.15}) {
@@ -182,8 +182,8 @@ TEST_CASE("the flux does not depend on the size") {
 
 TEST_CASE("a shape's ghost is the shape, as the ghost turns it, and lies where points would") {
   const LensState lens = test::bundled("planar-50", {.f_number = 8.0});
-  RenderSettings settings = test::green(frame_on_sensor(lens, 180, 120));
-  settings.error = 0.001;
+  test::Settings settings = test::green(frame_on_sensor(lens, 180, 120));
+  settings.set_error(0.001);
   // An L of five squares: like none of its mirror images.
   Light light = sun(0.12, 0.07);
   light.radius_rad = 0.0;
@@ -208,7 +208,7 @@ TEST_CASE("a shape's ghost is the shape, as the ghost turns it, and lies where p
 
 TEST_CASE("the same for any number of threads; cancelled when asked; wrong extents refused") {
   const LensState lens = test::bundled("heliar", {.f_number = 8.0});
-  RenderSettings settings = test::green(frame_on_sensor(lens, 150, 100));
+  test::Settings settings = test::green(frame_on_sensor(lens, 150, 100));
   settings.starburst.on = true;
   Light light = sun(0.1, 0.05);
   const Flare one = test::flare_of("adaptive", lens, {&light, 1}, settings, {.threads = 1});
@@ -243,8 +243,8 @@ LightShape panes(double radius_rad) {
   return shape;
 }
 
-RenderSettings starburst_alone(const LensState& lens, int width, int height) {
-  RenderSettings settings;
+test::Settings starburst_alone(const LensState& lens, int width, int height) {
+  test::Settings settings;
   settings.wavelengths = 3;
   settings.frame = frame_on_sensor(lens, width, height);
   settings.selection = SelectList{};
@@ -261,7 +261,7 @@ double flux_in(const Image& image, int x0, int y0, int side) {
 
 TEST_CASE("a disc's starburst is the sum of its points', and holds the light's value") {
   const LensState lens = test::bundled("heliar", {.f_number = 16.0, .iris = {6}});
-  const RenderSettings settings = starburst_alone(lens, 240, 160);
+  const test::Settings settings = starburst_alone(lens, 240, 160);
   Light light = sun(0.02, 0.01);
   light.radius_rad *= 4.0;
   const Image ours = test::flare_of("bundle", lens, {&light, 1}, settings).image;
@@ -277,7 +277,7 @@ TEST_CASE("starburst and glare of wide lights add light everywhere, whatever the
   for (const char* name : {"heliar", "schneider-anamorphic-31", "canon-70-200"}) {
     CAPTURE(name);
     const LensState lens = test::bundled(name, {.f_number = 8.0, .iris = {6, 0.3}});
-    RenderSettings settings = starburst_alone(lens, 320, 214);
+    test::Settings settings = starburst_alone(lens, 320, 214);
     settings.starburst.gain = 10.0;
     settings.glare = {0.1, 0.002};
     Light light = test::light_at(lens, settings.frame, {0.62, 0.4});
@@ -301,7 +301,7 @@ TEST_CASE("starburst and glare of wide lights add light everywhere, whatever the
 
 TEST_CASE("lights whose images are drawn may be others than the ghosts'") {
   const LensState lens = test::bundled("heliar", {.f_number = 16.0});
-  RenderSettings settings;
+  test::Settings settings;
   settings.wavelengths = 3;
   settings.frame = frame_on_sensor(lens, 120, 80);
   settings.selection = SelectList{};

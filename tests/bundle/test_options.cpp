@@ -11,6 +11,7 @@
 #include "render/bundle/band_blur.h"
 #include "render/bundle/bundle.h"
 #include "render/bundle/item_renderer.h"
+#include "support/planned.h"
 #include "support/scenes.h"
 
 using namespace contrejour;
@@ -19,8 +20,8 @@ using test::settings_for;
 
 namespace {
 
-Flare drawn(const LensState& lens, const Light& light, const RenderSettings& settings) {
-  auto flare = render_planned(render_bundle, lens, {&light, 1}, settings, {});
+Flare drawn(const LensState& lens, const Light& light, const test::Settings& settings) {
+  auto flare = test::render_alone(render_bundle, settings.bundle, lens, {&light, 1}, settings);
   REQUIRE(flare.has_value());
   return *flare;
 }
@@ -35,7 +36,7 @@ double phase_ms(const Flare& flare, std::string_view name) {
 }
 
 // One ghost by itself, as the renderer draws it: RGB over the frame, per mm^2 of flux.
-Image one_ghost(const LensState& lens, Ghost ghost, const Light& light, const RenderSettings& settings) {
+Image one_ghost(const LensState& lens, Ghost ghost, const Light& light, const test::Settings& settings) {
   FramePlan plan;
   plan.ghosts = {ghost};
   plan.looks = {{}};
@@ -44,10 +45,12 @@ Image one_ghost(const LensState& lens, Ghost ghost, const Light& light, const Re
   for (const SpectralBand& band : spectral_bands(settings.wavelengths, light.spectrum, settings.colour_space)) {
     plan.lights[0].passes.push_back({band.lambda_nm, band.weight});
   }
-  const Screens screens(lens, settings);
+  RenderCache cache;
+  const Screens screens(lens, settings, cache);
+  const bundle::GridSource source{lens, settings.bundle, tables, screens, nullptr};
   Image image(settings.frame.width, settings.frame.height, 3);
   for (const bundle::Item& item : bundle::items_of(plan, settings.bundle)) {
-    const auto part = bundle::ItemRenderer(item, lens, settings, tables, screens, nullptr, nullptr, {}).render();
+    const auto part = bundle::ItemRenderer(item, settings.frame, source, nullptr, {}).render();
     std::size_t k = 0;
     for (int y = part.box.y0; y < part.box.y1; ++y) {
       for (int x = part.box.x0; x < part.box.x1; ++x) {
@@ -109,7 +112,7 @@ TEST_CASE("half the rays, mirrored, are the rays that would have been traced") {
 
 TEST_CASE("mirror symmetry halves the hits and leaves the picture, whatever the iris and the light's azimuth") {
   const LensState lens = test::lens("heliar", 16.0, 0.0, 5);
-  RenderSettings settings = settings_for(lens, 120, 68, 192);
+  test::Settings settings = settings_for(lens, 120, 68, 192);
   for (const Vec2 uv : {Vec2{0.70, 0.33}, {0.2, 0.9}, {0.5, 0.5}}) {
     CAPTURE(uv.x);
     const Light light = light_at(lens, settings.frame, uv);
@@ -125,7 +128,7 @@ TEST_CASE("mirror symmetry halves the hits and leaves the picture, whatever the 
 
 TEST_CASE("bounds from the table draw what a search draws") {
   const LensState lens = test::lens("itoh-zoom", 32.0, 123.0, 8);
-  RenderSettings settings = settings_for(lens, 120, 68, 128);
+  test::Settings settings = settings_for(lens, 120, 68, 128);
   const Light light = light_at(lens, settings.frame, {0.70, 0.33});
   const Flare searched = drawn(lens, light, settings);
   settings.bundle.precomputed_bounds = true;
@@ -137,7 +140,7 @@ TEST_CASE("bounds from the table draw what a search draws") {
 
 TEST_CASE("grid levels spend fewer rays and stay close to the finest grid") {
   const LensState lens = test::lens("heliar", 16.0);
-  RenderSettings settings = settings_for(lens, 160, 90, 512);
+  test::Settings settings = settings_for(lens, 160, 90, 512);
   const Light light = light_at(lens, settings.frame, {0.70, 0.33});
   const Flare finest = drawn(lens, light, settings);
   settings.bundle.grid_levels = true;
@@ -171,7 +174,7 @@ TEST_CASE("a map's figures: flat, bent, folded, stretched, hardly open") {
 
 TEST_CASE("level cells differ from smooth ones by little, in flux not at all") {
   const LensState lens = test::lens("heliar", 4.5);
-  RenderSettings settings = settings_for(lens, 160, 90, 64);
+  test::Settings settings = settings_for(lens, 160, 90, 64);
   const Light light = light_at(lens, settings.frame, {0.70, 0.33});
   const Image smooth = drawn(lens, light, settings).image;
   settings.bundle.smooth_shading = false;
@@ -183,7 +186,7 @@ TEST_CASE("level cells differ from smooth ones by little, in flux not at all") {
 
 TEST_CASE("very anisotropic ghosts, drawn finer or as points, keep their flux") {
   const LensState lens = test::lens("nikon-80-200", 16.0, 140.0);
-  RenderSettings settings = settings_for(lens, 320, 180, 128);
+  test::Settings settings = settings_for(lens, 320, 180, 128);
   settings.wavelengths = 1;
   const Ghost ghost{8, 14};
   const Light light = light_at(lens, settings.frame, {0.70, 0.33});
@@ -200,7 +203,7 @@ TEST_CASE("very anisotropic ghosts, drawn finer or as points, keep their flux") 
 
 TEST_CASE("a few bands, blurred towards each other, come closer to many bands, for ghosts with colour fringes") {
   const LensState lens = test::lens("distagon-25", 16.0);
-  RenderSettings settings = settings_for(lens, 3600, 2025, 48);
+  test::Settings settings = settings_for(lens, 3600, 2025, 48);
   const Ghost ghost{13, 15};
   const Light light = light_at(lens, settings.frame, {0.8, 0.2});
   const GhostMeasure m = GhostMeter(lens, 550.0).measure(ghost, light.direction);

@@ -44,10 +44,10 @@ Outcome applied(const Picture& picture, const LensState& lens, const Values& val
   out.flare = Image(kWidth, kHeight);
   for (const Light& light : plan->lights) out.value += light.value[1];
   if (plan->lights.empty()) return out;
-  RenderSettings settings = render_settings(values, plan->grid.frame, plan->space);
+  FrameSettings settings = frame_settings(values, plan->grid.frame, plan->space);
   settings.starburst.left_out = plan->already_there;
   settings.starburst.lights = plan->imaged_lights;
-  auto flare = render("adaptive", lens, plan->lights, settings);
+  auto flare = render(adaptive_options(values), lens, plan->lights, settings);
   REQUIRE(flare.has_value());
   out.flare = std::move(flare->image);
   return out;

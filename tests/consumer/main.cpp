@@ -18,13 +18,13 @@ int main() {
     return 1;
   }
 
-  RenderSettings settings;
+  FrameSettings settings;
   settings.frame = frame_on_sensor(*lens, 96, 64);
-  settings.grid = 32;
   const double azimuth_rad = 0.15;
   const double elevation_rad = 0.10;
   const Light light{.direction = direction_from_angles(azimuth_rad, elevation_rad), .value = {1000, 900, 800}};
-  const Result<Flare> flare = render("bundle", *lens, std::span(&light, 1), settings);
+  const BundleOptions bundle{.grid = {.rays = 32}};
+  const Result<Flare> flare = render(bundle, *lens, std::span(&light, 1), settings);
   if (!flare) {
     std::fprintf(stderr, "%s\n", flare.error().to_string().c_str());
     return 1;

@@ -6,6 +6,7 @@
 
 #include "contrejour/metrics.h"
 #include "render/reference/reference.h"
+#include "support/planned.h"
 #include "support/scenes.h"
 
 using namespace contrejour;
@@ -17,8 +18,8 @@ using test::sum;
 
 namespace {
 
-Image rendered(const LensState& lens, std::span<const Light> lights, const RenderSettings& settings) {
-  const auto flare = render_planned(render_reference, lens, lights, settings, {});
+Image rendered(const LensState& lens, std::span<const Light> lights, const test::Settings& settings) {
+  const auto flare = test::render_alone(render_reference, settings.reference, lens, lights, settings);
   REQUIRE(flare.has_value());
   return flare->image;
 }
@@ -56,10 +57,10 @@ TEST_CASE("a ghost with an affine map is a flat sheet with the closed form's lev
 
 TEST_CASE("doubling the density changes the picture by less than 55 dB [slow]") {
   const LensState heliar = bundled("heliar", {.f_number = 16.0});
-  RenderSettings settings = green(small_frame(heliar, 120));
+  test::Settings settings = green(small_frame(heliar, 120));
   const Light light = light_at(heliar, settings.frame, {0.70, 0.33});
   const Image once = rendered(heliar, {&light, 1}, settings);
-  settings.reference_density = 2.0;
+  settings.reference.density = 2.0;
   const Image twice = rendered(heliar, {&light, 1}, settings);
   CHECK(psnr_db(twice, once) > 55.0);
   CHECK(sum(once) / sum(twice) == doctest::Approx(1.0).epsilon(2e-3));
@@ -67,7 +68,7 @@ TEST_CASE("doubling the density changes the picture by less than 55 dB [slow]") 
 
 TEST_CASE("the Heliar's flare at f/16 has the order of brightness that a rough trial gave") {
   const LensState heliar = bundled("heliar", {.f_number = 16.0});
-  const RenderSettings settings = green(small_frame(heliar));
+  const test::Settings settings = green(small_frame(heliar));
   const Light light = light_at(heliar, settings.frame, {0.75, 0.5});
   const double flux = sum(rendered(heliar, {&light, 1}, settings)) / 3.0;
   CHECK(flux > 0.5 * 2.2e-4);
@@ -77,7 +78,7 @@ TEST_CASE("the Heliar's flare at f/16 has the order of brightness that a rough t
 TEST_CASE("a quarter turn of the light about the axis turns the flare [slow]") {
   const LensState lens = bundled("heliar", {.f_number = 8.0});
   Frame frame = frame_on_sensor(lens, 90, 90);
-  const RenderSettings settings = green(frame);
+  const test::Settings settings = green(frame);
   const Light right = light_at(lens, frame, {0.8, 0.45});
   Light turned = right;
   turned.direction = {right.direction.y, -right.direction.x, right.direction.z};

@@ -32,11 +32,11 @@ const Golden kGolden[] = {
 
 Image rendered(const Golden& golden) {
   const LensState lens = test::bundled(golden.lens, golden.settings);
-  RenderSettings settings;
+  test::Settings settings;
   settings.wavelengths = 3;
   settings.scope = GhostScope::OneSideOfStop;  // as the pictures kept have it
   settings.frame = frame_on_sensor(lens, 96, 64);
-  settings.grid = 96;
+  settings.set_grid(96);
   Light light = test::light_at(lens, settings.frame, golden.uv);
   light.spectrum = golden.spectrum;
   light.value = {1e4, 1e4, 1e4};

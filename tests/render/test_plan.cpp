@@ -20,7 +20,7 @@ LensState grey_lens() {
   return lens;
 }
 
-Result<FramePlan> plan(const LensState& lens, std::span<const Light> lights, const RenderSettings& settings) {
+Result<FramePlan> plan(const LensState& lens, std::span<const Light> lights, const test::Settings& settings) {
   return plan_frame(lens, lights, settings, {});
 }
 
@@ -35,7 +35,7 @@ TEST_CASE("a lens without colour keeps the light's colour for any number of wave
   light.value = {3.0, 5.0, 7.0};
   for (const int count : {1, 2, 3, 4, 7, 16, 61}) {
     CAPTURE(count);
-    RenderSettings settings;
+    test::Settings settings;
     settings.frame = frame();
     settings.wavelengths = count;
     const auto planned = plan(lens, {&light, 1}, settings);
@@ -54,7 +54,7 @@ TEST_CASE("more wavelengths converge to one colour, without a shift") {
   const LensState lens = test::bundled("heliar", {.f_number = 8.0});
   Light light = test::light_at(lens, frame_on_sensor(lens, 60, 40), {0.7, 0.4});
   const auto colour = [&](int count) {
-    RenderSettings settings;
+    test::Settings settings;
     settings.frame = frame_on_sensor(lens, 60, 40);
     settings.wavelengths = count;
     settings.selection = SelectBrightest{1};
@@ -108,7 +108,7 @@ TEST_CASE("direct fluxes of many wavelengths, few of them measured, are those me
 TEST_CASE("selections keep what they say") {
   const LensState lens = test::bundled("heliar", {.f_number = 8.0});
   const Light light = test::light_at(lens, frame_on_sensor(lens, 60, 40), {0.7, 0.4});
-  RenderSettings settings;
+  test::Settings settings;
   settings.wavelengths = 3;
   settings.frame = frame();
   const auto kept = [&](GhostSelection selection) {
@@ -139,7 +139,7 @@ TEST_CASE("selections keep what they say") {
 
 TEST_CASE("the flare does not jump when its light leaves the frame") {
   const LensState lens = test::bundled("heliar", {.f_number = 8.0});
-  RenderSettings settings = test::green(frame_on_sensor(lens, 60, 40));
+  test::Settings settings = test::green(frame_on_sensor(lens, 60, 40));
   const auto gain_at = [&](double u) {
     const Light light = test::light_at(lens, settings.frame, {u, 0.5});
     return plan(lens, {&light, 1}, settings)->lights[0].passes[0].gain[1];
@@ -153,15 +153,15 @@ TEST_CASE("settings out of range are refused with a message, not rendered") {
   const LensState lens = grey_lens();
   const double nan = std::numeric_limits<double>::quiet_NaN();
   Light light;
-  RenderSettings good;
+  test::Settings good;
   good.wavelengths = 3;
   good.frame = frame();
-  const auto refused = [&](const RenderSettings& settings, const Light& l) {
+  const auto refused = [&](const test::Settings& settings, const Light& l) {
     const auto planned = plan(lens, {&l, 1}, settings);
     return !planned.has_value() && planned.error().code == ErrorCode::InvalidArgument;
   };
   CHECK_FALSE(refused(good, light));
-  RenderSettings bad = good;
+  test::Settings bad = good;
   bad.frame.width = 0;
   CHECK(refused(bad, light));
   bad = good;
@@ -195,7 +195,7 @@ TEST_CASE("selections by flux keep the light of every channel, of the lights' ow
   Coating v_coat;
   v_coat.films = DesignedCoating{};
   const LensState lens = test::bundled("heliar", {.f_number = 16.0, .coating = v_coat});
-  RenderSettings settings;
+  test::Settings settings;
   settings.frame = frame_on_sensor(lens, 96, 64);
   settings.wavelengths = 5;
   Light light = test::light_at(lens, settings.frame, {0.7, 0.33});
@@ -263,7 +263,7 @@ TEST_CASE("selections by flux weigh what lands inside the frame, as drawn") {
                         Case{"heliar", {.f_number = 8.0}, {0.9, 0.9}, 3.0}}) {
     CAPTURE(c.lens);
     const LensState lens = test::bundled(c.lens, c.settings);
-    RenderSettings settings;
+    test::Settings settings;
     settings.frame = frame_on_sensor(lens, 192, 128);
     settings.wavelengths = 3;
     settings.scope = GhostScope::OneSideOfStop;
@@ -293,7 +293,7 @@ TEST_CASE("selections by flux weigh what lands inside the frame, as drawn") {
 
 TEST_CASE("windows of a frame show the same ghosts") {
   const LensState lens = test::bundled("heliar", {.f_number = 8.0});
-  RenderSettings settings;
+  test::Settings settings;
   settings.frame = frame_on_sensor(lens, 96, 64);
   settings.wavelengths = 3;
   settings.selection = SelectByFlux{10.0};
@@ -312,7 +312,7 @@ TEST_CASE("windows of a frame show the same ghosts") {
 // one after the other, so that a busy machine slows both.
 TEST_CASE("selections save time, and figures of all ghosts take that of two frames of them") {
   const LensState lens = test::bundled("canon-70-200", {.focal_length_mm = 135.0, .f_number = 8.0});
-  RenderSettings settings;
+  test::Settings settings;
   settings.frame = frame_on_sensor(lens, 640, 427);
   settings.scope = GhostScope::OneSideOfStop;
   const Light light = test::light_at(lens, settings.frame, {0.7, 0.35});

@@ -35,7 +35,7 @@ inline Bounds bounds_of(std::string_view method) {
       {.method = "tiled", .psnr_db = 28.0, .flux = 0.05, .jump = 1.0},
       // Where it spends its error depends on all the light in the frame: the largest difference of two pictures that
       // may each have an RMS error of 0.003.
-      {.method = "adaptive", .psnr_db = 50.0, .addition = 1e-2, .rms = RenderSettings{}.error},
+      {.method = "adaptive", .psnr_db = 50.0, .addition = 1e-2, .rms = AdaptiveOptions{}.error},
   };
   Bounds found{.method = method};
   for (const Bounds& bounds : all)
@@ -55,22 +55,22 @@ void for_each_method(Body body) {
 }
 
 inline Image image_of(const Bounds& method, const LensState& lens, std::span<const Light> lights,
-                      const RenderSettings& settings) {
+                      const Settings& settings) {
   return flare_of(method.method, lens, lights, settings).image;
 }
 
-inline Image image_of(const Bounds& method, const LensState& lens, const Light& light, const RenderSettings& settings) {
+inline Image image_of(const Bounds& method, const LensState& lens, const Light& light, const Settings& settings) {
   return image_of(method, lens, std::span(&light, 1), settings);
 }
 
-inline Image truth_of(const LensState& lens, const Light& light, const RenderSettings& settings) {
+inline Image truth_of(const LensState& lens, const Light& light, const Settings& settings) {
   return image_of(bounds_of("reference"), lens, light, settings);
 }
 
 // A frame on the lens's sensor at 550 nm, with a grid that is quick.
-inline RenderSettings small_frame(const LensState& lens, int width, int height) {
-  RenderSettings settings = green(frame_on_sensor(lens, width, height));
-  settings.grid = 128;
+inline Settings small_frame(const LensState& lens, int width, int height) {
+  Settings settings = green(frame_on_sensor(lens, width, height));
+  settings.set_grid(128);
   return settings;
 }
 

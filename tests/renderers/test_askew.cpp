@@ -10,7 +10,7 @@ TEST_CASE("a lens with errors as in the reference, and unlike the lens as it oug
     CAPTURE(what);
     const LensState lens = bundled(name, {.f_number = 11.0, .build = {0.01, 0.3, 2}});
     const LensState ideal = bundled(name, {.f_number = 11.0});
-    RenderSettings settings = small_frame(lens, 96, 64);
+    test::Settings settings = small_frame(lens, 96, 64);
     Light light = light_at(ideal, settings.frame, {0.70, 0.33});
     if (what == "tessar") light.distance_mm = 500.0;
     const Image truth = truth_of(lens, light, settings);
@@ -30,10 +30,10 @@ TEST_CASE("on the axis a lens with errors is not symmetric; the same for any thr
   const LensState lens = bundled("heliar", {.f_number = 11.0, .build = {0.005, 0.2, 4}});
   const LensState none = bundled("heliar", {.f_number = 11.0, .build = {0.0, 0.0, 4}});
   const LensState ideal = bundled("heliar", {.f_number = 11.0});
-  RenderSettings settings = small_frame(lens, 72, 48);
+  test::Settings settings = small_frame(lens, 72, 48);
   const Light light;
   const Image truth = truth_of(lens, light, settings);
-  settings.reference_density = 0.2;
+  settings.reference.density = 0.2;
   for_each_method([&](const Bounds& bounds) {
     if (!bounds.traits.is_exact) check_against(truth, image_of(bounds, lens, light, settings), bounds);
     const Image one = flare_of(bounds.method, lens, {&light, 1}, settings, {.threads = 1}).image;

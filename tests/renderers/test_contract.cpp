@@ -13,9 +13,9 @@ namespace {
 LensState heliar() { return bundled("heliar", {.f_number = 16.0}); }
 
 // Of what a method does again and again, however coarse.
-RenderSettings quick_frame(const LensState& lens, int width, int height) {
-  RenderSettings settings = small_frame(lens, width, height);
-  settings.reference_density = 0.3;
+test::Settings quick_frame(const LensState& lens, int width, int height) {
+  test::Settings settings = small_frame(lens, width, height);
+  settings.reference.density = 0.3;
   return settings;
 }
 
@@ -50,7 +50,7 @@ Image sum_of(const Image& a, const Image& b, float times_b) {
 
 TEST_CASE("no light, no flare") {
   const LensState lens = heliar();
-  const RenderSettings settings = quick_frame(lens, 33, 18);
+  const test::Settings settings = quick_frame(lens, 33, 18);
   for_each_method([&](const Bounds& bounds) {
     CHECK(image_of(bounds, lens, std::span<const Light>(), settings).pixels == Pixels(33 * 18 * 3, 0.0F));
   });
@@ -58,7 +58,7 @@ TEST_CASE("no light, no flare") {
 
 TEST_CASE("flare is linear in the light, and lights add") {
   const LensState lens = heliar();
-  const RenderSettings settings = quick_frame(lens, 48, 32);
+  const test::Settings settings = quick_frame(lens, 48, 32);
   Light a = light_at(lens, settings.frame, {0.7, 0.33});
   Light b = light_at(lens, settings.frame, {0.25, 0.75});
   b.value = {3.0, 0.5, 0.0};
@@ -77,7 +77,7 @@ TEST_CASE("flare is linear in the light, and lights add") {
 
 TEST_CASE("a window of the frame is that part of it") {
   const LensState lens = heliar();
-  RenderSettings settings = quick_frame(lens, 120, 80);
+  test::Settings settings = quick_frame(lens, 120, 80);
   const Light light = light_at(lens, settings.frame, {0.7, 0.33});
   Frame window = settings.frame;
   window.origin_x = 37;
@@ -96,8 +96,8 @@ TEST_CASE("a window of the frame is that part of it") {
 
 TEST_CASE("finer pixels share the light of coarser ones") {
   const LensState lens = heliar();
-  const RenderSettings coarse = small_frame(lens, 80, 52);
-  RenderSettings fine = coarse;
+  const test::Settings coarse = small_frame(lens, 80, 52);
+  test::Settings fine = coarse;
   fine.frame = frame_on_sensor(lens, 160, 104);
   const Light light = light_at(lens, coarse.frame, {0.7, 0.33});
   for_each_method([&](const Bounds& bounds) {
@@ -111,8 +111,8 @@ TEST_CASE("finer pixels share the light of coarser ones") {
 TEST_CASE("a frame of one pixel holds what all pixels of the same area hold") {
   const LensState lens = heliar();
   const double width_mm = lens.sensor_height_mm;
-  const RenderSettings many = green({64, 64, 0, 0, 64, 64, width_mm / 64});
-  RenderSettings one = many;
+  const test::Settings many = green({64, 64, 0, 0, 64, 64, width_mm / 64});
+  test::Settings one = many;
   one.frame = {1, 1, 0, 0, 1, 1, width_mm};
   const Light light = light_at(lens, many.frame, {0.7, 0.4});
   for_each_method([&](const Bounds& bounds) {
@@ -124,8 +124,8 @@ TEST_CASE("a frame of one pixel holds what all pixels of the same area hold") {
 
 TEST_CASE("the order in which wavelengths are given does not matter") {
   const LensState lens = heliar();
-  RenderSettings settings = quick_frame(lens, 48, 32);
-  settings.grid = 48;
+  test::Settings settings = quick_frame(lens, 48, 32);
+  settings.set_grid(48);
   const std::vector<Light> lights{light_at(lens, settings.frame, {0.7, 0.33})};
   for_each_method([&](const Bounds& bounds) {
     settings.lambda_nm = {430, 480, 530, 580, 630, 680};
@@ -137,8 +137,8 @@ TEST_CASE("the order in which wavelengths are given does not matter") {
 
 TEST_CASE("the same bits for 1, 2 and 7 threads") {
   const LensState lens = heliar();
-  RenderSettings settings = quick_frame(lens, 48, 32);
-  settings.grid = 48;
+  test::Settings settings = quick_frame(lens, 48, 32);
+  settings.set_grid(48);
   const std::vector<Light> lights{light_at(lens, settings.frame, {0.7, 0.33}),
                                   light_at(lens, settings.frame, {0.25, 0.75})};
   for_each_method([&](const Bounds& bounds) {
@@ -156,7 +156,7 @@ TEST_CASE("the same bits for 1, 2 and 7 threads") {
 
 TEST_CASE("an interrupted render says so, before it begins and midway") {
   const LensState lens = heliar();
-  const RenderSettings settings = quick_frame(lens, 64, 36);
+  const test::Settings settings = quick_frame(lens, 64, 36);
   const Light light = light_at(lens, settings.frame, {0.7, 0.33});
   for_each_method([&](const Bounds& bounds) {
     std::atomic<bool> cancel{true};
@@ -174,7 +174,7 @@ TEST_CASE("an interrupted render says so, before it begins and midway") {
 
 TEST_CASE("lights at grazing angles give finite flares; directions that are none are refused") {
   const LensState lens = heliar();
-  const RenderSettings settings = quick_frame(lens, 32, 18);
+  const test::Settings settings = quick_frame(lens, 32, 18);
   for_each_method([&](const Bounds& bounds) {
     Light light;
     for (const double angle_deg : {60.0, 85.0, 89.0}) {
@@ -190,7 +190,7 @@ TEST_CASE("lights at grazing angles give finite flares; directions that are none
 
 TEST_CASE("a light that moves by a hundredth of a pixel changes no pixel by a jump") {
   const LensState lens = bundled("heliar", {.f_number = 8.0});
-  const RenderSettings settings = quick_frame(lens, 96, 64);
+  const test::Settings settings = quick_frame(lens, 96, 64);
   constexpr int kSteps = 4;
   const auto light_after = [&](int steps) {
     return light_at(lens, settings.frame, {0.70 + 0.01 * steps / settings.frame.width, 0.33});

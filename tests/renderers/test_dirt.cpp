@@ -55,7 +55,7 @@ double mean_over_pixel(int x, int y, Body body) {
 
 struct LensScene {
   LensState clean, dirty;
-  RenderSettings frame;
+  test::Settings frame;
   Light light;
 };
 
@@ -78,7 +78,7 @@ LensScene heliar_scene(const Dirt& dirt, double distance_mm = std::numeric_limit
 // The plate's ghost is the stop's own image, pixel by pixel.
 TEST_CASE("a plate's ghost has the shadows of its dirt where it lies, and loses as much light as that covers") {
   LensState lens = plate();
-  const RenderSettings settings = green({kSide, kSide, 0, 0, kSide, kSide, 0.08});
+  const test::Settings settings = green({kSide, kSide, 0, 0, kSide, kSide, 0.08});
   const double area_mm2 = std::numbers::pi * kPlateRadius_mm * kPlateRadius_mm;
   const double level = 0.04 * 0.04 * 0.08 * 0.08 / area_mm2;
   for (const double opacity : {1.0, 0.6}) {
@@ -116,7 +116,7 @@ TEST_CASE("a picture of dirt dims what it covers") {
   lens.dirt.picture = quarter_picture();
   lens.dirt.plane = DirtPlane::Stop;
   lens.surfaces[static_cast<std::size_t>(lens.stop_index)].semi_diameter_mm = 4.0;  // what it spans
-  const RenderSettings settings = green({kSide, kSide, 0, 0, kSide, kSide, 0.08});
+  const test::Settings settings = green({kSide, kSide, 0, 0, kSide, kSide, 0.08});
   for_each_method([&](const Bounds& bounds) {
     const Image image = image_of(bounds, lens, Light{}, settings);
     CHECK(sum(image) / 3.0 / (0.04 * 0.04) == doctest::Approx(0.875).epsilon(0.01));
@@ -171,7 +171,7 @@ TEST_CASE("with ringing, scratches have the fringes of slits") {
                .plane = DirtPlane::Stop,
                .seed = 3};
   constexpr int kHigh = 160;
-  RenderSettings settings = green({8, kHigh, 396, 400 - kHigh / 2, 800, 800, 0.01});
+  test::Settings settings = green({8, kHigh, 396, 400 - kHigh / 2, 800, 800, 0.01});
   const double unit_mm = std::sqrt(550e-6 * 12.0);
   const auto edge = [&](double mm) {  // far inside 1
     std::complex<double> sum(0.5, 0.0);
@@ -186,10 +186,10 @@ TEST_CASE("with ringing, scratches have the fringes of slits") {
     if (std::abs(s.middle_mm.y) < 1.1 && std::abs(s.middle_mm.x) < 0.4 * s.length_mm) seen.push_back(s);
   REQUIRE(seen.size() >= 2);
   const double level = 0.04 * 0.04 * 1e-4 / (std::numbers::pi * kPlateRadius_mm * kPlateRadius_mm);
-  settings.error = 1e-3;
+  settings.set_error(1e-3);
   for_each_method([&](const Bounds& bounds) {
     const Image sharp = image_of(bounds, lens, Light{}, settings);
-    RenderSettings ringing = settings;
+    test::Settings ringing = settings;
     ringing.ringing.mode = RingingMode::Fresnel;
     const Image image = image_of(bounds, lens, Light{}, ringing);
     double squares = 0.0, from_sharp = 0.0;
@@ -287,7 +287,7 @@ TEST_CASE("shadows wander smoothly and come back") {
 
 TEST_CASE("as much dirt as there may be leaves little light, and none of it negative") {
   LensState lens = plate();
-  const RenderSettings settings = green({40, 40, 0, 0, 40, 40, 0.16});
+  const test::Settings settings = green({40, 40, 0, 0, 40, 40, 0.16});
   const double level = 0.04 * 0.04 * 0.16 * 0.16 / (std::numbers::pi * kPlateRadius_mm * kPlateRadius_mm);
   for (const double dust_mm : {1e-4, 0.05, 4.0}) {
     for (const DirtPlane plane : {DirtPlane::Stop, DirtPlane::Front}) {

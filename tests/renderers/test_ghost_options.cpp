@@ -14,12 +14,12 @@ namespace {
 // Two ghosts of a Heliar that fall apart, and all the rest.
 struct Scene {
   LensState lens = bundled("heliar", {.f_number = 11.0});
-  RenderSettings settings = small_frame(lens, 96, 64);
+  test::Settings settings = small_frame(lens, 96, 64);
   Light light = light_at(lens, settings.frame, {0.70, 0.33});
 
-  Scene() { settings.reference_density = 0.3; }
-  RenderSettings only(std::vector<Ghost> ghosts) const {
-    RenderSettings out = settings;
+  Scene() { settings.reference.density = 0.3; }
+  test::Settings only(std::vector<Ghost> ghosts) const {
+    test::Settings out = settings;
     out.selection = SelectList{std::move(ghosts)};
     return out;
   }
@@ -39,7 +39,7 @@ TEST_CASE("gains and colours of one ghost, and of all") {
   for_each_method([&](const Bounds& bounds) {
     const Image one = image_of(bounds, s.lens, s.light, s.only({kGhost}));
     const Image other = image_of(bounds, s.lens, s.light, s.only({kOther}));
-    RenderSettings both = s.only({kGhost, kOther});
+    test::Settings both = s.only({kGhost, kOther});
     both.ghosts.gain = 3.0;
     both.ghosts.adjustments = {{.ghost = kGhost, .gain = 0.5, .colour = {1.0, 0.25, 0.0}}};
     const Image image = image_of(bounds, s.lens, s.light, both);
@@ -53,7 +53,7 @@ TEST_CASE("gains and colours of one ghost, and of all") {
 
 TEST_CASE("everything off, said or not, is the same to the last bit") {
   const Scene s;
-  RenderSettings said = s.settings;
+  test::Settings said = s.settings;
   said.ghosts.ramp = {{-1.0, {1, 1, 1}}, {1.0, {1, 1, 1}}};
   said.ghosts.adjustments = {{.ghost = {1, 2}}, {.ghost = {2, 3}}};
   said.ghosts.scatter_seed = 7;
@@ -65,7 +65,7 @@ TEST_CASE("everything off, said or not, is the same to the last bit") {
 TEST_CASE("an offset moves a ghost by so many pixels, to the right and up") {
   const Scene s;
   const Ghost kGhost{1, 2};
-  RenderSettings settings = s.only({kGhost});
+  test::Settings settings = s.only({kGhost});
   // 8 pixels to the right and 4 up, of a frame 64 pixels high.
   settings.ghosts.adjustments = {{.ghost = kGhost, .offset = {8.0 / 64.0, 4.0 / 64.0}}};
   for_each_method([&](const Bounds& bounds) {
@@ -133,7 +133,7 @@ TEST_CASE("a ramp colours ghosts by where they lie; scatter is seeded and has it
 
 TEST_CASE("ghosts of a light at the frame's corner have the edge's gain") {
   const Scene s;
-  RenderSettings settings = s.settings;
+  test::Settings settings = s.settings;
   settings.ghosts.edge_gain = 0.25;
   for_each_method([&](const Bounds& bounds) {
     for (const auto& [uv, gain] : {std::pair{Vec2{1.0, 1.0}, 0.25}, std::pair{Vec2{0.75, 0.75}, 0.625}}) {
@@ -148,7 +148,7 @@ TEST_CASE("numbers that cannot be are refused") {
   const Scene s;
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const auto refuses = [&](auto spoil) {
-    RenderSettings settings = s.settings;
+    test::Settings settings = s.settings;
     spoil(settings.ghosts);
     const auto flare = render("adaptive", s.lens, std::span(&s.light, 1), settings);
     return !flare.has_value() && flare.error().code == ErrorCode::InvalidArgument;

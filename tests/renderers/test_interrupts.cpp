@@ -16,7 +16,7 @@ struct Case {
   std::string name;
   bool is_of_the_driver;  // or of what all methods share: with one of them
   LensState lens;
-  RenderSettings settings;
+  test::Settings settings;
   std::vector<Light> lights;
 };
 
@@ -26,14 +26,14 @@ std::vector<Case> cases() {
   LensSettings dusty{.f_number = 16.0, .iris = {6}};
   dusty.dirt.dust_per_cm2 = 30.0;
   const LensState dirty = bundled("heliar", dusty);
-  RenderSettings plain = small_frame(clean, 96, 54);
-  plain.reference_density = 0.3;
-  RenderSettings ringing = plain, hullin = plain, starburst = plain;
+  test::Settings plain = small_frame(clean, 96, 54);
+  plain.reference.density = 0.3;
+  test::Settings ringing = plain, hullin = plain, starburst = plain;
   ringing.ringing.mode = RingingMode::Fresnel;
   hullin.ringing.mode = RingingMode::Hullin;
   starburst.starburst.on = true;
   starburst.glare.share = 0.1;
-  RenderSettings all = ringing;
+  test::Settings all = ringing;
   all.starburst = starburst.starburst;
   all.glare = starburst.glare;
   const Light point = light_at(clean, plain.frame, {0.7, 0.33});

@@ -40,7 +40,7 @@ double share_of_pixel(const Iris& iris, const Frame& frame, int x, int y) {
 
 void check_plate(const Iris& iris) {
   const LensState lens = plate_with(iris);
-  const RenderSettings settings = green({80, 80, 0, 0, 80, 80, 0.08});
+  const test::Settings settings = green({80, 80, 0, 0, 80, 80, 0.08});
   const double area_mm2 = iris_area_fraction(iris) * std::numbers::pi * kIrisPlateRadius_mm * kIrisPlateRadius_mm;
   const double level = 0.04 * 0.04 * 0.08 * 0.08 / area_mm2;  // R^2 of the light, level over the opening
   std::vector<double> share(80 * 80);
@@ -88,7 +88,7 @@ TEST_CASE("every number of blades, the ends of every range") {
     for (const double curvature : {0.0, 1.0}) {
       CAPTURE(blades);
       const LensState lens = plate_with({blades, -2.0, curvature, 1.0, 0.5, static_cast<std::uint32_t>(blades)});
-      const RenderSettings settings = green({40, 40, 0, 0, 40, 40, 0.16});
+      const test::Settings settings = green({40, 40, 0, 0, 40, 40, 0.16});
       for_each_method([&](const Bounds& bounds) {
         if (bounds.traits.is_slow && blades % 8 != 0) return;
         const double flux = sum(image_of(bounds, lens, Light{}, settings)) / 3.0 / (0.04 * 0.04);
@@ -99,7 +99,7 @@ TEST_CASE("every number of blades, the ends of every range") {
 }
 
 TEST_CASE("blades that leave a circle give the round iris's bits") {
-  const RenderSettings settings = small_frame(bundled("heliar"), 96, 64);
+  const test::Settings settings = small_frame(bundled("heliar"), 96, 64);
   const Image round = image_of(bounds_of("adaptive"), bundled("heliar", {.f_number = 3.5}),
                                light_at(bundled("heliar"), settings.frame, {0.7, 0.33}), settings);
   CHECK(sum(round) > 0.0);
@@ -129,7 +129,7 @@ TEST_CASE("a white picture is the round iris, to the error of its edge [slow]") 
   const LensState round = bundled("heliar", {.f_number = 11.0});
   LensState white = round;
   white.iris.field = drawn_field(64, [](Vec2) { return 1.0; });
-  const RenderSettings settings = small_frame(round, 96, 64);
+  const test::Settings settings = small_frame(round, 96, 64);
   const Light light = light_at(round, settings.frame, {0.7, 0.33});
   for_each_method([&](const Bounds& bounds) {
     CHECK(psnr_db(image_of(bounds, round, light, settings), image_of(bounds, white, light, settings)) >=
@@ -140,9 +140,9 @@ TEST_CASE("a white picture is the round iris, to the error of its edge [slow]") 
 TEST_CASE("curved and uneven blades and pictures, the same bits for any number of threads") {
   for (const Iris& iris : {Iris{7, 0.3, 0.4, 1.02, 0.1, 3}, flower(0.4)}) {
     const LensState lens = bundled("heliar", {.f_number = 8.0, .iris = iris});
-    RenderSettings settings = small_frame(lens, 48, 32);
-    settings.grid = 48;
-    settings.reference_density = 0.3;
+    test::Settings settings = small_frame(lens, 48, 32);
+    settings.set_grid(48);
+    settings.reference.density = 0.3;
     const Light light = light_at(lens, settings.frame, {0.7, 0.33});
     for_each_method([&](const Bounds& bounds) {
       const auto one = flare_of(bounds.method, lens, {&light, 1}, settings, {.threads = 1}).image.pixels;
@@ -155,8 +155,8 @@ TEST_CASE("curved and uneven blades, as in the reference [slow]") {
   for (const Iris& iris : {Iris{5, 0.3, 0.5}, Iris{9, 0.1, 0.2, 1.0, 0.1, 7}, Iris{6, 0.2, 0.3, 1.05, 0.03, 2}}) {
     CAPTURE(iris.blades);
     const LensState lens = bundled("heliar", {.f_number = 11.0, .iris = iris});
-    RenderSettings settings = small_frame(lens, 96, 64);
-    settings.reference_density = 1.4;  // at 1 it is off where an iris has its corners
+    test::Settings settings = small_frame(lens, 96, 64);
+    settings.reference.density = 1.4;  // at 1 it is off where an iris has its corners
     const Light light = light_at(lens, settings.frame, {0.70, 0.33});
     const Image truth = truth_of(lens, light, settings);
     CHECK(sum(truth) > 0.0);
@@ -169,8 +169,8 @@ TEST_CASE("curved and uneven blades, as in the reference [slow]") {
 TEST_CASE("a picture as the iris, as in the reference [slow]") {
   for (const double f_number : {5.6, 11.0}) {
     const LensState lens = bundled("heliar", {.f_number = f_number, .iris = flower(0.3)});
-    RenderSettings settings = small_frame(lens, 96, 64);
-    settings.reference_density = 1.4;
+    test::Settings settings = small_frame(lens, 96, 64);
+    settings.reference.density = 1.4;
     const Light light = light_at(lens, settings.frame, {0.70, 0.33});
     const Image truth = truth_of(lens, light, settings);
     CHECK(sum(truth) > 0.0);

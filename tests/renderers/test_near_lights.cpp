@@ -48,7 +48,7 @@ Disc disc_of(const Image& image, double pitch_mm, double radius_mm) {
 
 TEST_CASE("a plate's ghost of a light at half a metre is the stop's shadow, as large as the way there and back says") {
   const LensState lens = plate();
-  const RenderSettings settings = green({120, 120, 0, 0, 120, 120, 0.08});
+  const test::Settings settings = green({120, 120, 0, 0, 120, 120, 0.08});
   for (const double distance_mm : {500.0, 60.0}) {
     CAPTURE(distance_mm);
     Light light;
@@ -72,8 +72,8 @@ TEST_CASE("a plate's ghost of a light at half a metre is the stop's shadow, as l
 
 TEST_CASE("a light at a kilometre is a distant one; at infinity to the last bit") {
   const LensState lens = bundled("heliar", {.f_number = 11.0});
-  RenderSettings settings = small_frame(lens, 96, 64);
-  settings.reference_density = 0.3;
+  test::Settings settings = small_frame(lens, 96, 64);
+  settings.reference.density = 0.3;
   const Light distant = light_at(lens, settings.frame, {0.70, 0.33});
   const Light far = near_light(lens, settings.frame, {0.70, 0.33}, 1e6);
   Light farther = distant;
@@ -100,8 +100,8 @@ TEST_CASE("lights at half a metre and nearer, as in the reference") {
     CAPTURE(what);
     CAPTURE(c.distance_mm);
     const LensState lens = bundled(c.lens, c.settings);
-    RenderSettings settings = small_frame(lens, 96, 64);
-    settings.reference_density = 0.5;
+    test::Settings settings = small_frame(lens, 96, 64);
+    settings.reference.density = 0.5;
     const Light light = near_light(lens, settings.frame, c.uv, c.distance_mm);
     const Image truth = truth_of(lens, light, settings);
     CHECK(sum(truth) > 0.0);
@@ -132,8 +132,8 @@ TEST_CASE("a near light's ghosts near the axis are where the lens's matrices say
 
 TEST_CASE("lights that cannot be: refused with a reason, the nearest that can render") {
   const LensState lens = bundled("heliar", {.f_number = 11.0});
-  RenderSettings settings = small_frame(lens, 24, 16);
-  settings.reference_density = 0.3;
+  test::Settings settings = small_frame(lens, 24, 16);
+  settings.reference.density = 0.3;
   for (const double distance_mm : {0.0, -5.0, std::nan(""), 1e-3, 0.05}) {
     CAPTURE(distance_mm);
     Light light;
@@ -160,8 +160,8 @@ TEST_CASE("lights that cannot be: refused with a reason, the nearest that can re
 
 TEST_CASE("lights at several distances add, whatever the threads") {
   const LensState lens = bundled("heliar", {.f_number = 11.0});
-  RenderSettings settings = small_frame(lens, 48, 32);
-  settings.reference_density = 0.2;
+  test::Settings settings = small_frame(lens, 48, 32);
+  settings.reference.density = 0.2;
   const Light lights[] = {near_light(lens, settings.frame, {0.7, 0.3}, 300.0),
                           near_light(lens, settings.frame, {0.3, 0.4}, 2000.0),
                           light_at(lens, settings.frame, {0.4, 0.8})};

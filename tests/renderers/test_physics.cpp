@@ -46,7 +46,7 @@ void check_system(const System& system, const Image& truth) {
   const std::string lens_name(system.name);
   CAPTURE(lens_name);
   const LensState lens = bundled(system.name, system.settings);
-  const RenderSettings settings = small_frame(lens, truth.width, truth.height);
+  const test::Settings settings = small_frame(lens, truth.width, truth.height);
   const Light light = light_at(lens, settings.frame, system.uv);
   for_each_method([&](Bounds bounds) {
     if (bounds.traits.is_exact) return;
@@ -57,8 +57,8 @@ void check_system(const System& system, const Image& truth) {
 
 Image truth_of_system(const System& system, double density) {
   const LensState lens = bundled(system.name, system.settings);
-  RenderSettings settings = small_frame(lens, 160, 90);
-  settings.reference_density = density;
+  test::Settings settings = small_frame(lens, 160, 90);
+  settings.reference.density = density;
   return truth_of(lens, light_at(lens, settings.frame, system.uv), settings);
 }
 
@@ -66,7 +66,7 @@ Image truth_of_system(const System& system, double density) {
 
 TEST_CASE("a plate's ghost is a level disc of R^2 times the light") {
   const LensState lens = plate();
-  const RenderSettings settings = green({120, 120, 0, 0, 120, 120, 0.08});
+  const test::Settings settings = green({120, 120, 0, 0, 120, 120, 0.08});
   const Light light;
   const double r = 0.04;  // ((1.5 - 1) / (1.5 + 1))^2
   // V = 1: E_ghost A_pixel / Phi = R^2 * pixel area / stop area.
@@ -90,7 +90,7 @@ TEST_CASE("a plate's ghost is a level disc of R^2 times the light") {
 
 TEST_CASE("a ball's ghost carries R^2, at almost normal incidence") {
   const LensState lens = ball();
-  const RenderSettings settings = small_frame(lens, 90, 60);
+  const test::Settings settings = small_frame(lens, 90, 60);
   Light light;
   light.direction = normalized({-0.01, 0.02, 1.0});
   const Image truth = truth_of(lens, light, settings);
@@ -103,7 +103,7 @@ TEST_CASE("a ball's ghost carries R^2, at almost normal incidence") {
 
 TEST_CASE("pictures are upright: a plate's ghost of a light up and to the right is up and to the right") {
   const LensState lens = plate();
-  const RenderSettings settings = green({100, 100, 0, 0, 100, 100, 0.1});
+  const test::Settings settings = green({100, 100, 0, 0, 100, 100, 0.1});
   Light light;
   light.direction = direction_from_angles(0.15, 0.1);
   // 8 mm of air, and three times through 2 mm of glass of n = 1.5.
@@ -151,10 +151,10 @@ TEST_CASE("long zooms against the reference's kept pictures [slow]") {
 
 TEST_CASE("every pair of surfaces: more ghosts, as in the reference [slow]") {
   const LensState lens = bundled("heliar", {.f_number = 5.6});
-  RenderSettings settings = small_frame(lens, 72, 48);
+  test::Settings settings = small_frame(lens, 72, 48);
   const Light light = light_at(lens, settings.frame, {0.70, 0.33});
   settings.scope = GhostScope::All;
-  settings.reference_density = 0.7;
+  settings.reference.density = 0.7;
   const Image truth = truth_of(lens, light, settings);
   for_each_method([&](const Bounds& bounds) {
     if (bounds.traits.is_exact) return;
@@ -180,8 +180,8 @@ TEST_CASE("blades of an iris, lights on the axis and outside the frame, as in th
     const std::string what(c.what);
     CAPTURE(what);
     const LensState lens = bundled("heliar", {.f_number = 11.0, .iris = c.iris});
-    RenderSettings settings = small_frame(lens, 96, 64);
-    settings.reference_density = c.iris.blades > 0 ? 1.4 : 0.7;  // at 1 it is off where an iris has its corners
+    test::Settings settings = small_frame(lens, 96, 64);
+    settings.reference.density = c.iris.blades > 0 ? 1.4 : 0.7;  // at 1 it is off where an iris has its corners
     Light light = light_at(lens, settings.frame, c.uv);
     if (c.uv == Vec2{0.5, 0.5}) light.direction = {0.0, 0.0, 1.0};
     const Image truth = truth_of(lens, light, settings);
@@ -198,19 +198,19 @@ TEST_CASE("by default each channel has the light of many wavelengths, by every m
   for (const auto& [name, f_number] : {std::pair{"tessar", 8.0}, std::pair{"muller-fisheye-10", 11.0}}) {
     CAPTURE(name);
     const LensState lens = bundled(name, {.f_number = f_number});
-    RenderSettings settings;
+    test::Settings settings;
     settings.frame = frame_on_sensor(lens, 64, 36);
-    settings.grid = 48;
-    settings.reference_density = 0.1;
+    settings.set_grid(48);
+    settings.reference.density = 0.1;
     const Light light = light_at(lens, settings.frame, {0.7, 0.35});
     const auto sums = [&](const Image& image) {
       Rgb out{};
       for (std::size_t k = 0; k < image.pixels.size(); ++k) out[k % 3] += image.pixels[k];
       return out;
     };
-    RenderSettings many = settings;
+    test::Settings many = settings;
     many.wavelengths = 64;
-    many.error = 1e-3;
+    many.set_error(1e-3);
     const Rgb truth = sums(flare_of("adaptive", lens, {&light, 1}, many).image);
     for_each_method([&](const Bounds& bounds) {
       const Rgb ours = sums(image_of(bounds, lens, light, settings));

@@ -22,7 +22,7 @@ LensState changed_tessar(const SurfaceShape& front, const SurfaceShape& rear) {
 
 // With any shortcut allowed that a lens of revolution has.
 void check_all(const LensState& lens, Vec2 uv, int width = 72) {
-  RenderSettings settings = small_frame(lens, width, width * 2 / 3);
+  test::Settings settings = small_frame(lens, width, width * 2 / 3);
   settings.bundle.mirror_symmetry = settings.bundle.precomputed_bounds = true;
   const Light light = light_at(lens, settings.frame, uv);
   const Image truth = truth_of(lens, light, settings);

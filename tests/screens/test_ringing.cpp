@@ -1,8 +1,11 @@
 // Ringing as it is drawn: where the fringes are, how much light there is, the same in all methods.
 #include <cmath>
+#include <memory>
 #include <numbers>
 
-#include "contrejour/ringing.h"
+#include "render/driver/render_frame.h"
+#include "render/screens/dirt_fringes.h"
+#include "render/screens/stop_patterns.h"
 #include "renderers/methods.h"
 #include "support/pictures.h"
 
@@ -14,7 +17,7 @@ namespace {
 constexpr double kPlateRadius_mm = 3.0;
 constexpr double kPlateFlux = 0.04 * 0.04;  // of the light's value
 
-RenderSettings ringing(RenderSettings settings, RingingMode mode = RingingMode::Fresnel) {
+test::Settings ringing(test::Settings settings, RingingMode mode = RingingMode::Fresnel) {
   settings.ringing.mode = mode;
   return settings;
 }
@@ -29,6 +32,17 @@ LensState plate_of(double radius_mm, const Iris& iris) {
 
 Frame square_frame(int side, double pitch_mm) { return {side, side, 0, 0, side, side, pitch_mm}; }
 
+// The picture of a light on the axis, with a cache that may hold what other frames have left.
+Image image_with(RenderCache& cache, std::string_view method, const LensState& lens, const Settings& settings,
+                 int threads = 0) {
+  Context context;
+  context.threads = threads;
+  const Light light;
+  auto flare = render_frame(settings.options(method).value(), {lens, {&light, 1}, settings, cache}, context);
+  REQUIRE(flare.has_value());
+  return std::move(flare->image);
+}
+
 }  // namespace
 
 TEST_CASE("behind a long edge the first fringe is 1.370, where the Fresnel integrals have it, inside the rim") {
@@ -37,10 +51,10 @@ TEST_CASE("behind a long edge the first fringe is 1.370, where the Fresnel integ
   const double unit_px = kPlateRadius_mm / std::sqrt(2.0 * 9.0 / (550e-6 * 12.0)) / 0.01;
   const double edge_px = kPlateRadius_mm * std::sqrt(0.5) / 0.01;  // from the axis
   const double level = kPlateFlux * 1e-4 / (2.0 * 9.0);
-  const RenderSettings settings = ringing(green({90, 12, 300 + static_cast<int>(edge_px) - 60, 294, 600, 600, 0.01}));
+  const test::Settings settings = ringing(green({90, 12, 300 + static_cast<int>(edge_px) - 60, 294, 600, 600, 0.01}));
   for_each_method([&](const Bounds& bounds) {
-    RenderSettings fine = settings;
-    fine.error = 1e-4;
+    test::Settings fine = settings;
+    fine.set_error(1e-4);
     const Image image = image_of(bounds, lens, Light{}, fine);
     int best = 0;
     for (int x = 30; x < 90; ++x)
@@ -64,7 +78,7 @@ TEST_CASE("a ghost keeps its light, whatever its Fresnel number [slow]") {
     const double radius_mm = std::sqrt(f * 550e-6 * 12.0);
     const LensState lens = plate_of(radius_mm, hexagon);
     const double half_mm = radius_mm * std::min(1.2 + 4.0 / std::sqrt(std::max(f, 0.5)) + 4.0 / std::max(f, 0.5), 12.5);
-    const RenderSettings settings = green(square_frame(128, half_mm / 64.0));
+    const test::Settings settings = green(square_frame(128, half_mm / 64.0));
     for_each_method([&](const Bounds& bounds) {
       if (bounds.traits.is_slow && f > 100.0) return;
       const double sharp = sum(image_of(bounds, lens, Light{}, settings));
@@ -76,7 +90,7 @@ TEST_CASE("a ghost keeps its light, whatever its Fresnel number [slow]") {
 
 TEST_CASE("ghosts whose cells are larger than the iris have light nowhere else [slow]") {
   const LensState lens = bundled("itoh-zoom", {.focal_length_mm = 123.0, .f_number = 32.0});
-  RenderSettings settings;
+  test::Settings settings;
   settings.frame = frame_on_sensor(lens, 960, 540);
   settings.wavelengths = 3;
   const Light light = light_at(lens, settings.frame, {0.52, 0.55});
@@ -92,7 +106,7 @@ TEST_CASE("ghosts whose cells are larger than the iris have light nowhere else [
 TEST_CASE("at a low Fresnel number a ghost widens smoothly and ends") {
   const double radius_mm = std::sqrt(1.5 * 550e-6 * 12.0);
   const LensState lens = plate_of(radius_mm, Iris{});
-  const RenderSettings settings = green(square_frame(160, 8.0 * radius_mm / 80.0));
+  const test::Settings settings = green(square_frame(160, 8.0 * radius_mm / 80.0));
   for_each_method([&](const Bounds& bounds) {
     const Image sharp = image_of(bounds, lens, Light{}, settings);
     const Image rung = image_of(bounds, lens, Light{}, ringing(settings));
@@ -112,12 +126,12 @@ TEST_CASE("at a low Fresnel number a ghost widens smoothly and ends") {
 }
 
 TEST_CASE("methods agree [slow]") {
-  const auto check = [](const LensState& lens, const Light& light, const RenderSettings& settings) {
+  const auto check = [](const LensState& lens, const Light& light, const test::Settings& settings) {
     const Image truth = truth_of(lens, light, settings);
     for_each_method([&](const Bounds& bounds) {
       if (bounds.traits.is_exact) return;
-      RenderSettings fine = settings;
-      fine.error = 1e-3;
+      test::Settings fine = settings;
+      fine.set_error(1e-3);
       const Image image = image_of(bounds, lens, light, fine);
       CHECK(psnr_db(truth, image) >= (bounds.traits.integrates_pixels ? 42.0 : 28.0));
       CHECK(sum(image) / sum(truth) == doctest::Approx(1.0).epsilon(bounds.traits.integrates_pixels ? 0.01 : 0.06));
@@ -130,9 +144,9 @@ TEST_CASE("methods agree [slow]") {
     check(plate_of(radius_mm, curved), Light{}, ringing(green(square_frame(64, radius_mm / 16.0))));
   }
   const LensState lens = bundled("heliar", {.f_number = 16.0, .iris = {7, 0.2}});
-  RenderSettings settings = small_frame(lens, 160, 107);
+  test::Settings settings = small_frame(lens, 160, 107);
   settings.lambda_nm.clear();
-  settings.reference_density = 0.7;
+  settings.reference.density = 0.7;
   check(lens, light_at(lens, settings.frame, {0.7, 0.33}), ringing(settings));
 }
 
@@ -152,7 +166,7 @@ TEST_CASE("half-tones of a picture as the iris dim every place of a ghost, with 
        {Case{RingingMode::None, 300.0}, {RingingMode::Fresnel, 300.0}, {RingingMode::Fresnel, 30.0}}) {
     CAPTURE(f);
     const double radius_mm = std::sqrt(f * 550e-6 * 12.0);
-    const RenderSettings settings = ringing(green(square_frame(64, radius_mm / 16.0)), mode);
+    const test::Settings settings = ringing(green(square_frame(64, radius_mm / 16.0)), mode);
     for_each_method([&](const Bounds& bounds) {
       const Image bright = image_of(bounds, plate_of(radius_mm, plain), Light{}, settings);
       const Image dim = image_of(bounds, plate_of(radius_mm, toned), Light{}, settings);
@@ -170,11 +184,11 @@ TEST_CASE("half-tones of a picture as the iris dim every place of a ghost, with 
 
 TEST_CASE("every crossing but the last is sharp: ghosts that cross the stop three times agree, too") {
   const LensState lens = bundled("heliar", {.f_number = 22.0, .iris = {6, 0.2}});
-  RenderSettings settings = ringing(small_frame(lens, 120, 80));
+  test::Settings settings = ringing(small_frame(lens, 120, 80));
   settings.scope = GhostScope::All;
   settings.selection = SelectList{{{2, 7}, {1, 9}}};
   const Light light = light_at(lens, settings.frame, {0.6, 0.4});
-  settings.error = 1e-3;
+  settings.set_error(1e-3);
   const Image truth = truth_of(lens, light, settings);
   REQUIRE(sum(truth) > 0.0);
   for (const char* method : {"bundle", "adaptive"}) {
@@ -185,17 +199,17 @@ TEST_CASE("every crossing but the last is sharp: ghosts that cross the stop thre
 
 TEST_CASE("off, order 0 and fringes finer than pixels give the sharp iris's bits") {
   const LensState lens = bundled("heliar", {.f_number = 8.0, .iris = {6, 0.2}});
-  const RenderSettings settings = small_frame(lens, 60, 40);
+  const test::Settings settings = small_frame(lens, 60, 40);
   const Light light = light_at(lens, settings.frame, {0.7, 0.33});
   const LensState plain = plate_of(kPlateRadius_mm, Iris{6, 0.2});
-  const RenderSettings coarse = green(square_frame(16, 0.6));
+  const test::Settings coarse = green(square_frame(16, 0.6));
   for_each_method([&](const Bounds& bounds) {
     if (bounds.traits.is_exact) return;
     const auto expected = image_of(bounds, lens, light, settings).pixels;
-    RenderSettings off = settings;
-    off.ringing = {RingingMode::None, 0.5, std::make_shared<RingingPatterns>()};
+    test::Settings off = settings;
+    off.ringing = {RingingMode::None, 0.5};
     CHECK(image_of(bounds, lens, light, off).pixels == expected);
-    RenderSettings order_0 = ringing(settings, RingingMode::Hullin);
+    test::Settings order_0 = ringing(settings, RingingMode::Hullin);
     for (const double alpha : {0.0, 1e-9, std::nan("")}) {
       order_0.ringing.alpha = alpha;
       CHECK(image_of(bounds, lens, light, order_0).pixels == expected);
@@ -209,7 +223,7 @@ TEST_CASE("the higher the Fresnel number, the closer to the sharp iris") {
   for (const double f : {10.0, 100.0, 1000.0, 10000.0}) {
     const double radius_mm = std::sqrt(f * 550e-6 * 12.0);
     const LensState lens = plate_of(radius_mm, Iris{6, 0.2});
-    const RenderSettings settings = green(square_frame(96, radius_mm / 36.0));
+    const test::Settings settings = green(square_frame(96, radius_mm / 36.0));
     const Bounds bundle = bounds_of("bundle");
     const double psnr =
         psnr_db(image_of(bundle, lens, Light{}, settings), image_of(bundle, lens, Light{}, ringing(settings)));
@@ -220,42 +234,63 @@ TEST_CASE("the higher the Fresnel number, the closer to the sharp iris") {
 
 TEST_CASE("hullin's pattern keeps the light and is the same for all ghosts") {
   const LensState lens = plate_of(0.6, Iris{6, 0.2});
-  RenderSettings settings = ringing(green(square_frame(96, 0.9 / 48.0)), RingingMode::Hullin);
-  settings.ringing.patterns = std::make_shared<RingingPatterns>();
+  test::Settings settings = ringing(green(square_frame(96, 0.9 / 48.0)), RingingMode::Hullin);
   settings.ringing.alpha = 0.15;
+  RenderCache cache;
   for (const char* method : {"bundle", "adaptive"}) {
-    RenderSettings sharp = settings;
+    test::Settings sharp = settings;
     sharp.ringing.mode = RingingMode::None;
-    const Image image = image_of(bounds_of(method), lens, Light{}, settings);
+    const Image image = image_with(cache, method, lens, settings);
     CHECK(sum(image) / sum(image_of(bounds_of(method), lens, Light{}, sharp)) == doctest::Approx(1.0).epsilon(0.01));
     CHECK(psnr_db(image_of(bounds_of(method), lens, Light{}, sharp), image) < 35.0);
   }
-  CHECK(settings.ringing.patterns->count() == 1);
+  CHECK(cache.find<screens::StopPatterns>()->count() == 1);
 }
 
 TEST_CASE("patterns that are kept change nothing, and go with their iris; threads change nothing") {
   const double radius_mm = std::sqrt(3.0 * 550e-6 * 12.0);
   const LensState lens = plate_of(radius_mm, Iris{6, 0.2}), other = plate_of(radius_mm, Iris{5, 0.2});
-  RenderSettings settings = ringing(green(square_frame(48, radius_mm / 8.0)));
+  const Settings settings = ringing(green(square_frame(48, radius_mm / 8.0)));
   for_each_method([&](const Bounds& bounds) {
-    const Light light;
-    const auto render_on = [&](const LensState& with, const RenderSettings& s, int threads) {
-      Context context;
-      context.threads = threads;
-      const auto flare = render(bounds.method, with, std::span(&light, 1), s, context);
-      REQUIRE(flare.has_value());
-      return flare->image.pixels;
+    const auto fresh = [&](const LensState& with, int threads) {
+      RenderCache cache;
+      return image_with(cache, bounds.method, with, settings, threads).pixels;
     };
-    const auto expected = render_on(lens, settings, 1);
-    CHECK(render_on(lens, settings, 3) == expected);
-    RenderSettings kept = settings;
-    kept.ringing.patterns = std::make_shared<RingingPatterns>();
-    CHECK(render_on(lens, kept, 2) == expected);
-    const std::size_t count = kept.ringing.patterns->count();
-    CHECK(count == 2);  // of one wavelength, and the band of that wavelength alone
-    CHECK(render_on(lens, kept, 2) == expected);
-    CHECK(kept.ringing.patterns->count() == count);
-    CHECK(render_on(other, kept, 2) == render_on(other, settings, 2));
-    CHECK(render_on(lens, kept, 2) == expected);
+    const auto expected = fresh(lens, 1);
+    CHECK(fresh(lens, 3) == expected);
+    RenderCache cache;
+    CHECK(cache.find<screens::StopPatterns>() == nullptr);
+    CHECK(image_with(cache, bounds.method, lens, settings, 2).pixels == expected);
+    const auto patterns = cache.find<screens::StopPatterns>();
+    CHECK(patterns->count() == 2);  // of one wavelength, and the band of that wavelength alone
+    CHECK(image_with(cache, bounds.method, lens, settings, 2).pixels == expected);
+    CHECK(cache.find<screens::StopPatterns>() == patterns);
+    CHECK(patterns->count() == 2);
+    CHECK(image_with(cache, bounds.method, other, settings, 2).pixels == fresh(other, 2));
+    CHECK(cache.find<screens::StopPatterns>() != patterns);
+    CHECK(image_with(cache, bounds.method, lens, settings, 2).pixels == expected);
   });
+}
+
+TEST_CASE("shadows of dirt that are kept change nothing, and go with their dirt") {
+  LensState lens = plate_of(kPlateRadius_mm, Iris{6, 0.2});
+  const Settings settings = ringing(green(square_frame(96, 0.05)));
+  const auto fresh = [&] {
+    RenderCache cache;
+    return image_with(cache, "adaptive", lens, settings).pixels;
+  };
+  RenderCache cache;
+  std::shared_ptr<const screens::DirtFringes> before;
+  for (const std::uint32_t seed : {1U, 2U}) {
+    lens.dirt = {.dust_per_cm2 = 40.0, .dust_mm = 0.3, .seed = seed};
+    const auto expected = fresh();
+    CHECK(image_with(cache, "adaptive", lens, settings).pixels == expected);
+    const auto fringes = cache.find<screens::DirtFringes>();
+    REQUIRE(fringes != nullptr);
+    CHECK(fringes->count() > 0);
+    CHECK(fringes != before);
+    CHECK(image_with(cache, "adaptive", lens, settings).pixels == expected);
+    CHECK(cache.find<screens::DirtFringes>() == fringes);
+    before = fringes;
+  }
 }

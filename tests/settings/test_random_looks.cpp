@@ -118,7 +118,7 @@ bool renders(const std::string& text, const char* lens_name) {
   const auto space = colour_space(look->values, ColourSpace::Rec709);
   const auto given = lights(look->values, *lens, frame, space);
   REQUIRE(given.has_value());
-  const auto flare = render(*look->values.text("method"), *lens, *given, render_settings(look->values, frame, space));
+  const auto flare = render(method_options(look->values), *lens, *given, frame_settings(look->values, frame, space));
   if (!flare) {
     CHECK(!flare.error().message.empty());
     return false;

@@ -42,7 +42,7 @@ double nearest_edge(const std::vector<DirtStroke>& strokes, Vec2 place_mm) {
 }
 
 Image starburst(const LensState& lens, const Vec3 direction, int side, const Context& context = {}) {
-  RenderSettings settings;
+  test::Settings settings;
   settings.wavelengths = 3;
   settings.frame = frame_on_sensor(lens, side, side);
   settings.selection = SelectList{};

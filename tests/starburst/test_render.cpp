@@ -20,8 +20,8 @@ using namespace contrejour;
 namespace {
 
 // No ghosts, so that the picture is the starburst alone.
-RenderSettings starburst_alone(const Frame& frame) {
-  RenderSettings settings;
+test::Settings starburst_alone(const Frame& frame) {
+  test::Settings settings;
   settings.wavelengths = 3;
   settings.frame = frame;
   settings.selection = SelectList{};
@@ -29,12 +29,12 @@ RenderSettings starburst_alone(const Frame& frame) {
   return settings;
 }
 
-Image drawn(const LensState& lens, std::span<const Light> lights, const RenderSettings& settings,
+Image drawn(const LensState& lens, std::span<const Light> lights, const test::Settings& settings,
             const Context& context = {}) {
   return test::flare_of("bundle", lens, lights, settings, context).image;
 }
 
-Image drawn(const LensState& lens, const Light& light, const RenderSettings& settings) {
+Image drawn(const LensState& lens, const Light& light, const test::Settings& settings) {
   return drawn(lens, std::span(&light, 1), settings);
 }
 
@@ -84,7 +84,7 @@ double first_zero(const Image& image) {
 TEST_CASE("a light's starburst sums to its value, less what falls beside the frame") {
   for (const double f_number : {8.0, 16.0}) {
     const LensState lens = test::bundled("heliar", {.f_number = f_number, .iris = {6, 0.1}});
-    const RenderSettings settings = starburst_alone(frame_on_sensor(lens, 500, 500));
+    const test::Settings settings = starburst_alone(frame_on_sensor(lens, 500, 500));
     Light light;
     light.value = {300.0, 20.0, 1.0};
     const Image image = drawn(lens, light, settings);
@@ -101,7 +101,7 @@ TEST_CASE("through a real lens the first dark ring lies 1.22 lambda N out, and h
   std::vector<double> zero;
   for (const double f_number : {16.0, 8.0}) {
     const LensState lens = test::bundled("heliar", {.f_number = f_number});
-    RenderSettings settings = starburst_alone(window_about({}, 128, pitch_mm));
+    test::Settings settings = starburst_alone(window_about({}, 128, pitch_mm));
     settings.lambda_nm = {550.0};
     const FirstOrder first = first_order(lens, 550.0);
     zero.push_back(first_zero(drawn(lens, Light{}, settings)));
@@ -122,13 +122,13 @@ TEST_CASE("a stop with a dark middle has narrower rings, and the flux that is le
   LensState lens = test::bundled("heliar", {.f_number = 16.0});
   lens.surfaces[static_cast<std::size_t>(lens.stop_index)].obscuration = {
       {kObscured * lens.stop_radius_mm, kObscured * lens.stop_radius_mm}, {}, 0.0};
-  RenderSettings settings = starburst_alone(window_about({}, 128, kPitch_mm));
+  test::Settings settings = starburst_alone(window_about({}, 128, kPitch_mm));
   settings.lambda_nm = {550.0};
   const Image image = drawn(lens, Light{}, settings);
   const double expected_mm = low / kPi * 550e-6 * first_order(lens, 550.0).f_number;
   CHECK(first_zero(image) * kPitch_mm / expected_mm == doctest::Approx(1.0).epsilon(0.02));
 
-  RenderSettings whole = starburst_alone(frame_on_sensor(lens, 500, 500));
+  test::Settings whole = starburst_alone(frame_on_sensor(lens, 500, 500));
   whole.lambda_nm = {550.0};
   const double rho = 250.0 * whole.frame.pixel_pitch_mm / (550e-6 * 16.0) * kPi / std::sqrt(8.0);
   const double outside = 2.0 / (1.0 - kObscured) / (kPi * kPi * rho);  // perimeter over area
@@ -170,7 +170,7 @@ TEST_CASE("half-tones of an iris's picture dim the wave: fringes of a bright and
     const LensState lens = test::bundled("heliar", chosen);
     // Apart by the stop's radius: fringes 2 lambda N wide, of 20 pixels.
     const double period_mm = 2.0 * 550e-6 * 16.0;
-    RenderSettings settings = starburst_alone({201, 1, 0, 0, 201, 1, period_mm / 20.0});
+    test::Settings settings = starburst_alone({201, 1, 0, 0, 201, 1, period_mm / 20.0});
     settings.lambda_nm = {550.0};
     const Image image = drawn(lens, Light{}, settings);
     const double bright = image.at(100, 0, 1), dark = 0.5 * (image.at(90, 0, 1) + image.at(110, 0, 1));
@@ -180,7 +180,7 @@ TEST_CASE("half-tones of an iris's picture dim the wave: fringes of a bright and
 }
 
 TEST_CASE("curved blades' fans follow one another without dark lines, the middle and the flux stay an exact iris's") {
-  RenderSettings settings;
+  test::Settings settings;
   const auto image_of = [&](double slope_spread) {
     Iris iris{9, 0.0, 0.5};
     iris.slope_spread = slope_spread;
@@ -267,7 +267,7 @@ TEST_CASE(
     light.direction = direction_from_angles(c.azimuth_rad, c.elevation_rad);
     const double lambda_mm = 587.6e-6, pitch_mm = 3e-4;
     const Vec2 landing = landing_of(lens, light.direction, lens.design_wavelength_nm);
-    RenderSettings settings = starburst_alone(window_about(landing, 48, pitch_mm));
+    test::Settings settings = starburst_alone(window_about(landing, 48, pitch_mm));
     settings.lambda_nm = {587.6};
     const Image image = drawn(lens, light, settings);
     const Vec2 centre = settings.frame.pixel_from_sensor(landing);
@@ -313,16 +313,16 @@ TEST_CASE(
 
 TEST_CASE("off: not one bit changes, whatever else is set; on: the sum of both, with every method") {
   const LensState lens = test::bundled("heliar", {.f_number = 11.0, .iris = {7, 0.1}});
-  RenderSettings off;
+  test::Settings off;
   off.frame = frame_on_sensor(lens, 48, 32);
-  off.grid = 48;
+  off.set_grid(48);
   off.wavelengths = 1;
-  off.reference_density = 0.2;
+  off.reference.density = 0.2;
   const Light light = test::light_at(lens, off.frame, {0.7, 0.33});
-  RenderSettings unused = off;
+  test::Settings unused = off;
   unused.starburst.gain = 5.0;
   unused.glare.width_rad = 0.3;
-  RenderSettings on = off;
+  test::Settings on = off;
   on.starburst.on = true;
   const Image alone = drawn(lens, light, starburst_alone(off.frame));
   for (const std::string_view method : render_methods()) {
@@ -340,7 +340,7 @@ TEST_CASE("off: not one bit changes, whatever else is set; on: the sum of both, 
 
 TEST_CASE("the same bits for any number of threads; many lights share starbursts and keep their flux") {
   const LensState lens = test::bundled("heliar", {.f_number = 11.0, .iris = {7, 0.1}});
-  const RenderSettings settings = starburst_alone(frame_on_sensor(lens, 120, 80));
+  const test::Settings settings = starburst_alone(frame_on_sensor(lens, 120, 80));
   std::vector<Light> lights;
   for (int k = 0; k < 35; ++k) {  // in a few of the cells that many lights share
     lights.push_back(test::light_at(lens, settings.frame, {0.4 + 0.03 * (k % 7), 0.5 + 0.05 * (k / 7)}));
@@ -368,7 +368,7 @@ TEST_CASE("the same bits for any number of threads; many lights share starbursts
 
 TEST_CASE("a light that leaves the frame, and then the lens, takes its starburst along without a jump") {
   const LensState lens = test::bundled("heliar", {.f_number = 8.0});
-  const RenderSettings settings = starburst_alone(frame_on_sensor(lens, 90, 60));
+  const test::Settings settings = starburst_alone(frame_on_sensor(lens, 90, 60));
   const auto beside_centre = [&](double u) {
     return drawn(lens, test::light_at(lens, settings.frame, {u, 0.5}), settings).at(80, 33, 1);
   };
@@ -382,14 +382,14 @@ TEST_CASE("frames of one pixel, pixels of a nanometre and of a metre: finite, an
   const LensState lens = test::bundled("heliar", {.f_number = 8.0, .iris = {6}});
   for (const double pitch_mm : {1e-6, 1e-2, 1e3}) {
     for (const int side : {1, 7}) {
-      RenderSettings settings = starburst_alone({side, side, 0, 0, side, side, pitch_mm});
+      test::Settings settings = starburst_alone({side, side, 0, 0, side, side, pitch_mm});
       settings.glare.share = 0.1;
       const Image image = drawn(lens, Light{}, settings);
       if (pitch_mm > 1.0) CHECK(flux_of(image, 1) == doctest::Approx(1.0).epsilon(2e-3));
     }
   }
   const auto refused = [&](auto spoil) {
-    RenderSettings settings = starburst_alone(frame_on_sensor(lens, 8, 8));
+    test::Settings settings = starburst_alone(frame_on_sensor(lens, 8, 8));
     spoil(settings);
     const Light light;
     const auto flare = render("bundle", lens, {&light, 1}, settings);
@@ -407,7 +407,7 @@ TEST_CASE("frames of one pixel, pixels of a nanometre and of a metre: finite, an
 
 TEST_CASE("what is left out is left out, and no more") {
   const LensState lens = test::bundled("heliar", {.f_number = 11.0, .iris = {6}});
-  RenderSettings settings = starburst_alone(frame_on_sensor(lens, 60, 40));
+  test::Settings settings = starburst_alone(frame_on_sensor(lens, 60, 40));
   const Light light = test::light_at(lens, settings.frame, {0.5, 0.5});
   const Image whole = drawn(lens, light, settings);
   auto left_out = std::make_shared<Image>(60, 40, 1);
@@ -432,7 +432,7 @@ TEST_CASE(
     }
     const LensState lens = test::bundled("planar-50", chosen);
     // Pixels of a metre: all of the plane is in one of them.
-    RenderSettings settings = starburst_alone({3, 3, 0, 0, 3, 3, 1e3});
+    test::Settings settings = starburst_alone({3, 3, 0, 0, 3, 3, 1e3});
     Light light;
     light.value = {300.0, 20.0, 1.0};
     const double open = exit_pupil(lens, light.source(), lens.design_wavelength_nm)->open_share;
@@ -456,7 +456,7 @@ TEST_CASE(
 TEST_CASE("glare has the share and the width that it says") {
   const LensState lens = test::bundled("heliar", {.f_number = 11.0});
   for (const double width_rad : {0.0002, 0.02}) {
-    RenderSettings settings = starburst_alone(frame_on_sensor(lens, 401, 401));
+    test::Settings settings = starburst_alone(frame_on_sensor(lens, 401, 401));
     settings.starburst.on = false;
     settings.glare = {0.2, width_rad};
     const Image image = drawn(lens, Light{}, settings);

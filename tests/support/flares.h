@@ -8,13 +8,13 @@
 
 #include <doctest/doctest.h>
 
-#include "contrejour/render.h"
+#include "support/settings.h"
 
 namespace contrejour::test {
 
 // The flare; every value of it is a finite number.
 inline Flare flare_of(std::string_view method, const LensState& lens, std::span<const Light> lights,
-                      const RenderSettings& settings, const Context& context = {}) {
+                      const Settings& settings, const Context& context = {}) {
   auto flare = render(method, lens, lights, settings, context);
   REQUIRE(flare.has_value());
   const auto& pixels = flare->image.pixels;

@@ -6,8 +6,8 @@
 
 #include <doctest/doctest.h>
 
-#include "contrejour/render.h"
 #include "support/csv_lens.h"
+#include "support/settings.h"
 
 namespace contrejour::test {
 
@@ -39,17 +39,17 @@ inline Light light_at(const LensState& lens, const Frame& frame, Vec2 uv) {
 }
 
 // One wavelength, so that all three channels are alike; the papers' ghosts, which take half the time of all.
-inline RenderSettings green(const Frame& frame) {
-  RenderSettings settings;
+inline Settings green(const Frame& frame) {
+  Settings settings;
   settings.scope = GhostScope::OneSideOfStop;
   settings.frame = frame;
   settings.lambda_nm = {550.0};
   return settings;
 }
 
-inline RenderSettings settings_for(const LensState& lens, int width, int height, int grid) {
-  RenderSettings settings = green(frame_on_sensor(lens, width, height));
-  settings.grid = grid;
+inline Settings settings_for(const LensState& lens, int width, int height, int grid) {
+  Settings settings = green(frame_on_sensor(lens, width, height));
+  settings.set_grid(grid);
   return settings;
 }
 

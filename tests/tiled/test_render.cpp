@@ -10,6 +10,7 @@
 #include "render/bundle/bundle.h"
 #include "render/tiled/tiled.h"
 #include "render/tiled/tiled_frame.h"
+#include "support/planned.h"
 #include "tiled/scene.h"
 
 using namespace contrejour;
@@ -17,9 +18,9 @@ using test::settings_for;
 
 namespace {
 
-Flare tiled_of(const LensState& lens, std::span<const Light> lights, const RenderSettings& settings,
+Flare tiled_of(const LensState& lens, std::span<const Light> lights, const test::Settings& settings,
                const Context& context = {}) {
-  auto flare = render_planned(render_tiled, lens, lights, settings, context);
+  auto flare = test::render_alone(render_tiled, settings.tiled, lens, lights, settings, context);
   REQUIRE(flare.has_value());
   return *flare;
 }
@@ -31,13 +32,13 @@ double psnr_db(const Image& truth, const Image& image) {
 }
 
 // A square picture about the axis, its middle.
-RenderSettings plate_settings(int pixels, double pixel_pitch_mm, int grid) {
+test::Settings plate_settings(int pixels, double pixel_pitch_mm, int grid) {
   Frame frame;
   frame.width = frame.full_width = pixels;
   frame.height = frame.full_height = pixels;
   frame.pixel_pitch_mm = pixel_pitch_mm;
-  RenderSettings settings = test::green(frame);
-  settings.grid = grid;
+  test::Settings settings = test::green(frame);
+  settings.set_grid(grid);
   return settings;
 }
 
@@ -51,7 +52,7 @@ struct System {
 
 TEST_CASE("the same bits for 1, 2 and 7 threads") {
   const LensState lens = test::lens_at_f("heliar", 16.0);
-  RenderSettings settings = settings_for(lens, 160, 90, 48);
+  test::Settings settings = settings_for(lens, 160, 90, 48);
   settings.lambda_nm.clear();
   settings.wavelengths = 5;
   const std::vector<Light> lights{test::light_at(lens, settings.frame, {0.7, 0.33}),
@@ -73,7 +74,7 @@ TEST_CASE("the same bits for 1, 2 and 7 threads") {
 
 TEST_CASE("the same bits for any tiles, and however often the buffer is emptied") {
   const LensState lens = test::lens_at_f("heliar", 16.0);
-  RenderSettings settings = settings_for(lens, 163, 91, 48);
+  test::Settings settings = settings_for(lens, 163, 91, 48);
   const Light light = test::light_at(lens, settings.frame, {0.7, 0.33});
   const Flare first = tiled_of(lens, {&light, 1}, settings);
   CHECK(test::sum(first.image) > 0.0);
@@ -91,7 +92,7 @@ TEST_CASE("the same bits for any tiles, and however often the buffer is emptied"
   const IrisShape iris(lens.iris);
   const std::vector<tiled::Gain> gains{{1.0F, 2.0F, 3.0F}};
   const auto drawn = [&](const tiled::HeldLimits& limits) {
-    tiled::TiledFrame frame(settings, {}, iris, gains, limits);
+    tiled::TiledFrame frame(settings.frame, settings.tiled, {}, iris, gains, limits);
     frame.add(buffer);
     frame.draw();
     return frame.take_image().pixels;
@@ -106,11 +107,11 @@ TEST_CASE("streaks thinner than a pixel keep their light") {
   const LensState lens = test::lens_at_f("schneider-anamorphic-31", 8.0);
   for (const int width : {120, 160, 240}) {
     CAPTURE(width);
-    RenderSettings settings = settings_for(lens, width, width * 9 / 16, 64);
+    test::Settings settings = settings_for(lens, width, width * 9 / 16, 64);
     settings.selection = SelectList{{{1, 3}, {2, 3}, {3, 4}, {3, 6}}};
     settings.scope = GhostScope::All;
     const Light light = test::light_at(lens, settings.frame, {0.6, 0.3});
-    const auto truth = render_planned(render_bundle, lens, {&light, 1}, settings, {});
+    const auto truth = test::render_alone(render_bundle, settings.bundle, lens, {&light, 1}, settings);
     REQUIRE(truth.has_value());
     const double ratio = test::sum(tiled_of(lens, {&light, 1}, settings).image) / test::sum(truth->image);
     CHECK(ratio == doctest::Approx(1.0).epsilon(0.25));
@@ -124,9 +125,9 @@ TEST_CASE("against bundle on the same grid, and merged against unmerged") {
         System{"itoh-zoom", 32.0, 123.0, 40.0, 53.0, 53.0}}) {
     CAPTURE(system.name);
     const LensState lens = test::lens_at_f(system.name, system.f_number, system.focal_length_mm);
-    RenderSettings settings = settings_for(lens, 320, 180, 96);
+    test::Settings settings = settings_for(lens, 320, 180, 96);
     const Light light = test::light_at(lens, settings.frame, {0.70, 0.33});
-    const auto truth = render_planned(render_bundle, lens, {&light, 1}, settings, {});
+    const auto truth = test::render_alone(render_bundle, settings.bundle, lens, {&light, 1}, settings);
     REQUIRE(truth.has_value());
     settings.tiled.merge_steps = 0;
     const Flare unmerged = tiled_of(lens, {&light, 1}, settings);
@@ -145,10 +146,10 @@ TEST_CASE("against bundle on the same grid, and merged against unmerged") {
 
 TEST_CASE("a large flat ghost has bundle's level, whatever the interpolation") {
   const LensState lens = test::plate();
-  RenderSettings settings = plate_settings(64, 0.15, 64);
+  test::Settings settings = plate_settings(64, 0.15, 64);
   Light light;
   light.direction = normalized({0.02, 0.03, 1.0});
-  const auto truth = render_planned(render_bundle, lens, {&light, 1}, settings, {});
+  const auto truth = test::render_alone(render_bundle, settings.bundle, lens, {&light, 1}, settings);
   REQUIRE(truth.has_value());
   using Interpolation = TiledOptions::Interpolation;
   for (const auto interpolation : {Interpolation::Triangle, Interpolation::HomogeneousTriangle,
@@ -167,7 +168,7 @@ TEST_CASE("a large flat ghost has bundle's level, whatever the interpolation") {
 
 TEST_CASE("every interpolation makes nearly the same picture") {
   const LensState lens = test::lens_at_f("heliar", 16.0);
-  RenderSettings settings = settings_for(lens, 160, 90, 64);
+  test::Settings settings = settings_for(lens, 160, 90, 64);
   const Light light = test::light_at(lens, settings.frame, {0.70, 0.33});
   const Flare usual = tiled_of(lens, {&light, 1}, settings);
   for (int k = 0; k < 5; ++k) {
@@ -181,11 +182,11 @@ TEST_CASE("paths that cross the stop three times, and an iris of blades") {
   lens_settings.f_number = 8.0;
   lens_settings.iris.blades = 6;
   const LensState lens = test::bundled("heliar", lens_settings);
-  RenderSettings settings = settings_for(lens, 160, 90, 96);
+  test::Settings settings = settings_for(lens, 160, 90, 96);
   settings.scope = GhostScope::All;
   settings.selection = SelectList{{{3, 9}, {4, 8}, {2, 3}}};
   const Light light = test::light_at(lens, settings.frame, {0.70, 0.33});
-  const auto truth = render_planned(render_bundle, lens, {&light, 1}, settings, {});
+  const auto truth = test::render_alone(render_bundle, settings.bundle, lens, {&light, 1}, settings);
   REQUIRE(truth.has_value());
   const Flare flare = tiled_of(lens, {&light, 1}, settings);
   CHECK(psnr_db(truth->image, flare.image) > 33.0);
@@ -195,7 +196,7 @@ TEST_CASE("paths that cross the stop three times, and an iris of blades") {
 TEST_CASE("no light, no flare; one pixel, no trouble") {
   const LensState lens = test::lens_at_f("heliar", 16.0);
   CHECK(tiled_of(lens, {}, settings_for(lens, 32, 18, 32)).image.pixels == Pixels(32 * 18 * 3, 0.0F));
-  const RenderSettings settings = settings_for(lens, 1, 1, 32);
+  const test::Settings settings = settings_for(lens, 1, 1, 32);
   const Light light = test::light_at(lens, settings.frame, {0.70, 0.33});
   const Flare flare = tiled_of(lens, {&light, 1}, settings);
   CHECK(flare.image.pixels.size() == 3);
@@ -205,7 +206,7 @@ TEST_CASE("no light, no flare; one pixel, no trouble") {
 TEST_CASE("a picture symmetric about the axis counts no pixel twice") {
   // The middle ray and the middle pixel are on the axis: four cells meet there.
   const LensState lens = test::plate();
-  RenderSettings settings = plate_settings(33, 0.25, 65);
+  test::Settings settings = plate_settings(33, 0.25, 65);
   const Light light;
   for (const int steps : {0, 4}) {
     settings.tiled.merge_steps = steps;
@@ -220,7 +221,7 @@ TEST_CASE("a picture symmetric about the axis counts no pixel twice") {
 TEST_CASE("lights at grazing angles, fisheyes wide open") {
   for (const char* name : {"heliar", "muller-fisheye-10"}) {
     const LensState lens = test::bundled(name);
-    const RenderSettings settings = settings_for(lens, 32, 18, 32);
+    const test::Settings settings = settings_for(lens, 32, 18, 32);
     for (const double angle_deg : {0.0, 40.0, 80.0, 89.0}) {
       Light light;
       light.direction = direction_from_angles(angle_deg * std::numbers::pi / 180.0, 0.0);
@@ -232,22 +233,22 @@ TEST_CASE("lights at grazing angles, fisheyes wide open") {
 TEST_CASE("settings out of range are refused, a set cancel flag is obeyed") {
   const LensState lens = test::lens_at_f("heliar", 16.0);
   const Light light;
-  const RenderSettings good = settings_for(lens, 32, 18, 32);
+  const test::Settings good = settings_for(lens, 32, 18, 32);
   const auto refused = [&](auto change) {
-    RenderSettings settings = good;
+    test::Settings settings = good;
     change(settings);
-    const auto flare = render_planned(render_tiled, lens, {&light, 1}, settings, {});
+    const auto flare = test::render_alone(render_tiled, settings.tiled, lens, {&light, 1}, settings);
     return !flare.has_value() && flare.error().code == ErrorCode::InvalidArgument;
   };
-  CHECK(refused([](RenderSettings& s) { s.grid = 3; }));
-  CHECK(refused([](RenderSettings& s) { s.tiled.merge_steps = -1; }));
-  CHECK(refused([](RenderSettings& s) { s.tiled.merge_threshold = std::numeric_limits<double>::quiet_NaN(); }));
-  CHECK(refused([](RenderSettings& s) { s.tiled.dense_tile = 0; }));
-  CHECK(refused([](RenderSettings& s) { s.tiled.dense_tile = 48; }));
+  CHECK(refused([](test::Settings& s) { s.set_grid(3); }));
+  CHECK(refused([](test::Settings& s) { s.tiled.merge_steps = -1; }));
+  CHECK(refused([](test::Settings& s) { s.tiled.merge_threshold = std::numeric_limits<double>::quiet_NaN(); }));
+  CHECK(refused([](test::Settings& s) { s.tiled.dense_tile = 0; }));
+  CHECK(refused([](test::Settings& s) { s.tiled.dense_tile = 48; }));
   const std::atomic<bool> cancel{true};
   Context context;
   context.cancel = &cancel;
-  const auto stopped = render_planned(render_tiled, lens, {&light, 1}, good, context);
+  const auto stopped = test::render_alone(render_tiled, good.tiled, lens, {&light, 1}, good, context);
   REQUIRE_FALSE(stopped.has_value());
   CHECK(stopped.error().code == ErrorCode::Cancelled);
 }

@@ -17,7 +17,6 @@
 #include "contrejour/light_detection.h"
 #include "contrejour/machine_speed.h"
 #include "contrejour/metrics.h"
-#include "contrejour/ringing.h"
 #include "contrejour/seidel.h"
 #include "contrejour/starburst.h"
 #include "contrejour/surface_shape.h"
@@ -56,7 +55,7 @@ std::vector<Image> hollow_images() {
 
 TEST_CASE("a light's value of any kind ends in a picture or an error, soon") {
   const LensState lens = bundled("canon-70-200", {.f_number = 8.0});
-  const RenderSettings plain = settings_for(lens, 96, 64, 32);
+  const test::Settings plain = settings_for(lens, 96, 64, 32);
   for (const double value : {-1.0, 1e300, -1e300, kNan, kInfinity, 1e17, -1e-300}) {
     CAPTURE(value);
     for (const std::string_view method : render_methods()) {
@@ -80,12 +79,12 @@ TEST_CASE("a light's value of any kind ends in a picture or an error, soon") {
 
 TEST_CASE("render settings of any kind are errors or render") {
   const LensState lens = bundled("heliar", {.f_number = 8.0});
-  RenderSettings sound = settings_for(lens, 12, 8, 16);
+  test::Settings sound = settings_for(lens, 12, 8, 16);
   sound.wavelengths = 1;
-  sound.reference_density = 0.05;
+  sound.reference.density = 0.05;
   const Light light = light_at(lens, sound.frame, {0.7, 0.35});
-  const auto attempt = [&](const std::function<void(RenderSettings&)>& change) {
-    RenderSettings settings = sound;
+  const auto attempt = [&](const std::function<void(test::Settings&)>& change) {
+    test::Settings settings = sound;
     change(settings);
     for (const std::string_view method : render_methods()) {
       const auto flare = render(method, lens, {&light, 1}, settings);
@@ -94,41 +93,41 @@ TEST_CASE("render settings of any kind are errors or render") {
     }
   };
   CHECK_FALSE(render("", lens, {&light, 1}, sound).has_value());
-  CHECK_FALSE(render("adaptive", lens, {&light, 1}, {}).has_value());
+  CHECK_FALSE(render("adaptive", lens, {&light, 1}, FrameSettings{}).has_value());
   for (const double v : kStrange) {
     CAPTURE(v);
-    attempt([v](RenderSettings& s) { s.frame.pixel_pitch_mm = v; });
-    attempt([v](RenderSettings& s) { s.frame.shift_mm = {v, v}; });
-    attempt([v](RenderSettings& s) { s.error = v; });
-    attempt([v](RenderSettings& s) { s.reference_density = v > 4.0 ? kInfinity : v; });
-    attempt([v](RenderSettings& s) { s.lambda_nm = {v}; });
-    attempt([v](RenderSettings& s) { s.tiled.merge_threshold = v; });
-    attempt([v](RenderSettings& s) { s.starburst.on = true, s.starburst.gain = v; });
-    attempt([v](RenderSettings& s) { s.glare = {v, v}; });
-    attempt([v](RenderSettings& s) { s.ghosts.gain = v; });
-    attempt([v](RenderSettings& s) { s.ghosts.edge_gain = v; });
-    attempt([v](RenderSettings& s) { s.ghosts.scatter = v; });
-    attempt([v](RenderSettings& s) { s.ghosts.adjustments = {{Ghost{2, 3}, v, {v, v, v}, {v, v}}}; });
-    attempt([v](RenderSettings& s) { s.ghosts.ramp = {{v, {1, 1, 1}}, {v, {v, v, v}}}; });
-    attempt([v](RenderSettings& s) { s.selection = SelectByFlux{v}; });
-    attempt([v](RenderSettings& s) { s.ringing = {RingingMode::Hullin, v}; });
+    attempt([v](test::Settings& s) { s.frame.pixel_pitch_mm = v; });
+    attempt([v](test::Settings& s) { s.frame.shift_mm = {v, v}; });
+    attempt([v](test::Settings& s) { s.set_error(v); });
+    attempt([v](test::Settings& s) { s.reference.density = v > 4.0 ? kInfinity : v; });
+    attempt([v](test::Settings& s) { s.lambda_nm = {v}; });
+    attempt([v](test::Settings& s) { s.tiled.merge_threshold = v; });
+    attempt([v](test::Settings& s) { s.starburst.on = true, s.starburst.gain = v; });
+    attempt([v](test::Settings& s) { s.glare = {v, v}; });
+    attempt([v](test::Settings& s) { s.ghosts.gain = v; });
+    attempt([v](test::Settings& s) { s.ghosts.edge_gain = v; });
+    attempt([v](test::Settings& s) { s.ghosts.scatter = v; });
+    attempt([v](test::Settings& s) { s.ghosts.adjustments = {{Ghost{2, 3}, v, {v, v, v}, {v, v}}}; });
+    attempt([v](test::Settings& s) { s.ghosts.ramp = {{v, {1, 1, 1}}, {v, {v, v, v}}}; });
+    attempt([v](test::Settings& s) { s.selection = SelectByFlux{v}; });
+    attempt([v](test::Settings& s) { s.ringing = {RingingMode::Hullin, v}; });
   }
   for (const int n : {0, -1, std::numeric_limits<int>::max(), std::numeric_limits<int>::min(), 400}) {
     CAPTURE(n);
-    attempt([n](RenderSettings& s) { s.frame.width = n; });
-    attempt([n](RenderSettings& s) { s.frame.full_height = n; });
-    attempt([n](RenderSettings& s) { s.frame.origin_x = n, s.frame.origin_y = n; });
-    attempt([n](RenderSettings& s) { s.lambda_nm = {}, s.wavelengths = n == 400 ? 20 : n; });
-    attempt([n](RenderSettings& s) { s.grid = n; });
-    attempt([n](RenderSettings& s) { s.tiled.merge_steps = n; });
-    attempt([n](RenderSettings& s) { s.tiled.dense_tile = n; });
-    attempt([n](RenderSettings& s) { s.tiled.coarse_tile = n; });
-    attempt([n](RenderSettings& s) { s.selection = SelectBrightest{n}; });
-    attempt([n](RenderSettings& s) { s.selection = SelectSurface{n}; });
-    attempt([n](RenderSettings& s) { s.selection = SelectList{{Ghost{n, n}}}; });
+    attempt([n](test::Settings& s) { s.frame.width = n; });
+    attempt([n](test::Settings& s) { s.frame.full_height = n; });
+    attempt([n](test::Settings& s) { s.frame.origin_x = n, s.frame.origin_y = n; });
+    attempt([n](test::Settings& s) { s.lambda_nm = {}, s.wavelengths = n == 400 ? 20 : n; });
+    attempt([n](test::Settings& s) { s.set_grid(n); });
+    attempt([n](test::Settings& s) { s.tiled.merge_steps = n; });
+    attempt([n](test::Settings& s) { s.tiled.dense_tile = n; });
+    attempt([n](test::Settings& s) { s.tiled.coarse_tile = n; });
+    attempt([n](test::Settings& s) { s.selection = SelectBrightest{n}; });
+    attempt([n](test::Settings& s) { s.selection = SelectSurface{n}; });
+    attempt([n](test::Settings& s) { s.selection = SelectList{{Ghost{n, n}}}; });
   }
-  attempt([](RenderSettings& s) { s.starburst.on = true, s.starburst.left_out = std::make_shared<const Image>(); });
-  attempt([](RenderSettings& s) {
+  attempt([](test::Settings& s) { s.starburst.on = true, s.starburst.left_out = std::make_shared<const Image>(); });
+  attempt([](test::Settings& s) {
     s.starburst.on = true;
     s.starburst.lights = std::make_shared<const std::vector<Light>>(3, Light{{kNan, 0.0, 1.0}});
   });
@@ -136,7 +135,7 @@ TEST_CASE("render settings of any kind are errors or render") {
 
 TEST_CASE("lights of any kind are errors or render") {
   const LensState lens = bundled("heliar", {.f_number = 8.0});
-  const RenderSettings settings = settings_for(lens, 24, 16, 16);
+  const test::Settings settings = settings_for(lens, 24, 16, 16);
   const auto attempt = [&](const std::function<void(Light&)>& change) {
     Light light = light_at(lens, settings.frame, {0.7, 0.35});
     change(light);

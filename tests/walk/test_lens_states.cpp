@@ -64,8 +64,8 @@ void walk_results(const LensState& lens) {
   const LightSource light({0.0, 0.0, 1.0});
   CHECK_FALSE(check_lens(lens).has_value());
   use(check_source(lens, light));
-  RenderSettings settings = green(small_frame());
-  settings.grid = 16;
+  test::Settings settings = green(small_frame());
+  settings.set_grid(16);
   const Light one;
   for (const std::string_view method : render_methods()) {
     CHECK_FALSE(render(method, lens, {&one, 1}, settings).has_value());

@@ -1,11 +1,9 @@
-// Ringing: what its patterns cost once an iris, and its frames beside frames with sharp rims.
-#include <memory>
+// Ringing: what its patterns cost, and its frames beside frames with sharp rims.
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "cli/bench/effects.h"
-#include "contrejour/ringing.h"
 
 namespace contrejour::cli {
 namespace {
@@ -19,34 +17,32 @@ constexpr EffectSystem kRingingSystems[] = {{"heliar", 0.0, 16.0},
                                             {"canon-70-200", 135.0, 8.0},
                                             {"canon-70-200", 135.0, 32.0}};
 
-// New patterns' frame and kept ones', beside the frame without.
+// A frame with ringing, which makes its patterns, by itself and beside the frame without.
 Result<std::vector<Target>> rows_of(const EffectScene& scene) {
   const Light& light = scene.lights.front();
-  RenderSettings ringing = scene.render;
+  FrameSettings ringing = scene.render;
   ringing.ringing.mode = RingingMode::Fresnel;
   const auto new_ms = fastest_ms(1, [&]() -> Result<void> {
-    ringing.ringing.patterns = std::make_shared<RingingPatterns>();
-    const auto flare = render("adaptive", scene.lens, {&light, 1}, ringing, scene.context);
+    const auto flare = render(scene.adaptive, scene.lens, {&light, 1}, ringing, scene.context);
     if (!flare) return tl::unexpected(flare.error());
     return {};
   });
   if (!new_ms) return tl::unexpected(new_ms.error());
   const auto cost = cost_in_turns(scene, {scene.render, {light}}, {ringing, {light}});
   if (!cost) return tl::unexpected(cost.error());
-  return std::vector<Target>{
-      Target{.name = "frame, rims ringing / sharp",
-             .system = scene.lens.name,
-             .value = cost->ratio(),
-             .must = kFrame,
-             .aim = kFrame,
-             .note = cost_text(scene, *cost)},
-      Target{.name = "first frame, ringing of a new iris",
-             .system = scene.lens.name,
-             .value = *new_ms,
-             .must = kPatterns_ms,
-             .aim = kPatterns_ms,
-             .unit = "ms",
-             .note = fmt::format("f/{:g}, {} patterns", scene.lens.f_number, ringing.ringing.patterns->count())}};
+  return std::vector<Target>{Target{.name = "frame, rims ringing / sharp",
+                                    .system = scene.lens.name,
+                                    .value = cost->ratio(),
+                                    .must = kFrame,
+                                    .aim = kFrame,
+                                    .note = cost_text(scene, *cost)},
+                             Target{.name = "first frame, ringing of a new iris",
+                                    .system = scene.lens.name,
+                                    .value = *new_ms,
+                                    .must = kPatterns_ms,
+                                    .aim = kPatterns_ms,
+                                    .unit = "ms",
+                                    .note = fmt::format("f/{:g}", scene.lens.f_number)}};
 }
 
 }  // namespace

@@ -44,7 +44,8 @@ Result<EffectScene> effect_scene(const params::Values& values, int runs) {
   auto lights = params::lights(values, scene.lens, frame, ColourSpace::Rec709);
   if (!lights) return tl::unexpected(lights.error());
   scene.lights = std::move(*lights);
-  scene.render = params::render_settings(values, frame, ColourSpace::Rec709);
+  scene.adaptive = params::adaptive_options(values);
+  scene.render = params::frame_settings(values, frame, ColourSpace::Rec709);
   scene.render.scope = GhostScope::OneSideOfStop;  // as in the papers' tables, so that figures can be compared
   scene.runs = runs;
   scene.context.threads = values.integer("threads");
@@ -76,7 +77,7 @@ Result<EffectCost> cost_in_turns(const EffectScene& scene, const EffectRender& w
   for (int turn = 0; another_run(turn, scene.runs, all_ms); ++turn) {
     for (const auto& [one, fastest_ms] : {std::pair(&without, &cost.without_ms), std::pair(&with, &cost.with_ms)}) {
       const double start = processor_ms();
-      const auto flare = render("adaptive", scene.lens, one->lights, one->settings, scene.context);
+      const auto flare = render(scene.adaptive, scene.lens, one->lights, one->settings, scene.context);
       if (!flare) return tl::unexpected(flare.error());
       const double ms = processor_ms() - start;
       *fastest_ms = std::min(*fastest_ms, ms);

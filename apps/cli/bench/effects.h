@@ -21,7 +21,8 @@ struct EffectScene {
   LensSettings settings;
   LensState lens;
   std::vector<Light> lights;
-  RenderSettings render;
+  AdaptiveOptions adaptive;
+  FrameSettings render;
   int runs = 1;
   Context context;
 };
@@ -43,7 +44,7 @@ struct EffectSystem {
 // Renders with an effect and without, in turns, so that what changes while they run changes both. Of the scene's runs
 // (repeats.h) the fastest, in processor time of all threads together, which other programs do not take from.
 struct EffectRender {
-  RenderSettings settings;
+  FrameSettings settings;
   std::vector<Light> lights;
 };
 struct EffectCost {
@@ -62,7 +63,7 @@ struct EffectCost {
 // A new iris's, a kept one's, a new dirt's.
 [[nodiscard]] Result<std::vector<Target>> measure_starbursts(const EffectScene& scene);
 
-// Frames with ringing beside frames without, its patterns kept and new, with several lenses.
+// Frames with ringing beside frames without, with several lenses.
 [[nodiscard]] Result<std::vector<Target>> measure_ringing(const EffectScene& scene);
 
 // A light of many beside one alone.

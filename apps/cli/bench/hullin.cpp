@@ -41,7 +41,8 @@ constexpr HullinSystem kWellBehaved[] = {{"tessar"}, {"heliar"}, {"itoh-zoom", 1
 struct HullinScene {
   LensState lens;
   Light light;
-  RenderSettings settings;
+  BundleOptions bundle;
+  FrameSettings settings;
 };
 
 Result<HullinScene> scene_of(const HullinSystem& system, double times_f_number, const params::Values& values) {
@@ -54,11 +55,11 @@ Result<HullinScene> scene_of(const HullinSystem& system, double times_f_number, 
   wanted.f_number = open->f_number * times_f_number;
   auto lens = lens_at(*prescription, wanted);
   if (!lens) return tl::unexpected(lens.error());
-  HullinScene scene{std::move(*lens), {}, {}};
+  HullinScene scene{std::move(*lens), {}, params::bundle_options(values), {}};
   const Frame frame = params::whole_frame(values, scene.lens, *params::parse_size(*values.text("size")));
   scene.light.direction =
       direction_to_land_at(scene.lens, frame.sensor_from_uv(kLight_uv), scene.lens.design_wavelength_nm);
-  scene.settings = params::render_settings(values, frame, ColourSpace::Rec709);
+  scene.settings = params::frame_settings(values, frame, ColourSpace::Rec709);
   scene.settings.scope = GhostScope::OneSideOfStop;  // as the paper
   return scene;
 }
@@ -84,20 +85,34 @@ SelectList without_weakest(const std::vector<Ghost>& weakest_first, double share
   return {{weakest_first.begin() + dropped, weakest_first.end()}};
 }
 
+// A method's options, and the settings of its frame.
+struct Quality {
+  MethodOptions method;
+  FrameSettings settings;
+};
+
 // 7 bands and filtering across them; the paper's supersampling is not needed where pixels are covered exactly.
-RenderSettings high_quality(const HullinScene& scene) {
-  RenderSettings settings = scene.settings;
-  settings.wavelengths = 7;
-  settings.bundle.spectral_filter = true;
-  return settings;
+Quality high_quality(const HullinScene& scene) {
+  BundleOptions bundle = scene.bundle;
+  bundle.spectral_filter = true;
+  Quality quality{bundle, scene.settings};
+  quality.settings.wavelengths = 7;
+  return quality;
 }
 
 // RGB, no filtering, without the weakest 40 per cent of the ghosts.
-RenderSettings normal_quality(const HullinScene& scene, const std::vector<Ghost>& ghosts) {
-  RenderSettings settings = scene.settings;
-  settings.wavelengths = 3;
-  settings.selection = without_weakest(ghosts, 0.4);
-  return settings;
+Quality normal_quality(const HullinScene& scene, const std::vector<Ghost>& ghosts) {
+  Quality quality{scene.bundle, scene.settings};
+  quality.settings.wavelengths = 3;
+  quality.settings.selection = without_weakest(ghosts, 0.4);
+  return quality;
+}
+
+// Rays a side; all ghosts.
+Quality with_grid(const HullinScene& scene, int rays) {
+  BundleOptions bundle = scene.bundle;
+  bundle.grid.rays = rays;
+  return {bundle, scene.settings};
 }
 
 struct Drawn {
@@ -107,13 +122,13 @@ struct Drawn {
 };
 
 // Renders several times and keeps the fastest time.
-Result<Drawn> draw(const HullinScene& scene, const std::string& method, const RenderSettings& settings,
-                   const HullinRunning& running) {
+Result<Drawn> draw(const HullinScene& scene, const Quality& quality, const HullinRunning& running) {
+  const std::string_view method = quality.method.name();
   Drawn drawn{{}, std::numeric_limits<double>::infinity(), 0};
   double all_ms = 0.0;
   for (int run = 0; another_run(run, method_traits(method)->is_slow ? 1 : running.runs, all_ms); ++run) {
     const LongTask task(fmt::format("{}, {}", scene.lens.name, method), running.threads);
-    auto flare = render(method, scene.lens, {&scene.light, 1}, settings, task.context());
+    auto flare = render(quality.method, scene.lens, {&scene.light, 1}, quality.settings, task.context());
     if (!flare) return tl::unexpected(flare.error());
     const double ms = total_ms(flare->statistics);
     all_ms += ms;
@@ -157,9 +172,9 @@ Result<std::vector<HullinRow>> figure_15(const HullinSystem& system, const param
   for (const double closed : {1.0, kFourStops}) {
     const auto scene = scene_of(system, closed, values);
     if (!scene) return tl::unexpected(scene.error());
-    const auto high = draw(*scene, "bundle", high_quality(*scene), running);
+    const auto high = draw(*scene, high_quality(*scene), running);
     if (!high) return tl::unexpected(high.error());
-    const auto normal = draw(*scene, "bundle", normal_quality(*scene, weakest_first(*scene)), running);
+    const auto normal = draw(*scene, normal_quality(*scene, weakest_first(*scene)), running);
     if (!normal) return tl::unexpected(normal.error());
     rows.push_back(row_of("15", system, *scene, "high quality", *high));
     if (auto ok = show(running, rows.back(), high->image); !ok) return tl::unexpected(ok.error());
@@ -181,8 +196,8 @@ Result<std::vector<HullinRow>> figure_17(const HullinSystem& system, const param
   std::vector<HullinRow> rows;
   Image best;
   double all_ms = 0.0;
-  const auto add = [&](std::string what, const RenderSettings& settings, double paper_ms) -> Result<void> {
-    auto drawn = draw(*scene, "bundle", settings, running);
+  const auto add = [&](std::string what, const Quality& quality, double paper_ms) -> Result<void> {
+    auto drawn = draw(*scene, quality, running);
     if (!drawn) return tl::unexpected(drawn.error());
     HullinRow row = row_of("17", system, *scene, std::move(what), *drawn);
     row.paper_ms = paper_ms;
@@ -199,10 +214,10 @@ Result<std::vector<HullinRow>> figure_17(const HullinSystem& system, const param
     return {};
   };
   if (auto ok = add("high quality", high_quality(*scene), kHigh_ms); !ok) return tl::unexpected(ok.error());
-  RenderSettings settings = scene->settings;
-  if (auto ok = add("all ghosts", settings, 0.0); !ok) return tl::unexpected(ok.error());
-  settings.selection = without_weakest(ghosts, 0.2);
-  if (auto ok = add("without the weakest 20 per cent", settings, 0.0); !ok) return tl::unexpected(ok.error());
+  Quality quality{scene->bundle, scene->settings};
+  if (auto ok = add("all ghosts", quality, 0.0); !ok) return tl::unexpected(ok.error());
+  quality.settings.selection = without_weakest(ghosts, 0.2);
+  if (auto ok = add("without the weakest 20 per cent", quality, 0.0); !ok) return tl::unexpected(ok.error());
   if (auto ok = add("normal quality", normal_quality(*scene, ghosts), kNormal_ms); !ok)
     return tl::unexpected(ok.error());
   return rows;
@@ -214,13 +229,15 @@ Result<std::vector<HullinRow>> figure_19(const HullinSystem& system, const param
   constexpr double kDense_ms = 159e3, kSparse_ms = 29.8;
   const auto scene = scene_of(system, kFourStops, values);
   if (!scene) return tl::unexpected(scene.error());
-  const auto dense = draw(*scene, "reference", scene->settings, running);
+  const auto dense = draw(*scene, {params::reference_options(values), scene->settings}, running);
   if (!dense) return tl::unexpected(dense.error());
   std::vector<HullinRow> rows{row_of("19", system, *scene, "dense rays", *dense)};
   rows.back().paper_ms = kDense_ms;
   if (auto ok = show(running, rows.back(), dense->image); !ok) return tl::unexpected(ok.error());
-  for (const auto& [what, method] : {std::pair{"ray bundles", "bundle"}, std::pair{"adaptive", "adaptive"}}) {
-    const auto sparse = draw(*scene, method, scene->settings, running);
+  const std::pair<const char*, MethodOptions> sparse_methods[] = {{"ray bundles", scene->bundle},
+                                                                  {"adaptive", params::adaptive_options(values)}};
+  for (const auto& [what, method] : sparse_methods) {
+    const auto sparse = draw(*scene, {method, scene->settings}, running);
     if (!sparse) return tl::unexpected(sparse.error());
     rows.push_back(row_of("19", system, *scene, what, *sparse));
     rows.back().psnr_db = psnr_db(dense->image, sparse->image);
@@ -240,10 +257,9 @@ Result<std::vector<HullinRow>> grids(const HullinSystem& system, const params::V
   if (!scene) return tl::unexpected(scene.error());
   const std::vector<Ghost> ghosts = enumerate_ghosts(scene->lens, scene->settings.scope);
   const auto alone = [&](Ghost ghost, int grid) {
-    RenderSettings settings = scene->settings;
-    settings.grid = grid;
-    settings.selection = SelectList{{ghost}};
-    return draw(*scene, "bundle", settings, {1, running.threads, {}});
+    Quality quality = with_grid(*scene, grid);
+    quality.settings.selection = SelectList{{ghost}};
+    return draw(*scene, quality, {1, running.threads, {}});
   };
   const auto is_lit = [](const Image& image) {
     return std::ranges::any_of(image.pixels, [](float v) { return v > 0; });
@@ -257,9 +273,7 @@ Result<std::vector<HullinRow>> grids(const HullinSystem& system, const params::V
     finest.push_back(std::move(drawn->image));
     seen.push_back(ghost);
   }
-  RenderSettings whole = scene->settings;
-  whole.grid = kFinest;
-  const auto best = draw(*scene, "bundle", whole, running);
+  const auto best = draw(*scene, with_grid(*scene, kFinest), running);
   if (!best) return tl::unexpected(best.error());
   std::vector<HullinRow> rows;
   for (const int grid : {4, 8, 16, 32}) {
@@ -269,8 +283,7 @@ Result<std::vector<HullinRow>> grids(const HullinSystem& system, const params::V
       if (!drawn) return tl::unexpected(drawn.error());
       good += psnr_db(finest[k], drawn->image).value_or(kGood_db) >= kGood_db ? 1 : 0;
     }
-    whole.grid = grid;
-    const auto drawn = draw(*scene, "bundle", whole, running);
+    const auto drawn = draw(*scene, with_grid(*scene, grid), running);
     if (!drawn) return tl::unexpected(drawn.error());
     rows.push_back(row_of("grids", system, *scene, fmt::format("{0} x {0} rays", grid), *drawn));
     rows.back().psnr_db = psnr_db(best->image, drawn->image);

@@ -22,7 +22,8 @@ constexpr double kLongFrame_ms = 2000.0;  // is not repeated
 struct FrameScene {
   LensState lens;
   std::vector<Light> lights;
-  RenderSettings settings;
+  AdaptiveOptions adaptive;
+  FrameSettings settings;
 };
 
 Result<FrameScene> scene_of(const std::string& file, const params::Values& values) {
@@ -36,7 +37,8 @@ Result<FrameScene> scene_of(const std::string& file, const params::Values& value
   const Frame frame = params::whole_frame(values, *lens, *params::parse_size(*values.text("size")));
   auto lights = params::lights(values, *lens, frame, ColourSpace::Rec709);
   if (!lights) return tl::unexpected(lights.error());
-  return FrameScene{std::move(*lens), std::move(*lights), params::render_settings(values, frame, ColourSpace::Rec709)};
+  return FrameScene{std::move(*lens), std::move(*lights), params::adaptive_options(values),
+                    params::frame_settings(values, frame, ColourSpace::Rec709)};
 }
 
 double now_ms(bool of_processor) {
@@ -53,7 +55,7 @@ Result<Rendered> render_scene(const FrameScene& scene, const std::string& name, 
                               const FrameRunning& running) {
   const LongTask task(name, values.integer("threads"));
   const double start_ms = now_ms(running.processor_time);
-  const auto flare = render("adaptive", scene.lens, scene.lights, scene.settings, task.context());
+  const auto flare = render(scene.adaptive, scene.lens, scene.lights, scene.settings, task.context());
   if (!flare) return tl::unexpected(flare.error());
   return Rendered{now_ms(running.processor_time) - start_ms, flare->statistics.ghosts_rendered};
 }

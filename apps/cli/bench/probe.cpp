@@ -6,6 +6,7 @@
 #include "cli/bench/scene.h"
 #include "cli/long_task.h"
 #include "contrejour/machine_speed.h"
+#include "contrejour/settings.h"
 
 namespace contrejour::cli {
 namespace {
@@ -17,7 +18,7 @@ Result<double> prepare_ms(const PaperSystem& system, params::Values values, cons
   const auto start = std::chrono::steady_clock::now();
   const auto scene = bench_scene(system, 1, {}, values);
   if (!scene) return tl::unexpected(scene.error());
-  const auto flare = render("adaptive", scene->lens, scene->lights, scene->settings, context);
+  const auto flare = render(params::adaptive_options(values), scene->lens, scene->lights, scene->settings, context);
   if (!flare) return tl::unexpected(flare.error());
   return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
 }
@@ -26,7 +27,7 @@ Result<std::uint64_t> peak_memory_bytes(const PaperSystem& system, const params:
                                         const Context& context) {
   const auto scene = bench_scene(system, 2, {}, values);
   if (!scene) return tl::unexpected(scene.error());
-  const auto flare = render("adaptive", scene->lens, scene->lights, scene->settings, context);
+  const auto flare = render(params::adaptive_options(values), scene->lens, scene->lights, scene->settings, context);
   if (!flare) return tl::unexpected(flare.error());
   return flare->statistics.peak_memory_bytes;
 }

@@ -20,7 +20,7 @@ Json decibels(const std::optional<double>& db) { return db && std::isfinite(*db)
 // Of the tables that vary tiles, merging or interpolation; null where the paper has no such figure.
 Json paper_variation(const BenchRow& row) {
   const TiledOptions usual;
-  const TiledOptions& t = row.settings.tiled;
+  const TiledOptions& t = row.request.tiled;
   const auto& system = *row.system;
   Json times;
   if (row.request.lights != 1) return times;
@@ -53,17 +53,29 @@ Json paper_counts(const ByMerging& counts) {
   return {{"no_merge", figure(counts[0])}, {"light_merge", figure(counts[1])}, {"heavy_merge", figure(counts[2])}};
 }
 
+void add_grid(Json& json, const GridOptions& grid) {
+  json["grid"] = grid.rays;
+  json["scale_grid"] = grid.scale;
+}
+
+// The method's own options beside what all methods have.
 Json settings_json(const BenchRow& row) {
-  const RenderSettings& s = row.settings;
-  Json json{{"lens", row.system->lens},       {"width", s.frame.width}, {"height", s.frame.height},
-            {"wavelengths", s.wavelengths},   {"grid", s.grid},         {"scale_grid", s.scale_grid},
-            {"density", s.reference_density}, {"runs", row.runs}};
-  if (row.request.method == "tiled") {
-    json["merge_steps"] = s.tiled.merge_steps;
-    json["merge_threshold"] = s.tiled.merge_threshold;
-    json["tile"] = s.tiled.dense_tile;
-    json["coarse_tile"] = s.tiled.coarse_tile;
-    json["interpolation"] = params::parameter("interpolation").choices[static_cast<std::size_t>(s.tiled.interpolation)];
+  const FrameSettings& s = row.settings;
+  Json json{{"lens", row.system->lens},
+            {"width", s.frame.width},
+            {"height", s.frame.height},
+            {"wavelengths", s.wavelengths},
+            {"runs", row.runs}};
+  if (const auto* const adaptive = row.options.get_if<AdaptiveOptions>()) json["error"] = adaptive->error;
+  if (const auto* const bundle = row.options.get_if<BundleOptions>()) add_grid(json, bundle->grid);
+  if (const auto* const reference = row.options.get_if<ReferenceOptions>()) json["density"] = reference->density;
+  if (const auto* const tiled = row.options.get_if<TiledOptions>()) {
+    add_grid(json, tiled->grid);
+    json["merge_steps"] = tiled->merge_steps;
+    json["merge_threshold"] = tiled->merge_threshold;
+    json["tile"] = tiled->dense_tile;
+    json["coarse_tile"] = tiled->coarse_tile;
+    json["interpolation"] = params::parameter("interpolation").choices[static_cast<std::size_t>(tiled->interpolation)];
   }
   return json;
 }

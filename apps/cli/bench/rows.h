@@ -23,7 +23,7 @@ struct SceneVariant {
 struct BenchRequest {
   int lights = 1;
   std::string method;
-  TiledOptions tiled{};  // of no meaning for other methods
+  TiledOptions tiled{};  // of no meaning for other methods; the grid is the user's
   SceneVariant variant{};
 };
 [[nodiscard]] bool same(const BenchRequest& a, const BenchRequest& b);
@@ -32,7 +32,8 @@ struct BenchRow {
   const PaperSystem* system = nullptr;
   BenchRequest request;
   double f_number = 0;
-  RenderSettings settings;
+  MethodOptions options;
+  FrameSettings settings;
   RenderStatistics statistics;  // of the fastest run
   int runs = 1;
   // Against the pictures of these, where they were made; infinite when equal.

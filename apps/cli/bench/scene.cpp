@@ -45,18 +45,32 @@ int runs_of(const BenchScene& scene, const BenchRequest& request, const BenchRun
   return is_long ? 1 : running.runs;
 }
 
+// The user's options; but grids are scaled by the paper's eq. 13, and `tiled` is as the request says.
+Result<MethodOptions> options_of(const BenchScene& scene, const BenchRequest& request) {
+  auto options = params::method_options(scene.values, request.method);
+  if (!options) return options;
+  if (auto* const bundle = options->get_if<BundleOptions>()) bundle->grid.scale = true;
+  if (auto* const tiled = options->get_if<TiledOptions>()) {
+    const GridOptions grid = tiled->grid;
+    *tiled = request.tiled;
+    tiled->grid = grid;
+    tiled->grid.scale = true;
+  }
+  return options;
+}
+
 Result<Flare> render_scene(const BenchScene& scene, const BenchRequest& request, int threads) {
-  RenderSettings settings = scene.settings;
-  settings.tiled = request.tiled;
+  const auto options = options_of(scene, request);
+  if (!options) return tl::unexpected(options.error());
   const LongTask task(fmt::format("{}, {} lights, {}", scene.system->name, scene.lights.size(), request.method),
                       threads);
-  return render(request.method, scene.lens, scene.lights, settings, task.context());
+  return render(*options, scene.lens, scene.lights, scene.settings, task.context());
 }
 
 fs::path cache_file(const BenchScene& scene, const std::string& folder) {
-  const RenderSettings& s = scene.settings;
+  const FrameSettings& s = scene.settings;
   std::string name = fmt::format("{}-{}-{}x{}-{}nm-{:g}", scene.system->key, scene.lights.size(), s.frame.width,
-                                 s.frame.height, s.wavelengths, s.reference_density);
+                                 s.frame.height, s.wavelengths, params::reference_options(scene.values).density);
   if (std::holds_alternative<SelectList>(s.selection)) name += "-paper-ghosts";
   if (!scene.coating.empty()) name += "-" + scene.coating;
   std::ranges::replace(name, '/', '_');  // of a file with reflectances
@@ -93,9 +107,18 @@ struct Truths {
 
 Result<BenchRow> measure(const BenchScene& scene, const BenchRequest& request, const BenchRunning& running,
                          Truths& truths) {
-  BenchRow row{scene.system, request, scene.lens.f_number, scene.settings, {}, runs_of(scene, request, running), {},
-               {},           {}};
-  row.settings.tiled = request.tiled;
+  auto options = options_of(scene, request);
+  if (!options) return tl::unexpected(options.error());
+  BenchRow row{.system = scene.system,
+               .request = request,
+               .f_number = scene.lens.f_number,
+               .options = std::move(*options),
+               .settings = scene.settings,
+               .statistics = {},
+               .runs = runs_of(scene, request, running),
+               .reference_db = {},
+               .bundle_db = {},
+               .unmerged_db = {}};
   const int asked = std::exchange(row.runs, 0);
   double all_ms = 0.0;
   for (int run = 0; another_run(run, asked, all_ms); ++run) {
@@ -132,7 +155,7 @@ Result<BenchScene> bench_scene(const PaperSystem& system, int light_count, const
                                const params::Values& values) {
   auto lens = lens_of(system, variant, values);
   if (!lens) return tl::unexpected(lens.error());
-  BenchScene scene{&system, variant, std::move(*lens), {}, {}};
+  BenchScene scene{&system, variant, std::move(*lens), {}, {}, values};
   params::PixelSize size = *params::parse_size(*values.text("size"));
   size.width *= variant.scale;
   size.height *= variant.scale;
@@ -143,8 +166,7 @@ Result<BenchScene> bench_scene(const PaperSystem& system, int light_count, const
         direction_to_land_at(scene.lens, frame.sensor_from_uv(light_uv(k)), scene.lens.design_wavelength_nm);
     scene.lights.push_back(light);
   }
-  scene.settings = params::render_settings(values, frame, ColourSpace::Rec709);
-  scene.settings.scale_grid = true;  // the paper's eq. 13
+  scene.settings = params::frame_settings(values, frame, ColourSpace::Rec709);
   scene.settings.scope = GhostScope::OneSideOfStop;  // the paper's ghosts
   scene.coating = values.text("coating").value_or("");
   if (!values.given("wavelengths")) scene.settings.wavelengths = kPapersWavelengths;

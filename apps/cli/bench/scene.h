@@ -16,7 +16,8 @@ struct BenchScene {
   SceneVariant variant;
   LensState lens;
   std::vector<Light> lights;
-  RenderSettings settings;
+  FrameSettings settings;
+  params::Values values;   // that methods' options are read from
   std::string coating{};  // as it was asked for; none: the lens's own
 };
 

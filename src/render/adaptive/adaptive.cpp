@@ -13,6 +13,7 @@
 #include "render/adaptive/item.h"
 #include "render/adaptive/screened_items.h"
 #include "render/adaptive/shadowed_items.h"
+#include "render/interface/error_bound.h"
 
 namespace contrejour {
 namespace {
@@ -22,8 +23,6 @@ using namespace adaptive;
 // Polygons of so many bytes, or a little more, are alive at once.
 constexpr std::size_t kBatchBytes = std::size_t{32} << 20U;
 constexpr std::size_t kItemsAtOnce = 256;
-constexpr double kLowestError = 1e-4;
-constexpr double kHighestError = 0.1;
 
 // Milliseconds since it was last asked.
 class Stopwatch {
@@ -81,10 +80,10 @@ std::vector<std::size_t> longest_first(std::span<const ItemSize> sizes, double p
 // Items painted one batch after the other, each batch then drawn; in the items' order whatever the threads.
 class FramePainter {
  public:
-  FramePainter(const Scene& scene, const RenderSettings& settings, Pool<BoxCells>& rooms, TileDrawer& drawer,
+  FramePainter(const Scene& scene, const Frame& frame, Pool<BoxCells>& rooms, TileDrawer& drawer,
                const Context& context, DrawnFlare& flare)
-      : scene_(scene), rooms_(rooms), drawer_(drawer), frame_(settings.frame), context_(context), quiet_(context),
-        flare_(flare), grid_(settings.frame.width, settings.frame.height) {
+      : scene_(scene), rooms_(rooms), drawer_(drawer), frame_(frame), context_(context), quiet_(context), flare_(flare),
+        grid_(frame.width, frame.height) {
     quiet_.progress = {};
   }
 
@@ -165,12 +164,11 @@ class FramePainter {
 
 }  // namespace
 
-Result<DrawnFlare> render_adaptive(const LensState& lens, const FramePlan& plan, const RenderSettings& settings,
+Result<DrawnFlare> render_adaptive(const PlannedFrame& planned, const AdaptiveOptions& options,
                                    const Context& context) {
-  if (!(settings.error >= kLowestError && settings.error <= kHighestError)) {
-    return failure(ErrorCode::InvalidArgument,
-                   "an error of " + std::to_string(settings.error) + " is out of range; choose 0.0001 to 0.1");
-  }
+  if (const auto good = check_error_bound(options.error); !good) return tl::unexpected(good.error());
+  const auto& [lens, plan, settings, cache] = planned;
+  const Frame& frame = settings.frame;
   Stopwatch whole;
   Stopwatch watch;
 
@@ -183,22 +181,21 @@ Result<DrawnFlare> render_adaptive(const LensState& lens, const FramePlan& plan,
   if (context.cancelled()) return interrupted();
   if (scene.plan.dirt) dim_items(scene, items);
   const double bound_ms = watch.lap_ms();
-  Screens screens(lens, settings);
+  Screens screens(lens, settings, cache);
   Pool<BoxCells> rooms;
   TileDrawer drawer;
-  const RoughFrame rough = draw_roughly(scene, items, settings.frame, rooms, drawer, quiet, work);
+  const RoughFrame rough = draw_roughly(scene, items, frame, rooms, drawer, quiet, work);
   if (context.cancelled()) return interrupted();
   const bool dark = !(rough.peak > 0.0);
-  const FrameError allowed{settings.error,
-                           std::max(dark ? faintest_peak(plan, settings.frame) : rough.peak, plan.least_peak),
-                           static_cast<double>(settings.frame.width) * settings.frame.height};
+  const FrameError allowed{options.error, std::max(dark ? faintest_peak(plan, frame) : rough.peak, plan.least_peak),
+                           static_cast<double>(frame.width) * frame.height};
   if (screens.on() && !dark) work.add(screen_items(scene, screens, items, rough.sizes, allowed, quiet));
   if (context.cancelled()) return interrupted();
   if (!dark) mark_faint_items(items, rough.sizes, allowed);
   if (scene.plan.dirt && !dark) shadow_items(scene, screens, items, rough.sizes, allowed, quiet);
   if (context.cancelled()) return interrupted();
   const double peak_ms = watch.lap_ms();
-  FramePainter painter(scene, settings, rooms, drawer, context, flare);
+  FramePainter painter(scene, frame, rooms, drawer, context, flare);
   painter.paint(items, rough.sizes, budget_per_item(allowed, rough.sizes));
   if (context.cancelled()) return interrupted();
 

@@ -4,8 +4,6 @@
 #include <cmath>
 #include <optional>
 
-#include "render/screens/ringing_patterns.h"
-
 namespace contrejour::adaptive {
 namespace {
 
@@ -103,7 +101,7 @@ std::shared_ptr<const screens::BandScreen> GhostPainter::band_screen(const First
   }
   if (all_edges) band->edges = static_cast<const screens::EdgeScreen*>(band->parts.front().screen.get());
   band->unseen = screens_->unseen;
-  if (textures.size() == band->parts.size()) band->pattern = screens_->patterns->contents().band(textures);
+  if (textures.size() == band->parts.size()) band->pattern = screens_->patterns->band(textures);
   return band;
 }
 

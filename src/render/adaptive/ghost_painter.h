@@ -2,9 +2,9 @@
 // rays tell, patches of polynomials, cells as the error allows, band by band.
 #pragma once
 
-#include "contrejour/render.h"
 #include "render/adaptive/cells/cell_painter.h"
 #include "render/adaptive/patch_fitter.h"
+#include "render/screens/stop_patterns.h"
 
 namespace contrejour::adaptive {
 
@@ -18,7 +18,7 @@ struct GhostScreens {
   double reach = 1.0;  // the largest, likewise
   screens::EdgeProfile::Range range{0.0, 0.0};  // of edges' fringes, likewise
   double unseen = 0.0;  // pixel values that do not count
-  std::shared_ptr<RingingPatterns> patterns;
+  std::shared_ptr<screens::StopPatterns> patterns;
 };
 
 class GhostPainter {

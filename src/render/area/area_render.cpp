@@ -13,6 +13,7 @@
 #include "render/area/drawings.h"
 #include "render/area/kernel.h"
 #include "render/area/layers.h"
+#include "render/interface/error_bound.h"
 #include "render/interface/statistics.h"
 
 namespace contrejour {
@@ -45,16 +46,15 @@ FramePlan part_of(const FramePlan& plan, const Drawing& drawing) {
 // Drawings one after the other, each blurred and added up.
 class AreaPainter {
  public:
-  AreaPainter(PlannedRenderer method, const LensState& lens, const FramePlan& plan, const RenderSettings& settings,
-              const Context& context)
-      : method_(method), lens_(lens), plan_(plan), settings_(settings), context_(context), layers_(settings.frame) {
+  AreaPainter(const DrawPlan& draw, const PlannedFrame& frame, const Context& context)
+      : draw_(draw), frame_(frame), context_(context), layers_(frame.settings.frame) {
     context_.progress = {};
   }
 
   Result<void> paint(const Drawing& drawing, double peak) {
     const LightPiece* const piece = drawing.piece.get();
-    RenderSettings drawn = settings_;
-    FramePlan part = part_of(plan_, drawing);
+    FrameSettings drawn = frame_.settings;
+    FramePlan part = part_of(frame_.plan, drawing);
     LayerFrame at;
     part.dark_margin_px = 0;
     part.least_peak = peak * std::exp2(2 * drawing.level);
@@ -64,7 +64,7 @@ class AreaPainter {
       drawn.frame = at.frame;
       part.dark_margin_px = std::max(reach.left + reach.right, reach.up + reach.down);
     }
-    auto picture = method_(lens_, part, drawn, context_);
+    auto picture = draw_({frame_.lens, part, drawn, frame_.cache}, context_);
     if (!picture) return tl::unexpected(picture.error());
     add(statistics_, picture->statistics);
     const auto start = Clock::now();
@@ -72,8 +72,8 @@ class AreaPainter {
     const PicturePart lit{picture->image, picture->left, picture->top};
     const bool is_whole = lit.image.width == drawn.frame.width && lit.image.height == drawn.frame.height;
     if (piece != nullptr)
-      layers_.add(lit, at, make_kernel(*piece, drawing.px_from_tangents, at.moved), kUnseen * settings_.error * peak,
-                  context_);
+      layers_.add(lit, at, make_kernel(*piece, drawing.px_from_tangents, at.moved),
+                  kUnseen * frame_.settings.area_error * peak, context_);
     else
       is_whole ? layers_.add_sharp(std::move(picture->image), context_) : layers_.add_sharp(lit, context_);
     ms_ += ms_since(start);
@@ -84,17 +84,15 @@ class AreaPainter {
     const auto start = Clock::now();
     Flare flare{std::move(layers_).flattened(context_), std::move(statistics_)};
     RenderStatistics& stats = flare.statistics;
-    stats.ghosts_rendered = static_cast<int>(plan_.ghosts.size());
-    stats.ghosts_skipped_flux = plan_.skipped_flux;
+    stats.ghosts_rendered = static_cast<int>(frame_.plan.ghosts.size());
+    stats.ghosts_skipped_flux = frame_.plan.skipped_flux;
     count_last(stats, "areas", before_ms + ms_ + ms_since(start));
     return flare;
   }
 
  private:
-  PlannedRenderer method_;
-  const LensState& lens_;
-  const FramePlan& plan_;
-  const RenderSettings& settings_;
+  const DrawPlan& draw_;
+  const PlannedFrame frame_;
   Context context_;
   Layers layers_;
   RenderStatistics statistics_;
@@ -103,9 +101,10 @@ class AreaPainter {
 
 }  // namespace
 
-Result<Flare> render_areas(PlannedRenderer method, const LensState& lens, std::span<const Light> lights,
-                           const RenderSettings& settings, const Context& context) {
+Result<Flare> render_areas(const DrawPlan& draw, const FrameRequest& frame, const Context& context) {
   auto start = Clock::now();
+  const auto& [lens, lights, settings, cache] = frame;
+  if (const auto good = check_error_bound(settings.area_error); !good) return tl::unexpected(good.error());
   for (const Light& light : lights)
     if (const auto ok = check_extent(light); !ok) return tl::unexpected(ok.error());
   std::vector<PartedLight> wholes = whole_lights(lights);
@@ -123,7 +122,7 @@ Result<Flare> render_areas(PlannedRenderer method, const LensState& lens, std::s
   if (context.cancelled()) return interrupted();
   const double survey_ms = ms_since(start);
 
-  AreaPainter painter(method, lens, *plan, settings, context);
+  AreaPainter painter(draw, {lens, *plan, settings, cache}, context);
   for (std::size_t k = 0; k < drawings.size(); ++k) {
     if (const auto painted = painter.paint(drawings[k], survey->peak); !painted) return tl::unexpected(painted.error());
     if (context.cancelled()) return interrupted();

@@ -31,7 +31,7 @@ std::vector<Light> points_of(std::span<const PartedLight> lights) {
 }
 
 AreaSurvey::AreaSurvey(const LensState& lens, const FramePlan& plan, std::span<const Light> lights,
-                       const RenderSettings& settings, const Context& context)
+                       const FrameSettings& settings, const Context& context)
     : lens_(lens), plan_(plan), lights_(lights), settings_(settings), context_(context), steps_(lens, plan.tables) {}
 
 // A pixel's value for an irradiance over the light's at the middle wavelength, in the brightest channel.
@@ -179,7 +179,7 @@ Result<SurveyedFrame> AreaSurvey::of(std::vector<PartedLight> wholes) const {
   const Frame& frame = settings_.frame;
   AreaBudget budget;
   budget.peak = peak_of(blurs, frame);
-  budget.squares = kPiecesShare * settings_.error * settings_.error * frame.width * frame.height;
+  budget.squares = kPiecesShare * settings_.area_error * settings_.area_error * frame.width * frame.height;
   for (const GhostBlur& blur : blurs)
     if (blur.level > 0.0) budget.flux += blur.flux;
   if (const auto looked = look_at_parts(ghosts, wholes, budget); !looked) return tl::unexpected(looked.error());

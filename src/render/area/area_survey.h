@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "contrejour/render.h"
+#include "contrejour/frame_settings.h"
 #include "optics/trace/by_wavelength.h"
 #include "render/area/piece_choice.h"
 #include "render/interface/frame_plan.h"
@@ -43,8 +43,8 @@ struct SurveyedFrame {
 class AreaSurvey {
  public:
   // All must outlive it.
-  AreaSurvey(const LensState& lens, const FramePlan& plan, std::span<const Light> lights,
-             const RenderSettings& settings, const Context& context);
+  AreaSurvey(const LensState& lens, const FramePlan& plan, std::span<const Light> lights, const FrameSettings& settings,
+             const Context& context);
 
   // wholes: whole_lights(), with their plans. Errors: Cancelled.
   [[nodiscard]] Result<SurveyedFrame> of(std::vector<PartedLight> wholes) const;
@@ -68,7 +68,7 @@ class AreaSurvey {
   const LensState& lens_;
   const FramePlan& plan_;
   std::span<const Light> lights_;
-  const RenderSettings& settings_;
+  const FrameSettings& settings_;
   const Context& context_;
   StepsByWavelength steps_;
 };

@@ -91,8 +91,8 @@ void add_pair(Drawing& drawing, const Job& job, std::size_t k, const PlannedLigh
 
 }  // namespace
 
-std::vector<Drawing> drawings_of(const SurveyedFrame& frame, const RenderSettings& settings) {
-  const double squares = settings.error * settings.error * settings.frame.width * settings.frame.height;
+std::vector<Drawing> drawings_of(const SurveyedFrame& frame, const FrameSettings& settings) {
+  const double squares = settings.area_error * settings.area_error * settings.frame.width * settings.frame.height;
   const Jobs jobs(frame, kLevelShare * squares);
   const std::vector<BlurClasses> classes = classes_of(jobs.all, settings.frame, frame.peak, kMisfitShare * squares);
   std::vector<Drawing> drawings;

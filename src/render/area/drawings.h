@@ -4,7 +4,7 @@
 #include <memory>
 #include <vector>
 
-#include "contrejour/render.h"
+#include "contrejour/frame_settings.h"
 #include "render/area/area_survey.h"
 #include "render/area/blur_classes.h"
 
@@ -20,6 +20,6 @@ struct Drawing {
 };
 
 // In the order that layers want them. Ghosts of points, and those too little blurred to show it, are left as they are.
-[[nodiscard]] std::vector<Drawing> drawings_of(const SurveyedFrame& frame, const RenderSettings& settings);
+[[nodiscard]] std::vector<Drawing> drawings_of(const SurveyedFrame& frame, const FrameSettings& settings);
 
 }  // namespace contrejour::area

@@ -19,9 +19,9 @@ using bundle::RenderedItem;
 using bundle::Stopwatch;
 
 // hullin2011's precomputation, for the angles of the lights at hand and all below: none unless asked for.
-std::optional<PupilBounds> bounds_for(const FramePlan& plan, const LensState& lens, const RenderSettings& settings,
+std::optional<PupilBounds> bounds_for(const FramePlan& plan, const LensState& lens, const BundleOptions& options,
                                       const Context& context) {
-  if (!settings.bundle.precomputed_bounds || !lens.has_axial_symmetry()) return std::nullopt;
+  if (!options.precomputed_bounds || !lens.has_axial_symmetry()) return std::nullopt;
   PupilBoundsRange range;
   range.ghosts = plan.ghosts;
   double shortest_nm = std::numeric_limits<double>::infinity(), longest_nm = 0.0;
@@ -61,37 +61,34 @@ std::vector<std::pair<std::string, double>> named(const PhaseTimes& times, const
 
 }  // namespace
 
-Result<DrawnFlare> render_bundle(const LensState& lens, const FramePlan& given, const RenderSettings& settings,
-                                 const Context& context) {
+Result<DrawnFlare> render_bundle(const PlannedFrame& planned, const BundleOptions& options, const Context& context) {
   PhaseTimes times;
   double total_ms = 0.0;
   const Stopwatch whole(total_ms);
-  if (const auto ok = check_grid(settings); !ok) return tl::unexpected(ok.error());
-  const auto by_need = with_passes_by_need(given, lens, settings.frame, context);
+  if (const auto ok = check_grid(options.grid); !ok) return tl::unexpected(ok.error());
+  const LensState& lens = planned.lens;
+  const Frame& frame = planned.settings.frame;
+  const auto by_need = with_passes_by_need(planned.plan, lens, frame, context);
   if (!by_need) return interrupted();
   const FramePlan& plan = *by_need;
-  const TablesByWavelength& tables = plan.tables;
-  const auto bounds = bounds_for(plan, lens, settings, context);
-  Screens screens(lens, settings);
+  const auto bounds = bounds_for(plan, lens, options, context);
+  Screens screens(lens, planned.settings, planned.cache);
   if (!screens.prepare(plan, context)) return interrupted();
   times.bounds_ms = whole.elapsed_ms();
   if (context.cancelled()) return interrupted();
 
   DrawnFlare flare;
-  flare.image = Image(settings.frame.width, settings.frame.height, 3);
+  flare.image = Image(frame.width, frame.height, 3);
   Counts counts;
   if (bounds) {
     counts.rays = bounds->rays();
     counts.surface_hits = bounds->surface_hits();
   }
-  const auto items = bundle::items_of(plan, settings.bundle);
+  const auto items = bundle::items_of(plan, options);
+  const bundle::GridSource source{lens, options, plan.tables, screens, bounds ? &*bounds : nullptr};
   const bool done = ordered_pipeline(
       items.size(), context,
-      [&](std::size_t k) {
-        return bundle::ItemRenderer(items[k], lens, settings, tables, screens, bounds ? &*bounds : nullptr,
-                                    plan.dirt.get(), context)
-            .render();
-      },
+      [&](std::size_t k) { return bundle::ItemRenderer(items[k], frame, source, plan.dirt.get(), context).render(); },
       [&](std::size_t, const RenderedItem& item) {
         const Stopwatch adding(times.accumulate_ms);
         add_to(flare.image, item);

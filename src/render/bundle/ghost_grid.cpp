@@ -28,11 +28,9 @@ void Counts::add(const Counts& other) {
   raster_ms += other.raster_ms;
 }
 
-GhostGrid::GhostGrid(const LensState& lens, const RenderSettings& settings, const TablesByWavelength& tables,
-                     const Screens& screens, const PupilBounds* bounds)
-    : lens_(lens), settings_(settings), tables_(tables), screens_(screens), bounds_(bounds) {}
-
-const ReflectanceTables& GhostGrid::tables_of(const GhostPupil& pupil) const { return tables_.at(pupil.lambda_nm); }
+const ReflectanceTables& GhostGrid::tables_of(const GhostPupil& pupil) const {
+  return from_.tables.at(pupil.lambda_nm);
+}
 
 void GhostGrid::count_rays(std::uint64_t rays, const OpticalPath& path) {
   counts_.rays += rays;
@@ -41,21 +39,21 @@ void GhostGrid::count_rays(std::uint64_t rays, const OpticalPath& path) {
 
 std::optional<GhostPupil> GhostGrid::find(Ghost ghost, const LightSource& light, double lambda_nm, bool look) {
   const Stopwatch watch(counts_.search_ms);
-  const BundleOptions& options = settings_.bundle;
+  const BundleOptions& options = from_.options;
   GhostPupil pupil;
   pupil.lambda_nm = lambda_nm;
-  pupil.path = ghost_path(lens_, ghost, lambda_nm);
-  pupil.screen = screens_.of(ghost, lambda_nm, light);
-  pupil.dirt = screens_.dirt_of(ghost, lambda_nm, light);
+  pupil.path = ghost_path(from_.lens, ghost, lambda_nm);
+  pupil.screen = from_.screens.of(ghost, lambda_nm, light);
+  pupil.dirt = from_.screens.dirt_of(ghost, lambda_nm, light);
   if (pupil.screen) pupil.path = widened(std::move(pupil.path), pupil.screen->reach());
-  const bool from_table = bounds_ != nullptr && light.is_distant() && !pupil.screen;
+  const bool from_table = from_.bounds != nullptr && light.is_distant() && !pupil.screen;
   const bool in_meridian = mirrors() || from_table;
   pupil.meridian = in_meridian ? meridian_of(light) : Meridian{light, 0.0};
-  pupil.iris = pupil.screen ? Iris{} : turned_back(lens_.iris, pupil.meridian);
-  const EntranceWindow window = entrance_window(lens_, pupil.meridian.light);
+  pupil.iris = pupil.screen ? Iris{} : turned_back(from_.lens.iris, pupil.meridian);
+  const EntranceWindow window = entrance_window(from_.lens, pupil.meridian.light);
   pupil.plane_z_mm = window.z_mm;
 
-  const auto region = from_table ? bounds_->find(ghost, pupil.meridian.angle_rad())
+  const auto region = from_table ? from_.bounds->find(ghost, pupil.meridian.angle_rad())
                                  : find_pupil_region(pupil.path, tables_of(pupil), IrisShape(pupil.iris),
                                                      pupil.meridian.light, window, rays_, search_effort());
   if (!region) return std::nullopt;
@@ -69,7 +67,7 @@ std::optional<GhostPupil> GhostGrid::find(Ghost ghost, const LightSource& light,
 }
 
 PupilEffort GhostGrid::search_effort() const {
-  return settings_.bundle.grid_levels ? PupilEffort::Finest : effort_for_grid(settings_.grid);
+  return from_.options.grid_levels ? PupilEffort::Finest : effort_for_grid(from_.options.grid.rays);
 }
 
 MapFigures GhostGrid::figures_of(const GhostPupil& pupil) {
@@ -81,8 +79,8 @@ MapFigures GhostGrid::figures_of(const GhostPupil& pupil) {
 }
 
 int GhostGrid::side_of(const GhostPupil& pupil) const {
-  if (settings_.bundle.grid_levels) return grid_level(*pupil.figures);
-  return grid_side(settings_, lens_, pupil.region.sensor_mm, kFewestScaled);
+  if (from_.options.grid_levels) return grid_level(*pupil.figures);
+  return grid_side(from_.options.grid, from_.lens, pupil.region.sensor_mm, kFewestScaled);
 }
 
 void GhostGrid::trace(const GhostPupil& pupil) {
@@ -93,7 +91,7 @@ void GhostGrid::trace(const GhostPupil& pupil) {
   const Rectangle& box = pupil.region.pupil_mm;
   const LightSource& light = pupil.meridian.light;
   const auto precision =
-      precision_for(pupil.path, tables_of(pupil), light, pupil.plane_z_mm, box, side, settings_.frame.pixel_pitch_mm);
+      precision_for(pupil.path, tables_of(pupil), light, pupil.plane_z_mm, box, side, pixel_pitch_mm_);
   if (mirrors()) {
     count_rays(rays_.trace_mirrored(pupil.path, tables_of(pupil), iris, light, pupil.plane_z_mm, box, side, precision),
                pupil.path);

@@ -4,7 +4,8 @@
 
 #include <optional>
 
-#include "contrejour/render.h"
+#include "contrejour/lens.h"
+#include "contrejour/method_options.h"
 #include "ghosts/meridian.h"
 #include "ghosts/pupil_bounds.h"
 #include "optics/trace/by_wavelength.h"
@@ -33,13 +34,20 @@ struct GhostPupil {
   std::optional<MapFigures> figures;  // in the frame of the sensor, where a look was asked for
 };
 
+// What all grids of a frame are traced from; all must outlive the grids.
+struct GridSource {
+  const LensState& lens;
+  const BundleOptions& options;
+  const TablesByWavelength& tables;
+  const Screens& screens;
+  const PupilBounds* bounds;  // in place of a search, for distant lights where there is no screen; may be null
+};
+
 class GhostGrid {
  public:
-  // bounds: in place of a search, for distant lights where there is no screen; may be null.
-  GhostGrid(const LensState& lens, const RenderSettings& settings, const TablesByWavelength& tables,
-            const Screens& screens, const PupilBounds* bounds);
+  GhostGrid(const GridSource& source, double pixel_pitch_mm) : from_(source), pixel_pitch_mm_(pixel_pitch_mm) {}
 
-  // None when nothing gets through. look: figures are wanted whatever the settings are.
+  // None when nothing gets through. look: figures are wanted whatever the options are.
   [[nodiscard]] std::optional<GhostPupil> find(Ghost ghost, const LightSource& light, double lambda_nm, bool look);
 
   // Traces the pupil; rays() is valid until the next find() or trace().
@@ -50,18 +58,15 @@ class GhostGrid {
 
  private:
   // A lens without axial symmetry has no mirror image.
-  [[nodiscard]] bool mirrors() const { return settings_.bundle.mirror_symmetry && lens_.has_axial_symmetry(); }
+  [[nodiscard]] bool mirrors() const { return from_.options.mirror_symmetry && from_.lens.has_axial_symmetry(); }
   [[nodiscard]] const ReflectanceTables& tables_of(const GhostPupil& pupil) const;
   [[nodiscard]] PupilEffort search_effort() const;
   [[nodiscard]] MapFigures figures_of(const GhostPupil& pupil);
   [[nodiscard]] int side_of(const GhostPupil& pupil) const;
   void count_rays(std::uint64_t rays, const OpticalPath& path);
 
-  const LensState& lens_;
-  const RenderSettings& settings_;
-  const TablesByWavelength& tables_;
-  const Screens& screens_;
-  const PupilBounds* bounds_;
+  GridSource from_;
+  double pixel_pitch_mm_;
   RayGrid rays_;
   Counts counts_;
 };

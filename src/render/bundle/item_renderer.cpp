@@ -69,11 +69,10 @@ std::vector<Item> items_of(const FramePlan& plan, const BundleOptions& options) 
   return items;
 }
 
-ItemRenderer::ItemRenderer(const Item& item, const LensState& lens, const RenderSettings& settings,
-                           const TablesByWavelength& tables, const Screens& screens, const PupilBounds* bounds,
-                           const DirtScreen* dirt, const Context& context)
-    : item_(item), settings_(settings), frame_(item.look->placed(settings.frame)), context_(context),
-      grid_(lens, settings, tables, screens, bounds), dirt_(dirt) {}
+ItemRenderer::ItemRenderer(const Item& item, const Frame& frame, const GridSource& source, const DirtScreen* dirt,
+                           const Context& context)
+    : item_(item), options_(source.options), frame_(item.look->placed(frame)), context_(context),
+      grid_(source, frame.pixel_pitch_mm), dirt_(dirt) {}
 
 RenderedItem ItemRenderer::render() {
   RenderedItem out = merge(item_.are_blurred ? draw_and_blur() : draw_all());
@@ -121,15 +120,14 @@ ItemRenderer::Layer ItemRenderer::draw_blurred(const GhostPupil& pupil, const st
 FluxBox ItemRenderer::draw(const GhostPupil& pupil, const Frame& frame) {
   grid_.trace(pupil);
   const Stopwatch watch(grid_.counts().raster_ms);
-  const BundleOptions& options = settings_.bundle;
-  const bool special = options.anisotropic != BundleOptions::Anisotropic::Exact && is_very_anisotropic(*pupil.figures);
-  const bool points = special && options.anisotropic == BundleOptions::Anisotropic::Points;
+  const bool special = options_.anisotropic != BundleOptions::Anisotropic::Exact && is_very_anisotropic(*pupil.figures);
+  const bool points = special && options_.anisotropic == BundleOptions::Anisotropic::Points;
   const bool fine = special && !points;
   const Frame drawn = fine ? finer(frame, kFineness) : frame;
   const IrisShape iris(pupil.iris);
   const DirtScreen* const dirt = pupil.dirt ? pupil.dirt.get() : dirt_;
   const double flux_of_light = item_.light->source.shared_flux() * (dirt != nullptr ? dirt->level() : 1.0);
-  CellRaster raster(grid_.rays(), iris, drawn, flux_of_light, {options.smooth_shading, points},
+  CellRaster raster(grid_.rays(), iris, drawn, flux_of_light, {options_.smooth_shading, points},
                     {.screen = pupil.screen.get(),
                      .dirt = dirt,
                      .light = pupil.meridian.light,

@@ -33,9 +33,9 @@ struct RenderedItem {
 
 class ItemRenderer {
  public:
-  ItemRenderer(const Item& item, const LensState& lens, const RenderSettings& settings,
-               const TablesByWavelength& tables, const Screens& screens, const PupilBounds* bounds,
-               const DirtScreen* dirt, const Context& context);
+  // dirt: null where the lens is clean. item, the source's options, dirt and context must outlive it.
+  ItemRenderer(const Item& item, const Frame& frame, const GridSource& source, const DirtScreen* dirt,
+               const Context& context);
 
   // Incomplete when the context is cancelled.
   [[nodiscard]] RenderedItem render();
@@ -50,7 +50,7 @@ class ItemRenderer {
   [[nodiscard]] RenderedItem merge(const std::vector<Layer>& layers);
 
   const Item& item_;
-  const RenderSettings& settings_;
+  const BundleOptions& options_;
   Frame frame_;  // as the ghost is placed in it
   const Context& context_;
   GhostGrid grid_;

@@ -10,5 +10,6 @@ namespace contrejour {
 
 [[nodiscard]] std::span<const Method> all_methods();  // the default first
 [[nodiscard]] const Method* find_method(std::string_view name);  // null: there is none
+[[nodiscard]] Result<const Method*> known_method(std::string_view name);  // never null. Errors: there is none
 
 }  // namespace contrejour

@@ -25,8 +25,7 @@ constexpr int kBandsByNeed = 32;  // what a caustic of a fisheye in a large fram
 
 Error invalid(std::string message) { return {ErrorCode::InvalidArgument, std::move(message), {}}; }
 
-std::optional<Error> problem_with(const LensState& lens, std::span<const Light> lights,
-                                  const RenderSettings& settings) {
+std::optional<Error> problem_with(const LensState& lens, std::span<const Light> lights, const FrameSettings& settings) {
   if (const auto good = check_frame(settings.frame); !good) return good.error();
   if (settings.lambda_nm.empty() && (settings.wavelengths < 0 || settings.wavelengths > kMaxWavelengths)) {
     return invalid(fmt::format("{} wavelengths is out of range; choose 1 to {}, or 0 for as many as are needed",
@@ -40,7 +39,7 @@ std::optional<Error> problem_with(const LensState& lens, std::span<const Light> 
   return std::nullopt;
 }
 
-std::vector<SpectralBand> bands_of(const Light& light, const RenderSettings& settings) {
+std::vector<SpectralBand> bands_of(const Light& light, const FrameSettings& settings) {
   const int count = settings.wavelengths == kWavelengthsByNeed ? kBandsByNeed : settings.wavelengths;
   if (settings.lambda_nm.empty()) return spectral_bands(count, light.spectrum, settings.colour_space);
   std::vector<SpectralBand> bands;
@@ -53,7 +52,7 @@ std::vector<SpectralBand> bands_of(const Light& light, const RenderSettings& set
 // Lights of one spectrum share their bands.
 using BandsBySpectrum = std::vector<std::pair<Spectrum, std::vector<SpectralBand>>>;
 
-BandsBySpectrum bands_by_spectrum(std::span<const Light> lights, const RenderSettings& settings) {
+BandsBySpectrum bands_by_spectrum(std::span<const Light> lights, const FrameSettings& settings) {
   BandsBySpectrum all;
   for (const Light& light : lights) {
     const auto same = [&](const auto& entry) { return entry.first == light.spectrum; };
@@ -106,7 +105,7 @@ const std::vector<SpectralBand>& bands_for(const Light& light, const BandsBySpec
 }
 
 // What a light's ghosts are multiplied by, for where its image lies.
-double edge_gain(const LensState& lens, const Light& light, const RenderSettings& settings) {
+double edge_gain(const LensState& lens, const Light& light, const FrameSettings& settings) {
   const double at_corner = settings.ghosts.edge_gain;
   if (at_corner == 1.0) return 1.0;
   const Frame& frame = settings.frame;
@@ -135,7 +134,7 @@ PlannedLight plan_light(const LensState& lens, const TablesByWavelength& tables,
 
 // measured: one a light. None when cancelled.
 std::optional<std::vector<PlannedLight>> plan_lights(const LensState& lens, std::span<const Light> lights,
-                                                     const RenderSettings& settings, const BandsBySpectrum& spectra,
+                                                     const FrameSettings& settings, const BandsBySpectrum& spectra,
                                                      std::span<const LightSource> measured,
                                                      const TablesByWavelength& tables, const Context& context) {
   std::vector<MeteredLight> metered;
@@ -149,7 +148,7 @@ std::optional<std::vector<PlannedLight>> plan_lights(const LensState& lens, std:
 
 }  // namespace
 
-Result<FramePlan> plan_frame(const LensState& lens, std::span<const Light> lights, const RenderSettings& settings,
+Result<FramePlan> plan_frame(const LensState& lens, std::span<const Light> lights, const FrameSettings& settings,
                              const Context& context) {
   if (const auto problem = problem_with(lens, lights, settings)) return tl::unexpected<Error>(*problem);
   if (const auto good = check_ghost_options(lens, settings.ghosts); !good) return tl::unexpected(good.error());
@@ -180,7 +179,7 @@ Result<FramePlan> plan_frame(const LensState& lens, std::span<const Light> light
 }
 
 Result<std::vector<PlannedLight>> plan_more_lights(const FramePlan& plan, const LensState& lens,
-                                                   std::span<const Light> lights, const RenderSettings& settings,
+                                                   std::span<const Light> lights, const FrameSettings& settings,
                                                    const Context& context) {
   std::vector<LightSource> measured(lights.size());
   parallel_for(lights.size(), context,
@@ -192,13 +191,12 @@ Result<std::vector<PlannedLight>> plan_more_lights(const FramePlan& plan, const 
   return std::move(*planned);
 }
 
-Result<Flare> render_planned(PlannedRenderer method, const LensState& lens, std::span<const Light> lights,
-                             const RenderSettings& settings, const Context& context) {
+Result<Flare> render_planned(const DrawPlan& draw, const FrameRequest& frame, const Context& context) {
   const auto start = Clock::now();
-  const auto plan = plan_frame(lens, lights, settings, context);
+  const auto plan = plan_frame(frame.lens, frame.lights, frame.settings, context);
   if (!plan) return tl::unexpected<Error>(plan.error());
   const double plan_ms = ms_since(start);
-  auto drawn = method(lens, *plan, settings, context);
+  auto drawn = draw({frame.lens, *plan, frame.settings, frame.cache}, context);
   if (!drawn) return tl::unexpected<Error>(drawn.error());
   count_first(drawn->statistics, "plan", plan_ms);
   return Flare{std::move(drawn->image), std::move(drawn->statistics)};

@@ -3,10 +3,12 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <memory>
 #include <span>
 #include <vector>
 
+#include "contrejour/frame_settings.h"
 #include "contrejour/render.h"
 #include "ghosts/pupils/ghost_pupil.h"
 #include "optics/trace/by_wavelength.h"
@@ -14,6 +16,7 @@
 #include "render/interface/ghost_look.h"
 #include "render/interface/planned_light.h"
 #include "render/interface/reflected_share.h"
+#include "render/interface/render_cache.h"
 
 namespace contrejour {
 
@@ -63,13 +66,12 @@ void for_each_pair_with_passes(const FramePlan& plan, const Visit& visit) {
 
 // Errors: InvalidArgument for settings out of range, Cancelled.
 [[nodiscard]] Result<FramePlan> plan_frame(const LensState& lens, std::span<const Light> lights,
-                                           const RenderSettings& settings, const Context& context);
+                                           const FrameSettings& settings, const Context& context);
 
 // More lights for a plan that has their spectra. Cancelled is the one error.
 [[nodiscard]] Result<std::vector<PlannedLight>> plan_more_lights(const FramePlan& plan, const LensState& lens,
                                                                  std::span<const Light> lights,
-                                                                 const RenderSettings& settings,
-                                                                 const Context& context);
+                                                                 const FrameSettings& settings, const Context& context);
 
 // What a method draws: the part of the frame that begins there. All else is dark.
 struct DrawnFlare {
@@ -78,13 +80,27 @@ struct DrawnFlare {
   RenderStatistics statistics;
 };
 
-// A method: draws what a plan says. Its picture depends on ghosts, lights and gains of the plan and on the settings'
-// frame and options, no longer on settings.selection, scope, wavelengths and colour space.
-using PlannedRenderer = Result<DrawnFlare> (*)(const LensState& lens, const FramePlan& plan,
-                                               const RenderSettings& settings, const Context& context);
+// What a frame is rendered from. All must outlive the rendering; the cache may have served frames before.
+struct FrameRequest {
+  const LensState& lens;
+  std::span<const Light> lights;
+  const FrameSettings& settings;
+  RenderCache& cache;
+};
+
+// The same with its lights planned, for a method to draw. The picture depends on ghosts, lights and gains of the plan
+// and on the settings' frame and ringing, no longer on settings.selection, scope, wavelengths and colour space.
+struct PlannedFrame {
+  const LensState& lens;
+  const FramePlan& plan;
+  const FrameSettings& settings;
+  RenderCache& cache;
+};
+
+// A method with its options: draws what a plan says.
+using DrawPlan = std::function<Result<DrawnFlare>(const PlannedFrame& frame, const Context& context)>;
 
 // Plans, then draws; the statistics' phases begin with "plan". Errors: those of both.
-[[nodiscard]] Result<Flare> render_planned(PlannedRenderer method, const LensState& lens, std::span<const Light> lights,
-                                           const RenderSettings& settings, const Context& context);
+[[nodiscard]] Result<Flare> render_planned(const DrawPlan& draw, const FrameRequest& frame, const Context& context);
 
 }  // namespace contrejour

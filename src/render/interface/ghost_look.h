@@ -4,7 +4,11 @@
 #include <span>
 #include <vector>
 
-#include "contrejour/render.h"
+#include "contrejour/frame.h"
+#include "contrejour/ghost.h"
+#include "contrejour/ghost_options.h"
+#include "contrejour/lens.h"
+#include "contrejour/light.h"
 
 namespace contrejour {
 

@@ -85,7 +85,7 @@ class MeasuredLight {
 class GhostMeasuring {
  public:
   GhostMeasuring(const LensState& lens, std::span<const PlannedLight> lights, const TablesByWavelength& tables,
-                 const RenderSettings& settings)
+                 const FrameSettings& settings)
       : lens_(lens), settings_(settings), steps_(lens, tables), iris_(lens.iris) {
     for (const PlannedLight& light : lights) lights_.emplace_back(lens, light);
   }
@@ -124,7 +124,7 @@ class GhostMeasuring {
   }
 
   const LensState& lens_;
-  const RenderSettings& settings_;
+  const FrameSettings& settings_;
   StepsByWavelength steps_;
   IrisShape iris_;
   std::vector<MeasuredLight> lights_;
@@ -209,7 +209,7 @@ struct Selector {
   const LensState& lens;
   std::span<const PlannedLight> lights;
   const TablesByWavelength& tables;
-  const RenderSettings& settings;
+  const FrameSettings& settings;
   const Context& context;
 
   [[nodiscard]] std::vector<Ghost> in_scope() const {
@@ -255,7 +255,7 @@ Result<void> check_selection(const LensState& lens, const GhostSelection& select
 }
 
 Result<GhostChoice> select_ghosts(const LensState& lens, std::span<const PlannedLight> lights,
-                                  const TablesByWavelength& tables, const RenderSettings& settings,
+                                  const TablesByWavelength& tables, const FrameSettings& settings,
                                   const Context& context) {
   return std::visit(Selector{lens, lights, tables, settings, context}, settings.selection);
 }

@@ -5,7 +5,8 @@
 #include <span>
 #include <vector>
 
-#include "contrejour/render.h"
+#include "contrejour/context.h"
+#include "contrejour/frame_settings.h"
 #include "ghosts/pupils/ghost_pupil.h"
 #include "optics/trace/by_wavelength.h"
 #include "render/interface/planned_light.h"
@@ -28,7 +29,7 @@ struct GhostChoice {
 // the picture's channels inside the frame, by the lights' values and spectra and by their looks: a ghost is as bright
 // as its largest share of the flux of all ghosts in any channel. tables: of the lights' wavelengths. Errors: Cancelled.
 [[nodiscard]] Result<GhostChoice> select_ghosts(const LensState& lens, std::span<const PlannedLight> lights,
-                                                const TablesByWavelength& tables, const RenderSettings& settings,
+                                                const TablesByWavelength& tables, const FrameSettings& settings,
                                                 const Context& context);
 
 }  // namespace contrejour

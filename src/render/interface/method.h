@@ -1,8 +1,11 @@
-// What a renderer is to the registry (render/driver/registry.h): a name, traits, and a function that draws a plan.
+// What a renderer is to the registry (render/driver/registry.h): a name, traits, default options, and a function that
+// draws a plan. A renderer that has options of its own type exports method_of<Options, draw>(traits).
 #pragma once
 
+#include <string>
 #include <string_view>
 
+#include "contrejour/methods.h"
 #include "render/interface/frame_plan.h"
 
 namespace contrejour {
@@ -10,7 +13,24 @@ namespace contrejour {
 struct Method {
   std::string_view name;
   MethodTraits traits;
-  PlannedRenderer draw;
+  MethodOptions (*default_options)();
+  // Errors: those of the renderer; InvalidArgument for options of another type than the default ones.
+  Result<DrawnFlare> (*draw)(const PlannedFrame& frame, const MethodOptions& options, const Context& context);
 };
+
+template <OptionsOfMethod Options>
+using DrawWithOptions = Result<DrawnFlare> (*)(const PlannedFrame& frame, const Options& options,
+                                               const Context& context);
+
+template <OptionsOfMethod Options, DrawWithOptions<Options> kDraw>
+[[nodiscard]] constexpr Method method_of(const MethodTraits& traits) {
+  return {Options::kMethod, traits, [] { return MethodOptions(Options{}); },
+          [](const PlannedFrame& frame, const MethodOptions& options, const Context& context) -> Result<DrawnFlare> {
+            const Options* const own = options.get_if<Options>();
+            if (own != nullptr) return kDraw(frame, *own, context);
+            return failure(ErrorCode::InvalidArgument,
+                           std::string("these are not the options of method ").append(Options::kMethod));
+          }};
+}
 
 }  // namespace contrejour

@@ -1,7 +1,7 @@
 // What a render's stages took, put together.
 #pragma once
 
-#include "contrejour/render.h"
+#include "contrejour/render_statistics.h"
 
 namespace contrejour {
 

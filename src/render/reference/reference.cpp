@@ -33,19 +33,21 @@ struct RenderedItem {
   std::uint64_t surfaces = 0;  // that each of its rays meets
 };
 
-RenderedItem render_item(const Item& item, const LensState& lens, const RenderSettings& settings,
-                         const Screens& screens, const DirtScreen* sharp_dirt, const Context& context) {
-  RenderedItem out{{settings.frame.width, settings.frame.height}, {}, 0};
+RenderedItem render_item(const Item& item, const PlannedFrame& planned, double density, const Screens& screens,
+                         const Context& context) {
+  const LensState& lens = planned.lens;
+  const Frame& frame = planned.settings.frame;
+  RenderedItem out{{frame.width, frame.height}, {}, 0};
   const LightSource& light = item.light->source;
   const auto screen = screens.of(item.ghost, item.pass->lambda_nm, light);
   const auto fringed = screens.dirt_of(item.ghost, item.pass->lambda_nm, light);
-  const DirtScreen* const dirt = fringed ? fringed.get() : sharp_dirt;
+  const DirtScreen* const dirt = fringed ? fringed.get() : planned.plan.dirt.get();
   const double past_dirt = dirt != nullptr ? dirt->level() : 1.0;
   const OpticalPath path = widened(ghost_path(lens, item.ghost, item.pass->lambda_nm), screen ? screen->reach() : 1.0);
   out.surfaces = path.steps.size();
   out.counts = reference::for_each_lit_polygon(
-      path, screen ? Iris{} : lens.iris, light, entrance_window(lens, light), item.look->placed(settings.frame),
-      reference::CellLimits::for_density(settings.reference_density), [&] { return context.cancelled(); },
+      path, screen ? Iris{} : lens.iris, light, entrance_window(lens, light), item.look->placed(frame),
+      reference::CellLimits::for_density(density), [&] { return context.cancelled(); },
       [&](std::span<const Vec2> pixels, double flux) { out.flux.add_polygon(pixels, past_dirt * flux); }, screen.get(),
       dirt);
   return out;
@@ -53,13 +55,14 @@ RenderedItem render_item(const Item& item, const LensState& lens, const RenderSe
 
 }  // namespace
 
-Result<DrawnFlare> render_reference(const LensState& lens, const FramePlan& plan, const RenderSettings& settings,
+Result<DrawnFlare> render_reference(const PlannedFrame& planned, const ReferenceOptions& options,
                                     const Context& context) {
   const auto start = Clock::now();
-  if (!(settings.reference_density > 0.0) || settings.reference_density > 64.0) {
+  const auto& [lens, plan, settings, cache] = planned;
+  if (!(options.density > 0.0) || options.density > 64.0) {
     return failure(ErrorCode::InvalidArgument, "the reference's density is out of range; choose a value up to 64");
   }
-  Screens screens(lens, settings);
+  Screens screens(lens, settings, cache);
   if (!screens.prepare(plan, context)) return interrupted();
 
   DrawnFlare flare;
@@ -69,7 +72,7 @@ Result<DrawnFlare> render_reference(const LensState& lens, const FramePlan& plan
   const auto items = items_of(plan);
   const bool done = ordered_pipeline(
       items.size(), context,
-      [&](std::size_t k) { return render_item(items[k], lens, settings, screens, plan.dirt.get(), context); },
+      [&](std::size_t k) { return render_item(items[k], planned, options.density, screens, context); },
       [&](std::size_t k, const RenderedItem& rendered) {
         rendered.flux.add_to(sum, items[k].look->tinted(items[k].pass->gain));
         stats.rays += rendered.counts.rays;

@@ -6,9 +6,9 @@ namespace contrejour {
 
 // The truth in every test: double precision, dense cells with exact footprints, no shortcut that other
 // renderers use.
-[[nodiscard]] Result<DrawnFlare> render_reference(const LensState& lens, const FramePlan& plan,
-                                                  const RenderSettings& settings, const Context& context);
+[[nodiscard]] Result<DrawnFlare> render_reference(const PlannedFrame& planned, const ReferenceOptions& options,
+                                                  const Context& context);
 
-inline constexpr Method kReference{"reference", {.is_exact = true, .is_slow = true}, render_reference};
+inline constexpr Method kReference = method_of<ReferenceOptions, render_reference>({.is_exact = true, .is_slow = true});
 
 }  // namespace contrejour

@@ -8,10 +8,10 @@
 namespace contrejour::screens {
 namespace {
 
-constexpr double kRungsPerOctave = 8.0;  // neighbours' fringes are 4 per cent apart
-constexpr double kSpreadStep = 0.004;
+constexpr double kPlanesPerOctave = 8.0;  // neighbours' fringes are 4 per cent apart
+constexpr double kPlaneSpreadStep = 0.004;
 
-double lambda_z_at(int rung) { return std::exp2(rung / kRungsPerOctave); }
+double lambda_z_at(int rung) { return std::exp2(rung / kPlanesPerOctave); }
 
 }  // namespace
 
@@ -39,30 +39,23 @@ DirtScreen::Edges FringedDirt::edges() const {
   return edges;
 }
 
-DirtFringes::Key DirtFringes::key_of(const Wanted& wanted) {
-  return {static_cast<int>(std::lround(kRungsPerOctave * std::log2(wanted.lambda_z_mm2))),
-          static_cast<int>(std::lround(wanted.spread / kSpreadStep))};
-}
-
-void DirtFringes::use(const Dirt& dirt, const DirtField& field) {
-  std::pair<Dirt, double> now{dirt, field.extent_mm()};
-  if (of_ == now) return;
-  of_ = std::move(now);
-  planes_.clear();
+DirtFringes::PlaneKey DirtFringes::key_of(const Wanted& wanted) {
+  return {static_cast<int>(std::lround(kPlanesPerOctave * std::log2(wanted.lambda_z_mm2))),
+          static_cast<int>(std::lround(wanted.spread / kPlaneSpreadStep))};
 }
 
 bool DirtFringes::make(const DirtField& field, std::span<const Wanted> wanted, const Context& context) {
-  std::map<Key, std::shared_ptr<const FringedPlane>> missing;
+  std::map<PlaneKey, std::shared_ptr<const FringedPlane>> missing;
   for (const Wanted& w : wanted) {
-    const Key key = key_of(w);
+    const PlaneKey key = key_of(w);
     if (planes_.contains(key) || !missing.try_emplace(key).second) continue;
     auto& edge = edges_[key.spread];
-    if (!edge) edge = std::make_shared<const StraightEdge>(key.spread * kSpreadStep);
+    if (!edge) edge = std::make_shared<const StraightEdge>(key.spread * kPlaneSpreadStep);
   }
-  std::vector<std::pair<const Key, std::shared_ptr<const FringedPlane>>*> list;
+  std::vector<std::pair<const PlaneKey, std::shared_ptr<const FringedPlane>>*> list;
   for (auto& entry : missing) list.push_back(&entry);
   const bool done = parallel_for(list.size(), context, [&](std::size_t k) {
-    const Key& key = list[k]->first;
+    const PlaneKey& key = list[k]->first;
     list[k]->second = std::make_shared<const FringedPlane>(field.shapes(), field.extent_mm(), lambda_z_at(key.rung),
                                                            edges_.at(key.spread));
   });

@@ -1,13 +1,11 @@
-// Dirt as ghosts see it out of focus: planes of shadows with fringes by wavelength times effective distance, kept as
-// long as the dirt is the same, and one ghost's view of them.
+// Dirt as ghosts see it out of focus: planes of shadows with fringes by wavelength times effective distance, a section
+// of RenderCache, and one ghost's view of them.
 // Thread-safety: make() from one thread; all else from any, afterwards.
 #pragma once
 
 #include <map>
 #include <memory>
-#include <optional>
 #include <span>
-#include <utility>
 #include <vector>
 
 #include "contrejour/context.h"
@@ -37,28 +35,32 @@ class FringedDirt final : public DirtScreen {
 
 class DirtFringes {
  public:
+  struct Key {
+    Dirt dirt;
+    double extent_mm = 0.0;  // of its plane
+    friend bool operator==(const Key&, const Key&) = default;
+  };
   struct Wanted {
     double lambda_z_mm2 = 1.0;  // at the band's middle
     double spread = 0.0;  // of its wavelengths over that, root mean square
   };
 
-  // Starts anew if the dirt or its plane is another.
-  void use(const Dirt& dirt, const DirtField& field);
-  // Makes what is not there yet, on all threads. False when cancelled.
+  explicit DirtFringes(const Key& /*key*/) {}
+
+  // field: of the key's dirt and plane. Makes what is not there yet, on all threads. False when cancelled.
   bool make(const DirtField& field, std::span<const Wanted> wanted, const Context& context);
   [[nodiscard]] std::shared_ptr<const FringedPlane> plane(const Wanted& wanted) const;  // null unless made
   [[nodiscard]] std::size_t count() const { return planes_.size(); }
 
  private:
-  struct Key {
+  struct PlaneKey {
     int rung = 0, spread = 0;
-    friend auto operator<=>(const Key&, const Key&) = default;
+    friend auto operator<=>(const PlaneKey&, const PlaneKey&) = default;
   };
-  [[nodiscard]] static Key key_of(const Wanted& wanted);
+  [[nodiscard]] static PlaneKey key_of(const Wanted& wanted);
 
-  std::optional<std::pair<Dirt, double>> of_;  // and the plane's extent
   std::map<int, std::shared_ptr<const StraightEdge>> edges_;  // by spread
-  std::map<Key, std::shared_ptr<const FringedPlane>> planes_;
+  std::map<PlaneKey, std::shared_ptr<const FringedPlane>> planes_;
 };
 
 }  // namespace contrejour::screens

@@ -7,17 +7,17 @@
 #include <optional>
 
 #include "base/tasks.h"
-#include "contrejour/ringing.h"
+#include "render/screens/dirt_fringes.h"
 #include "render/screens/iris_screens.h"
-#include "render/screens/ringing_patterns.h"
+#include "render/screens/stop_patterns.h"
 #include "render/screens/stop_wave.h"
 
 namespace contrejour {
 namespace {
 
 using screens::EdgeScreen;
+using screens::StopPatterns;
 using screens::TextureScreen;
-using Contents = RingingPatterns::Contents;
 
 // A first fringe is 1.9 of an edge's unit 1 / sqrt(2 F) wide; where that unit is so many pixels, none is seen.
 constexpr double kUnseenUnit_px = 0.15;
@@ -36,11 +36,9 @@ Screens::Key Screens::key_of(const Ghost& ghost, double lambda_nm, const LightSo
   return {ghost, lambda_nm, distance_along_axis(light)};
 }
 
-Screens::Screens(const LensState& lens, const RenderSettings& settings)
-    : lens_(lens), options_(settings.ringing), pixel_pitch_mm_(settings.frame.pixel_pitch_mm) {
-  if (!on()) return;
-  iris_ = std::make_shared<const IrisShape>(lens.iris);
-  if (!options_.patterns) options_.patterns = std::make_shared<RingingPatterns>();
+Screens::Screens(const LensState& lens, const FrameSettings& settings, RenderCache& cache)
+    : lens_(lens), options_(settings.ringing), pixel_pitch_mm_(settings.frame.pixel_pitch_mm), cache_(cache) {
+  if (on()) iris_ = std::make_shared<const IrisShape>(lens.iris);
 }
 
 double Screens::fresnel_number(const Ghost& ghost, double lambda_nm, const LightSource& light) const {
@@ -65,9 +63,7 @@ bool Screens::prepare(std::span<const Wanted> wanted, const Context& context) {
   std::vector<Wanted> missing;
   for (const Wanted& w : wanted)
     if (screens_.try_emplace(key_of(w.ghost, w.lambda_nm, w.light)).second) missing.push_back(w);
-  Contents& patterns = options_.patterns->contents();
-  const std::scoped_lock lock(patterns.mutex());
-  patterns.use(lens_.iris);
+  if (options_.mode != RingingMode::None) patterns_ = cache_.section<StopPatterns>(lens_.iris);
   const bool done = options_.mode == RingingMode::None      ? true
                     : options_.mode == RingingMode::Fresnel ? prepare_fresnel(missing, context)
                                                             : prepare_hullin(missing, context);
@@ -115,21 +111,20 @@ bool Screens::prepare_fresnel(std::span<const Wanted> wanted, const Context& con
     if (!sharp(k)) f = std::min(f, waves[k].fresnel_number);
   }
   const auto has_pattern = [&](std::size_t k) {
-    return lowest.at(kin(k)) < Contents::kEdgesFrom && waves[k].fresnel_number < Contents::kHighestFresnel;
+    return lowest.at(kin(k)) < StopPatterns::kEdgesFrom && waves[k].fresnel_number < StopPatterns::kHighestFresnel;
   };
-  std::vector<Contents::Wanted> textures;
+  std::vector<StopPatterns::Wanted> textures;
   for (std::size_t k = 0; k < wanted.size(); ++k)
     if (!sharp(k) && has_pattern(k)) textures.push_back({waves[k].fresnel_number, spread(k)});
-  Contents& patterns = options_.patterns->contents();
-  if (!patterns.make(textures, context)) return false;
+  if (!patterns_->make(textures, context)) return false;
   for (std::size_t k = 0; k < wanted.size(); ++k) {
     if (sharp(k)) continue;
     const double f = waves[k].fresnel_number;
     auto& screen = screens_[key_of(wanted[k].ghost, wanted[k].lambda_nm, wanted[k].light)];
     if (has_pattern(k))
-      screen = std::make_shared<const TextureScreen>(iris_, patterns.pattern({f, spread(k)}));
+      screen = std::make_shared<const TextureScreen>(iris_, patterns_->pattern({f, spread(k)}));
     else
-      screen = std::make_shared<const EdgeScreen>(iris_, patterns.profile(spread(k)), f);
+      screen = std::make_shared<const EdgeScreen>(iris_, patterns_->profile(spread(k)), f);
   }
   return true;
 }
@@ -142,7 +137,6 @@ double Screens::order(double lambda_nm) const {
 bool Screens::prepare_hullin(std::span<const Wanted> wanted, const Context& context) {
   const auto waves = waves_of(wanted, context);
   if (waves.size() != wanted.size()) return false;
-  Contents& patterns = options_.patterns->contents();
   for (std::size_t k = 0; k < wanted.size(); ++k) {
     const Wanted& w = wanted[k];
     const double middle = order(w.lambda_nm);
@@ -153,7 +147,7 @@ bool Screens::prepare_hullin(std::span<const Wanted> wanted, const Context& cont
     const double off = options_.alpha ? 0.0 : middle * w.spread_nm / w.lambda_nm * std::sqrt(1.5);
     const std::vector<double> orders =
         off > 0.0 ? std::vector<double>{middle - off, middle, middle + off} : std::vector<double>{middle};
-    const auto texture = patterns.fractional(orders, context);
+    const auto texture = patterns_->fractional(orders, context);
     if (!texture) return false;
     screens_[key_of(w.ghost, w.lambda_nm, w.light)] = std::make_shared<const TextureScreen>(iris_, texture);
   }
@@ -177,7 +171,7 @@ std::vector<screens::PlaneWave> Screens::dirt_waves(const Wanted& wanted, bool o
     const screens::PlaneWave& stop = on_front ? stops.back() : wave;
     const double beam_mm = lens_.stop_radius_mm * stop.magnification / wave.magnification;
     const double f = options_.mode == RingingMode::Hullin ? fresnel_number(wanted.ghost, wanted.lambda_nm, wanted.light)
-                                                          : Contents::kLowestFresnel;
+                                                          : StopPatterns::kLowestFresnel;
     const double by_f_mm = beam_mm * beam_mm / (lambda_mm * f);
     wave.distance_mm = options_.mode == RingingMode::Hullin ? by_f_mm : std::min(wave.distance_mm, by_f_mm);
   }
@@ -210,15 +204,13 @@ bool Screens::prepare_dirt(std::span<const Wanted> wanted, const std::shared_ptr
       if (is_seen) all.push_back(*of_crossing.back());
     }
   }
-  Contents& patterns = options_.patterns->contents();
-  const std::scoped_lock lock(patterns.mutex());
-  patterns.dirt.use(lens_.dirt, *dirt);
+  const auto fringes = cache_.section<DirtFringes>({lens_.dirt, dirt->extent_mm()});
   Context quiet = context;
   quiet.progress = {};
-  if (!patterns.dirt.make(*dirt, all, quiet)) return false;
+  if (!fringes->make(*dirt, all, quiet)) return false;
   for (std::size_t k = 0; k < missing.size(); ++k) {
     std::vector<std::shared_ptr<const screens::FringedPlane>> crossings;
-    for (const auto& plane : planes[k]) crossings.push_back(plane ? patterns.dirt.plane(*plane) : nullptr);
+    for (const auto& plane : planes[k]) crossings.push_back(plane ? fringes->plane(*plane) : nullptr);
     if (std::ranges::all_of(crossings, [](const auto& plane) { return plane == nullptr; })) continue;
     dirt_[key_of(missing[k].ghost, missing[k].lambda_nm, missing[k].light)] =
         std::make_shared<const screens::FringedDirt>(dirt, std::move(crossings));

@@ -1,4 +1,4 @@
-// The screens of a frame's ghosts: what RenderSettings asks for, for one lens.
+// The screens of a frame's ghosts: what FrameSettings asks for, for one lens.
 // Thread-safety: prepare() from one thread; of() from any, afterwards.
 #pragma once
 
@@ -7,11 +7,13 @@
 #include <span>
 #include <vector>
 
+#include "contrejour/frame_settings.h"
 #include "contrejour/iris_field.h"
-#include "contrejour/render.h"
 #include "render/interface/dirt_screen.h"
 #include "render/interface/frame_plan.h"
+#include "render/interface/render_cache.h"
 #include "render/interface/stop_screen.h"
+#include "render/screens/stop_patterns.h"
 #include "render/screens/stop_wave.h"
 
 namespace contrejour {
@@ -25,7 +27,8 @@ class Screens {
     LightSource light;
   };
 
-  Screens(const LensState& lens, const RenderSettings& settings);
+  // lens and cache must outlive it.
+  Screens(const LensState& lens, const FrameSettings& settings, RenderCache& cache);
 
   [[nodiscard]] bool on() const { return options_.mode != RingingMode::None || has_tones(); }
   // A picture's half-tones dim all of a ghost, in or out of focus: none can do without its screen.
@@ -34,8 +37,8 @@ class Screens {
   // About how far out of focus the stop's edge is in a ghost; infinite where it is sharp.
   [[nodiscard]] double fresnel_number(const Ghost& ghost, double lambda_nm, const LightSource& light) const;
 
-  // What textures are kept in; null without ringing.
-  [[nodiscard]] const std::shared_ptr<RingingPatterns>& patterns() const { return options_.patterns; }
+  // What holds the textures; null without ringing, and before prepare().
+  [[nodiscard]] const std::shared_ptr<screens::StopPatterns>& patterns() const { return patterns_; }
 
   // Makes the screens of these: all of a ghost's wavelengths at once. False when cancelled.
   bool prepare(std::span<const Wanted> wanted, const Context& context);
@@ -74,7 +77,9 @@ class Screens {
   const LensState& lens_;
   RingingOptions options_;
   double pixel_pitch_mm_;
+  RenderCache& cache_;
   std::shared_ptr<const class IrisShape> iris_;
+  std::shared_ptr<screens::StopPatterns> patterns_;
   std::map<Key, std::shared_ptr<const StopScreen>> screens_;
   std::map<Key, std::shared_ptr<const DirtScreen>> dirt_;
 };

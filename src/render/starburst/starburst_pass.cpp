@@ -50,7 +50,7 @@ bool is_outside(const Frame& frame, Vec2 sensor_mm) {
 
 // Where each light's image lies, and what its starburst sums to. Lights without any are left out.
 std::vector<ImagedLight> image_lights(const LensState& lens, std::span<const Light> lights,
-                                      const RenderSettings& settings, const Context& context) {
+                                      const FrameSettings& settings, const Context& context) {
   const Frame& frame = settings.frame;
   const double farthest_px = kFarthest_diagonals * std::hypot(frame.full_width, frame.full_height);
   const Vec2 middle_px = frame.pixel_from_sensor({});
@@ -77,7 +77,7 @@ std::vector<ImagedLight> image_lights(const LensState& lens, std::span<const Lig
   return imaged;
 }
 
-std::vector<SpectralBand> bands_of(const Light& light, const RenderSettings& settings) {
+std::vector<SpectralBand> bands_of(const Light& light, const FrameSettings& settings) {
   if (settings.lambda_nm.empty()) return spectral_bands(kBands, light.spectrum, settings.colour_space);
   std::vector<SpectralBand> bands;
   for (const double lambda_nm : settings.lambda_nm) bands.push_back({lambda_nm, {1.0, 1.0, 1.0}});
@@ -86,7 +86,7 @@ std::vector<SpectralBand> bands_of(const Light& light, const RenderSettings& set
 
 // The starburst of the brightest light of a group that gets through.
 Result<Starburst> starburst_of(const LightGroup& group, const LensState& lens, std::span<const Light> lights,
-                               const RenderSettings& settings, const Context& context) {
+                               const FrameSettings& settings, const Context& context) {
   const std::vector<SpectralBand> bands = bands_of(lights[group.front().light], settings);
   LensStarburstSettings drawn{settings.frame.pixel_pitch_mm, 1.0};
   for (const ImagedLight& light : group)
@@ -120,7 +120,7 @@ Result<void> draw_group(Image& image, const LightGroup& group, const Starburst& 
 }
 
 Result<void> draw_groups(Image& image, const std::vector<LightGroup>& groups, const LensState& lens,
-                         std::span<const Light> lights, const RenderSettings& settings, const Context& context) {
+                         std::span<const Light> lights, const FrameSettings& settings, const Context& context) {
   Context quiet = context;
   quiet.progress = {};
   for (std::size_t g = 0; g < groups.size(); ++g) {
@@ -152,7 +152,7 @@ void multiply_flux(std::vector<ImagedLight>& lights, double factor) {
 
 // What glare scatters is missing from the light's own image, so that both together sum to its value.
 Result<void> draw_starbursts(Image& image, SortedLights imaged, const LensState& lens, std::span<const Light> lights,
-                             const RenderSettings& settings, const Context& context) {
+                             const FrameSettings& settings, const Context& context) {
   const double gain = settings.starburst.gain * (1.0 - settings.glare.share);
   multiply_flux(imaged.points, gain);
   multiply_flux(imaged.areas, gain);
@@ -196,7 +196,7 @@ Result<void> take_dirt_off(std::vector<ImagedLight>& imaged, const LensState& le
 }
 
 Result<void> draw_glare(Image& image, std::vector<ImagedLight> imaged, const LensState& lens,
-                        std::span<const Light> lights, const RenderSettings& settings, const Context& context) {
+                        std::span<const Light> lights, const FrameSettings& settings, const Context& context) {
   if (lens.dirt.any())
     if (auto ok = take_dirt_off(imaged, lens, lights, settings.frame, context); !ok) return ok;
   multiply_flux(imaged, settings.glare.share);
@@ -231,7 +231,7 @@ Result<void> check_left_out(const Image& left_out, const Frame& frame) {
   return {};
 }
 
-Result<void> check_imaged(std::span<const Light> lights, const RenderSettings& settings) {
+Result<void> check_imaged(std::span<const Light> lights, const FrameSettings& settings) {
   const double gain = settings.starburst.gain;
   for (std::size_t k = 0; k < lights.size(); ++k) {
     if (auto good = check_light(lights[k], settings.colour_space); !good)
@@ -248,7 +248,7 @@ Result<void> check_imaged(std::span<const Light> lights, const RenderSettings& s
 
 // Both, onto an image; times by phase.
 Result<void> draw_light_images(Image& image, RenderStatistics& statistics, const LensState& lens,
-                               std::span<const Light> lights, const RenderSettings& settings, const Context& context) {
+                               std::span<const Light> lights, const FrameSettings& settings, const Context& context) {
   Clock::time_point start = Clock::now();
   Context quiet = context;
   quiet.progress = {};
@@ -269,7 +269,7 @@ Result<void> draw_light_images(Image& image, RenderStatistics& statistics, const
 
 }  // namespace
 
-Result<void> check_light_images(std::span<const Light> lights, const RenderSettings& settings) {
+Result<void> check_light_images(std::span<const Light> lights, const FrameSettings& settings) {
   const StarburstOptions& starburst = settings.starburst;
   const GlareOptions& glare = settings.glare;
   if (!(starburst.gain >= 0.0) || !std::isfinite(starburst.gain))
@@ -288,7 +288,7 @@ Result<void> check_light_images(std::span<const Light> lights, const RenderSetti
 }
 
 Result<void> add_light_images(Flare& flare, const LensState& lens, std::span<const Light> lights,
-                              const RenderSettings& settings, const Context& context) {
+                              const FrameSettings& settings, const Context& context) {
   const Image* const left_out = settings.starburst.left_out.get();
   if (left_out == nullptr) return draw_light_images(flare.image, flare.statistics, lens, lights, settings, context);
   Image layer(settings.frame.width, settings.frame.height);

@@ -8,11 +8,11 @@
 namespace contrejour {
 
 // Are the options of starburst and glare usable, and the lights that they are of? Errors: InvalidArgument.
-[[nodiscard]] Result<void> check_light_images(std::span<const Light> lights, const RenderSettings& settings);
+[[nodiscard]] Result<void> check_light_images(std::span<const Light> lights, const FrameSettings& settings);
 
 // Adds them to the flare's image, and the phases "starburst" and "glare" to its times. Lights and frame are those of a
 // render that succeeded. Errors: Cancelled.
 [[nodiscard]] Result<void> add_light_images(Flare& flare, const LensState& lens, std::span<const Light> lights,
-                                            const RenderSettings& settings, const Context& context);
+                                            const FrameSettings& settings, const Context& context);
 
 }  // namespace contrejour

@@ -4,7 +4,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "contrejour/render.h"
+#include "contrejour/frame.h"
+#include "contrejour/method_options.h"
 #include "ghosts/ray_grid.h"
 #include "render/interface/dirt_screen.h"
 #include "render/tiled/primitive.h"

@@ -6,7 +6,8 @@
 #include <span>
 #include <vector>
 
-#include "contrejour/render.h"
+#include "contrejour/image.h"
+#include "contrejour/method_options.h"
 #include "ghosts/iris_shape.h"
 #include "render/interface/dirt_screen.h"
 #include "render/interface/stop_screen.h"

@@ -27,10 +27,9 @@ constexpr int kLargestTile = 4096;
 constexpr double kFewestShare = 0.05;
 constexpr double kTracingProgress = 0.7;  // of the whole, for the bar
 
-Result<void> check(const RenderSettings& settings) {
-  const TiledOptions& o = settings.tiled;
+Result<void> check(const TiledOptions& o) {
   const auto refuse = [](std::string message) { return failure(ErrorCode::InvalidArgument, std::move(message)); };
-  if (auto ok = check_grid(settings); !ok) return ok;
+  if (auto ok = check_grid(o.grid); !ok) return ok;
   if (o.merge_steps < 0 || o.merge_steps > kMostMergeSteps) {
     return refuse(fmt::format("{} merge steps is out of range; choose 0 to {}", o.merge_steps, kMostMergeSteps));
   }
@@ -82,12 +81,12 @@ struct Workspace {
 
 class Workspaces {
  public:
-  explicit Workspaces(const RenderSettings& settings) : settings_(settings) {}
+  Workspaces(const Frame& frame, const TiledOptions& options) : frame_(frame), options_(options) {}
 
   std::unique_ptr<Workspace> take() {
     const std::scoped_lock lock(mutex_);
     if (free_.empty()) {
-      return std::make_unique<Workspace>(Workspace{{}, tiled::PrimitiveBuilder(settings_.frame, settings_.tiled)});
+      return std::make_unique<Workspace>(Workspace{{}, tiled::PrimitiveBuilder(frame_, options_)});
     }
     auto workspace = std::move(free_.back());
     free_.pop_back();
@@ -99,14 +98,16 @@ class Workspaces {
   }
 
  private:
-  const RenderSettings& settings_;
+  const Frame& frame_;
+  const TiledOptions& options_;
   std::mutex mutex_;
   std::vector<std::unique_ptr<Workspace>> free_;
 };
 
 struct Job {
   const LensState& lens;
-  const RenderSettings& settings;
+  const Frame& frame;
+  const TiledOptions& options;
   const Context& context;
   const TablesByWavelength& tables;
   IrisShape iris;
@@ -152,16 +153,16 @@ TracedItem trace_item(const Job& job, std::size_t index, Workspace& workspace) {
 
   auto start = Clock::now();
   const auto region =
-      find_pupil_region(path, tables, iris, item.light, window, workspace.grid, effort_for_grid(job.settings.grid));
+      find_pupil_region(path, tables, iris, item.light, window, workspace.grid, effort_for_grid(job.options.grid.rays));
   out.counts.search_ms = ms_since(start);
   if (!region) return out;
   count_rays(region->rays);
 
   start = Clock::now();
-  const int fewest = std::max(2, static_cast<int>(std::lround(job.settings.grid * kFewestShare)));
-  const int side = grid_side(job.settings, job.lens, region->sensor_mm, fewest);
+  const int fewest = std::max(2, static_cast<int>(std::lround(job.options.grid.rays * kFewestShare)));
+  const int side = grid_side(job.options.grid, job.lens, region->sensor_mm, fewest);
   const auto precision =
-      precision_for(path, tables, item.light, window.z_mm, region->pupil_mm, side, job.settings.frame.pixel_pitch_mm);
+      precision_for(path, tables, item.light, window.z_mm, region->pupil_mm, side, job.frame.pixel_pitch_mm);
   workspace.grid.trace(path, tables, iris, item.light, window.z_mm, region->pupil_mm, side, precision);
   count_rays(static_cast<std::uint64_t>(side) * static_cast<std::uint64_t>(side));
   const tiled::TracedPass traced{item.light.shared_flux(),
@@ -179,7 +180,7 @@ TracedItem trace_item(const Job& job, std::size_t index, Workspace& workspace) {
 bool trace_all(const Job& job, tiled::TiledFrame& frame, Counts& counts) {
   Context context = job.context;
   if (context.progress) context.progress = [&](double done) { job.context.progress(kTracingProgress * done); };
-  Workspaces workspaces(job.settings);
+  Workspaces workspaces(job.frame, job.options);
   return ordered_pipeline(
       job.items.size(), context,
       [&](std::size_t k) {
@@ -196,16 +197,17 @@ bool trace_all(const Job& job, tiled::TiledFrame& frame, Counts& counts) {
 
 }  // namespace
 
-Result<DrawnFlare> render_tiled(const LensState& lens, const FramePlan& given, const RenderSettings& settings,
-                                const Context& context) {
+Result<DrawnFlare> render_tiled(const PlannedFrame& planned, const TiledOptions& options, const Context& context) {
   const auto start = Clock::now();
-  if (const auto ok = check(settings); !ok) return tl::unexpected<Error>(ok.error());
-  const auto by_need = with_passes_by_need(given, lens, settings.frame, context);
+  if (const auto ok = check(options); !ok) return tl::unexpected<Error>(ok.error());
+  const LensState& lens = planned.lens;
+  const Frame& pixels = planned.settings.frame;
+  const auto by_need = with_passes_by_need(planned.plan, lens, pixels, context);
   if (!by_need) return interrupted();
   const FramePlan& plan = *by_need;
-  Screens screens(lens, settings);
+  Screens screens(lens, planned.settings, planned.cache);
   if (!screens.prepare(plan, context)) return interrupted();
-  Job job{lens, settings, context, plan.tables, IrisShape(lens.iris), {}, {}, {}};
+  Job job{lens, pixels, options, context, plan.tables, IrisShape(lens.iris), {}, {}, {}};
   list_items(plan, screens, job);
   std::vector<const StopScreen*> screen_of_pass;
   for (const auto& screen : job.screens) screen_of_pass.push_back(screen.get());
@@ -213,7 +215,7 @@ Result<DrawnFlare> render_tiled(const LensState& lens, const FramePlan& given, c
   for (const auto& dirt : job.dirt) dirt_of_pass.push_back(dirt.get());
 
   const auto traced = Clock::now();
-  tiled::TiledFrame frame(settings, context, job.iris, job.gains, {}, screen_of_pass, dirt_of_pass);
+  tiled::TiledFrame frame(pixels, options, context, job.iris, job.gains, {}, screen_of_pass, dirt_of_pass);
   Counts counts;
   trace_all(job, frame, counts);
   const double trace_ms = ms_since(traced) - frame.draw_ms();

@@ -6,9 +6,9 @@ namespace contrejour {
 
 // bodonyi2023: the cells of all ghosts' ray grids, merged where the map is flat, in one buffer; lists of them by
 // screen tile; and every pixel adds up what its tile's list puts there, in one pass over the frame.
-[[nodiscard]] Result<DrawnFlare> render_tiled(const LensState& lens, const FramePlan& plan,
-                                              const RenderSettings& settings, const Context& context);
+[[nodiscard]] Result<DrawnFlare> render_tiled(const PlannedFrame& planned, const TiledOptions& options,
+                                              const Context& context);
 
-inline constexpr Method kTiled{"tiled", {.integrates_pixels = false}, render_tiled};
+inline constexpr Method kTiled = method_of<TiledOptions, render_tiled>({.integrates_pixels = false});
 
 }  // namespace contrejour

@@ -6,16 +6,13 @@
 #include "base/tasks.h"
 
 namespace contrejour::tiled {
-namespace {}  // namespace
 
-TiledFrame::TiledFrame(const RenderSettings& settings, const Context& context, const IrisShape& iris,
+TiledFrame::TiledFrame(const Frame& frame, const TiledOptions& options, const Context& context, const IrisShape& iris,
                        std::span<const Gain> gains, const HeldLimits& limits,
                        std::span<const StopScreen* const> screens, std::span<const DirtScreen* const> dirt)
-    : settings_(settings), context_(context), iris_(iris), gains_(gains), screens_(screens), dirt_(dirt),
-      limits_(limits),
-      coarse_grid_{settings.frame.width, settings.frame.height, std::max(1, settings.tiled.coarse_tile)},
-      dense_grid_{settings.frame.width, settings.frame.height, settings.tiled.dense_tile},
-      image_(settings.frame.width, settings.frame.height, 3) {
+    : options_(options), context_(context), iris_(iris), gains_(gains), screens_(screens), dirt_(dirt), limits_(limits),
+      coarse_grid_{frame.width, frame.height, std::max(1, options.coarse_tile)},
+      dense_grid_{frame.width, frame.height, options.dense_tile}, image_(frame.width, frame.height, 3) {
   context_.progress = {};
 }
 
@@ -46,7 +43,7 @@ void TiledFrame::draw() {
 
 void TiledFrame::list() {
   auto start = Clock::now();
-  if (settings_.tiled.coarse_tile == 0) {
+  if (options_.coarse_tile == 0) {
     list_by_tile(held_.primitives, dense_grid_, context_, dense_);
     dense_ms_ += ms_since(start);
     return;
@@ -63,7 +60,7 @@ void TiledFrame::traverse() {
 }
 
 void TiledFrame::traverse_row(std::size_t row) {
-  const TraversalInput input{held_, gains_, iris_, screens_, dirt_, settings_.tiled.interpolation};
+  const TraversalInput input{held_, gains_, iris_, screens_, dirt_, options_.interpolation};
   const auto columns = static_cast<std::size_t>(dense_grid_.columns());
   const int size = dense_grid_.tile;
   const int y0 = static_cast<int>(row) * size;

@@ -5,7 +5,11 @@
 #include <cstdint>
 #include <span>
 
-#include "contrejour/render.h"
+#include "contrejour/context.h"
+#include "contrejour/frame.h"
+#include "contrejour/image.h"
+#include "contrejour/method_options.h"
+#include "contrejour/render_statistics.h"
 #include "ghosts/iris_shape.h"
 #include "render/tiled/primitive.h"
 #include "render/tiled/tile_lists.h"
@@ -22,10 +26,10 @@ struct HeldLimits {
 
 class TiledFrame {
  public:
-  // gains, screens, dirt: by Primitive::pass. All must outlive the frame.
-  TiledFrame(const RenderSettings& settings, const Context& context, const IrisShape& iris, std::span<const Gain> gains,
-             const HeldLimits& limits = {}, std::span<const StopScreen* const> screens = {},
-             std::span<const DirtScreen* const> dirt = {});
+  // gains, screens, dirt: by Primitive::pass. All must outlive it.
+  TiledFrame(const Frame& frame, const TiledOptions& options, const Context& context, const IrisShape& iris,
+             std::span<const Gain> gains, const HeldLimits& limits = {},
+             std::span<const StopScreen* const> screens = {}, std::span<const DirtScreen* const> dirt = {});
 
   // Takes primitives, in the order in which pixels add them up.
   void add(const PrimitiveBuffer& buffer);
@@ -44,7 +48,7 @@ class TiledFrame {
   void traverse();
   void traverse_row(std::size_t row);
 
-  const RenderSettings& settings_;
+  const TiledOptions& options_;
   Context context_;
   const IrisShape& iris_;
   std::span<const Gain> gains_;

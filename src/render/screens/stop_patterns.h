@@ -1,7 +1,12 @@
-// What RingingPatterns holds: patterns by Fresnel number on a ladder, by band of wavelengths, by fractional order.
+// The diffraction patterns of one iris, a section of RenderCache: by Fresnel number on a ladder, by band of
+// wavelengths, by fractional order. docs/physics/diffraction.md. Thread-safety: band() from any thread, as long as no
+// pattern is made; all else from one thread at a time.
 #pragma once
 
+#include <complex>
+#include <cstddef>
 #include <map>
+#include <memory>
 #include <mutex>
 #include <optional>
 #include <span>
@@ -9,20 +14,20 @@
 
 #include "contrejour/context.h"
 #include "contrejour/fractional_fourier.h"
+#include "contrejour/iris.h"
 #include "contrejour/pupil_mask.h"
-#include "contrejour/ringing.h"
 #include "render/screens/band_pattern.h"
-#include "render/screens/dirt_fringes.h"
 #include "render/screens/edge_profile.h"
 #include "render/screens/pattern_texture.h"
 
-namespace contrejour {
+namespace contrejour::screens {
 
-struct RingingPatterns::Contents {
+class StopPatterns {
  public:
-  using Texture = std::shared_ptr<const screens::PatternTexture>;
-  using Profile = std::shared_ptr<const screens::EdgeProfile>;
-  using Band = std::shared_ptr<const screens::BandPattern>;
+  using Key = Iris;
+  using Texture = std::shared_ptr<const PatternTexture>;
+  using Profile = std::shared_ptr<const EdgeProfile>;
+  using Band = std::shared_ptr<const BandPattern>;
 
   // From here on edges' fringes do not depend on one another, nearly.
   static constexpr double kEdgesFrom = 48.0;
@@ -37,8 +42,8 @@ struct RingingPatterns::Contents {
     double spread = 0.0;          // of the band's wavelengths over their mean, root mean square
   };
 
-  // Starts anew if the iris is another. All of the below are for this iris.
-  void use(const Iris& iris);
+  explicit StopPatterns(const Iris& iris);
+
   // Makes what is not there yet, on all threads. False when cancelled.
   bool make(std::span<const Wanted> wanted, const Context& context);
   [[nodiscard]] Texture pattern(const Wanted& wanted) const;  // null unless made
@@ -47,38 +52,34 @@ struct RingingPatterns::Contents {
   [[nodiscard]] Texture fractional(std::span<const double> orders, const Context& context);
 
   // Some of the textures above as one, made when first asked for. Any thread may ask, as long as no pattern is made.
-  [[nodiscard]] Band band(std::span<const screens::PatternTexture* const> parts);
+  [[nodiscard]] Band band(std::span<const PatternTexture* const> parts);
 
-  [[nodiscard]] std::size_t count() const;
-
-  screens::DirtFringes dirt;
-
-  std::mutex& mutex() { return mutex_; }
+  // Of pictures of the stop plane; fringes of edges take next to nothing.
+  [[nodiscard]] std::size_t count() const { return rungs_.size() + patterns_.size() + by_orders_.size(); }
 
  private:
-  struct Key {
+  struct BandKey {
     int rung = 0, spread = 0;
-    friend auto operator<=>(const Key&, const Key&) = default;
+    friend auto operator<=>(const BandKey&, const BandKey&) = default;
   };
-  [[nodiscard]] static Key key_of(const Wanted& wanted);
-  [[nodiscard]] Texture average(const Key& key) const;
+  [[nodiscard]] static BandKey key_of(const Wanted& wanted);
+  [[nodiscard]] Texture average(const BandKey& key) const;
 
-  std::mutex mutex_;
   Iris iris_;
-  std::optional<PupilMask> mask_;
-  double open_area_ = 0.0;      // stop radii
-  struct Rung {  // one wavelength
+  PupilMask mask_;
+  double open_area_;  // stop radii
+  struct Rung {       // one wavelength
     double extent = 0.0;
     std::vector<float> samples;
   };
   std::map<int, Rung> rungs_;
-  std::map<Key, Texture> patterns_;  // bands
+  std::map<BandKey, Texture> patterns_;
   std::map<int, Profile> profiles_;
   std::optional<FractionalFourier> fractional_;
   std::vector<std::complex<double>> analysis_;
   std::map<std::vector<double>, Texture> by_orders_;
   std::mutex bands_mutex_;
-  std::map<std::vector<const screens::PatternTexture*>, Band> bands_;
+  std::map<std::vector<const PatternTexture*>, Band> bands_;
 };
 
-}  // namespace contrejour
+}  // namespace contrejour::screens

@@ -1,4 +1,4 @@
-#include "render/screens/ringing_patterns.h"
+#include "render/screens/stop_patterns.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,11 +10,8 @@
 #include "contrejour/iris_field.h"
 #include "render/screens/resampled.h"
 
-namespace contrejour {
+namespace contrejour::screens {
 namespace {
-
-using screens::EdgeProfile;
-using screens::PatternTexture;
 
 constexpr int kMaskSamples = 256;     // across the stop
 constexpr int kPatternSide = 192;
@@ -27,8 +24,7 @@ constexpr double kFractionalExtent = 4.0 / 3.0;  // stop radii
 
 double fresnel_at(int rung) { return std::exp2(rung / kRungsPerOctave); }
 int rung_of(double fresnel_number) {
-  using Contents = RingingPatterns::Contents;
-  const double f = std::clamp(fresnel_number, Contents::kLowestFresnel, Contents::kHighestFresnel);
+  const double f = std::clamp(fresnel_number, StopPatterns::kLowestFresnel, StopPatterns::kHighestFresnel);
   return static_cast<int>(std::lround(kRungsPerOctave * std::log2(f)));
 }
 
@@ -77,35 +73,18 @@ Context quiet(const Context& context) {
 
 }  // namespace
 
-RingingPatterns::RingingPatterns() : contents_(std::make_unique<Contents>()) {}
-RingingPatterns::~RingingPatterns() = default;
-std::size_t RingingPatterns::count() const { return contents_->count(); }
+StopPatterns::StopPatterns(const Iris& iris)
+    : iris_(iris), mask_(mask_of(iris, grid_over(1.0, kMaskSamples), {})), open_area_(mask_.open_area_mm2()) {}
 
-std::size_t RingingPatterns::Contents::count() const {
-  return rungs_.size() + patterns_.size() + by_orders_.size() + dirt.count();
-}
-
-RingingPatterns::Contents::Key RingingPatterns::Contents::key_of(const Wanted& wanted) {
+StopPatterns::BandKey StopPatterns::key_of(const Wanted& wanted) {
   return {rung_of(wanted.fresnel_number), static_cast<int>(std::lround(wanted.spread / kSpreadStep))};
 }
 
-void RingingPatterns::Contents::use(const Iris& iris) {
-  if (mask_ && iris == iris_) return;
-  iris_ = iris;
-  mask_ = mask_of(iris, grid_over(1.0, kMaskSamples), {});
-  open_area_ = mask_->open_area_mm2();
-  rungs_.clear();
-  patterns_.clear();
-  analysis_.clear();
-  by_orders_.clear();
-  bands_.clear();
-}
-
-bool RingingPatterns::Contents::make(std::span<const Wanted> wanted, const Context& context) {
-  std::set<Key> missing;
+bool StopPatterns::make(std::span<const Wanted> wanted, const Context& context) {
+  std::set<BandKey> missing;
   std::set<int> rungs;
   for (const Wanted& w : wanted) {
-    const Key key = key_of(w);
+    const BandKey key = key_of(w);
     if (patterns_.contains(key)) continue;
     missing.insert(key);
     const auto [low, high] = rungs_of(key.rung, key.spread * kSpreadStep);
@@ -117,14 +96,14 @@ bool RingingPatterns::Contents::make(std::span<const Wanted> wanted, const Conte
   Context alone = quiet(context);  // one thread a pattern
   alone.threads = 1;
   bool done = parallel_for(rung_list.size(), quiet(context), [&](std::size_t k) {
-    FresnelPattern p = fresnel_pattern(*mask_, 1.0, {fresnel_at(rung_list[k]), kPatternSide, 0.0}, alone);
+    FresnelPattern p = fresnel_pattern(mask_, 1.0, {fresnel_at(rung_list[k]), kPatternSide, 0.0}, alone);
     if (p.irradiance.empty()) return;
     made_rungs[k] = {p.extent, std::vector<float>(p.irradiance.begin(), p.irradiance.end())};
   });
   if (!done || context.cancelled()) return false;
   for (std::size_t k = 0; k < rung_list.size(); ++k) rungs_[rung_list[k]] = std::move(made_rungs[k]);
 
-  const std::vector<Key> key_list(missing.begin(), missing.end());
+  const std::vector<BandKey> key_list(missing.begin(), missing.end());
   std::vector<Texture> made(key_list.size());
   done = parallel_for(key_list.size(), quiet(context), [&](std::size_t k) { made[k] = average(key_list[k]); });
   if (!done || context.cancelled()) return false;
@@ -132,33 +111,32 @@ bool RingingPatterns::Contents::make(std::span<const Wanted> wanted, const Conte
   return true;
 }
 
-RingingPatterns::Contents::Texture RingingPatterns::Contents::average(const Key& key) const {
+StopPatterns::Texture StopPatterns::average(const BandKey& key) const {
   const auto [low, high] = rungs_of(key.rung, key.spread * kSpreadStep);
   const double extent = fresnel_extent(fresnel_at(key.rung));
   std::vector<float> samples(static_cast<std::size_t>(kPatternSide) * kPatternSide);
   const float share = 1.0F / static_cast<float>(high - low + 1);
   for (int rung = low; rung <= high; ++rung) {
     const Rung& from = rungs_.at(rung);
-    const auto there = screens::resampled({kPatternSide, from.extent, from.samples}, kPatternSide, extent);
+    const auto there = resampled({kPatternSide, from.extent, from.samples}, kPatternSide, extent);
     for (std::size_t k = 0; k < samples.size(); ++k) samples[k] += share * there[k];
   }
   return std::make_shared<const PatternTexture>(trimmed(kPatternSide, extent, std::move(samples), open_area_));
 }
 
-RingingPatterns::Contents::Texture RingingPatterns::Contents::pattern(const Wanted& wanted) const {
+StopPatterns::Texture StopPatterns::pattern(const Wanted& wanted) const {
   const auto found = patterns_.find(key_of(wanted));
   return found == patterns_.end() ? nullptr : found->second;
 }
 
-RingingPatterns::Contents::Profile RingingPatterns::Contents::profile(double spread) {
+StopPatterns::Profile StopPatterns::profile(double spread) {
   const int key = static_cast<int>(std::lround(spread / kSpreadStep));
   Profile& profile = profiles_[key];
   if (!profile) profile = std::make_shared<const EdgeProfile>(key * kSpreadStep);
   return profile;
 }
 
-RingingPatterns::Contents::Texture RingingPatterns::Contents::fractional(std::span<const double> orders,
-                                                                         const Context& context) {
+StopPatterns::Texture StopPatterns::fractional(std::span<const double> orders, const Context& context) {
   const std::vector<double> key(orders.begin(), orders.end());
   const auto found = by_orders_.find(key);
   if (found != by_orders_.end()) return found->second;
@@ -181,16 +159,16 @@ RingingPatterns::Contents::Texture RingingPatterns::Contents::fractional(std::sp
              trimmed(kFractionalSide, kFractionalExtent, std::move(mean), open_area_));
 }
 
-RingingPatterns::Contents::Band RingingPatterns::Contents::band(std::span<const PatternTexture* const> parts) {
+StopPatterns::Band StopPatterns::band(std::span<const PatternTexture* const> parts) {
   const std::vector<const PatternTexture*> key(parts.begin(), parts.end());
   {
     const std::scoped_lock lock(bands_mutex_);
     const auto found = bands_.find(key);
     if (found != bands_.end()) return found->second;
   }
-  auto made = std::make_shared<const screens::BandPattern>(parts);
+  auto made = std::make_shared<const BandPattern>(parts);
   const std::scoped_lock lock(bands_mutex_);
   return bands_.try_emplace(key, std::move(made)).first->second;
 }
 
-}  // namespace contrejour
+}  // namespace contrejour::screens

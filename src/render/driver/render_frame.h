@@ -1,0 +1,13 @@
+// One frame, with a cache that may have served frames before: the ghosts by any method, then the lights' own images.
+#pragma once
+
+#include "contrejour/method_options.h"
+#include "render/interface/frame_plan.h"
+
+namespace contrejour {
+
+// The same bits whatever the cache holds. Errors: InvalidArgument, Cancelled, as render(); the cache stays usable.
+[[nodiscard]] Result<Flare> render_frame(const MethodOptions& method, const FrameRequest& frame,
+                                         const Context& context);
+
+}  // namespace contrejour

@@ -1,0 +1,11 @@
+// The RMS errors, over the frame's peak, that a method or the blurring of lights with a size may be allowed.
+#pragma once
+
+#include "contrejour/result.h"
+
+namespace contrejour {
+
+// Errors: InvalidArgument unless it is from 1e-4 to 0.1.
+[[nodiscard]] Result<void> check_error_bound(double error);
+
+}  // namespace contrejour

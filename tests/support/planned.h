@@ -1,0 +1,19 @@
+// One renderer by itself, without those that the registry lists.
+#pragma once
+
+#include <span>
+
+#include "render/interface/method.h"
+
+namespace contrejour::test {
+
+template <OptionsOfMethod Options>
+Result<Flare> render_alone(DrawWithOptions<Options> draw, const Options& options, const LensState& lens,
+                           std::span<const Light> lights, const FrameSettings& settings, const Context& context = {}) {
+  RenderCache cache;
+  return render_planned(
+      [&](const PlannedFrame& planned, const Context& drawing) { return draw(planned, options, drawing); },
+      {lens, lights, settings, cache}, context);
+}
+
+}  // namespace contrejour::test
