@@ -17,7 +17,7 @@ namespace contrejour::cli {
 namespace {
 
 constexpr const char* kLens = "planar-50";
-constexpr double kFNumber = 8.0;
+constexpr double kEffectsFNumber = 8.0;
 constexpr int kBlades = 7;
 constexpr Vec2 kPlace_uv{0.70, 0.33};  // of other lenses' light, bodonyi2023's
 
@@ -35,7 +35,7 @@ Result<EffectScene> effect_scene(const params::Values& values, int runs) {
   auto prescription = find_lens(kLens);
   if (!prescription) return tl::unexpected(prescription.error());
   scene.prescription = std::move(*prescription);
-  scene.settings.f_number = kFNumber;
+  scene.settings.f_number = kEffectsFNumber;
   scene.settings.iris.blades = kBlades;
   auto lens = lens_at(scene.prescription, scene.settings);
   if (!lens) return tl::unexpected(lens.error());
