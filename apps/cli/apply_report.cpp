@@ -8,8 +8,6 @@
 namespace contrejour::cli {
 namespace {
 
-using params::FlarePlan;
-
 Json array_of(const Rgb& rgb) { return Json::array({rgb[0], rgb[1], rgb[2]}); }
 
 const char* source_name(ThresholdSource source) {
@@ -107,13 +105,13 @@ Json report_json(const FlarePlan& plan) {
           {"given_lights", given_json(plan)}};
 }
 
-Json visibility_json(const params::FlareVisibility& visibility) {
+Json visibility_json(const FlareVisibility& visibility) {
   return {{"brightest", visibility.brightest},
           {"over_picture", visibility.over_picture},
           {"stops_to_plain", visibility.stops_to_plain ? Json(*visibility.stops_to_plain) : Json()}};
 }
 
-std::string visibility_text(const params::FlareVisibility& visibility, std::size_t lights) {
+std::string visibility_text(const FlareVisibility& visibility, std::size_t lights) {
   if (lights == 0) return {};
   if (!visibility.stops_to_plain) return "the flare misses the picture, or nearly so\n";
   const std::string text =

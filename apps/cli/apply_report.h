@@ -9,10 +9,10 @@
 
 namespace contrejour::cli {
 
-[[nodiscard]] Json report_json(const params::FlarePlan& plan);
-[[nodiscard]] std::string report_text(const params::FlarePlan& plan);
+[[nodiscard]] Json report_json(const FlarePlan& plan);
+[[nodiscard]] std::string report_text(const FlarePlan& plan);
 
-[[nodiscard]] Json visibility_json(const params::FlareVisibility& visibility);
-[[nodiscard]] std::string visibility_text(const params::FlareVisibility& visibility, std::size_t lights);
+[[nodiscard]] Json visibility_json(const FlareVisibility& visibility);
+[[nodiscard]] std::string visibility_text(const FlareVisibility& visibility, std::size_t lights);
 
 }  // namespace contrejour::cli

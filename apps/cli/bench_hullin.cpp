@@ -14,10 +14,10 @@
 #include "cli/bench/report.h"
 #include "cli/command.h"
 #include "cli/console.h"
-#include "cli/exposure.h"
 #include "cli/options.h"
 #include "cli/outputs.h"
 #include "contrejour/image_io.h"
+#include "contrejour/preview_exposure.h"
 
 namespace contrejour::cli {
 namespace {
@@ -44,7 +44,8 @@ struct HullinOptions {
 Result<void> write_pictures(const fs::path& folder, const std::string& name, const Image& image,
                             const params::Values& values) {
   if (auto ok = write_exr(folder / (name + ".exr"), image); !ok) return ok;
-  return write_preview_png(folder / (name + ".png"), image, preview_settings(values, image, UsualExposure::Automatic));
+  return write_preview_png(folder / (name + ".png"), image,
+                           params::preview_settings(values, image, params::UsualExposure::Automatic));
 }
 
 bool is_wanted(const std::vector<std::string>& wanted, std::string_view one) {

@@ -1,10 +1,5 @@
 #include "cli/flare_report.h"
 
-#include <algorithm>
-#include <cmath>
-
-#include <fmt/format.h>
-
 namespace contrejour::cli {
 
 double total_ms(const RenderStatistics& statistics) {
@@ -12,16 +7,6 @@ double total_ms(const RenderStatistics& statistics) {
     if (phase == "total") return ms;
   }
   return 0.0;
-}
-
-Result<void> check_finite(const Image& flare) {
-  const auto wrong =
-      std::count_if(flare.pixels.begin(), flare.pixels.end(), [](float value) { return !std::isfinite(value); });
-  if (wrong == 0) return {};
-  return failure(ErrorCode::InvalidArgument,
-                 fmt::format("{} samples of the flare are not finite numbers; choose smaller values and gains of the "
-                             "lights, and please report it",
-                             wrong));
 }
 
 Json times_json(const RenderStatistics& statistics) {

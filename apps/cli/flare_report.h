@@ -10,7 +10,4 @@ namespace contrejour::cli {
 [[nodiscard]] Json times_json(const RenderStatistics& statistics);  // total first, then by phase
 [[nodiscard]] double total_ms(const RenderStatistics& statistics);
 
-// No picture with such pixels is written. Errors: InvalidArgument.
-[[nodiscard]] Result<void> check_finite(const Image& flare);
-
 }  // namespace contrejour::cli

@@ -10,7 +10,6 @@
 
 #include "cli/command.h"
 #include "cli/console.h"
-#include "cli/exposure.h"
 #include "cli/lens_choice.h"
 #include "cli/lens_page.h"
 #include "cli/long_task.h"
@@ -19,6 +18,7 @@
 #include "cli/section_svg.h"
 #include "contrejour/ghost.h"
 #include "contrejour/image_io.h"
+#include "contrejour/preview_exposure.h"
 #include "contrejour/render.h"
 #include "contrejour/settings.h"
 
@@ -98,7 +98,7 @@ Result<LensCard> card_of(const std::string& id, const params::Values& values, co
   const FrameSettings settings = params::frame_settings(values, frame, space);
   const auto flare = render(params::method_options(values), *state, *lights, settings, context);
   if (!flare) return tl::unexpected(flare.error());
-  const PreviewSettings look = preview_settings(values, flare->image, UsualExposure::Automatic);
+  const PreviewSettings look = params::preview_settings(values, flare->image, params::UsualExposure::Automatic);
   auto picture = preview_png(flare->image, look, context);
   if (!picture) return tl::unexpected(picture.error());
   SectionRequest section;

@@ -7,7 +7,6 @@
 
 #include "cli/command.h"
 #include "cli/console.h"
-#include "cli/exposure.h"
 #include "cli/flare_report.h"
 #include "cli/lens_choice.h"
 #include "cli/long_task.h"
@@ -16,6 +15,7 @@
 #include "cli/outputs.h"
 #include "contrejour/image_io.h"
 #include "contrejour/pixel_grid.h"
+#include "contrejour/preview_exposure.h"
 #include "contrejour/render.h"
 #include "contrejour/settings.h"
 
@@ -64,8 +64,8 @@ Result<RenderedFlare> render_flare(const RenderOptions& options) {
   if (!lens) return tl::unexpected(lens.error());
   const params::PixelSize size = *params::parse_size(*values.text("size"));
   const PixelWindow window{0, 0, size.width, size.height};
-  const double aspect = values.real("pixel-aspect").value_or(params::squeeze_of(*lens));
-  const auto grid = params::pixel_grid(values, *lens, window, window, aspect);
+  const double aspect = values.real("pixel-aspect").value_or(squeeze_of(*lens));
+  const auto grid = pixel_grid(values, *lens, window, window, aspect);
   if (!grid) return tl::unexpected(grid.error());
   const Frame& frame = grid->frame;
   const ColourSpace space = params::colour_space(values, ColourSpace::Rec709);
@@ -75,15 +75,16 @@ Result<RenderedFlare> render_flare(const RenderOptions& options) {
   auto flare = render(params::method_options(values), *lens, *lights, params::frame_settings(values, frame, space),
                       task.context());
   if (!flare) return tl::unexpected(flare.error());
-  flare->image = params::picture_of_frame(flare->image, *grid);
-  if (auto finite = check_finite(flare->image); !finite) return tl::unexpected(finite.error());
+  auto image = picture_of_flare(std::move(flare->image), *grid);
+  if (!image) return tl::unexpected(image.error());
+  flare->image = std::move(*image);
   return RenderedFlare{std::move(*flare), aspect};
 }
 
 Result<void> write_flare(const RenderOptions& options, const RenderFiles& files, const RenderedFlare& rendered,
                          const Context& context) {
   const Flare& flare = rendered.flare;
-  const PreviewSettings look = preview_settings(options.values, flare.image, UsualExposure::Automatic);
+  const PreviewSettings look = params::preview_settings(options.values, flare.image, params::UsualExposure::Automatic);
   if (lower_extension(options.output) == ".png") {
     if (auto ok = write_preview_png(*files.output, flare.image, look, context); !ok) return ok;
   } else {

@@ -5,15 +5,14 @@
 #include <filesystem>
 #include <string>
 #include <system_error>
-#include <utility>
 
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
-#include "contrejour/flare_plan.h"
+#include "contrejour/apply.h"
 #include "contrejour/image_io.h"
 #include "contrejour/lens.h"
-#include "contrejour/metrics.h"
+#include "contrejour/preview_exposure.h"
 #include "contrejour/render.h"
 #include "contrejour/settings.h"
 #include "demo/street.h"
@@ -50,11 +49,6 @@ Result<void> write_both(const fs::path& folder, const std::string& name, const I
   return write_preview_png(folder / (name + ".png"), image, {stops});
 }
 
-double stops_for_flare(const Image& flare) {
-  const double bright = quantile_of_samples(flare, 0.999);
-  return bright > 0.0 ? std::log2(0.7 / bright) : 0.0;
-}
-
 Result<void> show_lens_flare(const LensState& lens, const params::Values& values, const fs::path& folder) {
   const Step step("Flare of one light");
   const Frame frame = frame_on_sensor(lens, 960, 540);
@@ -63,7 +57,7 @@ Result<void> show_lens_flare(const LensState& lens, const params::Values& values
   const auto settings = params::frame_settings(values, frame, ColourSpace::Rec709);
   const auto flare = render(params::method_options(values), lens, *lights, settings);
   if (!flare) return tl::unexpected(flare.error());
-  return write_both(folder, "flare", flare->image, stops_for_flare(flare->image));
+  return write_both(folder, "flare", flare->image, params::automatic_exposure(flare->image));
 }
 
 Result<Image> show_street(const LensState& lens, const fs::path& folder) {
@@ -75,18 +69,16 @@ Result<Image> show_street(const LensState& lens, const fs::path& folder) {
   return street;
 }
 
-Result<std::size_t> show_applied(const LensState& lens, const params::Values& values, Image street,
+Result<std::size_t> show_applied(const LensState& lens, const params::Values& values, const Image& street,
                                  const fs::path& folder) {
   const Step step("The street through the lens");
-  const auto plan = params::plan_flare(picture_of(street), lens, values);
-  if (!plan) return tl::unexpected(plan.error());
-  const auto settings = params::frame_settings(values, plan->grid.frame, plan->space);
-  const auto flare = render(params::method_options(values), lens, plan->lights, settings);
-  if (!flare) return tl::unexpected(flare.error());
-  params::add_flare(street, flare->image);
-  if (auto ok = write_both(folder, "street-flare-only", flare->image, 0.0); !ok) return tl::unexpected(ok.error());
-  if (auto ok = write_both(folder, "street-with-flare", street, 0.0); !ok) return tl::unexpected(ok.error());
-  return plan->lights.size();
+  Picture picture = picture_of(street);
+  const auto applied = apply_flare(picture, lens, values);
+  if (!applied) return tl::unexpected(applied.error());
+  if (auto ok = write_both(folder, "street-flare-only", applied->flare.image, 0.0); !ok)
+    return tl::unexpected(ok.error());
+  if (auto ok = write_both(folder, "street-with-flare", picture.rgb, 0.0); !ok) return tl::unexpected(ok.error());
+  return applied->plan.lights.size();
 }
 
 // Of the street's many lights the faint ones are merged.
@@ -112,9 +104,9 @@ Result<void> run(const fs::path& folder) {
   const auto values = quick_values();
   if (!values) return tl::unexpected(values.error());
   if (auto ok = show_lens_flare(*lens, *values, folder); !ok) return ok;
-  auto street = show_street(*lens, folder);
+  const auto street = show_street(*lens, folder);
   if (!street) return tl::unexpected(street.error());
-  const auto lights = show_applied(*lens, *values, std::move(*street), folder);
+  const auto lights = show_applied(*lens, *values, *street, folder);
   if (!lights) return tl::unexpected(lights.error());
   fmt::print("\n{} lights were found in the street. Look at (each also as EXR):\n", *lights);
   for (const char* name : {"flare", "street", "street-with-flare", "street-flare-only"}) {

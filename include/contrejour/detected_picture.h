@@ -6,7 +6,7 @@
 #include "contrejour/image.h"
 #include "contrejour/light_detection.h"
 
-namespace contrejour::params {
+namespace contrejour {
 
 // Each pixel as it counts to its light, and 0 elsewhere.
 [[nodiscard]] Image pixels_of_lights(const Image& rgb, const Detection& found);
@@ -14,4 +14,4 @@ namespace contrejour::params {
 // To look at: the picture in dim grey, and each light's pixels in a colour of its own; merged areas have one together.
 [[nodiscard]] Image map_of_lights(const Image& rgb, const Detection& found, ColourSpace space);
 
-}  // namespace contrejour::params
+}  // namespace contrejour

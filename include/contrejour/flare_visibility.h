@@ -6,7 +6,7 @@
 #include "contrejour/image.h"
 #include "contrejour/light_detection.h"
 
-namespace contrejour::params {
+namespace contrejour {
 
 struct FlareVisibility {
   double brightest = 0;  // luminance of the flare that its brightest two hundredth exceeds, the lights' pixels aside
@@ -19,4 +19,4 @@ struct FlareVisibility {
 [[nodiscard]] FlareVisibility visibility_of(const Image& rgb, const Image& flare, const Detection& found,
                                             ColourSpace space);
 
-}  // namespace contrejour::params
+}  // namespace contrejour

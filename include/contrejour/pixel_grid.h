@@ -7,10 +7,11 @@
 #include "contrejour/frame.h"
 #include "contrejour/image.h"
 #include "contrejour/image_io.h"
-#include "contrejour/parameter_text.h"
+#include "contrejour/lens.h"
 #include "contrejour/parameter_values.h"
+#include "contrejour/result.h"
 
-namespace contrejour::params {
+namespace contrejour {
 
 struct PixelGrid {
   Frame frame;            // of square pixels, that holds the picture: what is rendered
@@ -30,11 +31,14 @@ struct PixelGrid {
 
 // The part `data` of a whole picture `display`, whose middle is the axis and which lies on the lens's sensor as values
 // say (sensor, hfov). Errors: InvalidArgument for windows without pixels or beyond 2^28 of them, also of square ones.
-[[nodiscard]] Result<PixelGrid> pixel_grid(const Values& values, const LensState& lens, const PixelWindow& data,
+[[nodiscard]] Result<PixelGrid> pixel_grid(const params::Values& values, const LensState& lens, const PixelWindow& data,
                                            const PixelWindow& display, double pixel_aspect);
 
 // Each pixel of the picture: the sum of what the frame has within it, by area.
 [[nodiscard]] Image picture_of_frame(const Image& frame, const PixelGrid& grid);
+
+// The same of a flare, which must be finite. Errors: InvalidArgument, with the number of samples that are not.
+[[nodiscard]] Result<Image> picture_of_flare(Image frame, const PixelGrid& grid);
 
 // Each pixel of the frame: the mean of the picture's that it lies in, by area; nothing beside the picture.
 [[nodiscard]] Image frame_of_picture(const Image& picture, const PixelGrid& grid);
@@ -42,4 +46,4 @@ struct PixelGrid {
 // How many times wider than high the lens's pictures are to be shown: 1 for all but anamorphic lenses.
 [[nodiscard]] double squeeze_of(const LensState& lens);
 
-}  // namespace contrejour::params
+}  // namespace contrejour

@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-namespace contrejour::params {
+namespace contrejour {
 namespace {
 
 constexpr float kDim = 0.3F;
@@ -57,4 +57,4 @@ Image map_of_lights(const Image& rgb, const Detection& found, ColourSpace space)
   return out;
 }
 
-}  // namespace contrejour::params
+}  // namespace contrejour

@@ -12,8 +12,10 @@
 #include "contrejour/spectrum_file.h"
 #include "contrejour/trace.h"
 
-namespace contrejour::params {
+namespace contrejour {
 namespace {
+
+using params::Values;
 
 constexpr double kPoint_px = 1.0;         // root mean square radius: what is smaller is a point
 constexpr int kLargestShape_px = 512;     // a side of a shape
@@ -23,7 +25,7 @@ Light light_of(const DetectedLight& area, const Spectrum& spectrum, const PixelG
                const Values& values) {
   const double gain = params::gain(values);
   Light light;
-  light.distance_mm = *parse_distance_mm(*values.text("light-distance"));
+  light.distance_mm = *params::parse_distance_mm(*values.text("light-distance"));
   light.direction = direction_to_land_at(lens, grid.sensor_from_pixel(area.centroid_px), lens.design_wavelength_nm,
                                          light.distance_mm);
   light.value = {area.flux[0] * gain, area.flux[1] * gain, area.flux[2] * gain};
@@ -78,7 +80,7 @@ std::vector<PixelRegion> regions_of(const Values& values, const PixelGrid& grid)
   const auto pixel = [&](Vec2 uv) { return grid.pixel_from_sensor(grid.frame.sensor_from_uv(uv)); };
   const auto whole = [](double px) { return static_cast<int>(std::clamp(std::round(px), -1e9, 1e9)); };
   for (const std::string& text : values.list("region")) {
-    const UvRegion region = *parse_region(text);
+    const params::UvRegion region = *params::parse_region(text);
     const Vec2 from = pixel(region.from), to = pixel(region.to);
     regions.push_back({whole(from.x), whole(from.y), whole(to.x), whole(to.y)});
   }
@@ -88,7 +90,7 @@ std::vector<PixelRegion> regions_of(const Values& values, const PixelGrid& grid)
 Result<void> find_lights(const Picture& picture, const LensState& lens, const Values& values, FlarePlan& plan) {
   const auto spectrum = find_spectrum(*values.text("spectrum"));
   if (!spectrum) return tl::unexpected(spectrum.error());
-  DetectionSettings detection = detection_settings(values);
+  DetectionSettings detection = params::detection_settings(values);
   detection.regions = regions_of(values, plan.grid);
   auto found = detect_lights(picture.rgb, detection);
   if (!found) return tl::unexpected(found.error());
@@ -112,7 +114,7 @@ Result<void> check_values_given(const Values& values) {
   if (values.given("value")) return {};
   for (const char* name : {"light", "light-at"}) {
     for (const std::string& text : values.list(name)) {
-      if (const auto light = parse_light(text); light && light->value) continue;
+      if (const auto light = params::parse_light(text); light && light->value) continue;
       return failure(ErrorCode::InvalidArgument,
                      fmt::format("--{0} {1} does not say how bright the light is; add what its image sums to, as in "
                                  "--{0} {1}:50000, or give --value",
@@ -124,12 +126,12 @@ Result<void> check_values_given(const Values& values) {
 
 Result<void> add_given_lights(const LensState& lens, const Values& values, FlarePlan& plan) {
   if (auto valued = check_values_given(values); !valued) return valued;
-  auto given = given_lights(values, lens, plan.grid.frame, plan.space);
+  auto given = params::given_lights(values, lens, plan.grid.frame, plan.space);
   if (!given) return tl::unexpected(given.error());
   plan.given_lights = given->size();
   if (given->empty()) return {};
   for (Light& light : *given)
-    for (double& value : light.value) value *= gain(values);
+    for (double& value : light.value) value *= params::gain(values);
   plan.lights.insert(plan.lights.end(), given->begin(), given->end());
   if (!plan.imaged_lights) return {};
   std::vector<Light> imaged = *plan.imaged_lights;
@@ -138,13 +140,35 @@ Result<void> add_given_lights(const LensState& lens, const Values& values, Flare
   return {};
 }
 
+Result<void> check_window(const Picture& picture) {
+  const Image& rgb = picture.rgb;
+  const PixelWindow& window = picture.data_window;
+  if (rgb.width == window.width && rgb.height == window.height && rgb.channels == 3 &&
+      rgb.pixels.size() == rgb.index(0, rgb.height))
+    return {};
+  return failure(ErrorCode::InvalidArgument, "the picture's RGB pixels do not fill its data window");
+}
+
+std::vector<std::string> warnings_about(const FlarePlan& plan, bool knows_primaries, const Values& values) {
+  std::vector<std::string> warnings;
+  // The lights' colours stay right; only the flare's own tint is then slightly off.
+  if (!knows_primaries && !values.given("colour-space"))
+    warnings.emplace_back(
+        "the picture's primaries are neither Rec.709 nor ACEScg; its flare is computed as for Rec.709 "
+        "(--colour-space)");
+  if (plan.found.capped_pixels > 0 && !values.given("max-value"))
+    warnings.push_back(fmt::format("{} pixels are brighter than {:g} and count as of that level (--max-value)",
+                                   plan.found.capped_pixels, plan.found.max_value));
+  return warnings;
+}
+
 }  // namespace
 
 Result<FlarePlan> plan_flare(const Picture& picture, const LensState& lens, const Values& values) {
+  if (const auto filled = check_window(picture); !filled) return tl::unexpected(filled.error());
   FlarePlan plan;
   const auto named = colour_space_of(picture);
-  plan.space_is_guessed = !named && !values.given("colour-space");
-  plan.space = colour_space(values, named.value_or(ColourSpace::Rec709));
+  plan.space = params::colour_space(values, named.value_or(ColourSpace::Rec709));
   plan.pixel_aspect = values.real("pixel-aspect").value_or(pixel_aspect_of(picture));
   const auto grid = pixel_grid(values, lens, picture.data_window, picture.display_window, plan.pixel_aspect);
   if (!grid) return tl::unexpected(grid.error());
@@ -153,13 +177,8 @@ Result<FlarePlan> plan_flare(const Picture& picture, const LensState& lens, cons
     if (auto found = find_lights(picture, lens, values, plan); !found) return tl::unexpected(found.error());
   }
   if (auto added = add_given_lights(lens, values, plan); !added) return tl::unexpected(added.error());
+  plan.warnings = warnings_about(plan, named.has_value(), values);
   return plan;
 }
 
-void add_flare(Image& rgb, const Image& flare) {
-  for (std::size_t k = 0; k < rgb.pixels.size(); ++k) {
-    if (std::isfinite(rgb.pixels[k]) && flare.pixels[k] > 0.0F) rgb.pixels[k] += flare.pixels[k];
-  }
-}
-
-}  // namespace contrejour::params
+}  // namespace contrejour

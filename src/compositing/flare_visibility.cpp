@@ -4,7 +4,7 @@
 #include <cmath>
 #include <vector>
 
-namespace contrejour::params {
+namespace contrejour {
 namespace {
 
 constexpr double kShown = 0.995;  // quantile of the pixels: a ghost of a two hundredth of the frame is seen
@@ -46,4 +46,4 @@ FlareVisibility visibility_of(const Image& rgb, const Image& flare, const Detect
   return visibility;
 }
 
-}  // namespace contrejour::params
+}  // namespace contrejour

@@ -2,11 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
+
+#include <fmt/format.h>
 
 #include "contrejour/first_order.h"
 #include "contrejour/settings.h"
 
-namespace contrejour::params {
+namespace contrejour {
 namespace {
 
 constexpr double kSquare = 1e-4;  // aspects this near to 1 are of files that were rounded
@@ -59,7 +62,7 @@ double squeeze_of(const LensState& lens) {
   return std::isfinite(squeeze) && std::abs(squeeze - 1.0) > kSquare ? squeeze : 1.0;
 }
 
-Result<PixelGrid> pixel_grid(const Values& values, const LensState& lens, const PixelWindow& data,
+Result<PixelGrid> pixel_grid(const params::Values& values, const LensState& lens, const PixelWindow& data,
                              const PixelWindow& display, double pixel_aspect) {
   if (display.width < 1 || display.height < 1 || data.width < 1 || data.height < 1)
     return failure(ErrorCode::InvalidArgument, "the display window has no pixels; nothing says where the axis is");
@@ -72,7 +75,7 @@ Result<PixelGrid> pixel_grid(const Values& values, const LensState& lens, const 
   const double square_pixels = grid.per_pixel.x * grid.per_pixel.y;
   if (square_pixels *
           std::max(static_cast<double>(display.width) * display.height, static_cast<double>(data.width) * data.height) >
-      kMaxPixels)
+      params::kMaxPixels)
     return failure(ErrorCode::InvalidArgument, "the picture has more than 2^28 pixels, counted as square ones");
 
   Frame& frame = grid.frame;
@@ -81,7 +84,7 @@ Result<PixelGrid> pixel_grid(const Values& values, const LensState& lens, const 
   lay_out(data.y - display.y, data.height, display.height, grid.per_pixel.y, frame.origin_y, frame.height,
           frame.full_height, grid.corner_px.y);
   frame.pixel_pitch_mm =
-      pixel_pitch_mm(values, lens, {display.width * grid.per_pixel.x, display.height * grid.per_pixel.y});
+      params::pixel_pitch_mm(values, lens, {display.width * grid.per_pixel.x, display.height * grid.per_pixel.y});
   return grid;
 }
 
@@ -94,6 +97,16 @@ Image picture_of_frame(const Image& frame, const PixelGrid& grid) {
   return picture;
 }
 
+Result<Image> picture_of_flare(Image frame, const PixelGrid& grid) {
+  Image picture = grid.is_square() ? std::move(frame) : picture_of_frame(frame, grid);
+  const auto wrong = std::ranges::count_if(picture.pixels, [](float value) { return !std::isfinite(value); });
+  if (wrong == 0) return picture;
+  return failure(ErrorCode::InvalidArgument,
+                 fmt::format("{} samples of the flare are not finite numbers; choose smaller values and gains of the "
+                             "lights, and please report it",
+                             wrong));
+}
+
 Image frame_of_picture(const Image& picture, const PixelGrid& grid) {
   if (grid.is_square()) return picture;
   Image frame(grid.frame.width, grid.frame.height, picture.channels);
@@ -103,4 +116,4 @@ Image frame_of_picture(const Image& picture, const PixelGrid& grid) {
   return frame;
 }
 
-}  // namespace contrejour::params
+}  // namespace contrejour

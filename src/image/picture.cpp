@@ -9,6 +9,7 @@
 #include <ImfStringAttribute.h>
 #include <fmt/format.h>
 
+#include "base/lower_extension.h"
 #include "image/formats.h"
 #include "image/luminance_chroma.h"
 #include "image/picture_header.h"
@@ -81,12 +82,6 @@ Result<std::vector<std::byte>> read_bytes(const std::filesystem::path& file, std
   }
   if (stream.bad()) return failure(ErrorCode::Io, "cannot read", place);
   return bytes;
-}
-
-std::string lower_extension(const std::filesystem::path& file) {
-  std::string extension = file.extension().string();
-  for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return extension;
 }
 
 // What the writers rely on: the image fills the window, and each channel has its samples, or is one of the image's.

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "base/lower_extension.h"
 #include "base/text_file.h"
 #include "contrejour/glass_catalogue.h"
 #include "optics/glass/catalogue_row.h"
@@ -30,9 +31,9 @@ std::string upper_case(std::string text) {
   return text;
 }
 
-bool is_agf(const fs::path& file) { return lower_case(file.extension().string()) == ".agf"; }
+bool is_agf(const fs::path& file) { return lower_extension(file) == ".agf"; }
 bool is_yaml(const fs::path& file) {
-  const std::string extension = lower_case(file.extension().string());
+  const std::string extension = lower_extension(file);
   return extension == ".yml" || extension == ".yaml";
 }
 

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "base/decode_text.h"
+#include "base/lower_extension.h"
 #include "base/near_name.h"
 #include "base/text_file.h"
 #include "contrejour/lens.h"
@@ -14,12 +15,6 @@
 namespace contrejour {
 
 namespace {
-
-std::string extension_of(const std::filesystem::path& file) {
-  std::string extension = file.extension().string();
-  for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return extension;
-}
 
 // TOML begins with `key =` or `[table]`, after comments and empty lines.
 bool looks_like_toml(std::string_view text) {
@@ -83,7 +78,7 @@ Result<Prescription> read_lens(const std::filesystem::path& named, const GlassCa
   if (!bytes) return tl::unexpected(bytes.error());
   const std::string name = file.string();
   if (bytes->empty()) return failure(ErrorCode::Parse, "the file is empty; give a lens file", {name, 0, 0});
-  const bool is_toml = extension_of(file) == ".toml";
+  const bool is_toml = lower_extension(file) == ".toml";
   const std::string text = is_toml ? *bytes : decode_text(*bytes);
   if (text.find('\0') != std::string::npos) {
     return failure(ErrorCode::Parse,

@@ -1,0 +1,63 @@
+#include "contrejour/apply.h"
+
+#include <cassert>
+#include <cmath>
+#include <utility>
+
+#include "contrejour/pixel_grid.h"
+#include "contrejour/settings.h"
+
+namespace contrejour {
+namespace {
+
+Result<Flare> render_on_grid(const FlarePlan& plan, const LensState& lens, const params::Values& values,
+                             const Context& context) {
+  FrameSettings settings = params::frame_settings(values, plan.grid.frame, plan.space);
+  settings.starburst.left_out = plan.already_there;
+  settings.starburst.lights = plan.imaged_lights;
+  return render(params::method_options(values), lens, plan.lights, settings, context);
+}
+
+}  // namespace
+
+Result<PictureFlare> render_flare(const FlarePlan& plan, const Image& rgb, const LensState& lens,
+                                  const params::Values& values, const Context& context) {
+  PictureFlare flare;
+  if (plan.lights.empty()) {
+    flare.image = Image(plan.grid.width, plan.grid.height);
+    return flare;
+  }
+  auto rendered = render_on_grid(plan, lens, values, context);
+  if (!rendered) return tl::unexpected(rendered.error());
+  auto image = picture_of_flare(std::move(rendered->image), plan.grid);
+  if (!image) return tl::unexpected(image.error());
+  flare.image = std::move(*image);
+  flare.statistics = std::move(rendered->statistics);
+  flare.visibility = visibility_of(rgb, flare.image, plan.found, plan.space);
+  return flare;
+}
+
+void add_flare(Image& image, const Image& flare) {
+  assert(image.width == flare.width && image.height == flare.height && image.channels >= 3 && flare.channels == 3);
+  const auto channels = static_cast<std::size_t>(image.channels);
+  const std::size_t pixels = flare.pixels.size() / 3;
+  for (std::size_t k = 0; k < pixels; ++k) {
+    for (std::size_t c = 0; c < 3; ++c) {
+      float& sample = image.pixels[channels * k + c];
+      const float added = flare.pixels[3 * k + c];
+      if (std::isfinite(sample) && added > 0.0F) sample += added;
+    }
+  }
+}
+
+Result<AppliedFlare> apply_flare(Picture& picture, const LensState& lens, const params::Values& values,
+                                 const Context& context) {
+  auto plan = plan_flare(picture, lens, values);
+  if (!plan) return tl::unexpected(plan.error());
+  auto flare = render_flare(*plan, picture.rgb, lens, values, context);
+  if (!flare) return tl::unexpected(flare.error());
+  add_flare(picture.rgb, flare->image);
+  return AppliedFlare{std::move(*plan), std::move(*flare)};
+}
+
+}  // namespace contrejour

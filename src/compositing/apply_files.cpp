@@ -1,0 +1,77 @@
+#include "contrejour/apply_files.h"
+
+#include <cmath>
+#include <fstream>
+#include <string>
+#include <string_view>
+#include <system_error>
+#include <vector>
+
+#include "base/lower_extension.h"
+#include "contrejour/detected_picture.h"
+#include "contrejour/preview_exposure.h"
+
+namespace contrejour {
+namespace {
+
+using params::Values;
+
+bool is_exposed(const OutputFile& file, const Values& values) {
+  return lower_extension(file.destination()) == ".png" && values.text("exposure");
+}
+
+Picture brighter_by(Picture picture, double stops) {
+  const auto times = static_cast<float>(std::exp2(stops));
+  for (float& value : picture.rgb.pixels) value *= times;
+  return picture;
+}
+
+Result<void> copy_bytes(OutputFile& file, const std::filesystem::path& input_path) {
+  constexpr std::size_t kCopiedAtOnce = std::size_t{1} << 20;
+  std::ifstream input(input_path, std::ios::binary);
+  std::vector<char> piece(kCopiedAtOnce);
+  while (input) {
+    input.read(piece.data(), static_cast<std::streamsize>(piece.size()));
+    const std::string_view part(piece.data(), static_cast<std::size_t>(input.gcount()));
+    if (auto ok = file.write(part); !ok) return ok;
+  }
+  if (input.bad() || !input.eof())
+    return failure(ErrorCode::Io, "cannot read the picture again", {input_path.string()});
+  return {};
+}
+
+}  // namespace
+
+Result<void> write_photograph(OutputFile& file, const Picture& picture, const Values& values, const Context& context) {
+  if (!is_exposed(file, values)) return write_picture(file, picture, context);
+  const PreviewSettings look = preview_settings(values, picture.rgb, params::UsualExposure::AsItIs);
+  return write_picture(file, brighter_by(picture, look.exposure_stops), context);
+}
+
+Result<void> copy_photograph(OutputFile& file, const std::filesystem::path& input, const Picture& picture,
+                             const Values& values, const Context& context) {
+  const char* const format = picture.header != nullptr ? ".exr" : ".png";
+  std::error_code error;
+  if (is_exposed(file, values) || lower_extension(file.destination()) != format ||
+      !std::filesystem::is_regular_file(input, error))
+    return write_photograph(file, picture, values, context);
+  return copy_bytes(file, input);
+}
+
+Result<void> write_beside(OutputFile& file, const Image& image, const Picture& picture, const FlarePlan& plan,
+                          const Context& context) {
+  Picture alone = picture_of(image);
+  alone.data_window = picture.data_window;
+  alone.display_window = picture.display_window;
+  set_colour_space(alone, plan.space);
+  set_pixel_aspect(alone, plan.pixel_aspect);
+  return write_picture(file, alone, context);
+}
+
+Result<void> write_detected(OutputFile& file, const Picture& picture, const FlarePlan& plan, const Context& context) {
+  if (lower_extension(file.destination()) == ".exr")
+    return write_beside(file, pixels_of_lights(picture.rgb, plan.found), picture, plan, context);
+  return write_preview_png(file, map_of_lights(picture.rgb, plan.found, plan.space), {}, context);
+}
+
+}  // namespace contrejour

@@ -1,0 +1,35 @@
+#include "contrejour/preview_exposure.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "contrejour/metrics.h"
+#include "contrejour/parameter_text.h"
+
+namespace contrejour::params {
+namespace {
+
+constexpr double kExposedQuantile = 0.999;
+constexpr double kExposedLevel = 0.7;
+constexpr double kMaxExposure_stops = 100.0;
+
+}  // namespace
+
+double automatic_exposure(const Image& rgb) {
+  const double bright = quantile_of_samples(rgb, kExposedQuantile);
+  if (!(bright > 0.0)) return 0.0;
+  return std::clamp(std::log2(kExposedLevel / bright), -kMaxExposure_stops, kMaxExposure_stops);
+}
+
+PreviewSettings preview_settings(const Values& values, const Image& rgb, UsualExposure usual) {
+  PreviewSettings settings;
+  const auto text = values.text("exposure");
+  if (text && *text != "auto") {
+    settings.exposure_stops = *parse_real(*text);
+  } else if (text || usual == UsualExposure::Automatic) {
+    settings.exposure_stops = automatic_exposure(rgb);
+  }
+  return settings;
+}
+
+}  // namespace contrejour::params

@@ -1,0 +1,45 @@
+// How bright a picture to look at is shown.
+#include <algorithm>
+#include <cmath>
+
+#include <doctest/doctest.h>
+
+#include "contrejour/preview_exposure.h"
+
+using namespace contrejour;
+using namespace contrejour::params;
+
+namespace {
+
+Image level_picture(float level) {
+  Image rgb(40, 25);
+  std::fill(rgb.pixels.begin(), rgb.pixels.end(), level);
+  return rgb;
+}
+
+}  // namespace
+
+TEST_CASE("the automatic exposure brings the bright parts to 0.7") {
+  for (const float level : {1e-6F, 0.7F, 3e4F})
+    CHECK(level * std::exp2(automatic_exposure(level_picture(level))) == doctest::Approx(0.7));
+  Image spark = level_picture(0.35F);
+  spark.pixels[0] = 1e6F;  // one sample of 3000 does not count
+  CHECK(automatic_exposure(spark) == doctest::Approx(1.0));
+  CHECK(automatic_exposure(level_picture(0.0F)) == 0.0);
+  CHECK(automatic_exposure(level_picture(1e-37F)) == 100.0);
+}
+
+TEST_CASE("a preview is exposed as the values say, else as usual") {
+  const Image rgb = level_picture(2.8F);
+  const auto stops = [&](const char* text, UsualExposure usual) {
+    Values values;
+    if (text != nullptr) REQUIRE(values.set("exposure", text).has_value());
+    return preview_settings(values, rgb, usual).exposure_stops;
+  };
+  CHECK(stops(nullptr, UsualExposure::AsItIs) == 0.0);
+  CHECK(stops(nullptr, UsualExposure::Automatic) == doctest::Approx(-2.0));
+  for (const UsualExposure usual : {UsualExposure::AsItIs, UsualExposure::Automatic}) {
+    CHECK(stops("1.5", usual) == 1.5);
+    CHECK(stops("auto", usual) == doctest::Approx(-2.0));
+  }
+}
