@@ -91,7 +91,7 @@ PUBLIC = {
     "vec.h": "base",
     "write_lens.h": "lens_files",
     "look.h": "settings",
-    "nearest_word.h": "settings",
+    "nearest_name.h": "base",
     "parameter.h": "settings",
     "parameter_text.h": "settings",
     "parameter_values.h": "settings",

@@ -4,6 +4,9 @@
 #include <cctype>
 #include <exception>
 #include <new>
+#include <string>
+#include <string_view>
+#include <vector>
 
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
@@ -12,7 +15,7 @@
 #include "cli/console.h"
 #include "cli/interrupt.h"
 #include "cli/terminal.h"
-#include "contrejour/nearest_word.h"
+#include "contrejour/nearest_name.h"
 
 namespace contrejour::cli {
 namespace {
@@ -64,8 +67,10 @@ std::vector<std::string> words_of(const CLI::App* command) {
 }
 
 std::string suggestion(const CLI::App* command) {
+  const std::vector<std::string> words = words_of(command);
+  const std::vector<std::string_view> known(words.begin(), words.end());
   for (const std::string& word : command->remaining(true)) {
-    const std::string near = params::nearest_word(word.substr(0, word.find('=')), words_of(command));
+    const std::string near = nearest_name(word.substr(0, word.find('=')), known);
     if (!near.empty()) return fmt::format("; did you mean {}?", near);
   }
   return "";

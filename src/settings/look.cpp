@@ -9,7 +9,7 @@
 #include <fmt/ranges.h>
 
 #include "contrejour/key_values.h"
-#include "contrejour/nearest_word.h"
+#include "contrejour/nearest_name.h"
 #include "contrejour/parameter_text.h"
 
 namespace contrejour::params {
@@ -22,10 +22,10 @@ constexpr BundledLook kBundled[] = {
 #include "bundled_looks.inc"
 };
 
-std::vector<std::string> known_keys() {
-  std::vector<std::string> keys{"name", "description", "lens"};
+std::vector<std::string_view> known_keys() {
+  std::vector<std::string_view> keys{"name", "description", "lens"};
   for (const Parameter& p : all_parameters()) {
-    if (belongs_to_look(p)) keys.emplace_back(p.name);
+    if (belongs_to_look(p)) keys.push_back(p.name);
   }
   return keys;
 }
@@ -36,7 +36,7 @@ Error unknown_key(const KeyValue& given) {
     return {ErrorCode::Parse, fmt::format("{} belongs to a scene, not to a look; give --{} instead", p.name, p.name),
             given.place};
   }
-  const std::string near = nearest_word(given.key, known_keys());
+  const std::string near = nearest_name(given.key, known_keys());
   const std::string remedy = near.empty() ? fmt::format("see {}", kPage) : fmt::format("did you mean {}?", near);
   return {ErrorCode::Parse, fmt::format("unknown key \"{}\"; {}", given.key.substr(0, 60), remedy), given.place};
 }
@@ -127,17 +127,17 @@ std::string write_look(const Look& look) {
 std::vector<BundledLook> bundled_looks() { return {std::begin(kBundled), std::end(kBundled)}; }
 
 Result<Look> find_look(const std::string& name_or_file) {
-  std::vector<std::string> names;
+  std::vector<std::string_view> names;
   for (const BundledLook& look : kBundled) {
     if (look.name == name_or_file) return read_look(look.toml, std::string(look.name) + ".toml");
-    names.emplace_back(look.name);
+    names.push_back(look.name);
   }
   std::error_code code;
   const std::filesystem::path path(name_or_file);
   if (path.has_parent_path() || path.has_extension() || std::filesystem::exists(path, code)) {
     return look_of(read_key_values(path, kPage));
   }
-  const std::string near = nearest_word(name_or_file, names);
+  const std::string near = nearest_name(name_or_file, names);
   const std::string remedy = near.empty() ? fmt::format("bundled are {}; or name a file", fmt::join(names, ", "))
                                           : fmt::format("did you mean {}? `contrejour look list` shows all", near);
   return failure(ErrorCode::InvalidArgument,

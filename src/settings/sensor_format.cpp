@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "contrejour/nearest_word.h"
+#include "contrejour/nearest_name.h"
 #include "contrejour/parameter_text.h"
 
 namespace contrejour::params {
@@ -41,9 +41,9 @@ Result<SensorFormat> parse_sensor(std::string_view text) {
     const auto width = parse_real(sides[0]), height = parse_real(sides[1]);
     if (width && height && is_possible(*width) && is_possible(*height)) return SensorFormat{{}, *width, *height};
   }
-  std::vector<std::string> names;
-  for (const SensorFormat& format : kFormats) names.emplace_back(format.name);
-  const std::string near = nearest_word(text, names);
+  std::vector<std::string_view> names;
+  for (const SensorFormat& format : kFormats) names.push_back(format.name);
+  const std::string near = nearest_name(text, names);
   return failure(ErrorCode::InvalidArgument,
                  fmt::format("\"{}\" is no sensor{}; write its size in mm as 24.9x18.7, or one of {}", text,
                              near.empty() ? "" : fmt::format("; did you mean {}?", near), fmt::join(names, ", ")));
