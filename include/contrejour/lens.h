@@ -154,6 +154,7 @@ struct SurfaceState {
   SurfaceShape shape = {};
   ClearAperture aperture = {};
   Obscuration obscuration = {};
+  friend bool operator==(const SurfaceState&, const SurfaceState&) = default;
 
   [[nodiscard]] bool is_centred() const { return pose == SurfacePose{}; }
   [[nodiscard]] bool has_axial_symmetry() const {

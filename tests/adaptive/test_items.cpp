@@ -20,7 +20,8 @@ struct System {
 };
 
 RoughFrame rough_frame(const LensState& lens, const Light& light, const test::Settings& settings) {
-  const auto plan = plan_frame(lens, {&light, 1}, settings, {});
+  RenderCache cache;
+  const auto plan = plan_frame({lens, {&light, 1}, settings, cache}, {});
   REQUIRE(plan.has_value());
   const StepsByWavelength steps(lens, plan->tables);
   const Scene scene{lens, *plan, std::move(steps), IrisShape(lens.iris)};
@@ -42,7 +43,8 @@ TEST_CASE("where around the axis a light stands changes nothing of where its ray
   const auto items_for = [&](double turn) {
     Light light;
     light.direction = normalized(Vec3{2.5 * std::cos(turn), 2.5 * std::sin(turn), 1.0});
-    const auto plan = plan_frame(lens, {&light, 1}, settings, {});
+    RenderCache cache;
+    const auto plan = plan_frame({lens, {&light, 1}, settings, cache}, {});
     REQUIRE(plan.has_value());
     const StepsByWavelength steps(lens, plan->tables);
     Work work;
@@ -67,7 +69,8 @@ TEST_CASE("a plan that lets dark parts be left out gets the rest, as it is in th
   settings.wavelengths = 3;
   settings.frame = frame_on_sensor(lens, 640, 360);
   const Light light = test::light_at(lens, settings.frame, {0.7, 0.33});
-  auto plan = plan_frame(lens, {&light, 1}, settings, {});
+  RenderCache cache;
+  auto plan = plan_frame({lens, {&light, 1}, settings, cache}, {});
   REQUIRE(plan.has_value());
   const auto drawn = [&](std::vector<Ghost> ghosts, std::optional<int> margin_px) {
     FramePlan part = *plan;

@@ -21,7 +21,8 @@ LensState grey_lens() {
 }
 
 Result<FramePlan> plan(const LensState& lens, std::span<const Light> lights, const test::Settings& settings) {
-  return plan_frame(lens, lights, settings, {});
+  RenderCache cache;
+  return plan_frame({lens, lights, settings, cache}, {});
 }
 
 Frame frame() { return {60, 40, 0, 0, 60, 40, 0.2}; }

@@ -2,6 +2,7 @@
 // of many wavelengths, and polynomials give the others (wavelength_samples.h).
 #pragma once
 
+#include <cstddef>
 #include <functional>
 #include <map>
 #include <memory>
@@ -29,6 +30,8 @@ class ByWavelength {
     return *entry.value;
   }
 
+  [[nodiscard]] std::size_t size() const { return shared_ ? shared_->size() : 0; }
+
  private:
   struct Entry {
     std::once_flag once;
@@ -44,19 +47,26 @@ class ByWavelength {
       const std::scoped_lock lock(mutex);
       return entries[lambda_nm];
     }
+    [[nodiscard]] std::size_t size() {
+      const std::scoped_lock lock(mutex);
+      return entries.size();
+    }
   };
 
   std::shared_ptr<Shared> shared_;
 };
 
-// The lens must outlive both.
 class TablesByWavelength : public ByWavelength<ReflectanceTables> {
  public:
   TablesByWavelength() = default;  // to be assigned
+  // The lens must outlive them.
   explicit TablesByWavelength(const LensState& lens)
       : ByWavelength([&lens](double lambda_nm) { return ReflectanceTables(lens, lambda_nm); }) {}
+  explicit TablesByWavelength(std::shared_ptr<const LensState> lens)
+      : ByWavelength([lens = std::move(lens)](double lambda_nm) { return ReflectanceTables(*lens, lambda_nm); }) {}
 };
 
+// The lens must outlive them.
 class StepsByWavelength : public ByWavelength<LensSteps> {
  public:
   StepsByWavelength(const LensState& lens, const TablesByWavelength& tables)

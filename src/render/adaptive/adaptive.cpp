@@ -5,6 +5,7 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <memory>
 #include <numeric>
 
 #include "base/clock.h"
@@ -14,6 +15,7 @@
 #include "render/adaptive/screened_items.h"
 #include "render/adaptive/shadowed_items.h"
 #include "render/interface/error_bound.h"
+#include "render/interface/frame_memory.h"
 
 namespace contrejour {
 namespace {
@@ -23,6 +25,16 @@ using namespace adaptive;
 // Polygons of so many bytes, or a little more, are alive at once.
 constexpr std::size_t kBatchBytes = std::size_t{32} << 20U;
 constexpr std::size_t kItemsAtOnce = 256;
+
+// Memory that frames use again, a section of RenderCache. What is in it changes no picture.
+struct Scratch {
+  struct Key {
+    friend bool operator==(const Key&, const Key&) = default;
+  };
+  explicit Scratch(const Key& /*key*/) {}
+  Pool<BoxCells> cells;
+  TileDrawer drawer;
+};
 
 // Milliseconds since it was last asked.
 class Stopwatch {
@@ -80,10 +92,10 @@ std::vector<std::size_t> longest_first(std::span<const ItemSize> sizes, double p
 // Items painted one batch after the other, each batch then drawn; in the items' order whatever the threads.
 class FramePainter {
  public:
-  FramePainter(const Scene& scene, const Frame& frame, Pool<BoxCells>& rooms, TileDrawer& drawer,
-               const Context& context, DrawnFlare& flare)
-      : scene_(scene), rooms_(rooms), drawer_(drawer), frame_(frame), context_(context), quiet_(context), flare_(flare),
-        grid_(frame.width, frame.height) {
+  FramePainter(const Scene& scene, const Frame& frame, Scratch& scratch, RenderCache& cache, const Context& context,
+               DrawnFlare& flare)
+      : scene_(scene), scratch_(scratch), cache_(cache), frame_(frame), context_(context), quiet_(context),
+        flare_(flare), grid_(frame.width, frame.height) {
     quiet_.progress = {};
   }
 
@@ -117,7 +129,7 @@ class FramePainter {
     std::atomic<std::size_t> next = 0;
     parallel_for(items.size(), quiet_, [&](std::size_t) {
       const std::size_t k = order[next.fetch_add(1)];
-      painted[k] = paint_item(scene_, items[k], sizes[k], frame_, grid_, budget, rooms_);
+      painted[k] = paint_item(scene_, items[k], sizes[k], frame_, grid_, budget, scratch_.cells);
     });
     std::size_t bytes = 0;
     for (Painted& p : painted) {
@@ -132,8 +144,8 @@ class FramePainter {
   void draw(const std::vector<TiledPolygons>& batch, bool is_last) {
     const bool is_first = mode_ == TileMode::Write;
     if (is_first && is_last && scene_.plan.dark_margin_px) return draw_lit_part(batch, *scene_.plan.dark_margin_px);
-    if (is_first) flare_.image = Image::unwritten(frame_.width, frame_.height);
-    drawer_.draw(batch, mode_, context_, flare_.image);
+    if (is_first) flare_.image = unwritten_image(cache_, frame_.width, frame_.height);
+    scratch_.drawer.draw(batch, mode_, context_, flare_.image);
     mode_ = TileMode::Add;
   }
 
@@ -145,12 +157,12 @@ class FramePainter {
     const int right = std::min((lit.x1 + 1) * TileGrid::kWidth + margin_px, frame_.width);
     const int bottom = std::min((lit.y1 + 1) * TileGrid::kHeight + margin_px, frame_.height);
     flare_.image = Image::unwritten(right - flare_.left, bottom - flare_.top);
-    drawer_.draw_part(all, grid_, mode_, context_, flare_.image, flare_.left, flare_.top);
+    scratch_.drawer.draw_part(all, grid_, mode_, context_, flare_.image, flare_.left, flare_.top);
   }
 
   const Scene& scene_;
-  Pool<BoxCells>& rooms_;
-  TileDrawer& drawer_;
+  Scratch& scratch_;
+  RenderCache& cache_;
   const Frame& frame_;
   const Context& context_;
   Context quiet_;
@@ -182,9 +194,8 @@ Result<DrawnFlare> render_adaptive(const PlannedFrame& planned, const AdaptiveOp
   if (scene.plan.dirt) dim_items(scene, items);
   const double bound_ms = watch.lap_ms();
   Screens screens(lens, settings, cache);
-  Pool<BoxCells> rooms;
-  TileDrawer drawer;
-  const RoughFrame rough = draw_roughly(scene, items, frame, rooms, drawer, quiet, work);
+  const std::shared_ptr<Scratch> scratch = cache.section<Scratch>({});
+  const RoughFrame rough = draw_roughly(scene, items, frame, scratch->cells, scratch->drawer, quiet, work);
   if (context.cancelled()) return interrupted();
   const bool dark = !(rough.peak > 0.0);
   const FrameError allowed{options.error, std::max(dark ? faintest_peak(plan, frame) : rough.peak, plan.least_peak),
@@ -195,7 +206,7 @@ Result<DrawnFlare> render_adaptive(const PlannedFrame& planned, const AdaptiveOp
   if (scene.plan.dirt && !dark) shadow_items(scene, screens, items, rough.sizes, allowed, quiet);
   if (context.cancelled()) return interrupted();
   const double peak_ms = watch.lap_ms();
-  FramePainter painter(scene, frame, rooms, drawer, context, flare);
+  FramePainter painter(scene, frame, *scratch, cache, context, flare);
   painter.paint(items, rough.sizes, budget_per_item(allowed, rough.sizes));
   if (context.cancelled()) return interrupted();
 

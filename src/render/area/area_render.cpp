@@ -108,7 +108,8 @@ Result<Flare> render_areas(const DrawPlan& draw, const FrameRequest& frame, cons
   for (const Light& light : lights)
     if (const auto ok = check_extent(light); !ok) return tl::unexpected(ok.error());
   std::vector<PartedLight> wholes = whole_lights(lights);
-  auto plan = plan_frame(lens, points_of(wholes), settings, context);
+  const std::vector<Light> points = points_of(wholes);
+  auto plan = plan_frame({lens, points, settings, cache}, context);
   if (!plan) return tl::unexpected<Error>(plan.error());
   for (std::size_t k = 0; k < wholes.size(); ++k) wholes[k].planned = {plan->lights[k]};
   const double plan_ms = ms_since(start);

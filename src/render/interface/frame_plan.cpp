@@ -15,6 +15,8 @@
 #include "render/interface/check_frame.h"
 #include "render/interface/direct_light.h"
 #include "render/interface/ghost_selection.h"
+#include "render/interface/kept_dirt.h"
+#include "render/interface/lens_tables.h"
 #include "render/interface/statistics.h"
 
 namespace contrejour {
@@ -78,10 +80,12 @@ struct Preparation {
 };
 
 // None when cancelled.
-std::optional<Preparation> prepare(const LensState& lens, std::span<const Light> lights, const Frame& frame,
+std::optional<Preparation> prepare(const FrameRequest& request, const TablesByWavelength& tables,
                                    const BandsBySpectrum& spectra, const Context& context) {
+  const auto& [lens, lights, settings, cache] = request;
+  const std::shared_ptr<KeptDirt> dirt = cache.section<KeptDirt>(KeptDirt::key_of(lens));
   Preparation out;
-  out.tables = TablesByWavelength(lens);
+  out.tables = tables;
   for (const Light& light : lights) out.measured.push_back(light.source());
   std::set<double> wavelengths;
   for (const auto& [spectrum, bands] : spectra)
@@ -89,9 +93,9 @@ std::optional<Preparation> prepare(const LensState& lens, std::span<const Light>
   const std::vector<double> lambda_nm(wavelengths.begin(), wavelengths.end());
   const bool done = parallel_for(lights.size() + lambda_nm.size() + 1, context, [&](std::size_t k) {
     if (k < lights.size()) {
-      out.measured[k] = measured_source(lens, frame, out.measured[k]);
+      out.measured[k] = measured_source(lens, settings.frame, out.measured[k]);
     } else if (k == lights.size() + lambda_nm.size()) {
-      out.dirt = DirtField::of(lens);
+      out.dirt = dirt->field(lens);
     } else {
       (void)out.tables.at(lambda_nm[k - lights.size()]);
     }
@@ -148,8 +152,8 @@ std::optional<std::vector<PlannedLight>> plan_lights(const LensState& lens, std:
 
 }  // namespace
 
-Result<FramePlan> plan_frame(const LensState& lens, std::span<const Light> lights, const FrameSettings& settings,
-                             const Context& context) {
+Result<FramePlan> plan_frame(const FrameRequest& request, const Context& context) {
+  const auto& [lens, lights, settings, cache] = request;
   if (const auto problem = problem_with(lens, lights, settings)) return tl::unexpected<Error>(*problem);
   if (const auto good = check_ghost_options(lens, settings.ghosts); !good) return tl::unexpected(good.error());
   if (const auto good = check_selection(lens, settings.selection); !good) return tl::unexpected(good.error());
@@ -158,7 +162,9 @@ Result<FramePlan> plan_frame(const LensState& lens, std::span<const Light> light
   Context quiet = context;
   quiet.progress = {};
   const BandsBySpectrum spectra = bands_by_spectrum(lights, settings);
-  auto prepared = prepare(lens, lights, settings.frame, spectra, quiet);
+  const std::shared_ptr<LensTables> kept = cache.section<LensTables>(lens);
+  kept->forget_if_large();
+  auto prepared = prepare(request, kept->tables(), spectra, quiet);
   if (!prepared) return interrupted();
   auto planned = plan_lights(lens, lights, settings, spectra, prepared->measured, prepared->tables, quiet);
   if (!planned) return interrupted();
@@ -166,7 +172,7 @@ Result<FramePlan> plan_frame(const LensState& lens, std::span<const Light> light
   plan.tables = std::move(prepared->tables);
   plan.dirt = std::move(prepared->dirt);
   plan.by_need = settings.lambda_nm.empty() && settings.wavelengths == kWavelengthsByNeed;
-  plan.reflected = ReflectedShares(lens, wavelengths_of(spectra));
+  plan.reflected = kept->reflected(wavelengths_of(spectra));
   auto selected = select_ghosts(lens, plan.lights, plan.tables, settings, quiet);
   if (!selected) return tl::unexpected<Error>(selected.error());
   plan.ghosts = std::move(selected->ghosts);
@@ -193,7 +199,7 @@ Result<std::vector<PlannedLight>> plan_more_lights(const FramePlan& plan, const 
 
 Result<Flare> render_planned(const DrawPlan& draw, const FrameRequest& frame, const Context& context) {
   const auto start = Clock::now();
-  const auto plan = plan_frame(frame.lens, frame.lights, frame.settings, context);
+  const auto plan = plan_frame(frame, context);
   if (!plan) return tl::unexpected<Error>(plan.error());
   const double plan_ms = ms_since(start);
   auto drawn = draw({frame.lens, *plan, frame.settings, frame.cache}, context);

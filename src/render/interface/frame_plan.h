@@ -64,9 +64,16 @@ void for_each_pair_with_passes(const FramePlan& plan, const Visit& visit) {
   });
 }
 
+// What a frame is rendered from. All must outlive the rendering; the cache may have served frames before.
+struct FrameRequest {
+  const LensState& lens;
+  std::span<const Light> lights;
+  const FrameSettings& settings;
+  RenderCache& cache;
+};
+
 // Errors: InvalidArgument for settings out of range, Cancelled.
-[[nodiscard]] Result<FramePlan> plan_frame(const LensState& lens, std::span<const Light> lights,
-                                           const FrameSettings& settings, const Context& context);
+[[nodiscard]] Result<FramePlan> plan_frame(const FrameRequest& request, const Context& context);
 
 // More lights for a plan that has their spectra. Cancelled is the one error.
 [[nodiscard]] Result<std::vector<PlannedLight>> plan_more_lights(const FramePlan& plan, const LensState& lens,
@@ -78,14 +85,6 @@ struct DrawnFlare {
   Image image;
   int left = 0, top = 0;
   RenderStatistics statistics;
-};
-
-// What a frame is rendered from. All must outlive the rendering; the cache may have served frames before.
-struct FrameRequest {
-  const LensState& lens;
-  std::span<const Light> lights;
-  const FrameSettings& settings;
-  RenderCache& cache;
 };
 
 // The same with its lights planned, for a method to draw. The picture depends on ghosts, lights and gains of the plan

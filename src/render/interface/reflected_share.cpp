@@ -43,7 +43,7 @@ std::vector<double> mean_reflectances(const LensState& lens, double lambda_nm) {
 
 }  // namespace
 
-ReflectedShares::ReflectedShares(const LensState& lens, std::span<const double> lambda_nm) {
+void ReflectedShares::add(const LensState& lens, std::span<const double> lambda_nm) {
   for (const double nm : lambda_nm) {
     if (!by_wavelength_.contains(nm)) by_wavelength_.emplace(nm, mean_reflectances(lens, nm));
   }

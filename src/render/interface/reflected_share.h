@@ -2,6 +2,7 @@
 // before any ray is traced.
 #pragma once
 
+#include <cstddef>
 #include <map>
 #include <span>
 #include <vector>
@@ -14,7 +15,11 @@ namespace contrejour {
 class ReflectedShares {
  public:
   ReflectedShares() = default;
-  ReflectedShares(const LensState& lens, std::span<const double> lambda_nm);
+  ReflectedShares(const LensState& lens, std::span<const double> lambda_nm) { add(lens, lambda_nm); }
+
+  // Those of the same lens at more wavelengths.
+  void add(const LensState& lens, std::span<const double> lambda_nm);
+  [[nodiscard]] std::size_t size() const { return by_wavelength_.size(); }
 
   // The product of its surfaces' mean reflectances up to 32 degrees from normal incidence. lambda_nm: one of those
   // given.

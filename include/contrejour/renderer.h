@@ -1,0 +1,58 @@
+// A renderer that lives from frame to frame: it keeps what frames have in common (reflectance tables, diffraction
+// patterns, dirt, scratch memory) and writes into a caller's pixels. render.h renders one frame without it.
+// What is kept never changes a picture: a frame has the bits that render() gives, whatever was rendered before.
+// Errors: InvalidArgument, Cancelled; after either the renderer is usable as before. Thread-safety: one thread at a
+// time uses a renderer; two renderers share nothing.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <span>
+
+#include "contrejour/context.h"
+#include "contrejour/frame_settings.h"
+#include "contrejour/image_view.h"
+#include "contrejour/lens.h"
+#include "contrejour/light.h"
+#include "contrejour/method_options.h"
+#include "contrejour/render.h"
+
+namespace contrejour {
+
+enum class Device { Cpu };
+
+// Where a frame goes.
+struct FrameTarget {
+  ImageView pixels;  // as large as settings.frame, which may be a region of a larger picture
+  // Called once with a draft in the pixels, before the frame itself is rendered: the same flare by `adaptive` at an
+  // RMS error of 0.02. Empty: no draft.
+  std::function<void()> draft_is_ready = {};
+};
+
+class Renderer {
+ public:
+  // Errors: there is no such method, or its options are out of range when a frame is rendered.
+  [[nodiscard]] static Result<Renderer> create(MethodOptions method = AdaptiveOptions{}, Device device = Device::Cpu);
+  ~Renderer();
+  Renderer(Renderer&&) noexcept;
+  Renderer& operator=(Renderer&&) noexcept;
+
+  // The lens of the frames that follow. What does not depend on what changed is kept.
+  [[nodiscard]] Result<void> set_lens(LensState lens);
+  // The method of the frames that follow.
+  [[nodiscard]] Result<void> set_method(MethodOptions method);
+
+  // Errors: also that no lens was set.
+  [[nodiscard]] Result<RenderStatistics> render(std::span<const Light> lights, const FrameSettings& settings,
+                                                const FrameTarget& target, const Context& context = {});
+  [[nodiscard]] Result<Flare> render(std::span<const Light> lights, const FrameSettings& settings,
+                                     const Context& context = {});
+
+ private:
+  struct State;
+  explicit Renderer(std::unique_ptr<State> state);
+
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace contrejour

@@ -1,0 +1,186 @@
+// A renderer that lives from frame to frame: the bits of a renderer made for one frame, whatever came before.
+#include "contrejour/renderer.h"
+
+#include <atomic>
+#include <vector>
+
+#include <doctest/doctest.h>
+#include <half.h>
+
+#include "support/scenes.h"
+
+using namespace contrejour;
+using test::bundled;
+
+namespace {
+
+struct SessionFrame {
+  const char* what;
+  LensState lens;
+  std::vector<Light> lights;
+  FrameSettings settings;
+};
+
+SessionFrame frame_of(const char* what, LensState lens, Vec2 light_uv, int width = 60) {
+  SessionFrame f{what, std::move(lens), {}, {}};
+  f.settings.frame = frame_on_sensor(f.lens, width, width * 2 / 3);
+  f.lights = {test::light_at(f.lens, f.settings.frame, light_uv)};
+  f.settings.scope = GhostScope::OneSideOfStop;
+  f.settings.wavelengths = 3;
+  return f;
+}
+
+// Each differs from the one before it in what it says.
+std::vector<SessionFrame> changing_frames() {
+  const Dirt dirt{.dust_per_cm2 = 20.0, .plane = DirtPlane::Front};
+  std::vector<SessionFrame> frames;
+  frames.push_back(frame_of("first", bundled("heliar", {.f_number = 8.0}), {0.7, 0.35}));
+  frames.push_back(frame_of("light moved", bundled("heliar", {.f_number = 8.0}), {0.62, 0.3}));
+  frames.push_back(frame_of("stop", bundled("heliar", {.f_number = 11.0}), {0.62, 0.3}));
+  frames.push_back(frame_of("size", bundled("heliar", {.f_number = 11.0}), {0.62, 0.3}, 90));
+  frames.push_back(frame_of("blades", bundled("heliar", {.f_number = 11.0, .iris = {.blades = 6}}), {0.62, 0.3}));
+  frames.push_back(frames.back());
+  frames.back().what = "ringing";
+  frames.back().settings.ringing.mode = RingingMode::Fresnel;
+  frames.push_back(
+      frame_of("blades with ringing", bundled("heliar", {.f_number = 11.0, .iris = {.blades = 5}}), {0.6, 0.3}));
+  frames.back().settings.ringing.mode = RingingMode::Fresnel;
+  frames.push_back(frame_of("dirt", bundled("heliar", {.f_number = 11.0, .dirt = dirt}), {0.62, 0.3}));
+  frames.push_back(frame_of("focus and dirt",
+                            bundled("heliar", {.f_number = 11.0, .object_distance_mm = 2000.0, .dirt = dirt}),
+                            {0.62, 0.3}));
+  frames.push_back(frame_of("coating", bundled("heliar", {.coating = Coating{.films = QuarterWave{}}}), {0.62, 0.3}));
+  frames.push_back(frame_of("lens", bundled("tessar", {.f_number = 8.0}), {0.4, 0.35}));
+  frames.push_back(frame_of("starburst", bundled("tessar", {.f_number = 8.0}), {0.4, 0.35}));
+  frames.back().settings.starburst.on = true;
+  frames.push_back(frame_of("wavelengths by need", bundled("tessar", {.f_number = 8.0}), {0.4, 0.35}));
+  frames.back().settings.wavelengths = kWavelengthsByNeed;
+  frames.push_back(frame_of("zoom", bundled("canon-70-200", {.focal_length_mm = 100.0, .f_number = 8.0}), {0.55, 0.5}));
+  frames.push_back(
+      frame_of("longer zoom", bundled("canon-70-200", {.focal_length_mm = 135.0, .f_number = 8.0}), {0.55, 0.5}));
+  return frames;
+}
+
+MethodOptions quick_options(std::string_view method) {
+  test::Settings settings;
+  settings.set_grid(24);
+  settings.reference.density = 0.3;
+  const auto options = settings.options(method);
+  REQUIRE(options.has_value());
+  return *options;
+}
+
+Renderer renderer_of(const MethodOptions& method) {
+  auto made = Renderer::create(method);
+  REQUIRE(made.has_value());
+  return std::move(*made);
+}
+
+}  // namespace
+
+TEST_CASE("whatever changes from one frame to the next, it has the bits of a frame by itself") {
+  for (const std::string_view name : render_methods()) {
+    CAPTURE(name);
+    const MethodOptions method = quick_options(name);
+    Renderer session = renderer_of(method);
+    for (const SessionFrame& f : changing_frames()) {
+      if (method_traits(name)->is_slow && f.lens.name.find("Canon") != std::string::npos) continue;
+      CAPTURE(f.what);
+      REQUIRE(session.set_lens(f.lens).has_value());
+      Image kept(f.settings.frame.width, f.settings.frame.height);
+      const auto drawn = session.render(f.lights, f.settings, {.pixels = view_of(kept)});
+      REQUIRE(drawn.has_value());
+      const auto alone = render(method, f.lens, f.lights, f.settings);
+      REQUIRE(alone.has_value());
+      CHECK(kept.pixels == alone->image.pixels);
+      CHECK(drawn->rays == alone->statistics.rays);
+    }
+  }
+}
+
+TEST_CASE("a draft comes first, near to the frame, and leaves no trace") {
+  const SessionFrame f = frame_of("", bundled("heliar", {.f_number = 8.0}), {0.7, 0.35}, 120);
+  Renderer session = renderer_of(AdaptiveOptions{});
+  REQUIRE(session.set_lens(f.lens).has_value());
+  Image image(120, 80), draft;
+  double before = 0.0;
+  Context context;
+  context.progress = [&](double done) { before = done; };
+  const auto drawn = session.render(f.lights, f.settings,
+                                    {view_of(image),
+                                     [&] {
+                                       CHECK(before == 0.0);
+                                       draft = image;
+                                     }},
+                                    context);
+  REQUIRE(drawn.has_value());
+  const auto alone = render(AdaptiveOptions{}, f.lens, f.lights, f.settings);
+  REQUIRE(alone.has_value());
+  CHECK(image.pixels == alone->image.pixels);
+  REQUIRE(draft.pixels.size() == image.pixels.size());
+  CHECK(test::sum(draft) == doctest::Approx(test::sum(image)).epsilon(0.05));
+  CHECK(draft.pixels != image.pixels);
+}
+
+TEST_CASE("a frame goes into a host's pixels: half floats with alpha, rows from the bottom up") {
+  SessionFrame f = frame_of("", bundled("heliar", {.f_number = 8.0}), {0.7, 0.35});
+  f.settings.frame.width = 31;  // a region
+  f.settings.frame.origin_x = 11;
+  Renderer session = renderer_of(AdaptiveOptions{});
+  REQUIRE(session.set_lens(f.lens).has_value());
+  const int width = 31, height = f.settings.frame.height;
+  const std::size_t row = 4 * static_cast<std::size_t>(width) + 6;
+  std::vector<half> host(row * static_cast<std::size_t>(height), half(7.0F));
+  const auto sample = static_cast<std::ptrdiff_t>(sizeof(half)), row_bytes = sample * static_cast<std::ptrdiff_t>(row);
+  const ImageView view{host.data() + row * static_cast<std::size_t>(height - 1),
+                       width,
+                       height,
+                       PixelType::Half,
+                       sample,
+                       4 * sample,
+                       -row_bytes};
+  REQUIRE(session.render(f.lights, f.settings, {.pixels = view}).has_value());
+  const auto alone = session.render(f.lights, f.settings);
+  REQUIRE(alone.has_value());
+  REQUIRE(test::sum(alone->image) > 0.0);
+  for (int y = 0; y < height; ++y) {
+    const half* line = host.data() + row * static_cast<std::size_t>(height - 1 - y);
+    for (int x = 0; x < width; ++x) {
+      for (int c = 0; c < 3; ++c) REQUIRE(line[4 * x + c] == half(alone->image.at(x, y, c)));
+      REQUIRE(line[4 * x + 3] == half(7.0F));
+    }
+    for (std::size_t k = 4 * static_cast<std::size_t>(width); k < row; ++k) REQUIRE(line[k] == half(7.0F));
+  }
+}
+
+TEST_CASE("a cancelled frame leaves the renderer as it was") {
+  const SessionFrame f = frame_of("", bundled("heliar", {.f_number = 8.0}), {0.7, 0.35});
+  Renderer session = renderer_of(AdaptiveOptions{});
+  REQUIRE(session.set_lens(f.lens).has_value());
+  const auto first = session.render(f.lights, f.settings);
+  REQUIRE(first.has_value());
+  std::atomic<bool> cancel = true;
+  Image image(60, 40);
+  const auto stopped = session.render(f.lights, f.settings, {.pixels = view_of(image)}, {.cancel = &cancel});
+  REQUIRE_FALSE(stopped.has_value());
+  CHECK(stopped.error().code == ErrorCode::Cancelled);
+  const auto again = session.render(f.lights, f.settings);
+  REQUIRE(again.has_value());
+  CHECK(again->image.pixels == first->image.pixels);
+}
+
+TEST_CASE("what a renderer refuses") {
+  const SessionFrame f = frame_of("", bundled("heliar", {.f_number = 8.0}), {0.7, 0.35});
+  Renderer session = renderer_of(AdaptiveOptions{});
+  const auto no_lens = session.render(f.lights, f.settings);
+  REQUIRE_FALSE(no_lens.has_value());
+  CHECK(no_lens.error().message.find("set_lens") != std::string::npos);
+  CHECK_FALSE(session.set_lens(LensState{}).has_value());
+  REQUIRE(session.set_lens(f.lens).has_value());
+  Image other(61, 40);
+  CHECK_FALSE(session.render(f.lights, f.settings, {.pixels = view_of(other)}).has_value());
+  CHECK_FALSE(session.render(f.lights, f.settings, FrameTarget{}).has_value());
+  CHECK(session.render(f.lights, f.settings).has_value());
+  REQUIRE(session.set_method(BundleOptions{.grid = {.rays = 1}}).has_value());
+  CHECK_FALSE(session.render(f.lights, f.settings).has_value());
+}
