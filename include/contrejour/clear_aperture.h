@@ -1,5 +1,5 @@
 // The clear part of a surface where its rim is no circle about the axis.
-// Lengths mm in the surface's own coordinates beside its axis. Thread-safety: plain values, pure functions.
+// Lengths are in mm, in the surface's own x and y from its axis. Thread-safety: plain values, pure functions.
 #pragma once
 
 #include <cstdint>
@@ -11,17 +11,17 @@ namespace contrejour {
 
 enum class ApertureKind : std::uint8_t { Disc, Ellipse, Rectangle };
 
-// Within the surface's semi-diameter, which holds besides: a rectangle that reaches beyond it has round corners.
+// The semi-diameter's circle limits the surface as well: a rectangle that reaches beyond it has round corners.
 struct ClearAperture {
-  ApertureKind kind = ApertureKind::Disc;  // a disc is that of the semi-diameter: the rest is unused
+  ApertureKind kind = ApertureKind::Disc;  // a disc is the semi-diameter's; the other members are then unused
   Vec2 half_mm{};  // semi-axes, or half of the sides
   Vec2 centre_mm{};
   double turn_rad = 0.0;  // of the aperture's own x axis from the surface's, towards y
   friend bool operator==(const ClearAperture&, const ClearAperture&) = default;
 };
 
-// What stands in the way about the middle of a surface, as a mirror lens's second mirror does: light meets it wherever
-// it crosses the surface.
+// An obstacle before the middle of a surface, such as a mirror lens's secondary mirror. It blocks light wherever an
+// optical path crosses the surface.
 struct Obscuration {
   Vec2 half_mm{};  // semi-axes of an ellipse; 0: there is none
   Vec2 centre_mm{};
@@ -32,7 +32,7 @@ struct Obscuration {
   friend bool operator==(const Obscuration&, const Obscuration&) = default;
 };
 
-// A convex bound as the unit disc, |place| <= 1, under an affine map; of a strip, place has one coordinate.
+// A convex bound: the unit disc |place()| <= 1 under an affine map; for a strip, one coordinate of place() is always 0.
 struct Rim {
   Vec2 centre_mm, u_per_mm, v_per_mm;
   [[nodiscard]] Vec2 place(Vec2 own_mm) const {
@@ -41,11 +41,11 @@ struct Rim {
   }
 };
 
-// What light must pass within, all of them: an ellipse is one rim, a rectangle two strips, each besides the
-// semi-diameter's circle where it does not lie within that. None for a disc.
+// The rims that light must pass inside, all of them: one for an ellipse, two strips for a rectangle, and besides the
+// semi-diameter's circle unless the aperture lies within it. None for a disc.
 [[nodiscard]] std::vector<Rim> rims_of(const ClearAperture& aperture, double semi_diameter_mm);
 
-// What light must pass outside of.
+// The rim that light must pass outside of.
 [[nodiscard]] Rim rim_of(const Obscuration& obscuration);
 
 }  // namespace contrejour

@@ -32,7 +32,7 @@ struct QuarterWave {
   friend bool operator==(const QuarterWave&, const QuarterWave&) = default;
 };
 
-// Any stack, listed from the low-index side (air) to the glass, whichever way the light goes.
+// Any stack, listed from the low-index side (air) to the glass, whatever the direction of the light.
 struct FilmStack {
   std::vector<FilmLayer> layers;
   friend bool operator==(const FilmStack&, const FilmStack&) = default;
@@ -46,12 +46,12 @@ struct HullinFresnelAR {
   friend bool operator==(const HullinFresnelAR&, const HullinFresnelAR&) = default;
 };
 
-// A coating of the trade that is worked out for each glass it lies on (Macleod, Thin-Film Optical Filters, 3):
+// A standard coating, computed for each glass that it lies on (Macleod, Thin-Film Optical Filters, 3):
 enum class CoatingDesign {
-  VCoat,               // MgF2 on ZrO2: nothing is reflected at lambda0
+  VCoat,               // MgF2 on ZrO2: zero reflectance at lambda0
   WCoat,               // a quarter wave of MgF2 on half a wave of SiO: low at two wavelengths about lambda0
   QuarterHalfQuarter,  // MgF2, ZrO2, Al2O3
-  Broadband,           // MgF2 outermost, then SiO2 and Ta2O5 in turns; lowest on the whole from 0.76 to 1.24 lambda0
+  Broadband,           // MgF2 outermost, then SiO2 and Ta2O5 alternating; lowest mean from 0.76 to 1.24 lambda0
 };
 struct DesignedCoating {
   static constexpr int kFewestLayers = 4, kMostLayers = 7;
@@ -61,8 +61,8 @@ struct DesignedCoating {
   friend bool operator==(const DesignedCoating&, const DesignedCoating&) = default;
 };
 
-// Reflectances that were measured, unpolarised, by wavelength and angle in air; straight lines between, the nearest
-// beyond. Nothing is absorbed.
+// Measured unpolarised reflectances by wavelength and angle of incidence in air, interpolated linearly and constant
+// beyond the table. The coating absorbs nothing.
 struct MeasuredCoating {
   std::vector<double> lambda_nm, angle_deg;  // each rising, one value at least
   std::vector<double> reflectance;           // 0 to 1; all angles of the first wavelength, then of the next
@@ -78,14 +78,16 @@ struct Coating {
 // A short text for tables and JSON: "none", "quarter-wave 550 nm n=1.38", "stack of 3 layers", ...
 [[nodiscard]] std::string describe(const Coating& coating);
 
-// The films of a design on a glass. Broadband ones are refined for it, some 5 ms (film_design.h).
+// Computes the films of a design on a glass. Broadband designs are refined for the glass, which takes about 5 ms
+// (film_design.h).
 [[nodiscard]] FilmStack designed_for(const DesignedCoating& design, const Glass& glass);
 
-// The same coating with its films in place, on the side of the glass of the higher index; any other as it is.
+// Replaces a DesignedCoating by its films, designed for the glass with the higher index; other coatings stay as they
+// are.
 [[nodiscard]] Coating placed_on(const Coating& coating, const Glass& before, const Glass& after);
-// The same at this wavelength alone, with indices as numbers: quicker to ask.
+// The coating at this wavelength alone, with indices as numbers, which makes later calls faster.
 [[nodiscard]] Coating at_wavelength(const Coating& coating, double lambda_nm);
-// Whether some light may be neither reflected nor transmitted.
+// True if the coating may absorb light.
 [[nodiscard]] bool may_absorb(const Coating& coating);
 
 // Amplitudes and powers of a stack between two half-spaces, convention exp(-i w t); r_p = -r_s at normal
@@ -102,8 +104,8 @@ enum class FilmOrder { AsListed, Reversed };
                                          FilmOrder order = FilmOrder::AsListed);
 
 // Power reflectance of a coated surface for unpolarised light that comes from n_in at cos_in (0..1);
-// 1 under total reflection. T = 1 - R for lossless films. A DesignedCoating is worked out at every call: place it
-// first.
+// 1 under total reflection. T = 1 - R for lossless films. A DesignedCoating is computed anew at every call: use
+// placed_on() first.
 [[nodiscard]] double reflectance(const Coating& coating, double n_in, double n_out, double cos_in, double lambda_nm);
 
 // Unpolarised transmittance: 1 - R unless a film absorbs.

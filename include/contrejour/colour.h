@@ -32,14 +32,14 @@ struct BlackBody {
   double temperature_k = 6500;  // > 0
   friend bool operator==(const BlackBody&, const BlackBody&) = default;
 };
-// A lamp that was measured: straight lines between its points, nothing beyond them.
+// A measured spectrum: linear between its points, 0 beyond them.
 struct SpectrumPoint {
   double lambda_nm = 0;
   double power = 0;
   friend bool operator==(const SpectrumPoint&, const SpectrumPoint&) = default;
 };
 struct TabulatedSpectrum {
-  // Two or more, wavelengths rising, powers of 0 and more, some of it visible (spectrum_file.h reads such).
+  // At least two points with rising wavelengths and powers >= 0, some of it visible (read by spectrum_file.h).
   std::shared_ptr<const std::vector<SpectrumPoint>> points;
   friend bool operator==(const TabulatedSpectrum& a, const TabulatedSpectrum& b) {
     return a.points == b.points || (a.points && b.points && *a.points == *b.points);
@@ -47,12 +47,12 @@ struct TabulatedSpectrum {
 };
 using Spectrum = std::variant<IlluminantD65, IlluminantA, EqualEnergy, BlackBody, TabulatedSpectrum>;
 
-// 560 nm -> 1, but for a tabulated spectrum, whose numbers are its own.
+// Relative power, 1 at 560 nm; a tabulated spectrum is returned unscaled.
 [[nodiscard]] double spectral_power(const Spectrum& spectrum, double lambda_nm);
-// Its mean over a nanometre or so about a wavelength, weighted as straight lines between whole nanometres weigh it: of
-// narrow lines none falls between these. The same as spectral_power but for a tabulated spectrum.
+// The mean power about a wavelength, with the weights of linear interpolation between whole nanometres, so that no
+// narrow line falls between samples. Equal to spectral_power for all but tabulated spectra.
 [[nodiscard]] double spectral_power_near(const Spectrum& spectrum, double lambda_nm);
-[[nodiscard]] bool is_visible(const TabulatedSpectrum& spectrum);  // anything within 360 to 830 nm
+[[nodiscard]] bool is_visible(const TabulatedSpectrum& spectrum);  // has power within 360 to 830 nm
 [[nodiscard]] Xyz colour_matching(double lambda_nm);                              // CIE 1931, 360..830 nm, 0 outside
 [[nodiscard]] Xyz xyz_of(const Spectrum& spectrum);                               // Y = 1
 [[nodiscard]] std::array<double, 2> chromaticity(const Xyz& xyz);
@@ -65,14 +65,14 @@ using Spectrum = std::variant<IlluminantD65, IlluminantA, EqualEnergy, BlackBody
 // be negative: the spectrum's colour then lies outside the space's gamut (in Rec709, black bodies below 1900 K).
 [[nodiscard]] Rgb rgb_of(const Spectrum& spectrum, ColourSpace space);
 
-// N wavelengths that stand for N bands of the visible spectrum, and what each adds to each channel.
-// Each channel's weights sum to 1 for any N, so a lens that does not depend on wavelength keeps the light's
-// own colour exactly; N -> infinity converges to the integral over the light's spectrum. Where a light has next to
-// nothing of a channel (the blue of a candle), the weights there are kept bounded instead of exact.
+// N wavelengths that represent N bands of the visible spectrum, and the weight of each in each channel.
+// Each channel's weights sum to 1 for any N, so a lens without wavelength dependence keeps the light's colour exactly;
+// N -> infinity converges to the integral over the light's spectrum. Where a light has almost no power in a channel
+// (the blue of a candle), the weights are bounded instead of exact.
 struct SpectralBand {
   double lambda_nm = 550;
-  Rgb weight{};  // share of the light's channel value that falls in the band; may be negative
-  double spread_nm = 0;  // root mean square, of the band about its wavelength, by what is seen of it
+  Rgb weight{};  // the fraction of the light's channel value in the band; may be negative
+  double spread_nm = 0;  // RMS width of the band about its wavelength, weighted by visibility
 };
 [[nodiscard]] std::vector<SpectralBand> spectral_bands(int count, const Spectrum& light, ColourSpace space);
 

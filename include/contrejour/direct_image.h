@@ -1,5 +1,5 @@
-// Where a light's own image counts as that which its value is of: docs/physics/radiometry.md, "Relative to the direct
-// image". Thread-safety: a pure function.
+// The source whose direct image a light's value refers to: docs/physics/radiometry.md, "Relative to the direct image".
+// Thread-safety: a pure function.
 #pragma once
 
 #include "contrejour/frame.h"
@@ -8,8 +8,8 @@
 
 namespace contrejour {
 
-// The light, where its image is in the frame; else one at its distance whose image is at the nearest point of the
-// frame's edge on the way to the centre. Its direction is not a number where none lands there.
+// The light itself if its image lies in the frame; else a light at the same distance whose image lies where the line
+// from the light's image to the centre crosses the frame's edge. Its direction is NaN if no light has its image there.
 [[nodiscard]] LightSource measured_source(const LensState& lens, const Frame& frame, const LightSource& light);
 
 }  // namespace contrejour

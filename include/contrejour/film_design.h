@@ -1,5 +1,6 @@
-// Stacks of films towards a goal: thicknesses refined by Levenberg and Marquardt's method from a start, materials as
-// they are. Light at normal incidence from air. Local: another start may end elsewhere. Thread-safety: pure functions.
+// Refines the thicknesses of a film stack towards a goal by the Levenberg-Marquardt method, for fixed materials and
+// light at normal incidence from air. The optimum is local: another start may lead to another one. Thread-safety: pure
+// functions.
 #pragma once
 
 #include <functional>
@@ -18,14 +19,14 @@ namespace contrejour {
 [[nodiscard]] std::optional<DesignedCoating> find_coating_design(std::string_view name);
 [[nodiscard]] std::string design_name(const DesignedCoating& design);
 
-// Of a stack on a glass, at each wavelength.
+// Reflectance of a stack on a glass, at each wavelength.
 [[nodiscard]] std::vector<double> reflectances(const FilmStack& stack, const Glass& glass,
                                                std::span<const double> lambda_nm);
 
 struct FilmGoal {
   std::vector<double> lambda_nm;
-  // What is off, of reflectances at those wavelengths: its squares' sum is made small. Always as many as the first
-  // time.
+  // Residuals of the reflectances at those wavelengths, whose sum of squares is minimised. Every call returns the same
+  // number of residuals.
   std::function<std::vector<double>(std::span<const double> reflectance)> off;
 };
 

@@ -1,6 +1,6 @@
 // What films are made of: complex index by wavelength (docs/physics/coatings.md).
-// Domain: 360 to 830 nm, where catalogued materials have samples every 10 nm; beyond, the nearest. Accuracy: that of
-// their sources to 1e-5; films of one make differ from those of another by some 1e-2. Thread-safety: pure functions.
+// Domain: 360 to 830 nm, where catalogued materials have samples every 10 nm; beyond it, the nearest sample holds.
+// Accuracy: 1e-5 of their sources; real films of different makers differ by about 1e-2. Thread-safety: pure functions.
 #pragma once
 
 #include <complex>

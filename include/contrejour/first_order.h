@@ -1,6 +1,6 @@
 // Paraxial (Gaussian) optics of a lens by ABCD matrices: cardinal points, pupils, conjugates.
-// A lens without axial symmetry has figures of its sections with the y-z and the x-z plane, exact where these are its
-// planes of symmetry; tilts and decentres do not count.
+// A lens without axial symmetry has values for the y-z and for the x-z section, exact where these are its planes of
+// symmetry; tilts and decentres are ignored.
 // Column vectors (height mm, slope dy/dz), slopes not multiplied by n. Exact up to rounding.
 // Source: any textbook; Greivenkamp, Field Guide to Geometrical Optics. Thread-safety: pure functions.
 #pragma once
@@ -32,20 +32,20 @@ struct Abcd {
 
 // A ghost's path. In the y-z section, for a distant light.
 struct GhostFirstOrder {
-  // Sensor -> where a bundle near the axis and parallel to it comes to a focus after the path, positive behind the
-  // sensor: -a / c. None: it stays parallel.
+  // Distance from the sensor to the paraxial focus of a bundle parallel to the axis after the path, positive behind the
+  // sensor: -a / c. None: the bundle leaves parallel.
   std::optional<double> focus_mm;
-  double blur_mm = 0;  // diameter on the sensor of the light on the axis that the stop lets through; 0 in focus
-  // Sensor -> image of the stop by what the light meets after it crosses the stop for the last time. Near 0 the ghost
-  // is an image of the stop that stands still wherever the light is: a pupil ghost.
+  double blur_mm = 0;  // diameter on the sensor of the on-axis bundle that the stop transmits; 0 in focus
+  // Distance from the sensor to the image of the stop, formed by the surfaces behind the last stop crossing. Near 0 the
+  // ghost is an image of the stop that does not move with the light: a pupil ghost.
   std::optional<double> stop_image_mm;
-  // Where its chief ray (through the middle of the stop, at the first crossing) lands, over where the light's own image
-  // is: 1 with it, 0 in the middle of the picture, -1 opposite.
+  // The image point of the ghost's chief ray (through the middle of the stop at the first crossing) over that of the
+  // direct image: 1 at the direct image, 0 in the middle of the picture, -1 opposite.
   double place = 0;
 };
 [[nodiscard]] GhostFirstOrder ghost_first_order(const LensState& lens, const Ghost& ghost, double lambda_nm);
 
-// Of the y-z section; the f-number and the pupils' diameters are its own too.
+// Values of the y-z section, the f-number and the pupils' diameters included, unless a member is named x.
 struct FirstOrder {
   double focal_length_mm = 0;
   double back_focal_distance_mm = 0;  // last vertex -> rear focal point

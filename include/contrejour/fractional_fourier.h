@@ -1,8 +1,8 @@
-// The fractional Fourier transform of a square of samples: order 0 the samples, 1 their spectrum, between them what
-// lies between an aperture and its far field. Squares of side N, the origin at sample N / 2 (rounded down) of each row
-// and column; samples stand for points 1 / sqrt(N) apart. Accuracy: unitary, orders add, order 1 is the centred unitary
-// DFT, all to 1e-9 (tests hold 1e-6). Thread-safety: const members may run at once. Source: Candan, Kutay & Ozaktas
-// 2000; hullin2011 3.3.
+// The fractional Fourier transform of a square of samples: order 0 gives the samples, order 1 their spectrum, and
+// orders between them the diffraction between an aperture and its far field. Squares of side N, the origin at sample N
+// / 2 (rounded down) of each row and column; samples stand for points 1 / sqrt(N) apart. Accuracy: unitary, orders add,
+// order 1 is the centred unitary DFT, all to 1e-9 (tests hold 1e-6). Thread-safety: const members may run at once.
+// Source: Candan, Kutay & Ozaktas 2000; hullin2011 3.3.
 #pragma once
 
 #include <complex>
@@ -17,15 +17,16 @@ class FractionalFourier {
  public:
   static constexpr int kMostSamples = 4096;
 
-  explicit FractionalFourier(int side);  // 1 to kMostSamples, else a square of none; finds the eigenvectors: N^3
+  explicit FractionalFourier(int side);  // 1 to kMostSamples, else side 0; computes the eigenvectors in O(N^3)
 
   [[nodiscard]] int side() const { return side_; }
 
-  // Both steps below. Empty when cancelled, for a square of another size, and for an order that is not finite.
+  // Runs analyse() and at_order(). Empty when cancelled, for a square of another size, and for an order that is not
+  // finite.
   [[nodiscard]] std::vector<std::complex<double>> transform(std::span<const std::complex<double>> square, double order,
                                                             const Context& context = {}) const;
 
-  // The square by eigenvectors once, and from that any number of orders. Empty likewise.
+  // Expands the square in eigenvectors once; at_order() then gives any number of orders. Empty in the same cases.
   [[nodiscard]] std::vector<std::complex<double>> analyse(std::span<const std::complex<double>> square,
                                                           const Context& context = {}) const;
   [[nodiscard]] std::vector<std::complex<double>> at_order(std::span<const std::complex<double>> analysis, double order,
@@ -34,10 +35,10 @@ class FractionalFourier {
  private:
   int side_;
   std::vector<double> basis_;  // [eigenvector * side + sample]
-  std::vector<int> degree_;  // of the Hermite function that each stands for
+  std::vector<int> degree_;  // of the Hermite function that each eigenvector samples
 };
 
-// hullin2011 eq. 5: the order whose ringing looks like a lens's, by experience.
+// hullin2011 eq. 5: an empirical order whose ringing resembles a lens's.
 [[nodiscard]] double hullin_order(double lambda_nm, double f_number);
 
 }  // namespace contrejour

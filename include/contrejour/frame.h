@@ -15,7 +15,7 @@ struct Frame {
   int origin_x = 0, origin_y = 0;
   int full_width = 0, full_height = 0;
   double pixel_pitch_mm = 0.01;
-  Vec2 shift_mm{};  // that every point of the sensor is moved by, for one ghost that is set off
+  Vec2 shift_mm{};  // added to every sensor point, for a ghost with an offset
 
   [[nodiscard]] Vec2 pixel_from_sensor(Vec2 sensor_mm) const {
     return {0.5 * full_width - (sensor_mm.x + shift_mm.x) / pixel_pitch_mm - origin_x,

@@ -1,10 +1,10 @@
 // The image of a distant point through a pupil at one wavelength: the Fraunhofer pattern, in absolute units.
-// Irradiance (flux per mm^2) at points of the plane where the pupil's wave converges, on a pitch of the caller's
-// choice. Its integral over the plane is the given flux. Rows from the top, x right, y up, the axis in the middle, all
-// as the pupil has them (through a lens both are upside down on the sensor, and so this pattern is upright in the
-// image). Accuracy: exact for the samples of the mask up to |x| < lambda d / (2 mask pitch), where it starts to repeat.
-// Errors: InvalidArgument for lengths that are not positive and masks that let nothing through, Cancelled.
-// Thread-safety: pure functions. Source: Goodman 2005 eq. 4-25, 5-14; hullin2011 eq. 2.
+// Irradiance (flux per mm^2) at points of the plane where the pupil's wave converges, at a pitch that the caller
+// chooses. Its integral over the plane is the given flux. Rows from the top, x right, y up, the axis in the middle, in
+// the orientation of the pupil (a lens inverts both on the sensor, so this pattern is upright in the image). Accuracy:
+// exact for the samples of the mask up to |x| < lambda d / (2 mask pitch), where it starts to repeat. Errors:
+// InvalidArgument for lengths that are not positive and masks that let nothing through, Cancelled. Thread-safety: pure
+// functions. Source: Goodman 2005 eq. 4-25, 5-14; hullin2011 eq. 2.
 #pragma once
 
 #include <vector>

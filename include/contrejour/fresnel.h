@@ -1,8 +1,8 @@
 // Diffraction of an aperture between its sharp shadow and its far field: the ringing along a ghost's rim.
-// One number says it all: F = a^2 / (lambda z), a the stop's radius; the pattern is scaled to the geometric footprint,
-// whose radius is 1, and to its irradiance, which is 1. Through lenses z is an effective distance: fresnel_number.
-// Accuracy: F * footprint <= 1e5; intensities to 2 per cent of 1 for a mask of 512 samples across, the closer the more
-// samples; unresolved fringes vanish, they do not alias. Thread-safety: pure functions.
+// The pattern depends on one number, F = a^2 / (lambda z), with a the stop's radius; it is scaled to the geometric
+// footprint, whose radius and irradiance are 1. Through lenses z is an effective distance: fresnel_number. Accuracy: F
+// * footprint <= 1e5; intensities to 2 per cent of 1 for a mask of 512 samples across, better with more samples;
+// unresolved fringes vanish, they do not alias. Thread-safety: pure functions.
 // Source: Goodman 2005 eq. 4-17, Collins 1970 eq. 12, Matsushima & Shimobaba 2009.
 #pragma once
 
@@ -23,7 +23,8 @@ struct FresnelPattern {
   int side = 0;
   double extent = 0.0;             // rows from the top, places as in MaskGrid of pitch 2 extent / side
   std::vector<double> irradiance;  // empty when cancelled
-  double flux = 0.0;               // of it, over that through the mask: 1 less what spreads beyond the extent
+  double flux = 0.0;  // flux of the pattern over the flux through the mask: 1 less what spreads beyond the
+                      // extent
 };
 
 // 1 + 2 / sqrt(F) + 4 / F: 97 per cent of the light at any F.

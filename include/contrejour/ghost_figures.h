@@ -1,6 +1,6 @@
 // Figures of each ghost of a lens for one light: how bright, where, how large, what colour, where it focuses.
-// Fluxes are good to 1e-3, places and sizes to a hundredth of the size, peaks to a quarter (GhostMeter). Same result
-// for any thread count. Thread-safety: pure.
+// Fluxes are accurate to 1e-3, positions and sizes to a hundredth of the size, peaks to a quarter (GhostMeter). The
+// result is the same for any thread count. Thread-safety: pure.
 #pragma once
 
 #include <optional>
@@ -18,14 +18,15 @@ struct GhostFigures {
   Ghost ghost;
   Rgb rgb{};                    // flux over the direct image's flux, per channel
   double relative_flux = 0;     // their luminance
-  double peak_irradiance = 0;  // largest mean over a pixel of the sensor's irradiance, over the light's at the front
+  double peak_irradiance = 0;  // largest mean irradiance over a pixel of the sensor, over the light's irradiance at the
+                               // front
   double reflectance = 0;  // product of its surfaces' reflectances at normal incidence, by luminance
   Vec2 centroid_px, size_px;  // flux-weighted middle; sides of the box around its footprint
-  Vec2 centroid_mm, size_mm;  // the same on the sensor, as rays land there: right and up in the picture is negative
+  Vec2 centroid_mm, size_mm;  // the same in sensor coordinates: right and up in the picture are negative
   GhostFirstOrder first_order;
-  bool in_focus = false;  // its light on the axis makes a spot of at most kSharpBlur of the sensor's diagonal
-  bool pupil_ghost = false;  // an image of the stop in the middle of the picture: its chief ray moves at most
-                             // kStillPlace times as far as the light's own image
+  bool in_focus = false;  // its on-axis spot is at most kSharpBlur of the sensor's diagonal
+  bool pupil_ghost = false;  // an image of the stop in the middle of the picture: its chief-ray image point moves at
+                             // most kStillPlace times as far as the direct image
   static constexpr double kSharpBlur = 0.01, kStillPlace = 0.05;
 };
 
@@ -34,7 +35,7 @@ struct FiguresRequest {
   Light light;  // its value does not matter
   GhostScope scope = GhostScope::All;
   Reflections reflections = Reflections::Two;
-  std::vector<SpectralBand> bands;  // weights of one wavelength: 1, 1, 1
+  std::vector<SpectralBand> bands;  // for a single wavelength use the weights 1, 1, 1
 };
 
 // By falling relative_flux. Errors: a light that is not in front of the lens, Cancelled.

@@ -1,4 +1,4 @@
-// Which ghost is meant: the surfaces that its light reflects at.
+// Identifies a ghost by the surfaces that its light reflects at.
 #pragma once
 
 #include <array>

@@ -1,6 +1,6 @@
 // Glasses by name and maker: those that come with the library, and users' own catalogues (AGF files,
-// refractiveindex.info YAML; docs/formats/glass.md). Files are read bounded in memory and time. Errors: Parse with file
-// and line, Io; InvalidArgument for a name that no catalogue has, with the nearest. Thread-safety: plain values.
+// refractiveindex.info YAML; docs/formats/glass.md). Reading files is bounded in memory and time. Errors: Parse with
+// file and line, Io; InvalidArgument for an unknown name, with the nearest known one. Thread-safety: plain values.
 #pragma once
 
 #include <filesystem>
@@ -19,7 +19,8 @@ enum class GlassStatus { Standard, Preferred, Obsolete, Special, Melt };  // as 
 
 [[nodiscard]] std::string_view status_name(GlassStatus status);  // "standard", "obsolete", ...
 
-// A glass in a list. n_d and v_d as its catalogue states them, else computed; 0 where the formula does not reach.
+// A glass in a list. n_d and v_d are the catalogue's, or else computed; 0 if the formula's range does not include the
+// lines.
 struct GlassSummary {
   std::string name;  // "N-BK7"
   std::string maker;  // "SCHOTT"
@@ -41,16 +42,18 @@ struct GlassFile {
   std::vector<std::string> warnings;
 };
 
-// An AGF file in UTF-8, UTF-16 or Latin-1, with any line ends. A glass that cannot be is left out with a warning.
-// Errors: Parse if the file is none, or holds no glass that can be read.
+// Reads an AGF file in UTF-8, UTF-16 or Latin-1, with any line ends. An impossible glass is left out with a warning.
+// Errors: Parse if it is no AGF file, or holds no glass that can be read.
 [[nodiscard]] Result<GlassFile> read_agf(std::string_view bytes, const std::string& file, const std::string& maker);
 
-// One glass, as refractiveindex.info's database has it. Errors: Parse; Unsupported for a page without n(lambda).
+// Reads one glass in the format of refractiveindex.info's database. Errors: Parse; Unsupported for a page without
+// n(lambda).
 [[nodiscard]] Result<GlassFile> read_glass_yaml(std::string_view bytes, const std::string& file,
                                                 const std::string& maker, const std::string& name);
 
-// By its ending: .agf, .yml, .yaml. The maker is an AGF file's own name in capitals, as lens files' GCAT lists have it;
-// for YAML its folder's (that above `optical`, as in the database). The glass of a YAML file has the file's name.
+// Reads a file by its ending: .agf, .yml, .yaml. The maker is an AGF file's name in capitals, as in the GCAT lists of
+// lens files; for YAML it is the folder's name (the one above `optical`, as in the database). The glass of a YAML file
+// has the file's name.
 [[nodiscard]] Result<GlassFile> read_glass_file(const std::filesystem::path& file);
 
 struct CloseGlass {
@@ -67,7 +70,7 @@ class GlassCatalogue {
   GlassCatalogue& operator=(const GlassCatalogue&);
   GlassCatalogue& operator=(GlassCatalogue&&) noexcept;
 
-  // Behind those that are there: the first of a name is found.
+  // Appends glasses. Where a name occurs several times, the first is found.
   void add(std::vector<CatalogueEntry> glasses);
   void add(const GlassCatalogue& other);
   // A file, or all .agf, .yml and .yaml files of a folder and the folders in it. A folder's files that cannot be read
@@ -78,16 +81,16 @@ class GlassCatalogue {
   [[nodiscard]] GlassSummary summary(std::size_t k) const;
   [[nodiscard]] CatalogueEntry entry(std::size_t k) const;
   [[nodiscard]] std::vector<std::string> makers() const;  // each once, in order
-  // Of one of these makers, names compared as find() does; true where none is given.
+  // True if the glass is of one of these makers, with names compared as in find(); also true if no maker is given.
   [[nodiscard]] bool is_of(std::size_t k, std::span<const std::string> makers) const;
 
-  // "N-BK7", "nbk7", "SCHOTT N-BK7", "NBK7_SCHOTT": letter case, spaces, dashes and underscores aside. A name that none
-  // has is tried as the lead-free one of that name ("BK7" finds "N-BK7": look at the entry's own name). makers: where
-  // to look, in that order; empty: everywhere. Errors: InvalidArgument, naming the nearest.
+  // Finds "N-BK7", "nbk7", "SCHOTT N-BK7" or "NBK7_SCHOTT": letter case, spaces, dashes and underscores are ignored. An
+  // unknown name is tried as its lead-free successor ("BK7" finds "N-BK7": see the entry's own name). makers: which to
+  // search, in that order; empty: all. Errors: InvalidArgument, naming the nearest.
   [[nodiscard]] Result<CatalogueEntry> find(std::string_view name, std::span<const std::string> makers = {}) const;
 
   // The nearest `count` to (n_d, v_d), nearest first: distance^2 = ((n - n_d) / 0.001)^2 + ((v - v_d) / 0.8)^2, so that
-  // 1 is about what melts of one glass differ by. Obsolete ones only on request.
+  // 1 is about the variation between melts of one glass. Obsolete glasses only on request.
   [[nodiscard]] std::vector<CloseGlass> closest(double n_d, double v_d, std::size_t count = 1,
                                                 std::span<const std::string> makers = {}, bool obsolete = false) const;
 
@@ -98,8 +101,8 @@ class GlassCatalogue {
   std::vector<Row> rows_;
 };
 
-// The catalogue that comes with the library: read from its text when it is first asked for, some milliseconds, and the
-// same for all who ask.
+// The catalogue that comes with the library. It is read from its text at the first call, in a few milliseconds, and
+// shared by all callers.
 [[nodiscard]] const GlassCatalogue& bundled_glasses();
 
 }  // namespace contrejour

@@ -14,8 +14,8 @@ namespace detail {
 void free_pixels(void* pixels) noexcept;
 }  // namespace detail
 
-// Memory of pictures: in the system's large pages where it has them, for a 4K picture is 25000 small ones, each of
-// which costs a fault. Elements made without a value are not cleared.
+// Allocates pictures in the system's large pages where it has them: a 4K picture takes 25000 small pages, each of which
+// costs a page fault. Elements constructed without a value are not cleared.
 template <class T>
 struct PixelAllocator {
   using value_type = T;
@@ -50,7 +50,7 @@ struct Image {
       : width(w), height(h), channels(c),
         pixels(static_cast<std::size_t>(w) * static_cast<std::size_t>(h) * static_cast<std::size_t>(c), 0.0F) {}
 
-  // With pixels of any value, for who writes them all.
+  // Leaves the pixels uninitialised, for callers that write them all.
   [[nodiscard]] static Image unwritten(int w, int h, int c = 3) {
     Image image;
     image.width = w;

@@ -1,10 +1,10 @@
-// Pictures in files: OpenEXR (flat, scan lines or tiles, any channels; of several parts the first with colour, the
-// others are kept as they are) and PNG (8 and 16 bit). A Picture keeps all that its file holds, so that writing it back
-// changes only the samples whose rgb value was changed; every other sample keeps its bits, NaN included. Of luminance
-// with chroma of half the size, chroma within 13 pixels of a change is filtered anew. docs/formats/images.md says what
-// is kept and what not. Errors: Io, Parse (damaged file), Unsupported (deep, no colour, no such layer or part,
-// subsampled colour), Cancelled; place.file is set. No exception leaves. A failed or cancelled write leaves no file.
-// Thread-safety: pure functions.
+// Pictures in files: OpenEXR (flat, scan lines or tiles, any channels; colour is read from the first part that has it,
+// other parts are kept as they are) and PNG (8 and 16 bit). A Picture keeps all that its file holds, so that writing it
+// back changes only the samples whose rgb value was changed; every other sample keeps its bits, NaN included. In
+// luminance-chroma files with chroma of half the size, chroma within 13 pixels of a change is filtered anew.
+// docs/formats/images.md says what is kept and what not. Errors: Io, Parse (damaged file), Unsupported (deep, no
+// colour, no such layer or part, subsampled colour), Cancelled; place.file is set. No exception leaves. A failed or
+// cancelled write leaves no file. Thread-safety: pure functions.
 #pragma once
 
 #include <array>
@@ -36,11 +36,11 @@ struct PixelWindow {
 enum class SampleType { Half, Float, UInt32, UInt8, UInt16 };  // the last two in PNG only, colour coded as sRGB
 [[nodiscard]] std::size_t size_of(SampleType type);
 
-// A channel as its file has it: native-endian samples, rows from the top, over the data window.
+// A channel as stored in its file: native-endian samples, rows from the top, over the data window.
 struct PictureChannel {
   std::string name;
   SampleType type = SampleType::Half;
-  int x_sampling = 1, y_sampling = 1;  // > 1: one sample for so many pixels
+  int x_sampling = 1, y_sampling = 1;  // > 1: pixels per sample
   bool perceptually_linear = false;  // OpenEXR's pLinear, a hint to its lossy codecs
   std::vector<std::byte> samples;
 };
@@ -52,12 +52,14 @@ struct Picture {
   PixelWindow data_window;  // where rgb lies
   PixelWindow display_window;
   std::vector<PictureChannel> channels;  // every channel as it was read, those behind rgb included
-  std::array<int, 3> rgb_source{-1, -1, -1};  // the channels behind r, g, b; all the same one for a grey picture
-  std::array<int, 2> chroma_source{-1, -1};  // of half the size: (R - Y) / Y and (B - Y) / Y; rgb_source is then Y
+  std::array<int, 3> rgb_source{-1, -1, -1};  // the channels that r, g, b come from; all the same one for a grey
+                                              // picture
+  std::array<int, 2> chroma_source{-1, -1};  // chroma of half the size, (R - Y) / Y and (B - Y) / Y; rgb_source is then
+                                             // Y
   std::shared_ptr<const PictureHeader> header;  // null: not from an OpenEXR file
 };
 
-// What a reader takes on before it allocates; beyond it the file is refused.
+// Limits that a reader checks before it allocates; a larger file is refused.
 struct ReadLimits {
   std::uint64_t max_pixels = std::uint64_t{1} << 28;  // in the data window
   std::uint64_t max_bytes = std::uint64_t{8} << 30;  // of all channels, uncompressed; and of the file
@@ -68,26 +70,24 @@ struct ReadOptions {
   // else the first layer with R, G, B.
   std::string layer;
   ReadLimits limits;
-  // The one part that is read of a file with several, by its name or its number from 0; empty: the first with that
-  // colour.
+  // The part to read from a file with several, by its name or its number from 0; empty: the first with that colour.
   std::string part = {};
 };
 
-// The format is told by the content, not by the name.
+// Reads a picture; the content determines the format, not the name.
 [[nodiscard]] Result<Picture> read_picture(const std::filesystem::path& file, const ReadOptions& options = {});
 [[nodiscard]] Result<Picture> read_picture(std::span<const std::byte> bytes, const std::string& name,
                                            const ReadOptions& options = {});
 
-// A new picture of an image of 1 (grey), 3 or 4 (RGB and alpha) channels, both windows at the
-// origin; an empty one for an image that is none.
+// Makes a picture from an image with 1 (grey), 3 or 4 (RGB and alpha) channels, both windows at the origin; an invalid
+// image gives an empty picture.
 [[nodiscard]] Picture picture_of(const Image& image, SampleType type = SampleType::Float);
 
 // The working space the file's chromaticities name: Rec709 when it has none, nothing when it is another one.
 [[nodiscard]] std::optional<ColourSpace> colour_space_of(const Picture& picture);
 void set_colour_space(Picture& picture, ColourSpace space);  // writes the chromaticities attribute
 
-// Width over height of the pixels as they are shown; 1 where the file does not say, or says what no pixel is (not from
-// 0.1 to 10).
+// Displayed width over height of the pixels; 1 if the file does not state it, or states a value outside 0.1 to 10.
 [[nodiscard]] double pixel_aspect_of(const Picture& picture);
 void set_pixel_aspect(Picture& picture, double aspect);  // writes the pixelAspectRatio attribute; from 0.1 to 10
 
@@ -97,7 +97,7 @@ void set_pixel_aspect(Picture& picture, double aspect);  // writes the pixelAspe
 void set_text_attribute(Picture& picture, const std::string& name, const std::string& text);
 [[nodiscard]] std::vector<std::string> attribute_names(const Picture& picture);
 
-// By the extension: .exr, or .png as sRGB (colours clipped to 0..1; 8 bit if it came from 8 bit, else 16).
+// Writes by the extension: .exr, or .png as sRGB (colours clipped to 0..1; 8 bit if it came from 8 bit, else 16).
 [[nodiscard]] Result<void> write_picture(const std::filesystem::path& file, const Picture& picture,
                                          const Context& context = {});
 // Into a file that the caller commits (output_file.h), together with others if need be.
@@ -114,7 +114,7 @@ struct PreviewSettings {
                                              const PreviewSettings& settings = {}, const Context& context = {});
 [[nodiscard]] Result<void> write_preview_png(OutputFile& file, const Image& rgb, const PreviewSettings& settings = {},
                                              const Context& context = {});
-// The same as bytes, to be put into something else.
+// The same PNG in memory, for embedding.
 [[nodiscard]] Result<std::vector<std::byte>> preview_png(const Image& rgb, const PreviewSettings& settings = {},
                                                          const Context& context = {});
 

@@ -1,4 +1,4 @@
-// A lens as its patent tells it (Prescription), and the same lens set for a picture (LensState).
+// A lens as its patent lists it (Prescription), and the same lens configured for a picture (LensState).
 // Lengths mm, z = 0 at the first vertex, light travels to +z. Surfaces count from 1 in prescription order
 // wherever a user sees a number; vectors count from 0. Thread-safety: plain values.
 #pragma once
@@ -29,13 +29,13 @@ class GlassCatalogue;  // glass_catalogue.h
 enum class SurfaceKind {
   Refracting,
   Stop,
-  Sensor,  // of a LensState alone: light ends there, but for what it reflects
+  Sensor,  // in a LensState only: light ends there, unless reflected
 };
 
-// How a surface stands that is not where a centred one would be.
+// Decentre and tilt of a surface.
 struct SurfacePose {
-  Vec3 shift_mm{};     // of its vertex
-  Vec3 axis{0, 0, 1};  // unit, z > 0; the smallest turn takes +z there
+  Vec3 shift_mm{};     // displacement of its vertex
+  Vec3 axis{0, 0, 1};  // unit, z > 0; the smallest rotation takes +z there
   friend bool operator==(const SurfacePose&, const SurfacePose&) = default;
 };
 
@@ -60,7 +60,7 @@ struct ZoomPosition {
   int source_line = 0;
 };
 
-// First-order figures the source states; a lens whose computed ones differ is reported.
+// First-order values that the source states; readers report a lens whose computed values differ.
 struct StatedFigures {
   double wavelength_nm = kLineD_nm;
   std::optional<double> focal_length_mm;
@@ -79,28 +79,28 @@ struct Prescription {
   std::optional<double> sensor_distance_mm;  // last vertex -> sensor at infinity focus; default: paraxial focus
   StatedFigures stated;
   SourcePlace file;
-  // What a reader took otherwise than its file says it, or could not take from it: for people, with the line.
+  // What a reader interpreted differently from its file, or could not read: for people, with the line.
   std::vector<std::string> warnings;
 };
 
-// What the f-number does to blades (docs/physics/diffraction.md).
+// How the f-number changes the blades (docs/physics/diffraction.md).
 enum class IrisClosing {
-  Scaled,     // one shape at every f-number: the stop's radius is that of the round stop, the iris in units of it
-  Mechanism,  // blades come out of a round hole, which is the stop at the widest f-number, until they leave the round
-              // stop's area: round wide open, then rim and blades in turn, then the blades' polygon
+  Scaled,     // one shape at every f-number, scaled to the radius of the round stop
+  Mechanism,  // blades close over the round hole of the widest f-number until the opening has the area of the round
+              // stop: round wide open, then rim and blades alternating, then the blades' polygon
 };
 
-// Errors of building: each body of glass between air gaps is tilted about its middle and moved sideways as a whole,
-// cemented parts together, by its own random amounts; the stop stays. Normally distributed in both directions.
+// Manufacturing errors: each body of glass between air gaps, cemented parts together, is tilted about its middle and
+// decentred by its own random amounts; the stop stays. Normally distributed in both directions.
 struct BuildErrors {
   double tilt_rms_rad = 0.0;  // of the angle between the body's axis and the lens's; up to kMostTilt_rad
   double decentre_rms_mm = 0.0;  // of the distance between the body's middle and the lens's axis
-  std::uint32_t seed = 0;  // which of the lenses of such errors
+  std::uint32_t seed = 0;  // selects one of the lenses with such errors
 
   static constexpr double kMostTilt_rad = 0.2;
 };
 
-// A plane plate in front of the sensor, in air: its cover glass, a filter.
+// A plane plate in air in front of the sensor: its cover glass or a filter.
 struct SensorPlate {
   double thickness_mm = 1.0;
   double gap_mm = 1.0;  // behind it, to the next plate or the sensor
@@ -108,11 +108,12 @@ struct SensorPlate {
   Coating coating;  // of both its sides
 };
 
-// What light meets behind the lens. The plates lengthen the way to the focus, and the sensor moves with it.
+// The plates behind the lens and the sensor's own reflection. The plates move the focus back, and the sensor with it.
 struct SensorStack {
   std::vector<SensorPlate> plates;  // from the lens to the sensor
-  double reflectance = 0.0;  // of the sensor's whole area, at all angles and wavelengths; 0: light ends there
-  // Its pixels as a grating of reflecting squares: orders up to this number in x and in y, each a ghost of its own.
+  double reflectance = 0.0;  // of the sensor's whole area, at all angles and wavelengths
+  // The sensor's pixels act as a grating of reflecting squares: orders up to this number in x and in y, each a ghost of
+  // its own.
   int orders = 0;
   double pitch_mm = 0.005;  // of the grating
   double fill = 0.8;  // side of a square over the pitch
@@ -121,7 +122,7 @@ struct SensorStack {
   static constexpr std::size_t kMostPlates = 10;
 };
 
-// A coating for one surface of a lens, whatever the lens has there.
+// A coating for one surface, in place of the one that the lens has there.
 struct SurfaceCoating {
   int surface = 0;  // 1-based; one that bounds glass, cemented or not
   Coating coating;
@@ -134,13 +135,13 @@ struct LensSettings {
   std::optional<double> f_number = std::nullopt;  // default: the widest; at most kLargestFNumber
   double object_distance_mm = std::numeric_limits<double>::infinity();  // from surface 1; focus
   std::optional<Coating> coating = std::nullopt;  // in place of every glass-to-air coating
-  std::vector<SurfaceCoating> coating_at = {};  // and then of single surfaces'; of two for one the last counts
+  std::vector<SurfaceCoating> coating_at = {};  // then for single surfaces; the last one for a surface counts
   Iris iris = {};
   IrisClosing iris_closing = IrisClosing::Scaled;  // Mechanism sets the iris's blade_radius
   BuildErrors build = {};
   Dirt dirt = {};
   SensorStack sensor = {};
-  bool absorption = false;  // glass absorbs on the way through it, where its catalogue says how much
+  bool absorption = false;  // glass absorbs light, where its catalogue has data
 };
 
 struct SurfaceState {
@@ -163,7 +164,7 @@ struct SurfaceState {
   }
 };
 
-// The sensor's pixels as light sees them that they reflect (SensorStack).
+// The grating that the sensor's pixels form for reflected light (SensorStack).
 struct SensorGrating {
   int orders = 0;
   double pitch_mm = 0.005;
@@ -175,7 +176,7 @@ struct LensState {
   std::string name;
   std::vector<SurfaceState> surfaces;
   int stop_index = 0;  // into surfaces
-  double stop_radius_mm = 0.0;  // no point of the opening is farther from the axis
+  double stop_radius_mm = 0.0;  // the largest distance of the opening from the axis
   Iris iris;
   Dirt dirt;
   double sensor_z_mm = 0.0;
@@ -204,8 +205,8 @@ struct LensState {
 // lens leaves no room for, an iris that lets nothing through, an iris or dirt that has numbers out of its range.
 [[nodiscard]] Result<LensState> lens_at(const Prescription& lens, const LensSettings& settings = {});
 
-// Reads a lens in any format that is known, by content and extension. Bounded in memory and time. Glasses that the file
-// names are looked for in `glasses`, if given, and then in the bundled catalogue.
+// Reads a lens in any supported format, recognised by content and extension. Bounded in memory and time. Glasses that
+// the file names are looked for in `glasses`, if given, and then in the bundled catalogue.
 [[nodiscard]] Result<Prescription> read_lens(const std::filesystem::path& file,
                                              const GlassCatalogue* glasses = nullptr);
 

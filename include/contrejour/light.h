@@ -1,5 +1,4 @@
-// A light, as a renderer takes it: distant, or at a finite distance in front of the lens; a point, a disc, or a shape
-// of its own.
+// A light for a renderer: distant, or at a finite distance in front of the lens; a point, a disc, or a shape.
 #pragma once
 
 #include <limits>
@@ -13,21 +12,21 @@
 
 namespace contrejour {
 
-// What a light looks like: a picture of it over the angles about its direction, upright as the photographer sees it.
+// The radiance of a light as a picture over the angles about its direction, upright as the photographer sees it.
 struct LightShape {
-  Image level;     // one channel or three, of any scale: what share of the light's value comes from each pixel
+  Image level;     // one channel or three, of any scale: the relative part of the light's value from each pixel
   Vec2 centre_px;  // where in the picture the light's direction is; (0, 0) is its top left corner
   // A pixel to the right and a pixel down, as tangents of the angles from the direction, x to the right and y up.
   Vec2 right{1e-3, 0.0}, down{0.0, -1e-3};
 };
 
 struct Light {
-  Vec3 direction{0, 0, 1};  // unit, the way the light travels to the first vertex (z > 0)
-  Rgb value{1, 1, 1};       // what the light's direct image sums to over its pixels, per channel
-  Spectrum spectrum = IlluminantD65{};  // how each channel's value is spread over wavelength
+  Vec3 direction{0, 0, 1};  // unit, direction of travel to the first vertex (z > 0)
+  Rgb value{1, 1, 1};       // the sum of the light's direct image over its pixels, per channel
+  Spectrum spectrum = IlluminantD65{};  // distribution of each channel's value over wavelength
   double distance_mm = std::numeric_limits<double>::infinity();  // to the first vertex, > 0
-  // Its extent: a disc of this radius, evenly bright, or the shape; neither: a point. However large, its image sums to
-  // `value` (docs/physics/area-lights.md).
+  // Its extent: a disc of this radius, evenly bright, or the shape; neither: a point. Whatever its size, its image sums
+  // to `value` (docs/physics/area-lights.md).
   double radius_rad = 0.0;
   std::shared_ptr<const LightShape> shape = nullptr;
 
@@ -37,8 +36,8 @@ struct Light {
 
 inline constexpr double kSunRadius_rad = 0.00465;  // 0.53 degrees across
 
-// The largest value of a light in any channel, and of its value times all gains on the way into a picture: 32-bit
-// floats hold it, and sums of its squares over the largest picture. A light of 1e16 is the sun over 1e10 pixels.
+// The largest value of a light in any channel, also after all gains: 32-bit floats can represent it, and the sum of its
+// squares over the largest picture. A light of 1e16 is the sun over 1e10 pixels.
 inline constexpr double kMostLightValue = 1e16;
 
 // Errors: InvalidArgument for a direction that is not finite or leads away from the camera, a distance that is not
@@ -51,12 +50,12 @@ inline constexpr double kMostLightValue = 1e16;
 // finite; for both at once.
 [[nodiscard]] Result<void> check_extent(const Light& light);
 
-// Pixels summed by so many along each side.
+// Sums blocks of `by` x `by` pixels into one.
 [[nodiscard]] LightShape coarser(const LightShape& shape, int by);
 
-// The direction of the light that is so far to the right of this one, and so far up, in tangents of the angles.
+// The direction of a light at an offset to the right of this one and up, in tangents of the angles.
 [[nodiscard]] Vec3 direction_beside(Vec3 direction, Vec2 tangents);
-// The same of a light at any distance, which stays as far from the first vertex.
+// The same for a light at any distance, which stays at that distance from the first vertex.
 [[nodiscard]] LightSource source_beside(const LightSource& source, Vec2 tangents);
 
 // Azimuth to the right, elevation up, as the photographer sees them, radians; the travel direction.

@@ -1,8 +1,8 @@
 // Bright areas of a scene-linear photograph -> lights: connected areas (8 neighbours) above a threshold.
 // A pixel's level is its largest channel; its weight rises from 0 at the threshold to 1 at threshold * (1 + softness),
 // so a light that brightens frame by frame fades in (docs/formats/images.md). NaN, infinite and negative samples count
-// as 0, and pixels brighter than max_value as of that level, in their colour. Deterministic; O(pixels). Thread-safety:
-// pure.
+// as 0, and pixels above max_value are scaled down to that level, in their colour. Deterministic; O(pixels).
+// Thread-safety: pure.
 #pragma once
 
 #include <cstdint>
@@ -26,10 +26,10 @@ struct DetectionSettings {
   double softness = 0.25;           // >= 0; 0 makes the threshold hard
   int max_lights = 32;              // >= 1; the rest is merged into the nearest of these
   int min_pixels = 1;               // smaller areas (hot pixels) are no lights
-  double max_value = kMostLevel;    // > 0, at most kMostLevel: what a pixel's level counts for at most
+  double max_value = kMostLevel;    // > 0, at most kMostLevel: upper limit of a pixel's level
   std::vector<PixelRegion> regions;  // only within these; none: everywhere
 
-  // Beyond every light: the sun's disc is 1.6e9 cd/m^2.
+  // Above every real light: the sun's disc is 1.6e9 cd/m^2.
   static constexpr double kMostLevel = 1e10;
 };
 
@@ -39,19 +39,19 @@ struct DetectedLight {
   double rms_radius_px = 0;  // flux-weighted, about the centroid; of a single pixel sqrt(1/6)
   int min_x = 0, min_y = 0, max_x = 0, max_y = 0;  // pixels, inclusive
   std::int64_t pixel_count = 0;
-  double peak = 0;       // largest level, as it is in the picture
+  double peak = 0;       // largest level in the picture, not limited
   int merged_areas = 1;  // how many areas this light stands for
-  std::vector<int> areas;  // which, of Detection::areas
+  std::vector<int> areas;  // indices into Detection::areas
 };
 
-// Where a threshold is from.
+// How a threshold was found.
 enum class ThresholdSource {
   Given,
-  Gap,        // between lit surfaces and what lights them
+  Gap,        // the gap in level between lit surfaces and light sources
   Clipped,    // the picture ends at white, as those of 8 bits do
-  Brightest,  // no gap, as before a window or the sky: what is within two stops of the brightest
-  Region,     // likewise, of the regions: nothing in them is above the threshold of the whole picture
-  None,       // no light: nothing is far brighter than the rest, or than white
+  Brightest,  // no gap, as with a window or the sky: everything within two stops of the brightest
+  Region,     // the same within the regions, if nothing in them exceeds the whole picture's threshold
+  None,       // no light: nothing is much brighter than the rest, or than white
 };
 
 struct Threshold {
@@ -68,7 +68,7 @@ struct Detection {
   std::vector<DetectedLight> lights;  // by flux (r + g + b), largest first
   int areas_found = 0;                // before merging
   double max_value = DetectionSettings::kMostLevel;  // as in the settings
-  std::int64_t capped_pixels = 0;     // of areas, that are brighter than that
+  std::int64_t capped_pixels = 0;     // pixels of areas that exceed it
   std::vector<DetectedLight> areas;   // all, in the order of their first pixels, those too small to be lights too
   std::vector<std::int32_t> area_of_pixel;  // rows from the top; -1: none
 };
@@ -76,16 +76,15 @@ struct Detection {
 // Errors: InvalidArgument (not three channels, settings out of range).
 [[nodiscard]] Result<Detection> detect_lights(const Image& rgb, const DetectionSettings& settings = {});
 
-// How much of each pixel belongs to a light, 0..1, one channel: the weight that detect_lights gave it. Areas that are
-// too small to be lights count too. Nothing for a detection in an image of another size.
+// The matte: the weight that detect_lights gave each pixel, 0..1, one channel. Areas that are too small to be lights
+// count too. Empty for a detection in an image of another size.
 [[nodiscard]] Image light_shares(const Image& rgb, const Detection& detection);
 
-// What some areas look like: the part of the picture that holds them, weight * value in each pixel that is theirs and 0
-// elsewhere, three channels. Its pixel (0, 0) is the picture's (min_x, min_y). Nothing for a detection in an image of
-// another size.
+// The part of the picture that contains a light's areas: weight * value in each of their pixels and 0 elsewhere, three
+// channels. Its pixel (0, 0) is the picture's (min_x, min_y). Empty for a detection in an image of another size.
 [[nodiscard]] Image picture_of_areas(const Image& rgb, const Detection& detection, const DetectedLight& light);
 
-// The level above which a thing is a light and not a lit surface, from the picture's own statistics
+// The level above which a pixel belongs to a light and not to a lit surface, from the picture's own statistics
 // (docs/formats/images.md). Nothing is above it where the source is None.
 [[nodiscard]] Threshold automatic_threshold(const Image& rgb);
 

@@ -1,6 +1,6 @@
-// Where a light stands: the ray that it sends through any point in front of a lens, and the flux that comes with it.
-// A distant light sends parallel rays; one at a finite distance is a point that sends its own ray through every point,
-// and counts as distant from a thousand kilometres on, where no two rays differ by more than 1e-7.
+// The position of a light: the ray that it sends through any point in front of a lens, and the flux along that ray.
+// A distant light sends parallel rays; one at a finite distance is a point that sends its own ray through every point.
+// From a thousand kilometres on it counts as distant: no two rays then differ by more than 1e-7.
 // Flux (docs/physics/radiometry.md): a patch dA of a plane perpendicular to the axis takes in I cos(theta) dA / r^2. It
 // is given at E0 = 1, the normal irradiance that the light has at the first vertex, I / distance^2.
 // Thread-safety: a plain value.
@@ -29,7 +29,7 @@ struct LightSource {
   [[nodiscard]] Vec3 direction_at(Vec3 point_mm) const {
     return is_distant() ? direction : normalized(point_mm + direction * distance_mm);
   }
-  // Flux a mm^2 of a plane perpendicular to the axis: the product of what all points share and what each has.
+  // Flux per mm^2 of a plane perpendicular to the axis: the product of a common factor and one for each point.
   [[nodiscard]] double shared_flux() const { return is_distant() ? direction.z : 1.0; }
   [[nodiscard]] double flux_at(Vec3 point_mm) const {
     if (is_distant()) return 1.0;

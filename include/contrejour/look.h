@@ -1,4 +1,5 @@
-// Looks: every setting of a flare but the scene's (lights, size, exposure), as a file (docs/formats/look.md).
+// Looks are presets: all settings of a flare except the scene's (lights, size, exposure), in a file
+// (docs/formats/look.md).
 // Errors: Parse with file, line and remedy; Io; InvalidArgument for a name that is neither bundled nor a file.
 // Thread-safety: pure functions.
 #pragma once
@@ -12,16 +13,16 @@
 namespace contrejour::params {
 
 struct Look {
-  std::string name;         // to people
+  std::string name;         // shown to people
   std::string description;  // one line
-  std::string lens;         // the lens it was made for, empty: none; it may be used with any
+  std::string lens;         // the lens it was made for, or empty; it may be used with any
   Values values;
 };
 
 [[nodiscard]] bool belongs_to_look(const Parameter& parameter);
 
 [[nodiscard]] Result<Look> read_look(std::string_view toml, const std::string& file);
-// With a value for every parameter of a look that has one, given or not: later defaults do not change it.
+// Writes a value for every parameter of a look that has one, given or default, so later defaults do not change it.
 [[nodiscard]] std::string write_look(const Look& look);
 
 // Looks that come with the program, by name.

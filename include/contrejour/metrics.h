@@ -1,4 +1,4 @@
-// How far image B is from image A.
+// The difference of image B from image A.
 // Samples that are NaN or infinite are left out of the peak, the sums and max_abs_error; where A and B differ in
 // them (not both NaN, nor the same infinity) the sample counts as an error of one peak and is counted.
 // Errors: InvalidArgument when the sizes or channels differ or are empty. Thread-safety: pure.

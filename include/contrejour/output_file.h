@@ -1,10 +1,10 @@
 // A file that appears whole or not at all, and several of them that appear together.
-// What is written goes to a file without a name, where the system has such (Linux: O_TMPFILE), else to a hidden one in
-// the same folder; commit() gives it the destination's name. Destroying one that was not committed leaves nothing, and
-// so does a process that is killed; hidden files that such a process left a day ago are removed by the next one that
-// writes the same destination. A symbolic link stays, and what it leads to is written, whether it exists or not. A
-// destination that is no regular file (a pipe, a device) gets its bytes in one go, when the file is finished: writers
-// that go back in a file can write to a pipe.
+// Bytes go to an unnamed file where the system supports it (Linux: O_TMPFILE), else to a hidden one in the same folder;
+// commit() gives it the destination's name. Destroying one that was not committed leaves nothing, and so does a process
+// that is killed; hidden files that such a process left a day ago are removed by the next one that writes the same
+// destination. A symbolic link stays, and its target is written, whether it exists or not. A destination that is not a
+// regular file (a pipe, a device) gets all bytes at once when the file is finished, so writers that seek backwards can
+// write to a pipe.
 // Errors: Io, with the destination as place.file; after one, every later call fails too. Not for sharing by threads.
 #pragma once
 
@@ -25,7 +25,7 @@ struct OutputFileSettings {
 
 class OutputFile {
  public:
-  // Finds out at once whether the folder can be written to.
+  // Fails at once if the folder cannot be written to.
   [[nodiscard]] static Result<OutputFile> create(const std::filesystem::path& destination,
                                                  const OutputFileSettings& settings = {});
 
@@ -39,14 +39,15 @@ class OutputFile {
   Result<void> write(std::string_view text);
   Result<void> seek(std::uint64_t position);
 
-  // Everything on the disk, or in the pipe; a full disk may say so only now. Nothing can be written after it.
+  // Writes everything to the disk or the pipe; a full disk may report its error only here. Nothing can be written
+  // afterwards.
   [[nodiscard]] Result<void> finish();
-  // Finishes what is not yet finished, and gives it the destination's name. Once only.
+  // Finishes the file if need be, and gives it the destination's name. Call it once.
   [[nodiscard]] Result<void> commit();
 
   [[nodiscard]] const std::filesystem::path& destination() const;  // as it was given
   [[nodiscard]] const std::filesystem::path& target() const;  // behind symbolic links
-  [[nodiscard]] bool is_regular() const;                      // no pipe, no device
+  [[nodiscard]] bool is_regular() const;  // no pipe, no device
 
  private:
   struct State;

@@ -1,6 +1,6 @@
-// What a user has set, as text by parameter name, checked against the table (parameter.h); defaults fill the rest.
-// Every name must be one of the table's (asserted); settings.h makes of the values what the library takes. Errors:
-// InvalidArgument from set() alone. Thread-safety: a plain value.
+// The values that a user has set, as text by parameter name, checked against the table (parameter.h); defaults fill the
+// rest. Every name must be one of the table's (asserted); settings.h converts the values to the library's types.
+// Errors: InvalidArgument from set() alone. Thread-safety: a plain value.
 #pragma once
 
 #include <map>
@@ -18,7 +18,7 @@ class Values {
   // Sets a value, or adds one to a parameter that repeats. Errors: what check_value says.
   [[nodiscard]] Result<void> set(std::string_view name, std::string text);
 
-  // These values, and the base's where there are none.
+  // These values, and the base's where this has none.
   [[nodiscard]] Values over(const Values& base) const;
 
   [[nodiscard]] bool given(std::string_view name) const;

@@ -1,7 +1,7 @@
-// What a pupil lets through as a wave: amplitude, and phase where it matters, on a square of samples.
+// The transmission of a pupil for a wave: amplitude, and phase where it matters, on a square of samples.
 // Rows from the top as in an image; x right, y up as the photographer sees the stop; the axis in the square's middle.
-// Units: mm, radians. Accuracy: an edge's share of a sample is exact for a straight edge. Errors: say what is wrong
-// with a picture. Thread-safety: plain values.
+// Units: mm, radians. Accuracy: a straight edge covers the exact fraction of a sample. Errors: say what is wrong with a
+// picture. Thread-safety: plain values.
 #pragma once
 
 #include <complex>
@@ -29,8 +29,8 @@ struct MaskGrid {
   }
 };
 
-// The smallest grid that has a circle of this radius inside, with so many samples across it; of no samples where that
-// is none, or larger than kMostSamples.
+// The smallest grid that contains a circle of this radius with `samples_across` samples across it; without samples for
+// invalid arguments or a side above kMostSamples.
 [[nodiscard]] MaskGrid grid_over(double radius_mm, int samples_across);
 
 struct PupilMask {
@@ -38,7 +38,7 @@ struct PupilMask {
   std::vector<float> amplitude;  // [row * side + column], 0..1: the square root of the transmission
   std::vector<float> phase_rad;  // as many, or empty: flat
 
-  // Samples for all of the grid; what is not is taken for a mask that lets nothing through.
+  // True if there are samples for all of the grid; an incomplete mask is treated as opaque.
   [[nodiscard]] bool is_complete() const {
     const auto samples = static_cast<std::size_t>(grid.side) * static_cast<std::size_t>(grid.side);
     return grid.is_usable() && amplitude.size() == samples && (real() || phase_rad.size() == samples);
@@ -50,25 +50,25 @@ struct PupilMask {
   [[nodiscard]] double open_area_mm2() const;  // integral of amplitude squared
 };
 
-// Empty for a grid that is none. From a signed distance in mm, negative where light passes: each sample is its open
-// share.
+// Makes a mask from a signed distance in mm, negative where light passes: each sample is the open fraction of its area.
+// Empty for an invalid grid.
 [[nodiscard]] PupilMask make_mask(const MaskGrid& grid, const std::function<double(Vec2 mm)>& distance_mm,
                                   const Context& context = {});
 [[nodiscard]] PupilMask make_mask(const MaskGrid& grid, const IrisOpening& opening, double stop_radius_mm,
                                   const Context& context = {});
 
-// One channel of a picture as amplitude, over a square as wide as the picture's longer side; black beside it.
+// One channel of a picture as amplitude, over a square as wide as the picture's longer side; black outside the picture.
 // Errors: no such channel, values that are negative or not finite.
 [[nodiscard]] Result<PupilMask> mask_of_image(const Image& image, int channel, double width_mm);
 
 // Dust and scratches: the mask times one channel of a picture laid over its square (hullin2011 5). Errors as above.
 [[nodiscard]] Result<PupilMask> with_dirt(PupilMask mask, const Image& dirt, int channel);
 
-// What of the light passes each sample of a mask, beside its amplitude: a sample that a speck covers in part lets more
-// power through than the square of its mean amplitude, which the rest of its width diffracts farther.
-using MaskPower = std::vector<float>;  // [row * side + column], 0..1, from 1 where nothing lies
+// The power transmittance of each sample of a mask, besides its amplitude: a sample that a speck covers in part
+// transmits more power than the square of its mean amplitude; the difference is diffracted to larger angles.
+using MaskPower = std::vector<float>;  // [row * side + column], 0..1, initially 1 everywhere
 
-// Shapes over a mask, exactly: polygons in mm of its plane that let this share of the light pass.
+// Multiplies polygons with a transmittance into a mask, with exact coverage; corners are in mm of the mask's plane.
 struct DimPolygon {
   std::vector<Vec2> corners_mm;  // any orientation, no crossings
   double transmission = 0;

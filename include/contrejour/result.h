@@ -18,7 +18,7 @@ enum class ErrorCode {
   Cancelled,        // the caller asked to stop
 };
 
-// A place in a user's file; line and column count from 1, 0 means unknown.
+// A position in a user's file; line and column count from 1, 0 means unknown.
 struct SourcePlace {
   std::string file;
   int line = 0;

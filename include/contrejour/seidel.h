@@ -2,8 +2,8 @@
 // Source: Welford, Aberrations of Optical Systems (1986), chapters 8 and 10: the object at infinity, the marginal ray
 // at the edge of the entrance pupil, the chief ray at the edge of the field. mm of path: W040 = spherical / 8, W131 =
 // coma / 2, W222 = astigmatism / 2, W220 = (petzval + astigmatism) / 4, W311 = distortion / 2; W020 = axial_colour / 2
-// and W111 = lateral_colour between the two outer wavelengths. Of a lens without axial symmetry the y-z section's
-// surfaces as if they were turned about the axis. Exact up to rounding. Thread-safety: pure functions.
+// and W111 = lateral_colour between the two outer wavelengths. A lens without axial symmetry is treated as if its y-z
+// section were rotated about the axis. Exact up to rounding. Thread-safety: pure functions.
 #pragma once
 
 #include <vector>
@@ -30,7 +30,7 @@ struct SeidelRequest {
   double half_field_rad = 0.1;
 };
 
-// One a surface, zero for the stop; their sum is the lens's. At the lens's f-number.
+// The sums of each surface, zero for the stop, at the lens's f-number; their total is the lens's.
 [[nodiscard]] std::vector<SeidelSums> seidel_by_surface(const LensState& lens, const SeidelRequest& request);
 [[nodiscard]] SeidelSums seidel_sums(const LensState& lens, const SeidelRequest& request);
 

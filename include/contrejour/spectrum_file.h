@@ -1,5 +1,5 @@
-// Spectra as files: lines of a wavelength in nm and a power, with a comma, semicolon, tab or spaces between, the
-// wavelengths rising; `#` begins a comment, one line of headings may come first (docs/formats/spectrum.md).
+// Spectra as files: each line has a wavelength in nm and a power, separated by a comma, semicolon, tab or spaces, with
+// rising wavelengths; `#` begins a comment, one line of headings may come first (docs/formats/spectrum.md).
 // Bounded in memory and time. Errors: Parse with file and line, Io. Thread-safety: pure functions.
 #pragma once
 
@@ -23,8 +23,8 @@ struct BundledSpectrum {
 };
 [[nodiscard]] std::vector<BundledSpectrum> bundled_spectra();
 
-// What parse_spectrum knows, a bundled lamp, or else a file: a text with a dot or a slash in it.
-// Errors: those of reading; InvalidArgument for a name that is none of them.
+// Finds a spectrum that parse_spectrum knows, a bundled lamp, or else a file: a text with a dot or a slash in it.
+// Errors: those of reading; InvalidArgument for any other name.
 [[nodiscard]] Result<Spectrum> find_spectrum(const std::string& name_or_file);
 
 }  // namespace contrejour

@@ -1,6 +1,6 @@
-// Sequential ray tracing along a prescribed path, as hullin2011 4.1 and its supplement: fixed order of
-// surfaces, continued beyond their rims, intersections behind the ray allowed, nothing clipped but everything
-// recorded. With T at every refraction and R at every reflection (the supplement has R only).
+// Sequential ray tracing along a prescribed path, as in hullin2011 4.1 and its supplement: the order of surfaces is
+// fixed, surfaces continue beyond their rims, intersections behind the ray's origin are allowed, and nothing is clipped
+// but everything recorded. Every refraction multiplies by T and every reflection by R (the supplement has R only).
 // Accuracy: double; 1e-9 mm against closed forms. Thread-safety: pure functions.
 #pragma once
 
@@ -27,41 +27,41 @@ struct Ray {
 
 enum class RayStatus : std::uint8_t {
   Ok,
-  Missed,           // no intersection with the next surface
-  TotalReflection,  // where the path wants a refraction
-  NotFinite,        // NaN or infinite input
+  Missed,  // no intersection with the next surface
+  TotalReflection,  // where the path requires a refraction
+  NotFinite,  // NaN or infinite input
 };
 [[nodiscard]] const char* to_string(RayStatus status);
 
 enum class PathEvent : std::uint8_t { Refract, Reflect, Stop };
 
-// One step of a path, with everything that does not depend on the ray worked out.
+// One step of a path, with everything precomputed that does not depend on the ray.
 struct PathStep {
   PathEvent event = PathEvent::Refract;
-  int surface = 0;     // 0-based
+  int surface = 0;  // 0-based
   int direction = +1;  // sign of the ray's z direction as it arrives
   double z_mm = 0;
   double curvature_per_mm = 0;
   double semi_diameter_mm = 0;
-  double n_in = 1;   // medium the ray comes from
+  double n_in = 1;  // medium the ray comes from
   double n_out = 1;  // medium on the other side (also for a reflection)
   Coating coating;
   SurfacePose pose = {};
   std::shared_ptr<const ShapeConstants> shape = nullptr;  // none: a sphere or a plane
   std::optional<Rim> rim = std::nullopt;  // in place of the semi-diameter's circle
-  bool is_rim_only = false;               // one more rim of the step that follows: it bends nothing
-  bool blocks_within = false;             // the rim is that of an obscuration
-  double absorption_per_mm = 0;           // of the medium the ray comes through
-  Vec2 kick;                              // of a grating that reflects: added to the direction's x and y
-  double share = 1;                       // of the reflected light, that goes this order's way
+  bool is_rim_only = false;  // one more rim of the step that follows, without refraction
+  bool blocks_within = false;  // the rim is that of an obscuration
+  double absorption_per_mm = 0;  // of the medium that the ray arrives through
+  Vec2 kick;  // of a reflecting grating: added to the direction's x and y
+  double share = 1;  // efficiency of the order: its fraction of the reflected light
 
-  // Inside the rim where |place| <= 1; own_mm: beside the surface's own axis.
+  // A point is inside the rim where |rim_place| <= 1; own_mm: in the surface's own x and y from its axis.
   [[nodiscard]] Vec2 rim_place(Vec2 own_mm) const {
     return rim ? rim->place(own_mm) : own_mm * (1.0 / semi_diameter_mm);
   }
 };
 
-// A ghost's or the direct image's way through the lens at one wavelength.
+// The optical path of a ghost or of the direct image through the lens at one wavelength.
 struct OpticalPath {
   std::vector<PathStep> steps;
   double lambda_nm = kLineD_nm;
@@ -69,7 +69,7 @@ struct OpticalPath {
   double stop_radius_mm = 1;
   int stop_crossings = 0;
   bool centred = true;  // every pose is that of a centred lens
-  bool obscured = false;  // some steps block within
+  bool obscured = false;  // some steps have blocks_within set
 };
 
 inline constexpr int kMaxStopCrossings = 3;
@@ -79,8 +79,8 @@ struct TracedRay {
   Vec2 sensor_mm;
   Vec3 direction;
   double transmission = 0;  // product of R and T along the path
-  double r_rel = 0;         // largest distance from the axis over clear semi-diameter; > 1 is blocked
-  double obscured = -1;  // how deep the ray passes within an obscuration, over its radius, at most; > 0 is blocked
+  double r_rel = 0;  // largest distance from the axis over clear semi-diameter; > 1 is blocked
+  double obscured = -1;  // largest depth of the ray within an obscuration, over its radius; > 0 is blocked
   // Stop coordinates over the stop radius at each crossing; iris_distance() of each must be <= 0.
   std::array<Vec2, kMaxStopCrossings> stop{};
 };
@@ -88,19 +88,19 @@ struct TracedRay {
 [[nodiscard]] OpticalPath direct_path(const LensState& lens, double lambda_nm);
 [[nodiscard]] OpticalPath ghost_path(const LensState& lens, Ghost ghost, double lambda_nm);
 
-// Does all that the ghost's way meets look the same around the axis? A sensor that it does not turn at is no matter.
+// True if all surfaces of the ghost's path have axial symmetry. The sensor counts only if the ghost reflects there.
 [[nodiscard]] bool has_axial_symmetry(const LensState& lens, const Ghost& ghost);
 
 [[nodiscard]] TracedRay trace(const OpticalPath& path, const Ray& ray);
 
-// The same way as if nothing stood in it but rims and the iris, all convex: for searches of where light gets through.
+// The same path without obscurations, so that all its bounds (rims and iris) are convex, as pupil searches require.
 [[nodiscard]] OpticalPath without_obscurations(const OpticalPath& path);
 
-// How far outside everything the ray passes: the largest of r_rel - 1, `obscured` and the iris distances; <= 0 gets
+// How far the ray passes outside all bounds: the largest of r_rel - 1, `obscured` and the iris distances; <= 0 gets
 // through.
 [[nodiscard]] double blocked_by(const TracedRay& ray, const OpticalPath& path, const Iris& iris);
 
-// What happened at each surface, for `lens trace` and drawings. Stops at the step that fails.
+// A record of the ray at each surface, for `lens trace` and drawings. It stops at the step that fails.
 struct TraceStep {
   int surface = 0;  // 1-based
   PathEvent event = PathEvent::Refract;
@@ -108,7 +108,7 @@ struct TraceStep {
   Vec3 direction_after;
   double angle_of_incidence_rad = 0;
   double reflectance = 0;
-  bool is_rim_only = false;  // as the path's step: one a step
+  bool is_rim_only = false;  // copied from the path's step; the record has one entry a step
 };
 struct RayRecord {
   TracedRay ray;
@@ -116,25 +116,25 @@ struct RayRecord {
 };
 [[nodiscard]] RayRecord trace_recorded(const OpticalPath& path, const Ray& ray);
 
-// Can rays from there be traced? Errors: InvalidArgument for numbers that are not finite, a light beside or behind the
-// camera, a distance of 0 or less, and a point that is not in front of all of the lens by kNearestLight_mm.
+// Checks that rays from a light can be traced. Errors: InvalidArgument for numbers that are not finite, a light next to
+// or behind the camera, a distance of 0 or less, and a point less than kNearestLight_mm in front of the whole lens.
 inline constexpr double kNearestLight_mm = 0.1;
 [[nodiscard]] Result<void> check_source(const LensState& lens, const LightSource& source);
 
-// The rectangle of the plane z = z_mm that holds every ray of a light that can pass inside the clear aperture of
-// surface 1. Grids over the entrance plane span it.
+// The rectangle of the plane z = z_mm that contains every ray of a light that can pass the clear aperture of surface 1.
+// Grids over the entrance plane span it.
 struct EntranceWindow {
   double z_mm = 0;
   Vec2 min_mm, max_mm;
 };
 [[nodiscard]] EntranceWindow entrance_window(const LensState& lens, const LightSource& source);
 
-// The direction of a light, at a distance, whose chief ray (through the centre of the stop) meets the sensor at a
+// The direction of a light at a given distance whose chief ray (through the centre of the stop) meets the sensor at a
 // point; extrapolated rectilinearly where no chief ray gets through. The light may lie outside the frame.
 [[nodiscard]] Vec3 direction_to_land_at(const LensState& lens, Vec2 sensor_mm, double lambda_nm,
                                         double distance_mm = std::numeric_limits<double>::infinity());
 
-// Where the chief ray of a light lands (inverse of the above).
+// The chief-ray image point of a light (the inverse of the function above).
 [[nodiscard]] Vec2 landing_of(const LensState& lens, const LightSource& source, double lambda_nm);
 
 }  // namespace contrejour

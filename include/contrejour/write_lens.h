@@ -1,7 +1,7 @@
-// Lenses as files of design programs: sequential Zemax (.zmx) and CODE V (.seq). Read again they are the same lens:
-// surfaces, shapes, stop, gaps of a zoom and f-number to the last bit, tilts and turns to 1e-12, glasses' indices as
-// `losses` says. What a format cannot hold is either left out, which `losses` says for people, or an error.
-// Errors: InvalidArgument for a lens that is none (validate()); Unsupported for a shape that the format has not.
+// Writes lenses as files of design programs: sequential Zemax (.zmx) and CODE V (.seq). Read again, they give the same
+// lens: surfaces, shapes, stop, gaps of a zoom and f-number to the last bit, tilts and turns to 1e-12, glasses' indices
+// as `losses` says. What a format cannot hold is either left out, which `losses` says for people, or an error.
+// Errors: InvalidArgument for an invalid lens (validate()); Unsupported for a shape that the format cannot express.
 // docs/formats/zemax.md, docs/formats/codev.md. Thread-safety: pure functions.
 #pragma once
 
@@ -22,9 +22,9 @@ struct WrittenLens {
 [[nodiscard]] Result<WrittenLens> write_lens_zmx(const Prescription& lens);
 [[nodiscard]] Result<WrittenLens> write_lens_seq(const Prescription& lens);
 
-// The path of one of its ghosts through a lens as it is set: every surface as often as the light meets it, in that
-// order, mirrors where it turns, gaps negative where it goes back. For other programs: read_lens() refuses mirrors.
-// Errors: InvalidArgument for a ghost that there is none of; Unsupported for an order of diffraction.
+// Writes the path of a ghost through a configured lens: every surface in the order and as often as the light meets it,
+// mirrors where it reflects, negative gaps where it travels back. This is for other programs: read_lens() refuses
+// mirrors. Errors: InvalidArgument for a ghost that the lens does not have; Unsupported for a diffraction order.
 [[nodiscard]] Result<WrittenLens> write_ghost_zmx(const LensState& lens, const Ghost& ghost);
 [[nodiscard]] Result<WrittenLens> write_ghost_seq(const LensState& lens, const Ghost& ghost);
 
