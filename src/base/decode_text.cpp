@@ -8,7 +8,7 @@ namespace contrejour {
 namespace {
 
 constexpr char32_t kReplacement = 0xFFFD;
-constexpr std::size_t kProbe = 64;  // bytes looked at for UTF-16 without a mark
+constexpr std::size_t kProbe = 64;  // bytes examined for UTF-16 without a byte order mark
 
 std::uint8_t byte_at(std::string_view bytes, std::size_t k) { return static_cast<std::uint8_t>(bytes[k]); }
 
@@ -59,7 +59,8 @@ std::string of_latin1(std::string_view bytes) {
   return out;
 }
 
-// Bytes of the sequence that starts at k, or 0: overlong forms, surrogates and values beyond U+10FFFF are none.
+// Length of the sequence that starts at k, or 0 if it is invalid: overlong forms, surrogates and values beyond
+// U+10FFFF.
 std::size_t utf8_length(std::string_view text, std::size_t k) {
   const std::uint8_t lead = byte_at(text, k);
   if (lead < 0x80) return 1;
@@ -74,7 +75,7 @@ std::size_t utf8_length(std::string_view text, std::size_t k) {
   return overlong || surrogate || beyond ? 0 : length;
 }
 
-// The order of UTF-16 that has no mark: Latin letters leave every other byte 0.
+// Detects the byte order of UTF-16 without a mark: in Latin letters every other byte is 0.
 std::optional<bool> unmarked_big_endian(std::string_view bytes) {
   const std::size_t size = std::min(bytes.size(), kProbe) & ~std::size_t{1};
   std::size_t zeros[2] = {0, 0};

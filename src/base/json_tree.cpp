@@ -18,7 +18,7 @@ using nlohmann::json;
 struct Place {
   int line = 1;
   bool after_line_end = false;  // the character read last ended a line
-  // A value is known once the character behind it was read, which may have ended its line.
+  // A value is complete only after the character behind it was read, which may have ended its line.
   [[nodiscard]] int of_value() const { return after_line_end ? line - 1 : line; }
 };
 
@@ -52,7 +52,7 @@ class CountingIterator {
   Place* place_;
 };
 
-// nlohmann's events, made a tree; false stops it.
+// Builds the tree from nlohmann's events; returning false stops its parser.
 class JsonTreeBuilder {
  public:
   explicit JsonTreeBuilder(const Place& place) : place_(place) { open_.push_back({}); }
@@ -73,7 +73,7 @@ class JsonTreeBuilder {
   bool end_object() { return close(); }
   bool end_array() { return close(); }
   bool parse_error(std::size_t /*position*/, const std::string& /*token*/, const json::exception& wrong) {
-    // "[json.exception.parse_error.101] parse error at line 1, column 2: syntax error ...": from there on.
+    // Keeps the part behind the prefix "[json.exception.parse_error.101] parse error at line 1, column 2: ".
     const std::string_view all = wrong.what();
     const std::size_t colon = all.find(": ");
     return fail(fmt::format("not valid JSON: {}", all.substr(colon == std::string_view::npos ? 0 : colon + 2)));
@@ -111,7 +111,7 @@ class JsonTreeBuilder {
   std::optional<std::string> error_;
 };
 
-// Python's words for numbers that JSON has not, outside quotes, become numbers that no file means.
+// Python's words for numbers that JSON lacks are replaced, outside quotes, by numbers that occur in no file.
 constexpr std::string_view kInfinity = "1.25e308", kMinusInfinity = "-1.25e308", kNan = "-1.5e308";
 
 std::string without_pythons_words(std::string_view text) {
@@ -119,7 +119,7 @@ std::string without_pythons_words(std::string_view text) {
       {"-Infinity", kMinusInfinity}, {"Infinity", kInfinity}, {"NaN", kNan}};
   std::string out;
   out.reserve(text.size() + 64);
-  // From one character that may matter to the next: a quote, or outside quotes a word's first.
+  // Jumps from one relevant character to the next: a quote, or outside quotes the first letter of a word.
   bool quoted = false;
   for (std::size_t k = 0; k < text.size();) {
     const std::size_t at = std::min(text.find_first_of(quoted ? "\"\\" : "\"-IN", k), text.size());

@@ -15,8 +15,8 @@ namespace {
 
 constexpr std::size_t kLine = 64;  // of a cache, or a multiple
 
-// Memory that begins at a multiple of `alignment`, with a pointer to what was asked for before it. Asked for aligned
-// memory instead, the C library would never use it twice.
+// Allocates memory at a multiple of `alignment`, and stores the pointer that operator new returned in front of it. The
+// C library's aligned allocation would never reuse freed memory.
 void* allocate_at(std::size_t alignment, std::size_t bytes) {
   void* const memory = ::operator new(bytes + sizeof(void*) + alignment);
   void* first = static_cast<std::byte*>(memory) + sizeof(void*);
@@ -30,12 +30,12 @@ void* allocate_at(std::size_t alignment, std::size_t bytes) {
 
 void* allocate_large(std::size_t bytes) {
 #if defined(__linux__)
-  // From a large page's beginning, so that all but the last lie within: of a frame of 25 MB those at both ends were a
-  // thousand small ones, which cost a fault each when they are first written.
+  // The memory starts at a large page, so that all but its end lies in large pages: otherwise a frame of 25 MB had a
+  // thousand small pages at both ends, each of which costs a page fault when first written.
   constexpr std::size_t kLargePage = std::size_t{2} << 20U;
   if (bytes >= kLargePage) {
     void* const memory = allocate_at(kLargePage, bytes);
-    madvise(memory, bytes, MADV_HUGEPAGE);  // a wish: refused, the memory is as good
+    madvise(memory, bytes, MADV_HUGEPAGE);  // a hint: if it is refused, the memory still works
     return memory;
   }
 #endif
@@ -51,7 +51,7 @@ std::uint64_t peak_memory_bytes() {
   rusage usage{};
   if (getrusage(RUSAGE_SELF, &usage) != 0) return 0;
 #if defined(__APPLE__)
-  return static_cast<std::uint64_t>(usage.ru_maxrss);  // bytes there, KiB elsewhere
+  return static_cast<std::uint64_t>(usage.ru_maxrss);  // bytes on macOS, KiB elsewhere
 #else
   return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;
 #endif

@@ -5,11 +5,11 @@
 
 namespace contrejour {
 
-// Largest resident size of this process so far; 0 where the system does not tell.
+// Largest resident size of this process so far; 0 if the system does not report it.
 [[nodiscard]] std::uint64_t peak_memory_bytes();
 
-// Memory that is not cleared, from a line of the cache on, in large pages where it is worth it and the system has them.
-// Throws std::bad_alloc.
+// Allocates memory that is not cleared, aligned to a cache line, in large pages for large sizes where the system has
+// them. Throws std::bad_alloc.
 [[nodiscard]] void* allocate_large(std::size_t bytes);
 void free_large(void* memory) noexcept;
 

@@ -44,9 +44,9 @@ std::string nearest_name(std::string_view name, const std::vector<std::string_vi
   int best_distance = 1 + static_cast<int>(name.size()) / 3;
   for (const std::string_view candidate : known) {
     const std::string lower = lower_case(candidate);
-    // A name that begins or ends the other one ("radius" for "radius_mm") is near at any length.
+    // A name that is part of the other one ("radius" for "radius_mm") is near at any length.
     const bool part = name.size() >= 3 && lower.find(wanted) != std::string::npos;
-    // Lengths that differ by more are farther apart than the best so far.
+    // A difference in length is a lower bound of the distance: skip names that cannot be nearer than the best.
     const auto difference = std::max(lower.size(), wanted.size()) - std::min(lower.size(), wanted.size());
     if (!part && difference > static_cast<std::size_t>(best_distance)) continue;
     const int distance = part ? 0 : edit_distance(wanted, lower);

@@ -1,4 +1,4 @@
-// Seeded random ways in a plane.
+// Seeded random offsets in a plane.
 #pragma once
 
 #include <cmath>
@@ -11,7 +11,7 @@
 
 namespace contrejour {
 
-// Normally distributed in both directions, together of mean square 1: of these words alone. Box and Muller 1958.
+// Two independent normal numbers whose mean squared length is 1, a function of these words alone. Box and Muller 1958.
 inline Vec2 normal_pair(std::initializer_list<std::uint32_t> words) {
   std::seed_seq mixed(words);
   std::mt19937 random(mixed);

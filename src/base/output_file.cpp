@@ -28,7 +28,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr int kMaxNameAttempts = 100;
-constexpr int kMostLinks = 40;  // one to the next, as Linux follows them
+constexpr int kMostLinks = 40;  // in a chain, as on Linux
 constexpr auto kStale = std::chrono::hours(24);  // no picture takes a day to write
 constexpr std::string_view kHiddenEnding = ".contrejour-part";
 
@@ -48,7 +48,7 @@ int seek_to(std::FILE* stream, std::uint64_t position) {
 #endif
 }
 
-// To the disk, where a full one may say so only now.
+// Writes to the disk; a full disk may report its error only here.
 int synchronise(std::FILE* stream) {
   if (std::fflush(stream) != 0) return errno;
 #if !defined(_WIN32)
@@ -62,7 +62,7 @@ tl::unexpected<Error> io_failure(const fs::path& destination, const std::string&
   return failure(ErrorCode::Io, what + ": " + reason, {destination.string()});
 }
 
-// What a destination's hidden files begin with. Long names would exceed a folder's limit of 255 bytes.
+// Prefix of a destination's hidden files. Longer names would exceed a folder's limit of 255 bytes.
 std::string hidden_prefix(const fs::path& target) {
   constexpr std::size_t kLongestName = 200;
   return fmt::format(".{}.", target.filename().string().substr(0, kLongestName));
@@ -73,8 +73,8 @@ fs::path hidden_name(const fs::path& target) {
   return target.parent_path() / fmt::format("{}{}-{}{}", hidden_prefix(target), process_id(), serial++, kHiddenEnding);
 }
 
-// What processes that were killed left of this destination. By age: which processes run cannot be told in a folder that
-// several machines share.
+// Removes hidden files of this destination that killed processes left. Age decides, because in a folder that several
+// machines share it is unknown which processes still run.
 void remove_stale(const fs::path& target) {
   const std::string prefix = hidden_prefix(target);
   const fs::path folder = target.has_parent_path() ? target.parent_path() : fs::path(".");
@@ -88,7 +88,7 @@ void remove_stale(const fs::path& target) {
   }
 }
 
-// Where symbolic links lead, whether there is something yet or not. None: they lead round in a circle.
+// Follows symbolic links to their target, which need not exist. Nothing if they form a cycle.
 std::optional<fs::path> behind_links(fs::path file) {
   std::error_code error;
   for (int link = 0; link <= kMostLinks; ++link) {
@@ -108,7 +108,7 @@ struct OutputFile::State {
   std::FILE* stream = nullptr;  // of a regular file
   bool is_regular = true;
   bool failed = false, finished = false, committed = false;
-  std::vector<std::byte> held;  // of what is no regular file, until it is finished
+  std::vector<std::byte> held;  // for a destination that is no regular file, until it is finished
   std::size_t held_position = 0;
 
   State() = default;
@@ -158,7 +158,8 @@ struct OutputFile::State {
     return error_number;
   }
 
-  // An unnamed file gets a hidden name first where the destination exists: no system lets one replace a file at once.
+  // If the destination exists, an unnamed file gets a hidden name first: no system replaces a file by an unnamed one
+  // atomically.
   Result<void> appear() {
     std::error_code error;
     const fs::file_status old = fs::status(target, error);

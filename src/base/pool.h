@@ -1,4 +1,4 @@
-// Things that are costly to make and used by one thread at a time: lent, and given back for the next one.
+// A pool of objects that are costly to make and used by one thread at a time: they are lent and given back.
 // Thread-safety: safe.
 #pragma once
 
@@ -25,7 +25,7 @@ class Pool {
     std::unique_ptr<Thing> thing_;
   };
 
-  // As it was given back, or a new one.
+  // Lends an object in the state in which it was given back, or a new one.
   [[nodiscard]] Lent lend() {
     const std::lock_guard lock(mutex_);
     if (unused_.empty()) return Lent(*this, std::make_unique<Thing>());

@@ -13,7 +13,7 @@ inline constexpr double kPi = std::numbers::pi;
 
 [[nodiscard]] constexpr double square(double x) { return x * x; }
 
-// Low and high belong to the range; NaN does not.
+// The range includes low and high; NaN is never within.
 [[nodiscard]] constexpr bool within(double value, double low, double high) { return value >= low && value <= high; }
 
 // 0 up to x = 0, 1 from x = 1 on, and between them the cubic whose slope is 0 at both.
@@ -22,7 +22,7 @@ inline constexpr double kPi = std::numbers::pi;
   return t * t * (3.0 - 2.0 * t);
 }
 
-// Unlike ==, it tells -0 from 0 and takes a NaN for itself.
+// Unlike ==, this distinguishes -0 from 0, and a NaN equals itself.
 [[nodiscard]] constexpr bool same_bits(float a, float b) {
   return std::bit_cast<std::uint32_t>(a) == std::bit_cast<std::uint32_t>(b);
 }

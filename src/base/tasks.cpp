@@ -17,10 +17,9 @@
 namespace contrejour {
 namespace {
 
-// Tell ThreadSanitizer how work passes between threads.
-// The installed TBB is built without it, so what TBB orders looks like a race. This file is compiled without it
-// too (TBB's templates live here alone) and names each hand-over: what happened before hand_over(x) is seen
-// after take_over(x). Elsewhere they are nothing.
+// These functions declare to ThreadSanitizer how work passes between threads. The installed TBB is built without it, so
+// its synchronisation looks like a race. This file, the only one with TBB's templates, is compiled without it too and
+// declares each hand-over: writes before hand_over(x) are visible after take_over(x). In other builds both are empty.
 #if defined(CONTREJOUR_TSAN)
 void hand_over(void* token) { __tsan_release(token); }
 void take_over(void* token) { __tsan_acquire(token); }
@@ -29,7 +28,7 @@ void hand_over(void*) {}
 void take_over(void*) {}
 #endif
 
-// To ask the system takes as long as a short loop.
+// Cached, because the system call takes as long as a short loop.
 int core_count() {
   static const int count = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
   return count;
@@ -55,10 +54,10 @@ class ProgressReport {
   std::mutex mutex_;
 };
 
-// As many threads as cores: where the caller is, since the workers of a new arena are woken first, for as long as a
-// short loop takes. Nothing else of the caller's is run meanwhile: it may hold a lock.
-// An arena of more slots than the machine has cores needs the process-wide limit raised for its lifetime;
-// results for 7 threads can then be tried on 2 cores.
+// With as many threads as cores the body runs in the caller's arena, since waking the workers of a new arena takes as
+// long as a short loop. It is isolated, so that no other task of the caller's runs meanwhile: the caller may hold a
+// lock. An arena with more slots than cores needs a higher process-wide limit during its lifetime; so results for 7
+// threads can be tested on 2 cores.
 template <class Body>
 void run_in_arena(int threads, Body body) {
   if (threads == core_count()) return oneapi::tbb::this_task_arena::isolate(body);
@@ -123,7 +122,7 @@ bool detail::ordered_pipeline_erased(std::size_t count, const Context& context,
       consume(item.index, item.product.get());
       report.item_done();
     }
-    hand_over(&consumed);  // a product that nobody wants, too: the caller frees what it was made with
+    hand_over(&consumed);  // also for a product that is not consumed: the caller frees the data it was made from
   });
   run_in_arena(threads, [&] { tbb::parallel_pipeline(2 * static_cast<std::size_t>(threads), take & work & give); });
   take_over(&consumed);

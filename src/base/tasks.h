@@ -1,5 +1,5 @@
 // Threads for long computations: the same result, bit for bit, for any number of them.
-// Both loops stop early when the context is cancelled and then return false: what they were to fill is filled in part.
+// Both loops stop early when the context is cancelled and then return false: their results are then incomplete.
 #pragma once
 
 #include <cstddef>
@@ -11,14 +11,14 @@
 
 namespace contrejour {
 
-// What a computation returns whose context was cancelled.
+// The error of a computation whose context was cancelled.
 inline tl::unexpected<Error> interrupted() { return failure(ErrorCode::Cancelled, "interrupted"); }
 
 // Calls body(i) for i in [0, count) on the context's threads, in any order; progress by items done.
 bool parallel_for(std::size_t count, const Context& context, const std::function<void(std::size_t)>& body);
 
-// For i in [0, count): produce(i) on any thread, consume(i, product) one at a time in rising i. A bounded
-// number of products is alive at once. So floating-point sums in consume never depend on the threads.
+// For i in [0, count): calls produce(i) on any thread, and consume(i, product) one at a time in rising i, so that
+// floating-point sums in consume do not depend on the threads. The number of products alive at once is bounded.
 template <class Produce, class Consume>
 bool ordered_pipeline(std::size_t count, const Context& context, Produce produce, Consume consume);
 

@@ -24,7 +24,7 @@ Result<std::string> read_text_file(const std::filesystem::path& file, std::size_
   }
   std::ifstream stream(file, std::ios::binary);
   if (!stream) return failure(ErrorCode::Io, "cannot be opened; check its permissions", {name, 0, 0});
-  // One byte more than is allowed tells a file that is too large, also one that grows meanwhile.
+  // Reading one byte more than the limit detects a file that is too large, even one that grows meanwhile.
   std::string text(max_bytes + 1, '\0');
   stream.read(text.data(), static_cast<std::streamsize>(text.size()));
   if (stream.bad()) return failure(ErrorCode::Io, "cannot be read; check the disk and try again", {name, 0, 0});

@@ -100,7 +100,7 @@ double TomlFields::number_at(const toml::node& node, std::string_view name, Numb
     fail_type(node, name, "a number");
     return range.low;
   }
-  // Not node.value<double>(): that refuses whole numbers which a double cannot hold exactly.
+  // node.value<double>() would refuse whole numbers that a double cannot represent exactly.
   const double value =
       node.is_integer() ? static_cast<double>(node.as_integer()->get()) : node.as_floating_point()->get();
   // Written so that NaN fails too.

@@ -3,14 +3,14 @@
 // TomlErrors::failed() before using what was read.
 #pragma once
 
-// toml++ reports what is wrong by value: nothing in this library throws.
+// toml++ reports errors by value: nothing in this library throws.
 #define TOML_EXCEPTIONS 0
 #define TOML_HEADER_ONLY 1
 #define TOML_ENABLE_FORMATTERS 0
-// toml++ 3.3 states preconditions which a broken file breaks (`a = [}`): they abort a debug build and are promises
-// to clang's optimiser in a release one. And it believes that its tables of white space never see an accented letter.
-// Both are undone here, ahead of its other headers: such files then meet its ordinary errors, to which the fuzz
-// harness lens_toml holds it.
+// toml++ 3.3 states preconditions that a broken file violates (`a = [}`): they abort a debug build and are assumptions
+// for clang's optimiser in a release build. It also assumes that its tables of white space never meet an accented
+// letter. Both are disabled here, ahead of its other headers, so that such files give ordinary errors; the fuzz harness
+// lens_toml checks this.
 #include <cstdint>
 #if __has_include(<toml++/impl/preprocessor.hpp>)
 #include <toml++/impl/preprocessor.hpp>
@@ -55,7 +55,7 @@ class TomlErrors {
   std::optional<Error> error_;
 };
 
-// Inclusive bounds of a number, and what to do when it lies outside.
+// Inclusive bounds of a number, and the advice in the error when it lies outside.
 struct NumberRange {
   double low = 0.0;
   double high = 0.0;
@@ -71,7 +71,7 @@ class TomlFields {
   [[nodiscard]] bool has(std::string_view key) const { return find(key) != nullptr; }
   [[nodiscard]] const std::string& what() const { return what_; }
 
-  // Absent keys: an error that repeats `remedy`.
+  // An absent key is an error that repeats `remedy`.
   std::string required_text(std::string_view key, std::string_view remedy);
   double required_number(std::string_view key, NumberRange range, std::string_view remedy);
 
@@ -81,7 +81,7 @@ class TomlFields {
   const toml::table* table(std::string_view key);
   const toml::array* array(std::string_view key);
 
-  // For values that are not at a key.
+  // Reads a value that does not belong to a key.
   double number_at(const toml::node& node, std::string_view name, NumberRange range);
 
   void fail(const toml::node& where, std::string_view message);
@@ -96,7 +96,7 @@ class TomlFields {
   TomlErrors& errors_;
 };
 
-// Parses the whole text, bounded in time, memory and stack (toml_scan.h). page: the document that shows such a file.
+// Parses the whole text, bounded in time, memory and stack (toml_scan.h). page: the document that describes such files.
 Result<toml::table> parse_toml(std::string_view text, const std::string& file, std::string_view page);
 
 // A TOML basic string.

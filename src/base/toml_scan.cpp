@@ -8,8 +8,8 @@ namespace {
 
 constexpr int kMaxKeyParts = 8;
 
-// Goes over the text, inside and outside strings and comments, as far as TOML's rules for those go. Where a text is
-// not TOML the two may differ, but there the parser stops.
+// Scans the text by TOML's rules for strings and comments. For text that is not TOML the scan may differ from the
+// parser, but there the parser stops.
 class Scan {
  public:
   explicit Scan(std::string_view text) : text_(text) {}
@@ -51,7 +51,7 @@ class Scan {
     return text_.substr(at_, 3) == std::string_view(quote == '"' ? "\"\"\"" : "\'\'\'");
   }
 
-  // Up to two quotes of the text itself may stand right before the closing three.
+  // Up to two quotes of the string itself may precede the closing three.
   void pass_closing_quotes(char quote, bool many_lines) {
     at_ += many_lines ? 3 : 1;
     while (many_lines && at_ < text_.size() && text_[at_] == quote) ++at_;

@@ -1,5 +1,5 @@
-// A look at a text before toml++ parses it, which bounds nested brackets but not keys: `a.a.a. ... = 1` makes tables
-// in tables, and destroying them takes a stack as deep as the key is long.
+// Checks a text before toml++ parses it. toml++ bounds nested brackets but not keys: `a.a.a. ... = 1` makes nested
+// tables, and destroying them recurses as deep as the key is long.
 #pragma once
 
 #include <string_view>
@@ -7,7 +7,7 @@
 namespace contrejour {
 
 // The line of the first key of more than eight parts, counted from 1, or 0. A key of our format has at most two
-// (glass.NAME); eight leave room for other people's tables, so that those get the message about unknown keys.
+// (glass.NAME); eight also admit other tables, so that these get the message about unknown keys.
 [[nodiscard]] int line_of_deep_key(std::string_view text);
 
 }  // namespace contrejour

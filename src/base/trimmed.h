@@ -1,4 +1,4 @@
-// A text without the spaces at its ends.
+// Removes the spaces at both ends of a text.
 #pragma once
 
 #include <string_view>

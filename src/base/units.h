@@ -1,4 +1,4 @@
-// The only place where units are converted.
+// Unit conversions.
 #pragma once
 
 #include <numbers>

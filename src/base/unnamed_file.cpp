@@ -18,7 +18,7 @@ int open_in(const std::filesystem::path& folder) {
   return open(folder.empty() ? "." : folder.c_str(), O_TMPFILE | O_WRONLY | O_CLOEXEC, 0666);
 }
 
-// open(2), O_TMPFILE: how a process without privileges names such a file.
+// Names such a file without privileges, as described in open(2), O_TMPFILE.
 int give_name(int descriptor, const std::filesystem::path& name) {
   const std::string link = "/proc/self/fd/" + std::to_string(descriptor);
   return linkat(AT_FDCWD, link.c_str(), AT_FDCWD, name.c_str(), AT_SYMLINK_FOLLOW) == 0 ? 0 : errno;

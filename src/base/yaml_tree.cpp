@@ -102,8 +102,8 @@ class YamlTreeBuilder : public YAML::EventHandler {
   std::size_t nodes_ = 0;
 };
 
-// yaml-cpp keeps all brackets that are open, a quarter of a kilobyte each, before it hands out the first. The line that
-// opens too many, or 0; brackets within words count too, of which no text leaves so many open.
+// Finds the line that opens too many brackets, or 0: yaml-cpp stores all open brackets, a quarter of a kilobyte each,
+// before its first event. Brackets within words count too, but no ordinary text leaves as many open.
 int line_of_many_brackets(std::string_view text) {
   constexpr int kMost = 1000;
   int line = 1, open = 0;
