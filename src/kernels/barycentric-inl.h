@@ -17,18 +17,18 @@
 HWY_BEFORE_NAMESPACE();
 namespace contrejour::kernels::HWY_NAMESPACE {
 
-// As for packets: packet-inl.h.
+// The scalar counterpart of the packets' select (packet-inl.h).
 HWY_INLINE double select(bool use_a, double a, double b) { return use_a ? a : b; }
 
-// Corners in turn, so that the shoelace area is positive. A triangle has its first corner again as the fourth.
+// Corners are in order, so that the shoelace area is positive. A triangle repeats its first corner as the fourth.
 template <class T>
 struct Quad {
   T x[4], y[4];
 };
 
-// A quadrilateral seen from a point v: the corners relative to v, and edge[i] = 2 A(v, v_i, v_i+1). All four are
-// >= 0 when v is inside. The expression changes its sign exactly when an edge runs the other way, so neighbours
-// that share an edge never both hold a point beside it, nor both miss it.
+// A quadrilateral relative to a point v: the corners minus v, and edge[i] = 2 A(v, v_i, v_i+1). All four are >= 0 when
+// v is inside. Reversing an edge negates the expression exactly, so of two neighbours that share an edge exactly one
+// contains a point next to it.
 template <class T>
 struct SeenQuad {
   T x[4], y[4], edge[4];
@@ -59,7 +59,7 @@ HWY_INLINE T weighted_sum(const Weights<T>& weights, const T (&value)[4]) {
   return (weights.w[0] * value[0] + weights.w[1] * value[1]) + (weights.w[2] * value[2] + weights.w[3] * value[3]);
 }
 
-// Each method below is made for a quadrilateral and then asked for points inside it.
+// Each method below is constructed for a quadrilateral and then evaluated at points inside it.
 
 // The triangles (0, 1, 2) and (0, 2, 3), each by its inverse matrix: bodonyi2023 eq. 3 and 4.
 template <class T>
@@ -99,7 +99,7 @@ class TriangleByMatrix {
 };
 
 // The same two triangles by the cross product in homogeneous coordinates: skala2008, bodonyi2023 eq. 5 and 6.
-// Its components are twice the areas the point makes with the edges; they need no division until the end.
+// Its components are twice the areas of the triangles of the point and the edges; the only division is at the end.
 template <class T>
 class TriangleByCrossProduct {
  public:
@@ -126,7 +126,7 @@ class MeanValue {
   HWY_INLINE explicit MeanValue(const Quad<T>&) {}
 
   HWY_INLINE Weights<T> at(const SeenQuad<T>& s) const {
-    // Squared pixels, and pixels: what a point on an edge or a corner has instead of 0.
+    // In squared pixels and in pixels: replaces 0 for a point on an edge or a corner.
     const T least(1e-30);
     const T corner(1e-12);
     const T all(1e30);
@@ -136,7 +136,7 @@ class MeanValue {
       const int j = (i + 1) % 4;
       const T product = r[i] * r[j];
       const T dot = s.x[i] * s.x[j] + s.y[i] * s.y[j];
-      // tan(alpha / 2) = sin / (1 + cos) = (1 - cos) / sin; each where it does not cancel.
+      // tan(alpha / 2) = sin / (1 + cos) = (1 - cos) / sin: the form without cancellation is used.
       const auto is_acute = dot > T(0.0);
       tangent[i] =
           select(is_acute, s.edge[i], product - dot) / larger(select(is_acute, product + dot, s.edge[i]), least);

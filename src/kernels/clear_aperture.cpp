@@ -6,7 +6,8 @@
 namespace contrejour {
 namespace {
 
-// The farthest point of an ellipse or rectangle from the surface's axis, a little overstated for a decentred ellipse.
+// Distance of an ellipse's or rectangle's farthest point from the surface's axis; an upper bound for a decentred
+// ellipse.
 double reach_mm(const ClearAperture& a) {
   const double own = a.kind == ApertureKind::Rectangle ? length(a.half_mm) : std::max(a.half_mm.x, a.half_mm.y);
   return own + length(a.centre_mm);

@@ -1,5 +1,5 @@
-// Shapes of dirt from statistics. The plane is cut into squares; each has its own hashed numbers, so that nothing
-// depends on which part of the plane is looked at, and the k-th speck of a square is the same at any density.
+// Shapes of dirt from statistics. The plane is divided into squares, each with its own hashed numbers, so that nothing
+// depends on the part of the plane that is requested, and the k-th speck of a square is the same at any density.
 #include "contrejour/dirt.h"
 
 #include <algorithm>
@@ -17,14 +17,14 @@ constexpr double kCell_mm = 2.0;
 constexpr double kFarthest_mm = 1e4;
 constexpr double kMostSteps = 1e4;  // along an outline
 constexpr double kMostDeviations = 2.5;  // of a log-normal size
-constexpr double kElongation = 0.8;  // of specks: the line within one is up to so much of its width long
+constexpr double kElongation = 0.8;  // of specks: largest length of the line within one, over its width
 constexpr double kNearlyStraight = 1e-6;  // rad
 
 enum class Kind : std::uint64_t { Dust = 1, Scratch = 2 };
 
 std::uint64_t mixed(std::uint64_t z) { return split_mix(z + kSplitMixIncrement); }
 
-// Numbers of one shape or square, from 0 to below 1, in turn.
+// The random numbers of one shape or square, in order, from 0 to below 1.
 class Numbers {
  public:
   Numbers(const Dirt& dirt, Kind kind, int ix, int iy, std::uint64_t which) {
@@ -39,7 +39,7 @@ class Numbers {
     return unit_interval(state_);
   }
   double next_signed() { return 2.0 * next() - 1.0; }
-  // Of the normal distribution (Box & Muller 1958), not farther out than the sizes go.
+  // A normally distributed number (Box & Muller 1958), clipped to the range of sizes.
   double next_normal() {
     const double r = std::sqrt(-2.0 * std::log(1.0 - next()));
     return std::clamp(r * std::cos(2.0 * kPi * next()), -kMostDeviations, kMostDeviations);
@@ -50,7 +50,7 @@ class Numbers {
   std::uint64_t state_ = 0;
 };
 
-// Of Poisson's distribution, by inversion: with one number for all means it never falls as the mean rises.
+// A Poisson-distributed count by inversion: for a fixed number it never falls as the mean rises.
 int poisson(double mean, double number) {
   int count = 0;
   double probability = std::exp(-mean);
@@ -64,7 +64,7 @@ int poisson(double mean, double number) {
   return count;
 }
 
-// Two tones of whole numbers of turns, from 0 at time 0; about 1 high.
+// The sum of two sines with whole numbers of periods, 0 at time 0, with an amplitude of about 1.
 double wandering(double time, Numbers& numbers) {
   double sum = 0.0;
   for (const double tone : {1.0, 2.0}) {
@@ -74,7 +74,7 @@ double wandering(double time, Numbers& numbers) {
   return sum;
 }
 
-// kSizeSpread and the most deviations, as a factor.
+// The largest size over the median.
 double largest_over_median() { return std::exp(Dirt::kSizeSpread * kMostDeviations); }
 
 class DirtMaker {
@@ -107,7 +107,7 @@ class DirtMaker {
     if (kind == Kind::Dust) {
       s.angle_rad = kPi * own.next();
       s.width_mm = own.next_size(dirt_.dust_mm);
-      // As much area as a round speck of that diameter, on the average.
+      // On average the area is that of a round speck of that diameter.
       s.length_mm = kElongation * own.next() * s.width_mm;
       const double area = 0.25 * kPi * s.width_mm * s.width_mm;
       const double scale = std::sqrt(area / (area + s.length_mm * s.width_mm));
@@ -158,7 +158,7 @@ Vec2 DirtStroke::along_and_across_mm(Vec2 place_mm) const {
   const Vec2 from = place_mm - middle_mm;
   const Vec2 own{dot(along, from), cross(along, from)};
   if (std::abs(bend_rad) < kNearlyStraight || length_mm <= 0.0) return own;
-  const double radius = length_mm / bend_rad;  // signed: the circle's middle lies to the left or right
+  const double radius = length_mm / bend_rad;  // signed: the circle's centre lies to the left or right
   const Vec2 from_centre{own.x, own.y - radius};
   const double turn = std::atan2(from_centre.x, std::copysign(1.0, radius) * -from_centre.y);
   return {turn * std::abs(radius), std::copysign(1.0, radius) * (std::abs(radius) - length(from_centre))};
@@ -207,7 +207,7 @@ std::vector<DirtStroke> dirt_within(const Dirt& dirt, Vec2 low_mm, Vec2 high_mm)
 }
 
 std::vector<Vec2> dirt_outline(const DirtStroke& stroke, double low, double high) {
-  constexpr int kEndSteps = 8;  // over half a turn: off by 1 - cos(pi / 16) of half a width
+  constexpr int kEndSteps = 8;  // over half a turn: the error is 1 - cos(pi / 16) of half a width
   constexpr double kStep_rad = 0.05;  // along a bent line
   const double half = 0.5 * stroke.width_mm;
   const double wanted = std::ceil((high - low) * std::abs(stroke.bend_rad) / kStep_rad);
@@ -219,7 +219,7 @@ std::vector<Vec2> dirt_outline(const DirtStroke& stroke, double low, double high
       outline.push_back(stroke.at(share) + stroke.normal_at(share) * (side * half));
     }
   };
-  const auto add_end = [&](double share, double side) {  // from one side to the other, without both
+  const auto add_end = [&](double share, double side) {  // from one side to the other, end points excluded
     const Vec2 n = stroke.normal_at(share) * (side * half);
     const Vec2 out = Vec2{-n.y, n.x};
     for (int i = 1; i < kEndSteps; ++i) {

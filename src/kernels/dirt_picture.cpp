@@ -28,7 +28,7 @@ Result<std::shared_ptr<const DirtPicture>> DirtPicture::from_levels(std::span<co
 }
 
 double DirtPicture::transmission(Vec2 place) const {
-  // In pixels from the top left; a ring of clean ones surrounds the picture.
+  // In pixels from the top left; a ring of clean pixels surrounds the picture.
   const double x = 0.5 * (place.x * longer_ + width_) - 0.5;
   const double y = 0.5 * (-place.y * longer_ + height_) - 0.5;
   if (!(x > -1.0 && y > -1.0 && x < width_ && y < height_)) return 1.0;

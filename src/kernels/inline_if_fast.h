@@ -1,5 +1,5 @@
-// For the large pieces of packet kernels. One within the other they are what makes a kernel quick, and what takes clang
-// minutes to compile. Sanitized builds, which test the code and not its speed, call them.
+// Marks the large functions of packet kernels. Inlining them makes a kernel fast, but takes clang minutes to compile.
+// Sanitized builds, which test the code and not its speed, call them instead.
 #pragma once
 
 #include <hwy/base.h>

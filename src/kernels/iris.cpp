@@ -13,8 +13,8 @@ namespace {
 
 constexpr double kStraight = 1e-5;  // curvatures below it bend an edge by less than 5e-6 stop radii
 
-// Distance to a regular iris's nearest bound: the point is folded into the sector of one edge. Inside and beside the
-// edge that is the distance to the opening, and within 1 / cos(pi / n) of it beyond a corner.
+// Distance to a regular iris's nearest bound: the point is folded into the sector of one edge. Inside and next to the
+// edge this is the distance to the opening; beyond a corner the true distance is up to 1 / cos(pi / n) times as large.
 double folded_distance(const Iris& iris, Vec2 point) {
   const double sector = 2.0 * std::numbers::pi / iris.blades;
   const double angle = std::atan2(point.y, point.x) - iris.rotation_rad;

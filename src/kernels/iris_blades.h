@@ -21,13 +21,13 @@ inline constexpr int kMostBlades = 100;
 [[nodiscard]] bool is_regular(const Iris& iris);  // every edge at the same distance
 [[nodiscard]] double edge_offset(const Iris& iris, int blade);
 
-// What a blade leaves open, its edge's normal at this angle, moved outwards by this share of its distance.
+// The bound of one blade: its edge has its normal at this angle and is moved outwards by this fraction of its distance.
 [[nodiscard]] IrisBound edge_bound(const Iris& iris, double normal_rad, double offset);
 
-// The rim, then the blades in their order, those that are the same as one before left out.
+// The rim, then the blades in order, without duplicates of earlier bounds.
 [[nodiscard]] std::vector<IrisBound> iris_bounds(const Iris& iris);
 
-// Whether two bounds are nowhere apart but for rounding.
+// True if two bounds differ by rounding at most.
 [[nodiscard]] bool same_bound(const IrisBound& a, const IrisBound& b);
 
 }  // namespace contrejour

@@ -13,8 +13,8 @@
 namespace contrejour {
 namespace {
 
-constexpr float kEdge = 0.5F;       // of the brightest: where an antialiased edge is
-constexpr double kNearEdge = 2.0;   // samples: beyond, only the side counts
+constexpr float kEdge = 0.5F;       // of the brightest: the level of an antialiased edge
+constexpr double kNearEdge = 2.0;   // samples: beyond, only the sign counts
 constexpr double kLeastSlope = 0.5;  // of a field whose edge may be straight: a distance's is 1
 constexpr int kHullEdges = 24;
 constexpr double kFar = std::numeric_limits<double>::infinity();
@@ -57,8 +57,7 @@ bool half_plane(Vec2 a, Vec2 b, Vec2 inner, IrisBound& out) {
 
 }  // namespace
 
-// Builds the tree from the field: rectangles of cells are split until none or all of one is open, or its edge is
-// straight.
+// Builds the tree from the field: rectangles of cells are split until each is closed, open, or has a straight edge.
 class IrisFieldMaker {
  public:
   // tones: null where there are none.
@@ -100,7 +99,7 @@ class IrisFieldMaker {
       for (int i = c.i0; i <= c.i1; ++i) visit(i, j, value(i, j));
   }
 
-  // What node `index` holds: cells from (i, j) on, `size` a side.
+  // Fills node `index` with the cells from (i, j) on, `size` a side.
   void fill(std::size_t index, int i, int j, int size) {
     const Cells cells{i, j, std::min(i + size, side_ - 1), std::min(j + size, side_ - 1)};
     IrisField::Node node{place(cells.i0, cells.j0), place(cells.i1, cells.j1)};
@@ -162,7 +161,8 @@ class IrisFieldMaker {
     field_.pieces_.push_back(piece);
   }
 
-  // One line in place of the edge, and how far it is off: no place on the wrong side of it is farther from the edge.
+  // One line in place of the edge, and its error: an upper bound of the distance from the edge of all points on the
+  // wrong side of the line.
   [[nodiscard]] StraightEdge straight_edge(const Cells& c, const IrisPiece& whole) const {
     StraightEdge edge{whole};
     const Vec2 size = whole.high - whole.low;
@@ -188,7 +188,7 @@ class IrisFieldMaker {
     return edge;
   }
 
-  // Within one cell of the field the edge is straight but for a small part of it.
+  // Within one cell of the field the edge is straight to a small fraction of the cell.
   void add_cell(const Cells& cell, const IrisPiece& whole, IrisField::Node& node) {
     const std::array<Vec2, 4> corner{whole.low, {whole.high.x, whole.low.y}, whole.high, {whole.low.x, whole.high.y}};
     const std::array<double, 4> v{value(cell.i0, cell.j0), value(cell.i1, cell.j0), value(cell.i1, cell.j1),
@@ -200,7 +200,7 @@ class IrisFieldMaker {
     };
     const int count = open(0) + open(1) + open(2) + open(3);
     const bool opposite = count == 2 && open(0) == open(2);
-    if (opposite && v[0] + v[1] + v[2] + v[3] > 0.0) {  // two corners apart from each other
+    if (opposite && v[0] + v[1] + v[2] + v[3] > 0.0) {  // two opposite corners
       for (std::size_t k = 0; k < 4; ++k) {
         IrisPiece piece = whole;
         if (!open(k) || !half_plane(crossing(k + 3), crossing(k), corner[k], piece.cut[0])) continue;
@@ -216,7 +216,7 @@ class IrisFieldMaker {
       const std::size_t last = count == 1 ? first : first + 1;
       if (!half_plane(crossing(first + 3), crossing(last), corner[first], piece.cut[0])) return;
       piece.cuts = 1;
-    } else {  // closed corners are cut off
+    } else {  // the closed corners are clipped
       for (std::size_t k = 0; k < 4; ++k)
         if (!open(k) && half_plane(crossing(k + 3), crossing(k), corner[(k + 2) % 4],
                                    piece.cut[static_cast<std::size_t>(piece.cuts)]))

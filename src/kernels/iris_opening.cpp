@@ -1,4 +1,4 @@
-// The outline of an iris: corners where two bounds cross inside all others, joined by pieces of bounds.
+// The outline of an iris: corners where two bounds cross inside all others, connected by pieces of bounds.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -54,7 +54,7 @@ double worst_distance(const std::vector<IrisBound>& bounds, Vec2 p) {
   return worst;
 }
 
-// worst_distance() < kOnBound, found out at the first bound that says no: most crossings lie outside of many.
+// worst_distance() < kOnBound, with an exit at the first bound that fails: most crossings lie outside many bounds.
 bool is_within(const std::vector<IrisBound>& bounds, Vec2 p) {
   return std::all_of(bounds.begin(), bounds.end(),
                      [&](const IrisBound& bound) { return bound.distance(p) < kOnBound; });
@@ -95,10 +95,10 @@ Vec2 middle_of(const IrisEdge& edge) {
   return edge.bound.centre + Vec2{std::cos(angle), std::sin(angle)} * edge.bound.radius;
 }
 
-// The bound that runs from one corner to the next: both lie on it, and its middle is inside all others.
+// The bound that connects one corner to the next: both lie on it, and its middle is inside all others.
 std::optional<IrisEdge> edge_between(const std::vector<IrisBound>& bounds, Vec2 start, Vec2 end) {
   std::optional<IrisEdge> best;
-  double least = 1e-3;  // far more than rounding, far less than a wrong bound sticks out of the others
+  double least = 1e-3;  // far above rounding, far below the distance of a wrong bound outside the others
   for (const IrisBound& bound : bounds) {
     if (std::abs(bound.distance(start)) > kSameCorner || std::abs(bound.distance(end)) > kSameCorner) continue;
     const IrisEdge edge{bound, start, end};
@@ -173,7 +173,7 @@ double IrisOpening::bound_distance(Vec2 point) const {
 }
 
 double IrisOpening::distance(Vec2 point) const {
-  // Inside a convex shape the nearest edge is the nearest bound; outside it, some edge's bound leaves the point out.
+  // Inside a convex shape the nearest edge is the nearest bound; outside it, some edge's bound excludes the point.
   const double bound = bound_distance(point);
   if (bound <= 0.0) return bound;
   double nearest = std::numeric_limits<double>::infinity();

@@ -15,13 +15,13 @@ constexpr int kFewestSamples = 128;
 constexpr int kMostSamples = 1024;
 constexpr float kNoLine = 1e9F;
 
-// One axis of the picture: what share each of a few pixels has in a sample.
+// The weights of a few pixels in a sample, along one axis of the picture.
 struct Share {
   int pixel = 0;
   float weight = 0;
 };
 
-// Averages over a sample's width, in pixels; nothing where the sample lies beside the picture.
+// Averages over a sample's width, in pixels; no weights if the sample lies outside the picture.
 std::vector<Share> average(double begin, double end, int pixels) {
   std::vector<Share> shares;
   const int last = std::min(static_cast<int>(std::ceil(end)), pixels);
@@ -32,7 +32,7 @@ std::vector<Share> average(double begin, double end, int pixels) {
   return shares;
 }
 
-// Between two pixels' middles, the outermost pixels going on to the picture's edge.
+// Interpolates between two pixels' middles; the outermost pixels extend to the picture's edge.
 std::vector<Share> interpolation(double middle, int pixels) {
   if (middle < 0.0 || middle > pixels) return {};
   const double u = std::clamp(middle - 0.5, 0.0, pixels - 1.0);
@@ -126,7 +126,7 @@ class NearestSegments {
     offer(i, j, nearest_[grid_.at(from_i, from_j)]);
   }
 
-  // From the row on the side `dj`, then along the row both ways.
+  // Propagates from the neighbouring row on the side `dj`, then along the row in both directions.
   void sweep_row(int j, int dj) {
     for (int i = 0; i < grid_.side; ++i) {
       for (int di = -1; di <= 1; ++di) take_from(i, j, i + di, j + dj);

@@ -1,4 +1,4 @@
-// A picture's samples over the stop, and the distances from the line where they cross a level.
+// Resamples a picture over the stop, and computes distances from the line where the samples cross a level.
 #pragma once
 
 #include <span>
@@ -16,12 +16,13 @@ struct StopSamples {
   }
 };
 
-// level: rows from the top. The longer side spans the square within the ring: large pictures averaged, small ones
-// interpolated; 0 beside the picture.
+// level: rows from the top. The longer side spans the square within the ring: large pictures are averaged, small ones
+// interpolated; samples outside the picture are 0.
 [[nodiscard]] StopSamples samples_over_stop(std::span<const float> level, int width, int height);
 
-// From the line, in samples, negative where the value is at least `level`; the nearest piece of the line is found by
-// passing it on between neighbours (Danielsson 1980), which misses it by less than a sample at a few places far away.
+// Signed distance from the line, in samples, negative where the value is at least `level`. The nearest piece of the
+// line is propagated between neighbours (Danielsson 1980), which is wrong by less than a sample at a few distant
+// points.
 [[nodiscard]] StopSamples distances_from_level(const StopSamples& samples, float level);
 
 }  // namespace contrejour

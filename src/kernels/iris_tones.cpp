@@ -7,12 +7,13 @@ namespace contrejour {
 namespace {
 
 constexpr float kGreyFrom = 0.1F, kGreyTo = 0.9F;  // of the highest level
-// Corners and thin lines have pixels that look like half-tones: so many, and this share of the stop, are none yet.
+// Corners and thin lines have pixels that look like half-tones: up to this number, or this fraction of the stop's
+// pixels, a picture still counts as a mask.
 constexpr int kFewTones = 4;
 constexpr double kFewTonesShare = 2e-3;
 constexpr int kParts = 8;  // of a sample, each way, where the rim crosses it
 
-// The share of a sample within the rim: of its parts' middles.
+// The fraction of a sample within the rim, by the middles of its parts.
 double share_within_rim(Vec2 low, double pitch) {
   const Vec2 far{std::max(std::abs(low.x), std::abs(low.x + pitch)),
                  std::max(std::abs(low.y), std::abs(low.y + pitch))};
@@ -66,7 +67,7 @@ IrisTones::IrisTones(const StopSamples& samples, float highest) : side_(samples.
   }
 }
 
-// Bilinear between corners: exact, as samples are even.
+// Bilinear between corners, which is exact because samples are constant.
 double IrisTones::sum_to(double column, double row) const {
   const int i = std::min(static_cast<int>(column), side_ - 1), j = std::min(static_cast<int>(row), side_ - 1);
   const auto corners = static_cast<std::size_t>(side_) + 1;

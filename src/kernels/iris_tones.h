@@ -1,4 +1,4 @@
-// The half-tones of a picture as the iris: what share of the light each place of the stop lets through.
+// The half-tones of a picture as the iris: the transmittance of each point of the stop.
 // Units: stop radii. Thread-safety: constant after it is made. Source: hullin2011 3.2, real-valued transmission.
 #pragma once
 
@@ -9,19 +9,19 @@
 
 namespace contrejour {
 
-// Whether a picture has transmittances between dark and bright that are not one of its edges, drawn smoothly: pixels
-// that have no dark and bright pixel beside them.
+// True if a picture has transmittances between dark and bright that are not smoothed edges: pixels without both a dark
+// and a bright neighbour.
 [[nodiscard]] bool has_half_tones(std::span<const float> level, int width, int height, float highest);
 
 class IrisTones {
  public:
-  // Levels below this share of the highest are dark.
+  // Levels below this fraction of the highest are dark.
   static constexpr float kDark = 1.0F / 256.0F;
 
   IrisTones(const StopSamples& samples, float highest);
 
-  // The mean over an upright square about p. The picture is even within each sample, so a square one sample wide is
-  // bilinear interpolation, and no smaller one is asked about. What lies beyond the picture does not count.
+  // The mean over an upright square about p. The picture is constant within each sample, so a square one sample wide
+  // gives bilinear interpolation, which is also used for smaller ones. Points beyond the picture do not count.
   [[nodiscard]] double mean(Vec2 p, double width) const;
   [[nodiscard]] double flux() const { return flux_; }  // integral over the rim's circle
 

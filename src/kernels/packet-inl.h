@@ -1,5 +1,5 @@
-// Several rays side by side: a vector register dressed as a number, so that the templates of surface-inl.h
-// trace a packet with the formulas of the scalar tracer. Compiled once per instruction set (foreach_target).
+// Several rays in a vector register with the operators of a number, so that the templates of surface-inl.h trace a
+// packet with the formulas of the scalar tracer. Compiled once per instruction set (foreach_target).
 #if defined(CONTREJOUR_KERNELS_PACKET_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef CONTREJOUR_KERNELS_PACKET_INL_H_
 #undef CONTREJOUR_KERNELS_PACKET_INL_H_
@@ -59,8 +59,8 @@ HWY_INLINE Packet<Lane> exponential(Packet<Lane> x) {
   return Packet<Lane>(hn::Exp(typename Packet<Lane>::Tag(), x.v));
 }
 
-// A function on [0, 1] tabulated at `intervals` + 1 equidistant points, between them by straight lines.
-// u outside the interval, or NaN, is taken at an end of it.
+// A function on [0, 1] tabulated at `intervals` + 1 equidistant points, interpolated linearly. u outside the interval,
+// or NaN, is clamped to one of its ends.
 HWY_INLINE Packet<float> look_up(const float* table, int intervals, Packet<float> u) {
   const Packet<float>::Tag d;
   const hn::RebindToSigned<Packet<float>::Tag> di;
@@ -103,7 +103,7 @@ HWY_INLINE Packet<double> look_up(const float* table, int intervals, Packet<doub
 }
 using PrecisePacket = Packet<double>;
 #else
-using PrecisePacket = Packet<float>;  // where an instruction set has no vectors of double (none of x86) it must do
+using PrecisePacket = Packet<float>;  // used if an instruction set has no vectors of double (never on x86)
 #endif
 
 }  // namespace contrejour::kernels::HWY_NAMESPACE

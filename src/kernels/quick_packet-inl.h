@@ -1,5 +1,5 @@
-// A packet of floats whose quotients and roots start from the processor's estimates and take one Newton step: good
-// to some 1e-6, at a fraction of the time. For searches, where what is found is traced again exactly.
+// A packet of floats whose quotients and roots are the processor's estimates refined by one Newton step: accurate to
+// about 1e-6, in a fraction of the time. It serves searches, whose results are traced again exactly.
 #if defined(CONTREJOUR_KERNELS_QUICK_PACKET_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef CONTREJOUR_KERNELS_QUICK_PACKET_INL_H_
 #undef CONTREJOUR_KERNELS_QUICK_PACKET_INL_H_
@@ -37,7 +37,7 @@ struct QuickPacket {
     const Vector y = hn::ApproximateReciprocal(b.v);
     return QuickPacket(hn::Mul(a.v, hn::Mul(y, hn::NegMulAdd(b.v, y, hn::Set(Tag(), 2.0F)))));
   }
-  // 1e-15 for 0, so that nothing becomes infinite.
+  // The root of 0 is 1e-15, so that no quotient becomes infinite.
   friend HWY_INLINE QuickPacket square_root(QuickPacket a) {
     const Vector x = hn::Max(a.v, hn::Set(Tag(), 1e-30F));
     const Vector y = hn::ApproximateReciprocalSqrt(x);

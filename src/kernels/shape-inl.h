@@ -1,5 +1,5 @@
-// One ray against one surface that is no sphere: docs/physics/surfaces.md. Newton's steps towards F = 0, where F is the
-// distance from the surface, roughly, and is smooth beyond the end that the closed form of the sag has.
+// Intersects one ray with one surface that is no sphere: docs/physics/surfaces.md. Newton's method solves F = 0, where
+// F approximates the distance from the surface and stays smooth beyond the end of the sag's closed form.
 // Compiled once per instruction set (foreach_target), as surface-inl.h.
 #if defined(CONTREJOUR_KERNELS_SHAPE_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef CONTREJOUR_KERNELS_SHAPE_INL_H_
@@ -28,11 +28,11 @@ HWY_INLINE T magnitude(T a) {
   return larger(a, T(0.0) - a);
 }
 
-// How far above the surface a point is: 0 on it, positive towards +z, and what that changes by.
+// Approximate height of a point above the surface, 0 on it and positive towards +z, and its gradient.
 template <class T>
 struct Level {
   T f, gx, gy, gz;
-  T reaches;  // negative where the surface does not reach
+  T reaches;  // negative where the surface does not exist
 };
 
 // A polynomial in u = (h / reach)^2, mm, and its derivative by u.
@@ -53,7 +53,7 @@ HWY_INLINE Powers<T> powers_at(const ShapeConstants& s, T u) {
     p = {value * u, value + slope * u};
   }
   if (s.odd_terms > 0) {
-    constexpr double kAtTip = 1e-12;  // there a cone has no slope
+    constexpr double kAtTip = 1e-12;  // where a cone has no slope
     T value(s.odd[static_cast<std::size_t>(s.odd_terms - 1)]);
     T slope(0.0);
     for (int k = s.odd_terms - 2; k >= 0; --k) {
@@ -67,7 +67,8 @@ HWY_INLINE Powers<T> powers_at(const ShapeConstants& s, T u) {
   return p;
 }
 
-// The conic without its root: w - c (r^2 + (1 + k) w^2) / 2 = 0, w the height over the polynomial.
+// The conic's equation without a square root: w - c (r^2 + (1 + k) w^2) / 2 = 0, with w the height above the
+// polynomial.
 template <class T>
 HWY_INLINE Level<T> revolution_level(const ShapeConstants& s, T x, T y, T z) {
   const T c(s.curvature), q(s.quadratic), per_reach_squared(s.per_reach_squared);
@@ -79,10 +80,10 @@ HWY_INLINE Level<T> revolution_level(const ShapeConstants& s, T x, T y, T z) {
   return {w - T(0.5) * (c * r_squared + q * w * w), T(0.0) - outwards * x, T(0.0) - outwards * y, upwards, T(1.0)};
 }
 
-// Nearer to the profile's end than this its slope grows no more: a root, squared.
+// Lower limit of the squared root in the profile's sag, which bounds the slope near the profile's end.
 inline constexpr double kBlunt = 1e-6;
 
-// z - c_x (x^2 + z^2) / 2 - w + c_x w^2 / 2 = 0, w = the profile at y.
+// z - c_x (x^2 + z^2) / 2 - w + c_x w^2 / 2 = 0, with w the profile at y.
 template <class T>
 HWY_INLINE Level<T> toroid_level(const ShapeConstants& s, T x, T y, T z) {
   const T one(1.0), half(0.5);
@@ -118,20 +119,20 @@ HWY_INLINE Level<T> level_at(const ShapeConstants& s, T x, T y, T z) {
   if constexpr (kKind == ShapeKind::Biconic) return biconic_level(s, x, y, z);
 }
 
-// Newton's steps: how many, and how far from the surface (mm) a ray may be left. Numbers beside one another take all
-// the steps; a number of its own stops when it is there.
+// Limits of Newton's method: the number of steps, and the largest accepted distance from the surface (mm). Packets take
+// all steps; a scalar stops when it has converged.
 struct NewtonLimits {
   int steps = 0;
   double residual_mm = 0;
 };
 
-// Of cos(incidence): steps are no longer than those of a ray that grazes so.
+// Lower limit of cos(incidence), which bounds the steps of grazing rays.
 inline constexpr double kGrazing = 1.0 / 64;
-// Of the reach: the step after one as short as this would be lost in rounding.
+// Converged step over the reach: the next step would be below rounding.
 inline constexpr double kSettled = 1e-9;
 
-// From the place on the plane of the vertex, in the surface's own frame. The root taken is that of the sphere's
-// formula, on the vertex's side and passed in the direction of the path, ahead of the ray or behind it.
+// Intersects a ray from its point on the vertex plane, in the surface's own frame. The root is the one of the sphere's
+// formula: on the vertex's side and crossed in the direction of the path, ahead of the ray or behind it.
 template <ShapeKind kKind, class T>
 CONTREJOUR_INLINE_IF_FAST Hit<T> search(const Ray3<T>& from, const ShapeConstants& s, T direction,
                                         const NewtonLimits& limits) {
@@ -172,7 +173,7 @@ CONTREJOUR_INLINE_IF_FAST Hit<T> search(const Ray3<T>& from, const ShapeConstant
   return hit;
 }
 
-// As intersect(), of a surface about the z axis whose vertex is at z_vertex.
+// As intersect(), for a surface about the z axis whose vertex is at z_vertex.
 template <class T>
 HWY_INLINE Hit<T> intersect_shape(const Ray3<T>& ray, T z_vertex, const ShapeConstants& s, T direction,
                                   const NewtonLimits& limits) {
@@ -200,12 +201,12 @@ HWY_INLINE Hit<T> intersect_shape(const Ray3<T>& ray, T z_vertex, const ShapeCon
   return hit;
 }
 
-// For a single ray in double: surfaces of any size have digits for this.
+// Limits for a single ray in double precision, which suffices for surfaces of any size.
 HWY_INLINE NewtonLimits exact_limits(const ShapeConstants& s) {
   return {.steps = 50, .residual_mm = 1e-12 * (s.reach_mm > 1.0 ? s.reach_mm : 1.0)};
 }
 
-// The smallest turn that takes n to +z, and the one that takes it back.
+// The smallest rotation that takes n to +z, and its inverse.
 template <class T>
 HWY_INLINE void turn_upright(const Axis3<T>& n, T& x, T& y, T& z) {
   const T height = along(n, x, y, z);

@@ -1,5 +1,5 @@
-// A surface's shape (contrejour/surface_shape.h) as the kernels want it: scaled so that float has range to spare, with
-// the quadric from which the search for a ray's intersection starts.
+// A surface's shape (contrejour/surface_shape.h) for the kernels: scaled to stay well within the range of float, with
+// the quadric whose intersection is the first guess.
 #pragma once
 
 #include <array>
@@ -24,7 +24,7 @@ struct ShapeConstants {
   // start_x x^2 + start_y y^2 + start_z z^2 = 2 z: the surface itself where it is a conic or a circular cylinder.
   double start_x = 0, start_y = 0, start_z = 0;
 
-  // As of the shape (contrejour/surface_shape.h).
+  // As vertex_curvature() of contrejour/surface_shape.h.
   [[nodiscard]] double vertex_curvature(Section section) const {
     const double across = section == Section::Y ? cos_turn : sin_turn;
     return kind == ShapeKind::Revolution ? start_y : start_y * across * across + start_x * (1.0 - across * across);

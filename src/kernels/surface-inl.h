@@ -1,4 +1,4 @@
-// One ray against one surface: intersection, refraction, reflection, Fresnel and single-film reflectance.
+// Formulas of one ray at one surface: intersection, refraction, reflection, Fresnel and single-film reflectance.
 // Templated on the number type T: double, or a packet of floats. Compiled once per instruction set (Highway's
 // foreach_target), hence the toggling guard in place of an ordinary one.
 #if defined(CONTREJOUR_KERNELS_SURFACE_INL_H_) == defined(HWY_TARGET_TOGGLE)
@@ -15,7 +15,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace contrejour::kernels::HWY_NAMESPACE {
 
-// What T needs besides + - * /; packets bring their own.
+// Functions that T needs besides + - * /; packets define their own.
 HWY_INLINE double square_root(double x) { return std::sqrt(x); }
 HWY_INLINE double cosine(double x) { return std::cos(x); }
 HWY_INLINE double larger(double a, double b) { return a > b ? a : b; }
@@ -26,8 +26,8 @@ struct Ray3 {
   T dx, dy, dz;  // unit
 };
 
-// Of a light at a finite distance: the ray that passes beside one whose direction is the ray's, by this much of that
-// one's way from the light. Gives the other's way over this one's.
+// Changes the direction of a ray of a light at a finite distance to that of a ray displaced by (aside_x, aside_y), in
+// units of the first ray's distance from the light. Returns the first ray's distance over the other's.
 template <class T>
 HWY_INLINE T turn_aside(Ray3<T>& ray, T aside_x, T aside_y) {
   ray.dx = ray.dx + aside_x;
@@ -39,7 +39,7 @@ HWY_INLINE T turn_aside(Ray3<T>& ray, T aside_x, T aside_y) {
   return share;
 }
 
-// Where a ray meets a surface; the surface's own z axis points to +z.
+// The intersection of a ray with a surface, whose own z axis points to +z.
 template <class T>
 struct Hit {
   T x, y, sag;            // mm; sag from the vertex plane
@@ -48,8 +48,8 @@ struct Hit {
   T cos_in;
 };
 
-// Sphere or plane of curvature c with its vertex at z_vertex. The root on the vertex's side of the sphere is
-// taken whether it lies ahead of the ray or behind it: hullin2011 4.1, "strict in-order intersection".
+// Intersects a sphere or plane of curvature c with its vertex at z_vertex. The root is the one on the vertex's side of
+// the sphere, whether it lies ahead of the ray or behind it: hullin2011 4.1, "strict in-order intersection".
 // direction is the sign of dz the path expects. Welford, Aberrations of Optical Systems, 4.3.
 template <class T>
 HWY_INLINE Hit<T> intersect(const Ray3<T>& ray, T z_vertex, T c, T direction) {
@@ -82,8 +82,8 @@ HWY_INLINE T along(const Axis3<T>& axis, T x, T y, T z) {
   return axis.x * x + axis.y * y + axis.z * z;
 }
 
-// The same for a surface that stands askew: about an axis n of its own (unit, nz > 0) through its vertex, where the
-// ray's coordinates begin. c p.p / 2 = n.p is that sphere or plane; with n = (0, 0, 1) it is the formula above.
+// The same for a tilted surface, with its own axis n (unit, nz > 0) through its vertex, the origin of the ray's
+// coordinates. c p.p / 2 = n.p is that sphere or plane; with n = (0, 0, 1) it is the formula above.
 template <class T>
 HWY_INLINE Hit<T> intersect_askew(const Ray3<T>& ray, const Axis3<T>& n, T c, T direction) {
   const T towards = along(n, ray.dx, ray.dy, ray.dz);
@@ -106,8 +106,8 @@ HWY_INLINE Hit<T> intersect_askew(const Ray3<T>& ray, const Axis3<T>& n, T c, T 
   return hit;
 }
 
-// The hit's place beside the surface's own axis, and the normal's part along it: > 0 on the near half of the sphere.
-// The smallest turn that takes n to +z takes p to p - (n + z) (n + z).p / (1 + nz) + 2 z n.p.
+// The hit's x and y in the surface's own frame, and the normal's component along its axis: > 0 on the near half of the
+// sphere. The smallest rotation that takes n to +z takes p to p - (n + z) (n + z).p / (1 + nz) + 2 z n.p.
 template <class T>
 struct OwnPlace {
   T x, y, nz;
@@ -126,8 +126,8 @@ HWY_INLINE void move_to(Ray3<T>& ray, const Hit<T>& hit, T z_vertex) {
   ray.z = z_vertex + hit.sag;
 }
 
-// Snell in vector form, eta = n_in / n_out. Gives cos^2 of the angle behind; negative: total reflection, and
-// the direction is then of no meaning.
+// Snell's law in vector form, eta = n_in / n_out. Returns cos^2 of the angle of refraction; negative for total
+// reflection, which leaves an undefined direction.
 template <class T>
 HWY_INLINE T refract(Ray3<T>& ray, const Hit<T>& hit, T eta, T direction) {
   const T cos_out_squared = T(1.0) - eta * eta * (T(1.0) - hit.cos_in * hit.cos_in);

@@ -32,7 +32,7 @@ std::optional<Profile> profile(double c, double conic, const std::vector<double>
   return p;
 }
 
-// z = c_x (x^2 + z^2) / 2 + W, W = w - c_x w^2 / 2: the profile w(y) turned about the line parallel to y at 1 / c_x.
+// z = c_x (x^2 + z^2) / 2 + W, W = w - c_x w^2 / 2: the profile w(y) rotated about the line parallel to y at 1 / c_x.
 std::optional<SurfacePoint> toroid_at(double c, const SurfaceShape& shape, Vec2 at) {
   const auto w = profile(c, shape.conic, shape.powers, std::abs(at.y));
   if (!w) return std::nullopt;
@@ -83,7 +83,7 @@ std::optional<SurfacePoint> surface_at(double curvature_per_mm, const SurfaceSha
 }
 
 std::optional<SagRange> sag_range(double curvature_per_mm, const SurfaceShape& shape, double radius_mm) {
-  constexpr int kSpokes = 16;         // from the shape's own axes, on which the extremes of most are
+  constexpr int kSpokes = 16;         // from the shape's own axes, where most shapes have their extremes
   constexpr double kRounding = 1e-12;  // of a hemisphere's rim
   std::optional<SagRange> range;
   const int spokes = shape.has_axial_symmetry() ? 1 : kSpokes;
