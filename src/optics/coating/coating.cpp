@@ -14,7 +14,7 @@ namespace {
 
 namespace hk = kernels::HWY_NAMESPACE;
 
-// Cosines squared in the medium behind by Snell; negative beyond the critical angle.
+// Squared cosine in the medium behind, by Snell's law; negative beyond the critical angle.
 double cos_squared_behind(double n_in, double n_out, double cos_in) {
   const double eta = n_in / n_out;
   return 1.0 - eta * eta * (1.0 - cos_in * cos_in);
@@ -39,7 +39,7 @@ double reflectance_of(const QuarterWave& film, double n_in, double n_out, double
   const double cos2_out = cos_squared_behind(n_in, n_out, cos_in);
   if (cos2_out <= 0.0) return 1.0;
   const double cos2_film = cos_squared_behind(n_in, film.n, cos_in);
-  if (cos2_film <= 0.0) {  // light tunnels through the film: no real angle there
+  if (cos2_film <= 0.0) {  // an evanescent wave in the film: no real angle
     const FilmLayer layer{film.n, film.lambda0_nm / (4.0 * film.n)};
     return mean_reflectance(film_response(n_in, {&layer, 1}, n_out, std::acos(cos_in), lambda_nm));
   }
@@ -82,7 +82,8 @@ double reflectance_of(const DesignedCoating& design, double n_in, double n_out, 
   return reflectance_of(stack, n_in, n_out, cos_in, lambda_nm);
 }
 
-// Where a value lies in a rising list: after which entry, and how much of the way to the next; the ends hold beyond.
+// The position of a value in a rising list: the entry below it, and the fraction of the interval to the next; values
+// beyond the ends are clamped.
 struct Between {
   std::size_t first = 0, next = 0;
   double share = 0.0;
@@ -95,7 +96,8 @@ Between between(const std::vector<double>& list, double value) {
   return {next - 1, next, (value - list[next - 1]) / (list[next] - list[next - 1])};
 }
 
-// Measured from the side of the lower index; from the other the same at the angle that belongs to it.
+// Reflectances are measured from the side of the lower index; from the other side they are equal at the refracted
+// angle.
 double reflectance_of(const MeasuredCoating& measured, double n_in, double n_out, double cos_in, double lambda_nm) {
   const std::size_t wanted = measured.lambda_nm.size() * measured.angle_deg.size();
   if (wanted == 0 || measured.reflectance.size() != wanted) return std::nan("");

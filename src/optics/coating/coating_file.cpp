@@ -33,7 +33,7 @@ std::vector<std::string_view> cells_of(std::string_view line) {
   return cells;
 }
 
-// From low to high and more than the one before; none for all else.
+// Reads a number from low to high that exceeds its predecessor; nothing for any other text.
 std::optional<double> next_in(const std::vector<double>& before, std::string_view cell, double low, double high) {
   double value = 0.0;
   const auto [end, status] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
@@ -42,7 +42,7 @@ std::optional<double> next_in(const std::vector<double>& before, std::string_vie
   return value;
 }
 
-// One table being read.
+// A table while it is read.
 class Table {
  public:
   explicit Table(const std::string& file) : file_(file) {}

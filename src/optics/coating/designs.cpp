@@ -1,4 +1,4 @@
-// Coatings that are worked out for a glass.
+// Coatings that are designed for a glass.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -25,8 +25,8 @@ FilmGoal lowest(double lambda0_nm, double band, int samples) {
   return goal;
 }
 
-// Two films of indices n1 (to the air) and n2 that reflect nothing at lambda0; Macleod 3.2.1 (Catalan). Where no
-// thicknesses do (a glass of high index), the least that there is.
+// Two films of indices n1 (at the air) and n2 with zero reflectance at lambda0; Macleod 3.2.1 (Catalan). If no
+// thicknesses achieve this (a glass of high index), the lowest reflectance.
 FilmStack v_coat(double lambda0_nm, const Glass& glass) {
   FilmStack stack{{film("MgF2", 0.25, lambda0_nm), film("ZrO2", 0.06, lambda0_nm)}};
   const double n1 = index_at(stack.layers[0].material, lambda0_nm).real();
@@ -36,7 +36,7 @@ FilmStack v_coat(double lambda0_nm, const Glass& glass) {
   const double tan1 = (ns - 1.0) * over * n1 * n1 / (matching * -under);
   const double tan2 = (ns - 1.0) * -under * n2 * n2 / (matching * over);
   if (!(tan1 > 0.0 && tan2 > 0.0)) return refined(stack, glass, lowest(lambda0_nm, 0.0, 1));
-  // tan(delta1) tan(delta2) = n1 n2 (ns - 1) / (n1^2 ns - n2^2): its sign says which branches go together.
+  // tan(delta1) tan(delta2) = n1 n2 (ns - 1) / (n1^2 ns - n2^2): its sign determines which branches belong together.
   const double second = std::atan(std::sqrt(tan2));
   const double first = matching > 0.0 ? std::atan(std::sqrt(tan1)) : std::numbers::pi - std::atan(std::sqrt(tan1));
   stack.layers[0].thickness_nm = first * lambda0_nm / (2.0 * std::numbers::pi * n1);
@@ -44,8 +44,8 @@ FilmStack v_coat(double lambda0_nm, const Glass& glass) {
   return stack;
 }
 
-// Thicknesses for glass of n = 1.52 at 550 nm: the best that refining 400 random starts found, thin films and thick
-// stacks aside.
+// Thicknesses for glass of n = 1.52 at 550 nm: the best result of refining 400 random starts, without very thin films
+// and thick stacks.
 constexpr std::array<std::array<double, DesignedCoating::kMostLayers>, 4> kBroadband_nm = {{
     {95.1, 126.4, 36.5, 13.9},
     {93.8, 123.9, 42.4, 11.2, 99.7},
@@ -64,7 +64,7 @@ FilmStack broadband(const DesignedCoating& design, const Glass& glass) {
   return refined(stack, glass, lowest(design.lambda0_nm, kBand, kBandSamples));
 }
 
-// All of them, at 550 nm.
+// All designs, at 550 nm.
 std::vector<DesignedCoating> all_designs() {
   std::vector<DesignedCoating> all;
   for (const CoatingDesign design : {CoatingDesign::VCoat, CoatingDesign::WCoat, CoatingDesign::QuarterHalfQuarter})

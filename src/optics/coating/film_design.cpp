@@ -10,12 +10,12 @@
 namespace contrejour {
 namespace {
 
-constexpr int kMostCalls = 400;  // of the goal; each derivative takes one a film
+constexpr int kMostCalls = 400;  // evaluations of the goal; each derivative takes one per film
 
-// A film's thickness is the size of its parameter, so that steps through 0 turn back.
+// A film's thickness is the absolute value of its parameter, so that a step through 0 is reflected.
 double thickness_of(double parameter) { return std::min(std::abs(parameter), kThickestFilm_nm); }
 
-// One wavelength's indices, worked out once.
+// The indices at one wavelength, computed once.
 struct Spectral {
   std::vector<FilmLayer> layers;
   double glass = 1.0;
@@ -46,7 +46,7 @@ class Residuals {
   }
 
   [[nodiscard]] int inputs() const { return films_; }
-  // Eigen's method wants as many values as parameters at the least: zeros fill them up.
+  // Eigen requires at least as many residuals as parameters: zeros are appended.
   [[nodiscard]] int values() const { return std::max(values_, films_); }
 
   int operator()(const Eigen::VectorXd& x, Eigen::VectorXd& out) const {

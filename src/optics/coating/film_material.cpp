@@ -14,7 +14,8 @@ const FilmTable* find_table(std::string_view name) {
   return at == tables.end() ? nullptr : &*at;
 }
 
-// Lagrange's cubic through the four samples about a place; in the first and last gaps, through those at the end.
+// Lagrange's cubic through the four samples nearest to a position; in the first and last intervals, through the four at
+// that end.
 double between(const std::array<double, FilmTable::kSamples>& samples, double place) {
   constexpr auto kLast = static_cast<double>(FilmTable::kSamples - 1);
   if (std::isnan(place)) return place;

@@ -12,11 +12,11 @@ namespace {
 
 using Complex = std::complex<double>;
 
-// Beyond this attenuation (nepers) nothing measurable comes back from a film; it keeps cosh finite.
+// Beyond this attenuation (nepers) a film returns nothing measurable; the limit keeps cosh finite.
 constexpr double kDeepestAttenuation = 300.0;
 constexpr double kSmallPhase = 1e-4;  // below it sin(x)/x = 1 - x^2/6 is exact to rounding
 
-// Cosine of the ray angle in a medium by Snell, on the branch that travels or decays forwards.
+// Cosine of the ray angle in a medium by Snell's law, on the branch that propagates or decays forwards.
 Complex forward_cosine(Complex n, Complex n_sin) {
   const Complex sine = n_sin / n;
   Complex cosine = std::sqrt(1.0 - sine * sine);
@@ -25,7 +25,7 @@ Complex forward_cosine(Complex n, Complex n_sin) {
   return backwards ? -cosine : cosine;
 }
 
-// A film that absorbs nothing, at an angle that light travels at in it: all of its matrix's factors are real.
+// A film without absorption, at an angle at which light propagates in it: all factors of its matrix are real.
 struct RealFilm {
   double n = 1.0, cosine = 1.0, thickness = 0.0;  // 2 pi n d / lambda
 };
@@ -33,7 +33,7 @@ std::optional<RealFilm> real_film(Complex n_sin, const FilmLayer& layer, double 
   const Complex n = index_at(layer.material, lambda_nm);
   if (n.imag() != 0.0 || n_sin.imag() != 0.0) return std::nullopt;
   const double sine = n_sin.real() / n.real();
-  constexpr double kTravels = 1.0 - 1e-6;  // nearer to the critical angle sin(delta) / cos(theta) loses digits
+  constexpr double kTravels = 1.0 - 1e-6;  // closer to the critical angle sin(delta) / cos(theta) loses accuracy
   if (!(sine * sine < kTravels)) return std::nullopt;
   return RealFilm{n.real(), std::sqrt(1.0 - sine * sine),
                   2.0 * std::numbers::pi * layer.thickness_nm / lambda_nm * n.real()};

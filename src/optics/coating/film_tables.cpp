@@ -1,5 +1,5 @@
-// Every 10 nm from 360 nm, worked out from refractiveindex.info's files of the sources named (CC0), metals' samples by
-// monotone cubics between theirs. Dielectrics without absorption worth the name have none.
+// Samples every 10 nm from 360 nm, computed from refractiveindex.info's files of the sources named (CC0); metals are
+// interpolated by monotone cubics. The absorption of dielectrics is 0 where it is negligible.
 #include "optics/coating/film_tables.h"
 
 namespace contrejour {

@@ -1,4 +1,4 @@
-// Indices of film materials, sample by sample.
+// Sampled indices of film materials.
 #pragma once
 
 #include <array>

@@ -19,7 +19,7 @@ constexpr std::size_t kMaxGlasses = 20000;
 constexpr std::size_t kMaxWarnings = 100;
 constexpr std::size_t kMaxTagNumbers = 10;      // of one tag
 constexpr std::size_t kMaxTransmittances = 2000;
-// A transmittance is printed to three decimals: what reads 0 is less than half the last.
+// Transmittances are printed with three decimals: a printed 0 is below half of the last digit.
 constexpr double kLeastTransmittance = 0.0005;
 constexpr double kStatedTolerance = 1e-3;
 
@@ -46,7 +46,7 @@ bool starts_as_number(std::string_view word) {
   return !word.empty() && std::string_view("0123456789+-.").find(word.front()) != std::string_view::npos;
 }
 
-// A glass while its lines come in.
+// A glass while its lines are read.
 struct Draft {
   std::string name;
   int line = 0;
@@ -88,7 +88,7 @@ class AgfReader {
   int line_ = 0;
   std::size_t named_ = 0;
   std::optional<Draft> draft_;
-  std::vector<double>* open_ = nullptr;  // numbers that the next line may go on with
+  std::vector<double>* open_ = nullptr;  // the list that the next line may continue
   GlassFile found_;
 };
 
@@ -129,8 +129,8 @@ void AgfReader::read_range(const std::vector<std::string_view>& words) {
   draft_->range_nm = WavelengthRange{*first * 1e3, *last * 1e3};
 }
 
-// Wavelength um, transmittance, thickness mm. A row with a blank, no thickness or less than no
-// light is a figure that was not measured.
+// Wavelength um, transmittance, thickness mm. A row with a blank, no thickness or a negative transmittance was not
+// measured.
 void AgfReader::read_transmittance(const std::vector<std::string_view>& words) {
   if (words.size() < 4) return;
   const auto um = number_of(words[1]), tau = number_of(words[2]), mm = number_of(words[3]);
@@ -165,7 +165,7 @@ GlassData data_of(Draft& draft) {
   GlassData data;
   data.formula = static_cast<DispersionFormula>(static_cast<int>(draft.formula));
   data.coefficients = std::move(draft.coefficients);
-  // Files fill the line with zeros.
+  // Files pad the line with zeros.
   const std::size_t most = coefficient_count(data.formula).most;
   while (data.coefficients.size() > most && data.coefficients.back() == 0.0) data.coefficients.pop_back();
   data.range_nm = draft.range_nm;

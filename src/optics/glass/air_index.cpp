@@ -1,4 +1,4 @@
-// What temperature and pressure do, to air and to glass: docs/physics/glass.md.
+// Effects of temperature and pressure on air and glass: docs/physics/glass.md.
 #include <cmath>
 
 #include "base/units.h"
@@ -10,7 +10,7 @@ namespace {
 constexpr double kAirReference_c = 15.0;  // of Kohlrausch's dispersion, at 1 atm
 constexpr double kAirExpansion_per_k = 3.4785e-3;
 
-// Change of the absolute index from the reference temperature: Schott TIE-19 eq. 6, as AGF files have it.
+// Change of the absolute index from the reference temperature: Schott TIE-19 eq. 6, as in AGF files.
 double thermal_change(const ThermalDispersion& t, double n, double lambda_um, double dt_k) {
   const double resonance = t.lambda_tk_um * std::abs(t.lambda_tk_um);
   const double change =

@@ -1,4 +1,4 @@
-// The index of a glass of which only n_d, V_d and P_gF are known.
+// The index of a glass given by n_d, V_d and P_gF alone.
 #pragma once
 
 #include "contrejour/glass.h"

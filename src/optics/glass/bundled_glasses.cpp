@@ -1,4 +1,4 @@
-// The files of data/glasses, in the library itself.
+// The files of data/glasses, embedded in the library.
 #include <iterator>
 #include <vector>
 
@@ -7,7 +7,7 @@
 namespace contrejour {
 namespace {
 
-// Pointers alone: to measure such texts while compiling is more than compilers will do.
+// These are pointers, since compilers refuse to compute the length of such long texts in constant expressions.
 struct Embedded {
   const char* name;
   const char* text;
@@ -18,7 +18,7 @@ constexpr Embedded kEmbedded[] = {
 #include "bundled_glasses.inc"
 };
 
-// The makers in the order in which names are looked for.
+// The makers in the order in which names are searched.
 constexpr std::string_view kOrder[] = {"schott", "ohara", "hoya", "hikari", "sumita", "cdgm", "misc"};
 static_assert(std::size(kEmbedded) == std::size(kOrder),
               "a file of data/glasses is missing, or not in the order above");

@@ -8,10 +8,10 @@
 
 namespace contrejour {
 
-// A bundled glass stays a line of text until it is asked for.
+// A row of the catalogue. A bundled glass stays a line of text until it is needed.
 struct GlassCatalogue::Row {
   GlassSummary summary;
-  std::string key, maker_key;                   // as names are compared
+  std::string key, maker_key;                   // in the form that names are compared in
   std::string_view line;                        // of a bundled file; or:
   std::shared_ptr<const CatalogueEntry> entry;  // of a user's
 };

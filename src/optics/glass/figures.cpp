@@ -28,7 +28,7 @@ std::optional<Glass> glass_of_code(std::string_view code) {
   std::from_chars(code.data() + 3, code.data() + kDigits, tenths);
   // The digits' own decimal values: 1.517, not 1 + 517 / 1000.
   const ModelGlass model{(1000 + thousandths) / 1000.0, tenths / 10.0, 0.0};
-  if (thousandths == 0 || tenths < 50) return std::nullopt;  // no glass disperses so
+  if (thousandths == 0 || tenths < 50) return std::nullopt;  // no glass has such a dispersion
   return Glass{std::string(code), model};
 }
 

@@ -18,7 +18,7 @@ struct Entry {
 using enum DispersionFormula;
 constexpr std::size_t kMany = 100;  // refractiveindex.info's longest has 17
 constexpr std::size_t kTableMost = 2 * 50000;
-// As AGF files print them: up to ten, of which those that a formula has no use for are 0 and dropped.
+// Coefficient counts as in AGF files: up to ten, of which those that a formula does not use are 0 and dropped.
 constexpr std::array kFormulas{
     Entry{Schott, "schott", {1, 6}},
     Entry{Sellmeier1, "sellmeier-1", {1, 6}},

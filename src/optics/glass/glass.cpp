@@ -29,7 +29,7 @@ double index_of(const Sellmeier& glass, double lambda_nm) {
 
 double index_of(const ModelGlass& glass, double lambda_nm) { return model_index(glass, um_from_nm(lambda_nm)); }
 
-// The catalogue's own figure, but for those against vacuum: divided by air's, at the air's wavelength.
+// The catalogue's own index; one against vacuum is divided by that of air, at the wavelength in air.
 double index_of(const CatalogueGlass& glass, double lambda_nm) {
   const GlassData& data = glass.data();
   if (!data.index_in_vacuum && !data.wavelength_in_vacuum)
@@ -43,7 +43,7 @@ double index_of(const CatalogueGlass& glass, double lambda_nm) {
 }  // namespace
 
 double refractive_index(const Glass& glass, double lambda_nm) {
-  // Asked for by every path: the short formulas stay in line, which a visit of all five would not leave them.
+  // Every path needs this: the short formulas are inlined here, which std::visit over all five would prevent.
   if (const auto* constant = std::get_if<ConstantIndex>(&glass.dispersion)) return index_of(*constant, lambda_nm);
   if (const auto* abbe = std::get_if<AbbeGlass>(&glass.dispersion)) return index_of(*abbe, lambda_nm);
   if (const auto* sellmeier = std::get_if<Sellmeier>(&glass.dispersion)) return index_of(*sellmeier, lambda_nm);

@@ -13,11 +13,11 @@
 namespace contrejour {
 namespace {
 
-// What closest() counts as one step: about the spread of melts of one glass (n_d +-0.0005, V_d +-0.8 %).
+// The unit of closest()'s distance: about the variation between melts of one glass (n_d +-0.0005, V_d +-0.8 %).
 constexpr double kIndexStep = 0.001;
 constexpr double kAbbeStep = 0.8;
 
-// The lead-free or present-day glass of an old name: Schott N-, Ohara S-, Hikari J-, CDGM H-.
+// Prefixes of the lead-free or present-day successor of an old name: Schott N-, Ohara S-, Hikari J-, CDGM H-.
 constexpr std::string_view kSuccessors[] = {"N", "S", "J", "H"};
 
 // Letters and digits, in capitals.
@@ -31,7 +31,7 @@ std::string key_of(std::string_view name) {
   return key;
 }
 
-// One firm's catalogue under its several names.
+// Maps the several names of one firm to one key.
 std::string maker_key(std::string_view maker) {
   const std::string key = key_of(maker);
   return key == "NIKON" || key == "NIKONHIKARI" ? "HIKARI" : key;

@@ -1,4 +1,4 @@
-// What readers of glasses share.
+// Code that readers of glasses share.
 #pragma once
 
 #include <cstddef>
@@ -9,7 +9,7 @@ namespace contrejour {
 
 inline constexpr std::size_t kMaxGlassFileBytes = std::size_t{8} << 20U;  // the largest known has 1.2 MB
 
-// n_d and V_d of the glass itself where its catalogue states none and its range holds the lines C to F.
+// Computes n_d and V_d from the glass if its catalogue states none and its range contains the lines C to F.
 void fill_stated(CatalogueEntry& entry);
 
 }  // namespace contrejour

@@ -6,7 +6,7 @@
 namespace contrejour {
 namespace {
 
-// The part up to the next ';', which is taken off the line, blanks around it too.
+// Removes the part up to the next ';' from the line and returns it without surrounding blanks.
 std::string_view next_part(std::string_view& line) {
   const std::size_t end = std::min(line.find(';'), line.size());
   std::string_view part = line.substr(0, end);

@@ -18,11 +18,11 @@ struct BundledGlassFile {
 [[nodiscard]] std::string maker_of_bundled(std::string_view file_name);  // "SCHOTT"
 
 // NAME; STATUS; CODE; N_D V_D; FORMULA C ...; FIRST LAST (nm); T_REF [D0 D1 D2 E0 E1 L_TK]; NM PER_M ...
-// These lines are the library's own and tested, not a user's: what is wrong in one gives a glass of index NaN.
+// These lines are the library's own and tested, not a user's: an error in one gives a glass of index NaN.
 [[nodiscard]] GlassSummary summary_of_line(std::string_view line, const std::string& maker);
 [[nodiscard]] CatalogueEntry entry_of_line(std::string_view line, const std::string& maker);
 
-// Lines that are neither empty nor comments (#).
+// Visits lines that are neither empty nor comments (#).
 template <class Visit>
 void for_each_glass_line(std::string_view text, Visit visit) {
   while (!text.empty()) {

@@ -1,4 +1,4 @@
-// What a reader read: is it a glass?
+// Checks the data that a reader found, and makes a glass of them.
 #include <algorithm>
 #include <cmath>
 
@@ -12,11 +12,11 @@
 namespace contrejour {
 namespace {
 
-constexpr double kShortest_nm = 1e-4;  // tables of a few materials go from X-rays to microwaves
+constexpr double kShortest_nm = 1e-4;  // tables of a few materials extend from X-rays to microwaves
 constexpr double kLongest_nm = 1e9;
 constexpr double kHuge = 1e30;       // of a coefficient
 constexpr double kMaxIndex = 100.0;
-constexpr int kSamples = 33;         // of the range, to see that n is a number throughout
+constexpr int kSamples = 33;         // of the range, at which n must be a number
 constexpr double kColdest_c = -273.15, kHottest_c = 3000.0;
 
 std::string count_problem(const GlassData& data) {

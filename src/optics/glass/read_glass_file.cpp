@@ -37,7 +37,7 @@ bool is_yaml(const fs::path& file) {
   return extension == ".yml" || extension == ".yaml";
 }
 
-// specs/schott/optical/N-BK7.yml is Schott's; main/CaF2/nk/Malitson.yml is one of CaF2's.
+// The maker of specs/schott/optical/N-BK7.yml is schott; that of main/CaF2/nk/Malitson.yml is CaF2.
 std::string maker_of_yaml(const fs::path& file) {
   fs::path folder = file.parent_path();
   const std::string last = lower_case(folder.filename().string());
@@ -45,7 +45,7 @@ std::string maker_of_yaml(const fs::path& file) {
   return upper_case(folder.filename().string());
 }
 
-// A database's other pages: what a folder is about, and nonlinear indices.
+// Recognises a database's other pages: descriptions of folders, and nonlinear indices.
 bool is_other_page(const fs::path& file) {
   return file.filename() == "about.yml" || file.parent_path().filename() == "n2";
 }

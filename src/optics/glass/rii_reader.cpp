@@ -26,7 +26,7 @@ struct Numbers {
   int bad_line = 0;  // 0: all are numbers
 };
 
-// Numbers between spaces and line ends; `line` is that of the first.
+// Reads numbers separated by spaces and line ends; `line` is the first one's line.
 Numbers numbers_of(std::string_view text, int line) {
   Numbers numbers;
   constexpr std::string_view kSpace = " \t\n,";
@@ -102,8 +102,8 @@ Result<void> RiiReader::read_formula(const YamlNode& block, DispersionFormula fo
   return {};
 }
 
-// Rows of wavelength (um) and n, k or both. The database has rows that fall, and a few wavelengths twice: sorted, the
-// first of each kept.
+// Rows of wavelength (um) and n, k or both. The database has falling rows, and a few wavelengths twice: rows are
+// sorted, and the first of each wavelength is kept.
 Result<void> RiiReader::read_table(const YamlNode& block, bool has_n, bool has_k) {
   if (has_n && has_n_) return fail(block.line, "a second formula or table of n; one is read");
   const auto values = numbers(block, "data");
@@ -147,8 +147,8 @@ Result<void> RiiReader::read_block(const YamlNode& block) {
               ErrorCode::Unsupported);
 }
 
-// Temperature in K; whether index and wavelength are against vacuum, which older files say under SPECS. Nothing said
-// means air, as in catalogues.
+// Reads the temperature in K, and whether index and wavelength are against vacuum, which older files state under SPECS.
+// The default is air, as in catalogues.
 void RiiReader::read_conditions() {
   const auto truth = [](const YamlNode* node) {
     return node != nullptr && (node->scalar == "true" || node->scalar == "yes");
@@ -218,7 +218,7 @@ GlassStatus status_of(const YamlNode& root) {
   return GlassStatus::Standard;
 }
 
-// What the file states besides; nothing where it does not.
+// Reads the summary that the file states, as far as it does.
 GlassSummary summary_of(const YamlNode& root, const std::string& name, const std::string& maker) {
   GlassSummary summary{name, maker, {}, status_of(root)};
   const YamlNode* properties = root.find("PROPERTIES");

@@ -25,7 +25,7 @@ double inner_slope(const Points& p, std::size_t k) {
   return before * after / (w * after + (1.0 - w) * before);
 }
 
-// At an end: that of the parabola through three points, held to where the piece stays monotone.
+// The slope at an end: that of the parabola through three points, limited so that the piece stays monotone.
 double end_slope(double near, double far, double h_near, double h_far) {
   const double slope = ((2.0 * h_near + h_far) * near - h_near * far) / (h_near + h_far);
   if (!(slope * near > 0.0)) return 0.0;

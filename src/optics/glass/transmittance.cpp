@@ -6,7 +6,7 @@
 namespace contrejour {
 namespace {
 
-// Linear between the table's wavelengths, constant beyond.
+// Interpolates linearly between the table's wavelengths; constant beyond.
 double absorption_per_mm(const std::vector<Absorption>& table, double lambda_nm) {
   const auto above = std::upper_bound(table.begin(), table.end(), lambda_nm,
                                       [](double nm, const Absorption& row) { return nm < row.lambda_nm; });

@@ -1,4 +1,4 @@
-// A lens as it was built: bodies of glass a little beside their places.
+// Manufacturing errors of a lens: bodies of glass that are slightly tilted and decentred.
 #pragma once
 
 #include <vector>
@@ -10,7 +10,7 @@ namespace contrejour {
 // Errors: numbers that are not finite or out of their range (lens.h).
 [[nodiscard]] Result<void> check_build_errors(const BuildErrors& errors);
 
-// Poses all surfaces of glass (docs/physics/tracing.md); a body's share depends on the seed and its place in the lens.
+// Poses all surfaces of glass (docs/physics/tracing.md); a body's errors depend on the seed and its index in the lens.
 void apply_build_errors(const BuildErrors& errors, std::vector<SurfaceState>& surfaces);
 
 }  // namespace contrejour

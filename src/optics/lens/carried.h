@@ -4,9 +4,9 @@
 
 namespace contrejour {
 
-// How a surface stands that is part of a body which is turned about a point on the lens's axis and moved; its vertex
-// would be that far behind the point, its own pose that in the body. (A toroid's own turn is left as it is: the
-// smallest turns of two axes make up that of the third but for a twist of second order.)
+// The pose of a surface that is part of a body, which is rotated about a point on the lens's axis and moved. behind_mm:
+// nominal distance of the vertex behind that point; own: the surface's pose within the body. (A toroid's own rotation
+// is left unchanged: the composition of two smallest rotations differs from the third by a twist of second order.)
 [[nodiscard]] SurfacePose carried(const SurfacePose& body, double behind_mm, const SurfacePose& own);
 
 }  // namespace contrejour

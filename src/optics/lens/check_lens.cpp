@@ -21,13 +21,14 @@ tl::unexpected<Error> refused_at(std::size_t index, const std::string& what) {
   return invalid_argument(fmt::format("surface {}: {}", index + 1, what));
 }
 
-// At the ends of the visible and the design wavelength: a glass file was checked in between when it was read.
+// Checks the ends of the visible range and the design wavelength: glasses from files were checked between them when
+// read.
 bool is_medium(const Glass& glass, double design_nm) {
   const auto fits = [&](double nm) { return within(refractive_index(glass, nm), 1.0 - 1e-9, kMostIndex); };
   return fits(kFirst_nm) && fits(design_nm) && fits(kLast_nm);
 }
 
-// coating_problem() but for the values of a measured coating, of which there may be a million.
+// As coating_problem(), without checking the values of a measured coating, of which there may be a million.
 std::optional<std::string> films_problem(const Coating& coating) {
   const auto* const measured = std::get_if<MeasuredCoating>(&coating.films);
   if (measured == nullptr) return coating_problem(coating);

@@ -12,8 +12,8 @@
 namespace contrejour {
 namespace {
 
-// Slopes are dy per unit of path length along the axis, so that the same transfer serves both directions of
-// travel; a curvature seen from behind changes sign.
+// Slopes are dy per unit of path length along the axis, so that one transfer serves both directions of travel; for
+// light from behind a curvature changes sign.
 Abcd transfer(double distance_mm) { return {1.0, distance_mm, 0.0, 1.0}; }
 
 Abcd refraction(double n_in, double n_out, double curvature) {
@@ -63,7 +63,7 @@ Abcd abcd_between(std::span<const SurfaceState> surfaces, int first, int last, d
 
 namespace {
 
-// From surface 1 to the sensor plane, and to every crossing of the stop on the way.
+// The matrices from surface 1 to the sensor plane, and to every crossing of the stop.
 struct GhostMatrices {
   Abcd to_sensor;
   std::vector<Abcd> to_stop;
@@ -100,8 +100,8 @@ Abcd inverse(const Abcd& m) {
 
 std::optional<double> if_finite(double value) { return std::isfinite(value) ? std::optional(value) : std::nullopt; }
 
-// Landing over the tangent of the field angle, of the ray through the middle of the stop: y = -b / a (of the way to
-// the stop) at slope 1 meets it there.
+// Image height of the chief ray over the tangent of the field angle. The ray through the middle of the stop at slope 1
+// starts at y = -b / a, with a and b of the matrix to the stop.
 double chief_landing_mm(const Abcd& to_stop, const Abcd& to_sensor) {
   return to_sensor.b - to_sensor.a * to_stop.b / to_stop.a;
 }
@@ -123,7 +123,7 @@ GhostFirstOrder ghost_first_order(const LensState& lens, const Ghost& ghost, dou
   const Abcd direct_to_stop = abcd_between(lens.surfaces, 0, lens.stop_index, lambda_nm);
 
   g.focus_mm = if_finite(-m.to_sensor.a / m.to_sensor.c);
-  // A bundle on the axis is as wide as the crossing lets it that magnifies it most.
+  // The stop crossing with the largest magnification limits the on-axis bundle.
   double height_mm = std::numeric_limits<double>::infinity();
   for (const Abcd& to_stop : m.to_stop) height_mm = std::min(height_mm, lens.stop_radius_mm / std::abs(to_stop.a));
   g.blur_mm = 2.0 * std::abs(m.to_sensor.a) * height_mm;
@@ -148,7 +148,8 @@ FirstOrder first_order(const LensState& lens, double lambda_nm) {
   f.front_focal_distance_mm = whole.d / whole.c;
   f.f_number = lens.f_number;
   f.sensor_position_mm = lens.sensor_z_mm - z(last);
-  // The stop's centre seen from the scene (y_stop = a y + b u = 0) and from the sensor (y = 0 at the stop).
+  // The images of the stop's centre on the scene's side (y_stop = a y + b u = 0) and on the sensor's (y = 0 at the
+  // stop).
   f.entrance_pupil_position_mm = front.b / front.a;
   f.entrance_pupil_diameter_mm = std::abs(f.focal_length_mm) / lens.f_number;
   f.exit_pupil_position_mm = -rear.b / rear.d - f.sensor_position_mm;

@@ -9,9 +9,9 @@
 
 namespace contrejour {
 
-// Calls pass(surface, direction) where the light goes through, the stop included, reflect(surface, direction, order)
-// where it turns. Surfaces count from 0; direction: +1 or -1, along the axis as it arrives. order: of diffraction, at
-// the first reflection. A sensor that the light reaches at last is not met.
+// Calls pass(surface, direction) where light is transmitted, the stop included, and reflect(surface, direction, order)
+// where it is reflected. Surfaces count from 0; direction: +1 or -1, along the axis as light arrives. order: of
+// diffraction, at the first reflection. There is no call for the sensor at the end of the path.
 template <class Pass, class Reflect>
 void walk_surfaces(const LensState& lens, const Ghost& ghost, const Pass& pass, const Reflect& reflect) {
   const int last = static_cast<int>(lens.surfaces.size()) - 1;

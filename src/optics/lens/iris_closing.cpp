@@ -13,10 +13,10 @@ namespace {
 
 constexpr double kMostAsymmetry = 0.5;
 constexpr double kMostSlopeSpread = 0.5;
-constexpr double kMostRotation_rad = 1e6;  // beyond, angles lose digits that are seen
-constexpr double kOpen = 1e-9;        // relative to the hole's area: less is not closed at all
+constexpr double kMostRotation_rad = 1e6;  // beyond, angles lose visible accuracy
+constexpr double kOpen = 1e-9;        // relative to the hole's area: a smaller difference counts as wide open
 constexpr double kSameRadius = 1e-9;  // relative: the opening's reach is the rim, or its corners' circle
-constexpr int kBisections = 60;       // to the last bits of the blades' place
+constexpr int kBisections = 60;       // to the last bits of the blades' position
 constexpr double kFarthestBlades = 1e6;  // hole radii
 
 double area_at(Iris iris, double blade_radius) {
@@ -24,7 +24,7 @@ double area_at(Iris iris, double blade_radius) {
   return IrisOpening(iris).area();
 }
 
-// Of the hole's radius: where the blades leave this area, for a hole of radius 1.
+// The blade radius, relative to the hole's, at which the opening has this area; the hole has radius 1.
 double blade_radius_of(const Iris& iris, double area) {
   double low = 0.0;
   double high = 1.0;

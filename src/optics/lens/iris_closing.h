@@ -1,4 +1,4 @@
-// The blades of an iris at an f-number, and what an iris may be.
+// The blades of an iris at an f-number, and the check of an iris's numbers.
 #pragma once
 
 #include "contrejour/iris.h"
@@ -11,9 +11,9 @@ struct ClosedIris {
   double stop_radius_mm = 0;
 };
 
-// Blades closed over a round hole until what they leave has the area of a circle of round_radius_mm (hullin2011 figure
-// 3; docs/physics/diffraction.md). The stop's radius becomes the reach of the opening's farthest point, the iris's
-// blade_radius is in units of it; no blades where the hole is no larger than the circle.
+// Closes blades over a round hole until the opening has the area of a circle of round_radius_mm (hullin2011 figure 3;
+// docs/physics/diffraction.md). The stop's radius becomes that of the opening's farthest point, in units of which
+// blade_radius is given; there are no blades if the hole is not larger than the circle.
 [[nodiscard]] ClosedIris close_iris(const Iris& iris, double round_radius_mm, double hole_radius_mm);
 
 // Errors: numbers that are not finite or out of their range (iris.h), blades that let nothing through.

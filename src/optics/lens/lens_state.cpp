@@ -23,9 +23,10 @@ namespace hk = kernels::HWY_NAMESPACE;
 
 constexpr double kNominalTolerance = 1e-6;   // relative: the same nominal focal length
 constexpr double kPrimeTolerance = 5e-3;     // relative: asking a prime for its own focal length
-constexpr double kFNumberTolerance = 5e-2;   // relative: what patents call 2.92 is sold as 2.8
-constexpr double kStopTolerance = 1e-2;      // relative: a stop that misses the widest f-number by less is no news
-constexpr int kZoomBisections = 60;          // to the last bit of the interpolation parameter
+constexpr double kFNumberTolerance = 5e-2;   // relative: lenses of 2.92 by patent are sold as 2.8
+constexpr double kStopTolerance = 1e-2;  // relative: a smaller deviation of the stop from the widest f-number gives
+                                         // no warning
+constexpr int kZoomBisections = 60;  // to the last bit of the interpolation parameter
 
 // Thicknesses at one zoom position, or between two.
 std::vector<double> thicknesses(const Prescription& lens, std::size_t position, double towards_next) {
@@ -40,7 +41,7 @@ std::vector<double> thicknesses(const Prescription& lens, std::size_t position, 
   return t;
 }
 
-// Coatings placed on their glasses, a design once for each glass.
+// Places coatings on their glasses; a design is computed once for each glass.
 class CoatingPlacer {
  public:
   Coating place(const Coating& coating, const Glass& before, const Glass& after) {
@@ -60,7 +61,7 @@ class CoatingPlacer {
   std::vector<Placed> placed_;
 };
 
-// What lies on a surface between two media: its own coating, or what the settings have in its place.
+// The coating of a surface between two media: its own, or the one that the settings replace it by.
 const Coating& coating_on(std::size_t index, const Surface& surface, bool borders_air, const LensSettings& settings) {
   const int number = static_cast<int>(index) + 1;
   const auto& own = settings.coating_at;
@@ -103,7 +104,7 @@ double focal_length_at(const Prescription& lens, std::size_t position, double to
                          lens.stated.wavelength_nm);
 }
 
-// The interpolation parameter of a segment at which the lens really has the focal length.
+// The interpolation parameter of a segment at which the computed focal length is the given one.
 double solve_segment(const Prescription& lens, std::size_t position, double focal_length_mm) {
   double low = 0.0;
   double high = 1.0;
@@ -137,7 +138,7 @@ Result<ZoomSetting> zoom_setting(const Prescription& lens, double focal_length_m
                                focal_length_mm, shortest, longest),
                    lens.file);
   }
-  // Inside the engraved range but beyond what the prescription reaches.
+  // The focal length is inside the engraved range but outside that of the prescription.
   const std::size_t end = focal_length_mm < real.front() ? 0 : zoom.size() - 1;
   return ZoomSetting{
       end, 0.0,
@@ -165,7 +166,7 @@ hk::Hit<double> meet_centred(const hk::Ray3<double>& ray, const SurfaceState& s)
   return hk::intersect_shape(ray, s.z_mm, shape, 1.0, hk::exact_limits(shape));
 }
 
-// Height at the stop of the real ray that comes in parallel to the axis at `height`; none if it cannot get there.
+// Height at the stop of the real ray parallel to the axis at height_mm; none if it does not reach the stop.
 std::optional<double> marginal_height_at_stop(const LensState& lens, double height_mm) {
   hk::Ray3<double> ray{0.0, height_mm, lens.surfaces.front().z_mm, 0.0, 0.0, 1.0};
   for (int k = 0; k <= lens.stop_index; ++k) {
@@ -188,7 +189,7 @@ double round_stop_mm(const LensState& lens, double f_number) {
   return std::abs(abcd_between(lens.surfaces, 0, lens.stop_index, lens.design_wavelength_nm).a) * marginal_mm;
 }
 
-// The f-number at which the round stop is as wide as its surface, from one on at which it would have to be wider.
+// The f-number at which the round stop has its surface's size, starting from one at which the stop would be too large.
 double f_number_filling(const LensState& state, double stop_mm, double too_wide) {
   constexpr double kNarrow = 1000.0;
   constexpr int kHalvings = 60;
@@ -201,7 +202,7 @@ double f_number_filling(const LensState& state, double stop_mm, double too_wide)
 }
 
 struct ImagePlane {
-  double distant_mm = 0, image_mm = 0;  // from the last vertex: of distant objects, of that one
+  double distant_mm = 0, image_mm = 0;  // from the last vertex: image of distant objects, image of this object
 };
 ImagePlane image_plane(const LensState& state, double object_distance_mm, Section section) {
   const Abcd m =
@@ -216,8 +217,8 @@ bool images_distant_objects(const LensState& state) {
   return image_plane(state, std::numeric_limits<double>::infinity(), Section::Y).distant_mm > 0.0;
 }
 
-// Numbers that form no image give no marginal ray to size the stop by: its own size is the widest, and it closes in
-// proportion.
+// A lens that forms no image has no marginal ray that determines the stop's size: its own size is then the widest, and
+// it closes in proportion.
 double wanted_stop_mm(const LensState& state, const Prescription& lens, double f_number) {
   if (images_distant_objects(state)) return round_stop_mm(state, f_number);
   return state.surfaces[static_cast<std::size_t>(state.stop_index)].semi_diameter_mm * lens.f_number / f_number;
@@ -247,7 +248,7 @@ Result<void> set_stop(LensState& state, const Prescription& lens, const std::opt
   return {};
 }
 
-// After the stop: blades of a mechanism stand in front of the hole that the stop is at the widest f-number.
+// Called after the stop is set: the blades of a mechanism close over the stop's hole at the widest f-number.
 Result<void> set_iris(LensState& state, const Prescription& lens, const LensSettings& settings) {
   if (const auto good = check_iris(settings.iris); !good) return good;
   state.iris = settings.iris;
@@ -260,8 +261,8 @@ Result<void> set_iris(LensState& state, const Prescription& lens, const LensSett
   return {};
 }
 
-// Which objects have an image behind the lens, if any: those whose distance d from the first vertex makes
-// -(a d + b) / (c d + d') positive, of the lens's matrix.
+// Says which objects have an image behind the lens, if any: those at a distance d from the first vertex with -(a d + b)
+// / (c d + d') > 0, by the lens's matrix.
 std::string no_image_text(const LensState& state, double object_distance_mm) {
   const Abcd m =
       abcd_between(state.surfaces, 0, static_cast<int>(state.surfaces.size()) - 1, state.design_wavelength_nm);
@@ -290,8 +291,8 @@ std::string no_image_text(const LensState& state, double object_distance_mm) {
       what, focus_mm);
 }
 
-// The sensor follows the paraxial image, half-way between its two places where there are two; a prescription that fixes
-// its place for distant objects keeps its own defocus for near ones.
+// The sensor follows the paraxial image, half-way between the two images of the sections if they differ. A prescription
+// that fixes the sensor's position for distant objects keeps its own defocus for near ones.
 Result<void> set_focus(LensState& state, const Prescription& lens, double object_distance_mm) {
   const double last_z = state.surfaces.back().z_mm;
   state.object_distance_mm = object_distance_mm;
@@ -309,7 +310,7 @@ Result<void> set_focus(LensState& state, const Prescription& lens, double object
   return {};
 }
 
-// A formula followed beyond where its maker vouches for it, within the visible lines g to C or at the design
+// Warns of formulas that are used outside their stated range, within the visible lines g to C or at the design
 // wavelength.
 void warn_of_glasses(LensState& state) {
   for (std::size_t k = 0; k < state.surfaces.size(); ++k) {
@@ -325,8 +326,8 @@ void warn_of_glasses(LensState& state) {
   }
 }
 
-// Published data is often wrong: figures that its source states and that the surfaces do not have. Where the focus is
-// as stated the surfaces are, and the stated focal length is another lens's or another setting's.
+// Warns if the stated figures differ from those of the surfaces, since published data are often wrong. If the back
+// focal distance agrees, the surfaces are right, and the stated focal length is that of another lens or setting.
 void warn_of_stated(LensState& state, const StatedFigures& stated) {
   const double back_mm = image_plane(state, std::numeric_limits<double>::infinity(), Section::Y).distant_mm;
   const auto is_as_stated = [&](const std::optional<double>& claimed_mm, double computed_mm) {
@@ -363,7 +364,7 @@ Result<void> check_coatings(const Prescription& lens, const LensSettings& settin
   return {};
 }
 
-// Films between two like media are no coating.
+// Errors for coatings between two equal media.
 Result<void> check_coated(const LensState& state, const Prescription& lens, const LensSettings& settings) {
   for (const SurfaceCoating& at : settings.coating_at) {
     const SurfaceState& surface = state.surfaces[static_cast<std::size_t>(at.surface - 1)];

@@ -14,14 +14,14 @@ double sag_mm(double curvature_per_mm, double h_mm) {
   return ch * h_mm / (1.0 + std::sqrt(std::max(0.0, 1.0 - ch * ch)));
 }
 
-// The gap grows or falls steadily with height (so does a sphere's slope with its curvature), and at the axis it is a
-// thickness: the rim is the only place to look.
+// The gap is monotonic in height, since a sphere's slope is monotonic in its curvature, and at the axis it is the
+// thickness: only the rim must be checked.
 Gap gap_of_spheres(const Surface& front, const Surface& back, double thickness_mm, double height_mm) {
   return {thickness_mm + sag_mm(back.curvature_per_mm, height_mm) - sag_mm(front.curvature_per_mm, height_mm),
           height_mm};
 }
 
-// Height of a surface of any shape, moved and (by so little that its sag's foot stays where it is) tilted.
+// Height of a surface of any shape, decentred, and tilted by so small an angle that the sag's foot point stays.
 std::optional<double> height_mm(const Surface& s, Vec2 at_mm) {
   const Vec2 from = at_mm - Vec2{s.pose.shift_mm.x, s.pose.shift_mm.y};
   const auto point = surface_at(s.curvature_per_mm, s.shape, from);
@@ -32,15 +32,15 @@ std::optional<double> height_mm(const Surface& s, Vec2 at_mm) {
 
 constexpr int kSpokes = 24;
 
-// As many spokes from x towards y as tell of all 24: one of surfaces of revolution, a quarter of those that both axes
-// divide alike.
+// The number of the 24 spokes that symmetry leaves, from x towards y: one for surfaces of revolution, a quarter of a
+// turn for surfaces symmetric about both axes.
 int spokes_of(const Surface& front, const Surface& back) {
   if (!(front.pose == SurfacePose{}) || !(back.pose == SurfacePose{})) return kSpokes;
   if (front.shape.has_axial_symmetry() && back.shape.has_axial_symmetry()) return 1;
   return front.shape.turn_rad == 0.0 && back.shape.turn_rad == 0.0 ? kSpokes / 4 + 1 : kSpokes;
 }
 
-// Surfaces of which one is no sphere, or stands askew, are nearest to each other anywhere.
+// For other shapes and for tilted surfaces the smallest gap may be anywhere within the rims.
 Gap gap_of_any(const Surface& front, const Surface& back, double thickness_mm, double rim_mm) {
   constexpr int kRings = 32;
   const int spokes = spokes_of(front, back);
@@ -70,7 +70,7 @@ Gap smallest_gap(const Surface& front, const Surface& back, double thickness_mm,
 
 bool reaches(const Surface& surface, double height_mm) {
   if (surface.shape.is_sphere()) return std::abs(surface.curvature_per_mm) * height_mm <= 1.0;
-  constexpr int kRings = 32;  // at all heights: a toroid with a polynomial may end and begin again
+  constexpr int kRings = 32;  // at all heights: a toroid with a polynomial may have gaps
   for (int ring = 1; ring <= kRings; ++ring)
     if (!sag_range(surface.curvature_per_mm, surface.shape, height_mm * ring / kRings)) return false;
   return true;

@@ -19,7 +19,7 @@ double departure_per_mm3(const SurfaceState& s, double vertex_curvature_per_mm) 
   return (1.0 + s.shape.conic) * c * c * c - v * v * v + 8.0 * a4;
 }
 
-// Refractive indices on both sides, and how much they change between the outer wavelengths.
+// Refractive indices on both sides, and their difference between the outer wavelengths.
 struct Media {
   double n, n_after, dn, dn_after;
 };
@@ -32,7 +32,7 @@ Media media_at(const SurfaceState& s, const SeidelRequest& request) {
           dispersion(s.before), dispersion(s.after)};
 }
 
-// Welford 8.5 (spheres), 8.7 (aspheres), 10.5 (colour); distortion in the form that has no 1 / A.
+// Welford 8.5 (spheres), 8.7 (aspheres), 10.5 (colour); distortion in the form without 1 / A.
 SeidelSums sums_at(const SurfaceState& s, const Media& m, const ParaxialRay& marginal, const ParaxialRay& chief,
                    double u_after) {
   const double c = vertex_curvature(s.curvature_per_mm, s.shape, Section::Y);

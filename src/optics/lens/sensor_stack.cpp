@@ -26,7 +26,7 @@ Result<void> check_plate(const SensorPlate& plate) {
   return {};
 }
 
-// Far beyond the frame: light that passes beside the sensor is not held back by what stands before it.
+// A semi-diameter far beyond the frame, so that plates do not block light next to the sensor.
 double wide_mm(const LensState& lens) {
   return 100.0 * (std::hypot(lens.sensor_width_mm, lens.sensor_height_mm) + std::abs(lens.focal_length_mm));
 }

@@ -1,4 +1,4 @@
-// Plates before the sensor, and the sensor as a surface that reflects.
+// Plates in front of the sensor, and the sensor as a reflecting surface.
 #pragma once
 
 #include "contrejour/lens.h"
@@ -7,8 +7,8 @@ namespace contrejour {
 
 [[nodiscard]] Result<void> check_sensor_stack(const SensorStack& stack);
 
-// Behind a lens in focus whose sensor stands where it would without plates: moves the sensor by what these lengthen the
-// way to the focus (first order) and adds the surfaces. Errors: no room between the lens and the sensor.
+// Adds the surfaces behind a lens that is in focus without plates, and moves the sensor by the focus shift of the
+// plates (first order). Errors: not enough space between the lens and the sensor.
 [[nodiscard]] Result<void> add_sensor_stack(const SensorStack& stack, const SourcePlace& place, LensState& lens);
 
 }  // namespace contrejour

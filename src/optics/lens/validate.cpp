@@ -17,24 +17,24 @@ namespace contrejour {
 
 namespace {
 
-// A glass is asked for its index from here to there.
+// The range in which a glass must have an index.
 constexpr double kVisibleFirst_nm = 380.0;
 constexpr double kVisibleLast_nm = 780.0;
 constexpr double kVisibleStep_nm = 20.0;
-// Transparent solids go to 2.7 in the visible; silicon and germanium, for infrared designs, to 4.1.
+// Transparent solids have up to 2.7 in the visible; silicon and germanium, for infrared designs, up to 4.1.
 constexpr double kMaxGlassIndex = 5.0;
 constexpr double kMaxFilmIndex = 8.0;
 constexpr double kMinFilmIndex = 0.01;  // silver
-constexpr double kMaxFilm_nm = 1e5;     // beyond it, films are glass
+constexpr double kMaxFilm_nm = 1e5;     // thicker films are glass
 constexpr double kMaxLength_mm = 1e5;
 constexpr double kMaxConic = 1e6;       // of a nearly flat surface; real ones stay below 1000
-constexpr double kMostCurvature_per_mm = 1e6;  // no clear aperture is smaller
+constexpr double kMostCurvature_per_mm = 1e6;  // no smaller clear aperture exists
 constexpr double kMaxTurn_rad = 1e3;    // beyond, angles lose digits
 constexpr double kLeastUpright = 0.5;   // z of a surface's axis
 constexpr double kMaxFNumber = 1000.0;
 constexpr double kMinFNumber = 0.4;  // 0.5 is the limit of an aplanat in air; patents round
 
-// Where a rule was broken: the row of surface `index`, with its number for people.
+// Makes the error of a broken rule, with the line and number of surface `index`.
 struct RowFailure {
   const Prescription& lens;
 

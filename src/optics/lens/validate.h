@@ -15,7 +15,7 @@ inline constexpr int kMaxZoomPositions = 200;
 inline constexpr int kMaxFilmLayers = 200;
 inline constexpr std::size_t kMostMeasured = 1000;  // wavelengths, or angles, of a measured coating
 
-// What is wrong and what to do, or nothing. A glass must have an index from 1 to 4 over the visible.
+// The problem and its remedy, or nothing. The index of a glass must be within its limits over the visible.
 [[nodiscard]] std::optional<std::string> glass_problem(const Glass& glass);
 [[nodiscard]] std::optional<std::string> coating_problem(const Coating& coating);
 [[nodiscard]] std::optional<std::string> shape_problem(const Surface& surface);

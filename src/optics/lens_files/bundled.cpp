@@ -1,4 +1,4 @@
-// The lenses of data/lenses, in the library itself: a program that links it needs no files.
+// The lenses of data/lenses, embedded in the library: a program that links it needs no files.
 #include "contrejour/lens.h"
 
 namespace contrejour {

@@ -13,13 +13,13 @@
 namespace contrejour {
 namespace {
 
-// Neighbours that cross at their rims by no more than a drawing's line is wide, as two radii given for one contact do.
+// Neighbours may cross at their rims by the width of a drawing's line, as two radii for one contact surface do.
 constexpr double kSlightCrossing_mm = 0.02;
 
-constexpr double kPlausibleFNumber = 1.0;  // until the real one is known
+constexpr double kPlausibleFNumber = 1.0;  // used until the real one is known
 constexpr int kHalvings = 50;
 
-// A rim that is missing: any small one, for questions that rims have no part in.
+// Missing rims get a small size, for computations that do not depend on rims.
 
 std::size_t stop_of(const Prescription& lens) {
   const auto is_stop = [](const Surface& s) { return s.kind == SurfaceKind::Stop; };
@@ -27,7 +27,7 @@ std::size_t stop_of(const Prescription& lens) {
                                   lens.surfaces.begin());
 }
 
-// The marginal ray and the one through the stop's middle, added up at each surface.
+// Sizes each surface for the sum of the heights of the marginal ray and the chief ray.
 Result<void> size_for_beam(Prescription& lens, const Beam& beam, const std::vector<bool>& open) {
   Prescription pinhole = lens;
   if (pinhole.f_number == 0.0) pinhole.f_number = kPlausibleFNumber;
@@ -52,7 +52,7 @@ Result<void> size_for_beam(Prescription& lens, const Beam& beam, const std::vect
   return {};
 }
 
-// The largest value in [0, high] that fits; values below one that fits do, too.
+// The largest value in [0, high] that fits, by bisection: all values below one that fits must fit.
 template <class Fits>
 double largest_fitting(double high, const Fits& fits) {
   double low = 0.0;
@@ -111,7 +111,7 @@ class RimFitter {
       if (lens_.surfaces[k].semi_diameter_mm <= rim_mm) shrink(k, fits_mm);
   }
 
-  // Moves the lens behind by what it is too near; a gap that zooming sets stays as it is.
+  // Widens the gap by what is missing; a gap that zooming sets stays unchanged.
   void part_slightly(std::size_t front, std::size_t back, double smallest_mm) {
     if (!lens_.zoom.empty() || smallest_mm < -kSlightCrossing_mm) return;
     lens_.surfaces[back - 1].thickness_mm -= smallest_mm;
@@ -146,8 +146,8 @@ Result<double> widest_f_number(Prescription lens) {
   return state->f_number;
 }
 
-// The real marginal ray at the stop, which first-order optics only nears. Numbers that form no image have none: then
-// what the stop has.
+// Height of the real marginal ray at the stop, which first-order optics only approximates. A lens that forms no image
+// has no such ray: the stop's own size is used.
 Result<double> stop_opening_mm(Prescription lens) {
   constexpr double kWide_mm = 1e4;
   const double own_mm = lens.surfaces[stop_of(lens)].semi_diameter_mm;

@@ -1,4 +1,4 @@
-// The first thing that is wrong with a file: readers go on without it and stop when they can.
+// Keeps the first error in a file: readers continue after it and stop where they can.
 #pragma once
 
 #include <optional>

@@ -5,7 +5,7 @@
 namespace contrejour {
 namespace {
 
-// What design programs' own catalogues of materials call them, in capitals; as the bundled catalogue does.
+// Translates names, in capitals, of materials in design programs' catalogues to those of the bundled catalogue.
 std::string_view usual_name(std::string_view name) {
   struct Named {
     std::string_view theirs, ours;

@@ -10,13 +10,13 @@
 
 namespace contrejour {
 
-// One for the reading of one file: each name is looked for once.
+// Serves the reading of one file: each name is searched once.
 class GlassFinder {
  public:
   explicit GlassFinder(const GlassCatalogue* own = nullptr) : own_(own) {}
 
-  // A six-digit code, a glass of the caller's own catalogue, a bundled one; named as asked for. makers: see
-  // GlassCatalogue::find. A few names that other programs give to materials (F_SILICA) stand for ours. Errors:
+  // Finds a six-digit code, a glass of the caller's catalogue, or a bundled one; the result keeps the name given.
+  // makers: see GlassCatalogue::find. A few names of materials in other programs (F_SILICA) are translated. Errors:
   // InvalidArgument, naming the nearest.
   [[nodiscard]] Result<Glass> find(std::string_view name, std::span<const std::string> makers = {});
 

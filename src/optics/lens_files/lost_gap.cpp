@@ -13,12 +13,12 @@
 namespace contrejour {
 namespace {
 
-constexpr double kSameFocus = 0.0015;  // of the focal length: what rounded figures leave open
-constexpr double kPlainly = 2.0;        // times as near to the stated focus as with any other gap
+constexpr double kSameFocus = 0.0015;  // of the focal length: tolerance for rounded figures
+constexpr double kPlainly = 2.0;        // factor by which the stated focus is met better than with any other gap
 constexpr double kWidest = 2.0;  // of the focal length: no gap is wider
 
-// How much wider the gap behind a surface must be to give the focal length; none where no other width does. With it the
-// matrix is rear * (1 t, 0 1) * front, linear in t; its element c is -1 / f.
+// How much wider the gap behind a surface must be to give the focal length; none if no width does. With the widening t
+// the matrix is rear * (1 t, 0 1) * front, linear in t; its element c is -1 / f.
 struct Widened {
   double by_mm = 0, back_focal_mm = 0;
 };
@@ -27,7 +27,7 @@ std::optional<Widened> widened(const LensState& lens, int behind, double focal_m
   const double lambda_nm = lens.design_wavelength_nm;
   const Abcd front = abcd_between(lens.surfaces, 0, behind, lambda_nm);
   const Abcd all = abcd_between(lens.surfaces, 0, last, lambda_nm);
-  // What comes behind the gap: from the vertex of the next surface on.
+  // The part behind the gap: from the vertex of the next surface on.
   const Abcd rear = abcd_between(lens.surfaces, behind + 1, last, lambda_nm);
   const double per_mm = rear.c * front.c;
   if (per_mm == 0.0) return std::nullopt;
@@ -43,7 +43,7 @@ void warn_of_lost_gap(Prescription& lens) {
   const auto state = lens_at(lens, without_films());
   if (!state || std::abs(state->focal_length_mm / *focal_mm - 1.0) <= lens.stated.tolerance) return;
   const double own_back_mm = first_order(*state, state->design_wavelength_nm).back_focal_distance_mm;
-  if (std::abs(own_back_mm - *back_mm) <= kSameFocus * *focal_mm) return;  // a lost gap moves the focus, too
+  if (std::abs(own_back_mm - *back_mm) <= kSameFocus * *focal_mm) return;  // a lost gap would also move the focus
   std::size_t best = 0;
   double wide_mm = 0.0, least = std::numeric_limits<double>::infinity(), second = least;
   for (std::size_t k = 0; k + 1 < lens.surfaces.size(); ++k) {

@@ -1,13 +1,14 @@
-// Converters that leave out openings (flare stops) leave out the gap behind them, too: the lens is then shorter than
-// its stated figures want it.
+// Converters that omit openings (flare stops) omit the gap behind them, too: the lens is then shorter than its stated
+// figures require.
 #pragma once
 
 #include "contrejour/lens.h"
 
 namespace contrejour {
 
-// A warning where neither the focal length nor the back focal distance is the stated one and one gap in air, made wider,
-// gives both: which gap, and how wide. None where several gaps nearly do. The lens itself stays as its file has it.
+// Warns if neither the focal length nor the back focal distance is the stated one, and widening one air gap gives both:
+// the warning names the gap and its width. There is no warning if several gaps nearly fit. The lens itself is not
+// changed.
 void warn_of_lost_gap(Prescription& lens);
 
 }  // namespace contrejour

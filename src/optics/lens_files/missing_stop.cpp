@@ -16,21 +16,21 @@
 namespace contrejour {
 namespace {
 
-constexpr double kLeastRoom = 0.02;  // of the lens's length: a narrower gap holds no iris
-constexpr double kSameFocalLength = 0.2;  // relative: farther off, the rows are not all of the lens
+constexpr double kLeastRoom = 0.02;  // of the lens's length: a narrower gap has no space for an iris
+constexpr double kSameFocalLength = 0.2;  // relative: with a larger deviation the rows are not the whole lens
 constexpr std::array kPlaces{0.05, 0.5, 0.95};  // within a gap
 constexpr int kFields = 60;
 constexpr double kWidestField_rad = std::numbers::pi / 3.0;
 
-// Heights at every row, just in front of it, of a ray along the axis at height 1 and of one through the first vertex at
-// slope 1; their slopes behind the row.
+// Heights at every row, just in front of it, and slopes behind it, of a ray parallel to the axis at height 1 and of one
+// through the first vertex at slope 1.
 struct RowRays {
   double axial = 0, tilted = 0, axial_slope = 0, tilted_slope = 0;
 };
 
 std::vector<RowRays> rays_of(const LensState& state) {
   std::vector<RowRays> rays;
-  for (int k = 1; k < static_cast<int>(state.surfaces.size()); ++k) {  // 0 is the stop that is not one
+  for (int k = 1; k < static_cast<int>(state.surfaces.size()); ++k) {  // 0 is the auxiliary stop
     const Abcd m = abcd_between(state.surfaces, 0, k, state.design_wavelength_nm);
     rays.push_back({m.a, m.b, m.c, m.d});
   }
@@ -48,7 +48,7 @@ bool is_opening(const Prescription& lens, std::size_t k) {
          is_air(lens.surfaces[k - 1].glass_after);
 }
 
-// With a stop of no meaning in front, so that the lens can be set up.
+// Configures the lens with an auxiliary stop in front.
 Result<LensState> set_up(Prescription lens) {
   for (const Surface& surface : lens.surfaces)
     if (surface.thickness_mm < 0.0)
@@ -77,7 +77,7 @@ Result<LensState> set_up(Prescription lens) {
                  {lens.file.file, stop.source_line, 0});
 }
 
-// Where a stop could be: so far behind the row's vertex.
+// A possible position of the stop: a distance behind a row's vertex.
 struct Place {
   std::size_t row = 0;
   double behind_mm = 0;
@@ -89,7 +89,7 @@ class StopFinder {
     pupil_radius_mm_ = lens.f_number > 0.0 ? 0.5 * std::abs(state.focal_length_mm) / lens.f_number : widest_mm();
   }
 
-  // None where no gap has room.
+  // None if no gap is wide enough.
   [[nodiscard]] std::optional<Place> find() const {
     double length_mm = 0.0;
     for (std::size_t k = 0; k + 1 < lens_.surfaces.size(); ++k) length_mm += lens_.surfaces[k].thickness_mm;
@@ -127,7 +127,7 @@ class StopFinder {
     return std::isfinite(least_mm) ? least_mm : kNoRim_mm;
   }
 
-  // Least squares of the logarithms of rims over beams, of the field that fits best.
+  // Sum of squares of the logarithms of rims over beam radii, for the field that fits best.
   [[nodiscard]] double misfit_of(const Place& place) const {
     const RowRays& at = rays_[place.row];
     const double axial = at.axial + place.behind_mm * at.axial_slope;
@@ -188,7 +188,7 @@ void make_stop(Prescription& lens, std::size_t row) {
                   row + 1, surface.source_line, kRemedy));
 }
 
-// The stop moves with the lens in front of it: a gap that zooming changes changes behind the stop.
+// The stop moves with the surfaces in front of it: where zooming changes the gap, the part behind the stop changes.
 void put_stop(Prescription& lens, const Place& place, double radius_mm) {
   Surface& before = lens.surfaces[place.row];
   Surface stop;

@@ -5,13 +5,13 @@
 
 namespace contrejour {
 
-// Puts a stop where the rims say, with a warning that names the place; a lens that has a stop stays as it is.
-// Rims are large enough for the beam along the axis and the tilted ones of the field, and a tilted beam passes the stop
-// in its middle: the stop is put where one field's chief ray explains all rims best (docs/formats/flaresim.md). A plane
-// opening beside that place becomes the stop. Where no gap has room for an iris it stands in front of the first
-// surface. The beam is that of lens.f_number, 0: the widest that the rims let through. Semi-diameters of 0 are not
-// told. Errors: Unsupported for rows that form no image of distant objects behind them, or none near the stated one
-// (teleconverters, mirror lenses without their mirrors); those of validate().
+// Adds a stop at the position that the rims imply, with a warning that names it; a lens with a stop is not changed.
+// Rims are large enough for the axial beam and the oblique beams of the field, and an oblique beam passes the stop in
+// its middle: the stop is put where the chief ray of one field fits all rims best (docs/formats/flaresim.md). A plane
+// opening next to that position becomes the stop. If no gap is wide enough for an iris, the stop is in front of the
+// first surface. The beam is that of lens.f_number, or for 0 the widest that the rims transmit. Semi-diameters of 0 are
+// unknown. Errors: Unsupported for rows that form no image of distant objects behind them, or none near the stated
+// focus (teleconverters, mirror lenses without their mirrors); those of validate().
 [[nodiscard]] Result<void> place_missing_stop(Prescription& lens);
 
 }  // namespace contrejour

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-// Any number, or none; its size is the caller's to judge.
+// Reads a number of any size; nothing for other text.
 std::optional<double> any_number(std::string_view cell) {
   constexpr std::size_t kLongest = 64;
   if (cell.starts_with('+')) cell.remove_prefix(1);

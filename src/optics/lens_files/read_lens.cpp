@@ -1,4 +1,4 @@
-// The switchboard of lens formats: one file on disk to the reader that knows it.
+// Selects the reader for a lens file.
 #include "optics/lens_files/read_lens.h"
 
 #include <algorithm>
@@ -30,7 +30,7 @@ bool looks_like_toml(std::string_view text) {
   return false;
 }
 
-// The first format that knows a text as its own reads it, so those that are surest of theirs come first.
+// The first format that recognises a text reads it, so the formats with the most specific tests come first.
 struct LensFormat {
   std::string_view name;
   bool (*looks_like)(std::string_view text);

@@ -1,4 +1,4 @@
-// What the readers of lens files share.
+// Declarations that the readers of lens files share.
 #pragma once
 
 #include <cstddef>
@@ -9,18 +9,18 @@
 
 namespace contrejour {
 
-// The largest real prescriptions take a few kB; the bound keeps hostile files cheap.
+// The largest real prescriptions take a few kB; the limit bounds the cost of hostile files.
 inline constexpr std::size_t kMaxLensFileBytes = 1'000'000;
 
-// What a reader is given.
+// The input of a reader.
 struct LensText {
-  std::string_view text;  // UTF-8, whatever the file was in
+  std::string_view text;  // UTF-8, whatever the file's encoding
   std::string file;       // names it in errors
   const GlassCatalogue* glasses = nullptr;  // the user's own, if any
   std::string key = {};  // of a file with many lenses, which one
 };
 
-// Each format other than ours: what its files look like, and its reader.
+// For each format other than ours: the test that recognises its files, and its reader.
 [[nodiscard]] bool looks_like_optical_bench(std::string_view text);
 [[nodiscard]] Result<Prescription> read_optical_bench(const LensText& in);
 
@@ -33,11 +33,11 @@ struct LensText {
 [[nodiscard]] bool looks_like_pbrt(std::string_view text);
 [[nodiscard]] Result<Prescription> read_pbrt(const LensText& in);
 
-// Those of several programs (json_lens.h).
+// JSON formats of several programs (json_lens.h).
 [[nodiscard]] bool looks_like_json(std::string_view text);
 [[nodiscard]] Result<Prescription> read_json_lens(const LensText& in);
 
-// Of OpenLensFlare and the LensFlareFramework.
+// The format of OpenLensFlare and the LensFlareFramework.
 [[nodiscard]] bool looks_like_lens_xml(std::string_view text);
 [[nodiscard]] Result<Prescription> read_lens_xml(const LensText& in);
 

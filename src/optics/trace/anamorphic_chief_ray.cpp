@@ -31,8 +31,8 @@ bool is_anamorphic(const LensState& lens) {
                       [](const SurfaceState& s) { return s.shape.has_axial_symmetry(); });
 }
 
-// From the axis outwards, each chief ray aimed from where its neighbours' places lead; beyond the last the landing goes
-// on as the first order has it.
+// Aims chief rays from the axis outwards, each from a first guess extrapolated from its neighbours. Beyond the last
+// chief ray the image point is extrapolated by first-order optics.
 Vec2 anamorphic_landing(const LensState& lens, const LightSource& source, double lambda_nm) {
   const OpticalPath path = direct_path(lens, lambda_nm);
   const Vec2 target = tangents_of(source.direction);

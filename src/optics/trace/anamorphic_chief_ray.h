@@ -1,4 +1,4 @@
-// Chief rays of lenses whose surfaces are no surfaces of revolution: docs/physics/surfaces.md.
+// Chief rays of lenses with surfaces that are not surfaces of revolution: docs/physics/surfaces.md.
 #pragma once
 
 #include "contrejour/trace.h"

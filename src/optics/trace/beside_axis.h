@@ -4,7 +4,7 @@
 
 namespace contrejour {
 
-// Where a ray that meets a step's surface at this place passes beside the surface's own axis.
+// The x and y in the surface's own frame of a point on a step's surface.
 [[nodiscard]] Vec2 beside_axis(const PathStep& step, Vec3 position_mm);
 
 }  // namespace contrejour

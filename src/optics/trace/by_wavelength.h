@@ -1,5 +1,5 @@
-// Tables and trace steps of a lens at single wavelengths, each made when it is first asked for: rays are traced at few
-// of many wavelengths, and polynomials give the others (wavelength_samples.h).
+// Tables and trace steps of a lens at single wavelengths, each made at its first use: rays are traced at few
+// wavelengths, and polynomials interpolate the others (wavelength_samples.h).
 #pragma once
 
 #include <cstddef>
@@ -15,7 +15,7 @@
 
 namespace contrejour {
 
-// One T for each wavelength, made by whichever thread asks first and kept from then on. Copies share them.
+// One T for each wavelength, made by the first thread that needs it and kept. Copies share them.
 template <class T>
 class ByWavelength {
  public:

@@ -1,5 +1,4 @@
-// A light's chief ray through a lens of any kind, by Newton's steps in both directions of the plane of the first
-// vertex.
+// Finds a light's chief ray through any lens, by Newton's method in both coordinates of the first vertex's plane.
 #pragma once
 
 #include <optional>
@@ -16,7 +15,7 @@ struct ChiefRay {
   Vec2 landing_mm;
 };
 
-// From a first guess of its place. None if it gets lost.
+// Starts from a first guess of its point in that plane. None if the iteration does not converge.
 [[nodiscard]] std::optional<ChiefRay> aim_chief(const OpticalPath& path, const LightSource& source, Vec2 at_mm);
 
 }  // namespace contrejour

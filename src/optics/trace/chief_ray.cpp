@@ -1,7 +1,7 @@
-// Where a light's image lies, by its chief ray. Where the lens has axial symmetry one meridian tells all: a table of
-// landing height against field angle, walked outwards from the axis so that each chief ray starts from its
-// neighbour's. Else, chief rays are sought in both directions: anamorphic_chief_ray.h where that is due to surfaces'
-// own shapes, and from the centred lens's where elements are moved or tilted.
+// Computes a light's image point by its chief ray. A lens with axial symmetry needs one meridian: a table of image
+// height against field angle, computed outwards from the axis so that each chief ray starts from its neighbour's. Other
+// lenses need a search in two dimensions: anamorphic_chief_ray.h for surfaces without axial symmetry, and a start from
+// the centred lens's chief ray for decentred or tilted elements.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -24,21 +24,21 @@ constexpr double kLastField_rad = 0.49 * std::numbers::pi;
 constexpr int kFieldBisections = 60;
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
-// Field angle: of the light's direction. Height at the plane of the paraxial entrance pupil, where that is behind the
-// light, or else of the first vertex.
+// The field angle is that of the light's direction. Heights are in the plane of the paraxial entrance pupil if the
+// pupil lies behind the light, else in that of the first vertex.
 class Meridian {
  public:
   Meridian(const LensState& lens, double lambda_nm, double distance_mm)
       : path_(direct_path(lens, lambda_nm)), pupil_z_mm_(first_order(lens, lambda_nm).entrance_pupil_position_mm),
         distance_mm_(distance_mm) {
-    if (!std::isfinite(pupil_z_mm_)) pupil_z_mm_ = 0.0;  // telecentric in front: any plane will do
+    if (!std::isfinite(pupil_z_mm_)) pupil_z_mm_ = 0.0;  // telecentric in object space: any plane serves
     if (!source_at(0.0).is_distant()) pupil_z_mm_ = std::max(pupil_z_mm_, 0.0);
   }
 
   struct Chief {
     double height_mm = 0;  // at that plane
     double landing_mm = 0;
-    double per_mm = 0;  // what a place in the stop changes by with the height, stop radii; 0: not known
+    double per_mm = 0;  // derivative of the stop coordinate by the height, stop radii; 0: unknown
   };
 
   // Secant search for the ray through the stop's centre, from a first guess.
@@ -57,7 +57,8 @@ class Meridian {
     return std::nullopt;
   }
 
-  // Without a walk, where the paraxial pupil tells where to begin: the ray through its centre nearly meets the stop's.
+  // Needs no neighbours where the paraxial pupil gives a good start: the ray through its centre nearly meets the
+  // stop's.
   [[nodiscard]] std::optional<Chief> chief_near_axis(double field_rad) const {
     constexpr double kNear = 0.05;  // stop radii
     const TracedRay first = at(field_rad, 0.0);
@@ -65,7 +66,7 @@ class Meridian {
     return chief(field_rad, {});
   }
 
-  // Of the ray at this height in the plane of the pupil, where it meets z = 0.
+  // The height at z = 0 of the ray at this height in the pupil's plane.
   [[nodiscard]] double height_at_vertex(double field_rad, double height_mm) const {
     const Vec3 d = source_at(field_rad).direction_at({0.0, height_mm, pupil_z_mm_});
     return height_mm - pupil_z_mm_ * d.y / d.z;
@@ -90,7 +91,7 @@ struct FieldPoint {
   Meridian::Chief chief;
 };
 
-// By the parabola through the last three.
+// Extrapolates with the parabola through the last three points.
 Meridian::Chief next_guess(std::span<const FieldPoint> points) {
   Meridian::Chief guess = points.back().chief;
   const auto height_mm = [&](std::size_t back) { return points[points.size() - 1 - back].chief.height_mm; };
@@ -98,8 +99,8 @@ Meridian::Chief next_guess(std::span<const FieldPoint> points) {
   return guess;
 }
 
-// Up to the first point that is far enough, or the last angle whose chief ray exists and still lands farther out than
-// the one before.
+// Adds points up to the first that is far enough, or to the last angle whose chief ray exists and has a larger image
+// height than the one before.
 template <class FarEnough>
 std::vector<FieldPoint> walk_field(const Meridian& meridian, FarEnough far_enough) {
   std::vector<FieldPoint> points{{0.0, {}}};
@@ -116,7 +117,7 @@ std::vector<FieldPoint> walk_past(const Meridian& meridian, double field_rad) {
   return walk_field(meridian, [&](const FieldPoint& point) { return point.field_rad > field_rad; });
 }
 
-// Beyond the last chief ray the landing height goes on as f tan(field) does.
+// Beyond the last chief ray the image height is extrapolated in proportion to f tan(field).
 double extrapolated_landing(const LensState& lens, const FieldPoint& last, double field_rad) {
   return std::abs(last.chief.landing_mm) +
          std::abs(lens.focal_length_mm) * (std::tan(field_rad) - std::tan(last.field_rad));
@@ -165,8 +166,7 @@ double radius_for(const LensState& lens, double lambda_nm, double distance_mm, d
   return landing_at(meridian, points[std::min(k, points.size() - 1)], field_rad);
 }
 
-// The lens as it ought to be, for first guesses.
-// Chief rays ask nothing of rims.
+// Chief rays ignore rims, so only poses matter.
 bool is_centred(const LensState& lens) {
   return std::all_of(lens.surfaces.begin(), lens.surfaces.end(), [](const SurfaceState& s) { return s.is_centred(); });
 }
@@ -176,7 +176,8 @@ LensState centred(LensState lens) {
   return lens;
 }
 
-// Of the lens as it ought to be the direction is known: its target is moved until the light lands where it is wanted.
+// Fixed-point iteration: the centred lens gives the direction for a target point, which is moved by the remaining error
+// of the real lens's image point.
 Vec3 askew_direction(const LensState& lens, Vec2 sensor_mm, double lambda_nm, double distance_mm) {
   constexpr int kSteps = 8;
   constexpr double kLanded_mm = 1e-6;
@@ -194,7 +195,7 @@ Vec3 askew_direction(const LensState& lens, Vec2 sensor_mm, double lambda_nm, do
 
 }  // namespace
 
-// A positive lens images the sky point in direction d (the way the light travels) on the side d points to.
+// A positive lens images a distant light on the side of the sensor to which its direction of travel d points.
 Vec3 direction_to_land_at(const LensState& lens, Vec2 sensor_mm, double lambda_nm, double distance_mm) {
   if (!has_stop(lens) || !std::isfinite(sensor_mm.x + sensor_mm.y)) return {kNan, kNan, kNan};
   if (is_anamorphic(lens)) return anamorphic_direction(lens, sensor_mm, lambda_nm, distance_mm);

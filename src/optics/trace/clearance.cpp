@@ -22,9 +22,9 @@ template <class P>
 struct Clearance {
   hk::Ray3<P> ray;
   P alive;                      // 1 or 0
-  P passed;                     // tests, as long as alive
-  P margin;                     // of the last test while alive; <= 0 where the ray fails
-  P rim_x, rim_y, rim_squared;  // where the ray passes farthest out
+  P passed;                     // number of tests passed while alive
+  P margin;                     // of the last test while alive; <= 0: the ray failed
+  P rim_x, rim_y, rim_squared;  // where the relative height is largest
 };
 
 template <class P>
@@ -46,7 +46,7 @@ HWY_INLINE void turn_by_grating(Clearance<P>& s, const PacketStep& step) {
   s.ray.dz = select(s.ray.dz > zero, along, zero - along);
 }
 
-// Rays that fail go on as numbers of no meaning.
+// Rays that fail continue with meaningless numbers.
 template <PathGeometry kGeometry, class P>
 CONTREJOUR_INLINE_IF_FAST void advance(Clearance<P>& s, const PacketStep& step) {
   const P direction(step.direction);
@@ -106,7 +106,7 @@ HWY_INLINE void leave(Clearance<P>& s, std::size_t at, const ClearanceArrays& ou
   store_floats(s.rim_y, out.rim_y + at);
 }
 
-// Two packets abreast: one waits for its own results most of the time.
+// Two packets at once: a single one waits for its own results most of the time.
 template <PathGeometry kGeometry, class P>
 void trace_all(const PacketPath& path, const float* x_mm, const float* y_mm, std::size_t count,
                const ClearanceArrays& out) {

@@ -10,21 +10,21 @@ namespace contrejour {
 namespace {
 
 constexpr int kRings = 64;          // of the cap, from vertex to rim
-constexpr double kMargin = 1e-3;    // of the semi-diameter: the rings' own discretisation
+constexpr double kMargin = 1e-3;    // of the semi-diameter: discretisation error of the rings
 
 double sag(double curvature, double r) {
   const double cr = curvature * r;
   return curvature * r * r / (1.0 + std::sqrt(std::max(0.0, 1.0 - cr * cr)));
 }
 
-// Lowest and highest on the circle.
+// The lowest and highest sag on a circle.
 SagRange heights(const SurfaceState& s, double r) {
   if (!s.shape.is_sphere()) return sag_range(s.curvature_per_mm, s.shape, r).value_or(SagRange{});
   const double height_mm = sag(s.curvature_per_mm, r);
   return {height_mm, height_mm};
 }
 
-// Of the cap: a sphere's is at its vertex or its rim.
+// The cap's lowest point; a sphere's is at its vertex or its rim.
 double lowest_mm(const SurfaceState& s) {
   double lowest = std::min(0.0, heights(s, s.semi_diameter_mm).low_mm);
   for (int k = 1; !s.shape.is_sphere() && k < kRings; ++k)
@@ -37,14 +37,14 @@ struct Circle {
   double radius = 0;
 };
 
-// How far the front may stand out of its place to a side, and forwards: moved, tilted.
+// Upper bounds of the front's displacement by decentre and tilt, sideways and forwards.
 double askew_aside_mm(const SurfaceState& first) { return length(first.pose.shift_mm); }
 double askew_forward_mm(const SurfaceState& first) {
   return askew_aside_mm(first) + 2.0 * first.semi_diameter_mm * std::hypot(first.pose.axis.x, first.pose.axis.y);
 }
 
-// The circle about the axis at height z, seen along the light on a plane `to_plane_mm` behind it: moved, and from a
-// point larger as well.
+// The shadow of the circle about the axis at height z on a plane `to_plane_mm` behind it: shifted, and enlarged for a
+// light at a finite distance.
 Circle shadow(const LightSource& source, double z_mm, double radius_mm, double to_plane_mm) {
   if (source.is_distant()) {
     const Vec2 slope{source.direction.x / source.direction.z, source.direction.y / source.direction.z};
@@ -74,8 +74,8 @@ Result<void> check_source(const LensState& lens, const LightSource& source) {
   return {};
 }
 
-// The cap of surface 1, seen along the light, is more than its rim when the light comes in obliquely onto a
-// bulging surface: each ring of the cap is projected along the light onto the plane of the rim.
+// For oblique light the shadow of surface 1's cap can extend beyond that of its rim if the surface bulges: each ring of
+// the cap is projected along the light onto the plane of the rim.
 EntranceWindow entrance_window(const LensState& lens, const LightSource& source) {
   if (lens.surfaces.empty()) return {};
   const SurfaceState& first = lens.surfaces.front();
@@ -104,7 +104,8 @@ EntranceWindow entrance_window(const LensState& lens, const LightSource& source)
     reach = std::max({rim, half.x, half.y});
   }
   double spare_mm = kMargin * reach;
-  // Its cap is a part of a larger one's: the ways aside of what stands forwards by so much, about as the rim's own.
+  // A displaced cap shifts the shadow sideways by its decentre, and by the slope of the light times its displacement
+  // forwards; the slope is estimated from the window's size.
   if (!first.is_centred()) {
     const double slope = std::hypot(window.max_mm.x - window.min_mm.x, window.max_mm.y - window.min_mm.y) / (2.0 * rim);
     spare_mm += askew_aside_mm(first) + askew_forward_mm(first) * slope;

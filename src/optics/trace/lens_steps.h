@@ -1,4 +1,4 @@
-// A lens at one wavelength: every step that the way of a ghost may take, ready for packets.
+// A lens at one wavelength: all steps that a ghost's path can contain, prepared for packets.
 #pragma once
 
 #include <array>
@@ -13,8 +13,8 @@ class LensSteps {
   // Both must outlive this.
   LensSteps(const LensState& lens, const ReflectanceTables& tables);
 
-  // Of a surface, light from the front or from behind: rims of its own first. Lengths from the vertex before are those
-  // of no path.
+  // The steps of a surface for light from the front or from behind, its own rims first. Lengths from the preceding
+  // vertex are not set: they depend on the path.
   struct AtSurface {
     std::vector<PacketStep> steps;
     Vec3 vertex_mm;

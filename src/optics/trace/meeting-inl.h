@@ -1,5 +1,5 @@
-// Where packets of rays meet a step's surface: each geometry is compiled without what only the others need. Compiled
-// once per instruction set (foreach_target).
+// Intersects packets of rays with a step's surface. Each geometry is compiled separately, without what only the others
+// need. Compiled once per instruction set (foreach_target).
 #if defined(CONTREJOUR_TRACE_MEETING_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef CONTREJOUR_TRACE_MEETING_INL_H_
 #undef CONTREJOUR_TRACE_MEETING_INL_H_
@@ -17,8 +17,8 @@
 HWY_BEFORE_NAMESPACE();
 namespace contrejour::HWY_NAMESPACE {
 
-// How far off the last of so many steps may leave a ray. Float is good to 2e-5 mm on the steepest of surfaces, with
-// quick quotients; of double the outputs are floats.
+// Newton's limits for packets. Float is accurate to 2e-5 mm on the steepest surfaces, with approximate quotients;
+// results of double are stored as float.
 template <class P>
 inline constexpr kernels::HWY_NAMESPACE::NewtonLimits kPacketLimits{.steps = 4, .residual_mm = 1e-4};
 #if HWY_HAVE_FLOAT64
@@ -39,8 +39,9 @@ HWY_INLINE RimPlace<P> rim_place(const kernels::HWY_NAMESPACE::OwnPlace<P>& own,
   return {P(rim.u_per_mm.x) * x + P(rim.u_per_mm.y) * y, P(rim.v_per_mm.x) * x + P(rim.v_per_mm.y) * y};
 }
 
-// The ray's coordinates begin at the vertex before; afterwards at the step's. own: the hit's place beside the surface's
-// own axis. (Two results: compilers keep one large struct of vectors in memory, at half the speed.)
+// The origin of the ray's coordinates is the preceding vertex; afterwards it is the step's. own: the hit in the
+// surface's own frame. (There are two results because compilers keep one large struct of vectors in memory, at half the
+// speed.)
 template <PathGeometry kGeometry, class P>
 HWY_INLINE kernels::HWY_NAMESPACE::Hit<P> meet(kernels::HWY_NAMESPACE::Ray3<P>& ray, const PacketStep& step,
                                                kernels::HWY_NAMESPACE::OwnPlace<P>& own) {

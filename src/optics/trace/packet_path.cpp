@@ -7,16 +7,16 @@
 namespace contrejour {
 namespace {
 
-// Beyond the critical angle seen from the denser side there is no u; from the other side every u is an angle.
+// From the denser side angles beyond the critical one have no u; from the other side every u is an angle.
 double cos_in_denser(double u, double n_low, double n_high) {
   const double eta = n_low / n_high;
   return std::sqrt(1.0 - eta * eta * (1.0 - u * u));
 }
 
-// Every so many of the table's values is computed; a cubic through four of them, good to 2e-6, gives the others.
+// Every kSpacing-th value of the table is computed; a cubic through four of them gives the others, to 2e-6.
 constexpr std::size_t kSpacing = 16;
 
-// What four nodes are multiplied by, for the values from one of them to the next: the first, the second or the third.
+// The weights of four nodes for the values in the first, second or third interval between them.
 using CubicWeights = std::array<std::array<std::array<double, 4>, kSpacing>, 3>;
 
 // Lagrange's cubics.
@@ -44,7 +44,7 @@ ReflectanceTables::ReflectanceTables(const LensState& lens, double lambda_nm) : 
   }
 }
 
-// That of a surface before it which reflects alike, or one of its own.
+// Reuses the entry of an earlier surface with the same reflectance, or makes one.
 ReflectanceTables::Entry ReflectanceTables::entry_of(const SurfaceState& surface, const LensState& lens) {
   const bool absorbs = may_absorb(surface.coating);
   const bool same_both_ways = !absorbs && !std::holds_alternative<HullinFresnelAR>(surface.coating.films);
@@ -70,7 +70,7 @@ int ReflectanceTables::add(const SurfaceState& surface, int direction, bool tran
   const double n_out = direction > 0 ? after : before;
   const Coating coating = at_wavelength(surface.coating, lambda_nm_);
   const auto exact = [&](int k) {
-    // Grazing itself is 0/0 in a matrix of films; its limit is next to it.
+    // At grazing incidence the film matrix gives 0/0; a value close to it gives the limit.
     const double u = std::max(static_cast<double>(k) / kIntervals, 1e-9);
     const double cos_in = n_in > n_out ? cos_in_denser(u, n_out, n_in) : u;
     return transmitted ? transmittance(coating, n_in, n_out, cos_in, lambda_nm_)
@@ -102,7 +102,7 @@ PacketPath::PacketPath(const OpticalPath& path, const ReflectanceTables& tables,
   steps_.reserve(path.steps.size());
   for (const PathStep& from : path.steps) {
     const ReflectanceTables::Entry& entry = tables.of(from.surface);
-    PacketStep& step = steps_.emplace_back();  // in place: a copy would wait for every field
+    PacketStep& step = steps_.emplace_back();  // constructed in place, which saves a copy of every field
     step.event = from.event;
     if (from.event == PathEvent::Stop) step.crossing = stop_crossings_++;
     step.from_denser = from.n_in > from.n_out;

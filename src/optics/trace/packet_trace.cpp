@@ -40,7 +40,8 @@ HWY_INLINE void pass_stop(PacketState<P>& s, const PacketStep& step, double inve
   store_floats(s.ray.y * scale, out.stop_y[static_cast<std::size_t>(step.crossing)] + at);
 }
 
-// What is left behind a way from a place whose z was from_z in the coordinates of the step before.
+// Multiplies the transmission by the internal transmittance of the path from the point whose z was from_z in the
+// preceding step's coordinates.
 template <class P>
 HWY_INLINE void absorb(PacketState<P>& s, const PacketStep& step, P from_z) {
   const P way = (s.ray.z + P(step.gap_mm) - from_z) / s.ray.dz;
@@ -60,7 +61,7 @@ HWY_INLINE void turn_by_grating(PacketState<P>& s, const PacketStep& step) {
   s.ray.dz = select(s.ray.dz > zero, along, zero - along);
 }
 
-// One packet over one surface. Rays that fail go on as numbers of no meaning with alive = 0.
+// Takes one packet across one surface. Rays that fail continue with meaningless numbers and alive = 0.
 template <PathGeometry kGeometry, class P>
 CONTREJOUR_INLINE_IF_FAST void advance(PacketState<P>& s, const PacketStep& step, const float* tables,
                                        float* rim_squared) {
@@ -152,7 +153,7 @@ HWY_INLINE PacketState<P> enter(const PacketStart& start, const float* x_mm, con
   return s;
 }
 
-// The rays that start at index `at` of the arrays, as many as a packet holds.
+// Traces one packet of rays, which starts at index `at` of the arrays.
 template <PathGeometry kGeometry, class P>
 CONTREJOUR_INLINE_IF_FAST void trace_one(const PacketPath& path, const float* x_mm, const float* y_mm, std::size_t at,
                                          const TracedArrays& out) {
@@ -166,7 +167,7 @@ CONTREJOUR_INLINE_IF_FAST void trace_one(const PacketPath& path, const float* x_
   land<kGeometry>(s, path, at, out);
 }
 
-// The last rays, too few for a packet, in buffers of a packet's length.
+// Traces the last rays, too few for a packet, in buffers of a packet's length.
 template <PathGeometry kGeometry, class P>
 void trace_tail(const PacketPath& path, const float* x_mm, const float* y_mm, std::size_t count,
                 const TracedArrays& out) {

@@ -40,15 +40,15 @@ PathStep step_at(const LensState& lens, int surface, int direction, PathEvent ev
   return step;
 }
 
-// Of the light that a grating of squares reflects (side over pitch: fill), the share in one order: the squares'
-// spectrum sinc^2(m f) in each direction, all orders' adding up to 1.
+// Efficiency of one order of a grating of squares (fill: side over pitch), relative to all reflected light: the
+// squares' spectrum sinc^2(m f) in each direction, normalised so that all orders sum to 1.
 double share_of_order(int order, double fill) {
   const double x = std::numbers::pi * order * fill;
   const double sinc = order == 0 ? 1.0 : std::sin(x) / x;
   return fill * sinc * sinc;
 }
 
-// In the medium before the step, and after the way to it.
+// Adds a rim in the medium in front of the step, reached after the path to the step.
 void add_rim(OpticalPath& path, PathStep& step, const Rim& rim) {
   PathStep only = step;
   only.event = PathEvent::Refract;
@@ -60,7 +60,7 @@ void add_rim(OpticalPath& path, PathStep& step, const Rim& rim) {
   step.absorption_per_mm = 0.0;
 }
 
-// All but the last become steps of their own.
+// Adds all rims but the last as steps of their own.
 void add_rims(OpticalPath& path, PathStep& step, const std::vector<Rim>& rims) {
   if (rims.empty()) return;
   for (std::size_t k = 0; k + 1 < rims.size(); ++k) add_rim(path, step, rims[k]);
@@ -128,7 +128,7 @@ OpticalPath without_obscurations(const OpticalPath& path) {
   OpticalPath out = path;
   out.obscured = false;
   out.steps.clear();
-  double absorption_per_mm = 0.0;  // on the way to a step left out
+  double absorption_per_mm = 0.0;  // of the path to an omitted step
   for (const PathStep& step : path.steps) {
     if (step.blocks_within) {
       absorption_per_mm = step.absorption_per_mm;

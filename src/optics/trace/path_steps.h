@@ -1,4 +1,4 @@
-// The steps of ways through a lens, one surface after the other: what paths for single rays and for packets share.
+// The steps of optical paths through a lens, surface by surface: common code of paths for single rays and for packets.
 #pragma once
 
 #include <array>
@@ -9,10 +9,10 @@
 
 namespace contrejour {
 
-// Adds the steps at a surface, 0-based, at the path's wavelength: rims of its own first, where it has such.
+// Adds the steps at a surface, 0-based, at the path's wavelength, with the surface's own rims first.
 void add_steps(OpticalPath& path, const LensState& lens, int surface, int direction, PathEvent event);
 
-// What a sensor's grating does to the light that it reflects into one order (PathStep); none where there is no grating.
+// The effect of a sensor's grating on light reflected into one order (PathStep); the default is no grating.
 struct GratingTurn {
   Vec2 kick;
   double share = 1;
@@ -20,8 +20,8 @@ struct GratingTurn {
 [[nodiscard]] std::optional<GratingTurn> grating_turn(const LensState& lens, int surface, std::array<int, 2> order,
                                                       double lambda_nm);
 
-// A ghost's way: calls `visit(surface, direction, event)` at every surface in turn, and where light that goes forward
-// is reflected `turn(surface, order)` after that.
+// Follows a ghost's path: calls `visit(surface, direction, event)` at every surface in order, and then `turn(surface,
+// order)` where light that travels forward is reflected.
 template <class Visit, class Turn>
 void walk_ghost(const LensState& lens, const Ghost& ghost, const Visit& visit, const Turn& turn) {
   walk_surfaces(

@@ -12,8 +12,8 @@ namespace {
 
 namespace hk = kernels::HWY_NAMESPACE;
 
-// A ray that meets a surface on the far side of its equator has left the glass; it counts as blocked, whatever
-// its distance from the axis there.
+// Relative height of a ray that meets a sphere beyond its equator: it has left the glass and counts as blocked,
+// whatever its distance from the axis.
 constexpr double kBeyondEquator = 2.0;
 
 struct State {
@@ -22,15 +22,15 @@ struct State {
   int crossings = 0;
 };
 
-// Where a ray meets a step's surface: in the lens's coordinates but for the sag, which is from the vertex, and beside
-// the surface's own axis.
+// The intersection of a ray with a step's surface, in the lens's coordinates (the sag from the vertex) and in the
+// surface's own frame.
 struct Meeting {
   hk::Hit<double> hit;
   double vertex_z_mm = 0;
   hk::OwnPlace<double> own;
 };
 
-// The ray's coordinates begin at the vertex; so do the hit's.
+// The vertex is the origin of the ray's and the hit's coordinates.
 Meeting meet_askew_shape(hk::Ray3<double> ray, const PathStep& step, const hk::Axis3<double>& axis) {
   hk::turn_upright(axis, ray.x, ray.y, ray.z);
   hk::turn_upright(axis, ray.dx, ray.dy, ray.dz);
@@ -76,7 +76,7 @@ double distance_over_rim(const hk::OwnPlace<double>& own, const PathStep& step) 
   return own.nz > 0.0 ? r : std::max(r, kBeyondEquator);
 }
 
-// A grating square to the axis adds to the direction's x and y; false where that leaves no direction.
+// A grating perpendicular to the axis adds to the direction's x and y; false if the result is evanescent.
 bool turn_by_grating(State& state, Vec2 kick) {
   hk::Ray3<double>& ray = state.ray;
   ray.dx += kick.x;
@@ -90,7 +90,7 @@ bool turn_by_grating(State& state, Vec2 kick) {
   return true;
 }
 
-// Takes the ray over one surface; false ends it with out.status set.
+// Takes the ray across one surface; false ends it with out.status set.
 bool advance(State& state, const PathStep& step, const OpticalPath& path, double* angle_of_incidence_rad,
              double* reflectance_here) {
   const double direction = step.direction;

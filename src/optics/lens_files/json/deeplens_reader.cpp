@@ -69,7 +69,7 @@ class DeepLensReader {
     lens_.surfaces.push_back(std::move(surface));
   }
 
-  // A square plane is told by its side.
+  // A square plane is given by its side.
   static void set_rim(const JsonField& in, Surface& surface) {
     if (in["r"].is_there() || !in["l"].is_there()) {
       surface.semi_diameter_mm = std::abs(in["r"].required_number());
@@ -153,7 +153,7 @@ class DeepLensReader {
     }
   }
 
-  // The aperture is what DeepLens traces; its `fnum` is left over from other states of a lens.
+  // DeepLens traces the aperture; its `fnum` may stem from another state of the lens.
   void compare_f_number(Prescription& lens) const {
     constexpr double kTolerance = 0.1;
     const double told = root_["fnum"].number_or(0.0);

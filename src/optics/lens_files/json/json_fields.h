@@ -1,5 +1,5 @@
-// A value of a JSON file and the way to it, for readers of lens files: what is missing or of another kind is said once,
-// with its line and its path ("surfaces[3].radius").
+// A value of a JSON file and its path, for readers of lens files: a missing value or one of another kind is reported
+// once, with its line and path ("surfaces[3].radius").
 #pragma once
 
 #include <optional>
@@ -19,14 +19,14 @@ class JsonField {
  public:
   JsonField(const JsonNode& root, JsonErrors& errors) : node_(&root), errors_(&errors), line_(root.line) {}
 
-  // The same value, its errors noted there.
+  // The same value, with its errors reported there.
   [[nodiscard]] JsonField reporting_to(JsonErrors& errors) const {
     JsonField field = *this;
     field.errors_ = &errors;
     return field;
   }
 
-  // A map's value or a list's; of what is not there, one that is not there.
+  // A map's or list's value; an absent field if there is none.
   [[nodiscard]] JsonField operator[](std::string_view key) const;
   [[nodiscard]] JsonField operator[](std::size_t index) const;
 
@@ -37,18 +37,18 @@ class JsonField {
   [[nodiscard]] bool is_text() const { return is(JsonNode::Kind::Text); }
   [[nodiscard]] std::size_t size() const { return node_ == nullptr ? 0 : node_->list.size(); }
   [[nodiscard]] std::string_view key(std::size_t index) const { return node_->keys[index]; }
-  [[nodiscard]] int line() const { return line_; }  // its own, or that of the nearest around it
+  [[nodiscard]] int line() const { return line_; }  // its own, or that of the nearest enclosing value
   [[nodiscard]] const std::string& path() const { return path_; }
 
-  // A number, or one within quotes ("Infinity", "inf" too); none for null and what is absent, an error for all else.
-  // At most kLargestNumber, or infinite; a number beyond is infinite.
+  // A number, also within quotes ("Infinity", "inf" too); none for null and absent values, an error for all others.
+  // Numbers beyond kLargestNumber are infinite.
   [[nodiscard]] std::optional<double> number() const;
   [[nodiscard]] double number_or(double fallback) const { return number().value_or(fallback); }
-  // An error for what is absent, too, and for infinities.
+  // As number(), but absent values and infinities are errors.
   [[nodiscard]] double required_number() const;
-  // Empty for null and what is absent, an error for what is no text.
+  // A text; empty for null and absent values, an error for all others.
   [[nodiscard]] std::string text() const;
-  // false for null and what is absent; a number is true unless 0; an error for all else.
+  // A truth value; false for null and absent values, a number is true unless 0; an error for all others.
   [[nodiscard]] bool truth() const;
 
   // "surfaces[3].radius: what is wrong".

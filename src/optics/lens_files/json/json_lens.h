@@ -9,7 +9,7 @@
 
 namespace contrejour {
 
-// A lens of this program is there, as far as its outermost keys tell.
+// A format, recognised by its outermost keys.
 struct JsonLensFormat {
   std::string_view name;
   bool (*is)(const JsonField& root);
@@ -33,10 +33,10 @@ struct JsonLensFormat {
 [[nodiscard]] bool is_lentil(const JsonField& root);
 [[nodiscard]] Result<Prescription> read_lentil(const JsonField& root, const LensText& in);
 
-// More surfaces than are computed are an error.
+// Reports an error for more surfaces than are supported.
 void refuse_many_surfaces(const JsonField& surfaces);
 
-// A list's coefficients of r^first, r^(first + step), ... added to the shape's. One of a power that is not computed is
+// Adds a list's coefficients of r^first, r^(first + step), ... to the shape's. A coefficient of an unsupported power is
 // an error, unless it is 0.
 void add_powers(const JsonField& list, std::size_t first, std::size_t step, SurfaceShape& shape);
 

@@ -22,7 +22,7 @@ constexpr double kPlane_mm = 99999.0;  // and more: how the database writes plan
 
 bool is_entry(const JsonField& field) { return field[kElements].is_list(); }
 
-// "company product-name year (key)", of what there is.
+// "company product-name year (key)", without the parts that are missing.
 std::string name_of(const JsonField& entry, std::string_view key) {
   std::string name;
   for (const char* part : {"company", "product-name"}) {
@@ -113,7 +113,7 @@ class LentilReader {
     }
   }
 
-  // An anamorphic lens has two, of which one is stated.
+  // An anamorphic lens has two focal lengths, of which one is stated.
   void state_focal_length() {
     const auto focal_mm = entry_["focal-length-mm-patent"].number();
     if (!focal_mm || !(*focal_mm > 0.0)) return;

@@ -17,7 +17,7 @@
 namespace contrejour {
 namespace {
 
-// Each name without its letter case and underscores, as editions differ in both.
+// Removes letter case and underscores from a name, since versions of the program differ in both.
 std::string plain(std::string_view text) {
   std::string out;
   for (const char c : text)
@@ -107,7 +107,7 @@ class OptilandReader {
     }
   }
 
-  // Where a surface stands in the space of all: turned about z, y and x of its own, then moved.
+  // The pose of a surface in global coordinates: rotated about its own z, y and x, then moved.
   void place(const JsonField& cs, DesignSurface& surface) {
     if (cs["reference_cs"].is_there())
       cs["reference_cs"].fail("coordinates that stand in others are not read; give them in the space of all",
@@ -156,7 +156,7 @@ class OptilandReader {
     return air();
   }
 
-  // A page of refractiveindex.info by its name; whose, the path or the reference says.
+  // A page of refractiveindex.info by its name; the path or the reference gives the maker.
   Glass named_glass(const JsonField& in) {
     const std::string name = in["name"].text();
     const std::string path = plain(in["filename"].text()) + "/" + plain(in["reference"].text());

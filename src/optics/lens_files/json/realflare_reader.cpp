@@ -13,12 +13,12 @@
 namespace contrejour {
 namespace {
 
-// Of a project or a preset.
+// The lens settings of a project or a preset.
 JsonField lens_of_settings(const JsonField& root) {
   return root["flare"].is_map() ? root["flare"]["lens"] : root["lens"];
 }
 
-// The model itself, or one within a project; else what has no elements.
+// The model itself, or the one within a project; else a field without elements.
 JsonField model_of(const JsonField& root) {
   if (root["lens_elements"].is_list()) return root;
   for (const char* key : {"lens_model", "prescription", "model"})
@@ -59,7 +59,7 @@ Surface surface_of(const JsonField& element, bool is_stop, const Glass& medium) 
   return surface;
 }
 
-// The stop may be a surface of glass: then it is a row of its own, at that surface's vertex.
+// The stop may be a glass surface: then it becomes a row of its own, at that surface's vertex.
 bool is_refracting(const JsonField& element, const Glass& medium) {
   return element["radius"].number_or(0.0) != 0.0 ||
          std::abs(element["refractive_index"].number_or(1.0) - refractive_index(medium, kLineD_nm)) > 1e-6;

@@ -12,9 +12,9 @@
 namespace contrejour {
 namespace {
 
-constexpr double kSameIndex = 1e-4;  // at the d line; beyond, it is another glass of that name
+constexpr double kSameIndex = 1e-4;  // at the d line; a larger difference means another glass of that name
 
-// Makers and how their catalogues' coefficients stand in ray-optics.
+// Makers, and the order of their catalogues' coefficients in ray-optics.
 struct Maker {
   std::string_view class_name, maker;
   DispersionFormula formula;
@@ -35,7 +35,7 @@ std::vector<double> numbers_of(const JsonField& field) {
   return values;
 }
 
-// Sellmeier's six stand as B1, B2, B3, C1, C2, C3 there, alternating here.
+// Sellmeier's six coefficients are B1, B2, B3, C1, C2, C3 there, and alternate here.
 std::vector<double> in_our_order(std::vector<double> c, DispersionFormula formula) {
   if (formula != DispersionFormula::Sellmeier1) return c;
   return {c[0], c[3], c[1], c[4], c[2], c[5]};

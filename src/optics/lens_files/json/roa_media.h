@@ -1,4 +1,4 @@
-// Glasses as ray-optics' files hold them.
+// Glasses in ray-optics' files.
 #pragma once
 
 #include "contrejour/glass.h"
@@ -7,12 +7,13 @@
 
 namespace contrejour {
 
-// A python object in JSON: its class and what it holds. Anything else is its own content, without a class.
+// A Python object in JSON: its class and its content. Any other value is its own content, without a class.
 [[nodiscard]] std::string class_of(const JsonField& object);
 [[nodiscard]] JsonField content_of(const JsonField& object);
 
-// One of opticalglass: air, a catalogue's glass by maker and name (the file's own coefficients where ours has none, or
-// one of another index), a model glass, a constant index, a table. What is none is an error, and air.
+// Reads a medium of opticalglass: air, a catalogue's glass by maker and name (with the file's own coefficients if our
+// catalogue has no such glass, or one with another index), a model glass, a constant index, a table. Anything else is
+// an error and gives air.
 [[nodiscard]] Glass roa_glass(const JsonField& medium, GlassFinder& finder);
 
 }  // namespace contrejour

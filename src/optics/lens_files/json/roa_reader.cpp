@@ -1,4 +1,4 @@
-// ray-optics' .roa files (docs/formats/ray-optics.md): a tree of python objects in JSON.
+// ray-optics' .roa files (docs/formats/ray-optics.md): a tree of Python objects in JSON.
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -16,7 +16,7 @@ namespace contrejour {
 namespace {
 
 constexpr double kDistant = 1e8;  // an object farther away is infinitely far
-constexpr double kUnsetAperture = 1.0;  // what a new surface's max_aperture is
+constexpr double kUnsetAperture = 1.0;  // max_aperture of a new surface
 
 struct Unit {
   std::string_view name;
@@ -108,7 +108,7 @@ class RoaReader {
     return surface;
   }
 
-  // RadialPolynomial's list begins with the linear term; an older one of eleven with the constant.
+  // RadialPolynomial's list begins with the linear term; an older list of eleven with the constant.
   void read_profile(const JsonField& object, DesignSurface& surface) {
     const std::string type = class_of(object);
     const JsonField content = content_of(object);
@@ -135,7 +135,7 @@ class RoaReader {
     }
   }
 
-  // 'decenter' moves all that follows, 'dec and return' the surface alone.
+  // 'decenter' moves all surfaces that follow, 'dec and return' this surface alone.
   static void read_decentre(const JsonField& object, DesignSurface& surface) {
     if (!object.is_there()) return;
     const JsonField content = content_of(object);
@@ -161,7 +161,7 @@ class RoaReader {
     }
   }
 
-  // The first one that light goes through, and the first that it does not.
+  // Reads the first clear aperture and the first obscuration.
   void read_opening(const JsonField& list, DesignSurface& surface) {
     for (std::size_t k = 0; k < list.size(); ++k) {
       const JsonField object = list[k];
@@ -211,7 +211,7 @@ class RoaReader {
     return opening.half_x > 0.0 && opening.half_y > 0.0 ? std::optional(opening) : std::nullopt;
   }
 
-  // A model whose apertures were never worked out has one and the same for all.
+  // A model whose apertures were never computed has the same value for all.
   void forget_unset_apertures() {
     for (std::size_t k = 1; k + 1 < design_.surfaces.size(); ++k)
       if (design_.surfaces[k].semi_diameter != kUnsetAperture) return;

@@ -13,11 +13,11 @@
 namespace contrejour {
 namespace {
 
-constexpr double kNoFNumber = 1.0;  // for questions that it has no part in
-constexpr double kWidestHalfField_rad = 1.4;  // 80 degrees; a fisheye's rim is its surfaces' own
+constexpr double kNoFNumber = 1.0;  // for computations that do not depend on it
+constexpr double kWidestHalfField_rad = 1.4;  // 80 degrees; a fisheye's rims are those of its file
 constexpr double kRectilinear_rad = 1.05;  // 60 degrees; beyond, images of wide lenses are f times the angle, or less
 
-// The lens as first-order optics sees it. Heights and slopes at its first row go to those behind its last one.
+// First-order properties of the lens. The matrix maps heights and slopes at its first row to those behind its last one.
 struct Paraxial {
   Abcd through;
   double focal_mm = 0;
@@ -56,7 +56,7 @@ Result<Paraxial> paraxial(Prescription rows) {
                   std::move(axial)};
 }
 
-// The widest beam along the axis that all surfaces of a known size let through; 0 where none is known.
+// The widest axial beam that all surfaces of known size transmit; 0 if no size is known.
 double widest_beam_mm(const Prescription& rows, const Paraxial& lens) {
   double narrowest_mm = std::numeric_limits<double>::infinity();
   for (std::size_t k = 0; k < rows.surfaces.size(); ++k) {

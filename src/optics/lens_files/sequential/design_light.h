@@ -1,4 +1,4 @@
-// What light a design is for, once its surfaces are known: entrance pupil, field, image.
+// The light for which a design is made, computed once its surfaces are known: entrance pupil, field, image.
 #pragma once
 
 #include "contrejour/lens.h"
@@ -9,11 +9,11 @@ namespace contrejour {
 
 struct DesignLight {
   Beam beam;
-  double f_number = 0;  // of distant objects; 0: what the stop's opening gives
+  double f_number = 0;  // for distant objects; 0: determined by the stop's opening
   double focal_length_mm = 0;
   double focus_mm = 0;  // of distant objects, from the last row
   double image_radius_mm = 0;  // of the widest field; 0: the design has none but the axis
-  bool stop_is_open = false;  // nothing tells its size: the pupil is what the other surfaces let through
+  bool stop_is_open = false;  // its size is unknown: the other surfaces limit the pupil
 };
 
 // object_mm: from the first row to the object, infinite for distant ones. Errors: those of lens_at, and an aperture

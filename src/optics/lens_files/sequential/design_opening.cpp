@@ -10,7 +10,7 @@
 namespace contrejour {
 namespace {
 
-// The largest circle about the axis, up to this one, that the surface reaches to.
+// The largest radius, up to this one, at which the surface exists.
 double reached_mm(const Surface& surface, double most_mm) {
   if (reaches(surface, most_mm)) return most_mm;
   constexpr int kHalvings = 50;

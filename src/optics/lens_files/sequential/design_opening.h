@@ -1,4 +1,4 @@
-// Apertures of design programs on our surfaces.
+// Converts apertures of design programs to ours.
 #pragma once
 
 #include <string>
@@ -8,10 +8,11 @@
 
 namespace contrejour {
 
-// Semi-diameter, rim and obscuration of a surface whose shape is set. Warns of what is taken otherwise.
+// Sets semi-diameter, rim and obscuration of a surface whose shape is set. Warns of apertures that are interpreted
+// differently.
 void set_opening(const DesignSurface& from, double unit_mm, Surface& surface, std::vector<std::string>& warnings);
 
-// Of a surface that is turned about its axis.
+// Rotates the opening of a surface that is rotated about its axis.
 void turn_opening(double turn_rad, ClearAperture& aperture);
 void turn_opening(double turn_rad, Obscuration& obscuration);
 

@@ -15,7 +15,7 @@ Placement in_mm(const Placement& placement, double unit_mm) {
   return out;
 }
 
-// Of each row in one position; the last one is the image's.
+// The pose of each row in one zoom position; the last one is the image's.
 std::vector<PoseAndTurn> poses(const SequentialDesign& design, const std::vector<DesignRow>& rows,
                                const std::vector<double>& thickness) {
   const double unit_mm = design.unit_mm;

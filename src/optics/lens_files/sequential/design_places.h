@@ -1,4 +1,4 @@
-// Where the rows of a design stand, beside their places along the axis.
+// Poses of the rows of a design: decentre and tilt relative to their nominal positions on the axis.
 #pragma once
 
 #include <vector>
@@ -7,8 +7,8 @@
 
 namespace contrejour {
 
-// Sets the rows' poses, and turns their shapes and openings. Errors: Unsupported for a stop or an image surface that
-// stands askew, and for poses that are others in another position.
+// Sets the rows' poses, and rotates their shapes and openings. Errors: Unsupported for a decentred or tilted stop or
+// image surface, and for poses that differ between zoom positions.
 [[nodiscard]] Result<void> place_rows(const SequentialDesign& design, const std::vector<DesignPosition>& positions,
                                       std::vector<DesignRow>& rows);
 

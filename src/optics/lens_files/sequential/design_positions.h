@@ -1,4 +1,4 @@
-// Which positions of a design are those of our zoom.
+// Selects the positions of a design that form our zoom.
 #pragma once
 
 #include <string>
@@ -8,8 +8,8 @@
 
 namespace contrejour {
 
-// With what follows from thicknesses that a position changes: those for distant objects, or else all, as the rest is
-// focusing. The design's own thicknesses, if it has no positions.
+// The positions with all solves evaluated: those for distant objects if there are any, since the others are focusing,
+// else all. Without positions the design's own thicknesses.
 [[nodiscard]] std::vector<DesignPosition> positions_of(const SequentialDesign& design,
                                                        std::vector<std::string>& warnings);
 

@@ -70,8 +70,8 @@ class Rows {
     return surface;
   }
 
-  // The stop's row: flat, in the medium in front. A semi-diameter that the program worked out for its own rays gives
-  // way to that of the f-number.
+  // The stop's row: flat, in the medium in front. A semi-diameter that the program computed for its own rays is
+  // replaced by that of the f-number.
   [[nodiscard]] Surface stop_of(const DesignSurface& from, const Surface& at, const Glass& medium, bool refracts) {
     Surface stop;
     stop.kind = SurfaceKind::Stop;

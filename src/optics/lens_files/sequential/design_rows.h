@@ -1,4 +1,4 @@
-// The rows of a prescription that a design's surfaces make.
+// Converts a design's surfaces to rows of a prescription.
 #pragma once
 
 #include <cstddef>
@@ -9,7 +9,7 @@
 
 namespace contrejour {
 
-// A row, and which of the design's surfaces' thicknesses add up to the gap behind it.
+// A row, and the surfaces of the design whose thicknesses add up to the gap behind it.
 struct DesignRow {
   Surface surface;
   std::vector<std::size_t> gap;
@@ -17,16 +17,16 @@ struct DesignRow {
   std::size_t of = 0;  // the design's surface
 };
 
-// Surfaces that refract, block or stop light; a stop on a surface is a row of its own in front of it. Errors: no lens,
-// no stop or more than one.
+// Makes rows of the surfaces that refract, block or stop light; a stop on a surface becomes a row in front of it.
+// Errors: no lens, no stop or more than one.
 [[nodiscard]] Result<std::vector<DesignRow>> rows_of(const SequentialDesign& design,
                                                      std::vector<std::string>& warnings);
 
-// The gap behind a row with these thicknesses of the design's surfaces.
+// The gap behind a row for these thicknesses of the design's surfaces.
 [[nodiscard]] double gap_mm(const DesignRow& row, const std::vector<double>& thickness, double unit_mm);
 
-// Of all rows. A stop or an opening that stands behind the vertex of the next surface, as a negative gap has it, is
-// moved to that vertex.
+// The gaps behind all rows. A stop or an opening behind the vertex of the next surface, which a negative gap indicates,
+// is moved to that vertex.
 [[nodiscard]] std::vector<double> gaps_mm(const std::vector<DesignRow>& rows, const std::vector<double>& thickness,
                                           double unit_mm);
 

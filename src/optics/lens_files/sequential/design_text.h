@@ -7,16 +7,16 @@
 
 namespace contrejour {
 
-// Between blanks; no more than `most` of them.
+// The words between blanks, at most `most` of them.
 [[nodiscard]] std::vector<std::string_view> words_of(std::string_view line, std::size_t most = 64);
 
 // "/a/b/cooke.zmx" -> "cooke": for files that name no lens.
 [[nodiscard]] std::string stem_of(const std::string& file);
 
-// "70 mm", "f=70", "70": the focal length that a position is called by; 0 for all else.
+// "70 mm", "f=70", "70": the nominal focal length in a position's title; 0 for other text.
 [[nodiscard]] double nominal_focal_mm(std::string_view title);
 
-// A long text cut to what a lens's source is to be, at a space.
+// Truncates a long text, for the source of a lens, at a space.
 [[nodiscard]] std::string cut_text(std::string text, std::size_t most = 200);
 
 }  // namespace contrejour

@@ -11,8 +11,8 @@
 namespace contrejour {
 namespace {
 
-// Q_m from the P_m, which are easily had: P_m = f_m Q_m + g_(m-1) Q_(m-1) + h_(m-2) Q_(m-2) (Forbes 2010, A.14 to
-// A.16).
+// Computes Q_m from the P_m, which have a simple recurrence: P_m = f_m Q_m + g_(m-1) Q_(m-1) + h_(m-2) Q_(m-2) (Forbes
+// 2010, A.14 to A.16).
 double sum_of_bfs(const std::vector<double>& a, double x) {
   double sum = 0.0;
   double p_before = 0.0, p = 2.0;              // P_(m-1), P_m
@@ -78,8 +78,8 @@ double forbes_departure(double curvature, double conic, const ForbesAsphere& asp
   return x * (1.0 - x) / cos_normal * sum;
 }
 
-// Over t = (r / reach)^2 as Chebyshev's polynomials through their own nodes, of what is left of the departure without
-// one t, so that the axis is met; then as powers, by T_(j + 1) = 2 (2 t - 1) T_j - T_(j - 1).
+// Interpolates the departure over t, with t = (r / reach)^2, by Chebyshev polynomials through their nodes; the factor t
+// makes it vanish on the axis. The polynomials are then expanded in powers by T_(j + 1) = 2 (2 t - 1) T_j - T_(j - 1).
 std::optional<ForbesPowers> powers_of_forbes(double curvature, double conic, const ForbesAsphere& asphere,
                                              double reach) {
   constexpr std::size_t kTerms = SurfaceShape::kHighestPower / 2, kLooks = 200;

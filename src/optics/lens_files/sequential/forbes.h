@@ -1,4 +1,4 @@
-// Forbes' aspheres as conics with even polynomials, which is what is traced.
+// Converts Forbes' aspheres to conics with even polynomials, which can be traced.
 // Source: Forbes 2007, Shape specification for axially symmetric optical surfaces, Optics Express 15, 5218: Qbfs, whose
 // slopes are orthogonal, and Qcon, whose sags are; recurrences of Qbfs as in Forbes 2010, Optics Express 18, 19700.
 // Lengths in the file's unit. Thread-safety: pure functions.
@@ -23,8 +23,8 @@ struct ForbesAsphere {
 // At x = u^2, u the distance from the axis over the norm radius: the sum of the coefficients times Q_m(x).
 [[nodiscard]] double forbes_sum(const ForbesAsphere& asphere, double x);
 
-// The surface's sag beyond its conic. With Qcon u^4 times the sum. With Qbfs u^2 (1 - u^2) times the sum is measured
-// along the conic's normal; of a sphere, which Forbes has it for, and of any conic in Zemax' files.
+// The surface's sag beyond its conic. For Qcon it is u^4 times the sum. For Qbfs u^2 (1 - u^2) times the sum is
+// measured along the normal of the sphere (Forbes), or of any conic (Zemax' files).
 [[nodiscard]] double forbes_departure(double curvature, double conic, const ForbesAsphere& asphere, double r);
 
 // The departure as coefficients of r, r^2, ... r^20 within `reach` of the axis.

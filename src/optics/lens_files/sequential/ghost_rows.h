@@ -1,4 +1,5 @@
-// A ghost's path as the surfaces of a sequential design: each as often as the light meets it, mirrors where it turns.
+// A ghost's path as the surfaces of a sequential design: each as often as the light meets it, mirrors where it
+// reflects.
 #pragma once
 
 #include "contrejour/ghost_id.h"
@@ -8,9 +9,9 @@
 
 namespace contrejour {
 
-// Surfaces as they stand in the lens, gaps along the axis: negative where the light goes back. The stop is where the
-// light crosses it first; its other crossings are plane openings as large. Errors: InvalidArgument for a ghost that the
-// lens cannot have; Unsupported for an order of diffraction at the sensor.
+// Surfaces have the poses of the lens, gaps are along the axis and negative where light travels back. The stop is at
+// the first crossing; the other crossings are plane openings of the same size. Errors: InvalidArgument for a ghost that
+// the lens cannot have; Unsupported for an order of diffraction at the sensor.
 [[nodiscard]] Result<WritableDesign> ghost_rows(const LensState& lens, const Ghost& ghost);
 
 }  // namespace contrejour

@@ -5,7 +5,7 @@
 namespace contrejour {
 namespace {
 
-// Sines and cosines of angles in degrees that come and go leave less than this.
+// Rotations by some degrees and back leave rounding errors below this.
 constexpr double kNoTurn = 1e-12;   // rad
 constexpr double kNoShift_mm = 1e-9;
 
@@ -13,7 +13,7 @@ double tidy(double value, double least) { return std::abs(value) < least ? 0.0 :
 
 constexpr Vec3 cross(Vec3 a, Vec3 b) { return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x}; }
 
-// By the smallest turn that takes this unit vector back to +z (Rodrigues).
+// Applies the smallest rotation that takes this unit vector to +z (Rodrigues).
 Vec3 turned_back(Vec3 axis, Vec3 v) {
   const Vec3 k = cross(axis, {0, 0, 1});
   return v + cross(k, v) + cross(k, cross(k, v)) * (1.0 / (1.0 + axis.z));
@@ -38,7 +38,7 @@ PoseAndTurn pose_of(const Placement& placement) {
   const Vec3 axis = normalized(placement.axes[2]);
   const bool upright = std::hypot(axis.x, axis.y) < kNoTurn && axis.z > 0.0;
   if (!upright) out.pose.axis = axis;
-  if (axis.z <= -1.0 + kNoTurn) return out;  // turned over; validate() refuses it
+  if (axis.z <= -1.0 + kNoTurn) return out;  // reversed; validate() refuses it
   const Vec3 x = upright ? placement.axes[0] : turned_back(axis, placement.axes[0]);
   out.turn_rad = tidy(std::atan2(x.y, x.x), kNoTurn);
   return out;

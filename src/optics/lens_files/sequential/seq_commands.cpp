@@ -10,7 +10,7 @@ namespace {
 constexpr std::string_view kBlanks = " \t\r\v\f,";
 constexpr std::size_t kMostWords = 300, kLongestName = 3;
 
-// One physical line after the other, joined where a line goes on.
+// Reads physical lines, joined where a line is continued.
 class Splitter {
  public:
   std::vector<SeqCommand> split(std::string_view text) {
@@ -46,7 +46,7 @@ class Splitter {
     if (!goes_on) finish();
   }
 
-  // A word, or what stands between quotes, from line[k] on; behind it.
+  // Adds a word, or the text between quotes, from line[k] on; returns the index behind it.
   std::size_t add_word(std::string_view line, std::size_t k, int number) {
     if (words_.empty()) line_ = number;
     std::string word;

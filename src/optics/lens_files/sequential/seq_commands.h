@@ -18,13 +18,13 @@ struct SeqCommand {
   }
 };
 
-// Lines that end with & go on in the next; ! starts a comment; ; parts commands. At most kMostSeqCommands.
+// Lines that end with & continue in the next; ! starts a comment; ; separates commands. At most kMostSeqCommands.
 inline constexpr std::size_t kMostSeqCommands = 50'000;
 [[nodiscard]] std::vector<SeqCommand> seq_commands(std::string_view text);
 
 [[nodiscard]] std::string capitals(std::string_view text);
 
-// "SO", "S0", "S12", "SI": which surface.
+// The surface named by "SO", "S0", "S12" or "SI".
 struct SeqSurfaceName {
   bool is = false;
   int index = 0;

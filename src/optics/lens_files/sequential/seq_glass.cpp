@@ -21,7 +21,7 @@ Glass model_of(std::string_view name, double n_d, double v_d) {
   return {std::string(name), ModelGlass{n_d, v_d, 0.0}};
 }
 
-// The digits of n_d - 1 and of V_d / 100 about a point: 517.642, 517000.642000. Its exact numbers, so that a glass
+// The digits of n_d - 1 and of V_d / 100 about a point: 517.642, 517000.642000. The numbers are exact, so that a glass
 // keeps them when it is written again.
 std::optional<Glass> fictitious(std::string_view word) {
   const std::size_t point = word.find('.');

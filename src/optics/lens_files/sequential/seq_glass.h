@@ -1,4 +1,4 @@
-// Glasses as CODE V names them.
+// Glasses by CODE V's names.
 #pragma once
 
 #include <map>
@@ -11,11 +11,11 @@
 
 namespace contrejour {
 
-// Those that a file describes itself, between PRV and END.
+// The glasses that a file defines between PRV and END.
 class SeqPrivateGlasses {
  public:
-  // One command of that part: PWL and wavelengths (nm), or a name and its indices or coefficients. What is wrong is
-  // said to who asks for the glass: files have more of them than they use.
+  // One command of that part: PWL and wavelengths (nm), or a name and its indices or coefficients. Errors are reported
+  // when a glass is used, since files define more glasses than they use.
   void add(const SeqCommand& command);
   [[nodiscard]] const Result<Glass>* find(std::string_view name) const;
 
@@ -27,7 +27,7 @@ class SeqPrivateGlasses {
 };
 
 // "NBK7_SCHOTT", "517642", "517.642", "517000.642000", "1.517:64.2", or "1.517" with `next` "64.2". Errors:
-// InvalidArgument for a name that neither the file nor a catalogue has.
+// InvalidArgument for an unknown name.
 [[nodiscard]] Result<Glass> seq_glass(std::string_view word, std::string_view next, const SeqPrivateGlasses& own,
                                       GlassFinder& finder, const std::string& file, int line,
                                       std::vector<std::string>& warnings);

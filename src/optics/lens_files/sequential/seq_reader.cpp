@@ -1,4 +1,5 @@
-// Lens files of CODE V (docs/formats/codev.md): commands, those behind an S about the surface that it starts.
+// Lens files of CODE V (docs/formats/codev.md): a sequence of commands, of which those behind an S refer to the surface
+// that it starts.
 #include <algorithm>
 #include <cmath>
 #include <set>
@@ -73,7 +74,7 @@ class SeqReader {
     }
   }
 
-  // EPD Z1 10 is EPD 10; what the other positions have is the zoom's.
+  // EPD Z1 10 is EPD 10; values of other positions belong to the zoom.
   void read_of_position(const SeqCommand& command, std::size_t word) {
     zoom_.add_one(command, word);
     if (capitals(command.words[word]) != "Z1" || command.name == "TIT") return;
@@ -123,7 +124,7 @@ class SeqReader {
     fail(line, "a mirror (REFL); lenses of refracting surfaces alone are computed", ErrorCode::Unsupported);
   }
 
-  // A command about the last surface, or about the one that it names.
+  // Reads a command for the last surface, or for the one that it names.
   void read_of_surface(const SeqCommand& command) {
     SeqCommand own = command;
     std::size_t at = current_;
@@ -167,7 +168,7 @@ class SeqReader {
     design_.positions = zoom_.positions(design_, design_.warnings);
   }
 
-  // Where RDM does not say it, the first number of S is a curvature, as CODE V has it, unless no beam would pass.
+  // Without RDM the first number of S is a curvature, CODE V's default, unless no beam would get through then.
   void decide_radius_mode() {
     const double semi = design_.aperture == DesignAperture::EntrancePupil ? 0.5 * design_.aperture_value : 1.0;
     double largest = 0.0;
@@ -187,7 +188,7 @@ class SeqReader {
                  : "without RDM, S tells curvatures");
   }
 
-  // CODE V's own.
+  // The stop that CODE V uses if the file marks none.
   void set_default_stop() {
     const auto is_stop = [](const DesignSurface& s) { return s.is_stop; };
     if (std::any_of(design_.surfaces.begin(), design_.surfaces.end(), is_stop)) return;

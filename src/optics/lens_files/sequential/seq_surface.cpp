@@ -14,7 +14,7 @@
 namespace contrejour {
 namespace {
 
-// Commands that put a number into a list of the surface's.
+// Commands that set a coefficient of the surface.
 bool is_coefficient(std::string_view name) {
   static const std::set<std::string_view> kNames = {"K", "KX", "KY", "A",  "B",  "C",  "D",  "E",  "F",  "G",  "H",
                                                     "J", "AR", "BR", "CR", "DR", "AP", "BP", "CP", "DP", "CUF"};
@@ -37,7 +37,7 @@ bool is_shape(std::string_view name) {
   return kNames.contains(name);
 }
 
-// What we do not compute, and what it is.
+// Commands that are not supported, and their meaning.
 std::string_view refused(std::string_view name) {
   struct Named {
     std::string_view name, what;
@@ -95,7 +95,7 @@ DesignOpening& opening_of(SeqSurface& s, int line) {
   return *s.opening;
 }
 
-// CIR OBS 3, ELX HOL 2, ADX OBS 0.5. False for a rectangle, which is not computed.
+// CIR OBS 3, ELX HOL 2, ADX OBS 0.5. False for a rectangle, which is not supported.
 bool read_obscuration(std::string_view name, double value, Obscuration& obscuration) {
   if (name == "CIR") {
     obscuration.half_mm = {std::abs(value), std::abs(value)};
@@ -111,7 +111,7 @@ bool read_obscuration(std::string_view name, double value, Obscuration& obscurat
   return true;
 }
 
-// CIR 12, CIR L'a' 12; with EDG the glass's edge, with OBS or HOL a part that lets nothing through.
+// CIR 12, CIR L'a' 12; with EDG the glass's edge, with OBS or HOL an obscuration.
 std::optional<std::string> read_aperture(const SeqCommand& command, SeqSurface& s, std::vector<std::string>& warnings) {
   const auto value = last_number(command);
   if (!value) return "no number";
@@ -151,7 +151,7 @@ bool ends_behind(std::string_view range, int index) {
   return last == "I" || last == "i" || plain_number(last) == static_cast<double>(index + 1);
 }
 
-// THI 5; THI HMY 0 (a solve that is carried out); THI OAL S2..4 9: those thicknesses add up to 9.
+// THI 5; THI HMY 0 (a solve with its result); THI OAL S2..4 9: those thicknesses add up to 9.
 std::optional<std::string> read_thickness(const SeqCommand& command, int index, SeqSurface& s) {
   if (const auto value = number_or_infinity(command.word(0))) {
     s.thickness = *value;
@@ -229,7 +229,7 @@ std::optional<Error> SeqSurfaceReader::read(const SeqCommand& command, int index
   } else if (is_aperture(name)) {
     problem = read_aperture(command, s, warnings);
   } else if (!is_shape(name) || name == "RDY" || name == "CUY" || name == "RDX" || name == "CUX") {
-    // All these tell a number, or how it is solved for: then S has it.
+    // These have a number, or the kind of a solve, whose result S has.
     if (command.words.size() > 1 && !plain_number(command.word(0))) return std::nullopt;
     if (!value) {
       problem = fmt::format("'{}' is no number", shortened(command.words.empty() ? "" : command.words.back()));
@@ -258,7 +258,7 @@ double coefficient(const SeqSurface& in, std::string_view name) {
   return at == in.coefficients.end() ? 0.0 : at->second;
 }
 
-// Tilts about x and y are left-handed, about z right-handed; each about the axes that the one before has left.
+// Tilts about x and y are left-handed, about z right-handed; each about the axes that the preceding ones have rotated.
 Placement placement_of(const SeqSurface& in) {
   const auto move = [&](std::string_view name) {
     const auto at = in.moves.find(name);

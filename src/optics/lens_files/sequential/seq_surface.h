@@ -1,4 +1,4 @@
-// The commands of a CODE V file that are about one surface.
+// The commands of a CODE V file for one surface.
 #pragma once
 
 #include <map>
@@ -32,12 +32,12 @@ struct SeqSurface {
   std::map<std::string, double, std::less<>> coefficients;  // K, A, B, ..., KX, KY
   std::map<std::string, double, std::less<>> moves;         // XDE, YDE, ZDE, ADE, BDE, CDE
   bool returns = false;                        // DAR
-  std::string refused_move = {};  // how its decentre and tilts act, where that is not computed
+  std::string refused_move = {};  // the kind of its decentre and tilts, if it is not supported
   int refused_move_line = 0;
   std::optional<DesignOpening> opening;
   Obscuration obscuration;
   std::optional<ThicknessSolve> solve;
-  bool is_to_focus = false;  // PIM: the next surface stands in the paraxial focus
+  bool is_to_focus = false;  // PIM: the next surface is at the paraxial focus
 };
 
 [[nodiscard]] bool seq_is_of_surface(std::string_view name);
@@ -46,8 +46,7 @@ class SeqSurfaceReader {
  public:
   explicit SeqSurfaceReader(const std::string& file) : file_(file) {}
 
-  // An error for what is not computed or no number; nothing if all is well.
-  // Of surface `index`.
+  // Reads a command of surface `index`. Returns an error for an unsupported command or an invalid number, else nothing.
   [[nodiscard]] std::optional<Error> read(const SeqCommand& command, int index, SeqSurface& surface,
                                           std::vector<std::string>& warnings) const;
 

@@ -1,4 +1,4 @@
-// What a CODE V file says of the whole system: title, units, aperture, fields, wavelengths.
+// The commands of a CODE V file for the whole system: title, units, aperture, fields, wavelengths.
 #pragma once
 
 #include <map>
@@ -17,10 +17,10 @@ class SeqSystem {
  public:
   // False for a command that is not of these.
   [[nodiscard]] bool read(const SeqCommand& command, SequentialDesign& design, FirstError& errors);
-  // Once all commands are read.
+  // Call this after all commands are read.
   void finish(SequentialDesign& design) const;
 
-  // What S tells first, from here on.
+  // The meaning of S's first number, from here on.
   [[nodiscard]] RadiusMode radius_mode() const { return radius_mode_; }
 
  private:

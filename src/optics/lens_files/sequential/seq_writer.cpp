@@ -1,4 +1,4 @@
-// CODE V's sequence files (docs/formats/codev.md) that seq_reader reads back.
+// Writes CODE V's sequence files (docs/formats/codev.md), which seq_reader reads back.
 #include <algorithm>
 #include <cctype>
 #include <cmath>
@@ -62,7 +62,7 @@ class Writer {
   Result<std::string> row_text(std::size_t k, double gap_mm) {
     const Surface& s = lens_.surfaces[k];
     const SurfaceShape& shape = s.shape;
-    // A toroid turned by a right angle is CODE V's own other one; other turns are turns of the coordinates.
+    // CODE V has a type for a toroid rotated by a right angle; other rotations rotate the coordinates.
     const bool crossed = shape.kind == ShapeKind::Toroid && shape.turn_rad == 0.5 * std::numbers::pi;
     const double own = crossed ? shape.curvature_x_per_mm : s.curvature_per_mm;
     std::string out = "S     " + (own == 0.0 ? "0.0" : radius_text(own)) + " " + number_text(gap_mm) +
@@ -105,7 +105,7 @@ class Writer {
     return (crossed ? "  XTO\n" : "  YTO\n") + other + conic + powers;
   }
 
-  // Within the circle; turned with the surface where its coordinates are.
+  // The rim within the semi-diameter's circle, in the surface's coordinates, which may be rotated.
   static std::string rim_text(const Surface& s, double turn_rad) {
     const ClearAperture rim = aperture_in_turned(s.aperture, turn_rad);
     if (rim.kind == ApertureKind::Disc) return {};

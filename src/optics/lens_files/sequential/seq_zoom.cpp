@@ -22,7 +22,7 @@ bool changes_nothing(std::string_view name) {
   return kNames.contains(name);
 }
 
-// What our zoom has once for all positions.
+// Commands whose values our zoom shares between all positions.
 bool is_said_once(std::string_view name) {
   static const std::set<std::string_view> kNames = {"EPD", "FNO", "NA",  "NAO", "WL",  "REF", "XAN",
                                                     "YAN", "XOB", "YOB", "XIM", "YIM", "XRI", "YRI",
@@ -63,7 +63,7 @@ std::optional<std::string> SeqZoom::add(const SeqCommand& command) {
   for (std::size_t k = about ? 2 : 1; k < command.words.size(); ++k) {
     const auto value = number_or_infinity(command.words[k]);
     numbers = numbers && value;
-    row.values.push_back(value.value_or(static_cast<double>(k)));  // names that differ count as that
+    row.values.push_back(value.value_or(static_cast<double>(k)));  // different names count as different values
   }
   if (row.name == "THI") {
     if (!at.is || !numbers) return "ZOO THI: give the surface and its thickness at each position";

@@ -1,4 +1,4 @@
-// ZOO commands of a CODE V file: positions of a zoom, if thicknesses are all that moves.
+// ZOO commands of a CODE V file: positions of a zoom, if only thicknesses change.
 #pragma once
 
 #include <map>
@@ -11,18 +11,18 @@
 
 namespace contrejour {
 
-// Which of the command's first two words is a position, such as Z2; beyond them if none is.
+// The index of the word among the first two that is a position, such as Z2; the number of words if none is.
 [[nodiscard]] std::size_t seq_zoom_word(const SeqCommand& command);
 
 class SeqZoom {
  public:
-  // ZOO 3; ZOO THI S5 1 2 3. What is wrong, or nothing.
+  // Reads ZOO 3 or ZOO THI S5 1 2 3. Returns a problem, or nothing.
   [[nodiscard]] std::optional<std::string> add(const SeqCommand& command);
-  // THI S5 Z2 7: of one position, which words[word] names.
+  // Reads THI S5 Z2 7, for the one position that words[word] names.
   void add_one(const SeqCommand& command, std::size_t word);
 
-  // Each position; empty without a zoom, or where more than thicknesses changes: a
-  // warning says then that position 1 is read.
+  // All positions; empty without a zoom, or if more than thicknesses change: a warning then says that position 1 is
+  // read.
   [[nodiscard]] std::vector<DesignPosition> positions(const SequentialDesign& design,
                                                       std::vector<std::string>& warnings) const;
 
@@ -35,7 +35,7 @@ class SeqZoom {
   std::size_t count_ = 0;
   std::map<int, Row> thicknesses_;  // by surface, kSeqImage for the image
   std::vector<Row> others_;
-  std::map<std::size_t, double> nominal_mm_;  // of positions that are called by it
+  std::map<std::size_t, double> nominal_mm_;  // of positions whose title states it
 };
 
 }  // namespace contrejour

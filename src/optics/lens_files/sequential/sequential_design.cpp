@@ -16,13 +16,13 @@
 namespace contrejour {
 namespace {
 
-constexpr double kNearFocus = 0.05;  // of the focal length: an image surface within is this lens's own, out of focus
-constexpr double kInFocus = 1e-6;          // of the focal length: as near as files print it
-constexpr double kSameFocalLength = 1e-6;  // relative: two positions of one zoom that are one
-constexpr double kNearNominal = 0.2;       // relative: an engraved focal length and the real one
+constexpr double kNearFocus = 0.05;  // of the focal length: an image surface nearer to the focus is kept as defocused
+constexpr double kInFocus = 1e-6;  // of the focal length: rounding of printed distances
+constexpr double kSameFocalLength = 1e-6;  // relative: zoom positions nearer than this are merged
+constexpr double kNearNominal = 0.2;  // relative: an engraved focal length and the real one
 constexpr double kDefaultDiagonal_mm = 43.2666;  // 36 x 24
 
-// One of a zoom, and its place in the file.
+// A position of a zoom, and its line in the file.
 struct Position {
   double focal_mm = 0;
   std::size_t index = 0;
@@ -82,7 +82,7 @@ class Builder {
   }
 
   Result<Prescription> finish() {
-    // To the first row: what stands in front of it adds to the distance.
+    // The distance to the first row includes the surfaces in front of it.
     const std::vector<double>& thickness = positions_.front().thickness;
     double object_mm = thickness.front();
     for (std::size_t k = 1; k < rows_.front().of; ++k) object_mm += thickness[k];
@@ -124,7 +124,7 @@ class Builder {
     }
   }
 
-  // Positions in rising focal length; those of one focal length are one.
+  // Sorts positions by focal length and merges those of equal focal length.
   Result<void> set_zoom() {
     if (positions_.size() < 2) return {};
     std::vector<Position> sorted;
@@ -133,7 +133,7 @@ class Builder {
       const auto light = light_of(design_, lens_, std::numeric_limits<double>::infinity());
       if (!light) return tl::unexpected(light.error());
       sorted.push_back({light->focal_length_mm, p});
-      lens_.f_number = std::min(lens_.f_number, light->f_number);  // 0 where the stop's opening says it
+      lens_.f_number = std::min(lens_.f_number, light->f_number);  // 0 if the stop's opening determines it
     }
     std::stable_sort(sorted.begin(), sorted.end(), [](auto& a, auto& b) { return a.focal_mm < b.focal_mm; });
     const auto same = [](auto& a, auto& b) { return std::abs(b.focal_mm / a.focal_mm - 1.0) < kSameFocalLength; };
@@ -152,7 +152,7 @@ class Builder {
     return {};
   }
 
-  // By the focal lengths that the file calls them, where these are what they nearly have.
+  // Names positions by the focal lengths that the file states, if these nearly agree with the computed ones.
   void name_positions(const std::vector<Position>& sorted) {
     std::vector<double> names;
     for (const Position& position : sorted) {

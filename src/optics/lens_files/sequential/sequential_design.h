@@ -1,6 +1,6 @@
 // What the files of design programs (Zemax, CODE V) have in common: surfaces from the object to the image in units of
-// the lens, breaks of the coordinates between them, and the light they were designed for. Their readers fill it in;
-// prescription_of makes our lens of it, so that every such format is understood alike (docs/formats/zemax.md).
+// the lens, breaks of the coordinates between them, and the light they were designed for. Readers fill in this
+// structure and prescription_of converts it, so that all such formats are interpreted alike (docs/formats/zemax.md).
 #pragma once
 
 #include <algorithm>
@@ -22,11 +22,11 @@ struct DesignOpening {
   double half_x = 0, half_y = 0;  // radius of a round one: both
   Vec2 centre{};
   double turn_rad = 0;  // from x towards y
-  double circle = 0;  // a circle about the axis besides; 0: none
+  double circle = 0;  // additional circle about the axis; 0: none
   int line = 0;
 };
 
-// How a thickness follows from those in front of it; the file's own figure is that of one position.
+// A solve that determines a thickness from those in front of it; the file's number is that of one position.
 struct ThicknessSolve {
   enum class Kind { Pickup, Sum, Pair } kind = Kind::Pickup;
   int from = 0;                  // surface
@@ -41,19 +41,19 @@ struct DesignSurface {
   Glass glass_after = air();
   bool is_stop = false;
   double semi_diameter = 0;     // 0: not told
-  bool is_semi_fixed = false;   // by the designer; else the program's own, for the rays that it traced
+  bool is_semi_fixed = false;   // by the designer; else computed by the program for its rays
   std::optional<DesignOpening> opening;
   Obscuration obscuration;      // in the file's units
-  Placement move;  // of the coordinates, before this surface and for all that follow
+  Placement move;  // of the coordinates, before this surface and for all following ones
   Placement own;   // of this surface alone, after that
   std::optional<ThicknessSolve> solve;
-  bool is_break = false;  // no surface, a move of the coordinates and a thickness
+  bool is_break = false;  // no surface, only a move of the coordinates and a thickness
 };
 
 // One of a zoom.
 struct DesignPosition {
   std::vector<double> thickness;  // of all surfaces
-  double nominal_focal_mm = 0;    // that it is called by; 0: it is not
+  double nominal_focal_mm = 0;    // as stated in the title; 0: none
 };
 
 enum class DesignAperture { Untold, ByStop, EntrancePupil, FNumber, WorkingFNumber, ObjectNA };
@@ -72,11 +72,11 @@ struct SequentialDesign {
   double largest_field = 0;
   double largest_x = 0, largest_y = 0;  // of any field
   double image_semi_diameter = 0;  // 0: not told
-  bool is_focused = false;  // the image surface stands in the paraxial focus, by a solve of the program
+  bool is_focused = false;  // a solve puts the image surface at the paraxial focus
   std::optional<double> wavelength_nm;
   std::vector<std::string> warnings;
 
-  // The stop's own size, if it is told, is the aperture.
+  // True if the stop's own size, when known, is the aperture.
   [[nodiscard]] bool is_by_stop() const {
     return aperture == DesignAperture::ByStop || aperture == DesignAperture::Untold;
   }
@@ -87,17 +87,17 @@ struct SequentialDesign {
   }
 };
 
-// One to be filled in, of a program's file.
+// An empty design for a program's file.
 [[nodiscard]] SequentialDesign design_from(std::string program, const std::string& file);
 
-// - One without a name has its file's.
+// - A design without a name gets that of its file.
 // - Surfaces at which nothing is refracted, blocked or stopped go into the gap.
 // - A stop on a surface becomes a row of its own at that surface's vertex, in front of it.
-// - The f-number is that of distant objects; what is not told of semi-diameters the design's beam decides.
+// - The f-number is that for distant objects; unknown semi-diameters follow from the design's beam.
 // - The sensor has the image circle of the widest field, and stands where the image surface does if that is near the
-//   focus of distant objects.
+// focus of distant objects.
 // - Positions for distant objects are those of a zoom; near ones are left out, as focusing moves the sensor.
-// Errors: no lens; a stop or an image surface that stands askew; those of completed().
+// Errors: no lens; a decentred or tilted stop or image surface; those of completed().
 [[nodiscard]] Result<Prescription> prescription_of(const SequentialDesign& design);
 
 }  // namespace contrejour

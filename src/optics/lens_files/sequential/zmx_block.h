@@ -13,7 +13,7 @@ namespace contrejour {
 // False for a keyword that is not a surface's.
 [[nodiscard]] bool read_zmx_surface_row(const ZmxRow& row, ZmxSurface& surface, std::vector<std::string>& warnings);
 
-// One of a surface that bends and blocks nothing: plots, solves that are carried out, tolerances, physical optics.
+// True for a keyword of a surface that changes no ray: plots, evaluated solves, tolerances, physical optics.
 [[nodiscard]] bool zmx_is_passed_over(std::string_view keyword);
 
 }  // namespace contrejour

@@ -27,10 +27,10 @@ class ZmxRow {
   [[nodiscard]] bool is(std::string_view keyword) const { return word(0) == keyword; }
   [[nodiscard]] bool is_one_of(std::initializer_list<std::string_view> keywords) const;
 
-  // The k-th word; 0 where it is missing, an error where it is no number.
+  // The k-th word as a number; 0 if it is missing, an error if it is no number.
   [[nodiscard]] double number(std::size_t k) const { return read(k, false); }
   [[nodiscard]] double number_or_infinity(std::size_t k) const { return read(k, true); }
-  // The same towards 0; 0 for what is beyond a million.
+  // The same truncated to an integer; 0 for numbers beyond a million.
   [[nodiscard]] int whole(std::size_t k) const;
 
   void fail(std::string message, ErrorCode code = ErrorCode::Parse) const {

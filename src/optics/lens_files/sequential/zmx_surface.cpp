@@ -16,8 +16,8 @@ namespace {
 constexpr int kFirstTerm =
     3;  // of XDAT: before it stand the number of terms and the radius that heights are divided by
 
-// Coefficients of r^step, r^(2 step), ... that stand in PARM from `first` on: eight by Zemax, some programs write more.
-// False for one of a power that is too high.
+// Coefficients of r^step, r^(2 step), ... that stand in PARM from `first` on: Zemax has eight, some programs write
+// more. False for one of a power that is too high.
 bool add_powers(const ZmxSurface& in, int first, int step, SurfaceShape& shape) {
   for (const auto& [k, value] : in.parm) {
     if (k < first || value == 0.0) continue;
@@ -69,7 +69,7 @@ enum class ZmxType {
   Unknown
 };
 
-// A type by its name; where terms beyond it are not computed, what they are: such a surface is read if all are 0.
+// A type by its name, with a description of its unsupported terms: such a surface is read if all of these are 0.
 struct NamedType {
   std::string_view name;
   ZmxType type = ZmxType::Unknown;
@@ -99,7 +99,7 @@ NamedType type_of(std::string_view name) {
   return {name};
 }
 
-// The terms that a type has beyond what is computed: in XDAT behind their number and radius, IRREGULA's in PARM.
+// True if unsupported terms are not 0: they are in XDAT behind their number and radius, IRREGULA's in PARM.
 bool has_terms_beyond(const ZmxSurface& in, const NamedType& type) {
   if (type.beyond.empty()) return false;
   const auto is_term = [](int first) { return [=](const auto& at) { return at.first >= first && at.second != 0.0; }; };
@@ -178,10 +178,10 @@ std::optional<std::string> set_shape(const ZmxSurface& in, const NamedType& name
 
 bool plausible(double n_d, double v_d) { return n_d >= 1.3 && n_d <= 4.2 && (v_d == 0.0 || (v_d >= 10 && v_d <= 150)); }
 
-// What Zemax writes beside a name when it knows no better.
+// True for the numbers that Zemax writes with a name by default.
 bool is_default(const ZmxGlass& in) { return in.n_d == 1.5 && in.v_d == 40.0; }
 
-// n_d and V_d moved by so much; in between the glass's own course. As a table, right to 1e-6.
+// A glass with n_d and V_d changed by these amounts and its other dispersion unchanged, as a table accurate to 1e-6.
 Result<Glass> moved_glass(const Glass& glass, std::string name, double more_n_d, double more_v_d) {
   constexpr double kFirst_nm = 340.0, kLast_nm = 1100.0, kStep_nm = 5.0;
   const GlassFigures from = glass_figures(glass);
@@ -198,7 +198,7 @@ Result<Glass> moved_glass(const Glass& glass, std::string name, double more_n_d,
 
 Glass model_of(const ZmxGlass& in, std::string name) {
   if (in.v_d == 0.0) return {std::move(name), ConstantIndex{in.n_d}};
-  // The partial dispersion of A + B / lambda^2, to all digits: zmx_writer writes those so.
+  // An AbbeGlass, A + B / lambda^2, is recognised by its exact partial dispersion, which zmx_writer writes.
   Glass abbe{name, AbbeGlass{in.n_d, in.v_d}};
   if (in.d_pgf != 0.0 && std::abs(glass_figures(abbe).d_pgf - in.d_pgf) < 1e-15) return abbe;
   return {std::move(name), ModelGlass{in.n_d, in.v_d, in.d_pgf}};
@@ -251,7 +251,7 @@ Result<DesignSurface> zmx_surface(const ZmxSurface& in, int index, const std::st
 
 Result<Glass> zmx_glass(const ZmxGlass& in, std::span<const std::string> makers, GlassFinder& finder,
                         const std::string& file, std::vector<std::string>& warnings) {
-  constexpr double kSameIndex = 2e-3;  // melts and editions of a glass differ by less
+  constexpr double kSameIndex = 2e-3;  // melts and catalogue editions of a glass differ by less
   if (in.name == "MIRROR")
     return failure(ErrorCode::Unsupported, "a mirror; lenses of refracting surfaces alone are computed",
                    {file, in.line, 0});

@@ -1,4 +1,4 @@
-// A SURF block of a Zemax file, as it is written, and what it says as a surface.
+// A SURF block of a Zemax file, and its conversion to a surface.
 #pragma once
 
 #include <map>
@@ -15,8 +15,8 @@ namespace contrejour {
 
 // GLAS: a name, or an index and an Abbe number.
 struct ZmxGlass {
-  // What the glass is: named, the row's figures, that of another surface, one to be exchanged for others, or the named
-  // one with another index and Abbe number.
+  // The kind of glass: by name, by the row's numbers, picked up from another surface, a substitutable one, or a named
+  // one with an offset of index and Abbe number.
   enum class Status { Named, Model, PickedUp, Substitute, Offset, Other };
 
   int line = 0;
@@ -24,7 +24,7 @@ struct ZmxGlass {
   Status status = Status::Named;
   int from = 0;  // surface that it is picked up from
   double n_d = 0, v_d = 0, d_pgf = 0;
-  double more_n_d = 0, more_v_d = 0;  // than the named one has
+  double more_n_d = 0, more_v_d = 0;  // offset from the named glass
 
   [[nodiscard]] bool is_blank() const { return name.empty() || name.starts_with("___"); }
 };
@@ -43,9 +43,9 @@ struct ZmxSurface {
   Obscuration obscuration;
   std::string coating;  // its name and line
   int own_tilt_line = 0;  // of SCBD, a decentre or tilt of the surface alone; 0: none
-  bool floats = false;  // FLAP: an aperture as large as the semi-diameter
+  bool floats = false;  // FLAP: an aperture of the semi-diameter's size
   std::optional<ThicknessSolve> solve;
-  bool is_to_focus = false;  // MAZH 0 0: the next surface stands in the paraxial focus
+  bool is_to_focus = false;  // MAZH 0 0: the next surface is at the paraxial focus
 
   [[nodiscard]] double parameter(int k) const {
     const auto at = parm.find(k);
@@ -57,11 +57,11 @@ struct ZmxSurface {
   }
 };
 
-// Errors: Unsupported for a type, or a number of it, that is not computed.
+// Errors: Unsupported for an unsupported type or term.
 [[nodiscard]] Result<DesignSurface> zmx_surface(const ZmxSurface& in, int index, const std::string& file);
 
-// The glass by name: of the makers that GCAT lists, then of any; else as the row's own figures have it, with a warning.
-// Errors: Unsupported for a mirror, InvalidArgument for a name that no catalogue has.
+// The glass by name: of the makers in GCAT's list, then of any; else by the row's own numbers, with a warning. Errors:
+// Unsupported for a mirror, InvalidArgument for a name that no catalogue has.
 [[nodiscard]] Result<Glass> zmx_glass(const ZmxGlass& in, std::span<const std::string> makers, GlassFinder& finder,
                                       const std::string& file, std::vector<std::string>& warnings);
 

@@ -1,4 +1,4 @@
-// What a Zemax file says of the whole system: names, units, catalogues, aperture, fields, wavelengths.
+// The rows of a Zemax file for the whole system: names, units, catalogues, aperture, fields, wavelengths.
 #pragma once
 
 #include <string>
@@ -11,9 +11,9 @@ namespace contrejour {
 
 class ZmxSystem {
  public:
-  // A row outside the SURF blocks; behind them stand the merit function and tolerances, with keywords of their own.
+  // Reads a row outside the SURF blocks; the merit function and tolerances follow them, with keywords of their own.
   void read(const ZmxRow& row, bool is_behind_surfaces, SequentialDesign& design);
-  // Once all rows are read.
+  // Call this after all rows are read.
   void finish(SequentialDesign& design) const;
 
   [[nodiscard]] const std::vector<std::string>& makers() const { return makers_; }  // of glasses, as GCAT lists them

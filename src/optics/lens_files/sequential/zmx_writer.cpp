@@ -1,4 +1,4 @@
-// Sequential Zemax files (docs/formats/zemax.md) that zmx_reader reads back.
+// Writes sequential Zemax files (docs/formats/zemax.md), which zmx_reader reads back.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -64,7 +64,7 @@ class Writer {
   [[nodiscard]] std::string header() const {
     std::string out = "VERS 140124 258 36214\nMODE SEQ\n";
     out += "NAME " + plain_title(lens_.name) + "\nNOTE 0 " + plain_title(lens_.source) + "\n";
-    // A path's bundle is what its stop lets through.
+    // The stop limits a path's bundle.
     const std::string opening = design_.is_path() ? "FLOA" : "FNUM " + number_text(lens_.f_number) + " 0";
     out += "UNIT MM X W X CM MR CPMM\n" + opening + "\nENVD 20 1 0\n";
     if (!makers_.empty()) {
@@ -91,7 +91,7 @@ class Writer {
 
   void add(const std::string& body, double thickness_mm) { rows_ += surf(body, number_text(thickness_mm), next_++); }
 
-  // Decentre and tilts, or the way back.
+  // Adds a coordinate break with decentre and tilts, or its inverse.
   void add_break(Vec3 shift, const Tilts& tilts, bool back, double thickness_mm) {
     const double sign = back ? -1.0 : 1.0;
     const double parameters[] = {shift.x, shift.y, deg_from_rad(tilts.x_rad), deg_from_rad(tilts.y_rad),
@@ -106,7 +106,7 @@ class Writer {
     const Surface& s = lens_.surfaces[k];
     const auto shape = shape_rows(s);
     if (!shape) return shape.error().message;
-    // Zemax turns neither shapes nor apertures, but coordinates.
+    // Zemax rotates coordinates, but neither shapes nor apertures.
     const bool rim_is_round = s.aperture.kind == ApertureKind::Disc;
     const double turn_rad = !s.shape.has_axial_symmetry() ? s.shape.turn_rad
                             : rim_is_round                ? s.obscuration.turn_rad
@@ -123,7 +123,7 @@ class Writer {
       add(body, gap_mm);
       return std::nullopt;
     }
-    // Along the axis the gaps before and behind take up the shift.
+    // The gaps in front and behind absorb a shift along the axis.
     const double along_mm = s.pose.shift_mm.z;
     if (along_mm != 0.0) {
       written_.losses.push_back(
@@ -138,7 +138,7 @@ class Writer {
     return std::nullopt;
   }
 
-  // DIAM, and what stands before the middle.
+  // DIAM and an obscuration.
   static std::optional<std::string> obscuration_rows(const Surface& s, double turn_rad) {
     const Obscuration own = obscuration_in_turned(s.obscuration, turn_rad);
     const std::string semi = number_text(s.semi_diameter_mm);
@@ -150,7 +150,7 @@ class Writer {
     return out + fmt::format("  OBDC {} {}\n", number_text(own.centre_mm.x), number_text(own.centre_mm.y));
   }
 
-  // DIAM, and a rim that is no circle about the axis.
+  // DIAM and a rim that is no circle about the axis.
   std::optional<std::string> aperture_rows(std::size_t k, double turn_rad) {
     const Surface& s = lens_.surfaces[k];
     std::string out = fmt::format("  DIAM {} 1 0 0 1 \"\"\n", number_text(s.semi_diameter_mm));
@@ -256,7 +256,7 @@ class Writer {
     return row(figures.n_d, figures.v_d, figures.d_pgf);
   }
 
-  // Gaps that move, and what each position is called.
+  // The gaps that change, and the title of each position.
   [[nodiscard]] std::string configurations(const std::vector<double>& sensor_mm) const {
     const std::size_t count = std::max<std::size_t>(lens_.zoom.size(), 1);
     std::string out = fmt::format("MNUM {} 1\n", count);
@@ -281,7 +281,7 @@ class Writer {
 
   struct GapPlace {
     int surface = 0;
-    double less_mm = 0;  // a shift along the axis is taken from it
+    double less_mm = 0;  // reduces the gap by a shift along the axis
   };
 
   const WritableDesign& design_;

@@ -13,21 +13,21 @@
 namespace contrejour {
 namespace {
 
-// What changes no ray that we trace: names, weights, vignetting factors, coatings.
+// Operands without influence on rays: names, weights, vignetting factors, coatings.
 bool changes_nothing(std::string_view name) {
   static const std::set<std::string_view> kNames = {"MOFF", "LTTL", "CWGT", "FVDX", "FVDY", "FVCX", "FVCY", "FVAN",
                                                     "FLWT", "WLWT", "COTN", "SATP", "TELE", "RAIM", "NOTE", "BLNK"};
   return kNames.contains(name);
 }
 
-// What our zoom has once for all positions.
+// Operands whose values our zoom shares between all positions.
 bool is_said_once(std::string_view name) {
   static const std::set<std::string_view> kNames = {"APER", "XFIE", "YFIE", "FLTP", "WAVE", "PRWV",
                                                     "SDIA", "CSP1", "CSP2", "TEMP", "PRES"};
   return kNames.contains(name);
 }
 
-// Operands that have another value in some configuration. Those of one operand stand together, configurations rising.
+// Operands whose value differs between configurations, grouped, with rising configurations.
 std::vector<const ZmxOperand*> changing(const std::vector<ZmxOperand>& operands) {
   std::vector<const ZmxOperand*> out;
   const ZmxOperand* first = nullptr;

@@ -1,4 +1,4 @@
-// The multi-configuration editor of a Zemax file: positions of a zoom, if thicknesses are all that moves.
+// The multi-configuration editor of a Zemax file: positions of a zoom, if only thicknesses change.
 #pragma once
 
 #include <string>
@@ -10,7 +10,7 @@
 
 namespace contrejour {
 
-// One line behind MNUM: an operand, what it is about, which configuration, its value as text.
+// One line behind MNUM: an operand, its target, the configuration, and the value as text.
 struct ZmxOperand {
   int line = 0;
   std::string name;
@@ -28,8 +28,8 @@ struct ZmxConfigurations {
   void add(const ZmxRow& row);
 };
 
-// Each configuration; empty where there is one, or where more than thicknesses
-// changes: then a warning says that the current one is read.
+// All configurations; empty if there is one, or if more than thicknesses change: a warning then says that the current
+// one is read.
 [[nodiscard]] std::vector<DesignPosition> zmx_positions(const ZmxConfigurations& configurations,
                                                         const std::vector<ZmxSurface>& surfaces,
                                                         std::vector<std::string>& warnings);

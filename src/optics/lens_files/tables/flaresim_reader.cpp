@@ -23,9 +23,9 @@ namespace contrejour {
 namespace {
 
 constexpr std::string_view kFlareSimSpace = " \t\r\v\f";
-constexpr double kAirIndex = 1.0001;  // FlareSim: no more than it is air, and a V_d below 0.1 no dispersion
+constexpr double kAirIndex = 1.0001;  // FlareSim: up to this index it is air, and a V_d below 0.1 means no dispersion
 constexpr double kSameIndex = 1e-3;
-// Its files have no aspheres: what a strong one would reach, its sphere does not.
+// Its files have no aspheres: the sphere in place of a strong asphere may end before its rim.
 constexpr double kLeastShareWithoutAspheres = 0.3;
 
 // "f/2.8" or "F2.8" of a text; of several the last.
@@ -102,7 +102,7 @@ class FlareSimReader {
     }
   }
 
-  // "Patent: US004448497", "14 surfaces, 7 glass elements, f/1.4": written by the converter; or anything.
+  // "Patent: US004448497", "14 surfaces, 7 glass elements, f/1.4": written by the converter, or any other comment.
   void read_comment(std::string_view comment) {
     if (comment.starts_with("Patent:")) lens_.source = trimmed(comment.substr(7), kFlareSimSpace);
     if (comment.find("Optical Bench") != std::string_view::npos) from_optical_bench_ = true;
@@ -118,7 +118,7 @@ class FlareSimReader {
     if (text.ends_with("mm")) text = trimmed(text.substr(0, text.size() - 2), kFlareSimSpace);
     const auto value = plain_number(text);
     if (!value) return fail(line, fmt::format("'{}' is no focal length; give it in mm", shortened(text)));
-    if (*value > 0.0) lens_.stated.focal_length_mm = value;  // 0: not told
+    if (*value > 0.0) lens_.stated.focal_length_mm = value;  // 0: unknown
   }
 
   // radius thickness ior abbe semi_ap coating [type [radius_y]]
@@ -158,7 +158,7 @@ class FlareSimReader {
     lens_.surfaces.push_back(std::move(surface));
   }
 
-  // The stop is within its medium, whatever its own index says.
+  // The stop has the medium in front, whatever index its row states.
   [[nodiscard]] Glass glass_of(SurfaceKind kind, double n_d, double v_d) const {
     constexpr double kNoDispersion = 0.1;
     if (kind == SurfaceKind::Stop) return medium_;
@@ -167,7 +167,7 @@ class FlareSimReader {
     return Glass{"", AbbeGlass{n_d, v_d}};
   }
 
-  // FlareSim: 0 bare, 1 a quarter wave of MgF2 at 550 nm, each further layer a quarter of the reflectance.
+  // FlareSim: 0 bare, 1 a quarter wave of MgF2 at 550 nm, each further layer multiplies the reflectance by a quarter.
   Coating coating_of(double layers, int line, bool to_air) {
     if (layers < 1.0) return {};
     if (!to_air) {
@@ -181,7 +181,7 @@ class FlareSimReader {
                                 static_cast<int>(std::min(films, double{DesignedCoating::kMostLayers}))}};
   }
 
-  // A cyl_x's axis lies along x, so it curves in y; its one radius is that of the curve.
+  // A cyl_x's axis lies along x, so it curves in y; its one radius is that in y.
   void read_shape(Surface& surface, const std::vector<std::string_view>& words, int line) {
     if (words.size() < 7 || words[6] == "sph" || words[6] == "spherical") return;
     const std::string_view type = words[6];
@@ -228,7 +228,7 @@ class FlareSimReader {
                       multi_.size() == 1 ? "" : "s", fmt::join(multi_, ", ")));
   }
 
-  // The converter from Optical Bench writes its diameters under the heading semi_ap.
+  // The converter from Optical Bench writes diameters under the heading semi_ap.
   void choose_heights() {
     const HeightMeaning told = from_optical_bench_ ? HeightMeaning::Diameter : HeightMeaning::SemiDiameter;
     const HeightMeaning meaning = meaning_of_heights(lens_, f_number_, told);
@@ -257,7 +257,7 @@ class FlareSimReader {
 
 }  // namespace
 
-// "surfaces:" on a line of its own, and nothing of other formats before it but comments and keys.
+// "surfaces:" on a line of its own, with nothing but comments and keys before it.
 bool looks_like_flaresim(std::string_view text) {
   while (!text.empty()) {
     const std::size_t end = std::min(text.find('\n'), text.size());

@@ -11,9 +11,9 @@ namespace contrejour {
 namespace {
 
 constexpr double kFocalTolerance = 0.2;
-constexpr double kSemiFrom = 0.7, kDiameterFrom = 1.7, kDiameterTo = 3.0;  // of the stop to the marginal ray
+constexpr double kSemiFrom = 0.7, kDiameterFrom = 1.7, kDiameterTo = 3.0;  // stop height over marginal ray height
 
-// Height of the real marginal ray at the stop at that f-number.
+// Height of the real marginal ray at the stop for that f-number.
 std::optional<double> needed_at_stop_mm(Prescription lens, double f_number) {
   constexpr double kWide_mm = 1e4;
   for (Surface& s : lens.surfaces) s.semi_diameter_mm = s.kind == SurfaceKind::Stop ? kWide_mm : kNoRim_mm;
@@ -37,7 +37,7 @@ std::optional<HeightMeaning> meaning_of_stop(const Prescription& lens, double f_
   return std::nullopt;
 }
 
-// Whether surfaces reach that share of their heights and do not cross within it.
+// True if surfaces exist up to this fraction of their heights and do not cross within it.
 bool fits(const Prescription& lens, double share) {
   for (const Surface& surface : lens.surfaces)
     if (!reaches(surface, share * surface.semi_diameter_mm)) return false;
@@ -46,7 +46,7 @@ bool fits(const Prescription& lens, double share) {
                       [&](std::size_t front, std::size_t back, double gap_mm) {
                         const Surface &before = lens.surfaces[front], &behind = lens.surfaces[back];
                         const double rim_mm = share * std::min(before.semi_diameter_mm, behind.semi_diameter_mm);
-                        // A gap that is negative on the axis has another error than its rims.
+                        // A gap that is negative on the axis is an error, but not one of the rims.
                         fit = !(gap_mm >= 0.0) || smallest_gap(before, behind, gap_mm, rim_mm).gap_mm >= -kTouch_mm;
                         return fit;
                       });
@@ -83,7 +83,7 @@ void keep_sensor_without_image(Prescription& lens) {
   if (!stated_mm || !(*stated_mm > 0.0) || lens_at(centred, without_films())) return;
   centred.sensor_distance_mm = stated_mm;
   const auto state = lens_at(centred, without_films());
-  if (!state) return;  // it is wrong in another way
+  if (!state) return;  // the lens has another error
   lens.sensor_distance_mm = stated_mm;
   lens.warnings.push_back(fmt::format(
       "its surfaces form no image behind the lens (computed focal length {:.4g} mm), so some number is wrong; "

@@ -1,5 +1,5 @@
-// Flare programs' files give each surface a height, and do not agree, not even with themselves, whether it is the
-// radius or the diameter of the clear aperture.
+// Flare programs' files give each surface a height, which is the radius of the clear aperture in some files and the
+// diameter in others, even of one program.
 #pragma once
 
 #include <optional>
@@ -11,27 +11,28 @@ namespace contrejour {
 
 enum class HeightMeaning { SemiDiameter, Diameter, Unusable };
 
-// What the heights of a lens mean, which stand in place of its semi-diameters (0: not told):
-// - where the widest f-number is known, the stop's own, against what the real marginal ray needs there; unless the
-//   computed focal length is more than a fifth off the stated one, or the heights are not 0.7 to 3 times the need. From
-//   1.7 on they are diameters; a stop may well be a little wider than it must, but not much narrower;
-// - else as told, if so no surface ends and no neighbours cross before three quarters of their rims;
-// - else diameters, if as such they do not; else they are no rims at all.
+// Determines the meaning of the heights, which are stored as semi-diameters (0: unknown):
+// - if the widest f-number is known, by the ratio of the stop's height to that of the real marginal ray: from 1.7 on
+// heights are diameters, since a stop may be a little wider than the ray but not much narrower. This does not apply if
+// the computed focal length deviates from the stated one by more than a fifth, or the ratio is not 0.7 to 3;
+// - else radii, if the file says so and with these no surface ends and no neighbours cross within three quarters of
+// their rims;
+// - else diameters, if they pass this test; else they are unusable.
 [[nodiscard]] HeightMeaning meaning_of_heights(const Prescription& lens, std::optional<double> f_number,
                                                HeightMeaning told = HeightMeaning::SemiDiameter);
 
-// Makes them semi-diameters; 0 where they are unusable, which completed() sizes for a beam.
+// Converts the heights to semi-diameters; unusable ones become 0, which completed() sizes for a beam.
 void apply_heights(Prescription& lens, HeightMeaning meaning);
 
-// That of the stated focal length and f-number, out to a full frame's corner; none unless both are known.
+// The beam of the stated focal length and f-number, for the corner of a full frame; none unless both are known.
 [[nodiscard]] std::optional<Beam> full_frame_beam(const Prescription& lens);
 
-// A lens whose numbers, misread or mistyped, form no image behind it keeps its sensor at the stated back focal
-// distance, with a warning. Any other lens stays as it is.
+// Puts the sensor at the stated back focal distance, with a warning, if the lens forms no image behind it because of
+// wrong numbers. Any other lens is not changed.
 void keep_sensor_without_image(Prescription& lens);
 
-// Openings of a drawing that neither refract nor block elsewhere: planes with the same medium on both sides. One with a
-// negative gap behind it, drawn within the lens that follows, moves to that lens's vertex.
+// Moves an opening, a plane with the same medium on both sides, to the vertex of the following surface if the gap
+// behind it is negative.
 void place_openings(Prescription& lens);
 
 }  // namespace contrejour

@@ -114,14 +114,14 @@ class LensXmlReader {
     lens_.surfaces.push_back(std::move(surface));
   }
 
-  // Air has an Abbe number of 89.3 there.
+  // In this format air has an Abbe number of 89.3.
   Glass glass_of(const pugi::xml_node& element) {
     const double n_d = required(element, "refractiveIndex"), v_d = number_or(element, "abbeNumber", 0.0);
     if (n_d == 1.0) return air();
     return v_d == 0.0 ? Glass{"", ConstantIndex{n_d}} : Glass{"", AbbeGlass{n_d, v_d}};
   }
 
-  // A quarter of coatingLambda thick.
+  // The film is a quarter of coatingLambda thick.
   Coating coating_of(const pugi::xml_node& element, const Surface& surface) {
     const double lambda_nm = number_or(element, "coatingLambda", 0.0), n = number_or(element, "coatingIor", 0.0);
     if (!(lambda_nm > 0.0) || !(n > 0.0)) return {};
@@ -149,7 +149,7 @@ class LensXmlReader {
     keep_sensor_without_image(lens_);
   }
 
-  // All files say 0.5 for heights of which some are radii.
+  // All files state the factor 0.5, although some heights are radii.
   void warn_of_heights(HeightMeaning meaning) {
     const pugi::xml_node multiplier = system_.child("heightMultiplier");
     const double told = number_or(system_, "heightMultiplier", 1.0);
@@ -168,7 +168,7 @@ class LensXmlReader {
     }
   }
 
-  // <fnumber> is what the lens is set to, not its widest: for nothing but heights that cannot be used.
+  // <fnumber> is the setting, not the widest f-number: it only serves lenses with unusable heights.
   std::optional<Beam> beam() {
     const double f_number = number_or(system_, "fnumber", 0.0);
     if (!(f_number > 0.0) || !lens_.stated.focal_length_mm) return std::nullopt;

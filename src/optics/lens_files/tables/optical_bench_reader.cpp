@@ -31,7 +31,7 @@ struct Row {
   [[nodiscard]] std::string_view cell(std::size_t k) const { return k < cells.size() ? cells[k] : std::string_view(); }
 };
 
-// By the name within the brackets.
+// Sections by the name within the brackets.
 using Sections = std::map<std::string, std::vector<Row>, std::less<>>;
 
 std::vector<std::string_view> cells_of(std::string_view line) {
@@ -46,7 +46,7 @@ std::vector<std::string_view> cells_of(std::string_view line) {
   return cells;
 }
 
-// A number, or infinity by its name, on whichever side; none for "undefined" and all else.
+// A number, or infinity by name with any sign; none for "undefined" and other text.
 std::optional<double> number_of(std::string_view cell) {
   if (cell == "Infinity" || cell == "-Infinity") return kInfinity;
   return plain_number(cell);
@@ -101,7 +101,7 @@ class OpticalBenchReader {
     return found == sections_.end() ? none : found->second;
   }
 
-  // "US 4,123,144 Example 8 (Leica Summicron R 50mm f/2)": where it is from, and in brackets what it is.
+  // "US 4,123,144 Example 8 (Leica Summicron R 50mm f/2)": the source, and the lens in brackets.
   void read_title() {
     for (const char* section : {"report data", "descriptive data"})
       for (const Row& row : rows_of(section))
@@ -125,8 +125,8 @@ class OpticalBenchReader {
     return std::nullopt;
   }
 
-  // Columns are positions of the zoom, for distant objects and for near ones; those for distant ones are read, as
-  // focusing here moves the sensor.
+  // Columns are zoom positions for distant and for near objects; those for distant objects are read, since focusing
+  // here moves the sensor.
   void choose_positions() {
     const auto& rows = rows_of("variable distances");
     std::size_t columns = 0;
@@ -148,7 +148,7 @@ class OpticalBenchReader {
            "Infinity");
   }
 
-  // Behind the row that was read last; a name says which variable it is.
+  // Reads the gap behind the last row; a name refers to a variable.
   void read_gap(const Row& row, Surface& surface, bool last) {
     const std::string_view cell = row.cell(2);
     if (last) {
@@ -205,7 +205,7 @@ class OpticalBenchReader {
     }
   }
 
-  // None for cells that are not empty and no numbers.
+  // None for cells that are neither empty nor numbers.
   [[nodiscard]] static std::optional<Glass> glass_of(const Row& row) {
     const auto n_d = number_of(row.cell(3)), v_d = number_of(row.cell(5));
     if ((!n_d && !row.cell(3).empty()) || (!v_d && !row.cell(5).empty())) return std::nullopt;
@@ -214,8 +214,8 @@ class OpticalBenchReader {
     return Glass{"", AbbeGlass{*n_d, *v_d}};
   }
 
-  // Which powers the columns of aspheres are: A4, A6, ...; from A2 with AsphericalA2; with AsphericalOddCount n from
-  // A3, as many odd ones each before its even one, then even ones alone.
+  // Determines the powers in the columns of aspheres: A4, A6, ...; from A2 with AsphericalA2; with AsphericalOddCount n
+  // from A3, with n odd powers, each before its even one, then even ones alone.
   void read_constants() {
     for (const Row& row : rows_of("constants")) {
       if (row.cell(0) == "AsphericalA2") first_power_ = 2;

@@ -82,7 +82,7 @@ Result<Prescription> read_pbrt(const LensText& in) {
   std::optional<Error> error;
   Glass medium = air();
   for_each_line(in.text, [&](int number, std::string_view line, std::string_view comment) {
-    if (line.empty()) {  // headings: what it is, then where it is from
+    if (line.empty()) {  // headings: the lens, then its source
       std::string& to = lens.name.empty() ? lens.name : lens.source;
       const bool heading = lens.surfaces.empty() && !comment.empty() && !comment.starts_with("radius");
       if (heading) to += (to.empty() ? "" : "; ") + std::string(comment);
@@ -103,7 +103,7 @@ Result<Prescription> read_pbrt(const LensText& in) {
   if (lens.name.empty()) lens.name = "lens of PBRT";
   if (lens.source.empty()) lens.source = "a PBRT file that does not say it";
   if (const auto placed = place_missing_stop(lens); !placed) return tl::unexpected(placed.error());
-  return completed(std::move(lens));  // the f-number is nowhere told
+  return completed(std::move(lens));  // the file does not state the f-number
 }
 
 }  // namespace contrejour

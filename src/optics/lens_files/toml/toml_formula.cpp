@@ -8,7 +8,7 @@
 namespace contrejour {
 namespace {
 
-// make_glass() knows what is plausible; here any finite number passes.
+// make_glass() checks plausibility; here any finite number is accepted.
 constexpr double kLargestCoefficient = 1e30;
 constexpr NumberRange kFiniteCoefficient{-kLargestCoefficient, kLargestCoefficient};
 constexpr std::size_t kMaxNumbers = 100000;
@@ -54,7 +54,8 @@ GlassData read_data(TomlFields& fields, TomlErrors& errors) {
     const auto t = read_list(fields, "thermal", 6, 6);
     if (t.size() == 6) data.thermal = ThermalDispersion{t[0], t[1], t[2], t[3], t[4], t[5]};
   }
-  data.reference_temperature_c = fields.number("temperature_c", kFiniteCoefficient).value_or(data.reference_temperature_c);
+  data.reference_temperature_c =
+      fields.number("temperature_c", kFiniteCoefficient).value_or(data.reference_temperature_c);
   data.index_in_vacuum = fields.boolean("index_in_vacuum").value_or(false);
   data.wavelength_in_vacuum = fields.boolean("wavelength_in_vacuum").value_or(false);
   if (fields.has("absorption_per_mm")) read_absorption(fields, data);

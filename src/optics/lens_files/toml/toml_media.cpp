@@ -15,7 +15,7 @@ namespace contrejour {
 
 namespace {
 
-// glass_problem() and coating_problem() know what is plausible; here any finite number passes.
+// glass_problem() and coating_problem() check plausibility; here any finite number is accepted.
 
 std::array<double, 3> read_triple(TomlFields& fields, std::string_view key, bool& ok) {
   std::array<double, 3> values{};
@@ -29,7 +29,7 @@ std::array<double, 3> read_triple(TomlFields& fields, std::string_view key, bool
   return values;
 }
 
-// One of {n}, {n_d, v_d}, {sellmeier_b, sellmeier_c_um2}, {formula, coefficients}; which of them the keys say.
+// Reads {n}, {n_d, v_d}, {sellmeier_b, sellmeier_c_um2} or {formula, coefficients}, according to the keys.
 Glass read_glass_keys(const toml::table& table, std::string name, const std::string& what, TomlErrors& errors) {
   if (table.contains("formula")) return read_formula_keys(table, std::move(name), what, errors);
   TomlFields fields(table, what, {"name", "n", "n_d", "v_d", "d_pgf", "sellmeier_b", "sellmeier_c_um2"}, errors);
@@ -116,7 +116,8 @@ std::vector<FilmLayer> read_layers(TomlFields& fields, TomlErrors& errors) {
   return layers;
 }
 
-// One of {quarter_wave_nm, n}, {hullin_nm, n}, {layers}, {design, design_nm}, {measured_nm, measured_deg, reflectance}.
+// Reads {quarter_wave_nm, n}, {hullin_nm, n}, {layers}, {design, design_nm} or {measured_nm, measured_deg,
+// reflectance}.
 Coating read_coating_keys(const toml::table& table, std::string name, const std::string& what, TomlErrors& errors) {
   TomlFields fields(table, what,
                     {"name", "quarter_wave_nm", "hullin_nm", "n", "layers", "design", "design_nm", "measured_nm",
@@ -206,7 +207,8 @@ void fail_unknown(const toml::node& node, std::string_view name, const std::stri
   errors.fail(node, fmt::format("{}: no {} is called '{}'; {}", what, kind, shortened(name), remedy));
 }
 
-// A catalogue's glass; where none has it and the table has none of a like name, the catalogue's nearest is named.
+// Reads a catalogue's glass. For an unknown name the error suggests a similar one of the table, or else the catalogue's
+// nearest.
 Glass read_catalogue_glass(const toml::node& node, const std::string& name, const std::string& what,
                            const MediumTable<Glass>& table, GlassFinder& finder, TomlErrors& errors) {
   auto found = finder.find(name);

@@ -11,7 +11,7 @@
 
 namespace contrejour {
 
-// A named glass or coating, and where it was written: a name that nothing uses is an error.
+// A named glass or coating, and its position in the file: a name that is not used is an error.
 template <class Medium>
 struct NamedMedium {
   Medium value;
@@ -22,12 +22,12 @@ struct NamedMedium {
 template <class Medium>
 using MediumTable = std::map<std::string, NamedMedium<Medium>, std::less<>>;
 
-// From [glass] and [coating] of the whole file; absent is empty.
+// Read [glass] and [coating] of the whole file; empty if absent.
 MediumTable<Glass> read_glass_table(const toml::table& lens, TomlErrors& errors);
 MediumTable<Coating> read_coating_table(const toml::table& lens, TomlErrors& errors);
 
-// From the value of a row's `glass` or `coating`; what: how errors call it, e.g. "surface 3". A name that is not in the
-// table is a catalogue's.
+// Read the value of a row's `glass` or `coating`; what: its name in errors, e.g. "surface 3". A name that is not in the
+// table refers to a catalogue.
 Glass read_glass(const toml::node& node, const std::string& what, MediumTable<Glass>& table, GlassFinder& finder,
                  TomlErrors& errors);
 Coating read_coating(const toml::node& node, const std::string& what, MediumTable<Coating>& table, TomlErrors& errors);

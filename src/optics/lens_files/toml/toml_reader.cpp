@@ -19,8 +19,8 @@ namespace contrejour {
 
 namespace {
 
-// Wider than any lens; what is plausible validate() says with the surface's line.
-// Beyond this the image circle of a distortion-free lens says nothing about a real one.
+// Wider than any lens; validate() checks plausibility and names the surface's line.
+// Beyond this angle the image circle of a distortion-free lens does not approximate a real one.
 constexpr double kMaxHalfField_deg = 80.0;
 
 int line_of(const toml::node& node) { return static_cast<int>(node.source().begin.line); }
@@ -99,7 +99,7 @@ void TomlReader::read_sensor(TomlFields& fields) {
     return fields.fail(*fields.find("half_field_deg"),
                        "half_field_deg needs focal_length_mm under [stated]; or give sensor_mm");
   }
-  // The 3:2 rectangle in the image circle of the field, which a lens without distortion makes f tan(field) large.
+  // The 3:2 rectangle in the image circle of the field, whose radius without distortion is f tan(field).
   const double radius_mm = *lens.stated.focal_length_mm * std::tan(rad_from_deg(*half_field_deg));
   lens.sensor_width_mm = 2.0 * radius_mm * 3.0 / std::sqrt(13.0);
   lens.sensor_height_mm = 2.0 * radius_mm * 2.0 / std::sqrt(13.0);
@@ -166,7 +166,7 @@ void TomlReader::read_stop(TomlFields& fields, Surface& surface) {
   surface.glass_after = glass_before();
 }
 
-// What the row says; else the lens's default where glass meets air; else bare, as cemented faces are.
+// The row's own coating; else the lens's default between glass and air; else bare, for cemented faces.
 Coating TomlReader::coating_of(TomlFields& fields, const Surface& surface) {
   if (const toml::node* own = fields.find("coating")) return read_coating(*own, fields.what(), coatings, errors);
   const bool glass_to_air = is_air(glass_before()) != is_air(surface.glass_after);

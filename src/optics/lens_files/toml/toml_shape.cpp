@@ -16,7 +16,7 @@ namespace contrejour {
 namespace {
 
 constexpr NumberRange kTilt_deg{-89.0, 89.0};
-constexpr double kUnit = 1e-12;  // an axis as long as 1 to this is left as it is
+constexpr double kUnit = 1e-12;  // an axis whose length is 1 within this is not normalised
 
 // A whole number in digits, or 0.
 int whole(std::string_view digits) {
@@ -92,7 +92,7 @@ Vec3 read_axis(TomlFields& fields) {
   return std::abs(size - 1.0) < kUnit ? axis : axis * (1.0 / size);
 }
 
-// Digits enough to read the same angle back, if degrees have them.
+// Enough digits to read the same angle back, if a number in degrees gives it.
 std::string turn_text(double turn_rad) {
   for (int digits = 1; digits <= 17; ++digits) {
     const std::string text = fmt::format("{:.{}g}", deg_from_rad(turn_rad), digits);
@@ -112,7 +112,7 @@ struct Group {
   SurfacePose pose;
 };
 
-// As one body, about the middle of its first and last vertex.
+// Moves a group as one body, about the midpoint of its first and last vertex.
 void carry(const Group& group, std::vector<Surface>& surfaces) {
   double length_mm = 0.0;
   for (std::size_t k = group.first; k < group.last; ++k) length_mm += surfaces[k].thickness_mm;
@@ -140,7 +140,7 @@ void read_group(const toml::table& table, std::size_t index, std::vector<Surface
   if (!errors.failed()) carry(group, surfaces);
 }
 
-// Of a rim or of what stands in the way within it.
+// The outline of a rim or of an obscuration.
 struct Outline {
   Vec2 half_mm, centre_mm;
   double turn_rad = 0.0;

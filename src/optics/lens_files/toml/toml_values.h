@@ -1,4 +1,4 @@
-// What the reader and the writer of lens files agree on.
+// Definitions that the reader and the writer of lens files share.
 #pragma once
 
 #include <string_view>
@@ -11,7 +11,7 @@ namespace contrejour {
 inline constexpr double kHuge = 1e9;
 inline constexpr NumberRange kFinite{-kHuge, kHuge};
 
-// The names of media and coatings that mean something without a table.
+// The names of media and coatings that are defined without a table.
 [[nodiscard]] inline bool is_reserved_name(std::string_view name) {
   return name == "air" || name == "none" || name == "quarter-wave" || find_coating_design(name);
 }

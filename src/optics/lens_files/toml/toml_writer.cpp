@@ -74,8 +74,8 @@ struct FilmsText {
 std::string keys_of(const Glass& glass) { return std::visit(DispersionText{}, glass.dispersion); }
 std::string keys_of(const Coating& coating) { return std::visit(FilmsText{}, coating.films); }
 
-// Named media go to a table at the end of the file; one that cannot (no name, or a name that another medium of
-// the same name took) stands in the surface's row.
+// Writes named media to a table at the end of the file; a medium without a name, or with a name that is taken, is
+// written in the surface's row.
 class MediaTable {
  public:
   template <class Medium>
@@ -101,7 +101,7 @@ class MediaTable {
   }
 
  private:
-  // What a reader makes of the name alone is this medium.
+  // True if reading the name alone gives this medium.
   bool is_known(const Glass& glass) {
     const bool by_name = std::holds_alternative<ModelGlass>(glass.dispersion) ||
                          std::holds_alternative<CatalogueGlass>(glass.dispersion);
