@@ -9,15 +9,16 @@
 namespace contrejour {
 namespace {
 
-// Rays a side of the grid that is summed, and of those traced, cubics making the rest. Few where the iris alone bounds
-// the pupil; more where rims do, whose edges meet in corners; all where rays fail.
+// Rays along a side of the grid that is summed, and of the grid that is traced; cubics interpolate the others. Few are
+// traced where the iris alone bounds the pupil, more where rims do, whose edges meet in corners, and all where rays
+// fail.
 constexpr int kSide = 97;
-constexpr int kSmooth = 6;  // so many times fewer
+constexpr int kSmooth = 6;  // factor of fewer rays
 constexpr int kRims = 2;
-constexpr int kPicture = 4;  // so many times as many for a picture's details
+constexpr int kPicture = 4;  // factor of more rays for a picture's details
 constexpr int kFirstSide = 17;  // of the search
-// A light beyond the image circle has no pupil: whole grids of rays show that, so they must not be the finest. The
-// direct image's opening has no islands, and spans many cells of this.
+// A light beyond the image circle has no pupil, which takes whole grids of rays to find out, so they must not be the
+// finest. The direct image's pupil has no islands and spans many cells of this grid.
 constexpr PupilEffort kEffort = PupilEffort::Finer;
 constexpr double kMargin = 0.02;  // of a pupil's size, on each side, for another wavelength's
 constexpr float kNearRim = 0.1F;  // of the clear height; of the stop radius
@@ -25,7 +26,7 @@ constexpr float kNearRim = 0.1F;  // of the clear height; of the stop radius
 // Most cells are open or closed as a whole.
 double open_flux(const RayGrid& grid) {
   const Vec2 step = grid.step_mm();
-  double flux = 0.0, whole = 0.0;  // whole: six times their mean transmissions
+  double flux = 0.0, whole = 0.0;  // whole: six times the mean transmissions of open cells
   for (int iy = 0; iy < grid.cells(); ++iy) {
     const float* const blocked[2]{&grid.blocked[grid.at(0, iy)], &grid.blocked[grid.at(0, iy + 1)]};
     const float* const light[2]{&grid.transmission[grid.at(0, iy)], &grid.transmission[grid.at(0, iy + 1)]};
@@ -45,7 +46,7 @@ bool all_arrived(const RayGrid& grid) {
   return std::all_of(grid.blocked.begin(), grid.blocked.end(), [](float blocked) { return blocked < kFailed; });
 }
 
-// Whether a rim comes near what the iris lets through.
+// True if a rim comes near the light that the iris transmits.
 bool is_cut_by_rims(const RayGrid& grid) {
   for (std::size_t k = 0; k < grid.r_rel.size(); ++k) {
     float iris = -kFailed;
@@ -56,7 +57,7 @@ bool is_cut_by_rims(const RayGrid& grid) {
   return false;
 }
 
-// Whether light may pass at the border of the grid, but where that is the window's.
+// True if light may pass at the border of the grid, except where that is the window's border.
 bool is_cut_off(const RayGrid& grid, const EntranceWindow& window) {
   const int last = grid.cells();
   const auto open_along = [&](int x, int y, int dx, int dy) {
@@ -90,7 +91,7 @@ std::optional<Rectangle> DirectMeter::pupil(const ReflectanceTables& tables) con
   return region ? std::optional(region->pupil_mm) : std::nullopt;
 }
 
-// A grid of kSide rays a side over the box, but for rounding of cubics.
+// A grid of kSide rays a side over the box, up to rounding in the cubics' refinement.
 RayGrid DirectMeter::traced(const ReflectanceTables& tables, const Rectangle& box) const {
   const OpticalPath path = direct_path(lens_, tables.lambda_nm());
   RayGrid grid;

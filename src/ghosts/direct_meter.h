@@ -1,5 +1,5 @@
-// The direct image of one light: where it comes through the lens, and how much. Wavelengths' pupils are nearly one, so
-// that the search for one of them does for all.
+// Measures the direct image of one light: its pupil and its flux. The pupils of all wavelengths nearly agree, so one
+// search serves them all.
 #pragma once
 
 #include <optional>
@@ -16,11 +16,11 @@ class DirectMeter {
   // The lens must outlive it.
   DirectMeter(const LensState& lens, const LightSource& light);
 
-  // Encloses every ray that gets through at the tables' wavelength, with a margin. None: nothing does.
+  // A rectangle with a margin that encloses every ray that gets through at the tables' wavelength. None if no ray does.
   [[nodiscard]] std::optional<Rectangle> pupil(const ReflectanceTables& tables) const;
 
-  // Flux at that wavelength, mm^2 at E0 = 1, to 5e-4. near: what pupil() found at another one; where it does not hold
-  // all of this one's, that is searched for.
+  // Flux at that wavelength, mm^2 at E0 = 1, to 5e-4. near: pupil() at another wavelength; if it does not contain this
+  // wavelength's pupil, that is searched.
   [[nodiscard]] double flux_mm2(const ReflectanceTables& tables, const Rectangle& near) const;
   [[nodiscard]] double flux_mm2(const ReflectanceTables& tables) const;
 

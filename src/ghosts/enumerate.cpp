@@ -31,7 +31,7 @@ bool ends_at_grating(const LensState& lens, const Ghost& ghost) {
 }
 
 int stop_crossings(const LensState& lens, const Ghost& ghost) {
-  const auto stop = static_cast<std::int64_t>(lens.stop_index) + 1;  // a strange lens may have any index
+  const auto stop = static_cast<std::int64_t>(lens.stop_index) + 1;  // an invalid lens may have any index
   int crossings = 0, at = 0;
   const auto go_to = [&](int surface) {
     crossings += (at < stop) != (surface < stop) ? 1 : 0;
@@ -51,7 +51,7 @@ bool is_in_scope(const LensState& lens, const Ghost& ghost, GhostScope scope) {
   return stop_crossings(lens, ghost) <= (scope == GhostScope::All ? kMaxStopCrossings : 1);
 }
 
-// Of every order where the sensor is a grating.
+// Adds the ghost, in every order if it reflects at a sensor that is a grating.
 void add_orders(const LensState& lens, Ghost ghost, std::vector<Ghost>& to) {
   if (!ends_at_grating(lens, ghost)) {
     to.push_back(ghost);
@@ -66,7 +66,7 @@ void add_orders(const LensState& lens, Ghost ghost, std::vector<Ghost>& to) {
   }
 }
 
-// Those that go on from a ghost of two reflections to two more.
+// Adds the ghosts of four reflections that begin with those of `two`.
 void add_four_fold(const LensState& lens, const Ghost& two, std::span<const int> surfaces, GhostScope scope,
                    std::vector<Ghost>& to) {
   for (const int k : surfaces) {

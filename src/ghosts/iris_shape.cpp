@@ -22,7 +22,8 @@ void straight_distances(const IrisBound& bound, const float* x, const float* y, 
   }
 }
 
-// (|p - c|^2 - r^2) / (|p - c| + r): all but straight edges have centres far away, whose distances float would round.
+// (|p - c|^2 - r^2) / (|p - c| + r): the centres of nearly straight edges are far away, and float would round the
+// difference of distances.
 void round_distances(const IrisBound& bound, const float* x, const float* y, std::size_t count, float* out,
                      bool first) {
   const auto cx = static_cast<float>(bound.centre.x);
@@ -54,7 +55,7 @@ IrisShape::IrisShape(const Iris& iris) {
     if (std::any_of(opening.edges().begin(), opening.edges().end(), lies_on_it)) bounds_.push_back(bound);
   }
   is_circle_ = bounds_.size() == 1 && bounds_.front() == kIrisRim;
-  if (bounds_.empty()) bounds_.push_back({{1.0, 0.0}, -kUnbounded, {}});  // closed: nothing is on its inner side
+  if (bounds_.empty()) bounds_.push_back({{1.0, 0.0}, -kUnbounded, {}});  // closed: no point is on its inner side
 }
 
 IrisShape IrisShape::hull() const {

@@ -1,4 +1,4 @@
-// What may block a ray at the iris, as functions that are <= 0 where it passes.
+// The iris as functions of the stop coordinates that are <= 0 where a ray passes.
 #pragma once
 
 #include <array>
@@ -13,11 +13,11 @@
 
 namespace contrejour {
 
-// The iris opening as the circles and half-planes that its outline lies on: the rim where it shows, then the blades in
-// their order. What all of them leave is the opening, which is convex; the distance to the farthest of them is
+// The iris opening as the circles and half-planes that its outline lies on: the rim where it bounds the opening, then
+// the blades in order. The opening is their intersection, which is convex; the largest of their distances is
 // iris_distance() inside and near the opening.
-// A picture's opening is not convex: its bounds are those of its hull, distances are those of its field, and it is cut
-// from polygons piece by piece.
+// A picture's opening is not convex: its bounds are those of its hull, its distances are those of its field, and
+// polygons are clipped to it piece by piece.
 class IrisShape {
  public:
   explicit IrisShape(const Iris& iris);
@@ -25,19 +25,19 @@ class IrisShape {
   [[nodiscard]] const std::vector<IrisBound>& bounds() const { return bounds_; }
   [[nodiscard]] bool is_circle() const { return is_circle_; }  // of radius 1 about the axis
   [[nodiscard]] bool is_picture() const { return field_ != nullptr; }
-  [[nodiscard]] IrisShape hull() const;  // convex: where to search for light
+  [[nodiscard]] IrisShape hull() const;  // convex, for searches
 
   // Signed distances of many points of the stop plane, in stop radii.
   void distances(const float* x, const float* y, std::size_t count, float* out) const;
   [[nodiscard]] double picture_distance(Vec2 p) const { return field_->distance(picture_from_stop(p)); }
-  // The share of light that a picture with half-tones passes, as the mean over a square (IrisField).
+  // The transmittance of a picture with half-tones, as the mean over a square (IrisField).
   [[nodiscard]] bool has_tones() const { return field_ != nullptr && field_->has_tones(); }
   [[nodiscard]] double picture_transmittance(Vec2 p, double width) const {
     return field_->transmittance(picture_from_stop(p), width);
   }
 
-  // visit(std::span<const IrisBound> half_planes, double open) for the pieces of a picture that may meet a box:
-  // what all of the half-planes leave, and the share of light that passes there (IrisField::for_each_piece).
+  // Calls visit(std::span<const IrisBound> half_planes, double open) for the pieces of a picture that may overlap a
+  // box: the intersection of the half-planes, and the transmittance there (IrisField::for_each_piece).
   template <class Visit>
   void for_each_piece(Vec2 low, Vec2 high, double detail, const Visit& visit) const {
     const Vec2 middle = picture_from_stop((low + high) * 0.5);
@@ -66,7 +66,7 @@ class IrisShape {
   std::vector<IrisBound> bounds_;  // never empty
   bool is_circle_ = false;
   std::shared_ptr<const IrisField> field_;
-  double cosine_ = 1.0, sine_ = 0.0;  // of the picture's turn
+  double cosine_ = 1.0, sine_ = 0.0;  // of the picture's rotation
 };
 
 }  // namespace contrejour

@@ -1,5 +1,5 @@
-// A light's meridional frame, and the way back from it: ghosts/meridian.h with the sine and cosine worked out. For a
-// lens without axial symmetry, which has no such frame, that of the lens.
+// A light's meridional frame and the rotation back from it: ghosts/meridian.h with sine and cosine precomputed. A lens
+// without axial symmetry has no such frame; the lens's own is used.
 #pragma once
 
 #include <cmath>
@@ -27,7 +27,7 @@ struct LightFrame {
       : source(m.light), cos_turn(std::cos(m.turn_rad)), sin_turn(std::sin(m.turn_rad)) {}
 };
 
-// A light's entrance window in frames of either kind: where a front bulges, how far it reaches depends on the frame.
+// A light's entrance window in both kinds of frames: for a convex front the window's bounds depend on the frame.
 class LightWindows {
  public:
   LightWindows(const LensState& lens, const LightSource& light)

@@ -1,5 +1,5 @@
-// A rotationally symmetric lens seen with a light's meridian as the x-z plane: hullin2011 4.2, axial symmetry.
-// What rays do there depends on one angle only, and y -> -y changes nothing but the iris.
+// The frame of a rotationally symmetric lens in which a light's meridian is the x-z plane: hullin2011 4.2, axial
+// symmetry. Rays in this frame depend on one angle only, and y -> -y changes nothing but the iris.
 #pragma once
 
 #include "contrejour/iris.h"
@@ -10,14 +10,14 @@ namespace contrejour {
 
 struct Meridian {
   LightSource light;    // its direction: y = 0, x >= 0
-  double turn_rad = 0;  // about the axis, from here into place
+  double turn_rad = 0;  // rotation about the axis from this frame to the lens's
   [[nodiscard]] double angle_rad() const;  // of the light to the axis
 };
 
-// A light on the axis has every meridian; it gets the one that turns nothing.
+// Every plane is a meridian of a light on the axis; it gets the one with no rotation.
 [[nodiscard]] Meridian meridian_of(const LightSource& light);
 
-// The iris as it stands in the meridian's frame.
+// The iris in the meridian's frame.
 [[nodiscard]] Iris turned_back(Iris iris, const Meridian& meridian);
 
 }  // namespace contrejour

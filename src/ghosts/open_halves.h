@@ -1,4 +1,4 @@
-// What of a grid of rays gets through: halves of its cells, with the share of each that is open.
+// The part of a grid of rays that gets through: halves of its cells, with the open fraction of each.
 #pragma once
 
 #include <array>
@@ -10,14 +10,14 @@
 
 namespace contrejour {
 
-// Half a cell of the grid: its vertices, the share of it that is open, and the flux through that share.
+// Half a cell of the grid: its vertices, the fraction of its area that is open, and the flux through that.
 struct OpenTriangle {
   std::array<std::size_t, 3> vertex;
   double open = 0;
-  double flux_mm2 = 0;  // but for what all points share (LightSource)
+  double flux_mm2 = 0;  // without LightSource::shared_flux()
 };
 
-// Share of a triangle where a function that is linear over it is <= 0.
+// The fraction of a triangle where a function that is linear over it is <= 0.
 [[nodiscard]] inline double share_below_zero(double a, double b, double c) {
   if (a > b) std::swap(a, b);
   if (b > c) std::swap(b, c);
@@ -28,7 +28,7 @@ struct OpenTriangle {
   return 1.0 - c / (c - a) * (c / (c - b));         // all but the corner at c
 }
 
-// Of a cell, by its vertices in turn.
+// Visits the two halves of a cell, given by its vertices in order.
 template <class Visit>
 void for_each_open_half(const RayGrid& grid, const std::array<std::size_t, 4>& q, const Visit& visit) {
   const Vec2 step = grid.step_mm();

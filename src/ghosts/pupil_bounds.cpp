@@ -13,16 +13,16 @@ namespace contrejour {
 namespace {
 
 constexpr int kFirstAngles = 5;  // searched over the whole window
-constexpr int kMaxDepth = 6;     // halvings of the stretch between two of them
-// A straight line may miss the middle by this share of the region's size before the stretch is halved.
+constexpr int kMaxDepth = 6;     // bisections of the interval between two of them
+// An interval is bisected if linear interpolation misses the middle by more than this fraction of the region's size.
 constexpr double kBendShare = 0.1;
-// Added all round for what bends within a stretch: the search's own cells give about as much again.
+// Margin on all sides for nonlinearity within an interval: the search's own cells add about as much again.
 constexpr double kSpareShare = 0.05;
-// How far around an interpolated region the next is looked for, in its sizes.
+// Margin around an interpolated region in which the next is searched, over its size.
 constexpr double kGuessShare = 0.3;
-// Ends of a stretch whose sizes differ by less are taken for the same part of the pupil on its way.
+// Ends of an interval whose sizes differ by less are taken for the same part of the pupil, which moves.
 constexpr double kAlikeSizes = 1.3;
-// A grid over the window finds a pupil that this many of its cells span.
+// A grid over the window finds a pupil that spans this number of its cells.
 constexpr double kCellsToFind = 2.0;
 
 Vec2 size_of(const Rectangle& r) { return r.high - r.low; }
@@ -53,7 +53,7 @@ struct AtWavelength {
   const ReflectanceTables* tables;
 };
 
-// Lays the stretches of one ghost.
+// Builds the intervals of one ghost.
 class EntryBuilder {
  public:
   EntryBuilder(const LensState& lens, std::vector<AtWavelength> paths, double largest_angle_rad)
@@ -80,8 +80,8 @@ class EntryBuilder {
     return nodes;
   }
 
-  // Where nothing was found although the pupils at other angles are small enough to slip through the grid, or
-  // nothing at all.
+  // Repeats the search where no pupil was found although those at other angles are small enough to be missed by the
+  // grid, or were not found either.
   void look_again(std::vector<Node>& nodes) {
     std::optional<PupilEffort> needed;
     for (const Node& node : nodes) {
@@ -93,7 +93,7 @@ class EntryBuilder {
     }
   }
 
-  // What it takes to find a pupil of the node's size in the whole window.
+  // The effort that finds a pupil of the node's size in the whole window.
   [[nodiscard]] PupilEffort effort_for(const Node& node) const {
     if (!node.region) return PupilEffort::Once;
     const Vec2 size = size_of(node.region->pupil_mm);
@@ -133,8 +133,8 @@ class EntryBuilder {
     r.low.y = -r.high.y;
   }
 
-  // Where the middle of a stretch is looked for. Ends of different sizes: part of the pupil may close between them,
-  // so all of both.
+  // The region in which the middle of an interval is searched. If the ends differ in size, part of the pupil may close
+  // between them, so the region contains both.
   static std::optional<Rectangle> guess_between(const Node& a, const Node& b) {
     if (!a.region && !b.region) return std::nullopt;
     const Rectangle& from = a.region ? a.region->pupil_mm : b.region->pupil_mm;
@@ -146,7 +146,8 @@ class EntryBuilder {
     return widened(middle, size_of(middle) * kGuessShare);
   }
 
-  // Stretches from a to b: halved until a straight line holds, or the angle at which the pupil closes is near.
+  // Adds intervals from a to b, bisected until linear interpolation is accurate, or the angle at which the pupil closes
+  // is known well enough.
   void lay(const Node& a, const Node& b, int depth) {
     const Node middle =
         look(0.5 * (a.angle_rad + b.angle_rad), guess_between(a, b), std::max(effort_for(a), effort_for(b)));
@@ -171,7 +172,7 @@ class EntryBuilder {
     }
   }
 
-  // The largest distance between edges that correspond.
+  // The largest distance between corresponding edges.
   static Vec2 farthest_apart(const Rectangle& a, const Rectangle& b) {
     const Vec2 low = a.low - b.low;
     const Vec2 high = a.high - b.high;
@@ -182,7 +183,7 @@ class EntryBuilder {
     entry_.stretches.push_back({a.angle_rad, b.angle_rad, a.region, b.region, margin_mm});
   }
 
-  // A stretch in which all or part of the pupil closes: wide enough for both ends.
+  // Adds an interval in which all or part of the pupil closes, with a region that contains both ends.
   void push_unsteady(const Node& a, const Node& b) {
     const auto& known = a.region ? a.region : b.region;
     Vec2 margin_mm = known ? size_of(known->pupil_mm) : Vec2{};
@@ -273,7 +274,7 @@ Result<ZoomPupilBounds> ZoomPupilBounds::build(const Prescription& lens, const S
 
 namespace {
 
-// The entries on either side of a value; the same twice at an end.
+// The entries on either side of a value; beyond an end the same entry twice.
 template <class Row, class Below>
 std::array<std::size_t, 2> neighbours(const Row& row, Below below) {
   const auto after = std::find_if_not(row.begin(), row.end(), below);

@@ -1,6 +1,6 @@
-// hullin2011 4.2, ray bounding by precomputation: rectangles of the entrance plane that hold every ray of a ghost
-// that gets through, over the light's angle, and over zoom and stop. All in the frame of the light's meridian
-// (meridian.h), where they are symmetric in y; the iris counts as a full circle, so they hold for any blades.
+// hullin2011 4.2, ray bounding by precomputation: rectangles of the entrance plane that contain every ray of a ghost
+// that gets through, as functions of the light's angle, zoom and stop. They are in the frame of the light's meridian
+// (meridian.h), where they are symmetric in y; the iris counts as a full circle, so they are valid for any blades.
 // Same result for any thread count. Thread-safety: constant once built.
 #pragma once
 
@@ -16,24 +16,24 @@ namespace contrejour {
 
 struct PupilBoundsRange {
   std::vector<Ghost> ghosts;
-  std::vector<double> lambda_nm;  // one rectangle serves all of them: give the shortest and the longest
+  std::vector<double> lambda_nm;  // one rectangle serves all of them; the shortest and the longest suffice
   double largest_angle_rad = 0;
 };
 
-// One lens state, over the light's angle. Differs: hullin2011 takes the union of neighbouring entries; here the
-// angles are as many as a straight line between them needs, and the rectangle is widened by what it may miss.
+// One lens state, over the light's angle. Differs: hullin2011 takes the union of neighbouring entries; here angles are
+// added until linear interpolation is accurate, and the rectangle is widened by its remaining error.
 class PupilBounds {
  public:
   // Incomplete when the context is cancelled.
   PupilBounds(const LensState& lens, const PupilBoundsRange& range, const Context& context);
 
-  // None when nothing gets through. The angle must lie within the range; so must the ghost.
+  // None when nothing gets through. Angle and ghost must lie within the range.
   [[nodiscard]] std::optional<PupilRegion> find(Ghost ghost, double angle_rad) const;
 
   [[nodiscard]] std::uint64_t rays() const;
   [[nodiscard]] std::uint64_t surface_hits() const;
 
-  // Between two angles. One end without a region: the pupil closes somewhere between.
+  // An interval between two angles. If one end has no region, the pupil closes between them.
   struct Stretch {
     double from_rad = 0, to_rad = 0;
     std::optional<PupilRegion> at_from, at_to;
@@ -48,21 +48,21 @@ class PupilBounds {
   std::map<Ghost, Entry> entries_;
 };
 
-// A prescription's bounds over zoom and stop: one PupilBounds for each pair, looked up for any lens state between
-// them. The answer holds the rectangles of all neighbouring pairs, as in hullin2011.
+// A prescription's bounds over zoom and stop: one PupilBounds for each pair, looked up for any lens state between them.
+// The result contains the rectangles of all neighbouring pairs, as in hullin2011.
 class ZoomPupilBounds {
  public:
   struct Settings {
     std::vector<double> focal_length_mm;  // rising; empty: a prime
-    std::vector<double> f_number;         // rising
-    LensSettings others;                  // focus, coating, iris
+    std::vector<double> f_number;  // rising
+    LensSettings others;  // focus, coating, iris
   };
 
   // Errors: those of lens_at(); Cancelled.
   [[nodiscard]] static Result<ZoomPupilBounds> build(const Prescription& lens, const Settings& settings,
                                                      const PupilBoundsRange& range, const Context& context);
 
-  // As PupilBounds::find. A focal length or f-number beyond the table is taken at its end.
+  // As PupilBounds::find. A focal length or f-number beyond the table is clamped to its end.
   [[nodiscard]] std::optional<PupilRegion> find(const LensState& lens, Ghost ghost, double angle_rad) const;
 
  private:

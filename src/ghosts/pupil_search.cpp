@@ -11,11 +11,11 @@ namespace {
 constexpr int kSearchSteps = 10;
 constexpr std::array kFirstSides{kSearchSide, 193, 577};  // by PupilEffort
 constexpr int kGuessSide = 33;
-constexpr double kShrinkEnough = 0.85;  // zoom on while the area still falls below this share
+constexpr double kShrinkEnough = 0.85;  // continue while a step shrinks the area below this fraction
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
-// What blocks is nearly linear over a cell, so it cannot fall below its lowest corner by more than the corners
-// differ. A failed corner tells nothing: the others decide.
+// The amount by which a ray is blocked is nearly linear over a cell, so it cannot fall below its lowest corner by more
+// than the corners differ. A corner whose ray fails is ignored.
 class Extremes {
  public:
   void add(float value) {
@@ -87,7 +87,7 @@ PacketPrecision precision_for(const Rectangle& box, int side) {
 int first_grid_side(PupilEffort effort) { return kFirstSides[static_cast<std::size_t>(effort)]; }
 
 PupilEffort effort_for_grid(int side) {
-  constexpr int kFiner = 12;  // that the finest grid of a search may be, each way
+  constexpr int kFiner = 12;  // factor of rays along each side, for the finest grid of a search
   for (const PupilEffort effort : {PupilEffort::Finest, PupilEffort::Finer})
     if (first_grid_side(effort) <= kFiner * side) return effort;
   return PupilEffort::Once;

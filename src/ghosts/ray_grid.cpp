@@ -6,9 +6,9 @@
 namespace contrejour {
 namespace {
 
-// Rounding between neighbours may be this share of their distance: it is the ripple of a flat ghost.
+// Rounding between neighbours may be this fraction of their distance: it is the ripple of a flat ghost.
 constexpr double kRoundingShare = 1e-3;
-// Below this many pixels a cell's own shape is not seen, only its flux.
+// Below this number of pixels only a cell's flux is visible, not its shape.
 constexpr double kUnseenCell_px = 0.25;
 constexpr int kProbeRays = 64;
 constexpr double kFloatPupil_mm = 1.0;
@@ -35,7 +35,7 @@ std::vector<CubicPoint> cubic_points(int side, int factor) {
   return points;
 }
 
-// Vectors about the axis.
+// Rotates vectors about the axis.
 void turn(double cosine, double sine, std::vector<float>& x, std::vector<float>& y) {
   const auto c = static_cast<float>(cosine), s = static_cast<float>(sine);
   for (std::size_t k = 0; k < x.size(); ++k) {
@@ -77,7 +77,7 @@ void RayGrid::trace_packets_of(const PacketPath& packets, const float* x_mm, con
   trace_packets(packets, precision, x_mm, y_mm, count, out);
 }
 
-// The first rows of the grid; all arrays are made for the whole.
+// Traces the first rows of the grid; all arrays are sized for the whole.
 void RayGrid::trace_rows(const PacketPath& packets, const Rectangle& box, int side, int rows,
                          PacketPrecision precision) {
   side_ = side;
@@ -126,7 +126,7 @@ void RayGrid::trace_points(PacketPath& packets, const IrisShape& iris, const Lig
   put_in_place(iris, light);
 }
 
-// From a light's own frame.
+// Rotates the results from a light's own frame to the lens's.
 void RayGrid::put_in_place(const IrisShape& iris, const LightFrame& light) {
   turn(light.cos_turn, light.sin_turn, sensor_x_mm, sensor_y_mm);
   for (std::size_t c = 0; c < static_cast<std::size_t>(stop_crossings_); ++c)
@@ -134,7 +134,7 @@ void RayGrid::put_in_place(const IrisShape& iris, const LightFrame& light) {
   find_blocked(iris, blocked.size());
 }
 
-// Fills the rows behind from those before: what is a y changes its sign, the rest stays.
+// Fills the mirrored rows: y coordinates change their sign, other values are copied.
 void RayGrid::mirror_rows(int from) {
   const auto mirror = [&](std::vector<float>& values, float sign) {
     for (int iy = from; iy < side_; ++iy) {
@@ -210,7 +210,7 @@ void RayGrid::find_blocked(const IrisShape& iris, std::size_t count) {
   for (std::size_t k = 0; k < count; ++k) blocked[k] = r_rel[k] - 1.0F;
   for (std::size_t c = 0; c < static_cast<std::size_t>(stop_crossings_); ++c) {
     iris.distances(stop_x[c].data(), stop_y[c].data(), count, iris_distance[c].data());
-    // In this order a NaN of a failed ray never wins over its infinity.
+    // In this order a failed ray's NaN never replaces its infinity.
     for (std::size_t k = 0; k < count; ++k) {
       blocked[k] = iris_distance[c][k] > blocked[k] ? iris_distance[c][k] : blocked[k];
     }
@@ -222,8 +222,8 @@ PacketPrecision flux_precision(const Rectangle& pupil) {
   return std::min(size.x, size.y) > kFloatPupil_mm ? PacketPrecision::Float : PacketPrecision::Double;
 }
 
-// The middle row is traced both ways. What changes from ray to ray in their difference is rounding; what
-// changes slowly bends the ghost a little, unseen.
+// The middle row is traced in both precisions. Variations of the difference from ray to ray are rounding errors; slow
+// variations distort the ghost invisibly.
 PacketPrecision precision_for(const OpticalPath& path, const ReflectanceTables& tables, const LightSource& light,
                               double z_mm, const Rectangle& box, int side, double pixel_pitch_mm) {
   const PacketPath packets(path, tables, {{box.low.x, 0.5 * (box.low.y + box.high.y), z_mm}, light});

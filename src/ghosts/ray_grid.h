@@ -1,6 +1,6 @@
 // A uniform grid of a light's rays over a rectangle of the entrance plane, traced along one path; hullin2011
-// 4.1. Every vertex keeps what is interpolated over the cells: sensor point, transmission, r_rel and the places
-// where the ray crosses the stop.
+// 4.1. Every vertex keeps the values that are interpolated over cells: sensor point, transmission, r_rel and stop
+// coordinates.
 #pragma once
 
 #include <algorithm>
@@ -23,12 +23,12 @@ struct Rectangle {
 
 [[nodiscard]] inline double area_of(const Rectangle& r) { return (r.high.x - r.low.x) * (r.high.y - r.low.y); }
 
-// The smallest that holds both.
+// The smallest rectangle that contains both.
 [[nodiscard]] inline Rectangle both(const Rectangle& a, const Rectangle& b) {
   return {{std::min(a.low.x, b.low.x), std::min(a.low.y, b.low.y)},
           {std::max(a.high.x, b.high.x), std::max(a.high.y, b.high.y)}};
 }
-// On the other side of y = 0.
+// The mirror image about y = 0.
 [[nodiscard]] inline Rectangle mirrored(const Rectangle& r) { return {{r.low.x, -r.high.y}, {r.high.x, -r.low.y}}; }
 
 // Buffers are kept between passes; one object a thread.
@@ -39,22 +39,23 @@ class RayGrid {
              double z_mm, const Rectangle& box, int side, PacketPrecision precision);
 
   // The same for a light in the x-z plane and a box that is symmetric in y: one half is traced and mirrored
-  // (hullin2011 4.2, mirror symmetry), the iris is applied to every ray where it crosses. Gives the rays traced.
+  // (hullin2011 4.2, mirror symmetry), the iris is applied to every ray at its crossings. Returns the number of rays
+  // traced.
   std::size_t trace_mirrored(const OpticalPath& path, const ReflectanceTables& tables, const IrisShape& iris,
                              const LightSource& light, double z_mm, const Rectangle& box, int side,
                              PacketPrecision precision);
 
-  // The same from packets that are ready, of a light in its own frame: mirrored where the light and the box are
-  // symmetric in y, places on the sensor and in the stop turned into place.
+  // The same for a prepared path and a light in its own frame: mirrored if the light and the box are symmetric in y;
+  // sensor points and stop coordinates are rotated to the lens's frame.
   std::size_t trace(PacketPath& packets, const IrisShape& iris, const LightFrame& light, const Rectangle& box, int side,
                     PacketPrecision precision);
 
-  // Likewise of rays through any points, given from an origin: one row of them, no grid.
+  // The same for rays through any points, relative to an origin: one row, no grid.
   void trace_points(PacketPath& packets, const IrisShape& iris, const LightFrame& light, Vec2 origin_mm,
                     std::span<const float> x_mm, std::span<const float> y_mm, PacketPrecision precision);
 
-  // Every cell into factor x factor, by cubics through the rays along each axis: what is smooth between rays in few of
-  // them. The grid needs four rays a side, all of which arrived; of where they land nothing is left.
+  // Divides every cell into factor x factor, by cubics through the rays along each axis, for fields that few rays
+  // resolve. The grid needs at least four rays a side, all of which arrive; sensor points are discarded.
   void refine(const IrisShape& iris, int factor);
 
   // Turns the sensor points about the axis; the crossings of the stop stay as they are.
@@ -68,17 +69,17 @@ class RayGrid {
   [[nodiscard]] std::size_t at(int ix, int iy) const {
     return static_cast<std::size_t>(iy) * static_cast<std::size_t>(side_) + static_cast<std::size_t>(ix);
   }
-  // The four vertices of a cell in turn.
+  // The four vertices of a cell in order.
   [[nodiscard]] std::array<std::size_t, 4> corners(int ix, int iy) const {
     return {at(ix, iy), at(ix + 1, iy), at(ix + 1, iy + 1), at(ix, iy + 1)};
   }
 
-  // How far from the nearest of these corners a place of the stop may be that a ray between them crosses, in stop
-  // radii: by so much less may `blocked` be there, or more. 0 for a convex opening, where corners tell what is between
-  // them.
+  // The largest distance, in stop radii, of the stop coordinates of a ray between these corners from the nearest
+  // corner's: `blocked` may differ from the corner's by that much. 0 for a convex opening, where the corners bound the
+  // values between them.
   [[nodiscard]] float slack(std::span<const std::size_t> corners) const;
 
-  // Whether something blocks light within: corners that it passes do not tell of what is between them, then.
+  // True if an obscuration blocks light: open corners then do not imply that light passes between them.
   [[nodiscard]] bool is_obscured() const { return obscured_; }
 
   // One value a vertex. A ray that failed has blocked = infinity.
@@ -106,11 +107,10 @@ class RayGrid {
   std::vector<float> x_mm_, y_mm_;  // entrance points from box_.low
 };
 
-// Of rays whose fluxes are asked for, which need shares of cells and no places on the sensor: float, unless the pupil
-// is tiny.
+// The precision for fluxes, which need open fractions of cells and no sensor points: float, unless the pupil is tiny.
 [[nodiscard]] PacketPrecision flux_precision(const Rectangle& pupil);
 
-// Float or double: whatever keeps the rounding of neighbouring rays well below their distance on the sensor.
+// Chooses float or double so that the rounding of neighbouring rays is far below their distance on the sensor.
 [[nodiscard]] PacketPrecision precision_for(const OpticalPath& path, const ReflectanceTables& tables,
                                             const LightSource& light, double z_mm, const Rectangle& box, int side,
                                             double pixel_pitch_mm);

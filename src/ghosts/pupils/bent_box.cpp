@@ -12,29 +12,29 @@ namespace {
 
 constexpr int kBentColumns = 64, kBentRows = 12;     // of the upper half
 constexpr std::size_t kFewestRows = 4;       // with light, to fit a side to
-constexpr double kBentMargin = 0.1;              // of the light's extent, on a side where nothing fails that near
-constexpr double kLeastMargin = 0.03;        // nearer to what fails polynomials are poor
-constexpr double kTopMargin = 0.02;          // of its height, where a pupil beside a rim is narrow
+constexpr double kBentMargin = 0.1;              // of the light's extent, on a side without failing rays within it
+constexpr double kLeastMargin = 0.03;        // closer to failing rays polynomials are inaccurate
+constexpr double kTopMargin = 0.02;          // of its height, where a pupil next to a rim is narrow
 constexpr double kLeastStretch = 0.1;
-constexpr std::array kBends{0.0, 0.25, 0.5, 0.75, 1.0};  // of what fits best; bent cells are drawn less easily
+constexpr std::array kBends{0.0, 0.25, 0.5, 0.75, 1.0};  // of the fitted curve; curved cells are harder to draw
 constexpr double kNone = std::numeric_limits<double>::infinity();
 
 double x_of(const ClearanceGrid& grid, int column) { return grid.box().low.x + column * grid.cell_size().x; }
 double y_of(const ClearanceGrid& grid, int row) { return grid.box().low.y + row * grid.cell_size().y; }
 
-// One row of a grid: where its light begins and ends, and next to it what fails on either side, if anything does.
+// One row of a grid: the ends of its light, and the nearest failing rays on either side, if any.
 struct Row {
   double y = 0.0, low = 0.0, high = 0.0, fails_below = -kNone, fails_above = kNone;
 };
 
-// Between an open column and its neighbour, which is not.
+// The light's edge between an open column and its neighbour, which is not open.
 double light_edge(const ClearanceGrid& grid, int row, int open, int beyond) {
   if (grid.fails(grid.at(beyond, row))) return x_of(grid, beyond);
   const double inside = grid.excess(grid.at(open, row)), outside = grid.excess(grid.at(beyond, row));
   return x_of(grid, open) + (x_of(grid, beyond) - x_of(grid, open)) * inside / (inside - outside);
 }
 
-// Between a column that fails and the next in the direction of step, 1 or -1, which does not.
+// The edge between a column that fails and the next in the direction of step, 1 or -1, which does not.
 double failing_edge(const ClearanceGrid& grid, int row, int column, int step) {
   const int before = column - step;
   const bool told = before >= 0 && before <= grid.columns() && grid.fails(grid.at(before, row));
@@ -64,7 +64,7 @@ std::vector<Row> lit_rows(const ClearanceGrid& grid) {
   return rows;
 }
 
-// Where the light ends above the axis: where the least that any ray of a row is beyond would be nothing.
+// The upper end of the light: where the smallest excess of a row, interpolated between rows, becomes 0.
 double top_of(const ClearanceGrid& grid) {
   double y = 0.0, before = 0.0;
   for (int row = 0; row <= grid.rows(); ++row) {
@@ -82,14 +82,14 @@ double top_of(const ClearanceGrid& grid) {
   return y;
 }
 
-// What is known of a box at one wavelength.
+// The data of a box at one wavelength.
 struct Probe {
   const ClearanceGrid& grid;
   std::vector<Row> rows;  // with light
   double top;
 };
 
-// Midway between the light's edge and what fails beside it, by least squares: there the box is so bent.
+// A least-squares curve midway between the light's edge and the failing rays next to it: the box's curved side.
 struct Between {
   double x_mm;  // on the axis
   Side side;
@@ -115,7 +115,7 @@ struct Extent {
   double low = kNone, high = -kNone;
 };
 
-// Leaves of `room` along x what no failing ray of the probe is in, on either side of `middle`.
+// Shrinks `room` along x until it contains no failing ray of the probe, on either side of `middle`.
 void keep_failing_out(Extent& room, const ClearanceGrid& grid, double middle, double top, const Bend& bend) {
   for (int row = 0; row <= grid.rows() && y_of(grid, row) < top + 0.5 * grid.cell_size().y; ++row) {
     const double y = y_of(grid, row);
@@ -133,7 +133,7 @@ void keep_failing_out(Extent& room, const ClearanceGrid& grid, double middle, do
   }
 }
 
-// The box so bent that holds the light of all probes, if what fails can be kept out of it.
+// The box with this curvature that contains the light of all probes, if failing rays can be kept out of it.
 std::optional<BentBox> box_about(std::span<const Probe> probes, const Bend& bend, double highest) {
   Extent light;
   double top = 0.0, least_stretch = 1.0;
@@ -175,7 +175,7 @@ std::optional<BentBox> bent_box(std::span<ClearanceGrid> wavelengths, const Rect
     const Side side{part * between.side.by_y2, part * between.side.by_y4};
     const Bend bend = low ? Bend{between.x_mm, box.high.x, side, {}} : Bend{box.low.x, between.x_mm, {}, side};
     auto found = box_about(probes, bend, box.high.y);
-    // The other wavelengths are looked at once one of them is content.
+    // The other wavelengths are traced once a box fits the first.
     while (found && probes.size() < wavelengths.size()) {
       if (!probe(wavelengths[probes.size()])) return std::nullopt;
       found = box_about(probes, bend, box.high.y);

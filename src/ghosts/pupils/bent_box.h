@@ -1,7 +1,7 @@
-// Boxes of the entrance plane one side of which bends with what fails beside a pupil. A rim far off the axis is an arc
-// there, and rays a little beyond it miss a surface or are reflected totally: a box with straight sides that holds the
-// light holds such rays, through which no polynomial goes. Bent along y^2 and y^4 it need not, and stays symmetric
-// about the meridian.
+// Boxes of the entrance plane with one curved side, which follows the failing rays next to a pupil. A rim far off the
+// axis is an arc there, and rays slightly beyond it miss a surface or are totally reflected: a box with straight sides
+// around the light contains such rays, through which no polynomial can be fitted. A side curved by y^2 and y^4 avoids
+// them, and keeps the box symmetric about the meridian.
 #pragma once
 
 #include <optional>
@@ -11,14 +11,15 @@
 
 namespace contrejour::pupils {
 
-// How far a side lies from where a straight one would, along x: by_y2 y^2 + by_y4 y^4, mm.
+// The distance of a curved side from the straight one, along x: by_y2 y^2 + by_y4 y^4, mm.
 struct Side {
   double by_y2 = 0.0, by_y4 = 0.0;
   friend bool operator==(const Side&, const Side&) = default;
   [[nodiscard]] double at(double y_mm) const { return (by_y2 + by_y4 * y_mm * y_mm) * y_mm * y_mm; }
 };
 
-// From a box to the entrance plane, along x alone: as far as its sides at low_mm and high_mm, in proportion between.
+// The map from a box to the entrance plane, a displacement along x: that of the sides at low_mm and high_mm, linear
+// between.
 struct Bend {
   double low_mm = 0.0, high_mm = 1.0;
   Side low, high;
@@ -39,8 +40,8 @@ struct BentBox {
   Bend bend;
 };
 
-// Of a box about the meridian: the least bent one that holds the light of all wavelengths and no ray that fails, as far
-// as grids of 845 rays tell, one a wavelength. None where there is none.
+// Finds for a box about the meridian the least curved box that contains the light of all wavelengths and no failing
+// ray, by a grid of 845 rays for each wavelength. None if there is none.
 [[nodiscard]] std::optional<BentBox> bent_box(std::span<ClearanceGrid> wavelengths, const Rectangle& box);
 
 }  // namespace contrejour::pupils

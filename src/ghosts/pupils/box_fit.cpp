@@ -8,7 +8,7 @@ namespace contrejour::pupils {
 namespace {
 
 constexpr int kFitColumns = 8;
-constexpr double kWidening = 0.2;  // of a box's size, on a side at which light comes through the very border
+constexpr double kWidening = 0.2;  // of a box's size, on a side whose border transmits light
 constexpr int kMostWidenings = 4;
 constexpr float kFitReach = 0.5F;     // ClearanceGrid::may_pass
 

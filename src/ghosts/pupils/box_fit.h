@@ -1,4 +1,4 @@
-// A box of the pupil found at one wavelength, made to fit what comes through near it at another.
+// Fits a box of the pupil at one wavelength to the light near it at another wavelength.
 #pragma once
 
 #include <optional>
@@ -12,8 +12,8 @@ class BoxFitter {
   // path: from any point of the entrance plane.
   BoxFitter(PacketPath path, const EntranceWindow& window);
 
-  // box: one that touches y = 0 is symmetric in y, others lie above it; so is the answer. None if nothing comes
-  // through.
+  // box: one that touches y = 0 is symmetric in y, others lie above it; the same holds for the result. None if no light
+  // gets through.
   [[nodiscard]] std::optional<Rectangle> fit(const Rectangle& box);
 
   [[nodiscard]] std::uint64_t rays() const { return grid_.rays(); }

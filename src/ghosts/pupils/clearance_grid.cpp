@@ -11,7 +11,7 @@ struct Range {
   float low, high;
 };
 
-// Of a field over the corners of a cell, and beyond them by `reach` times what they differ.
+// The range of a field over the corners of a cell, extended at both ends by `reach` times their difference.
 Range range_of(const float* field, const std::array<std::size_t, 4>& corners, float reach) {
   const float a = field[corners[0]];
   const float b = field[corners[1]];
@@ -95,7 +95,7 @@ bool ClearanceGrid::may_reach_circle(std::size_t k, const std::array<std::size_t
 bool ClearanceGrid::may_pass(GridCell cell, float reach) const {
   std::array<std::size_t, 4> corners{at(cell.column, cell.row), at(cell.column + 1, cell.row),
                                      at(cell.column, cell.row + 1), at(cell.column + 1, cell.row + 1)};
-  // A ray that fails tells nothing: the others decide.
+  // A ray that fails is ignored: the others decide.
   const auto known = [&](std::size_t ray) { return !fails(ray); };
   const auto one = std::find_if(corners.begin(), corners.end(), known);
   if (one == corners.end()) return false;

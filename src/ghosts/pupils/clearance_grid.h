@@ -1,5 +1,5 @@
-// Rays on a uniform grid over a part of the upper half of the entrance plane, and what blocks them: which cells may let
-// light through, and which of these hang together. In the light's meridional frame; the iris counts as its
+// Rays on a uniform grid over a part of the upper half of the entrance plane, and their clearances: which cells may
+// transmit light, and which of these are connected. It is in the light's meridional frame; the iris counts as its
 // circumscribed circle.
 #pragma once
 
@@ -39,11 +39,11 @@ class ClearanceGrid {
     return static_cast<std::size_t>(row * (columns_ + 1) + column);
   }
   [[nodiscard]] bool fails(std::size_t ray) const { return field(kFailing)[ray] != 0.0F; }
-  // Of two rays that fail, the nearer one: how far on, in their distance, those beyond it no longer do; infinite where
-  // they do not tell.
+  // For two rays that fail: the extrapolated distance beyond the nearer one, over the distance of the two, at which
+  // rays no longer fail; infinite if they do not determine it.
   [[nodiscard]] double arrives_after(std::size_t farther, std::size_t nearer) const;
   [[nodiscard]] bool is_open(std::size_t ray) const { return open_[ray] != 0; }
-  // By how much a ray is beyond the stop's circle or the rim it is farthest out on, squared; open below 0.
+  // The squared relative height of a ray, at the stop or at its outermost rim, less 1; open below 0.
   [[nodiscard]] float excess(std::size_t ray) const;
   // Over the stop's radius.
   [[nodiscard]] Vec2 stop(int crossing, std::size_t ray) const {
@@ -51,14 +51,14 @@ class ClearanceGrid {
     return {field(c)[ray], field(c + 1)[ray]};
   }
 
-  // Whether light may pass through a cell, if nothing goes beyond its values at the corners by more than `reach` times
-  // what they differ.
+  // True if light may pass through a cell, provided that fields exceed their corner values by at most `reach` times the
+  // corners' difference.
   [[nodiscard]] bool may_pass(GridCell cell, float reach) const;
   [[nodiscard]] int open_corners(GridCell cell) const;
 
-  // The cells that may let light through, by those that touch, corners included.
+  // The connected components of cells that may transmit light; cells that touch at a corner are connected.
   [[nodiscard]] std::vector<std::vector<GridCell>> pieces(float reach) const;
-  // The box, larger by a share of its size on every side at which rays get through, but within bounds.
+  // The box enlarged by a fraction of its size on every side at which rays get through, within bounds.
   [[nodiscard]] Rectangle grown(double share, const Rectangle& bounds) const;
 
   [[nodiscard]] Rectangle hull(const std::vector<GridCell>& cells) const;
@@ -66,7 +66,7 @@ class ClearanceGrid {
  private:
   static constexpr std::size_t kFailing = 0, kPassed = 1, kRim = 2, kStop = 4, kFields = kStop + 2 * kMaxStopCrossings;
   [[nodiscard]] const float* field(std::size_t k) const { return fields_.data() + k * padded_; }
-  // Whether a place in the unit circle may be reached in a cell, from its x and y, fields k and k + 1.
+  // True if a point of the unit circle may be reached in a cell, by its x and y, fields k and k + 1.
   [[nodiscard]] bool may_reach_circle(std::size_t k, const std::array<std::size_t, 4>& corners, float reach) const;
   void find_open(std::size_t count);
 

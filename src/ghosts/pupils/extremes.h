@@ -1,4 +1,4 @@
-// Whether light may pass through a cell, from what blocks it at the corners.
+// Decides whether light may pass through a cell, from the clearances at its corners.
 #pragma once
 
 #include <algorithm>
@@ -6,8 +6,8 @@
 
 namespace contrejour::pupils {
 
-// Lowest and highest of a function at a cell's corners; the cell is open where the function is <= 0. It is taken to
-// be nearly linear: below its lowest corner by no more than `reach` times what the corners differ.
+// The lowest and highest value of a function at a cell's corners; the cell is open where the function is <= 0. The
+// function is assumed nearly linear: it falls below its lowest corner by at most `reach` times the corners' difference.
 class Extremes {
  public:
   void add(float value) {

@@ -15,14 +15,14 @@ namespace {
 
 constexpr std::array<std::array<std::size_t, 3>, 2> kHalves{{{0, 1, 2}, {0, 2, 3}}};
 
-// A cell that lets light through: its vertices in turn, and of each of the triangles 0, 1, 2 and 0, 2, 3 the share that
-// is open.
+// A cell that transmits light: its vertices in order, and the open fraction of each of the triangles 0, 1, 2 and 0, 2,
+// 3.
 struct OpenCell {
   std::array<std::size_t, 4> vertex;
   std::array<double, 2> open;
 };
 
-// Cells of which all rays arrive.
+// Visits the cells of which all rays arrive.
 template <class Visit>
 void for_each_open_cell(const LitMesh& mesh, const Visit& visit) {
   for (const Block& block : mesh.blocks) {
@@ -39,7 +39,7 @@ void for_each_open_cell(const LitMesh& mesh, const Visit& visit) {
   }
 }
 
-// mm^2 of the entrance plane times transmission, of one of a cell's halves.
+// Area on the entrance plane (mm^2) times transmittance, of one of a cell's halves.
 double light_of(const LitMesh& mesh, const OpenCell& cell, std::size_t half) {
   double sum = 0.0;
   for (const std::size_t corner : kHalves[half]) sum += mesh.transmission[cell.vertex[corner]];
@@ -48,7 +48,7 @@ double light_of(const LitMesh& mesh, const OpenCell& cell, std::size_t half) {
 
 double light_of(const LitMesh& mesh, const OpenCell& cell) { return light_of(mesh, cell, 0) + light_of(mesh, cell, 1); }
 
-// About how bright a cell's light is over a square of pixels at its middle: spread over its image, if that is larger.
+// Approximate mean irradiance of a cell's light over a square of a pixel's size, or over its image if that is larger.
 double level_of(const LitMesh& mesh, const OpenCell& cell, double pixel_mm) {
   const auto at = [&](std::size_t corner) { return mesh.landing_mm(cell.vertex[corner]); };
   const Vec2 first = at(2) - at(0), second = at(3) - at(1);
@@ -59,8 +59,8 @@ double level_of(const LitMesh& mesh, const OpenCell& cell, double pixel_mm) {
 
 constexpr double kLeast_mm = 1e-9, kMost_mm = 1e9;  // of a square
 
-// Where the peak may be: at the brightest cell, or where many parts of the pupil come together, which a table of
-// squares shows that are hashed by their places. (Squares that share an entry make a place that is no peak, at worst.)
+// Candidates for the peak: the brightest cell, and points where many parts of the pupil overlap, by a hash table of
+// squares of the sensor. (A hash collision only adds a candidate that is no peak.)
 std::vector<Vec2> bright_places(const std::vector<LitMesh>& meshes, double pixel_mm) {
   constexpr std::size_t kBits = 11, kMostPlaces = 6;
   constexpr double kFarthest = 1e15;  // squares, which can be counted
@@ -90,7 +90,7 @@ std::vector<Vec2> bright_places(const std::vector<LitMesh>& meshes, double pixel
   return places;
 }
 
-// All that lands in a window, from wherever in the pupil: mm^2 of the entrance plane times transmission.
+// All light that lands in a window: area on the entrance plane (mm^2) times transmittance.
 double light_within(const TriangleWindow& window, const std::vector<LitMesh>& meshes) {
   double light = 0.0;
   for (const LitMesh& mesh : meshes) {
@@ -109,7 +109,7 @@ double light_within(const TriangleWindow& window, const std::vector<LitMesh>& me
   return light;
 }
 
-// Over the area of a square about a place.
+// The mean over a square about a point.
 double mean_about(Vec2 place, const std::vector<LitMesh>& meshes, double pixel_mm) {
   const Vec2 half{0.5 * pixel_mm, 0.5 * pixel_mm};
   return light_within(TriangleWindow({place - half, place + half}), meshes) / (pixel_mm * pixel_mm);
@@ -137,7 +137,7 @@ void Footprint::grow(Vec2 p) {
   measure_.max_mm = {std::max(measure_.max_mm.x, p.x), std::max(measure_.max_mm.y, p.y)};
 }
 
-// Bounds are those of rays that get through, and of where the edge crosses the sides of cells.
+// The bounds contain the rays that get through, and the points where the pupil's edge crosses sides of cells.
 void Footprint::add(const LitMesh& mesh) {
   for (std::size_t k = 0; k < mesh.weight.size(); ++k) {
     if (mesh.weight[k] == 0.0) continue;

@@ -1,4 +1,4 @@
-// Where a ghost's light lands, added up mesh by mesh: its flux, middle, bounds and brightest place.
+// A ghost's footprint, accumulated mesh by mesh: its flux, centroid, bounds and peak.
 #pragma once
 
 #include <vector>
@@ -13,12 +13,12 @@ class Footprint {
   // shared_flux: LightSource's.
   Footprint(std::vector<LitMesh> meshes, double shared_flux);
 
-  // All but the peak.
+  // All figures but the peak.
   [[nodiscard]] const GhostMeasure& measure() const { return measure_; }
   [[nodiscard]] const std::vector<LitMesh>& meshes() const { return meshes_; }
   // The flux that lands inside a rectangle of the sensor.
   [[nodiscard]] double flux_within_mm2(const Rectangle& sensor_mm) const;
-  // The mean over the brightest square of pixel_mm a side; 0: that of a cell.
+  // The mean over the brightest square of side pixel_mm; 0: over the brightest cell.
   [[nodiscard]] double peak_per_mm2(double pixel_mm) const;
 
  private:

@@ -22,17 +22,17 @@ MeshTracer tracer_of(const PupilRequest& request, const LightFrame& light, const
   return {PacketPath(request.steps.at(lambda_nm), request.ghost, rays, request.stop_times), light, iris, density};
 }
 
-// Points of the entrance plane that stand for what is open.
+// Sample points of the open part of the entrance plane.
 struct PupilSamples {
   Vec2 origin_mm;
   std::vector<float> x_mm, y_mm;     // from there
-  std::vector<double> weight;        // the share of what is open that each stands for, but for a factor
+  std::vector<double> weight;        // the open area that each represents, up to a common factor
   double light = 0.0;                // weights times transmissions, summed
-  double apart_mm = 0.0;             // of neighbouring rays, at least
+  double apart_mm = 0.0;             // smallest distance of neighbouring rays
 };
 
-// Adds a mesh's vertices as samples, one at each equal step of the open area that they stand for, block by block, so
-// that samples lie all over the mesh. sum_mm2: the open area of the meshes before.
+// Adds vertices of a mesh as samples, one for each equal step of open area, block by block, so that samples cover the
+// whole mesh. sum_mm2: the open area of the preceding meshes.
 void add_samples(const LitMesh& mesh, double step_mm2, double& sum_mm2, PupilSamples& samples) {
   std::vector<bool> seen(mesh.weight.size(), false);
   const Vec2 origin = mesh.origin_mm - samples.origin_mm;
@@ -70,7 +70,7 @@ PupilSamples samples_of(const std::vector<LitMesh>& meshes) {
   return samples;
 }
 
-// How much more light gets through there at another wavelength.
+// The ratio of the flux at another wavelength to that of the samples.
 double ratio_at(const PupilRequest& request, const LightFrame& light, const IrisShape& iris, double lambda_nm,
                 const PupilSamples& samples, RayGrid& rays) {
   const LightRays from{{0.0, 0.0, request.window.z_mm}, light.source};
@@ -104,7 +104,7 @@ std::vector<double> rough_fluxes_within(const PupilRequest& request, const Ghost
   const double middle_nm = middle_wavelength(request);
   const Footprint middle = footprint_at(middle_nm);
   const double middle_flux = middle.flux_within_mm2(sensor_mm);
-  const bool is_dark = !(middle.measure().flux_mm2 > 0.0);  // as coatings may be at one wavelength
+  const bool is_dark = !(middle.measure().flux_mm2 > 0.0);  // as coatings can make it at one wavelength
   if (!is_dark && !(middle_flux > 0.0)) return fluxes;
   const PupilSamples samples = is_dark ? PupilSamples{} : samples_of(middle.meshes());
   RayGrid rays;

@@ -1,4 +1,4 @@
-// What one ghost of one light does on the sensor: integrals over its pupil, from few exact rays.
+// The light of one ghost of one light on the sensor: integrals over its pupil, from few exact rays.
 #pragma once
 
 #include <span>
@@ -10,13 +10,13 @@
 
 namespace contrejour::pupils {
 
-// Where a ghost's light lands at one of the request's wavelengths: fluxes to 1e-3.
+// A ghost's footprint at one of the request's wavelengths; fluxes to 1e-3.
 [[nodiscard]] Footprint footprint_of(const PupilRequest& request, const GhostPupil& pupil, double lambda_nm,
                                      const IrisShape& iris);
 
 // The flux of a ghost that lands inside a rectangle of the sensor, mm^2 at E0 = 1, at each of some wavelengths: to
-// about a hundredth of all its flux. Where light comes through and lands is found at the request's middle wavelength;
-// at the others the same rays tell how much is reflected. searched: of search_ghost_pupil() or find_ghost_pupil().
+// about a hundredth of its whole flux. The pupil and the footprint are found at the request's middle wavelength; at the
+// others the same rays give the reflectances. searched: from search_ghost_pupil() or find_ghost_pupil().
 [[nodiscard]] std::vector<double> rough_fluxes_within(const PupilRequest& request, const GhostPupil& searched,
                                                       std::span<const double> lambda_nm, const IrisShape& iris,
                                                       const Rectangle& sensor_mm);

@@ -13,11 +13,12 @@
 namespace contrejour::pupils {
 namespace {
 
-// A share of a box's size, added on every side: polynomials through its rays are least good at its border, where the
-// ghost's edge would be if the box were tight. Half of this saves no rays and costs a decibel; twice this takes a third
-// more rays.
+// A fraction of a box's size, added on every side: polynomials through its rays are least accurate at its border, where
+// the ghost's edge would be if the box were tight. Half of this saves no rays and costs a decibel; twice this takes a
+// third more rays.
 constexpr double kPupilMargin = 0.1;
-// Boxes of the sharp stop are widened as the stop is up to here, farther by its root: what they lack they grow.
+// The boxes of the sharp stop are widened by the stop's factor up to this one, and for larger factors in proportion to
+// its square root: boxes that are then too small grow while they are fitted.
 constexpr double kMuchWider = 1.5;
 
 // A ghost that a fine grid did not find at the first wavelength is searched less finely at another.
@@ -32,14 +33,14 @@ Rectangle with_margin(const Rectangle& box) {
   return {box.low - margin, box.high + margin};
 }
 
-// Likewise, of a box of a symmetric pupil: it stays on its side of the axis of symmetry.
+// The same for a box of a symmetric pupil, which stays on its side of the axis of symmetry.
 Rectangle with_margin_aside(const Rectangle& box) {
   Rectangle out = with_margin(box);
   if (box.low.y >= 0.0) out.low.y = std::max(out.low.y, 0.0);
   return out;
 }
 
-// So many times as large; one of a symmetric pupil stays on its side of the axis of symmetry.
+// Scales a box about its middle; one of a symmetric pupil stays on its side of the axis of symmetry.
 Rectangle about_middle(const Rectangle& box, double times) {
   const Vec2 more = (box.high - box.low) * (0.5 * (times - 1.0));
   Rectangle out{box.low - more, box.high + more};
@@ -47,7 +48,7 @@ Rectangle about_middle(const Rectangle& box, double times) {
   return out;
 }
 
-// The wavelengths at which a pupil is searched that is to hold for all.
+// The wavelengths at which a pupil is searched that must serve all.
 std::vector<double> outer_wavelengths(std::span<const double> lambda_nm) {
   std::vector<double> outer_nm{lambda_nm.front()};
   if (lambda_nm.size() > 1) outer_nm.push_back(lambda_nm.back());
@@ -56,8 +57,8 @@ std::vector<double> outer_wavelengths(std::span<const double> lambda_nm) {
 
 bool is_symmetric(const PupilRequest& request) { return has_axial_symmetry(request.steps.lens(), request.ghost); }
 
-// A lens without symmetries has one box, found by grids over all of the window. At another wavelength light comes
-// through about where it does at the first.
+// A lens without symmetries has one box, found by grids over the whole window. The first wavelength's box is the guess
+// for the others.
 GhostPupil find_askew_box(const PupilRequest& request) {
   const IrisShape circle{Iris{}};
   GhostPupil pupil;
@@ -85,7 +86,7 @@ GhostPupil find_askew_box(const PupilRequest& request) {
   return pupil;
 }
 
-// What comes through near some boxes, at all wavelengths; mirror images are left to their originals.
+// Fits boxes to the light near them, at all wavelengths; mirror images follow from their originals.
 void fit_boxes(const PupilRequest& request, const std::vector<Rectangle>& near, GhostPupil& pupil) {
   const LightFrame light(request.light);
   const LightRays rays{{0.0, 0.0, request.window.z_mm}, light.source};

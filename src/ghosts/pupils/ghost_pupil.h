@@ -1,5 +1,5 @@
-// Where the light of a ghost comes through the lens: boxes of the entrance plane that together hold all of it, at every
-// one of some wavelengths. In the light's meridional frame (light_frame.h) where the lens is symmetric about it.
+// The pupil of a ghost: boxes of the entrance plane that together contain all of its light, at each of some
+// wavelengths, in the light's meridional frame (light_frame.h) if the lens has axial symmetry.
 #pragma once
 
 #include <cstdint>
@@ -11,38 +11,39 @@
 
 namespace contrejour::pupils {
 
-// What is looked for. Everything that it refers to must outlive it.
+// The ghost, light and lens of a search. Everything that it refers to must outlive it.
 struct PupilRequest {
   const StepsByWavelength& steps;
   Ghost ghost;
   LightSource light;
-  EntranceWindow window;  // of the light, in the frame that the ghost's symmetry asks for (LightWindows)
+  EntranceWindow window;  // of the light, in the frame for the ghost's symmetry (LightWindows)
   std::span<const double> lambda_nm;  // rising; searched at the middle one, fitted to the outer ones
-  double stop_times = 1.0;  // the stop counts as so many times as large
+  double stop_times = 1.0;  // factor on the stop's radius
 };
 
 struct GhostPupil {
-  std::vector<Rectangle> boxes;  // disjoint, with margins; each that lies aside of y = 0 comes with its mirror image
+  std::vector<Rectangle> boxes;  // disjoint, with margins; each one that does not touch y = 0 comes with its mirror
+                                 // image
   std::uint64_t rays = 0, surface_hits = 0;
 };
 
 [[nodiscard]] GhostPupil find_ghost_pupil(const PupilRequest& request);
 
-// The same in two steps, the second for ghosts that turn out to matter: boxes for the middle wavelength, which may
-// overlap, and from them those for all. (Lenses without symmetries are searched in one.)
+// The same in two steps, the second only for ghosts that are drawn: boxes for the middle wavelength, which may overlap,
+// and from them those for all wavelengths. (Lenses without symmetries are searched in one step.)
 [[nodiscard]] GhostPupil search_ghost_pupil(const PupilRequest& request);
 [[nodiscard]] GhostPupil fit_ghost_pupil(const PupilRequest& request, GhostPupil searched);
 
-// Boxes that overlap, whose light would count twice there, as one that holds both.
+// Merges boxes that overlap, whose light would count twice, into one that contains both.
 [[nodiscard]] std::vector<Rectangle> disjoint(std::vector<Rectangle> boxes);
 
-// From the boxes of a smaller stop: what comes through near them.
+// Fits the boxes of a smaller stop to this one.
 [[nodiscard]] GhostPupil refit_ghost_pupil(const PupilRequest& request, std::vector<Rectangle> boxes);
 
-// Is it the image of a box on the other side of the axis of symmetry?
+// True if the box is the mirror image of one on the other side of the axis of symmetry.
 [[nodiscard]] bool is_mirror_image(const Rectangle& box);
 
-// That a pupil is searched at.
+// The wavelength at which a pupil is searched.
 [[nodiscard]] double middle_wavelength(const PupilRequest& request);
 
 }  // namespace contrejour::pupils

@@ -12,16 +12,16 @@ namespace {
 
 constexpr int kMostShrinkings = 3;
 constexpr double kWorthShrinking = 0.5;  // of the area
-constexpr double kFull = 0.4;            // open rays' share of all at which a box is not searched for a smaller one
-constexpr int kDeepest = 5;              // finer meshes, each of cells of half the size
-constexpr std::size_t kMostFiner = 400;  // blocks of a box that are traced again
+constexpr double kFull = 0.4;            // fraction of open rays above which a box is not shrunk
+constexpr int kDeepest = 5;              // levels of finer meshes, each with cells of half the size
+constexpr std::size_t kMostFiner = 400;  // blocks of a box that are refined
 constexpr std::array<std::size_t, 4> kWholeBlock{0, 2, 8, 6};
-constexpr std::uint32_t kFinerSide = 5;  // vertices along a side of a block that is traced again
+constexpr std::uint32_t kFinerSide = 5;  // vertices along a side of a refined block
 
-// Integrals over what is open in a block of a mesh, as weights of its vertices. A function that is linear over
-// triangles is integrated, the edge of what is open a straight line in each: off by a term of second order in the size
-// of cells. The four cells taken for one are off by four times as much, so that both tell what is lost (Richardson
-// 1911).
+// Integrals over the open part of a block of a mesh, as weights of its vertices. Functions are integrated as linear
+// over triangles, with a straight edge of the open part in each: the error is of second order in the size of cells.
+// Taking the four cells as one gives four times the error, so the two results give an extrapolated value and an error
+// estimate (Richardson 1911).
 class BlockWeights {
  public:
   BlockWeights(const LitMesh& mesh, const Block& block) : mesh_(mesh), block_(block) {
@@ -41,7 +41,7 @@ class BlockWeights {
     if (highest_ < kFailed) add_cell(kWholeBlock, 4.0 * cell_mm2, coarse_);
   }
   [[nodiscard]] double light() const { return light_of(fine_); }
-  // By how much that may be off.
+  // The estimated error of the integral.
   [[nodiscard]] double uncertain() const {
     return highest_ < kFailed ? std::abs(light() - light_of(coarse_)) : beside_;
   }
@@ -71,8 +71,8 @@ class BlockWeights {
     add_triangle({v[0], v[1], v[2]}, 0.5 * mm2, weight);
     add_triangle({v[0], v[2], v[3]}, 0.5 * mm2, weight);
   }
-  // Where a ray fails nothing tells how far light reaches: rays that get through stand for a third of it each, which
-  // is right in the mean over where the edge may be.
+  // In a triangle with failing rays the edge's position is unknown: each ray that gets through counts for a third of
+  // the area, which is right on average over positions of the edge.
   void add_triangle(const std::array<std::size_t, 3>& v, double mm2, Nine& weight) {
     const std::array<float, 3> blocked{blocked_[v[0]], blocked_[v[1]], blocked_[v[2]]};
     if (*std::ranges::max_element(blocked) < kFailed) {
@@ -94,20 +94,21 @@ class BlockWeights {
   std::array<float, 9> blocked_;
   float lowest_ = kFailed, highest_ = -kFailed;
   Nine fine_{}, coarse_{};
-  double beside_ = 0.0;  // light in triangles that are open in part
+  double beside_ = 0.0;  // light in partly open triangles
 };
 
 std::ptrdiff_t count_open(const RayGrid& grid) {
   return std::ranges::count_if(grid.blocked, [](float blocked) { return blocked <= 0.0F; });
 }
 
-// The smallest about y = 0 that holds it.
+// The smallest rectangle symmetric about y = 0 that contains r.
 Rectangle symmetric(const Rectangle& r) {
   const double y = std::max(r.high.y, -r.low.y);
   return {{r.low.x, -y}, {r.high.x, y}};
 }
 
-// Whether light may pass through a cell, if nothing goes farther beyond its values at the corners than they differ.
+// True if light may pass through a cell, provided that no value exceeds those at the corners by more than their
+// difference.
 bool may_pass(const RayGrid& grid, const std::array<std::size_t, 4>& corners) {
   constexpr float kReach = 1.0F;
   std::array<Extremes, 1 + kMaxStopCrossings> extremes;
@@ -125,7 +126,7 @@ bool may_pass(const RayGrid& grid, const std::array<std::size_t, 4>& corners) {
                             [](const Extremes& e) { return e.may_pass(kReach); });
 }
 
-// The bounds cover the cells that may let light through.
+// The bounds of the cells that may transmit light.
 std::optional<Rectangle> bounds_of_light(const RayGrid& grid) {
   const int cells = grid.cells();
   int left = cells, right = 0, bottom = cells, top = 0;
@@ -144,8 +145,7 @@ std::optional<Rectangle> bounds_of_light(const RayGrid& grid) {
   return Rectangle{low + Vec2{left * step.x, bottom * step.y}, low + Vec2{right * step.x, top * step.y}};
 }
 
-// Fills a mesh's weights, but for blocks that are uncertain by more than is allowed, as many at most: these it takes
-// out and gives.
+// Fills a mesh's weights, except for up to `most` blocks whose error exceeds `allowed`: these are removed and returned.
 std::vector<Block> weigh(LitMesh& mesh, double allowed, std::size_t most) {
   mesh.weight.assign(mesh.blocked.size(), 0.0);
   std::vector<Block> certain, uncertain;
@@ -211,7 +211,7 @@ std::optional<LitMesh> MeshTracer::coarse_mesh(Rectangle box) {
   return mesh;
 }
 
-// Over blocks of a coarser one, whose rays are used again.
+// A finer mesh over blocks of a coarser one, whose rays are reused.
 LitMesh MeshTracer::finer_mesh(const LitMesh& coarse, const std::vector<Block>& blocks) {
   constexpr std::uint32_t kCount = kFinerSide * kFinerSide;
   const Vec2 step = coarse.step_mm * 0.5;

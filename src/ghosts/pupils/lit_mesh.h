@@ -1,5 +1,5 @@
-// What of a box of a ghost's pupil lets light through, how much, and where that lands: exact rays on a grid, and finer
-// grids where it does not tell.
+// The open part of a box of a ghost's pupil, its transmittance and its points on the sensor: exact rays on a grid, with
+// finer grids where the integral is uncertain.
 #pragma once
 
 #include <array>
@@ -14,7 +14,7 @@
 
 namespace contrejour::pupils {
 
-// Two by two cells: their vertices row by row, and of these those of each cell in turn.
+// Two by two cells: their vertices row by row, and the vertices of each cell in order.
 struct Block {
   std::array<std::uint32_t, 9> vertex;
   Vec2 low_mm;  // its corner, from the mesh's origin
@@ -25,20 +25,21 @@ inline constexpr std::array<std::array<std::size_t, 4>, 4> kCellsOfBlock{
 // The rays of a grid over a box, or of finer ones over blocks of a coarser mesh.
 struct LitMesh {
   Vec2 origin_mm, step_mm;  // of the entrance plane: the box's corner, a cell
-  // One value a vertex. Of rays that fail, places mean nothing.
-  std::vector<float> x_mm, y_mm;  // on the sensor, as the lens has it
+  // One value a vertex. Points of rays that fail are undefined.
+  std::vector<float> x_mm, y_mm;  // on the sensor, in the lens's frame
   std::vector<float> transmission;
-  std::vector<float> blocked;  // how far beyond what blocks: open at 0 and below, infinite where a ray fails
-  // The sums of values times these are integrals over what is open, mm^2 of the entrance plane.
+  std::vector<float> blocked;  // amount by which a ray is outside the bounds: open at 0 and below, infinite where a ray
+                               // fails
+  // The sums of values times these weights are integrals over the open part, mm^2 of the entrance plane.
   std::vector<double> weight;
-  std::vector<Block> blocks;  // but for those that a finer mesh is over
+  std::vector<Block> blocks;  // without those that a finer mesh covers
 
   [[nodiscard]] Vec2 landing_mm(std::size_t vertex) const { return {x_mm[vertex], y_mm[vertex]}; }
   [[nodiscard]] double cell_mm2() const { return step_mm.x * step_mm.y; }
 };
 
-// How rays are laid out: as many a side, an odd number; twice as many where fewer than enough are open; and finer where
-// light is uncertain by more than a share of all.
+// The density of rays: an odd number a side; twice as many if fewer than `enough` are open; and finer where the error
+// of the light exceeds a fraction of the total.
 struct MeshDensity {
   int side = 33;
   std::ptrdiff_t enough_open = 120;
@@ -52,7 +53,7 @@ class MeshTracer {
   MeshTracer(PacketPath path, const LightFrame& light, const IrisShape& iris, MeshDensity density)
       : path_(std::move(path)), light_(light), iris_(iris), density_(density) {}
 
-  // All that gets through in disjoint boxes.
+  // Traces the meshes of disjoint boxes.
   [[nodiscard]] std::vector<LitMesh> trace(const std::vector<Rectangle>& boxes);
 
  private:

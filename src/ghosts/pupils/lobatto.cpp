@@ -25,7 +25,8 @@ struct Factors {
   std::size_t by_row, by_k;
 };
 
-// One column of vectors of four rows of the product: four sums at once, as a sum has to wait for its last addition.
+// One column of vectors of four rows of the product: four independent sums, since each addition waits for the preceding
+// one of its sum.
 HWY_INLINE void combine_four(const Factors& a, std::size_t inner, const float* b, std::size_t b_stride, float* out) {
   const Tag d;
   auto s0 = hn::Zero(d);

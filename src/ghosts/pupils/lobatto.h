@@ -1,5 +1,5 @@
 // Polynomials through values at Chebyshev-Lobatto points, as matrices. Trefethen, Approximation Theory and
-// Approximation Practice, ch. 2 to 6. Accuracy: that of float, times some ten for the sizes used here.
+// Approximation Practice, ch. 2 to 6. Accuracy: about ten times float's rounding for the sizes used here.
 #pragma once
 
 #include <cstddef>
@@ -50,8 +50,8 @@ void multiply_transposed(const Matrix& a, const float* b, int b_stride, float* o
 constexpr int kMostPatchNodes = 17;
 void transform(const float* field, int nodes, const Matrix& along_x, const Matrix& along_y, float* out);
 
-// The sum of the sizes of such a field's Chebyshev coefficients of highest degree in either direction: about how
-// far the polynomial through it may be off between the nodes.
+// The sum of the absolute values of such a field's Chebyshev coefficients of highest degree in either direction: an
+// estimate of the polynomial's error between the nodes.
 [[nodiscard]] double highest_terms(const float* field, int nodes);
 
 }  // namespace contrejour::pupils

@@ -7,13 +7,13 @@ namespace contrejour::pupils {
 namespace {
 
 constexpr int kFirstIntervals = 47;
-constexpr int kParts = 3;  // of an interval that is looked into
+constexpr int kParts = 3;  // parts of an interval that is refined
 constexpr int kRounds = 2;
 constexpr std::size_t kMostLooks = 12;  // intervals a round
-constexpr float kIntervalReach = 0.5F;          // of what the ends of an interval differ, beyond them
-constexpr int kDeepRounds = 12;         // closer to rays that fail last, each a kParts-th as far apart
-constexpr std::size_t kMostRuns = 3;    // of rays that fail last, a round
-constexpr double kHopeless = 0.25;      // of the least that fails: more than that would still fail between rays
+constexpr float kIntervalReach = 0.5F;          // of the difference of an interval's ends, beyond them
+constexpr int kDeepRounds = 12;         // refinements about rays that fail last, each kParts times finer
+constexpr std::size_t kMostRuns = 3;    // runs of rays that fail last, a round
+constexpr double kHopeless = 0.25;      // of the least failing: rays between would still fail by more than this
 
 bool reaches(const Interval& i, std::span<const Rectangle> boxes) {
   return std::any_of(boxes.begin(), boxes.end(), [&](const Rectangle& b) {
@@ -62,7 +62,7 @@ bool MeridianScan::is_open(const Node& node) const {
   return true;
 }
 
-// Between node k and the next; where one of them fails by what the other, and the line from the one before it, say.
+// True if light may pass between node k and the next. If one of them fails, the other one must be open.
 bool MeridianScan::may_pass(std::size_t k) const {
   const Node& a = nodes_[k];
   const Node& b = nodes_[k + 1];
@@ -76,13 +76,13 @@ bool MeridianScan::may_pass(std::size_t k) const {
   return true;
 }
 
-// Whether rays between node k and the next ought to be traced to tell.
+// True if rays between node k and the next must be traced to decide.
 bool MeridianScan::is_worth_a_look(std::size_t k) const {
   const Node& a = nodes_[k];
   const Node& b = nodes_[k + 1];
   if (a.failing == 0.0F && b.failing == 0.0F) return may_pass(k) && !(is_open(a) && is_open(b));
   if (a.failing == 0.0F || b.failing == 0.0F || a.passed != b.passed) return true;
-  // Both fail at the same test: one may pass between them if the failing falls fast enough from either side.
+  // Both fail at the same test: a ray between them may pass if `failing` falls fast enough from either side.
   const auto falls_to_zero = [&](const Node& outer, const Node& inner) {
     const double steps = (b.x_mm - a.x_mm) / std::abs(inner.x_mm - outer.x_mm);
     return outer.passed == inner.passed && inner.failing < (outer.failing - inner.failing) * steps;
@@ -94,8 +94,8 @@ void MeridianScan::look_into(Interval i, std::vector<double>& x_mm) {
   for (int p = 1; p < kParts; ++p) x_mm.push_back(i.low + (i.high - i.low) * p / kParts);
 }
 
-// Whether failing less and less from node `from` over `least` may end beyond it, before the next node there fails at an
-// earlier test; or, where all three fail at the same test, between them.
+// True if `failing`, which falls from the preceding node to `least`, may reach 0 beyond it, before the next node, which
+// fails at an earlier test; or between the nodes if all three fail at the same test.
 bool MeridianScan::may_end(std::size_t least, std::ptrdiff_t step) const {
   const auto at = [&](std::ptrdiff_t by) -> const Node* {
     const std::ptrdiff_t k = static_cast<std::ptrdiff_t>(least) + by;
@@ -104,13 +104,13 @@ bool MeridianScan::may_end(std::size_t least, std::ptrdiff_t step) const {
   };
   const Node &here = *at(0), *const next = at(step), *const before = at(-step);
   if (next == nullptr) return false;
-  if (before == nullptr || before->passed != here.passed) return true;  // too few to tell
+  if (before == nullptr || before->passed != here.passed) return true;  // too few nodes to decide
   const double slope = (here.failing - before->failing) / std::abs(here.x_mm - before->x_mm);
   return here.failing + slope * std::abs(next->x_mm - here.x_mm) < kHopeless * here.failing;
 }
 
-// Where all rays fail: closer about those that fail at the last test, and there where they fail least; rays that get
-// through pass that test as well. False when there is nothing to be looked at.
+// Refines where all rays fail: about those that fail at the last test, where they fail least, since rays that get
+// through pass that test as well. False if there is nothing to refine.
 bool MeridianScan::look_deeper(std::vector<double>& x_mm) const {
   const float deepest = std::ranges::max(nodes_, {}, &Node::passed).passed;
   std::vector<std::size_t> least;  // of each run of nodes at that test, the node that fails least

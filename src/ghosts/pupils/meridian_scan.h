@@ -1,6 +1,6 @@
-// Rays along the line y = 0 of the entrance plane, ever closer where light may get through or where rays begin to
-// fail: for small pupils among rays that fail, which a grid steps over. All but a few small pupils lie on this line, as
-// the lens is symmetric about it.
+// Scans rays along the line y = 0 of the entrance plane, refined where light may get through or where rays begin to
+// fail, for small pupils among failing rays, which a grid misses. Nearly all small pupils lie on this line, since the
+// lens is symmetric about it.
 #pragma once
 
 #include <span>
@@ -22,7 +22,7 @@ class MeridianScan {
   // path: from any point of the entrance plane.
   explicit MeridianScan(PacketPath path) : path_(std::move(path)) {}
 
-  // Parts of the line through which light may pass and which no box reaches.
+  // The parts of the line through which light may pass and that no box covers.
   [[nodiscard]] std::vector<Interval> find(Interval line, std::span<const Rectangle> boxes);
 
   [[nodiscard]] std::uint64_t rays() const { return rays_; }
@@ -31,7 +31,7 @@ class MeridianScan {
   struct Node {
     double x_mm = 0;
     float failing = 0, passed = 0;
-    std::array<float, 1 + kMaxStopCrossings> place{};  // x where the ray passes farthest out, then in the stop
+    std::array<float, 1 + kMaxStopCrossings> place{};  // x at the largest relative height, then at the stop
   };
   void trace(const std::vector<double>& x_mm);
   [[nodiscard]] bool may_pass(std::size_t k) const;

@@ -11,18 +11,18 @@ namespace contrejour::pupils {
 namespace {
 
 constexpr int kFirstColumns = 12;  // of the first grid, over the window; half as many rows from y = 0 up
-constexpr int kZoomColumns = 8;        // of the others; half as many rows for boxes that touch y = 0
+constexpr int kZoomColumns = 8;        // of the other grids; half as many rows for boxes that touch y = 0
 constexpr int kMostColumns = 32;
 constexpr float kFirstReach = 1.0F;  // ClearanceGrid::may_pass
 constexpr float kBoxReach = 0.5F;
 constexpr double kGrowth = 1.0;  // of a box's size, on a side at which rays get through
 constexpr int kMostGrowths = 2;
-constexpr int kDeepestZoom = 12;     // grids, each in a part of the one before
-constexpr int kMostDark = 2;     // of them in a row without a ray that gets through
+constexpr int kDeepestZoom = 12;     // levels of grids, each in a part of the preceding one
+constexpr int kMostDark = 2;     // consecutive levels without a ray that gets through
 constexpr std::uint64_t kMostRays = 3000;
-constexpr double kTight = 0.4;         // open corners' share of all at which cells fit well enough
+constexpr double kTight = 0.4;         // fraction of open corners at which cells fit well enough
 constexpr double kWorthZooming = 0.6;  // of the area
-constexpr double kSettled = 0.15;      // stop radii by which an aim may be off
+constexpr double kSettled = 0.15;      // stop radii, error of an aim that is accepted
 
 double area_if_any(const Rectangle& r) { return std::max(r.high.x - r.low.x, 0.0) * std::max(r.high.y - r.low.y, 0.0); }
 
@@ -72,7 +72,7 @@ class Search {
     }
   }
 
-  // Each piece of the grid, which lies over `part`, becomes a box or a part of its own, or is given up.
+  // Each connected piece of the grid over `part` becomes a box or a part to be searched, or is dropped.
   void consider(const Part& part, float reach) {
     for (const auto& piece : grid_.pieces(reach)) {
       const Rectangle hull = grid_.hull(piece);
@@ -100,7 +100,7 @@ class Search {
     }
   }
 
-  // With its mirror image, or one box where it reaches down to the axis.
+  // Adds a box with its mirror image, or a single one if it touches the axis.
   void add_box(const Rectangle& b) {
     if (b.low.y <= 0.0) {
       boxes_.push_back({{b.low.x, -b.high.y}, b.high});

@@ -1,5 +1,5 @@
-// Where on the entrance plane a ghost's rays get through, in a few hundred rays: boxes that together hold every one
-// of them. Cells of a coarse lattice that may let light through are quartered until quartering gains no more.
+// Finds a ghost's pupil on the entrance plane with a few hundred rays: boxes that together contain all rays that get
+// through. Cells of a coarse grid that may transmit light are refined until refinement gains no more.
 #pragma once
 
 #include <cstdint>

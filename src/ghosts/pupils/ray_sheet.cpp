@@ -12,10 +12,11 @@
 namespace contrejour::pupils {
 namespace {
 
-// A rim counts once a ray of the sheet passes beyond this share of it, squared.
+// A rim counts if a ray of the sheet exceeds this squared relative height.
 constexpr float kNearRim = 0.94F;
 
-// The largest of at least one value: eight at a time, as a single maximum would have to wait for its last comparison.
+// The largest of at least one value: eight independent maxima, since each comparison waits for the preceding one of its
+// maximum.
 float highest_of(const float* values, std::size_t count) {
   std::array<float, 8> most;
   most.fill(values[0]);
@@ -27,7 +28,7 @@ float highest_of(const float* values, std::size_t count) {
   return *std::max_element(most.begin(), most.end());
 }
 
-// Rows below the middle from those above.
+// Fills the rows below the middle by symmetry from those above it.
 void complete(float* values, int nodes, float sign) {
   const auto n = static_cast<std::size_t>(nodes);
   for (std::size_t row = 0; row < n / 2; ++row) {
@@ -185,7 +186,7 @@ RaySheet SheetTracer::trace(const Rectangle& box, int nodes, PacketPrecision pre
   return sheet;
 }
 
-// Of relative heights, which searches take to be those of convex openings.
+// Removes obscurations from the relative heights, which searches assume to be those of convex openings.
 void SheetTracer::leave_obscurations_out(RaySheet& sheet) const {
   const std::vector<PacketStep>& steps = path_.steps();
   for (const PacketStep& step : steps) sheet.blocks_within.push_back(step.blocks_within);
@@ -221,7 +222,7 @@ std::vector<float> SheetTracer::transmissions(const Rectangle& box, int nodes, P
   return transmission;
 }
 
-// Rows above this one are mirror images of those below, where the box is its own.
+// The first row that is traced: in a box that is its own mirror image the rows below follow by symmetry.
 int SheetTracer::first_traced_row(const Rectangle& box, int nodes) const {
   return light_.symmetric && box.low.y == -box.high.y ? nodes / 2 : 0;
 }

@@ -18,17 +18,17 @@
 
 namespace contrejour::pupils {
 
-// Of the clear height: rays beyond tell nothing of the image, which those at a box's border may be flung far from.
+// Relative height up to which rays matter for the image; rays at a box's border may land far outside it.
 constexpr float kNearlyThrough = 1.2F;
 
 // One value a node, rows of `nodes` by rising y.
 struct RaySheet {
   Rectangle box;  // mm, in the plane of the entrance window
   int nodes = 0;
-  int failed = 0;  // nodes whose ray does not arrive; their values mean nothing
+  int failed = 0;  // nodes whose ray does not arrive; their values are undefined
   std::vector<float> sensor_x_mm, sensor_y_mm;
   std::vector<float> transmission;
-  std::vector<std::vector<float>> weight;    // what add_light() made of transmissions: one, or one a channel
+  std::vector<std::vector<float>> weight;    // transmissions weighted by add_light(): one field, or one a channel
   std::array<double, 3> gain{1.0, 1.0, 1.0};                   // of weights to channels
   std::vector<float> r_rel;                  // infinite where the ray fails; without obscurations
   std::vector<std::array<std::vector<float>, 2>> stop;  // by crossing: x and y over the stop radius
@@ -43,20 +43,20 @@ struct RaySheet {
 // Adds gain * transmission, one value a node, to the sheet's light. The first is one weight for all channels.
 void add_light(RaySheet& sheet, std::span<const float> transmission, const std::array<double, 3>& gain);
 
-// The sheet of the box on the other side of the axis y = 0, of a lens and light that are symmetric there.
+// The sheet of the mirror box on the other side of y = 0, for a lens and light with that symmetry.
 [[nodiscard]] RaySheet mirrored(const RaySheet& sheet);
 
-// Nodes about a cell of the sheet: the second is the next in the first's row, the others in the row above.
+// The nodes of a cell of the sheet: the second is the next in the first's row, the others are in the row above.
 using CellCorners = std::array<std::size_t, 4>;
-// Whether light may get through between some nodes; the iris counts as its circumscribed circle.
+// True if light may get through between these nodes; the iris counts as its circumscribed circle.
 [[nodiscard]] bool may_pass(const RaySheet& sheet, const CellCorners& corners);
-// Bounds of the cells between the nodes that count; none if none does.
+// The bounds of the cells that satisfy a predicate; none if no cell does.
 [[nodiscard]] std::optional<Rectangle> bounds_of_cells(const RaySheet& sheet,
                                                        const std::function<bool(const CellCorners&)>& counts);
 
-// Indices of the steps whose rims may cut any of the sheets, which are of one box: those that cut deepest first. What
-// an obscuration blocks may lie between the rays: no square rises above its highest value there by more than its values
-// differ.
+// Indices of the steps whose rims may clip any of the sheets, which are of one box; those that clip deepest come first.
+// An obscuration may block light between rays: its squared height is assumed to exceed the highest value at the nodes
+// by no more than the range of these values.
 [[nodiscard]] std::vector<std::size_t> rims_in_play(std::span<const RaySheet> sheets);
 
 class SheetTracer {
@@ -64,12 +64,12 @@ class SheetTracer {
   // path: of that light, from any point of the entrance plane.
   SheetTracer(PacketPath path, const LightFrame& light);
 
-  // A sheet without weights. A box that is its own mirror image costs half of its rays.
+  // A sheet without weights. For a box that is its own mirror image half of the rays are traced.
   [[nodiscard]] RaySheet trace(const Rectangle& box, int nodes, PacketPrecision precision);
-  // Of the rays through the same nodes.
+  // The transmissions of the rays through the same nodes.
   [[nodiscard]] std::vector<float> transmissions(const Rectangle& box, int nodes, PacketPrecision precision);
 
-  // Of boxes from here on.
+  // Sets the curved sides of the boxes that follow.
   void bend(const Bend& bend) { bend_ = bend; }
 
   [[nodiscard]] std::size_t steps() const { return path_.steps().size(); }

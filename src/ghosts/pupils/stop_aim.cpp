@@ -7,11 +7,11 @@ namespace contrejour::pupils {
 namespace {
 
 constexpr double kStopMargin = 0.06;        // of the stop's radius
-constexpr double kFarthest = 2.0;       // cells from the ray that is aimed from
-constexpr double kThirdOrder = 1.0;     // what the second differences leave out, as a share of what they add
-constexpr double kLargestError = 0.75;  // with more of it a box says no more than the grid
-constexpr double kSmallestTurn = 1e-6;  // of a Jacobian that folds
-constexpr double kAgreement = 0.25;     // with rays that cross near the stop's rim, in its radii
+constexpr double kFarthest = 2.0;       // cells from the starting ray
+constexpr double kThirdOrder = 1.0;     // assumed error of the second differences, over their contribution
+constexpr double kLargestError = 0.75;  // with a larger error a box is no better than the grid
+constexpr double kSmallestTurn = 1e-6;  // below it the Jacobian counts as folding
+constexpr double kAgreement = 0.25;     // with rays that cross near the stop's rim, stop radii
 constexpr double kNear = 2.0;           // stop radii
 
 // The stop's coordinates as polynomials of second degree in cells from a ray of the grid.
@@ -51,7 +51,7 @@ std::optional<Quadratic> differences(const ClearanceGrid& grid, int crossing, Gr
                    (s[7] + s[1]) * 0.5 - s[4]};
 }
 
-// Where the polynomials are zero, from where they start.
+// The zero of the polynomials, by Newton's method from their origin.
 std::optional<Vec2> zero_of(const Quadratic& q) {
   Vec2 p{0.0, 0.0};
   for (int step = 0; step < 5; ++step) {
@@ -66,7 +66,7 @@ std::optional<Vec2> zero_of(const Quadratic& q) {
   return p;
 }
 
-// The ray of the cells that crosses closest to the middle of the stop, of those that have neighbours all around.
+// The ray of the cells that crosses closest to the middle of the stop, among rays with neighbours on all sides.
 std::optional<GridCell> closest(const ClearanceGrid& grid, int crossing, const std::vector<GridCell>& piece) {
   std::optional<GridCell> best;
   double smallest = 0.0;
@@ -90,7 +90,7 @@ struct CellBox {
   }
 };
 
-// Rays near the stop's rim where the polynomials have them, and no cell elsewhere that straddles the stop.
+// True if rays near the stop's rim agree with the polynomials, and no other cell may cross the stop.
 bool agrees(const ClearanceGrid& grid, int crossing, const std::vector<GridCell>& piece, const Quadratic& q,
             GridCell about, const CellBox& box) {
   for (const GridCell& cell : piece) {
@@ -118,7 +118,7 @@ std::optional<Aim> aim_at_crossing(const ClearanceGrid& grid, int crossing, cons
   const Vec2 dx = q->along_x(*zero);
   const Vec2 dy = q->along_y(*zero);
   const double turn = std::abs(cross(dx, dy));
-  const Vec2 half{length(dy) / turn, length(dx) / turn};  // of the ellipse that the stop's rim comes from
+  const Vec2 half{length(dy) / turn, length(dx) / turn};  // of the ellipse that maps to the stop's rim
   const auto bend = [&](Vec2 by) {
     return length(q->xx) * by.x * by.x + length(q->xy) * by.x * by.y + length(q->yy) * by.y * by.y;
   };

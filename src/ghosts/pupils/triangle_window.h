@@ -1,4 +1,4 @@
-// How much of a triangle of light lands in a rectangle of the sensor.
+// Computes the part of a triangle of light that lands in a rectangle of the sensor.
 #pragma once
 
 #include <algorithm>
@@ -17,7 +17,7 @@ class TriangleWindow {
  public:
   explicit TriangleWindow(const Rectangle& window) : low_(window.low), high_(window.high) {}
 
-  // Whether all of the places lie within; whether all lie on the same outer side.
+  // True if all points lie inside; if all lie beyond the same side.
   [[nodiscard]] bool holds(std::span<const Vec2> places) const {
     return std::ranges::all_of(
         places, [&](Vec2 p) { return p.x >= low_.x && p.x <= high_.x && p.y >= low_.y && p.y <= high_.y; });
@@ -48,7 +48,7 @@ class TriangleWindow {
   }
 
  private:
-  // The share of a triangle that is a line, from about one corner of its bounds to the other.
+  // The fraction of a degenerate triangle, approximately a line between two corners of its bounds.
   [[nodiscard]] double share_of_line(Vec2 from, Vec2 to) const {
     constexpr int kSteps = 16;
     int inside = 0;
@@ -59,7 +59,7 @@ class TriangleWindow {
     return static_cast<double>(inside) / kSteps;
   }
 
-  // Sutherland and Hodgman's clipping, side by side.
+  // Sutherland and Hodgman's clipping, one side after the other.
   [[nodiscard]] double twice_area_within(const std::array<Vec2, 3>& triangle) const {
     std::array<Vec2, 8> polygon{triangle[0], triangle[1], triangle[2]}, next;
     std::size_t count = 3;
