@@ -1,4 +1,4 @@
-// The CIE's own numbers, re-typed; nothing here is computed.
+// The CIE's own numbers, copied; nothing here is computed.
 #include "image/cie_tables.h"
 
 namespace contrejour::cie {

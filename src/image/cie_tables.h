@@ -1,4 +1,4 @@
-// The CIE tables that colour.h is made of; see cie_tables.cpp for their sources.
+// The CIE tables behind colour.h; see cie_tables.cpp for their sources.
 #pragma once
 
 #include <array>

@@ -107,7 +107,7 @@ bool is_tile_description(std::span<const std::byte> value) {
   return (modes & 0xf) <= 2 && (modes >> 4) <= 1;
 }
 
-// Whether the library will read exactly these bytes for an attribute of this type; unknown types it copies.
+// True if the library reads exactly these bytes for an attribute of this type; it copies unknown types.
 bool is_value_of(std::string_view type, std::span<const std::byte> value) {
   for (const auto& [fixed_type, size] : kFixedSizes)
     if (type == fixed_type) return value.size() == size && (type != "tiledesc" || is_tile_description(value));
@@ -119,7 +119,7 @@ bool is_value_of(std::string_view type, std::span<const std::byte> value) {
   return true;
 }
 
-// A hostile name must not reach the terminal as it is.
+// Makes a hostile name safe for the terminal.
 std::string printable(std::string_view text) {
   std::string shown(text.substr(0, 40));
   for (char& c : shown)
@@ -140,7 +140,7 @@ Result<ExrHeaderSize> check_exr_header(std::span<const std::byte> bytes, const s
   const bool is_multi_part = (*version & kMultiPartFlag) != 0;
   if ((*version & kDeepFlag) != 0 && !is_multi_part)
     return failure(ErrorCode::Unsupported, "deep OpenEXR pictures are not read; flatten it first", place);
-  bool is_first = true;  // attribute of its part: an empty name ends a part, and a part of none ends the header
+  bool is_first = true;  // first attribute of its part: an empty name ends a part, and an empty part ends the header
   while (true) {
     const auto attribute = in.name();
     if (!attribute) return failure(ErrorCode::Parse, "the OpenEXR header is damaged or cut off", place);

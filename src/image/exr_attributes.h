@@ -1,4 +1,4 @@
-// A look at an OpenEXR file's header before the library reads it: the library allocates what sizes in it say.
+// Checks an OpenEXR file's header before the library reads it, since the library allocates the sizes that it states.
 #pragma once
 
 #include <cstddef>

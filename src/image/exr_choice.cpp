@@ -32,7 +32,7 @@ std::optional<std::array<int, 3>> triple(const Picture& picture, const std::stri
   return std::nullopt;
 }
 
-// A picture of one channel is grey, whatever its name, if that is none of what is no light.
+// A picture of one channel is grey, whatever the channel's name, unless it names something other than light.
 int only_channel(const Picture& picture) {
   int only = -1;
   for (std::size_t k = 0; k < picture.channels.size(); ++k) {
@@ -64,7 +64,7 @@ std::string prefix_of(const PictureChannel& channel) {
   return dot == std::string::npos ? "" : channel.name.substr(0, dot + 1);
 }
 
-// By commas, the last left out where they get too long.
+// Joins names by commas, truncated if the list gets too long.
 std::string list_of(const std::vector<std::string>& names) {
   std::string list;
   for (const std::string& name : names) {
@@ -86,7 +86,7 @@ std::vector<std::string> layers_of(const Picture& picture) {
   return layers;
 }
 
-// A picture that has a part's channels, without samples: for what asks only for their names.
+// A picture with a part's channels but no samples, for functions that need only their names.
 Picture names_of(const Imf::Header& header) {
   Picture picture;
   for (auto i = header.channels().begin(); i != header.channels().end(); ++i)
@@ -122,7 +122,7 @@ std::string list_of_parts(std::span<const Imf::Header* const> parts) {
   return list_of(texts);
 }
 
-// By its name, else by its number from 0.
+// Finds a part by its name, else by its number from 0.
 std::optional<std::size_t> wanted_part(std::span<const Imf::Header* const> parts, const std::string& wanted) {
   for (std::size_t part = 0; part < parts.size(); ++part)
     if (part_name(*parts[part]) == wanted) return part;
@@ -181,7 +181,7 @@ Result<ChosenPart> choose_part(std::span<const Imf::Header* const> parts, const 
     if (is_deep(header)) continue;
     const Picture channels = names_of(header);
     if (colour_channels(channels, layer)) return ChosenPart{static_cast<int>(part), layer};
-    // A part may be what others call a layer.
+    // A part may also serve as a layer.
     if (!layer.empty() && part_name(header) == layer && colour_channels(channels, ""))
       return ChosenPart{static_cast<int>(part), ""};
   }

@@ -1,4 +1,4 @@
-// Which channels of which part of an OpenEXR file are its colours: docs/formats/images.md.
+// Selects the colour channels of an OpenEXR file, and their part: docs/formats/images.md.
 #pragma once
 
 #include <array>
@@ -12,7 +12,7 @@
 
 namespace contrejour {
 
-// Indices of the channels behind r, g and b, and of those that hold chroma (then all of rgb are the luminance).
+// Indices of the channels for r, g and b, and of those with chroma (then all of rgb are the luminance).
 struct ColourChannels {
   std::array<int, 3> rgb{-1, -1, -1};
   std::array<int, 2> chroma{-1, -1};
@@ -33,7 +33,7 @@ struct ChosenPart {
 // Errors: Unsupported (no such part or layer, with those that there are; a deep part).
 [[nodiscard]] Result<ChosenPart> choose_part(std::span<const Imf::Header* const> parts, const std::string& name,
                                              const ReadOptions& options);
-// The same for a file of one part, which is number 0 and may have a name.
+// The same check for a file of one part, which is number 0 and may have a name.
 [[nodiscard]] Result<void> check_only_part(const Imf::Header& header, const std::string& name,
                                            const ReadOptions& options);
 

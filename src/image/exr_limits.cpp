@@ -10,9 +10,9 @@
 namespace contrejour {
 namespace {
 
-// The most that a codec can shrink, rounded up. deflate: 1032 (zlib's technical notes), and PXR24 drops one byte in
-// four before it; PIZ: runs of 255 values in 10 bits; B44A: 16 samples in 3 bytes; RLE: 128 bytes in 2. DWA's flat
-// blocks leave one value of 64 to deflate.
+// The largest compression ratio of a codec, rounded up. deflate: 1032 (zlib's technical notes), and PXR24 drops one
+// byte in four before it; PIZ: runs of 255 values in 10 bits; B44A: 16 samples in 3 bytes; RLE: 128 bytes in 2. DWA's
+// flat blocks leave one value of 64 to deflate.
 std::uint64_t largest_compression(Imf::Compression compression) {
   switch (compression) {
     case Imf::NO_COMPRESSION: return 1;
@@ -96,7 +96,7 @@ Result<void> check_exr_size(const Imf::Header& header, std::uint64_t header_byte
     return failure(ErrorCode::Unsupported,
                    fmt::format("the picture needs more memory than the limit of {} bytes", limits.max_bytes), place);
 
-  // Each chunk has an offset and a place and size of its own, and can grow by no more than its codec shrinks.
+  // Each chunk has an offset, a position and a size, and its codec limits the size of its data.
   const std::uint64_t chunks = chunk_count(header, window);
   const std::uint64_t least = header_bytes + chunks * (8 + 8) + bytes / largest_compression(header.compression());
   if (file_bytes < least)

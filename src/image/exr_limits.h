@@ -1,4 +1,4 @@
-// Whether an OpenEXR file of so many bytes can hold the picture its header claims.
+// Checks that an OpenEXR file is large enough for the picture that its header states.
 #pragma once
 
 #include <cstdint>

@@ -31,7 +31,7 @@ struct CheckedHeader {
   std::size_t size = 0;
 };
 
-// All that can be known to be wrong before anything of the picture's size is allocated.
+// All checks that are possible before memory of the picture's size is allocated.
 Result<CheckedHeader> read_header(std::span<const std::byte> bytes, const std::string& name, std::size_t size,
                                   const ReadLimits& limits) {
   CheckedHeader checked;
@@ -44,7 +44,7 @@ Result<CheckedHeader> read_header(std::span<const std::byte> bytes, const std::s
   stream.seekg(kAttributesOffset);
   checked.header.readFrom(stream, version);
   checked.header.sanityCheck(Imf::isTiled(version));
-  // The version field decides what an attribute alone does not.
+  // The version field decides, not the presence of an attribute.
   if (!Imf::isTiled(version)) checked.header = without_attribute(checked.header, "tiles");
   if (checked.header.hasType() && Imf::isDeepData(checked.header.type()))
     return failure(ErrorCode::Unsupported, "deep OpenEXR pictures are not read; flatten it first", {name});

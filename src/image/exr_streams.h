@@ -34,7 +34,7 @@ class MemoryInput final : public Imf::IStream {
   std::size_t position_ = 0;
 };
 
-// Into a caller's bytes, for files that are read again at once.
+// Writes to a caller's bytes, for files that are read again at once.
 class MemoryOutput final : public Imf::OStream {
  public:
   explicit MemoryOutput(std::vector<std::byte>& bytes) : Imf::OStream("memory"), bytes_(bytes) {}
@@ -53,8 +53,8 @@ class MemoryOutput final : public Imf::OStream {
   std::size_t position_ = 0;
 };
 
-// Never throws: OpenEXR's writers write in their destructors too, where an exception ends the program. The first error
-// is kept, to be asked for; after it nothing more is written.
+// Never throws: OpenEXR's writers also write in their destructors, where an exception ends the program. The first error
+// is kept for the caller; after it nothing more is written.
 class OutputFileStream final : public Imf::OStream {
  public:
   explicit OutputFileStream(OutputFile& file) : Imf::OStream(file.destination().string().c_str()), file_(file) {}

@@ -45,7 +45,7 @@ Imath::Box2i box_of(const PixelWindow& window) {
   return {{window.x, window.y}, {window.x + window.width - 1, window.y + window.height - 1}};
 }
 
-// Coding anew with a lossy codec would change samples that nobody touched.
+// Encoding again with a lossy codec would change samples that were not edited.
 bool is_lossy(Imf::Compression compression) {
   switch (compression) {
     case Imf::PXR24_COMPRESSION:
@@ -58,12 +58,12 @@ bool is_lossy(Imf::Compression compression) {
 }
 
 Imf::Header header_to_write(const Picture& picture) {
-  Imf::Header header = without_attribute(header_of(picture), "chunkCount");  // it counts another file's chunks
+  Imf::Header header = without_attribute(header_of(picture), "chunkCount");  // it is the count of another file
   header.dataWindow() = box_of(picture.data_window);
   header.displayWindow() = box_of(picture.display_window);
   if (!picture.header || is_lossy(header.compression())) header.compression() = Imf::ZIP_COMPRESSION;
   if (header.hasTileDescription()) {
-    header.tileDescription().mode = Imf::ONE_LEVEL;  // smaller levels would show the picture as it was
+    header.tileDescription().mode = Imf::ONE_LEVEL;  // smaller levels would still contain the old picture
   } else if (header.lineOrder() == Imf::RANDOM_Y) {
     header.lineOrder() = Imf::INCREASING_Y;
   }
@@ -74,7 +74,7 @@ Imf::Header header_to_write(const Picture& picture) {
   return header;
 }
 
-// What the file shall hold, by channel.
+// The samples to write, by channel.
 std::vector<std::vector<std::byte>> samples_of_channels(const Picture& picture) {
   std::vector<std::vector<std::byte>> samples(picture.channels.size());
   for (std::size_t k = 0; k < samples.size(); ++k) {
@@ -89,7 +89,7 @@ std::vector<std::vector<std::byte>> samples_of_channels(const Picture& picture) 
   return samples;
 }
 
-// To an OutputFile or an OutputPart. Whether it came to the end; false when cancelled or the stream has failed.
+// Writes to an OutputFile or an OutputPart; false when cancelled or if the stream failed.
 template <class File>
 bool write_scan_lines(File& out, const OutputFileStream& stream, const Imf::FrameBuffer& frame_buffer, int height,
                       const Context& context) {
@@ -101,7 +101,7 @@ bool write_scan_lines(File& out, const OutputFileStream& stream, const Imf::Fram
   return true;
 }
 
-// To a TiledOutputFile or a TiledOutputPart.
+// Writes to a TiledOutputFile or a TiledOutputPart.
 template <class File>
 bool write_tiles(File& out, const OutputFileStream& stream, const Imf::FrameBuffer& frame_buffer,
                  const Context& context) {
@@ -132,7 +132,7 @@ void copy_part(Imf::MultiPartInputFile& from, Imf::MultiPartOutputFile& to, int 
   out.copyPixels(in);
 }
 
-// As it is packed.
+// Copies a part in its compressed form.
 void copy_part(Imf::MultiPartInputFile& from, Imf::MultiPartOutputFile& to, int part) {
   const std::string& type = from.header(part).type();
   if (type == Imf::SCANLINEIMAGE) return copy_part<Imf::InputPart, Imf::OutputPart>(from, to, part);
@@ -143,14 +143,14 @@ void copy_part(Imf::MultiPartInputFile& from, Imf::MultiPartOutputFile& to, int 
   throw std::runtime_error("a part of type '" + type + "' is not known");
 }
 
-// The picture in its own part, the others as they were.
+// Writes the picture to its own part and copies the others.
 bool write_parts(OutputFileStream& stream, const PictureParts& parts, const Imf::Header& header,
                  const Imf::FrameBuffer& frame_buffer, int height, const Context& context) {
   MemoryInput source(parts.file, "the picture that was read");
   Imf::MultiPartInputFile in(source);
   std::vector<Imf::Header> headers;
   for (int part = 0; part < in.parts(); ++part) headers.push_back(part == parts.part ? header : in.header(part));
-  // The first part's display window and pixel aspect hold for all: the format wants them equal.
+  // The first part's display window and pixel aspect are used for all: the format requires them to be equal.
   Imf::MultiPartOutputFile out(stream, headers.data(), static_cast<int>(headers.size()), true);
   for (int part = 0; part < in.parts(); ++part) {
     if (context.cancelled() || stream.error()) return false;

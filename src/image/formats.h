@@ -1,4 +1,5 @@
-// One reader and one writer a format; picture.cpp chooses. Readers let no exception out; writers may throw bad_alloc.
+// One reader and one writer for each format; picture.cpp selects them. No exception leaves a reader; writers may throw
+// bad_alloc.
 #pragma once
 
 #include <span>
@@ -13,7 +14,7 @@ namespace contrejour {
                                        const ReadOptions& options);
 [[nodiscard]] Result<Picture> read_png(std::span<const std::byte> bytes, const std::string& name,
                                        const ReadLimits& limits);
-// A file that holds what write(OutputFile&) puts into it, or none.
+// Creates a file with what write(OutputFile&) writes, or none if it fails.
 template <class Write>
 [[nodiscard]] Result<void> write_whole(const std::filesystem::path& file, const Write& write) {
   auto out = OutputFile::create(file);

@@ -1,10 +1,9 @@
-// Lamps as the CIE tabulates them, re-typed; nothing here is computed. Their chromaticities are tested against the
-// CIE's.
+// Lamps as tabulated by the CIE, copied; nothing here is computed. Their chromaticities are tested against the CIE's.
 #include "image/lamp_tables.h"
 
 namespace contrejour::cie {
 
-// clang-format off: rows of twelve, as they are printed.
+// clang-format off: rows of twelve, as printed.
 
 // LED of a blue chip and phosphor, about 4100 K: illuminant LED-B3, CIE 15:2018 table 12.1.
 const std::array<double, kLampCount> kLedB3 = {

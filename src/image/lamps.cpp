@@ -25,7 +25,7 @@ TabulatedSpectrum table_of(const std::array<double, cie::kLampCount>& power) {
 
 // A low pressure sodium lamp is its D lines: 588.9950 and 589.5924 nm in air (NIST Atomic Spectra Database, Na I). In
 // thin vapour the first is twice the second (the ratio of their oscillator strengths, 0.641 and 0.320); a lamp's is
-// thick, which brings them near to each other, so that they are taken as alike. 0.2 nm wide at their feet.
+// thick, which makes them nearly equal, so they are taken as equal. Each is 0.2 nm wide at its base.
 TabulatedSpectrum low_pressure_sodium() {
   std::vector<SpectrumPoint> points;
   for (const double line_nm : {588.9950, 589.5924}) {

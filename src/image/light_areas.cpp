@@ -7,7 +7,7 @@
 namespace contrejour {
 namespace {
 
-// A pixel is a square of side 1: its own mean square distance from its centre, x and y together.
+// The mean squared distance of a pixel's points from its centre: a pixel is a square of side 1.
 constexpr double kPixelSecondMoment = 1.0 / 6;
 
 struct Run {
@@ -29,7 +29,7 @@ class UnionFind {
     while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
     return i;
   }
-  // The smaller number stays root, so that areas keep the order of their first pixels.
+  // The smaller number remains the root, so that areas keep the order of their first pixels.
   void join(std::size_t a, std::size_t b) {
     a = root(a);
     b = root(b);
@@ -40,7 +40,7 @@ class UnionFind {
   std::vector<std::size_t> parent_;
 };
 
-// Sums over one run, from its first pixel; from the left end so that a shifted picture gives the same digits.
+// Sums over one run, with coordinates from its left end so that a shifted picture gives the same digits.
 DetectedLight light_of_run(const Image& rgb, int y, int begin, int end, const AreaSettings& settings) {
   DetectedLight light;
   light.min_x = begin;
@@ -84,7 +84,7 @@ std::vector<Run> runs_of_row(const Image& rgb, int y, const AreaSettings& settin
 
 bool is_bright(const float* pixel, const AreaSettings& settings) {
   const double level = level_of(pixel);
-  // At the threshold a soft weight is 0; a hard one is 1, but nothing is ever a light of level 0.
+  // At the threshold a soft weight is 0 and a hard one 1, but a level of 0 is never a light.
   return settings.softness > 0 && settings.threshold > 0 ? level > settings.threshold
                                                          : level > 0 && level >= settings.threshold;
 }
@@ -135,7 +135,7 @@ std::vector<DetectedLight> bright_areas(const Image& rgb, const AreaSettings& se
   std::vector<PlacedRun> all_runs;
   for (int y = 0; y < rgb.height; ++y) {
     std::vector<Run> runs = runs_of_row(rgb, y, settings);
-    std::size_t first = 0;  // of the runs above that may still touch
+    std::size_t first = 0;  // first of the runs above that may still touch
     for (Run& run : runs) {
       run.area = labels.add();
       run_lights.push_back(light_of_run(rgb, y, run.begin, run.end, settings));

@@ -20,14 +20,14 @@ struct AreaSettings {
 
 [[nodiscard]] bool is_bright(const float* rgb, const AreaSettings& settings);
 
-// 0..1: how much of a bright pixel of this level counts to a light.
+// The weight of a bright pixel of this level in a light, 0..1.
 [[nodiscard]] double share_of_light(double level, const AreaSettings& settings);
 
-// What a bright pixel of this level gives to its light, over its samples: the share, less what is beyond max_value.
+// The factor from a bright pixel's samples to its part of the light: the weight, reduced for levels beyond max_value.
 [[nodiscard]] double weight_of(double level, const AreaSettings& settings);
 
 // The areas in the order of their first pixels (rows from the top); 8 neighbours connect.
-// area_of_pixel: which of them each pixel belongs to, -1 none.
+// area_of_pixel: the index of each pixel's area, -1 for none.
 [[nodiscard]] std::vector<DetectedLight> bright_areas(const Image& rgb, const AreaSettings& settings,
                                                       std::vector<std::int32_t>& area_of_pixel);
 

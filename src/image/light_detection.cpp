@@ -10,7 +10,7 @@
 namespace contrejour {
 namespace {
 
-// By flux; equals by place, so that the order never depends on the sort.
+// Orders by flux, and equal ones by position, so that the order never depends on the sort.
 bool comes_first(const DetectedLight& a, const DetectedLight& b) {
   const double flux_a = total_flux(a), flux_b = total_flux(b);
   return flux_a != flux_b ? flux_a > flux_b
@@ -30,7 +30,7 @@ std::size_t nearest(const std::vector<Vec2>& centroids, Vec2 place) {
   return best;
 }
 
-// Each weak light goes to the strong one that was nearest before any was merged: no order matters.
+// Merges each weak light into the strong one that was nearest before any merge, so that order does not matter.
 void merge_tail(std::vector<DetectedLight>& lights, std::size_t kept) {
   std::vector<Vec2> centroids;
   for (std::size_t i = 0; i < kept; ++i) centroids.push_back(lights[i].centroid_px);
@@ -46,7 +46,7 @@ bool is_picture(const Image& rgb) {
   return rgb.channels == 3 && rgb.width >= 0 && rgb.height >= 0 && rgb.pixels.size() == rgb.index(0, rgb.height);
 }
 
-// Made of an image of this size.
+// True if the detection was made in an image of this size.
 bool is_of(const Detection& detection, const Image& rgb) {
   const auto areas = static_cast<std::int32_t>(detection.areas.size());
   return is_picture(rgb) && 3 * detection.area_of_pixel.size() == rgb.pixels.size() &&
@@ -95,8 +95,8 @@ void find_brightest(const Image& rgb, Detection& detection) {
   }
 }
 
-// The whole picture's threshold; where nothing in the regions is above it, whoever chose them means what is brightest
-// there.
+// The whole picture's threshold; if nothing in the regions exceeds it, the brightest pixels there are the lights that
+// the user meant.
 Threshold threshold_for(const Image& picture, const Image& within, double brightest,
                         const DetectionSettings& settings) {
   if (settings.threshold) return {*settings.threshold, ThresholdSource::Given};

@@ -1,4 +1,4 @@
-// What is a light and what is only lit: docs/formats/images.md, "The automatic threshold".
+// Distinguishes lights from lit surfaces: docs/formats/images.md, "The automatic threshold".
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -10,13 +10,13 @@
 namespace contrejour {
 namespace {
 
-constexpr double kLeastThreshold = 1;  // white of the working space: what is darker needs no second thought
+constexpr double kLeastThreshold = 1;  // white of the working space: darker pixels are never lights
 constexpr double kSurfaceShare = 0.98;  // of the pixels below the threshold are lit surfaces ...
 constexpr double kLightOverSurface = 16;  // ... and a light is this much brighter than nearly all of them
-constexpr double kClippedWhite = 1;  // an 8-bit picture's lights end here,
-constexpr double kClippedThreshold = 0.8;  // and at the default softness count in full there
+constexpr double kClippedWhite = 1;  // an 8-bit picture's lights are clipped here,
+constexpr double kClippedThreshold = 0.8;  // and at the default softness have full weight there
 constexpr int kMostSteps = 200;
-constexpr double kBrightShare = 0.999;  // of the pixels that are not black: hot pixels are no measure
+constexpr double kBrightShare = 0.999;  // of the pixels that are not black, which excludes hot pixels
 constexpr double kBelowBrightest = 4;   // two stops: panes of a window, sky beside the sun
 constexpr double kMiddle = 0.5;
 
@@ -33,7 +33,7 @@ class Histogram {
 
   [[nodiscard]] double largest() const { return largest_; }
 
-  // Exceeded by a share of 1 - q of the pixels that are not black.
+  // The level that a fraction 1 - q of the pixels that are not black exceeds.
   [[nodiscard]] double quantile_of_lit(double q) const {
     double lit = 0;
     for (std::size_t i = 1; i < kBins; ++i) lit += static_cast<double>(counts_[i]);
@@ -87,8 +87,8 @@ double threshold_of_brightest(const Histogram& histogram) {
 
 }  // namespace
 
-// The least level, white or above, that leaves a gap: nearly all pixels below it are kLightOverSurface times darker.
-// Found from below, so that a large lamp does not pass for a bright surface.
+// The lowest level, white or above, that leaves a gap: nearly all pixels below it are kLightOverSurface times darker.
+// The search starts from below, so that a large lamp is not taken for a bright surface.
 Threshold automatic_threshold(const Image& rgb) {
   const Histogram histogram(rgb);
   if (histogram.largest() == kClippedWhite) return {kClippedThreshold, ThresholdSource::Clipped};

@@ -32,7 +32,7 @@ Imf::Chromaticities chromaticities_of(const Picture& picture) {
   return Imf::hasChromaticities(header) ? Imf::chromaticities(header) : Imf::Chromaticities();
 }
 
-// Luminance, and red and blue over it less 1; all 0 where a colour has none (RGBAtoYCA of ImfRgbaYca.h).
+// Luminance Y, (R - Y) / Y and (B - Y) / Y; all 0 for a colour without luminance (RGBAtoYCA of ImfRgbaYca.h).
 struct Yca {
   double y = 0, ry = 0, by = 0;
 };
@@ -45,7 +45,7 @@ Yca yca_of(const float* rgb, const Imath::V3f& weights) {
   return {y, (rgb[0] - y) / y, (rgb[2] - y) / y};
 }
 
-// By how much each pixel has changed; the chroma as r and b, which is where ImfRgbaYca's filters look for it.
+// The change of each pixel; the chroma is in r and b, where ImfRgbaYca's filters expect it.
 struct Changes {
   std::vector<float> luminance;
   std::vector<Imf::Rgba> chroma;
@@ -67,8 +67,8 @@ Changes changes_of(const Picture& picture) {
   return changes;
 }
 
-// The filter is linear, so what it makes of the changes is how the filtered chroma changes. Rows and columns beyond the
-// picture are those at its edge, as in OpenEXR's writer. Each second row has its values at each second pixel.
+// The filter is linear, so filtering the changes gives the changes of the filtered chroma. Rows and columns beyond the
+// picture are those at its edge, as in OpenEXR's writer. Every second row has values at every second pixel.
 class FilteredChroma {
  public:
   FilteredChroma(const std::vector<Imf::Rgba>& chroma, int width, int height)
@@ -94,7 +94,7 @@ class FilteredChroma {
   std::vector<Imf::Rgba> rows_;
 };
 
-// The sample `index` more by `change`; the same bits where that is 0.
+// Adds `change` to sample `index`; the bits stay the same if it is 0.
 void add_to_sample(const PictureChannel& channel, const std::vector<float>& read, std::size_t index, float change,
                    std::vector<std::byte>& samples) {
   if (change == 0 || !std::isfinite(change)) return;
@@ -116,7 +116,7 @@ bool has_chroma_sizes(const Picture& picture) {
   const auto [luminance, red, blue] = channels_of(picture);
   const PixelWindow& window = picture.data_window;
   const auto is_half = [](const PictureChannel& c) { return c.x_sampling == 2 && c.y_sampling == 2; };
-  // OpenEXR wants windows that subsampled channels fill.
+  // OpenEXR requires windows that subsampled channels fill.
   return luminance->x_sampling == 1 && luminance->y_sampling == 1 && is_half(*red) && is_half(*blue) &&
          window.width % 2 == 0 && window.height % 2 == 0 && window.x % 2 == 0 && window.y % 2 == 0;
 }
@@ -143,7 +143,7 @@ Image rgb_of_luminance_chroma(const Picture& picture) {
     frame_buffer.insert(
         kNames[k], Imf::Slice::Make(Imf::HALF, halves[k].data(), box, 0, 0, channel.x_sampling, channel.y_sampling));
   }
-  // OpenEXR turns chroma into colours only while it reads a file, so one is made in memory.
+  // OpenEXR converts chroma to colours only while reading a file, so a file is made in memory.
   std::vector<std::byte> bytes;
   {
     MemoryOutput stream(bytes);

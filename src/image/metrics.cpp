@@ -45,15 +45,15 @@ double ratio(double b, double a) {
   return a == 0 ? std::copysign(std::numeric_limits<double>::infinity(), b) : b / a;
 }
 
-// By their exponents, many at once.
+// Counts by exponents, many at once.
 std::size_t count_finite(std::span<const float> samples) {
   constexpr std::uint32_t kExponent = 0x7F800000U;
-  std::uint32_t others = 0;  // images have fewer samples than it counts to
+  std::uint32_t others = 0;  // large enough for the samples of any image
   for (const float v : samples) others += (std::bit_cast<std::uint32_t>(v) & kExponent) == kExponent ? 1U : 0U;
   return samples.size() - others;
 }
 
-// Finite ones that are no smaller; most runs of samples have none and take one look.
+// The finite samples that are at least `least`; most runs of samples have none and need one test.
 std::vector<float> samples_from(std::span<const float> samples, float least) {
   constexpr std::size_t kAtOnce = 32;
   constexpr float kMost = std::numeric_limits<float>::max();
@@ -71,7 +71,8 @@ std::vector<float> samples_from(std::span<const float> samples, float least) {
   return found;
 }
 
-// At least so many of the largest finite samples, and not many more if one in kStride tells where these begin.
+// At least `wanted` of the largest finite samples, and not many more if every kStride-th sample estimates their lower
+// end.
 std::vector<float> some_of_the_largest(std::span<const float> samples, std::size_t wanted) {
   constexpr std::size_t kStride = 61;
   std::vector<float> some;
@@ -87,7 +88,7 @@ std::vector<float> some_of_the_largest(std::span<const float> samples, std::size
   return samples_from(samples, std::numeric_limits<float>::lowest());
 }
 
-// The value that `above` others are no smaller than, and the one after it; the largest stands for itself.
+// The value with exactly `above` samples above it in order, and the next larger one; for the largest, itself twice.
 std::pair<double, double> neighbours_below(std::vector<float>& samples, std::size_t above) {
   const auto at = samples.begin() + static_cast<std::ptrdiff_t>(above);
   std::nth_element(samples.begin(), at, samples.end(), std::greater<>());

@@ -1,4 +1,4 @@
-// Pictures as values, and the choice of the format.
+// Functions of pictures, and the choice of the format.
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -19,8 +19,8 @@
 namespace contrejour {
 namespace {
 
-constexpr double kMostPixelAspect = 10.0;  // anamorphic plates have 2; and its inverse the least
-constexpr double kChromaticityTolerance = 2e-3;  // files round theirs to three or four digits
+constexpr double kMostPixelAspect = 10.0;  // anamorphic plates have 2; the minimum is its inverse
+constexpr double kChromaticityTolerance = 2e-3;  // files round chromaticities to three or four digits
 
 template <class Action>
 void change_header(Picture& picture, Action action) {
@@ -46,7 +46,7 @@ bool starts_with(std::span<const std::byte> bytes, std::initializer_list<unsigne
 
 enum class Format { OpenExr, Png };
 
-// By its first bytes.
+// Recognises a format by its first bytes.
 Result<Format> format_of(std::span<const std::byte> bytes, const std::string& name) {
   if (bytes.empty()) return failure(ErrorCode::Parse, "the file is empty", {name});
   if (starts_with(bytes, {0x76, 0x2f, 0x31, 0x01})) return Format::OpenExr;
@@ -54,7 +54,7 @@ Result<Format> format_of(std::span<const std::byte> bytes, const std::string& na
   return failure(ErrorCode::Parse, "neither an OpenEXR nor a PNG file; convert it to one of these", {name});
 }
 
-// No more than the first bytes of what is no picture: a device may have no end.
+// Reads no more than the first bytes of a file that is no picture: a device may be endless.
 Result<std::vector<std::byte>> read_bytes(const std::filesystem::path& file, std::uint64_t max_bytes) {
   const SourcePlace place{file.string()};
   std::error_code error;
@@ -62,7 +62,7 @@ Result<std::vector<std::byte>> read_bytes(const std::filesystem::path& file, std
     return failure(ErrorCode::Io, "this is a folder; give a picture's name", place);
   std::ifstream stream(file, std::ios::binary);
   if (!stream) return failure(ErrorCode::Io, std::string("cannot open: ") + std::strerror(errno), place);
-  // In pieces: a pipe has no size, and a file's own may be a lie (/dev/zero).
+  // Reads in pieces: a pipe has no size, and that of a file may be wrong (/dev/zero).
   constexpr std::size_t kPiece = std::size_t{1} << 20, kMagic = 4;
   const std::uintmax_t expected = std::filesystem::file_size(file, error);
   std::vector<std::byte> bytes;
@@ -84,7 +84,8 @@ Result<std::vector<std::byte>> read_bytes(const std::filesystem::path& file, std
   return bytes;
 }
 
-// What the writers rely on: the image fills the window, and each channel has its samples, or is one of the image's.
+// Checks what the writers rely on: the image fills the window, and each channel has its samples, or is one of the
+// image's.
 Result<void> check_picture(const Picture& picture) {
   const PixelWindow& window = picture.data_window;
   const auto wrong = [](const char* what) { return failure(ErrorCode::InvalidArgument, what); };

@@ -1,4 +1,4 @@
-// What a Picture keeps of an OpenEXR file beside its samples.
+// The data of an OpenEXR file that a Picture keeps besides its samples.
 #pragma once
 
 #include <cstddef>
@@ -11,7 +11,7 @@
 
 namespace contrejour {
 
-// A file of several parts, whole, so that those without the picture can be copied.
+// A complete file of several parts, so that those without the picture can be copied.
 struct PictureParts {
   std::vector<std::byte> file;
   int part = 0;  // the picture's

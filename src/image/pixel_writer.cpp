@@ -16,13 +16,13 @@ namespace contrejour::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-// How many floats come before the next whole vector in memory.
+// The number of floats before the next aligned vector in memory.
 std::size_t floats_to_vector(const float* at, std::size_t lanes) {
   const auto past = reinterpret_cast<std::uintptr_t>(at) / sizeof(float) % lanes;
   return past == 0 ? 0 : lanes - past;
 }
 
-// `vector(k)` for whole vectors of the memory at `to`, `one(k)` for floats before and after them.
+// Calls `vector(k)` for aligned vectors of the memory at `to`, and `one(k)` for floats before and after them.
 template <class Vector, class One>
 HWY_INLINE void stream(float* to, std::size_t count, const Vector& vector, const One& one) {
   const hn::ScalableTag<float> d;
@@ -55,7 +55,7 @@ namespace {
 HWY_EXPORT(stream_copy);
 HWY_EXPORT(stream_zeros);
 
-constexpr std::size_t kCacheBytes = std::size_t{16} << 20U;  // that a picture may stay in until it is read
+constexpr std::size_t kCacheBytes = std::size_t{16} << 20U;  // that may hold a picture until it is read
 
 }  // namespace
 

@@ -1,6 +1,6 @@
-// Pixels made beside a large picture, put where they belong in it. They go past the caches, which would first fetch
-// what is about to be written over, where the picture does not fit into them anyway: rows of 6 KB of a frame of 25 MB
-// in half to a third of the time, on some processors.
+// Copies computed pixels into a large picture. If the picture exceeds the caches, stores bypass them, since they would
+// first read the memory that is overwritten: on some processors rows of 6 KB of a frame of 25 MB take half to a third
+// of the time.
 #pragma once
 
 #include <cstddef>
@@ -9,10 +9,10 @@
 
 namespace contrejour {
 
-// Thread-safety: one writer a thread. What it wrote is there for other threads once it is gone.
+// Thread-safety: one writer a thread. Its stores are visible to other threads after its destruction.
 class PixelWriter {
  public:
-  explicit PixelWriter(const Image& image);  // that all is written to
+  explicit PixelWriter(const Image& image);  // the destination of all writes
   ~PixelWriter();
   PixelWriter(const PixelWriter&) = delete;
   PixelWriter& operator=(const PixelWriter&) = delete;

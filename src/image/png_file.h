@@ -18,14 +18,14 @@ struct PngLayout {
   int bits = 8;      // or 16, native-endian in the rows
 };
 
-// Where a file's bytes go, in order.
+// Receives a file's bytes, in order.
 using PngSink = std::function<Result<void>(std::span<const std::byte>)>;
 
 // Calls fill(y, row) for each row from the top. Marked as sRGB. place: for errors. Errors: the sink's, Io, Cancelled.
 [[nodiscard]] Result<void> write_png(const PngSink& sink, const SourcePlace& place, const PngLayout& layout,
                                      const std::function<void(int y, std::byte* row)>& fill, const Context& context);
 
-// What libpng calls with a warning: nothing that makes a picture useless is one.
+// Ignores libpng's warnings, none of which makes a picture useless.
 inline void ignore_png_warning(png_struct_def*, const char*) {}
 
 // The same to a file.

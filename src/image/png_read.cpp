@@ -1,5 +1,5 @@
-// PNG -> Picture: docs/formats/images.md. libpng leaves by longjmp: between setjmp and it there are no objects to
-// destroy.
+// PNG -> Picture: docs/formats/images.md. libpng reports errors by longjmp: no objects with destructors live between
+// setjmp and it.
 #include <bit>
 #include <csetjmp>
 #include <cstring>
@@ -15,7 +15,7 @@
 namespace contrejour {
 namespace {
 
-constexpr std::uint64_t kLargestDeflate = 1100;  // deflate shrinks by 1032 at most (zlib's technical notes)
+constexpr std::uint64_t kLargestDeflate = 1100;  // deflate compresses by 1032 at most (zlib's technical notes)
 constexpr png_alloc_size_t kLargestChunk = 8U << 20;  // of those that are not pixels
 constexpr png_uint_32 kLargestSide = 0x7fffffff;
 
@@ -48,7 +48,7 @@ void on_read(png_structp png, png_bytep to, std::size_t size) {
   reader->position += size;
 }
 
-// Chunks nobody reads here; compressed ones can grow a thousandfold, each.
+// Chunks that are not read here; a compressed one can expand a thousandfold.
 constexpr png_byte kSkippedChunks[] = "tEXt\0zTXt\0iTXt\0iCCP\0sPLT\0eXIf\0hIST\0sCAL\0pCAL";
 
 bool read_header(PngReader& r) {
@@ -90,7 +90,7 @@ tl::unexpected<Error> damaged(const PngReader& reader, const std::string& name) 
 
 Result<void> check_size(const PngReader& r, const std::string& name, const ReadLimits& limits) {
   const std::uint64_t pixels = std::uint64_t{r.width} * r.height;
-  // At most four channels, twice (interleaved and apart), and the linear image.
+  // At most four channels, twice (interleaved and separate), and the linear image.
   const std::uint64_t bytes_per_pixel = 2 * 4 * (r.bits == 16 ? 2 : 1) + 3 * sizeof(float);
   if (pixels > limits.max_pixels || pixels * bytes_per_pixel > limits.max_bytes)
     return failure(ErrorCode::Unsupported,

@@ -1,5 +1,5 @@
-// Picture -> PNG: docs/formats/images.md. libpng leaves by longjmp: between setjmp and it there are no objects to
-// destroy.
+// Picture -> PNG: docs/formats/images.md. libpng reports errors by longjmp: no objects with destructors live between
+// setjmp and it.
 #include <bit>
 #include <csetjmp>
 #include <cstring>
@@ -114,7 +114,7 @@ Result<void> write_png_file(OutputFile& file, const PngLayout& layout,
 
 Result<void> write_picture_png(OutputFile& file, const Picture& picture, const Context& context) {
   if (is_luminance_chroma(picture)) return write_picture_png(file, with_rgb_channels(picture), context);
-  // Colour and alpha; a PNG has no place for other channels.
+  // Colour and alpha; a PNG has no other channels.
   std::vector<std::size_t> sources;
   const bool grey = picture.rgb_source[0] == picture.rgb_source[2];
   for (std::size_t c = 0; c < (grey ? 1U : 3U); ++c) sources.push_back(static_cast<std::size_t>(picture.rgb_source[c]));

@@ -1,4 +1,4 @@
-// Scene-linear images to look at.
+// Converts scene-linear images to display images.
 #include <cmath>
 
 #include "image/formats.h"
@@ -10,7 +10,7 @@ namespace {
 
 constexpr float kRollOffStart = 0.8F;
 
-// Straight up to the knee, from there with the same slope towards 1.
+// Linear up to the knee, from there with a continuous slope towards 1.
 float roll_off(float value) {
   if (!(value > kRollOffStart)) return value;
   constexpr float room = 1 - kRollOffStart;

@@ -20,7 +20,7 @@ Matrix3 product_of(const Matrix3& a, const Matrix3& b) {
   return product;
 }
 
-// By cofactors; the columns of the three-fold cross products over the determinant.
+// The inverse by cofactors: cross products of the rows as columns, over the determinant.
 Matrix3 inverse(const Matrix3& m) {
   Matrix3 out{};
   for (std::size_t r = 0; r < 3; ++r)
@@ -56,7 +56,7 @@ Matrix3 bradford_adaptation(const Xyz& from_white, const Xyz& to_white) {
   return product_of(inverse(kBradford), scaled);
 }
 
-// Differs: Rec.709's white is (0.3127, 0.3290), D65 rounded; the tabulated D65 is taken for it, so that a light of
+// Differs: Rec.709's white is (0.3127, 0.3290), D65 rounded; the tabulated D65 is used instead, so that a light of
 // spectrum D65 is neutral to the last digit. The matrix moves by less than 5e-4.
 struct Matrices {
   Matrix3 xyz_from_rgb, rgb_from_xyz;

@@ -81,7 +81,7 @@ float decode_sample(SampleType type, Coding coding, const std::byte* from) {
 
 bool is_png(SampleType type) { return type == SampleType::UInt8 || type == SampleType::UInt16; }
 
-// A grey picture stays grey: what was made coloured goes in as luminance.
+// A grey picture stays grey: coloured pixels are written as luminance.
 Rgb grey_weights(const Picture& picture) {
   const ColourSpace space = colour_space_of(picture).value_or(ColourSpace::Rec709);
   return {luminance({1, 0, 0}, space), luminance({0, 1, 0}, space), luminance({0, 0, 1}, space)};
@@ -165,8 +165,8 @@ std::vector<float> alpha_of(const Picture& picture) {
 
 namespace {
 
-// The alpha of a PNG, whose colours are shares of it: no less than the brightest of them, so that light that was added
-// where a picture is transparent is there, and over black looks as it is. In the type's steps, upwards.
+// The alpha to write to a PNG, which rgb is multiplied by: at least the brightest colour, so that light that was added
+// where a picture is transparent is kept, and looks right over black. It is rounded up to the type's steps.
 std::vector<float> alpha_to_write(const Picture& picture, SampleType type) {
   std::vector<float> alpha = alpha_of(picture);
   const float steps = type == SampleType::UInt8 ? 255.0F : 65535.0F;

@@ -8,11 +8,11 @@
 namespace contrejour {
 namespace {
 
-// Below this share of its absolute integral a channel's total says nothing of how its light is spread: the blue
-// matching function's lobes cancel for a black body of about 1900 K, and their quotient would grow without bound.
+// Below this fraction of its absolute integral a channel's total does not describe the distribution of its light: the
+// blue matching function's lobes cancel for a black body of about 1900 K, and the quotient would be unbounded.
 constexpr double kSmallestTotalShare = 0.25;
 
-// What is integrated over wavelength: piecewise linear between whole nanometres.
+// The quantities integrated over wavelength, piecewise linear between whole nanometres.
 struct Sample {
   double visible = 0;  // S (xbar + ybar + zbar)
   double moment = 0;   // lambda times that
@@ -41,13 +41,14 @@ Sample operator*(double s, const Sample& a) {
 
 constexpr int kMostBands = 100000;
 
-// Of many bands of one line some stand at the same whole nanometre; no two may share a wavelength.
+// Several bands of one spectral line may be at the same whole nanometre; their wavelengths are separated by this, as no
+// two may be equal.
 constexpr double kApart_nm = 1e-6;
 
 using Samples = std::array<Sample, cie::kObserverCount>;
 
 Samples sample_light(const Spectrum& light, ColourSpace space) {
-  // A black body of 500 K spans 17 powers of ten; relative to its largest value nothing over- or underflows to matter.
+  // A black body of 500 K spans 17 powers of ten; relative to its largest value no over- or underflow matters.
   std::array<double, cie::kObserverCount> power{};
   double largest = 0;
   for (std::size_t i = 0; i < power.size(); ++i) {
@@ -79,7 +80,7 @@ class Cumulative {
 
   [[nodiscard]] const Sample& total() const { return to_.back(); }
 
-  // Up to the place where `visible` reaches this value. Within a nanometre visible is
+  // The integrals up to the wavelength where `visible` reaches this value. Within a nanometre visible is
   // v0 t + (v1 - v0) t^2 / 2; the root is taken in the form that does not cancel.
   [[nodiscard]] Sample up_to_visible(double value) const {
     const auto above = std::upper_bound(to_.begin() + 1, to_.end() - 1, value,
@@ -130,7 +131,7 @@ std::vector<SpectralBand> spectral_bands(int count, const Spectrum& light, Colou
     if (k > 0) bands[k].lambda_nm = std::max(bands[k].lambda_nm, bands[k - 1].lambda_nm + kApart_nm);
     bands[k].spread_nm = std::sqrt(std::max(0.0, band.second / band.visible - bands[k].lambda_nm * bands[k].lambda_nm));
     for (std::size_t c = 0; c < 3; ++c) {
-      // The channel's own integral, plus as much of the absolute one as keeps the quotient bounded.
+      // The channel's own integral, plus enough of the absolute one to keep the quotient bounded.
       const double added = std::max(0.0, kSmallestTotalShare - total.channel[c] / total.absolute[c]);
       bands[k].weight[c] =
           (band.channel[c] + added * band.absolute[c]) / (total.channel[c] + added * total.absolute[c]);

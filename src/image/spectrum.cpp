@@ -34,7 +34,7 @@ double illuminant_d65(double lambda_nm) {
   return ((1 - t) * cie::kIlluminantD65[i] + t * cie::kIlluminantD65[i + 1]) / 100;
 }
 
-// Nothing where there is no table.
+// The table's points; empty without a table.
 const std::vector<SpectrumPoint>& points_of(const TabulatedSpectrum& table) {
   static const std::vector<SpectrumPoint> kNone;
   return table.points ? *table.points : kNone;
@@ -60,7 +60,7 @@ double tabulated_near(const std::vector<SpectrumPoint>& points, double lambda_nm
   for (auto p = first; p != points.end() && p->lambda_nm < lambda_nm + 1; ++p) knots.push_back(p->lambda_nm);
   std::sort(knots.begin(), knots.end());
   const auto product = [&](double nm) { return tabulated(points, nm) * std::max(0.0, 1 - std::abs(nm - lambda_nm)); };
-  // A table may begin or end above 0: what is beyond its ends is left out whole.
+  // A table may begin or end above 0: wavelengths beyond its ends count as 0.
   const double from = points.front().lambda_nm, to = points.back().lambda_nm;
   double sum = 0;
   for (std::size_t k = 1; k < knots.size(); ++k) {

@@ -36,7 +36,7 @@ bool read_point(std::string_view line, SpectrumPoint& point) {
   return take_number(line, point.power) && line.empty();
 }
 
-// Words such as "wavelength, power"; a line that begins as a number does is meant to be one.
+// Recognises headings such as "wavelength, power"; a line that begins like a number is no heading.
 bool is_heading(std::string_view line) {
   return line.find_first_of("0123456789.+-") != 0 && line.find_first_not_of(" -~") != std::string_view::npos;
 }
@@ -47,7 +47,7 @@ std::string quoted(std::string_view line) {
   return '"' + shown + '"';
 }
 
-// What is wrong with a point after those before it; empty: nothing.
+// The problem of a point after its predecessors; empty if there is none.
 std::string problem_with(const SpectrumPoint& point, const std::vector<SpectrumPoint>& before) {
   if (!(point.lambda_nm >= kShortestNm && point.lambda_nm <= kLongestNm))
     return fmt::format("a wavelength of {} nm is out of range; give {} to {} nm", point.lambda_nm, kShortestNm,
