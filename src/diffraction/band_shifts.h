@@ -1,4 +1,5 @@
-// A light's wavelengths as shifts of a pattern's rows: a wavelength scales the pattern, and rows grow by one ratio.
+// A light's wavelengths as shifts of a pattern's rows: wavelength scales the pattern, and the radii of rows form a
+// geometric sequence.
 #pragma once
 
 #include <array>
@@ -9,7 +10,7 @@
 
 namespace contrejour {
 
-// What each band adds, by how many rows it moves the pattern outwards.
+// The weights of bands, by the number of rows by which a band moves the pattern outwards.
 struct BandShifts {
   double lambda_nm = 0;  // not moved
   int first = 0;  // rows

@@ -1,4 +1,4 @@
-// The inner loop of make_starburst: each channel's weighted sum over the rows that the wavelengths take.
+// The inner loop of make_starburst: each channel's weighted sum over the rows of all wavelengths.
 #pragma once
 
 #include <array>

@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::size_t kRowsAtOnce = 16;
 
-// exp(-2 pi i turns), exact for turns beyond what sin and cos take well.
+// exp(-2 pi i turns), also accurate for turns too large for sin and cos.
 std::complex<double> turned(double turns) {
   return std::polar(1.0, -2.0 * std::numbers::pi * (turns - std::nearbyint(turns)));
 }
@@ -25,8 +25,8 @@ RegularPoints centred_points(std::size_t count, double step) {
   return {count, -0.5 * static_cast<double>(count - 1) * step, step};
 }
 
-// x_j u_k = x0 u0 + j dx u0 + k du x0 + dx du (j^2 + k^2 - (k - j)^2) / 2: a product before, one after, and between
-// them a convolution with exp(+i pi dx du m^2).
+// x_j u_k = x0 u0 + j dx u0 + k du x0 + dx du (j^2 + k^2 - (k - j)^2) / 2: a product before and one after a convolution
+// with exp(+i pi dx du m^2).
 ChirpZ::ChirpZ(const RegularPoints& from, const RegularPoints& to)
     : from_(from.count), to_(to.count), length_(good_fft_size(from.count + to.count)), before_(from_), kernel_(length_),
       after_(to_) {

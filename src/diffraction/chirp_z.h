@@ -24,8 +24,8 @@ class ChirpZ {
  public:
   ChirpZ(const RegularPoints& from, const RegularPoints& to);
 
-  // Of a square [row][column] of samples at from x from: the sums over samples times exp(-2 pi i (x u + y v)) at
-  // to x to. Both dimensions alike.
+  // Transforms a square [row][column] of samples at from x from: the sums of samples times exp(-2 pi i (x u + y v)) at
+  // to x to. Both dimensions are treated alike.
   [[nodiscard]] std::vector<std::complex<double>> transform_2d(std::span<const std::complex<double>> data,
                                                                const Context& context) const;
 

@@ -1,5 +1,5 @@
-// The product of two finite complex numbers. std::complex's own looks at every result for what infinities would make of
-// it, which takes longer than the product.
+// The product of two finite complex numbers. std::complex checks every result for infinities, which takes longer than
+// the product.
 #pragma once
 
 #include <complex>

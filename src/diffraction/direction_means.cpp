@@ -10,7 +10,7 @@ DirectionMeans::DirectionMeans(std::span<const double> values) : below_{0.0} {
   for (const double value : values) below_.push_back(below_.back() + value);
 }
 
-// The integral from angle 0 on, in parts.
+// The integral from angle 0 to an angle in parts.
 double DirectionMeans::until(double parts) const {
   const double count = static_cast<double>(below_.size()) - 1.0;
   const double half_turns = std::floor(parts / count);

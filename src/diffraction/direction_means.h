@@ -1,5 +1,5 @@
-// What varies with direction and is the same in opposite ones, as power spectra of real masks are: its means over
-// windows of directions, from values in equal parts of half a turn.
+// Means over windows of directions of a function that is equal in opposite directions, as power spectra of real masks
+// are, given by its values in equal parts of half a turn.
 #pragma once
 
 #include <span>
@@ -12,13 +12,13 @@ class DirectionMeans {
   DirectionMeans() = default;
   explicit DirectionMeans(std::span<const double> values);  // the first part begins at angle 0
 
-  // Windows narrower than a part are taken as wide: values go over into each other by straight lines.
+  // Windows narrower than a part count as one part wide, which interpolates linearly between values.
   [[nodiscard]] double over(double angle_rad, double window_rad) const;
 
  private:
   [[nodiscard]] double until(double parts) const;
 
-  std::vector<double> below_;  // sums of the values before each part, and of all
+  std::vector<double> below_;  // cumulative sums of the values
 };
 
 }  // namespace contrejour

@@ -11,28 +11,30 @@
 namespace contrejour {
 namespace {
 
-constexpr double kSpeckWithin = 1.0;      // lengths of its line in widths: up to that a stroke is a speck
-constexpr double kDirtFlatPhase = 0.1;        // rad: a line whose phase bends by less is straight
-constexpr double kFringes = 14.0;         // rad, from which on sinc^2 and Airy's rings are their means
-constexpr double kBeside = 12.0;          // widths over lengths: angles beyond the fan where ends alone are counted
-constexpr double kDirtSpectralBlur = 0.15;  // half a channel's band over its middle: it blurs fringes beyond the first
-constexpr double kDirtUniformEnd = 2.5;  // Fresnel's u from which on fringes fade into their mean,
-constexpr double kMeanFrom = 4.0;  // and from which on they are that
+constexpr double kSpeckWithin = 1.0;      // length of its line in widths, up to which a stroke is a speck
+constexpr double kDirtFlatPhase = 0.1;        // rad: a line with a smaller phase from its curvature is straight
+constexpr double kFringes = 14.0;         // rad, from which on sinc^2 and Airy's rings are replaced by their means
+constexpr double kBeside = 12.0;          // widths over lengths: angle beyond the fan from which on only ends are
+                                          // counted
+constexpr double kDirtSpectralBlur = 0.15;  // half of a channel's band over its middle, which blurs fringes beyond the
+                                            // first
+constexpr double kDirtUniformEnd = 2.5;  // Fresnel's u from which on fringes fade to their mean,
+constexpr double kMeanFrom = 4.0;  // and from which on the mean is used
 constexpr double kFirst = 0x1p-6;  // per mm: k of the specks' table
 constexpr int kStepsPerOctave = 8;
 constexpr int kOctaves = 26;
-constexpr double kSizesPerOctave = 16.0;  // specks are put together by size
+constexpr double kSizesPerOctave = 16.0;  // specks are grouped by size
 constexpr double kDirtStepU = 0.5;  // of Fresnel's u in an average over directions
 constexpr int kDirtMaxSteps = 8;
 
-// (sin x / x)^2, its mean where fringes are finer than a spectrum tells apart.
+// (sin x / x)^2, or its mean where fringes are finer than the spectrum resolves.
 double sinc_squared(double x) {
   x = std::abs(x);
   if (x < 1e-4) return 1.0;
   return x < kFringes ? square(std::sin(x) / x) : 0.5 / (x * x);
 }
 
-// (2 J1(x) / x)^2, likewise. J1: Abramowitz & Stegun 9.4.4 and 9.4.6, to 1e-7.
+// (2 J1(x) / x)^2, or its mean in the same way. J1: Abramowitz & Stegun 9.4.4 and 9.4.6, to 1e-7.
 double airy(double x) {
   if (x >= kFringes) return 4.0 / (kPi * x * x * x);
   const double t = square(x / 3.0);
@@ -52,7 +54,7 @@ double airy(double x) {
   return square(2.0 * amplitude * std::cos(phase) / (x * std::sqrt(x)));
 }
 
-// |integral of exp(-i pi u^2 / 2)|^2 between two places, far from both without the fringes of its ends.
+// |integral of exp(-i pi u^2 / 2)|^2 between two points, without the fringes of its ends far from both.
 double fresnel_power(double from, double to) {
   const double nearest = std::min(std::abs(from), std::abs(to));
   double exact = 0.0, mean = 0.0;
@@ -88,7 +90,7 @@ DirtWaves::DirtWaves(std::span<const DirtStroke> strokes) {
   for (int i = 0; i <= kOctaves * kStepsPerOctave; ++i) {
     const double k = kFirst * std::exp2(static_cast<double>(i) / kStepsPerOctave);
     double sum = 0.0;
-    // As wide as a step, and at least as a channel's band: rings of single sizes are gone.
+    // At least as wide as a step and a channel's band, which removes the rings of single sizes.
     for (const auto& [size, power] : specks)
       for (const double turn : {-1.0, 0.0, 1.0})
         sum += power * airy(k * std::exp2(size / kSizesPerOctave + turn / (2.0 * kStepsPerOctave))) / 3.0;
@@ -126,9 +128,9 @@ DirtWaves::Direction DirtWaves::along(double direction_rad, double window_rad) c
   for (const Stroke& s : scratches_) {
     double tau = direction_rad - s.normal_rad;
     tau -= kPi * std::round(tau / kPi);  // u and -u give the same power
-    // Beside the fan the ends alone send light, as k^-2 times a slit's, from where their fringes are fine.
+    // Outside the fan only the ends diffract light, k^-2 times that of a slit, where their fringes are fine.
     const double beside = std::abs(tau) - s.half_turn_rad - 0.5 * window_rad;
-    const double ends = smooth_step(beside * s.length / (kBeside * s.width) - 1.0);  // the share counted so
+    const double ends = smooth_step(beside * s.length / (kBeside * s.width) - 1.0);  // the weight of this term
     if (ends > 0.0) {
       // 2 / (k sin(tau))^2 * (w sinc(k w cos(tau) / 2))^2, whose mean is 4 / (k^2 sin(tau) cos(tau))^2 at large k.
       const double sine2 = square(std::sin(beside));
@@ -149,8 +151,9 @@ DirtWaves::Direction DirtWaves::along(double direction_rad, double window_rad) c
   return d;
 }
 
-// A slit's width and, along it: straight, (L sinc(k L sin(tau) / 2))^2, averaged over the window; bent, by Fresnel's
-// integrals (EdgeWaves' arc): phase k R cos(s) = k R - (pi / 2) u^2, u = sqrt(4 k R / pi) sin(s / 2).
+// The factor of a slit's width times the one along it: for a straight slit (L sinc(k L sin(tau) / 2))^2, averaged over
+// the window; for a bent one by Fresnel's integrals (EdgeWaves' arc): phase k R cos(s) = k R - (pi / 2) u^2, u = sqrt(4
+// k R / pi) sin(s / 2).
 double DirtWaves::Direction::line_power(const Line& line, double k) const {
   const double across = line.weight * square(line.width) * sinc_squared(0.5 * k * line.width * line.cosine);
   if (k * square(line.length) < 8.0 * kDirtFlatPhase * line.radius) {

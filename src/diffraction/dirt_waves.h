@@ -1,6 +1,6 @@
-// The power spectrum of dirt far from its centre, fringes between shapes averaged out: the sum of every shape's own.
-// By Babinet's principle a shape that blocks light sends what an opening of its form would. A scratch is as wide a
-// slit: a streak across it, or a fan where it bends; specks are discs, which send light everywhere.
+// The power spectrum of dirt far from its centre, with fringes between shapes averaged out: the sum over shapes. By
+// Babinet's principle a shape that blocks light diffracts as an opening of its form would. A scratch acts as a slit of
+// its width and gives a streak across it, or a fan if it is bent; specks are discs, which diffract in all directions.
 // Units: those of the strokes, wave numbers k in radians per mm. docs/physics/diffraction.md.
 #pragma once
 
@@ -15,11 +15,11 @@ class DirtWaves {
  public:
   explicit DirtWaves(std::span<const DirtStroke> strokes);
 
-  // All that depends on the direction only.
+  // Everything that depends on the direction alone.
   class Direction {
    public:
     // Sum of |integral over a shape of exp(-i k u.x)|^2, u the direction, each times the square of the amplitude that
-    // it takes away, averaged over the window of directions.
+    // it blocks, averaged over the window of directions.
     [[nodiscard]] double power(double k) const;
 
    private:
@@ -37,13 +37,13 @@ class DirtWaves {
 
     const DirtWaves* waves_ = nullptr;
     double window_rad_ = 0;
-    std::vector<Line> near_;  // whose fans the direction lies in or beside
-    double ends_k2_ = 0, ends_k4_ = 0;  // of all others: of thin lines, and of thick ones
+    std::vector<Line> near_;  // with the direction in their fan or next to it
+    double ends_k2_ = 0, ends_k4_ = 0;  // of all other lines: thin ones, and thick ones
   };
 
   // Valid as long as this is.
   [[nodiscard]] Direction along(double direction_rad, double window_rad) const;
-  // Normals at the ends of the brightest scratches, so many of them; both are the same where one is straight.
+  // Normals at the ends of the brightest scratches, up to `scratches` of them; both are equal for a straight one.
   [[nodiscard]] std::vector<double> brightest_end_normals(std::size_t scratches) const;
 
  private:

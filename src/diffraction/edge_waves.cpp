@@ -11,7 +11,7 @@
 namespace contrejour {
 namespace {
 
-constexpr double kFlatPhase = 0.1;     // rad: an arc whose phase bends by less is a straight edge
+constexpr double kFlatPhase = 0.1;     // rad: an arc with a smaller phase from its curvature is straight
 constexpr double kUniformEnd = 2.5;    // Fresnel's u from which on the asymptotic form is faded in,
 constexpr double kAsymptoticFrom = 4.0;  // and from which on it is used alone: the spectrum blurs the fringes there
 constexpr double kSpectralBlur = 0.15;   // half the visible spectrum's width over its middle, for one channel
@@ -60,7 +60,8 @@ EdgeWaves::Direction EdgeWaves::along(double direction_rad, double window_rad) c
       direction.add({o.radius, o.length, middle - o.half_span_rad, middle + o.half_span_rad, 0, 0, o.full_circle});
       continue;
     }
-    // In pieces that each see u or -u alone: a normal at a right angle to it, where they part, sends nothing there.
+    // Splits the arc into pieces that belong to u or -u alone: they meet at a normal perpendicular to u, which
+    // diffracts nothing along u.
     const double last = middle + o.half_span_rad;
     for (double first = middle - o.half_span_rad; first < last;) {
       const double turn = kPi * std::round(first / kPi);
@@ -86,7 +87,7 @@ void EdgeWaves::Direction::add(Edge edge) {
   slope_ += edge.slope;
 }
 
-// From where on the special functions below have come to their asymptotic forms.
+// Finds the k from which on the special functions below have their asymptotic forms.
 void EdgeWaves::Direction::find_far(Edge& edge, double window_rad) {
   if (edge.full_circle) {
     edge.slope = 4.0 * kPi * edge.radius;  // two stationary points
@@ -102,7 +103,8 @@ void EdgeWaves::Direction::find_far(Edge& edge, double window_rad) {
   if (edge.tau_start < 0.0 && edge.tau_end > 0.0) edge.slope += 2.0 * kPi * edge.radius;
   const double nearest = std::min(std::abs(edge.tau_start), std::abs(edge.tau_end)) - 0.5 * window_rad;
   const double sine = std::sin(0.5 * std::clamp(nearest, 0.0, kPi));
-  const double bends = 8.0 * kFlatPhase * edge.radius / square(edge.length);  // below, it counts as straight
+  const double bends = 8.0 * kFlatPhase * edge.radius / square(edge.length);  // below this k the edge counts as
+                                                                              // straight
   edge.far_from = sine > 0.0 ? std::max(bends, square(kAsymptoticFrom / sine) * kPi / (4.0 * edge.radius)) : kNever;
 }
 
@@ -110,7 +112,7 @@ void EdgeWaves::Direction::find_far(Edge& edge, double window_rad) {
 double EdgeWaves::Direction::straight_power(const Edge& edge, double k, double window_rad) {
   const double tau = 0.5 * (edge.tau_start + edge.tau_end);
   const double q = 0.5 * k * edge.length * std::sin(tau);
-  // The spectrum blurs fringes beyond the spike's middle, however narrow the window.
+  // The spectrum blurs fringes beyond the spike's middle, even for a narrow window.
   const double blur = std::clamp(kSpectralBlur * std::abs(q), 1e-3, 0.5 * kPi);
   const double h = std::max(0.25 * k * edge.length * std::abs(std::cos(tau)) * window_rad, blur);
   const double average = (integral_of_sinc_squared(q + h) - integral_of_sinc_squared(q - h)) / (2.0 * h);
@@ -153,7 +155,7 @@ double EdgeWaves::Direction::edge_power(const Edge& edge, double k, double windo
   return arc_power(edge, k, window_rad) + k * (edge.slope - (inside ? 2.0 * kPi * edge.radius : 0.0));
 }
 
-// What corners add to the squares of their edges' ends.
+// The terms of corners besides the squares of their edges' ends.
 double EdgeWaves::Direction::corner_terms() const {
   double sum = 0.0;
   for (std::size_t j = 0; edges_.size() > 1 && j < edges_.size(); ++j)
@@ -161,8 +163,9 @@ double EdgeWaves::Direction::corner_terms() const {
   return sum;
 }
 
-// Where arcs meet nearly without a corner both may have their end near the direction: 2 Re(A conj(B)) of their Fresnel
-// integrals, with phases from the corner, where both have one. So arcs of one circle send what one without ends sends.
+// Arcs that meet nearly without a corner may both end near the direction. Then the cross term is 2 Re(A conj(B)) of
+// their Fresnel integrals, with phases relative to the corner, so that arcs of one circle together equal the circle
+// without ends.
 EdgeWaves::Direction::Joined EdgeWaves::Direction::joined_arcs(const Edge& before, const Edge& after, double k,
                                                                double window_rad) {
   const auto is_arc = [&](const Edge& e) {
@@ -174,7 +177,7 @@ EdgeWaves::Direction::Joined EdgeWaves::Direction::joined_arcs(const Edge& befor
   const auto u_of = [](double scale, double tau) { return scale * std::sin(0.5 * std::clamp(tau, -kPi, kPi)); };
   const double farther =
       std::max(std::abs(u_of(scale_before, before.tau_end)), std::abs(u_of(scale_after, after.tau_start)));
-  // Beside an arc so short that its other end is as near, that end's neighbour would count as well.
+  // For an arc so short that its other end is as near, that end's neighbour would have to be included as well.
   const double shorter = std::min(scale_before * 0.5 * (before.tau_end - before.tau_start),
                                   scale_after * 0.5 * (after.tau_end - after.tau_start));
   constexpr double kFade = kAsymptoticFrom - kUniformEnd;
@@ -198,7 +201,7 @@ EdgeWaves::Direction::Joined EdgeWaves::Direction::joined_arcs(const Edge& befor
 }
 
 // Corners: |sum of both edges' ends|^2, without what oscillates (Komrska 1982 eq. 10, averaged). Near an edge's normal
-// the cotangent goes to infinity where the wave does not: there the edge's own power bounds it.
+// the cotangent diverges, but the wave does not: there the edge's own power bounds the term.
 double EdgeWaves::Direction::power(double k) const {
   const double per_k4 = 1.0 / square(square(k));
   if (k >= far_from_) return (constant_ + slope_ * k) * per_k4;

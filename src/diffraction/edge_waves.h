@@ -1,6 +1,7 @@
-// The power spectrum of an opening far from its centre, fringes averaged out: what its edges and corners send there.
-// An edge sends light along its normal, falling as k^-2 when straight and as k^-3 over the fan of its normals when
-// curved; corners send light everywhere, falling as k^-4. Derivation and domain: docs/physics/diffraction.md.
+// The power spectrum of an opening far from its centre, with fringes averaged out: the diffraction by its edges and
+// corners. An edge diffracts along its normal, with a power that falls as k^-2 if it is straight, and as k^-3 over the
+// fan of its normals if it is curved; corners diffract in all directions, with a power that falls as k^-4. Derivation
+// and domain: docs/physics/diffraction.md.
 // Source: Green's theorem as in Komrska 1982 eq. 7 for polygons; the method of stationary phase (Born & Wolf app. III)
 // for arcs, made uniform by Fresnel integrals.
 #pragma once
@@ -16,11 +17,11 @@ class EdgeWaves {
  public:
   explicit EdgeWaves(const IrisOpening& opening);
 
-  // All that depends on the direction only.
+  // Everything that depends on the direction alone.
   class Direction {
    public:
     // |integral over the opening of exp(-i k u.x)|^2, u the direction, averaged over fringes and over the window of
-    // directions. Lengths in stop radii. k much larger than 1.
+    // directions. Lengths are in stop radii. Valid for k much larger than 1.
     [[nodiscard]] double power(double k) const;
 
    private:
@@ -40,8 +41,8 @@ class EdgeWaves {
     [[nodiscard]] static double edge_power(const Edge& edge, double k, double window_rad);
     static void find_far(Edge& edge, double window_rad);
     [[nodiscard]] double corner_terms() const;
-    // What two edges' waves from their common corner add to the sum of both powers, and how far that is to be used in
-    // place of the cotangents' product.
+    // The cross term of two edges' waves at their common corner, and the weight with which it replaces the cotangents'
+    // product.
     struct Joined {
       double power = 0.0, share = 0.0;
     };
@@ -53,7 +54,7 @@ class EdgeWaves {
   };
 
   [[nodiscard]] Direction along(double direction_rad, double window_rad) const;
-  // Normals at the edges' ends, where what they send begins and ends; of a straight one both are the same.
+  // Normals at the edges' ends, which limit their fans; both are equal for a straight edge.
   [[nodiscard]] std::vector<double> end_normals() const;
 
  private:

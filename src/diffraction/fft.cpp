@@ -5,8 +5,8 @@
 
 #define POCKETFFT_NO_MULTITHREADING  // threads come from base/tasks
 #define POCKETFFT_CACHE_SIZE 0       // no state between calls
-// It asks aligned_alloc for sizes that are no multiple of the alignment, which C11 forbids and sanitizers refuse. This
-// is its switch to align by itself.
+// pocketfft calls aligned_alloc with sizes that are no multiple of the alignment, which C11 forbids and sanitizers
+// report. This macro makes it align memory itself.
 #ifndef _LIBCPP_HAS_NO_ALIGNED_ALLOCATION
 #define _LIBCPP_HAS_NO_ALIGNED_ALLOCATION  // NOLINT(bugprone-reserved-identifier)
 #endif
@@ -17,8 +17,8 @@
 namespace contrejour {
 namespace {
 
-// Pieces that rows and columns are cut into, always the same ones: enough for many threads, few enough that each
-// pays for its own tables.
+// Rows and columns are divided into a fixed number of pieces: enough for many threads, few enough that each is worth
+// its own tables.
 constexpr std::size_t kPieces = 32;
 
 struct Piece {

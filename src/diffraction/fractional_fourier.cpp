@@ -1,6 +1,7 @@
 // Candan, Kutay & Ozaktas 2000, "The discrete fractional Fourier transform": the eigenvectors that the DFT shares with
-// the discrete harmonic oscillator S (their eq. 17), by number of zero crossings, take powers of -i.
-// Differs: from hullin2011, which takes Ozaktas's fast algorithm: with that one orders add to a few per cent only.
+// the discrete harmonic oscillator S (their eq. 17), by number of zero crossings, are multiplied by powers of -i.
+// Differs: from hullin2011, which takes Ozaktas's fast algorithm: with that algorithm orders are additive to a few per
+// cent only.
 #include "contrejour/fractional_fourier.h"
 
 #include <cmath>
@@ -18,7 +19,8 @@ using Square = Eigen::Map<const RowMajor>;
 
 constexpr int kTransformedAtOnce = 32;
 
-// S restricted to even or odd vectors is tridiagonal: columns are its eigenvectors, by falling eigenvalue.
+// S restricted to even or odd vectors is tridiagonal. The columns of the result are its eigenvectors, by falling
+// eigenvalue.
 Eigen::MatrixXd eigenvectors_of(int side, bool even) {
   const int first = even ? 0 : 1;
   const int count = even ? side / 2 + 1 : (side + 1) / 2 - 1;
@@ -41,7 +43,7 @@ bool sandwich(const Eigen::Ref<const RowMajor>& left, std::vector<std::complex<d
               const Context& context) {
   const auto side = static_cast<int>(left.rows());
   RowMajor real(side, side), imaginary(side, side);
-  for (int pass = 0; pass < 2; ++pass) {  // each: left * square, turned over
+  for (int pass = 0; pass < 2; ++pass) {  // each computes left * square, transposed
     for (int k = 0; k < side * side; ++k) {
       real.data()[k] = square[static_cast<std::size_t>(k)].real();
       imaginary.data()[k] = square[static_cast<std::size_t>(k)].imag();
@@ -74,7 +76,7 @@ FractionalFourier::FractionalFourier(int side) : side_(side >= 1 && side <= kMos
   for (const bool even : {true, false}) {
     const Eigen::MatrixXd vectors = eigenvectors_of(side, even);
     for (int k = 0; k < vectors.cols(); ++k) {
-      degree_.push_back(2 * k + (even ? 0 : 1));  // an even side has no N - 1 but N: 2 k says so
+      degree_.push_back(2 * k + (even ? 0 : 1));  // an even side has degree N in place of N - 1: 2 k gives it
       std::vector<double> row(n);
       for (int m = 0; m < vectors.rows(); ++m) {
         const int place = even ? m : m + 1, mirrored = (side - place) % side;
@@ -99,7 +101,7 @@ std::vector<std::complex<double>> FractionalFourier::at_order(std::span<const st
                                                               double order, const Context& context) const {
   if (analysis.size() != basis_.size() || side_ == 0 || !std::isfinite(order)) return {};
   std::vector<std::complex<double>> result(analysis.begin(), analysis.end());
-  // Candan 2000 eq. 21: exp(-i pi k a / 2) for degree k. Whole turns are taken off before the sine.
+  // Candan 2000 eq. 21: exp(-i pi k a / 2) for degree k. Whole turns are removed before the sine.
   const auto n = static_cast<std::size_t>(side_);
   for (std::size_t r = 0; r < n; ++r)
     for (std::size_t c = 0; c < n; ++c)

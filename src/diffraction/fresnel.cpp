@@ -18,7 +18,7 @@ using Wave = std::vector<std::complex<double>>;
 
 constexpr double kSamplesPerFresnel =
     16.0;  // across the stop, for each unit of F: a turn of the chirp has 8 at the rim
-constexpr double kTaper = 0.8;               // of the band limit, from where on the spectrum is faded out
+constexpr double kTaper = 0.8;               // of the band limit, from which on the spectrum is faded out
 
 std::size_t samples_of_square(std::size_t side) { return side * side; }
 
@@ -60,7 +60,7 @@ std::vector<double> fresnel_near(const PupilMask& mask, double stop_radius_mm, d
   Wave wave = padded_wave(mask, padded);
   if (!fft_2d<double>(wave, {padded, padded}, FftDirection::Forward, context)) return {};
 
-  // Matsushima & Shimobaba 2009: what would come back into the pattern from beyond the window is left out, softly.
+  // Matsushima & Shimobaba 2009: a smooth band limit removes what would alias into the pattern from beyond the window.
   const double step = 1.0 / (static_cast<double>(padded) * pitch);
   const double limit = fresnel_number * (static_cast<double>(padded) * pitch - half_mask - extent);
   std::vector<std::complex<double>> transfer(padded);
@@ -83,7 +83,7 @@ std::vector<double> fresnel_near(const PupilMask& mask, double stop_radius_mm, d
     for (std::size_t c = half; c < padded; ++c) move(c, c - half);
   }
 
-  // Back at the pattern's places: exp(+2 pi i f x) is the chirp transform to -x.
+  // Back to the pattern's points: exp(+2 pi i f x) is the chirp transform to -x.
   const RegularPoints places = pattern_points(side, extent);
   const ChirpZ back({padded, -static_cast<double>(half) * step, step}, {places.count, -places.first, -places.step});
   const Wave pattern = back.transform_2d(spectrum, context);
@@ -118,7 +118,7 @@ double fresnel_extent(double fresnel_number) { return 1.0 + 2.0 / std::sqrt(fres
 
 namespace {
 
-// Whether a pattern of it fits into memory: kMostPadded samples a side.
+// True if the pattern fits into memory: kMostPadded samples a side.
 bool is_usable(const PupilMask& mask, double stop_radius_mm, const FresnelSettings& settings) {
   constexpr double kMostPadded = 32768.0;
   if (!mask.is_complete() || !(stop_radius_mm > 0.0) || !(settings.fresnel_number > 0.0) || settings.side < 1 ||

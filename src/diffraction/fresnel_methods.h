@@ -1,4 +1,4 @@
-// The two ways to the same Fresnel pattern; each is good where its samples are dense enough.
+// Two methods for the same Fresnel pattern, each valid where its samples are dense enough.
 #pragma once
 
 #include "contrejour/fresnel.h"

@@ -10,12 +10,12 @@ namespace contrejour {
 namespace {
 
 constexpr std::size_t kRows = kRowsPerOctave;
-constexpr double kBetweenRays_px = 0.1;  // at an octave's end: between them chords change evenly enough
+constexpr double kBetweenRays_px = 0.1;  // at an octave's end: chords are nearly linear between rays
 
-// In half turns from straight down.
+// The direction in half turns from straight down.
 double turns_of(Vec2 p) { return std::atan2(p.y, p.x) / kPi + 0.5; }
 
-// Where a ray from the centre lies within a square: between two radii, of which the second is smaller if nowhere.
+// The radii between which a ray from the centre lies within a square; the second is smaller if it misses the square.
 struct Chord {
   double from_px = 0.0, to_px = 0.0;
 };
@@ -47,7 +47,7 @@ double farthest_px(const SquareAt& s) {
 
 }  // namespace
 
-// Directions that a square takes up, in half turns: from the first of its corners to the last, with the others between.
+// The directions of a square in half turns: from the first of its corners to the last, with the others between.
 struct NearField::Arc {
   std::array<double, 5> turns{};  // rising
   std::size_t count = 0;
@@ -55,7 +55,7 @@ struct NearField::Arc {
   explicit Arc(const SquareAt& s) {
     const std::array<Vec2, 4> corner{s.low, {s.high.x, s.low.y}, s.high, {s.low.x, s.high.y}};
     const bool all_round = s.low.x < 0.0 && s.low.y < 0.0 && s.high.x > 0.0 && s.high.y > 0.0;
-    if (all_round) {  // a whole turn, from a corner to itself
+    if (all_round) {  // a full turn, from a corner to itself
       const double first = turns_of(corner[0]);
       for (const Vec2 p : corner) insert(first + wrapped(turns_of(p) - first));
       insert(first + 2.0);
@@ -106,7 +106,7 @@ NearField::NearField(std::span<const CellOctave> octaves, double first_px,
   }
 }
 
-// Between two radii in a cell; weight: radians.
+// Adds the flux between two radii in a cell; weight: radians.
 void NearField::add_ray(const Octave& octave, std::size_t cell, double weight, double from_px, double to_px,
                         std::array<double, 3>& sum) {
   const std::array<double, 3>* const below = octave.below.data() + cell * (kRows + 1);
@@ -122,7 +122,7 @@ void NearField::add_ray(const Octave& octave, std::size_t cell, double weight, d
   add_within(from_px, -weight);
 }
 
-// Between two directions within a cell, in turns from where the cell's half turn begins.
+// Adds the flux between two directions within a cell, in half turns from the beginning of the cell's half turn.
 void NearField::add_sector(const Octave& octave, const Sector& sector, const SquareAt& square,
                            std::array<double, 3>& sum) {
   const double from = octave.edge[sector.cell], width = octave.edge[sector.cell + 1] - from;
@@ -145,7 +145,7 @@ void NearField::add_arc(const Octave& octave, const Arc& arc, const SquareAt& sq
   std::size_t cell = std::min(static_cast<std::size_t>(after - octave.edge.begin()) - 1, cells - 1);
   for (std::size_t next = 1; next < arc.count;) {
     const double end = std::min(arc.turns[next], half_turns + octave.edge[cell + 1]);
-    // Half a turn on, the other way.
+    // In the other half turn directions are opposite.
     const double sign = static_cast<std::int64_t>(half_turns) % 2 == 0 ? 1.0 : -1.0;
     if (end > turn) add_sector(octave, {cell, turn - half_turns, end - half_turns, sign}, square, sum);
     turn = std::max(turn, end);

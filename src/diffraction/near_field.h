@@ -1,5 +1,6 @@
-// The middle of a starburst, where pixels are large beside their distance from the centre: flux over rectangles as sums
-// over the cells of the rings, along each direction exactly from where it enters the rectangle to where it leaves it.
+// The middle of a starburst, where pixels are large compared with their distance from the centre: flux over rectangles
+// as sums over the cells of the rings, integrated exactly along each direction from where it enters the rectangle to
+// where it leaves it.
 #pragma once
 
 #include <array>
@@ -23,7 +24,7 @@ class NearField {
   // first_px: radius of the first octave's first row. weight: times the density at a radius, in pixels.
   NearField(std::span<const CellOctave> octaves, double first_px, const std::function<double(double)>& weight);
 
-  // Within the octaves; what lies beyond them counts as dark.
+  // The flux over a square; points beyond the octaves count as dark.
   [[nodiscard]] std::array<double, 3> flux(const SquareAt& square) const;
 
  private:

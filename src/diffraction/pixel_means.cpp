@@ -10,10 +10,10 @@
 namespace contrejour {
 namespace {
 
-constexpr std::size_t kSameDirection = 8;  // bins over which a pixel's profile is taken as the same
-constexpr std::size_t kMaxPixelBins = 3;       // on each side of a pixel's middle, that it reaches
+constexpr std::size_t kSameDirection = 8;  // bins that share one pixel profile
+constexpr std::size_t kMaxPixelBins = 3;       // number of bins that a pixel reaches on each side of its middle
 
-// Shares of a pixel, by parts of it so wide, that lie beside its middle on one side: they sum to one half.
+// Fractions of a pixel in strips of this width on one side of its middle: they sum to one half.
 std::array<float, kMaxPixelBins> shares_from_middle(const PixelProfile<double>& profile, double width_px) {
   std::array<float, kMaxPixelBins> shares{};
   double below = 0.5;
@@ -25,7 +25,7 @@ std::array<float, kMaxPixelBins> shares_from_middle(const PixelProfile<double>& 
   return shares;
 }
 
-// One row of bins, averaged over the rows that a pixel takes up, where these are narrower than it.
+// One row of bins, averaged over the rows that a pixel covers, if rows are narrower than pixels.
 void average_rows(std::span<const float> bins_rgb0, std::size_t bins, double radius_px, std::size_t row,
                   std::vector<float>& out) {
   const double height_px = radius_px * (std::exp2(1.0 / kRowsPerOctave) - 1.0);
@@ -56,7 +56,7 @@ void average_rows(std::span<const float> bins_rgb0, std::size_t bins, double rad
 void average_over_pixels(std::span<const float> bins_rgb0, std::size_t bins, double first_px, std::size_t row,
                          float* to) {
   const double radius_px = first_px * row_ratio(static_cast<double>(row));
-  // Whole turns, so that pixels reach beyond the first and the last bin: kMaxPixelBins more on each side.
+  // The line is periodic, so that pixels extend beyond the first and the last bin: kMaxPixelBins more on each side.
   std::vector<float> line(bins * 4);
   average_rows(bins_rgb0, bins, radius_px, row, line);
   std::vector<float> around((bins + 2 * kMaxPixelBins) * 4);

@@ -1,6 +1,6 @@
-// How a square pixel is cut by parallel lines along a direction: the length of its chord by the line's distance from
-// its middle is a trapezoid, two boxes of the widths |cos| and |sin| of the direction, one over the other. A line of
-// light gives each pixel its chord, so that a row or column of pixels gets all of it wherever it lies.
+// The chords of a square pixel along a direction: their length as a function of the distance from the pixel's middle is
+// a trapezoid, the convolution of two boxes of widths |cos| and |sin| of the direction. A line of light adds its chord
+// to each pixel, so that a row or column of pixels gets all of its flux wherever the line lies.
 #pragma once
 
 #include <algorithm>
@@ -22,11 +22,11 @@ class PixelProfile {
 
   [[nodiscard]] Real reach() const { return reach_; }  // of the pixel's corners
 
-  // The share of the pixel on the near side of a line at this signed distance: 0 to 1.
+  // The fraction of the pixel below a line at this signed distance: 0 to 1.
   [[nodiscard]] Real share_below(Real distance) const {
     const Real d = std::min(std::abs(distance), reach_);
     const Real beyond = d - level_;
-    // Half the pixel less the corner that is left.
+    // Half of the pixel less the remaining corner.
     const Real half = beyond > Real(0) ? Real(0.5) - (reach_ - d) * (reach_ - d) * per_slope_ : d * per_wide_;
     return distance < Real(0) ? Real(0.5) - half : Real(0.5) + half;
   }

@@ -33,22 +33,24 @@ void PolygonCover::add_edge(Vec2 a, Vec2 b) {
   }
 }
 
-// Left of the grid an edge's whole height counts from the first sample on; right of it nothing does.
+// An edge to the left of the grid counts with its whole height from the first sample on; one to the right does not
+// count.
 void PolygonCover::add_in_row(int row, Vec2 a, Vec2 b) {
   const double right = side_;
-  const double height = a.y - b.y;  // y goes down: so that a positive turn has a positive area
+  const double height = a.y - b.y;  // y points down: a counter-clockwise polygon has a positive area
   const double low = std::min(a.x, b.x), high = std::max(a.x, b.x);
   if (low >= right) return add(row, side_, 0.0);
   if (high <= 0.0) return add(row, 0, height);
   const double width = high - low;
   if (low < 0.0) add(row, 0, height * (-low / width));
   const int last = static_cast<int>(std::min(high, right - 1e-9));
-  if (high > right) add(row, side_, 0.0);  // what lies between the edges reaches the last sample
+  if (high > right) add(row, side_, 0.0);  // the area between the edges extends to the last sample
   for (int column = static_cast<int>(std::max(low, 0.0)); column <= last; ++column) {
     const double from = std::max({low, 0.0, static_cast<double>(column)});
     const double to = std::min({high, right, column + 1.0});
     const double part = width > 0.0 ? height * ((to - from) / width) : height;
-    // Its mean distance from the sample's right side is what it covers of this sample; the rest counts from the next.
+    // The edge's mean distance from the sample's right side is the covered part of this sample; the rest counts from
+    // the next.
     const double covered = column + 1.0 - 0.5 * (width > 0.0 ? from + to : 2.0 * low);
     add(row, column, part * covered);
     add(row, column + 1, part * (1.0 - covered));

@@ -1,5 +1,5 @@
-// Which share of each sample of a square grid a polygon covers, exactly, however thin it is: each edge adds the signed
-// area to its right, as fonts are drawn.
+// The exact fraction of each sample of a square grid that a polygon covers, however thin it is: each edge adds the
+// signed area to its right, as in font rasterisers.
 #pragma once
 
 #include <cstddef>
@@ -14,8 +14,8 @@ class PolygonCover {
  public:
   explicit PolygonCover(int side);
 
-  // visit(sample, share) for the samples [row * side + column] that the polygon meets. corners: in samples, x to the
-  // right and y down, (0, 0) the top left corner of the grid; either orientation, no crossings.
+  // Calls visit(sample, fraction) for the samples [row * side + column] that the polygon overlaps. corners: in samples,
+  // x to the right and y down, (0, 0) the top left corner of the grid; either orientation, no crossings.
   template <class Visit>
   void for_each(std::span<const Vec2> corners, const Visit& visit) {
     double sign = 0.0;
@@ -51,7 +51,7 @@ class PolygonCover {
 
   int side_;
   std::size_t width_;  // of a row of changes: two more than samples
-  std::vector<double> change_;  // of the area from sample to sample
+  std::vector<double> change_;  // change of the covered area from sample to sample
   std::vector<Touched> touched_;
   int first_row_, last_row_ = -1;
 };

@@ -12,10 +12,10 @@
 namespace contrejour {
 namespace {
 
-// Power has twice the mask's bandwidth: padding by 2 would just hold it, 4 lets cubics read between the samples.
+// Power has twice the mask's bandwidth: padding by 2 just represents it, 4 allows cubic interpolation between samples.
 constexpr std::size_t kPadding = 4;
 constexpr double kResolved = 0.45;  // of the sampling frequency; beyond, aliases are as strong as the spectrum
-constexpr int kMargin = 2;          // samples that a cubic reads beyond its place
+constexpr int kMargin = 2;          // samples that a cubic reads beyond its position
 
 double sinc(double x) {
   const double t = std::numbers::pi * x;
@@ -52,7 +52,7 @@ PowerGrid::PowerGrid(const PupilMask& mask, double pupil_radius_mm, double up_to
   parallel_for(static_cast<std::size_t>(2 * half_ + 1), context, [&](std::size_t r) {
     const int y = static_cast<int>(r) - half_;
     for (int x = -kMargin; x <= half_; ++x) {
-      // Of a real mask the power at -f is that at f. Rows of the mask go down, y goes up.
+      // A real mask's power at -f equals that at f. Rows of the mask go down, y goes up.
       const auto column = static_cast<std::size_t>(std::abs(x));
       const int signed_row = x < 0 ? y : -y;
       const std::size_t row =
@@ -73,7 +73,7 @@ double PowerGrid::density(double rho_x, double rho_y) const {
   float sum = 0.0F;
   for (std::size_t j = 0; j < 4; ++j, p += width_)
     sum += wy[j] * (wx[0] * p[0] + wx[1] * p[1] + wx[2] * p[2] + wx[3] * p[3]);
-  return std::max(sum, 0.0F);  // a cubic may swing below 0 between the fringes
+  return std::max(sum, 0.0F);  // a cubic may overshoot below 0 between the fringes
 }
 
 }  // namespace contrejour

@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kFarthest = 1e8;  // samples, of a polygon's corner
 
-// Share of the unit square about the origin where normal . p + distance <= 0; normal is unit.
+// The fraction of the unit square about the origin where normal . p + distance <= 0; normal is unit.
 double half_plane_share(Vec2 normal, double distance) {
   const double a = std::max(std::abs(normal.x), std::abs(normal.y));
   const double b = std::min(std::abs(normal.x), std::abs(normal.y));
@@ -52,7 +52,7 @@ Result<void> check_picture(const Image& image, int channel) {
   return {};
 }
 
-// Between the four nearest pixels, the outermost ones going on outwards; pixel 0 covers 0..1.
+// Interpolates between the four nearest pixels; the outermost ones extend outwards; pixel 0 covers 0..1.
 float sample_bilinear(const Image& image, int channel, double x, double y) {
   const double u = std::clamp(x - 0.5, 0.0, image.width - 1.0), v = std::clamp(y - 0.5, 0.0, image.height - 1.0);
   const int x0 = static_cast<int>(u), y0 = static_cast<int>(v);

@@ -20,13 +20,13 @@ namespace contrejour {
 namespace {
 
 constexpr double kFlatRho = 0.05;  // the pattern is flat to 1 per cent within
-// Widths of bins at an octave's outer radius: pixels beyond kNear_px are read between means over pixels; within, the
-// cells themselves are summed up, and a pixel's sides may cut through them. Nearest to the centre spikes are too close
-// together to be cut out one by one.
+// Widths of bins at an octave's outer radius: pixels beyond kNear_px are interpolated between means over pixels;
+// within, the cells themselves are summed, and a pixel's sides may cross them. Nearest to the centre spikes are too
+// close together to get cells of their own.
 constexpr double kBin_px = 0.7, kNearBin_px = 0.35, kInnerBin_px = 1.0 / 16.0;
 constexpr double kInner_px = 16.0, kNearEnd_px = 1.45 * kNear_px;  // an octave's outer radius
-constexpr double kBin_rho = 0.05;  // or as wide as this, where the pattern itself is smoother than pixels
-constexpr double kSharpBin_rho = 0.2;  // in bins narrower than this a spike's middle is no sharper than they are
+constexpr double kBin_rho = 0.05;  // or this width, where the pattern itself is smoother than pixels
+constexpr double kSharpBin_rho = 0.2;  // bins narrower than this resolve a spike's middle
 constexpr std::size_t kFewestBins = 96;
 constexpr double kMostBins = 32768;  // 0.7 pixels apart 7300 pixels from the centre; 50 MB an octave
 constexpr double kFinest_px = 1.0 / 16.0, kCoarse_px = 2.0;  // windows that differ where a direction is sharp
@@ -39,14 +39,14 @@ constexpr std::size_t kBlock = kDirectionsAtOnce;
 
 double angle_of(double turns) { return (turns - 0.5) * kPi; }
 
-// What is the same for all octaves.
+// The data that all octaves share.
 struct RingSource {
   const StarburstPattern& pattern;
   const BandShifts& shifts;
   double rho_per_px;
 };
 
-// An octave while its cells are filled: rows from kRowMargin before its first.
+// An octave while its cells are filled: rows begin kRowMargin in front of its first.
 struct OctaveCells {
   double first_px = 0.0;
   RingCells cells;
@@ -55,7 +55,7 @@ struct OctaveCells {
 
 // One block of cells.
 void fill(OctaveCells& octave, std::size_t first_cell, const RingSource& source) {
-  // Row r of the result takes row r - shift of the pattern.
+  // Row r of the result reads row r - shift of the pattern.
   const BandShifts& shifts = source.shifts;
   const int lead = shifts.last() + static_cast<int>(kRowMargin), rows = static_cast<int>(kRowsGiven);
   const int pattern_rows = rows + shifts.last() - shifts.first;
@@ -78,8 +78,8 @@ void fill(OctaveCells& octave, std::size_t first_cell, const RingSource& source)
   }
 }
 
-// Is the pattern in a direction sharper than pixels: a narrow window brighter than a wide one about it, or one side
-// darker than the other?
+// True if the pattern in a direction is sharper than pixels: a narrow window is brighter than a wide one about it, or
+// one side is darker than the other.
 bool is_sharp(const StarburstPattern& pattern, double turns, double radius_px, double rho_per_px) {
   const auto mean = [&](double offset_px, double width_px) {
     float value = 0.0F;
@@ -90,14 +90,14 @@ bool is_sharp(const StarburstPattern& pattern, double turns, double radius_px, d
   return mean(0.0, kFinest_px) > kSharp * wide || std::max(low, 2.0 * wide - low) > kSharp * wide;
 }
 
-// What a few rings at the end of what the spectrum tells hold in a window of directions.
+// The pattern in a window of directions, at a few rings at the end of the sampled spectrum.
 class SpectrumEnd {
  public:
   SpectrumEnd(const StarburstPattern& pattern, double last_rho) : pattern_(pattern), last_rho_(last_rho) {}
 
   [[nodiscard]] double held(double turns, double window_turns) const {
     double sum = 0.0;
-    for (const double r : {0.6, 0.8, 1.0}) {  // fringes are dark at some
+    for (const double r : {0.6, 0.8, 1.0}) {  // fringes are dark at some radii
       float value = 0.0F;
       pattern_.sample(angle_of(turns), window_turns * kPi, r * last_rho_, 1, &value, 1);
       sum += value * r * r;
@@ -105,7 +105,7 @@ class SpectrumEnd {
     return sum;
   }
 
-  // The middle of what is brightest within a window about a direction.
+  // The middle of the brightest part within a window about a direction.
   [[nodiscard]] double brightest(double turns, double window_turns) const {
     constexpr int kSteps = 12, kRounds = 3;
     for (int round = 0; round < kRounds; ++round, window_turns *= 0.4) {
@@ -126,8 +126,8 @@ class SpectrumEnd {
   double last_rho_;
 };
 
-// Where nobody knows which directions may be sharp, as of a picture's edges: parts of a few fringes' width that hold
-// more than their share. Of many together none stands out.
+// Finds sharp directions where they are unknown, as for a picture's edges: parts a few fringes wide that are brighter
+// than the mean. If many lie together, none is sharp.
 std::vector<double> sharp_parts(const StarburstPattern& pattern, const Context& context) {
   const SpectrumEnd end(pattern, pattern.spectrum_end());
   const auto bins = static_cast<std::size_t>(std::ceil(kPi * pattern.spectrum_end() / kFringesAside));
@@ -148,7 +148,7 @@ std::vector<double> sharp_parts(const StarburstPattern& pattern, const Context& 
   if (found.size() > kMostParts) return {};
   for (double& turns : found) turns = end.brightest(turns, 2.0 * part);
   std::sort(found.begin(), found.end());
-  const auto is_same = [&](double a, double b) { return b - a < 0.5 * part; };  // found on both sides of a bin's end
+  const auto is_same = [&](double a, double b) { return b - a < 0.5 * part; };  // found on both sides of a bin's border
   found.erase(std::unique(found.begin(), found.end(), is_same), found.end());
   return found;
 }
@@ -210,7 +210,7 @@ bool fill_all(OctaveCells& octave, const RingSource& source, const Context& cont
 std::shared_ptr<const StarburstRings> build_rings(const StarburstPattern& pattern, const BandShifts& shifts,
                                                   double rho_per_px, double radius_px, const Context& context) {
   const RingSource source{pattern, shifts, rho_per_px};
-  // So many octaves that the innermost is flat, and the last ends where the starburst does.
+  // The number of octaves is such that the innermost is flat, and the last ends where the starburst does.
   const double flat_px = std::min({0.5, kFlatRho / rho_per_px, 0.5 * radius_px});
   const auto count = static_cast<int>(std::max(1.0, std::ceil(std::log2(radius_px / flat_px))));
   auto rings = std::make_shared<StarburstRings>();
@@ -219,12 +219,12 @@ std::shared_ptr<const StarburstRings> build_rings(const StarburstPattern& patter
   Context quiet = context;
   quiet.progress = {};
   const std::vector<double> sharp = sharp_turns(pattern, quiet);
-  // One after the other: only what is kept of each takes memory.
+  // Octaves are built one after the other: only the result of each takes memory.
   for (int o = 0; o < count; ++o) {
     OctaveCells octave = laid_out(radius_px * std::exp2(o - count), sharp, source);
     if (!fill_all(octave, source, quiet)) return nullptr;
     if (octave.first_px < kNear_px + 1.0) rings->near_cells.push_back(near_octave(octave));
-    // Rounding may look for a place at kNear_px an octave too far in.
+    // By rounding, a point at kNear_px may be read from the next inner octave.
     const bool is_far = 2.0 * octave.first_px > 0.99 * kNear_px;
     rings->octaves.push_back(is_far ? far_octave(octave, quiet) : StarburstOctave());
     if (context.progress) context.progress((o + 1.0) / count);

@@ -10,7 +10,7 @@
 
 namespace contrejour {
 
-// rho_per_px: at the wavelength that is not moved. Null when cancelled.
+// rho_per_px: at the wavelength with shift 0. Null when cancelled.
 [[nodiscard]] std::shared_ptr<const StarburstRings> build_rings(const StarburstPattern& pattern,
                                                                 const BandShifts& shifts, double rho_per_px,
                                                                 double radius_px, const Context& context);

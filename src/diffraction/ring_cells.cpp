@@ -7,9 +7,10 @@
 namespace contrejour {
 namespace {
 
-// Where cells end on both sides of a sharp direction, in pixels at the octave's outer radius: the first lies about it.
+// The borders of cells on both sides of a sharp direction, in pixels at the octave's outer radius: the first cell
+// contains it.
 constexpr std::array<double, 10> kEdges_px{0.03, 0.09, 0.16, 0.24, 0.34, 0.46, 0.6, 0.76, 0.95, 1.18};
-constexpr double kCutPast_px = 1.2;  // of a sharp direction, at the outer radius: bins that it reaches are cut
+constexpr double kCutPast_px = 1.2;  // of a sharp direction, at the outer radius: bins within it are divided
 constexpr double kLeast_px = 1e-3;   // between edges
 // Pixels reach 0.71 pixels from their middles, which is 2.1 bins at an octave's inner radius.
 constexpr std::size_t kReach = 3;  // bins
@@ -30,7 +31,7 @@ std::vector<SharpBins> sharp_bins(std::size_t bins, std::span<const double> shar
     while (end < bins && is_sharp[end]) ++end;
     runs.push_back({b, end});
   }
-  // What goes on across straight down is one.
+  // Runs on both sides of straight down are one.
   if (runs.size() > 1 && runs.front().first == 0 && runs.back().end == bins) {
     runs.back().end += runs.front().end;
     runs.erase(runs.begin());

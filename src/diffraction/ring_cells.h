@@ -1,5 +1,5 @@
-// Into which cells half a turn is cut at the radii of an octave: equal bins, and finer cells about directions in which
-// the pattern is sharper than pixels, down to a sixteenth of a pixel.
+// The division of half a turn into cells at the radii of an octave: equal bins, and finer cells about directions in
+// which the pattern is sharper than pixels, down to a sixteenth of a pixel.
 #pragma once
 
 #include <cstddef>
@@ -10,7 +10,7 @@
 
 namespace contrejour {
 
-// Bins [first, end) that hold finer cells; end may run past the last bin, to the first ones.
+// Bins [first, end) with finer cells; end may continue past the last bin, to the first ones.
 struct SharpBins {
   std::size_t first = 0, end = 0;
 };
@@ -26,8 +26,8 @@ struct RingCells {
 // sharp: directions in half turns, 0 to 1. bins_per_px: at the octave's outer radius.
 [[nodiscard]] RingCells cut_into_cells(std::size_t bins, std::span<const double> sharp, double bins_per_px);
 
-// Cells about the sharp bins for pixels to be read from, and which bins' pixels: all those within reach of a finer
-// cell. rgb0: of all cells, [(row * cells + cell) * 4 + channel].
+// Adds zones of cells about the sharp bins, and marks the bins whose pixels are read from them: all within reach of a
+// finer cell. rgb0: of all cells, [(row * cells + cell) * 4 + channel].
 void add_sharp_zones(const RingCells& cells, std::span<const float> rgb0, std::size_t rows, StarburstOctave& octave);
 
 // Mean densities over whole bins, [(row * bins + bin) * 4 + channel].

@@ -21,14 +21,14 @@ using Pixel = hn::CappedTag<float, 4>;
 
 constexpr float kInverse_pi = 0.318309886F;
 
-// A place among the rings: between a row and the next, and in half turns.
+// A position among the rings: between a row and the next, and in half turns.
 struct RingPlace {
   std::size_t row = 0;
   float below = 0.0F;  // 0..1, from the row to the next
   float turns = 0.0F;
 };
 
-// Means over pixels at the rows and the bins' edges on both sides.
+// Interpolates means over pixels between the rows and the bins' edges on both sides.
 HWY_INLINE void read_means(const StarburstOctave& octave, std::size_t bin, const RingPlace& at, float* rgb) {
   const Pixel d;
   const auto t = hn::Set(d, at.below);
@@ -70,7 +70,8 @@ void read_rings(const StarburstRings& rings, double x0, double y, std::size_t co
     const auto v = hn::Set(d, static_cast<float>(-y));
     const auto r2 = hn::Max(hn::Mul(hn::MulAdd(x, x, hn::Mul(v, v)), hn::Set(d, first2)), hn::Set(d, 1e-12F));
     hn::Store(hn::Mul(hn::Log2(d, r2), hn::Set(d, 0.5F)), d, octaves);
-    // Half a turn from straight down: atan(y / x) / pi + 1 / 2. On the vertical through the centre it is either end.
+    // Half a turn from straight down: atan(y / x) / pi + 1 / 2. On the vertical through the centre either end is
+    // correct.
     const auto nonzero = hn::IfThenElse(hn::Eq(x, hn::Zero(d)), hn::Set(d, 1e-12F), x);
     const auto angle = hn::Atan(d, hn::Div(v, nonzero));
     hn::Store(hn::Clamp(hn::MulAdd(angle, hn::Set(d, kInverse_pi), hn::Set(d, 0.5F)), hn::Zero(d), hn::Set(d, 1.0F)), d,

@@ -1,5 +1,5 @@
-// A starburst on pixels beyond kNear_px: rows and directions of its rings interpolated, and sharp directions summed up
-// over each pixel.
+// Evaluates a starburst at pixels beyond kNear_px: it interpolates rows and directions of the rings, and sums sharp
+// directions over each pixel.
 #pragma once
 
 #include <cstddef>

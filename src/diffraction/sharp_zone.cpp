@@ -11,14 +11,14 @@ namespace {
 
 constexpr float kPiF = std::numbers::pi_v<float>;
 
-// The middle of a pixel's chord along a direction, that far aside of the pixel's middle, from where the direction's
-// normal through the middle meets it.
+// The middle of a pixel's chord along a direction at a distance from the pixel's middle, measured along the chord from
+// the foot of the perpendicular.
 float chord_middle(float along_x, float along_y, float aside) {
   const auto range = [&](float along, float offset) {
     const float a = (0.5F - offset) / along, b = (-0.5F - offset) / along;
     return a < b ? std::pair{a, b} : std::pair{b, a};
   };
-  constexpr float kAcross = 1e-3F;  // of a direction's cosines: it never meets that pair of sides
+  constexpr float kAcross = 1e-3F;  // of a direction's cosines: it counts as parallel to that pair of sides
   if (std::abs(along_x) < kAcross || std::abs(along_y) < kAcross) return 0.0F;
   const auto [x0, x1] = range(along_x, -along_y * aside);
   const auto [y0, y1] = range(along_y, along_x * aside);

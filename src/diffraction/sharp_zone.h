@@ -8,7 +8,7 @@
 namespace contrejour {
 
 // The mean density over the pixel whose middle is at p from the centre (pixels, y up), `turns` half turns from straight
-// down, at a row of the octave and the way to the next: each cell's density at the pixel's chord there, by its length.
+// down, at a fractional row of the octave: the cells' densities weighted by the lengths of the pixel's chords.
 void read_zone(const SharpZone& zone, std::size_t bins, float row, float turns, Vec2 p, float* rgb);
 
 }  // namespace contrejour

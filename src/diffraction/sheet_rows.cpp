@@ -27,7 +27,7 @@ void blend_rows(const float* above, const float* below, float t, std::size_t cou
 void add_between(const float* samples, float t, const std::array<float, 3>& scale, std::size_t count, float* pixels) {
   const Tag d;
   const std::size_t lanes = hn::Lanes(d);
-  HWY_ALIGN float scales[48];  // whole turns of R, G, B in any vector's lanes
+  HWY_ALIGN float scales[48];  // whole cycles of R, G, B in any vector's lanes
   for (std::size_t k = 0; k < 48; ++k) scales[k] = scale[k % 3];
   std::size_t i = 0;
   for (; i + 3 * lanes <= count; i += 3 * lanes) {

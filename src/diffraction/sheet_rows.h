@@ -1,5 +1,5 @@
-// The inner loops of drawing a starburst that is laid out already: places between its samples, straight lines between
-// four of them. No weight is negative, so that nothing dark turns negative beside a spike.
+// The inner loops of drawing a precomputed starburst: bilinear interpolation between its samples. No weight is
+// negative, so that dark pixels next to a spike do not become negative.
 #pragma once
 
 #include <array>

@@ -31,7 +31,7 @@ FresnelIntegrals fresnel_integrals(double x) {
   const double a = std::abs(x);
   const double f = (1.0 + 0.926 * a) / (2.0 + (1.792 + 3.104 * a) * a);
   const double g = 1.0 / (2.0 + (4.142 + (3.492 + 6.670 * a) * a) * a);
-  const auto phase = static_cast<float>(0.5 * std::numbers::pi * a * a);  // quicker, and exact enough for f and g
+  const auto phase = static_cast<float>(0.5 * std::numbers::pi * a * a);  // faster, and accurate enough for f and g
   const double sine = std::sin(phase), cosine = std::cos(phase);
   return {std::copysign(0.5 + f * sine - g * cosine, x), std::copysign(0.5 - f * cosine - g * sine, x)};
 }

@@ -1,4 +1,4 @@
-// Integrals that diffraction at an edge leads to.
+// Integrals of diffraction at an edge.
 #pragma once
 
 namespace contrejour {

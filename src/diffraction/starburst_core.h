@@ -1,4 +1,4 @@
-// The middle of a starburst, laid out for any place of its centre between pixels.
+// The middle of a starburst, precomputed for any subpixel position of its centre.
 #pragma once
 
 #include <cmath>
@@ -13,13 +13,13 @@
 
 namespace contrejour {
 
-// Pixels are counted in int; so far away nothing is seen.
+// Pixels are counted in int; a starburst that far outside is not visible.
 [[nodiscard]] inline bool is_drawable(Vec2 centre_px) {
   return std::abs(centre_px.x) < 1e8 && std::abs(centre_px.y) < 1e8;
 }
 
-// Adds densities to a row of pixels, rgb[3 x + c], where their middles lie within kNear_px of the centre; y: how far
-// the row's middle is below the centre.
+// Adds densities to a row of pixels, rgb[3 x + c], where their middles lie within kNear_px of the centre; y: distance
+// of the row's middle below the centre.
 void add_near_row(const NearField& near, Vec2 centre_px, double y, std::size_t width, float* rgb);
 
 }  // namespace contrejour

@@ -1,4 +1,5 @@
-// Rings of a starburst onto pixels: near the centre cell by cell, farther out from the rings' means over pixels.
+// Draws the rings of a starburst on pixels: near the centre cell by cell, farther out from the rings' means over
+// pixels.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -20,7 +21,7 @@ void add_near_row(const NearField& near, Vec2 centre_px, double y, std::size_t w
   const auto clamped = [&](double x) {
     return static_cast<std::size_t>(std::clamp(x, 0.0, static_cast<double>(width)));
   };
-  // As read_rings tells them apart.
+  // With the same condition as in read_rings.
   for (std::size_t x = clamped(std::floor(centre_px.x - half - 0.5)); x < clamped(centre_px.x + half + 0.5); ++x) {
     const double from_x = 0.5 - centre_px.x + static_cast<double>(x);
     if (from_x * from_x >= kNear_px * kNear_px - y * y) continue;

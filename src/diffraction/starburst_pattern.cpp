@@ -12,30 +12,30 @@
 namespace contrejour {
 namespace {
 
-constexpr double kSampleRho = 0.45;  // fringes are 1 apart at least: samples of an average stand closer
-// From spectrum to edge waves, in samples across: where aliases of the edges are below 1 per cent, and with dirt, which
-// only the spectrum has, where they are 10. Of a picture there is nothing else to go to.
+constexpr double kSampleRho = 0.45;  // fringes are at least 1 apart: samples of an average are closer
+// The transition from spectrum to edge waves, in samples across: where aliases of the edges are below 1 per cent; with
+// dirt, which only the spectrum has, where they are 10. A picture has no edge waves.
 constexpr double kTailEnd = 0.12, kTailEndWithDirt = 0.35, kTailEndOfPicture = 1.0;
-constexpr double kTailFade = 0.625;  // of that, where it begins
-constexpr double kCleanWithin = 2e-3;  // relative: as much as edges' samples may be off
-constexpr double kScatteredFrom = 0.7;  // of the tail's end: the spectrum there says what goes on beyond
-constexpr double kGrainRho = 1.0;  // between samples that tell it: it is as wide
-constexpr int kModelPlaces = 6;  // and what it is compared with is smooth
-constexpr double kLeastGrain = 0.25, kMostGrain = 4.0;  // of the shapes' sum, where they interfere
-constexpr std::size_t kSharpStrokes = 16;  // the brightest: of many together none stands out
+constexpr double kTailFade = 0.625;  // of that, the beginning of the transition
+constexpr double kCleanWithin = 2e-3;  // relative: the error of samples at edges
+constexpr double kScatteredFrom = 0.7;  // of the tail's end: the spectrum from here on is extrapolated beyond
+constexpr double kGrainRho = 1.0;  // distance between its samples, equal to its width
+constexpr int kModelPlaces = 6;  // fewer samples of the model, which is smooth
+constexpr double kLeastGrain = 0.25, kMostGrain = 4.0;  // of the sum over shapes, due to interference
+constexpr std::size_t kSharpStrokes = 16;  // the brightest: if many lie together, none is sharp
 constexpr int kRowsPerStep = 4;  // between which the tail times rho^3 is interpolated
 
 Vec2 along_angle(double angle_rad) { return {std::cos(angle_rad), std::sin(angle_rad)}; }
 
-// Directions about one, and radii along each.
+// Directions about a central one, and radii along each.
 struct Sector {
   double angle_rad, window_rad;
-  Vec2 along;  // the one direction
+  Vec2 along;  // the central direction
   int across, down;
 };
 
-// Mean of value(rho, x, y) over a sector's samples, rho = radius(share of the way). A real mask's spectrum is the same
-// at opposite places; the half plane x >= 0 is the one that is kept.
+// Mean of value(rho, x, y) over a sector's samples, rho = radius(fraction). A real mask's spectrum is equal at opposite
+// points; the half plane x >= 0 is stored.
 template <class Radius, class Value>
 double sector_mean(const Sector& sector, Radius radius, Value value) {
   double sum = 0.0;
@@ -52,8 +52,8 @@ double sector_mean(const Sector& sector, Radius radius, Value value) {
   return sum / (sector.across * sector.down);
 }
 
-// An edge's samples hold their open share s as amplitude, so as power s^2 for s. The mean of s - s^2 is 1/6.
-// The perimeter of what is squeezed is taken as that of the same shape scaled evenly.
+// Samples at an edge have their open fraction s as amplitude, so their power is s^2 instead of s. The mean of s - s^2
+// is 1/6. The perimeter of a foreshortened shape is approximated by that of a uniformly scaled one of equal area.
 double power_lost_at_edges(const PupilMask& mask, const PupilOutline& outline) {
   const double size_mm = std::sqrt(std::abs(cross(outline.x_mm, outline.y_mm)));
   double edges_mm = outline.opening.perimeter() * size_mm;
@@ -61,7 +61,7 @@ double power_lost_at_edges(const PupilMask& mask, const PupilOutline& outline) {
   return 1.0 + edges_mm * mask.grid.pitch_mm / (6.0 * outline.area_mm2());
 }
 
-// As specks of dirt are: in units in which the pupil's radius is this.
+// Obscurations are treated like specks of dirt, in units in which the pupil's radius is this.
 constexpr double kObscurationUnits = 16.0;
 
 std::optional<DirtWaves> waves_of_obscurations(const PupilOutline& outline, double pupil_radius_mm) {
@@ -80,17 +80,17 @@ double power_of(const PupilMask& mask, const PupilOutline* outline) {
   return mask.open_area_mm2() * (outline ? power_lost_at_edges(mask, *outline) : 1.0);
 }
 
-// Over the opening: 1 where nothing but the opening's own edges dims the mask.
+// The mean amplitude over the opening: 1 if only the opening's own edges dim the mask.
 double mean_amplitude(const PupilMask& mask, const PupilOutline& outline) {
   double sum = 0.0;
   for (const float a : mask.amplitude) sum += a;
   return sum * mask.grid.pitch_mm * mask.grid.pitch_mm / outline.area_mm2();
 }
 
-// A direction in the plane of a shape that unit vectors x and y lay down.
+// A direction in the plane of a shape whose unit vectors are x and y in the mask.
 struct Seen {
   double angle_rad, stretch;
-  double turn;  // of directions there over here
+  double turn;  // change of angles there over here
 };
 Seen seen_from(Vec2 x, Vec2 y, double angle_rad) {
   const Vec2 along{std::cos(angle_rad), std::sin(angle_rad)};
@@ -131,7 +131,7 @@ StarburstPattern::StarburstPattern(const PupilMask& mask, const PupilOutline* ou
   measure_grain(context);
 }
 
-// A normal n of a shape that unit vectors x and y lay down is seen along the u for which (x.u, y.u) is along n.
+// A normal n of a shape whose unit vectors are x and y appears along the u for which (x.u, y.u) is parallel to n.
 std::vector<double> StarburstPattern::sharp_directions() const {
   std::vector<double> directions;
   const auto add = [&](const std::vector<double>& normals, Vec2 x, Vec2 y) {
@@ -181,8 +181,8 @@ double StarburstPattern::Tail::times_rho3(double rho) const {
   return sum;
 }
 
-// Of a shape laid down by a linear map the spectrum at f is the shape's own at the map's transpose times f: another
-// direction, another wave number, another width of the window.
+// The spectrum at f of a linearly mapped shape is the shape's own spectrum at the transposed map times f, with another
+// direction, wave number and width of the window.
 void StarburstPattern::add_edges(double angle_rad, double window_rad, Tail& tail) const {
   const Seen seen = seen_from(outline_x_, outline_y_, angle_rad);
   tail.stretch = seen.stretch;
@@ -200,9 +200,9 @@ void StarburstPattern::add_dirt(double angle_rad, double window_rad, Tail& tail)
   tail.dirt_scale = dirt_scale_;
 }
 
-// Beyond the spectrum's samples goes on what they have more than the edges. Where shapes are known, as those send it,
-// times as much as their interference makes of it along this direction there, which is the halo's grain; where not, as
-// rho^-3, which keeps its share of the flux in proportion to a rim's.
+// The excess of the spectrum over the edges is extrapolated beyond its samples. If shapes of dirt are known, it follows
+// their sum, times a factor for their interference in this direction, the halo's grain. If not, it falls as rho^-3,
+// which keeps its flux in proportion to a rim's.
 StarburstPattern::Tail StarburstPattern::tail_along(double angle_rad, double window_rad) const {
   Tail tail;
   if (edges_) add_edges(angle_rad, window_rad, tail);
@@ -221,8 +221,8 @@ StarburstPattern::Tail StarburstPattern::tail_along(double angle_rad, double win
   return tail;
 }
 
-// What the spectrum has more than edges send, and what shapes send one by one, in the mean over the spectrum's
-// outermost part. In directions as close as the spectrum's samples: starbursts have many times as many.
+// Measures the excess of the spectrum over the edges, and the sum over shapes, as means over the spectrum's outermost
+// part, in directions as close as the spectrum's samples: starbursts have many times more directions.
 void StarburstPattern::measure_grain(const Context& context) {
   const double from = kScatteredFrom * tail_end_, length = tail_end_ - from;
   const auto directions = static_cast<std::size_t>(std::ceil(kPi * tail_end_ / kSampleRho));

@@ -1,5 +1,5 @@
-// The pattern of a real mask at one wavelength, from its middle to as far out as anyone asks: its spectrum as far as
-// its samples have it, then what its outline and its dirt send on. Density over rho = x / (lambda N), of integral 1.
+// The pattern of a real mask at one wavelength, from its middle to any distance: its spectrum within its samples, then
+// the diffraction by its outline and its dirt. It is a density over rho = x / (lambda N) with integral 1.
 #pragma once
 
 #include <cstddef>
@@ -21,22 +21,23 @@ class StarburstPattern {
   // outline: null where the mask has none.
   StarburstPattern(const PupilMask& mask, const PupilOutline* outline, double pupil_radius_mm, const Context& context);
 
-  // Averages over rings and a window of directions, at radii from first_rho on, row by row; out is [row * stride].
+  // Computes averages over rings and a window of directions, at radii from first_rho on, row by row; out is [row *
+  // stride].
   void sample(double angle_rad, double window_rad, double first_rho, int rows, float* out, std::size_t stride) const;
 
-  // Directions (radians, either way) along which the pattern may be sharp, however far out: normals of straight edges
-  // and scratches, and those at the ends of bent ones.
+  // Directions (radians, up to their sign) along which the pattern may be sharp at any distance: normals of straight
+  // edges and scratches, and those at the ends of curved ones.
   [[nodiscard]] std::vector<double> sharp_directions() const;
 
   [[nodiscard]] double spectrum_end() const { return tail_start_; }  // rho, from which on a tail takes over
 
  private:
-  // Of one direction, beyond the spectrum.
+  // The pattern of one direction beyond the spectrum.
   struct Tail {
     std::optional<UnevenEdges::Direction> edges;
     double scale = 0;  // of these
-    double stretch = 1;  // frequencies of the opening over those of the pupil
-    double scattered = 0;  // times rho^-3: what else there is
+    double stretch = 1;  // wave numbers of the opening over those of the pupil
+    double scattered = 0;  // times rho^-3: other scattered light
     std::optional<DirtWaves::Direction> obscurations;
     double obscurations_scale = 0;
     std::optional<DirtWaves::Direction> dirt;

@@ -1,7 +1,7 @@
 // A starburst as rings about its centre: pixels' RGB by logarithm of the radius and by direction.
-// A wavelength scales the pattern, which here is a shift from row to row; so a whole spectrum is one short sum down the
-// rows, and no more than that is blurred. Real masks give patterns that are the same at p and -p: half a turn is kept.
-// Directions are counted in half turns from straight down, counter-clockwise, 0 to 1.
+// A wavelength scales the pattern, which here is a shift from row to row; so a whole spectrum is one short sum along
+// the rows, with no other blur. Real masks give patterns that are the same at p and -p: half a turn is kept. Directions
+// are counted in half turns from straight down, counter-clockwise, 0 to 1.
 #pragma once
 
 #include <cmath>
@@ -15,20 +15,20 @@
 namespace contrejour {
 
 constexpr int kRowsPerOctave = 92;  // 4 nm at 550 nm
-constexpr double kNear_px = 48.0;  // within, pixels are summed up exactly (near_field.h)
+constexpr double kNear_px = 48.0;  // within, pixels are integrated exactly (near_field.h)
 
 [[nodiscard]] inline double row_ratio(double rows) { return std::exp2(rows / kRowsPerOctave); }
 
-// Directions about a spike's, in cells finer than pixels where it is sharp.
+// Directions about that of a spike, in cells finer than pixels where it is sharp.
 struct SharpZone {
-  std::size_t first_bin = 0;  // where its first cell begins; it may run past the last bin, to the first ones
+  std::size_t first_bin = 0;  // where its first cell begins; the zone may continue past the last bin, to the first ones
   std::vector<float> edge;  // of its cells, in bins from there
   std::vector<float> rgb0;  // mean density over each cell, [(row * cells + cell) * 4 + channel]; the fourth is 0
 
   [[nodiscard]] std::size_t cells() const { return edge.size() - 1; }
 };
 
-// Radii from one to twice that, kRowsPerOctave + 1 rows, half a turn in equal bins.
+// Radii from one to twice its value, kRowsPerOctave + 1 rows, half a turn in equal bins.
 struct StarburstOctave {
   std::size_t bins = 0;
   // Density per square pixel, averaged over the square pixel about each bin's beginning, and the last one's end:
@@ -42,7 +42,7 @@ struct StarburstOctave {
   }
 };
 
-// The same not averaged, in cells that need not be equal.
+// The same without averages, in cells that may differ in size.
 struct CellOctave {
   std::vector<double> edge;  // of the cells, in half turns: from 0 to 1
   std::vector<float> rgb0;  // mean density over each cell, [(row * cells + cell) * 4 + channel]

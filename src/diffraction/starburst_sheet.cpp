@@ -1,4 +1,4 @@
-// A starburst laid out over pixels: half the plane, the other half is the same turned about the centre.
+// A starburst precomputed at pixels: half of the plane; the other half is the same rotated about the centre.
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -14,7 +14,7 @@
 namespace contrejour {
 
 // Means over pixels whose middles lie whole pixels from the centre: x from -reach_x to reach_x, y (down) from 0 to
-// reach_y; the core is left out of them.
+// reach_y; without the core.
 struct StarburstSamples {
   Starburst starburst;
   int reach_x = 0, reach_y = 0;
@@ -33,7 +33,7 @@ struct StarburstSamples {
 namespace {
 
 constexpr double kMostPixels = 67108864.0;  // 2^26: 1.6 GB
-// Near the centre straight lines between samples would not do. What is the core's fades between these radii.
+// Near the centre linear interpolation between samples is not accurate enough. The core fades out between these radii.
 constexpr double kCoreFrom_px = 16.0, kCoreTo_px = 20.0;
 constexpr int kCellsPerPixel = 8;
 constexpr int kCorePixels = 42;
@@ -68,10 +68,10 @@ void turn_about(const float* from, std::size_t places, float* to) {
   for (std::size_t i = 0; i < places; ++i, to += 3) std::copy_n(from + 3 * (places - 1 - i), 3, to);
 }
 
-// Where a frame's pixels lie between the samples.
+// The position of a frame's pixels between the samples.
 struct Placed {
   int x = 0, y = 0;  // the sample left of and above the first pixel's centre
-  float right = 0, down = 0;  // and how far beyond it, 0..1
+  float right = 0, down = 0;  // and the distance beyond it, 0..1
 };
 
 Placed placed(Vec2 centre_px) {
@@ -85,17 +85,17 @@ bool reaches(const StarburstSamples& samples, const Image& image, Vec2 centre_px
          std::max(centre_px.y, image.height - centre_px.y) + 1.0 <= samples.reach_y;
 }
 
-// Densities between the samples' rows y and y + 1, at `places` samples from x on.
+// Interpolates densities between the samples' rows y and y + 1, at `places` samples from x on.
 void blend_at(const StarburstSamples& samples, int x, int y, float down, std::size_t places, std::vector<float>& turned,
               float* out) {
   const int last = x + static_cast<int>(places) - 1;
   if (y >= 0) return blend_rows(samples.at(x, y), samples.at(x, y + 1), down, 3 * places, out);
-  // Above the centre: the samples opposite.
+  // Above the centre the opposite samples are used.
   blend_rows(samples.at(-last, -y), samples.at(-last, -y - 1), down, 3 * places, turned.data());
   turn_about(turned.data(), places, out);
 }
 
-// Flux of the core within so many cells, between them by straight lines.
+// Flux of the core within x and y cells, interpolated linearly.
 Rgb core_within(const std::vector<double>& core, double x, double y) {
   const auto clamped = [](double v) { return std::clamp(v, 0.0, kCoreCells - 1e-9); };
   x = clamped(x);

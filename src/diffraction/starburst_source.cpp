@@ -17,9 +17,9 @@ namespace contrejour {
 namespace {
 
 constexpr double kLargestRadius_px = 1e6;
-constexpr int kMostSamples = 4096;  // the spectrum of as many takes 1 GB
+constexpr int kMostSamples = 4096;  // its spectrum takes 1 GB
 
-// Lengths of any optics, mm or nm: beyond, ratios of them leave what a double holds.
+// Lengths of any optics, mm or nm: beyond these, their ratios leave the range of double.
 bool is_positive(double value) { return value >= 1e-9 && value <= 1e9; }
 
 std::optional<std::string> problem_with(std::span<const SpectralBand> bands, const StarburstSettings& settings) {

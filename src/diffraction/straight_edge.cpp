@@ -11,7 +11,7 @@ namespace {
 using Complex = std::complex<double>;
 constexpr int kBandSamples = 9;
 
-// exp(-i pi / 4) times the integral of exp(i pi t^2) from -infinity to each of the steps, one wavelength's.
+// exp(-i pi / 4) times the integral of exp(i pi t^2) from -infinity to each step, at one wavelength.
 std::vector<Complex> edge_by_steps(double first, double step, std::size_t count) {
   const auto turned = [](double t) { return std::polar(1.0, kPi * (t * t - 0.25)); };
   // From -infinity: by parts, exp(i pi t^2) / (2 pi i t) (1 + 1 / (2 pi i t^2) + 3 / (2 pi i t^2)^2).
@@ -28,9 +28,9 @@ std::vector<Complex> edge_by_steps(double first, double step, std::size_t count)
 
 }  // namespace
 
-// Lengths go as the root of the wavelength: short ones look farther.
+// Lengths are in units of the square root of the wavelength: for short wavelengths the same distance is longer.
 StraightEdge::StraightEdge(double spread) {
-  const double half_band = std::min(std::numbers::sqrt3 * spread, 0.9);  // of an even band of that spread
+  const double half_band = std::min(std::numbers::sqrt3 * spread, 0.9);  // of a uniform band of that spread
   const int samples = half_band > 0.0 ? kBandSamples : 1;
   constexpr double kFine = 0.25 / kSteps, kFar = 4.0 * kReach;
   const auto fine = edge_by_steps(-kFar, kFine, static_cast<std::size_t>(2.0 * kFar / kFine) + 2);

@@ -1,10 +1,10 @@
 // The wave behind a straight edge, as a table for many look-ups: 0 far outside the opening, 1 far inside.
-// Behind a rectangle it is a product of differences of two; a dark shape's wave is one less that of an opening of its
+// Behind a rectangle it is a product of differences of two; an opaque shape's wave is 1 minus that of an opening of its
 // form (Babinet's principle).
-// Units: lengths over s = sqrt(lambda z), z the distance, or its effective value behind a lens. A band of wavelengths
-// is averaged over, amplitudes first: what its fringes lose to that is the band's blur. Fringes farther than kReach
-// from the edge are left out, tapered off from kTaperFrom on. Accuracy: 1e-3 of the incident amplitude within
-// kTaperFrom. Thread-safety: constant after it is made. Source: Goodman 2005 eq. 4-17, Born & Wolf 8.7.3.
+// Units: lengths over s = sqrt(lambda z), z the distance, or its effective value behind a lens. The wave is the mean
+// amplitude over a band of wavelengths, so that its fringes have the band's blur. Fringes farther than kReach from the
+// edge are omitted, and tapered from kTaperFrom on. Accuracy: 1e-3 of the incident amplitude within kTaperFrom.
+// Thread-safety: constant after it is made. Source: Goodman 2005 eq. 4-17, Born & Wolf 8.7.3.
 #pragma once
 
 #include <algorithm>
@@ -28,7 +28,7 @@ class StraightEdge {
   }
 
  private:
-  static constexpr double kSteps = 128.0;  // a unit: a fringe at the end of reach is 40 of them
+  static constexpr double kSteps = 128.0;  // steps a unit: a fringe at kReach has 40 of them
   std::vector<std::complex<float>> value_, change_;  // by step from -kReach, and to the next
 };
 

@@ -11,14 +11,14 @@ namespace contrejour {
 namespace {
 
 constexpr double kStepOfSpread = 1.0 / 5.0;  // between the table's directions
-constexpr double kMostSpreads = 3.5;         // on either side: 0.05 per cent of the slopes lie beyond
-constexpr double kFirstK = 64.0;  // the mask's samples go farther out than that
+constexpr double kMostSpreads = 3.5;         // on either side: 0.05 per cent of slopes lie beyond
+constexpr double kFirstK = 64.0;  // the mask's samples extend beyond this
 constexpr double kRowsPerOctave = 12.0;
-constexpr std::size_t kRows = 180;  // to k = 2e6, from where on only fans are left, which go on as k^-3
+constexpr std::size_t kRows = 180;  // up to k = 2e6, beyond which only fans remain, which fall as k^-3
 
 double k_of(std::size_t row) { return kFirstK * std::exp2(static_cast<double>(row) / kRowsPerOctave); }
 
-// The shares of a normal distribution, in steps of kStepOfSpread about its middle.
+// Weights of a normal distribution, in steps of kStepOfSpread about its middle.
 std::vector<double> shares_of_slopes() {
   const int most = static_cast<int>(std::ceil(kMostSpreads / kStepOfSpread));
   std::vector<double> shares;

@@ -1,7 +1,7 @@
-// Edge waves of an opening whose edges are not exact: their slopes scatter about those of the outline, normally
-// distributed. Where the edges' heights are many wavelengths over the angle of diffraction, each piece sends its light
-// along its own normal, so that what an exact outline sends is averaged over directions, which keeps its flux. The ends
-// of fans are smeared; between exact ones that follow one another there is a dark line, as each has a straight edge's
+// Edge waves of an opening with imperfect edges, whose slopes are normally distributed about those of the outline.
+// Where the edges' heights exceed many wavelengths over the angle of diffraction, each piece diffracts along its own
+// normal, so that the pattern of an exact outline is averaged over directions, which conserves its flux. This blurs the
+// ends of fans; consecutive fans of exact edges are separated by a dark line, because each has a straight edge's
 // fringes there. Accuracy: 1 per cent of that average. Source: docs/physics/diffraction.md.
 #pragma once
 
@@ -20,7 +20,7 @@ class UnevenEdges {
   UnevenEdges(const IrisOpening& opening, double slope_spread_rad, const Context& context);
   static constexpr double kLeastSpread_rad = 0.005;
 
-  // All that depends on the direction only. The edges must outlive it.
+  // Everything that depends on the direction alone. The edges must outlive it.
   class Direction {
    public:
     // As EdgeWaves::Direction::power, averaged over the slopes too.
