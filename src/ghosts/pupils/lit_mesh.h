@@ -38,8 +38,8 @@ struct LitMesh {
   [[nodiscard]] double cell_mm2() const { return step_mm.x * step_mm.y; }
 };
 
-// The density of rays: an odd number a side; twice as many if fewer than `enough` are open; and finer where the error
-// of the light exceeds a fraction of the total.
+// The density of rays: an odd number a side; twice as many if fewer than enough_open are open; and finer where the
+// error of the light exceeds a fraction of the total.
 struct MeshDensity {
   int side = 33;
   std::ptrdiff_t enough_open = 120;

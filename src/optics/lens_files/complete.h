@@ -24,13 +24,14 @@ inline constexpr double kNoRim_mm = 1e-3, kAnyFNumber = 8.0;
 inline constexpr double kLeastShare = 0.75;
 
 // Completes and checks a prescription:
-// - semi-diameters of 0, not told, become what the beam needs by first-order optics, the widest field unvignetted;
-// - where neighbours cross at their rims, or a surface ends before its rim, the smaller semi-diameters shrink to where
-// they do not, those told to least_share of themselves at the least; where that is not enough and they cross by some
-// hundredths of a millimetre, as two radii given for one contact do, their gap becomes so much wider;
+// - unknown semi-diameters, 0, become what the beam needs by first-order optics, with the widest field unvignetted;
+// - where neighbours cross at their rims, or a surface ends before its rim, the smaller semi-diameters shrink until
+// they
+//   do not, known ones to least_share of themselves at most; where that is not enough and they cross by some hundredths
+//   of a millimetre, as two radii for one contact surface do, their gap is widened by that;
 // - an f-number of 0 becomes that of the ray parallel to the axis that just passes the stop's whole opening.
-// Each change that a file's own numbers suffer is a warning. Errors: those of validate(), and none of an image behind
-// the lens where the f-number is wanted.
+// Each change of a file's own numbers is a warning. Errors: those of validate(), and a lens without an image behind it
+// if the f-number must be computed.
 [[nodiscard]] Result<Prescription> completed(Prescription lens, const std::optional<Beam>& beam = std::nullopt,
                                              double least_share = kLeastShare);
 

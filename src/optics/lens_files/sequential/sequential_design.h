@@ -90,13 +90,14 @@ struct SequentialDesign {
 // An empty design for a program's file.
 [[nodiscard]] SequentialDesign design_from(std::string program, const std::string& file);
 
+// Converts a design to our lens:
 // - A design without a name gets that of its file.
-// - Surfaces at which nothing is refracted, blocked or stopped go into the gap.
+// - Surfaces at which nothing is refracted, blocked or stopped become part of the gap.
 // - A stop on a surface becomes a row of its own at that surface's vertex, in front of it.
 // - The f-number is that for distant objects; unknown semi-diameters follow from the design's beam.
-// - The sensor has the image circle of the widest field, and stands where the image surface does if that is near the
-// focus of distant objects.
-// - Positions for distant objects are those of a zoom; near ones are left out, as focusing moves the sensor.
+// - The sensor has the image circle of the widest field, and is at the image surface if that is near the focus of
+//   distant objects.
+// - Positions for distant objects are those of a zoom; near ones are omitted, since focusing moves the sensor.
 // Errors: no lens; a decentred or tilted stop or image surface; those of completed().
 [[nodiscard]] Result<Prescription> prescription_of(const SequentialDesign& design);
 

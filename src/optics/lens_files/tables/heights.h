@@ -13,10 +13,10 @@ enum class HeightMeaning { SemiDiameter, Diameter, Unusable };
 
 // Determines the meaning of the heights, which are stored as semi-diameters (0: unknown):
 // - if the widest f-number is known, by the ratio of the stop's height to that of the real marginal ray: from 1.7 on
-// heights are diameters, since a stop may be a little wider than the ray but not much narrower. This does not apply if
-// the computed focal length deviates from the stated one by more than a fifth, or the ratio is not 0.7 to 3;
+//   heights are diameters, since a stop may be a little wider than the ray but not much narrower. This does not apply
+//   if the computed focal length deviates from the stated one by more than a fifth, or the ratio is not 0.7 to 3;
 // - else radii, if the file says so and with these no surface ends and no neighbours cross within three quarters of
-// their rims;
+//   their rims;
 // - else diameters, if they pass this test; else they are unusable.
 [[nodiscard]] HeightMeaning meaning_of_heights(const Prescription& lens, std::optional<double> f_number,
                                                HeightMeaning told = HeightMeaning::SemiDiameter);
