@@ -16,7 +16,7 @@ namespace contrejour {
 [[nodiscard]] Result<void> check_lens(const LensState& lens);
 
 // The largest prescription, both sides of each plate in front of the sensor, and the sensor.
-inline constexpr std::size_t kMostLensSurfaces = 200 + 2 * SensorStack::kMostPlates + 1;
+inline constexpr std::size_t kMaxLensSurfaces = 200 + 2 * SensorStack::kMaxPlates + 1;
 
 // Accepts wavelengths from X-rays to thermal infrared.
 [[nodiscard]] inline bool is_wavelength(double lambda_nm) { return lambda_nm >= 1.0 && lambda_nm <= 1e6; }

@@ -54,10 +54,10 @@ enum class CoatingDesign {
   Broadband,           // MgF2 outermost, then SiO2 and Ta2O5 alternating; lowest mean from 0.76 to 1.24 lambda0
 };
 struct DesignedCoating {
-  static constexpr int kFewestLayers = 4, kMostLayers = 7;
+  static constexpr int kMinLayers = 4, kMaxLayers = 7;
   CoatingDesign design = CoatingDesign::VCoat;
   double lambda0_nm = 550.0;
-  int layers = kFewestLayers;  // of Broadband, 4 to 7
+  int layers = kMinLayers;  // of Broadband, 4 to 7
   friend bool operator==(const DesignedCoating&, const DesignedCoating&) = default;
 };
 

@@ -42,9 +42,9 @@ enum class DirtPlane {
 };
 
 struct Dirt {
-  double dust_per_cm2 = 0.0;  // number of specks, 0 to kMostDustPerCm2
+  double dust_per_cm2 = 0.0;  // number of specks, 0 to kMaxDustPerCm2
   double dust_mm = 0.05;  // median diameter of specks; log-normal, standard deviation kSizeSpread of the logarithm
-  double scratches_per_cm2 = 0.0;  // counted by their middles, 0 to kMostScratchesPerCm2
+  double scratches_per_cm2 = 0.0;  // counted by their middles, 0 to kMaxScratchesPerCm2
   double scratch_length_mm = 5.0;  // median, as of dust
   double scratch_width_mm = 0.01;  // median, as of dust
   double scratch_angle_rad = 0.0;  // along the scratch, counter-clockwise from +x
@@ -58,7 +58,7 @@ struct Dirt {
   std::shared_ptr<const DirtPicture> picture = nullptr;  // in addition to all shapes
 
   static constexpr double kSizeSpread = 0.4;
-  static constexpr double kMostDustPerCm2 = 1000.0, kMostScratchesPerCm2 = 100.0;
+  static constexpr double kMaxDustPerCm2 = 1000.0, kMaxScratchesPerCm2 = 100.0;
   static constexpr double kLongest_mm = 100.0, kWidest_mm = 10.0, kFarthestDrift_mm = 10.0;
 
   [[nodiscard]] bool has_shapes() const { return (dust_per_cm2 > 0.0 || scratches_per_cm2 > 0.0) && opacity > 0.0; }

@@ -15,9 +15,9 @@ namespace contrejour {
 
 class FractionalFourier {
  public:
-  static constexpr int kMostSamples = 4096;
+  static constexpr int kMaxSamples = 4096;
 
-  explicit FractionalFourier(int side);  // 1 to kMostSamples, else side 0; computes the eigenvectors in O(N^3)
+  explicit FractionalFourier(int side);  // 1 to kMaxSamples, else side 0; computes the eigenvectors in O(N^3)
 
   [[nodiscard]] int side() const { return side_; }
 

@@ -93,11 +93,11 @@ enum class IrisClosing {
 // Manufacturing errors: each body of glass between air gaps, cemented parts together, is tilted about its middle and
 // decentred by its own random amounts; the stop stays. Normally distributed in both directions.
 struct BuildErrors {
-  double tilt_rms_rad = 0.0;  // of the angle between the body's axis and the lens's; up to kMostTilt_rad
+  double tilt_rms_rad = 0.0;  // of the angle between the body's axis and the lens's; up to kMaxTilt_rad
   double decentre_rms_mm = 0.0;  // of the distance between the body's middle and the lens's axis
   std::uint32_t seed = 0;  // selects one of the lenses with such errors
 
-  static constexpr double kMostTilt_rad = 0.2;
+  static constexpr double kMaxTilt_rad = 0.2;
 };
 
 // A plane plate in air in front of the sensor: its cover glass or a filter.
@@ -118,8 +118,8 @@ struct SensorStack {
   double pitch_mm = 0.005;  // of the grating
   double fill = 0.8;  // side of a square over the pitch
 
-  static constexpr int kMostOrders = 20;
-  static constexpr std::size_t kMostPlates = 10;
+  static constexpr int kMaxOrders = 20;
+  static constexpr std::size_t kMaxPlates = 10;
 };
 
 // A coating for one surface, in place of the one that the lens has there.

@@ -38,10 +38,10 @@ inline constexpr double kSunRadius_rad = 0.00465;  // 0.53 degrees across
 
 // The largest value of a light in any channel, also after all gains: 32-bit floats can represent it, and the sum of its
 // squares over the largest picture. A light of 1e16 is the sun over 1e10 pixels.
-inline constexpr double kMostLightValue = 1e16;
+inline constexpr double kMaxLightValue = 1e16;
 
 // Errors: InvalidArgument for a direction that is not finite or leads away from the camera, a distance that is not
-// above 0, values that are not finite, exceed kMostLightValue or have a luminance below 0 in this space, a spectrum of
+// above 0, values that are not finite, exceed kMaxLightValue or have a luminance below 0 in this space, a spectrum of
 // which nothing is visible, a temperature that is not from 500 to 100000 K; those of check_extent.
 [[nodiscard]] Result<void> check_light(const Light& light, ColourSpace space);
 

@@ -26,11 +26,11 @@ struct DetectionSettings {
   double softness = 0.25;           // >= 0; 0 makes the threshold hard
   int max_lights = 32;              // >= 1; the rest is merged into the nearest of these
   int min_pixels = 1;               // smaller areas (hot pixels) are no lights
-  double max_value = kMostLevel;    // > 0, at most kMostLevel: upper limit of a pixel's level
+  double max_value = kMaxLevel;    // > 0, at most kMaxLevel: upper limit of a pixel's level
   std::vector<PixelRegion> regions;  // only within these; none: everywhere
 
   // Above every real light: the sun's disc is 1.6e9 cd/m^2.
-  static constexpr double kMostLevel = 1e10;
+  static constexpr double kMaxLevel = 1e10;
 };
 
 struct DetectedLight {
@@ -67,7 +67,7 @@ struct Detection {
   double softness = 0.25;             // as in the settings
   std::vector<DetectedLight> lights;  // by flux (r + g + b), largest first
   int areas_found = 0;                // before merging
-  double max_value = DetectionSettings::kMostLevel;  // as in the settings
+  double max_value = DetectionSettings::kMaxLevel;  // as in the settings
   std::int64_t capped_pixels = 0;     // pixels of areas that exceed it
   std::vector<DetectedLight> areas;   // all, in the order of their first pixels, those too small to be lights too
   std::vector<std::int32_t> area_of_pixel;  // rows from the top; -1: none

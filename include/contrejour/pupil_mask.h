@@ -18,19 +18,19 @@
 namespace contrejour {
 
 struct MaskGrid {
-  static constexpr int kMostSamples = 16384;  // a side
+  static constexpr int kMaxSamples = 16384;  // a side
 
   int side = 512;  // samples
   double pitch_mm = 0.01;
 
-  [[nodiscard]] bool is_usable() const { return side >= 1 && side <= kMostSamples && pitch_mm > 0.0 && pitch_mm < 1e6; }
+  [[nodiscard]] bool is_usable() const { return side >= 1 && side <= kMaxSamples && pitch_mm > 0.0 && pitch_mm < 1e6; }
   [[nodiscard]] Vec2 place_mm(int column, int row) const {
     return {(column + 0.5 - 0.5 * side) * pitch_mm, (0.5 * side - 0.5 - row) * pitch_mm};
   }
 };
 
 // The smallest grid that contains a circle of this radius with `samples_across` samples across it; without samples for
-// invalid arguments or a side above kMostSamples.
+// invalid arguments or a side above kMaxSamples.
 [[nodiscard]] MaskGrid grid_over(double radius_mm, int samples_across);
 
 struct PupilMask {

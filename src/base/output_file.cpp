@@ -28,7 +28,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr int kMaxNameAttempts = 100;
-constexpr int kMostLinks = 40;  // in a chain, as on Linux
+constexpr int kMaxLinks = 40;  // in a chain, as on Linux
 constexpr auto kStale = std::chrono::hours(24);  // no picture takes a day to write
 constexpr std::string_view kHiddenEnding = ".contrejour-part";
 
@@ -91,7 +91,7 @@ void remove_stale(const fs::path& target) {
 // Follows symbolic links to their target, which need not exist. Nothing if they form a cycle.
 std::optional<fs::path> behind_links(fs::path file) {
   std::error_code error;
-  for (int link = 0; link <= kMostLinks; ++link) {
+  for (int link = 0; link <= kMaxLinks; ++link) {
     if (!fs::is_symlink(file, error)) return file;
     const fs::path target = fs::read_symlink(file, error);
     if (error) return file;

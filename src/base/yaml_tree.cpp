@@ -105,12 +105,12 @@ class YamlTreeBuilder : public YAML::EventHandler {
 // Finds the line that opens too many brackets, or 0: yaml-cpp stores all open brackets, a quarter of a kilobyte each,
 // before its first event. Brackets within words count too, but no ordinary text leaves as many open.
 int line_of_many_brackets(std::string_view text) {
-  constexpr int kMost = 1000;
+  constexpr int kMaxOpenBrackets = 1000;
   int line = 1, open = 0;
   for (const char c : text) {
     if (c == '[' || c == '{') ++open;
     if (c == ']' || c == '}') open = std::max(open - 1, 0);
-    if (open > kMost) return line;
+    if (open > kMaxOpenBrackets) return line;
     line += c == '\n' ? 1 : 0;
   }
   return 0;

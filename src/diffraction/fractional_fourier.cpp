@@ -69,7 +69,7 @@ Context without_progress(Context context) {
 
 }  // namespace
 
-FractionalFourier::FractionalFourier(int side) : side_(side >= 1 && side <= kMostSamples ? side : 0) {
+FractionalFourier::FractionalFourier(int side) : side_(side >= 1 && side <= kMaxSamples ? side : 0) {
   if (side_ == 0) return;
   const auto n = static_cast<std::size_t>(side);
   const int middle = side / 2;

@@ -12,7 +12,7 @@
 namespace contrejour {
 namespace {
 
-constexpr int kMostPoints = 16384;
+constexpr int kMaxPoints = 16384;
 
 }  // namespace
 
@@ -22,10 +22,10 @@ Result<FraunhoferPattern> fraunhofer_pattern(const PupilMask& mask, const Fraunh
     if (!(length > 0.0) || !std::isfinite(length))
       return failure(ErrorCode::InvalidArgument,
                      fmt::format("a pattern's distance, wavelength and pitches must be positive, not {}", length));
-  if (settings.grid.side < 1 || settings.grid.side > kMostPoints)
+  if (settings.grid.side < 1 || settings.grid.side > kMaxPoints)
     return failure(
         ErrorCode::InvalidArgument,
-        fmt::format("a pattern of {} points a side is out of range; choose 1 to {}", settings.grid.side, kMostPoints));
+        fmt::format("a pattern of {} points a side is out of range; choose 1 to {}", settings.grid.side, kMaxPoints));
   const double open_mm2 = mask.is_complete() ? mask.open_area_mm2() : 0.0;
   if (!(open_mm2 > 0.0) || !std::isfinite(open_mm2 * settings.flux))
     return failure(ErrorCode::InvalidArgument, "a mask that lets nothing through has no pattern");

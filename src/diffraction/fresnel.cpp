@@ -118,17 +118,17 @@ double fresnel_extent(double fresnel_number) { return 1.0 + 2.0 / std::sqrt(fres
 
 namespace {
 
-// True if the pattern fits into memory: kMostPadded samples a side.
+// True if the pattern fits into memory: kMaxPadded samples a side.
 bool is_usable(const PupilMask& mask, double stop_radius_mm, const FresnelSettings& settings) {
-  constexpr double kMostPadded = 32768.0;
+  constexpr double kMaxPadded = 32768.0;
   if (!mask.is_complete() || !(stop_radius_mm > 0.0) || !(settings.fresnel_number > 0.0) || settings.side < 1 ||
-      settings.side > MaskGrid::kMostSamples)
+      settings.side > MaskGrid::kMaxSamples)
     return false;
   const double extent = settings.extent > 0.0 ? settings.extent : fresnel_extent(settings.fresnel_number);
   const double pitch = mask.grid.pitch_mm / stop_radius_mm;
   if (!std::isfinite(extent) || !(pitch > 0.0) || !std::isfinite(mask.grid.side * pitch)) return false;
   return settings.fresnel_number <= far_up_to(mask, stop_radius_mm) ||
-         mask.grid.side + 2.0 * extent / pitch <= kMostPadded;
+         mask.grid.side + 2.0 * extent / pitch <= kMaxPadded;
 }
 
 }  // namespace

@@ -65,7 +65,7 @@ float sample_bilinear(const Image& image, int channel, double x, double y) {
 }  // namespace
 
 MaskGrid grid_over(double radius_mm, int samples_across) {
-  if (!(radius_mm > 0.0) || samples_across < 2 || samples_across > MaskGrid::kMostSamples - 2) return {0, 0.0};
+  if (!(radius_mm > 0.0) || samples_across < 2 || samples_across > MaskGrid::kMaxSamples - 2) return {0, 0.0};
   return {samples_across + 2, 2.0 * radius_mm / samples_across};
 }
 

@@ -27,14 +27,14 @@ constexpr double kBin_px = 0.7, kNearBin_px = 0.35, kInnerBin_px = 1.0 / 16.0;
 constexpr double kInner_px = 16.0, kNearEnd_px = 1.45 * kNear_px;  // an octave's outer radius
 constexpr double kBin_rho = 0.05;  // or this width, where the pattern itself is smoother than pixels
 constexpr double kSharpBin_rho = 0.2;  // bins narrower than this resolve a spike's middle
-constexpr std::size_t kFewestBins = 96;
-constexpr double kMostBins = 32768;  // 0.7 pixels apart 7300 pixels from the centre; 50 MB an octave
+constexpr std::size_t kMinBins = 96;
+constexpr double kMaxBins = 32768;  // 0.7 pixels apart 7300 pixels from the centre; 50 MB an octave
 constexpr double kFinest_px = 1.0 / 16.0, kCoarse_px = 2.0;  // windows that differ where a direction is sharp
 constexpr double kSharp = 1.1;  // by this factor
 constexpr double kFringesAside = 8.0;
 constexpr std::size_t kPartsOfBin = 4;
 constexpr double kStandsOut = 1.7;  // a part of a bin, over their mean
-constexpr std::size_t kMostParts = 48;
+constexpr std::size_t kMaxParts = 48;
 constexpr std::size_t kBlock = kDirectionsAtOnce;
 
 double angle_of(double turns) { return (turns - 0.5) * kPi; }
@@ -145,7 +145,7 @@ std::vector<double> sharp_parts(const StarburstPattern& pattern, const Context& 
     const double beside = mean(k / kPartsOfBin * kPartsOfBin, kPartsOfBin);
     if (held[k] > kStandsOut * std::max(beside, mean_of_all)) found.push_back(middle(k));
   }
-  if (found.size() > kMostParts) return {};
+  if (found.size() > kMaxParts) return {};
   for (double& turns : found) turns = end.brightest(turns, 2.0 * part);
   std::sort(found.begin(), found.end());
   const auto is_same = [&](double a, double b) { return b - a < 0.5 * part; };  // found on both sides of a bin's border
@@ -157,9 +157,9 @@ OctaveCells laid_out(double first_px, std::span<const double> sharp, const RingS
   const double outer_px = 2.0 * first_px;
   const double finest_px = outer_px <= kInner_px ? kInnerBin_px : outer_px <= kNearEnd_px ? kNearBin_px : kBin_px;
   const double wanted = kPi * outer_px * std::min(1.0 / finest_px, source.rho_per_px / kBin_rho);
-  const auto bins = static_cast<std::size_t>(std::ceil(std::min(wanted, kMostBins) / kBlock)) * kBlock;
+  const auto bins = static_cast<std::size_t>(std::ceil(std::min(wanted, kMaxBins) / kBlock)) * kBlock;
   OctaveCells octave{first_px, {}, {}};
-  const std::size_t enough = std::max(kFewestBins, bins);
+  const std::size_t enough = std::max(kMinBins, bins);
   const double bins_per_px = static_cast<double>(enough) / (kPi * outer_px);
   std::vector<double> cut;
   if (outer_px > kInner_px && source.rho_per_px > kSharpBin_rho * bins_per_px)

@@ -11,7 +11,7 @@ namespace {
 // contains it.
 constexpr std::array<double, 10> kEdges_px{0.03, 0.09, 0.16, 0.24, 0.34, 0.46, 0.6, 0.76, 0.95, 1.18};
 constexpr double kCutPast_px = 1.2;  // of a sharp direction, at the outer radius: bins within it are divided
-constexpr double kLeast_px = 1e-3;   // between edges
+constexpr double kMin_px = 1e-3;   // between edges
 // Pixels reach 0.71 pixels from their middles, which is 2.1 bins at an octave's inner radius.
 constexpr std::size_t kReach = 3;  // bins
 
@@ -55,7 +55,7 @@ RingCells cut_into_cells(std::size_t bins, std::span<const double> sharp, double
     const double to = static_cast<double>(b + 1) / static_cast<double>(bins);
     cells.edge.push_back(from);
     for (; cut != cuts.end() && *cut < to; ++cut)
-      if (*cut > cells.edge.back() + kLeast_px * per_px && *cut < to - kLeast_px * per_px) cells.edge.push_back(*cut);
+      if (*cut > cells.edge.back() + kMin_px * per_px && *cut < to - kMin_px * per_px) cells.edge.push_back(*cut);
   }
   cells.edge.push_back(1.0);
   return cells;

@@ -21,7 +21,7 @@ constexpr double kCleanWithin = 2e-3;  // relative: the error of samples at edge
 constexpr double kScatteredFrom = 0.7;  // of the tail's end: the spectrum from here on is extrapolated beyond
 constexpr double kGrainRho = 1.0;  // distance between its samples, equal to its width
 constexpr int kModelPlaces = 6;  // fewer samples of the model, which is smooth
-constexpr double kLeastGrain = 0.25, kMostGrain = 4.0;  // of the sum over shapes, due to interference
+constexpr double kMinGrain = 0.25, kMaxGrain = 4.0;  // of the sum over shapes, due to interference
 constexpr std::size_t kSharpStrokes = 16;  // the brightest: if many lie together, none is sharp
 constexpr int kRowsPerStep = 4;  // between which the tail times rho^3 is interpolated
 
@@ -249,7 +249,7 @@ void StarburstPattern::measure_grain(const Context& context) {
 
 double StarburstPattern::grain_along(double angle_rad, double window_rad) const {
   const double shapes = shapes_.over(angle_rad, window_rad);
-  return shapes > 0.0 ? std::clamp(halo_.over(angle_rad, window_rad) / shapes, kLeastGrain, kMostGrain) : 1.0;
+  return shapes > 0.0 ? std::clamp(halo_.over(angle_rad, window_rad) / shapes, kMinGrain, kMaxGrain) : 1.0;
 }
 
 double StarburstPattern::spectrum_average(double angle_rad, Vec2 along, double window_rad, double rho) const {

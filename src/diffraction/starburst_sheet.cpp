@@ -32,7 +32,7 @@ struct StarburstSamples {
 
 namespace {
 
-constexpr double kMostPixels = 67108864.0;  // 2^26: 1.6 GB
+constexpr double kMaxPixels = 67108864.0;  // 2^26: 1.6 GB
 // Near the centre linear interpolation between samples is not accurate enough. The core fades out between these radii.
 constexpr double kCoreFrom_px = 16.0, kCoreTo_px = 20.0;
 constexpr int kCellsPerPixel = 8;
@@ -139,7 +139,7 @@ void draw_rows(Image& image, const StarburstSamples& samples, Vec2 centre_px, co
 }  // namespace
 
 Result<StarburstSheet> lay_out(const Starburst& starburst, int width, int height, const Context& context) {
-  if (width < 1 || height < 1 || static_cast<double>(width) * height > kMostPixels)
+  if (width < 1 || height < 1 || static_cast<double>(width) * height > kMaxPixels)
     return failure(ErrorCode::InvalidArgument, "a starburst is laid out for frames of 1 to 2^26 pixels");
   if (starburst.rings() == nullptr) return StarburstSheet();
   auto samples = std::make_shared<StarburstSamples>();

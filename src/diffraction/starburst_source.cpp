@@ -17,7 +17,7 @@ namespace contrejour {
 namespace {
 
 constexpr double kLargestRadius_px = 1e6;
-constexpr int kMostSamples = 4096;  // its spectrum takes 1 GB
+constexpr int kMaxSamples = 4096;  // its spectrum takes 1 GB
 
 // Lengths of any optics, mm or nm: beyond these, their ratios leave the range of double.
 bool is_positive(double value) { return value >= 1e-9 && value <= 1e9; }
@@ -32,9 +32,9 @@ std::optional<std::string> problem_with(std::span<const SpectralBand> bands, con
   if (settings.radius_px > kLargestRadius_px)
     return fmt::format("a starburst of {} pixels is too large; {} are the limit", settings.radius_px,
                        kLargestRadius_px);
-  if (settings.samples_across < 16 || settings.samples_across > kMostSamples)
+  if (settings.samples_across < 16 || settings.samples_across > kMaxSamples)
     return fmt::format("{} samples across the pupil are out of range; choose 16 to {}", settings.samples_across,
-                       kMostSamples);
+                       kMaxSamples);
   if (bands.empty()) return "a starburst needs the light's wavelengths; there are none";
   for (const SpectralBand& band : bands)
     if (!is_positive(band.lambda_nm) || !std::isfinite(band.weight[0] + band.weight[1] + band.weight[2]))
@@ -45,9 +45,9 @@ std::optional<std::string> problem_with(std::span<const SpectralBand> bands, con
 std::optional<std::string> problem_with(const PupilMask& mask, const PupilOutline* outline) {
   if (!mask.real()) return "a starburst takes a mask without phase";
   const auto side = static_cast<std::size_t>(std::max(mask.grid.side, 0));
-  if (mask.grid.side < 2 || mask.grid.side > kMostSamples || mask.amplitude.size() != side * side)
+  if (mask.grid.side < 2 || mask.grid.side > kMaxSamples || mask.amplitude.size() != side * side)
     return fmt::format("a mask of {} samples a side with {} samples is no square of 2 to {}", mask.grid.side,
-                       mask.amplitude.size(), kMostSamples);
+                       mask.amplitude.size(), kMaxSamples);
   if (!is_positive(mask.grid.pitch_mm))
     return fmt::format("a mask's samples cannot be {} mm apart", mask.grid.pitch_mm);
   if (!std::isfinite(mask.open_area_mm2())) return "a mask's amplitudes must be finite";

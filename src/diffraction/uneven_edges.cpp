@@ -11,7 +11,7 @@ namespace contrejour {
 namespace {
 
 constexpr double kStepOfSpread = 1.0 / 5.0;  // between the table's directions
-constexpr double kMostSpreads = 3.5;         // on either side: 0.05 per cent of slopes lie beyond
+constexpr double kMaxSpreads = 3.5;         // on either side: 0.05 per cent of slopes lie beyond
 constexpr double kFirstK = 64.0;  // the mask's samples extend beyond this
 constexpr double kRowsPerOctave = 12.0;
 constexpr std::size_t kRows = 180;  // up to k = 2e6, beyond which only fans remain, which fall as k^-3
@@ -20,7 +20,7 @@ double k_of(std::size_t row) { return kFirstK * std::exp2(static_cast<double>(ro
 
 // Weights of a normal distribution, in steps of kStepOfSpread about its middle.
 std::vector<double> shares_of_slopes() {
-  const int most = static_cast<int>(std::ceil(kMostSpreads / kStepOfSpread));
+  const int most = static_cast<int>(std::ceil(kMaxSpreads / kStepOfSpread));
   std::vector<double> shares;
   double sum = 0.0;
   for (int i = -most; i <= most; ++i) {
@@ -36,7 +36,7 @@ std::vector<double> shares_of_slopes() {
 
 UnevenEdges::UnevenEdges(const IrisOpening& opening, double slope_spread_rad, const Context& context)
     : exact_(opening) {
-  if (!(slope_spread_rad >= kLeastSpread_rad)) return;
+  if (!(slope_spread_rad >= kMinSpread_rad)) return;
   directions_ = static_cast<std::size_t>(std::ceil(kPi / (kStepOfSpread * slope_spread_rad)));
   const double step_rad = kPi / static_cast<double>(directions_);
   std::vector<float> exact(directions_ * kRows);

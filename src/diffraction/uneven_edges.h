@@ -16,9 +16,9 @@ namespace contrejour {
 
 class UnevenEdges {
  public:
-  // slope_spread_rad: RMS. Less than kLeastSpread_rad: the exact outline.
+  // slope_spread_rad: RMS. Less than kMinSpread_rad: the exact outline.
   UnevenEdges(const IrisOpening& opening, double slope_spread_rad, const Context& context);
-  static constexpr double kLeastSpread_rad = 0.005;
+  static constexpr double kMinSpread_rad = 0.005;
 
   // Everything that depends on the direction alone. The edges must outlive it.
   class Direction {

@@ -19,7 +19,7 @@ bool reflects(const SurfaceState& s) {
 // 0-based, ascending.
 std::vector<int> reflecting_surfaces(const LensState& lens) {
   std::vector<int> found;
-  if (lens.surfaces.size() > kMostLensSurfaces) return found;
+  if (lens.surfaces.size() > kMaxLensSurfaces) return found;
   for (std::size_t k = 0; k < lens.surfaces.size(); ++k)
     if (reflects(lens.surfaces[k])) found.push_back(static_cast<int>(k));
   return found;
@@ -57,7 +57,7 @@ void add_orders(const LensState& lens, Ghost ghost, std::vector<Ghost>& to) {
     to.push_back(ghost);
     return;
   }
-  const int most = std::min(lens.sensor_grating.orders, SensorStack::kMostOrders);
+  const int most = std::min(lens.sensor_grating.orders, SensorStack::kMaxOrders);
   for (int x = -most; x <= most; ++x) {
     for (int y = -most; y <= most; ++y) {
       ghost.order = {x, y};

@@ -15,7 +15,7 @@ namespace contrejour {
 struct AreaSettings {
   double threshold = 1;
   double softness = 0.25;
-  double max_value = DetectionSettings::kMostLevel;
+  double max_value = DetectionSettings::kMaxLevel;
 };
 
 [[nodiscard]] bool is_bright(const float* rgb, const AreaSettings& settings);

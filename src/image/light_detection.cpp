@@ -65,7 +65,7 @@ Result<void> check(const Image& rgb, const DetectionSettings& settings) {
     return failure(ErrorCode::InvalidArgument, "the threshold for lights must be 0 or more");
   if (!(std::isfinite(settings.softness) && settings.softness >= 0))
     return failure(ErrorCode::InvalidArgument, "the softness of the threshold must be 0 or more");
-  if (!(settings.max_value > 0 && settings.max_value <= DetectionSettings::kMostLevel))
+  if (!(settings.max_value > 0 && settings.max_value <= DetectionSettings::kMaxLevel))
     return failure(ErrorCode::InvalidArgument, "the most that a pixel counts for must be above 0 and at most 1e10");
   if (settings.max_lights < 1 || settings.min_pixels < 1)
     return failure(ErrorCode::InvalidArgument, "the largest number of lights and their least size must be 1 or more");

@@ -10,12 +10,12 @@
 namespace contrejour {
 namespace {
 
-constexpr double kLeastThreshold = 1;  // white of the working space: darker pixels are never lights
+constexpr double kMinThreshold = 1;  // white of the working space: darker pixels are never lights
 constexpr double kSurfaceShare = 0.98;  // of the pixels below the threshold are lit surfaces ...
 constexpr double kLightOverSurface = 16;  // ... and a light is this much brighter than nearly all of them
 constexpr double kClippedWhite = 1;  // an 8-bit picture's lights are clipped here,
 constexpr double kClippedThreshold = 0.8;  // and at the default softness have full weight there
-constexpr int kMostSteps = 200;
+constexpr int kMaxSteps = 200;
 constexpr double kBrightShare = 0.999;  // of the pixels that are not black, which excludes hot pixels
 constexpr double kBelowBrightest = 4;   // two stops: panes of a window, sky beside the sun
 constexpr double kMiddle = 0.5;
@@ -92,14 +92,14 @@ double threshold_of_brightest(const Histogram& histogram) {
 Threshold automatic_threshold(const Image& rgb) {
   const Histogram histogram(rgb);
   if (histogram.largest() == kClippedWhite) return {kClippedThreshold, ThresholdSource::Clipped};
-  double threshold = kLeastThreshold;
-  for (int step = 0; step < kMostSteps && threshold < histogram.largest(); ++step) {
+  double threshold = kMinThreshold;
+  for (int step = 0; step < kMaxSteps && threshold < histogram.largest(); ++step) {
     const double next = kLightOverSurface * histogram.quantile_below(threshold, kSurfaceShare);
     if (!(next > threshold)) break;
     threshold = next;
   }
   if (threshold < histogram.largest()) return {threshold, ThresholdSource::Gap};
-  const double level = std::max(kLeastThreshold, threshold_of_brightest(histogram));
+  const double level = std::max(kMinThreshold, threshold_of_brightest(histogram));
   const bool stands_out = level < histogram.largest() &&
                           kBelowBrightest * level >= kLightOverSurface * histogram.quantile_below(level, kMiddle);
   if (stands_out) return {level, ThresholdSource::Brightest};

@@ -56,10 +56,10 @@ std::size_t count_finite(std::span<const float> samples) {
 // The finite samples that are at least `least`; most runs of samples have none and need one test.
 std::vector<float> samples_from(std::span<const float> samples, float least) {
   constexpr std::size_t kAtOnce = 32;
-  constexpr float kMost = std::numeric_limits<float>::max();
+  constexpr float kMaxFinite = std::numeric_limits<float>::max();
   std::vector<float> found;
   const auto keep = [&](float value) {
-    if (value >= least && value <= kMost) found.push_back(value);
+    if (value >= least && value <= kMaxFinite) found.push_back(value);
   };
   std::size_t k = 0;
   for (; k + kAtOnce <= samples.size(); k += kAtOnce) {

@@ -19,7 +19,7 @@
 namespace contrejour {
 namespace {
 
-constexpr double kMostPixelAspect = 10.0;  // anamorphic plates have 2; the minimum is its inverse
+constexpr double kMaxPixelAspect = 10.0;  // anamorphic plates have 2; the minimum is its inverse
 constexpr double kChromaticityTolerance = 2e-3;  // files round chromaticities to three or four digits
 
 template <class Action>
@@ -190,11 +190,11 @@ void set_colour_space(Picture& picture, ColourSpace space) {
 
 double pixel_aspect_of(const Picture& picture) {
   const double aspect = picture.header ? static_cast<double>(picture.header->header.pixelAspectRatio()) : 1.0;
-  return aspect >= 1.0 / kMostPixelAspect && aspect <= kMostPixelAspect ? aspect : 1.0;
+  return aspect >= 1.0 / kMaxPixelAspect && aspect <= kMaxPixelAspect ? aspect : 1.0;
 }
 
 void set_pixel_aspect(Picture& picture, double aspect) {
-  if (!(aspect >= 1.0 / kMostPixelAspect && aspect <= kMostPixelAspect)) return;
+  if (!(aspect >= 1.0 / kMaxPixelAspect && aspect <= kMaxPixelAspect)) return;
   change_header(picture, [&](Imf::Header& header) { header.pixelAspectRatio() = static_cast<float>(aspect); });
 }
 

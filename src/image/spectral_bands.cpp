@@ -39,7 +39,7 @@ Sample operator*(double s, const Sample& a) {
   return scaled;
 }
 
-constexpr int kMostBands = 100000;
+constexpr int kMaxBands = 100000;
 
 // Several bands of one spectral line may be at the same whole nanometre; their wavelengths are separated by this, as no
 // two may be equal.
@@ -115,7 +115,7 @@ void make_sum_one(std::vector<SpectralBand>& bands, std::size_t c) {
 }  // namespace
 
 std::vector<SpectralBand> spectral_bands(int count, const Spectrum& light, ColourSpace space) {
-  if (count < 1 || count > kMostBands) return {};
+  if (count < 1 || count > kMaxBands) return {};
   const Samples samples = sample_light(light, space);
   const Cumulative cumulative(samples);
   const Sample& total = cumulative.total();

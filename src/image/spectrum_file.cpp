@@ -15,7 +15,7 @@ namespace {
 constexpr std::size_t kMaxBytes = std::size_t{1} << 20U;
 constexpr double kShortestNm = 1.0;
 constexpr double kLongestNm = 1e5;
-constexpr double kMostPower = 1e30;
+constexpr double kMaxPower = 1e30;
 
 // A finite number and what follows it; false if there is none.
 bool take_number(std::string_view& text, double& value) {
@@ -52,8 +52,8 @@ std::string problem_with(const SpectrumPoint& point, const std::vector<SpectrumP
   if (!(point.lambda_nm >= kShortestNm && point.lambda_nm <= kLongestNm))
     return fmt::format("a wavelength of {} nm is out of range; give {} to {} nm", point.lambda_nm, kShortestNm,
                        kLongestNm);
-  if (!(point.power >= 0.0 && point.power <= kMostPower))
-    return fmt::format("a power of {} is out of range; give 0 to {}", point.power, kMostPower);
+  if (!(point.power >= 0.0 && point.power <= kMaxPower))
+    return fmt::format("a power of {} is out of range; give 0 to {}", point.power, kMaxPower);
   if (!before.empty() && !(point.lambda_nm > before.back().lambda_nm))
     return fmt::format("{} nm comes after {} nm; let wavelengths rise", point.lambda_nm, before.back().lambda_nm);
   return {};

@@ -15,8 +15,8 @@ namespace {
 
 constexpr double kCell_mm = 2.0;
 constexpr double kFarthest_mm = 1e4;
-constexpr double kMostSteps = 1e4;  // along an outline
-constexpr double kMostDeviations = 2.5;  // of a log-normal size
+constexpr double kMaxOutlineSteps = 1e4;  // along an outline
+constexpr double kMaxDeviations = 2.5;  // of a log-normal size
 constexpr double kElongation = 0.8;  // of specks: largest length of the line within one, over its width
 constexpr double kNearlyStraight = 1e-6;  // rad
 
@@ -42,7 +42,7 @@ class Numbers {
   // A normally distributed number (Box & Muller 1958), clipped to the range of sizes.
   double next_normal() {
     const double r = std::sqrt(-2.0 * std::log(1.0 - next()));
-    return std::clamp(r * std::cos(2.0 * kPi * next()), -kMostDeviations, kMostDeviations);
+    return std::clamp(r * std::cos(2.0 * kPi * next()), -kMaxDeviations, kMaxDeviations);
   }
   double next_size(double median) { return median * std::exp(Dirt::kSizeSpread * next_normal()); }
 
@@ -75,7 +75,7 @@ double wandering(double time, Numbers& numbers) {
 }
 
 // The largest size over the median.
-double largest_over_median() { return std::exp(Dirt::kSizeSpread * kMostDeviations); }
+double largest_over_median() { return std::exp(Dirt::kSizeSpread * kMaxDeviations); }
 
 class DirtMaker {
  public:
@@ -180,8 +180,8 @@ Result<void> check_dirt(const Dirt& dirt) {
     return failure(ErrorCode::InvalidArgument, fmt::format("dirt cannot have {} of {}", what, value));
   };
   const auto within = [](double value, double low, double high) { return value >= low && value <= high; };
-  if (!within(dirt.dust_per_cm2, 0.0, Dirt::kMostDustPerCm2)) return bad("specks per cm^2", dirt.dust_per_cm2);
-  if (!within(dirt.scratches_per_cm2, 0.0, Dirt::kMostScratchesPerCm2))
+  if (!within(dirt.dust_per_cm2, 0.0, Dirt::kMaxDustPerCm2)) return bad("specks per cm^2", dirt.dust_per_cm2);
+  if (!within(dirt.scratches_per_cm2, 0.0, Dirt::kMaxScratchesPerCm2))
     return bad("scratches per cm^2", dirt.scratches_per_cm2);
   if (!within(dirt.dust_mm, 1e-4, Dirt::kWidest_mm)) return bad("specks, in mm,", dirt.dust_mm);
   if (!within(dirt.scratch_length_mm, 1e-4, Dirt::kLongest_mm)) return bad("scratches, in mm,", dirt.scratch_length_mm);
@@ -211,7 +211,7 @@ std::vector<Vec2> dirt_outline(const DirtStroke& stroke, double low, double high
   constexpr double kStep_rad = 0.05;  // along a bent line
   const double half = 0.5 * stroke.width_mm;
   const double wanted = std::ceil((high - low) * std::abs(stroke.bend_rad) / kStep_rad);
-  const int steps = wanted >= 1.0 ? static_cast<int>(std::min(wanted, kMostSteps)) : 1;
+  const int steps = wanted >= 1.0 ? static_cast<int>(std::min(wanted, kMaxOutlineSteps)) : 1;
   std::vector<Vec2> outline;
   const auto add_side = [&](double from, double to, double side) {
     for (int i = 0; i <= steps; ++i) {

@@ -12,10 +12,10 @@ inline constexpr IrisBound kIrisRim{{}, 0.0, {}, 1.0};
 
 [[nodiscard]] Vec2 turned(Vec2 p, double angle_rad);  // counter-clockwise about the axis
 
-// 0: the rim alone, for less than three blades and more than kMostBlades.
-inline constexpr int kMostBlades = 100;
+// 0: the rim alone, for less than three blades and more than kMaxBlades.
+inline constexpr int kMaxBlades = 100;
 [[nodiscard]] inline int blade_count(const Iris& iris) {
-  return iris.blades >= 3 && iris.blades <= kMostBlades ? iris.blades : 0;
+  return iris.blades >= 3 && iris.blades <= kMaxBlades ? iris.blades : 0;
 }
 
 [[nodiscard]] bool is_regular(const Iris& iris);  // every edge at the same distance

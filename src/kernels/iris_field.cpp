@@ -15,7 +15,7 @@ namespace {
 
 constexpr float kEdge = 0.5F;       // of the brightest: the level of an antialiased edge
 constexpr double kNearEdge = 2.0;   // samples: beyond, only the sign counts
-constexpr double kLeastSlope = 0.5;  // of a field whose edge may be straight: a distance's is 1
+constexpr double kMinSlope = 0.5;  // of a field whose edge may be straight: a distance's is 1
 constexpr int kHullEdges = 24;
 constexpr double kFar = std::numeric_limits<double>::infinity();
 
@@ -173,7 +173,7 @@ class IrisFieldMaker {
     for (int i = c.i0; i <= c.i1; ++i) gradient.y += (value(i, c.j1) - value(i, c.j0)) / (size.y * columns);
     for_each_sample(c, [&](int, int, double v) { mean += v / (rows * columns); });
     const double slope = length(gradient);
-    if (!(slope > kLeastSlope)) return edge;
+    if (!(slope > kMinSlope)) return edge;
     const Vec2 middle = (whole.low + whole.high) * 0.5;
     IrisBound line{gradient * (1.0 / slope), 0.0, {}};
     line.apothem = dot(line.normal, middle) - mean / slope;

@@ -11,8 +11,8 @@
 namespace contrejour {
 namespace {
 
-constexpr int kFewestSamples = 128;
-constexpr int kMostSamples = 1024;
+constexpr int kMinSamples = 128;
+constexpr int kMaxSamples = 1024;
 constexpr float kNoLine = 1e9F;
 
 // The weights of a few pixels in a sample, along one axis of the picture.
@@ -146,8 +146,8 @@ class NearestSegments {
 StopSamples samples_over_stop(std::span<const float> level, int width, int height) {
   const int longer = std::max(width, height);
   // An even number of samples a pixel, so that edges of small pictures lie between samples.
-  const int repeats = longer >= kFewestSamples ? 1 : 2 * ((kFewestSamples + 2 * longer - 1) / (2 * longer));
-  const int samples = std::min(longer * repeats, kMostSamples);
+  const int repeats = longer >= kMinSamples ? 1 : 2 * ((kMinSamples + 2 * longer - 1) / (2 * longer));
+  const int samples = std::min(longer * repeats, kMaxSamples);
   const auto columns = shares_of_samples(samples, longer, width);
   const auto rows = shares_of_samples(samples, longer, height);
   StopSamples out{samples + 2, {}};

@@ -19,7 +19,7 @@ namespace contrejour::params {
 namespace {
 
 constexpr double kLargestLight_deg = 90.0;
-constexpr double kMostValue = 1e15;         // of a light: any colour of it is within kMostLightValue, or nearly any
+constexpr double kMostValue = 1e15;         // of a light: any colour of it is within kMaxLightValue, or nearly any
 constexpr double kMostStops = 40.0;
 constexpr std::pair<std::string_view, LightValue::Unit> kValueUnits[] = {{"stops", LightValue::Unit::Stops},
                                                                          {"lx", LightValue::Unit::Lux},

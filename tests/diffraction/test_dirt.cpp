@@ -230,7 +230,7 @@ TEST_CASE("dirt that cannot be is refused; none is none") {
   }
   CHECK_FALSE(check_dirt({.time = nan}).has_value());
   // The edges of all ranges at once.
-  Dirt most{.dust_per_cm2 = Dirt::kMostDustPerCm2, .dust_mm = 10.0, .scratches_per_cm2 = Dirt::kMostScratchesPerCm2};
+  Dirt most{.dust_per_cm2 = Dirt::kMaxDustPerCm2, .dust_mm = 10.0, .scratches_per_cm2 = Dirt::kMaxScratchesPerCm2};
   most.scratch_length_mm = Dirt::kLongest_mm;
   most.scratch_width_mm = 10.0;
   most.time = -1e6;

@@ -114,7 +114,7 @@ TEST_CASE("designs reflect less than a single film, broadband ones over the whol
     const auto band = every(430.0, 670.0, 5.0);
     double film = 0.0;
     for (const double nm : band) film += normal_reflectance(single, glass, nm) / static_cast<double>(band.size());
-    for (int layers = DesignedCoating::kFewestLayers; layers <= DesignedCoating::kMostLayers; ++layers) {
+    for (int layers = DesignedCoating::kMinLayers; layers <= DesignedCoating::kMaxLayers; ++layers) {
       CAPTURE(layers);
       const FilmStack stack = designed_for({CoatingDesign::Broadband, 550.0, layers}, glass);
       CHECK(stack.layers.size() == static_cast<std::size_t>(layers));

@@ -293,9 +293,9 @@ TEST_CASE("as much dirt as there may be leaves little light, and none of it nega
     for (const DirtPlane plane : {DirtPlane::Stop, DirtPlane::Front}) {
       CAPTURE(dust_mm);
       lens.dirt = some_dirt(plane);
-      lens.dirt.dust_per_cm2 = Dirt::kMostDustPerCm2;
+      lens.dirt.dust_per_cm2 = Dirt::kMaxDustPerCm2;
       lens.dirt.dust_mm = dust_mm;
-      lens.dirt.scratches_per_cm2 = dust_mm > 0.1 ? 0.0 : Dirt::kMostScratchesPerCm2;
+      lens.dirt.scratches_per_cm2 = dust_mm > 0.1 ? 0.0 : Dirt::kMaxScratchesPerCm2;
       for_each_method([&](const Bounds& bounds) {
         if (bounds.traits.is_exact) return;
         const Image image = image_of(bounds, lens, Light{}, settings);

@@ -186,7 +186,7 @@ TEST_CASE("no dirt is no dirt, bit for bit; threads do not matter; too much of i
   const Image one = starburst(dirty, direction, 48, {.threads = 1});
   CHECK(one.pixels == starburst(dirty, direction, 48, {.threads = 3}).pixels);
   CHECK(one.pixels != clean.pixels);
-  settings.dirt.dust_per_cm2 = Dirt::kMostDustPerCm2;
+  settings.dirt.dust_per_cm2 = Dirt::kMaxDustPerCm2;
   settings.dirt.dust_mm = 10.0;
   const Image dark = starburst(test::bundled("heliar", settings), direction, 48);
   CHECK(std::all_of(dark.pixels.begin(), dark.pixels.end(), [](float v) { return std::isfinite(v); }));

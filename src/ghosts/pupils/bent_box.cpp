@@ -11,11 +11,11 @@ namespace contrejour::pupils {
 namespace {
 
 constexpr int kBentColumns = 64, kBentRows = 12;     // of the upper half
-constexpr std::size_t kFewestRows = 4;       // with light, to fit a side to
+constexpr std::size_t kMinRows = 4;       // with light, to fit a side to
 constexpr double kBentMargin = 0.1;              // of the light's extent, on a side without failing rays within it
-constexpr double kLeastMargin = 0.03;        // closer to failing rays polynomials are inaccurate
+constexpr double kMinMargin = 0.03;        // closer to failing rays polynomials are inaccurate
 constexpr double kTopMargin = 0.02;          // of its height, where a pupil next to a rim is narrow
-constexpr double kLeastStretch = 0.1;
+constexpr double kMinStretch = 0.1;
 constexpr std::array kBends{0.0, 0.25, 0.5, 0.75, 1.0};  // of the fitted curve; curved cells are harder to draw
 constexpr double kNone = std::numeric_limits<double>::infinity();
 
@@ -148,10 +148,10 @@ std::optional<BentBox> box_about(std::span<const Probe> probes, const Bend& bend
   top = std::min(top * (1.0 + kTopMargin), highest);
   const double width = light.high - light.low;
   least_stretch = std::min(least_stretch, bend.stretch(top));
-  if (least_stretch < kLeastStretch || !(width > 0.0)) return std::nullopt;
+  if (least_stretch < kMinStretch || !(width > 0.0)) return std::nullopt;
   Extent room{light.low - kBentMargin * width, light.high + kBentMargin * width};
   for (const Probe& probe : probes) keep_failing_out(room, probe.grid, 0.5 * (light.low + light.high), top, bend);
-  const double least = kLeastMargin * width;
+  const double least = kMinMargin * width;
   if (room.low > light.low - least || room.high < light.high + least) return std::nullopt;
   return BentBox{{{room.low, -top}, {room.high, top}}, bend};
 }
@@ -163,7 +163,7 @@ std::optional<BentBox> bent_box(std::span<ClearanceGrid> wavelengths, const Rect
   const auto probe = [&](ClearanceGrid& grid) {
     grid.trace({{box.low.x, 0.0}, box.high}, kBentColumns, kBentRows);
     probes.push_back({grid, lit_rows(grid), top_of(grid)});
-    return probes.back().rows.size() >= kFewestRows;
+    return probes.back().rows.size() >= kMinRows;
   };
   if (!probe(wavelengths.front())) return std::nullopt;
   const std::vector<Row> rows = probes.front().rows;

@@ -9,7 +9,7 @@ namespace {
 
 constexpr int kFitColumns = 8;
 constexpr double kWidening = 0.2;  // of a box's size, on a side whose border transmits light
-constexpr int kMostWidenings = 4;
+constexpr int kMaxWidenings = 4;
 constexpr float kFitReach = 0.5F;     // ClearanceGrid::may_pass
 
 }  // namespace
@@ -22,7 +22,7 @@ std::optional<Rectangle> BoxFitter::fit(const Rectangle& box) {
   Rectangle half{{box.low.x, std::max(box.low.y, 0.0)}, box.high};
   for (int step = 0;; ++step) {
     grid_.trace(half, kFitColumns, half.low.y == 0.0 ? kFitColumns / 2 : kFitColumns);
-    if (step == kMostWidenings) break;
+    if (step == kMaxWidenings) break;
     const Rectangle next = grid_.grown(kWidening, window_);
     if (next.low == half.low && next.high == half.high) break;
     half = next;

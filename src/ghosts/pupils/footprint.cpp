@@ -57,12 +57,12 @@ double level_of(const LitMesh& mesh, const OpenCell& cell, double pixel_mm) {
   return light_of(mesh, cell) / (long_mm * std::max(image_mm2 / long_mm, pixel_mm));
 }
 
-constexpr double kLeast_mm = 1e-9, kMost_mm = 1e9;  // of a square
+constexpr double kMin_mm = 1e-9, kMax_mm = 1e9;  // of a square
 
 // Candidates for the peak: the brightest cell, and points where many parts of the pupil overlap, by a hash table of
 // squares of the sensor. (A hash collision only adds a candidate that is no peak.)
 std::vector<Vec2> bright_places(const std::vector<LitMesh>& meshes, double pixel_mm) {
-  constexpr std::size_t kBits = 11, kMostPlaces = 6;
+  constexpr std::size_t kBits = 11, kMaxPlaces = 6;
   constexpr double kFarthest = 1e15;  // squares, which can be counted
   std::vector<std::pair<double, Vec2>> table(std::size_t{1} << kBits);
   std::pair<double, Vec2> brightest{0.0, {}};
@@ -83,9 +83,9 @@ std::vector<Vec2> bright_places(const std::vector<LitMesh>& meshes, double pixel
     });
   }
   const auto is_brighter = [](const auto& a, const auto& b) { return a.first > b.first; };
-  std::partial_sort(table.begin(), table.begin() + kMostPlaces, table.end(), is_brighter);
+  std::partial_sort(table.begin(), table.begin() + kMaxPlaces, table.end(), is_brighter);
   std::vector<Vec2> places{brightest.second};
-  for (std::size_t k = 0; k < kMostPlaces; ++k)
+  for (std::size_t k = 0; k < kMaxPlaces; ++k)
     if (table[k].first > 0.0) places.push_back(table[k].second);
   return places;
 }
@@ -169,7 +169,7 @@ double Footprint::flux_within_mm2(const Rectangle& sensor_mm) const {
 
 double Footprint::peak_per_mm2(double pixel_mm) const {
   double peak = 0.0;
-  if (pixel_mm >= kLeast_mm && pixel_mm <= kMost_mm) {
+  if (pixel_mm >= kMin_mm && pixel_mm <= kMax_mm) {
     for (const Vec2 place : bright_places(meshes_, pixel_mm))
       peak = std::max(peak, mean_about(place, meshes_, pixel_mm));
     return peak * shared_flux_;

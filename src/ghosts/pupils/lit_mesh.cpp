@@ -10,11 +10,11 @@
 namespace contrejour::pupils {
 namespace {
 
-constexpr int kMostShrinkings = 3;
+constexpr int kMaxShrinkings = 3;
 constexpr double kWorthShrinking = 0.5;  // of the area
 constexpr double kFull = 0.4;            // fraction of open rays above which a box is not shrunk
 constexpr int kDeepest = 5;              // levels of finer meshes, each with cells of half the size
-constexpr std::size_t kMostFiner = 400;  // blocks of a box that are refined
+constexpr std::size_t kMaxFiner = 400;  // blocks of a box that are refined
 constexpr std::array<std::size_t, 4> kWholeBlock{0, 2, 8, 6};
 constexpr std::uint32_t kFinerSide = 5;  // vertices along a side of a refined block
 
@@ -197,7 +197,7 @@ void MeshTracer::trace_grid(const Rectangle& box, int side) {
 std::optional<LitMesh> MeshTracer::coarse_mesh(Rectangle box) {
   trace_grid(box, density_.side);
   const auto is_full = [&] { return count_open(rays_) >= kFull * density_.side * density_.side; };
-  for (int k = 0; k < kMostShrinkings && !is_full(); ++k) {
+  for (int k = 0; k < kMaxShrinkings && !is_full(); ++k) {
     const auto lit = bounds_of_light(rays_);
     if (!lit) return std::nullopt;
     if (area_of(*lit) >= kWorthShrinking * area_of(box)) break;
@@ -254,7 +254,7 @@ std::vector<LitMesh> MeshTracer::trace(const std::vector<Rectangle>& boxes) {
   for (const LitMesh& mesh : meshes) whole += light_of(mesh);
   const std::size_t coarse = meshes.size();
   for (std::size_t k = 0; k < coarse; ++k) {
-    std::size_t left = kMostFiner;
+    std::size_t left = kMaxFiner;
     std::size_t at = k;
     for (int depth = 0; depth <= kDeepest; ++depth) {
       const std::vector<Block> uncertain = weigh(meshes[at], density_.uncertain * whole, depth < kDeepest ? left : 0);

@@ -126,15 +126,15 @@ Matrix::Matrix(int r, int c)
 
 const std::vector<double>& lobatto_points(int count) {
   static const auto all = [] {
-    std::array<std::vector<double>, kMostLobattoPoints + 1> points;
-    for (int n = 2; n <= kMostLobattoPoints; ++n) {
+    std::array<std::vector<double>, kMaxLobattoPoints + 1> points;
+    for (int n = 2; n <= kMaxLobattoPoints; ++n) {
       auto& of = points[static_cast<std::size_t>(n)];
       for (int k = 0; k < n; ++k) of.push_back(-std::cos(std::numbers::pi * k / (n - 1)));
       if (n % 2 == 1) of[static_cast<std::size_t>(n / 2)] = 0.0;
     }
     return points;
   }();
-  assert(count >= 2 && count <= kMostLobattoPoints);
+  assert(count >= 2 && count <= kMaxLobattoPoints);
   return all[static_cast<std::size_t>(count)];
 }
 
@@ -202,12 +202,12 @@ void transform(const float* field, int nodes, const Matrix& along_x, const Matri
 
 double highest_terms(const float* field, int nodes) {
   static const auto all = [] {
-    std::array<Matrix, kMostPatchNodes + 1> matrices;
-    for (int n = 2; n <= kMostPatchNodes; ++n) matrices[static_cast<std::size_t>(n)] = coefficient_matrix(n);
+    std::array<Matrix, kMaxPatchNodes + 1> matrices;
+    for (int n = 2; n <= kMaxPatchNodes; ++n) matrices[static_cast<std::size_t>(n)] = coefficient_matrix(n);
     return matrices;
   }();
   const Matrix& to_coefficients = all[static_cast<std::size_t>(nodes)];
-  std::array<float, kMostPatchNodes * kMostPatchNodes> c{};
+  std::array<float, kMaxPatchNodes * kMaxPatchNodes> c{};
   transform(field, nodes, to_coefficients, to_coefficients, c.data());
   double sum = 0.0;
   for (int k = 0; k < nodes; ++k) {

@@ -28,8 +28,8 @@ struct Matrix {
   }
 };
 
-// The points, rising from -1 to 1. count: 2 to kMostLobattoPoints.
-constexpr int kMostLobattoPoints = 64;
+// The points, rising from -1 to 1. count: 2 to kMaxLobattoPoints.
+constexpr int kMaxLobattoPoints = 64;
 [[nodiscard]] const std::vector<double>& lobatto_points(int count);
 
 // Both `points.size()` columns by `count` rows: values at the nodes, as a row vector, times the matrix give the
@@ -45,9 +45,9 @@ void multiply(const float* a, int a_rows, int a_stride, int inner, const Matrix&
 // out = transpose(a) * b, for `b` with rows of b_stride floats; out has a.columns rows of b_stride.
 void multiply_transposed(const Matrix& a, const float* b, int b_stride, float* out);
 
-// Computes, for a field over a square of nodes, up to kMostPatchNodes a side, rows by rising y: transpose(along_y) *
+// Computes, for a field over a square of nodes, up to kMaxPatchNodes a side, rows by rising y: transpose(along_y) *
 // field * along_x, as many rows and columns. out may be the field.
-constexpr int kMostPatchNodes = 17;
+constexpr int kMaxPatchNodes = 17;
 void transform(const float* field, int nodes, const Matrix& along_x, const Matrix& along_y, float* out);
 
 // The sum of the absolute values of such a field's Chebyshev coefficients of highest degree in either direction: an

@@ -9,10 +9,10 @@ namespace {
 constexpr int kFirstIntervals = 47;
 constexpr int kParts = 3;  // parts of an interval that is refined
 constexpr int kRounds = 2;
-constexpr std::size_t kMostLooks = 12;  // intervals a round
+constexpr std::size_t kMaxLooks = 12;  // intervals a round
 constexpr float kIntervalReach = 0.5F;          // of the difference of an interval's ends, beyond them
 constexpr int kDeepRounds = 12;         // refinements about rays that fail last, each kParts times finer
-constexpr std::size_t kMostRuns = 3;    // runs of rays that fail last, a round
+constexpr std::size_t kMaxRuns = 3;    // runs of rays that fail last, a round
 constexpr double kHopeless = 0.25;      // of the least failing: rays between would still fail by more than this
 
 bool reaches(const Interval& i, std::span<const Rectangle> boxes) {
@@ -123,7 +123,7 @@ bool MeridianScan::look_deeper(std::vector<double>& x_mm) const {
       least.back() = k;
   }
   std::ranges::stable_sort(least, {}, [&](std::size_t k) { return nodes_[k].failing; });
-  if (least.size() > kMostRuns) least.resize(kMostRuns);
+  if (least.size() > kMaxRuns) least.resize(kMaxRuns);
   for (const std::size_t k : least) {
     if (k > 0 && may_end(k, -1)) look_into({nodes_[k - 1].x_mm, nodes_[k].x_mm}, x_mm);
     if (k + 1 < nodes_.size() && may_end(k, 1)) look_into({nodes_[k].x_mm, nodes_[k + 1].x_mm}, x_mm);
@@ -140,7 +140,7 @@ std::vector<Interval> MeridianScan::find(Interval line, std::span<const Rectangl
   trace(x_mm);
   for (int round = 0; round < kRounds; ++round) {
     x_mm.clear();
-    for (std::size_t k = 0; k + 1 < nodes_.size() && x_mm.size() < kMostLooks * (kParts - 1); ++k) {
+    for (std::size_t k = 0; k + 1 < nodes_.size() && x_mm.size() < kMaxLooks * (kParts - 1); ++k) {
       const Interval i{nodes_[k].x_mm, nodes_[k + 1].x_mm};
       if (!reaches(i, boxes) && is_worth_a_look(k)) look_into(i, x_mm);
     }

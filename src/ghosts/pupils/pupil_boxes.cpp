@@ -12,14 +12,14 @@ namespace {
 
 constexpr int kFirstColumns = 12;  // of the first grid, over the window; half as many rows from y = 0 up
 constexpr int kZoomColumns = 8;        // of the other grids; half as many rows for boxes that touch y = 0
-constexpr int kMostColumns = 32;
+constexpr int kMaxColumns = 32;
 constexpr float kFirstReach = 1.0F;  // ClearanceGrid::may_pass
 constexpr float kBoxReach = 0.5F;
 constexpr double kGrowth = 1.0;  // of a box's size, on a side at which rays get through
-constexpr int kMostGrowths = 2;
+constexpr int kMaxGrowths = 2;
 constexpr int kDeepestZoom = 12;     // levels of grids, each in a part of the preceding one
-constexpr int kMostDark = 2;     // consecutive levels without a ray that gets through
-constexpr std::uint64_t kMostRays = 3000;
+constexpr int kMaxDark = 2;     // consecutive levels without a ray that gets through
+constexpr std::uint64_t kMaxRays = 3000;
 constexpr double kTight = 0.4;         // fraction of open corners at which cells fit well enough
 constexpr double kWorthZooming = 0.6;  // of the area
 constexpr double kSettled = 0.15;      // stop radii, error of an aim that is accepted
@@ -62,7 +62,7 @@ class Search {
     while (!parts_.empty()) {
       Part part = parts_.back();
       parts_.pop_back();
-      for (int step = 0; step <= kMostGrowths; ++step) {
+      for (int step = 0; step <= kMaxGrowths; ++step) {
         grid_.trace(part.box, part.columns, part.box.low.y == 0.0 ? part.columns / 2 : part.columns);
         const Rectangle next = grid_.grown(kGrowth, half_);
         if (next.low == part.box.low && next.high == part.box.high) break;
@@ -91,10 +91,10 @@ class Search {
       const bool tight = open >= kTight * 4.0 * static_cast<double>(piece.size());
       const int dark = open > 0 ? 0 : part.dark + 1;
       const bool last =
-          part.depth == kDeepestZoom || grid_.rays() > kMostRays || (!shrunk && part.columns >= kMostColumns);
+          part.depth == kDeepestZoom || grid_.rays() > kMaxRays || (!shrunk && part.columns >= kMaxColumns);
       if (open > 0 && ((tight && !shrunk) || last)) {
         add_box(next);
-      } else if (!last && dark < kMostDark) {
+      } else if (!last && dark < kMaxDark) {
         parts_.push_back({next, shrunk ? part.columns : 2 * part.columns, part.depth + 1, dark});
       }
     }

@@ -17,13 +17,13 @@ namespace contrejour {
 namespace {
 
 constexpr std::size_t kMaxBytes = std::size_t{1} << 20U;
-constexpr std::size_t kMost = 1000;  // wavelengths, or angles
+constexpr std::size_t kMaxMeasuredValues = 1000;  // wavelengths, or angles
 constexpr double kShortest_nm = 100.0, kLongest_nm = 20000.0;
 
 std::vector<std::string_view> cells_of(std::string_view line) {
   constexpr std::string_view kBetween = ",; \t";
   std::vector<std::string_view> cells;
-  while (cells.size() <= kMost + 1) {
+  while (cells.size() <= kMaxMeasuredValues + 1) {
     line = trimmed(line, kBetween);
     if (line.empty()) break;
     const std::size_t end = std::min(line.find_first_of(kBetween), line.size());
@@ -62,9 +62,9 @@ class Table {
  private:
   Result<void> add_headings(int line, const std::vector<std::string_view>& cells) {
     const bool is_word = cells.front().find_first_of("0123456789.+-") != 0;
-    if (!is_word || cells.size() < 2 || cells.size() > kMost + 1)
-      return wrong(line,
-                   fmt::format("the first line must be a word and 1 to {} angles in degrees, as in nm,0,30,60", kMost));
+    if (!is_word || cells.size() < 2 || cells.size() > kMaxMeasuredValues + 1)
+      return wrong(line, fmt::format("the first line must be a word and 1 to {} angles in degrees, as in nm,0,30,60",
+                                     kMaxMeasuredValues));
     for (std::size_t k = 1; k < cells.size(); ++k) {
       const auto angle_deg = next_in(measured_.angle_deg, cells[k], 0.0, 90.0);
       if (!angle_deg)
@@ -80,9 +80,9 @@ class Table {
       return wrong(line, fmt::format("{} numbers; give a wavelength and a reflectance for each of {} angles",
                                      cells.size(), angles));
     const auto lambda_nm = next_in(measured_.lambda_nm, cells.front(), kShortest_nm, kLongest_nm);
-    if (!lambda_nm || measured_.lambda_nm.size() == kMost)
+    if (!lambda_nm || measured_.lambda_nm.size() == kMaxMeasuredValues)
       return wrong(line, fmt::format("'{}' is no wavelength; let up to {} of them rise from {} to {} nm",
-                                     shortened(cells.front()), kMost, kShortest_nm, kLongest_nm));
+                                     shortened(cells.front()), kMaxMeasuredValues, kShortest_nm, kLongest_nm));
     measured_.lambda_nm.push_back(*lambda_nm);
     for (std::size_t k = 1; k < cells.size(); ++k) {
       const auto share = next_in({}, cells[k], 0.0, 1.0);

@@ -46,7 +46,7 @@ FilmStack v_coat(double lambda0_nm, const Glass& glass) {
 
 // Thicknesses for glass of n = 1.52 at 550 nm: the best result of refining 400 random starts, without very thin films
 // and thick stacks.
-constexpr std::array<std::array<double, DesignedCoating::kMostLayers>, 4> kBroadband_nm = {{
+constexpr std::array<std::array<double, DesignedCoating::kMaxLayers>, 4> kBroadband_nm = {{
     {95.1, 126.4, 36.5, 13.9},
     {93.8, 123.9, 42.4, 11.2, 99.7},
     {100.9, 42.9, 15.2, 57.4, 37.3, 14.6},
@@ -54,8 +54,8 @@ constexpr std::array<std::array<double, DesignedCoating::kMostLayers>, 4> kBroad
 }};
 
 FilmStack broadband(const DesignedCoating& design, const Glass& glass) {
-  const int layers = std::clamp(design.layers, DesignedCoating::kFewestLayers, DesignedCoating::kMostLayers);
-  const auto& start = kBroadband_nm[static_cast<std::size_t>(layers - DesignedCoating::kFewestLayers)];
+  const int layers = std::clamp(design.layers, DesignedCoating::kMinLayers, DesignedCoating::kMaxLayers);
+  const auto& start = kBroadband_nm[static_cast<std::size_t>(layers - DesignedCoating::kMinLayers)];
   FilmStack stack;
   for (int k = 0; k < layers; ++k) {
     const std::string_view material = k == 0 ? "MgF2" : k % 2 == 1 ? "Ta2O5" : "SiO2";
@@ -69,7 +69,7 @@ std::vector<DesignedCoating> all_designs() {
   std::vector<DesignedCoating> all;
   for (const CoatingDesign design : {CoatingDesign::VCoat, CoatingDesign::WCoat, CoatingDesign::QuarterHalfQuarter})
     all.push_back({design});
-  for (int layers = DesignedCoating::kFewestLayers; layers <= DesignedCoating::kMostLayers; ++layers)
+  for (int layers = DesignedCoating::kMinLayers; layers <= DesignedCoating::kMaxLayers; ++layers)
     all.push_back({CoatingDesign::Broadband, 550.0, layers});
   return all;
 }

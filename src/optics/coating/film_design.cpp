@@ -10,7 +10,7 @@
 namespace contrejour {
 namespace {
 
-constexpr int kMostCalls = 400;  // evaluations of the goal; each derivative takes one per film
+constexpr int kMaxCalls = 400;  // evaluations of the goal; each derivative takes one per film
 
 // A film's thickness is the absolute value of its parameter, so that a step through 0 is reflected.
 double thickness_of(double parameter) { return std::min(std::abs(parameter), kThickestFilm_nm); }
@@ -88,7 +88,7 @@ FilmStack refined(const FilmStack& start, const Glass& glass, const FilmGoal& go
   const Residuals residuals(start, glass, goal);
   Eigen::NumericalDiff<Residuals> differentiable(residuals, 1e-8);
   Eigen::LevenbergMarquardt<Eigen::NumericalDiff<Residuals>> method(differentiable);
-  method.parameters.maxfev = kMostCalls;
+  method.parameters.maxfev = kMaxCalls;
   Eigen::VectorXd x = Residuals::parameters(start);
   method.minimize(x);
   FilmStack out = start;

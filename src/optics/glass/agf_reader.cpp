@@ -20,7 +20,7 @@ constexpr std::size_t kMaxWarnings = 100;
 constexpr std::size_t kMaxTagNumbers = 10;      // of one tag
 constexpr std::size_t kMaxTransmittances = 2000;
 // Transmittances are printed with three decimals: a printed 0 is below half of the last digit.
-constexpr double kLeastTransmittance = 0.0005;
+constexpr double kMinTransmittance = 0.0005;
 constexpr double kStatedTolerance = 1e-3;
 
 std::vector<std::string_view> words_of(std::string_view line) {
@@ -139,7 +139,7 @@ void AgfReader::read_transmittance(const std::vector<std::string_view>& words) {
     return problem("IT has a figure that is not a number, or no wavelength");
   if (*mm <= 0.0 || *tau < 0.0) return;
   if (draft_->absorption.size() == kMaxTransmittances) return problem("too many IT lines");
-  draft_->absorption.push_back({*um * 1e3, -std::log(std::clamp(*tau, kLeastTransmittance, 1.0)) / *mm + 0.0});
+  draft_->absorption.push_back({*um * 1e3, -std::log(std::clamp(*tau, kMinTransmittance, 1.0)) / *mm + 0.0});
 }
 
 void AgfReader::read_line(std::string_view line) {

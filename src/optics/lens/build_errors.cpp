@@ -10,7 +10,7 @@
 namespace contrejour {
 namespace {
 
-constexpr double kMostDecentre_mm = 100.0;
+constexpr double kMaxDecentre_mm = 100.0;
 
 // Surfaces first to last with glass between, the stop among them or not.
 struct Body {
@@ -30,7 +30,7 @@ std::vector<Body> bodies_of(const std::vector<SurfaceState>& surfaces) {
 }
 
 Vec3 tilted_axis(Vec2 tilt_rad) {
-  const double angle = std::min(length(tilt_rad), BuildErrors::kMostTilt_rad);
+  const double angle = std::min(length(tilt_rad), BuildErrors::kMaxTilt_rad);
   if (angle == 0.0) return {0, 0, 1};
   const Vec2 towards = tilt_rad * (std::sin(angle) / length(tilt_rad));
   return {towards.x, towards.y, std::cos(angle)};
@@ -39,12 +39,12 @@ Vec3 tilted_axis(Vec2 tilt_rad) {
 }  // namespace
 
 Result<void> check_build_errors(const BuildErrors& errors) {
-  if (!(errors.tilt_rms_rad >= 0.0 && errors.tilt_rms_rad <= BuildErrors::kMostTilt_rad))
+  if (!(errors.tilt_rms_rad >= 0.0 && errors.tilt_rms_rad <= BuildErrors::kMaxTilt_rad))
     return failure(ErrorCode::InvalidArgument, fmt::format("a tilt of {} rad is out of range; choose 0 to {}",
-                                                           errors.tilt_rms_rad, BuildErrors::kMostTilt_rad));
-  if (!(errors.decentre_rms_mm >= 0.0 && errors.decentre_rms_mm <= kMostDecentre_mm))
+                                                           errors.tilt_rms_rad, BuildErrors::kMaxTilt_rad));
+  if (!(errors.decentre_rms_mm >= 0.0 && errors.decentre_rms_mm <= kMaxDecentre_mm))
     return failure(ErrorCode::InvalidArgument, fmt::format("a decentre of {} mm is out of range; choose 0 to {}",
-                                                           errors.decentre_rms_mm, kMostDecentre_mm));
+                                                           errors.decentre_rms_mm, kMaxDecentre_mm));
   return {};
 }
 

@@ -15,7 +15,7 @@ namespace {
 constexpr double kFarthest_mm = 1e7;  // from the first vertex
 constexpr double kLargest_mm = 1e5;
 constexpr double kFirst_nm = 380.0, kLast_nm = 780.0;
-constexpr double kMostIndex = 5.0;  // as of a prescription's glasses
+constexpr double kMaxMediumIndex = 5.0;  // as of a prescription's glasses
 
 tl::unexpected<Error> refused_at(std::size_t index, const std::string& what) {
   return invalid_argument(fmt::format("surface {}: {}", index + 1, what));
@@ -24,7 +24,7 @@ tl::unexpected<Error> refused_at(std::size_t index, const std::string& what) {
 // Checks the ends of the visible range and the design wavelength: glasses from files were checked between them when
 // read.
 bool is_medium(const Glass& glass, double design_nm) {
-  const auto fits = [&](double nm) { return within(refractive_index(glass, nm), 1.0 - 1e-9, kMostIndex); };
+  const auto fits = [&](double nm) { return within(refractive_index(glass, nm), 1.0 - 1e-9, kMaxMediumIndex); };
   return fits(kFirst_nm) && fits(design_nm) && fits(kLast_nm);
 }
 
@@ -56,15 +56,15 @@ Result<void> check_surface(const LensState& lens, std::size_t index) {
   if (const auto problem = obscuration_problem(shaped)) return refused_at(index, *problem);
   if (const auto problem = films_problem(s.coating)) return refused_at(index, *problem);
   if (!is_medium(s.before, lens.design_wavelength_nm) || !is_medium(s.after, lens.design_wavelength_nm))
-    return refused_at(index, fmt::format("an index beside it is not from 1 to {} in the visible", kMostIndex));
+    return refused_at(index, fmt::format("an index beside it is not from 1 to {} in the visible", kMaxMediumIndex));
   return {};
 }
 
 Result<void> check_surfaces(const LensState& lens) {
   if (lens.surfaces.empty()) return invalid_argument("the lens state has no surfaces; make it with lens_at()");
-  if (lens.surfaces.size() > kMostLensSurfaces)
+  if (lens.surfaces.size() > kMaxLensSurfaces)
     return invalid_argument(
-        fmt::format("{} surfaces; at most {} are computed", lens.surfaces.size(), kMostLensSurfaces));
+        fmt::format("{} surfaces; at most {} are computed", lens.surfaces.size(), kMaxLensSurfaces));
   const auto count = [&](SurfaceKind kind) {
     return std::count_if(lens.surfaces.begin(), lens.surfaces.end(),
                          [&](const SurfaceState& s) { return s.kind == kind; });
@@ -95,7 +95,7 @@ Result<void> check_figures(const LensState& lens) {
   if (!(lens.object_distance_mm > 0.0))
     return invalid_argument(fmt::format("an object at a distance of {} mm", lens.object_distance_mm));
   const SensorGrating& grating = lens.sensor_grating;
-  if (grating.orders < 0 || grating.orders > SensorStack::kMostOrders || !positive(grating.pitch_mm, kLargest_mm) ||
+  if (grating.orders < 0 || grating.orders > SensorStack::kMaxOrders || !positive(grating.pitch_mm, kLargest_mm) ||
       !positive(grating.fill, 1.0))
     return invalid_argument("the sensor's grating is none: its orders, pitch or fill are out of range");
   return {};

@@ -11,9 +11,9 @@
 namespace contrejour {
 namespace {
 
-constexpr double kMostAsymmetry = 0.5;
-constexpr double kMostSlopeSpread = 0.5;
-constexpr double kMostRotation_rad = 1e6;  // beyond, angles lose visible accuracy
+constexpr double kMaxAsymmetry = 0.5;
+constexpr double kMaxSlopeSpread = 0.5;
+constexpr double kMaxRotation_rad = 1e6;  // beyond, angles lose visible accuracy
 constexpr double kOpen = 1e-9;        // relative to the hole's area: a smaller difference counts as wide open
 constexpr double kSameRadius = 1e-9;  // relative: the opening's reach is the rim, or its corners' circle
 constexpr int kBisections = 60;       // to the last bits of the blades' position
@@ -63,20 +63,20 @@ ClosedIris close_iris(const Iris& iris, double round_radius_mm, double hole_radi
 Result<void> check_iris(const Iris& iris) {
   const auto refused = [](const std::string& what) { return failure(ErrorCode::InvalidArgument, what); };
   if (iris.field && iris.blades >= 3) return refused("an iris has either blades or a picture's shape; choose one");
-  if (iris.blades > kMostBlades)
-    return refused(fmt::format("an iris of {} blades; there may be {}", iris.blades, kMostBlades));
-  if (!(std::abs(iris.rotation_rad) <= kMostRotation_rad))
+  if (iris.blades > kMaxBlades)
+    return refused(fmt::format("an iris of {} blades; there may be {}", iris.blades, kMaxBlades));
+  if (!(std::abs(iris.rotation_rad) <= kMaxRotation_rad))
     return refused(fmt::format("an iris cannot be turned by {} radians", iris.rotation_rad));
   if (!(iris.curvature >= 0.0 && iris.curvature <= 1.0))
     return refused(
         fmt::format("blades cannot have the curvature {}; choose 0 (straight) to 1 (round)", iris.curvature));
   if (!(iris.blade_radius > 0.0) || !std::isfinite(iris.blade_radius))
     return refused(fmt::format("blades cannot stand {} stop radii out; choose more than 0", iris.blade_radius));
-  if (!(iris.asymmetry >= 0.0 && iris.asymmetry <= kMostAsymmetry))
-    return refused(fmt::format("blades cannot have the asymmetry {}; choose 0 to {}", iris.asymmetry, kMostAsymmetry));
-  if (!(iris.slope_spread >= 0.0 && iris.slope_spread <= kMostSlopeSpread))
+  if (!(iris.asymmetry >= 0.0 && iris.asymmetry <= kMaxAsymmetry))
+    return refused(fmt::format("blades cannot have the asymmetry {}; choose 0 to {}", iris.asymmetry, kMaxAsymmetry));
+  if (!(iris.slope_spread >= 0.0 && iris.slope_spread <= kMaxSlopeSpread))
     return refused(fmt::format("blades' slopes cannot spread by {} of their bend; choose 0 to {}", iris.slope_spread,
-                               kMostSlopeSpread));
+                               kMaxSlopeSpread));
   if (!std::all_of(iris.blade_offset.begin(), iris.blade_offset.end(), [](double o) { return std::isfinite(o); }))
     return refused("a blade's offset is not finite");
   if (IrisOpening(iris).closed()) return refused("these blades let nothing through; move them outwards");

@@ -36,22 +36,21 @@ Coating reflecting(double share) { return {"sensor", MeasuredCoating{{kLineD_nm}
 }  // namespace
 
 Result<void> check_sensor_stack(const SensorStack& stack) {
-  if (stack.plates.size() > SensorStack::kMostPlates)
+  if (stack.plates.size() > SensorStack::kMaxPlates)
     return invalid_argument(
-        fmt::format("{} plates before the sensor; give {} at most", stack.plates.size(), SensorStack::kMostPlates));
+        fmt::format("{} plates before the sensor; give {} at most", stack.plates.size(), SensorStack::kMaxPlates));
   for (const SensorPlate& plate : stack.plates)
     if (const auto good = check_plate(plate); !good) return good;
   if (!(stack.reflectance >= 0.0 && stack.reflectance <= 1.0))
     return invalid_argument(fmt::format("a sensor that reflects {}; give a share from 0 to 1", stack.reflectance));
-  const bool fits = stack.orders >= 0 && stack.orders <= SensorStack::kMostOrders &&
-                    stack.pitch_mm >= kFinestPitch_mm && stack.pitch_mm <= kWidestPitch_mm && stack.fill > 0.0 &&
-                    stack.fill <= 1.0;
+  const bool fits = stack.orders >= 0 && stack.orders <= SensorStack::kMaxOrders && stack.pitch_mm >= kFinestPitch_mm &&
+                    stack.pitch_mm <= kWidestPitch_mm && stack.fill > 0.0 && stack.fill <= 1.0;
   if (fits) return {};
   return invalid_argument(
       fmt::format("pixels of {} um, {} of them filled, {} orders; give a pitch from {} to {} um, a fill to "
                   "1 and {} orders at most",
                   stack.pitch_mm * 1e3, stack.fill, stack.orders, kFinestPitch_mm * 1e3, kWidestPitch_mm * 1e3,
-                  SensorStack::kMostOrders));
+                  SensorStack::kMaxOrders));
 }
 
 Result<void> add_sensor_stack(const SensorStack& stack, const SourcePlace& place, LensState& lens) {

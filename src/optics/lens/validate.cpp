@@ -28,9 +28,9 @@ constexpr double kMinFilmIndex = 0.01;  // silver
 constexpr double kMaxFilm_nm = 1e5;     // thicker films are glass
 constexpr double kMaxLength_mm = 1e5;
 constexpr double kMaxConic = 1e6;       // of a nearly flat surface; real ones stay below 1000
-constexpr double kMostCurvature_per_mm = 1e6;  // no smaller clear aperture exists
+constexpr double kMaxCurvature_per_mm = 1e6;  // no smaller clear aperture exists
 constexpr double kMaxTurn_rad = 1e3;    // beyond, angles lose digits
-constexpr double kLeastUpright = 0.5;   // z of a surface's axis
+constexpr double kMinUpright = 0.5;   // z of a surface's axis
 constexpr double kMaxFNumber = 1000.0;
 constexpr double kMinFNumber = 0.4;  // 0.5 is the limit of an aplanat in air; patents round
 
@@ -251,16 +251,16 @@ namespace {
 bool rising(const std::vector<double>& list, double low, double high) {
   for (std::size_t k = 0; k < list.size(); ++k)
     if (!within(list[k], low, high) || (k > 0 && !(list[k] > list[k - 1]))) return false;
-  return !list.empty() && list.size() <= kMostMeasured;
+  return !list.empty() && list.size() <= kMaxMeasured;
 }
 
 std::optional<std::string> measured_problem(const MeasuredCoating& measured) {
   if (!rising(measured.lambda_nm, 100.0, 20000.0)) {
     return fmt::format("measured wavelengths must rise from 100 nm or more to 20000 nm at the most, 1 to {} of them",
-                       kMostMeasured);
+                       kMaxMeasured);
   }
   if (!rising(measured.angle_deg, 0.0, 90.0))
-    return fmt::format("measured angles must rise within 0 to 90 degrees, 1 to {} of them", kMostMeasured);
+    return fmt::format("measured angles must rise within 0 to 90 degrees, 1 to {} of them", kMaxMeasured);
   const std::size_t wanted = measured.lambda_nm.size() * measured.angle_deg.size();
   const auto fits = [](double r) { return within(r, 0.0, 1.0); };
   if (measured.reflectance.size() == wanted &&
@@ -294,9 +294,9 @@ std::optional<std::string> shape_problem(const Surface& surface) {
       !std::isfinite(shape.curvature_x_per_mm) || !within(shape.turn_rad, -kMaxTurn_rad, kMaxTurn_rad)) {
     return "a number of the surface's shape is not finite, or too large; correct it";
   }
-  if (!within(surface.curvature_per_mm, -kMostCurvature_per_mm, kMostCurvature_per_mm) ||
-      !within(shape.curvature_x_per_mm, -kMostCurvature_per_mm, kMostCurvature_per_mm)) {
-    return fmt::format("a radius is less than {} mm; correct it", 1.0 / kMostCurvature_per_mm);
+  if (!within(surface.curvature_per_mm, -kMaxCurvature_per_mm, kMaxCurvature_per_mm) ||
+      !within(shape.curvature_x_per_mm, -kMaxCurvature_per_mm, kMaxCurvature_per_mm)) {
+    return fmt::format("a radius is less than {} mm; correct it", 1.0 / kMaxCurvature_per_mm);
   }
   const bool has_powers = std::any_of(shape.powers.begin(), shape.powers.end(), [](double a) { return a != 0.0; });
   const bool has_x = shape.curvature_x_per_mm != 0.0 || shape.turn_rad != 0.0;
@@ -310,7 +310,7 @@ std::optional<std::string> shape_problem(const Surface& surface) {
   const Vec3 shift = surface.pose.shift_mm;
   const bool stands = within(shift.x, -kMaxLength_mm, kMaxLength_mm) &&
                       within(shift.y, -kMaxLength_mm, kMaxLength_mm) && within(shift.z, -kMaxLength_mm, kMaxLength_mm);
-  if (!stands || !(std::abs(length(axis) - 1.0) < 1e-9) || !(axis.z >= kLeastUpright)) {
+  if (!stands || !(std::abs(length(axis) - 1.0) < 1e-9) || !(axis.z >= kMinUpright)) {
     return fmt::format(
         "it stands {:.4g} mm aside with its axis along ({:.4g}, {:.4g}, {:.4g}); tilt it by 60 degrees at "
         "most",

@@ -13,7 +13,7 @@ namespace contrejour {
 inline constexpr int kMaxSurfaces = 200;
 inline constexpr int kMaxZoomPositions = 200;
 inline constexpr int kMaxFilmLayers = 200;
-inline constexpr std::size_t kMostMeasured = 1000;  // wavelengths, or angles, of a measured coating
+inline constexpr std::size_t kMaxMeasured = 1000;  // wavelengths, or angles, of a measured coating
 
 // The problem and its remedy, or nothing. The index of a glass must be within its limits over the visible.
 [[nodiscard]] std::optional<std::string> glass_problem(const Glass& glass);

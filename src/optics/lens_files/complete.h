@@ -21,7 +21,7 @@ inline constexpr double kNoRim_mm = 1e-3, kAnyFNumber = 8.0;
 
 // The smallest fraction to which a stated semi-diameter may shrink; if less is needed, other numbers of the file are
 // wrong.
-inline constexpr double kLeastShare = 0.75;
+inline constexpr double kMinShare = 0.75;
 
 // Completes and checks a prescription:
 // - unknown semi-diameters, 0, become what the beam needs by first-order optics, with the widest field unvignetted;
@@ -33,6 +33,6 @@ inline constexpr double kLeastShare = 0.75;
 // Each change of a file's own numbers is a warning. Errors: those of validate(), and a lens without an image behind it
 // if the f-number must be computed.
 [[nodiscard]] Result<Prescription> completed(Prescription lens, const std::optional<Beam>& beam = std::nullopt,
-                                             double least_share = kLeastShare);
+                                             double least_share = kMinShare);
 
 }  // namespace contrejour

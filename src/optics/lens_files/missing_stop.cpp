@@ -16,7 +16,7 @@
 namespace contrejour {
 namespace {
 
-constexpr double kLeastRoom = 0.02;  // of the lens's length: a narrower gap has no space for an iris
+constexpr double kMinRoom = 0.02;  // of the lens's length: a narrower gap has no space for an iris
 constexpr double kSameFocalLength = 0.2;  // relative: with a larger deviation the rows are not the whole lens
 constexpr std::array kPlaces{0.05, 0.5, 0.95};  // within a gap
 constexpr int kFields = 60;
@@ -97,7 +97,7 @@ class StopFinder {
     double least = std::numeric_limits<double>::infinity();
     for (std::size_t k = 0; k + 1 < lens_.surfaces.size(); ++k) {
       const double gap_mm = lens_.surfaces[k].thickness_mm;
-      if (!is_air(lens_.surfaces[k].glass_after) || !(gap_mm >= kLeastRoom * length_mm)) continue;
+      if (!is_air(lens_.surfaces[k].glass_after) || !(gap_mm >= kMinRoom * length_mm)) continue;
       for (const double share : kPlaces) {
         const Place place{k, share * gap_mm};
         const double misfit = misfit_of(place);

@@ -74,10 +74,10 @@ Result<void> check_brightness(std::span<const Light> lights, std::span<const Gho
     const double gain = edge_gain * strongest->tint[c];
     for (std::size_t k = 0; k < lights.size(); ++k) {
       const double value = lights[k].value[c];
-      if (std::abs(value) * gain <= kMostLightValue) continue;
+      if (std::abs(value) * gain <= kMaxLightValue) continue;
       return invalid_argument(fmt::format(
           "light {}: its value of {:.4g} times the gains of ghost {}, {:.4g}, is beyond {:.0e}", k + 1, value,
-          ghost_name(ghosts[static_cast<std::size_t>(strongest - looks.begin())]), gain, kMostLightValue));
+          ghost_name(ghosts[static_cast<std::size_t>(strongest - looks.begin())]), gain, kMaxLightValue));
     }
   }
   return {};

@@ -30,7 +30,7 @@ struct GhostLook {
 inline constexpr double kFarthestOffset = 1000.0, kFarthestPlace = 1e6;
 [[nodiscard]] Result<void> check_ghost_options(const LensState& lens, const GhostOptions& options);
 
-// Errors: InvalidArgument for a light whose value times a ghost's gains exceeds kMostLightValue.
+// Errors: InvalidArgument for a light whose value times a ghost's gains exceeds kMaxLightValue.
 [[nodiscard]] Result<void> check_brightness(std::span<const Light> lights, std::span<const Ghost> ghosts,
                                             std::span<const GhostLook> looks, const GhostOptions& options);
 

@@ -53,9 +53,9 @@ Result<void> check_light(const Light& light, ColourSpace space) {
   if (!(light.distance_mm > 0.0)) return invalid_argument("its distance must be above 0");
   for (const double value : light.value) {
     if (!std::isfinite(value)) return invalid_argument("its value is not a finite number");
-    if (std::abs(value) > kMostLightValue)
+    if (std::abs(value) > kMaxLightValue)
       return invalid_argument(
-          fmt::format("its value of {:.4g} is too large; {:.0e} is the limit", value, kMostLightValue));
+          fmt::format("its value of {:.4g} is too large; {:.0e} is the limit", value, kMaxLightValue));
   }
   if (luminance(light.value, space) < 0.0) return invalid_argument("its value is negative");
   if (!is_visible_spectrum(light.spectrum)) return invalid_argument("nothing of its spectrum is visible");

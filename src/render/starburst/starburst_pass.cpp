@@ -238,10 +238,10 @@ Result<void> check_imaged(std::span<const Light> lights, const FrameSettings& se
       return tl::unexpected(invalid(fmt::format("imaged light {}: {}", k + 1, good.error().message)));
     const Rgb& value = lights[k].value;
     const double most = std::max({std::abs(value[0]), std::abs(value[1]), std::abs(value[2])});
-    if (!(most * gain <= kMostLightValue))
+    if (!(most * gain <= kMaxLightValue))
       return tl::unexpected(invalid(
           fmt::format("imaged light {}: its value of {:.4g} times the starburst's gain, {:.4g}, is beyond {:.0e}",
-                      k + 1, most, gain, kMostLightValue)));
+                      k + 1, most, gain, kMaxLightValue)));
   }
   return {};
 }

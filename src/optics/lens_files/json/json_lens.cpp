@@ -21,9 +21,9 @@ constexpr JsonLensFormat kFormats[] = {
 };
 
 std::string first_keys(const JsonField& root) {
-  constexpr std::size_t kMost = 8;
+  constexpr std::size_t kMaxShown = 8;
   std::string keys;
-  for (std::size_t k = 0; root.is_map() && k < std::min(root.size(), kMost); ++k)
+  for (std::size_t k = 0; root.is_map() && k < std::min(root.size(), kMaxShown); ++k)
     keys += fmt::format("{}'{}'", k == 0 ? "" : ", ", shortened(root.key(k)));
   return keys.empty() ? "none" : keys;
 }

@@ -137,10 +137,10 @@ class LentilReader {
 };
 
 std::string first_lens_keys(const JsonField& root) {
-  constexpr std::size_t kMost = 10;
+  constexpr std::size_t kMaxShown = 10;
   std::string keys;
   std::size_t shown = 0;
-  for (std::size_t k = 0; k < root.size() && shown < kMost; ++k)
+  for (std::size_t k = 0; k < root.size() && shown < kMaxShown; ++k)
     if (is_entry(root[k])) keys += fmt::format("{}{}", shown++ == 0 ? "" : ", ", shortened(root.key(k)));
   return keys;
 }

@@ -17,7 +17,7 @@ struct ForbesAsphere {
   double norm_radius = 1.0;
   std::vector<double> coefficients;  // of Q_0, Q_1, ...
 
-  static constexpr std::size_t kMostTerms = 30;
+  static constexpr std::size_t kMaxTerms = 30;
 };
 
 // At x = u^2, u the distance from the axis over the norm radius: the sum of the coefficients times Q_m(x).

@@ -8,13 +8,13 @@ namespace contrejour {
 namespace {
 
 constexpr std::string_view kBlanks = " \t\r\v\f,";
-constexpr std::size_t kMostWords = 300, kLongestName = 3;
+constexpr std::size_t kMaxWords = 300, kLongestName = 3;
 
 // Reads physical lines, joined where a line is continued.
 class Splitter {
  public:
   std::vector<SeqCommand> split(std::string_view text) {
-    for (int line = 1; !text.empty() && commands_.size() < kMostSeqCommands; ++line) {
+    for (int line = 1; !text.empty() && commands_.size() < kMaxSeqCommands; ++line) {
       const std::size_t end = std::min(text.find('\n'), text.size());
       split_line(text.substr(0, end), line);
       text.remove_prefix(std::min(end + 1, text.size()));
@@ -67,12 +67,12 @@ class Splitter {
         word += line[k++];
       }
     }
-    if (words_.size() < kMostWords) words_.push_back(std::move(word));
+    if (words_.size() < kMaxWords) words_.push_back(std::move(word));
     return k;
   }
 
   void finish() {
-    if (words_.empty() || commands_.size() >= kMostSeqCommands) return words_.clear();
+    if (words_.empty() || commands_.size() >= kMaxSeqCommands) return words_.clear();
     SeqCommand command;
     command.line = line_;
     command.first = words_.front();

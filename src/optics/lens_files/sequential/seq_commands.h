@@ -18,8 +18,8 @@ struct SeqCommand {
   }
 };
 
-// Lines that end with & continue in the next; ! starts a comment; ; separates commands. At most kMostSeqCommands.
-inline constexpr std::size_t kMostSeqCommands = 50'000;
+// Lines that end with & continue in the next; ! starts a comment; ; separates commands. At most kMaxSeqCommands.
+inline constexpr std::size_t kMaxSeqCommands = 50'000;
 [[nodiscard]] std::vector<SeqCommand> seq_commands(std::string_view text);
 
 [[nodiscard]] std::string capitals(std::string_view text);

@@ -22,7 +22,7 @@
 namespace contrejour {
 namespace {
 
-constexpr std::size_t kMostSurfaces = 1000;
+constexpr std::size_t kMaxSeqSurfaces = 1000;
 
 class SeqReader {
  public:
@@ -30,8 +30,8 @@ class SeqReader {
       : errors_{in.file, {}}, finder_(in.glasses), surface_reader_(errors_.file),
         design_(design_from("CODE V", in.file)) {
     const std::vector<SeqCommand> commands = seq_commands(in.text);
-    if (commands.size() >= kMostSeqCommands)
-      fail(0, fmt::format("more than {} commands; no lens has so many", kMostSeqCommands - 1));
+    if (commands.size() >= kMaxSeqCommands)
+      fail(0, fmt::format("more than {} commands; no lens has so many", kMaxSeqCommands - 1));
     for (const SeqCommand& command : commands) {
       if (errors_.first) break;
       read_command(command);
@@ -89,9 +89,9 @@ class SeqReader {
     const std::size_t from = named.is ? 1 : 0;
     std::size_t at = surfaces_.size();
     if (named.is && named.index != kSeqImage) at = static_cast<std::size_t>(named.index);
-    if (at > surfaces_.size() || at >= kMostSurfaces)
-      return fail(command.line, at >= kMostSurfaces
-                                    ? fmt::format("more than {} surfaces; no lens has so many", kMostSurfaces)
+    if (at > surfaces_.size() || at >= kMaxSeqSurfaces)
+      return fail(command.line, at >= kMaxSeqSurfaces
+                                    ? fmt::format("more than {} surfaces; no lens has so many", kMaxSeqSurfaces)
                                     : fmt::format("S{} where S{} is due", at, surfaces_.size()));
     if (at == surfaces_.size()) surfaces_.push_back({});
     current_ = at;

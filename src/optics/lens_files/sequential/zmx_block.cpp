@@ -92,7 +92,7 @@ bool zmx_is_passed_over(std::string_view keyword) {
 }
 
 bool read_zmx_surface_row(const ZmxRow& row, ZmxSurface& s, std::vector<std::string>& warnings) {
-  constexpr std::size_t kMostNumbers = 1000;
+  constexpr std::size_t kMaxZmxNumbers = 1000;
   if (row.is("TYPE")) {
     s.type = row.word(1);
   } else if (row.is("CURV")) {
@@ -102,9 +102,9 @@ bool read_zmx_surface_row(const ZmxRow& row, ZmxSurface& s, std::vector<std::str
   } else if (row.is("CONI")) {
     s.conic = row.number(1);
   } else if (row.is("PARM")) {
-    if (s.parm.size() < kMostNumbers) s.parm[row.whole(1)] = row.number_or_infinity(2);
+    if (s.parm.size() < kMaxZmxNumbers) s.parm[row.whole(1)] = row.number_or_infinity(2);
   } else if (row.is("XDAT")) {
-    if (s.xdat.size() < kMostNumbers) s.xdat[row.whole(1)] = row.number(2);
+    if (s.xdat.size() < kMaxZmxNumbers) s.xdat[row.whole(1)] = row.number(2);
   } else if (row.is("STOP")) {
     s.is_stop = true;
   } else if (row.is("GLAS")) {

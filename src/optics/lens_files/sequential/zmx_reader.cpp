@@ -17,7 +17,7 @@
 namespace contrejour {
 namespace {
 
-constexpr std::size_t kMostSurfaces = 1000;
+constexpr std::size_t kMaxZmxSurfaces = 1000;
 
 class ZmxReader {
  public:
@@ -66,8 +66,8 @@ class ZmxReader {
     in_surface_ = true;
     if (row.whole(1) != static_cast<int>(surfaces_.size()))
       return row.fail(fmt::format("SURF {} where SURF {} is due", shortened(row.word(1)), surfaces_.size()));
-    if (surfaces_.size() >= kMostSurfaces)
-      return row.fail(fmt::format("more than {} surfaces; no lens has so many", kMostSurfaces));
+    if (surfaces_.size() >= kMaxZmxSurfaces)
+      return row.fail(fmt::format("more than {} surfaces; no lens has so many", kMaxZmxSurfaces));
     surfaces_.push_back({});
     surfaces_.back().line = row.line();
   }

@@ -117,20 +117,20 @@ Placement tilted_plane(double along_x, double along_y) {
 // Forbes' asphere: XDAT 1 is 0 for Qbfs and 1 for Qcon, 2 the number of terms, 3 the norm radius, from 4 on Q_0, Q_1,
 // ... What is wrong, or nothing.
 std::optional<std::string> set_forbes(const ZmxSurface& in, SurfaceShape& shape) {
-  constexpr double kMostOff = 1e-5;
+  constexpr double kMaxOff = 1e-5;
   constexpr int kFirstOfForbes = 4;
   ForbesAsphere asphere;
   if (in.extra(1) != 0.0 && in.extra(1) != 1.0) return fmt::format("its type is {:g}; 0 and 1 are known", in.extra(1));
   asphere.kind = in.extra(1) == 0.0 ? ForbesKind::Bfs : ForbesKind::Con;
   asphere.norm_radius = in.extra(3);
   if (!(asphere.norm_radius > 0.0)) return fmt::format("its norm radius is {:g}", asphere.norm_radius);
-  if (!(in.extra(2) <= static_cast<double>(ForbesAsphere::kMostTerms)))
-    return fmt::format("{:g} terms; at most {} are computed", in.extra(2), ForbesAsphere::kMostTerms);
+  if (!(in.extra(2) <= static_cast<double>(ForbesAsphere::kMaxTerms)))
+    return fmt::format("{:g} terms; at most {} are computed", in.extra(2), ForbesAsphere::kMaxTerms);
   for (int k = 0; k < static_cast<int>(in.extra(2)); ++k) asphere.coefficients.push_back(in.extra(kFirstOfForbes + k));
   const double reach = in.semi_diameter > 0.0 ? in.semi_diameter : asphere.norm_radius;
   const auto fitted = powers_of_forbes(in.curvature, in.conic, asphere, reach);
   if (!fitted) return fmt::format("its conic ends within {:g} of the axis", reach);
-  if (fitted->off > kMostOff)
+  if (fitted->off > kMaxOff)
     return fmt::format("powers up to r^{} miss it by {:.2g}; no more are computed", SurfaceShape::kHighestPower,
                        fitted->off);
   shape.powers = fitted->powers;

@@ -84,8 +84,8 @@ void ZmxSystem::read_light(const ZmxRow& row, SequentialDesign& design) {
 }
 
 void ZmxSystem::set_wavelength(int k, double um) {
-  constexpr int kMostWavelengths = 100;
-  if (k < 1 || k > kMostWavelengths) return;
+  constexpr int kMaxWavelengths = 100;
+  if (k < 1 || k > kMaxWavelengths) return;
   wavelengths_um_.resize(std::max(wavelengths_um_.size(), static_cast<std::size_t>(k)));
   wavelengths_um_[static_cast<std::size_t>(k) - 1] = um;
 }

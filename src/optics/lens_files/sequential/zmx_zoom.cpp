@@ -54,8 +54,8 @@ void ZmxConfigurations::begin(const ZmxRow& row) {
 }
 
 void ZmxConfigurations::add(const ZmxRow& row) {
-  constexpr std::size_t kMost = 20'000;
-  if (row.size() < 4 || operands.size() >= kMost) return;
+  constexpr std::size_t kMaxOperands = 20'000;
+  if (row.size() < 4 || operands.size() >= kMaxOperands) return;
   const auto subject = plain_number(row.word(1)), configuration = plain_number(row.word(2));
   if (!subject || !configuration || std::abs(*subject) > 1e6 || std::abs(*configuration) > 1e6) return;
   // A title may have spaces.

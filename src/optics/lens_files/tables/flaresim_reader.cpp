@@ -26,7 +26,7 @@ constexpr std::string_view kFlareSimSpace = " \t\r\v\f";
 constexpr double kAirIndex = 1.0001;  // FlareSim: up to this index it is air, and a V_d below 0.1 means no dispersion
 constexpr double kSameIndex = 1e-3;
 // Its files have no aspheres: the sphere in place of a strong asphere may end before its rim.
-constexpr double kLeastShareWithoutAspheres = 0.3;
+constexpr double kMinShareWithoutAspheres = 0.3;
 
 // "f/2.8" or "F2.8" of a text; of several the last.
 std::optional<double> f_number_in(std::string_view text) {
@@ -45,8 +45,8 @@ std::optional<double> f_number_in(std::string_view text) {
 
 std::vector<std::string_view> flaresim_words(std::string_view line) {
   std::vector<std::string_view> words;
-  constexpr std::size_t kMost = 16;
-  while (words.size() < kMost) {
+  constexpr std::size_t kMaxWords = 16;
+  while (words.size() < kMaxWords) {
     line = trimmed(line, kFlareSimSpace);
     if (line.empty()) break;
     const std::size_t end = std::min(line.find_first_of(kFlareSimSpace), line.size());
@@ -69,7 +69,7 @@ class FlareSimReader {
     finish();
     if (error_) return tl::unexpected(*error_);
     const auto beam = full_frame_beam(lens_);
-    auto lens = completed(std::move(lens_), beam, kLeastShareWithoutAspheres);
+    auto lens = completed(std::move(lens_), beam, kMinShareWithoutAspheres);
     if (lens) warn_of_lost_gap(*lens);
     return lens;
   }
@@ -176,9 +176,9 @@ class FlareSimReader {
     }
     if (layers < 2.0) return {"", QuarterWave{}};
     multi_.push_back(line);
-    const double films = DesignedCoating::kFewestLayers + layers - 2.0;
+    const double films = DesignedCoating::kMinLayers + layers - 2.0;
     return {"", DesignedCoating{CoatingDesign::Broadband, 550.0,
-                                static_cast<int>(std::min(films, double{DesignedCoating::kMostLayers}))}};
+                                static_cast<int>(std::min(films, double{DesignedCoating::kMaxLayers}))}};
   }
 
   // A cyl_x's axis lies along x, so it curves in y; its one radius is that in y.

@@ -59,8 +59,8 @@ HeightMeaning meaning_of_heights(const Prescription& lens, std::optional<double>
   if (f_number) {
     if (const auto meaning = meaning_of_stop(lens, *f_number)) return *meaning;
   }
-  if (told == HeightMeaning::SemiDiameter && fits(lens, kLeastShare)) return told;
-  return fits(lens, 0.5 * kLeastShare) ? HeightMeaning::Diameter : HeightMeaning::Unusable;
+  if (told == HeightMeaning::SemiDiameter && fits(lens, kMinShare)) return told;
+  return fits(lens, 0.5 * kMinShare) ? HeightMeaning::Diameter : HeightMeaning::Unusable;
 }
 
 void apply_heights(Prescription& lens, HeightMeaning meaning) {

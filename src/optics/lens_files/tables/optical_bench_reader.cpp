@@ -23,7 +23,7 @@ namespace contrejour {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr std::size_t kMostCells = 64, kMostRows = 2000;
+constexpr std::size_t kMaxCells = 64, kMaxRows = 2000;
 
 struct Row {
   int line = 0;
@@ -36,7 +36,7 @@ using Sections = std::map<std::string, std::vector<Row>, std::less<>>;
 
 std::vector<std::string_view> cells_of(std::string_view line) {
   std::vector<std::string_view> cells;
-  while (cells.size() < kMostCells) {
+  while (cells.size() < kMaxCells) {
     const std::size_t tab = line.find('\t');
     cells.push_back(trimmed(line.substr(0, tab), " "));
     if (tab == std::string_view::npos) break;
@@ -90,7 +90,7 @@ class OpticalBenchReader {
         section = &sections_[std::string(first.substr(1, first.size() - 2))];
       } else if (section != nullptr) {
         section->push_back({line, cells});
-        if (++rows > kMostRows) fail(line, fmt::format("more than {} lines; no lens has so many", kMostRows));
+        if (++rows > kMaxRows) fail(line, fmt::format("more than {} lines; no lens has so many", kMaxRows));
       }
     }
   }
