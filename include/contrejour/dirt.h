@@ -74,8 +74,8 @@ struct DirtStroke {
   double bend_rad = 0;  // change of the line's direction from end to end, counter-clockwise
   double opacity = 1;
 
-  [[nodiscard]] Vec2 at(double share) const;  // fraction of the line, -1/2 to 1/2
-  [[nodiscard]] Vec2 normal_at(double share) const;  // unit, to the left
+  [[nodiscard]] Vec2 at(double fraction) const;  // fraction of the line, -1/2 to 1/2
+  [[nodiscard]] Vec2 normal_at(double fraction) const;  // unit, to the left
   [[nodiscard]] double reach_mm() const {
     return 0.5 * (length_mm + width_mm);
   }  // upper bound of the distance from

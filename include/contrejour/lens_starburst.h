@@ -26,7 +26,7 @@ struct ExitPupil {
   double radius = 0;  // of the circle about the mask's middle that contains the pupil; 0: no light gets through
   Vec2 middle;  // the cosines of the mask's middle
   double flux_mm2 = 0;  // of the direct image at E0 = 1: GhostMeter::direct_flux without what dirt blocks
-  double open_share = 1;  // fraction of the flux that dirt transmits
+  double open_fraction = 1;  // fraction of the flux that dirt transmits
   double fit_error = 0;  // largest error of the borders, relative to the stop's or rim's radius, at traced rays that
                          // were not fitted
   std::vector<Vec3> rays_mm;  // points in front of the lens of some rays that get through, evenly spread

@@ -78,7 +78,7 @@ struct Detection {
 
 // The matte: the weight that detect_lights gave each pixel, 0..1, one channel. Areas that are too small to be lights
 // count too. Empty for a detection in an image of another size.
-[[nodiscard]] Image light_shares(const Image& rgb, const Detection& detection);
+[[nodiscard]] Image light_matte(const Image& rgb, const Detection& detection);
 
 // The part of the picture that contains a light's areas: weight * value in each of their pixels and 0 elsewhere, three
 // channels. Its pixel (0, 0) is the picture's (min_x, min_y). Empty for a detection in an image of another size.

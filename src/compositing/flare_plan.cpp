@@ -97,7 +97,7 @@ Result<void> find_lights(const Picture& picture, const LensState& lens, const Va
   plan.found = std::move(*found);
   if (values.is_on("starburst") || values.number("glare") > 0.0)
     plan.already_there =
-        std::make_shared<const Image>(frame_of_picture(light_shares(picture.rgb, plan.found), plan.grid));
+        std::make_shared<const Image>(frame_of_picture(light_matte(picture.rgb, plan.found), plan.grid));
   plan.lights = lights_of(plan.found, *spectrum, picture, plan, lens, values);
   if (!plan.already_there || !values.is_on("light-shape") || plan.found.areas_found <= detection.max_lights) return {};
   detection.threshold = plan.found.threshold;

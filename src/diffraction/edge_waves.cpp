@@ -181,9 +181,9 @@ EdgeWaves::Direction::Joined EdgeWaves::Direction::joined_arcs(const Edge& befor
   const double shorter = std::min(scale_before * 0.5 * (before.tau_end - before.tau_start),
                                   scale_after * 0.5 * (after.tau_end - after.tau_start));
   constexpr double kFade = kAsymptoticFrom - kUniformEnd;
-  const double share =
+  const double weight =
       std::min(smooth_step((kAsymptoticFrom - farther) / kFade), smooth_step((shorter - kUniformEnd) / kFade));
-  if (!(share > 0.0)) return {};
+  if (!(weight > 0.0)) return {};
   const double du = 0.5 * std::max(scale_before, scale_after) * window_rad;
   const int steps = std::clamp(static_cast<int>(std::ceil(du / kStepU)), 1, kMaxSteps);
   const auto wave = [&](double from, double to, double corner) {
@@ -197,7 +197,7 @@ EdgeWaves::Direction::Joined EdgeWaves::Direction::joined_arcs(const Edge& befor
     sum += std::real(wave(u_of(scale_before, before.tau_start + shift), end, end) *
                      std::conj(wave(start, u_of(scale_after, after.tau_end + shift), start)));
   }
-  return {2.0 * kPi * k * std::sqrt(before.radius * after.radius) * sum / steps, share};
+  return {2.0 * kPi * k * std::sqrt(before.radius * after.radius) * sum / steps, weight};
 }
 
 // Corners: |sum of both edges' ends|^2, without what oscillates (Komrska 1982 eq. 10, averaged). Near an edge's normal
@@ -210,7 +210,7 @@ double EdgeWaves::Direction::power(double k) const {
     const Joined joined = joined_arcs(before, after, k, window_rad_);
     const double cotangents = std::clamp(before.cot_end, -bound_before, bound_before) *
                               std::clamp(after.cot_start, -bound_after, bound_after);
-    return joined.share * joined.power - (1.0 - joined.share) * 2.0 * cotangents;
+    return joined.weight * joined.power - (1.0 - joined.weight) * 2.0 * cotangents;
   };
   for (std::size_t j = 0; j < edges_.size(); ++j) {
     const Edge& edge = edges_[j];

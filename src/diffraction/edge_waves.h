@@ -44,7 +44,7 @@ class EdgeWaves {
     // The cross term of two edges' waves at their common corner, and the weight with which it replaces the cotangents'
     // product.
     struct Joined {
-      double power = 0.0, share = 0.0;
+      double power = 0.0, weight = 0.0;
     };
     [[nodiscard]] static Joined joined_arcs(const Edge& before, const Edge& after, double k, double window_rad);
 

@@ -14,15 +14,15 @@ constexpr std::size_t kSameDirection = 8;  // bins that share one pixel profile
 constexpr std::size_t kMaxPixelBins = 3;       // number of bins that a pixel reaches on each side of its middle
 
 // Fractions of a pixel in strips of this width on one side of its middle: they sum to one half.
-std::array<float, kMaxPixelBins> shares_from_middle(const PixelProfile<double>& profile, double width_px) {
-  std::array<float, kMaxPixelBins> shares{};
+std::array<float, kMaxPixelBins> fractions_from_middle(const PixelProfile<double>& profile, double width_px) {
+  std::array<float, kMaxPixelBins> fractions{};
   double below = 0.5;
   for (std::size_t k = 0; k < kMaxPixelBins; ++k) {
-    const double next = k + 1 == kMaxPixelBins ? 1.0 : profile.share_below(static_cast<double>(k + 1) * width_px);
-    shares[k] = static_cast<float>(next - below);
+    const double next = k + 1 == kMaxPixelBins ? 1.0 : profile.fraction_below(static_cast<double>(k + 1) * width_px);
+    fractions[k] = static_cast<float>(next - below);
     below = next;
   }
-  return shares;
+  return fractions;
 }
 
 // One row of bins, averaged over the rows that a pixel covers, if rows are narrower than pixels.
@@ -40,7 +40,7 @@ void average_rows(std::span<const float> bins_rgb0, std::size_t bins, double rad
     double below = 0.0;
     for (std::size_t k = 0; k < weight.size(); ++k) {
       const double end = (static_cast<double>(k) + 0.5 - static_cast<double>(kRowMargin)) * height_px;
-      const double next = k + 1 == weight.size() ? 1.0 : profile.share_below(end);
+      const double next = k + 1 == weight.size() ? 1.0 : profile.fraction_below(end);
       weight[k] = static_cast<float>(next - below);
       below = next;
     }
@@ -65,12 +65,12 @@ void average_over_pixels(std::span<const float> bins_rgb0, std::size_t bins, dou
   const double width_px = radius_px * kPi / static_cast<double>(bins);
   for (std::size_t b = 0; b <= bins; b += kSameDirection) {
     const double angle = (static_cast<double>(b) + 0.5 * kSameDirection) / static_cast<double>(bins) * kPi;
-    const auto share = shares_from_middle(PixelProfile<double>(std::cos(angle), std::sin(angle), 1.0), width_px);
+    const auto fractions = fractions_from_middle(PixelProfile<double>(std::cos(angle), std::sin(angle), 1.0), width_px);
     for (std::size_t i = b * 4; i < std::min(bins + 1, b + kSameDirection) * 4; ++i) {
       const float* const middle = around.data() + kMaxPixelBins * 4 + i;
       float sum = 0.0F;
       for (std::size_t k = 0; k < kMaxPixelBins; ++k)
-        sum += share[k] * (middle[4 * k] + *(middle - 4 * (static_cast<std::ptrdiff_t>(k) + 1)));
+        sum += fractions[k] * (middle[4 * k] + *(middle - 4 * (static_cast<std::ptrdiff_t>(k) + 1)));
       to[i] = sum;
     }
   }

@@ -23,7 +23,7 @@ class PixelProfile {
   [[nodiscard]] Real reach() const { return reach_; }  // of the pixel's corners
 
   // The fraction of the pixel below a line at this signed distance: 0 to 1.
-  [[nodiscard]] Real share_below(Real distance) const {
+  [[nodiscard]] Real fraction_below(Real distance) const {
     const Real d = std::min(std::abs(distance), reach_);
     const Real beyond = d - level_;
     // Half of the pixel less the remaining corner.

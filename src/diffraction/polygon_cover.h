@@ -28,10 +28,10 @@ class PolygonCover {
         double& change = change_[static_cast<std::size_t>(row) * width_ + static_cast<std::size_t>(column)];
         area += change;
         change = 0.0;
-        const double share = sign > 0.0 ? area : -area;
-        if (column < side_ && share > kNothing)
+        const double covered = sign > 0.0 ? area : -area;
+        if (column < side_ && covered > kNothing)
           visit(static_cast<std::size_t>(row) * static_cast<std::size_t>(side_) + static_cast<std::size_t>(column),
-                share < 1.0 ? share : 1.0);
+                covered < 1.0 ? covered : 1.0);
       }
       touched = {};
     }

@@ -14,7 +14,7 @@ namespace {
 constexpr double kFarthest = 1e8;  // samples, of a polygon's corner
 
 // The fraction of the unit square about the origin where normal . p + distance <= 0; normal is unit.
-double half_plane_share(Vec2 normal, double distance) {
+double half_plane_fraction(Vec2 normal, double distance) {
   const double a = std::max(std::abs(normal.x), std::abs(normal.y));
   const double b = std::min(std::abs(normal.x), std::abs(normal.y));
   const double reach = 0.5 * (a + b), straight = 0.5 * (a - b);
@@ -24,14 +24,14 @@ double half_plane_share(Vec2 normal, double distance) {
   return distance > 0.0 ? beyond : 1.0 - beyond;
 }
 
-double open_share(const std::function<double(Vec2)>& distance_mm, Vec2 p, double pitch_mm) {
+double open_fraction(const std::function<double(Vec2)>& distance_mm, Vec2 p, double pitch_mm) {
   const double d = distance_mm(p) / pitch_mm;
   if (std::abs(d) > 1.0) return d > 0.0 ? 0.0 : 1.0;  // farther than the sample's corners
   const double h = 0.5 * pitch_mm;
   const Vec2 gradient{distance_mm({p.x + h, p.y}) - distance_mm({p.x - h, p.y}),
                       distance_mm({p.x, p.y + h}) - distance_mm({p.x, p.y - h})};
   const double size = length(gradient);
-  return size > 0.0 ? half_plane_share(gradient * (1.0 / size), d) : 0.5;
+  return size > 0.0 ? half_plane_fraction(gradient * (1.0 / size), d) : 0.5;
 }
 
 std::size_t pixels_of(int side) { return static_cast<std::size_t>(side) * static_cast<std::size_t>(side); }
@@ -81,7 +81,7 @@ PupilMask make_mask(const MaskGrid& grid, const std::function<double(Vec2)>& dis
   parallel_for(static_cast<std::size_t>(grid.side), context, [&](std::size_t row) {
     for (int column = 0; column < grid.side; ++column)
       mask.amplitude[row * static_cast<std::size_t>(grid.side) + static_cast<std::size_t>(column)] =
-          static_cast<float>(open_share(distance_mm, grid.place_mm(column, static_cast<int>(row)), grid.pitch_mm));
+          static_cast<float>(open_fraction(distance_mm, grid.place_mm(column, static_cast<int>(row)), grid.pitch_mm));
   });
   return mask;
 }
@@ -132,9 +132,9 @@ void dim(PupilMask& mask, MaskPower& power, std::span<const DimPolygon> polygons
     const bool is_near = std::all_of(corners.begin(), corners.end(),
                                      [](Vec2 p) { return std::abs(p.x) <= kFarthest && std::abs(p.y) <= kFarthest; });
     if (!is_near || corners.size() < 3) continue;
-    cover.for_each(corners, [&](std::size_t sample, double share) {
-      mask.amplitude[sample] *= static_cast<float>(1.0 - share * amplitude_lost);
-      power[sample] *= static_cast<float>(1.0 - share * lost);
+    cover.for_each(corners, [&](std::size_t sample, double fraction) {
+      mask.amplitude[sample] *= static_cast<float>(1.0 - fraction * amplitude_lost);
+      power[sample] *= static_cast<float>(1.0 - fraction * lost);
     });
   }
 }

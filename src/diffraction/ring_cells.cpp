@@ -103,18 +103,18 @@ void add_sharp_zones(const RingCells& cells, std::span<const float> rgb0, std::s
 
 std::vector<float> means_over_bins(const RingCells& cells, std::span<const float> rgb0, std::size_t rows) {
   std::vector<std::size_t> bin_of(cells.cells());
-  std::vector<float> share(cells.cells());
+  std::vector<float> fraction(cells.cells());
   for (std::size_t k = 0; k < cells.cells(); ++k) {
     const auto bins = static_cast<double>(cells.bins);
     bin_of[k] = static_cast<std::size_t>(0.5 * (cells.edge[k] + cells.edge[k + 1]) * bins);
-    share[k] = static_cast<float>((cells.edge[k + 1] - cells.edge[k]) * bins);
+    fraction[k] = static_cast<float>((cells.edge[k + 1] - cells.edge[k]) * bins);
   }
   std::vector<float> means(rows * cells.bins * 4);
   for (std::size_t row = 0; row < rows; ++row) {
     const float* from = rgb0.data() + row * cells.cells() * 4;
     float* const to = means.data() + row * cells.bins * 4;
     for (std::size_t k = 0; k < cells.cells(); ++k, from += 4)
-      for (std::size_t c = 0; c < 4; ++c) to[bin_of[k] * 4 + c] += share[k] * from[c];
+      for (std::size_t c = 0; c < 4; ++c) to[bin_of[k] * 4 + c] += fraction[k] * from[c];
   }
   return means;
 }

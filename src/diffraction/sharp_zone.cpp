@@ -42,12 +42,12 @@ void read_zone(const SharpZone& zone, std::size_t bins, float row, float turns, 
       std::max<std::ptrdiff_t>(std::upper_bound(zone.edge.begin(), zone.edge.end(), place - reach) - zone.edge.begin(),
                                1) -
       1);
-  float share_before = 0.0F, sum[4] = {};
+  float fraction_before = 0.0F, sum[4] = {};
   float from = -profile.reach();
-  for (; cell < cells && share_before < 1.0F; ++cell) {
+  for (; cell < cells && fraction_before < 1.0F; ++cell) {
     const float to = (zone.edge[cell + 1] - place) * px_per_bin;
-    const float share = to < profile.reach() ? profile.share_below(to) : 1.0F;
-    const float weight = share - share_before;
+    const float fraction = to < profile.reach() ? profile.fraction_below(to) : 1.0F;
+    const float weight = fraction - fraction_before;
     const float middle = chord_middle(along_x, along_y, 0.5F * (from + std::min(to, profile.reach())));
     const float at = std::clamp(row + rows_per_px * middle, 0.0F, static_cast<float>(kRowsPerOctave));
     const std::size_t above = std::min(static_cast<std::size_t>(at), static_cast<std::size_t>(kRowsPerOctave - 1));
@@ -55,7 +55,7 @@ void read_zone(const SharpZone& zone, std::size_t bins, float row, float turns, 
     const float* const first = zone.rgb0.data() + (above * cells + cell) * 4;
     const float* const second = first + cells * 4;
     for (std::size_t c = 0; c < 4; ++c) sum[c] += weight * (first[c] + t * (second[c] - first[c]));
-    share_before = share;
+    fraction_before = fraction;
     from = to;
   }
   std::copy_n(sum, 3, rgb);

@@ -232,7 +232,7 @@ void StarburstPattern::measure_grain(const Context& context) {
   parallel_for(directions, context, [&](std::size_t i) {
     const double angle = (static_cast<double>(i) + 0.5) * window;
     halo[i] = sector_mean(
-        {angle, window, along_angle(angle), 1, down}, [&](double share) { return from + length * share; },
+        {angle, window, along_angle(angle), 1, down}, [&](double fraction) { return from + length * fraction; },
         [&](double rho, double x, double y) { return grid_.density(x, y) * rho * rho * rho; });
     Tail edges, dirt;
     add_edges(angle, window, edges);
@@ -259,7 +259,7 @@ double StarburstPattern::spectrum_average(double angle_rad, Vec2 along, double w
   const int across = std::max(1, static_cast<int>(std::ceil(width / kSampleRho)));
   return sector_mean(
       {angle_rad, window_rad, along, across, down},
-      [&](double share) { return std::min(rho + height * (share - 0.5), grid_.up_to()); },
+      [&](double fraction) { return std::min(rho + height * (fraction - 0.5), grid_.up_to()); },
       [&](double, double x, double y) { return grid_.density(x, y); });
 }
 

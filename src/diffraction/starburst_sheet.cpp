@@ -40,14 +40,14 @@ constexpr int kCorePixels = 42;
 constexpr int kCoreCells = kCorePixels * kCellsPerPixel;
 constexpr int kRowsAtOnce = 8;     // neighbouring rows read the same samples
 
-double core_share(double r_px) {
+double core_weight(double r_px) {
   const double t = std::clamp((r_px - kCoreFrom_px) / (kCoreTo_px - kCoreFrom_px), 0.0, 1.0);
   return 1.0 - t * t * (3.0 - 2.0 * t);
 }
 
 std::vector<double> core_flux(const StarburstRings& rings, const Context& context) {
   constexpr auto kSide = static_cast<std::size_t>(kCoreCells);
-  const NearField core(rings.near_cells, rings.first_px, core_share);
+  const NearField core(rings.near_cells, rings.first_px, core_weight);
   std::vector<double> below((kSide + 1) * (kSide + 1) * 3);
   constexpr double kCell_px = 1.0 / kCellsPerPixel;
   parallel_for(kSide, context, [&](std::size_t y) {
@@ -148,7 +148,7 @@ Result<StarburstSheet> lay_out(const Starburst& starburst, int width, int height
   samples->reach_y = height + 1;
   samples->core = core_flux(*starburst.rings(), context);
   const NearField beside(starburst.rings()->near_cells, starburst.rings()->first_px,
-                         [](double r_px) { return 1.0 - core_share(r_px); });
+                         [](double r_px) { return 1.0 - core_weight(r_px); });
   const std::size_t row_size = samples->row_size();
   samples->rgb.resize(row_size * (static_cast<std::size_t>(samples->reach_y) + 1));
   const bool done = parallel_for(static_cast<std::size_t>(samples->reach_y) + 1, context, [&](std::size_t row) {

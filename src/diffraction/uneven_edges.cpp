@@ -19,17 +19,17 @@ constexpr std::size_t kRows = 180;  // up to k = 2e6, beyond which only fans rem
 double k_of(std::size_t row) { return kFirstK * std::exp2(static_cast<double>(row) / kRowsPerOctave); }
 
 // Weights of a normal distribution, in steps of kStepOfSpread about its middle.
-std::vector<double> shares_of_slopes() {
+std::vector<double> slope_weights() {
   const int most = static_cast<int>(std::ceil(kMaxSpreads / kStepOfSpread));
-  std::vector<double> shares;
+  std::vector<double> weights;
   double sum = 0.0;
   for (int i = -most; i <= most; ++i) {
     const auto below = [&](double steps) { return std::erfc(-steps * kStepOfSpread / std::numbers::sqrt2); };
-    shares.push_back(below(i + 0.5) - below(i - 0.5));
-    sum += shares.back();
+    weights.push_back(below(i + 0.5) - below(i - 0.5));
+    sum += weights.back();
   }
-  for (double& share : shares) share /= sum;
-  return shares;
+  for (double& weight : weights) weight /= sum;
+  return weights;
 }
 
 }  // namespace
@@ -47,13 +47,13 @@ UnevenEdges::UnevenEdges(const IrisOpening& opening, double slope_spread_rad, co
       exact[i * kRows + row] = static_cast<float>(k * k * k * direction.power(k));
     }
   });
-  const std::vector<double> shares = shares_of_slopes();
+  const std::vector<double> weights = slope_weights();
   power_k3_.resize(exact.size());
   parallel_for(directions_, context, [&](std::size_t i) {
-    for (std::size_t s = 0; s < shares.size(); ++s) {
-      const std::size_t from = (i + s + (shares.size() / 2) * (directions_ - 1)) % directions_;
+    for (std::size_t s = 0; s < weights.size(); ++s) {
+      const std::size_t from = (i + s + (weights.size() / 2) * (directions_ - 1)) % directions_;
       for (std::size_t row = 0; row < kRows; ++row)
-        power_k3_[i * kRows + row] += static_cast<float>(shares[s]) * exact[from * kRows + row];
+        power_k3_[i * kRows + row] += static_cast<float>(weights[s]) * exact[from * kRows + row];
     }
   });
 }
@@ -68,7 +68,7 @@ UnevenEdges::Direction UnevenEdges::along(double direction_rad, double window_ra
   const std::size_t here = static_cast<std::size_t>(at) % directions_;
   direction.here_ = power_k3_.data() + here * kRows;
   direction.next_ = power_k3_.data() + (here + 1) % directions_ * kRows;
-  direction.share_of_next_ = at - std::floor(at);
+  direction.next_weight_ = at - std::floor(at);
   return direction;
 }
 
@@ -78,7 +78,7 @@ double UnevenEdges::Direction::power(double k) const {
   const auto row = static_cast<std::size_t>(at);
   const double t = at - static_cast<double>(row);
   const auto along_rows = [&](const float* rows) { return std::lerp(rows[row], rows[row + 1], t); };
-  return std::lerp(along_rows(here_), along_rows(next_), share_of_next_) / (k * k * k);
+  return std::lerp(along_rows(here_), along_rows(next_), next_weight_) / (k * k * k);
 }
 
 }  // namespace contrejour

@@ -30,7 +30,7 @@ class UnevenEdges {
     friend class UnevenEdges;
     std::optional<EdgeWaves::Direction> exact_;
     const float *here_ = nullptr, *next_ = nullptr;  // the table's rows of two directions
-    double share_of_next_ = 0;
+    double next_weight_ = 0;
   };
 
   [[nodiscard]] Direction along(double direction_rad, double window_rad) const;

@@ -18,7 +18,7 @@ struct OpenTriangle {
 };
 
 // The fraction of a triangle where a function that is linear over it is <= 0.
-[[nodiscard]] inline double share_below_zero(double a, double b, double c) {
+[[nodiscard]] inline double fraction_below_zero(double a, double b, double c) {
   if (a > b) std::swap(a, b);
   if (b > c) std::swap(b, c);
   if (a > b) std::swap(a, b);
@@ -35,7 +35,7 @@ void for_each_open_half(const RayGrid& grid, const std::array<std::size_t, 4>& q
   for (const auto& v : {std::array{q[0], q[1], q[2]}, std::array{q[0], q[2], q[3]}}) {
     const auto blocked = [&](std::size_t k) { return grid.blocked[v[k]]; };
     if (!(blocked(0) < kFailed && blocked(1) < kFailed && blocked(2) < kFailed)) continue;
-    const double open = share_below_zero(blocked(0), blocked(1), blocked(2));
+    const double open = fraction_below_zero(blocked(0), blocked(1), blocked(2));
     if (open <= 0.0) continue;
     const double transmission = (grid.transmission[v[0]] + grid.transmission[v[1]] + grid.transmission[v[2]]) / 3.0;
     visit(OpenTriangle{v, open, open * transmission * 0.5 * step.x * step.y});

@@ -15,11 +15,11 @@ namespace {
 constexpr int kFirstAngles = 5;  // searched over the whole window
 constexpr int kMaxDepth = 6;     // bisections of the interval between two of them
 // An interval is bisected if linear interpolation misses the middle by more than this fraction of the region's size.
-constexpr double kBendShare = 0.1;
+constexpr double kMaxInterpolationError = 0.1;
 // Margin on all sides for nonlinearity within an interval: the search's own cells add about as much again.
-constexpr double kSpareShare = 0.05;
+constexpr double kMarginFraction = 0.05;
 // Margin around an interpolated region in which the next is searched, over its size.
-constexpr double kGuessShare = 0.3;
+constexpr double kGuessMargin = 0.3;
 // Ends of an interval whose sizes differ by less are taken for the same part of the pupil, which moves.
 constexpr double kAlikeSizes = 1.3;
 // A grid over the window finds a pupil that spans this number of its cells.
@@ -143,7 +143,7 @@ class EntryBuilder {
     const Vec2 size = size_of(from);
     const bool moves = alike(size.x, size_of(to).x) && alike(size.y, size_of(to).y);
     const Rectangle middle = moves ? between(from, to, 0.5) : union_of(from, to);
-    return widened(middle, size_of(middle) * kGuessShare);
+    return widened(middle, size_of(middle) * kGuessMargin);
   }
 
   // Adds intervals from a to b, bisected until linear interpolation is accurate, or the angle at which the pupil closes
@@ -157,9 +157,9 @@ class EntryBuilder {
       const Vec2 size = size_of(middle.region->pupil_mm);
       const Rectangle line = between(a.region->pupil_mm, b.region->pupil_mm, 0.5);
       const Vec2 bend = farthest_apart(line, middle.region->pupil_mm);
-      if (bend.x <= kBendShare * size.x && bend.y <= kBendShare * size.y) {
-        push(a, middle, bend + size * kSpareShare);
-        push(middle, b, bend + size * kSpareShare);
+      if (bend.x <= kMaxInterpolationError * size.x && bend.y <= kMaxInterpolationError * size.y) {
+        push(a, middle, bend + size * kMarginFraction);
+        push(middle, b, bend + size * kMarginFraction);
         return;
       }
     }
@@ -188,7 +188,7 @@ class EntryBuilder {
     const auto& known = a.region ? a.region : b.region;
     Vec2 margin_mm = known ? size_of(known->pupil_mm) : Vec2{};
     if (a.region && b.region) {
-      margin_mm = farthest_apart(a.region->pupil_mm, b.region->pupil_mm) + margin_mm * kSpareShare;
+      margin_mm = farthest_apart(a.region->pupil_mm, b.region->pupil_mm) + margin_mm * kMarginFraction;
     }
     push(a, b, margin_mm);
   }

@@ -7,7 +7,7 @@ namespace contrejour {
 namespace {
 
 // Rounding between neighbours may be this fraction of their distance: it is the ripple of a flat ghost.
-constexpr double kRoundingShare = 1e-3;
+constexpr double kMaxRounding = 1e-3;
 // Below this number of pixels only a cell's flux is visible, not its shape.
 constexpr double kUnseenCell_px = 0.25;
 constexpr int kProbeRays = 64;
@@ -258,7 +258,7 @@ PacketPrecision precision_for(const OpticalPath& path, const ReflectanceTables& 
   }
   const double unseen_mm = kUnseenCell_px * pixel_pitch_mm;
   const bool seen = distance > unseen_mm * unseen_mm * kProbeRays;
-  return seen && noise > kRoundingShare * kRoundingShare * distance ? PacketPrecision::Double : PacketPrecision::Float;
+  return seen && noise > kMaxRounding * kMaxRounding * distance ? PacketPrecision::Double : PacketPrecision::Float;
 }
 
 }  // namespace contrejour

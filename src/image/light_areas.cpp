@@ -89,13 +89,13 @@ bool is_bright(const float* pixel, const AreaSettings& settings) {
                                                          : level > 0 && level >= settings.threshold;
 }
 
-double share_of_light(double level, const AreaSettings& settings) {
+double matte_weight(double level, const AreaSettings& settings) {
   const double above = level - settings.threshold, ramp = settings.softness * settings.threshold;
   return above >= ramp ? 1 : above / ramp;
 }
 
 double weight_of(double level, const AreaSettings& settings) {
-  return share_of_light(level, settings) * std::min(1.0, settings.max_value / level);
+  return matte_weight(level, settings) * std::min(1.0, settings.max_value / level);
 }
 
 float usable_sample(float value) { return value > 0 && std::isfinite(value) ? value : 0; }
@@ -109,12 +109,13 @@ double total_flux(const DetectedLight& light) { return light.flux[0] + light.flu
 DetectedLight merged(const DetectedLight& a, const DetectedLight& b) {
   DetectedLight sum;
   for (std::size_t c = 0; c < 3; ++c) sum.flux[c] = a.flux[c] + b.flux[c];
-  const double share = total_flux(b) / (total_flux(a) + total_flux(b));
+  const double fraction = total_flux(b) / (total_flux(a) + total_flux(b));
   const Vec2 apart = b.centroid_px - a.centroid_px;
-  sum.centroid_px = a.centroid_px + share * apart;
+  sum.centroid_px = a.centroid_px + fraction * apart;
   // Steiner's theorem for the second moments.
-  const double within = (1 - share) * a.rms_radius_px * a.rms_radius_px + share * b.rms_radius_px * b.rms_radius_px;
-  sum.rms_radius_px = std::sqrt(within + share * (1 - share) * dot(apart, apart));
+  const double within =
+      (1 - fraction) * a.rms_radius_px * a.rms_radius_px + fraction * b.rms_radius_px * b.rms_radius_px;
+  sum.rms_radius_px = std::sqrt(within + fraction * (1 - fraction) * dot(apart, apart));
   sum.min_x = std::min(a.min_x, b.min_x);
   sum.min_y = std::min(a.min_y, b.min_y);
   sum.max_x = std::max(a.max_x, b.max_x);

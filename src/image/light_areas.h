@@ -21,7 +21,7 @@ struct AreaSettings {
 [[nodiscard]] bool is_bright(const float* rgb, const AreaSettings& settings);
 
 // The weight of a bright pixel of this level in a light, 0..1.
-[[nodiscard]] double share_of_light(double level, const AreaSettings& settings);
+[[nodiscard]] double matte_weight(double level, const AreaSettings& settings);
 
 // The factor from a bright pixel's samples to its part of the light: the weight, reduced for levels beyond max_value.
 [[nodiscard]] double weight_of(double level, const AreaSettings& settings);

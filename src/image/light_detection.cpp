@@ -155,14 +155,14 @@ Image picture_of_areas(const Image& rgb, const Detection& detection, const Detec
   return out;
 }
 
-Image light_shares(const Image& rgb, const Detection& detection) {
+Image light_matte(const Image& rgb, const Detection& detection) {
   if (!is_of(detection, rgb)) return {};
   const AreaSettings settings = settings_of(detection);
-  Image shares(rgb.width, rgb.height, 1);
-  for (std::size_t k = 0; k < shares.pixels.size(); ++k)
+  Image matte(rgb.width, rgb.height, 1);
+  for (std::size_t k = 0; k < matte.pixels.size(); ++k)
     if (detection.area_of_pixel[k] >= 0)
-      shares.pixels[k] = static_cast<float>(share_of_light(level_of(rgb.pixels.data() + 3 * k), settings));
-  return shares;
+      matte.pixels[k] = static_cast<float>(matte_weight(level_of(rgb.pixels.data() + 3 * k), settings));
+  return matte;
 }
 
 }  // namespace contrejour

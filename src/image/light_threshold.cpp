@@ -11,12 +11,12 @@ namespace contrejour {
 namespace {
 
 constexpr double kMinThreshold = 1;  // white of the working space: darker pixels are never lights
-constexpr double kSurfaceShare = 0.98;  // of the pixels below the threshold are lit surfaces ...
+constexpr double kSurfaceFraction = 0.98;  // of the pixels below the threshold are lit surfaces ...
 constexpr double kLightOverSurface = 16;  // ... and a light is this much brighter than nearly all of them
 constexpr double kClippedWhite = 1;  // an 8-bit picture's lights are clipped here,
 constexpr double kClippedThreshold = 0.8;  // and at the default softness have full weight there
 constexpr int kMaxSteps = 200;
-constexpr double kBrightShare = 0.999;  // of the pixels that are not black, which excludes hot pixels
+constexpr double kBrightQuantile = 0.999;  // of the pixels that are not black, which excludes hot pixels
 constexpr double kBelowBrightest = 4;   // two stops: panes of a window, sky beside the sun
 constexpr double kMiddle = 0.5;
 
@@ -82,7 +82,7 @@ class Histogram {
 };
 
 double threshold_of_brightest(const Histogram& histogram) {
-  return histogram.quantile_of_lit(kBrightShare) / kBelowBrightest;
+  return histogram.quantile_of_lit(kBrightQuantile) / kBelowBrightest;
 }
 
 }  // namespace
@@ -94,7 +94,7 @@ Threshold automatic_threshold(const Image& rgb) {
   if (histogram.largest() == kClippedWhite) return {kClippedThreshold, ThresholdSource::Clipped};
   double threshold = kMinThreshold;
   for (int step = 0; step < kMaxSteps && threshold < histogram.largest(); ++step) {
-    const double next = kLightOverSurface * histogram.quantile_below(threshold, kSurfaceShare);
+    const double next = kLightOverSurface * histogram.quantile_below(threshold, kSurfaceFraction);
     if (!(next > threshold)) break;
     threshold = next;
   }

@@ -102,8 +102,8 @@ bool same_non_finite(float a, float b) { return (std::isnan(a) && std::isnan(b))
 double quantile_of_samples(const Image& image, double q) {
   const std::size_t count = count_finite(image.pixels);
   if (count == 0) return 0;
-  const double share = std::isnan(q) ? 0.0 : std::clamp(q, 0.0, 1.0);
-  const double place = share * static_cast<double>(count - 1);
+  const double fraction = std::isnan(q) ? 0.0 : std::clamp(q, 0.0, 1.0);
+  const double place = fraction * static_cast<double>(count - 1);
   const auto below = static_cast<std::size_t>(place);
   const std::size_t above = count - 1 - below;
   std::vector<float> samples =

@@ -10,7 +10,7 @@ namespace {
 
 // Below this fraction of its absolute integral a channel's total does not describe the distribution of its light: the
 // blue matching function's lobes cancel for a black body of about 1900 K, and the quotient would be unbounded.
-constexpr double kSmallestTotalShare = 0.25;
+constexpr double kMinTotalFraction = 0.25;
 
 // The quantities integrated over wavelength, piecewise linear between whole nanometres.
 struct Sample {
@@ -124,15 +124,15 @@ std::vector<SpectralBand> spectral_bands(int count, const Spectrum& light, Colou
   Sample begin{};
   for (std::size_t k = 0; k < bands.size(); ++k) {
     const bool last = k + 1 == bands.size();
-    const double share = static_cast<double>(k + 1) / static_cast<double>(bands.size());
-    const Sample end = last ? total : cumulative.up_to_visible(share * total.visible);
+    const double fraction = static_cast<double>(k + 1) / static_cast<double>(bands.size());
+    const Sample end = last ? total : cumulative.up_to_visible(fraction * total.visible);
     const Sample band = end + (-1.0) * begin;
     bands[k].lambda_nm = band.moment / band.visible;
     if (k > 0) bands[k].lambda_nm = std::max(bands[k].lambda_nm, bands[k - 1].lambda_nm + kApart_nm);
     bands[k].spread_nm = std::sqrt(std::max(0.0, band.second / band.visible - bands[k].lambda_nm * bands[k].lambda_nm));
     for (std::size_t c = 0; c < 3; ++c) {
       // The channel's own integral, plus enough of the absolute one to keep the quotient bounded.
-      const double added = std::max(0.0, kSmallestTotalShare - total.channel[c] / total.absolute[c]);
+      const double added = std::max(0.0, kMinTotalFraction - total.channel[c] / total.absolute[c]);
       bands[k].weight[c] =
           (band.channel[c] + added * band.absolute[c]) / (total.channel[c] + added * total.absolute[c]);
     }

@@ -138,18 +138,18 @@ class DirtMaker {
 
 }  // namespace
 
-Vec2 DirtStroke::at(double share) const {
+Vec2 DirtStroke::at(double fraction) const {
   const Vec2 along{std::cos(angle_rad), std::sin(angle_rad)};
-  const double s = share * length_mm;
+  const double s = fraction * length_mm;
   if (std::abs(bend_rad) < kNearlyStraight || length_mm <= 0.0) return middle_mm + along * s;
   // On a circle of curvature c: (sin(c s) / c, (1 - cos(c s)) / c).
-  const double turn = share * bend_rad, radius = length_mm / bend_rad;
+  const double turn = fraction * bend_rad, radius = length_mm / bend_rad;
   const double half = std::sin(0.5 * turn);
   return middle_mm + along * (radius * std::sin(turn)) + Vec2{-along.y, along.x} * (2.0 * radius * half * half);
 }
 
-Vec2 DirtStroke::normal_at(double share) const {
-  const double angle = angle_rad + share * bend_rad;
+Vec2 DirtStroke::normal_at(double fraction) const {
+  const double angle = angle_rad + fraction * bend_rad;
   return {-std::sin(angle), std::cos(angle)};
 }
 
@@ -215,16 +215,16 @@ std::vector<Vec2> dirt_outline(const DirtStroke& stroke, double low, double high
   std::vector<Vec2> outline;
   const auto add_side = [&](double from, double to, double side) {
     for (int i = 0; i <= steps; ++i) {
-      const double share = from + (to - from) * i / steps;
-      outline.push_back(stroke.at(share) + stroke.normal_at(share) * (side * half));
+      const double fraction = from + (to - from) * i / steps;
+      outline.push_back(stroke.at(fraction) + stroke.normal_at(fraction) * (side * half));
     }
   };
-  const auto add_end = [&](double share, double side) {  // from one side to the other, end points excluded
-    const Vec2 n = stroke.normal_at(share) * (side * half);
+  const auto add_end = [&](double fraction, double side) {  // from one side to the other, end points excluded
+    const Vec2 n = stroke.normal_at(fraction) * (side * half);
     const Vec2 out = Vec2{-n.y, n.x};
     for (int i = 1; i < kEndSteps; ++i) {
       const double a = kPi * i / kEndSteps;
-      outline.push_back(stroke.at(share) + n * std::cos(a) + out * std::sin(a));
+      outline.push_back(stroke.at(fraction) + n * std::cos(a) + out * std::sin(a));
     }
   };
   add_side(low, high, -1.0);

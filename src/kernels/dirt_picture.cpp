@@ -15,7 +15,7 @@ Result<std::shared_ptr<const DirtPicture>> DirtPicture::from_levels(std::span<co
     const float v = level[k];
     if (!(v >= 0.0F) || !std::isfinite(v))
       return failure(ErrorCode::InvalidArgument,
-                     fmt::format("the picture of the dirt has the value {} at {},{}; shares of light are 0 and more", v,
+                     fmt::format("the picture of the dirt has the value {} at {},{}; transmittances are 0 and more", v,
                                  k % static_cast<std::size_t>(width), k / static_cast<std::size_t>(width)));
   }
   auto picture = std::make_shared<DirtPicture>();

@@ -16,24 +16,24 @@ constexpr int kMaxSamples = 1024;
 constexpr float kNoLine = 1e9F;
 
 // The weights of a few pixels in a sample, along one axis of the picture.
-struct Share {
+struct PixelWeight {
   int pixel = 0;
   float weight = 0;
 };
 
 // Averages over a sample's width, in pixels; no weights if the sample lies outside the picture.
-std::vector<Share> average(double begin, double end, int pixels) {
-  std::vector<Share> shares;
+std::vector<PixelWeight> average(double begin, double end, int pixels) {
+  std::vector<PixelWeight> weights;
   const int last = std::min(static_cast<int>(std::ceil(end)), pixels);
   for (int p = std::max(static_cast<int>(std::floor(begin)), 0); p < last; ++p) {
     const double covered = std::min(end, p + 1.0) - std::max(begin, static_cast<double>(p));
-    if (covered > 0.0) shares.push_back({p, static_cast<float>(covered / (end - begin))});
+    if (covered > 0.0) weights.push_back({p, static_cast<float>(covered / (end - begin))});
   }
-  return shares;
+  return weights;
 }
 
 // Interpolates between two pixels' middles; the outermost pixels extend to the picture's edge.
-std::vector<Share> interpolation(double middle, int pixels) {
+std::vector<PixelWeight> interpolation(double middle, int pixels) {
   if (middle < 0.0 || middle > pixels) return {};
   const double u = std::clamp(middle - 0.5, 0.0, pixels - 1.0);
   const int p = std::min(static_cast<int>(u), std::max(pixels - 2, 0));
@@ -42,9 +42,9 @@ std::vector<Share> interpolation(double middle, int pixels) {
   return {{p, 1.0F - t}, {p + 1, t}};
 }
 
-std::vector<std::vector<Share>> shares_of_samples(int samples, int longer, int pixels) {
+std::vector<std::vector<PixelWeight>> weights_of_samples(int samples, int longer, int pixels) {
   const double width = static_cast<double>(longer) / samples;
-  std::vector<std::vector<Share>> all;
+  std::vector<std::vector<PixelWeight>> all;
   for (int k = 0; k < samples; ++k) {
     const double begin = k * width - 0.5 * (longer - pixels);
     all.push_back(samples > longer ? interpolation(begin + 0.5 * width, pixels)
@@ -148,16 +148,16 @@ StopSamples samples_over_stop(std::span<const float> level, int width, int heigh
   // An even number of samples a pixel, so that edges of small pictures lie between samples.
   const int repeats = longer >= kMinSamples ? 1 : 2 * ((kMinSamples + 2 * longer - 1) / (2 * longer));
   const int samples = std::min(longer * repeats, kMaxSamples);
-  const auto columns = shares_of_samples(samples, longer, width);
-  const auto rows = shares_of_samples(samples, longer, height);
+  const auto columns = weights_of_samples(samples, longer, width);
+  const auto rows = weights_of_samples(samples, longer, height);
   StopSamples out{samples + 2, {}};
   out.value.resize(out.at(0, out.side));
   for (int r = 0; r < samples; ++r) {
     for (int c = 0; c < samples; ++c) {
       float sum = 0.0F;
-      for (const Share& row : rows[static_cast<std::size_t>(r)]) {
+      for (const PixelWeight& row : rows[static_cast<std::size_t>(r)]) {
         const auto line = level.subspan(static_cast<std::size_t>(row.pixel) * static_cast<std::size_t>(width));
-        for (const Share& column : columns[static_cast<std::size_t>(c)])
+        for (const PixelWeight& column : columns[static_cast<std::size_t>(c)])
           sum += row.weight * column.weight * line[static_cast<std::size_t>(column.pixel)];
       }
       out.value[out.at(c + 1, samples - r)] = sum;

@@ -10,11 +10,11 @@ constexpr float kGreyFrom = 0.1F, kGreyTo = 0.9F;  // of the highest level
 // Corners and thin lines have pixels that look like half-tones: up to this number, or this fraction of the stop's
 // pixels, a picture still counts as a mask.
 constexpr int kFewTones = 4;
-constexpr double kFewTonesShare = 2e-3;
+constexpr double kFewTonesFraction = 2e-3;
 constexpr int kParts = 8;  // of a sample, each way, where the rim crosses it
 
 // The fraction of a sample within the rim, by the middles of its parts.
-double share_within_rim(Vec2 low, double pitch) {
+double fraction_within_rim(Vec2 low, double pitch) {
   const Vec2 far{std::max(std::abs(low.x), std::abs(low.x + pitch)),
                  std::max(std::abs(low.y), std::abs(low.y + pitch))};
   if (dot(far, far) <= 1.0) return 1.0;
@@ -47,7 +47,7 @@ bool has_half_tones(std::span<const float> level, int width, int height, float h
       tones += has_dark && has_bright ? 0 : 1;
     }
   }
-  return tones > std::max(static_cast<double>(kFewTones), kFewTonesShare * radius * radius);
+  return tones > std::max(static_cast<double>(kFewTones), kFewTonesFraction * radius * radius);
 }
 
 IrisTones::IrisTones(const StopSamples& samples, float highest) : side_(samples.side - 2) {
@@ -62,7 +62,8 @@ IrisTones::IrisTones(const StopSamples& samples, float highest) : side_(samples.
       row += passed;
       const std::size_t corner = (static_cast<std::size_t>(j) + 1) * corners + static_cast<std::size_t>(i) + 1;
       sums_[corner] = sums_[corner - corners] + row;
-      if (passed > 0.0) flux_ += passed * pitch * pitch * share_within_rim({i * pitch - 1.0, j * pitch - 1.0}, pitch);
+      if (passed > 0.0)
+        flux_ += passed * pitch * pitch * fraction_within_rim({i * pitch - 1.0, j * pitch - 1.0}, pitch);
     }
   }
 }

@@ -105,10 +105,10 @@ HWY_INLINE Level<T> biconic_level(const ShapeConstants& s, T x, T y, T z) {
   const T by_x = cx * T(s.quadratic_x), by_y = cy * T(s.quadratic);
   const T root_squared = one - by_x * x * x - by_y * y * y;
   const T root = square_root(larger(root_squared, T(kBlunt)));
-  const T share = one / (one + root);
-  const T sag = (cx * x * x + cy * y * y) * share;
+  const T factor = one / (one + root);
+  const T sag = (cx * x * x + cy * y * y) * factor;
   const T steeper = sag / root;
-  return {z - sag, T(0.0) - x * share * (two * cx + steeper * by_x), T(0.0) - y * share * (two * cy + steeper * by_y),
+  return {z - sag, T(0.0) - x * factor * (two * cx + steeper * by_x), T(0.0) - y * factor * (two * cy + steeper * by_y),
           one, root_squared};
 }
 
@@ -156,9 +156,9 @@ CONTREJOUR_INLINE_IF_FAST Hit<T> search(const Ray3<T>& from, const ShapeConstant
     level = level_at<kKind>(s, from.x + t * from.dx, from.y + t * from.dy, t * from.dz);
   }
 
-  const T share = T(1.0) / square_root(level.gx * level.gx + level.gy * level.gy + level.gz * level.gz);
-  const T cos_in = direction * share * (level.gx * from.dx + level.gy * from.dy + level.gz * from.dz);
-  const T off = magnitude(level.f) * share;
+  const T per_gradient = T(1.0) / square_root(level.gx * level.gx + level.gy * level.gy + level.gz * level.gz);
+  const T cos_in = direction * per_gradient * (level.gx * from.dx + level.gy * from.dy + level.gz * from.dz);
+  const T off = magnitude(level.f) * per_gradient;
   const T meets = smaller(cos_in * magnitude(cos_in), level.reaches);
   const T misses = select(zero > start_squared, start_squared, zero - smaller(off * T(1.0 / s.reach_mm), T(1.0)));
   Hit<T> hit;
@@ -167,9 +167,9 @@ CONTREJOUR_INLINE_IF_FAST Hit<T> search(const Ray3<T>& from, const ShapeConstant
   hit.x = from.x + t * from.dx;
   hit.y = from.y + t * from.dy;
   hit.sag = t * from.dz;
-  hit.nx = level.gx * share;
-  hit.ny = level.gy * share;
-  hit.nz = level.gz * share;
+  hit.nx = level.gx * per_gradient;
+  hit.ny = level.gy * per_gradient;
+  hit.nz = level.gz * per_gradient;
   return hit;
 }
 
@@ -210,17 +210,17 @@ HWY_INLINE NewtonLimits exact_limits(const ShapeConstants& s) {
 template <class T>
 HWY_INLINE void turn_upright(const Axis3<T>& n, T& x, T& y, T& z) {
   const T height = along(n, x, y, z);
-  const T share = (height + z) / (T(1.0) + n.z);
-  x = x - n.x * share;
-  y = y - n.y * share;
+  const T factor = (height + z) / (T(1.0) + n.z);
+  x = x - n.x * factor;
+  y = y - n.y * factor;
   z = height;
 }
 template <class T>
 HWY_INLINE void turn_back(const Axis3<T>& n, T& x, T& y, T& z) {
   const T across = n.x * x + n.y * y;
-  const T share = z - across / (T(1.0) + n.z);
-  x = x + n.x * share;
-  y = y + n.y * share;
+  const T factor = z - across / (T(1.0) + n.z);
+  x = x + n.x * factor;
+  y = y + n.y * factor;
   z = n.z * z - across;
 }
 

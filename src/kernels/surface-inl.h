@@ -32,11 +32,11 @@ template <class T>
 HWY_INLINE T turn_aside(Ray3<T>& ray, T aside_x, T aside_y) {
   ray.dx = ray.dx + aside_x;
   ray.dy = ray.dy + aside_y;
-  const T share = T(1.0) / square_root(ray.dx * ray.dx + ray.dy * ray.dy + ray.dz * ray.dz);
-  ray.dx = ray.dx * share;
-  ray.dy = ray.dy * share;
-  ray.dz = ray.dz * share;
-  return share;
+  const T ratio = T(1.0) / square_root(ray.dx * ray.dx + ray.dy * ray.dy + ray.dz * ray.dz);
+  ray.dx = ray.dx * ratio;
+  ray.dy = ray.dy * ratio;
+  ray.dz = ray.dz * ratio;
+  return ratio;
 }
 
 // The intersection of a ray with a surface, whose own z axis points to +z.
@@ -115,8 +115,8 @@ struct OwnPlace {
 template <class T>
 HWY_INLINE OwnPlace<T> own_place(const Hit<T>& hit, const Axis3<T>& n, T c) {
   const T height = along(n, hit.x, hit.y, hit.sag);
-  const T share = (height + hit.sag) / (T(1.0) + n.z);
-  return {hit.x - n.x * share, hit.y - n.y * share, T(1.0) - c * height};
+  const T factor = (height + hit.sag) / (T(1.0) + n.z);
+  return {hit.x - n.x * factor, hit.y - n.y * factor, T(1.0) - c * height};
 }
 
 template <class T>

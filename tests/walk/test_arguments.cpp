@@ -425,7 +425,7 @@ TEST_CASE("pictures stand any image") {
     use(quantile_of_samples(image, 0.5));
     use(detect_lights(image));
     use(automatic_threshold(image));
-    use(light_shares(image, Detection{}));
+    use(light_matte(image, Detection{}));
     use(picture_of_areas(image, {}, {}));
     DetectedLight far;
     far.max_x = far.max_y = 1 << 30;

@@ -38,8 +38,8 @@ double light_edge(const ClearanceGrid& grid, int row, int open, int beyond) {
 double failing_edge(const ClearanceGrid& grid, int row, int column, int step) {
   const int before = column - step;
   const bool told = before >= 0 && before <= grid.columns() && grid.fails(grid.at(before, row));
-  const double share = told ? grid.arrives_after(grid.at(before, row), grid.at(column, row)) : 1.0;
-  return x_of(grid, column) + step * std::min(share, 1.0) * grid.cell_size().x;
+  const double fraction = told ? grid.arrives_after(grid.at(before, row), grid.at(column, row)) : 1.0;
+  return x_of(grid, column) + step * std::min(fraction, 1.0) * grid.cell_size().x;
 }
 
 std::vector<Row> lit_rows(const ClearanceGrid& grid) {

@@ -139,7 +139,7 @@ std::vector<std::vector<GridCell>> ClearanceGrid::pieces(float reach) const {
   return out;
 }
 
-Rectangle ClearanceGrid::grown(double share, const Rectangle& bounds) const {
+Rectangle ClearanceGrid::grown(double fraction, const Rectangle& bounds) const {
   bool left = false, right = false, below = false, above = false;
   for (int row = 0; row <= rows_; ++row) {
     left = left || is_open(at(0, row));
@@ -149,7 +149,7 @@ Rectangle ClearanceGrid::grown(double share, const Rectangle& bounds) const {
     below = below || is_open(at(column, 0));
     above = above || is_open(at(column, rows_));
   }
-  const Vec2 more = (box_.high - box_.low) * share;
+  const Vec2 more = (box_.high - box_.low) * fraction;
   Rectangle out = box_;
   if (left) out.low.x = std::min(box_.low.x, std::max(box_.low.x - more.x, bounds.low.x));
   if (right) out.high.x = std::max(box_.high.x, std::min(box_.high.x + more.x, bounds.high.x));

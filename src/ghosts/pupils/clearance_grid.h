@@ -59,7 +59,7 @@ class ClearanceGrid {
   // The connected components of cells that may transmit light; cells that touch at a corner are connected.
   [[nodiscard]] std::vector<std::vector<GridCell>> pieces(float reach) const;
   // The box enlarged by a fraction of its size on every side at which rays get through, within bounds.
-  [[nodiscard]] Rectangle grown(double share, const Rectangle& bounds) const;
+  [[nodiscard]] Rectangle grown(double fraction, const Rectangle& bounds) const;
 
   [[nodiscard]] Rectangle hull(const std::vector<GridCell>& cells) const;
 

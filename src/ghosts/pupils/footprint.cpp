@@ -33,7 +33,7 @@ void for_each_open_cell(const LitMesh& mesh, const Visit& visit) {
       const float highest = std::max(std::max(a, b), std::max(c, d));
       if (std::min(std::min(a, b), std::min(c, d)) > 0.0F || highest == std::numeric_limits<float>::infinity())
         continue;
-      if (highest > 0.0F) cell.open = {share_below_zero(a, b, c), share_below_zero(a, c, d)};
+      if (highest > 0.0F) cell.open = {fraction_below_zero(a, b, c), fraction_below_zero(a, c, d)};
       visit(cell);
     }
   }
@@ -102,7 +102,8 @@ double light_within(const TriangleWindow& window, const std::vector<LitMesh>& me
       for (std::size_t half = 0; half < 2; ++half) {
         if (!(cell.open[half] > 0.0)) continue;
         const auto& v = kHalves[half];
-        light += light_of(mesh, cell, half) * (whole ? 1.0 : window.share_of({image[v[0]], image[v[1]], image[v[2]]}));
+        light +=
+            light_of(mesh, cell, half) * (whole ? 1.0 : window.fraction_of({image[v[0]], image[v[1]], image[v[2]]}));
       }
     });
   }

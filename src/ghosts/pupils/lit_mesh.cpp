@@ -76,7 +76,7 @@ class BlockWeights {
   void add_triangle(const std::array<std::size_t, 3>& v, double mm2, Nine& weight) {
     const std::array<float, 3> blocked{blocked_[v[0]], blocked_[v[1]], blocked_[v[2]]};
     if (*std::ranges::max_element(blocked) < kFailed) {
-      const double open = mm2 / 3.0 * share_below_zero(blocked[0], blocked[1], blocked[2]);
+      const double open = mm2 / 3.0 * fraction_below_zero(blocked[0], blocked[1], blocked[2]);
       for (const std::size_t k : v) weight[k] += open;
       if (*std::ranges::max_element(blocked) > 0.0F)
         for (const std::size_t k : v) beside_ += mm2 / 3.0 * mesh_.transmission[block_.vertex[k]];

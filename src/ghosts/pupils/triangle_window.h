@@ -33,7 +33,7 @@ class TriangleWindow {
     return left || right || below || above;
   }
 
-  [[nodiscard]] double share_of(const std::array<Vec2, 3>& triangle) const {
+  [[nodiscard]] double fraction_of(const std::array<Vec2, 3>& triangle) const {
     Vec2 low = triangle[0], high = triangle[0];
     for (const Vec2 p : triangle) {
       low = {std::min(low.x, p.x), std::min(low.y, p.y)};
@@ -43,13 +43,13 @@ class TriangleWindow {
     const double whole = std::abs(cross(triangle[1] - triangle[0], triangle[2] - triangle[0]));
     const double extent = std::max(high.x - low.x, high.y - low.y);
     constexpr double kLine = 1e-6;
-    if (whole <= kLine * extent * extent) return share_of_line(low, high);
+    if (whole <= kLine * extent * extent) return fraction_of_line(low, high);
     return std::min(1.0, twice_area_within(triangle) / whole);
   }
 
  private:
   // The fraction of a degenerate triangle, approximately a line between two corners of its bounds.
-  [[nodiscard]] double share_of_line(Vec2 from, Vec2 to) const {
+  [[nodiscard]] double fraction_of_line(Vec2 from, Vec2 to) const {
     constexpr int kSteps = 16;
     int inside = 0;
     for (int k = 0; k < kSteps; ++k) {

@@ -86,7 +86,7 @@ double reflectance_of(const DesignedCoating& design, double n_in, double n_out, 
 // beyond the ends are clamped.
 struct Between {
   std::size_t first = 0, next = 0;
-  double share = 0.0;
+  double fraction = 0.0;
 };
 Between between(const std::vector<double>& list, double value) {
   const auto above = std::upper_bound(list.begin(), list.end(), value);
@@ -108,9 +108,9 @@ double reflectance_of(const MeasuredCoating& measured, double n_in, double n_out
   const Between line = between(measured.lambda_nm, lambda_nm), column = between(measured.angle_deg, angle_deg);
   const auto at = [&](std::size_t row) {
     const double* const values = measured.reflectance.data() + row * measured.angle_deg.size();
-    return std::lerp(values[column.first], values[column.next], column.share);
+    return std::lerp(values[column.first], values[column.next], column.fraction);
   };
-  return std::lerp(at(line.first), at(line.next), line.share);
+  return std::lerp(at(line.first), at(line.next), line.fraction);
 }
 
 std::string text_of(const Bare&) { return "none"; }

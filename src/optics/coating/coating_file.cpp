@@ -85,11 +85,11 @@ class Table {
                                      shortened(cells.front()), kMaxMeasuredValues, kShortest_nm, kLongest_nm));
     measured_.lambda_nm.push_back(*lambda_nm);
     for (std::size_t k = 1; k < cells.size(); ++k) {
-      const auto share = next_in({}, cells[k], 0.0, 1.0);
-      if (!share)
-        return wrong(line, fmt::format("'{}' is no reflectance; give shares from 0 to 1 (1 per cent is 0.01)",
+      const auto reflectance = next_in({}, cells[k], 0.0, 1.0);
+      if (!reflectance)
+        return wrong(line, fmt::format("'{}' is no reflectance; give fractions from 0 to 1 (1 per cent is 0.01)",
                                        shortened(cells[k])));
-      measured_.reflectance.push_back(*share);
+      measured_.reflectance.push_back(*reflectance);
     }
     return {};
   }

@@ -13,8 +13,8 @@ double absorption_per_mm(const std::vector<Absorption>& table, double lambda_nm)
   if (above == table.begin()) return table.front().per_mm;
   const Absorption& low = *(above - 1);
   if (above == table.end()) return low.per_mm;
-  const double share = (lambda_nm - low.lambda_nm) / (above->lambda_nm - low.lambda_nm);
-  return low.per_mm + share * (above->per_mm - low.per_mm);
+  const double fraction = (lambda_nm - low.lambda_nm) / (above->lambda_nm - low.lambda_nm);
+  return low.per_mm + fraction * (above->per_mm - low.per_mm);
 }
 
 }  // namespace

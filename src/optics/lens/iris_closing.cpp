@@ -44,12 +44,12 @@ double blade_radius_of(const Iris& iris, double area) {
 ClosedIris close_iris(const Iris& iris, double round_radius_mm, double hole_radius_mm) {
   ClosedIris closed{iris, round_radius_mm};
   if (iris.blades < 3) return closed;
-  const double share = std::pow(round_radius_mm / hole_radius_mm, 2.0);
-  if (share >= 1.0 - kOpen) {
+  const double area_fraction = std::pow(round_radius_mm / hole_radius_mm, 2.0);
+  if (area_fraction >= 1.0 - kOpen) {
     closed.iris.blades = 0;
     return closed;
   }
-  const double blade_radius = blade_radius_of(iris, std::numbers::pi * share);
+  const double blade_radius = blade_radius_of(iris, std::numbers::pi * area_fraction);
   closed.iris.blade_radius = blade_radius;
   double reach = IrisOpening(closed.iris).reach();
   for (const double usual : {1.0, blade_radius}) {

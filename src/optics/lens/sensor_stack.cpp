@@ -31,7 +31,7 @@ double wide_mm(const LensState& lens) {
   return 100.0 * (std::hypot(lens.sensor_width_mm, lens.sensor_height_mm) + std::abs(lens.focal_length_mm));
 }
 
-Coating reflecting(double share) { return {"sensor", MeasuredCoating{{kLineD_nm}, {0.0}, {share}}}; }
+Coating reflecting(double reflectance) { return {"sensor", MeasuredCoating{{kLineD_nm}, {0.0}, {reflectance}}}; }
 
 }  // namespace
 
@@ -42,7 +42,7 @@ Result<void> check_sensor_stack(const SensorStack& stack) {
   for (const SensorPlate& plate : stack.plates)
     if (const auto good = check_plate(plate); !good) return good;
   if (!(stack.reflectance >= 0.0 && stack.reflectance <= 1.0))
-    return invalid_argument(fmt::format("a sensor that reflects {}; give a share from 0 to 1", stack.reflectance));
+    return invalid_argument(fmt::format("a sensor that reflects {}; give a fraction from 0 to 1", stack.reflectance));
   const bool fits = stack.orders >= 0 && stack.orders <= SensorStack::kMaxOrders && stack.pitch_mm >= kFinestPitch_mm &&
                     stack.pitch_mm <= kWidestPitch_mm && stack.fill > 0.0 && stack.fill <= 1.0;
   if (fits) return {};

@@ -66,8 +66,8 @@ double largest_fitting(double high, const Fits& fits) {
 // Surfaces whose rims are being fitted.
 class RimFitter {
  public:
-  RimFitter(Prescription& lens, const std::vector<bool>& open, double least_share)
-      : lens_(lens), open_(open), least_share_(least_share), told_mm_(lens.surfaces.size()) {
+  RimFitter(Prescription& lens, const std::vector<bool>& open, double min_fraction)
+      : lens_(lens), open_(open), min_fraction_(min_fraction), told_mm_(lens.surfaces.size()) {
     for (std::size_t k = 0; k < told_mm_.size(); ++k) told_mm_[k] = lens.surfaces[k].semi_diameter_mm;
   }
 
@@ -85,7 +85,7 @@ class RimFitter {
  private:
   void shrink(std::size_t k, double semi_mm) {
     Surface& surface = lens_.surfaces[k];
-    if (open_[k] || semi_mm >= least_share_ * told_mm_[k])
+    if (open_[k] || semi_mm >= min_fraction_ * told_mm_[k])
       surface.semi_diameter_mm = std::min(surface.semi_diameter_mm, semi_mm);
   }
 
@@ -102,7 +102,7 @@ class RimFitter {
     if (smallest_gap(before, behind, gap_mm, rim_mm).gap_mm >= -kTouch_mm) return;
     const auto fits = [&](double h_mm) { return smallest_gap(before, behind, gap_mm, h_mm).gap_mm >= 0.0; };
     const bool either_open = open_[front] || open_[back];
-    if (!either_open && !fits(least_share_ * rim_mm)) {  // shrink() would refuse; hostile files have many such
+    if (!either_open && !fits(min_fraction_ * rim_mm)) {  // shrink() would refuse; hostile files have many such
       part_slightly(front, back, smallest_gap(before, behind, gap_mm, rim_mm).gap_mm);
       return;
     }
@@ -134,7 +134,7 @@ class RimFitter {
 
   Prescription& lens_;
   const std::vector<bool>& open_;
-  double least_share_;
+  double min_fraction_;
   std::vector<double> told_mm_;
 };
 
@@ -159,7 +159,7 @@ Result<double> stop_opening_mm(Prescription lens) {
 
 }  // namespace
 
-Result<Prescription> completed(Prescription lens, const std::optional<Beam>& beam, double least_share) {
+Result<Prescription> completed(Prescription lens, const std::optional<Beam>& beam, double min_fraction) {
   std::vector<bool> open;
   for (const Surface& surface : lens.surfaces) open.push_back(surface.semi_diameter_mm == 0.0);
   const std::size_t stop = stop_of(lens);
@@ -167,7 +167,7 @@ Result<Prescription> completed(Prescription lens, const std::optional<Beam>& bea
   if (any_open && beam && stop < lens.surfaces.size()) {
     if (const auto sized = size_for_beam(lens, *beam, open); !sized) return tl::unexpected(sized.error());
   }
-  RimFitter(lens, open, least_share).fit();
+  RimFitter(lens, open, min_fraction).fit();
   if (lens.f_number == 0.0) {
     lens.f_number = kPlausibleFNumber;
     const auto widest = widest_f_number(lens);

@@ -98,8 +98,8 @@ class StopFinder {
     for (std::size_t k = 0; k + 1 < lens_.surfaces.size(); ++k) {
       const double gap_mm = lens_.surfaces[k].thickness_mm;
       if (!is_air(lens_.surfaces[k].glass_after) || !(gap_mm >= kMinRoom * length_mm)) continue;
-      for (const double share : kPlaces) {
-        const Place place{k, share * gap_mm};
+      for (const double fraction : kPlaces) {
+        const Place place{k, fraction * gap_mm};
         const double misfit = misfit_of(place);
         if (misfit < least) {
           least = misfit;

@@ -73,7 +73,7 @@ CONTREJOUR_INLINE_IF_FAST void advance(Clearance<P>& s, const PacketStep& step) 
   if (step.event == PathEvent::Reflect) {
     hk::reflect(s.ray, hit, direction);
     if constexpr (kGeometry == PathGeometry::General) {
-      if (step.share != 1.0) turn_by_grating(s, step);
+      if (step.efficiency != 1.0) turn_by_grating(s, step);
     }
     return;
   }

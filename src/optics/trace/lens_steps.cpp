@@ -53,8 +53,8 @@ PacketPath::PacketPath(const LensSteps& from, const Ghost& ghost, const LightRay
         const auto turn = grating_turn(from.lens(), surface, order, from.tables().lambda_nm());
         if (!turn) return;
         steps_.back().kick = turn->kick;
-        steps_.back().share = turn->share;
-        if (turn->share != 1.0) geometry_ = PathGeometry::General;
+        steps_.back().efficiency = turn->efficiency;
+        if (turn->efficiency != 1.0) geometry_ = PathGeometry::General;
       });
   sensor_gap_mm_ = from.lens().sensor_z_mm - before_mm.z;
   sensor_offset_mm_ = {-before_mm.x, -before_mm.y};

@@ -127,8 +127,8 @@ PacketPath::PacketPath(const OpticalPath& path, const ReflectanceTables& tables,
     step.blocks_within = from.blocks_within;
     step.absorption_per_mm = from.absorption_per_mm;
     step.kick = from.kick;
-    step.share = from.share;
-    if (from.rim || from.absorption_per_mm != 0.0 || from.share != 1.0) geometry_ = PathGeometry::General;
+    step.efficiency = from.efficiency;
+    if (from.rim || from.absorption_per_mm != 0.0 || from.efficiency != 1.0) geometry_ = PathGeometry::General;
     before_mm = vertex_mm;
   }
   sensor_gap_mm_ = path.sensor_z_mm - before_mm.z;

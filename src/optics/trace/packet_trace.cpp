@@ -52,7 +52,7 @@ HWY_INLINE void absorb(PacketState<P>& s, const PacketStep& step, P from_z) {
 template <class P>
 HWY_INLINE void turn_by_grating(PacketState<P>& s, const PacketStep& step) {
   const P zero(0.0);
-  s.transmission = s.transmission * P(step.share);
+  s.transmission = s.transmission * P(step.efficiency);
   s.ray.dx = s.ray.dx + P(step.kick.x);
   s.ray.dy = s.ray.dy + P(step.kick.y);
   const P along_squared = P(1.0) - s.ray.dx * s.ray.dx - s.ray.dy * s.ray.dy;
@@ -105,7 +105,7 @@ CONTREJOUR_INLINE_IF_FAST void advance(PacketState<P>& s, const PacketStep& step
     s.transmission = s.transmission * look_up(tables + step.reflectance, ReflectanceTables::kIntervals, u);
     hk::reflect(s.ray, hit, direction);
     if constexpr (kGeometry == PathGeometry::General) {
-      if (step.share != 1.0) turn_by_grating(s, step);
+      if (step.efficiency != 1.0) turn_by_grating(s, step);
     }
     return;
   }
@@ -145,8 +145,8 @@ HWY_INLINE PacketState<P> enter(const PacketStart& start, const float* x_mm, con
   s.transmission = P(1.0);
   if (start.diverges) {
     const P per_way(start.per_way_mm);
-    const P share = hk::turn_aside(s.ray, x * per_way, y * per_way);
-    s.transmission = P(start.flux) * share * share * share;
+    const P ratio = hk::turn_aside(s.ray, x * per_way, y * per_way);
+    s.transmission = P(start.flux) * ratio * ratio * ratio;
   }
   s.r_rel_squared = P(0.0);
   s.alive = P(1.0);

@@ -65,7 +65,7 @@ struct PacketStep {
   bool blocks_within = false;
   double absorption_per_mm = 0;
   Vec2 kick;
-  double share = 1;
+  double efficiency = 1;
 };
 
 // The features that an intersection must handle: tracers are compiled for each.

@@ -42,7 +42,7 @@ PathStep step_at(const LensState& lens, int surface, int direction, PathEvent ev
 
 // Efficiency of one order of a grating of squares (fill: side over pitch), relative to all reflected light: the
 // squares' spectrum sinc^2(m f) in each direction, normalised so that all orders sum to 1.
-double share_of_order(int order, double fill) {
+double order_efficiency(int order, double fill) {
   const double x = std::numbers::pi * order * fill;
   const double sinc = order == 0 ? 1.0 : std::sin(x) / x;
   return fill * sinc * sinc;
@@ -98,7 +98,7 @@ std::optional<GratingTurn> grating_turn(const LensState& lens, int surface, std:
     return std::nullopt;
   const double per_order = lambda_nm * 1e-6 / grating.pitch_mm;
   return GratingTurn{{order[0] * per_order, order[1] * per_order},
-                     share_of_order(order[0], grating.fill) * share_of_order(order[1], grating.fill)};
+                     order_efficiency(order[0], grating.fill) * order_efficiency(order[1], grating.fill)};
 }
 
 OpticalPath direct_path(const LensState& lens, double lambda_nm) {
@@ -119,7 +119,7 @@ OpticalPath ghost_path(const LensState& lens, Ghost ghost, double lambda_nm) {
         const auto turn = grating_turn(lens, surface, order, lambda_nm);
         if (!turn) return;
         path.steps.back().kick = turn->kick;
-        path.steps.back().share = turn->share;
+        path.steps.back().efficiency = turn->efficiency;
       });
   return path;
 }

@@ -122,7 +122,7 @@ bool advance(State& state, const PathStep& step, const OpticalPath& path, double
   if (reflectance_here != nullptr) *reflectance_here = r;
   if (step.event == PathEvent::Reflect) {
     hk::reflect(state.ray, hit, direction);
-    state.out.transmission *= r * step.share;
+    state.out.transmission *= r * step.efficiency;
     return step.kick == Vec2{} || turn_by_grating(state, step.kick);
   }
   if (hk::refract(state.ray, hit, step.n_in / step.n_out, direction) <= 0.0) {

@@ -159,7 +159,7 @@ double open_area(const Grid& grid) {
   for (std::size_t k = 0; k + kSide < kRays; ++k) {
     if (k % kSide + 1 == kSide) continue;
     const double a = blocked(k), b = blocked(k + 1), c = blocked(k + kSide), d = blocked(k + kSide + 1);
-    halves += share_below_zero(a, b, d) + share_below_zero(a, d, c);
+    halves += fraction_below_zero(a, b, d) + fraction_below_zero(a, d, c);
   }
   return 0.5 * halves * grid.cell().x * grid.cell().y;
 }

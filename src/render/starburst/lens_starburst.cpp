@@ -41,11 +41,12 @@ Result<StarburstSource> lens_pattern(const LensState& lens, const LightSource& l
   StarburstSettings made{1.0, 1.0, settings.pixel_pitch_mm, settings.radius_px};
   const auto pupil = exit_pupil(lens, light, lens.design_wavelength_nm, made.samples_across, context);
   if (!pupil) return tl::unexpected(pupil.error());
-  if (!(pupil->radius > 0.0) || !(pupil->open_share > 0.0)) return StarburstSource();
+  if (!(pupil->radius > 0.0) || !(pupil->open_fraction > 0.0)) return StarburstSource();
   Context quiet = context;
   quiet.progress = {};
   const LightSource along(normalized(light.direction), light.distance_mm);
-  const auto weighted = transmitted(bands, transmissions(lens, along, pupil->rays_mm, bands, quiet), pupil->open_share);
+  const auto weighted =
+      transmitted(bands, transmissions(lens, along, pupil->rays_mm, bands, quiet), pupil->open_fraction);
   made.pupil_radius_mm = pupil->radius;
   return StarburstSource::make(pupil->mask, pupil->outline ? &*pupil->outline : nullptr, weighted, made, quiet);
 }

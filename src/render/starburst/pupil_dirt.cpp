@@ -80,8 +80,8 @@ class PupilDirtPainter {
       all += own;
       left += own * power[k];
     }
-    out_.open_share = left / all;
-    out_.flux_mm2 *= out_.open_share;
+    out_.open_fraction = left / all;
+    out_.flux_mm2 *= out_.open_fraction;
     if (!(left > 0.0) || !out_.outline || polygons.empty()) return;
     PupilDirt dirt;
     for (const DirtStroke& stroke : strokes) add_open_part(stroke, clean, dirt.strokes);
@@ -91,7 +91,7 @@ class PupilDirtPainter {
     };
     dirt.x_mm = step({1.0, 0.0});
     dirt.y_mm = step({0.0, 1.0});
-    dirt.power_mm2 = power_mm2 * out_.open_share;
+    dirt.power_mm2 = power_mm2 * out_.open_fraction;
     out_.outline->dirt = std::make_shared<const PupilDirt>(std::move(dirt));
   }
 

@@ -188,7 +188,7 @@ Result<void> take_dirt_off(std::vector<ImagedLight>& imaged, const LensState& le
     const auto pupil =
         exit_pupil(lens, lights[group.front().light].source(), lens.design_wavelength_nm, kSamplesForDirt, context);
     if (!pupil) return tl::unexpected(pupil.error());
-    multiply_flux(group, pupil->open_share);
+    multiply_flux(group, pupil->open_fraction);
     left.insert(left.end(), group.begin(), group.end());
   }
   imaged = std::move(left);

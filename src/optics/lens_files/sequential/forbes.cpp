@@ -93,12 +93,12 @@ std::optional<ForbesPowers> powers_of_forbes(double curvature, double conic, con
   }
   Terms found{}, before{}, here{1.0};
   for (std::size_t j = 0; j < kTerms; ++j) {
-    double share = 0.0;
+    double coefficient = 0.0;
     for (std::size_t k = 0; k < kTerms; ++k)
-      share += at_node[k] * std::cos(static_cast<double>(j) * angle(k)) * (j == 0 ? 1.0 : 2.0) / kTerms;
+      coefficient += at_node[k] * std::cos(static_cast<double>(j) * angle(k)) * (j == 0 ? 1.0 : 2.0) / kTerms;
     Terms next{};
     for (std::size_t p = 0; p < kTerms; ++p) {
-      found[p] += share * here[p];
+      found[p] += coefficient * here[p];
       next[p] = (j == 0 ? -1.0 : -2.0) * here[p] - before[p];
       if (p > 0) next[p] += (j == 0 ? 2.0 : 4.0) * here[p - 1];
     }

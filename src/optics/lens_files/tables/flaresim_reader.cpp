@@ -26,7 +26,7 @@ constexpr std::string_view kFlareSimSpace = " \t\r\v\f";
 constexpr double kAirIndex = 1.0001;  // FlareSim: up to this index it is air, and a V_d below 0.1 means no dispersion
 constexpr double kSameIndex = 1e-3;
 // Its files have no aspheres: the sphere in place of a strong asphere may end before its rim.
-constexpr double kMinShareWithoutAspheres = 0.3;
+constexpr double kMinRimFractionWithoutAspheres = 0.3;
 
 // "f/2.8" or "F2.8" of a text; of several the last.
 std::optional<double> f_number_in(std::string_view text) {
@@ -69,7 +69,7 @@ class FlareSimReader {
     finish();
     if (error_) return tl::unexpected(*error_);
     const auto beam = full_frame_beam(lens_);
-    auto lens = completed(std::move(lens_), beam, kMinShareWithoutAspheres);
+    auto lens = completed(std::move(lens_), beam, kMinRimFractionWithoutAspheres);
     if (lens) warn_of_lost_gap(*lens);
     return lens;
   }

@@ -38,14 +38,14 @@ std::optional<HeightMeaning> meaning_of_stop(const Prescription& lens, double f_
 }
 
 // True if surfaces exist up to this fraction of their heights and do not cross within it.
-bool fits(const Prescription& lens, double share) {
+bool fits(const Prescription& lens, double fraction) {
   for (const Surface& surface : lens.surfaces)
-    if (!reaches(surface, share * surface.semi_diameter_mm)) return false;
+    if (!reaches(surface, fraction * surface.semi_diameter_mm)) return false;
   bool fit = true;
   for_each_neighbours(lens.surfaces, thicknesses_of(lens).front(),
                       [&](std::size_t front, std::size_t back, double gap_mm) {
                         const Surface &before = lens.surfaces[front], &behind = lens.surfaces[back];
-                        const double rim_mm = share * std::min(before.semi_diameter_mm, behind.semi_diameter_mm);
+                        const double rim_mm = fraction * std::min(before.semi_diameter_mm, behind.semi_diameter_mm);
                         // A gap that is negative on the axis is an error, but not one of the rims.
                         fit = !(gap_mm >= 0.0) || smallest_gap(before, behind, gap_mm, rim_mm).gap_mm >= -kTouch_mm;
                         return fit;
@@ -59,8 +59,8 @@ HeightMeaning meaning_of_heights(const Prescription& lens, std::optional<double>
   if (f_number) {
     if (const auto meaning = meaning_of_stop(lens, *f_number)) return *meaning;
   }
-  if (told == HeightMeaning::SemiDiameter && fits(lens, kMinShare)) return told;
-  return fits(lens, 0.5 * kMinShare) ? HeightMeaning::Diameter : HeightMeaning::Unusable;
+  if (told == HeightMeaning::SemiDiameter && fits(lens, kMinRimFraction)) return told;
+  return fits(lens, 0.5 * kMinRimFraction) ? HeightMeaning::Diameter : HeightMeaning::Unusable;
 }
 
 void apply_heights(Prescription& lens, HeightMeaning meaning) {
