@@ -57,7 +57,7 @@ class IrisField {
   }
 
  private:
-  friend class IrisFieldMaker;
+  friend class IrisFieldBuilder;
 
   static constexpr double kCoarseEdge = 0.25;  // of a detail
 

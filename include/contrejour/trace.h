@@ -52,7 +52,7 @@ struct PathStep {
   bool is_rim_only = false;  // one more rim of the step that follows, without refraction
   bool blocks_within = false;  // the rim is that of an obscuration
   double absorption_per_mm = 0;  // of the medium that the ray arrives through
-  Vec2 kick;  // of a reflecting grating: added to the direction's x and y
+  Vec2 grating_shift;  // of a reflecting grating: added to the direction's x and y
   double efficiency = 1;  // efficiency of the order: its fraction of the reflected light
 
   // A point is inside the rim where |rim_place| <= 1; own_mm: in the surface's own x and y from its axis.

@@ -22,7 +22,7 @@ class Extremes {
     lowest_ = std::min(lowest_, value);
     highest_ = std::max(highest_, value);
   }
-  [[nodiscard]] bool may_pass() const { return lowest_ <= 0.0F || lowest_ <= highest_ - lowest_; }
+  [[nodiscard]] bool may_transmit() const { return lowest_ <= 0.0F || lowest_ <= highest_ - lowest_; }
 
  private:
   float lowest_ = kInfinity;
@@ -41,9 +41,9 @@ bool may_be_open(const RayGrid& grid, const std::array<std::size_t, 4>& corners)
       iris[c].add(grid.iris_distance[c][k]);
     }
   }
-  if (!any || !rims.may_pass()) return false;
+  if (!any || !rims.may_transmit()) return false;
   for (std::size_t c = 0; c < static_cast<std::size_t>(grid.stop_crossings()); ++c) {
-    if (!iris[c].may_pass()) return false;
+    if (!iris[c].may_transmit()) return false;
   }
   return true;
 }

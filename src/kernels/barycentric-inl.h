@@ -30,13 +30,13 @@ struct Quad {
 // v is inside. Reversing an edge negates the expression exactly, so of two neighbours that share an edge exactly one
 // contains a point next to it.
 template <class T>
-struct SeenQuad {
+struct RelativeQuad {
   T x[4], y[4], edge[4];
 };
 
 template <class T>
-HWY_INLINE SeenQuad<T> seen_from(const Quad<T>& quad, T x, T y) {
-  SeenQuad<T> s;
+HWY_INLINE RelativeQuad<T> seen_from(const Quad<T>& quad, T x, T y) {
+  RelativeQuad<T> s;
   for (int i = 0; i < 4; ++i) {
     s.x[i] = quad.x[i] - x;
     s.y[i] = quad.y[i] - y;
@@ -67,7 +67,7 @@ class TriangleByMatrix {
  public:
   HWY_INLINE explicit TriangleByMatrix(const Quad<T>& q) : first_(q, 1, 2), second_(q, 2, 3) {}
 
-  HWY_INLINE Weights<T> at(const SeenQuad<T>& s) const {
+  HWY_INLINE Weights<T> at(const RelativeQuad<T>& s) const {
     const T zero(0.0);
     const T one(1.0);
     const auto is_second = zero > s.x[2] * s.y[0] - s.x[0] * s.y[2];
@@ -105,7 +105,7 @@ class TriangleByCrossProduct {
  public:
   HWY_INLINE explicit TriangleByCrossProduct(const Quad<T>&) {}
 
-  HWY_INLINE Weights<T> at(const SeenQuad<T>& s) const {
+  HWY_INLINE Weights<T> at(const RelativeQuad<T>& s) const {
     const T zero(0.0);
     const T diagonal = s.x[2] * s.y[0] - s.x[0] * s.y[2];
     const auto is_second = zero > diagonal;
@@ -125,7 +125,7 @@ class MeanValue {
  public:
   HWY_INLINE explicit MeanValue(const Quad<T>&) {}
 
-  HWY_INLINE Weights<T> at(const SeenQuad<T>& s) const {
+  HWY_INLINE Weights<T> at(const RelativeQuad<T>& s) const {
     // In squared pixels and in pixels: replaces 0 for a point on an edge or a corner.
     const T least(1e-30);
     const T corner(1e-12);
@@ -163,7 +163,7 @@ class Wachspress {
     }
   }
 
-  HWY_INLINE Weights<T> at(const SeenQuad<T>& s) const {
+  HWY_INLINE Weights<T> at(const RelativeQuad<T>& s) const {
     Weights<T> out;
     for (int i = 0; i < 4; ++i) out.w[i] = corner_[i] * (s.edge[(i + 1) % 4] * s.edge[(i + 2) % 4]);
     out.total = (out.w[0] + out.w[1]) + (out.w[2] + out.w[3]);
@@ -181,7 +181,7 @@ class LoopDeRose {
  public:
   HWY_INLINE explicit LoopDeRose(const Quad<T>&) {}
 
-  HWY_INLINE Weights<T> at(const SeenQuad<T>& s) const {
+  HWY_INLINE Weights<T> at(const RelativeQuad<T>& s) const {
     Weights<T> out;
     for (int i = 0; i < 4; ++i) out.w[i] = s.edge[(i + 1) % 4] * s.edge[(i + 2) % 4];
     out.total = (out.w[0] + out.w[1]) + (out.w[2] + out.w[3]);

@@ -77,9 +77,9 @@ double wandering(double time, Numbers& numbers) {
 // The largest size over the median.
 double largest_over_median() { return std::exp(Dirt::kSizeSpread * kMaxDeviations); }
 
-class DirtMaker {
+class DirtGenerator {
  public:
-  DirtMaker(const Dirt& dirt, Vec2 low, Vec2 high) : dirt_(dirt), low_(low), high_(high) {}
+  DirtGenerator(const Dirt& dirt, Vec2 low, Vec2 high) : dirt_(dirt), low_(low), high_(high) {}
 
   void add(Kind kind, double per_cm2, double reach_mm) {
     if (!(per_cm2 > 0.0)) return;
@@ -199,7 +199,7 @@ Result<void> check_dirt(const Dirt& dirt) {
 std::vector<DirtStroke> dirt_within(const Dirt& dirt, Vec2 low_mm, Vec2 high_mm) {
   const auto is_near = [](Vec2 p) { return std::abs(p.x) <= kFarthest_mm && std::abs(p.y) <= kFarthest_mm; };
   if (!check_dirt(dirt) || !(dirt.opacity > 0.0) || !is_near(low_mm) || !is_near(high_mm)) return {};
-  DirtMaker maker(dirt, low_mm, high_mm);
+  DirtGenerator maker(dirt, low_mm, high_mm);
   const double largest = largest_over_median();
   maker.add(Kind::Dust, dirt.dust_per_cm2, largest * dirt.dust_mm);
   maker.add(Kind::Scratch, dirt.scratches_per_cm2, 0.5 * largest * (dirt.scratch_length_mm + dirt.scratch_width_mm));

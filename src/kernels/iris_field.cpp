@@ -58,10 +58,10 @@ bool half_plane(Vec2 a, Vec2 b, Vec2 inner, IrisBound& out) {
 }  // namespace
 
 // Builds the tree from the field: rectangles of cells are split until each is closed, open, or has a straight edge.
-class IrisFieldMaker {
+class IrisFieldBuilder {
  public:
   // tones: null where there are none.
-  IrisFieldMaker(StopSamples distances, std::shared_ptr<const IrisTones> tones)
+  IrisFieldBuilder(StopSamples distances, std::shared_ptr<const IrisTones> tones)
       : side_(distances.side), pitch_(2.0 / (distances.side - 2)) {
     field_.side_ = side_;
     field_.field_ = std::move(distances.value);
@@ -262,7 +262,7 @@ Result<std::shared_ptr<const IrisField>> IrisField::from_levels(std::span<const 
   if (is_averaged ? has_half_tones(samples.value, samples.side, samples.side, highest)
                   : has_half_tones(level, width, height, highest))
     tones = std::make_shared<const IrisTones>(samples, highest);
-  IrisFieldMaker maker(distances_from_level(samples, (tones ? IrisTones::kDark : kEdge) * highest), tones);
+  IrisFieldBuilder maker(distances_from_level(samples, (tones ? IrisTones::kDark : kEdge) * highest), tones);
   auto field = std::make_shared<const IrisField>(maker.take());
   if (!(field->area() > 0.0))
     return refused("the picture of the iris leaves nothing open within the stop's circle, or too fine to see");

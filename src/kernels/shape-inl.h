@@ -81,7 +81,7 @@ HWY_INLINE Level<T> revolution_level(const ShapeConstants& s, T x, T y, T z) {
 }
 
 // Lower limit of the squared root in the profile's sag, which bounds the slope near the profile's end.
-inline constexpr double kBlunt = 1e-6;
+inline constexpr double kMinSquaredRoot = 1e-6;
 
 // z - c_x (x^2 + z^2) / 2 - w + c_x w^2 / 2 = 0, with w the profile at y.
 template <class T>
@@ -90,7 +90,7 @@ HWY_INLINE Level<T> toroid_level(const ShapeConstants& s, T x, T y, T z) {
   const T c(s.curvature), cx(s.curvature_x), per_reach_squared(s.per_reach_squared);
   const T y_squared = y * y;
   const T root_squared = one - c * T(s.quadratic) * y_squared;
-  const T root = square_root(larger(root_squared, T(kBlunt)));
+  const T root = square_root(larger(root_squared, T(kMinSquaredRoot)));
   const Powers<T> p = powers_at(s, y_squared * per_reach_squared);
   const T w = c * y_squared / (one + root) + p.value;
   const T slope = y * (c / root + T(2.0) * per_reach_squared * p.by_u);
@@ -104,7 +104,7 @@ HWY_INLINE Level<T> biconic_level(const ShapeConstants& s, T x, T y, T z) {
   const T cx(s.curvature_x), cy(s.curvature);
   const T by_x = cx * T(s.quadratic_x), by_y = cy * T(s.quadratic);
   const T root_squared = one - by_x * x * x - by_y * y * y;
-  const T root = square_root(larger(root_squared, T(kBlunt)));
+  const T root = square_root(larger(root_squared, T(kMinSquaredRoot)));
   const T factor = one / (one + root);
   const T sag = (cx * x * x + cy * y * y) * factor;
   const T steeper = sag / root;
@@ -127,9 +127,9 @@ struct NewtonLimits {
 };
 
 // Lower limit of cos(incidence), which bounds the steps of grazing rays.
-inline constexpr double kGrazing = 1.0 / 64;
+inline constexpr double kMinCosine = 1.0 / 64;
 // Converged step over the reach: the next step would be below rounding.
-inline constexpr double kSettled = 1e-9;
+inline constexpr double kConvergedStep = 1e-9;
 
 // Intersects a ray from its point on the vertex plane, in the surface's own frame. The root is the one of the sphere's
 // formula: on the vertex's side and crossed in the direction of the path, ahead of the ray or behind it.
@@ -150,9 +150,9 @@ CONTREJOUR_INLINE_IF_FAST Hit<T> search(const Ray3<T>& from, const ShapeConstant
   bool there = false;
   for (int k = 0; k < limits.steps && !there; ++k) {
     const T rises = direction * (level.gx * from.dx + level.gy * from.dy + level.gz * from.dz);
-    const T step = direction * level.f / larger(rises, T(kGrazing));
+    const T step = direction * level.f / larger(rises, T(kMinCosine));
     t = t - larger(smaller(step, longest), zero - longest);
-    if constexpr (std::is_same_v<T, double>) there = std::abs(step) <= kSettled * s.reach_mm;
+    if constexpr (std::is_same_v<T, double>) there = std::abs(step) <= kConvergedStep * s.reach_mm;
     level = level_at<kKind>(s, from.x + t * from.dx, from.y + t * from.dy, t * from.dz);
   }
 
@@ -208,7 +208,7 @@ HWY_INLINE NewtonLimits exact_limits(const ShapeConstants& s) {
 
 // The smallest rotation that takes n to +z, and its inverse.
 template <class T>
-HWY_INLINE void turn_upright(const Axis3<T>& n, T& x, T& y, T& z) {
+HWY_INLINE void rotate_to_surface_frame(const Axis3<T>& n, T& x, T& y, T& z) {
   const T height = along(n, x, y, z);
   const T factor = (height + z) / (T(1.0) + n.z);
   x = x - n.x * factor;

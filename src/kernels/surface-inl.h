@@ -29,7 +29,7 @@ struct Ray3 {
 // Changes the direction of a ray of a light at a finite distance to that of a ray displaced by (aside_x, aside_y), in
 // units of the first ray's distance from the light. Returns the first ray's distance over the other's.
 template <class T>
-HWY_INLINE T turn_aside(Ray3<T>& ray, T aside_x, T aside_y) {
+HWY_INLINE T perturb_direction(Ray3<T>& ray, T aside_x, T aside_y) {
   ray.dx = ray.dx + aside_x;
   ray.dy = ray.dy + aside_y;
   const T ratio = T(1.0) / square_root(ray.dx * ray.dx + ray.dy * ray.dy + ray.dz * ray.dz);
@@ -85,7 +85,7 @@ HWY_INLINE T along(const Axis3<T>& axis, T x, T y, T z) {
 // The same for a tilted surface, with its own axis n (unit, nz > 0) through its vertex, the origin of the ray's
 // coordinates. c p.p / 2 = n.p is that sphere or plane; with n = (0, 0, 1) it is the formula above.
 template <class T>
-HWY_INLINE Hit<T> intersect_askew(const Ray3<T>& ray, const Axis3<T>& n, T c, T direction) {
+HWY_INLINE Hit<T> intersect_tilted(const Ray3<T>& ray, const Axis3<T>& n, T c, T direction) {
   const T towards = along(n, ray.dx, ray.dy, ray.dz);
   const T to_plane = (T(0.0) - along(n, ray.x, ray.y, ray.z)) / towards;
   const T x = ray.x + to_plane * ray.dx;
@@ -109,11 +109,11 @@ HWY_INLINE Hit<T> intersect_askew(const Ray3<T>& ray, const Axis3<T>& n, T c, T 
 // The hit's x and y in the surface's own frame, and the normal's component along its axis: > 0 on the near half of the
 // sphere. The smallest rotation that takes n to +z takes p to p - (n + z) (n + z).p / (1 + nz) + 2 z n.p.
 template <class T>
-struct OwnPlace {
+struct SurfaceFramePoint {
   T x, y, nz;
 };
 template <class T>
-HWY_INLINE OwnPlace<T> own_place(const Hit<T>& hit, const Axis3<T>& n, T c) {
+HWY_INLINE SurfaceFramePoint<T> surface_frame_point(const Hit<T>& hit, const Axis3<T>& n, T c) {
   const T height = along(n, hit.x, hit.y, hit.sag);
   const T factor = (height + hit.sag) / (T(1.0) + n.z);
   return {hit.x - n.x * factor, hit.y - n.y * factor, T(1.0) - c * height};

@@ -10,7 +10,7 @@
 #include "ghosts/pupils/clearance_grid.h"
 #include "ghosts/pupils/meridian_scan.h"
 #include "ghosts/pupils/pupil_boxes.h"
-#include "ghosts/pupils/stop_aim.h"
+#include "ghosts/pupils/stop_newton_step.h"
 
 using namespace contrejour;
 using namespace contrejour::adaptive;
@@ -65,7 +65,7 @@ TEST_CASE("a box aimed at the stop from a coarse grid holds what gets through, b
     ClearanceGrid grid(s.packets());
     grid.trace(s.half(), 12, 6);
     for (const auto& piece : grid.pieces(1.0F)) {
-      const auto aim = aim_at_stop(grid, piece);
+      const auto aim = newton_step_to_stop(grid, piece);
       if (!aim || aim->error > 0.1) continue;
       const Vec2 more = (aim->box.high - aim->box.low) * 0.5;
       const auto open = open_bounds(s, {aim->box.low - more, aim->box.high + more}, 60);

@@ -275,7 +275,8 @@ bool same(const PacketStep& a, const PacketStep& b) {
          a.inverse_semi_diameter_squared == b.inverse_semi_diameter_squared && a.eta == b.eta &&
          (a.shape == nullptr) == (b.shape == nullptr) && a.axis == b.axis && a.offset_mm == b.offset_mm &&
          a.rim.place({1.0, 2.0}) == b.rim.place({1.0, 2.0}) && a.blocks_within == b.blocks_within &&
-         a.absorption_per_mm == b.absorption_per_mm && a.kick == b.kick && a.share == b.share;
+         a.absorption_per_mm == b.absorption_per_mm && a.grating_shift == b.grating_shift &&
+         a.efficiency == b.efficiency;
 }
 
 }  // namespace

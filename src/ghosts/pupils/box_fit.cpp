@@ -10,7 +10,7 @@ namespace {
 constexpr int kFitColumns = 8;
 constexpr double kWidening = 0.2;  // of a box's size, on a side whose border transmits light
 constexpr int kMaxWidenings = 4;
-constexpr float kFitReach = 0.5F;     // ClearanceGrid::may_pass
+constexpr float kFitReach = 0.5F;     // ClearanceGrid::may_transmit
 
 }  // namespace
 
@@ -28,7 +28,7 @@ std::optional<Rectangle> BoxFitter::fit(const Rectangle& box) {
     half = next;
   }
   std::optional<Rectangle> hull;
-  for (const auto& piece : grid_.pieces(kFitReach)) {
+  for (const auto& piece : grid_.components(kFitReach)) {
     const Rectangle one = grid_.hull(piece);
     if (!hull) hull = one;
     hull->low = {std::min(hull->low.x, one.low.x), std::min(hull->low.y, one.low.y)};

@@ -92,7 +92,7 @@ bool ClearanceGrid::may_reach_circle(std::size_t k, const std::array<std::size_t
   return x * x + y * y <= 1.0F;
 }
 
-bool ClearanceGrid::may_pass(GridCell cell, float reach) const {
+bool ClearanceGrid::may_transmit(GridCell cell, float reach) const {
   std::array<std::size_t, 4> corners{at(cell.column, cell.row), at(cell.column + 1, cell.row),
                                      at(cell.column, cell.row + 1), at(cell.column + 1, cell.row + 1)};
   // A ray that fails is ignored: the others decide.
@@ -111,12 +111,12 @@ int ClearanceGrid::open_corners(GridCell cell) const {
          open_[at(cell.column, cell.row + 1)] + open_[at(cell.column + 1, cell.row + 1)];
 }
 
-std::vector<std::vector<GridCell>> ClearanceGrid::pieces(float reach) const {
+std::vector<std::vector<GridCell>> ClearanceGrid::components(float reach) const {
   const auto index = [&](int column, int row) { return static_cast<std::size_t>(row * columns_ + column); };
   std::vector<std::uint8_t> left(static_cast<std::size_t>(columns_ * rows_));
   for (int row = 0; row < rows_; ++row) {
     for (int column = 0; column < columns_; ++column) {
-      left[index(column, row)] = may_pass({column, row}, reach) ? 1 : 0;
+      left[index(column, row)] = may_transmit({column, row}, reach) ? 1 : 0;
     }
   }
   std::vector<std::vector<GridCell>> out;

@@ -53,11 +53,11 @@ class ClearanceGrid {
 
   // True if light may pass through a cell, provided that fields exceed their corner values by at most `reach` times the
   // corners' difference.
-  [[nodiscard]] bool may_pass(GridCell cell, float reach) const;
+  [[nodiscard]] bool may_transmit(GridCell cell, float reach) const;
   [[nodiscard]] int open_corners(GridCell cell) const;
 
   // The connected components of cells that may transmit light; cells that touch at a corner are connected.
-  [[nodiscard]] std::vector<std::vector<GridCell>> pieces(float reach) const;
+  [[nodiscard]] std::vector<std::vector<GridCell>> components(float reach) const;
   // The box enlarged by a fraction of its size on every side at which rays get through, within bounds.
   [[nodiscard]] Rectangle grown(double fraction, const Rectangle& bounds) const;
 

@@ -14,7 +14,9 @@ class Extremes {
     lowest_ = std::min(lowest_, value);
     highest_ = std::max(highest_, value);
   }
-  [[nodiscard]] bool may_pass(float reach) const { return lowest_ <= 0.0F || lowest_ <= reach * (highest_ - lowest_); }
+  [[nodiscard]] bool may_transmit(float reach) const {
+    return lowest_ <= 0.0F || lowest_ <= reach * (highest_ - lowest_);
+  }
 
  private:
   float lowest_ = std::numeric_limits<float>::infinity();

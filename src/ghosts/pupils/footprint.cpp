@@ -24,7 +24,7 @@ struct OpenCell {
 
 // Visits the cells of which all rays arrive.
 template <class Visit>
-void for_each_open_cell(const LitMesh& mesh, const Visit& visit) {
+void for_each_open_cell(const OpenMesh& mesh, const Visit& visit) {
   for (const Block& block : mesh.blocks) {
     for (const auto& v : kCellsOfBlock) {
       OpenCell cell{{block.vertex[v[0]], block.vertex[v[1]], block.vertex[v[2]], block.vertex[v[3]]}, {1.0, 1.0}};
@@ -40,17 +40,19 @@ void for_each_open_cell(const LitMesh& mesh, const Visit& visit) {
 }
 
 // Area on the entrance plane (mm^2) times transmittance, of one of a cell's halves.
-double light_of(const LitMesh& mesh, const OpenCell& cell, std::size_t half) {
+double light_of(const OpenMesh& mesh, const OpenCell& cell, std::size_t half) {
   double sum = 0.0;
   for (const std::size_t corner : kHalves[half]) sum += mesh.transmission[cell.vertex[corner]];
   return cell.open[half] * 0.5 * mesh.cell_mm2() * sum / 3.0;
 }
 
-double light_of(const LitMesh& mesh, const OpenCell& cell) { return light_of(mesh, cell, 0) + light_of(mesh, cell, 1); }
+double light_of(const OpenMesh& mesh, const OpenCell& cell) {
+  return light_of(mesh, cell, 0) + light_of(mesh, cell, 1);
+}
 
 // Approximate mean irradiance of a cell's light over a square of a pixel's size, or over its image if that is larger.
-double level_of(const LitMesh& mesh, const OpenCell& cell, double pixel_mm) {
-  const auto at = [&](std::size_t corner) { return mesh.landing_mm(cell.vertex[corner]); };
+double level_of(const OpenMesh& mesh, const OpenCell& cell, double pixel_mm) {
+  const auto at = [&](std::size_t corner) { return mesh.sensor_point_mm(cell.vertex[corner]); };
   const Vec2 first = at(2) - at(0), second = at(3) - at(1);
   const double image_mm2 = 0.5 * std::abs(cross(first, second)) * 0.5 * (cell.open[0] + cell.open[1]);
   const double long_mm = std::max({length(first), length(second), pixel_mm});
@@ -61,16 +63,16 @@ constexpr double kMin_mm = 1e-9, kMax_mm = 1e9;  // of a square
 
 // Candidates for the peak: the brightest cell, and points where many parts of the pupil overlap, by a hash table of
 // squares of the sensor. (A hash collision only adds a candidate that is no peak.)
-std::vector<Vec2> bright_places(const std::vector<LitMesh>& meshes, double pixel_mm) {
+std::vector<Vec2> bright_places(const std::vector<OpenMesh>& meshes, double pixel_mm) {
   constexpr std::size_t kBits = 11, kMaxPlaces = 6;
   constexpr double kFarthest = 1e15;  // squares, which can be counted
   std::vector<std::pair<double, Vec2>> table(std::size_t{1} << kBits);
   std::pair<double, Vec2> brightest{0.0, {}};
-  for (const LitMesh& mesh : meshes) {
+  for (const OpenMesh& mesh : meshes) {
     for_each_open_cell(mesh, [&](const OpenCell& cell) {
       const double level = level_of(mesh, cell, pixel_mm);
       Vec2 middle;
-      for (const std::size_t vertex : cell.vertex) middle = middle + mesh.landing_mm(vertex) * 0.25;
+      for (const std::size_t vertex : cell.vertex) middle = middle + mesh.sensor_point_mm(vertex) * 0.25;
       if (level > brightest.first) brightest = {level, middle};
       if (!(std::abs(middle.x) + std::abs(middle.y) < kFarthest * pixel_mm)) return;
       const auto column = static_cast<std::int64_t>(std::floor(middle.x / pixel_mm));
@@ -91,12 +93,12 @@ std::vector<Vec2> bright_places(const std::vector<LitMesh>& meshes, double pixel
 }
 
 // All light that lands in a window: area on the entrance plane (mm^2) times transmittance.
-double light_within(const TriangleWindow& window, const std::vector<LitMesh>& meshes) {
+double light_within(const TriangleWindow& window, const std::vector<OpenMesh>& meshes) {
   double light = 0.0;
-  for (const LitMesh& mesh : meshes) {
+  for (const OpenMesh& mesh : meshes) {
     for_each_open_cell(mesh, [&](const OpenCell& cell) {
       std::array<Vec2, 4> image;
-      for (std::size_t k = 0; k < image.size(); ++k) image[k] = mesh.landing_mm(cell.vertex[k]);
+      for (std::size_t k = 0; k < image.size(); ++k) image[k] = mesh.sensor_point_mm(cell.vertex[k]);
       if (window.misses(image)) return;
       const bool whole = window.holds(image);
       for (std::size_t half = 0; half < 2; ++half) {
@@ -111,19 +113,19 @@ double light_within(const TriangleWindow& window, const std::vector<LitMesh>& me
 }
 
 // The mean over a square about a point.
-double mean_about(Vec2 place, const std::vector<LitMesh>& meshes, double pixel_mm) {
+double mean_about(Vec2 place, const std::vector<OpenMesh>& meshes, double pixel_mm) {
   const Vec2 half{0.5 * pixel_mm, 0.5 * pixel_mm};
   return light_within(TriangleWindow({place - half, place + half}), meshes) / (pixel_mm * pixel_mm);
 }
 
 }  // namespace
 
-Footprint::Footprint(std::vector<LitMesh> meshes, double shared_flux)
+Footprint::Footprint(std::vector<OpenMesh> meshes, double shared_flux)
     : meshes_(std::move(meshes)), shared_flux_(shared_flux) {
   constexpr double kFar = std::numeric_limits<double>::infinity();
   measure_.min_mm = {kFar, kFar};
   measure_.max_mm = {-kFar, -kFar};
-  for (const LitMesh& mesh : meshes_) add(mesh);
+  for (const OpenMesh& mesh : meshes_) add(mesh);
   if (measure_.flux_mm2 > 0.0) {
     measure_.centroid_mm = measure_.centroid_mm * (1.0 / measure_.flux_mm2);
     measure_.flux_mm2 *= shared_flux_;
@@ -139,22 +141,22 @@ void Footprint::grow(Vec2 p) {
 }
 
 // The bounds contain the rays that get through, and the points where the pupil's edge crosses sides of cells.
-void Footprint::add(const LitMesh& mesh) {
+void Footprint::add(const OpenMesh& mesh) {
   for (std::size_t k = 0; k < mesh.weight.size(); ++k) {
     if (mesh.weight[k] == 0.0) continue;
     const double flux = mesh.weight[k] * mesh.transmission[k];
     measure_.flux_mm2 += flux;
-    measure_.centroid_mm = measure_.centroid_mm + mesh.landing_mm(k) * flux;
+    measure_.centroid_mm = measure_.centroid_mm + mesh.sensor_point_mm(k) * flux;
   }
   for (std::size_t k = 0; k < mesh.blocked.size(); ++k)
-    if (mesh.blocked[k] <= 0.0F) grow(mesh.landing_mm(k));
+    if (mesh.blocked[k] <= 0.0F) grow(mesh.sensor_point_mm(k));
   for_each_open_cell(mesh, [&](const OpenCell& cell) {
     if (cell.open[0] == 1.0 && cell.open[1] == 1.0) return;
     for (std::size_t corner = 0; corner < 4; ++corner) {
       const std::size_t a = cell.vertex[corner], b = cell.vertex[(corner + 1) % 4];
       const double from = mesh.blocked[a], to = mesh.blocked[b];
       if ((from <= 0.0) != (to <= 0.0))
-        grow(mesh.landing_mm(a) + (mesh.landing_mm(b) - mesh.landing_mm(a)) * (from / (from - to)));
+        grow(mesh.sensor_point_mm(a) + (mesh.sensor_point_mm(b) - mesh.sensor_point_mm(a)) * (from / (from - to)));
     }
   });
 }
@@ -163,7 +165,7 @@ double Footprint::flux_within_mm2(const Rectangle& sensor_mm) const {
   const TriangleWindow window(sensor_mm);
   if (window.holds(std::array{measure_.min_mm, measure_.max_mm})) return measure_.flux_mm2;
   double whole = 0.0;
-  for (const LitMesh& mesh : meshes_)
+  for (const OpenMesh& mesh : meshes_)
     for_each_open_cell(mesh, [&](const OpenCell& cell) { whole += light_of(mesh, cell); });
   return whole > 0.0 ? measure_.flux_mm2 * (light_within(window, meshes_) / whole) : 0.0;
 }
@@ -175,7 +177,7 @@ double Footprint::peak_per_mm2(double pixel_mm) const {
       peak = std::max(peak, mean_about(place, meshes_, pixel_mm));
     return peak * shared_flux_;
   }
-  for (const LitMesh& mesh : meshes_)
+  for (const OpenMesh& mesh : meshes_)
     for_each_open_cell(mesh, [&](const OpenCell& cell) { peak = std::max(peak, level_of(mesh, cell, 0.0)); });
   return peak * shared_flux_;
 }

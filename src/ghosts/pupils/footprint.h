@@ -4,28 +4,28 @@
 #include <vector>
 
 #include "contrejour/ghost.h"
-#include "ghosts/pupils/lit_mesh.h"
+#include "ghosts/pupils/open_mesh.h"
 
 namespace contrejour::pupils {
 
 class Footprint {
  public:
   // shared_flux: LightSource's.
-  Footprint(std::vector<LitMesh> meshes, double shared_flux);
+  Footprint(std::vector<OpenMesh> meshes, double shared_flux);
 
   // All figures but the peak.
   [[nodiscard]] const GhostMeasure& measure() const { return measure_; }
-  [[nodiscard]] const std::vector<LitMesh>& meshes() const { return meshes_; }
+  [[nodiscard]] const std::vector<OpenMesh>& meshes() const { return meshes_; }
   // The flux that lands inside a rectangle of the sensor.
   [[nodiscard]] double flux_within_mm2(const Rectangle& sensor_mm) const;
   // The mean over the brightest square of side pixel_mm; 0: over the brightest cell.
   [[nodiscard]] double peak_per_mm2(double pixel_mm) const;
 
  private:
-  void add(const LitMesh& mesh);
-  void grow(Vec2 landing_mm);
+  void add(const OpenMesh& mesh);
+  void grow(Vec2 sensor_point_mm);
 
-  std::vector<LitMesh> meshes_;
+  std::vector<OpenMesh> meshes_;
   double shared_flux_;
   GhostMeasure measure_;
 };

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstddef>
 
-#include "ghosts/pupils/lit_mesh.h"
+#include "ghosts/pupils/open_mesh.h"
 
 namespace contrejour::pupils {
 namespace {
@@ -33,7 +33,7 @@ struct PupilSamples {
 
 // Adds vertices of a mesh as samples, one for each equal step of open area, block by block, so that samples cover the
 // whole mesh. sum_mm2: the open area of the preceding meshes.
-void add_samples(const LitMesh& mesh, double step_mm2, double& sum_mm2, PupilSamples& samples) {
+void add_samples(const OpenMesh& mesh, double step_mm2, double& sum_mm2, PupilSamples& samples) {
   std::vector<bool> seen(mesh.weight.size(), false);
   const Vec2 origin = mesh.origin_mm - samples.origin_mm;
   for (const Block& block : mesh.blocks) {
@@ -55,18 +55,18 @@ void add_samples(const LitMesh& mesh, double step_mm2, double& sum_mm2, PupilSam
 }
 
 // The samples of all meshes together.
-PupilSamples samples_of(const std::vector<LitMesh>& meshes) {
+PupilSamples samples_of(const std::vector<OpenMesh>& meshes) {
   constexpr int kSamples = 32;
   PupilSamples samples;
   samples.origin_mm = meshes.front().origin_mm;
   samples.apart_mm = meshes.front().step_mm.x;
   double open_mm2 = 0.0;
-  for (const LitMesh& mesh : meshes) {
+  for (const OpenMesh& mesh : meshes) {
     samples.apart_mm = std::min({samples.apart_mm, mesh.step_mm.x, mesh.step_mm.y});
     for (const double weight : mesh.weight) open_mm2 += std::max(weight, 0.0);
   }
   double sum_mm2 = 0.0;
-  for (const LitMesh& mesh : meshes) add_samples(mesh, open_mm2 / kSamples, sum_mm2, samples);
+  for (const OpenMesh& mesh : meshes) add_samples(mesh, open_mm2 / kSamples, sum_mm2, samples);
   return samples;
 }
 
@@ -91,9 +91,9 @@ Footprint footprint_of(const PupilRequest& request, const GhostPupil& pupil, dou
   return {tracer.trace(pupil.boxes), light.source.shared_flux()};
 }
 
-std::vector<double> rough_fluxes_within(const PupilRequest& request, const GhostPupil& searched,
-                                        std::span<const double> lambda_nm, const IrisShape& iris,
-                                        const Rectangle& sensor_mm) {
+std::vector<double> approximate_fluxes_within(const PupilRequest& request, const GhostPupil& searched,
+                                              std::span<const double> lambda_nm, const IrisShape& iris,
+                                              const Rectangle& sensor_mm) {
   std::vector<double> fluxes(lambda_nm.size(), 0.0);
   if (searched.boxes.empty()) return fluxes;
   const std::vector<Rectangle> boxes = disjoint(searched.boxes);

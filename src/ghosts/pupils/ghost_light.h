@@ -17,8 +17,8 @@ namespace contrejour::pupils {
 // The flux of a ghost that lands inside a rectangle of the sensor, mm^2 at E0 = 1, at each of some wavelengths: to
 // about a hundredth of its whole flux. The pupil and the footprint are found at the request's middle wavelength; at the
 // others the same rays give the reflectances. searched: from search_ghost_pupil() or find_ghost_pupil().
-[[nodiscard]] std::vector<double> rough_fluxes_within(const PupilRequest& request, const GhostPupil& searched,
-                                                      std::span<const double> lambda_nm, const IrisShape& iris,
-                                                      const Rectangle& sensor_mm);
+[[nodiscard]] std::vector<double> approximate_fluxes_within(const PupilRequest& request, const GhostPupil& searched,
+                                                            std::span<const double> lambda_nm, const IrisShape& iris,
+                                                            const Rectangle& sensor_mm);
 
 }  // namespace contrejour::pupils

@@ -59,7 +59,7 @@ bool is_symmetric(const PupilRequest& request) { return has_axial_symmetry(reque
 
 // A lens without symmetries has one box, found by grids over the whole window. The first wavelength's box is the guess
 // for the others.
-GhostPupil find_askew_box(const PupilRequest& request) {
+GhostPupil find_box_without_symmetry(const PupilRequest& request) {
   const IrisShape circle{Iris{}};
   GhostPupil pupil;
   RayGrid grid;
@@ -133,7 +133,7 @@ GhostPupil find_ghost_pupil(const PupilRequest& request) {
 
 GhostPupil search_ghost_pupil(const PupilRequest& request) {
   if (request.lambda_nm.empty()) return {};
-  if (!is_symmetric(request)) return find_askew_box(request);
+  if (!is_symmetric(request)) return find_box_without_symmetry(request);
   const LightFrame light(request.light);
   const double middle_nm = middle_wavelength(request);
   const PacketPath path(request.steps.at(middle_nm), request.ghost, {{0.0, 0.0, request.window.z_mm}, light.source});
@@ -157,7 +157,7 @@ GhostPupil fit_ghost_pupil(const PupilRequest& request, GhostPupil searched) {
 
 GhostPupil refit_ghost_pupil(const PupilRequest& request, std::vector<Rectangle> boxes) {
   if (request.lambda_nm.empty()) return {};
-  if (!is_symmetric(request)) return find_askew_box(request);
+  if (!is_symmetric(request)) return find_box_without_symmetry(request);
   std::erase_if(boxes, is_mirror_image);
   const double times = std::min(request.stop_times, std::sqrt(kMuchWider * request.stop_times));
   for (Rectangle& box : boxes) box = about_middle(box, times);

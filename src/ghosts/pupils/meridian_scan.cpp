@@ -63,7 +63,7 @@ bool MeridianScan::is_open(const Node& node) const {
 }
 
 // True if light may pass between node k and the next. If one of them fails, the other one must be open.
-bool MeridianScan::may_pass(std::size_t k) const {
+bool MeridianScan::may_transmit(std::size_t k) const {
   const Node& a = nodes_[k];
   const Node& b = nodes_[k + 1];
   if (a.failing != 0.0F && b.failing != 0.0F) return false;
@@ -80,7 +80,7 @@ bool MeridianScan::may_pass(std::size_t k) const {
 bool MeridianScan::is_worth_a_look(std::size_t k) const {
   const Node& a = nodes_[k];
   const Node& b = nodes_[k + 1];
-  if (a.failing == 0.0F && b.failing == 0.0F) return may_pass(k) && !(is_open(a) && is_open(b));
+  if (a.failing == 0.0F && b.failing == 0.0F) return may_transmit(k) && !(is_open(a) && is_open(b));
   if (a.failing == 0.0F || b.failing == 0.0F || a.passed != b.passed) return true;
   // Both fail at the same test: a ray between them may pass if `failing` falls fast enough from either side.
   const auto falls_to_zero = [&](const Node& outer, const Node& inner) {
@@ -156,7 +156,7 @@ std::vector<Interval> MeridianScan::find(Interval line, std::span<const Rectangl
   std::vector<Interval> found;
   for (std::size_t k = 0; k + 1 < nodes_.size(); ++k) {
     const Interval i{nodes_[k].x_mm, nodes_[k + 1].x_mm};
-    if (!may_pass(k) || reaches(i, boxes)) continue;
+    if (!may_transmit(k) || reaches(i, boxes)) continue;
     if (!found.empty() && found.back().high == i.low) {
       found.back().high = i.high;
     } else {

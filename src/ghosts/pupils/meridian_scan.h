@@ -34,7 +34,7 @@ class MeridianScan {
     std::array<float, 1 + kMaxStopCrossings> place{};  // x at the largest relative height, then at the stop
   };
   void trace(const std::vector<double>& x_mm);
-  [[nodiscard]] bool may_pass(std::size_t k) const;
+  [[nodiscard]] bool may_transmit(std::size_t k) const;
   [[nodiscard]] bool is_worth_a_look(std::size_t k) const;
   [[nodiscard]] bool is_open(const Node& node) const;
   static void look_into(Interval i, std::vector<double>& x_mm);

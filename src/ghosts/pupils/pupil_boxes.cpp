@@ -5,7 +5,7 @@
 
 #include "ghosts/pupils/clearance_grid.h"
 #include "ghosts/pupils/meridian_scan.h"
-#include "ghosts/pupils/stop_aim.h"
+#include "ghosts/pupils/stop_newton_step.h"
 
 namespace contrejour::pupils {
 namespace {
@@ -13,7 +13,7 @@ namespace {
 constexpr int kFirstColumns = 12;  // of the first grid, over the window; half as many rows from y = 0 up
 constexpr int kZoomColumns = 8;        // of the other grids; half as many rows for boxes that touch y = 0
 constexpr int kMaxColumns = 32;
-constexpr float kFirstReach = 1.0F;  // ClearanceGrid::may_pass
+constexpr float kFirstReach = 1.0F;  // ClearanceGrid::may_transmit
 constexpr float kBoxReach = 0.5F;
 constexpr double kGrowth = 1.0;  // of a box's size, on a side at which rays get through
 constexpr int kMaxGrowths = 2;
@@ -22,7 +22,7 @@ constexpr int kMaxDark = 2;     // consecutive levels without a ray that gets th
 constexpr std::uint64_t kMaxRays = 3000;
 constexpr double kTight = 0.4;         // fraction of open corners at which cells fit well enough
 constexpr double kWorthZooming = 0.6;  // of the area
-constexpr double kSettled = 0.15;      // stop radii, error of an aim that is accepted
+constexpr double kConvergedStep = 0.15;      // stop radii, error of an aim that is accepted
 
 double area_if_any(const Rectangle& r) { return std::max(r.high.x - r.low.x, 0.0) * std::max(r.high.y - r.low.y, 0.0); }
 
@@ -74,15 +74,15 @@ class Search {
 
   // Each connected piece of the grid over `part` becomes a box or a part to be searched, or is dropped.
   void consider(const Part& part, float reach) {
-    for (const auto& piece : grid_.pieces(reach)) {
+    for (const auto& piece : grid_.components(reach)) {
       const Rectangle hull = grid_.hull(piece);
       int open = 0;
       for (const GridCell& cell : piece) open += grid_.open_corners(cell);
       Rectangle next = hull;
-      const auto aim = aim_at_stop(grid_, piece);
+      const auto aim = newton_step_to_stop(grid_, piece);
       if (aim && area_if_any(common(hull, aim->box)) > 0.0) {
         next = common(hull, aim->box);
-        if (aim->error < kSettled && open > 0) {
+        if (aim->error < kConvergedStep && open > 0) {
           add_box(next);
           continue;
         }

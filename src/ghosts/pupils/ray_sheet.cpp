@@ -84,7 +84,7 @@ RaySheet mirrored(const RaySheet& sheet) {
   return out;
 }
 
-bool may_pass(const RaySheet& sheet, const CellCorners& corners) {
+bool may_transmit(const RaySheet& sheet, const CellCorners& corners) {
   std::array<Extremes, 1 + kMaxStopCrossings> extremes;
   bool any = false;
   for (const std::size_t k : corners) {
@@ -97,7 +97,7 @@ bool may_pass(const RaySheet& sheet, const CellCorners& corners) {
     }
   }
   return any && std::all_of(extremes.begin(), extremes.begin() + 1 + static_cast<std::ptrdiff_t>(sheet.stop.size()),
-                            [](const Extremes& e) { return e.may_pass(1.0F); });
+                            [](const Extremes& e) { return e.may_transmit(1.0F); });
 }
 
 std::optional<Rectangle> bounds_of_cells(const RaySheet& sheet, const std::function<bool(const CellCorners&)>& counts) {

@@ -49,7 +49,7 @@ void add_light(RaySheet& sheet, std::span<const float> transmission, const std::
 // The nodes of a cell of the sheet: the second is the next in the first's row, the others are in the row above.
 using CellCorners = std::array<std::size_t, 4>;
 // True if light may get through between these nodes; the iris counts as its circumscribed circle.
-[[nodiscard]] bool may_pass(const RaySheet& sheet, const CellCorners& corners);
+[[nodiscard]] bool may_transmit(const RaySheet& sheet, const CellCorners& corners);
 // The bounds of the cells that satisfy a predicate; none if no cell does.
 [[nodiscard]] std::optional<Rectangle> bounds_of_cells(const RaySheet& sheet,
                                                        const std::function<bool(const CellCorners&)>& counts);

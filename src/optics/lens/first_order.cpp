@@ -102,7 +102,7 @@ std::optional<double> if_finite(double value) { return std::isfinite(value) ? st
 
 // Image height of the chief ray over the tangent of the field angle. The ray through the middle of the stop at slope 1
 // starts at y = -b / a, with a and b of the matrix to the stop.
-double chief_landing_mm(const Abcd& to_stop, const Abcd& to_sensor) {
+double relative_image_height(const Abcd& to_stop, const Abcd& to_sensor) {
   return to_sensor.b - to_sensor.a * to_stop.b / to_stop.a;
 }
 
@@ -130,7 +130,7 @@ GhostFirstOrder ghost_first_order(const LensState& lens, const Ghost& ghost, dou
   // y = b u on the sensor of rays from the middle of the stop, at slopes of d u.
   const Abcd from_stop = m.to_sensor * inverse(m.to_stop.back());
   g.stop_image_mm = if_finite(-from_stop.b / from_stop.d);
-  g.place = chief_landing_mm(m.to_stop.front(), m.to_sensor) / chief_landing_mm(direct_to_stop, direct);
+  g.place = relative_image_height(m.to_stop.front(), m.to_sensor) / relative_image_height(direct_to_stop, direct);
   return g;
 }
 

@@ -33,23 +33,23 @@ bool is_anamorphic(const LensState& lens) {
 
 // Aims chief rays from the axis outwards, each from a first guess extrapolated from its neighbours. Beyond the last
 // chief ray the image point is extrapolated by first-order optics.
-Vec2 anamorphic_landing(const LensState& lens, const LightSource& source, double lambda_nm) {
+Vec2 anamorphic_image_point(const LensState& lens, const LightSource& source, double lambda_nm) {
   const OpticalPath path = direct_path(lens, lambda_nm);
   const Vec2 target = tangents_of(source.direction);
   const int steps = std::max(1, static_cast<int>(std::ceil(std::min(length(target), kLargestField) / kFieldStep)));
-  Vec2 landing_mm, at_mm, before_mm;
+  Vec2 image_mm, at_mm, before_mm;
   for (int k = 0; k <= steps; ++k) {
     const Vec2 tangents = target * (static_cast<double>(k) / steps);
     const auto chief = aim_chief(path, {direction_of(tangents), source.distance_mm}, at_mm + (at_mm - before_mm));
     if (!chief) {
       const Vec2 last = target * (std::max(0.0, k - 1.0) / steps);
-      return landing_mm + stretched(focal_lengths(lens, lambda_nm), target - last);
+      return image_mm + stretched(focal_lengths(lens, lambda_nm), target - last);
     }
-    landing_mm = chief->landing_mm;
+    image_mm = chief->image_mm;
     before_mm = k == 0 ? chief->at_mm : at_mm;
     at_mm = chief->at_mm;
   }
-  return landing_mm;
+  return image_mm;
 }
 
 // Secant steps (Broyden 1965, eq. 4.5, on the inverse) from the first order's map of tangents to the sensor.

@@ -12,7 +12,7 @@ inline constexpr int kAimSteps = 40;
 
 struct ChiefRay {
   Vec2 at_mm;  // in that plane
-  Vec2 landing_mm;
+  Vec2 image_mm;
 };
 
 // Starts from a first guess of its point in that plane. None if the iteration does not converge.

@@ -37,7 +37,7 @@ class Meridian {
 
   struct Chief {
     double height_mm = 0;  // at that plane
-    double landing_mm = 0;
+    double image_mm = 0;
     double per_mm = 0;  // derivative of the stop coordinate by the height, stop radii; 0: unknown
   };
 
@@ -106,7 +106,7 @@ std::vector<FieldPoint> walk_field(const Meridian& meridian, FarEnough far_enoug
   std::vector<FieldPoint> points{{0.0, {}}};
   for (double field = kFieldStep_rad; field < kLastField_rad; field += kFieldStep_rad) {
     const auto chief = meridian.chief(field, next_guess(points));
-    if (!chief || !(std::abs(chief->landing_mm) > std::abs(points.back().chief.landing_mm))) break;
+    if (!chief || !(std::abs(chief->image_mm) > std::abs(points.back().chief.image_mm))) break;
     points.push_back({field, *chief});
     if (far_enough(points.back())) break;
   }
@@ -118,32 +118,32 @@ std::vector<FieldPoint> walk_past(const Meridian& meridian, double field_rad) {
 }
 
 // Beyond the last chief ray the image height is extrapolated in proportion to f tan(field).
-double extrapolated_landing(const LensState& lens, const FieldPoint& last, double field_rad) {
-  return std::abs(last.chief.landing_mm) +
+double extrapolated_image_height(const LensState& lens, const FieldPoint& last, double field_rad) {
+  return std::abs(last.chief.image_mm) +
          std::abs(lens.focal_length_mm) * (std::tan(field_rad) - std::tan(last.field_rad));
 }
 
-double landing_at(const Meridian& meridian, const FieldPoint& near, double field_rad) {
+double image_height_at(const Meridian& meridian, const FieldPoint& near, double field_rad) {
   const auto chief = meridian.chief(field_rad, near.chief);
-  return std::abs(chief ? chief->landing_mm : near.chief.landing_mm);
+  return std::abs(chief ? chief->image_mm : near.chief.image_mm);
 }
 
 double field_for(const LensState& lens, double lambda_nm, double distance_mm, double radius_mm) {
   const Meridian meridian(lens, lambda_nm, distance_mm);
   const auto points =
-      walk_field(meridian, [&](const FieldPoint& point) { return std::abs(point.chief.landing_mm) > radius_mm; });
+      walk_field(meridian, [&](const FieldPoint& point) { return std::abs(point.chief.image_mm) > radius_mm; });
   const FieldPoint& last = points.back();
-  if (radius_mm >= std::abs(last.chief.landing_mm)) {
+  if (radius_mm >= std::abs(last.chief.image_mm)) {
     return std::atan(std::tan(last.field_rad) +
-                     (radius_mm - std::abs(last.chief.landing_mm)) / std::abs(lens.focal_length_mm));
+                     (radius_mm - std::abs(last.chief.image_mm)) / std::abs(lens.focal_length_mm));
   }
   std::size_t k = 0;
-  while (std::abs(points[k + 1].chief.landing_mm) <= radius_mm) ++k;
+  while (std::abs(points[k + 1].chief.image_mm) <= radius_mm) ++k;
   double low = points[k].field_rad;
   double high = points[k + 1].field_rad;
   for (int step = 0; step < kFieldBisections; ++step) {
     const double middle = 0.5 * (low + high);
-    (landing_at(meridian, points[k], middle) < radius_mm ? low : high) = middle;
+    (image_height_at(meridian, points[k], middle) < radius_mm ? low : high) = middle;
   }
   return 0.5 * (low + high);
 }
@@ -159,11 +159,11 @@ double chief_height_for(const LensState& lens, double lambda_nm, double distance
 
 double radius_for(const LensState& lens, double lambda_nm, double distance_mm, double field_rad) {
   const Meridian meridian(lens, lambda_nm, distance_mm);
-  if (const auto chief = meridian.chief_near_axis(field_rad)) return std::abs(chief->landing_mm);
+  if (const auto chief = meridian.chief_near_axis(field_rad)) return std::abs(chief->image_mm);
   const auto points = walk_past(meridian, field_rad);
-  if (field_rad >= points.back().field_rad) return extrapolated_landing(lens, points.back(), field_rad);
+  if (field_rad >= points.back().field_rad) return extrapolated_image_height(lens, points.back(), field_rad);
   const auto k = static_cast<std::size_t>(field_rad / kFieldStep_rad);
-  return landing_at(meridian, points[std::min(k, points.size() - 1)], field_rad);
+  return image_height_at(meridian, points[std::min(k, points.size() - 1)], field_rad);
 }
 
 // Chief rays ignore rims, so only poses matter.
@@ -171,6 +171,7 @@ bool is_centred(const LensState& lens) {
   return std::all_of(lens.surfaces.begin(), lens.surfaces.end(), [](const SurfaceState& s) { return s.is_centred(); });
 }
 
+// The lens without decentres and tilts, for first guesses.
 LensState centred(LensState lens) {
   for (SurfaceState& s : lens.surfaces) s.pose = {};
   return lens;
@@ -178,7 +179,7 @@ LensState centred(LensState lens) {
 
 // Fixed-point iteration: the centred lens gives the direction for a target point, which is moved by the remaining error
 // of the real lens's image point.
-Vec3 askew_direction(const LensState& lens, Vec2 sensor_mm, double lambda_nm, double distance_mm) {
+Vec3 direction_of_displaced_lens(const LensState& lens, Vec2 sensor_mm, double lambda_nm, double distance_mm) {
   constexpr int kSteps = 8;
   constexpr double kLanded_mm = 1e-6;
   const LensState ideal = centred(lens);
@@ -199,7 +200,7 @@ Vec3 askew_direction(const LensState& lens, Vec2 sensor_mm, double lambda_nm, do
 Vec3 direction_to_land_at(const LensState& lens, Vec2 sensor_mm, double lambda_nm, double distance_mm) {
   if (!has_stop(lens) || !std::isfinite(sensor_mm.x + sensor_mm.y)) return {kNan, kNan, kNan};
   if (is_anamorphic(lens)) return anamorphic_direction(lens, sensor_mm, lambda_nm, distance_mm);
-  if (!is_centred(lens)) return askew_direction(lens, sensor_mm, lambda_nm, distance_mm);
+  if (!is_centred(lens)) return direction_of_displaced_lens(lens, sensor_mm, lambda_nm, distance_mm);
   const double radius = length(sensor_mm);
   if (radius == 0.0) return {0.0, 0.0, 1.0};
   const double field = field_for(lens, lambda_nm, distance_mm, radius);
@@ -211,7 +212,7 @@ Vec3 direction_to_land_at(const LensState& lens, Vec2 sensor_mm, double lambda_n
 Vec2 landing_of(const LensState& lens, const LightSource& source, double lambda_nm) {
   const Vec3 d = source.direction;
   if (!has_stop(lens) || !std::isfinite(d.x + d.y + d.z)) return {kNan, kNan};
-  if (is_anamorphic(lens)) return anamorphic_landing(lens, source, lambda_nm);
+  if (is_anamorphic(lens)) return anamorphic_image_point(lens, source, lambda_nm);
   const Vec2 across{source.direction.x, source.direction.y};
   const double sine = length(across);
   if (!is_centred(lens)) {
@@ -219,7 +220,7 @@ Vec2 landing_of(const LensState& lens, const LightSource& source, double lambda_
     const double field = std::atan2(sine, source.direction.z);
     const double height_mm = sine > 0.0 ? chief_height_for(ideal, lambda_nm, source.distance_mm, field) : 0.0;
     const Vec2 start_mm = sine > 0.0 ? across * (height_mm / sine) : Vec2{};
-    if (const auto chief = aim_chief(direct_path(lens, lambda_nm), source, start_mm)) return chief->landing_mm;
+    if (const auto chief = aim_chief(direct_path(lens, lambda_nm), source, start_mm)) return chief->image_mm;
     return landing_of(ideal, source, lambda_nm);
   }
   if (sine == 0.0) return {};

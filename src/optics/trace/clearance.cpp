@@ -38,8 +38,8 @@ HWY_INLINE void test(Clearance<P>& s, P must_be_positive) {
 template <class P>
 HWY_INLINE void turn_by_grating(Clearance<P>& s, const PacketStep& step) {
   const P zero(0.0);
-  s.ray.dx = s.ray.dx + P(step.kick.x);
-  s.ray.dy = s.ray.dy + P(step.kick.y);
+  s.ray.dx = s.ray.dx + P(step.grating_shift.x);
+  s.ray.dy = s.ray.dy + P(step.grating_shift.y);
   const P along_squared = P(1.0) - s.ray.dx * s.ray.dx - s.ray.dy * s.ray.dy;
   test(s, along_squared);
   const P along = square_root(larger(along_squared, zero));
@@ -50,7 +50,7 @@ HWY_INLINE void turn_by_grating(Clearance<P>& s, const PacketStep& step) {
 template <PathGeometry kGeometry, class P>
 CONTREJOUR_INLINE_IF_FAST void advance(Clearance<P>& s, const PacketStep& step) {
   const P direction(step.direction);
-  hk::OwnPlace<P> own;
+  hk::SurfaceFramePoint<P> own;
   const auto hit = meet<kGeometry>(s.ray, step, own);
   test(s, smaller(hit.cos_in_squared, own.nz));
   if (step.event == PathEvent::Stop) return;
@@ -93,7 +93,7 @@ HWY_INLINE Clearance<P> enter(const PacketStart& start, const float* x_mm, const
                  P(0.0),
                  P(0.0),
                  P(0.0)};
-  if (start.diverges) hk::turn_aside(s.ray, x * P(start.per_way_mm), y * P(start.per_way_mm));
+  if (start.diverges) hk::perturb_direction(s.ray, x * P(start.per_way_mm), y * P(start.per_way_mm));
   return s;
 }
 

@@ -38,9 +38,10 @@ struct Circle {
 };
 
 // Upper bounds of the front's displacement by decentre and tilt, sideways and forwards.
-double askew_aside_mm(const SurfaceState& first) { return length(first.pose.shift_mm); }
-double askew_forward_mm(const SurfaceState& first) {
-  return askew_aside_mm(first) + 2.0 * first.semi_diameter_mm * std::hypot(first.pose.axis.x, first.pose.axis.y);
+double sideways_displacement_mm(const SurfaceState& first) { return length(first.pose.shift_mm); }
+double forward_displacement_mm(const SurfaceState& first) {
+  return sideways_displacement_mm(first) +
+         2.0 * first.semi_diameter_mm * std::hypot(first.pose.axis.x, first.pose.axis.y);
 }
 
 // The shadow of the circle about the axis at height z on a plane `to_plane_mm` behind it: shifted, and enlarged for a
@@ -65,7 +66,7 @@ Result<void> check_source(const LensState& lens, const LightSource& source) {
     return refuse(fmt::format("a light cannot be at a distance of {} mm; give more than 0", source.distance_mm));
   if (lens.surfaces.empty()) return refuse("the lens state has no surfaces; make it with lens_at()");
   const SurfaceState& first = lens.surfaces.front();
-  const double front_mm = lowest_mm(first) + first.z_mm - askew_forward_mm(first);
+  const double front_mm = lowest_mm(first) + first.z_mm - forward_displacement_mm(first);
   if (!source.is_distant() && !(source.point_mm().z <= front_mm - kNearestLight_mm))
     return refuse(
         fmt::format("a light {} mm from the first surface is not in front of all of the lens; give it {:.4g} mm "
@@ -108,7 +109,7 @@ EntranceWindow entrance_window(const LensState& lens, const LightSource& source)
   // forwards; the slope is estimated from the window's size.
   if (!first.is_centred()) {
     const double slope = std::hypot(window.max_mm.x - window.min_mm.x, window.max_mm.y - window.min_mm.y) / (2.0 * rim);
-    spare_mm += askew_aside_mm(first) + askew_forward_mm(first) * slope;
+    spare_mm += sideways_displacement_mm(first) + forward_displacement_mm(first) * slope;
   }
   const Vec2 margin{spare_mm, spare_mm};
   window.min_mm = window.min_mm - margin;

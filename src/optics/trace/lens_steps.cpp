@@ -52,7 +52,7 @@ PacketPath::PacketPath(const LensSteps& from, const Ghost& ghost, const LightRay
       [&](int surface, std::array<int, 2> order) {
         const auto turn = grating_turn(from.lens(), surface, order, from.tables().lambda_nm());
         if (!turn) return;
-        steps_.back().kick = turn->kick;
+        steps_.back().grating_shift = turn->grating_shift;
         steps_.back().efficiency = turn->efficiency;
         if (turn->efficiency != 1.0) geometry_ = PathGeometry::General;
       });

@@ -34,7 +34,7 @@ struct RimPlace {
 
 // As Rim::place().
 template <class P>
-HWY_INLINE RimPlace<P> rim_place(const kernels::HWY_NAMESPACE::OwnPlace<P>& own, const Rim& rim) {
+HWY_INLINE RimPlace<P> rim_place(const kernels::HWY_NAMESPACE::SurfaceFramePoint<P>& own, const Rim& rim) {
   const P x = own.x - P(rim.centre_mm.x), y = own.y - P(rim.centre_mm.y);
   return {P(rim.u_per_mm.x) * x + P(rim.u_per_mm.y) * y, P(rim.v_per_mm.x) * x + P(rim.v_per_mm.y) * y};
 }
@@ -44,7 +44,7 @@ HWY_INLINE RimPlace<P> rim_place(const kernels::HWY_NAMESPACE::OwnPlace<P>& own,
 // speed.)
 template <PathGeometry kGeometry, class P>
 HWY_INLINE kernels::HWY_NAMESPACE::Hit<P> meet(kernels::HWY_NAMESPACE::Ray3<P>& ray, const PacketStep& step,
-                                               kernels::HWY_NAMESPACE::OwnPlace<P>& own) {
+                                               kernels::HWY_NAMESPACE::SurfaceFramePoint<P>& own) {
   namespace hk = kernels::HWY_NAMESPACE;
   const P c(step.curvature_per_mm);
   const P direction(step.direction);
@@ -68,8 +68,8 @@ HWY_INLINE kernels::HWY_NAMESPACE::Hit<P> meet(kernels::HWY_NAMESPACE::Ray3<P>& 
     hk::Hit<P> hit;
     if (step.shape != nullptr) {
       hk::Ray3<P> upright = ray;
-      hk::turn_upright(axis, upright.x, upright.y, upright.z);
-      hk::turn_upright(axis, upright.dx, upright.dy, upright.dz);
+      hk::rotate_to_surface_frame(axis, upright.x, upright.y, upright.z);
+      hk::rotate_to_surface_frame(axis, upright.dx, upright.dy, upright.dz);
       hit = hk::intersect_shape(upright, P(0.0), *step.shape, direction, kPacketLimits<P>);
       own.x = hit.x;
       own.y = hit.y;
@@ -77,8 +77,8 @@ HWY_INLINE kernels::HWY_NAMESPACE::Hit<P> meet(kernels::HWY_NAMESPACE::Ray3<P>& 
       hk::turn_back(axis, hit.x, hit.y, hit.sag);
       hk::turn_back(axis, hit.nx, hit.ny, hit.nz);
     } else {
-      hit = hk::intersect_askew(ray, axis, c, direction);
-      own = hk::own_place(hit, axis, c);
+      hit = hk::intersect_tilted(ray, axis, c, direction);
+      own = hk::surface_frame_point(hit, axis, c);
     }
     hk::move_to(ray, hit, P(0.0));
     return hit;

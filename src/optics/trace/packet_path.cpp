@@ -126,7 +126,7 @@ PacketPath::PacketPath(const OpticalPath& path, const ReflectanceTables& tables,
     step.rim = from.rim.value_or(Rim{{}, {per_mm, 0.0}, {0.0, per_mm}});
     step.blocks_within = from.blocks_within;
     step.absorption_per_mm = from.absorption_per_mm;
-    step.kick = from.kick;
+    step.grating_shift = from.grating_shift;
     step.efficiency = from.efficiency;
     if (from.rim || from.absorption_per_mm != 0.0 || from.efficiency != 1.0) geometry_ = PathGeometry::General;
     before_mm = vertex_mm;

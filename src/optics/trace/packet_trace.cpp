@@ -53,8 +53,8 @@ template <class P>
 HWY_INLINE void turn_by_grating(PacketState<P>& s, const PacketStep& step) {
   const P zero(0.0);
   s.transmission = s.transmission * P(step.efficiency);
-  s.ray.dx = s.ray.dx + P(step.kick.x);
-  s.ray.dy = s.ray.dy + P(step.kick.y);
+  s.ray.dx = s.ray.dx + P(step.grating_shift.x);
+  s.ray.dy = s.ray.dy + P(step.grating_shift.y);
   const P along_squared = P(1.0) - s.ray.dx * s.ray.dx - s.ray.dy * s.ray.dy;
   s.alive = or_zero(along_squared > zero, s.alive);
   const P along = square_root(larger(along_squared, zero));
@@ -68,7 +68,7 @@ CONTREJOUR_INLINE_IF_FAST void advance(PacketState<P>& s, const PacketStep& step
   const P zero(0.0);
   const P one(1.0);
   const P direction(step.direction);
-  hk::OwnPlace<P> own;
+  hk::SurfaceFramePoint<P> own;
   const P from_z = s.ray.z;
   const auto hit = meet<kGeometry>(s.ray, step, own);
   s.alive = or_zero(hit.cos_in_squared > zero, s.alive);
@@ -145,7 +145,7 @@ HWY_INLINE PacketState<P> enter(const PacketStart& start, const float* x_mm, con
   s.transmission = P(1.0);
   if (start.diverges) {
     const P per_way(start.per_way_mm);
-    const P ratio = hk::turn_aside(s.ray, x * per_way, y * per_way);
+    const P ratio = hk::perturb_direction(s.ray, x * per_way, y * per_way);
     s.transmission = P(start.flux) * ratio * ratio * ratio;
   }
   s.r_rel_squared = P(0.0);

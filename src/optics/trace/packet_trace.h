@@ -64,7 +64,7 @@ struct PacketStep {
   Rim rim;
   bool blocks_within = false;
   double absorption_per_mm = 0;
-  Vec2 kick;
+  Vec2 grating_shift;
   double efficiency = 1;
 };
 

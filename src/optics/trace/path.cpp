@@ -118,7 +118,7 @@ OpticalPath ghost_path(const LensState& lens, Ghost ghost, double lambda_nm) {
       [&](int surface, std::array<int, 2> order) {
         const auto turn = grating_turn(lens, surface, order, lambda_nm);
         if (!turn) return;
-        path.steps.back().kick = turn->kick;
+        path.steps.back().grating_shift = turn->grating_shift;
         path.steps.back().efficiency = turn->efficiency;
       });
   return path;

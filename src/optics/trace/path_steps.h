@@ -14,7 +14,7 @@ void add_steps(OpticalPath& path, const LensState& lens, int surface, int direct
 
 // The effect of a sensor's grating on light reflected into one order (PathStep); the default is no grating.
 struct GratingTurn {
-  Vec2 kick;
+  Vec2 grating_shift;
   double efficiency = 1;
 };
 [[nodiscard]] std::optional<GratingTurn> grating_turn(const LensState& lens, int surface, std::array<int, 2> order,

@@ -27,13 +27,13 @@ struct State {
 struct Meeting {
   hk::Hit<double> hit;
   double vertex_z_mm = 0;
-  hk::OwnPlace<double> own;
+  hk::SurfaceFramePoint<double> own;
 };
 
 // The vertex is the origin of the ray's and the hit's coordinates.
-Meeting meet_askew_shape(hk::Ray3<double> ray, const PathStep& step, const hk::Axis3<double>& axis) {
-  hk::turn_upright(axis, ray.x, ray.y, ray.z);
-  hk::turn_upright(axis, ray.dx, ray.dy, ray.dz);
+Meeting meet_tilted_shape(hk::Ray3<double> ray, const PathStep& step, const hk::Axis3<double>& axis) {
+  hk::rotate_to_surface_frame(axis, ray.x, ray.y, ray.z);
+  hk::rotate_to_surface_frame(axis, ray.dx, ray.dy, ray.dz);
   Meeting m{
       hk::intersect_shape(ray, 0.0, *step.shape, static_cast<double>(step.direction), hk::exact_limits(*step.shape)),
       0.0,
@@ -60,10 +60,10 @@ Meeting meet(const hk::Ray3<double>& ray, const PathStep& step, bool centred) {
   from_vertex.z -= vertex.z;
   Meeting m;
   if (step.shape) {
-    m = meet_askew_shape(from_vertex, step, axis);
+    m = meet_tilted_shape(from_vertex, step, axis);
   } else {
-    m.hit = hk::intersect_askew(from_vertex, axis, step.curvature_per_mm, direction);
-    m.own = hk::own_place(m.hit, axis, step.curvature_per_mm);
+    m.hit = hk::intersect_tilted(from_vertex, axis, step.curvature_per_mm, direction);
+    m.own = hk::surface_frame_point(m.hit, axis, step.curvature_per_mm);
   }
   m.vertex_z_mm = vertex.z;
   m.hit.x += vertex.x;
@@ -71,16 +71,16 @@ Meeting meet(const hk::Ray3<double>& ray, const PathStep& step, bool centred) {
   return m;
 }
 
-double distance_over_rim(const hk::OwnPlace<double>& own, const PathStep& step) {
+double distance_over_rim(const hk::SurfaceFramePoint<double>& own, const PathStep& step) {
   const double r = length(step.rim_place({own.x, own.y}));
   return own.nz > 0.0 ? r : std::max(r, kBeyondEquator);
 }
 
 // A grating perpendicular to the axis adds to the direction's x and y; false if the result is evanescent.
-bool turn_by_grating(State& state, Vec2 kick) {
+bool turn_by_grating(State& state, Vec2 grating_shift) {
   hk::Ray3<double>& ray = state.ray;
-  ray.dx += kick.x;
-  ray.dy += kick.y;
+  ray.dx += grating_shift.x;
+  ray.dy += grating_shift.y;
   const double along_squared = 1.0 - ray.dx * ray.dx - ray.dy * ray.dy;
   if (!(along_squared > 0.0)) {
     state.out.status = RayStatus::Missed;
@@ -123,7 +123,7 @@ bool advance(State& state, const PathStep& step, const OpticalPath& path, double
   if (step.event == PathEvent::Reflect) {
     hk::reflect(state.ray, hit, direction);
     state.out.transmission *= r * step.efficiency;
-    return step.kick == Vec2{} || turn_by_grating(state, step.kick);
+    return step.grating_shift == Vec2{} || turn_by_grating(state, step.grating_shift);
   }
   if (hk::refract(state.ray, hit, step.n_in / step.n_out, direction) <= 0.0) {
     state.out.status = RayStatus::TotalReflection;
@@ -191,7 +191,8 @@ Vec2 beside_axis(const PathStep& step, Vec3 position_mm) {
   hit.x = from.x;
   hit.y = from.y;
   hit.sag = from.z;
-  const auto own = hk::own_place(hit, {step.pose.axis.x, step.pose.axis.y, step.pose.axis.z}, step.curvature_per_mm);
+  const auto own =
+      hk::surface_frame_point(hit, {step.pose.axis.x, step.pose.axis.y, step.pose.axis.z}, step.curvature_per_mm);
   return {own.x, own.y};
 }
 

@@ -68,7 +68,8 @@ class MeasuredLight {
   [[nodiscard]] Rgb flux(const PupilRequest& request, const GhostPupil& searched, const IrisShape& iris,
                          const GhostLook& look, const Frame& frame) const {
     Rgb sum{};
-    const std::vector<double> flux = rough_fluxes_within(request, searched, measured_nm_, iris, seen_mm(frame, look));
+    const std::vector<double> flux =
+        approximate_fluxes_within(request, searched, measured_nm_, iris, seen_mm(frame, look));
     for (std::size_t k = 0; k < gain_.size(); ++k)
       for (std::size_t c = 0; c < 3; ++c) sum[c] += gain_[k][c] * flux[k];
     return look.tinted(sum);

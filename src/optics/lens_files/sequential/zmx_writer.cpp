@@ -117,8 +117,8 @@ class Writer {
     if (!rim) return "its rim is turned otherwise than itself; Zemax has no such apertures";
     const std::string glass = design_.reflects(k) ? "  GLAS MIRROR 0 0 1.5 40 0 0 0 0 0 0\n" : glass_row(s);
     const std::string body = *shape + glass + *rim;
-    const bool askew = !(s.pose == SurfacePose{}) || turn_rad != 0.0;
-    if (!askew) {
+    const bool displaced = !(s.pose == SurfacePose{}) || turn_rad != 0.0;
+    if (!displaced) {
       gap_at_.push_back({next_, 0.0});
       add(body, gap_mm);
       return std::nullopt;

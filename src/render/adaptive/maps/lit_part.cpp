@@ -49,7 +49,7 @@ class LitCells {
   }
 
   [[nodiscard]] bool may_be_lit(const CellCorners& corners) const {
-    if (!may_pass(sheet_, corners)) return false;
+    if (!may_transmit(sheet_, corners)) return false;
     const bool all_known = std::ranges::all_of(corners, [&](std::size_t k) { return sheet_.arrives(k); });
     return std::ranges::any_of(pixels_, [&](const auto& pixels) {
       return all_known ? bounds_of(pixels, corners).touches(frame_, kReach) : lands_near(pixels, corners);

@@ -1,4 +1,4 @@
-#include "ghosts/pupils/lit_mesh.h"
+#include "ghosts/pupils/open_mesh.h"
 
 #include <cmath>
 #include <limits>
@@ -24,7 +24,7 @@ constexpr std::uint32_t kFinerSide = 5;  // vertices along a side of a refined b
 // estimate (Richardson 1911).
 class BlockWeights {
  public:
-  BlockWeights(const LitMesh& mesh, const Block& block) : mesh_(mesh), block_(block) {
+  BlockWeights(const OpenMesh& mesh, const Block& block) : mesh_(mesh), block_(block) {
     for (std::size_t k = 0; k < blocked_.size(); ++k) {
       blocked_[k] = mesh.blocked[block.vertex[k]];
       lowest_ = std::min(lowest_, blocked_[k]);
@@ -89,7 +89,7 @@ class BlockWeights {
     }
   }
 
-  const LitMesh& mesh_;
+  const OpenMesh& mesh_;
   const Block& block_;
   std::array<float, 9> blocked_;
   float lowest_ = kFailed, highest_ = -kFailed;
@@ -109,7 +109,7 @@ Rectangle symmetric(const Rectangle& r) {
 
 // True if light may pass through a cell, provided that no value exceeds those at the corners by more than their
 // difference.
-bool may_pass(const RayGrid& grid, const std::array<std::size_t, 4>& corners) {
+bool may_transmit(const RayGrid& grid, const std::array<std::size_t, 4>& corners) {
   constexpr float kReach = 1.0F;
   std::array<Extremes, 1 + kMaxStopCrossings> extremes;
   const auto crossings = static_cast<std::size_t>(grid.stop_crossings());
@@ -123,7 +123,7 @@ bool may_pass(const RayGrid& grid, const std::array<std::size_t, 4>& corners) {
       extremes[1 + c].add(std::hypot(grid.stop_x[c][k], grid.stop_y[c][k]) - 1.0F);
   }
   return any && std::all_of(extremes.begin(), extremes.begin() + 1 + static_cast<std::ptrdiff_t>(crossings),
-                            [](const Extremes& e) { return e.may_pass(kReach); });
+                            [](const Extremes& e) { return e.may_transmit(kReach); });
 }
 
 // The bounds of the cells that may transmit light.
@@ -133,7 +133,7 @@ std::optional<Rectangle> bounds_of_light(const RayGrid& grid) {
   for (int iy = 0; iy < cells; ++iy) {
     for (int ix = 0; ix < cells; ++ix) {
       const bool within = ix >= left && ix < right && iy >= bottom && iy < top;
-      if (within || !may_pass(grid, grid.corners(ix, iy))) continue;
+      if (within || !may_transmit(grid, grid.corners(ix, iy))) continue;
       left = std::min(left, ix);
       right = std::max(right, ix + 1);
       bottom = std::min(bottom, iy);
@@ -146,7 +146,7 @@ std::optional<Rectangle> bounds_of_light(const RayGrid& grid) {
 }
 
 // Fills a mesh's weights, except for up to `most` blocks whose error exceeds `allowed`: these are removed and returned.
-std::vector<Block> weigh(LitMesh& mesh, double allowed, std::size_t most) {
+std::vector<Block> weigh(OpenMesh& mesh, double allowed, std::size_t most) {
   mesh.weight.assign(mesh.blocked.size(), 0.0);
   std::vector<Block> certain, uncertain;
   for (const Block& block : mesh.blocks) {
@@ -164,7 +164,7 @@ std::vector<Block> weigh(LitMesh& mesh, double allowed, std::size_t most) {
   return uncertain;
 }
 
-double light_of(const LitMesh& mesh) {
+double light_of(const OpenMesh& mesh) {
   double light = 0.0;
   for (const Block& block : mesh.blocks) {
     BlockWeights weights(mesh, block);
@@ -194,7 +194,7 @@ void MeshTracer::trace_grid(const Rectangle& box, int side) {
   rays_.trace(path_, iris_, light_, box, side, search_precision(std::min(size.x, size.y) / (side - 1)));
 }
 
-std::optional<LitMesh> MeshTracer::coarse_mesh(Rectangle box) {
+std::optional<OpenMesh> MeshTracer::coarse_mesh(Rectangle box) {
   trace_grid(box, density_.side);
   const auto is_full = [&] { return count_open(rays_) >= kFull * density_.side * density_.side; };
   for (int k = 0; k < kMaxShrinkings && !is_full(); ++k) {
@@ -205,14 +205,14 @@ std::optional<LitMesh> MeshTracer::coarse_mesh(Rectangle box) {
     trace_grid(box, density_.side);
   }
   if (count_open(rays_) < density_.enough_open) trace_grid(box, 2 * density_.side - 1);
-  LitMesh mesh{box.low, rays_.step_mm(), rays_.sensor_x_mm, rays_.sensor_y_mm, rays_.transmission, rays_.blocked, {},
-               {}};
+  OpenMesh mesh{box.low, rays_.step_mm(), rays_.sensor_x_mm, rays_.sensor_y_mm, rays_.transmission, rays_.blocked, {},
+                {}};
   add_blocks(0, static_cast<std::uint32_t>(rays_.side()), {}, mesh.step_mm, mesh.blocks);
   return mesh;
 }
 
 // A finer mesh over blocks of a coarser one, whose rays are reused.
-LitMesh MeshTracer::finer_mesh(const LitMesh& coarse, const std::vector<Block>& blocks) {
+OpenMesh MeshTracer::finer_mesh(const OpenMesh& coarse, const std::vector<Block>& blocks) {
   constexpr std::uint32_t kCount = kFinerSide * kFinerSide;
   const Vec2 step = coarse.step_mm * 0.5;
   x_mm_.clear();
@@ -226,7 +226,7 @@ LitMesh MeshTracer::finer_mesh(const LitMesh& coarse, const std::vector<Block>& 
     }
   }
   rays_.trace_points(path_, iris_, light_, coarse.origin_mm, x_mm_, y_mm_, search_precision(std::min(step.x, step.y)));
-  LitMesh mesh{coarse.origin_mm, step, {}, {}, {}, {}, {}, {}};
+  OpenMesh mesh{coarse.origin_mm, step, {}, {}, {}, {}, {}, {}};
   const auto fill = [&](const std::vector<float>& from, const std::vector<float>& traced, std::vector<float>& to) {
     to.reserve(kCount * blocks.size());
     std::size_t next = 0;
@@ -246,12 +246,12 @@ LitMesh MeshTracer::finer_mesh(const LitMesh& coarse, const std::vector<Block>& 
   return mesh;
 }
 
-std::vector<LitMesh> MeshTracer::trace(const std::vector<Rectangle>& boxes) {
-  std::vector<LitMesh> meshes;
+std::vector<OpenMesh> MeshTracer::trace(const std::vector<Rectangle>& boxes) {
+  std::vector<OpenMesh> meshes;
   for (const Rectangle& box : boxes)
     if (auto mesh = coarse_mesh(box)) meshes.push_back(std::move(*mesh));
   double whole = 0.0;
-  for (const LitMesh& mesh : meshes) whole += light_of(mesh);
+  for (const OpenMesh& mesh : meshes) whole += light_of(mesh);
   const std::size_t coarse = meshes.size();
   for (std::size_t k = 0; k < coarse; ++k) {
     std::size_t left = kMaxFiner;

@@ -1,4 +1,4 @@
-#include "ghosts/pupils/stop_aim.h"
+#include "ghosts/pupils/stop_newton_step.h"
 
 #include <algorithm>
 #include <cmath>
@@ -103,12 +103,13 @@ bool agrees(const ClearanceGrid& grid, int crossing, const std::vector<GridCell>
       const bool near = std::min(dot(*s, *s), dot(fit, fit)) < kNear * kNear;
       if (near && length(*s - fit) > kAgreement) return false;
     }
-    if (!box.holds_some_of(cell) && grid.may_pass(cell, 0.0F)) return false;
+    if (!box.holds_some_of(cell) && grid.may_transmit(cell, 0.0F)) return false;
   }
   return true;
 }
 
-std::optional<Aim> aim_at_crossing(const ClearanceGrid& grid, int crossing, const std::vector<GridCell>& piece) {
+std::optional<StopNewtonStep> newton_step_to_crossing(const ClearanceGrid& grid, int crossing,
+                                                      const std::vector<GridCell>& piece) {
   const auto about = closest(grid, crossing, piece);
   if (!about) return {};
   const auto q = differences(grid, crossing, *about);
@@ -131,15 +132,15 @@ std::optional<Aim> aim_at_crossing(const ClearanceGrid& grid, int crossing, cons
   if (!agrees(grid, crossing, piece, *q, *about, cells)) return {};
   const Vec2 size = grid.cell_size();
   const auto place = [&](Vec2 p) { return grid.box().low + Vec2{p.x * size.x, p.y * size.y}; };
-  return Aim{{place(cells.low), place(cells.high)}, error};
+  return StopNewtonStep{{place(cells.low), place(cells.high)}, error};
 }
 
 }  // namespace
 
-std::optional<Aim> aim_at_stop(const ClearanceGrid& grid, const std::vector<GridCell>& piece) {
-  std::optional<Aim> all;
+std::optional<StopNewtonStep> newton_step_to_stop(const ClearanceGrid& grid, const std::vector<GridCell>& piece) {
+  std::optional<StopNewtonStep> all;
   for (int crossing = 0; crossing < grid.crossings(); ++crossing) {
-    const auto one = aim_at_crossing(grid, crossing, piece);
+    const auto one = newton_step_to_crossing(grid, crossing, piece);
     if (!one) continue;
     if (!all) {
       all = one;

@@ -23,7 +23,7 @@ inline constexpr std::array<std::array<std::size_t, 4>, 4> kCellsOfBlock{
     {{0, 1, 4, 3}, {1, 2, 5, 4}, {3, 4, 7, 6}, {4, 5, 8, 7}}};
 
 // The rays of a grid over a box, or of finer ones over blocks of a coarser mesh.
-struct LitMesh {
+struct OpenMesh {
   Vec2 origin_mm, step_mm;  // of the entrance plane: the box's corner, a cell
   // One value a vertex. Points of rays that fail are undefined.
   std::vector<float> x_mm, y_mm;  // on the sensor, in the lens's frame
@@ -34,7 +34,7 @@ struct LitMesh {
   std::vector<double> weight;
   std::vector<Block> blocks;  // without those that a finer mesh covers
 
-  [[nodiscard]] Vec2 landing_mm(std::size_t vertex) const { return {x_mm[vertex], y_mm[vertex]}; }
+  [[nodiscard]] Vec2 sensor_point_mm(std::size_t vertex) const { return {x_mm[vertex], y_mm[vertex]}; }
   [[nodiscard]] double cell_mm2() const { return step_mm.x * step_mm.y; }
 };
 
@@ -54,12 +54,12 @@ class MeshTracer {
       : path_(std::move(path)), light_(light), iris_(iris), density_(density) {}
 
   // Traces the meshes of disjoint boxes.
-  [[nodiscard]] std::vector<LitMesh> trace(const std::vector<Rectangle>& boxes);
+  [[nodiscard]] std::vector<OpenMesh> trace(const std::vector<Rectangle>& boxes);
 
  private:
   void trace_grid(const Rectangle& box, int side);
-  [[nodiscard]] std::optional<LitMesh> coarse_mesh(Rectangle box);
-  [[nodiscard]] LitMesh finer_mesh(const LitMesh& coarse, const std::vector<Block>& blocks);
+  [[nodiscard]] std::optional<OpenMesh> coarse_mesh(Rectangle box);
+  [[nodiscard]] OpenMesh finer_mesh(const OpenMesh& coarse, const std::vector<Block>& blocks);
 
   PacketPath path_;
   const LightFrame& light_;

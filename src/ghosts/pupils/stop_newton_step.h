@@ -8,7 +8,7 @@
 
 namespace contrejour::pupils {
 
-struct Aim {
+struct StopNewtonStep {
   // Contains the rays that cross inside the stop's rim, up to an error of a tenth of its half size: slopes are of
   // second order over cells many times as large. Boxes are searched about it with twice that margin.
   Rectangle box;
@@ -17,6 +17,7 @@ struct Aim {
 
 // Uses the differences about the ray of a piece that crosses closest to the middle of the stop. None if they are not
 // conclusive: rays that fail, a map that folds or is too nonlinear, other cells that may transmit light.
-[[nodiscard]] std::optional<Aim> aim_at_stop(const ClearanceGrid& grid, const std::vector<GridCell>& piece);
+[[nodiscard]] std::optional<StopNewtonStep> newton_step_to_stop(const ClearanceGrid& grid,
+                                                                const std::vector<GridCell>& piece);
 
 }  // namespace contrejour::pupils
