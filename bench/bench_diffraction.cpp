@@ -73,7 +73,8 @@ void starburst_through_lens(benchmark::State& state) {
               {.focal_length_mm = 135.0, .f_number = static_cast<double>(state.range(0)), .iris = {8, 0.2}});
   const Frame frame = frame_on_sensor(*lens, kWidth, kHeight);
   const Vec2 centre_px{1344.0, 356.0};
-  const Vec3 direction = direction_to_land_at(*lens, frame.sensor_from_pixel(centre_px), lens->design_wavelength_nm);
+  const Vec3 direction =
+      direction_for_image_point(*lens, frame.sensor_from_pixel(centre_px), lens->design_wavelength_nm);
   const auto bands = spectral_bands(120, IlluminantD65{}, ColourSpace::Rec709);
   Image image(kWidth, kHeight);
   for (auto _ : state) {

@@ -23,7 +23,7 @@ constexpr double kSmallestStop = 22.0;  // f-number, unless the lens does not op
 
 double field_of_corner_deg(const LensState& lens) {
   const double half_mm = 0.5 * std::hypot(lens.sensor_width_mm, lens.sensor_height_mm);
-  const Vec3 d = direction_to_land_at(lens, {0.0, half_mm}, lens.design_wavelength_nm);
+  const Vec3 d = direction_for_image_point(lens, {0.0, half_mm}, lens.design_wavelength_nm);
   return std::atan2(std::hypot(d.x, d.y), d.z) / params::kDegree_rad;
 }
 

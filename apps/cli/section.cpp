@@ -125,7 +125,7 @@ Section make_section(const LensState& lens, const SectionRequest& request) {
   section.ghosts = request.ghosts;
   set_bounds(section);
   const OpticalPath direct = direct_path(lens, request.lambda_nm);
-  const Vec3 field = direction_to_land_at(lens, {0.0, -half_diagonal_mm(lens)}, request.lambda_nm);
+  const Vec3 field = direction_for_image_point(lens, {0.0, -half_diagonal_mm(lens)}, request.lambda_nm);
   if (request.ghosts.empty()) {
     add_fan(section, direct, field, RayKind::Field, kImagingRays);
     add_fan(section, direct, {0.0, 0.0, 1.0}, RayKind::Axis, kImagingRays);

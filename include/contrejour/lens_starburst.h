@@ -1,5 +1,5 @@
 // A light's starburst through a lens: the exit pupil as seen from the light's image, vignetted and foreshortened, and
-// its diffraction pattern. Its centre is the chief-ray image point (landing_of, Frame::pixel_from_sensor).
+// its diffraction pattern. Its centre is the chief-ray image point (chief_ray_image_point, Frame::pixel_from_sensor).
 // Accuracy: borders of the pupil to 1e-3 of the stop's radius at the traced wavelength (4e-3 wide open in the corner);
 // the pupil's shape and position are assumed equal at all wavelengths, the transmittance is each wavelength's own
 // (docs/physics/diffraction.md). Errors: InvalidArgument, Cancelled. Thread-safety: pure functions; results do not

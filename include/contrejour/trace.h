@@ -131,10 +131,10 @@ struct EntranceWindow {
 
 // The direction of a light at a given distance whose chief ray (through the centre of the stop) meets the sensor at a
 // point; extrapolated rectilinearly where no chief ray gets through. The light may lie outside the frame.
-[[nodiscard]] Vec3 direction_to_land_at(const LensState& lens, Vec2 sensor_mm, double lambda_nm,
-                                        double distance_mm = std::numeric_limits<double>::infinity());
+[[nodiscard]] Vec3 direction_for_image_point(const LensState& lens, Vec2 sensor_mm, double lambda_nm,
+                                             double distance_mm = std::numeric_limits<double>::infinity());
 
 // The chief-ray image point of a light (the inverse of the function above).
-[[nodiscard]] Vec2 landing_of(const LensState& lens, const LightSource& source, double lambda_nm);
+[[nodiscard]] Vec2 chief_ray_image_point(const LensState& lens, const LightSource& source, double lambda_nm);
 
 }  // namespace contrejour

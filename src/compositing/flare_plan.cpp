@@ -26,7 +26,7 @@ Light light_of(const DetectedLight& area, const Spectrum& spectrum, const PixelG
   const double gain = params::gain(values);
   Light light;
   light.distance_mm = *params::parse_distance_mm(*values.text("light-distance"));
-  light.direction = direction_to_land_at(lens, grid.sensor_from_pixel(area.centroid_px), lens.design_wavelength_nm,
+  light.direction = direction_for_image_point(lens, grid.sensor_from_pixel(area.centroid_px), lens.design_wavelength_nm,
                                          light.distance_mm);
   light.value = {area.flux[0] * gain, area.flux[1] * gain, area.flux[2] * gain};
   light.spectrum = spectrum;
@@ -38,7 +38,8 @@ Light light_of(const DetectedLight& area, const Spectrum& spectrum, const PixelG
 std::optional<LightShape> shape_about(const LightSource& source, const PixelGrid& grid, const LensState& lens) {
   constexpr double kStep = 1e-3;
   const auto at = [&](Vec2 tangents) {
-    return grid.pixel_from_sensor(landing_of(lens, source_beside(source, tangents), lens.design_wavelength_nm));
+    return grid.pixel_from_sensor(
+        chief_ray_image_point(lens, source_beside(source, tangents), lens.design_wavelength_nm));
   };
   const Vec2 x = (at({kStep, 0.0}) - at({-kStep, 0.0})) * (0.5 / kStep);
   const Vec2 y = (at({0.0, kStep}) - at({0.0, -kStep})) * (0.5 / kStep);

@@ -262,7 +262,7 @@ Result<std::vector<Light>> lights_or(std::optional<Vec2> usual, const Values& va
   }
   const auto add_at = [&](const LightText& text) {
     const Vec2 sensor_mm = frame.sensor_from_uv(text.place);
-    return add(direction_to_land_at(lens, sensor_mm, lens.design_wavelength_nm, distance_mm), text);
+    return add(direction_for_image_point(lens, sensor_mm, lens.design_wavelength_nm, distance_mm), text);
   };
   for (const std::string& given : values.list("light-at")) {
     const auto text = parse_light(given);

@@ -19,7 +19,7 @@ test::GhostScene scene_of(Ghost ghost, double f_number = 16.0, double lambda_nm 
   const LensState lens = test::lens_at_f("heliar", f_number);
   const Frame frame = frame_on_sensor(lens, 1920, 1080);
   const Vec2 at = frame.sensor_from_uv({0.70, 0.33});
-  return {lens, ghost, direction_to_land_at(lens, at, lens.design_wavelength_nm), lambda_nm};
+  return {lens, ghost, direction_for_image_point(lens, at, lens.design_wavelength_nm), lambda_nm};
 }
 
 ClearanceGrid grid_of(const test::GhostScene& scene) { return ClearanceGrid(scene.packets()); }

@@ -16,7 +16,7 @@ namespace {
 // Half the field across the sensor's diagonal.
 double half_field_rad(const LensState& lens) {
   const Vec2 corner{0.5 * lens.sensor_width_mm, 0.5 * lens.sensor_height_mm};
-  return std::acos(direction_to_land_at(lens, corner, lens.design_wavelength_nm).z);
+  return std::acos(direction_for_image_point(lens, corner, lens.design_wavelength_nm).z);
 }
 
 struct Tally {

@@ -76,7 +76,7 @@ TEST_CASE("a plate's ghost is a flat disc of R^2 T^2 times the light") {
 TEST_CASE("smooth ghosts of a long zoom have no ripple of their own") {
   const LensState lens = test::lens("canon-70-200", 32.0, 200.0);
   const Frame frame = frame_of(lens, 240, 160);
-  const Vec3 direction = direction_to_land_at(lens, {5.0, 4.0}, 550.0);
+  const Vec3 direction = direction_for_image_point(lens, {5.0, 4.0}, 550.0);
   // Pupils of 0.5 mm spread over centimetres: rays a float can hardly tell apart.
   for (const Ghost ghost : {Ghost{2, 23}, Ghost{4, 23}, Ghost{4, 24}}) {
     CAPTURE(ghost.j);
@@ -88,7 +88,7 @@ TEST_CASE("smooth ghosts of a long zoom have no ripple of their own") {
 TEST_CASE("folded ghosts keep their flux and have no spikes") {
   const LensState lens = test::lens("heliar", 4.5);
   const Frame frame = frame_of(lens, 120, 80);
-  const Vec3 direction = direction_to_land_at(lens, {6.0, 4.0}, 550.0);
+  const Vec3 direction = direction_for_image_point(lens, {6.0, 4.0}, 550.0);
   int folded = 0;
   for (const Ghost ghost : enumerate_ghosts(lens, GhostScope::OneSideOfStop)) {
     const GhostImage mine = bundle_ghost(lens, ghost, direction, frame, 128);
@@ -105,7 +105,7 @@ TEST_CASE("folded ghosts keep their flux and have no spikes") {
 
 TEST_CASE("ghosts smaller than a pixel keep their flux") {
   const LensState lens = test::lens("heliar", 16.0);
-  const Vec3 direction = direction_to_land_at(lens, {4.0, 3.0}, 550.0);
+  const Vec3 direction = direction_for_image_point(lens, {4.0, 3.0}, 550.0);
   const GhostMeter meter(lens, 550.0);
   for (const Ghost ghost : enumerate_ghosts(lens, GhostScope::OneSideOfStop)) {
     const GhostMeasure measure = meter.measure(ghost, direction);
@@ -119,7 +119,7 @@ TEST_CASE("ghosts smaller than a pixel keep their flux") {
 TEST_CASE("ghosts that enter through a thousandth of a fisheye's front are found") {
   const LensState lens = test::lens("muller-fisheye-10", 11.0);
   const Frame frame = frame_of(lens, 160, 90);
-  const Vec3 direction = direction_to_land_at(lens, frame.sensor_from_uv({0.25, 0.75}), 550.0);
+  const Vec3 direction = direction_for_image_point(lens, frame.sensor_from_uv({0.25, 0.75}), 550.0);
   const GhostImage mine = bundle_ghost(lens, {3, 4}, direction, frame, 64);
   // 2000 x 2000 rays over the whole entrance window, 218 of them open.
   CHECK(mine.total() == doctest::Approx(1.222e-6).epsilon(0.03));
@@ -128,7 +128,7 @@ TEST_CASE("ghosts that enter through a thousandth of a fisheye's front are found
 TEST_CASE("a polygonal iris cuts as in the reference") {
   const LensState lens = test::lens("heliar", 16.0, 0.0, 6);
   const Frame frame = frame_of(lens, 180, 120);
-  const Vec3 direction = direction_to_land_at(lens, {6.0, 4.0}, 550.0);
+  const Vec3 direction = direction_for_image_point(lens, {6.0, 4.0}, 550.0);
   for (const Ghost ghost : {Ghost{3, 5}, Ghost{7, 9}}) {
     // At density 1 the reference itself is off by 3 per cent of the peak where the iris has its corners.
     const GhostImage truth = reference_ghost(lens, ghost, direction, frame, 2.0);
@@ -143,7 +143,7 @@ TEST_CASE("a polygonal iris cuts as in the reference") {
 TEST_CASE("finer grids come closer to the reference") {
   const LensState lens = test::lens("heliar", 16.0);
   const Frame frame = frame_of(lens, 180, 120);
-  const Vec3 direction = direction_to_land_at(lens, {6.0, 4.0}, 550.0);
+  const Vec3 direction = direction_for_image_point(lens, {6.0, 4.0}, 550.0);
   for (const Ghost ghost : {Ghost{1, 5}, Ghost{3, 4}}) {
     const GhostImage truth = reference_ghost(lens, ghost, direction, frame, 2.0);
     double before = 1e9;

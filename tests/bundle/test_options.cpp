@@ -86,7 +86,7 @@ RayGrid made_up(Map map, double open_radius = 10.0) {
 
 TEST_CASE("half the rays, mirrored, are the rays that would have been traced") {
   const LensState lens = test::lens("nikon-80-200", 16.0, 140.0, 7);
-  const Meridian meridian = meridian_of(direction_to_land_at(lens, {6.0, 3.0}, 550.0));
+  const Meridian meridian = meridian_of(direction_for_image_point(lens, {6.0, 3.0}, 550.0));
   const OpticalPath path = ghost_path(lens, {8, 10}, 550.0);
   const ReflectanceTables tables(lens, 550.0);
   const EntranceWindow window = entrance_window(lens, meridian.light);

@@ -89,7 +89,7 @@ TEST_CASE("ghosts as many exact rays have them: flux, middle, bounds and peak") 
     CAPTURE(ghost_name(c.ghost));
     const LensState lens = bundled(c.lens, c.settings);
     const Frame frame = frame_on_sensor(lens, 480, 320);
-    const LightSource light(direction_to_land_at(lens, frame.sensor_from_uv({0.7, 0.35}), kGreen_nm));
+    const LightSource light(direction_for_image_point(lens, frame.sensor_from_uv({0.7, 0.35}), kGreen_nm));
     const GhostMeasure m = GhostMeter(lens, kGreen_nm).measure(c.ghost, light, frame.pixel_pitch_mm);
     const Counted truth = counted(lens, c.ghost, light, 500, frame.pixel_pitch_mm);
     REQUIRE(truth.flux_mm2 > 0.0);
@@ -166,7 +166,7 @@ TEST_CASE("a near light's direct flux is the solid angle that the stop fills, se
 
 TEST_CASE("the pupil search finds what a dense scan finds, for ghosts of a zoom at a small stop [slow]") {
   const LensState lens = bundled("canon-70-200", {.focal_length_mm = 200.0, .f_number = 32.0});
-  const Vec3 d = direction_to_land_at(lens, {5.0, -3.0}, kGreen_nm);
+  const Vec3 d = direction_for_image_point(lens, {5.0, -3.0}, kGreen_nm);
   const EntranceWindow window = entrance_window(lens, d);
   const auto ghosts = enumerate_ghosts(lens, GhostScope::OneSideOfStop);
   const ReflectanceTables tables(lens, kGreen_nm);

@@ -161,7 +161,7 @@ TEST_CASE("a sensor holds light within its frame only, and that beside it is not
   const GhostMeter meter(lens, kGreen_nm);
   const LensState bare = bundled("heliar", {.f_number = 16.0});
   const auto beyond = [&](double share) {
-    return LightSource{direction_to_land_at(bare, {0.0, share * 0.5 * lens.sensor_height_mm}, kGreen_nm)};
+    return LightSource{direction_for_image_point(bare, {0.0, share * 0.5 * lens.sensor_height_mm}, kGreen_nm)};
   };
   CHECK(meter.measure({sensor - 1, sensor}, beyond(0.9)).flux_mm2 > 0.0);
   CHECK(meter.measure({sensor - 1, sensor}, beyond(1.1)).flux_mm2 == 0.0);

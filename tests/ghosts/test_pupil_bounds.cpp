@@ -20,7 +20,7 @@ constexpr int kSide = 65;  // rays a side that are looked at
 
 double corner_angle_rad(const LensState& lens) {
   const Frame frame = frame_on_sensor(lens, 480, 270);
-  return std::acos(direction_to_land_at(lens, frame.sensor_from_uv({1.0, 1.0}), kGreen_nm).z);
+  return std::acos(direction_for_image_point(lens, frame.sensor_from_uv({1.0, 1.0}), kGreen_nm).z);
 }
 
 struct Seen {

@@ -196,10 +196,10 @@ TEST_CASE("lights land and are found again through a lens with errors") {
   const LensState ideal = test::bundled("heliar");
   for (const double distance_mm : {1e12, 600.0}) {
     for (const Vec2 p : {Vec2{0, 0}, Vec2{3, -2}, Vec2{-15, 10}}) {
-      const Vec3 d = direction_to_land_at(lens, p, kLineD_nm, distance_mm);
-      const Vec2 back = landing_of(lens, {d, distance_mm}, kLineD_nm);
+      const Vec3 d = direction_for_image_point(lens, p, kLineD_nm, distance_mm);
+      const Vec2 back = chief_ray_image_point(lens, {d, distance_mm}, kLineD_nm);
       CHECK(length(back - p) < 1e-5);
-      CHECK(length(landing_of(ideal, {d, distance_mm}, kLineD_nm) - p) > 1e-3);
+      CHECK(length(chief_ray_image_point(ideal, {d, distance_mm}, kLineD_nm) - p) > 1e-3);
     }
   }
 }

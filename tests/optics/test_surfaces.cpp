@@ -350,15 +350,15 @@ TEST_CASE("an anamorphic lens's lights land where they are aimed, the squeeze be
   for (const Vec2 at : {Vec2{}, {3.0, 0.0}, {0.0, 3.0}, {-8.0, 6.0}, {10.0, -9.0}}) {
     CAPTURE(at.x);
     CAPTURE(at.y);
-    const Vec3 direction = direction_to_land_at(lens, at, 550.0);
-    CHECK(length(landing_of(lens, {direction}, 550.0) - at) < 2e-6);
+    const Vec3 direction = direction_for_image_point(lens, at, 550.0);
+    CHECK(length(chief_ray_image_point(lens, {direction}, 550.0) - at) < 2e-6);
     CHECK(direction.x * at.x >= 0.0);
     CHECK(direction.y * at.y >= 0.0);
   }
-  const Vec2 a = landing_of(lens, {normalized({0.02, 0.0, 1.0})}, 550.0);
-  const Vec2 b = landing_of(lens, {normalized({0.0, 0.02, 1.0})}, 550.0);
+  const Vec2 a = chief_ray_image_point(lens, {normalized({0.02, 0.0, 1.0})}, 550.0);
+  const Vec2 b = chief_ray_image_point(lens, {normalized({0.0, 0.02, 1.0})}, 550.0);
   CHECK(b.y / a.x == doctest::Approx(60.555 / 31.488).epsilon(0.01));
-  const Vec2 far_off = landing_of(lens, {normalized({3.0, 2.0, 1.0})}, 550.0);  // beyond any chief ray
+  const Vec2 far_off = chief_ray_image_point(lens, {normalized({3.0, 2.0, 1.0})}, 550.0);  // beyond any chief ray
   CHECK(std::isfinite(far_off.x + far_off.y));
-  CHECK(std::isfinite(direction_to_land_at(lens, {500.0, 300.0}, 550.0).z));
+  CHECK(std::isfinite(direction_for_image_point(lens, {500.0, 300.0}, 550.0).z));
 }

@@ -152,9 +152,9 @@ TEST_CASE("a light is found again where its chief ray lands, inside and outside 
                       {SurfaceKind::Refracting, -1.0 / 80.0, 0.0, 12.0, air(), {}, 0}};
   const LensState lens = test::place(singlet, 2.0);
   for (const Vec2 p : {Vec2{0, 0}, Vec2{3, -2}, Vec2{-15, 10}, Vec2{60, 5}, Vec2{300, -200}}) {
-    const Vec3 d = direction_to_land_at(lens, p, kLineD_nm);
+    const Vec3 d = direction_for_image_point(lens, p, kLineD_nm);
     CHECK(length(d) == doctest::Approx(1.0));
-    const Vec2 back = landing_of(lens, d, kLineD_nm);
+    const Vec2 back = chief_ray_image_point(lens, d, kLineD_nm);
     CHECK(back.x == doctest::Approx(p.x).epsilon(1e-8));
     CHECK(back.y == doctest::Approx(p.y).epsilon(1e-8));
   }
@@ -162,18 +162,18 @@ TEST_CASE("a light is found again where its chief ray lands, inside and outside 
   for (const double distance_mm : {1e6, 500.0, 30.0, 2.0}) {
     CAPTURE(distance_mm);
     for (const Vec2 p : {Vec2{0, 0}, Vec2{3, -2}, Vec2{-15, 10}, Vec2{300, -200}}) {
-      const Vec3 d = direction_to_land_at(lens, p, kLineD_nm, distance_mm);
+      const Vec3 d = direction_for_image_point(lens, p, kLineD_nm, distance_mm);
       CHECK(length(d) == doctest::Approx(1.0));
-      const Vec2 back = landing_of(lens, {d, distance_mm}, kLineD_nm);
+      const Vec2 back = chief_ray_image_point(lens, {d, distance_mm}, kLineD_nm);
       CHECK(back.x == doctest::Approx(p.x).epsilon(1e-8));
       CHECK(back.y == doctest::Approx(p.y).epsilon(1e-8));
     }
     // The stop is in front: a chief ray goes through its middle, which is the first vertex, whatever the distance.
     const Vec3 slanting{0.0, std::sin(0.1), std::cos(0.1)};
-    CHECK(landing_of(lens, {slanting, distance_mm}, kLineD_nm).y ==
-          doctest::Approx(landing_of(lens, slanting, kLineD_nm).y).epsilon(1e-8));
+    CHECK(chief_ray_image_point(lens, {slanting, distance_mm}, kLineD_nm).y ==
+          doctest::Approx(chief_ray_image_point(lens, slanting, kLineD_nm).y).epsilon(1e-8));
   }
   // An upside-down image: a light above the axis travels downwards and lands below.
   const Vec3 from_above{0.0, -std::sin(0.1), std::cos(0.1)};
-  CHECK(landing_of(lens, from_above, kLineD_nm).y < 0.0);
+  CHECK(chief_ray_image_point(lens, from_above, kLineD_nm).y < 0.0);
 }

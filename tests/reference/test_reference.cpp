@@ -91,7 +91,7 @@ TEST_CASE("a quarter turn of the light about the axis turns the flare [slow]") {
       for (int c = 0; c < 3; ++c) back.at(x, y, c) = b.at(89 - y, x, c);
     }
   }
-  const Vec2 landed = frame.uv_from_sensor(landing_of(lens, turned.direction, lens.design_wavelength_nm));
+  const Vec2 landed = frame.uv_from_sensor(chief_ray_image_point(lens, turned.direction, lens.design_wavelength_nm));
   CHECK(landed.x == doctest::Approx(0.55).epsilon(1e-6));
   CHECK(landed.y == doctest::Approx(0.8).epsilon(1e-6));
   CHECK(psnr_db(a, back) > 60.0);

@@ -13,7 +13,7 @@ TEST_CASE("the picture is upright: a light up and to the right lands up and to t
   CHECK(up_right.x < 0.0);  // it travels to the left, downwards and into the camera
   CHECK(up_right.y < 0.0);
   CHECK(up_right.z > 0.0);
-  const Vec2 pixel = frame.pixel_from_sensor(landing_of(lens, up_right, kLineD_nm));
+  const Vec2 pixel = frame.pixel_from_sensor(chief_ray_image_point(lens, up_right, kLineD_nm));
   CHECK(pixel.x > 150.0);
   CHECK(pixel.y < 100.0);
   const LightAngles back = angles_from_direction(up_right);

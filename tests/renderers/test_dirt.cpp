@@ -68,8 +68,8 @@ LensScene heliar_scene(const Dirt& dirt, double distance_mm = std::numeric_limit
   scene.frame = small_frame(scene.clean, 96, 64);
   scene.frame.selection = SelectBrightest{4};
   scene.light.distance_mm = distance_mm;
-  scene.light.direction = direction_to_land_at(scene.clean, scene.frame.frame.sensor_from_uv({0.62, 0.4}),
-                                               scene.clean.design_wavelength_nm, distance_mm);
+  scene.light.direction = direction_for_image_point(scene.clean, scene.frame.frame.sensor_from_uv({0.62, 0.4}),
+                                                    scene.clean.design_wavelength_nm, distance_mm);
   return scene;
 }
 

@@ -16,7 +16,7 @@ constexpr double kFar = std::numeric_limits<double>::infinity();
 Light near_light(const LensState& lens, const Frame& frame, Vec2 uv, double distance_mm) {
   Light light;
   light.distance_mm = distance_mm;
-  light.direction = direction_to_land_at(lens, frame.sensor_from_uv(uv), lens.design_wavelength_nm, distance_mm);
+  light.direction = direction_for_image_point(lens, frame.sensor_from_uv(uv), lens.design_wavelength_nm, distance_mm);
   return light;
 }
 

@@ -118,7 +118,7 @@ TEST_CASE(
     for (const double field : {0.0, 0.4, 0.7, 0.98}) {
       CAPTURE(field);
       const Vec2 corner_mm{0.5 * lens.sensor_width_mm, 0.5 * lens.sensor_height_mm};
-      const Vec3 direction = direction_to_land_at(lens, corner_mm * field, lens.design_wavelength_nm);
+      const Vec3 direction = direction_for_image_point(lens, corner_mm * field, lens.design_wavelength_nm);
       const auto pupil = exit_pupil(lens, direction, lens.design_wavelength_nm);
       REQUIRE(pupil.has_value());
       const double flux_mm2 = meter.direct_flux(direction);

@@ -266,7 +266,7 @@ TEST_CASE(
     Light light;
     light.direction = direction_from_angles(c.azimuth_rad, c.elevation_rad);
     const double lambda_mm = 587.6e-6, pitch_mm = 3e-4;
-    const Vec2 landing = landing_of(lens, light.direction, lens.design_wavelength_nm);
+    const Vec2 landing = chief_ray_image_point(lens, light.direction, lens.design_wavelength_nm);
     test::Settings settings = starburst_alone(window_about(landing, 48, pitch_mm));
     settings.lambda_nm = {587.6};
     const Image image = drawn(lens, light, settings);

@@ -34,7 +34,7 @@ inline LensState plate() {
 
 inline Light light_at(const LensState& lens, const Frame& frame, Vec2 uv) {
   Light light;
-  light.direction = direction_to_land_at(lens, frame.sensor_from_uv(uv), lens.design_wavelength_nm);
+  light.direction = direction_for_image_point(lens, frame.sensor_from_uv(uv), lens.design_wavelength_nm);
   return light;
 }
 

@@ -190,10 +190,10 @@ TEST_CASE("tracing stands any numbers") {
     use(check_source(lens, light));
     use(check_source(lens, LightSource({v, v, 1.0})));
     use(entrance_window(lens, light));
-    use(direction_to_land_at(lens, {v, v}, 550.0));
-    use(direction_to_land_at(lens, {1.0, 1.0}, v, v));
-    use(landing_of(lens, light, v));
-    use(landing_of(lens, LightSource({v, v, 1.0}), 550.0));
+    use(direction_for_image_point(lens, {v, v}, 550.0));
+    use(direction_for_image_point(lens, {1.0, 1.0}, v, v));
+    use(chief_ray_image_point(lens, light, v));
+    use(chief_ray_image_point(lens, LightSource({v, v, 1.0}), 550.0));
     use(first_order(lens, v));
     use(seidel_sums(lens, {v, v, v, v}));
     use(exit_pupil(lens, LightSource({v, v, 1.0}), 550.0));

@@ -50,8 +50,8 @@ void walk_values(const LensState& lens) {
   use(blocked_by(ray, path, lens.iris));
   use(trace_recorded(without_obscurations(path), {{0.1, 0.1, -10.0}, {0.0, 0.0, 1.0}}));
   use(entrance_window(lens, light));
-  use(direction_to_land_at(lens, {1.0, 1.0}, 550.0));
-  use(landing_of(lens, light, 550.0));
+  use(direction_for_image_point(lens, {1.0, 1.0}, 550.0));
+  use(chief_ray_image_point(lens, light, 550.0));
   use(seidel_by_surface(lens, {}));
   use(seidel_sums(lens, {}));
   use(peak_hits_per_ms(lens, {1}));

@@ -24,8 +24,8 @@ Result<std::vector<Target>> measure_many_lights(const EffectScene& scene) {
   for (const int count : {10, 100, 1000}) {
     std::vector<Light> lights(static_cast<std::size_t>(count), small->lights.front());
     for (std::size_t k = 0; k < lights.size(); ++k) {
-      lights[k].direction = direction_to_land_at(small->lens, small->render.frame.sensor_from_uv(evenly_spread(k)),
-                                                 small->lens.design_wavelength_nm);
+      lights[k].direction = direction_for_image_point(small->lens, small->render.frame.sensor_from_uv(evenly_spread(k)),
+                                                      small->lens.design_wavelength_nm);
     }
     const auto cost = cost_in_turns(*small, {small->render, {lights.front()}}, {small->render, lights});
     if (!cost) return tl::unexpected(cost.error());

@@ -17,7 +17,8 @@ struct StarburstTimer {
   const EffectScene& scene;
   Frame frame = scene.render.frame;
   Vec3 direction = scene.lights.front().direction;
-  Vec2 centre_px = frame.pixel_from_sensor(landing_of(scene.lens, direction, scene.lens.design_wavelength_nm));
+  Vec2 centre_px =
+      frame.pixel_from_sensor(chief_ray_image_point(scene.lens, direction, scene.lens.design_wavelength_nm));
   std::vector<SpectralBand> bands = spectral_bands(kBands, scene.lights.front().spectrum, ColourSpace::Rec709);
   Image image{frame.width, frame.height};
 

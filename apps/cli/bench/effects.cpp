@@ -67,7 +67,7 @@ Result<EffectScene> with_lens(const EffectScene& scene, const EffectSystem& syst
   frame = frame_on_sensor(other.lens, frame.width, frame.height);
   other.lights.resize(1);
   other.lights.front().direction =
-      direction_to_land_at(other.lens, frame.sensor_from_uv(kPlace_uv), other.lens.design_wavelength_nm);
+      direction_for_image_point(other.lens, frame.sensor_from_uv(kPlace_uv), other.lens.design_wavelength_nm);
   return other;
 }
 

@@ -58,7 +58,7 @@ Result<HullinScene> scene_of(const HullinSystem& system, double times_f_number, 
   HullinScene scene{std::move(*lens), {}, params::bundle_options(values), {}};
   const Frame frame = params::whole_frame(values, scene.lens, *params::parse_size(*values.text("size")));
   scene.light.direction =
-      direction_to_land_at(scene.lens, frame.sensor_from_uv(kLight_uv), scene.lens.design_wavelength_nm);
+      direction_for_image_point(scene.lens, frame.sensor_from_uv(kLight_uv), scene.lens.design_wavelength_nm);
   scene.settings = params::frame_settings(values, frame, ColourSpace::Rec709);
   scene.settings.scope = GhostScope::OneSideOfStop;  // as the paper
   return scene;

@@ -163,7 +163,7 @@ Result<BenchScene> bench_scene(const PaperSystem& system, int light_count, const
   for (std::size_t k = 0; k < static_cast<std::size_t>(light_count); ++k) {
     Light light;
     light.direction =
-        direction_to_land_at(scene.lens, frame.sensor_from_uv(light_uv(k)), scene.lens.design_wavelength_nm);
+        direction_for_image_point(scene.lens, frame.sensor_from_uv(light_uv(k)), scene.lens.design_wavelength_nm);
     scene.lights.push_back(light);
   }
   scene.settings = params::frame_settings(values, frame, ColourSpace::Rec709);

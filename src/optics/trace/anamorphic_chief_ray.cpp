@@ -58,12 +58,12 @@ Vec3 anamorphic_direction(const LensState& lens, Vec2 sensor_mm, double lambda_n
   Vec2 per_x{1.0 / focal_mm.x, 0.0}, per_y{0.0, 1.0 / focal_mm.y};  // columns: tangents per mm
   const auto step_for = [&](Vec2 off_mm) { return per_x * off_mm.x + per_y * off_mm.y; };
   Vec2 tangents = step_for(sensor_mm);
-  Vec2 off_mm = sensor_mm - landing_of(lens, {direction_of(tangents), distance_mm}, lambda_nm);
+  Vec2 off_mm = sensor_mm - chief_ray_image_point(lens, {direction_of(tangents), distance_mm}, lambda_nm);
   for (int k = 0; k < kSteps && length(off_mm) >= kLanded_mm; ++k) {
     const Vec2 step = step_for(off_mm);
     const Vec2 next = tangents + step;
     if (!(length(next) < kLargestField)) break;
-    const Vec2 still_off_mm = sensor_mm - landing_of(lens, {direction_of(next), distance_mm}, lambda_nm);
+    const Vec2 still_off_mm = sensor_mm - chief_ray_image_point(lens, {direction_of(next), distance_mm}, lambda_nm);
     const Vec2 moved_mm = off_mm - still_off_mm;
     const Vec2 predicted = step_for(moved_mm);
     const double scale = dot(step, predicted);

@@ -7,7 +7,7 @@ namespace contrejour {
 
 [[nodiscard]] bool is_anamorphic(const LensState& lens);
 
-// As landing_of and direction_to_land_at.
+// As chief_ray_image_point and direction_for_image_point.
 [[nodiscard]] Vec2 anamorphic_image_point(const LensState& lens, const LightSource& source, double lambda_nm);
 [[nodiscard]] Vec3 anamorphic_direction(const LensState& lens, Vec2 sensor_mm, double lambda_nm, double distance_mm);
 

@@ -184,12 +184,12 @@ Vec3 direction_of_displaced_lens(const LensState& lens, Vec2 sensor_mm, double l
   constexpr double kLanded_mm = 1e-6;
   const LensState ideal = centred(lens);
   Vec2 target_mm = sensor_mm;
-  Vec3 direction = direction_to_land_at(ideal, target_mm, lambda_nm, distance_mm);
+  Vec3 direction = direction_for_image_point(ideal, target_mm, lambda_nm, distance_mm);
   for (int k = 0; k < kSteps; ++k) {
-    const Vec2 off_mm = sensor_mm - landing_of(lens, {direction, distance_mm}, lambda_nm);
+    const Vec2 off_mm = sensor_mm - chief_ray_image_point(lens, {direction, distance_mm}, lambda_nm);
     if (length(off_mm) < kLanded_mm) break;
     target_mm = target_mm + off_mm;
-    direction = direction_to_land_at(ideal, target_mm, lambda_nm, distance_mm);
+    direction = direction_for_image_point(ideal, target_mm, lambda_nm, distance_mm);
   }
   return direction;
 }
@@ -197,7 +197,7 @@ Vec3 direction_of_displaced_lens(const LensState& lens, Vec2 sensor_mm, double l
 }  // namespace
 
 // A positive lens images a distant light on the side of the sensor to which its direction of travel d points.
-Vec3 direction_to_land_at(const LensState& lens, Vec2 sensor_mm, double lambda_nm, double distance_mm) {
+Vec3 direction_for_image_point(const LensState& lens, Vec2 sensor_mm, double lambda_nm, double distance_mm) {
   if (!has_stop(lens) || !std::isfinite(sensor_mm.x + sensor_mm.y)) return {kNan, kNan, kNan};
   if (is_anamorphic(lens)) return anamorphic_direction(lens, sensor_mm, lambda_nm, distance_mm);
   if (!is_centred(lens)) return direction_of_displaced_lens(lens, sensor_mm, lambda_nm, distance_mm);
@@ -209,7 +209,7 @@ Vec3 direction_to_land_at(const LensState& lens, Vec2 sensor_mm, double lambda_n
   return {azimuth.x * std::sin(field), azimuth.y * std::sin(field), std::cos(field)};
 }
 
-Vec2 landing_of(const LensState& lens, const LightSource& source, double lambda_nm) {
+Vec2 chief_ray_image_point(const LensState& lens, const LightSource& source, double lambda_nm) {
   const Vec3 d = source.direction;
   if (!has_stop(lens) || !std::isfinite(d.x + d.y + d.z)) return {kNan, kNan};
   if (is_anamorphic(lens)) return anamorphic_image_point(lens, source, lambda_nm);
@@ -221,7 +221,7 @@ Vec2 landing_of(const LensState& lens, const LightSource& source, double lambda_
     const double height_mm = sine > 0.0 ? chief_height_for(ideal, lambda_nm, source.distance_mm, field) : 0.0;
     const Vec2 start_mm = sine > 0.0 ? across * (height_mm / sine) : Vec2{};
     if (const auto chief = aim_chief(direct_path(lens, lambda_nm), source, start_mm)) return chief->image_mm;
-    return landing_of(ideal, source, lambda_nm);
+    return chief_ray_image_point(ideal, source, lambda_nm);
   }
   if (sine == 0.0) return {};
   const double radius = radius_for(lens, lambda_nm, source.distance_mm, std::atan2(sine, source.direction.z));

@@ -10,7 +10,8 @@ namespace contrejour::area {
 LinearMap image_motion_px(const LensState& lens, const Frame& frame, const LightSource& source) {
   constexpr double kStep = 1e-3;
   const auto at = [&](Vec2 tangents) {
-    return frame.pixel_from_sensor(landing_of(lens, source_beside(source, tangents), lens.design_wavelength_nm));
+    return frame.pixel_from_sensor(
+        chief_ray_image_point(lens, source_beside(source, tangents), lens.design_wavelength_nm));
   };
   const double s = 0.5 / kStep;
   const LinearMap map{(at({kStep, 0.0}) - at({-kStep, 0.0})) * s, (at({0.0, kStep}) - at({0.0, -kStep})) * s};

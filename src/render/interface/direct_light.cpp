@@ -132,12 +132,12 @@ bool measure_fluxes(const LensState& lens, const TablesByWavelength& tables, std
 }
 
 LightSource measured_source(const LensState& lens, const Frame& frame, const LightSource& light) {
-  const Vec2 uv = frame.uv_from_sensor(landing_of(lens, light, lens.design_wavelength_nm));
+  const Vec2 uv = frame.uv_from_sensor(chief_ray_image_point(lens, light, lens.design_wavelength_nm));
   const double outside = std::max(std::abs(uv.x - 0.5), std::abs(uv.y - 0.5)) / 0.5;
   if (!(outside > 1.0)) return light;
   const Vec2 edge = Vec2{0.5, 0.5} + (uv - Vec2{0.5, 0.5}) * (1.0 / outside);
   const Vec2 sensor_mm = frame.sensor_from_uv(edge);
-  return {direction_to_land_at(lens, sensor_mm, lens.design_wavelength_nm, light.distance_mm), light.distance_mm};
+  return {direction_for_image_point(lens, sensor_mm, lens.design_wavelength_nm, light.distance_mm), light.distance_mm};
 }
 
 Rgb direct_light(std::span<const SpectralBand> bands, std::span<const double> flux_mm2,

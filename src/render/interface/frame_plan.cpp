@@ -114,7 +114,7 @@ double edge_gain(const LensState& lens, const Light& light, const FrameSettings&
   if (at_corner == 1.0) return 1.0;
   const Frame& frame = settings.frame;
   const double corner_mm = 0.5 * std::hypot(frame.full_width, frame.full_height) * frame.pixel_pitch_mm;
-  const double landing_mm = length(landing_of(lens, light.source(), lens.design_wavelength_nm));
+  const double landing_mm = length(chief_ray_image_point(lens, light.source(), lens.design_wavelength_nm));
   return std::lerp(1.0, at_corner, std::min(1.0, landing_mm / corner_mm));
 }
 

@@ -55,8 +55,9 @@ std::vector<ImagedLight> image_lights(const LensState& lens, std::span<const Lig
   const double farthest_px = kFarthest_diagonals * std::hypot(frame.full_width, frame.full_height);
   const Vec2 middle_px = frame.pixel_from_sensor({});
   std::vector<Vec2> sensor_mm(lights.size());
-  parallel_for(lights.size(), context,
-               [&](std::size_t k) { sensor_mm[k] = landing_of(lens, lights[k].source(), lens.design_wavelength_nm); });
+  parallel_for(lights.size(), context, [&](std::size_t k) {
+    sensor_mm[k] = chief_ray_image_point(lens, lights[k].source(), lens.design_wavelength_nm);
+  });
   std::optional<GhostMeter> meter;
   if (std::any_of(sensor_mm.begin(), sensor_mm.end(), [&](Vec2 p) { return is_outside(frame, p); }))
     meter.emplace(lens, lens.design_wavelength_nm);
