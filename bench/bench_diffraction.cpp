@@ -69,8 +69,8 @@ void starburst_laid_out(benchmark::State& state) {
 // A lens's own exit pupil, off the axis and vignetted, to pixels: all that a new lens state or light costs.
 void starburst_through_lens(benchmark::State& state) {
   const auto lens =
-      lens_at(*find_lens("canon-70-200"),
-              {.focal_length_mm = 135.0, .f_number = static_cast<double>(state.range(0)), .iris = {8, 0.2}});
+      configure_lens(*find_lens("canon-70-200"),
+                     {.focal_length_mm = 135.0, .f_number = static_cast<double>(state.range(0)), .iris = {8, 0.2}});
   const Frame frame = frame_on_sensor(*lens, kWidth, kHeight);
   const Vec2 centre_px{1344.0, 356.0};
   const Vec3 direction =
@@ -86,8 +86,8 @@ void starburst_through_lens(benchmark::State& state) {
 
 void exit_pupil_of_lens(benchmark::State& state) {
   const auto lens =
-      lens_at(*find_lens("canon-70-200"),
-              {.focal_length_mm = 135.0, .f_number = static_cast<double>(state.range(0)), .iris = {8, 0.2}});
+      configure_lens(*find_lens("canon-70-200"),
+                     {.focal_length_mm = 135.0, .f_number = static_cast<double>(state.range(0)), .iris = {8, 0.2}});
   const Vec3 direction = direction_from_angles(0.06, 0.04);
   for (auto _ : state) benchmark::DoNotOptimize(exit_pupil(*lens, direction, lens->design_wavelength_nm));
 }

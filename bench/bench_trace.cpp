@@ -17,7 +17,7 @@ using namespace contrejour;
 LensState bundled(benchmark::State& state, const char* name) {
   const Result<Prescription> prescription = find_lens(name);
   if (prescription) {
-    if (const Result<LensState> lens = lens_at(*prescription)) return *lens;
+    if (const Result<LensState> lens = configure_lens(*prescription)) return *lens;
   }
   state.SkipWithError("this lens does not load");
   return {};

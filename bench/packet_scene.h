@@ -42,7 +42,7 @@ struct PacketScene {
 inline std::optional<PacketScene> packet_scene(const char* name) {
   const Result<Prescription> prescription = find_lens(name);
   if (!prescription) return std::nullopt;
-  const Result<LensState> lens = lens_at(*prescription);
+  const Result<LensState> lens = configure_lens(*prescription);
   if (!lens) return std::nullopt;
   const auto ghosts = enumerate_ghosts(*lens, GhostScope::OneSideOfStop);
   const Ghost longest =

@@ -24,7 +24,7 @@ using LensReader = Result<Prescription> (*)(const LensText& in);
 inline Result<Prescription> read_and_back(LensReader read, const LensText& in) {
   auto lens = read(in);
   if (!lens) return lens;
-  (void)lens_at(*lens);
+  (void)configure_lens(*lens);
   const std::string written = write_lens_toml(*lens);
   const auto again = read_lens_toml(written, "again.toml");
   if (!again || write_lens_toml(*again) != written) std::abort();

@@ -69,7 +69,7 @@ Result<LensState> state_of(const Prescription& lens, const params::Values& value
   auto settings = params::lens_settings(values);
   if (!settings) return tl::unexpected(settings.error());
   if (settings->f_number) settings->f_number = std::max(*settings->f_number, lens.f_number);
-  return lens_at(lens, *settings);
+  return configure_lens(lens, *settings);
 }
 
 std::string focal_lengths(const Prescription& lens, const LensState& state) {

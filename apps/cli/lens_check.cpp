@@ -45,7 +45,7 @@ Verdict check_lens(const std::string& file) {
   const std::size_t positions = std::max<std::size_t>(1, verdict.lens.zoom.size());
   for (std::size_t k = 0; k < positions; ++k) {
     if (!verdict.lens.zoom.empty()) settings.focal_length_mm = verdict.lens.zoom[k].focal_length_mm;
-    const auto state = lens_at(verdict.lens, settings);
+    const auto state = configure_lens(verdict.lens, settings);
     if (!state) {
       verdict.refused = state.error();
       return verdict;

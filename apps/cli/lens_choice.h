@@ -18,7 +18,7 @@ CLI::Option* add_lens_argument(CLI::App& command, std::string& lens);
 // find_lens() with the user's own glasses (glass_choice.h).
 [[nodiscard]] Result<Prescription> prescription_of(const std::string& lens);
 
-// Finds and sets it; prints its warnings. Errors: those of find_lens and lens_at.
+// Finds and sets it; prints its warnings. Errors: those of find_lens and configure_lens.
 [[nodiscard]] Result<LensState> open_lens(const std::string& lens, const params::Values& values);
 
 // An option that names a ghost, as --ghost I-J, and the ghost it names. Errors: the lens has no such ghost.

@@ -24,7 +24,7 @@ Result<std::vector<Entry>> read_all() {
   for (const BundledLens& bundled : bundled_lenses()) {
     auto lens = read_lens_toml(bundled.toml, std::string(bundled.name));
     if (!lens) return tl::unexpected(lens.error());
-    auto state = lens_at(*lens);
+    auto state = configure_lens(*lens);
     if (!state) return tl::unexpected(state.error());
     all.push_back({std::string(bundled.name), std::move(*lens), std::move(*state)});
   }

@@ -97,7 +97,7 @@ Result<void> run(const fs::path& folder) {
   LensSettings lens_settings;
   lens_settings.f_number = kFNumber;
   lens_settings.iris.blades = kBlades;
-  const auto lens = lens_at(*prescription, lens_settings);
+  const auto lens = configure_lens(*prescription, lens_settings);
   if (!lens) return tl::unexpected(lens.error());
   fmt::print("{}, {:.0f} mm, f/{:g}\n", lens->name, lens->focal_length_mm, lens->f_number);
 

@@ -1,7 +1,7 @@
-// Checks whether light can be traced through a lens state. States from lens_at() always pass. Functions that return
-// Result check the state they are given; functions that return values give an empty list, zero or NaN for a state
-// without surfaces or without a stop, and never read out of bounds.
-// Errors: InvalidArgument, saying what is wrong. Some 10 us for a zoom lens. Thread-safety: pure.
+// Checks whether light can be traced through a lens state. States from configure_lens() always pass. Functions that
+// return Result check the state they are given; functions that return values give an empty list, zero or NaN for a
+// state without surfaces or without a stop, and never read out of bounds. Errors: InvalidArgument, saying what is
+// wrong. Some 10 us for a zoom lens. Thread-safety: pure.
 #pragma once
 
 #include <cstddef>

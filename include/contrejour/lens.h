@@ -203,7 +203,7 @@ struct LensState {
 // Sets zoom (any focal length within the range), stop and focus. Errors: focal length or f-number out of
 // range, a coating for a surface that is none of glass, object inside the front focal point, a sensor stack that the
 // lens leaves no room for, an iris that lets nothing through, an iris or dirt that has numbers out of its range.
-[[nodiscard]] Result<LensState> lens_at(const Prescription& lens, const LensSettings& settings = {});
+[[nodiscard]] Result<LensState> configure_lens(const Prescription& lens, const LensSettings& settings = {});
 
 // Reads a lens in any supported format, recognised by content and extension. Bounded in memory and time. Glasses that
 // the file names are looked for in `glasses`, if given, and then in the bundled catalogue.

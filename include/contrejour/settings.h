@@ -21,7 +21,7 @@ inline constexpr double kDegree_rad = 0.017453292519943295;
 // Errors: a picture of the iris or of dirt that cannot be read or is none.
 [[nodiscard]] Result<LensSettings> lens_settings(const Values& values);
 
-// The lens as --sensor and the lens's settings have it. Errors: those of lens_settings() and lens_at().
+// The lens as --sensor and the lens's settings have it. Errors: those of lens_settings() and configure_lens().
 [[nodiscard]] Result<LensState> lens_of(Prescription lens, const Values& values);
 
 // The pitch of a whole frame of so many square pixels, across and down: on the lens's sensor, or as wide as --hfov

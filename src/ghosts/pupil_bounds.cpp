@@ -263,7 +263,7 @@ Result<ZoomPupilBounds> ZoomPupilBounds::build(const Prescription& lens, const S
       LensSettings set = settings.others;
       set.focal_length_mm = focal_length_mm;
       set.f_number = f_number;
-      const auto state = lens_at(lens, set);
+      const auto state = configure_lens(lens, set);
       if (!state) return tl::unexpected<Error>(state.error());
       row.push_back({state->focal_length_mm, state->stop_radius_mm, PupilBounds(*state, range, context)});
       if (context.cancelled()) return interrupted();

@@ -58,7 +58,7 @@ class ZoomPupilBounds {
     LensSettings others;  // focus, coating, iris
   };
 
-  // Errors: those of lens_at(); Cancelled.
+  // Errors: those of configure_lens(); Cancelled.
   [[nodiscard]] static Result<ZoomPupilBounds> build(const Prescription& lens, const Settings& settings,
                                                      const PupilBoundsRange& range, const Context& context);
 

@@ -143,7 +143,7 @@ Result<LensState> lens_of(Prescription lens, const Values& values) {
     lens.sensor_width_mm = format.width_mm;
     lens.sensor_height_mm = format.height_mm;
   }
-  return lens_at(lens, *settings);
+  return configure_lens(lens, *settings);
 }
 
 double pixel_pitch_mm(const Values& values, const LensState& lens, Vec2 square_pixels) {

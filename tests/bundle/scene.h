@@ -23,7 +23,7 @@ inline LensState lens(const std::string& name, double f_number, double focal_len
   settings.f_number = f_number;
   if (focal_length_mm > 0.0) settings.focal_length_mm = focal_length_mm;
   settings.iris.blades = blades;
-  const auto state = lens_at(*prescription, settings);
+  const auto state = configure_lens(*prescription, settings);
   REQUIRE(state.has_value());
   return *state;
 }

@@ -243,7 +243,7 @@ std::vector<LensState> lenses_of_all_kinds() {
   const auto add = [&](const char* name, const LensSettings& settings) -> LensState& {
     const auto prescription = find_lens(name);
     REQUIRE(prescription.has_value());
-    const auto state = lens_at(*prescription, settings);
+    const auto state = configure_lens(*prescription, settings);
     REQUIRE(state.has_value());
     return lenses.emplace_back(*state);
   };

@@ -67,7 +67,7 @@ Values values_of(std::vector<std::pair<const char*, const char*>> given) {
 LensState planar() {
   const auto lens = find_lens("planar-50");
   REQUIRE(lens.has_value());
-  const auto state = lens_at(*lens, {.f_number = 8.0});
+  const auto state = configure_lens(*lens, {.f_number = 8.0});
   REQUIRE(state.has_value());
   return *state;
 }
@@ -122,7 +122,7 @@ TEST_CASE("a photograph's flare lowers no channel") {
   };
   for (const Case& c : {Case{"heliar", "16"}, Case{"heliar", "1"}, Case{"schneider-anamorphic-31", "1"}}) {
     CAPTURE(c.lens);
-    const auto lens = lens_at(find_lens(c.lens).value(), {.f_number = 8.0, .iris = {6}});
+    const auto lens = configure_lens(find_lens(c.lens).value(), {.f_number = 8.0, .iris = {6}});
     REQUIRE(lens.has_value());
     const Values values = values_of({{"threshold", "2"},
                                      {"max-lights", c.most_lights},

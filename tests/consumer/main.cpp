@@ -12,7 +12,7 @@ int main() {
     std::fprintf(stderr, "%s\n", prescription.error().to_string().c_str());
     return 1;
   }
-  const Result<LensState> lens = lens_at(*prescription, {.f_number = 8.0});
+  const Result<LensState> lens = configure_lens(*prescription, {.f_number = 8.0});
   if (!lens) {
     std::fprintf(stderr, "%s\n", lens.error().to_string().c_str());
     return 1;

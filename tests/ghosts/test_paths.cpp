@@ -134,11 +134,12 @@ TEST_CASE("a plate moves the sensor by t (1 - 1 / n), and too many find no room"
   thick.sensor.plates.front().thickness_mm = thick.sensor.plates.front().gap_mm = 99.0;
   const auto lens = find_lens("heliar");
   REQUIRE(lens.has_value());
-  const auto refused = lens_at(*lens, thick);
+  const auto refused = configure_lens(*lens, thick);
   REQUIRE_FALSE(refused.has_value());
   CHECK(refused.error().message.find("the lens leaves") != std::string::npos);
-  for (const double share : {-0.1, 1.1, std::nan("")}) CHECK_FALSE(lens_at(*lens, with_sensor(share)).has_value());
-  CHECK_FALSE(lens_at(*lens, with_sensor(0.1, 99)).has_value());
+  for (const double share : {-0.1, 1.1, std::nan("")})
+    CHECK_FALSE(configure_lens(*lens, with_sensor(share)).has_value());
+  CHECK_FALSE(configure_lens(*lens, with_sensor(0.1, 99)).has_value());
 }
 
 TEST_CASE("light goes from the sensor to a plate and back: its share is R_sensor R (1 - R)^2, then R at the front") {

@@ -18,7 +18,7 @@ LensState state_of(std::string_view name, std::optional<double> focal_length_mm 
   if (!lens) FAIL(lens.error().to_string());
   LensSettings settings;
   settings.focal_length_mm = focal_length_mm;
-  const auto state = lens_at(*lens, settings);
+  const auto state = configure_lens(*lens, settings);
   if (!state) FAIL(state.error().to_string());
   return *state;
 }

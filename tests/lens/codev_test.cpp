@@ -93,10 +93,10 @@ TEST_CASE("a CODE V file in every detail") {
   CHECK(s[4].source_line == 29);
   CHECK(s[4].semi_diameter_mm > 4.0);  // for the beam
   CHECK(lens.stated.wavelength_nm == 550.0);
-  CHECK(lens.f_number == doctest::Approx(lens_at(lens)->focal_length_mm / 10.0).epsilon(1e-12));
+  CHECK(lens.f_number == doctest::Approx(configure_lens(lens)->focal_length_mm / 10.0).epsilon(1e-12));
   CHECK(lens.sensor_distance_mm == 75.0);  // 75.5, and -0.5 of defocus
   CHECK(std::hypot(lens.sensor_width_mm, lens.sensor_height_mm) ==
-        doctest::Approx(2.0 * lens_at(lens)->focal_length_mm * std::tan(5.0 * std::numbers::pi / 180.0)));
+        doctest::Approx(2.0 * configure_lens(lens)->focal_length_mm * std::tan(5.0 * std::numbers::pi / 180.0)));
   REQUIRE(lens.warnings.size() == 1);
   CHECK(lens.warnings[0] == "the command Surface_label (line 20) is not known and left out");
   CHECK(looks_like_seq(kSeq));
@@ -367,7 +367,7 @@ TEST_CASE("CODE V's samples: read, or refused for what they hold") {
       continue;
     }
     REQUIRE_MESSAGE(lens.has_value(), (lens ? "" : lens.error().to_string()));
-    const auto state = lens_at(*lens);
+    const auto state = configure_lens(*lens);
     REQUIRE_MESSAGE(state.has_value(), (state ? "" : state.error().to_string()));
     CHECK(state->focal_length_mm == doctest::Approx(outcome.focal_length_mm).epsilon(1e-4));
     const std::string text = write_lens_toml(*lens);
@@ -386,7 +386,7 @@ TEST_CASE("the double Gauss's marginal ray is rayoptics', surface by surface") {
   const nlohmann::json expected = nlohmann::json::parse(stream).at("expected_marginal_ray");
   const auto lens = read_lens(*file);
   REQUIRE(lens.has_value());
-  const LensState state = *lens_at(*lens);
+  const LensState state = *configure_lens(*lens);
   const OpticalPath path = direct_path(state, 587.6);
   const RayRecord record = trace_recorded(path, {{25.0, 0.0, -10.0}, {0.0, 0.0, 1.0}});
   REQUIRE(record.steps.size() == 11);

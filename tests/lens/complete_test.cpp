@@ -38,7 +38,7 @@ TEST_CASE("rims that cross shrink to where they meet, and a warning says so") {
     CHECK(whole->surfaces[k].semi_diameter_mm == doctest::Approx(kMeeting_mm).epsilon(1e-9));
   REQUIRE(whole->warnings.size() == 2);
   CHECK(whole->warnings[0].find("surface 1 (line 7)") != std::string::npos);
-  CHECK(lens_at(*whole)->warnings.size() == 2);
+  CHECK(configure_lens(*whole)->warnings.size() == 2);
 
   lens.surfaces[0].semi_diameter_mm = 30.0;  // the smaller is enough
   const auto one = completed(lens);
@@ -93,7 +93,7 @@ TEST_CASE("a rim that fits is left alone") {
 TEST_CASE("an f-number that is not told is the stop's") {
   const auto whole = completed(singlet(19.0, 5.0));
   REQUIRE(whole);
-  const auto state = lens_at(*whole);
+  const auto state = configure_lens(*whole);
   REQUIRE(state);
   CHECK(state->warnings.empty());
   CHECK(state->stop_radius_mm == doctest::Approx(5.0).epsilon(1e-6));
@@ -110,7 +110,7 @@ TEST_CASE("semi-diameters that are not told are those of the beam") {
   REQUIRE(whole);
   CHECK(whole->surfaces[0].semi_diameter_mm == 15.0);
   CHECK(whole->warnings.empty());
-  const auto state = lens_at(*whole);
+  const auto state = configure_lens(*whole);
   REQUIRE(state);
   CHECK(state->f_number == doctest::Approx(10.0));
   // At the back of a thin lens 5 mm before the stop: the axial beam's 5 mm and the chief ray's 5 mm * tan(field).

@@ -110,7 +110,7 @@ TEST_CASE("DeepLens' samples") {
       continue;
     }
     ++read;
-    const auto state = lens_at(*lens);
+    const auto state = configure_lens(*lens);
     REQUIRE_MESSAGE(state.has_value(), (state ? "" : state.error().to_string()));
     if (const auto known = kFocal_mm.find(stem); known != kFocal_mm.end())
       CHECK(state->focal_length_mm == doctest::Approx(known->second).epsilon(2e-4));

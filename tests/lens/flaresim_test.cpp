@@ -120,12 +120,12 @@ TEST_CASE("FlareSim: an opening drawn within a lens, a lens without an image") {
   REQUIRE(lens.sensor_distance_mm.has_value());
   CHECK(*lens.sensor_distance_mm == 40.0);
   CHECK(lens.warnings.at(0).find("form no image") != std::string::npos);
-  const auto state = lens_at(lens);
+  const auto state = configure_lens(lens);
   REQUIRE(state.has_value());
   CHECK(state->sensor_z_mm == 47.0);
   // Its stop is as wide as the file says, and closes in proportion: there is no marginal ray to size it by.
   CHECK(state->stop_radius_mm == 4.0);
-  CHECK(lens_at(lens, {.f_number = 8.0})->stop_radius_mm == 2.0);
+  CHECK(configure_lens(lens, {.f_number = 8.0})->stop_radius_mm == 2.0);
 }
 
 TEST_CASE("what is wrong with a FlareSim lens, and where") {
@@ -163,7 +163,7 @@ TEST_CASE("FlareSim's samples: diameters under the heading semi_ap, focal length
       }
       ++read;
       check_round_trip(*lens);
-      const auto state = lens_at(*lens);
+      const auto state = configure_lens(*lens);
       REQUIRE_MESSAGE(state.has_value(), (state ? "" : state.error().to_string()));
       const FirstOrder figures = first_order(*state, kLineD_nm);
       const auto near = [](double a, double b) { return std::abs(a - b) <= 0.01 * std::abs(b); };

@@ -122,7 +122,7 @@ TEST_CASE("a lens of Zemax' Qbfs brings all of its light to one point, as its ma
   if (!folder) return;
   const auto lens = read_lens(*folder / "ASL5040-UV-Zemax(ZMX).zmx");
   REQUIRE_MESSAGE(lens.has_value(), (lens ? "" : lens.error().to_string()));
-  const auto state = lens_at(*lens);
+  const auto state = configure_lens(*lens);
   REQUIRE(state.has_value());
   // Its own distance to the image; rays miss the axis there by less than a ten-thousandth of the lens's 46 mm.
   const OpticalPath path = direct_path(*state, 405.0);

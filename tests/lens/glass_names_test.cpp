@@ -122,7 +122,7 @@ TEST_CASE("what is refused, with what to do") {
 
 TEST_CASE("a formula beyond where it holds is a warning") {
   const auto warnings = [](const std::string& range) {
-    const auto state = lens_at(
+    const auto state = configure_lens(
         read(lens_with(fmt::format("{{ formula = \"schott\", coefficients = [2.25], range_nm = {} }}", range))));
     REQUIRE(state.has_value());
     return state->warnings;

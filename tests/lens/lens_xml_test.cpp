@@ -141,7 +141,7 @@ TEST_CASE("XML samples: focal lengths and focus as computed by another program")
     CAPTURE(file);
     const auto lens = read_lens(*path);
     REQUIRE_MESSAGE(lens.has_value(), (lens ? "" : lens.error().to_string()));
-    const auto state = lens_at(*lens);
+    const auto state = configure_lens(*lens);
     REQUIRE_MESSAGE(state.has_value(), (state ? "" : state.error().to_string()));
     const FirstOrder computed = first_order(*state, kLineD_nm);
     CHECK(computed.focal_length_mm == doctest::Approx(figures.first).epsilon(6e-4));

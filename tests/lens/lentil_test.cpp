@@ -110,7 +110,7 @@ TEST_CASE("Lentil's samples") {
     CAPTURE(key);
     const auto lens = read_lens(path->string() + "#" + key);
     REQUIRE_MESSAGE(lens.has_value(), (lens ? "" : lens.error().to_string()));
-    const auto state = lens_at(*lens);
+    const auto state = configure_lens(*lens);
     REQUIRE_MESSAGE(state.has_value(), (state ? "" : state.error().to_string()));
     CHECK(state->focal_length_mm == doctest::Approx(focal_mm).epsilon(1e-3));
     check_round_trip(*lens);
@@ -133,7 +133,7 @@ TEST_CASE("Lentil's anamorphic lenses: both focal lengths, one focus") {
   const auto check = [&](const char* key, double focal_y, double back_y, double focal_x, double back_x) {
     const auto lens = read_lens(path->string() + "#" + key);
     REQUIRE(lens.has_value());
-    const auto state = lens_at(*lens);
+    const auto state = configure_lens(*lens);
     REQUIRE(state.has_value());
     const FirstOrder figures = first_order(*state, kLineD_nm);
     CHECK(std::abs(figures.focal_length_mm - focal_y) < 6e-4);

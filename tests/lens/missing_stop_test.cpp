@@ -78,7 +78,7 @@ TEST_CASE("a lens without a gap for an iris has its stop in front, a plane openi
   const Prescription single = doublet(6.0);
   CHECK(stop_of(single) == 0);
   check_warns(single, "in front of the first surface");
-  CHECK(lens_at(single)->f_number == 8.0);
+  CHECK(configure_lens(single)->f_number == 8.0);
   const Prescription opened = read_or_fail(read_flaresim,
                                            "# f/8\nname: x\nsurfaces:\n60 5 1.5 60 12 0\n-200 4 1 0 12 0\n0 4 1 0 8 0\n"
                                            "200 3 1.5 60 12 0\n-90 80 1 0 12 0\n");
@@ -88,7 +88,8 @@ TEST_CASE("a lens without a gap for an iris has its stop in front, a plane openi
   // Without an f-number it is as wide as the rims let a beam be.
   const Prescription untold = read_or_fail(read_flaresim, "name: x\nsurfaces:\n60 5 1.5 60 8 0\n-200 80 1 0 8 0\n");
   CHECK(untold.surfaces[0].semi_diameter_mm == doctest::Approx(8.0).epsilon(1e-12));
-  CHECK(lens_at(untold)->f_number == doctest::Approx(lens_at(untold)->focal_length_mm / 16.0).epsilon(1e-3));
+  CHECK(configure_lens(untold)->f_number ==
+        doctest::Approx(configure_lens(untold)->focal_length_mm / 16.0).epsilon(1e-3));
 }
 
 TEST_CASE("a stop in a gap that zooming changes moves with the lens in front of it") {
@@ -104,10 +105,10 @@ TEST_CASE("a stop in a gap that zooming changes moves with the lens in front of 
   REQUIRE(place_missing_stop(blind).has_value());
   blind = completed(blind).value();
   for (std::size_t z = 0; z < blind.zoom.size(); ++z) {
-    const auto at = lens_at(blind, {.focal_length_mm = blind.zoom[z].focal_length_mm});
+    const auto at = configure_lens(blind, {.focal_length_mm = blind.zoom[z].focal_length_mm});
     REQUIRE_MESSAGE(at.has_value(), (at ? "" : at.error().to_string()));
     // A stop is nothing to first order.
-    const auto own = lens_at(*zoom, {.focal_length_mm = blind.zoom[z].focal_length_mm});
+    const auto own = configure_lens(*zoom, {.focal_length_mm = blind.zoom[z].focal_length_mm});
     double total_mm = 0.0, own_mm = 0.0;
     for (const auto& [index, thickness_mm] : blind.zoom[z].thickness_mm) total_mm += thickness_mm;
     for (const auto& [index, thickness_mm] : before.zoom[z].thickness_mm) own_mm += thickness_mm;
@@ -154,7 +155,7 @@ TEST_CASE("FlareSim's samples without their stops: most are put within a tenth o
 TEST_CASE("a gap that a converter lost is found by what the file states") {
   auto lens = find_lens("sigler-telephoto-250");
   REQUIRE(lens.has_value());
-  const auto state = lens_at(*lens);
+  const auto state = configure_lens(*lens);
   const FirstOrder figures = first_order(*state, state->design_wavelength_nm);
   lens->stated = {.focal_length_mm = figures.focal_length_mm, .back_focal_distance_mm = figures.back_focal_distance_mm};
   lens->warnings.clear();

@@ -156,10 +156,10 @@ TEST_CASE("Optical Bench's samples: read, and as their figures say") {
       const auto lens = read_lens(entry.path());
       REQUIRE_MESSAGE(lens.has_value(), (lens ? "" : lens.error().to_string()));
       CHECK(lens->warnings.empty() == !kCrossing.contains(file));
-      const auto state = lens_at(*lens);
+      const auto state = configure_lens(*lens);
       REQUIRE_MESSAGE(state.has_value(), (state ? "" : state.error().to_string()));
       for (const ZoomPosition& position : lens->zoom) {
-        const auto zoomed = lens_at(*lens, {.focal_length_mm = position.focal_length_mm});
+        const auto zoomed = configure_lens(*lens, {.focal_length_mm = position.focal_length_mm});
         REQUIRE_MESSAGE(zoomed.has_value(), (zoomed ? "" : zoomed.error().to_string()));
         CHECK(zoomed->focal_length_mm == doctest::Approx(position.focal_length_mm).epsilon(0.02));
       }

@@ -80,7 +80,7 @@ TEST_CASE("an Optiland file in every detail") {
   CHECK(s[4].shape.curvature_x_per_mm == 1.0 / 900.0);
   CHECK(s[4].shape.conic == 0.5);
   CHECK(s[4].shape.powers == std::vector<double>{0, 0, 0, 1e-8});
-  const auto state = lens_at(lens);
+  const auto state = configure_lens(lens);
   REQUIRE(state.has_value());
   CHECK(lens.f_number == doctest::Approx(state->focal_length_mm / 10.0).epsilon(1e-9));
   // The widest field is 5 degrees off the axis.
@@ -136,7 +136,7 @@ TEST_CASE("Optiland's samples: focal lengths and f-numbers of its own") {
     const auto lens = read_lens(*path);
     REQUIRE_MESSAGE(lens.has_value(), (lens ? "" : lens.error().to_string()));
     CHECK(lens->name == file);
-    const auto state = lens_at(*lens);
+    const auto state = configure_lens(*lens);
     REQUIRE(state.has_value());
     CHECK(first_order(*state, lens->stated.wavelength_nm).focal_length_mm == doctest::Approx(focal_mm).epsilon(1e-6));
     check_round_trip(*lens);
@@ -210,7 +210,7 @@ TEST_CASE("Optiland's sample scripts, as it would save them: its asserted focal 
     const std::string text = saved(samples[name], system["glasses"]);
     const auto lens = read_json_lens({text, name + ".json"});
     REQUIRE_MESSAGE(lens.has_value(), (lens ? "" : lens.error().to_string()));
-    const auto state = lens_at(*lens);
+    const auto state = configure_lens(*lens);
     REQUIRE_MESSAGE(state.has_value(), (state ? "" : state.error().to_string()));
     // Of CaF2 it has another page.
     const double tolerance = name == "TelescopeObjective48Inch" ? 3e-4 : 1e-6;

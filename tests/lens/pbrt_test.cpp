@@ -51,7 +51,7 @@ TEST_CASE("a PBRT lens in every detail") {
   CHECK(looks_like_pbrt(kSample));
   CHECK_FALSE(looks_like_pbrt("# 1 2 3 4\n[lens]\n"));
   // Wide open the stop is as wide as it can be.
-  const auto state = lens_at(*lens);
+  const auto state = configure_lens(*lens);
   REQUIRE(state.has_value());
   CHECK(state->stop_radius_mm == doctest::Approx(5.0).epsilon(1e-6));
   CHECK(state->warnings.empty());
@@ -76,7 +76,7 @@ TEST_CASE("PBRT's samples: as their names say") {
     CAPTURE(std::string(name));
     const auto lens = read_lens(*path);
     REQUIRE_MESSAGE(lens.has_value(), (lens ? "" : lens.error().to_string()));
-    const auto state = lens_at(*lens);
+    const auto state = configure_lens(*lens);
     REQUIRE_MESSAGE(state.has_value(), (state ? "" : state.error().to_string()));
     CHECK(state->focal_length_mm == doctest::Approx(focal_mm).epsilon(0.03));
     CHECK(lens->f_number > 1.5);

@@ -198,7 +198,7 @@ TEST_CASE("ray-optics' samples") {
       continue;
     }
     REQUIRE_MESSAGE(lens.has_value(), (lens ? "" : lens.error().to_string()));
-    const auto state = lens_at(*lens);
+    const auto state = configure_lens(*lens);
     REQUIRE_MESSAGE(state.has_value(), (state ? "" : state.error().to_string()));
     const FirstOrder figures = first_order(*state, lens->stated.wavelength_nm);
     CHECK(figures.focal_length_mm == doctest::Approx(known->second.focal_mm).epsilon(known->second.tolerance));

@@ -116,7 +116,7 @@ TEST_CASE("Realflare's samples") {
     CAPTURE(file);
     const auto lens = read_lens(*path);
     REQUIRE_MESSAGE(lens.has_value(), (lens ? "" : lens.error().to_string()));
-    const auto state = lens_at(*lens);
+    const auto state = configure_lens(*lens);
     REQUIRE_MESSAGE(state.has_value(), (state ? "" : state.error().to_string()));
     CHECK(state->focal_length_mm == doctest::Approx(focal_mm).epsilon(1e-3));
     CHECK(lens->warnings.empty() == (file.front() != 'C'));  // of the Canon all heights are 450 or 550 mm

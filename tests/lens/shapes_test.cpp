@@ -65,7 +65,7 @@ TEST_CASE("a row's rim and what stands before its middle, the stop's too; writte
   const auto lens = read_lens_toml(text, "x.toml");
   REQUIRE(lens.has_value());
   CHECK(lens->surfaces[2].obscuration == Obscuration{{1, 1}, {}, 0.0});
-  const auto state = lens_at(*lens);
+  const auto state = configure_lens(*lens);
   REQUIRE(state.has_value());
   CHECK(state->surfaces[0].obscuration == askew.obscuration);
   CHECK(state->surfaces[2].obscuration == lens->surfaces[2].obscuration);
@@ -90,12 +90,12 @@ TEST_CASE("a group is carried as one body, about its middle") {
   CHECK(front.axis == rear.axis);
   CHECK(length((front.shift_mm + rear.shift_mm) * 0.5 - Vec3{0.1, 0, 0}) < 1e-12);
   CHECK(lens->surfaces[3].pose == SurfacePose{});
-  const auto state = lens_at(*lens);
+  const auto state = configure_lens(*lens);
   REQUIRE(state.has_value());
   CHECK_FALSE(state->has_axial_symmetry());
   CHECK(state->surfaces[1].pose == rear);
   // Errors of building come on top.
-  const auto worse = lens_at(*lens, {.build = {0.001, 0.05, 1}});
+  const auto worse = configure_lens(*lens, {.build = {0.001, 0.05, 1}});
   REQUIRE(worse.has_value());
   CHECK(length(worse->surfaces[1].pose.axis - rear.axis) > 1e-5);
   CHECK(length(worse->surfaces[1].pose.axis - rear.axis) < 0.01);

@@ -124,7 +124,7 @@ TEST_CASE("the example of the format's page") {
   const Prescription lens = read(text.substr(begin, text.find("```", begin) - begin));
   CHECK(lens.zoom.size() == 2);
   CHECK(std::holds_alternative<FilmStack>(lens.surfaces[4].coating.films));
-  CHECK(lens_at(lens).has_value());
+  CHECK(configure_lens(lens).has_value());
 }
 
 }  // namespace

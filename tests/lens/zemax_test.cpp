@@ -122,7 +122,7 @@ TEST_CASE("a Zemax file in every detail") {
   CHECK(s[5].semi_diameter_mm == 7.5);
   CHECK(s[5].source_line == 56);
   CHECK(lens.stated.wavelength_nm == 550.0);
-  const auto state = lens_at(lens);
+  const auto state = configure_lens(lens);
   REQUIRE(state.has_value());
   CHECK(lens.f_number == doctest::Approx(state->focal_length_mm / 10.0).epsilon(1e-12));
   // The stop is what the f-number needs, not the file's own guess of 4.9.
@@ -147,7 +147,7 @@ TEST_CASE("Zemax' apertures, fields and units") {
   CHECK(must_read(zmx("DIAM 4.9 0", "DIAM 5.5 1")).surfaces[3].semi_diameter_mm == 5.5);
   // The image's own semi-diameter left out, f tan of the widest field of the two that count (3, 4 degrees).
   const Prescription by_field = must_read(zmx("  DIAM 6\n", ""));
-  const double f_mm = lens_at(by_field)->focal_length_mm;
+  const double f_mm = configure_lens(by_field)->focal_length_mm;
   CHECK(std::hypot(by_field.sensor_width_mm, by_field.sensor_height_mm) ==
         doctest::Approx(2.0 * f_mm * std::tan(5.0 * 3.14159265358979 / 180.0)));
   const Prescription by_height = must_read(zmx("FTYP 0 0 2", "FTYP 3 0 2"));
@@ -157,7 +157,8 @@ TEST_CASE("Zemax' apertures, fields and units") {
   CHECK(inches.surfaces[0].curvature_per_mm == 0.02 / 25.4);
   CHECK(inches.surfaces[0].thickness_mm == doctest::Approx(6 * 25.4));
   CHECK(inches.surfaces[4].shape.powers[3] / (-2e-6 / (25.4 * 25.4 * 25.4)) == doctest::Approx(1.0));
-  CHECK(lens_at(inches)->focal_length_mm == doctest::Approx(25.4 * lens_at(must_read(kZmx))->focal_length_mm));
+  CHECK(configure_lens(inches)->focal_length_mm ==
+        doctest::Approx(25.4 * configure_lens(must_read(kZmx))->focal_length_mm));
   check_warns(must_read(zmx("0.55 1", "1.55 1")), "designed for 1550 nm");
   check_warns(must_read(zmx("DISZ 75", "DISZ 30")), "distant objects are in focus at");
   check_warns(must_read(zmx("ENVD 20 1 0", "ENVD 40 1 1")), "indices at 40 deg C");
@@ -443,7 +444,7 @@ TEST_CASE("Zemax' samples: read, or refused for what they hold") {
       continue;
     }
     REQUIRE_MESSAGE(lens.has_value(), (lens ? "" : lens.error().to_string()));
-    const auto state = lens_at(*lens);
+    const auto state = configure_lens(*lens);
     REQUIRE_MESSAGE(state.has_value(), (state ? "" : state.error().to_string()));
     CHECK(state->focal_length_mm == doctest::Approx(outcome.focal_length_mm).epsilon(1e-3));
     const std::string text = write_lens_toml(*lens);

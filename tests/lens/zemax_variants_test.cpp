@@ -170,7 +170,7 @@ TEST_CASE("a stop that nothing tells the size of lets through what the other sur
   check_warns(lens, "nothing tells the stop's size");
   // The front is as wide as the beam; behind it the beam is narrower, and the rims are as large.
   CHECK(lens.surfaces[2].kind == SurfaceKind::Stop);
-  const auto state = lens_at(lens);
+  const auto state = configure_lens(lens);
   REQUIRE(state.has_value());
   CHECK(lens.f_number == doctest::Approx(state->focal_length_mm / 16.0).epsilon(0.01));
   CHECK(lens.surfaces[2].semi_diameter_mm < 8.0);

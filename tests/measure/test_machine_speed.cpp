@@ -12,7 +12,7 @@ using namespace contrejour;
 
 namespace {
 
-LensState heliar() { return lens_at(find_lens("heliar").value()).value(); }
+LensState heliar() { return configure_lens(find_lens("heliar").value()).value(); }
 
 // Surfaces hit per millisecond one ray at a time, in double.
 double scalar_hits_per_ms(const LensState& lens) {

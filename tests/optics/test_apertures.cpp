@@ -37,7 +37,7 @@ LensState heliar_with(const ClearAperture& front, const SurfacePose& pose = {}) 
   REQUIRE(lens.has_value());
   lens->surfaces.front().aperture = front;
   lens->surfaces.front().pose = pose;
-  const auto state = lens_at(*lens, {.f_number = 8.0});
+  const auto state = configure_lens(*lens, {.f_number = 8.0});
   REQUIRE(state.has_value());
   return *state;
 }

@@ -188,7 +188,7 @@ TEST_CASE("build errors: bodies move as wholes, the stop stays, sizes are what w
   const auto heliar = find_lens("heliar");
   for (const BuildErrors& wrong : {BuildErrors{-0.1, 0, 0}, BuildErrors{0.3, 0, 0}, BuildErrors{0, std::nan(""), 0},
                                    BuildErrors{0, -1, 0}, BuildErrors{0, 1e9, 0}})
-    CHECK_FALSE(lens_at(*heliar, {.build = wrong}).has_value());
+    CHECK_FALSE(configure_lens(*heliar, {.build = wrong}).has_value());
 }
 
 TEST_CASE("lights land and are found again through a lens with errors") {

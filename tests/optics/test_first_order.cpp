@@ -207,7 +207,7 @@ TEST_CASE("a thin lens's colour is y^2 power / V, and an ellipsoid of conic -1 /
   Surface stop{.kind = SurfaceKind::Stop, .semi_diameter_mm = 5.0, .glass_after = air()};
   lens.surfaces = {stop, front, back};
   lens.f_number = 5.0;
-  auto state = lens_at(lens);
+  auto state = configure_lens(lens);
   REQUIRE_MESSAGE(state.has_value(), (state ? "" : state.error().to_string()));
   const double y = 0.5 * state->focal_length_mm / 5.0;
   const SeidelSums thin = seidel_sums(*state, {});

@@ -16,8 +16,8 @@ constexpr double kWidest = 0.0;
 LensState heliar(double f_number, const Iris& iris, IrisClosing closing) {
   const auto lens = find_lens("heliar");
   REQUIRE(lens.has_value());
-  const auto state =
-      lens_at(*lens, {.f_number = f_number > 0.0 ? f_number : lens->f_number, .iris = iris, .iris_closing = closing});
+  const auto state = configure_lens(
+      *lens, {.f_number = f_number > 0.0 ? f_number : lens->f_number, .iris = iris, .iris_closing = closing});
   REQUIRE(state.has_value());
   return *state;
 }
@@ -84,5 +84,5 @@ TEST_CASE("irises that are none are refused") {
         Iris{5, 0.0, 0.0, 0.0}, Iris{5, 0.0, 0.0, nan}, Iris{5, 0.0, 0.0, 1.0, 0.6}, Iris{5, 0.0, 0.0, 1.0, nan},
         Iris{3, 0.0, 0.0, 1.0, 0.0, 0, {nan}}, Iris{4, 0.0, 0.0, 1.0, 0.0, 0, {-1.9, 0.0, -1.9, 0.0}}})
     for (const IrisClosing closing : {IrisClosing::Scaled, IrisClosing::Mechanism})
-      CHECK_FALSE(lens_at(*lens, {.iris = iris, .iris_closing = closing}).has_value());
+      CHECK_FALSE(configure_lens(*lens, {.iris = iris, .iris_closing = closing}).has_value());
 }

@@ -51,58 +51,58 @@ TEST_CASE("Sellmeier's formula gives N-BK7's catalogue index at d") {
 
 TEST_CASE("any focal length between a zoom's positions is reached, and the sensor follows focus") {
   const Prescription lens = zoom_lens();
-  const double shortest = lens_at(lens, {.focal_length_mm = 45.0})->focal_length_mm;
-  const double longest = lens_at(lens, {.focal_length_mm = 55.0})->focal_length_mm;
+  const double shortest = configure_lens(lens, {.focal_length_mm = 45.0})->focal_length_mm;
+  const double longest = configure_lens(lens, {.focal_length_mm = 55.0})->focal_length_mm;
   REQUIRE(longest > shortest + 5.0);
   for (int k = 1; k < 10; ++k) {
     const double wanted = shortest + (longest - shortest) * k / 10.0;
-    const auto state = lens_at(lens, {.focal_length_mm = wanted});
+    const auto state = configure_lens(lens, {.focal_length_mm = wanted});
     REQUIRE(state.has_value());
     CHECK(state->focal_length_mm == doctest::Approx(wanted).epsilon(1e-9));
     const FirstOrder f = first_order(*state, kLineD_nm);
     CHECK(f.sensor_position_mm == doctest::Approx(f.back_focal_distance_mm).epsilon(1e-12));
   }
-  CHECK_FALSE(lens_at(lens, {.focal_length_mm = 20.0}).has_value());
-  CHECK_FALSE(lens_at(lens, {.focal_length_mm = 500.0}).has_value());
-  CHECK_FALSE(lens_at(lens, {.focal_length_mm = std::nan("")}).has_value());
+  CHECK_FALSE(configure_lens(lens, {.focal_length_mm = 20.0}).has_value());
+  CHECK_FALSE(configure_lens(lens, {.focal_length_mm = 500.0}).has_value());
+  CHECK_FALSE(configure_lens(lens, {.focal_length_mm = std::nan("")}).has_value());
 }
 
 TEST_CASE("the f-number sets the stop by the real marginal ray") {
-  const auto f8 = lens_at(prime_lens(), {.f_number = 8.0});
-  const auto f16 = lens_at(prime_lens(), {.f_number = 16.0});
+  const auto f8 = configure_lens(prime_lens(), {.f_number = 8.0});
+  const auto f16 = configure_lens(prime_lens(), {.f_number = 16.0});
   REQUIRE(f8.has_value());
   REQUIRE(f16.has_value());
   CHECK(f8->stop_radius_mm / f16->stop_radius_mm == doctest::Approx(2.0).epsilon(0.01));
   // Paraxially the marginal height at the stop is front.a * EPD / 2; the real ray differs by aberration only.
   const Abcd front = abcd_between(f16->surfaces, 0, f16->stop_index, kLineD_nm);
   CHECK(f16->stop_radius_mm == doctest::Approx(front.a * f16->focal_length_mm / 32.0).epsilon(1e-3));
-  CHECK(lens_at(prime_lens(), {.f_number = 3.9})->f_number == 4.0);  // engraved a little wider than it is
+  CHECK(configure_lens(prime_lens(), {.f_number = 3.9})->f_number == 4.0);  // engraved a little wider than it is
   Prescription narrow = prime_lens();
   narrow.surfaces[2].semi_diameter_mm = 2.0;
-  const auto clipped = lens_at(narrow, {.f_number = 4.0});
+  const auto clipped = configure_lens(narrow, {.f_number = 4.0});
   CHECK(clipped->stop_radius_mm == 2.0);
   CHECK(clipped->f_number > 8.0);
   CHECK(clipped->warnings.size() == 1);
-  CHECK_FALSE(lens_at(prime_lens(), {.f_number = 0.5}).has_value());
-  CHECK_FALSE(lens_at(prime_lens(), {.f_number = -8.0}).has_value());
-  CHECK_FALSE(lens_at(prime_lens(), {.f_number = std::nan("")}).has_value());
+  CHECK_FALSE(configure_lens(prime_lens(), {.f_number = 0.5}).has_value());
+  CHECK_FALSE(configure_lens(prime_lens(), {.f_number = -8.0}).has_value());
+  CHECK_FALSE(configure_lens(prime_lens(), {.f_number = std::nan("")}).has_value());
 }
 
 TEST_CASE("focusing near moves the sensor to the conjugate plane (Newton's equation)") {
-  const auto far = lens_at(prime_lens(), {});
-  const auto near = lens_at(prime_lens(), {.object_distance_mm = 1000.0});
+  const auto far = configure_lens(prime_lens(), {});
+  const auto near = configure_lens(prime_lens(), {.object_distance_mm = 1000.0});
   REQUIRE(near.has_value());
   const FirstOrder f = first_order(*far, kLineD_nm);
   const double x = 1000.0 + f.front_focal_distance_mm;  // object to front focal point
   CHECK(near->sensor_z_mm - far->sensor_z_mm ==
         doctest::Approx(f.focal_length_mm * f.focal_length_mm / x).epsilon(1e-9));
-  CHECK_FALSE(lens_at(prime_lens(), {.object_distance_mm = 10.0}).has_value());
-  CHECK_FALSE(lens_at(prime_lens(), {.object_distance_mm = -5.0}).has_value());
+  CHECK_FALSE(configure_lens(prime_lens(), {.object_distance_mm = 10.0}).has_value());
+  CHECK_FALSE(configure_lens(prime_lens(), {.object_distance_mm = -5.0}).has_value());
 }
 
 TEST_CASE("what has no image says which objects have one") {
   const auto message = [](const Prescription& lens, double object_mm) {
-    const auto state = lens_at(lens, {.object_distance_mm = object_mm});
+    const auto state = configure_lens(lens, {.object_distance_mm = object_mm});
     REQUIRE_FALSE(state.has_value());
     return state.error().message;
   };
@@ -119,23 +119,23 @@ TEST_CASE("what has no image says which objects have one") {
     if (surface.kind == SurfaceKind::Stop) surface.kind = SurfaceKind::Refracting;
     relay.surfaces.push_back(surface);
   }
-  const auto far = lens_at(relay);
+  const auto far = configure_lens(relay);
   REQUIRE_FALSE(far.has_value());
   const std::string text = far.error().message;
   double least_mm = 0.0, most_mm = 0.0;
   const std::size_t from = text.find("only objects from ");
   REQUIRE(from != std::string::npos);
   REQUIRE(std::sscanf(text.c_str() + from, "only objects from %lf to %lf mm", &least_mm, &most_mm) == 2);
-  CHECK(lens_at(relay, {.object_distance_mm = least_mm + 0.1 * (most_mm - least_mm)}).has_value());
-  CHECK(lens_at(relay, {.object_distance_mm = most_mm - 1.0}).has_value());
-  CHECK_FALSE(lens_at(relay, {.object_distance_mm = most_mm + 1.0}).has_value());
+  CHECK(configure_lens(relay, {.object_distance_mm = least_mm + 0.1 * (most_mm - least_mm)}).has_value());
+  CHECK(configure_lens(relay, {.object_distance_mm = most_mm - 1.0}).has_value());
+  CHECK_FALSE(configure_lens(relay, {.object_distance_mm = most_mm + 1.0}).has_value());
 }
 
 TEST_CASE("a coating setting replaces glass-to-air coatings only") {
   Prescription lens = prime_lens();
   lens.surfaces[0].glass_after = crown();
   const Coating blue{"", QuarterWave{1.38, 430.0}};
-  const auto state = lens_at(lens, {.coating = blue});
+  const auto state = configure_lens(lens, {.coating = blue});
   REQUIRE(state.has_value());
   CHECK(state->surfaces[0].coating == blue);
   CHECK(state->surfaces[1].coating == blue);
@@ -147,18 +147,18 @@ TEST_CASE("figures that the source states and the surfaces do not have are warni
   REQUIRE(zoom.has_value());
   zoom->stated.focal_length_mm = 75.0;
   zoom->stated.back_focal_distance_mm = 40.0;
-  const auto wide = lens_at(*zoom);
+  const auto wide = configure_lens(*zoom);
   REQUIRE(wide.has_value());
   REQUIRE(wide->warnings.size() == 2);
   CHECK(wide->warnings[0] == "its source states a focal length of 75 mm; the surfaces have 72.12 mm");
   CHECK(wide->warnings[1].find("back focal distance of 40 mm") != std::string::npos);
-  const auto far = lens_at(*zoom, {.focal_length_mm = 200.0});
+  const auto far = configure_lens(*zoom, {.focal_length_mm = 200.0});
   REQUIRE(far.has_value());
   CHECK(far->warnings.empty());
   zoom->stated.back_focal_distance_mm = 52.45;
-  REQUIRE(lens_at(*zoom)->warnings.size() == 1);
-  CHECK(lens_at(*zoom)->warnings[0] ==
+  REQUIRE(configure_lens(*zoom)->warnings.size() == 1);
+  CHECK(configure_lens(*zoom)->warnings[0] ==
         "its source states a focal length of 75 mm; the surfaces have 72.12 mm, and the stated back focal distance");
   zoom->stated.tolerance = 0.2;
-  CHECK(lens_at(*zoom)->warnings.empty());
+  CHECK(configure_lens(*zoom)->warnings.empty());
 }

@@ -109,7 +109,7 @@ bool renders(const std::string& text, const char* lens_name) {
     CHECK(!settings.error().message.empty());
     return false;
   }
-  const auto lens = lens_at(*prescription, *settings);
+  const auto lens = configure_lens(*prescription, *settings);
   if (!lens) {
     CHECK(!lens.error().message.empty());
     return false;

@@ -14,7 +14,7 @@ namespace contrejour::test {
 inline LensState bundled(const char* name, const LensSettings& settings = {}) {
   const auto lens = find_lens(name);
   REQUIRE(lens.has_value());
-  const auto state = lens_at(*lens, settings);
+  const auto state = configure_lens(*lens, settings);
   REQUIRE(state.has_value());
   return *state;
 }

@@ -95,7 +95,7 @@ TEST_CASE("functions of a lens state stand any state") {
   }
 }
 
-TEST_CASE("states that lens_at gives are sound") {
+TEST_CASE("states that configure_lens gives are sound") {
   for (const BundledLens& entry : bundled_lenses()) {
     CAPTURE(entry.name);
     const auto lens = find_lens(std::string(entry.name));
@@ -105,7 +105,7 @@ TEST_CASE("states that lens_at gives are sound") {
         .plates = {SensorPlate{1.0, 1.0, {"", ConstantIndex{1.5}}, {}}}, .reflectance = 0.1, .orders = 1};
     settings.build = {0.001, 0.01, 3};
     for (const LensSettings& set : {LensSettings{}, settings}) {
-      const auto state = lens_at(*lens, set);
+      const auto state = configure_lens(*lens, set);
       REQUIRE(state.has_value());
       const auto good = check_lens(*state);
       CHECK_MESSAGE(good.has_value(), (good ? "" : good.error().message));
@@ -115,7 +115,7 @@ TEST_CASE("states that lens_at gives are sound") {
 
 TEST_CASE("prescriptions and settings that are none are errors") {
   CHECK_FALSE(validate({}).has_value());
-  CHECK_FALSE(lens_at({}).has_value());
+  CHECK_FALSE(configure_lens({}).has_value());
   const Prescription sound = find_lens("canon-70-200").value();
   for (const double v : kStrange) {
     CAPTURE(v);
@@ -125,13 +125,13 @@ TEST_CASE("prescriptions and settings that are none are errors") {
     lens.surfaces[4].semi_diameter_mm = v;
     CHECK_FALSE(validate(lens).has_value());
     for (auto& position : lens.zoom) position.focal_length_mm = v;
-    CHECK_FALSE(lens_at(lens).has_value());
+    CHECK_FALSE(configure_lens(lens).has_value());
     LensSettings settings;
     settings.focal_length_mm = v;
-    CHECK_FALSE(lens_at(sound, settings).has_value());
+    CHECK_FALSE(configure_lens(sound, settings).has_value());
     settings = {};
     settings.f_number = v;
-    CHECK_FALSE(lens_at(sound, settings).has_value());
+    CHECK_FALSE(configure_lens(sound, settings).has_value());
     settings = {};
     settings.build.tilt_rms_rad = v;
     settings.sensor.reflectance = v;
@@ -139,16 +139,16 @@ TEST_CASE("prescriptions and settings that are none are errors") {
     settings.iris.curvature = v;
     settings.dirt.dust_mm = v;
     settings.object_distance_mm = v;
-    use(lens_at(sound, settings));
+    use(configure_lens(sound, settings));
   }
   LensSettings settings;
   settings.coating = Coating{"", MeasuredCoating{}};
-  CHECK_FALSE(lens_at(sound, settings).has_value());
+  CHECK_FALSE(configure_lens(sound, settings).has_value());
   settings.coating = Coating{"", FilmStack{{{FilmMaterial(kNan), kNan}}}};
-  CHECK_FALSE(lens_at(sound, settings).has_value());
+  CHECK_FALSE(configure_lens(sound, settings).has_value());
   settings = {};
   settings.sensor.plates.assign(3, SensorPlate{});
-  use(lens_at(sound, settings));
+  use(configure_lens(sound, settings));
   settings.sensor.plates.assign(10000, SensorPlate{});
-  CHECK_FALSE(lens_at(sound, settings).has_value());
+  CHECK_FALSE(configure_lens(sound, settings).has_value());
 }

@@ -52,7 +52,7 @@ Result<std::vector<Target>> measure_starbursts(const EffectScene& scene) {
   EffectScene dirty = scene;
   dirty.settings.dirt.dust_per_cm2 = kDust;
   dirty.settings.dirt.scratches_per_cm2 = kScratches;
-  const auto dirty_lens = lens_at(dirty.prescription, dirty.settings);
+  const auto dirty_lens = configure_lens(dirty.prescription, dirty.settings);
   if (!dirty_lens) return tl::unexpected(dirty_lens.error());
   const auto clean_ms = fastest_ms(scene.runs, [&] { return timer.draw_new(scene.lens); });
   if (!clean_ms) return tl::unexpected(clean_ms.error());

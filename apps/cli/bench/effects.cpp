@@ -37,7 +37,7 @@ Result<EffectScene> effect_scene(const params::Values& values, int runs) {
   scene.prescription = std::move(*prescription);
   scene.settings.f_number = kEffectsFNumber;
   scene.settings.iris.blades = kBlades;
-  auto lens = lens_at(scene.prescription, scene.settings);
+  auto lens = configure_lens(scene.prescription, scene.settings);
   if (!lens) return tl::unexpected(lens.error());
   scene.lens = std::move(*lens);
   const Frame frame = params::whole_frame(values, scene.lens, *params::parse_size(*values.text("size")));
@@ -60,7 +60,7 @@ Result<EffectScene> with_lens(const EffectScene& scene, const EffectSystem& syst
   other.settings = {};
   other.settings.f_number = system.f_number;
   if (system.focal_length_mm > 0.0) other.settings.focal_length_mm = system.focal_length_mm;
-  auto lens = lens_at(other.prescription, other.settings);
+  auto lens = configure_lens(other.prescription, other.settings);
   if (!lens) return tl::unexpected(lens.error());
   other.lens = std::move(*lens);
   Frame& frame = other.render.frame;

@@ -50,10 +50,10 @@ Result<HullinScene> scene_of(const HullinSystem& system, double times_f_number, 
   if (!prescription) return tl::unexpected(prescription.error());
   LensSettings wanted;
   if (system.focal_length_mm > 0.0) wanted.focal_length_mm = system.focal_length_mm;
-  auto open = lens_at(*prescription, wanted);
+  auto open = configure_lens(*prescription, wanted);
   if (!open) return tl::unexpected(open.error());
   wanted.f_number = open->f_number * times_f_number;
-  auto lens = lens_at(*prescription, wanted);
+  auto lens = configure_lens(*prescription, wanted);
   if (!lens) return tl::unexpected(lens.error());
   HullinScene scene{std::move(*lens), {}, params::bundle_options(values), {}};
   const Frame frame = params::whole_frame(values, scene.lens, *params::parse_size(*values.text("size")));

@@ -32,7 +32,7 @@ Result<FrameScene> scene_of(const std::string& file, const params::Values& value
   auto settings = params::lens_settings(values);
   if (!settings) return tl::unexpected(settings.error());
   if (settings->f_number) settings->f_number = std::max(*settings->f_number, prescription->f_number);
-  auto lens = lens_at(*prescription, *settings);
+  auto lens = configure_lens(*prescription, *settings);
   if (!lens) return tl::unexpected(lens.error());
   const Frame frame = params::whole_frame(values, *lens, *params::parse_size(*values.text("size")));
   auto lights = params::lights(values, *lens, frame, ColourSpace::Rec709);

@@ -146,7 +146,7 @@ Result<LensState> lens_of(const PaperSystem& system, const SceneVariant& variant
   if (const auto coating = values.text("coating")) settings.coating = *params::parse_coating(*coating);
   if (!variant.full_aperture) settings.f_number = system.f_number;
   if (system.focal_length_mm > 0.0) settings.focal_length_mm = system.focal_length_mm;
-  return lens_at(*prescription, settings);
+  return configure_lens(*prescription, settings);
 }
 
 }  // namespace

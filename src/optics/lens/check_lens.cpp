@@ -61,7 +61,7 @@ Result<void> check_surface(const LensState& lens, std::size_t index) {
 }
 
 Result<void> check_surfaces(const LensState& lens) {
-  if (lens.surfaces.empty()) return invalid_argument("the lens state has no surfaces; make it with lens_at()");
+  if (lens.surfaces.empty()) return invalid_argument("the lens state has no surfaces; make it with configure_lens()");
   if (lens.surfaces.size() > kMaxLensSurfaces)
     return invalid_argument(
         fmt::format("{} surfaces; at most {} are computed", lens.surfaces.size(), kMaxLensSurfaces));

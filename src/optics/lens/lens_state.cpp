@@ -380,7 +380,7 @@ Result<void> check_coated(const LensState& state, const Prescription& lens, cons
 
 }  // namespace
 
-Result<LensState> lens_at(const Prescription& lens, const LensSettings& settings) {
+Result<LensState> configure_lens(const Prescription& lens, const LensSettings& settings) {
   if (const auto valid = validate(lens); !valid) return tl::unexpected<Error>(valid.error());
   if (const auto good = check_coatings(lens, settings); !good) return tl::unexpected<Error>(good.error());
   if (const auto good = check_build_errors(settings.build); !good) return tl::unexpected<Error>(good.error());

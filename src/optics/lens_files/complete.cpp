@@ -36,7 +36,7 @@ Result<void> size_for_beam(Prescription& lens, const Beam& beam, const std::vect
     surface.aperture = {};
     surface.obscuration = {};
   }
-  const auto state = lens_at(pinhole, without_films());
+  const auto state = configure_lens(pinhole, without_films());
   if (!state) return tl::unexpected(state.error());
   const double lambda_nm = state->design_wavelength_nm;
   const Abcd to_stop = abcd_between(state->surfaces, 0, state->stop_index, lambda_nm);
@@ -141,7 +141,7 @@ class RimFitter {
 Result<double> widest_f_number(Prescription lens) {
   constexpr double kWiderThanAny = 0.5;
   lens.f_number = kWiderThanAny;
-  const auto state = lens_at(lens, without_films());
+  const auto state = configure_lens(lens, without_films());
   if (!state) return tl::unexpected(state.error());
   return state->f_number;
 }
@@ -152,7 +152,7 @@ Result<double> stop_opening_mm(Prescription lens) {
   constexpr double kWide_mm = 1e4;
   const double own_mm = lens.surfaces[stop_of(lens)].semi_diameter_mm;
   lens.surfaces[stop_of(lens)].semi_diameter_mm = kWide_mm;
-  const auto state = lens_at(lens, without_films());
+  const auto state = configure_lens(lens, without_films());
   if (!state) return tl::unexpected(state.error());
   return state->stop_radius_mm < kWide_mm ? state->stop_radius_mm : own_mm;
 }

@@ -40,7 +40,7 @@ std::optional<Widened> widened(const LensState& lens, int behind, double focal_m
 void warn_of_lost_gap(Prescription& lens) {
   const auto &focal_mm = lens.stated.focal_length_mm, &back_mm = lens.stated.back_focal_distance_mm;
   if (!focal_mm || !back_mm || !lens.zoom.empty()) return;
-  const auto state = lens_at(lens, without_films());
+  const auto state = configure_lens(lens, without_films());
   if (!state || std::abs(state->focal_length_mm / *focal_mm - 1.0) <= lens.stated.tolerance) return;
   const double own_back_mm = first_order(*state, state->design_wavelength_nm).back_focal_distance_mm;
   if (std::abs(own_back_mm - *back_mm) <= kSameFocus * *focal_mm) return;  // a lost gap would also move the focus

@@ -71,7 +71,7 @@ Result<LensState> set_up(Prescription lens) {
     for (auto& [index, thickness_mm] : position.thickness_mm) ++index;
   lens.f_number = kAnyFNumber;
   if (const auto valid = validate(lens); !valid) return tl::unexpected(valid.error());
-  auto state = lens_at(lens, without_films());
+  auto state = configure_lens(lens, without_films());
   if (state) return state;
   return failure(ErrorCode::Unsupported, fmt::format("no surface is the stop, and {}", state.error().message),
                  {lens.file.file, stop.source_line, 0});

@@ -64,7 +64,7 @@ Result<void> check_source(const LensState& lens, const LightSource& source) {
   if (!std::isfinite(d.x + d.y + d.z) || !(d.z > 0.0)) return refuse("the light is beside or behind the camera");
   if (!(source.distance_mm > 0.0))
     return refuse(fmt::format("a light cannot be at a distance of {} mm; give more than 0", source.distance_mm));
-  if (lens.surfaces.empty()) return refuse("the lens state has no surfaces; make it with lens_at()");
+  if (lens.surfaces.empty()) return refuse("the lens state has no surfaces; make it with configure_lens()");
   const SurfaceState& first = lens.surfaces.front();
   const double front_mm = lowest_mm(first) + first.z_mm - forward_displacement_mm(first);
   if (!source.is_distant() && !(source.point_mm().z <= front_mm - kNearestLight_mm))

@@ -37,7 +37,7 @@ Result<Paraxial> paraxial(Prescription rows) {
     surface.obscuration = {};
   }
   if (const auto valid = validate(rows); !valid) return tl::unexpected(valid.error());
-  const auto state = lens_at(rows);
+  const auto state = configure_lens(rows);
   if (!state)
     return failure(ErrorCode::Unsupported,
                    "it forms no image of distant objects behind it, as a negative or afocal lens, a single cylinder, a "

@@ -16,8 +16,8 @@ struct DesignLight {
   bool stop_is_open = false;  // its size is unknown: the other surfaces limit the pupil
 };
 
-// object_mm: from the first row to the object, infinite for distant ones. Errors: those of lens_at, and an aperture
-// that leads to no pupil.
+// object_mm: from the first row to the object, infinite for distant ones. Errors: those of configure_lens, and an
+// aperture that leads to no pupil.
 [[nodiscard]] Result<DesignLight> light_of(const SequentialDesign& design, Prescription rows, double object_mm);
 
 }  // namespace contrejour

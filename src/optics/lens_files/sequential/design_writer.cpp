@@ -73,7 +73,7 @@ Result<std::vector<double>> sensor_distances_mm(const Prescription& lens) {
   for (std::size_t k = 0; k < std::max<std::size_t>(lens.zoom.size(), 1); ++k) {
     LensSettings settings;
     if (!lens.zoom.empty()) settings.focal_length_mm = lens.zoom[k].focal_length_mm;
-    const auto state = lens_at(lens, settings);
+    const auto state = configure_lens(lens, settings);
     if (!state) return tl::unexpected(state.error());
     out.push_back(lens.sensor_distance_mm.value_or(state->sensor_z_mm - state->surfaces.back().z_mm));
   }

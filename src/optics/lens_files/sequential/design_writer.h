@@ -40,7 +40,7 @@ struct CataloguedName {
 [[nodiscard]] std::optional<CataloguedName> catalogued_name(const Glass& glass);
 
 // Distances from the last vertex to the sensor: the lens's own, else the paraxial focus; one for each zoom position.
-// Errors: those of lens_at.
+// Errors: those of configure_lens.
 [[nodiscard]] Result<std::vector<double>> sensor_distances_mm(const Prescription& lens);
 
 // The design to write: a lens, or a path through one (ghost_rows.h), whose rows may be mirrors and whose gaps may be
@@ -58,7 +58,7 @@ struct WritableDesign {
 };
 
 // Calls `write` for each surface with the gap behind it; the last gap, to the sensor, is returned: for a lens that of
-// sensor_distances_mm(). Errors: for a lens those of validate() and lens_at; Unsupported, with the surface, for
+// sensor_distances_mm(). Errors: for a lens those of validate() and configure_lens; Unsupported, with the surface, for
 // problems that `write` returns.
 using SurfaceWriter = std::function<std::optional<std::string>(std::size_t surface, double gap_mm)>;
 [[nodiscard]] Result<std::vector<double>> write_surfaces(const WritableDesign& rows, const SurfaceWriter& write);

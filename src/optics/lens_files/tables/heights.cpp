@@ -18,7 +18,7 @@ std::optional<double> needed_at_stop_mm(Prescription lens, double f_number) {
   constexpr double kWide_mm = 1e4;
   for (Surface& s : lens.surfaces) s.semi_diameter_mm = s.kind == SurfaceKind::Stop ? kWide_mm : kNoRim_mm;
   lens.f_number = f_number;
-  const auto state = lens_at(lens, without_films());
+  const auto state = configure_lens(lens, without_films());
   if (!state || !(state->stop_radius_mm > 0.0)) return std::nullopt;
   const auto& stated_mm = lens.stated.focal_length_mm;
   if (stated_mm && !(std::abs(state->focal_length_mm / *stated_mm - 1.0) <= kFocalTolerance)) return std::nullopt;
@@ -80,9 +80,9 @@ void keep_sensor_without_image(Prescription& lens) {
   Prescription centred = lens;
   for (Surface& surface : centred.surfaces) surface.semi_diameter_mm = kNoRim_mm;
   centred.f_number = kAnyFNumber;
-  if (!stated_mm || !(*stated_mm > 0.0) || lens_at(centred, without_films())) return;
+  if (!stated_mm || !(*stated_mm > 0.0) || configure_lens(centred, without_films())) return;
   centred.sensor_distance_mm = stated_mm;
-  const auto state = lens_at(centred, without_films());
+  const auto state = configure_lens(centred, without_films());
   if (!state) return;  // the lens has another error
   lens.sensor_distance_mm = stated_mm;
   lens.warnings.push_back(fmt::format(
