@@ -27,7 +27,7 @@ Light light_of(const DetectedLight& area, const Spectrum& spectrum, const PixelG
   Light light;
   light.distance_mm = *params::parse_distance_mm(*values.text("light-distance"));
   light.direction = direction_for_image_point(lens, grid.sensor_from_pixel(area.centroid_px), lens.design_wavelength_nm,
-                                         light.distance_mm);
+                                              light.distance_mm);
   light.value = {area.flux[0] * gain, area.flux[1] * gain, area.flux[2] * gain};
   light.spectrum = spectrum;
   return light;

@@ -64,7 +64,7 @@ TEST_CASE("a box aimed at the stop from a coarse grid holds what gets through, b
     const Setting s("canon-70-200", 32.0, ghost, 0.05);
     ClearanceGrid grid(s.packets());
     grid.trace(s.half(), 12, 6);
-    for (const auto& piece : grid.pieces(1.0F)) {
+    for (const auto& piece : grid.components(1.0F)) {
       const auto aim = newton_step_to_stop(grid, piece);
       if (!aim || aim->error > 0.1) continue;
       const Vec2 more = (aim->box.high - aim->box.low) * 0.5;

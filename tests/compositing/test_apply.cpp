@@ -36,7 +36,7 @@ Values apply_values(std::vector<std::pair<const char*, const char*>> given = {})
 }
 
 LensState heliar() {
-  const auto state = lens_at(find_lens("heliar").value(), {.f_number = 16.0});
+  const auto state = configure_lens(find_lens("heliar").value(), {.f_number = 16.0});
   REQUIRE(state.has_value());
   return *state;
 }

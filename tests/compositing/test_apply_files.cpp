@@ -31,7 +31,7 @@ Image dark_with(std::vector<Vec2> lights, float level = 5e4F, float dark = 0.25F
 }
 
 LensState heliar_for_files() {
-  const auto state = lens_at(find_lens("heliar").value(), {.f_number = 16.0});
+  const auto state = configure_lens(find_lens("heliar").value(), {.f_number = 16.0});
   REQUIRE(state.has_value());
   return *state;
 }

@@ -435,7 +435,7 @@ TEST_CASE(
     test::Settings settings = starburst_alone({3, 3, 0, 0, 3, 3, 1e3});
     Light light;
     light.value = {300.0, 20.0, 1.0};
-    const double open = exit_pupil(lens, light.source(), lens.design_wavelength_nm)->open_share;
+    const double open = exit_pupil(lens, light.source(), lens.design_wavelength_nm)->open_fraction;
     CHECK((open < 0.95) == dirty);
     for (const double radius_rad : {0.0, 0.01}) {
       light.radius_rad = radius_rad;

@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "cli/bench/repeats.h"
+#include "contrejour/renderer.h"
 #include "contrejour/settings.h"
 #include "contrejour/trace.h"
 
@@ -73,11 +74,14 @@ Result<EffectScene> with_lens(const EffectScene& scene, const EffectSystem& syst
 
 Result<EffectCost> cost_in_turns(const EffectScene& scene, const EffectRender& without, const EffectRender& with) {
   EffectCost cost{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
+  auto renderer = Renderer::create(scene.adaptive);
+  if (!renderer) return tl::unexpected(renderer.error());
+  if (const auto set = renderer->set_lens(scene.lens); !set) return tl::unexpected(set.error());
   double all_ms = 0.0;
   for (int turn = 0; another_run(turn, scene.runs, all_ms); ++turn) {
     for (const auto& [one, fastest_ms] : {std::pair(&without, &cost.without_ms), std::pair(&with, &cost.with_ms)}) {
       const double start = processor_ms();
-      const auto flare = render(scene.adaptive, scene.lens, one->lights, one->settings, scene.context);
+      const auto flare = renderer->render(one->lights, one->settings, scene.context);
       if (!flare) return tl::unexpected(flare.error());
       const double ms = processor_ms() - start;
       *fastest_ms = std::min(*fastest_ms, ms);

@@ -41,8 +41,9 @@ struct EffectSystem {
 };
 [[nodiscard]] Result<EffectScene> with_lens(const EffectScene& scene, const EffectSystem& system);
 
-// Renders with an effect and without, in turns, so that what changes while they run changes both. Of the scene's runs
-// (repeats.h) the fastest, in processor time of all threads together, which other programs do not take from.
+// One renderer renders with an effect and without, in turns, so that what changes while they run changes both, and
+// keeps what a sequence of frames would. Of the scene's runs (repeats.h) the fastest, in processor time of all threads
+// together, which other programs do not take from.
 struct EffectRender {
   FrameSettings settings;
   std::vector<Light> lights;
