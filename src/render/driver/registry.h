@@ -1,5 +1,4 @@
-// The one list of renderers. A new one adds its line to registry.cpp.
-// Thread-safety: constant.
+// The list of renderers. A new renderer adds its line to registry.cpp. Thread-safety: constant.
 #pragma once
 
 #include <span>
@@ -10,6 +9,6 @@ namespace contrejour {
 
 [[nodiscard]] std::span<const Method> all_methods();  // the default first
 [[nodiscard]] const Method* find_method(std::string_view name);  // null: there is none
-[[nodiscard]] Result<const Method*> known_method(std::string_view name);  // never null. Errors: there is none
+[[nodiscard]] Result<const Method*> known_method(std::string_view name);  // never null. Errors: none of that name
 
 }  // namespace contrejour

@@ -12,9 +12,9 @@
 namespace contrejour {
 namespace {
 
-constexpr double kGhostsShare = 0.9;  // of the progress, where the lights' own images follow
+constexpr double kGhostsShare = 0.9;  // of the progress; the rest is for the lights' own images
 
-// The part of a whole's progress from one share to another.
+// A context that maps its progress to the part of the whole from one fraction to another.
 Context part_of(const Context& whole, double from, double to) {
   Context part = whole;
   if (whole.progress) part.progress = [&whole, from, to](double done) { whole.progress(from + (to - from) * done); };

@@ -1,4 +1,5 @@
-// One frame, with a cache that may have served frames before: the ghosts by any method, then the lights' own images.
+// Renders one frame, with a cache that may have served earlier frames: the ghosts by any method, then the lights' own
+// images.
 #pragma once
 
 #include "contrejour/method_options.h"
@@ -6,7 +7,8 @@
 
 namespace contrejour {
 
-// The same bits whatever the cache holds. Errors: InvalidArgument, Cancelled, as render(); the cache stays usable.
+// The result does not depend on what the cache holds. Errors: InvalidArgument, Cancelled, as render(); the cache stays
+// usable.
 [[nodiscard]] Result<Flare> render_frame(const MethodOptions& method, const FrameRequest& frame,
                                          const Context& context);
 

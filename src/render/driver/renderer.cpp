@@ -12,7 +12,7 @@ namespace contrejour {
 namespace {
 
 constexpr double kDraftError = 0.02;
-constexpr double kDraftProgress = 0.2;  // of the whole
+constexpr double kDraftProgress = 0.2;  // fraction of the whole progress
 
 Context rest_of(const Context& whole, double from) {
   Context rest = whole;
@@ -33,7 +33,7 @@ struct Renderer::State {
     return render_frame(by, {*lens, lights, settings, cache}, context);
   }
 
-  // The memory of a written picture serves the next frame.
+  // Writes a flare to the caller's image; its memory then serves the next frame.
   Result<RenderStatistics> write(Flare flare, const ImageView& to, const Context& context) {
     if (const auto written = write_pixels(flare.image, to, context); !written) return tl::unexpected(written.error());
     keep_memory(cache, std::move(flare.image));

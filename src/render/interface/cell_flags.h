@@ -1,4 +1,5 @@
-// Squares of a grid that are marked, to be asked for by boxes: sums along rows say whether any of some is.
+// A square grid of flags. Running sums of the flags along each row answer quickly whether a box contains a marked
+// square.
 #pragma once
 
 #include <algorithm>
@@ -13,7 +14,8 @@ namespace contrejour {
 class CellFlags {
  public:
   CellFlags() = default;
-  // side x side squares over the square from -extent to extent. mark(x, y): of each, by column and row from below.
+  // The grid has side x side squares and covers the square from -extent to extent. mark(x, y) says whether the square
+  // in column x and row y, counted from the lowest coordinates, is marked.
   template <class Mark>
   CellFlags(int side, double extent, const Mark& mark) : side_(side), extent_(extent) {
     for (int y = 0; y < side; ++y) {
@@ -23,7 +25,8 @@ class CellFlags {
     }
   }
 
-  // What lies beside the grid counts as in its outermost squares; NaN: the first.
+  // The index of the square that contains a coordinate. Coordinates outside the grid give the outermost square, NaN
+  // gives the first.
   [[nodiscard]] int cell_of(double coordinate) const {
     const double at = (coordinate + extent_) * 0.5 * side_ / extent_;
     return at > 0.0 ? static_cast<int>(std::min(at, side_ - 1.0)) : 0;
@@ -43,7 +46,7 @@ class CellFlags {
  private:
   int side_ = 0;
   double extent_ = 1.0;
-  std::vector<std::uint16_t> before_;  // marked squares to the left of each border, row by row
+  std::vector<std::uint16_t> before_;  // the number of marked squares to the left of each border, row by row
 };
 
 }  // namespace contrejour

@@ -1,4 +1,4 @@
-// Whether a frame is one that pixels can be drawn in.
+// Checks whether pixels can be drawn in a frame.
 #pragma once
 
 #include "contrejour/frame.h"
@@ -6,8 +6,8 @@
 
 namespace contrejour {
 
-// Errors: InvalidArgument for no pixels, more than 2^28 of them, a window or whole frame more than 2^28 pixels away or
-// long, a pitch that is not from 1e-8 to 1e6 mm, a shift that is not finite.
+// Errors: InvalidArgument if the frame has no pixels or more than 2^28, if the window or the whole frame is longer or
+// farther away than 2^28 pixels, if the pitch is not from 1e-8 to 1e6 mm, or if the shift is not finite.
 [[nodiscard]] Result<void> check_frame(const Frame& frame);
 
 }  // namespace contrejour

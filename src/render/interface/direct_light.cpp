@@ -13,12 +13,13 @@
 namespace contrejour {
 namespace {
 
-// How many of many bands are measured at first: six, and one that they predict; then more, until they predict the last.
+// The numbers of bands that are measured, round by round, where there are many bands: at first six and a seventh to
+// test whether the six predict it; then more, until those before the last predict the last.
 constexpr std::array<std::size_t, 3> kSamples{7, 10, 13};
-constexpr std::size_t kManyBands = 16;  // fewer are all measured
-constexpr double kForetold = 2e-4;  // of the largest flux
+constexpr std::size_t kManyBands = 16;  // with fewer, all are measured
+constexpr double kForetold = 2e-4;  // relative to the largest flux
 
-// Some of many bands; none of few.
+// The bands to sample where there are many; an empty set where there are few, which means that all are measured.
 WavelengthSamples samples_of(std::span<const SpectralBand> bands) {
   std::vector<double> lambda_nm;
   for (const SpectralBand& band : bands) lambda_nm.push_back(band.lambda_nm);
@@ -33,7 +34,7 @@ double told(const MeteredLight& light, const WavelengthSamples& samples, std::si
   return flux;
 }
 
-// Whether the first `count` - 1 samples' fluxes predict the next one's.
+// Whether the fluxes of the first `count` - 1 samples predict that of the next one.
 bool foretell(const MeteredLight& light, const WavelengthSamples& samples, std::size_t count) {
   double most = 0.0;
   for (std::size_t k = 0; k < count; ++k) most = std::max(most, light.flux_mm2[samples[k]]);
@@ -41,7 +42,7 @@ bool foretell(const MeteredLight& light, const WavelengthSamples& samples, std::
   return std::abs(told(light, samples, count - 1, last) - light.flux_mm2[last]) <= kForetold * most;
 }
 
-// One light's fluxes, as they are found.
+// Measures one light's fluxes, round by round.
 class LightMeter {
  public:
   LightMeter(const LensState& lens, MeteredLight& light)
@@ -49,13 +50,13 @@ class LightMeter {
     light.flux_mm2.assign(light.bands.size(), 0.0);
   }
 
-  // The middle wavelength's pupil serves the others: where nothing of it gets through, no more than a sliver of theirs
-  // does.
+  // The pupil of the middle wavelength is used for all others: if no light of the middle wavelength gets through,
+  // hardly any of the others does.
   void find_pupil(const TablesByWavelength& tables) {
     pupil_ = meter_.pupil(tables.at(light_.bands[light_.bands.size() / 2].lambda_nm));
   }
 
-  // The bands to measure next; none: all fluxes are there.
+  // The bands to measure next; empty once all fluxes are known.
   [[nodiscard]] std::vector<std::size_t> next_bands() const {
     std::vector<std::size_t> next;
     if (is_done_) return next;
@@ -74,7 +75,7 @@ class LightMeter {
     light_.flux_mm2[band] = pupil_ ? meter_.flux_mm2(tables.at(light_.bands[band].lambda_nm), *pupil_) : 0.0;
   }
 
-  // Once all next_bands() are measured.
+  // Is called once all next_bands() are measured.
   void end_round() {
     const bool all = samples_.size() == 0 || round_ == kSamples.size();
     if (!all && foretell(light_, samples_, kSamples[round_])) tell_others(kSamples[round_]);
@@ -97,7 +98,7 @@ class LightMeter {
 
   MeteredLight& light_;
   DirectMeter meter_;
-  WavelengthSamples samples_;  // none: all bands are measured
+  WavelengthSamples samples_;  // empty: all bands are measured
   std::optional<Rectangle> pupil_;
   std::size_t round_ = 0;
   bool is_done_ = false;
@@ -120,7 +121,7 @@ bool measure_fluxes(const LensState& lens, const TablesByWavelength& tables, std
   for (MeteredLight& light : lights) meters.emplace_back(lens, light);
   if (!parallel_for(meters.size(), context, [&](std::size_t k) { meters[k].find_pupil(tables); })) return false;
   while (true) {
-    std::vector<std::pair<std::size_t, std::size_t>> places;  // light, band
+    std::vector<std::pair<std::size_t, std::size_t>> places;  // indices of light and band
     for (std::size_t k = 0; k < meters.size(); ++k)
       for (const std::size_t band : meters[k].next_bands()) places.emplace_back(k, band);
     if (places.empty()) return true;

@@ -1,4 +1,4 @@
-// What a light's own image is, in the units that ghosts are measured against: docs/physics/radiometry.md.
+// The flux of a light's direct image, which is the unit of the ghosts' fluxes: docs/physics/radiometry.md.
 #pragma once
 
 #include <functional>
@@ -14,23 +14,25 @@
 
 namespace contrejour {
 
-// A light where it is measured, its bands' wavelengths and, once found, their direct fluxes in mm^2 at E0 = 1.
+// A light at the place where its flux is measured, the bands with their wavelengths, and the bands' direct fluxes in
+// mm^2 at E0 = 1, which measure_fluxes() fills in.
 struct MeteredLight {
   LightSource source;
   std::span<const SpectralBand> bands;
   std::vector<double> flux_mm2 = {};
 };
 
-// The bands that measure_fluxes() measures whatever they foretell, and that whose pupil it finds.
+// The bands that measure_fluxes() needs in any case: those of its first round, and the band whose pupil it finds.
 [[nodiscard]] std::vector<std::size_t> measured_first(std::span<const SpectralBand> bands);
 
-// Finds all fluxes. Where there are many bands, few are measured if they
-// foretell the next to 2e-4 (wavelength_samples.h), and they tell the others, good to 2e-5. False when cancelled.
+// Finds all fluxes. Where there are many bands, only some are measured: once they predict the next one to 2e-4 of the
+// largest flux, the others are interpolated (wavelength_samples.h) with an error of about 2e-5. Returns false when
+// cancelled.
 [[nodiscard]] bool measure_fluxes(const LensState& lens, const TablesByWavelength& tables,
                                   std::span<MeteredLight> lights, const Context& context);
 
-// Sum over the bands of w[c] * Phi, mm^2 at E0 = 1, from each band's direct flux where the light is measured. Of one
-// that does not get through there, of a band's flux on the axis, at the light's distance.
+// The sum over the bands of w[c] * Phi, in mm^2 at E0 = 1, with Phi the band's direct flux where the light is measured.
+// If the light does not get through there, Phi is the band's flux on the axis at the light's distance.
 [[nodiscard]] Rgb direct_light(std::span<const SpectralBand> bands, std::span<const double> flux_mm2,
                                const std::function<double(std::size_t band)>& flux_on_axis_mm2);
 

@@ -7,19 +7,20 @@
 namespace contrejour {
 namespace {
 
-constexpr double kFrontExtent = 2.0;  // clear radii: inclined beams cross the vertex's plane beside the first surface
+constexpr double kFrontExtent = 2.0;  // clear radii: inclined beams cross the first vertex's plane outside the surface
 constexpr double kStopExtent = 1.02;  // stop radii
-constexpr double kDiagonal = 0.7072;  // half a square's, of its side, rounded up
-constexpr double kThinnest_mm = 1e-5;  // of widths that are told apart
-constexpr int kMostParts = 8;  // a side of a place's square, wider than cells
-constexpr double kDark = 1e-5;  // of light, past some shapes: others there are no more to be seen
-constexpr int kFewCells = 3;  // across a disc whose distance from every shape is asked for
-constexpr int kPointsOfCell = 2;  // a side, for its mean
-constexpr int kMostSubsamples = 4;  // a side of a place's square, where a picture is finer
+constexpr double kDiagonal = 0.7072;  // half a square's diagonal over its side, rounded up
+constexpr double kThinnest_mm = 1e-5;  // the lower end of the classes of width
+constexpr int kMostParts = 8;  // parts a side, for a square that is wider than a cell
+constexpr double kDark = 1e-5;  // once shapes leave less light than this, further ones do not matter
+constexpr int kFewCells = 3;  // cells across a disc, up to which its distance from every shape is computed
+constexpr int kPointsOfCell = 2;  // a side, for a cell's mean transmittance
+constexpr int kMostSubsamples = 4;  // a side of the square, where a picture is finer
 
-// What a shape covers of a square about a place, lying along the shape. Of a small one by the distance from the edge,
-// moved inwards at round ends, so that a disc's mean over all places is its area; else as if it were a rectangle of its
-// width and area, whose mean is right, too.
+// The fraction of a square about a place that a shape covers; the square lies along the shape. If the square is
+// narrower than the shape, the fraction follows from the distance to the edge; at round ends the distance is shifted
+// inwards so that a disc's fraction integrates to its area. A wider square sees the shape as a rectangle of the same
+// width and area, whose fraction integrates to the area as well.
 double covered_share(const DirtStroke& s, Vec2 place, double width) {
   const double distance = s.distance_mm(place);
   if (!(width > 0.0)) return distance < 0.0 ? 1.0 : 0.0;
@@ -38,7 +39,7 @@ double covered_share(const DirtStroke& s, Vec2 place, double width) {
   return overlap(own.x, length) * overlap(own.y, s.width_mm) / (width * width);
 }
 
-// body(offset) for the middles of side x side parts of a unit square about 0.
+// The mean of body(offset) over the middles of side x side parts of a unit square about 0.
 template <class Body>
 double mean_of_parts(int side, const Body& body) {
   double sum = 0.0;
@@ -60,14 +61,14 @@ DirtField::DirtField(const LensState& lens)
       dirty_(kCells, extent_mm_, [](int, int) { return false; }) {
   shapes_ = dirt_within(lens.dirt, {-extent_mm_, -extent_mm_}, {extent_mm_, extent_mm_});
   std::vector<std::vector<std::uint32_t>> cells(static_cast<std::size_t>(kCells) * kCells);
-  std::vector<double> left(cells.size(), 1.0);  // past the shapes that cover a cell and all about it
+  std::vector<double> left(cells.size(), 1.0);  // what passes the shapes that cover a cell and its surroundings
   for (std::size_t k = 0; k < shapes_.size(); ++k) {
     const DirtStroke& s = shapes_[k];
     count(s);
     const double reach = s.reach_mm() + cell_mm_;
     for (int y = cell_of(s.middle_mm.y - reach); y <= cell_of(s.middle_mm.y + reach); ++y)
       for (int x = cell_of(s.middle_mm.x - reach); x <= cell_of(s.middle_mm.x + reach); ++x) {
-        // A cell's half diagonal, and as much again for a square about a place in it.
+        // Half the cell's diagonal, and as much again for a square about a place in the cell.
         const auto cell = static_cast<std::size_t>(y * kCells + x);
         if (left[cell] < kDark) continue;
         const Vec2 middle{(x + 0.5) * cell_mm_ - extent_mm_, (y + 0.5) * cell_mm_ - extent_mm_};
@@ -112,10 +113,10 @@ void DirtField::sum_up_cells() {
       covered_ += (1.0 - passed) / (kCells * kCells);
     }
   }
-  if (!shapes_.empty()) covered_ /= shapes_.front().opacity;  // all have one
+  if (!shapes_.empty()) covered_ /= shapes_.front().opacity;  // all shapes have the same opacity
 }
 
-// By rows of cells, between the places where the ellipse crosses each.
+// Sums whole cells, row by row, between the places where the ellipse crosses the row.
 double DirtField::mean_within(Vec2 low_mm, Vec2 high_mm) const {
   const Vec2 middle = (low_mm + high_mm) * 0.5, half = (high_mm - low_mm) * 0.5;
   double sum = 0.0, cells = 0.0;
@@ -130,9 +131,9 @@ double DirtField::mean_within(Vec2 low_mm, Vec2 high_mm) const {
   return std::clamp(sum / cells, 0.0, 1.0);
 }
 
-// A shape smaller than a pixel dims it by its share of it.
+// A shape smaller than a pixel dims it by the fraction of the pixel that it covers.
 double DirtField::variance(double pixel_mm) const {
-  constexpr double kMost = 0.25;  // of what is 0 or 1
+  constexpr double kMost = 0.25;  // the largest variance of a value that is 0 or 1
   if (picture_) return kMost;
   double sum = 0.0;
   for (const Size& size : sizes_)
@@ -146,7 +147,7 @@ std::span<const std::uint32_t> DirtField::shapes_about(int x, int y) const {
   return {shapes_of_cell_.data() + first_[cell], first_[cell + 1] - first_[cell]};
 }
 
-// A square no wider than a cell meets no shapes but those of the cell that its middle lies in.
+// A square no wider than a cell meets only shapes that are listed for the cell of its middle.
 double DirtField::small_transmission(Vec2 at, double width) const {
   double all = 1.0;
   for (const std::uint32_t k : shapes_about(cell_of(at.x), cell_of(at.y))) {

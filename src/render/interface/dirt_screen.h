@@ -1,8 +1,8 @@
-// What dirt lets through of a ghost's light, place by place of the plane that it lies in: sharp shadows (DirtField), or
-// with the fringes that a ghost's defocus gives them at a wavelength. Light meets dirt in the stop at every crossing of
-// it, dirt on the front once, where it came in. Units: mm of the dirt's plane.
-// A renderer multiplies a ghost's light by level(), and at places that are not clean by transmission().
-// Thread-safety: const members may run at once.
+// The transmittance of a lens's dirt for a ghost's light, by place in the plane that the dirt lies in: with sharp
+// shadows (DirtField), or with the fringes that the ghost's defocus gives them at a wavelength. Light meets dirt in the
+// stop at every crossing of the stop, dirt on the front once, where it enters. Units: mm of the dirt's plane. A
+// renderer multiplies a ghost's light by level(), and by transmission() at places that are not clean. Thread-safety:
+// const members may run at once.
 #pragma once
 
 #include <cstddef>
@@ -15,7 +15,7 @@ namespace contrejour {
 
 class DirtField;
 
-// A place where light crosses the dirt's plane, and the side of the square about it that is asked about.
+// A place where light crosses the dirt's plane, and the side of the square about it over which the mean is taken.
 struct DirtPlace {
   Vec2 at_mm;
   double width_mm = 0.0;
@@ -23,7 +23,7 @@ struct DirtPlace {
 
 class DirtScreen {
  public:
-  // Where dirt lies.
+  // The plane that the dirt lies in.
   struct Plane {
     bool is_front = false;
     double stop_radius_mm = 0.0;
@@ -44,9 +44,10 @@ class DirtScreen {
     return entrance_mm + Vec2{along.x, along.y} * ((plane_.front_z_mm - z_mm) / along.z);
   }
 
-  // What passes where it is clean: 1, or what weak shadows all over the plane leave.
+  // The transmittance where the plane is clean: 1, or less where weak shadows all over the plane are replaced by their
+  // mean.
   [[nodiscard]] virtual double level() const { return 1.0; }
-  // The share of that which passes: mean over the place's square, above 1 on bright fringes.
+  // The mean transmittance over the square about the place, relative to level(); above 1 on bright fringes.
   [[nodiscard]] virtual double transmission(const DirtPlace& place, std::size_t crossing) const = 0;
   // The product over all crossings.
   [[nodiscard]] double transmission(std::span<const DirtPlace> places) const {
@@ -54,14 +55,14 @@ class DirtScreen {
     for (std::size_t c = 0; c < places.size() && all > 0.0; ++c) all *= transmission(places[c], c);
     return all;
   }
-  // Whether all of a disc has a transmission of 1. A large one counts as not clean where dirt comes near its bounds.
+  // Whether transmission() is 1 all over a disc. A large disc counts as not clean where dirt comes near its bounds.
   [[nodiscard]] virtual bool is_clean(Vec2 middle_mm, double radius_mm, std::size_t crossing) const = 0;
-  // The shadows' edges: their length per area, times opacity^2, and about how wide they are (0: sharp).
+  // The shadows' edges: their length per area, times opacity^2, and their approximate width (0: sharp).
   struct Edges {
     double per_mm = 0.0, softness_mm = 0.0;
   };
   [[nodiscard]] virtual Edges edges() const = 0;
-  // Null unless the shadows may be drawn as the shapes' outlines.
+  // Not null only where the shadows may be drawn as the shapes' outlines.
   [[nodiscard]] virtual const DirtField* outlines() const { return nullptr; }
 
  private:

@@ -1,4 +1,4 @@
-// The RMS errors, over the frame's peak, that a method or the blurring of lights with a size may be allowed.
+// The RMS error, relative to the frame's peak, that a method may make, or the blurring of extended lights.
 #pragma once
 
 #include "contrejour/result.h"

@@ -13,7 +13,7 @@ namespace contrejour {
 namespace {
 
 constexpr double kMostPixels = 268435456.0;  // 2^28
-constexpr int kFarthestPixel = 1 << 28;           // a line of all pixels
+constexpr int kFarthestPixel = 1 << 28;           // as far as a line of all pixels is long
 constexpr double kLeastPitch_mm = 1e-8, kMostPitch_mm = 1e6;
 
 }  // namespace

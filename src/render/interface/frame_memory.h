@@ -1,6 +1,6 @@
-// The memory of pictures that a session has written and given to nobody, for its next frame: a picture of 25 MB made
-// anew costs some milliseconds, since the system clears its pages first.
-// Thread-safety: from one thread at a time.
+// Recycled image memory: the pictures that a session has written out and does not need any more serve its next frame. A
+// new picture of 25 MB costs some milliseconds, since the system clears its pages first. Thread-safety: from one thread
+// at a time.
 #pragma once
 
 #include "contrejour/image.h"
@@ -8,7 +8,7 @@
 
 namespace contrejour {
 
-// Three channels, pixels of any value, for whoever writes them all.
+// An image of three channels with undefined pixels, for a caller that writes them all.
 [[nodiscard]] Image unwritten_image(RenderCache& cache, int width, int height);
 
 void keep_memory(RenderCache& cache, Image image);

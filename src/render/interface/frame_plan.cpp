@@ -23,7 +23,7 @@ namespace contrejour {
 namespace {
 
 constexpr int kMaxWavelengths = 1024;
-constexpr int kBandsByNeed = 32;  // what a caustic of a fisheye in a large frame asks for
+constexpr int kBandsByNeed = 32;  // as many as a caustic of a fisheye in a large frame needs
 
 Error invalid(std::string message) { return {ErrorCode::InvalidArgument, std::move(message), {}}; }
 
@@ -51,7 +51,7 @@ std::vector<SpectralBand> bands_of(const Light& light, const FrameSettings& sett
   return bands;
 }
 
-// Lights of one spectrum share their bands.
+// Lights with the same spectrum use the same bands.
 using BandsBySpectrum = std::vector<std::pair<Spectrum, std::vector<SpectralBand>>>;
 
 BandsBySpectrum bands_by_spectrum(std::span<const Light> lights, const FrameSettings& settings) {
@@ -71,15 +71,15 @@ std::vector<double> wavelengths_of(const BandsBySpectrum& spectra) {
   return all;
 }
 
-// What takes long before any flux is known, side by side: where lights are measured, tables of the wavelengths that
-// their fluxes are measured at, and the lens's dirt.
+// What takes long and needs no fluxes; its parts are computed in parallel: the places where lights are measured, the
+// reflectance tables of the wavelengths that their fluxes are measured at, and the lens's dirt.
 struct Preparation {
-  std::vector<LightSource> measured;  // one a light
+  std::vector<LightSource> measured;  // one for each light
   TablesByWavelength tables;
   std::shared_ptr<const DirtField> dirt;
 };
 
-// None when cancelled.
+// nullopt when cancelled.
 std::optional<Preparation> prepare(const FrameRequest& request, const TablesByWavelength& tables,
                                    const BandsBySpectrum& spectra, const Context& context) {
   const auto& [lens, lights, settings, cache] = request;
@@ -108,7 +108,7 @@ const std::vector<SpectralBand>& bands_for(const Light& light, const BandsBySpec
       ->second;
 }
 
-// What a light's ghosts are multiplied by, for where its image lies.
+// The factor on a light's ghosts that depends on where its image lies (GhostOptions::edge_gain).
 double edge_gain(const LensState& lens, const Light& light, const FrameSettings& settings) {
   const double at_corner = settings.ghosts.edge_gain;
   if (at_corner == 1.0) return 1.0;
@@ -136,7 +136,7 @@ PlannedLight plan_light(const LensState& lens, const TablesByWavelength& tables,
   return planned;
 }
 
-// measured: one a light. None when cancelled.
+// measured: one for each light. nullopt when cancelled.
 std::optional<std::vector<PlannedLight>> plan_lights(const LensState& lens, std::span<const Light> lights,
                                                      const FrameSettings& settings, const BandsBySpectrum& spectra,
                                                      std::span<const LightSource> measured,

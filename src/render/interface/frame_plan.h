@@ -1,5 +1,5 @@
-// What every renderer works out before its first ray: which ghosts, at which wavelengths, and by what factor
-// flux becomes pixel values. So selection, colour and radiometry are the same in all of them.
+// What every renderer needs before it traces a ray: the ghosts, the wavelengths, and the factors from flux to pixel
+// values. It is computed here once, so that selection, colour and radiometry are the same in all renderers.
 #pragma once
 
 #include <cstddef>
@@ -21,32 +21,33 @@
 namespace contrejour {
 
 struct GhostOfLight {
-  std::size_t ghost = 0, light = 0;  // in the plan
+  std::size_t ghost = 0, light = 0;  // indices in the plan
 };
 
 struct FramePlan {
   std::vector<Ghost> ghosts;
-  std::vector<GhostLook> looks;  // one a ghost
+  std::vector<GhostLook> looks;  // one for each ghost
   std::vector<PlannedLight> lights;
-  bool by_need = false;  // the lights' passes are as fine as any ghost may ask for; few ghosts need all
-  // Those that each pair needs, as for_each_pair() goes through them (passes_by_need.h); empty: all of its light's.
+  bool by_need = false;  // the lights' passes are as fine as any ghost may need; few ghosts need all
+  // The passes of each pair, in the order of for_each_pair() (passes_by_need.h); empty: each pair has all passes of its
+  // light.
   std::vector<std::vector<PlannedPass>> passes = {};
-  TablesByWavelength tables;  // made when they are asked for
+  TablesByWavelength tables;  // made on first use
   ReflectedShares reflected;  // at every wavelength of the lights' passes
   std::shared_ptr<const DirtField> dirt = nullptr;  // null: the lens is clean
-  // Where ghosts come through, by ghost and then by light, if selection had to find out; else empty.
+  // The ghosts' pupils, by ghost and then by light, if the selection had to find them; else empty.
   std::vector<pupils::GhostPupil> pupils = {};
   std::optional<double> skipped_flux;  // as RenderStatistics::ghosts_skipped_flux
-  // Which ghosts of which lights are drawn, by rising ghost, then light; none: all of them.
+  // The pairs of ghost and light that are drawn, in order of ghost, then light; empty: all pairs.
   std::vector<GhostOfLight> pairs = {};
-  // What errors may be relative to where the picture's own peak is lower: it becomes part of a brighter one. Pixel
-  // values.
+  // A lower limit of the peak that errors are relative to, in pixel values: the picture may become part of a brighter
+  // one.
   double least_peak = 0.0;
-  // May be left out of a picture: rows and columns beside all of its light, but for so many next to it.
+  // If set, rows and columns that are farther than this many pixels from all light may be left out of the picture.
   std::optional<int> dark_margin_px;
 };
 
-// Calls visit(ghost, light) for those that are drawn.
+// Calls visit(ghost, light) for each pair that is drawn.
 template <class Visit>
 void for_each_pair(const FramePlan& plan, const Visit& visit) {
   for (const GhostOfLight& pair : plan.pairs) visit(pair.ghost, pair.light);
@@ -55,7 +56,7 @@ void for_each_pair(const FramePlan& plan, const Visit& visit) {
     for (std::size_t k = 0; k < plan.lights.size(); ++k) visit(g, k);
 }
 
-// Calls visit(ghost, light, passes) in the same way.
+// Calls visit(ghost, light, passes) for each pair that is drawn.
 template <class Visit>
 void for_each_pair_with_passes(const FramePlan& plan, const Visit& visit) {
   std::size_t pair = 0;
@@ -64,7 +65,7 @@ void for_each_pair_with_passes(const FramePlan& plan, const Visit& visit) {
   });
 }
 
-// What a frame is rendered from. All must outlive the rendering; the cache may have served frames before.
+// What a frame is rendered from. All must outlive the rendering; the cache may have served earlier frames.
 struct FrameRequest {
   const LensState& lens;
   std::span<const Light> lights;
@@ -75,20 +76,20 @@ struct FrameRequest {
 // Errors: InvalidArgument for settings out of range, Cancelled.
 [[nodiscard]] Result<FramePlan> plan_frame(const FrameRequest& request, const Context& context);
 
-// More lights for a plan that has their spectra. Cancelled is the one error.
+// Plans more lights for a plan that contains their spectra. The only error is Cancelled.
 [[nodiscard]] Result<std::vector<PlannedLight>> plan_more_lights(const FramePlan& plan, const LensState& lens,
                                                                  std::span<const Light> lights,
                                                                  const FrameSettings& settings, const Context& context);
 
-// What a method draws: the part of the frame that begins there. All else is dark.
+// What a method draws: the image of a part of the frame, and where that part begins. The rest of the frame is dark.
 struct DrawnFlare {
   Image image;
   int left = 0, top = 0;
   RenderStatistics statistics;
 };
 
-// The same with its lights planned, for a method to draw. The picture depends on ghosts, lights and gains of the plan
-// and on the settings' frame and ringing, no longer on settings.selection, scope, wavelengths and colour space.
+// A request with its plan, which a method draws. The picture depends on the plan's ghosts, lights and gains and on the
+// settings' frame and ringing, but not on settings.selection, scope, wavelengths and colour space.
 struct PlannedFrame {
   const LensState& lens;
   const FramePlan& plan;
@@ -96,7 +97,7 @@ struct PlannedFrame {
   RenderCache& cache;
 };
 
-// A method with its options: draws what a plan says.
+// A method with its options: draws what a plan lists.
 using DrawPlan = std::function<Result<DrawnFlare>(const PlannedFrame& frame, const Context& context)>;
 
 // Plans, then draws; the statistics' phases begin with "plan". Errors: those of both.

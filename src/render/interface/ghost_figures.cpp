@@ -41,7 +41,7 @@ class FigureMaker {
     lambda_nm_.erase(std::unique(lambda_nm_.begin(), lambda_nm_.end()), lambda_nm_.end());
   }
 
-  // False when cancelled.
+  // Returns false when cancelled.
   [[nodiscard]] bool prepare(const Context& context) {
     if (lambda_nm_.empty()) return true;
     if (!parallel_for(lambda_nm_.size(), context, [&](std::size_t k) { (void)tables_.at(lambda_nm_[k]); }))
@@ -66,7 +66,7 @@ class FigureMaker {
     Vec2 centroid_mm;
     double weight_sum = 0.0, luminances = 0.0;
     Footprint_px bounds;
-    std::optional<pupils::Footprint> brightest;  // of the band that the ghost is brightest in
+    std::optional<pupils::Footprint> brightest;  // in the band in which the ghost is brightest
     double highest = 0.0;
     for (const SpectralBand& band : request_.bands) {
       pupils::Footprint footprint = footprint_of(pupil_request, pupil, band.lambda_nm, iris_);
@@ -94,7 +94,7 @@ class FigureMaker {
       figures.size_px = bounds.high - bounds.low;
       figures.size_mm = figures.size_px * request_.frame.pixel_pitch_mm;
     }
-    // Light is spread nearly alike in all bands: the others add to the peak what they add to the flux.
+    // A ghost has nearly the same shape in all bands, so each band adds to the peak in proportion to its flux.
     if (brightest) {
       const double share = weight_sum / brightest->measure().flux_mm2;
       figures.peak_irradiance = share * brightest->peak_per_mm2(request_.frame.pixel_pitch_mm);

@@ -31,7 +31,7 @@ Rgb ramp_at(const std::vector<GhostRampStop>& ramp, double place) {
   return colour;
 }
 
-// Of a ghost and a seed alone: which ghosts are rendered beside it does not matter.
+// The offset depends on the ghost and the seed alone, not on which other ghosts are rendered.
 Vec2 scattered(Ghost ghost, std::uint32_t seed) {
   const auto both = [](int low, int high) { return static_cast<std::uint32_t>(low + 1000 * high); };
   return normal_pair({seed, both(ghost.i, ghost.k), both(ghost.j, ghost.l)});
@@ -102,7 +102,7 @@ std::vector<GhostLook> ghost_looks(const LensState& lens, std::span<const Ghost>
       offset = offset + a.offset;
     }
     if (options.scatter > 0.0) offset = offset + scattered(ghost, options.scatter_seed) * options.scatter;
-    look.shift_mm = offset * -height_mm;  // a picture's right and up are the sensor's left and down
+    look.shift_mm = offset * -height_mm;  // right and up in the picture are left and down on the sensor
     looks.push_back(look);
   }
   return looks;

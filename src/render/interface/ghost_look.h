@@ -1,4 +1,4 @@
-// What an artist bends about ghosts (GhostOptions), ghost by ghost, as renderers apply it.
+// An artist's adjustments of ghosts (GhostOptions), resolved for each ghost as renderers apply them.
 #pragma once
 
 #include <span>
@@ -12,7 +12,7 @@
 
 namespace contrejour {
 
-// Times every pass's gain; where the ghost is drawn. {1, 1, 1} and {}: as physics has it.
+// A factor on the gain of every pass, and a displacement of the ghost. {1, 1, 1} and {} leave the ghost as computed.
 struct GhostLook {
   Rgb tint{1, 1, 1};
   Vec2 shift_mm;
@@ -25,8 +25,8 @@ struct GhostLook {
 };
 
 // Errors: InvalidArgument for numbers that are not finite, negative gains and colours, offsets and scatter beyond
-// kFarthestOffset of the frame's height, places of a ramp that do not rise or lie beyond kFarthestPlace, ghosts that
-// the lens does not have.
+// kFarthestOffset times the frame's height, a ramp whose places do not increase or lie beyond kFarthestPlace, and
+// ghosts that the lens does not have.
 inline constexpr double kFarthestOffset = 1000.0, kFarthestPlace = 1e6;
 [[nodiscard]] Result<void> check_ghost_options(const LensState& lens, const GhostOptions& options);
 
@@ -34,7 +34,7 @@ inline constexpr double kFarthestOffset = 1000.0, kFarthestPlace = 1e6;
 [[nodiscard]] Result<void> check_brightness(std::span<const Light> lights, std::span<const Ghost> ghosts,
                                             std::span<const GhostLook> looks, const GhostOptions& options);
 
-// One a ghost.
+// Returns one for each ghost.
 [[nodiscard]] std::vector<GhostLook> ghost_looks(const LensState& lens, std::span<const Ghost> ghosts,
                                                  const GhostOptions& options, const Frame& frame);
 

@@ -20,17 +20,19 @@ namespace {
 using pupils::GhostPupil;
 using pupils::PupilRequest;
 
-constexpr std::size_t kMostMeasured = 5;  // wavelengths of a light: polynomials through these give the others
-constexpr std::size_t kMostKept = 1U << 16U;  // pupils, beyond which they are looked for again rather than kept
+constexpr std::size_t kMostMeasured = 5;  // wavelengths of a light; the others are interpolated
+constexpr std::size_t kMostKept = 1U << 16U;  // pupils; beyond this number they are searched again rather than kept
 
-// The pupils of ghosts, as far as they were searched, and what they add to the picture: by ghost and then by light.
+// The pupils of the ghosts that have been searched, by ghost and then by light, and the flux that they add to the
+// picture.
 struct Measured {
   std::vector<GhostPupil> pupils;
-  std::vector<Rgb> flux;  // of each ghost by all lights inside the picture, in pixel values, sizes summed
+  std::vector<Rgb> flux;  // of each ghost, in pixel values, summed over lights and the frame
 };
 
-// The rectangle of the sensor in which a ghost's light counts, moved by the ghost's offset: the whole frame, even where
-// a window of it is drawn, so that all windows have the same ghosts, and what a window shows beside the frame.
+// The rectangle of the sensor within which a ghost's light counts, displaced by the ghost's offset: the whole frame,
+// even where only a window of it is drawn, so that all windows have the same ghosts, together with the part of the
+// window outside the frame.
 Rectangle seen_mm(const Frame& frame, const GhostLook& look) {
   const Frame placed = look.placed(frame);
   const double left = std::min(-frame.origin_x, 0), top = std::min(-frame.origin_y, 0);
@@ -39,7 +41,7 @@ Rectangle seen_mm(const Frame& frame, const GhostLook& look) {
   return {placed.sensor_from_pixel({right, top}), placed.sensor_from_pixel({left, bottom})};
 }
 
-// A light's wavelengths that are measured, and what it makes of their fluxes.
+// The wavelengths at which a light is measured, and how their fluxes combine to channels.
 class MeasuredLight {
  public:
   explicit MeasuredLight(const LensState& lens, const PlannedLight& light)
@@ -78,11 +80,11 @@ class MeasuredLight {
  private:
   const PlannedLight& light_;
   LightWindows windows_;
-  std::vector<double> all_nm_, measured_nm_;  // rising
-  std::vector<Rgb> gain_;  // one for each that is measured
+  std::vector<double> all_nm_, measured_nm_;  // in increasing order
+  std::vector<Rgb> gain_;  // one for each measured wavelength
 };
 
-// All pairs of some ghosts and lights: by ghost and then by light.
+// Measures all pairs of some ghosts and lights, by ghost and then by light.
 class GhostMeasuring {
  public:
   GhostMeasuring(const LensState& lens, std::span<const PlannedLight> lights, const TablesByWavelength& tables,
@@ -112,7 +114,7 @@ class GhostMeasuring {
     return out;
   }
 
-  // Pupils that were searched, at all wavelengths. False when cancelled.
+  // Fits polynomials to the pupils that were searched, at all wavelengths. Returns false when cancelled.
   [[nodiscard]] bool fit(std::span<const Ghost> ghosts, std::vector<GhostPupil>& pupils, const Context& context) const {
     return parallel_for(pupils.size(), context, [&](std::size_t k) {
       pupils[k] = fit_ghost_pupil(request_of(k, ghosts[k / lights_.size()]), std::move(pupils[k]));
@@ -131,7 +133,7 @@ class GhostMeasuring {
   std::vector<MeasuredLight> lights_;
 };
 
-// Each ghost's shares of the flux of all, channel by channel.
+// Each ghost's fraction of the flux of all ghosts, channel by channel.
 std::vector<Rgb> shares_of(std::vector<Rgb> flux) {
   Rgb whole{};
   for (const Rgb& one : flux)
@@ -152,7 +154,8 @@ std::vector<std::size_t> by_falling_share(const std::vector<Rgb>& share) {
   return order;
 }
 
-// As few as leave no channel without more than the share that may be dropped.
+// The smallest number of ghosts such that the others have, in each channel, no more than the fraction of flux that may
+// be dropped.
 std::size_t count_to_keep(const SelectByFlux& select, const std::vector<Rgb>& share,
                           const std::vector<std::size_t>& order) {
   const double allowed = select.drop_percent / 100.0;
@@ -178,7 +181,7 @@ Result<void> check_list(const LensState& lens, const std::vector<Ghost>& list) {
   return {};
 }
 
-// The first so many of the order, back in (i, j) order.
+// The first ghosts of the order, put back into (i, j) order.
 GhostChoice first_of(const std::vector<Ghost>& all, std::size_t lights, Measured& measured,
                      const std::vector<Rgb>& share, const std::vector<std::size_t>& order, std::size_t count) {
   std::vector<bool> is_kept(all.size(), false);
@@ -205,7 +208,7 @@ GhostChoice those_where(const std::vector<Ghost>& all, Condition condition) {
   return out;
 }
 
-// One selection of ghosts each.
+// Visitor of GhostSelection: one overload for each kind of selection.
 struct Selector {
   const LensState& lens;
   std::span<const PlannedLight> lights;
@@ -233,7 +236,8 @@ struct Selector {
   }
 
  private:
-  // count(shares, order): how many to keep, given the ghosts' shares of the flux and their indices by falling share.
+  // count(fractions, order) says how many ghosts to keep, given their fractions of the flux and their indices in
+  // decreasing order of these.
   template <class Count>
   [[nodiscard]] Result<GhostChoice> by_flux(Count count) const {
     const auto all = in_scope();

@@ -1,4 +1,4 @@
-// Which of a lens's ghosts a render shows: hullin2011 4.2, "intensity LOD".
+// Chooses which of a lens's ghosts are rendered: hullin2011 4.2, "intensity LOD".
 #pragma once
 
 #include <optional>
@@ -15,19 +15,20 @@ namespace contrejour {
 
 struct GhostChoice {
   std::vector<Ghost> ghosts;  // in (i, j) order
-  // The share of the flux of all ghosts inside the frame that the others carry, in the channel that loses most; none
-  // where it was not measured.
+  // The fraction of the flux of all ghosts inside the frame that the ghosts left out carry, in the channel that loses
+  // most; nullopt where it was not measured.
   std::optional<double> skipped_flux = std::nullopt;
-  // Where each comes through, lights in turn, if that had to be found out.
+  // The ghosts' pupils, by ghost and then by light, if the selection had to find them.
   std::vector<pupils::GhostPupil> pupils = {};
 };
 
 // Errors: InvalidArgument for a listed ghost that the lens does not have.
 [[nodiscard]] Result<void> check_selection(const LensState& lens, const GhostSelection& selection);
 
-// Ghosts are measured only where their flux decides: SelectBrightest and SelectByFlux. What counts is what they add to
-// the picture's channels inside the frame, by the lights' values and spectra and by their looks: a ghost is as bright
-// as its largest share of the flux of all ghosts in any channel. tables: of the lights' wavelengths. Errors: Cancelled.
+// Ghosts are measured only where their flux decides: SelectBrightest and SelectByFlux. Their flux is what they add to
+// the picture's channels inside the frame, with the lights' values and spectra and the ghosts' adjustments: a ghost is
+// as bright as its largest fraction, in any channel, of the flux of all ghosts. tables: those of the lights'
+// wavelengths. Errors: Cancelled.
 [[nodiscard]] Result<GhostChoice> select_ghosts(const LensState& lens, std::span<const PlannedLight> lights,
                                                 const TablesByWavelength& tables, const FrameSettings& settings,
                                                 const Context& context);

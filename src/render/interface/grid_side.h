@@ -1,4 +1,4 @@
-// How many rays a side a ghost's grid has: bodonyi2023 eq. 13.
+// The number of rays on a side of a ghost's grid: bodonyi2023 eq. 13.
 #pragma once
 
 #include "contrejour/lens.h"
@@ -8,10 +8,11 @@
 
 namespace contrejour {
 
-// Rays a side from 4, which do for well-behaved ghosts (hullin2011 7.1), to 512; sigma and phi in their ranges.
+// Checks that there are from 4 rays a side, enough for well-behaved ghosts (hullin2011 7.1), to 512, and that sigma and
+// phi are within their ranges.
 [[nodiscard]] Result<void> check_grid(const GridOptions& grid);
 
-// grid.rays, or with grid.scale fewer, down to `fewest`, by the fraction of the sensor that the ghost covers.
+// grid.rays; with grid.scale fewer rays, but at least `fewest`, by the fraction of the sensor that the ghost covers.
 [[nodiscard]] int grid_side(const GridOptions& grid, const LensState& lens, const Rectangle& on_sensor, int fewest);
 
 }  // namespace contrejour

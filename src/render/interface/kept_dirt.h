@@ -1,4 +1,4 @@
-// The dirt of a lens with sharp shadows, a section of RenderCache: thousands of shapes sorted into cells.
+// The dirt of a lens with sharp shadows, a section of RenderCache: it keeps thousands of shapes sorted into cells.
 // Thread-safety: field() from one thread at a time.
 #pragma once
 
@@ -10,7 +10,7 @@ namespace contrejour {
 
 class KeptDirt {
  public:
-  // All that a DirtField depends on.
+  // Everything that a DirtField depends on.
   struct Key {
     Dirt dirt;
     double stop_radius_mm = 0.0, stop_rim_mm = 0.0;
@@ -21,7 +21,7 @@ class KeptDirt {
 
   explicit KeptDirt(const Key& /*key*/) {}
 
-  // Made when it is first asked for; null where the lens is clean. lens: one with this section's key.
+  // Makes the field on the first call; null where the lens is clean. lens: one with this section's key.
   [[nodiscard]] std::shared_ptr<const DirtField> field(const LensState& lens);
 
  private:

@@ -3,7 +3,7 @@
 namespace contrejour {
 namespace {
 
-constexpr std::size_t kMaxKept = 2048;  // of a lens with ten kinds of surfaces 160 MB; a frame has 1024 at most
+constexpr std::size_t kMaxKept = 2048;  // 160 MB for a lens with ten kinds of surfaces; a frame has at most 1024
 
 }  // namespace
 

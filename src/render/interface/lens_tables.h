@@ -1,6 +1,6 @@
-// What does not change from frame to frame as long as a lens's surfaces reflect alike, a section of RenderCache:
-// reflectances by wavelength, as tables for tracing and as means for planning.
-// Thread-safety: from one thread at a time; what it hands out may be used from any.
+// A lens's reflectances by wavelength, as tables for tracing and as means for planning: a section of RenderCache, valid
+// from frame to frame as long as the surfaces reflect the same. Thread-safety: from one thread at a time; the tables
+// that it returns may be used from any.
 #pragma once
 
 #include <cstddef>
@@ -16,8 +16,8 @@ namespace contrejour {
 
 class LensTables {
  public:
-  // A lens as far as reflectances depend on it: glasses, coatings, and which surfaces have a rim of their own. Focus,
-  // zoom, stop, iris and dirt are no part of it.
+  // The properties of a lens that reflectances depend on: glasses, coatings, and which surfaces have a rim of their
+  // own. They do not depend on focus, zoom, stop, iris and dirt.
   class Key {
    public:
     Key(const LensState& lens);  // NOLINT: converts
@@ -30,12 +30,12 @@ class LensTables {
 
   explicit LensTables(const Key& key);
 
-  // Each table is made when it is first asked for.
+  // Each table is made on first use.
   [[nodiscard]] const TablesByWavelength& tables() const { return tables_; }
   [[nodiscard]] ReflectedShares reflected(std::span<const double> lambda_nm);
 
-  // For a new frame: forgets all once it holds more wavelengths than a few frames have. Tables that were handed out
-  // stay.
+  // Is called before a new frame: clears the tables if they hold more wavelengths than a few frames have. Tables that
+  // were handed out stay valid.
   void forget_if_large();
 
  private:

@@ -62,7 +62,7 @@ Result<void> check_light(const Light& light, ColourSpace space) {
   return check_extent(light);
 }
 
-// A light to the right sends its light to the left: direction is away from it.
+// The direction is that in which light travels: a light on the right sends its light to the left.
 Vec3 direction_from_angles(double azimuth_rad, double elevation_rad) {
   return {-std::sin(azimuth_rad) * std::cos(elevation_rad), -std::sin(elevation_rad),
           std::cos(azimuth_rad) * std::cos(elevation_rad)};

@@ -1,4 +1,4 @@
-// What a renderer is to the registry (render/driver/registry.h): a name, traits, default options, and a function that
+// A renderer as the registry knows it (render/driver/registry.h): a name, traits, default options, and a function that
 // draws a plan. A renderer that has options of its own type exports method_of<Options, draw>(traits).
 #pragma once
 
@@ -14,7 +14,7 @@ struct Method {
   std::string_view name;
   MethodTraits traits;
   MethodOptions (*default_options)();
-  // Errors: those of the renderer; InvalidArgument for options of another type than the default ones.
+  // Errors: those of the renderer; InvalidArgument if the options are not of the type of the default ones.
   Result<DrawnFlare> (*draw)(const PlannedFrame& frame, const MethodOptions& options, const Context& context);
 };
 

@@ -12,16 +12,16 @@ namespace contrejour {
 namespace {
 
 constexpr std::size_t kFewest = 3;      // bands of a ghost
-constexpr double kApart_px = 1.5;       // the most between the images at a band's ends
-constexpr std::size_t kRayWavelengths = 7;     // wavelengths with rays
+constexpr double kApart_px = 1.5;       // the largest distance between the images at the two ends of a band
+constexpr std::size_t kRayWavelengths = 7;     // wavelengths at which rays are traced
 constexpr int kSide = 9;                // rays a side
-constexpr float kNearlyThrough = 0.2F;  // RayGrid::blocked of rays that show where the image is
+constexpr float kNearlyThrough = 0.2F;  // the largest RayGrid::blocked of rays that count
 
-// The transmission of a ghost in every pass and the shift of its image, from a few rays.
+// A ghost's transmittance in every pass and the displacement of its image over the spectrum, estimated from a few rays.
 struct GhostSpectrum {
   WavelengthSamples samples;
-  std::vector<double> carried;  // one a pass: the mean transmission
-  double shift_mm = 0.0;        // of the image, from the first pass to the last
+  std::vector<double> carried;  // the mean transmittance, one for each pass
+  double shift_mm = 0.0;        // largest displacement of a ray's image between two passes
 };
 
 double mean_transmission(const RayGrid& grid) {
@@ -42,13 +42,13 @@ double shift_mm(const RayGrid& a, const RayGrid& b) {
   return largest;
 }
 
-// One ghost of one light.
+// Traces the rays of one ghost of one light.
 class GhostProbe {
  public:
   GhostProbe(const FramePlan& plan, const LensState& lens, const Ghost& ghost, const PlannedLight& light)
       : plan_(plan), lens_(lens), ghost_(ghost), light_(light), window_(entrance_window(lens, light.source)) {}
 
-  // None where nothing gets through.
+  // nullopt where nothing gets through.
   [[nodiscard]] std::optional<GhostSpectrum> spectrum() const {
     const auto pupil = this->pupil();
     if (!pupil) return std::nullopt;
@@ -71,7 +71,7 @@ class GhostProbe {
   }
 
  private:
-  // At the middle wavelength; where nothing of it gets through, at one of the ends.
+  // The pupil at the middle wavelength or, if that is empty, at one of the ends of the spectrum.
   [[nodiscard]] std::optional<Rectangle> pupil() const {
     RayGrid scratch;
     for (const PlannedPass* pass :
@@ -91,7 +91,7 @@ class GhostProbe {
   IrisShape iris_{Iris{}};
 };
 
-// The passes from first to last without it in one, at their middle.
+// One pass, at the middle one, for the passes from `first` to the one before `last`.
 PlannedPass joined(std::span<const PlannedPass> passes, std::span<const double> carried, std::size_t first,
                    std::size_t last) {
   std::size_t at = (first + last) / 2;
@@ -109,7 +109,7 @@ PlannedPass joined(std::span<const PlannedPass> passes, std::span<const double> 
   return out;
 }
 
-// The bands of the passes from first to last without it.
+// Appends the bands that the passes from `first` to the one before `last` are joined to.
 void add_bands(std::span<const PlannedPass> passes, const GhostSpectrum& spectrum, double apart_mm, std::size_t first,
                std::size_t last, std::vector<PlannedPass>& out) {
   const auto& samples = spectrum.samples;

@@ -1,4 +1,4 @@
-// A light as renderers take it: at which wavelengths it is drawn, and by what factor flux becomes pixel values.
+// A light as renderers use it: the wavelengths at which it is drawn, and the factors from flux to pixel values.
 #pragma once
 
 #include <vector>
@@ -8,18 +8,19 @@
 
 namespace contrejour {
 
-// A ghost, a light and a wavelength: the unit of rendering work.
+// One wavelength at which a ghost of a light is rendered, with its gains.
 struct PlannedPass {
   double lambda_nm = 550;
-  // Pixel value per mm^2 of flux (E0 = 1, LightSource's flux included) that a ghost path puts into the pixel:
-  // gain[c] = V[c] * w[c] / sum over bands of w[c] * Phi, times GhostOptions::edge_gain; looks come on top.
+  // The value that a ghost adds to a pixel per mm^2 of flux that falls on it (E0 = 1, LightSource's flux included):
+  // gain[c] = V[c] * w[c] / sum over bands of w[c] * Phi, times GhostOptions::edge_gain. The ghosts' adjustments are
+  // further factors.
   Rgb gain{};
-  double spread_nm = 0;  // root mean square, of the wavelengths it stands for about its own
+  double spread_nm = 0;  // root mean square distance of the wavelengths it represents from its own
 };
 
 struct PlannedLight {
   LightSource source;
-  std::vector<PlannedPass> passes;  // by rising wavelength
+  std::vector<PlannedPass> passes;  // in order of wavelength
 };
 
 }  // namespace contrejour

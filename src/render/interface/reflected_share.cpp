@@ -9,7 +9,8 @@
 namespace contrejour {
 namespace {
 
-// In the medium of the lower index: rays of one angle there meet both sides of a lens alike.
+// Cosines of the angle in the medium of lower index: a ray at one such angle meets both sides of a lens in the same
+// way.
 constexpr std::array kCosines{0.85, 0.8875, 0.925, 0.9625, 1.0};
 
 double mean_reflectance(const SurfaceState& surface, double lambda_nm) {
@@ -25,7 +26,7 @@ double mean_reflectance(const SurfaceState& surface, double lambda_nm) {
   return sum / kCosines.size();
 }
 
-// Surfaces that reflect alike are computed once.
+// Surfaces with the same reflectance are computed once.
 std::vector<double> mean_reflectances(const LensState& lens, double lambda_nm) {
   std::vector<double> all;
   for (const SurfaceState& surface : lens.surfaces) {

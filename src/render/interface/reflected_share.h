@@ -1,4 +1,4 @@
-// About which share of a wavelength's light the surfaces of a ghost reflect: what wavelengths weigh beside each other
+// An approximate reflectance of a ghost's two reflections at a wavelength: it weights wavelengths against each other
 // before any ray is traced.
 #pragma once
 
@@ -17,16 +17,16 @@ class ReflectedShares {
   ReflectedShares() = default;
   ReflectedShares(const LensState& lens, std::span<const double> lambda_nm) { add(lens, lambda_nm); }
 
-  // Those of the same lens at more wavelengths.
+  // Adds more wavelengths of the same lens.
   void add(const LensState& lens, std::span<const double> lambda_nm);
   [[nodiscard]] std::size_t size() const { return by_wavelength_.size(); }
 
-  // The product of its surfaces' mean reflectances up to 32 degrees from normal incidence. lambda_nm: one of those
-  // given.
+  // The product of the mean reflectances of its surfaces, up to 32 degrees from normal incidence. lambda_nm: one that
+  // was given before.
   [[nodiscard]] double of(const Ghost& ghost, double lambda_nm) const;
 
  private:
-  std::map<double, std::vector<double>> by_wavelength_;  // one a surface; 1 of the stop
+  std::map<double, std::vector<double>> by_wavelength_;  // one for each surface; 1 for the stop
 };
 
 }  // namespace contrejour

@@ -1,7 +1,7 @@
-// What frames that are rendered one after the other have in common, so that it is made only once.
-// A section is a class of the layer that fills it. Its type Key says all that its contents depend on, comparable with
-// ==; it is made from a key, and starts anew once another key is asked for. Thread-safety: section() from one thread at
-// a time; what a section itself allows, its own header states.
+// What successive frames have in common, so that it is computed only once. A section is a class of the layer that fills
+// it. Its type Key contains everything that the section's contents depend on and is comparable with ==; a section is
+// made from a key, and is replaced once another key is requested. Thread-safety: section() from one thread at a time;
+// each section's header states what the section itself allows.
 #pragma once
 
 #include <any>
@@ -13,7 +13,7 @@ namespace contrejour {
 
 class RenderCache {
  public:
-  // The section of that type for a key. Whoever holds one of an older key keeps it as it is.
+  // The section of this type for a key. A caller that holds the section of an older key keeps it unchanged.
   template <class Section>
   [[nodiscard]] std::shared_ptr<Section> section(const typename Section::Key& key) {
     std::any& slot = sections_[typeid(Section)];
@@ -23,7 +23,7 @@ class RenderCache {
     return kept->section;
   }
 
-  // The section as it is now; null if nobody has asked for it yet.
+  // The present section; null if none has been requested yet.
   template <class Section>
   [[nodiscard]] std::shared_ptr<const Section> find() const {
     const auto found = sections_.find(typeid(Section));

@@ -11,7 +11,7 @@ Phases::iterator find_phase(Phases& phases, const std::string& name) {
   return std::ranges::find(phases, name, &Phases::value_type::first);
 }
 
-// Where the total is, with the time in it.
+// The position of the total, after adding the time to it.
 Phases::iterator total_with(Phases& phases, double ms) {
   const auto total = find_phase(phases, "total");
   if (total != phases.end()) total->second += ms;

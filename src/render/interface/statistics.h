@@ -1,14 +1,14 @@
-// What a render's stages took, put together.
+// Combines the statistics of a render's stages.
 #pragma once
 
 #include "contrejour/render_statistics.h"
 
 namespace contrejour {
 
-// Sums; of what was held at once, the most. Phases of one name become one.
+// Adds counts and times; of memory held at once, takes the maximum. Phases with the same name are added.
 void add(RenderStatistics& sum, const RenderStatistics& one);
 
-// A phase before or after the others, and in their total.
+// Adds a phase before or after the others, and its time to their total.
 void count_first(RenderStatistics& statistics, const char* phase, double ms);
 void count_last(RenderStatistics& statistics, const char* phase, double ms);
 

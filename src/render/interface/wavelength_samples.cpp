@@ -12,7 +12,7 @@ WavelengthSamples::WavelengthSamples(std::span<const double> lambda_nm, std::siz
   const double middle = 0.5 * (*low + *high), half = std::max(0.5 * (*high - *low), 1e-300);
   for (double& place : place_) place = (place - middle) / half;
 
-  std::vector<double> product(place_.size(), 1.0);  // of the distances from those taken
+  std::vector<double> product(place_.size(), 1.0);  // of the distances from the wavelengths chosen before
   const auto shortest = std::max_element(place_.begin(), place_.end());
   for (auto next = static_cast<std::size_t>(shortest - place_.begin()); order_.size() < most && product[next] > 0.0;) {
     order_.push_back(next);

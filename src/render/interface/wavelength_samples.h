@@ -1,5 +1,6 @@
-// Of many wavelengths the few at which rays are traced. Where rays land and what they carry changes so evenly with
-// 1 / lambda^2, in which dispersion is nearly linear (Cauchy), that polynomials through some five tell the rest.
+// Chooses a few of many wavelengths to trace rays at. Chief-ray image points and transmittances are smooth functions of
+// 1 / lambda^2, in which dispersion is nearly linear (Cauchy), so that polynomials through about five samples give the
+// values at the other wavelengths.
 #pragma once
 
 #include <cstddef>
@@ -8,23 +9,24 @@
 
 namespace contrejour {
 
-// Wavelengths in Leja's order: first the ends, then each time the one where the polynomial through those before is
-// least founded, so that it may serve as their test (Reichel 1990, "Newton interpolation at Leja points", BIT 30).
+// Wavelengths in Leja's order: the two ends first, then each time the one at which the polynomial through those before
+// is least determined, so that each can test those before it (Reichel 1990, "Newton interpolation at Leja points", BIT
+// 30).
 class WavelengthSamples {
  public:
-  // The first `most` in that order, fewer where not so many differ.
+  // Takes the first `most` in that order, or fewer if there are not as many different wavelengths.
   WavelengthSamples(std::span<const double> lambda_nm, std::size_t most);
 
   // The index among all wavelengths of the k-th in Leja's order.
   [[nodiscard]] std::size_t operator[](std::size_t k) const { return order_[k]; }
   [[nodiscard]] std::size_t size() const { return order_.size(); }
 
-  // Where a wavelength lies in 1 / lambda^2, from -1 to 1: 2 apart are the ends.
+  // The coordinate of a wavelength in 1 / lambda^2, scaled to [-1, 1]: the two ends are 2 apart.
   [[nodiscard]] double place(std::size_t wavelength) const { return place_[wavelength]; }
 
-  // What the values at the first `count` in Leja's order are multiplied by to tell the one at any wavelength.
+  // The weights of the values at the first `count` samples in the interpolation polynomial's value at any wavelength.
   [[nodiscard]] std::vector<double> factors(std::size_t count, std::size_t wavelength) const;
-  // The same for values that films make uneven: those of the straight line between the two neighbours in place.
+  // Weights for values that coatings make uneven: those of linear interpolation between the two neighbouring samples.
   [[nodiscard]] std::vector<double> shares(std::size_t count, std::size_t wavelength) const;
 
  private:
