@@ -7,7 +7,7 @@
 namespace contrejour::bundle {
 namespace {
 
-// Ghosts that grow by more between bands go through a focus: their centres alone are followed.
+// A ghost that grows by more than this from band to band passes through a focus: only its centre is followed then.
 constexpr double kMostGrowth = 2.0;
 
 double growth(double from, double to) {
@@ -20,7 +20,7 @@ struct HalfGap {
   Vec2 shift, growth;
 };
 
-// From one band half way to another.
+// The motion from one band half way to another.
 HalfGap half_gap(const MapFigures& from, const MapFigures& to, const Frame& frame) {
   return {(frame.pixel_from_sensor(to.centre_mm) - frame.pixel_from_sensor(from.centre_mm)) * 0.5,
           Vec2{growth(from.spread_mm.x, to.spread_mm.x), growth(from.spread_mm.y, to.spread_mm.y)} * 0.5};
@@ -30,7 +30,8 @@ Vec2 moved(Vec2 p, Vec2 centre, Vec2 shift, Vec2 by) {
   return {p.x + shift.x + (p.x - centre.x) * by.x, p.y + shift.y + (p.y - centre.y) * by.y};
 }
 
-// The frame's pixels that a band's lines may touch: the motion is linear, so the corners' ends are the farthest.
+// The pixels of the frame that light of a box may be moved to. The motion is linear, so that the corners' ends are the
+// farthest.
 PixelBox reached(const PixelBox& band, const BandMotion& motion, const Frame& frame, int border) {
   Vec2 low{1e30, 1e30};
   Vec2 high{-1e30, -1e30};

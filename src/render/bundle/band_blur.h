@@ -1,5 +1,5 @@
-// hullin2011 4.2, spectral rendering: a few wavelength bands, each blurred along the way to its neighbours so that
-// the gaps between them are bridged.
+// hullin2011 4.2, spectral rendering: a few wavelength bands, each blurred along the displacement to its neighbours so
+// that the gaps between them are bridged.
 #pragma once
 
 #include <optional>
@@ -12,29 +12,29 @@
 
 namespace contrejour::bundle {
 
-// With more bands than this the gaps are small, and nothing is blurred.
+// With more bands than this the gaps are small, and no band is blurred.
 inline constexpr std::size_t kMostBlurredBands = 7;
 
-// Where a point of a ghost in one band lies in a neighbouring one, by the ghosts' centres and sizes in both.
+// The displacement of a ghost's points from one band to its neighbours, from the ghosts' centres and sizes in both.
 struct BandMotion {
   Vec2 centre_px;    // in this band
   Vec2 to_before{}, to_after{};              // displacement of the centre to the middle of the gap, pixels
-  Vec2 growth_before{}, growth_after{};      // and of a point one pixel from the centre
+  Vec2 growth_before{}, growth_after{};      // what the displacement gains per pixel from the centre
 
   [[nodiscard]] Vec2 start(Vec2 p) const;    // of the line that a point is spread over
   [[nodiscard]] Vec2 end(Vec2 p) const;
 };
 
-// One for each band, in order of wavelength; bands without light (nullopt) and those without neighbours stay as
-// they are. At either end of the spectrum the line goes as far out as in.
+// One for each band, in order of wavelength; bands without light (nullopt) and bands without neighbours are not
+// blurred. At either end of the spectrum the line is extended outwards by as much as inwards.
 [[nodiscard]] std::vector<std::optional<BandMotion>> band_motions(std::span<const std::optional<MapFigures>> bands,
                                                                   const Frame& frame);
 
-// The farthest that flux moves from its pixel, anywhere in the full frame.
+// The longest distance that flux moves from its pixel, anywhere in the full frame.
 [[nodiscard]] double longest_way_px(const BandMotion& motion, const Frame& frame);
 
-// Every pixel's flux spread evenly over its line. The band is drawn with a border of so many pixels around the
-// frame; what leaves the frame is lost.
+// Spreads every pixel's flux evenly over its line. The band is drawn with a border of `border` pixels around the frame;
+// light that leaves the frame is lost.
 // Differs: the paper's kernel is one for the whole ghost; here it follows the ghost's growth as well.
 [[nodiscard]] FluxBox blurred(const FluxBox& band, const BandMotion& motion, const Frame& frame, int border);
 

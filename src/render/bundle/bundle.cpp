@@ -18,7 +18,7 @@ using bundle::Counts;
 using bundle::RenderedItem;
 using bundle::Stopwatch;
 
-// hullin2011's precomputation, for the angles of the lights at hand and all below: none unless asked for.
+// hullin2011's precomputed pupil bounds, for all angles up to those of the lights; nullopt unless requested.
 std::optional<PupilBounds> bounds_for(const FramePlan& plan, const LensState& lens, const BundleOptions& options,
                                       const Context& context) {
   if (!options.precomputed_bounds || !lens.has_axial_symmetry()) return std::nullopt;
@@ -50,7 +50,7 @@ struct PhaseTimes {
   double bounds_ms = 0, items_ms = 0, accumulate_ms = 0;
 };
 
-// Search, trace and raster run side by side on all threads: each gets its share of the time that went by.
+// Search, tracing and rasterisation run in parallel on all threads: each is given its fraction of the elapsed time.
 std::vector<std::pair<std::string, double>> named(const PhaseTimes& times, const Counts& counts, double total_ms) {
   const double busy_ms = counts.search_ms + counts.trace_ms + counts.raster_ms;
   const double scale = busy_ms > 0.0 ? std::max(0.0, times.items_ms - times.accumulate_ms) / busy_ms : 0.0;

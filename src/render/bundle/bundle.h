@@ -4,8 +4,8 @@
 
 namespace contrejour {
 
-// hullin2011: a uniform grid of rays per ghost, light and wavelength, its cells rasterised with interpolated
-// aperture coordinates and clipping, ghost by ghost.
+// hullin2011: a uniform grid of rays for each ghost, light and wavelength; its cells are rasterised with interpolated
+// aperture coordinates and clipped, ghost by ghost.
 [[nodiscard]] Result<DrawnFlare> render_bundle(const PlannedFrame& planned, const BundleOptions& options,
                                                const Context& context);
 

@@ -8,7 +8,7 @@
 namespace contrejour::bundle {
 namespace {
 
-// Two tangents of a circle of radius r >= 1 leave its arc by less than 3e-4 where they are this over sqrt(r) apart.
+// Tangents of a circle of radius r >= 1 deviate from its arc by less than 3e-4 if their spacing is this over sqrt(r).
 constexpr double kTangentStep_rad = 0.05;
 constexpr double kFar = std::numeric_limits<double>::infinity();
 
@@ -20,7 +20,7 @@ double share_of_triangle(std::span<const Vec2> uv) {
   return std::abs(twice);  // the whole triangle's is 1/2
 }
 
-// Keeps where a function that is linear over the triangle is <= 0. Sutherland-Hodgman.
+// Keeps the part where a function that is linear over the triangle is <= 0 (Sutherland-Hodgman).
 void TriangleClipper::cut(double at_0, double at_1, double at_2) {
   if (at_0 <= 0.0 && at_1 <= 0.0 && at_2 <= 0.0) return;
   const auto value = [&](Vec2 p) { return at_0 + p.x * (at_1 - at_0) + p.y * (at_2 - at_0); };
@@ -45,7 +45,7 @@ void TriangleClipper::cut_by_circle(const std::array<Vec2, 3>& stop, Vec2 centre
   double reach = 0.0;
   for (const Vec2 p : stop) reach = std::max(reach, length(p - centre - middle));
   const double distance = length(middle);
-  // Seen from the circle's centre the triangle lies within this angle of its middle.
+  // As seen from the circle's centre, the triangle lies within this angle of its middle.
   const double half_angle = distance > 1.5 * reach ? std::asin(reach / distance) : std::numbers::pi;
   const double step_rad = kTangentStep_rad / std::sqrt(std::max(radius, 1.0));
   const int tangents = 1 + static_cast<int>(std::ceil(2.0 * half_angle / step_rad));

@@ -1,4 +1,4 @@
-// The open part of a triangle of rays: what the rims and the iris leave of it.
+// The open part of a triangle of rays: what the rims and the iris let pass of it.
 #pragma once
 
 #include <array>
@@ -13,18 +13,18 @@ namespace contrejour::bundle {
 
 using Triangle = std::array<std::size_t, 3>;  // vertices of a RayGrid
 
-// Clips in the triangle's own coordinates (u, v): vertex 0 + u (vertex 1 - vertex 0) + v (vertex 2 - vertex 0).
-// r_rel and the stop coordinates are interpolated linearly (hullin2011 4.1), so every rim and every straight edge of
-// the iris cuts along a straight line; arcs are cut by tangents, as many as their bend within the triangle needs.
+// Clips in the triangle's own coordinates (u, v): vertex 0 + u (vertex 1 - vertex 0) + v (vertex 2 - vertex 0). r_rel
+// and the stop coordinates are interpolated linearly (hullin2011 4.1), so every rim and every straight edge of the iris
+// cuts along a straight line; arcs are cut by tangents, whose number depends on the arc's angle within the triangle.
 class TriangleClipper {
  public:
   explicit TriangleClipper(const IrisShape& iris) : iris_(iris) {}
 
-  // A convex polygon of the open part, and the share of light that passes there.
+  // A convex polygon of the open part, and its transmittance.
   using OpenPart = std::function<void(std::span<const Vec2> uv, double open)>;
 
-  // One, none when nothing is open, or more for a picture, whose details are told apart down to `finest` of the
-  // triangle; they do not overlap.
+  // Visits one part, or none when nothing is open; with a picture as the iris more parts, which do not overlap, with
+  // details down to `finest`, a fraction of the triangle.
   void for_each_open_part(const RayGrid& grid, const Triangle& triangle, double finest, const OpenPart& visit);
 
  private:
@@ -41,7 +41,7 @@ class TriangleClipper {
   std::vector<Vec2> polygon_, next_;
 };
 
-// Area of a polygon in (u, v) as a share of the triangle's.
+// The area of a polygon in (u, v) over that of the triangle.
 [[nodiscard]] double share_of_triangle(std::span<const Vec2> uv);
 
 }  // namespace contrejour::bundle

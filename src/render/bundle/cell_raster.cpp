@@ -10,16 +10,17 @@
 namespace contrejour::bundle {
 namespace {
 
-// Cells around a vertex that differ by more than this in area do not sample a smooth map.
+// The map is not smooth where the areas of the cells around a vertex differ by more than this factor.
 constexpr float kSmoothRatio = 1.5F;
-// A change of irradiance within a smaller cell, in pixels of area, is not seen.
+// Changes of irradiance within a cell smaller than this, in pixels of area, are not visible.
 constexpr double kShadedCell_px = 4.0;
-// Below this share of its extent squared a polygon's area is mostly rounding: it is spread along itself.
+// If a polygon's area is below this fraction of its extent squared, it is mostly rounding error: the polygon is drawn
+// as a line.
 constexpr double kSliver = 1e-7;
 constexpr double kUnseenDetail_px = 0.3;
 constexpr int kRowsBetweenStops = 16;
-constexpr double kLevel = 1e-3;      // of a screen: what is so close to 1 all over a cell is drawn as 1
-constexpr double kScreenDisc = 1.5;  // of the corners' distance from the middle, for cells that bend
+constexpr double kLevel = 1e-3;      // a stop pattern this close to 1 all over a cell is drawn as 1
+constexpr double kScreenDisc = 1.5;  // times the corners' distance from the middle, for cells that bend
 
 double signed_area(Vec2 a, Vec2 b, Vec2 c) { return 0.5 * cross(b - a, c - a); }
 
@@ -29,7 +30,7 @@ bool in_one_pixel(std::span<const Vec2> p) {
   return std::all_of(p.begin(), p.end(), [&](Vec2 q) { return std::floor(q.x) == x && std::floor(q.y) == y; });
 }
 
-// The two points of a polygon that lie farthest apart.
+// The two points of a polygon that are farthest apart.
 std::array<Vec2, 2> ends_of(std::span<const Vec2> p) {
   std::array<Vec2, 2> ends{p[0], p[0]};
   double longest = 0.0;
@@ -50,7 +51,8 @@ Vec2 mean_of(std::span<const Vec2> p) {
   return sum * (1.0 / static_cast<double>(p.size()));
 }
 
-// The place of a pixel in a triangle, (u, v) from its first corner; for one beside it, the nearest by those.
+// The place of a pixel in a triangle, (u, v) from its first corner; for a pixel outside, the nearest place in these
+// coordinates.
 Vec2 place_in(const std::array<Vec2, 3>& p, Vec2 pixel) {
   const Vec2 u = p[1] - p[0], v = p[2] - p[0], q = pixel - p[0];
   const double determinant = cross(u, v);
@@ -87,7 +89,7 @@ void CellRaster::place_vertices() {
   }
 }
 
-// Closed for certain only where one rim or one crossing of the iris blocks all corners.
+// A cell is certainly closed only if a single rim or a single crossing of the iris blocks all its corners.
 CellRaster::CellState CellRaster::state_of(const std::array<std::size_t, 4>& corners) const {
   const auto all = [&](auto test) { return std::all_of(corners.begin(), corners.end(), test); };
   const float slack = grid_.slack(corners);
@@ -115,8 +117,8 @@ void CellRaster::find_states() {
   }
 }
 
-// hullin2011 4.1 and 4.3: the flux of the cells around a vertex over their area. 0 where one of them is folded,
-// has failed or is much larger than another.
+// hullin2011 4.1 and 4.3: the flux of the cells around a vertex over their area. 0 where one of them is folded, has a
+// failed ray or is much larger than another.
 void CellRaster::find_irradiance() {
   const int n = grid_.cells();
   irradiance_.resize(pixel_.size());
@@ -180,7 +182,7 @@ CellRaster::Cell CellRaster::cell_at(int ix, int iy) const {
   const auto e = [&](std::size_t k) { return irradiance_[cell.vertex[k]]; };
   cell.smooth = e(0) > 0.0F && e(1) > 0.0F && e(2) > 0.0F && e(3) > 0.0F;
   if (!style_.smooth_shading || !cell.smooth || std::abs(cell.signed_area_px) < kShadedCell_px) return cell;
-  // The plane that rises along both diagonals as the vertices do.
+  // The plane whose differences along both diagonals are those of the vertices' irradiances.
   const Vec2 d = pixel_[cell.vertex[2]] - pixel_[cell.vertex[0]];
   const Vec2 f = pixel_[cell.vertex[3]] - pixel_[cell.vertex[1]];
   const double mean = 0.25 * (e(0) + e(1) + e(2) + e(3));
@@ -227,7 +229,7 @@ bool CellRaster::is_dirty(const std::array<std::size_t, 4>& corners) const {
   return false;
 }
 
-// As screened(): what dirt lets through.
+// The transmittance of dirt about a place in a triangle; arguments as for screened().
 double CellRaster::past_dirt(const Triangle& t, Vec2 uv, double pixels) const {
   double passed = 1.0;
   for (std::size_t c = 0; c < dirt_crossings(); ++c) {
@@ -238,7 +240,7 @@ double CellRaster::past_dirt(const Triangle& t, Vec2 uv, double pixels) const {
   return passed;
 }
 
-// Over a polygon that has been drawn without them, as light of negative sign.
+// Subtracts the shadows of dirt from a polygon that was drawn without them: they are drawn as negative light.
 void CellRaster::draw_shadows(FluxBox& out, std::span<const Vec2> polygon, const Triangle& t, const Density& density) {
   const std::array<Vec2, 3> p{pixel_[t[0]], pixel_[t[1]], pixel_[t[2]]};
   std::array<screens::PlaneView, kMaxStopCrossings> views;
@@ -261,7 +263,7 @@ void CellRaster::draw_shadows(FluxBox& out, std::span<const Vec2> polygon, const
                     });
 }
 
-// Over the disc about a cell's crossings of the stop.
+// What the stop pattern is over the disc about a cell's last crossing of the stop.
 ScreenPart CellRaster::screen_part(const std::array<std::size_t, 4>& corners) const {
   const auto crossings = static_cast<std::size_t>(grid_.stop_crossings());
   if (screen_.screen == nullptr || crossings == 0) return ScreenPart::Level;
@@ -275,8 +277,8 @@ ScreenPart CellRaster::screen_part(const std::array<std::size_t, 4>& corners) co
   return part == ScreenPart::Level && crossings > 1 ? ScreenPart::Varied : part;
 }
 
-// The share of a triangle's light about a place in it that the screen lets through, over a pixel or, where that is
-// smaller, the triangle; pixels: its area.
+// The transmittance of the stop pattern about a place in a triangle, averaged over a pixel or, if that is smaller, the
+// triangle; pixels: the triangle's area.
 double CellRaster::screened(const Triangle& t, Vec2 uv, double pixels) const {
   const auto crossings = static_cast<std::size_t>(grid_.stop_crossings());
   std::array<StopPlace, kMaxStopCrossings> places;
@@ -318,13 +320,13 @@ void CellRaster::draw_triangle(FluxBox& out, const Cell& cell, const Triangle& t
   });
 }
 
-// Details of an opening are told apart down to this share of a triangle.
+// The fraction of a triangle below which details of an opening are not resolved.
 double CellRaster::finest(const std::array<Vec2, 3>& p) {
   const double longest = std::max({length(p[1] - p[0]), length(p[2] - p[1]), length(p[0] - p[2])});
   return std::min(1.0, kUnseenDetail_px / std::max(longest, kUnseenDetail_px));
 }
 
-// Part of a triangle's image, with this share of its flux if all of it were open.
+// Draws a part of a triangle's image. share: the part's fraction of the triangle's flux; open: its transmittance.
 void CellRaster::draw_polygon(FluxBox& out, const Cell& cell, const Triangle& t, std::span<const Vec2> polygon,
                               double share, double open) {
   const std::array<Vec2, 3> p{pixel_[t[0]], pixel_[t[1]], pixel_[t[2]]};

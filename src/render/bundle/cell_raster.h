@@ -1,6 +1,6 @@
-// A traced grid onto the frame: every cell's flux over its image, hullin2011 4.1 "rasterization and shading".
-// Within a cell the irradiance follows the vertices' (cell areas averaged to vertices), but the flux of every
-// triangle is its own: where cells fold or differ strongly from their neighbours the irradiance is flat.
+// Rasterises a traced grid: it spreads every cell's flux over the cell's image, hullin2011 4.1 "rasterization and
+// shading". Within a cell the irradiance follows that of the vertices (cell areas averaged to vertices), but the flux
+// of every triangle is its own: where cells fold or differ strongly from their neighbours the irradiance is constant.
 #pragma once
 
 #include <cstdint>
@@ -16,13 +16,13 @@
 namespace contrejour::bundle {
 
 struct CellStyle {
-  bool smooth_shading = true;  // off: every cell is level
+  bool smooth_shading = true;  // off: the irradiance is constant within a cell
   bool points = false;         // every cell's flux goes to the pixel of its middle: hullin2011 7.2
 };
 
-// What stands in the stop in place of a sharp iris; the grid's path is then a widened one (stop_screen.h). And dirt.
-// Either may be null. light, entrance_z_mm: of the grid; turn_rad takes its crossings of the stop and the front into
-// place.
+// What replaces the sharp iris (the grid's path is then a widened one, stop_screen.h), and the dirt. Either may be
+// null. light, entrance_z_mm: those of the grid. turn_rad rotates the grid's crossings of the stop and the front into
+// the lens's orientation.
 struct CellScreen {
   const StopScreen* screen = nullptr;
   const DirtScreen* dirt = nullptr;
@@ -33,11 +33,11 @@ struct CellScreen {
 
 class CellRaster {
  public:
-  // iris: as it stands for the grid's crossings of the stop. shared_flux: LightSource's.
+  // iris: rotated to the grid's crossings of the stop. shared_flux: LightSource's.
   CellRaster(const RayGrid& grid, const IrisShape& iris, const Frame& frame, double shared_flux, CellStyle style = {},
              CellScreen screen = {});
 
-  // Flux in mm^2 at E0 = 1 by pixel, over the part of the frame that the ghost touches. Stops early, with whatever
+  // Flux in mm^2 at E0 = 1 by pixel, over the part of the frame that the ghost touches. Stops early, with the part that
   // is done, once `stop()` is true.
   [[nodiscard]] FluxBox draw(const std::function<bool()>& stop);
 
@@ -87,11 +87,11 @@ class CellRaster {
   const Frame& frame_;
   CellStyle style_;
   CellScreen screen_;
-  bool screens_pixels_ = false;  // the cell at hand: each pixel gets a share of its own
-  bool dirty_ = false;           // the cell at hand
+  bool screens_pixels_ = false;  // the present cell's pixels have transmittances of their own
+  bool dirty_ = false;           // of the present cell
   screens::ShadowCutter shadows_;
   TriangleClipper clipper_;
-  double triangle_weight_mm2_;       // flux of a triangle of transmission 1
+  double triangle_weight_mm2_;       // flux of a triangle of transmittance 1
   std::vector<Vec2> pixel_;          // by vertex
   std::vector<float> area_;          // by cell, signed, pixels; NaN where a ray failed
   std::vector<float> irradiance_;    // by vertex, flux over pixel area; 0 where the map is not smooth

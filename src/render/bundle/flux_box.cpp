@@ -7,15 +7,15 @@
 namespace contrejour::bundle {
 namespace {
 
-// A polygon over more pixels than this a side is cut in two first, so that its coverage stays in the cache.
+// A polygon with a side of more pixels is split in two first, so that its coverage fits into the processor's cache.
 constexpr int kMaxSide = 62;
 constexpr std::size_t kPitch = kMaxSide + 2;
 
-constexpr float kUnseenCover = 1e-6F;  // of a pixel: rounding beside a polygon
+constexpr float kUnseenCover = 1e-6F;  // of a pixel: rounding error outside a polygon
 
 using Polygon = std::vector<Vec2>;
 
-// Sutherland-Hodgman against a line parallel to an axis: sign * (coordinate - bound) >= 0 is kept.
+// Sutherland-Hodgman against a line parallel to an axis: the part where sign * (coordinate - bound) >= 0 is kept.
 template <double Vec2::* coordinate>
 Polygon clipped(std::span<const Vec2> polygon, double bound, double sign) {
   Polygon out;
@@ -35,8 +35,8 @@ Polygon clipped(std::span<const Vec2> polygon, double bound, double sign) {
   return out;
 }
 
-// Signed area to the right of an edge, pixel by pixel, as differences along the row: the running sum over a
-// row is the coverage. One stretch of the edge within a row of pixels, from (x0, .) to (x1, .), dy high.
+// The signed area to the right of an edge, pixel by pixel, as differences along the row, whose running sum is the
+// coverage. This function adds the part of an edge within one row of pixels, from (x0, .) to (x1, .), of height dy.
 void add_stretch(float* row, double x0, double x1, double dy) {
   if (x0 > x1) std::swap(x0, x1);
   const auto first = static_cast<int>(x0);
@@ -47,7 +47,7 @@ void add_stretch(float* row, double x0, double x1, double dy) {
     row[first + 1] += static_cast<float>(right);
     return;
   }
-  // A trapezium a pixel wide: what lies right of the edge in columns first .. last, by the area under the ramp.
+  // A trapezium one pixel wide: the area to the right of the edge in columns first .. last is the integral of a ramp.
   const double slope = dy / (x1 - x0);
   const double in_first = first + 1 - x0;
   double before = 0.5 * slope * in_first * in_first;
@@ -61,12 +61,13 @@ void add_stretch(float* row, double x0, double x1, double dy) {
   }
   const double in_last = x1 - last;
   const double covered = dy - 0.5 * slope * in_last * in_last;
-  // dy - covered of the last column is made up in the next.
+  // The column after the last receives the remaining dy - covered.
   row[last] += static_cast<float>(covered - before);
   row[last + 1] += static_cast<float>(dy - covered);
 }
 
-// Columns of a row that edges touch: a convex polygon's coverage is level between its left and right edges.
+// Notes the columns of a row that edges touch: a convex polygon's coverage is constant between its left and right
+// edges.
 void note_columns(RowSpan& span, double x0, double x1, bool left) {
   if (left) {
     span.left_end = std::max(span.left_end, static_cast<int>(std::max(x0, x1)) + 1);
@@ -102,8 +103,8 @@ struct Ramp {
   float first, slope;
 };
 
-// Adds coverage times irradiance to a row's pixels and clears the coverage. Between the edges the running sum
-// stands still, which leaves a loop without a chain of additions.
+// Adds coverage times irradiance to a row's pixels and clears the coverage. Between the edges the running sum is
+// constant, so that the loop needs no chain of additions.
 void add_row(float* cover, const RowSpan& span, int count, float* out, Ramp ramp) {
   float covered = 0.0F;
   const auto add_summed = [&](int from, int to) {
@@ -123,7 +124,7 @@ void add_row(float* cover, const RowSpan& span, int count, float* out, Ramp ramp
   cover[count + 1] = 0.0F;
 }
 
-// The same for light of which each pixel gets a share of its own.
+// The same row with a transmittance for each pixel.
 template <class Share>
 void add_shared_row(float* cover, int count, float* out, Ramp ramp, const Share& share) {
   float covered = 0.0F;
@@ -220,7 +221,7 @@ void FluxBox::add_inside(std::span<const Vec2> polygon, const Density& density, 
     return;
   }
   const Vec2 origin{static_cast<double>(x0), static_cast<double>(y0)};
-  const double sign = area > 0.0 ? -1.0 : 1.0;  // y down in memory: left edges rise
+  const double sign = area > 0.0 ? -1.0 : 1.0;  // y increases downwards in memory: left edges rise
   for (std::size_t k = 0; k < polygon.size(); ++k) {
     add_edge(cover_.data(), span_.data(), polygon[k] - origin, polygon[k + 1 == polygon.size() ? 0 : k + 1] - origin,
              sign);
@@ -241,7 +242,7 @@ void FluxBox::add_inside(std::span<const Vec2> polygon, const Density& density, 
 // Exact lengths pixel by pixel: the line is cut where it crosses the pixels' borders.
 void FluxBox::add_line(Vec2 from, Vec2 to, double flux) {
   const Vec2 along = to - from;
-  // The part inside the box, as shares of the whole (Liang-Barsky).
+  // The part inside the box, as fractions of the line (Liang-Barsky).
   double t0 = 0.0;
   double t1 = 1.0;
   const auto keep = [&](double start, double change, double low, double high) {

@@ -1,4 +1,4 @@
-// Flux over a rectangle of pixels, and the exact share of a convex polygon that each of them gets.
+// Flux over a rectangle of pixels; the exact part of a convex polygon that falls on each pixel.
 #pragma once
 
 #include <cstddef>
@@ -26,8 +26,8 @@ struct Density {
   Vec2 gradient{};
 };
 
-// The level part of a row of a polygon: the columns between the last that a left edge touches and the first that
-// a right edge does.
+// The part of a polygon's row with constant coverage: the columns between the last that a left edge touches and the
+// first that a right edge touches.
 struct RowSpan {
   int left_end = -1;
   int right_begin = std::numeric_limits<int>::max();
@@ -42,19 +42,19 @@ class FluxBox {
     return {flux_.data() + index(box_.x0, y), static_cast<std::size_t>(box_.width())};
   }
 
-  // Convex, either orientation. Each pixel gets the part of the polygon inside it times the density there; what
-  // lies outside the box is lost.
+  // Adds a convex polygon of either orientation. Each pixel receives the area of the polygon inside it times the
+  // density there; light outside the box is lost.
   void add_polygon(std::span<const Vec2> polygon, const Density& density);
 
-  // The same, each pixel's part times a share that is asked for at its middle.
+  // Adds a convex polygon whose transmittance is evaluated at the middle of each pixel.
   using PixelShare = std::function<double(Vec2 middle)>;
   void add_polygon(std::span<const Vec2> polygon, const Density& density, const PixelShare& share);
 
-  // All the flux in the pixel of the point, or along a line by length: polygons without area.
+  // Adds all the flux to the pixel of the point, or along a line in proportion to length: for polygons without area.
   void add_point(Vec2 point, double flux);
   void add_line(Vec2 from, Vec2 to, double flux);
 
-  // The same flux in pixels `factor` times as large; the frame's corner stays a corner.
+  // The same flux in pixels `factor` times as large; the frame's corner stays at a corner.
   [[nodiscard]] FluxBox coarser(int factor) const;
 
  private:
@@ -69,8 +69,8 @@ class FluxBox {
 
   PixelBox box_;
   std::vector<float> flux_;
-  std::vector<float> cover_;     // signed coverage of the polygon at hand, as differences along each row
-  std::vector<RowSpan> span_;    // where each of its rows is level
+  std::vector<float> cover_;     // signed coverage of the present polygon, as differences along each row
+  std::vector<RowSpan> span_;    // where the coverage of each of its rows is constant
 };
 
 }  // namespace contrejour::bundle

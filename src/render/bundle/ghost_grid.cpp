@@ -9,7 +9,7 @@
 namespace contrejour::bundle {
 namespace {
 
-// Below 32 rays a side a caustic in a small ghost shows the grid as a four-pointed star.
+// With fewer than 32 rays a side a caustic in a small ghost shows the grid as a four-pointed star.
 constexpr int kFewestScaled = 32;
 
 void make_symmetric(Rectangle& r) {

@@ -1,5 +1,5 @@
-// From a ghost, a light and a wavelength to a traced grid: where its rays enter, how many, in which frame.
-// Here hullin2011's accelerations of 4.2 are heeded that concern rays: bounds, grid levels, symmetries.
+// From a ghost, a light and a wavelength to a traced grid: where its rays enter, their number, and the frame of
+// reference. The accelerations of hullin2011 4.2 that concern rays are applied here: bounds, grid levels, symmetries.
 #pragma once
 
 #include <optional>
@@ -21,17 +21,17 @@ struct Counts {
   void add(const Counts& other);
 };
 
-// A ghost's pupil and what a look at it told.
+// A ghost's pupil, and what a coarse grid found about its map.
 struct GhostPupil {
   double lambda_nm = 0;
   OpticalPath path;
-  Meridian meridian;     // of the light; or as it comes, with no turn
-  Iris iris;             // as it stands there
+  Meridian meridian;     // that of the light; or no rotation
+  Iris iris;             // rotated to that meridian
   double plane_z_mm = 0;
   PupilRegion region;
   std::shared_ptr<const StopScreen> screen;  // null: the iris is sharp; else it is a circle, and the path a widened one
   std::shared_ptr<const DirtScreen> dirt;  // null: its shadows are sharp
-  std::optional<MapFigures> figures;  // in the frame of the sensor, where a look was asked for
+  std::optional<MapFigures> figures;  // in the sensor's frame; only if a coarse grid was requested
 };
 
 // What all grids of a frame are traced from; all must outlive the grids.
@@ -40,14 +40,14 @@ struct GridSource {
   const BundleOptions& options;
   const TablesByWavelength& tables;
   const Screens& screens;
-  const PupilBounds* bounds;  // in place of a search, for distant lights where there is no screen; may be null
+  const PupilBounds* bounds;  // replace a search, for distant lights without a stop pattern; may be null
 };
 
 class GhostGrid {
  public:
   GhostGrid(const GridSource& source, double pixel_pitch_mm) : from_(source), pixel_pitch_mm_(pixel_pitch_mm) {}
 
-  // None when nothing gets through. look: figures are wanted whatever the options are.
+  // nullopt when nothing gets through. look: the figures are computed whatever the options are.
   [[nodiscard]] std::optional<GhostPupil> find(Ghost ghost, const LightSource& light, double lambda_nm, bool look);
 
   // Traces the pupil; rays() is valid until the next find() or trace().
@@ -57,7 +57,7 @@ class GhostGrid {
   [[nodiscard]] Counts& counts() { return counts_; }
 
  private:
-  // A lens without axial symmetry has no mirror image.
+  // The mirror image may be used only for a lens with axial symmetry.
   [[nodiscard]] bool mirrors() const { return from_.options.mirror_symmetry && from_.lens.has_axial_symmetry(); }
   [[nodiscard]] const ReflectanceTables& tables_of(const GhostPupil& pupil) const;
   [[nodiscard]] PupilEffort search_effort() const;

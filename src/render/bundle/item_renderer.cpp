@@ -10,13 +10,13 @@
 namespace contrejour::bundle {
 namespace {
 
-// Wavelengths that one item draws before they are added up: fewer, larger additions.
+// Wavelengths that one item draws before they are added to the frame: fewer, larger additions.
 constexpr std::size_t kPassesPerItem = 4;
-// hullin2011 7.2 draws very anisotropic ghosts at a higher resolution: so many pixels in place of one, a side.
+// hullin2011 7.2 draws very anisotropic ghosts at a higher resolution: by this factor on each side.
 constexpr int kFineness = 4;
-// Gaps of less than two pixels between bands are not seen: light that moves less stays where it is.
+// Gaps of less than two pixels between bands are not visible: a band whose light moves by less is not blurred.
 constexpr double kUnseenWay_px = 1.0;
-// Bands are drawn beyond the frame as far as their light may move into it, but no farther than this.
+// Bands are drawn as far beyond the frame as their light may move into it, but no farther than this.
 constexpr double kWidestBorder_px = 256.0;
 
 bool is_blurred(const BundleOptions& options, std::size_t bands) {
@@ -32,7 +32,7 @@ Frame finer(Frame frame, int factor) {
   return frame;
 }
 
-// The frame with a border all round; its pixel (0, 0) is the old one's (-border, -border).
+// The frame with a border on all sides; its pixel (0, 0) is the original frame's (-border, -border).
 Frame bordered(Frame frame, int border) {
   frame.width += 2 * border;
   frame.height += 2 * border;

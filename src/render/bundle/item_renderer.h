@@ -1,4 +1,4 @@
-// One ghost of one light at a few wavelengths, drawn into a box of its own: the unit that threads share.
+// One ghost of one light at a few wavelengths, drawn into a box of its own: the unit of work of the threads.
 #pragma once
 
 #include <optional>
@@ -21,19 +21,19 @@ struct Item {
   bool are_blurred = false;  // into each other
 };
 
-// RGB over the pixels that the item touches.
+// RGB values of the pixels that the item touches.
 struct RenderedItem {
   PixelBox box;
   std::vector<float> rgb;
   Counts counts;
 };
 
-// Every ghost and light of a plan, the passes a few at a time; all at once where bands are blurred into each other.
+// Every ghost and light of a plan, a few passes in an item; all passes in one where bands are blurred into each other.
 [[nodiscard]] std::vector<Item> items_of(const FramePlan& plan, const BundleOptions& options);
 
 class ItemRenderer {
  public:
-  // dirt: null where the lens is clean. item, the source's options, dirt and context must outlive it.
+  // dirt: null where the lens is clean. item, the source's options, dirt and context must outlive the renderer.
   ItemRenderer(const Item& item, const Frame& frame, const GridSource& source, const DirtScreen* dirt,
                const Context& context);
 
@@ -51,7 +51,7 @@ class ItemRenderer {
 
   const Item& item_;
   const BundleOptions& options_;
-  Frame frame_;  // as the ghost is placed in it
+  Frame frame_;  // moved by the ghost's offset
   const Context& context_;
   GhostGrid grid_;
   const DirtScreen* dirt_;  // null: the lens is clean

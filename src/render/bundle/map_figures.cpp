@@ -14,12 +14,12 @@ namespace {
 constexpr double kVeryAnisotropic = 1000.0;
 constexpr int kLowestLevel = 16;
 constexpr int kHighestLevel = 512;
-// The variance up to which the lowest level will do; ten times that for each level more.
+// The variance up to which the lowest level suffices; each further level admits ten times as much.
 constexpr double kLowestVariance = 2e-4;
 constexpr double kRoundPupil = std::numbers::pi / 4.0;
-// The next level follows when more than this many times the rays a side are wanted.
+// The next level is used when the rays wanted on a side exceed this many times those of the present one.
 constexpr double kNearEnough = 1.4;
-// A cell narrower than this, over its length, is a line.
+// A cell with a ratio of width to length below this is a line.
 constexpr double kThinnest = 1e-9;
 
 class MapMeter {
@@ -31,7 +31,8 @@ class MapMeter {
       for (int ix = 0; ix < probe_.cells(); ++ix) add_cell(probe_.corners(ix, iy));
     }
     for (std::size_t k = 0; k < probe_.blocked.size(); ++k) {
-      // By how far inside everything a ray passes: without a hard edge a coarse grid places the centre well.
+      // Weights a ray by its distance from the nearest edge: without a hard edge a coarse grid finds the centre
+      // accurately.
       if (probe_.blocked[k] < 0.0F) add_ray(point(k), -static_cast<double>(probe_.blocked[k]) * probe_.transmission[k]);
     }
     finish();
@@ -53,7 +54,7 @@ class MapMeter {
     figures_.anisotropy = std::max(figures_.anisotropy, stretch_ratio(v));
   }
 
-  // Of the singular values of the cell's mean derivative: sigma1 sigma2 = |det|, sigma1^2 + sigma2^2 = trace.
+  // The singular values of the cell's mean derivative follow from sigma1 sigma2 = |det|, sigma1^2 + sigma2^2 = trace.
   [[nodiscard]] double stretch_ratio(const std::array<std::size_t, 4>& v) const {
     const Vec2 step = probe_.step_mm();
     const Vec2 along_x = (point(v[1]) - point(v[0]) + point(v[2]) - point(v[3])) * (0.5 / step.x);
@@ -100,7 +101,7 @@ MapFigures measure_map(const RayGrid& probe) { return MapMeter(probe).measure();
 int grid_level(const MapFigures& figures) {
   int side = kLowestLevel;
   for (double bound = kLowestVariance; side < kHighestLevel && figures.area_variance > bound; bound *= 10.0) side *= 2;
-  // No open corner at all: the pupil is smaller than a cell of the probe.
+  // If no corner is open, the pupil is smaller than a cell of the probe.
   const double share = std::max(figures.open_share, 1.0 / (kProbeSide * kProbeSide));
   const double wanted = side * std::sqrt(kRoundPupil / share);
   while (side < kHighestLevel && side * kNearEnough < wanted) side *= 2;

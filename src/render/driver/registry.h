@@ -1,4 +1,5 @@
-// The list of renderers. A new renderer adds its line to registry.cpp. Thread-safety: constant.
+// The list of renderers. A new renderer adds its line to registry.cpp.
+// Thread-safety: constant.
 #pragma once
 
 #include <span>

@@ -19,8 +19,8 @@ constexpr int kMostSubsamples = 4;  // a side of the square, where a picture is 
 
 // The fraction of a square about a place that a shape covers; the square lies along the shape. If the square is
 // narrower than the shape, the fraction follows from the distance to the edge; at round ends the distance is shifted
-// inwards so that a disc's fraction integrates to its area. A wider square sees the shape as a rectangle of the same
-// width and area, whose fraction integrates to the area as well.
+// inwards so that a disc's fraction integrates to its area. For a wider square the shape is replaced by a rectangle of
+// the same width and area, whose fraction integrates to the area as well.
 double covered_share(const DirtStroke& s, Vec2 place, double width) {
   const double distance = s.distance_mm(place);
   if (!(width > 0.0)) return distance < 0.0 ? 1.0 : 0.0;

@@ -1,8 +1,8 @@
 // Dirt with sharp shadows: the shapes and the picture of a lens's dirt in the plane that they lie in, and the
 // transmittance of the dirt at any place. A grid of cells lists the shapes that come near each cell. Units: mm of the
 // dirt's plane. Accuracy: a small square is covered as by a rectangle of the shape's width and area; dirt on the front
-// counts within two clear radii of the axis. Thread-safety: constant after construction. Source:
-// docs/physics/diffraction.md, "Dirt".
+// counts within two clear radii of the axis.
+// Thread-safety: constant after construction. Source: docs/physics/diffraction.md, "Dirt".
 #pragma once
 
 #include <cstdint>

@@ -1,8 +1,8 @@
 // The transmittance of a lens's dirt for a ghost's light, by place in the plane that the dirt lies in: with sharp
 // shadows (DirtField), or with the fringes that the ghost's defocus gives them at a wavelength. Light meets dirt in the
 // stop at every crossing of the stop, dirt on the front once, where it enters. Units: mm of the dirt's plane. A
-// renderer multiplies a ghost's light by level(), and by transmission() at places that are not clean. Thread-safety:
-// const members may run at once.
+// renderer multiplies a ghost's light by level(), and by transmission() at places that are not clean.
+// Thread-safety: const members may run at once.
 #pragma once
 
 #include <cstddef>

@@ -1,6 +1,6 @@
 // Recycled image memory: the pictures that a session has written out and does not need any more serve its next frame. A
-// new picture of 25 MB costs some milliseconds, since the system clears its pages first. Thread-safety: from one thread
-// at a time.
+// new picture of 25 MB costs some milliseconds, since the system clears its pages first.
+// Thread-safety: from one thread at a time.
 #pragma once
 
 #include "contrejour/image.h"

@@ -1,6 +1,6 @@
 // A lens's reflectances by wavelength, as tables for tracing and as means for planning: a section of RenderCache, valid
-// from frame to frame as long as the surfaces reflect the same. Thread-safety: from one thread at a time; the tables
-// that it returns may be used from any.
+// from frame to frame as long as the surfaces reflect the same.
+// Thread-safety: from one thread at a time; the tables that it returns may be used from any.
 #pragma once
 
 #include <cstddef>

@@ -11,7 +11,7 @@
 namespace contrejour {
 namespace {
 
-constexpr std::size_t kFewest = 3;      // bands of a ghost
+constexpr std::size_t kFewest = 3;      // at least this many bands
 constexpr double kApart_px = 1.5;       // the largest distance between the images at the two ends of a band
 constexpr std::size_t kRayWavelengths = 7;     // wavelengths at which rays are traced
 constexpr int kSide = 9;                // rays a side
@@ -21,7 +21,7 @@ constexpr float kNearlyThrough = 0.2F;  // the largest RayGrid::blocked of rays 
 struct GhostSpectrum {
   WavelengthSamples samples;
   std::vector<double> carried;  // the mean transmittance, one for each pass
-  double shift_mm = 0.0;        // largest displacement of a ray's image between two passes
+  double shift_mm = 0.0;        // largest shift of a ray's image from first to last pass
 };
 
 double mean_transmission(const RayGrid& grid) {

@@ -1,7 +1,7 @@
 // What successive frames have in common, so that it is computed only once. A section is a class of the layer that fills
 // it. Its type Key contains everything that the section's contents depend on and is comparable with ==; a section is
-// made from a key, and is replaced once another key is requested. Thread-safety: section() from one thread at a time;
-// each section's header states what the section itself allows.
+// made from a key, and is replaced once another key is requested.
+// Thread-safety: section() from one thread at a time; each section's header states what the section itself allows.
 #pragma once
 
 #include <any>

@@ -2,7 +2,8 @@
 // the stop plane with ringing along the opening's edge. A ghost without a pattern has the sharp iris. A renderer traces
 // the ghost along widened(path, reach()) with a round iris, so that every search and every box includes the light
 // outside the opening, and multiplies the irradiance by share() at the places where the light crosses the stop. Rims
-// still block. Thread-safety: const members may run at once.
+// still block.
+// Thread-safety: const members may run at once.
 #pragma once
 
 #include <span>

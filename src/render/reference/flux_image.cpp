@@ -6,7 +6,7 @@
 namespace contrejour::reference {
 namespace {
 
-// A convex polygon of few corners, clipped again and again; the fixed size keeps it off the heap.
+// A convex polygon of few corners, which is clipped repeatedly; its fixed size avoids heap allocation.
 struct Polygon {
   std::array<Vec2, 12> corner;
   int count = 0;
@@ -50,7 +50,7 @@ Bounds bounds_of(const Polygon& p) {
   return b;
 }
 
-// First and last pixel of [low, high] inside an image of this many.
+// The first and the last pixel that [low, high] meets in an image with this number of pixels.
 struct PixelRange {
   int first, last;
 };
@@ -60,7 +60,7 @@ PixelRange pixels_between(double low, double high, int count) {
   return {static_cast<int>(first), static_cast<int>(last)};
 }
 
-// Below this share of its extent squared a polygon's area is mostly rounding.
+// If a polygon's area is below this fraction of its extent squared, it is mostly rounding error.
 constexpr double kSliver = 1e-9;
 constexpr int kSliverSamplesPerPixel = 8;
 
@@ -106,7 +106,7 @@ void FluxImage::add_polygon(std::span<const Vec2> corners, double flux) {
   }
 }
 
-// Evenly spaced points from the corner of a flat polygon that is farthest out to the opposite end.
+// Spreads the flux over evenly spaced points from the farthest corner of a flat polygon to the opposite end.
 void FluxImage::add_sliver(std::span<const Vec2> corners, double flux) {
   Vec2 from = corners[0];
   Vec2 to = corners[0];

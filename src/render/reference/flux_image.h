@@ -1,4 +1,4 @@
-// One ghost's flux over the pixels of a frame, and the exact spreading of a patch of light over them.
+// One ghost's flux over the pixels of a frame, and the exact spreading of a polygon of light over them.
 #pragma once
 
 #include <array>
@@ -13,8 +13,8 @@ class FluxImage {
  public:
   FluxImage(int width, int height);
 
-  // Spreads flux evenly over a convex polygon given in pixels, each pixel getting the share it covers. What
-  // lies outside the image is lost. Any orientation; a polygon without area is spread along itself.
+  // Spreads flux evenly over a convex polygon given in pixels; each pixel gets the fraction that it covers. Light
+  // outside the image is lost. Either orientation; a polygon without area is drawn as a line.
   void add_polygon(std::span<const Vec2> polygon, double flux);
 
   // Adds gain[c] * flux to an interleaved image of three channels.

@@ -12,21 +12,21 @@ namespace contrejour::reference {
 namespace {
 
 constexpr double kFailed = std::numeric_limits<double>::infinity();
-constexpr double kLevel = 1e-4;  // of a screen: what is so close to 1 all over a cell needs no smaller ones
-constexpr double kScreenDisc = 1.5;  // of the corners' distance from the middle, for cells that bend
-constexpr double kNoArea = 1e-300;  // pixels: none is divided by
-constexpr double kNearObscuration = 1.5;  // of its radius, from its edge
-constexpr double kUnseen = 0.25;  // of a cut cell's footprint, of what a picture's edge is known to
+constexpr double kLevel = 1e-4;  // a stop pattern this close to 1 all over a cell needs no smaller cells
+constexpr double kScreenDisc = 1.5;  // times the corners' distance from the middle, for cells that bend
+constexpr double kNoArea = 1e-300;  // pixels; avoids a division by 0
+constexpr double kNearObscuration = 1.5;  // radii from an obscuration's edge
+constexpr double kUnseen = 0.25;  // fraction of a cut cell's footprint, or of the accuracy of a picture's edge
 
-// What is known of one point of the entrance plane.
+// A ray from one point of the entrance plane, as far as cells need it.
 struct Sample {
   Vec2 entrance_mm;
   Vec2 pixel;
   double transmission = 0.0;
   double blocked = kFailed;  // <= 0 gets through; infinite where the ray failed
-  double outside = kFailed;  // the same for the convex hull of the iris's opening, and without obscurations
+  double outside = kFailed;  // as blocked, but for the opening's convex hull and without obscurations
   double obscured = -kFailed;  // how deep within an obscuration, over its radius
-  std::array<Vec2, kMaxStopCrossings> stop{};  // with a picture's distances there, or behind a screen, in stop radii
+  std::array<Vec2, kMaxStopCrossings> stop{};  // for a picture or a stop pattern; in stop radii
   std::array<double, kMaxStopCrossings> distance{};
   std::array<Vec2, kMaxStopCrossings> dirt_mm{};  // where it crosses the dirt's plane
 
@@ -50,7 +50,7 @@ Sample between(const Sample& a, const Sample& b, double t) {
   return s;
 }
 
-// Corners in turn around the cell: low-low, high-low, high-high, low-high in entrance x and y.
+// Corners in order around the cell: low-low, high-low, high-high, low-high in entrance x and y.
 using Corners = std::array<Sample, 4>;
 
 struct Extent {
@@ -108,7 +108,8 @@ class CellWalker {
   [[nodiscard]] CellCounts counts() const { return counts_; }
 
  private:
-  // Over the disc about a cell's crossings of the stop; one that a ray's failure leaves open is neither dark nor level.
+  // What the stop pattern is over the disc about a cell's crossing of the stop; if a ray has failed, it is neither dark
+  // nor level.
   [[nodiscard]] ScreenPart screen_part(const Corners& corners, const Sample& middle) const {
     if (screen_ == nullptr || path_.stop_crossings == 0) return ScreenPart::Level;
     if (!middle.traced()) return ScreenPart::Varied;
@@ -122,8 +123,8 @@ class CellWalker {
     return part == ScreenPart::Level && last > 0 ? ScreenPart::Varied : part;
   }
 
-  // The share that a screen lets through of a triangle's light, from its part that is open: at that part's middle, over
-  // a square as large as the triangle.
+  // The transmittance of the stop pattern for the open part of a triangle: at the middle of that part, averaged over a
+  // square as large as the triangle.
   [[nodiscard]] double screened(const std::array<const Sample*, 3>& triangle, std::span<const Sample> open) const {
     if (screen_ == nullptr) return 1.0;
     const auto crossings = static_cast<std::size_t>(path_.stop_crossings);
@@ -160,8 +161,8 @@ class CellWalker {
     return false;
   }
 
-  // The share of a triangle's light, from its part that is open, that dirt lets through: looked up in kParts^2 parts of
-  // each of that part's own triangles.
+  // The transmittance of dirt for the open part of a triangle: the part is split into triangles, and the transmittance
+  // is looked up in kParts^2 parts of each.
   [[nodiscard]] double past_dirt(std::span<const Sample> open) const {
     if (dirt_ == nullptr) return 1.0;
     double passed = 0.0, all = 0.0;
@@ -191,14 +192,14 @@ class CellWalker {
     return dirt_->transmission({places.data(), dirt_crossings()});
   }
 
-  // What a cell's corners and its middle tell of `blocked`.
+  // Bounds of `blocked` over a cell, from its corners and its middle.
   struct Blocking {
     double lowest = kFailed;  // of the rays that did not fail
-    double highest = -kFailed;  // likewise
+    double highest = -kFailed;  // of the rays that did not fail
     double lowest_outside = kFailed, highest_outside = -kFailed;
-    double slack = 0.0;  // by so much more may it be between them, if the opening is not convex
-    bool dark = false;  // as a picture is near, or all within an obscuration
-    bool near_obscuration = false;  // something of one may lie between them
+    double slack = 0.0;  // how much it may vary in between, if the opening is not convex
+    bool dark = false;  // a picture is dark around here, or all lies within an obscuration
+    bool near_obscuration = false;  // part of an obscuration may lie between the samples
     bool some_failed = false;
   };
 
@@ -208,8 +209,8 @@ class CellWalker {
     s.outside = blocked_by(ray, path_, iris_);
   }
 
-  // Samples may be within different obscurations, or within one on different ways through it, with light between; less
-  // so the deeper they are, and in what is small it is not seen.
+  // Two samples may lie within different obscurations, or at different sides of one, with light between them. This is
+  // the less likely the deeper they lie, and does not matter in small cells.
   void allow_for_obscurations(const Corners& corners, const Sample& middle, Blocking& b) const {
     double least = middle.obscured, most = middle.obscured;
     Extent e;
@@ -234,7 +235,8 @@ class CellWalker {
     }
   }
 
-  // A distance changes by no more than one walks: half the way between the corners that lie farthest apart.
+  // The distance to an edge changes by no more than the distance moved: at most half of that between the corners that
+  // are farthest apart.
   void allow_for_picture(const Corners& corners, Blocking& b) const {
     for (std::size_t c = 0; c < static_cast<std::size_t>(path_.stop_crossings); ++c) {
       double longest = 0.0;
@@ -267,12 +269,13 @@ class CellWalker {
     return b;
   }
 
-  // `blocked` is the largest of some distances from the axis. As far as rays' places at the surfaces change linearly
-  // over a cell, those are convex, and so is it: its middle is at most the mean of any point and the one opposite,
-  // and the latter is at most the highest corner. So it is nowhere below twice its middle less its highest corner,
-  // be the pupil ever so small and all corners alike. What is not linear is allowed for by how much the samples
-  // differ, a share that halves with the cell. A failed ray tells nothing.
-  // A picture's opening is not convex, but its hull is; within that its distances tell.
+  // A lower bound of `blocked` over the cell shows whether it may be open. `blocked` is the largest of several
+  // distances from the axis. If places at the surfaces are linear functions over the cell, these distances are convex
+  // functions, and so is their maximum f. For any point p and the opposite point q, f(middle) <= (f(p) + f(q)) / 2, and
+  // f(q) is at most the highest corner. Hence f(p) >= 2 f(middle) - highest, however small the pupil is and even if all
+  // corners are equal. For the nonlinear part a margin is allowed: the range of the samples, times a factor that halves
+  // with each subdivision. A failed ray gives no bound. A picture's opening is not convex: its convex hull is used for
+  // this bound, and distances to the picture's edges within it.
   [[nodiscard]] bool may_be_open(const Blocking& b, const Sample& middle, int depth) const {
     if (b.lowest <= 0.0) return true;
     if (b.some_failed) return depth < (b.lowest < kFailed ? limits_.look_depth : limits_.blind_depth);
@@ -281,8 +284,8 @@ class CellWalker {
     return 2.0 * middle.outside - b.highest_outside <= std::ldexp(b.highest_outside - b.lowest_outside, -depth);
   }
 
-  // No ray of a cell between dark parts of a picture, or an obscuration and a rim, gets through, and what might is not
-  // seen.
+  // A cell between dark parts of a picture, or between an obscuration and a rim, in which no sample gets through and
+  // which is too small to matter.
   [[nodiscard]] bool is_dark_and_small(const Corners& corners, const Blocking& b) const {
     if ((!iris_.field && !path_.obscured) || b.some_failed || b.lowest <= 0.0 || b.lowest_outside > 0.0) return false;
     Extent e;
@@ -290,7 +293,7 @@ class CellWalker {
     return e.size() < kUnseen * limits_.cut_footprint_px && b.slack < kUnseen * IrisField::kTolerance;
   }
 
-  // Grown by its own size, for the light that bends out of the corners' box.
+  // The extent is enlarged by its own size, for light that falls outside the box of the corners.
   [[nodiscard]] bool outside_frame(const Corners& corners, const Sample& middle) const {
     Extent e;
     for (const Sample& s : corners) {
@@ -306,7 +309,7 @@ class CellWalker {
 
   [[nodiscard]] bool needs_cutting(const Corners& corners, const Sample& middle, const Blocking& blocking,
                                    int depth) const {
-    if (blocking.lowest > 0.0) return true;  // dark so far, yet an opening may be inside
+    if (blocking.lowest > 0.0) return true;  // dark so far, but an opening may be inside
     Extent e;
     Vec2 mean{};
     double mean_blocked = 0.0;
@@ -324,7 +327,7 @@ class CellWalker {
     const bool is_cut = blocking.highest > -blocking.slack;
     const bool is_fine = is_cut || blocking.near_obscuration;
     if (e.size() > (is_fine ? limits_.cut_footprint_px : limits_.footprint_px)) return true;
-    // However small its image, a cell that an edge cuts must hold an all but straight piece of it.
+    // However small its image is, a cell that is cut by an edge must contain a nearly straight piece of it.
     const double bow = std::abs(middle.blocked - mean_blocked);
     if (is_cut && bow > limits_.edge_bend * (blocking.highest - blocking.lowest)) return true;
     return length(middle.pixel - mean) > limits_.bend_px;

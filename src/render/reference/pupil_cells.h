@@ -1,5 +1,5 @@
-// A ghost's light, cell by cell of the entrance plane: the whole window is cut into cells and each cell into
-// smaller ones until its image on the sensor is small and all but straight-edged.
+// A ghost's light, cell by cell of the entrance plane: the whole window is divided into cells, and each cell is
+// subdivided until its image on the sensor is small and has nearly straight edges.
 #pragma once
 
 #include <array>
@@ -15,15 +15,15 @@
 namespace contrejour::reference {
 
 struct CellLimits {
-  int root_cells = 192;            // a side of the window, before any subdivision
+  int root_cells = 192;            // on a side of the window, before any subdivision
   double footprint_px = 4.0;       // longest side of a cell's image
-  double screen_footprint_px = 1.0;  // the same where a screen is neither dark nor level
-  double dirt_footprint_px = 0.35;   // where dirt lies: a triangle's light is spread evenly over it, shadows and all
-  double cut_footprint_px = 1.0;   // the same where a rim or the iris edge cuts the cell
-  double bend_px = 0.1;            // a cell's middle off the mean of its corners
-  double edge_bend = 0.005;        // how far an edge may bow within the cell it cuts, over the cell's size
-  int look_depth = 3;              // dark cells with a ray that fails are searched to this depth
-  int blind_depth = 1;             // likewise where all rays fail
+  double screen_footprint_px = 1.0;  // the longest side where a stop pattern is neither dark nor level
+  double dirt_footprint_px = 0.35;   // the longest side where dirt lies: light is spread evenly over each triangle
+  double cut_footprint_px = 1.0;   // the longest side where a rim or the iris's edge cuts the cell
+  double bend_px = 0.1;            // distance of the middle's image from the mean of the corners'
+  double edge_bend = 0.005;        // bow of an edge within the cell that it cuts, over the cell's size
+  int look_depth = 3;              // depth to which dark cells with a failed ray are searched
+  int blind_depth = 1;             // depth to which cells with failed rays only are searched
   int deepest = 12;                // subdivisions of a root cell
 
   // Density 2 halves every length.
@@ -38,9 +38,9 @@ struct CellCounts {
   std::uint64_t polygons = 0;
 };
 
-// Calls `lit` for every open piece of every cell that may fall inside the frame. Stops early, with whatever has
-// been passed on so far, once `stop()` is true. screen: looked up for every triangle; the path is then a widened one,
-// the iris a circle (stop_screen.h). dirt: looked up for every triangle, too. Both may be null.
+// Calls `lit` for every open piece of every cell that may fall inside the frame. Stops early, with the pieces passed on
+// so far, once `stop()` is true. screen: looked up for every triangle; the path is then a widened one, and the iris a
+// circle (stop_screen.h). dirt: looked up for every triangle. Both may be null.
 CellCounts for_each_lit_polygon(const OpticalPath& path, const Iris& iris, const LightSource& light,
                                 const EntranceWindow& window, const Frame& frame, const CellLimits& limits,
                                 const std::function<bool()>& stop, const LitPolygon& lit,

@@ -4,8 +4,8 @@
 
 namespace contrejour {
 
-// The truth in every test: double precision, dense cells with exact footprints, no shortcut that other
-// renderers use.
+// The reference of all tests: double precision, dense cells with exact footprints, and none of the other renderers'
+// approximations.
 [[nodiscard]] Result<DrawnFlare> render_reference(const PlannedFrame& planned, const ReferenceOptions& options,
                                                   const Context& context);
 

@@ -10,7 +10,7 @@ struct Span {
   std::int32_t first = 0, last = -1;
 };
 
-// Of pixels 0 .. count - 1, those whose middle lies between the least and the largest.
+// Among pixels 0 .. count - 1, those with their middle between the smallest and the largest coordinate.
 Span middles_within(const std::array<float, 4>& corners, int count) {
   if (std::any_of(corners.begin(), corners.end(), [](float c) { return std::isnan(c); })) return {};
   const auto [low, high] = std::minmax_element(corners.begin(), corners.end());

@@ -1,5 +1,5 @@
-// What bodonyi2023 4.1 calls a primitive: a cell of a ghost's ray grid, or a block of cells merged into one, on
-// the frame.
+// What bodonyi2023 4.1 calls a primitive: a cell of a ghost's ray grid, or a block of cells merged into one, on the
+// frame.
 #pragma once
 
 #include <array>
@@ -11,30 +11,30 @@
 
 namespace contrejour::tiled {
 
-// Pixels of the frame whose middle lies within a primitive's bounds, both ends included.
+// Pixels of the frame with their middle within a primitive's bounds, both ends included.
 struct PixelRange {
   std::int32_t x0 = 0, y0 = 0, x1 = -1, y1 = -1;
   [[nodiscard]] bool empty() const { return x1 < x0 || y1 < y0; }
 };
 
-// Of the bounds of four corners. Empty, too, when one is not a number.
+// The pixels within the bounds of four corners. The range is also empty if a coordinate is not a number.
 [[nodiscard]] PixelRange pixels_within(const std::array<float, 4>& x, const std::array<float, 4>& y,
                                        const Frame& frame);
 
 enum PrimitiveFlags : std::uint16_t {
-  kTriangle = 1,  // the fourth corner is the first again
+  kTriangle = 1,  // the fourth corner repeats the first
   kOpen = 2,      // no rim and no crossing of the iris blocks a corner
-  kFront = 4,     // after the other crossings' places come those on the front, mm
+  kFront = 4,     // places on the front, mm, follow those of the other crossings
 };
 
 struct alignas(64) Primitive {
-  std::array<float, 4> x, y;        // pixels; corners in turn, the shoelace area positive
+  std::array<float, 4> x, y;        // pixels; corners in order around the cell, the shoelace area positive
   std::array<float, 4> irradiance;  // flux in mm^2 at E0 = 1, per pixel area
   std::array<float, 4> r_rel;
   std::array<float, 4> stop_x, stop_y;  // at the first crossing of the stop
   PixelRange pixels;
-  std::uint32_t pass = 0;            // whose gain it has
-  std::uint32_t more_crossings = 0;  // where the other crossings' places begin
+  std::uint32_t pass = 0;            // the index of its gain
+  std::uint32_t more_crossings = 0;  // index of the first of the other crossings' places
   std::uint16_t crossings = 0;
   std::uint16_t flags = 0;
 

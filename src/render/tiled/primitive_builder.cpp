@@ -7,17 +7,18 @@
 namespace contrejour::tiled {
 namespace {
 
-// Cells around a vertex that differ by more than this in area do not sample a smooth map.
+// The map is not smooth where the areas of the cells around a vertex differ by more than this factor.
 constexpr float kSmoothRatio = 1.5F;
-// Below this share of its extent squared a primitive's area is mostly rounding: it holds no pixel's middle.
+// If a primitive's area is below this fraction of its extent squared, it is mostly rounding error and contains no
+// pixel's middle.
 constexpr double kSliver = 1e-7;
 
-// Pixels are coloured by what lies at their middles. A streak narrower than the first, evenly lit, may lie between them
-// all, or have all of its light counted many times: it is made as wide as the second, with its flux.
+// Pixels are sampled at their middles. An evenly lit streak narrower than kNarrow_px may lie between all middles, or
+// have all of its light counted several times: it is widened to kWidened_px with its flux unchanged.
 constexpr double kNarrow_px = 0.25, kWidened_px = 3.0;
-constexpr double kMostWidening = 1e6;  // of one with a width that is no more than rounding
+constexpr double kMostWidening = 1e6;  // limits the factor where a width is mere rounding error
 
-// Squared, by the diagonals of the bounds.
+// The square of the diagonal of the bounds.
 double extent_squared(const Primitive& p) {
   const auto [x0, x1] = std::minmax_element(p.x.begin(), p.x.end());
   const auto [y0, y1] = std::minmax_element(p.y.begin(), p.y.end());
@@ -26,8 +27,8 @@ double extent_squared(const Primitive& p) {
   return dx * dx + dy * dy;
 }
 
-// What gamma is measured in: half the frame's width, the unit of a GPU's screen coordinates. The paper names none;
-// in this one its light and heavy thresholds leave about as many primitives as its table 5 tells.
+// The unit of gamma: half the frame's width, that of a GPU's screen coordinates. The paper names none; with this one
+// its light and heavy thresholds leave about as many primitives as its table 5 lists.
 double merge_unit_px(const Frame& frame) { return 0.5 * frame.full_width; }
 
 }  // namespace
@@ -48,7 +49,8 @@ void PrimitiveBuilder::place_vertices(const RayGrid& grid, Vec2 shift_mm) {
   }
 }
 
-// Widens the ghost along each principal axis of its lit vertices that is too narrow for pixels' middles.
+// Widens the ghost along each principal axis of its lit vertices along which it is too narrow for sampling at pixels'
+// middles.
 void PrimitiveBuilder::widen(const RayGrid& grid) {
   double count = 0.0, mx = 0.0, my = 0.0, xx = 0.0, xy = 0.0, yy = 0.0;
   for (std::size_t k = 0; k < x_.size(); ++k) {
@@ -66,7 +68,7 @@ void PrimitiveBuilder::widen(const RayGrid& grid) {
   const double half_turn = 0.5 * std::atan2(2.0 * xy, xx - yy);
   const Vec2 along{std::cos(half_turn), std::sin(half_turn)};
   const double mean = 0.5 * (xx + yy), half_difference = std::hypot(0.5 * (xx - yy), xy);
-  // The variance of an even spread is a twelfth of its width squared.
+  // The variance of a uniform distribution is a twelfth of its width squared.
   const auto times = [&](double squares) {
     const double width_px = std::sqrt(12.0 * std::max(squares, 0.0) / count);
     return width_px < kNarrow_px ? std::min(kWidened_px / std::max(width_px, 1e-12), kMostWidening) : 1.0;
@@ -132,8 +134,8 @@ void PrimitiveBuilder::find_cells(const RayGrid& grid) {
   }
 }
 
-// hullin2011 4.3: the flux of the cells around a vertex over their area. 0 where one of them is folded, has failed
-// or is much larger than another. Beyond the grid's rim the cells count as those inside.
+// hullin2011 4.3: the flux of the cells around a vertex over their area. 0 where one of them is folded, has a failed
+// ray or is much larger than another. Cells beyond the grid's border count as those inside it.
 void PrimitiveBuilder::find_irradiance(const RayGrid& grid) {
   const int n = grid.cells();
   const auto pitch = static_cast<std::size_t>(n) + 2;
@@ -167,9 +169,9 @@ void PrimitiveBuilder::find_irradiance(const RayGrid& grid) {
   }
 }
 
-// bodonyi2023 eq. 11 and 12 for the block of 2 x 2 primitives that one of level `step` would be made of. Of its nine
-// vertices, the edges that correspond in neighbours are those in line and those side by side; side by side, the two
-// directions give the same difference.
+// bodonyi2023 eq. 11 and 12 for a block of 2 x 2 primitives that a primitive of level `step` would replace. Among the
+// edges between its nine vertices, each is compared with the next in its line and with the next parallel to it; the
+// differences of parallel edges are the same for both directions, so one is computed.
 // Differs: the printed sum is signed, so that any change to the left or down would pass; absolute values are meant.
 bool PrimitiveBuilder::is_flat(const RayGrid& grid, int step, int ix, int iy) const {
   const int half = 1 << (step - 1);
@@ -190,8 +192,8 @@ bool PrimitiveBuilder::is_flat(const RayGrid& grid, int step, int ix, int iy) co
   return true;
 }
 
-// Likewise, whether the nine vertices pass all rims and obscurations: what lies between is found by interpolation from
-// the corners alone.
+// Whether the block's nine vertices pass all rims and obscurations: a merged primitive interpolates between the four
+// corners alone.
 bool PrimitiveBuilder::is_open(const RayGrid& grid, int step, int ix, int iy) const {
   const int half = 1 << (step - 1);
   for (int k = 0; k < 9; ++k)
@@ -264,7 +266,8 @@ void PrimitiveBuilder::fill(const RayGrid& grid, std::array<std::size_t, 4> corn
   out_->more_crossings.push_back(front);
 }
 
-// The corners' irradiances follow the vertices', scaled so that the primitive's two triangles hold its flux.
+// The corners' irradiances are proportional to the vertices', scaled so that the primitive's two triangles have its
+// flux.
 void PrimitiveBuilder::emit_quad(const RayGrid& grid, std::array<std::size_t, 4> corners, double flux) {
   double first = twice_area(corners[0], corners[1], corners[2]);
   double second = twice_area(corners[0], corners[2], corners[3]);

@@ -12,20 +12,20 @@
 
 namespace contrejour::tiled {
 
-// What a grid was traced for.
+// The ghost, light and wavelength of a traced grid, as far as primitives need them.
 struct TracedPass {
   double shared_flux = 1;  // LightSource's
   std::uint32_t pass = 0;
   Vec2 shift_mm = {};      // of the ghost, on the sensor
-  const DirtScreen* dirt = nullptr;  // where it lies on the front, whose places are then kept; or null
+  const DirtScreen* dirt = nullptr;  // if it lies on the front, places there are kept; may be null
   LightSource light = {};
   double entrance_z_mm = 0.0;  // of the grid
 };
 
-// Cells of four rays of which at least one gets through; 2 x 2 blocks of them that bend by less than gamma become one,
-// and four such blocks again, `merge_steps` times. A primitive's flux is the sum of its cells' however many there are.
-// Cells that are not convex, or have a ray that failed, stay what they are, in triangles.
-// Buffers are kept between grids; one object a thread.
+// Makes a primitive of each cell of four rays of which at least one gets through. 2 x 2 primitives that bend by less
+// than gamma are merged into one, and four merged ones again, up to `merge_steps` times. A primitive's flux is the sum
+// of its cells' fluxes. Cells that are not convex, or have a failed ray, are not merged and are split into triangles.
+// Buffers are kept between grids; one object for each thread.
 class PrimitiveBuilder {
  public:
   PrimitiveBuilder(const Frame& frame, const TiledOptions& options);
@@ -52,11 +52,11 @@ class PrimitiveBuilder {
   void merge(const RayGrid& grid);
   [[nodiscard]] bool is_flat(const RayGrid& grid, int step, int ix, int iy) const;
   [[nodiscard]] bool is_open(const RayGrid& grid, int step, int ix, int iy) const;
-  void widen(const RayGrid& grid);  // what is too narrow for pixels' middles
+  void widen(const RayGrid& grid);  // a ghost too narrow for sampling at pixels' middles
   [[nodiscard]] double twice_area(std::size_t i, std::size_t j, std::size_t k) const;
   [[nodiscard]] bool is_convex(const std::array<std::size_t, 4>& corners) const;
 
-  // Everything in the block of 2^step cells, appended.
+  // Appends all primitives within the block of 2^step cells a side.
   void emit(const RayGrid& grid, int step, int ix, int iy);
   void emit_quad(const RayGrid& grid, std::array<std::size_t, 4> corners, double flux);
   void emit_triangle(const RayGrid& grid, std::array<std::size_t, 3> corners);
@@ -65,9 +65,9 @@ class PrimitiveBuilder {
   const Frame& frame_;
   int merge_steps_;
   float merge_threshold_px_;
-  double triangle_weight_mm2_ = 0;   // flux of half a cell of transmission 1
+  double triangle_weight_mm2_ = 0;   // flux of half a cell of transmittance 1
   std::vector<float> x_, y_;         // by vertex, pixels
-  std::vector<float> area_;          // by cell with a rim one cell wide, signed, pixels; NaN where a ray failed
+  std::vector<float> area_;          // by cell with a border of one cell, signed, pixels; NaN where a ray failed
   std::vector<float> irradiance_;    // by vertex, flux over area; 0 where the map is not smooth
   std::vector<CellState> state_;     // by cell
   std::vector<Level> levels_;        // levels_[k]: after k steps

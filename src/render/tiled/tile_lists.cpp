@@ -24,8 +24,8 @@ PixelRange overlap(const PixelRange& a, const PixelRange& b) {
 
 }  // namespace
 
-// Chunks of primitives count side by side, each into counters of its own; a tile's list is that of the first
-// chunk, then that of the second, and so on.
+// Chunks of primitives are counted in parallel, each into its own counters; a tile's list is the concatenation of the
+// chunks' lists in order.
 bool list_by_tile(std::span<const Primitive> primitives, const TileGrid& grid, const Context& context, TileLists& out) {
   const std::size_t tiles = grid.count();
   const std::size_t most_chunks = std::max<std::size_t>(1, kMostCounters / std::max<std::size_t>(1, tiles));
@@ -64,7 +64,7 @@ bool list_by_tile(std::span<const Primitive> primitives, const TileGrid& grid, c
   });
 }
 
-// Every dense tile belongs to one coarse tile, so coarse tiles can count and fill side by side.
+// Every small tile belongs to one coarse tile, so that coarse tiles can be counted and filled in parallel.
 bool refine_lists(std::span<const Primitive> primitives, const TileGrid& coarse_grid, const TileLists& coarse,
                   const TileGrid& grid, const Context& context, TileLists& out) {
   const int ratio = coarse_grid.tile / grid.tile;

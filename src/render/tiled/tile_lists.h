@@ -1,6 +1,6 @@
-// Which primitives touch which tile of the screen: bodonyi2023 4.3. A primitive touches a tile when the middle of one
-// of the tile's pixels lies within the primitive's bounds. Lists are counted, then filled, so that nothing is ever
-// left out, and rise in the primitives' order whatever the threads.
+// Lists the primitives that touch each tile of the frame: bodonyi2023 4.3. A primitive touches a tile when the middle
+// of one of the tile's pixels lies within the primitive's bounds. Lists are counted, then filled, so that no primitive
+// is ever left out; each list is in the order of the primitives, whatever the number of threads.
 #pragma once
 
 #include <cstddef>
@@ -13,7 +13,7 @@
 
 namespace contrejour::tiled {
 
-// Square tiles over a frame, rows from the top; the last of a row and a column may be cut.
+// Square tiles over a frame, rows from the top; the last tile of a row or a column may be cut off.
 struct TileGrid {
   int width = 0, height = 0;  // of the frame, pixels
   int tile = 8;               // pixels a side
@@ -36,7 +36,7 @@ struct TileGrid {
 };
 
 struct TileLists {
-  std::vector<std::uint32_t> begin;  // one a tile, and the end of the last
+  std::vector<std::uint32_t> begin;  // one for each tile, and the end of the last
   std::vector<std::uint32_t> indices;
 
   [[nodiscard]] std::span<const std::uint32_t> of(std::size_t tile) const {
@@ -45,10 +45,10 @@ struct TileLists {
   [[nodiscard]] std::uint64_t bytes() const { return (begin.size() + indices.size()) * sizeof(std::uint32_t); }
 };
 
-// Straight from the primitives. False when the context is cancelled; the lists are then of no meaning.
+// Builds the lists from the primitives. Returns false when the context is cancelled; the lists are then undefined.
 bool list_by_tile(std::span<const Primitive> primitives, const TileGrid& grid, const Context& context, TileLists& out);
 
-// From the lists of larger tiles, whose size is a multiple of the grid's.
+// Builds the lists from those of larger tiles, whose size is a multiple of the grid's.
 bool refine_lists(std::span<const Primitive> primitives, const TileGrid& coarse_grid, const TileLists& coarse,
                   const TileGrid& grid, const Context& context, TileLists& out);
 

@@ -14,7 +14,7 @@
 
 #include "kernels/inline_if_fast.h"
 #include "kernels/packet-inl.h"
-// After packet-inl.h, whose functions its templates use.
+// Must follow packet-inl.h, whose functions its templates use.
 #include "kernels/barycentric-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -25,7 +25,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 using P = hk::Packet<float>;
 using Mask = P::Mask;
 
-constexpr std::size_t kAhead = 4;  // primitives fetched before they are needed
+constexpr std::size_t kAhead = 4;  // primitives to prefetch
 
 HWY_INLINE P broadcast(float value) { return P(hn::Set(P::Tag(), value)); }
 
@@ -34,7 +34,7 @@ HWY_INLINE P interpolate(const hk::Weights<P>& weights, const std::array<float, 
   return hk::weighted_sum(weights, values);
 }
 
-// One place after the other: pictures are looked up in memory.
+// Tests one pixel at a time, since a picture is a look-up in memory.
 HWY_INLINE Mask passes_picture(const IrisShape& iris, P x, P y) {
   const P::Tag d;
   HWY_ALIGN std::array<float, HWY_MAX_BYTES / sizeof(float)> at_x, at_y, distance;
@@ -44,7 +44,7 @@ HWY_INLINE Mask passes_picture(const IrisShape& iris, P x, P y) {
   return hn::Le(hn::Load(d, distance.data()), hn::Zero(d));
 }
 
-// Inside the opening of the iris? Places are `total` times too large.
+// Whether places lie inside the iris's opening. Coordinates are too large by the factor `total`.
 HWY_INLINE Mask passes(const IrisShape& iris, P x, P y, P total) {
   if (iris.is_circle()) return hn::Le((x * x + y * y).v, (total * total).v);
   if (iris.is_picture()) return passes_picture(iris, x / total, y / total);
@@ -55,7 +55,7 @@ HWY_INLINE Mask passes(const IrisShape& iris, P x, P y, P total) {
           x * broadcast(static_cast<float>(bound.normal.x)) + y * broadcast(static_cast<float>(bound.normal.y));
       inside = hn::And(inside, hn::Le(along.v, (total * broadcast(static_cast<float>(bound.apothem))).v));
     } else {
-      // |p - c|^2 <= r^2, multiplied out: centres far away would round.
+      // p - c|^2 <= r^2, multiplied out: with a far centre the difference would lose its digits.
       const P along =
           x * broadcast(static_cast<float>(bound.centre.x)) + y * broadcast(static_cast<float>(bound.centre.y));
       const P power = x * x + y * y +
@@ -85,7 +85,7 @@ HWY_INLINE StopPlaces places_of(const TraversalInput& input, const Primitive& p,
   return crossing == 0 ? StopPlaces{p.stop_x, p.stop_y} : input.buffer.more_crossings[p.more_crossings + crossing - 1];
 }
 
-// A pixel's width in a crossing's units, by areas.
+// A pixel's width in the units of a crossing, from the ratio of areas.
 HWY_INLINE double pixel_at_stop(const Primitive& p, const StopPlaces& places) {
   const auto area = [](const std::array<float, 4>& x, const std::array<float, 4>& y) {
     return 0.5 * std::abs(cross(Vec2{x[2], y[2]} - Vec2{x[0], y[0]}, Vec2{x[3], y[3]} - Vec2{x[1], y[1]}));
@@ -93,7 +93,7 @@ HWY_INLINE double pixel_at_stop(const Primitive& p, const StopPlaces& places) {
   return std::sqrt(area(places.x, places.y) / std::max(area(p.x, p.y), 1.0));
 }
 
-// What a screen lets through of each pixel's light, one after the other.
+// The transmittance of the stop pattern for each pixel, one pixel at a time.
 CONTREJOUR_INLINE_IF_FAST P screened(const TraversalInput& input, const Primitive& p, const StopScreen& screen,
                                      const hk::Weights<P>& weights, Mask inside) {
   const P::Tag d;
@@ -115,7 +115,7 @@ CONTREJOUR_INLINE_IF_FAST P screened(const TraversalInput& input, const Primitiv
   return P(hn::Load(d, share.data()));
 }
 
-// What dirt lets through of each pixel's light, likewise: where it crosses the stop, or the front.
+// The transmittance of dirt for each pixel, where its light crosses the stop or the front, one pixel at a time.
 CONTREJOUR_INLINE_IF_FAST P past_dirt(const TraversalInput& input, const Primitive& p, const hk::Weights<P>& weights,
                                       Mask inside) {
   const P::Tag d;
@@ -138,7 +138,8 @@ CONTREJOUR_INLINE_IF_FAST P past_dirt(const TraversalInput& input, const Primiti
   return P(hn::Load(d, share.data()));
 }
 
-// An edge holds the points on it when it runs upwards, or level to the left. So of two neighbours one does.
+// An edge includes the points on it if it runs upwards, or horizontally to the left, so that a shared edge belongs to
+// exactly one of two neighbours.
 HWY_INLINE float least_on_edge(const Primitive& p, std::size_t i) {
   const std::size_t j = (i + 1) % 4;
   const bool holds = p.y[j] < p.y[i] || (p.y[j] == p.y[i] && p.x[j] <= p.x[i]);
@@ -231,7 +232,8 @@ namespace contrejour::tiled {
 
 HWY_EXPORT(traverse);
 
-// Floats in the longest vector of any instruction set. HWY_MAX_BYTES is that of one set, here the least.
+// The number of floats in the longest vector of any instruction set. HWY_MAX_BYTES is that of one set, here the
+// smallest.
 constexpr std::size_t kLongestVector = 64;
 
 void TilePixels::load(const Image& image, const PixelRange& range) {

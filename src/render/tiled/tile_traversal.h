@@ -1,4 +1,4 @@
-// Every pixel adds up what the primitives of its tile's list put there: bodonyi2023 4.4 and 4.5.
+// Each pixel sums the light of the primitives in its tile's list: bodonyi2023 4.4 and 4.5.
 #pragma once
 
 #include <array>
@@ -19,21 +19,21 @@ namespace contrejour::tiled {
 // Factor from flux to pixel value, by channel.
 using Gain = std::array<float, 3>;
 
-// What all tiles read.
+// The input that all tiles share.
 struct TraversalInput {
   const PrimitiveBuffer& buffer;
   std::span<const Gain> gains;  // by Primitive::pass
   const IrisShape& iris;
-  std::span<const StopScreen* const> screens;  // by Primitive::pass; null ones, or none at all: the sharp iris
-  std::span<const DirtScreen* const> dirt;  // likewise; none at all: the lens is clean
+  std::span<const StopScreen* const> screens;  // by Primitive::pass; a null one, or an empty span: the iris is sharp
+  std::span<const DirtScreen* const> dirt;  // by Primitive::pass; empty: the lens is clean
   TiledOptions::Interpolation interpolation = TiledOptions::Interpolation::LoopDeRose;
 };
 
-// A tile's pixels in rows, one array a channel, with room behind the end for the widest vector. Kept between tiles;
-// one object a thread.
+// A tile's pixels in rows, one array for each channel, with padding at the end for the widest vector. Kept between
+// tiles; one object for each thread.
 class TilePixels {
  public:
-  // Takes the image's values of these pixels, and gives them back.
+  // Loads the image's values of these pixels, and stores them again.
   void load(const Image& image, const PixelRange& pixels);
   void store(Image& image) const;
 
@@ -42,8 +42,8 @@ class TilePixels {
   std::vector<float> x, y;  // middles
 };
 
-// A pixel takes from every primitive that holds its middle, in the list's order, the irradiance there times the
-// gain, unless the interpolated r_rel or stop places say that it is blocked.
+// Each pixel adds, for every primitive of the list that contains its middle, in order, the irradiance there times the
+// gain, unless the interpolated r_rel or stop places show that the light is blocked.
 void traverse_tile(const TraversalInput& input, std::span<const std::uint32_t> list, TilePixels& tile);
 
 }  // namespace contrejour::tiled

@@ -21,11 +21,11 @@
 namespace contrejour {
 namespace {
 
-constexpr int kMostMergeSteps = 9;  // a grid of 512 in one primitive
+constexpr int kMostMergeSteps = 9;  // merges a grid of 512 into one primitive
 constexpr int kLargestTile = 4096;
-// bodonyi2023 eq. 13 ends at this share of the grid.
+// bodonyi2023 eq. 13 uses at least this fraction of the grid's rays.
 constexpr double kFewestShare = 0.05;
-constexpr double kTracingProgress = 0.7;  // of the whole, for the bar
+constexpr double kTracingProgress = 0.7;  // fraction of the whole progress
 
 Result<void> check(const TiledOptions& o) {
   const auto refuse = [](std::string message) { return failure(ErrorCode::InvalidArgument, std::move(message)); };
@@ -73,7 +73,8 @@ struct TracedItem {
   Counts counts;
 };
 
-// What a thread needs to trace an item. Taken and given back, so that memory is touched for the first time once.
+// Scratch memory to trace an item. Threads take and return it, so that each piece is touched for the first time only
+// once.
 struct Workspace {
   RayGrid grid;
   tiled::PrimitiveBuilder builder;
@@ -112,11 +113,11 @@ struct Job {
   const TablesByWavelength& tables;
   IrisShape iris;
   std::vector<Item> items;
-  std::vector<tiled::Gain> gains;  // one an item
+  std::vector<tiled::Gain> gains;  // one for each item
   std::vector<std::shared_ptr<const StopScreen>>
-      screens;  // one an item, null where the iris is sharp; none at all: so everywhere
-  IrisShape round = IrisShape(Iris{});  // for those that have one
-  std::vector<std::shared_ptr<const DirtScreen>> dirt = {};  // one an item; none at all: the lens is clean
+      screens;  // one for each item, null where the iris is sharp; empty: it is sharp for all
+  IrisShape round = IrisShape(Iris{});  // for items with a stop pattern
+  std::vector<std::shared_ptr<const DirtScreen>> dirt = {};  // one for each item; empty: the lens is clean
 };
 
 void list_items(const FramePlan& plan, const Screens& screens, Job& job) {
@@ -176,7 +177,7 @@ TracedItem trace_item(const Job& job, std::size_t index, Workspace& workspace) {
   return out;
 }
 
-// Traces all items; the frame takes their primitives in order and draws whenever it holds enough.
+// Traces all items; the frame takes their primitives in order and draws whenever its buffer is full.
 bool trace_all(const Job& job, tiled::TiledFrame& frame, Counts& counts) {
   Context context = job.context;
   if (context.progress) context.progress = [&](double done) { job.context.progress(kTracingProgress * done); };
@@ -231,7 +232,7 @@ Result<DrawnFlare> render_tiled(const PlannedFrame& planned, const TiledOptions&
   stats.primitives = counts.primitives;
   stats.ghosts_rendered = static_cast<int>(plan.ghosts.size());
   stats.ghosts_skipped_flux = plan.skipped_flux;
-  // Both run side by side on all threads: each gets its share of the time that went by.
+  // Search and tracing run in parallel on all threads: each is given its fraction of the elapsed time.
   const double busy_ms = counts.search_ms + counts.trace_ms;
   const double share = busy_ms > 0.0 ? trace_ms / busy_ms : 0.0;
   stats.time_ms = {{"search", counts.search_ms * share}, {"trace", counts.trace_ms * share}};

@@ -4,8 +4,8 @@
 
 namespace contrejour {
 
-// bodonyi2023: the cells of all ghosts' ray grids, merged where the map is flat, in one buffer; lists of them by
-// screen tile; and every pixel adds up what its tile's list puts there, in one pass over the frame.
+// bodonyi2023: the cells of all ghosts' ray grids, merged where the map is flat, are put into one buffer; they are
+// listed by tile; and each pixel sums the light of its tile's list, in one pass over the frame.
 [[nodiscard]] Result<DrawnFlare> render_tiled(const PlannedFrame& planned, const TiledOptions& options,
                                               const Context& context);
 

@@ -17,8 +17,8 @@
 
 namespace contrejour::tiled {
 
-// With more at hand the tiles are built and traversed before more is taken, so that memory stays bounded. The
-// picture does not change: every pixel goes on with its sum. 256 MiB of primitives, 128 MiB of lists.
+// When the buffer exceeds these limits, tiles are built and traversed before more is added, so that memory stays
+// bounded. The picture does not depend on them: every pixel continues its sum. 256 MiB of primitives, 128 MiB of lists.
 struct HeldLimits {
   std::size_t primitives = 1U << 21U;
   std::uint64_t indices = 1U << 25U;
@@ -26,21 +26,21 @@ struct HeldLimits {
 
 class TiledFrame {
  public:
-  // gains, screens, dirt: by Primitive::pass. All must outlive it.
+  // gains, screens, dirt: by Primitive::pass. All must outlive the frame.
   TiledFrame(const Frame& frame, const TiledOptions& options, const Context& context, const IrisShape& iris,
              std::span<const Gain> gains, const HeldLimits& limits = {},
              std::span<const StopScreen* const> screens = {}, std::span<const DirtScreen* const> dirt = {});
 
-  // Takes primitives, in the order in which pixels add them up.
+  // Appends primitives, in the order in which pixels sum them.
   void add(const PrimitiveBuffer& buffer);
 
-  // Puts the primitives at hand onto the picture. Does nothing once the context is cancelled.
+  // Draws the primitives in the buffer onto the picture. Does nothing once the context is cancelled.
   void draw();
 
   [[nodiscard]] double draw_ms() const { return draw_ms_; }
   [[nodiscard]] Image take_image() { return std::move(image_); }
 
-  // Counts, bytes and the times of the phases.
+  // Writes counts, bytes and the times of the phases.
   void report(RenderStatistics& stats) const;
 
  private:
