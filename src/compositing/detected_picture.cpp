@@ -8,7 +8,8 @@ namespace contrejour {
 namespace {
 
 constexpr float kDim = 0.3F;
-// Okabe and Ito's colours, which most people with a colour deficiency can tell apart; display values as linear light.
+// The colours of Okabe and Ito, which most people with a colour deficiency can distinguish; display values as linear
+// light.
 constexpr std::array<std::array<float, 3>, 8> kColours = {{{0.79F, 0.35F, 0.00F},
                                                            {0.09F, 0.46F, 0.81F},
                                                            {0.00F, 0.34F, 0.17F},
@@ -18,7 +19,7 @@ constexpr std::array<std::array<float, 3>, 8> kColours = {{{0.79F, 0.35F, 0.00F}
                                                            {0.60F, 0.19F, 0.39F},
                                                            {0.85F, 0.85F, 0.85F}}};
 
-// visit(light, x, y, its three samples there): once for every pixel that counts.
+// Calls visit(light, x, y, the three samples there) once for every pixel of a detected light.
 template <class Visit>
 void for_each_pixel(const Image& rgb, const Detection& found, const Visit& visit) {
   for (std::size_t light = 0; light < found.lights.size(); ++light) {

@@ -17,9 +17,9 @@ namespace {
 
 using params::Values;
 
-constexpr double kPoint_px = 1.0;         // root mean square radius: what is smaller is a point
-constexpr int kLargestShape_px = 512;     // a side of a shape
-constexpr int kMostImages = 32;           // lights that keep their own starburst, where ghosts' are merged
+constexpr double kPoint_px = 1.0;         // root mean square radius: a smaller light is a point
+constexpr int kLargestShape_px = 512;     // on a side of a shape
+constexpr int kMostImages = 32;           // lights with a starburst of their own where the lights of ghosts are merged
 
 Light light_of(const DetectedLight& area, const Spectrum& spectrum, const PixelGrid& grid, const LensState& lens,
                const Values& values) {
@@ -33,8 +33,8 @@ Light light_of(const DetectedLight& area, const Spectrum& spectrum, const PixelG
   return light;
 }
 
-// Angles of a pixel's sides, as tangents, about a light's direction: by how its image moves. None where no light gets
-// through.
+// The angles of a pixel's sides around a light's direction, as tangents, from the displacement of its image. nullopt
+// where no light gets through.
 std::optional<LightShape> shape_about(const LightSource& source, const PixelGrid& grid, const LensState& lens) {
   constexpr double kStep = 1e-3;
   const auto at = [&](Vec2 tangents) {
@@ -51,7 +51,7 @@ std::optional<LightShape> shape_about(const LightSource& source, const PixelGrid
   return shape;
 }
 
-// The light's own pixels as its extent, if it is larger than a point and they can be one.
+// Gives a light the extent of its own pixels, if it is larger than a point and its pixels can be a shape.
 void give_shape(Light& light, const DetectedLight& area, const Picture& picture, const FlarePlan& plan,
                 const Detection& found, const LensState& lens) {
   if (!(area.rms_radius_px > kPoint_px)) return;
@@ -110,7 +110,8 @@ Result<void> find_lights(const Picture& picture, const LensState& lens, const Va
   return {};
 }
 
-// A value of 1, which is render's, would be that of one white pixel: nothing to be seen, and no one's intention.
+// A value of 1, the default of `render`, would be that of one white pixel: its flare would be invisible, which no user
+// intends.
 Result<void> check_values_given(const Values& values) {
   if (values.given("value")) return {};
   for (const char* name : {"light", "light-at"}) {
@@ -152,7 +153,7 @@ Result<void> check_window(const Picture& picture) {
 
 std::vector<std::string> warnings_about(const FlarePlan& plan, bool knows_primaries, const Values& values) {
   std::vector<std::string> warnings;
-  // The lights' colours stay right; only the flare's own tint is then slightly off.
+  // The colours of the lights stay right; only the flare's own tint is slightly off.
   if (!knows_primaries && !values.given("colour-space"))
     warnings.emplace_back(
         "the picture's primaries are neither Rec.709 nor ACEScg; its flare is computed as for Rec.709 "

@@ -7,9 +7,9 @@
 namespace contrejour {
 namespace {
 
-constexpr double kShown = 0.995;  // quantile of the pixels: a ghost of a two hundredth of the frame is seen
+constexpr double kShown = 0.995;  // quantile of the pixels: a ghost on 1 / 200 of the frame counts
 constexpr double kBlack = 0.01;   // of white
-// A flare that adds a quarter to what it lies on is plain to anyone; one of some hundredths is there to be found.
+// A flare that adds a quarter to the picture below it is obvious; one that adds some hundredths can be found.
 constexpr double kPlain = 0.25;
 
 double quantile(std::vector<float>& values, double share) {

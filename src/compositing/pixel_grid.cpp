@@ -12,14 +12,14 @@
 namespace contrejour {
 namespace {
 
-constexpr double kSquare = 1e-4;  // aspects this near to 1 are of files that were rounded
+constexpr double kSquare = 1e-4;  // an aspect this close to 1 is due to rounding in a file
 
-// Where a row's or a column's pixels of the frame lie among those of the picture.
+// The positions of the frame's pixels among those of the picture, along a row or a column.
 struct Axis {
-  int picture = 0;  // pixels of it
+  int picture = 0;  // pixels of the picture
   double corner = 0, per_pixel = 1;
 
-  // visit(picture's pixel, share of the frame's pixel that lies in it)
+  // Calls visit(pixel of the picture, fraction of the frame's pixel that lies in it).
   template <class Visit>
   void for_each_part(int k, const Visit& visit) const {
     const double low = (k - corner) / per_pixel, high = (k + 1 - corner) / per_pixel;
@@ -31,7 +31,8 @@ struct Axis {
   }
 };
 
-// visit(x, y, column, row, share): the share of the frame's pixel (x, y) that lies in the picture's (column, row)
+// Calls visit(x, y, column, row, fraction): the fraction of the frame's pixel (x, y) that lies in the picture's
+// (column, row).
 template <class Visit>
 void for_each_part(const PixelGrid& grid, const Visit& visit) {
   const Axis across{grid.width, grid.corner_px.x, grid.per_pixel.x};
@@ -44,7 +45,7 @@ void for_each_part(const PixelGrid& grid, const Visit& visit) {
   }
 }
 
-// The frame's pixels along one side, from the first that holds some of the picture's.
+// The frame's pixels along one side, from the first that contains a part of the picture.
 void lay_out(int first, int count, int whole, double per_pixel, int& origin, int& length, int& full, double& corner) {
   full = static_cast<int>(std::ceil(whole * per_pixel));
   const double begin = (first - 0.5 * whole) * per_pixel + 0.5 * full;
@@ -69,7 +70,7 @@ Result<PixelGrid> pixel_grid(const params::Values& values, const LensState& lens
   PixelGrid grid;
   grid.width = data.width;
   grid.height = data.height;
-  const double aspect = pixel_aspect / squeeze_of(lens);  // of a pixel on the sensor
+  const double aspect = pixel_aspect / squeeze_of(lens);  // that of a pixel on the sensor
   const bool is_square = std::abs(aspect - 1.0) <= kSquare;
   if (!is_square) grid.per_pixel = {std::max(1.0, aspect), std::max(1.0, 1.0 / aspect)};
   const double square_pixels = grid.per_pixel.x * grid.per_pixel.y;

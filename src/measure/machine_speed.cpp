@@ -17,16 +17,16 @@ namespace contrejour {
 namespace {
 
 constexpr int kRounds = 5;
-constexpr double kMostPixels = 268435456.0;  // as of a render
+constexpr double kMostPixels = 268435456.0;  // the limit of a render
 constexpr double kLambda_nm = 550.0;
-// Enough rays for long vectors, few enough for a core's own cache.
+// A number of rays that fills long vectors and fits into a core's own cache.
 constexpr std::size_t kRaysPerSide = 32;
 constexpr std::size_t kRays = kRaysPerSide * kRaysPerSide;
 constexpr std::size_t kRepeats = 8;
-constexpr std::size_t kItems = 256;  // many a thread, so that none waits long for the last
-constexpr double kWidth_mm = 4.0;    // of the square of the entrance plane that they start from
+constexpr std::size_t kItems = 256;  // several for each thread, so that none waits long for the last
+constexpr double kWidth_mm = 4.0;    // side of the square of the entrance plane that they start from
 
-// Points of the entrance plane, and room for what becomes of their rays.
+// Points of the entrance plane, and memory for the results of their rays.
 class RaySquare {
  public:
   RaySquare() : x_mm_(kRays), y_mm_(kRays), results_((4 + 2 * kMaxStopCrossings) * kRays) {
@@ -53,7 +53,7 @@ class RaySquare {
   std::vector<float> x_mm_, y_mm_, results_;
 };
 
-// The best of the rounds, by a body that is one round.
+// The fastest of the rounds; body runs one round.
 template <class Body>
 double fastest_ms(const Body& body) {
   double best_ms = std::numeric_limits<double>::infinity();
@@ -94,7 +94,7 @@ double frame_pass_ms(int width, int height, const Context& context) {
   const auto row_floats = static_cast<std::size_t>(width) * 3;
   float value = 0.0F;
   return fastest_ms([&] {
-    value += 1.0F;  // no round writes what is there already
+    value += 1.0F;  // the value differs in each round
     parallel_for(static_cast<std::size_t>(height), context,
                  [&](std::size_t row) { std::fill_n(image.pixels.data() + row * row_floats, row_floats, value); });
   });

@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::string_view kPage = "docs/formats/look.md";
 
-// In alphabetical order; written by embed_text.cmake when the program is built.
+// The presets in alphabetical order; the file is written by embed_text.cmake when the program is built.
 constexpr BundledLook kBundled[] = {
 #include "bundled_looks.inc"
 };
@@ -88,7 +88,7 @@ KeyValue::Kind kind_of(const Parameter& p) {
   return p.kind == Kind::Real || p.kind == Kind::Integer ? KeyValue::Kind::Number : KeyValue::Kind::Text;
 }
 
-// As TOML has numbers: it takes neither ".5" nor "+5" nor "08", which the command line does.
+// A number as TOML writes it: TOML accepts neither ".5" nor "+5" nor "08", which the command line does.
 std::string number_text(const Parameter& p, const std::string& given) {
   return p.kind == Kind::Integer ? fmt::format("{}", *parse_integer(given)) : fmt::format("{}", *parse_real(given));
 }

@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::uint64_t kMostPixels = std::uint64_t{1} << 26U;  // 8192 x 8192
 
-// make: from levels, width and height.
+// make: builds the value from levels, width and height.
 template <class Value>
 Result<Value> read_levels(const std::string& file, Result<Value> (*make)(std::span<const float>, int, int)) {
   ReadOptions options;

@@ -1,5 +1,5 @@
-// Picture files as what lies in the lens: its iris, its dirt. The mean of red, green and blue says where light passes.
-// Errors: those of reading a picture (image_io.h) and of what is made of it; the file is named.
+// Reads picture files as an iris or as dirt: the mean of red, green and blue is the transmittance. Errors: those of
+// reading a picture (image_io.h) and of making the iris or dirt from it; the message names the file.
 #pragma once
 
 #include <memory>

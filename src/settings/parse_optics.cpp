@@ -1,4 +1,4 @@
-// The texts that stand for optical things: lights, ghosts, coatings.
+// Parses the texts of optical settings: lights, ghosts, coatings.
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -19,14 +19,14 @@ namespace contrejour::params {
 namespace {
 
 constexpr double kLargestLight_deg = 90.0;
-constexpr double kMostValue = 1e15;         // of a light: any colour of it is within kMaxLightValue, or nearly any
+constexpr double kMostValue = 1e15;         // of a light: colours times this are within kMaxLightValue, or nearly
 constexpr double kMostStops = 40.0;
 constexpr std::pair<std::string_view, LightValue::Unit> kValueUnits[] = {{"stops", LightValue::Unit::Stops},
                                                                          {"lx", LightValue::Unit::Lux},
                                                                          {"nits", LightValue::Unit::Nits},
                                                                          {"cd", LightValue::Unit::Candela}};
-constexpr double kMostGain = 1e12;          // as of the gains in the table
-constexpr double kFarthestOffset = 1000.0;  // in the frame's height
+constexpr double kMostGain = 1e12;          // the same as that of the gains in the table
+constexpr double kFarthestOffset = 1000.0;  // times the frame's height
 constexpr double kFarthestPlace = 1e6;      // of a ramp
 
 std::optional<std::string_view> after(std::string_view text, std::string_view prefix) {
@@ -223,8 +223,8 @@ Result<Ghost> parse_ghost(std::string_view text) {
                   text));
 }
 
-// A comma is between two ghosts, and within one that is written with commas, or of an order: there a number without a
-// partner takes the next.
+// A comma separates two ghosts, or two numbers within one that is written with commas or has more reflections: a number
+// that is not part of a pair is joined with the next.
 Result<std::vector<Ghost>> parse_ghosts(std::string_view text) {
   const auto parts = split(text, ',');
   const auto lacks_one = [](std::string_view part) {
@@ -252,7 +252,7 @@ Result<GhostAdjustment> parse_ghost_adjustment(std::string_view text) {
     out.ghost = *ghost;
   }
   if (colon == std::string_view::npos) return out;
-  // A part without a name goes on with the list before it.
+  // A part without a name continues the list of the setting before it.
   std::vector<std::pair<std::string_view, std::string>> settings;
   for (const std::string_view part : split(text.substr(colon + 1), ',')) {
     const std::size_t equals = part.find('=');

@@ -18,21 +18,23 @@ constexpr double kGreyExposure_lx_s = 10.0;  // at ISO 1; ISO 12232:2019, standa
 constexpr double kWhiteExposure_lx_s = kGreyExposure_lx_s / kMiddleGrey;
 constexpr double kMm_per_m = 1000.0;
 
-// mm^2 of the plane before the lens that gather the light of its image; on the axis, where no light gets to the edge.
+// The area in mm^2 of the plane before the lens through which the light of its direct image enters. If no light reaches the
+// frame's edge, the area is that on the axis.
 double gathering_mm2(const LensState& lens, const Frame& frame, const LightSource& source) {
   const GhostMeter meter(lens, lens.design_wavelength_nm);
   const double own_mm2 = meter.direct_flux(measured_source(lens, frame, source));
   return own_mm2 > 0.0 ? own_mm2 : meter.direct_flux(LightSource({0.0, 0.0, 1.0}, source.distance_mm));
 }
 
-// The value of a light that gives so many lux at the lens: E A / a lux on a pixel of area a, for the exposure's time.
+// The value of a light that gives this illuminance at the lens: E A / a lux on a pixel of area a, during the exposure's
+// time.
 double sum_of_lux(double lux, const Light& light, const LensState& lens, const Frame& frame, const Exposure& exposure) {
   const double pixel_mm2 = frame.pixel_pitch_mm * frame.pixel_pitch_mm;
   const double on_pixels_lux = lux * gathering_mm2(lens, frame, light.source()) / pixel_mm2;
   return on_pixels_lux * exposure.shutter_s * exposure.iso / kWhiteExposure_lx_s;
 }
 
-// On the axis.
+// The number of pixels of a disc on the axis.
 double pixels_of_disc(double radius_rad, const LensState& lens, const Frame& frame) {
   const double radius = std::tan(radius_rad) / frame.pixel_pitch_mm;
   const FirstOrder figures = first_order(lens, lens.design_wavelength_nm);

@@ -1,7 +1,8 @@
-// A light's brightness in words of photography and lighting -> what its direct image sums to over its pixels.
-// White is 1. Stops count over white for a disc; lux at the lens, candela and nits (cd/m^2) go through the exposure: a
-// surface whose light makes H lx s on the sensor has the value H / (55.6 / ISO), so that 0.18 is the 10 / ISO lx s of
-// ISO 12232's standard output sensitivity. Thread-safety: pure functions.
+// A light's brightness in terms of photography and lighting -> the sum of its direct image over its pixels. White is 1.
+// For a disc, stops count from white; lux at the lens, candela and nits (cd/m^2) use the exposure: a surface whose
+// light makes H lx s on the sensor has the value H / (55.6 / ISO), so that 0.18 is the 10 / ISO lx s of ISO 12232's
+// standard output sensitivity.
+// Thread-safety: pure functions.
 #pragma once
 
 #include <string_view>
@@ -18,7 +19,7 @@ struct Exposure {
   double shutter_s = 0.02;
 };
 
-// docs/physics/radiometry.md, "Brightness of lights". The light's place and size count, not its value. Errors:
+// docs/physics/radiometry.md, "Brightness of lights". Uses the light's place and size, not its value. Errors:
 // InvalidArgument for stops and nits of a point and candela of a distant light.
 [[nodiscard]] Result<double> sum_of(const LightValue& value, const Light& light, const LensState& lens,
                                     const Frame& frame, const Exposure& exposure);

@@ -13,9 +13,9 @@
 namespace contrejour::params {
 namespace {
 
-constexpr double kSmallest_mm = 0.1, kLargest_mm = 1e4;  // as lens files may have it
+constexpr double kSmallest_mm = 0.1, kLargest_mm = 1e4;  // the limits of lens files
 
-// Camera gates of film and whole sensors as their makers and manuals state them; formats that several makers share
+// Camera gates of film and whole sensors as their makers and manuals state them. Formats that several makers share
 // (aps-c, four-thirds, medium-format) differ from camera to camera by some tenths of a millimetre.
 constexpr SensorFormat kFormats[] = {
     {"full-frame", 36.0, 24.0},    {"aps-c", 23.6, 15.7},         {"aps-c-canon", 22.3, 14.9},

@@ -13,10 +13,10 @@ struct SensorFormat {
   double width_mm = 0, height_mm = 0;
 };
 
-// What is exposed, whichever part of it is shown later.
+// The sizes of the exposed areas, whichever part of them is shown later.
 [[nodiscard]] std::span<const SensorFormat> sensor_formats();
 
-// "super35", or a size in mm: "24.9x18.7". Errors: InvalidArgument, with the names.
+// Accepts "super35", or a size in mm: "24.9x18.7". Errors: InvalidArgument, with the names.
 [[nodiscard]] Result<SensorFormat> parse_sensor(std::string_view text);
 
 }  // namespace contrejour::params

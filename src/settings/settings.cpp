@@ -40,7 +40,7 @@ Result<Light> finish_light(Light light, const LightValue& value, const LightColo
   return light;
 }
 
-// A parameter that is one of a few words, as the enumerator at its place.
+// A parameter with a choice of words, as the enumerator of the same position.
 template <class Enum>
 Enum choice(const Values& values, std::string_view name) {
   const auto& words = parameter(name).choices;
@@ -101,7 +101,7 @@ Result<LensSettings> lens_settings(const Values& values) {
   settings.object_distance_mm = *parse_distance_mm(*values.text("focus"));
   if (const auto coating = values.text("coating")) settings.coating = *parse_coating(*coating);
   for (const std::string& text : values.list("coating-at")) {
-    auto coating = parse_coating_at(text);  // a file may be gone since it was checked
+    auto coating = parse_coating_at(text);  // a file may have been removed since it was checked
     if (!coating) return tl::unexpected(coating.error());
     settings.coating_at.push_back(std::move(*coating));
   }
@@ -230,11 +230,11 @@ FrameSettings frame_settings(const Values& values, const Frame& frame, ColourSpa
 
 namespace {
 
-// The lights given, and one at `usual` if there are none.
+// The given lights, or one at `usual` if there are none.
 Result<std::vector<Light>> lights_or(std::optional<Vec2> usual, const Values& values, const LensState& lens,
                                      const Frame& frame, ColourSpace space) {
   const LightValue value = *parse_light_value(*values.text("value"));
-  const auto colour = parse_light_colour(*values.text("colour"));  // a file may be gone since it was checked
+  const auto colour = parse_light_colour(*values.text("colour"));  // a file may have been removed since it was checked
   if (!colour) return tl::unexpected(colour.error());
   const double distance_mm = *parse_distance_mm(*values.text("light-distance"));
   std::vector<Light> all;

@@ -15,7 +15,7 @@
 namespace contrejour::params {
 namespace {
 
-// A parser as a check: its value is thrown away.
+// Uses a parser as a check: discards its value.
 template <auto parse>
 Result<void> parses(std::string_view text) {
   const auto value = parse(text);
@@ -52,7 +52,7 @@ Result<void> check_blades(std::string_view text) {
 
 constexpr double kBig = 1e12;
 
-// clang-format off: a parameter in two or three lines, its help in the last.
+// clang-format off: each parameter takes two or three lines, with its help in the last.
 const Parameter kTable[] = {
     {.name = "focal", .group = "Lens", .kind = Kind::Real, .unit = "mm", .minimum = 0.01, .maximum = 1e5,
      .help = "focal length of a zoom (default: its shortest)"},
@@ -77,7 +77,7 @@ const Parameter kTable[] = {
     {.name = "blade-closing", .group = "Lens", .kind = Kind::Choice, .unit = "HOW", .fallback = "scaled",
      .help = "scaled: one shape at every f-number, its corners on the round stop's rim; mechanism: round wide open, "
              "then blades come out of the rim and leave the round stop's area",
-     .choices = {"scaled", "mechanism"}},  // as the enum
+     .choices = {"scaled", "mechanism"}},  // in enum order
     {.name = "iris-image", .group = "Lens", .unit = "FILE",
      .help = "a picture (PNG, EXR) as the iris in place of blades, its longer side across the stop: its level over its "
              "brightest is the share of light that passes; one of black and white with smooth edges is a mask, open "
@@ -106,7 +106,7 @@ const Parameter kTable[] = {
      .help = "a picture (PNG, EXR) as dirt, white where it is clean, its longer side across the front or the stop"},
     {.name = "dirt-on", .group = "Lens", .kind = Kind::Choice, .unit = "PLANE", .fallback = "front",
      .help = "where dust and scratches lie: front (as on a filter: they pass by as the light moves) or stop",
-     .choices = {"stop", "front"}},  // as the enum
+     .choices = {"stop", "front"}},  // in enum order
     {.name = "dirt-seed", .group = "Lens", .kind = Kind::Integer, .minimum = 0, .maximum = 1000000000,
      .fallback = "0", .help = "which of the lenses with so much dirt"},
     {.name = "dirt-time", .group = "Lens", .kind = Kind::Real, .unit = "TURNS", .minimum = -1e6, .maximum = 1e6,
@@ -226,7 +226,7 @@ const Parameter kTable[] = {
      .help = "bundle: level cells instead of irradiance that follows the grid's vertices"},
     {.name = "anisotropic", .group = "Rendering", .kind = Kind::Choice, .unit = "HOW", .fallback = "exact",
      .help = "bundle: ghosts squeezed into lines: exact, high-resolution (4 x 4 pixels for one), points",
-     .choices = {"exact", "high-resolution", "points"}},  // as the enum
+     .choices = {"exact", "high-resolution", "points"}},  // in enum order
     {.name = "merge-steps", .group = "Rendering", .kind = Kind::Integer, .minimum = 0, .maximum = 9, .fallback = "4",
      .help = "tiled: how often 2 x 2 cells of the grid may become one where it is flat; 0: never"},
     {.name = "merge-threshold", .group = "Rendering", .kind = Kind::Real, .minimum = 0, .maximum = 1e6,
@@ -237,7 +237,7 @@ const Parameter kTable[] = {
      .fallback = "128", .help = "tiled: side of the tiles listed first, a multiple of --tile; 0: none"},
     {.name = "interpolation", .group = "Rendering", .kind = Kind::Choice, .unit = "METHOD", .fallback = "loop-derose",
      .help = "tiled: within a cell: triangle, homogeneous-triangle, mean-value, wachspress, loop-derose",
-     .choices = {"triangle", "homogeneous-triangle", "mean-value", "wachspress", "loop-derose"}},  // as the enum
+     .choices = {"triangle", "homogeneous-triangle", "mean-value", "wachspress", "loop-derose"}},  // in enum order
     {.name = "error", .group = "Rendering", .unit = "E|PRESET", .fallback = "standard",
      .help = "adaptive: RMS error over the flare's peak, 0.0001 to 0.1; preview 0.01, standard 0.003, final 0.001",
      .check = parses<parse_error_bound>},
@@ -254,7 +254,7 @@ const Parameter kTable[] = {
     {.name = "ringing", .group = "Rendering", .kind = Kind::Choice, .unit = "HOW", .fallback = "none",
      .help = "diffraction fringes along ghosts' rims: fresnel: each ghost's own, as far as it is out of focus; hullin: one pattern for "
              "all (hullin2011)",
-     .choices = {"none", "fresnel", "hullin"}},  // as the enum
+     .choices = {"none", "fresnel", "hullin"}},  // in enum order
     {.name = "ringing-alpha", .group = "Rendering", .kind = Kind::Real, .minimum = 0, .maximum = 1,
      .help = "order of hullin's ringing, 0: none (default: 0.15 (wavelength / 400 nm) (f-number / 18))"},
     {.name = "threads", .group = "Rendering", .kind = Kind::Integer, .minimum = 0, .maximum = 1024, .fallback = "0",

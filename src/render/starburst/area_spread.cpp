@@ -14,12 +14,14 @@ namespace {
 
 using namespace area;
 
-// The finest features of a light's shape are so large in pixels of the coarsest level, or larger.
+// The smallest size, in pixels of the coarsest level, of the finest features of a light's shape.
 constexpr double kFeaturePixels = 16.0;
-constexpr double kOutlinePixels = 32.0;  // the shape's shorter radius in pixels in which its features are looked for
-// From each level to the next, in its own pixels from a point's image: there the pattern is far wider than a pixel.
+constexpr double kOutlinePixels = 32.0;  // pixels of the shape's shorter radius when its features are measured
+// The distances from a point's image, in pixels of a level, between which the next coarser level takes over: there the
+// pattern is far wider than a pixel.
 constexpr double kFadeFrom = 4.0, kFadeTo = 10.0;
-// Products of kernel and picture, of all lights together and of one at least: where there are more, pixels are larger.
+// The largest numbers of products of kernel and picture: of all lights together, and the least that each light is
+// granted. Where there would be more, pixels are made larger.
 constexpr double kMostProducts = 6e8, kLeastProducts = 3e7;
 
 // A light, its shape, and how the shape lies on the frame.
@@ -31,7 +33,7 @@ struct Area {
   Rgb flux{};
 };
 
-// A level's share of a point's spread by the distance from its image: the levels' shares sum to 1.
+// A level's weight as a function of the distance from a point's image; the weights of all levels sum to 1.
 struct Share {
   int level = 0, finest = 0, coarsest = 0;
 
@@ -68,8 +70,8 @@ double weight_at(const Kernel& kernel, int x, int y) {
   return w[0] + w[1] + w[2];
 }
 
-// Twice the shape's light over its total variation: a disc's radius, and that of each of several like discs, whatever
-// lies between them; of a strip its width. In pixels of the kernel.
+// Twice the shape's light over its total variation, in pixels of the kernel: the radius of a disc, also if there are
+// several like discs with gaps between them; the width of a strip.
 double feature_radius(const Kernel& kernel) {
   double light = 0.0, variation = 0.0;
   for (int y = 0; y + 1 < kernel.height(); ++y) {
@@ -82,7 +84,8 @@ double feature_radius(const Kernel& kernel) {
   return variation > 0.0 ? 2.0 * light / variation : 0.0;
 }
 
-// The levels that a light is drawn at, as coarse as its features allow, and as its products have to be.
+// The levels at which a light is drawn: as coarse as its features allow, and coarser if there would be too many
+// products.
 Share levels_of(const Area& area, const Frame& frame, double most_products) {
   const Vec2 e = eigenvalues(mapped_covariance(area.px_from_tangents, area.piece.covariance));
   const int level = level_of_width(2.0 * std::sqrt(std::max(e.x, 0.0)) / kOutlinePixels);
@@ -100,7 +103,7 @@ Share levels_of(const Area& area, const Frame& frame, double most_products) {
   return share;
 }
 
-// The frame's pixels within a radius, and a margin of more on each side, as far as there are any.
+// The pixels of the frame within a radius plus the kernel's reach on each side.
 Window window_about(Vec2 centre, double radius, KernelReach margin, const Frame& frame) {
   const auto within = [](double v, int most) {
     return static_cast<int>(std::clamp(v, 0.0, static_cast<double>(most)));
@@ -112,7 +115,7 @@ Window window_about(Vec2 centre, double radius, KernelReach margin, const Frame&
           within(std::ceil(centre.y + radius) + down, frame.height)};
 }
 
-// A point's spread at one level, times its share, blurred.
+// A point's spread at one level, times the level's weight, blurred by the light's shape.
 Result<void> add_level(Layers& layers, const Area& area, const Share& share, double pitch_mm,
                        const AddPointSpread& add_point, const Context& context) {
   const double scale = std::exp2(share.level);

@@ -1,5 +1,6 @@
-// The exit pupil in direction cosines. Rays are few; what decides between open and blocked (places at the stop and at
-// the rims that vignette) is smooth in the cosines, so polynomials through them give borders as sharp as the mask.
+// The exit pupil in direction cosines. Only a few rays are traced. Whether a place is open depends on the places where
+// its ray meets the stop and the rims that vignette; these are smooth functions of the cosines, so polynomials through
+// them give borders as sharp as the mask.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -21,17 +22,17 @@
 namespace contrejour {
 namespace {
 
-constexpr int kDegree = 8;            // of places at stop and rims
+constexpr int kDegree = 8;            // of the places at the stop and the rims
 constexpr int kAmplitudeDegree = 4;
-constexpr double kFitBeyond = 0.06;   // relative radii: rays so far outside still shape the borders
-constexpr double kNearRim = 0.05;     // a rim that comes so near to the pupil may cut it somewhere between the rays
-constexpr double kObscures = 3.0;  // of an obscuration's radius, less one: small ones may lie between the rays
-constexpr double kUncertain = 0.02;   // relative radii, beside twice the straight model's own error
+constexpr double kFitBeyond = 0.06;   // relative radii: rays up to this far outside are used in the fit
+constexpr double kNearRim = 0.05;     // a rim this close to the outermost rays may cut the pupil between them
+constexpr double kObscures = 3.0;  // radii of an obscuration, plus one: a small one may lie between the rays
+constexpr double kUncertain = 0.02;   // relative radii, added to twice the linear model's own error
 constexpr int kFewestSamples = 16, kMostSamples = 4096;
 constexpr std::size_t kKeptRays = 5;
 constexpr int kShadeStep = 8;  // samples
 
-// Places at the stop, then at each rim that vignettes, by the cosines: x and y of each.
+// The places at the stop, then at each rim that vignettes, as functions of the cosines: x and y of each.
 class Borders {
  public:
   Borders(const PupilRays& pupil, const std::vector<std::size_t>& used, std::vector<std::size_t> rims, const Iris& iris,
@@ -43,7 +44,7 @@ class Borders {
       const double at_zero = straight({}, f);
       straight_.push_back({at_zero, {straight({1.0, 0.0}, f) - at_zero, straight({0.0, 1.0}, f) - at_zero}});
     }
-    // How far off the straight model is decides where the polynomials have to be asked.
+    // The linear model's largest error determines where the polynomials have to be evaluated.
     std::vector<double> smooth(exact_.functions());
     double worst = 0.0;
     for (const std::size_t k : used) {
@@ -55,9 +56,9 @@ class Borders {
     values_per_place_ = exact_.functions();
   }
 
-  // Signed, in cosines; far from the borders only its sign counts.
+  // The signed distance from the border, in cosines; far from the border only its sign is right.
   [[nodiscard]] double distance(Vec2 cosines) const {
-    Values here, right, up;  // filled as far as they are read
+    Values here, right, up;  // filled only as far as they are read
     for (std::size_t f = 0; f < straight_.size(); ++f) here[f] = straight_[f].at(cosines);
     const double about = largest(here);
     if (std::abs(about) > uncertain_) return std::copysign(kFar, about);
@@ -75,7 +76,7 @@ class Borders {
     return worst;
   }
 
-  // Largest distance between fitted and traced places, over a ray's own stop and rims.
+  // The largest distance between fitted and traced places for a ray, over the stop and the rims.
   [[nodiscard]] double error_at(const PupilRays& pupil, std::size_t ray) const {
     Values values{};
     exact_.evaluate(pupil.rays[ray].cosines, values.data());
@@ -90,7 +91,7 @@ class Borders {
  private:
   static constexpr double kFar = 1e3;
   static constexpr double kStep = 1e-6;  // cosines
-  static constexpr double kNearBorder = 0.03;  // relative radii: several samples, where the distance counts
+  static constexpr double kNearBorder = 0.03;  // relative radii: several samples, within which the distance matters
   struct Straight {
     double at_zero;
     Vec2 slope;
@@ -111,7 +112,7 @@ class Borders {
     return {places, values, degree};
   }
 
-  // How far beyond the iris (0) or a rim (1 and more), or within an obscuration, relative radii.
+  // How far a place lies outside the iris (0) or a rim (1 and more), or within an obscuration, in relative radii.
   [[nodiscard]] double level(const Values& values, std::size_t constraint) const {
     const Vec2 at{values[2 * constraint], values[2 * constraint + 1]};
     if (constraint > 0) return blocks_within_[constraint - 1] ? 1.0 - length(at) : length(at) - 1.0;
@@ -133,8 +134,8 @@ class Borders {
   std::size_t values_per_place_ = 0;
 };
 
-// Rims that cut the pupil, or nearly: the outermost rays that the iris lets through decide, or those next to an
-// obscuration's middle. At most so many, the closest first.
+// The rims that cut the pupil, or nearly do: the outermost rays that the iris lets pass decide, or the rays closest to
+// an obscuration's middle. Returns at most Borders::kMostRims, the closest first.
 std::vector<std::size_t> vignetting_rims(const PupilRays& pupil) {
   std::vector<std::pair<double, std::size_t>> found;
   for (std::size_t rim = 0; rim < pupil.rims; ++rim) {
@@ -170,7 +171,7 @@ std::vector<std::size_t> open_rays(const PupilRays& pupil) {
   return open;
 }
 
-// Between the rays: an open ray's neighbours may be the last before the border.
+// Includes the neighbours of open rays: the border lies between an open ray and a blocked one.
 void grow_over_neighbours(const PupilRays& pupil, Vec2& low, Vec2& high) {
   const int side = pupil.side;
   const auto open = [&](int x, int y) {
@@ -190,7 +191,8 @@ void grow_over_neighbours(const PupilRays& pupil, Vec2& low, Vec2& high) {
   }
 }
 
-// Root of the flux per solid cosine: transmission times |d entrance / d cosines| (radiometry.md).
+// The square root of the flux per unit area of direction cosines: transmittance times |d entrance / d cosines|
+// (radiometry.md).
 SmoothFit amplitude_of(const PupilRays& pupil, const std::vector<std::size_t>& used, double shared_flux) {
   std::vector<Vec2> places;
   std::vector<double> entrance, amplitude;
@@ -218,10 +220,10 @@ void keep_rays(const PupilRays& pupil, const std::vector<std::size_t>& open, Exi
   }
 }
 
-// The mask's amplitudes, and the flux: the mean over the outline becomes 1. Returns the mask's power.
+// Fills in the mask's amplitudes and the flux, normalised to a mean of 1 over the outline. Returns the mask's power.
 double shade(const SmoothFit& amplitude, double area, ExitPupil& out) {
   const MaskGrid& grid = out.mask.grid;
-  // Straight lines between every so many samples: off by 1e-4 at most.
+  // Linear interpolation between knots, kShadeStep samples apart: its error is at most 1e-4.
   const int knots = grid.side / kShadeStep + 2;
   std::vector<double> at_knot;
   for (int row = 0; row < knots; ++row)
@@ -251,8 +253,8 @@ double shade(const SmoothFit& amplitude, double area, ExitPupil& out) {
   return out.flux_mm2 / (mean * mean);
 }
 
-// A picture's half-tones, after hullin2011 3.2: amplitudes by the root of the share of light that passes each sample.
-// Returns the share of the mask's power.
+// Half-tones of a picture, after hullin2011 3.2: multiplies the amplitude of each sample by the square root of its
+// transmittance. Returns the remaining fraction of the mask's power.
 double shade_by_tones(const Iris& iris, const PupilRays& pupil, const std::vector<std::size_t>& used, int degree,
                       ExitPupil& out) {
   if (!iris.field || !iris.field->has_tones()) return 1.0;

@@ -10,9 +10,9 @@
 namespace contrejour {
 namespace {
 
-constexpr double kFlat_px = 30.0;  // farther from the centre, a pixel's middle is its mean to (1 / kFlat_px)^2
+constexpr double kFlat_px = 30.0;  // beyond, the value at a pixel's middle is its mean to (1 / kFlat_px)^2
 
-// Flux over the rectangle from the centre to (x, y): the solid angle it fills seen from a height r0, over 2 pi.
+// The flux over the rectangle from the centre to (x, y): the solid angle that it subtends from a height r0, over 2 pi.
 double flux_to(double x, double y, double r0_px) {
   return std::atan(x * y / (r0_px * std::sqrt(r0_px * r0_px + x * x + y * y))) / (2.0 * std::numbers::pi);
 }

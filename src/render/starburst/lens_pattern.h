@@ -1,4 +1,4 @@
-// A light's starburst through a lens before it is put on pixels: one pupil for pictures of several pitches.
+// A light's starburst through a lens before it is sampled at pixels: one pupil serves pictures of several pitches.
 #pragma once
 
 #include <span>
@@ -8,7 +8,7 @@
 
 namespace contrejour {
 
-// As lens_starburst, whose pixels are chosen later: StarburstSource::at.
+// As lens_starburst, but pixels are chosen later: StarburstSource::at.
 [[nodiscard]] Result<StarburstSource> lens_pattern(const LensState& lens, const LightSource& light,
                                                    std::span<const SpectralBand> bands,
                                                    const LensStarburstSettings& settings, const Context& context);

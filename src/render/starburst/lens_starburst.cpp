@@ -8,7 +8,7 @@
 namespace contrejour {
 namespace {
 
-// What the lens transmits at each wavelength, in the mean over some of the pupil's rays.
+// The lens's transmittance at each wavelength, averaged over some of the pupil's rays.
 std::vector<double> transmissions(const LensState& lens, const LightSource& light, const std::vector<Vec3>& rays_mm,
                                   std::span<const SpectralBand> bands, const Context& context) {
   std::vector<double> mean(bands.size());
@@ -20,7 +20,7 @@ std::vector<double> transmissions(const LensState& lens, const LightSource& ligh
   return mean;
 }
 
-// Weights times transmissions, each channel's sum `whole_share`.
+// The weights times the transmittances, scaled so that each channel sums to `whole_share`.
 std::vector<SpectralBand> transmitted(std::span<const SpectralBand> bands, const std::vector<double>& transmission,
                                       double whole_share) {
   std::vector<SpectralBand> out(bands.begin(), bands.end());

@@ -10,7 +10,7 @@ double brightness(const ImagedLight& light) {
   return std::abs(light.flux[0]) + std::abs(light.flux[1]) + std::abs(light.flux[2]);
 }
 
-// Cells of the sensor, counted from the axis: a window of a frame has the same as the whole.
+// A cell of the sensor, counted from the axis: a window of a frame has the same cells as the whole frame.
 struct Cell {
   double x = 0, y = 0;
   friend bool operator==(const Cell&, const Cell&) = default;

@@ -1,4 +1,4 @@
-// Where light that falls on the samples of an exit pupil's mask crosses another plane.
+// The places in another plane that light at the samples of an exit pupil's mask crosses.
 #pragma once
 
 #include <cstddef>
@@ -11,19 +11,21 @@
 
 namespace contrejour {
 
-// Both coordinates of places that belong to others.
+// A fit of both coordinates of one set of places as functions of another set.
 [[nodiscard]] SmoothFit fit_places(std::span<const Vec2> from, std::span<const Vec2> to, int degree);
 
 class MaskPlaces {
  public:
-  // From rays' direction cosines and the places at which they cross the plane, by polynomials of a degree; middle: the
-  // cosines of the mask's middle. Outside the rays' cosines, where polynomials hold nothing, the nearest place within.
+  // Fits polynomials of a degree from rays' direction cosines to the places at which they cross the plane; middle: the
+  // cosines of the mask's middle. Outside the rays' cosines, where the polynomials are not valid, the nearest place
+  // inside is used.
   MaskPlaces(std::span<const Vec2> cosines, std::span<const Vec2> places, int degree, Vec2 middle,
              const MaskGrid& grid);
 
-  // In samples from the first one's middle, by straight lines between knots: off by 1e-4 of the pupil at most.
+  // Coordinates in samples from the middle of the first one. Linear interpolation between knots: the error is at most
+  // 1e-4 of the pupil.
   [[nodiscard]] Vec2 at(double column, double row) const;
-  [[nodiscard]] double sample() const;  // how far apart the samples' places are
+  [[nodiscard]] double sample() const;  // distance between the places of neighbouring samples
 
  private:
   static constexpr int kKnotStep = 8;  // samples

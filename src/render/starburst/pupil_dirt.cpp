@@ -1,4 +1,5 @@
-// Shapes keep their edges: their outlines are mapped corner by corner and cover the mask's samples exactly.
+// Shapes keep sharp edges: their outlines are mapped corner by corner, and their coverage of the mask's samples is
+// exact.
 #include "render/starburst/pupil_dirt.h"
 
 #include <algorithm>
@@ -12,13 +13,13 @@
 namespace contrejour {
 namespace {
 
-constexpr double kBoxMargin = 0.01;   // of the box that the rays take: polynomials hold little beyond
-constexpr double kLongestEdge = 0.03;  // of the box: longer ones bend between their corners
-constexpr int kLookAlong = 64;        // steps along a stroke that tell how much of it is open,
-constexpr int kLookAcross = 5;        // and places a side of a speck
+constexpr double kBoxMargin = 0.01;   // of the box of the rays: polynomials are not valid far beyond
+constexpr double kLongestEdge = 0.03;  // of the box: longer edges are split, since they bend in the map
+constexpr int kLookAlong = 64;        // steps along a stroke, to find the part of it that is open,
+constexpr int kLookAcross = 5;        // and places on a side of a speck
 constexpr double kOpen = 0.5;         // amplitude
 constexpr int kBisections = 12;
-constexpr int kMostSubsamples = 4;    // a side of a mask's sample, where a picture is finer
+constexpr int kMostSubsamples = 4;    // on a side of a mask's sample, where a picture is finer
 
 struct Box {
   Vec2 low, high;
@@ -35,8 +36,8 @@ Box box_of(const std::vector<Vec2>& places) {
   return {box.low - margin, box.high + margin};
 }
 
-// The part where sign * (coordinate - bound) >= 0 (Sutherland & Hodgman 1974). Of a shape that is not convex pieces may
-// hang together along the bound, where they cover nothing.
+// The part where sign * (coordinate - bound) >= 0 (Sutherland & Hodgman 1974). Pieces of a shape that is not convex may
+// stay connected along the bound, where they cover no area.
 template <double Vec2::* coordinate>
 std::vector<Vec2> cut(const std::vector<Vec2>& polygon, double bound, double sign) {
   std::vector<Vec2> kept;
@@ -96,7 +97,7 @@ class PupilDirtPainter {
   }
 
  private:
-  // Where rays cross the plane that the dirt lies in.
+  // The places where rays cross the plane that the dirt lies in.
   static std::vector<Vec2> places_of(const LensState& lens, const LightSource& light, const PupilRays& pupil,
                                      const std::vector<std::size_t>& used) {
     const auto front = [&](const PupilRay& ray) {
@@ -131,7 +132,7 @@ class PupilDirtPainter {
     return corners;
   }
 
-  // The clean mask's amplitude, linear between samples: what grows and shrinks with it does so smoothly.
+  // The clean mask's amplitude, linear between samples, so that what is scaled by it changes smoothly.
   [[nodiscard]] double openness(Vec2 place, const std::vector<float>& clean) const {
     if (place.x < box_.low.x || place.y < box_.low.y || place.x > box_.high.x || place.y > box_.high.y) return 0.0;
     const MaskGrid& grid = out_.mask.grid;
@@ -144,7 +145,7 @@ class PupilDirtPainter {
     return (1.0 - t) * ((1.0 - s) * p[0] + s * p[1]) + t * ((1.0 - s) * p[side] + s * p[side + 1]);
   }
 
-  // Where the opening ends between two places along a stroke's line, of which the first is open.
+  // Where the opening ends between two places along a stroke's line; the first is open.
   [[nodiscard]] double end_between(const DirtStroke& stroke, double open, double dark,
                                    const std::vector<float>& clean) const {
     for (int i = 0; i < kBisections; ++i) {
@@ -154,7 +155,8 @@ class PupilDirtPainter {
     return open;
   }
 
-  // A speck as large as what of it lies in the opening; of a scratch the longest stretch that does.
+  // Adds a speck scaled to the area of its part in the opening, or the longest part of a scratch that lies in the
+  // opening.
   void add_open_part(const DirtStroke& stroke, const std::vector<float>& clean, std::vector<DirtStroke>& out) const {
     if (stroke.length_mm <= stroke.width_mm) return add_open_speck(stroke, clean, out);
     const auto share_at = [](int step) { return static_cast<double>(step) / kLookAlong - 0.5; };
@@ -172,7 +174,7 @@ class PupilDirtPainter {
     part.angle_rad += 0.5 * (low + high) * stroke.bend_rad;
     part.bend_rad *= high - low;
     part.length_mm *= high - low;
-    part.width_mm = std::min(part.width_mm, part.length_mm);  // the last of it vanishes, it does not become a speck
+    part.width_mm = std::min(part.width_mm, part.length_mm);  // a scratch shrinks to nothing, not to a speck
     out.push_back(part);
   }
   void add_open_speck(const DirtStroke& speck, const std::vector<float>& clean, std::vector<DirtStroke>& out) const {
@@ -212,7 +214,7 @@ class PupilDirtPainter {
 
   const Dirt& dirt_;
   ExitPupil& out_;
-  std::vector<Vec2> places_;  // mm of the dirt's plane
+  std::vector<Vec2> places_;  // in mm of the dirt's plane
   Box box_;
   std::vector<Vec2> cosines_;
   SmoothFit to_pupil_;

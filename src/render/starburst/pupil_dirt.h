@@ -1,4 +1,4 @@
-// Dirt as a light's own image sees it: from where it lies into the direction cosines of the exit pupil's mask.
+// Dirt in a light's direct image: from the plane that it lies in to the direction cosines of the exit pupil's mask.
 #pragma once
 
 #include <cstddef>
@@ -9,8 +9,9 @@
 
 namespace contrejour {
 
-// Dims the mask, takes what dirt blocks from its flux, and gives its outline the shapes. used: rays that get through or
-// all but do; degree: of the polynomials through them; power_mm2: what the clean mask lets through, in its own units.
+// Dims the mask, subtracts what dirt blocks from its flux, and adds the shapes to its outline. used: the rays that get
+// through or nearly do; degree: that of the polynomials through them; power_mm2: the clean mask's power in its own
+// units.
 void add_dirt(const LensState& lens, const LightSource& light, const PupilRays& pupil,
               const std::vector<std::size_t>& used, int degree, double power_mm2, ExitPupil& out);
 

@@ -10,10 +10,10 @@
 namespace contrejour {
 namespace {
 
-constexpr double kRimShare = 0.1;     // about a rim, where it is looked at as a circle seen from the stop
+constexpr double kRimShare = 0.1;     // about a rim, in which rays are used to find its circle in the stop
 constexpr double kOutlineAgrees = 0.15;  // of the area
 
-// Where the unit vectors of a plane come to lie in cosines, by the places at which these rays cross it.
+// The images in cosines of a plane's unit vectors, from the places at which these rays cross the plane.
 std::array<Vec2, 2> axes_in_cosines(const PupilRays& pupil, const std::vector<std::size_t>& rays,
                                     const std::vector<Vec2>& places) {
   std::vector<double> values;
@@ -24,8 +24,8 @@ std::array<Vec2, 2> axes_in_cosines(const PupilRays& pupil, const std::vector<st
   return {step({1.0, 0.0}), step({0.0, 1.0})};
 }
 
-// A rim as the stop sees it: rays near it, moved onto it along the slope of how far outside they are, and the circle
-// through these places (Kasa 1976: linear in centre and radius squared).
+// A rim as it is projected onto the stop: rays near the rim are moved onto it along the gradient of their distance, and
+// a circle is fitted to these places (Kasa 1976: linear in centre and radius squared).
 std::optional<IrisBound> rim_seen_from_stop(const PupilRays& pupil, std::size_t rim) {
   std::vector<Vec2> stops;
   std::vector<double> outside;
@@ -57,7 +57,7 @@ std::optional<IrisBound> rim_seen_from_stop(const PupilRays& pupil, std::size_t 
   return bound;
 }
 
-// What obscurations cover of the pupil, each as the part of its disc that would be open.
+// The areas of the pupil that obscurations cover, each as the part of its disc that would be open without it.
 std::vector<double> obscured_areas(const PupilRays& pupil, const std::vector<std::size_t>& rims,
                                    const std::vector<std::size_t>& used) {
   std::vector<double> areas;
@@ -75,7 +75,7 @@ std::vector<double> obscured_areas(const PupilRays& pupil, const std::vector<std
       ++within;
       dark += is_dark || pupil.rays[k].blocked > 0.0 ? 1 : 0;
     }
-    const double open = within == 0 ? 1.0 : 1.0 - static_cast<double>(dark) / within;  // 0 rays: it is that small
+    const double open = within == 0 ? 1.0 : 1.0 - static_cast<double>(dark) / within;  // 0 rays: it is small
     if (open > 0.0) areas.push_back(open * std::numbers::pi * std::abs(cross(axes[0], axes[1])));
     before.push_back(rim);
   }

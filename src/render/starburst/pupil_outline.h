@@ -1,4 +1,5 @@
-// The exit pupil's outline as circles and lines: what starbursts go on from beyond the mask's samples.
+// The exit pupil's outline as circles and lines: the far field of a starburst, beyond what the mask's samples resolve,
+// is computed from it.
 #pragma once
 
 #include <cstddef>
@@ -12,13 +13,13 @@
 namespace contrejour {
 
 struct OutlineRays {
-  const std::vector<std::size_t>& rims;  // that cut the pupil, or nearly, obscurations among them
+  const std::vector<std::size_t>& rims;  // those that cut the pupil, or nearly, with obscurations
   const std::vector<std::size_t>& open;
-  const std::vector<std::size_t>& used;  // that get through or all but do, or are obscured
+  const std::vector<std::size_t>& used;  // those that get through or nearly do, or are obscured
 };
 
-// The iris, cut by the rims, with what stands before it; none where that is far from the mask, whose open area (in
-// squared cosines) is given, or a picture is the iris.
+// The iris, cut by the rims and with obscurations; nullopt if its area differs much from the mask's open area (in
+// squared cosines), or if the iris is a picture.
 [[nodiscard]] std::optional<PupilOutline> outline_of(const PupilRays& pupil, const OutlineRays& of, const Iris& iris,
                                                      double open_area);
 

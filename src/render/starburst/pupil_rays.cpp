@@ -10,9 +10,10 @@ namespace contrejour {
 namespace {
 
 constexpr int kSide = 41;
-constexpr double kBeyond = 0.08;  // of the region, on each side: borders are fitted from both sides
+constexpr double kBeyond = 0.08;  // of the region, added on each side: borders are fitted from both sides
 
-// Where the direct image's rays enter. Films change nothing about it, and bare surfaces are tabulated quickly.
+// The region in which the direct image's rays enter. It does not depend on coatings, and bare surfaces are tabulated
+// faster.
 std::optional<Rectangle> find_region(LensState lens, const LightSource& light, double lambda_nm) {
   for (SurfaceState& surface : lens.surfaces) surface.coating = {};
   const ReflectanceTables tables(lens, lambda_nm);
@@ -24,7 +25,7 @@ std::optional<Rectangle> find_region(LensState lens, const LightSource& light, d
   return Rectangle{region->pupil_mm.low - beyond, region->pupil_mm.high + beyond};
 }
 
-// One ray, and its places at the rims: rim_places[rim * stride].
+// Traces one ray, and writes its places at the rims: rim_places[rim * stride].
 PupilRay trace_one(const OpticalPath& path, const IrisOpening& iris, const Ray& from, Vec2* rim_places,
                    std::size_t stride) {
   PupilRay ray;

@@ -1,5 +1,5 @@
-// A grid of a light's rays over the part of the entrance window that the direct image takes, traced in double, with
-// what decides whether each gets through.
+// A grid of a light's rays over the part of the entrance window that the direct image uses, traced in double precision,
+// with the quantities that decide whether each gets through.
 #pragma once
 
 #include <optional>
@@ -13,12 +13,12 @@ namespace contrejour {
 
 struct PupilRay {
   bool arrived = false;
-  Vec2 entrance_mm;     // in the plane z_mm of the entrance window
+  Vec2 entrance_mm;     // in the entrance window's plane z_mm
   Vec2 cosines;         // at the sensor
-  Vec2 stop;            // over the stop's radius
+  Vec2 stop;            // in stop radii
   double transmission = 0;  // times LightSource::flux_at
-  double iris = 0;      // distance from the iris's edge in stop radii, negative inside
-  double blocked = 0;   // the largest of that and every rim's r_rel - 1
+  double iris = 0;      // signed distance from the iris's edge in stop radii, negative inside
+  double blocked = 0;   // the largest of iris and every rim's r_rel - 1
   double obscured = -1; // TracedRay::obscured
 };
 
@@ -26,14 +26,14 @@ struct PupilRays {
   int side = 0;
   double z_mm = 0;
   std::vector<PupilRay> rays;    // [row * side + column]
-  std::vector<Vec2> rim_places;  // [rim * rays.size() + ray]: over the clear radius, of every refracting surface
+  std::vector<Vec2> rim_places;  // [rim * rays.size() + ray]: in clear radii, for every refracting surface
   std::size_t rims = 0;
-  std::vector<bool> blocks_within;  // by rim: it is an obscuration's
+  std::vector<bool> blocks_within;  // by rim: whether it is that of an obscuration
 
   [[nodiscard]] Vec2 at_rim(std::size_t rim, std::size_t ray) const { return rim_places[rim * rays.size() + ray]; }
 };
 
-// None when nothing gets through, or when cancelled.
+// nullopt when nothing gets through, or when cancelled.
 [[nodiscard]] std::optional<PupilRays> trace_pupil(const LensState& lens, const IrisOpening& iris,
                                                    const LightSource& light, double lambda_nm, const Context& context);
 

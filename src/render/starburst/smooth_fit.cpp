@@ -9,10 +9,10 @@
 namespace contrejour {
 namespace {
 
-constexpr std::size_t kMostTerms = 45;  // of the highest degree
-constexpr double kPivotFloor = 1e-12;  // of the first pivot: directions that the places do not tell apart get nothing
+constexpr std::size_t kMostTerms = 45;  // those of the highest degree
+constexpr double kPivotFloor = 1e-12;  // of the first pivot: directions that the places do not determine get weight 0
 
-// Solves in place by Cholesky's decomposition: matrix (n x n, symmetric) and one right side.
+// Solves by Cholesky decomposition, in place: a symmetric n x n matrix and one right-hand side.
 class Cholesky {
  public:
   Cholesky(std::vector<double> matrix, std::size_t n) : a_(std::move(matrix)), n_(n) {
@@ -91,7 +91,7 @@ void SmoothFit::basis_at(Vec2 place, double* basis) const {
 }
 
 void SmoothFit::evaluate(Vec2 place, double* values) const {
-  std::array<double, kMostTerms> basis;  // filled as far as it is read: this runs for every sample near a border
+  std::array<double, kMostTerms> basis;  // filled only as far as it is read: this runs for every sample near a border
   basis_at(place, basis.data());
   const std::size_t n = terms(degree_);
   for (std::size_t f = 0; f < functions_; ++f) {

@@ -1,5 +1,5 @@
-// Smooth functions of a place, known at scattered places, as polynomials: least squares.
-// Products of Chebyshev polynomials over the places' bounding box, so that the normal equations stay well conditioned.
+// Least-squares polynomials for smooth functions of a place that are known at scattered places. The basis consists of
+// products of Chebyshev polynomials over the places' bounding box, so that the normal equations stay well conditioned.
 #pragma once
 
 #include <cstddef>
@@ -13,12 +13,12 @@ namespace contrejour {
 class SmoothFit {
  public:
   static constexpr int kHighestDegree = 8;
-  static constexpr std::size_t kPlacesPerTerm = 3;  // at least, for a fit that follows what is measured
+  static constexpr std::size_t kPlacesPerTerm = 3;  // the fewest with which a fit averages the measurements
 
-  // values[f * places.size() + i]: of function f at places[i]. degree: in both coordinates together.
+  // values[f * places.size() + i]: the value of function f at places[i]. degree: the total degree in both coordinates.
   SmoothFit(std::span<const Vec2> places, std::span<const double> values, int degree);
 
-  // All functions at a place.
+  // Evaluates all functions at a place.
   void evaluate(Vec2 place, double* values) const;
   [[nodiscard]] double operator()(Vec2 place, std::size_t function = 0) const;
 

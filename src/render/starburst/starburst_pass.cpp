@@ -21,11 +21,11 @@
 namespace contrejour {
 namespace {
 
-constexpr int kBands = 120;  // 3.3 nm; hullin2011 3.3 finds 5 nm fine enough
-constexpr std::size_t kWorthLayingOut = 3;  // lights
+constexpr int kBands = 120;  // every 3.3 nm; hullin2011 3.3 finds 5 nm fine enough
+constexpr std::size_t kWorthLayingOut = 3;  // lights, from which on the starburst is laid out once
 constexpr double kMostLaidOut = 8388608.0;  // pixels of a frame: 200 MB
 constexpr double kFarthest_diagonals = 4.0;  // lights farther from the frame's middle draw no starburst
-constexpr int kSamplesForDirt = 128;  // across a pupil of which only what dirt lets through is asked
+constexpr int kSamplesForDirt = 128;  // across a pupil that serves only to find the transmittance of dirt
 
 Error invalid(std::string message) { return {ErrorCode::InvalidArgument, std::move(message), {}}; }
 
@@ -34,7 +34,8 @@ double distance_to_farthest_corner(const Frame& frame, Vec2 from_px) {
                      std::max(std::abs(from_px.y), std::abs(frame.height - from_px.y))});
 }
 
-// How much of a light outside the frame gets through, of what did where it is measured (docs/physics/radiometry.md).
+// The fraction of a light outside the frame that gets through, relative to the light where its flux is measured
+// (docs/physics/radiometry.md).
 double share_outside(const GhostMeter& meter, const LensState& lens, const Frame& frame, const LightSource& light) {
   const double flux_mm2 = meter.direct_flux(light);
   if (!(flux_mm2 > 0.0)) return 0.0;
@@ -48,7 +49,7 @@ bool is_outside(const Frame& frame, Vec2 sensor_mm) {
   return std::max(std::abs(uv.x - 0.5), std::abs(uv.y - 0.5)) > 0.5;
 }
 
-// Where each light's image lies, and what its starburst sums to. Lights without any are left out.
+// The place of each light's image, and the flux of its starburst. Lights without any are left out.
 std::vector<ImagedLight> image_lights(const LensState& lens, std::span<const Light> lights,
                                       const FrameSettings& settings, const Context& context) {
   const Frame& frame = settings.frame;
@@ -100,7 +101,7 @@ Result<Starburst> starburst_of(const LightGroup& group, const LensState& lens, s
   return Starburst();
 }
 
-// Many lights are worth laying the starburst out once.
+// With many lights it is faster to lay the starburst out once.
 Result<void> draw_group(Image& image, const LightGroup& group, const Starburst& starburst, const Context& context) {
   StarburstSheet sheet;
   const bool lays_out =
@@ -134,7 +135,7 @@ Result<void> draw_groups(Image& image, const std::vector<LightGroup>& groups, co
   return {};
 }
 
-// Lights that are points, and lights that have a size.
+// Lights that are points, and extended lights.
 struct SortedLights {
   std::vector<ImagedLight> points, areas;
 };
@@ -151,7 +152,7 @@ void multiply_flux(std::vector<ImagedLight>& lights, double factor) {
     for (double& value : light.flux) value *= factor;
 }
 
-// What glare scatters is missing from the light's own image, so that both together sum to its value.
+// The flux that glare scatters is taken from the light's own image, so that both together sum to its value.
 Result<void> draw_starbursts(Image& image, SortedLights imaged, const LensState& lens, std::span<const Light> lights,
                              const FrameSettings& settings, const Context& context) {
   const double gain = settings.starburst.gain * (1.0 - settings.glare.share);
@@ -161,7 +162,7 @@ Result<void> draw_starbursts(Image& image, SortedLights imaged, const LensState&
   if (auto drawn = draw_groups(image, groups, lens, lights, settings, context); !drawn) return drawn;
   Context quiet = context;
   quiet.progress = {};
-  // A light is asked for again and again, in pixels of several pitches.
+  // The callback is called repeatedly for one light, with pixels of several pitches: its pattern is kept.
   std::optional<std::size_t> known;
   StarburstSource source;
   const auto add_point = [&](Image& part, std::size_t light, const PointSpread& spread, Vec2 centre_px,
@@ -181,7 +182,7 @@ Result<void> draw_starbursts(Image& image, SortedLights imaged, const LensState&
   return add_area_spread(image, imaged.areas, lens, lights, settings.frame, add_point, quiet);
 }
 
-// Light that dirt blocks is scattered no more.
+// Removes the light that dirt blocks, which is not scattered.
 Result<void> take_dirt_off(std::vector<ImagedLight>& imaged, const LensState& lens, std::span<const Light> lights,
                            const Frame& frame, const Context& context) {
   std::vector<ImagedLight> left;
@@ -247,7 +248,7 @@ Result<void> check_imaged(std::span<const Light> lights, const FrameSettings& se
   return {};
 }
 
-// Both, onto an image; times by phase.
+// Adds starbursts and glare to an image, with the times by phase.
 Result<void> draw_light_images(Image& image, RenderStatistics& statistics, const LensState& lens,
                                std::span<const Light> lights, const FrameSettings& settings, const Context& context) {
   Clock::time_point start = Clock::now();

@@ -1,4 +1,4 @@
-// What the driver adds to every method's picture: the lights' own images as diffraction spreads them, and their glare.
+// What is added to every method's picture: the lights' own images as diffraction spreads them, and their glare.
 #pragma once
 
 #include <span>
@@ -7,11 +7,11 @@
 
 namespace contrejour {
 
-// Are the options of starburst and glare usable, and the lights that they are of? Errors: InvalidArgument.
+// Checks the options of starburst and glare, and the lights that they apply to. Errors: InvalidArgument.
 [[nodiscard]] Result<void> check_light_images(std::span<const Light> lights, const FrameSettings& settings);
 
-// Adds them to the flare's image, and the phases "starburst" and "glare" to its times. Lights and frame are those of a
-// render that succeeded. Errors: Cancelled.
+// Adds starbursts and glare to the flare's image, and the phases "starburst" and "glare" to its times. Lights and frame
+// are those of a render that succeeded. Errors: Cancelled.
 [[nodiscard]] Result<void> add_light_images(Flare& flare, const LensState& lens, std::span<const Light> lights,
                                             const FrameSettings& settings, const Context& context);
 
