@@ -26,7 +26,7 @@ bool reads_as_numbers(const std::string& word) {
          std::any_of(word.begin(), word.end(), [](unsigned char c) { return std::isdigit(c) != 0; });
 }
 
-// `--light 1,2 3,4` means `--light 1,2 --light 3,4`; the parser itself could not tell the second from LENS.
+// `--light 1,2 3,4` means `--light 1,2 --light 3,4`; the parser could not distinguish the second value from LENS.
 std::vector<std::string> repeat_light_flags(const std::vector<std::string>& arguments) {
   std::vector<std::string> expanded;
   std::string flag;
@@ -126,7 +126,7 @@ int run_checked(std::vector<std::string> arguments) {
   set_up(app, action);
   try {
     arguments = repeat_light_flags(arguments);
-    std::reverse(arguments.begin(), arguments.end());  // as CLI11 takes them
+    std::reverse(arguments.begin(), arguments.end());  // in the order that CLI11 expects
     app.parse(std::move(arguments));
   } catch (const CLI::Success& success) {  // --help, --version
     app.exit(success);

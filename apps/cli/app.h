@@ -1,4 +1,4 @@
-// The program: reads the command line, runs the sub-command it names, turns its result into an exit code.
+// The program: reads the command line, runs the sub-command that it names, and turns the result into an exit code.
 #pragma once
 
 #include <string>
@@ -6,7 +6,8 @@
 
 namespace contrejour::cli {
 
-// Arguments without the program's name. 0 done, 1 failed, 2 usage, 130 interrupted.
+// Takes the arguments without the program's name. Returns 0 if done, 1 if failed, 2 for wrong usage, 130 if
+// interrupted.
 int run(std::vector<std::string> arguments);
 
 }  // namespace contrejour::cli

@@ -44,7 +44,7 @@ struct ApplyOptions {
 
 struct ApplyFiles {
   OutputFile* output = nullptr;
-  OutputFile *flare_only = nullptr, *detected = nullptr, *preview = nullptr, *look = nullptr;  // where asked for
+  OutputFile *flare_only = nullptr, *detected = nullptr, *preview = nullptr, *look = nullptr;  // or null
 };
 
 Result<ApplyFiles> open_files(const ApplyOptions& options, Outputs& outputs) {
@@ -63,7 +63,7 @@ Result<void> write_preview(const ApplyOptions& options, OutputFile& file, const 
   return write_preview_png(file, rgb, look, context);
 }
 
-// What counts as lights is drawn of the photograph without flare, so before the flare is added.
+// The detected lights are drawn over the photograph without flare, so they are written before the flare is added.
 Result<void> write_all(const ApplyOptions& options, const ApplyFiles& files, Picture& picture, const FlarePlan& plan,
                        const Image& flare) {
   const LongTask task("writing", 0);
@@ -130,7 +130,7 @@ Result<int> run_apply(ApplyOptions options) {
   return kDone;
 }
 
-// The error where only one of LENS and IN was given.
+// The error if only one of LENS and IN was given.
 CLI::ParseError missing_argument(const std::string& given) {
   const std::string ending = lower_extension(given);
   if (ending != ".exr" && ending != ".png") return CLI::RequiredError("IN");
@@ -166,7 +166,7 @@ void add_apply(CLI::App& app, Action& action) {
   command->callback([options, &action] {
     if (options->input.empty()) {
       if (options->look.look.empty()) throw missing_argument(options->lens);
-      std::swap(options->lens, options->input);  // the look's lens
+      std::swap(options->lens, options->input);  // the lens comes from the preset
     }
     action = [options] { return run_apply(*options); };
   });

@@ -1,4 +1,4 @@
-// What `apply` found in the picture, and how plainly its flare shows: as JSON, or as text.
+// Reports the lights that `apply` found in the picture and how visible its flare is: as JSON, or as text.
 #pragma once
 
 #include <string>

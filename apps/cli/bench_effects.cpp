@@ -1,4 +1,4 @@
-// contrejour bench effects: what all that is not a ghost costs on this machine, beside its targets.
+// contrejour bench effects: the costs of everything but ghosts on this machine, with their targets.
 #include <memory>
 #include <string>
 

@@ -40,7 +40,7 @@ struct HullinOptions {
   params::Values values;
 };
 
-// An EXR to measure and a PNG to look at.
+// Writes an EXR to measure and a PNG to look at.
 Result<void> write_pictures(const fs::path& folder, const std::string& name, const Image& image,
                             const params::Values& values) {
   if (auto ok = write_exr(folder / (name + ".exr"), image); !ok) return ok;

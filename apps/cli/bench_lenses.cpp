@@ -1,4 +1,4 @@
-// contrejour bench lenses: what frames of many lens files cost, beside the bundled Canon zoom's.
+// contrejour bench lenses: the costs of frames of many lens files, compared with the bundled Canon zoom's.
 #include <filesystem>
 #include <fstream>
 #include <memory>
@@ -31,12 +31,12 @@ const BenchedLens kYardstick{"canon-70-200", 135.0};
 struct LensesOptions {
   std::vector<std::string> files;
   std::string list, folder, json;
-  bool first_frame = false;  // what a fresh process is started with
+  bool first_frame = false;  // set in a fresh process
   FrameRunning running;
   params::Values values;
 };
 
-// The names of a list, a line each; lines that are empty or begin with # are not.
+// The names in a list, one a line; empty lines and lines that begin with # are skipped.
 Result<std::vector<std::string>> files_of(const LensesOptions& options) {
   std::vector<std::string> files = options.files;
   if (options.list.empty()) return files;
@@ -123,7 +123,7 @@ void add_bench_lenses(CLI::App& bench, Action& action) {
   command->add_flag("--processor-time", options->running.processor_time,
                     "times of all threads together instead of the clock's, for a machine that has other work");
   add_parameters(*command, options->values, {"wavelengths", "ghosts", "error", "threads"});
-  // What a fresh process is started with is no user's business.
+  // Only fresh processes are started with this option, so that the help omits it.
   command->add_flag("--first-frame", options->first_frame)->group("");
   add_parameters(*command, options->values, {"focal", "fnumber", "size"});
   for (const char* hidden : {"--focal", "--fnumber", "--size"}) command->get_option(hidden)->group("");

@@ -1,4 +1,4 @@
-// contrejour bench tables: bodonyi2023's systems on this machine, beside the paper's figures.
+// contrejour bench tables: bodonyi2023's systems on this machine, compared with the paper's figures.
 #include <algorithm>
 #include <filesystem>
 #include <memory>
@@ -50,7 +50,7 @@ bool is_wanted(std::string_view key, const std::string& list) {
   return list.empty() || std::find(wanted.begin(), wanted.end(), key) != wanted.end();
 }
 
-// All but the reference, which takes hours.
+// All methods but the reference, which takes hours.
 std::vector<std::string> methods_of(const TablesOptions& options) {
   if (!options.methods.empty()) return words(options.methods);
   std::vector<std::string> list;
@@ -79,7 +79,7 @@ bool needs_probes(const TablesOptions& options) {
   });
 }
 
-// One request of each scene, in the order they are asked for.
+// One request for each scene, in the order of the requests.
 std::vector<BenchRequest> scenes_of(const std::vector<BenchRequest>& requests) {
   std::vector<BenchRequest> scenes;
   for (const BenchRequest& request : requests) {
@@ -91,8 +91,8 @@ std::vector<BenchRequest> scenes_of(const std::vector<BenchRequest>& requests) {
   return scenes;
 }
 
-// Probes come first: peak memory is of no meaning once other methods have run. What ratios are made of is measured one
-// after the other.
+// Probes come first: peak memory would be meaningless once other methods have run. Measurements that form a ratio are
+// made directly after each other.
 Result<BenchRows> measure_all(const TablesOptions& options) {
   BenchRows rows;
   BenchRunning running = options.running;
@@ -152,7 +152,7 @@ std::string problem_with_methods(const std::string& list) {
   return "";
 }
 
-// A list of keys of things that have one.
+// An error message if a word of the list is the key of none of these things; else empty.
 template <class Things>
 std::string problem_with_keys(const std::string& list, const Things& things, std::string_view what) {
   std::vector<std::string_view> known;

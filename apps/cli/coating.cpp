@@ -1,4 +1,4 @@
-// contrejour coating: what coatings there are, what they reflect, and which would reflect a colour.
+// contrejour coating: which coatings exist, what they reflect, and which would reflect a given colour.
 #include <memory>
 
 #include <fmt/format.h>

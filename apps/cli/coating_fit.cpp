@@ -1,5 +1,5 @@
-// contrejour coating fit: coatings whose reflection has a colour that was seen. Makers keep their films to themselves
-// (hullin2011, 3.1); the colour of a reflection tells something of them.
+// contrejour coating fit: coatings whose reflection has an observed colour. Makers keep their films secret (hullin2011,
+// 3.1), but the colour of a reflection is a constraint on them.
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -24,7 +24,7 @@ constexpr const char* kCoatingFitExamples =
     "  contrejour coating fit '#7a4cff'\n"
     "  contrejour coating fit 0.2,0.9,0.4 --glass 1.85,23.8 --json";
 
-constexpr double kColourWeight = 20.0;  // of a step in u'v' over a step in reflectance
+constexpr double kColourWeight = 20.0;  // weight of a step in u'v' against one in reflectance
 constexpr std::array kDesigned_nm{450.0, 500.0, 550.0, 600.0, 650.0};
 
 struct FitOptions {
@@ -60,7 +60,7 @@ Fit fitted(const std::string& family, const FilmStack& start, const Glass& glass
     return std::vector<double>{kColourWeight * off[0], kColourWeight * off[1], colour[1]};
   };
   Fit fit{family, refined(start, glass, goal)};
-  // What is printed and read again is in tenths of nanometres.
+  // The printed thicknesses, which may be read again, have tenths of nanometres.
   for (FilmLayer& layer : fit.stack.layers) layer.thickness_nm = std::round(10.0 * layer.thickness_nm) / 10.0;
   fit.colour = reflected_colour(reflectances(fit.stack, glass, goal.lambda_nm));
   const auto off = off_colour(fit.colour, wanted_uv);
@@ -68,7 +68,7 @@ Fit fitted(const std::string& family, const FilmStack& start, const Glass& glass
   return fit;
 }
 
-// The best of each family, the nearest colour first.
+// The best fit of each family, the nearest colour first.
 std::vector<Fit> all_fits(const Glass& glass, const std::array<double, 2>& wanted_uv) {
   std::vector<Fit> best;
   const auto better = [](const Fit& a, const Fit& b) { return a.difference < b.difference; };

@@ -14,7 +14,7 @@ void add_glass_option(CLI::App& command, std::string& text) {
       ->capture_default_str();
 }
 
-// Six digits, an index, n_d and Abbe number, or else a name.
+// A glass code of six digits, an index, n_d and Abbe number, or else a name.
 Result<Glass> parse_glass(const std::string& text) {
   if (const auto coded = glass_of_code(text)) return *coded;
   const std::size_t comma = text.find(',');

@@ -1,4 +1,4 @@
-// --glass of the commands that look at a coating.
+// The option --glass of the commands that examine a coating.
 #pragma once
 
 #include <string>
@@ -10,7 +10,7 @@
 
 namespace contrejour::cli {
 
-// Text: a glass by name or six digits, an index, or N_D,V_D. Default: N-BK7.
+// text: a glass by name or six digits, an index, or N_D,V_D. Default: N-BK7.
 void add_glass_option(CLI::App& command, std::string& text);
 [[nodiscard]] Result<Glass> parse_glass(const std::string& text);
 

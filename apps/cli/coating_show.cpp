@@ -1,4 +1,4 @@
-// contrejour coating show: what a coating reflects, in numbers and as a drawing.
+// contrejour coating show: a coating's reflectance, as numbers and as a drawing.
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -39,7 +39,7 @@ double percent_at(const Coating& coating, const Glass& glass, double nm, double 
   return 100.0 * reflectance(at_wavelength(coating, nm), 1.0, refractive_index(glass, nm), cos_in, nm);
 }
 
-// Mean and largest, straight on, over the part of the spectrum that makers state.
+// The mean and the largest reflectance at normal incidence, over the part of the spectrum that makers specify.
 struct Summary {
   static constexpr double kFirst_nm = 420.0, kLast_nm = 680.0;
   double mean_percent = 0.0, peak_percent = 0.0;

@@ -1,4 +1,5 @@
-// What every sub-command gives: a function that puts it on the command line and says what to do when it is chosen.
+// What every sub-command provides: a function that adds it to the command line and sets the action for when it is
+// chosen.
 #pragma once
 
 #include <functional>
@@ -12,9 +13,9 @@ namespace contrejour::cli {
 inline constexpr int kDone = 0;
 inline constexpr int kFailed = 1;
 inline constexpr int kUsage = 2;
-inline constexpr int kInterrupted = 130;  // 128 + SIGINT, as a shell has it
+inline constexpr int kInterrupted = 130;  // 128 + SIGINT, as shells report it
 
-// The action of the command line that was read; its value is the exit code.
+// The action of the parsed command line; its value is the exit code.
 using Action = std::function<Result<int>()>;
 
 void add_render(CLI::App& app, Action& action);

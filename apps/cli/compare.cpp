@@ -1,4 +1,4 @@
-// contrejour compare: how far picture B is from picture A.
+// contrejour compare: the differences of picture B from picture A.
 #include <algorithm>
 #include <memory>
 #include <string>
@@ -24,11 +24,11 @@ constexpr const char* kCompareExamples =
 
 struct CompareOptions {
   std::string a, b;
-  std::vector<std::string> layers, parts;  // one for both pictures, or A's and B's
+  std::vector<std::string> layers, parts;  // one for both pictures, or one for A and one for B
   bool json = false;
 };
 
-// Of picture 0 or 1.
+// The options of picture 0 or 1.
 ReadOptions read_options(const CompareOptions& options, std::size_t picture) {
   const auto chosen = [picture](const std::vector<std::string>& names) {
     return names.empty() ? std::string() : names[std::min(picture, names.size() - 1)];
@@ -39,7 +39,7 @@ ReadOptions read_options(const CompareOptions& options, std::size_t picture) {
   return read;
 }
 
-// One name each time, so that pictures may follow it.
+// The option takes one name at a time, so that pictures may follow it.
 void add_names(CLI::App& command, const std::string& flag, std::vector<std::string>& names, const std::string& help) {
   command.add_option(flag, names, help)->allow_extra_args(false)->option_text("NAME");
 }

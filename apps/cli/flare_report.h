@@ -7,7 +7,7 @@
 namespace contrejour::cli {
 
 [[nodiscard]] Json stats_json(const RenderStatistics& statistics);
-[[nodiscard]] Json times_json(const RenderStatistics& statistics);  // total first, then by phase
+[[nodiscard]] Json times_json(const RenderStatistics& statistics);  // the total first, then the phases
 [[nodiscard]] double total_ms(const RenderStatistics& statistics);
 
 }  // namespace contrejour::cli

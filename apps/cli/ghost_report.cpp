@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kLast = std::numeric_limits<double>::infinity();
 
-// By what ghosts are sorted, rising.
+// The key that ghosts are sorted by, in increasing order.
 double rank_of(const GhostFigures& g, GhostOrder order) {
   switch (order) {
     case GhostOrder::Flux: return -g.relative_flux;

@@ -1,4 +1,4 @@
-// Figures of ghosts as a table, as comma-separated values and as JSON.
+// The properties of ghosts as a table, as comma-separated values and as JSON.
 #pragma once
 
 #include <string>
@@ -13,10 +13,10 @@ enum class GhostOrder { Flux, Peak, Size, Focus };  // the brightest, the smalle
 
 void sort_ghosts(std::vector<GhostFigures>& figures, GhostOrder order);
 
-// Pairs in the order of the reflections: of each pair the light meets the second first.
+// Pairs in the order of the reflections: light meets the second surface of each pair first.
 [[nodiscard]] Json surfaces_json(const Ghost& ghost);
 
-// As a field of comma-separated values: an order has a comma within the name.
+// The name as a field of comma-separated values: a diffraction order has a comma within the name.
 [[nodiscard]] std::string csv_name(const Ghost& ghost);
 
 [[nodiscard]] Json ghosts_json(const std::vector<GhostFigures>& figures);

@@ -6,7 +6,7 @@
 namespace contrejour::cli {
 namespace {
 
-constexpr int kMeasuredBands = 6;  // unless others are asked for: fluxes to some per cent
+constexpr int kMeasuredBands = 6;  // the default: fluxes to some per cent
 
 std::vector<SpectralBand> bands_for(const params::Values& values, const Light& light) {
   if (const auto lambda_nm = values.real("wavelength")) return {{*lambda_nm, {1.0, 1.0, 1.0}}};

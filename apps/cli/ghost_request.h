@@ -1,4 +1,4 @@
-// A question about a lens's ghosts, read from the command's values.
+// A request for a lens's ghosts, read from the command's values.
 #pragma once
 
 #include "contrejour/ghost_figures.h"
@@ -6,7 +6,7 @@
 
 namespace contrejour::cli {
 
-// For the first of the lights. Errors: those of params::lights().
+// A request for the first of the lights. Errors: those of params::lights().
 [[nodiscard]] Result<FiguresRequest> figures_request(const params::Values& values, const LensState& lens);
 
 }  // namespace contrejour::cli

@@ -17,9 +17,9 @@
 namespace contrejour::cli {
 namespace {
 
-constexpr double kBeyondCorner = 1.5;  // of the corner's field angle: lights outside of the picture have ghosts, too
+constexpr double kBeyondCorner = 1.5;  // of the corner's field angle: lights outside the picture have ghosts as well
 constexpr double kMostField_deg = 85.0;
-constexpr double kSmallestStop = 22.0;  // f-number, unless the lens does not open as far
+constexpr double kSmallestStop = 22.0;  // f-number, unless the lens's widest is larger
 
 double field_of_corner_deg(const LensState& lens) {
   const double half_mm = 0.5 * std::hypot(lens.sensor_width_mm, lens.sensor_height_mm);
@@ -39,7 +39,7 @@ Result<std::array<double, 2>> ends_of(const SweepRange& range, const Prescriptio
   return std::array{lens.zoom.front().focal_length_mm, lens.zoom.back().focal_length_mm};
 }
 
-// Angles evenly, focal lengths and f-numbers by even factors.
+// Angles in equal steps, focal lengths and f-numbers in equal ratios.
 std::vector<double> values_between(SweepAxis axis, const std::array<double, 2>& ends, int steps) {
   std::vector<double> values;
   for (int k = 0; k < steps; ++k) {
@@ -51,7 +51,7 @@ std::vector<double> values_between(SweepAxis axis, const std::array<double, 2>& 
   return values;
 }
 
-// In the plane of the given direction and the axis; up, if that is the axis.
+// The direction at a field angle in the plane of the given direction and the axis; upwards if that is the axis.
 Vec3 at_field(Vec3 direction, double field_deg) {
   const double across = std::hypot(direction.x, direction.y);
   const Vec2 side = across > 0.0 ? Vec2{direction.x / across, direction.y / across} : Vec2{0.0, -1.0};
@@ -59,7 +59,7 @@ Vec3 at_field(Vec3 direction, double field_deg) {
   return {side.x * std::sin(angle), side.y * std::sin(angle), std::cos(angle)};
 }
 
-// Whatever one step asks for.
+// A step with everything that it computes from.
 struct Step {
   LensState lens;
   FiguresRequest request;

@@ -1,4 +1,4 @@
-// Ghosts of a lens while one thing changes: the light's field angle, the focal length, the f-number.
+// The ghosts of a lens as functions of the light's field angle, the focal length or the f-number.
 #pragma once
 
 #include <array>
@@ -17,12 +17,12 @@ enum class SweepAxis { Field, Focal, FNumber };
 
 struct SweepRange {
   SweepAxis axis = SweepAxis::Field;
-  std::optional<std::array<double, 2>> ends;  // none: the whole of it
+  std::optional<std::array<double, 2>> ends;  // nullopt: the whole range
 };
-// "field", "focal", "fnumber", "field:FROM:TO"
+// Accepts "field", "focal", "fnumber", "field:FROM:TO".
 [[nodiscard]] Result<SweepRange> parse_sweep(std::string_view text);
 
-// One ghost's figures over the sweep, one value a step.
+// One ghost's properties over the sweep, one value for each step.
 struct SweptGhost {
   Ghost ghost;
   std::vector<double> relative_flux, peak_irradiance;
@@ -31,21 +31,21 @@ struct SweptGhost {
 struct GhostSweep {
   std::string lens;
   SweepAxis axis = SweepAxis::Field;
-  std::vector<double> value;  // rising
+  std::vector<double> value;  // in increasing order
   std::vector<SweptGhost> ghosts;
 };
 
-// Everything but what the sweep changes is as the values say; field angles lie on the light's side of the axis.
-// Errors: those of the lens and its settings, a lens that has no zoom to sweep, Cancelled.
+// Everything that the sweep does not change is as in the values; field angles are on the light's side of the axis.
+// Errors: those of the lens and its settings, a lens without zoom in a sweep of the focal length, Cancelled.
 [[nodiscard]] Result<GhostSweep> sweep_ghosts(const std::string& lens, const params::Values& values,
                                               const SweepRange& range, int steps);
 
-// The figure that a sweep compares: a ghost's flux, or its peak.
+// The quantity that a sweep compares: a ghost's flux, or its peak.
 enum class SweepQuantity { Flux, Peak };
 [[nodiscard]] const std::vector<double>& quantity_of(const SweptGhost& ghost, SweepQuantity quantity);
-// The step at which it is largest.
+// The step at which the quantity is largest.
 [[nodiscard]] std::size_t worst_step(const SweptGhost& ghost, SweepQuantity quantity);
-// The worst ghost first.
+// Sorts by the largest value over the sweep, in decreasing order.
 void sort_by_worst(GhostSweep& sweep, SweepQuantity quantity);
 
 [[nodiscard]] std::string axis_name(SweepAxis axis);  // with its unit, for headings

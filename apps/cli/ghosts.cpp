@@ -1,4 +1,4 @@
-// contrejour ghosts: each ghost of a lens, the brightest first; or what becomes of them as something changes.
+// contrejour ghosts: each ghost of a lens, the brightest first; or all ghosts as a setting changes.
 #include <memory>
 #include <string>
 
@@ -121,7 +121,7 @@ Result<int> run_path(const GhostsOptions& options) {
   return kDone;
 }
 
-// Refuses options that do not go together.
+// Refuses options that exclude each other.
 void check(const GhostsOptions& options) {
   const params::Values& values = options.values;
   if (values.list("light").size() + values.list("light-at").size() > 1)

@@ -1,4 +1,4 @@
-// contrejour glass: what can be asked of glasses.
+// contrejour glass: queries of glasses.
 #include "cli/command.h"
 
 namespace contrejour::cli {

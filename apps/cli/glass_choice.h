@@ -1,4 +1,4 @@
-// The glasses a command works with: the user's own catalogues, then the bundled one.
+// The glasses that a command uses: the user's own catalogues, then the bundled one.
 #pragma once
 
 #include <string>
@@ -10,14 +10,14 @@
 
 namespace contrejour::cli {
 
-// --catalogue PATH, which may be repeated.
+// Adds --catalogue PATH, which may be repeated.
 void add_catalogue_option(CLI::App& command, std::vector<std::string>& paths);
 
-// `paths`, then those of the environment variable CONTREJOUR_GLASS_PATH (with ':' between, ';' on Windows). Prints the
-// files' warnings. Errors: those of GlassCatalogue::add_path.
+// Reads `paths`, then those of the environment variable CONTREJOUR_GLASS_PATH (separated by ':', or by ';' on Windows).
+// Prints the files' warnings. Errors: those of GlassCatalogue::add_path.
 [[nodiscard]] Result<GlassCatalogue> own_glasses(const std::vector<std::string>& paths = {});
 
-// own_glasses() with the bundled ones behind.
+// own_glasses() followed by the bundled ones.
 [[nodiscard]] Result<GlassCatalogue> all_glasses(const std::vector<std::string>& paths = {});
 
 }  // namespace contrejour::cli

@@ -1,4 +1,4 @@
-// contrejour glass list and closest: many glasses, one line each.
+// contrejour glass list and closest: many glasses, one on each line.
 #include <memory>
 
 #include <fmt/format.h>
@@ -36,7 +36,7 @@ std::vector<std::string> summary_cells(const GlassSummary& glass) {
           number(glass.v_d, 3), glass.code, std::string(status_name(glass.status))};
 }
 
-// A number within a range; CLI::Range lets NaN through.
+// A number within a range; CLI::Range accepts NaN.
 CLI::Validator within(double low, double high) {
   const auto problem = [low, high](const std::string& text) {
     const auto value = params::parse_real(text);
@@ -52,7 +52,7 @@ void add_common_options(CLI::App& command, ListOptions& options) {
   command.add_flag("--json", options.json, "as JSON");
 }
 
-// A maker that no catalogue has is a mistake.
+// A maker that is in no catalogue is an error.
 Result<void> check_makers(const GlassCatalogue& glasses, const std::vector<std::string>& wanted) {
   for (const std::string& maker : wanted) {
     bool known = false;

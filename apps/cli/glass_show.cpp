@@ -1,4 +1,4 @@
-// contrejour glass show: one glass, as a data sheet has it.
+// contrejour glass show: one glass, in the form of a data sheet.
 #include <cmath>
 #include <memory>
 

@@ -13,11 +13,11 @@ namespace {
 
 constexpr double kLeft = 84.0, kRight = 116.0, kTop = 64.0, kBottom = 56.0;
 constexpr double kRow = 14.0, kColumn = 34.0, kFewestColumns_px = 420.0;
-constexpr double kDecades = 5.0;  // from the largest value down
+constexpr double kDecades = 5.0;  // below the largest value
 constexpr const char* kInk = R"(fill="#26323d" font-size="11")";
 constexpr const char* kDark = "#101014";  // nothing gets through
 
-// From dark to bright and of even steps to the eye: matplotlib's "inferno", every eighth of it.
+// From dark to bright in perceptually even steps: matplotlib's "inferno", every eighth of it.
 constexpr std::array<std::array<double, 3>, 9> kColours{{{0, 0, 4},
                                                          {31, 12, 72},
                                                          {85, 15, 109},
@@ -101,7 +101,7 @@ class Map {
              R"(fill="#26323d" font-size="12" text-anchor="middle")");
   }
 
-  // Decades, the largest value on top.
+  // A scale by decades, the largest value at the top.
   void draw_scale(Svg& svg) const {
     constexpr double kHeight = 160.0, kBar = 14.0;
     constexpr int kPieces = 64;

@@ -1,4 +1,4 @@
-// A sweep as a picture: a row a ghost, the worst first, a column a step, colours by decades.
+// A sweep as a picture: one row for each ghost, the worst first; one column for each step; colours by decades.
 #pragma once
 
 #include <string>
@@ -7,7 +7,7 @@
 
 namespace contrejour::cli {
 
-// SVG of a sorted sweep, of at most kMostRows ghosts.
+// The SVG of a sorted sweep, of at most kMostRows ghosts.
 inline constexpr std::size_t kMostRows = 80;
 [[nodiscard]] std::string heat_map(const GhostSweep& sweep, SweepQuantity quantity);
 

@@ -16,7 +16,7 @@ const std::atomic<bool>& interrupt_flag() { return interrupted; }
 
 void catch_interrupts() {
   for (const int number : {SIGINT, SIGTERM}) {
-    // A shell's background job ignores SIGINT; so it stays.
+    // A shell's background job ignores SIGINT; it continues to do so.
     if (std::signal(number, on_interrupt) == SIG_IGN) std::signal(number, SIG_IGN);
   }
 #if defined(SIGXFSZ)

@@ -1,4 +1,4 @@
-// Ctrl-C and SIGTERM: a flag that long work looks at, so that it stops in good order and leaves no file.
+// Ctrl-C and SIGTERM set a flag that long tasks check, so that they stop in an orderly way and leave no file.
 #pragma once
 
 #include <atomic>
@@ -6,6 +6,6 @@
 namespace contrejour::cli {
 
 [[nodiscard]] const std::atomic<bool>& interrupt_flag();
-void catch_interrupts();  // and lets writing beyond a limit of files' sizes fail as on a full disk
+void catch_interrupts();  // also makes writing beyond a file size limit fail as on a full disk
 
 }  // namespace contrejour::cli

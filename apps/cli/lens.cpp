@@ -1,4 +1,4 @@
-// contrejour lens: what can be asked of a lens itself.
+// contrejour lens: queries of a lens itself.
 #include "cli/command.h"
 
 namespace contrejour::cli {

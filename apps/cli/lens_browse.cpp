@@ -43,7 +43,7 @@ struct BrowseOptions {
   params::Values values;
 };
 
-// The files themselves, and all files of folders and below, in the order of their names.
+// The given files, and all files in given folders and below, in the order of their names.
 Result<std::vector<std::string>> files_of(const std::vector<std::string>& given) {
   std::vector<std::string> files;
   for (const std::string& name : given) {
@@ -64,7 +64,7 @@ Result<std::vector<std::string>> files_of(const std::vector<std::string>& given)
   return files;
 }
 
-// The f-number that is asked for, or the lens's widest where that is larger.
+// The requested f-number, or the lens's widest where that is larger.
 Result<LensState> state_of(const Prescription& lens, const params::Values& values) {
   auto settings = params::lens_settings(values);
   if (!settings) return tl::unexpected(settings.error());
@@ -78,7 +78,7 @@ std::string focal_lengths(const Prescription& lens, const LensState& state) {
                      state.focal_length_mm);
 }
 
-// The luminance of the flare in the frame, over that of the light.
+// The luminance of the flare within the frame, over that of the light.
 double share_of_light(const Image& flare, const Light& light, ColourSpace space) {
   Rgb sum{};
   for (std::size_t k = 0; k < flare.pixels.size(); ++k) sum[k % 3] += flare.pixels[k];

@@ -1,4 +1,4 @@
-// contrejour lens check: are these lens files sound, and do their figures agree with what they state?
+// contrejour lens check: whether lens files are sound, and whether computed figures agree with the stated ones.
 #include <algorithm>
 #include <memory>
 #include <optional>
@@ -31,7 +31,7 @@ struct Verdict {
   std::vector<std::string> warnings;
 };
 
-// Every zoom position must be reachable, not just the first.
+// Every zoom position must be reachable, not only the first.
 Verdict check_lens(const std::string& file) {
   Verdict verdict;
   verdict.file = file;

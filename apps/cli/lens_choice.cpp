@@ -32,7 +32,7 @@ Result<LensState> open_lens(const std::string& lens, const params::Values& value
 
 namespace {
 
-// Refuses what is no ghost while the command line is read.
+// Refuses texts that name no ghost while the command line is parsed.
 template <auto parse>
 CLI::Option* checked(CLI::Option* option) {
   const auto problem = [](const std::string& text) {

@@ -1,4 +1,4 @@
-// The lens a command works with: a bundled name or a file, set as the options say.
+// The lens that a command uses: a bundled name or a file, configured by the options.
 #pragma once
 
 #include <string>
@@ -12,20 +12,20 @@
 
 namespace contrejour::cli {
 
-// The LENS argument.
+// Adds the LENS argument.
 CLI::Option* add_lens_argument(CLI::App& command, std::string& lens);
 
-// find_lens() with the user's own glasses (glass_choice.h).
+// Calls find_lens() with the user's own glasses (glass_choice.h).
 [[nodiscard]] Result<Prescription> prescription_of(const std::string& lens);
 
-// Finds and sets it; prints its warnings. Errors: those of find_lens and configure_lens.
+// Finds and configures the lens; prints its warnings. Errors: those of find_lens and configure_lens.
 [[nodiscard]] Result<LensState> open_lens(const std::string& lens, const params::Values& values);
 
-// An option that names a ghost, as --ghost I-J, and the ghost it names. Errors: the lens has no such ghost.
+// An option that names a ghost, such as --ghost I-J, and the ghost that it names. Errors: the lens has no such ghost.
 CLI::Option* add_ghost_option(CLI::App& command, const std::string& flag, std::string& ghost, const std::string& help);
 [[nodiscard]] Result<Ghost> choose_ghost(const LensState& lens, const std::string& text);
 
-// The same, for any number of ghosts.
+// An option for any number of ghosts, and the ghosts that it names.
 CLI::Option* add_ghosts_option(CLI::App& command, std::vector<std::string>& ghosts, const std::string& help);
 [[nodiscard]] Result<std::vector<Ghost>> choose_ghosts(const LensState& lens, const std::string& text);
 

@@ -1,4 +1,4 @@
-// contrejour lens convert: any lens that is read -> our own TOML, Zemax or CODE V, by the ending.
+// contrejour lens convert: any lens that can be read -> our own TOML, Zemax or CODE V, by the file's ending.
 #include <memory>
 #include <string>
 

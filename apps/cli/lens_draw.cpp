@@ -33,7 +33,7 @@ struct DrawOptions {
   params::Values values;
 };
 
-// How far the light is from the axis, up if it is up.
+// The light's angle from the axis, positive if the light is above it.
 Result<std::optional<double>> light_angle_rad(const params::Values& values, const LensState& lens) {
   if (!values.given("light")) return std::optional<double>();
   const auto lights = params::lights(values, lens, frame_on_sensor(lens, 3, 2), ColourSpace::Rec709);

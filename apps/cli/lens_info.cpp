@@ -1,4 +1,4 @@
-// contrejour lens info: surfaces and first-order figures of a lens.
+// contrejour lens info: surfaces and first-order properties of a lens.
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -87,7 +87,7 @@ Json outline_json(const char* kind, const Part& part) {
 
 const char* kind_name(ApertureKind kind) { return kind == ApertureKind::Ellipse ? "ellipse" : "rectangle"; }
 
-// Of the other section's radius too, where that is another.
+// A surface's shape; if its radius in the x-z section differs, that as well.
 std::string shape_text(const SurfaceState& s) {
   std::string text = shape_name(s.curvature_per_mm, s.shape);
   if (!s.shape.has_axial_symmetry()) {
@@ -236,7 +236,7 @@ std::string figures_text(const Info& info) {
   return text.substr(text.find('\n') + 1);  // no headings
 }
 
-// In wavelengths, as third-order coefficients are read.
+// In wavelengths, the usual unit of third-order coefficients.
 std::string seidel_text(const Info& info) {
   const double per_wave = 1e6 / info.lambda_nm;
   TextTable table({"surface", "S_I", "S_II", "S_III", "S_IV", "S_V", "C_I", "C_II"});

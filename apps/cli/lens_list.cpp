@@ -1,4 +1,4 @@
-// contrejour lens list: the lenses that come with the program.
+// contrejour lens list: the bundled lenses.
 #include <memory>
 #include <string>
 

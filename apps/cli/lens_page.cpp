@@ -100,7 +100,7 @@ std::string card_html(const LensCard& card, std::size_t place) {
       place, card.focal_length_mm, card.f_number, card.ghosts, card.flare,
       escaped(lower(card.id + " " + card.name + " " + card.source)));
   html += "<img alt=\"flare\" src=\"data:image/png;base64," + base64(card.picture) + "\">\n";
-  // As a picture: the names of parts within an SVG are its own then, not the page's.
+  // The section is embedded as a picture, so that names of parts within its SVG do not collide with the page's.
   html += "<img class=\"section\" alt=\"section\" src=\"data:image/svg+xml;base64," +
           base64(std::as_bytes(std::span(card.section))) + "\">\n";
   html += fmt::format(

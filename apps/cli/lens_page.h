@@ -1,4 +1,4 @@
-// A page (HTML, all in one file) that shows many lenses.
+// A page (HTML, a single file) that shows many lenses.
 #pragma once
 
 #include <cstddef>
@@ -13,7 +13,7 @@ struct LensCard {
   double focal_length_mm = 0, f_number = 0;  // as drawn
   std::string focal_lengths;                 // "70-200"
   std::size_t surfaces = 0, ghosts = 0;
-  double flare = 0;  // the flare in the frame over the light's own image
+  double flare = 0;  // the flux of the flare in the frame over that of the direct image
   double exposure_stops = 0;
   std::string section;             // SVG
   std::vector<std::byte> picture;  // PNG

@@ -35,7 +35,7 @@ struct TraceOptions {
 struct Traced {
   RayRecord record;
   double lambda_nm = 0;
-  double outside = 0;  // blocked_by; > 0 is blocked
+  double outside = 0;  // blocked_by; blocked if > 0
 };
 
 const char* name_of(PathEvent event) {
@@ -49,7 +49,7 @@ const char* name_of(PathEvent event) {
 
 Json vector_json(Vec3 v) { return Json::array({v.x, v.y, v.z}); }
 
-// A ray that is totally reflected where its path refracts has no direction after.
+// A ray that is totally reflected where its path refracts has no direction afterwards.
 bool ends_here(const Traced& traced, const TraceStep& step) {
   return traced.record.ray.status == RayStatus::TotalReflection && &step == &traced.record.steps.back();
 }
@@ -100,7 +100,7 @@ Result<OpticalPath> path_of(const LensState& lens, const std::string& ghost_text
   return ghost_path(lens, *ghost, lambda_nm);
 }
 
-// Of any length a double holds: scaled before squaring, so that nothing overflows.
+// Accepts a vector of any length that a double can hold: it is scaled before it is squared, so that nothing overflows.
 Vec3 unit_vector(double x, double y, double z) {
   const double largest = std::max({std::abs(x), std::abs(y), std::abs(z)});
   return normalized({x / largest, y / largest, z / largest});

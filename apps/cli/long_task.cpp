@@ -13,7 +13,7 @@ namespace contrejour::cli {
 namespace {
 
 constexpr int kBarCells = 30;
-constexpr auto kBeforeFirst = std::chrono::milliseconds(400);  // quick work shows no bar
+constexpr auto kBeforeFirst = std::chrono::milliseconds(400);  // quick tasks show no bar
 constexpr auto kBetween = std::chrono::milliseconds(100);
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Work that takes a while: its threads, its end by Ctrl-C, and a bar on a terminal that shows how far it is.
+// A task that takes a while: its threads, its cancelling by Ctrl-C, and a progress bar on a terminal.
 #pragma once
 
 #include <chrono>
@@ -10,7 +10,7 @@ namespace contrejour::cli {
 
 class LongTask {
  public:
-  // label: what the bar says, e.g. "rendering". No bar where the standard error is no terminal.
+  // label: the text of the bar, e.g. "rendering". There is no bar if the standard error is not a terminal.
   LongTask(std::string label, int threads);
   ~LongTask();  // wipes the bar
   LongTask(const LongTask&) = delete;

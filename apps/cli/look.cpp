@@ -1,4 +1,4 @@
-// contrejour look: the looks that come with the program, and what is in one.
+// contrejour look: lists the bundled presets and shows what is in one.
 #include <memory>
 #include <string>
 
@@ -39,7 +39,7 @@ Result<int> run_list(bool json) {
   return kDone;
 }
 
-// As a look file, or as JSON with every value as its text.
+// Prints a preset file, or JSON with every value as its text.
 Result<int> run_show(const std::string& name, bool json) {
   const auto look = params::find_look(name);
   if (!look) return tl::unexpected(look.error());

@@ -1,4 +1,4 @@
-// --look and --save-look, and what a look changes.
+// The options --look and --save-look, and the values that a preset changes.
 #pragma once
 
 #include <filesystem>
@@ -19,7 +19,8 @@ struct LookOptions {
 
 void add_look_options(CLI::App& command, LookOptions& options);
 
-// Lens and values as the look has them where the command line does not say. Errors: no such look; no lens anywhere.
+// Takes the lens and the values from the preset where the command line does not give them. Errors: no such preset; no
+// lens given anywhere.
 [[nodiscard]] Result<void> fill_from_look(const LookOptions& options, std::string& lens, params::Values& values);
 
 }  // namespace contrejour::cli

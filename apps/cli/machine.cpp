@@ -6,7 +6,7 @@
 namespace contrejour::cli {
 namespace {
 
-// Linux tells in /proc/cpuinfo: "model name : ...".
+// Linux lists it in /proc/cpuinfo: "model name : ...".
 std::string processor_name() {
   std::ifstream file("/proc/cpuinfo");
   for (std::string line; std::getline(file, line);) {

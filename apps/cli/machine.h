@@ -1,4 +1,4 @@
-// What a measurement was made on.
+// The machine that a measurement is made on.
 #pragma once
 
 #include <string>
@@ -8,7 +8,7 @@
 namespace contrejour::cli {
 
 struct Machine {
-  std::string processor;  // its maker's name, where the system tells
+  std::string processor;  // the maker's name for it, if the system provides it
   unsigned cores = 0;     // that this program may use
   std::string system, compiler;
 };

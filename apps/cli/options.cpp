@@ -18,7 +18,7 @@ std::string flags_of(const Parameter& p) {
   return p.letter != '\0' ? fmt::format("-{},--{}", p.letter, p.name) : fmt::format("--{}", p.name);
 }
 
-// What stands for the value in the help.
+// The placeholder for the value in the help.
 std::string placeholder(const Parameter& p) {
   if (p.kind == Kind::Choice) return fmt::format("{}", fmt::join(p.choices, "|"));
   if (p.unit.empty()) return p.kind == Kind::Integer ? "N" : "NUMBER";
@@ -40,7 +40,7 @@ void add_parameter(CLI::App& command, params::Values& values, const Parameter& p
     if (!checked) throw CLI::ValidationError("--" + name, checked.error().to_string());
   };
   if (p.kind == Kind::Switch) {
-    // Off is for a look that has it on.
+    // The negative form is for use with a preset that switches the parameter on.
     command
         .add_flag_function(
             fmt::format("--{0},!--no-{0}", p.name), [set](std::int64_t n) { set(n > 0 ? "on" : "off"); }, help_of(p))

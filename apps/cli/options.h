@@ -1,4 +1,4 @@
-// Options of a sub-command, made from the table of parameters; and the checks files' names need.
+// Options of a sub-command, made from the table of parameters; checks of file names.
 #pragma once
 
 #include <array>
@@ -15,7 +15,7 @@
 
 namespace contrejour::cli {
 
-// One option each; `values` must live as long as the command. A wrong value is a usage error.
+// Adds one option for each name; `values` must live as long as the command. A wrong value is a usage error.
 void add_parameters(CLI::App& command, params::Values& values, std::initializer_list<std::string_view> names);
 void add_parameters(CLI::App& command, params::Values& values, std::span<const std::string_view> names);
 
@@ -29,18 +29,18 @@ inline constexpr std::array<std::string_view, 11> kDirt = {
     "dust",           "dust-size",  "scratches", "scratch-length", "scratch-width", "scratch-angle",
     "scratch-spread", "dirt-image", "dirt-on",   "dirt-seed",      "dirt-time"};
 
-// Options that are taken, so that one line of options will do for every command, but change nothing of what this one
-// shows: they are not in its help.
+// Adds options that are accepted, so that the same options work for every command, but do not affect this command's
+// result: its help omits them.
 void hide_parameters(CLI::App& command, std::span<const std::string_view> names);
 
-// How to render: the method and its settings.
+// Adds the options of rendering: the method and its settings.
 void add_rendering_parameters(CLI::App& command, params::Values& values);
 
-// -o FILE or another file that is written; its name must end so (".exr"), in any case.
+// Adds -o FILE or another file to write; its name must have one of these endings (".exr"), in any case.
 CLI::Option* add_output(CLI::App& command, const std::string& flags, std::string& file,
                         std::initializer_list<std::string_view> endings, const std::string& help);
 
-// --layer and --part: which of the pictures of an EXR file is read.
+// Adds --layer and --part, which choose the picture to read from an EXR file.
 void add_picture_choice(CLI::App& command, ReadOptions& read);
 
 [[nodiscard]] std::string lower_extension(const std::string& file);

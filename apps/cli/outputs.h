@@ -1,5 +1,5 @@
-// The files a command writes: all of them appear when everything worked, none otherwise (output_file.h).
-// Not for sharing by threads.
+// The files that a command writes: all of them appear when everything succeeded, none otherwise (output_file.h).
+// Thread-safety: from one thread only.
 #pragma once
 
 #include <deque>
@@ -14,19 +14,19 @@ namespace contrejour::cli {
 
 class Outputs {
  public:
-  // What to write into; null for an empty name: a file that was not asked for. Finds out at once whether that folder
-  // can be written to, so that long work does not end with nowhere to put it. Errors: Io; InvalidArgument for a file
-  // named twice.
+  // Returns the file to write into; null for an empty name, which means a file that is not requested. Checks at once
+  // that the folder can be written to, so that a long task does not fail at its end. Errors: Io; InvalidArgument for a
+  // file named twice.
   [[nodiscard]] Result<OutputFile*> add(const std::string& destination);
 
-  // The same for several: each name, and where to say what to write into.
+  // Adds several files: each name, and where to store the file to write into.
   [[nodiscard]] Result<void> add_all(std::span<const std::pair<const std::string&, OutputFile*&>> files);
 
   // Errors: Io, Cancelled.
   [[nodiscard]] Result<void> commit();
 
  private:
-  std::deque<OutputFile> files_;  // which stay where they are
+  std::deque<OutputFile> files_;  // a deque, since its elements do not move
 };
 
 }  // namespace contrejour::cli

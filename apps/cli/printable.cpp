@@ -13,7 +13,7 @@ struct Character {
   bool valid = false;
 };
 
-// RFC 3629; the first of a text that is not empty.
+// The first character of a text that is not empty, by RFC 3629.
 Character first_character(std::string_view text) {
   const auto byte = [&](std::size_t k) { return static_cast<unsigned char>(text[k]); };
   const unsigned lead = byte(0);

@@ -1,4 +1,4 @@
-// Text that is safe on a terminal: names in files and on the command line may hold anything.
+// Makes text safe to print on a terminal: names in files and on the command line may contain any bytes.
 #pragma once
 
 #include <string>
@@ -6,12 +6,12 @@
 
 namespace contrejour::cli {
 
-enum class Lines { Keep, Join };  // Keep leaves line ends and tabs as they are
+enum class Lines { Keep, Join };  // Keep preserves line ends and tabs
 
-// Control characters (C0, DEL, C1), those that turn the direction of writing, and bytes that are not UTF-8 become '?'.
+// Replaces control characters (C0, DEL, C1), bidirectional controls, and bytes that are not UTF-8 by '?'.
 [[nodiscard]] std::string printable(std::string_view text, Lines lines);
 
-// The same characters of JSON text as \u escapes, which stand for them; it is UTF-8 already.
+// Replaces the same characters in JSON text by equivalent \u escapes; JSON text is UTF-8 already.
 [[nodiscard]] std::string printable_json(std::string_view json);
 
 }  // namespace contrejour::cli

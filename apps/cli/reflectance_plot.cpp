@@ -22,7 +22,7 @@ constexpr std::array kPlotAngles_deg{0, 15, 30, 45, 60};
 constexpr std::array kInks{"#111111", "#2f6fb0", "#2c9a5b", "#d08a1e", "#c2402f"};
 constexpr const char* kSmall = R"(font-family="sans-serif" font-size="12" fill="#333")";
 
-// 1, 2 or 5 times a power of ten, a few of which make `most`.
+// 1, 2 or 5 times a power of ten, such that a few ticks reach `most`.
 double tick_for(double most) {
   const double rough = most / 5.0, ten = std::pow(10.0, std::floor(std::log10(rough)));
   for (const double times : {1.0, 2.0, 5.0})
@@ -61,7 +61,7 @@ void draw_axes(Svg& svg, const Plot& plot) {
            std::string(kSmall) + R"( text-anchor="middle")");
 }
 
-// The spectrum's colours below the axis, as bright as the eye sees them.
+// The spectrum's colours below the axis, with the eye's relative brightness.
 void draw_spectrum(Svg& svg, const Plot& plot) {
   const double width = plot.at(kPlotFirst_nm + kPlotStep_nm, 0.0).x - plot.at(kPlotFirst_nm, 0.0).x;
   for (double nm = kPlotFirst_nm; nm < kPlotLast_nm; nm += kPlotStep_nm) {

@@ -1,4 +1,4 @@
-// A drawing of what a coated surface reflects, over wavelength, a line an angle.
+// A plot of a coated surface's reflectance over wavelength, with one line for each angle.
 #pragma once
 
 #include <string>
@@ -8,7 +8,7 @@
 
 namespace contrejour::cli {
 
-// coating: placed on the glass (placed_on). As SVG.
+// coating: placed on the glass (placed_on). Returns SVG.
 [[nodiscard]] std::string reflectance_plot(const Coating& coating, const Glass& glass, const std::string& title);
 
 }  // namespace contrejour::cli

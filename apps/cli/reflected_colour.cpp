@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kColourFirst_nm = 380.0, kColourLast_nm = 780.0, kColourStep_nm = 5.0;
 
-// IEC 61966-2-1.
+// The sRGB transfer function, IEC 61966-2-1.
 double encoded(double linear) {
   return linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1.0 / 2.4) - 0.055;
 }

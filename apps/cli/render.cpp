@@ -40,7 +40,7 @@ struct RenderOptions {
 
 struct RenderFiles {
   OutputFile* output = nullptr;
-  OutputFile *preview = nullptr, *stats = nullptr, *look = nullptr;  // where they are asked for
+  OutputFile *preview = nullptr, *stats = nullptr, *look = nullptr;  // null where not requested
 };
 
 Result<RenderFiles> open_files(const RenderOptions& options, Outputs& outputs) {

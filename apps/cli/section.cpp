@@ -10,8 +10,8 @@ namespace {
 
 constexpr int kScan = 2001;       // rays tried across the entrance window
 constexpr int kImagingRays = 5;
-constexpr int kGhostRays = 9, kFewGhostRays = 5;  // of one alone, of each of several
-constexpr double kLead = 0.10;    // free space in front of the lens, of its length
+constexpr int kGhostRays = 9, kFewGhostRays = 5;  // for a single ghost, for each of several
+constexpr double kLead = 0.10;    // free space in front of the lens, relative to its length
 constexpr double kFieldOfGhostLight = 0.33;
 
 struct Line {
@@ -19,7 +19,7 @@ struct Line {
   bool open = false;
 };
 
-// Heights at which a ray gets through, or at least to the sensor.
+// The heights at which a ray gets through, or at least reaches the sensor.
 std::vector<Line> scan(const OpticalPath& path, const EntranceWindow& window, Vec3 direction) {
   std::vector<Line> lines;
   for (int k = 0; k < kScan; ++k) {
@@ -44,7 +44,7 @@ SectionRay record(const OpticalPath& path, Vec3 origin, Vec3 direction, double l
   return ray;
 }
 
-// `count` rays, evenly over those that get through.
+// Adds `count` rays, evenly spaced over those that get through.
 void add_fan(Section& section, const OpticalPath& path, Vec3 direction, RayKind kind, int count,
              std::size_t ghost = 0) {
   const EntranceWindow window = entrance_window(section.lens, direction);
@@ -88,7 +88,7 @@ void set_bounds(Section& section) {
   section.half_height_mm = 1.06 * highest;
 }
 
-// What has no real rim is drawn as large as the sensor.
+// A surface without a real rim is drawn as large as the sensor.
 LensState as_drawn(LensState lens) {
   for (SurfaceState& s : lens.surfaces)
     if (!has_real_rim(lens, s)) s.semi_diameter_mm = half_diagonal_mm(lens);

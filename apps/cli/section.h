@@ -1,5 +1,5 @@
-// A section through a lens along its axis: what of it is glass, and the rays to draw.
-// Points are (z, y) in mm. A light off the axis lies in the plane of the section.
+// A section through a lens along its axis: its glass, and the rays to draw. Points are (z, y) in mm. A light off the
+// axis lies in the plane of the section.
 #pragma once
 
 #include <cstddef>
@@ -15,10 +15,10 @@ enum class RayKind { Axis, Field, Ghost };
 
 struct SectionRay {
   RayKind kind = RayKind::Axis;
-  std::size_t ghost = 0;  // which of the section's, of that kind
+  std::size_t ghost = 0;  // index among the section's ghosts, for rays of a ghost
   std::vector<Vec2> points_mm;
   std::vector<Vec2> reflections_mm;
-  bool blocked = false;  // drawn although it meets a rim, because no ray gets through
+  bool blocked = false;  // drawn although a rim blocks it, because no ray gets through
 };
 
 struct Element {  // glass between two surfaces, 0-based
@@ -30,11 +30,11 @@ struct Section {
   std::vector<Element> elements;
   std::vector<SectionRay> rays;
   std::vector<Ghost> ghosts;
-  double ghost_light_deg = 0;  // up
+  double ghost_light_deg = 0;  // positive upwards
   double left_mm = 0, right_mm = 0, half_height_mm = 0;
 };
 
-// Plates before the sensor have rims wider than any light needs (SensorStack), which are none to speak of.
+// The rims of plates before the sensor are wider than any light needs (SensorStack) and do not count as real.
 [[nodiscard]] bool has_real_rim(const LensState& lens, const SurfaceState& surface);
 
 struct SectionRequest {
@@ -45,7 +45,7 @@ struct SectionRequest {
 
 [[nodiscard]] Section make_section(const LensState& lens, const SectionRequest& request);
 
-// Clear height of a surface, and its sag there; a sphere's height ends at its radius.
+// A surface's clear height, limited by a sphere's radius, and its sag there.
 [[nodiscard]] double drawn_height_mm(const SurfaceState& surface);
 [[nodiscard]] double sag_mm(const SurfaceState& surface, double height_mm);
 

@@ -22,7 +22,7 @@ struct RayStyle {
   double opacity;
 };
 
-// Inks for several ghosts, in turn; more ghosts than inks begin again.
+// The ghosts' colours; after the last the first is used again.
 constexpr std::array kGhostInks{"#d5482c", "#8e44ad", "#c98a00", "#138d75", "#c2185b", "#6d4c41"};
 
 RayStyle style_of(RayKind kind, std::size_t ghost = 0) {
@@ -56,7 +56,7 @@ class Page {
   double scale_ = 1, left_px_ = 0, axis_px_ = 0;
 };
 
-// Of a surface that is no sphere: straight lines closer to it than is seen.
+// A surface that is not a sphere, as straight lines whose deviation is not visible.
 std::string curve(const Page& page, const SurfaceState& s, double from) {
   constexpr int kPieces = 64;
   const double h = drawn_height_mm(s);
@@ -82,8 +82,8 @@ std::string arc(const Page& page, const SurfaceState& s, double from) {
 
 std::string move_or_line(char verb, Vec2 p) { return fmt::format("{}{:.2f} {:.2f} ", verb, p.x, p.y); }
 
-// Both faces and the edge between; the smaller face is carried outwards to the larger one's height, as a lens is
-// ground, unless the faces would cross there.
+// Both faces and the edge between them. Unless the faces cross there, a flat rim at right angles to the axis extends the
+// smaller face to the height of the larger, as on a ground lens.
 std::string outline(const Page& page, const SurfaceState& front, const SurfaceState& rear) {
   const double front_h = drawn_height_mm(front);
   const double rear_h = drawn_height_mm(rear);
@@ -99,7 +99,7 @@ std::string outline(const Page& page, const SurfaceState& front, const SurfaceSt
   return d + "Z";
 }
 
-// Crown glasses pale, dense flints deeper.
+// Crown glasses are pale, dense flints deeper.
 std::string glass_colour(const Glass& glass) {
   const double t = std::clamp((refractive_index(glass, kLineD_nm) - 1.45) / 0.45, 0.0, 1.0);
   const auto mix = [t](int a, int b) { return static_cast<int>(std::lround(a + t * (b - a))); };
@@ -130,7 +130,7 @@ void draw_rays(Svg& svg, const Page& page, const Section& section) {
   svg.end_clip();
 }
 
-// What stands before a surface's middle, as far as the section cuts it: along the surface.
+// The obscuration before a surface's middle, as far as the section cuts it: along the surface.
 void draw_obscurations(Svg& svg, const Page& page, const LensState& lens) {
   for (const SurfaceState& s : lens.surfaces) {
     if (!s.obscuration.any()) continue;
@@ -163,7 +163,7 @@ void draw_stop_and_sensor(Svg& svg, const Page& page, const Section& section) {
            fmt::format("stroke=\"{}\" stroke-width=\"4\" stroke-linecap=\"round\"", kInk));
 }
 
-// Places at least a gap apart, each as near to where it belongs as that allows (pool adjacent violators).
+// Positions at least a gap apart, each as close to the wanted one as that allows (pool adjacent violators).
 std::vector<double> spread(const std::vector<double>& wanted, double gap) {
   struct Pool {
     double sum = 0;
@@ -251,14 +251,14 @@ void draw_legend(Svg& svg, const Section& section) {
              fmt::format("stroke=\"{}\" stroke-width=\"2.4\"", entry.style.colour));
     svg.text({right - 36, y}, entry.words, fmt::format("font-size=\"13\" text-anchor=\"end\" fill=\"{}\"", kInk));
     y += 18;
-    if (y > kTop_px - 4) {  // the next column, to the left
+    if (y > kTop_px - 4) {  // next column, to the left
       y = 40;
       right -= kLegendColumn_px;
     }
   }
 }
 
-// A bar of 1, 2 or 5 times a power of ten, near a tenth of the width.
+// A bar of 1, 2 or 5 times a power of ten, about a tenth of the width.
 void draw_scale_bar(Svg& svg, const Page& page) {
   const double aim_mm = 0.1 * kWidth_px / page.scale();
   const double decade = std::pow(10.0, std::floor(std::log10(aim_mm)));

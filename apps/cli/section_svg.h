@@ -1,4 +1,4 @@
-// A section as a drawing.
+// Draws a section as SVG.
 #pragma once
 
 #include <string>

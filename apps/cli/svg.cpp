@@ -14,7 +14,7 @@ std::string escaped(const std::string& words) {
       out += "&lt;";
     } else if (c == '>') {
       out += "&gt;";
-    } else if (static_cast<unsigned char>(c) >= 0x20) {  // XML has no control characters
+    } else if (static_cast<unsigned char>(c) >= 0x20) {  // XML allows no control characters
       out += c;
     }
   }

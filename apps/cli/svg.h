@@ -1,4 +1,4 @@
-// A few elements of SVG, written as text. Coordinates in pixels, y down.
+// A few elements of SVG, written as text. Coordinates are in pixels, y downwards.
 #pragma once
 
 #include <string>
@@ -20,7 +20,7 @@ class Svg {
   void circle(Vec2 centre, double radius, const std::string& style);
   void text(Vec2 place, const std::string& words, const std::string& style);
 
-  void begin_clip(Vec2 corner, Vec2 size);  // until end_clip nothing outside is drawn
+  void begin_clip(Vec2 corner, Vec2 size);  // until end_clip, nothing outside is drawn
   void end_clip();
 
   [[nodiscard]] std::string finish() const;

@@ -37,7 +37,7 @@ void occupy_standard_streams() {
 #if !defined(_WIN32)
   for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
     if (fcntl(stream, F_GETFD) != -1 || errno != EBADF) continue;
-    // The lowest number that is free is this one. What is printed fails: it is open for reading.
+    // Opens the lowest free descriptor, which is this one. Printing to it fails, since it is open for reading.
     if (open("/dev/null", O_RDONLY) < 0) return;
   }
 #endif

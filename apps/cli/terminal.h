@@ -1,4 +1,4 @@
-// The one place that asks the system about the terminal and the standard streams.
+// The only file that queries the system about the terminal and the standard streams.
 #pragma once
 
 #include <string_view>
@@ -7,11 +7,11 @@ namespace contrejour::cli {
 
 [[nodiscard]] bool error_stream_is_terminal();
 
-// To the standard output past its buffer, so that a failure leaves no trace in it.
+// Writes to the standard output without its buffer, so that a failure leaves nothing in the buffer.
 void write_unchecked(std::string_view text);
 
-// Closed standard streams (`>&-`) stay unusable, but are open, so that no file that is opened later takes their place
-// and gets what is printed. Before anything else is opened.
+// Opens closed standard streams (`>&-`), which stay unusable, so that no file that is opened later takes their place
+// and receives printed text. Must be called before anything else is opened.
 void occupy_standard_streams();
 
 }  // namespace contrejour::cli

@@ -1,4 +1,4 @@
-// Columns of text that line up: words to the left, numbers to the right.
+// A table of text with aligned columns: words to the left, numbers to the right.
 #pragma once
 
 #include <string>
@@ -8,7 +8,7 @@ namespace contrejour::cli {
 
 class TextTable {
  public:
-  // A heading that starts with '<' keeps its column to the left.
+  // A heading that starts with '<' aligns its column to the left.
   explicit TextTable(std::vector<std::string> headings);
 
   void add(std::vector<std::string> cells) { rows_.push_back(std::move(cells)); }

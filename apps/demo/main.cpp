@@ -1,4 +1,4 @@
-// The main job, shown: a lens's flare by itself, and on a photograph of a night street that is made here.
+// A demonstration: a lens's flare by itself, and on a photograph of a night street that is made here.
 #include <chrono>
 #include <cmath>
 #include <cstdio>
@@ -26,7 +26,7 @@ constexpr const char* kLens = "canon-70-200";
 constexpr double kFNumber = 5.6;
 constexpr int kBlades = 8;
 
-// Says what goes on and how long it took.
+// Prints what is being done and how long it took.
 class Step {
  public:
   explicit Step(const std::string& what) : started_(std::chrono::steady_clock::now()) {
@@ -81,7 +81,7 @@ Result<std::size_t> show_applied(const LensState& lens, const params::Values& va
   return applied->plan.lights.size();
 }
 
-// Of the street's many lights the faint ones are merged.
+// The faint ones of the street's many lights are merged.
 Result<params::Values> quick_values() {
   params::Values values;
   if (auto ok = values.set("max-lights", "16"); !ok) return tl::unexpected(ok.error());

@@ -10,9 +10,9 @@
 namespace contrejour::demo {
 namespace {
 
-constexpr int kSamples = 4;           // a side, in each pixel
+constexpr int kSamples = 4;           // on a side of each pixel
 constexpr double kEye_m = 1.7;
-constexpr double kHorizonDown = 0.16;  // of the height, below the middle
+constexpr double kHorizonDown = 0.16;  // fraction of the height, below the middle
 
 Rgb pixel(const StreetScene& scene, const StreetSettings& settings, int x, int y) {
   const double scale = 2.0 * std::tan(0.5 * settings.hfov_rad) / settings.width;

@@ -1,5 +1,5 @@
-// A small night street of our own as a scene-linear picture: dark houses with lit windows, lamps, a car, a low and
-// very bright moon, wet asphalt. Made by a formula, the same on every machine up to rounding.
+// A small synthetic night street as a scene-linear picture: dark houses with lit windows, lamps, a car, a low and very
+// bright moon, wet asphalt. It is made by formulas, the same on every machine up to rounding.
 #pragma once
 
 #include "contrejour/image.h"

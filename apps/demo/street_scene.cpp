@@ -10,10 +10,10 @@ namespace {
 constexpr double kWall_m = 6.5;        // from the middle of the street to the houses
 constexpr double kHouse_m = 11.0;      // along the street
 constexpr double kWindowStep_m = 2.6, kFloor_m = 3.2;
-constexpr double kFog_m = 220.0;       // distance over which haze swallows 1/e
+constexpr double kFog_m = 220.0;       // distance over which haze reduces light to 1/e
 constexpr double kMoonRadius_rad = 0.0046;
 constexpr Rgb kMoon{9000, 8500, 7500};
-constexpr double kShade = 2.6;         // lamps throw so much more onto the street than towards the eye
+constexpr double kShade = 2.6;         // lamps send this factor more light onto the street than towards the eye
 constexpr Rgb kSodium{900, 470, 130};
 constexpr Rgb kWhite{650, 670, 690};
 constexpr Rgb kHeadlight{2400, 2300, 2050};
@@ -28,7 +28,7 @@ double house_height(double z, double side) {
   return 9.0 + 8.0 * hash01(static_cast<std::int64_t>(std::floor(z / kHouse_m)), side > 0 ? 1 : 0, 7);
 }
 
-// Distance to a sphere, infinite if it is missed.
+// The distance to a sphere, infinite if the ray misses it.
 double distance_to(const Lamp& lamp, Vec3 origin, Vec3 direction) {
   const Vec3 to = lamp.place - origin;
   const double along = dot(to, direction);
@@ -46,7 +46,7 @@ double ripple(double x, double z) {
 }  // namespace
 
 double hash01(std::int64_t a, std::int64_t b, std::int64_t c) {
-  // SplitMix64 of the three, mixed one after the other.
+  // SplitMix64 of the three numbers, mixed in order.
   std::uint64_t h = 0x9E3779B97F4A7C15ULL;
   for (const std::int64_t value : {a, b, c}) {
     h = (h ^ static_cast<std::uint64_t>(value)) * 0xBF58476D1CE4E5B9ULL;
@@ -71,7 +71,7 @@ Rgb StreetScene::lamp_light(Vec3 place, Vec3 normal) const {
   Rgb sum{};
   for (const Lamp& lamp : lamps_) {
     const Vec3 to = lamp.place - place;
-    const double d2 = dot(to, to) + 0.3;  // lamps have a size
+    const double d2 = dot(to, to) + 0.3;  // softens the law of distance, since lamps have a size
     const double cosine = dot(to, normal) / std::sqrt(d2);
     if (cosine > 0.0) sum = sum + lamp.radiance * (kShade * cosine * lamp.radius * lamp.radius / d2);
   }
@@ -83,7 +83,7 @@ Rgb StreetScene::sky(Vec3 direction) const {
   const double from_moon = std::acos(std::clamp(dot(direction, moon), -1.0, 1.0));
   if (from_moon < kMoonRadius_rad) return kMoon;
   const double up = std::clamp(direction.y, 0.0, 1.0);
-  const Rgb glow = Rgb{0.30, 0.27, 0.22} * (0.012 / (0.012 + from_moon));  // haze about the moon
+  const Rgb glow = Rgb{0.30, 0.27, 0.22} * (0.012 / (0.012 + from_moon));  // haze around the moon
   return Rgb{0.022, 0.026, 0.042} * std::exp(-3.0 * up) + Rgb{0.03, 0.018, 0.01} * std::exp(-14.0 * up) + glow;
 }
 
@@ -113,7 +113,7 @@ Rgb StreetScene::road(Vec3 place, Vec3 direction, bool may_reflect) const {
   const double albedo = pavement ? 0.14 : line ? 0.35 : 0.06;
   Rgb colour = (lamp_light(place, {0.0, 1.0, 0.0}) + Rgb{0.012, 0.014, 0.022}) * albedo;
   if (!may_reflect || pavement) return colour;
-  // A wet film: Fresnel for water (Schlick), its slopes longer across the view than along it.
+  // A wet film: Fresnel reflection of water (Schlick), with slopes that are longer across the view than along it.
   const double slope = 0.035;
   const Vec3 normal = normalized({slope * ripple(place.x, place.z), 1.0, slope * ripple(place.z + 5.0, place.x)});
   const double cosine = std::max(0.0, -dot(direction, normal));

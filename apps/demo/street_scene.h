@@ -1,4 +1,4 @@
-// What stands in the street, and what a ray sees of it. Lengths in metres, y up, z down the street.
+// The objects in the street, and the radiance along a ray. Lengths in metres, y up, z down the street.
 #pragma once
 
 #include <cstdint>
@@ -19,7 +19,7 @@ class StreetScene {
  public:
   StreetScene();
 
-  // Radiance along a ray; direction is unit.
+  // The radiance along a ray; direction: a unit vector.
   [[nodiscard]] Rgb radiance(Vec3 origin, Vec3 direction) const { return radiance(origin, direction, true); }
 
  private:
@@ -32,7 +32,7 @@ class StreetScene {
   std::vector<Lamp> lamps_;
 };
 
-// A number in 0..1 that looks random, the same for the same three.
+// A pseudo-random number in 0..1, a function of the three numbers.
 [[nodiscard]] double hash01(std::int64_t a, std::int64_t b, std::int64_t c);
 
 }  // namespace contrejour::demo

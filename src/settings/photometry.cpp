@@ -18,8 +18,8 @@ constexpr double kGreyExposure_lx_s = 10.0;  // at ISO 1; ISO 12232:2019, standa
 constexpr double kWhiteExposure_lx_s = kGreyExposure_lx_s / kMiddleGrey;
 constexpr double kMm_per_m = 1000.0;
 
-// The area in mm^2 of the plane before the lens through which the light of its direct image enters. If no light reaches the
-// frame's edge, the area is that on the axis.
+// The area in mm^2 of the plane before the lens through which the light of its direct image enters. If no light reaches
+// the frame's edge, the area is that on the axis.
 double gathering_mm2(const LensState& lens, const Frame& frame, const LightSource& source) {
   const GhostMeter meter(lens, lens.design_wavelength_nm);
   const double own_mm2 = meter.direct_flux(measured_source(lens, frame, source));

@@ -1,4 +1,4 @@
-// Lights with a size beside points: the sun where a point is, in the same run.
+// Extended lights compared with points: the sun in place of a point, in the same run.
 #include <utility>
 
 #include "cli/bench/effects.h"
@@ -8,7 +8,7 @@ namespace {
 
 constexpr double kAreaLightsMust = 2.0, kAreaLightsAim = 1.5;
 
-// Beside the scene's own lens.
+// In addition to the scene's own lens.
 constexpr EffectSystem kAreaLightsSystems[] = {
     {"heliar", 0.0, 16.0}, {"itoh-zoom", 123.0, 32.0}, {"nikon-80-200", 140.0, 16.0}};
 

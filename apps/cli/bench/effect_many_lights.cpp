@@ -1,4 +1,5 @@
-// Many lights: what each costs beside one alone, in a small frame, where nothing but the number of lights counts.
+// The cost of each of many lights compared with a single light, in a small frame, where only the number of lights
+// matters.
 #include <utility>
 
 #include <fmt/format.h>

@@ -1,4 +1,4 @@
-// Ringing: what its patterns cost, and its frames beside frames with sharp rims.
+// The cost of ringing: making its patterns, and its frames compared with frames with sharp rims.
 #include <utility>
 
 #include <fmt/format.h>
@@ -10,14 +10,14 @@ namespace {
 
 constexpr double kFrame = 1.3, kPatterns_ms = 2000.0;
 
-// Beside the scene's own lens. The long zoom has the most ghosts, 312; at f/32 half of them have patterns.
+// In addition to the scene's own lens. The long zoom has the most ghosts, 312; at f/32 half of them have patterns.
 constexpr EffectSystem kRingingSystems[] = {{"heliar", 0.0, 16.0},
                                             {"itoh-zoom", 123.0, 32.0},
                                             {"nikon-80-200", 140.0, 16.0},
                                             {"canon-70-200", 135.0, 8.0},
                                             {"canon-70-200", 135.0, 32.0}};
 
-// A frame with ringing, which makes its patterns, by itself and beside the frame without.
+// A frame with ringing, including the making of its patterns, by itself and compared with the frame without ringing.
 Result<std::vector<Target>> rows_of(const EffectScene& scene) {
   const Light& light = scene.lights.front();
   FrameSettings ringing = scene.render;

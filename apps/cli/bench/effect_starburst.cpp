@@ -1,4 +1,4 @@
-// Starbursts: from a new iris, or new dirt, to pixels; and a kept one drawn again.
+// The cost of starbursts: from a new iris, or new dirt, to pixels; and of drawing a kept one again.
 #include <algorithm>
 
 #include <fmt/format.h>
@@ -9,7 +9,7 @@
 namespace contrejour::cli {
 namespace {
 
-constexpr int kBands = 120;  // as renderers have
+constexpr int kBands = 120;  // the same as renderers use
 constexpr double kDust = 20.0, kScratches = 5.0;  // per cm^2: a dusty, worn filter
 constexpr double kNew_ms = 150.0, kKept_ms = 5.0;  // on two cores
 

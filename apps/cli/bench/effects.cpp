@@ -20,7 +20,7 @@ namespace {
 constexpr const char* kLens = "planar-50";
 constexpr double kEffectsFNumber = 8.0;
 constexpr int kBlades = 7;
-constexpr Vec2 kPlace_uv{0.70, 0.33};  // of other lenses' light, bodonyi2023's
+constexpr Vec2 kPlace_uv{0.70, 0.33};  // where lights of other lenses are, as bodonyi2023's
 
 double processor_ms() { return 1e3 * static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 

@@ -1,5 +1,5 @@
-// Rows of `bench effects`: what starburst, dirt, ringing and lights with a size cost, each beside its target.
-// A new row is a function here and a line in effects.cpp.
+// Rows of `bench effects`: the costs of starbursts, dirt, ringing and extended lights, each with its target. A new row
+// is a function here and a line in effects.cpp.
 #pragma once
 
 #include <functional>
@@ -27,13 +27,13 @@ struct EffectScene {
   Context context;
 };
 
-// The lens and the light that every row has, on a frame of `values`' size: planar-50 at f/8, 7 blades.
+// The lens and the light that all rows have in common, on a frame of `values`' size: planar-50 at f/8, 7 blades.
 [[nodiscard]] Result<EffectScene> effect_scene(const params::Values& values, int runs);
 
 using MeasureEffect = Result<std::vector<Target>> (*)(const EffectScene& scene);
 [[nodiscard]] std::span<const MeasureEffect> effects();
 
-// The scene's light and size of picture with another lens.
+// Another lens with the scene's light and picture size.
 struct EffectSystem {
   const char* lens;
   double focal_length_mm;  // 0: no zoom
@@ -41,9 +41,9 @@ struct EffectSystem {
 };
 [[nodiscard]] Result<EffectScene> with_lens(const EffectScene& scene, const EffectSystem& system);
 
-// One renderer renders with an effect and without, in turns, so that what changes while they run changes both, and
-// keeps what a sequence of frames would. Of the scene's runs (repeats.h) the fastest, in processor time of all threads
-// together, which other programs do not take from.
+// One renderer renders with an effect and without it, alternately, so that changes of the machine's speed affect both;
+// it keeps between frames what it would keep in a sequence. The result is the fastest of the scene's runs (repeats.h),
+// in processor time of all threads together, which does not include that of other programs.
 struct EffectRender {
   FrameSettings settings;
   std::vector<Light> lights;
@@ -58,19 +58,19 @@ struct EffectCost {
 // "f/8, 40.1 ms, 30.0 ms of processor time".
 [[nodiscard]] std::string cost_text(const EffectScene& scene, const EffectCost& cost);
 
-// Of so many runs (repeats.h) the fastest, in ms of the clock.
+// The time of the fastest of at least `runs` runs (repeats.h), in ms of elapsed time.
 [[nodiscard]] Result<double> fastest_ms(int runs, const std::function<Result<void>()>& run);
 
-// A new iris's, a kept one's, a new dirt's.
+// The costs of a new iris, of a kept starburst and of new dirt.
 [[nodiscard]] Result<std::vector<Target>> measure_starbursts(const EffectScene& scene);
 
-// Frames with ringing beside frames without, with several lenses.
+// Frames with ringing compared with frames without, with several lenses.
 [[nodiscard]] Result<std::vector<Target>> measure_ringing(const EffectScene& scene);
 
-// A light of many beside one alone.
+// A light among many compared with a single light.
 [[nodiscard]] Result<std::vector<Target>> measure_many_lights(const EffectScene& scene);
 
-// The sun beside a point, with several lenses.
+// The sun compared with a point, with several lenses.
 [[nodiscard]] Result<std::vector<Target>> measure_area_lights(const EffectScene& scene);
 
 }  // namespace contrejour::cli

@@ -1,4 +1,4 @@
-// Places that fill a frame evenly, however many there are, always the same.
+// Places that fill a frame evenly for any number of them; the sequence is always the same.
 #pragma once
 
 #include <cmath>
@@ -8,7 +8,7 @@
 
 namespace contrejour::cli {
 
-// The k-th, u and v from 0 to 1: the R2 sequence of Roberts 2018 ("The unreasonable effectiveness of quasirandom
+// The k-th place, u and v from 0 to 1: the R2 sequence of Roberts 2018 ("The unreasonable effectiveness of quasirandom
 // sequences"), whose steps are the powers of 1 / 1.32471795724474602596.
 [[nodiscard]] inline Vec2 evenly_spread(std::size_t k) {
   constexpr double kStep_u = 0.7548776662466927;

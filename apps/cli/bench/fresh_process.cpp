@@ -19,7 +19,7 @@ namespace {
 constexpr const char* kThisProgram = "/proc/self/exe";  // proc(5)
 
 struct Pipe {
-  std::array<int, 2> ends{-1, -1};  // read here, written there
+  std::array<int, 2> ends{-1, -1};  // the ends to read and to write
   Pipe() = default;
   Pipe(const Pipe&) = delete;
   Pipe& operator=(const Pipe&) = delete;
@@ -41,7 +41,7 @@ std::string read_all(int file) {
   }
 }
 
-// The exit status as a shell has it, or 255 where a signal ended it.
+// The exit status as a shell reports it, or 255 if a signal ended the process.
 int wait_for(pid_t process) {
   int status = 0;
   while (waitpid(process, &status, 0) < 0 && errno == EINTR) continue;

@@ -1,4 +1,4 @@
-// Another run of this very program, whose memory and caches are as cold as a user's first frame finds them.
+// Runs this program in a new process, with memory and caches as cold as at a user's first frame.
 #pragma once
 
 #include <string>
@@ -8,8 +8,8 @@
 
 namespace contrejour::cli {
 
-// What it prints on its standard output, at most a few thousand characters. Errors: Unsupported where this system gives
-// no way to start it; Io where it ends with anything but 0 (its own message is on the standard error by then).
+// Returns what the process prints on its standard output, at most a few thousand characters. Errors: Unsupported if
+// this system cannot start it; Io if its exit status is not 0 (its own message is on the standard error by then).
 [[nodiscard]] Result<std::string> output_of_fresh_process(const std::vector<std::string>& arguments);
 
 }  // namespace contrejour::cli

@@ -23,10 +23,10 @@ namespace contrejour::cli {
 namespace {
 
 constexpr Vec2 kLight_uv{0.70, 0.33};
-constexpr double kFourStops = 4.0;  // in f-numbers
+constexpr double kFourStops = 4.0;  // as a factor of f-numbers
 constexpr double kRankedAt_nm = 550.0;
 
-// Figure 15's lens layouts are those of primes and zooms of the same kinds; the text names none but the zooms.
+// Figure 15's lens layouts show primes and zooms of the same kinds; the text names only the zooms.
 constexpr HullinSystem kHullinSystems[] = {{"tessar"},
                                            {"heliar"},
                                            {"angenieux-double-gauss"},
@@ -37,7 +37,7 @@ constexpr HullinSystem kNikon[] = {{"nikon-80-200", 140.0}};
 constexpr HullinSystem kCanon[] = {{"canon-70-200", 135.0}};
 constexpr HullinSystem kWellBehaved[] = {{"tessar"}, {"heliar"}, {"itoh-zoom", 123.0}, {"nikon-80-200", 140.0}};
 
-// A lens with the light of all figures, closed by some stops.
+// A lens with the light of all figures, stopped down by some stops.
 struct HullinScene {
   LensState lens;
   Light light;
@@ -60,7 +60,7 @@ Result<HullinScene> scene_of(const HullinSystem& system, double times_f_number, 
   scene.light.direction =
       direction_for_image_point(scene.lens, frame.sensor_from_uv(kLight_uv), scene.lens.design_wavelength_nm);
   scene.settings = params::frame_settings(values, frame, ColourSpace::Rec709);
-  scene.settings.scope = GhostScope::OneSideOfStop;  // as the paper
+  scene.settings.scope = GhostScope::OneSideOfStop;  // as in the paper
   return scene;
 }
 
@@ -79,7 +79,7 @@ std::vector<Ghost> weakest_first(const HullinScene& scene) {
   return sorted;
 }
 
-// All but the weakest, in the order that rendering has them.
+// All ghosts but the weakest, in the order in which they are rendered.
 SelectList without_weakest(const std::vector<Ghost>& weakest_first, double share) {
   const auto dropped = static_cast<std::ptrdiff_t>(share * static_cast<double>(weakest_first.size()));
   return {{weakest_first.begin() + dropped, weakest_first.end()}};
@@ -108,7 +108,7 @@ Quality normal_quality(const HullinScene& scene, const std::vector<Ghost>& ghost
   return quality;
 }
 
-// Rays a side; all ghosts.
+// All ghosts with this number of rays a side.
 Quality with_grid(const HullinScene& scene, int rays) {
   BundleOptions bundle = scene.bundle;
   bundle.grid.rays = rays;
@@ -165,7 +165,7 @@ Result<void> show(const HullinRunning& running, const HullinRow& row, const Imag
   return running.show ? running.show(picture_name(row), image) : Result<void>{};
 }
 
-// Wide open and closed by four stops, at both qualities.
+// Wide open and stopped down by four stops, at both qualities.
 Result<std::vector<HullinRow>> figure_15(const HullinSystem& system, const params::Values& values,
                                          const HullinRunning& running) {
   std::vector<HullinRow> rows;
@@ -186,7 +186,8 @@ Result<std::vector<HullinRow>> figure_15(const HullinSystem& system, const param
   return rows;
 }
 
-// Side by side, and what leaving out the weakest ghosts alone gains (section 6: 20 per cent of them 20, 40 about 50).
+// Both qualities compared, and the gain of leaving out the weakest ghosts alone (section 6: leaving out 20 per cent of
+// them gains 20 per cent, 40 about 50).
 Result<std::vector<HullinRow>> figure_17(const HullinSystem& system, const params::Values& values,
                                          const HullinRunning& running) {
   constexpr double kHigh_ms = 1e3 / 6.1, kNormal_ms = 1e3 / 20.6;
@@ -223,7 +224,7 @@ Result<std::vector<HullinRow>> figure_17(const HullinSystem& system, const param
   return rows;
 }
 
-// Dense rays beside sparse bundles.
+// Dense rays compared with sparse bundles.
 Result<std::vector<HullinRow>> figure_19(const HullinSystem& system, const params::Values& values,
                                          const HullinRunning& running) {
   constexpr double kDense_ms = 159e3, kSparse_ms = 29.8;
@@ -248,7 +249,8 @@ Result<std::vector<HullinRow>> figure_19(const HullinSystem& system, const param
   return rows;
 }
 
-// How many ghosts do with so few rays a side (7.1): each by itself beside itself at the finest grid.
+// The number of ghosts for which a coarse grid of a given number of rays a side is enough (7.1): each ghost alone is
+// compared with its picture from the finest grid.
 Result<std::vector<HullinRow>> grids(const HullinSystem& system, const params::Values& values,
                                      const HullinRunning& running) {
   constexpr double kGood_db = 35.0;

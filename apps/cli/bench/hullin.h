@@ -17,19 +17,19 @@ namespace contrejour::cli {
 
 struct HullinRow {
   std::string figure;  // "15"
-  std::string lens;    // ours
+  std::string lens;    // of our lens
   double f_number = 0;
   std::string what;  // "high quality"
   int ghosts = 0;    // that are rendered
   double ms = 0;
   std::optional<double> psnr_db = std::nullopt;  // against the picture that the note names
-  double paper_ms = 0;                           // 0: the text at hand gives none
+  double paper_ms = 0;                           // 0: the copy of the text gives none
   std::string note{};
 };
 
 struct HullinRunning {
   int runs = 1, threads = 0;
-  // Is given every picture that a figure shows, and a name for it: "17-nikon-80-200-high-quality".
+  // Is called with every picture that a figure shows, and a name for it: "17-nikon-80-200-high-quality".
   std::function<Result<void>(const std::string& name, const Image& image)> show;
 };
 
@@ -43,7 +43,7 @@ struct HullinFigure {
   std::string_view key;    // "15"
   std::string_view title;
   std::span<const HullinSystem> systems;
-  // The rows of one of its systems.
+  // Measures the rows of one of its systems.
   Result<std::vector<HullinRow>> (*measure)(const HullinSystem& system, const params::Values& values,
                                             const HullinRunning& running);
 };

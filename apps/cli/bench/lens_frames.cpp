@@ -17,7 +17,7 @@ namespace {
 
 constexpr double kFNumber = 8.0;
 constexpr const char* kLightAt = "0.7,0.35";
-constexpr double kLongFrame_ms = 2000.0;  // is not repeated
+constexpr double kLongFrame_ms = 2000.0;  // a frame that takes longer is measured once
 
 struct FrameScene {
   LensState lens;
@@ -60,7 +60,7 @@ Result<Rendered> render_scene(const FrameScene& scene, const std::string& name, 
   return Rendered{now_ms(running.processor_time) - start_ms, flare->statistics.ghosts_rendered};
 }
 
-// The fastest of so many of `measure`, but of one that takes long.
+// The fastest of `runs` calls of `measure`, which is not repeated if it takes long.
 template <class Measure>
 Result<double> fastest(int runs, const Measure& measure) {
   double least_ms = std::numeric_limits<double>::infinity();
@@ -72,7 +72,7 @@ Result<double> fastest(int runs, const Measure& measure) {
   return least_ms;
 }
 
-// The command line of a fresh process that renders the same frame.
+// The arguments for a fresh process that renders the same frame.
 std::vector<std::string> arguments_of(const std::string& file, const params::Values& values,
                                       const FrameRunning& running) {
   std::vector<std::string> arguments{"bench", "lenses", "--first-frame"};
@@ -131,7 +131,7 @@ Result<FrameCost> frame_cost(const BenchedLens& lens, const FrameCase& frame_cas
   if (!all) return tl::unexpected(all.error());
   params::Values with_light = *all;
   if (const auto ok = with_light.set("light-at", kLightAt); !ok) return tl::unexpected(ok.error());
-  const auto scene = scene_of(lens.file, with_light);  // says what is wrong with the lens before a fresh process does
+  const auto scene = scene_of(lens.file, with_light);  // reports errors of the lens before a fresh process does
   if (!scene) return tl::unexpected(scene.error());
   FrameCost cost;
   if (!running.warm_only) {
@@ -140,7 +140,7 @@ Result<FrameCost> frame_cost(const BenchedLens& lens, const FrameCase& frame_cas
     cost.first_ms = *ms;
   }
   cost.f_number = scene->lens.f_number;
-  // One frame to warm up, then those that count.
+  // One frame to warm up, then the measured frames.
   const auto render_once = [&]() -> Result<double> {
     const auto rendered = render_scene(*scene, lens.file, with_light, running);
     if (!rendered) return tl::unexpected(rendered.error());

@@ -1,4 +1,4 @@
-// What frames of many lenses cost: a first one, by a fresh process, and warm ones in this process.
+// The cost of frames of many lenses: the first frame of a fresh process, and warm frames in this process.
 #pragma once
 
 #include <optional>
@@ -10,15 +10,15 @@
 
 namespace contrejour::cli {
 
-// A lens as `bench lenses` sets it: its file or name, and the focal length of a zoom that has several.
+// A lens as `bench lenses` configures it: its file or name, and the focal length if it is a zoom lens.
 struct BenchedLens {
   std::string file;
   std::optional<double> focal_length_mm = std::nullopt;
 };
 
-// All frames have one light at u,v = 0.7,0.35 and vary by these.
+// The ways in which frames differ; all have one light at u,v = 0.7,0.35.
 struct FrameCase {
-  bool wide_open = false;  // else f/8, or the widest of a slower lens
+  bool wide_open = false;  // else f/8, or the widest f-number of a slower lens
   std::string size;        // "1920x1080"
 };
 [[nodiscard]] const std::vector<FrameCase>& frame_cases();
@@ -27,23 +27,23 @@ struct FrameCase {
 struct FrameCost {
   double f_number = 0;
   int ghosts = 0;
-  double first_ms = 0;  // 0 where it was not measured
+  double first_ms = 0;  // 0 if not measured
   double warm_ms = 0;
   [[nodiscard]] double ghost_ms() const { return (first_ms > 0 ? first_ms : warm_ms) / ghosts; }
 };
 
-// The user's values with those of the case and the light.
+// The user's values with the case's and the light's added.
 [[nodiscard]] Result<params::Values> values_of(const BenchedLens& lens, const FrameCase& frame_case,
                                                const params::Values& values);
 
 struct FrameRunning {
-  int runs = 3;  // of so many frames, and so many fresh processes, the fastest counts
+  int runs = 3;  // the number of frames, and of fresh processes; the fastest counts
   bool warm_only = false;
-  bool processor_time = false;  // of all threads together, which other programs do not take from; else the clock's
+  bool processor_time = false;  // of all threads, which excludes other programs; else elapsed time
 };
 
-// Renders one frame and says how many ms it took, from the lens set up to the picture in memory: what a fresh process
-// is started for.
+// Renders one frame and returns its time in ms, from the configured lens to the picture in memory: the work of a fresh
+// process.
 [[nodiscard]] Result<double> frame_ms(const std::string& lens, const params::Values& values,
                                       const FrameRunning& running);
 

@@ -21,7 +21,7 @@ struct Aperture {
 };
 constexpr Aperture kApertures[] = {{"f/8", "f8", 0, 1}, {"wide open", "wide_open", 2, 3}};
 
-// A figure of a lens over which statistics are made.
+// A property of a lens, with statistics over all lenses.
 struct Figure {
   const char* name;
   const char* key;
@@ -81,7 +81,7 @@ const std::vector<Figure>& figures() {
   return list;
 }
 
-// The value that a share of all does not exceed, linear between neighbours in order.
+// The value that this fraction of all values does not exceed, interpolated linearly in the sorted list.
 double quantile(const std::vector<double>& sorted, double share) {
   const double place = share * static_cast<double>(sorted.size() - 1);
   const auto k = static_cast<std::size_t>(place);

@@ -1,4 +1,4 @@
-// What `bench lenses` measured, as text and as JSON: each lens, and over all of them the median, the 90th percentile
+// The results of `bench lenses` as text and as JSON: each lens, and over all of them the median, the 90th percentile
 // and the worst.
 #pragma once
 
@@ -12,11 +12,11 @@ namespace contrejour::cli {
 
 struct BenchedFrames {
   std::string name;               // the file's, without its folders
-  std::vector<FrameCost> frames;  // as frame_cases()
+  std::vector<FrameCost> frames;  // in the order of frame_cases()
 };
 
 struct LensBench {
-  BenchedFrames yardstick;  // the lens that ghosts' costs are related to, measured in the same run
+  BenchedFrames yardstick;  // the lens that costs are relative to, measured in the same run
   std::vector<BenchedFrames> lenses;
   std::vector<std::string> refused;  // files that could not be measured, and why
 };

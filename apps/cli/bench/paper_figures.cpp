@@ -3,7 +3,7 @@
 namespace contrejour::cli {
 namespace {
 
-// The Heliar's last cells of tables 5, 6 and 7 (one light, heavy merge) are lost in the text at hand.
+// The Heliar's last cells of tables 5, 6 and 7 (one light, heavy merge) are missing in the copy of the text.
 constexpr PaperSystem kPaperFiguresSystems[] = {
     {"heliar",
      "Heliar Tronnier",

@@ -1,5 +1,5 @@
-// The figures of bodonyi2023 that `bench tables` prints beside ours: tables 2 to 8.
-// Measured there on an NVIDIA GeForce RTX 3060 at 1920 x 1080, grids of 256 x 256 reduced by its eq. 13.
+// The figures of bodonyi2023 that `bench tables` compares with ours: tables 2 to 8. They were measured on an NVIDIA
+// GeForce RTX 3060 at 1920 x 1080, with grids of 256 x 256 rays reduced by eq. 13.
 #pragma once
 
 #include <array>
@@ -8,7 +8,7 @@
 
 namespace contrejour::cli {
 
-// By merging: none, light (gamma 0.001), heavy (0.1). 0: lost in the text at hand.
+// By merging: none, light (gamma 0.001), heavy (0.1). 0: missing in the copy of the text.
 using ByMerging = std::array<double, 3>;
 
 struct PaperFigures {
@@ -22,17 +22,17 @@ struct PaperFigures {
 
 struct PaperSystem {
   std::string_view key;    // for --systems
-  std::string_view name;   // the paper's
-  std::string_view lens;   // ours
+  std::string_view name;   // the paper's name
+  std::string_view lens;   // our lens
   double focal_length_mm;  // 0: a prime
   double f_number;
-  std::array<PaperFigures, 2> by_lights;  // one and two lights
-  std::array<double, 4> tiles_ms;         // table 4: 8 x 8 without and with coarse tiles, 16 x 16 likewise
+  std::array<PaperFigures, 2> by_lights;  // for one and for two lights
+  std::array<double, 4> tiles_ms;         // table 4: 8 x 8 without and with coarse tiles, then 16 x 16
   ByMerging merging_ms, merging_db;       // table 7
   std::array<double, 5> traverse_ms;  // table 8: triangle, mean value, homogeneous triangle, Wachspress, Loop-DeRose
 };
 
-// Bytes behind the memory that tables 5 and 6 give, in MiB.
+// The bytes of an entry, which follow from the MiB of tables 5 and 6.
 inline constexpr double kPaperPrimitiveBytes = 144;
 inline constexpr double kPaperIndexBytes = 4;
 

@@ -1,11 +1,11 @@
-// What `bench tables` measures of a system apart from its pictures; into the rows' probes.
-//   prepare_ms         to find, read and set up the lens and render 64 x 36 pixels with adaptive, the first time that
-//                      this run sees the lens: all that is worked out for a lens and no more pixels than that
-//   peak_hits_per_ms   of packets along its longest ghost, all threads
-//   frame_pass_ms      to write the frame's floats once, all threads
-//   peak_memory_bytes  of the last system only (Canon at 200 mm, if it is asked for, which needs most): the process's
+// Measurements of a system that `bench tables` makes apart from its pictures; they go into the rows' probes.
+//   prepare_ms         the time to find, read and configure the lens and to render 64 x 36 pixels with adaptive, the
+//                      first time in this run: all preparation for a lens, and hardly any pixels
+//   peak_hits_per_ms   surface hits of packets along the lens's longest ghost, all threads
+//   frame_pass_ms      the time to write the frame's floats once, all threads
+//   peak_memory_bytes  for the last system only (Canon at 200 mm, if requested, which needs most): the process's
 //                      high-water mark after adaptive with two lights at the paper's f-number, the first picture of
-//                      full size in the run; the program itself included
+//                      full size in the run; the program itself is included
 #pragma once
 
 #include <vector>
@@ -16,7 +16,7 @@
 
 namespace contrejour::cli {
 
-// Must come before any other picture of the run.
+// Must be called before any other picture of the run.
 [[nodiscard]] Result<void> probe(const std::vector<const PaperSystem*>& systems, const params::Values& values,
                                  int threads, BenchRows& rows);
 

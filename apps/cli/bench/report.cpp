@@ -17,7 +17,7 @@ Json figure(double value) { return value > 0.0 ? Json(value) : Json(); }
 
 Json decibels(const std::optional<double>& db) { return db && std::isfinite(*db) ? Json(*db) : Json(); }
 
-// Of the tables that vary tiles, merging or interpolation; null where the paper has no such figure.
+// The paper's figure from the tables that vary tiles, merging or interpolation; null where it has none.
 Json paper_variation(const BenchRow& row) {
   const TiledOptions usual;
   const TiledOptions& t = row.request.tiled;
@@ -58,7 +58,7 @@ void add_grid(Json& json, const GridOptions& grid) {
   json["scale_grid"] = grid.scale;
 }
 
-// The method's own options beside what all methods have.
+// The options of the method, and those that all methods have.
 Json settings_json(const BenchRow& row) {
   const FrameSettings& s = row.settings;
   Json json{{"lens", row.system->lens},

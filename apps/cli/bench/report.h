@@ -14,7 +14,7 @@ namespace contrejour::cli {
 
 [[nodiscard]] Json bench_json(const BenchRows& rows, const std::vector<Target>& targets);
 
-// The file that --json names, or none.
+// The file that --json names, if any.
 class BenchFile {
  public:
   [[nodiscard]] Result<void> open(const std::string& destination);  // before long work; "": none
@@ -22,10 +22,10 @@ class BenchFile {
 
  private:
   Outputs outputs_;
-  OutputFile* file_ = nullptr;  // null: not asked for
+  OutputFile* file_ = nullptr;  // null: not requested
 };
 
-// What it was measured on, in a line.
+// The machine of the measurement, in one line.
 [[nodiscard]] std::string machine_text();
 
 }  // namespace contrejour::cli

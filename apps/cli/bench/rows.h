@@ -1,4 +1,4 @@
-// Measurements of `bench tables`: what is asked for, and what came out.
+// Requests and results of `bench tables`.
 #pragma once
 
 #include <cstdint>
@@ -11,19 +11,19 @@
 
 namespace contrejour::cli {
 
-// How a scene differs from the paper's.
+// The differences of a scene from the paper's.
 struct SceneVariant {
   bool full_aperture = false;
-  int wavelengths = 0;  // 0: as the user says
-  int scale = 1;        // of the frame's width and height
+  int wavelengths = 0;  // 0: the user's number
+  int scale = 1;        // factor on the frame's width and height
   friend bool operator==(const SceneVariant&, const SceneVariant&) = default;
 };
 
-// A measurement wanted of every system.
+// A measurement that is requested of every system.
 struct BenchRequest {
   int lights = 1;
   std::string method;
-  TiledOptions tiled{};  // of no meaning for other methods; the grid is the user's
+  TiledOptions tiled{};  // unused by other methods; the grid is the user's
   SceneVariant variant{};
 };
 [[nodiscard]] bool same(const BenchRequest& a, const BenchRequest& b);
@@ -36,10 +36,10 @@ struct BenchRow {
   FrameSettings settings;
   RenderStatistics statistics;  // of the fastest run
   int runs = 1;
-  // Against the pictures of these, where they were made; infinite when equal.
+  // PSNR against the pictures of these methods, if they were made; infinite when equal.
   std::optional<double> reference_db, bundle_db, unmerged_db;
 
-  // Null where the scene is none of the paper's.
+  // Null if the scene is not one of the paper's.
   [[nodiscard]] const PaperFigures* paper_if_any() const {
     const auto lights = static_cast<std::size_t>(request.lights);
     return request.variant == SceneVariant{} && lights <= system->by_lights.size() ? &system->by_lights[lights - 1]
@@ -50,7 +50,7 @@ struct BenchRow {
   [[nodiscard]] double phase_ms(std::initializer_list<std::string_view> phases) const;
 };
 
-// What a system and this machine give apart from pictures: bench/probe.h.
+// Measurements of a system and this machine apart from pictures: bench/probe.h.
 struct BenchProbe {
   const PaperSystem* system = nullptr;
   double prepare_ms = 0;
@@ -63,11 +63,11 @@ class BenchRows {
  public:
   void add(BenchRow row) { rows_.push_back(std::move(row)); }
   void add(const BenchProbe& probe) { probes_.push_back(probe); }
-  // Of a row that is there: the faster of the two counts.
+  // Measures an existing row again: the faster of the two counts.
   void add_again(const BenchRow& row);
   [[nodiscard]] const std::vector<BenchRow>& all() const { return rows_; }
 
-  // The row of a system for a request that was measured, and its probe; they must exist.
+  // The row of a system for a request that was measured, and the system's probe; they must exist.
   [[nodiscard]] const BenchRow& at(const PaperSystem& system, const BenchRequest& request) const;
   [[nodiscard]] const BenchProbe& probe_of(const PaperSystem& system) const;
 

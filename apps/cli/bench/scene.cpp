@@ -30,7 +30,7 @@ constexpr Vec2 kPaperLights_uv[] = {{0.70, 0.33}, {0.25, 0.75}};
 constexpr int kPapersWavelengths = 3;  // hullin2011 7.2, standard quality
 constexpr const char* kReference = "reference";
 
-// Lights beyond the paper's fill the frame evenly.
+// Lights in addition to the paper's fill the frame evenly.
 Vec2 light_uv(std::size_t k) { return k < std::size(kPaperLights_uv) ? kPaperLights_uv[k] : evenly_spread(k); }
 
 bool is_of(const BenchRequest& request, const BenchScene& scene) {
@@ -39,13 +39,13 @@ bool is_of(const BenchRequest& request, const BenchScene& scene) {
 
 bool has_papers_lights(const BenchScene& scene) { return scene.lights.size() <= std::size(kPaperLights_uv); }
 
-// Many lights, and bundle and tiled at full aperture, take seconds to minutes.
+// Many lights, and bundle and tiled at full aperture, take seconds to minutes: they are run once.
 int runs_of(const BenchScene& scene, const BenchRequest& request, const BenchRunning& running) {
   const bool is_long = !has_papers_lights(scene) || (request.variant.full_aperture && request.method != "adaptive");
   return is_long ? 1 : running.runs;
 }
 
-// The user's options; but grids are scaled by the paper's eq. 13, and `tiled` is as the request says.
+// The user's options; but grids are scaled by the paper's eq. 13, and `tiled` has the request's options.
 Result<MethodOptions> options_of(const BenchScene& scene, const BenchRequest& request) {
   auto options = params::method_options(scene.values, request.method);
   if (!options) return options;
@@ -73,7 +73,7 @@ fs::path cache_file(const BenchScene& scene, const std::string& folder) {
                                  s.frame.height, s.wavelengths, params::reference_options(scene.values).density);
   if (std::holds_alternative<SelectList>(s.selection)) name += "-paper-ghosts";
   if (!scene.coating.empty()) name += "-" + scene.coating;
-  std::ranges::replace(name, '/', '_');  // of a file with reflectances
+  std::ranges::replace(name, '/', '_');  // for the name of a file with reflectances
   return fs::path(folder) / (name + ".exr");
 }
 
@@ -86,13 +86,13 @@ Result<Image> reference_image(const BenchScene& scene, const BenchRunning& runni
   if (fs::exists(file)) return read_picture(file).map([](Picture picture) { return std::move(picture.rgb); });
   auto flare = render_scene(scene, request, running.threads);
   if (!flare) return tl::unexpected(flare.error());
-  std::error_code ignored;  // if the folder cannot be made, writing says so
+  std::error_code ignored;  // if the folder cannot be made, writing reports the error
   fs::create_directories(running.cache, ignored);
   if (const auto ok = write_exr(file, flare->image); !ok) return tl::unexpected(ok.error());
   return std::move(flare->image);
 }
 
-// None where there is no picture to compare with.
+// nullopt if there is no picture to compare with.
 std::optional<double> psnr_db(const Image& truth, const Image& image) {
   if (truth.pixels.empty()) return std::nullopt;
   const auto comparison = compare(truth, image);
@@ -100,7 +100,7 @@ std::optional<double> psnr_db(const Image& truth, const Image& image) {
   return comparison->psnr_db.value_or(std::numeric_limits<double>::infinity());
 }
 
-// Pictures that rows of one scene are compared with.
+// The pictures that rows of one scene are compared with.
 struct Truths {
   Image reference, bundle, unmerged;
 };
@@ -187,7 +187,7 @@ Result<void> measure_scene(const BenchScene& scene, const std::vector<BenchReque
   std::vector<BenchRequest> wanted;
   std::copy_if(requests.begin(), requests.end(), std::back_inserter(wanted),
                [&](const BenchRequest& request) { return is_of(request, scene); });
-  // Those that others are compared with come first.
+  // Those that others are compared with are rendered first.
   const auto rank = [&](const BenchRequest& request) {
     return request.method == "bundle" ? 0 : same(request, tiled_merged(request.lights, 0)) ? 1 : 2;
   };

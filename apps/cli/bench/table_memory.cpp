@@ -1,4 +1,4 @@
-// bodonyi2023 tables 5 and 6: what merging leaves to store.
+// bodonyi2023 tables 5 and 6: the memory that remains after merging.
 #include "cli/bench/tables.h"
 
 #include <fmt/format.h>

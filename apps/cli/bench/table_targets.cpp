@@ -1,4 +1,4 @@
-// What adaptive has to reach, and what it does: ratios of this run.
+// The targets of adaptive, and the ratios that it reaches in this run.
 #include <algorithm>
 
 #include <fmt/format.h>
@@ -22,7 +22,7 @@ std::vector<BenchRequest> targets_requests(const std::vector<std::string>&) {
           bundle_of(2),   many_wavelengths(), large_frame(), adaptive_of(kManyLights)};
 }
 
-// Adaptive against the reference: at least as close as tiled.
+// Adaptive's PSNR against the reference: at least that of tiled.
 std::optional<Target> quality(const BenchRow& adaptive, const BenchRow& tiled) {
   if (!adaptive.reference_db || !tiled.reference_db) return std::nullopt;
   return Target{.name = "PSNR of adaptive",
@@ -36,7 +36,7 @@ std::optional<Target> quality(const BenchRow& adaptive, const BenchRow& tiled) {
                 .note = fmt::format("tiled {}", db_text(tiled.reference_db))};
 }
 
-// Its surface hits at the measured peak rate and one pass over the frame: less than that nothing takes.
+// The time over a lower limit: its surface hits at the measured peak rate, and one pass over the frame.
 Target over_floor(const BenchRow& adaptive, const BenchProbe& probe) {
   const auto hits = static_cast<double>(adaptive.statistics.surface_hits);
   const double hits_ms = hits / probe.peak_hits_per_ms;
@@ -50,7 +50,7 @@ Target over_floor(const BenchRow& adaptive, const BenchProbe& probe) {
                               probe.peak_hits_per_ms * 1e-3, hits_ms, probe.frame_pass_ms)};
 }
 
-// A larger task over the usual one, both adaptive's, per `share`.
+// The time of a larger task over that of the usual one, both with adaptive, divided by `share`.
 Target growth(std::string name, const BenchRow& more, const BenchRow& usual, double share, double must, double aim) {
   const double more_ms = total_ms(more.statistics);
   const double usual_ms = total_ms(usual.statistics);
@@ -82,7 +82,7 @@ Target memory(const PaperSystem& system, const BenchProbe& probe) {
           .unit = "MB"};
 }
 
-// Of one system with the paper's lights.
+// Adds the targets of one system with the paper's lights.
 void add_of_paper(const BenchRows& rows, const PaperSystem& system, int lights, std::vector<Target>& list) {
   const BenchRow& adaptive = rows.at(system, adaptive_of(lights));
   const BenchRow& tiled = rows.at(system, tiled_of(lights));
@@ -114,7 +114,7 @@ std::vector<Target> measured_targets(const BenchRows& rows) {
     list.push_back(preparation(*system, probe));
     if (probe.peak_memory_bytes > 0) list.push_back(memory(*system, probe));
   }
-  // All systems by one target after the other.
+  // Sorts by target, then by system.
   std::vector<std::string> names;
   for (const Target& target : list) {
     if (std::find(names.begin(), names.end(), target.name) == names.end()) names.push_back(target.name);

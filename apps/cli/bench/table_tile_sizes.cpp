@@ -6,7 +6,7 @@
 namespace contrejour::cli {
 namespace {
 
-// In the paper's order: 8 x 8 without and with coarse tiles, 16 x 16 likewise.
+// In the paper's order: 8 x 8 without and with coarse tiles, then 16 x 16 without and with them.
 BenchRequest of_tiles(std::size_t k) {
   BenchRequest request = tiled_of(1);
   request.tiled.dense_tile = k < 2 ? 8 : 16;

@@ -14,10 +14,10 @@ namespace contrejour::cli {
 struct BenchTable {
   std::string_view key;  // for --tables
   std::string_view title;
-  // What it needs of every system; methods: those asked for, for a table that lists any.
+  // The requests that it makes of every system; methods: those that the user chose, for a table that lists any method.
   std::vector<BenchRequest> (*requests)(const std::vector<std::string>& methods);
   std::string (*text)(const BenchRows& rows, const std::vector<std::string>& methods);
-  std::vector<Target> (*targets)(const BenchRows& rows) = nullptr;  // where it holds any
+  std::vector<Target> (*targets)(const BenchRows& rows) = nullptr;  // null: it has none
   bool needs_probes = false;
 };
 
@@ -30,7 +30,7 @@ struct BenchTable {
 [[nodiscard]] BenchRequest tiled_merged(int lights, std::size_t merging);  // none, light, heavy
 inline constexpr std::size_t kMergings = 3;
 
-// Cells. A figure of the paper that is lost, or one that was not measured, is a dash.
+// Texts of cells. A figure that is missing in the paper, or was not measured, is a dash.
 [[nodiscard]] std::string ms_text(double ms);
 [[nodiscard]] std::string count_text(double count);
 [[nodiscard]] std::string mib_text(double bytes);

@@ -1,4 +1,4 @@
-// Figures of `bench tables` that have to hold: ratios of one run on one machine, and what they are held to.
+// Targets of `bench tables`: ratios within one run on one machine, and their limits.
 #pragma once
 
 #include <string>
@@ -16,15 +16,15 @@ struct Target {
   double must = 0, aim = 0;
   bool more_is_better = false;
   std::string unit{};  // "dB", "ms", "MB"; none: a ratio
-  std::string note{};  // what it was made from
+  std::string note{};  // the figures that it was computed from
 };
 
-// "aim" where the aim holds, "yes" where only what must hold does, else "no".
+// "aim" if the aim is reached, "yes" if only the limit is kept, else "no".
 [[nodiscard]] std::string holds_text(const Target& target);
 
 [[nodiscard]] std::string targets_text(const std::vector<Target>& targets);
 
-// How many times faster one measurement is than the other of the same system.
+// The ratio of the times of two measurements of the same system.
 [[nodiscard]] Target speed_target(const BenchRow& slow, const BenchRow& fast, double must, double aim);
 
 }  // namespace contrejour::cli
