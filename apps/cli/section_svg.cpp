@@ -82,8 +82,8 @@ std::string arc(const Page& page, const SurfaceState& s, double from) {
 
 std::string move_or_line(char verb, Vec2 p) { return fmt::format("{}{:.2f} {:.2f} ", verb, p.x, p.y); }
 
-// Both faces and the edge between them. Unless the faces cross there, a flat rim at right angles to the axis extends the
-// smaller face to the height of the larger, as on a ground lens.
+// Both faces and the edge between them. Unless the faces cross there, a flat rim at right angles to the axis extends
+// the smaller face to the height of the larger, as on a ground lens.
 std::string outline(const Page& page, const SurfaceState& front, const SurfaceState& rear) {
   const double front_h = drawn_height_mm(front);
   const double rear_h = drawn_height_mm(rear);

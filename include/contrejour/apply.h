@@ -1,7 +1,7 @@
-// A photograph's own flare, put on it: what `contrejour apply` does, for pixels in memory.
+// Adds to a photograph the flare of its own lights: what `contrejour apply` does, for pixels in memory.
 // A host fills in a Picture's rgb (scene-linear, white at 1) and its two windows, or takes picture_of(image); values
-// hold what its user has set (parameter.h). Errors leave everything as it was. The result is the same for any number of
-// threads. Thread-safety: functions of their arguments alone, besides files that a value names.
+// contain the user's settings (parameter.h). After an error everything is unchanged. The result is the same for any
+// number of threads. Thread-safety: pure functions, which may read files that a value names.
 #pragma once
 
 #include "contrejour/context.h"
@@ -19,18 +19,19 @@ namespace contrejour {
 // A flare as large as the photograph: RGB, zeros where there are no lights.
 struct PictureFlare {
   Image image;
-  RenderStatistics statistics;  // those of no work where there are no lights
-  FlareVisibility visibility;   // on the photograph without it
+  RenderStatistics statistics;  // empty where there are no lights
+  FlareVisibility visibility;   // relative to the photograph without it
 };
 
-// The flare of the lights of a plan, by the values' method. `rgb` is the photograph for which the plan was made,
+// Renders the flare of a plan's lights by the values' method. `rgb` is the photograph for which the plan was made,
 // without flare. The number of threads is the context's. Errors: those of render(); InvalidArgument for a flare with
 // samples that are not finite.
 [[nodiscard]] Result<PictureFlare> render_flare(const FlarePlan& plan, const Image& rgb, const LensState& lens,
                                                 const params::Values& values, const Context& context = {});
 
-// Adds a flare of the same size to the first three channels of an image, and takes nothing away: a channel in which the
-// flare is negative, as colours beyond the gamut are, stays what it is. So do samples that are not finite, and alpha.
+// Adds a flare of the same size to the first three channels of an image, and never subtracts: where a channel of the
+// flare is negative, as for colours outside the gamut, the sample is unchanged. Samples that are not finite are
+// unchanged, and so is alpha.
 void add_flare(Image& image, const Image& flare);
 
 struct AppliedFlare {
@@ -38,8 +39,8 @@ struct AppliedFlare {
   PictureFlare flare;
 };
 
-// All in one call: finds the photograph's lights, renders their flare and adds it to picture.rgb; nothing else of the
-// picture changes. Errors: those of plan_flare and render_flare.
+// All steps in one call: finds the photograph's lights, renders their flare and adds it to picture.rgb; nothing else of
+// the picture changes. Errors: those of plan_flare and render_flare.
 [[nodiscard]] Result<AppliedFlare> apply_flare(Picture& picture, const LensState& lens, const params::Values& values,
                                                const Context& context = {});
 

@@ -15,23 +15,23 @@
 
 namespace contrejour {
 
-// The photograph with its flare. A PNG is to look at: it is exposed as the values say, where they say it.
+// Writes the photograph with its flare. A PNG is a preview, with the exposure that the values give, if any.
 [[nodiscard]] Result<void> write_photograph(OutputFile& file, const Picture& picture, const params::Values& values,
                                             const Context& context = {});
 
-// A photograph to which no flare was added, and the file it was read from: the bytes of that file, so that not even its
-// compression changes. Another format, a PNG with an exposure, and an input that cannot be read twice (a pipe) are
-// written from the picture. Errors: also Io, where the input cannot be read again.
+// Writes a photograph to which no flare was added by copying the bytes of its input file, so that not even the
+// compression changes. If the format differs, a PNG has an exposure, or the input cannot be read twice (a pipe), the
+// picture is written instead. Errors: also Io, if the input cannot be read again.
 [[nodiscard]] Result<void> copy_photograph(OutputFile& file, const std::filesystem::path& input, const Picture& picture,
                                            const params::Values& values, const Context& context = {});
 
-// An image as large as the photograph, such as its flare: a picture of its own with the photograph's windows, the
+// Writes an image of the photograph's size, such as its flare, as a picture with the photograph's windows and the
 // plan's colour space and pixel aspect.
 [[nodiscard]] Result<void> write_beside(OutputFile& file, const Image& image, const Picture& picture,
                                         const FlarePlan& plan, const Context& context = {});
 
-// What counts as lights in the photograph without flare: an EXR of their pixels, or a PNG of the photograph in dim grey
-// with each light in a colour of its own (detected_picture.h).
+// Writes the lights detected in the photograph without flare: an EXR of their pixels, or a PNG of the photograph in dim
+// grey with each light in a colour of its own (detected_picture.h).
 [[nodiscard]] Result<void> write_detected(OutputFile& file, const Picture& picture, const FlarePlan& plan,
                                           const Context& context = {});
 

@@ -41,8 +41,8 @@ struct Rim {
   }
 };
 
-// The rims that light must pass inside, all of them: one for an ellipse, two strips for a rectangle, and besides the
-// semi-diameter's circle unless the aperture lies within it. None for a disc.
+// The rims that light must pass inside, all of them: one for an ellipse, two strips for a rectangle, and in addition
+// the semi-diameter's circle unless the aperture lies within it. None for a disc.
 [[nodiscard]] std::vector<Rim> rims_of(const ClearAperture& aperture, double semi_diameter_mm);
 
 // The rim that light must pass outside of.

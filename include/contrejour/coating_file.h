@@ -1,6 +1,6 @@
 // Measured reflectances as files: a line of headings with the angles of incidence in degrees, then lines of a
 // wavelength in nm and the reflectance at each angle, 0 to 1 (docs/formats/coating.md). Values are separated by commas,
-// semicolons, tabs or spaces; Bounded in memory and time. Errors: Parse with file and line, Io. Thread-safety: pure
+// semicolons, tabs or spaces. Bounded in memory and time. Errors: Parse with file and line, Io. Thread-safety: pure
 // functions.
 #pragma once
 

@@ -1,4 +1,4 @@
-// Pictures of what was taken for lights: three channels, scene-linear, of the size of the photograph in which they were
+// Pictures of detected lights: three channels, scene-linear, of the size of the photograph in which they were
 // detected. Thread-safety: pure functions.
 #pragma once
 
@@ -8,10 +8,10 @@
 
 namespace contrejour {
 
-// Each pixel as it counts to its light, and 0 elsewhere.
+// Each pixel times its weight in its light, and 0 elsewhere.
 [[nodiscard]] Image pixels_of_lights(const Image& rgb, const Detection& found);
 
-// To look at: the picture in dim grey, and each light's pixels in a colour of its own; merged areas have one together.
+// A preview: the picture in dim grey, and each light's pixels in a colour of its own; merged areas share one.
 [[nodiscard]] Image map_of_lights(const Image& rgb, const Detection& found, ColourSpace space);
 
 }  // namespace contrejour

@@ -1,4 +1,4 @@
-// How plainly a flare shows on its photograph. Thread-safety: pure functions.
+// Measures how visible a flare is on its photograph. Thread-safety: pure functions.
 #pragma once
 
 #include <optional>
@@ -9,13 +9,13 @@
 namespace contrejour {
 
 struct FlareVisibility {
-  double brightest = 0;  // luminance of the flare that its brightest two hundredth exceeds, the lights' pixels aside
-  double over_picture = 0;  // likewise, of the flare over the picture beneath it
-  std::optional<double> stops_to_plain;  // how much brighter it would have to be to be plain; none: there is no flare
+  double brightest = 0;  // the flare's luminance at its 99.5th percentile, without the lights' pixels
+  double over_picture = 0;  // the 99.5th percentile of the flare's luminance over the picture's
+  std::optional<double> stops_to_plain;  // gain at which the flare is obvious; nullopt: there is no flare
 };
 
-// The picture without the flare, the flare, and where lights are (none of another size: nowhere). Over black, which a
-// flare of any brightness exceeds, what counts is a hundredth of white.
+// rgb: the picture without the flare; found: where its lights are (without effect if it is of another size). A
+// hundredth of white is added to the picture's luminance, since any flare is infinitely brighter than black.
 [[nodiscard]] FlareVisibility visibility_of(const Image& rgb, const Image& flare, const Detection& found,
                                             ColourSpace space);
 

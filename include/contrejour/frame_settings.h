@@ -1,4 +1,4 @@
-// What a frame shows, whichever method renders it: which pixels, ghosts, wavelengths and effects.
+// The contents of a frame, whichever method renders it: its pixels, ghosts, wavelengths and effects.
 // render() refuses values out of range. Thread-safety: plain values.
 #pragma once
 
@@ -20,14 +20,15 @@ struct FrameSettings {
   GhostScope scope = GhostScope::All;
   Reflections reflections = Reflections::Two;
   GhostSelection selection = SelectAll{};
-  // Bands of the visible spectrum; or by need: as many for each ghost as its dispersion and the coatings ask for, 32 at
-  // most (docs/physics/colour.md). The light of each channel is that of 96 bands to 2 per cent by any method.
+  // The number of bands of the visible spectrum. kWavelengthsByNeed: for each ghost as many as its dispersion and the
+  // coatings require, 32 at most (docs/physics/colour.md). Each channel's flux is that of 96 bands to 2 per cent, by
+  // any method.
   int wavelengths = kWavelengthsByNeed;
   ColourSpace colour_space = ColourSpace::Rec709;
   std::vector<double> lambda_nm;  // instead of bands: these wavelengths, equal weights, for tests and tables
 
-  // Lights with a size: the RMS error that blurring the ghosts of points may add, over the frame's peak, by any method;
-  // 1e-4 to 0.1. AdaptiveOptions::error is what the method itself may add.
+  // Extended lights: the RMS error that blurring the ghosts of points may add, relative to the frame's peak, by any
+  // method; 1e-4 to 0.1. AdaptiveOptions::error limits the error of the method itself.
   double area_error = 0.003;
   StarburstOptions starburst;
   GlareOptions glare;

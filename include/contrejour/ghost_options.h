@@ -1,5 +1,5 @@
 // What an artist changes about ghosts: gains, colours and places. The defaults are physically right.
-// Gains are 0 and more, 1 is physically right; so are colours, per channel. Thread-safety: plain values.
+// Gains, and colours per channel, are at least 0; 1 is physically right. Thread-safety: plain values.
 #pragma once
 
 #include <cstdint>
@@ -15,25 +15,25 @@ struct GhostAdjustment {
   Ghost ghost;
   double gain = 1.0;
   Rgb colour{1, 1, 1};
-  Vec2 offset{};  // in the picture, to the right and up, of the frame's height
-  int surface = 0;  // 1-based, in place of a ghost: all ghosts that reflect there
+  Vec2 offset{};  // in the picture, to the right and up, in units of the frame's height
+  int surface = 0;  // 1-based; if set, all ghosts that reflect there, in place of `ghost`
 };
 
-// A colour that ghosts are multiplied by, over where they lie: 1 at the light's image, 0 in the frame's middle, -1
-// opposite the light (first order: through the middle of the stop). Between stops it goes over evenly, beyond the first
-// and the last it stays.
+// A factor on the ghosts' colours by position: 1 at the light's image, 0 in the frame's middle, -1 opposite the light
+// (to first order, by the ray through the middle of the stop). It is linear between ramp stops and constant beyond the
+// first and the last.
 struct GhostRampStop {
   double place = 0.0;
   Rgb colour{1, 1, 1};
 };
 
 struct GhostOptions {
-  double gain = 1.0;  // of all ghosts
-  double edge_gain = 1.0;  // and this when the light is at the frame's corner, in proportion nearer to the middle
+  double gain = 1.0;  // for all ghosts
+  double edge_gain = 1.0;  // factor for a light at the frame's corner; 1 at the middle, linear between
   std::vector<GhostAdjustment> adjustments;  // gains and colours of one ghost multiply, its offsets add up
-  std::vector<GhostRampStop> ramp;  // places rising
-  // hullin2011 4.2, imperfect symmetry: each ghost is set off by its own random way, normally distributed with this
-  // root mean square, of the frame's height.
+  std::vector<GhostRampStop> ramp;  // in order of place
+  // hullin2011 4.2, imperfect symmetry: each ghost has its own random offset, normally distributed with this root mean
+  // square, in units of the frame's height.
   double scatter = 0.0;
   std::uint32_t scatter_seed = 0;
 };

@@ -114,7 +114,7 @@ struct PreviewSettings {
                                              const PreviewSettings& settings = {}, const Context& context = {});
 [[nodiscard]] Result<void> write_preview_png(OutputFile& file, const Image& rgb, const PreviewSettings& settings = {},
                                              const Context& context = {});
-// The same PNG in memory, for embedding.
+// As above, but returns the PNG in memory, for embedding.
 [[nodiscard]] Result<std::vector<std::byte>> preview_png(const Image& rgb, const PreviewSettings& settings = {},
                                                          const Context& context = {});
 

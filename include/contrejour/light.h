@@ -34,10 +34,10 @@ struct Light {
   [[nodiscard]] bool is_point() const { return radius_rad == 0.0 && !shape; }
 };
 
-inline constexpr double kSunRadius_rad = 0.00465;  // 0.53 degrees across
+inline constexpr double kSunRadius_rad = 0.00465;  // a diameter of 0.53 degrees
 
 // The largest value of a light in any channel, also after all gains: 32-bit floats can represent it, and the sum of its
-// squares over the largest picture. A light of 1e16 is the sun over 1e10 pixels.
+// squares over the largest picture. 1e16 is the value of the sun on 1e10 pixels.
 inline constexpr double kMaxLightValue = 1e16;
 
 // Errors: InvalidArgument for a direction that is not finite or leads away from the camera, a distance that is not
@@ -53,9 +53,9 @@ inline constexpr double kMaxLightValue = 1e16;
 // Sums blocks of `by` x `by` pixels into one.
 [[nodiscard]] LightShape coarser(const LightShape& shape, int by);
 
-// The direction of a light at an offset to the right of this one and up, in tangents of the angles.
+// The direction of a light with an offset from this one, to the right and up, in tangents of the angles.
 [[nodiscard]] Vec3 direction_beside(Vec3 direction, Vec2 tangents);
-// The same for a light at any distance, which stays at that distance from the first vertex.
+// As direction_beside, for a light at any distance; its distance from the first vertex is unchanged.
 [[nodiscard]] LightSource source_beside(const LightSource& source, Vec2 tangents);
 
 // Azimuth to the right, elevation up, as the photographer sees them, radians; the travel direction.

@@ -1,5 +1,5 @@
 // Options of the rendering methods, each of a type of its own, and the one type that holds those of any method.
-// Ranges stand beside the members; render() refuses values outside of them. Thread-safety: plain values.
+// Ranges are stated at the members; render() refuses values outside of them. Thread-safety: plain values.
 #pragma once
 
 #include <any>
@@ -12,8 +12,8 @@ namespace contrejour {
 // The grid of rays that is traced for each ghost.
 struct GridOptions {
   int rays = 256;  // along each side, 4 to 512
-  // Fewer rays for small ghosts, bodonyi2023 eq. 13: as the fraction of the sensor that the ghost covers, times sigma,
-  // to the power of phi. Sigma from 0 to 1e6, phi from 0 to 4.
+  // Fewer rays for small ghosts, bodonyi2023 eq. 13: by the factor (sigma times the fraction of the
+  // sensor that the ghost covers) to the power of phi. Sigma from 0 to 1e6, phi from 0 to 4.
   bool scale = false;
   double sigma = 1.0;
   double phi = 0.5;
@@ -21,22 +21,22 @@ struct GridOptions {
 
 struct AdaptiveOptions {
   static constexpr std::string_view kMethod = "adaptive";
-  double error = 0.003;  // RMS error to stay below, over the frame's peak; 1e-4 to 0.1
+  double error = 0.003;  // limit of the RMS error, relative to the frame's peak; 1e-4 to 0.1
 };
 
-// Besides the grid, what hullin2011 4.2 and 4.3 do to be quicker or better.
+// The grid, and the accelerations and improvements of hullin2011 4.2 and 4.3.
 struct BundleOptions {
   static constexpr std::string_view kMethod = "bundle";
   GridOptions grid;
-  bool smooth_shading = true;  // irradiance averaged to the vertices, linear over a cell; off: level cells
-  bool grid_levels = false;  // instead of `grid`: one of six, 16 to 512, by the variance of the cells' areas
+  bool smooth_shading = true;  // irradiance averaged to the vertices, linear over a cell; off: constant in a cell
+  bool grid_levels = false;  // replaces `grid`: one of six, 16 to 512, by the variance of cell areas
   bool mirror_symmetry = false;  // half the grid is traced, the other half mirrored at the light's meridian
   bool precomputed_bounds = false;  // pupil bounds from a table over field angles, made first, instead of a search
-  bool spectral_filter = false;  // few bands, each blurred along the way to its neighbours to bridge the gap
+  bool spectral_filter = false;  // few bands, each blurred towards its neighbours to bridge the gaps
   enum class Anisotropic { Exact, HighResolution, Points } anisotropic = Anisotropic::Exact;
 };
 
-// bodonyi2023.
+// The options of bodonyi2023.
 struct TiledOptions {
   static constexpr std::string_view kMethod = "tiled";
   GridOptions grid;

@@ -34,7 +34,7 @@ struct Parameter {
   std::string_view help{};
   std::vector<std::string_view> choices{};
   bool repeats = false;  // may be given several times
-  bool scene = false;  // of one picture, such as its lights and its size; a look has all others
+  bool scene = false;  // belongs to one picture, like lights and size; a preset has all others
   Result<void> (*check)(std::string_view text) = nullptr;  // in addition to kind and range
 };
 

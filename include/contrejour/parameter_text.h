@@ -1,4 +1,4 @@
-// What a user writes -> values: numbers, sizes, lights, colours, coatings, choices of ghosts.
+// Parses the texts of parameters: numbers, sizes, lights, colours, coatings, selections of ghosts.
 // Errors: InvalidArgument with what was expected; NaN and infinity are refused unless said otherwise.
 // Thread-safety: pure functions.
 #pragma once
@@ -21,13 +21,13 @@ namespace contrejour::params {
 [[nodiscard]] Result<std::vector<double>> parse_reals(std::string_view text, std::size_t count);  // "1,2,3"
 [[nodiscard]] std::vector<std::string_view> split(std::string_view text, char separator);
 
-// "auto" (FrameSettings::wavelengths' kWavelengthsByNeed) or how many, up to 1024.
+// "auto" (FrameSettings::wavelengths' kWavelengthsByNeed) or a number of wavelengths up to 1024.
 [[nodiscard]] Result<int> parse_wavelengths(std::string_view text);
 
 struct PixelSize {
   int width = 0, height = 0;
 };
-inline constexpr double kMaxPixels = 268435456.0;  // 2^28, as the renderers and readers have it
+inline constexpr double kMaxPixels = 268435456.0;  // 2^28, the limit of renderers and readers
 [[nodiscard]] Result<PixelSize> parse_size(std::string_view text);  // "1920x1080"
 
 // "0.1,0.2,0.4,0.5": a part of the picture, 0,0 its top left corner and 1,1 its bottom right one.
@@ -39,17 +39,17 @@ struct UvRegion {
 // "2000", "2000mm", "200cm", "2m" or "inf".
 [[nodiscard]] Result<double> parse_distance_mm(std::string_view text);
 
-// What a light's direct image sums to: one number (its luminance, coloured by the light's colour), of a unit that
-// photometry.h turns into it, or three (as they are, per channel).
+// The sum of a light's direct image: one number (its luminance, with the light's colour), perhaps in a unit that
+// settings/photometry.h converts, or three numbers (one for each channel).
 struct LightValue {
   enum class Unit {
-    Sum,      // what the image sums to
-    Stops,    // over white, of each pixel of a disc: "12stops"
+    Sum,      // the sum of the image
+    Stops,    // above white, for each pixel of a disc: "12stops"
     Lux,      // at the lens: "100000lx"
-    Candela,  // of a light at a distance: "800cd"
-    Nits,     // cd/m^2 of a disc: "1.6e9nits"
+    Candela,  // for a light at a finite distance: "800cd"
+    Nits,     // cd/m^2, for a disc: "1.6e9nits"
   };
-  Rgb rgb{1, 1, 1};  // or all the same amount of the unit
+  Rgb rgb{1, 1, 1};  // per channel, or the amount of the unit in all three
   bool per_channel = false;
   Unit unit = Unit::Sum;
 };
@@ -58,7 +58,7 @@ struct LightValue {
 // "D65", "A", "E", "3200K", a lamp or a file (spectrum_file.h), or R,G,B.
 struct LightColour {
   Spectrum spectrum = IlluminantD65{};
-  std::optional<Rgb> rgb;  // as given; else the spectrum's own
+  std::optional<Rgb> rgb;  // if given; else the spectrum's own
 };
 [[nodiscard]] Result<LightColour> parse_light_colour(std::string_view text);
 
@@ -67,13 +67,13 @@ struct LightText {
   Vec2 place;  // azimuth and elevation in degrees, or u and v
   std::optional<LightValue> value;
   std::optional<LightColour> colour;
-  std::optional<double> size_deg;  // of a disc, across
+  std::optional<double> size_deg;  // diameter of a disc
 };
 [[nodiscard]] Result<LightText> parse_light(std::string_view text);
 
 // A ghost as ghost_name() writes it: "2-5", "2-5-1-4", "7-12@1,-2"; also "5-2" and "2,5".
 [[nodiscard]] Result<Ghost> parse_ghost(std::string_view text);
-// Several, with commas between: "2-5,3-7"; "2,5,3,7" are the same two.
+// Several ghosts, separated by commas: "2-5,3-7"; "2,5,3,7" are the same two.
 [[nodiscard]] Result<std::vector<Ghost>> parse_ghosts(std::string_view text);
 // "all", "brightest:N", "flux:P", "surface:K", "list:2-5,3-7".
 [[nodiscard]] Result<GhostSelection> parse_selection(std::string_view text);
@@ -84,7 +84,7 @@ struct LightText {
 // "-1:1,0.5,0.2/0:1,1,1/1:0.6,0.8,1"
 [[nodiscard]] Result<std::vector<GhostRampStop>> parse_ghost_ramp(std::string_view text);
 
-// "preview", "standard", "final", or the bound itself.
+// "preview", "standard", "final", or a number.
 [[nodiscard]] Result<double> parse_error_bound(std::string_view text);
 
 // "none", "quarter-wave[:NM[:N]]", "hullin[:NM[:N]]", "stack:N@NM,N@NM,..." from air to glass, "measured:FILE".

@@ -1,6 +1,6 @@
-// Pictures whose pixels are not square where they lie on the sensor: renderers draw square ones, which are then added
-// up. A picture's pixel aspect (OpenEXR's pixelAspectRatio) is the width over the height of its pixels as it is shown.
-// A lens that squeezes the picture undoes it: behind an anamorphic lens of 2x the pixels of aspect 2 are square.
+// Pictures whose pixels are not square on the sensor: renderers draw a frame of square pixels, which are then averaged
+// or summed. A picture's pixel aspect (OpenEXR's pixelAspectRatio) is the width over the height of its pixels as it is
+// displayed. Behind an anamorphic lens with a squeeze of 2, pixels of aspect 2 are square on the sensor.
 // Thread-safety: pure functions.
 #pragma once
 
@@ -14,10 +14,10 @@
 namespace contrejour {
 
 struct PixelGrid {
-  Frame frame;            // of square pixels, that holds the picture: what is rendered
-  int width = 0, height = 0;  // of the picture
-  Vec2 per_pixel{1, 1};   // the frame's pixels a pixel of the picture, across and down; one of them is 1
-  Vec2 corner_px;         // of the picture, in the frame's pixels
+  Frame frame;            // the rendered frame of square pixels, which contains the picture
+  int width = 0, height = 0;  // pixels of the picture
+  Vec2 per_pixel{1, 1};   // frame pixels per picture pixel, across and down; one of them is 1
+  Vec2 corner_px;         // the picture's corner, in the frame's pixels
 
   [[nodiscard]] bool is_square() const { return per_pixel == Vec2{1, 1}; }
   [[nodiscard]] Vec2 sensor_from_pixel(Vec2 px) const {
@@ -29,21 +29,23 @@ struct PixelGrid {
   }
 };
 
-// The part `data` of a whole picture `display`, whose middle is the axis and which lies on the lens's sensor as values
-// say (sensor, hfov). Errors: InvalidArgument for windows without pixels or beyond 2^28 of them, also of square ones.
+// The grid of the window `data` of a picture `display`. The picture's middle is the axis, and the values (sensor, hfov)
+// determine its size on the sensor. Errors: InvalidArgument for a window without pixels, or with more than 2^28 pixels,
+// its own or square ones.
 [[nodiscard]] Result<PixelGrid> pixel_grid(const params::Values& values, const LensState& lens, const PixelWindow& data,
                                            const PixelWindow& display, double pixel_aspect);
 
-// Each pixel of the picture: the sum of what the frame has within it, by area.
+// Sums the frame's pixels over each pixel of the picture, weighted by the fraction of their area inside it.
 [[nodiscard]] Image picture_of_frame(const Image& frame, const PixelGrid& grid);
 
-// The same of a flare, which must be finite. Errors: InvalidArgument, with the number of samples that are not.
+// As picture_of_frame, for a flare, which must be finite. Errors: InvalidArgument, with the number of samples that are
+// not finite.
 [[nodiscard]] Result<Image> picture_of_flare(Image frame, const PixelGrid& grid);
 
-// Each pixel of the frame: the mean of the picture's that it lies in, by area; nothing beside the picture.
+// Averages the picture's pixels over each pixel of the frame, weighted by area; outside the picture they count as 0.
 [[nodiscard]] Image frame_of_picture(const Image& picture, const PixelGrid& grid);
 
-// How many times wider than high the lens's pictures are to be shown: 1 for all but anamorphic lenses.
+// The factor by which the lens's pictures are widened for display: 1 for all but anamorphic lenses.
 [[nodiscard]] double squeeze_of(const LensState& lens);
 
 }  // namespace contrejour

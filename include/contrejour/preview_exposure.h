@@ -1,4 +1,4 @@
-// How bright a picture to look at is shown. Pixels are scene-linear. Thread-safety: pure functions.
+// The exposure of a preview. Pixels are scene-linear. Thread-safety: pure functions.
 #pragma once
 
 #include "contrejour/image.h"

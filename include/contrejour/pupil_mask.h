@@ -64,7 +64,7 @@ struct PupilMask {
 // Dust and scratches: the mask times one channel of a picture laid over its square (hullin2011 5). Errors as above.
 [[nodiscard]] Result<PupilMask> with_dirt(PupilMask mask, const Image& dirt, int channel);
 
-// The power transmittance of each sample of a mask, besides its amplitude: a sample that a speck covers in part
+// The power transmittance of each sample of a mask, in addition to its amplitude: a sample that a speck covers in part
 // transmits more power than the square of its mean amplitude; the difference is diffracted to larger angles.
 using MaskPower = std::vector<float>;  // [row * side + column], 0..1, initially 1 everywhere
 

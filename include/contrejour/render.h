@@ -1,9 +1,9 @@
-// Rendering: a method's options, lens state, lights and a frame's settings in, flare and statistics out.
-// The image holds what the flare adds to the photograph, in the lights' own units (docs/physics/radiometry.md):
-// a light whose image sums to V makes a ghost pixel of V * E_ghost * A_pixel / Phi. It does not hold the
-// lights' direct images, unless settings.starburst is on. Channels may be slightly negative where a ghost's colour
-// lies outside the RGB gamut.
-// Errors: InvalidArgument, Cancelled. Same result for any thread count. Thread-safety: pure functions.
+// Renders a flare and its statistics from a method's options, a lens state, lights and a frame's settings. The image
+// contains what the flare adds to the photograph, in the lights' own units (docs/physics/radiometry.md): a light whose
+// direct image sums to V makes a ghost pixel of V * E_ghost * A_pixel / Phi. It does not contain the lights' direct
+// images, unless settings.starburst is on. Channels may be slightly negative where a ghost's colour lies outside the
+// RGB gamut.
+// Errors: InvalidArgument, Cancelled. The result is the same for any number of threads. Thread-safety: pure functions.
 #pragma once
 
 #include <span>
@@ -21,14 +21,14 @@
 namespace contrejour {
 
 struct Flare {
-  Image image;  // RGB of settings.frame
+  Image image;  // RGB, the pixels of settings.frame
   RenderStatistics statistics;
 };
 
 [[nodiscard]] Result<Flare> render(const MethodOptions& method, const LensState& lens, std::span<const Light> lights,
                                    const FrameSettings& settings, const Context& context = {});
 
-// By a method's name, with its default options. Errors: also that there is no such method.
+// Renders by a method's name, with its default options. Errors: also InvalidArgument if there is no such method.
 [[nodiscard]] Result<Flare> render(std::string_view method, const LensState& lens, std::span<const Light> lights,
                                    const FrameSettings& settings, const Context& context = {});
 

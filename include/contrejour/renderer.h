@@ -1,6 +1,6 @@
 // A renderer that lives from frame to frame: it keeps what frames have in common (reflectance tables, diffraction
 // patterns, dirt, scratch memory) and writes into a caller's pixels. render.h renders one frame without it.
-// What is kept never changes a picture: a frame has the bits that render() gives, whatever was rendered before.
+// What is kept never changes a picture: a frame is equal, bit for bit, to that of render().
 // Errors: InvalidArgument, Cancelled; after either the renderer is usable as before. Thread-safety: one thread at a
 // time uses a renderer; two renderers share nothing.
 #pragma once
@@ -37,7 +37,7 @@ class Renderer {
   Renderer(Renderer&&) noexcept;
   Renderer& operator=(Renderer&&) noexcept;
 
-  // The lens of the frames that follow. What does not depend on what changed is kept.
+  // The lens of the frames that follow. Data that do not depend on the changes are kept.
   [[nodiscard]] Result<void> set_lens(LensState lens);
   // The method of the frames that follow.
   [[nodiscard]] Result<void> set_method(MethodOptions method);

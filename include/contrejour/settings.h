@@ -1,6 +1,6 @@
-// A user's values -> what the library takes: lens settings, frame, lights, a method's options, frame and detection
-// settings. Angles, which the table has in degrees, are in radians there; lengths are in mm, wavelengths in nm.
-// Errors: InvalidArgument; Io, Parse and Unsupported of files that a value names. Thread-safety: pure functions, which
+// Converts a user's values to the library's types: lens settings, frame, lights, a method's options, frame and
+// detection settings. Angles are converted from the table's degrees to radians; lengths are in mm, wavelengths in nm.
+// Errors: InvalidArgument; Io, Parse and Unsupported for files that a value names. Thread-safety: pure functions, which
 // may read such files.
 #pragma once
 
@@ -18,17 +18,17 @@ namespace contrejour::params {
 
 inline constexpr double kDegree_rad = 0.017453292519943295;
 
-// Errors: a picture of the iris or of dirt that cannot be read or is none.
+// Errors: a picture of the iris or of dirt that cannot be read or used.
 [[nodiscard]] Result<LensSettings> lens_settings(const Values& values);
 
-// The lens as --sensor and the lens's settings have it. Errors: those of lens_settings() and configure_lens().
+// The lens configured by --sensor and the lens's settings. Errors: those of lens_settings() and configure_lens().
 [[nodiscard]] Result<LensState> lens_of(Prescription lens, const Values& values);
 
-// The pitch of a whole frame of so many square pixels, across and down: on the lens's sensor, or as wide as --hfov
-// says.
+// The pitch of a whole frame with these numbers of square pixels, across and down: it fits the lens's sensor, or has
+// the field of view of --hfov.
 [[nodiscard]] double pixel_pitch_mm(const Values& values, const LensState& lens, Vec2 square_pixels);
 
-// A whole frame of these pixels.
+// The whole frame of this size in pixels.
 [[nodiscard]] Frame whole_frame(const Values& values, const LensState& lens, PixelSize size);
 
 [[nodiscard]] GhostScope ghost_scope(const Values& values);
@@ -46,19 +46,19 @@ inline constexpr double kDegree_rad = 0.017453292519943295;
 [[nodiscard]] TiledOptions tiled_options(const Values& values);
 [[nodiscard]] ReferenceOptions reference_options(const Values& values);
 
-// The lights given, each with its own value and colour or the common ones; none given: one at u, v = 0.70, 0.33.
-// Errors: a light beside or behind the camera; R,G,B given for both value and colour.
+// The given lights, each with its own value and colour or the common ones; if there are none, one light at u, v = 0.70,
+// 0.33. Errors: a light that is not in front of the camera; R,G,B given for both value and colour.
 [[nodiscard]] Result<std::vector<Light>> lights(const Values& values, const LensState& lens, const Frame& frame,
                                                 ColourSpace space);
 
-// The same without the usual one: nothing where none is given.
+// As lights(), but empty if no light is given.
 [[nodiscard]] Result<std::vector<Light>> given_lights(const Values& values, const LensState& lens, const Frame& frame,
                                                       ColourSpace space);
 
-// What apply multiplies lights by: --gain and --stops.
+// The factor on the lights of `apply`: --gain and --stops.
 [[nodiscard]] double gain(const Values& values);
 
-// Regions are left out: they need the picture (flare_plan.h).
+// Without regions, which depend on the picture (flare_plan.h).
 [[nodiscard]] DetectionSettings detection_settings(const Values& values);
 
 }  // namespace contrejour::params
