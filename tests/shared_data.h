@@ -1,4 +1,4 @@
-// Sample data that lives beside the repository; tests that need it say so and pass where it is absent.
+// Sample data next to the repository; tests that need them say so and pass where they are absent.
 #pragma once
 
 #include <cstdlib>

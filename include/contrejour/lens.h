@@ -190,7 +190,7 @@ struct LensState {
   SensorGrating sensor_grating;
   std::vector<std::string> warnings;
 
-  // Surfaces of revolution about one axis, so that one meridian tells all.
+  // Surfaces of revolution about one axis, so that one meridian determines the lens.
   [[nodiscard]] bool has_axial_symmetry() const {
     return std::all_of(surfaces.begin(), surfaces.end(), [](const SurfaceState& s) { return s.has_axial_symmetry(); });
   }

@@ -1,4 +1,4 @@
-// A ghost of level transmission as a patch, and what is painted of it.
+// A ghost of constant transmittance as a patch, and the polygons painted of it.
 #pragma once
 
 #include <cmath>
@@ -21,7 +21,8 @@ struct Affine {
   [[nodiscard]] double determinant() const { return cross(along_u, along_v); }
 };
 
-// A ghost of level transmission over u, v in -1..1 with affine maps to the sensor, the stop's crossings and rims.
+// A ghost of constant transmittance over u, v in -1..1 with affine maps to the sensor, the stop's crossings and the
+// rims.
 struct AffineGhost {
   int nodes = 5;
   Affine pixels;
@@ -61,7 +62,7 @@ struct AffineGhost {
     return patch;
   }
 
-  // Share of the box that gets through, by plain counting.
+  // The fraction of the box that gets through, by counting places of a grid.
   [[nodiscard]] double open_share(const Iris& iris, int side = 1000) const {
     int open = 0;
     for (int y = 0; y < side; ++y) {
@@ -82,7 +83,7 @@ inline constexpr int kHeight = 200;
 
 inline Frame frame_px() { return {kWidth, kHeight, 0, 0, kWidth, kHeight, 0.01}; }
 
-// error: of the ghost's mean level over its area, RMS.
+// error: RMS, relative to the ghost's mean level over its area.
 inline PolygonList painted(const AffineGhost& ghost, const Iris& iris, double error = 1e-3) {
   const double area_px = std::max(4.0 * std::abs(ghost.pixels.determinant()), 1.0);
   const double level = 2.0 * ghost.flux / area_px;

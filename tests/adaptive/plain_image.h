@@ -1,4 +1,4 @@
-// Polygons onto an image the plain way: pixel by pixel, each clipped to it. What tiles are held against.
+// Draws polygons in the simplest way, pixel by pixel, each clipped to it: the reference for tiles.
 #pragma once
 
 #include <algorithm>
@@ -46,19 +46,19 @@ inline double shade_at(const Shade& shade, std::size_t channel, Vec2 p) {
          (p.y - shade.at.y) * static_cast<double>(shade.along_y[channel]);
 }
 
-// Pixel by pixel: the polygon's area in it times the irradiance at its centre.
+// Each pixel receives the polygon's area in it times the irradiance at its centre.
 class PlainImage {
  public:
   PlainImage(int width, int height)
       : width_(width), height_(height), values_(static_cast<std::size_t>(3 * width * height)) {}
 
-  // share: what passes to a pixel of a polygon's, channel by channel.
+  // share: the transmittance of a polygon's light at a pixel, by channel.
   using Share = std::function<std::array<double, 3>(const Polygon& polygon, Vec2 pixel)>;
   void add(const PolygonList& list, const Share& share = {}) {
     for (const Polygon& p : list.polygons) add(list, p, share);
   }
 
-  // The largest difference, over the scale that the summands' sizes set.
+  // The largest difference, relative to the size of the summands.
   [[nodiscard]] double difference(const Image& image) const {
     double worst = 0.0;
     for (std::size_t k = 0; k < values_.size(); ++k) worst = std::max(worst, std::abs(values_[k] - image.pixels[k]));

@@ -1,4 +1,4 @@
-// What the tests of this folder share: polygons onto an image, and a ghost's exact rays.
+// Shared by the tests of this folder: drawing of polygons, and a ghost's exact rays.
 #pragma once
 
 #include <algorithm>
@@ -23,13 +23,13 @@ inline LensState lens_at_f(const char* name, double f_number, double focal_lengt
   return bundled(name, settings);
 }
 
-// Lists of polygons, drawn one after the other.
+// Draws lists of polygons in order.
 inline Image drawn(std::span<const adaptive::PolygonList> lists, int width, int height) {
   const adaptive::TileGrid grid(width, height);
   std::vector<adaptive::TiledPolygons> tiled;
   for (const adaptive::PolygonList& list : lists) tiled.push_back({list, adaptive::tile_lists(list, grid)});
   Image image = Image::unwritten(width, height);
-  std::fill(image.pixels.begin(), image.pixels.end(), std::numeric_limits<float>::quiet_NaN());  // all are written
+  std::fill(image.pixels.begin(), image.pixels.end(), std::numeric_limits<float>::quiet_NaN());  // all get written
   adaptive::TileDrawer().draw_rows(tiled, {0, grid.rows}, adaptive::TileMode::Write, image);
   return image;
 }
@@ -54,7 +54,7 @@ struct GhostScene {
   LensState lens;
   Ghost ghost;
   double lambda_nm = 550.0;
-  Vec3 direction;  // of the light, in place
+  Vec3 direction;  // of the light, as in the lens's own coordinates
   LightFrame light;
   EntranceWindow window;
   OpticalPath path;
@@ -78,7 +78,7 @@ struct GhostScene {
     return sheet;
   }
 
-  // The ray through a point of the meridional entrance plane, traced where it really runs.
+  // The ray through a point of the meridional entrance plane, traced in the lens's own coordinates.
   [[nodiscard]] RayRecord exact(Vec2 entrance_mm) const {
     const Vec2 p = light.into_place(entrance_mm);
     return trace_recorded(path, {{p.x, p.y, window.z_mm}, direction});

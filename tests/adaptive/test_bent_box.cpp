@@ -14,7 +14,7 @@ using namespace contrejour::pupils;
 
 namespace {
 
-// A ghost beside whose pupil, at this f-number, rays fail.
+// A ghost with failing rays next to its pupil at this f-number.
 test::GhostScene scene_of(Ghost ghost, double f_number = 16.0, double lambda_nm = 550.0) {
   const LensState lens = test::lens_at_f("heliar", f_number);
   const Frame frame = frame_on_sensor(lens, 1920, 1080);
@@ -134,7 +134,7 @@ TEST_CASE("cells of different sizes in a bent box leave no seams, dim as the gho
   const Image image = test::flare_of("adaptive", lens, {&light, 1}, settings).image;
   settings.set_error(3e-4);
   const Image truth = test::flare_of("adaptive", lens, {&light, 1}, settings).image;
-  // Within ghost 1-5 and beside all other edges.
+  // Rows within ghost 1-5 and outside all other edges.
   double worst = 0.0;
   for (int y = 220; y < 320; ++y)
     for (int x = 760; x < 860; ++x)

@@ -1,4 +1,4 @@
-// Bounds as polygons see them: what straight lines call deep within a bound is so, all over the polygon.
+// Linear bounds over a polygon: what they call deep within a bound must be so all over the polygon.
 #include <array>
 #include <cmath>
 #include <numbers>

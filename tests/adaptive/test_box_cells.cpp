@@ -1,4 +1,4 @@
-// What cells share: corners, within a mesh and beyond, and planes of irradiance.
+// What neighbouring cells share: corners, within a mesh and beyond, and planes of irradiance.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -23,7 +23,7 @@ Mesh mesh_of(const Patch& patch, const IrisShape& iris) {
   return mesh;
 }
 
-// How far a picture of the ghost is from 1 where it lies, when all its polygons have this irradiance.
+// The largest deviation from 1 of a picture of the ghost, within the ghost, when all its polygons have this irradiance.
 double farthest_from_level(PolygonList list, double bend_px) {
   for (Polygon& p : list.polygons) p.shade = {p.shade.at, {1.0F, 1.0F, 1.0F}, {}, {}};
   const Image image = test::drawn(list, kWidth, kHeight);
@@ -46,7 +46,7 @@ AffineGhost bent_ghost(double bend_px) {
 
 TEST_CASE("cells of different sizes leave nothing between them, and overlap nowhere") {
   for (const double bend_px : {-6.0, 6.0, 6.5, 20.0}) {
-    for (const double error : {0.03, 0.003, 3e-4}) {  // one mesh has them all, or several of different depth
+    for (const double error : {0.03, 0.003, 3e-4}) {  // a single mesh, or several of different depth
       CAPTURE(bend_px);
       CAPTURE(error);
       const PolygonList list = painted(bent_ghost(bend_px), {}, error);
@@ -83,7 +83,7 @@ TEST_CASE("patches of one box leave nothing between them, whatever they count po
   painter.draw();
   REQUIRE(list.polygons.size() > 20);
   CHECK(farthest_from_level(list, kBend_px) < 1e-5);
-  // Every edge is another polygon's as well, backwards, but for those around the box.
+  // Every edge is also that of another polygon, in reverse, except those around the box.
   using Edge = std::array<float, 4>;
   std::set<Edge> edges;
   const auto for_each_edge = [&](const auto& visit) {
@@ -139,7 +139,7 @@ TEST_CASE("a plane has the light of what it is drawn for, and tells how far it i
         const double share = size * size / 64.0;
         CHECK(plane->shade.value[1] * plane->area_px == doctest::Approx(ghost.flux * share).epsilon(1e-4));
         CHECK(plane->shade.value[0] == doctest::Approx(2.0 * plane->shade.value[1]));
-        // Against the irradiance at each vertex, as pixels see it.
+        // Compares with the irradiance at each vertex, at pixels.
         double worst = 0.0;
         for (int y = 0; y <= size; ++y) {
           for (int x = at; x <= at + size; ++x) {

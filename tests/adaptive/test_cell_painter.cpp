@@ -19,7 +19,7 @@ using test::Affine, test::AffineGhost, test::frame_px, test::kHeight, test::kWid
 
 namespace {
 
-// By the polygons themselves: every one convex, its shade's mean is that at its centre of mass.
+// The flux from the polygons themselves: each must be convex, and its shade's mean is that at its centroid.
 double flux_of(const PolygonList& list, std::size_t channel) {
   double sum = 0.0;
   for (const Polygon& p : list.polygons) {
@@ -67,7 +67,7 @@ TEST_CASE("nothing in the way: the box itself, level") {
   }
 }
 
-// As the small frame is drawn that the peak is read from: bright ghosts had been missing there altogether.
+// The small frame that the peak is read from is drawn in this way: bright ghosts had been missing there altogether.
 TEST_CASE("without a limit to its error, too, a ghost within a rim that passes inside all corners is drawn") {
   AffineGhost ghost;
   ghost.pixels = {{60.2, 11.0}, {-8.0, 45.3}, {160.0, 100.0}};
@@ -193,7 +193,7 @@ class FuzzedGhosts {
   explicit FuzzedGhosts(unsigned seed) : random_(seed) {}
   double between(double low, double high) { return low + (high - low) * unit_(random_); }
 
-  // size_px: of the box's half sides; flat: one of them over the other.
+  // size_px: that of the box's half sides; flat: the ratio of one to the other.
   std::pair<AffineGhost, Iris> next(double size_px, double flat) {
     const int k = count_++;
     AffineGhost ghost;
@@ -209,7 +209,7 @@ class FuzzedGhosts {
     ghost.stops = {{{scale.x * std::cos(stop_turn), scale.x * std::sin(stop_turn)},
                     {-scale.y * std::sin(stop_turn), scale.y * std::cos(stop_turn)},
                     {between(-0.3, 0.3), between(-0.3, 0.3)}}};
-    // Two nodes cannot tell a rim, whose height is squared.
+    // Two nodes cannot represent a rim, whose height is squared.
     if (k % 5 == 0 && ghost.nodes > 2) ghost.rims = {{{1.2, 0.0}, {0.0, 1.0}, {between(-0.4, 0.4), 0.0}}};
     return {ghost, iris};
   }
@@ -220,7 +220,7 @@ class FuzzedGhosts {
   int count_ = 0;
 };
 
-// Draws it, checks that all is finite and nowhere negative, gives the share by which its light is off.
+// Draws the ghost, checks that all pixels are finite and not negative, and returns the relative error of its flux.
 double light_off(const AffineGhost& ghost, const Iris& iris) {
   const PolygonList list = painted(ghost, iris, 3e-3);
   bool sound = true;
@@ -247,7 +247,7 @@ TEST_CASE("any affine ghost keeps its light, from some pixels to most of the fra
   }
 }
 
-// The share by which the light of ghosts smaller or thinner than some pixels is off, at most.
+// The largest relative error of the flux of ghosts smaller or thinner than some pixels.
 static double most_off_of_specks(bool with_rims) {
   FuzzedGhosts fuzz(29);
   double most_off = 0.0;
@@ -260,7 +260,8 @@ static double most_off_of_specks(bool with_rims) {
 }
 
 TEST_CASE("a ghost within a pixel, or thinner than one, keeps its light") {
-  // Ought to be 1 per cent. Measured: 5.2 without rims, all above 1 in round irises and patches of 17 nodes; 1.9 with.
+  // Should be 1 per cent. Measured: 5.2 without rims, all above 1 in round irises and patches of 17 nodes; 1.9 with
+  // rims.
   CHECK(most_off_of_specks(false) < 0.06);
   CHECK(most_off_of_specks(true) < 0.03);
 }

@@ -1,4 +1,4 @@
-// What a small frame tells of the whole one before anything is drawn with care.
+// What a small preview frame predicts of the whole one before anything is drawn at full quality.
 #include <doctest/doctest.h>
 
 #include "adaptive/scene.h"
@@ -98,7 +98,8 @@ TEST_CASE("a plan that lets dark parts be left out gets the rest, as it is in th
   CHECK(drawn({}, 5).image.pixels.empty());
 }
 
-// Films reflect the middle wavelength least: its light in place of all would be a third of the peak.
+// Coatings reflect the middle wavelength least: with its light in place of all, the peak would be a third of the true
+// one.
 TEST_CASE("the peak that errors are relative to is the picture's, whatever its size and wavelengths") {
   for (const System& system :
        {System{"heliar", 16.0, 0.0, {0.7, 0.33}}, System{"itoh-zoom", 32.0, 123.0, {0.7, 0.33}},

@@ -1,4 +1,4 @@
-// Which part of a box of the pupil is worth drawing.
+// The part of a pupil box that must be drawn.
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -75,7 +75,8 @@ TEST_CASE("light that lands beside the frame is not worth drawing, but where its
 }
 
 TEST_CASE("beside rays that fail light is looked for as far as it may be flung") {
-  // Rays fail beyond x = 0.5; before that they fly off as the root of what is left.
+  // Rays fail beyond x = 0.5; before that their image points move far out, with the square root of the remaining
+  // distance.
   const auto flung = [](Vec2 p) { return Vec2{3.0 * std::sqrt(std::max(0.5 - p.x, 0.0)) - 0.9, 0.0}; };
   const auto part = part_of(sheet_of(flung, [](Vec2 p) { return p.x < 0.5 ? 0.5F : kFails; }));
   REQUIRE(part.has_value());
@@ -93,10 +94,10 @@ TEST_CASE("what is faint is drawn with little care as long as all of it is a sma
     return s;
   };
   sizes[0] = size(1e-6, 100.0);
-  sizes[1] = size(1e-6, 1e10);    // dim, but of much light
+  sizes[1] = size(1e-6, 1e10);    // dim, but with much light
   sizes[2] = size(1e-3, 1.0);     // bright
   sizes[3] = size(2e-5, 100.0);
-  sizes[4] = size(0.0, 0.0);      // nothing was seen of it
+  sizes[4] = size(0.0, 0.0);      // no light was found
   mark_faint_items(items, sizes, {0.003, 1.0, 1e4});
   CHECK(items[0].is_faint);
   CHECK_FALSE(items[1].is_faint);

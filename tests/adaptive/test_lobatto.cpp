@@ -48,10 +48,10 @@ TEST_CASE("Lobatto points rise from -1 to 1, symmetric, closest at the ends") {
   }
 }
 
-// Powers of x up to the highest degree that the nodes carry, and one beyond, which they must not.
+// Powers of x up to the highest degree that the nodes represent, and one beyond, which they must not represent.
 TEST_CASE("polynomials of degree nodes - 1, and their derivatives, are met exactly") {
   auto at = random_points(37, 3);
-  for (const double node : lobatto_points(9)) at.push_back(node);  // on nodes the formula has a case of its own
+  for (const double node : lobatto_points(9)) at.push_back(node);  // on nodes the formula has a separate case
   for (const int count : kCounts) {
     const auto nodes = lobatto_points(count);
     const Matrix value = interpolation_matrix(count, at);

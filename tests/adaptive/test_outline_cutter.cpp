@@ -1,4 +1,4 @@
-// What the iris leaves of a cell.
+// The part of a cell that the iris leaves open.
 #include <doctest/doctest.h>
 
 #include <numbers>
@@ -13,8 +13,8 @@ namespace {
 
 constexpr double kSide_px = 10.0;
 
-// A cell of kSide_px x kSide_px pixels with these stop coordinates at its corners: four, or eight with those in the
-// middles of its sides.
+// A cell of kSide_px x kSide_px pixels with these stop coordinates at its corners: four, or eight with the middles of
+// its sides.
 template <std::size_t N>
 std::array<Corner, N> cell_with(const std::array<Vec2, N>& stop) {
   constexpr std::array<Vec2, 8> kUv{Vec2{0, 0}, Vec2{0.5, 0}, Vec2{1, 0}, Vec2{1, 0.5},
@@ -52,7 +52,7 @@ TEST_CASE("a round iris inside a cell leaves its area") {
   }
 }
 
-// Ghosts of some pixels, whose error allows steps as long as these, had lost up to 7 per cent of their light.
+// Small ghosts, whose error allows long chords, had lost up to 7 per cent of their light.
 TEST_CASE("a short arc through a cell leaves the area below it, however long its chords may be") {
   const IrisShape iris{Iris{}};
   OutlineCutter cutter(iris);
@@ -100,7 +100,7 @@ TEST_CASE("arcs and straight edges lie where bent stop coordinates put them") {
                                   stop({0.5, 1}), stop({0, 1}), stop({0, 0.5})});
   const IrisShape round{Iris{}};
   OutlineCutter by_circle(round);
-  const double disc = std::numbers::pi / 16.0 * kSide_px * kSide_px;  // the map keeps areas but for the scale
+  const double disc = std::numbers::pi / 16.0 * kSide_px * kSide_px;  // the map preserves areas up to the scale
   CHECK(area_of(by_circle.open_part(cell, cell, 1, 0, 0.05)) == doctest::Approx(disc).epsilon(1e-3));
   const IrisShape square{Iris{.blades = 4}};
   OutlineCutter by_lines(square);
@@ -108,7 +108,7 @@ TEST_CASE("arcs and straight edges lie where bent stop coordinates put them") {
         doctest::Approx(disc * 2.0 / std::numbers::pi).epsilon(0.012));
 }
 
-// One ghost of the Nikon became a polygon of 1e10 pixels where the map to the stop folds within a cell.
+// A ghost of the Nikon had become a polygon of 1e10 pixels where the map to the stop folds within a cell.
 TEST_CASE("nothing is cut to beyond the cell, wherever its corners cross the stop") {
   const IrisShape iris{Iris{}};
   OutlineCutter cutter(iris);

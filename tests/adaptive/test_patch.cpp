@@ -12,7 +12,7 @@ using namespace contrejour::adaptive;
 
 namespace {
 
-// A field of a patch at u, v in -1..1: Lagrange's formula as it stands.
+// The value of a field of a patch at u, v in -1..1, directly by Lagrange's formula.
 double value_at(const Patch& patch, int field, Vec2 uv) {
   const auto n = static_cast<std::size_t>(patch.nodes);
   std::vector<double> nodes;
@@ -51,7 +51,7 @@ std::vector<double> rims_squared(const test::GhostScene& scene, const RayRecord&
   return out;
 }
 
-// How far a patch is off at points where no ray was traced.
+// The error of a patch at points where no ray was traced.
 PatchError measured_error(const test::GhostScene& scene, const RaySheet& sheet, const Patch& patch, const Frame& frame,
                           const Rgb& gain) {
   std::mt19937 random(29);
@@ -77,7 +77,7 @@ PatchError measured_error(const test::GhostScene& scene, const RaySheet& sheet, 
       const double said = patch.gain[static_cast<std::size_t>(c)] * value_at(patch, patch.layout.weight_of(c), uv);
       update(worst.weight, said - weight);
     }
-    // A patch does not say which rim a field is of: each must be near some surface's.
+    // A patch does not say which rim each field represents: each must be near that of some surface.
     const auto rims = rims_squared(scene, record);
     for (int r = 0; r < patch.layout.rims; ++r) {
       const double field = value_at(patch, patch.layout.rim(r), uv);
@@ -103,7 +103,7 @@ const Case kCases[] = {
     {"canon-70-200", {.focal_length_mm = 200.0, .f_number = 5.6}, {2.0, 1.0}},
 };
 
-// The lens's first ghosts whose rays all arrive, and that are not the plainest.
+// The lens's first ghosts whose rays all arrive and whose maps are not nearly linear.
 std::vector<test::GhostScene> scenes_of(const Case& c, std::size_t count) {
   constexpr double kRadians = 0.017453292519943295;
   const LensState lens = test::bundled(c.lens, c.settings);
@@ -136,12 +136,12 @@ TEST_CASE("a patch agrees with exact rays between its nodes as well as it says")
         CHECK(patch.layout.crossings == scene.path.stop_crossings);
         const PatchError said = estimated_error(patch);
         const PatchError measured = measured_error(scene, sheet, patch, frame, gain);
-        // Beside the estimate, what packets of doubles with results in float do.
+        // The constants are the error of packets of doubles with results in float.
         CHECK(measured.position_px <= 2.0 * said.position_px + 1e-4);
         CHECK(measured.stop <= 2.0 * said.stop + 1e-5);
         CHECK(measured.rim <= 2.0 * said.rim + 1e-5);
         CHECK(measured.weight <= 2.0 * said.weight + 2e-4);
-        // An estimate of everything would be right as well: it must not be far too careful.
+        // An overestimate would pass as well: the estimate must not be far too large.
         if (nodes == 9) CHECK(said.position_px <= 100.0 * measured.position_px + 1e-2);
       }
     }

@@ -36,7 +36,7 @@ PacketPath packets_of(const OpticalPath& path, const ReflectanceTables& tables, 
   return {path, tables, {{0.0, 0.0, window.z_mm}, light.source}};
 }
 
-// The boxes of one ghost against a grid of 65 x 65 rays over the rectangle that another search finds.
+// Compares the boxes of one ghost with a grid of 65 x 65 rays over the rectangle that another search finds.
 void add(const LensState& lens, Ghost ghost, const ReflectanceTables& tables, const LightFrame& light, Tally& tally) {
   const OpticalPath path = ghost_path(lens, ghost, tables.lambda_nm());
   const EntranceWindow window = entrance_window(lens, light.source);
@@ -75,14 +75,14 @@ TEST_CASE("rays that get through lie in a box, for all lenses [slow]") {
   for (const BundledLens& bundled : bundled_lenses()) {
     const std::string name(bundled.name);
     const LensState wide_open = test::bundled(name.c_str());
-    if (!wide_open.has_axial_symmetry()) continue;  // searched otherwise
+    if (!wide_open.has_axial_symmetry()) continue;  // these have another search
     const bool spheres = std::all_of(wide_open.surfaces.begin(), wide_open.surfaces.end(),
                                      [](const SurfaceState& s) { return s.shape.is_sphere(); });
     for (const double f_number : {wide_open.f_number, std::max(11.0, 2.0 * wide_open.f_number)}) {
       const LensState lens = test::bundled(name.c_str(), {.f_number = f_number});
       const ReflectanceTables tables(lens, 550.0);
       const auto ghosts = enumerate_ghosts(lens, GhostScope::OneSideOfStop);
-      // Some twenty ghosts of each lens, others at each angle.
+      // About twenty ghosts of each lens, different ones at each angle.
       const std::size_t stride = std::max<std::size_t>(1, ghosts.size() / 20);
       std::size_t first = 0;
       for (const double field : {0.0, 0.37, 0.9}) {
@@ -94,14 +94,14 @@ TEST_CASE("rays that get through lie in a box, for all lenses [slow]") {
     }
   }
   CHECK(tally.passing > 1'000'000);
-  // Ought to be none. Of these 1572 searches twelve lose rays, nearly all of them where rims leave slivers of a pupil:
-  // 0.011 per cent of the rays. No ghost is lost whole.
+  // Should be none. Of these 1572 searches twelve lose rays, nearly all of them where rims leave slivers of a pupil:
+  // 0.011 per cent of the rays. No ghost is lost entirely.
   CHECK(tally.missed < tally.passing / 5000);
   CHECK(tally.lost == 0);
   CHECK(tally.rays < 320 * tally.searches);
   CHECK(tally.dark_with_boxes <= tally.dark / 20);
-  // The Canon RF 50 mm alone: its ghosts 15-21 and 18-21 at f/11 are lost whole, each at one of the angles. Ought to be
-  // none.
+  // The Canon RF 50 mm alone: its ghosts 15-21 and 18-21 at f/11 are lost entirely, each at one of the angles. Should
+  // be none.
   CHECK(of_aspheres.missed < of_aspheres.passing / 200);
   CHECK(of_aspheres.lost <= 2);
 }

@@ -33,7 +33,7 @@ struct Setting {
   [[nodiscard]] Rectangle half() const { return {{window.min_mm.x, 0.0}, window.max_mm}; }
 };
 
-// Bounds of the rays of a grid over a box that get through, by trace().
+// The bounds of those rays of a grid over a box that get through, by trace().
 std::optional<Rectangle> open_bounds(const Setting& s, const Rectangle& box, int side) {
   std::optional<Rectangle> bounds;
   for (int k = 0; k < side * side; ++k) {
@@ -69,7 +69,7 @@ TEST_CASE("a box aimed at the stop from a coarse grid holds what gets through, b
       if (!aim || aim->error > 0.1) continue;
       const Vec2 more = (aim->box.high - aim->box.low) * 0.5;
       const auto open = open_bounds(s, {aim->box.low - more, aim->box.high + more}, 60);
-      if (!open) continue;  // a rim is in the way
+      if (!open) continue;  // a rim blocks them
       ++aimed;
       CAPTURE(ghost.i);
       CAPTURE(ghost.j);

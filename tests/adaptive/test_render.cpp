@@ -1,4 +1,4 @@
-// The whole renderer, where it has something of its own; what all renderers promise is in tests/renderers.
+// The whole renderer's own properties; tests/renderers checks what all renderers have in common.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -59,7 +59,7 @@ struct System {
   double standard_db = 50.0;  // at the default error
 };
 
-// How much each of 100 steps of a hundredth of a pixel changes the pixel it changes most, over the brightest pixel.
+// For each of 100 steps of a hundredth of a pixel, the largest change of a pixel relative to the brightest.
 std::vector<double> changes_of(const System& system) {
   constexpr int kSteps = 100;
   const LensState lens = test::bundled(system.name, system.settings);
@@ -78,7 +78,7 @@ std::vector<double> changes_of(const System& system) {
 
 }  // namespace
 
-// Which systems tests/renderers has not: other f-numbers, other places of the light, all presets.
+// Systems that tests/renderers does not have: other f-numbers, other places of the light, all presets.
 TEST_CASE("closer to the reference with every preset, within its error or 50 dB of it [slow]") {
   for (const System& system :
        {System{"heliar", {.f_number = 16.0}, {0.62, 0.3}}, System{"heliar", {.f_number = 5.6}, {0.2, 0.71}},
@@ -103,7 +103,7 @@ TEST_CASE("closer to the reference with every preset, within its error or 50 dB 
   }
 }
 
-// By what errors are shared: a few lenses' ghosts make all they may, those of others a tenth
+// By the rule that distributes the error, the ghosts of a few lenses make all of it, those of others a tenth
 // (docs/physics/adaptive.md).
 TEST_CASE("frames taken at random are within the error asked for, all but a few [slow]") {
   constexpr int kFrames = 48;
@@ -150,7 +150,7 @@ TEST_CASE("ghosts that fall beside the frame leave it dark") {
   }
 }
 
-// The reference takes many minutes here; tests/renderers holds the bundle to it.
+// The reference takes many minutes here; tests/renderers compares the bundle with it.
 TEST_CASE("the Canon at 200 mm wide open, its brightest ghosts, as by the bundle [slow]") {
   const LensState lens = test::lens_at_f("canon-70-200", 2.8, 200.0);
   test::Settings settings = settings_for(lens, 96, 54);
@@ -226,7 +226,7 @@ TEST_CASE("frames of one pixel, of one row, of one column") {
     CHECK(image.pixels.size() == static_cast<std::size_t>(3 * size.width * size.height));
     CHECK(*std::min_element(image.pixels.begin(), image.pixels.end()) >= -1e-6 * peak_of(image));
   }
-  // A row of the whole frame is that row of it.
+  // A frame that is one row of the whole frame must equal that row.
   settings.frame = whole;
   settings.frame.origin_y = 30;
   settings.frame.height = 1;
@@ -276,7 +276,7 @@ TEST_CASE("every instruction set of this machine draws the same, with fringes, t
     for (const auto target : hwy::SupportedAndGeneratedTargets()) {
       hwy::SetSupportedTargetsForTest(target);
       CAPTURE(hwy::TargetName(target));
-      // Rounding decides here and there whether a cell is drawn as one or in parts, well within the error of 0.003.
+      // Rounding decides here and there whether a cell is drawn whole or in parts, well within the error of 0.003.
       CHECK(psnr_db(best, image_of("adaptive", lens, light, settings)) > 75.0);
     }
   }
@@ -316,7 +316,7 @@ TEST_CASE("a ghost nearly in focus keeps its light, however few pixels it is") {
         CAPTURE(error);
         settings.set_error(error);
         const auto ours = channel_sums(test::flare_of("adaptive", lens, {&light, 1}, settings).image);
-        for (const std::size_t c : {0U, 2U})  // of green there is little, less than red's and blue's colours leave
+        for (const std::size_t c : {0U, 2U})  // little green light, less than the colours of red and blue leave
           CHECK(ours[c] / truth[c] == doctest::Approx(1.0).epsilon(ringing == RingingMode::None ? 0.003 : 0.025));
       }
     }
@@ -324,7 +324,8 @@ TEST_CASE("a ghost nearly in focus keeps its light, however few pixels it is") {
 }
 
 TEST_CASE("ringing of a ghost alone comes to the truth as the error falls, whatever makes it") {
-  // Fringes as fine as pixels, of patterns and of edges, and a ghost of five pixels, whose cells are smaller than one.
+  // Cases: fringes as fine as pixels, of patterns and of edges; a ghost of five pixels, whose cells are smaller than
+  // one.
   struct Case {
     const char* lens;
     LensSettings settings;
@@ -354,7 +355,8 @@ TEST_CASE("ringing of a ghost alone comes to the truth as the error falls, whate
 }
 
 TEST_CASE("ghosts whose pupils end where rays fail keep their light") {
-  // A frame of 160 degrees: the rays at such an end come from steep refraction, and land as a root of their distance.
+  // A frame of 160 degrees: the rays at this end are refracted steeply, and their distance on the sensor changes as a
+  // square root.
   const LensState lens = test::bundled("planar-50");
   const Light light{.direction = normalized(Vec3{0.142665, 0.060187, 0.987940})};
   test::Settings settings;
@@ -373,7 +375,8 @@ TEST_CASE("the outline of a dim ghost lies where a finer one does, with no corne
   test::Settings settings = settings_for(lens, 1920, 1080);
   settings.wavelengths = 3;
   const Light light = test::light_at(lens, settings.frame, {0.70, 0.33});
-  // Of a ghost a hundredth as bright as the peak, above all others: where its light begins, down some columns.
+  // Down some columns, the rows where the light of the topmost ghost begins, which is a hundredth as bright as the
+  // peak.
   const auto outline = [&](double error) {
     settings.set_error(error);
     const Image image = image_of("adaptive", lens, light, settings);

@@ -1,4 +1,4 @@
-// Polygons behind screens, pixel by pixel: every way of looking up what passes against the plain one.
+// Polygons behind stop patterns, pixel by pixel: every way of evaluating the transmittance against the simplest one.
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -19,7 +19,7 @@ namespace {
 constexpr int kScreenedWidth = TileGrid::kWidth + 30, kScreenedHeight = TileGrid::kHeight + 9;
 constexpr double kRadius_px = 30.0;  // of the stop
 
-// The stop about a place in the frame, a little bent: a field of a cell so many pixels wide and as high.
+// The stop about a place in the frame, slightly bent: a field of a cell that is this many pixels wide and high.
 CellSeries pixels_about(Vec2 middle, double size) { return {middle, {0.5 * size, 0}, {0, -0.5 * size}, {}, {}, {}}; }
 CellSeries stop_about(double size) {
   const double half = 0.5 * size / kRadius_px;
@@ -70,7 +70,7 @@ std::shared_ptr<screens::BandScreen> patterns(const std::shared_ptr<const IrisSh
   return band;
 }
 
-// One wavelength's alone: all channels see the same.
+// A single wavelength: all channels have the same pattern.
 std::shared_ptr<screens::BandScreen> grey(std::shared_ptr<screens::BandScreen> band) {
   band->parts.resize(1);
   band->parts.front().channel = {1.0F, 1.0F, 1.0F};
@@ -86,7 +86,7 @@ double entry_of(const EdgeTable& table, std::size_t k, std::size_t channel) {
                                              : table.entries()[EdgeTable::kStride * k + channel]);
 }
 
-// By the entries of the table, one edge after the other.
+// From the entries of the table, edge by edge.
 std::array<double, 3> by_table(const EdgeTable& table, Vec2 at) {
   std::array<double, 3> all{1.0, 1.0, 1.0};
   for (const IrisBound& bound : table.iris().bounds()) {
@@ -99,7 +99,7 @@ std::array<double, 3> by_table(const EdgeTable& table, Vec2 at) {
   return all;
 }
 
-// The mean of what a pixel's looks find.
+// The mean over the samples of a pixel.
 std::array<double, 3> mean_of_looks(const PlainImage::Share& share, const Polygon& p, const Screened& behind,
                                     Vec2 pixel) {
   const int looks = behind.looks;
@@ -112,8 +112,8 @@ std::array<double, 3> mean_of_looks(const PlainImage::Share& share, const Polygo
   return mean;
 }
 
-// Random polygons anywhere about a screen's place; `screened` says how they look up, `share` what they ought to find at
-// each of the looks into a pixel, one to three across it.
+// Random polygons anywhere about a stop pattern's place; `screened` says how they evaluate it, `share` the value that
+// each of a pixel's samples should have, of which there are one to three on each side.
 template <class ScreenedOf>
 double worst_difference(unsigned seed, const ScreenedOf& screened_of, const PlainImage::Share& share) {
   Fuzz fuzz(seed);
@@ -126,7 +126,7 @@ double worst_difference(unsigned seed, const ScreenedOf& screened_of, const Plai
     auto [behind, active] = screened_of(list, middle, size);
     behind.looks = 1 + k % 3;
     list.add(corners, fuzz.shade(middle), behind, active);
-    if (k % 2 == 0) list.add(fuzz.ellipse(middle, 20.0, 1.0, false), fuzz.shade(middle));  // sums and pixels together
+    if (k % 2 == 0) list.add(fuzz.ellipse(middle, 20.0, 1.0, false), fuzz.shade(middle));  // by sums and by pixels
     PlainImage plain(kScreenedWidth, kScreenedHeight);
     plain.add(list, [&](const Polygon& p, Vec2 pixel) {
       return p.screened > 0 ? mean_of_looks(share, p, list.screened[p.screened - 1], pixel) : std::array{1.0, 1.0, 1.0};
@@ -160,7 +160,7 @@ TEST_CASE("edges' fringes: the table's, at every pixel") {
   };
   CHECK(worst_difference(5, several, share) < 2e-4);
 
-  // One edge, straight or curved, is another way.
+  // A single edge, straight or curved, has a path of its own.
   for (std::size_t only = 0; only < 2; ++only) {
     Iris one;
     if (only == 1) one.blades = 6;
@@ -195,7 +195,8 @@ TEST_CASE("light behind fringes: nothing of it stays beyond the frame, and parts
   const std::vector<std::uint16_t> all = bounds_of(*iris);
   const Shade shade{{0.0F, 0.0F}, {1.0F, 2.0F, 3.0F, 0.0F}, {}, {}};
   Fuzz fuzz(12);
-  // A frame with no whole blocks of columns, and the stop so large that rows see it level for many of them.
+  // A frame whose width is not a multiple of the blocks, with a stop so large that the pattern is level over long
+  // stretches of rows.
   for (const int width : {61, 200, TileGrid::kWidth + 29}) {
     for (int k = 0; k < 20; ++k) {
       PolygonList list;
@@ -210,8 +211,8 @@ TEST_CASE("light behind fringes: nothing of it stays beyond the frame, and parts
         const std::array corners{Point{x0, y0}, Point{x1, y0}, Point{x1 + tilt, y1}, Point{x0 + tilt, y1}};
         list.add(corners, shade, Screened{map, band.get(), &table}, all);
       }
-      // Beyond the right border from the middle of a block on, as far as it and as far as the last column, and what the
-      // next row of tiles has in those columns.
+      // Beyond the right border, from the middle of a block on, up to the border and up to the last column; and what
+      // the next row of tiles has in those columns.
       const float at = static_cast<float>(TileGrid::kWidth) + 5.5F, to = static_cast<float>(TileGrid::kHeight);
       const auto border = static_cast<float>(width);
       for (const auto& [x0, x1, y0, y1] : {std::array{at, at + 90.0F, 0.0F, to},
@@ -225,7 +226,8 @@ TEST_CASE("light behind fringes: nothing of it stays beyond the frame, and parts
       const Image image = test::drawn(list, width, kScreenedHeight);
       CHECK(plain.difference(image) < 2e-4);
 
-      // Whatever was drawn before with the same memory: as each row of tiles by itself.
+      // The result does not depend on what was drawn before in the same memory: each row of tiles is compared with
+      // itself alone.
       const TileGrid grid(width, kScreenedHeight);
       const TiledPolygons tiled{list, tile_lists(list, grid)};
       Image by_row = image;

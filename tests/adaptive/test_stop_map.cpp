@@ -1,4 +1,4 @@
-// Pixels to places in the stop: against maps whose inverse is known.
+// Maps from pixels to places in the stop, against maps whose inverse is known.
 #include <cmath>
 
 #include <doctest/doctest.h>
@@ -17,7 +17,7 @@ CellSeries series_of(const Map& map) {
                         {map(Vec2{0, -1}), map(Vec2{1, 0}), map(Vec2{0, 1}), map(Vec2{-1, 0})}, map(Vec2{0, 0}));
 }
 
-// Pixels of a cell, bent so much; the stop's places are a polynomial of the cell's coordinates of their own.
+// Pixels of a bent cell; the places in the stop are another polynomial of the cell's coordinates.
 struct Bent {
   double bend = 0.0;
   [[nodiscard]] Vec2 pixel(Vec2 q) const {
@@ -73,7 +73,8 @@ TEST_CASE("forms are places, widths are areas, thin cells go on tamely") {
   }
   CHECK(map.width() == doctest::Approx(std::sqrt((0.1 * 0.2 + 0.01 * 0.02) / (20.0 * 15.0 + 5.0 * 4.0))).epsilon(1e-9));
 
-  // A hundredth of a pixel thick: one pixel further the place is no farther than the cell's own places are apart.
+  // A cell a hundredth of a pixel thick: one pixel outside it, the place is no farther than the cell's own places are
+  // apart.
   const CellSeries thin{{10, 10}, {8, 0}, {0, 0.005}, {}, {}, {}};
   const StopMap tame(thin, std::array{CellSeries{{0, 0}, {0.2, 0}, {0, 0.3}, {}, {}, {}}}, 0.2);
   CHECK(std::abs(tame.place({10, 11}).y) < 0.3);

@@ -42,7 +42,7 @@ TEST_CASE("any convex polygon: its area in each pixel times the irradiance at th
     Fuzz fuzz(static_cast<unsigned>(size.width));
     for (int k = 0; k < size.trials; ++k) {
       CAPTURE(k);
-      // Inside, across the frame's edges and beyond; from specks to larger than the frame.
+      // Inside, across the frame's edges and outside; from tiny ones to those larger than the frame.
       const Vec2 middle{fuzz(-0.3, 1.3) * size.width, fuzz(-0.3, 1.3) * size.height};
       const double radius = std::pow(10.0, fuzz(-2.0, std::log10(1.5 * size.width + 2.0)));
       const double flat = k % 3 == 0 ? std::pow(10.0, fuzz(-5.0, -1.0)) : fuzz(0.2, 1.0);
@@ -116,7 +116,7 @@ TEST_CASE("many polygons: the sum of each, whatever lists they come in") {
   const Image once = test::drawn(all, kWidth, kHeight);
   CHECK(plain.difference(once) < 5e-6);
   CHECK(test::drawn(parts, kWidth, kHeight).pixels == once.pixels);
-  // Into an image that holds something already.
+  // Draws into an image that is not empty.
   const TileGrid grid(kWidth, kHeight);
   const TiledPolygons tiled{all, tile_lists(all, grid)};
   Image added = once;
@@ -191,7 +191,7 @@ TEST_CASE("neighbours that share edges leave neither gaps nor doubled pixels, an
   for (int y = 1; y < 38; ++y) {
     for (int x = 1; x < 290; ++x) CHECK(inside.at(x, y) == doctest::Approx(1.0).epsilon(2e-6));
   }
-  // Moved so that all of it is on the frame.
+  // Moved so that all of it lies on the frame.
   for (Point& p : list.corners) p = {p.x + 10.0F, p.y + 4.0F};
   CHECK(test::sum_of_channel(test::drawn(list, 330, 60), 2) == doctest::Approx(area).epsilon(1e-5));
 }
@@ -200,7 +200,7 @@ TEST_CASE("edges that neighbours share are drawn once, and nothing else changes"
   const int width = 2 * TileGrid::kWidth + 30, height = 2 * TileGrid::kHeight + 7;
   constexpr int kCells = 12;
   Fuzz fuzz(11);
-  // A net of quadrilaterals across tiles and the frame's borders, some folded over, some turning the other way.
+  // A mesh of quadrilaterals across tiles and the frame's borders, some of them folded, some of reverse orientation.
   std::vector<Point> net;
   for (int y = 0; y <= kCells; ++y) {
     for (int x = 0; x <= kCells; ++x)

@@ -1,4 +1,4 @@
-// How far fits may be off: by where a ghost's light is, not by where rays may go that nothing lets through.
+// The tolerances of fits: they depend on where a ghost's light is, not on where blocked rays would go.
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -18,7 +18,7 @@ namespace {
 
 constexpr int kNodes = 5;
 
-// Of a pupil of 2 x 2 mm about the axis, every ray through.
+// The rays of a pupil of 2 x 2 mm about the axis, all of which get through.
 RaySheet sheet_of(const std::function<Vec2(Vec2)>& sensor_mm) {
   RaySheet sheet;
   sheet.nodes = kNodes;
@@ -41,7 +41,7 @@ Frame frame_of_small_pixels() {
   return frame;
 }
 
-constexpr double kLight = 1e-6;  // of a mm^2 of the pupil
+constexpr double kLight = 1e-6;  // flux per mm^2 of the pupil
 
 Tolerance within(const RaySheet& sheet, const ErrorBudget& budget) {
   return tolerance_for(sheet, kLight, 1.0, frame_of_small_pixels(), budget);
@@ -57,7 +57,7 @@ TEST_CASE("an even ghost may be displaced by its squared error over twice the li
   CHECK(t.level / level == doctest::Approx(1.0).epsilon(1e-6));
   const double error = 0.3 * 1e-4 / level;
   CHECK(t.weight == doctest::Approx(std::min(0.5, error / 400.0)));
-  CHECK(t.position_px == doctest::Approx(0.05 * 400.0 + 0.5));  // no more, whatever is allowed
+  CHECK(t.position_px == doctest::Approx(0.05 * 400.0 + 0.5));  // not larger, whatever is allowed
   const Tolerance strict = within(sheet_of([](Vec2 p) { return p * 2.0; }), {1e-19, 1.0});
   const double little = 0.3 * std::sqrt(1e-19) / level;
   CHECK(strict.position_px == doctest::Approx(little / (2.0 * 20.0)));
@@ -116,7 +116,7 @@ TEST_CASE("light that is known to gather where no ray looks is held as near as i
   const RaySheet sheet = sheet_of([](Vec2 p) { return p * 2.0; });
   const double level = 4.0 * kLight / (400.0 * 400.0);
   const auto t = [&](const Spread& about) { return within(sheet, {1e-19, 1.0, about}); };
-  CHECK(t({0.5 * level, 100.0}).position_px == t({}).position_px);  // dimmer than rays show it: they count
+  CHECK(t({0.5 * level, 100.0}).position_px == t({}).position_px);  // dimmer than the rays show: the rays count
   const Tolerance gathered = t({8.0 * level, 900.0});
   const double error = 0.3 * std::sqrt(1e-19) / (8.0 * level);
   CHECK(gathered.level == 8.0 * level);

@@ -1,4 +1,4 @@
-// Many wavelengths told by few: the order they are taken in, what they tell, and pictures made so.
+// Many wavelengths interpolated from few: the order in which they are chosen, the interpolated values, and pictures.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -98,7 +98,7 @@ TEST_CASE("few wavelengths tell the transmissions of sixteen") {
     REQUIRE_FALSE(rainbow.scene.boxes.empty());
     const Rectangle& box = rainbow.scene.boxes.front();
     const Frame frame = frame_on_sensor(rainbow.scene.lens, 1920, 1080);
-    // Without a limit, and with one that wants more of them, or all.
+    // Without a limit, with one that requires more of them, and with one that requires all.
     std::size_t before = 0;
     for (const double allowed : {1e150, 0.1, 1e-3}) {
       CAPTURE(allowed);
@@ -208,7 +208,7 @@ TEST_CASE("a band drawn by itself carries the light of all its wavelengths, too"
 
 namespace {
 
-// What band_error() says, added up over pixels: edges as steps, each pixel their mean.
+// The error that band_error() predicts, summed over pixels: edges are steps, each pixel is the mean of its points.
 double counted_error(std::span<const SpectralEdge> edges, double drawn_px) {
   constexpr int kOffsets = 200, kReach_px = 12;
   double sum = 0.0;

@@ -1,4 +1,4 @@
-// What a cell's corners say between them, and where its rays cross the stop.
+// Interpolation between a cell's corners, and where its rays cross the stop.
 #include <doctest/doctest.h>
 
 #include <random>
@@ -12,18 +12,18 @@ namespace {
 
 constexpr std::size_t kLimits = 3;
 
-// By its number of corners, in turn from uv (0, 0) on.
+// The places of a cell's corners, by their number, in order from uv (0, 0).
 std::vector<Vec2> corner_places(std::size_t corners) {
   if (corners == 3) return {{0, 0}, {1, 0}, {1, 1}};
   if (corners == 4) return {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
   return {{0, 0}, {0.5, 0}, {1, 0}, {1, 0.5}, {1, 1}, {0.5, 1}, {0, 1}, {0, 0.5}};
 }
 
-// A map from uv to places of a frame, with a bend that eight corners can tell, four not.
+// A map from uv to places of a frame, with a bend that eight corners represent and four do not.
 Vec2 position_at(Vec2 uv, double bend) {
   return {100.0 + 20.0 * uv.x - 3.0 * uv.y + bend * uv.x * uv.x, 50.0 + 2.0 * uv.x + 10.0 * uv.y - bend * uv.x * uv.y};
 }
-// And to the stop.
+// A map from uv to places in the stop.
 Vec2 stop_at(Vec2 uv, double bend) {
   return {-0.6 + 1.1 * uv.x + 0.2 * uv.y + 0.1 * bend * uv.y * uv.y,
           -0.4 + 0.1 * uv.x + 0.9 * uv.y + 0.1 * bend * uv.x * uv.y};
@@ -74,7 +74,7 @@ TEST_CASE("rays cross the stop where they are asked to, however many at once") {
         uv.push_back({0.3 + 0.6 * t, 0.1 + 0.2 * t * (1.0 - t)});
         stop.push_back(stop_at(uv.back(), bend_of(corners)));
       }
-      std::vector<Corner> found(1);  // they are added
+      std::vector<Corner> found(1);  // crossings are appended
       WholeCell(cell, kLimits).add_crossing(stop, 0, {0.3, 0.1}, found);
       REQUIRE(found.size() == 1 + count);
       for (std::size_t k = 0; k < count; ++k) {
@@ -92,7 +92,7 @@ TEST_CASE("where no ray of the cell crosses the stop there is no corner") {
   WholeCell(cell, kLimits).add_crossing(stop, 0, {0.5, 0.5}, found);
   REQUIRE(found.size() == 1);
   CHECK(length(found[0].uv - Vec2{0.5, 0.5}) < 1e-6);
-  // One whose corners all cross in one place tells of none.
+  // A cell whose corners all cross in one place yields none.
   std::vector<Corner> point = cell;
   for (Corner& c : point) c.limit = cell[0].limit;
   found.clear();

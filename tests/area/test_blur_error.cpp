@@ -1,4 +1,4 @@
-// Estimated errors of coarse pixels and of borrowed blurs, against discs blurred and compared.
+// Estimated errors of coarse pixels and of shared blurs, against discs that are blurred and compared.
 #include <algorithm>
 #include <cmath>
 
@@ -21,7 +21,7 @@ Light disc_light() {
   return light;
 }
 
-// A disc of level 1 on a picture, whose pixels hold flux, blurred by a disc and brought down to the frame.
+// A picture of a disc of level 1, whose pixels are fluxes, blurred by a disc and sampled down to the frame.
 Image blurred_disc(double radius_px, double blur_px, int level) {
   const Frame frame{kSide, kSide, 0, 0, kSide, kSide, 0.01};
   const LightPiece piece = pieces_of(disc_light()).front();
@@ -88,9 +88,9 @@ TEST_CASE("levels are coarser for the dark, and only as far as allowed") {
   for (std::size_t k = 0; k < ghosts.size(); ++k)
     if (some[k] > safe[k]) sum += level_error(ghosts[k], some[k]);
   CHECK(sum <= 0.5);
-  // A spot shows the light's outline.
+  // A small spot has the light's outline.
   CHECK(levels_of(std::vector<BlurredGhost>{{{12.0, 12.0}, {0.5, 0.5}, 1.0}}, 0.5).front() < some.front());
-  // Nothing at all, and hostile sizes.
+  // No ghosts, and invalid sizes.
   CHECK(levels_of({}, 1.0).empty());
   for (const BlurredGhost& strange :
        {BlurredGhost{}, BlurredGhost{{1e9, 1e9}, {1e9, 1e9}, 1e9}, BlurredGhost{{1.0, 1e9}, {0.0, 0.0}, 0.0}}) {

@@ -1,4 +1,4 @@
-// Kernels, convolution, and pictures of several resolutions added up: against plain sums and polynomials.
+// Kernels, convolution, and sums of pictures of several resolutions: against direct sums and polynomials.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -38,7 +38,7 @@ struct Window {
   [[nodiscard]] bool holds(int x, int y) const { return x >= left && y >= top && x < left + width && y < top + height; }
 };
 
-// All but a window of it becomes dark.
+// Sets everything outside a window to 0.
 void darken_around(Image& picture, const Window& lit) {
   for (int y = 0; y < picture.height; ++y)
     for (int x = 0; x < picture.width; ++x)
@@ -158,7 +158,7 @@ TEST_CASE("white kernels, and what is linear under them") {
     sum += w;
   }
   for (Rgb& w : disc.weight) w = {w[0] / sum, w[1] / sum, w[2] / sum};
-  // A ramp that ends along a slanted edge, dark beyond, and a faint step across it.
+  // A ramp that ends along a slanted edge, dark beyond it, with a faint step across it.
   const int width = 90, height = 40;
   Image picture(width + 6, height + 6);
   for (int y = 0; y < picture.height; ++y)
@@ -184,11 +184,11 @@ TEST_CASE("white kernels, and what is linear under them") {
   }
   CHECK(worst < 1e-5);
   CHECK(worst_loose < 0.01);
-  CHECK(worst_loose > 1e-4);  // the step was left as it is
+  CHECK(worst_loose > 1e-4);  // the step was not refined
 }
 
 TEST_CASE("a spot at any level comes back at its place, with its flux and the shape's moments") {
-  // A frame cut out of one of an odd size, so that no level's pixels begin with the frame's.
+  // A window of a frame of odd size, so that no level's pixels are aligned with the frame's.
   Frame frame{601, 503, 37, 11, 701, 555, 0.02};
   Light light;
   light.radius_rad = 0.01;
@@ -204,7 +204,7 @@ TEST_CASE("a spot at any level comes back at its place, with its flux and the sh
     const LinearMap at_level = map * std::exp2(-level);
     Layers layers(frame, how);
     const LayerFrame at = layers.frame_for(level, reach_of(piece, at_level));
-    // The pixel of this level that holds a point of the sensor, filled: the frame says where that is.
+    // Fills the pixel of this level that contains a point of the sensor, by the frame's map.
     const Vec2 place = frame.sensor_from_pixel({300.0, 250.0});
     const Vec2 px = at.frame.pixel_from_sensor(place);
     Image spot(at.frame.width, at.frame.height);
@@ -220,7 +220,8 @@ TEST_CASE("a spot at any level comes back at its place, with its flux and the sh
       CHECK(m.flux == doctest::Approx(1.0 + c).epsilon(1e-5));
       CHECK(length(m.mean - expected) < 0.01 * radius_px);
       const LinearMap wanted = mapped_covariance(map, piece.covariance);
-      // A pixel's light lies anywhere in it, a twelfth of its square about its middle, which counts as the light's own.
+      // A pixel's light is spread over it, with a variance of a twelfth of its side squared about its middle, which is
+      // part of the light's own.
       const LinearMap off = m.covariance + LinearMap{} * (std::exp2(2 * level) / 12.0) - wanted;
       CHECK(std::abs(off.x.x) + std::abs(off.y.y) + std::abs(off.x.y) < 0.01 * trace_of(wanted) + 0.2);
     }
@@ -273,7 +274,7 @@ TEST_CASE("a part of a sharp picture is added where it belongs, with and without
 TEST_CASE("what is drawn at two levels at once comes down as if added at the finer") {
   const Frame frame{64, 48, 0, 0, 64, 48, 0.1};
   Layers layers(frame);
-  // The mean over each pixel of a polynomial, at level 2: halves keep it.
+  // The mean over each pixel of a polynomial, at level 2: upsampling preserves it.
   const auto mean = [](double x0, double x1) { return (x1 * x1 * x1 - x0 * x0 * x0) / 3.0 / (x1 - x0) + 100.0; };
   Kernel delta;
   delta.weight = {{1.0, 1.0, 1.0}};

@@ -1,4 +1,4 @@
-// How a ghost moves as its light moves: against rays traced one by one through the same place of the stop.
+// The displacement of a ghost with its light: against rays traced one by one through the same place of the stop.
 #include <cmath>
 #include <optional>
 
@@ -16,7 +16,7 @@ struct Landing {
   Vec2 start_mm, sensor_mm;
 };
 
-// The ray of a light through the middle of the stop at its first crossing, by Newton's method from a start on.
+// The ray of a light through the middle of the stop at its first crossing, by Newton's method from a starting point.
 std::optional<Landing> through_middle(const OpticalPath& path, const LightSource& source, double z_mm, Vec2 start_mm) {
   const auto traced = [&](Vec2 at) {
     const Vec3 from{at.x, at.y, z_mm};
@@ -62,7 +62,7 @@ TEST_CASE("a ghost that the stop bounds moves as its ray through the middle of t
       const LinearMap expected{(right->sensor_mm - middle->sensor_mm) * (1.0 / tangent),
                                (up->sensor_mm - middle->sensor_mm) * (1.0 / tangent)};
       const LinearMap off = motion.shift_mm - expected;
-      // The median over the pupil, which ghosts with much coma are not the middle's of.
+      // The shift is the median over the pupil, which differs from the middle ray's in ghosts with much coma.
       CHECK(length(off.x) + length(off.y) < 0.05 * (length(expected.x) + length(expected.y)));
       ++checked;
     }

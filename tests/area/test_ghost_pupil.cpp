@@ -1,4 +1,4 @@
-// Where a ghost's light enters: half of a grid beside a whole one.
+// Where a ghost's light enters: half of a grid compared with a whole one.
 #include <cmath>
 #include <numbers>
 

@@ -1,4 +1,4 @@
-// Pixels as halves of themselves, against the means of polynomials; on every instruction set of this machine.
+// Splits pixels into halves, against the means of polynomials; on every instruction set of this machine.
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::size_t kBorder = 3 * kHalvesStencil;  // floats
 
-// The light between two places, of a polynomial of degree 4, another one in each channel.
+// The light between two places of a polynomial of degree 4, a different one in each channel.
 double light(double from, double to, std::size_t channel) {
   const auto integral = [&](double x) {
     double sum = 0.0, power = x;
@@ -29,7 +29,7 @@ double light(double from, double to, std::size_t channel) {
   return integral(to) - integral(from);
 }
 
-// Pixel k of some between -1 and 1.
+// The light of pixel k of several between -1 and 1.
 double light_of_pixel(std::size_t k, std::size_t pixels, std::size_t channel) {
   const double width = 2.0 / static_cast<double>(pixels), from = -1.0 + width * static_cast<double>(k);
   return light(from, from + width, channel);
@@ -83,7 +83,7 @@ TEST_CASE("halves down rows keep the light of polynomials of degree 4") {
   });
 }
 
-// Pixels that differ by up to eight decades from one to the next.
+// Pixels that differ from their neighbours by up to eight decades.
 std::vector<float> spiky_row(std::size_t pixels) {
   std::vector<float> row(3 * pixels);
   for (std::size_t k = 0; k < row.size(); ++k)
@@ -104,7 +104,7 @@ TEST_CASE("halves of what is not negative are not, however much pixels differ, a
         fine_sum += fine[k];
       }
       for (std::size_t k = kBorder; k < row.size() - kBorder; ++k) coarse_sum += row[k];
-      // A smooth half of the last pixel goes to the one beyond, and comes from there.
+      // With smooth halving, light is exchanged between the last pixel and the one beyond.
       for (const std::size_t at : {kBorder, row.size() - kBorder})
         for (std::size_t c = 0; c < 3 && how == Halving::Smooth; ++c) {
           const bool first = at == kBorder;

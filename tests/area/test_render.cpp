@@ -1,4 +1,4 @@
-// Lights with a size, as `render` draws them, against sums of many points.
+// Extended lights, as `render` draws them, against sums of many points.
 #include <algorithm>
 #include <atomic>
 #include <cmath>
@@ -51,8 +51,8 @@ TEST_CASE("the sun is the sum of points over its disc") {
     double least_db;
     Vec2 angles_rad;
   };
-  // The Tessar's have one that is a sliver and one of which the sun's middle shows little; the Heliar's are cut by
-  // rims.
+  // Two of the Tessar's ghosts are special: one is a sliver, and of another the sun's middle lights only a part. The
+  // Heliar's are cut by rims.
   const Case cases[] = {{"planar-50", 8.0, 50.0, {0.17, 0.1}},
                         {"tessar", 11.0, 43.0, {0.17, 0.1}},
                         {"heliar", 16.0, 41.0, {-0.12, 0.15}}};
@@ -109,7 +109,7 @@ TEST_CASE("many lights with a size take at most four times as long as points") {
   test::Settings settings;
   settings.wavelengths = 3;
   settings.frame = frame_on_sensor(lens, 240, 160);
-  // A pane, and spots beside it, as areas of a photograph that are merged have; each in colours of its own.
+  // A pane with spots next to it, as merged areas of a photograph have; each has its own colours.
   Image level(40, 40, 3);
   for (int k = 0; k < 1600; ++k)
     for (int c = 0; c < 3; ++c)
@@ -162,7 +162,7 @@ TEST_CASE("size zero is the point, bit for bit; a very small disc is nearly that
 }
 
 TEST_CASE("the flux does not depend on the size") {
-  // A ghost well within the frame, and one whose point falls just beside it.
+  // A ghost well within the frame, and one whose point is just outside it.
   const LensState lens = test::plate();
   for (const double shift_mm : {0.0, -4.5}) {
     Frame frame{240, 240, 0, 0, 240, 240, 0.05};
@@ -184,7 +184,7 @@ TEST_CASE("a shape's ghost is the shape, as the ghost turns it, and lies where p
   const LensState lens = test::bundled("planar-50", {.f_number = 8.0});
   test::Settings settings = test::green(frame_on_sensor(lens, 180, 120));
   settings.set_error(0.001);
-  // An L of five squares: like none of its mirror images.
+  // An L of five squares, which differs from all its mirror images.
   Light light = sun(0.12, 0.07);
   light.radius_rad = 0.0;
   Image level(2, 4, 1);
@@ -227,7 +227,7 @@ TEST_CASE("the same for any number of threads; cancelled when asked; wrong exten
   CHECK(refused.error().code == ErrorCode::InvalidArgument);
 }
 
-// Two panes and a bar that is thin beside them, over 48 x 48 pixels as wide as a disc of this radius.
+// Two panes and a thin bar, over 48 x 48 pixels, which are as wide as a disc of this radius.
 LightShape panes(double radius_rad) {
   constexpr int kSide = 48;
   LightShape shape;
@@ -268,7 +268,7 @@ TEST_CASE("a disc's starburst is the sum of its points', and holds the light's v
   const Image truth = test::flare_of("bundle", lens, points_over(light, 1200), settings).image;
   CHECK(test::sum(ours) == doctest::Approx(test::sum(truth)).epsilon(0.003));
   CHECK(psnr_db(truth, ours) > 35.0);
-  // The tail beside the disc, by ratio.
+  // The tail outside the disc, as a ratio.
   for (const auto& [x, y] : {std::pair{10, 10}, {200, 20}, {60, 140}, {180, 80}})
     CHECK(flux_in(ours, x, y, 8) == doctest::Approx(flux_in(truth, x, y, 8)).epsilon(0.01));
 }

@@ -22,7 +22,7 @@ TEST_CASE("the same words in every encoding") {
 TEST_CASE("UTF-16 without a mark is known by its zeros") {
   CHECK(decode_text("N\0M\0 \0A\0"s) == "NM A");
   CHECK(decode_text("\0N\0M\0 \0A"s) == "NM A");
-  CHECK(decode_text("NM\0A"s) == "NM\0A"s);  // a stray zero makes no UTF-16
+  CHECK(decode_text("NM\0A"s) == "NM\0A"s);  // a stray zero does not make it UTF-16
 }
 
 TEST_CASE("line ends") {

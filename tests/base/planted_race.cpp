@@ -1,5 +1,5 @@
-// Adds to one number from several threads with nothing in between: ThreadSanitizer must report it.
-// Built in the thread-sanitizer build alone, to show that the annotations in base/tasks.cpp hide no race of ours.
+// Adds to one number from several threads without synchronisation: ThreadSanitizer must report it. Built only with the
+// thread sanitizer, to show that the annotations in base/tasks.cpp do not hide races of the library.
 #include <cstdio>
 #include <vector>
 

@@ -1,4 +1,4 @@
-// Long texts for readers that must refuse them.
+// Long texts that readers must refuse.
 #pragma once
 
 #include <string>

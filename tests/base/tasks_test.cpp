@@ -1,4 +1,4 @@
-// The promise that every renderer stands on: threads change the time a result takes and nothing else.
+// The guarantee that all renderers rely on: the number of threads changes the time of a computation, not its result.
 #include "base/tasks.h"
 
 #include <algorithm>
@@ -144,11 +144,11 @@ TEST_CASE("the pipeline keeps a bounded number of products alive") {
         kItems, with_threads(threads), [&](std::size_t) { return Product(&alive); },
         [&](std::size_t, const Product&) {
           most = std::max(most, alive.load());
-          std::this_thread::sleep_for(std::chrono::microseconds(50));  // let the producers run ahead
+          std::this_thread::sleep_for(std::chrono::microseconds(50));  // lets the producers run ahead
         });
     CHECK(alive == 0);
     CHECK(most >= 1);
-    CHECK(most <= 4 * threads);  // far below kItems; the pipeline holds two a thread
+    CHECK(most <= 4 * threads);  // far below kItems; the pipeline holds two for each thread
   }
 }
 
@@ -204,7 +204,7 @@ TEST_CASE("cancelling half way stops soon and says so") {
       std::this_thread::sleep_for(std::chrono::microseconds(100));
     }));
     CHECK(calls >= 20);
-    CHECK(calls < 20 + 2 * threads);  // those already under way
+    CHECK(calls < 20 + 2 * threads);  // those already in progress
 
     cancel = false;
     std::vector<std::size_t> consumed;

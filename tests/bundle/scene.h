@@ -40,7 +40,7 @@ struct GhostImage {
   [[nodiscard]] double peak() const { return *std::max_element(flux.begin(), flux.end()); }
 };
 
-// Are there open cells that the map turns over, and others that it does not?
+// Whether the map preserves the orientation of some open cells and reverses that of others.
 inline bool is_folded(const RayGrid& grid) {
   bool up = false;
   bool down = false;

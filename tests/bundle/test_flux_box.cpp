@@ -44,7 +44,7 @@ bool inside(const std::vector<Vec2>& polygon, Vec2 p) {
   return true;
 }
 
-// Share of a pixel by 64 x 64 points.
+// The fraction of a pixel that a polygon covers, from 64 x 64 points.
 double sampled(const std::vector<Vec2>& polygon, int x, int y) {
   constexpr int kPoints = 64;
   int hits = 0;

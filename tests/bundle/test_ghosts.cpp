@@ -1,4 +1,4 @@
-// Single ghosts: against the reference, a closed form, and what flux and folds must do.
+// Single ghosts: against the reference, a closed form, and the properties of flux and folds.
 #include <cmath>
 #include <numbers>
 
@@ -15,7 +15,7 @@ namespace {
 
 Frame frame_of(const LensState& lens, int width, int height) { return frame_on_sensor(lens, width, height); }
 
-// Largest deviation of a / b from its mean over pixels whose neighbours b lights alike.
+// The largest deviation of a / b from its mean, over pixels around which b is uniform.
 double ripple(const GhostImage& a, const GhostImage& b, const Frame& frame) {
   const auto at = [&](const GhostImage& image, int x, int y) {
     return image
@@ -67,7 +67,7 @@ TEST_CASE("a plate's ghost is a flat disc of R^2 T^2 times the light") {
         if (from_middle > 7.0) CHECK(value == 0.0);
       }
     }
-    CHECK(worst < 0.001);  // the issue asks for 0.005
+    CHECK(worst < 0.001);  // required: 0.005
     const double disc = std::numbers::pi * 36.0 / (frame.pixel_pitch_mm * frame.pixel_pitch_mm) * level;
     CHECK(ghost.total() == doctest::Approx(disc).epsilon(side == 16 ? 5e-3 : 5e-4));
   }
@@ -77,7 +77,7 @@ TEST_CASE("smooth ghosts of a long zoom have no ripple of their own") {
   const LensState lens = test::lens("canon-70-200", 32.0, 200.0);
   const Frame frame = frame_of(lens, 240, 160);
   const Vec3 direction = direction_for_image_point(lens, {5.0, 4.0}, 550.0);
-  // Pupils of 0.5 mm spread over centimetres: rays a float can hardly tell apart.
+  // Pupils of 0.5 mm spread over centimetres: floats can hardly distinguish neighbouring rays.
   for (const Ghost ghost : {Ghost{2, 23}, Ghost{4, 23}, Ghost{4, 24}}) {
     CAPTURE(ghost.j);
     const GhostImage mine = bundle_ghost(lens, ghost, direction, frame, 256);

@@ -1,4 +1,4 @@
-// hullin2011's accelerations: what each switch may change and what not.
+// hullin2011's accelerations: what each option may change.
 #include <cmath>
 #include <memory>
 #include <numbers>
@@ -61,7 +61,7 @@ Image one_ghost(const LensState& lens, Ghost ghost, const Light& light, const te
   return image;
 }
 
-// A grid of 33 rays a side over the unit square, all open, that lands where the map says.
+// A grid of 33 rays a side over the unit square, all open, with image points given by a map.
 template <class Map>
 RayGrid made_up(Map map, double open_radius = 10.0) {
   LensState lens;

@@ -50,7 +50,7 @@ struct Worst {
   int rays = 0;
 };
 
-// Largest differences from trace() over the rays that get through.
+// The largest differences from trace() over the rays that get through.
 Worst compare(const OpticalPath& path, const LensState& lens, const ReflectanceTables& tables, const Fan& fan,
               PacketPrecision precision) {
   Batch batch(fan.x_mm.size());
@@ -72,7 +72,7 @@ Worst compare(const OpticalPath& path, const LensState& lens, const ReflectanceT
   return worst;
 }
 
-// Between the nodes as look_up() does it.
+// Interpolates between the nodes as look_up() does.
 double interpolated(const float* table, double u) {
   const double place = u * ReflectanceTables::kIntervals;
   const int k = std::min(static_cast<int>(place), ReflectanceTables::kIntervals - 1);
@@ -152,7 +152,7 @@ TEST_CASE("a path that crosses the stop three times tells all three crossings") 
   REQUIRE(path.stop_crossings == 3);
   const ReflectanceTables tables(lens, 550.0);
   const Fan fan = fan_over({-1.0, -1.0}, {1.0, 1.0}, -1.0, {0.0, 0.0, 1.0}, 21);
-  LensState open = lens;  // every ray counts that meets no rim
+  LensState open = lens;  // all rays that meet no rim are compared
   OpticalPath wide = path;
   wide.stop_radius_mm = 100.0;
   open.iris = {};
@@ -177,7 +177,7 @@ TEST_CASE("any number of rays gives each ray the same result") {
       trace_packets(packets, precision, fan.x_mm.data(), fan.y_mm.data(), count, some.arrays());
       for (std::size_t c = 0; c < 5; ++c) {
         CHECK(std::equal(some.columns[c].begin(), some.columns[c].end() - 1, all.columns[c].begin()));
-        CHECK(some.columns[c][count] == -77.0F);  // nothing is written behind the end
+        CHECK(some.columns[c][count] == -77.0F);  // nothing is written beyond the end
       }
     }
   }
@@ -237,7 +237,7 @@ TEST_CASE("tabulated coatings are within 1e-5 of the exact ones, from both sides
 
 namespace {
 
-// Lenses of every kind of step.
+// Lenses with every kind of step.
 std::vector<LensState> lenses_of_all_kinds() {
   std::vector<LensState> lenses;
   const auto add = [&](const char* name, const LensSettings& settings) -> LensState& {

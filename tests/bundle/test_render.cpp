@@ -1,4 +1,4 @@
-// The whole renderer, where it has something of its own; what all renderers promise is in tests/renderers.
+// The whole renderer's own properties; tests/renderers checks what all renderers have in common.
 #include <cmath>
 
 #include <doctest/doctest.h>

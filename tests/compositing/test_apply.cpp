@@ -1,4 +1,4 @@
-// A photograph's own flare put on it, in memory.
+// Adds to a photograph the flare of its own lights, in memory.
 #include <algorithm>
 #include <atomic>
 #include <cmath>
@@ -20,7 +20,7 @@ namespace {
 
 constexpr int kPlateWidth = 60, kPlateHeight = 40;
 
-// Dark, with a light of so many times white in one pixel, and an alpha that differs from pixel to pixel.
+// A dark picture with one pixel at this multiple of white, and an alpha that differs from pixel to pixel.
 Image rgba_with_light(int x, int y, float level) {
   Image rgba(kPlateWidth, kPlateHeight, 4);
   for (std::size_t k = 0; k < rgba.pixels.size(); ++k)

@@ -1,4 +1,4 @@
-// The files of a photograph with its flare: layers, copies, previews, pictures of what counts as lights.
+// The files of a photograph with its flare: layers, copies, previews, pictures of the detected lights.
 #include <algorithm>
 #include <span>
 #include <string>
@@ -42,7 +42,7 @@ FlarePlan must_plan(const Picture& picture, const Values& values = {}) {
   return std::move(*plan);
 }
 
-// write(file), then the file's name.
+// Calls write(file) and returns the file's name.
 template <class Write>
 std::filesystem::path written(const ScratchFolder& folder, const std::string& name, const Write& write) {
   auto file = OutputFile::create(folder / name);

@@ -1,4 +1,4 @@
-// Lights of a photograph as areas: a disc of pixels that leaves the picture fades as what is left of it does.
+// Lights of a photograph as areas: a disc that leaves the picture fades in proportion to its remaining part.
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -16,7 +16,7 @@ namespace {
 constexpr int kWidth = 96, kHeight = 64;
 constexpr double kRadius = 7.0;
 
-// A disc of even brightness about a place, its rim's pixels by how much of them it covers.
+// A disc of constant brightness about a place; pixels at its rim have the fraction that it covers.
 Picture picture_of_disc(double x, double y) {
   Image rgb(kWidth, kHeight);
   for (int row = 0; row < kHeight; ++row) {
@@ -90,7 +90,7 @@ TEST_CASE("a disc of pixels that leaves the picture fades as its visible area do
     const double strip = 2.0 * kRadius * kStep / (3.14159 * kRadius * kRadius);
     CHECK(std::abs(now.value - last.value) < 1.1 * strip * whole);
     CHECK(now.value < last.value + 0.005 * whole);
-    // The flare moves too, half a pixel or less.
+    // The flare moves as well, by half a pixel or less.
     CHECK(difference(now.flare, last.flare) < 2.5 * strip * most);
     last = now;
   }
@@ -114,7 +114,8 @@ Picture picture_of_window() {
   return picture_of(rgb);
 }
 
-// Of one wavelength, whose light has one sign in all channels: spectral colours beyond the gamut are negative in one.
+// A single wavelength, whose light has the same sign in all channels: spectral colours outside the gamut are negative
+// in one.
 TEST_CASE("a photograph's flare lowers no channel") {
   const Picture picture = picture_of_window();
   struct Case {

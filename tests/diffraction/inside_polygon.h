@@ -1,4 +1,4 @@
-// A place and a polygon, by counting crossings.
+// Tests whether a place is inside a polygon, by counting crossings.
 #pragma once
 
 #include <vector>

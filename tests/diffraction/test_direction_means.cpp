@@ -1,4 +1,4 @@
-// Means over windows of directions: of a constant, of a step, of a wave, around half a turn and on.
+// Means over windows of directions: of a constant, of a step, of a wave, across the end of the half turn.
 #include <cmath>
 #include <vector>
 

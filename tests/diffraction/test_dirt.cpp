@@ -1,4 +1,4 @@
-// Dirt: its statistics against what was asked for, its shapes against brute force, its wandering, hostile numbers.
+// Dirt: its statistics against the requested ones, its shapes against brute force, its motion, invalid numbers.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -14,7 +14,7 @@ using namespace contrejour;
 
 namespace {
 
-// Those whose middles lie in a square of 100 mm.
+// The strokes with their middles in a square of 100 mm.
 std::vector<DirtStroke> in_square(const Dirt& dirt) {
   std::vector<DirtStroke> inside;
   for (const DirtStroke& s : dirt_within(dirt, {-50.0, -50.0}, {50.0, 50.0}))
@@ -132,7 +132,7 @@ TEST_CASE("a seed is its dirt: other seeds share nothing, places do not depend o
   for (const DirtStroke& s : dirt_within(other, {-20.0, -20.0}, {20.0, 20.0})) CHECK_FALSE(has(whole, s));
 }
 
-// The numbers themselves, so that no platform and no change has others unnoticed.
+// The numbers themselves, so that a change of them on any platform is noticed.
 TEST_CASE("the same seed gives the same dirt everywhere") {
   Dirt dirt;
   dirt.dust_per_cm2 = 10.0;
@@ -152,26 +152,26 @@ TEST_CASE("dirt wanders smoothly and comes back after a turn") {
   dirt.drift_mm = 0.5;
   const auto at = [&](double time) {
     dirt.time = time;
-    return dirt_within(dirt, {-200.0, -200.0}, {200.0, 200.0});  // so large that next to none leave or come
+    return dirt_within(dirt, {-200.0, -200.0}, {200.0, 200.0});  // so large that hardly any leave or enter
   };
   const auto still = at(0.0), back = at(3.0);
   REQUIRE(still.size() == back.size());
   for (std::size_t k = 0; k < still.size(); k += 97) CHECK(same(still[k], back[k]));
-  // Its fastest: 0.5 mm times 0.5 (1 + 2) 2 pi a turn.
+  // The fastest motion: 0.5 mm times 0.5 (1 + 2) 2 pi for each turn.
   const double fastest = 0.5 * 0.5 * 3.0 * 2.0 * kPi;
   constexpr double kFrame = 0.001;
   double farthest = 0.0;
   for (const double time : {0.0, 0.25, 0.9995}) {
     const auto one = at(time), next = at(time + kFrame);
     for (std::size_t k = 0, other = 0; k < one.size() && other < next.size(); ++k, ++other) {
-      while (other < next.size() && one[k].width_mm != next[other].width_mm) ++other;  // one that came
+      while (other < next.size() && one[k].width_mm != next[other].width_mm) ++other;  // a new one
       if (other == next.size()) break;
       const Vec2 moved = next[other].middle_mm - one[k].middle_mm;
       CHECK(std::max(std::abs(moved.x), std::abs(moved.y)) <= fastest * kFrame);
       farthest = std::max(farthest, length(one[k].middle_mm - still[std::min(k, still.size() - 1)].middle_mm));
     }
   }
-  CHECK(farthest > 0.2);  // it does
+  CHECK(farthest > 0.2);  // some do move
 }
 
 TEST_CASE("a stroke's outline and its distance are those of points about its line") {
@@ -229,7 +229,7 @@ TEST_CASE("dirt that cannot be is refused; none is none") {
     CHECK_FALSE(check_dirt({.drift_mm = value}).has_value());
   }
   CHECK_FALSE(check_dirt({.time = nan}).has_value());
-  // The edges of all ranges at once.
+  // All parameters at the ends of their ranges.
   Dirt most{.dust_per_cm2 = Dirt::kMaxDustPerCm2, .dust_mm = 10.0, .scratches_per_cm2 = Dirt::kMaxScratchesPerCm2};
   most.scratch_length_mm = Dirt::kLongest_mm;
   most.scratch_width_mm = 10.0;

@@ -21,7 +21,7 @@ namespace {
 std::vector<double> cover(int side, const std::vector<Vec2>& polygon) {
   std::vector<double> shares(static_cast<std::size_t>(side * side));
   PolygonCover cover(side);
-  for (int again = 0; again < 2; ++again) {  // nothing of the first is left
+  for (int again = 0; again < 2; ++again) {  // the second call replaces the first
     std::fill(shares.begin(), shares.end(), 0.0);
     cover.for_each(polygon, [&](std::size_t sample, double share) { shares[sample] += share; });
   }
@@ -64,7 +64,7 @@ DirtyPupil dirty_pupil(const std::vector<DirtStroke>& strokes, int samples = 510
   return pupil;
 }
 
-// So many strokes well inside the pupil, without overlaps to speak of.
+// Strokes well inside the pupil, with hardly any overlap.
 std::vector<DirtStroke> scratches(int count, double length_mm, double width_mm, double angle_rad, double bend_rad) {
   std::mt19937 random(11);
   std::uniform_real_distribution<> any(-1.0, 1.0);
@@ -112,7 +112,7 @@ TEST_CASE("a polygon covers its exact share of every sample, however it lies and
   double sum = 0.0;
   for (const double share : thin) sum += share;
   CHECK(sum == doctest::Approx(10.0 * 2.0 * w).epsilon(1e-3));
-  // Nothing comes of what is beside, level, or no number.
+  // Polygons outside, without area, or with coordinates that are not numbers cover nothing.
   for (const auto& nothing : {std::vector<Vec2>{{20, 1}, {30, 1}, {25, 9}}, std::vector<Vec2>{{1, 3}, {9, 3}},
                               std::vector<Vec2>{{1, 1}, {NAN, 2}, {3, 3}}, std::vector<Vec2>{}}) {
     for (const double share : cover(kSide, nothing)) CHECK(std::abs(share) < 1e-9);
@@ -124,7 +124,7 @@ TEST_CASE("a polygon covers its exact share of every sample, however it lies and
 TEST_CASE("dimmed samples lose amplitude and power by what is covered") {
   PupilMask mask{{4, 1.0}, std::vector<float>(16, 1.0F), {}};
   MaskPower power;
-  // Right half of the sample right above the middle.
+  // The right half of the sample above and to the right of the middle.
   dim(mask, power, std::vector<DimPolygon>{{{{0.5, 0.0}, {1.0, 0.0}, {1.0, 1.0}, {0.5, 1.0}}, 0.25}});
   CHECK(mask.amplitude[1 * 4 + 2] == doctest::Approx(1.0 - 0.5 * 0.5));
   CHECK(power[1 * 4 + 2] == doctest::Approx(1.0 - 0.5 * 0.75));
@@ -143,7 +143,7 @@ TEST_CASE("far fields of scratches and specks are those of their outlines, fring
     const double taken = std::pow(1.0 - std::sqrt(1.0 - stroke.opacity), 2.0);
     for (const double k : {60.0, 250.0, 900.0}) {
       CAPTURE(k);
-      // All directions together, and the streak's share of them.
+      // All directions together, and the streak's fraction of them.
       double sum = 0.0, expected = 0.0, in_fan = 0.0, expected_in_fan = 0.0;
       constexpr int kDirections = 720, kAcross = 5, kDown = 5;
       const double window = kPi / kDirections;
@@ -201,14 +201,14 @@ TEST_CASE("scratches give streaks across them, red outside; far beyond the sampl
                         static_cast<int>(600.0 - r * std::sin(direction + off)), channel);
     return sum;
   };
-  // 8.8 um a unit of rho: the samples end at 78 pixels.
+  // 8.8 um for each unit of rho: the samples end at 78 pixels.
   for (const double r : {40.0, 120.0, 300.0, 450.0}) {
     CAPTURE(r);
     const double streak = along(angle + 0.5 * kPi, r, 1.2 * r, 1);
     CHECK(streak > 20.0 * along(angle, r, 1.2 * r, 1));
     CHECK(streak > 20.0 * along(angle + 0.25 * kPi, r, 1.2 * r, 1));
   }
-  // A slit of 10 um sends its first dark fringe to lambda d / w = 5.3 mm for green: red is beyond it less far out.
+  // A slit of 10 um has its first dark fringe at lambda d / w = 5.3 mm for green: red passes it farther out.
   const double red = along(angle + 0.5 * kPi, 200.0, 250.0, 0) / along(angle + 0.5 * kPi, 60.0, 90.0, 0);
   const double blue = along(angle + 0.5 * kPi, 200.0, 250.0, 2) / along(angle + 0.5 * kPi, 60.0, 90.0, 2);
   CHECK(red > 1.2 * blue);
@@ -219,7 +219,7 @@ TEST_CASE("the pattern goes on from spectrum to far field without a step, and th
   for (DirtStroke s : scratches(80, 0.0, 0.05, 0.0, 0.0)) strokes.push_back(s);
   const DirtyPupil pupil = dirty_pupil(strokes);
   const Image image = drawn(pupil, 0.01, 800);
-  // Mean over all directions, ring by ring, 157 pixels being where the samples end.
+  // The mean over all directions, ring by ring; 157 pixels is where the samples end.
   const auto ring = [&](double from, double to) {
     double sum = 0.0, count = 0.0;
     for (int y = 0; y < 800; ++y)

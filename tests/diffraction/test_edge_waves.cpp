@@ -39,7 +39,7 @@ double contour_power(const IrisOpening& opening, double k, double angle) {
   return std::norm(sum) / (k * k);
 }
 
-// Its mean over wavelengths, as a colour channel takes it, brought to k as k^-3, and over a window of directions.
+// The mean over wavelengths, as a colour channel has it, normalised to k by k^-3, and over a window of directions.
 double averaged(const IrisOpening& opening, double k, double angle, double window) {
   double sum = 0.0;
   constexpr int kSteps = 97, kAngles = 4;
@@ -93,7 +93,7 @@ TEST_CASE("edges and corners send what the contour integral says [slow]") {
     }
     CHECK(sum / expected_sum == doctest::Approx(1.0).epsilon(3e-3));
     CHECK(off / expected_sum < 0.12);  // fringes at the ends of the fans
-    // Only in the gaps between fans, a hundred times darker, where several corners' waves keep a phase to each other.
+    // Only in the gaps between fans, which are a hundred times darker, where the waves of several corners are in phase.
     CHECK(worst < std::log(2.0));
   }
 }
@@ -107,7 +107,7 @@ TEST_CASE("arcs that meet nearly without a corner are nearly one: no dark line t
       CAPTURE(k);
       double worst = 0.0, off = 0.0, sum = 0.0, expected_sum = 0.0;
       constexpr int kDirections = 80;
-      const double window = kPi / 9.0 / kDirections;  // as often as the pattern comes back
+      const double window = kPi / 9.0 / kDirections;  // so that the windows repeat with the pattern
       for (int i = 0; i < kDirections; ++i) {
         const double angle = window * (i + 0.5);
         const double expected = averaged(opening, k, angle, window), found = edges.along(angle, window).power(k);
@@ -123,7 +123,7 @@ TEST_CASE("arcs that meet nearly without a corner are nearly one: no dark line t
   }
 }
 
-// Arcs whose normals turn by half a turn or nearly: both ends may lie square to a direction at once.
+// Arcs whose normals turn by half a turn or nearly: both ends may be at right angles to a direction at once.
 TEST_CASE("a circle cut by another one: two fans, no direction brighter than a whole circle's") {
   for (const Vec2 centre : {Vec2{-0.15, -0.07}, Vec2{0.6, 0.1}, Vec2{-0.05, 0.0}}) {
     IrisBound cut;
@@ -144,7 +144,8 @@ TEST_CASE("a circle cut by another one: two fans, no direction brighter than a w
 
 namespace {
 
-// The darkest of the directions, and the largest step between two, over their mean; and that mean.
+// The smallest value over the directions, and the largest step between two neighbours, both relative to the mean; and
+// the mean.
 struct Evenness {
   double darkest = 0.0, step = 0.0, mean = 0.0;
 };
@@ -164,7 +165,7 @@ Evenness evenness(const UnevenEdges& edges, double k) {
 
 }  // namespace
 
-// Nine blades of curvature 0.5 have fans 19.7 degrees wide, 20 apart, alternately of blades on either side.
+// Nine blades of curvature 0.5 have fans 19.7 degrees wide at intervals of 20, alternately from blades on either side.
 TEST_CASE("fans that end where others begin leave a dark line between exact arcs, and none between uneven ones") {
   const Iris iris{9, 0.0, 0.5};
   const IrisOpening opening(iris);
@@ -181,7 +182,7 @@ TEST_CASE("fans that end where others begin leave a dark line between exact arcs
     CHECK(uneven.mean / exact.mean == doctest::Approx(1.0).epsilon(1e-3));
     CHECK(uneven.step < 0.02);
   }
-  // Straight edges stay exact, and arcs that make a circle together one.
+  // Straight edges remain exact, and so do arcs that form one circle.
   CHECK(iris_slope_spread_rad(Iris{9}) == 0.0);
   CHECK(iris_slope_spread_rad(Iris{}) == 0.0);
   const Iris nearly_round{7, 0.0, 0.9999};

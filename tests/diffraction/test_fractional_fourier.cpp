@@ -1,4 +1,5 @@
-// What defines the fractional Fourier transform, each to 1e-6, for even and odd sides; and Hermite-Gauss functions.
+// The defining properties of the fractional Fourier transform, each to 1e-6, for even and odd sides; and Hermite-Gauss
+// functions.
 #include <cmath>
 #include <complex>
 #include <vector>
@@ -86,7 +87,7 @@ TEST_CASE("a Gaussian off the axis turns in phase space as the continuous transf
       square[static_cast<std::size_t>(r * kSide + c)] =
           std::exp(-kPi * (std::pow(x_of(c) - 1.0, 2) + x_of(r) * x_of(r)));
   for (const double order : {0.2, 0.5, 0.9}) {
-    // Ozaktas 2001: its middle goes to cos(a pi / 2), its width stays. S is the oscillator to 1 / N only.
+    // Ozaktas 2001: its middle moves to cos(a pi / 2), its width is unchanged. S is the oscillator only up to 1 / N.
     const Square turned = fourier.transform(square, order);
     for (int c = 0; c < kSide; ++c) {
       const double expected = std::exp(-kPi * std::pow(x_of(c) - std::cos(0.5 * kPi * order), 2));

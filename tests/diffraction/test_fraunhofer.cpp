@@ -21,7 +21,7 @@ double flux_of(const FraunhoferPattern& pattern) {
   return sum * pattern.grid.pitch_mm * pattern.grid.pitch_mm;
 }
 
-// Along +x from the middle of a pattern of odd side.
+// The value along +x from the middle of a pattern of odd side.
 double at_radius(const FraunhoferPattern& pattern, double r_mm) {
   const double place = r_mm / pattern.grid.pitch_mm;
   const int k = static_cast<int>(place), middle = pattern.grid.side / 2;
@@ -36,7 +36,7 @@ double first_minimum(const FraunhoferPattern& pattern) {
   const int middle = pattern.grid.side / 2;
   const double* row = pattern.irradiance_per_mm2.data() + middle * pattern.grid.side + middle;
   while (row[k + 1] < row[k]) ++k;
-  // A parabola through the three lowest.
+  // The minimum of a parabola through the three lowest values.
   const double a = row[k - 1], b = row[k], c = row[k + 1];
   return (k + 0.5 * (a - c) / (a - 2.0 * b + c)) * pattern.grid.pitch_mm;
 }

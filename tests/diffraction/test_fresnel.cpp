@@ -43,7 +43,7 @@ TEST_CASE("a circle on its axis: 4 sin^2(pi F / 2)") {
 }
 
 TEST_CASE("a straight edge: the first overshoot is 1.370 and where the Fresnel integrals have it") {
-  // One side of a square; what comes from the others has fringes finer than the samples here, and vanishes.
+  // One side of a square; the light from the other sides has fringes finer than the samples here, which average out.
   const double f = 400.0;
   const PupilMask mask =
       make_mask({1024, 2.2 / 1024}, [](Vec2 p) { return std::max(std::abs(p.x), std::abs(p.y)) - 1.0; });
@@ -83,7 +83,7 @@ TEST_CASE("F = 2: light spreads, none is lost, no ripple far out") {
   const double outside = 2.0 / (kPi * kPi * 2.0 * 2.0 * 20.0) * std::sqrt(8.0) / kPi;
   CHECK(pattern.flux * mask.open_area_mm2() / kPi + outside == doctest::Approx(1.0).epsilon(5e-4));
   double last = 1.0;
-  for (double r = 3.0; r < 19.0; r += 0.5) {  // each half radius's brightest ring falls as r^-3
+  for (double r = 3.0; r < 19.0; r += 0.5) {  // the brightest ring of each half radius decreases as r^-3
     double brightest = 0.0;
     for (int k = 0; k < 801; ++k) {
       const double x = (k - 400) * 40.0 / 801;

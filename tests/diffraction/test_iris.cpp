@@ -1,4 +1,4 @@
-// The opening of an iris against today's straight blades, closed forms and brute force.
+// The opening of an iris against straight blades, closed forms and brute force.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -16,7 +16,7 @@ namespace {
 
 Vec2 polar(double r, double angle) { return {r * std::cos(angle), r * std::sin(angle)}; }
 
-// Area by counting a fine lattice.
+// The area by counting points of a fine grid.
 double counted_area(const Iris& iris) {
   constexpr int kSide = 600;
   int inside = 0;

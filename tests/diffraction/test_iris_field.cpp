@@ -1,4 +1,4 @@
-// Pictures as irises: closed forms, counting, hostile pictures.
+// Pictures as irises: closed forms, counting, invalid pictures.
 #include <array>
 #include <cmath>
 #include <limits>
@@ -12,7 +12,7 @@ using namespace contrejour::test;
 
 namespace {
 
-Vec2 scattered(int k) {  // all over the square, R2 sequence
+Vec2 scattered(int k) {  // spread over the square, R2 sequence
   const double x = k * 0.7548776662466927, y = k * 0.5698402909980532;
   return {2.2 * (x - std::floor(x)) - 1.1, 2.2 * (y - std::floor(y)) - 1.1};
 }
@@ -105,7 +105,7 @@ TEST_CASE("without details the same light passes") {
       field->for_each_piece(p, p, detail,
                             [&](const IrisPiece& piece) { here += contains(piece, p) ? piece.open : 0.0; });
       light += here * 2.2 * 2.2 / kPoints;
-      // Only near edges is anything else.
+      // Only values near edges may differ.
       if (std::abs(field->distance(p)) > 1.5 * detail + 1e-3)
         error = std::max(error, std::abs(here - (field->distance(p) < 0.0 ? 1.0 : 0.0)));
     }

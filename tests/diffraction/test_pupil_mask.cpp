@@ -1,4 +1,4 @@
-// Masks from openings and pictures: areas, places, and what is turned away.
+// Masks from openings and pictures: areas, places, and refused input.
 #include <cmath>
 #include <limits>
 #include <numbers>

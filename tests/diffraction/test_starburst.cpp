@@ -35,7 +35,7 @@ Image drawn(const Iris& iris, const StarburstSettings& settings, int side) {
   return drawn(iris, settings, side, {0.5 * side, 0.5 * side}, sunlight());
 }
 
-// Green on a circle about the middle, each direction's mean over a few radii.
+// The green channel around the middle: for each direction the mean over a few radii.
 std::vector<double> round_profile(const Image& image, double from, double to) {
   constexpr int kDirections = 720;
   std::vector<double> profile(kDirections);
@@ -48,7 +48,7 @@ std::vector<double> round_profile(const Image& image, double from, double to) {
   return profile;
 }
 
-// Directions (in turns of the profile) of the peaks that stand out.
+// The directions (in turns of the profile) of the most prominent peaks.
 std::vector<double> spikes(const std::vector<double>& profile) {
   const double threshold = 0.2 * *std::max_element(profile.begin(), profile.end());
   const auto count = static_cast<int>(profile.size());
@@ -75,8 +75,8 @@ TEST_CASE("the plane gets the light's flux in every channel, wherever in a pixel
   for (const Case& c : {Case{{}, 16.0, 0.01}, Case{{6, 0.1}, 2.0, 0.02}, Case{{8, 0.0, 0.3, 1.02}, 11.0, 0.006}}) {
     for (const Vec2 centre : {Vec2{300.0, 300.0}, Vec2{300.31, 299.62}}) {
       const Image image = drawn(c.iris, settings_of(c.f_number, c.pitch_mm, 430.0), 600, centre, sunlight());
-      // Beyond the frame: the rim's share of flux beyond rho is perimeter / area / (pi^2 rho) stop radii, over a
-      // square's border as over a circle of pi / sqrt(8) times its half side.
+      // Beyond the frame: the fraction of flux beyond rho is perimeter / area / (pi^2 rho) stop radii, over a square's
+      // border as over a circle of pi / sqrt(8) times its half side.
       const IrisOpening opening(c.iris);
       const double rho = 300.0 * c.pitch_mm / (550e-6 * c.f_number) * kPi / std::sqrt(8.0);
       const double outside = opening.perimeter() / opening.area() / (kPi * kPi * rho);
@@ -143,7 +143,7 @@ TEST_CASE("at one wavelength the rings are the exact pattern, core and tail") {
 
 TEST_CASE("eight decades without a step: far out a spike falls as r^-2 and what is between spikes as r^-4") {
   const Image image = drawn({8, 0.1}, settings_of(16.0, 0.01, 1500.0), 2000, {0.0, 0.0}, sunlight());
-  constexpr double kRatio = 1.15;  // rings wide enough that it does not count which pixels fall in
+  constexpr double kRatio = 1.15;  // rings so wide that the assignment of single pixels does not matter
   double darkest = 1.0;
   // Rows go down, so this is the quadrant below the axis: the first along a spike, the others between them.
   for (const double angle : {kPi / 8 - 0.1, 0.6, 0.8, 1.4}) {
@@ -173,7 +173,7 @@ TEST_CASE("eight decades without a step: far out a spike falls as r^-2 and what 
 TEST_CASE("no radial ringing: from the sixth ring on daylight's are weaker than 1 per cent") {
   const Image image = drawn({}, settings_of(16.0, 5e-4, 300.0), 600);  // 17.6 pixels a ring
   double last = 1.0;
-  for (int r = 6 * 18; r < 290; ++r) {  // falling all the way
+  for (int r = 6 * 18; r < 290; ++r) {  // monotonically decreasing
     const double value = image.at(300 + r, 300, 1);
     CHECK(value < last * 1.01);
     last = value;
@@ -214,7 +214,7 @@ TEST_CASE("a scratch adds a streak across itself, and no light is lost") {
     const float across = with.at(550, 550 + r, 1) / without.at(550, 550 + r, 1);
     const float along = with.at(550 + r, 550, 1) / without.at(550 + r, 550, 1);
     CHECK(across > 3.0F);
-    CHECK(across > 3.0F * along);  // its short ends send a little along it
+    CHECK(across > 3.0F * along);  // its short ends send a little light along it
   }
 }
 
@@ -272,7 +272,7 @@ TEST_CASE("a pupil seen askew: its outline's tail goes on from its samples' spec
   const IrisOpening opening(Iris{6, 0.2, 0.3});
   const Vec2 x_mm{0.8, 0.1}, y_mm{-0.05, 0.55};
   const double det = cross(x_mm, y_mm);
-  const auto distance_mm = [&](Vec2 p) {  // exact at edges, where it is read as a distance
+  const auto distance_mm = [&](Vec2 p) {  // exact at edges, where it serves as a distance
     const auto bound = [&](Vec2 q) { return opening.bound_distance({cross(q, y_mm) / det, cross(x_mm, q) / det}); };
     constexpr double h = 1e-6;
     const double here = bound(p);
@@ -298,7 +298,7 @@ TEST_CASE("a pupil seen askew: its outline's tail goes on from its samples' spec
   CHECK(sum_found / sum_truth == doctest::Approx(1.0).epsilon(0.02));
 }
 
-// The pattern of a polygon's opening by its Fourier integral over the plane (Lee & Mittra 1983), in all wavelengths.
+// The pattern of a polygon's opening by its Fourier integral over the plane (Lee & Mittra 1983), over all wavelengths.
 class ExactStarburst {
  public:
   ExactStarburst(const Iris& iris, const StarburstSettings& settings) : settings_(settings), bands_(sunlight()) {
@@ -307,7 +307,8 @@ class ExactStarburst {
     area_ = opening.area();
   }
 
-  // Green in a square of pixels, offsets from the centre, y down: stratified samples, each of the next wavelength.
+  // The green flux in a square of pixels, offsets from the centre, y down: stratified samples, each at the next
+  // wavelength.
   double flux(Vec2 corner, double side, int samples_per_px) const {
     const int count = static_cast<int>(side * samples_per_px);
     const double step = side / count;
@@ -377,7 +378,7 @@ TEST_CASE("windows of pixels hold the exact pattern's flux at any pitch, on spik
   }
 }
 
-// What some rows and columns of pixels hold, far from the centre.
+// The sums of some rows and columns of pixels, far from the centre.
 std::vector<double> held_by_lines(const Starburst& starburst, int side, Vec2 moved) {
   Image image(side, side);
   add_starburst(image, starburst, Vec2{0.5 * side, 0.5 * side} + moved, {1.0, 1.0, 1.0});
@@ -429,7 +430,8 @@ TEST_CASE("laid out, a starburst is drawn as without, and moves smoothly") {
           const double a = direct.at(x, y, 1), b = laid.at(x, y, 1);
           CHECK(b >= 0.0);
           if (r < 10.0) core_error += std::abs(b - a);
-          // Placed to an eighth of a pixel, between eighths by straight lines: a thin spike's edge is that wide.
+          // The centre is placed to an eighth of a pixel; in between, the pattern is interpolated linearly, which
+          // widens a thin spike's edge.
           const bool on_eighth = centre.x == 200.0 || centre.x == 420.0;
           if (r > 10.0 && r < 14.0) CHECK(b / a == doctest::Approx(1.0).epsilon(on_eighth ? 3e-3 : 0.06));
           if (iris.blades > 0 || r < 18.0) continue;

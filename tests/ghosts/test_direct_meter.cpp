@@ -1,4 +1,4 @@
-// The direct image's pupil, found at one wavelength for others.
+// The direct image's pupil, found at one wavelength and used for others.
 #include <doctest/doctest.h>
 
 #include "ghosts/direct_meter.h"
@@ -37,7 +37,7 @@ TEST_CASE("a wavelength's direct flux is the same in another one's pupil") {
       const double own = meter.flux_mm2(tables);
       CHECK(own > 0.0);
       CHECK(meter.flux_mm2(tables, *pupil) == doctest::Approx(own).epsilon(2e-4));
-      // A box that cuts some of it off, on any side, is not believed.
+      // A box that cuts off some of the pupil, on any side, is not accepted.
       const Vec2 some = (pupil->high - pupil->low) * 0.3;
       for (const Rectangle& part :
            {Rectangle{pupil->low + some, pupil->high}, Rectangle{pupil->low, pupil->high - some},

@@ -20,8 +20,8 @@ using test::kGreen_nm;
 
 namespace {
 
-// A ghost from a dense grid of exact rays, each counted or not: shares nothing with what the meter does but the search
-// of the window.
+// A ghost from a dense grid of exact rays, each counted or not: it shares only the search of the entrance window with
+// the meter.
 struct Counted {
   double flux_mm2 = 0.0, peak_per_mm2 = 0.0;
   Vec2 centroid_mm, min_mm{1e9, 1e9}, max_mm{-1e9, -1e9};
@@ -52,7 +52,7 @@ Counted counted(const LensState& lens, Ghost ghost, const LightSource& light, in
     }
   }
   out.centroid_mm = out.centroid_mm * (1.0 / out.flux_mm2);
-  // The fullest of pixels at four places of their corner.
+  // The pixel with most rays, among pixel grids with four different offsets.
   for (const Vec2 corner : {Vec2{0, 0}, Vec2{0.5, 0}, Vec2{0, 0.5}, Vec2{0.5, 0.5}}) {
     std::map<std::pair<long, long>, double> pixels;
     for (const auto& [at, flux] : landed)
@@ -81,7 +81,7 @@ TEST_CASE("ghosts as many exact rays have them: flux, middle, bounds and peak") 
       {"master-prime-50", {.f_number = 4.0, .iris = pentagon}, {10, 14}},
       {"nakamura-22", {.f_number = 5.6}, {2, 5}},
       {"muller-fisheye-10", {.f_number = 8.0}, {8, 11}},
-      {"planar-50", {}, {10, 12}},  // beside rays that fail: a tenth of its light had been missing
+      {"planar-50", {}, {10, 12}},  // next to failing rays: a tenth of its light had been missing
       {"heliar", {.f_number = 16.0}, {1, 5}},
   };
   for (const Case& c : cases) {
@@ -95,11 +95,11 @@ TEST_CASE("ghosts as many exact rays have them: flux, middle, bounds and peak") 
     REQUIRE(truth.flux_mm2 > 0.0);
     const Vec2 size = truth.max_mm - truth.min_mm;
     const double extent = std::max(size.x, size.y);
-    CHECK(m.flux_mm2 / truth.flux_mm2 == doctest::Approx(1.0).epsilon(2e-3));  // the count is good to 1e-3
+    CHECK(m.flux_mm2 / truth.flux_mm2 == doctest::Approx(1.0).epsilon(2e-3));  // the count is accurate to 1e-3
     CHECK(length(m.centroid_mm - truth.centroid_mm) < 0.01 * extent);
     CHECK((m.max_mm.x - m.min_mm.x) / size.x == doctest::Approx(1.0).epsilon(0.015));
     CHECK((m.max_mm.y - m.min_mm.y) / size.y == doctest::Approx(1.0).epsilon(0.015));
-    // Where many rays fall into each pixel the fullest is no chance.
+    // Where many rays fall into each pixel, the highest count is not due to chance.
     const double pixels = size.x * size.y / (frame.pixel_pitch_mm * frame.pixel_pitch_mm);
     const double rays_a_pixel = 500.0 * 500.0 / pixels;
     if (rays_a_pixel > 4.0) CHECK(m.peak_per_mm2 / truth.peak_per_mm2 == doctest::Approx(1.0).epsilon(0.25));
@@ -201,7 +201,8 @@ TEST_CASE("a pupil of a ten-thousandth of the window's area is found") {
   CHECK(m.flux_mm2 / (std::numbers::pi * 0.0025 * (1 - r) * r * r * (1 - r)) == doctest::Approx(1.0).epsilon(2e-3));
 }
 
-// A grid of 577 rays a side for every ghost that lets nothing through had taken up to 50 s where drawing took one.
+// A grid of 577 rays a side for every ghost that lets nothing through had taken up to 50 s, compared with one for
+// drawing.
 TEST_CASE("a search looks no finer than twelve times the grid that it is for") {
   CHECK(effort_for_grid(16) == PupilEffort::Once);
   CHECK(effort_for_grid(256) == PupilEffort::Finest);

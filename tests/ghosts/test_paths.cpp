@@ -1,5 +1,5 @@
-// Ways of light beyond two reflections within the lens: four, off the sensor, in orders of its pixels, through glass
-// that absorbs.
+// Optical paths other than two reflections within the lens: four reflections, reflections at the sensor, in diffraction
+// orders of its pixels, and glass that absorbs.
 #include <cmath>
 #include <set>
 #include <vector>
@@ -19,7 +19,7 @@ using test::kGreen_nm;
 
 namespace {
 
-// Every way by its turns: at j, i, l, k, with the stop crossed at most so often.
+// Every path by its reflections: at j, i, l, k, with at most most_crossings crossings of the stop.
 std::set<std::vector<int>> ways_by_hand(const LensState& lens, int reflections, int most_crossings) {
   const int count = static_cast<int>(lens.surfaces.size()), stop = lens.stop_index + 1;
   std::set<std::vector<int>> found;
@@ -88,7 +88,7 @@ TEST_CASE("ghosts of up to four reflections are all the ways there are, in order
 
 TEST_CASE("a plate sends R^2 of two reflections and R^4 of four") {
   LensState lens = bundled("heliar", {.f_number = 16.0});
-  // A filter of index 2 in front: 11 per cent a face.
+  // A filter of index 2 in front: 11 per cent at each face.
   SurfaceState front = lens.surfaces.front();
   front.curvature_per_mm = 0.0;
   front.coating = {};
@@ -127,7 +127,7 @@ TEST_CASE("a plate moves the sensor by t (1 - 1 / n), and too many find no room"
   CHECK(covered.sensor_z_mm - bare.sensor_z_mm == doctest::Approx(2.0 / 3.0).epsilon(1e-9));
   REQUIRE(covered.surfaces.size() == bare.surfaces.size() + 2);
   CHECK(covered.sensor_z_mm - covered.surfaces.back().z_mm == doctest::Approx(3.0).epsilon(1e-9));
-  // Still in focus: a ray near the axis lands in its middle.
+  // The sensor is still in focus: a ray close to the axis meets its middle.
   const TracedRay ray = trace(direct_path(covered, kLineD_nm), {{0, 1e-4, 0}, {0, 0, 1}});
   CHECK(std::abs(ray.sensor_mm.y) < 1e-10);
   LensSettings thick = with_sensor(0.0);
@@ -151,7 +151,7 @@ TEST_CASE("light goes from the sensor to a plate and back: its share is R_sensor
   CHECK(relative_flux(lens, {sensor - 1, sensor}) / (0.2 * r) == doctest::Approx(1.0).epsilon(2e-3));
   CHECK(relative_flux(lens, {sensor - 2, sensor}) / (0.2 * r * (1 - r) * (1 - r)) ==
         doctest::Approx(1.0).epsilon(2e-3));
-  // Two shares of the direct image's own cone, twice the gap farther on.
+  // Twice the direct image's own cone, from a path that is longer by twice the gap.
   const GhostMeasure ghost = GhostMeter(lens, kGreen_nm).measure({sensor - 1, sensor}, LightSource{{0, 0, 1}});
   CHECK(0.5 * (ghost.max_mm.y - ghost.min_mm.y) == doctest::Approx(2.0 * 3.0 / 32.0).epsilon(0.03));
 }
@@ -185,7 +185,7 @@ TEST_CASE("the sensor's orders land where the grating equation has them, and sha
   for (const int order : {-3, -1, 1, 2}) {
     CAPTURE(order);
     const GhostMeasure ghost = measured(order, 0);
-    // There and back over the gap of 3 mm.
+    // Over the gap of 3 mm and back.
     const double sine = order * kGreen_nm * 1e-6 / 0.006;
     CHECK(ghost.centroid_mm.x == doctest::Approx(6.0 * sine / std::sqrt(1.0 - sine * sine)).epsilon(5e-3));
     CHECK(std::abs(ghost.centroid_mm.y) < 1e-3);
@@ -224,7 +224,7 @@ TEST_CASE("glass absorbs by the way through it, in both tracers alike") {
   settings.absorption = true;
   const LensState dark = bundled("heliar", settings);
   const Ray askew{{0.5, 1.0, 0.0}, normalized({0.02, 0.3, 1.0})};
-  // The Heliar's own glasses have no catalogue: all that absorbs is the plate.
+  // The Heliar's own glasses have no catalogue data: only the plate absorbs.
   const auto traced = [&](const LensState& lens) { return trace_recorded(direct_path(lens, lambda_nm), askew); };
   const RayRecord way = traced(dark);
   REQUIRE(way.ray.status == RayStatus::Ok);

@@ -16,7 +16,7 @@ using test::kGreen_nm;
 
 namespace {
 
-constexpr int kSide = 65;  // rays a side that are looked at
+constexpr int kSide = 65;  // rays on a side of the grid
 
 double corner_angle_rad(const LensState& lens) {
   const Frame frame = frame_on_sensor(lens, 480, 270);
@@ -41,7 +41,7 @@ class Searcher {
  public:
   explicit Searcher(const LensState& lens) : lens_(lens), tables_(lens, kGreen_nm) {}
 
-  // What a search of its own finds, against what the bounds say.
+  // The pupil that a search at this angle finds, compared with the bounds.
   Seen compare(Ghost ghost, double angle_rad, const std::optional<PupilRegion>& bounds) {
     const Vec3 direction{std::sin(angle_rad), 0.0, std::cos(angle_rad)};
     const EntranceWindow window = entrance_window(lens_, direction);
@@ -96,7 +96,7 @@ void check_bounds(const LensState& lens, std::size_t most_ghosts) {
     }
   }
   CHECK(looked > 0);
-  CHECK(ratio / looked < 4.0);  // no use in bounds that hold everything: 1.5 to 3 times the search's rectangle
+  CHECK(ratio / looked < 4.0);  // bounds must not be far too wide: they have 1.5 to 3 times the search's rectangle
 }
 
 }  // namespace
@@ -105,7 +105,7 @@ TEST_CASE("bounds over angles hold every ray that gets through, for all bundled 
   for (const BundledLens& lens : bundled_lenses()) {
     CAPTURE(lens.name);
     const std::string name(lens.name);
-    if (!bundled(name.c_str()).has_axial_symmetry()) continue;  // no such bounds are made
+    if (!bundled(name.c_str()).has_axial_symmetry()) continue;  // has no such bounds
     check_bounds(bundled(name.c_str()), 12);
     check_bounds(bundled(name.c_str(), {.f_number = 16.0}), 12);
   }

@@ -1,4 +1,4 @@
-// AGF catalogues: what files hold, how they are written, and what means harm.
+// AGF catalogues: reading, writing, and malicious files.
 #include <chrono>
 #include <cmath>
 #include <fstream>
@@ -12,9 +12,9 @@ namespace contrejour::test::agf {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-constexpr double kPatience_s = 10.0;  // a sanitizer on a busy machine; what must not happen is minutes
+constexpr double kPatience_s = 10.0;  // for a sanitizer on a busy machine; a failure would take minutes
 
-// Made up for this test, in the form of a catalogue.
+// Made for this test, in the form of a catalogue.
 constexpr const char* kTwo =
     "CC a catalogue of two\n"
     "NM ONE-K 2 517642.251 1.516800 64.167 0 1 -1\n"
@@ -61,7 +61,7 @@ TEST_CASE("everything that a catalogue says") {
   CHECK(data.range_nm == WavelengthRange{310.0, 2500.0});
   CHECK(data.thermal == ThermalDispersion{1.86e-6, 1.31e-8, -1.37e-11, 4.34e-7, 6.27e-10, 0.17});
   CHECK(data.reference_temperature_c == 22.0);
-  REQUIRE(data.absorption.size() == 3);  // sorted; the row with a blank is none
+  REQUIRE(data.absorption.size() == 3);  // sorted; the row with a blank is skipped
   CHECK(internal_transmittance(one.glass, 365.0, 10.0) == doctest::Approx(0.971));
   CHECK(internal_transmittance(one.glass, 400.0, 25.0) == doctest::Approx(0.992));
   CHECK(internal_transmittance(one.glass, 310.0, 25.0) == doctest::Approx(0.0005));  // printed 0
@@ -196,7 +196,7 @@ TEST_CASE("a catalogue cut at each byte") {
   }
 }
 
-// Every AGF sample: as many glasses as lines that begin with NM, each near what the catalogue states for it.
+// Every AGF sample has as many glasses as lines that begin with NM, each near the values that the catalogue states.
 TEST_CASE("all catalogues at hand are read whole") {
   const auto folder = shared_data("glass");
   if (!folder) return;
@@ -213,7 +213,7 @@ TEST_CASE("all catalogues at hand are read whole") {
     const auto file = read_glass_file(at.path());
     REQUIRE_MESSAGE(file.has_value(), file.error().to_string());
     CHECK(file->glasses.size() == named);
-    // Placeholders of n_d 1, and a glass whose coefficients are still to come.
+    // Placeholders with n_d 1, and a glass whose coefficients are missing so far.
     for (const std::string& warning : file->warnings) CHECK(warning.find(" states n_d 1") != std::string::npos);
     CHECK(file->warnings.size() <= 3);
     for (const CatalogueEntry& entry : file->glasses) {

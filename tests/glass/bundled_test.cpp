@@ -1,4 +1,4 @@
-// The bundled glasses against every file at hand that has them.
+// The bundled glasses against every available file that contains them.
 #include <chrono>
 #include <cmath>
 #include <ctime>
@@ -20,7 +20,7 @@ constexpr double kLines_nm[] = {kLineI_nm, kLineH_nm, kLineG_nm,      kLineFPrim
 
 struct Bundle {
   GlassCatalogue catalogue = bundled_glasses();
-  std::map<std::string, std::size_t> by_name;  // the first of a name
+  std::map<std::string, std::size_t> by_name;  // the first of each name
 
   Bundle() {
     for (std::size_t k = catalogue.size(); k-- > 0;)
@@ -48,7 +48,7 @@ double known_difference(const std::string& maker, const std::string& name) {
 struct Source {
   const char* path;
   const char* maker;
-  bool has_all_names;  // every glass of it is bundled
+  bool has_all_names;  // every glass in it is bundled
 };
 
 const Source kSources[] = {
@@ -96,8 +96,8 @@ TEST_CASE("n at the catalogue lines to 1e-6 against every file that has the glas
       CHECK(difference <= std::max(1e-6, 1.05 * known_difference(source.maker, theirs.summary.name)));
     }
   }
-  CHECK(different.size() == std::size(kKnownDifferences));  // none of them listed for nothing
-  // What no file of a maker has: crystals (below) and renamed plastics.
+  CHECK(different.size() == std::size(kKnownDifferences));  // each of them is needed
+  // Glasses that are in no maker's file: crystals (below) and renamed plastics.
   for (const auto& [name, k] : bundle.by_name) {
     if (compared.contains(name)) continue;
     CAPTURE(name);
@@ -130,8 +130,8 @@ TEST_CASE("crystals and renamed plastics too") {
     CHECK(largest_difference(entry.glass, ours("TOPAS-" + entry.summary.name)) < 1e-12);
 }
 
-// The catalogues print n_d and V_d besides their formulas: an oracle of its own. Sumita prints V_d to one decimal, not
-// always rounded; CDGM's are of the melts that it sells.
+// The catalogues print n_d and V_d in addition to their formulas: an independent oracle. Sumita prints V_d to one
+// decimal, not always rounded; CDGM's values are those of the melts that it sells.
 TEST_CASE("every bundled glass is sound, and has the n_d and V_d that its catalogue prints") {
   const Bundle bundle;
   CHECK(bundle.catalogue.size() > 2000);
@@ -185,7 +185,7 @@ TEST_CASE("transmittance of 10 mm as the data sheet prints it") {
   CHECK(std::abs(internal_transmittance(f2->glass, 350, 10) - 0.91) < 0.015);
 }
 
-// The text stays as it is until a glass is asked for.
+// The text is parsed only when a glass is requested.
 TEST_CASE("loading the whole catalogue costs less than 5 ms of processor time [slow]") {
   double best_ms = 1e9;
   for (int k = 0; k < 5; ++k) {

@@ -1,4 +1,4 @@
-// Glasses by name, maker and nearness; users' own catalogues.
+// Glasses by name, maker and closeness; users' own catalogues.
 #include "contrejour/glass_catalogue.h"
 
 #include <cmath>
@@ -46,7 +46,7 @@ TEST_CASE("old names find today's glass, and say which") {
   GlassCatalogue own;
   own.add({entry("A", "N-BK7", 1.5168, 64.17), entry("B", "S-LAH66", 1.7725, 49.6), entry("B", "LAH66", 1.7, 49.0)});
   CHECK(found(own, "BK7") == "A N-BK7");
-  CHECK(found(own, "lah66") == "B LAH66");  // the very name first
+  CHECK(found(own, "lah66") == "B LAH66");  // the exact name first
   CHECK(found(own, "BK7", {"B"}).empty());
 }
 
@@ -96,7 +96,7 @@ TEST_CASE("the closest glass") {
   CHECK(GlassCatalogue().closest(1.5, 60.0, 5).empty());
 }
 
-// A folder of its own, removed at the end.
+// A temporary folder, removed at the end.
 struct Folder {
   std::filesystem::path path = std::filesystem::temp_directory_path() / "contrejour-glass-test";
   Folder() { std::filesystem::create_directories(path / "maker" / "optical"); }

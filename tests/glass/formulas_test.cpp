@@ -1,4 +1,4 @@
-// Each formula against its value by hand, published tables, and other programs' fits.
+// Each formula against values calculated by hand, published tables, and other programs' fits.
 #include <cmath>
 #include <fstream>
 #include <sstream>
@@ -26,7 +26,7 @@ struct ByHand {
   double n;
 };
 
-// At 500 nm, where lambda^2 = 1/4 um^2: each term written out with the power's value.
+// At 500 nm, where lambda^2 = 1/4 um^2: each term with its power's value.
 const ByHand kByHand[] = {
     {F::Schott,
      {1.25, 0.4, 0.1, 0.01, 0.0025, 0.0005},
@@ -132,7 +132,8 @@ TEST_CASE("Buchdahl coefficients published for Schott's glasses give the glasses
       worst = std::max(worst,
                        std::abs(refractive_index(found->glass, nm) - index_of(F::Buchdahl, {0.574, n, nu1, nu2}, nm)));
     ++compared;
-    // The catalogue's formulas were fitted anew since: some glasses moved by a few 1e-5, and a few rows are misprinted.
+    // The catalogue's formulas have been refitted since: some glasses changed by a few 1e-5, and a few rows are
+    // misprinted.
     if (worst < most + 3e-5) ++close;
   }
   MESSAGE(fmt::format("{} of {} within 3e-5 of the published error", close, compared));

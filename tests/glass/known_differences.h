@@ -1,8 +1,8 @@
-// Glasses whose bundled index is another, at a catalogue line, than that of an AGF file at hand, and by how much at
-// most. CDGM: the bundled figures are its catalogue of 2022, refitted; cdgm.agf is an edition before it, of Schott's
-// formula with coefficients of fewer digits (of H-LAF4, two editions disagree by 1e-3 in the ultraviolet). HOYA: its
-// glasses M-TAF1 and MC-TAF1 were remade and E-FL6 refitted between hoya.agf and the catalogue of 2017. SUMITA K-GIR79:
-// n_d 1.85920 in sumita.agf, 1.85588 in the catalogue of 2017.
+// Glasses whose bundled index differs at a catalogue line from that of an available AGF file, with an upper limit of
+// the difference. CDGM: the bundled figures are those of its catalogue of 2022, refitted; cdgm.agf is an earlier
+// edition, with Schott's formula and coefficients of fewer digits (for H-LAF4, two editions differ by 1e-3 in the
+// ultraviolet). HOYA: its glasses M-TAF1 and MC-TAF1 were remade and E-FL6 refitted between hoya.agf and the catalogue
+// of 2017. SUMITA K-GIR79: n_d 1.85920 in sumita.agf, 1.85588 in the catalogue of 2017.
 #pragma once
 
 namespace contrejour::test {

@@ -1,4 +1,4 @@
-// Pages of refractiveindex.info: what they hold and what means harm.
+// Pages of refractiveindex.info: reading, and malicious files.
 #include <chrono>
 #include <cmath>
 
@@ -22,7 +22,7 @@ const GlassData& data_of(const CatalogueEntry& entry) {
   return std::get<CatalogueGlass>(entry.glass.dispersion).data();
 }
 
-// Made up for this test, in the form of the database.
+// Made for this test, in the form of the database.
 constexpr const char* kPage =
     "REFERENCES: |\n    a book\n"
     "DATA:\n"
@@ -139,7 +139,7 @@ TEST_CASE("a page cut at each byte") {
   }
 }
 
-// Every page at hand is read, or refused because it tells no n, or because its n cannot be.
+// Every available page is read, or refused because it has no n, or because its n is impossible.
 TEST_CASE("all pages at hand") {
   const auto folder = shared_data("glass/refractiveindex.info/database/data");
   if (!folder) return;
@@ -162,7 +162,7 @@ TEST_CASE("all pages at hand") {
     if (negative) impossible.push_back(at.path().stem().string());
   }
   std::sort(impossible.begin(), impossible.end());
-  // Isuzu's filter glasses: powers of the wavelength that the database carries far beyond where they were fitted.
+  // Isuzu's filter glasses: powers of the wavelength that the database uses far outside the range of the fit.
   CHECK(impossible == std::vector<std::string>{"IEB400", "IHU340", "IHU350", "ISK153", "ISK370", "IVG540"});
   CHECK(read_ones == 1875);
   CHECK(without_n == 61);  // n2 pages and four of k alone

@@ -1,4 +1,4 @@
-// Tables, model glasses, codes, air, temperature, transmittance; what is refused.
+// Tables, model glasses, codes, air, temperature, transmittance; refused input.
 #include <cmath>
 #include <limits>
 #include <random>
@@ -112,8 +112,8 @@ TEST_CASE("six-digit codes") {
     CHECK_FALSE(glass_of_code(text).has_value());
 }
 
-// Edlen 1966 at 15 deg C, another measurement in another form: (n - 1) 1e8 = 8342.13 + 2406030 / (130 - s) + 15997 /
-// (38.9 - s) with s = 1 / lambda^2, um. The two agree to some 1e-8.
+// Edlen 1966 at 15 deg C, an independent measurement with another formula: (n - 1) 1e8 = 8342.13 + 2406030 / (130 - s)
+// + 15997 / (38.9 - s) with s = 1 / lambda^2, um. The two agree to about 1e-8.
 TEST_CASE("air") {
   for (double nm = 380; nm <= 1000; nm += 20) {
     const double s = 1e6 / (nm * nm);
@@ -122,7 +122,7 @@ TEST_CASE("air") {
   }
   CHECK(air_index(550, {20.0, 0.0}) == 1.0);
   CHECK(air_index(550, {15.0, 0.5}) - 1.0 == doctest::Approx(0.5 * (air_index(550, {15.0, 1.0}) - 1.0)));
-  // Hotter air is thinner, as an ideal gas: 288.15 K over 338.15 K to 0.1 %.
+  // Hotter air has lower density, as an ideal gas: 288.15 K over 338.15 K to 0.1 %.
   CHECK((air_index(550, {65.0, 1.0}) - 1) / (air_index(550, {15.0, 1.0}) - 1) ==
         doctest::Approx(288.15 / 338.15).epsilon(1e-3));
 }

@@ -1,4 +1,4 @@
-// The promise of image_io.h: what nobody touched comes back bit for bit.
+// The guarantee of image_io.h: samples that were not changed are written back bit for bit.
 #include <cmath>
 #include <limits>
 #include <random>
@@ -251,7 +251,7 @@ void write_luminance_chroma(const std::filesystem::path& file, int width, int he
   out.writePixels(height);
 }
 
-// As programs see it that know nothing of this library.
+// The picture as programs see it that use OpenEXR alone.
 Image rgb_by_openexr(const std::filesystem::path& file) {
   Imf::RgbaInputFile in(file.c_str());
   const Imath::Box2i window = in.dataWindow();
@@ -419,7 +419,7 @@ TEST_CASE("new images, colour space and text") {
 
 namespace {
 
-// A tiled depth, the picture, and a deep part, in a file.
+// A file with a tiled depth part, the picture, and a deep part.
 struct Parts {
   Parts() {
     header.setName("beauty");
@@ -532,7 +532,7 @@ TEST_CASE("parts and layers by name, files without colour, damaged ones") {
 
 namespace {
 
-// Two parts, each with colours and a layer of the same names.
+// Two parts, each with colours and with a layer of the same name.
 void write_two_parts(const std::filesystem::path& file) {
   const std::vector<Given> channels = {{"R", Imf::HALF},     {"G", Imf::HALF},     {"B", Imf::HALF},
                                        {"key.R", Imf::HALF}, {"key.G", Imf::HALF}, {"key.B", Imf::HALF}};

@@ -1,4 +1,4 @@
-// Bad files: a clear error that names the file, no crash, bounded memory.
+// Damaged files: a clear error that names the file, no crash, bounded memory.
 #include <random>
 
 #include <ImfChannelList.h>
@@ -43,7 +43,7 @@ void put_int(std::vector<std::byte>& bytes, std::size_t at, std::uint32_t value)
   for (std::size_t i = 0; i < 4; ++i) bytes[at + i] = static_cast<std::byte>(value >> (8 * i));
 }
 
-// Where an attribute's value begins: after its name, its type and its size.
+// The offset of an attribute's value: after its name, its type and its size.
 std::size_t value_of(const std::vector<std::byte>& bytes, const std::string& name, const std::string& type) {
   const std::string key = name + '\0' + type + '\0';
   const std::string text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
@@ -70,7 +70,7 @@ TEST_CASE("a damaged byte anywhere is an error or a picture, never a crash") {
   for (const auto& good : {good_exr(), good_png()})
     for (int i = 0; i < 3000; ++i) {
       std::vector<std::byte> bytes = good;
-      // Half of them in the header, where it hurts most.
+      // Half of the changes are in the header, where they do most damage.
       const std::size_t range = i % 2 == 0 ? std::min<std::size_t>(400, bytes.size()) : bytes.size();
       bytes[random() % range] = static_cast<std::byte>(random());
       ReadOptions options;
@@ -127,7 +127,7 @@ TEST_CASE("attributes that claim more than the file holds are refused") {
     put_int(bytes, value_of(bytes, "comments", "string") - 4, size);
     check_refused(bytes);
   }
-  // A preview of 65535 x 65535, and an integer of a kilobyte that would put the library out of step.
+  // A preview of 65535 x 65535, and an integer of a kilobyte that would misalign the library's parser.
   for (const auto& [type, size] : std::initializer_list<std::pair<std::string, std::uint32_t>>{
            {"preview", 8}, {"int", 1000}, {"stringvector", 8}, {"tiledesc", 8}}) {
     CAPTURE(type);

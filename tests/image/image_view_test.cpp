@@ -1,4 +1,4 @@
-// Pixels of a caller: types, steps, what is refused.
+// A caller's pixels: types, strides, refused input.
 #include "contrejour/image_view.h"
 
 #include <cstring>

@@ -110,7 +110,7 @@ TEST_CASE("the tail is merged without losing flux") {
     CHECK(merged.areas_found == whole.areas_found);
     const Rgb sum = sum_of(merged.lights), expected = sum_of(whole.lights);
     for (std::size_t c = 0; c < 3; ++c) CHECK(sum[c] == doctest::Approx(expected[c]).epsilon(1e-9));
-    // The first moment is kept as well.
+    // The first moment is preserved as well.
     Vec2 moment{}, moment_expected{};
     int areas = 0;
     for (const auto& l : merged.lights) {
@@ -242,7 +242,7 @@ TEST_CASE("in the sample photographs: the flame, the lamps, and no paper") {
     CHECK(first.min_x > 80);
     CHECK(first.max_x < 560);
     CHECK(first.max_y < 480);
-    for (const DetectedLight& light : found.lights) CHECK(light.centroid_px.y < 600);  // not what it shines on
+    for (const DetectedLight& light : found.lights) CHECK(light.centroid_px.y < 600);  // not what it illuminates
   }
   if (const auto file = test::shared_data("hdr/openexr-images/ScanLines/Tree.exr")) {  // the sky behind it
     const Detection found = detect_lights(read_picture(*file).value().rgb, {}).value();
@@ -251,7 +251,7 @@ TEST_CASE("in the sample photographs: the flame, the lamps, and no paper") {
     CHECK(found.lights[0].centroid_px.y < 400);
     CHECK(found.lights[0].pixel_count > 10000);
   }
-  if (const auto file = test::shared_data("hdr/openexr-images/ScanLines/Carrots.exr")) {  // nothing but lit things
+  if (const auto file = test::shared_data("hdr/openexr-images/ScanLines/Carrots.exr")) {  // only illuminated objects
     const Detection found = detect_lights(read_picture(*file).value().rgb, {}).value();
     CHECK(found.source == ThresholdSource::None);
     CHECK(found.lights.empty());
@@ -261,7 +261,7 @@ TEST_CASE("in the sample photographs: the flame, the lamps, and no paper") {
 }
 
 TEST_CASE("a window or a sky without a gap to what it lights: what is within two stops of the brightest") {
-  // Levels fall evenly over ten stops, as of a window and the room it lights: no gap anywhere.
+  // Levels spread evenly over ten stops, as of a window and the room that it lights: there is no gap.
   Image image(200, 100);
   for (int y = 0; y < image.height; ++y)
     for (int x = 0; x < image.width; ++x)
@@ -274,7 +274,7 @@ TEST_CASE("a window or a sky without a gap to what it lights: what is within two
   CHECK(found.brightest == 100.0);
   CHECK(found.brightest_px == Vec2{0.5, 0.5});
 
-  for (float& v : image.pixels) v *= 1e-3F;  // all of it below white
+  for (float& v : image.pixels) v *= 1e-3F;  // all pixels below white
   CHECK(automatic_threshold(image).source == ThresholdSource::None);
   CHECK(detect_lights(image, {}).value().lights.empty());
 }
@@ -292,11 +292,11 @@ TEST_CASE("lights are looked for within regions alone, and there more keenly") {
   REQUIRE(dim.lights.size() == 1);
   CHECK(dim.lights[0].centroid_px == Vec2{71.5, 41.5});
   CHECK(dim.brightest == doctest::Approx(0.9));
-  settings.regions.push_back({-5, -5, 11, 1000});  // half the other, beyond the border
+  settings.regions.push_back({-5, -5, 11, 1000});  // half of the other light; the region extends beyond the border
   const Detection both = detect_lights(image, settings).value();
   CHECK(both.source == ThresholdSource::Gap);
   REQUIRE(both.lights.size() == 1);
   CHECK(both.lights[0].pixel_count == 3);
-  settings.regions = {{50, 0, 50, 60}, {80, 50, 20, 10}};  // of no pixels
+  settings.regions = {{50, 0, 50, 60}, {80, 50, 20, 10}};  // without pixels
   CHECK(detect_lights(image, settings).value().lights.empty());
 }

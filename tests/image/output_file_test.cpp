@@ -31,7 +31,7 @@ Result<void> write_text_file(const fs::path& destination, std::string_view text,
   return file->commit();
 }
 
-// A disk that is full after so many bytes, as far as this process is concerned.
+// Simulates for this process a disk that is full after some number of bytes.
 class FullDisk {
  public:
   explicit FullDisk(rlim_t bytes) : old_action_(std::signal(SIGXFSZ, SIG_IGN)) {
@@ -131,7 +131,7 @@ TEST_CASE("a killed process leaves nothing, or what the next one removes when it
     REQUIRE(WIFSIGNALED(status));
     CHECK(folder.file_count() == (may_be_unnamed ? 0 : 1));
   }
-  // A neighbour's, and one of today, stay.
+  // A file of another destination, and one of today, are kept.
   write_bytes(folder / ".b.txt.1-0.contrejour-part", {std::byte{7}});
   REQUIRE(write_text_file(folder / "a.txt", "new", {.may_be_unnamed = false}).has_value());
   CHECK(folder.file_count() == 3);

@@ -1,4 +1,4 @@
-// Rows put into pictures, small ones and such as no cache holds, on every instruction set of this machine.
+// Rows written into pictures, small ones and some that fit into no cache, on every instruction set of this machine.
 #include <algorithm>
 #include <cstddef>
 #include <numeric>
@@ -14,7 +14,7 @@ using namespace contrejour;
 namespace {
 
 constexpr float kBefore = 7.0F;
-constexpr std::size_t kBeside = 24;  // floats that are looked at on either side of what is written
+constexpr std::size_t kBeside = 24;  // floats that are checked on either side of the written ones
 
 template <class Write>
 void check_written(Image& image, std::size_t at, std::size_t count, const Write& write) {

@@ -9,7 +9,7 @@ using namespace contrejour::test;
 
 namespace {
 
-// Every 16-bit code once in each channel, alpha falling from opaque; or every 8-bit one.
+// Every 16-bit code once in each channel, with decreasing alpha; or every 8-bit one.
 Picture all_codes(SampleType type, bool with_alpha) {
   const int side = type == SampleType::UInt8 ? 16 : 256;
   const auto count = static_cast<std::size_t>(side * side);
@@ -29,7 +29,7 @@ Picture all_codes(SampleType type, bool with_alpha) {
   return picture;
 }
 
-// The values a reader gives for these codes, so that writing keeps them.
+// The values that a reader returns for these codes, so that writing preserves them.
 Picture with_values(Picture picture) {
   const double largest = picture.channels[0].type == SampleType::UInt8 ? 255 : 65535;
   const auto code = [&](std::size_t c, std::size_t i) {
@@ -92,13 +92,13 @@ TEST_CASE("light that is added where a picture is transparent is in its PNG") {
     const Picture before = must_read(folder / "a.png");
     const int side = before.rgb.width;
     Picture lit = before;
-    for (int y = 1; y < side; y += 2)  // alpha falls from opaque to transparent
+    for (int y = 1; y < side; y += 2)  // alpha decreases from opaque to transparent
       for (int x = 0; x < side; ++x)
         for (int c = 0; c < 3; ++c) lit.rgb.at(x, y, c) += 0.05F * static_cast<float>((c + 1) * (x + 1)) / side;
     must_write(folder / "b.png", lit);
     const Picture back = must_read(folder / "b.png");
     const std::size_t size = size_of(type);
-    // A code's step: of a colour, the steepest of sRGB's, and of alpha.
+    // The size of a code's step: for a colour the steepest of sRGB's, and for alpha.
     const double step = type == SampleType::UInt8 ? 1.2 / 255 : 1.2 / 65535;
     for (int y = 0; y < side; ++y)
       for (int x = 0; x < side; ++x) {
@@ -113,7 +113,7 @@ TEST_CASE("light that is added where a picture is transparent is in its PNG") {
           REQUIRE(std::abs(back.rgb.at(x, y, c) - std::min(lit.rgb.at(x, y, c), 1.0F)) < step);
       }
   }
-  // A light in front of nothing, from an OpenEXR file's alpha.
+  // A light before an empty background, from an OpenEXR file's alpha.
   const ScratchFolder folder;
   Image image(3, 1, 4);
   image.pixels = {0.5F, 0.25F, 0, 0, 3, 1, 0, 0.5F, 0.25F, 0.25F, 0.25F, 0.5F};

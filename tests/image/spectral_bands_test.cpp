@@ -14,7 +14,7 @@ constexpr ColourSpace kSpaces[] = {ColourSpace::Rec709, ColourSpace::AcesCg};
 
 double smooth(double lambda_nm) { return 1.5 + std::cos((lambda_nm - 400) / 60); }
 
-// The channel's mean of a function by plain 0.1 nm sums; shares no code with the bands.
+// The channel's mean of a function by direct sums in steps of 0.1 nm; shares no code with the bands.
 Rgb channel_mean(const Spectrum& light, ColourSpace space) {
   Rgb with{}, without{};
   for (int i = 0; i <= 4700; ++i) {
@@ -90,6 +90,6 @@ TEST_CASE("one band stands at the light's visible centroid") {
 }
 
 TEST_CASE("thousands of bands are as good as few") {
-  // The sums above interpolate power and observer apart, the bands their product: 2e-5 between them.
+  // The sums above interpolate power and observer separately, the bands their product: the two differ by 2e-5.
   CHECK(worst_error(5000, IlluminantD65{}, ColourSpace::Rec709) < 4e-5);
 }

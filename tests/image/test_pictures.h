@@ -16,7 +16,7 @@
 
 namespace contrejour::test {
 
-// A folder of its own, gone at the end.
+// A temporary folder, removed at the end.
 class ScratchFolder {
  public:
   ScratchFolder() {

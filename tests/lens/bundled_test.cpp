@@ -1,4 +1,4 @@
-// The bundled lenses against what their sources state.
+// The bundled lenses against the figures that their sources state.
 #include "lens/sample_lens.h"
 
 #include <algorithm>
@@ -50,7 +50,7 @@ struct Position {
   double asked_mm, focal_length_mm, back_focal_distance_mm;
 };
 
-// Figures of the patents; where those only name a nominal focal length, of an independent paraxial trace of the tables.
+// The patents' figures; where those give only a nominal focal length, an independent paraxial trace of the tables.
 TEST_CASE("every position of the zooms") {
   constexpr Position kPositions[] = {
       {"canon-70-200", 70, 72.10, 52.43},  {"canon-70-200", 135, 135.00, 52.43}, {"canon-70-200", 200, 194.01, 52.43},
@@ -164,8 +164,8 @@ const std::vector<PrintedTable>& printed_tables() {
   return kTables;
 }
 
-// The index as it is printed to five decimals. Abbe numbers to 0.2 per cent: the finest grade in which Schott delivers
-// a glass, and more than its catalogues of different years differ by.
+// The index as printed, to five decimals. Abbe numbers to 0.2 per cent: the finest grade in which Schott delivers a
+// glass, and more than the difference between its catalogues of different years.
 TEST_CASE("named glasses agree with what the patents print") {
   for (const PrintedTable& table : printed_tables()) {
     CAPTURE(table.lens);

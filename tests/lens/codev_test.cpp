@@ -1,4 +1,4 @@
-// CODE V's files: a small one in every detail, every refusal, and all samples there are.
+// CODE V's files: a small one in every detail, every refusal, and all available samples.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -190,7 +190,7 @@ TEST_CASE("decentres of CODE V") {
   CHECK(alone.surfaces[5].pose == SurfacePose{});
   const Prescription about_y = must_read(seq("  ASP\n", "  ASP\n  BDE 2; DAR\n"));
   CHECK(about_y.surfaces[4].pose.axis.x == doctest::Approx(-std::sin(tilt)));
-  // Without it all that follows stands askew, and the sensor may not.
+  // Without DAR all further surfaces are tilted, and the sensor must not be.
   check_refused(seq("  ASP\n", "  ASP\n  YDE 0.5; ADE 2\n"), 36, "the image surface stands 3.24 mm");
   const Prescription back = must_read(seq("  PIM", "YDE -0.5", seq("  ASP\n", "  ASP\n  YDE 0.5\n")));
   CHECK(back.surfaces[4].pose.shift_mm == Vec3{0, 0.5, 0});
@@ -218,7 +218,7 @@ TEST_CASE("glasses of CODE V") {
   check_refused(seq("'OWN' 1.61 1.62 1.63", "'OWN' 1.61 1.62"), 14, "3 wavelengths (PWL) but 2 indices");
   check_refused(seq("'OWN' 1.61 1.62 1.63", "'OWN' XYZ 1.61 1.62"), 14, "the dispersion formula XYZ");
   check_refused(seq("620.364", "NOSUCH_SCHOTT"), 29, "--catalogue");
-  // One that is wrong and that no surface has.
+  // One that is wrong but unused, and one that is unused.
   CHECK(must_read(seq("  'OWN'", "  'OTHER' XYZ 1.6\n  'THIRD' 1.6\n  'OWN'")).warnings.size() ==
         must_read(kSeq).warnings.size());
 }
@@ -234,12 +234,12 @@ TEST_CASE("what CODE V writes that changes nothing, and what it blocks") {
   };
   same("WTW   1 1 1", "DOR   1.15 1.05 1.1; PRE 760.0; PUX 1.0; PUY 1.0");
   same("GO", "UID   S0 \"6c7b\"; CMP DLZ S1; DSX 1; BTX 2\nGO");
-  // A decentre that is none, whatever would be made of it.
+  // A decentre of 0 is accepted, whatever its kind.
   same("  ASP\n", "  ASP\n  XDE 0.0; YDE 0.0; ZDE 0.0; BEN\n  ADE 0.0; BDE 0.0; CDE 0.0; REV\n");
   same("TITLE '", "TITLE '\"");
   check_warns(must_read(seq("PRV", "PRE 700\nPRV")), "the pressure of the air (line 11)");
   check_warns(must_read(seq("  ASP\n", "  ASP\n  REX OBS 2; REY OBS 3\n")), "REX OBS (line 31) is not computed");
-  // A sum of other gaps is none of this one.
+  // A sum of other gaps does not make this one a zoom gap.
   const std::string zoom = "ZOO 2; ZOO THI S4 -2 -3; ZOO THI S1 6 7\n";
   CHECK(write_lens_toml(must_read(seq("GO", zoom + "THI S5 OAL S4..8 1"))) ==
         write_lens_toml(must_read(seq("GO", zoom))));
@@ -257,7 +257,7 @@ TEST_CASE("positions of CODE V are a zoom where thicknesses alone move") {
   CHECK(std::max(a, b) == 11.0);
   CHECK_FALSE(lens.sensor_distance_mm.has_value());
   check_warns(lens, "1 of 3 positions are for near objects");
-  // One by one, and a gap that makes up for another.
+  // Gaps set one by one, and a gap that compensates for another.
   const Prescription solved =
       must_read(seq("GO", "ZOO 2; ZOO THI S4; THI S4 Z1 -2; THI S4 Z2 -3; ZOO THI S1 6 7\nTHI S5 OAL S4..6 1"));
   REQUIRE(solved.zoom.size() == 2);

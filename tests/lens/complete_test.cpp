@@ -1,4 +1,4 @@
-// What files of other programs leave open: rims that do not cross, semi-diameters from a beam, f-numbers.
+// Completes what files of other programs leave open: rims that do not cross, semi-diameters from a beam, f-numbers.
 #include "optics/lens_files/complete.h"
 
 #include <doctest/doctest.h>
@@ -24,7 +24,7 @@ Prescription singlet(double lens_mm, double stop_mm) {
   return lens;
 }
 
-// Height at which two spheres of 100 mm radius meet that are 4 mm apart at the axis: sag = 2 mm.
+// The height at which two spheres of 100 mm radius meet whose vertices are 4 mm apart: sag = 2 mm.
 const double kMeeting_mm = std::sqrt(100.0 * 100.0 - 98.0 * 98.0);
 
 }  // namespace
@@ -103,7 +103,7 @@ TEST_CASE("an f-number that is not told is the stop's") {
 
 TEST_CASE("semi-diameters that are not told are those of the beam") {
   auto lens = singlet(0.0, 0.0);
-  lens.surfaces[0].semi_diameter_mm = 15.0;  // told: stays
+  lens.surfaces[0].semi_diameter_mm = 15.0;  // given: unchanged
   const double field_rad = 0.05, pupil_mm = 10.0;
   lens.f_number = 10.0;
   const auto whole = completed(lens, Beam{pupil_mm, field_rad});

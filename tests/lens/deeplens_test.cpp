@@ -49,7 +49,7 @@ TEST_CASE("a DeepLens lens in every detail") {
   CHECK(s[3].aperture.half_mm == Vec2{10.0, 10.0});
   CHECK(refractive_index(s[3].glass_after, kLineD_nm) == doctest::Approx(1.5168).epsilon(1e-5));
   CHECK(s[4].curvature_per_mm == 0.0);
-  CHECK(lens.f_number == doctest::Approx(4.4).epsilon(0.05));  // of the aperture's whole opening
+  CHECK(lens.f_number == doctest::Approx(4.4).epsilon(0.05));  // that of the aperture's full opening
   CHECK(lens.warnings.empty());
   check_round_trip(lens);
 }
@@ -91,7 +91,8 @@ TEST_CASE("what is wrong with a DeepLens lens, and where") {
 }
 
 TEST_CASE("DeepLens' samples") {
-  // Computed focal lengths (mm) of lenses that other sources give too: patents' 100, 35, 39, 50, 85, 16.5, 24.7, ...
+  // Computed focal lengths (mm) of lenses that other sources describe too: patents' 100, 35, 39, 50, 85, 16.5, 24.7,
+  // ...
   const std::map<std::string, double> kFocal_mm = {
       {"ef100mm_f2.8", 100.03},  {"ef35mm_f2.0", 35.51},       {"ef40mm_f2.8", 39.0},  {"ef50mm_f1.8", 51.42},
       {"ef85mm_f1.8", 85.0},     {"rf16mm_f2.8", 16.48},       {"rf24mm_f1.8", 24.72}, {"rf50mm_f1.8", 49.56},

@@ -98,15 +98,15 @@ TEST_CASE("FlareSim's heights are what the stated f-number needs") {
   CHECK(full.surfaces[2].semi_diameter_mm == 12.2);
   REQUIRE(full.warnings.size() == 1);
   CHECK(full.warnings[0].find("holds diameters") != std::string::npos);
-  // The converter's word goes for lenses whose f-number is not known, and its files need no warning.
+  // The converter's value is used for lenses whose f-number is not known, and its files cause no warning.
   const std::string converted = "# Converted from photonstophotos.net Optical Bench data\n";
   CHECK(with("28", "24.4", converted).surfaces[2].semi_diameter_mm == 12.2);
   CHECK(with("28", "24.4", converted).warnings.empty());
   CHECK(with("14", "12.2", converted + "# f/4\n").surfaces[2].semi_diameter_mm == 12.2);
-  // Without either the heading's word goes, unless surfaces do not reach so far.
+  // Without either, the heading's value is used, unless surfaces are smaller.
   CHECK(with("14", "12.2", "").surfaces[2].semi_diameter_mm == 12.2);
   CHECK(with("34", "28", "").surfaces[2].semi_diameter_mm == 14.0);
-  // 0 is sized for the f-number.
+  // A value of 0 is sized for the f-number.
   CHECK(with("0", "0", "# f/4\n").surfaces[2].semi_diameter_mm == doctest::Approx(12.2).epsilon(0.02));
 }
 
@@ -123,7 +123,7 @@ TEST_CASE("FlareSim: an opening drawn within a lens, a lens without an image") {
   const auto state = configure_lens(lens);
   REQUIRE(state.has_value());
   CHECK(state->sensor_z_mm == 47.0);
-  // Its stop is as wide as the file says, and closes in proportion: there is no marginal ray to size it by.
+  // The stop has the file's size and closes in proportion: there is no marginal ray to size it by.
   CHECK(state->stop_radius_mm == 4.0);
   CHECK(configure_lens(lens, {.f_number = 8.0})->stop_radius_mm == 2.0);
 }
@@ -170,7 +170,7 @@ TEST_CASE("FlareSim's samples: diameters under the heading semi_ap, focal length
       focal_within_1_percent += near(figures.focal_length_mm, *lens->stated.focal_length_mm);
       back_within_1_percent += std::abs(figures.back_focal_distance_mm - *lens->stated.back_focal_distance_mm) <=
                                0.01 * *lens->stated.focal_length_mm;
-      // Not a fifth wider or narrower than the stated f-number needs.
+      // The stop must not differ by a fifth from what the stated f-number requires.
       const double stop_mm = state->surfaces[static_cast<std::size_t>(state->stop_index)].semi_diameter_mm;
       stop_fits += state->stop_radius_mm > 0.8 * stop_mm && state->f_number < 1.2 * lens->f_number;
     }

@@ -1,4 +1,4 @@
-// Forbes' aspheres, against his own closed forms and a lens that is made with one.
+// Forbes' aspheres, against his own closed forms and a lens with one.
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -124,7 +124,8 @@ TEST_CASE("a lens of Zemax' Qbfs brings all of its light to one point, as its ma
   REQUIRE_MESSAGE(lens.has_value(), (lens ? "" : lens.error().to_string()));
   const auto state = configure_lens(*lens);
   REQUIRE(state.has_value());
-  // Its own distance to the image; rays miss the axis there by less than a ten-thousandth of the lens's 46 mm.
+  // The distance to the image that the lens states; rays miss the axis there by less than a ten-thousandth of the
+  // lens's 46 mm.
   const OpticalPath path = direct_path(*state, 405.0);
   const double image_mm = state->surfaces.back().z_mm + 19.687453064998852;
   for (const double r : {1.0, 6.0, 12.0, 17.0, 20.0, 22.0}) {

@@ -68,7 +68,7 @@ TEST_CASE("catalogue glasses: one catalogue, whatever the spelling; written by n
 TEST_CASE("a file's own [glass] comes before the catalogues") {
   CHECK(glass_of("\"N-BK7\"", "[glass]\nN-BK7 = { n = 1.7 }\n").dispersion ==
         decltype(Glass::dispersion)(ConstantIndex{1.7}));
-  // And so does what is written: two glasses of one name, of which one is the catalogue's.
+  // The same holds for written files: two glasses of one name, of which one is the catalogue's.
   Prescription lens = read(lens_with("\"N-BK7\""));
   lens.surfaces.insert(lens.surfaces.begin() + 2, lens.surfaces.begin(), lens.surfaces.begin() + 2);
   lens.surfaces[2].glass_after = {"N-BK7", ConstantIndex{1.7}};

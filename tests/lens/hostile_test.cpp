@@ -1,4 +1,4 @@
-// Files that mean harm or were cut short: an answer, soon, and no crash.
+// Malicious or truncated files: an answer in a short time, and no crash.
 #include "lens/sample_lens.h"
 
 #include <chrono>
@@ -13,7 +13,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// Generous: a sanitizer on a busy machine; what must not happen is minutes.
+// Generous, for a sanitizer on a busy machine; a failure would take minutes.
 constexpr double kPatience_s = 10.0;
 
 void check_refused(const std::string& text, const std::string& words = "") {
@@ -35,7 +35,7 @@ std::string repeated(const std::string& piece, std::size_t times) {
 }
 
 TEST_CASE("a lens cut at each byte") {
-  // Names that no catalogue has: cut off before its own glasses the lens would else be whole.
+  // Names that are in no catalogue: truncated before its own glasses, the lens would otherwise be complete.
   std::string sample = kSampleLens;
   for (int k = 0; k < 2; ++k) sample = edited("SF2", "a flint", edited("BK7", "a crown", sample));
   for (const char* name : {"a flint", "a crown"})
@@ -54,14 +54,14 @@ TEST_CASE("nesting without end") {
   check_refused(std::string("surfaces = ") + repeated("{a=", 100'000), "not valid TOML");
   check_refused(std::string("surfaces = ") + repeated("[{a=", 100'000), "not valid TOML");
   check_refused(repeated("[", 100'000));
-  // Keys of many parts make tables in tables whose destruction recurses.
+  // Keys of many parts create nested tables, whose destructor is recursive.
   check_refused(std::string("a") + repeated(".a", 450'000) + " = 1", "a key has too many parts");
   check_refused(std::string("[a") + repeated(" . \"a\"", 100'000) + "]", "a key has too many parts");
   check_refused("name = \"a.b.c.d.e.f.g.h.i.j.k\"\n# 1.2.3.4.5.6.7.8.9.10\nx = '''a.a.a.a.a.a.a.a.a.a.a\n.'''\n",
                 "unknown key 'x'");
 }
 
-// Preconditions of the parser that a broken file breaks.
+// Preconditions of the parser that a malformed file violates.
 TEST_CASE("closing what was not opened") {
   for (const char* text : {"a = [}", "a = [ 1, } ]", "a = [{]", "a = {]", "a = ]", "a = }", "a = ,", "[[[a]]]",
                            "[[=", "[=", "a.[", "= 1", "[]", "[[]]", "a = [c\"]", "a = {,}", "a = [#", "a = [_]"}) {
@@ -123,7 +123,7 @@ TEST_CASE("a lens with bytes changed at random") {
       CHECK_FALSE(lens.error().message.empty());
       continue;
     }
-    // What passes must be fit for use.
+    // A lens that passes must be usable.
     CHECK(validate(*lens).has_value());
     (void)configure_lens(*lens);
   }

@@ -58,7 +58,7 @@ TEST_CASE("an OpenLensFlare lens in every detail") {
   CHECK(s[3].kind == SurfaceKind::Stop);
   CHECK(s[4].coating == Coating{});
   CHECK(s[5].coating == Coating{"", QuarterWave{1.38, 480.0}});
-  CHECK(lens.f_number < 10.0);  // <fnumber> is what it is set to
+  CHECK(lens.f_number < 10.0);  // <fnumber> is the setting, not the widest
   REQUIRE(lens.warnings.size() == 1);
   CHECK(lens.warnings[0].find("(line 9)") != std::string::npos);
   check_round_trip(lens);

@@ -65,7 +65,7 @@ TEST_CASE("a lens of Lentil's database in every detail") {
   CHECK(s[3].glass_after.name == "SF5");  // without an index: the catalogue's
   CHECK(refractive_index(s[3].glass_after, kLineD_nm) == doctest::Approx(1.6727).epsilon(1e-4));
   CHECK(s[4].curvature_per_mm == 0.0);
-  CHECK(lens.f_number > 3.0);  // of the iris's whole opening
+  CHECK(lens.f_number > 3.0);  // that of the iris's full opening
   check_round_trip(lens);
 }
 
@@ -100,7 +100,7 @@ TEST_CASE("what is wrong with a lens of Lentil, and where") {
 TEST_CASE("Lentil's samples") {
   const auto path = shared_data("lenses/lentil/lenses.json");
   if (!path) return;
-  // Computed focal lengths of the y-z section; the raytraced ones of the file are a finite ray's.
+  // Computed focal lengths of the y-z section; the file's raytraced ones are those of a finite ray.
   const std::map<std::string, double> kLenses = {
       {"0001", 99.940}, {"0002", 99.912}, {"0003", 86.190}, {"0004", 100.059}, {"0005", 15.324}, {"0006", 99.971},
       {"0007", 25.959}, {"0008", 53.349}, {"0009", 99.914}, {"0010", 100.005}, {"0011", 100.0},  {"0012", 122.179},

@@ -1,4 +1,4 @@
-// Lenses whose files mark no stop, and lenses whose files lost a gap.
+// Lenses whose files mark no stop, and lenses whose files lack a gap.
 #include "optics/lens_files/missing_stop.h"
 
 #include <algorithm>
@@ -32,7 +32,7 @@ double vertex_mm(const Prescription& lens, std::size_t surface) {
 
 double length_mm(const Prescription& lens) { return vertex_mm(lens, lens.surfaces.size() - 1); }
 
-// Its gap goes to the surface in front.
+// The stop's gap is added to that of the surface in front.
 Prescription without_stop(Prescription lens) {
   const std::size_t stop = stop_of(lens);
   REQUIRE(stop > 0);
@@ -41,7 +41,7 @@ Prescription without_stop(Prescription lens) {
   return lens;
 }
 
-// As files have it: a lens in air, f/8, its rims told.
+// In the form of the files: a lens in air, f/8, with given rims.
 Prescription doublet(double rim_mm) {
   const auto text = "# f/8\nname: x\nsurfaces:\n60 5 1.5 60 " + std::to_string(rim_mm) + " 0\n-200 80 1 0 " +
                     std::to_string(rim_mm) + " 0\n";
@@ -85,7 +85,7 @@ TEST_CASE("a lens without a gap for an iris has its stop in front, a plane openi
   CHECK(stop_of(opened) == 2);
   CHECK(opened.surfaces.size() == 5);
   check_warns(opened, "opening 3 (line 6)");
-  // Without an f-number it is as wide as the rims let a beam be.
+  // Without an f-number the stop is as wide as the rims allow.
   const Prescription untold = read_or_fail(read_flaresim, "name: x\nsurfaces:\n60 5 1.5 60 8 0\n-200 80 1 0 8 0\n");
   CHECK(untold.surfaces[0].semi_diameter_mm == doctest::Approx(8.0).epsilon(1e-12));
   CHECK(configure_lens(untold)->f_number ==
@@ -107,7 +107,7 @@ TEST_CASE("a stop in a gap that zooming changes moves with the lens in front of 
   for (std::size_t z = 0; z < blind.zoom.size(); ++z) {
     const auto at = configure_lens(blind, {.focal_length_mm = blind.zoom[z].focal_length_mm});
     REQUIRE_MESSAGE(at.has_value(), (at ? "" : at.error().to_string()));
-    // A stop is nothing to first order.
+    // A stop has no first-order effect.
     const auto own = configure_lens(*zoom, {.focal_length_mm = blind.zoom[z].focal_length_mm});
     double total_mm = 0.0, own_mm = 0.0;
     for (const auto& [index, thickness_mm] : blind.zoom[z].thickness_mm) total_mm += thickness_mm;
@@ -161,7 +161,7 @@ TEST_CASE("a gap that a converter lost is found by what the file states") {
   lens->warnings.clear();
   warn_of_lost_gap(*lens);
   CHECK(lens->warnings.empty());
-  // The widest gap in air loses 5 mm.
+  // The widest air gap is shortened by 5 mm.
   std::size_t widest = 0;
   for (std::size_t k = 0; k + 1 < lens->surfaces.size(); ++k)
     if (is_air(lens->surfaces[k].glass_after) && lens->surfaces[k].thickness_mm > lens->surfaces[widest].thickness_mm)
@@ -171,7 +171,7 @@ TEST_CASE("a gap that a converter lost is found by what the file states") {
   REQUIRE(lens->warnings.size() == 1);
   check_warns(*lens, fmt::format("a gap of {:.4g} mm behind surface {} ", lens->surfaces[widest].thickness_mm + 5.0,
                                  widest + 1));
-  // Another error is none of this kind.
+  // A different error is not recognised as a missing gap.
   lens->surfaces[widest].thickness_mm += 5.0;
   lens->surfaces[0].curvature_per_mm *= 1.1;
   lens->warnings.clear();

@@ -1,4 +1,4 @@
-// Optical Bench's files: a small one in every detail, errors, and all samples there are.
+// Optical Bench's files: a small one in every detail, errors, and all available samples.
 #include <doctest/doctest.h>
 
 #include <filesystem>
@@ -15,7 +15,7 @@
 namespace contrejour::test::optical_bench {
 namespace {
 
-// A triplet that zooms a little, with an asphere and an opening of its own.
+// A triplet that zooms slightly, with an asphere and a separate opening.
 const std::string kSample =
     "[descriptive data]\t\n"
     "title\tUS 1,234 Example 5 (Small Zoom 50-60mm f/4)\n"
@@ -141,7 +141,7 @@ TEST_CASE("what is wrong with an Optical Bench file, and where") {
 }
 
 TEST_CASE("Optical Bench's samples: read, and as their figures say") {
-  // Diameters are measured off drawings; of these lenses two surfaces would cross near their rims.
+  // Diameters are measured from drawings; in these lenses two surfaces would cross near their rims.
   const std::set<std::string> kCrossing = {"JP2004-101880_Example02P.txt", "JP2014-209144_Example02P.txt",
                                            "JP2019-152887_Example03P-Nikon-400mm-f2.8FL.txt",
                                            "US20190353880_Example01P.txt"};

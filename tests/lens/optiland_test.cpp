@@ -23,7 +23,7 @@ const std::string kAir = R"({"type": "IdealMaterial", "index": 1.0, "absorp": 0.
 const std::string kPlain = R"("is_stop": false, "aperture": null, "coating": null, "is_reflective": false)";
 const std::string kStop = R"("is_stop": true, "aperture": null, "coating": null, "is_reflective": false)";
 
-// Surfaces stand on lines 3 to 9.
+// Surfaces are on lines 3 to 9.
 const std::string kSample =
     "{\"version\": 1.0, \"aperture\": {\"type\": \"EPD\", \"value\": 10}, \"fields\": {\"fields\": [{\"x\": 3.0, "
     "\"y\": 4.0}], \"field_type\": \"angle\"},\n"
@@ -152,7 +152,8 @@ namespace {
 
 using nlohmann::json;
 
-// optiland_samples.json has the arguments of Optiland's own sample scripts: the file that Optiland would save of them.
+// optiland_samples.json has the arguments of Optiland's own sample scripts: this is the file that Optiland would save
+// for them.
 std::string saved(const json& sample, const json& pages) {
   json surfaces = json::array();
   const double scale = sample["other"].dump().find("25.4") == std::string::npos ? 1.0 : 25.4;
@@ -212,7 +213,7 @@ TEST_CASE("Optiland's sample scripts, as it would save them: its asserted focal 
     REQUIRE_MESSAGE(lens.has_value(), (lens ? "" : lens.error().to_string()));
     const auto state = configure_lens(*lens);
     REQUIRE_MESSAGE(state.has_value(), (state ? "" : state.error().to_string()));
-    // Of CaF2 it has another page.
+    // For CaF2 Optiland uses another page.
     const double tolerance = name == "TelescopeObjective48Inch" ? 3e-4 : 1e-6;
     CHECK(first_order(*state, lens->stated.wavelength_nm).focal_length_mm ==
           doctest::Approx(system["expected_f2"].get<double>()).epsilon(tolerance));

@@ -50,7 +50,7 @@ TEST_CASE("a PBRT lens in every detail") {
   CHECK(s[4].source_line == 9);
   CHECK(looks_like_pbrt(kSample));
   CHECK_FALSE(looks_like_pbrt("# 1 2 3 4\n[lens]\n"));
-  // Wide open the stop is as wide as it can be.
+  // Wide open, the stop has its full width.
   const auto state = configure_lens(*lens);
   REQUIRE(state.has_value());
   CHECK(state->stop_radius_mm == doctest::Approx(5.0).epsilon(1e-6));

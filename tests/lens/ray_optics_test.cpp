@@ -26,7 +26,7 @@ std::string gap(const std::string& thickness, const std::string& medium) {
 const std::string kAir = object("Air", "");
 const std::string kNothing = R"("decenter": null, "clear_apertures": [])";
 
-// Surfaces stand on lines 3 to 8, gaps on 10 to 14, profiles on 19 to 23.
+// Surfaces are on lines 3 to 8, gaps on 10 to 14, profiles on 19 to 23.
 const std::string kSample =
     "{\"optical_model\": {\"system_spec\": " + object("SystemSpec", R"("title": "A lens", "_dimensions": "MM")") +
     ",\n\"seq_model\": {\"ifcs\": [\n" + surface("0", kNothing, "dummy") + ",\n" +
@@ -108,7 +108,7 @@ TEST_CASE("ray-optics' apertures: the first that is none of an obscuration, turn
       object("Rectangular", R"("x_half_width": 1.0, "y_half_width": 1.0, "is_obscuration": true)") + ", ";
   check_warns(read_or_fail(read_json_lens, edited(object("Circular", R"("radius": 9.0)"), square + turned)),
               "a rectangular obscuration (line 4) is not computed");
-  // Alone it leaves the surface as large as it is.
+  // An obscuration alone does not change the surface's size.
   const std::string alone = object("Circular", R"("radius": 2.0, "is_obscuration": true)");
   CHECK(read_or_fail(read_json_lens, edited(object("Circular", R"("radius": 9.0)"), alone))
             .surfaces[0]
@@ -122,7 +122,7 @@ TEST_CASE("ray-optics' older polynomials begin with the constant") {
 }
 
 TEST_CASE("ray-optics' media: a catalogue's other glass of that name, coefficients, tables") {
-  // Hoya's six are n^2's: another index than BSC7's own, so the file's count.
+  // Hoya's six coefficients are for n^2: the index differs from BSC7's own, so the file's is used.
   const auto with = [&](const std::string& medium) {
     const std::size_t begin = kSample.find("{\"__instance_type__\": [\"module\", \"SchottGlass\"]");
     const std::string_view last = "103.560653]}}}";
@@ -164,7 +164,7 @@ TEST_CASE("what is wrong with a ray-optics file, and where") {
                 "the power 23");
 }
 
-// The efl and bfl that ray-optics itself left in each file (parax_model), at its reference wavelength.
+// The efl and bfl that ray-optics itself stored in each file (parax_model), at its reference wavelength.
 TEST_CASE("ray-optics' samples") {
   struct Figures {
     double focal_mm, back_mm, tolerance;

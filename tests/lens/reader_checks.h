@@ -1,4 +1,4 @@
-// What every reader of other programs' files is asked.
+// Checks that apply to every reader of other programs' files.
 #pragma once
 
 #include <string>
@@ -37,7 +37,7 @@ inline void check_warns(const Prescription& lens, const std::string& words) {
   CHECK(found);
 }
 
-// Written as our own format and read, a lens is the same: the same text is written again.
+// A lens that is written in our own format and read again is the same: the same text is written once more.
 inline void check_round_trip(const Prescription& lens) {
   const std::string written = write_lens_toml(lens);
   const auto again = read_lens_toml(written, "again.toml");

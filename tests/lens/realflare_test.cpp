@@ -78,7 +78,7 @@ TEST_CASE("Realflare's heights: semi-diameters, diameters or nonsense") {
   nonsense = replaced(nonsense, "13.0}", "450.0}");
   const Prescription sized = read_or_fail(read_json_lens, nonsense);
   CHECK(sized.warnings.at(0).find("no clear aperture") != std::string::npos);
-  // f/4 at 88 mm, and the field's share in front of the stop.
+  // f/4 at 88 mm, and the contribution of the field in front of the stop.
   CHECK(sized.surfaces[0].semi_diameter_mm > 11.0);
   CHECK(sized.surfaces[0].semi_diameter_mm < 14.0);
 }

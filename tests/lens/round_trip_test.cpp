@@ -1,4 +1,4 @@
-// read(write(x)) == x, bit for bit, for lenses made at random.
+// read(write(x)) == x, bit for bit, for random lenses.
 #include "lens/sample_lens.h"
 
 #include <cmath>
@@ -76,7 +76,7 @@ class RandomLens {
   }
 
   Glass glass() {
-    // Few names, so that some clash; reserved ones too.
+    // Few names, so that some clash, and reserved names.
     static const char* const kNames[] = {"", "BK7", "N-SK16", "two words", "air", "1.5"};
     const std::string name = kNames[whole(0, 5)];
     switch (whole(0, 2)) {
@@ -109,7 +109,7 @@ class RandomLens {
     }
   }
 
-  // Of little sag beside the curvature's.
+  // A shape whose sag is small compared with that of the curvature.
   SurfaceShape shape() {
     SurfaceShape s;
     if (one_in(2)) return s;
@@ -137,7 +137,7 @@ class RandomLens {
         s.kind = SurfaceKind::Stop;
         s.glass_after = lens.surfaces.empty() ? air() : lens.surfaces.back().glass_after;
       } else {
-        // Radii as people type them, curvatures as programs do, and planes.
+        // Radii as people write them, curvatures as programs do, and planes.
         const double radius_mm = (one_in(2) ? 1.0 : -1.0) * real(10.0, 1000.0);
         s.curvature_per_mm = one_in(8) ? 0.0 : one_in(2) ? 1.0 / radius_mm : real(-0.1, 0.1);
         s.glass_after = one_in(2) ? air() : glass();
@@ -188,7 +188,7 @@ TEST_CASE("every bundled lens too") {
   }
 }
 
-// Where a text's numbers are, TOML's inf among them: first character and length.
+// The numbers in a text, including TOML's inf: first character and length.
 std::vector<std::pair<std::size_t, std::size_t>> numbers_in(const std::string& text) {
   static const std::regex kNumber("-?[0-9][0-9.]*(e-?[0-9]+)?|inf");
   std::vector<std::pair<std::size_t, std::size_t>> places;

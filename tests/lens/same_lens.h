@@ -1,4 +1,4 @@
-// Two lenses, number by number.
+// Compares two lenses, number by number.
 #pragma once
 
 #include <algorithm>
@@ -10,7 +10,7 @@
 
 namespace contrejour::test {
 
-// How near a lens must be that another program's format has held.
+// Tolerances for a lens that was stored in another program's format.
 struct SameLens {
   double index = 1e-12;   // of each glass from 400 to 700 nm
   bool z_shifts = true;  // poses to 1e-9; without, gaps may have taken up shifts along the axis
@@ -30,7 +30,7 @@ inline void check_same_shape(const Surface& s, const Surface& t) {
   }
 }
 
-// Of a rim that is no circle, the semi-diameter may be the circle around.
+// For a rim that is not a circle, the semi-diameter may be that of the enclosing circle.
 inline void check_same_rim(const Surface& s, const Surface& t) {
   REQUIRE(s.aperture.kind == t.aperture.kind);
   if (s.aperture.kind == ApertureKind::Disc) {
@@ -48,7 +48,7 @@ inline void check_same_obscuration(const Obscuration& a, const Obscuration& b) {
   CHECK(std::abs(a.turn_rad - b.turn_rad) < 1e-12);
 }
 
-// Same: to the last bit, but for angles (1e-12) and indices.
+// All numbers must be equal to the last bit, except angles (1e-12) and indices.
 inline void check_same_lens(const Prescription& a, const Prescription& b, const SameLens& how = {}) {
   CHECK(a.f_number == b.f_number);
   CHECK(a.sensor_width_mm == b.sensor_width_mm);

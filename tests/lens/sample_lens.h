@@ -7,7 +7,7 @@
 
 namespace contrejour::test {
 
-// Line numbers are counted on: surfaces 1 to 5 stand on lines 6 to 10.
+// Tests rely on line numbers: surfaces 1 to 5 are on lines 6 to 10.
 inline const std::string kSampleLens = R"(name = "Sample"
 source = "none"
 f_number = 4.0
@@ -39,7 +39,7 @@ inline const std::string kZoomRows = R"(zoom = [
 ]
 [stated])";
 
-// The sample as a zoom: its positions stand on lines 13 and 14.
+// The sample as a zoom: its positions are on lines 13 and 14.
 inline std::string zoom_sample() { return edited("[stated]", kZoomRows); }
 
 }  // namespace contrejour::test

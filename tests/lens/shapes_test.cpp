@@ -94,7 +94,7 @@ TEST_CASE("a group is carried as one body, about its middle") {
   REQUIRE(state.has_value());
   CHECK_FALSE(state->has_axial_symmetry());
   CHECK(state->surfaces[1].pose == rear);
-  // Errors of building come on top.
+  // Build errors are added.
   const auto worse = configure_lens(*lens, {.build = {0.001, 0.05, 1}});
   REQUIRE(worse.has_value());
   CHECK(length(worse->surfaces[1].pose.axis - rear.axis) > 1e-5);

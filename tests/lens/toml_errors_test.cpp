@@ -10,7 +10,7 @@
 namespace contrejour::test::toml_errors {
 namespace {
 
-// The text's error, which must begin with "x.toml:LINE: " and hold `words`.
+// The text's error must begin with "x.toml:LINE: " and contain `words`.
 void check_error(const std::string& text, int line, const std::string& words) {
   const auto lens = read_lens_toml(text, "x.toml");
   REQUIRE_FALSE(lens.has_value());
@@ -83,7 +83,7 @@ TEST_CASE("numbers that are no lengths") {
   check_edit("focal_length_mm = 60.0", "focal_length_mm = inf", 13, "stated: focal_length_mm is inf");
   check_edit("radius_mm = 70.0, semi", "radius_mm = 70.0, thickness_mm = 40.0, semi", 10,
              "the last surface has no thickness_mm");
-  // A whole number that no double holds exactly.
+  // A whole number that no double represents exactly.
   check_edit("thickness_mm = 5.0", "thickness_mm = 9007199254740993", 6, "thickness_mm is");
 }
 
@@ -154,12 +154,12 @@ TEST_CASE("surfaces that cross inside their clear aperture") {
              "surface 2: it crosses surface 1 by 0.0494 mm inside the "
              "clear aperture (at height 10 mm)");
   CHECK(read_lens_toml(edited("thickness_mm = 5.0", "thickness_mm = 1.9"), "x.toml").has_value());
-  // Across the stop: surface 2 turned round bulges into surface 4, though no rim touches the stop's plane.
+  // Across the stop: surface 2, reversed, bulges into surface 4, though no rim touches the stop's plane.
   const std::string bulge = edited("radius_mm = -60.0", "radius_mm = 12.0");
   check_error(
       edited("thickness_mm = 3.0", "thickness_mm = 0.1", edited("thickness_mm = 2.0", "thickness_mm = 0.1", bulge)), 9,
       "surface 4: it crosses surface 2");
-  // A stop's plane may lie inside the hollow of its neighbour.
+  // A stop's plane may lie within its neighbour's concave side.
   CHECK(read_lens_toml(edited("thickness_mm = 3.0", "thickness_mm = 0.0"), "x.toml").has_value());
 }
 

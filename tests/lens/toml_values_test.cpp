@@ -1,4 +1,4 @@
-// What a correct file says arrives as it was written.
+// The values of a correct file are read as written.
 #include "lens/sample_lens.h"
 
 #include <fstream>
@@ -39,7 +39,7 @@ TEST_CASE("values of the sample") {
 
 TEST_CASE("the default coating covers glass to air only, and gives way to a row's own") {
   std::string text = edited("sensor_mm", "default_coating = { quarter_wave_nm = 500, n = 1.4 }\nsensor_mm");
-  // Cement surfaces 1 and 2 to a flint, whose rear face says "none".
+  // Surfaces 1 and 2 are cemented to a flint, whose rear face says "none".
   text = edited("semi_diameter_mm = 10.0 },",
                 "semi_diameter_mm = 10.0, glass = \"SF2\" },\n  { radius_mm = inf, "
                 "thickness_mm = 2.0, semi_diameter_mm = 9.0, coating = \"none\" },",
@@ -113,7 +113,7 @@ TEST_CASE("rows may be written as tables of their own") {
   CHECK(lens.surfaces.size() == 3);
 }
 
-// The format's page shows one complete lens: it must be one.
+// The format's page shows one complete lens, which must be valid.
 TEST_CASE("the example of the format's page") {
   std::ifstream page(CONTREJOUR_SOURCE_DIR "/docs/formats/lens-toml.md");
   REQUIRE(page.good());

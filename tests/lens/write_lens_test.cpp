@@ -1,4 +1,4 @@
-// Zemax' and CODE V's files that we write: read again they are the same lens.
+// Zemax and CODE V files that we write: read again, they give the same lens.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -31,7 +31,7 @@ struct Format {
 };
 constexpr Format kFormats[] = {{"a.zmx", write_lens_zmx, read_zmx}, {"a.seq", write_lens_seq, read_seq}};
 
-// Written, and read again; nothing where the format cannot hold it.
+// Writes a lens and reads it again; does nothing if the format cannot hold it.
 void check_round_trip(const Prescription& lens, const Format& format, const SameLens& how = {}) {
   CAPTURE(format.name);
   const auto written = format.write(lens);
@@ -147,7 +147,7 @@ TEST_CASE("every bundled lens is the same through Zemax and CODE V") {
   for (const BundledLens& bundled : bundled_lenses()) {
     CAPTURE(bundled.name);
     const Prescription lens = toml(std::string(bundled.toml));
-    // Zemax has no Sellmeier's formula but by name.
+    // Zemax has Sellmeier's formula only through glass names.
     for (const Format& format : kFormats)
       check_round_trip(lens, format, {.index = format.write == write_lens_zmx ? 2e-4 : 1e-12});
   }
@@ -166,7 +166,7 @@ TEST_CASE("every sample that is read is the same through Zemax and CODE V [slow]
     for (const Format& format : kFormats) {
       const auto text = format.write(*lens);
       if (!text) continue;
-      // A model glass in place of a formula or, the worst, of a few measured indices to four digits.
+      // A model glass replaces a formula or, at worst, a few measured indices of four digits.
       check_round_trip(*lens, format, {.index = 4e-4});
       ++written;
     }

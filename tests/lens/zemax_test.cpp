@@ -1,4 +1,4 @@
-// Zemax' files: a small one in every detail, every refusal, and all samples there are.
+// Zemax files: a small one in every detail, every refusal, and all available samples.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -125,7 +125,7 @@ TEST_CASE("a Zemax file in every detail") {
   const auto state = configure_lens(lens);
   REQUIRE(state.has_value());
   CHECK(lens.f_number == doctest::Approx(state->focal_length_mm / 10.0).epsilon(1e-12));
-  // The stop is what the f-number needs, not the file's own guess of 4.9.
+  // The stop has the size that the f-number requires, not the file's own estimate of 4.9.
   CHECK(s[3].semi_diameter_mm == state->stop_radius_mm);
   // The image surface's semi-diameter is the picture's.
   CHECK(std::hypot(lens.sensor_width_mm, lens.sensor_height_mm) == doctest::Approx(12.0));
@@ -143,9 +143,9 @@ TEST_CASE("Zemax' apertures, fields and units") {
   const Prescription by_stop = must_read(zmx("ENPD 10", "FLOA"));
   CHECK(by_stop.surfaces[3].semi_diameter_mm == 4.9);
   CHECK(by_stop.f_number == doctest::Approx(must_read(kZmx).f_number).epsilon(0.1));
-  // A stop that the designer fixed stays as it is.
+  // A stop with a size that the designer fixed is not changed.
   CHECK(must_read(zmx("DIAM 4.9 0", "DIAM 5.5 1")).surfaces[3].semi_diameter_mm == 5.5);
-  // The image's own semi-diameter left out, f tan of the widest field of the two that count (3, 4 degrees).
+  // Without the image's own semi-diameter, f tan of the widest field of the two that count (3, 4 degrees).
   const Prescription by_field = must_read(zmx("  DIAM 6\n", ""));
   const double f_mm = configure_lens(by_field)->focal_length_mm;
   CHECK(std::hypot(by_field.sensor_width_mm, by_field.sensor_height_mm) ==
@@ -162,7 +162,7 @@ TEST_CASE("Zemax' apertures, fields and units") {
   check_warns(must_read(zmx("0.55 1", "1.55 1")), "designed for 1550 nm");
   check_warns(must_read(zmx("DISZ 75", "DISZ 30")), "distant objects are in focus at");
   check_warns(must_read(zmx("ENVD 20 1 0", "ENVD 40 1 1")), "indices at 40 deg C");
-  // Rows of numbers as older versions have them.
+  // Rows of numbers in the form of older versions.
   CHECK(must_read(zmx("WAVM 1 0.4861327 1\nWAVM 2 0.55 1", "WAVL 0.48 0.6\nWWGT 1 1")).stated.wavelength_nm == 600.0);
   const Prescription near = must_read(zmx("DISZ INFINITY", "DISZ 5000"));
   check_warns(near, "designed for an object 5000 mm in front");
@@ -211,7 +211,7 @@ TEST_CASE("openings of Zemax stay, rims that are no circles too") {
   CHECK(last("FLAP 1 0 0").obscuration == Obscuration{{1, 1}, {}, 0.0});
   CHECK(last("CLAP 1 4 0\n  OBDC 0 0.5").obscuration == Obscuration{{1, 1}, {0, 0.5}, 0.0});
   CHECK(last("CLAP 1 4 0\n  OBDC 0 0.5").aperture == ClearAperture{ApertureKind::Ellipse, {4, 4}, {0, 0.5}, 0.0});
-  // An opening of its own, or a stop.
+  // An obscuration becomes an opening of its own, or belongs to the stop.
   const Prescription alone = must_read(zmx("DISZ -2\n  DIAM 7", "DISZ 2\n  DIAM 7\n  OBSC 0 1 0"));
   REQUIRE(alone.surfaces.size() == 7);
   CHECK(alone.surfaces[3].obscuration.any());
@@ -222,7 +222,7 @@ TEST_CASE("openings of Zemax stay, rims that are no circles too") {
   check_warns(must_read(zmx("CLAP 0 7.5 0", "SQOB 1 2 0")), "SQOB (line 59)");
   check_warns(must_read(zmx("CLAP 0 7.5 0", "COAT AR")), "AR (line 59)");
   check_warns(must_read(zmx("CLAP 0 7.5 0", "WHAT 1")), "'WHAT' of a surface is not known");
-  // Behind the next vertex: moved there.
+  // Behind the next vertex: it is moved there.
   const Prescription behind = must_read(zmx("CURV 0\n  DISZ 3", "CURV 0\n  DISZ -1"));
   CHECK(behind.surfaces[2].thickness_mm == 2.0);
   CHECK(behind.surfaces[3].thickness_mm == 0.0);
@@ -252,7 +252,7 @@ TEST_CASE("shapes of Zemax") {
 }
 
 TEST_CASE("coordinate breaks of Zemax tilt and move what stands between them") {
-  // Tilted by 2 degrees about x about its first vertex and 0.5 up, then back.
+  // Tilted by 2 degrees about x around its first vertex and moved up by 0.5, then back.
   const std::string broken = R"(SURF 6
   TYPE COORDBRK
   PARM 2 0.5
@@ -293,7 +293,7 @@ SURF 11
   CHECK(lens.surfaces[4].thickness_mm == 3.0);
   CHECK(lens.sensor_distance_mm == 75.0);
   CHECK(lens.surfaces[3].pose == SurfacePose{});
-  // Without the way back the sensor would be askew.
+  // Without the way back the sensor would be tilted.
   const auto askew = read(zmx("PARM 3 -2", "PARM 3 -1.5", kZmx.substr(0, from) + broken + kZmx.substr(to)));
   REQUIRE_FALSE(askew.has_value());
   CHECK(askew.error().message.find("the image surface stands") != std::string::npos);
@@ -318,7 +318,7 @@ TEST_CASE("configurations of Zemax are a zoom where thicknesses alone move") {
   const Prescription lens = must_read(zoom);
   REQUIRE(lens.zoom.size() == 2);
   CHECK(lens.zoom[0].focal_length_mm < lens.zoom[1].focal_length_mm);
-  // Which of the two is the longer is the lens's business; both gaps are there.
+  // The lens decides which of the two is longer; both gaps exist.
   const double a = lens.zoom[0].thickness_mm.at(0).second, b = lens.zoom[1].thickness_mm.at(0).second;
   CHECK(std::min(a, b) == 3.0);
   CHECK(std::max(a, b) == 11.0);
@@ -326,7 +326,7 @@ TEST_CASE("configurations of Zemax are a zoom where thicknesses alone move") {
   CHECK(lens.zoom[0].thickness_mm.size() == 1);
   CHECK_FALSE(lens.sensor_distance_mm.has_value());  // it moves
   check_warns(lens, "1 of 3 positions are for near objects");
-  // A gap that follows from others; the glass changes too, so that the focal length does.
+  // A gap that depends on others; the glass changes too, so that the focal length does.
   for (const char* solve : {"PZUP 3 1 -2", "TCOM 3 10", "TOLE 3 8"}) {
     CAPTURE(solve);
     const Prescription solved =
@@ -339,7 +339,7 @@ TEST_CASE("configurations of Zemax are a zoom where thicknesses alone move") {
       CHECK(position.thickness_mm[2].second == (solve[0] == 'P' ? third - 2.0 : 10.0 - third));
     }
   }
-  // Anything else: the current configuration alone.
+  // For anything else only the current configuration is read.
   const Prescription other =
       must_read(zmx("THIC 0 1", "CRVT 1 1 0.02 0\nCRVT 1 2 0.03 0\nCRVT 1 3 0.02 0\nTHIC 0 1", zoom));
   CHECK(other.zoom.empty());
@@ -394,7 +394,7 @@ TEST_CASE("Zemax' samples: read, or refused for what they hold") {
     double focal_length_mm = 0;  // 0: refused, for these words
     std::string words;
   };
-  // Focal lengths: of optiland's and rayoptics' own tests and of what the files' names and notes say.
+  // Focal lengths from optiland's and rayoptics' own tests, and from the files' names and notes.
   const std::map<std::string, Outcome> kOutcomes = {
       {"354710-C-Zemax(ZMX).zmx", {1.4075, ""}},
       {"ACL3026U-Zemax(ZMX).zmx", {25.905, ""}},
@@ -404,7 +404,7 @@ TEST_CASE("Zemax' samples: read, or refused for what they hold") {
       {"HoO-V2C18Ex46.zmx", {0, "a mirror"}},
       {"HoO-V2C18Ex66.zmx", {0, "a mirror"}},
       {"HoO-V2C18Ex66NEW.zmx", {0, "a mirror"}},
-      {"US00583336-2-scaled.zmx", {49.389, ""}},  // its merit function wants 49.4
+      {"US00583336-2-scaled.zmx", {49.389, ""}},  // its merit function has a target of 49.4
       {"US05331467-1.zmx", {0, "a mirror"}},
       {"US05831776-1.zmx", {0, "no image of distant objects"}},  // a relay for masks
       {"US08011793-1.zmx", {0, "a mirror"}},

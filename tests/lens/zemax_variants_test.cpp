@@ -1,4 +1,4 @@
-// What Zemax writes less often: glasses of other rows, tilts, types with nothing beyond the usual, old numbers.
+// Less common parts of Zemax files: glasses with other rows, tilts, types with nothing beyond the usual, old numbers.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -63,7 +63,7 @@ TEST_CASE("a Zemax glass is picked up from another surface") {
   CHECK(lens.surfaces[3].glass_after == lens.surfaces[0].glass_after);
   CHECK(lens.surfaces[3].glass_after.name == "N-BK7");
   check_refused(pair(kSecondGlass, "GLAS ___BLANK 2 5 1.5 40"), 27, "a glass picked up from surface 5");
-  // With its name it is that glass.
+  // With its name it is the named glass.
   CHECK(must_read(pair("GLAS N-SF2 0 0", "GLAS N-SF2 2 1")).surfaces[3].glass_after.name == "N-SF2");
 }
 
@@ -78,7 +78,7 @@ TEST_CASE("a Zemax glass is offset from its catalogue's") {
   CHECK(after.p_gf == doctest::Approx(before.p_gf).epsilon(1e-4));
   CHECK(glass.name == "N-SF2 offset");
   check_round_trip(lens);
-  // By nothing: the glass itself.
+  // An offset of zero: the glass itself.
   CHECK(must_read(pair(kSecondGlass, "GLAS N-SF2 4 0 1.5 40 0 0 0 0 0 0")).surfaces[3].glass_after == plain);
   check_refused(pair(kSecondGlass, "GLAS N-SF2 4 0 1.5 40 0 0 0 0 -3 0"), 27, "N-SF2 with n_d moved by -3");
 }
@@ -112,7 +112,7 @@ TEST_CASE("a tilted plane of Zemax") {
   const Vec3 normal = lens.surfaces[1].pose.axis;
   CHECK(-normal.x / normal.z == doctest::Approx(0.02).epsilon(1e-12));
   CHECK(-normal.y / normal.z == doctest::Approx(-0.01).epsilon(1e-12));
-  // Of it alone: what follows stands as before.
+  // Only this surface is tilted: those behind it are unchanged.
   CHECK(lens.surfaces[3].pose == SurfacePose{});
   CHECK(must_read(tilted("")).surfaces[1].pose == SurfacePose{});
   check_refused(pair("SURF 6\n", "SURF 6\n  TYPE TILTSURF\n  PARM 2 0.1\n"), 33, "the image surface stands");
@@ -152,12 +152,12 @@ TEST_CASE("coefficients beyond the eight of Zemax's own aspheres") {
 }
 
 TEST_CASE("apertures of Zemax as old and odd as they come") {
-  // A cone's half angle at the object.
+  // The half angle of a cone at the object.
   const std::string near = pair("  DISZ INFINITY", "  DISZ 300");
   const Prescription by_na = must_read(replaced(near, "ENPD 10", "OBNA 0.02 0"));
   const Prescription by_cone = must_read(replaced(near, "ENPD 10", "OBNA 1.1459919983 1"));
   CHECK(by_cone.f_number == doctest::Approx(by_na.f_number).epsilon(1e-9));
-  // A semi-diameter that no ray gave is not told.
+  // A semi-diameter from a ray that failed is treated as missing.
   for (const char* infinite : {"1.#INF000000000E+000", "INFINITY", "-1.#INF"}) {
     const Prescription lens = must_read(pair("  DIAM 8 1\nSURF 2", std::string("  DIAM ") + infinite + " 0\nSURF 2"));
     CHECK(lens.surfaces[0].semi_diameter_mm > 5.0);
@@ -168,7 +168,7 @@ TEST_CASE("apertures of Zemax as old and odd as they come") {
 TEST_CASE("a stop that nothing tells the size of lets through what the other surfaces do") {
   const Prescription lens = must_read(replaced(pair("ENPD 10", "FLOA"), "  DIAM 5\n", ""));
   check_warns(lens, "nothing tells the stop's size");
-  // The front is as wide as the beam; behind it the beam is narrower, and the rims are as large.
+  // The front is as wide as the beam; behind it the beam is narrower, and the rims have the same size.
   CHECK(lens.surfaces[2].kind == SurfaceKind::Stop);
   const auto state = configure_lens(lens);
   REQUIRE(state.has_value());

@@ -14,7 +14,7 @@ namespace {
 
 LensState heliar() { return configure_lens(find_lens("heliar").value()).value(); }
 
-// Surfaces hit per millisecond one ray at a time, in double.
+// Surfaces hit per millisecond, one ray at a time, in double.
 double scalar_hits_per_ms(const LensState& lens) {
   const OpticalPath path = ghost_path(lens, enumerate_ghosts(lens, GhostScope::OneSideOfStop).front(), 550.0);
   constexpr int kRays = 20000;

@@ -1,4 +1,4 @@
-// Rims that are no circles: rims_of() against plain geometry, both tracers against places on the glass.
+// Rims that are not circles: rims_of() against elementary geometry, both tracers against places on the glass.
 #include <cmath>
 #include <random>
 #include <vector>
@@ -14,7 +14,7 @@ using namespace contrejour;
 
 namespace {
 
-// As one would say it: in the aperture's own frame, within the half sides, and within the disc.
+// The definition: within the half sides in the aperture's own frame, and within the disc.
 bool is_clear(const ClearAperture& a, double semi_diameter_mm, Vec2 at) {
   const Vec2 from = at - a.centre_mm;
   const double x = from.x * std::cos(a.turn_rad) + from.y * std::sin(a.turn_rad);
@@ -42,13 +42,13 @@ LensState heliar_with(const ClearAperture& front, const SurfacePose& pose = {}) 
   return *state;
 }
 
-// Where a ray meets the glass of surface 1, each time, in the surface's own coordinates.
+// The places where a ray meets the glass of surface 1, at each hit, in the surface's own coordinates.
 std::vector<Vec2> crossings_of_front(const OpticalPath& path, const Ray& ray, const SurfacePose& pose) {
   std::vector<Vec2> out;
   for (const TraceStep& step : trace_recorded(path, ray).steps) {
     if (step.surface != 1) continue;
     const Vec3 from = step.position_mm - pose.shift_mm;
-    // Upright again: the smallest turn that takes the axis to +z.
+    // Rotated upright: by the smallest rotation that takes the axis to +z.
     const Vec3 a = pose.axis;
     const double t = (a.x * from.x + a.y * from.y) / (1.0 + a.z);
     out.push_back({from.x - a.x * (from.z + t), from.y - a.y * (from.z + t)});

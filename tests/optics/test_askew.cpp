@@ -1,4 +1,4 @@
-// Surfaces that stand askew: against rays turned into the surface's own frame and back, and first-order theory.
+// Decentred and tilted surfaces: against rays rotated into the surface's own frame and back, and first-order theory.
 #include <cmath>
 #include <random>
 
@@ -14,7 +14,7 @@ using namespace contrejour;
 
 namespace {
 
-// Rows of the matrix that takes the surface's axis to +z.
+// Rows of the matrix that rotates the surface's axis to +z.
 struct Turn {
   Vec3 x, y, z;
   explicit Turn(Vec3 axis) : z(axis) {
@@ -150,7 +150,7 @@ TEST_CASE("a ball moved to a side moves its ghost as its matrix says") {
   const TracedRay ray = trace(ghost_path(lens, {2, 3}, 550.0), {{0, 0, -5}, {0, 0, 1}});
   CHECK(ray.sensor_mm.x == doctest::Approx(aside_mm * (1.0 - a)).epsilon(1e-4));
   CHECK(ray.sensor_mm.y == doctest::Approx(-2.0 * aside_mm * (1.0 - a)).epsilon(1e-4));
-  // Its rim moves along.
+  // Its rim moves with it.
   CHECK(glass_r_rel(lens, {aside_mm, -2.0 * aside_mm}) < 1e-9);
 }
 
@@ -168,7 +168,7 @@ TEST_CASE("build errors: bodies move as wholes, the stop stays, sizes are what w
       const SurfaceState& s = lens.surfaces[k];
       CHECK(s.z_mm == ideal.surfaces[k].z_mm);
       if (is_air(s.after) || s.kind == SurfaceKind::Stop) continue;
-      // To the next vertex of the same glass: along the common axis, as far as before.
+      // The distance to the next vertex of the same glass, along the common axis, is unchanged.
       const SurfaceState& next = lens.surfaces[k + 1];
       CHECK(next.pose.axis == s.pose.axis);
       const Vec3 way = next.pose.shift_mm - s.pose.shift_mm + Vec3{0, 0, next.z_mm - s.z_mm};

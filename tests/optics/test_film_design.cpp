@@ -66,7 +66,7 @@ TEST_CASE("stacks of published designs reflect what another program says") {
   const auto all = nlohmann::json::parse(in);
   int checked = 0;
   for (const auto& design : all["designs"]) {
-    if (!design.contains("n_substrate")) continue;  // of glasses by name
+    if (!design.contains("n_substrate")) continue;  // glasses are given by name
     FilmStack stack;
     for (const auto& layer : design["layers"])
       stack.layers.push_back({FilmMaterial(layer["n"].get<double>()), layer["thickness_nm"].get<double>()});
@@ -166,7 +166,7 @@ TEST_CASE("placed coatings lie on the denser side; a wavelength's numbers are th
             doctest::Approx(transmittance(front, 1.0, n, cosine, nm)).epsilon(1e-6));
     }
   }
-  CHECK(normal_reflectance(design, {"", ConstantIndex{1.5168}}, 550.0) < 1e-12);  // not placed: worked out here
+  CHECK(normal_reflectance(design, {"", ConstantIndex{1.5168}}, 550.0) < 1e-12);  // not placed: computed here
 }
 
 TEST_CASE("measured coatings are read between their samples, from both sides") {

@@ -1,4 +1,4 @@
-// Paraxial figures against values asserted in another program's tests, with the glass files it used.
+// Paraxial figures against values asserted in another program's tests, with the glass files that it used.
 #include <cmath>
 #include <fstream>
 #include <map>
@@ -20,7 +20,7 @@ using nlohmann::json;
 
 namespace {
 
-// What follows a marker, to the end of its line.
+// The text after a marker, to the end of its line.
 std::optional<std::string> after(const std::string& text, const std::string& marker) {
   const auto at = text.find(marker);
   if (at == std::string::npos) return std::nullopt;
@@ -60,7 +60,8 @@ double number(const json& surface, const char* key) {
   return surface[key];
 }
 
-// The sample with its glasses as constants at the primary wavelength; none if it is beyond spheres and glasses.
+// The sample with its glasses as constants at the primary wavelength; nullopt if it has anything but spheres and
+// glasses.
 std::optional<LensState> state_of(const json& sample, const json& resolution) {
   double lambda_um = 0.0;
   for (const auto& w : sample["wavelengths_um"]) {
@@ -202,7 +203,7 @@ TEST_CASE("a thin lens's colour is y^2 power / V, and an ellipsoid of conic -1 /
   Surface front{.curvature_per_mm = 0.02,
                 .thickness_mm = 1e-9,
                 .semi_diameter_mm = 1e-3,
-                .glass_after = glass};  // rims small: they would cross
+                .glass_after = glass};  // small rims: larger ones would cross
   Surface back{.curvature_per_mm = -0.02, .semi_diameter_mm = 1e-3, .glass_after = air()};
   Surface stop{.kind = SurfaceKind::Stop, .semi_diameter_mm = 5.0, .glass_after = air()};
   lens.surfaces = {stop, front, back};
@@ -218,7 +219,7 @@ TEST_CASE("a thin lens's colour is y^2 power / V, and an ellipsoid of conic -1 /
   const double n = refractive_index(glass, kLineD_nm);
   state->surfaces[1].shape.conic = -1.0 / (n * n);
   CHECK(seidel_by_surface(*state, {})[1].spherical == doctest::Approx(0.0).scale(thin.spherical));
-  // The same departure by its coefficient of r^4.
+  // The same departure from the sphere, as a coefficient of r^4.
   state->surfaces[1].shape.conic = 0.0;
   state->surfaces[1].shape.powers = {0.0, 0.0, 0.0, -0.02 * 0.02 * 0.02 / (8.0 * n * n)};
   CHECK(seidel_by_surface(*state, {})[1].spherical == doctest::Approx(0.0).scale(thin.spherical));

@@ -1,4 +1,4 @@
-// Blades over the f-number, and irises that are none.
+// Blades as functions of the f-number, and invalid irises.
 #include <cmath>
 #include <limits>
 

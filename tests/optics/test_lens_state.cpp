@@ -14,7 +14,7 @@ namespace {
 
 Glass crown() { return {"crown", AbbeGlass{1.5168, 64.17}}; }
 
-// Two separated positive lenses whose gap is the zoom.
+// Two separated positive lenses with a variable gap as the zoom.
 Prescription zoom_lens() {
   Prescription lens;
   lens.name = "pair";
@@ -73,10 +73,10 @@ TEST_CASE("the f-number sets the stop by the real marginal ray") {
   REQUIRE(f8.has_value());
   REQUIRE(f16.has_value());
   CHECK(f8->stop_radius_mm / f16->stop_radius_mm == doctest::Approx(2.0).epsilon(0.01));
-  // Paraxially the marginal height at the stop is front.a * EPD / 2; the real ray differs by aberration only.
+  // Paraxially the marginal height at the stop is front.a * EPD / 2; the real ray differs only by aberration.
   const Abcd front = abcd_between(f16->surfaces, 0, f16->stop_index, kLineD_nm);
   CHECK(f16->stop_radius_mm == doctest::Approx(front.a * f16->focal_length_mm / 32.0).epsilon(1e-3));
-  CHECK(configure_lens(prime_lens(), {.f_number = 3.9})->f_number == 4.0);  // engraved a little wider than it is
+  CHECK(configure_lens(prime_lens(), {.f_number = 3.9})->f_number == 4.0);  // engraved slightly wider than it is
   Prescription narrow = prime_lens();
   narrow.surfaces[2].semi_diameter_mm = 2.0;
   const auto clipped = configure_lens(narrow, {.f_number = 4.0});

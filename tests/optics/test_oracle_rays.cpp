@@ -1,4 +1,4 @@
-// Every ABCD matrix, skew ray and ghost ray of the stored oracle, made by an independent tracer.
+// Every ABCD matrix, skew ray and ghost ray of the stored oracle, which an independent tracer computed.
 #include <algorithm>
 #include <cmath>
 #include <fstream>
@@ -34,9 +34,9 @@ void check_landing(const TracedRay& traced, const nlohmann::json& r) {
   check_near(traced.direction.z, r["dir"][2]);
 }
 
-// Rays for which the oracle leaves the ray's way: where a ray, far outside the clear aperture, meets a sphere
-// twice on its vertex's half, the oracle takes the second point. There the ray runs from the glass to the air,
-// yet is refracted as from the air to the glass. The first point is the one hullin2011's supplement takes.
+// Rays for which the oracle leaves the prescribed path: where a ray, far outside the clear aperture, meets a sphere
+// twice on its vertex's half, the oracle takes the second point. There the ray leaves the glass, yet is refracted as if
+// it entered it. The first point is the one that hullin2011's supplement takes.
 struct Exception {
   Ghost ghost;
   std::size_t ray;

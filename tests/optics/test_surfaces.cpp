@@ -1,4 +1,4 @@
-// Surfaces that are no spheres: sags and normals against another program's, rays against closed forms, first order
+// Surfaces that are not spheres: sags and normals against another program's, rays against closed forms, first order
 // against an independent paraxial trace.
 #include <cmath>
 #include <fstream>
@@ -64,7 +64,7 @@ std::vector<std::pair<double, SurfaceShape>> any_shapes() {
 }  // namespace
 
 // Optiland's tests state the numbers, its test file the surfaces (tests/test_geometries.py). Its biconic adds two
-// conics, which ours (Zemax') does not, but for cylinders.
+// conics, unlike ours (Zemax's), except for cylinders.
 TEST_CASE("sags, intercepts and normals as in optiland's tests") {
   const auto file = shared_data("oracles/optiland_test_assertions.json");
   if (!file) return;
@@ -152,7 +152,7 @@ TEST_CASE("rays end on the surface's formula and are refracted about its normal,
     for (int k = 0; k < 300; ++k) {
       const Vec3 through{5.0 * any(random), 5.0 * any(random), 0.0};
       const Vec3 direction = normalized({0.5 * any(random), 0.5 * any(random), 1.0});
-      // The start lies behind the surface half of the time.
+      // In half of the cases the start lies behind the surface.
       const RayRecord record = meet(curvature, shape, {through + direction * (20.0 * any(random)), direction});
       REQUIRE(record.ray.status == RayStatus::Ok);
       const Vec3 at = record.steps[0].position_mm;
@@ -206,7 +206,7 @@ TEST_CASE("a surface ends where its root does, and rays beyond are blocked or mi
   CHECK(meet(0.1, even_asphere(0.5, {0, 1e300}), {{1, 1, -5}, {0, 0, 1}}).ray.status == RayStatus::Missed);
 }
 
-// A coefficient that changes nothing but the way the surface is computed.
+// A coefficient that changes only the way in which the surface is computed.
 TEST_CASE("an asphere of no coefficients and a toroid of equal radii are their spheres, ghost by ghost") {
   for (const bool as_toroid : {false, true}) {
     CAPTURE(as_toroid);

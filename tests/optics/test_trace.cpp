@@ -158,7 +158,8 @@ TEST_CASE("a light is found again where its chief ray lands, inside and outside 
     CHECK(back.x == doctest::Approx(p.x).epsilon(1e-8));
     CHECK(back.y == doctest::Approx(p.y).epsilon(1e-8));
   }
-  // Near ones, too; near the axis where similar triangles through the stop put them, but for the singlet's power.
+  // Near lights as well; close to the axis their image points follow from similar triangles through the stop, apart
+  // from the singlet's power.
   for (const double distance_mm : {1e6, 500.0, 30.0, 2.0}) {
     CAPTURE(distance_mm);
     for (const Vec2 p : {Vec2{0, 0}, Vec2{3, -2}, Vec2{-15, 10}, Vec2{300, -200}}) {
@@ -173,7 +174,7 @@ TEST_CASE("a light is found again where its chief ray lands, inside and outside 
     CHECK(chief_ray_image_point(lens, {slanting, distance_mm}, kLineD_nm).y ==
           doctest::Approx(chief_ray_image_point(lens, slanting, kLineD_nm).y).epsilon(1e-8));
   }
-  // An upside-down image: a light above the axis travels downwards and lands below.
+  // An inverted image: the light of a source above the axis travels downwards and meets the sensor below.
   const Vec3 from_above{0.0, -std::sin(0.1), std::cos(0.1)};
   CHECK(chief_ray_image_point(lens, from_above, kLineD_nm).y < 0.0);
 }

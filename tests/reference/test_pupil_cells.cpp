@@ -1,4 +1,4 @@
-// The reference's cells against a plain count of rays: no pupil, however small or wherever it lies, may be lost.
+// The reference's cells against a count of rays: no pupil may be lost, however small it is and wherever it lies.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -36,7 +36,7 @@ double flux_in_cells(const OpticalPath& path, const Iris& iris, Vec3 direction, 
   return std::accumulate(rgb.begin(), rgb.end(), 0.0);
 }
 
-// What a ghost's light is counted with.
+// What a ghost's light is counted from.
 struct Scene {
   const OpticalPath& path;
   const ReflectanceTables& tables;
@@ -49,7 +49,7 @@ struct Scene {
 // Rays in the middles of side x side cells of a rectangle of the entrance plane.
 struct RayCount {
   double flux_mm2 = 0;  // within the frame
-  Rectangle open;  // holds the cells of those that got through and two more all round
+  Rectangle open;  // contains the cells of the rays that got through, with a border of two cells
 };
 
 RayCount count_rays(const Scene& scene, const Rectangle& where, int side, PacketPrecision precision) {
@@ -94,15 +94,15 @@ RayCount count_rays(const Scene& scene, const Rectangle& where, int side, Packet
   return counted;
 }
 
-// Over the whole window, then over the part of it that lets light through.
+// Counts over the whole window, then over the part of it that lets light through.
 double counted_flux(const Scene& scene) {
   const RayCount first = count_rays(scene, {scene.window.min_mm, scene.window.max_mm}, 400, PacketPrecision::Float);
   if (first.open.low.x > first.open.high.x) return 0.0;
   return count_rays(scene, first.open, 240, PacketPrecision::Double).flux_mm2;
 }
 
-// Of each `stride`-th ghost. Few pixels, so that their size does not do the search's work. Counting may miss the ends
-// of a sliver, or all of it; the cells may not.
+// Checks each `stride`-th ghost. There are few pixels, so that their size does not help the search. Counting may miss
+// the ends of a sliver, or all of it; the cells may not.
 void check_every_ghost(const LensState& lens, Vec2 light_uv, std::size_t stride, double lambda_nm = kGreen_nm) {
   const Frame frame = frame_on_sensor(lens, 96, 54);
   const Vec3 direction = test::light_at(lens, frame, light_uv).direction;
@@ -149,7 +149,7 @@ TEST_CASE("a pupil far smaller than a root cell is found wherever in it it lies"
   }
 }
 
-// Ghosts 1-7, 2-8, 3-7 and 3-8, whose pupils are about as wide as a root cell, were lost whole.
+// Ghosts 1-7, 2-8, 3-7 and 3-8, whose pupils are about as wide as a root cell, had been lost entirely.
 TEST_CASE("every ghost of a zoom at a small stop carries the flux that counted rays do") {
   check_every_ghost(test::bundled("itoh-zoom", {.focal_length_mm = 123.0, .f_number = 32.0}), {0.70, 0.33}, 1);
 }
@@ -168,12 +168,12 @@ TEST_CASE(
   front.obscuration = disc(0.05 * front.semi_diameter_mm);  // smaller than a root cell
   rear.obscuration = {{0.4 * rear.semi_diameter_mm, 0.2 * rear.semi_diameter_mm}, {1.0, 0.5}, 0.3};
   check_every_ghost(lens, {0.62, 0.40}, 1);
-  // Nothing is left of the direct image, nor of most ghosts.
+  // Nothing remains of the direct image, or of most ghosts.
   stop.obscuration = disc(0.97 * lens.stop_radius_mm);
   check_every_ghost(lens, {0.62, 0.40}, 3);
 }
 
-// Ghost 1-5 of the fisheye, an island as wide as a root cell within rings of rays that miss or are totally reflected.
+// Ghost 1-5 of the fisheye: an island as wide as a root cell within rings of rays that miss or are totally reflected.
 TEST_CASE("a pupil is found where all rays about it fail") {
   check_every_ghost(test::bundled("muller-fisheye-10"), {0.06, 0.10}, 1, 470.0);
 }

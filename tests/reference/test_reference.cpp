@@ -84,7 +84,7 @@ TEST_CASE("a quarter turn of the light about the axis turns the flare [slow]") {
   turned.direction = {right.direction.y, -right.direction.x, right.direction.z};
   const Image a = rendered(lens, {&right, 1}, settings);
   const Image b = rendered(lens, {&turned, 1}, settings);
-  // u' = 1 - v, v' = u: where the light went, every ghost went.
+  // u' = 1 - v, v' = u: every ghost moves as the light does.
   Image back = a;
   for (int y = 0; y < 90; ++y) {
     for (int x = 0; x < 90; ++x) {

@@ -1,4 +1,4 @@
-// What a cache keeps from frame to frame, and when it starts anew.
+// What a cache keeps from frame to frame, and when a section is replaced.
 #include <memory>
 #include <string>
 
@@ -34,7 +34,7 @@ TEST_CASE("a cache keeps a section as long as its key is the same") {
   const auto second = cache.section<Squares>(4);
   CHECK(second->value == 16);
   CHECK(cache.find<Squares>() == second);
-  CHECK(first->value == 10);  // whoever holds a section keeps it
+  CHECK(first->value == 10);  // a holder of a section keeps it
   CHECK(cache.section<Squares>(3)->value == 9);
 }
 

@@ -1,6 +1,6 @@
-// Small pictures kept in the repository: a change that moves a ghost, a colour or a level shows here first.
-// They are compared with a tolerance. To make them anew, run this program with CONTREJOUR_WRITE_GOLDEN=1 and
-// say why in the commit.
+// Small pictures kept in the repository: a change that moves a ghost, a colour or a level shows up here first. They are
+// compared with a tolerance. To regenerate them, run this program with CONTREJOUR_WRITE_GOLDEN=1, and say why in the
+// commit.
 #include <cstdlib>
 #include <filesystem>
 #include <string>
@@ -15,7 +15,7 @@ using namespace contrejour;
 
 namespace {
 
-constexpr double kAlike_db = 55.0;  // instruction sets differ by rounding only, far above this
+constexpr double kAlike_db = 55.0;  // instruction sets differ only by rounding, far above this
 
 struct Golden {
   const char* lens;
@@ -34,7 +34,7 @@ Image rendered(const Golden& golden) {
   const LensState lens = test::bundled(golden.lens, golden.settings);
   test::Settings settings;
   settings.wavelengths = 3;
-  settings.scope = GhostScope::OneSideOfStop;  // as the pictures kept have it
+  settings.scope = GhostScope::OneSideOfStop;  // as in the kept pictures
   settings.frame = frame_on_sensor(lens, 96, 64);
   settings.set_grid(96);
   Light light = test::light_at(lens, settings.frame, golden.uv);

@@ -1,4 +1,4 @@
-// Options of any method in one type, and what render() says of those that belong to no method.
+// The options of any method in one type, and render()'s errors for those that belong to no method.
 #include <span>
 
 #include <doctest/doctest.h>

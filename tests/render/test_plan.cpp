@@ -99,7 +99,7 @@ TEST_CASE("direct fluxes of many wavelengths, few of them measured, are those me
     REQUIRE(metered.flux_mm2.size() == 16);
     for (std::size_t k = 0; k < bands.size(); ++k)
       CHECK(metered.flux_mm2[k] == doctest::Approx(measured(bands[k])).epsilon(2e-4));
-    // Few are measured at each, in the pupil of the middle one.
+    // With few bands all are measured, in the pupil of the middle one.
     MeteredLight few{source, std::span(bands).first(3)};
     REQUIRE(measure_fluxes(lens, tables, {&few, 1}, {}));
     for (std::size_t k = 0; k < 3; ++k) CHECK(few.flux_mm2[k] == doctest::Approx(measured(bands[k])).epsilon(1e-4));
@@ -131,7 +131,7 @@ TEST_CASE("selections keep what they say") {
   CHECK(kept(SelectAll{}).skipped_flux == 0.0);
   for (const Ghost& g : kept(SelectSurface{4}).ghosts) CHECK((g.i == 4 || g.j == 4));
   CHECK(kept(SelectSurface{4}).ghosts.size() == 7);
-  // What needs no flux measures none.
+  // A selection that needs no flux measures none.
   CHECK_FALSE(kept(SelectSurface{4}).skipped_flux.has_value());
   CHECK_FALSE(kept(SelectList{{{1, 3}}}).skipped_flux.has_value());
   settings.selection = SelectList{{{1, 6}}};  // 6 is the stop
@@ -190,8 +190,8 @@ TEST_CASE("the driver knows its methods and says so") {
   CHECK(unknown.error().message.find("bundle") != std::string::npos);
 }
 
-// What a selection leaves in each channel of a lens whose films reflect nothing at 550 nm: ranked by that wavelength
-// alone, ghosts that carry half of the red had gone.
+// The light that a selection leaves in each channel of a lens whose coatings reflect nothing at 550 nm: ranked by that
+// wavelength alone, ghosts with half of the red had been dropped.
 TEST_CASE("selections by flux keep the light of every channel, of the lights' own spectra") {
   Coating v_coat;
   v_coat.films = DesignedCoating{};
@@ -226,7 +226,7 @@ TEST_CASE("selections by flux keep the light of every channel, of the lights' ow
       double most_lost = 0.0;
       for (std::size_t c = 0; c < 3; ++c) most_lost = std::max(most_lost, 1.0 - kept[c] / all[c]);
       CHECK(most_lost <= 0.01 * percent * 1.05);
-      // Reddish ghosts are below zero in blue: in sums they cancel, but what is left out counts whole.
+      // Reddish ghosts are negative in blue: in sums they cancel, but what is left out counts in full.
       CHECK(planned->skipped_flux.value() >= 0.95 * most_lost);
       if (std::holds_alternative<IlluminantD65>(spectrum))
         CHECK(planned->skipped_flux.value() == doctest::Approx(most_lost).epsilon(0.05).scale(0.01));
@@ -250,8 +250,8 @@ double most_lost(const Rgb& kept, const Rgb& all) {
 
 }  // namespace
 
-// Weighed by all their light, ghosts that land beside the frame were kept in place of those that are seen: these frames
-// lost up to two and a half times what was said.
+// Weighted by all their light, ghosts outside the frame had been kept in place of visible ones: these frames lost up to
+// two and a half times the stated flux.
 TEST_CASE("selections by flux weigh what lands inside the frame, as drawn") {
   struct Case {
     const char* lens;
@@ -309,8 +309,8 @@ TEST_CASE("windows of a frame show the same ghosts") {
   CHECK(window->skipped_flux == whole->skipped_flux);
 }
 
-// As hullin2011 means them: measuring all ghosts had taken longer than drawing them. Both times are of this process,
-// one after the other, so that a busy machine slows both.
+// As hullin2011 intends: measuring all ghosts had taken longer than drawing them. Both times are of this process, in
+// direct succession, so that a busy machine slows both.
 TEST_CASE("selections save time, and figures of all ghosts take that of two frames of them") {
   const LensState lens = test::bundled("canon-70-200", {.focal_length_mm = 135.0, .f_number = 8.0});
   test::Settings settings;

@@ -1,4 +1,4 @@
-// A renderer that lives from frame to frame: the bits of a renderer made for one frame, whatever came before.
+// A renderer that lives from frame to frame gives the bits of one made for a single frame, whatever it rendered before.
 #include "contrejour/renderer.h"
 
 #include <atomic>
@@ -30,7 +30,7 @@ SessionFrame frame_of(const char* what, LensState lens, Vec2 light_uv, int width
   return f;
 }
 
-// Each differs from the one before it in what it says.
+// Each frame differs from the one before it in the way that its name says.
 std::vector<SessionFrame> changing_frames() {
   const Dirt dirt{.dust_per_cm2 = 20.0, .plane = DirtPlane::Front};
   std::vector<SessionFrame> frames;

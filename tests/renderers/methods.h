@@ -1,4 +1,4 @@
-// Every renderer the driver knows, with what is asked of each. The cases of this folder are the same for all.
+// Every registered renderer, with its bounds. The cases of this folder are the same for all.
 #pragma once
 
 #include <algorithm>
@@ -18,11 +18,11 @@ namespace contrejour::test {
 
 struct Bounds {
   std::string_view method;
-  double psnr_db = 50;        // at least, against `reference`
-  double flux = 0.005;        // at most this share off in a flare's flux
+  double psnr_db = 50;        // the lowest, against `reference`
+  double flux = 0.005;        // the largest relative error of a flare's flux
   double addition = 1e-5;  // of the peak: two lights against the sum of each, a window against its part of the frame
   double jump = 0.02;  // of the peak, beyond the reference's own change, as the light moves 0.01 pixel
-  double rms = 1.0;  // of the frame's peak, at most: what a method promises by itself
+  double rms = 1.0;  // of the frame's peak, the largest: a method's own guarantee
   MethodTraits traits = {};
 };
 
@@ -31,10 +31,10 @@ inline Bounds bounds_of(std::string_view method) {
   const Bounds all[] = {
       {.method = "reference", .psnr_db = 200.0, .flux = 1e-6},
       {.method = "bundle", .psnr_db = 57.0},
-      // One sample a pixel: edges are steps, and ghosts of a few pixels are off in flux.
+      // One sample for each pixel: edges are steps, and ghosts of a few pixels have errors in flux.
       {.method = "tiled", .psnr_db = 28.0, .flux = 0.05, .jump = 1.0},
-      // Where it spends its error depends on all the light in the frame: the largest difference of two pictures that
-      // may each have an RMS error of 0.003.
+      // The distribution of its error depends on all the light in the frame: this is the largest difference of two
+      // pictures that may each have an RMS error of 0.003.
       {.method = "adaptive", .psnr_db = 50.0, .addition = 1e-2, .rms = AdaptiveOptions{}.error},
   };
   Bounds found{.method = method};
@@ -44,7 +44,7 @@ inline Bounds bounds_of(std::string_view method) {
   return found;
 }
 
-// body(bounds) for every method of the driver.
+// Calls body(bounds) for every method.
 template <class Body>
 void for_each_method(Body body) {
   for (const std::string_view method : render_methods()) {
@@ -67,7 +67,7 @@ inline Image truth_of(const LensState& lens, const Light& light, const Settings&
   return image_of(bounds_of("reference"), lens, light, settings);
 }
 
-// A frame on the lens's sensor at 550 nm, with a grid that is quick.
+// A frame on the lens's sensor at 550 nm, with a coarse, quick grid.
 inline Settings small_frame(const LensState& lens, int width, int height) {
   Settings settings = green(frame_on_sensor(lens, width, height));
   settings.set_grid(128);
@@ -100,7 +100,7 @@ inline double rms_difference(const Image& a, const Image& b) {
   return std::sqrt(squares / static_cast<double>(a.pixels.size()));
 }
 
-// PSNR, error and flux against the truth, as the method's bounds ask.
+// Checks PSNR, error and flux against the truth, by the method's bounds.
 inline void check_against(const Image& truth, const Image& image, const Bounds& bounds) {
   CHECK(rms_difference(truth, image) <= bounds.rms * peak_of(truth));
   CHECK(psnr_db(truth, image) >= bounds.psnr_db);

@@ -1,4 +1,4 @@
-// Lenses whose elements are tilted and moved: no renderer may take them for surfaces of revolution.
+// Lenses with tilted and decentred elements: no renderer may assume that they have axial symmetry.
 #include "renderers/methods.h"
 
 using namespace contrejour;
@@ -18,7 +18,7 @@ TEST_CASE("a lens with errors as in the reference, and unlike the lens as it oug
     for_each_method([&](const Bounds& bounds) {
       if (bounds.traits.is_exact) return;
       check_against(truth, image_of(bounds, lens, light, settings), bounds);
-      // Shortcuts of symmetric lenses are not taken.
+      // Options that need symmetry have no effect.
       settings.bundle.mirror_symmetry = settings.bundle.precomputed_bounds = true;
       check_against(truth, image_of(bounds, lens, light, settings), bounds);
       settings.bundle = {};

@@ -1,4 +1,4 @@
-// What render() promises of every method: lights, frames, threads, interruption.
+// The contract of render() for every method: lights, frames, threads, cancelling.
 #include <atomic>
 #include <limits>
 #include <numbers>
@@ -12,7 +12,7 @@ namespace {
 
 LensState heliar() { return bundled("heliar", {.f_number = 16.0}); }
 
-// Of what a method does again and again, however coarse.
+// A coarse frame, for tests that render many.
 test::Settings quick_frame(const LensState& lens, int width, int height) {
   test::Settings settings = small_frame(lens, width, height);
   settings.reference.density = 0.3;
@@ -29,7 +29,7 @@ Image part_of(const Image& image, const Frame& window) {
   return part;
 }
 
-// Every 2 x 2 pixels as one.
+// Averages each 2 x 2 pixels to one.
 Image binned(const Image& image) {
   Image out(image.width / 2, image.height / 2, 3);
   for (int y = 0; y < 2 * out.height; ++y) {

@@ -1,4 +1,4 @@
-// Every renderer sees the same dirt: shadows in ghosts, on the stop and on the front.
+// The same dirt in every renderer: shadows in ghosts, on the stop and on the front.
 #include <array>
 #include <cmath>
 #include <complex>
@@ -27,7 +27,7 @@ Dirt some_dirt(DirtPlane plane) {
   return dirt;
 }
 
-// A plate of glass scratched all over by a picture: a quarter of the stop, the upper right one, lets half through.
+// A picture of scratches all over a glass: a quarter of the stop, the upper right one, has a transmittance of a half.
 std::shared_ptr<const DirtPicture> quarter_picture() {
   std::vector<float> level(64 * 64, 1.0F);
   for (std::size_t k = 0; k < level.size(); ++k)
@@ -44,7 +44,7 @@ double share_at(const std::vector<DirtStroke>& strokes, Vec2 place_mm) {
   return share;
 }
 
-// body(middle) for kSub x kSub points of a pixel.
+// Calls body(middle) for kSub x kSub points of a pixel.
 constexpr int kSub = 8;
 template <class Body>
 double mean_over_pixel(int x, int y, Body body) {
@@ -103,7 +103,8 @@ TEST_CASE("a plate's ghost has the shadows of its dirt where it lies, and loses 
       double squares = 0.0;
       for (int k = 0; k < kSide * kSide; ++k)
         squares += std::pow(image.at(k % kSide, k / kSide) / level - expected[static_cast<std::size_t>(k)], 2.0);
-      // Counting is off by some hundredths in pixels that an edge crosses; one sample a pixel is a step at the rim.
+      // Counting has errors of some hundredths in pixels that an edge crosses; with one sample for each pixel, an edge
+      // is a step.
       CHECK(std::sqrt(squares / (kSide * kSide)) < (bounds.traits.integrates_pixels ? 0.015 : 0.06));
       CHECK(sum(image) / 3.0 / (0.04 * 0.04) ==
             doctest::Approx(passed).epsilon(bounds.traits.integrates_pixels ? 2e-3 : 0.02));
@@ -137,7 +138,7 @@ TEST_CASE("ghosts of a lens lose what dirt blocks, and every renderer shows it w
     for_each_method([&](const Bounds& bounds) {
       if (bounds.traits.is_exact) return;
       Bounds asked = bounds;
-      asked.psnr_db = std::min(bounds.psnr_db, 50.0);  // bundle: places are linear over cells of a grid of 128
+      asked.psnr_db = std::min(bounds.psnr_db, 50.0);  // bundle: places are linear over the cells of a grid of 128
       check_against(truth, image_of(bounds, s.dirty, s.light, s.frame), asked);
     });
   }
@@ -156,11 +157,11 @@ TEST_CASE("ringing and dirt together, and dirt before a near light, as the refer
   };
   LensScene ringing = heliar_scene(some_dirt(DirtPlane::Stop));
   ringing.frame.ringing.mode = RingingMode::Fresnel;
-  check(ringing, 44.0);  // fringes as pixels' means leave some 45 in so small a frame
-  check(heliar_scene(some_dirt(DirtPlane::Front), 300.0), 49.5);  // 49.9 to 50.5, by the order cells are drawn in
+  check(ringing, 44.0);  // with fringes averaged over pixels, about 45 in so small a frame
+  check(heliar_scene(some_dirt(DirtPlane::Front), 300.0), 49.5);  // 49.9 to 50.5, depending on the order of cells
 }
 
-// No renderer's own code: the wave behind slits, by quadrature (Born & Wolf 8.7.3). F = a^2 / (550 nm * 12 mm).
+// Independent of the renderers: the wave behind slits, by quadrature (Born & Wolf 8.7.3). F = a^2 / (550 nm * 12 mm).
 TEST_CASE("with ringing, scratches have the fringes of slits") {
   LensState lens = plate();
   lens.dirt = {.scratches_per_cm2 = 1.5,
@@ -181,7 +182,7 @@ TEST_CASE("with ringing, scratches have the fringes of slits") {
       sum += std::copysign(kStep, end) * std::polar(1.0, std::numbers::pi * (std::pow((k + 0.5) * kStep, 2.0) - 0.25));
     return sum;
   };
-  std::vector<DirtStroke> seen;  // by the frame and as far about it as fringes go
+  std::vector<DirtStroke> seen;  // in the frame and as far outside it as fringes reach
   for (const DirtStroke& s : dirt_within(lens.dirt, {-3.0, -3.0}, {3.0, 3.0}))
     if (std::abs(s.middle_mm.y) < 1.1 && std::abs(s.middle_mm.x) < 0.4 * s.length_mm) seen.push_back(s);
   REQUIRE(seen.size() >= 2);
@@ -201,13 +202,13 @@ TEST_CASE("with ringing, scratches have the fringes of slits") {
       squares += std::pow(image.at(4, row) / level - std::norm(wave), 2.0);
       from_sharp += std::pow(image.at(4, row) - sharp.at(4, row), 2.0) / (level * level);
     }
-    // One wavelength's fringes beyond the third are left out.
+    // The fringes of a single wavelength beyond the third are left out.
     CHECK(std::sqrt(squares / kHigh) < 0.09);
     CHECK(std::sqrt(from_sharp / kHigh) > 0.15);
   });
 }
 
-// No renderer's own code: rays through the front, counted in pixels.
+// Independent of the renderers: rays through the front, counted in pixels.
 TEST_CASE("shadows of the front lie where rays through the front say [slow]") {
   Dirt dirt = some_dirt(DirtPlane::Front);
   dirt.dust_mm = 1.0;
@@ -267,7 +268,7 @@ TEST_CASE("without dirt the same bits as ever; threads do not matter") {
   });
 }
 
-// A frame is some thousandths of a turn: half the time moves shadows half as far, and whole turns bring all back.
+// A frame takes some thousandths of a turn: half the time moves shadows half as far, and a whole turn restores them.
 TEST_CASE("shadows wander smoothly and come back") {
   for (const DirtPlane plane : {DirtPlane::Stop, DirtPlane::Front}) {
     LensScene s = heliar_scene(some_dirt(plane));

@@ -1,4 +1,4 @@
-// What artists bend about ghosts, in every renderer alike.
+// An artist's adjustments of ghosts, in every renderer.
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -11,7 +11,7 @@ using namespace contrejour::test;
 
 namespace {
 
-// Two ghosts of a Heliar that fall apart, and all the rest.
+// Two separate ghosts of a Heliar, and all the others.
 struct Scene {
   LensState lens = bundled("heliar", {.f_number = 11.0});
   test::Settings settings = small_frame(lens, 96, 64);
@@ -66,7 +66,7 @@ TEST_CASE("an offset moves a ghost by so many pixels, to the right and up") {
   const Scene s;
   const Ghost kGhost{1, 2};
   test::Settings settings = s.only({kGhost});
-  // 8 pixels to the right and 4 up, of a frame 64 pixels high.
+  // 8 pixels to the right and 4 up, in a frame 64 pixels high.
   settings.ghosts.adjustments = {{.ghost = kGhost, .offset = {8.0 / 64.0, 4.0 / 64.0}}};
   for_each_method([&](const Bounds& bounds) {
     const Image still = image_of(bounds, s.lens, s.light, s.only({kGhost}));
@@ -77,7 +77,8 @@ TEST_CASE("an offset moves a ghost by so many pixels, to the right and up") {
         worst = std::max(worst, std::abs(static_cast<double>(moved.at(x + 8, y)) - still.at(x, y + 4)));
     }
     CHECK(peak_of(still) > 0.0);
-    // What is outside the frame at first changes what adaptive makes of its error; a sample a pixel may flip.
+    // Light that was outside the frame changes how adaptive distributes its error; with one sample for each pixel, a
+    // pixel may change.
     CHECK(worst <= (bounds.traits.spends_error ? 0.02 : bounds.traits.integrates_pixels ? 1e-4 : 1.0) * peak_of(still));
   });
 }
@@ -86,7 +87,7 @@ TEST_CASE("first-order places are where chief rays of ghosts land") {
   for (const char* name : {"heliar", "planar-50", "canon-70-200"}) {
     const LensState lens = bundled(name);
     const double lambda_nm = lens.design_wavelength_nm;
-    // A small angle; the ray through the middle of the stop by bisection of its height at the first vertex.
+    // A small angle; the ray through the middle of the stop, by bisection of its height at the first vertex.
     const double slope = 1e-5;
     const auto landing = [&](const OpticalPath& path) {
       const auto at = [&](double height) { return trace(path, {{0, height, 0}, normalized({0, slope, 1})}); };
@@ -124,7 +125,7 @@ TEST_CASE("a ramp colours ghosts by where they lie; scatter is seeded and has it
   double squares = 0.0;
   for (const GhostLook& look : scattered) squares += dot(look.shift_mm, look.shift_mm);
   const double rms = std::sqrt(squares / static_cast<double>(ghosts.size())) / (200.0 * frame.pixel_pitch_mm);
-  CHECK(rms == doctest::Approx(0.1).epsilon(0.12));  // 312 ghosts: 3 per cent of deviation
+  CHECK(rms == doctest::Approx(0.1).epsilon(0.12));  // 312 ghosts: a standard deviation of 3 per cent
   const auto alone = ghost_looks(lens, std::span(&ghosts[100], 1), options, frame);
   CHECK(alone[0].shift_mm == scattered[100].shift_mm);
   options.scatter_seed = 1;

@@ -1,4 +1,5 @@
-// A render stopped at any moment refuses; it neither fails otherwise nor hands out what is half done.
+// A render that is cancelled at any moment returns an error; it neither fails in another way nor returns an incomplete
+// picture.
 #include <atomic>
 #include <chrono>
 #include <thread>
@@ -14,13 +15,13 @@ using Clock = std::chrono::steady_clock;
 
 struct Case {
   std::string name;
-  bool is_of_the_driver;  // or of what all methods share: with one of them
+  bool is_of_the_driver;  // common to all methods: tested with one of them
   LensState lens;
   test::Settings settings;
   std::vector<Light> lights;
 };
 
-// Every stage there is, each in its own case and once all together.
+// Every stage, each in its own case and once all together.
 std::vector<Case> cases() {
   const LensState clean = bundled("heliar", {.f_number = 16.0, .iris = {6}});
   LensSettings dusty{.f_number = 16.0, .iris = {6}};
@@ -58,7 +59,7 @@ TEST_CASE("interrupted at any moment, a render refuses or has the whole flare") 
       const auto took = Clock::now() - began;
       int refused = 0;
       for (int k = 0; k < kMoments; ++k) {
-        std::atomic<bool> cancel = k == 0;  // on a busy machine the others may all come too late
+        std::atomic<bool> cancel = k == 0;  // on a busy machine all other cancellations may come too late
         std::thread stopper([&, until = Clock::now() + took * k / kMoments] {
           std::this_thread::sleep_until(until);
           cancel = true;

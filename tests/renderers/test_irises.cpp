@@ -1,4 +1,4 @@
-// Every renderer sees the same iris: curved, uneven, turned, a picture.
+// The same iris in every renderer: curved, uneven, rotated, a picture.
 #include <array>
 #include <cmath>
 #include <numbers>
@@ -27,7 +27,7 @@ LensState plate_with(const Iris& iris) {
   return lens;
 }
 
-// The share of a pixel that light through the stop covers: the plate's ghost is the stop's own image.
+// The fraction of a pixel that light through the stop covers: the plate's ghost is the stop's own image.
 double share_of_pixel(const Iris& iris, const Frame& frame, int x, int y) {
   constexpr int kSide = 8;
   int open = 0;
@@ -42,7 +42,7 @@ void check_plate(const Iris& iris) {
   const LensState lens = plate_with(iris);
   const test::Settings settings = green({80, 80, 0, 0, 80, 80, 0.08});
   const double area_mm2 = iris_area_fraction(iris) * std::numbers::pi * kIrisPlateRadius_mm * kIrisPlateRadius_mm;
-  const double level = 0.04 * 0.04 * 0.08 * 0.08 / area_mm2;  // R^2 of the light, level over the opening
+  const double level = 0.04 * 0.04 * 0.08 * 0.08 / area_mm2;  // R^2 of the light, constant over the opening
   std::vector<double> share(80 * 80);
   for (int k = 0; k < 80 * 80; ++k)
     share[static_cast<std::size_t>(k)] = share_of_pixel(iris, settings.frame, k % 80, k / 80);
@@ -58,8 +58,8 @@ void check_plate(const Iris& iris) {
         if (expected == 0.0 || expected == 1.0) worst = std::max(worst, off);
       }
     }
-    // Counting is off by up to 1/16 where an edge runs along a pixel's side, a picture's details of 0.3 pixels are
-    // means.
+    // Counting has errors of up to 1/16 where an edge runs along a pixel's side; a picture's details of 0.3 pixels are
+    // averaged.
     CHECK(std::sqrt(squares / (80 * 80)) < (bounds.traits.integrates_pixels ? 0.012 : 0.15));
     CHECK(worst < (bounds.traits.integrates_pixels ? 0.1 : 1.001));
     CHECK(sum(image) / 3.0 / (0.04 * 0.04) == doctest::Approx(1.0).epsilon(std::max(bounds.flux, 5e-3)));
@@ -113,7 +113,7 @@ TEST_CASE("blades that leave a circle give the round iris's bits") {
     CHECK(drawn({.f_number = 3.5, .iris = {9, 0.2, 1.0}}) == expected);
     CHECK(drawn({.f_number = 3.5, .iris = {6, 0.0, 0.0, 1.2}}) == expected);
     CHECK(drawn({.f_number = 3.5, .iris = {6, 0.0, 0.3}, .iris_closing = IrisClosing::Mechanism}) == expected);
-    // At f/11 the mechanism's round blades are the round stop but for the rounding of its radius.
+    // At f/11 the mechanism's round blades equal the round stop, up to rounding of its radius.
     const auto stopped = drawn({.f_number = 11.0});
     const auto closed = drawn({.f_number = 11.0, .iris = {6, 0.0, 1.0}, .iris_closing = IrisClosing::Mechanism});
     double worst = 0.0, peak = 0.0;
@@ -156,7 +156,7 @@ TEST_CASE("curved and uneven blades, as in the reference [slow]") {
     CAPTURE(iris.blades);
     const LensState lens = bundled("heliar", {.f_number = 11.0, .iris = iris});
     test::Settings settings = small_frame(lens, 96, 64);
-    settings.reference.density = 1.4;  // at 1 it is off where an iris has its corners
+    settings.reference.density = 1.4;  // at 1 it has errors at an iris's corners
     const Light light = light_at(lens, settings.frame, {0.70, 0.33});
     const Image truth = truth_of(lens, light, settings);
     CHECK(sum(truth) > 0.0);

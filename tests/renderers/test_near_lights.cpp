@@ -1,4 +1,5 @@
-// Lights at a finite distance, in every renderer: closed forms, the reference, and what is far enough to be distant.
+// Lights at a finite distance in every renderer: closed forms, the reference, and the distance from which a light
+// counts as distant.
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -20,7 +21,7 @@ Light near_light(const LensState& lens, const Frame& frame, Vec2 uv, double dist
   return light;
 }
 
-// Of the disc of this radius about the middle: the mean of its pixels, and the farthest of them from the mean.
+// The pixels of the disc of this radius about the middle: their mean, and the largest deviation from it.
 struct Disc {
   double mean = 0, unevenness = 0;
 };
@@ -53,7 +54,7 @@ TEST_CASE("a plate's ghost of a light at half a metre is the stop's shadow, as l
     CAPTURE(distance_mm);
     Light light;
     light.distance_mm = distance_mm;
-    // 8 mm of air and three times 2 mm of glass behind the stop; all of the light through it, times R^2.
+    // 8 mm of air and three times 2 mm of glass behind the stop; all the light through the stop, times R^2.
     const double radius_mm = 3.0 * (distance_mm + 8.0 + 6.0 / 1.5) / distance_mm;
     const double level = 0.04 * 0.04 * 0.08 * 0.08 / (std::numbers::pi * radius_mm * radius_mm);
     for_each_method([&](const Bounds& bounds) {
@@ -80,7 +81,7 @@ TEST_CASE("a light at a kilometre is a distant one; at infinity to the last bit"
   farther.distance_mm = 1e300;
   for_each_method([&](const Bounds& bounds) {
     const Image truth = image_of(bounds, lens, distant, settings);
-    // A sample a pixel steps at edges: there one of a thousand may flip.
+    // With one sample for each pixel, edges are steps: one pixel of a thousand may change there.
     CHECK(psnr_db(truth, image_of(bounds, lens, far, settings)) > (bounds.traits.integrates_pixels ? 60.0 : 40.0));
     CHECK(image_of(bounds, lens, farther, settings).pixels == truth.pixels);
   });
@@ -105,7 +106,7 @@ TEST_CASE("lights at half a metre and nearer, as in the reference") {
     const Light light = near_light(lens, settings.frame, c.uv, c.distance_mm);
     const Image truth = truth_of(lens, light, settings);
     CHECK(sum(truth) > 0.0);
-    // It is not what a distant light gives.
+    // The picture differs from that of a distant light.
     CHECK(psnr_db(truth, image_of(bounds_of("bundle"), lens, light_at(lens, settings.frame, c.uv), settings)) < 40.0);
     for_each_method([&](const Bounds& bounds) {
       if (bounds.traits.is_exact) return;
@@ -152,7 +153,7 @@ TEST_CASE("lights that cannot be: refused with a reason, the nearest that can re
     const Image truth = truth_of(lens, light, settings);
     for_each_method([&](const Bounds& bounds) {
       const Image image = image_of(bounds, lens, light, settings);  // every value is a finite number
-      // So few pixels, sampled at their middles, may miss small ghosts.
+      // With so few pixels, sampled at their middles, small ghosts may be missed.
       CHECK(sum(image) / sum(truth) == doctest::Approx(1.0).epsilon(bounds.traits.integrates_pixels ? 0.05 : 0.5));
     });
   }

@@ -1,4 +1,4 @@
-// What every renderer must get right: closed forms, and whole lenses against the reference.
+// Physics that every renderer must get right: closed forms, and whole lenses against the reference.
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
@@ -12,7 +12,7 @@ using namespace contrejour::test;
 
 namespace {
 
-// A sphere of glass behind a stop much smaller than it: rays meet it almost at right angles.
+// A sphere of glass behind a much smaller stop: rays meet it almost at right angles.
 LensState ball() {
   Prescription lens;
   lens.surfaces = {{SurfaceKind::Stop, 0.0, 1.0, 20.0, air(), {}, 0},
@@ -39,7 +39,7 @@ struct System {
   const char* name;
   LensSettings settings;
   Vec2 uv{0.70, 0.33};
-  double allowance_db = 0.0;  // off the method's PSNR
+  double allowance_db = 0.0;  // subtracted from the method's PSNR
 };
 
 void check_system(const System& system, const Image& truth) {
@@ -131,8 +131,8 @@ TEST_CASE("small systems against the reference [slow]") {
   }
 }
 
-// The reference takes a minute for each of these, so its pictures are kept. To make them anew, run this program
-// with CONTREJOUR_WRITE_GOLDEN=1 and say why in the commit.
+// The reference takes a minute for each of these, so its pictures are kept. To regenerate them, run this program with
+// CONTREJOUR_WRITE_GOLDEN=1, and say why in the commit.
 TEST_CASE("long zooms against the reference's kept pictures [slow]") {
   const std::pair<const char*, System> kKept[] = {
       {"nikon-140", {"nikon-80-200", {.focal_length_mm = 140.0, .f_number = 16.0}}},
@@ -181,7 +181,7 @@ TEST_CASE("blades of an iris, lights on the axis and outside the frame, as in th
     CAPTURE(what);
     const LensState lens = bundled("heliar", {.f_number = 11.0, .iris = c.iris});
     test::Settings settings = small_frame(lens, 96, 64);
-    settings.reference.density = c.iris.blades > 0 ? 1.4 : 0.7;  // at 1 it is off where an iris has its corners
+    settings.reference.density = c.iris.blades > 0 ? 1.4 : 0.7;  // at 1 it has errors at an iris's corners
     Light light = light_at(lens, settings.frame, c.uv);
     if (c.uv == Vec2{0.5, 0.5}) light.direction = {0.0, 0.0, 1.0};
     const Image truth = truth_of(lens, light, settings);
@@ -194,7 +194,7 @@ TEST_CASE("blades of an iris, lights on the axis and outside the frame, as in th
 }
 
 TEST_CASE("by default each channel has the light of many wavelengths, by every method") {
-  // Films between whose minima three wavelengths fall: with three, red and green were off by 3 to 20 per cent.
+  // Coatings with minima between three wavelengths: with only these, red and green had errors of 3 to 20 per cent.
   for (const auto& [name, f_number] : {std::pair{"tessar", 8.0}, std::pair{"muller-fisheye-10", 11.0}}) {
     CAPTURE(name);
     const LensState lens = bundled(name, {.f_number = f_number});

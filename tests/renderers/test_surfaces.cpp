@@ -1,5 +1,5 @@
-// Lenses with aspheres and with cylinders: every method against the reference. Few ghosts and small frames: what such
-// surfaces do to single rays is for tests/optics/test_surfaces.cpp.
+// Lenses with aspheres and with cylinders: every method against the reference, with few ghosts and small frames. Single
+// rays at such surfaces are tested in tests/optics/test_surfaces.cpp.
 #include <algorithm>
 
 #include "renderers/methods.h"
@@ -20,7 +20,7 @@ LensState changed_tessar(const SurfaceShape& front, const SurfaceShape& rear) {
   return *state;
 }
 
-// With any shortcut allowed that a lens of revolution has.
+// With all accelerations that a lens with axial symmetry allows.
 void check_all(const LensState& lens, Vec2 uv, int width = 72) {
   test::Settings settings = small_frame(lens, width, width * 2 / 3);
   settings.bundle.mirror_symmetry = settings.bundle.precomputed_bounds = true;
@@ -75,11 +75,11 @@ TEST_CASE(
   }
   const auto lens = configure_lens(*tessar, {.f_number = 8.0});
   REQUIRE(lens.has_value());
-  check_all(*lens, {0.66, 0.37}, 120);  // edges are as long again: `tiled` samples them
+  check_all(*lens, {0.66, 0.37}, 120);  // edges are as long again, and `tiled` samples them
 }
 
 TEST_CASE("a cover glass and a sensor that reflects in orders, as in the reference") {
-  LensSettings look{.f_number = 8.0};  // dots of some pixels: `tiled` samples theirs
+  LensSettings look{.f_number = 8.0};  // dots of some pixels, which `tiled` samples
   look.sensor = {
       .plates = {{2.0, 15.0, Glass{"", ConstantIndex{1.5}}, {}}}, .reflectance = 0.2, .orders = 1, .pitch_mm = 0.008};
   const LensState lens = bundled("tessar", look);

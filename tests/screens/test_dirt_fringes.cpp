@@ -16,7 +16,7 @@ namespace {
 
 constexpr double kExtent_mm = 4.0;
 
-// Goodman 2005 eq. 4-17 without exp(i k z): each shape's wave, those of shapes over each other left to the caller.
+// Goodman 2005 eq. 4-17 without exp(i k z): each shape's wave; the caller combines overlapping shapes.
 std::complex<double> wave_by_points(const DirtStroke& stroke, Vec2 at, double lambda_z_mm2) {
   const double reach = stroke.reach_mm();
   const int steps = std::max(200, static_cast<int>(2.0 * reach / (0.02 * std::sqrt(lambda_z_mm2))));
@@ -79,7 +79,7 @@ TEST_CASE("specks and scratches as the integral over them has them") {
   }
 }
 
-// A plane that is too large to be sampled is looked up directly.
+// A plane too large to be sampled is evaluated directly.
 TEST_CASE("samples are what they were sampled from") {
   Dirt dirt;
   dirt.dust_per_cm2 = 80.0;
@@ -94,7 +94,7 @@ TEST_CASE("samples are what they were sampled from") {
     double squares = 0.0, varied = 0.0;
     for (int k = 0; k < 2000; ++k) {
       const Vec2 at{3.7 * std::sin(1.1 * k), 3.7 * std::sin(1.7 * k + 0.3)};
-      // What is spread evenly depends on the plane's size.
+      // The mean of weak shadows depends on the plane's size.
       const double there = direct.level() * (direct.transmission(at, 0.0) - 1.0) + 1.0;
       squares += std::pow(sampled.level() * (sampled.transmission(at, 0.0) - 1.0) + 1.0 - there, 2.0);
       varied += std::pow(there - 1.0, 2.0);

@@ -1,4 +1,4 @@
-// Fringes of an edge: the Fresnel integrals' own figures, means, bands, what ranges leave out.
+// Fringes of an edge: tabulated values of the Fresnel integrals, means, bands, and what ranges leave out.
 #include <cmath>
 
 #include <doctest/doctest.h>
@@ -68,7 +68,7 @@ TEST_CASE("a range leaves out dim ripples only, and says how much they are") {
       if (t < range.dark - 0.01) CHECK(v <= ripple);
       if (t > range.level + 0.01) CHECK(std::abs(v - 1.0) <= ripple);
     }
-    CHECK(std::abs(edge.at(range.level - 0.02, 0.0) - 1.0) > 0.5 * ripple);  // and no more than has to be
+    CHECK(std::abs(edge.at(range.level - 0.02, 0.0) - 1.0) > 0.5 * ripple);  // and no more than necessary
     CHECK(edge.squared_error(range) == doctest::Approx(left).epsilon(0.03));
   }
   CHECK(edge.range_above(2.0).level == 0.0);

@@ -1,4 +1,4 @@
-// Patterns over the stop: means, reach, and several side by side.
+// Patterns over the stop: means, reach, and several together.
 #include <bit>
 #include <cmath>
 #include <limits>
@@ -14,7 +14,7 @@ using namespace contrejour::screens;
 
 namespace {
 
-// A bright disc with a dim one about it.
+// A bright disc surrounded by a dim one.
 PatternTexture two_discs(double extent, double inner, double outer, float dim) {
   constexpr int kSide = 128;
   std::vector<float> samples;
@@ -45,7 +45,7 @@ TEST_CASE("a pattern reaches as far as it is bright, and what lies beyond is kno
   const double area = std::numbers::pi * (1.5 * 1.5 - 0.8 * 0.8);
   CHECK(discs.squared_beyond(0.85) == doctest::Approx(0.002 * 0.002 * area).epsilon(0.1));
   CHECK(discs.squared_beyond(1.6) == 0.0);
-  // Light that would be missed is kept, however dim.
+  // Light whose loss would matter is kept, however dim.
   CHECK(two_discs(2.0, 0.8, 1.5, 0.05F).reach_above(0.2) > 1.4);
 }
 
@@ -60,7 +60,7 @@ TEST_CASE("lines about a pattern: all that is bright is within them, and little 
     }
   const PatternTexture texture(kSide, kExtent, bar);
   const auto far = [](const PatternHull& hull, Vec2 to) {
-    double most = 10.0;  // how far from the middle one is not beyond any line
+    double most = 10.0;  // the largest distance from the middle within all lines
     for (std::size_t k = 0; k < PatternHull::kLines; ++k)
       if (dot(PatternHull::normals()[k], to) > 1e-9)
         most = std::min(most, hull.most(k) / dot(PatternHull::normals()[k], to));
@@ -74,7 +74,7 @@ TEST_CASE("lines about a pattern: all that is bright is within them, and little 
   }
   CHECK(far(all, {-1.0, 0.0}) == doctest::Approx(1.5).epsilon(0.1));
   CHECK(far(bright, {-1.0, 0.0}) < 0.6);
-  CHECK(texture.hull_above(0.2, 1e-4).most(12) > 1.4);  // light that would be missed is kept
+  CHECK(texture.hull_above(0.2, 1e-4).most(12) > 1.4);  // light whose loss would matter is kept
   CHECK(bright.misses({-1.3, 0.0}, 0.2));
   CHECK_FALSE(bright.misses({-1.3, 0.0}, 1.4));
   CHECK(texture.brightest_beyond(1.0) == doctest::Approx(1.0));
@@ -116,12 +116,12 @@ TEST_CASE("light in 16 bits: to 2^-13 of itself and of a 2^-15 of the largest, a
       const float light = largest * std::exp2(-0.005F * static_cast<float>(k));
       const double error = static_cast<double>(coding.light(coding.coded(light))) - static_cast<double>(light);
       worst = std::max(worst, std::abs(error) / static_cast<double>(light + coding.none()));
-      // What a table is read by: the bits, moved and raised.
+      // The encoding by which a table is read: the bits, shifted and offset.
       const std::int32_t bits = (coding.coded(light) << ShortLight::kShift) + coding.lowest();
       REQUIRE(std::bit_cast<float>(bits) - coding.none() == coding.light(coding.coded(light)));
     }
     CHECK(worst < 0x1.01p-13);
-    CHECK(worst > 0x1p-14);  // the mantissa is not wasted
+    CHECK(worst > 0x1p-14);  // the mantissa is used in full
   }
   CHECK(ShortLight(0.0F).light(ShortLight(0.0F).coded(0.0F)) == 0.0F);
 }
@@ -185,7 +185,7 @@ TEST_CASE("patterns side by side are each what they are alone") {
   CHECK(band.brightest({2.9, -2.9}, 0.05) > 0.0F);
   CHECK(band.brightest({0.0, 0.0}, 1e9) > 0.0F);
   CHECK(band.brightest({50.0, 0.0}, 0.01) >= 0.0F);
-  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();  // what rays that go astray may say
+  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();  // places of rays that fail
   CHECK(band.brightest({kNone, kNone}, 0.01) >= 0.0F);
   CHECK(band.brightest({0.0, -0.1}, kNone) > 0.0F);
 }

@@ -1,4 +1,4 @@
-// Ringing as it is drawn: where the fringes are, how much light there is, the same in all methods.
+// Ringing in pictures: the positions of the fringes, the flux, and the agreement of all methods.
 #include <cmath>
 #include <memory>
 #include <numbers>
@@ -22,7 +22,7 @@ test::Settings ringing(test::Settings settings, RingingMode mode = RingingMode::
   return settings;
 }
 
-// A stop of another size: F = a^2 / (550 nm * 12 mm).
+// A stop of another radius: F = a^2 / (550 nm * 12 mm).
 LensState plate_of(double radius_mm, const Iris& iris) {
   LensState lens = plate();
   lens.stop_radius_mm = radius_mm;
@@ -32,7 +32,7 @@ LensState plate_of(double radius_mm, const Iris& iris) {
 
 Frame square_frame(int side, double pitch_mm) { return {side, side, 0, 0, side, side, pitch_mm}; }
 
-// The picture of a light on the axis, with a cache that may hold what other frames have left.
+// The picture of a light on the axis, with a cache that earlier frames may have filled.
 Image image_with(RenderCache& cache, std::string_view method, const LensState& lens, const Settings& settings,
                  int threads = 0) {
   Context context;
@@ -63,7 +63,7 @@ TEST_CASE("behind a long edge the first fringe is 1.370, where the Fresnel integ
     const double l = image.at(best - 1, 6), m = image.at(best, 6), r = image.at(best + 1, 6);
     const double place_px = settings.frame.origin_x - 300 + best + 0.5 + 0.5 * (l - r) / (l - 2.0 * m + r);
     CHECK((edge_px - place_px) / unit_px == doctest::Approx(1.2172).epsilon(0.03));
-    // A quarter at the edge itself.
+    // A quarter of the level at the edge itself.
     const double at_edge = edge_px - (settings.frame.origin_x - 300) - 0.5;
     const int left = static_cast<int>(at_edge);
     const double value = std::lerp(image.at(left, 6), image.at(left + 1, 6), at_edge - left);
@@ -170,9 +170,9 @@ TEST_CASE("half-tones of a picture as the iris dim every place of a ghost, with 
     for_each_method([&](const Bounds& bounds) {
       const Image bright = image_of(bounds, plate_of(radius_mm, plain), Light{}, settings);
       const Image dim = image_of(bounds, plate_of(radius_mm, toned), Light{}, settings);
-      const double brightest = 0.6 + 0.4 * kOpen;  // of the picture, which counts as all that passes
+      const double brightest = 0.6 + 0.4 * kOpen;  // of the picture, which counts as a transmittance of 1
       CHECK(sum(dim) / sum(bright) == doctest::Approx(0.6 / brightest).epsilon(0.02));
-      // Means over a half disc: x is 4 r / (3 pi) there.
+      // The mean of x over a half disc is 4 r / (3 pi).
       const double off = 0.4 * 4.0 * kOpen / (3.0 * std::numbers::pi);
       double left = 0.0, right = 0.0;
       for (int y = 0; y < dim.height; ++y)
@@ -262,7 +262,7 @@ TEST_CASE("patterns that are kept change nothing, and go with their iris; thread
     CHECK(cache.find<screens::StopPatterns>() == nullptr);
     CHECK(image_with(cache, bounds.method, lens, settings, 2).pixels == expected);
     const auto patterns = cache.find<screens::StopPatterns>();
-    CHECK(patterns->count() == 2);  // of one wavelength, and the band of that wavelength alone
+    CHECK(patterns->count() == 2);  // for one wavelength, and for a band of that wavelength alone
     CHECK(image_with(cache, bounds.method, lens, settings, 2).pixels == expected);
     CHECK(cache.find<screens::StopPatterns>() == patterns);
     CHECK(patterns->count() == 2);

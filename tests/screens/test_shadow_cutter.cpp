@@ -1,4 +1,4 @@
-// Dirt's shapes on a polygon, as polygons: against counting, wherever shapes lie over each other.
+// Dirt's shapes on a polygon, as polygons: against counting, also where shapes overlap.
 #include <cmath>
 #include <vector>
 
@@ -40,7 +40,7 @@ bool holds(std::span<const Vec2> polygon, Vec2 p) {
 }  // namespace
 
 TEST_CASE("shadows take from a polygon what counting says, at every place, overlaps and all") {
-  // A triangle of pixels that sees the stop turned, mirrored and askew.
+  // A triangle of pixels with a rotated, mirrored and sheared view of the stop.
   const std::vector<Vec2> triangle{{2.0, 1.0}, {30.0, 6.0}, {11.0, 24.0}};
   const PlaneView view{{-2.0, 2.4}, {0.14, -0.02}, {-0.03, -0.17}};
   for (const double dust : {20.0, 150.0}) {
@@ -82,7 +82,7 @@ TEST_CASE("shadows take from a polygon what counting says, at every place, overl
           }
         }
         CHECK(drawn == doctest::Approx(counted).epsilon(5e-3));
-        CHECK(wrong < inside / 200);  // beside outlines only, which are polygons here
+        CHECK(wrong < inside / 200);  // only near outlines, which are polygons here
       }
     }
   }
@@ -116,7 +116,7 @@ TEST_CASE("mean over an ellipse, clean places and what is near a box are those o
     const bool meets = field.shapes()[k].distance_mm({0.1, 0.55}) < 0.35;
     if (meets) CHECK(std::find(found.begin(), found.end(), k) != found.end());
   }
-  // Hostile places.
+  // Invalid places.
   const double nan = std::nan("");
   CHECK(field.transmission({{nan, 0.0}, 0.1}) == 1.0);
   CHECK(field.transmission({{1e30, -1e30}, 0.1}) >= 0.0);

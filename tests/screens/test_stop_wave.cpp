@@ -1,4 +1,4 @@
-// Fresnel numbers of ghosts: a plate's by hand, lenses' from traced rays.
+// Fresnel numbers of ghosts: a plate's calculated by hand, lenses' from traced rays.
 #include <cmath>
 
 #include "render/screens/stop_wave.h"
@@ -9,7 +9,8 @@ using namespace contrejour::test;
 
 namespace {
 
-// What a ray near the axis does: heights and slopes where it crosses the stop for the last time, and on the sensor.
+// A ray close to the axis: its height and slope where it crosses the stop for the last time, and its height on the
+// sensor.
 struct NearAxis {
   double at_stop = 0, slope_at_stop = 0, on_sensor = 0;
 };
@@ -51,13 +52,13 @@ TEST_CASE("lenses' ghosts: A, B and the wave at the stop from rays near the axis
       CAPTURE(ghost.j);
       const OpticalPath path = ghost_path(lens, ghost, 500.0);
       const NearAxis parallel = traced(path, 1e-4, 0.0), tilted = traced(path, 0.0, 1e-6);
-      // The mixture of both that crosses the stop on the axis.
+      // The linear combination of both that crosses the stop on the axis.
       const double t = parallel.at_stop / tilted.at_stop;
       const double b =
           (parallel.on_sensor - t * tilted.on_sensor) / (parallel.slope_at_stop - t * tilted.slope_at_stop);
       const double a = parallel.on_sensor / parallel.at_stop;
       const auto wave = screens::stop_wave(path);
-      // The sensor's picture is upside down to the stop's coordinates or not: only the size counts.
+      // The sensor's picture may be inverted relative to the stop's coordinates: only the size is compared.
       CHECK(wave.footprint == doctest::Approx(std::abs(a)).epsilon(2e-4));
       const double expected = std::abs(a * lens.stop_radius_mm * lens.stop_radius_mm / (500e-6 * b));
       CHECK(wave.fresnel_number == doctest::Approx(expected).epsilon(2e-4));

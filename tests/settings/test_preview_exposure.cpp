@@ -1,4 +1,4 @@
-// How bright a picture to look at is shown.
+// The exposure of a preview.
 #include <algorithm>
 #include <cmath>
 
@@ -23,7 +23,7 @@ TEST_CASE("the automatic exposure brings the bright parts to 0.7") {
   for (const float level : {1e-6F, 0.7F, 3e4F})
     CHECK(level * std::exp2(automatic_exposure(level_picture(level))) == doctest::Approx(0.7));
   Image spark = level_picture(0.35F);
-  spark.pixels[0] = 1e6F;  // one sample of 3000 does not count
+  spark.pixels[0] = 1e6F;  // one sample of 3000 is ignored
   CHECK(automatic_exposure(spark) == doctest::Approx(1.0));
   CHECK(automatic_exposure(level_picture(0.0F)) == 0.0);
   CHECK(automatic_exposure(level_picture(1e-37F)) == 100.0);

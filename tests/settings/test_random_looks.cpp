@@ -1,4 +1,4 @@
-// Any look within the table's ranges renders, or is refused with a reason: never a crash, never a NaN.
+// Any preset within the table's ranges renders, or is refused with a reason: never a crash, never a NaN.
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -16,8 +16,8 @@ namespace {
 
 using Words = std::vector<std::string>;
 
-// Texts whose form the table only checks, and the ranges of what costs time, narrowed so that a thousand looks are
-// quick.
+// Values of parameters whose form alone the table checks, and narrower ranges for parameters that cost time, so that a
+// thousand presets are quick.
 const std::map<std::string_view, Words> kTexts = {
     {"focus", {"inf", "2m", "500", "1e9", "350mm"}},
     {"cover-glass", {"2", "1:1.52:0.5", "3:N-SF11:10"}},
@@ -33,7 +33,7 @@ const std::map<std::string_view, Words> kTexts = {
 const std::map<std::string_view, std::pair<double, double>> kNarrowed = {
     {"grid", {16, 32}}, {"density", {0.05, 0.1}}, {"fnumber", {3.0, 64}}, {"sensor-orders", {0, 1}}};
 
-// Without symmetry a search for pupils takes most of a look's time; how often such settings are left out.
+// Without symmetry, searches for pupils take most of a preset's time; this is how often such settings are left out.
 const std::map<std::string_view, double> kDear = {
     {"decentre", 0.8}, {"tilt", 0.8}, {"sensor-reflectance", 0.95}, {"reflections", 0.9}};
 
@@ -49,7 +49,7 @@ class RandomLook {
       const std::string value = value_of(p);
       if (!value.empty()) out += std::string(p.name) + " = " + value + "\n";
     }
-    // Whatever else: nothing that takes seconds.
+    // Whatever the other values are, settings that would take seconds are replaced.
     for (const auto& [name, value] :
          std::map<std::string_view, std::string>{{"grid", "16"}, {"density", "0.05"}, {"wavelengths", "2"}}) {
       if (out.find(std::string(name) + " = ") == std::string::npos) out += std::string(name) + " = " + value + "\n";
@@ -70,7 +70,7 @@ class RandomLook {
     if (const auto narrow = kNarrowed.find(p.name); narrow != kNarrowed.end()) std::tie(low, high) = narrow->second;
     if (chance(0.1)) return low;
     if (chance(0.1)) return high;
-    if (low >= 0.0 && high > 100.0 * std::max(low, 1e-3)) {  // many orders: each as likely
+    if (low >= 0.0 && high > 100.0 * std::max(low, 1e-3)) {  // many decades: each equally likely
       return std::exp(std::uniform_real_distribution<>(std::log(std::max(low, 1e-3)), std::log(high))(random_));
     }
     return std::uniform_real_distribution<>(low, high)(random_);
@@ -82,7 +82,7 @@ class RandomLook {
       case Kind::Integer: {
         const std::string whole =
             std::to_string(static_cast<long>(std::clamp(std::floor(number(p)), p.minimum, p.maximum)));
-        return check_value(p, whole) ? whole : std::string(p.fallback);  // an iris of one blade is none
+        return check_value(p, whole) ? whole : std::string(p.fallback);  // a single blade makes no iris
       }
       case Kind::Choice:
         if (p.name == "ringing" && chance(0.85)) return {};  // tenths of a second
@@ -97,7 +97,7 @@ class RandomLook {
   std::mt19937 random_;
 };
 
-// False where the look is refused; such an error says why.
+// Returns false if the preset is refused; such an error must have a reason.
 bool renders(const std::string& text, const char* lens_name) {
   CAPTURE(text);
   const auto look = read_look(text, "random.toml");

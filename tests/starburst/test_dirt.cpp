@@ -27,7 +27,7 @@ LensSettings with_dirt(DirtPlane plane) {
   return settings;
 }
 
-// Of a ray: the share that dirt lets through where it crosses the plane, by asking every stroke.
+// The transmittance of dirt for a ray at the place where it crosses the plane, from all strokes.
 double asked(const std::vector<DirtStroke>& strokes, Vec2 place_mm) {
   double share = 1.0;
   for (const DirtStroke& s : strokes)
@@ -133,7 +133,7 @@ TEST_CASE("frames follow one another smoothly, and a turn's end is its beginning
   };
   const Image still = at(0.0);
   CHECK(at(1.0).pixels == still.pixels);
-  // However a frame is chosen, half the step is about half the change: nothing jumps.
+  // At any frame, half the step causes about half the change: nothing jumps.
   for (const double time : {0.0, 0.37, 0.999}) {
     CAPTURE(time);
     const Image here = at(time);
@@ -160,7 +160,7 @@ TEST_CASE("a picture as dirt: black lets nothing through, white all, grey its sh
   const LensState black = picture(std::vector<float>(4, 0.0F), 2, 2);
   CHECK(pupil_of(black).open_fraction == 0.0);
   CHECK(test::sum(starburst(black, {0.0, 0.0, 1.0}, 32)) == 0.0);
-  // Dark above: what is left lies at the front's lower half.
+  // The upper half is dark: the remaining light passes the front's lower half.
   std::vector<float> half(64 * 64, 1.0F);
   std::fill(half.begin(), half.begin() + 32 * 64, 0.0F);
   const ExitPupil below = pupil_of(picture(half, 64, 64));

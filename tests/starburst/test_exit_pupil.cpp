@@ -46,7 +46,7 @@ TEST_CASE("on the axis the exit pupil is first-order optics'") {
     const FirstOrder first = first_order(lens, lens.design_wavelength_nm);
     const auto pupil = exit_pupil(lens, Vec3{0, 0, 1}, lens.design_wavelength_nm);
     REQUIRE(pupil.has_value());
-    // Seen from 1 mm away instead of its distance.
+    // As seen from 1 mm instead of its real distance.
     const double radius = 0.5 * first.exit_pupil_diameter_mm / std::abs(first.exit_pupil_position_mm);
     CHECK(length(pupil->outline.value().x_mm) / radius == doctest::Approx(1.0).epsilon(2e-3));
     CHECK(length(pupil->outline.value().y_mm) / radius == doctest::Approx(1.0).epsilon(2e-3));
@@ -79,7 +79,7 @@ TEST_CASE("borders are where traced rays are blocked, and the flux is the direct
     CHECK(pupil->fit_error < 1e-3);
     CHECK(pupil->flux_mm2 / GhostMeter(lens, lambda_nm).direct_flux(direction) == doctest::Approx(1.0).epsilon(2e-3));
 
-    // Each traced ray against the sample it falls on, unless a border is nearer than a sample.
+    // Compares each traced ray with the sample it falls on, unless a border is closer than a sample.
     const OpticalPath path = direct_path(lens, lambda_nm);
     const EntranceWindow window = entrance_window(lens, direction);
     int wrong = 0, open = 0;
@@ -90,7 +90,7 @@ TEST_CASE("borders are where traced rays are blocked, and the flux is the direct
         const TracedRay ray = trace(path, {{at.x, at.y, window.z_mm}, direction});
         if (ray.status != RayStatus::Ok) continue;
         const double blocked = blocked_by(ray, path, lens.iris);
-        const bool is_folded = std::max(blocked, ray.r_rel - 1.0) > 0.25 && ray.obscured <= 0.0;  // and sent back in
+        const bool is_folded = std::max(blocked, ray.r_rel - 1.0) > 0.25 && ray.obscured <= 0.0;  // and refracted back
         if (std::abs(blocked) < sample || is_folded) continue;
         const Vec2 p = (Vec2{ray.direction.x, ray.direction.y} - pupil->middle) * (1.0 / pupil->mask.grid.pitch_mm);
         const int column = static_cast<int>(std::floor(p.x + 0.5 * pupil->mask.grid.side));

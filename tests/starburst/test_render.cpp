@@ -56,7 +56,7 @@ Frame window_about(Vec2 sensor_mm, int side, double pitch_mm) {
   return frame;
 }
 
-// Green by distance from the middle of an even-sided frame, bins a pixel wide.
+// The green channel by distance from the middle of a frame of even side, in bins a pixel wide.
 std::vector<double> radial_profile(const Image& image) {
   std::vector<double> sum(static_cast<std::size_t>(image.width)), count(sum.size());
   for (int y = 0; y < image.height; ++y) {
@@ -110,8 +110,8 @@ TEST_CASE("through a real lens the first dark ring lies 1.22 lambda N out, and h
   CHECK(zero[0] / zero[1] == doctest::Approx(2.0).epsilon(0.02));
 }
 
-// An opening of outer radius 1 and inner e is dark where J1(x) = e J1(e x) (Born and Wolf, Principles of
-// Optics, 8.6.2).
+// An opening of outer radius 1 and inner radius e is dark where J1(x) = e J1(e x) (Born and Wolf, Principles of Optics,
+// 8.6.2).
 TEST_CASE("a stop with a dark middle has narrower rings, and the flux that is left") {
   constexpr double kObscured = 0.5, kPitch_mm = 4e-4;
   double low = 2.5, high = 3.8317;
@@ -134,7 +134,8 @@ TEST_CASE("a stop with a dark middle has narrower rings, and the flux that is le
   const double outside = 2.0 / (1.0 - kObscured) / (kPi * kPi * rho);  // perimeter over area
   const Image far = drawn(lens, Light{}, whole);
   CHECK(flux_of(far, 1) + outside == doctest::Approx(1.0).epsilon(2e-3));
-  // Far out (2 J1(x) / x)^2 is 4 / (pi x^3) in the mean, and both edges' add up, as their fringes are too fine to see.
+  // Far out (2 J1(x) / x)^2 is 4 / (pi x^3) in the mean; those of both edges are added, as their fringes are too fine
+  // to be resolved.
   const double lambda_n = 550e-6 * first_order(lens, 550.0).f_number, open = 1.0 - kObscured * kObscured;
   const std::vector<double> far_profile = radial_profile(far);
   for (const std::size_t bin : {60, 120, 200}) {
@@ -168,7 +169,7 @@ TEST_CASE("half-tones of an iris's picture dim the wave: fringes of a bright and
     });
     REQUIRE(chosen.iris.field->has_tones() == (grey < 1.0));
     const LensState lens = test::bundled("heliar", chosen);
-    // Apart by the stop's radius: fringes 2 lambda N wide, of 20 pixels.
+    // They are a stop radius apart: fringes 2 lambda N wide, of 20 pixels.
     const double period_mm = 2.0 * 550e-6 * 16.0;
     test::Settings settings = starburst_alone({201, 1, 0, 0, 201, 1, period_mm / 20.0});
     settings.lambda_nm = {550.0};
@@ -189,7 +190,7 @@ TEST_CASE("curved blades' fans follow one another without dark lines, the middle
     return drawn(lens, Light{}, settings);
   };
   const Image usual = image_of(Iris{}.slope_spread), exact = image_of(0.0);
-  // Over the mean of all directions, rings of some pixels summed up.
+  // The darkest direction over the mean of all, summed over rings of some pixels.
   const auto darkest = [](const Image& image) {
     constexpr int kDirections = 720;
     std::vector<double> sum(kDirections, 0.0);
@@ -282,7 +283,7 @@ TEST_CASE(
       const TracedRay ray = trace(path, {{at.x, at.y, window.z_mm}, light.direction});
       if (ray.status != RayStatus::Ok || blocked_by(ray, path, lens.iris) > 0.0) continue;
       cosines.push_back({ray.direction.x, ray.direction.y});
-      amplitude.push_back(std::sqrt(ray.transmission));  // by the sine condition cosines are as even as the entrance
+      amplitude.push_back(std::sqrt(ray.transmission));  // by the sine condition cosines are as uniform as the entrance
     }
     REQUIRE(cosines.size() > 1000);
     const auto power_at = [&](Vec2 sensor_mm) {
@@ -307,7 +308,7 @@ TEST_CASE(
       }
     }
     CHECK(worst < 0.05);
-    CHECK(std::abs(xx / yy - 1.0) > 0.1);  // or nothing is tested
+    CHECK(std::abs(xx / yy - 1.0) > 0.1);  // else nothing would be tested
   }
 }
 
@@ -431,7 +432,7 @@ TEST_CASE(
       chosen.dirt.dust_mm = 0.2;
     }
     const LensState lens = test::bundled("planar-50", chosen);
-    // Pixels of a metre: all of the plane is in one of them.
+    // Pixels of a metre: the whole plane is in one of them.
     test::Settings settings = starburst_alone({3, 3, 0, 0, 3, 3, 1e3});
     Light light;
     light.value = {300.0, 20.0, 1.0};
@@ -460,7 +461,7 @@ TEST_CASE("glare has the share and the width that it says") {
     settings.starburst.on = false;
     settings.glare = {0.2, width_rad};
     const Image image = drawn(lens, Light{}, settings);
-    // Within a radius R: share times 1 - (1 + (R / r0)^2)^-1/2, in pixels.
+    // Within a radius R: the fraction times 1 - (1 + (R / r0)^2)^-1/2, in pixels.
     const double r0 = lens.focal_length_mm * std::tan(width_rad) / settings.frame.pixel_pitch_mm;
     for (const double radius : {30.0, 150.0}) {
       double within = 0.0;

@@ -1,4 +1,4 @@
-// The prescriptions of the ray oracle: a table of surfaces, indices taken as constants, as the oracle does.
+// The prescriptions of the ray oracle: a table of surfaces, with constant indices as in the oracle.
 #pragma once
 
 #include <filesystem>
@@ -33,7 +33,7 @@ inline Prescription read_csv_lens(const std::filesystem::path& file) {
   return lens;
 }
 
-// Surfaces in place and the sensor in paraxial focus, without the checks a user's file gets.
+// Places the surfaces and puts the sensor in paraxial focus, without the checks of a user's file.
 inline LensState place(const Prescription& lens, double stop_radius_mm = 1.0) {
   LensState state;
   Glass medium = air();

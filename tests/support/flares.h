@@ -12,7 +12,7 @@
 
 namespace contrejour::test {
 
-// The flare; every value of it is a finite number.
+// Renders a flare and requires that all its values are finite.
 inline Flare flare_of(std::string_view method, const LensState& lens, std::span<const Light> lights,
                       const Settings& settings, const Context& context = {}) {
   auto flare = render(method, lens, lights, settings, context);

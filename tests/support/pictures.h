@@ -11,7 +11,8 @@
 
 namespace contrejour::test {
 
-// level(p) in 0..1 at the middles of a square picture's pixels, averaged over 3 x 3 places in each; p in stop radii.
+// A field from level(p) in 0..1 at the middles of a square picture's pixels, averaged over 3 x 3 places in each; p in
+// stop radii.
 template <class Level>
 std::shared_ptr<const IrisField> drawn_field(int side, Level level) {
   std::vector<float> pixels;
@@ -31,7 +32,7 @@ std::shared_ptr<const IrisField> drawn_field(int side, Level level) {
   return *field;
 }
 
-// Neither convex nor connected, and like none of its mirror images: a flower with a hole, within an open ring.
+// A flower with a hole within an open ring: neither convex nor connected, and different from all its mirror images.
 inline bool is_in_flower(Vec2 p) {
   const double r = length(p);
   const double angle = std::atan2(p.y, p.x);

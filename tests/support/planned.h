@@ -1,4 +1,4 @@
-// One renderer by itself, without those that the registry lists.
+// Runs one renderer by itself, without those in the registry.
 #pragma once
 
 #include <span>

@@ -1,4 +1,4 @@
-// Lenses, lights and frames that many tests start from.
+// Lenses, lights and frames that many tests share.
 #pragma once
 
 #include <numeric>
@@ -19,7 +19,7 @@ inline LensState bundled(const char* name, const LensSettings& settings = {}) {
   return *state;
 }
 
-// A bare plate of n = 1.5 behind a stop of 3 mm radius, the sensor 10 mm from the stop. It has one ghost, (2, 3),
+// A bare plate of n = 1.5 behind a stop of 3 mm radius, with the sensor 10 mm from the stop. It has one ghost, (2, 3),
 // an exact copy of the stop at R^2 of the direct light.
 inline LensState plate() {
   Prescription lens;
@@ -28,7 +28,7 @@ inline LensState plate() {
                    {SurfaceKind::Refracting, 0.0, 0.0, 30.0, air(), {}, 0}};
   LensState state = place(lens, 3.0);
   state.sensor_z_mm = 10.0;
-  state.focal_length_mm = 50.0;  // of no meaning here, but finite: where lights outside the frame land
+  state.focal_length_mm = 50.0;  // arbitrary but finite: places lights outside the frame
   return state;
 }
 
@@ -38,7 +38,7 @@ inline Light light_at(const LensState& lens, const Frame& frame, Vec2 uv) {
   return light;
 }
 
-// One wavelength, so that all three channels are alike; the papers' ghosts, which take half the time of all.
+// One wavelength, so that all three channels are equal; the papers' ghosts, which take half the time of all.
 inline Settings green(const Frame& frame) {
   Settings settings;
   settings.scope = GhostScope::OneSideOfStop;

@@ -1,4 +1,4 @@
-// What a test renders a frame with, by any method.
+// The settings of a test's frame, for any method.
 #pragma once
 
 #include <span>
@@ -10,8 +10,8 @@
 
 namespace contrejour::test {
 
-// A frame's settings, and the options of those methods that have some: tests that compare methods hand the same one to
-// all of them.
+// A frame's settings, and the options of those methods that have any: tests that compare methods pass the same object
+// to all of them.
 struct Settings : FrameSettings {
   AdaptiveOptions adaptive;
   BundleOptions bundle;

@@ -1,4 +1,4 @@
-// A picture's light.
+// The sum of a picture's channel.
 #pragma once
 
 #include "contrejour/image.h"

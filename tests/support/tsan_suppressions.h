@@ -1,6 +1,6 @@
-// What ThreadSanitizer is to leave out, for programs of the thread-sanitizer build: once in each, beside its main().
-// The installed TBB is built without it, so that what its threads do with their own memory as they end looks like a
-// race, now and then. Our code that runs in them is watched as ever.
+// Suppressions for programs of the thread-sanitizer build: included once in each, in the file of its main(). The
+// installed TBB is not instrumented, so that accesses of its threads to their own memory as they end are sometimes
+// reported as races. The library's code that runs in these threads is still checked.
 #pragma once
 
 #if defined(__has_feature)

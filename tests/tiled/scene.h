@@ -34,7 +34,7 @@ inline double triangle_area(const tiled::Primitive& p, std::size_t i, std::size_
   return 0.5 * cross(at(j) - at(i), at(k) - at(i));
 }
 
-// What its two triangles hold.
+// The flux of its two triangles.
 inline double flux_of(const tiled::Primitive& p) {
   const auto& e = p.irradiance;
   const double first = triangle_area(p, 0, 1, 2) * (static_cast<double>(e[0]) + e[1] + e[2]) / 3.0;

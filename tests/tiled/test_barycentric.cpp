@@ -19,7 +19,7 @@ struct Point {
 struct Method {
   const char* name;
   std::array<double, 4> (*at)(const Quad&, Point);  // coordinates that sum to one
-  bool exact;                                       // for linear functions in any convex quadrilateral
+  bool exact;                                       // exact for linear functions in any convex quadrilateral
 };
 
 template <template <class> class Kind>

@@ -1,4 +1,4 @@
-// Cells to primitives: validity, merging, rays that failed, folds.
+// Cells to primitives: validity, merging, failed rays, folds.
 #include <cmath>
 #include <limits>
 
@@ -108,7 +108,7 @@ TEST_CASE("a ray that failed takes its triangles with it and no more") {
     const auto buffer = build(grid, frame, merging(steps, 0.001));
     for (const Primitive& p : buffer.primitives) CHECK(is_sound(p));
     if (steps > 0) continue;
-    // Of the four cells around it one triangle each is left of two, none of two.
+    // Two of the four cells around it keep one triangle each, the other two none.
     CHECK(buffer.primitives.size() == whole.primitives.size() - 2);
     CHECK(total_flux(buffer) < total_flux(whole));
     CHECK(total_flux(buffer) > 0.99 * total_flux(whole));

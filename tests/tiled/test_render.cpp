@@ -31,7 +31,7 @@ double psnr_db(const Image& truth, const Image& image) {
   return difference->psnr_db.value_or(1e9);
 }
 
-// A square picture about the axis, its middle.
+// A square picture, or its middle, about the axis.
 test::Settings plate_settings(int pixels, double pixel_pitch_mm, int grid) {
   Frame frame;
   frame.width = frame.full_width = pixels;
@@ -45,7 +45,7 @@ test::Settings plate_settings(int pixels, double pixel_pitch_mm, int grid) {
 struct System {
   const char* name;
   double f_number, focal_length_mm;
-  double bundle_db, light_db, heavy_db;  // at least so good against bundle unmerged, and merged against unmerged
+  double bundle_db, light_db, heavy_db;  // the lowest PSNR: unmerged against bundle, and merged against unmerged
 };
 
 }  // namespace
@@ -101,8 +101,8 @@ TEST_CASE("the same bits for any tiles, and however often the buffer is emptied"
   CHECK(drawn({}) == drawn({1000, 5}));
 }
 
-// Streaks some hundredths of a pixel wide lay between all pixels' middles, or had one pixel hold thirty times their
-// light.
+// Streaks some hundredths of a pixel wide had lain between all pixels' middles, or had given one pixel thirty times
+// their light.
 TEST_CASE("streaks thinner than a pixel keep their light") {
   const LensState lens = test::lens_at_f("schneider-anamorphic-31", 8.0);
   for (const int width : {120, 160, 240}) {
@@ -118,7 +118,7 @@ TEST_CASE("streaks thinner than a pixel keep their light") {
   }
 }
 
-// Against bundle the error is that of one sample a pixel: some 40 dB, whatever the grid.
+// Against bundle the error is that of one sample for each pixel: about 40 dB, whatever the grid.
 TEST_CASE("against bundle on the same grid, and merged against unmerged") {
   for (const System& system :
        {System{"heliar", 16.0, 0.0, 39.5, 55.0, 53.0}, System{"tessar", 11.0, 0.0, 41.0, 48.0, 43.0},

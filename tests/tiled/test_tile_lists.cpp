@@ -1,4 +1,4 @@
-// Lists by tile against the definition.
+// Lists by tile against their definition.
 #include <array>
 #include <limits>
 #include <random>
@@ -23,7 +23,7 @@ Frame frame_of(int width, int height) {
   return frame;
 }
 
-// Small and huge ones, inside and off the frame, points, lines, and corners that are no numbers.
+// Small and huge ones, inside and outside the frame, points, lines, and corners that are not numbers.
 std::vector<Primitive> random_primitives(int count, const Frame& frame, unsigned seed) {
   std::mt19937 random(seed);
   std::uniform_real_distribution<float> unit(-1.0F, 1.0F);

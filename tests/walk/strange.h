@@ -1,4 +1,4 @@
-// Values that no caller means: for walks over everything the library offers.
+// Values that no caller would pass, for calls of every function that the library offers.
 #pragma once
 
 #include <cmath>
@@ -19,7 +19,7 @@ inline constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
 inline const std::vector<double> kStrange = {kNan, kInfinity, -kInfinity, 1e300, -1e300, 1e-300, 0.0, -1.0, 1e12};
 
-// A value that is used, so that no call is left out.
+// Uses a value, so that the compiler removes no call.
 template <class T>
 void use(const T& value) {
   const volatile auto* const at = reinterpret_cast<const volatile unsigned char*>(&value);
@@ -46,7 +46,7 @@ inline GlassData glass_data(DispersionFormula formula, std::size_t coefficients,
   return data;
 }
 
-// Lens states that are none: each differs from a sound one in what its name says.
+// Invalid lens states: each differs from a valid one in what its name says.
 inline std::vector<NamedLens> strange_lenses() {
   const LensState sound = bundled("tessar", {.f_number = 8.0});
   std::vector<NamedLens> all;

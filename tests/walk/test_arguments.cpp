@@ -1,4 +1,4 @@
-// Every function of the public headers that takes numbers, with numbers that no caller means.
+// Calls every function of the public headers that takes numbers, with numbers that no caller would pass.
 #include <array>
 #include <chrono>
 
@@ -30,7 +30,7 @@ namespace {
 const std::vector<int> kStrangeCounts = {0, -1, std::numeric_limits<int>::max(), std::numeric_limits<int>::min(),
                                          1 << 20};
 
-// An image that says it is larger than it is.
+// An image with a stated size larger than its pixels.
 Image hollow(int width, int height, int channels) {
   Image image;
   image.width = width;
@@ -59,7 +59,7 @@ TEST_CASE("a light's value of any kind ends in a picture or an error, soon") {
   for (const double value : {-1.0, 1e300, -1e300, kNan, kInfinity, 1e17, -1e-300}) {
     CAPTURE(value);
     for (const std::string_view method : render_methods()) {
-      if (method_traits(method)->is_slow) continue;  // it checks the same, and takes long for those that are good
+      if (method_traits(method)->is_slow) continue;  // it has the same checks, and takes long for valid input
       Light light = light_at(lens, plain.frame, {0.7, 0.35});
       light.value = {value, value, value};
       const auto began = std::chrono::steady_clock::now();

@@ -1,4 +1,4 @@
-// Every function that reads or writes a file, with names and contents that are none.
+// Calls every function that reads or writes a file, with invalid names and contents.
 #include <filesystem>
 
 #include <unistd.h>

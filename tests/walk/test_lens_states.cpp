@@ -1,5 +1,5 @@
-// Every function that takes a lens state, with states that are none: an error, an empty list or not a number, and never
-// more than a moment.
+// Calls every function that takes a lens state, with invalid states: it must return an error, an empty list or NaN, in
+// a short time.
 #include <atomic>
 
 #include "contrejour/check_lens.h"
