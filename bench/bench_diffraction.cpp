@@ -43,7 +43,7 @@ void starburst_of_another_light(benchmark::State& state) {
   }
 }
 
-// What is left to do in each frame once a starburst is kept: the light moves by fractions of a pixel.
+// The work that remains for each frame once a starburst is kept: the light moves by fractions of a pixel.
 void starburst_kept_over_frames(benchmark::State& state) {
   const auto bands = spectral_bands(120, IlluminantD65{}, ColourSpace::Rec709);
   StarburstSettings settings = at_f16();
@@ -66,7 +66,7 @@ void starburst_laid_out(benchmark::State& state) {
   for (auto _ : state) benchmark::DoNotOptimize(lay_out(starburst, kWidth, kHeight));
 }
 
-// A lens's own exit pupil, off the axis and vignetted, to pixels: all that a new lens state or light costs.
+// A lens's own exit pupil, off the axis and vignetted, to pixels: the cost of a new lens state or light.
 void starburst_through_lens(benchmark::State& state) {
   const auto lens =
       configure_lens(*find_lens("canon-70-200"),

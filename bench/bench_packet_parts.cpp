@@ -1,5 +1,5 @@
-// What tracing a packet is made of, one instruction set after the other: the geometry without any reflectance
-// looked up, and the look-ups alone. Items are surfaces hit, or look-ups; float.
+// The parts of tracing a packet, on each instruction set: the geometry without any look-up of reflectances, and the
+// look-ups alone. Items are surfaces hit, or look-ups; float.
 #include <cstddef>
 #include <cstdint>
 #include <string>
@@ -26,7 +26,7 @@ namespace hk = kernels::HWY_NAMESPACE;
 namespace hn = hwy::HWY_NAMESPACE;
 using P = hk::Packet<float>;
 
-// As the tracer does, less R, T and rims.
+// The tracer's geometry without R, T and rims.
 void geometry(const PacketPath& path, const float* x_mm, const float* y_mm, std::size_t count, float* out) {
   const PacketStart& rays = path.start();
   const P::Tag tag;

@@ -1,5 +1,5 @@
-// Packets of rays along the longest ghost of three lenses, one instruction set after the other, the scalar one
-// included; items are surfaces hit. Beside bench_trace.cpp: the same rays one at a time in double.
+// Packets of rays along the longest ghost of three lenses, on each instruction set including the scalar one; items are
+// surfaces hit. bench_trace.cpp traces the same rays one at a time in double.
 #include <cstdint>
 #include <string>
 
@@ -38,7 +38,7 @@ void trace_scalar_of(benchmark::State& state, const char* lens) {
   state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(scene->rays() * scene->path.steps.size()));
 }
 
-// One benchmark an instruction set that this machine has.
+// One benchmark for each instruction set of this machine.
 const bool kRegistered = [] {
   for (const char* lens : bench::kLenses) {
     const std::string end = std::string("/") + lens;

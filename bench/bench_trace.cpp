@@ -23,7 +23,7 @@ LensState bundled(benchmark::State& state, const char* name) {
   return {};
 }
 
-// A fan of rays over the entrance window, so that the branches are as mixed as in a picture.
+// Rays spread over the entrance window, so that branches are as mixed as in a picture.
 std::vector<Ray> rays_over(const EntranceWindow& window, Vec3 direction) {
   constexpr int kSide = 16;
   std::vector<Ray> rays;

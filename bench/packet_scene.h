@@ -1,4 +1,4 @@
-// The longest ghost of a lens, and rays for it, as the packet benchmarks share them.
+// The longest ghost of a lens, and rays for it, which the packet benchmarks share.
 #pragma once
 
 #include <algorithm>
@@ -38,7 +38,7 @@ struct PacketScene {
   }
 };
 
-// None if the lens does not load.
+// nullopt if the lens does not load.
 inline std::optional<PacketScene> packet_scene(const char* name) {
   const Result<Prescription> prescription = find_lens(name);
   if (!prescription) return std::nullopt;
