@@ -1,5 +1,6 @@
-// Which ghosts a lens has, how bright they are, and which of them to render.
-// Source: hullin2011 4.1 (enumeration), 4.2 (aperture culling, intensity LOD). Thread-safety: pure functions.
+// A lens's ghosts: their enumeration, their flux, and the selection of those to render. Source: hullin2011 4.1
+// (enumeration), 4.2 (aperture culling, intensity LOD).
+// Thread-safety: pure functions.
 #pragma once
 
 #include <memory>

@@ -1,6 +1,7 @@
-// Figures of each ghost of a lens for one light: how bright, where, how large, what colour, where it focuses.
-// Fluxes are accurate to 1e-3, positions and sizes to a hundredth of the size, peaks to a quarter (GhostMeter). The
-// result is the same for any thread count. Thread-safety: pure.
+// Properties of each ghost of a lens for one light: flux, position, size, colour, focus. Fluxes are accurate to 1e-3,
+// positions and sizes to a hundredth of the size, peaks to a quarter (GhostMeter). The result is the same for any
+// number of threads.
+// Thread-safety: pure.
 #pragma once
 
 #include <optional>
@@ -38,7 +39,7 @@ struct FiguresRequest {
   std::vector<SpectralBand> bands;  // for a single wavelength use the weights 1, 1, 1
 };
 
-// By falling relative_flux. Errors: a light that is not in front of the lens, Cancelled.
+// In order of decreasing relative_flux. Errors: a light that is not in front of the lens, Cancelled.
 [[nodiscard]] Result<std::vector<GhostFigures>> ghost_figures(const LensState& lens, const FiguresRequest& request,
                                                               const Context& context);
 

@@ -26,8 +26,8 @@ struct ImageView {
 // All of an image with three channels or more.
 [[nodiscard]] ImageView view_of(Image& image);
 
-// Errors: InvalidArgument for a view that pictures of that size do not fit, that has no pixels, or whose steps are
-// smaller than a sample.
+// Errors: InvalidArgument for a view that is not of the picture's size, that has no pixels, or whose steps are smaller
+// than a sample.
 [[nodiscard]] Result<void> check_view(const ImageView& view, int width, int height);
 
 // Writes an image of three channels to a view of the same size. A half-float sample becomes the nearest to its value;

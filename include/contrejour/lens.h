@@ -200,9 +200,9 @@ struct LensState {
 // aperture (at every zoom position). Errors name file, line and remedy.
 [[nodiscard]] Result<void> validate(const Prescription& lens);
 
-// Sets zoom (any focal length within the range), stop and focus. Errors: focal length or f-number out of
-// range, a coating for a surface that is none of glass, object inside the front focal point, a sensor stack that the
-// lens leaves no room for, an iris that lets nothing through, an iris or dirt that has numbers out of its range.
+// Sets zoom (any focal length within the range), stop and focus. Errors: a focal length or f-number out of range, a
+// coating for a surface that does not bound glass, an object inside the front focal point, a sensor stack that does not
+// fit behind the lens, an iris that lets nothing through, numbers of the iris or the dirt out of range.
 [[nodiscard]] Result<LensState> configure_lens(const Prescription& lens, const LensSettings& settings = {});
 
 // Reads a lens in any supported format, recognised by content and extension. Bounded in memory and time. Glasses that

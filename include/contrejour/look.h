@@ -15,17 +15,18 @@ namespace contrejour::params {
 struct Look {
   std::string name;         // shown to people
   std::string description;  // one line
-  std::string lens;         // the lens it was made for, or empty; it may be used with any
+  std::string lens;         // the lens that it was made for, or empty; any may be used
   Values values;
 };
 
 [[nodiscard]] bool belongs_to_look(const Parameter& parameter);
 
 [[nodiscard]] Result<Look> read_look(std::string_view toml, const std::string& file);
-// Writes a value for every parameter of a look that has one, given or default, so later defaults do not change it.
+// Writes every parameter of a preset that has a value, given or default, so that later changes of defaults do not
+// affect it.
 [[nodiscard]] std::string write_look(const Look& look);
 
-// Looks that come with the program, by name.
+// The bundled presets, by name.
 struct BundledLook {
   std::string_view name;
   std::string_view toml;

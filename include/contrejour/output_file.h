@@ -1,11 +1,11 @@
-// A file that appears whole or not at all, and several of them that appear together.
-// Bytes go to an unnamed file where the system supports it (Linux: O_TMPFILE), else to a hidden one in the same folder;
-// commit() gives it the destination's name. Destroying one that was not committed leaves nothing, and so does a process
-// that is killed; hidden files that such a process left a day ago are removed by the next one that writes the same
-// destination. A symbolic link stays, and its target is written, whether it exists or not. A destination that is not a
-// regular file (a pipe, a device) gets all bytes at once when the file is finished, so writers that seek backwards can
-// write to a pipe.
-// Errors: Io, with the destination as place.file; after one, every later call fails too. Not for sharing by threads.
+// A file that appears whole or not at all, and several of them that appear together. Bytes go to an unnamed file where
+// the system supports it (Linux: O_TMPFILE), else to a hidden one in the same folder; commit() gives it the
+// destination's name. Destroying one that was not committed leaves nothing, and so does a process that is killed;
+// hidden files that such a process left a day ago are removed by the next one that writes the same destination. A
+// symbolic link stays, and its target is written, whether it exists or not. A destination that is not a regular file (a
+// pipe, a device) gets all bytes at once when the file is finished, so writers that seek backwards can write to a pipe.
+// Errors: Io, with the destination as place.file; after one, every later call fails too. Thread-safety: one thread at a
+// time.
 #pragma once
 
 #include <cstddef>

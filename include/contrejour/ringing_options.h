@@ -1,4 +1,4 @@
-// What diffraction at the iris does to the ghosts' rims, and to the shadows of dirt (docs/physics/diffraction.md).
+// Diffraction at the edges of ghosts, by the iris, and at the shadows of dirt (docs/physics/diffraction.md).
 // Thread-safety: plain values.
 #pragma once
 
@@ -8,8 +8,8 @@ namespace contrejour {
 
 enum class RingingMode {
   None,
-  Fresnel,  // each ghost's own fringes, from how far out of focus it is
-  Hullin,  // hullin2011 eq. 5: one pattern for all ghosts, by experience
+  Fresnel,  // each ghost has its own fringes, which depend on its defocus
+  Hullin,  // hullin2011 eq. 5: one empirical pattern for all ghosts
 };
 
 struct RingingOptions {

@@ -1,7 +1,8 @@
 // Sequential ray tracing along a prescribed path, as in hullin2011 4.1 and its supplement: the order of surfaces is
-// fixed, surfaces continue beyond their rims, intersections behind the ray's origin are allowed, and nothing is clipped
-// but everything recorded. Every refraction multiplies by T and every reflection by R (the supplement has R only).
-// Accuracy: double; 1e-9 mm against closed forms. Thread-safety: pure functions.
+// fixed, surfaces continue beyond their rims, and intersections behind the ray's origin are allowed. Rays are not
+// clipped: what would block them is recorded. Every refraction multiplies by T and every reflection by R (the
+// supplement has R only). Accuracy: double; 1e-9 mm against closed forms.
+// Thread-safety: pure functions.
 #pragma once
 
 #include <array>

@@ -1,6 +1,6 @@
-// Chooses a few of many wavelengths to trace rays at. Chief-ray image points and transmittances are smooth functions of
-// 1 / lambda^2, in which dispersion is nearly linear (Cauchy), so that polynomials through about five samples give the
-// values at the other wavelengths.
+// Chooses a few of many wavelengths to trace rays at. The places where rays meet the sensor, and their transmittances,
+// are smooth functions of 1 / lambda^2, in which dispersion is nearly linear (Cauchy), so that polynomials through
+// about five samples give the values at the other wavelengths.
 #pragma once
 
 #include <cstddef>
