@@ -19,7 +19,7 @@ using params::Values;
 
 constexpr double kPoint_px = 1.0;         // root mean square radius: a smaller light is a point
 constexpr int kLargestShape_px = 512;     // on a side of a shape
-constexpr int kMostImages = 32;           // lights with a starburst of their own where the lights of ghosts are merged
+constexpr int kMostImages = 32;  // lights with a starburst of their own where the lights of ghosts are merged
 
 Light light_of(const DetectedLight& area, const Spectrum& spectrum, const PixelGrid& grid, const LensState& lens,
                const Values& values) {

@@ -70,7 +70,7 @@ TEST_CASE("the bundled lamps have the colours that the CIE gives them") {
   check_xy("fluorescent", 0.3721, 0.3751, 3e-4);  // CIE 15:2018 table 10.1: FL2, FL11
   check_xy("fluorescent-narrow", 0.3805, 0.3769, 6e-4);
   check_xy("sodium", 0.533, 0.415, 1.5e-3);  // HP1, whose lines are separated by 5 nm steps with linear interpolation
-  check_xy("led", 0.3756, 0.3723, 2e-4);     // LED-B3
+  check_xy("led", 0.3756, 0.3723, 2e-4);  // LED-B3
   // Two adjacent lines lie on the spectral locus.
   const auto at_589 = chromaticity(colour_matching(589.3));
   check_xy("sodium-low", at_589[0], at_589[1], 2e-4);

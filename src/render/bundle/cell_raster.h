@@ -88,14 +88,14 @@ class CellRaster {
   CellStyle style_;
   CellScreen screen_;
   bool screens_pixels_ = false;  // the present cell's pixels have transmittances of their own
-  bool dirty_ = false;           // of the present cell
+  bool dirty_ = false;  // of the present cell
   screens::ShadowCutter shadows_;
   TriangleClipper clipper_;
-  double triangle_weight_mm2_;       // flux of a triangle of transmittance 1
-  std::vector<Vec2> pixel_;          // by vertex
-  std::vector<float> area_;          // by cell, signed, pixels; NaN where a ray failed
-  std::vector<float> irradiance_;    // by vertex, flux over pixel area; 0 where the map is not smooth
-  std::vector<CellState> state_;     // by cell
+  double triangle_weight_mm2_;  // flux of a triangle of transmittance 1
+  std::vector<Vec2> pixel_;  // by vertex
+  std::vector<float> area_;  // by cell, signed, pixels; NaN where a ray failed
+  std::vector<float> irradiance_;  // by vertex, flux over pixel area; 0 where the map is not smooth
+  std::vector<CellState> state_;  // by cell
   std::vector<Vec2> corner_scratch_;
   std::uint64_t primitives_ = 0;
 };

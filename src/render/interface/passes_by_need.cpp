@@ -21,7 +21,7 @@ constexpr float kNearlyThrough = 0.2F;  // the largest RayGrid::blocked of rays 
 struct GhostSpectrum {
   WavelengthSamples samples;
   std::vector<double> carried;  // the mean transmittance, one for each pass
-  double shift_mm = 0.0;        // largest shift of a ray's image from first to last pass
+  double shift_mm = 0.0;  // largest shift of a ray's image from first to last pass
 };
 
 double mean_transmission(const RayGrid& grid) {

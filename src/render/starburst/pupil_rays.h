@@ -13,19 +13,19 @@ namespace contrejour {
 
 struct PupilRay {
   bool arrived = false;
-  Vec2 entrance_mm;     // in the entrance window's plane z_mm
-  Vec2 cosines;         // at the sensor
-  Vec2 stop;            // in stop radii
+  Vec2 entrance_mm;  // in the entrance window's plane z_mm
+  Vec2 cosines;  // at the sensor
+  Vec2 stop;  // in stop radii
   double transmission = 0;  // times LightSource::flux_at
-  double iris = 0;      // signed distance from the iris's edge in stop radii, negative inside
-  double blocked = 0;   // the largest of iris and every rim's r_rel - 1
-  double obscured = -1; // TracedRay::obscured
+  double iris = 0;  // signed distance from the iris's edge in stop radii, negative inside
+  double blocked = 0;  // the largest of iris and every rim's r_rel - 1
+  double obscured = -1;  // TracedRay::obscured
 };
 
 struct PupilRays {
   int side = 0;
   double z_mm = 0;
-  std::vector<PupilRay> rays;    // [row * side + column]
+  std::vector<PupilRay> rays;  // [row * side + column]
   std::vector<Vec2> rim_places;  // [rim * rays.size() + ray]: in clear radii, for every refracting surface
   std::size_t rims = 0;
   std::vector<bool> blocks_within;  // by rim: whether it is that of an obscuration
