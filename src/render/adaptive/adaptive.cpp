@@ -22,11 +22,11 @@ namespace {
 
 using namespace adaptive;
 
-// Polygons of so many bytes, or a little more, are alive at once.
+// A batch of polygons is drawn as soon as it takes this many bytes, or slightly more.
 constexpr std::size_t kBatchBytes = std::size_t{32} << 20U;
 constexpr std::size_t kItemsAtOnce = 256;
 
-// Memory that frames use again, a section of RenderCache. What is in it changes no picture.
+// Scratch memory that later frames use again: a section of RenderCache. Its contents change no picture.
 struct Scratch {
   struct Key {
     friend bool operator==(const Key&, const Key&) = default;
@@ -36,7 +36,7 @@ struct Scratch {
   TileDrawer drawer;
 };
 
-// Milliseconds since it was last asked.
+// Measures the milliseconds between laps.
 class Stopwatch {
  public:
   [[nodiscard]] double lap_ms() {
@@ -49,11 +49,12 @@ class Stopwatch {
   Clock::time_point last_ = Clock::now();
 };
 
-// The error that one item may make. Items' errors add in squares, being of either sign and in different places, and
-// what cells are allowed is a bound that most of them stay far below: all items together may be allowed so many times
-// what the frame is. By how much they stay below differs from ghost to ghost, which a few items do not make up for; and
-// more cells come nearer to the sum: of items whose first rays fail, which take the small frame more of them, and where
-// less error is asked for. Found by measuring random frames (docs/physics/adaptive.md).
+// The error that one item may make. Errors of different items have either sign and fall in different places, so they
+// add in squares; and most cells stay far below the bound that they are held to. The budgets of all items may therefore
+// add up to kRoom^2 sqrt(E / kRoomAt) times the squared error that the frame is allowed. How far cells stay below their
+// bounds differs from ghost to ghost, which a few items do not average out (kFew). More cells come near their bounds in
+// items whose first rays fail, which take more rays in the preview frame, and where a smaller error is asked for. The
+// constants were found by measuring random frames (docs/physics/adaptive/items-and-budget.md).
 ErrorBudget budget_per_item(const FrameError& allowed, const std::vector<ItemSize>& sizes) {
   constexpr double kRoom = 8.5, kRoomAt = 0.003;
   constexpr double kFew = 16.0;
@@ -64,9 +65,10 @@ ErrorBudget budget_per_item(const FrameError& allowed, const std::vector<ItemSiz
   return {room * allowed.squared() / items, allowed.peak, {}};
 }
 
-// Where no light was seen, drawn without care: far below any ghost's, so that errors relative to its own level count.
+// The peak that errors are relative to where the preview frame is dark. It is far below the level of any ghost, so that
+// a ghost's errors count relative to its own level.
 double faintest_peak(const FramePlan& plan, const Frame& frame) {
-  constexpr double kFaintest = 1e-9;  // irradiance over the light's
+  constexpr double kFaintest = 1e-9;  // irradiance on the sensor over that of the light
   double gain = 0.0;
   for (const PlannedLight& light : plan.lights)
     for (const PlannedPass& pass : light.passes) gain = std::max(gain, *std::ranges::max_element(pass.gain));
@@ -74,12 +76,13 @@ double faintest_peak(const FramePlan& plan, const Frame& frame) {
                   static_cast<double>(std::numeric_limits<float>::min()));
 }
 
-// Those that may take longest first, so that no thread is left with one of them at the end; of about the same in their
-// order, as neighbours pass the same surfaces.
+// Orders the items by falling cost, so that no thread is left with a long one at the end. Items of about equal cost
+// keep their order, since neighbours pass the same surfaces.
 std::vector<std::size_t> longest_first(std::span<const ItemSize> sizes, double peak) {
   std::vector<int> doublings;
   for (const ItemSize& size : sizes) {
-    // In rays of the small frame; by measuring, what is seen of all of an item takes about as long.
+    // The cost in rays of the preview frame. Measurements show that an item's visible light costs about as much as this
+    // many rays.
     const double seen = size.level * seen_share(size.level, peak) / peak * std::sqrt(std::max(size.area_px, 0.0));
     doublings.push_back(std::ilogb(std::max(size.rays + seen, 1.0)));
   }
@@ -89,7 +92,7 @@ std::vector<std::size_t> longest_first(std::span<const ItemSize> sizes, double p
   return order;
 }
 
-// Items painted one batch after the other, each batch then drawn; in the items' order whatever the threads.
+// Paints the items batch by batch and draws each batch: in the order of the items, whatever the number of threads.
 class FramePainter {
  public:
   FramePainter(const Scene& scene, const Frame& frame, Scratch& scratch, RenderCache& cache, const Context& context,
@@ -107,7 +110,7 @@ class FramePainter {
       for (std::size_t bytes = 0; done < items.size() && bytes < kBatchBytes;) {
         const std::size_t count = std::min(kItemsAtOnce, items.size() - done);
         bytes += paint_some({items.data() + done, count}, {sizes.data() + done, count}, budget, batch);
-        if (context_.cancelled()) return;  // some may be unpainted
+        if (context_.cancelled()) return;  // some items may not be painted
         done += count;
       }
       paint_ms_ += watch_.lap_ms();

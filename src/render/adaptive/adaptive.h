@@ -4,8 +4,8 @@
 
 namespace contrejour {
 
-// Ours: each ghost as a smooth map fitted to a few exact rays, drawn with no more cells than its share of the
-// error asks for (docs/physics/adaptive.md).
+// The adaptive renderer, this project's own method: each ghost is a smooth map fitted to a few exact rays, drawn with
+// no more cells than its part of the allowed error requires (docs/physics/adaptive.md).
 [[nodiscard]] Result<DrawnFlare> render_adaptive(const PlannedFrame& planned, const AdaptiveOptions& options,
                                                  const Context& context);
 

@@ -3,9 +3,9 @@
 namespace contrejour::adaptive {
 namespace {
 
-constexpr double kFaintLevel = 3e-5;  // of the peak: at four stops more light a two-thousandth of it
-// The share of the frame's squared error that the squares of faint items' light may come to: they are drawn to a tenth
-// or better.
+constexpr double kFaintLevel = 3e-5;  // of the peak: four stops brighter it is a two-thousandth
+// The fraction of the frame's squared error that the squared light of all faint items may make. Their error is less,
+// since preview quality is within a tenth of their light.
 constexpr double kFaintShare = 0.05;
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Which items are so dim that a careless drawing of them is as good as a careful one.
+// Which items are so dim that preview quality is as good as full quality.
 #pragma once
 
 #include "render/adaptive/cells/frame_error.h"
@@ -6,9 +6,9 @@
 
 namespace contrejour::adaptive {
 
-// Marks those that nobody sees, even in a picture brightened by four stops, and whose light all together is a small
-// part of the error that is allowed. sizes: of the items (draw_roughly); one of which nothing was seen there may be of
-// any brightness and is not marked.
+// Marks items that stay invisible even in a picture brightened by four stops, and whose light all together is a small
+// part of the allowed error. sizes: the items' levels and areas in the preview frame (draw_roughly). An item of which
+// the preview shows nothing may have any brightness and is not marked.
 void mark_faint_items(std::vector<Item>& items, const std::vector<ItemSize>& sizes, const FrameError& allowed);
 
 }  // namespace contrejour::adaptive

@@ -7,14 +7,14 @@
 namespace contrejour::adaptive {
 namespace {
 
-constexpr double kLightLeft = 0.05;  // of a channel's absolute sum over wavelengths, for its parts to mean anything
-constexpr std::size_t kMostSamples = 13;  // of wavelengths, that are tried
-constexpr int kWorthBending = 2;     // quarterings that might be saved
-// Bands, of three at least, have even shares of a ghost's squared error, so many cells of each of them even shares of
-// that.
+constexpr double kLightLeft = 0.05;  // of a channel's absolute sum: for smaller sums a band's parts count equally
+constexpr std::size_t kMostSamples = 13;  // wavelengths that are tried, at most
+constexpr int kWorthBending = 2;     // quarterings that a bent box must be able to save
+// Each band, of at least kFewBands, has an equal part of a ghost's squared error, and each cell, of at least kFewCells,
+// an equal part of that.
 constexpr double kFewCells = 96.0, kFewBands = 3.0;
 
-// A band's first rays: the geometry of its middle and the light of all its passes.
+// The first rays of a band: the geometry of its middle wavelength with the light of all its passes.
 RaySheet band_sheet(const FirstRays& rays, const Band& band, std::span<const PlannedPass> passes) {
   RaySheet sheet = rays.sheets[band.middle()];
   add_light(sheet, rays.transmission[band.middle()], passes[band.middle()].gain);
@@ -37,7 +37,7 @@ GhostPainter::GhostPainter(GhostTracers& tracers, const IrisShape& iris, const F
     : tracers_(tracers), samples_(wavelengths_of(tracers.passes()), kMostSamples), iris_(iris), frame_(frame),
       deepest_(deepest), screens_(screens), dirt_(dirt), room_(room) {}
 
-// A band's wavelengths in three parts at the most: each one's middle pass, and its share of each channel's light.
+// A part of a band's wavelengths, one of three at most: its middle pass, and its fraction of each channel's light.
 struct GhostPainter::BandPart {
   std::size_t middle = 0;
   std::array<float, 3> channel{};
@@ -115,8 +115,8 @@ void GhostPainter::paint(const Rectangle& box, bool with_mirror_image, const Err
   tracers_.bend({});
 }
 
-// A box about the same light where rays fail in this one, which would have to be quartered. Dirt is looked up by place
-// in the straight one.
+// A bent box about the same light, if rays fail in this box, which would otherwise be quartered. Dirt prevents it,
+// since it is looked up by the position in the straight box.
 std::optional<BentBox> GhostPainter::bent_about(const FirstRays& rays, const Rectangle& box) {
   const bool fail = std::ranges::any_of(rays.sheets, [](const RaySheet& sheet) { return sheet.failed > 0; });
   if (!fail || deepest_ < kWorthBending || !dirt_.empty() || !tracers_.light().symmetric || box.low.y != -box.high.y)
@@ -170,7 +170,7 @@ void GhostPainter::paint(const FirstRays& rays, bool with_mirror_image, const Er
   }
 }
 
-// One of the set's.
+// Paints one of the set's bands.
 void GhostPainter::paint_band(const BandSet& set, std::size_t band, std::span<const FittedPart> parts,
                               CellPainter& cells) {
   Patch patch;

@@ -1,5 +1,6 @@
-// One ghost of one light through one box of the pupil, from exact rays to polygons: bands of wavelengths as the first
-// rays tell, patches of polynomials, cells as the error allows, band by band.
+// Draws one ghost of one light through one box of the pupil, from exact rays to polygons: chooses bands of wavelengths
+// from the first rays, fits polynomials in patches, and tessellates them into cells that the error allows, band by
+// band.
 #pragma once
 
 #include "render/adaptive/cells/cell_painter.h"
@@ -8,28 +9,28 @@
 
 namespace contrejour::adaptive {
 
-// What stands in the stop for a ghost of a light, in place of the sharp iris: one a pass, the last crossing's.
+// The stop patterns of a ghost of a light at its last crossing of the stop, in place of the sharp iris: one a pass.
 struct GhostScreens {
   struct OfPass {
     std::shared_ptr<const StopScreen> screen;
-    screens::PatternHull hull;  // of a pattern, as far as its light is worth drawing
+    screens::PatternHull hull;  // bounding polygon of a pattern's visible light
   };
   std::vector<OfPass> by_pass;
-  double reach = 1.0;  // the largest, likewise
-  screens::EdgeProfile::Range range{0.0, 0.0};  // of edges' fringes, likewise
-  double unseen = 0.0;  // pixel values that do not count
+  double reach = 1.0;  // largest radius of visible light
+  screens::EdgeProfile::Range range{0.0, 0.0};  // visible range of edges' fringes
+  double unseen = 0.0;  // pixel values that are negligible
   std::shared_ptr<screens::StopPatterns> patterns;
 };
 
 class GhostPainter {
  public:
-  // deepest: how often a box may be quartered before straight lines between rays must do.
-  // room: for cells, used again afterwards. screens: may be null; with them the iris is a circle. dirt: whose shadows
-  // are drawn, one a pass or one for all; none where the lens is clean.
+  // deepest: how often a box may be quartered before straight lines between rays must do. room: scratch memory for
+  // cells. screens: may be null; if given, the iris is a circle. dirt: the shadows to draw, one a pass or one for all;
+  // empty for a clean lens.
   GhostPainter(GhostTracers& tracers, const IrisShape& iris, const Frame& frame, int deepest, BoxCells& room,
                const GhostScreens* screens = nullptr, std::span<const std::shared_ptr<const DirtScreen>> dirt = {});
 
-  // box: in the light's meridional frame. with_mirror_image: that of the box is painted, too.
+  // box: in the light's meridional frame. with_mirror_image: whether the box's mirror image is painted, too.
   void paint(const Rectangle& box, bool with_mirror_image, const ErrorBudget& budget, PolygonList& out);
 
  private:

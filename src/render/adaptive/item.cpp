@@ -14,12 +14,13 @@
 namespace contrejour::adaptive {
 namespace {
 
-constexpr int kDeepest = 4;       // quarterings of a box
-// Of an item's squared error, behind screens: cells come closer to theirs there.
+constexpr int kDeepest = 4;       // the most times that a box may be quartered
+// The fraction of its squared error that an item with stop patterns may make: cells come closer to their bounds there.
 constexpr double kScreenedShare = 0.75;
 constexpr int kPeakDeepest = 1;
 constexpr double kPeakQuantile = 0.999;
-// The frame's pixels over those of the small one, along a side: where the small one has so many, no more.
+// The frame's width over that of the preview frame, at most; the preview frame has kPeakPixels or more, if the frame
+// does.
 constexpr int kMostPeakScale = 8;
 constexpr double kPeakPixels = 2500.0;
 
@@ -29,7 +30,7 @@ std::vector<double> wavelengths_of(const PlannedLight& light) {
   return lambda_nm;
 }
 
-// Where the item has screens the stop counts as larger, to hold the light beside its opening.
+// An item with stop patterns is traced through an enlarged stop, to include the light outside the opening.
 double stop_times(const Item& item) { return item.screens ? item.screens->reach : 1.0; }
 
 PupilRequest request_of(const Scene& scene, const Item& item, std::span<const double> lambda_nm) {
@@ -60,7 +61,7 @@ const IrisShape& round_iris() {
   return circle;
 }
 
-// Those of an item's light.
+// The passes of an item's light, with its gains.
 std::vector<PlannedPass> passes_of(const Item& item) {
   std::vector<PlannedPass> passes = item.light->passes;
   for (std::size_t k = 0; k < passes.size(); ++k) {
@@ -72,8 +73,8 @@ std::vector<PlannedPass> passes_of(const Item& item) {
   return passes;
 }
 
-// All on the middle one's way. How much of each is reflected counts: films reflect the middle one least, whose light in
-// place of theirs would be a third of the peak.
+// Merges all passes into the middle one. Each gain is scaled by the ratio of reflectances, since films reflect least at
+// the middle wavelength: without the ratios the peak would be a third of what it is.
 PlannedPass merged(const Scene& scene, const Item& item, std::span<const PlannedPass> passes) {
   const auto by = [&](const PlannedPass& pass) { return scene.plan.reflected.of(item.ghost, pass.lambda_nm); };
   const PlannedPass& middle = passes[passes.size() / 2];
@@ -86,7 +87,7 @@ PlannedPass merged(const Scene& scene, const Item& item, std::span<const Planned
   return all;
 }
 
-// Rough: with little care, and all wavelengths on the way of one.
+// Rough: preview quality, with the rays of one wavelength for all.
 enum class Care { Rough, Little, Much };
 
 Painted paint(const Scene& scene, const Item& item, Care care, const Frame& whole, const TileGrid& grid,
@@ -104,7 +105,7 @@ Painted paint(const Scene& scene, const Item& item, Care care, const Frame& whol
   for (const Rectangle& box : item.boxes) {
     const bool aside = light.symmetric && box.low.y != -box.high.y;
     const bool has_image = aside && std::ranges::count(item.boxes, mirrored(box)) > 0;
-    if (has_image && is_mirror_image(box)) continue;  // painted with the other
+    if (has_image && is_mirror_image(box)) continue;  // painted together with the other box
     painter.paint(box, has_image, budget, painted.polygons.list);
   }
   share_edges(painted.polygons.list, grid);
@@ -113,7 +114,7 @@ Painted paint(const Scene& scene, const Item& item, Care care, const Frame& whol
   return painted;
 }
 
-// In pixels of the whole frame.
+// The level and the area of a list of polygons, in pixels of the whole frame.
 Spread spread_of(const PolygonList& list, int scale) {
   const double pixels = scale * scale;
   const double least_px = 1.0 / pixels;
@@ -175,7 +176,7 @@ RoughFrame draw_roughly(const Scene& scene, const std::vector<Item>& items, cons
   const int scale = std::clamp(static_cast<int>(std::sqrt(pixels / kPeakPixels)), 1, kMostPeakScale);
   const Frame small = smaller(frame, scale);
   const TileGrid grid(small.width, small.height);
-  // No level is high beside a peak that is not known yet, whatever the light's value.
+  // While the peak is not known no level is high relative to it, whatever the light's value.
   constexpr double kUnknown = std::numeric_limits<double>::infinity();
   const ErrorBudget unlimited{kUnknown, kUnknown};
   std::vector<TiledPolygons> polygons(items.size());

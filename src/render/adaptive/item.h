@@ -1,4 +1,4 @@
-// The units of work: a ghost of a light, with the parts of the pupil it comes through.
+// Items, the units of work: a ghost of a light, with the boxes of the pupil that it passes.
 #pragma once
 
 #include "base/pool.h"
@@ -8,11 +8,11 @@
 
 namespace contrejour::adaptive {
 
-// What all items of a frame share.
+// What all items of a frame have in common.
 struct Scene {
   const LensState& lens;
   const FramePlan& plan;
-  StepsByWavelength steps;  // of the plan's wavelengths
+  StepsByWavelength steps;  // for the wavelengths of the plan
   IrisShape iris;
 };
 
@@ -29,15 +29,15 @@ struct Item {
   const GhostLook* look = nullptr;
   const PlannedLight* light = nullptr;
   EntranceWindow window;  // of the light
-  std::vector<Rectangle> boxes;  // in the light's meridional frame; none: nothing gets through
+  std::vector<Rectangle> boxes;  // in the light's meridional frame; empty: no light gets through
   std::shared_ptr<const GhostScreens> screens = nullptr;  // null: the iris is sharp
-  // What dirt lets through: one a pass, or one for all; none: no shadows, and
+  // Transmittance of dirt: one a pass, or one for all; empty: no shadows are drawn, and
   std::vector<std::shared_ptr<const DirtScreen>> shadows = {};
-  double past_dirt = 1.0;  // all of it is dimmed to this share
-  bool is_faint = false;     // drawn with little care
+  double past_dirt = 1.0;  // the item is dimmed by this transmittance
+  bool is_faint = false;     // drawn in preview quality, at all wavelengths
 };
 
-// One for each ghost and light, those first that come first in the plan.
+// One item for each ghost and light, in the order of the plan.
 [[nodiscard]] std::vector<Item> find_items(const Scene& scene, const Context& context, Work& work);
 
 struct Painted {
@@ -45,21 +45,21 @@ struct Painted {
   Work work;
 };
 
-// Its boxes as wide as the light that its screens let through.
+// Widens the item's boxes to contain the light that its stop patterns transmit.
 [[nodiscard]] Work widen_boxes(const Scene& scene, Item& item);
 
-// What a small frame, drawn without care, tells.
+// An item's size in the preview frame.
 struct ItemSize : Spread {
-  double rays = 0;  // that it took
+  double rays = 0;  // traced for it in the preview frame
 };
 
-// An item in all wavelengths of its light. size: as a small frame tells.
+// Paints an item in all wavelengths of its light. size: the item's in the preview frame.
 [[nodiscard]] Painted paint_item(const Scene& scene, const Item& item, const ItemSize& size, const Frame& frame,
                                  const TileGrid& grid, const ErrorBudget& budget, Pool<BoxCells>& rooms);
 
 struct RoughFrame {
-  double peak = 0;  // what errors are relative to: the level that 99.9 per cent of samples stay below (metrics.h)
-  std::vector<ItemSize> sizes;  // one an item; none when cancelled
+  double peak = 0;  // that errors are relative to: 99.9 per cent of samples are below it (metrics.h)
+  std::vector<ItemSize> sizes;  // one an item; empty if cancelled
 };
 [[nodiscard]] RoughFrame draw_roughly(const Scene& scene, const std::vector<Item>& items, const Frame& frame,
                                       Pool<BoxCells>& rooms, TileDrawer& drawer, const Context& context, Work& work);

@@ -18,7 +18,8 @@ BoundView::BoundView(const IrisBound& bound, std::span<const PlacedCorner> polyg
   outer_ = dot(normal_, bound.centre) + radius_;
 }
 
-// An arc's: a rectangle about its centre, as wide as the polygon, whose corners are that deep.
+// For an arc the strip spans a rectangle about the arc's centre that is as wide as the polygon and whose corners lie
+// `depth` within the arc.
 Strip BoundView::deeper_than(double depth) const {
   if (std::isinf(radius_)) return {.most = outer_ - depth};
   const double radius = radius_ - depth, centre = outer_ - radius_;

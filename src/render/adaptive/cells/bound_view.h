@@ -1,4 +1,5 @@
-// A bound of the iris as a polygon sees it: which straight lines across it part what is within from what is not.
+// A bound of the iris relative to a polygon: which straight lines across the polygon separate what is within the bound
+// from what is not.
 // Units: stop radii. Thread-safety: a value.
 #pragma once
 
@@ -10,7 +11,7 @@
 
 namespace contrejour::adaptive {
 
-// Where normal . p is between two values.
+// The strip of points p with normal . p between `least` and `most`.
 struct Strip {
   double least = -std::numeric_limits<double>::infinity(), most = 0.0;
   [[nodiscard]] bool is_empty() const { return !(least < most); }
@@ -20,18 +21,18 @@ class BoundView {
  public:
   BoundView(const IrisBound& bound, std::span<const PlacedCorner> polygon);
 
-  // A straight bound's own; an arc's where it is nearest to the polygon's middle.
+  // The normal of a straight bound, or that of an arc where it is nearest to the polygon's middle.
   [[nodiscard]] Vec2 normal() const { return normal_; }
-  // Nothing within the bound has a larger normal . p.
+  // The largest normal . p of a point within the bound.
   [[nodiscard]] double outer() const { return outer_; }
-  // Every place of the polygon in this strip is within the bound, at least so far from it.
+  // The strip in which every point of the polygon lies within the bound, at least `depth` from it.
   [[nodiscard]] Strip deeper_than(double depth) const;
 
  private:
   Vec2 normal_;
   double outer_ = 0.0;
-  double radius_;          // infinite: straight
-  double sideways_ = 0.0;  // how far from the normal through the arc's centre the polygon goes, on either side
+  double radius_;          // infinite for a straight bound
+  double sideways_ = 0.0;  // largest distance of the polygon from the normal through the arc's centre
 };
 
 }  // namespace contrejour::adaptive

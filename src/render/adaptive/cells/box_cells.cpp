@@ -6,7 +6,7 @@
 namespace contrejour::adaptive {
 namespace {
 
-constexpr std::array<std::array<int, 2>, 4> kAlong{{{1, 0}, {0, 1}, {-1, 0}, {0, -1}}};  // a cell's sides
+constexpr std::array<std::array<int, 2>, 4> kAlong{{{1, 0}, {0, 1}, {-1, 0}, {0, -1}}};  // directions of a cell's sides
 
 }  // namespace
 
@@ -39,7 +39,7 @@ void BoxCells::clear() {
   roots_.clear();
 }
 
-// From the box down.
+// Descends from the box to the place's node, and makes the nodes that do not exist yet.
 int BoxCells::node_at(const MeshPlace& place) {
   const auto box = static_cast<std::size_t>(place.box);
   if (roots_.size() <= box) roots_.resize(box + 1, kNone);
@@ -79,7 +79,7 @@ BoxCells::Area BoxCells::area_of(int node, const MeshPlace& place) const {
   return {is_quartered ? node : kNone, of.mesh, place};
 }
 
-// What no node of its own has may be part of its mesh.
+// A quarter without a node of its own may be covered by the area's mesh.
 BoxCells::Area BoxCells::quarter_of(const Area& area, std::size_t q) const {
   const int node = area.node != kNone ? nodes_[static_cast<std::size_t>(area.node)].quarter[q] : kNone;
   if (node != kNone) return area_of(node, area.place.quarter(q));
@@ -99,7 +99,7 @@ void BoxCells::join() {
   }
 }
 
-// Inner borders first: what meets at a border's corner is the same already.
+// Inner borders come first, so that the meshes that meet at a corner of an outer border agree already.
 void BoxCells::join_within(int node, const MeshPlace& place) {
   const Area area = area_of(node, place);
   if (area.node == kNone) return;
@@ -115,7 +115,7 @@ void BoxCells::join_within(int node, const MeshPlace& place) {
   join(part[1], part[3], true);
 }
 
-// Two squares of a size that lie side by side.
+// Joins two squares of equal size that lie side by side.
 void BoxCells::join(const Area& low, const Area& high, bool along_rows) {
   if (low.is_empty() || high.is_empty()) return;
   if (low.node == kNone && high.node == kNone) {
@@ -126,7 +126,7 @@ void BoxCells::join(const Area& low, const Area& high, bool along_rows) {
   for (std::size_t k = 0; k < 2; ++k) join(quarter_of(low, last[k]), quarter_of(high, first[k]), along_rows);
 }
 
-// Of two meshes.
+// Gives two meshes that meet each other's corners on their common border.
 void BoxCells::exchange(const Area& low, const Area& high, bool along_rows) {
   BoxMesh& of_low = meshes_[static_cast<std::size_t>(low.mesh)];
   BoxMesh& of_high = meshes_[static_cast<std::size_t>(high.mesh)];
@@ -151,8 +151,9 @@ void BoxCells::exchange(const Area& low, const Area& high, bool along_rows) {
   }
 }
 
-// A corner of both, in one place to the bit: rounded, as meshes of other patches count positions from elsewhere. Of two
-// places the lower one, so that up to four that meet there agree, whatever the order.
+// Gives a corner of both meshes bit-identical positions. They are rounded to a grid of 2^-13 pixels, since meshes of
+// other patches count positions from another origin. The smaller of the two rounded positions is taken, so that up to
+// four meshes that meet in a corner agree, whatever the order.
 void BoxCells::unite(BoxMesh& first, std::size_t vertex, BoxMesh& other, std::size_t others_vertex) {
   constexpr double kPerPixel = 8192.0;
   const auto place_of = [](const BoxMesh& of, std::size_t at) {
@@ -190,7 +191,7 @@ void BoxCells::outline(const BoxMesh& of, const Cell& cell, std::vector<CellCorn
   }
 }
 
-// Those within one of a cell's sides.
+// The corners of finer meshes that lie within one of a cell's sides.
 BoxCells::FinerCorners BoxCells::finer_corners(const BoxMesh& of, const Cell& cell, std::size_t side) {
   const bool along_rows = side % 2 == 0;
   const int line = (along_rows ? cell.iy : cell.ix) + (side == 1 || side == 2 ? cell.size : 0);

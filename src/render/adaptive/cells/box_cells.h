@@ -1,6 +1,6 @@
-// Which cells a box of the pupil is drawn as: squares of the vertices of meshes, where what is finer than a mesh's
-// vertices is a mesh of its own, of a quarter of it. Where meshes meet they have the same corners, so that nothing is
-// left between cells and the edges that they share are drawn once.
+// The cells that a box of the pupil is drawn as. Cells are squares of the vertices of meshes; where a mesh is too
+// coarse, a quarter of it has a mesh of its own. Meshes that meet have the same corners on their border, so that cells
+// leave no gaps and the edges that they share are drawn once.
 #pragma once
 
 #include <array>
@@ -20,39 +20,39 @@
 namespace contrejour::adaptive {
 
 enum class CellState : std::uint8_t { Open, Cut, Closed };
-enum class Sides : std::uint8_t { Straight, Bent };  // bent ones have a corner in their middle
+enum class Sides : std::uint8_t { Straight, Bent };  // bent sides have a corner in their middle
 
-// Vertices of a square of mesh cells: corners in turn, middles of the sides, the middle.
+// The vertices of a square of mesh cells: its corners in order, the middles of its sides, its middle.
 struct Cell {
   int ix = 0, iy = 0, size = 0;
   std::array<std::size_t, 4> corner{}, side{};
   std::size_t middle = 0;
-  std::array<bool, 4> shared{};  // sides that have cells of the same box beyond
-  screens::ScreenView screen{ScreenPart::Level, 1.0};  // all that is seen of it
+  std::array<bool, 4> shared{};  // whether another cell of the same box lies beyond the side
+  screens::ScreenView screen{ScreenPart::Level, 1.0};  // what the stop pattern transmits of its light
 };
 
 struct ChosenCell {
   Cell cell;
   CellState state = CellState::Open;
   Sides sides = Sides::Straight;
-  const Shade* plane = nullptr;  // its irradiance is this, not its own
+  const Shade* plane = nullptr;  // irradiance that it shares with other cells; null: its own
 };
 
-// Where a mesh lies in its box, of which there may be many: its first vertex and the length of its cells, in parts of
-// the box that nothing is finer than.
+// The position of a mesh in its box, of which there may be many: its first vertex and the length of its cells, in units
+// of the finest subdivision (the box's side is kWhole of them).
 struct MeshPlace {
-  static constexpr int kDeepest = 11;  // quarterings of a box
+  static constexpr int kDeepest = 11;  // the most times that a box may be quartered
   static constexpr int kWhole = Mesh::kCells << kDeepest;
-  int box = 0, mirrored_box = 0;  // its own if the box is its own mirror image
+  int box = 0, mirrored_box = 0;  // the same index if the box is its own mirror image
   int x = 0, y = 0, step = 1 << kDeepest;
 
   [[nodiscard]] int size() const { return Mesh::kCells * step; }
   [[nodiscard]] MeshPlace quarter(std::size_t q) const;
-  // Of its mirror image: what is first along y comes last.
+  // The place of the mirror image, in which the order along y is reversed.
   [[nodiscard]] MeshPlace mirrored() const { return {mirrored_box, box, x, kWhole - y - size(), step}; }
 };
 
-// Of the vertices of a mesh.
+// A set of vertices of a mesh.
 class VertexSet {
  public:
   void clear() { rows_.fill(0); }
@@ -67,12 +67,12 @@ class VertexSet {
   std::array<Row, Mesh::kSide> rows_{};
 };
 
-// A mesh and what is drawn of it. Cells have for corners all vertices on their sides that any of them has, whatever
-// their sizes.
+// A mesh and the cells that are drawn of it. If a vertex is a corner of any cell, it is a corner of every cell on whose
+// side it lies, whatever their sizes.
 struct BoxMesh {
   Mesh mesh;
   MeshPlace place;
-  std::array<const Shade*, 4> plane{};  // of quarters, or null
+  std::array<const Shade*, 4> plane{};  // one per quarter, or null
   std::forward_list<Shade> planes;
   std::vector<ChosenCell> cells;
   VertexSet corners;
@@ -83,23 +83,23 @@ struct BoxMesh {
 
  private:
   friend class BoxCells;
-  // A corner of a finer mesh on a line of this one, between its vertices.
+  // A corner of a finer mesh that lies on a line of this one, between two of its vertices.
   struct FinerCorner {
     bool along_rows;
-    int line, place;  // which of this mesh's lines, and how far along it, in parts of the box
+    int line, place;  // the line of this mesh, and the position along it as in MeshPlace
     const Mesh* mesh;
     std::size_t vertex;  // of that mesh
     [[nodiscard]] auto order() const { return std::tuple(along_rows, line, place); }
   };
-  std::vector<FinerCorner> finer_corners_;  // in order
+  std::vector<FinerCorner> finer_corners_;  // sorted by order()
 };
 
-// A corner of what is drawn of a mesh: one of its vertices, or of a finer mesh's between two of them.
+// A corner of a cell's polygon: a vertex of its mesh, or a corner of a finer mesh between two of its vertices.
 struct CellCorner {
-  Vec2 position;  // as the mesh's
+  Vec2 position;  // relative to the mesh's origin
   Vec2 uv;        // in the cell
   std::size_t vertex = 0, next = 0;
-  float way = 0.0F;  // from vertex to next
+  float way = 0.0F;  // fraction of the distance from `vertex` to `next`
 
   static CellCorner at_vertex(const Mesh& mesh, std::size_t vertex, Vec2 uv) {
     return {mesh.position(vertex), uv, vertex, vertex};
@@ -111,11 +111,13 @@ struct CellCorner {
 
 class BoxCells {
  public:
-  // Another mesh, of what no other one is. Its memory is used again, what is in `mesh` is left as it was.
+  // Adds a mesh that covers a part of a box which no other mesh covers. The memory of an earlier one is used again:
+  // `mesh` keeps its old contents until it is made.
   [[nodiscard]] BoxMesh& add(const MeshPlace& at, const Shade* plane);
-  // Once all cells of all boxes are chosen: where meshes meet, each has the corners of the other, in the same places.
+  // Call this once all cells of all boxes are chosen: meshes that meet receive each other's corners, at identical
+  // positions.
   void join();
-  // All corners of a cell's polygon in turn.
+  // Writes all corners of a cell's polygon to `out`, in order.
   void outline(const BoxMesh& of, const Cell& cell, std::vector<CellCorner>& out) const;
 
   [[nodiscard]] std::size_t count() const { return count_; }
@@ -124,13 +126,13 @@ class BoxCells {
 
  private:
   static constexpr int kNone = -1;
-  // A box, or a quarter of a quarter of it: of one mesh, which then holds those of its finer quarters, or of quarters
-  // alone.
+  // A box, or a quarter of another node. Either it has a mesh, which also covers those of its quarters that have no
+  // node, or its quarters alone cover it.
   struct Node {
     int mesh = kNone;
     std::array<int, 4> quarter{kNone, kNone, kNone, kNone};
   };
-  // A node, or if that is quartered no farther a square of its mesh; or nothing.
+  // A node, or, where the node is not quartered further, a square of its mesh; or nothing.
   struct Area {
     int node = kNone, mesh = kNone;
     MeshPlace place;

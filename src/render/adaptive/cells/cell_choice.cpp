@@ -1,4 +1,4 @@
-// Which cells a patch is drawn as: from the top down, each as large as its error allows.
+// Chooses the cells that a patch is drawn as: from the top down, each as large as its allowed error permits.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -14,15 +14,15 @@ namespace contrejour::adaptive {
 namespace {
 
 constexpr int kHalf = Mesh::kCells / 2;
-constexpr int kDeepest = 7;          // quarterings of a patch
-constexpr double kStraight = 0.05;   // of a cell's budget, below which straight sides do
-// Half the cell, a fourth of the deviation of a curve from its chord: a sixteenth of the squared error.
+constexpr int kDeepest = 7;          // the most times that a patch may be quartered
+constexpr double kStraight = 0.05;   // fraction of a cell's budget below which straight sides are good enough
+// Halving a cell reduces the deviation of a curve from its chord to a fourth, and the squared error to a sixteenth.
 constexpr double kGainOfHalving = 16.0;
-constexpr double kPlane = 0.02;  // of a cell's budget, that a plane may leave of the irradiance of many
-constexpr double kWorthPlane_px = 1000.0;  // fewer pixels: sides between cells are short
-constexpr double kPlaneOff = 0.1;  // RMS, of its mean, however much the budget is
+constexpr double kPlane = 0.02;  // fraction of a cell's budget that one plane for many cells may leave
+constexpr double kWorthPlane_px = 1000.0;  // minimum area of a plane: smaller ones save few sides between cells
+constexpr double kPlaneOff = 0.1;  // largest RMS residual of a common plane over its mean, whatever the budget
 
-// Of a mesh, that holds the cell of size 1 there.
+// The quarter of a mesh that contains the cell of size 1 at x, y.
 std::size_t quarter_at(int x, int y) { return static_cast<std::size_t>(2 * (y / kHalf) + x / kHalf); }
 MeshSquare quarter_square(std::size_t q) {
   return {kHalf * static_cast<int>(q % 2), kHalf * static_cast<int>(q / 2), kHalf};
@@ -44,7 +44,8 @@ Cell CellPainter::cell_at(const BoxMesh& of, const MeshSquare& square) {
   return cell;
 }
 
-// Whether a line keeps the cell's crossings of the stop away from its rim: they may lie all around it, all outside.
+// Whether a straight line separates all of the cell's crossings of the stop from its rim. Crossings that are all
+// outside the stop need not miss it, since they may lie all around it.
 bool CellPainter::misses_stop(const Mesh& mesh, const Cell& cell, int crossing) {
   const Mesh::Field& x = mesh.field(PatchLayout::kStop + 2 * crossing);
   const Mesh::Field& y = mesh.field(PatchLayout::kStop + 2 * crossing + 1);
@@ -55,8 +56,8 @@ bool CellPainter::misses_stop(const Mesh& mesh, const Cell& cell, int crossing) 
          std::all_of(cell.side.begin(), cell.side.end(), beyond);
 }
 
-// Closed for certain only where one rim or one crossing of the iris blocks all of it. A screen cuts nothing: it is dark
-// where its light ends.
+// A cell is closed for certain only where a single rim or a single crossing of the iris blocks all of it. A stop
+// pattern clips nothing: beyond its light the cell is dark.
 CellPainter::State CellPainter::state_of(const Mesh& mesh, const Cell& cell) const {
   std::uint32_t any = 0;
   std::uint32_t all = ~0U;
@@ -107,7 +108,7 @@ bool CellPainter::wants_finer_mesh(const BoxMesh& in, const MeshSquare& square, 
   return false;
 }
 
-// Whether a plane of some of a mesh's cells is worth its while and as good as each its own.
+// Whether one plane for several cells of a mesh saves enough work and is as good as a plane for each cell.
 bool CellPainter::serves(const IrradiancePlane& plane) const {
   if (plane.area_px < kWorthPlane_px) return false;
   const double seen = seen_share(plane.mean, peak_);
@@ -124,7 +125,7 @@ std::optional<Shade> CellPainter::plane_for(const Mesh& mesh, const MeshSquare& 
   return plane && serves(*plane) ? std::optional(plane->shade) : std::nullopt;
 }
 
-// Of all of it, or of those quarters that have one.
+// Finds one plane for the whole mesh, or else one for each quarter that a plane represents well enough.
 void CellPainter::find_planes(BoxMesh& of) const {
   const MeshSquare whole{0, 0, Mesh::kCells};
   LightSums light(of.mesh, quarter_square(0), blocking(of.mesh));
@@ -134,25 +135,25 @@ void CellPainter::find_planes(BoxMesh& of) const {
   for (std::size_t q = 0; q < 4; ++q) of.plane[q] = of.keep(plane_for(of.mesh, quarter_square(q)));
 }
 
-// patch: what the mesh at that place is made of.
+// patch: the polynomials that the mesh at `place` is evaluated from.
 void CellPainter::choose(const Patch& patch, const MeshPlace& place, int depth, const Shade* plane) {
   BoxMesh& of = chosen_.add(place, plane);
   make_mesh(patch, iris_, of.mesh);
   const auto find_finer = [&](std::size_t q) {
     return depth < kDeepest && wants_finer_mesh(of, quarter_square(q), of.plane[q] != nullptr);
   };
-  // Straight lines between four rays: a finer mesh of them shows nothing more.
+  // The patch is bilinear between four rays, so that a finer mesh of it would show nothing more.
   if (patch.nodes == 2) return choose(of, {0, 0, Mesh::kCells}, plane);
   std::array<bool, 4> finer{};
   for (std::size_t q = 0; q < 4; ++q) finer[q] = find_finer(q);
-  // What so few nodes tell, nine vertices tell too.
+  // Polynomials through no more than 5 x 5 nodes are known well enough from nine vertices.
   const bool whole = depth == 0 && patch.nodes <= 5 && std::ranges::none_of(finer, std::identity());
   if (!whole && plane == nullptr) {
     find_planes(of);
     for (std::size_t q = 0; q < 4; ++q)
       if (of.plane[q] != nullptr && finer[q]) finer[q] = find_finer(q);
   }
-  const int first = patch.nodes <= 9 ? kHalf : kHalf / 2;  // 9 nodes: 3 x 3 vertices tell a quarter
+  const int first = patch.nodes <= 9 ? kHalf : kHalf / 2;  // 3 x 3 vertices a quarter are enough for 9 x 9 nodes
   if (whole) choose(of, {0, 0, Mesh::kCells}, plane);
   for (int y = 0; y < Mesh::kCells && !whole; y += first) {
     for (int x = 0; x < Mesh::kCells; x += first) {
@@ -178,7 +179,7 @@ void CellPainter::choose(BoxMesh& of, const MeshSquare& square, const Shade* pla
   CellMeasure measured = measure(of.mesh, cell, state, plane != nullptr);
   const auto is_within = [&](Sides sides, double budget) {
     const double error = squared_error(of.mesh, cell, measured, state, sides);
-    return std::isfinite(error) && error <= budget;  // an infinite budget allows no cell that must not be drawn
+    return std::isfinite(error) && error <= budget;  // an infinite budget allows no infinite error
   };
   if (is_within(Sides::Straight, kStraight * cell_budget())) return choose_it(Sides::Straight);
   const Sides sides = is_dirty(of.mesh, cell) ? Sides::Straight : most_bent(state);

@@ -1,5 +1,5 @@
-// What drawing a cell as one polygon gets wrong: as squared errors, summed over its pixels, that budgets are held
-// against, and how finely arcs are to be cut.
+// The errors of drawing a cell as one polygon: squared, summed over its pixels, compared with the cell's budget. They
+// also decide how finely arcs are divided into chords.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -12,32 +12,34 @@
 namespace contrejour::adaptive {
 namespace {
 
-constexpr double kPixel = 1.0;       // area below which a cell is not seen but for its flux
-constexpr double kPictureEdges = 6.0;  // that cut a cell, as long as it is, where a picture is the iris
-// Found by measuring what doubling each does to errors and to the number of cells.
-constexpr double kShadeBound = 4.0;  // the irradiance is linear over the cell in pixels, not in shares of it
-constexpr double kEdgeBound = 2.0;  // what edges are off is all seen, where levels are off by less than their bounds
-constexpr double kFoldBound = 0.5;  // of a fold's flux, that is out of place
+constexpr double kPixel = 1.0;       // area below which only a cell's flux is visible
+constexpr double kPictureEdges = 6.0;  // edges that clip a cell, in lengths of it, where a picture is the iris
+// The following constants were found by measuring what doubling each does to errors and to the number of cells.
+constexpr double kShadeBound = 4.0;  // the irradiance is linear in pixels rather than in the cell's coordinates
+constexpr double kEdgeBound = 2.0;  // displaced edges are visible in full, levels stay below their bounds
+constexpr double kFoldBound = 0.5;  // fraction of the largest possible error that a folded cell makes
 constexpr double kShownOfShared =
-    0.3;  // of how far sides that cells share are off, where edges cut them: found likewise
-constexpr double kMostBend = 0.04;  // of a cell, that what cuts it may be off
-constexpr double kMostOff = 0.01;   // likewise, of what corners in the middles of its sides leave of that
-constexpr double kLeftByBend = 0.25;  // of a curve's deviation from its chord, where a corner in its middle bends it
-constexpr double kChordShare = 0.5;  // of a cell's error, that chords in place of an arc may make
-// What chords may miss their arc by, whatever the budget: of ghosts as bright as kFacetLevel their corners show.
+    0.3;  // fraction of the displacement of shared sides that shows where edges clip their cells
+constexpr double kMostBend = 0.04;  // largest displacement of a clipping edge, over the cell's size
+constexpr double kMostOff = 0.01;   // the same, of what corners in the middles of sides leave of it
+constexpr double kLeftByBend = 0.25;  // fraction of a curve's distance from its chord, left by a corner in its middle
+constexpr double kChordShare = 0.5;  // fraction of a cell's error that chords in place of an arc may make
+// The largest distance of chords from their arc, whatever the budget: in ghosts brighter than kFacetLevel larger ones
+// show corners.
 constexpr double kMostOfChord_px = 0.5, kMostOfSeenChord_px = 0.25;
-constexpr double kObscurationBend = 3.0;  // its edge goes on bending where that corner is: found by measuring
-// Ripples in their place to less than so many pixels: they are as broad as that or fade, so that this much of their
-// error shows. Found by measuring; all displacements alike would cost a bright spot 1 dB.
+constexpr double kObscurationBend = 3.0;  // an obscuration's edge still curves where that corner is: found by measuring
+// Fringes that are displaced by less than kLittleOff_px show the fraction kSeenOfLittle of their error, because they
+// are as wide as that or fade. Found by measuring; treating all displacements alike would cost a bright spot 1 dB.
 constexpr double kLittleOff_px = 0.5, kSeenOfLittle = 0.1;
-// Of a cell that large, and so bright beside the peak: a plane that is farther off shows as a facet, however little it
-// is of the peak.
+// In a cell larger than kFacet_px and brighter than kFacetLevel of the peak, a plane that is off by more than kFacet of
+// the mean shows as a facet, however small the error is relative to the peak.
 constexpr double kFacet = 0.02, kFacet_px = 400.0, kFacetLevel = 2e-4;
-// Of ghosts that bright, and cells that long: gaps this wide show as lines, where sides bend for no reason of the
-// image's beside cells of another box; where an edge crosses a side so far off its place it has a corner.
+// Limits for cells longer than kShownLength_px in ghosts brighter than kFacetLevel. A gap wider than kSeam_px shows as
+// a line where a side, bent only by the shape of its box, meets a cell of another box. An edge that crosses a side more
+// than kCorner_px from its true position shows a corner.
 constexpr double kShownLength_px = 8.0, kSeam_px = 0.07, kCorner_px = 1.0;
 
-// Mean square of what a plane through a cell's nine vertices, row by row, leaves of their values.
+// The mean square residual of the best plane through a cell's nine vertices, row by row.
 template <class ValueAt>
 double off_plane(const ValueAt& at) {
   std::array<double, 9> e;
@@ -54,9 +56,9 @@ double off_plane(const ValueAt& at) {
   return sum;
 }
 
-// How far from where a parabola through the values at a side's ends and middle is 1 a line between its ends is, as a
-// share of the side; 0 where it does not cross. Beside what fails heights rise so steeply that their mean slope says
-// little.
+// The distance between the points at which a side crosses the value 1, for the parabola through the values at its ends
+// and its middle, and for the line between its ends: as a fraction of the side; 0 where neither crosses. The local
+// slope is used, since heights next to failing rays rise so steeply that the mean slope says little.
 double off_crossing(double from, double middle, double to) {
   if ((from - 1.0) * (to - 1.0) >= 0.0) return 0.0;
   const double t = (1.0 - from) / (to - from);
@@ -88,9 +90,10 @@ CellPainter::CellMeasure CellPainter::measure(const Mesh& mesh, const Cell& cell
   m.mean = sum / 9.0;
   const Vec2 extent = b.size();
   const double box = std::max(extent.x, kPixel) * std::max(extent.y, kPixel);
-  // Its whole flux out of place within its bounds: no cell can do worse.
+  // An upper bound for any cell: its whole flux is displaced within its bounds.
   const double flux = std::abs(mesh.brightness[cell.middle] * mesh.area[cell.middle]) * cell.size * cell.size;
-  // Moved by a quarter of a size below a pixel, an eighth of its square is what pixels see.
+  // A shape smaller than a pixel that moves by a quarter of its size changes the pixels by an eighth of the squared
+  // size.
   const double seen_part = dot(extent, extent) / (dot(extent, extent) + 8.0);
   const double worst = flux * flux / box * seen_part;
   if (folded) {
@@ -116,7 +119,7 @@ CellPainter::CellMeasure CellPainter::measure(const Mesh& mesh, const Cell& cell
   if (state == State::Cut) {
     m.limit = limit_error(mesh, cell);
     if (m.limit * cell.screen.most > kMostBend) {
-      m.whole = std::numeric_limits<double>::infinity();  // or light would be lost unseen
+      m.whole = std::numeric_limits<double>::infinity();  // or light would be lost unnoticed
       return m;
     }
   }
@@ -130,7 +133,7 @@ CellPainter::CellMeasure CellPainter::measure(const Mesh& mesh, const Cell& cell
   return m;
 }
 
-// What drawing the cell as one polygon with a linear irradiance would get wrong, squared, over its pixels.
+// The squared error of drawing the cell as one polygon with a linear irradiance, summed over its pixels.
 double CellPainter::squared_error(const Mesh& mesh, const Cell& cell, CellMeasure& m, State state, Sides sides) const {
   const double passed = cell.screen.most;
   if (passed == 0.0) return 0.0;
@@ -138,7 +141,7 @@ double CellPainter::squared_error(const Mesh& mesh, const Cell& cell, CellMeasur
   const double width =
       std::min(1.0, m.area_px / std::max(m.longest_px, 1e-6));  // a sliver's flux is spread over a pixel
   double error = 0.0;
-  if (!m.on_plane) {  // what is drawn has the flux over the polygon's area for its mean
+  if (!m.on_plane) {  // the drawn mean irradiance is the flux over the polygon's area
     const auto bent = [&](std::size_t k) { return mesh.position(k % 2 == 0 ? cell.corner[k / 2] : cell.side[k / 2]); };
     const auto straight = [&](std::size_t k) { return mesh.position(cell.corner[k]); };
     const double drawn_px =
@@ -152,7 +155,7 @@ double CellPainter::squared_error(const Mesh& mesh, const Cell& cell, CellMeasur
   const double seen = m.mean * m.mean * width * width;
   const SidesOff off = sides_off(mesh, cell, state, left);
   error += kEdgeBound * seen * off.strips;
-  // Where cells meet off their place, irradiance is taken from beside its own.
+  // Where cells meet at displaced sides, a strip takes the neighbouring cell's irradiance.
   const double beside = m.on_plane ? 0.0 : m.range * std::min(off.shared_px / std::max(m.longest_px, 1e-6), 1.0);
   error += kShadeBound * beside * beside * m.area_px * width;
   if (is_dirty(mesh, cell)) error += seen * shadow_error(mesh, cell);
@@ -175,9 +178,9 @@ double CellPainter::squared_error(const Mesh& mesh, const Cell& cell, CellMeasur
   return sides_bend_ ? std::max(error, shown(off.alone_px / kSeam_px)) : error;
 }
 
-// What a cell shares its sides with has the same corners there: nothing is left between them, and of edges that cut
-// both only the ends are off. Beside a cell of another box, or one that is drawn as triangles, sides overlap or leave
-// gaps.
+// Cells that share a side have the same corners on it: they leave no gap, and an edge that clips both is displaced only
+// where it crosses the side. Next to a cell of another box, or to one that is drawn as triangles, sides overlap or
+// leave gaps.
 CellPainter::SidesOff CellPainter::sides_off(const Mesh& mesh, const Cell& cell, State state, double left) const {
   const bool triangles = is_dirty(mesh, cell) || (state == State::Cut && iris_.is_picture() && !screen_);
   SidesOff out;
@@ -194,8 +197,8 @@ CellPainter::SidesOff CellPainter::sides_off(const Mesh& mesh, const Cell& cell,
   return out;
 }
 
-// How far the lines that cut the cell are off when stop coordinates and rims are taken as linear along its sides, as
-// a share of the cell.
+// The displacement of the lines that clip the cell when stop coordinates and heights at rims are taken as linear along
+// its sides, as a fraction of the cell.
 double CellPainter::limit_error(const Mesh& mesh, const Cell& cell) const {
   double largest = 0.0;
   const int first_rim = mesh.layout.rim(0);
@@ -219,7 +222,7 @@ double CellPainter::limit_error(const Mesh& mesh, const Cell& cell) const {
       off = std::max(off, std::abs(static_cast<double>(v[cell.side[k]]) -
                                    0.5 * (v[cell.corner[k]] + v[cell.corner[(k + 1) % 4]])));
     }
-    // Neighbouring stop fields are one point's coordinates: the larger change is the scale of both.
+    // Neighbouring stop fields are the coordinates of one point: the larger of their changes is the scale of both.
     double change = high - low;
     if (f < first_rim) {
       const Mesh::Field& w = mesh.field((f - PatchLayout::kStop) % 2 == 0 ? f + 1 : f - 1);
@@ -233,8 +236,8 @@ double CellPainter::limit_error(const Mesh& mesh, const Cell& cell) const {
   return largest;
 }
 
-// Likewise, of an obscuration, whose edge bends more: what the middle is off counts, too. It may begin and end inside
-// the cell, or within one side: lines along the outline find nothing of it then.
+// The same displacement for an obscuration, whose edge curves more, so that the deviation in the middle counts too. The
+// obscuration may begin and end inside the cell or within one side, where clipping along the outline misses it.
 double CellPainter::obscuration_error(const Mesh::Field& v, const Cell& cell) {
   double low = v[cell.middle], off = 0.0, outline = v[cell.corner[0]], mean = 0.0;
   const auto bend = [&](std::size_t a, std::size_t b) { return std::abs(v[a] - 2.0 * v[cell.middle] + v[b]); };
@@ -252,7 +255,8 @@ double CellPainter::obscuration_error(const Mesh::Field& v, const Cell& cell) {
   return kObscurationBend * (outline > 1.0 ? off : high + rise - 1.0) / (high - low);
 }
 
-// Chords of an arc that miss it by no more pixels than their share of the budget allows; twice that costs up to 0.7 dB.
+// The step along an arc for which chords miss it by no more pixels than their part of the budget allows; twice that
+// distance costs up to 0.7 dB.
 double CellPainter::arc_step(const Mesh& mesh, std::span<const CellCorner> corners, const Shade& shade) const {
   double reach = 0.0;
   Bounds b;

@@ -10,9 +10,9 @@ namespace contrejour::adaptive {
 namespace {
 
 constexpr double kSliver = 1e-3;     // pixels: mean width below which a polygon is a line
-constexpr double kUnseenDetail = 0.3;  // pixels, of a picture as the iris
+constexpr double kUnseenDetail = 0.3;  // pixels: details of a picture as the iris that are not visible
 constexpr double kSpeck = 0.05;      // pixels: a polygon no longer than this is a point
-constexpr int kMostPoints = 256;     // that stand for a line
+constexpr int kMostPoints = 256;     // points that represent a line, at most
 
 }  // namespace
 
@@ -53,7 +53,7 @@ CellPainter::CellLevel CellPainter::cell_level(const Mesh& mesh, const Cell& cel
     mean += 0.25 * e[k];
     most = std::max(most, std::abs(e[k]));
   }
-  // Where the irradiance rises steeply a plane through the corners would go below zero: level then.
+  // Where the irradiance rises steeply, a plane through the corners would go below zero: it is then taken as constant.
   if (!(std::abs(mean) > 0.0) || most > 2.0 * std::abs(mean)) return level;
   level.along_d = (e[2] - e[0]) / mean;
   level.along_f = (e[3] - e[1]) / mean;
@@ -102,7 +102,7 @@ void CellPainter::draw(const BoxMesh& of, const ChosenCell& chosen) {
   const Vec2 middle = centroid + mesh.origin_px;
   shade.at = {static_cast<float>(middle.x), static_cast<float>(middle.y)};
   const double flux_area = mesh.cell_flux_area_mm2 * cell.size * cell.size;
-  // Pixels see the irradiance at their centres, which may lie well outside a cell smaller than they are.
+  // Pixels take the irradiance at their centres, which may lie well outside a cell smaller than a pixel.
   const double width = std::abs(area) / longest;
   const double sloped = std::clamp(width - 1.0, 0.0, 1.0);
   rise_ = weight_rise(mesh, cell);
@@ -128,7 +128,7 @@ void CellPainter::draw(const BoxMesh& of, const ChosenCell& chosen) {
   draw_seen(map ? &*map : nullptr);
 }
 
-// By the first weight, which the others resemble.
+// The rise of the first weight stands for all, since weights of the channels are alike.
 Vec2 CellPainter::weight_rise(const Mesh& mesh, const Cell& cell) {
   const Mesh::Field& w = mesh.field(mesh.layout.weight(0));
   const std::array<double, 4> at{w[cell.corner[0]], w[cell.corner[1]], w[cell.corner[2]], w[cell.corner[3]]};
@@ -137,7 +137,7 @@ Vec2 CellPainter::weight_rise(const Mesh& mesh, const Cell& cell) {
   return Vec2{at[1] + at[2] - at[0] - at[3], at[2] + at[3] - at[0] - at[1]} * (2.0 / sum);
 }
 
-// Each part as a polygon of its own, with its share of the cell's flux.
+// Draws each part as a polygon of its own, with its part of the cell's flux.
 void CellPainter::draw_parts(const Mesh& mesh, const Cell& cell, const CellParts& parts) {
   std::array<Vec2, 4> corner;
   for (std::size_t k = 0; k < 4; ++k) corner[k] = mesh.position(cell.corner[k]) + mesh.origin_px;
@@ -160,7 +160,7 @@ void CellPainter::draw_parts(const Mesh& mesh, const Cell& cell, const CellParts
   }
 }
 
-// Two triangles, each with its own flux spread evenly.
+// Draws a folded cell as two triangles, each with its own flux at constant irradiance.
 void CellPainter::draw_folded(const Mesh& mesh, const Cell& cell, State state, const std::optional<Flux>& mean) {
   const double flux_area = 0.5 * mesh.cell_flux_area_mm2 * cell.size * cell.size;
   for (const auto& t : {std::array{cell.corner[0], cell.corner[1], cell.corner[2]},
@@ -214,7 +214,7 @@ void CellPainter::draw_polygon(const Mesh& mesh, State state, const Shade& shade
   draw_part(open, shade, flux, triangle, behind);
 }
 
-// What a picture as the iris leaves of a cell. Details that no pixel shows are drawn as their mean.
+// Draws what a picture as the iris leaves of a cell. Details that no pixel shows are drawn as their mean.
 void CellPainter::draw_pieces(const Mesh& mesh, std::span<const Corner> cell, const Shade& shade, const Flux& flux,
                               const Behind& behind) {
   Bounds b;
@@ -229,15 +229,16 @@ void CellPainter::draw_pieces(const Mesh& mesh, std::span<const Corner> cell, co
                              });
 }
 
-// Of a small polygon, so much of a cell's flux to the pixel: near a focus irradiance varies within cells that pixels do
-// not tell apart, and what the iris leaves of them has not its share of their area.
+// The irradiance of a small polygon from its flux: the cell's flux times `share_per_px`. Near a focus irradiance varies
+// within cells that pixels do not resolve, so that the fraction of flux that the iris transmits is not the fraction of
+// area that it leaves.
 Shade CellPainter::even_shade(const Shade& of, const Flux& flux, double share_per_px) {
   Shade even{.at = of.at};
   for (std::size_t c = 0; c < 3; ++c) even.value[c] = static_cast<float>(flux[c] * share_per_px);
   return even;
 }
 
-// Likewise of one of a few pixels, which keeps how its irradiance rises.
+// The same for a polygon of a few pixels, which keeps the slope of its irradiance.
 Shade CellPainter::with_flux(std::span<const Corner> polygon, const Shade& of, const Flux& flux, double share) const {
   constexpr double kMost = 2.0;
   const Vec2 aside = area_of(polygon.size(), [&](std::size_t k) { return polygon[k].uv; }).centroid - Vec2{0.5, 0.5};
@@ -255,7 +256,7 @@ Shade CellPainter::with_flux(std::span<const Corner> polygon, const Shade& of, c
   return out;
 }
 
-// triangle: flux is that of half the square of uv.
+// triangle: `flux` is that of half the square of uv.
 void CellPainter::draw_part(std::span<const Corner> polygon, const Shade& shade, const Flux& flux, bool triangle,
                             const Behind& behind) {
   if (polygon.size() < 3) return;
@@ -275,7 +276,7 @@ void CellPainter::draw_part(std::span<const Corner> polygon, const Shade& shade,
   const double area = 0.5 * std::abs(twice_area), share = 0.5 * std::abs(twice_share) * (triangle ? 2.0 : 1.0);
   if (!one_pixel && !sliver && longest > kSpeck) {
     if (longest < kSmall_px) return add_seen(polygon, area, even_shade(shade, flux, share / area), flux, behind);
-    const bool few = longest < kFew_px && !triangle;  // halves of a cell have not halves of its flux
+    const bool few = longest < kFew_px && !triangle;  // half of a cell need not have half of its flux
     return add_seen(polygon, area, few ? with_flux(polygon, shade, flux, share) : shade, flux, behind);
   }
   Flux passed{flux[0] * share, flux[1] * share, flux[2] * share};
@@ -292,7 +293,7 @@ void CellPainter::draw_part(std::span<const Corner> polygon, const Shade& shade,
   draw_line(polygon, passed);
 }
 
-// The flux at points between the ends of a polygon that is thinner than can be told.
+// Draws a polygon thinner than rounding can resolve as points along its length that carry its flux.
 void CellPainter::draw_line(std::span<const Corner> polygon, const Flux& flux) {
   std::array<Vec2, 2> ends{polygon[0].position, polygon[0].position};
   for (const Corner& a : polygon) {

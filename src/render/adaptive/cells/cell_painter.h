@@ -1,5 +1,5 @@
-// A patch as polygons: cells as large as the error allows, small where the map folds and at the edges that the iris
-// and the rims cut.
+// Draws patches as polygons: cells as large as the error allows, small where the map folds and at the edges along which
+// the iris and the rims clip them.
 #pragma once
 
 #include <algorithm>
@@ -21,28 +21,28 @@ namespace contrejour::adaptive {
 
 class CellPainter {
  public:
-  // budget: of each band; its squared error is what all cells together may make, if they are no more than few_cells or
-  // several times that. room: for cells, used again afterwards.
+  // budget: of each band. Its squared error is the most that all cells together may make, unless they are many times
+  // more than few_cells. room: scratch memory for cells.
   CellPainter(const IrisShape& iris, const Frame& frame, const ErrorBudget& budget, double few_cells, BoxCells& room,
               PolygonList& out)
       : iris_(iris), width_(frame.width), height_(frame.height), budget_(budget.squared_error), few_cells_(few_cells),
         peak_(budget.peak), out_(out), chosen_(room), cutter_(iris) {}
 
-  // The cells of a patch, which is where in a box, and then all that were chosen of a band.
+  // Chooses the cells of a patch at this place in its box; draw() then draws all cells chosen for a band.
   void choose(const Patch& patch, const MeshPlace& place) { choose(patch, place, 0, nullptr); }
   void draw();
 
-  // Of patches from here on: lines that are straight in them are bent in the entrance plane, so that their sides would
-  // leave seams beside another box.
+  // Says of the following patches whether their straight lines are bent in the entrance plane, so that their sides
+  // would leave seams next to another box.
   void sides_bend(bool bend) { sides_bend_ = bend; }
-  // From here on the light passes a screen: stop coordinates are in units of `unit` stop radii.
+  // From here on the light passes a stop pattern: stop coordinates are in units of `unit` stop radii.
   void stand_behind(std::shared_ptr<const screens::BandScreen> screen, double unit) {
     if (screen == screen_) return;
     screen_ = std::move(screen);
     screen_unit_ = unit;
     out_.screens.push_back(screen_);
   }
-  // And past dirt.
+  // From here on the light passes dirt.
   void stand_behind(const SeenDirt& dirt) {
     if (dirt.band && dirt.band != dirt_.band) out_.band_dirt.push_back(dirt.band);
     dirt_ = dirt;
@@ -51,20 +51,21 @@ class CellPainter {
  private:
   using State = CellState;
   using Flux = std::array<double, 3>;
-  // Where a triangle's light crosses the plane of the dirt, mm.
+  // The points, in mm, at which a triangle's light crosses the plane of the dirt.
   struct DirtTriangle {
     std::array<Vec2, 3> pixel;
     std::array<std::array<Vec2, 3>, kMaxStopCrossings> place_mm;
     std::size_t crossings = 0;
   };
-  // What a polygon's light has come through, where that is not level; the polygon is then within the triangle.
+  // What a polygon's light has passed that does not transmit all of it alike. With dirt, the polygon lies within its
+  // triangle.
   struct Behind {
     const StopMap* screen = nullptr;
     const DirtTriangle* dirt = nullptr;
-    double most = 1.0;  // that passes the screen
+    double most = 1.0;  // largest transmittance of the stop pattern
   };
 
-  // What passes the screen of a cell's light, by parts as large as each other.
+  // What the stop pattern transmits of a cell's light, in parts of equal size in the cell.
   struct CellParts {
     static constexpr std::size_t kFewestAcross = 3, kMostAcross = 10;
     std::size_t across;
@@ -72,10 +73,10 @@ class CellPainter {
 
     [[nodiscard]] std::size_t count() const { return across * across; }
     [[nodiscard]] std::span<const Flux> passed() const { return {room.data(), count()}; }
-    // In the cell, each way from 0 to 1.
+    // In coordinates of the cell, each from 0 to 1.
     [[nodiscard]] Vec2 middle(std::size_t part) const { return place(part, {0.5, 0.5}); }
     [[nodiscard]] Vec2 corner(std::size_t part, std::size_t which) const;
-    // There, between what is at the cell's corners.
+    // Interpolates bilinearly between values at the cell's corners.
     [[nodiscard]] static Vec2 between(const std::array<Vec2, 4>& corner, Vec2 uv);
     [[nodiscard]] Flux mean() const;
     [[nodiscard]] bool are_uneven(double room) const;
@@ -84,44 +85,45 @@ class CellPainter {
     [[nodiscard]] Vec2 place(std::size_t part, Vec2 in_part) const;
   };
 
-  // What its errors are made of, with straight sides or bent ones.
+  // The quantities from which a cell's error is computed, with straight or with bent sides.
   struct CellMeasure {
-    bool on_plane = false;  // its irradiance is that of more cells
-    std::optional<double> whole;  // the squared error whatever its sides are; infinite: it must not be drawn
-    double most = 0.0;  // squared error
-    double mean = 0.0, range = 0.0;  // brightness, and how much it varies
-    double off_plane = 0.0;  // mean square of what a plane leaves of it
+    bool on_plane = false;  // its irradiance is that of a plane for several cells
+    std::optional<double> whole;  // the squared error whatever its sides are; infinite: do not draw the cell
+    double most = 0.0;  // the largest possible squared error
+    double mean = 0.0, range = 0.0;  // RMS irradiance of the channels, and its range
+    double off_plane = 0.0;  // mean square residual of a plane through it
     double area_px = 0.0;  // by the derivatives in its middle
     double image_px = 0.0, flux = 0.0;  // integrals over the cell
     double longest_px = 0.0;
     double limit = 0.0;  // limit_error()
-    std::optional<double> map_error;  // map_error(), once it is asked for
+    std::optional<double> map_error;  // map_error(), computed when needed
   };
-  struct Shape {  // a cell's corners, and if its sides bend their middles
+  struct Shape {  // a cell's corners, and the middles of its sides if they bend
     std::array<CellCorner, 8> corners;
     std::size_t count = 0;
     void add(const CellCorner& corner) { corners[count++] = corner; }
     [[nodiscard]] std::span<const CellCorner> all() const { return {corners.data(), count}; }
   };
 
-  // How far a cell's sides are from where the map has them.
+  // The displacement of a cell's sides from the mapped curves.
   struct SidesOff {
-    double strips = 0.0;  // squares of what is seen of them, times lengths, summed
-    double shared_px = 0.0, alone_px = 0.0;  // the most, of sides that cells share and others
+    double strips = 0.0;  // visible squared displacements times lengths, summed
+    double shared_px = 0.0, alone_px = 0.0;  // the largest displacement of shared sides and of other sides
   };
 
   static constexpr double kManyCells = 4.0;
-  static constexpr double kSoft_px = 0.2;  // of cells, for maps to be drawn with;
-  static constexpr double kSoft = 0.05;  // and over their length at the most, or maps of small ones would be flat
-  // Of smaller polygons it is their flux that counts, whatever irradiance their places say.
+  static constexpr double kSoft_px = 0.2;  // minimum thickness of cells in stop maps,
+  static constexpr double kSoft = 0.05;  // of their length at most, or maps of small cells would be constant
+  // In smaller polygons only the flux counts, whatever irradiance their positions suggest.
   static constexpr double kSmall_px = 2.0;
-  // In smaller ones it counts too: what cuts them is straight in the entrance plane, where it may bend in the picture.
+  // In polygons smaller than this the flux counts too: the edges that clip them are straight in the entrance plane but
+  // may curve on the frame.
   static constexpr double kFew_px = 8.0;
-  // Times what is not seen, so 0.1 of the error that all pixels may have: where light is dimmer than that it is its
-  // mean over a cell.
+  // Light dimmer than this many times the negligible level, thus 0.1 of the error that all pixels may have, is drawn
+  // with its mean transmittance over a cell.
   static constexpr double kMeanBelow = 10.0;
 
-  // By one of the weights, without gain: its mean, and how the irradiance rises along the diagonals, over its mean.
+  // One of the weights, without gain: its mean, and its rise along the diagonals over the mean.
   struct CellLevel {
     double weight = 0.0, along_d = 0.0, along_f = 0.0;
   };
@@ -175,7 +177,7 @@ class CellPainter {
   [[nodiscard]] static double brightest(const Mesh& mesh, const Cell& cell);
   [[nodiscard]] bool are_uneven(const Mesh& mesh, const Cell& cell, const CellParts& parts) const;
   [[nodiscard]] double stop_size(const Mesh& mesh, const Cell& cell) const;
-  // Into the room for what is added next.
+  // The polygon's points, in scratch memory that the next call overwrites.
   template <class AnyCorner>
   [[nodiscard]] std::span<const Point> points_of(std::span<const AnyCorner> polygon) {
     points_.clear();
@@ -185,11 +187,11 @@ class CellPainter {
   }
   void draw_line(std::span<const Corner> polygon, const Flux& flux);
 
-  // Of the next cell. How many there will be is not known before: their share falls as they become more, down to a
-  // quarter. Falling on, it would spend most of them where light gathers and nothing is gained.
+  // The budget of the next cell. The number of cells is not known beforehand: a cell's fraction falls as they become
+  // more, down to a quarter. If it fell further, most cells would be spent where light is focused, without gain.
   [[nodiscard]] double cell_budget() const { return budget_ / std::clamp(cells_, few_cells_, kManyCells * few_cells_); }
   [[nodiscard]] static Cell cell_at(const BoxMesh& of, const MeshSquare& square);
-  // Of a cell that is neither closed nor off the frame; none if it is.
+  // Empty if the cell is closed or off the frame.
   [[nodiscard]] std::optional<std::pair<Cell, State>> seen_cell(const BoxMesh& of, const MeshSquare& square) const;
   [[nodiscard]] static bool misses_stop(const Mesh& mesh, const Cell& cell, int crossing);
   [[nodiscard]] State state_of(const Mesh& mesh, const Cell& cell) const;
@@ -204,7 +206,7 @@ class CellPainter {
   [[nodiscard]] double squared_error(const Mesh& mesh, const Cell& cell, CellMeasure& of, State state,
                                      Sides sides) const;
   [[nodiscard]] SidesOff sides_off(const Mesh& mesh, const Cell& cell, State state, double left) const;
-  // A picture cuts triangles, within which corners on a cell's sides say nothing.
+  // A picture as the iris clips triangles, within which corners on a cell's sides have no effect.
   [[nodiscard]] Sides most_bent(State state) const {
     return state == State::Cut && iris_.is_picture() ? Sides::Straight : Sides::Bent;
   }
@@ -216,7 +218,7 @@ class CellPainter {
   const IrisShape& iris_;
   int width_, height_;
   double budget_, few_cells_;
-  double cells_ = 0.0;  // of this band so far
+  double cells_ = 0.0;  // chosen for this band
   bool sides_bend_ = false;
   double peak_;
   PolygonList& out_;
@@ -226,11 +228,11 @@ class CellPainter {
   screens::ShadowCutter shadows_;
   std::map<std::pair<const screens::BandScreen*, int>, const EdgeTable*> tables_;  // of screens, by width
   std::vector<std::uint16_t> active_;
-  PlacedPolygon rest_, strip_;  // of what is cut along edges
-  std::vector<Corner> shape_, outline_;  // of what is drawn
+  PlacedPolygon rest_, strip_;  // scratch for cutting along edges
+  std::vector<Corner> shape_, outline_;  // scratch for drawing
   BoxCells& chosen_;
   std::vector<CellCorner> all_corners_;  // of a cell
-  Vec2 rise_;  // of what its rays carry, from side to side both ways, over the mean
+  Vec2 rise_;  // of what its rays carry: change from side to side along u and v, over the mean
   OutlineCutter cutter_;
   std::vector<Point> points_;
 };

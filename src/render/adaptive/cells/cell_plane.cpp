@@ -9,8 +9,8 @@
 namespace contrejour::adaptive {
 namespace {
 
-constexpr double kThinnest_px2 = 0.5;  // mean square distance from the middle across them
-constexpr double kDark = 0.05;         // of a vertex that light reaches, that one counts where it is blocked
+constexpr double kThinnest_px2 = 0.5;  // mean square distance from the middle, across the thin direction
+constexpr double kDark = 0.05;         // weight of a blocked vertex over that of one that light reaches
 
 struct Plane {
   double mean = 0;
@@ -18,7 +18,7 @@ struct Plane {
   double squared_error = 0;
 };
 
-// Sums are of places from here: cells lie far from the patch's origin.
+// Sums use positions relative to this point, since cells lie far from the patch's origin.
 Vec2 middle_of(const Mesh& mesh) { return mesh.position(Mesh::at(Mesh::kCells / 2, Mesh::kCells / 2)); }
 
 }  // namespace

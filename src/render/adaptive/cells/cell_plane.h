@@ -1,5 +1,5 @@
-// One irradiance for many cells: a plane over their pixels. Cells are small where the iris cuts them or the map bends,
-// and light may be even there; between cells of one plane there is nothing to draw.
+// One irradiance for many cells: a plane over their pixels. Cells are small where the iris clips them or the map
+// curves, though the irradiance may vary slowly there; between cells on one plane no edge is drawn.
 #pragma once
 
 #include <array>
@@ -11,28 +11,29 @@
 
 namespace contrejour::adaptive {
 
-// A square of a mesh's cells, from ix, iy on.
+// A square of a mesh's cells whose first vertex is at ix, iy.
 struct MeshSquare {
   int ix = 0, iy = 0, size = 0;
 };
 
 struct IrradiancePlane {
   Shade shade;
-  double mean = 0.0;           // brightness
-  double squared_error = 0.0;  // of the channels' mean, over the cells' pixels
+  double mean = 0.0;           // of the channels' RMS irradiance
+  double squared_error = 0.0;  // of the channels' mean, summed over the cells' pixels
   double area_px = 0.0;
 };
 
-// Sums over the light of squares of one mesh.
+// Moments of the light over squares of one mesh.
 class LightSums {
  public:
-  // By Simpson's rule over 3 x 3 vertices. blocked: bits of Mesh::outside; what they are set for counts little, being
-  // dark.
+  // Integrates by Simpson's rule over 3 x 3 vertices. blocked: bits of Mesh::outside; a vertex at which one of them is
+  // set is dark and gets a small weight.
   LightSums(const Mesh& mesh, const MeshSquare& square, std::uint32_t blocked);
   void add(const LightSums& other);
 
-  // Through the irradiance at the vertices by least squares over the pixels: as much light as they have. None where the
-  // map folds, where the square is thinner than pixels, or where it would be negative at its corners.
+  // The least-squares plane through the irradiance at the vertices, weighted by pixels; it has the flux of the
+  // vertices. Empty where the map folds, where the square is thinner than pixels, or where the plane would be negative
+  // at a corner of the square.
   [[nodiscard]] std::optional<IrradiancePlane> plane(const Mesh& mesh, const MeshSquare& square) const;
 
  private:

@@ -1,4 +1,4 @@
-// Bounds, areas and middles of what cells are drawn as, and integrals over them.
+// Bounds, areas and centroids of polygons of cells, and quadrature weights.
 #pragma once
 
 #include <algorithm>
@@ -10,7 +10,7 @@
 
 namespace contrejour::adaptive {
 
-// Of one axis, over its beginning, middle and end.
+// Simpson's weights along one axis: beginning, middle, end.
 constexpr std::array kSimpson{1.0 / 6.0, 4.0 / 6.0, 1.0 / 6.0};
 
 struct Bounds {
@@ -23,7 +23,7 @@ struct Bounds {
   [[nodiscard]] Vec2 size() const { return high - low; }
 };
 
-// Of a polygon: signed, and the point that halves it every way.
+// The signed area of a polygon, and its centroid.
 struct Area {
   double signed_px = 0;
   Vec2 centroid;

@@ -1,4 +1,4 @@
-// Corners of what is drawn of a cell.
+// Corners of the polygons that cells are drawn as.
 #pragma once
 
 #include <array>
@@ -9,10 +9,11 @@
 
 namespace contrejour::adaptive {
 
-// A corner of a polygon with what may cut it: stop coordinates, two a crossing, then squared heights at rims.
+// A corner of a polygon with the fields that may clip it: two stop coordinates a crossing, then squared heights at
+// rims.
 struct Corner {
   Vec2 position;  // pixels of the frame
-  Vec2 uv;        // in the cell or triangle: shares of areas there are shares of flux
+  Vec2 uv;        // in the cell or triangle: fractions of area there are fractions of flux
   std::array<float, 2 * kMaxStopCrossings + kMostRims> limit{};
 };
 

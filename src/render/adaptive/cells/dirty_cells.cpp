@@ -1,5 +1,6 @@
-// Cells whose light passes dirt: triangles, over which places in the dirt's plane are linear. Shapes take their light
-// away as polygons of negative sign; a picture, and shapes over shapes over shapes, are looked up pixel by pixel.
+// Draws cells whose light passes dirt: as triangles, over which points in the dirt's plane are linear. Shapes subtract
+// their light as polygons of negative sign. A picture of dirt, and shapes that overlap many times, are looked up pixel
+// by pixel.
 #include <algorithm>
 #include <cmath>
 
@@ -8,12 +9,12 @@
 namespace contrejour::adaptive {
 namespace {
 
-constexpr double kDirtDisc = 1.2;  // of a cell's distance from its middle in the dirt's plane, for cells that bend
-constexpr double kMostEdges = 8.0;  // of a cell's length in pixels: more edges are no more to be seen
+constexpr double kDirtDisc = 1.2;  // radius of a curved cell over that of its vertices, in the dirt's plane
+constexpr double kMostEdges = 8.0;  // edges over a cell's length in pixels, at most: more are not visible
 
 using Places = std::array<Vec2, 3>;
 
-// By a pixel's area, in mm.
+// The side, in mm, of a square with a pixel's area in the dirt's plane.
 double pixel_mm(const screens::PlaneView& view) { return std::sqrt(std::abs(cross(view.along_x, view.along_y))); }
 
 Vec2 pixels_between(const screens::PlaneView& view, Vec2 off_mm) {
@@ -49,7 +50,7 @@ bool CellPainter::is_dirty(const Mesh& mesh, const Cell& cell) const {
   return false;
 }
 
-// How far shadows are off their place in the cell's two triangles, squared, over the pixels along their edges.
+// The squared displacement of shadows in the cell's two triangles, summed over the pixels along their edges.
 double CellPainter::shadow_error(const Mesh& mesh, const Cell& cell) const {
   double most = 0.0;
   const DirtScreen::Edges soft = dirt_.band->edges();
@@ -97,7 +98,7 @@ PastDirt CellPainter::past_dirt(const DirtTriangle& dirt) const {
   return {dirt_.band.get(), {CellSeries::of_triangle(dirt.pixel), {places.data(), dirt.crossings}, kSoft_px}};
 }
 
-// Two triangles, over each of which places in the dirt's plane are linear.
+// Draws the cell as two triangles, over each of which points in the dirt's plane are linear.
 void CellPainter::draw_dirty(const Mesh& mesh, const Cell& cell, State state, const Shade& shade, const Flux& flux,
                              const StopMap* map) {
   const Flux half{0.5 * flux[0], 0.5 * flux[1], 0.5 * flux[2]};
@@ -139,7 +140,7 @@ void CellPainter::add_shadows(std::span<const Corner> polygon, const Shade& shad
     views[c] = screens::PlaneView::through(dirt.pixel, dirt.place_mm[c]);
     finest_mm = c == 0 ? pixel_mm(views[c]) : std::min(finest_mm, pixel_mm(views[c]));
   }
-  // The three corners' places in a cell, as they are drawn.
+  // The coordinates of the three corners in their cell, in the order in which they are drawn.
   const auto in_cell = screens::PlaneView::through(dirt.pixel, Places{Vec2{0.0, 0.0}, Vec2{1.0, 0.0}, Vec2{1.0, 1.0}});
   std::vector<Vec2> outline;
   for (const Corner& c : polygon) outline.push_back(c.position);

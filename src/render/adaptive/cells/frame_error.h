@@ -1,4 +1,4 @@
-// What a whole frame may get wrong, and which items' finer looks are worth their while under it.
+// The error that a whole frame may make, and which items are worth drawing more finely under that limit.
 #pragma once
 
 #include <cstddef>
@@ -6,19 +6,20 @@
 
 namespace contrejour::adaptive {
 
-// RMS error over the frame's pixels, as a share of the peak.
+// The RMS error over the frame's pixels, as a fraction of the peak.
 struct FrameError {
   double error = 0.003, peak = 1.0, pixels = 1.0;
   [[nodiscard]] double squared() const { return error * peak * error * peak * pixels; }  // summed over the pixels
 };
 
-// What counts of a level's error: all of it up to the peak, and far above that only its share of the level.
+// The weight of an error at this level: 1 far below the peak, and falling as 1 / level far above it.
 [[nodiscard]] inline double seen_share(double level, double peak) {
-  constexpr double kPeaks = 4.0;  // over the peak, where half counts
+  constexpr double kPeaks = 4.0;  // level over the peak at which an error counts half
   return 1.0 / (1.0 + level / (kPeaks * peak));
 }
 
-// Of some items' squared errors, by rising error: those beyond what the smallest may make together.
+// The items that remain, in their order, when those with the smallest squared errors are left out as long as these
+// together make no more than `allowed`.
 [[nodiscard]] std::vector<std::size_t> worth_drawing(std::vector<std::size_t> some, const std::vector<double>& error,
                                                      double allowed);
 

@@ -9,7 +9,7 @@
 namespace contrejour::adaptive {
 namespace {
 
-// From nodes to vertices: values, and their change from vertex to vertex.
+// Matrices from a patch's nodes to the vertices: of values, and of their change from vertex to vertex.
 struct MeshMatrices {
   Matrix value, change;
 
@@ -30,7 +30,7 @@ const MeshMatrices& matrices(int nodes) {
 
 using HalfField = std::array<float, 17 * Mesh::kStride>;
 
-// Position and how it changes along u and v.
+// Positions at the vertices, and their change along u and v.
 struct Positions {
   Mesh::Field value, along_u, along_v;
 };
@@ -46,7 +46,8 @@ Positions positions(const float* nodes_field, int nodes, const MeshMatrices& m) 
   return out;
 }
 
-// Half a cell's longest diagonal in the plane of a crossing: no ray of a cell is farther from all of its vertices.
+// Half of a cell's longest diagonal in the plane of a crossing: no ray of a cell is farther than that from all of its
+// vertices.
 float slack_of(const Mesh& mesh, int crossing) {
   const Mesh::Field& x = mesh.field(PatchLayout::kStop + 2 * crossing);
   const Mesh::Field& y = mesh.field(PatchLayout::kStop + 2 * crossing + 1);
@@ -71,7 +72,7 @@ void mark_outside(Mesh& mesh, const IrisShape& iris) {
   for (int c = 0; c < mesh.layout.crossings; ++c) {
     iris.distances(mesh.field(PatchLayout::kStop + 2 * c).data(), mesh.field(PatchLayout::kStop + 2 * c + 1).data(),
                    distance.size(), distance.data());
-    // Between vertices that are open there may be what a picture blocks.
+    // A picture may block light between open vertices.
     const float open = iris.is_picture() ? -slack_of(mesh, c) : 0.0F;
     for (std::size_t k = 0; k < distance.size(); ++k) mesh.outside[k] |= (distance[k] > open ? 1U : 0U) << c;
   }
@@ -82,7 +83,7 @@ void mark_outside(Mesh& mesh, const IrisShape& iris) {
   }
 }
 
-// By how much a field may rise above its values at the vertices between them, where it curves.
+// By how much a field that curves may exceed its values at the vertices between them.
 float rise_between(const Mesh::Field& v) {
   float along_u = 0.0F, along_v = 0.0F;
   for (int iy = 0; iy < Mesh::kSide; ++iy) {

@@ -20,13 +20,13 @@ struct Mesh {
   PatchLayout layout;
   Vec2 origin_px;
   Rectangle box;                          // as the patch's
-  std::vector<Field> fields;              // as the patch's
-  Field area;                             // signed, of a cell's image by the derivatives at the vertex, pixels
+  std::vector<Field> fields;              // fields of the patch at the vertices
+  Field area;                             // signed image area of a cell, by the derivatives at the vertex, in pixels
   Field brightness;                       // root mean square of the channels' irradiance, per pixel
-  double cell_flux_area_mm2 = 0;          // of one cell
+  double cell_flux_area_mm2 = 0;          // of one cell: its area in the entrance plane times cos(theta)
   Rgb gain;                               // as the patch's
-  std::array<std::uint32_t, kVertices> outside;  // bits: crossings, then rims
-  static constexpr std::uint32_t kNearObscuration = 1U << 31;  // a bit besides: one may begin before the next vertex
+  std::array<std::uint32_t, kVertices> outside;  // bits set where the vertex is outside a crossing, then a rim
+  static constexpr std::uint32_t kNearObscuration = 1U << 31;  // also: an obscuration may begin before the next vertex
 
   [[nodiscard]] static std::size_t at(int ix, int iy) {
     return static_cast<std::size_t>(iy) * kStride + static_cast<std::size_t>(ix);
@@ -41,11 +41,11 @@ struct Mesh {
            Vec2{size.x * static_cast<double>(vertex % kStride), size.y * static_cast<double>(vertex / kStride)} *
                (1.0 / kCells);
   }
-  // Irradiance by one of the weights, without gain, flux per pixel; large where the map folds.
+  // The irradiance by one of the weights, without gain, as flux per pixel; large where the map folds.
   [[nodiscard]] double irradiance(int weight, std::size_t vertex) const;
 };
 
-// Into `mesh`, whatever it was; its memory is used again.
+// Evaluates a patch into `mesh`, whose old contents do not matter and whose memory is used again.
 void make_mesh(const Patch& patch, const IrisShape& iris, Mesh& mesh);
 
 }  // namespace contrejour::adaptive

@@ -11,15 +11,15 @@ namespace {
 constexpr double kSmallAngle = 1e-3;  // radians: smaller ones may be rounding
 constexpr double kLongestStep = 0.8;  // radians
 constexpr double kChord = 0.15;  // radians: a longer arc's only chord would lose 0.4 per cent of the circle's area
-// Where several bounds leave a part of a cell, chords miss their arcs by so much of that part's width at the most: its
-// corners are where bounds meet, and lie on chords of those that cut before.
+// Where several bounds leave a part of a cell, chords miss their arcs by at most this fraction of that part's width:
+// its corners are where bounds meet, and lie on chords of the bounds that clipped it before.
 constexpr double kOffWidth = 0.003;
 constexpr double kShortestStep = 0.01;  // radians
 
 }  // namespace
 
-// Keeps where value(corner), linear along the sides, is <= 0. Sutherland-Hodgman; in a cell of bent sides what is cut
-// bends with them.
+// Keeps the part where value(corner), linear along the sides, is <= 0 (Sutherland & Hodgman 1974). In a cell with bent
+// sides the cut bends with them.
 template <class Value>
 void OutlineCutter::cut_where_positive(Value value) {
   next_.clear();
@@ -39,11 +39,11 @@ void OutlineCutter::cut_where_positive(Value value) {
   polygon_.swap(next_);
 }
 
-// Where the outline leaves, a corner on the way to where it comes back: the cut is a parabola over the chord between
-// them, and the triangle of its area is 4/3 as high.
+// Where the outline leaves the kept part, inserts one corner between there and where it returns. The cut is a parabola
+// over the chord of these two points; the triangle with the parabola's area is 4/3 as high.
 template <class Value>
 void OutlineCutter::bend_cuts(Value value) {
-  constexpr double kTrial = 0.125;  // of the chord, aside from its middle either way, to see how the value changes
+  constexpr double kTrial = 0.125;  // of the chord: how far to either side of its middle `value` is sampled
   constexpr double kMost = 0.5;
   for (std::size_t k = exits_.size(); k-- > 0;) {
     const Vec2 from = next_[exits_[k]].uv;
@@ -64,8 +64,8 @@ void OutlineCutter::bend_cuts(Value value) {
   }
 }
 
-// The stop coordinates are linear along each side, which then meets the circle exactly; where the outline leaves the
-// circle an arc takes it to where it comes back.
+// The stop coordinates are linear along each side, so that sides are intersected with the circle exactly. Where the
+// outline leaves the circle, an arc connects it to where it returns.
 void OutlineCutter::cut_by_circle(const Circle& circle) {
   const auto stop = [&circle](const Corner& c) { return circle.unit_from_stop(c); };
   next_.clear();
@@ -81,7 +81,7 @@ void OutlineCutter::cut_by_circle(const Circle& circle) {
     const bool ends_inside = dot(stop(b), stop(b)) <= 1.0;
     if (starts_inside) next_.push_back(a);
     if (starts_inside && ends_inside) continue;
-    // Where the side meets the circle; corners were judged above, and rounding must not judge otherwise.
+    // Where the side meets the circle. The corners were classified above, which rounding here must not contradict.
     const double aa = dot(along, along);
     const double half_b = dot(s, along);
     const double under = half_b * half_b - aa * (dot(s, s) - 1.0);
@@ -96,7 +96,7 @@ void OutlineCutter::cut_by_circle(const Circle& circle) {
       next_.push_back(between(a, b, std::clamp(leaves, 0.0, 1.0)));
     }
   }
-  // A circle that a single side cuts, or none.
+  // The circle is cut by a single side, or by none.
   const bool nearly_whole = next_.size() <= 2 && surrounds_centre(circle);
   const double turn = twice_area > 0.0 ? 1.0 : -1.0;
   polygon_.clear();
@@ -113,7 +113,7 @@ void OutlineCutter::cut_by_circle(const Circle& circle) {
     const Vec2 from = stop(next_[k]);
     const Vec2 to = stop(next_[k + 1 == next_.size() ? 0 : k + 1]);
     double angle = std::atan2(cross(from, to), dot(from, to));
-    // Only where a single side cuts the circle is a small angle backwards nearly a whole turn, not rounding.
+    // A small angle backwards is rounding, except where a single side cuts the circle: there it is nearly a whole turn.
     if (angle * turn < 0.0 && (std::abs(angle) > kSmallAngle || nearly_whole)) angle += turn * 2.0 * std::numbers::pi;
     if (angle * turn > 0.0) add_arc(circle, from, angle, next_[k].uv);
   }
@@ -131,14 +131,14 @@ bool OutlineCutter::surrounds_centre(const Circle& circle) const {
   return left != right;
 }
 
-// As flat on a circle of any size as arc_step_ is on the rim.
+// The step at which chords of this circle miss their arcs by as much as those of arc_step_ do on the unit circle.
 double OutlineCutter::step_on(const Circle& circle) const {
   return std::min(arc_step_ / std::sqrt(circle.radius), kLongestStep);
 }
 
-// Corners along an arc, angles seen from the circle's centre; its ends lie on the circle and are not among them. The
-// others lie a little outside, so that the chords enclose the arc's area: (n - 2) r^2 + 2 r = n step / sin(step).
-// from: the arc's beginning, seen from the centre, at near_uv or about.
+// Adds the corners along an arc, without its ends, which lie on the circle; angles are about the circle's centre. The
+// corners lie slightly outside, so that the chords enclose the arc's area: (n - 2) r^2 + 2 r = n step / sin(step).
+// from: the beginning of the arc relative to the centre, at near_uv or close to it.
 void OutlineCutter::add_arc(const Circle& circle, Vec2 from, double angle, Vec2 near_uv) {
   const int fewest = std::abs(angle) > kChord ? 2 : 1;
   const int steps = std::max(static_cast<int>(std::ceil(std::abs(angle) / step_on(circle))), fewest);
@@ -150,14 +150,14 @@ void OutlineCutter::add_arc(const Circle& circle, Vec2 from, double angle, Vec2 
   add_corners(circle, Vec2{std::cos(start), std::sin(start)} * radius, step, steps - 1, near_uv);
 }
 
-// The whole circle as a regular polygon of its area.
+// Adds the whole circle as a regular polygon of the same area.
 void OutlineCutter::add_circle(const Circle& circle, double turn) {
   const int steps = std::max(3, static_cast<int>(std::ceil(2.0 * std::numbers::pi / step_on(circle))));
   const double step = 2.0 * std::numbers::pi / steps;
   add_corners(circle, {std::sqrt(step / std::sin(step)), 0.0}, turn * step, steps, {0.5, 0.5});
 }
 
-// At so many places, each turned by a step about the circle's centre from the one before.
+// Adds `count` corners, each rotated by one step about the circle's centre from the one before.
 void OutlineCutter::add_corners(const Circle& circle, Vec2 first, double step, int count, Vec2 near_uv) {
   const Vec2 turn{std::cos(step), std::sin(step)};
   arc_.clear();
@@ -192,7 +192,7 @@ std::span<const Corner> OutlineCutter::open_part(std::span<const Corner> whole, 
   return polygon_;
 }
 
-// The width of what is open, in stop radii: its area over half of its length. Where nothing is open, the width of what
+// The width of what is open, in stop radii: its area over half of its length. Where nothing is open, the width that
 // coarse arcs may have lost.
 double OutlineCutter::width_in_stop() const {
   constexpr double kLost = 0.1;
@@ -227,7 +227,7 @@ void OutlineCutter::cut_by_rims(int crossings, int rims) {
   }
 }
 
-// In triangles, over which the stop coordinates are linear: cuts of neighbouring pieces then meet.
+// Clips triangles, over which the stop coordinates are linear, so that cuts of neighbouring pieces meet.
 void OutlineCutter::for_each_open_part(std::span<const Corner> whole, int crossings, int rims, double finest,
                                        const OpenPart& visit) {
   whole_ = {{}, static_cast<std::size_t>(2 * crossings + rims)};

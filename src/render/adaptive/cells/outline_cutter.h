@@ -1,4 +1,4 @@
-// What the iris and the rims leave of a cell: its outline, cut along arcs and lines.
+// Clips a cell's outline along arcs and lines: to what the iris and the rims leave open.
 #pragma once
 
 #include <cstddef>
@@ -15,25 +15,24 @@ class OutlineCutter {
  public:
   explicit OutlineCutter(const IrisShape& iris) : iris_(iris) {}
 
-  // whole: the cell's four corners at uv (0, 0), (1, 0), (1, 1), (0, 1), or the first three of them, or the four with
-  // the middle of the side that follows after each; between them is what they say. outline: those, and others on the
-  // sides between them. Arcs get a corner
-  // every arc_step_rad / sqrt(r) at least, r their radius in stop radii. Empty when nothing is open. Valid until the
-  // next call, as long as `whole` is.
+  // whole: the cell's four corners at uv (0, 0), (1, 0), (1, 1), (0, 1); or the first three of them; or the four, each
+  // followed by the middle of the next side. They define the values between them. outline: the same corners, and others
+  // on the sides between them. Arcs get a corner every arc_step_rad / sqrt(r) at least, with r their radius in stop
+  // radii. The result is empty if nothing is open, and valid until the next call, as long as `whole` is.
   [[nodiscard]] std::span<const Corner> open_part(std::span<const Corner> whole, std::span<const Corner> outline,
                                                   int crossings, int rims, double arc_step_rad);
 
-  // The same where the iris does not cut.
+  // The same without the iris.
   [[nodiscard]] std::span<const Corner> within_rims(std::span<const Corner> whole, std::span<const Corner> outline,
                                                     int crossings, int rims);
 
-  // The same for a picture: convex parts that do not overlap, each with the share of light that passes there. Details
-  // are told apart down to `finest` of the cell's extent in the stop's plane.
+  // The same for a picture as the iris: visits convex parts that do not overlap, each with its transmittance. Details
+  // are resolved down to the fraction `finest` of the cell's extent in the stop's plane.
   using OpenPart = std::function<void(std::span<const Corner> part, double open)>;
   void for_each_open_part(std::span<const Corner> whole, int crossings, int rims, double finest, const OpenPart& visit);
 
  private:
-  // In the plane of a crossing, whose coordinates are a corner's from `limit` on.
+  // A circle in the plane of a crossing, whose two coordinates are a corner's from `limit` on.
   struct Circle {
     std::size_t limit = 0;
     Vec2 centre;
@@ -67,10 +66,10 @@ class OutlineCutter {
   const IrisShape& iris_;
   WholeCell whole_;
   double arc_step_ = 0.1;  // radians
-  int cuts_ = 0, arcs_ = 0;  // bounds that cut so far, and those of them that are circles
+  int cuts_ = 0, arcs_ = 0;  // bounds that have clipped the cell, and the circles among them
   std::vector<Corner> polygon_, next_;
-  std::vector<std::size_t> exits_;  // of next_: where the outline leaves the circle
-  std::vector<Vec2> arc_;  // places in the stop
+  std::vector<std::size_t> exits_;  // indices in next_ at which the outline leaves the circle
+  std::vector<Vec2> arc_;  // points in the stop
 };
 
 }  // namespace contrejour::adaptive

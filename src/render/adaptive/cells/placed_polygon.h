@@ -1,4 +1,4 @@
-// A convex polygon of the frame whose corners know their places in the stop, where straight lines cut it.
+// A convex polygon of the frame whose corners have positions in the stop, along which straight lines cut it.
 // Units: pixels, stop radii. Thread-safety: a value.
 #pragma once
 
@@ -12,7 +12,7 @@
 namespace contrejour::adaptive {
 
 struct PlacedCorner {
-  Vec2 position, uv;  // as a Corner's
+  Vec2 position, uv;  // as of a Corner
   Vec2 stop;
 };
 

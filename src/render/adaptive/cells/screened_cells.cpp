@@ -1,5 +1,5 @@
-// Cells whose light passes a screen instead of the sharp iris: where it varies, places in the stop are polynomials of
-// the pixel; large cells are cut into strips along the edges that bring fringes and what is level between them.
+// Draws cells whose light passes a stop pattern instead of the sharp iris. Where the pattern varies, points in the stop
+// are polynomials of the pixel. Large cells are cut along the edges with fringes into strips and a uniform remainder.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -12,18 +12,18 @@
 namespace contrejour::adaptive {
 namespace {
 
-constexpr double kWidthsPerOctave = 2.0;  // of edges' tables
-constexpr double kScreenDisc = 1.2;  // of a cell's distance from its middle in the stop, for cells that bend
-constexpr double kPixelReach = 0.75;  // pixels, from a pixel's middle to its corners
-constexpr double kExact = 1e-3;   // of a cell's size, for maps to be judged by
-constexpr double kOnePlace_px = 1.0;  // a cell no longer is a point to pixels
-constexpr double kCoarse = 0.5;   // stop radii a pixel: they see all of the stop in four or fewer
+constexpr double kWidthsPerOctave = 2.0;  // widths of pixels for which edges' tables are made
+constexpr double kScreenDisc = 1.2;  // radius of a curved cell over its vertices' distance from its middle, in the stop
+constexpr double kPixelReach = 0.75;  // pixels: slightly more than from a pixel's middle to its corners
+constexpr double kExact = 1e-3;   // softness of the map from which a cell's error is measured, over the cell's size
+constexpr double kOnePlace_px = 1.0;  // cells no longer than this are points to pixels
+constexpr double kCoarse = 0.5;   // stop radii a pixel: four pixels or fewer cover the stop
 constexpr double kPart = 0.5;     // stop radii, and
 constexpr double kPart_px = 0.4;  // pixels, across a part of a small cell
-constexpr double kEven = 5000.0;  // times what pixels may miss: parts that differ by less are not told apart
-constexpr double kWorthCutting_px = 400.0;  // of area: smaller cells are looked up all over
+constexpr double kEven = 5000.0;  // times the negligible level: differences between parts below this are ignored
+constexpr double kWorthCutting_px = 400.0;  // area below which a cell is not cut, and all of its pixels are looked up
 
-// A crossing of the stop at a mesh's vertices, stop radii.
+// The points at which the rays of a mesh's vertices cross the stop, in stop radii.
 class StopPlaces {
  public:
   StopPlaces(const Mesh& mesh, int crossing, double unit)
@@ -42,7 +42,7 @@ Vec2 CellPainter::stop_place(const Mesh& mesh, std::size_t vertex, int crossing)
   return StopPlaces(mesh, crossing, screen_unit_).at(vertex);
 }
 
-// About a cell's last crossings of the stop.
+// The part of the stop pattern that a cell's last crossing of the stop covers.
 screens::ScreenView CellPainter::view_of_screen(const Mesh& mesh, const Cell& cell) const {
   const int last = mesh.layout.crossings - 1;
   if (!screen_ || last < 0) return {ScreenPart::Level, 1.0};
@@ -60,14 +60,15 @@ screens::ScreenView CellPainter::view_of_screen(const Mesh& mesh, const Cell& ce
     const Vec2 from = mesh.position(v) - mesh.position(cell.middle);
     squared_px = std::max(squared_px, dot(from, from));
   }
-  // Its pixels see what is beside it: what one cell of a pixel is drawn by its neighbours have to be drawn by, too.
+  // The disc includes what a neighbouring pixel's look-up reaches: where a cell of a pixel is drawn through the
+  // pattern, its neighbours must be, too.
   const double radius = std::sqrt(squared), per_px = radius / std::max(std::sqrt(squared_px), kPixelReach);
   screens::ScreenView view = screen_->over(middle, kScreenDisc * radius + kPixelReach * per_px);
   if (view.part == ScreenPart::Level && last > 0) view.part = ScreenPart::Varied;  // earlier crossings are sharp
   return view;
 }
 
-// Whether what passes the screen is nowhere in the cell brighter than so many times what is not seen.
+// Whether the light that passes the stop pattern is everywhere in the cell dimmer than `times` the negligible level.
 bool CellPainter::is_dim(const Mesh& mesh, const Cell& cell, double times) const {
   return cell.screen.most * brightest(mesh, cell) < times * screen_->unseen;
 }
@@ -88,7 +89,7 @@ double CellPainter::stop_size(const Mesh& mesh, const Cell& cell) const {
 StopMap CellPainter::stop_map(const Mesh& mesh, const Cell& cell, double softness_px) const {
   const auto series = [&](const auto& at) {
     const std::array corner{at(cell.corner[0]), at(cell.corner[1]), at(cell.corner[2]), at(cell.corner[3])};
-    if (cell.size == 1) return CellSeries::of_corners(corner);  // that is all there is
+    if (cell.size == 1) return CellSeries::of_corners(corner);  // there are no vertices between the corners
     return CellSeries::of(corner, {at(cell.side[0]), at(cell.side[1]), at(cell.side[2]), at(cell.side[3])},
                           at(cell.middle));
   };
@@ -112,7 +113,7 @@ StopMap CellPainter::stop_map(const Mesh& mesh, double softness_px, const Series
           softness_px};
 }
 
-// How far places in the stop are off where they are polynomials of the pixel, as a share of the cell.
+// The largest error of the polynomial map from pixels to stop points at the cell's vertices, as a fraction of the cell.
 double CellPainter::map_error(const Mesh& mesh, const Cell& cell, double longest_px) const {
   const double size = stop_size(mesh, cell);
   if (!(size > 0.0)) return 0.0;
@@ -130,7 +131,7 @@ double CellPainter::map_error(const Mesh& mesh, const Cell& cell, double longest
   return std::sqrt(squared) / size;
 }
 
-// For pixels of about that width.
+// The table of fringes for pixels of about this width.
 const EdgeTable& CellPainter::table_for(double width) {
   const int octave = static_cast<int>(std::lround(kWidthsPerOctave * std::log2(std::max(width, 1e-9))));
   const auto [at, is_new] = tables_.try_emplace(std::pair(screen_.get(), octave), nullptr);
@@ -162,7 +163,7 @@ CellPainter::Flux CellPainter::CellParts::mean() const {
   return sum;
 }
 
-// So that it shows where in the cell its light is.
+// Whether the parts differ by more than `room` in any channel.
 bool CellPainter::CellParts::are_uneven(double room) const {
   for (std::size_t c = 0; c < 3; ++c) {
     const auto [least, most] = std::ranges::minmax(passed(), {}, [&](const Flux& one) { return one[c]; });
@@ -171,14 +172,14 @@ bool CellPainter::CellParts::are_uneven(double room) const {
   return false;
 }
 
-// Whether more of its light passes one part of a cell than another, as far as that is seen.
+// Whether the transmittances of a cell's parts differ visibly.
 bool CellPainter::are_uneven(const Mesh& mesh, const Cell& cell, const CellParts& parts) const {
   const double level = brightest(mesh, cell);
   return parts.are_uneven(kEven * screen_->unseen / std::max(level * seen_share(level, peak_), 1e-300));
 }
 
-// Where pixels are too far apart to look up what passes: their middles may lie outside the cell, where its light does
-// not go, and see a place of the stop far from all of its own.
+// Whether pixels are too far apart to look up the pattern: a pixel's centre may lie outside the cell, and its stop
+// point far from all points that the cell's light crosses.
 bool CellPainter::sees_by_parts(const Mesh& mesh, const Cell& cell, double longest_px) const {
   return longest_px < kOnePlace_px || (longest_px < kSmall_px && stop_size(mesh, cell) > kCoarse * longest_px);
 }
@@ -208,12 +209,12 @@ CellPainter::CellParts CellPainter::parts_of(const Mesh& mesh, const Cell& cell,
   return parts;
 }
 
-// One look-up stands for a square in the stop as large as the pixel's image there, which is no square; that is off by a
-// part of the ripples that are as fine as pixels. Many look-ups into parts of the pixel are off by less as the square
-// of how many there are across it. Edges' ripples are fainter the finer they are.
+// One look-up averages over a square in the stop as large as the pixel's image there, which is not a square. The error
+// is a fraction of the fringes that are as fine as pixels, and falls as the square of the number of look-ups across a
+// pixel. Fringes along edges are fainter the finer they are.
 int CellPainter::looks_across_pixel(const Shade& shade, double passed, const StopMap& map) const {
   constexpr double kMost = 6.0;
-  constexpr double kOneServes = 8000.0;  // times what pixels may miss; found by measuring
+  constexpr double kOneServes = 8000.0;  // times the negligible level: below, one look-up is enough; found by measuring
   const double level = std::max({std::abs(shade.value[0]), std::abs(shade.value[1]), std::abs(shade.value[2])});
   const double fineness = screen_->edges != nullptr ? std::min(1.0, map.width() / screen_->unit) : 1.0;
   const double seen = level * seen_share(level, peak_) * passed * fineness;
@@ -221,12 +222,13 @@ int CellPainter::looks_across_pixel(const Shade& shade, double passed, const Sto
   return room > 0.0 ? static_cast<int>(std::lround(std::clamp(std::sqrt(seen / room), 1.0, kMost))) : 1;
 }
 
-// All of a polygon's pixels look up what passes. A large one behind a pattern: as far as that is worth drawing. Behind
-// edges' fringes: the parts along each edge that brings any there, cut off by straight lines; the rest is level.
+// All pixels of a polygon look up the pattern. A large polygon is first clipped to the bounding polygon of a pattern's
+// visible light. Behind edges' fringes straight lines cut off a part along each edge that has fringes there; the
+// remainder is uniform.
 void CellPainter::draw_screened(std::span<const Corner> polygon, double area_px, const Shade& shade, const StopMap& map,
                                 int looks) {
   const bool large = area_px >= kWorthCutting_px;
-  const double room = map.bend();  // cuts are straight, places are not
+  const double room = map.bend();  // cuts are straight lines, the map is not linear
   rest_.place(polygon, map);
   if (screen_->edges == nullptr || map.crossings() > 1) {
     for (std::size_t k = 0; large && screen_->pattern && k < screens::PatternHull::kLines; ++k)
@@ -268,7 +270,7 @@ void CellPainter::add_fringed(std::span<const PlacedCorner> polygon, const Shade
   for (std::size_t k = 0; k < bounds.size() && !table.iris().is_picture(); ++k) {
     double nearest = -std::numeric_limits<double>::infinity();
     for (const PlacedCorner& c : polygon) nearest = std::max(nearest, bounds[k].distance(c.stop));
-    // Distances are convex: none within is larger than at the corners, but for pixels that reach beyond.
+    // Distances are convex: inside the polygon none exceeds those at the corners, except where pixels reach beyond it.
     if (nearest + 2.0 * map.pixel_reach() + map.bend() > -table.level_within())
       active_.push_back(static_cast<std::uint16_t>(k));
   }

@@ -7,20 +7,20 @@
 namespace contrejour::adaptive {
 namespace {
 
-// An edge of a polygon, seen from a to b, where neighbours are drawn from b to a.
+// An edge of a polygon, directed from a to b. In a neighbour of the same orientation it is directed from b to a.
 struct Edge {
   std::uint32_t polygon = 0, corner = 0;
   Point a, b;
   bool turns_left = false;  // its polygon
 };
 
-// The edges seen last, by their ends: one a slot, the older one gives way.
+// The most recent edges by their ends. Each slot holds one; a new edge replaces an older one.
 class RecentEdges {
  public:
   explicit RecentEdges(std::size_t edges)
       : slots_(std::min(std::bit_ceil(kRoom * std::max<std::size_t>(edges, 1)), kMostSlots)) {}
 
-  // The one at the same place, which is then forgotten; otherwise keeps this one.
+  // Returns the kept edge with the same ends and forgets it; if there is none, keeps this edge and returns null.
   [[nodiscard]] const Edge* take_or_keep(const Edge& edge) {
     Slot& slot = slots_[(hash(edge.a) + hash(edge.b)) & (slots_.size() - 1)];
     if (slot.used && same(slot.edge, edge)) {
@@ -40,7 +40,7 @@ class RecentEdges {
   static std::size_t hash(Point p) {
     return (std::bit_cast<std::uint32_t>(p.x) * 0x9E3779B1U ^ std::bit_cast<std::uint32_t>(p.y) * 0x85EBCA77U) >> 7U;
   }
-  // Each light on its own side.
+  // Whether the two polygons lie on opposite sides of the edge.
   static bool same(const Edge& e, const Edge& f) {
     const bool along = e.a == f.a && e.b == f.b;
     const bool against = e.a == f.b && e.b == f.a;
@@ -59,7 +59,7 @@ void share_edges(PolygonList& list, const TileGrid& grid) {
     const Polygon& polygon = list.polygons[p];
     if (polygon.count < 3 || polygon.screened != 0) continue;
     const std::span<const Point> corners = list.corners_of(polygon);
-    if (tiles_under(corners, grid).x1 < 0) continue;  // it is not drawn
+    if (tiles_under(corners, grid).x1 < 0) continue;  // not drawn
     for (std::uint32_t k = 0; k < polygon.count; ++k) {
       const Edge edge{static_cast<std::uint32_t>(p), polygon.first + k, corners[k],
                       corners[k + 1 == polygon.count ? 0 : k + 1], polygon.turns_left};

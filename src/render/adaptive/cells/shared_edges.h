@@ -1,4 +1,4 @@
-// Edges that two polygons of a list have in common, found so that tiles need draw them once.
+// Finds the edges that two polygons of a list have in common, so that tiles draw them once.
 #pragma once
 
 #include "render/adaptive/tiles/polygon_list.h"
@@ -6,8 +6,8 @@
 
 namespace contrejour::adaptive {
 
-// Sets PolygonList::partner, of polygons on the frame: a tile that such an edge crosses has both. Of edges found too
-// far apart in the list some are missed: those are drawn twice.
+// Sets PolygonList::partner for polygons on the frame: a tile that a shared edge crosses has both polygons. Edges whose
+// polygons are far apart in the list may be missed; they are drawn twice.
 void share_edges(PolygonList& list, const TileGrid& grid);
 
 }  // namespace contrejour::adaptive

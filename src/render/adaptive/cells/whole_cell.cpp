@@ -15,12 +15,12 @@ HWY_BEFORE_NAMESPACE();
 namespace contrejour::adaptive::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
-using Tag = hn::CappedTag<double, 8>;  // points side by side
+using Tag = hn::CappedTag<double, 8>;  // points computed at once
 using Points = hn::Vec<Tag>;
 constexpr std::size_t kAtOnce = hn::MaxLanes(Tag());
 
-// What each of the cell's corners adds to a point between them: linear in a triangle, bilinear in a cell of four
-// corners, quadratic along the sides of one of eight (serendipity; Zienkiewicz and Taylor, The Finite Element Method).
+// The shape functions of a cell's corners: linear in a triangle, bilinear in a cell of four corners, quadratic along
+// the sides of one of eight (serendipity; Zienkiewicz and Taylor, The Finite Element Method).
 struct Shares {
   std::array<Points, WholeCell::kBentCorners> of;
 
@@ -48,7 +48,7 @@ struct Shares {
   }
 };
 
-// Corners at some points, side by side.
+// Interpolates corners at several points at once.
 class CornersAt {
  public:
   HWY_INLINE CornersAt(std::span<const Corner> cell, std::size_t limits, Points u, Points v) : limits_(limits) {
@@ -101,10 +101,10 @@ HWY_INLINE Place place(const WholeCell::StopSeries& term, Points u, Points v) {
   return {x[0], y[0], x[1], y[1], x[2], y[2]};
 }
 
-// The points whose rays cross the stop at x, y, by Newton's method from u, v on; not numbers where it fails.
+// Finds the points whose rays cross the stop at x, y by Newton's method, starting from u, v; NaN where it fails.
 HWY_INLINE void aim(const WholeCell::StopSeries& stop, bool triangle, Points x, Points y, Points& u, Points& v) {
   constexpr double kMiss = 0.1;  // stop radii
-  constexpr double kNear = 1e-3;  // of the cell: one step more is as good as exact
+  constexpr double kNear = 1e-3;  // of the cell: below this step one more is as good as exact
   constexpr int kMostSteps = 6;
   const Tag d;
   const auto none = hn::Zero(d), one = hn::Set(d, 1.0);
@@ -114,7 +114,7 @@ HWY_INLINE void aim(const WholeCell::StopSeries& stop, bool triangle, Points x, 
     const auto determinant = hn::MulSub(at.x_by_u, at.y_by_v, hn::Mul(at.y_by_u, at.x_by_v));
     const auto along_u = hn::Div(hn::MulSub(off_x, at.y_by_v, hn::Mul(off_y, at.x_by_v)), determinant);
     const auto along_v = hn::Div(hn::MulSub(at.x_by_u, off_y, hn::Mul(at.y_by_u, off_x)), determinant);
-    // An arc does not leave the cell that it was found in.
+    // An arc does not leave the cell in which it was found.
     const auto next_u = hn::Min(hn::Max(hn::Add(u, along_u), none), one);
     const auto next_v = hn::Min(hn::Max(hn::Add(v, along_v), none), triangle ? next_u : one);
     const auto moved_u = hn::Sub(next_u, u), moved_v = hn::Sub(next_v, v);
@@ -167,7 +167,7 @@ namespace {
 HWY_EXPORT(add_crossing);
 HWY_EXPORT(corner_at);
 
-// Of a cell by its corners: what shares of them say, sorted by powers of u and v.
+// The coefficients of a cell's interpolation between its corners, by powers of u and v.
 WholeCell::StopSeries stop_series(std::span<const Corner> cell, std::size_t limit) {
   const auto stop = [&](std::size_t k) { return Vec2{cell[k].limit[limit], cell[k].limit[limit + 1]}; };
   WholeCell::StopSeries term{};
