@@ -15,18 +15,19 @@ namespace contrejour::adaptive {
 namespace {
 
 constexpr std::array kNodes{PatchFitter::kFewestNodes, 9, 17};
-// Float places a ray on the sensor to some 1e-3 mm at worst; it must be given room enough at the entrance, too.
+// Single precision places a ray on the sensor to within 1e-3 mm; the box in the entrance plane must not be too small
+// for it.
 constexpr double kFloatError_mm = 1e-3;
 constexpr double kFloatBox_mm = 0.05;
-constexpr double kWorthShrinking = 0.5;  // a box whose lit part has no more of its area is shrunk to it
+constexpr double kWorthShrinking = 0.5;  // of a box's area: if its lit part has no more, the box is reduced to it
 constexpr double kNoFit = std::numeric_limits<double>::infinity();
-// Behind a screen: how much worse fits of dim light may be, and what is so dim, over what does not count at all, that
-// any will do.
+// For light behind a stop pattern: the largest factor by which tolerances of dim light grow, and the multiple of the
+// negligible level below which any fit will do.
 constexpr double kMostLooser = 64.0, kRough = 10.0;
-constexpr int kBesideFailure = 1;  // quarterings more, where too much light would be lost between rays that fail
-constexpr double kHopeless = 2.0;  // times the tolerance, foretold of more nodes
+constexpr int kBesideFailure = 1;  // further quarterings where too much light would be lost next to rays that fail
+constexpr double kHopeless = 2.0;  // times the tolerance, predicted for more nodes: the box is then quartered
 
-// A patch's error over what is allowed.
+// The estimated error of a patch over its tolerance.
 double misfit(const Patch& patch, const Tolerance& tolerance) {
   const PatchError e = estimated_error(patch);
   return std::max({e.position_px / tolerance.position_px, e.stop / tolerance.stop, e.rim / (2.0 * tolerance.stop),
@@ -42,8 +43,8 @@ bool gets_through(const RaySheet& sheet, std::size_t node) {
   return sheet.r_rel[node] <= 1.0F && std::ranges::all_of(sheet.stop, passes);
 }
 
-// The area of the entrance between rays that get through and rays that fail, where straight lines from ray to ray leave
-// light out.
+// The area of the entrance between rays that get through and rays that fail, in which linear interpolation between rays
+// loses light.
 double beside_failure_mm2(const RaySheet& sheet) {
   const SheetCells cells(sheet);
   double sum_mm2 = 0.0;
@@ -57,7 +58,7 @@ double beside_failure_mm2(const RaySheet& sheet) {
   return sum_mm2;
 }
 
-// The worst of three bands', at most: those between them are blended like them.
+// The worst misfit of three bands: those between them are blends of the same patches.
 double misfit(const BandSet& bands, std::span<const Patch> patches, const Tolerance& tolerance) {
   Patch patch;
   double worst = 0.0;
@@ -89,7 +90,7 @@ FittedBox PatchFitter::fit(BandSet& bands, std::span<const RaySheet> first, cons
   return out;
 }
 
-// A box that no other one touches.
+// A box that no other box adjoins.
 PatchFitter::BoxPart PatchFitter::whole(const Rectangle& box, int depth) {
   const MeshPlace place{boxes_, is_symmetric(box) ? boxes_ : boxes_ + 1};
   boxes_ += 2;
@@ -106,7 +107,7 @@ PacketPrecision PatchFitter::precision_for(const Rectangle& box, const Tolerance
   return coarse && std::min(size.x, size.y) > kFloatBox_mm ? PacketPrecision::Float : PacketPrecision::Double;
 }
 
-// first_misfit: that of the fewest nodes, where it is known.
+// first_misfit: that of kFewestNodes nodes, if known.
 void PatchFitter::fit(const BoxPart& part, std::optional<double> first_misfit, const Fitting& fitting) {
   BandSet& bands = fitting.bands;
   const Rectangle& box = part.box;
@@ -135,7 +136,7 @@ void PatchFitter::fit(const BoxPart& part, std::optional<double> first_misfit, c
     std::vector<Patch> patches = bands.make_patches(sheets, frame_);
     const double now = misfit(bands, patches, fitting.tolerance) / looser;
     if (now <= 1.0 || rough || (last && last_part)) return keep(part.place, sheets, std::move(patches), fitting);
-    // Errors fall by a like factor for a like number of nodes, which the next step has twice more of.
+    // Errors fall by a constant factor for a constant number of further nodes; the next step adds twice as many.
     const double next = now * (now / before) * (now / before);
     if (next > kHopeless && !last_part) break;
     before = now;
@@ -143,7 +144,7 @@ void PatchFitter::fit(const BoxPart& part, std::optional<double> first_misfit, c
   fit_quarters(part, fitting);
 }
 
-// patches: of the sheets.
+// patches: those of the sheets.
 void PatchFitter::keep(const MeshPlace& place, std::span<const RaySheet> sheets, std::vector<Patch> patches,
                        const Fitting& fitting) const {
   fitting.parts.push_back({place, std::move(patches), fitting.only_band});
@@ -153,7 +154,7 @@ void PatchFitter::keep(const MeshPlace& place, std::span<const RaySheet> sheets,
   fitting.mirror_image->push_back({place.mirrored(), fitting.bands.make_patches(others, frame_), fitting.only_band});
 }
 
-// Straight lines between the rays that arrive, of each band by itself: they fail at different places.
+// Interpolates linearly between the rays that arrive, for each band by itself, since rays fail at different points.
 void PatchFitter::fit_between_rays(const BoxPart& part, std::span<const RaySheet> sheets, const Fitting& fitting) {
   if (fitting.bands.size() == 1 && sheets.size() == 1) {
     const auto add_cells = [&](const RaySheet& sheet, std::vector<FittedPart>& parts) {
@@ -171,7 +172,7 @@ void PatchFitter::fit_between_rays(const BoxPart& part, std::span<const RaySheet
   }
 }
 
-// Of a box that is its own mirror image those on one side of the axis tell the others.
+// In a box that is its own mirror image, the quarters on one side of the axis determine the others.
 void PatchFitter::fit_quarters(const BoxPart& part, const Fitting& fitting) {
   const Rectangle& box = part.box;
   const Vec2 middle = (box.low + box.high) * 0.5;
@@ -187,8 +188,8 @@ void PatchFitter::fit_quarters(const BoxPart& part, const Fitting& fitting) {
   }
 }
 
-// About the brightest pixel of a box behind a screen, or of its mirror image, as far as it matters. None: the iris is
-// sharp, or that is not told: of several bands, or where no four rays side by side arrive.
+// An estimate of the brightest pixel of a box, or of its mirror image, behind a stop pattern. Empty where it is not
+// used: the iris is sharp, there are several bands, or no four neighbouring rays all arrive.
 std::optional<double> PatchFitter::level_behind(std::span<const RaySheet> sheets, const Fitting& fitting) const {
   const BandSet& bands = fitting.bands;
   if (fitting.screens.front() == nullptr || bands.size() > 1 || sheets.size() > 1) return std::nullopt;

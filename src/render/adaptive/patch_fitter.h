@@ -1,5 +1,5 @@
-// A box of the pupil as patches: polynomials through exact rays at few points, tested; more rays or smaller boxes where
-// the test fails.
+// Fits patches to a box of the pupil: polynomials through exact rays at few points, whose error is tested. Where the
+// test fails, more rays or smaller boxes follow.
 #pragma once
 
 #include <cstddef>
@@ -15,7 +15,8 @@
 
 namespace contrejour::adaptive {
 
-// A part of a box, with what BandSet::band_patch() makes each band's patch of; or with the patch of one band alone.
+// A part of a box, with the patches from which BandSet::band_patch() computes each band's patch, or with the patch of
+// one band alone.
 struct FittedPart {
   MeshPlace place;
   std::vector<Patch> patches;
@@ -24,7 +25,7 @@ struct FittedPart {
 
 struct FittedBox {
   std::vector<FittedPart> parts;
-  std::vector<FittedPart> mirror_image;  // of the box, if that is wanted
+  std::vector<FittedPart> mirror_image;  // of the box, if requested
 };
 
 using BandScreens = std::vector<std::shared_ptr<const screens::BandScreen>>;  // one a band; null: the iris is sharp
@@ -33,17 +34,17 @@ class PatchFitter {
  public:
   static constexpr int kFewestNodes = 5;
 
-  // deepest: how often a box may be quartered before straight lines between rays must do. unseen: pixel values behind
-  // screens that do not count.
+  // deepest: how often a box may be quartered before straight lines between rays must do. unseen: the negligible level
+  // of pixel values behind stop patterns.
   PatchFitter(GhostTracers& tracers, const Frame& frame, int deepest, double unseen)
       : tracers_(tracers), frame_(frame), deepest_(deepest), unseen_(unseen) {}
 
-  // first: of the box, rays at kFewestNodes, with weights.
+  // first: rays of the box at kFewestNodes, with weights.
   [[nodiscard]] FittedBox fit(BandSet& bands, std::span<const RaySheet> first, const Tolerance& tolerance,
                               const BandScreens& screens, bool with_mirror_image);
 
  private:
-  // A box, or a quarter of a quarter of one.
+  // A box, or a quarter of another part.
   struct BoxPart {
     Rectangle box;
     MeshPlace place;
@@ -54,8 +55,8 @@ class PatchFitter {
     const Tolerance& tolerance;
     std::span<const std::shared_ptr<const screens::BandScreen>> screens;  // those of the bands
     std::vector<FittedPart>& parts;
-    std::vector<FittedPart>* mirror_image;  // null: is not wanted
-    std::optional<std::size_t> only_band = std::nullopt;  // of more that are fitted, the one that the set is
+    std::vector<FittedPart>* mirror_image;  // null: not requested
+    std::optional<std::size_t> only_band = std::nullopt;  // if several bands are fitted apart: the band of this set
   };
 
   [[nodiscard]] BoxPart whole(const Rectangle& box, int depth = 0);

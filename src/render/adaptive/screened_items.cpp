@@ -11,42 +11,43 @@
 namespace contrejour::adaptive {
 namespace {
 
-// Of the frame's squared error: what ghosts that stay sharp may make, and small ripples within the others.
+// Fractions of the frame's squared error: for ghosts that stay sharp, and for small fringes that the others leave out.
 constexpr double kSharpShare = 0.6, kRippleShare = 0.5;
-// A straight edge's profile less the sharp one, squared and summed, is so many of an edge's units.
+// The squared difference of a straight edge's profile from the sharp one, integrated, in units 1 / sqrt(2 F).
 constexpr double kEdgeError = 0.3;
-// Patterns are cut off where they are so much of the dimmest ripple, and no more than that share of the light is
+// A pattern is truncated where it is dimmer than kHullRipple of the dimmest fringe, with at most kHullFlux of its light
 // beyond.
 constexpr double kHullRipple = 0.5, kHullFlux = 0.003;
 constexpr std::size_t kMostScreens = 8;  // of a ghost's wavelengths
-constexpr double kUnseen = 0.01;  // of the error that all pixels may have
-constexpr double kOutline = 1.5;  // over a disc's of the same area
-// Along an outline, pixels whose time its coverage and cells take, too; and what a pixel must take of the error, over
-// the dimmest ripple's square, to be worth its time. Found by measuring.
+constexpr double kUnseen = 0.01;  // fraction of the error that all pixels may have
+constexpr double kOutline = 1.5;  // length of an outline over that of a disc of the same area
+// Pixels along an outline that cost as much as its coverage and cells, and the least error that a pixel of fringes must
+// remove, over the square of the dimmest fringe. Found by measuring.
 constexpr double kBeside_px = 8.0, kWorth = 0.8;
-// Of what is left out: no less where many ghosts turn out not to be worth drawing.
+// fraction of kRippleShare that remains, even if many ghosts keep sharp rims
 constexpr double kLeastRippleShare = 0.5;
 
-// An item's rim: how bright it is seen, and what fringes along it weigh: squared errors summed over t (EdgeProfile) are
-// so many times as large in pixels.
+// The rim of an item: its visible level, and the factor from squared errors summed over t (EdgeProfile) to squared
+// errors summed over pixels.
 struct Rim {
   double level = 0.0, weight = 0.0;
-  double stop_area = 0.0;  // likewise of a pattern's, summed over the stop's plane in stop radii
-  double unit_px = 0.0;  // t = 1, across the rim
+  double stop_area = 0.0;  // the same factor for patterns, summed over the stop's plane in stop radii
+  double unit_px = 0.0;  // width of t = 1 across the rim
 };
 
 Rim rim_of(const ItemSize& size, double peak, double fresnel_number) {
   const double seen = size.level * seen_share(size.level, peak);
-  // unit = R / sqrt(2 F), the outline 2 pi R, pi R^2 the area.
+  // The unit is R / sqrt(2 F), the outline 2 pi R, the area pi R^2.
   const double per_unit = std::sqrt(2.0 * std::max(fresnel_number, 0.5));
   return {seen, kOutline * seen * seen * 2.0 * size.area_px / per_unit, seen * seen * size.area_px / std::numbers::pi,
           std::sqrt(size.area_px / std::numbers::pi) / per_unit};
 }
 
-// What an item's fringes differ from its sharp rim, squared, over its pixels.
+// The squared difference between an item's fringes and its sharp rim, summed over its pixels.
 double fringe_error(const Rim& rim) { return kEdgeError * rim.weight; }
 
-// Screens of all passes; one whose fringes are not seen takes the next one's, a little wider. Null: none is seen.
+// The stop patterns of all passes. A pass whose fringes are not visible takes those of the next one, slightly wider.
+// Null if none is visible.
 std::shared_ptr<GhostScreens> screens_of(const Screens& screens, const Item& item) {
   auto all = std::make_shared<GhostScreens>();
   all->patterns = screens.patterns();
@@ -63,7 +64,7 @@ std::shared_ptr<GhostScreens> screens_of(const Screens& screens, const Item& ite
   return all;
 }
 
-// An item whose screens are to be drawn.
+// An item whose stop patterns are to be drawn.
 struct Drawn {
   std::shared_ptr<GhostScreens> screens;
   Rim rim;
@@ -73,14 +74,14 @@ const StopScreen& middle_screen(const Drawn& item) {
   return *item.screens->by_pass[item.screens->by_pass.size() / 2].screen;
 }
 
-// Of the middle wavelength's fringes along edges; null where they are a pattern.
+// The profile of fringes along edges at the middle wavelength; null where the iris has a whole pattern.
 const screens::EdgeProfile* edge_profile(const Drawn& item) {
   const auto* const edge = dynamic_cast<const screens::EdgeScreen*>(&middle_screen(item));
   return edge != nullptr ? &edge->profile() : nullptr;
 }
 
-// The dimmest ripples that are drawn, in levels: for all items the same, since what a ripple's pixel costs is the same.
-// Those left out together make the error that is allowed.
+// The dimmest fringes that are drawn, as a level: the same for all items, since a pixel of fringes costs the same
+// everywhere. All fringes that are left out together make the allowed error.
 double dimmest_ripple(const std::vector<Drawn>& items, double allowed) {
   const auto error = [&](double dimmest) {
     double sum = 0.0;
@@ -104,7 +105,8 @@ double dimmest_ripple(const std::vector<Drawn>& items, double allowed) {
   return low;
 }
 
-// Whether what fringes down to the dimmest ripple take of the error is worth their pixels and those beside them.
+// Whether fringes down to the dimmest level remove enough error for the cost of their pixels and of those along the
+// outline.
 bool is_worth_drawing(const Drawn& item, const screens::EdgeProfile& profile, double dimmest) {
   const double ripple = dimmest / item.rim.level;
   const auto range = profile.range_above(ripple);
@@ -113,8 +115,8 @@ bool is_worth_drawing(const Drawn& item, const screens::EdgeProfile& profile, do
   return taken >= kWorth * ripple * ripple * units;
 }
 
-// Leaves out screens whose fringes are not worth drawing; what that leaves out is less for ripples. The dimmest that
-// are drawn.
+// Removes the stop patterns of items whose fringes are not worth their cost; the error of that is subtracted from what
+// fringes may make. Returns the level of the dimmest fringes that are drawn.
 double leave_out_small(std::vector<Drawn>& items, double allowed) {
   const double dimmest = dimmest_ripple(items, allowed);
   double sharp = 0.0;
@@ -128,7 +130,7 @@ double leave_out_small(std::vector<Drawn>& items, double allowed) {
   return sharp > 0.0 ? dimmest_ripple(items, std::max(allowed - sharp, kLeastRippleShare * allowed)) : dimmest;
 }
 
-// How far fringes are drawn: as far as ripples are no dimmer than that.
+// Sets how far from the edges fringes are drawn: to where they become dimmer than `dimmest`.
 void set_range(const Drawn& item, double dimmest) {
   GhostScreens& screens = *item.screens;
   const double ripple = dimmest / item.rim.level;
@@ -172,7 +174,7 @@ Work screen_items(const Scene& scene, Screens& screens, std::vector<Item>& items
   std::iota(all.begin(), all.end(), std::size_t{0});
   std::vector<double> error(items.size());
   std::vector<Rim> rims(items.size());
-  for (const std::size_t k : all) error[k] = fringe_error(rim_of(sizes[k], allowed.peak, 0.5));  // at the most
+  for (const std::size_t k : all) error[k] = fringe_error(rim_of(sizes[k], allowed.peak, 0.5));  // an upper bound
   const auto worth = [&](std::vector<std::size_t> some) {
     return screens.has_tones() ? some : worth_drawing(std::move(some), error, 0.5 * kSharpShare * squares);
   };

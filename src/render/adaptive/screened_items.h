@@ -1,5 +1,5 @@
-// Which items' ringing is worth its while: fringes cost work along a ghost's whole rim, and most ghosts are so faint
-// that theirs are far below the frame's error.
+// Selects the items that get diffraction fringes. Fringes cost work along a ghost's whole rim, and in most ghosts they
+// are far below the frame's error.
 #pragma once
 
 #include "render/adaptive/cells/frame_error.h"
@@ -8,12 +8,13 @@
 
 namespace contrejour::adaptive {
 
-// Gives for each pass the pass whose screen it uses: where there are many, neighbours share the screen of their middle
-// one, with the spread of all their wavelengths.
+// Returns, for each pass, the pass whose stop pattern it uses. If there are many, neighbours share the pattern of their
+// middle one, averaged over all their wavelengths.
 [[nodiscard]] std::vector<PlannedPass> screened_passes(std::span<const PlannedPass> passes);
 
-// Gives screens, and boxes that hold the light beside the opening, to all items but those whose fringes together make
-// a small part of the error. sizes: of the items (draw_roughly). Incomplete when cancelled.
+// Gives stop patterns, and boxes wide enough for the light outside the opening, to all items except those whose fringes
+// together make a small part of the error. sizes: the items' in the preview frame (draw_roughly). Incomplete when
+// cancelled.
 [[nodiscard]] Work screen_items(const Scene& scene, Screens& screens, std::vector<Item>& items,
                                 const std::vector<ItemSize>& sizes, const FrameError& allowed, const Context& context);
 

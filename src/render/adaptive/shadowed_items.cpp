@@ -11,11 +11,11 @@
 namespace contrejour::adaptive {
 namespace {
 
-constexpr double kUnshadowedShare = 0.15;  // of the frame's squared error, that ghosts without shadows may make
-constexpr double kBlurOfUnit = 0.5;  // shapes narrower than this of a fringe's width are blurred, at least
-constexpr double kRoom = 0.07;  // of an item's boxes, beside its light (item.cpp)
+constexpr double kUnshadowedShare = 0.15;  // of the frame's squared error: for ghosts drawn without shadows
+constexpr double kBlurOfUnit = 0.5;  // of a fringe's width: narrower shapes are blurred at least to this width
+constexpr double kRoom = 0.07;  // width of the margin in an item's boxes around its light (item.cpp)
 
-// In the plane of the dirt: about the box that the item's light crosses, mm.
+// The box in the plane of the dirt that the item's light crosses, approximately, in mm.
 Rectangle crossed(const Scene& scene, const Item& item) {
   const double r = scene.plan.dirt->stop_radius_mm();
   if (!scene.plan.dirt->on_front()) return {{-r, -r}, {r, r}};
@@ -33,9 +33,9 @@ Rectangle crossed(const Scene& scene, const Item& item) {
   return {all.low + room, all.high - room};
 }
 
-// What an item without shadows differs from itself with them, squared, over its pixels.
+// The squared difference that leaving out an item's shadows makes, summed over its pixels.
 double shadow_error(const Scene& scene, const Screens& screens, const Item& item, const ItemSize& size, double peak) {
-  if (!(size.area_px > 0.0)) return std::numeric_limits<double>::infinity();  // a careless look did not find it
+  if (!(size.area_px > 0.0)) return std::numeric_limits<double>::infinity();  // the preview frame did not show it
   const Rectangle box = crossed(scene, item);
   const double area_mm2 = 0.25 * std::numbers::pi * (box.high.x - box.low.x) * (box.high.y - box.low.y);
   const double seen = size.level * seen_share(size.level, peak);
@@ -45,7 +45,7 @@ double shadow_error(const Scene& scene, const Screens& screens, const Item& item
   return seen * seen * size.area_px * scene.plan.dirt->variance(std::max(std::sqrt(area_mm2 / size.area_px), blur_mm));
 }
 
-// One for all where they are sharp at every wavelength.
+// Returns a single one for all passes if shadows are sharp at every wavelength.
 std::vector<std::shared_ptr<const DirtScreen>> shadows_of(const Scene& scene, const Screens& screens,
                                                           const Item& item) {
   std::vector<std::shared_ptr<const DirtScreen>> shadows;

@@ -5,7 +5,7 @@
 namespace contrejour::adaptive {
 namespace {
 
-// Squared difference of an edge, a pixel wide, and the same u pixels away.
+// The squared difference between an edge one pixel wide and the same edge displaced by u pixels.
 double edge_moved(double u) {
   u = std::abs(u);
   return u < 1.0 ? u * u * (1.0 - u / 3.0) : u - 1.0 / 3.0;
@@ -13,8 +13,8 @@ double edge_moved(double u) {
 
 }  // namespace
 
-// With r = edge_moved and d_k from where it is drawn to where edge k is, the product of what edges k and l are off is
-// (r(d_k) + r(d_l) - r(d_k - d_l)) / 2, as of any variogram.
+// With r = edge_moved, and d_k the displacement of edge k from where it is drawn, the product of the errors of edges k
+// and l is (r(d_k) + r(d_l) - r(d_k - d_l)) / 2, as for any variogram.
 double band_error(std::span<const SpectralEdge> edges, double drawn_px) {
   double light = 0.0, off = 0.0, apart = 0.0;
   for (std::size_t k = 0; k < edges.size(); ++k) {

@@ -1,21 +1,21 @@
-// How wrong edges are that several wavelengths show side by side, where all are drawn at one place.
+// The error of drawing the edges of several wavelengths, which lie side by side, at one position.
 #pragma once
 
 #include <span>
 
 namespace contrejour::adaptive {
 
-// One wavelength's edge, on a line across it.
+// The edge of one wavelength, on a line across it.
 struct SpectralEdge {
   double place_px = 0;
-  double light = 0;  // its step
+  double light = 0;  // height of its step
 };
 
-// Squared difference of the edges, a pixel wide each, and one with the light of all at `drawn_px`: summed over the
-// line's pixels, in the mean over where these may lie.
+// The squared difference between the edges, each a pixel wide, and one edge with the light of all at `drawn_px`: summed
+// over the pixels of the line, averaged over their positions.
 [[nodiscard]] double band_error(std::span<const SpectralEdge> edges, double drawn_px);
 
-// Where one edge errs least: displacements much less than a pixel then cancel.
+// The position at which one edge for all makes the least error: displacements much smaller than a pixel then cancel.
 [[nodiscard]] double middle_of_light(std::span<const SpectralEdge> edges);
 
 }  // namespace contrejour::adaptive

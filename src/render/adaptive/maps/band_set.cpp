@@ -13,7 +13,7 @@ std::vector<double> geometry_of(const Band& band, const WavelengthSamples& sampl
   return mixed;
 }
 
-// What makes a band of the samples: its geometry and the light of all its wavelengths.
+// The factors that make a band's patch from the samples' patches: its geometry, and the light of all its wavelengths.
 PatchBlend blend_of(const Band& band, std::span<const PlannedPass> passes, const WavelengthSamples& samples,
                     const FirstRays& rays) {
   const std::size_t count = rays.samples;

@@ -1,5 +1,5 @@
-// Bands of wavelengths that are drawn through the same boxes of the pupil: either one, with the geometry of one of its
-// wavelengths, or all, told from rays at some of their wavelengths.
+// Bands of wavelengths that are drawn through the same boxes of the pupil: either one band with the geometry of one of
+// its wavelengths, or all bands, interpolated from rays at some of their wavelengths.
 #pragma once
 
 #include <memory>
@@ -15,19 +15,20 @@ namespace contrejour::adaptive {
 
 class BandSet {
  public:
-  // One: rays at its middle, transmissions at all of its wavelengths.
+  // One band: rays at its middle wavelength, transmittances at all of its wavelengths.
   BandSet(GhostTracers& tracers, const Band& band);
-  // All: rays at those samples that tell in the first rays.
+  // All bands: rays at the wavelength samples that the first rays found sufficient.
   BandSet(GhostTracers& tracers, const WavelengthSamples& samples, const FirstRays& rays, std::span<const Band> bands);
 
   [[nodiscard]] std::size_t size() const { return bands_.size(); }
   [[nodiscard]] const Band& band(std::size_t k) const { return bands_[k]; }
 
-  // One for each wavelength with rays.
+  // Returns one sheet of rays for each traced wavelength.
   [[nodiscard]] std::vector<RaySheet> trace(const Rectangle& box, int nodes, PacketPrecision precision);
-  // What sheets still lack that are going to be drawn.
+  // Computes the weights that trace() leaves out and that drawing needs.
   void add_weights(std::vector<RaySheet>& sheets, PacketPrecision precision);
-  // Of sheets with weights, one at least of whose rays all arrived; what band_patch() makes a band's patch of.
+  // The patches of sheets that have weights, at least one of which has no failed rays; band_patch() computes a band's
+  // patch from them.
   [[nodiscard]] std::vector<Patch> make_patches(std::span<const RaySheet> sheets, const Frame& frame) const;
   void band_patch(std::span<const Patch> patches, std::size_t band, Patch& out) const;
 

@@ -8,12 +8,12 @@
 namespace contrejour::adaptive {
 namespace {
 
-constexpr std::size_t kFirstSamples = 3;  // which tell the tolerance, and the fourth
-constexpr std::size_t kMostTraced = 9;    // of many passes; where they do not foretell the last of them, all are
-constexpr std::size_t kManyPasses = 6;    // fewer are all traced
-constexpr double kForetoldShare = 0.5;    // of the tolerance: that of the fits comes on top
-constexpr double kMostTint = 0.03;        // of a transmission, that its pattern over the ghost may be off
-// A pass's transmissions, up to a factor, interpolated from those of the first `count` samples.
+constexpr std::size_t kFirstSamples = 3;  // wavelengths that give the tolerance and predict the fourth
+constexpr std::size_t kMostTraced = 9;    // if these do not predict the last of them, all passes are traced
+constexpr std::size_t kManyPasses = 6;    // fewer passes are all traced
+constexpr double kForetoldShare = 0.5;    // fraction of the tolerance; the error of the fits is added to it
+constexpr double kMostTint = 0.03;        // of a transmittance: error of its distribution over the ghost
+// The transmittances of a pass, up to a factor, interpolated from those of the first `count` samples.
 std::vector<float> pattern_of(const FirstRays& rays, const WavelengthSamples& samples, std::size_t count,
                               std::size_t pass) {
   const std::vector<double> shares = light_factors(samples, count, pass, rays.straight);
@@ -27,7 +27,7 @@ std::vector<float> pattern_of(const FirstRays& rays, const WavelengthSamples& sa
   return pattern;
 }
 
-// Those of passes without rays: the samples' pattern times `light`.
+// Sets the transmittances of passes without rays: the samples' pattern times `light`.
 void tell_transmissions(FirstRays& rays, const WavelengthSamples& samples, std::size_t count) {
   for (std::size_t pass = 0; pass < rays.sheets.size(); ++pass) {
     const RaySheet& sheet = rays.sheets[pass];
@@ -40,7 +40,7 @@ void tell_transmissions(FirstRays& rays, const WavelengthSamples& samples, std::
   }
 }
 
-// Of any channel at any node whose middle ray arrives, all passes together.
+// The largest weight of any channel at any node whose ray of the middle pass arrives, summed over all passes.
 double largest_weight(const FirstRays& rays, const RaySheet& middle, std::span<const PlannedPass> passes) {
   double largest = 0.0;
   for (std::size_t node = 0; node < middle.count(); ++node) {
@@ -61,8 +61,8 @@ double sum_of(std::span<const float> values, const std::vector<bool>& counts) {
   return sum;
 }
 
-// Whether the first `count` samples foretell how the next one's transmission varies over the nodes that count: as
-// polynomials, or on straight lines.
+// Whether the first `count` samples predict how the next sample's transmittance varies over the nodes that count: by
+// polynomials, or else by straight lines.
 bool foretells_pattern(FirstRays& rays, const WavelengthSamples& samples, std::size_t count,
                        const std::vector<bool>& counts, double allowed) {
   const std::vector<float>& is = rays.sheets[samples[count]].transmission;
@@ -81,7 +81,7 @@ bool foretells_pattern(FirstRays& rays, const WavelengthSamples& samples, std::s
   return false;
 }
 
-// Whether the first `count` samples foretell the next.
+// Whether the first `count` samples predict the next one.
 bool foretells(FirstRays& rays, const WavelengthSamples& samples, std::size_t count, const Tolerance& tolerance,
                double pixel_pitch_mm) {
   const RaySheet& next = rays.sheets[samples[count]];
@@ -115,8 +115,8 @@ bool foretells(FirstRays& rays, const WavelengthSamples& samples, std::size_t co
   return foretells_pattern(rays, samples, count, arrives, std::min(tolerance.weight, kMostTint));
 }
 
-// What the patterns that the first `count` samples tell are multiplied by. Polynomials that tell much else than what is
-// there give way to straight lines. False where nothing is known.
+// Finds the factors of the patterns that the first `count` samples predict. Where polynomials are off by more than
+// kMost, straight lines replace them. Returns false if no node counts.
 bool find_light(FirstRays& rays, GhostTracers& tracers, const WavelengthSamples& samples, std::size_t count) {
   constexpr double kMost = 1.5;
   PassLight passes(tracers, rays.sheets, samples, count);
@@ -146,7 +146,7 @@ FirstRays first_rays(GhostTracers& tracers, const WavelengthSamples& samples, co
   rays.sheets.resize(passes.size());
   rays.transmission.resize(passes.size());
   rays.light.assign(passes.size(), 1.0);
-  // Of anything that will do, nothing is fitted.
+  // Without an error limit single precision is accurate enough.
   const auto precision = std::isfinite(budget.squared_error) ? PacketPrecision::Double : PacketPrecision::Float;
   const auto trace = [&](std::size_t pass) { rays.sheets[pass] = tracers.at(pass).trace(box, nodes, precision); };
   const auto find_tolerance = [&](const RaySheet& middle) {

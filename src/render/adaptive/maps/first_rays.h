@@ -1,5 +1,5 @@
-// The first rays through a box of a ghost's pupil, few at each wavelength: what is decided by before the ghost is
-// drawn.
+// The first rays through a box of a ghost's pupil, few at each wavelength. Bands, tolerances and bent boxes are decided
+// from them.
 #pragma once
 
 #include <array>
@@ -13,25 +13,25 @@
 namespace contrejour::adaptive {
 
 struct FirstRays {
-  std::vector<RaySheet> sheets;                  // one a pass, without weights; without nodes where none was traced
-  std::vector<std::vector<float>> transmission;  // one a pass, at the nodes: traced, or told by the samples
-  // One a pass: its transmissions over those that light_factors() make of the samples', of all nodes alike; 1 where it
-  // was traced.
+  std::vector<RaySheet> sheets;                  // one a pass, without weights; no nodes: not traced
+  std::vector<std::vector<float>> transmission;  // one a pass, at the nodes: traced or interpolated
+  // One a pass: the ratio of its transmittances to those that light_factors() interpolates, common to all nodes; 1 if
+  // it was traced.
   std::vector<double> light;
   bool straight = false;  // light_factors() are those of straight lines
-  std::size_t samples = 0;  // passes traced, in the order of the wavelength samples, which tell the others; 0: all were
+  std::size_t samples = 0;  // passes traced, in the order of the samples; 0: all were
   Tolerance tolerance;
 };
 
-// At all wavelengths; of many at so few of `samples` as foretell the next of them within the tolerance.
+// Traces all wavelengths; if there are many, only as many of `samples` as predict the next one within the tolerance.
 [[nodiscard]] FirstRays first_rays(GhostTracers& tracers, const WavelengthSamples& samples, const Rectangle& box,
                                    int nodes, const Frame& frame, const ErrorBudget& budget);
 
-// The factors by which the transmissions of the first `count` samples add up to a pass's, before FirstRays::light.
+// The factors by which the transmittances of the first `count` samples add up to a pass's, without FirstRays::light.
 [[nodiscard]] std::vector<double> light_factors(const WavelengthSamples& samples, std::size_t count, std::size_t pass,
                                                 bool straight);
 
-// A pass's light, summed over the nodes.
+// The light of a pass, summed over the nodes.
 [[nodiscard]] std::array<double, 3> light_of(const FirstRays& rays, std::span<const PlannedPass> passes,
                                              std::size_t pass);
 

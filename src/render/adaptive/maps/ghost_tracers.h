@@ -1,4 +1,4 @@
-// The ways of one ghost of a light at each of its wavelengths, each made when it is first asked for.
+// The optical paths of a light's ghost, one at each of its wavelengths, each made when first used.
 #pragma once
 
 #include <cstddef>
@@ -16,8 +16,8 @@ namespace contrejour::adaptive {
 
 class GhostTracers {
  public:
-  // Everything must outlive this. plane_z_mm: of the light's entrance window. stop_times: the stop is taken to be so
-  // many times as large (stop_screen.h).
+  // All arguments must outlive this object. plane_z_mm: of the light's entrance window. stop_times: the factor by which
+  // the stop's radius is enlarged (stop_screen.h).
   GhostTracers(const StepsByWavelength& steps, Ghost ghost, const LightFrame& light, double plane_z_mm,
                std::span<const PlannedPass> passes, double stop_times)
       : steps_(steps), ghost_(ghost), light_(light), passes_(passes), stop_times_(stop_times), plane_z_mm_(plane_z_mm),
@@ -29,10 +29,10 @@ class GhostTracers {
     tracer->bend(bend_);
     return *tracer;
   }
-  // Of the boxes that are traced from here on.
+  // Sets the bend of the boxes that are traced from here on.
   void bend(const Bend& bend) { bend_ = bend; }
   [[nodiscard]] bool is_bent() const { return bend_.is_bent(); }
-  // What blocks rays of a pass.
+  // Where the rays of a pass are blocked.
   [[nodiscard]] ClearanceGrid clearance(std::size_t pass) const { return ClearanceGrid(path(pass)); }
 
   [[nodiscard]] const LightFrame& light() const { return light_; }
@@ -40,7 +40,7 @@ class GhostTracers {
   [[nodiscard]] double plane_z_mm() const { return plane_z_mm_; }
   [[nodiscard]] double stop_times() const { return stop_times_; }
 
-  // Adds rays that were traced beside sheets.
+  // Adds to the counts the rays that a clearance grid traced.
   void count(const ClearanceGrid& grid) {
     clearance_rays_ += grid.rays();
     clearance_hits_ += grid.rays() * grid.steps();

@@ -9,8 +9,8 @@
 namespace contrejour::adaptive {
 namespace {
 
-// Between four rays light may land beyond them by as much as they are apart; where one of them fails, by a root that is
-// steepest there: two and a half times the last difference, and some.
+// By how much, in distances between rays, light between four rays may land beyond them. Where one of them fails,
+// positions vary as a square root that is steepest there: by two and a half times the last difference, with a margin.
 constexpr float kReach = 1.0F, kReachBesideFailure = 3.0F;
 
 struct PixelBounds {
@@ -39,7 +39,7 @@ class LitCells {
   }
 
  private:
-  // Pixels of all nodes, of the box or of its mirror image.
+  // Computes the pixels of all nodes, of the box or of its mirror image.
   void place(const LightFrame& light, double side) {
     std::vector<std::array<float, 2>>& pixels = pixels_.emplace_back(sheet_.count());
     for (std::size_t k = 0; k < sheet_.count(); ++k) {
@@ -64,7 +64,7 @@ class LitCells {
     return bounds;
   }
 
-  // Does a cell with a failed corner have another one about which the rays land near the frame?
+  // Whether a cell with a failed corner has another corner about which rays land near the frame.
   [[nodiscard]] bool lands_near(const std::vector<std::array<float, 2>>& pixels, const CellCorners& corners) const {
     return std::ranges::any_of(corners, [&](std::size_t k) {
       return sheet_.arrives(k) && bounds_of(pixels, around(k)).touches(frame_, kReachBesideFailure);

@@ -1,4 +1,4 @@
-// The part of a box of the pupil whose light may get through and land in the frame, from a sheet of its rays.
+// The part of a box of the pupil whose light may get through and land in the frame, found from a sheet of its rays.
 #pragma once
 
 #include <optional>
@@ -9,8 +9,9 @@
 
 namespace contrejour::adaptive {
 
-// Bounds of the cells between the nodes that may do so at any wavelength of the sheets, which are of one box; none if
-// none may. The iris counts as its circumscribed circle. with_mirror_image: or whose mirror image's light may.
+// The bounds of all cells between nodes whose light may do so at any wavelength of the sheets, which are of one box;
+// empty if there is none. The iris counts as its circumscribed circle. with_mirror_image: the light of the mirror image
+// counts, too.
 [[nodiscard]] std::optional<Rectangle> lit_part(std::span<const RaySheet> sheets, const LightFrame& light,
                                                 const Frame& frame, bool with_mirror_image);
 

@@ -9,7 +9,7 @@ namespace {
 
 constexpr int kNodes = 3;  // a side of the box
 constexpr std::array<std::size_t, 3> kSamples{7, 10, 13};
-constexpr double kForetold = 0.004;  // of the largest
+constexpr double kForetold = 0.004;  // of the largest flux: error of a prediction
 
 }  // namespace
 

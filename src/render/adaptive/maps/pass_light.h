@@ -1,5 +1,5 @@
-// How much light each of a ghost's many passes carries through a box, by a few rays more than its first ones: films
-// make that less even over wavelengths than where the light lands.
+// The flux that each of a ghost's many passes carries through a box, measured with a few more rays than the first ones:
+// films make it vary less smoothly with wavelength than positions do.
 #pragma once
 
 #include <cstddef>
@@ -11,10 +11,10 @@
 
 namespace contrejour::adaptive {
 
-// At 3 x 3 of the first rays' nodes, those whose rays arrive at the first `count` samples.
+// Measures at 3 x 3 of the first rays' nodes: those whose rays arrive at all of the first `count` samples.
 class PassLight {
  public:
-  // Everything must outlive this. sheets: one a pass, those of the first `count` samples traced.
+  // All arguments must outlive this object. sheets: one a pass, those of the first `count` samples traced.
   PassLight(GhostTracers& tracers, std::span<const RaySheet> sheets, const WavelengthSamples& samples,
             std::size_t count);
 
@@ -23,8 +23,8 @@ class PassLight {
   // Adds up the values at the nodes that count; `transmission` has one at every node of the first rays.
   [[nodiscard]] double sum(std::span<const float> transmission) const;
 
-  // One a pass, as sum(): measured at 7, 10 or 13 wavelengths, which tell the others once they foretell the last to
-  // 0.4 per cent of the largest; else at all.
+  // One sum() a pass: measured at 7, 10 or 13 wavelengths, as soon as these predict the last of them to 0.4 per cent of
+  // the largest sum; else at all wavelengths.
   [[nodiscard]] std::vector<double> of_all();
 
  private:

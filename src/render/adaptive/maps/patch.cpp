@@ -9,9 +9,9 @@
 namespace contrejour::adaptive {
 namespace {
 
-// Matrices for one number of nodes.
+// The interpolation matrices for one number of nodes.
 struct NodeMatrices {
-  std::array<Matrix, 2> half;  // to the nodes of the low and of the high half
+  std::array<Matrix, 2> half;  // to the nodes of the low and the high half
 
   explicit NodeMatrices(int nodes) {
     for (std::size_t side = 0; side < 2; ++side) {
@@ -28,7 +28,7 @@ const NodeMatrices& matrices(int nodes) {
   return all.at(nodes);
 }
 
-// The rims of `steps` in fields of their own; more than there is room for share the last one.
+// Copies the heights at the rims of `steps` to fields of their own. Rims beyond kMostRims share the last field.
 void copy_rims(const RaySheet& sheet, const std::vector<std::size_t>& steps, Patch& patch) {
   for (std::size_t k = 0; k < steps.size(); ++k) {
     const float* rim = sheet.rim_squared.data() + steps[k] * sheet.count();
@@ -41,8 +41,8 @@ void copy_rims(const RaySheet& sheet, const std::vector<std::size_t>& steps, Pat
   }
 }
 
-// Whether nothing between four rays gets through: all beyond one rim, or on one side of the stop beyond its circle.
-// What lies between them is a mean of theirs.
+// Whether no light gets through between four rays: all of them are beyond one rim, or on one side of the stop beyond
+// its circle. Values between the rays are means of theirs.
 bool is_closed(const RaySheet& sheet, const std::array<std::size_t, 4>& corners) {
   const auto all = [&](auto beyond) { return std::all_of(corners.begin(), corners.end(), beyond); };
   for (std::size_t at = 0; at < sheet.rim_squared.size(); at += sheet.count()) {
@@ -67,13 +67,13 @@ Vec2 on_frame(const RaySheet& sheet, std::size_t node, const LightFrame& light, 
   return frame.pixel_from_sensor(light.into_place({sheet.sensor_x_mm[node], sheet.sensor_y_mm[node]}));
 }
 
-// A pixel's corner near the middle of the sheet's image.
+// A corner of a pixel near the middle of the sheet's image.
 Vec2 origin_of(const RaySheet& sheet, const LightFrame& light, const Frame& frame) {
   const Vec2 middle = on_frame(sheet, sheet.count() / 2, light, frame);
   return {std::floor(middle.x), std::floor(middle.y)};
 }
 
-// steps: those whose rims are kept.
+// steps: path steps whose rims become fields.
 Patch make_patch(const RaySheet& sheet, const std::vector<std::size_t>& steps, Vec2 origin_px, const LightFrame& light,
                  const Frame& frame) {
   Patch patch;

@@ -1,4 +1,4 @@
-// A part of a ghost as polynomials over a box of the entrance plane: where its rays land, what they carry and how
+// A part of a ghost as polynomials over a box of the entrance plane: where its rays land, what they carry, and how
 // close they pass to whatever may block them.
 #pragma once
 
@@ -14,17 +14,18 @@
 
 namespace contrejour::adaptive {
 
-// Fields of a patch in turn: position in pixels (2), stop coordinates (2 a crossing), the square of the relative height
-// at every rim that comes into play, and what rays carry: to each channel, or, of a single wavelength, to all alike.
+// The fields of a patch in order: position in pixels (2); stop coordinates (2 a crossing); the squared relative height
+// at every rim that comes near; the rays' weights, one for each channel, or one for all channels of a single
+// wavelength.
 struct PatchLayout {
   int crossings = 0;
   int rims = 0;
   int weights = 1;  // or 3
-  std::uint32_t obscurations = 0;  // bit k: rim k blocks within; its field is 2 less the square
+  std::uint32_t obscurations = 0;  // bit k: rim k blocks inside; its field is 2 minus the square
 
   static constexpr int kX = 0, kY = 1, kStop = 2;
   [[nodiscard]] int rim(int k) const { return kStop + 2 * crossings + k; }
-  [[nodiscard]] int limits_end() const { return rim(rims); }  // stop coordinates and rims end here
+  [[nodiscard]] int limits_end() const { return rim(rims); }  // stop coordinates and rims end before this field
   [[nodiscard]] bool is_obscuration(int k) const { return (obscurations >> k & 1U) != 0; }
   [[nodiscard]] int weight(int k) const { return limits_end() + k; }
   [[nodiscard]] int weight_of(int channel) const { return weight(weights == 1 ? 0 : channel); }
@@ -35,10 +36,10 @@ inline constexpr int kMostRims = 12;
 
 struct Patch {
   PatchLayout layout;
-  int nodes = 0;  // a side, Lobatto points
+  int nodes = 0;  // along a side, Lobatto points
   Rectangle box;  // mm of the entrance plane, in the light's frame
-  Vec2 origin_px;  // what positions are counted from
-  double flux_area_mm2 = 0;  // of the box, times cos(theta): flux is gain times weight times this, over the whole box
+  Vec2 origin_px;  // origin of positions
+  double flux_area_mm2 = 0;  // the box's area times cos(theta): flux is gain x weight x this
   Rgb gain{1.0, 1.0, 1.0};  // per channel
   std::vector<float> values;  // [(field * nodes + row) * nodes + column]
 
@@ -47,25 +48,25 @@ struct Patch {
   [[nodiscard]] float* field(int f) { return values.data() + static_cast<std::size_t>(f) * size(); }
 };
 
-// All rays of the sheet must have arrived. Rims that every ray clears by a good margin are left out.
+// All rays of the sheet must have arrived. Rims that every ray clears by a wide margin are left out.
 [[nodiscard]] Patch make_patch(const RaySheet& sheet, const LightFrame& light, const Frame& frame);
 
-// Patches of sheets of one box at several wavelengths, counted from one origin and with the same rims.
+// The patches of sheets of one box at several wavelengths, with a common origin and the same rims.
 [[nodiscard]] std::vector<Patch> make_patches(std::span<const RaySheet> sheets, const LightFrame& light,
                                               const Frame& frame);
 
-// What makes the patch of a further wavelength, or of a band, of such patches: factors, one for each of them.
+// The factors, one for each of such patches, that make the patch of a further wavelength or of a band.
 struct PatchBlend {
   std::vector<double> geometry;
-  std::vector<std::vector<double>> weight;  // of their weights, one each, to those of the blend
+  std::vector<std::vector<double>> weight;  // for each weight of the result, factors of the patches' weights
   Rgb gain{1.0, 1.0, 1.0};
 };
 void blend(std::span<const Patch> patches, const PatchBlend& factors, Patch& out);
 
-// Straight lines between neighbouring rays that arrived, a patch for each four between which any light may pass.
+// Bilinear patches between neighbouring rays that arrived, one for each four rays between which light may pass.
 [[nodiscard]] std::vector<Patch> patches_of_cells(const RaySheet& sheet, const LightFrame& light, const Frame& frame);
 
-// How much the polynomials may still be wrong, by the size of their highest terms.
+// An estimate of the polynomials' errors, from the size of their highest terms.
 struct PatchError {
   double position_px = 0;
   double stop = 0;  // stop radii

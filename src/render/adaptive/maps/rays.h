@@ -1,4 +1,4 @@
-// Rays through boxes of a pupil (ghosts/pupils), by their own names within this renderer.
+// Makes the names of rays through boxes of a pupil (ghosts/pupils) available in this renderer.
 #pragma once
 
 #include "ghosts/pupils/lobatto.h"

@@ -10,10 +10,10 @@
 namespace contrejour::adaptive {
 namespace {
 
-constexpr double kScreenDisc = 1.2;    // of a cell's distance from its middle in the stop, for cells that bend
-constexpr double kFolded_mm2 = 1e-12;  // of a cell's image
+constexpr double kScreenDisc = 1.2;    // radius of a curved cell over that of its corners, in the stop
+constexpr double kFolded_mm2 = 1e-12;  // area below which a cell's image counts as folded
 
-// Rays of a sheet, and what their light sees.
+// The rays of a sheet, and the parts of the stop pattern that their light crosses.
 class ScreenedSheet {
  public:
   ScreenedSheet(const RaySheet& sheet, bool with_mirror_image, const screens::BandScreen& screen, double unit,
@@ -24,21 +24,21 @@ class ScreenedSheet {
   [[nodiscard]] const SheetCells& cells() const { return cells_; }
   [[nodiscard]] bool arrives(std::size_t ray) const { return !std::isinf(sheet_.r_rel[ray]); }
 
-  // The irradiance without a screen between four rays side by side.
+  // The irradiance between four neighbouring rays, without the stop pattern.
   [[nodiscard]] double level(std::size_t first) const {
     double transmission = 0.0;
     for (const std::size_t v : cells_.corners(first))
       transmission = std::max(transmission, std::abs(static_cast<double>(sheet_.transmission[v])));
     return transmission * flux_mm2_ * cells_.entrance_mm2(first) / std::max(cells_.image_mm2(first), kFolded_mm2);
   }
-  // About how wide it is in the stop.
+  // About the radius of the cell in the stop.
   [[nodiscard]] double radius(std::size_t first) const {
     const Vec2 middle = middle_of(first, 1.0);
     double radius = 0.0;
     for (const std::size_t v : cells_.corners(first)) radius = std::max(radius, length(stop(v, 1.0) - middle));
     return kScreenDisc * radius;
   }
-  // The largest share that passes to it, or within `radius` of a ray.
+  // The pattern's largest transmittance for the cell, or within `radius` of a ray.
   [[nodiscard]] double passed(std::size_t first) const {
     const double about = radius(first);
     double most = screen_.over(middle_of(first, 1.0), about).most;
@@ -52,7 +52,7 @@ class ScreenedSheet {
   }
 
  private:
-  // turned: -1 in the mirror image.
+  // turned: -1 for the mirror image.
   [[nodiscard]] Vec2 stop(std::size_t v, double turned) const {
     return light_.into_place({sheet_.stop.back()[0][v], turned * sheet_.stop.back()[1][v]}) * unit_;
   }
@@ -80,10 +80,10 @@ std::optional<double> brightest_passed(const RaySheet& sheet, bool with_mirror_i
   const SheetCells& cells = screened.cells();
   const std::size_t count = cells.end();
   std::vector<std::size_t> broken;  // cells with rays that fail
-  double level = 0.0, radius = 0.0; // of any that is whole
+  double level = 0.0, radius = 0.0; // largest of all cells whose rays all arrive
   std::optional<double> brightest;
   for (std::size_t k = 0; k < count; ++k) {
-    const std::size_t first = (k + count / 2) % count;  // what is in the middle is most likely bright
+    const std::size_t first = (k + count / 2) % count;  // start in the middle, which is most likely bright
     if (!cells.has(first)) continue;
     const auto rays = cells.corners(first);
     if (!std::all_of(rays.begin(), rays.end(), [&](std::size_t v) { return screened.arrives(v); })) {

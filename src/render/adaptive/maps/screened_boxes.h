@@ -1,4 +1,4 @@
-// Boxes of the pupil behind a screen: how bright their light is at the most.
+// The largest brightness of boxes of the pupil behind a stop pattern.
 #pragma once
 
 #include <optional>
@@ -9,10 +9,10 @@
 
 namespace contrejour::adaptive {
 
-// About the largest irradiance on the sensor, per mm^2, between rays of a sheet that arrive, for a gain of 1; beside
-// rays that fail it is taken to be as bright as anywhere. Where it is above `enough`, something above that.
-// with_mirror_image: or of mirrored(sheet). unit: of the sheet's stop coordinates, in stop radii. None: nowhere do four
-// rays side by side arrive.
+// An estimate of the largest irradiance on the sensor, per mm^2 and for a gain of 1, between rays of a sheet that
+// arrive. Next to rays that fail it is taken to be as large as anywhere. If it exceeds `enough`, the search ends with a
+// value above `enough`. with_mirror_image: includes mirrored(sheet). unit: of the sheet's stop coordinates, in stop
+// radii. Empty if no four neighbouring rays all arrive.
 [[nodiscard]] std::optional<double> brightest_passed(const RaySheet& sheet, bool with_mirror_image,
                                                      const screens::BandScreen& screen, double unit,
                                                      const LightFrame& light, double enough);

@@ -1,4 +1,4 @@
-// Dirt as a ghost's rays come upon it.
+// Dirt at the points where a ghost's rays cross it.
 #pragma once
 
 #include <memory>
@@ -8,15 +8,16 @@
 
 namespace contrejour::adaptive {
 
-// Where a ray crosses the front, in the lens's frame. entrance_mm: in the plane z = z_mm and the light's frame.
+// The point, in the lens's frame, at which a ray crosses the front. entrance_mm: in the plane z = z_mm, in the light's
+// frame.
 [[nodiscard]] inline Vec2 front_place(const DirtScreen& dirt, const LightFrame& light, double z_mm, Vec2 entrance_mm) {
   return light.into_place(dirt.front_place(entrance_mm, z_mm, light.source));
 }
 
 struct SeenDirt {
-  std::shared_ptr<const screens::BandDirt> band = nullptr;  // null: none is to be seen
+  std::shared_ptr<const screens::BandDirt> band = nullptr;  // null: no shadows are drawn
   const LightFrame* light = nullptr;
-  double entrance_z_mm = 0.0;  // of the plane that rays are counted in
+  double entrance_z_mm = 0.0;  // plane of the rays' coordinates
 
   [[nodiscard]] explicit operator bool() const { return band != nullptr; }
   [[nodiscard]] const DirtScreen& plane() const { return band->first(); }

@@ -1,4 +1,4 @@
-// The cells between four rays of a sheet side by side, each named by its first ray.
+// The cells between four neighbouring rays of a sheet, each identified by its first ray.
 #pragma once
 
 #include <array>
@@ -15,11 +15,11 @@ class SheetCells {
   explicit SheetCells(const RaySheet& sheet)
       : sheet_(sheet), n_(static_cast<std::size_t>(sheet.nodes)), points_(lobatto_points(sheet.nodes)) {}
 
-  // First rays are below this, those with has().
+  // First rays are those below this number for which has() is true.
   [[nodiscard]] std::size_t end() const { return sheet_.count() - n_ - 1; }
   [[nodiscard]] bool has(std::size_t first) const { return first % n_ != n_ - 1; }
 
-  // In turn.
+  // The cell's four rays, in order around it.
   [[nodiscard]] std::array<std::size_t, 4> corners(std::size_t first) const {
     return {first, first + 1, first + n_ + 1, first + n_};
   }
@@ -28,7 +28,7 @@ class SheetCells {
     const Vec2 size = sheet_.box.high - sheet_.box.low;
     return size.x * step(first % n_) * size.y * step(first / n_);
   }
-  // On the sensor, with straight sides.
+  // The area of the cell's image on the sensor, with straight sides.
   [[nodiscard]] double image_mm2(std::size_t first) const {
     const auto at = [&](std::size_t k) { return Vec2{sheet_.sensor_x_mm[k], sheet_.sensor_y_mm[k]}; };
     const auto c = corners(first);

@@ -9,17 +9,19 @@
 namespace contrejour::adaptive {
 namespace {
 
-constexpr double kFitShare = 0.3;  // of the allowed error, that fits may make: theirs is the same all over a ghost
+constexpr double kFitShare = 0.3;  // of the allowed error, for fits: theirs is the same all over a ghost
 constexpr double kNoLimit = 1e9;
-// Of a ghost's size, that its light may be out of place at the most; and without care, where twice as much has made
-// caustics of rays that were far apart.
+// The largest displacement of a ghost's light, over the ghost's size: kMost in general, kCareless in preview quality,
+// where twice that has produced false caustics between rays far apart.
 constexpr double kMost = 0.05, kCareless = 0.02, kLittle_px = 0.5;
-// Of a ghost that bright beside the peak: wavelengths farther apart, in its sizes, give it colours that are seen.
+// In ghosts brighter than kColourLevel of the peak, wavelengths farther apart than this, over the ghost's size, show as
+// colours.
 constexpr double kColourLevel = 3e-4, kColourShift = 0.02, kColourShift_px = 1.0;
-constexpr double kPeaks = 16.0;  // fits of what is so many times brighter than the peak need be no better
+constexpr double kPeaks = 16.0;  // times the peak: fits of brighter light need be no better
 
-// Of a sheet's image. pupil_light: of a mm^2 of the pupil, which lies evenly over the image of each cell between rays.
-// Cells far outside a rim do not count: the rays at a box's border may be flung anywhere. None: no cell counts.
+// The level and the area of a sheet's image. pupil_light: the light of a mm^2 of the pupil, taken as uniform over the
+// image of each cell between rays. Cells far outside a rim do not count, since rays at a box's border may land far
+// outside the frame. Empty if no cell counts.
 std::optional<Spread> spread_of(const RaySheet& sheet, double pupil_light, const Frame& frame) {
   const SheetCells cells(sheet);
   const double pixel_mm2 = frame.pixel_pitch_mm * frame.pixel_pitch_mm;
@@ -38,20 +40,20 @@ std::optional<Spread> spread_of(const RaySheet& sheet, double pupil_light, const
   return Spread{squares / light, light * light / squares};
 }
 
-// The same where no cell tells and nothing is known: all light in one pixel.
+// Used where no cell counts and nothing is known: all light in one pixel.
 Spread one_pixel(const RaySheet& sheet, double pupil_light) {
   const Vec2 size = sheet.box.high - sheet.box.low;
   return {pupil_light * size.x * size.y, 1.0};
 }
 
-// What is known of it where that is brighter: light may gather where no ray looks.
+// The brighter of the two estimates, since light may be focused where no ray is traced.
 Spread brighter(const std::optional<Spread>& told, const Spread& known) {
   return told && told->level >= known.level ? *told : known;
 }
 
 }  // namespace
 
-// Edges displaced by d over a length of about 4 L, and levels off by a share w over L^2 pixels.
+// Derived from edges displaced by d over a length of about 4 L, and from levels off by a fraction w over L^2 pixels.
 Tolerance tolerance_for(const RaySheet& sheet, double weight, double shared_flux, const Frame& frame,
                         const ErrorBudget& budget) {
   constexpr Tolerance kAny{kNoLimit, kNoLimit, kNoLimit, 0.0, kNoLimit, kNoLimit};

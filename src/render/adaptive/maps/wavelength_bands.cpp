@@ -10,10 +10,11 @@
 namespace contrejour::adaptive {
 namespace {
 
-// Of the displacement that a fit may make of all light: for bands it comes on top, all of it is seen, and colours show.
+// Fraction of the displacement that a fit may make of all light. The error of bands is added to that of fits, is
+// visible in full and shows in colours.
 constexpr double kBandShare = 0.6;
 
-// How far a ghost moves from one wavelength to another, by the rays that are not far from getting through.
+// How far a ghost moves from one wavelength to another, by the rays that get through or nearly do.
 double shift_mm(const RaySheet& a, const RaySheet& b) {
   double largest = 0.0;
   for (std::size_t k = 0; k < a.count(); ++k) {
@@ -24,7 +25,7 @@ double shift_mm(const RaySheet& a, const RaySheet& b) {
   return largest;
 }
 
-// Each pass's part of the light.
+// The fraction of the light that each pass carries.
 std::vector<double> light_shares(const FirstRays& rays, std::span<const PlannedPass> passes) {
   std::vector<double> shares;
   double sum = 0.0;
@@ -37,10 +38,11 @@ std::vector<double> light_shares(const FirstRays& rays, std::span<const PlannedP
   return shares;
 }
 
-// Bands of neighbouring passes, as they are joined.
+// Bands of neighbouring passes, which are merged step by step.
 class Joined {
  public:
-  // between: bands may be seen between their passes. farthest_px: from there, that any of their edges may lie.
+  // between: a band may be drawn between the positions of its passes. farthest_px: the largest distance of any edge
+  // from where its band is drawn.
   Joined(std::vector<SpectralEdge> edges, bool between, double farthest_px)
       : edges_(std::move(edges)), between_(between), farthest_px_(farthest_px) {
     for (std::size_t k = 0; k <= edges_.size(); ++k) ends_.push_back(k);
@@ -48,7 +50,7 @@ class Joined {
     for (std::size_t k = 0; k + 1 < edges_.size(); ++k) with_next_.push_back(error_of(k, k + 2));
   }
 
-  // Each time the two neighbours that make the least difference, until more than `allowed` would be wrong.
+  // Merges, again and again, the two neighbouring bands that add the least error, until the sum would exceed `allowed`.
   void join_within(double allowed) {
     double sum = 0.0;
     while (!with_next_.empty()) {
@@ -100,8 +102,8 @@ class Joined {
   std::vector<SpectralEdge> edges_;  // of all passes
   bool between_;
   double farthest_px_;
-  std::vector<std::size_t> ends_;  // of bands
-  std::vector<double> wrong_, with_next_;  // each band, and each together with the next one
+  std::vector<std::size_t> ends_;  // first pass of each band, and the end
+  std::vector<double> wrong_, with_next_;  // errors: of each band, and of each merged with the next one
 };
 
 }  // namespace

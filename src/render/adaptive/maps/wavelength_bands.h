@@ -1,4 +1,4 @@
-// Wavelengths whose images of a ghost lie so close that they share one geometry.
+// Finds wavelengths whose images of a ghost lie so close together that they can share one geometry.
 #pragma once
 
 #include <cstddef>
@@ -9,14 +9,15 @@
 
 namespace contrejour::adaptive {
 
-// Passes from first to last without it, seen at one place: that of the one in their middle, or between them.
+// Passes from first to last, excluding last, drawn at one position: that of the middle pass, or one between passes.
 struct Band {
   std::size_t first = 0, last = 0;
-  std::vector<double> mix{};  // of its passes' geometries, its own; empty: that of its middle
+  std::vector<double> mix{};  // weights of its passes' geometries; empty: that of middle()
   [[nodiscard]] std::size_t middle() const { return (first + last) / 2; }
 };
 
-// As few as the rays' tolerance allows. Where samples tell all wavelengths, seen at the middle of their light.
+// As few bands as the rays' tolerance allows. Where wavelengths are interpolated, a band is drawn at the centroid of
+// its light.
 [[nodiscard]] std::vector<Band> bands_for(const FirstRays& rays, std::span<const PlannedPass> passes,
                                           const WavelengthSamples& samples, double pixel_pitch_mm);
 
