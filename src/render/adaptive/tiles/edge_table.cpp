@@ -6,8 +6,8 @@
 namespace contrejour::adaptive {
 namespace {
 
-constexpr double kStep = 1.0 / 24.0;  // of the finest edge's unit
-constexpr double kFadeFrom = 0.7;     // of the way to where the light counts as level: no step is to be seen there
+constexpr double kStep = 1.0 / 24.0;  // in units of the finest edge
+constexpr double kFadeFrom = 0.7;     // of the way to where the light is uniform: no step must be visible there
 
 double fade(double way) {
   const double t = std::clamp((1.0 - way) / (1.0 - kFadeFrom), 0.0, 1.0);

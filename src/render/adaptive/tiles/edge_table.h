@@ -1,5 +1,6 @@
-// The fringes along an iris's edges for the wavelengths that are drawn together, as one table for all channels: what
-// adaptive looks up pixel by pixel. Differs: where two edges meet, the channels' means multiply, not each wavelength's.
+// A table of the fringes along an iris's edges, for wavelengths that are drawn together and for all channels:
+// `adaptive` looks it up for each pixel. Differs: where two edges meet, the channels' means are multiplied instead of
+// each wavelength's values.
 #pragma once
 
 #include <cstddef>
@@ -14,19 +15,19 @@ class EdgeTable {
  public:
   static constexpr std::size_t kStride = 4;  // floats of an entry: three channels and an unused one
 
-  // band: of edges' fringes, which must outlive the table. width: of a pixel, stop radii.
+  // band: has edges' fringes, and must outlive the table. width: of a pixel, stop radii.
   EdgeTable(const screens::BandScreen& band, double width);
 
   [[nodiscard]] const IrisShape& iris() const { return *iris_; }
   [[nodiscard]] double dark_beyond() const { return dark_beyond_; }  // distance outside a bound, stop radii
-  [[nodiscard]] double level_within() const { return level_within_; }  // and inside
+  [[nodiscard]] double level_within() const { return level_within_; }  // the same inside
 
-  // The factors that a bound brings, from 0 at dark_beyond() outside it to 1 at level_within() inside, at even steps:
-  // steps where all channels are the same, else entries.
+  // The factors of one bound at even steps of the distance, from 0 at dark_beyond() outside it to 1 at level_within()
+  // inside: as steps() if all channels are the same, else as entries().
   [[nodiscard]] bool is_grey() const { return grey_; }
   [[nodiscard]] const float* entries() const { return entries_.data(); }
   struct Step {
-    float factor, rise;  // to the next; none at the last
+    float factor, rise;  // rise: to the next factor; 0 at the last
   };
   [[nodiscard]] const std::vector<Step>& steps() const { return steps_; }
   [[nodiscard]] std::size_t count() const { return count_; }

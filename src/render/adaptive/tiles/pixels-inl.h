@@ -1,4 +1,4 @@
-// Pixels side by side in a row, three numbers each, as they lie in a frame.
+// Neighbouring pixels of a row in vectors: three numbers a pixel, interleaved as in a frame.
 #if defined(CONTREJOUR_ADAPTIVE_PIXELS_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef CONTREJOUR_ADAPTIVE_PIXELS_INL_H_
 #undef CONTREJOUR_ADAPTIVE_PIXELS_INL_H_
@@ -22,7 +22,7 @@ constexpr std::size_t kChannels = 3;
 template <class T>
 using RowTag = hn::CappedTag<T, 8>;  // rows of polygons are some twenty pixels long
 
-// Whose numbers they are that lie in the vectors of so many pixels.
+// The pixel and the channel of each number in the vectors of kCount pixels.
 template <class T, std::size_t kCount>
 struct PixelIndices {
   using Index = std::conditional_t<sizeof(T) == 4, std::int32_t, std::int64_t>;
@@ -35,7 +35,7 @@ struct PixelIndices {
   }
 };
 
-// As many pixels as a vector has lanes: the first vector has the first pixel's three numbers and so on.
+// As many pixels as a vector has lanes. The first vector begins with the first pixel's three numbers.
 template <class T>
 struct PixelsOf {
   using Tag = RowTag<T>;
@@ -53,11 +53,11 @@ struct PixelsOf {
   static HWY_INLINE PixelsOf all(T value) {
     return made_of([&](std::size_t) HWY_ATTR { return hn::Set(Tag(), value); });
   }
-  // A number for each pixel in all of its channels.
+  // Repeats the number of each pixel in all of its channels.
   static HWY_INLINE PixelsOf of(Vector by_pixel) {
     return made_of([&](std::size_t p) HWY_ATTR { return lookup(by_pixel, kIndices.pixel[p]); });
   }
-  // The same for each pixel.
+  // Repeats the same channels for each pixel.
   static HWY_INLINE PixelsOf each(const QuadOf<T>& channels) {
     if constexpr (QuadOf<T>::kLanes == kQuad) {
       return made_of([&](std::size_t p)
@@ -69,7 +69,7 @@ struct PixelsOf {
       return made_of([&](std::size_t p) HWY_ATTR { return hn::LoadU(Tag(), repeated + p * kLanes % kChannels); });
     }
   }
-  // 0, 1, 2, ...
+  // The pixels' indices 0, 1, 2, ... in all of their channels.
   static HWY_INLINE PixelsOf numbers() {
     return made_of([&](std::size_t p) HWY_ATTR {
       return hn::ConvertTo(Tag(), hn::Load(hn::RebindToSigned<Tag>(), kIndices.pixel[p]));
@@ -105,17 +105,17 @@ struct PixelsOf {
   }
 };
 
-// Light that changes linearly along a row.
+// Light that is linear along a row.
 template <class T>
 class PixelLine {
  public:
   using Pixels = PixelsOf<T>;
 
-  // `line` has the level of pixel 0's middle.
+  // line: its level is that of the middle of pixel 0.
   explicit HWY_INLINE PixelLine(const QuadLine<T>& line)
       : slope_(Pixels::each(line.slope)), level_(multiply_add(slope_, Pixels::numbers(), Pixels::each(line.level))) {}
 
-  // Of the pixels from `first` on.
+  // The light of the pixels from `first` on.
   [[nodiscard]] HWY_INLINE Pixels at(int first) const { return first == 0 ? level_ : from(first).level_; }
   [[nodiscard]] HWY_INLINE PixelLine from(int first) const { return raised(slope_, first); }
   [[nodiscard]] HWY_INLINE PixelLine raised(const Pixels& by, int times) const {
@@ -127,7 +127,7 @@ class PixelLine {
   Pixels slope_, level_;
 };
 
-// Doubles as floats; none are left.
+// Reads doubles as floats, and sets the doubles to zero.
 template <class T>
 HWY_INLINE PixelsOf<T> taken(double* from) {
   const RowTag<double> d;

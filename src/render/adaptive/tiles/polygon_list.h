@@ -1,5 +1,5 @@
-// What is drawn: polygons with an irradiance that changes linearly over each, in pixels of the frame; convex, but for
-// sides that follow a curve.
+// The polygons to draw, in pixels of the frame. Each has an irradiance that is linear over it. They are convex except
+// for sides that follow a curve.
 #pragma once
 
 #include <array>
@@ -21,9 +21,9 @@ struct Point {
   friend bool operator==(const Point&, const Point&) = default;
 };
 
-using Channels = std::array<float, 4>;  // and a spare: four are read at once
+using Channels = std::array<float, 4>;  // with one unused: four are read at once
 
-// Pixel value per pixel area, per channel: at a point, and its change along x and y.
+// Pixel value per pixel area and channel: the value at a point, and its change along x and y.
 struct Shade {
   Point at;
   Channels value{}, along_x{}, along_y{};
@@ -40,25 +40,25 @@ struct Shade {
   return twice;
 }
 
-// Dirt before a polygon that is looked up pixel by pixel, and how pixels see its plane, in mm.
+// Dirt in front of a polygon that is looked up for each pixel, and the map from pixels to its plane, in mm.
 struct PastDirt {
   const screens::BandDirt* band;
   StopMap map;
   [[nodiscard]] std::array<double, 3> passed(Vec2 pixel) const;
 };
 
-// A screen in the stop before a polygon: how its pixels see the stop, and what they look up there.
+// A stop pattern in front of a polygon: the map from pixels to the stop, and the tables that are looked up there.
 struct Screened {
   StopMap map;
-  const screens::BandScreen* screen;  // null: none, but dirt
-  const EdgeTable* edges = nullptr;  // of `screen`, where it is edges' fringes
-  std::uint32_t first = 0, count = 0;  // of PolygonList::bounds: those whose fringes are within
+  const screens::BandScreen* screen;  // pattern: null if there is only dirt
+  const EdgeTable* edges = nullptr;  // of `screen`, if it consists of edges' fringes
+  std::uint32_t first = 0, count = 0;  // in PolygonList::bounds: bounds whose fringes reach the polygon
   std::uint32_t dirt = 0;              // k + 1: PolygonList::dirt[k]; 0: none
-  int looks = 1;  // across a pixel, and as many down it; `map` has the width of one's part of it
+  int looks = 1;  // look-ups across a pixel, and down it; `map` has the width of the part of one
 };
 
 struct Polygon {
-  std::uint32_t first = 0;  // into PolygonList::corners
+  std::uint32_t first = 0;  // index in PolygonList::corners
   std::uint32_t count = 0;  // 1: a point that carries shade.value
   Shade shade;
   std::uint32_t screened = 0;  // k + 1: PolygonList::screened[k]; 0: none
@@ -69,8 +69,8 @@ struct PolygonList {
   static constexpr std::uint32_t kAlone = ~0U, kNotDrawn = ~0U - 1;
 
   std::vector<Point> corners;
-  // By corner, of the edge from there to the next: the other polygon that it is drawn for as well, if it is drawn.
-  // Empty: all are alone.
+  // For each corner, whether the edge from there to the next corner is drawn, and the other polygon for which it is
+  // drawn as well. Empty: every edge is drawn for its own polygon alone.
   std::vector<std::uint32_t> partner;
   std::vector<Polygon> polygons;
   std::vector<Screened> screened;
@@ -85,7 +85,7 @@ struct PolygonList {
                         0, twice_signed_area(polygon) > 0.0});
     corners.insert(corners.end(), polygon.begin(), polygon.end());
   }
-  // active: the bounds of the iris whose fringes are within.
+  // active: the bounds of the iris whose fringes reach the polygon.
   void add(std::span<const Point> polygon, const Shade& shade, const Screened& behind,
            std::span<const std::uint16_t> active) {
     add(polygon, shade);

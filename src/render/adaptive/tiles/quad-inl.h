@@ -1,4 +1,4 @@
-// Four numbers, a pixel's channels and a spare, side by side in as many vectors as they need.
+// Four numbers, the three channels of a pixel and an unused one, in as many vectors as they need.
 #if defined(CONTREJOUR_ADAPTIVE_QUAD_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef CONTREJOUR_ADAPTIVE_QUAD_INL_H_
 #undef CONTREJOUR_ADAPTIVE_QUAD_INL_H_
@@ -64,7 +64,7 @@ struct QuadOf {
 using Quad = QuadOf<float>;
 using DoubleQuad = QuadOf<double>;
 
-// From a to b, t of the way.
+// Interpolates linearly between a and b.
 HWY_INLINE Quad mix(Quad a, Quad b, Quad t) { return multiply_add(t, b - a, a); }
 
 HWY_INLINE DoubleQuad to_doubles(const float* from) {
@@ -90,7 +90,7 @@ HWY_INLINE Quad to_floats(const Doubles& q) {
   return out;
 }
 
-// A quad that changes linearly along a row.
+// Four numbers, each linear along a row.
 template <class T>
 struct QuadLine {
   QuadOf<T> level, slope;

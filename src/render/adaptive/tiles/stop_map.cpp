@@ -7,14 +7,14 @@
 namespace contrejour::adaptive {
 namespace {
 
-constexpr double kThick_px = 2.0;  // from where on a cell's second order is told from its first
+constexpr double kThick_px = 2.0;  // cells thicker than this also get second-order terms
 
 }  // namespace
 
 CellSeries CellSeries::of(const std::array<Vec2, 4>& corner, const std::array<Vec2, 4>& side, Vec2 middle) {
   CellSeries out = of_corners(corner);
   out.middle = middle;
-  // The means over three rows: two along sides, one through the middle.
+  // Means over three rows: the two sides and the line through the middle.
   out.u = (out.u * 4.0 + (side[1] - side[3])) * (1.0 / 6.0);
   out.v = (out.v * 4.0 + (side[2] - side[0])) * (1.0 / 6.0);
   out.uu = side[1] + side[3] - middle * 2.0;
@@ -22,13 +22,13 @@ CellSeries CellSeries::of(const std::array<Vec2, 4>& corner, const std::array<Ve
   return out;
 }
 
-// Half a cell with corners 0, 1 and 2.
+// Takes half a cell, with corners 0, 1 and 2.
 CellSeries CellSeries::of_triangle(const std::array<Vec2, 3>& c) {
   return {(c[0] + c[2]) * 0.5, (c[1] - c[0]) * 0.5, (c[2] - c[1]) * 0.5, {}, {}, {}};
 }
 
-// With J = [p_u p_v] the pixels' series is inverted to the second order, w = J^-1 q, and put into the stop's:
-// s = s_0 + A q + (s_2(w) - A p_2(w)) / 2, A = [s_u s_v] J^-1.
+// With J = [p_u p_v], the series of the pixels is inverted to second order, w = J^-1 q, and inserted into that of the
+// stop: s = s_0 + A q + (s_2(w) - A p_2(w)) / 2, A = [s_u s_v] J^-1.
 StopMap::StopMap(const CellSeries& pixel, std::span<const CellSeries> stop, double softness_px)
     : origin_px_(pixel.middle), crossings_(stop.size()) {
   assert(!stop.empty() && stop.size() <= crossing_.size());

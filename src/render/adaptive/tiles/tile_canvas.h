@@ -1,4 +1,4 @@
-// The picture that tiles are drawn into.
+// The image that tiles are drawn into.
 #pragma once
 
 #include <algorithm>
@@ -11,7 +11,7 @@
 
 namespace contrejour::adaptive {
 
-// Of a frame, or of the part of it that begins at (left, top).
+// An image of a frame, or of the part of it that begins at (left, top).
 struct TileCanvas {
   Image& image;
   int left = 0, top = 0;
@@ -20,11 +20,11 @@ struct TileCanvas {
 
   TileCanvas(Image& of, int x, int y, TileMode how) : image(of), left(x), top(y), mode(how), writer(of) {}
 
-  // A row of a tile that lies within.
+  // The pixels of a row of a tile that lies within the image.
   [[nodiscard]] float* at(const TileSums& tile, int row) const {
     return image.pixels.data() + image.index(tile.x0 - left, tile.y0 + row - top);
   }
-  // Makes a tile dark, as far as it lies within.
+  // Sets a tile's pixels to zero, as far as they lie within the image.
   void clear(const TileSums& tile) const {
     const int x0 = std::max(tile.x0 - left, 0), x1 = std::min(tile.x0 + tile.width - left, image.width);
     const int y0 = std::max(tile.y0 - top, 0), y1 = std::min(tile.y0 + tile.height - top, image.height);

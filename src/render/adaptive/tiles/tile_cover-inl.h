@@ -1,5 +1,5 @@
-// A polygon's edges as changes of its coverage alone along the rows of a tile: several rows of an edge, or several
-// columns of a row, at once.
+// Adds the edges of a polygon to its coverage, stored as changes along the rows of a tile: several rows of an edge, or
+// several columns of a row, at once.
 #if defined(CONTREJOUR_ADAPTIVE_TILE_COVER_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef CONTREJOUR_ADAPTIVE_TILE_COVER_INL_H_
 #undef CONTREJOUR_ADAPTIVE_TILE_COVER_INL_H_
@@ -21,11 +21,11 @@
 HWY_BEFORE_NAMESPACE();
 namespace contrejour::adaptive::HWY_NAMESPACE {
 
-// Coverage is multiplied by nothing.
+// Marks sums of coverage alone, which is not multiplied by an irradiance.
 struct NoShade {};
 
-// An edge inside the tile's columns, from a down to b, clipped to its rows: calls `visit` with each row, where the edge
-// enters and leaves it and how high it is there.
+// For an edge inside the tile's columns, from a down to b, clipped to its rows: calls `visit` with each row, the points
+// at which the edge enters and leaves it, and the edge's height there.
 template <class Visit>
 HWY_INLINE void for_each_row(int height, Vec2 a, Vec2 b, const Visit& visit) {
   const double dx_dy = (b.x - a.x) / (b.y - a.y);
@@ -44,9 +44,9 @@ HWY_INLINE void for_each_row(int height, Vec2 a, Vec2 b, const Visit& visit) {
   }
 }
 
-// Where an edge gets no farther than a pixel to the side in a row: three columns, and nothing asked that depends on
-// where it crosses from one to the next. x is seen from the column where the edge is farthest left,
-// rows from the first one: floats hold that.
+// Adds an edge that moves no more than a pixel to the side in a row, thus over three columns at most, without branches
+// on where it crosses from one to the next. x is relative to the column in which the edge is farthest left, rows to the
+// first one, so that floats are accurate enough.
 HWY_INLINE void add_steep_cover(CoverSums& tile, Vec2 a, Vec2 b, double sign) {
   const FloatTag d;
   const IntTag di;
@@ -98,8 +98,9 @@ HWY_INLINE void add_steep_cover(CoverSums& tile, Vec2 a, Vec2 b, double sign) {
   }
 }
 
-// A stretch of an edge within a row, which covers more and more columns from `left` to `right` and dy of those beyond:
-// what it covers of a column less what it covers of the one before. half_rise: of coverage over a column, a half.
+// Adds a segment of an edge within a row. Coverage increases over the columns from `left` to `right` and is dy beyond;
+// each sum receives what the segment covers of its column minus what it covers of the column before. half_rise: half of
+// the increase of coverage over a column.
 HWY_INLINE void add_flat_cover(CoverSums& tile, int row, double left, double right, double dy, double half_rise) {
   const FloatTag d;
   const auto first = static_cast<int>(left), last = static_cast<int>(right);
@@ -112,13 +113,13 @@ HWY_INLINE void add_flat_cover(CoverSums& tile, int row, double left, double rig
   const auto beyond = [&](hn::Vec<FloatTag> u) HWY_ATTR { return hn::Min(hn::Max(hn::Sub(u, width), none), one); };
   for (int k = 0; k <= last + 1 - first; k += static_cast<int>(hn::Lanes(d))) {
     const auto u =
-        hn::Sub(hn::Iota(d, static_cast<float>(k)), from);  // from where it begins to the column's left border
+        hn::Sub(hn::Iota(d, static_cast<float>(k)), from);  // from the segment's beginning to the column's left border
     const auto next = hn::Add(u, one);
     const auto before = within(hn::Sub(u, one)), here = within(u), after = within(next);
     const auto square = hn::Sub(hn::Mul(hn::Sub(after, here), hn::Add(after, here)),
                                 hn::Mul(hn::Sub(here, before), hn::Add(here, before)));
     const auto change = hn::MulAdd(half, square, hn::Mul(high, hn::Sub(beyond(next), beyond(u))));
-    const auto used = hn::Le(hn::Iota(d, static_cast<float>(k)), end);  // beyond is what rounding leaves
+    const auto used = hn::Le(hn::Iota(d, static_cast<float>(k)), end);  // beyond the end there is only rounding
     hn::StoreU(hn::Add(hn::LoadU(d, to + k), hn::IfThenElseZero(used, change)), d, to + k);
   }
 }

@@ -1,4 +1,4 @@
-// A polygon's edges as coverage times irradiance, and what they change of that, along the rows of a tile.
+// Adds a polygon's edges as coverage times irradiance, and as changes of the light beyond, along the rows of a tile.
 #if defined(CONTREJOUR_ADAPTIVE_TILE_EDGES_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef CONTREJOUR_ADAPTIVE_TILE_EDGES_INL_H_
 #undef CONTREJOUR_ADAPTIVE_TILE_EDGES_INL_H_
@@ -19,7 +19,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace contrejour::adaptive::HWY_NAMESPACE {
 
-// A polygon's irradiance as what a row of pixels needs: a line along x, and how its level changes by row.
+// The irradiance of a polygon in the form that a row of pixels needs: a line along x, and its change by row.
 struct RowShade {
   QuadLine<double> line;
   DoubleQuad by_row;
@@ -27,7 +27,7 @@ struct RowShade {
   [[nodiscard]] HWY_INLINE QuadLine<double> at(int row) const {
     return {multiply_add(by_row, DoubleQuad::all(row), line.level), line.slope};
   }
-  // What an edge between two polygons changes, seen from the first.
+  // The change across an edge from polygon b to polygon a.
   friend HWY_INLINE RowShade operator-(const RowShade& a, const RowShade& b) {
     return {a.line - b.line, a.by_row - b.by_row};
   }
@@ -41,26 +41,27 @@ HWY_INLINE RowShade row_shade(const Shade& shade, const TileSums& tile) {
   return {{level, along_x}, along_y};
 }
 
-// What a stretch of an edge within a row of pixels covers: `all` beyond it, more and more from its left end on.
+// The coverage by a segment of an edge within a row of pixels: it rises from the left end on, and is `all` beyond.
 struct StretchCover {
-  double to_left;  // from where columns are counted to the left end
+  double to_left;  // from the first counted column
   double width;
-  double all, half_rise;  // over a column, a half
+  double all, half_rise;  // half of the rise over a column
 
-  // Of columns side by side from `first` on.
+  // The coverage of neighbouring columns from `first` on.
   [[nodiscard]] HWY_INLINE hn::Vec<RowTag<double>> at(int first) const {
     const RowTag<double> d;
     const auto none = hn::Zero(d), one = hn::Set(d, 1.0), end = hn::Set(d, width);
     const auto within = [&](hn::Vec<RowTag<double>> u) HWY_ATTR { return hn::Min(hn::Max(u, none), end); };
     const auto u = hn::Sub(hn::Iota(d, static_cast<double>(first)), hn::Set(d, to_left)), next = hn::Add(u, one);
     const auto here = within(u), after = within(next);
-    const auto beyond = hn::Min(hn::Max(hn::Sub(next, end), none), one);  // to the last bit where all is
+    const auto beyond = hn::Min(hn::Max(hn::Sub(next, end), none), one);  // exact to the last bit where it is `all`
     const auto rise = hn::Mul(hn::Set(d, half_rise), hn::Mul(hn::Sub(after, here), hn::Add(after, here)));
     return hn::MulAdd(hn::Set(d, all), beyond, rise);
   }
 };
 
-// Stretches of an edge inside the tile's columns, which leads down, clipped to its rows: some rows at once.
+// The segments, in several rows at once, of an edge inside the tile's columns that leads down, clipped to the tile's
+// rows.
 class EdgeRows {
  public:
   static constexpr int kAtOnce = static_cast<int>(hn::MaxLanes(RowTag<double>()));
@@ -98,7 +99,7 @@ class EdgeRows {
   [[nodiscard]] HWY_INLINE int first_block(int k) const { return first_[k]; }
   [[nodiscard]] HWY_INLINE int last_block(int k) const { return last_[k]; }
   [[nodiscard]] HWY_INLINE double height(int k) const { return height_[k]; }
-  // Columns are counted from its first block on.
+  // The coverage in row k; columns are counted from the segment's first block.
   [[nodiscard]] HWY_INLINE StretchCover cover(int k, double all, double half_rise) const {
     return {to_left_[k], width_[k], all, half_rise};
   }
@@ -113,7 +114,7 @@ class EdgeRows {
   HWY_ALIGN std::int32_t first_[kAtOnce], last_[kAtOnce];
 };
 
-// Adds what a stretch changes of a row's pixels. Columns are counted from the first block on.
+// Adds the change of a row's pixels that a segment makes. Columns are counted from the first block.
 HWY_INLINE void add_stretch(TileSums& tile, int row, int first_block, int last_block, const StretchCover& cover,
                             const PixelLine<double>& light) {
   using Pixels = PixelsOf<double>;
@@ -129,7 +130,7 @@ HWY_INLINE void add_change(TileSums& tile, int row, int block, const QuadLine<do
   add_times(QuadLine<double>::load(change), line, times).store(change);
 }
 
-// At a column's left border, across all of the row.
+// Adds a step at a column's left border that extends over all of the row's height.
 HWY_INLINE void add_step(TileSums& tile, int row, int column, const QuadLine<double>& line, double times) {
   const int block = std::min(column / TileSums::kBlock, tile.blocks() - 1), from = TileSums::kBlock * block;
   const PixelLine<double> light(QuadLine<double>{line.at(from), line.slope});
@@ -138,7 +139,7 @@ HWY_INLINE void add_step(TileSums& tile, int row, int column, const QuadLine<dou
 }
 
 HWY_INLINE void add_edge(TileSums& tile, const RowShade& shade, Vec2 a, Vec2 b, double sign) {
-  constexpr double kSteepest = 1e100;  // as high as a number's square may be
+  constexpr double kSteepest = 1e100;  // its square is still finite
   EdgeRows rows(tile, a, b);
   const int first = rows.first_row(), end = rows.end_row();
   const double dx = std::abs(b.x - a.x);
@@ -158,8 +159,9 @@ HWY_INLINE void add_edge(TileSums& tile, const RowShade& shade, Vec2 a, Vec2 b, 
   }
 }
 
-// An edge that for_each_edge() visits. Parts left of the tile count as on its border, or not where sums are carried;
-// parts to the right do not. Of coverage alone add_edge() is in tile_cover-inl.h.
+// Adds an edge that for_each_edge() visits. Parts of it left of the tile count as on the tile's border, or not at all
+// where sums are carried from tile to tile; parts to the right do not count. For coverage alone, add_edge() is in
+// tile_cover-inl.h.
 template <class Sums, class AnyShade>
 void add_clipped(Sums& tile, const AnyShade& shade, Vec2 a, Vec2 b, double sign) {
   const double width = tile.width;
@@ -185,8 +187,8 @@ void add_clipped(Sums& tile, const AnyShade& shade, Vec2 a, Vec2 b, double sign)
   if (b.x < 0.0 && left.y < b.y) add_edge(tile, shade, {0.0, left.y}, {0.0, b.y}, sign);
 }
 
-// The polygon's edges that cross the tile's rows, left of its right border: their ends from the tile's corner, the
-// first one's index among the polygon's, and the sign of what they bring.
+// Visits the polygon's edges that cross the tile's rows left of its right border, with their ends relative to the
+// tile's corner, the index of the first corner, and the sign of their coverage.
 template <class Visit>
 HWY_INLINE void for_each_edge(const TileSums& tile, const PolygonList& list, const Polygon& polygon,
                               const Visit& visit) {
@@ -194,7 +196,7 @@ HWY_INLINE void for_each_edge(const TileSums& tile, const PolygonList& list, con
   const auto from_tile = [&](Point p) {
     return Vec2{static_cast<double>(p.x) - tile.x0, static_cast<double>(p.y) - tile.y0};
   };
-  const double sign = polygon.turns_left ? -1.0 : 1.0;  // y down in memory: left edges rise
+  const double sign = polygon.turns_left ? -1.0 : 1.0;  // y points down in memory: left edges rise
   const auto top = static_cast<float>(tile.y0), bottom = static_cast<float>(tile.y0 + tile.height);
   const auto right = static_cast<float>(tile.x0 + tile.width);
   for (std::size_t k = 0; k < corners.size(); ++k) {

@@ -1,4 +1,4 @@
-// What passes near the edges of an iris, where they bring fringes: tables of distance.
+// The transmittance near the edges of an iris that have fringes, from tables by distance.
 #if defined(CONTREJOUR_ADAPTIVE_TILE_FRINGES_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef CONTREJOUR_ADAPTIVE_TILE_FRINGES_INL_H_
 #undef CONTREJOUR_ADAPTIVE_TILE_FRINGES_INL_H_
@@ -25,7 +25,7 @@ namespace contrejour::adaptive::HWY_NAMESPACE {
 
 static_assert(EdgeTable::kStride == 4);
 
-// Places in a table of fringes along rows, by distance from an edge: a bound's, or a picture's outline.
+// Indices into a table of fringes along rows, by distance from an edge: from a bound, or from a picture's outline.
 class EdgePlaces {
  public:
   EdgePlaces() = default;
@@ -48,11 +48,11 @@ class EdgePlaces {
     x_.set_row(row);
     if (kind_ != Kind::Straight) y_.set_row(row);
   }
-  // `count` of the pixels count, no more.
+  // count: the number of pixels that are needed.
   [[nodiscard]] HWY_INLINE hn::Vec<FloatTag> at(hn::Vec<FloatTag> pixel_x, int count) const {
     return kind_ == Kind::Picture ? of_picture(x_.at(pixel_x), y_.at(pixel_x), count) : along().at(pixel_x);
   }
-  // Along a row as vectors of its own; not of a picture.
+  // The coefficients along a row in vectors; not for a picture.
   struct Along {
     bool straight;
     RowForm::Along x, y;
@@ -67,7 +67,7 @@ class EdgePlaces {
   [[nodiscard]] HWY_INLINE Along along() const {
     return {kind_ == Kind::Straight, x_.along(), y_.along(), hn::Set(FloatTag(), edge_)};
   }
-  // most: the last place of the table.
+  // most: the last index of the table.
   [[nodiscard]] HWY_INLINE SeenGroups seen(const PixelRow& row, float most) const {
     if (kind_ == Kind::Picture) return {};
     const FloatTag d;
@@ -97,12 +97,12 @@ class EdgePlaces {
   }
 
   Kind kind_ = Kind::Straight;
-  RowForm x_, y_;  // of a straight edge x is the place; of a curved one they are steps from its centre
-  float edge_ = 0;  // the place at a curved one's centre
+  RowForm x_, y_;  // of a straight edge, x is the index; of a curved one they are offsets from its centre
+  float edge_ = 0;  // index at a curved edge's centre
   const EdgeTable* table_ = nullptr;
 };
 
-// What some edges bring together: the product of what each does.
+// Several edges: the product of their factors.
 class Edges {
  public:
   Edges(const EdgeTable& table, std::span<const std::uint16_t> active, const StopMap& map)
@@ -132,7 +132,7 @@ class Edges {
     }
     return out;
   }
-  // Calls `multiply(place)` for each edge, with the places of the pixels from k on.
+  // Calls `multiply(place)` for each edge, with the indices of the pixels from k on.
   template <class Multiply>
   HWY_INLINE void look(const PixelRow& row, int k, const Multiply& multiply) const {
     const auto x = row.x(k);
@@ -140,13 +140,13 @@ class Edges {
   }
 
  private:
-  float most_;  // place in the table
+  float most_;  // last index of the table
   std::array<EdgePlaces, 4> few_;
   std::vector<EdgePlaces> many_;
   std::span<EdgePlaces> all_;
 };
 
-// In three channels, of some pixels at a time.
+// Fringes in three channels, for some pixels at a time.
 class Fringes {
  public:
   static constexpr bool kGrey = false;
@@ -156,7 +156,7 @@ class Fringes {
   HWY_INLINE void set_row(const PixelRow& row) { edges_.set_row(row); }
   [[nodiscard]] HWY_INLINE SeenGroups seen(const PixelRow& row) const { return edges_.seen(row); }
 
-  // A vector of pixels, from k on.
+  // The factors of a vector of pixels, from k on.
   class Passed {
    public:
     HWY_INLINE Passed(const Fringes& all, const PixelRow& row, int k) : first_(k) {
@@ -200,14 +200,14 @@ class Fringes {
   const float* entries_;
 };
 
-// What fringes let through by place, one value for all channels.
+// The transmittance by index, with one value for all channels.
 class GreyTable {
  public:
   explicit GreyTable(const EdgeTable& table)
       : steps_(table.steps().data()), end_(static_cast<float>(table.count() - 1)) {}
 
   [[nodiscard]] HWY_INLINE TablePlaces places(hn::Vec<FloatTag> place) const { return end_.places_to_end(place); }
-  // Within steps of the table: so far of each.
+  // Interpolates: `rest` is the fraction of the way within each step.
   [[nodiscard]] HWY_INLINE hn::Vec<FloatTag> at(const std::int32_t* step, hn::Vec<FloatTag> rest) const {
     static_assert(sizeof(EdgeTable::Step) == 8);
     const HalfWords<float> steps(steps_, step);
@@ -225,7 +225,7 @@ class GreyTable {
   TableEnd end_;
 };
 
-// One edge of the iris in one value for all channels.
+// One edge of the iris, with one value for all channels.
 class GreyFringe {
  public:
   static constexpr bool kGrey = true;
@@ -235,7 +235,7 @@ class GreyFringe {
   HWY_INLINE void set_row(const PixelRow& row) { edge_.set_row(row); }
   [[nodiscard]] HWY_INLINE SeenGroups seen(const PixelRow& row) const { return edge_.seen(row, most_); }
 
-  // Places first: looking up then waits for nothing but the table.
+  // Computes all indices first, so that look-ups wait for nothing but the table.
   class Row {
    public:
     HWY_INLINE Row(const GreyFringe& all, const PixelRow& row, Groups wanted) : table_(all.table_) {
@@ -266,7 +266,7 @@ class GreyFringe {
   EdgePlaces edge_;
 };
 
-// Several.
+// Several edges, with one value for all channels.
 class GreyFringes {
  public:
   static constexpr bool kGrey = true;

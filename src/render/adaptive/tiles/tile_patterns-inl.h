@@ -1,4 +1,4 @@
-// What passes where a pattern of all the iris stands: pictures over the stop.
+// The transmittance of a diffraction pattern of the whole iris, from images over the stop.
 #if defined(CONTREJOUR_ADAPTIVE_TILE_PATTERNS_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef CONTREJOUR_ADAPTIVE_TILE_PATTERNS_INL_H_
 #undef CONTREJOUR_ADAPTIVE_TILE_PATTERNS_INL_H_
@@ -22,13 +22,14 @@ namespace contrejour::adaptive::HWY_NAMESPACE {
 
 static_assert(screens::BandPattern::kStride == 4);
 
-// Places in a pattern's samples along rows. Which pixels see nothing is not asked: hulls have cut off what is dark.
+// Positions in a pattern's samples along rows. No pixels are sorted out as dark, since bounding polygons have clipped
+// the dark parts.
 class PatternPlaces {
  public:
   PatternPlaces(const screens::BandPattern::Level& level, double extent, const StopMap& map)
       : most_(static_cast<float>(level.side + 1)) {
     const double per_radius = 0.5 * level.side / extent;
-    const double centre = 0.5 * level.side + 0.5;  // with the border's sample the first middle is at 1
+    const double centre = 0.5 * level.side + 0.5;  // with a border of one sample, the middle of the first one is at 1
     column_ = RowForm(map.form({per_radius, 0.0}, centre));
     line_ = RowForm(map.form({0.0, -per_radius}, centre));
   }
@@ -37,7 +38,7 @@ class PatternPlaces {
     column_.set_row(row);
     line_.set_row(row);
   }
-  // Along a row as vectors of its own.
+  // The coefficients along a row in vectors.
   class Along {
    public:
     HWY_INLINE Along(const PatternPlaces& all, const PixelRow& row)
@@ -56,7 +57,7 @@ class PatternPlaces {
   RowForm column_, line_;
 };
 
-// All channels, each wavelength's part by its own weights.
+// All channels, with each wavelength's part by its own weights.
 class Pattern {
  public:
   static constexpr bool kGrey = false;
@@ -102,24 +103,25 @@ class Pattern {
   HWY_ALIGN float right_[kRowRoom], below_[kRowRoom];
 };
 
-// A row's places in a table: the first of four samples, and how far to the others.
+// A row's positions in a table: the first of four samples, and the fractions of the distance to the others.
 struct RowPlaces {
   HWY_ALIGN std::int32_t place[kRowRoom];
   HWY_ALIGN float across[kRowRoom], down[kRowRoom];
 };
 
-// Of a single wavelength, one value for all channels. Places of all of a row's pixels come first, while the row before
-// it is looked up, and ask for their samples: patterns are far away, and most of their samples are wanted but once.
+// The pattern of a single wavelength, with one value for all channels. The positions of all of a row's pixels are
+// computed while the row before is looked up, and their samples are prefetched: patterns are large, and most samples
+// are needed only once.
 class GreyPattern {
  public:
   static constexpr bool kGrey = true;
   GreyPattern(const screens::BandPattern& pattern, const StopMap& map)
       : GreyPattern(pattern, pattern.level_for(map.width()), map) {}
 
-  // Makes ready for the row that comes next.
+  // Prepares the row that comes next.
   HWY_INLINE void expect_row(const PixelRow& row) {
     constexpr int kLanes = static_cast<int>(hn::MaxLanes(FloatTag()));
-    constexpr int kEvery = 2;  // pixels: a line of memory holds several samples
+    constexpr int kEvery = 2;  // pixels: a cache line holds several samples
     RowPlaces& to = rows_[1 - now_];
     places_.set_row(row);
     const PatternPlaces::Along places(places_, row);

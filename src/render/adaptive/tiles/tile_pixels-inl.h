@@ -1,4 +1,4 @@
-// What edges left in a tile, and light that came pixel by pixel, as pixels of the frame.
+// Turns what edges left in a tile, and light added to single pixels, into pixels of the frame.
 #if defined(CONTREJOUR_ADAPTIVE_TILE_PIXELS_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef CONTREJOUR_ADAPTIVE_TILE_PIXELS_INL_H_
 #undef CONTREJOUR_ADAPTIVE_TILE_PIXELS_INL_H_
@@ -24,12 +24,12 @@
 HWY_BEFORE_NAMESPACE();
 namespace contrejour::adaptive::HWY_NAMESPACE {
 
-// A block's pixels, of the row at `to`. What touched it is taken, beyond the tile's border, too; `line` is the row's
-// before the block, then after it.
+// Draws a block's pixels of a row to `to`. The sums of the block are read and cleared, also beyond the tile's border.
+// line: the row's line before the block, and on return after it.
 template <bool kTouched, bool kLit>
 HWY_INLINE void draw_block(TileSums& tile, int row, int block, QuadLine<double>& line, float* to) {
   const int first = TileSums::kBlock * block;
-  // Seen from here, not from the tile's border, a float holds it.
+  // Relative to the block, instead of to the tile's border, floats are accurate enough.
   const PixelLine<float> level(QuadLine<float>{to_floats(line.at(first)), to_floats(line.slope)});
   for (int k = 0; k < TileSums::kBlock; k += PixelsOf<float>::kCount) {
     const std::size_t at = TileSums::kPixel * static_cast<std::size_t>(first + k);
@@ -49,18 +49,18 @@ HWY_INLINE void draw_block(TileSums& tile, int row, int block, QuadLine<double>&
   }
 }
 
-// A row's line and what blocks have of their own, which is cleared; of blocks that nothing touched it is not looked at.
+// Draws a row from its line and from its blocks' own sums, which are cleared; those of untouched blocks are not read.
 HWY_INLINE void draw_row(TileSums& tile, int row, const TileCanvas& canvas) {
   const auto at_row = static_cast<std::size_t>(row);
   const std::uint64_t touched = std::exchange(tile.touched[at_row], 0), lit = std::exchange(tile.lit[at_row], 0);
   double* const carried = tile.carried[at_row].data();
   QuadLine<double> line = QuadLine<double>::load(carried);
 
-  // Beside the frame, whose memory is written in one go.
+  // A buffer outside the frame, whose memory is then written as a whole.
   HWY_ALIGN float pixels[TileSums::kPixel * TileGrid::kWidth];
   const int blocks = tile.blocks();
   for (int block = 0; block < blocks;) {
-    // As far as they are of one kind: what comes next has no pattern.
+    // Draws all blocks up to the next one of another kind, since kinds follow no predictable pattern.
     const auto at = static_cast<unsigned>(block);
     const bool is_touched = (touched >> at & 1U) != 0, is_lit = (lit >> at & 1U) != 0;
     const std::uint64_t others = (is_touched ? ~touched : touched) | (is_lit ? ~lit : lit);

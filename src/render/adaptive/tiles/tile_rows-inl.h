@@ -1,4 +1,4 @@
-// A row of pixels, where its light crosses the stop, and where that is in tables.
+// A row of pixels, the stop points of its light, and positions of these in tables.
 #if defined(CONTREJOUR_ADAPTIVE_TILE_ROWS_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef CONTREJOUR_ADAPTIVE_TILE_ROWS_INL_H_
 #undef CONTREJOUR_ADAPTIVE_TILE_ROWS_INL_H_
@@ -29,9 +29,9 @@ namespace contrejour::adaptive::HWY_NAMESPACE {
 using FloatTag = RowTag<float>;
 using IntTag = hn::RebindToSigned<FloatTag>;
 
-constexpr float kToMiddle = 3.5F;  // pixels, of a group of eight
+constexpr float kToMiddle = 3.5F;  // pixels: to the middle of a group of eight
 
-// Some pixels of a row of the frame, and how far the first is from a map's origin.
+// Some pixels of a row of the frame, and the distance of the first from a map's origin.
 struct PixelRow {
   int first = 0, count = 0;  // columns of the frame
   int y = 0;
@@ -41,7 +41,7 @@ struct PixelRow {
   PixelRow(int first_column, int columns, int row, Vec2 origin)
       : first(first_column), count(columns), y(row), from_x(static_cast<float>(first_column + 0.5 - origin.x)),
         from_y(static_cast<float>(row + 0.5 - origin.y)) {}
-  // Another place in each of its pixels, so far from where this one looks.
+  // The same pixels with another sampling point in each, displaced by `by`.
   [[nodiscard]] PixelRow moved(Vec2 by) const {
     PixelRow out = *this;
     out.from_x += static_cast<float>(by.x);
@@ -50,14 +50,14 @@ struct PixelRow {
     return out;
   }
   [[nodiscard]] Vec2 pixel(int k) const { return Vec2{first + 0.0 + k, y + 0.0} + in_pixel; }
-  // Of the pixels from k on.
+  // x of the pixels from k on.
   [[nodiscard]] HWY_INLINE hn::Vec<FloatTag> x(int k) const {
     const FloatTag d;
     return hn::Add(hn::Add(hn::Set(d, from_x), hn::Iota(d, 0.0F)), hn::Set(d, static_cast<float>(k)));
   }
 };
 
-// A form of the place in the stop along a row.
+// A polynomial of the stop point along a row.
 class RowForm {
  public:
   RowForm() = default;
@@ -67,13 +67,13 @@ class RowForm {
     level_ = form_.level + row.from_y * (form_.y + row.from_y * form_.yy);
     slope_ = form_.x + row.from_y * form_.xy;
   }
-  // No less than what it changes by from a group's middle to its ends, for any of a row's.
+  // An upper bound of its change from the middle of a group to the ends, for all groups of the row.
   [[nodiscard]] float half_group(const PixelRow& row) const {
     const float far = std::max(std::abs(row.from_x), std::abs(row.from_x + static_cast<float>(row.count + kToMiddle)));
     return kToMiddle * kRoom * (std::abs(slope_) + 2.0F * far * std::abs(form_.xx));
   }
 
-  // The same as vectors of its own, which nothing that is written between two pixels can change.
+  // The coefficients in vectors, which no store between two pixels can change.
   struct Along {
     hn::Vec<FloatTag> level, slope, bend;
     [[nodiscard]] HWY_INLINE hn::Vec<FloatTag> at(hn::Vec<FloatTag> x) const {
@@ -92,8 +92,8 @@ class RowForm {
   float level_ = 0, slope_ = 0;
 };
 
-// Pixels of a row by eights, a bit for each eight from the row's first pixel on: asked together what they see, so that
-// what is done for each pixel does not hang on it.
+// Groups of eight pixels of a row, a bit for each group from the row's first pixel on. What groups see of a pattern is
+// tested for all of them together, so that the work for a pixel does not wait for a test.
 using Groups = std::uint64_t;
 constexpr int kGroup = CoverSums::kGroup;
 static_assert(kGroup == TileSums::kBlock);
@@ -104,7 +104,7 @@ constexpr std::size_t kRowRoom = TileGrid::kWidth + kGroup;
   return count >= 64 ? ~Groups{0} : (Groups{1} << static_cast<unsigned>(count)) - 1;
 }
 
-// The groups of a row whose middles' places pass `test(places)`.
+// The groups of a row for which `test` of the positions of their middles is true.
 template <class Test>
 HWY_INLINE Groups groups_that(const PixelRow& row, const Test& test) {
   const FloatTag d;
@@ -120,25 +120,26 @@ HWY_INLINE Groups groups_that(const PixelRow& row, const Test& test) {
   return out;
 }
 
-// Groups that see nothing of a screen, and those that see the stop level; of others nothing is known.
+// Groups in which a stop pattern is dark, and groups in which it transmits all light; nothing is known of the others.
 struct SeenGroups {
   Groups dark = 0, level = 0;
 };
 
-// Places between entries of a table: whole steps, and the rest. Places that are no numbers count as 0.
+// Positions between entries of a table: the whole step, and the remaining fraction. NaN counts as 0.
 struct TablePlaces {
   hn::Vec<IntTag> whole;
   hn::Vec<FloatTag> rest;
 };
 
-// Those of a table whose last entry is at `most`. Whole steps by adding so much that no bits are left for parts of one:
-// conversions ask what is out of range. A place on an entry may count as one whole step after the one before.
+// Splits positions in a table whose last entry is at `most`. The whole step is found by adding a number so large that
+// no bits remain for fractions, since conversions would test for overflow. A position on an entry may count as one
+// whole step after the entry before.
 class TableEnd {
  public:
   explicit HWY_INLINE TableEnd(float most)
       : most_(hn::Set(FloatTag(), most)), last_(hn::Set(FloatTag(), most - 1.0F)) {}
 
-  // The last step is one that has an entry after it.
+  // The last step has an entry after it.
   [[nodiscard]] HWY_INLINE TablePlaces places(hn::Vec<FloatTag> place) const {
     const auto all = within(place);
     return places(all, hn::Min(below(all), last_));
@@ -154,7 +155,7 @@ class TableEnd {
     return hn::Min(hn::IfThenElseZero(hn::Gt(place, hn::Zero(FloatTag())), place), most_);
   }
   static HWY_INLINE hn::Vec<FloatTag> below(hn::Vec<FloatTag> place) {
-    return hn::Sub(place, hn::Set(FloatTag(), 0.5F));  // what rounding makes the step
+    return hn::Sub(place, hn::Set(FloatTag(), 0.5F));  // rounds to the step below
   }
   static HWY_INLINE TablePlaces places(hn::Vec<FloatTag> place, hn::Vec<FloatTag> step) {
     const auto no_parts = hn::Set(FloatTag(), 12582912.0F);  // 1.5 * 2^23
@@ -167,7 +168,8 @@ class TableEnd {
 };
 
 #if HWY_TARGET != HWY_SCALAR
-// Eight bytes each, from these entries of a table on. One by one: gathers are slower on many processors.
+// Eight bytes from each of these entries of a table. They are loaded one by one, as gathers are slower on many
+// processors.
 template <class D, class Entry>
 HWY_INLINE hn::Vec<D> words_at(D d, const Entry* table, const std::int32_t* at) {
   static_assert(std::is_same_v<hn::TFromD<D>, std::uint64_t>);
@@ -183,7 +185,7 @@ HWY_INLINE hn::Vec<D> words_at(D d, const Entry* table, const std::int32_t* at) 
 }
 #endif
 
-// The first and the second four bytes of eight each, from these entries of a table on.
+// The first and the second four bytes of the eight bytes from each of these entries of a table.
 template <class T>
 struct HalfWords {
   hn::Vec<RowTag<T>> first, second;
@@ -207,7 +209,7 @@ struct HalfWords {
   }
 };
 
-// A table of ShortLight, in pairs of a sample and the one below.
+// A table of ShortLight, as pairs of a sample and the one below it.
 class ShortTable {
  public:
   using Pair = screens::BandPattern::Level::Pair;
@@ -215,7 +217,7 @@ class ShortTable {
   ShortTable(const std::vector<Pair>& pairs, const screens::ShortLight& coding)
       : pairs_(pairs.data()), lowest_(hn::Set(IntTag(), coding.lowest())), none_(hn::Set(FloatTag(), coding.none())) {}
 
-  // Between four samples: from these on, so far to the next and to the ones below.
+  // Interpolates between four samples: those at `place`, by the fractions to the next ones and to those below.
   [[nodiscard]] HWY_INLINE hn::Vec<FloatTag> among(const std::int32_t* place, hn::Vec<FloatTag> across,
                                                    hn::Vec<FloatTag> down) const {
     const HalfWords<std::int32_t> pairs(pairs_, place);
@@ -225,7 +227,7 @@ class ShortTable {
   HWY_INLINE void fetch(std::ptrdiff_t place) const { hwy::Prefetch(pairs_ + place); }
 
  private:
-  // More than the light by none_.
+  // Returns the light plus none_.
   [[nodiscard]] HWY_INLINE hn::Vec<FloatTag> between(hn::Vec<IntTag> pair, hn::Vec<FloatTag> rest) const {
     constexpr int kShift = screens::ShortLight::kShift;
     const FloatTag d;

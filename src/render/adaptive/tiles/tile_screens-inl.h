@@ -1,4 +1,4 @@
-// Polygons behind a screen: their coverage first, then pixel by pixel the light that passes.
+// Draws polygons behind a stop pattern: first their coverage, then for each pixel the transmitted light.
 #if defined(CONTREJOUR_ADAPTIVE_TILE_SCREENS_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef CONTREJOUR_ADAPTIVE_TILE_SCREENS_INL_H_
 #undef CONTREJOUR_ADAPTIVE_TILE_SCREENS_INL_H_
@@ -26,7 +26,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace contrejour::adaptive::HWY_NAMESPACE {
 
-// What passes any screen, several crossings of the stop among them, and dirt. Either may be null.
+// The transmittance of any stop pattern, also at several crossings, and of dirt. Either may be null.
 class AnyScreen {
  public:
   static constexpr bool kGrey = false;
@@ -57,7 +57,7 @@ class AnyScreen {
   const PixelRow* row_ = nullptr;
 };
 
-// Any of these, looked up at the middles of so many parts of each pixel across and down: their mean.
+// The mean of look-ups at the middles of `across` x `across` parts of each pixel.
 template <class Look>
 class MeanOfLooks {
  public:
@@ -90,7 +90,7 @@ class MeanOfLooks {
 
  private:
   static constexpr int kLanes = static_cast<int>(hn::MaxLanes(FloatTag()));
-  static constexpr std::size_t kNumbers = kGrey ? 1 : kQuad;  // a pixel
+  static constexpr std::size_t kNumbers = kGrey ? 1 : kQuad;  // for a pixel
 
   template <class Row>
   HWY_INLINE void add(const Row& one, int count) {
@@ -114,14 +114,15 @@ class MeanOfLooks {
   HWY_ALIGN float sum_[kNumbers * (kRowRoom + static_cast<std::size_t>(kLanes))];
 };
 
-// A row's coverage from its changes, which are cleared, some pixels after the other. What only rounding covers is not.
+// A row's coverage from its changes, which are cleared, some pixels after another. Coverage below rounding errors is
+// zero.
 class RunningCover {
  public:
-  // Of the row of which no more than `count` pixels are covered, whatever its changes say.
+  // count: no more pixels of the row are covered, whatever its changes say.
   HWY_INLINE RunningCover(float* changes, int count)
       : changes_(changes), count_(count), before_(hn::Zero(FloatTag())) {}
 
-  // Of the pixels from k on, by sums of two, four and eight neighbours.
+  // The coverage of the pixels from k on, by prefix sums over two, four and eight neighbours.
   HWY_INLINE hn::Vec<FloatTag> next(int k) {
     constexpr std::size_t kLanes = hn::MaxLanes(FloatTag());
     const FloatTag d;
@@ -143,7 +144,7 @@ class RunningCover {
     if (left >= static_cast<int>(kLanes)) return cover;
     return hn::IfThenElseZero(hn::FirstN(d, static_cast<std::size_t>(std::max(left, 0))), cover);
   }
-  // Of the pixel before the next.
+  // Whether the pixel before the next one is fully covered.
   [[nodiscard]] HWY_INLINE bool is_whole() const {
     constexpr float kWhole = 1.0F - 1e-5F;  // for rounding
     return hn::GetLane(before_) >= kWhole;
@@ -152,24 +153,25 @@ class RunningCover {
  private:
   float* changes_;
   int count_;
-  hn::Vec<FloatTag> before_;  // the sum of all changes so far
+  hn::Vec<FloatTag> before_;  // sum of all changes before
 };
 
-// Whole pixels in a row that see the stop level: their light is left as changes along the row, as any polygon's is.
+// Adds fully covered pixels of a row where the pattern transmits all light: as changes along the row, like any
+// polygon's.
 HWY_INLINE void add_level(TileSums& tile, int row, int first, int end, const RowShade& shade) {
   const QuadLine<double> line = shade.at(row);
   add_step(tile, row, first, line, 1.0);
   add_step(tile, row, end, line, -1.0);
 }
 
-// A row of what a polygon covers, in the tile, from one of every kFirst columns on: lines of memory begin there.
+// A row of a polygon's coverage in the tile. It starts at a multiple of kFirst columns, where cache lines begin.
 constexpr int kFirst = 4;
 struct CoveredRow {
   int row, first, count;
-  int even_first, even_end;  // columns of the tile between which coverage is the same, if any
+  int even_first, even_end;  // columns of the tile between which coverage is constant, if any
 };
 
-// A polygon's irradiance times what passes, some pixels at once, which have nothing beyond the row.
+// A polygon's irradiance times the transmittance, for some pixels at once; beyond the row there is nothing.
 template <bool kGrey>  // one value serves all channels
 class PixelLight {
   using Pixels = PixelsOf<float>;
@@ -183,7 +185,7 @@ class PixelLight {
    public:
     HWY_INLINE Row(const PixelLight& all, const CoveredRow& row)
         : light_(all.line_.raised(all.by_row_, row.row).from(row.first)), count_(row.count) {}
-    // Adds the pixels from k on to the row's at `to`, as far as they are covered.
+    // Adds the covered parts of the pixels from k on to the row at `to`.
     template <class Look>
     HWY_INLINE void add(const Look& look, hn::Vec<FloatTag> cover, int k, float* to) const {
       if constexpr (kGrey) {
@@ -196,7 +198,7 @@ class PixelLight {
         add_shares(Pixels::of(cover) * Pixels::load(passed), k, to);
       }
     }
-    // All passes.
+    // Adds pixels that transmit all light.
     HWY_INLINE void add_level(hn::Vec<FloatTag> cover, int k, float* to) const { add_shares(Pixels::of(cover), k, to); }
 
    private:
@@ -213,8 +215,8 @@ class PixelLight {
   Pixels by_row_;
 };
 
-// Of a tile, the rows that a polygon may touch, and between which columns. covered_to: the column as far as all rows
-// are covered at the least; -1: not told.
+// The rows of a tile that a polygon may touch, and the columns between which it lies. covered_to: the column up to
+// which all rows are covered at least; -1: unknown.
 struct PixelRows {
   int first, last;
   int low_column, high_column;
@@ -233,12 +235,12 @@ PixelRows rows_under(const TileSums& tile, std::span<const Point> corners) {
   const auto column = [&](float x) {
     return static_cast<int>(std::clamp(x - static_cast<float>(tile.x0), 0.0F, static_cast<float>(tile.width)));
   };
-  // Edges beyond the right border, or on it, leave no change: what is covered there ends with the tile.
+  // Edges beyond the right border, or on it, leave no change: coverage then extends to the end of the tile.
   const bool is_beyond = high.x >= static_cast<float>(tile.x0 + tile.width);
   return {row(low.y), row(high.y), column(low.x), column(high.x), is_beyond ? tile.width - 1 : -1};
 }
 
-// Those of a polygon whose edges have left their changes in the tile.
+// The rows in which a polygon's edges have left changes.
 class CoveredRows {
  public:
   CoveredRows(TileSums& tile, const PixelRows& within) {
@@ -259,7 +261,8 @@ class CoveredRows {
   std::size_t count_ = 0;
 };
 
-// What is drawn of a row, whose coverage ends with its changes but at the tile's border, beyond which there are none.
+// A row to be drawn. Coverage ends with the last change, except at the tile's border, beyond which changes are not
+// stored.
 struct RowOfPixels {
   CoveredRow columns;
   RunningCover cover;
@@ -278,8 +281,8 @@ HWY_INLINE void add_row(TileSums& tile, RowOfPixels row, const Passed& passed, c
   tile.light_groups(row.columns.row, row.columns.first, first_groups((count + kGroup - 1) / kGroup));
 }
 
-// But those of groups that see nothing, or the stop level. Where they are whole, as far as nothing changes, no sum is
-// asked for.
+// Draws a row without look-ups for groups in which the pattern is dark or transmits all light. Where such groups are
+// fully covered and no edge changes that, coverage is not summed either, and their light is added as steps.
 template <class Passed, class LightRow>
 HWY_INLINE void add_row(TileSums& tile, RowOfPixels row, const RowShade& shade, const SeenGroups& seen,
                         const Passed& passed, const LightRow& light) {
@@ -320,7 +323,7 @@ HWY_INLINE void add_row(TileSums& tile, RowOfPixels row, const RowShade& shade, 
 
 template <class Look>
 void add_pixels(TileSums& tile, const Polygon& polygon, const StopMap& map, const PixelRows& within, Look& look) {
-  constexpr int kShort = 4 * kGroup;  // pixels: what groups of them see tells more work than it saves
+  constexpr int kShort = 4 * kGroup;  // pixels: in shorter rows, testing groups costs more than it saves
   const CoveredRows rows(tile, within);
   const auto pixels_of = [&](const CoveredRow& r) {
     return PixelRow(tile.x0 + r.first, r.count, tile.y0 + r.row, map.origin());

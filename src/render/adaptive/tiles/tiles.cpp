@@ -43,9 +43,9 @@ void add_polygon(TileSums& tile, const PolygonList& list, const Polygon& polygon
   });
 }
 
-// Polygons of a tile lie far apart in memory: those that come soon are asked for.
+// Prefetches the polygons of a tile that come soon, since they lie far apart in memory.
 HWY_INLINE void fetch_ahead(const TiledPolygons& p, std::uint32_t k, std::uint32_t end) {
-  constexpr std::uint32_t kPolygon = 8, kRest = 4;  // so many before
+  constexpr std::uint32_t kPolygon = 8, kRest = 4;  // polygons ahead
   if (k + kPolygon < end) hwy::Prefetch(&p.list.polygons[p.tiles.index[k + kPolygon]].screened);
   if (k + kRest >= end) return;
   const Polygon& polygon = p.list.polygons[p.tiles.index[k + kRest]];
@@ -67,7 +67,7 @@ void draw_tile(std::span<const TiledPolygons> lists, std::size_t at, TileSums& t
     }
   }
   if (any) return draw_pixels(tile, canvas);
-  tile.carried = {};  // all polygons end before it: rounding
+  tile.carried = {};  // all polygons end before this tile: only rounding is left
   if (canvas.mode == TileMode::Write) canvas.clear(tile);
 }
 
@@ -99,7 +99,7 @@ TileRange tiles_under(std::span<const Point> corners, const TileGrid& grid) {
           tile(high.y, h, TileGrid::kHeight)};
 }
 
-// Counts, then fills.
+// Counts the polygons of each tile, then fills the lists.
 TileLists tile_lists(const PolygonList& list, const TileGrid& grid) {
   TileLists out;
   out.start.assign(grid.count() + 1, 0);
@@ -150,7 +150,7 @@ void TileDrawer::draw_part(std::span<const TiledPolygons> lists, const TileGrid&
   const int first = top / TileGrid::kHeight;
   const int last = (top + image.height + TileGrid::kHeight - 1) / TileGrid::kHeight;
   parallel_for(static_cast<std::size_t>(last - first), quiet, [&](std::size_t at) {
-    // A canvas a thread, as writers are.
+    // One canvas a thread, since a writer belongs to one.
     draw_row(lists, grid, first + static_cast<int>(at), TileCanvas(image, left, top, mode));
   });
 }

@@ -1,7 +1,8 @@
-// Polygons onto the frame, tile by tile. Row by row each edge adds coverage times irradiance to the few pixels beside
-// it and changes what light is along the row from there on; one pass along the rows then makes pixels of the changes of
-// all polygons at once. So a polygon costs what its outline costs, not its area, and overlapping ghosts share that
-// pass. Accuracy: exact coverage of a pixel by a polygon, irradiance taken at the pixel's centre; sums in double.
+// Rasterises polygons tile by tile. In each row an edge adds coverage times irradiance to the few pixels near it, and
+// changes the linear function that the light is along the row beyond. One pass along the rows then turns the changes of
+// all polygons into pixels. A polygon thus costs what its outline costs, not its area, and overlapping ghosts share the
+// pass. Accuracy: the coverage of a pixel by a polygon is exact; irradiance is that at the pixel's centre; sums are in
+// double precision.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +16,7 @@
 
 namespace contrejour::adaptive {
 
-// The frame cut into rectangles whose sums stay in the cache.
+// Divides the frame into rectangles whose sums stay in the cache.
 struct TileGrid {
   static constexpr int kWidth = 512;
   static constexpr int kHeight = 64;
@@ -30,18 +31,18 @@ struct TileGrid {
   }
 };
 
-// Some rows of a grid's tiles, from first to last without it.
+// Rows of a grid's tiles, from first to last, excluding last.
 struct TileRows {
   int first = 0, last = 0;
 };
 
-// The tiles under the bounds of a polygon, last ones included; none if x1 < x0.
+// The tiles under the bounding box of a polygon, including the last ones; none if x1 < x0.
 struct TileRange {
   int x0 = 0, y0 = 0, x1 = -1, y1 = -1;
 };
 [[nodiscard]] TileRange tiles_under(std::span<const Point> corners, const TileGrid& grid);
 
-// For each tile the polygons of a list that may touch it, in their order: index[start[t] .. start[t + 1]).
+// For each tile the polygons of a list that may touch it, in the list's order: index[start[t] .. start[t + 1]).
 struct TileLists {
   std::vector<std::uint32_t> start, index;
   [[nodiscard]] std::size_t bytes() const { return (start.size() + index.size()) * sizeof(std::uint32_t); }
@@ -54,7 +55,7 @@ struct TiledPolygons {
   TileLists tiles;
 };
 
-// All that polygons may touch, and what is between; none if x1 < x0.
+// The smallest range of tiles that contains all those that polygons may touch; none if x1 < x0.
 [[nodiscard]] TileRange lit_tiles(std::span<const TiledPolygons> lists, const TileGrid& grid);
 
 enum class TileMode : std::uint8_t { Write, Add };
@@ -62,26 +63,26 @@ enum class TileMode : std::uint8_t { Write, Add };
 struct TileCanvas;
 struct TileSums;
 
-// Draws polygons. Rows of tiles may be drawn by several threads at once.
+// Draws polygons. Several threads may draw different rows of tiles at once.
 class TileDrawer {
  public:
   TileDrawer();
   ~TileDrawer();
 
-  // Writes or adds to all pixels of a frame what the polygons bring.
+  // Writes the light of the polygons to all pixels of a frame, or adds it.
   void draw(std::span<const TiledPolygons> lists, TileMode mode, const Context& context, Image& image);
-  // The same for a part of a frame, from (left, top) on, that holds all tiles which polygons may touch.
+  // The same for a part of a frame, from (left, top) on, that contains all tiles which polygons may touch.
   void draw_part(std::span<const TiledPolygons> lists, const TileGrid& grid, TileMode mode, const Context& context,
                  Image& image, int left, int top);
 
-  // Writes or adds to the pixels of a frame's rows of tiles what the polygons bring, list after list. Rows do not touch
-  // each other.
+  // Writes or adds the light of the polygons, list after list, to the pixels of some rows of a frame's tiles. Different
+  // rows of tiles share no pixels.
   void draw_rows(std::span<const TiledPolygons> lists, TileRows rows, TileMode mode, Image& image);
 
  private:
   void draw_row(std::span<const TiledPolygons> lists, const TileGrid& grid, int row, const TileCanvas& canvas);
 
-  Pool<TileSums> sums_;  // a megabyte each, all zero: one a thread, not one a row
+  Pool<TileSums> sums_;  // a megabyte each, all zero between uses: one a thread instead of one a row
 };
 
 }  // namespace contrejour::adaptive
