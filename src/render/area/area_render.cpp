@@ -21,9 +21,9 @@ namespace {
 
 using namespace area;
 
-constexpr double kUnseen = 0.1;  // of the frame's error, that blurs may leave out at any place
+constexpr double kUnseen = 0.1;  // of the frame's error: what blurring may leave out at any pixel
 
-// The plan for what is drawn together.
+// The part of the plan that one drawing needs.
 FramePlan part_of(const FramePlan& plan, const Drawing& drawing) {
   FramePlan part;
   std::map<std::size_t, std::size_t> places;
@@ -43,7 +43,7 @@ FramePlan part_of(const FramePlan& plan, const Drawing& drawing) {
   return part;
 }
 
-// Drawings one after the other, each blurred and added up.
+// Renders the drawings in order, blurs each, and adds them up.
 class AreaPainter {
  public:
   AreaPainter(const DrawPlan& draw, const PlannedFrame& frame, const Context& context)

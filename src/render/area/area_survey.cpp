@@ -10,7 +10,7 @@
 namespace contrejour::area {
 namespace {
 
-// The share of the frame's squared error that uncut lights may make.
+// The squared error that lights may make by being divided too coarsely, over the frame's squared error.
 constexpr double kPiecesShare = 1.5;
 
 double middle_wavelength(const PlannedLight& light) { return light.passes[light.passes.size() / 2].lambda_nm; }
@@ -34,7 +34,8 @@ AreaSurvey::AreaSurvey(const LensState& lens, const FramePlan& plan, std::span<c
                        const FrameSettings& settings, const Context& context)
     : lens_(lens), plan_(plan), lights_(lights), settings_(settings), context_(context), steps_(lens, plan.tables) {}
 
-// A pixel's value for an irradiance over the light's at the middle wavelength, in the brightest channel.
+// The factor from an irradiance, relative to the light's at the middle wavelength, to a pixel's value in the brightest
+// channel.
 double AreaSurvey::value_of(const PlannedLight& light, std::size_t ghost) const {
   const auto by = [&](double lambda_nm) { return plan_.reflected.of(plan_.ghosts[ghost], lambda_nm); };
   const double middle = by(middle_wavelength(light));

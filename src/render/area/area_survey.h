@@ -1,5 +1,5 @@
-// How the ghosts of lights with a size move and how large they are, and into how many pieces each light is cut for
-// which of them.
+// Surveys how the ghosts of lights with a size move and how large they are, and chooses, for each ghost, into how many
+// pieces its light is divided.
 #pragma once
 
 #include <cstddef>
@@ -16,37 +16,37 @@
 
 namespace contrejour::area {
 
-// A light, cut into that number of pieces across.
+// A light divided into `across` pieces along its longer side.
 struct PartedLight {
   std::size_t light = 0;
   int across = 1;
-  std::vector<LightPiece> pieces;     // points have one without samples
+  std::vector<LightPiece> pieces;     // a point light has one, without samples
   std::vector<PlannedLight> planned;  // one a piece
 };
 
 [[nodiscard]] std::vector<PartedLight> whole_lights(std::span<const Light> lights);
-[[nodiscard]] std::vector<Light> points_of(std::span<const PartedLight> lights);  // their pieces' middles, in turn
+[[nodiscard]] std::vector<Light> points_of(std::span<const PartedLight> lights);  // directions of all pieces, in order
 
-// The ghosts that one cutting of a light is drawn for.
+// One division of a light, with the ghosts that are drawn with it.
 struct SurveyedLight {
   PartedLight parts;
   std::vector<std::size_t> ghosts;            // of the plan
-  std::vector<GhostBlur> wholes;              // likewise: of the light uncut
-  std::vector<std::vector<GhostBlur>> blurs;  // by piece, then as `ghosts`
+  std::vector<GhostBlur> wholes;              // one for each of `ghosts`: with the light undivided
+  std::vector<std::vector<GhostBlur>> blurs;  // by piece, then as in `ghosts`
 };
 
 struct SurveyedFrame {
   std::vector<SurveyedLight> lights;
-  double peak = 0.0;  // about what the brightest parts of the picture reach, a pixel's value
+  double peak = 0.0;  // about the level, a pixel's value, of the brightest parts of the picture
 };
 
 class AreaSurvey {
  public:
-  // All must outlive it.
+  // All arguments must outlive this object.
   AreaSurvey(const LensState& lens, const FramePlan& plan, std::span<const Light> lights, const FrameSettings& settings,
              const Context& context);
 
-  // wholes: whole_lights(), with their plans. Errors: Cancelled.
+  // wholes: whole_lights() with their plans. Errors: Cancelled.
   [[nodiscard]] Result<SurveyedFrame> of(std::vector<PartedLight> wholes) const;
 
  private:

@@ -9,15 +9,15 @@
 namespace contrejour::area {
 namespace {
 
-constexpr double kSharpShare = 0.1;  // of what a picture of its own is worth: what leaving a blur out may make wrong
-constexpr double kPicture_px = 60000.0;  // pixels that cost as much as any picture does, however small
-constexpr double kPixelsCost = 0.3;  // what drawing a ghost in the frame's pixels is worth of the allowed error
+constexpr double kSharpShare = 0.1;  // of the error that a separate image may save: error of leaving a blur out
+constexpr double kPicture_px = 60000.0;  // pixels whose cost equals the constant cost of an image
+constexpr double kPixelsCost = 0.3;  // cost of the frame's own pixels, over the error that an image may save
 
 struct Group {
   bool is_sharp = false;
   int level = 0;
   LinearMap seed = kNowhere;  // in pixels of the frame
-  LinearMap px = kNowhere;  // times weights
+  LinearMap px = kNowhere;  // weighted sum
   double weight = 0.0;
   std::vector<std::size_t> ghosts;
 
@@ -29,7 +29,7 @@ struct Group {
   }
 };
 
-// Over that of a picture of all of the frame's pixels.
+// The cost of an image at this level over that of an image at the frame's own resolution.
 double cost_of(int level, const Frame& frame) {
   const double px = static_cast<double>(frame.width) * frame.height;
   return (std::exp2(-2 * level) * px + kPicture_px) / (px + kPicture_px);
@@ -55,8 +55,8 @@ class Grouping {
   double squares = 0.0;
 
  private:
-  // The one that costs least of error, and of work, which grows with a level's pixels; none where all make more error
-  // than a picture of its own is worth.
+  // The group in which a ghost costs least: in error, and in work, which grows with the number of a level's pixels.
+  // Null where every group makes more error than a separate image may save.
   Group* group_for(const PieceGhost& one, double own) {
     Group* best = nullptr;
     double least = std::numeric_limits<double>::infinity();

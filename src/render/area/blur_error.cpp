@@ -10,45 +10,46 @@
 namespace contrejour::area {
 namespace {
 
-constexpr double kRadiusPixels = 2.5;  // a blur's radius in pixels of its level, where ghosts are larger than it
-constexpr double kSpotPixels = 6.0;    // where they are much smaller, so that the light's shape shows
-constexpr double kLeastPixels = 1.25;  // whatever the error
-constexpr double kLongest = 30.0;      // its longer radius, whatever the shorter one is
+constexpr double kRadiusPixels = 2.5;  // radius of a blur in pixels of its level, for ghosts larger than the blur
+constexpr double kSpotPixels = 6.0;    // the same for much smaller ghosts, which show the light's shape
+constexpr double kLeastPixels = 1.25;  // the least, whatever the error
+constexpr double kLongest = 30.0;      // largest longer radius, whatever the shorter one is
 
 int level_of_width(double px) { return px < 1.0 ? 0 : std::min(static_cast<int>(std::log2(px)), kLevels - 1); }
 
-// Pixels may be as wide as what they show is smooth: blur and ghost, whichever is the larger, but a spot shows the
-// light's own outline.
+// Pixels may be as wide as the detail of the image allows: as the larger one of blur and ghost does. But a spot shows
+// the outline of the light itself.
 int safe_level(const BlurredGhost& g) {
   const double finest = g.blur_px.x / kSpotPixels, coarsest = g.blur_px.x / kRadiusPixels;
   const double width = std::clamp(g.size_px.x / kRadiusPixels, finest, coarsest);
   return level_of_width(std::max(width, g.blur_px.y / kLongest));
 }
 
-// Squared errors along an edge, over its height's square, for a length of a pixel.
+// Squared errors along a pixel's length of an edge, over the square of the edge's height:
 
-// Drawn in pixels of a u-th of the radius of the disc that blurs it: measured at straight edges in all places between
-// pixels, within a third for u from 0.8 to 10 (docs/physics/area-lights.md). The sharpest is off by half a pixel or so.
+// Drawn in pixels whose width is 1 / u of the radius of the disc that blurs the edge. The formula is fitted to straight
+// edges in all positions between pixels, to within a third for u from 0.8 to 10 (docs/physics/area-lights.md). The
+// limit for sharp edges corresponds to a displacement of about half a pixel.
 double coarse_edge_error(double u) {
   constexpr double kSmooth = 2.5e-3, kSharpest = 0.08;
   const double squares = 1.0 / (u * u);
   return std::min(kSharpest, kSmooth * (squares + squares * squares * squares));
 }
 
-// Of ghost and blur the larger is the shape that shows, its edge as soft as the smaller is wide.
+// The larger one of ghost and blur gives the shape, and the smaller one the width of its soft edge.
 double softness_px(const BlurredGhost& g) { return std::max(std::min(g.blur_px.x, g.size_px.x), 1e-3); }
 
 double outline_px(const BlurredGhost& g) {
   return std::numbers::pi * (g.blur_px.x + g.blur_px.y + g.size_px.x + g.size_px.y);
 }
 
-// Above the peak errors do not count: so much at most.
+// Limits errors smoothly, since those above the peak do not count: to `most`.
 double clipped(double squares, double most) { return squares > 0.0 ? squares / (1.0 + squares / most) : 0.0; }
 
 }  // namespace
 
-// Blurred by a disc of another radius: 0.11 = integral of u^2 S'(u)^2 over S, a disc's mean across. An edge much
-// sharper than that is moved.
+// The error of blurring by a disc of another radius: 0.11 is the integral of u^2 S'(u)^2 over S, a disc's mean across.
+// An edge much sharper than the difference is displaced by it.
 double misfit_error(double height, double softness_px, double off_px) {
   constexpr double kByWidth = 0.108;
   return clipped(height * height * off_px * std::min(kByWidth * off_px / softness_px, 0.5), off_px);
@@ -60,7 +61,7 @@ double level_error(const BlurredGhost& g, int level) {
 }
 
 double pixel_error(const BlurredGhost& g) {
-  constexpr double kNarrow = 0.8;  // below, errors fall as the blur's fourth moments do
+  constexpr double kNarrow = 0.8;  // below, errors fall as the fourth moment of the blur
   const double error =
       coarse_edge_error(std::max(g.blur_px.y, kNarrow)) * std::pow(std::min(g.blur_px.y / kNarrow, 1.0), 4.0);
   return outline_px(g) * clipped(g.level * g.level * error, 1.0);

@@ -21,7 +21,7 @@ bool is_white(const Kernel& kernel) {
   return std::ranges::all_of(kernel.weight, [](const Rgb& w) { return w[0] == w[1] && w[1] == w[2]; });
 }
 
-// A row of weights without the zeros at its ends, as convolve_block.h has them.
+// A row of weights without the zeros at its ends, in the layout of convolve_block.h.
 struct KernelRow {
   int row = 0, first = 0;  // from the kernel's corner
   int count = 0;
@@ -51,8 +51,8 @@ KernelRows rows_of(const Kernel& kernel) {
   return out;
 }
 
-// What second differences may be for a picture to count as linear, which its kernel leaves as it is; below 0 for a
-// kernel that moves it or does not keep its light.
+// The largest second difference for which an image counts as linear, so that the kernel leaves it unchanged to within
+// `unseen`; negative for a kernel that displaces the image or does not preserve its flux.
 float roughest_second_difference(const Kernel& kernel, double unseen) {
   constexpr double kBeside = 1e-6;
   Rgb sum{}, x{}, y{}, squares{};
@@ -75,7 +75,7 @@ float roughest_second_difference(const Kernel& kernel, double unseen) {
   return static_cast<float>(unseen / widest);
 }
 
-// Marks of blocks of kBlock pixels of a row, a bit each.
+// Flags of blocks of kBlock pixels of a row, a bit for each.
 class BlockMarks {
  public:
   BlockMarks() = default;
@@ -91,7 +91,7 @@ class BlockMarks {
     words_.resize(other.words_.size(), 0);
     for (std::size_t k = 0; k < words_.size(); ++k) words_[k] |= other.words_[k];
   }
-  // Blocks before a marked one as well, so many.
+  // Also marks that many blocks before each marked one.
   void spread_back(std::size_t blocks) {
     for (std::size_t n = 0; n < blocks; ++n)
       for (std::size_t k = 0; k < words_.size(); ++k)
@@ -103,7 +103,7 @@ class BlockMarks {
   std::vector<std::uint64_t> words_;
 };
 
-// Of a row of the sum, what a kernel finds where it takes a row of the picture.
+// The blocks of a row of the sum, by what the kernel reads for them from one row of the picture.
 struct RowBlocks {
   BlockMarks lit;    // any light
   BlockMarks rough;  // light that is not linear
@@ -120,7 +120,7 @@ BlockMarks lit_blocks(std::span<const float> row) {
   return lit;
 }
 
-// Lit ones where second differences are more than that; those at the picture's border count as such.
+// The lit blocks in which second differences exceed `most`; all lit blocks at the picture's border are included.
 BlockMarks rough_blocks(const Image& picture, int y, const BlockMarks& lit, float most) {
   BlockMarks rough(lit);
   if (most < 0.0F || y == 0 || y + 1 == picture.height) return rough;
@@ -134,7 +134,7 @@ BlockMarks rough_blocks(const Image& picture, int y, const BlockMarks& lit, floa
 }
 
 RowBlocks row_blocks(const Image& picture, int y, float most, int kernel_width) {
-  const auto reached = static_cast<std::size_t>((kBlock + kernel_width - 2) / kBlock);  // by the sums of a block
+  const auto reached = static_cast<std::size_t>((kBlock + kernel_width - 2) / kBlock);  // read by a block's sums
   RowBlocks blocks;
   blocks.lit = lit_blocks(picture.row(y));
   if (blocks.lit.any()) blocks.rough = rough_blocks(picture, y, blocks.lit, most);
@@ -143,14 +143,14 @@ RowBlocks row_blocks(const Image& picture, int y, float most, int kernel_width) 
   return blocks;
 }
 
-// Rows of the picture and of the kernel that meet in a row of the sum.
+// A row of the picture and the row of the kernel that multiplies it in a row of the sum.
 struct Meeting {
   const float* picture = nullptr;
   const BlockMarks* lit = nullptr;  // RowBlocks
   const KernelRow* kernel = nullptr;
 };
 
-// Pixels [x, x + kBlock) of the sum. The kernel's column c meets the picture's pixel x + width - 1 - c.
+// Adds pixels [x, x + kBlock) of the sum. The kernel's column c multiplies the picture's pixel x + width - 1 - c.
 void add_at(const std::vector<Meeting>& meetings, int x, const KernelRows& kernel, std::vector<BlockTerm>& terms,
             float* to) {
   terms.clear();
@@ -163,7 +163,7 @@ void add_at(const std::vector<Meeting>& meetings, int x, const KernelRows& kerne
   if (!terms.empty()) (kernel.white ? add_block : add_coloured_block)(terms, to);
 }
 
-// The same for a pixel alone.
+// The same for a single pixel.
 void add_pixel(const std::vector<Meeting>& meetings, int x, const KernelRows& kernel, float* to) {
   for (const Meeting& m : meetings) {
     const float* from = m.picture + 3 * static_cast<std::ptrdiff_t>(x + kernel.width - 1 - m.kernel->first);
@@ -185,7 +185,7 @@ void convolve(Image& to, ConvolveMode mode, PicturePart part, const Kernel& kern
   const float roughest = roughest_second_difference(kernel, unseen);
   parallel_for(blocks.size(), context,
                [&](std::size_t at) { blocks[at] = row_blocks(picture, static_cast<int>(at), roughest, rows.width); });
-  const int width = picture.width - rows.width + 1;  // of the sum, that the part tells
+  const int width = picture.width - rows.width + 1;  // of the sum, as far as the part determines it
   parallel_for(static_cast<std::size_t>(to.height), context, [&](std::size_t at) {
     const auto to_row = to.row(static_cast<int>(at));
     if (mode == ConvolveMode::Write) std::ranges::fill(to_row, 0.0F);

@@ -1,4 +1,4 @@
-// Pictures times kernels.
+// Convolution of images with kernels.
 #pragma once
 
 #include <cstdint>
@@ -11,17 +11,17 @@ namespace contrejour::area {
 
 enum class ConvolveMode : std::uint8_t { Write, Add };
 
-// A part of a picture, all of which else is dark.
+// A part of a picture that is dark elsewhere.
 struct PicturePart {
   const Image& image;
   int left = 0, top = 0;  // its first pixel
 };
 
-// Each pixel (x, y) of `to` is, or gets added, the sum over the kernel's places (dx right, dy down) of its weight there
-// times the picture's pixel (x - dx, y - dy). The picture is larger than `to` by what the kernel's reach asks for: its
-// pixel (0, 0) is (-reach.right, -reach.down). Of a part of it all light is as far from the part's sides as the kernel
-// is wide or high, less a pixel, but where the picture ends there. Only what is not 0 costs time, and what is linear
-// costs little: where the sum is its middle to within about `unseen` it may be taken for it.
+// Sets each pixel (x, y) of `to` to, or adds to it, the sum over the kernel's offsets (dx right, dy down) of the weight
+// times the picture's pixel (x - dx, y - dy). The picture is larger than `to` by the kernel's reach: its pixel (0, 0)
+// is (-reach.right, -reach.down). If only a part of the picture is given, all light is at least the kernel's width or
+// height, minus a pixel, from the part's sides, except where the picture itself ends. Zeros cost no time, and linear
+// regions little: where the sum equals its central pixel to within about `unseen`, that pixel may be used.
 void convolve(Image& to, ConvolveMode mode, PicturePart picture, const Kernel& kernel, double unseen,
               const Context& context);
 

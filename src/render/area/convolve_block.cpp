@@ -35,7 +35,8 @@ bool is_rough(const float* above, const float* block, const float* below, float 
   return !hn::AllTrue(d, hn::Le(rough, limit));
 }
 
-// Half a block at a time, three vectors of up to 8 with one pattern each, so that sums stay in registers.
+// Adds half a block at a time, in three vectors of up to 8 with one pattern of weights each, so that sums stay in
+// registers.
 void add_half(const BlockTerm* terms, std::size_t count, std::size_t offset, float* to) {
   const Tag d;
   const std::size_t lanes = hn::Lanes(d);

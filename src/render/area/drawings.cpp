@@ -8,16 +8,16 @@
 namespace contrejour::area {
 namespace {
 
-constexpr double kLevelShare = 0.1;    // of the frame's squared error: what coarse pixels may make,
-constexpr double kMisfitShare = 0.5;   // and ghosts by other blurs than their own
-constexpr double kFirstShare = 0.02;   // of that: what one ghost may, at first, to spare a whole picture
+constexpr double kLevelShare = 0.1;    // of the frame's squared error: for coarse pixels,
+constexpr double kMisfitShare = 0.5;   // and for ghosts that are drawn with another ghost's blur
+constexpr double kFirstShare = 0.02;   // of that: error of a ghost that saves an image, in the first trial
 constexpr int kTrials = 4;
 
-// Ghosts that may be drawn together: of a light that is not cut, or of all pieces of all those that are.
+// Ghosts that may be drawn together: those of an undivided light, or those of all pieces of all divided lights.
 struct Job {
   std::shared_ptr<const LightPiece> piece;
   std::vector<const PlannedLight*> planned;  // one a pair
-  std::vector<std::size_t> ghost;            // likewise
+  std::vector<std::size_t> ghost;            // one a pair
   std::vector<PieceGhost> pairs;
   bool is_point = false;
 };
@@ -63,7 +63,7 @@ class Jobs {
   std::deque<GhostBlur> softened_;
 };
 
-// As few pictures as the allowed errors make possible: what a picture is worth is raised or lowered until they do.
+// Finds as few images as the allowed error permits, by raising or lowering the error that an image may save.
 std::vector<BlurClasses> classes_of(const std::vector<Job>& jobs, const Frame& frame, double peak,
                                     double allowed_squares) {
   std::vector<BlurClasses> all;
@@ -82,7 +82,7 @@ std::vector<BlurClasses> classes_of(const std::vector<Job>& jobs, const Frame& f
   }
 }
 
-// Lights that pairs share are listed once.
+// Adds a pair to a drawing. A light that successive pairs share is listed once.
 void add_pair(Drawing& drawing, const Job& job, std::size_t k, const PlannedLight*& last) {
   if (job.planned[k] != last) drawing.lights.push_back(*job.planned[k]);
   last = job.planned[k];

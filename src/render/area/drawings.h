@@ -1,4 +1,4 @@
-// The pictures that a frame of lights with a size is put together from.
+// The images that a frame of lights with a size is composed of.
 #pragma once
 
 #include <memory>
@@ -10,16 +10,16 @@
 
 namespace contrejour::area {
 
-// A picture of some ghosts of some lights, and the kernel that it is blurred by.
+// An image of some ghosts of some lights, and the map that determines its blur.
 struct Drawing {
   std::vector<PlannedLight> lights;
-  std::vector<GhostOfLight> pairs;  // ghosts by their place in the plan, lights in `lights`
-  std::shared_ptr<const LightPiece> piece = nullptr;  // null: it is sharp
+  std::vector<GhostOfLight> pairs;  // ghosts by their index in the plan, lights by theirs in `lights`
+  std::shared_ptr<const LightPiece> piece = nullptr;  // null: the image is sharp
   int level = 0;
   LinearMap px_from_tangents = kNowhere;
 };
 
-// In the order that layers want them. Ghosts of points, and those too little blurred to show it, are left as they are.
+// In the order in which Layers takes them. Ghosts of point lights, and those whose blur is not visible, stay sharp.
 [[nodiscard]] std::vector<Drawing> drawings_of(const SurveyedFrame& frame, const FrameSettings& settings);
 
 }  // namespace contrejour::area

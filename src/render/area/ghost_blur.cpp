@@ -9,14 +9,14 @@
 namespace contrejour::area {
 namespace {
 
-constexpr double kLargestBlur = 3.0;  // diagonals of the frame: more shows no more
-constexpr int kPeakCells = 40;        // across the frame, for what ghosts over one another add up to
-constexpr double kBrightest = 4.0;    // of a blurred ghost's lines, over its mean
-constexpr double kGathered = 2.0;     // times its mean: what is brighter within a ghost is near a caustic
-constexpr int kFits = 3;              // each weighs features by what the one before leaves of them
-constexpr double kOfMiddle = 0.02;    // of all features, for where none says how a ghost moves
+constexpr double kLargestBlur = 3.0;  // diagonals of the frame: a larger blur looks no different
+constexpr int kPeakCells = 40;        // across the frame: cells in which overlapping ghosts are summed
+constexpr double kBrightest = 4.0;    // level of a blurred ghost's brightest lines over its mean, at most
+constexpr double kGathered = 2.0;     // times the mean level: light brighter than this is near a caustic
+constexpr int kFits = 3;              // rounds; each weights features by the errors that the one before leaves
+constexpr double kOfMiddle = 0.02;    // weight relative to all features, for directions that none constrains
 
-// Sensor mm to pixels: x is mirrored.
+// Converts sensor mm to pixels: x is mirrored.
 Vec2 mirrored(Vec2 v) { return {-v.x, v.y}; }
 LinearMap pixels_from(const LinearMap& mm, double pitch_mm) {
   const double s = 1.0 / pitch_mm;
@@ -29,12 +29,12 @@ bool touches(const Frame& frame, Vec2 px, double radius_px) {
   return px.x > -radius_px && px.y > -radius_px && px.x < frame.width + radius_px && px.y < frame.height + radius_px;
 }
 
-// How far within the frame; negative outside.
+// The distance from the frame's border; negative outside.
 double inside_px(const Frame& frame, Vec2 px) {
   return std::min({px.x, px.y, frame.width - px.x, frame.height - px.y});
 }
 
-// By how much a feature's blur is off, as a radius.
+// The error of a feature's blur, as a radius.
 double off_px(const BlurFeature& f, const LinearMap& px, const LightPiece& piece) {
   const Vec2 made = along(f.normal, px);
   if (!piece.is_even) return 2.0 * std::sqrt(std::max(variance(f.shift_px - made, piece.covariance), 0.0));
@@ -51,8 +51,8 @@ double weight_of(const GhostBlur& ghost, const BlurFeature& f, const LightPiece&
   return f.height * f.height * f.length_px / softness_px(ghost, f, piece);
 }
 
-// The map whose rows along all normals are the features' own: least squares, of errors that grow as off_px does where
-// that is large.
+// The map whose rows along all normals are closest to the features' own: least squares, with weights for which large
+// errors grow only linearly in off_px.
 LinearMap map_through(const GhostBlur& ghost, const LightPiece& piece, const LinearMap& middle) {
   LinearMap best = middle;
   for (int fit = 0; fit < kFits; ++fit) {
@@ -72,10 +72,11 @@ LinearMap map_through(const GhostBlur& ghost, const LightPiece& piece, const Lin
   return best;
 }
 
-// For lights that look the same from both sides only the blur's width counts, which a mean of motions to either side
-// would lose: the covariance that has the features' variances along their normals, and the map that makes it.
+// For lights that look the same from both sides only the width of the blur counts, which would be lost in a mean of
+// opposite motions. This fits the covariance that has the features' variances along their normals, and returns a map
+// that produces it.
 LinearMap map_as_wide(const GhostBlur& ghost, const LightPiece& piece, const LinearMap& through) {
-  std::array<std::array<double, 4>, 3> m{};  // of the covariance's xx, xy, yy, with the right side
+  std::array<std::array<double, 4>, 3> m{};  // unknowns xx, xy, yy of the covariance, and the right side
   const LinearMap first = mapped_covariance(through, piece.covariance);
   const auto add = [&](Vec2 n, double wanted, double w) {
     const std::array<double, 3> row{n.x * n.x, 2.0 * n.x * n.y, n.y * n.y};
@@ -87,7 +88,7 @@ LinearMap map_as_wide(const GhostBlur& ghost, const LightPiece& piece, const Lin
   double all = 0.0;
   for (const BlurFeature& f : ghost.features) {
     const double wanted = variance(f.shift_px, piece.covariance);
-    const double w = weight_of(ghost, f, piece) / std::max(wanted, 1e-6);  // squares of radii are off twice as far
+    const double w = weight_of(ghost, f, piece) / std::max(wanted, 1e-6);  // errors of squared radii are twice as large
     add(f.normal, wanted, w);
     all += w;
   }
@@ -104,20 +105,20 @@ LinearMap map_as_wide(const GhostBlur& ghost, const LightPiece& piece, const Lin
   const LinearMap root = square_root({{xx, xy}, {xy, yy}});
   const LinearMap light = square_root(piece.covariance);
   if (!(light.determinant() > 0.0) || !std::isfinite(root.x.x + root.x.y + root.y.y)) return through;
-  // Turned as the other one turns the light: the nearest rotation, or mirror image, to it.
+  // Rotated as the other map rotates the light: the rotation, or reflection, nearest to that map.
   const LinearMap turn = through * light, stretch = square_root(transposed(turn) * turn);
   const bool can_turn = std::abs(stretch.determinant()) > 1e-9 * trace_of(stretch) * trace_of(stretch);
   return (can_turn ? root * turn * inverse(stretch) : root) * inverse(light);
 }
 
-// Those that reach the frame.
+// Sets the features that reach the frame.
 void set_features(GhostBlur& ghost, const GhostMotion& motion, const Frame& frame, Vec2 shift_mm, double value) {
   const double outline_px = std::numbers::pi * (ghost.blur_px.x + ghost.blur_px.y + ghost.size_px.x + ghost.size_px.y);
   const auto border = std::ranges::count_if(motion.features, &GhostFeature::is_border);
   const auto inside = static_cast<std::ptrdiff_t>(motion.features.size()) - border;
   const double ghost_px = std::numbers::pi * ghost.size_px.x * ghost.size_px.y;
   const double mean = ghost.flux / std::max(ghost_px, 1.0), most = kBrightest * ghost.flux / ghost.area_px;
-  // Each stands for a part of the outline.
+  // Each border feature stands for an equal part of the outline.
   const double apart_px = outline_px / static_cast<double>(std::max<std::ptrdiff_t>(border, 1));
   for (const GhostFeature& f : motion.features) {
     const double within_px = inside_px(frame, frame.pixel_from_sensor(f.at_mm + shift_mm)) + ghost.blur_px.x;
@@ -134,7 +135,7 @@ void set_features(GhostBlur& ghost, const GhostMotion& motion, const Frame& fram
   }
 }
 
-// Sets the radii of the blur that a map makes.
+// Sets the radii of the blur that a map produces.
 void set_blur(GhostBlur& ghost, const LightPiece& piece, const Frame& frame) {
   ghost.blur_px = radii_of(mapped_covariance(ghost.px, piece.covariance));
   const double largest = kLargestBlur * std::hypot(frame.width, frame.height);
@@ -166,10 +167,10 @@ GhostBlur blur_of(const GhostMotion& motion, const LightPiece& piece, const Fram
   ghost.px = map_through(ghost, piece, middle);
   ghost.motion_px = ghost.px;
   if (piece.is_even) ghost.px = map_as_wide(ghost, piece, ghost.px);
-  // A disc looks the same turned and mirrored: the map's symmetric part says it all.
+  // A disc looks the same rotated and mirrored, so that the map's symmetric factor is sufficient.
   if (piece.is_disc) ghost.px = square_root(ghost.px * transposed(ghost.px));
   set_blur(ghost, piece, frame);
-  // Twice as far as first derivatives say: ghosts are larger than that where they are not sharp.
+  // Twice the distance that first derivatives predict, since ghosts are larger than that where they are not sharp.
   if (touches(frame, ghost.at_px, 2.0 * (ghost.size_px.y + ghost.blur_px.y))) ghost.level = ghost.flux / ghost.area_px;
   return ghost;
 }
@@ -191,7 +192,7 @@ double map_error(const GhostBlur& ghost, const LinearMap& px, const LightPiece& 
 }
 
 double peak_of(const std::vector<GhostBlur>& ghosts, const Frame& frame) {
-  // What ghosts add up to where they lie over one another, in the cells of a small frame.
+  // Sums overlapping ghosts in the cells of a small frame.
   const double cell = static_cast<double>(std::max(frame.width, frame.height)) / kPeakCells;
   const int columns = std::max(1, static_cast<int>(frame.width / cell));
   const int rows = std::max(1, static_cast<int>(frame.height / cell));
@@ -210,7 +211,8 @@ double peak_of(const std::vector<GhostBlur>& ghosts, const Frame& frame) {
   const auto nth =
       sums.begin() + static_cast<std::ptrdiff_t>((1.0 - kPeakShare) * static_cast<double>(sums.size() - 1));
   std::nth_element(sums.begin(), nth, sums.end());
-  // And spots smaller than such a cell: the brightness of the ghosts that together fill that share of the frame.
+  // For spots smaller than such a cell: the level of the brightest ghosts that together fill that fraction of the
+  // frame.
   std::vector<std::pair<double, double>> by_level;
   for (const GhostBlur& ghost : ghosts)
     if (ghost.level > 0.0) by_level.emplace_back(ghost.level, ghost.area_px);

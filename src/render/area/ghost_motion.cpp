@@ -14,24 +14,24 @@ namespace {
 
 constexpr double kRayStep = 1e-3;      // of the entrance window's width,
 constexpr double kPupilStep = 0.1;     // or of the pupil's standard deviation, whichever is less
-constexpr double kAngleStep = 1e-4;    // tangent: 0.01 mm on many sensors, of which floats tell a thousandth
-constexpr double kStrange = 2.0;       // as far as a ghost moves at a fixed place of the front
+constexpr double kAngleStep = 1e-4;    // tangent: 0.01 mm on many sensors; floats resolve a thousandth of it
+constexpr double kStrange = 2.0;       // times the motion at a fixed point of the front: more is not plausible
 
 double size(const LinearMap& map) { return length(map.x) + length(map.y); }
 
-// What a ray passes, and where it lands.
+// Where a ray crosses the stop and a rim, and where it lands.
 struct PassingRay {
   bool arrives = false;
   Vec2 sensor_mm;
   std::array<Vec2, kMaxStopCrossings> stop{};  // over its radius
-  double rim_squared = 0.0;  // of the rim that the first ray of its start comes closest to
+  double rim_squared = 0.0;  // at the rim to which the first ray of its group comes closest
   double transmission = 0.0;
 };
 
-// A ray and four beside it: from places to the right and up, and of lights there.
+// A ray and four next to it: two that start to the right and above, two from lights to the right and above.
 using RayFive = std::array<PassingRay, 5>;
 
-// A ghost's rays by where they start in the plane of the entrance window.
+// The rays of a ghost, by where they start in the plane of the entrance window.
 class Rays {
  public:
   Rays(const LensSteps& steps, Ghost ghost, const LightSource& source, double z_mm)
@@ -108,7 +108,7 @@ class Rays {
   static constexpr std::size_t kRimsFrom = 6 + 2 * kMaxStopCrossings;
   LightSource source_;
   double z_mm_;
-  std::array<PacketPath, 3> paths_;  // of the light, of one to the right, of one above
+  std::array<PacketPath, 3> paths_;  // for the light, for one to its right, for one above
   std::size_t count_ = 0;
   std::vector<float> room_;
   std::vector<std::size_t> nearest_rim_;
@@ -131,19 +131,20 @@ class LocalMotion {
   [[nodiscard]] LinearMap stop_by_start(std::size_t crossing) const {
     return derivative(1, step_mm_, [&](const PassingRay& ray) { return ray.stop[crossing]; });
   }
-  // How the start moves as the light does, for the ray to cross the stop where it did.
+  // How the start moves with the light's direction, if the ray is to cross the stop at the same point.
   [[nodiscard]] LinearMap start_at_stop(std::size_t crossing) const {
     const LinearMap by_start = stop_by_start(crossing);
     if (!std::isnormal(by_start.determinant())) return kNowhere;
     return inverse(by_start) * derivative(3, kAngleStep, [&](const PassingRay& ray) { return ray.stop[crossing]; }) *
            -1.0;
   }
-  // How the place on the sensor moves with the angle, where the start moves so.
+  // How the point on the sensor moves with the angle, if the start moves as given.
   [[nodiscard]] LinearMap shift(const LinearMap& start_by_angle) const {
     return sensor_by_angle + sensor_by_start * start_by_angle;
   }
 
-  // What blocks beside it, as a height that is too large there: how it rises with the start, and with the light.
+  // The derivatives, by start and by light direction, of the height that is too large where neighbouring rays are
+  // blocked.
   struct Bound {
     Vec2 by_start, by_angle;
   };
@@ -173,7 +174,7 @@ class LocalMotion {
 
 Vec2 across(Vec2 v) { return {-v.y, v.x}; }
 
-// A place of the outline moves along its normal as far as what blocks there makes it.
+// At the outline, only the motion along the normal counts: it follows whatever blocks the light there.
 std::optional<GhostFeature> border_feature(const LocalMotion& at, int which) {
   const LocalMotion::Bound bound = at.bound(which);
   const double steepness = dot(bound.by_start, bound.by_start);
@@ -185,7 +186,7 @@ std::optional<GhostFeature> border_feature(const LocalMotion& at, int which) {
                       at.density(), true};
 }
 
-// Where light gathers it does so along the image of what the map from the pupil hardly spreads.
+// A caustic lies along the image of the direction that the map from the pupil hardly stretches.
 GhostFeature inner_feature(const LocalMotion& at, const LinearMap& shift) {
   const LinearMap squares = at.sensor_by_start * transposed(at.sensor_by_start);
   const double turn = 0.5 * std::atan2(2.0 * squares.x.y, squares.x.x - squares.y.y);
@@ -193,7 +194,7 @@ GhostFeature inner_feature(const LocalMotion& at, const LinearMap& shift) {
   return {normal, along(normal, shift), at.ray().sensor_mm, at.density(), false};
 }
 
-// How the whole pupil moves in the plane of the starts, by its border: least squares.
+// The motion of the whole pupil in the plane of the starts, fitted to its border by least squares.
 LinearMap pupil_motion(const std::vector<LocalMotion>& border, const std::vector<int>& bounds) {
   LinearMap squares = kNowhere, sums = kNowhere;
   for (std::size_t k = 0; k < border.size(); ++k) {
@@ -220,7 +221,7 @@ Vec2 area_rate(const GhostPupil& pupil, const std::vector<LocalMotion>& border, 
   return rate * (pupil.border_mm / static_cast<double>(border.size()) / pupil.area_mm2);
 }
 
-// Middle and spread of where some even share of the light lands.
+// Sets the centre and the spread of where the light lands; each ray stands for an equal area of the pupil.
 void set_extent(GhostMotion& motion, const std::vector<LocalMotion>& inside, double area_mm2) {
   double light = 0.0;
   for (const LocalMotion& at : inside) {
@@ -233,7 +234,7 @@ void set_extent(GhostMotion& motion, const std::vector<LocalMotion>& inside, dou
   for (const LocalMotion& at : inside) {
     const Vec2 d = at.ray().sensor_mm - motion.at_mm;
     const double share = at.ray().transmission / light;
-    // And what lies between these rays, as wide as the map there spreads it.
+    // Adds the spread of the light between these rays, by the local derivative of the map.
     const double part = area_mm2 / count / 12.0;
     covariance = covariance + LinearMap{d * (d.x * share), d * (d.y * share)} +
                  at.sensor_by_start * transposed(at.sensor_by_start) * (part * share);
@@ -242,13 +243,14 @@ void set_extent(GhostMotion& motion, const std::vector<LocalMotion>& inside, dou
   motion.flux_mm2 = light / count * area_mm2;
 }
 
-// The motion of a ghost that no ray was found to get through, by the ray that is blocked least.
+// The motion of a ghost of which no ray was found to get through, by the ray that is blocked least.
 GhostMotion blind_motion(const LocalMotion& at, const GhostPupil& pupil, double cosine) {
   GhostMotion motion;
   motion.outside = pupil.outside;
   if (!at.is_usable()) return motion;
   motion.shift_mm = at.shift(at.start_at_stop(0));
-  // Places in the stop may say nothing of what is far from it: then those at the front do.
+  // Far from the stop, its coordinates may say nothing about the ray: the motion at a fixed point of the front is then
+  // used.
   if (!(size(motion.shift_mm) <= kStrange * size(at.sensor_by_angle))) motion.shift_mm = at.sensor_by_angle;
   motion.at_mm = at.ray().sensor_mm;
   motion.spread_mm = at.sensor_by_start * std::sqrt(pupil.area_mm2);

@@ -14,15 +14,15 @@
 namespace contrejour::area {
 namespace {
 
-constexpr int kSide = 13;  // rays along a side of a grid: odd, so that a row of them runs along its middle
+constexpr int kSide = 13;  // rays along a side of a grid: odd, so that one row runs along the middle
 constexpr std::size_t kRays = static_cast<std::size_t>(kSide) * kSide;
 constexpr std::size_t kPadded = clearance_padded(kRays);
 constexpr std::size_t kToMiddle = static_cast<std::size_t>(kSide / 2) * kSide;  // rays before the middle row
-constexpr int kEnough = 30;  // rays that get through, for the shape of what they fill to be known
+constexpr int kEnough = 30;  // rays that get through, enough to know the shape of the open region
 constexpr int kMostGrids = 4;
-constexpr std::size_t kMostInside = 12;  // rays inside that are kept,
-constexpr std::size_t kMostBorder = 12;  // and of those at the border
-constexpr double kRowsPerLength = 0.25 * std::numbers::pi;  // pairs of neighbours across a border count it longer
+constexpr std::size_t kMostInside = 12;  // rays of the interior that are kept,
+constexpr std::size_t kMostBorder = 12;  // and rays of the border
+constexpr double kRowsPerLength = 0.25 * std::numbers::pi;  // border length for each pair of neighbours across it
 
 struct Box {
   Vec2 low, high;
@@ -30,7 +30,7 @@ struct Box {
 
 float length(float x, float y) { return std::sqrt(x * x + y * y); }
 
-// In the light's own frame. Where that is symmetric and the box is, half of the rays tell of the others.
+// A grid of rays in the light's own frame. If that and the box are symmetric, half of the rays determine the others.
 class Grid {
  public:
   Grid(const LensSteps& steps, const Ghost& ghost, const LightFrame& light, const EntranceWindow& window)
@@ -75,11 +75,12 @@ class Grid {
     const std::size_t column = k % kSide, row = k / kSide;
     return box_.low + Vec2{static_cast<double>(column) * cell_.x, static_cast<double>(row) * cell_.y};
   }
-  // By how much a ray is outside what it comes closest to, or is blocked by, over that one's radius; and which it is.
+  // The excess of a ray over the bound that it comes closest to or is blocked by, relative to that bound's radius; and
+  // the bound.
   [[nodiscard]] float outside(std::size_t k) const { return outside_[traced(k)]; }
   [[nodiscard]] bool is_open(std::size_t k) const { return outside(k) <= 0.0F; }
   [[nodiscard]] int by(std::size_t k) const { return by_[traced(k)]; }
-  // From the middle of the stop.
+  // The distance from the middle of the stop.
   [[nodiscard]] float at_stop(int crossing, std::size_t k) const {
     const auto c = static_cast<std::size_t>(crossing);
     const std::size_t at = traced(k);
@@ -87,7 +88,7 @@ class Grid {
   }
 
  private:
-  // Where results are of a ray, or of its mirror image.
+  // The index of the results for a ray, or for its mirror image.
   [[nodiscard]] std::size_t traced(std::size_t k) const {
     return k >= first_ ? k - first_ : (kSide - 1 - k / kSide) * kSide + k % kSide - first_;
   }
@@ -97,14 +98,14 @@ class Grid {
   bool symmetric_;
   Box box_;
   Vec2 cell_;
-  std::size_t first_ = 0;  // ray that is traced
+  std::size_t first_ = 0;  // index of the first ray that is traced
   std::array<float, kPadded> x_mm_{}, y_mm_{};
   std::array<float, (4 + 2 * kMaxStopCrossings) * kPadded> fields_{};
   std::array<float, kRays> outside_{};
   std::array<int, kRays> by_{};
 };
 
-// Around the rays that get through, or else the one that is blocked least; none where all fail.
+// A box around the rays that get through, or else around the one that is blocked least; empty where all fail.
 std::optional<Box> next_box(const Grid& grid) {
   std::optional<Box> hull;
   std::size_t least = 0;
@@ -121,7 +122,7 @@ std::optional<Box> next_box(const Grid& grid) {
   return hull;
 }
 
-// At most that number of them, at even distances in their order.
+// At most that number of elements, evenly spaced in their order.
 template <class T>
 std::vector<T> thinned(const std::vector<T>& all, std::size_t most) {
   if (all.size() <= most) return all;
@@ -130,7 +131,7 @@ std::vector<T> thinned(const std::vector<T>& all, std::size_t most) {
   return some;
 }
 
-// Pairs of neighbours of which one gets through and the other does not, by what blocks that.
+// Finds pairs of neighbours of which one gets through and the other does not, and counts them by what blocks the other.
 void find_border(const Grid& grid, GhostPupil& pupil) {
   std::array<int, kMaxStopCrossings + 1> pairs{};
   std::vector<BorderRay> border;
@@ -152,7 +153,7 @@ void find_border(const Grid& grid, GhostPupil& pupil) {
   pupil.border = thinned(border, kMostBorder);
 }
 
-// What cells leave of their halves where straight lines between rays say that light is blocked.
+// The open area in halves of cells, where linear interpolation between rays says which part of each half is blocked.
 double open_area(const Grid& grid) {
   const auto blocked = [&](std::size_t k) { return std::min(static_cast<double>(grid.outside(k)), 1.0); };
   double halves = 0.0;

@@ -19,9 +19,9 @@ struct Halves {
   hn::Vec<D> first, second;
 };
 
-// What goes to the two halves of some values, from the values before and after them.
+// The flux of two halves of some values, from the values before and after them.
 struct Interpolating {
-  // By how much more than half of it the first has: 22 / 256 and 3 / 256 of the differences.
+  // The excess of the first half over half of the value: 22 / 256 and 3 / 256 of the differences.
   template <class D>
   HWY_INLINE Halves<D> operator()(D d, const RowsAround& at, std::size_t k) const {
     const auto value = [&](std::size_t row) HWY_ATTR { return hn::LoadU(d, at[row] + k); };
@@ -59,7 +59,8 @@ HWY_INLINE void halve_down_by(const HalvesOf& halves_of, const RowsAround& rows,
   for (; k < count; ++k) halve(One(), k);
 }
 
-// For each float of two vectors of whole pixels, halves side by side, the lane that it comes from, and of which half.
+// For two vectors of whole pixels with both halves interleaved: the lane from which each float comes, and from which
+// half.
 template <std::size_t kLanes>
 struct SideBySide {
   alignas(64) std::int32_t lane[2 * kLanes];
@@ -72,7 +73,7 @@ struct SideBySide {
   }
 };
 
-// As many whole pixels as a vector holds; some floats after them are overwritten.
+// Stores as many whole pixels as a vector holds; some floats after them are overwritten.
 template <class D>
 HWY_INLINE void store_side_by_side(D d, const Halves<D>& halves, float* to) {
   constexpr std::size_t kLanes = hn::MaxLanes(d);

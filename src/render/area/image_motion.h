@@ -1,4 +1,4 @@
-// How a light's own image moves over the frame as the light moves.
+// How the direct image of a light moves over the frame as the light moves.
 #pragma once
 
 #include "contrejour/frame.h"
@@ -7,8 +7,8 @@
 
 namespace contrejour::area {
 
-// Pixels right and down for a light so far to the right and up (tangents, direction_beside); kNowhere where no light
-// gets through.
+// The motion in pixels right and down for lights a unit to the right and up (tangents, direction_beside); kNowhere
+// where no light gets through.
 [[nodiscard]] LinearMap image_motion_px(const LensState& lens, const Frame& frame, const LightSource& source);
 
 }  // namespace contrejour::area

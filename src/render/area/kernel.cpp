@@ -6,21 +6,21 @@
 namespace contrejour::area {
 namespace {
 
-constexpr double kFarthest = 2.0;  // pixels beyond the shape: the tents it is laid with, and a picture that was moved
-constexpr double kFinest = 0.4;  // pixels between the points that a square is laid as
+constexpr double kFarthest = 2.0;  // pixels beyond the shape: for tents, and for the offset of a displaced picture
+constexpr double kFinest = 0.4;  // pixels between the points that represent a square
 constexpr int kMostPoints = 64;  // of them along a side
-constexpr int kHalvings = 6;  // of how narrow it may be
-constexpr double kTentVariance = 1.0 / 6.0;  // of a point laid on its four nearest pixels, in squares of a pixel
+constexpr int kHalvings = 6;  // bisections, to find the scale of a narrow kernel
+constexpr double kTentVariance = 1.0 / 6.0;  // of a point spread over its four nearest pixels, in squares of a pixel
 
-// Narrower by the variance that the tents and what follows add. The level's pixels add none: what drawing in squares
-// spreads, going down to finer pixels, which takes squares' means for what they are, puts back.
+// Makes the map narrower by the variance that the tents and later steps add. The level's pixels add none: drawing in
+// squares widens the image, and upsampling, which takes the means over squares for values, narrows it by as much.
 LinearMap narrowed(const LightPiece& piece, const LinearMap& map, double added) {
   const LinearMap wanted = mapped_covariance(map, piece.covariance);
   const LinearMap root = square_root(wanted);
   if (!(root.determinant() > 1e-12)) return map;
   LinearMap less = wanted - LinearMap{} * added;
   const Vec2 e = eigenvalues(less);
-  // Of what is no wider than the pixels nothing is left across.
+  // No width is left across a shape that is narrower than the pixels.
   if (e.x < 0.0) {
     const double apart = e.y - e.x;
     if (e.y <= 0.0) return kNowhere;
@@ -51,7 +51,7 @@ KernelReach reach_of(const LightPiece& piece, const LinearMap& map) {
 
 namespace {
 
-// The shape on pixels, drawn by a map.
+// Places the shape on pixels, under the given map.
 Kernel laid(const LightPiece& piece, const KernelReach& reach, const LinearMap& map, Vec2 moved) {
   Kernel kernel;
   kernel.reach = reach;
@@ -80,7 +80,7 @@ Kernel laid(const LightPiece& piece, const KernelReach& reach, const LinearMap& 
   return kernel;
 }
 
-// Sum over both axes.
+// The variance, summed over both axes.
 double variance_of(const Kernel& kernel) {
   double sum = 0.0, squares = 0.0;
   Vec2 mean;
@@ -103,7 +103,8 @@ Kernel make_kernel(const LightPiece& piece, const LinearMap& px_from_tangents, V
   const LinearMap wanted = mapped_covariance(px_from_tangents, piece.covariance);
   const double added = kTentVariance + spread;
   if (eigenvalues(wanted).y > added) return laid(piece, reach, narrowed(piece, px_from_tangents, added), moved);
-  // What is narrower than a pixel's tent all round: as much narrower as makes it as wide as it ought to be.
+  // The shape is narrower than a pixel's tent in every direction: the map is scaled down until the kernel has the right
+  // width.
   const double variance = trace_of(wanted) - 2.0 * spread;
   double low = 0.0, high = 1.0;
   for (int k = 0; k < kHalvings; ++k) {

@@ -13,18 +13,18 @@ namespace contrejour::area {
 namespace {
 
 constexpr int kStencil = static_cast<int>(kHalvesStencil);
-constexpr int kRowsAtOnce = 16;  // coarse ones, by one thread
+constexpr int kRowsAtOnce = 16;  // coarse rows that a thread processes at once
 
 int floor_half(int n) { return n >= 0 ? n / 2 : -((1 - n) / 2); }
 
-// What a window of a larger frame calls its corner, on one axis.
+// One axis of a window of a larger frame: the frame's length, the window's origin, and its displacement.
 struct Axis {
   int full = 0, origin = 0;
   double moved = 0.0;
 };
 
-// A frame's axis in pixels `scale` times as wide that begin at `first` of them. A frame's middle lies on a whole or a
-// half pixel: the nearest of these.
+// The axis of a frame in pixels `scale` times as wide, for a window that begins at pixel `first` of these. The middle
+// of a frame lies on a whole or a half pixel: the nearest one is taken.
 Axis coarser_axis(int full, int origin, double scale, int first) {
   const double middle = (0.5 * full - origin) / scale - first;
   const int halves = static_cast<int>(std::lround(2.0 * middle));
@@ -36,7 +36,8 @@ Axis coarser_axis(int full, int origin, double scale, int first) {
   return axis;
 }
 
-// The two fine rows that a coarse row covers, of a coarse picture that has kStencil pixels more on every side.
+// Upsamples rows of a coarse picture that has kStencil more pixels on every side: each to the two fine rows that it
+// covers.
 class RowHalver {
  public:
   RowHalver(const Image& coarse, Halving halving)
@@ -48,8 +49,8 @@ class RowHalver {
     halve_down(halving_, {row(-2), row(-1), row(0), row(1), row(2)}, count_, upper_.data(), lower_.data());
   }
 
-  // The upper or the lower one, of twice as many pixels as the coarse row's; the outermost 2 kStencil on either side
-  // mean nothing.
+  // The upper or the lower fine row, with twice as many pixels as the coarse row. The outermost 2 kStencil pixels on
+  // either side are undefined.
   [[nodiscard]] const float* fine(bool lower) {
     halve_across(halving_, lower ? lower_.data() : upper_.data(), count_, fine_.data());
     return fine_.data();

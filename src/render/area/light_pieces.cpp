@@ -9,10 +9,10 @@ namespace {
 
 constexpr int kDiscSide = 32;         // pixels across a disc,
 constexpr int kPieceSide = 12;        // or across a piece of it where these are more
-constexpr int kDiscSubsamples = 8;    // along a pixel of its rim
+constexpr int kDiscSubsamples = 8;    // samples along a side of a pixel at its rim
 constexpr int kMostSamplesAcross = 64;  // of a piece
 
-// Even in every direction, of radius 1 pixel-count / 2.
+// A uniform disc whose diameter is `side` pixels.
 Image disc(int side) {
   Image level(side, side, 1);
   const double radius = 0.5 * side;
@@ -37,7 +37,7 @@ LightShape shape_of(const Light& light, int across) {
   return {disc(side), {0.5 * side, 0.5 * side}, {pixel, 0.0}, {0.0, -pixel}};
 }
 
-// Tents over so many equal parts of the pixels [0, length); they add up to 1 everywhere.
+// Tents over `count` equal parts of the pixels [0, length); they add up to 1 everywhere.
 struct Tents {
   int count = 1;
   double length = 1.0;
@@ -49,7 +49,7 @@ struct Tents {
   }
 };
 
-// Of each channel, or where one has none, of all together.
+// The sum of each channel; a single channel counts as all three.
 Rgb channel_sums(const Image& level) {
   Rgb sum{};
   for (std::size_t k = 0; k < level.pixels.size(); ++k) {
@@ -69,7 +69,7 @@ Rgb level_at(const Image& level, int x, int y) {
 
 double total(const Rgb& rgb) { return rgb[0] + rgb[1] + rgb[2]; }
 
-// The middle and the covariance of the samples, which then count from the middle.
+// Sets the covariance of the samples and makes their positions relative to their centroid, which it returns.
 Vec2 centre(LightPiece& piece) {
   Vec2 mean;
   double weight = 0.0;
@@ -84,13 +84,13 @@ Vec2 centre(LightPiece& piece) {
     const double w = total(s.share) / weight;
     sum = sum + LinearMap{s.at * (w * s.at.x), s.at * (w * s.at.y)};
   }
-  // A square's own: a twelfth of its sides' squares.
+  // The variance of each sample's square: a twelfth of its sides' squares.
   const LinearMap square{piece.right, piece.down};
   piece.covariance = sum + square * transposed(square) * (1.0 / 12.0);
   return mean;
 }
 
-// The part of a shape under two tents; none where it is dark.
+// The part of a shape under two tents; without samples if it is dark.
 LightPiece piece_of(const Light& light, const LightShape& shape, const Rgb& whole, const Tents& across, int column,
                     const Tents& down, int row) {
   LightPiece piece;
@@ -160,7 +160,7 @@ std::vector<LightPiece> pieces_of(const Light& light, int across) {
   const LightShape given = shape_of(light, across);
   const double width = given.level.width * length(given.right), height = given.level.height * length(given.down);
   const double longest = std::max(width, height);
-  // A shape without a size, or of one that is no number, stays whole: planning refuses what is wrong with it.
+  // A shape without a size, or with one that is not finite, stays undivided; planning rejects it if it is invalid.
   const bool has_size = longest > 0.0 && std::isfinite(width) && std::isfinite(height);
   const auto parts = [&](double side) {
     if (!has_size) return 1;
@@ -183,7 +183,7 @@ std::vector<LightPiece> pieces_of(const Light& light, int across) {
       pieces.push_back(std::move(piece));
     }
   }
-  // Nowhere before the camera, or nowhere at all: planning refuses such a point, and says why.
+  // The light is entirely behind the camera or nowhere: planning rejects such a point with an error message.
   if (pieces.empty()) {
     Light point = light;
     point.radius_rad = 0.0;

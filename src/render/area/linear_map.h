@@ -9,15 +9,15 @@
 namespace contrejour::area {
 
 struct LinearMap {
-  Vec2 x{1.0, 0.0}, y{0.0, 1.0};  // where the unit vectors go
+  Vec2 x{1.0, 0.0}, y{0.0, 1.0};  // images of the unit vectors
 
   [[nodiscard]] Vec2 operator()(Vec2 v) const { return x * v.x + y * v.y; }
   [[nodiscard]] double determinant() const { return cross(x, y); }
 };
 
-inline constexpr LinearMap kNowhere{{0.0, 0.0}, {0.0, 0.0}};  // all to one place
+inline constexpr LinearMap kNowhere{{0.0, 0.0}, {0.0, 0.0}};  // maps everything to one point
 
-// First b, then a.
+// Applies b, then a.
 inline LinearMap operator*(const LinearMap& a, const LinearMap& b) { return {a(b.x), a(b.y)}; }
 inline LinearMap operator+(const LinearMap& a, const LinearMap& b) { return {a.x + b.x, a.y + b.y}; }
 inline LinearMap operator-(const LinearMap& a, const LinearMap& b) { return {a.x - b.x, a.y - b.y}; }
@@ -25,13 +25,13 @@ inline LinearMap operator*(const LinearMap& a, double s) { return {a.x * s, a.y 
 
 inline LinearMap transposed(const LinearMap& a) { return {{a.x.x, a.y.x}, {a.x.y, a.y.y}}; }
 
-// Of a map whose determinant is not zero.
+// The determinant of the map must not be zero.
 inline LinearMap inverse(const LinearMap& a) {
   const double s = 1.0 / a.determinant();
   return {{a.y.y * s, -a.x.y * s}, {-a.y.x * s, a.x.x * s}};
 }
 
-// Of a symmetric map: its eigenvalues, the smaller first.
+// The eigenvalues of a symmetric map, the smaller one first.
 inline Vec2 eigenvalues(const LinearMap& a) {
   const double mean = 0.5 * (a.x.x + a.y.y), apart = std::hypot(0.5 * (a.x.x - a.y.y), a.x.y);
   return {mean - apart, mean + apart};
@@ -45,12 +45,12 @@ inline LinearMap square_root(const LinearMap& a) {
   return (a + LinearMap{} * (low * high)) * (1.0 / (low + high));
 }
 
-// What a map makes of a covariance.
+// The covariance of points with the given covariance after a linear map.
 inline LinearMap mapped_covariance(const LinearMap& map, const LinearMap& covariance) {
   return map * covariance * transposed(map);
 }
 
-// How far the map moves a place along that direction, by each of its two variables.
+// The component of the map's displacement along a direction, for each of its two variables.
 inline Vec2 along(Vec2 direction, const LinearMap& map) { return {dot(direction, map.x), dot(direction, map.y)}; }
 
 inline double trace_of(const LinearMap& a) { return a.x.x + a.y.y; }

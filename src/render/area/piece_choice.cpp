@@ -12,14 +12,14 @@ namespace contrejour::area {
 namespace {
 
 constexpr std::array kAcross{1, 2, 3, 4, 6, 8, 12};
-constexpr double kFasterThanAngle = 3.0;  // by how much more than its part a ghost's motion may change with the angle
-constexpr double kSquaresShare = 0.003;  // of the allowed errors, that a ghost may make without being looked at
-constexpr double kFluxShare = 5e-4;  // likewise of the flux
+constexpr double kFasterThanAngle = 3.0;  // assumed relative change of a motion per unit of angle (tangent)
+constexpr double kSquaresShare = 0.003;  // of the allowed error: smaller errors of a ghost are not examined
+constexpr double kFluxShare = 5e-4;  // of all flux: smaller errors of a ghost are not examined
 constexpr double kFluxAllowed = 0.004;  // of the flux of all ghosts
-constexpr double kKnownFlux = 0.004;  // of a ghost's: what grids of rays tell it to
+constexpr double kKnownFlux = 0.004;  // of a ghost's flux: accuracy of measurements by grids of rays
 constexpr double kSpot_px = 40.0;  // radius
-// A light's radius, as a tangent, times this: how far outside of what blocks it a ray may be whose ghost other parts of
-// the light make.
+// How far outside its bound the least blocked ray may be, if other parts of the light may make the ghost: kOutside plus
+// a light's radius, as a tangent, times kOutsideByAngle.
 constexpr double kOutsideByAngle = 60.0, kOutside = 0.02;
 
 double outline_px(const GhostBlur& ghost) {
@@ -30,13 +30,13 @@ double softness_px(const GhostBlur& ghost) { return std::max(std::min(ghost.blur
 
 double radius_of(const LightPiece& piece) { return radii_of(piece.covariance).y; }
 
-// The share of the pupil's area over the light that a linear change of it leaves out.
+// The fraction of the flux that a linear change of the pupil's area over the light loses.
 double foreseen_flux(const GhostMotion& motion, const LightPiece& whole) {
   const double closing = 2.0 * std::sqrt(std::max(dot(motion.area_rate, whole.covariance(motion.area_rate)), 0.0));
   return std::min(0.125 * closing * closing, 1.0);
 }
 
-// Above the peak errors do not count.
+// The weight of a level: errors above the peak do not count.
 double seen(double level) { return level / (1.0 + level); }
 
 double moved_error(const GhostBlur& ghost, double off_px, double peak) {
@@ -48,7 +48,8 @@ double dimmed_error(const GhostBlur& ghost, double share, double peak) {
   return off * off * ghost.area_px;
 }
 
-// By how much errors fall with the number of pieces across: measured at 9 dB for each doubling.
+// How errors fall with the number of pieces across: as n^-3, measured as 9 dB for each doubling, and as n^-2 for the
+// flux.
 double left_of(double squares, int across) { return squares / (static_cast<double>(across) * across * across); }
 double flux_left_of(double flux_off, int across) { return flux_off / (static_cast<double>(across) * across); }
 
@@ -68,7 +69,8 @@ bool may_need_parts(const GhostOfArea& ghost, const LightPiece& whole, const Are
 void foresee_errors(GhostOfArea& ghost, const LightPiece& whole, std::span<const LightPiece> parts, double peak) {
   if (!(peak > 0.0)) return;
   ghost.squares = map_error(ghost.blur, ghost.blur.px, whole, peak);
-  // A spot shows the light's outline, which pixels are too coarse to blur it by: pieces are drawn where they lie.
+  // A spot shows the light's outline, and pixels are too coarse for its kernel; pieces would be drawn at their true
+  // positions.
   if (ghost.blur.size_px.y + ghost.blur.blur_px.y < kSpot_px) ghost.squares += pixel_error(ghost.blur.over(peak));
   if (ghost.part_blurs.empty()) return;
   double flux = 0.0, area_px = 0.0, level = 0.0, squares = 0.0, lit = 0.0;
@@ -96,7 +98,7 @@ void foresee_errors(GhostOfArea& ghost, const LightPiece& whole, std::span<const
   bright.level = std::max(bright.level, level);
   ghost.squares += dimmed_error(bright, std::min(off / std::max(whole_flux, 1e-30), 1.0), peak);
   if (lit > 0.0) ghost.squares += moved_error(bright, 2.0 * std::sqrt(squares / lit), peak);
-  // As if all of it were elsewhere.
+  // An upper bound: all light is displaced.
   const double all = seen(bright.level / peak);
   ghost.squares = std::min(ghost.squares, 2.0 * all * all * bright.area_px);
 }
@@ -104,14 +106,14 @@ void foresee_errors(GhostOfArea& ghost, const LightPiece& whole, std::span<const
 void choose_pieces(std::span<GhostOfArea> ghosts, const AreaBudget& budget) {
   using Gain = std::pair<double, std::size_t>;
   const auto next = [](int across) { return *std::ranges::upper_bound(kAcross, across); };
-  // The gain of one step finer, for each piece more.
+  // The error that the next finer division saves for each additional piece.
   const auto refine = [&](double allowed, const auto& left) {
     std::priority_queue<Gain> steps;
     double sum = 0.0;
     const auto push = [&](std::size_t k) {
       const int n = ghosts[k].across;
       if (n == kAcross.back()) {
-        sum -= left(ghosts[k], n);  // no others make up for it
+        sum -= left(ghosts[k], n);  // other ghosts need not compensate for it
         return;
       }
       const int finer = next(n);
