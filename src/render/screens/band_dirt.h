@@ -1,4 +1,4 @@
-// What dirt lets through of some wavelengths that are drawn together, and each one's part of each channel's light.
+// The transmittance of dirt for wavelengths that are drawn together, with each one's fraction of each channel's light.
 #pragma once
 
 #include <algorithm>
@@ -15,7 +15,7 @@ struct BandDirt {
     const DirtScreen* screen;
     std::array<float, 3> channel{1.0F, 1.0F, 1.0F};
   };
-  std::vector<Part> parts;  // one and more; all of one plane
+  std::vector<Part> parts;  // at least one; all are of one plane
 
   [[nodiscard]] const DirtScreen& first() const { return *parts.front().screen; }
   [[nodiscard]] std::array<double, 3> transmission(std::span<const DirtPlace> places) const {

@@ -77,11 +77,11 @@ const BandPattern::Level& BandPattern::level_for(double width) const {
 float BandPattern::brightest(Vec2 middle, double distance) const {
   const double pitches = distance * 0.5 * levels_.front().side / extent_;
   const std::size_t fit = pitches > 1.0 ? static_cast<std::size_t>(std::ilogb(pitches)) + 1 : 0;
-  if (fit >= levels_.size()) return brightest_of_last_;  // four of its samples lie nearer than that
+  if (fit >= levels_.size()) return brightest_of_last_;  // four samples of the last level cover less than that distance
   const Level& level = levels_[fit];
-  const auto at = [&](double p) {  // the first of the two samples about there, the border's included
+  const auto at = [&](double p) {  // index of the first of the two samples next to p, counting the border
     const double place = (p / extent_ + 1.0) * 0.5 * level.side + 0.5;
-    return place > 0.0 ? static_cast<int>(std::min(place, level.side + 0.0)) : 0;  // 0 as well if that is no number
+    return place > 0.0 ? static_cast<int>(std::min(place, level.side + 0.0)) : 0;  // also 0 for NaN
   };
   const int x = at(middle.x), y = at(-middle.y);
   const std::size_t from = static_cast<std::size_t>(y * level.pitch() + x) * stride_;

@@ -15,7 +15,8 @@ std::array<double, 3> BandScreen::share(std::span<const StopPlace> places) const
   return sum;
 }
 
-// Of a pattern: about there, but no more than anywhere as far out.
+// An upper bound of a pattern near `middle`: the largest sample there, but no more than the largest as far from the
+// centre.
 double BandScreen::brightest(Vec2 middle, double radius) const {
   double beyond = 0.0;
   for (const Part& part : parts)
@@ -25,7 +26,7 @@ double BandScreen::brightest(Vec2 middle, double radius) const {
 }
 
 ScreenView BandScreen::over(Vec2 middle, double radius) const {
-  constexpr double kLevel = 1e-3;  // of a pattern of all the iris: so close to 1
+  constexpr double kLevel = 1e-3;  // a pattern of the whole iris counts as uniform within this tolerance
   if (edges != nullptr) {
     const double distance = edges->distance(middle);
     const double outside = distance - radius;  // farther out it is darker

@@ -1,4 +1,4 @@
-// What stands in the stop behind a polygon, channel by channel, in place of a sharp iris.
+// The stop pattern in front of a polygon, channel by channel, in place of a sharp iris.
 #pragma once
 
 #include <array>
@@ -11,33 +11,33 @@
 
 namespace contrejour::screens {
 
-// What a disc of the stop sees of a screen: part, and about how much light passes at the most; 1 where it is more.
+// The part of a stop pattern that a disc covers: its kind, and about its largest transmittance, at most 1.
 struct ScreenView {
   ScreenPart part;
   double most;
 };
 
-// The screens of some wavelengths that are drawn together, and each one's part of each channel's light.
+// The stop patterns of wavelengths that are drawn together, with each one's fraction of each channel's light.
 struct BandScreen {
   struct Part {
     std::shared_ptr<const StopScreen> screen;
     std::array<float, 3> channel{};
   };
   std::vector<Part> parts;
-  [[nodiscard]] bool is_grey() const;  // one part, all of every channel
+  [[nodiscard]] bool is_grey() const;  // a single part with all light of every channel
 
   [[nodiscard]] std::array<double, 3> share(std::span<const StopPlace> places) const;
-  // Dark or level where all parts are.
+  // Dark or uniform where all parts are.
   [[nodiscard]] ScreenView over(Vec2 middle, double radius) const;
 
-  double unit = 0.1;  // of stop radii: no ripple is much finer
-  // Of edges' fringes: beyond these distances outside and inside a bound there are none worth drawing.
-  const EdgeScreen* edges = nullptr;  // the first part, if all are such
+  double unit = 0.1;  // in stop radii: few fringes are finer
+  // The next three describe edges' fringes, which are negligible beyond these distances outside and inside a bound.
+  const EdgeScreen* edges = nullptr;  // the first part, if all parts have edges' fringes
   double dark_beyond = 0.0, level_within = 0.0;
-  std::shared_ptr<const BandPattern> pattern;  // of all parts, if they are such
-  PatternHull hull;  // of a pattern, as far as it is worth drawing
+  std::shared_ptr<const BandPattern> pattern;  // of all parts, if all are patterns
+  PatternHull hull;  // bounding polygon of a pattern's visible light
   [[nodiscard]] double brightest(Vec2 middle, double radius) const;
-  double unseen = 0.0;  // pixel values that do not count
+  double unseen = 0.0;  // pixel values that are negligible
 };
 
 }  // namespace contrejour::screens

@@ -8,7 +8,7 @@
 namespace contrejour::screens {
 namespace {
 
-constexpr double kPlanesPerOctave = 8.0;  // neighbours' fringes are 4 per cent apart
+constexpr double kPlanesPerOctave = 8.0;  // fringes of successive planes differ by 4 per cent
 constexpr double kPlaneSpreadStep = 0.004;
 
 double lambda_z_at(int rung) { return std::exp2(rung / kPlanesPerOctave); }

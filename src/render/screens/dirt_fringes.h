@@ -1,6 +1,6 @@
-// Dirt as ghosts see it out of focus: planes of shadows with fringes by wavelength times effective distance, a section
-// of RenderCache, and one ghost's view of them.
-// Thread-safety: make() from one thread; all else from any, afterwards.
+// Diffraction shadows of dirt: planes of shadows with fringes, by wavelength times effective distance, as a section of
+// RenderCache; and the shadows that one ghost has.
+// Thread-safety: make() from one thread at a time; all else from any thread, afterwards.
 #pragma once
 
 #include <map>
@@ -15,10 +15,10 @@
 
 namespace contrejour::screens {
 
-// A ghost's view at one wavelength, or a band.
+// The dirt of a ghost at one wavelength, or in a band.
 class FringedDirt final : public DirtScreen {
  public:
-  // crossings: the plane at each crossing of the stop, or the front's; null ones are sharp.
+  // crossings: the plane at each crossing of the stop, or at the front; null: shadows there are sharp.
   FringedDirt(std::shared_ptr<const DirtField> sharp, std::vector<std::shared_ptr<const FringedPlane>> crossings);
 
   [[nodiscard]] double level() const override { return level_; }
@@ -41,13 +41,14 @@ class DirtFringes {
     friend bool operator==(const Key&, const Key&) = default;
   };
   struct Wanted {
-    double lambda_z_mm2 = 1.0;  // at the band's middle
-    double spread = 0.0;  // of its wavelengths over that, root mean square
+    double lambda_z_mm2 = 1.0;  // at the middle of the band
+    double spread = 0.0;  // RMS spread of its wavelengths over their mean
   };
 
   explicit DirtFringes(const Key& /*key*/) {}
 
-  // field: of the key's dirt and plane. Makes what is not there yet, on all threads. False when cancelled.
+  // field: must be of the key's dirt and plane. Makes the planes that do not exist yet, on all threads. Returns false
+  // if cancelled.
   bool make(const DirtField& field, std::span<const Wanted> wanted, const Context& context);
   [[nodiscard]] std::shared_ptr<const FringedPlane> plane(const Wanted& wanted) const;  // null unless made
   [[nodiscard]] std::size_t count() const { return planes_.size(); }

@@ -12,9 +12,9 @@ namespace {
 constexpr double kStep = 1.0 / 128.0;  // a fringe at t = 32 is eight of them
 constexpr double kShadowTaper = 1.5, kLightTaper = 8.0;  // where the table fades to its ends
 constexpr int kBandSamples = 33;
-constexpr double kCorrectedOver = 8.0;  // of the light's side: where what the ends cut off is added
+constexpr double kCorrectedOver = 8.0;  // width on the light's side to which the light beyond the ends is added
 
-// |U|^2 of one wavelength: 1/2 ((C + 1/2)^2 + (S + 1/2)^2), the integrals summed step by step. Born & Wolf 8.7.3.
+// U|^2 of one wavelength: 1/2 ((C + 1/2)^2 + (S + 1/2)^2), with the integrals summed step by step (Born & Wolf 8.7.3).
 class OneWavelength {
  public:
   OneWavelength(double first, double last) : first_(first) {
@@ -43,7 +43,7 @@ class OneWavelength {
   struct Pair {
     double c, s;
   };
-  // Of exp(i pi t^2 / 2) over one step: Simpson's rule, the phase turns by 0.1 at most.
+  // Integrates exp(i pi t^2 / 2) over one step by Simpson's rule; the phase changes by 0.1 at most.
   static Pair integral(double t) {
     const auto phase = [](double x) { return 0.5 * kPi * x * x; };
     const double a = phase(t), m = phase(t + 0.5 * kFine), b = phase(t + kFine);
@@ -57,9 +57,9 @@ class OneWavelength {
 
 }  // namespace
 
-// F goes as 1 / lambda, and t as its root.
+// F varies as 1 / lambda, and t as its root.
 EdgeProfile::EdgeProfile(double spread) {
-  const double half_band = std::min(std::numbers::sqrt3 * spread, 0.9);  // of an even band of that spread
+  const double half_band = std::min(std::numbers::sqrt3 * spread, 0.9);  // of a uniform band with that spread
   const double widest = 1.0 / std::sqrt(1.0 - half_band);
   const OneWavelength one(std::floor(kDarkBelow * widest), kLevelAbove * widest);
   const int samples = half_band > 0.0 ? kBandSamples : 1;
@@ -77,7 +77,7 @@ EdgeProfile::EdgeProfile(double spread) {
     value_.push_back(std::lerp(lit, mean, kept));
     excess += (value_.back() - (t == 0.0 ? 0.5 : lit)) * kStep;
   }
-  // An edge moves light, it takes none: what the ends leave out is spread over the light next to it.
+  // An edge displaces light and absorbs none: the excess that the ends cut off is spread over the light next to it.
   for (std::size_t k = 0; k < count; ++k) {
     const double t = kDarkBelow + static_cast<double>(k) * kStep;
     if (t > 0.0 && t < kCorrectedOver)

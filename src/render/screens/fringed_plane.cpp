@@ -12,20 +12,20 @@
 namespace contrejour::screens {
 namespace {
 
-constexpr double kSharpSpeck = 5.5;  // units wide: from here on a speck's rim is nearly straight
+constexpr double kSharpSpeck = 5.5;  // in units of sqrt(lambda z): the rim of wider specks is nearly straight
 constexpr double kSlicesOfUnit = 3.5;
-constexpr double kSizesPerOctave = 4.0;  // of specks, that are told apart by what they send away
+constexpr double kSizesPerOctave = 4.0;  // classes of specks with a common flux
 constexpr double kLeastLevel = 0.01, kMostLevel = 2.0;
 constexpr int kMostCells = 384;  // across the plane
 constexpr double kCellsOfReach = 2.0;
 constexpr int kMostTiles = 512;  // a side; finer fringes are not sampled
-constexpr unsigned kFewTiles = 2;  // between the first and last that a disc meets, for them to be looked at
+constexpr unsigned kFewTiles = 2;  // tiles between the first and last that a disc meets, for which they are examined
 constexpr double kNearlyStraight = 1e-6;  // rad, as dirt.cpp's
-constexpr double kCleanWithin = 0.003;  // of the level
-constexpr double kOneLook = 2.0, kFewLooks = 5.0;  // samples across a place's square
-constexpr double kStepOfUnit = 0.3;  // a place's square wider than this is looked at in parts
+constexpr double kCleanWithin = 0.003;  // relative to the level
+constexpr double kOneLook = 2.0, kFewLooks = 5.0;  // samples across a square that is averaged
+constexpr double kStepOfUnit = 0.3;  // in units: a wider square is averaged in parts
 constexpr double kMostParts = 6.0;
-constexpr double kFluxSteps = 32.0;  // a unit
+constexpr double kFluxSteps = 32.0;  // per unit
 
 bool is_speck(const DirtStroke& s) { return s.length_mm < s.width_mm; }
 double area_of(const DirtStroke& s) { return s.width_mm * (s.length_mm + 0.25 * kPi * s.width_mm); }
@@ -52,7 +52,7 @@ double share_within(const DirtStroke& s, double extent) {
 
 }  // namespace
 
-// A tile's samples and the first ones of those beyond it, so that it can be looked up by itself.
+// The samples of a tile, and the first ones beyond it, so that a look-up needs one tile only.
 struct FringedPlane::Tile {
   static constexpr int kSide = 32;
   bool is_clean = true;
@@ -104,7 +104,7 @@ FringedPlane::Shape FringedPlane::shape_of(const DirtStroke& stroke) const {
   return shape;
 }
 
-// Sums over rings about a round speck's axis; width in units.
+// Integrates over rings about the axis of a round speck. width: in units.
 FringedPlane::Speck FringedPlane::speck_of(double width) const {
   Speck out{0.0, 0.0};
   const Shape shape = shape_of({{}, 0.0, 0.0, width * unit_mm_, 0.0, 1.0});
@@ -118,8 +118,9 @@ FringedPlane::Speck FringedPlane::speck_of(double width) const {
   return out;
 }
 
-// How far a shape's wave is seen, and the light that it takes there: the integral over the plane of 1 - |1 - a D|^2,
-// D's being the shape's area. False where it is seen nowhere.
+// Sets how far a shape's wave is strong enough to be drawn, and the light that it takes there: the integral over the
+// plane of 1 - |1 - a D|^2, with D the diffracted wave of the shape's area. Returns false if the wave is too weak
+// everywhere.
 bool FringedPlane::set_reach(Shape& shape, std::map<int, Speck>& specks, double& taken_mm2) const {
   const DirtStroke& stroke = shape.stroke;
   const double width = stroke.width_mm * per_mm_;
@@ -133,7 +134,7 @@ bool FringedPlane::set_reach(Shape& shape, std::map<int, Speck>& specks, double&
     taken_mm2 = stroke.opacity * area_of(stroke);
     return true;
   }
-  // As a round one of its area.
+  // The speck is treated as a round one of the same area.
   const double diameter = 2.0 * std::sqrt(area_of(stroke) / kPi) * per_mm_;
   const int size = static_cast<int>(std::lround(kSizesPerOctave * std::log2(diameter)));
   const auto [at, is_new] = specks.try_emplace(size);
@@ -153,7 +154,7 @@ double FringedPlane::scratch_flux(const Shape& shape) const {
   return across * unit_mm_ * area_of(shape.stroke) / shape.stroke.width_mm;
 }
 
-// Each takes what its sharp shadow does: the rest evenly.
+// Each shape must take as much light as its sharp shadow: the difference is spread evenly over the plane.
 void FringedPlane::add_shapes(std::span<const DirtStroke> shapes) {
   std::map<int, Speck> specks;
   double spread_mm2 = 0.0;
@@ -178,7 +179,7 @@ FringedPlane::Wave FringedPlane::wave(const Shape& shape, Vec2 at_mm) const {
   return edge_->at((0.5 * shape.stroke.width_mm - t) * per_mm_);
 }
 
-// own: along and across, in units.
+// own: coordinates along and across the speck, in units.
 FringedPlane::Wave FringedPlane::speck_wave(const Shape& shape, Vec2 own) const {
   const double width = shape.stroke.width_mm * per_mm_, slice = width / shape.slices;
   Wave sum = 0.0F, above = edge_->at(own.y + 0.5 * width);
@@ -190,7 +191,7 @@ FringedPlane::Wave FringedPlane::speck_wave(const Shape& shape, Vec2 own) const 
   return sum;
 }
 
-// The wave of a slit along the scratch's line. Places beside a bent scratch are measured along and across its circle.
+// The wave of a slit along the scratch's line. Points near a bent scratch are measured along and across its circle.
 FringedPlane::Wave FringedPlane::scratch_wave(const Shape& shape, Vec2 at_mm) const {
   const DirtStroke& s = shape.stroke;
   const double half_width = 0.5 * s.width_mm * per_mm_;
@@ -208,7 +209,7 @@ FringedPlane::Wave FringedPlane::scratch_wave(const Shape& shape, Vec2 at_mm) co
   return across * slit(std::atan2(dot(shape.along, about), to_middle) * radius_mm * per_mm_, half_length);
 }
 
-// A counting sort: each cell's shapes lie in a row, by rising index.
+// A counting sort: the shapes of each cell are contiguous, with ascending indices.
 void FringedPlane::sort_into_cells() {
   double reach = 0.0;
   for (const Shape& shape : shapes_) reach = std::max(reach, shape.reach_mm);
@@ -237,7 +238,7 @@ void FringedPlane::sort_into_cells() {
   dirty_ = CellFlags(cells_, extent_mm_, [&](int x, int y) { return !shapes_about(x, y).empty(); });
 }
 
-// What passes is the product's square and what is spread, which cannot take more than there is.
+// The transmittance is the squared product of waves minus the light that is spread over the plane, and not negative.
 double FringedPlane::passed(Wave amplitude) const {
   return std::max(0.0, (static_cast<double>(std::norm(amplitude)) + level_ - 1.0) / level_);
 }
@@ -289,7 +290,7 @@ std::unique_ptr<FringedPlane::Tile> FringedPlane::sampled_tile(unsigned tile_x, 
   return tile;
 }
 
-// One sample of a level; 0 beside the plane.
+// One sample of a level; 0 outside the plane.
 float FringedPlane::sample(std::size_t level, long column, long row) const {
   constexpr long kSide = Tile::kSide;
   const long samples = kSide * static_cast<long>(levels_[level].tiles);
@@ -327,7 +328,7 @@ const FringedPlane::Tile& FringedPlane::tile(std::size_t level, unsigned x, unsi
   return *there;
 }
 
-// Bilinear.
+// Interpolates bilinearly.
 double FringedPlane::between_samples(std::size_t level, Vec2 at_mm) const {
   const Level& of = levels_[level];
   const double x = (at_mm.x + extent_mm_) * of.per_mm, y = (at_mm.y + extent_mm_) * of.per_mm;
@@ -342,8 +343,8 @@ double FringedPlane::between_samples(std::size_t level, Vec2 at_mm) const {
   return 1.0 - static_cast<double>(low + t * (high - low));
 }
 
-// A square's mean: over parts of it, each a look-up at the level whose samples, smoothed and interpolated, stand for
-// means over some two of them (w^2 / 12 = 4^level / 3).
+// The mean over a square, in parts: each part is a look-up at the level whose samples, smoothed and interpolated,
+// represent means over about two of them (w^2 / 12 = 4^level / 3).
 double FringedPlane::transmission(Vec2 at_mm, double width_mm) const {
   const bool is_sampled = pitch_mm_ > 0.0 && std::max(std::abs(at_mm.x), std::abs(at_mm.y)) + width_mm < extent_mm_;
   const double samples = width_mm * levels_.front().per_mm;

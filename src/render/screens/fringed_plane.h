@@ -1,13 +1,13 @@
-// A plane of dirt seen out of focus: what a ghost's light at a wavelength (or a band) shows of its shapes, as shadows
-// with fringes. Every shape takes its own wave from the light's; they multiply, |product|^2 is what passes, which is
-// exact for shapes apart from each other and for sharp ones over each other.
-// A scratch's wave is that of a slit of its width along its line, a speck's the sum of some slices', its outline's
-// where that is sharp. What a shape sends farther than its fringes are drawn, or is too weak to be drawn at all, is
-// spread evenly over the plane: so each takes as much light as its sharp shadow does.
+// A plane of dirt out of focus: the transmittance of its shapes for a ghost's light at a wavelength, or in a band, as
+// shadows with fringes. Each shape subtracts its own wave from the light's. The results multiply, and the transmittance
+// is |product|^2, which is exact for shapes apart from each other and for sharp ones that overlap. A scratch's wave is
+// that of a slit of its width along its line. A speck's wave is a sum over slices, or that of its outline where this is
+// nearly straight. Light that a shape sends farther than its fringes are drawn, or that is too weak to be drawn, is
+// spread evenly over the plane, so that each shape takes as much light as its sharp shadow.
 //
 // Units: mm; a "unit" is sqrt(lambda z), about a fringe's width. Accuracy: 5 per cent of the level, root mean square,
 // within StraightEdge::kTaperFrom units of a shape; waves weaker than kLeastWave are left out.
-// Thread-safety: const members may run at once. docs/physics/diffraction.md, "Dirt".
+// Thread-safety: const members may run concurrently. See docs/physics/diffraction.md, "Dirt".
 #pragma once
 
 #include <array>
@@ -27,7 +27,7 @@ namespace contrejour::screens {
 
 class FringedPlane {
  public:
-  static constexpr double kLeastWave = 0.005;  // of the light's
+  static constexpr double kLeastWave = 0.005;  // relative to the light's
 
   // shapes: those of the square from -extent to extent. lambda_z_mm2: the wavelength times the effective distance.
   FringedPlane(std::span<const DirtStroke> shapes, double extent_mm, double lambda_z_mm2,
@@ -36,9 +36,9 @@ class FringedPlane {
   FringedPlane(const FringedPlane&) = delete;
   FringedPlane& operator=(const FringedPlane&) = delete;
 
-  // What passes far from all shapes.
+  // The transmittance far from all shapes.
   [[nodiscard]] double level() const { return level_; }
-  // Of the level, as DirtScreen's.
+  // Relative to the level, as DirtScreen's.
   [[nodiscard]] double transmission(Vec2 at_mm, double width_mm) const;
   [[nodiscard]] bool is_clean(Vec2 middle_mm, double radius_mm) const;
   [[nodiscard]] double unit_mm() const { return unit_mm_; }  // about a fringe's width
@@ -49,13 +49,13 @@ class FringedPlane {
   using Wave = std::complex<float>;
   struct Shape {
     DirtStroke stroke;
-    float amplitude = 1.0F;  // that an opaque place takes away
-    double reach_mm = 0.0;  // from the edge
-    Vec2 along = {}, bent_about_mm = {};  // at its middle; the middle of its circle
-    double radius_mm = 0.0;  // of that, positive where it lies to the left; 0: straight
-    double inner_cosine = 2.0;  // of the angle about it within which its ends are not seen
-    int slices = 0;  // of a speck, along it; 0: by its edge, or a scratch
-    std::array<float, kMostSlices> half_length{};  // each slice's, in units
+    float amplitude = 1.0F;  // amplitude that an opaque point takes away
+    double reach_mm = 0.0;  // reach of its wave from its edge
+    Vec2 along = {}, bent_about_mm = {};  // at its middle; the centre of its circle
+    double radius_mm = 0.0;  // of that circle, positive if its centre lies to the left; 0: straight
+    double inner_cosine = 2.0;  // cosine of the angle about the centre within which its ends have no effect
+    int slices = 0;  // of a speck, along it; 0: a speck drawn by its outline, or a scratch
+    std::array<float, kMostSlices> half_length{};  // of each slice, in units
     [[nodiscard]] double around_mm() const { return stroke.reach_mm() + reach_mm; }
   };
   // Round specks of about one size: the power of their wave over their area, and how far from the edge it is strong.
@@ -79,8 +79,8 @@ class FringedPlane {
   [[nodiscard]] double passed(Vec2 at_mm) const;
   [[nodiscard]] std::span<const std::uint32_t> shapes_about(int x, int y) const;
 
-  // Samples of 1 - transmission by tiles, made where first looked at: by whom does not matter. Each level's are half as
-  // dense as those of the one below and smoothed by 1, 2, 1.
+  // Samples of 1 - transmittance in tiles, which any thread makes when they are first needed. Each level has half the
+  // sampling density of the level below and is smoothed by 1, 2, 1.
   struct Level {
     double per_mm = 0.0;  // samples
     unsigned tiles = 0;  // a side
@@ -99,7 +99,7 @@ class FringedPlane {
   int cells_ = 1;
   std::vector<std::uint32_t> first_, shapes_of_cell_;
   CellFlags dirty_;
-  double pitch_mm_;  // of the first level; 0: too many
+  double pitch_mm_;  // of the first level; 0: it would need too many tiles
   std::array<Level, 5> levels_;
 };
 

@@ -34,13 +34,14 @@ double HalvedPicture::bilinear(const Level& level, Vec2 p) const {
          t * ((1.0 - s) * sample(x0, y0 + 1) + s * sample(x0 + 1, y0 + 1));
 }
 
-// A bilinear look-up among samples w wide blurs by w / 2, root mean square, a square by its width over the root of 12.
+// Bilinear interpolation of samples that are w wide blurs by w / 2, root mean square; a square blurs by its width over
+// the root of 12.
 double HalvedPicture::level_for(double width, int side, double extent) {
   const double samples = width / std::numbers::sqrt3 * 0.5 * side / extent;
   return samples > 1.0 ? std::log2(samples) : 0.0;
 }
 
-// Between two levels.
+// Interpolates between two levels.
 double HalvedPicture::at(Vec2 p, double width) const {
   const double level = std::min(level_for(width, side(), extent_), static_cast<double>(levels_.size() - 1));
   const auto fine = std::min(static_cast<std::size_t>(level), levels_.size() - 1);

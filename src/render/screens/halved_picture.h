@@ -1,5 +1,5 @@
-// A square picture for look-ups of the mean over a square about any place: samples halved again and again.
-// Units: the caller's, of places; 0 outside. Thread-safety: constant after it is made.
+// A square picture for look-ups of the mean over a square about any point: an image pyramid.
+// Units: the caller's, for positions; 0 outside. Thread-safety: constant after construction.
 #pragma once
 
 #include <span>
@@ -11,14 +11,14 @@ namespace contrejour::screens {
 
 class HalvedPicture {
  public:
-  // samples: side x side over the square from -extent to extent, rows from the top. side: a multiple of 16 or so, for
-  // as many halvings.
+  // samples: side x side over the square from -extent to extent, rows from the top. side: a multiple of 16 or so, since
+  // it is halved that often.
   HalvedPicture(int side, double extent, std::vector<float> samples);
 
   [[nodiscard]] double extent() const { return extent_; }
   [[nodiscard]] int side() const { return levels_.front().side; }
   [[nodiscard]] std::span<const float> samples() const { return levels_.front().samples; }
-  // How often samples are halved for a bilinear look-up among them to stand for the mean over a width; 0 and more.
+  // How often samples must be halved for bilinear interpolation to give the mean over a width; at least 0.
   [[nodiscard]] static double level_for(double width, int side, double extent);
   [[nodiscard]] double at(Vec2 p, double width) const;
 

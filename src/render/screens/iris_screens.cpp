@@ -7,10 +7,10 @@
 namespace contrejour::screens {
 namespace {
 
-// Stop radii: pixels across the rim see it from beyond it.
+// In stop radii: pixels that cross the rim have their middle beyond it.
 constexpr double kSharpReach = 1.05;
 
-// Of a square `width` wide on a straight edge, `distance` from its middle.
+// The fraction of a square, `width` wide, that is inside a straight edge `distance` from its middle.
 double sharp_share(double distance, double width) {
   if (!(width > 0.0)) return distance <= 0.0 ? 1.0 : 0.0;
   return std::clamp(0.5 - distance / width, 0.0, 1.0);

@@ -25,7 +25,7 @@ const std::array<Vec2, PatternHull::kLines>& PatternHull::normals() {
 
 bool PatternHull::misses(Vec2 middle, double radius) const {
   const double reach = nearest_ + radius;
-  if (dot(middle, middle) <= reach * reach) return false;  // as near as no line is
+  if (dot(middle, middle) <= reach * reach) return false;  // nearer than any line
   const auto& normal = normals();
   for (std::size_t k = 0; k < kLines; ++k)
     if (dot(normal[k], middle) - radius > most_[k]) return true;

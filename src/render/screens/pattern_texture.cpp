@@ -10,11 +10,11 @@
 namespace contrejour::screens {
 namespace {
 
-constexpr double kFluxBeyond = 0.01;  // that may be left out
+constexpr double kFluxBeyond = 0.01;  // fraction that may be left out
 constexpr int kSectorsOfQuadrant = 12;
 constexpr int kSectors = 4 * kSectorsOfQuadrant;
 
-// Sectors are even along the square |x| + |y| = 1, which needs no angles.
+// Sectors are spaced evenly along the square |x| + |y| = 1, which requires no angles.
 int sector_of(double x, double y) {
   const double along = kSectorsOfQuadrant / (std::abs(x) + std::abs(y));
   const double turned =
@@ -31,7 +31,7 @@ Vec2 direction_at(double sector) {
                       : Vec2{first.y, -first.x};
 }
 
-// Each sector of a disc of radius 1: its border's ends and middle.
+// The bounding polygon of each sector of a disc of radius 1: of the ends and the middle of its arc.
 const std::array<PatternHull, kSectors>& sector_hulls() {
   static const auto all = [] {
     std::array<PatternHull, kSectors> hulls;
@@ -42,8 +42,8 @@ const std::array<PatternHull, kSectors>& sector_hulls() {
   return all;
 }
 
-// How many pass a test of some of which all that do come first, looked for from a guess on: what lies far from there is
-// not touched.
+// The number of elements that pass a test, of which all that pass come first. The search starts at a guess and does not
+// read elements far from the result.
 template <class T, class Test>
 std::size_t count_passing(std::span<const T> all, std::size_t guess, const Test& test) {
   std::size_t low = std::min(guess, all.size()), high = low;
@@ -66,7 +66,7 @@ PatternTexture::PatternTexture(int side, double extent, std::vector<float> sampl
   find_rests();
 }
 
-// By sector and ring, each what it holds itself.
+// What each ring of each sector contains itself.
 std::vector<PatternTexture::SectorRest> PatternTexture::sector_rings() const {
   const auto pitch = static_cast<float>(2.0 * extent() / side());
   const float area = pitch * pitch;
@@ -87,7 +87,7 @@ std::vector<PatternTexture::SectorRest> PatternTexture::sector_rings() const {
   return out;
 }
 
-// From each ring on, all around and by sector.
+// Sums, from each ring outwards, over all sectors and by sector.
 void PatternTexture::find_rests() {
   sector_rest_ = sector_rings();
   const std::size_t steps = rings() + 1;

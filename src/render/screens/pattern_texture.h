@@ -1,5 +1,6 @@
-// A pattern over the stop plane for look-ups: the mean over a square about any place, and what lies beyond any radius.
-// Units: stop radii. Thread-safety: constant after it is made.
+// A pattern over the stop plane for look-ups: the mean over a square about any point, and the remainder outside any
+// radius.
+// Units: stop radii. Thread-safety: constant after construction.
 #pragma once
 
 #include <span>
@@ -13,8 +14,8 @@ namespace contrejour::screens {
 
 class PatternTexture {
  public:
-  // samples: side x side over the square from -extent to extent, rows from the top as in FresnelPattern. side: a
-  // multiple of 16 or so, for as many halvings. Outside the square there is nothing.
+  // samples: side x side over the square from -extent to extent, rows from the top as in FresnelPattern; 0 outside.
+  // side: a multiple of 16 or so, since it is halved that often.
   PatternTexture(int side, double extent, std::vector<float> samples);
 
   [[nodiscard]] double extent() const { return picture_.extent(); }
@@ -23,16 +24,17 @@ class PatternTexture {
   [[nodiscard]] double at(Vec2 p, double width) const { return picture_.at(p, width); }
   [[nodiscard]] double flux() const;  // integral over the plane
 
-  // Beyond this radius it is nowhere brighter than `level`, and a small part of its flux at the most.
+  // The radius beyond which the pattern is nowhere brighter than `level` and has only a small part of its flux.
   [[nodiscard]] double reach_above(double level) const;
-  // Beyond these lines likewise; less than all of it, where it is not round. flux: the share of it that may be beyond.
+  // A bounding polygon with the same property, smaller than the circle if the pattern is not round. flux: the fraction
+  // that may lie outside.
   [[nodiscard]] PatternHull hull_above(double level, double flux) const;
   [[nodiscard]] double brightest_beyond(double radius) const;
-  // Its square, integrated beyond a radius.
+  // The integral of the squared pattern outside a radius.
   [[nodiscard]] double squared_beyond(double radius) const;
 
  private:
-  struct Rest {  // beyond a radius
+  struct Rest {  // outside a radius
     double brightest = 0.0, squared = 0.0, flux = 0.0;
   };
   [[nodiscard]] const Rest& rest_beyond(double radius) const;
@@ -42,11 +44,11 @@ class PatternTexture {
   };
   [[nodiscard]] std::vector<SectorRest> sector_rings() const;
   void find_rests();
-  [[nodiscard]] std::size_t rings() const { return static_cast<std::size_t>(side() / 2); }  // a sample wide
+  [[nodiscard]] std::size_t rings() const { return static_cast<std::size_t>(side() / 2); }  // each a sample wide
 
   HalvedPicture picture_;
-  std::vector<Rest> rest_;  // by even steps of the radius to the extent
-  std::vector<SectorRest> sector_rest_;  // likewise, sector after sector
+  std::vector<Rest> rest_;  // by equal steps of the radius up to the extent
+  std::vector<SectorRest> sector_rest_;  // the same, by sector
 };
 
 }  // namespace contrejour::screens

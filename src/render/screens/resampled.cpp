@@ -6,7 +6,7 @@
 namespace contrejour::screens {
 namespace {
 
-// Where a grid's middles lie between another's, along one direction.
+// The position of a sample of one grid between two samples of another, along one axis.
 struct Between {
   std::size_t low = 0, high = 0;
   float to_high = 0.0F;
@@ -29,7 +29,7 @@ std::vector<Between> places_between(int side, double extent, const SquareSamples
 
 }  // namespace
 
-// Between rows first, which is whole vectors at once.
+// Interpolates between rows first, since that uses whole vectors.
 std::vector<float> resampled(const SquareSamples& from, int side, double extent) {
   const auto places = places_between(side, extent, from);
   const auto count = static_cast<std::size_t>(from.side);

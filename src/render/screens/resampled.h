@@ -1,5 +1,5 @@
-// A picture over a square of the stop plane, looked up at the middles of another square's samples: bilinear among its
-// own, falling to nothing within a sample beyond its border. Units: stop radii. Thread-safety: pure.
+// Resamples a picture over a square of the stop plane to the samples of another square: bilinear interpolation, which
+// falls to zero within a sample beyond the border. Units: stop radii. Thread-safety: pure.
 #pragma once
 
 #include <span>

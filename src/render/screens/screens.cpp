@@ -19,10 +19,11 @@ using screens::EdgeScreen;
 using screens::StopPatterns;
 using screens::TextureScreen;
 
-// A first fringe is 1.9 of an edge's unit 1 / sqrt(2 F) wide; where that unit is so many pixels, none is seen.
+// The first fringe is 1.9 of an edge's unit 1 / sqrt(2 F) wide; where that unit is fewer pixels than this, no fringe is
+// visible.
 constexpr double kUnseenUnit_px = 0.15;
-constexpr double kUnseenShadow_px = 0.7;  // of sqrt(lambda z), what dirt's edges are blurred by
-// An order a stands for F = cot(pi a / 2) times the square of the stop's radius in the transform's units.
+constexpr double kUnseenShadow_px = 0.7;  // of sqrt(lambda z), by which the edges of dirt are blurred
+// The order a corresponds to F = cot(pi a / 2) times the square of the stop's radius in the transform's units.
 constexpr double kFractionalFresnel = 72.0;
 constexpr double kSharpOrder = 1e-4;  // smaller ones leave the mask as it is: fringes of a hundredth of a stop radius
 
@@ -71,7 +72,7 @@ bool Screens::prepare(std::span<const Wanted> wanted, const Context& context) {
   return done;
 }
 
-// Patterns hold a picture's half-tones; what has sharp or fringed edges is dimmed by them.
+// Applies a picture's half-tones to ghosts with sharp or fringed edges; patterns include them already.
 void Screens::add_tones(std::span<const Wanted> wanted) {
   for (const Wanted& w : wanted) {
     auto& screen = screens_[key_of(w.ghost, w.lambda_nm, w.light)];
@@ -80,7 +81,7 @@ void Screens::add_tones(std::span<const Wanted> wanted) {
   }
 }
 
-// How each ghost's light crosses the stop; none when cancelled.
+// The wave at the stop of each ghost; empty if cancelled.
 std::vector<screens::StopWave> Screens::waves_of(std::span<const Wanted> wanted, const Context& context) const {
   std::vector<screens::StopWave> waves(wanted.size());
   Context quiet = context;
@@ -92,7 +93,7 @@ std::vector<screens::StopWave> Screens::waves_of(std::span<const Wanted> wanted,
   return done ? waves : std::vector<screens::StopWave>{};
 }
 
-// Whether no pixel shows fringes of a Fresnel number on a ghost so large.
+// Whether no pixel shows the fringes of this Fresnel number in a ghost of this size.
 bool Screens::is_sharp(double footprint, double fresnel_number) const {
   const double unit_mm = lens_.stop_radius_mm * footprint / std::sqrt(2.0 * fresnel_number);
   return !(unit_mm > kUnseenUnit_px * pixel_pitch_mm_);
@@ -103,7 +104,8 @@ bool Screens::prepare_fresnel(std::span<const Wanted> wanted, const Context& con
   if (waves.size() != wanted.size()) return false;
   const auto sharp = [&](std::size_t k) { return is_sharp(waves[k].footprint, waves[k].fresnel_number); };
   const auto spread = [&](std::size_t k) { return wanted[k].spread_nm / wanted[k].lambda_nm; };
-  // A ghost has patterns in all its wavelengths, or edges' fringes in all: what is drawn together is of one kind.
+  // A ghost has patterns at all of its wavelengths, or edges' fringes at all: what is drawn together must be of one
+  // kind.
   std::map<std::pair<Ghost, double>, double> lowest;
   const auto kin = [&](std::size_t k) { return std::pair(wanted[k].ghost, distance_along_axis(wanted[k].light)); };
   for (std::size_t k = 0; k < wanted.size(); ++k) {
@@ -143,7 +145,7 @@ bool Screens::prepare_hullin(std::span<const Wanted> wanted, const Context& cont
     if (!(std::abs(middle) >= kSharpOrder) ||
         is_sharp(waves[k].footprint, fresnel_number(w.ghost, w.lambda_nm, w.light)))
       continue;
-    // Three orders stand for the band; one that is set by hand holds for all wavelengths.
+    // Three orders represent the band; an order set by the user applies to all wavelengths.
     const double off = options_.alpha ? 0.0 : middle * w.spread_nm / w.lambda_nm * std::sqrt(1.5);
     const std::vector<double> orders =
         off > 0.0 ? std::vector<double>{middle - off, middle, middle + off} : std::vector<double>{middle};
@@ -159,8 +161,8 @@ std::shared_ptr<const StopScreen> Screens::of(const Ghost& ghost, double lambda_
   return found == screens_.end() ? nullptr : found->second;
 }
 
-// How the sensor sees the dirt's plane at each crossing. Patterns end where the iris's do (kLowestFresnel). By orders
-// the iris's Fresnel number is what they stand for, wherever the dirt lies.
+// The wave at the dirt's plane for each crossing. Shadows are limited where the iris's patterns are (kLowestFresnel).
+// With fractional orders, the iris's Fresnel number is the one that the order corresponds to, wherever the dirt lies.
 std::vector<screens::PlaneWave> Screens::dirt_waves(const Wanted& wanted, bool on_front) const {
   const OpticalPath path = ghost_path(lens_, wanted.ghost, wanted.lambda_nm);
   const double light_mm = distance_along_axis(wanted.light), lambda_mm = wanted.lambda_nm * 1e-6;
@@ -191,7 +193,7 @@ bool Screens::prepare_dirt(std::span<const Wanted> wanted, const std::shared_ptr
   for (const Wanted& w : wanted)
     if (dirt_.try_emplace(key_of(w.ghost, w.lambda_nm, w.light)).second) missing.push_back(w);
   using screens::DirtFringes;
-  std::vector<std::vector<std::optional<DirtFringes::Wanted>>> planes;  // by crossing; none where it is sharp
+  std::vector<std::vector<std::optional<DirtFringes::Wanted>>> planes;  // by crossing; empty where it is sharp
   std::vector<DirtFringes::Wanted> all;
   for (const Wanted& w : missing) {
     auto& of_crossing = planes.emplace_back();

@@ -1,5 +1,5 @@
-// The screens of a frame's ghosts: what FrameSettings asks for, for one lens.
-// Thread-safety: prepare() from one thread; of() from any, afterwards.
+// The stop patterns and diffraction shadows of a frame's ghosts, as FrameSettings requests them, for one lens.
+// Thread-safety: prepare() from one thread; of() from any thread, afterwards.
 #pragma once
 
 #include <map>
@@ -27,35 +27,36 @@ class Screens {
     LightSource light;
   };
 
-  // lens and cache must outlive it.
+  // lens and cache must outlive this object.
   Screens(const LensState& lens, const FrameSettings& settings, RenderCache& cache);
 
   [[nodiscard]] bool on() const { return options_.mode != RingingMode::None || has_tones(); }
-  // A picture's half-tones dim all of a ghost, in or out of focus: none can do without its screen.
+  // A picture's half-tones dim all of a ghost, in or out of focus, so that every ghost needs its stop pattern.
   [[nodiscard]] bool has_tones() const { return lens_.iris.field != nullptr && lens_.iris.field->has_tones(); }
 
-  // About how far out of focus the stop's edge is in a ghost; infinite where it is sharp.
+  // The Fresnel number of the stop's edge in a ghost, approximately; infinite where the edge is sharp.
   [[nodiscard]] double fresnel_number(const Ghost& ghost, double lambda_nm, const LightSource& light) const;
 
-  // What holds the textures; null without ringing, and before prepare().
+  // The section that holds the patterns; null without ringing, and before prepare().
   [[nodiscard]] const std::shared_ptr<screens::StopPatterns>& patterns() const { return patterns_; }
 
-  // Makes the screens of these: all of a ghost's wavelengths at once. False when cancelled.
+  // Makes the stop patterns of these ghosts; all wavelengths of a ghost must be in one call. Returns false if
+  // cancelled.
   bool prepare(std::span<const Wanted> wanted, const Context& context);
-  // Those of all ghosts and passes of a plan.
+  // The same for all ghosts and passes of a plan.
   bool prepare(const FramePlan& plan, const Context& context);
 
-  // Likewise the fringes of dirt's shadows; those of the iris need not be there.
+  // Makes the fringes of dirt's shadows; the iris's stop patterns are not needed. Returns false if cancelled.
   bool prepare_dirt(std::span<const Wanted> wanted, const std::shared_ptr<const DirtField>& dirt,
                     const Context& context);
 
-  // About how wide the fringes of dirt's shadows are in its plane, at the last crossing of the stop; 0 without ringing.
+  // About the width of the fringes of dirt's shadows in its plane, at the last crossing of the stop; 0 without ringing.
   [[nodiscard]] double dirt_unit_mm(const Wanted& wanted, bool on_front) const;
 
-  // Null: the iris is sharp, and so it is for what was not prepared.
+  // Null if the iris is sharp, or if the pattern was not prepared.
   [[nodiscard]] std::shared_ptr<const StopScreen> of(const Ghost& ghost, double lambda_nm,
                                                      const LightSource& light) const;
-  // Null: shadows of dirt are sharp, and so they are for what was not prepared.
+  // Null if shadows of dirt are sharp, or if they were not prepared.
   [[nodiscard]] std::shared_ptr<const DirtScreen> dirt_of(const Ghost& ghost, double lambda_nm,
                                                           const LightSource& light) const;
 

@@ -7,10 +7,10 @@
 namespace contrejour::screens {
 namespace {
 
-constexpr double kOff = 0.02;        // of the finest detail, that an outline may be off
+constexpr double kOff = 0.02;        // of the finest detail: error of outlines
 constexpr int kMostSteps = 48;       // of half a round end, or along a bent line
-constexpr double kNothing = 1e-12;   // of a polygon's area
-constexpr std::size_t kManyParts = 48;  // of shapes, over a polygon: it is halved, as each is cut by all before it
+constexpr double kNothing = 1e-12;   // relative to a polygon's area
+constexpr std::size_t kManyParts = 48;  // over a polygon: it is halved then, as each part is clipped by all before it
 constexpr int kDeepest = 10;
 
 double twice_area(std::span<const Vec2> p) {
@@ -23,7 +23,7 @@ void make_counter_clockwise(std::vector<Vec2>& p) {
   if (twice_area(p) < 0.0) std::reverse(p.begin(), p.end());
 }
 
-// Left of the line from a to b, or right of it for side = -1 (Sutherland & Hodgman 1974).
+// Keeps what is left of the line from a to b, or right of it for side = -1 (Sutherland & Hodgman 1974).
 void keep_beside(std::span<const Vec2> polygon, Vec2 a, Vec2 b, double side, std::vector<Vec2>& kept) {
   kept.clear();
   const Vec2 along = b - a;
@@ -35,14 +35,14 @@ void keep_beside(std::span<const Vec2> polygon, Vec2 a, Vec2 b, double side, std
   }
 }
 
-// Steps of an arc of so many radii of `finest`, from one end of half a circle to the other.
+// The number of steps of an arc around half a circle, for a radius in units of `finest`.
 int steps_of_end(double radius_over_finest) {
-  // A chord of pi / n leaves r (1 - cos(pi / 2 n)), about r (pi / 2 n)^2 / 2, half of it on either side.
+  // A chord over pi / n deviates by r (1 - cos(pi / 2 n)), about r (pi / 2 n)^2 / 2, of which half lies on either side.
   const double steps = 0.5 * std::numbers::pi * std::sqrt(0.25 * radius_over_finest / kOff);
   return static_cast<int>(std::clamp(std::ceil(steps), 2.0, static_cast<double>(kMostSteps)));
 }
 
-// A round end's corners lie so far out that it has its area: the first and the last stay at the line's width.
+// The radius of a round end's corners for which it has the right area; the first and the last keep the line's width.
 double end_radius(int steps) {
   const double k = steps - 2.0, whole = std::numbers::pi / std::sin(std::numbers::pi / steps);
   return k > 0.0 ? (std::sqrt(1.0 + k * whole) - 1.0) / k : 0.5 * whole;
@@ -70,7 +70,7 @@ ShadowCutter::Box ShadowCutter::box_of(std::span<const Vec2> polygon) {
   return box;
 }
 
-// outline_, in mm, cut to the region.
+// Adds outline_, which is in mm, clipped to the region.
 void ShadowCutter::add_part(const DirtStroke& stroke, std::uint64_t shape, const PlaneView& view) {
   const double determinant = cross(view.along_x, view.along_y);
   inside_.clear();
@@ -87,7 +87,7 @@ void ShadowCutter::add_part(const DirtStroke& stroke, std::uint64_t shape, const
   parts_.push_back({shape, stroke.opacity, inside_, box_of(inside_)});
 }
 
-// Straight, it is convex as it is; bent, in parts along its line, each with straight sides.
+// A straight stroke is convex; a bent one is divided along its line into parts with straight sides.
 void ShadowCutter::add_parts(const DirtStroke& stroke, std::uint64_t shape, const PlaneView& view, double finest_mm) {
   const double half = 0.5 * stroke.width_mm;
   const double sagitta = 0.125 * stroke.length_mm * std::abs(stroke.bend_rad) / finest_mm;
@@ -96,14 +96,14 @@ void ShadowCutter::add_parts(const DirtStroke& stroke, std::uint64_t shape, cons
   const int around = steps_of_end(half / finest_mm);
   const double out = end_radius(around);
   const Vec2 step{std::cos(std::numbers::pi / around), std::sin(std::numbers::pi / around)};
-  const auto add_end = [&](Vec2 middle, Vec2 from) {  // a left turn about it, without its first and last corner
+  const auto add_end = [&](Vec2 middle, Vec2 from) {  // a left turn about `middle`, without its first and last corner
     Vec2 to = from * out;
     for (int k = 1; k < around; ++k) {
       to = {to.x * step.x - to.y * step.y, to.x * step.y + to.y * step.x};
       outline_.push_back(middle + to);
     }
   };
-  // Chords about the line, not on one side of it: they are off by 2/3 of their sagitta in the mean.
+  // Chords lie on both sides of the line, since on one side their mean deviation would be 2/3 of their sagitta.
   const double aside = 2.0 / 3.0 * 0.125 * stroke.length_mm * stroke.bend_rad / (along * along);
   const auto at = [&](double share) { return stroke.at(share) - stroke.normal_at(share) * aside; };
   Vec2 low = at(-0.5), to_low = stroke.normal_at(-0.5) * half;
@@ -121,7 +121,8 @@ void ShadowCutter::add_parts(const DirtStroke& stroke, std::uint64_t shape, cons
   }
 }
 
-// A piece without what another part covers of it, and that, less what the other takes. False: they do not meet.
+// Divides a piece into what another part does not cover, and the covered rest, which the other part dims. Returns false
+// if they do not meet.
 bool ShadowCutter::cut_by(const Part& other, Piece piece, std::vector<Piece>& out) {
   const std::size_t before = out.size();
   const double nothing = kNothing * twice_area(region_);
@@ -142,7 +143,7 @@ bool ShadowCutter::cut_by(const Part& other, Piece piece, std::vector<Piece>& ou
   return true;
 }
 
-// pieces_: what a part blocks of the light that the parts before it let through.
+// Sets pieces_ to what a part blocks of the light that the parts before it transmit.
 void ShadowCutter::take_what_others_left(std::size_t part) {
   const Part& own = parts_[part];
   pieces_.clear();
@@ -165,7 +166,7 @@ void ShadowCutter::for_each(const DirtField& dirt, std::span<const PlaneView> cr
   cut(dirt, crossings, finest_mm, 0, visit);
 }
 
-// Of region_.
+// Visits the shadows on region_.
 void ShadowCutter::cut(const DirtField& dirt, std::span<const PlaneView> crossings, double finest_mm, int depth,
                        const Shadow& visit) {
   find_parts(dirt, crossings, finest_mm);

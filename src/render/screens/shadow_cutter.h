@@ -1,7 +1,7 @@
-// The shadows of dirt's shapes on a polygon, as polygons: what each takes from the light that those before it left. So
-// a renderer that adds up polygons draws them as light of negative sign, for what their outlines cost, and exactly.
-// Accuracy: places in the dirt's plane are linear in the polygon's coordinates; outlines are off by a 50th of
-// `finest_mm`, their areas right. Thread-safety: one object a thread.
+// Clips the shadows of dirt's shapes on a polygon to polygons: each with the light that a shape takes of what earlier
+// shapes left. A renderer that adds up polygons draws them as light of negative sign: exactly, and for the cost of
+// their outlines. Accuracy: points in the dirt's plane are taken as linear in the polygon's coordinates; outlines are
+// off by a 50th of `finest_mm`, with the right areas. Thread-safety: one object a thread.
 #pragma once
 
 #include <cstdint>
@@ -13,12 +13,12 @@
 
 namespace contrejour::screens {
 
-// How the plane of the dirt is seen from a polygon's coordinates (pixels, say), mm.
+// The map from a polygon's coordinates (pixels, for example) to the plane of the dirt, in mm.
 struct PlaneView {
   Vec2 origin, along_x, along_y;
 
   [[nodiscard]] Vec2 place(Vec2 p) const { return origin + along_x * p.x + along_y * p.y; }
-  // From three points that do not lie on a line.
+  // Determines the map from three points that do not lie on a line.
   [[nodiscard]] static PlaneView through(std::span<const Vec2, 3> points, std::span<const Vec2, 3> places_mm);
 };
 
@@ -26,8 +26,9 @@ class ShadowCutter {
  public:
   using Shadow = std::function<void(std::span<const Vec2> polygon, double blocked)>;
 
-  // visit(convex polygon, share of the polygon's light that is lost there); they add up. crossings: one view for each
-  // time that the light crosses the dirt's plane. polygon: convex. finest_mm: details of this size are seen.
+  // Calls visit(convex polygon, fraction of the polygon's light that is lost there); the fractions add up. crossings:
+  // one view for each time that the light crosses the dirt's plane. polygon: convex. finest_mm: the size of the
+  // smallest visible detail.
   void for_each(const DirtField& dirt, std::span<const PlaneView> crossings, std::span<const Vec2> polygon,
                 double finest_mm, const Shadow& visit);
 
@@ -39,7 +40,7 @@ class ShadowCutter {
       return low.x < o.high.x && o.low.x < high.x && low.y < o.high.y && o.low.y < high.y;
     }
   };
-  // A convex part of a shape, cut to the polygon, in its coordinates.
+  // A convex part of a shape, clipped to the polygon, in its coordinates.
   struct Part {
     std::uint64_t shape = 0;  // its index and crossing
     double opacity = 1.0;

@@ -1,6 +1,7 @@
-// Light in 16 bits, so that two neighbours in a table are one word: a float above 0 with 4 bits of exponent and 12 of
-// mantissa, which a shift and a sum turn into a float of 32 bits, and from which none() is subtracted.
-// Accuracy: 2^-13 of the light plus none(), which is 2^-15 of the largest at the most. 0 is 0. Thread-safety: a value.
+// Packs irradiance in 16 bits, so that two neighbours in a table are one word. The code is a positive float with 4 bits
+// of exponent and 12 of mantissa: a shift and a sum turn it into a 32-bit float, from which none() is subtracted.
+// Accuracy: 2^-13 of the light plus none(), which is at most 2^-15 of the largest value. 0 is exact. Thread-safety: a
+// value.
 #pragma once
 
 #include <algorithm>
@@ -11,7 +12,7 @@ namespace contrejour::screens {
 
 class ShortLight {
  public:
-  static constexpr int kShift = 11;  // of the bits, to where a float has them
+  static constexpr int kShift = 11;  // from the code's bits to their position in a float
 
   // For values from 0 to `largest`.
   explicit ShortLight(float largest = 0.0F) {
@@ -26,12 +27,12 @@ class ShortLight {
   [[nodiscard]] float light(std::uint16_t coded) const {
     return std::bit_cast<float>((static_cast<std::int32_t>(coded) << kShift) + lowest_) - none();
   }
-  [[nodiscard]] std::int32_t lowest() const { return lowest_; }  // the bits of a float that 0 stands for
+  [[nodiscard]] std::int32_t lowest() const { return lowest_; }  // the bits of the float that 0 represents
   [[nodiscard]] float none() const { return std::bit_cast<float>(lowest_); }
 
  private:
   static constexpr int kMantissa = 23;        // of a float, bits
-  static constexpr float kRoom = 1.0005F;     // for `none`, and for rounding up
+  static constexpr float kRoom = 1.0005F;     // so that `none` and rounding up do not overflow
   static constexpr std::int32_t kHalfStep = 1 << (kShift - 1);
   std::int32_t lowest_;
 };

@@ -15,9 +15,9 @@ namespace {
 
 constexpr int kMaskSamples = 256;     // across the stop
 constexpr int kPatternSide = 192;
-constexpr double kRungsPerOctave = 32.0;  // neighbours' fringes are 1 per cent apart
+constexpr double kRungsPerOctave = 32.0;  // fringes of successive steps differ by 1 per cent
 constexpr double kSpreadStep = 0.002;
-constexpr double kFade = 0.9;  // of the extent, from where on a pattern fades into the dark about it
+constexpr double kFade = 0.9;  // of the extent, beyond which a pattern fades to zero
 
 constexpr int kFractionalSide = 512;
 constexpr double kFractionalExtent = 4.0 / 3.0;  // stop radii
@@ -31,7 +31,7 @@ int rung_of(double fresnel_number) {
 PupilMask mask_of(const Iris& iris, const MaskGrid& grid, const Context& context) {
   if (!iris.field) return make_mask(grid, IrisOpening(iris), 1.0, context);
   PupilMask mask = make_mask(grid, [&](Vec2 p) { return iris_distance(iris, p); }, context);
-  // A wave's amplitude is the root of the share of light that passes (hullin2011 3.2).
+  // The amplitude of a wave is the root of the transmittance (hullin2011 3.2).
   for (std::size_t k = 0; iris.field->has_tones() && k < mask.amplitude.size(); ++k) {
     const auto side = static_cast<std::size_t>(grid.side);
     const Vec2 place = grid.place_mm(static_cast<int>(k % side), static_cast<int>(k / side));
@@ -40,7 +40,7 @@ PupilMask mask_of(const Iris& iris, const MaskGrid& grid, const Context& context
   return mask;
 }
 
-// Round, dark at its rim, and as bright in all as the opening.
+// Fades the pattern to zero at a round rim, and scales its flux to that of the opening.
 PatternTexture trimmed(int side, double extent, std::vector<float> samples, double open_area) {
   double sum = 0.0;
   const double pitch = 2.0 * extent / side;
@@ -58,7 +58,7 @@ PatternTexture trimmed(int side, double extent, std::vector<float> samples, doub
   return {side, extent, std::move(samples)};
 }
 
-// Rungs of a band: F goes as 1 / lambda, an even band of that spread about the middle.
+// The steps of the Fresnel grid that a band covers: F varies as 1 / lambda, over a uniform band with that spread.
 std::pair<int, int> rungs_of(int rung, double spread) {
   const double half_band = std::min(std::numbers::sqrt3 * spread, 0.9);
   return {rung - static_cast<int>(std::lround(kRungsPerOctave * std::log2(1.0 + half_band))),

@@ -1,6 +1,6 @@
-// The diffraction patterns of one iris, a section of RenderCache: by Fresnel number on a ladder, by band of
-// wavelengths, by fractional order. docs/physics/diffraction.md. Thread-safety: band() from any thread, as long as no
-// pattern is made; all else from one thread at a time.
+// The diffraction patterns of one iris, a section of RenderCache: on a grid of Fresnel numbers, by band of wavelengths,
+// or by fractional order. See docs/physics/diffraction.md. Thread-safety: band() from any thread while no pattern is
+// made; all else from one thread at a time.
 #pragma once
 
 #include <complex>
@@ -29,32 +29,33 @@ class StopPatterns {
   using Profile = std::shared_ptr<const EdgeProfile>;
   using Band = std::shared_ptr<const BandPattern>;
 
-  // From here on edges' fringes do not depend on one another, nearly.
+  // From this Fresnel number on, the fringes of different edges are nearly independent.
   static constexpr double kEdgesFrom = 48.0;
-  // Wavelengths that are drawn together have patterns together, up to this.
+  // Wavelengths that are drawn together all have patterns, up to this Fresnel number.
   static constexpr double kHighestFresnel = 128.0;
-  // Below, a ghost is its own far field, smaller than a few pixels or so faint that its shape is not seen.
+  // Below this Fresnel number a ghost is its own far field: smaller than a few pixels, or so faint that its shape is
+  // not visible.
   static constexpr double kLowestFresnel = 0.5;
 
-  // A pattern for one Fresnel number, the mean over a band of wavelengths.
+  // A pattern for one Fresnel number, averaged over a band of wavelengths.
   struct Wanted {
-    double fresnel_number = 1.0;  // at the band's middle; taken within the range
-    double spread = 0.0;          // of the band's wavelengths over their mean, root mean square
+    double fresnel_number = 1.0;  // at the band's middle; clamped to the range
+    double spread = 0.0;          // RMS spread of the band's wavelengths over their mean
   };
 
   explicit StopPatterns(const Iris& iris);
 
-  // Makes what is not there yet, on all threads. False when cancelled.
+  // Makes the patterns that do not exist yet, on all threads. Returns false if cancelled.
   bool make(std::span<const Wanted> wanted, const Context& context);
   [[nodiscard]] Texture pattern(const Wanted& wanted) const;  // null unless made
   [[nodiscard]] Profile profile(double spread);
-  // |F^order U|^2, the mean over some orders. Null when cancelled.
+  // F^order U|^2, averaged over some orders. Null if cancelled.
   [[nodiscard]] Texture fractional(std::span<const double> orders, const Context& context);
 
-  // Some of the textures above as one, made when first asked for. Any thread may ask, as long as no pattern is made.
+  // Combines some of the textures above; made when first requested. Any thread may call it while no pattern is made.
   [[nodiscard]] Band band(std::span<const PatternTexture* const> parts);
 
-  // Of pictures of the stop plane; fringes of edges take next to nothing.
+  // The number of stored patterns; fringes of edges need little memory.
   [[nodiscard]] std::size_t count() const { return rungs_.size() + patterns_.size() + by_orders_.size(); }
 
  private:

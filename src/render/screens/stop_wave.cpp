@@ -11,8 +11,8 @@
 namespace contrejour::screens {
 namespace {
 
-// Slopes are dy per unit of way along the axis, in the direction of travel (first_order.cpp); a curvature seen from
-// behind changes its sign.
+// Slopes are dy per unit of distance along the axis, in the direction of travel (first_order.cpp); the sign of a
+// curvature changes when light travels backwards.
 double curvature_of(const PathStep& step, Section section) {
   return step.shape ? step.shape->vertex_curvature(section) : step.curvature_per_mm;
 }
@@ -31,13 +31,14 @@ Abcd across(double from_z_mm, double to_z_mm, int direction) {
   return {1.0, direction * (to_z_mm - from_z_mm), 0.0, 1.0};
 }
 
-// To the tangent plane of each step, behind which it acts; from the sensor when there is no more.
+// A ray at the tangent plane of the current step, behind which the step acts; after the last step, at the sensor.
 struct Ray {
   double height = 0.0, slope = 0.0;
 };
 Ray along(const Abcd& m, Ray r) { return {m.a * r.height + m.b * r.slope, m.c * r.height + m.d * r.slope}; }
 
-// What comes behind a plane: the ray from the light's middle there, and the matrix from there to the sensor.
+// What follows behind a plane: the height there of the ray from the light's centre, and the matrix from there to the
+// sensor.
 struct Crossing {
   double height = 1.0, index = 1.0;
   Abcd to_sensor;
@@ -48,7 +49,7 @@ struct Walk {
   Crossing front;
   std::vector<Crossing> stops;
 
-  // A + B c, c the curvature of the light's wave there: the ray from the light's middle, by its height.
+  // A + B c, with c the curvature of the light's wave there: the ratio of heights of the ray from the light's centre.
   [[nodiscard]] double magnification(const Crossing& at) const { return height_at_sensor / at.height; }
 };
 
@@ -59,7 +60,7 @@ Walk walk(const OpticalPath& path, double light_distance_mm, Section section) {
     const PathStep& step = path.steps[k];
     const bool last = k + 1 == path.steps.size();
     if (step.event == PathEvent::Stop) out.stops.push_back({ray.height, step.n_in, {}});
-    // A reflection turns the light round: the way to the next surface has that one's direction.
+    // A reflection reverses the light: the distance to the next surface has the direction of that one.
     const int direction = last ? +1 : path.steps[k + 1].direction;
     const double next_z_mm = last ? path.sensor_z_mm : path.steps[k + 1].z_mm;
     const Abcd on = across(step.z_mm, next_z_mm, direction) * acting(step, section);
@@ -96,7 +97,7 @@ bool one_section_tells_all(const OpticalPath& path) {
 
 }  // namespace
 
-// Without axial symmetry: the mean of the effective distances (a^2 / (lambda F)) of the two sections.
+// Without axial symmetry this is the mean of the effective distances (a^2 / (lambda F)) of the two sections.
 StopWave stop_wave(const OpticalPath& path, double light_distance_mm) {
   const StopWave in_y = wave_in(path, light_distance_mm, Section::Y);
   if (one_section_tells_all(path)) return in_y;
