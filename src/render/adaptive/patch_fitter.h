@@ -73,7 +73,7 @@ class PatchFitter {
   const Frame& frame_;
   int deepest_;
   double unseen_;
-  int boxes_ = 0;  // so far
+  int boxes_ = 0;  // indices of boxes in use
 };
 
 }  // namespace contrejour::adaptive

@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kUnshadowedShare = 0.15;  // of the frame's squared error: for ghosts drawn without shadows
 constexpr double kBlurOfUnit = 0.5;  // of a fringe's width: narrower shapes are blurred at least to this width
-constexpr double kRoom = 0.07;  // width of the margin in an item's boxes around its light (item.cpp)
+constexpr double kRoom = 0.07;  // of an item's boxes: margin around its light (item.cpp)
 
 // The box in the plane of the dirt that the item's light crosses, approximately, in mm.
 Rectangle crossed(const Scene& scene, const Item& item) {

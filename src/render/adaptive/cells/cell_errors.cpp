@@ -21,7 +21,7 @@ constexpr double kFoldBound = 0.5;  // fraction of the largest possible error th
 constexpr double kShownOfShared =
     0.3;  // fraction of the displacement of shared sides that shows where edges clip their cells
 constexpr double kMostBend = 0.04;  // largest displacement of a clipping edge, over the cell's size
-constexpr double kMostOff = 0.01;   // the same, of what corners in the middles of sides leave of it
+constexpr double kMostOff = 0.01;   // the same, after any corners in the middles of sides reduce it
 constexpr double kLeftByBend = 0.25;  // fraction of a curve's distance from its chord, left by a corner in its middle
 constexpr double kChordShare = 0.5;  // fraction of a cell's error that chords in place of an arc may make
 // The largest distance of chords from their arc, whatever the budget: in ghosts brighter than kFacetLevel larger ones
@@ -163,7 +163,7 @@ double CellPainter::squared_error(const Mesh& mesh, const Cell& cell, CellMeasur
   if (state == State::Cut)
     error += kEdgeBound * along_edges(left * m.limit * m.longest_px, iris_.is_picture() ? kPictureEdges : 1.0);
   if (cell.screen.part == ScreenPart::Varied && error < m.most &&
-      !sees_by_parts(mesh, cell, m.longest_px)) {  // soft ones
+      !sees_by_parts(mesh, cell, m.longest_px)) {  // cells drawn in parts use no map
     if (!m.map_error) m.map_error = map_error(mesh, cell, m.longest_px);
     const double map_off = *m.map_error * m.longest_px;
     const double shown = map_off < kLittleOff_px ? kSeenOfLittle : 1.0;

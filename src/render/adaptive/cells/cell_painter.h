@@ -226,7 +226,7 @@ class CellPainter {
   double screen_unit_ = 1.0;
   SeenDirt dirt_;
   screens::ShadowCutter shadows_;
-  std::map<std::pair<const screens::BandScreen*, int>, const EdgeTable*> tables_;  // of screens, by width
+  std::map<std::pair<const screens::BandScreen*, int>, const EdgeTable*> tables_;  // of stop patterns, by pixel width
   std::vector<std::uint16_t> active_;
   PlacedPolygon rest_, strip_;  // scratch for cutting along edges
   std::vector<Corner> shape_, outline_;  // scratch for drawing

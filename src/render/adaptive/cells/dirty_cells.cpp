@@ -10,7 +10,7 @@ namespace contrejour::adaptive {
 namespace {
 
 constexpr double kDirtDisc = 1.2;  // radius of a curved cell over that of its vertices, in the dirt's plane
-constexpr double kMostEdges = 8.0;  // edges over a cell's length in pixels, at most: more are not visible
+constexpr double kMostEdges = 8.0;  // total length of edges over the cell's length, at most: more are not visible
 
 using Places = std::array<Vec2, 3>;
 

@@ -97,7 +97,7 @@ struct PixelsOf {
     if constexpr (hn::MaxLanes(d) == kQuad)
       return quad;
     else
-      return ZeroExtendVector(d, quad);  // by its arguments: scalars have none
+      return ZeroExtendVector(d, quad);  // found by its arguments' types: scalar targets lack it
   }
   template <class PartOf>
   static HWY_INLINE PixelsOf made_of(const PartOf& part_of) {

@@ -85,7 +85,7 @@ HWY_INLINE Quad to_floats(const Doubles& q) {
   if constexpr (Doubles::kParts == Quad::kParts) {
     for (std::size_t p = 0; p < Quad::kParts; ++p) out.part[p] = part(p);
   } else {
-    out.part[0] = Combine(Quad::Tag(), part(1), part(0));  // by its arguments: scalars have none
+    out.part[0] = Combine(Quad::Tag(), part(1), part(0));  // found by its arguments' types: scalar targets lack it
   }
   return out;
 }

@@ -49,10 +49,10 @@ struct CoverSums {
   int width = 0, height = 0;
   Changed begun, ended;  // by edges with the polygon on their right, and by the others
 
-  [[nodiscard]] static constexpr bool is_carried() { return false; }  // TileSums has another answer
+  [[nodiscard]] static constexpr bool is_carried() { return false; }  // unlike TileSums
   // Sets the columns, from first to last, that contain the polygon. All sums must be 0.
   void set_columns(int first, int last) {
-    constexpr int kBeyond = 2;  // edges add to as many columns after their own
+    constexpr int kBeyond = 2;  // number of columns after its own to which an edge adds
     first_ = first / kGroup * kGroup;
     pitch_ = (last + kBeyond - first_) / kGroup * kGroup + 2 * kGroup;
     if (room_ == nullptr) room_ = std::make_unique<Room>();
@@ -88,7 +88,7 @@ struct TileSums {
   std::array<std::array<double, kLine>, TileGrid::kHeight> carried{};  // by row: the line left of the first column
   CoverSums cover;
 
-  [[nodiscard]] bool is_carried() const { return x0 > 0; }  // what edges left of it changed
+  [[nodiscard]] bool is_carried() const { return x0 > 0; }  // whether it receives what edges to its left changed
   [[nodiscard]] int blocks() const { return (width + kBlock - 1) / kBlock; }
   // The change of the line after a block.
   [[nodiscard]] double* change_after(int row, int block) {
@@ -127,7 +127,7 @@ struct TileSums {
     std::array<float, kPixel * kPixelPitch * TileGrid::kHeight> values{};
   };
   std::unique_ptr<Room> room_ = std::make_unique<Room>();
-  std::unique_ptr<Light> light_;  // made with the first polygon behind a screen
+  std::unique_ptr<Light> light_;  // made with the first polygon behind a stop pattern
 };
 
 }  // namespace contrejour::adaptive
