@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kSharpShare = 0.1;  // of the error that a separate image may save: error of leaving a blur out
 constexpr double kPicture_px = 60000.0;  // pixels whose cost equals the constant cost of an image
-constexpr double kPixelsCost = 0.3;  // cost of the frame's own pixels, over the error that an image may save
+constexpr double kPixelsCost = 0.3;  // cost of an image in the frame's pixels, relative to the allowed error
 
 struct Group {
   bool is_sharp = false;

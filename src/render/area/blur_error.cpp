@@ -25,7 +25,7 @@ int safe_level(const BlurredGhost& g) {
   return level_of_width(std::max(width, g.blur_px.y / kLongest));
 }
 
-// Squared errors along a pixel's length of an edge, over the square of the edge's height:
+// The following errors are squared, for a pixel's length of an edge, and relative to the square of the edge's height.
 
 // Drawn in pixels whose width is 1 / u of the radius of the disc that blurs the edge. The formula is fitted to straight
 // edges in all positions between pixels, to within a third for u from 0.8 to 10 (docs/physics/area-lights.md). The

@@ -1,4 +1,4 @@
-// The errors that a blurred ghost's image may save work with: errors of coarser pixels, or of another ghost's blur.
+// The errors of a blurred ghost's image that is drawn with less work: in coarser pixels, or with another ghost's blur.
 #pragma once
 
 #include <span>

@@ -37,7 +37,7 @@ struct GhostBlur {
 [[nodiscard]] GhostBlur blur_of(const GhostMotion& motion, const LightPiece& piece, const Frame& frame, Vec2 shift_mm,
                                 double value);
 
-// The same ghost, blurred by the soft piece (light_pieces.h) with the same covariance as this piece.
+// The same ghost, blurred by the soft piece (light_pieces.h) as widely as by this piece.
 [[nodiscard]] GhostBlur softened(GhostBlur ghost, const LightPiece& piece);
 
 // The squared error, summed over the frame's pixels in squares of the peak, of blurring the ghost by this map. For

@@ -12,8 +12,9 @@ constexpr int kMostPoints = 64;  // of them along a side
 constexpr int kHalvings = 6;  // bisections, to find the scale of a narrow kernel
 constexpr double kTentVariance = 1.0 / 6.0;  // of a point spread over its four nearest pixels, in squares of a pixel
 
-// Makes the map narrower by the variance that the tents and later steps add. The level's pixels add none: drawing in
-// squares widens the image, and upsampling, which takes the means over squares for values, narrows it by as much.
+// Makes the map narrower by the variance that the tents and later steps add. The level's pixels add none: drawing
+// averages over squares, which widens the image, and upsampling, which takes values as averages over squares, undoes
+// that.
 LinearMap narrowed(const LightPiece& piece, const LinearMap& map, double added) {
   const LinearMap wanted = mapped_covariance(map, piece.covariance);
   const LinearMap root = square_root(wanted);
