@@ -30,7 +30,7 @@ struct BandScreen {
   // Dark or uniform where all parts are.
   [[nodiscard]] ScreenView over(Vec2 middle, double radius) const;
 
-  double unit = 0.1;  // in stop radii: few fringes are finer
+  double unit = 0.1;  // in stop radii: no fringe is much finer
   // The next three describe edges' fringes, which are negligible beyond these distances outside and inside a bound.
   const EdgeScreen* edges = nullptr;  // the first part, if all parts have edges' fringes
   double dark_beyond = 0.0, level_within = 0.0;

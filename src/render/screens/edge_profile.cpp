@@ -14,7 +14,8 @@ constexpr double kShadowTaper = 1.5, kLightTaper = 8.0;  // where the table fade
 constexpr int kBandSamples = 33;
 constexpr double kCorrectedOver = 8.0;  // width on the light's side to which the light beyond the ends is added
 
-// U|^2 of one wavelength: 1/2 ((C + 1/2)^2 + (S + 1/2)^2), with the integrals summed step by step (Born & Wolf 8.7.3).
+// Computes |U|^2 at one wavelength: 1/2 ((C + 1/2)^2 + (S + 1/2)^2), with the integrals summed step by step (Born &
+// Wolf 8.7.3).
 class OneWavelength {
  public:
   OneWavelength(double first, double last) : first_(first) {

@@ -1,8 +1,9 @@
 // A table of the irradiance behind a long straight edge: 0 in the dark, 1 far inside the light, with fringes between,
 // of which the first reaches 1.370 (Born & Wolf 8.7.3). Positions are t = d sqrt(2 F), with d the distance into the
 // light in stop radii. A band of wavelengths is averaged, which leaves the first fringes and blurs the others.
-// Accuracy: 1e-4 where the fringes of one wavelength are not tapered, which begins at t = 24; the light within the table's
-// ends equals the total. Thread-safety: constant after construction.
+//
+// Accuracy: 1e-4 where the fringes of one wavelength are not tapered, which begins at t = 24; the light within the
+// table's ends equals the total. Thread-safety: constant after construction.
 #pragma once
 
 #include <vector>
@@ -14,7 +15,7 @@ class EdgeProfile {
   static constexpr double kDarkBelow = -6.0;  // 0.14 per cent at one edge, tapered off
   static constexpr double kLevelAbove = 32.0;
 
-  // spread: RMS of a band's wavelengths over their mean; 0: one wavelength.
+  // spread: RMS deviation of a band's wavelengths from their mean, over the mean; 0: one wavelength.
   explicit EdgeProfile(double spread);
 
   // The mean over `width` about t; width may be 0.

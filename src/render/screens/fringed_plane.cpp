@@ -119,7 +119,7 @@ FringedPlane::Speck FringedPlane::speck_of(double width) const {
 }
 
 // Sets how far a shape's wave is strong enough to be drawn, and the light that it takes there: the integral over the
-// plane of 1 - |1 - a D|^2, with D the diffracted wave of the shape's area. Returns false if the wave is too weak
+// plane of 1 - |1 - a D|^2, where the wave D integrates to the shape's area. Returns false if the wave is too weak
 // everywhere.
 bool FringedPlane::set_reach(Shape& shape, std::map<int, Speck>& specks, double& taken_mm2) const {
   const DirtStroke& stroke = shape.stroke;
@@ -238,7 +238,8 @@ void FringedPlane::sort_into_cells() {
   dirty_ = CellFlags(cells_, extent_mm_, [&](int x, int y) { return !shapes_about(x, y).empty(); });
 }
 
-// The transmittance is the squared product of waves minus the light that is spread over the plane, and not negative.
+// The transmittance relative to the level: the squared product of the waves plus the light that is spread over the
+// plane (level_ - 1, which may be negative), and not below zero.
 double FringedPlane::passed(Wave amplitude) const {
   return std::max(0.0, (static_cast<double>(std::norm(amplitude)) + level_ - 1.0) / level_);
 }

@@ -49,7 +49,7 @@ class StopPatterns {
   bool make(std::span<const Wanted> wanted, const Context& context);
   [[nodiscard]] Texture pattern(const Wanted& wanted) const;  // null unless made
   [[nodiscard]] Profile profile(double spread);
-  // F^order U|^2, averaged over some orders. Null if cancelled.
+  // Returns |F^order U|^2, averaged over some orders. Null if cancelled.
   [[nodiscard]] Texture fractional(std::span<const double> orders, const Context& context);
 
   // Combines some of the textures above; made when first requested. Any thread may call it while no pattern is made.
