@@ -45,7 +45,7 @@ Cell CellPainter::cell_at(const BoxMesh& of, const MeshSquare& square) {
 }
 
 // Whether a straight line separates all of the cell's crossings of the stop from its rim. Crossings that are all
-// outside the stop need not miss it, since they may lie all around it.
+// outside the stop may still surround it.
 bool CellPainter::misses_stop(const Mesh& mesh, const Cell& cell, int crossing) {
   const Mesh::Field& x = mesh.field(PatchLayout::kStop + 2 * crossing);
   const Mesh::Field& y = mesh.field(PatchLayout::kStop + 2 * crossing + 1);

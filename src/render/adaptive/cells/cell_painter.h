@@ -21,8 +21,8 @@ namespace contrejour::adaptive {
 
 class CellPainter {
  public:
-  // budget: of each band. Its squared error is the most that all cells together may make, unless they are many times
-  // more than few_cells. room: scratch memory for cells.
+  // budget: of each band. All cells together make no more than its squared error, as long as there are at most
+  // kManyCells times few_cells of them. room: scratch memory for cells.
   CellPainter(const IrisShape& iris, const Frame& frame, const ErrorBudget& budget, double few_cells, BoxCells& room,
               PolygonList& out)
       : iris_(iris), width_(frame.width), height_(frame.height), budget_(budget.squared_error), few_cells_(few_cells),
@@ -32,8 +32,8 @@ class CellPainter {
   void choose(const Patch& patch, const MeshPlace& place) { choose(patch, place, 0, nullptr); }
   void draw();
 
-  // Says of the following patches whether their straight lines are bent in the entrance plane, so that their sides
-  // would leave seams next to another box.
+  // Sets whether straight lines of the following patches are bent in the entrance plane: their sides would then leave
+  // seams next to another box.
   void sides_bend(bool bend) { sides_bend_ = bend; }
   // From here on the light passes a stop pattern: stop coordinates are in units of `unit` stop radii.
   void stand_behind(std::shared_ptr<const screens::BandScreen> screen, double unit) {
@@ -57,8 +57,8 @@ class CellPainter {
     std::array<std::array<Vec2, 3>, kMaxStopCrossings> place_mm;
     std::size_t crossings = 0;
   };
-  // What a polygon's light has passed that does not transmit all of it alike. With dirt, the polygon lies within its
-  // triangle.
+  // What the light of a polygon has passed whose transmittance varies over the polygon. If dirt is set, the polygon
+  // lies within its triangle.
   struct Behind {
     const StopMap* screen = nullptr;
     const DirtTriangle* dirt = nullptr;
