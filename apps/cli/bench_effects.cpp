@@ -55,7 +55,8 @@ void add_bench_effects(CLI::App& bench, Action& action) {
       ->check(CLI::Range(1, 1000));
   add_parameters(*command, options->values, {"size", "threads"});
   command->footer(
-      "planar-50 at f/8 with 7 blades and one light; the sun beside a point with other lenses too; many lights with the\n"
+      "planar-50 at f/8 with 7 blades and one light; the sun beside a point with other lenses too; many lights with "
+      "the\n"
       "Heliar at 64x36. Targets in ms are for two cores.\n\n"
       "Examples:\n"
       "  contrejour bench effects --threads 2\n"

@@ -30,8 +30,8 @@ struct PartedLight {
 // One division of a light, with the ghosts that are drawn with it.
 struct SurveyedLight {
   PartedLight parts;
-  std::vector<std::size_t> ghosts;            // of the plan
-  std::vector<GhostBlur> wholes;              // one for each of `ghosts`: with the light undivided
+  std::vector<std::size_t> ghosts;  // of the plan
+  std::vector<GhostBlur> wholes;  // one for each of `ghosts`: with the light undivided
   std::vector<std::vector<GhostBlur>> blurs;  // by piece, then as in `ghosts`
 };
 
@@ -51,7 +51,7 @@ class AreaSurvey {
 
  private:
   using Cut = std::pair<std::size_t, int>;  // a light, and its pieces across
-  struct Place {                            // a ghost of a piece
+  struct Place {  // a ghost of a piece
     std::size_t light = 0, piece = 0, ghost = 0;
   };
   [[nodiscard]] std::vector<GhostMotion> motions(std::span<const PartedLight> lights,

@@ -22,7 +22,7 @@ struct BlockTerm {
 // and after it.
 [[nodiscard]] bool is_rough(const float* above, const float* block, const float* below, float most);
 
-void add_block(std::span<const BlockTerm> terms, float* to);          // one weight for all channels
+void add_block(std::span<const BlockTerm> terms, float* to);  // one weight for all channels
 void add_coloured_block(std::span<const BlockTerm> terms, float* to);  // a weight for each channel
 
 }  // namespace contrejour::area

@@ -25,8 +25,8 @@ struct GhostMotion {
   // point of whatever bounds the ghost: at the ray in the middle of the pupil.
   LinearMap shift_mm = kNowhere;
   LinearMap spread_mm = kNowhere;  // image, in sensor mm, of the unit circle: an ellipse as large as the ghost
-  Vec2 at_mm;                      // centroid of the light
-  double flux_mm2 = 0.0;           // times the light's irradiance; 0: no ray gets through, or nearly does
+  Vec2 at_mm;  // centroid of the light
+  double flux_mm2 = 0.0;  // times the light's irradiance; 0: no ray gets through, or nearly does
   bool is_open = false;
   double outside = 0.0;  // if not open: excess of the least blocked ray over what blocks it
   // The relative change of the pupil's area for lights a unit to the right and up.

@@ -28,10 +28,10 @@ struct GhostPupil {
   // near the centroid of all rays that get through.
   Vec2 at_mm;
   LinearMap covariance = kNowhere;  // of the starts of all that get through, mm^2
-  double area_mm2 = 0.0;            // area that these starts fill
-  double border_mm = 0.0;           // approximate length of its border
-  std::vector<Vec2> inside_mm;      // starts of some of them, evenly spaced
-  std::vector<BorderRay> border;    // some of the rays at the border, evenly spaced
+  double area_mm2 = 0.0;  // area that these starts fill
+  double border_mm = 0.0;  // approximate length of its border
+  std::vector<Vec2> inside_mm;  // starts of some of them, evenly spaced
+  std::vector<BorderRay> border;  // some of the rays at the border, evenly spaced
 
   [[nodiscard]] bool is_whole() const { return is_open && bound != kRims && bound_share > 0.85; }
 };

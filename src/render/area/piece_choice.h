@@ -27,7 +27,7 @@ struct GhostOfArea {
 struct AreaBudget {
   double peak = 0.0;
   double squares = 0.0;  // summed over the frame, in squares of the peak
-  double flux = 0.0;     // of all ghosts
+  double flux = 0.0;  // of all ghosts
 };
 
 // Whether the ghost may differ so much from what the light's middle predicts that the light's parts must be examined.

@@ -31,8 +31,8 @@ class ShortLight {
   [[nodiscard]] float none() const { return std::bit_cast<float>(lowest_); }
 
  private:
-  static constexpr int kMantissa = 23;        // of a float, bits
-  static constexpr float kRoom = 1.0005F;     // so that `none` and rounding up do not overflow
+  static constexpr int kMantissa = 23;  // of a float, bits
+  static constexpr float kRoom = 1.0005F;  // so that `none` and rounding up do not overflow
   static constexpr std::int32_t kHalfStep = 1 << (kShift - 1);
   std::int32_t lowest_;
 };

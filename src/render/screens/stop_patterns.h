@@ -40,7 +40,7 @@ class StopPatterns {
   // A pattern for one Fresnel number, averaged over a band of wavelengths.
   struct Wanted {
     double fresnel_number = 1.0;  // at the band's middle; clamped to the range
-    double spread = 0.0;          // RMS spread of the band's wavelengths over their mean
+    double spread = 0.0;  // RMS spread of the band's wavelengths over their mean
   };
 
   explicit StopPatterns(const Iris& iris);
@@ -69,7 +69,7 @@ class StopPatterns {
   Iris iris_;
   PupilMask mask_;
   double open_area_;  // stop radii
-  struct Rung {       // one wavelength
+  struct Rung {  // one wavelength
     double extent = 0.0;
     std::vector<float> samples;
   };

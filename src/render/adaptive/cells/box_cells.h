@@ -97,7 +97,7 @@ struct BoxMesh {
 // A corner of a cell's polygon: a vertex of its mesh, or a corner of a finer mesh between two of its vertices.
 struct CellCorner {
   Vec2 position;  // relative to the mesh's origin
-  Vec2 uv;        // in the cell
+  Vec2 uv;  // in the cell
   std::size_t vertex = 0, next = 0;
   float way = 0.0F;  // fraction of the distance from `vertex` to `next`
 

@@ -15,10 +15,10 @@ namespace {
 constexpr double kWidthsPerOctave = 2.0;  // widths of pixels for which edges' tables are made
 constexpr double kScreenDisc = 1.2;  // radius of a curved cell over its vertices' distance from its middle, in the stop
 constexpr double kPixelReach = 0.75;  // pixels: slightly more than from a pixel's middle to its corners
-constexpr double kExact = 1e-3;   // softness of the map from which a cell's error is measured, over the cell's size
+constexpr double kExact = 1e-3;  // softness of the map from which a cell's error is measured, over the cell's size
 constexpr double kOnePlace_px = 1.0;  // cells no longer than this are points to pixels
-constexpr double kCoarse = 0.5;   // stop radii a pixel: four pixels or fewer cover the stop
-constexpr double kPart = 0.5;     // stop radii, and
+constexpr double kCoarse = 0.5;  // stop radii a pixel: four pixels or fewer cover the stop
+constexpr double kPart = 0.5;  // stop radii, and
 constexpr double kPart_px = 0.4;  // pixels, across a part of a small cell
 constexpr double kEven = 5000.0;  // times the negligible level: differences between parts below this are ignored
 constexpr double kWorthCutting_px = 400.0;  // area below which a cell is not cut, and all of its pixels are looked up

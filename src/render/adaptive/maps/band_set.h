@@ -36,7 +36,7 @@ class BandSet {
   GhostTracers& tracers_;
   std::vector<Band> bands_;
   std::vector<std::size_t> traced_;  // passes
-  std::vector<PatchBlend> blends_;   // one a band; none: there is one band
+  std::vector<PatchBlend> blends_;  // one a band; none: there is one band
 };
 
 }  // namespace contrejour::adaptive

@@ -13,7 +13,7 @@
 namespace contrejour::adaptive {
 
 struct FirstRays {
-  std::vector<RaySheet> sheets;                  // one a pass, without weights; no nodes: not traced
+  std::vector<RaySheet> sheets;  // one a pass, without weights; no nodes: not traced
   std::vector<std::vector<float>> transmission;  // one a pass, at the nodes: traced or interpolated
   // One a pass: the ratio of its transmittances to those that light_factors() interpolates, common to all nodes; 1 if
   // it was traced.
