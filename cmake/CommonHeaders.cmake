@@ -28,7 +28,7 @@ function(contrejour_give_common_headers folder compiled)
     get_target_property(type ${target} TYPE)
     get_target_property(without ${target} DISABLE_PRECOMPILE_HEADERS)
     if(type MATCHES "LIBRARY|EXECUTABLE" AND NOT without)
-      # Of a program too: the headers are compiled in one way.
+      # Programs get -fPIC as well, because the headers are compiled once, with it.
       set_target_properties(${target} PROPERTIES POSITION_INDEPENDENT_CODE OFF)
       target_compile_options(${target} PRIVATE -fPIC "SHELL:-include-pch ${compiled}")
       add_dependencies(${target} common_headers)

@@ -8,8 +8,8 @@ else()
   add_compile_options(-ffp-contract=off)
 endif()
 
-# Files that are compiled as one (JumboBuild.cmake) see each other's unnamed namespaces. A function there that has the name
-# of one in a header hides it, and a double given to it would become an integer without a word.
+# Files that are compiled as one (JumboBuild.cmake) see each other's unnamed namespaces. A function in one of these hides
+# a function of the same name in a header, and could convert a double to an integer silently.
 if(PROJECT_IS_TOP_LEVEL AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   add_compile_options(-Werror=float-conversion)
 endif()

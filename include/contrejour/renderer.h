@@ -19,7 +19,7 @@
 
 namespace contrejour {
 
-enum class Device { Cpu };
+enum class Device { Cpu };  // where frames are computed
 
 // Where a frame goes.
 struct FrameTarget {
@@ -31,7 +31,7 @@ struct FrameTarget {
 
 class Renderer {
  public:
-  // Errors: there is no such method, or its options are out of range when a frame is rendered.
+  // Errors: there is no such method. Options out of range are refused when a frame is rendered.
   [[nodiscard]] static Result<Renderer> create(MethodOptions method = AdaptiveOptions{}, Device device = Device::Cpu);
   ~Renderer();
   Renderer(Renderer&&) noexcept;

@@ -187,7 +187,7 @@ Result<void> measure_scene(const BenchScene& scene, const std::vector<BenchReque
   std::vector<BenchRequest> wanted;
   std::copy_if(requests.begin(), requests.end(), std::back_inserter(wanted),
                [&](const BenchRequest& request) { return is_of(request, scene); });
-  // Those that others are compared with are rendered first.
+  // The renders that others are compared with come first.
   const auto rank = [&](const BenchRequest& request) {
     return request.method == "bundle" ? 0 : same(request, tiled_merged(request.lights, 0)) ? 1 : 2;
   };
