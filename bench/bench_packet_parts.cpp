@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "kernels/simd_targets.h"  // before Highway
+#include "base/simd_targets.h"  // before Highway
 
 #include <benchmark/benchmark.h>
 #include <hwy/targets.h>
@@ -17,7 +17,7 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
-#include "kernels/packet-inl.h"
+#include "optics/surface/packet-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace contrejour::bench::HWY_NAMESPACE {

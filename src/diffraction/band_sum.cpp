@@ -1,6 +1,6 @@
 #include "diffraction/band_sum.h"
 
-#include "kernels/simd_targets.h"
+#include "base/simd_targets.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "diffraction/band_sum.cpp"

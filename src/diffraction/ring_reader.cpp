@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
+#include "base/simd_targets.h"
 #include "diffraction/sharp_zone.h"
-#include "kernels/simd_targets.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "diffraction/ring_reader.cpp"

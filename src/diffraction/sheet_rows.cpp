@@ -1,6 +1,6 @@
 #include "diffraction/sheet_rows.h"
 
-#include "kernels/simd_targets.h"
+#include "base/simd_targets.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "diffraction/sheet_rows.cpp"

@@ -10,8 +10,8 @@
 #include "base/scalar.h"
 #include "contrejour/starburst.h"
 #include "diffraction/dirt_waves.h"
-#include "diffraction/inside_polygon.h"
 #include "diffraction/polygon_cover.h"
+#include "support/inside_polygon.h"
 #include "support/sum_of_channel.h"
 
 using namespace contrejour;

@@ -3,7 +3,7 @@
 
 #include <span>
 
-#include "render/interface/method.h"
+#include "render/planning/method.h"
 
 namespace contrejour::test {
 

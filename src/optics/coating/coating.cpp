@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "contrejour/film_design.h"
-#include "kernels/surface-inl.h"
+#include "optics/surface/surface-inl.h"
 
 namespace contrejour {
 namespace {

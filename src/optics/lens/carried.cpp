@@ -1,6 +1,6 @@
 #include "optics/lens/carried.h"
 
-#include "kernels/shape-inl.h"
+#include "optics/surface/shape-inl.h"
 
 namespace contrejour {
 

@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "kernels/iris_blades.h"
+#include "aperture/iris_blades.h"
 
 namespace contrejour {
 namespace {

@@ -10,11 +10,11 @@
 
 #include "contrejour/first_order.h"
 #include "contrejour/lens.h"
-#include "kernels/shape-inl.h"
 #include "optics/lens/build_errors.h"
 #include "optics/lens/iris_closing.h"
 #include "optics/lens/sensor_stack.h"
 #include "optics/lens/validate.h"
+#include "optics/surface/shape-inl.h"
 
 namespace contrejour {
 namespace {

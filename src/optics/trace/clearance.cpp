@@ -1,15 +1,15 @@
 #include "optics/trace/clearance.h"
 
-#include "kernels/simd_targets.h"
+#include "base/simd_targets.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "optics/trace/clearance.cpp"
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
-#include "kernels/inline_if_fast.h"
-#include "kernels/packet-inl.h"
-#include "kernels/quick_packet-inl.h"
+#include "base/inline_if_fast.h"
+#include "optics/surface/packet-inl.h"
+#include "optics/surface/quick_packet-inl.h"
 #include "optics/trace/meeting-inl.h"
 
 HWY_BEFORE_NAMESPACE();

@@ -9,9 +9,9 @@
 
 #include <hwy/highway.h>
 
-#include "kernels/packet-inl.h"
-#include "kernels/shape-inl.h"
-#include "kernels/surface-inl.h"
+#include "optics/surface/packet-inl.h"
+#include "optics/surface/shape-inl.h"
+#include "optics/surface/surface-inl.h"
 #include "optics/trace/packet_trace.h"
 
 HWY_BEFORE_NAMESPACE();

@@ -4,15 +4,15 @@
 #include <array>
 #include <limits>
 
-#include "kernels/simd_targets.h"
+#include "base/simd_targets.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "optics/trace/packet_trace.cpp"
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
-#include "kernels/inline_if_fast.h"
-#include "kernels/packet-inl.h"
+#include "base/inline_if_fast.h"
+#include "optics/surface/packet-inl.h"
 #include "optics/trace/meeting-inl.h"
 
 HWY_BEFORE_NAMESPACE();

@@ -7,7 +7,7 @@
 
 #include "contrejour/check_lens.h"
 #include "contrejour/trace.h"
-#include "kernels/shape_constants.h"
+#include "optics/surface/shape_constants.h"
 #include "optics/trace/path_steps.h"
 
 namespace contrejour {

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "kernels/shape-inl.h"
-#include "kernels/surface-inl.h"
+#include "optics/surface/shape-inl.h"
+#include "optics/surface/surface-inl.h"
 #include "optics/trace/beside_axis.h"
 
 namespace contrejour {

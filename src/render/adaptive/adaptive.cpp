@@ -14,8 +14,8 @@
 #include "render/adaptive/item.h"
 #include "render/adaptive/screened_items.h"
 #include "render/adaptive/shadowed_items.h"
-#include "render/interface/error_bound.h"
-#include "render/interface/frame_memory.h"
+#include "render/planning/error_bound.h"
+#include "render/planning/frame_memory.h"
 
 namespace contrejour {
 namespace {

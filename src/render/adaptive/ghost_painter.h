@@ -5,7 +5,7 @@
 
 #include "render/adaptive/cells/cell_painter.h"
 #include "render/adaptive/patch_fitter.h"
-#include "render/screens/stop_patterns.h"
+#include "render/stop_patterns/stop_patterns.h"
 
 namespace contrejour::adaptive {
 

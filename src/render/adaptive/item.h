@@ -4,7 +4,7 @@
 #include "base/pool.h"
 #include "render/adaptive/ghost_painter.h"
 #include "render/adaptive/tiles/tiles.h"
-#include "render/interface/frame_plan.h"
+#include "render/planning/frame_plan.h"
 
 namespace contrejour::adaptive {
 

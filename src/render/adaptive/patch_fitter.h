@@ -11,7 +11,7 @@
 #include "render/adaptive/cells/box_cells.h"
 #include "render/adaptive/maps/band_set.h"
 #include "render/adaptive/maps/tolerance.h"
-#include "render/screens/band_screen.h"
+#include "render/stop_patterns/band_screen.h"
 
 namespace contrejour::adaptive {
 

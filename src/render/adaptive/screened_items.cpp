@@ -6,7 +6,7 @@
 #include <numeric>
 
 #include "base/tasks.h"
-#include "render/screens/iris_screens.h"
+#include "render/stop_patterns/iris_screens.h"
 
 namespace contrejour::adaptive {
 namespace {

@@ -4,7 +4,7 @@
 
 #include "render/adaptive/cells/frame_error.h"
 #include "render/adaptive/item.h"
-#include "render/screens/screens.h"
+#include "render/stop_patterns/screens.h"
 
 namespace contrejour::adaptive {
 

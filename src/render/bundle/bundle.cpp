@@ -8,8 +8,8 @@
 #include "base/tasks.h"
 #include "render/bundle/item_renderer.h"
 #include "render/bundle/stopwatch.h"
-#include "render/interface/grid_side.h"
-#include "render/interface/passes_by_need.h"
+#include "render/planning/grid_side.h"
+#include "render/planning/passes_by_need.h"
 
 namespace contrejour {
 namespace {

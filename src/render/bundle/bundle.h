@@ -1,6 +1,6 @@
 #pragma once
 
-#include "render/interface/method.h"
+#include "render/planning/method.h"
 
 namespace contrejour {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "kernels/iris_blades.h"
+#include "aperture/iris_blades.h"
 #include "optics/trace/packet_trace.h"
 
 namespace contrejour::bundle {

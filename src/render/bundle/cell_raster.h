@@ -10,8 +10,8 @@
 #include "contrejour/frame.h"
 #include "render/bundle/cell_clip.h"
 #include "render/bundle/flux_box.h"
-#include "render/interface/stop_screen.h"
-#include "render/screens/shadow_cutter.h"
+#include "render/planning/stop_screen.h"
+#include "render/stop_patterns/shadow_cutter.h"
 
 namespace contrejour::bundle {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "render/bundle/stopwatch.h"
-#include "render/interface/grid_side.h"
+#include "render/planning/grid_side.h"
 
 namespace contrejour::bundle {
 namespace {

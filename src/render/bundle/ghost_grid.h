@@ -10,7 +10,7 @@
 #include "ghosts/pupil_bounds.h"
 #include "optics/trace/by_wavelength.h"
 #include "render/bundle/map_figures.h"
-#include "render/screens/screens.h"
+#include "render/stop_patterns/screens.h"
 
 namespace contrejour::bundle {
 

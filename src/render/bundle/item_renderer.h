@@ -8,8 +8,8 @@
 #include "render/bundle/band_blur.h"
 #include "render/bundle/flux_box.h"
 #include "render/bundle/ghost_grid.h"
-#include "render/interface/dirt_screen.h"
-#include "render/interface/frame_plan.h"
+#include "render/planning/dirt_screen.h"
+#include "render/planning/frame_plan.h"
 
 namespace contrejour::bundle {
 

@@ -5,8 +5,8 @@
 #include <limits>
 #include <vector>
 
+#include "aperture/iris_blades.h"
 #include "contrejour/iris_field.h"
-#include "kernels/iris_blades.h"
 
 namespace contrejour::reference {
 namespace {

@@ -9,8 +9,8 @@
 
 #include "contrejour/frame.h"
 #include "contrejour/trace.h"
-#include "render/interface/dirt_screen.h"
-#include "render/interface/stop_screen.h"
+#include "render/planning/dirt_screen.h"
+#include "render/planning/stop_screen.h"
 
 namespace contrejour::reference {
 

@@ -2,10 +2,10 @@
 
 #include "base/clock.h"
 #include "base/tasks.h"
-#include "render/interface/frame_plan.h"
+#include "render/planning/frame_plan.h"
 #include "render/reference/flux_image.h"
 #include "render/reference/pupil_cells.h"
-#include "render/screens/screens.h"
+#include "render/stop_patterns/screens.h"
 
 namespace contrejour {
 namespace {

@@ -5,9 +5,9 @@
 #include <limits>
 
 #include "base/tasks.h"
-#include "render/area/image_motion.h"
-#include "render/area/kernel.h"
-#include "render/area/layers.h"
+#include "render/area_lights/image_motion.h"
+#include "render/area_lights/kernel.h"
+#include "render/area_lights/layers.h"
 
 namespace contrejour {
 namespace {

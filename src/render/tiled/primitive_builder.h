@@ -7,7 +7,7 @@
 #include "contrejour/frame.h"
 #include "contrejour/method_options.h"
 #include "ghosts/ray_grid.h"
-#include "render/interface/dirt_screen.h"
+#include "render/planning/dirt_screen.h"
 #include "render/tiled/primitive.h"
 
 namespace contrejour::tiled {

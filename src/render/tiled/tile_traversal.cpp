@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "kernels/simd_targets.h"
+#include "base/simd_targets.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "render/tiled/tile_traversal.cpp"
@@ -12,10 +12,10 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
-#include "kernels/inline_if_fast.h"
-#include "kernels/packet-inl.h"
+#include "base/inline_if_fast.h"
+#include "optics/surface/packet-inl.h"
 // Must follow packet-inl.h, whose functions its templates use.
-#include "kernels/barycentric-inl.h"
+#include "render/tiled/barycentric-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace contrejour::tiled::HWY_NAMESPACE {

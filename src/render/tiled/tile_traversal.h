@@ -9,8 +9,8 @@
 #include "contrejour/image.h"
 #include "contrejour/method_options.h"
 #include "ghosts/iris_shape.h"
-#include "render/interface/dirt_screen.h"
-#include "render/interface/stop_screen.h"
+#include "render/planning/dirt_screen.h"
+#include "render/planning/stop_screen.h"
 #include "render/tiled/primitive.h"
 #include "render/tiled/tile_lists.h"
 

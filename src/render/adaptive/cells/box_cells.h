@@ -15,7 +15,7 @@
 
 #include "render/adaptive/cells/cell_plane.h"
 #include "render/adaptive/cells/mesh.h"
-#include "render/screens/band_screen.h"
+#include "render/stop_patterns/band_screen.h"
 
 namespace contrejour::adaptive {
 

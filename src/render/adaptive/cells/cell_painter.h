@@ -15,7 +15,7 @@
 #include "render/adaptive/maps/seen_dirt.h"
 #include "render/adaptive/maps/tolerance.h"
 #include "render/adaptive/tiles/polygon_list.h"
-#include "render/screens/shadow_cutter.h"
+#include "render/stop_patterns/shadow_cutter.h"
 
 namespace contrejour::adaptive {
 

@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "kernels/simd_targets.h"
+#include "base/simd_targets.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "render/adaptive/cells/whole_cell.cpp"

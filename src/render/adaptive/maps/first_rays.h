@@ -8,7 +8,7 @@
 
 #include "render/adaptive/maps/ghost_tracers.h"
 #include "render/adaptive/maps/tolerance.h"
-#include "render/interface/wavelength_samples.h"
+#include "render/radiometry/wavelength_samples.h"
 
 namespace contrejour::adaptive {
 

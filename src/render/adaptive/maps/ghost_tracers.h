@@ -10,7 +10,7 @@
 #include "optics/trace/by_wavelength.h"
 #include "optics/trace/lens_steps.h"
 #include "render/adaptive/maps/rays.h"
-#include "render/interface/planned_light.h"
+#include "render/planning/planned_light.h"
 
 namespace contrejour::adaptive {
 

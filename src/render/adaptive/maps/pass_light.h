@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "render/adaptive/maps/ghost_tracers.h"
-#include "render/interface/wavelength_samples.h"
+#include "render/radiometry/wavelength_samples.h"
 
 namespace contrejour::adaptive {
 

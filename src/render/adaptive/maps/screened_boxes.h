@@ -5,7 +5,7 @@
 
 #include "ghosts/light_frame.h"
 #include "render/adaptive/maps/rays.h"
-#include "render/screens/band_screen.h"
+#include "render/stop_patterns/band_screen.h"
 
 namespace contrejour::adaptive {
 

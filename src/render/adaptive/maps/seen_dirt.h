@@ -4,7 +4,7 @@
 #include <memory>
 
 #include "ghosts/light_frame.h"
-#include "render/screens/band_dirt.h"
+#include "render/stop_patterns/band_dirt.h"
 
 namespace contrejour::adaptive {
 

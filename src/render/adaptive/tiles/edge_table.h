@@ -6,8 +6,8 @@
 #include <cstddef>
 #include <vector>
 
-#include "render/screens/band_screen.h"
-#include "render/screens/iris_screens.h"
+#include "render/stop_patterns/band_screen.h"
+#include "render/stop_patterns/iris_screens.h"
 
 namespace contrejour::adaptive {
 

@@ -12,7 +12,7 @@
 #include "contrejour/vec.h"
 #include "render/adaptive/tiles/edge_table.h"
 #include "render/adaptive/tiles/stop_map.h"
-#include "render/screens/band_dirt.h"
+#include "render/stop_patterns/band_dirt.h"
 
 namespace contrejour::adaptive {
 

@@ -7,7 +7,7 @@
 
 #include "contrejour/trace.h"
 #include "contrejour/vec.h"
-#include "render/interface/stop_screen.h"
+#include "render/planning/stop_screen.h"
 
 namespace contrejour::adaptive {
 

@@ -21,7 +21,7 @@
 #include "render/adaptive/tiles/pixels-inl.h"
 #include "render/adaptive/tiles/polygon_list.h"
 #include "render/adaptive/tiles/tile_sums.h"
-#include "render/screens/band_pattern.h"
+#include "render/stop_patterns/band_pattern.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace contrejour::adaptive::HWY_NAMESPACE {

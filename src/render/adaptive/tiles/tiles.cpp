@@ -6,8 +6,8 @@
 #include <cstdint>
 #include <utility>
 
+#include "base/simd_targets.h"
 #include "base/tasks.h"
-#include "kernels/simd_targets.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "render/adaptive/tiles/tiles.cpp"

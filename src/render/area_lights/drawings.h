@@ -1,0 +1,25 @@
+// The images that a frame of lights with a size is composed of.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "contrejour/frame_settings.h"
+#include "render/area_lights/area_survey.h"
+#include "render/area_lights/blur_classes.h"
+
+namespace contrejour::area {
+
+// An image of some ghosts of some lights, and the map that determines its blur.
+struct Drawing {
+  std::vector<PlannedLight> lights;
+  std::vector<GhostOfLight> pairs;  // ghosts by their index in the plan, lights by theirs in `lights`
+  std::shared_ptr<const LightPiece> piece = nullptr;  // null: the image is sharp
+  int level = 0;
+  LinearMap px_from_tangents = kNowhere;
+};
+
+// In the order in which Layers takes them. Ghosts of point lights, and those whose blur is not visible, stay sharp.
+[[nodiscard]] std::vector<Drawing> drawings_of(const SurveyedFrame& frame, const FrameSettings& settings);
+
+}  // namespace contrejour::area

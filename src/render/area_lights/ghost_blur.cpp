@@ -1,0 +1,229 @@
+#include "render/area_lights/ghost_blur.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+
+namespace contrejour::area {
+namespace {
+
+constexpr double kLargestBlur = 3.0;  // diagonals of the frame: a larger blur looks no different
+constexpr int kPeakCells = 40;        // across the frame: cells in which overlapping ghosts are summed
+constexpr double kBrightest = 4.0;    // level of a blurred ghost's brightest lines over its mean, at most
+constexpr double kGathered = 2.0;     // times the mean level: light brighter than this is near a caustic
+constexpr int kFits = 3;              // rounds; each weights features by the errors that the one before leaves
+constexpr double kOfMiddle = 0.02;    // weight relative to all features, for directions that none constrains
+
+// Converts sensor mm to pixels: x is mirrored.
+Vec2 mirrored(Vec2 v) { return {-v.x, v.y}; }
+LinearMap pixels_from(const LinearMap& mm, double pitch_mm) {
+  const double s = 1.0 / pitch_mm;
+  return {mirrored(mm.x) * s, mirrored(mm.y) * s};
+}
+
+double variance(Vec2 row, const LinearMap& covariance) { return dot(row, covariance(row)); }
+
+bool touches(const Frame& frame, Vec2 px, double radius_px) {
+  return px.x > -radius_px && px.y > -radius_px && px.x < frame.width + radius_px && px.y < frame.height + radius_px;
+}
+
+// The distance from the frame's border; negative outside.
+double inside_px(const Frame& frame, Vec2 px) {
+  return std::min({px.x, px.y, frame.width - px.x, frame.height - px.y});
+}
+
+// The error of a feature's blur, as a radius.
+double off_px(const BlurFeature& f, const LinearMap& px, const LightPiece& piece) {
+  const Vec2 made = along(f.normal, px);
+  if (!piece.is_even) return 2.0 * std::sqrt(std::max(variance(f.shift_px - made, piece.covariance), 0.0));
+  return 2.0 * std::abs(std::sqrt(std::max(variance(f.shift_px, piece.covariance), 0.0)) -
+                        std::sqrt(std::max(variance(made, piece.covariance), 0.0)));
+}
+
+double softness_px(const GhostBlur& ghost, const BlurFeature& f, const LightPiece& piece) {
+  const double radius = 2.0 * std::sqrt(std::max(variance(f.shift_px, piece.covariance), 0.0));
+  return std::max(std::min(radius, ghost.size_px.x), 1e-3);
+}
+
+double weight_of(const GhostBlur& ghost, const BlurFeature& f, const LightPiece& piece) {
+  return f.height * f.height * f.length_px / softness_px(ghost, f, piece);
+}
+
+// The map whose rows along all normals are closest to the features' own: least squares, with weights for which large
+// errors grow only linearly in off_px.
+LinearMap map_through(const GhostBlur& ghost, const LightPiece& piece, const LinearMap& middle) {
+  LinearMap best = middle;
+  for (int fit = 0; fit < kFits; ++fit) {
+    LinearMap squares = kNowhere, sums = kNowhere;  // sums: columns by the tangent
+    double all = 0.0;
+    for (const BlurFeature& f : ghost.features) {
+      const double off = off_px(f, best, piece), soft = softness_px(ghost, f, piece);
+      const double w = weight_of(ghost, f, piece) / (1.0 + off / soft);
+      all += w;
+      squares = squares + LinearMap{f.normal * (w * f.normal.x), f.normal * (w * f.normal.y)};
+      sums = sums + LinearMap{f.normal * (w * f.shift_px.x), f.normal * (w * f.shift_px.y)};
+    }
+    if (!(all > 0.0)) return middle;
+    const double little = kOfMiddle * all;
+    best = inverse(squares + LinearMap{} * little) * (sums + middle * little);
+  }
+  return best;
+}
+
+// For lights that look the same from both sides only the width of the blur counts, which would be lost in a mean of
+// opposite motions. This fits the covariance that has the features' variances along their normals, and returns a map
+// that produces it.
+LinearMap map_as_wide(const GhostBlur& ghost, const LightPiece& piece, const LinearMap& through) {
+  std::array<std::array<double, 4>, 3> m{};  // unknowns xx, xy, yy of the covariance, and the right side
+  const LinearMap first = mapped_covariance(through, piece.covariance);
+  const auto add = [&](Vec2 n, double wanted, double w) {
+    const std::array<double, 3> row{n.x * n.x, 2.0 * n.x * n.y, n.y * n.y};
+    for (std::size_t i = 0; i < 3; ++i) {
+      for (std::size_t j = 0; j < 3; ++j) m[i][j] += w * row[i] * row[j];
+      m[i][3] += w * row[i] * wanted;
+    }
+  };
+  double all = 0.0;
+  for (const BlurFeature& f : ghost.features) {
+    const double wanted = variance(f.shift_px, piece.covariance);
+    const double w = weight_of(ghost, f, piece) / std::max(wanted, 1e-6);  // errors of squared radii are twice as large
+    add(f.normal, wanted, w);
+    all += w;
+  }
+  if (!(all > 0.0)) return through;
+  for (const Vec2 n : {Vec2{1.0, 0.0}, Vec2{std::sqrt(0.5), std::sqrt(0.5)}, Vec2{0.0, 1.0}})
+    add(n, dot(n, first(n)), kOfMiddle * all);
+  for (std::size_t i = 0; i < 3; ++i)
+    for (std::size_t r = i + 1; r < 3; ++r) {
+      const double by = m[r][i] / m[i][i];
+      for (std::size_t j = i; j < 4; ++j) m[r][j] -= by * m[i][j];
+    }
+  const double yy = m[2][3] / m[2][2], xy = (m[1][3] - m[1][2] * yy) / m[1][1],
+               xx = (m[0][3] - m[0][1] * xy - m[0][2] * yy) / m[0][0];
+  const LinearMap root = square_root({{xx, xy}, {xy, yy}});
+  const LinearMap light = square_root(piece.covariance);
+  if (!(light.determinant() > 0.0) || !std::isfinite(root.x.x + root.x.y + root.y.y)) return through;
+  // Rotated as the other map rotates the light: the rotation, or reflection, nearest to that map.
+  const LinearMap turn = through * light, stretch = square_root(transposed(turn) * turn);
+  const bool can_turn = std::abs(stretch.determinant()) > 1e-9 * trace_of(stretch) * trace_of(stretch);
+  return (can_turn ? root * turn * inverse(stretch) : root) * inverse(light);
+}
+
+// Sets the features that reach the frame.
+void set_features(GhostBlur& ghost, const GhostMotion& motion, const Frame& frame, Vec2 shift_mm, double value) {
+  const double outline_px = std::numbers::pi * (ghost.blur_px.x + ghost.blur_px.y + ghost.size_px.x + ghost.size_px.y);
+  const auto border = std::ranges::count_if(motion.features, &GhostFeature::is_border);
+  const auto inside = static_cast<std::ptrdiff_t>(motion.features.size()) - border;
+  const double ghost_px = std::numbers::pi * ghost.size_px.x * ghost.size_px.y;
+  const double mean = ghost.flux / std::max(ghost_px, 1.0), most = kBrightest * ghost.flux / ghost.area_px;
+  // Each border feature stands for an equal part of the outline.
+  const double apart_px = outline_px / static_cast<double>(std::max<std::ptrdiff_t>(border, 1));
+  for (const GhostFeature& f : motion.features) {
+    const double within_px = inside_px(frame, frame.pixel_from_sensor(f.at_mm + shift_mm)) + ghost.blur_px.x;
+    const double share = std::clamp(0.5 + within_px / apart_px, 0.0, 1.0);
+    if (share == 0.0) continue;
+    BlurFeature px;
+    px.normal = mirrored(f.normal);
+    px.at_px = frame.pixel_from_sensor(f.at_mm + shift_mm);
+    px.shift_px = f.shift_mm * (1.0 / frame.pixel_pitch_mm);
+    const double density = f.density * value;
+    px.height = std::min(f.is_border ? density : std::max(density - kGathered * mean, 0.0), most);
+    px.length_px = share * outline_px / static_cast<double>(f.is_border ? border : inside);
+    ghost.features.push_back(px);
+  }
+}
+
+// Sets the radii of the blur that a map produces.
+void set_blur(GhostBlur& ghost, const LightPiece& piece, const Frame& frame) {
+  ghost.blur_px = radii_of(mapped_covariance(ghost.px, piece.covariance));
+  const double largest = kLargestBlur * std::hypot(frame.width, frame.height);
+  if (ghost.blur_px.y > largest) {
+    ghost.px = ghost.px * (largest / ghost.blur_px.y);
+    ghost.blur_px = ghost.blur_px * (largest / ghost.blur_px.y);
+  }
+  ghost.area_px = std::numbers::pi * (ghost.size_px.x * ghost.size_px.y + ghost.blur_px.x * ghost.blur_px.y) + 1.0;
+}
+
+}  // namespace
+
+Vec2 radii_of(const LinearMap& covariance) {
+  const Vec2 e = eigenvalues(covariance);
+  return {2.0 * std::sqrt(std::max(e.x, 0.0)), 2.0 * std::sqrt(std::max(e.y, 0.0))};
+}
+
+GhostBlur blur_of(const GhostMotion& motion, const LightPiece& piece, const Frame& frame, Vec2 shift_mm, double value) {
+  GhostBlur ghost;
+  if (!(motion.flux_mm2 > 0.0)) return ghost;
+  const LinearMap middle = pixels_from(motion.shift_mm, frame.pixel_pitch_mm);
+  const LinearMap spread = pixels_from(motion.spread_mm, frame.pixel_pitch_mm);
+  ghost.size_px = radii_of(spread * transposed(spread) * 0.25);
+  ghost.at_px = frame.pixel_from_sensor(motion.at_mm + shift_mm);
+  ghost.flux = motion.flux_mm2 * value / (frame.pixel_pitch_mm * frame.pixel_pitch_mm);
+  ghost.px = middle;
+  set_blur(ghost, piece, frame);
+  set_features(ghost, motion, frame, shift_mm, value);
+  ghost.px = map_through(ghost, piece, middle);
+  ghost.motion_px = ghost.px;
+  if (piece.is_even) ghost.px = map_as_wide(ghost, piece, ghost.px);
+  // A disc looks the same rotated and mirrored, so that the map's symmetric factor is sufficient.
+  if (piece.is_disc) ghost.px = square_root(ghost.px * transposed(ghost.px));
+  set_blur(ghost, piece, frame);
+  // Twice the distance that first derivatives predict, since ghosts are larger than that where they are not sharp.
+  if (touches(frame, ghost.at_px, 2.0 * (ghost.size_px.y + ghost.blur_px.y))) ghost.level = ghost.flux / ghost.area_px;
+  return ghost;
+}
+
+GhostBlur softened(GhostBlur ghost, const LightPiece& piece) {
+  const LinearMap root = square_root(piece.covariance);
+  ghost.px = ghost.px * root;
+  ghost.px = square_root(ghost.px * transposed(ghost.px));
+  for (BlurFeature& f : ghost.features) f.shift_px = root(f.shift_px);
+  return ghost;
+}
+
+double map_error(const GhostBlur& ghost, const LinearMap& px, const LightPiece& piece, double peak) {
+  if (!(ghost.level > 0.0) || !(peak > 0.0)) return 0.0;
+  double squares = 0.0;
+  for (const BlurFeature& f : ghost.features)
+    squares += f.length_px * misfit_error(f.height / peak, softness_px(ghost, f, piece), off_px(f, px, piece));
+  return squares;
+}
+
+double peak_of(const std::vector<GhostBlur>& ghosts, const Frame& frame) {
+  // Sums overlapping ghosts in the cells of a small frame.
+  const double cell = static_cast<double>(std::max(frame.width, frame.height)) / kPeakCells;
+  const int columns = std::max(1, static_cast<int>(frame.width / cell));
+  const int rows = std::max(1, static_cast<int>(frame.height / cell));
+  std::vector<double> sums(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows), 0.0);
+  const auto within = [](double at, int count) { return static_cast<int>(std::clamp(at, 0.0, count - 1.0)); };
+  for (const GhostBlur& ghost : ghosts) {
+    if (!(ghost.level > 0.0)) continue;
+    const Vec2 at = ghost.at_px * (1.0 / cell) - Vec2{0.5, 0.5};
+    const double radius = std::sqrt(ghost.area_px / std::numbers::pi) / cell;
+    for (int y = within(at.y - radius, rows); y <= within(at.y + radius, rows); ++y)
+      for (int x = within(at.x - radius, columns); x <= within(at.x + radius, columns); ++x)
+        if (length(Vec2{x - at.x, y - at.y}) <= radius)
+          sums[static_cast<std::size_t>(y) * static_cast<std::size_t>(columns) + static_cast<std::size_t>(x)] +=
+              ghost.level;
+  }
+  const auto nth =
+      sums.begin() + static_cast<std::ptrdiff_t>((1.0 - kPeakShare) * static_cast<double>(sums.size() - 1));
+  std::nth_element(sums.begin(), nth, sums.end());
+  // For spots smaller than such a cell: the level of the brightest ghosts that together fill that fraction of the
+  // frame.
+  std::vector<std::pair<double, double>> by_level;
+  for (const GhostBlur& ghost : ghosts)
+    if (ghost.level > 0.0) by_level.emplace_back(ghost.level, ghost.area_px);
+  std::ranges::stable_sort(by_level, [](const auto& a, const auto& b) { return a.first > b.first; });
+  double left_px = kPeakShare * frame.width * frame.height, brightest = 0.0;
+  for (const auto& [level, area_px] : by_level) {
+    brightest = level;
+    left_px -= area_px;
+    if (left_px <= 0.0) break;
+  }
+  return std::max(*nth, brightest);
+}
+
+}  // namespace contrejour::area

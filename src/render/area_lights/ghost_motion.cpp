@@ -1,0 +1,314 @@
+#include "render/area_lights/ghost_motion.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <optional>
+
+#include "contrejour/light.h"
+#include "render/area_lights/ghost_pupil.h"
+
+namespace contrejour::area {
+namespace {
+
+constexpr double kRayStep = 1e-3;      // of the entrance window's width,
+constexpr double kPupilStep = 0.1;     // or of the pupil's standard deviation, whichever is less
+constexpr double kAngleStep = 1e-4;    // tangent: 0.01 mm on many sensors; floats resolve a thousandth of it
+constexpr double kStrange = 2.0;       // times the motion at a fixed point of the front: more is not plausible
+
+double size(const LinearMap& map) { return length(map.x) + length(map.y); }
+
+// Where a ray crosses the stop and a rim, and where it lands.
+struct PassingRay {
+  bool arrives = false;
+  Vec2 sensor_mm;
+  std::array<Vec2, kMaxStopCrossings> stop{};  // over its radius
+  double rim_squared = 0.0;  // at the rim to which the first ray of its group comes closest
+  double transmission = 0.0;
+};
+
+// A ray and four next to it: two that start to the right and above, two from lights to the right and above.
+using RayFive = std::array<PassingRay, 5>;
+
+// The rays of a ghost, by where they start in the plane of the entrance window.
+class Rays {
+ public:
+  Rays(const LensSteps& steps, Ghost ghost, const LightSource& source, double z_mm)
+      : source_(source), z_mm_(z_mm),
+        paths_{path(steps, ghost, {}), path(steps, ghost, {kAngleStep, 0.0}), path(steps, ghost, {0.0, kAngleStep})} {}
+
+  [[nodiscard]] std::vector<RayFive> around(const std::vector<Vec2>& starts_mm, double step_mm) {
+    const std::size_t count = starts_mm.size();
+    std::vector<RayFive> fives(count);
+    std::vector<Vec2> near(starts_mm);
+    for (const Vec2 at : starts_mm) near.push_back(at + Vec2{step_mm, 0.0});
+    for (const Vec2 at : starts_mm) near.push_back(at + Vec2{0.0, step_mm});
+    trace(0, near);
+    nearest_rim_.resize(count);
+    for (std::size_t k = 0; k < count; ++k) {
+      nearest_rim_[k] = nearest_rim(k);
+      for (std::size_t j = 0; j < 3; ++j) fives[k][j] = ray(j * count + k, nearest_rim_[k]);
+    }
+    for (std::size_t light = 1; light <= 2; ++light) {
+      trace(light, starts_mm);
+      for (std::size_t k = 0; k < count; ++k) fives[k][2 + light] = ray(k, nearest_rim_[k]);
+    }
+    return fives;
+  }
+
+ private:
+  [[nodiscard]] PacketPath path(const LensSteps& steps, Ghost ghost, Vec2 tangents) const {
+    return {steps, ghost, {{0.0, 0.0, z_mm_}, tangents == Vec2{} ? source_ : source_beside(source_, tangents)}};
+  }
+
+  void trace(std::size_t light, const std::vector<Vec2>& starts_mm) {
+    PacketPath& path = paths_[light];
+    const Vec2 origin_mm = starts_mm.front();
+    path.start_from(origin_mm);
+    count_ = starts_mm.size();
+    room_.resize((6 + 2 * kMaxStopCrossings + path.steps().size()) * count_);
+    for (std::size_t k = 0; k < count_; ++k) {
+      field(0)[k] = static_cast<float>(starts_mm[k].x - origin_mm.x);
+      field(1)[k] = static_cast<float>(starts_mm[k].y - origin_mm.y);
+    }
+    TracedArrays out{.sensor_x_mm = field(2), .sensor_y_mm = field(3), .transmission = field(4), .r_rel = field(5)};
+    for (std::size_t c = 0; c < kMaxStopCrossings; ++c) {
+      out.stop_x[c] = field(6 + 2 * c);
+      out.stop_y[c] = field(7 + 2 * c);
+    }
+    out.rim_squared = field(kRimsFrom);
+    out.rim_stride = count_;
+    trace_packets(path, PacketPrecision::Double, field(0), field(1), count_, out);
+  }
+
+  [[nodiscard]] std::size_t nearest_rim(std::size_t k) {
+    const std::vector<PacketStep>& steps = paths_[0].steps();
+    std::size_t nearest = steps.size();
+    for (std::size_t s = 0; s < steps.size(); ++s) {
+      if (steps[s].event == PathEvent::Stop) continue;
+      if (nearest == steps.size() || field(kRimsFrom + s)[k] > field(kRimsFrom + nearest)[k]) nearest = s;
+    }
+    return nearest;
+  }
+
+  [[nodiscard]] PassingRay ray(std::size_t k, std::size_t rim) {
+    PassingRay ray;
+    ray.arrives = std::isfinite(field(5)[k]);
+    ray.sensor_mm = {field(2)[k], field(3)[k]};
+    for (std::size_t c = 0; c < static_cast<std::size_t>(paths_[0].stop_crossings()); ++c)
+      ray.stop[c] = {field(6 + 2 * c)[k], field(7 + 2 * c)[k]};
+    if (rim < paths_[0].steps().size()) ray.rim_squared = field(kRimsFrom + rim)[k];
+    ray.transmission = field(4)[k];
+    return ray;
+  }
+
+  [[nodiscard]] float* field(std::size_t k) { return room_.data() + k * count_; }
+
+  static constexpr std::size_t kRimsFrom = 6 + 2 * kMaxStopCrossings;
+  LightSource source_;
+  double z_mm_;
+  std::array<PacketPath, 3> paths_;  // for the light, for one to its right, for one above
+  std::size_t count_ = 0;
+  std::vector<float> room_;
+  std::vector<std::size_t> nearest_rim_;
+};
+
+// First derivatives at a ray.
+class LocalMotion {
+ public:
+  LocalMotion(const RayFive& rays, double step_mm) : rays_(rays), step_mm_(step_mm) {
+    sensor_by_start = derivative(1, step_mm, [](const PassingRay& ray) { return ray.sensor_mm; });
+    sensor_by_angle = derivative(3, kAngleStep, [](const PassingRay& ray) { return ray.sensor_mm; });
+  }
+
+  [[nodiscard]] bool is_usable() const {
+    return std::ranges::all_of(rays_, &PassingRay::arrives) && std::isnormal(sensor_by_start.determinant());
+  }
+  [[nodiscard]] const PassingRay& ray() const { return rays_[0]; }
+  [[nodiscard]] double density() const { return ray().transmission / std::abs(sensor_by_start.determinant()); }
+
+  [[nodiscard]] LinearMap stop_by_start(std::size_t crossing) const {
+    return derivative(1, step_mm_, [&](const PassingRay& ray) { return ray.stop[crossing]; });
+  }
+  // How the start moves with the light's direction, if the ray is to cross the stop at the same point.
+  [[nodiscard]] LinearMap start_at_stop(std::size_t crossing) const {
+    const LinearMap by_start = stop_by_start(crossing);
+    if (!std::isnormal(by_start.determinant())) return kNowhere;
+    return inverse(by_start) * derivative(3, kAngleStep, [&](const PassingRay& ray) { return ray.stop[crossing]; }) *
+           -1.0;
+  }
+  // How the point on the sensor moves with the angle, if the start moves as given.
+  [[nodiscard]] LinearMap shift(const LinearMap& start_by_angle) const {
+    return sensor_by_angle + sensor_by_start * start_by_angle;
+  }
+
+  // The derivatives, by start and by light direction, of the height that is too large where neighbouring rays are
+  // blocked.
+  struct Bound {
+    Vec2 by_start, by_angle;
+  };
+  [[nodiscard]] Bound bound(int which) const {
+    const auto height = [&](const PassingRay& ray) {
+      if (which == kRims) return ray.rim_squared;
+      const Vec2 at = ray.stop[static_cast<std::size_t>(which)];
+      return dot(at, at);
+    };
+    const double here = height(rays_[0]);
+    return {Vec2{height(rays_[1]) - here, height(rays_[2]) - here} * (1.0 / step_mm_),
+            Vec2{height(rays_[3]) - here, height(rays_[4]) - here} * (1.0 / kAngleStep)};
+  }
+
+  LinearMap sensor_by_start, sensor_by_angle;
+
+ private:
+  template <class Place>
+  [[nodiscard]] LinearMap derivative(std::size_t first, double step, const Place& place) const {
+    return {(place(rays_[first]) - place(rays_[0])) * (1.0 / step),
+            (place(rays_[first + 1]) - place(rays_[0])) * (1.0 / step)};
+  }
+
+  const RayFive& rays_;
+  double step_mm_;
+};
+
+Vec2 across(Vec2 v) { return {-v.y, v.x}; }
+
+// At the outline, only the motion along the normal counts: it follows whatever blocks the light there.
+std::optional<GhostFeature> border_feature(const LocalMotion& at, int which) {
+  const LocalMotion::Bound bound = at.bound(which);
+  const double steepness = dot(bound.by_start, bound.by_start);
+  const Vec2 edge = at.sensor_by_start(across(bound.by_start));
+  if (!std::isnormal(steepness) || !(length(edge) > 0.0)) return std::nullopt;
+  const Vec2 normal = across(edge) * (1.0 / length(edge));
+  const double by_height = dot(normal, at.sensor_by_start(bound.by_start)) / steepness;
+  return GhostFeature{normal, along(normal, at.sensor_by_angle) - bound.by_angle * by_height, at.ray().sensor_mm,
+                      at.density(), true};
+}
+
+// A caustic lies along the image of the direction that the map from the pupil hardly stretches.
+GhostFeature inner_feature(const LocalMotion& at, const LinearMap& shift) {
+  const LinearMap squares = at.sensor_by_start * transposed(at.sensor_by_start);
+  const double turn = 0.5 * std::atan2(2.0 * squares.x.y, squares.x.x - squares.y.y);
+  const Vec2 normal{-std::sin(turn), std::cos(turn)};
+  return {normal, along(normal, shift), at.ray().sensor_mm, at.density(), false};
+}
+
+// The motion of the whole pupil in the plane of the starts, fitted to its border by least squares.
+LinearMap pupil_motion(const std::vector<LocalMotion>& border, const std::vector<int>& bounds) {
+  LinearMap squares = kNowhere, sums = kNowhere;
+  for (std::size_t k = 0; k < border.size(); ++k) {
+    const LocalMotion::Bound bound = border[k].bound(bounds[k]);
+    const double steepness = dot(bound.by_start, bound.by_start);
+    if (!std::isnormal(steepness)) continue;
+    const Vec2 m = bound.by_start;
+    squares = squares + LinearMap{m * (m.x / steepness), m * (m.y / steepness)};
+    sums = sums + LinearMap{m * (-bound.by_angle.x / steepness), m * (-bound.by_angle.y / steepness)};
+  }
+  const double trace = trace_of(squares);
+  if (!(squares.determinant() > 1e-3 * trace * trace)) return kNowhere;
+  return inverse(squares) * sums;
+}
+
+Vec2 area_rate(const GhostPupil& pupil, const std::vector<LocalMotion>& border, const std::vector<int>& bounds) {
+  Vec2 rate;
+  for (std::size_t k = 0; k < border.size(); ++k) {
+    const LocalMotion::Bound bound = border[k].bound(bounds[k]);
+    const double steepness = length(bound.by_start);
+    if (std::isnormal(steepness)) rate = rate - bound.by_angle * (1.0 / steepness);
+  }
+  if (border.empty() || !(pupil.area_mm2 > 0.0)) return {};
+  return rate * (pupil.border_mm / static_cast<double>(border.size()) / pupil.area_mm2);
+}
+
+// Sets the centre and the spread of where the light lands; each ray stands for an equal area of the pupil.
+void set_extent(GhostMotion& motion, const std::vector<LocalMotion>& inside, double area_mm2) {
+  double light = 0.0;
+  for (const LocalMotion& at : inside) {
+    motion.at_mm = motion.at_mm + at.ray().sensor_mm * at.ray().transmission;
+    light += at.ray().transmission;
+  }
+  motion.at_mm = motion.at_mm * (1.0 / light);
+  LinearMap covariance = kNowhere;
+  const auto count = static_cast<double>(inside.size());
+  for (const LocalMotion& at : inside) {
+    const Vec2 d = at.ray().sensor_mm - motion.at_mm;
+    const double share = at.ray().transmission / light;
+    // Adds the spread of the light between these rays, by the local derivative of the map.
+    const double part = area_mm2 / count / 12.0;
+    covariance = covariance + LinearMap{d * (d.x * share), d * (d.y * share)} +
+                 at.sensor_by_start * transposed(at.sensor_by_start) * (part * share);
+  }
+  motion.spread_mm = square_root(covariance * 4.0);
+  motion.flux_mm2 = light / count * area_mm2;
+}
+
+// The motion of a ghost of which no ray was found to get through, by the ray that is blocked least.
+GhostMotion blind_motion(const LocalMotion& at, const GhostPupil& pupil, double cosine) {
+  GhostMotion motion;
+  motion.outside = pupil.outside;
+  if (!at.is_usable()) return motion;
+  motion.shift_mm = at.shift(at.start_at_stop(0));
+  // Far from the stop, its coordinates may say nothing about the ray: the motion at a fixed point of the front is then
+  // used.
+  if (!(size(motion.shift_mm) <= kStrange * size(at.sensor_by_angle))) motion.shift_mm = at.sensor_by_angle;
+  motion.at_mm = at.ray().sensor_mm;
+  motion.spread_mm = at.sensor_by_start * std::sqrt(pupil.area_mm2);
+  motion.flux_mm2 = at.ray().transmission * pupil.area_mm2 * cosine;
+  return motion;
+}
+
+}  // namespace
+
+GhostMotion ghost_motion(const LensSteps& steps, Ghost ghost, const LightSource& source, const LightWindows& windows) {
+  const LightFrame light(source, has_axial_symmetry(steps.lens(), ghost));
+  const EntranceWindow& window = windows.of(light.symmetric);
+  const auto pupil = find_ghost_pupil(steps, ghost, light, window);
+  if (!pupil) return {};
+  Rays rays(steps, ghost, source, window.z_mm);
+  double step_mm = kRayStep * length(window.max_mm - window.min_mm);
+  if (!pupil->is_open)
+    return blind_motion(LocalMotion(rays.around({pupil->at_mm}, step_mm).front(), step_mm), *pupil, source.direction.z);
+  step_mm = std::min(step_mm, kPupilStep * std::sqrt(trace_of(pupil->covariance)));
+
+  std::vector<Vec2> starts_mm{pupil->at_mm};
+  starts_mm.insert(starts_mm.end(), pupil->inside_mm.begin(), pupil->inside_mm.end());
+  for (const BorderRay& ray : pupil->border) starts_mm.push_back(ray.start_mm);
+  const std::vector<RayFive> fives = rays.around(starts_mm, step_mm);
+  std::vector<LocalMotion> inside, border;
+  std::vector<int> bounds;
+  for (std::size_t k = 0; k < fives.size(); ++k) {
+    const LocalMotion at(fives[k], step_mm);
+    if (!at.is_usable()) continue;
+    if (k < 1 + pupil->inside_mm.size()) {
+      inside.push_back(at);
+    } else {
+      border.push_back(at);
+      bounds.push_back(pupil->border[k - 1 - pupil->inside_mm.size()].bound);
+    }
+  }
+  if (inside.empty()) return {};
+
+  GhostMotion motion;
+  motion.is_open = true;
+  const LinearMap start_by_angle = pupil_motion(border, bounds);
+  const auto shift_of = [&](const LocalMotion& at) {
+    if (pupil->bound != kRims) return at.shift(at.start_at_stop(static_cast<std::size_t>(pupil->bound)));
+    return at.shift(start_by_angle);
+  };
+  motion.shift_mm = shift_of(inside.front());
+  set_extent(motion, inside, pupil->area_mm2);
+  motion.flux_mm2 *= source.direction.z;
+  motion.area_rate = area_rate(*pupil, border, bounds);
+  for (std::size_t k = 0; k < border.size(); ++k)
+    if (const auto feature = border_feature(border[k], bounds[k])) motion.features.push_back(*feature);
+  for (const LocalMotion& at : inside) motion.features.push_back(inner_feature(at, shift_of(at)));
+  for (GhostFeature& feature : motion.features) feature.density *= source.direction.z;
+  std::erase_if(motion.features, [](const GhostFeature& f) {
+    return !std::isfinite(f.density + f.shift_mm.x + f.shift_mm.y + f.normal.x + f.normal.y);
+  });
+  if (!std::isfinite(motion.flux_mm2 + size(motion.shift_mm) + size(motion.spread_mm))) return {};
+  return motion;
+}
+
+}  // namespace contrejour::area

@@ -1,0 +1,41 @@
+// How a ghost moves over the sensor as its light moves, and how large it is, from first derivatives at some of its
+// rays.
+#pragma once
+
+#include <vector>
+
+#include "contrejour/light_source.h"
+#include "ghosts/light_frame.h"
+#include "optics/trace/lens_steps.h"
+#include "render/area_lights/linear_map.h"
+
+namespace contrejour::area {
+
+// A line of a ghost near the point where a ray lands: a part of its outline, or of a caustic.
+struct GhostFeature {
+  Vec2 normal;      // unit normal of the line on the sensor
+  Vec2 shift_mm;    // motion along the normal for lights a unit to the right and up (tangents, direction_beside)
+  Vec2 at_mm;
+  double density = 0.0;  // the irradiance there over the light's
+  bool is_border = true;  // whether it belongs to the outline
+};
+
+struct GhostMotion {
+  // The motion on the sensor in mm for lights a unit to the right and up (tangents, direction_beside), through the same
+  // point of whatever bounds the ghost: at the ray in the middle of the pupil.
+  LinearMap shift_mm = kNowhere;
+  LinearMap spread_mm = kNowhere;  // image, in sensor mm, of the unit circle: an ellipse as large as the ghost
+  Vec2 at_mm;  // centroid of the light
+  double flux_mm2 = 0.0;  // times the light's irradiance; 0: no ray gets through, or nearly does
+  bool is_open = false;
+  double outside = 0.0;  // if not open: excess of the least blocked ray over what blocks it
+  // The relative change of the pupil's area for lights a unit to the right and up.
+  Vec2 area_rate;
+  std::vector<GhostFeature> features;
+};
+
+// At the wavelength of the steps. windows: those of the light.
+[[nodiscard]] GhostMotion ghost_motion(const LensSteps& steps, Ghost ghost, const LightSource& source,
+                                       const LightWindows& windows);
+
+}  // namespace contrejour::area

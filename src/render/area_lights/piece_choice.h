@@ -1,0 +1,42 @@
+// Chooses how finely a light is divided for each of its ghosts. A ghost that only moves needs no pieces; one with
+// caustics, or one that rims clip differently as the light moves, needs many.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "render/area_lights/ghost_blur.h"
+
+namespace contrejour::area {
+
+// A ghost of a light with a size.
+struct GhostOfArea {
+  std::size_t light = 0, ghost = 0;  // in the plan
+  GhostMotion motion;  // for the middle of the light
+  GhostBlur blur;      // for the whole light
+  // The same for the pieces of the light divided in two across, if they are examined.
+  std::vector<GhostMotion> part_motions;
+  std::vector<GhostBlur> part_blurs;
+  // The errors if the light stays undivided: squared, summed over the frame, in squares of the peak; and of the flux.
+  double squares = 0.0, flux_off = 0.0;
+  int across = 1;  // pieces of the light
+};
+
+// The errors that a frame may make, and what they are relative to.
+struct AreaBudget {
+  double peak = 0.0;
+  double squares = 0.0;  // summed over the frame, in squares of the peak
+  double flux = 0.0;  // of all ghosts
+};
+
+// Whether the ghost may differ so much from what the light's middle predicts that the light's parts must be examined.
+[[nodiscard]] bool may_need_parts(const GhostOfArea& ghost, const LightPiece& whole, const AreaBudget& budget);
+
+// Predicts `squares` and `flux_off`. parts: the pieces of the light divided in two across.
+void foresee_errors(GhostOfArea& ghost, const LightPiece& whole, std::span<const LightPiece> parts, double peak);
+
+// Sets `across` of all ghosts, so that together they stay within the budget with the fewest pieces.
+void choose_pieces(std::span<GhostOfArea> ghosts, const AreaBudget& budget);
+
+}  // namespace contrejour::area

@@ -1,0 +1,72 @@
+// Dirt with sharp shadows: the shapes and the picture of a lens's dirt in the plane that they lie in, and the
+// transmittance of the dirt at any place. A grid of cells lists the shapes that come near each cell. Units: mm of the
+// dirt's plane. Accuracy: a small square is covered as by a rectangle of the shape's width and area; dirt on the front
+// counts within two clear radii of the axis.
+// Thread-safety: constant after construction. Source: docs/physics/diffraction.md, "Dirt".
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "contrejour/lens.h"
+#include "render/planning/cell_flags.h"
+#include "render/planning/dirt_screen.h"
+
+namespace contrejour {
+
+class DirtField final : public DirtScreen {
+ public:
+  // Null where the lens is clean.
+  [[nodiscard]] static std::shared_ptr<const DirtField> of(const LensState& lens);
+  explicit DirtField(const LensState& lens);
+
+  using DirtScreen::transmission;
+  [[nodiscard]] double transmission(const DirtPlace& place, std::size_t crossing = 0) const override;
+  [[nodiscard]] bool is_clean(Vec2 middle_mm, double radius_mm, std::size_t crossing = 0) const override;
+  [[nodiscard]] Edges edges() const override { return {edges_per_mm_, 0.0}; }
+  // Null if there is a picture, or if overlaps of shapes cannot be ignored because they cover much of the field.
+  [[nodiscard]] const DirtField* outlines() const override {
+    return picture_ == nullptr && covered_ < kMostCovered ? this : nullptr;
+  }
+
+  // Approximate mean transmittance over the ellipse with these bounds; approximate variance of the transmittance of
+  // pixels of this width.
+  [[nodiscard]] double mean_within(Vec2 low_mm, Vec2 high_mm) const;
+  [[nodiscard]] double variance(double pixel_mm) const;
+
+  [[nodiscard]] bool has_picture() const { return picture_ != nullptr; }
+  [[nodiscard]] double extent_mm() const { return extent_mm_; }
+  [[nodiscard]] const std::vector<DirtStroke>& shapes() const { return shapes_; }
+  // Appends the shapes that may meet a box, in order of index.
+  void find_within(Vec2 low_mm, Vec2 high_mm, std::vector<std::uint32_t>& found) const;
+
+ private:
+  static constexpr int kCells = 128;  // across the field
+  static constexpr double kMostCovered = 0.3;  // fraction of the field
+  [[nodiscard]] int cell_of(double coordinate_mm) const { return dirty_.cell_of(coordinate_mm); }
+  [[nodiscard]] std::span<const std::uint32_t> shapes_about(int x, int y) const;
+  [[nodiscard]] double small_transmission(Vec2 at, double width) const;
+  [[nodiscard]] double picture_transmission(const DirtPlace& place) const;
+
+  double clear_radius_mm_;
+  double extent_mm_;  // the field is the square from -extent to extent
+  double cell_mm_;
+  std::vector<DirtStroke> shapes_;
+  std::vector<std::uint32_t> first_, shapes_of_cell_;  // those of cell k: shapes_of_cell_[first_[k]..first_[k + 1]]
+  std::shared_ptr<const DirtPicture> picture_;
+  struct Size {  // the shapes of a class of width, an octave
+    double share = 0.0;  // fraction of the field that they cover, times opacity^2
+    double width_mm = 0.0, length_mm = 0.0;  // means, weighted by that fraction
+  };
+  void count(const DirtStroke& shape);
+  void sum_up_cells();
+
+  std::vector<Size> sizes_;
+  CellFlags dirty_;  // cells that are near a shape
+  std::vector<double> passed_;  // sum of the transmittances of the cells to the left of each border, row by row
+  double covered_ = 0.0, edges_per_mm_ = 0.0;
+};
+
+}  // namespace contrejour

@@ -1,0 +1,35 @@
+#include "render/radiometry/lens_tables.h"
+
+namespace contrejour {
+namespace {
+
+constexpr std::size_t kMaxKept = 2048;  // 160 MB for a lens with ten kinds of surfaces; a frame has at most 1024
+
+}  // namespace
+
+LensTables::Key::Key(const LensState& lens) {
+  for (const SurfaceState& s : lens.surfaces) {
+    SurfaceState surface;
+    surface.kind = s.kind;
+    surface.before = s.before;
+    surface.after = s.after;
+    surface.coating = s.coating;
+    surface.aperture = s.aperture;
+    surface.obscuration = s.obscuration;
+    lens_.surfaces.push_back(std::move(surface));
+  }
+}
+
+LensTables::LensTables(const Key& key) : lens_(std::make_shared<const LensState>(key.lens())), tables_(lens_) {}
+
+ReflectedShares LensTables::reflected(std::span<const double> lambda_nm) {
+  reflected_.add(*lens_, lambda_nm);
+  return reflected_;
+}
+
+void LensTables::forget_if_large() {
+  if (tables_.size() > kMaxKept) tables_ = TablesByWavelength(lens_);
+  if (reflected_.size() > kMaxKept) reflected_ = ReflectedShares();
+}
+
+}  // namespace contrejour

@@ -1,0 +1,90 @@
+#include "contrejour/renderer.h"
+
+#include <optional>
+#include <utility>
+
+#include "contrejour/check_lens.h"
+#include "render/planning/frame_memory.h"
+#include "render/session/registry.h"
+#include "render/session/render_frame.h"
+
+namespace contrejour {
+namespace {
+
+constexpr double kDraftError = 0.02;
+constexpr double kDraftProgress = 0.2;  // fraction of the whole progress
+
+Context rest_of(const Context& whole, double from) {
+  Context rest = whole;
+  if (whole.progress) rest.progress = [&whole, from](double done) { whole.progress(from + (1.0 - from) * done); };
+  return rest;
+}
+
+}  // namespace
+
+struct Renderer::State {
+  MethodOptions method;
+  std::optional<LensState> lens = std::nullopt;
+  RenderCache cache = {};
+
+  [[nodiscard]] Result<Flare> render(const MethodOptions& by, std::span<const Light> lights,
+                                     const FrameSettings& settings, const Context& context) {
+    if (!lens) return invalid_argument("a renderer has no lens yet: call set_lens() first");
+    return render_frame(by, {*lens, lights, settings, cache}, context);
+  }
+
+  // Writes a flare to the caller's image; its memory then serves the next frame.
+  Result<RenderStatistics> write(Flare flare, const ImageView& to, const Context& context) {
+    if (const auto written = write_pixels(flare.image, to, context); !written) return tl::unexpected(written.error());
+    keep_memory(cache, std::move(flare.image));
+    return std::move(flare.statistics);
+  }
+};
+
+Renderer::Renderer(std::unique_ptr<State> state) : state_(std::move(state)) {}
+Renderer::~Renderer() = default;
+Renderer::Renderer(Renderer&&) noexcept = default;
+Renderer& Renderer::operator=(Renderer&&) noexcept = default;
+
+Result<Renderer> Renderer::create(MethodOptions method, Device /*device*/) {
+  if (const auto known = known_method(method.name()); !known) return tl::unexpected(known.error());
+  return Renderer(std::make_unique<State>(State{std::move(method)}));
+}
+
+Result<void> Renderer::set_lens(LensState lens) {
+  if (auto good = check_lens(lens); !good) return tl::unexpected(good.error());
+  state_->lens = std::move(lens);
+  return {};
+}
+
+Result<void> Renderer::set_method(MethodOptions method) {
+  if (const auto known = known_method(method.name()); !known) return tl::unexpected(known.error());
+  state_->method = std::move(method);
+  return {};
+}
+
+Result<RenderStatistics> Renderer::render(std::span<const Light> lights, const FrameSettings& settings,
+                                          const FrameTarget& target, const Context& context) {
+  const Frame& frame = settings.frame;
+  if (const auto good = check_view(target.pixels, frame.width, frame.height); !good)
+    return tl::unexpected(good.error());
+  Context quiet = context;
+  quiet.progress = {};
+  double drafted = 0.0;
+  if (target.draft_is_ready) {
+    auto draft = state_->render(AdaptiveOptions{kDraftError}, lights, settings, quiet);
+    if (!draft) return tl::unexpected(draft.error());
+    if (const auto written = state_->write(std::move(*draft), target.pixels, quiet); !written) return written;
+    target.draft_is_ready();
+    drafted = kDraftProgress;
+  }
+  auto flare = state_->render(state_->method, lights, settings, rest_of(context, drafted));
+  if (!flare) return tl::unexpected(flare.error());
+  return state_->write(std::move(*flare), target.pixels, quiet);
+}
+
+Result<Flare> Renderer::render(std::span<const Light> lights, const FrameSettings& settings, const Context& context) {
+  return state_->render(state_->method, lights, settings, context);
+}
+
+}  // namespace contrejour

@@ -1,0 +1,72 @@
+#include "render/stop_patterns/dirt_fringes.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/tasks.h"
+
+namespace contrejour::screens {
+namespace {
+
+constexpr double kPlanesPerOctave = 8.0;  // fringes of successive planes differ by 4 per cent
+constexpr double kPlaneSpreadStep = 0.004;
+
+double lambda_z_at(int rung) { return std::exp2(rung / kPlanesPerOctave); }
+
+}  // namespace
+
+FringedDirt::FringedDirt(std::shared_ptr<const DirtField> sharp,
+                         std::vector<std::shared_ptr<const FringedPlane>> crossings)
+    : DirtScreen(sharp->plane()), sharp_(std::move(sharp)), crossings_(std::move(crossings)) {
+  for (const auto& plane : crossings_)
+    if (plane) level_ *= plane->level();
+}
+
+double FringedDirt::transmission(const DirtPlace& place, std::size_t crossing) const {
+  const FringedPlane* const plane = crossings_[std::min(crossing, crossings_.size() - 1)].get();
+  return plane != nullptr ? plane->transmission(place.at_mm, place.width_mm) : sharp_->transmission(place, crossing);
+}
+
+bool FringedDirt::is_clean(Vec2 middle_mm, double radius_mm, std::size_t crossing) const {
+  const FringedPlane* const plane = crossings_[std::min(crossing, crossings_.size() - 1)].get();
+  return plane != nullptr ? plane->is_clean(middle_mm, radius_mm) : sharp_->is_clean(middle_mm, radius_mm, crossing);
+}
+
+DirtScreen::Edges FringedDirt::edges() const {
+  Edges edges = sharp_->edges();
+  for (const auto& plane : crossings_)
+    if (plane) edges.softness_mm = std::max(edges.softness_mm, plane->unit_mm());
+  return edges;
+}
+
+DirtFringes::PlaneKey DirtFringes::key_of(const Wanted& wanted) {
+  return {static_cast<int>(std::lround(kPlanesPerOctave * std::log2(wanted.lambda_z_mm2))),
+          static_cast<int>(std::lround(wanted.spread / kPlaneSpreadStep))};
+}
+
+bool DirtFringes::make(const DirtField& field, std::span<const Wanted> wanted, const Context& context) {
+  std::map<PlaneKey, std::shared_ptr<const FringedPlane>> missing;
+  for (const Wanted& w : wanted) {
+    const PlaneKey key = key_of(w);
+    if (planes_.contains(key) || !missing.try_emplace(key).second) continue;
+    auto& edge = edges_[key.spread];
+    if (!edge) edge = std::make_shared<const StraightEdge>(key.spread * kPlaneSpreadStep);
+  }
+  std::vector<std::pair<const PlaneKey, std::shared_ptr<const FringedPlane>>*> list;
+  for (auto& entry : missing) list.push_back(&entry);
+  const bool done = parallel_for(list.size(), context, [&](std::size_t k) {
+    const PlaneKey& key = list[k]->first;
+    list[k]->second = std::make_shared<const FringedPlane>(field.shapes(), field.extent_mm(), lambda_z_at(key.rung),
+                                                           edges_.at(key.spread));
+  });
+  if (!done) return false;
+  planes_.merge(missing);
+  return true;
+}
+
+std::shared_ptr<const FringedPlane> DirtFringes::plane(const Wanted& wanted) const {
+  const auto found = planes_.find(key_of(wanted));
+  return found == planes_.end() ? nullptr : found->second;
+}
+
+}  // namespace contrejour::screens

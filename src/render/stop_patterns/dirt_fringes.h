@@ -1,0 +1,67 @@
+// Diffraction shadows of dirt: planes of shadows with fringes, by wavelength times effective distance, as a section of
+// RenderCache; and the shadows that one ghost has.
+// Thread-safety: make() from one thread at a time; all else from any thread, afterwards.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "contrejour/context.h"
+#include "contrejour/dirt.h"
+#include "render/planning/dirt_field.h"
+#include "render/stop_patterns/fringed_plane.h"
+
+namespace contrejour::screens {
+
+// The dirt of a ghost at one wavelength, or in a band.
+class FringedDirt final : public DirtScreen {
+ public:
+  // crossings: the plane at each crossing of the stop, or at the front; null: shadows there are sharp.
+  FringedDirt(std::shared_ptr<const DirtField> sharp, std::vector<std::shared_ptr<const FringedPlane>> crossings);
+
+  [[nodiscard]] double level() const override { return level_; }
+  using DirtScreen::transmission;
+  [[nodiscard]] double transmission(const DirtPlace& place, std::size_t crossing) const override;
+  [[nodiscard]] bool is_clean(Vec2 middle_mm, double radius_mm, std::size_t crossing) const override;
+  [[nodiscard]] Edges edges() const override;
+
+ private:
+  std::shared_ptr<const DirtField> sharp_;
+  std::vector<std::shared_ptr<const FringedPlane>> crossings_;
+  double level_ = 1.0;
+};
+
+class DirtFringes {
+ public:
+  struct Key {
+    Dirt dirt;
+    double extent_mm = 0.0;  // of its plane
+    friend bool operator==(const Key&, const Key&) = default;
+  };
+  struct Wanted {
+    double lambda_z_mm2 = 1.0;  // at the middle of the band
+    double spread = 0.0;  // RMS spread of its wavelengths over their mean
+  };
+
+  explicit DirtFringes(const Key& /*key*/) {}
+
+  // field: must be of the key's dirt and plane. Makes the planes that do not exist yet, on all threads. Returns false
+  // if cancelled.
+  bool make(const DirtField& field, std::span<const Wanted> wanted, const Context& context);
+  [[nodiscard]] std::shared_ptr<const FringedPlane> plane(const Wanted& wanted) const;  // null unless made
+  [[nodiscard]] std::size_t count() const { return planes_.size(); }
+
+ private:
+  struct PlaneKey {
+    int rung = 0, spread = 0;
+    friend auto operator<=>(const PlaneKey&, const PlaneKey&) = default;
+  };
+  [[nodiscard]] static PlaneKey key_of(const Wanted& wanted);
+
+  std::map<int, std::shared_ptr<const StraightEdge>> edges_;  // by spread
+  std::map<PlaneKey, std::shared_ptr<const FringedPlane>> planes_;
+};
+
+}  // namespace contrejour::screens

@@ -1,0 +1,88 @@
+// The stop patterns and diffraction shadows of a frame's ghosts, as FrameSettings requests them, for one lens.
+// Thread-safety: prepare() from one thread; of() from any thread, afterwards.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "contrejour/frame_settings.h"
+#include "contrejour/iris_field.h"
+#include "render/planning/dirt_screen.h"
+#include "render/planning/frame_plan.h"
+#include "render/planning/render_cache.h"
+#include "render/planning/stop_screen.h"
+#include "render/stop_patterns/stop_patterns.h"
+#include "render/stop_patterns/stop_wave.h"
+
+namespace contrejour {
+
+class Screens {
+ public:
+  struct Wanted {
+    Ghost ghost;
+    double lambda_nm = 550;
+    double spread_nm = 0;  // PlannedPass
+    LightSource light;
+  };
+
+  // lens and cache must outlive this object.
+  Screens(const LensState& lens, const FrameSettings& settings, RenderCache& cache);
+
+  [[nodiscard]] bool on() const { return options_.mode != RingingMode::None || has_tones(); }
+  // A picture's half-tones dim all of a ghost, in or out of focus, so that every ghost needs its stop pattern.
+  [[nodiscard]] bool has_tones() const { return lens_.iris.field != nullptr && lens_.iris.field->has_tones(); }
+
+  // The Fresnel number of the stop's edge in a ghost, approximately; infinite where the edge is sharp.
+  [[nodiscard]] double fresnel_number(const Ghost& ghost, double lambda_nm, const LightSource& light) const;
+
+  // The section that holds the patterns; null without ringing, and before prepare().
+  [[nodiscard]] const std::shared_ptr<screens::StopPatterns>& patterns() const { return patterns_; }
+
+  // Makes the stop patterns of these ghosts; all wavelengths of a ghost must be in one call. Returns false if
+  // cancelled.
+  bool prepare(std::span<const Wanted> wanted, const Context& context);
+  // The same for all ghosts and passes of a plan.
+  bool prepare(const FramePlan& plan, const Context& context);
+
+  // Makes the fringes of dirt's shadows; the iris's stop patterns are not needed. Returns false if cancelled.
+  bool prepare_dirt(std::span<const Wanted> wanted, const std::shared_ptr<const DirtField>& dirt,
+                    const Context& context);
+
+  // About the width of the fringes of dirt's shadows in its plane, at the last crossing of the stop; 0 without ringing.
+  [[nodiscard]] double dirt_unit_mm(const Wanted& wanted, bool on_front) const;
+
+  // Null if the iris is sharp, or if the pattern was not prepared.
+  [[nodiscard]] std::shared_ptr<const StopScreen> of(const Ghost& ghost, double lambda_nm,
+                                                     const LightSource& light) const;
+  // Null if shadows of dirt are sharp, or if they were not prepared.
+  [[nodiscard]] std::shared_ptr<const DirtScreen> dirt_of(const Ghost& ghost, double lambda_nm,
+                                                          const LightSource& light) const;
+
+ private:
+  struct Key {
+    Ghost ghost;
+    double lambda_nm, light_distance_mm;  // along the axis
+    friend auto operator<=>(const Key&, const Key&) = default;
+  };
+  [[nodiscard]] static Key key_of(const Ghost& ghost, double lambda_nm, const LightSource& light);
+  [[nodiscard]] std::vector<screens::StopWave> waves_of(std::span<const Wanted> wanted, const Context& context) const;
+  [[nodiscard]] bool is_sharp(double footprint, double fresnel_number) const;
+  [[nodiscard]] double order(double lambda_nm) const;  // of the fractional transform
+  [[nodiscard]] std::vector<screens::PlaneWave> dirt_waves(const Wanted& wanted, bool on_front) const;
+  bool prepare_fresnel(std::span<const Wanted> wanted, const Context& context);
+  bool prepare_hullin(std::span<const Wanted> wanted, const Context& context);
+  void add_tones(std::span<const Wanted> wanted);
+
+  const LensState& lens_;
+  RingingOptions options_;
+  double pixel_pitch_mm_;
+  RenderCache& cache_;
+  std::shared_ptr<const class IrisShape> iris_;
+  std::shared_ptr<screens::StopPatterns> patterns_;
+  std::map<Key, std::shared_ptr<const StopScreen>> screens_;
+  std::map<Key, std::shared_ptr<const DirtScreen>> dirt_;
+};
+
+}  // namespace contrejour

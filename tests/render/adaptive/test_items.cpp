@@ -1,0 +1,126 @@
+// What a small preview frame predicts of the whole one before anything is drawn at full quality.
+#include <doctest/doctest.h>
+
+#include "contrejour/metrics.h"
+#include "render/adaptive/adaptive.h"
+#include "render/adaptive/item.h"
+#include "render/adaptive/scene.h"
+#include "render/planning/frame_plan.h"
+#include "support/flares.h"
+
+using namespace contrejour;
+using namespace contrejour::adaptive;
+
+namespace {
+
+struct System {
+  const char* name;
+  double f_number, focal_length_mm;
+  Vec2 uv;
+};
+
+RoughFrame rough_frame(const LensState& lens, const Light& light, const test::Settings& settings) {
+  RenderCache cache;
+  const auto plan = plan_frame({lens, {&light, 1}, settings, cache}, {});
+  REQUIRE(plan.has_value());
+  const StepsByWavelength steps(lens, plan->tables);
+  const Scene scene{lens, *plan, std::move(steps), IrisShape(lens.iris)};
+  Work work;
+  const std::vector<Item> items = find_items(scene, {}, work);
+  Pool<BoxCells> rooms;
+  TileDrawer drawer;
+  return draw_roughly(scene, items, settings.frame, rooms, drawer, {}, work);
+}
+
+}  // namespace
+
+// The front of a fisheye bulges: the window of a light far off the axis reaches beyond the rim, to its side.
+TEST_CASE("where around the axis a light stands changes nothing of where its rays are looked for") {
+  const LensState lens = test::lens_at_f("muller-fisheye-10", 8.0, 0.0);
+  test::Settings settings;
+  settings.wavelengths = 3;
+  settings.frame = frame_on_sensor(lens, 64, 36);
+  const auto items_for = [&](double turn) {
+    Light light;
+    light.direction = normalized(Vec3{2.5 * std::cos(turn), 2.5 * std::sin(turn), 1.0});
+    RenderCache cache;
+    const auto plan = plan_frame({lens, {&light, 1}, settings, cache}, {});
+    REQUIRE(plan.has_value());
+    const StepsByWavelength steps(lens, plan->tables);
+    Work work;
+    std::vector<Rectangle> found;
+    for (const Item& item : find_items({lens, *plan, std::move(steps), IrisShape(lens.iris)}, {}, work)) {
+      found.push_back({item.window.min_mm, item.window.max_mm});
+      found.insert(found.end(), item.boxes.begin(), item.boxes.end());
+    }
+    return found;
+  };
+  const std::vector<Rectangle> along_x = items_for(0.0), aside = items_for(0.8);
+  REQUIRE(along_x.size() == aside.size());
+  for (std::size_t k = 0; k < aside.size(); ++k) {
+    CHECK(length(aside[k].low - along_x[k].low) < 1e-3);
+    CHECK(length(aside[k].high - along_x[k].high) < 1e-3);
+  }
+}
+
+TEST_CASE("a plan that lets dark parts be left out gets the rest, as it is in the whole picture") {
+  const LensState lens = test::lens_at_f("itoh-zoom", 32.0, 123.0);
+  test::Settings settings;
+  settings.wavelengths = 3;
+  settings.frame = frame_on_sensor(lens, 640, 360);
+  const Light light = test::light_at(lens, settings.frame, {0.7, 0.33});
+  RenderCache cache;
+  auto plan = plan_frame({lens, {&light, 1}, settings, cache}, {});
+  REQUIRE(plan.has_value());
+  const auto drawn = [&](std::vector<Ghost> ghosts, std::optional<int> margin_px) {
+    FramePlan part = *plan;
+    part.looks.resize(ghosts.size());
+    part.ghosts = std::move(ghosts);
+    part.dark_margin_px = margin_px;
+    RenderCache cache;
+    auto flare = render_adaptive({lens, part, settings, cache}, {}, {});
+    REQUIRE(flare.has_value());
+    return std::move(*flare);
+  };
+  int smaller = 0, dark = 0;
+  for (const Ghost& ghost : plan->ghosts) {
+    const DrawnFlare whole = drawn({ghost}, std::nullopt), part = drawn({ghost}, 5);
+    REQUIRE((whole.image.width == 640 && whole.image.height == 360));
+    CHECK((whole.left == 0 && whole.top == 0));
+    smaller += part.image.pixels.size() < whole.image.pixels.size() ? 1 : 0;
+    dark += part.image.pixels.empty() ? 1 : 0;
+    Image all(640, 360);
+    for (int y = 0; y < part.image.height; ++y) std::ranges::copy(part.image.row(y), &all.at(part.left, part.top + y));
+    CHECK(all.pixels == whole.image.pixels);
+  }
+  CHECK(smaller > 10);
+  CHECK(dark > 0);
+  CHECK(drawn({}, 5).image.pixels.empty());
+}
+
+// Coatings reflect the middle wavelength least: with its light in place of all, the peak would be a third of the true
+// one.
+TEST_CASE("the peak that errors are relative to is the picture's, whatever its size and wavelengths") {
+  for (const System& system :
+       {System{"heliar", 16.0, 0.0, {0.7, 0.33}}, System{"itoh-zoom", 32.0, 123.0, {0.7, 0.33}},
+        System{"nikon-80-200", 16.0, 140.0, {0.25, 0.75}}, System{"canon-70-200", 32.0, 135.0, {0.7, 0.33}},
+        System{"planar-50", 11.0, 0.0, {0.3, 0.8}}}) {
+    const LensState lens = test::lens_at_f(system.name, system.f_number, system.focal_length_mm);
+    for (const int width : {160, 640}) {
+      for (const int wavelengths : {3, 8}) {
+        CAPTURE(system.name);
+        CAPTURE(width);
+        CAPTURE(wavelengths);
+        test::Settings settings;
+        settings.frame = frame_on_sensor(lens, width, width * 9 / 16);
+        settings.wavelengths = wavelengths;
+        const Light light = test::light_at(lens, settings.frame, system.uv);
+        const Image image = test::flare_of("adaptive", lens, {&light, 1}, settings).image;
+        const double peak = quantile_of_samples(image, 0.999);
+        const double rough = rough_frame(lens, light, settings).peak / peak;
+        CHECK(rough > 0.6);
+        CHECK(rough < 2.0);
+      }
+    }
+  }
+}

@@ -1,0 +1,333 @@
+// Many wavelengths interpolated from few: the order in which they are chosen, the interpolated values, and pictures.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <set>
+
+#include "contrejour/metrics.h"
+#include "render/adaptive/maps/band_error.h"
+#include "render/adaptive/maps/band_set.h"
+#include "render/adaptive/maps/first_rays.h"
+#include "render/adaptive/scene.h"
+#include "support/flares.h"
+
+using namespace contrejour;
+using namespace contrejour::adaptive;
+
+namespace {
+
+std::vector<double> evenly(double from_nm, double to_nm, std::size_t count) {
+  std::vector<double> lambda_nm;
+  for (std::size_t k = 0; k < count; ++k)
+    lambda_nm.push_back(from_nm + (to_nm - from_nm) * static_cast<double>(k) / static_cast<double>(count - 1));
+  return lambda_nm;
+}
+
+// A ghost of a light at sixteen wavelengths.
+constexpr ErrorBudget kSome{1e150 * 1e-12, 1e-6};
+
+struct Rainbow {
+  test::GhostScene scene;
+  std::vector<PlannedPass> passes;
+  WavelengthSamples samples;
+  StepsByWavelength steps;
+  GhostTracers tracers;
+
+  Rainbow(const char* lens, double f_number, Ghost ghost, Vec3 towards)
+      : scene(test::lens_at_f(lens, f_number), ghost, towards), passes(passes_of()),
+        samples(evenly(400.0, 700.0, 16), 9), steps(scene.lens, scene.tables),
+        tracers(steps, ghost, scene.light, entrance_window(scene.lens, scene.light.source).z_mm, passes, 1.0) {}
+  static std::vector<PlannedPass> passes_of() {
+    std::vector<PlannedPass> passes;
+    for (const double lambda_nm : evenly(400.0, 700.0, 16)) passes.push_back({lambda_nm, {1.0, 0.5, 0.25}});
+    return passes;
+  }
+};
+
+const Vec3 kAside{std::sin(0.2), 0.0, std::cos(0.2)};
+
+}  // namespace
+
+TEST_CASE("Leja's order begins with the ends and leaves out what is there already") {
+  const std::vector<double> lambda_nm = evenly(400.0, 700.0, 16);
+  const WavelengthSamples samples(lambda_nm, 9);
+  REQUIRE(samples.size() == 9);
+  CHECK(samples[0] == 0);
+  CHECK(samples[1] == 15);
+  // The middle in 1 / lambda^2: 493 nm.
+  CHECK(samples[2] == 5);
+  std::set<std::size_t> taken;
+  for (std::size_t k = 0; k < samples.size(); ++k) taken.insert(samples[k]);
+  CHECK(taken.size() == 9);
+  const WavelengthSamples shuffled(std::vector<double>{500.0, 700.0, 450.0, 400.0, 600.0}, 2);
+  CHECK(shuffled[0] == 3);
+  CHECK(shuffled[1] == 1);
+  CHECK(WavelengthSamples(std::vector<double>{550.0, 550.0, 600.0, 600.0}, 9).size() == 2);
+  CHECK(WavelengthSamples(std::vector<double>{550.0}, 9).size() == 1);
+  CHECK(WavelengthSamples(std::vector<double>{}, 9).size() == 0);
+}
+
+TEST_CASE("polynomials in 1 / lambda^2 are told exactly, others are not") {
+  const std::vector<double> lambda_nm = evenly(380.0, 780.0, 31);
+  const WavelengthSamples samples(lambda_nm, 5);
+  const auto told = [&](auto of, std::size_t at) {
+    const std::vector<double> factors = samples.factors(5, at);
+    double sum = 0.0;
+    for (std::size_t k = 0; k < factors.size(); ++k) sum += factors[k] * of(lambda_nm[samples[k]]);
+    return sum;
+  };
+  const auto quartic = [](double lambda) {
+    const double s = 550.0 * 550.0 / (lambda * lambda);
+    return 3.0 - s + 2.0 * s * s - 0.5 * s * s * s + 0.1 * s * s * s * s;
+  };
+  for (std::size_t k = 0; k < lambda_nm.size(); ++k)
+    CHECK(told(quartic, k) == doctest::Approx(quartic(lambda_nm[k])).epsilon(1e-12));
+  const auto narrow = [](double lambda) { return std::exp(-0.5 * std::pow((lambda - 550.0) / 20.0, 2.0)); };
+  double worst = 0.0;
+  for (std::size_t k = 0; k < lambda_nm.size(); ++k)
+    worst = std::max(worst, std::abs(told(narrow, k) - narrow(lambda_nm[k])));
+  CHECK(worst > 0.1);
+}
+
+TEST_CASE("few wavelengths tell the transmissions of sixteen") {
+  for (const Ghost ghost : {Ghost{3, 4}, Ghost{1, 2}, Ghost{7, 9}}) {
+    CAPTURE(ghost.i);
+    Rainbow rainbow("heliar", 16.0, ghost, kAside);
+    REQUIRE_FALSE(rainbow.scene.boxes.empty());
+    const Rectangle& box = rainbow.scene.boxes.front();
+    const Frame frame = frame_on_sensor(rainbow.scene.lens, 1920, 1080);
+    // Without a limit, with one that requires more of them, and with one that requires all.
+    std::size_t before = 0;
+    for (const double allowed : {1e150, 0.1, 1e-3}) {
+      CAPTURE(allowed);
+      const double peak = 1e-6;
+      const FirstRays rays =
+          first_rays(rainbow.tracers, rainbow.samples, box, 5, frame, {allowed * allowed * peak * peak, peak});
+      const std::size_t traced = rays.samples == 0 ? 16 : rays.samples;
+      CHECK(traced >= std::max<std::size_t>(before, 4));
+      if (allowed == 1e150) CHECK(traced <= 9);
+      before = traced;
+      for (std::size_t k = 0; k < 16; ++k) {
+        const RaySheet sheet = rainbow.tracers.at(k).trace(box, 5, PacketPrecision::Double);
+        const float most = *std::max_element(sheet.transmission.begin(), sheet.transmission.end());
+        double told = 0.0, traced_light = 0.0;
+        for (std::size_t node = 0; node < sheet.count(); ++node) {
+          CHECK(std::abs(rays.transmission[k][node] - sheet.transmission[node]) <=
+                (allowed > 1.0 ? 0.12 : 0.03) * most);
+          told += rays.transmission[k][node];
+          traced_light += sheet.transmission[node];
+        }
+        CHECK(told == doctest::Approx(traced_light).epsilon(0.008));
+      }
+    }
+  }
+}
+
+TEST_CASE("bands told by samples have the patches of rays traced at their wavelengths") {
+  Rainbow rainbow("heliar", 16.0, {3, 4}, kAside);
+  const Rectangle& box = rainbow.scene.boxes.front();
+  const Frame frame = frame_on_sensor(rainbow.scene.lens, 1920, 1080);
+  std::vector<Band> bands;
+  for (std::size_t k = 0; k < 16; ++k) bands.push_back({k, k + 1});
+  const FirstRays rays = first_rays(rainbow.tracers, rainbow.samples, box, 5, frame, kSome);
+  REQUIRE(rays.samples > 0);
+  BandSet told(rainbow.tracers, rainbow.samples, rays, bands);
+  std::vector<RaySheet> sheets = told.trace(box, 9, PacketPrecision::Double);
+  told.add_weights(sheets, PacketPrecision::Double);
+  const std::vector<Patch> patches = told.make_patches(sheets, frame);
+  REQUIRE(patches.size() == rays.samples);
+  for (std::size_t k = 0; k < 16; ++k) {
+    CAPTURE(k);
+    Patch patch;
+    told.band_patch(patches, k, patch);
+    BandSet alone(rainbow.tracers, bands[k]);
+    std::vector<RaySheet> one = alone.trace(box, 9, PacketPrecision::Double);
+    alone.add_weights(one, PacketPrecision::Double);
+    const Patch traced = alone.make_patches(one, frame).front();
+    CHECK(patch.layout.weights == 1);
+    CHECK(traced.layout.weights == 1);
+    CHECK(patch.gain == traced.gain);
+    for (std::size_t node = 0; node < patch.size(); ++node) {
+      const Vec2 off = patch.origin_px - traced.origin_px;
+      CHECK(std::abs(patch.field(PatchLayout::kX)[node] + off.x - traced.field(PatchLayout::kX)[node]) < 5e-3);
+      CHECK(std::abs(patch.field(PatchLayout::kY)[node] + off.y - traced.field(PatchLayout::kY)[node]) < 5e-3);
+      CHECK(patch.field(PatchLayout::kStop)[node] ==
+            doctest::Approx(traced.field(PatchLayout::kStop)[node]).epsilon(1e-5).scale(1.0));
+      CHECK(patch.field(patch.layout.weight(0))[node] ==
+            doctest::Approx(traced.field(traced.layout.weight(0))[node]).epsilon(1.5e-2));
+    }
+  }
+}
+
+TEST_CASE("a band of several wavelengths carries the light of all, in each channel") {
+  Rainbow rainbow("heliar", 16.0, {3, 4}, kAside);
+  const Rectangle& box = rainbow.scene.boxes.front();
+  const Frame frame = frame_on_sensor(rainbow.scene.lens, 1920, 1080);
+  const std::vector<Band> bands{{0, 5}, {5, 16}};
+  const FirstRays rays = first_rays(rainbow.tracers, rainbow.samples, box, 5, frame, kSome);
+  REQUIRE(rays.samples > 0);
+  BandSet told(rainbow.tracers, rainbow.samples, rays, bands);
+  std::vector<RaySheet> sheets = told.trace(box, 9, PacketPrecision::Double);
+  told.add_weights(sheets, PacketPrecision::Double);
+  Patch patch;
+  told.band_patch(told.make_patches(sheets, frame), 1, patch);
+  REQUIRE(patch.layout.weights == 3);
+  std::vector<std::array<double, 3>> sum(patch.size());
+  for (std::size_t pass = 5; pass < 16; ++pass) {
+    const std::vector<float> light = rainbow.tracers.at(pass).transmissions(box, 9, PacketPrecision::Double);
+    for (std::size_t node = 0; node < patch.size(); ++node)
+      for (std::size_t c = 0; c < 3; ++c) sum[node][c] += rainbow.tracers.passes()[pass].gain[c] * light[node];
+  }
+  for (std::size_t node = 0; node < patch.size(); ++node)
+    for (int c = 0; c < 3; ++c)
+      CHECK(patch.gain[static_cast<std::size_t>(c)] * patch.field(patch.layout.weight_of(c))[node] ==
+            doctest::Approx(sum[node][static_cast<std::size_t>(c)]).epsilon(8e-3).scale(0.01 * sum[node][1]));
+}
+
+TEST_CASE("a band drawn by itself carries the light of all its wavelengths, too") {
+  Rainbow rainbow("heliar", 16.0, {3, 4}, kAside);
+  const Rectangle& box = rainbow.scene.boxes.front();
+  BandSet alone(rainbow.tracers, Band{2, 11, {}});
+  std::vector<RaySheet> sheets = alone.trace(box, 5, PacketPrecision::Double);
+  alone.add_weights(sheets, PacketPrecision::Double);
+  REQUIRE(sheets.size() == 1);
+  REQUIRE(sheets.front().weight.size() == 3);
+  for (std::size_t c = 0; c < 3; ++c) {
+    std::vector<double> sum(sheets.front().count());
+    for (std::size_t pass = 2; pass < 11; ++pass) {
+      const std::vector<float> light = rainbow.tracers.at(pass).transmissions(box, 5, PacketPrecision::Double);
+      for (std::size_t node = 0; node < sum.size(); ++node)
+        sum[node] += rainbow.tracers.passes()[pass].gain[c] * light[node];
+    }
+    for (std::size_t node = 0; node < sum.size(); ++node)
+      CHECK(sheets.front().weight[c][node] == doctest::Approx(sum[node]).epsilon(1e-5));
+  }
+}
+
+namespace {
+
+// The error that band_error() predicts, summed over pixels: edges are steps, each pixel is the mean of its points.
+double counted_error(std::span<const SpectralEdge> edges, double drawn_px) {
+  constexpr int kOffsets = 200, kReach_px = 12;
+  double sum = 0.0;
+  for (int offset = 0; offset < kOffsets; ++offset) {
+    for (int pixel = -kReach_px; pixel <= kReach_px; ++pixel) {
+      const double left = pixel + (offset + 0.5) / kOffsets;
+      const auto right_of = [&](double edge_px) { return std::clamp(left + 1.0 - edge_px, 0.0, 1.0); };
+      double off = 0.0;
+      for (const SpectralEdge& edge : edges) off += edge.light * (right_of(edge.place_px) - right_of(drawn_px));
+      sum += off * off / kOffsets;
+    }
+  }
+  return sum;
+}
+
+}  // namespace
+
+TEST_CASE("edges drawn at one place are as wrong as counted pixel by pixel") {
+  const std::vector<SpectralEdge> far{{-4.3, 0.2}, {-1.1, 0.1}, {0.4, 0.3}, {2.0, 0.15}, {5.5, 0.25}};
+  const std::vector<SpectralEdge> near{{-0.21, 0.2}, {-0.05, 0.5}, {0.3, 0.3}};
+  for (const auto& edges : {far, near}) {
+    for (const double drawn_px : {0.0, 0.4, middle_of_light(edges)})
+      CHECK(band_error(edges, drawn_px) == doctest::Approx(counted_error(edges, drawn_px)).epsilon(2e-3));
+  }
+  // Displacements of less than a pixel cancel about the middle of the light.
+  CHECK(band_error(near, middle_of_light(near)) < 0.1 * band_error(near, near.front().place_px));
+  const std::vector<SpectralEdge> one{{3.0, 1.0}};
+  CHECK(band_error(one, 3.0) == 0.0);
+}
+
+TEST_CASE("told bands are seen at the middle of their light, traced ones at one of their wavelengths") {
+  Rainbow rainbow("heliar", 16.0, {3, 4}, kAside);
+  const Frame frame = frame_on_sensor(rainbow.scene.lens, 1920, 1080);
+  FirstRays rays = first_rays(rainbow.tracers, rainbow.samples, rainbow.scene.boxes.front(), 5, frame, {1e300, 1.0});
+  rays.tolerance.position_px = 1.0;
+  REQUIRE(rays.samples > 0);
+  bool several = false;
+  for (const Band& band : bands_for(rays, rainbow.passes, rainbow.samples, frame.pixel_pitch_mm)) {
+    REQUIRE(band.mix.size() == band.last - band.first);
+    CHECK(std::accumulate(band.mix.begin(), band.mix.end(), 0.0) == doctest::Approx(1.0));
+    several = several || band.mix.size() > 1;
+  }
+  CHECK(several);
+  rays.samples = 0;
+  for (const Band& band : bands_for(rays, rainbow.passes, rainbow.samples, frame.pixel_pitch_mm))
+    CHECK(band.mix.empty());
+}
+
+TEST_CASE("bands hold every wavelength once, more of them the less may be wrong") {
+  Rainbow rainbow("heliar", 16.0, {3, 4}, kAside);
+  const Frame frame = frame_on_sensor(rainbow.scene.lens, 1920, 1080);
+  FirstRays rays = first_rays(rainbow.tracers, rainbow.samples, rainbow.scene.boxes.front(), 5, frame, {1e300, 1.0});
+  const auto bands_within = [&](double tolerance_px) {
+    rays.tolerance.position_px = tolerance_px;
+    return bands_for(rays, rainbow.passes, rainbow.samples, frame.pixel_pitch_mm);
+  };
+  std::size_t before = 1;
+  for (const double tolerance_px : {1e6, 3.0, 1.0, 0.3, 0.1, 1e-6}) {
+    CAPTURE(tolerance_px);
+    const std::vector<Band> bands = bands_within(tolerance_px);
+    CHECK(bands.size() >= before);
+    before = bands.size();
+    CHECK(bands.front().first == 0);
+    CHECK(bands.back().last == 16);
+    for (std::size_t k = 0; k + 1 < bands.size(); ++k) CHECK(bands[k].last == bands[k + 1].first);
+  }
+  CHECK(bands_within(1e6).size() == 1);
+  CHECK(bands_within(1e-6).size() == 16);
+  CHECK(bands_within(0.3).size() > 1);
+}
+
+TEST_CASE("however much may be wrong, wavelengths of a band are no farther apart than colours allow") {
+  Rainbow rainbow("heliar", 16.0, {3, 4}, kAside);
+  const Frame frame = frame_on_sensor(rainbow.scene.lens, 1920, 1080);
+  FirstRays rays = first_rays(rainbow.tracers, rainbow.samples, rainbow.scene.boxes.front(), 5, frame, {1e300, 1.0});
+  rays.tolerance.position_px = 1e6;
+  const auto bands_within = [&](double colour_px) {
+    rays.tolerance.colour_px = colour_px;
+    return bands_for(rays, rainbow.passes, rainbow.samples, frame.pixel_pitch_mm).size();
+  };
+  const RaySheet first = rainbow.tracers.at(0).trace(rainbow.scene.boxes.front(), 5, PacketPrecision::Double);
+  const RaySheet last = rainbow.tracers.at(15).trace(rainbow.scene.boxes.front(), 5, PacketPrecision::Double);
+  double spread_px = 0.0;
+  for (std::size_t k = 0; k < first.count(); ++k)
+    if (std::max(first.r_rel[k], last.r_rel[k]) < 1.2F)
+      spread_px = std::max(spread_px, std::hypot(first.sensor_x_mm[k] - last.sensor_x_mm[k],
+                                                 first.sensor_y_mm[k] - last.sensor_y_mm[k]) /
+                                          frame.pixel_pitch_mm);
+  REQUIRE(spread_px > 1.0);
+  CHECK(bands_within(spread_px) == 1);
+  CHECK(bands_within(0.3 * spread_px) >= 2);
+  CHECK(bands_within(0.1 * spread_px) >= 4);
+  CHECK(bands_within(1e-9) == 16);
+}
+
+TEST_CASE("by default a fisheye's ghosts are continuous spectra, not bars") {
+  const LensState lens = test::lens_at_f("muller-fisheye-10", 11.0);
+  test::Settings settings;
+  settings.frame = frame_on_sensor(lens, 384, 216);
+  const Light light = test::light_at(lens, settings.frame, {0.70, 0.33});
+  const Image ours = test::flare_of("adaptive", lens, {&light, 1}, settings).image;
+  settings.wavelengths = 96;
+  const auto difference = compare(test::flare_of("adaptive", lens, {&light, 1}, settings).image, ours);
+  REQUIRE(difference.has_value());
+  CHECK(difference->psnr_db.value_or(1000.0) >= 48.0);  // with three wavelengths 34
+}
+
+TEST_CASE("sixteen wavelengths as in the reference") {
+  for (const auto& [name, f_number] : {std::pair{"heliar", 16.0}, std::pair{"tessar", 8.0}}) {
+    CAPTURE(name);
+    const LensState lens = test::lens_at_f(name, f_number);
+    test::Settings settings;
+    settings.scope = GhostScope::OneSideOfStop;  // half as many ghosts in half the time
+    settings.frame = frame_on_sensor(lens, 160, 90);
+    settings.wavelengths = 16;
+    const Light light = test::light_at(lens, settings.frame, {0.70, 0.33});
+    const Image truth = test::flare_of("reference", lens, {&light, 1}, settings).image;
+    const auto difference = compare(truth, test::flare_of("adaptive", lens, {&light, 1}, settings).image);
+    REQUIRE(difference.has_value());
+    CHECK(difference->psnr_db.value_or(1000.0) >= 50.0);
+  }
+}

@@ -1,0 +1,71 @@
+// The displacement of a ghost with its light: against rays traced one by one through the same place of the stop.
+#include <cmath>
+#include <optional>
+
+#include <doctest/doctest.h>
+
+#include "render/area_lights/ghost_motion.h"
+#include "support/scenes.h"
+
+using namespace contrejour;
+using namespace contrejour::area;
+
+namespace {
+
+struct Landing {
+  Vec2 start_mm, sensor_mm;
+};
+
+// The ray of a light through the middle of the stop at its first crossing, by Newton's method from a starting point.
+std::optional<Landing> through_middle(const OpticalPath& path, const LightSource& source, double z_mm, Vec2 start_mm) {
+  const auto traced = [&](Vec2 at) {
+    const Vec3 from{at.x, at.y, z_mm};
+    return trace(path, {from, source.direction_at(from)});
+  };
+  constexpr double kStep = 1e-5;
+  for (int k = 0; k < 20; ++k) {
+    const TracedRay here = traced(start_mm);
+    const TracedRay right = traced(start_mm + Vec2{kStep, 0.0}), up = traced(start_mm + Vec2{0.0, kStep});
+    for (const TracedRay& ray : {here, right, up})
+      if (ray.status != RayStatus::Ok) return std::nullopt;
+    if (length(here.stop[0]) < 1e-9) return Landing{start_mm, here.sensor_mm};
+    const LinearMap by_start{(right.stop[0] - here.stop[0]) * (1.0 / kStep),
+                             (up.stop[0] - here.stop[0]) * (1.0 / kStep)};
+    start_mm = start_mm - inverse(by_start)(here.stop[0]);
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+TEST_CASE("a ghost that the stop bounds moves as its ray through the middle of the stop does") {
+  const LensState lens = test::bundled("itoh-zoom", {.focal_length_mm = 123.0, .f_number = 32.0});
+  const ReflectanceTables tables(lens, 550.0);
+  const LensSteps steps(lens, tables);
+  int checked = 0;
+  for (const Vec2 tangents : {Vec2{0.05, 0.03}, Vec2{-0.08, 0.02}, Vec2{0.0, -0.06}}) {
+    const LightSource source{normalized(Vec3{tangents.x, tangents.y, 1.0})};
+    const LightWindows windows(lens, source);
+    for (const Ghost& ghost : enumerate_ghosts(lens, GhostScope::OneSideOfStop)) {
+      CAPTURE(ghost.i);
+      CAPTURE(ghost.j);
+      const GhostMotion motion = ghost_motion(steps, ghost, source, windows);
+      if (!motion.is_open) continue;
+      const OpticalPath path = ghost_path(lens, ghost, 550.0);
+      if (path.stop_crossings != 1) continue;
+      const double z_mm = windows.of(true).z_mm, tangent = 1e-4;
+      const auto middle = through_middle(path, source, z_mm, {});
+      if (!middle || length(motion.at_mm - middle->sensor_mm) > 0.05) continue;  // rims bound it, or it has two pupils
+      const auto right = through_middle(path, source_beside(source, {tangent, 0.0}), z_mm, middle->start_mm);
+      const auto up = through_middle(path, source_beside(source, {0.0, tangent}), z_mm, middle->start_mm);
+      REQUIRE((right.has_value() && up.has_value()));
+      const LinearMap expected{(right->sensor_mm - middle->sensor_mm) * (1.0 / tangent),
+                               (up->sensor_mm - middle->sensor_mm) * (1.0 / tangent)};
+      const LinearMap off = motion.shift_mm - expected;
+      // The shift is the median over the pupil, which differs from the middle ray's in ghosts with much coma.
+      CHECK(length(off.x) + length(off.y) < 0.05 * (length(expected.x) + length(expected.y)));
+      ++checked;
+    }
+  }
+  CHECK(checked > 60);
+}
