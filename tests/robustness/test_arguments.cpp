@@ -20,7 +20,7 @@
 #include "contrejour/seidel.h"
 #include "contrejour/starburst.h"
 #include "contrejour/surface_shape.h"
-#include "walk/strange.h"
+#include "robustness/strange.h"
 
 using namespace contrejour;
 using namespace contrejour::test;

@@ -10,7 +10,7 @@
 #include "contrejour/output_file.h"
 #include "contrejour/spectrum_file.h"
 #include "contrejour/write_lens.h"
-#include "walk/strange.h"
+#include "robustness/strange.h"
 
 using namespace contrejour;
 using namespace contrejour::test;

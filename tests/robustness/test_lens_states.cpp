@@ -8,7 +8,7 @@
 #include "contrejour/lens_starburst.h"
 #include "contrejour/machine_speed.h"
 #include "contrejour/seidel.h"
-#include "walk/strange.h"
+#include "robustness/strange.h"
 
 using namespace contrejour;
 using namespace contrejour::test;
