@@ -1,7 +1,8 @@
+// SPDX-License-Identifier: Apache-2.0
 // Reflectance of a coated surface: evaluated at every reflection and refraction of every ray.
 #include <benchmark/benchmark.h>
 
-#include "contrejour/coating.h"
+#include "contrejour/expert/coating.h"
 
 namespace {
 

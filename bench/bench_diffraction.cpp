@@ -1,14 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
 // A starburst for a new iris and its drawing at 1080p; ringing of a mask of 512 samples. Times are wall time.
 #include <complex>
 #include <vector>
 
 #include <benchmark/benchmark.h>
 
-#include "contrejour/fractional_fourier.h"
-#include "contrejour/fresnel.h"
-#include "contrejour/lens_starburst.h"
+#include "contrejour/expert/fractional_fourier.h"
+#include "contrejour/expert/fresnel.h"
+#include "contrejour/expert/lens_starburst.h"
+#include "contrejour/expert/starburst.h"
 #include "contrejour/render.h"
-#include "contrejour/starburst.h"
 
 namespace {
 

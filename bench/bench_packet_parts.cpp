@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The parts of tracing a packet, on each instruction set: the geometry without any look-up of reflectances, and the
 // look-ups alone. Items are surfaces hit, or look-ups; float.
 #include <cstddef>

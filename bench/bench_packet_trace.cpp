@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Packets of rays along the longest ghost of three lenses, on each instruction set including the scalar one; items are
 // surfaces hit. bench_trace.cpp traces the same rays one at a time in double.
 #include <cstdint>

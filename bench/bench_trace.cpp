@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Double-precision tracing of one ray along the direct path and along a ghost's; items are surfaces hit.
 #include <algorithm>
 #include <cstddef>
@@ -6,9 +7,9 @@
 
 #include <benchmark/benchmark.h>
 
-#include "contrejour/ghost.h"
+#include "contrejour/expert/ghost.h"
+#include "contrejour/expert/trace.h"
 #include "contrejour/lens.h"
-#include "contrejour/trace.h"
 
 namespace {
 

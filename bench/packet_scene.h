@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The longest ghost of a lens, and rays for it, which the packet benchmarks share.
 #pragma once
 
@@ -7,7 +8,7 @@
 #include <optional>
 #include <vector>
 
-#include "contrejour/ghost.h"
+#include "contrejour/expert/ghost.h"
 #include "optics/trace/packet_trace.h"
 
 namespace contrejour::bench {

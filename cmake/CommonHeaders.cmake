@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # contrejour_common_headers(): gives every target made so far common_headers.h, compiled once (clang). For builds that
 # only tests run, in which reading these headers is half of the work. The release build has to find what it includes.
 #

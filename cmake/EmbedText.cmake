@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # contrejour_embed_text(OUT FOLDER EXTENSION): a file of { "stem", "text" } rows of every FOLDER/*.EXTENSION, made anew
 # when one changes; OUT becomes its path, in the current binary folder. For `#include` within an array.
 set(CONTREJOUR_EMBED_TEXT ${CMAKE_CURRENT_LIST_DIR}/embed_text.cmake)

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # Installs the library, its headers, and the package `contrejour::contrejour` for find_package. Programs are
 # installed where they are made, in apps/.
 include(GNUInstallDirs)
@@ -5,7 +6,13 @@ include(CMakePackageConfigHelpers)
 
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/contrejour)
 
-install(TARGETS contrejour EXPORT contrejour-targets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
+set(libraries contrejour)
+if(TARGET contrejour_shared)
+  list(APPEND libraries contrejour_shared)
+endif()
+install(TARGETS ${libraries} EXPORT contrejour-targets
+        ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}
+        RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR}
         INCLUDES DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 install(DIRECTORY include/contrejour DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.h")
 install(EXPORT contrejour-targets NAMESPACE contrejour:: DESTINATION ${package_dir})

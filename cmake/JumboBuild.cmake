@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # contrejour_jumbo(TARGET): compiles several files of the target as one, so that the headers they share are read once.
 # This takes two to three times less processor time for a whole build. Names in unnamed namespaces must differ within a
 # target. Two functions of the same name are often the same function, which then belongs in a header.

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # Warnings, sanitizers, and the tools that make a build quick where they are present.
 if(MSVC)
   add_compile_options(/W4 /permissive- /utf-8)

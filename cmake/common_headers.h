@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What most files include of other projects, read once for all of them in sanitized builds: CommonHeaders.cmake.
 // Nothing of our own, so that no change here compiles everything anew.
 #include <algorithm>

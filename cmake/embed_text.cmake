@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # cmake -DOUT=FILE -DFOLDER=DIR -DEXTENSION=EXT -P embed_text.cmake
 # Writes every DIR/*.EXT as { "stem", "text" } rows. One literal a line: compilers bound the length of one literal.
 file(GLOB files ${FOLDER}/*.${EXTENSION})

@@ -1,8 +1,9 @@
+// SPDX-License-Identifier: Apache-2.0
 // Any bytes as an AGF catalogue: glasses whose index is a number within their range, or an error.
 #include <cstdlib>
 #include <string_view>
 
-#include "contrejour/glass_catalogue.h"
+#include "contrejour/expert/glass_catalogue.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace contrejour;

@@ -1,8 +1,9 @@
+// SPDX-License-Identifier: Apache-2.0
 // Any bytes as measured reflectances: a table whose every value is a share, or an error.
 #include <cstdlib>
 #include <string_view>
 
-#include "contrejour/coating_file.h"
+#include "contrejour/expert/coating_file.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace contrejour;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Any bytes: the OpenEXR reader must answer in bounded time and memory, and what it takes must fill its windows.
 #include <cstddef>
 #include <cstdint>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Any bytes as a JSON lens of any program that has one; of files with many lenses those with the keys 1 and 2.
 #include "lens_text.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Any bytes: the lens reader must answer in bounded time and memory, and what it takes must write and read back.
 #include <cstddef>
 #include <cstdint>

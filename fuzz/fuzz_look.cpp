@@ -1,8 +1,9 @@
+// SPDX-License-Identifier: Apache-2.0
 // Any bytes as a look: names and values, or an error; what is read is written as the same.
 #include <cstdlib>
 #include <string_view>
 
-#include "contrejour/key_values.h"
+#include "contrejour/expert/key_values.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string_view text(reinterpret_cast<const char*>(data), size);

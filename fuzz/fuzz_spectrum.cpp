@@ -1,10 +1,11 @@
+// SPDX-License-Identifier: Apache-2.0
 // Any bytes as a spectrum: a table of which some is visible, or an error; what is read is written as the same, and has
 // bands whose weights are finite.
 #include <cmath>
 #include <cstdlib>
 #include <string_view>
 
-#include "contrejour/spectrum_file.h"
+#include "contrejour/expert/spectrum_file.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string_view text(reinterpret_cast<const char*>(data), size);

@@ -1,5 +1,6 @@
+// SPDX-License-Identifier: Apache-2.0
 // Any bytes as a sequential lens of Zemax, written as one too.
-#include "contrejour/write_lens.h"
+#include "contrejour/expert/write_lens.h"
 #include "lens_text.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What every harness of a lens reader demands: bytes are a lens that can be set and written, and reads back the same,
 // or an error.
 #pragma once

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """number_variants.py SEEDS FOLDER: copies of the text files in SEEDS, each with one number replaced, to FOLDER.
 
 Random changes rarely make a whole new number, and what breaks readers are numbers nobody writes: an index of -1, a

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Sample data next to the repository; tests that need them say so and pass where they are absent.
 #pragma once
 

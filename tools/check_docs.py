@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Check README.md and docs/: links lead somewhere, every public header is mentioned, no picture is missing.
 
     check_docs.py [ROOT]     exit 0: all well; 1: each fault as file:line
@@ -51,9 +52,9 @@ def check_tree(root):
     pages = [page for page in pages if page.exists()]
     faults = [fault for page in pages for fault in check_links(root, page)]
     text = "\n".join(page.read_text(encoding="utf-8") for page in pages)
-    for header in sorted((root / "include" / "contrejour").glob("*.h")):
+    for header in sorted((root / "include" / "contrejour").rglob("*.h")):
         if not re.search(rf"\b{re.escape(header.name)}\b", text):
-            faults.append(f"include/contrejour/{header.name}:1: no page mentions this header: see README.md, Library")
+            faults.append(f"{header.relative_to(root).as_posix()}:1: no page mentions this header: see README.md, Library")
     return faults, len(pages)
 
 

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Read every lens file below a folder and say what came of it: what is read, what is refused and why, and which figures
 are not those that the files state.
 

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Render the same scenes with two programs and compare their pictures bit by bit.
 
     same_pictures.py OLD NEW [--looks N] [--seed N]     exit 0: all the same; 1: each scene that differs; 2: usage

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "cli/app.h"
 
 #include <algorithm>
@@ -15,7 +16,7 @@
 #include "cli/console.h"
 #include "cli/interrupt.h"
 #include "cli/terminal.h"
-#include "contrejour/nearest_name.h"
+#include "contrejour/expert/nearest_name.h"
 
 namespace contrejour::cli {
 namespace {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The program: reads the command line, runs the sub-command that it names, and turns the result into an exit code.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // contrejour apply: a photograph in, the same photograph with the lens's flare out.
 #include <memory>
 #include <string>
@@ -15,8 +16,8 @@
 #include "cli/options.h"
 #include "cli/outputs.h"
 #include "contrejour/apply.h"
-#include "contrejour/apply_files.h"
-#include "contrejour/preview_exposure.h"
+#include "contrejour/expert/apply_files.h"
+#include "contrejour/expert/preview_exposure.h"
 
 namespace contrejour::cli {
 namespace {

@@ -1,9 +1,10 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "cli/apply_report.h"
 
 #include <fmt/format.h>
 
 #include "cli/text_table.h"
-#include "contrejour/settings.h"
+#include "contrejour/expert/settings.h"
 
 namespace contrejour::cli {
 namespace {

@@ -1,11 +1,12 @@
+// SPDX-License-Identifier: Apache-2.0
 // Reports the lights that `apply` found in the picture and how visible its flare is: as JSON, or as text.
 #pragma once
 
 #include <string>
 
 #include "cli/console.h"
-#include "contrejour/flare_plan.h"
-#include "contrejour/flare_visibility.h"
+#include "contrejour/expert/flare_plan.h"
+#include "contrejour/expert/flare_visibility.h"
 
 namespace contrejour::cli {
 

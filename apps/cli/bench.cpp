@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // contrejour bench: measurements on this machine.
 #include "cli/command.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // contrejour bench effects: the costs of everything but ghosts on this machine, with their targets.
 #include <memory>
 #include <string>

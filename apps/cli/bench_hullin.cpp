@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // contrejour bench hullin: figures of hullin2011, measured on this machine.
 #include <algorithm>
 #include <filesystem>
@@ -16,8 +17,8 @@
 #include "cli/console.h"
 #include "cli/options.h"
 #include "cli/outputs.h"
+#include "contrejour/expert/preview_exposure.h"
 #include "contrejour/image_io.h"
-#include "contrejour/preview_exposure.h"
 
 namespace contrejour::cli {
 namespace {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // contrejour bench lenses: the costs of frames of many lens files, compared with the bundled Canon zoom's.
 #include <filesystem>
 #include <fstream>

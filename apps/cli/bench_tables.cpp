@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // contrejour bench tables: bodonyi2023's systems on this machine, compared with the paper's figures.
 #include <algorithm>
 #include <filesystem>
@@ -14,7 +15,7 @@
 #include "cli/command.h"
 #include "cli/console.h"
 #include "cli/options.h"
-#include "contrejour/settings.h"
+#include "contrejour/expert/settings.h"
 
 namespace contrejour::cli {
 namespace {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // contrejour coating: which coatings exist, what they reflect, and which would reflect a given colour.
 #include <memory>
 
@@ -7,7 +8,7 @@
 #include "cli/console.h"
 #include "cli/reflected_colour.h"
 #include "cli/text_table.h"
-#include "contrejour/film_design.h"
+#include "contrejour/expert/film_design.h"
 
 namespace contrejour::cli {
 namespace {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // contrejour coating fit: coatings whose reflection has an observed colour. Makers keep their films secret (hullin2011,
 // 3.1), but the colour of a reflection is a constraint on them.
 #include <algorithm>
@@ -11,7 +12,7 @@
 #include "cli/console.h"
 #include "cli/reflected_colour.h"
 #include "cli/text_table.h"
-#include "contrejour/film_design.h"
+#include "contrejour/expert/film_design.h"
 
 namespace contrejour::cli {
 namespace {

@@ -1,9 +1,10 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "cli/coating_glass.h"
 
 #include <fmt/format.h>
 
 #include "cli/glass_choice.h"
-#include "contrejour/parameter_text.h"
+#include "contrejour/expert/parameter_text.h"
 
 namespace contrejour::cli {
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The option --glass of the commands that examine a coating.
 #pragma once
 
@@ -5,7 +6,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include "contrejour/glass.h"
+#include "contrejour/expert/glass.h"
 #include "contrejour/result.h"
 
 namespace contrejour::cli {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // contrejour coating show: a coating's reflectance, as numbers and as a drawing.
 #include <algorithm>
 #include <cmath>
@@ -14,7 +15,7 @@
 #include "cli/reflectance_plot.h"
 #include "cli/reflected_colour.h"
 #include "cli/text_table.h"
-#include "contrejour/parameter_text.h"
+#include "contrejour/expert/parameter_text.h"
 
 namespace contrejour::cli {
 namespace {

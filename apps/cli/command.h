@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What every sub-command provides: a function that adds it to the command line and sets the action for when it is
 // chosen.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // contrejour compare: the differences of picture B from picture A.
 #include <algorithm>
 #include <memory>
@@ -8,8 +9,8 @@
 
 #include "cli/command.h"
 #include "cli/console.h"
+#include "contrejour/expert/metrics.h"
 #include "contrejour/image_io.h"
-#include "contrejour/metrics.h"
 
 namespace contrejour::cli {
 namespace {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A renderer's statistics as JSON, with the names of `render --stats`.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The properties of ghosts as a table, as comma-separated values and as JSON.
 #pragma once
 

@@ -1,7 +1,8 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "cli/ghost_request.h"
 
-#include "contrejour/parameter_text.h"
-#include "contrejour/settings.h"
+#include "contrejour/expert/parameter_text.h"
+#include "contrejour/expert/settings.h"
 
 namespace contrejour::cli {
 namespace {

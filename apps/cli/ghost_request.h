@@ -1,8 +1,9 @@
+// SPDX-License-Identifier: Apache-2.0
 // A request for a lens's ghosts, read from the command's values.
 #pragma once
 
+#include "contrejour/expert/parameter_values.h"
 #include "contrejour/ghost_figures.h"
-#include "contrejour/parameter_values.h"
 
 namespace contrejour::cli {
 

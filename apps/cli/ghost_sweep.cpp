@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "cli/ghost_sweep.h"
 
 #include <algorithm>
@@ -11,8 +12,8 @@
 #include "cli/lens_choice.h"
 #include "cli/long_task.h"
 #include "cli/text_table.h"
-#include "contrejour/settings.h"
-#include "contrejour/trace.h"
+#include "contrejour/expert/settings.h"
+#include "contrejour/expert/trace.h"
 
 namespace contrejour::cli {
 namespace {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The ghosts of a lens as functions of the light's field angle, the focal length or the f-number.
 #pragma once
 
@@ -8,8 +9,8 @@
 #include <vector>
 
 #include "cli/console.h"
+#include "contrejour/expert/parameter_values.h"
 #include "contrejour/ghost_figures.h"
-#include "contrejour/parameter_values.h"
 
 namespace contrejour::cli {
 

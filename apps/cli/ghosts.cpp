@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // contrejour ghosts: each ghost of a lens, the brightest first; or all ghosts as a setting changes.
 #include <memory>
 #include <string>
@@ -14,8 +15,8 @@
 #include "cli/long_task.h"
 #include "cli/options.h"
 #include "cli/outputs.h"
-#include "contrejour/settings.h"
-#include "contrejour/write_lens.h"
+#include "contrejour/expert/settings.h"
+#include "contrejour/expert/write_lens.h"
 
 namespace contrejour::cli {
 namespace {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // contrejour glass: queries of glasses.
 #include "cli/command.h"
 

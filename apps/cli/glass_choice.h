@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The glasses that a command uses: the user's own catalogues, then the bundled one.
 #pragma once
 
@@ -6,7 +7,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include "contrejour/glass_catalogue.h"
+#include "contrejour/expert/glass_catalogue.h"
 
 namespace contrejour::cli {
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // contrejour glass list and closest: many glasses, one on each line.
 #include <memory>
 
@@ -8,7 +9,7 @@
 #include "cli/console.h"
 #include "cli/glass_choice.h"
 #include "cli/text_table.h"
-#include "contrejour/parameter_text.h"
+#include "contrejour/expert/parameter_text.h"
 
 namespace contrejour::cli {
 namespace {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // contrejour glass show: one glass, in the form of a data sheet.
 #include <cmath>
 #include <memory>

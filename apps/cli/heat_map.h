@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A sweep as a picture: one row for each ghost, the worst first; one column for each step; colours by decades.
 #pragma once
 

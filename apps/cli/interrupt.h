@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Ctrl-C and SIGTERM set a flag that long tasks check, so that they stop in an orderly way and leave no file.
 #pragma once
 

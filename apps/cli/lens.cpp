@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // contrejour lens: queries of a lens itself.
 #include "cli/command.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // contrejour lens browse: a page of many lenses, each with its section and its flare.
 #include <algorithm>
 #include <cmath>
@@ -16,11 +17,11 @@
 #include "cli/options.h"
 #include "cli/outputs.h"
 #include "cli/section_svg.h"
-#include "contrejour/ghost.h"
+#include "contrejour/expert/ghost.h"
+#include "contrejour/expert/preview_exposure.h"
+#include "contrejour/expert/settings.h"
 #include "contrejour/image_io.h"
-#include "contrejour/preview_exposure.h"
 #include "contrejour/render.h"
-#include "contrejour/settings.h"
 
 namespace contrejour::cli {
 namespace {

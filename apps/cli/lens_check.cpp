@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // contrejour lens check: whether lens files are sound, and whether computed figures agree with the stated ones.
 #include <algorithm>
 #include <memory>
@@ -11,7 +12,7 @@
 #include "cli/console.h"
 #include "cli/lens_choice.h"
 #include "cli/text_table.h"
-#include "contrejour/first_order.h"
+#include "contrejour/expert/first_order.h"
 #include "contrejour/lens.h"
 
 namespace contrejour::cli {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "cli/lens_choice.h"
 
 #include <utility>
@@ -6,7 +7,7 @@
 
 #include "cli/console.h"
 #include "cli/glass_choice.h"
-#include "contrejour/settings.h"
+#include "contrejour/expert/settings.h"
 
 namespace contrejour::cli {
 

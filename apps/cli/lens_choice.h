@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The lens that a command uses: a bundled name or a file, configured by the options.
 #pragma once
 
@@ -6,9 +7,9 @@
 
 #include <CLI/CLI.hpp>
 
-#include "contrejour/ghost.h"
+#include "contrejour/expert/ghost.h"
+#include "contrejour/expert/parameter_values.h"
 #include "contrejour/lens.h"
-#include "contrejour/parameter_values.h"
 
 namespace contrejour::cli {
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // contrejour lens convert: any lens that can be read -> our own TOML, Zemax or CODE V, by the file's ending.
 #include <memory>
 #include <string>
@@ -9,8 +10,8 @@
 #include "cli/lens_choice.h"
 #include "cli/options.h"
 #include "cli/outputs.h"
+#include "contrejour/expert/write_lens.h"
 #include "contrejour/lens.h"
-#include "contrejour/write_lens.h"
 
 namespace contrejour::cli {
 namespace {

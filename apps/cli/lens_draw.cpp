@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // contrejour lens draw: a section of the lens as SVG, with rays.
 #include <cmath>
 #include <memory>
@@ -10,8 +11,8 @@
 #include "cli/options.h"
 #include "cli/outputs.h"
 #include "cli/section_svg.h"
+#include "contrejour/expert/settings.h"
 #include "contrejour/light.h"
-#include "contrejour/settings.h"
 
 namespace contrejour::cli {
 namespace {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // contrejour lens info: surfaces and first-order properties of a lens.
 #include <algorithm>
 #include <cmath>
@@ -12,9 +13,9 @@
 #include "cli/options.h"
 #include "cli/section.h"
 #include "cli/text_table.h"
-#include "contrejour/first_order.h"
-#include "contrejour/seidel.h"
-#include "contrejour/settings.h"
+#include "contrejour/expert/first_order.h"
+#include "contrejour/expert/seidel.h"
+#include "contrejour/expert/settings.h"
 
 namespace contrejour::cli {
 namespace {

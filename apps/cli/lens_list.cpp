@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // contrejour lens list: the bundled lenses.
 #include <memory>
 #include <string>
@@ -7,7 +8,7 @@
 #include "cli/command.h"
 #include "cli/console.h"
 #include "cli/text_table.h"
-#include "contrejour/ghost.h"
+#include "contrejour/expert/ghost.h"
 #include "contrejour/lens.h"
 
 namespace contrejour::cli {

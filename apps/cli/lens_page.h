@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A page (HTML, a single file) that shows many lenses.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // contrejour lens trace: one ray, surface by surface.
 #include <algorithm>
 #include <cmath>
@@ -12,8 +13,8 @@
 #include "cli/lens_choice.h"
 #include "cli/options.h"
 #include "cli/text_table.h"
-#include "contrejour/settings.h"
-#include "contrejour/trace.h"
+#include "contrejour/expert/settings.h"
+#include "contrejour/expert/trace.h"
 
 namespace contrejour::cli {
 namespace {

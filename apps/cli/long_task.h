@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A task that takes a while: its threads, its cancelling by Ctrl-C, and a progress bar on a terminal.
 #pragma once
 

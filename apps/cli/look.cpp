@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // contrejour look: lists the bundled presets and shows what is in one.
 #include <memory>
 #include <string>

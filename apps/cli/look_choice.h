@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The options --look and --save-look, and the values that a preset changes.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Options of a sub-command, made from the table of parameters; checks of file names.
 #pragma once
 
@@ -10,8 +11,8 @@
 
 #include <CLI/CLI.hpp>
 
+#include "contrejour/expert/parameter_values.h"
 #include "contrejour/image_io.h"
-#include "contrejour/parameter_values.h"
 
 namespace contrejour::cli {
 

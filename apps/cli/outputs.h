@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The files that a command writes: all of them appear when everything succeeded, none otherwise (output_file.h).
 // Thread-safety: from one thread only.
 #pragma once
@@ -7,7 +8,7 @@
 #include <string>
 #include <utility>
 
-#include "contrejour/output_file.h"
+#include "contrejour/expert/output_file.h"
 #include "contrejour/result.h"
 
 namespace contrejour::cli {

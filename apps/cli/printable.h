@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Makes text safe to print on a terminal: names in files and on the command line may contain any bytes.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "cli/reflectance_plot.h"
 
 #include <algorithm>
@@ -10,7 +11,7 @@
 
 #include "cli/reflected_colour.h"
 #include "cli/svg.h"
-#include "contrejour/colour.h"
+#include "contrejour/expert/colour.h"
 
 namespace contrejour::cli {
 namespace {

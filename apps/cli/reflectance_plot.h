@@ -1,10 +1,11 @@
+// SPDX-License-Identifier: Apache-2.0
 // A plot of a coated surface's reflectance over wavelength, with one line for each angle.
 #pragma once
 
 #include <string>
 
-#include "contrejour/coating.h"
-#include "contrejour/glass.h"
+#include "contrejour/expert/coating.h"
+#include "contrejour/expert/glass.h"
 
 namespace contrejour::cli {
 

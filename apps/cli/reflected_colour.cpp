@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "cli/reflected_colour.h"
 
 #include <algorithm>
@@ -7,7 +8,7 @@
 
 #include <fmt/format.h>
 
-#include "contrejour/parameter_text.h"
+#include "contrejour/expert/parameter_text.h"
 
 namespace contrejour::cli {
 namespace {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The colour of daylight (D65) reflected by a coated surface at normal incidence.
 #pragma once
 
@@ -5,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "contrejour/colour.h"
+#include "contrejour/expert/colour.h"
 
 namespace contrejour::cli {
 

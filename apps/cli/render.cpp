@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // contrejour render: a lens and lights -> the flare as an image.
 #include <memory>
 #include <string>
@@ -13,11 +14,11 @@
 #include "cli/look_choice.h"
 #include "cli/options.h"
 #include "cli/outputs.h"
+#include "contrejour/expert/pixel_grid.h"
+#include "contrejour/expert/preview_exposure.h"
+#include "contrejour/expert/settings.h"
 #include "contrejour/image_io.h"
-#include "contrejour/pixel_grid.h"
-#include "contrejour/preview_exposure.h"
 #include "contrejour/render.h"
-#include "contrejour/settings.h"
 
 namespace contrejour::cli {
 namespace {

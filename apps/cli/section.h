@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A section through a lens along its axis: its glass, and the rays to draw. Points are (z, y) in mm. A light off the
 // axis lies in the plane of the section.
 #pragma once
@@ -6,8 +7,8 @@
 #include <optional>
 #include <vector>
 
+#include "contrejour/expert/trace.h"
 #include "contrejour/lens.h"
-#include "contrejour/trace.h"
 
 namespace contrejour::cli {
 

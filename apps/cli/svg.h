@@ -1,10 +1,11 @@
+// SPDX-License-Identifier: Apache-2.0
 // A few elements of SVG, written as text. Coordinates are in pixels, y downwards.
 #pragma once
 
 #include <string>
 #include <vector>
 
-#include "contrejour/vec.h"
+#include "contrejour/expert/vec.h"
 
 namespace contrejour::cli {
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The only file that queries the system about the terminal and the standard streams.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A demonstration: a lens's flare by itself, and on a photograph of a night street that is made here.
 #include <chrono>
 #include <cmath>
@@ -10,11 +11,11 @@
 #include <CLI/CLI.hpp>
 
 #include "contrejour/apply.h"
+#include "contrejour/expert/preview_exposure.h"
+#include "contrejour/expert/settings.h"
 #include "contrejour/image_io.h"
 #include "contrejour/lens.h"
-#include "contrejour/preview_exposure.h"
 #include "contrejour/render.h"
-#include "contrejour/settings.h"
 #include "demo/street.h"
 
 namespace contrejour::demo {

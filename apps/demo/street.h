@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A small synthetic night street as a scene-linear picture: dark houses with lit windows, lamps, a car, a low and very
 // bright moon, wet asphalt. It is made by formulas, the same on every machine up to rounding.
 #pragma once

@@ -1,11 +1,12 @@
+// SPDX-License-Identifier: Apache-2.0
 // The objects in the street, and the radiance along a ray. Lengths in metres, y up, z down the street.
 #pragma once
 
 #include <cstdint>
 #include <vector>
 
-#include "contrejour/colour.h"
-#include "contrejour/vec.h"
+#include "contrejour/expert/colour.h"
+#include "contrejour/expert/vec.h"
 
 namespace contrejour::demo {
 

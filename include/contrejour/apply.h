@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Adds to a photograph the flare of its own lights: what `contrejour apply` does, for pixels in memory.
 // A host fills in a Picture's rgb (scene-linear, white at 1) and its two windows, or takes picture_of(image); values
 // contain the user's settings (parameter.h). After an error everything is unchanged. The result is the same for any
@@ -5,12 +6,13 @@
 #pragma once
 
 #include "contrejour/context.h"
-#include "contrejour/flare_plan.h"
-#include "contrejour/flare_visibility.h"
+#include "contrejour/expert/flare_plan.h"
+#include "contrejour/expert/flare_visibility.h"
+#include "contrejour/expert/parameter_values.h"
+#include "contrejour/export.h"
 #include "contrejour/image.h"
 #include "contrejour/image_io.h"
 #include "contrejour/lens.h"
-#include "contrejour/parameter_values.h"
 #include "contrejour/render.h"
 #include "contrejour/result.h"
 
@@ -26,13 +28,14 @@ struct PictureFlare {
 // Renders the flare of a plan's lights by the values' method. `rgb` is the photograph for which the plan was made,
 // without flare. The number of threads is the context's. Errors: those of render(); InvalidArgument for a flare with
 // samples that are not finite.
-[[nodiscard]] Result<PictureFlare> render_flare(const FlarePlan& plan, const Image& rgb, const LensState& lens,
-                                                const params::Values& values, const Context& context = {});
+[[nodiscard]] CONTREJOUR_API Result<PictureFlare> render_flare(const FlarePlan& plan, const Image& rgb,
+                                                               const LensState& lens, const params::Values& values,
+                                                               const Context& context = {});
 
 // Adds a flare of the same size to the first three channels of an image, and never subtracts: where a channel of the
 // flare is negative, as for colours outside the gamut, the sample is unchanged. Samples that are not finite are
 // unchanged, and so is alpha.
-void add_flare(Image& image, const Image& flare);
+CONTREJOUR_API void add_flare(Image& image, const Image& flare);
 
 struct AppliedFlare {
   FlarePlan plan;  // the lights, where they were found, and warnings
@@ -41,7 +44,8 @@ struct AppliedFlare {
 
 // All steps in one call: finds the photograph's lights, renders their flare and adds it to picture.rgb; nothing else of
 // the picture changes. Errors: those of plan_flare and render_flare.
-[[nodiscard]] Result<AppliedFlare> apply_flare(Picture& picture, const LensState& lens, const params::Values& values,
-                                               const Context& context = {});
+[[nodiscard]] CONTREJOUR_API Result<AppliedFlare> apply_flare(Picture& picture, const LensState& lens,
+                                                              const params::Values& values,
+                                                              const Context& context = {});
 
 }  // namespace contrejour

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What a long computation needs from its caller: threads, cancelling and a progress report.
 // The result is the same, bit for bit, for any number of threads. Thread-safety: `cancelled` and `progress`
 // may be called from any worker thread, progress never from two at once.

@@ -1,10 +1,12 @@
+// SPDX-License-Identifier: Apache-2.0
 // The one mapping between sensor millimetres and image pixels.
 // A camera turns its picture upright: sensor +x (right, as the photographer sees it) is image left, sensor +y
 // (up) is image down. Pixel (0, 0) is the top-left one and covers [0,1) x [0,1). Pixels are square.
 #pragma once
 
+#include "contrejour/expert/vec.h"
+#include "contrejour/export.h"
 #include "contrejour/lens.h"
-#include "contrejour/vec.h"
 
 namespace contrejour {
 
@@ -35,6 +37,6 @@ struct Frame {
 };
 
 // The largest frame of these pixel proportions inside the lens's sensor.
-[[nodiscard]] Frame frame_on_sensor(const LensState& lens, int width, int height);
+[[nodiscard]] CONTREJOUR_API Frame frame_on_sensor(const LensState& lens, int width, int height);
 
 }  // namespace contrejour

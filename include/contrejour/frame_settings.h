@@ -1,15 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
 // The contents of a frame, whichever method renders it: its pixels, ghosts, wavelengths and effects.
 // render() refuses values out of range. Thread-safety: plain values.
 #pragma once
 
 #include <vector>
 
-#include "contrejour/colour.h"
+#include "contrejour/expert/colour.h"
+#include "contrejour/expert/ghost.h"
+#include "contrejour/expert/ghost_options.h"
+#include "contrejour/expert/ringing_options.h"
+#include "contrejour/expert/starburst_options.h"
 #include "contrejour/frame.h"
-#include "contrejour/ghost.h"
-#include "contrejour/ghost_options.h"
-#include "contrejour/ringing_options.h"
-#include "contrejour/starburst_options.h"
 
 namespace contrejour {
 

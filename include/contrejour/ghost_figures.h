@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Properties of each ghost of a lens for one light: flux, position, size, colour, focus. Fluxes are accurate to 1e-3,
 // positions and sizes to a hundredth of the size, peaks to a quarter (GhostMeter). The result is the same for any
 // number of threads.
@@ -8,9 +9,10 @@
 #include <vector>
 
 #include "contrejour/context.h"
-#include "contrejour/first_order.h"
+#include "contrejour/expert/first_order.h"
+#include "contrejour/expert/ghost.h"
+#include "contrejour/export.h"
 #include "contrejour/frame.h"
-#include "contrejour/ghost.h"
 #include "contrejour/light.h"
 
 namespace contrejour {
@@ -40,7 +42,8 @@ struct FiguresRequest {
 };
 
 // In order of decreasing relative_flux. Errors: a light that is not in front of the lens, Cancelled.
-[[nodiscard]] Result<std::vector<GhostFigures>> ghost_figures(const LensState& lens, const FiguresRequest& request,
-                                                              const Context& context);
+[[nodiscard]] CONTREJOUR_API Result<std::vector<GhostFigures>> ghost_figures(const LensState& lens,
+                                                                             const FiguresRequest& request,
+                                                                             const Context& context);
 
 }  // namespace contrejour

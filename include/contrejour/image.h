@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Scene-linear float images, interleaved, rows from the top. Values in, values out.
 #pragma once
 
@@ -7,11 +8,13 @@
 #include <utility>
 #include <vector>
 
+#include "contrejour/export.h"
+
 namespace contrejour {
 
 namespace detail {
-[[nodiscard]] void* allocate_pixels(std::size_t bytes);
-void free_pixels(void* pixels) noexcept;
+[[nodiscard]] CONTREJOUR_API void* allocate_pixels(std::size_t bytes);
+CONTREJOUR_API void free_pixels(void* pixels) noexcept;
 }  // namespace detail
 
 // Allocates pictures in the system's large pages where it has them: a 4K picture takes 25000 small pages, each of which

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Pictures in files: OpenEXR (flat, scan lines or tiles, any channels; colour is read from the first part that has it,
 // other parts are kept as they are) and PNG (8 and 16 bit). A Picture keeps all that its file holds, so that writing it
 // back changes only the samples whose rgb value was changed; every other sample keeps its bits, NaN included. In
@@ -17,8 +18,9 @@
 #include <string>
 #include <vector>
 
-#include "contrejour/colour.h"
 #include "contrejour/context.h"
+#include "contrejour/expert/colour.h"
+#include "contrejour/export.h"
 #include "contrejour/image.h"
 #include "contrejour/result.h"
 
@@ -34,7 +36,7 @@ struct PixelWindow {
 };
 
 enum class SampleType { Half, Float, UInt32, UInt8, UInt16 };  // the last two in PNG only, colour coded as sRGB
-[[nodiscard]] std::size_t size_of(SampleType type);
+[[nodiscard]] CONTREJOUR_API std::size_t size_of(SampleType type);
 
 // A channel as stored in its file: native-endian samples, rows from the top, over the data window.
 struct PictureChannel {
@@ -45,7 +47,9 @@ struct PictureChannel {
   std::vector<std::byte> samples;
 };
 
+inline namespace internal {
 struct PictureHeader;  // an OpenEXR file's attributes, kept whole
+}
 
 struct Picture {
   Image rgb;  // scene-linear, three channels, over the data window; change this
@@ -75,47 +79,53 @@ struct ReadOptions {
 };
 
 // Reads a picture; the content determines the format, not the name.
-[[nodiscard]] Result<Picture> read_picture(const std::filesystem::path& file, const ReadOptions& options = {});
-[[nodiscard]] Result<Picture> read_picture(std::span<const std::byte> bytes, const std::string& name,
-                                           const ReadOptions& options = {});
+[[nodiscard]] CONTREJOUR_API Result<Picture> read_picture(const std::filesystem::path& file,
+                                                          const ReadOptions& options = {});
+[[nodiscard]] CONTREJOUR_API Result<Picture> read_picture(std::span<const std::byte> bytes, const std::string& name,
+                                                          const ReadOptions& options = {});
 
 // Makes a picture from an image with 1 (grey), 3 or 4 (RGB and alpha) channels, both windows at the origin; an invalid
 // image gives an empty picture.
-[[nodiscard]] Picture picture_of(const Image& image, SampleType type = SampleType::Float);
+[[nodiscard]] CONTREJOUR_API Picture picture_of(const Image& image, SampleType type = SampleType::Float);
 
 // The working space the file's chromaticities name: Rec709 when it has none, nothing when it is another one.
-[[nodiscard]] std::optional<ColourSpace> colour_space_of(const Picture& picture);
-void set_colour_space(Picture& picture, ColourSpace space);  // writes the chromaticities attribute
+[[nodiscard]] CONTREJOUR_API std::optional<ColourSpace> colour_space_of(const Picture& picture);
+CONTREJOUR_API void set_colour_space(Picture& picture, ColourSpace space);  // writes the chromaticities attribute
 
 // Displayed width over height of the pixels; 1 if the file does not state it, or states a value outside 0.1 to 10.
-[[nodiscard]] double pixel_aspect_of(const Picture& picture);
-void set_pixel_aspect(Picture& picture, double aspect);  // writes the pixelAspectRatio attribute; from 0.1 to 10
+[[nodiscard]] CONTREJOUR_API double pixel_aspect_of(const Picture& picture);
+CONTREJOUR_API void set_pixel_aspect(Picture& picture,
+                                     double aspect);  // writes the pixelAspectRatio attribute; from 0.1 to 10
 
 // Text attributes of an OpenEXR file, e.g. "comments"; setting replaces one of any type, and does
 // nothing for a name that is none (1 to 255 bytes).
-[[nodiscard]] std::optional<std::string> text_attribute(const Picture& picture, const std::string& name);
-void set_text_attribute(Picture& picture, const std::string& name, const std::string& text);
-[[nodiscard]] std::vector<std::string> attribute_names(const Picture& picture);
+[[nodiscard]] CONTREJOUR_API std::optional<std::string> text_attribute(const Picture& picture, const std::string& name);
+CONTREJOUR_API void set_text_attribute(Picture& picture, const std::string& name, const std::string& text);
+[[nodiscard]] CONTREJOUR_API std::vector<std::string> attribute_names(const Picture& picture);
 
 // Writes by the extension: .exr, or .png as sRGB (colours clipped to 0..1; 8 bit if it came from 8 bit, else 16).
-[[nodiscard]] Result<void> write_picture(const std::filesystem::path& file, const Picture& picture,
-                                         const Context& context = {});
+[[nodiscard]] CONTREJOUR_API Result<void> write_picture(const std::filesystem::path& file, const Picture& picture,
+                                                        const Context& context = {});
 // Into a file that the caller commits (output_file.h), together with others if need be.
-[[nodiscard]] Result<void> write_picture(OutputFile& file, const Picture& picture, const Context& context = {});
-[[nodiscard]] Result<void> write_exr(const std::filesystem::path& file, const Image& image,
-                                     SampleType type = SampleType::Float, const Context& context = {});
+[[nodiscard]] CONTREJOUR_API Result<void> write_picture(OutputFile& file, const Picture& picture,
+                                                        const Context& context = {});
+[[nodiscard]] CONTREJOUR_API Result<void> write_exr(const std::filesystem::path& file, const Image& image,
+                                                    SampleType type = SampleType::Float, const Context& context = {});
 
 // An 8-bit sRGB PNG to look at. NaN and negative values show as black.
 struct PreviewSettings {
   double exposure_stops = 0;  // values times 2^stops
   bool roll_off_highlights = true;  // bends values above 0.8 towards 1 instead of clipping them
 };
-[[nodiscard]] Result<void> write_preview_png(const std::filesystem::path& file, const Image& rgb,
-                                             const PreviewSettings& settings = {}, const Context& context = {});
-[[nodiscard]] Result<void> write_preview_png(OutputFile& file, const Image& rgb, const PreviewSettings& settings = {},
-                                             const Context& context = {});
+[[nodiscard]] CONTREJOUR_API Result<void> write_preview_png(const std::filesystem::path& file, const Image& rgb,
+                                                            const PreviewSettings& settings = {},
+                                                            const Context& context = {});
+[[nodiscard]] CONTREJOUR_API Result<void> write_preview_png(OutputFile& file, const Image& rgb,
+                                                            const PreviewSettings& settings = {},
+                                                            const Context& context = {});
 // As above, but returns the PNG in memory, for embedding.
-[[nodiscard]] Result<std::vector<std::byte>> preview_png(const Image& rgb, const PreviewSettings& settings = {},
-                                                         const Context& context = {});
+[[nodiscard]] CONTREJOUR_API Result<std::vector<std::byte>> preview_png(const Image& rgb,
+                                                                        const PreviewSettings& settings = {},
+                                                                        const Context& context = {});
 
 }  // namespace contrejour

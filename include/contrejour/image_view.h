@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A caller's pixels as a renderer writes them: a host's buffer, a window's texture, an Image.
 // Thread-safety: a plain value; write_pixels() is a pure function but for the pixels that it writes.
 #pragma once
@@ -5,6 +6,7 @@
 #include <cstddef>
 
 #include "contrejour/context.h"
+#include "contrejour/export.h"
 #include "contrejour/image.h"
 #include "contrejour/result.h"
 
@@ -24,15 +26,16 @@ struct ImageView {
 };
 
 // All of an image with three channels or more.
-[[nodiscard]] ImageView view_of(Image& image);
+[[nodiscard]] CONTREJOUR_API ImageView view_of(Image& image);
 
 // Errors: InvalidArgument for a view that is not of the picture's size, that has no pixels, or whose steps are smaller
 // than a sample.
-[[nodiscard]] Result<void> check_view(const ImageView& view, int width, int height);
+[[nodiscard]] CONTREJOUR_API Result<void> check_view(const ImageView& view, int width, int height);
 
 // Writes an image of three channels to a view of the same size. A half-float sample becomes the nearest to its value;
 // values beyond the type's range become its largest. Errors: those of check_view(); Cancelled, which leaves the
 // pixels written in part.
-[[nodiscard]] Result<void> write_pixels(const Image& image, const ImageView& to, const Context& context = {});
+[[nodiscard]] CONTREJOUR_API Result<void> write_pixels(const Image& image, const ImageView& to,
+                                                       const Context& context = {});
 
 }  // namespace contrejour

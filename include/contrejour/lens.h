@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A lens as its patent lists it (Prescription), and the same lens configured for a picture (LensState).
 // Lengths mm, z = 0 at the first vertex, light travels to +z. Surfaces count from 1 in prescription order
 // wherever a user sees a number; vectors count from 0. Thread-safety: plain values.
@@ -13,14 +14,15 @@
 #include <utility>
 #include <vector>
 
-#include "contrejour/clear_aperture.h"
-#include "contrejour/coating.h"
-#include "contrejour/dirt.h"
-#include "contrejour/glass.h"
-#include "contrejour/iris.h"
+#include "contrejour/expert/clear_aperture.h"
+#include "contrejour/expert/coating.h"
+#include "contrejour/expert/dirt.h"
+#include "contrejour/expert/glass.h"
+#include "contrejour/expert/iris.h"
+#include "contrejour/expert/surface_shape.h"
+#include "contrejour/expert/vec.h"
+#include "contrejour/export.h"
 #include "contrejour/result.h"
-#include "contrejour/surface_shape.h"
-#include "contrejour/vec.h"
 
 namespace contrejour {
 
@@ -198,31 +200,33 @@ struct LensState {
 
 // Checks a prescription: stop, semi-diameters, finite values, surfaces that cross inside their clear
 // aperture (at every zoom position). Errors name file, line and remedy.
-[[nodiscard]] Result<void> validate(const Prescription& lens);
+[[nodiscard]] CONTREJOUR_API Result<void> validate(const Prescription& lens);
 
 // Sets zoom (any focal length within the range), stop and focus. Errors: a focal length or f-number out of range, a
 // coating for a surface that does not bound glass, an object inside the front focal point, a sensor stack that does not
 // fit behind the lens, an iris that lets nothing through, numbers of the iris or the dirt out of range.
-[[nodiscard]] Result<LensState> configure_lens(const Prescription& lens, const LensSettings& settings = {});
+[[nodiscard]] CONTREJOUR_API Result<LensState> configure_lens(const Prescription& lens,
+                                                              const LensSettings& settings = {});
 
 // Reads a lens in any supported format, recognised by content and extension. Bounded in memory and time. Glasses that
 // the file names are looked for in `glasses`, if given, and then in the bundled catalogue.
-[[nodiscard]] Result<Prescription> read_lens(const std::filesystem::path& file,
-                                             const GlassCatalogue* glasses = nullptr);
+[[nodiscard]] CONTREJOUR_API Result<Prescription> read_lens(const std::filesystem::path& file,
+                                                            const GlassCatalogue* glasses = nullptr);
 
 // Our own format (docs/formats/lens-toml.md) from memory; `file` names it in errors.
-[[nodiscard]] Result<Prescription> read_lens_toml(std::string_view text, const std::string& file,
-                                                  const GlassCatalogue* glasses = nullptr);
-[[nodiscard]] std::string write_lens_toml(const Prescription& lens);
+[[nodiscard]] CONTREJOUR_API Result<Prescription> read_lens_toml(std::string_view text, const std::string& file,
+                                                                 const GlassCatalogue* glasses = nullptr);
+[[nodiscard]] CONTREJOUR_API std::string write_lens_toml(const Prescription& lens);
 
 // Lenses that come with the library.
 struct BundledLens {
   std::string_view name;  // "canon-70-200"
   std::string_view toml;
 };
-[[nodiscard]] std::vector<BundledLens> bundled_lenses();
+[[nodiscard]] CONTREJOUR_API std::vector<BundledLens> bundled_lenses();
 
 // A bundled name, or else a file.
-[[nodiscard]] Result<Prescription> find_lens(const std::string& name_or_file, const GlassCatalogue* glasses = nullptr);
+[[nodiscard]] CONTREJOUR_API Result<Prescription> find_lens(const std::string& name_or_file,
+                                                            const GlassCatalogue* glasses = nullptr);
 
 }  // namespace contrejour

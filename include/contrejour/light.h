@@ -1,14 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
 // A light for a renderer: distant, or at a finite distance in front of the lens; a point, a disc, or a shape.
 #pragma once
 
 #include <limits>
 #include <memory>
 
-#include "contrejour/colour.h"
+#include "contrejour/expert/colour.h"
+#include "contrejour/expert/light_source.h"
+#include "contrejour/expert/vec.h"
+#include "contrejour/export.h"
 #include "contrejour/image.h"
-#include "contrejour/light_source.h"
 #include "contrejour/result.h"
-#include "contrejour/vec.h"
 
 namespace contrejour {
 
@@ -43,29 +45,29 @@ inline constexpr double kMaxLightValue = 1e16;
 // Errors: InvalidArgument for a direction that is not finite or leads away from the camera, a distance that is not
 // above 0, values that are not finite, exceed kMaxLightValue or have a luminance below 0 in this space, a spectrum of
 // which nothing is visible, a temperature that is not from 500 to 100000 K; those of check_extent.
-[[nodiscard]] Result<void> check_light(const Light& light, ColourSpace space);
+[[nodiscard]] CONTREJOUR_API Result<void> check_light(const Light& light, ColourSpace space);
 
 // Errors: InvalidArgument for a negative radius or one above 45 degrees; for a shape without light, that reaches
 // farther from its direction than 45 degrees, of more than 4096 pixels a side, with levels that are negative or not
 // finite; for both at once.
-[[nodiscard]] Result<void> check_extent(const Light& light);
+[[nodiscard]] CONTREJOUR_API Result<void> check_extent(const Light& light);
 
 // Sums blocks of `by` x `by` pixels into one.
-[[nodiscard]] LightShape coarser(const LightShape& shape, int by);
+[[nodiscard]] CONTREJOUR_API LightShape coarser(const LightShape& shape, int by);
 
 // The direction of a light with an offset from this one, to the right and up, in tangents of the angles.
-[[nodiscard]] Vec3 direction_beside(Vec3 direction, Vec2 tangents);
+[[nodiscard]] CONTREJOUR_API Vec3 direction_beside(Vec3 direction, Vec2 tangents);
 // As direction_beside, for a light at any distance; its distance from the first vertex is unchanged.
-[[nodiscard]] LightSource source_beside(const LightSource& source, Vec2 tangents);
+[[nodiscard]] CONTREJOUR_API LightSource source_beside(const LightSource& source, Vec2 tangents);
 
 // Azimuth to the right, elevation up, as the photographer sees them, radians; the travel direction.
 // Errors (assert): |angle| must keep the light in front of the lens.
-[[nodiscard]] Vec3 direction_from_angles(double azimuth_rad, double elevation_rad);
+[[nodiscard]] CONTREJOUR_API Vec3 direction_from_angles(double azimuth_rad, double elevation_rad);
 
 struct LightAngles {
   double azimuth_rad = 0;
   double elevation_rad = 0;
 };
-[[nodiscard]] LightAngles angles_from_direction(Vec3 direction);
+[[nodiscard]] CONTREJOUR_API LightAngles angles_from_direction(Vec3 direction);
 
 }  // namespace contrejour

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Looks are presets: all settings of a flare except the scene's (lights, size, exposure), in a file
 // (docs/formats/look.md).
 // Errors: Parse with file, line and remedy; Io; InvalidArgument for a name that is neither bundled nor a file.
@@ -8,7 +9,8 @@
 #include <string_view>
 #include <vector>
 
-#include "contrejour/parameter_values.h"
+#include "contrejour/expert/parameter_values.h"
+#include "contrejour/export.h"
 
 namespace contrejour::params {
 
@@ -19,21 +21,21 @@ struct Look {
   Values values;
 };
 
-[[nodiscard]] bool belongs_to_look(const Parameter& parameter);
+[[nodiscard]] CONTREJOUR_API bool belongs_to_look(const Parameter& parameter);
 
-[[nodiscard]] Result<Look> read_look(std::string_view toml, const std::string& file);
+[[nodiscard]] CONTREJOUR_API Result<Look> read_look(std::string_view toml, const std::string& file);
 // Writes every parameter of a preset that has a value, given or default, so that later changes of defaults do not
 // affect it.
-[[nodiscard]] std::string write_look(const Look& look);
+[[nodiscard]] CONTREJOUR_API std::string write_look(const Look& look);
 
 // The bundled presets, by name.
 struct BundledLook {
   std::string_view name;
   std::string_view toml;
 };
-[[nodiscard]] std::vector<BundledLook> bundled_looks();
+[[nodiscard]] CONTREJOUR_API std::vector<BundledLook> bundled_looks();
 
 // A bundled name, or else a file.
-[[nodiscard]] Result<Look> find_look(const std::string& name_or_file);
+[[nodiscard]] CONTREJOUR_API Result<Look> find_look(const std::string& name_or_file);
 
 }  // namespace contrejour::params

@@ -1,6 +1,9 @@
+// SPDX-License-Identifier: Apache-2.0
 // Options of the rendering methods, each of a type of its own, and the one type that holds those of any method.
 // Ranges are stated at the members; render() refuses values outside of them. Thread-safety: plain values.
 #pragma once
+
+#include "contrejour/export.h"
 
 #include <any>
 #include <concepts>
@@ -19,13 +22,13 @@ struct GridOptions {
   double phi = 0.5;
 };
 
-struct AdaptiveOptions {
+struct CONTREJOUR_API AdaptiveOptions {
   static constexpr std::string_view kMethod = "adaptive";
   double error = 0.003;  // limit of the RMS error, relative to the frame's peak; 1e-4 to 0.1
 };
 
 // The grid, and the accelerations and improvements of hullin2011 4.2 and 4.3.
-struct BundleOptions {
+struct CONTREJOUR_API BundleOptions {
   static constexpr std::string_view kMethod = "bundle";
   GridOptions grid;
   bool smooth_shading = true;  // irradiance averaged to the vertices, linear over a cell; off: constant in a cell
@@ -37,7 +40,7 @@ struct BundleOptions {
 };
 
 // The options of bodonyi2023.
-struct TiledOptions {
+struct CONTREJOUR_API TiledOptions {
   static constexpr std::string_view kMethod = "tiled";
   GridOptions grid;
   int merge_steps = 4;  // 0 to 9
@@ -53,7 +56,7 @@ struct TiledOptions {
   } interpolation = Interpolation::LoopDeRose;
 };
 
-struct ReferenceOptions {
+struct CONTREJOUR_API ReferenceOptions {
   static constexpr std::string_view kMethod = "reference";
   double density = 1.0;  // above 0 to 64; 2 halves the cells
 };

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Renders a flare and its statistics from a method's options, a lens state, lights and a frame's settings. The image
 // contains what the flare adds to the photograph, in the lights' own units (docs/physics/radiometry.md): a light whose
 // direct image sums to V makes a ghost pixel of V * E_ghost * A_pixel / Phi. It does not contain the lights' direct
@@ -10,13 +11,14 @@
 #include <string_view>
 
 #include "contrejour/context.h"
+#include "contrejour/expert/methods.h"
+#include "contrejour/expert/render_statistics.h"
+#include "contrejour/export.h"
 #include "contrejour/frame_settings.h"
 #include "contrejour/image.h"
 #include "contrejour/lens.h"
 #include "contrejour/light.h"
 #include "contrejour/method_options.h"
-#include "contrejour/methods.h"
-#include "contrejour/render_statistics.h"
 
 namespace contrejour {
 
@@ -25,11 +27,13 @@ struct Flare {
   RenderStatistics statistics;
 };
 
-[[nodiscard]] Result<Flare> render(const MethodOptions& method, const LensState& lens, std::span<const Light> lights,
-                                   const FrameSettings& settings, const Context& context = {});
+[[nodiscard]] CONTREJOUR_API Result<Flare> render(const MethodOptions& method, const LensState& lens,
+                                                  std::span<const Light> lights, const FrameSettings& settings,
+                                                  const Context& context = {});
 
 // Renders by a method's name, with its default options. Errors: also InvalidArgument if there is no such method.
-[[nodiscard]] Result<Flare> render(std::string_view method, const LensState& lens, std::span<const Light> lights,
-                                   const FrameSettings& settings, const Context& context = {});
+[[nodiscard]] CONTREJOUR_API Result<Flare> render(std::string_view method, const LensState& lens,
+                                                  std::span<const Light> lights, const FrameSettings& settings,
+                                                  const Context& context = {});
 
 }  // namespace contrejour

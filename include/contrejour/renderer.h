@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A renderer that lives from frame to frame: it keeps what frames have in common (reflectance tables, diffraction
 // patterns, dirt, scratch memory) and writes into a caller's pixels. render.h renders one frame without it.
 // What is kept never changes a picture: a frame is equal, bit for bit, to that of render().
@@ -10,6 +11,7 @@
 #include <span>
 
 #include "contrejour/context.h"
+#include "contrejour/export.h"
 #include "contrejour/frame_settings.h"
 #include "contrejour/image_view.h"
 #include "contrejour/lens.h"
@@ -29,7 +31,7 @@ struct FrameTarget {
   std::function<void()> draft_is_ready = {};
 };
 
-class Renderer {
+class CONTREJOUR_API Renderer {
  public:
   // Errors: there is no such method. Options out of range are refused when a frame is rendered.
   [[nodiscard]] static Result<Renderer> create(MethodOptions method = AdaptiveOptions{}, Device device = Device::Cpu);

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Result<T>: a value, or an Error that names what is wrong, where, and what to do.
 // No exception crosses a library edge; a ray that fails is data (trace.h), not an Error.
 // Thread-safety: plain values.
@@ -7,6 +8,8 @@
 #include <utility>
 
 #include <tl/expected.hpp>
+
+#include "contrejour/export.h"
 
 namespace contrejour {
 
@@ -25,7 +28,7 @@ struct SourcePlace {
   int column = 0;
 };
 
-struct Error {
+struct CONTREJOUR_API Error {
   ErrorCode code = ErrorCode::InvalidArgument;
   std::string message;  // what is wrong and what to do, no trailing newline
   SourcePlace place;

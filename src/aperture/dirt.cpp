@@ -1,6 +1,7 @@
+// SPDX-License-Identifier: Apache-2.0
 // Shapes of dirt from statistics. The plane is divided into squares, each with its own hashed numbers, so that nothing
 // depends on the part of the plane that is requested, and the k-th speck of a square is the same at any density.
-#include "contrejour/dirt.h"
+#include "contrejour/expert/dirt.h"
 
 #include <algorithm>
 #include <cmath>

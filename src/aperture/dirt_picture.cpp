@@ -1,9 +1,10 @@
+// SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
 
-#include "contrejour/dirt.h"
+#include "contrejour/expert/dirt.h"
 
 namespace contrejour {
 

@@ -1,4 +1,5 @@
-#include "contrejour/iris.h"
+// SPDX-License-Identifier: Apache-2.0
+#include "contrejour/expert/iris.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,9 +7,9 @@
 
 #include "aperture/iris_blades.h"
 #include "base/split_mix.h"
-#include "contrejour/iris_field.h"
+#include "contrejour/expert/iris_field.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 namespace {
 
 constexpr double kStraight = 1e-5;  // curvatures below it bend an edge by less than 5e-6 stop radii
@@ -54,6 +55,10 @@ IrisBound edge_bound(const Iris& iris, double normal_rad, double offset) {
   bound.centre = normal * (bound.apothem - std::sqrt(bound.radius * bound.radius - half_chord * half_chord));
   return bound;
 }
+
+}  // namespace contrejour::inline internal
+
+namespace contrejour {
 
 double iris_distance(const Iris& iris, Vec2 point) {
   if (iris.field) return iris.field->distance(turned(point, -iris.rotation_rad));

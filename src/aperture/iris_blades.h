@@ -1,11 +1,12 @@
+// SPDX-License-Identifier: Apache-2.0
 // The blades of an iris one by one.
 #pragma once
 
 #include <vector>
 
-#include "contrejour/iris.h"
+#include "contrejour/expert/iris.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 
 // The round hole that blades close.
 inline constexpr IrisBound kIrisRim{{}, 0.0, {}, 1.0};
@@ -30,4 +31,4 @@ inline constexpr int kMaxBlades = 100;
 // True if two bounds differ by rounding at most.
 [[nodiscard]] bool same_bound(const IrisBound& a, const IrisBound& b);
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

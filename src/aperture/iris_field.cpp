@@ -1,4 +1,5 @@
-#include "contrejour/iris_field.h"
+// SPDX-License-Identifier: Apache-2.0
+#include "contrejour/expert/iris_field.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The outline of an iris: corners where two bounds cross inside all others, connected by pieces of bounds.
 #include <algorithm>
 #include <array>
@@ -6,9 +7,9 @@
 #include <optional>
 
 #include "aperture/iris_blades.h"
-#include "contrejour/iris.h"
+#include "contrejour/expert/iris.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 namespace {
 
 constexpr double kOnBound = 1e-9;     // stop radii: a corner lies on its bounds up to rounding
@@ -158,6 +159,10 @@ std::vector<IrisBound> iris_bounds(const Iris& iris) {
     add_unless_known(bounds, edge_bound(iris, iris.rotation_rad + (k + 0.5) * sector, edge_offset(iris, k)));
   return bounds;
 }
+
+}  // namespace contrejour::inline internal
+
+namespace contrejour {
 
 IrisOpening::IrisOpening(const Iris& iris, std::span<const IrisBound> cut) {
   std::vector<IrisBound> bounds = iris_bounds(iris);

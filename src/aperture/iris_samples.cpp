@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "aperture/iris_samples.h"
 
 #include <algorithm>
@@ -6,9 +7,9 @@
 #include <cstdint>
 #include <limits>
 
-#include "contrejour/vec.h"
+#include "contrejour/expert/vec.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 namespace {
 
 constexpr int kMinSamples = 128;
@@ -176,4 +177,4 @@ StopSamples distances_from_level(const StopSamples& samples, float level) {
   return out;
 }
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

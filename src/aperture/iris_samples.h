@@ -1,10 +1,11 @@
+// SPDX-License-Identifier: Apache-2.0
 // Resamples a picture over the stop, and computes distances from the line where the samples cross a level.
 #pragma once
 
 #include <span>
 #include <vector>
 
-namespace contrejour {
+namespace contrejour::inline internal {
 
 // On a square of side x side; the outermost ring lies outside the picture.
 struct StopSamples {
@@ -25,4 +26,4 @@ struct StopSamples {
 // points.
 [[nodiscard]] StopSamples distances_from_level(const StopSamples& samples, float level);
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

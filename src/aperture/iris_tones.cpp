@@ -1,9 +1,10 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "aperture/iris_tones.h"
 
 #include <algorithm>
 #include <cmath>
 
-namespace contrejour {
+namespace contrejour::inline internal {
 namespace {
 
 constexpr float kGreyFrom = 0.1F, kGreyTo = 0.9F;  // of the highest level
@@ -90,4 +91,4 @@ double IrisTones::mean(Vec2 p, double width) const {
   return std::clamp(sum / area, 0.0, 1.0);
 }
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The half-tones of a picture as the iris: the transmittance of each point of the stop.
 // Units: stop radii. Thread-safety: constant after it is made. Source: hullin2011 3.2, real-valued transmission.
 #pragma once
@@ -5,9 +6,9 @@
 #include <vector>
 
 #include "aperture/iris_samples.h"
-#include "contrejour/vec.h"
+#include "contrejour/expert/vec.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 
 // True if a picture has transmittances between dark and bright that are not smoothed edges: pixels without both a dark
 // and a bright neighbour.
@@ -33,4 +34,4 @@ class IrisTones {
   double flux_ = 0.0;
 };
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

@@ -1,9 +1,10 @@
+// SPDX-License-Identifier: Apache-2.0
 // Measures elapsed time.
 #pragma once
 
 #include <chrono>
 
-namespace contrejour {
+namespace contrejour::inline internal {
 
 using Clock = std::chrono::steady_clock;
 
@@ -11,4 +12,4 @@ using Clock = std::chrono::steady_clock;
   return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
 }
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

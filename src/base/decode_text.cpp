@@ -1,10 +1,11 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "base/decode_text.h"
 
 #include <algorithm>
 #include <cstdint>
 #include <optional>
 
-namespace contrejour {
+namespace contrejour::inline internal {
 namespace {
 
 constexpr char32_t kReplacement = 0xFFFD;
@@ -121,4 +122,4 @@ std::string decode_text(std::string_view bytes) {
   return text;
 }
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Marks the large functions of packet kernels. Inlining them makes a kernel fast, but takes clang minutes to compile.
 // Sanitized builds, which test the code and not its speed, call them instead.
 #pragma once

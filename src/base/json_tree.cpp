@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "base/json_tree.h"
 
 #include <algorithm>
@@ -10,7 +11,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-namespace contrejour {
+namespace contrejour::inline internal {
 namespace {
 
 using nlohmann::json;
@@ -178,4 +179,4 @@ Result<JsonNode> parse_json(std::string_view text, const std::string& file) {
   return root;
 }
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Reads a JSON file into a tree with the line of each value, bounded in depth, values and size. nlohmann-json parses;
 // its exceptions do not leave this file. Python's NaN, Infinity and -Infinity are read as numbers.
 #pragma once
@@ -9,7 +10,7 @@
 
 #include "contrejour/result.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 
 struct JsonNode {
   enum class Kind : std::uint8_t { Null, Bool, Number, Text, List, Map };
@@ -33,4 +34,4 @@ inline constexpr std::size_t kJsonMaxDepth = 64;
 // Errors: Parse with the line for invalid JSON, and for more bytes, values or levels than those limits.
 [[nodiscard]] Result<JsonNode> parse_json(std::string_view text, const std::string& file);
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

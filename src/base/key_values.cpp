@@ -1,4 +1,5 @@
-#include "contrejour/key_values.h"
+// SPDX-License-Identifier: Apache-2.0
+#include "contrejour/expert/key_values.h"
 
 #include <algorithm>
 #include <cmath>

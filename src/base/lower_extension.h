@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The ending of a file's name as formats are told by it: ".exr" for "Plate.EXR".
 #pragma once
 
@@ -5,7 +6,7 @@
 #include <filesystem>
 #include <string>
 
-namespace contrejour {
+namespace contrejour::inline internal {
 
 // With its dot, ASCII letters in lower case; empty for a name without one.
 [[nodiscard]] inline std::string lower_extension(const std::filesystem::path& file) {
@@ -14,4 +15,4 @@ namespace contrejour {
   return extension;
 }
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "base/memory.h"
 
 #include <memory>
@@ -10,7 +11,7 @@
 #include <sys/mman.h>
 #endif
 
-namespace contrejour {
+namespace contrejour::inline internal {
 namespace {
 
 constexpr std::size_t kLine = 64;  // of a cache, or a multiple
@@ -60,4 +61,4 @@ std::uint64_t peak_memory_bytes() {
 #endif
 }
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

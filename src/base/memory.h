@@ -1,9 +1,10 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
 
-namespace contrejour {
+namespace contrejour::inline internal {
 
 // Largest resident size of this process so far; 0 if the system does not report it.
 [[nodiscard]] std::uint64_t peak_memory_bytes();
@@ -13,4 +14,4 @@ namespace contrejour {
 [[nodiscard]] void* allocate_large(std::size_t bytes);
 void free_large(void* memory) noexcept;
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

@@ -1,9 +1,10 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "base/near_name.h"
 
 #include <algorithm>
 #include <cstdlib>
 
-namespace contrejour {
+namespace contrejour::inline internal {
 
 namespace {
 
@@ -37,6 +38,10 @@ int edit_distance(std::string_view a, std::string_view b) {
   return row[b.size()];
 }
 
+}  // namespace contrejour::inline internal
+
+namespace contrejour {
+
 std::string nearest_name(std::string_view name, const std::vector<std::string_view>& known) {
   if (name.empty() || name.size() > kMaxShown) return {};
   const std::string wanted = lower_case(name);
@@ -58,6 +63,10 @@ std::string nearest_name(std::string_view name, const std::vector<std::string_vi
   return best;
 }
 
+}  // namespace contrejour
+
+namespace contrejour::inline internal {
+
 std::string shortened(std::string_view name) {
   std::size_t size = std::min(name.size(), kMaxShown);
   // Step back over UTF-8 continuation bytes (10xxxxxx): never cut inside a character.
@@ -69,4 +78,4 @@ std::string shortened(std::string_view name) {
   return size < name.size() ? shown + "..." : shown;
 }
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

@@ -1,12 +1,13 @@
+// SPDX-License-Identifier: Apache-2.0
 // What messages about names that are not known need.
 #pragma once
 
 #include <string>
 #include <string_view>
 
-#include "contrejour/nearest_name.h"
+#include "contrejour/expert/nearest_name.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 
 // Insertions, deletions, replacements and swaps of neighbours that make b of a (optimal string alignment).
 // Cost: a.size() * b.size(); callers shorten what a user typed.
@@ -15,4 +16,4 @@ namespace contrejour {
 // At most 60 bytes for an error message, cut between characters, control characters replaced.
 [[nodiscard]] std::string shortened(std::string_view name);
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

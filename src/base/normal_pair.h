@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Seeded random offsets in a plane.
 #pragma once
 
@@ -7,9 +8,9 @@
 #include <numbers>
 #include <random>
 
-#include "contrejour/vec.h"
+#include "contrejour/expert/vec.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 
 // Two independent normal numbers whose mean squared length is 1, a function of these words alone. Box and Muller 1958.
 inline Vec2 normal_pair(std::initializer_list<std::uint32_t> words) {
@@ -21,4 +22,4 @@ inline Vec2 normal_pair(std::initializer_list<std::uint32_t> words) {
   return {radius * std::cos(angle_rad), radius * std::sin(angle_rad)};
 }
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A pool of objects that are costly to make and used by one thread at a time: they are lent and given back.
 // Thread-safety: safe.
 #pragma once
@@ -7,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-namespace contrejour {
+namespace contrejour::inline internal {
 
 template <class Thing>
 class Pool {
@@ -44,4 +45,4 @@ class Pool {
   std::vector<std::unique_ptr<Thing>> unused_;
 };
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

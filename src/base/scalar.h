@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Small functions of one number that several layers need.
 // Thread-safety: pure functions.
 #pragma once
@@ -7,7 +8,7 @@
 #include <cstdint>
 #include <numbers>
 
-namespace contrejour {
+namespace contrejour::inline internal {
 
 inline constexpr double kPi = std::numbers::pi;
 
@@ -27,4 +28,4 @@ inline constexpr double kPi = std::numbers::pi;
   return std::bit_cast<std::uint32_t>(a) == std::bit_cast<std::uint32_t>(b);
 }
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

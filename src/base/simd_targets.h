@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Selects the instruction sets for which Highway compiles the kernels. Include it before any header of Highway's.
 #pragma once
 

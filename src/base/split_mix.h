@@ -1,10 +1,11 @@
+// SPDX-License-Identifier: Apache-2.0
 // A hash of 64 bits that gives unrelated numbers for neighbouring keys, the same on every platform: random numbers that
 // depend on a seed and an index alone, in any order. Source: Steele, Lea & Flood 2014, SplitMix64.
 #pragma once
 
 #include <cstdint>
 
-namespace contrejour {
+namespace contrejour::inline internal {
 
 inline constexpr std::uint64_t kSplitMixIncrement = 0x9e3779b97f4a7c15U;
 
@@ -18,4 +19,4 @@ inline constexpr std::uint64_t kSplitMixIncrement = 0x9e3779b97f4a7c15U;
 // From 0 to below 1.
 [[nodiscard]] constexpr double unit_interval(std::uint64_t bits) { return static_cast<double>(bits >> 11U) * 0x1p-53; }
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "base/tasks.h"
 
 #include <algorithm>
@@ -14,7 +15,7 @@
 #include <sanitizer/tsan_interface.h>
 #endif
 
-namespace contrejour {
+namespace contrejour::inline internal {
 namespace {
 
 // These functions declare to ThreadSanitizer how work passes between threads. The installed TBB is built without it, so
@@ -87,9 +88,9 @@ bool parallel_for(std::size_t count, const Context& context, const std::function
   return !context.cancelled();
 }
 
-bool detail::ordered_pipeline_erased(std::size_t count, const Context& context,
-                                     const std::function<std::shared_ptr<void>(std::size_t)>& produce,
-                                     const std::function<void(std::size_t, void*)>& consume) {
+bool ordered_pipeline_erased(std::size_t count, const Context& context,
+                             const std::function<std::shared_ptr<void>(std::size_t)>& produce,
+                             const std::function<void(std::size_t, void*)>& consume) {
   struct Item {
     std::size_t index = 0;
     std::shared_ptr<void> product;
@@ -129,4 +130,4 @@ bool detail::ordered_pipeline_erased(std::size_t count, const Context& context,
   return !context.cancelled();
 }
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Threads for long computations: the same result, bit for bit, for any number of them.
 // Both loops stop early when the context is cancelled and then return false: their results are then incomplete.
 #pragma once
@@ -9,7 +10,7 @@
 #include "contrejour/context.h"
 #include "contrejour/result.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 
 // The error of a computation whose context was cancelled.
 inline tl::unexpected<Error> interrupted() { return failure(ErrorCode::Cancelled, "interrupted"); }
@@ -22,18 +23,16 @@ bool parallel_for(std::size_t count, const Context& context, const std::function
 template <class Produce, class Consume>
 bool ordered_pipeline(std::size_t count, const Context& context, Produce produce, Consume consume);
 
-namespace detail {
 bool ordered_pipeline_erased(std::size_t count, const Context& context,
                              const std::function<std::shared_ptr<void>(std::size_t)>& produce,
                              const std::function<void(std::size_t, void*)>& consume);
-}  // namespace detail
 
 template <class Produce, class Consume>
 bool ordered_pipeline(std::size_t count, const Context& context, Produce produce, Consume consume) {
   using Product = decltype(produce(std::size_t{}));
-  return detail::ordered_pipeline_erased(
+  return ordered_pipeline_erased(
       count, context, [&](std::size_t i) -> std::shared_ptr<void> { return std::make_shared<Product>(produce(i)); },
       [&](std::size_t i, void* product) { consume(i, *static_cast<Product*>(product)); });
 }
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

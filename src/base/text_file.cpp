@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "base/text_file.h"
 
 #include <fstream>
@@ -5,7 +6,7 @@
 
 #include <fmt/format.h>
 
-namespace contrejour {
+namespace contrejour::inline internal {
 
 Result<std::string> read_text_file(const std::filesystem::path& file, std::size_t max_bytes,
                                    std::string_view if_absent) {
@@ -35,4 +36,4 @@ Result<std::string> read_text_file(const std::filesystem::path& file, std::size_
   return text;
 }
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

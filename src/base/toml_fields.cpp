@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "base/toml_fields.h"
 
 #include <cmath>
@@ -7,7 +8,7 @@
 #include "base/near_name.h"
 #include "base/toml_scan.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 
 namespace {
 
@@ -168,4 +169,4 @@ std::string toml_string(std::string_view text) {
 
 std::string toml_number(double value) { return fmt::format("{}", value + 0.0); }
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

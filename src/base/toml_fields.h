@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Strict, typed access to one TOML table: every key must be known, every value of the right type and finite.
 // The first error is kept and later calls return defaults, so readers stay free of error plumbing: look at
 // TomlErrors::failed() before using what was read.
@@ -39,7 +40,7 @@
 
 #include "contrejour/result.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 
 class TomlErrors {
  public:
@@ -104,4 +105,4 @@ Result<toml::table> parse_toml(std::string_view text, const std::string& file, s
 // The shortest text that reads back as the same double; -0 as 0, since TOML reads "-0" as a whole number.
 [[nodiscard]] std::string toml_number(double value);
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

@@ -1,8 +1,9 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "base/toml_scan.h"
 
 #include <algorithm>
 
-namespace contrejour {
+namespace contrejour::inline internal {
 
 namespace {
 
@@ -67,4 +68,4 @@ class Scan {
 
 int line_of_deep_key(std::string_view text) { return Scan(text).line_of_deep_key(); }
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

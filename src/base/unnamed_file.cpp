@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "base/unnamed_file.h"
 
 #include <cerrno>
@@ -8,7 +9,7 @@
 #include <unistd.h>
 #endif
 
-namespace contrejour {
+namespace contrejour::inline internal {
 
 #if defined(__linux__) && defined(O_TMPFILE)
 
@@ -47,4 +48,4 @@ int name_unnamed_file(std::FILE* /*file*/, const std::filesystem::path& /*name*/
 
 #endif
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

@@ -1,10 +1,11 @@
+// SPDX-License-Identifier: Apache-2.0
 // Files without a name until they are complete: nothing remains of them if the process ends before.
 #pragma once
 
 #include <cstdio>
 #include <filesystem>
 
-namespace contrejour {
+namespace contrejour::inline internal {
 
 // Opens an unnamed file for writing in the folder of `spare_name`, a name that no file has. Null if the system or the
 // file system has no unnamed files, or cannot name them later: this is tried with a second file and the spare name,
@@ -15,4 +16,4 @@ namespace contrejour {
 // error's number.
 [[nodiscard]] int name_unnamed_file(std::FILE* file, const std::filesystem::path& name);
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "base/yaml_tree.h"
 
 #include <algorithm>
@@ -11,7 +12,7 @@
 #include <yaml-cpp/exceptions.h>
 #include <yaml-cpp/parser.h>
 
-namespace contrejour {
+namespace contrejour::inline internal {
 namespace {
 
 constexpr std::size_t kMaxDepth = 10;
@@ -156,4 +157,4 @@ Result<YamlNode> parse_yaml(std::string_view text, const std::string& file) {
   }
 }
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

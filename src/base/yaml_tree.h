@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Reads a YAML file into a tree, bounded in depth, nodes and size. yaml-cpp parses; its exceptions do not leave this
 // file.
 #pragma once
@@ -8,7 +9,7 @@
 
 #include "contrejour/result.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 
 struct YamlNode {
   enum class Kind { Null, Scalar, List, Map };
@@ -29,4 +30,4 @@ inline constexpr std::size_t kYamlMaxBytes = std::size_t{1} << 20U;
 // levels.
 [[nodiscard]] Result<YamlNode> parse_yaml(std::string_view text, const std::string& file);
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

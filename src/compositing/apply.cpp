@@ -1,11 +1,12 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "contrejour/apply.h"
 
 #include <cassert>
 #include <cmath>
 #include <utility>
 
-#include "contrejour/pixel_grid.h"
-#include "contrejour/settings.h"
+#include "contrejour/expert/pixel_grid.h"
+#include "contrejour/expert/settings.h"
 
 namespace contrejour {
 namespace {

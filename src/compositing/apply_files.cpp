@@ -1,4 +1,5 @@
-#include "contrejour/apply_files.h"
+// SPDX-License-Identifier: Apache-2.0
+#include "contrejour/expert/apply_files.h"
 
 #include <cmath>
 #include <fstream>
@@ -8,8 +9,8 @@
 #include <vector>
 
 #include "base/lower_extension.h"
-#include "contrejour/detected_picture.h"
-#include "contrejour/preview_exposure.h"
+#include "contrejour/expert/detected_picture.h"
+#include "contrejour/expert/preview_exposure.h"
 
 namespace contrejour {
 namespace {

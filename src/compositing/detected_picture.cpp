@@ -1,4 +1,5 @@
-#include "contrejour/detected_picture.h"
+// SPDX-License-Identifier: Apache-2.0
+#include "contrejour/expert/detected_picture.h"
 
 #include <algorithm>
 #include <array>

@@ -1,4 +1,5 @@
-#include "contrejour/flare_plan.h"
+// SPDX-License-Identifier: Apache-2.0
+#include "contrejour/expert/flare_plan.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,9 +9,9 @@
 
 #include <fmt/format.h>
 
-#include "contrejour/settings.h"
-#include "contrejour/spectrum_file.h"
-#include "contrejour/trace.h"
+#include "contrejour/expert/settings.h"
+#include "contrejour/expert/spectrum_file.h"
+#include "contrejour/expert/trace.h"
 
 namespace contrejour {
 namespace {

@@ -1,4 +1,5 @@
-#include "contrejour/flare_visibility.h"
+// SPDX-License-Identifier: Apache-2.0
+#include "contrejour/expert/flare_visibility.h"
 
 #include <algorithm>
 #include <cmath>

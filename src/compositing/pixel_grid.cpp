@@ -1,4 +1,5 @@
-#include "contrejour/pixel_grid.h"
+// SPDX-License-Identifier: Apache-2.0
+#include "contrejour/expert/pixel_grid.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,8 +7,8 @@
 
 #include <fmt/format.h>
 
-#include "contrejour/first_order.h"
-#include "contrejour/settings.h"
+#include "contrejour/expert/first_order.h"
+#include "contrejour/expert/settings.h"
 
 namespace contrejour {
 namespace {

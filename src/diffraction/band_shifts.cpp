@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "diffraction/band_shifts.h"
 
 #include <algorithm>
@@ -6,7 +7,7 @@
 
 #include "diffraction/starburst_rings.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 
 BandShifts shifts_of(std::span<const SpectralBand> bands) {
   const auto [low, high] = std::minmax_element(bands.begin(), bands.end(),
@@ -31,4 +32,4 @@ BandShifts shifts_of(std::span<const SpectralBand> bands) {
   return shifts;
 }
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

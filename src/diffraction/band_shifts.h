@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A light's wavelengths as shifts of a pattern's rows: wavelength scales the pattern, and the radii of rows form a
 // geometric sequence.
 #pragma once
@@ -6,9 +7,9 @@
 #include <span>
 #include <vector>
 
-#include "contrejour/colour.h"
+#include "contrejour/expert/colour.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 
 // The weights of bands, by the number of rows by which a band moves the pattern outwards.
 struct BandShifts {
@@ -21,4 +22,4 @@ struct BandShifts {
 
 [[nodiscard]] BandShifts shifts_of(std::span<const SpectralBand> bands);
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "diffraction/band_sum.h"
 
 #include "base/simd_targets.h"
@@ -8,7 +9,7 @@
 #include <hwy/highway.h>
 
 HWY_BEFORE_NAMESPACE();
-namespace contrejour::HWY_NAMESPACE {
+namespace contrejour::inline internal::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 using Tag = hn::CappedTag<float, kDirectionsAtOnce>;
@@ -30,11 +31,11 @@ void sum_bands(const std::array<float, 3>* weights, std::size_t count, const flo
   }
 }
 
-}  // namespace contrejour::HWY_NAMESPACE
+}  // namespace contrejour::inline internal::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace contrejour {
+namespace contrejour::inline internal {
 
 HWY_EXPORT(sum_bands);
 
@@ -42,5 +43,5 @@ void sum_bands(std::span<const std::array<float, 3>> weights, const float* last_
   HWY_DYNAMIC_DISPATCH(sum_bands)(weights.data(), weights.size(), last_row, sum);
 }
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal
 #endif  // HWY_ONCE

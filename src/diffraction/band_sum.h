@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The inner loop of make_starburst: each channel's weighted sum over the rows of all wavelengths.
 #pragma once
 
@@ -5,7 +6,7 @@
 #include <cstddef>
 #include <span>
 
-namespace contrejour {
+namespace contrejour::inline internal {
 
 constexpr std::size_t kDirectionsAtOnce = 16;  // the widest vector of floats
 
@@ -13,4 +14,4 @@ constexpr std::size_t kDirectionsAtOnce = 16;  // the widest vector of floats
 using DirectionSums = std::array<std::array<float, kDirectionsAtOnce>, 3>;
 void sum_bands(std::span<const std::array<float, 3>> weights, const float* last_row, DirectionSums& sum);
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "diffraction/chirp_z.h"
 
 #include <algorithm>
@@ -9,7 +10,7 @@
 #include "diffraction/complex_product.h"
 #include "diffraction/fft.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 namespace {
 
 constexpr std::size_t kRowsAtOnce = 16;
@@ -72,4 +73,4 @@ std::vector<std::complex<double>> ChirpZ::transform_2d(std::span<const std::comp
   return transform_transposed(transform_transposed(data, from_, context), to_, context);
 }
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

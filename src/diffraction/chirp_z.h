@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A Fourier transform between any two regular grids, by three FFTs a row.
 // Source: Bluestein 1970; Rabiner, Schafer & Rader 1969, "The chirp z-transform algorithm". Exact but for rounding.
 #pragma once
@@ -9,7 +10,7 @@
 
 #include "contrejour/context.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 
 // count points first, first + step, ...
 struct RegularPoints {
@@ -39,4 +40,4 @@ class ChirpZ {
   Row before_, kernel_, after_;
 };
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

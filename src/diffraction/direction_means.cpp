@@ -1,10 +1,11 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "diffraction/direction_means.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
-namespace contrejour {
+namespace contrejour::inline internal {
 
 DirectionMeans::DirectionMeans(std::span<const double> values) : below_{0.0} {
   for (const double value : values) below_.push_back(below_.back() + value);
@@ -28,4 +29,4 @@ double DirectionMeans::over(double angle_rad, double window_rad) const {
   return (until(first + width) - until(first)) / width;
 }
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

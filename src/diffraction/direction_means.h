@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Means over windows of directions of a function that is equal in opposite directions, as power spectra of real masks
 // are, given by its values in equal parts of half a turn.
 #pragma once
@@ -5,7 +6,7 @@
 #include <span>
 #include <vector>
 
-namespace contrejour {
+namespace contrejour::inline internal {
 
 class DirectionMeans {
  public:
@@ -21,4 +22,4 @@ class DirectionMeans {
   std::vector<double> below_;  // cumulative sums of the values
 };
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

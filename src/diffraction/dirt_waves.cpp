@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "diffraction/dirt_waves.h"
 
 #include <algorithm>
@@ -8,7 +9,7 @@
 #include "base/scalar.h"
 #include "diffraction/special_functions.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 namespace {
 
 constexpr double kSpeckWithin = 1.0;      // length of its line in widths, up to which a stroke is a speck
@@ -183,4 +184,4 @@ double DirtWaves::Direction::power(double k) const {
   return sum;
 }
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

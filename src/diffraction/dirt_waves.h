@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The power spectrum of dirt far from its centre, with fringes between shapes averaged out: the sum over shapes. By
 // Babinet's principle a shape that blocks light diffracts as an opening of its form would. A scratch acts as a slit of
 // its width and gives a streak across it, or a fan if it is bent; specks are discs, which diffract in all directions.
@@ -7,9 +8,9 @@
 #include <span>
 #include <vector>
 
-#include "contrejour/dirt.h"
+#include "contrejour/expert/dirt.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 
 class DirtWaves {
  public:
@@ -56,4 +57,4 @@ class DirtWaves {
   std::vector<double> specks_;  // log2 of their power, at steps of k from kFirst on
 };
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "diffraction/edge_waves.h"
 
 #include <algorithm>
@@ -8,7 +9,7 @@
 #include "base/scalar.h"
 #include "diffraction/special_functions.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 namespace {
 
 constexpr double kFlatPhase = 0.1;     // rad: an arc with a smaller phase from its curvature is straight
@@ -225,4 +226,4 @@ double EdgeWaves::Direction::power(double k) const {
   return std::max(sum, 0.0) * per_k4;
 }
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The power spectrum of an opening far from its centre, with fringes averaged out: the diffraction by its edges and
 // corners. An edge diffracts along its normal, with a power that falls as k^-2 if it is straight, and as k^-3 over the
 // fan of its normals if it is curved; corners diffract in all directions, with a power that falls as k^-4. Derivation
@@ -9,9 +10,9 @@
 #include <optional>
 #include <vector>
 
-#include "contrejour/iris.h"
+#include "contrejour/expert/iris.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 
 class EdgeWaves {
  public:
@@ -66,4 +67,4 @@ class EdgeWaves {
   std::vector<Outline> outline_;
 };
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "diffraction/fft.h"
 
 #include <algorithm>
@@ -14,7 +15,7 @@
 
 #include "base/tasks.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 namespace {
 
 // Rows and columns are divided into a fixed number of pieces: enough for many threads, few enough that each is worth
@@ -100,4 +101,4 @@ std::size_t good_fft_size(std::size_t least) {
   return 2 * pocketfft::detail::util::good_size_cmplx(std::max<std::size_t>(1, (least + 1) / 2));
 }
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

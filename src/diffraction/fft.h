@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The interface to the FFT (pocketfft, in float and double), on the project's threads.
 // Row-major squares and rectangles; unscaled both ways, exp(-2 pi i) forward. The same bits for any number of threads.
 // Returns false when cancelled; the data are then incomplete.
@@ -10,7 +11,7 @@
 
 #include "contrejour/context.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 
 struct FftShape {
   std::size_t rows = 0, columns = 0;
@@ -34,4 +35,4 @@ void fft_rows(std::span<std::complex<Real>> data, FftShape shape, FftDirection d
 // The smallest even size >= least for which pocketfft is fast.
 [[nodiscard]] std::size_t good_fft_size(std::size_t least);
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

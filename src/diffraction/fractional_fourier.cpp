@@ -1,8 +1,9 @@
+// SPDX-License-Identifier: Apache-2.0
 // Candan, Kutay & Ozaktas 2000, "The discrete fractional Fourier transform": the eigenvectors that the DFT shares with
 // the discrete harmonic oscillator S (their eq. 17), by number of zero crossings, are multiplied by powers of -i.
 // Differs: from hullin2011, which takes Ozaktas's fast algorithm: with that algorithm orders are additive to a few per
 // cent only.
-#include "contrejour/fractional_fourier.h"
+#include "contrejour/expert/fractional_fourier.h"
 
 #include <cmath>
 #include <numbers>

@@ -1,4 +1,5 @@
-#include "contrejour/fraunhofer.h"
+// SPDX-License-Identifier: Apache-2.0
+#include "contrejour/expert/fraunhofer.h"
 
 #include <cmath>
 #include <complex>

@@ -1,4 +1,5 @@
-#include "contrejour/fresnel.h"
+// SPDX-License-Identifier: Apache-2.0
+#include "contrejour/expert/fresnel.h"
 
 #include <cmath>
 #include <complex>
@@ -11,7 +12,7 @@
 #include "diffraction/fft.h"
 #include "diffraction/fresnel_methods.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 namespace {
 
 using Wave = std::vector<std::complex<double>>;
@@ -113,6 +114,10 @@ std::vector<double> fresnel_far(const PupilMask& mask, double stop_radius_mm, do
 double far_up_to(const PupilMask& mask, double stop_radius_mm) {
   return 2.0 * stop_radius_mm / mask.grid.pitch_mm / kSamplesPerFresnel;
 }
+
+}  // namespace contrejour::inline internal
+
+namespace contrejour {
 
 double fresnel_extent(double fresnel_number) { return 1.0 + 2.0 / std::sqrt(fresnel_number) + 4.0 / fresnel_number; }
 

@@ -1,9 +1,10 @@
+// SPDX-License-Identifier: Apache-2.0
 // Two methods for the same Fresnel pattern, each valid where its samples are dense enough.
 #pragma once
 
-#include "contrejour/fresnel.h"
+#include "contrejour/expert/fresnel.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 
 // By the spectrum times the transfer function of free space: for large F.
 [[nodiscard]] std::vector<double> fresnel_near(const PupilMask& mask, double stop_radius_mm, double fresnel_number,
@@ -17,4 +18,4 @@ namespace contrejour {
 // apart for K samples across the stop, lie far outside it.
 [[nodiscard]] double far_up_to(const PupilMask& mask, double stop_radius_mm);
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

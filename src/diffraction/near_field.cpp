@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "diffraction/near_field.h"
 
 #include <algorithm>
@@ -6,7 +7,7 @@
 
 #include "base/scalar.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 namespace {
 
 constexpr std::size_t kRows = kRowsPerOctave;
@@ -167,4 +168,4 @@ std::array<double, 3> NearField::flux(const SquareAt& square) const {
   return sum;
 }
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The middle of a starburst, where pixels are large compared with their distance from the centre: flux over rectangles
 // as sums over the cells of the rings, integrated exactly along each direction from where it enters the rectangle to
 // where it leaves it.
@@ -9,10 +10,10 @@
 #include <span>
 #include <vector>
 
-#include "contrejour/vec.h"
+#include "contrejour/expert/vec.h"
 #include "diffraction/starburst_rings.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 
 // Corners from the centre, pixels, y up.
 struct SquareAt {
@@ -53,4 +54,4 @@ class NearField {
   std::vector<Octave> octaves_;
 };
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

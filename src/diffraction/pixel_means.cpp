@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "diffraction/pixel_means.h"
 
 #include <algorithm>
@@ -7,7 +8,7 @@
 #include "base/scalar.h"
 #include "diffraction/pixel_profile.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 namespace {
 
 constexpr std::size_t kSameDirection = 8;  // bins that share one pixel profile
@@ -76,4 +77,4 @@ void average_over_pixels(std::span<const float> bins_rgb0, std::size_t bins, dou
   }
 }
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The chords of a square pixel along a direction: their length as a function of the distance from the pixel's middle is
 // a trapezoid, the convolution of two boxes of widths |cos| and |sin| of the direction. A line of light adds its chord
 // to each pixel, so that a row or column of pixels gets all of its flux wherever the line lies.
@@ -6,7 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace contrejour {
+namespace contrejour::inline internal {
 
 template <class Real>
 class PixelProfile {
@@ -35,4 +36,4 @@ class PixelProfile {
   Real level_, reach_, per_wide_, per_slope_;
 };
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

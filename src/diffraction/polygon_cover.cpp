@@ -1,9 +1,10 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "diffraction/polygon_cover.h"
 
 #include <algorithm>
 #include <cmath>
 
-namespace contrejour {
+namespace contrejour::inline internal {
 
 PolygonCover::PolygonCover(int side)
     : side_(side), width_(static_cast<std::size_t>(side) + 2), change_(static_cast<std::size_t>(side) * width_),
@@ -57,4 +58,4 @@ void PolygonCover::add_in_row(int row, Vec2 a, Vec2 b) {
   }
 }
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

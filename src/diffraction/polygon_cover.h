@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The exact fraction of each sample of a square grid that a polygon covers, however thin it is: each edge adds the
 // signed area to its right, as in font rasterisers.
 #pragma once
@@ -6,9 +7,9 @@
 #include <span>
 #include <vector>
 
-#include "contrejour/vec.h"
+#include "contrejour/expert/vec.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 
 class PolygonCover {
  public:
@@ -56,4 +57,4 @@ class PolygonCover {
   int first_row_, last_row_ = -1;
 };
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

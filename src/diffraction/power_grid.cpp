@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "diffraction/power_grid.h"
 
 #include <algorithm>
@@ -9,7 +10,7 @@
 #include "base/tasks.h"
 #include "diffraction/fft.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 namespace {
 
 // Power has twice the mask's bandwidth: padding by 2 just represents it, 4 allows cubic interpolation between samples.
@@ -76,4 +77,4 @@ double PowerGrid::density(double rho_x, double rho_y) const {
   return std::max(sum, 0.0F);  // a cubic may overshoot below 0 between the fringes
 }
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The power spectrum of a real mask by FFT, interpolated at any frequency.
 // Frequencies are rho = f * 2 a, a the pupil's radius: an image point lies at x = rho lambda N. Density: the integral
 // over the plane of rho is 1.
@@ -6,9 +7,9 @@
 #include <vector>
 
 #include "contrejour/context.h"
-#include "contrejour/pupil_mask.h"
+#include "contrejour/expert/pupil_mask.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 
 class PowerGrid {
  public:
@@ -28,4 +29,4 @@ class PowerGrid {
   std::vector<float> density_;
 };
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

@@ -1,4 +1,5 @@
-#include "contrejour/pupil_mask.h"
+// SPDX-License-Identifier: Apache-2.0
+#include "contrejour/expert/pupil_mask.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "diffraction/ring_builder.h"
 
 #include <algorithm>
@@ -16,7 +17,7 @@
 #include "diffraction/pixel_means.h"
 #include "diffraction/ring_cells.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 namespace {
 
 constexpr double kFlatRho = 0.05;  // the pattern is flat to 1 per cent within
@@ -234,4 +235,4 @@ std::shared_ptr<const StarburstRings> build_rings(const StarburstPattern& patter
   return rings;
 }
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

@@ -1,10 +1,11 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "diffraction/ring_cells.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 
-namespace contrejour {
+namespace contrejour::inline internal {
 namespace {
 
 // The borders of cells on both sides of a sharp direction, in pixels at the octave's outer radius: the first cell
@@ -119,4 +120,4 @@ std::vector<float> means_over_bins(const RingCells& cells, std::span<const float
   return means;
 }
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

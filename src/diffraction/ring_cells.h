@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The division of half a turn into cells at the radii of an octave: equal bins, and finer cells about directions in
 // which the pattern is sharper than pixels, down to a sixteenth of a pixel.
 #pragma once
@@ -8,7 +9,7 @@
 
 #include "diffraction/starburst_rings.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 
 // Bins [first, end) with finer cells; end may continue past the last bin, to the first ones.
 struct SharpBins {
@@ -33,4 +34,4 @@ void add_sharp_zones(const RingCells& cells, std::span<const float> rgb0, std::s
 // Mean densities over whole bins, [(row * bins + bin) * 4 + channel].
 [[nodiscard]] std::vector<float> means_over_bins(const RingCells& cells, std::span<const float> rgb0, std::size_t rows);
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

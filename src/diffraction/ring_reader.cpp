@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "diffraction/ring_reader.h"
 
 #include <algorithm>
@@ -13,7 +14,7 @@
 #include <hwy/contrib/math/math-inl.h>
 
 HWY_BEFORE_NAMESPACE();
-namespace contrejour::HWY_NAMESPACE {
+namespace contrejour::inline internal::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 using Tag = hn::CappedTag<float, 16>;
@@ -87,11 +88,11 @@ void read_rings(const StarburstRings& rings, double x0, double y, std::size_t co
   }
 }
 
-}  // namespace contrejour::HWY_NAMESPACE
+}  // namespace contrejour::inline internal::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace contrejour {
+namespace contrejour::inline internal {
 
 HWY_EXPORT(read_rings);
 
@@ -99,5 +100,5 @@ void read_rings(const StarburstRings& rings, double x0, double y, std::size_t co
   HWY_DYNAMIC_DISPATCH(read_rings)(rings, x0, y, count, rgb);
 }
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal
 #endif  // HWY_ONCE

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "diffraction/sharp_zone.h"
 
 #include <algorithm>
@@ -6,7 +7,7 @@
 
 #include "diffraction/pixel_profile.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 namespace {
 
 constexpr float kPiF = std::numbers::pi_v<float>;
@@ -61,4 +62,4 @@ void read_zone(const SharpZone& zone, std::size_t bins, float row, float turns, 
   std::copy_n(sum, 3, rgb);
 }
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

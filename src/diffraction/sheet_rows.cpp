@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "diffraction/sheet_rows.h"
 
 #include "base/simd_targets.h"
@@ -8,7 +9,7 @@
 #include <hwy/highway.h>
 
 HWY_BEFORE_NAMESPACE();
-namespace contrejour::HWY_NAMESPACE {
+namespace contrejour::inline internal::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 using Tag = hn::CappedTag<float, 16>;
@@ -40,11 +41,11 @@ void add_between(const float* samples, float t, const std::array<float, 3>& scal
   for (; i < count; ++i) pixels[i] += scale[i % 3] * (samples[i] + t * (samples[i + 3] - samples[i]));
 }
 
-}  // namespace contrejour::HWY_NAMESPACE
+}  // namespace contrejour::inline internal::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace contrejour {
+namespace contrejour::inline internal {
 
 HWY_EXPORT(blend_rows);
 HWY_EXPORT(add_between);
@@ -57,5 +58,5 @@ void add_between(const float* samples, float t, const std::array<float, 3>& scal
   HWY_DYNAMIC_DISPATCH(add_between)(samples, t, scale, count, pixels);
 }
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal
 #endif  // HWY_ONCE

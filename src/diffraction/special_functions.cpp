@@ -1,9 +1,10 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "diffraction/special_functions.h"
 
 #include <cmath>
 #include <numbers>
 
-namespace contrejour {
+namespace contrejour::inline internal {
 namespace {
 
 // Si(x) for x >= 0.
@@ -43,4 +44,4 @@ double integral_of_sinc_squared(double x) {
   return std::copysign(sine_integral(2.0 * a) - sine * sine / a, x);
 }
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

@@ -1,7 +1,8 @@
+// SPDX-License-Identifier: Apache-2.0
 // Integrals of diffraction at an edge.
 #pragma once
 
-namespace contrejour {
+namespace contrejour::inline internal {
 
 struct FresnelIntegrals {
   double c = 0, s = 0;  // of cos and sin of pi t^2 / 2 from 0 to x
@@ -14,4 +15,4 @@ struct FresnelIntegrals {
 // 5.2.8 with 5.2.38, 5.2.39.
 [[nodiscard]] double integral_of_sinc_squared(double x);
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The middle of a starburst, precomputed for any subpixel position of its centre.
 #pragma once
 
@@ -5,13 +6,13 @@
 #include <cstddef>
 #include <vector>
 
-#include "contrejour/colour.h"
 #include "contrejour/context.h"
+#include "contrejour/expert/colour.h"
+#include "contrejour/expert/vec.h"
 #include "contrejour/image.h"
-#include "contrejour/vec.h"
 #include "diffraction/starburst_rings.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 
 // Pixels are counted in int; a starburst that far outside is not visible.
 [[nodiscard]] inline bool is_drawable(Vec2 centre_px) {
@@ -22,4 +23,4 @@ namespace contrejour {
 // of the row's middle below the centre.
 void add_near_row(const NearField& near, Vec2 centre_px, double y, std::size_t width, float* rgb);
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

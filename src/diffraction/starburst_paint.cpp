@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Draws the rings of a starburst on pixels: near the centre cell by cell, farther out from the rings' means over
 // pixels.
 #include <algorithm>
@@ -6,14 +7,14 @@
 #include <vector>
 
 #include "base/tasks.h"
-#include "contrejour/starburst.h"
+#include "contrejour/expert/starburst.h"
 #include "diffraction/near_field.h"
 #include "diffraction/ring_reader.h"
 #include "diffraction/sheet_rows.h"
 #include "diffraction/starburst_core.h"
 #include "diffraction/starburst_rings.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 
 void add_near_row(const NearField& near, Vec2 centre_px, double y, std::size_t width, float* rgb) {
   if (std::abs(y) > kNear_px) return;
@@ -29,6 +30,10 @@ void add_near_row(const NearField& near, Vec2 centre_px, double y, std::size_t w
     for (std::size_t c = 0; c < 3; ++c) rgb[3 * x + c] += static_cast<float>(flux[c]);
   }
 }
+
+}  // namespace contrejour::inline internal
+
+namespace contrejour {
 
 void add_starburst(Image& image, const Starburst& starburst, Vec2 centre_px, const Rgb& flux, const Context& context) {
   if (image.channels != 3 || image.pixels.size() != image.index(0, image.height)) return;

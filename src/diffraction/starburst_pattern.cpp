@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "diffraction/starburst_pattern.h"
 
 #include <algorithm>
@@ -9,7 +10,7 @@
 #include "base/tasks.h"
 #include "diffraction/starburst_rings.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 namespace {
 
 constexpr double kSampleRho = 0.45;  // fringes are at least 1 apart: samples of an average are closer
@@ -263,4 +264,4 @@ double StarburstPattern::spectrum_average(double angle_rad, Vec2 along, double w
       [&](double, double x, double y) { return grid_.density(x, y); });
 }
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The pattern of a real mask at one wavelength, from its middle to any distance: its spectrum within its samples, then
 // the diffraction by its outline and its dirt. It is a density over rho = x / (lambda N) with integral 1.
 #pragma once
@@ -7,14 +8,14 @@
 #include <vector>
 
 #include "contrejour/context.h"
-#include "contrejour/pupil_mask.h"
-#include "contrejour/starburst.h"
+#include "contrejour/expert/pupil_mask.h"
+#include "contrejour/expert/starburst.h"
 #include "diffraction/direction_means.h"
 #include "diffraction/dirt_waves.h"
 #include "diffraction/power_grid.h"
 #include "diffraction/uneven_edges.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 
 class StarburstPattern {
  public:
@@ -67,4 +68,4 @@ class StarburstPattern {
   DirectionMeans halo_, shapes_;  // times rho^3, where the spectrum ends: its own less the edges', and of all dirt
 };
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

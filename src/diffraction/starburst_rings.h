@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A starburst as rings about its centre: pixels' RGB by logarithm of the radius and by direction.
 // A wavelength scales the pattern, which here is a shift from row to row; so a whole spectrum is one short sum along
 // the rows, with no other blur. Real masks give patterns that are the same at p and -p: half a turn is kept. Directions
@@ -10,9 +11,9 @@
 #include <memory>
 #include <vector>
 
-#include "contrejour/vec.h"
+#include "contrejour/expert/vec.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 
 constexpr int kRowsPerOctave = 92;  // 4 nm at 550 nm
 constexpr double kNear_px = 48.0;  // within, pixels are integrated exactly (near_field.h)
@@ -63,4 +64,4 @@ struct StarburstRings {
   std::shared_ptr<const NearField> near;
 };
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

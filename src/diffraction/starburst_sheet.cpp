@@ -1,17 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
 // A starburst precomputed at pixels: half of the plane; the other half is the same rotated about the centre.
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
 #include "base/tasks.h"
-#include "contrejour/starburst.h"
+#include "contrejour/expert/starburst.h"
 #include "diffraction/near_field.h"
 #include "diffraction/ring_reader.h"
 #include "diffraction/sheet_rows.h"
 #include "diffraction/starburst_core.h"
 #include "diffraction/starburst_rings.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 
 // Means over pixels whose middles lie whole pixels from the centre: x from -reach_x to reach_x, y (down) from 0 to
 // reach_y; without the core.
@@ -30,6 +31,9 @@ struct StarburstSamples {
   }
 };
 
+}  // namespace contrejour::inline internal
+
+namespace contrejour {
 namespace {
 
 constexpr double kMaxPixels = 67108864.0;  // 2^26: 1.6 GB

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "diffraction/starburst_source.h"
 
 #include <algorithm>
@@ -13,7 +14,7 @@
 #include "diffraction/ring_builder.h"
 #include "diffraction/starburst_pattern.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 namespace {
 
 constexpr double kLargestRadius_px = 1e6;
@@ -84,6 +85,10 @@ Result<Starburst> StarburstSource::at(double pixel_pitch_mm, double radius_px, c
   if (!rings) return interrupted();
   return Starburst(std::move(rings));
 }
+
+}  // namespace contrejour::inline internal
+
+namespace contrejour {
 
 Result<Starburst> make_starburst(const PupilMask& mask, const PupilOutline* outline,
                                  std::span<const SpectralBand> bands, const StarburstSettings& settings,

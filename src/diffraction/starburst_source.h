@@ -1,13 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
 // A pupil's pattern and a light's wavelengths, from which starbursts of any pixel pitch are made.
 #pragma once
 
 #include <memory>
 #include <span>
 
-#include "contrejour/starburst.h"
+#include "contrejour/expert/starburst.h"
 #include "diffraction/band_shifts.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 
 class StarburstPattern;
 
@@ -29,4 +30,4 @@ class StarburstSource {
   double rho_per_mm_ = 0.0;
 };
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

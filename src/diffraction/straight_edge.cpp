@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "diffraction/straight_edge.h"
 
 #include <cmath>
@@ -5,7 +6,7 @@
 
 #include "base/scalar.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 namespace {
 
 using Complex = std::complex<double>;
@@ -55,4 +56,4 @@ StraightEdge::StraightEdge(double spread) {
   change_.emplace_back(0.0F);
 }
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The wave behind a straight edge, as a table for many look-ups: 0 far outside the opening, 1 far inside.
 // Behind a rectangle it is a product of differences of two; an opaque shape's wave is 1 minus that of an opening of its
 // form (Babinet's principle).
@@ -11,7 +12,7 @@
 #include <complex>
 #include <vector>
 
-namespace contrejour {
+namespace contrejour::inline internal {
 
 class StraightEdge {
  public:
@@ -32,4 +33,4 @@ class StraightEdge {
   std::vector<std::complex<float>> value_, change_;  // by step from -kReach, and to the next
 };
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "diffraction/uneven_edges.h"
 
 #include <algorithm>
@@ -7,7 +8,7 @@
 #include "base/scalar.h"
 #include "base/tasks.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 namespace {
 
 constexpr double kStepOfSpread = 1.0 / 5.0;  // between the table's directions
@@ -81,4 +82,4 @@ double UnevenEdges::Direction::power(double k) const {
   return std::lerp(along_rows(here_), along_rows(next_), next_weight_) / (k * k * k);
 }
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Edge waves of an opening with imperfect edges, whose slopes are normally distributed about those of the outline.
 // Where the edges' heights exceed many wavelengths over the angle of diffraction, each piece diffracts along its own
 // normal, so that the pattern of an exact outline is averaged over directions, which conserves its flux. This blurs the
@@ -12,7 +13,7 @@
 #include "contrejour/context.h"
 #include "diffraction/edge_waves.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 
 class UnevenEdges {
  public:
@@ -42,4 +43,4 @@ class UnevenEdges {
   std::vector<float> power_k3_;  // [direction * rows + row], rows by the logarithm of k
 };
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

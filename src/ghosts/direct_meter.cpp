@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "ghosts/direct_meter.h"
 
 #include <algorithm>
@@ -6,7 +7,7 @@
 #include "ghosts/open_halves.h"
 #include "ghosts/pupil_search.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 namespace {
 
 // Rays along a side of the grid that is summed, and of the grid that is traced; cubics interpolate the others. Few are
@@ -122,4 +123,4 @@ double DirectMeter::flux_mm2(const ReflectanceTables& tables, const Rectangle& n
   return is_cut_off(grid, window_) ? flux_mm2(tables) : open_flux(grid) * light_.shared_flux();
 }
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

@@ -1,14 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
 // Measures the direct image of one light: its pupil and its flux. The pupils of all wavelengths nearly agree, so one
 // search serves them all.
 #pragma once
 
 #include <optional>
 
-#include "contrejour/trace.h"
+#include "contrejour/expert/trace.h"
 #include "ghosts/iris_shape.h"
 #include "ghosts/ray_grid.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 
 // Thread-safety: safe.
 class DirectMeter {
@@ -33,4 +34,4 @@ class DirectMeter {
   EntranceWindow window_;
 };
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

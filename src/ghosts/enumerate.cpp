@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cstdint>
 #include <cstdlib>
@@ -5,8 +6,8 @@
 #include <span>
 #include <variant>
 
-#include "contrejour/check_lens.h"
-#include "contrejour/ghost.h"
+#include "contrejour/expert/check_lens.h"
+#include "contrejour/expert/ghost.h"
 
 namespace contrejour {
 namespace {

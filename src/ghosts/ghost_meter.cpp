@@ -1,7 +1,8 @@
+// SPDX-License-Identifier: Apache-2.0
 #include <utility>
 
-#include "contrejour/check_lens.h"
-#include "contrejour/ghost.h"
+#include "contrejour/expert/check_lens.h"
+#include "contrejour/expert/ghost.h"
 #include "ghosts/direct_meter.h"
 #include "ghosts/light_frame.h"
 #include "ghosts/pupils/ghost_light.h"

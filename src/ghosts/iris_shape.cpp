@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "ghosts/iris_shape.h"
 
 #include <algorithm>
@@ -6,7 +7,7 @@
 
 #include "aperture/iris_blades.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 namespace {
 
 constexpr double kUnbounded = std::numeric_limits<double>::infinity();
@@ -88,4 +89,4 @@ void IrisShape::distances(const float* x, const float* y, std::size_t count, flo
   }
 }
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The iris as functions of the stop coordinates that are <= 0 where a ray passes.
 #pragma once
 
@@ -9,9 +10,9 @@
 #include <utility>
 #include <vector>
 
-#include "contrejour/iris_field.h"
+#include "contrejour/expert/iris_field.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 
 // The iris opening as the circles and half-planes that its outline lies on: the rim where it bounds the opening, then
 // the blades in order. The opening is their intersection, which is convex; the largest of their distances is
@@ -69,4 +70,4 @@ class IrisShape {
   double cosine_ = 1.0, sine_ = 0.0;  // of the picture's rotation
 };
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

@@ -1,13 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
 // A light's meridional frame and the rotation back from it: ghosts/meridian.h with sine and cosine precomputed. A lens
 // without axial symmetry has no such frame; the lens's own is used.
 #pragma once
 
 #include <cmath>
 
-#include "contrejour/trace.h"
+#include "contrejour/expert/trace.h"
 #include "ghosts/meridian.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 
 struct LightFrame {
   LightSource source;  // its direction: y = 0, x >= 0 where symmetric
@@ -40,4 +41,4 @@ class LightWindows {
   EntranceWindow in_meridian_, in_place_;
 };
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

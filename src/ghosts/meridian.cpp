@@ -1,8 +1,9 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "ghosts/meridian.h"
 
 #include <cmath>
 
-namespace contrejour {
+namespace contrejour::inline internal {
 
 double Meridian::angle_rad() const { return std::atan2(light.direction.x, light.direction.z); }
 
@@ -17,4 +18,4 @@ Iris turned_back(Iris iris, const Meridian& meridian) {
   return iris;
 }
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

@@ -1,12 +1,13 @@
+// SPDX-License-Identifier: Apache-2.0
 // The frame of a rotationally symmetric lens in which a light's meridian is the x-z plane: hullin2011 4.2, axial
 // symmetry. Rays in this frame depend on one angle only, and y -> -y changes nothing but the iris.
 #pragma once
 
-#include "contrejour/iris.h"
-#include "contrejour/light_source.h"
-#include "contrejour/vec.h"
+#include "contrejour/expert/iris.h"
+#include "contrejour/expert/light_source.h"
+#include "contrejour/expert/vec.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 
 struct Meridian {
   LightSource light;    // its direction: y = 0, x >= 0
@@ -20,4 +21,4 @@ struct Meridian {
 // The iris in the meridian's frame.
 [[nodiscard]] Iris turned_back(Iris iris, const Meridian& meridian);
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

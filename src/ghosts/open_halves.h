@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The part of a grid of rays that gets through: halves of its cells, with the open fraction of each.
 #pragma once
 
@@ -8,7 +9,7 @@
 
 #include "ghosts/ray_grid.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 
 // Half a cell of the grid: its vertices, the fraction of its area that is open, and the flux through that.
 struct OpenTriangle {
@@ -42,4 +43,4 @@ void for_each_open_half(const RayGrid& grid, const std::array<std::size_t, 4>& q
   }
 }
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

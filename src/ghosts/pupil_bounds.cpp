@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "ghosts/pupil_bounds.h"
 
 #include <algorithm>
@@ -9,7 +10,7 @@
 #include "base/tasks.h"
 #include "ghosts/meridian.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 namespace {
 
 constexpr int kFirstAngles = 5;  // searched over the whole window
@@ -296,4 +297,4 @@ std::optional<PupilRegion> ZoomPupilBounds::find(const LensState& lens, Ghost gh
   return region;
 }
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // hullin2011 4.2, ray bounding by precomputation: rectangles of the entrance plane that contain every ray of a ghost
 // that gets through, as functions of the light's angle, zoom and stop. They are in the frame of the light's meridian
 // (meridian.h), where they are symmetric in y; the iris counts as a full circle, so they are valid for any blades.
@@ -9,10 +10,10 @@
 #include <vector>
 
 #include "contrejour/context.h"
-#include "contrejour/ghost.h"
+#include "contrejour/expert/ghost.h"
 #include "ghosts/pupil_search.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 
 struct PupilBoundsRange {
   std::vector<Ghost> ghosts;
@@ -73,4 +74,4 @@ class ZoomPupilBounds {
   std::vector<std::vector<Node>> by_zoom_;  // rising focal length; within, falling stop radius
 };
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "ghosts/pupil_search.h"
 
 #include <algorithm>
@@ -5,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-namespace contrejour {
+namespace contrejour::inline internal {
 namespace {
 
 constexpr int kSearchSteps = 10;
@@ -145,4 +146,4 @@ std::optional<PupilRegion> find_pupil_region_in(const Rectangle& guess, const Op
   return PupilRegion{part.pupil_mm, part.sensor_mm, static_cast<std::uint64_t>(kGuessSide) * kGuessSide};
 }
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

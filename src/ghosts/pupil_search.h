@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // hullin2011 4.2, ray bounding: the rectangle of the entrance plane that encloses every ray of a ghost that
 // gets through, found by tracing coarse grids.
 #pragma once
@@ -7,7 +8,7 @@
 
 #include "ghosts/ray_grid.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 
 struct PupilRegion {
   Rectangle pupil_mm;   // enclosing, with a margin
@@ -43,4 +44,4 @@ inline constexpr int kSearchSide = 49;  // default of the rays along a side of a
                                                               const LightSource& light, const EntranceWindow& window,
                                                               RayGrid& scratch);
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

@@ -1,9 +1,10 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "ghosts/ray_grid.h"
 
 #include <algorithm>
 #include <cmath>
 
-namespace contrejour {
+namespace contrejour::inline internal {
 namespace {
 
 // Rounding between neighbours may be this fraction of their distance: it is the ripple of a flat ghost.
@@ -261,4 +262,4 @@ PacketPrecision precision_for(const OpticalPath& path, const ReflectanceTables& 
   return seen && noise > kMaxRounding * kMaxRounding * distance ? PacketPrecision::Double : PacketPrecision::Float;
 }
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

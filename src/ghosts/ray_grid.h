@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A uniform grid of a light's rays over a rectangle of the entrance plane, traced along one path; hullin2011
 // 4.1. Every vertex keeps the values that are interpolated over cells: sensor point, transmission, r_rel and stop
 // coordinates.
@@ -14,7 +15,7 @@
 #include "ghosts/light_frame.h"
 #include "optics/trace/packet_trace.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 
 struct Rectangle {
   Vec2 low, high;
@@ -115,4 +116,4 @@ class RayGrid {
                                             const LightSource& light, double z_mm, const Rectangle& box, int side,
                                             double pixel_pitch_mm);
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

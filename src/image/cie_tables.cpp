@@ -1,7 +1,8 @@
+// SPDX-License-Identifier: Apache-2.0
 // The CIE's own numbers, copied; nothing here is computed.
 #include "image/cie_tables.h"
 
-namespace contrejour::cie {
+namespace contrejour::inline internal::cie {
 
 // CIE 1931 2 degree standard colorimetric observer, 1 nm: CIE 018:2019 table 6, as ISO/CIE 11664-1. One row a nm: x, y,
 // z.
@@ -489,4 +490,4 @@ const std::array<double, kD65Count> kIlluminantD65 = {
     75.087,  63.5927, 46.4182, 66.8054, 63.3828, 64.304,  59.4519, 51.959,  57.4406, 60.3125,
 };
 
-}  // namespace contrejour::cie
+}  // namespace contrejour::inline internal::cie

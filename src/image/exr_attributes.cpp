@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "image/exr_attributes.h"
 
 #include <algorithm>
@@ -9,7 +10,7 @@
 
 #include <fmt/format.h>
 
-namespace contrejour {
+namespace contrejour::inline internal {
 namespace {
 
 // "OpenEXR File Layout" (openexr.com): version field flags.
@@ -159,4 +160,4 @@ Result<ExrHeaderSize> check_exr_header(std::span<const std::byte> bytes, const s
   }
 }
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Checks an OpenEXR file's header before the library reads it, since the library allocates the sizes that it states.
 #pragma once
 
@@ -7,7 +8,7 @@
 
 #include "contrejour/result.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 
 struct ExrHeaderSize {
   std::size_t bytes = 0;  // of magic, version and attributes
@@ -18,4 +19,4 @@ struct ExrHeaderSize {
 // newer version).
 [[nodiscard]] Result<ExrHeaderSize> check_exr_header(std::span<const std::byte> bytes, const std::string& name);
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

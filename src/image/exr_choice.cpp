@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "image/exr_choice.h"
 
 #include <algorithm>
@@ -10,7 +11,7 @@
 
 #include "image/exr_limits.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 namespace {
 
 constexpr std::size_t kLongestList = 200;  // of names in a message
@@ -198,4 +199,4 @@ Result<void> check_only_part(const Imf::Header& header, const std::string& name,
                  {name});
 }
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Selects the colour channels of an OpenEXR file, and their part: docs/formats/images.md.
 #pragma once
 
@@ -10,7 +11,7 @@
 
 #include "contrejour/image_io.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 
 // Indices of the channels for r, g and b, and of those with chroma (then all of rgb are the luminance).
 struct ColourChannels {
@@ -37,4 +38,4 @@ struct ChosenPart {
 [[nodiscard]] Result<void> check_only_part(const Imf::Header& header, const std::string& name,
                                            const ReadOptions& options);
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "image/exr_limits.h"
 
 #include <algorithm>
@@ -7,7 +8,7 @@
 
 #include "image/samples.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 namespace {
 
 // The largest compression ratio of a codec, rounded up. deflate: 1032 (zlib's technical notes), and PXR24 drops one
@@ -107,4 +108,4 @@ Result<void> check_exr_size(const Imf::Header& header, std::uint64_t header_byte
   return {};
 }
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Checks that an OpenEXR file is large enough for the picture that its header states.
 #pragma once
 
@@ -8,7 +9,7 @@
 
 #include "contrejour/image_io.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 
 // Errors: Unsupported (beyond the limits), Parse (the file is too small for it).
 [[nodiscard]] Result<void> check_exr_size(const Imf::Header& header, std::uint64_t header_bytes,
@@ -17,4 +18,4 @@ namespace contrejour {
 [[nodiscard]] SampleType sample_type_of(Imf::PixelType type);
 [[nodiscard]] PixelWindow window_of(const Imath::Box2i& box);
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // OpenEXR -> Picture: docs/formats/images.md.
 #include <new>
 #include <vector>
@@ -21,7 +22,7 @@
 #include "image/picture_header.h"
 #include "image/samples.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 namespace {
 
 constexpr std::size_t kVersionOffset = 4, kAttributesOffset = 8;
@@ -161,4 +162,4 @@ Result<Picture> read_exr(std::span<const std::byte> bytes, const std::string& na
   }
 }
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // OpenEXR's streams over memory and over an OutputFile.
 #pragma once
 
@@ -10,9 +11,9 @@
 
 #include <ImfIO.h>
 
-#include "contrejour/output_file.h"
+#include "contrejour/expert/output_file.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 
 class MemoryInput final : public Imf::IStream {
  public:
@@ -82,4 +83,4 @@ class OutputFileStream final : public Imf::OStream {
   std::optional<Error> error_;
 };
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

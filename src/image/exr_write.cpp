@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Picture -> OpenEXR: docs/formats/images.md.
 #include <algorithm>
 #include <stdexcept>
@@ -26,7 +27,7 @@
 #include "image/picture_header.h"
 #include "image/samples.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 namespace {
 
 constexpr int kExrRowsBetweenCancelChecks = 256;
@@ -199,4 +200,4 @@ Result<void> write_picture_exr(OutputFile& file, const Picture& picture, const C
   return {};
 }
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // One reader and one writer for each format; picture.cpp selects them. No exception leaves a reader; writers may throw
 // bad_alloc.
 #pragma once
@@ -5,10 +6,10 @@
 #include <span>
 #include <string>
 
+#include "contrejour/expert/output_file.h"
 #include "contrejour/image_io.h"
-#include "contrejour/output_file.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 
 [[nodiscard]] Result<Picture> read_exr(std::span<const std::byte> bytes, const std::string& name,
                                        const ReadOptions& options);
@@ -26,4 +27,4 @@ template <class Write>
 [[nodiscard]] Result<void> write_picture_exr(OutputFile& file, const Picture& picture, const Context& context);
 [[nodiscard]] Result<void> write_picture_png(OutputFile& file, const Picture& picture, const Context& context);
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

@@ -1,7 +1,8 @@
+// SPDX-License-Identifier: Apache-2.0
 // Lamps as tabulated by the CIE, copied; nothing here is computed. Their chromaticities are tested against the CIE's.
 #include "image/lamp_tables.h"
 
-namespace contrejour::cie {
+namespace contrejour::inline internal::cie {
 
 // clang-format off: rows of twelve, as printed.
 
@@ -50,4 +51,4 @@ const std::array<double, kLampCount> kFluorescentFl11 = {
 };
 // clang-format on
 
-}  // namespace contrejour::cie
+}  // namespace contrejour::inline internal::cie

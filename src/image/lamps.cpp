@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The lamps that come with the library, by name: docs/physics/colour.md.
 #include <algorithm>
 #include <iterator>
@@ -6,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "contrejour/spectrum_file.h"
+#include "contrejour/expert/spectrum_file.h"
 #include "image/lamp_tables.h"
 
 namespace contrejour {

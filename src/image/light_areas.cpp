@@ -1,10 +1,11 @@
+// SPDX-License-Identifier: Apache-2.0
 // Runs of bright pixels, row by row, joined by union-find: He et al. 2008, "A run-based two-scan labeling algorithm".
 #include "image/light_areas.h"
 
 #include <algorithm>
 #include <cmath>
 
-namespace contrejour {
+namespace contrejour::inline internal {
 namespace {
 
 // The mean squared distance of a pixel's points from its centre: a pixel is a square of side 1.
@@ -170,4 +171,4 @@ std::vector<DetectedLight> bright_areas(const Image& rgb, const AreaSettings& se
   return areas;
 }
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

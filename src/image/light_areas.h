@@ -1,12 +1,13 @@
+// SPDX-License-Identifier: Apache-2.0
 // Connected areas of bright pixels, as sums that can be added up.
 #pragma once
 
 #include <cstdint>
 #include <vector>
 
-#include "contrejour/light_detection.h"
+#include "contrejour/expert/light_detection.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 
 // Finite and positive, else 0.
 [[nodiscard]] float usable_sample(float value);
@@ -39,4 +40,4 @@ struct AreaSettings {
 // Both lights as one: fluxes add, centroid and radius are those of the union.
 [[nodiscard]] DetectedLight merged(const DetectedLight& a, const DetectedLight& b);
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

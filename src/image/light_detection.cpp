@@ -1,4 +1,5 @@
-#include "contrejour/light_detection.h"
+// SPDX-License-Identifier: Apache-2.0
+#include "contrejour/expert/light_detection.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Distinguishes lights from lit surfaces: docs/formats/images.md, "The automatic threshold".
 #include <algorithm>
 #include <bit>
@@ -107,6 +108,10 @@ Threshold automatic_threshold(const Image& rgb) {
           ThresholdSource::None};
 }
 
+}  // namespace contrejour
+
+namespace contrejour::inline internal {
+
 double threshold_of_brightest(const Image& rgb) { return threshold_of_brightest(Histogram(rgb)); }
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "image/luminance_chroma.h"
 
 #include <algorithm>
@@ -16,7 +17,7 @@
 #include "image/picture_header.h"
 #include "image/samples.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 namespace {
 
 constexpr std::array<const char*, 3> kNames = {"Y", "RY", "BY"};
@@ -201,4 +202,4 @@ Picture with_rgb_channels(const Picture& picture) {
   return changed;
 }
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

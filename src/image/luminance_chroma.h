@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Pictures of luminance and chroma of half the size, as in OpenEXR's RGBA interface: Y, RY = (R - Y) / Y and
 // BY = (B - Y) / Y, the last two low-pass filtered and of every second pixel each way (ImfRgbaYca.h).
 // Errors: OpenEXR's exceptions, which callers must catch.
@@ -9,7 +10,7 @@
 
 #include "contrejour/image_io.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 
 [[nodiscard]] bool is_luminance_chroma(const Picture& picture);
 
@@ -26,4 +27,4 @@ namespace contrejour {
 // The same picture with channels R, G, B in their place, for files without this format.
 [[nodiscard]] Picture with_rgb_channels(const Picture& picture);
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

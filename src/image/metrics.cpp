@@ -1,4 +1,5 @@
-#include "contrejour/metrics.h"
+// SPDX-License-Identifier: Apache-2.0
+#include "contrejour/expert/metrics.h"
 
 #include <algorithm>
 #include <bit>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Functions of pictures, and the choice of the format.
 #include <algorithm>
 #include <cmath>
@@ -16,7 +17,7 @@
 #include "image/rgb_spaces.h"
 #include "image/samples.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 namespace {
 
 constexpr double kMaxPixelAspect = 10.0;  // anamorphic plates have 2; the minimum is its inverse
@@ -126,6 +127,10 @@ Imf::Header without_attribute(const Imf::Header& header, const std::string& name
     if (name != i.name()) rest.insert(i.name(), i.attribute());
   return rest;
 }
+
+}  // namespace contrejour::inline internal
+
+namespace contrejour {
 
 Result<Picture> read_picture(std::span<const std::byte> bytes, const std::string& name, const ReadOptions& options) {
   const auto format = format_of(bytes, name);

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The data of an OpenEXR file that a Picture keeps besides its samples.
 #pragma once
 
@@ -9,7 +10,7 @@
 
 #include "contrejour/image_io.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 
 // A complete file of several parts, so that those without the picture can be copied.
 struct PictureParts {
@@ -27,4 +28,4 @@ struct PictureHeader {
 // Imf::Header::erase of OpenEXR 3.1 forgets to free the attribute.
 [[nodiscard]] Imf::Header without_attribute(const Imf::Header& header, const std::string& name);
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

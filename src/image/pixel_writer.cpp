@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "image/pixel_writer.h"
 
 #include <algorithm>
@@ -12,7 +13,7 @@
 #include <hwy/highway.h>
 
 HWY_BEFORE_NAMESPACE();
-namespace contrejour::HWY_NAMESPACE {
+namespace contrejour::inline internal::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
@@ -45,11 +46,11 @@ void stream_zeros(std::size_t count, float* to) {
   stream(to, count, [&](std::size_t) HWY_ATTR { return hn::Zero(d); }, [](std::size_t) { return 0.0F; });
 }
 
-}  // namespace contrejour::HWY_NAMESPACE
+}  // namespace contrejour::inline internal::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace contrejour {
+namespace contrejour::inline internal {
 namespace {
 
 HWY_EXPORT(stream_copy);
@@ -79,5 +80,5 @@ void PixelWriter::clear(std::size_t count, float* to) const {
     std::fill_n(to, count, 0.0F);
 }
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal
 #endif  // HWY_ONCE

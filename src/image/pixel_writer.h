@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Copies computed pixels into a large picture. If the picture exceeds the caches, stores bypass them, since they would
 // first read the memory that is overwritten: on some processors rows of 6 KB of a frame of 25 MB take half to a third
 // of the time.
@@ -7,7 +8,7 @@
 
 #include "contrejour/image.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 
 // Thread-safety: one writer a thread. Its stores are visible to other threads after its destruction.
 class PixelWriter {
@@ -24,4 +25,4 @@ class PixelWriter {
   bool past_caches_;
 };
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Rows of 8 or 16 bits as PNG.
 #pragma once
 
@@ -5,12 +6,12 @@
 #include <functional>
 #include <span>
 
+#include "contrejour/expert/output_file.h"
 #include "contrejour/image_io.h"
-#include "contrejour/output_file.h"
 
 struct png_struct_def;
 
-namespace contrejour {
+namespace contrejour::inline internal {
 
 struct PngLayout {
   int width = 0, height = 0;
@@ -33,4 +34,4 @@ inline void ignore_png_warning(png_struct_def*, const char*) {}
                                           const std::function<void(int y, std::byte* row)>& fill,
                                           const Context& context);
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // PNG -> Picture: docs/formats/images.md. libpng reports errors by longjmp: no objects with destructors live between
 // setjmp and it.
 #include <bit>
@@ -12,7 +13,7 @@
 #include "image/png_file.h"
 #include "image/samples.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 namespace {
 
 constexpr std::uint64_t kLargestDeflate = 1100;  // deflate compresses by 1032 at most (zlib's technical notes)
@@ -157,4 +158,4 @@ Result<Picture> read_png(std::span<const std::byte> bytes, const std::string& na
   }
 }
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Picture -> PNG: docs/formats/images.md. libpng reports errors by longjmp: no objects with destructors live between
 // setjmp and it.
 #include <bit>
@@ -13,7 +14,7 @@
 #include "image/png_file.h"
 #include "image/samples.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 namespace {
 
 constexpr int kCompressionLevel = 4;  // a third of level 6's time for files a few per cent larger
@@ -139,4 +140,4 @@ Result<void> write_picture_png(OutputFile& file, const Picture& picture, const C
   return write_png_file(file, layout, fill, context);
 }
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Converts scene-linear images to display images.
 #include <cmath>
 

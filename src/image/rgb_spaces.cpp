@@ -1,7 +1,8 @@
+// SPDX-License-Identifier: Apache-2.0
 // RGB spaces from their primaries: docs/physics/colour.md.
 #include "image/rgb_spaces.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 namespace {
 
 // ITU-R BT.709-6 item 1.3.
@@ -88,6 +89,10 @@ std::array<double, 3> multiply(const Matrix3& m, const std::array<double, 3>& v)
   for (std::size_t r = 0; r < 3; ++r) product[r] = m[r][0] * v[0] + m[r][1] * v[1] + m[r][2] * v[2];
   return product;
 }
+
+}  // namespace contrejour::inline internal
+
+namespace contrejour {
 
 Rgb rgb_from_xyz(const Xyz& xyz, ColourSpace space) { return multiply(rgb_from_xyz_matrix(space), xyz); }
 Xyz xyz_from_rgb(const Rgb& rgb, ColourSpace space) { return multiply(xyz_from_rgb_matrix(space), rgb); }

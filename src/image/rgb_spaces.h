@@ -1,11 +1,12 @@
+// SPDX-License-Identifier: Apache-2.0
 // Linear RGB spaces as matrices.
 #pragma once
 
 #include <array>
 
-#include "contrejour/colour.h"
+#include "contrejour/expert/colour.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 
 using Matrix3 = std::array<std::array<double, 3>, 3>;
 
@@ -20,4 +21,4 @@ struct Primaries {
 
 [[nodiscard]] std::array<double, 3> multiply(const Matrix3& m, const std::array<double, 3>& v);
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

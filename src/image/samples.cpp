@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "image/samples.h"
 
 #include <algorithm>
@@ -10,7 +11,7 @@
 
 #include "base/scalar.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 namespace {
 
 constexpr float kLargestHalf = 65504;
@@ -111,6 +112,10 @@ float srgb_encode(float linear) {
   return linear <= 0.0031308F ? 12.92F * linear : 1.055F * std::pow(linear, 1 / 2.4F) - 0.055F;
 }
 
+}  // namespace contrejour::inline internal
+
+namespace contrejour {
+
 std::size_t size_of(SampleType type) {
   switch (type) {
     case SampleType::Half:
@@ -121,6 +126,10 @@ std::size_t size_of(SampleType type) {
   }
   return 4;
 }
+
+}  // namespace contrejour
+
+namespace contrejour::inline internal {
 
 std::vector<float> decode_samples(const PictureChannel& channel, Coding coding) {
   const std::size_t size = size_of(channel.type);
@@ -216,4 +225,4 @@ std::vector<std::byte> samples_to_write(const Picture& picture, std::size_t k, S
   return out;
 }
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Converts a sample of a file to a scene-linear float and back.
 #pragma once
 
@@ -7,7 +8,7 @@
 
 #include "contrejour/image_io.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 
 // IEC 61966-2-1:1999 (sRGB), 0..1 to 0..1; encoding clips, and NaN becomes 0.
 [[nodiscard]] float srgb_decode(double coded);
@@ -38,4 +39,4 @@ void encode_sample(SampleType type, Coding coding, float value, std::byte* out);
 // in OpenEXR, not in PNG.
 [[nodiscard]] std::vector<float> alpha_of(const Picture& picture);
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

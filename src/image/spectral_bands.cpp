@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The visible spectrum in N bands: docs/physics/colour.md.
 #include <algorithm>
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Spectra and the standard observer: docs/physics/colour.md.
 #include <algorithm>
 #include <charconv>
@@ -5,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "contrejour/colour.h"
+#include "contrejour/expert/colour.h"
 #include "image/cie_tables.h"
 
 namespace contrejour {

@@ -1,4 +1,5 @@
-#include "contrejour/spectrum_file.h"
+// SPDX-License-Identifier: Apache-2.0
+#include "contrejour/expert/spectrum_file.h"
 
 #include <charconv>
 #include <cmath>

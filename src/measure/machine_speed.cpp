@@ -1,4 +1,5 @@
-#include "contrejour/machine_speed.h"
+// SPDX-License-Identifier: Apache-2.0
+#include "contrejour/expert/machine_speed.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -8,8 +9,8 @@
 
 #include "base/clock.h"
 #include "base/tasks.h"
-#include "contrejour/check_lens.h"
-#include "contrejour/ghost.h"
+#include "contrejour/expert/check_lens.h"
+#include "contrejour/expert/ghost.h"
 #include "contrejour/image.h"
 #include "optics/trace/packet_trace.h"
 

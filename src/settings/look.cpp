@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "contrejour/look.h"
 
 #include <algorithm>
@@ -8,9 +9,9 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "contrejour/key_values.h"
-#include "contrejour/nearest_name.h"
-#include "contrejour/parameter_text.h"
+#include "contrejour/expert/key_values.h"
+#include "contrejour/expert/nearest_name.h"
+#include "contrejour/expert/parameter_text.h"
 
 namespace contrejour::params {
 namespace {

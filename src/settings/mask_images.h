@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Reads picture files as an iris or as dirt: the mean of red, green and blue is the transmittance. Errors: those of
 // reading a picture (image_io.h) and of making the iris or dirt from it; the message names the file.
 #pragma once
@@ -5,8 +6,8 @@
 #include <memory>
 #include <string>
 
-#include "contrejour/dirt.h"
-#include "contrejour/iris_field.h"
+#include "contrejour/expert/dirt.h"
+#include "contrejour/expert/iris_field.h"
 #include "contrejour/result.h"
 
 namespace contrejour::params {

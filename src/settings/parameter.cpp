@@ -1,4 +1,5 @@
-#include "contrejour/parameter.h"
+// SPDX-License-Identifier: Apache-2.0
+#include "contrejour/expert/parameter.h"
 
 #include <algorithm>
 #include <cassert>
@@ -7,7 +8,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "contrejour/parameter_text.h"
+#include "contrejour/expert/parameter_text.h"
 
 namespace contrejour::params {
 namespace {

@@ -1,4 +1,5 @@
-#include "contrejour/parameter_text.h"
+// SPDX-License-Identifier: Apache-2.0
+#include "contrejour/expert/parameter_text.h"
 
 #include <charconv>
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Parses the texts of optical settings: lights, ghosts, coatings.
 #include <algorithm>
 #include <cmath>
@@ -9,11 +10,11 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "contrejour/coating_file.h"
-#include "contrejour/film_design.h"
-#include "contrejour/glass_catalogue.h"
-#include "contrejour/parameter_text.h"
-#include "contrejour/spectrum_file.h"
+#include "contrejour/expert/coating_file.h"
+#include "contrejour/expert/film_design.h"
+#include "contrejour/expert/glass_catalogue.h"
+#include "contrejour/expert/parameter_text.h"
+#include "contrejour/expert/spectrum_file.h"
 
 namespace contrejour::params {
 namespace {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "settings/photometry.h"
 
 #include <algorithm>
@@ -6,9 +7,9 @@
 
 #include <fmt/format.h>
 
-#include "contrejour/direct_image.h"
-#include "contrejour/first_order.h"
-#include "contrejour/ghost.h"
+#include "contrejour/expert/direct_image.h"
+#include "contrejour/expert/first_order.h"
+#include "contrejour/expert/ghost.h"
 
 namespace contrejour::params {
 namespace {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A light's brightness in terms of photography and lighting -> the sum of its direct image over its pixels. White is 1.
 // For a disc, stops count from white; lux at the lens, candela and nits (cd/m^2) use the exposure: a surface whose
 // light makes H lx s on the sensor has the value H / (55.6 / ISO), so that 0.18 is the 10 / ISO lx s of ISO 12232's
@@ -7,10 +8,10 @@
 
 #include <string_view>
 
+#include "contrejour/expert/parameter_text.h"
 #include "contrejour/frame.h"
 #include "contrejour/lens.h"
 #include "contrejour/light.h"
-#include "contrejour/parameter_text.h"
 
 namespace contrejour::params {
 

@@ -1,10 +1,11 @@
-#include "contrejour/preview_exposure.h"
+// SPDX-License-Identifier: Apache-2.0
+#include "contrejour/expert/preview_exposure.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "contrejour/metrics.h"
-#include "contrejour/parameter_text.h"
+#include "contrejour/expert/metrics.h"
+#include "contrejour/expert/parameter_text.h"
 
 namespace contrejour::params {
 namespace {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "settings/sensor_format.h"
 
 #include <algorithm>
@@ -7,8 +8,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "contrejour/nearest_name.h"
-#include "contrejour/parameter_text.h"
+#include "contrejour/expert/nearest_name.h"
+#include "contrejour/expert/parameter_text.h"
 
 namespace contrejour::params {
 namespace {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Sizes of sensors and film gates by name.
 #pragma once
 

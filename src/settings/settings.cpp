@@ -1,4 +1,5 @@
-#include "contrejour/settings.h"
+// SPDX-License-Identifier: Apache-2.0
+#include "contrejour/expert/settings.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,8 +7,8 @@
 
 #include <fmt/format.h>
 
-#include "contrejour/first_order.h"
-#include "contrejour/trace.h"
+#include "contrejour/expert/first_order.h"
+#include "contrejour/expert/trace.h"
 #include "settings/mask_images.h"
 #include "settings/photometry.h"
 #include "settings/sensor_format.h"

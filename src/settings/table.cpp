@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <array>
 #include <string>
@@ -5,10 +6,10 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "contrejour/parameter.h"
-#include "contrejour/parameter_text.h"
+#include "contrejour/expert/parameter.h"
+#include "contrejour/expert/parameter_text.h"
+#include "contrejour/expert/spectrum_file.h"
 #include "contrejour/render.h"
-#include "contrejour/spectrum_file.h"
 #include "settings/photometry.h"
 #include "settings/sensor_format.h"
 

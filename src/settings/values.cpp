@@ -1,8 +1,9 @@
-#include "contrejour/parameter_values.h"
+// SPDX-License-Identifier: Apache-2.0
+#include "contrejour/expert/parameter_values.h"
 
 #include <utility>
 
-#include "contrejour/parameter_text.h"
+#include "contrejour/expert/parameter_text.h"
 
 namespace contrejour::params {
 

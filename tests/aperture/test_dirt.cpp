@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Dirt: its statistics against the requested ones, its shapes against brute force, its motion, invalid numbers.
 #include <algorithm>
 #include <cmath>
@@ -7,7 +8,7 @@
 #include <doctest/doctest.h>
 
 #include "base/scalar.h"
-#include "contrejour/dirt.h"
+#include "contrejour/expert/dirt.h"
 #include "support/inside_polygon.h"
 
 using namespace contrejour;

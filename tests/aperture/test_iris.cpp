@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The opening of an iris against straight blades, closed forms and brute force.
 #include <algorithm>
 #include <array>
@@ -7,7 +8,7 @@
 #include <doctest/doctest.h>
 
 #include "base/scalar.h"
-#include "contrejour/iris.h"
+#include "contrejour/expert/iris.h"
 #include "ghosts/iris_shape.h"
 
 using namespace contrejour;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Pictures as irises: closed forms, counting, invalid pictures.
 #include <array>
 #include <cmath>

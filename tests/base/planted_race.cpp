@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Adds to one number from several threads without synchronisation: ThreadSanitizer must report it. Built only with the
 // thread sanitizer, to show that the annotations in base/tasks.cpp do not hide races of the library.
 #include <cstdio>

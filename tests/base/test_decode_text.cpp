@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "base/decode_text.h"
 
 #include <doctest/doctest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The guarantee that all renderers rely on: the number of threads changes the time of a computation, not its result.
 #include "base/tasks.h"
 

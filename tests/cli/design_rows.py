@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Rows of sequential design files of spheres, mirrors among them, and a ray through them: as design programs have it,
 with one axis for all and gaps that are negative where light goes back. Shares nothing with the program."""
 import math

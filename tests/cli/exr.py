@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """OpenEXR scan-line files in plain Python: writes uncompressed, reads uncompressed and ZIP. From the file layout
 document of the OpenEXR project; shares no code with the program under test."""
 import struct

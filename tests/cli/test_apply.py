@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """contrejour apply: a photograph in, the same photograph with flare out."""
 import math
 import struct

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """contrejour coating, and --coating with what it prints."""
 import re
 import unittest

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Every sample lens file: what is read, refused, off; docs/formats/samples.md has each that is off, with its reason."""
 import os
 import pathlib

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Files: hostile ones are refused, places that cannot be written to fail at once, and nothing is left half-written."""
 import json
 import os

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """contrejour glass ..., and glasses of the user's own."""
 import json
 import os

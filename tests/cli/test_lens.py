@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """contrejour lens ... and ghosts."""
 import base64
 import csv

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Wrong usage ends with 2 and says what to do; help ends with 0 and shows examples."""
 import unittest
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Adds to a photograph the flare of its own lights, in memory.
 #include <algorithm>
 #include <atomic>
@@ -10,7 +11,7 @@
 #include <doctest/doctest.h>
 
 #include "contrejour/apply.h"
-#include "contrejour/settings.h"
+#include "contrejour/expert/settings.h"
 #include "image/test_pictures.h"
 
 using namespace contrejour;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The files of a photograph with its flare: layers, copies, previews, pictures of the detected lights.
 #include <algorithm>
 #include <span>
@@ -8,7 +9,7 @@
 #include <doctest/doctest.h>
 
 #include "contrejour/apply.h"
-#include "contrejour/apply_files.h"
+#include "contrejour/expert/apply_files.h"
 #include "image/test_pictures.h"
 
 using namespace contrejour;

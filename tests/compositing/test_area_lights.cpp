@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Lights of a photograph as areas: a disc that leaves the picture fades in proportion to its remaining part.
 #include <algorithm>
 #include <cmath>

@@ -1,9 +1,9 @@
+// SPDX-License-Identifier: Apache-2.0
 // The shortest program that renders a flare with an installed Contrejour; README.md shows the same lines.
 #include <cstdio>
 #include <numeric>
 
-#include <contrejour/lens.h>
-#include <contrejour/render.h>
+#include <contrejour/contrejour.h>
 
 int main() {
   using namespace contrejour;

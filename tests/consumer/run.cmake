@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # cmake -DBUILD=... -DSOURCE=... -DWORK=... -DCOMPILER=... -P run.cmake
 # Installs the build, moves what was installed (a package must not remember where it was made), builds the consumer
 # against it and runs it.
@@ -12,6 +13,22 @@ run(${CMAKE_COMMAND} -G Ninja -S ${SOURCE} -B ${WORK}/build -DCMAKE_PREFIX_PATH=
     -DCMAKE_CXX_COMPILER=${COMPILER} -DCMAKE_BUILD_TYPE=Release)
 run(${CMAKE_COMMAND} --build ${WORK}/build)
 run(${WORK}/build/consumer)
+run(${WORK}/build/consumer_of_shared)
+
+# The shared library exports the public headers' functions and classes, and none of its own internals.
+find_program(NM NAMES nm llvm-nm REQUIRED)
+file(GLOB_RECURSE shared_libraries ${WORK}/moved/*/libcontrejour.so)
+list(LENGTH shared_libraries count)
+if(NOT count EQUAL 1)
+  message(FATAL_ERROR "one shared library was to be installed: ${shared_libraries}")
+endif()
+execute_process(COMMAND ${NM} -DC --defined-only ${shared_libraries} OUTPUT_VARIABLE exported COMMAND_ERROR_IS_FATAL ANY)
+if(NOT exported MATCHES " T contrejour::render\\(")
+  message(FATAL_ERROR "contrejour::render() is not exported")
+endif()
+if(exported MATCHES " [TBDRV] (contrejour::internal::[^\n]*)")
+  message(FATAL_ERROR "an internal name is exported: ${CMAKE_MATCH_1}")
+endif()
 
 # No layer of ours, no path of the source or build folder may leak into the package.
 file(GLOB_RECURSE package_files ${WORK}/moved/*/cmake/contrejour/*.cmake)
@@ -20,6 +37,7 @@ if(NOT package_files)
 endif()
 foreach(file IN LISTS package_files)
   file(READ ${file} text)
+  string(REPLACE "contrejour_shared" "" text "${text}")  # public as well
   if(text MATCHES "contrejour_[a-z]")
     message(FATAL_ERROR "${file} names ${CMAKE_MATCH_0}: an internal target")
   endif()

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Means over windows of directions: of a constant, of a step, of a wave, across the end of the half turn.
 #include <cmath>
 #include <vector>

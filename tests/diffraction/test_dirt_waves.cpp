@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Dirt in a pupil's mask and in its pattern: covered areas by counting, far fields by integrals along outlines, flux.
 #include <algorithm>
 #include <cmath>
@@ -8,7 +9,7 @@
 #include <doctest/doctest.h>
 
 #include "base/scalar.h"
-#include "contrejour/starburst.h"
+#include "contrejour/expert/starburst.h"
 #include "diffraction/dirt_waves.h"
 #include "diffraction/polygon_cover.h"
 #include "support/inside_polygon.h"

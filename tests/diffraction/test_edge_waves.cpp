@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The far power spectrum of openings against plain contour sums, and the special functions against quadrature.
 #include <algorithm>
 #include <cmath>

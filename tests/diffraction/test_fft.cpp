@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The FFT wrapper and the chirp transform against plain sums.
 #include <cmath>
 #include <complex>

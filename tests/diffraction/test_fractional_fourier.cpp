@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The defining properties of the fractional Fourier transform, each to 1e-6, for even and odd sides; and Hermite-Gauss
 // functions.
 #include <cmath>
@@ -7,7 +8,7 @@
 #include <doctest/doctest.h>
 
 #include "base/scalar.h"
-#include "contrejour/fractional_fourier.h"
+#include "contrejour/expert/fractional_fourier.h"
 
 using namespace contrejour;
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Fraunhofer patterns in absolute units: Airy's for a circle, a rectangle's sinc, and flux.
 #include <cmath>
 #include <complex>
@@ -5,7 +6,7 @@
 #include <doctest/doctest.h>
 
 #include "base/scalar.h"
-#include "contrejour/fraunhofer.h"
+#include "contrejour/expert/fraunhofer.h"
 
 using namespace contrejour;
 

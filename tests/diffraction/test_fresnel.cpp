@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Fresnel patterns against Fresnel integrals, Lommel's closed form on the axis, both limits, and energy.
 #include <algorithm>
 #include <cmath>
@@ -6,8 +7,8 @@
 #include <doctest/doctest.h>
 
 #include "base/scalar.h"
-#include "contrejour/fraunhofer.h"
-#include "contrejour/fresnel.h"
+#include "contrejour/expert/fraunhofer.h"
+#include "contrejour/expert/fresnel.h"
 #include "diffraction/fresnel_methods.h"
 
 using namespace contrejour;

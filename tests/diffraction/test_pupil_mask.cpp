@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Masks from openings and pictures: areas, places, and refused input.
 #include <cmath>
 #include <limits>
@@ -5,7 +6,7 @@
 
 #include <doctest/doctest.h>
 
-#include "contrejour/pupil_mask.h"
+#include "contrejour/expert/pupil_mask.h"
 
 using namespace contrejour;
 

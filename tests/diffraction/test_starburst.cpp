@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Starbursts: flux, spikes, scale, and the rings against exact patterns of one wavelength.
 #include <algorithm>
 #include <cmath>
@@ -10,8 +11,8 @@
 #include <doctest/doctest.h>
 
 #include "base/scalar.h"
-#include "contrejour/fraunhofer.h"
-#include "contrejour/starburst.h"
+#include "contrejour/expert/fraunhofer.h"
+#include "contrejour/expert/starburst.h"
 #include "support/sum_of_channel.h"
 
 using namespace contrejour;

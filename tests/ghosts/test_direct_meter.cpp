@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The direct image's pupil, found at one wavelength and used for others.
 #include <doctest/doctest.h>
 

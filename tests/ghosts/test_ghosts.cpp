@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -8,8 +9,8 @@
 
 #include <doctest/doctest.h>
 
+#include "contrejour/expert/ghost.h"
 #include "contrejour/frame.h"
-#include "contrejour/ghost.h"
 #include "ghosts/pupil_search.h"
 #include "ghosts/wavelengths.h"
 #include "support/scenes.h"

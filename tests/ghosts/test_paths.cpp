@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Optical paths other than two reflections within the lens: four reflections, reflections at the sensor, in diffraction
 // orders of its pixels, and glass that absorbs.
 #include <cmath>
@@ -6,9 +7,9 @@
 
 #include <doctest/doctest.h>
 
-#include "contrejour/first_order.h"
-#include "contrejour/ghost.h"
-#include "contrejour/glass_catalogue.h"
+#include "contrejour/expert/first_order.h"
+#include "contrejour/expert/ghost.h"
+#include "contrejour/expert/glass_catalogue.h"
 #include "ghosts/wavelengths.h"
 #include "optics/trace/packet_trace.h"
 #include "support/scenes.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Precomputed pupil bounds against a search for each angle: no ray that gets through lies outside.
 #include <cmath>
 #include <random>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Wavelengths that the tests of ghosts use.
 #pragma once
 

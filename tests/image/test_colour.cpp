@@ -1,9 +1,10 @@
+// SPDX-License-Identifier: Apache-2.0
 // Oracles: CIE 15:2018 (chromaticities, tables), ITU-R BT.709, the published ACEScg to Rec.709 matrix.
 #include <cmath>
 #include <fstream>
 #include <sstream>
 
-#include "contrejour/colour.h"
+#include "contrejour/expert/colour.h"
 #include "shared_data.h"
 
 using namespace contrejour;

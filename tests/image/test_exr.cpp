@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The guarantee of image_io.h: samples that were not changed are written back bit for bit.
 #include <cmath>
 #include <limits>
@@ -23,7 +24,7 @@
 #include <ImfTiledOutputFile.h>
 #include <ImfTiledOutputPart.h>
 
-#include "contrejour/metrics.h"
+#include "contrejour/expert/metrics.h"
 #include "shared_data.h"
 #include "test_pictures.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Damaged files: a clear error that names the file, no crash, bounded memory.
 #include <random>
 

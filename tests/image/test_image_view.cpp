@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A caller's pixels: types, strides, refused input.
 #include "contrejour/image_view.h"
 

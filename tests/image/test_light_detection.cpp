@@ -1,10 +1,11 @@
+// SPDX-License-Identifier: Apache-2.0
 #include <cmath>
 #include <limits>
 #include <numbers>
 #include <random>
 
+#include "contrejour/expert/light_detection.h"
 #include "contrejour/image_io.h"
-#include "contrejour/light_detection.h"
 #include "shared_data.h"
 
 using namespace contrejour;

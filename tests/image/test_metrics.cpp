@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -6,7 +7,7 @@
 
 #include <doctest/doctest.h>
 
-#include "contrejour/metrics.h"
+#include "contrejour/expert/metrics.h"
 
 using namespace contrejour;
 

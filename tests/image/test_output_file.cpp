@@ -1,4 +1,5 @@
-#include "contrejour/output_file.h"
+// SPDX-License-Identifier: Apache-2.0
+#include "contrejour/expert/output_file.h"
 
 #include <chrono>
 #include <csignal>

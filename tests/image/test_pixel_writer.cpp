@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Rows written into pictures, small ones and some that fit into no cache, on every instruction set of this machine.
 #include <algorithm>
 #include <cstddef>

@@ -1,7 +1,8 @@
+// SPDX-License-Identifier: Apache-2.0
 #include <cmath>
 #include <cstring>
 
-#include "contrejour/metrics.h"
+#include "contrejour/expert/metrics.h"
 #include "test_pictures.h"
 
 using namespace contrejour;

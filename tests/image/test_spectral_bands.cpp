@@ -1,8 +1,9 @@
+// SPDX-License-Identifier: Apache-2.0
 #include <cmath>
 
 #include <doctest/doctest.h>
 
-#include "contrejour/colour.h"
+#include "contrejour/expert/colour.h"
 
 using namespace contrejour;
 

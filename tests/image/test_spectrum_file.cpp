@@ -1,10 +1,11 @@
+// SPDX-License-Identifier: Apache-2.0
 // Spectra as tables: files, the bundled lamps against the CIE's figures, narrow lines.
 #include <cmath>
 #include <string>
 
 #include <doctest/doctest.h>
 
-#include "contrejour/spectrum_file.h"
+#include "contrejour/expert/spectrum_file.h"
 
 using namespace contrejour;
 

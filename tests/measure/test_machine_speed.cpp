@@ -1,12 +1,13 @@
-#include "contrejour/machine_speed.h"
+// SPDX-License-Identifier: Apache-2.0
+#include "contrejour/expert/machine_speed.h"
 
 #include <atomic>
 #include <chrono>
 
 #include <doctest/doctest.h>
 
-#include "contrejour/ghost.h"
-#include "contrejour/trace.h"
+#include "contrejour/expert/ghost.h"
+#include "contrejour/expert/trace.h"
 
 using namespace contrejour;
 

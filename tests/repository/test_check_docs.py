@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """The document check must find a dead link, a dead anchor and a header that no page mentions."""
 import pathlib
 import sys

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Values that no caller would pass, for calls of every function that the library offers.
 #pragma once
 
@@ -10,7 +11,7 @@
 
 #include <doctest/doctest.h>
 
-#include "contrejour/glass.h"
+#include "contrejour/expert/glass.h"
 #include "support/scenes.h"
 
 namespace contrejour::test {

@@ -1,25 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
 // Calls every function of the public headers that takes numbers, with numbers that no caller would pass.
 #include <array>
 #include <chrono>
 
-#include "contrejour/check_lens.h"
-#include "contrejour/clear_aperture.h"
-#include "contrejour/dirt.h"
-#include "contrejour/film_design.h"
-#include "contrejour/first_order.h"
-#include "contrejour/fractional_fourier.h"
-#include "contrejour/fraunhofer.h"
-#include "contrejour/fresnel.h"
+#include "contrejour/expert/check_lens.h"
+#include "contrejour/expert/clear_aperture.h"
+#include "contrejour/expert/dirt.h"
+#include "contrejour/expert/film_design.h"
+#include "contrejour/expert/first_order.h"
+#include "contrejour/expert/fractional_fourier.h"
+#include "contrejour/expert/fraunhofer.h"
+#include "contrejour/expert/fresnel.h"
+#include "contrejour/expert/glass_catalogue.h"
+#include "contrejour/expert/iris_field.h"
+#include "contrejour/expert/lens_starburst.h"
+#include "contrejour/expert/light_detection.h"
+#include "contrejour/expert/machine_speed.h"
+#include "contrejour/expert/metrics.h"
+#include "contrejour/expert/seidel.h"
+#include "contrejour/expert/starburst.h"
+#include "contrejour/expert/surface_shape.h"
 #include "contrejour/ghost_figures.h"
-#include "contrejour/glass_catalogue.h"
-#include "contrejour/iris_field.h"
-#include "contrejour/lens_starburst.h"
-#include "contrejour/light_detection.h"
-#include "contrejour/machine_speed.h"
-#include "contrejour/metrics.h"
-#include "contrejour/seidel.h"
-#include "contrejour/starburst.h"
-#include "contrejour/surface_shape.h"
 #include "robustness/strange.h"
 
 using namespace contrejour;

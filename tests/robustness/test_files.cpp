@@ -1,15 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
 // Calls every function that reads or writes a file, with invalid names and contents.
 #include <filesystem>
 
 #include <unistd.h>
 
-#include "contrejour/coating_file.h"
-#include "contrejour/glass_catalogue.h"
+#include "contrejour/expert/coating_file.h"
+#include "contrejour/expert/glass_catalogue.h"
+#include "contrejour/expert/key_values.h"
+#include "contrejour/expert/output_file.h"
+#include "contrejour/expert/spectrum_file.h"
+#include "contrejour/expert/write_lens.h"
 #include "contrejour/image_io.h"
-#include "contrejour/key_values.h"
-#include "contrejour/output_file.h"
-#include "contrejour/spectrum_file.h"
-#include "contrejour/write_lens.h"
 #include "robustness/strange.h"
 
 using namespace contrejour;

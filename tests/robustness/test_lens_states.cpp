@@ -1,13 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
 // Calls every function that takes a lens state, with invalid states: it must return an error, an empty list or NaN, in
 // a short time.
 #include <atomic>
 
-#include "contrejour/check_lens.h"
-#include "contrejour/first_order.h"
+#include "contrejour/expert/check_lens.h"
+#include "contrejour/expert/first_order.h"
+#include "contrejour/expert/lens_starburst.h"
+#include "contrejour/expert/machine_speed.h"
+#include "contrejour/expert/seidel.h"
 #include "contrejour/ghost_figures.h"
-#include "contrejour/lens_starburst.h"
-#include "contrejour/machine_speed.h"
-#include "contrejour/seidel.h"
 #include "robustness/strange.h"
 
 using namespace contrejour;

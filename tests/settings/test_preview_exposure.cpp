@@ -1,10 +1,11 @@
+// SPDX-License-Identifier: Apache-2.0
 // The exposure of a preview.
 #include <algorithm>
 #include <cmath>
 
 #include <doctest/doctest.h>
 
-#include "contrejour/preview_exposure.h"
+#include "contrejour/expert/preview_exposure.h"
 
 using namespace contrejour;
 using namespace contrejour::params;

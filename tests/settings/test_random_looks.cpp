@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Any preset within the table's ranges renders, or is refused with a reason: never a crash, never a NaN.
 #include <algorithm>
 #include <cmath>
@@ -6,8 +7,8 @@
 
 #include <doctest/doctest.h>
 
+#include "contrejour/expert/settings.h"
 #include "contrejour/look.h"
-#include "contrejour/settings.h"
 
 using namespace contrejour;
 using namespace contrejour::params;

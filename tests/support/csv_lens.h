@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The prescriptions of the ray oracle: a table of surfaces, with constant indices as in the oracle.
 #pragma once
 
@@ -7,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "contrejour/first_order.h"
+#include "contrejour/expert/first_order.h"
 #include "contrejour/lens.h"
 
 namespace contrejour::test {

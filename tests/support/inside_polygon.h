@@ -1,9 +1,10 @@
+// SPDX-License-Identifier: Apache-2.0
 // Tests whether a place is inside a polygon, by counting crossings.
 #pragma once
 
 #include <vector>
 
-#include "contrejour/vec.h"
+#include "contrejour/expert/vec.h"
 
 namespace contrejour::test {
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Pictures as irises.
 #pragma once
 
@@ -7,7 +8,7 @@
 
 #include <doctest/doctest.h>
 
-#include "contrejour/iris_field.h"
+#include "contrejour/expert/iris_field.h"
 
 namespace contrejour::test {
 

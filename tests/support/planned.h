@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Runs one renderer by itself, without those in the registry.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Lenses, lights and frames that many tests share.
 #pragma once
 

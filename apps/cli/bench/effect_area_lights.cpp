@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Extended lights compared with points: the sun in place of a point, in the same run.
 #include <utility>
 

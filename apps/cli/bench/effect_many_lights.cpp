@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The cost of each of many lights compared with a single light, in a small frame, where only the number of lights
 // matters.
 #include <utility>
@@ -6,7 +7,7 @@
 
 #include "cli/bench/effects.h"
 #include "cli/bench/even_places.h"
-#include "contrejour/trace.h"
+#include "contrejour/expert/trace.h"
 
 namespace contrejour::cli {
 namespace {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The cost of ringing: making its patterns, and its frames compared with frames with sharp rims.
 #include <utility>
 

@@ -1,10 +1,11 @@
+// SPDX-License-Identifier: Apache-2.0
 // The cost of starbursts: from a new iris, or new dirt, to pixels; and of drawing a kept one again.
 #include <algorithm>
 
 #include <fmt/format.h>
 
 #include "cli/bench/effects.h"
-#include "contrejour/lens_starburst.h"
+#include "contrejour/expert/lens_starburst.h"
 
 namespace contrejour::cli {
 namespace {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "cli/bench/effects.h"
 
 #include <algorithm>
@@ -10,9 +11,9 @@
 #include <fmt/format.h>
 
 #include "cli/bench/repeats.h"
+#include "contrejour/expert/settings.h"
+#include "contrejour/expert/trace.h"
 #include "contrejour/renderer.h"
-#include "contrejour/settings.h"
-#include "contrejour/trace.h"
 
 namespace contrejour::cli {
 namespace {

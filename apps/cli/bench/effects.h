@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Rows of `bench effects`: the costs of starbursts, dirt, ringing and extended lights, each with its target. A new row
 // is a function here and a line in effects.cpp.
 #pragma once
@@ -9,8 +10,8 @@
 #include <vector>
 
 #include "cli/bench/target.h"
+#include "contrejour/expert/parameter_values.h"
 #include "contrejour/lens.h"
-#include "contrejour/parameter_values.h"
 #include "contrejour/render.h"
 #include "contrejour/result.h"
 

@@ -1,10 +1,11 @@
+// SPDX-License-Identifier: Apache-2.0
 // Places that fill a frame evenly for any number of them; the sequence is always the same.
 #pragma once
 
 #include <cmath>
 #include <cstddef>
 
-#include "contrejour/vec.h"
+#include "contrejour/expert/vec.h"
 
 namespace contrejour::cli {
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "cli/bench/fresh_process.h"
 
 #if defined(__linux__)

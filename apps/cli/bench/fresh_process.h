@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Runs this program in a new process, with memory and caches as cold as at a user's first frame.
 #pragma once
 

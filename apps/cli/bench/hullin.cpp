@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "cli/bench/hullin.h"
 
 #include <algorithm>
@@ -13,11 +14,11 @@
 #include "cli/flare_report.h"
 #include "cli/long_task.h"
 #include "cli/text_table.h"
-#include "contrejour/ghost.h"
-#include "contrejour/metrics.h"
+#include "contrejour/expert/ghost.h"
+#include "contrejour/expert/metrics.h"
+#include "contrejour/expert/settings.h"
+#include "contrejour/expert/trace.h"
 #include "contrejour/render.h"
-#include "contrejour/settings.h"
-#include "contrejour/trace.h"
 
 namespace contrejour::cli {
 namespace {

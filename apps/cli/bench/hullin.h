@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // hullin2011's figures 15, 17 and 19 and its coarse grids (7.1), measured with `bundle`, the paper's method.
 #pragma once
 
@@ -9,8 +10,8 @@
 #include <vector>
 
 #include "cli/console.h"
+#include "contrejour/expert/parameter_values.h"
 #include "contrejour/image.h"
-#include "contrejour/parameter_values.h"
 #include "contrejour/result.h"
 
 namespace contrejour::cli {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "cli/bench/lens_frames.h"
 
 #include <algorithm>
@@ -10,7 +11,7 @@
 #include "cli/bench/fresh_process.h"
 #include "cli/lens_choice.h"
 #include "cli/long_task.h"
-#include "contrejour/settings.h"
+#include "contrejour/expert/settings.h"
 
 namespace contrejour::cli {
 namespace {

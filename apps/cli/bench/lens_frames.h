@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The cost of frames of many lenses: the first frame of a fresh process, and warm frames in this process.
 #pragma once
 
@@ -5,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "contrejour/parameter_values.h"
+#include "contrejour/expert/parameter_values.h"
 #include "contrejour/result.h"
 
 namespace contrejour::cli {

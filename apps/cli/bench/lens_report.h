@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The results of `bench lenses` as text and as JSON: each lens, and over all of them the median, the 90th percentile
 // and the worst.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The figures of bodonyi2023 that `bench tables` compares with ours: tables 2 to 8. They were measured on an NVIDIA
 // GeForce RTX 3060 at 1920 x 1080, with grids of 256 x 256 rays reduced by eq. 13.
 #pragma once

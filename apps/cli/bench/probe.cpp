@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "cli/bench/probe.h"
 
 #include <algorithm>
@@ -5,8 +6,8 @@
 
 #include "cli/bench/scene.h"
 #include "cli/long_task.h"
-#include "contrejour/machine_speed.h"
-#include "contrejour/settings.h"
+#include "contrejour/expert/machine_speed.h"
+#include "contrejour/expert/settings.h"
 
 namespace contrejour::cli {
 namespace {

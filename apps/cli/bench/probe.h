@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Measurements of a system that `bench tables` makes apart from its pictures; they go into the rows' probes.
 //   prepare_ms         the time to find, read and configure the lens and to render 64 x 36 pixels with adaptive, the
 //                      first time in this run: all preparation for a lens, and hardly any pixels
@@ -11,7 +12,7 @@
 #include <vector>
 
 #include "cli/bench/rows.h"
-#include "contrejour/parameter_values.h"
+#include "contrejour/expert/parameter_values.h"
 #include "contrejour/result.h"
 
 namespace contrejour::cli {

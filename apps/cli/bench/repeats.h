@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // How often a task of milliseconds is repeated: a machine is slower at first, and other programs use it.
 #pragma once
 

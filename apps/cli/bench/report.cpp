@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "cli/bench/report.h"
 
 #include <algorithm>
@@ -8,7 +9,7 @@
 #include "cli/bench/tables.h"
 #include "cli/flare_report.h"
 #include "cli/machine.h"
-#include "contrejour/parameter.h"
+#include "contrejour/expert/parameter.h"
 
 namespace contrejour::cli {
 namespace {

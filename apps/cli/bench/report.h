@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Rows and targets of `bench` as JSON.
 #pragma once
 

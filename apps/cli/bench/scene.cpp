@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "cli/bench/scene.h"
 
 #include <algorithm>
@@ -16,10 +17,10 @@
 #include "cli/bench/tables.h"
 #include "cli/flare_report.h"
 #include "cli/long_task.h"
+#include "contrejour/expert/metrics.h"
+#include "contrejour/expert/settings.h"
+#include "contrejour/expert/trace.h"
 #include "contrejour/image_io.h"
-#include "contrejour/metrics.h"
-#include "contrejour/settings.h"
-#include "contrejour/trace.h"
 
 namespace contrejour::cli {
 namespace {

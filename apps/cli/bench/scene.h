@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Renders and compares bodonyi2023's systems with one light or two, or variants of them.
 #pragma once
 
@@ -5,8 +6,8 @@
 #include <vector>
 
 #include "cli/bench/rows.h"
+#include "contrejour/expert/parameter_values.h"
 #include "contrejour/image.h"
-#include "contrejour/parameter_values.h"
 #include "contrejour/result.h"
 
 namespace contrejour::cli {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // bodonyi2023 tables 5 and 6: the memory that remains after merging.
 #include "cli/bench/tables.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The targets of adaptive, and the ratios that it reaches in this run.
 #include <algorithm>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The tables that `bench tables` can print. A new one is a file with these two functions and a line in tables.cpp.
 #pragma once
 

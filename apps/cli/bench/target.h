@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Targets of `bench tables`: ratios within one run on one machine, and their limits.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "ghosts/pupils/bent_box.h"
 
 #include <algorithm>
@@ -7,7 +8,7 @@
 
 #include <Eigen/Dense>
 
-namespace contrejour::pupils {
+namespace contrejour::inline internal::pupils {
 namespace {
 
 constexpr int kBentColumns = 64, kBentRows = 12;     // of the upper half
@@ -185,4 +186,4 @@ std::optional<BentBox> bent_box(std::span<ClearanceGrid> wavelengths, const Rect
   return std::nullopt;
 }
 
-}  // namespace contrejour::pupils
+}  // namespace contrejour::inline internal::pupils

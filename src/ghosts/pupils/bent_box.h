@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Boxes of the entrance plane with one curved side, which follows the failing rays next to a pupil. A rim far off the
 // axis is an arc there, and rays slightly beyond it miss a surface or are totally reflected: a box with straight sides
 // around the light contains such rays, through which no polynomial can be fitted. A side curved by y^2 and y^4 avoids
@@ -9,7 +10,7 @@
 
 #include "ghosts/pupils/clearance_grid.h"
 
-namespace contrejour::pupils {
+namespace contrejour::inline internal::pupils {
 
 // The distance of a curved side from the straight one, along x: by_y2 y^2 + by_y4 y^4, mm.
 struct Side {
@@ -44,4 +45,4 @@ struct BentBox {
 // ray, by a grid of 845 rays for each wavelength. None if there is none.
 [[nodiscard]] std::optional<BentBox> bent_box(std::span<ClearanceGrid> wavelengths, const Rectangle& box);
 
-}  // namespace contrejour::pupils
+}  // namespace contrejour::inline internal::pupils

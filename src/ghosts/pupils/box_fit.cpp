@@ -1,10 +1,11 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "ghosts/pupils/box_fit.h"
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
-namespace contrejour::pupils {
+namespace contrejour::inline internal::pupils {
 namespace {
 
 constexpr int kFitColumns = 8;
@@ -38,4 +39,4 @@ std::optional<Rectangle> BoxFitter::fit(const Rectangle& box) {
   return hull;
 }
 
-}  // namespace contrejour::pupils
+}  // namespace contrejour::inline internal::pupils

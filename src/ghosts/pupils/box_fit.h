@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Fits a box of the pupil at one wavelength to the light near it at another wavelength.
 #pragma once
 
@@ -5,7 +6,7 @@
 
 #include "ghosts/pupils/clearance_grid.h"
 
-namespace contrejour::pupils {
+namespace contrejour::inline internal::pupils {
 
 class BoxFitter {
  public:
@@ -24,4 +25,4 @@ class BoxFitter {
   Rectangle window_;  // its upper half
 };
 
-}  // namespace contrejour::pupils
+}  // namespace contrejour::inline internal::pupils

@@ -1,10 +1,11 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "ghosts/pupils/clearance_grid.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-namespace contrejour::pupils {
+namespace contrejour::inline internal::pupils {
 namespace {
 
 struct Range {
@@ -170,4 +171,4 @@ Rectangle ClearanceGrid::hull(const std::vector<GridCell>& cells) const {
           {box_.low.x + (high.column + 1) * size.x, box_.low.y + (high.row + 1) * size.y}};
 }
 
-}  // namespace contrejour::pupils
+}  // namespace contrejour::inline internal::pupils

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Rays on a uniform grid over a part of the upper half of the entrance plane, and their clearances: which cells may
 // transmit light, and which of these are connected. It is in the light's meridional frame; the iris counts as its
 // circumscribed circle.
@@ -7,11 +8,11 @@
 #include <utility>
 #include <vector>
 
-#include "contrejour/trace.h"
+#include "contrejour/expert/trace.h"
 #include "ghosts/ray_grid.h"
 #include "optics/trace/clearance.h"
 
-namespace contrejour::pupils {
+namespace contrejour::inline internal::pupils {
 
 struct GridCell {
   int column = 0, row = 0;
@@ -79,4 +80,4 @@ class ClearanceGrid {
   std::vector<std::uint8_t> open_;
 };
 
-}  // namespace contrejour::pupils
+}  // namespace contrejour::inline internal::pupils

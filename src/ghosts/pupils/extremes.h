@@ -1,10 +1,11 @@
+// SPDX-License-Identifier: Apache-2.0
 // Decides whether light may pass through a cell, from the clearances at its corners.
 #pragma once
 
 #include <algorithm>
 #include <limits>
 
-namespace contrejour::pupils {
+namespace contrejour::inline internal::pupils {
 
 // The lowest and highest value of a function at a cell's corners; the cell is open where the function is <= 0. The
 // function is assumed nearly linear: it falls below its lowest corner by at most `reach` times the corners' difference.
@@ -23,4 +24,4 @@ class Extremes {
   float highest_ = -std::numeric_limits<float>::infinity();
 };
 
-}  // namespace contrejour::pupils
+}  // namespace contrejour::inline internal::pupils

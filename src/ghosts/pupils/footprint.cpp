@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "ghosts/pupils/footprint.h"
 
 #include <algorithm>
@@ -10,7 +11,7 @@
 #include "ghosts/open_halves.h"
 #include "ghosts/pupils/triangle_window.h"
 
-namespace contrejour::pupils {
+namespace contrejour::inline internal::pupils {
 namespace {
 
 constexpr std::array<std::array<std::size_t, 3>, 2> kHalves{{{0, 1, 2}, {0, 2, 3}}};
@@ -182,4 +183,4 @@ double Footprint::peak_per_mm2(double pixel_mm) const {
   return peak * shared_flux_;
 }
 
-}  // namespace contrejour::pupils
+}  // namespace contrejour::inline internal::pupils

@@ -1,12 +1,13 @@
+// SPDX-License-Identifier: Apache-2.0
 // A ghost's footprint, accumulated mesh by mesh: its flux, centroid, bounds and peak.
 #pragma once
 
 #include <vector>
 
-#include "contrejour/ghost.h"
+#include "contrejour/expert/ghost.h"
 #include "ghosts/pupils/open_mesh.h"
 
-namespace contrejour::pupils {
+namespace contrejour::inline internal::pupils {
 
 class Footprint {
  public:
@@ -30,4 +31,4 @@ class Footprint {
   GhostMeasure measure_;
 };
 
-}  // namespace contrejour::pupils
+}  // namespace contrejour::inline internal::pupils

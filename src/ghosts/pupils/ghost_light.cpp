@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "ghosts/pupils/ghost_light.h"
 
 #include <algorithm>
@@ -6,7 +7,7 @@
 
 #include "ghosts/pupils/open_mesh.h"
 
-namespace contrejour::pupils {
+namespace contrejour::inline internal::pupils {
 namespace {
 
 constexpr MeshDensity kFine{33, 120, 1e-4}, kRough{9, 12, 2e-2};
@@ -117,4 +118,4 @@ std::vector<double> approximate_fluxes_within(const PupilRequest& request, const
   return fluxes;
 }
 
-}  // namespace contrejour::pupils
+}  // namespace contrejour::inline internal::pupils

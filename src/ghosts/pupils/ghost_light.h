@@ -1,14 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
 // The light of one ghost of one light on the sensor: integrals over its pupil, from few exact rays.
 #pragma once
 
 #include <span>
 #include <vector>
 
-#include "contrejour/ghost.h"
+#include "contrejour/expert/ghost.h"
 #include "ghosts/pupils/footprint.h"
 #include "ghosts/pupils/ghost_pupil.h"
 
-namespace contrejour::pupils {
+namespace contrejour::inline internal::pupils {
 
 // A ghost's footprint at one of the request's wavelengths; fluxes to 1e-3.
 [[nodiscard]] Footprint footprint_of(const PupilRequest& request, const GhostPupil& pupil, double lambda_nm,
@@ -21,4 +22,4 @@ namespace contrejour::pupils {
                                                             std::span<const double> lambda_nm, const IrisShape& iris,
                                                             const Rectangle& sensor_mm);
 
-}  // namespace contrejour::pupils
+}  // namespace contrejour::inline internal::pupils

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "ghosts/pupils/ghost_pupil.h"
 
 #include <algorithm>
@@ -10,7 +11,7 @@
 #include "ghosts/pupils/box_fit.h"
 #include "ghosts/pupils/pupil_boxes.h"
 
-namespace contrejour::pupils {
+namespace contrejour::inline internal::pupils {
 namespace {
 
 // A fraction of a box's size, added on every side: polynomials through its rays are least accurate at its border, where
@@ -166,4 +167,4 @@ GhostPupil refit_ghost_pupil(const PupilRequest& request, std::vector<Rectangle>
   return pupil;
 }
 
-}  // namespace contrejour::pupils
+}  // namespace contrejour::inline internal::pupils

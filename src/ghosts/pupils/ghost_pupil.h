@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The pupil of a ghost: boxes of the entrance plane that together contain all of its light, at each of some
 // wavelengths, in the light's meridional frame (light_frame.h) if the lens has axial symmetry.
 #pragma once
@@ -9,7 +10,7 @@
 #include "ghosts/ray_grid.h"
 #include "optics/trace/by_wavelength.h"
 
-namespace contrejour::pupils {
+namespace contrejour::inline internal::pupils {
 
 // The ghost, light and lens of a search. Everything that it refers to must outlive it.
 struct PupilRequest {
@@ -46,4 +47,4 @@ struct GhostPupil {
 // The wavelength at which a pupil is searched.
 [[nodiscard]] double middle_wavelength(const PupilRequest& request);
 
-}  // namespace contrejour::pupils
+}  // namespace contrejour::inline internal::pupils

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "ghosts/pupils/lobatto.h"
 
 #include <algorithm>
@@ -14,7 +15,7 @@
 #include <hwy/highway.h>
 
 HWY_BEFORE_NAMESPACE();
-namespace contrejour::pupils::HWY_NAMESPACE {
+namespace contrejour::inline internal::pupils::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 using Tag = hn::CappedTag<float, 16>;
@@ -70,11 +71,11 @@ void multiply_rows(const float* a, std::size_t a_rows, std::size_t a_row_step, s
   }
 }
 
-}  // namespace contrejour::pupils::HWY_NAMESPACE
+}  // namespace contrejour::inline internal::pupils::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace contrejour::pupils {
+namespace contrejour::inline internal::pupils {
 namespace {
 
 HWY_EXPORT(multiply_rows);
@@ -217,5 +218,5 @@ double highest_terms(const float* field, int nodes) {
   return sum;
 }
 
-}  // namespace contrejour::pupils
+}  // namespace contrejour::inline internal::pupils
 #endif  // HWY_ONCE

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Polynomials through values at Chebyshev-Lobatto points, as matrices. Trefethen, Approximation Theory and
 // Approximation Practice, ch. 2 to 6. Accuracy: about ten times float's rounding for the sizes used here.
 #pragma once
@@ -6,7 +7,7 @@
 #include <span>
 #include <vector>
 
-namespace contrejour::pupils {
+namespace contrejour::inline internal::pupils {
 
 // Row-major; rows start at multiples of `stride`, padded with zeros.
 struct Matrix {
@@ -54,4 +55,4 @@ void transform(const float* field, int nodes, const Matrix& along_x, const Matri
 // estimate of the polynomial's error between the nodes.
 [[nodiscard]] double highest_terms(const float* field, int nodes);
 
-}  // namespace contrejour::pupils
+}  // namespace contrejour::inline internal::pupils

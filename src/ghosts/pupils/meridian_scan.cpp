@@ -1,9 +1,10 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "ghosts/pupils/meridian_scan.h"
 
 #include <algorithm>
 #include <cmath>
 
-namespace contrejour::pupils {
+namespace contrejour::inline internal::pupils {
 namespace {
 
 constexpr int kFirstIntervals = 47;
@@ -166,4 +167,4 @@ std::vector<Interval> MeridianScan::find(Interval line, std::span<const Rectangl
   return found;
 }
 
-}  // namespace contrejour::pupils
+}  // namespace contrejour::inline internal::pupils

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Scans rays along the line y = 0 of the entrance plane, refined where light may get through or where rays begin to
 // fail, for small pupils among failing rays, which a grid misses. Nearly all small pupils lie on this line, since the
 // lens is symmetric about it.
@@ -7,11 +8,11 @@
 #include <utility>
 #include <vector>
 
-#include "contrejour/trace.h"
+#include "contrejour/expert/trace.h"
 #include "ghosts/ray_grid.h"
 #include "optics/trace/clearance.h"
 
-namespace contrejour::pupils {
+namespace contrejour::inline internal::pupils {
 
 struct Interval {
   double low = 0, high = 0;  // x, mm
@@ -47,4 +48,4 @@ class MeridianScan {
   std::uint64_t rays_ = 0;
 };
 
-}  // namespace contrejour::pupils
+}  // namespace contrejour::inline internal::pupils

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "ghosts/pupils/open_mesh.h"
 
 #include <cmath>
@@ -7,7 +8,7 @@
 #include "ghosts/open_halves.h"
 #include "ghosts/pupils/extremes.h"
 
-namespace contrejour::pupils {
+namespace contrejour::inline internal::pupils {
 namespace {
 
 constexpr int kMaxShrinkings = 3;
@@ -267,4 +268,4 @@ std::vector<OpenMesh> MeshTracer::trace(const std::vector<Rectangle>& boxes) {
   return meshes;
 }
 
-}  // namespace contrejour::pupils
+}  // namespace contrejour::inline internal::pupils

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The open part of a box of a ghost's pupil, its transmittance and its points on the sensor: exact rays on a grid, with
 // finer grids where the integral is uncertain.
 #pragma once
@@ -12,7 +13,7 @@
 #include "ghosts/light_frame.h"
 #include "ghosts/ray_grid.h"
 
-namespace contrejour::pupils {
+namespace contrejour::inline internal::pupils {
 
 // Two by two cells: their vertices row by row, and the vertices of each cell in order.
 struct Block {
@@ -69,4 +70,4 @@ class MeshTracer {
   std::vector<float> x_mm_, y_mm_;
 };
 
-}  // namespace contrejour::pupils
+}  // namespace contrejour::inline internal::pupils

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "ghosts/pupils/pupil_boxes.h"
 
 #include <algorithm>
@@ -7,7 +8,7 @@
 #include "ghosts/pupils/meridian_scan.h"
 #include "ghosts/pupils/stop_newton_step.h"
 
-namespace contrejour::pupils {
+namespace contrejour::inline internal::pupils {
 namespace {
 
 constexpr int kFirstColumns = 12;  // of the first grid, over the window; half as many rows from y = 0 up
@@ -121,4 +122,4 @@ class Search {
 
 PupilBoxes find_pupil_boxes(const PacketPath& path, const EntranceWindow& window) { return Search(path, window).run(); }
 
-}  // namespace contrejour::pupils
+}  // namespace contrejour::inline internal::pupils

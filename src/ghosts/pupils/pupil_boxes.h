@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Finds a ghost's pupil on the entrance plane with a few hundred rays: boxes that together contain all rays that get
 // through. Cells of a coarse grid that may transmit light are refined until refinement gains no more.
 #pragma once
@@ -8,7 +9,7 @@
 #include "ghosts/ray_grid.h"
 #include "optics/trace/packet_trace.h"
 
-namespace contrejour::pupils {
+namespace contrejour::inline internal::pupils {
 
 struct PupilBoxes {
   std::vector<Rectangle> boxes;  // in the meridional frame; those that touch y = 0 are symmetric in y, of the others
@@ -20,4 +21,4 @@ struct PupilBoxes {
 // circle.
 [[nodiscard]] PupilBoxes find_pupil_boxes(const PacketPath& path, const EntranceWindow& window);
 
-}  // namespace contrejour::pupils
+}  // namespace contrejour::inline internal::pupils

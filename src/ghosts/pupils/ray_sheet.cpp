@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "ghosts/pupils/ray_sheet.h"
 
 #include <algorithm>
@@ -9,7 +10,7 @@
 #include "ghosts/pupils/extremes.h"
 #include "ghosts/pupils/lobatto.h"
 
-namespace contrejour::pupils {
+namespace contrejour::inline internal::pupils {
 namespace {
 
 // A rim counts if a ray of the sheet exceeds this squared relative height.
@@ -248,4 +249,4 @@ void SheetTracer::trace_rows(const Rectangle& box, int nodes, int first_row, Pac
     out.transmission[k] *= static_cast<float>(bend_.stretch(box.low.y + y_mm_[k]));
 }
 
-}  // namespace contrejour::pupils
+}  // namespace contrejour::inline internal::pupils

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Exact rays of one ghost and light at one wavelength, at the Lobatto points of a box of the entrance plane.
 // All in the light's meridional frame: the light comes from -x or along the axis, so a centred lens is symmetric
 // in y and half the rays are the mirror images of the others; hullin2011 4.2, "symmetries".
@@ -16,7 +17,7 @@
 #include "ghosts/pupils/bent_box.h"
 #include "ghosts/ray_grid.h"
 
-namespace contrejour::pupils {
+namespace contrejour::inline internal::pupils {
 
 // Relative height up to which rays matter for the image; rays at a box's border may land far outside it.
 constexpr float kNearlyThrough = 1.2F;
@@ -89,4 +90,4 @@ class SheetTracer {
   std::uint64_t rays_ = 0;
 };
 
-}  // namespace contrejour::pupils
+}  // namespace contrejour::inline internal::pupils

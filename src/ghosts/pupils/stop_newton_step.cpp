@@ -1,9 +1,10 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "ghosts/pupils/stop_newton_step.h"
 
 #include <algorithm>
 #include <cmath>
 
-namespace contrejour::pupils {
+namespace contrejour::inline internal::pupils {
 namespace {
 
 constexpr double kStopMargin = 0.06;        // of the stop's radius
@@ -153,4 +154,4 @@ std::optional<StopNewtonStep> newton_step_to_stop(const ClearanceGrid& grid, con
   return all;
 }
 
-}  // namespace contrejour::pupils
+}  // namespace contrejour::inline internal::pupils

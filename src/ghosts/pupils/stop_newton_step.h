@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A Newton step onto the stop: predicts the region of the entrance plane whose rays cross the stop inside its rim, from
 // a grid of rays that is too coarse to resolve it. The stop is nearly an affine image of a small pupil.
 #pragma once
@@ -6,7 +7,7 @@
 
 #include "ghosts/pupils/clearance_grid.h"
 
-namespace contrejour::pupils {
+namespace contrejour::inline internal::pupils {
 
 struct StopNewtonStep {
   // Contains the rays that cross inside the stop's rim, up to an error of a tenth of its half size: slopes are of
@@ -20,4 +21,4 @@ struct StopNewtonStep {
 [[nodiscard]] std::optional<StopNewtonStep> newton_step_to_stop(const ClearanceGrid& grid,
                                                                 const std::vector<GridCell>& piece);
 
-}  // namespace contrejour::pupils
+}  // namespace contrejour::inline internal::pupils

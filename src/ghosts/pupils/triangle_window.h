@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Computes the part of a triangle of light that lands in a rectangle of the sensor.
 #pragma once
 
@@ -7,10 +8,10 @@
 #include <cstddef>
 #include <span>
 
-#include "contrejour/vec.h"
+#include "contrejour/expert/vec.h"
 #include "ghosts/ray_grid.h"
 
-namespace contrejour::pupils {
+namespace contrejour::inline internal::pupils {
 
 // The fraction of a triangle's area that lies inside a rectangle.
 class TriangleWindow {
@@ -86,4 +87,4 @@ class TriangleWindow {
   Vec2 low_, high_;
 };
 
-}  // namespace contrejour::pupils
+}  // namespace contrejour::inline internal::pupils

@@ -1,4 +1,5 @@
-#include "contrejour/coating.h"
+// SPDX-License-Identifier: Apache-2.0
+#include "contrejour/expert/coating.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "contrejour/film_design.h"
+#include "contrejour/expert/film_design.h"
 #include "optics/surface/surface-inl.h"
 
 namespace contrejour {

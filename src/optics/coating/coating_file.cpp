@@ -1,4 +1,5 @@
-#include "contrejour/coating_file.h"
+// SPDX-License-Identifier: Apache-2.0
+#include "contrejour/expert/coating_file.h"
 
 #include <algorithm>
 #include <charconv>

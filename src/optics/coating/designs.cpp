@@ -1,10 +1,11 @@
+// SPDX-License-Identifier: Apache-2.0
 // Coatings that are designed for a glass.
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
 
-#include "contrejour/film_design.h"
+#include "contrejour/expert/film_design.h"
 
 namespace contrejour {
 namespace {

@@ -1,4 +1,5 @@
-#include "contrejour/film_design.h"
+// SPDX-License-Identifier: Apache-2.0
+#include "contrejour/expert/film_design.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,5 @@
-#include "contrejour/film_material.h"
+// SPDX-License-Identifier: Apache-2.0
+#include "contrejour/expert/film_material.h"
 
 #include <algorithm>
 #include <cmath>

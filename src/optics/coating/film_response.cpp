@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Abeles characteristic matrices in the convention exp(-i w t). Each film's matrix maps the tangential fields
 // (E, H) at its back to those at its front; with sin(delta) / cos(theta) kept as one factor, a film at its
 // critical angle needs no special case.
@@ -5,7 +6,7 @@
 #include <numbers>
 #include <optional>
 
-#include "contrejour/coating.h"
+#include "contrejour/expert/coating.h"
 
 namespace contrejour {
 namespace {

@@ -1,8 +1,9 @@
+// SPDX-License-Identifier: Apache-2.0
 // Samples every 10 nm from 360 nm, computed from refractiveindex.info's files of the sources named (CC0); metals are
 // interpolated by monotone cubics. The absorption of dielectrics is 0 where it is negligible.
 #include "optics/coating/film_tables.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 namespace {
 
 constexpr FilmTable kTables[] = {
@@ -138,4 +139,4 @@ constexpr FilmTable kTables[] = {
 
 std::span<const FilmTable> film_tables() { return kTables; }
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Sampled indices of film materials.
 #pragma once
 
@@ -5,7 +6,7 @@
 #include <span>
 #include <string_view>
 
-namespace contrejour {
+namespace contrejour::inline internal {
 
 inline constexpr double kFilmTableFirst_nm = 360.0;
 inline constexpr double kFilmTableStep_nm = 10.0;
@@ -18,4 +19,4 @@ struct FilmTable {
 
 [[nodiscard]] std::span<const FilmTable> film_tables();
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // AGF catalogues (Zemax): lines of a two-letter tag and values. docs/formats/glass.md.
 #include <algorithm>
 #include <array>
@@ -8,7 +9,7 @@
 
 #include "base/decode_text.h"
 #include "base/near_name.h"
-#include "contrejour/glass_catalogue.h"
+#include "contrejour/expert/glass_catalogue.h"
 #include "optics/glass/formulas.h"
 #include "optics/glass/glass_limits.h"
 

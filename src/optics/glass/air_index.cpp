@@ -1,8 +1,9 @@
+// SPDX-License-Identifier: Apache-2.0
 // Effects of temperature and pressure on air and glass: docs/physics/glass.md.
 #include <cmath>
 
 #include "base/units.h"
-#include "contrejour/glass.h"
+#include "contrejour/expert/glass.h"
 
 namespace contrejour {
 namespace {

@@ -1,9 +1,10 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "optics/glass/buchdahl_model.h"
 
 #include "base/units.h"
 #include "optics/glass/formulas.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 
 double model_index(const ModelGlass& glass, double lambda_um) {
   if (glass.v_d == 0.0) return glass.n_d;
@@ -22,4 +23,4 @@ double model_index(const ModelGlass& glass, double lambda_um) {
   return glass.n_d + w * (v1 + v2 * w);
 }
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

@@ -1,10 +1,11 @@
+// SPDX-License-Identifier: Apache-2.0
 // The files of data/glasses, embedded in the library.
 #include <iterator>
 #include <vector>
 
 #include "optics/glass/glass_line.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 namespace {
 
 // These are pointers, since compilers refuse to compute the length of such long texts in constant expressions.
@@ -39,4 +40,4 @@ std::string maker_of_bundled(std::string_view file_name) {
   return maker;
 }
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

@@ -1,6 +1,7 @@
+// SPDX-License-Identifier: Apache-2.0
 #include <charconv>
 
-#include "contrejour/glass.h"
+#include "contrejour/expert/glass.h"
 
 namespace contrejour {
 

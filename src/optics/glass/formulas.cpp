@@ -1,9 +1,10 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "optics/glass/formulas.h"
 
 #include <array>
 #include <cmath>
 
-namespace contrejour {
+namespace contrejour::inline internal {
 namespace {
 
 constexpr double kHerzberger_um2 = 0.028;  // square of Herzberger's common resonance (Herzberger 1959)
@@ -163,6 +164,10 @@ CoefficientCount coefficient_count(DispersionFormula formula) {
     if (entry.formula == formula) return entry.count;
   return {};
 }
+
+}  // namespace contrejour::inline internal
+
+namespace contrejour {
 
 std::string_view formula_name(DispersionFormula formula) {
   for (const Entry& entry : kFormulas)

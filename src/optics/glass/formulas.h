@@ -1,12 +1,13 @@
+// SPDX-License-Identifier: Apache-2.0
 // The catalogues' dispersion formulas (docs/physics/glass.md has each with its source).
 #pragma once
 
 #include <cstddef>
 #include <span>
 
-#include "contrejour/glass.h"
+#include "contrejour/expert/glass.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 
 // n of a formula; NaN where n^2 is negative. Coefficients that are missing at the end count as 0.
 [[nodiscard]] double formula_index(DispersionFormula formula, std::span<const double> coefficients, double lambda_um);
@@ -22,4 +23,4 @@ struct CoefficientCount {
 // are, without overshoot (Fritsch & Butland 1984); the end values beyond. At least one point.
 [[nodiscard]] double table_value(std::span<const double> points, double x);
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

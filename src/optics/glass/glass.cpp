@@ -1,4 +1,5 @@
-#include "contrejour/glass.h"
+// SPDX-License-Identifier: Apache-2.0
+#include "contrejour/expert/glass.h"
 
 #include <cmath>
 

@@ -1,4 +1,5 @@
-#include "contrejour/glass_catalogue.h"
+// SPDX-License-Identifier: Apache-2.0
+#include "contrejour/expert/glass_catalogue.h"
 
 #include <algorithm>
 #include <cmath>

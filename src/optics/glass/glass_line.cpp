@@ -1,9 +1,10 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "optics/glass/glass_line.h"
 
 #include <charconv>
 #include <cmath>
 
-namespace contrejour {
+namespace contrejour::inline internal {
 namespace {
 
 // Removes the part up to the next ';' from the line and returns it without surrounding blanks.
@@ -78,4 +79,4 @@ CatalogueEntry entry_of_line(std::string_view line, const std::string& maker) {
   return entry;
 }
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The bundled catalogue's own files, data/glasses: one line a glass. docs/formats/glass.md.
 #pragma once
 
@@ -6,9 +7,9 @@
 #include <string_view>
 #include <vector>
 
-#include "contrejour/glass_catalogue.h"
+#include "contrejour/expert/glass_catalogue.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 
 struct BundledGlassFile {
   std::string_view name;  // "schott"
@@ -32,4 +33,4 @@ void for_each_glass_line(std::string_view text, Visit visit) {
   }
 }
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

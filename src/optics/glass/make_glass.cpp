@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Checks the data that a reader found, and makes a glass of them.
 #include <algorithm>
 #include <cmath>
@@ -6,7 +7,7 @@
 
 #include "base/near_name.h"
 #include "base/scalar.h"
-#include "contrejour/glass.h"
+#include "contrejour/expert/glass.h"
 #include "optics/glass/formulas.h"
 
 namespace contrejour {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Catalogues on disk: one file, or all of a folder.
 #include <algorithm>
 #include <cmath>
@@ -7,11 +8,11 @@
 
 #include "base/lower_extension.h"
 #include "base/text_file.h"
-#include "contrejour/glass_catalogue.h"
+#include "contrejour/expert/glass_catalogue.h"
 #include "optics/glass/catalogue_row.h"
 #include "optics/glass/glass_limits.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 namespace {
 
 namespace fs = std::filesystem;
@@ -80,6 +81,10 @@ void fill_stated(CatalogueEntry& entry) {
   if (entry.summary.n_d == 0.0) entry.summary.n_d = figures.n_d;
   if (entry.summary.v_d == 0.0) entry.summary.v_d = figures.v_d;
 }
+
+}  // namespace contrejour::inline internal
+
+namespace contrejour {
 
 Result<GlassFile> read_glass_file(const std::filesystem::path& file) {
   if (!is_agf(file) && !is_yaml(file)) {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Glasses of refractiveindex.info's database: one YAML file each, blocks of n(lambda) and k(lambda) under DATA.
 // docs/formats/glass.md.
 #include <algorithm>
@@ -10,7 +11,7 @@
 #include "base/decode_text.h"
 #include "base/near_name.h"
 #include "base/yaml_tree.h"
-#include "contrejour/glass_catalogue.h"
+#include "contrejour/expert/glass_catalogue.h"
 #include "optics/glass/formulas.h"
 #include "optics/glass/glass_limits.h"
 

@@ -1,9 +1,10 @@
+// SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
 
 #include "optics/glass/formulas.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 namespace {
 
 struct Points {
@@ -64,4 +65,4 @@ double table_value(std::span<const double> points, double x) {
          h * s * t * (s * slope(p, low) - t * slope(p, high));
 }
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

@@ -1,7 +1,8 @@
+// SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
 
-#include "contrejour/glass.h"
+#include "contrejour/expert/glass.h"
 
 namespace contrejour {
 namespace {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "optics/lens/build_errors.h"
 
 #include <cmath>
@@ -7,7 +8,7 @@
 #include "base/normal_pair.h"
 #include "optics/lens/carried.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 namespace {
 
 constexpr double kMaxDecentre_mm = 100.0;
@@ -64,4 +65,4 @@ void apply_build_errors(const BuildErrors& errors, std::vector<SurfaceState>& su
   }
 }
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Manufacturing errors of a lens: bodies of glass that are slightly tilted and decentred.
 #pragma once
 
@@ -5,7 +6,7 @@
 
 #include "contrejour/lens.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 
 // Errors: numbers that are not finite or out of their range (lens.h).
 [[nodiscard]] Result<void> check_build_errors(const BuildErrors& errors);
@@ -13,4 +14,4 @@ namespace contrejour {
 // Poses all surfaces of glass (docs/physics/tracing.md); a body's errors depend on the seed and its index in the lens.
 void apply_build_errors(const BuildErrors& errors, std::vector<SurfaceState>& surfaces);
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

@@ -1,8 +1,9 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "optics/lens/carried.h"
 
 #include "optics/surface/shape-inl.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 
 SurfacePose carried(const SurfacePose& body, double behind_mm, const SurfacePose& own) {
   if (own == SurfacePose{}) return {body.shift_mm + (body.axis - Vec3{0, 0, 1}) * behind_mm, body.axis};
@@ -15,4 +16,4 @@ SurfacePose carried(const SurfacePose& body, double behind_mm, const SurfacePose
   return {body.shift_mm + turned(own.shift_mm + in_place) - in_place, turned(own.axis)};
 }
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

@@ -1,4 +1,5 @@
-#include "contrejour/check_lens.h"
+// SPDX-License-Identifier: Apache-2.0
+#include "contrejour/expert/check_lens.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,5 @@
-#include "contrejour/first_order.h"
+// SPDX-License-Identifier: Apache-2.0
+#include "contrejour/expert/first_order.h"
 
 #include <algorithm>
 #include <array>
@@ -6,7 +7,7 @@
 #include <limits>
 #include <vector>
 
-#include "contrejour/check_lens.h"
+#include "contrejour/expert/check_lens.h"
 #include "optics/lens/ghost_walk.h"
 
 namespace contrejour {

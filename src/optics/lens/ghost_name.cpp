@@ -1,6 +1,7 @@
+// SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
-#include "contrejour/ghost_id.h"
+#include "contrejour/expert/ghost_id.h"
 
 namespace contrejour {
 

@@ -1,13 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
 // The order in which a ghost's light meets the surfaces of a lens.
 #pragma once
 
 #include <array>
 #include <cstddef>
 
-#include "contrejour/ghost_id.h"
+#include "contrejour/expert/ghost_id.h"
 #include "contrejour/lens.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 
 // Calls pass(surface, direction) where light is transmitted, the stop included, and reflect(surface, direction, order)
 // where it is reflected. Surfaces count from 0; direction: +1 or -1, along the axis as light arrives. order: of
@@ -32,4 +33,4 @@ void walk_surfaces(const LensState& lens, const Ghost& ghost, const Pass& pass, 
   pass_forward(last);
 }
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

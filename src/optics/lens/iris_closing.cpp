@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "optics/lens/iris_closing.h"
 
 #include <algorithm>
@@ -8,7 +9,7 @@
 
 #include "aperture/iris_blades.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 namespace {
 
 constexpr double kMaxAsymmetry = 0.5;
@@ -83,4 +84,4 @@ Result<void> check_iris(const Iris& iris) {
   return {};
 }
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

@@ -1,10 +1,11 @@
+// SPDX-License-Identifier: Apache-2.0
 // The blades of an iris at an f-number, and the check of an iris's numbers.
 #pragma once
 
-#include "contrejour/iris.h"
+#include "contrejour/expert/iris.h"
 #include "contrejour/result.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 
 struct ClosedIris {
   Iris iris;
@@ -19,4 +20,4 @@ struct ClosedIris {
 // Errors: numbers that are not finite or out of their range (iris.h), blades that let nothing through.
 [[nodiscard]] Result<void> check_iris(const Iris& iris);
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Prescription -> LensState: zoom by interpolating between positions, focus by moving the sensor, stop radius
 // from the f-number by a real marginal ray.
 #include <algorithm>
@@ -8,7 +9,7 @@
 
 #include <fmt/format.h>
 
-#include "contrejour/first_order.h"
+#include "contrejour/expert/first_order.h"
 #include "contrejour/lens.h"
 #include "optics/lens/build_errors.h"
 #include "optics/lens/iris_closing.h"

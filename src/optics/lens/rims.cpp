@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "optics/lens/rims.h"
 
 #include <algorithm>
@@ -5,7 +6,7 @@
 #include <numbers>
 #include <optional>
 
-namespace contrejour {
+namespace contrejour::inline internal {
 namespace {
 
 // Distance of the sphere from its vertex plane at height h, |c| h <= 1.
@@ -102,4 +103,4 @@ std::vector<std::vector<double>> thicknesses_of(const Prescription& lens) {
   return all;
 }
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

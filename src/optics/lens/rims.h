@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Where surfaces end and where neighbours cross: validate() refuses such lenses, and readers of other programs' files
 // reduce the semi-diameters.
 #pragma once
@@ -7,7 +8,7 @@
 
 #include "contrejour/lens.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 
 // Vertices and rims may touch: patents give thicknesses to 1 um at best, and rounding must not invalidate a lens.
 inline constexpr double kTouch_mm = 1e-3;
@@ -31,4 +32,4 @@ void for_each_neighbours(std::span<const Surface> surfaces, std::span<const doub
 // The thicknesses of each zoom position, or of the prime lens.
 [[nodiscard]] std::vector<std::vector<double>> thicknesses_of(const Prescription& lens);
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

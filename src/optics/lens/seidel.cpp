@@ -1,9 +1,10 @@
-#include "contrejour/seidel.h"
+// SPDX-License-Identifier: Apache-2.0
+#include "contrejour/expert/seidel.h"
 
 #include <cmath>
 
-#include "contrejour/check_lens.h"
-#include "contrejour/first_order.h"
+#include "contrejour/expert/check_lens.h"
+#include "contrejour/expert/first_order.h"
 
 namespace contrejour {
 namespace {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "optics/lens/sensor_stack.h"
 
 #include <cmath>
@@ -6,7 +7,7 @@
 
 #include "optics/lens/validate.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 namespace {
 
 constexpr double kThickest_mm = 100.0, kWidestGap_mm = 1000.0;
@@ -87,4 +88,4 @@ Result<void> add_sensor_stack(const SensorStack& stack, const SourcePlace& place
   return {};
 }
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

@@ -1,9 +1,10 @@
+// SPDX-License-Identifier: Apache-2.0
 // Plates in front of the sensor, and the sensor as a reflecting surface.
 #pragma once
 
 #include "contrejour/lens.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 
 [[nodiscard]] Result<void> check_sensor_stack(const SensorStack& stack);
 
@@ -11,4 +12,4 @@ namespace contrejour {
 // plates (first order). Errors: not enough space between the lens and the sensor.
 [[nodiscard]] Result<void> add_sensor_stack(const SensorStack& stack, const SourcePlace& place, LensState& lens);
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

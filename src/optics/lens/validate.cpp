@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "optics/lens/validate.h"
 
 #include <algorithm>
@@ -13,7 +14,7 @@
 #include "contrejour/lens.h"
 #include "optics/lens/rims.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 
 namespace {
 
@@ -382,6 +383,10 @@ std::optional<std::string> coating_problem(const Coating& coating) {
   }
   return std::nullopt;
 }
+
+}  // namespace contrejour::inline internal
+
+namespace contrejour {
 
 Result<void> validate(const Prescription& lens) {
   if (const auto values = check_lens_values(lens); !values) return values;

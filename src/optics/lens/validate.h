@@ -1,14 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
 // The rules that readers share with validate(), so that an error can name the line of the value itself.
 #pragma once
 
 #include <optional>
 #include <string>
 
-#include "contrejour/coating.h"
-#include "contrejour/glass.h"
+#include "contrejour/expert/coating.h"
+#include "contrejour/expert/glass.h"
 #include "contrejour/lens.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 
 inline constexpr int kMaxSurfaces = 200;
 inline constexpr int kMaxZoomPositions = 200;
@@ -22,4 +23,4 @@ inline constexpr std::size_t kMaxMeasured = 1000;  // wavelengths, or angles, of
 [[nodiscard]] std::optional<std::string> aperture_problem(const Surface& surface);
 [[nodiscard]] std::optional<std::string> obscuration_problem(const Surface& surface);
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The lenses of data/lenses, embedded in the library: a program that links it needs no files.
 #include "contrejour/lens.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "optics/lens_files/complete.h"
 
 #include <algorithm>
@@ -7,10 +8,10 @@
 
 #include <fmt/format.h>
 
-#include "contrejour/first_order.h"
+#include "contrejour/expert/first_order.h"
 #include "optics/lens/rims.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 namespace {
 
 // Neighbours may cross at their rims by the width of a drawing's line, as two radii for one contact surface do.
@@ -182,4 +183,4 @@ Result<Prescription> completed(Prescription lens, const std::optional<Beam>& bea
   return lens;
 }
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Completes what other programs' files omit or draw too large, so that all readers decide alike.
 #pragma once
 
@@ -5,7 +6,7 @@
 
 #include "contrejour/lens.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 
 // The beam for which a lens's surfaces must be large enough.
 struct Beam {
@@ -35,4 +36,4 @@ inline constexpr double kMinRimFraction = 0.75;
 [[nodiscard]] Result<Prescription> completed(Prescription lens, const std::optional<Beam>& beam = std::nullopt,
                                              double min_fraction = kMinRimFraction);
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Keeps the first error in a file: readers continue after it and stop where they can.
 #pragma once
 
@@ -7,7 +8,7 @@
 
 #include "contrejour/result.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 
 struct FirstError {
   std::string file;
@@ -18,4 +19,4 @@ struct FirstError {
   }
 };
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

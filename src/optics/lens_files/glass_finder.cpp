@@ -1,8 +1,9 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "optics/lens_files/glass_finder.h"
 
 #include <cctype>
 
-namespace contrejour {
+namespace contrejour::inline internal {
 namespace {
 
 // Translates names, in capitals, of materials in design programs' catalogues to those of the bundled catalogue.
@@ -44,4 +45,4 @@ Result<Glass> GlassFinder::look_for(std::string_view name, std::span<const std::
   return std::move(found->glass);
 }
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Glasses by the names that lens files give them.
 #pragma once
 
@@ -6,9 +7,9 @@
 #include <string>
 #include <string_view>
 
-#include "contrejour/glass_catalogue.h"
+#include "contrejour/expert/glass_catalogue.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 
 // Serves the reading of one file: each name is searched once.
 class GlassFinder {
@@ -27,4 +28,4 @@ class GlassFinder {
   std::map<std::string, Result<Glass>> found_;  // by name and makers
 };
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "optics/lens_files/lost_gap.h"
 
 #include <algorithm>
@@ -7,10 +8,10 @@
 
 #include <fmt/format.h>
 
-#include "contrejour/first_order.h"
+#include "contrejour/expert/first_order.h"
 #include "optics/lens_files/complete.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 namespace {
 
 constexpr double kSameFocus = 0.0015;  // of the focal length: tolerance for rounded figures
@@ -65,4 +66,4 @@ void warn_of_lost_gap(Prescription& lens) {
                   wide_mm, best + 1, lens.surfaces[best].source_line, lens.surfaces[best].thickness_mm));
 }
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "optics/lens_files/missing_stop.h"
 
 #include <algorithm>
@@ -10,10 +11,10 @@
 
 #include <fmt/format.h>
 
-#include "contrejour/first_order.h"
+#include "contrejour/expert/first_order.h"
 #include "optics/lens_files/complete.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 namespace {
 
 constexpr double kMinRoom = 0.02;  // of the lens's length: a narrower gap has no space for an iris
@@ -249,4 +250,4 @@ Result<void> place_missing_stop(Prescription& lens) {
   return {};
 }
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

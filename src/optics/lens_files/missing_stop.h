@@ -1,9 +1,10 @@
+// SPDX-License-Identifier: Apache-2.0
 // The aperture stop of a lens whose file marks none.
 #pragma once
 
 #include "contrejour/lens.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 
 // Adds a stop at the position that the rims imply, with a warning that names it; a lens with a stop is not changed.
 // Rims are large enough for the axial beam and the oblique beams of the field, and an oblique beam passes the stop in
@@ -14,4 +15,4 @@ namespace contrejour {
 // focus (teleconverters, mirror lenses without their mirrors); those of validate().
 [[nodiscard]] Result<void> place_missing_stop(Prescription& lens);
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

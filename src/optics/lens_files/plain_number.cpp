@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "optics/lens_files/plain_number.h"
 
 #include <cctype>
@@ -6,7 +7,7 @@
 #include <limits>
 #include <string>
 
-namespace contrejour {
+namespace contrejour::inline internal {
 
 namespace {
 
@@ -57,4 +58,4 @@ double tidy_curvature(double curvature_per_mm) {
   return std::abs(curvature_per_mm) < 1.0 / kLargestNumber ? 0.0 : curvature_per_mm;
 }
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

@@ -1,10 +1,11 @@
+// SPDX-License-Identifier: Apache-2.0
 // Numbers in other programs' lens files.
 #pragma once
 
 #include <optional>
 #include <string_view>
 
-namespace contrejour {
+namespace contrejour::inline internal {
 
 // Upper limit of numbers in lens files; a surface with a larger radius is a plane.
 inline constexpr double kLargestNumber = 1e9;
@@ -24,4 +25,4 @@ inline constexpr double kLargestNumber = 1e9;
 // The curvature, or 0 for a surface flatter than that limit.
 [[nodiscard]] double tidy_curvature(double curvature_per_mm);
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Selects the reader for a lens file.
 #include "optics/lens_files/read_lens.h"
 

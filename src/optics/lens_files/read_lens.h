@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Declarations that the readers of lens files share.
 #pragma once
 
@@ -7,7 +8,7 @@
 
 #include "contrejour/lens.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 
 // The largest real prescriptions take a few kB; the limit bounds the cost of hostile files.
 inline constexpr std::size_t kMaxLensFileBytes = 1'000'000;
@@ -44,4 +45,4 @@ struct LensText {
 [[nodiscard]] bool looks_like_flaresim(std::string_view text);
 [[nodiscard]] Result<Prescription> read_flaresim(const LensText& in);
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

@@ -1,4 +1,5 @@
-#include "contrejour/clear_aperture.h"
+// SPDX-License-Identifier: Apache-2.0
+#include "contrejour/expert/clear_aperture.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Several rays in a vector register with the operators of a number, so that the templates of surface-inl.h trace a
 // packet with the formulas of the scalar tracer. Compiled once per instruction set (foreach_target).
 #if defined(CONTREJOUR_KERNELS_PACKET_INL_H_) == defined(HWY_TARGET_TOGGLE)
@@ -17,7 +18,7 @@
 #include "optics/surface/surface-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace contrejour::kernels::HWY_NAMESPACE {
+namespace contrejour::inline internal::kernels::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
@@ -106,7 +107,7 @@ using PrecisePacket = Packet<double>;
 using PrecisePacket = Packet<float>;  // used if an instruction set has no vectors of double (never on x86)
 #endif
 
-}  // namespace contrejour::kernels::HWY_NAMESPACE
+}  // namespace contrejour::inline internal::kernels::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #endif  // toggling guard

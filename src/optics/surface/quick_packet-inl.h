@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A packet of floats whose quotients and roots are the processor's estimates refined by one Newton step: accurate to
 // about 1e-6, in a fraction of the time. It serves searches, whose results are traced again exactly.
 #if defined(CONTREJOUR_KERNELS_QUICK_PACKET_INL_H_) == defined(HWY_TARGET_TOGGLE)
@@ -12,7 +13,7 @@
 #include "optics/surface/packet-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace contrejour::kernels::HWY_NAMESPACE {
+namespace contrejour::inline internal::kernels::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
@@ -55,7 +56,7 @@ struct QuickPacket {
 
 HWY_INLINE void store_floats(QuickPacket p, float* to) { hn::StoreU(p.v, QuickPacket::Tag(), to); }
 
-}  // namespace contrejour::kernels::HWY_NAMESPACE
+}  // namespace contrejour::inline internal::kernels::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #endif  // toggling guard

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Intersects one ray with one surface that is no sphere: docs/physics/surfaces.md. Newton's method solves F = 0, where
 // F approximates the distance from the surface and stays smooth beyond the end of the sag's closed form.
 // Compiled once per instruction set (foreach_target), as surface-inl.h.
@@ -18,7 +19,7 @@
 #include "optics/surface/surface-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace contrejour::kernels::HWY_NAMESPACE {
+namespace contrejour::inline internal::kernels::HWY_NAMESPACE {
 
 HWY_INLINE double smaller(double a, double b) { return a < b ? a : b; }
 HWY_INLINE double select(bool use_a, double a, double b) { return use_a ? a : b; }
@@ -224,7 +225,7 @@ HWY_INLINE void turn_back(const Axis3<T>& n, T& x, T& y, T& z) {
   z = n.z * z - across;
 }
 
-}  // namespace contrejour::kernels::HWY_NAMESPACE
+}  // namespace contrejour::inline internal::kernels::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #endif  // toggling guard

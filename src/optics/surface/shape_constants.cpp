@@ -1,9 +1,10 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "optics/surface/shape_constants.h"
 
 #include <algorithm>
 #include <cmath>
 
-namespace contrejour {
+namespace contrejour::inline internal {
 namespace {
 
 void set_powers(ShapeConstants& constants, const std::vector<double>& powers) {
@@ -46,4 +47,4 @@ ShapeConstants shape_constants(double curvature_per_mm, const SurfaceShape& shap
   return s;
 }
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

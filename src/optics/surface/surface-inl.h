@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Formulas of one ray at one surface: intersection, refraction, reflection, Fresnel and single-film reflectance.
 // Templated on the number type T: double, or a packet of floats. Compiled once per instruction set (Highway's
 // foreach_target), hence the toggling guard in place of an ordinary one.
@@ -13,7 +14,7 @@
 #include <hwy/highway.h>
 
 HWY_BEFORE_NAMESPACE();
-namespace contrejour::kernels::HWY_NAMESPACE {
+namespace contrejour::inline internal::kernels::HWY_NAMESPACE {
 
 // Functions that T needs besides + - * /; packets define their own.
 HWY_INLINE double square_root(double x) { return std::sqrt(x); }
@@ -180,7 +181,7 @@ HWY_INLINE T single_film_power(T n0, T cos0, T n1, T cos1, T n2, T cos2, T two_d
   return T(0.5) * (airy_power(front.s, back.s, phase) + airy_power(front.p, back.p, phase));
 }
 
-}  // namespace contrejour::kernels::HWY_NAMESPACE
+}  // namespace contrejour::inline internal::kernels::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #endif  // toggling guard

@@ -1,4 +1,5 @@
-#include "contrejour/surface_shape.h"
+// SPDX-License-Identifier: Apache-2.0
+#include "contrejour/expert/surface_shape.h"
 
 #include <algorithm>
 #include <cmath>

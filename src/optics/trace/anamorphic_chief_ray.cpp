@@ -1,12 +1,13 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "optics/trace/anamorphic_chief_ray.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "contrejour/first_order.h"
+#include "contrejour/expert/first_order.h"
 #include "optics/trace/chief_newton.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 namespace {
 
 constexpr double kFieldStep = 0.02;     // tangent
@@ -79,4 +80,4 @@ Vec3 anamorphic_direction(const LensState& lens, Vec2 sensor_mm, double lambda_n
   return direction_of(tangents);
 }
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

@@ -1,10 +1,11 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "contrejour/trace.h"
+#include "contrejour/expert/trace.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 
 // The x and y in the surface's own frame of a point on a step's surface.
 [[nodiscard]] Vec2 beside_axis(const PathStep& step, Vec3 position_mm);
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Tables and trace steps of a lens at single wavelengths, each made at its first use: rays are traced at few
 // wavelengths, and polynomials interpolate the others (wavelength_samples.h).
 #pragma once
@@ -13,7 +14,7 @@
 #include "optics/trace/lens_steps.h"
 #include "optics/trace/packet_trace.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 
 // One T for each wavelength, made by the first thread that needs it and kept. Copies share them.
 template <class T>
@@ -79,4 +80,4 @@ class StepsByWavelength : public ByWavelength<LensSteps> {
   const LensState& lens_;
 };
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

@@ -1,6 +1,7 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "optics/trace/chief_newton.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 
 std::optional<ChiefRay> aim_chief(const OpticalPath& path, const LightSource& source, Vec2 at_mm) {
   constexpr double kStep_mm = 1e-4;
@@ -25,4 +26,4 @@ std::optional<ChiefRay> aim_chief(const OpticalPath& path, const LightSource& so
   return std::nullopt;
 }
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

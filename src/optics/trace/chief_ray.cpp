@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Computes a light's image point by its chief ray. A lens with axial symmetry needs one meridian: a table of image
 // height against field angle, computed outwards from the axis so that each chief ray starts from its neighbour's. Other
 // lenses need a search in two dimensions: anamorphic_chief_ray.h for surfaces without axial symmetry, and a start from
@@ -10,9 +11,9 @@
 #include <span>
 #include <vector>
 
-#include "contrejour/check_lens.h"
-#include "contrejour/first_order.h"
-#include "contrejour/trace.h"
+#include "contrejour/expert/check_lens.h"
+#include "contrejour/expert/first_order.h"
+#include "contrejour/expert/trace.h"
 #include "optics/trace/anamorphic_chief_ray.h"
 #include "optics/trace/chief_newton.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "optics/trace/clearance.h"
 
 #include "base/simd_targets.h"
@@ -13,7 +14,7 @@
 #include "optics/trace/meeting-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace contrejour::HWY_NAMESPACE {
+namespace contrejour::inline internal::HWY_NAMESPACE {
 
 namespace hk = kernels::HWY_NAMESPACE;
 namespace hn = hwy::HWY_NAMESPACE;
@@ -151,11 +152,11 @@ void clearance_double(const PacketPath& path, const float* x_mm, const float* y_
   trace_any<hk::PrecisePacket>(path, x_mm, y_mm, count, out);
 }
 
-}  // namespace contrejour::HWY_NAMESPACE
+}  // namespace contrejour::inline internal::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace contrejour {
+namespace contrejour::inline internal {
 
 HWY_EXPORT(clearance_float);
 HWY_EXPORT(clearance_double);
@@ -171,5 +172,5 @@ void trace_clearance(const PacketPath& path, PacketPrecision precision, const fl
   }
 }
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal
 #endif  // HWY_ONCE

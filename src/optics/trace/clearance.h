@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Traces the clearance of rays along one path, for searches: their distance from rims and iris, obscurations excluded.
 // It gives no sensor points and no transmittances, but where and by how much a ray fails, which leads a search to rays
 // that get through. Accuracy for rays close to getting through: 1e-3 of the clear radius in float (typically 1e-5),
@@ -9,7 +10,7 @@
 
 #include "optics/trace/packet_trace.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 
 // One value a ray. Positions of a ray that fails are undefined.
 struct ClearanceArrays {
@@ -34,4 +35,4 @@ inline constexpr std::size_t kClearancePadding = 32;
 void trace_clearance(const PacketPath& path, PacketPrecision precision, const float* x_mm, const float* y_mm,
                      std::size_t count, const ClearanceArrays& out);
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

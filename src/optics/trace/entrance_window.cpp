@@ -1,10 +1,11 @@
+// SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 
 #include <fmt/format.h>
 
-#include "contrejour/trace.h"
+#include "contrejour/expert/trace.h"
 
 namespace contrejour {
 namespace {

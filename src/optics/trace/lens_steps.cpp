@@ -1,10 +1,11 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "optics/trace/lens_steps.h"
 
 #include <algorithm>
 
 #include "optics/trace/path_steps.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 
 LensSteps::LensSteps(const LensState& lens, const ReflectanceTables& tables)
     : lens_(lens), tables_(tables), surfaces_(lens.surfaces.size()) {
@@ -60,4 +61,4 @@ PacketPath::PacketPath(const LensSteps& from, const Ghost& ghost, const LightRay
   sensor_offset_mm_ = {-before_mm.x, -before_mm.y};
 }
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A lens at one wavelength: all steps that a ghost's path can contain, prepared for packets.
 #pragma once
 
@@ -6,7 +7,7 @@
 
 #include "optics/trace/packet_trace.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 
 class LensSteps {
  public:
@@ -33,4 +34,4 @@ class LensSteps {
   std::vector<std::array<AtSurface, 2>> surfaces_;
 };
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Intersects packets of rays with a step's surface. Each geometry is compiled separately, without what only the others
 // need. Compiled once per instruction set (foreach_target).
 #if defined(CONTREJOUR_TRACE_MEETING_INL_H_) == defined(HWY_TARGET_TOGGLE)
@@ -15,7 +16,7 @@
 #include "optics/trace/packet_trace.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace contrejour::HWY_NAMESPACE {
+namespace contrejour::inline internal::HWY_NAMESPACE {
 
 // Newton's limits for packets. Float is accurate to 2e-5 mm on the steepest surfaces, with approximate quotients;
 // results of double are stored as float.
@@ -85,7 +86,7 @@ HWY_INLINE kernels::HWY_NAMESPACE::Hit<P> meet(kernels::HWY_NAMESPACE::Ray3<P>& 
   }
 }
 
-}  // namespace contrejour::HWY_NAMESPACE
+}  // namespace contrejour::inline internal::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #endif  // toggling guard

@@ -1,10 +1,11 @@
+// SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <array>
 #include <cmath>
 
 #include "optics/trace/packet_trace.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 namespace {
 
 // From the denser side angles beyond the critical one have no u; from the other side every u is an angle.
@@ -144,4 +145,4 @@ void PacketPath::start_from(Vec2 origin_mm) {
   start_.flux = source_.flux_at(origin);
 }
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

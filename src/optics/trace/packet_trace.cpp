@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "optics/trace/packet_trace.h"
 
 #include <algorithm>
@@ -16,7 +17,7 @@
 #include "optics/trace/meeting-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace contrejour::HWY_NAMESPACE {
+namespace contrejour::inline internal::HWY_NAMESPACE {
 
 namespace hk = kernels::HWY_NAMESPACE;
 namespace hn = hwy::HWY_NAMESPACE;
@@ -247,11 +248,11 @@ void trace_double(const PacketPath& path, const float* x_mm, const float* y_mm, 
   trace_any<hk::PrecisePacket>(path, x_mm, y_mm, count, out);
 }
 
-}  // namespace contrejour::HWY_NAMESPACE
+}  // namespace contrejour::inline internal::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace contrejour {
+namespace contrejour::inline internal {
 
 HWY_EXPORT(trace_float);
 HWY_EXPORT(trace_double);
@@ -265,5 +266,5 @@ void trace_packets(const PacketPath& path, PacketPrecision precision, const floa
   }
 }
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal
 #endif  // HWY_ONCE

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Traces many rays of a light along one path in packets (Highway, the widest instruction set of the machine): the
 // formulas of trace() in float, or in double where neighbouring rays lie too close for float.
 // Layout: structure of arrays, any length. Nothing is allocated while tracing.
@@ -11,9 +12,9 @@
 #include <memory>
 #include <vector>
 
-#include "contrejour/trace.h"
+#include "contrejour/expert/trace.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 
 // Reflectance, and transmittance where a film absorbs, of every surface at one wavelength, tabulated over the
 // cosine u of the ray in the medium of lower index. As a function of u a lossless surface is the same from both sides
@@ -156,4 +157,4 @@ inline constexpr double kFloatStep_mm = 1e-3;
 void trace_packets(const PacketPath& path, PacketPrecision precision, const float* x_mm, const float* y_mm,
                    std::size_t count, const TracedArrays& out);
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -5,12 +6,12 @@
 #include <numbers>
 #include <utility>
 
-#include "contrejour/check_lens.h"
-#include "contrejour/trace.h"
+#include "contrejour/expert/check_lens.h"
+#include "contrejour/expert/trace.h"
 #include "optics/surface/shape_constants.h"
 #include "optics/trace/path_steps.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 namespace {
 
 double absorption_per_mm(const Glass& glass, double lambda_nm) {
@@ -100,6 +101,10 @@ std::optional<GratingTurn> grating_turn(const LensState& lens, int surface, std:
   return GratingTurn{{order[0] * per_order, order[1] * per_order},
                      order_efficiency(order[0], grating.fill) * order_efficiency(order[1], grating.fill)};
 }
+
+}  // namespace contrejour::inline internal
+
+namespace contrejour {
 
 OpticalPath direct_path(const LensState& lens, double lambda_nm) {
   OpticalPath path = empty_path(lens, lambda_nm);

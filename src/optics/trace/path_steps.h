@@ -1,13 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
 // The steps of optical paths through a lens, surface by surface: common code of paths for single rays and for packets.
 #pragma once
 
 #include <array>
 #include <optional>
 
-#include "contrejour/trace.h"
+#include "contrejour/expert/trace.h"
 #include "optics/lens/ghost_walk.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 
 // Adds the steps at a surface, 0-based, at the path's wavelength, with the surface's own rims first.
 void add_steps(OpticalPath& path, const LensState& lens, int surface, int direction, PathEvent event);
@@ -32,4 +33,4 @@ void walk_ghost(const LensState& lens, const Ghost& ghost, const Visit& visit, c
       });
 }
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

@@ -1,4 +1,5 @@
-#include "contrejour/trace.h"
+// SPDX-License-Identifier: Apache-2.0
+#include "contrejour/expert/trace.h"
 
 #include <algorithm>
 #include <cmath>
@@ -185,6 +186,10 @@ TracedRay trace(const OpticalPath& path, const Ray& ray) {
   return state.out;
 }
 
+}  // namespace contrejour
+
+namespace contrejour::inline internal {
+
 Vec2 beside_axis(const PathStep& step, Vec3 position_mm) {
   const Vec3 from = position_mm - step.pose.shift_mm - Vec3{0.0, 0.0, step.z_mm};
   hk::Hit<double> hit{};
@@ -195,6 +200,10 @@ Vec2 beside_axis(const PathStep& step, Vec3 position_mm) {
       hk::surface_frame_point(hit, {step.pose.axis.x, step.pose.axis.y, step.pose.axis.z}, step.curvature_per_mm);
   return {own.x, own.y};
 }
+
+}  // namespace contrejour::inline internal
+
+namespace contrejour {
 
 RayRecord trace_recorded(const OpticalPath& path, const Ray& ray) {
   State state = start(ray);

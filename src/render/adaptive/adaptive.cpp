@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "render/adaptive/adaptive.h"
 
 #include <algorithm>
@@ -17,7 +18,7 @@
 #include "render/planning/error_bound.h"
 #include "render/planning/frame_memory.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 namespace {
 
 using namespace adaptive;
@@ -228,4 +229,4 @@ Result<DrawnFlare> render_adaptive(const PlannedFrame& planned, const AdaptiveOp
   return flare;
 }
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

@@ -1,8 +1,9 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include "render/planning/method.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 
 // The adaptive renderer, this project's own method: each ghost is a smooth map fitted to a few exact rays, drawn with
 // no more cells than its part of the allowed error requires (docs/physics/adaptive.md).
@@ -11,4 +12,4 @@ namespace contrejour {
 
 inline constexpr Method kAdaptive = method_of<AdaptiveOptions, render_adaptive>({.spends_error = true});
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

@@ -1,6 +1,7 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "render/adaptive/faint_items.h"
 
-namespace contrejour::adaptive {
+namespace contrejour::inline internal::adaptive {
 namespace {
 
 constexpr double kFaintLevel = 3e-5;  // of the peak: four stops brighter it is a two-thousandth
@@ -24,4 +25,4 @@ void mark_faint_items(std::vector<Item>& items, const std::vector<ItemSize>& siz
     items[k].is_faint = false;
 }
 
-}  // namespace contrejour::adaptive
+}  // namespace contrejour::inline internal::adaptive

@@ -1,10 +1,11 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "render/adaptive/ghost_painter.h"
 
 #include <algorithm>
 #include <cmath>
 #include <optional>
 
-namespace contrejour::adaptive {
+namespace contrejour::inline internal::adaptive {
 namespace {
 
 constexpr double kLightLeft = 0.05;  // of a channel's absolute sum: for smaller sums a band's parts count equally
@@ -186,4 +187,4 @@ void GhostPainter::paint_band(const BandSet& set, std::size_t band, std::span<co
   cells.draw();
 }
 
-}  // namespace contrejour::adaptive
+}  // namespace contrejour::inline internal::adaptive

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Draws one ghost of one light through one box of the pupil, from exact rays to polygons: chooses bands of wavelengths
 // from the first rays, fits polynomials in patches, and tessellates them into cells that the error allows, band by
 // band.
@@ -7,7 +8,7 @@
 #include "render/adaptive/patch_fitter.h"
 #include "render/stop_patterns/stop_patterns.h"
 
-namespace contrejour::adaptive {
+namespace contrejour::inline internal::adaptive {
 
 // The stop patterns of a ghost of a light at its last crossing of the stop, in place of the sharp iris: one a pass.
 struct GhostScreens {
@@ -52,4 +53,4 @@ class GhostPainter {
   BoxCells& room_;
 };
 
-}  // namespace contrejour::adaptive
+}  // namespace contrejour::inline internal::adaptive

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "render/adaptive/item.h"
 
 #include <algorithm>
@@ -7,11 +8,11 @@
 #include <utility>
 
 #include "base/tasks.h"
-#include "contrejour/metrics.h"
+#include "contrejour/expert/metrics.h"
 #include "ghosts/pupils/ghost_pupil.h"
 #include "render/adaptive/cells/shared_edges.h"
 
-namespace contrejour::adaptive {
+namespace contrejour::inline internal::adaptive {
 namespace {
 
 constexpr int kDeepest = 4;       // the most times that a box may be quartered
@@ -202,4 +203,4 @@ RoughFrame draw_roughly(const Scene& scene, const std::vector<Item>& items, cons
   return rough;
 }
 
-}  // namespace contrejour::adaptive
+}  // namespace contrejour::inline internal::adaptive

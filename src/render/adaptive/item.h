@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Items, the units of work: a ghost of a light, with the boxes of the pupil that it passes.
 #pragma once
 
@@ -6,7 +7,7 @@
 #include "render/adaptive/tiles/tiles.h"
 #include "render/planning/frame_plan.h"
 
-namespace contrejour::adaptive {
+namespace contrejour::inline internal::adaptive {
 
 // What all items of a frame have in common.
 struct Scene {
@@ -64,4 +65,4 @@ struct RoughFrame {
 [[nodiscard]] RoughFrame draw_roughly(const Scene& scene, const std::vector<Item>& items, const Frame& frame,
                                       Pool<BoxCells>& rooms, TileDrawer& drawer, const Context& context, Work& work);
 
-}  // namespace contrejour::adaptive
+}  // namespace contrejour::inline internal::adaptive

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "render/adaptive/patch_fitter.h"
 
 #include <algorithm>
@@ -11,7 +12,7 @@
 #include "render/adaptive/maps/screened_boxes.h"
 #include "render/adaptive/maps/sheet_cells.h"
 
-namespace contrejour::adaptive {
+namespace contrejour::inline internal::adaptive {
 namespace {
 
 constexpr std::array kNodes{PatchFitter::kFewestNodes, 9, 17};
@@ -204,4 +205,4 @@ std::optional<double> PatchFitter::level_behind(std::span<const RaySheet> sheets
   return brightest ? std::optional(*brightest * scale) : std::nullopt;
 }
 
-}  // namespace contrejour::adaptive
+}  // namespace contrejour::inline internal::adaptive

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Fits patches to a box of the pupil: polynomials through exact rays at few points, whose error is tested. Where the
 // test fails, more rays or smaller boxes follow.
 #pragma once
@@ -13,7 +14,7 @@
 #include "render/adaptive/maps/tolerance.h"
 #include "render/stop_patterns/band_screen.h"
 
-namespace contrejour::adaptive {
+namespace contrejour::inline internal::adaptive {
 
 // A part of a box, with the patches from which BandSet::band_patch() computes each band's patch, or with the patch of
 // one band alone.
@@ -76,4 +77,4 @@ class PatchFitter {
   int boxes_ = 0;  // indices of boxes in use
 };
 
-}  // namespace contrejour::adaptive
+}  // namespace contrejour::inline internal::adaptive

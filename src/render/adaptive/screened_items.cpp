@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "render/adaptive/screened_items.h"
 
 #include <algorithm>
@@ -8,7 +9,7 @@
 #include "base/tasks.h"
 #include "render/stop_patterns/iris_screens.h"
 
-namespace contrejour::adaptive {
+namespace contrejour::inline internal::adaptive {
 namespace {
 
 // Fractions of the frame's squared error: for ghosts that stay sharp, and for small fringes that the others leave out.
@@ -211,4 +212,4 @@ Work screen_items(const Scene& scene, Screens& screens, std::vector<Item>& items
   return sum;
 }
 
-}  // namespace contrejour::adaptive
+}  // namespace contrejour::inline internal::adaptive

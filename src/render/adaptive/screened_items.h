@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Selects the items that get diffraction fringes. Fringes cost work along a ghost's whole rim, and in most ghosts they
 // are far below the frame's error.
 #pragma once
@@ -6,7 +7,7 @@
 #include "render/adaptive/item.h"
 #include "render/stop_patterns/screens.h"
 
-namespace contrejour::adaptive {
+namespace contrejour::inline internal::adaptive {
 
 // Returns, for each pass, the pass whose stop pattern it uses. If there are many, neighbours share the pattern of their
 // middle one, averaged over all their wavelengths.
@@ -18,4 +19,4 @@ namespace contrejour::adaptive {
 [[nodiscard]] Work screen_items(const Scene& scene, Screens& screens, std::vector<Item>& items,
                                 const std::vector<ItemSize>& sizes, const FrameError& allowed, const Context& context);
 
-}  // namespace contrejour::adaptive
+}  // namespace contrejour::inline internal::adaptive

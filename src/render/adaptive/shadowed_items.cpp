@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "render/adaptive/shadowed_items.h"
 
 #include <algorithm>
@@ -8,7 +9,7 @@
 
 #include "render/adaptive/screened_items.h"
 
-namespace contrejour::adaptive {
+namespace contrejour::inline internal::adaptive {
 namespace {
 
 constexpr double kUnshadowedShare = 0.15;  // of the frame's squared error: for ghosts drawn without shadows
@@ -86,4 +87,4 @@ void shadow_items(const Scene& scene, Screens& screens, std::vector<Item>& items
   for (const std::size_t k : chosen) items[k].shadows = shadows_of(scene, screens, items[k]);
 }
 
-}  // namespace contrejour::adaptive
+}  // namespace contrejour::inline internal::adaptive

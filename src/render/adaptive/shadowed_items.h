@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Selects the items whose shadows of dirt are drawn. Each costs the outlines of all shapes that the ghost's light
 // crosses. The other items are dimmed by dirt's mean transmittance.
 #pragma once
@@ -6,7 +7,7 @@
 #include "render/adaptive/item.h"
 #include "render/stop_patterns/screens.h"
 
-namespace contrejour::adaptive {
+namespace contrejour::inline internal::adaptive {
 
 // Sets the mean transmittance of dirt for each item. The scene's lens has dirt.
 void dim_items(const Scene& scene, std::vector<Item>& items);
@@ -16,4 +17,4 @@ void dim_items(const Scene& scene, std::vector<Item>& items);
 void shadow_items(const Scene& scene, Screens& screens, std::vector<Item>& items, const std::vector<ItemSize>& sizes,
                   const FrameError& allowed, const Context& context);
 
-}  // namespace contrejour::adaptive
+}  // namespace contrejour::inline internal::adaptive

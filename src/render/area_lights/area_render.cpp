@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "render/area_lights/area_render.h"
 
 #include <algorithm>
@@ -16,7 +17,7 @@
 #include "render/planning/error_bound.h"
 #include "render/planning/statistics.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 namespace {
 
 using namespace area;
@@ -134,4 +135,4 @@ Result<Flare> render_areas(const DrawPlan& draw, const FrameRequest& frame, cons
   return flare;
 }
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "render/area_lights/area_survey.h"
 
 #include <algorithm>
@@ -7,7 +8,7 @@
 #include "base/tasks.h"
 #include "ghosts/light_frame.h"
 
-namespace contrejour::area {
+namespace contrejour::inline internal::area {
 namespace {
 
 // The squared error that lights may make by being divided too coarsely, over the frame's squared error.
@@ -191,4 +192,4 @@ Result<SurveyedFrame> AreaSurvey::of(std::vector<PartedLight> wholes) const {
   return SurveyedFrame{std::move(*lights), budget.peak};
 }
 
-}  // namespace contrejour::area
+}  // namespace contrejour::inline internal::area

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Surveys how the ghosts of lights with a size move and how large they are, and chooses, for each ghost, into how many
 // pieces its light is divided.
 #pragma once
@@ -14,7 +15,7 @@
 #include "render/area_lights/piece_choice.h"
 #include "render/planning/frame_plan.h"
 
-namespace contrejour::area {
+namespace contrejour::inline internal::area {
 
 // A light divided into `across` pieces along its longer side.
 struct PartedLight {
@@ -73,4 +74,4 @@ class AreaSurvey {
   StepsByWavelength steps_;
 };
 
-}  // namespace contrejour::area
+}  // namespace contrejour::inline internal::area

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "render/area_lights/blur_classes.h"
 
 #include <algorithm>
@@ -6,7 +7,7 @@
 #include <limits>
 #include <numeric>
 
-namespace contrejour::area {
+namespace contrejour::inline internal::area {
 namespace {
 
 constexpr double kSharpShare = 0.1;  // of the error that a separate image may save: error of leaving a blur out
@@ -105,4 +106,4 @@ BlurClasses blur_classes(std::span<const PieceGhost> ghosts, const LightPiece& p
   return out;
 }
 
-}  // namespace contrejour::area
+}  // namespace contrejour::inline internal::area

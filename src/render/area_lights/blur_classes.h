@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Groups the ghosts of a piece of a light that are blurred alike: each group is drawn once, with as few pixels as the
 // blur allows.
 #pragma once
@@ -9,7 +10,7 @@
 #include "contrejour/frame.h"
 #include "render/area_lights/ghost_blur.h"
 
-namespace contrejour::area {
+namespace contrejour::inline internal::area {
 
 // A ghost of a piece of a light, with the coarsest level of the image pyramid in which it may be drawn (layers.h).
 struct PieceGhost {
@@ -33,4 +34,4 @@ struct BlurClasses {
 [[nodiscard]] BlurClasses blur_classes(std::span<const PieceGhost> ghosts, const LightPiece& piece, const Frame& frame,
                                        double peak, double allowed_squares);
 
-}  // namespace contrejour::area
+}  // namespace contrejour::inline internal::area

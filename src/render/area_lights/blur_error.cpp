@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "render/area_lights/blur_error.h"
 
 #include <algorithm>
@@ -7,7 +8,7 @@
 
 #include "render/area_lights/layers.h"
 
-namespace contrejour::area {
+namespace contrejour::inline internal::area {
 namespace {
 
 constexpr double kRadiusPixels = 2.5;  // radius of a blur in pixels of its level, for ghosts larger than the blur
@@ -91,4 +92,4 @@ std::vector<int> levels_of(std::span<const BlurredGhost> ghosts, double allowed_
   return levels;
 }
 
-}  // namespace contrejour::area
+}  // namespace contrejour::inline internal::area

@@ -1,12 +1,13 @@
+// SPDX-License-Identifier: Apache-2.0
 // The errors of a blurred ghost's image that is drawn with less work: in coarser pixels, or with another ghost's blur.
 #pragma once
 
 #include <span>
 #include <vector>
 
-#include "contrejour/vec.h"
+#include "contrejour/expert/vec.h"
 
-namespace contrejour::area {
+namespace contrejour::inline internal::area {
 
 // In pixels of the frame; radii are across the shorter and the longer axis.
 struct BlurredGhost {
@@ -32,4 +33,4 @@ struct BlurredGhost {
 // error than `allowed_squares`.
 [[nodiscard]] std::vector<int> levels_of(std::span<const BlurredGhost> ghosts, double allowed_squares);
 
-}  // namespace contrejour::area
+}  // namespace contrejour::inline internal::area

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "render/area_lights/convolve.h"
 
 #include <algorithm>
@@ -11,7 +12,7 @@
 #include "base/tasks.h"
 #include "render/area_lights/convolve_block.h"
 
-namespace contrejour::area {
+namespace contrejour::inline internal::area {
 namespace {
 
 constexpr int kBlock = static_cast<int>(kBlockFloats / 3);  // pixels
@@ -220,4 +221,4 @@ void convolve(Image& to, ConvolveMode mode, PicturePart part, const Kernel& kern
   });
 }
 
-}  // namespace contrejour::area
+}  // namespace contrejour::inline internal::area

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Convolution of images with kernels.
 #pragma once
 
@@ -7,7 +8,7 @@
 #include "contrejour/image.h"
 #include "render/area_lights/kernel.h"
 
-namespace contrejour::area {
+namespace contrejour::inline internal::area {
 
 enum class ConvolveMode : std::uint8_t { Write, Add };
 
@@ -25,4 +26,4 @@ struct PicturePart {
 void convolve(Image& to, ConvolveMode mode, PicturePart picture, const Kernel& kernel, double unseen,
               const Context& context);
 
-}  // namespace contrejour::area
+}  // namespace contrejour::inline internal::area

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "render/area_lights/convolve_block.h"
 
 #include "base/simd_targets.h"
@@ -8,7 +9,7 @@
 #include <hwy/highway.h>
 
 HWY_BEFORE_NAMESPACE();
-namespace contrejour::area::HWY_NAMESPACE {
+namespace contrejour::inline internal::area::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 using Tag = hn::CappedTag<float, 8>;
@@ -92,11 +93,11 @@ void add_block(const BlockTerm* terms, std::size_t count, float* to) {
   }
 }
 
-}  // namespace contrejour::area::HWY_NAMESPACE
+}  // namespace contrejour::inline internal::area::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace contrejour::area {
+namespace contrejour::inline internal::area {
 
 HWY_EXPORT(has_light);
 HWY_EXPORT(is_rough);
@@ -117,5 +118,5 @@ void add_coloured_block(std::span<const BlockTerm> terms, float* to) {
   HWY_DYNAMIC_DISPATCH(add_coloured_block)(terms.data(), terms.size(), to);
 }
 
-}  // namespace contrejour::area
+}  // namespace contrejour::inline internal::area
 #endif  // HWY_ONCE

@@ -1,10 +1,11 @@
+// SPDX-License-Identifier: Apache-2.0
 // The innermost loops of a convolution, vectorised.
 #pragma once
 
 #include <cstddef>
 #include <span>
 
-namespace contrejour::area {
+namespace contrejour::inline internal::area {
 
 inline constexpr std::size_t kBlockFloats = 48;    // 16 pixels of three channels
 inline constexpr std::size_t kPatternFloats = 24;  // numbers after which channels and vectors of 8 begin together again
@@ -25,4 +26,4 @@ struct BlockTerm {
 void add_block(std::span<const BlockTerm> terms, float* to);  // one weight for all channels
 void add_coloured_block(std::span<const BlockTerm> terms, float* to);  // a weight for each channel
 
-}  // namespace contrejour::area
+}  // namespace contrejour::inline internal::area

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "render/area_lights/drawings.h"
 
 #include <algorithm>
@@ -5,7 +6,7 @@
 #include <deque>
 #include <utility>
 
-namespace contrejour::area {
+namespace contrejour::inline internal::area {
 namespace {
 
 constexpr double kLevelShare = 0.1;    // of the frame's squared error: for coarse pixels,
@@ -115,4 +116,4 @@ std::vector<Drawing> drawings_of(const SurveyedFrame& frame, const FrameSettings
   return drawings;
 }
 
-}  // namespace contrejour::area
+}  // namespace contrejour::inline internal::area

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The images that a frame of lights with a size is composed of.
 #pragma once
 
@@ -8,7 +9,7 @@
 #include "render/area_lights/area_survey.h"
 #include "render/area_lights/blur_classes.h"
 
-namespace contrejour::area {
+namespace contrejour::inline internal::area {
 
 // An image of some ghosts of some lights, and the map that determines its blur.
 struct Drawing {
@@ -22,4 +23,4 @@ struct Drawing {
 // In the order in which Layers takes them. Ghosts of point lights, and those whose blur is not visible, stay sharp.
 [[nodiscard]] std::vector<Drawing> drawings_of(const SurveyedFrame& frame, const FrameSettings& settings);
 
-}  // namespace contrejour::area
+}  // namespace contrejour::inline internal::area

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "render/area_lights/ghost_blur.h"
 
 #include <algorithm>
@@ -6,7 +7,7 @@
 #include <cstddef>
 #include <numbers>
 
-namespace contrejour::area {
+namespace contrejour::inline internal::area {
 namespace {
 
 constexpr double kLargestBlur = 3.0;  // diagonals of the frame: a larger blur looks no different
@@ -226,4 +227,4 @@ double peak_of(const std::vector<GhostBlur>& ghosts, const Frame& frame) {
   return std::max(*nth, brightest);
 }
 
-}  // namespace contrejour::area
+}  // namespace contrejour::inline internal::area

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A ghost of a light, or of a piece of one, as it appears in a frame: its position, its brightness, its blur, and the
 // error of using one linear map of the light's directions for the motion of all its parts.
 #pragma once
@@ -9,7 +10,7 @@
 #include "render/area_lights/ghost_motion.h"
 #include "render/area_lights/light_pieces.h"
 
-namespace contrejour::area {
+namespace contrejour::inline internal::area {
 
 // A GhostFeature in pixels of the frame.
 struct BlurFeature {
@@ -52,4 +53,4 @@ inline constexpr double kPeakShare = 0.002;
 // deviations.
 [[nodiscard]] Vec2 radii_of(const LinearMap& covariance);
 
-}  // namespace contrejour::area
+}  // namespace contrejour::inline internal::area

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "render/area_lights/ghost_motion.h"
 
 #include <algorithm>
@@ -9,7 +10,7 @@
 #include "contrejour/light.h"
 #include "render/area_lights/ghost_pupil.h"
 
-namespace contrejour::area {
+namespace contrejour::inline internal::area {
 namespace {
 
 constexpr double kRayStep = 1e-3;      // of the entrance window's width,
@@ -311,4 +312,4 @@ GhostMotion ghost_motion(const LensSteps& steps, Ghost ghost, const LightSource&
   return motion;
 }
 
-}  // namespace contrejour::area
+}  // namespace contrejour::inline internal::area

@@ -1,15 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
 // How a ghost moves over the sensor as its light moves, and how large it is, from first derivatives at some of its
 // rays.
 #pragma once
 
 #include <vector>
 
-#include "contrejour/light_source.h"
+#include "contrejour/expert/light_source.h"
 #include "ghosts/light_frame.h"
 #include "optics/trace/lens_steps.h"
 #include "render/area_lights/linear_map.h"
 
-namespace contrejour::area {
+namespace contrejour::inline internal::area {
 
 // A line of a ghost near the point where a ray lands: a part of its outline, or of a caustic.
 struct GhostFeature {
@@ -38,4 +39,4 @@ struct GhostMotion {
 [[nodiscard]] GhostMotion ghost_motion(const LensSteps& steps, Ghost ghost, const LightSource& source,
                                        const LightWindows& windows);
 
-}  // namespace contrejour::area
+}  // namespace contrejour::inline internal::area

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "render/area_lights/ghost_pupil.h"
 
 #include <algorithm>
@@ -11,7 +12,7 @@
 #include "ghosts/open_halves.h"
 #include "optics/trace/clearance.h"
 
-namespace contrejour::area {
+namespace contrejour::inline internal::area {
 namespace {
 
 constexpr int kSide = 13;  // rays along a side of a grid: odd, so that one row runs along the middle
@@ -227,4 +228,4 @@ std::optional<GhostPupil> find_ghost_pupil(const LensSteps& steps, const Ghost& 
   return pupil;
 }
 
-}  // namespace contrejour::area
+}  // namespace contrejour::inline internal::area

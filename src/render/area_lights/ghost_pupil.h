@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Finds where a ghost's light enters and what bounds it, by grids of rays over the entrance window; each grid covers
 // the illuminated part of the one before.
 #pragma once
@@ -9,7 +10,7 @@
 #include "optics/trace/lens_steps.h"
 #include "render/area_lights/linear_map.h"
 
-namespace contrejour::area {
+namespace contrejour::inline internal::area {
 
 inline constexpr int kRims = kMaxStopCrossings;  // follows the stop's crossings
 
@@ -41,4 +42,4 @@ struct GhostPupil {
 [[nodiscard]] std::optional<GhostPupil> find_ghost_pupil(const LensSteps& steps, const Ghost& ghost,
                                                          const LightFrame& light, const EntranceWindow& window);
 
-}  // namespace contrejour::area
+}  // namespace contrejour::inline internal::area

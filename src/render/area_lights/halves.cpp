@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "render/area_lights/halves.h"
 
 #include <cstdint>
@@ -10,7 +11,7 @@
 #include <hwy/highway.h>
 
 HWY_BEFORE_NAMESPACE();
-namespace contrejour::area::HWY_NAMESPACE {
+namespace contrejour::inline internal::area::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
@@ -120,11 +121,11 @@ void halve_across(Halving how, const float* row, std::size_t count, float* fine)
   halve_across_by(Interpolating(), row, count, fine);
 }
 
-}  // namespace contrejour::area::HWY_NAMESPACE
+}  // namespace contrejour::inline internal::area::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace contrejour::area {
+namespace contrejour::inline internal::area {
 
 HWY_EXPORT(halve_down);
 HWY_EXPORT(halve_across);
@@ -137,5 +138,5 @@ void halve_across(Halving how, const float* row, std::size_t count, float* fine)
   HWY_DYNAMIC_DISPATCH(halve_across)(how, row, count, fine);
 }
 
-}  // namespace contrejour::area
+}  // namespace contrejour::inline internal::area
 #endif  // HWY_ONCE

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Upsampling of rows of pixels, three floats each, to pixels half as large, vectorised.
 #pragma once
 
@@ -5,7 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 
-namespace contrejour::area {
+namespace contrejour::inline internal::area {
 
 enum class Halving : std::uint8_t {
   // Average interpolation (Donoho 1993): averages of a polynomial of degree 4 become averages of the same polynomial,
@@ -37,4 +38,4 @@ void halve_down(Halving how, const RowsAround& rows, std::size_t count, float* u
 // pixels are undefined.
 void halve_across(Halving how, const float* row, std::size_t count, float* fine);
 
-}  // namespace contrejour::area
+}  // namespace contrejour::inline internal::area

@@ -1,11 +1,12 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "render/area_lights/image_motion.h"
 
 #include <cmath>
 
+#include "contrejour/expert/trace.h"
 #include "contrejour/light.h"
-#include "contrejour/trace.h"
 
-namespace contrejour::area {
+namespace contrejour::inline internal::area {
 
 LinearMap image_motion_px(const LensState& lens, const Frame& frame, const LightSource& source) {
   constexpr double kStep = 1e-3;
@@ -18,4 +19,4 @@ LinearMap image_motion_px(const LensState& lens, const Frame& frame, const Light
   return std::isfinite(map.x.x + map.x.y + map.y.x + map.y.y) ? map : kNowhere;
 }
 
-}  // namespace contrejour::area
+}  // namespace contrejour::inline internal::area

@@ -1,14 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
 // How the direct image of a light moves over the frame as the light moves.
 #pragma once
 
+#include "contrejour/expert/light_source.h"
 #include "contrejour/frame.h"
-#include "contrejour/light_source.h"
 #include "render/area_lights/linear_map.h"
 
-namespace contrejour::area {
+namespace contrejour::inline internal::area {
 
 // The motion in pixels right and down for lights a unit to the right and up (tangents, direction_beside); kNowhere
 // where no light gets through.
 [[nodiscard]] LinearMap image_motion_px(const LensState& lens, const Frame& frame, const LightSource& source);
 
-}  // namespace contrejour::area
+}  // namespace contrejour::inline internal::area

@@ -1,9 +1,10 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "render/area_lights/kernel.h"
 
 #include <algorithm>
 #include <cmath>
 
-namespace contrejour::area {
+namespace contrejour::inline internal::area {
 namespace {
 
 constexpr double kFarthest = 2.0;  // pixels beyond the shape: for tents, and for the offset of a displaced picture
@@ -115,4 +116,4 @@ Kernel make_kernel(const LightPiece& piece, const LinearMap& px_from_tangents, V
   return laid(piece, reach, px_from_tangents * low, moved);
 }
 
-}  // namespace contrejour::area
+}  // namespace contrejour::inline internal::area

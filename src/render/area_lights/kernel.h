@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The kernel of a piece of a light: its shape under a ghost's map, on pixels.
 #pragma once
 
@@ -5,7 +6,7 @@
 
 #include "render/area_lights/light_pieces.h"
 
-namespace contrejour::area {
+namespace contrejour::inline internal::area {
 
 // The largest distances of a kernel's pixels from its middle.
 struct KernelReach {
@@ -29,4 +30,4 @@ struct Kernel {
 // The bounds of a kernel, known before it is made.
 [[nodiscard]] KernelReach reach_of(const LightPiece& piece, const LinearMap& px_from_tangents);
 
-}  // namespace contrejour::area
+}  // namespace contrejour::inline internal::area

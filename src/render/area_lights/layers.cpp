@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "render/area_lights/layers.h"
 
 #include <algorithm>
@@ -9,7 +10,7 @@
 #include "render/area_lights/convolve.h"
 #include "render/area_lights/halves.h"
 
-namespace contrejour::area {
+namespace contrejour::inline internal::area {
 namespace {
 
 constexpr int kStencil = static_cast<int>(kHalvesStencil);
@@ -161,4 +162,4 @@ Image Layers::flattened(const Context& context) && {
   return std::move(layers_[0].sum);
 }
 
-}  // namespace contrejour::area
+}  // namespace contrejour::inline internal::area

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // An image pyramid of one frame: pixels of level k are 2^k as long along each side as the frame's. A picture drawn at a
 // level holds flux per pixel of that level. It is convolved with a kernel there, added to the level, and upsampled to
 // the frame's pixels (halves.h), which preserves its flux.
@@ -13,7 +14,7 @@
 #include "render/area_lights/halves.h"
 #include "render/area_lights/kernel.h"
 
-namespace contrejour::area {
+namespace contrejour::inline internal::area {
 
 inline constexpr int kLevels = 7;
 
@@ -57,4 +58,4 @@ class Layers {
   std::vector<Layer> layers_;
 };
 
-}  // namespace contrejour::area
+}  // namespace contrejour::inline internal::area

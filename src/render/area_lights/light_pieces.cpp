@@ -1,10 +1,11 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "render/area_lights/light_pieces.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-namespace contrejour::area {
+namespace contrejour::inline internal::area {
 namespace {
 
 constexpr int kDiscSide = 32;         // pixels across a disc,
@@ -193,4 +194,4 @@ std::vector<LightPiece> pieces_of(const Light& light, int across) {
   return pieces;
 }
 
-}  // namespace contrejour::area
+}  // namespace contrejour::inline internal::area

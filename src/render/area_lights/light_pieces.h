@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Divides lights with a size into pieces so small that within each a ghost only moves, by a linear map of the angle.
 #pragma once
 
@@ -7,7 +8,7 @@
 #include "contrejour/light.h"
 #include "render/area_lights/linear_map.h"
 
-namespace contrejour::area {
+namespace contrejour::inline internal::area {
 
 // A small square of a piece. In each channel the fractions of all samples sum to 1.
 struct ShapeSample {
@@ -34,4 +35,4 @@ struct LightPiece {
 // light's, except for the part of a light that lies behind the camera, which is left out.
 [[nodiscard]] std::vector<LightPiece> pieces_of(const Light& light, int across = 1);
 
-}  // namespace contrejour::area
+}  // namespace contrejour::inline internal::area

@@ -1,12 +1,13 @@
+// SPDX-License-Identifier: Apache-2.0
 // Linear maps of the plane.
 #pragma once
 
 #include <algorithm>
 #include <cmath>
 
-#include "contrejour/vec.h"
+#include "contrejour/expert/vec.h"
 
-namespace contrejour::area {
+namespace contrejour::inline internal::area {
 
 struct LinearMap {
   Vec2 x{1.0, 0.0}, y{0.0, 1.0};  // images of the unit vectors
@@ -55,4 +56,4 @@ inline Vec2 along(Vec2 direction, const LinearMap& map) { return {dot(direction,
 
 inline double trace_of(const LinearMap& a) { return a.x.x + a.y.y; }
 
-}  // namespace contrejour::area
+}  // namespace contrejour::inline internal::area

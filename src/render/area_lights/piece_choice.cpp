@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "render/area_lights/piece_choice.h"
 
 #include <algorithm>
@@ -8,7 +9,7 @@
 #include <queue>
 #include <utility>
 
-namespace contrejour::area {
+namespace contrejour::inline internal::area {
 namespace {
 
 constexpr std::array kAcross{1, 2, 3, 4, 6, 8, 12};
@@ -135,4 +136,4 @@ void choose_pieces(std::span<GhostOfArea> ghosts, const AreaBudget& budget) {
          [](const GhostOfArea& ghost, int across) { return flux_left_of(ghost.flux_off, across); });
 }
 
-}  // namespace contrejour::area
+}  // namespace contrejour::inline internal::area

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Chooses how finely a light is divided for each of its ghosts. A ghost that only moves needs no pieces; one with
 // caustics, or one that rims clip differently as the light moves, needs many.
 #pragma once
@@ -8,7 +9,7 @@
 
 #include "render/area_lights/ghost_blur.h"
 
-namespace contrejour::area {
+namespace contrejour::inline internal::area {
 
 // A ghost of a light with a size.
 struct GhostOfArea {
@@ -39,4 +40,4 @@ void foresee_errors(GhostOfArea& ghost, const LightPiece& whole, std::span<const
 // Sets `across` of all ghosts, so that together they stay within the budget with the fewest pieces.
 void choose_pieces(std::span<GhostOfArea> ghosts, const AreaBudget& budget);
 
-}  // namespace contrejour::area
+}  // namespace contrejour::inline internal::area

@@ -1,10 +1,11 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "render/bundle/band_blur.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 
-namespace contrejour::bundle {
+namespace contrejour::inline internal::bundle {
 namespace {
 
 // A ghost that grows by more than this from band to band passes through a focus: only its centre is followed then.
@@ -102,4 +103,4 @@ FluxBox blurred(const FluxBox& band, const BandMotion& motion, const Frame& fram
   return out;
 }
 
-}  // namespace contrejour::bundle
+}  // namespace contrejour::inline internal::bundle

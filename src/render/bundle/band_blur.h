@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // hullin2011 4.2, spectral rendering: a few wavelength bands, each blurred along the displacement to its neighbours so
 // that the gaps between them are bridged.
 #pragma once
@@ -10,7 +11,7 @@
 #include "render/bundle/flux_box.h"
 #include "render/bundle/map_figures.h"
 
-namespace contrejour::bundle {
+namespace contrejour::inline internal::bundle {
 
 // With more bands than this the gaps are small, and no band is blurred.
 inline constexpr std::size_t kMostBlurredBands = 7;
@@ -38,4 +39,4 @@ struct BandMotion {
 // Differs: the paper's kernel is one for the whole ghost; here it follows the ghost's growth as well.
 [[nodiscard]] FluxBox blurred(const FluxBox& band, const BandMotion& motion, const Frame& frame, int border);
 
-}  // namespace contrejour::bundle
+}  // namespace contrejour::inline internal::bundle

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "render/bundle/bundle.h"
 
 #include <algorithm>
@@ -11,7 +12,7 @@
 #include "render/planning/grid_side.h"
 #include "render/planning/passes_by_need.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 namespace {
 
 using bundle::Counts;
@@ -108,4 +109,4 @@ Result<DrawnFlare> render_bundle(const PlannedFrame& planned, const BundleOption
   return flare;
 }
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

@@ -1,8 +1,9 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include "render/planning/method.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 
 // hullin2011: a uniform grid of rays for each ghost, light and wavelength; its cells are rasterised with interpolated
 // aperture coordinates and clipped, ghost by ghost.
@@ -11,4 +12,4 @@ namespace contrejour {
 
 inline constexpr Method kBundle = method_of<BundleOptions, render_bundle>({});
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "render/bundle/cell_clip.h"
 
 #include <algorithm>
@@ -5,7 +6,7 @@
 #include <limits>
 #include <numbers>
 
-namespace contrejour::bundle {
+namespace contrejour::inline internal::bundle {
 namespace {
 
 // Tangents of a circle of radius r >= 1 deviate from its arc by less than 3e-4 if their spacing is this over sqrt(r).
@@ -114,4 +115,4 @@ void TriangleClipper::for_each_open_part(const RayGrid& grid, const Triangle& t,
   if (polygon_.size() >= 3) visit(polygon_, 1.0);
 }
 
-}  // namespace contrejour::bundle
+}  // namespace contrejour::inline internal::bundle

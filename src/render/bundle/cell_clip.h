@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The open part of a triangle of rays: what the rims and the iris let pass of it.
 #pragma once
 
@@ -9,7 +10,7 @@
 
 #include "ghosts/ray_grid.h"
 
-namespace contrejour::bundle {
+namespace contrejour::inline internal::bundle {
 
 using Triangle = std::array<std::size_t, 3>;  // vertices of a RayGrid
 
@@ -44,4 +45,4 @@ class TriangleClipper {
 // The area of a polygon in (u, v) over that of the triangle.
 [[nodiscard]] double share_of_triangle(std::span<const Vec2> uv);
 
-}  // namespace contrejour::bundle
+}  // namespace contrejour::inline internal::bundle

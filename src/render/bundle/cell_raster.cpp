@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "render/bundle/cell_raster.h"
 
 #include <algorithm>
@@ -7,7 +8,7 @@
 #include "aperture/iris_blades.h"
 #include "optics/trace/packet_trace.h"
 
-namespace contrejour::bundle {
+namespace contrejour::inline internal::bundle {
 namespace {
 
 // The map is not smooth where the areas of the cells around a vertex differ by more than this factor.
@@ -418,4 +419,4 @@ FluxBox CellRaster::draw(const std::function<bool()>& stop) {
   return out;
 }
 
-}  // namespace contrejour::bundle
+}  // namespace contrejour::inline internal::bundle

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Rasterises a traced grid: it spreads every cell's flux over the cell's image, hullin2011 4.1 "rasterization and
 // shading". Within a cell the irradiance follows that of the vertices (cell areas averaged to vertices), but the flux
 // of every triangle is its own: where cells fold or differ strongly from their neighbours the irradiance is constant.
@@ -13,7 +14,7 @@
 #include "render/planning/stop_screen.h"
 #include "render/stop_patterns/shadow_cutter.h"
 
-namespace contrejour::bundle {
+namespace contrejour::inline internal::bundle {
 
 struct CellStyle {
   bool smooth_shading = true;  // off: the irradiance is constant within a cell
@@ -100,4 +101,4 @@ class CellRaster {
   std::uint64_t primitives_ = 0;
 };
 
-}  // namespace contrejour::bundle
+}  // namespace contrejour::inline internal::bundle

@@ -1,10 +1,11 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "render/bundle/flux_box.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 
-namespace contrejour::bundle {
+namespace contrejour::inline internal::bundle {
 namespace {
 
 // A polygon with a side of more pixels is split in two first, so that its coverage fits into the processor's cache.
@@ -285,4 +286,4 @@ FluxBox FluxBox::coarser(int factor) const {
   return out;
 }
 
-}  // namespace contrejour::bundle
+}  // namespace contrejour::inline internal::bundle

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Flux over a rectangle of pixels; the exact part of a convex polygon that falls on each pixel.
 #pragma once
 
@@ -7,9 +8,9 @@
 #include <span>
 #include <vector>
 
-#include "contrejour/vec.h"
+#include "contrejour/expert/vec.h"
 
-namespace contrejour::bundle {
+namespace contrejour::inline internal::bundle {
 
 // Pixels x in [x0, x1), y in [y0, y1) of the frame.
 struct PixelBox {
@@ -73,4 +74,4 @@ class FluxBox {
   std::vector<RowSpan> span_;    // where the coverage of each of its rows is constant
 };
 
-}  // namespace contrejour::bundle
+}  // namespace contrejour::inline internal::bundle

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "render/bundle/ghost_grid.h"
 
 #include <algorithm>
@@ -6,7 +7,7 @@
 #include "render/bundle/stopwatch.h"
 #include "render/planning/grid_side.h"
 
-namespace contrejour::bundle {
+namespace contrejour::inline internal::bundle {
 namespace {
 
 // With fewer than 32 rays a side a caustic in a small ghost shows the grid as a four-pointed star.
@@ -102,4 +103,4 @@ void GhostGrid::trace(const GhostPupil& pupil) {
   if (pupil.meridian.turn_rad != 0.0) rays_.turn_sensor(pupil.meridian.turn_rad);
 }
 
-}  // namespace contrejour::bundle
+}  // namespace contrejour::inline internal::bundle

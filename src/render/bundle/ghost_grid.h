@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // From a ghost, a light and a wavelength to a traced grid: where its rays enter, their number, and the frame of
 // reference. The accelerations of hullin2011 4.2 that concern rays are applied here: bounds, grid levels, symmetries.
 #pragma once
@@ -12,7 +13,7 @@
 #include "render/bundle/map_figures.h"
 #include "render/stop_patterns/screens.h"
 
-namespace contrejour::bundle {
+namespace contrejour::inline internal::bundle {
 
 struct Counts {
   std::uint64_t rays = 0, surface_hits = 0, primitives = 0;
@@ -71,4 +72,4 @@ class GhostGrid {
   Counts counts_;
 };
 
-}  // namespace contrejour::bundle
+}  // namespace contrejour::inline internal::bundle

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "render/bundle/item_renderer.h"
 
 #include <algorithm>
@@ -7,7 +8,7 @@
 #include "render/bundle/cell_raster.h"
 #include "render/bundle/stopwatch.h"
 
-namespace contrejour::bundle {
+namespace contrejour::inline internal::bundle {
 namespace {
 
 // Wavelengths that one item draws before they are added to the frame: fewer, larger additions.
@@ -160,4 +161,4 @@ RenderedItem ItemRenderer::merge(const std::vector<Layer>& layers) {
   return out;
 }
 
-}  // namespace contrejour::bundle
+}  // namespace contrejour::inline internal::bundle

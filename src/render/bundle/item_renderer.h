@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // One ghost of one light at a few wavelengths, drawn into a box of its own: the unit of work of the threads.
 #pragma once
 
@@ -11,7 +12,7 @@
 #include "render/planning/dirt_screen.h"
 #include "render/planning/frame_plan.h"
 
-namespace contrejour::bundle {
+namespace contrejour::inline internal::bundle {
 
 struct Item {
   Ghost ghost;
@@ -57,4 +58,4 @@ class ItemRenderer {
   const DirtScreen* dirt_;  // null: the lens is clean
 };
 
-}  // namespace contrejour::bundle
+}  // namespace contrejour::inline internal::bundle

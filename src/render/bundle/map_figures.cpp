@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "render/bundle/map_figures.h"
 
 #include <algorithm>
@@ -8,7 +9,7 @@
 
 #include "optics/trace/packet_trace.h"
 
-namespace contrejour::bundle {
+namespace contrejour::inline internal::bundle {
 namespace {
 
 constexpr double kVeryAnisotropic = 1000.0;
@@ -110,4 +111,4 @@ int grid_level(const MapFigures& figures) {
 
 bool is_very_anisotropic(const MapFigures& figures) { return figures.anisotropy > kVeryAnisotropic; }
 
-}  // namespace contrejour::bundle
+}  // namespace contrejour::inline internal::bundle

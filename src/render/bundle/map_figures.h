@@ -1,9 +1,10 @@
+// SPDX-License-Identifier: Apache-2.0
 // Properties of a ghost's map from the entrance plane to the sensor, measured on a coarse grid.
 #pragma once
 
 #include "ghosts/ray_grid.h"
 
-namespace contrejour::bundle {
+namespace contrejour::inline internal::bundle {
 
 inline constexpr int kProbeSide = 33;  // rays a side: enough for every property here
 
@@ -31,4 +32,4 @@ struct MapFigures {
 // hullin2011 7.2: "very anisotropic ghosts (min/max ratio > 1000)".
 [[nodiscard]] bool is_very_anisotropic(const MapFigures& figures);
 
-}  // namespace contrejour::bundle
+}  // namespace contrejour::inline internal::bundle

@@ -1,9 +1,10 @@
+// SPDX-License-Identifier: Apache-2.0
 // Adds the time until the end of the block to a sum.
 #pragma once
 
 #include "base/clock.h"
 
-namespace contrejour::bundle {
+namespace contrejour::inline internal::bundle {
 
 class Stopwatch {
  public:
@@ -19,4 +20,4 @@ class Stopwatch {
   double& sum_ms_;
 };
 
-}  // namespace contrejour::bundle
+}  // namespace contrejour::inline internal::bundle

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A square grid of flags. Running sums of the flags along each row answer quickly whether a box contains a marked
 // square.
 #pragma once
@@ -7,9 +8,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "contrejour/vec.h"
+#include "contrejour/expert/vec.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 
 class CellFlags {
  public:
@@ -49,4 +50,4 @@ class CellFlags {
   std::vector<std::uint16_t> before_;  // the number of marked squares to the left of each border, row by row
 };
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

@@ -1,10 +1,11 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "render/planning/dirt_field.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
-namespace contrejour {
+namespace contrejour::inline internal {
 namespace {
 
 constexpr double kFrontExtent = 2.0;  // clear radii: inclined beams cross the first vertex's plane outside the surface
@@ -207,4 +208,4 @@ void DirtField::find_within(Vec2 low_mm, Vec2 high_mm, std::vector<std::uint32_t
   found.erase(std::unique(found.begin(), found.end()), found.end());
 }
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

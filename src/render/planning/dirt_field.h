@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Dirt with sharp shadows: the shapes and the picture of a lens's dirt in the plane that they lie in, and the
 // transmittance of the dirt at any place. A grid of cells lists the shapes that come near each cell. Units: mm of the
 // dirt's plane. Accuracy: a small square is covered as by a rectangle of the shape's width and area; dirt on the front
@@ -14,7 +15,7 @@
 #include "render/planning/cell_flags.h"
 #include "render/planning/dirt_screen.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 
 class DirtField final : public DirtScreen {
  public:
@@ -69,4 +70,4 @@ class DirtField final : public DirtScreen {
   double covered_ = 0.0, edges_per_mm_ = 0.0;
 };
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

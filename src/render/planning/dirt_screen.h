@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The transmittance of a lens's dirt for a ghost's light, by place in the plane that the dirt lies in: with sharp
 // shadows (DirtField), or with the fringes that the ghost's defocus gives them at a wavelength. Light meets dirt in the
 // stop at every crossing of the stop, dirt on the front once, where it enters. Units: mm of the dirt's plane. A
@@ -8,10 +9,10 @@
 #include <cstddef>
 #include <span>
 
-#include "contrejour/light_source.h"
-#include "contrejour/vec.h"
+#include "contrejour/expert/light_source.h"
+#include "contrejour/expert/vec.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 
 class DirtField;
 
@@ -69,4 +70,4 @@ class DirtScreen {
   Plane plane_;
 };
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

@@ -1,8 +1,9 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "render/planning/error_bound.h"
 
 #include <string>
 
-namespace contrejour {
+namespace contrejour::inline internal {
 namespace {
 
 constexpr double kLowestError = 1e-4, kHighestError = 0.1;
@@ -15,4 +16,4 @@ Result<void> check_error_bound(double error) {
                  "an error of " + std::to_string(error) + " is out of range; choose 0.0001 to 0.1");
 }
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

@@ -1,8 +1,9 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "render/planning/frame_memory.h"
 
 #include <utility>
 
-namespace contrejour {
+namespace contrejour::inline internal {
 namespace {
 
 struct FrameMemory {
@@ -23,4 +24,4 @@ Image unwritten_image(RenderCache& cache, int width, int height) {
 
 void keep_memory(RenderCache& cache, Image image) { cache.section<FrameMemory>({})->image = std::move(image); }
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "render/planning/frame_plan.h"
 
 #include <algorithm>
@@ -19,7 +20,7 @@
 #include "render/radiometry/direct_light.h"
 #include "render/radiometry/lens_tables.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 namespace {
 
 constexpr int kMaxWavelengths = 1024;
@@ -208,4 +209,4 @@ Result<Flare> render_planned(const DrawPlan& draw, const FrameRequest& frame, co
   return Flare{std::move(drawn->image), std::move(drawn->statistics)};
 }
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

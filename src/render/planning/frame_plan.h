@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What every renderer needs before it traces a ray: the ghosts, the wavelengths, and the factors from flux to pixel
 // values. It is computed here once, so that selection, colour and radiometry are the same in all renderers.
 #pragma once
@@ -18,7 +19,7 @@
 #include "render/planning/render_cache.h"
 #include "render/radiometry/reflected_share.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 
 struct GhostOfLight {
   std::size_t ghost = 0, light = 0;  // indices in the plan
@@ -103,4 +104,4 @@ using DrawPlan = std::function<Result<DrawnFlare>(const PlannedFrame& frame, con
 // Plans, then draws; the statistics' phases begin with "plan". Errors: those of both.
 [[nodiscard]] Result<Flare> render_planned(const DrawPlan& draw, const FrameRequest& frame, const Context& context);
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "contrejour/ghost_figures.h"
 
 #include <algorithm>
@@ -10,7 +11,7 @@
 #include <fmt/format.h>
 
 #include "base/tasks.h"
-#include "contrejour/check_lens.h"
+#include "contrejour/expert/check_lens.h"
 #include "ghosts/direct_meter.h"
 #include "ghosts/light_frame.h"
 #include "ghosts/pupils/ghost_light.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "render/planning/ghost_look.h"
 
 #include <algorithm>
@@ -6,9 +7,9 @@
 #include <fmt/format.h>
 
 #include "base/normal_pair.h"
-#include "contrejour/first_order.h"
+#include "contrejour/expert/first_order.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 namespace {
 
 bool is_gain(double value) { return value >= 0.0 && std::isfinite(value); }
@@ -108,4 +109,4 @@ std::vector<GhostLook> ghost_looks(const LensState& lens, std::span<const Ghost>
   return looks;
 }
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

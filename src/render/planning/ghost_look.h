@@ -1,16 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
 // An artist's adjustments of ghosts (GhostOptions), resolved for each ghost as renderers apply them.
 #pragma once
 
 #include <span>
 #include <vector>
 
+#include "contrejour/expert/ghost.h"
+#include "contrejour/expert/ghost_options.h"
 #include "contrejour/frame.h"
-#include "contrejour/ghost.h"
-#include "contrejour/ghost_options.h"
 #include "contrejour/lens.h"
 #include "contrejour/light.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 
 // A factor on the gain of every pass, and a displacement of the ghost. {1, 1, 1} and {} leave the ghost as computed.
 struct GhostLook {
@@ -38,4 +39,4 @@ inline constexpr double kFarthestOffset = 1000.0, kFarthestPlace = 1e6;
 [[nodiscard]] std::vector<GhostLook> ghost_looks(const LensState& lens, std::span<const Ghost> ghosts,
                                                  const GhostOptions& options, const Frame& frame);
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

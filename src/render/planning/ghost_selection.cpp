@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "render/planning/ghost_selection.h"
 
 #include <algorithm>
@@ -14,7 +15,7 @@
 #include "render/planning/ghost_look.h"
 #include "render/radiometry/wavelength_samples.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 namespace {
 
 using pupils::GhostPupil;
@@ -265,4 +266,4 @@ Result<GhostChoice> select_ghosts(const LensState& lens, std::span<const Planned
   return std::visit(Selector{lens, lights, tables, settings, context}, settings.selection);
 }
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

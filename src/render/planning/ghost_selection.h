@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Chooses which of a lens's ghosts are rendered: hullin2011 4.2, "intensity LOD".
 #pragma once
 
@@ -11,7 +12,7 @@
 #include "optics/trace/by_wavelength.h"
 #include "render/planning/planned_light.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 
 struct GhostChoice {
   std::vector<Ghost> ghosts;  // in (i, j) order
@@ -33,4 +34,4 @@ struct GhostChoice {
                                                 const TablesByWavelength& tables, const FrameSettings& settings,
                                                 const Context& context);
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

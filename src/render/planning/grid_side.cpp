@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "render/planning/grid_side.h"
 
 #include <algorithm>
@@ -5,7 +6,7 @@
 
 #include <fmt/format.h>
 
-namespace contrejour {
+namespace contrejour::inline internal {
 namespace {
 
 constexpr int kFewestRays = 4, kMostRays = 512;
@@ -38,4 +39,4 @@ int grid_side(const GridOptions& grid, const LensState& lens, const Rectangle& o
   return std::max(std::min(grid.rays, fewest), static_cast<int>(std::lround(grid.rays * scale)));
 }
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

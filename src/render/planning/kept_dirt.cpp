@@ -1,6 +1,7 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "render/planning/kept_dirt.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 
 KeptDirt::Key KeptDirt::key_of(const LensState& lens) {
   const SurfaceState& front = lens.surfaces.front();
@@ -13,4 +14,4 @@ std::shared_ptr<const DirtField> KeptDirt::field(const LensState& lens) {
   return field_;
 }
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The dirt of a lens with sharp shadows, a section of RenderCache: it keeps thousands of shapes sorted into cells.
 // Thread-safety: field() from one thread at a time.
 #pragma once
@@ -6,7 +7,7 @@
 
 #include "render/planning/dirt_field.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 
 class KeptDirt {
  public:
@@ -28,4 +29,4 @@ class KeptDirt {
   std::shared_ptr<const DirtField> field_;
 };
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

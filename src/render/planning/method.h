@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A renderer as the registry knows it (render/session/registry.h): a name, traits, default options, and a function that
 // draws a plan. A renderer that has options of its own type exports method_of<Options, draw>(traits).
 #pragma once
@@ -5,10 +6,10 @@
 #include <string>
 #include <string_view>
 
-#include "contrejour/methods.h"
+#include "contrejour/expert/methods.h"
 #include "render/planning/frame_plan.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 
 struct Method {
   std::string_view name;
@@ -33,4 +34,4 @@ template <OptionsOfMethod Options, DrawWithOptions<Options> kDraw>
           }};
 }
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

@@ -1,14 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "render/planning/passes_by_need.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include "base/tasks.h"
-#include "contrejour/trace.h"
+#include "contrejour/expert/trace.h"
 #include "ghosts/pupil_search.h"
 #include "render/radiometry/wavelength_samples.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 namespace {
 
 constexpr std::size_t kFewest = 3;      // at least this many bands
@@ -150,4 +151,4 @@ std::optional<FramePlan> with_passes_by_need(const FramePlan& plan, const LensSt
   return done ? std::optional(std::move(out)) : std::nullopt;
 }
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Reduces a plan's wavelengths to as few as each ghost needs, for methods that draw every wavelength by itself (bundle,
 // tiled).
 #pragma once
@@ -6,7 +7,7 @@
 
 #include "render/planning/frame_plan.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 
 // Returns the plan with `passes` for each pair. The spectrum begins as three bands with about the same visible light;
 // each is halved until the images of the ghost at the band's two ends lie within a pixel and a half, or the band has
@@ -16,4 +17,4 @@ namespace contrejour {
 [[nodiscard]] std::optional<FramePlan> with_passes_by_need(const FramePlan& plan, const LensState& lens,
                                                            const Frame& frame, const Context& context);
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

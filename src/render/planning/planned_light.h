@@ -1,12 +1,13 @@
+// SPDX-License-Identifier: Apache-2.0
 // A light as renderers use it: the wavelengths at which it is drawn, and the factors from flux to pixel values.
 #pragma once
 
 #include <vector>
 
-#include "contrejour/colour.h"
-#include "contrejour/light_source.h"
+#include "contrejour/expert/colour.h"
+#include "contrejour/expert/light_source.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 
 // One wavelength at which a ghost of a light is rendered, with its gains.
 struct PlannedPass {
@@ -23,4 +24,4 @@ struct PlannedLight {
   std::vector<PlannedPass> passes;  // in order of wavelength
 };
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

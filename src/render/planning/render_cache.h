@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What successive frames have in common, so that it is computed only once. A section is a class of the layer that fills
 // it. Its type Key contains everything that the section's contents depend on and is comparable with ==; a section is
 // made from a key, and is replaced once another key is requested.
@@ -9,7 +10,7 @@
 #include <memory>
 #include <typeindex>
 
-namespace contrejour {
+namespace contrejour::inline internal {
 
 class RenderCache {
  public:
@@ -40,4 +41,4 @@ class RenderCache {
   std::map<std::type_index, std::any> sections_;
 };
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

@@ -1,8 +1,9 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "render/planning/statistics.h"
 
 #include <algorithm>
 
-namespace contrejour {
+namespace contrejour::inline internal {
 namespace {
 
 using Phases = std::vector<std::pair<std::string, double>>;
@@ -48,4 +49,4 @@ void count_last(RenderStatistics& statistics, const char* phase, double ms) {
   statistics.time_ms.insert(total_with(statistics.time_ms, ms), {phase, ms});
 }
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

@@ -1,9 +1,10 @@
+// SPDX-License-Identifier: Apache-2.0
 // Combines the statistics of a render's stages.
 #pragma once
 
-#include "contrejour/render_statistics.h"
+#include "contrejour/expert/render_statistics.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 
 // Adds counts and times; of memory held at once, takes the maximum. Phases with the same name are added.
 void add(RenderStatistics& sum, const RenderStatistics& one);
@@ -12,4 +13,4 @@ void add(RenderStatistics& sum, const RenderStatistics& one);
 void count_first(RenderStatistics& statistics, const char* phase, double ms);
 void count_last(RenderStatistics& statistics, const char* phase, double ms);
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The diffraction pattern that takes the place of a sharp iris for one ghost at one wavelength: the transmittance of
 // the stop plane with ringing along the opening's edge. A ghost without a pattern has the sharp iris. A renderer traces
 // the ghost along widened(path, reach()) with a round iris, so that every search and every box includes the light
@@ -8,9 +9,9 @@
 
 #include <span>
 
-#include "contrejour/trace.h"
+#include "contrejour/expert/trace.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 
 // A place where light crosses the stop, and the side of the square about it over which the mean is taken (the image of
 // a pixel in the stop plane), in stop radii.
@@ -46,4 +47,4 @@ class StopScreen {
   return path;
 }
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "render/radiometry/direct_light.h"
 
 #include <algorithm>
@@ -10,7 +11,7 @@
 #include "ghosts/direct_meter.h"
 #include "render/radiometry/wavelength_samples.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 namespace {
 
 // The numbers of bands that are measured, round by round, where there are many bands: at first six and a seventh to
@@ -132,6 +133,10 @@ bool measure_fluxes(const LensState& lens, const TablesByWavelength& tables, std
   }
 }
 
+}  // namespace contrejour::inline internal
+
+namespace contrejour {
+
 LightSource measured_source(const LensState& lens, const Frame& frame, const LightSource& light) {
   const Vec2 uv = frame.uv_from_sensor(chief_ray_image_point(lens, light, lens.design_wavelength_nm));
   const double outside = std::max(std::abs(uv.x - 0.5), std::abs(uv.y - 0.5)) / 0.5;
@@ -140,6 +145,10 @@ LightSource measured_source(const LensState& lens, const Frame& frame, const Lig
   const Vec2 sensor_mm = frame.sensor_from_uv(edge);
   return {direction_for_image_point(lens, sensor_mm, lens.design_wavelength_nm, light.distance_mm), light.distance_mm};
 }
+
+}  // namespace contrejour
+
+namespace contrejour::inline internal {
 
 Rgb direct_light(std::span<const SpectralBand> bands, std::span<const double> flux_mm2,
                  const std::function<double(std::size_t band)>& flux_on_axis_mm2) {
@@ -155,4 +164,4 @@ Rgb direct_light(std::span<const SpectralBand> bands, std::span<const double> fl
   return whole == Rgb{} ? sum(flux_on_axis_mm2) : whole;
 }
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The flux of a light's direct image, which is the unit of the ghosts' fluxes: docs/physics/radiometry.md.
 #pragma once
 
@@ -5,14 +6,14 @@
 #include <span>
 #include <vector>
 
-#include "contrejour/colour.h"
 #include "contrejour/context.h"
-#include "contrejour/direct_image.h"
+#include "contrejour/expert/colour.h"
+#include "contrejour/expert/direct_image.h"
 #include "contrejour/frame.h"
 #include "contrejour/lens.h"
 #include "optics/trace/by_wavelength.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 
 // A light at the place where its flux is measured, the bands with their wavelengths, and the bands' direct fluxes in
 // mm^2 at E0 = 1, which measure_fluxes() fills in.
@@ -36,4 +37,4 @@ struct MeteredLight {
 [[nodiscard]] Rgb direct_light(std::span<const SpectralBand> bands, std::span<const double> flux_mm2,
                                const std::function<double(std::size_t band)>& flux_on_axis_mm2);
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

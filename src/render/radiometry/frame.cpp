@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "contrejour/frame.h"
 
 #include <algorithm>
@@ -26,6 +27,10 @@ Frame frame_on_sensor(const LensState& lens, int width, int height) {
   return frame;
 }
 
+}  // namespace contrejour
+
+namespace contrejour::inline internal {
+
 Result<void> check_frame(const Frame& f) {
   const auto invalid = [](std::string what) { return failure(ErrorCode::InvalidArgument, std::move(what)); };
   if (f.width <= 0 || f.height <= 0 || f.full_width <= 0 || f.full_height <= 0)
@@ -45,4 +50,4 @@ Result<void> check_frame(const Frame& f) {
   return {};
 }
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

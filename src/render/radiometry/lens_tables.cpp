@@ -1,6 +1,7 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "render/radiometry/lens_tables.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 namespace {
 
 constexpr std::size_t kMaxKept = 2048;  // 160 MB for a lens with ten kinds of surfaces; a frame has at most 1024
@@ -32,4 +33,4 @@ void LensTables::forget_if_large() {
   if (reflected_.size() > kMaxKept) reflected_ = ReflectedShares();
 }
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A lens's reflectances by wavelength, as tables for tracing and as means for planning: a section of RenderCache, valid
 // from frame to frame as long as the surfaces reflect the same.
 // Thread-safety: from one thread at a time; the tables that it returns may be used from any.
@@ -12,7 +13,7 @@
 #include "optics/trace/by_wavelength.h"
 #include "render/radiometry/reflected_share.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 
 class LensTables {
  public:
@@ -44,4 +45,4 @@ class LensTables {
   ReflectedShares reflected_;
 };
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

@@ -1,12 +1,13 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "render/radiometry/reflected_share.h"
 
 #include <array>
 #include <cmath>
 #include <cstddef>
 
-#include "contrejour/coating.h"
+#include "contrejour/expert/coating.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 namespace {
 
 // Cosines of the angle in the medium of lower index: a ray at one such angle meets both sides of a lens in the same
@@ -59,4 +60,4 @@ double ReflectedShares::of(const Ghost& ghost, double lambda_nm) const {
   return share;
 }
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

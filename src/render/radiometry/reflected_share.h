@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // An approximate reflectance of a ghost's two reflections at a wavelength: it weights wavelengths against each other
 // before any ray is traced.
 #pragma once
@@ -7,10 +8,10 @@
 #include <span>
 #include <vector>
 
-#include "contrejour/ghost.h"
+#include "contrejour/expert/ghost.h"
 #include "contrejour/lens.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 
 class ReflectedShares {
  public:
@@ -29,4 +30,4 @@ class ReflectedShares {
   std::map<double, std::vector<double>> by_wavelength_;  // one for each surface; 1 for the stop
 };
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

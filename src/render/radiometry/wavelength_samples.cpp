@@ -1,9 +1,10 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "render/radiometry/wavelength_samples.h"
 
 #include <algorithm>
 #include <cmath>
 
-namespace contrejour {
+namespace contrejour::inline internal {
 
 WavelengthSamples::WavelengthSamples(std::span<const double> lambda_nm, std::size_t most) {
   if (lambda_nm.empty()) return;
@@ -53,4 +54,4 @@ std::vector<double> WavelengthSamples::shares(std::size_t count, std::size_t wav
   return shares;
 }
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

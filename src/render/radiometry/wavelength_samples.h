@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Chooses a few of many wavelengths to trace rays at. The places where rays meet the sensor, and their transmittances,
 // are smooth functions of 1 / lambda^2, in which dispersion is nearly linear (Cauchy), so that polynomials through
 // about five samples give the values at the other wavelengths.
@@ -7,7 +8,7 @@
 #include <span>
 #include <vector>
 
-namespace contrejour {
+namespace contrejour::inline internal {
 
 // Wavelengths in Leja's order: the two ends first, then each time the one at which the polynomial through those before
 // is least determined, so that each can test those before it (Reichel 1990, "Newton interpolation at Leja points", BIT
@@ -34,4 +35,4 @@ class WavelengthSamples {
   std::vector<std::size_t> order_;
 };
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

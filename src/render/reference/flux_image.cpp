@@ -1,9 +1,10 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "render/reference/flux_image.h"
 
 #include <algorithm>
 #include <cmath>
 
-namespace contrejour::reference {
+namespace contrejour::inline internal::reference {
 namespace {
 
 // A convex polygon of few corners, which is clipped repeatedly; its fixed size avoids heap allocation.
@@ -132,4 +133,4 @@ void FluxImage::add_to(std::vector<double>& rgb, const std::array<double, 3>& ga
   }
 }
 
-}  // namespace contrejour::reference
+}  // namespace contrejour::inline internal::reference

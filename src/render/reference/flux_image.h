@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // One ghost's flux over the pixels of a frame, and the exact spreading of a polygon of light over them.
 #pragma once
 
@@ -5,9 +6,9 @@
 #include <span>
 #include <vector>
 
-#include "contrejour/vec.h"
+#include "contrejour/expert/vec.h"
 
-namespace contrejour::reference {
+namespace contrejour::inline internal::reference {
 
 class FluxImage {
  public:
@@ -29,4 +30,4 @@ class FluxImage {
   std::vector<double> flux_;
 };
 
-}  // namespace contrejour::reference
+}  // namespace contrejour::inline internal::reference

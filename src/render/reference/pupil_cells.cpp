@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "render/reference/pupil_cells.h"
 
 #include <algorithm>
@@ -6,9 +7,9 @@
 #include <vector>
 
 #include "aperture/iris_blades.h"
-#include "contrejour/iris_field.h"
+#include "contrejour/expert/iris_field.h"
 
-namespace contrejour::reference {
+namespace contrejour::inline internal::reference {
 namespace {
 
 constexpr double kFailed = std::numeric_limits<double>::infinity();
@@ -425,4 +426,4 @@ CellCounts for_each_lit_polygon(const OpticalPath& path, const Iris& iris, const
   return walker.counts();
 }
 
-}  // namespace contrejour::reference
+}  // namespace contrejour::inline internal::reference

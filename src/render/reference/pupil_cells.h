@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A ghost's light, cell by cell of the entrance plane: the whole window is divided into cells, and each cell is
 // subdivided until its image on the sensor is small and has nearly straight edges.
 #pragma once
@@ -7,12 +8,12 @@
 #include <functional>
 #include <span>
 
+#include "contrejour/expert/trace.h"
 #include "contrejour/frame.h"
-#include "contrejour/trace.h"
 #include "render/planning/dirt_screen.h"
 #include "render/planning/stop_screen.h"
 
-namespace contrejour::reference {
+namespace contrejour::inline internal::reference {
 
 struct CellLimits {
   int root_cells = 192;            // on a side of the window, before any subdivision
@@ -46,4 +47,4 @@ CellCounts for_each_lit_polygon(const OpticalPath& path, const Iris& iris, const
                                 const std::function<bool()>& stop, const LitPolygon& lit,
                                 const StopScreen* screen = nullptr, const DirtScreen* dirt = nullptr);
 
-}  // namespace contrejour::reference
+}  // namespace contrejour::inline internal::reference

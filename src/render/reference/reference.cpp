@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "render/reference/reference.h"
 
 #include "base/clock.h"
@@ -7,7 +8,7 @@
 #include "render/reference/pupil_cells.h"
 #include "render/stop_patterns/screens.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 namespace {
 
 // One ghost of one light at one wavelength.
@@ -89,4 +90,4 @@ Result<DrawnFlare> render_reference(const PlannedFrame& planned, const Reference
   return flare;
 }
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

@@ -1,8 +1,9 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include "render/planning/method.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 
 // The reference of all tests: double precision, dense cells with exact footprints, and none of the other renderers'
 // approximations.
@@ -11,4 +12,4 @@ namespace contrejour {
 
 inline constexpr Method kReference = method_of<ReferenceOptions, render_reference>({.is_exact = true, .is_slow = true});
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "render/session/registry.h"
 
 #include <algorithm>
@@ -11,7 +12,7 @@
 #include "render/reference/reference.h"
 #include "render/tiled/tiled.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 
 std::span<const Method> all_methods() {
   static constexpr std::array kMethods{kAdaptive, kBundle, kTiled, kReference};
@@ -29,6 +30,10 @@ Result<const Method*> known_method(std::string_view name) {
   return failure(ErrorCode::InvalidArgument,
                  fmt::format("there is no method '{}'; choose one of {}", name, fmt::join(render_methods(), ", ")));
 }
+
+}  // namespace contrejour::inline internal
+
+namespace contrejour {
 
 std::vector<std::string_view> render_methods() {
   std::vector<std::string_view> names;

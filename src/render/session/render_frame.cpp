@@ -1,15 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "render/session/render_frame.h"
 
 #include <algorithm>
 
 #include "base/memory.h"
 #include "base/tasks.h"
-#include "contrejour/check_lens.h"
+#include "contrejour/expert/check_lens.h"
 #include "render/area_lights/area_render.h"
 #include "render/session/registry.h"
 #include "render/starburst/starburst_pass.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 namespace {
 
 constexpr double kGhostsShare = 0.9;  // of the progress; the rest is for the lights' own images
@@ -53,4 +54,4 @@ Result<Flare> render_frame(const MethodOptions& method, const FrameRequest& fram
   return flare;
 }
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

@@ -1,9 +1,10 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "contrejour/renderer.h"
 
 #include <optional>
 #include <utility>
 
-#include "contrejour/check_lens.h"
+#include "contrejour/expert/check_lens.h"
 #include "render/planning/frame_memory.h"
 #include "render/session/registry.h"
 #include "render/session/render_frame.h"

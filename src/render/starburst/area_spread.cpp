@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "render/starburst/area_spread.h"
 
 #include <algorithm>
@@ -9,7 +10,7 @@
 #include "render/area_lights/kernel.h"
 #include "render/area_lights/layers.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 namespace {
 
 using namespace area;
@@ -177,4 +178,4 @@ Result<void> add_area_spread(Image& image, std::span<const ImagedLight> areas, c
   return {};
 }
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The images of extended lights as diffraction and scattering spread them: a point's spread, blurred by the light's own
 // image (docs/physics/area-lights.md). Nothing is ever subtracted: if a point's spread has no negative light, the sum
 // has none.
@@ -9,7 +10,7 @@
 #include "contrejour/render.h"
 #include "render/starburst/light_groups.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 
 // What a point spread is needed for: pixels of some pitch, out to a radius from the point's image.
 struct PointSpread {
@@ -28,4 +29,4 @@ using AddPointSpread = std::function<Result<void>(Image& image, std::size_t ligh
                                            std::span<const Light> lights, const Frame& frame,
                                            const AddPointSpread& add_point, const Context& context);
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The exit pupil in direction cosines. Only a few rays are traced. Whether a place is open depends on the places where
 // its ray meets the stop and the rims that vignette; these are smooth functions of the cosines, so polynomials through
 // them give borders as sharp as the mask.
@@ -10,9 +11,9 @@
 #include <fmt/format.h>
 
 #include "base/tasks.h"
-#include "contrejour/check_lens.h"
-#include "contrejour/iris_field.h"
-#include "contrejour/lens_starburst.h"
+#include "contrejour/expert/check_lens.h"
+#include "contrejour/expert/iris_field.h"
+#include "contrejour/expert/lens_starburst.h"
 #include "render/starburst/mask_places.h"
 #include "render/starburst/pupil_dirt.h"
 #include "render/starburst/pupil_outline.h"

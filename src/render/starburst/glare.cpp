@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "render/starburst/glare.h"
 
 #include <array>
@@ -7,7 +8,7 @@
 
 #include "base/tasks.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 namespace {
 
 constexpr double kFlat_px = 30.0;  // beyond, the value at a pixel's middle is its mean to (1 / kFlat_px)^2
@@ -44,4 +45,4 @@ void add_glare(Image& image, std::span<const ImagedLight> lights, double r0_px, 
   });
 }
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

@@ -1,11 +1,12 @@
-#include "contrejour/lens_starburst.h"
+// SPDX-License-Identifier: Apache-2.0
+#include "contrejour/expert/lens_starburst.h"
 
 #include <algorithm>
 
 #include "base/tasks.h"
 #include "render/starburst/lens_pattern.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 namespace {
 
 // The lens's transmittance at each wavelength, averaged over some of the pupil's rays.
@@ -50,6 +51,10 @@ Result<StarburstSource> lens_pattern(const LensState& lens, const LightSource& l
   made.pupil_radius_mm = pupil->radius;
   return StarburstSource::make(pupil->mask, pupil->outline ? &*pupil->outline : nullptr, weighted, made, quiet);
 }
+
+}  // namespace contrejour::inline internal
+
+namespace contrejour {
 
 Result<Starburst> lens_starburst(const LensState& lens, const LightSource& light, std::span<const SpectralBand> bands,
                                  const LensStarburstSettings& settings, const Context& context) {

@@ -1,9 +1,10 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "render/starburst/light_groups.h"
 
 #include <algorithm>
 #include <cmath>
 
-namespace contrejour {
+namespace contrejour::inline internal {
 namespace {
 
 double brightness(const ImagedLight& light) {
@@ -47,4 +48,4 @@ std::vector<LightGroup> group_lights(std::span<const Light> lights, std::span<co
   return groups;
 }
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

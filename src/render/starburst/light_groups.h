@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Groups the lights that share a starburst. Up to kOwnStarbursts lights have one each; with more lights, those with
 // images in the same cell of a grid fixed to the frame share the starburst of the brightest, so that thousands of
 // lights stay affordable.
@@ -9,7 +10,7 @@
 
 #include "contrejour/render.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 
 inline constexpr std::size_t kOwnStarbursts = 24;
 inline constexpr int kSharingCells = 6;  // across the frame's longer side
@@ -28,4 +29,4 @@ using LightGroup = std::vector<ImagedLight>;  // brightest first
 [[nodiscard]] std::vector<LightGroup> group_lights(std::span<const Light> lights, std::span<const ImagedLight> imaged,
                                                    const Frame& frame);
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

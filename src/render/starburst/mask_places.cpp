@@ -1,8 +1,9 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "render/starburst/mask_places.h"
 
 #include <algorithm>
 
-namespace contrejour {
+namespace contrejour::inline internal {
 
 SmoothFit fit_places(std::span<const Vec2> from, std::span<const Vec2> to, int degree) {
   std::vector<double> values;
@@ -40,4 +41,4 @@ double MaskPlaces::sample() const {
   return length(at_knot_[middle] - at_knot_[middle - 1]) / kKnotStep;
 }
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

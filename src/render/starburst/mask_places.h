@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The places in another plane that light at the samples of an exit pupil's mask crosses.
 #pragma once
 
@@ -5,11 +6,11 @@
 #include <span>
 #include <vector>
 
-#include "contrejour/pupil_mask.h"
-#include "contrejour/vec.h"
+#include "contrejour/expert/pupil_mask.h"
+#include "contrejour/expert/vec.h"
 #include "render/starburst/smooth_fit.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 
 // A fit of both coordinates of one set of places as functions of another set.
 [[nodiscard]] SmoothFit fit_places(std::span<const Vec2> from, std::span<const Vec2> to, int degree);
@@ -34,4 +35,4 @@ class MaskPlaces {
   std::vector<Vec2> at_knot_;
 };
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Shapes keep sharp edges: their outlines are mapped corner by corner, and their coverage of the mask's samples is
 // exact.
 #include "render/starburst/pupil_dirt.h"
@@ -10,7 +11,7 @@
 #include "render/starburst/mask_places.h"
 #include "render/starburst/smooth_fit.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 namespace {
 
 constexpr double kBoxMargin = 0.01;   // of the box of the rays: polynomials are not valid far beyond
@@ -230,4 +231,4 @@ void add_dirt(const LensState& lens, const LightSource& light, const PupilRays& 
   PupilDirtPainter(lens, light, pupil, used, degree, out).paint(power_mm2);
 }
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "render/starburst/pupil_outline.h"
 
 #include <algorithm>
@@ -7,7 +8,7 @@
 
 #include "render/starburst/smooth_fit.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 namespace {
 
 constexpr double kRimShare = 0.1;     // about a rim, in which rays are used to find its circle in the stop
@@ -102,4 +103,4 @@ std::optional<PupilOutline> outline_of(const PupilRays& pupil, const OutlineRays
   return outline;
 }
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

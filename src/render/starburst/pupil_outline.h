@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The exit pupil's outline as circles and lines: the far field of a starburst, beyond what the mask's samples resolve,
 // is computed from it.
 #pragma once
@@ -6,11 +7,11 @@
 #include <optional>
 #include <vector>
 
-#include "contrejour/iris.h"
-#include "contrejour/starburst.h"
+#include "contrejour/expert/iris.h"
+#include "contrejour/expert/starburst.h"
 #include "render/starburst/pupil_rays.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 
 struct OutlineRays {
   const std::vector<std::size_t>& rims;  // those that cut the pupil, or nearly, with obscurations
@@ -23,4 +24,4 @@ struct OutlineRays {
 [[nodiscard]] std::optional<PupilOutline> outline_of(const PupilRays& pupil, const OutlineRays& of, const Iris& iris,
                                                      double open_area);
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "render/starburst/pupil_rays.h"
 
 #include <algorithm>
@@ -6,7 +7,7 @@
 #include "ghosts/pupil_search.h"
 #include "optics/trace/beside_axis.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 namespace {
 
 constexpr int kSide = 41;
@@ -78,4 +79,4 @@ std::optional<PupilRays> trace_pupil(const LensState& lens, const IrisOpening& i
   return pupil;
 }
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

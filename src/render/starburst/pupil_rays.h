@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A grid of a light's rays over the part of the entrance window that the direct image uses, traced in double precision,
 // with the quantities that decide whether each gets through.
 #pragma once
@@ -6,10 +7,10 @@
 #include <vector>
 
 #include "contrejour/context.h"
+#include "contrejour/expert/trace.h"
 #include "contrejour/lens.h"
-#include "contrejour/trace.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 
 struct PupilRay {
   bool arrived = false;
@@ -37,4 +38,4 @@ struct PupilRays {
 [[nodiscard]] std::optional<PupilRays> trace_pupil(const LensState& lens, const IrisOpening& iris,
                                                    const LightSource& light, double lambda_nm, const Context& context);
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

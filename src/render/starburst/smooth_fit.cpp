@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "render/starburst/smooth_fit.h"
 
 #include <algorithm>
@@ -6,7 +7,7 @@
 #include <cmath>
 #include <limits>
 
-namespace contrejour {
+namespace contrejour::inline internal {
 namespace {
 
 constexpr std::size_t kMostTerms = 45;  // those of the highest degree
@@ -110,4 +111,4 @@ double SmoothFit::operator()(Vec2 place, std::size_t function) const {
   return sum;
 }
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

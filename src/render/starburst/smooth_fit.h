@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Least-squares polynomials for smooth functions of a place that are known at scattered places. The basis consists of
 // products of Chebyshev polynomials over the places' bounding box, so that the normal equations stay well conditioned.
 #pragma once
@@ -6,9 +7,9 @@
 #include <span>
 #include <vector>
 
-#include "contrejour/vec.h"
+#include "contrejour/expert/vec.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 
 class SmoothFit {
  public:
@@ -36,4 +37,4 @@ class SmoothFit {
   std::vector<double> weights_;  // [function * terms + term]
 };
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "render/starburst/starburst_pass.h"
 
 #include <algorithm>
@@ -9,8 +10,8 @@
 
 #include "base/clock.h"
 #include "base/tasks.h"
-#include "contrejour/check_lens.h"
-#include "contrejour/lens_starburst.h"
+#include "contrejour/expert/check_lens.h"
+#include "contrejour/expert/lens_starburst.h"
 #include "render/planning/statistics.h"
 #include "render/radiometry/direct_light.h"
 #include "render/starburst/area_spread.h"
@@ -18,7 +19,7 @@
 #include "render/starburst/lens_pattern.h"
 #include "render/starburst/light_groups.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 namespace {
 
 constexpr int kBands = 120;  // every 3.3 nm; hullin2011 3.3 finds 5 nm fine enough
@@ -301,4 +302,4 @@ Result<void> add_light_images(Flare& flare, const LensState& lens, std::span<con
   return drawn;
 }
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

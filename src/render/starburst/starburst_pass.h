@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What is added to every method's picture: the lights' own images as diffraction spreads them, and their glare.
 #pragma once
 
@@ -5,7 +6,7 @@
 
 #include "contrejour/render.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 
 // Checks the options of starburst and glare, and the lights that they apply to. Errors: InvalidArgument.
 [[nodiscard]] Result<void> check_light_images(std::span<const Light> lights, const FrameSettings& settings);
@@ -15,4 +16,4 @@ namespace contrejour {
 [[nodiscard]] Result<void> add_light_images(Flare& flare, const LensState& lens, std::span<const Light> lights,
                                             const FrameSettings& settings, const Context& context);
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The transmittance of dirt for wavelengths that are drawn together, with each one's fraction of each channel's light.
 #pragma once
 
@@ -8,7 +9,7 @@
 
 #include "render/planning/dirt_screen.h"
 
-namespace contrejour::screens {
+namespace contrejour::inline internal::screens {
 
 struct BandDirt {
   struct Part {
@@ -34,4 +35,4 @@ struct BandDirt {
   [[nodiscard]] const DirtField* outlines() const { return parts.size() == 1 ? first().outlines() : nullptr; }
 };
 
-}  // namespace contrejour::screens
+}  // namespace contrejour::inline internal::screens

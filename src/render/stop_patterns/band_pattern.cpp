@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "render/stop_patterns/band_pattern.h"
 
 #include <algorithm>
@@ -6,7 +7,7 @@
 
 #include "render/stop_patterns/resampled.h"
 
-namespace contrejour::screens {
+namespace contrejour::inline internal::screens {
 namespace {
 
 void lay_out(const PatternTexture& texture, double extent, std::size_t part, std::size_t stride,
@@ -94,4 +95,4 @@ float BandPattern::brightest(Vec2 middle, double distance) const {
   return std::max(largest(samples), largest(samples + static_cast<std::size_t>(level.pitch()) * stride_));
 }
 
-}  // namespace contrejour::screens
+}  // namespace contrejour::inline internal::screens

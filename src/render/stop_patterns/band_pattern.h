@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The patterns of a few wavelengths on a common grid, interleaved in memory: one look-up serves all that are drawn
 // together.
 // Units: stop radii. Thread-safety: constant after construction.
@@ -10,7 +11,7 @@
 #include "render/stop_patterns/pattern_texture.h"
 #include "render/stop_patterns/short_light.h"
 
-namespace contrejour::screens {
+namespace contrejour::inline internal::screens {
 
 class BandPattern {
  public:
@@ -46,4 +47,4 @@ class BandPattern {
   float brightest_of_last_ = 0.0F;
 };
 
-}  // namespace contrejour::screens
+}  // namespace contrejour::inline internal::screens

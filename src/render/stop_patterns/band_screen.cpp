@@ -1,8 +1,9 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "render/stop_patterns/band_screen.h"
 
 #include <algorithm>
 
-namespace contrejour::screens {
+namespace contrejour::inline internal::screens {
 
 bool BandScreen::is_grey() const { return parts.size() == 1 && parts.front().channel == std::array{1.0F, 1.0F, 1.0F}; }
 
@@ -42,4 +43,4 @@ ScreenView BandScreen::over(Vec2 middle, double radius) const {
   return {first, most};
 }
 
-}  // namespace contrejour::screens
+}  // namespace contrejour::inline internal::screens

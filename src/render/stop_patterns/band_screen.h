@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The stop pattern in front of a polygon, channel by channel, in place of a sharp iris.
 #pragma once
 
@@ -5,11 +6,11 @@
 #include <memory>
 #include <vector>
 
-#include "contrejour/vec.h"
+#include "contrejour/expert/vec.h"
 #include "render/stop_patterns/band_pattern.h"
 #include "render/stop_patterns/iris_screens.h"
 
-namespace contrejour::screens {
+namespace contrejour::inline internal::screens {
 
 // The part of a stop pattern that a disc covers: its kind, and about its largest transmittance, at most 1.
 struct ScreenView {
@@ -40,4 +41,4 @@ struct BandScreen {
   double unseen = 0.0;  // pixel values that are negligible
 };
 
-}  // namespace contrejour::screens
+}  // namespace contrejour::inline internal::screens

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "render/stop_patterns/dirt_fringes.h"
 
 #include <algorithm>
@@ -5,7 +6,7 @@
 
 #include "base/tasks.h"
 
-namespace contrejour::screens {
+namespace contrejour::inline internal::screens {
 namespace {
 
 constexpr double kPlanesPerOctave = 8.0;  // fringes of successive planes differ by 4 per cent
@@ -69,4 +70,4 @@ std::shared_ptr<const FringedPlane> DirtFringes::plane(const Wanted& wanted) con
   return found == planes_.end() ? nullptr : found->second;
 }
 
-}  // namespace contrejour::screens
+}  // namespace contrejour::inline internal::screens

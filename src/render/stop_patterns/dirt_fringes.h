@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Diffraction shadows of dirt: planes of shadows with fringes, by wavelength times effective distance, as a section of
 // RenderCache; and the shadows that one ghost has.
 // Thread-safety: make() from one thread at a time; all else from any thread, afterwards.
@@ -9,11 +10,11 @@
 #include <vector>
 
 #include "contrejour/context.h"
-#include "contrejour/dirt.h"
+#include "contrejour/expert/dirt.h"
 #include "render/planning/dirt_field.h"
 #include "render/stop_patterns/fringed_plane.h"
 
-namespace contrejour::screens {
+namespace contrejour::inline internal::screens {
 
 // The dirt of a ghost at one wavelength, or in a band.
 class FringedDirt final : public DirtScreen {
@@ -64,4 +65,4 @@ class DirtFringes {
   std::map<PlaneKey, std::shared_ptr<const FringedPlane>> planes_;
 };
 
-}  // namespace contrejour::screens
+}  // namespace contrejour::inline internal::screens

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "render/stop_patterns/edge_profile.h"
 
 #include <algorithm>
@@ -6,7 +7,7 @@
 
 #include "base/scalar.h"
 
-namespace contrejour::screens {
+namespace contrejour::inline internal::screens {
 namespace {
 
 constexpr double kStep = 1.0 / 128.0;  // a fringe at t = 32 is eight of them
@@ -133,4 +134,4 @@ double EdgeProfile::level_above(double tolerance) const {
   return kDarkBelow + static_cast<double>(first - worst_from_.begin()) * kStep;
 }
 
-}  // namespace contrejour::screens
+}  // namespace contrejour::inline internal::screens

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A table of the irradiance behind a long straight edge: 0 in the dark, 1 far inside the light, with fringes between,
 // of which the first reaches 1.370 (Born & Wolf 8.7.3). Positions are t = d sqrt(2 F), with d the distance into the
 // light in stop radii. A band of wavelengths is averaged, which leaves the first fringes and blurs the others.
@@ -8,7 +9,7 @@
 
 #include <vector>
 
-namespace contrejour::screens {
+namespace contrejour::inline internal::screens {
 
 class EdgeProfile {
  public:
@@ -40,4 +41,4 @@ class EdgeProfile {
   std::vector<double> error_to_, error_from_;  // squared error left out before and from a step
 };
 
-}  // namespace contrejour::screens
+}  // namespace contrejour::inline internal::screens

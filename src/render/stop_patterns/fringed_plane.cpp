@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "render/stop_patterns/fringed_plane.h"
 
 #include <algorithm>
@@ -9,7 +10,7 @@
 
 #include "base/scalar.h"
 
-namespace contrejour::screens {
+namespace contrejour::inline internal::screens {
 namespace {
 
 constexpr double kSharpSpeck = 5.5;  // in units of sqrt(lambda z): the rim of wider specks is nearly straight
@@ -375,4 +376,4 @@ bool FringedPlane::is_clean(Vec2 middle_mm, double radius_mm) const {
   return true;
 }
 
-}  // namespace contrejour::screens
+}  // namespace contrejour::inline internal::screens

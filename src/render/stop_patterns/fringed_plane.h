@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A plane of dirt out of focus: the transmittance of its shapes for a ghost's light at a wavelength, or in a band, as
 // shadows with fringes. Each shape subtracts its own wave from the light's. The results multiply, and the transmittance
 // is |product|^2, which is exact for shapes apart from each other and for sharp ones that overlap. A scratch's wave is
@@ -19,11 +20,11 @@
 #include <span>
 #include <vector>
 
-#include "contrejour/dirt.h"
+#include "contrejour/expert/dirt.h"
 #include "diffraction/straight_edge.h"
 #include "render/planning/cell_flags.h"
 
-namespace contrejour::screens {
+namespace contrejour::inline internal::screens {
 
 class FringedPlane {
  public:
@@ -103,4 +104,4 @@ class FringedPlane {
   std::array<Level, 5> levels_;
 };
 
-}  // namespace contrejour::screens
+}  // namespace contrejour::inline internal::screens

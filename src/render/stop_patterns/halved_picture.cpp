@@ -1,10 +1,11 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "render/stop_patterns/halved_picture.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
-namespace contrejour::screens {
+namespace contrejour::inline internal::screens {
 
 HalvedPicture::HalvedPicture(int side, double extent, std::vector<float> samples) : extent_(extent) {
   levels_.push_back({side, std::move(samples)});
@@ -50,4 +51,4 @@ double HalvedPicture::at(Vec2 p, double width) const {
   return rest > 0.0 && fine + 1 < levels_.size() ? std::lerp(value, bilinear(levels_[fine + 1], p), rest) : value;
 }
 
-}  // namespace contrejour::screens
+}  // namespace contrejour::inline internal::screens

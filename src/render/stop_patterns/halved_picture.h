@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A square picture for look-ups of the mean over a square about any point: an image pyramid.
 // Units: the caller's, for positions; 0 outside. Thread-safety: constant after construction.
 #pragma once
@@ -5,9 +6,9 @@
 #include <span>
 #include <vector>
 
-#include "contrejour/vec.h"
+#include "contrejour/expert/vec.h"
 
-namespace contrejour::screens {
+namespace contrejour::inline internal::screens {
 
 class HalvedPicture {
  public:
@@ -33,4 +34,4 @@ class HalvedPicture {
   std::vector<Level> levels_;
 };
 
-}  // namespace contrejour::screens
+}  // namespace contrejour::inline internal::screens

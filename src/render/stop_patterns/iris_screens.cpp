@@ -1,10 +1,11 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "render/stop_patterns/iris_screens.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-namespace contrejour::screens {
+namespace contrejour::inline internal::screens {
 namespace {
 
 // In stop radii: pixels that cross the rim have their middle beyond it.
@@ -80,4 +81,4 @@ ScreenPart TextureScreen::over(Vec2 middle, double radius, double /*tolerance*/)
   return length(middle) - radius > reach() ? ScreenPart::Dark : ScreenPart::Varied;
 }
 
-}  // namespace contrejour::screens
+}  // namespace contrejour::inline internal::screens

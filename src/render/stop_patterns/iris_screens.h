@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Stop patterns of the iris: fringes along its edges, or a pattern of the whole iris. At crossings of the stop before
 // the last one the iris is sharp.
 #pragma once
@@ -9,7 +10,7 @@
 #include "render/stop_patterns/edge_profile.h"
 #include "render/stop_patterns/pattern_texture.h"
 
-namespace contrejour::screens {
+namespace contrejour::inline internal::screens {
 
 class IrisScreen : public StopScreen {
  public:
@@ -85,4 +86,4 @@ class TextureScreen final : public IrisScreen {
   std::shared_ptr<const PatternTexture> texture_;
 };
 
-}  // namespace contrejour::screens
+}  // namespace contrejour::inline internal::screens

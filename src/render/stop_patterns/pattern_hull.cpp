@@ -1,10 +1,11 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "render/stop_patterns/pattern_hull.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
-namespace contrejour::screens {
+namespace contrejour::inline internal::screens {
 namespace {
 
 std::array<Vec2, PatternHull::kLines> even_normals() {
@@ -43,4 +44,4 @@ void PatternHull::hold(const PatternHull& other, double times) {
   nearest_ = *std::min_element(most_.begin(), most_.end());
 }
 
-}  // namespace contrejour::screens
+}  // namespace contrejour::inline internal::screens

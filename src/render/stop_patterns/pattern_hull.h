@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A bounding polygon of the visible part of a pattern. All polygons have the same directions, so that those of several
 // wavelengths are combined by taking the larger distances. Units: stop radii.
 #pragma once
@@ -6,9 +7,9 @@
 #include <array>
 #include <cstddef>
 
-#include "contrejour/vec.h"
+#include "contrejour/expert/vec.h"
 
-namespace contrejour::screens {
+namespace contrejour::inline internal::screens {
 
 class PatternHull {
  public:
@@ -28,4 +29,4 @@ class PatternHull {
   double nearest_ = 0.0;  // smallest of them
 };
 
-}  // namespace contrejour::screens
+}  // namespace contrejour::inline internal::screens

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "render/stop_patterns/pattern_texture.h"
 
 #include <algorithm>
@@ -7,7 +8,7 @@
 #include <numeric>
 #include <span>
 
-namespace contrejour::screens {
+namespace contrejour::inline internal::screens {
 namespace {
 
 constexpr double kFluxBeyond = 0.01;  // fraction that may be left out
@@ -142,4 +143,4 @@ double PatternTexture::flux() const {
   return std::accumulate(samples().begin(), samples().end(), 0.0) * pitch * pitch;
 }
 
-}  // namespace contrejour::screens
+}  // namespace contrejour::inline internal::screens

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A pattern over the stop plane for look-ups: the mean over a square about any point, and the remainder outside any
 // radius.
 // Units: stop radii. Thread-safety: constant after construction.
@@ -6,11 +7,11 @@
 #include <span>
 #include <vector>
 
-#include "contrejour/vec.h"
+#include "contrejour/expert/vec.h"
 #include "render/stop_patterns/halved_picture.h"
 #include "render/stop_patterns/pattern_hull.h"
 
-namespace contrejour::screens {
+namespace contrejour::inline internal::screens {
 
 class PatternTexture {
  public:
@@ -51,4 +52,4 @@ class PatternTexture {
   std::vector<SectorRest> sector_rest_;  // the same, by sector
 };
 
-}  // namespace contrejour::screens
+}  // namespace contrejour::inline internal::screens

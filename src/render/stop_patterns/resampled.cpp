@@ -1,9 +1,10 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "render/stop_patterns/resampled.h"
 
 #include <algorithm>
 #include <cstddef>
 
-namespace contrejour::screens {
+namespace contrejour::inline internal::screens {
 namespace {
 
 // The position of a sample of one grid between two samples of another, along one axis.
@@ -44,4 +45,4 @@ std::vector<float> resampled(const SquareSamples& from, int side, double extent)
   return out;
 }
 
-}  // namespace contrejour::screens
+}  // namespace contrejour::inline internal::screens

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Resamples a picture over a square of the stop plane to the samples of another square: bilinear interpolation, which
 // falls to zero within a sample beyond the border. Units: stop radii. Thread-safety: pure.
 #pragma once
@@ -5,7 +6,7 @@
 #include <span>
 #include <vector>
 
-namespace contrejour::screens {
+namespace contrejour::inline internal::screens {
 
 // Rows of side x side samples over the square from -extent to extent.
 struct SquareSamples {
@@ -16,4 +17,4 @@ struct SquareSamples {
 
 [[nodiscard]] std::vector<float> resampled(const SquareSamples& from, int side, double extent);
 
-}  // namespace contrejour::screens
+}  // namespace contrejour::inline internal::screens

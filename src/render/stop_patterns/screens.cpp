@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "render/stop_patterns/screens.h"
 
 #include <algorithm>
@@ -12,7 +13,7 @@
 #include "render/stop_patterns/stop_patterns.h"
 #include "render/stop_patterns/stop_wave.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 namespace {
 
 using screens::EdgeScreen;
@@ -226,4 +227,4 @@ std::shared_ptr<const DirtScreen> Screens::dirt_of(const Ghost& ghost, double la
   return found == dirt_.end() ? nullptr : found->second;
 }
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

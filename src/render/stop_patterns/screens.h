@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The stop patterns and diffraction shadows of a frame's ghosts, as FrameSettings requests them, for one lens.
 // Thread-safety: prepare() from one thread; of() from any thread, afterwards.
 #pragma once
@@ -7,8 +8,8 @@
 #include <span>
 #include <vector>
 
+#include "contrejour/expert/iris_field.h"
 #include "contrejour/frame_settings.h"
-#include "contrejour/iris_field.h"
 #include "render/planning/dirt_screen.h"
 #include "render/planning/frame_plan.h"
 #include "render/planning/render_cache.h"
@@ -16,7 +17,7 @@
 #include "render/stop_patterns/stop_patterns.h"
 #include "render/stop_patterns/stop_wave.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 
 class Screens {
  public:
@@ -85,4 +86,4 @@ class Screens {
   std::map<Key, std::shared_ptr<const DirtScreen>> dirt_;
 };
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

@@ -1,10 +1,11 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "render/stop_patterns/shadow_cutter.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
-namespace contrejour::screens {
+namespace contrejour::inline internal::screens {
 namespace {
 
 constexpr double kOff = 0.02;        // of the finest detail: error of outlines
@@ -205,4 +206,4 @@ void ShadowCutter::find_parts(const DirtField& dirt, std::span<const PlaneView> 
   }
 }
 
-}  // namespace contrejour::screens
+}  // namespace contrejour::inline internal::screens

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Clips the shadows of dirt's shapes on a polygon to polygons: each with the light that a shape takes of what earlier
 // shapes left. A renderer that adds up polygons draws them as light of negative sign: exactly, and for the cost of
 // their outlines. Accuracy: points in the dirt's plane are taken as linear in the polygon's coordinates; outlines are
@@ -11,7 +12,7 @@
 
 #include "render/planning/dirt_field.h"
 
-namespace contrejour::screens {
+namespace contrejour::inline internal::screens {
 
 // The map from a polygon's coordinates (pixels, for example) to the plane of the dirt, in mm.
 struct PlaneView {
@@ -66,4 +67,4 @@ class ShadowCutter {
   std::vector<std::uint32_t> found_;
 };
 
-}  // namespace contrejour::screens
+}  // namespace contrejour::inline internal::screens

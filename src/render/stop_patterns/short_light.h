@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Packs irradiance in 16 bits, so that two neighbours in a table are one word. The code is a positive float with 4 bits
 // of exponent and 12 of mantissa: a shift and a sum turn it into a 32-bit float, from which none() is subtracted.
 // Accuracy: 2^-13 of the light plus none(), which is at most 2^-15 of the largest value. 0 is exact. Thread-safety: a
@@ -8,7 +9,7 @@
 #include <bit>
 #include <cstdint>
 
-namespace contrejour::screens {
+namespace contrejour::inline internal::screens {
 
 class ShortLight {
  public:
@@ -37,4 +38,4 @@ class ShortLight {
   std::int32_t lowest_;
 };
 
-}  // namespace contrejour::screens
+}  // namespace contrejour::inline internal::screens

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "render/stop_patterns/stop_patterns.h"
 
 #include <algorithm>
@@ -6,11 +7,11 @@
 #include <set>
 
 #include "base/tasks.h"
-#include "contrejour/fresnel.h"
-#include "contrejour/iris_field.h"
+#include "contrejour/expert/fresnel.h"
+#include "contrejour/expert/iris_field.h"
 #include "render/stop_patterns/resampled.h"
 
-namespace contrejour::screens {
+namespace contrejour::inline internal::screens {
 namespace {
 
 constexpr int kMaskSamples = 256;     // across the stop
@@ -171,4 +172,4 @@ StopPatterns::Band StopPatterns::band(std::span<const PatternTexture* const> par
   return bands_.try_emplace(key, std::move(made)).first->second;
 }
 
-}  // namespace contrejour::screens
+}  // namespace contrejour::inline internal::screens

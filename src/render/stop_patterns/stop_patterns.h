@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The diffraction patterns of one iris, a section of RenderCache: on a grid of Fresnel numbers, by band of wavelengths,
 // or by fractional order. See docs/physics/diffraction.md. Thread-safety: band() from any thread while no pattern is
 // made; all else from one thread at a time.
@@ -13,14 +14,14 @@
 #include <vector>
 
 #include "contrejour/context.h"
-#include "contrejour/fractional_fourier.h"
-#include "contrejour/iris.h"
-#include "contrejour/pupil_mask.h"
+#include "contrejour/expert/fractional_fourier.h"
+#include "contrejour/expert/iris.h"
+#include "contrejour/expert/pupil_mask.h"
 #include "render/stop_patterns/band_pattern.h"
 #include "render/stop_patterns/edge_profile.h"
 #include "render/stop_patterns/pattern_texture.h"
 
-namespace contrejour::screens {
+namespace contrejour::inline internal::screens {
 
 class StopPatterns {
  public:
@@ -83,4 +84,4 @@ class StopPatterns {
   std::map<std::vector<const PatternTexture*>, Band> bands_;
 };
 
-}  // namespace contrejour::screens
+}  // namespace contrejour::inline internal::screens

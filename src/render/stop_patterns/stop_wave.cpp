@@ -1,14 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "render/stop_patterns/stop_wave.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 
-#include "contrejour/first_order.h"
-#include "contrejour/fresnel.h"
+#include "contrejour/expert/first_order.h"
+#include "contrejour/expert/fresnel.h"
 #include "optics/surface/shape_constants.h"
 
-namespace contrejour::screens {
+namespace contrejour::inline internal::screens {
 namespace {
 
 // Slopes are dy per unit of distance along the axis, in the direction of travel (first_order.cpp); the sign of a
@@ -122,4 +123,4 @@ PlaneWave front_wave(const OpticalPath& path, double light_distance_mm) {
   return mean_of(wave_of(in_x, in_x.front), wave_of(in_y, in_y.front));
 }
 
-}  // namespace contrejour::screens
+}  // namespace contrejour::inline internal::screens

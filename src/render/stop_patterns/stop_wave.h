@@ -1,16 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
 // First-order properties of the wave of a path's light at its last crossing of the stop: they determine the shadow of
 // the stop's edge on the sensor. Earlier crossings stay sharp: their rims are blurred much as the last one's is, but a
 // pattern of a pattern has no closed form, and such ghosts, which cross the stop three times, are faint. A lens without
 // axial symmetry has two such waves, of which the mean is used (docs/physics/surfaces.md).
-// Source: Collins 1970 eq. 12 (contrejour/fresnel.h). Thread-safety: pure functions.
+// Source: Collins 1970 eq. 12 (contrejour/expert/fresnel.h). Thread-safety: pure functions.
 #pragma once
 
 #include <limits>
 #include <vector>
 
-#include "contrejour/trace.h"
+#include "contrejour/expert/trace.h"
 
-namespace contrejour::screens {
+namespace contrejour::inline internal::screens {
 
 struct StopWave {
   double fresnel_number = std::numeric_limits<double>::infinity();  // a^2 (A + B c) / (lambda B)
@@ -34,4 +35,4 @@ struct PlaneWave {
 [[nodiscard]] std::vector<PlaneWave> stop_crossing_waves(const OpticalPath& path, double light_distance_mm);
 [[nodiscard]] PlaneWave front_wave(const OpticalPath& path, double light_distance_mm);
 
-}  // namespace contrejour::screens
+}  // namespace contrejour::inline internal::screens

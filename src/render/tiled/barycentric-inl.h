@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Barycentric coordinates of a point in a convex quadrilateral, or in the two triangles it is split into:
 // bodonyi2023 3.4. Templated on the number type T: double, or a packet of floats. Compiled once per instruction
 // set (Highway's foreach_target), hence the toggling guard in place of an ordinary one.
@@ -15,7 +16,7 @@
 #include "optics/surface/surface-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace contrejour::kernels::HWY_NAMESPACE {
+namespace contrejour::inline internal::kernels::HWY_NAMESPACE {
 
 // The scalar counterpart of the packets' select (packet-inl.h).
 HWY_INLINE double select(bool use_a, double a, double b) { return use_a ? a : b; }
@@ -189,7 +190,7 @@ class LoopDeRose {
   }
 };
 
-}  // namespace contrejour::kernels::HWY_NAMESPACE
+}  // namespace contrejour::inline internal::kernels::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #endif  // toggling guard

@@ -1,9 +1,10 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "render/tiled/primitive.h"
 
 #include <algorithm>
 #include <cmath>
 
-namespace contrejour::tiled {
+namespace contrejour::inline internal::tiled {
 namespace {
 
 struct Span {
@@ -29,4 +30,4 @@ PixelRange pixels_within(const std::array<float, 4>& x, const std::array<float, 
   return {columns.first, rows.first, columns.last, rows.last};
 }
 
-}  // namespace contrejour::tiled
+}  // namespace contrejour::inline internal::tiled

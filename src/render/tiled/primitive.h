@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What bodonyi2023 4.1 calls a primitive: a cell of a ghost's ray grid, or a block of cells merged into one, on the
 // frame.
 #pragma once
@@ -9,7 +10,7 @@
 
 #include "contrejour/frame.h"
 
-namespace contrejour::tiled {
+namespace contrejour::inline internal::tiled {
 
 // Pixels of the frame with their middle within a primitive's bounds, both ends included.
 struct PixelRange {
@@ -68,4 +69,4 @@ struct PrimitiveBuffer {
   }
 };
 
-}  // namespace contrejour::tiled
+}  // namespace contrejour::inline internal::tiled

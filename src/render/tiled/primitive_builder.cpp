@@ -1,10 +1,11 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "render/tiled/primitive_builder.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-namespace contrejour::tiled {
+namespace contrejour::inline internal::tiled {
 namespace {
 
 // The map is not smooth where the areas of the cells around a vertex differ by more than this factor.
@@ -354,4 +355,4 @@ std::uint64_t PrimitiveBuilder::build(const RayGrid& grid, const TracedPass& tra
   return count;
 }
 
-}  // namespace contrejour::tiled
+}  // namespace contrejour::inline internal::tiled

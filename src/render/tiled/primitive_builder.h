@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // From a traced grid to primitives: bodonyi2023 4.1 and 4.2.
 #pragma once
 
@@ -10,7 +11,7 @@
 #include "render/planning/dirt_screen.h"
 #include "render/tiled/primitive.h"
 
-namespace contrejour::tiled {
+namespace contrejour::inline internal::tiled {
 
 // The ghost, light and wavelength of a traced grid, as far as primitives need them.
 struct TracedPass {
@@ -75,4 +76,4 @@ class PrimitiveBuilder {
   PrimitiveBuffer* out_ = nullptr;
 };
 
-}  // namespace contrejour::tiled
+}  // namespace contrejour::inline internal::tiled

@@ -1,10 +1,11 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "render/tiled/tile_lists.h"
 
 #include <algorithm>
 
 #include "base/tasks.h"
 
-namespace contrejour::tiled {
+namespace contrejour::inline internal::tiled {
 namespace {
 
 constexpr std::size_t kPrimitivesPerChunk = 8192;
@@ -100,4 +101,4 @@ bool refine_lists(std::span<const Primitive> primitives, const TileGrid& coarse_
   });
 }
 
-}  // namespace contrejour::tiled
+}  // namespace contrejour::inline internal::tiled

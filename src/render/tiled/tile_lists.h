@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Lists the primitives that touch each tile of the frame: bodonyi2023 4.3. A primitive touches a tile when the middle
 // of one of the tile's pixels lies within the primitive's bounds. Lists are counted, then filled, so that no primitive
 // is ever left out; each list is in the order of the primitives, whatever the number of threads.
@@ -11,7 +12,7 @@
 #include "contrejour/context.h"
 #include "render/tiled/primitive.h"
 
-namespace contrejour::tiled {
+namespace contrejour::inline internal::tiled {
 
 // Square tiles over a frame, rows from the top; the last tile of a row or a column may be cut off.
 struct TileGrid {
@@ -52,4 +53,4 @@ bool list_by_tile(std::span<const Primitive> primitives, const TileGrid& grid, c
 bool refine_lists(std::span<const Primitive> primitives, const TileGrid& coarse_grid, const TileLists& coarse,
                   const TileGrid& grid, const Context& context, TileLists& out);
 
-}  // namespace contrejour::tiled
+}  // namespace contrejour::inline internal::tiled

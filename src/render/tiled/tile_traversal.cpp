@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "render/tiled/tile_traversal.h"
 
 #include <algorithm>
@@ -18,7 +19,7 @@
 #include "render/tiled/barycentric-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace contrejour::tiled::HWY_NAMESPACE {
+namespace contrejour::inline internal::tiled::HWY_NAMESPACE {
 
 namespace hk = kernels::HWY_NAMESPACE;
 namespace hn = hwy::HWY_NAMESPACE;
@@ -224,11 +225,11 @@ void traverse(const TraversalInput& input, std::span<const std::uint32_t> list, 
   }
 }
 
-}  // namespace contrejour::tiled::HWY_NAMESPACE
+}  // namespace contrejour::inline internal::tiled::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace contrejour::tiled {
+namespace contrejour::inline internal::tiled {
 
 HWY_EXPORT(traverse);
 
@@ -266,5 +267,5 @@ void traverse_tile(const TraversalInput& input, std::span<const std::uint32_t> l
   HWY_DYNAMIC_DISPATCH(traverse)(input, list, tile);
 }
 
-}  // namespace contrejour::tiled
+}  // namespace contrejour::inline internal::tiled
 #endif  // HWY_ONCE

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Each pixel sums the light of the primitives in its tile's list: bodonyi2023 4.4 and 4.5.
 #pragma once
 
@@ -14,7 +15,7 @@
 #include "render/tiled/primitive.h"
 #include "render/tiled/tile_lists.h"
 
-namespace contrejour::tiled {
+namespace contrejour::inline internal::tiled {
 
 // Factor from flux to pixel value, by channel.
 using Gain = std::array<float, 3>;
@@ -46,4 +47,4 @@ class TilePixels {
 // gain, unless the interpolated r_rel or stop places show that the light is blocked.
 void traverse_tile(const TraversalInput& input, std::span<const std::uint32_t> list, TilePixels& tile);
 
-}  // namespace contrejour::tiled
+}  // namespace contrejour::inline internal::tiled

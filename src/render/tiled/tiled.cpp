@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "render/tiled/tiled.h"
 
 #include <algorithm>
@@ -18,7 +19,7 @@
 #include "render/tiled/primitive_builder.h"
 #include "render/tiled/tiled_frame.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 namespace {
 
 constexpr int kMostMergeSteps = 9;  // merges a grid of 512 into one primitive
@@ -242,4 +243,4 @@ Result<DrawnFlare> render_tiled(const PlannedFrame& planned, const TiledOptions&
   return flare;
 }
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

@@ -1,8 +1,9 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include "render/planning/method.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 
 // bodonyi2023: the cells of all ghosts' ray grids, merged where the map is flat, are put into one buffer; they are
 // listed by tile; and each pixel sums the light of its tile's list, in one pass over the frame.
@@ -11,4 +12,4 @@ namespace contrejour {
 
 inline constexpr Method kTiled = method_of<TiledOptions, render_tiled>({.integrates_pixels = false});
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "render/tiled/tiled_frame.h"
 
 #include <algorithm>
@@ -5,7 +6,7 @@
 #include "base/clock.h"
 #include "base/tasks.h"
 
-namespace contrejour::tiled {
+namespace contrejour::inline internal::tiled {
 
 TiledFrame::TiledFrame(const Frame& frame, const TiledOptions& options, const Context& context, const IrisShape& iris,
                        std::span<const Gain> gains, const HeldLimits& limits,
@@ -85,4 +86,4 @@ void TiledFrame::report(RenderStatistics& stats) const {
                        {{"coarse tiles", coarse_ms_}, {"dense tiles", dense_ms_}, {"traversal", traversal_ms_}});
 }
 
-}  // namespace contrejour::tiled
+}  // namespace contrejour::inline internal::tiled

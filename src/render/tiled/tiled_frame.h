@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // From the primitives of all ghosts to the picture: one buffer, tile lists, traversal.
 #pragma once
 
@@ -6,16 +7,16 @@
 #include <span>
 
 #include "contrejour/context.h"
+#include "contrejour/expert/render_statistics.h"
 #include "contrejour/frame.h"
 #include "contrejour/image.h"
 #include "contrejour/method_options.h"
-#include "contrejour/render_statistics.h"
 #include "ghosts/iris_shape.h"
 #include "render/tiled/primitive.h"
 #include "render/tiled/tile_lists.h"
 #include "render/tiled/tile_traversal.h"
 
-namespace contrejour::tiled {
+namespace contrejour::inline internal::tiled {
 
 // When the buffer exceeds these limits, tiles are built and traversed before more is added, so that memory stays
 // bounded. The picture does not depend on them: every pixel continues its sum. 256 MiB of primitives, 128 MiB of lists.
@@ -63,4 +64,4 @@ class TiledFrame {
   double coarse_ms_ = 0, dense_ms_ = 0, traversal_ms_ = 0, draw_ms_ = 0;
 };
 
-}  // namespace contrejour::tiled
+}  // namespace contrejour::inline internal::tiled

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include <cmath>
 #include <fstream>
 #include <numbers>
@@ -6,7 +7,7 @@
 #include <doctest/doctest.h>
 #include <nlohmann/json.hpp>
 
-#include "contrejour/coating.h"
+#include "contrejour/expert/coating.h"
 #include "shared_data.h"
 
 using namespace contrejour;

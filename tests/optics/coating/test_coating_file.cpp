@@ -1,5 +1,6 @@
+// SPDX-License-Identifier: Apache-2.0
 // Measured coatings as files.
-#include "contrejour/coating_file.h"
+#include "contrejour/expert/coating_file.h"
 
 #include <doctest/doctest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Film materials, designs for a glass, refinement, measured coatings.
 #include <algorithm>
 #include <cmath>
@@ -8,7 +9,7 @@
 #include <doctest/doctest.h>
 #include <nlohmann/json.hpp>
 
-#include "contrejour/film_design.h"
+#include "contrejour/expert/film_design.h"
 #include "shared_data.h"
 
 using namespace contrejour;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Glasses whose bundled index differs at a catalogue line from that of an available AGF file, with an upper limit of
 // the difference. CDGM: the bundled figures are those of its catalogue of 2022, refitted; cdgm.agf is an earlier
 // edition, with Schott's formula and coefficients of fewer digits (for H-LAF4, two editions differ by 1e-3 in the

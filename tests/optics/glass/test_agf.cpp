@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // AGF catalogues: reading, writing, and malicious files.
 #include <chrono>
 #include <cmath>
@@ -5,7 +6,7 @@
 #include <sstream>
 
 #include "base/decode_text.h"
-#include "contrejour/glass_catalogue.h"
+#include "contrejour/expert/glass_catalogue.h"
 #include "shared_data.h"
 
 namespace contrejour::test::agf {

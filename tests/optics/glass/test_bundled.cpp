@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The bundled glasses against every available file that contains them.
 #include <chrono>
 #include <cmath>
@@ -8,7 +9,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "contrejour/glass_catalogue.h"
+#include "contrejour/expert/glass_catalogue.h"
 #include "optics/glass/known_differences.h"
 #include "shared_data.h"
 

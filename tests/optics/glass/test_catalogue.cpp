@@ -1,5 +1,6 @@
+// SPDX-License-Identifier: Apache-2.0
 // Glasses by name, maker and closeness; users' own catalogues.
-#include "contrejour/glass_catalogue.h"
+#include "contrejour/expert/glass_catalogue.h"
 
 #include <cmath>
 #include <fstream>

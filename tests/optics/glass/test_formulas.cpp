@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Each formula against values calculated by hand, published tables, and other programs' fits.
 #include <cmath>
 #include <fstream>
@@ -5,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "contrejour/glass_catalogue.h"
+#include "contrejour/expert/glass_catalogue.h"
 #include "shared_data.h"
 
 namespace contrejour::test::formulas {

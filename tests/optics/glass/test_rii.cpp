@@ -1,8 +1,9 @@
+// SPDX-License-Identifier: Apache-2.0
 // Pages of refractiveindex.info: reading, and malicious files.
 #include <chrono>
 #include <cmath>
 
-#include "contrejour/glass_catalogue.h"
+#include "contrejour/expert/glass_catalogue.h"
 #include "shared_data.h"
 
 namespace contrejour::test::rii {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Tables, model glasses, codes, air, temperature, transmittance; refused input.
 #include <cmath>
 #include <limits>
@@ -5,7 +6,7 @@
 
 #include <doctest/doctest.h>
 
-#include "contrejour/glass_catalogue.h"
+#include "contrejour/expert/glass_catalogue.h"
 
 namespace contrejour::test::values {
 namespace {

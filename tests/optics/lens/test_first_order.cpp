@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Paraxial figures against values asserted in another program's tests, with the glass files that it used.
 #include <cmath>
 #include <fstream>
@@ -10,8 +11,8 @@
 #include <nlohmann/json.hpp>
 
 #include "base/units.h"
-#include "contrejour/first_order.h"
-#include "contrejour/seidel.h"
+#include "contrejour/expert/first_order.h"
+#include "contrejour/expert/seidel.h"
 #include "shared_data.h"
 #include "support/csv_lens.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Blades as functions of the f-number, and invalid irises.
 #include <cmath>
 #include <limits>

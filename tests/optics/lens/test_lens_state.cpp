@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include <cmath>
 #include <cstdio>
 #include <limits>
@@ -5,7 +6,7 @@
 
 #include <doctest/doctest.h>
 
-#include "contrejour/first_order.h"
+#include "contrejour/expert/first_order.h"
 #include "contrejour/lens.h"
 
 using namespace contrejour;

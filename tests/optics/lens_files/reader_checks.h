@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Checks that apply to every reader of other programs' files.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A small correct lens as text, and edits of it: each test breaks one thing.
 #pragma once
 

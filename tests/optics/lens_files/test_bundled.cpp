@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The bundled lenses against the figures that their sources state.
 #include "optics/lens_files/sample_lens.h"
 
@@ -7,7 +8,7 @@
 #include <map>
 #include <vector>
 
-#include "contrejour/first_order.h"
+#include "contrejour/expert/first_order.h"
 #include "contrejour/lens.h"
 
 namespace contrejour::test::bundled {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // CODE V's files: a small one in every detail, every refusal, and all available samples.
 #include <doctest/doctest.h>
 
@@ -10,9 +11,9 @@
 
 #include <nlohmann/json.hpp>
 
-#include "contrejour/first_order.h"
+#include "contrejour/expert/first_order.h"
+#include "contrejour/expert/trace.h"
 #include "contrejour/lens.h"
-#include "contrejour/trace.h"
 #include "optics/lens_files/read_lens.h"
 #include "optics/lens_files/reader_checks.h"
 #include "optics/lens_files/sample_lens.h"

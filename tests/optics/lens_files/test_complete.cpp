@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Completes what files of other programs leave open: rims that do not cross, semi-diameters from a beam, f-numbers.
 #include "optics/lens_files/complete.h"
 
@@ -6,7 +7,7 @@
 #include <cmath>
 #include <limits>
 
-#include "contrejour/first_order.h"
+#include "contrejour/expert/first_order.h"
 #include "optics/lens_files/plain_number.h"
 
 namespace contrejour::test::complete {

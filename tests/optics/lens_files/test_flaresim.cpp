@@ -1,9 +1,10 @@
+// SPDX-License-Identifier: Apache-2.0
 // FlareSim's lenses.
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
 
-#include "contrejour/first_order.h"
+#include "contrejour/expert/first_order.h"
 #include "optics/lens_files/reader_checks.h"
 #include "shared_data.h"
 

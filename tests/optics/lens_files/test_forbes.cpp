@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Forbes' aspheres, against his own closed forms and a lens with one.
 #include <algorithm>
 #include <cmath>
@@ -6,7 +7,7 @@
 
 #include <doctest/doctest.h>
 
-#include "contrejour/trace.h"
+#include "contrejour/expert/trace.h"
 #include "optics/lens_files/read_lens.h"
 #include "optics/lens_files/reader_checks.h"
 #include "optics/lens_files/sequential/forbes.h"

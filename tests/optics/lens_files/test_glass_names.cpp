@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Glasses by their catalogue names in lens files, formulas in braces, and both through the writer.
 #include <cmath>
 #include <limits>
@@ -5,7 +6,7 @@
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 
-#include "contrejour/glass_catalogue.h"
+#include "contrejour/expert/glass_catalogue.h"
 #include "contrejour/lens.h"
 
 namespace contrejour::test::glass_names {

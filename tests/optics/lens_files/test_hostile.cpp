@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Malicious or truncated files: an answer in a short time, and no crash.
 #include "optics/lens_files/sample_lens.h"
 

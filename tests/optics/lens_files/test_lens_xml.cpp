@@ -1,8 +1,9 @@
+// SPDX-License-Identifier: Apache-2.0
 // XML lenses of OpenLensFlare and the LensFlareFramework.
 #include <cmath>
 #include <map>
 
-#include "contrejour/first_order.h"
+#include "contrejour/expert/first_order.h"
 #include "optics/lens_files/reader_checks.h"
 #include "shared_data.h"
 

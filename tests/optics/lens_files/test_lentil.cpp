@@ -1,7 +1,8 @@
+// SPDX-License-Identifier: Apache-2.0
 // Lentil's database.
 #include <map>
 
-#include "contrejour/first_order.h"
+#include "contrejour/expert/first_order.h"
 #include "optics/lens_files/reader_checks.h"
 #include "shared_data.h"
 

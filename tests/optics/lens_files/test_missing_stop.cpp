@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Lenses whose files mark no stop, and lenses whose files lack a gap.
 #include "optics/lens_files/missing_stop.h"
 
@@ -9,7 +10,7 @@
 
 #include <fmt/format.h>
 
-#include "contrejour/first_order.h"
+#include "contrejour/expert/first_order.h"
 #include "optics/lens_files/complete.h"
 #include "optics/lens_files/lost_gap.h"
 #include "optics/lens_files/reader_checks.h"

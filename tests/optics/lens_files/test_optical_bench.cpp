@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Optical Bench's files: a small one in every detail, errors, and all available samples.
 #include <doctest/doctest.h>
 
@@ -6,7 +7,7 @@
 #include <string>
 
 #include "base/decode_text.h"
-#include "contrejour/first_order.h"
+#include "contrejour/expert/first_order.h"
 #include "contrejour/lens.h"
 #include "optics/lens_files/read_lens.h"
 #include "optics/lens_files/reader_checks.h"

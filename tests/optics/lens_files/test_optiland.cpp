@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Optiland's files.
 #include <cmath>
 #include <fstream>
@@ -6,7 +7,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "contrejour/first_order.h"
+#include "contrejour/expert/first_order.h"
 #include "optics/lens_files/reader_checks.h"
 #include "shared_data.h"
 

@@ -1,10 +1,11 @@
+// SPDX-License-Identifier: Apache-2.0
 // Lenses of PBRT's realistic camera.
 #include <doctest/doctest.h>
 
 #include <filesystem>
 
 #include "base/decode_text.h"
-#include "contrejour/first_order.h"
+#include "contrejour/expert/first_order.h"
 #include "contrejour/lens.h"
 #include "optics/lens_files/read_lens.h"
 #include "optics/lens_files/reader_checks.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // ray-optics' files.
 #include <cmath>
 #include <filesystem>
@@ -5,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "contrejour/first_order.h"
+#include "contrejour/expert/first_order.h"
 #include "optics/lens_files/reader_checks.h"
 #include "shared_data.h"
 

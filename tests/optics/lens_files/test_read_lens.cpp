@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Files on disk and bundled names.
 #include "optics/lens_files/sample_lens.h"
 

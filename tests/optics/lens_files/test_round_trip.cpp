@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // read(write(x)) == x, bit for bit, for random lenses.
 #include "optics/lens_files/sample_lens.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Shapes and places of surfaces in the lens format.
 #include <cmath>
 

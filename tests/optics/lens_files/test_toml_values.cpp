@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The values of a correct file are read as written.
 #include "optics/lens_files/sample_lens.h"
 

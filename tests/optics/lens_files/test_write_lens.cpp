@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Zemax and CODE V files that we write: read again, they give the same lens.
 #include <doctest/doctest.h>
 
@@ -6,8 +7,8 @@
 #include <set>
 #include <string>
 
+#include "contrejour/expert/write_lens.h"
 #include "contrejour/lens.h"
-#include "contrejour/write_lens.h"
 #include "optics/lens_files/read_lens.h"
 #include "optics/lens_files/same_lens.h"
 #include "optics/lens_files/sample_lens.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Zemax files: a small one in every detail, every refusal, and all available samples.
 #include <doctest/doctest.h>
 
@@ -8,7 +9,7 @@
 
 #include <fmt/format.h>
 
-#include "contrejour/first_order.h"
+#include "contrejour/expert/first_order.h"
 #include "contrejour/lens.h"
 #include "optics/lens_files/read_lens.h"
 #include "optics/lens_files/reader_checks.h"

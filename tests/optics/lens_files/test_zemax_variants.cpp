@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Less common parts of Zemax files: glasses with other rows, tilts, types with nothing beyond the usual, old numbers.
 #include <doctest/doctest.h>
 

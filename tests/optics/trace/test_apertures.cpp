@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Rims that are not circles: rims_of() against elementary geometry, both tracers against places on the glass.
 #include <cmath>
 #include <random>
@@ -5,7 +6,7 @@
 
 #include <doctest/doctest.h>
 
-#include "contrejour/clear_aperture.h"
+#include "contrejour/expert/clear_aperture.h"
 #include "optics/trace/clearance.h"
 #include "optics/trace/packet_trace.h"
 #include "support/scenes.h"

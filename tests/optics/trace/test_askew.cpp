@@ -1,11 +1,12 @@
+// SPDX-License-Identifier: Apache-2.0
 // Decentred and tilted surfaces: against rays rotated into the surface's own frame and back, and first-order theory.
 #include <cmath>
 #include <random>
 
 #include <doctest/doctest.h>
 
-#include "contrejour/first_order.h"
-#include "contrejour/trace.h"
+#include "contrejour/expert/first_order.h"
+#include "contrejour/expert/trace.h"
 #include "optics/trace/beside_axis.h"
 #include "optics/trace/packet_trace.h"
 #include "support/scenes.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Every ABCD matrix, skew ray and ghost ray of the stored oracle, which an independent tracer computed.
 #include <algorithm>
 #include <cmath>
@@ -7,8 +8,8 @@
 #include <doctest/doctest.h>
 #include <nlohmann/json.hpp>
 
-#include "contrejour/first_order.h"
-#include "contrejour/trace.h"
+#include "contrejour/expert/first_order.h"
+#include "contrejour/expert/trace.h"
 #include "shared_data.h"
 #include "support/csv_lens.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Surfaces that are not spheres: sags and normals against another program's, rays against closed forms, first order
 // against an independent paraxial trace.
 #include <cmath>
@@ -8,8 +9,8 @@
 #include <doctest/doctest.h>
 #include <nlohmann/json.hpp>
 
-#include "contrejour/first_order.h"
-#include "contrejour/trace.h"
+#include "contrejour/expert/first_order.h"
+#include "contrejour/expert/trace.h"
 #include "optics/trace/packet_trace.h"
 #include "shared_data.h"
 #include "support/scenes.h"

@@ -1,10 +1,11 @@
+// SPDX-License-Identifier: Apache-2.0
 #include <cmath>
 #include <limits>
 #include <numbers>
 
 #include <doctest/doctest.h>
 
-#include "contrejour/trace.h"
+#include "contrejour/expert/trace.h"
 #include "support/csv_lens.h"
 
 using namespace contrejour;

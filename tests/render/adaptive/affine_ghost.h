@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A ghost of constant transmittance as a patch, and the polygons painted of it.
 #pragma once
 

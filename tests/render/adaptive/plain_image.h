@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Draws polygons in the simplest way, pixel by pixel, each clipped to it: the reference for tiles.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Shared by the tests of this folder: drawing of polygons, and a ghost's exact rays.
 #pragma once
 

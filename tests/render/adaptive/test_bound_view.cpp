@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Linear bounds over a polygon: what they call deep within a bound must be so all over the polygon.
 #include <array>
 #include <cmath>

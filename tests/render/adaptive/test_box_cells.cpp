@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What neighbouring cells share: corners, within a mesh and beyond, and planes of irradiance.
 #include <algorithm>
 #include <array>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Clearance traced in packets against trace(), ray by ray.
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,8 @@
+// SPDX-License-Identifier: Apache-2.0
 // What a small preview frame predicts of the whole one before anything is drawn at full quality.
 #include <doctest/doctest.h>
 
-#include "contrejour/metrics.h"
+#include "contrejour/expert/metrics.h"
 #include "render/adaptive/adaptive.h"
 #include "render/adaptive/item.h"
 #include "render/adaptive/scene.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The part of a pupil box that must be drawn.
 #include <cmath>
 #include <functional>

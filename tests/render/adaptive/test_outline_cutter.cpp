@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The part of a cell that the iris leaves open.
 #include <doctest/doctest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The parts of the search for boxes of the pupil, each against the rays of a dense grid.
 #include <algorithm>
 #include <cmath>

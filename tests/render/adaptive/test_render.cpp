@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The whole renderer's own properties; tests/render/all_methods checks what all renderers have in common.
 #include <doctest/doctest.h>
 
@@ -12,8 +13,8 @@
 
 #include <hwy/targets.h>
 
+#include "contrejour/expert/metrics.h"
 #include "contrejour/image_io.h"
-#include "contrejour/metrics.h"
 #include "render/adaptive/scene.h"
 #include "support/flares.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Polygons behind stop patterns, pixel by pixel: every way of evaluating the transmittance against the simplest one.
 #include <algorithm>
 #include <cmath>

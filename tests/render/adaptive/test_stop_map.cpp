@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Maps from pixels to places in the stop, against maps whose inverse is known.
 #include <cmath>
 

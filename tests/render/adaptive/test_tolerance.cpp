@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The tolerances of fits: they depend on where a ghost's light is, not on where blocked rays would go.
 #include <algorithm>
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Many wavelengths interpolated from few: the order in which they are chosen, the interpolated values, and pictures.
 #include <doctest/doctest.h>
 
@@ -6,7 +7,7 @@
 #include <numeric>
 #include <set>
 
-#include "contrejour/metrics.h"
+#include "contrejour/expert/metrics.h"
 #include "render/adaptive/maps/band_error.h"
 #include "render/adaptive/maps/band_set.h"
 #include "render/adaptive/maps/first_rays.h"

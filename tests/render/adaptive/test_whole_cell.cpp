@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Interpolation between a cell's corners, and where its rays cross the stop.
 #include <doctest/doctest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Every registered renderer, with its bounds. The cases of this folder are the same for all.
 #pragma once
 
@@ -9,7 +10,7 @@
 
 #include <doctest/doctest.h>
 
-#include "contrejour/metrics.h"
+#include "contrejour/expert/metrics.h"
 #include "contrejour/render.h"
 #include "support/flares.h"
 #include "support/scenes.h"

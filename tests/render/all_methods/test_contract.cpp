@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The contract of render() for every method: lights, frames, threads, cancelling.
 #include <atomic>
 #include <limits>

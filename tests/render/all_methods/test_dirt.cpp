@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The same dirt in every renderer: shadows in ghosts, on the stop and on the front.
 #include <array>
 #include <cmath>

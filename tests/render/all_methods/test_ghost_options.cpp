@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // An artist's adjustments of ghosts, in every renderer.
 #include <cmath>
 #include <limits>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A render that is cancelled at any moment returns an error; it neither fails in another way nor returns an incomplete
 // picture.
 #include <atomic>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The same iris in every renderer: curved, uneven, rotated, a picture.
 #include <array>
 #include <cmath>

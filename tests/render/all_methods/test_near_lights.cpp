@@ -1,10 +1,11 @@
+// SPDX-License-Identifier: Apache-2.0
 // Lights at a finite distance in every renderer: closed forms, the reference, and the distance from which a light
 // counts as distant.
 #include <cmath>
 #include <limits>
 #include <numbers>
 
-#include "contrejour/first_order.h"
+#include "contrejour/expert/first_order.h"
 #include "render/all_methods/methods.h"
 
 using namespace contrejour;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Physics that every renderer must get right: closed forms, and whole lenses against the reference.
 #include <cmath>
 #include <cstdlib>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Lenses with aspheres and with cylinders: every method against the reference, with few ghosts and small frames. Single
 // rays at such surfaces are tested in tests/optics/trace/test_surfaces.cpp.
 #include <algorithm>

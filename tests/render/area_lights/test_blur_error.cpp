@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Estimated errors of coarse pixels and of shared blurs, against discs that are blurred and compared.
 #include <algorithm>
 #include <cmath>

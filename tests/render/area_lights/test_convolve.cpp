@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Kernels, convolution, and sums of pictures of several resolutions: against direct sums and polynomials.
 #include <algorithm>
 #include <cmath>

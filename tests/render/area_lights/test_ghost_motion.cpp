@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The displacement of a ghost with its light: against rays traced one by one through the same place of the stop.
 #include <cmath>
 #include <optional>

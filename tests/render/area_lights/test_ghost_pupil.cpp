@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Where a ghost's light enters: half of a grid compared with a whole one.
 #include <cmath>
 #include <numbers>

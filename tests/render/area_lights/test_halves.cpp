@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Splits pixels into halves, against the means of polynomials; on every instruction set of this machine.
 #include <array>
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Extended lights, as `render` draws them, against sums of many points.
 #include <algorithm>
 #include <atomic>
@@ -11,7 +12,7 @@
 #include <doctest/doctest.h>
 
 #include "base/scalar.h"
-#include "contrejour/metrics.h"
+#include "contrejour/expert/metrics.h"
 #include "support/flares.h"
 #include "support/scenes.h"
 

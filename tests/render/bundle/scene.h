@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Lenses and single ghosts for the tests of this folder: the bundle's ghost and the reference's, by pixel.
 #pragma once
 
@@ -7,7 +8,7 @@
 
 #include <doctest/doctest.h>
 
-#include "contrejour/ghost.h"
+#include "contrejour/expert/ghost.h"
 #include "contrejour/lens.h"
 #include "ghosts/pupil_search.h"
 #include "render/bundle/cell_raster.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Single ghosts: against the reference, a closed form, and the properties of flux and folds.
 #include <cmath>
 #include <numbers>

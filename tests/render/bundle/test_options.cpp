@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // hullin2011's accelerations: what each option may change.
 #include <cmath>
 #include <memory>
@@ -5,7 +6,7 @@
 
 #include <doctest/doctest.h>
 
-#include "contrejour/metrics.h"
+#include "contrejour/expert/metrics.h"
 #include "ghosts/meridian.h"
 #include "render/bundle/band_blur.h"
 #include "render/bundle/bundle.h"

@@ -1,9 +1,10 @@
+// SPDX-License-Identifier: Apache-2.0
 // The whole renderer's own properties; tests/render/all_methods checks what all renderers have in common.
 #include <cmath>
 
 #include <doctest/doctest.h>
 
-#include "contrejour/metrics.h"
+#include "contrejour/expert/metrics.h"
 #include "render/bundle/bundle.h"
 #include "render/bundle/scene.h"
 #include "support/planned.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The reference's cells against a count of rays: no pupil may be lost, however small it is and wherever it lies.
 #include <algorithm>
 #include <cmath>
@@ -7,7 +8,7 @@
 
 #include <doctest/doctest.h>
 
-#include "contrejour/ghost.h"
+#include "contrejour/expert/ghost.h"
 #include "ghosts/iris_shape.h"
 #include "optics/trace/packet_trace.h"
 #include "render/reference/flux_image.h"

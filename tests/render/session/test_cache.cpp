@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What a cache keeps from frame to frame, and when a section is replaced.
 #include <memory>
 #include <string>

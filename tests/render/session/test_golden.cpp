@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Small pictures kept in the repository: a change that moves a ghost, a colour or a level shows up here first. They are
 // compared with a tolerance. To regenerate them, run this program with CONTREJOUR_WRITE_GOLDEN=1, and say why in the
 // commit.
@@ -7,8 +8,8 @@
 
 #include <doctest/doctest.h>
 
+#include "contrejour/expert/metrics.h"
 #include "contrejour/image_io.h"
-#include "contrejour/metrics.h"
 #include "support/scenes.h"
 
 using namespace contrejour;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The options of any method in one type, and render()'s errors for those that belong to no method.
 #include <span>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A renderer that lives from frame to frame gives the bits of one made for a single frame, whatever it rendered before.
 #include "contrejour/renderer.h"
 

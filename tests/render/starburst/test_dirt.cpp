@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Dirt through a lens: the exit pupil against rays traced through it, its flux, frames of an animation, pictures.
 #include <algorithm>
 #include <cmath>
@@ -5,8 +6,8 @@
 
 #include <doctest/doctest.h>
 
-#include "contrejour/ghost.h"
-#include "contrejour/lens_starburst.h"
+#include "contrejour/expert/ghost.h"
+#include "contrejour/expert/lens_starburst.h"
 #include "support/flares.h"
 #include "support/scenes.h"
 

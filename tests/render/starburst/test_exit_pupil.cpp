@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The exit pupil in direction cosines, against first-order optics, the ghosts' own flux measure and rays traced
 // densely.
 #include <cmath>
@@ -7,9 +8,9 @@
 
 #include <doctest/doctest.h>
 
-#include "contrejour/first_order.h"
-#include "contrejour/ghost.h"
-#include "contrejour/lens_starburst.h"
+#include "contrejour/expert/first_order.h"
+#include "contrejour/expert/ghost.h"
+#include "contrejour/expert/lens_starburst.h"
 #include "support/pictures.h"
 #include "support/scenes.h"
 

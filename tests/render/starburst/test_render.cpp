@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Starbursts and glare as `render` draws them: flux, scale, directions, and a vignetted pupil against plain sums over
 // densely traced rays.
 #include <algorithm>
@@ -9,8 +10,8 @@
 #include <doctest/doctest.h>
 
 #include "base/scalar.h"
-#include "contrejour/first_order.h"
-#include "contrejour/lens_starburst.h"
+#include "contrejour/expert/first_order.h"
+#include "contrejour/expert/lens_starburst.h"
 #include "support/flares.h"
 #include "support/pictures.h"
 #include "support/scenes.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Shadows of dirt out of focus, against Fresnel's integral over the shapes, summed point by point.
 #include <cmath>
 #include <complex>

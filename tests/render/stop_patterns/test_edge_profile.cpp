@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Fringes of an edge: tabulated values of the Fresnel integrals, means, bands, and what ranges leave out.
 #include <cmath>
 

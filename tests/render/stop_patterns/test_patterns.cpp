@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Patterns over the stop: means, reach, and several together.
 #include <bit>
 #include <cmath>

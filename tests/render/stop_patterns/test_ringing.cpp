@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Ringing in pictures: the positions of the fringes, the flux, and the agreement of all methods.
 #include <cmath>
 #include <memory>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Dirt's shapes on a polygon, as polygons: against counting, also where shapes overlap.
 #include <cmath>
 #include <vector>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Fresnel numbers of ghosts: a plate's calculated by hand, lenses' from traced rays.
 #include <cmath>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A traced grid and the primitives made of it.
 #pragma once
 

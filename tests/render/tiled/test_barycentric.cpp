@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The five interpolations of bodonyi2023 3.4, in double.
 #include <array>
 #include <cmath>

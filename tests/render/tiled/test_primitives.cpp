@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Cells to primitives: validity, merging, failed rays, folds.
 #include <cmath>
 #include <limits>

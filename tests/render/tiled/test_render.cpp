@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The whole renderer: contract, tiles, merging, interpolations, and against bundle.
 #include <atomic>
 #include <cmath>
@@ -6,7 +7,7 @@
 
 #include <doctest/doctest.h>
 
-#include "contrejour/metrics.h"
+#include "contrejour/expert/metrics.h"
 #include "render/bundle/bundle.h"
 #include "render/tiled/scene.h"
 #include "render/tiled/tiled.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Lists by tile against their definition.
 #include <array>
 #include <limits>

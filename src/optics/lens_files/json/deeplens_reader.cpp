@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // DeepLens' refractive lenses (docs/formats/deeplens.md).
 #include <algorithm>
 #include <cmath>
@@ -13,7 +14,7 @@
 #include "optics/lens_files/sequential/design_text.h"
 #include "optics/lens_files/tables/heights.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 namespace {
 
 class DeepLensReader {
@@ -180,4 +181,4 @@ Result<Prescription> read_deeplens(const JsonField& root, const LensText& in) {
   return DeepLensReader(root, in).read();
 }
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

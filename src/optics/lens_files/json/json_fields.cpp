@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "optics/lens_files/json/json_fields.h"
 
 #include <cmath>
@@ -8,7 +9,7 @@
 #include "base/near_name.h"
 #include "optics/lens_files/plain_number.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -76,4 +77,4 @@ void JsonField::fail(const std::string& message, ErrorCode code) const {
   errors_->fail(line_, path_.empty() ? message : fmt::format("{}: {}", path_, message), code);
 }
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A value of a JSON file and its path, for readers of lens files: a missing value or one of another kind is reported
 // once, with its line and path ("surfaces[3].radius").
 #pragma once
@@ -10,7 +11,7 @@
 #include "contrejour/result.h"
 #include "optics/lens_files/first_error.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 
 using JsonErrors = FirstError;
 
@@ -62,4 +63,4 @@ class JsonField {
   std::string path_;
 };
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "optics/lens_files/json/json_lens.h"
 
 #include <algorithm>
@@ -9,7 +10,7 @@
 #include "base/near_name.h"
 #include "optics/lens/validate.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 namespace {
 
 constexpr JsonLensFormat kFormats[] = {
@@ -79,4 +80,4 @@ Result<Prescription> read_json_lens(const LensText& in) {
                  {in.file, root.line(), 0});
 }
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

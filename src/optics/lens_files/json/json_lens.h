@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Lens files in JSON of several programs, told apart by their keys.
 #pragma once
 
@@ -7,7 +8,7 @@
 #include "optics/lens_files/json/json_fields.h"
 #include "optics/lens_files/read_lens.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 
 // A format, recognised by its outermost keys.
 struct JsonLensFormat {
@@ -47,4 +48,4 @@ void add_powers(const JsonField& list, std::size_t first, std::size_t step, Surf
   return tl::unexpected<Error>(*errors.first);
 }
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Lentil's database of lenses (docs/formats/lentil.md): many in one file, by their keys.
 #include <algorithm>
 #include <cmath>
@@ -6,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "base/near_name.h"
-#include "contrejour/first_order.h"
+#include "contrejour/expert/first_order.h"
 #include "optics/lens_files/complete.h"
 #include "optics/lens_files/glass_finder.h"
 #include "optics/lens_files/json/json_lens.h"
@@ -14,7 +15,7 @@
 #include "optics/lens_files/plain_number.h"
 #include "optics/lens_files/tables/heights.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 namespace {
 
 constexpr std::string_view kElements = "optical-elements-patent";
@@ -168,4 +169,4 @@ Result<Prescription> read_lentil(const JsonField& root, const LensText& in) {
                  {in.file, 0, 0});
 }
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Optiland's .json files (docs/formats/optiland.md).
 #include <array>
 #include <cmath>
@@ -14,7 +15,7 @@
 #include "optics/lens_files/plain_number.h"
 #include "optics/lens_files/sequential/sequential_design.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 namespace {
 
 // Removes letter case and underscores from a name, since versions of the program differ in both.
@@ -270,4 +271,4 @@ Result<Prescription> read_optiland(const JsonField& root, const LensText& in) {
   return OptilandReader(root, in).read();
 }
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Realflare's lens models (docs/formats/realflare.md).
 #include <cmath>
 #include <string>
@@ -10,7 +11,7 @@
 #include "optics/lens_files/plain_number.h"
 #include "optics/lens_files/tables/heights.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 namespace {
 
 // The lens settings of a project or a preset.
@@ -125,4 +126,4 @@ Result<Prescription> read_realflare(const JsonField& root, const LensText& in) {
   return completed(std::move(lens), beam);
 }
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

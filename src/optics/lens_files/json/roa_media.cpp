@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "optics/lens_files/json/roa_media.h"
 
 #include <algorithm>
@@ -9,7 +10,7 @@
 
 #include "base/near_name.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 namespace {
 
 constexpr double kSameIndex = 1e-4;  // at the d line; a larger difference means another glass of that name
@@ -110,4 +111,4 @@ Glass roa_glass(const JsonField& medium, GlassFinder& finder) {
   return air();
 }
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

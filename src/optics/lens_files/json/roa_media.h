@@ -1,11 +1,12 @@
+// SPDX-License-Identifier: Apache-2.0
 // Glasses in ray-optics' files.
 #pragma once
 
-#include "contrejour/glass.h"
+#include "contrejour/expert/glass.h"
 #include "optics/lens_files/glass_finder.h"
 #include "optics/lens_files/json/json_fields.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 
 // A Python object in JSON: its class and its content. Any other value is its own content, without a class.
 [[nodiscard]] std::string class_of(const JsonField& object);
@@ -16,4 +17,4 @@ namespace contrejour {
 // an error and gives air.
 [[nodiscard]] Glass roa_glass(const JsonField& medium, GlassFinder& finder);
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // ray-optics' .roa files (docs/formats/ray-optics.md): a tree of Python objects in JSON.
 #include <cmath>
 #include <limits>
@@ -12,7 +13,7 @@
 #include "optics/lens_files/json/roa_media.h"
 #include "optics/lens_files/sequential/sequential_design.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 namespace {
 
 constexpr double kDistant = 1e8;  // an object farther away is infinitely far
@@ -300,4 +301,4 @@ bool is_roa(const JsonField& root) { return root["optical_model"].is_map(); }
 
 Result<Prescription> read_roa(const JsonField& root, const LensText& in) { return RoaReader(root, in).read(); }
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

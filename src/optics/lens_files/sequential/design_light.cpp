@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "optics/lens_files/sequential/design_light.h"
 
 #include <algorithm>
@@ -8,9 +9,9 @@
 #include <fmt/format.h>
 
 #include "base/units.h"
-#include "contrejour/first_order.h"
+#include "contrejour/expert/first_order.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 namespace {
 
 constexpr double kNoFNumber = 1.0;  // for computations that do not depend on it
@@ -139,4 +140,4 @@ Result<DesignLight> light_of(const SequentialDesign& design, Prescription rows, 
   return light;
 }
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The light for which a design is made, computed once its surfaces are known: entrance pupil, field, image.
 #pragma once
 
@@ -5,7 +6,7 @@
 #include "optics/lens_files/complete.h"
 #include "optics/lens_files/sequential/sequential_design.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 
 struct DesignLight {
   Beam beam;
@@ -20,4 +21,4 @@ struct DesignLight {
 // aperture that leads to no pupil.
 [[nodiscard]] Result<DesignLight> light_of(const SequentialDesign& design, Prescription rows, double object_mm);
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

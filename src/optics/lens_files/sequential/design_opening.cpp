@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "optics/lens_files/sequential/design_opening.h"
 
 #include <algorithm>
@@ -7,7 +8,7 @@
 
 #include "optics/lens/rims.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 namespace {
 
 // The largest radius, up to this one, at which the surface exists.
@@ -71,4 +72,4 @@ void turn_opening(double turn_rad, Obscuration& obscuration) {
   obscuration.centre_mm = turned(turn_rad, obscuration.centre_mm);
 }
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Converts apertures of design programs to ours.
 #pragma once
 
@@ -6,7 +7,7 @@
 
 #include "optics/lens_files/sequential/sequential_design.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 
 // Sets semi-diameter, rim and obscuration of a surface whose shape is set. Warns of apertures that are interpreted
 // differently.
@@ -16,4 +17,4 @@ void set_opening(const DesignSurface& from, double unit_mm, Surface& surface, st
 void turn_opening(double turn_rad, ClearAperture& aperture);
 void turn_opening(double turn_rad, Obscuration& obscuration);
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

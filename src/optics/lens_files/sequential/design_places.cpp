@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "optics/lens_files/sequential/design_places.h"
 
 #include <cmath>
@@ -6,7 +7,7 @@
 
 #include "optics/lens_files/sequential/design_opening.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 namespace {
 
 Placement in_mm(const Placement& placement, double unit_mm) {
@@ -75,4 +76,4 @@ Result<void> place_rows(const SequentialDesign& design, const std::vector<Design
                   std::hypot(image.shift_mm.x, image.shift_mm.y), image.axis.x, image.axis.y, image.axis.z));
 }
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

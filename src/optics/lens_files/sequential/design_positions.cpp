@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "optics/lens_files/sequential/design_positions.h"
 
 #include <algorithm>
@@ -5,7 +6,7 @@
 
 #include <fmt/format.h>
 
-namespace contrejour {
+namespace contrejour::inline internal {
 namespace {
 
 std::vector<double> own_thicknesses(const SequentialDesign& design) {
@@ -50,4 +51,4 @@ std::vector<DesignPosition> positions_of(const SequentialDesign& design, std::ve
   return positions;
 }
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

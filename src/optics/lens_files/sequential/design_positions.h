@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Selects the positions of a design that form our zoom.
 #pragma once
 
@@ -6,11 +7,11 @@
 
 #include "optics/lens_files/sequential/sequential_design.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 
 // The positions with all solves evaluated: those for distant objects if there are any, since the others are focusing,
 // else all. Without positions the design's own thicknesses.
 [[nodiscard]] std::vector<DesignPosition> positions_of(const SequentialDesign& design,
                                                        std::vector<std::string>& warnings);
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "optics/lens_files/sequential/design_rows.h"
 
 #include <cmath>
@@ -7,7 +8,7 @@
 #include "optics/lens_files/plain_number.h"
 #include "optics/lens_files/sequential/design_opening.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 namespace {
 
 class Rows {
@@ -120,4 +121,4 @@ std::vector<double> gaps_mm(const std::vector<DesignRow>& rows, const std::vecto
   return gaps;
 }
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

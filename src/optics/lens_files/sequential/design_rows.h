@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Converts a design's surfaces to rows of a prescription.
 #pragma once
 
@@ -7,7 +8,7 @@
 
 #include "optics/lens_files/sequential/sequential_design.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 
 // A row, and the surfaces of the design whose thicknesses add up to the gap behind it.
 struct DesignRow {
@@ -30,4 +31,4 @@ struct DesignRow {
 [[nodiscard]] std::vector<double> gaps_mm(const std::vector<DesignRow>& rows, const std::vector<double>& thickness,
                                           double unit_mm);
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

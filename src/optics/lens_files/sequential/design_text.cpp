@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "optics/lens_files/sequential/design_text.h"
 
 #include <algorithm>
@@ -6,7 +7,7 @@
 #include "base/trimmed.h"
 #include "optics/lens_files/plain_number.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 
 std::vector<std::string_view> words_of(std::string_view line, std::size_t most) {
   constexpr std::string_view kBlanks = " \t\r\v\f";
@@ -45,4 +46,4 @@ std::string cut_text(std::string text, std::size_t most) {
   return text.substr(0, end) + " ...";
 }
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Words and titles of design programs' files.
 #pragma once
 
@@ -5,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-namespace contrejour {
+namespace contrejour::inline internal {
 
 // The words between blanks, at most `most` of them.
 [[nodiscard]] std::vector<std::string_view> words_of(std::string_view line, std::size_t most = 64);
@@ -19,4 +20,4 @@ namespace contrejour {
 // Truncates a long text, for the source of a lens, at a space.
 [[nodiscard]] std::string cut_text(std::string text, std::size_t most = 200);
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

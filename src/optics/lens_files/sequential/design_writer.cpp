@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "optics/lens_files/sequential/design_writer.h"
 
 #include <algorithm>
@@ -9,7 +10,7 @@
 
 #include "optics/lens_files/sequential/design_opening.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 
 std::string number_text(double value) { return fmt::format("{}", value); }
 
@@ -113,4 +114,4 @@ std::vector<std::string> common_losses(const Prescription& lens) {
   return losses;
 }
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

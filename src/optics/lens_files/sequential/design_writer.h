@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Code that the writers of design programs' files share.
 #pragma once
 
@@ -6,11 +7,11 @@
 #include <string>
 #include <vector>
 
-#include "contrejour/glass_catalogue.h"
-#include "contrejour/write_lens.h"
+#include "contrejour/expert/glass_catalogue.h"
+#include "contrejour/expert/write_lens.h"
 #include "optics/lens_files/sequential/placement.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 
 // The shortest text that reads back as the same double.
 [[nodiscard]] std::string number_text(double value);
@@ -69,4 +70,4 @@ using SurfaceWriter = std::function<std::optional<std::string>(std::size_t surfa
 // The losses common to all such files.
 [[nodiscard]] std::vector<std::string> common_losses(const Prescription& lens);
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

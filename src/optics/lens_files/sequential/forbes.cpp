@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "optics/lens_files/sequential/forbes.h"
 
 #include <algorithm>
@@ -6,9 +7,9 @@
 #include <cstddef>
 #include <numbers>
 
-#include "contrejour/surface_shape.h"
+#include "contrejour/expert/surface_shape.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 namespace {
 
 // Computes Q_m from the P_m, which have a simple recurrence: P_m = f_m Q_m + g_(m-1) Q_(m-1) + h_(m-2) Q_(m-2) (Forbes
@@ -121,4 +122,4 @@ std::optional<ForbesPowers> powers_of_forbes(double curvature, double conic, con
   return out;
 }
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

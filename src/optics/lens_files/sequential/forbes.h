@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Converts Forbes' aspheres to conics with even polynomials, which can be traced.
 // Source: Forbes 2007, Shape specification for axially symmetric optical surfaces, Optics Express 15, 5218: Qbfs, whose
 // slopes are orthogonal, and Qcon, whose sags are; recurrences of Qbfs as in Forbes 2010, Optics Express 18, 19700.
@@ -8,7 +9,7 @@
 #include <optional>
 #include <vector>
 
-namespace contrejour {
+namespace contrejour::inline internal {
 
 enum class ForbesKind : std::uint8_t { Bfs, Con };
 
@@ -36,4 +37,4 @@ struct ForbesPowers {
 [[nodiscard]] std::optional<ForbesPowers> powers_of_forbes(double curvature, double conic, const ForbesAsphere& asphere,
                                                            double reach);
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "optics/lens_files/sequential/ghost_rows.h"
 
 #include <algorithm>
@@ -6,10 +7,10 @@
 
 #include <fmt/format.h>
 
-#include "contrejour/first_order.h"
+#include "contrejour/expert/first_order.h"
 #include "optics/lens/ghost_walk.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 namespace {
 
 bool is_path(const LensState& lens, const Ghost& ghost) {
@@ -79,4 +80,4 @@ Result<WritableDesign> ghost_rows(const LensState& lens, const Ghost& ghost) {
   return out;
 }
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

@@ -1,8 +1,9 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "optics/lens_files/sequential/placement.h"
 
 #include <cmath>
 
-namespace contrejour {
+namespace contrejour::inline internal {
 namespace {
 
 // Rotations by some degrees and back leave rounding errors below this.
@@ -44,4 +45,4 @@ PoseAndTurn pose_of(const Placement& placement) {
   return out;
 }
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Nested coordinate frames, by which design programs decentre and tilt.
 #pragma once
 
@@ -5,7 +6,7 @@
 
 #include "contrejour/lens.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 
 // A frame relative to another one: its origin and the directions of its x, y and z axes.
 struct Placement {
@@ -31,4 +32,4 @@ struct PoseAndTurn {
 };
 [[nodiscard]] PoseAndTurn pose_of(const Placement& placement);
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

@@ -1,10 +1,11 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "optics/lens_files/sequential/seq_commands.h"
 
 #include <algorithm>
 #include <cctype>
 #include <charconv>
 
-namespace contrejour {
+namespace contrejour::inline internal {
 namespace {
 
 constexpr std::string_view kBlanks = " \t\r\v\f,";
@@ -110,4 +111,4 @@ SeqSurfaceName seq_surface_name(std::string_view word) {
   return {true, index};
 }
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

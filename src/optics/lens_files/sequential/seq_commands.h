@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The text of a CODE V sequence file as commands.
 #pragma once
 
@@ -5,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-namespace contrejour {
+namespace contrejour::inline internal {
 
 struct SeqCommand {
   int line = 0;
@@ -32,4 +33,4 @@ struct SeqSurfaceName {
 inline constexpr int kSeqImage = -1;
 [[nodiscard]] SeqSurfaceName seq_surface_name(std::string_view word);
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "optics/lens_files/sequential/seq_glass.h"
 
 #include <algorithm>
@@ -9,7 +10,7 @@
 #include "base/units.h"
 #include "optics/lens_files/plain_number.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 namespace {
 
 bool is_digits(std::string_view text) {
@@ -139,4 +140,4 @@ Result<Glass> seq_glass(std::string_view word, std::string_view next, const SeqP
                  fmt::format("{}, or give its catalogue by --catalogue", found.error().message), {file, line, 0});
 }
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Glasses by CODE V's names.
 #pragma once
 
@@ -9,7 +10,7 @@
 #include "optics/lens_files/glass_finder.h"
 #include "optics/lens_files/sequential/seq_commands.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 
 // The glasses that a file defines between PRV and END.
 class SeqPrivateGlasses {
@@ -32,4 +33,4 @@ class SeqPrivateGlasses {
                                       GlassFinder& finder, const std::string& file, int line,
                                       std::vector<std::string>& warnings);
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Lens files of CODE V (docs/formats/codev.md): a sequence of commands, of which those behind an S refer to the surface
 // that it starts.
 #include <algorithm>
@@ -19,7 +20,7 @@
 #include "optics/lens_files/sequential/seq_zoom.h"
 #include "optics/lens_files/sequential/sequential_design.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 namespace {
 
 constexpr std::size_t kMaxSeqSurfaces = 1000;
@@ -246,4 +247,4 @@ bool looks_like_seq(std::string_view text) {
 
 Result<Prescription> read_seq(const LensText& in) { return SeqReader(in).read(); }
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "optics/lens_files/sequential/seq_surface.h"
 
 #include <algorithm>
@@ -11,7 +12,7 @@
 #include "base/units.h"
 #include "optics/lens_files/plain_number.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 namespace {
 
 // Commands that set a coefficient of the surface.
@@ -321,4 +322,4 @@ Result<DesignSurface> seq_design_surface(const SeqSurface& in, int index, const 
   return out;
 }
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

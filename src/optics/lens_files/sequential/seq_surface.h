@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The commands of a CODE V file for one surface.
 #pragma once
 
@@ -10,7 +11,7 @@
 #include "optics/lens_files/sequential/seq_commands.h"
 #include "optics/lens_files/sequential/sequential_design.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 
 // Coefficients of r^4, r^6, ... r^20.
 inline constexpr std::string_view kSeqPowers[] = {"A", "B", "C", "D", "E", "F", "G", "H", "J"};
@@ -56,4 +57,4 @@ class SeqSurfaceReader {
 
 [[nodiscard]] Result<DesignSurface> seq_design_surface(const SeqSurface& in, int index, const std::string& file);
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

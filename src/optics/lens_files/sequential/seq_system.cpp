@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "optics/lens_files/sequential/seq_system.h"
 
 #include <algorithm>
@@ -10,7 +11,7 @@
 #include "optics/lens_files/plain_number.h"
 #include "optics/lens_files/sequential/design_text.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 namespace {
 
 std::string joined(const std::vector<std::string>& words) {
@@ -137,4 +138,4 @@ void SeqSystem::finish(SequentialDesign& design) const {
   }
 }
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The commands of a CODE V file for the whole system: title, units, aperture, fields, wavelengths.
 #pragma once
 
@@ -11,7 +12,7 @@
 #include "optics/lens_files/sequential/seq_surface.h"
 #include "optics/lens_files/sequential/sequential_design.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 
 class SeqSystem {
  public:
@@ -39,4 +40,4 @@ class SeqSystem {
 // The k-th word as a number; 0, and an error, for none.
 [[nodiscard]] double seq_number(const SeqCommand& command, std::size_t k, FirstError& errors);
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

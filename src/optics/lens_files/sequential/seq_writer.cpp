@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Writes CODE V's sequence files (docs/formats/codev.md), which seq_reader reads back.
 #include <algorithm>
 #include <cctype>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "optics/lens_files/sequential/seq_zoom.h"
 
 #include <algorithm>
@@ -11,7 +12,7 @@
 #include "optics/lens_files/plain_number.h"
 #include "optics/lens_files/sequential/design_text.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 namespace {
 
 // Names, variables, weights, vignetting factors.
@@ -121,4 +122,4 @@ std::vector<DesignPosition> SeqZoom::positions(const SequentialDesign& design,
   return out;
 }
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // ZOO commands of a CODE V file: positions of a zoom, if only thicknesses change.
 #pragma once
 
@@ -9,7 +10,7 @@
 #include "optics/lens_files/sequential/seq_commands.h"
 #include "optics/lens_files/sequential/sequential_design.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 
 // The index of the word among the first two that is a position, such as Z2; the number of words if none is.
 [[nodiscard]] std::size_t seq_zoom_word(const SeqCommand& command);
@@ -38,4 +39,4 @@ class SeqZoom {
   std::map<std::size_t, double> nominal_mm_;  // of positions whose title states it
 };
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "optics/lens_files/sequential/sequential_design.h"
 
 #include <algorithm>
@@ -13,7 +14,7 @@
 #include "optics/lens_files/sequential/design_rows.h"
 #include "optics/lens_files/sequential/design_text.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 namespace {
 
 constexpr double kNearFocus = 0.05;  // of the focal length: an image surface nearer to the focus is kept as defocused
@@ -182,4 +183,4 @@ SequentialDesign design_from(std::string program, const std::string& file) {
 
 Result<Prescription> prescription_of(const SequentialDesign& design) { return Builder(design).build(); }
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What the files of design programs (Zemax, CODE V) have in common: surfaces from the object to the image in units of
 // the lens, breaks of the coordinates between them, and the light they were designed for. Readers fill in this
 // structure and prescription_of converts it, so that all such formats are interpreted alike (docs/formats/zemax.md).
@@ -12,7 +13,7 @@
 #include "contrejour/lens.h"
 #include "optics/lens_files/sequential/placement.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 
 enum class OpeningShape { Round, Rectangle, Ellipse };
 
@@ -101,4 +102,4 @@ struct SequentialDesign {
 // Errors: no lens; a decentred or tilted stop or image surface; those of completed().
 [[nodiscard]] Result<Prescription> prescription_of(const SequentialDesign& design);
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "optics/lens_files/sequential/zmx_block.h"
 
 #include <algorithm>
@@ -8,7 +9,7 @@
 
 #include "base/near_name.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 namespace {
 
 DesignOpening& opening_of(ZmxSurface& surface, int line) {
@@ -125,4 +126,4 @@ bool read_zmx_surface_row(const ZmxRow& row, ZmxSurface& s, std::vector<std::str
   return true;
 }
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Sequential lens files of Zemax (docs/formats/zemax.md): a keyword a line, surfaces in SURF blocks.
 #include <algorithm>
 #include <set>
@@ -14,7 +15,7 @@
 #include "optics/lens_files/sequential/zmx_system.h"
 #include "optics/lens_files/sequential/zmx_zoom.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 namespace {
 
 constexpr std::size_t kMaxZmxSurfaces = 1000;
@@ -146,4 +147,4 @@ bool looks_like_zmx(std::string_view text) {
 
 Result<Prescription> read_zmx(const LensText& in) { return ZmxReader(in).read(); }
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "optics/lens_files/sequential/zmx_row.h"
 
 #include <algorithm>
@@ -9,7 +10,7 @@
 #include "optics/lens_files/plain_number.h"
 #include "optics/lens_files/sequential/design_text.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 
 ZmxRow::ZmxRow(std::string_view text, int line, FirstError& errors)
     : text_(text), line_(line), errors_(errors), words_(words_of(text)) {}
@@ -30,4 +31,4 @@ int ZmxRow::whole(std::size_t k) const {
   return std::abs(value) < 1e6 ? static_cast<int>(value) : 0;
 }
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A line of a Zemax file: a keyword and its cells.
 #pragma once
 
@@ -7,7 +8,7 @@
 
 #include "optics/lens_files/first_error.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 
 // The text and the errors must outlive it.
 class ZmxRow {
@@ -46,4 +47,4 @@ class ZmxRow {
   std::vector<std::string_view> words_;
 };
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

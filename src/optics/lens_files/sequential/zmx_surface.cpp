@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "optics/lens_files/sequential/zmx_surface.h"
 
 #include <algorithm>
@@ -10,7 +11,7 @@
 #include "optics/lens_files/plain_number.h"
 #include "optics/lens_files/sequential/forbes.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 namespace {
 
 constexpr int kFirstTerm =
@@ -288,4 +289,4 @@ Result<Glass> zmx_glass(const ZmxGlass& in, std::span<const std::string> makers,
                  fmt::format("{}, or give its catalogue by --catalogue", found.error().message), {file, in.line, 0});
 }
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

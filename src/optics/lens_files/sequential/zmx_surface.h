@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A SURF block of a Zemax file, and its conversion to a surface.
 #pragma once
 
@@ -11,7 +12,7 @@
 #include "optics/lens_files/glass_finder.h"
 #include "optics/lens_files/sequential/sequential_design.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 
 // GLAS: a name, or an index and an Abbe number.
 struct ZmxGlass {
@@ -65,4 +66,4 @@ struct ZmxSurface {
 [[nodiscard]] Result<Glass> zmx_glass(const ZmxGlass& in, std::span<const std::string> makers, GlassFinder& finder,
                                       const std::string& file, std::vector<std::string>& warnings);
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "optics/lens_files/sequential/zmx_system.h"
 
 #include <algorithm>
@@ -10,7 +11,7 @@
 #include "base/units.h"
 #include "optics/lens_files/sequential/design_text.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 namespace {
 
 void read_unit(const ZmxRow& row, SequentialDesign& design) {
@@ -104,4 +105,4 @@ void ZmxSystem::finish(SequentialDesign& design) const {
                                                         : FieldKind::Angle_deg;
 }
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

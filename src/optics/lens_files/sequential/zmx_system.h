@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The rows of a Zemax file for the whole system: names, units, catalogues, aperture, fields, wavelengths.
 #pragma once
 
@@ -7,7 +8,7 @@
 #include "optics/lens_files/sequential/sequential_design.h"
 #include "optics/lens_files/sequential/zmx_row.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 
 class ZmxSystem {
  public:
@@ -28,4 +29,4 @@ class ZmxSystem {
   int primary_ = 1, fields_ = 0, field_type_ = 0;
 };
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Writes sequential Zemax files (docs/formats/zemax.md), which zmx_reader reads back.
 #include <algorithm>
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "optics/lens_files/sequential/zmx_zoom.h"
 
 #include <algorithm>
@@ -10,7 +11,7 @@
 #include "optics/lens_files/plain_number.h"
 #include "optics/lens_files/sequential/design_text.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 namespace {
 
 // Operands without influence on rays: names, weights, vignetting factors, coatings.
@@ -103,4 +104,4 @@ std::vector<DesignPosition> zmx_positions(const ZmxConfigurations& configuration
   return positions;
 }
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

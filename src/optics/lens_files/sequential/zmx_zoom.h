@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The multi-configuration editor of a Zemax file: positions of a zoom, if only thicknesses change.
 #pragma once
 
@@ -8,7 +9,7 @@
 #include "optics/lens_files/sequential/zmx_row.h"
 #include "optics/lens_files/sequential/zmx_surface.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 
 // One line behind MNUM: an operand, its target, the configuration, and the value as text.
 struct ZmxOperand {
@@ -34,4 +35,4 @@ struct ZmxConfigurations {
                                                         const std::vector<ZmxSurface>& surfaces,
                                                         std::vector<std::string>& warnings);
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // FlareSim's .lens files (docs/formats/flaresim.md): `name:`, `focal_length:`, then a line a surface.
 #include <algorithm>
 #include <cmath>
@@ -19,7 +20,7 @@
 #include "optics/lens_files/read_lens.h"
 #include "optics/lens_files/tables/heights.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 namespace {
 
 constexpr std::string_view kFlareSimSpace = " \t\r\v\f";
@@ -276,4 +277,4 @@ bool looks_like_flaresim(std::string_view text) {
 
 Result<Prescription> read_flaresim(const LensText& in) { return FlareSimReader(in).read(); }
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "optics/lens_files/tables/heights.h"
 
 #include <algorithm>
@@ -7,7 +8,7 @@
 
 #include "optics/lens/rims.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 namespace {
 
 constexpr double kFocalTolerance = 0.2;
@@ -102,4 +103,4 @@ void place_openings(Prescription& lens) {
   }
 }
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

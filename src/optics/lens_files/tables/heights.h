@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Flare programs' files give each surface a height, which is the radius of the clear aperture in some files and the
 // diameter in others, even of one program.
 #pragma once
@@ -7,7 +8,7 @@
 #include "contrejour/lens.h"
 #include "optics/lens_files/complete.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 
 enum class HeightMeaning { SemiDiameter, Diameter, Unusable };
 
@@ -35,4 +36,4 @@ void keep_sensor_without_image(Prescription& lens);
 // behind it is negative.
 void place_openings(Prescription& lens);
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

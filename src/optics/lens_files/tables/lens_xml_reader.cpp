@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // XML files of OpenLensFlare and the LensFlareFramework, which share a format (docs/formats/openlensflare.md).
 #include <algorithm>
 #include <cmath>
@@ -17,7 +18,7 @@
 #include "optics/lens_files/read_lens.h"
 #include "optics/lens_files/tables/heights.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 namespace {
 
 constexpr std::string_view kXmlSpace = " \t\r\n";
@@ -210,4 +211,4 @@ Result<Prescription> read_lens_xml(const LensText& in) {
   return LensXmlReader(root, in).read();
 }
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Optical Bench files of photonstophotos.net (docs/formats/optical-bench.md): sections in brackets, cells between tabs.
 #include <algorithm>
 #include <cmath>
@@ -19,7 +20,7 @@
 #include "optics/lens_files/read_lens.h"
 #include "optics/lens_files/tables/heights.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -304,4 +305,4 @@ bool looks_like_optical_bench(std::string_view text) { return text.find("[lens d
 
 Result<Prescription> read_optical_bench(const LensText& in) { return OpticalBenchReader(in.text, in.file).read(); }
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

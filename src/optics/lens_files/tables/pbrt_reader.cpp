@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Lenses of PBRT's realistic camera (docs/formats/pbrt.md): a line a surface, front first: radius, gap, index,
 // diameter; a radius of 0 is the stop.
 #include <algorithm>
@@ -15,7 +16,7 @@
 #include "optics/lens_files/plain_number.h"
 #include "optics/lens_files/read_lens.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 namespace {
 
 constexpr std::string_view kPbrtSpace = " \t\r\"";
@@ -106,4 +107,4 @@ Result<Prescription> read_pbrt(const LensText& in) {
   return completed(std::move(lens));  // the file does not state the f-number
 }
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

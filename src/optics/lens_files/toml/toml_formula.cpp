@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "optics/lens_files/toml/toml_formula.h"
 
 #include <fmt/format.h>
@@ -5,7 +6,7 @@
 #include "base/near_name.h"
 #include "optics/lens/validate.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 namespace {
 
 // make_glass() checks plausibility; here any finite number is accepted.
@@ -109,4 +110,4 @@ std::string formula_text(const GlassData& data) {
   return text;
 }
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

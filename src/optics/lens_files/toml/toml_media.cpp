@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "optics/lens_files/toml/toml_media.h"
 
 #include <limits>
@@ -6,12 +7,12 @@
 #include <fmt/ranges.h>
 
 #include "base/near_name.h"
-#include "contrejour/film_design.h"
+#include "contrejour/expert/film_design.h"
 #include "optics/lens/validate.h"
 #include "optics/lens_files/toml/toml_formula.h"
 #include "optics/lens_files/toml/toml_values.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 
 namespace {
 
@@ -283,4 +284,4 @@ void refuse_unused(const MediumTable<Glass>& glasses, const MediumTable<Coating>
   refuse_unused_of(coatings, "coating", errors);
 }
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

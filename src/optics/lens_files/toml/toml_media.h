@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Glasses and coatings of the lens format: named tables at the end of a file, or inline in a surface's row.
 #pragma once
 
@@ -5,11 +6,11 @@
 #include <string>
 
 #include "base/toml_fields.h"
-#include "contrejour/coating.h"
-#include "contrejour/glass.h"
+#include "contrejour/expert/coating.h"
+#include "contrejour/expert/glass.h"
 #include "optics/lens_files/glass_finder.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 
 // A named glass or coating, and its position in the file: a name that is not used is an error.
 template <class Medium>
@@ -34,4 +35,4 @@ Coating read_coating(const toml::node& node, const std::string& what, MediumTabl
 
 void refuse_unused(const MediumTable<Glass>& glasses, const MediumTable<Coating>& coatings, TomlErrors& errors);
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Our own lens format, docs/formats/lens-toml.md: names and types here, plausibility in validate().
 #include <algorithm>
 #include <charconv>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "optics/lens_files/toml/toml_shape.h"
 
 #include <array>
@@ -12,7 +13,7 @@
 #include "optics/lens/carried.h"
 #include "optics/lens_files/toml/toml_values.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 namespace {
 
 constexpr NumberRange kTilt_deg{-89.0, 89.0};
@@ -306,4 +307,4 @@ std::string pose_text(const SurfacePose& pose) {
   return out;
 }
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Shapes, rims and poses of surfaces in the lens format: conics, aspheres, toroids, biconics, ellipses, rectangles,
 // decentres and tilts.
 #pragma once
@@ -9,7 +10,7 @@
 #include "base/toml_fields.h"
 #include "contrejour/lens.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 
 // Read a shape from a row's conic, asphere, toroid, biconic; a pose from its or a group's decentre_mm, tilt_deg, axis.
 [[nodiscard]] SurfaceShape read_shape(TomlFields& row, TomlErrors& errors);
@@ -32,4 +33,4 @@ void read_groups(TomlFields& lens, std::vector<Surface>& surfaces, TomlErrors& e
 // "radius_mm = 30.81", or with a suffix "radius_x_mm = ...", in as few digits as give the same curvature.
 [[nodiscard]] std::string curvature_text(double curvature_per_mm, std::string_view suffix);
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

@@ -1,12 +1,13 @@
+// SPDX-License-Identifier: Apache-2.0
 // Definitions that the reader and the writer of lens files share.
 #pragma once
 
 #include <string_view>
 
 #include "base/toml_fields.h"
-#include "contrejour/coating.h"
+#include "contrejour/expert/coating.h"
 
-namespace contrejour {
+namespace contrejour::inline internal {
 
 inline constexpr double kHuge = 1e9;
 inline constexpr NumberRange kFinite{-kHuge, kHuge};
@@ -16,4 +17,4 @@ inline constexpr NumberRange kFinite{-kHuge, kHuge};
   return name == "air" || name == "none" || name == "quarter-wave" || find_coating_design(name);
 }
 
-}  // namespace contrejour
+}  // namespace contrejour::inline internal

@@ -1,10 +1,11 @@
+// SPDX-License-Identifier: Apache-2.0
 // Writes docs/formats/lens-toml.md; reading it back gives the same numbers, bit for bit.
 #include <map>
 
 #include <fmt/format.h>
 
 #include "base/toml_fields.h"
-#include "contrejour/film_design.h"
+#include "contrejour/expert/film_design.h"
 #include "contrejour/lens.h"
 #include "optics/lens_files/glass_finder.h"
 #include "optics/lens_files/toml/toml_formula.h"

@@ -1,9 +1,10 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "render/adaptive/cells/bound_view.h"
 
 #include <algorithm>
 #include <cmath>
 
-namespace contrejour::adaptive {
+namespace contrejour::inline internal::adaptive {
 
 BoundView::BoundView(const IrisBound& bound, std::span<const PlacedCorner> polygon)
     : normal_(bound.normal), outer_(bound.apothem), radius_(bound.radius) {
@@ -28,4 +29,4 @@ Strip BoundView::deeper_than(double depth) const {
   return {centre - chord, centre + chord};
 }
 
-}  // namespace contrejour::adaptive
+}  // namespace contrejour::inline internal::adaptive

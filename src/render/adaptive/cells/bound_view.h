@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A bound of the iris relative to a polygon: which straight lines across the polygon separate what is within the bound
 // from what is not.
 // Units: stop radii. Thread-safety: a value.
@@ -6,10 +7,10 @@
 #include <limits>
 #include <span>
 
-#include "contrejour/iris.h"
+#include "contrejour/expert/iris.h"
 #include "render/adaptive/cells/placed_polygon.h"
 
-namespace contrejour::adaptive {
+namespace contrejour::inline internal::adaptive {
 
 // The strip of points p with normal . p between `least` and `most`.
 struct Strip {
@@ -35,4 +36,4 @@ class BoundView {
   double sideways_ = 0.0;  // largest distance of the polygon from the normal through the arc's centre
 };
 
-}  // namespace contrejour::adaptive
+}  // namespace contrejour::inline internal::adaptive

@@ -1,9 +1,10 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "render/adaptive/cells/box_cells.h"
 
 #include <algorithm>
 #include <cmath>
 
-namespace contrejour::adaptive {
+namespace contrejour::inline internal::adaptive {
 namespace {
 
 constexpr std::array<std::array<int, 2>, 4> kAlong{{{1, 0}, {0, 1}, {-1, 0}, {0, -1}}};  // directions of a cell's sides
@@ -216,4 +217,4 @@ CellCorner BoxCells::corner_at(const BoxMesh& of, const Cell& cell, std::size_t 
           static_cast<float>(way - before)};
 }
 
-}  // namespace contrejour::adaptive
+}  // namespace contrejour::inline internal::adaptive

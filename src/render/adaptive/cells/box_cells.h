@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The cells that a box of the pupil is drawn as. Cells are squares of the vertices of meshes; where a mesh is too
 // coarse, a quarter of it has a mesh of its own. Meshes that meet have the same corners on their border, so that cells
 // leave no gaps and the edges that they share are drawn once.
@@ -17,7 +18,7 @@
 #include "render/adaptive/cells/mesh.h"
 #include "render/stop_patterns/band_screen.h"
 
-namespace contrejour::adaptive {
+namespace contrejour::inline internal::adaptive {
 
 enum class CellState : std::uint8_t { Open, Cut, Closed };
 enum class Sides : std::uint8_t { Straight, Bent };  // bent sides have a corner in their middle
@@ -157,4 +158,4 @@ class BoxCells {
   std::vector<int> roots_;  // by box
 };
 
-}  // namespace contrejour::adaptive
+}  // namespace contrejour::inline internal::adaptive

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Chooses the cells that a patch is drawn as: from the top down, each as large as its allowed error permits.
 #include <algorithm>
 #include <array>
@@ -10,7 +11,7 @@
 #include "render/adaptive/cells/cell_shape.h"
 #include "render/adaptive/cells/frame_error.h"
 
-namespace contrejour::adaptive {
+namespace contrejour::inline internal::adaptive {
 namespace {
 
 constexpr int kHalf = Mesh::kCells / 2;
@@ -189,4 +190,4 @@ void CellPainter::choose(BoxMesh& of, const MeshSquare& square, const Shade* pla
   for (int k = 0; k < 4; ++k) choose(of, {square.ix + (k % 2) * half, square.iy + (k / 2) * half, half}, common);
 }
 
-}  // namespace contrejour::adaptive
+}  // namespace contrejour::inline internal::adaptive

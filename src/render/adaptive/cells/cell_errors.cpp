@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The errors of drawing a cell as one polygon: squared, summed over its pixels, compared with the cell's budget. They
 // also decide how finely arcs are divided into chords.
 #include <algorithm>
@@ -9,7 +10,7 @@
 #include "render/adaptive/cells/cell_shape.h"
 #include "render/adaptive/cells/frame_error.h"
 
-namespace contrejour::adaptive {
+namespace contrejour::inline internal::adaptive {
 namespace {
 
 constexpr double kPixel = 1.0;       // area below which only a cell's flux is visible
@@ -277,4 +278,4 @@ double CellPainter::arc_step(const Mesh& mesh, std::span<const CellCorner> corne
   return std::clamp(std::sqrt(8.0 * off_px / pixels_per_radius), 0.02, 0.8);
 }
 
-}  // namespace contrejour::adaptive
+}  // namespace contrejour::inline internal::adaptive

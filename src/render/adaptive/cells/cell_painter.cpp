@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "render/adaptive/cells/cell_painter.h"
 
 #include <algorithm>
@@ -6,7 +7,7 @@
 
 #include "render/adaptive/cells/cell_shape.h"
 
-namespace contrejour::adaptive {
+namespace contrejour::inline internal::adaptive {
 namespace {
 
 constexpr double kSliver = 1e-3;     // pixels: mean width below which a polygon is a line
@@ -312,4 +313,4 @@ void CellPainter::draw_line(std::span<const Corner> polygon, const Flux& flux) {
   }
 }
 
-}  // namespace contrejour::adaptive
+}  // namespace contrejour::inline internal::adaptive

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Draws patches as polygons: cells as large as the error allows, small where the map folds and at the edges along which
 // the iris and the rims clip them.
 #pragma once
@@ -17,7 +18,7 @@
 #include "render/adaptive/tiles/polygon_list.h"
 #include "render/stop_patterns/shadow_cutter.h"
 
-namespace contrejour::adaptive {
+namespace contrejour::inline internal::adaptive {
 
 class CellPainter {
  public:
@@ -237,4 +238,4 @@ class CellPainter {
   std::vector<Point> points_;
 };
 
-}  // namespace contrejour::adaptive
+}  // namespace contrejour::inline internal::adaptive

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "render/adaptive/cells/cell_plane.h"
 
 #include <algorithm>
@@ -6,7 +7,7 @@
 
 #include "render/adaptive/cells/cell_shape.h"
 
-namespace contrejour::adaptive {
+namespace contrejour::inline internal::adaptive {
 namespace {
 
 constexpr double kThinnest_px2 = 0.5;  // mean square distance from the middle, across the thin direction
@@ -99,4 +100,4 @@ std::optional<IrradiancePlane> LightSums::plane(const Mesh& mesh, const MeshSqua
   return out;
 }
 
-}  // namespace contrejour::adaptive
+}  // namespace contrejour::inline internal::adaptive

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // One irradiance for many cells: a plane over their pixels. Cells are small where the iris clips them or the map
 // curves, though the irradiance may vary slowly there; between cells on one plane no edge is drawn.
 #pragma once
@@ -9,7 +10,7 @@
 #include "render/adaptive/cells/mesh.h"
 #include "render/adaptive/tiles/polygon_list.h"
 
-namespace contrejour::adaptive {
+namespace contrejour::inline internal::adaptive {
 
 // A square of a mesh's cells whose first vertex is at ix, iy.
 struct MeshSquare {
@@ -44,4 +45,4 @@ class LightSums {
   std::array<std::array<double, 4>, 3> light_{};  // by weight: light, times x, y, and its irradiance
 };
 
-}  // namespace contrejour::adaptive
+}  // namespace contrejour::inline internal::adaptive

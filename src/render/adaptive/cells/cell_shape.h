@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Bounds, areas and centroids of polygons of cells, and quadrature weights.
 #pragma once
 
@@ -6,9 +7,9 @@
 #include <cstddef>
 #include <limits>
 
-#include "contrejour/vec.h"
+#include "contrejour/expert/vec.h"
 
-namespace contrejour::adaptive {
+namespace contrejour::inline internal::adaptive {
 
 // Simpson's weights along one axis: beginning, middle, end.
 constexpr std::array kSimpson{1.0 / 6.0, 4.0 / 6.0, 1.0 / 6.0};
@@ -46,4 +47,4 @@ template <class PositionOf>
   return out;
 }
 
-}  // namespace contrejour::adaptive
+}  // namespace contrejour::inline internal::adaptive

@@ -1,13 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
 // Corners of the polygons that cells are drawn as.
 #pragma once
 
 #include <array>
 #include <cstddef>
 
-#include "contrejour/vec.h"
+#include "contrejour/expert/vec.h"
 #include "render/adaptive/maps/patch.h"
 
-namespace contrejour::adaptive {
+namespace contrejour::inline internal::adaptive {
 
 // A corner of a polygon with the fields that may clip it: two stop coordinates a crossing, then squared heights at
 // rims.
@@ -17,4 +18,4 @@ struct Corner {
   std::array<float, 2 * kMaxStopCrossings + kMostRims> limit{};
 };
 
-}  // namespace contrejour::adaptive
+}  // namespace contrejour::inline internal::adaptive

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Draws cells whose light passes dirt: as triangles, over which points in the dirt's plane are linear. Shapes subtract
 // their light as polygons of negative sign. A picture of dirt, and shapes that overlap many times, are looked up pixel
 // by pixel.
@@ -6,7 +7,7 @@
 
 #include "render/adaptive/cells/cell_painter.h"
 
-namespace contrejour::adaptive {
+namespace contrejour::inline internal::adaptive {
 namespace {
 
 constexpr double kDirtDisc = 1.2;  // radius of a curved cell over that of its vertices, in the dirt's plane
@@ -161,4 +162,4 @@ void CellPainter::add_shadows(std::span<const Corner> polygon, const Shade& shad
                     });
 }
 
-}  // namespace contrejour::adaptive
+}  // namespace contrejour::inline internal::adaptive

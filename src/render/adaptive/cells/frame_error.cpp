@@ -1,8 +1,9 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "render/adaptive/cells/frame_error.h"
 
 #include <algorithm>
 
-namespace contrejour::adaptive {
+namespace contrejour::inline internal::adaptive {
 
 std::vector<std::size_t> worth_drawing(std::vector<std::size_t> some, const std::vector<double>& error,
                                        double allowed) {
@@ -14,4 +15,4 @@ std::vector<std::size_t> worth_drawing(std::vector<std::size_t> some, const std:
   return some;
 }
 
-}  // namespace contrejour::adaptive
+}  // namespace contrejour::inline internal::adaptive

@@ -1,10 +1,11 @@
+// SPDX-License-Identifier: Apache-2.0
 // The error that a whole frame may make, and which items are worth drawing more finely under that limit.
 #pragma once
 
 #include <cstddef>
 #include <vector>
 
-namespace contrejour::adaptive {
+namespace contrejour::inline internal::adaptive {
 
 // The RMS error over the frame's pixels, as a fraction of the peak.
 struct FrameError {
@@ -23,4 +24,4 @@ struct FrameError {
 [[nodiscard]] std::vector<std::size_t> worth_drawing(std::vector<std::size_t> some, const std::vector<double>& error,
                                                      double allowed);
 
-}  // namespace contrejour::adaptive
+}  // namespace contrejour::inline internal::adaptive

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "render/adaptive/cells/mesh.h"
 
 #include <algorithm>
@@ -6,7 +7,7 @@
 
 #include "render/adaptive/maps/rays.h"
 
-namespace contrejour::adaptive {
+namespace contrejour::inline internal::adaptive {
 namespace {
 
 // Matrices from a patch's nodes to the vertices: of values, and of their change from vertex to vertex.
@@ -158,4 +159,4 @@ void make_mesh(const Patch& patch, const IrisShape& iris, Mesh& mesh) {
   find_brightness(mesh);
 }
 
-}  // namespace contrejour::adaptive
+}  // namespace contrejour::inline internal::adaptive

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A patch at the vertices of a uniform mesh of 8 x 8 cells.
 #pragma once
 
@@ -8,7 +9,7 @@
 #include "ghosts/iris_shape.h"
 #include "render/adaptive/maps/patch.h"
 
-namespace contrejour::adaptive {
+namespace contrejour::inline internal::adaptive {
 
 struct Mesh {
   static constexpr int kCells = 8;
@@ -48,4 +49,4 @@ struct Mesh {
 // Evaluates a patch into `mesh`, whose old contents do not matter and whose memory is used again.
 void make_mesh(const Patch& patch, const IrisShape& iris, Mesh& mesh);
 
-}  // namespace contrejour::adaptive
+}  // namespace contrejour::inline internal::adaptive

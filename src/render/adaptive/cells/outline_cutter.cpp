@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "render/adaptive/cells/outline_cutter.h"
 
 #include <algorithm>
@@ -5,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace contrejour::adaptive {
+namespace contrejour::inline internal::adaptive {
 namespace {
 
 constexpr double kSmallAngle = 1e-3;  // radians: smaller ones may be rounding
@@ -279,4 +280,4 @@ void OutlineCutter::cut_by_iris(std::size_t limit) {
   }
 }
 
-}  // namespace contrejour::adaptive
+}  // namespace contrejour::inline internal::adaptive

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Clips a cell's outline along arcs and lines: to what the iris and the rims leave open.
 #pragma once
 
@@ -9,7 +10,7 @@
 #include "ghosts/iris_shape.h"
 #include "render/adaptive/cells/whole_cell.h"
 
-namespace contrejour::adaptive {
+namespace contrejour::inline internal::adaptive {
 
 class OutlineCutter {
  public:
@@ -72,4 +73,4 @@ class OutlineCutter {
   std::vector<Vec2> arc_;  // points in the stop
 };
 
-}  // namespace contrejour::adaptive
+}  // namespace contrejour::inline internal::adaptive

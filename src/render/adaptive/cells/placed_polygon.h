@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A convex polygon of the frame whose corners have positions in the stop, along which straight lines cut it.
 // Units: pixels, stop radii. Thread-safety: a value.
 #pragma once
@@ -9,7 +10,7 @@
 #include "render/adaptive/cells/outline_cutter.h"
 #include "render/adaptive/tiles/stop_map.h"
 
-namespace contrejour::adaptive {
+namespace contrejour::inline internal::adaptive {
 
 struct PlacedCorner {
   Vec2 position, uv;  // as of a Corner
@@ -53,4 +54,4 @@ class PlacedPolygon {
   std::vector<PlacedCorner> corners_, before_;
 };
 
-}  // namespace contrejour::adaptive
+}  // namespace contrejour::inline internal::adaptive

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Draws cells whose light passes a stop pattern instead of the sharp iris. Where the pattern varies, points in the stop
 // are polynomials of the pixel. Large cells are cut along the edges with fringes into strips and a uniform remainder.
 #include <algorithm>
@@ -9,7 +10,7 @@
 #include "render/adaptive/cells/cell_shape.h"
 #include "render/adaptive/cells/frame_error.h"
 
-namespace contrejour::adaptive {
+namespace contrejour::inline internal::adaptive {
 namespace {
 
 constexpr double kWidthsPerOctave = 2.0;  // widths of pixels for which edges' tables are made
@@ -278,4 +279,4 @@ void CellPainter::add_fringed(std::span<const PlacedCorner> polygon, const Shade
            Screened{.map = map.narrowed(looks), .screen = screen_.get(), .edges = &table, .looks = looks}, active_);
 }
 
-}  // namespace contrejour::adaptive
+}  // namespace contrejour::inline internal::adaptive

@@ -1,10 +1,11 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "render/adaptive/cells/shared_edges.h"
 
 #include <algorithm>
 #include <bit>
 #include <vector>
 
-namespace contrejour::adaptive {
+namespace contrejour::inline internal::adaptive {
 namespace {
 
 // An edge of a polygon, directed from a to b. In a neighbour of the same orientation it is directed from b to a.
@@ -72,4 +73,4 @@ void share_edges(PolygonList& list, const TileGrid& grid) {
   }
 }
 
-}  // namespace contrejour::adaptive
+}  // namespace contrejour::inline internal::adaptive

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "render/adaptive/cells/whole_cell.h"
 
 #include <algorithm>
@@ -12,7 +13,7 @@
 #include <hwy/highway.h>
 
 HWY_BEFORE_NAMESPACE();
-namespace contrejour::adaptive::HWY_NAMESPACE {
+namespace contrejour::inline internal::adaptive::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 using Tag = hn::CappedTag<double, 8>;  // points computed at once
@@ -157,11 +158,11 @@ Corner corner_at(std::span<const Corner> cell, std::size_t limits, Vec2 uv) {
   return CornersAt(cell, limits, hn::Set(d, uv.x), hn::Set(d, uv.y))[0];
 }
 
-}  // namespace contrejour::adaptive::HWY_NAMESPACE
+}  // namespace contrejour::inline internal::adaptive::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace contrejour::adaptive {
+namespace contrejour::inline internal::adaptive {
 namespace {
 
 HWY_EXPORT(add_crossing);
@@ -204,5 +205,5 @@ void WholeCell::add_crossing(std::span<const Vec2> stop, std::size_t limit, Vec2
   HWY_DYNAMIC_DISPATCH(add_crossing)(corners_, limits_, stop_series(corners_, limit), stop, near_uv, to);
 }
 
-}  // namespace contrejour::adaptive
+}  // namespace contrejour::inline internal::adaptive
 #endif  // HWY_ONCE

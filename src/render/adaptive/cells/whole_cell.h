@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A cell as an interpolation between its corners: values between them, and where its rays cross the stop.
 #pragma once
 
@@ -8,7 +9,7 @@
 
 #include "render/adaptive/cells/corner.h"
 
-namespace contrejour::adaptive {
+namespace contrejour::inline internal::adaptive {
 
 class WholeCell {
  public:
@@ -34,4 +35,4 @@ class WholeCell {
   std::size_t limits_ = 0;
 };
 
-}  // namespace contrejour::adaptive
+}  // namespace contrejour::inline internal::adaptive

@@ -1,8 +1,9 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "render/adaptive/maps/band_error.h"
 
 #include <cmath>
 
-namespace contrejour::adaptive {
+namespace contrejour::inline internal::adaptive {
 namespace {
 
 // The squared difference between an edge one pixel wide and the same edge displaced by u pixels.
@@ -32,4 +33,4 @@ double middle_of_light(std::span<const SpectralEdge> edges) {
   return light > 0.0 ? sum / light : edges[edges.size() / 2].place_px;
 }
 
-}  // namespace contrejour::adaptive
+}  // namespace contrejour::inline internal::adaptive

@@ -1,9 +1,10 @@
+// SPDX-License-Identifier: Apache-2.0
 // The error of drawing the edges of several wavelengths, which lie side by side, at one position.
 #pragma once
 
 #include <span>
 
-namespace contrejour::adaptive {
+namespace contrejour::inline internal::adaptive {
 
 // The edge of one wavelength, on a line across it.
 struct SpectralEdge {
@@ -18,4 +19,4 @@ struct SpectralEdge {
 // The position at which one edge for all makes the least error: displacements much smaller than a pixel then cancel.
 [[nodiscard]] double middle_of_light(std::span<const SpectralEdge> edges);
 
-}  // namespace contrejour::adaptive
+}  // namespace contrejour::inline internal::adaptive

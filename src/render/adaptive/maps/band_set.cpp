@@ -1,6 +1,7 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "render/adaptive/maps/band_set.h"
 
-namespace contrejour::adaptive {
+namespace contrejour::inline internal::adaptive {
 namespace {
 
 std::vector<double> geometry_of(const Band& band, const WavelengthSamples& samples, std::size_t count) {
@@ -76,4 +77,4 @@ void BandSet::band_patch(std::span<const Patch> patches, std::size_t band, Patch
     blend(patches, blends_[band], out);
 }
 
-}  // namespace contrejour::adaptive
+}  // namespace contrejour::inline internal::adaptive

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Bands of wavelengths that are drawn through the same boxes of the pupil: either one band with the geometry of one of
 // its wavelengths, or all bands, interpolated from rays at some of their wavelengths.
 #pragma once
@@ -11,7 +12,7 @@
 #include "render/adaptive/maps/patch.h"
 #include "render/adaptive/maps/wavelength_bands.h"
 
-namespace contrejour::adaptive {
+namespace contrejour::inline internal::adaptive {
 
 class BandSet {
  public:
@@ -39,4 +40,4 @@ class BandSet {
   std::vector<PatchBlend> blends_;  // one a band; none: there is one band
 };
 
-}  // namespace contrejour::adaptive
+}  // namespace contrejour::inline internal::adaptive

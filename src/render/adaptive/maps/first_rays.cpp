@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "render/adaptive/maps/first_rays.h"
 
 #include <algorithm>
@@ -5,7 +6,7 @@
 
 #include "render/adaptive/maps/pass_light.h"
 
-namespace contrejour::adaptive {
+namespace contrejour::inline internal::adaptive {
 namespace {
 
 constexpr std::size_t kFirstSamples = 3;  // wavelengths that give the tolerance and predict the fourth
@@ -191,4 +192,4 @@ std::array<double, 3> light_of(const FirstRays& rays, std::span<const PlannedPas
   return light;
 }
 
-}  // namespace contrejour::adaptive
+}  // namespace contrejour::inline internal::adaptive

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The first rays through a box of a ghost's pupil, few at each wavelength. Bands, tolerances and bent boxes are decided
 // from them.
 #pragma once
@@ -10,7 +11,7 @@
 #include "render/adaptive/maps/tolerance.h"
 #include "render/radiometry/wavelength_samples.h"
 
-namespace contrejour::adaptive {
+namespace contrejour::inline internal::adaptive {
 
 struct FirstRays {
   std::vector<RaySheet> sheets;  // one a pass, without weights; no nodes: not traced
@@ -35,4 +36,4 @@ struct FirstRays {
 [[nodiscard]] std::array<double, 3> light_of(const FirstRays& rays, std::span<const PlannedPass> passes,
                                              std::size_t pass);
 
-}  // namespace contrejour::adaptive
+}  // namespace contrejour::inline internal::adaptive

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The optical paths of a light's ghost, one at each of its wavelengths, each made when first used.
 #pragma once
 
@@ -12,7 +13,7 @@
 #include "render/adaptive/maps/rays.h"
 #include "render/planning/planned_light.h"
 
-namespace contrejour::adaptive {
+namespace contrejour::inline internal::adaptive {
 
 class GhostTracers {
  public:
@@ -69,4 +70,4 @@ class GhostTracers {
   std::vector<std::optional<SheetTracer>> tracers_;  // one a pass
 };
 
-}  // namespace contrejour::adaptive
+}  // namespace contrejour::inline internal::adaptive

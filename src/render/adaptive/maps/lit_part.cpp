@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "render/adaptive/maps/lit_part.h"
 
 #include <algorithm>
@@ -6,7 +7,7 @@
 #include <limits>
 #include <vector>
 
-namespace contrejour::adaptive {
+namespace contrejour::inline internal::adaptive {
 namespace {
 
 // By how much, in distances between rays, light between four rays may land beyond them. Where one of them fails,
@@ -98,4 +99,4 @@ std::optional<Rectangle> lit_part(std::span<const RaySheet> sheets, const LightF
   return all;
 }
 
-}  // namespace contrejour::adaptive
+}  // namespace contrejour::inline internal::adaptive

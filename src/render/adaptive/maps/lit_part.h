@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The part of a box of the pupil whose light may get through and land in the frame, found from a sheet of its rays.
 #pragma once
 
@@ -7,7 +8,7 @@
 #include "contrejour/frame.h"
 #include "render/adaptive/maps/rays.h"
 
-namespace contrejour::adaptive {
+namespace contrejour::inline internal::adaptive {
 
 // The bounds of all cells between nodes whose light may do so at any wavelength of the sheets, which are of one box;
 // empty if there is none. The iris counts as its circumscribed circle. with_mirror_image: the light of the mirror image
@@ -15,4 +16,4 @@ namespace contrejour::adaptive {
 [[nodiscard]] std::optional<Rectangle> lit_part(std::span<const RaySheet> sheets, const LightFrame& light,
                                                 const Frame& frame, bool with_mirror_image);
 
-}  // namespace contrejour::adaptive
+}  // namespace contrejour::inline internal::adaptive

@@ -1,10 +1,11 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "render/adaptive/maps/pass_light.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 
-namespace contrejour::adaptive {
+namespace contrejour::inline internal::adaptive {
 namespace {
 
 constexpr int kNodes = 3;  // a side of the box
@@ -71,4 +72,4 @@ double PassLight::told(const std::vector<double>& light, std::size_t count, std:
   return sum;
 }
 
-}  // namespace contrejour::adaptive
+}  // namespace contrejour::inline internal::adaptive

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The flux that each of a ghost's many passes carries through a box, measured with a few more rays than the first ones:
 // films make it vary less smoothly with wavelength than positions do.
 #pragma once
@@ -9,7 +10,7 @@
 #include "render/adaptive/maps/ghost_tracers.h"
 #include "render/radiometry/wavelength_samples.h"
 
-namespace contrejour::adaptive {
+namespace contrejour::inline internal::adaptive {
 
 // Measures at 3 x 3 of the first rays' nodes: those whose rays arrive at all of the first `count` samples.
 class PassLight {
@@ -38,4 +39,4 @@ class PassLight {
   std::vector<bool> counts_;
 };
 
-}  // namespace contrejour::adaptive
+}  // namespace contrejour::inline internal::adaptive

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "render/adaptive/maps/patch.h"
 
 #include <algorithm>
@@ -6,7 +7,7 @@
 
 #include "render/adaptive/maps/rays.h"
 
-namespace contrejour::adaptive {
+namespace contrejour::inline internal::adaptive {
 namespace {
 
 // The interpolation matrices for one number of nodes.
@@ -209,4 +210,4 @@ Patch quarter(const Patch& patch, int ix, int iy) {
   return out;
 }
 
-}  // namespace contrejour::adaptive
+}  // namespace contrejour::inline internal::adaptive

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A part of a ghost as polynomials over a box of the entrance plane: where its rays land, what they carry, and how
 // close they pass to whatever may block them.
 #pragma once
@@ -8,11 +9,11 @@
 #include <span>
 #include <vector>
 
-#include "contrejour/colour.h"
+#include "contrejour/expert/colour.h"
 #include "contrejour/frame.h"
 #include "render/adaptive/maps/rays.h"
 
-namespace contrejour::adaptive {
+namespace contrejour::inline internal::adaptive {
 
 // The fields of a patch in order: position in pixels (2); stop coordinates (2 a crossing); the squared relative height
 // at every rim that comes near; the rays' weights, one for each channel, or one for all channels of a single
@@ -78,4 +79,4 @@ struct PatchError {
 // The quarter of a patch on the low (0) or high (1) side of each axis, as a patch of its own.
 [[nodiscard]] Patch quarter(const Patch& patch, int ix, int iy);
 
-}  // namespace contrejour::adaptive
+}  // namespace contrejour::inline internal::adaptive

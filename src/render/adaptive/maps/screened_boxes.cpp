@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "render/adaptive/maps/screened_boxes.h"
 
 #include <algorithm>
@@ -7,7 +8,7 @@
 
 #include "render/adaptive/maps/sheet_cells.h"
 
-namespace contrejour::adaptive {
+namespace contrejour::inline internal::adaptive {
 namespace {
 
 constexpr double kScreenDisc = 1.2;    // radius of a curved cell over that of its corners, in the stop
@@ -102,4 +103,4 @@ std::optional<double> brightest_passed(const RaySheet& sheet, bool with_mirror_i
   return brightest;
 }
 
-}  // namespace contrejour::adaptive
+}  // namespace contrejour::inline internal::adaptive

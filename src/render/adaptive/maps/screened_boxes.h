@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The largest brightness of boxes of the pupil behind a stop pattern.
 #pragma once
 
@@ -7,7 +8,7 @@
 #include "render/adaptive/maps/rays.h"
 #include "render/stop_patterns/band_screen.h"
 
-namespace contrejour::adaptive {
+namespace contrejour::inline internal::adaptive {
 
 // An estimate of the largest irradiance on the sensor, per mm^2 and for a gain of 1, between rays of a sheet that
 // arrive. Next to rays that fail it is taken to be as large as anywhere. If it exceeds `enough`, the search ends with a
@@ -17,4 +18,4 @@ namespace contrejour::adaptive {
                                                      const screens::BandScreen& screen, double unit,
                                                      const LightFrame& light, double enough);
 
-}  // namespace contrejour::adaptive
+}  // namespace contrejour::inline internal::adaptive

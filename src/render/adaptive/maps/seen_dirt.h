@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Dirt at the points where a ghost's rays cross it.
 #pragma once
 
@@ -6,7 +7,7 @@
 #include "ghosts/light_frame.h"
 #include "render/stop_patterns/band_dirt.h"
 
-namespace contrejour::adaptive {
+namespace contrejour::inline internal::adaptive {
 
 // The point, in the lens's frame, at which a ray crosses the front. entrance_mm: in the plane z = z_mm, in the light's
 // frame.
@@ -26,4 +27,4 @@ struct SeenDirt {
   }
 };
 
-}  // namespace contrejour::adaptive
+}  // namespace contrejour::inline internal::adaptive

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The cells between four neighbouring rays of a sheet, each identified by its first ray.
 #pragma once
 
@@ -8,7 +9,7 @@
 
 #include "render/adaptive/maps/rays.h"
 
-namespace contrejour::adaptive {
+namespace contrejour::inline internal::adaptive {
 
 class SheetCells {
  public:
@@ -41,4 +42,4 @@ class SheetCells {
   const std::vector<double>& points_;
 };
 
-}  // namespace contrejour::adaptive
+}  // namespace contrejour::inline internal::adaptive

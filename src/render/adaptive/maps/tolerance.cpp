@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "render/adaptive/maps/tolerance.h"
 
 #include <algorithm>
@@ -6,7 +7,7 @@
 
 #include "render/adaptive/maps/sheet_cells.h"
 
-namespace contrejour::adaptive {
+namespace contrejour::inline internal::adaptive {
 namespace {
 
 constexpr double kFitShare = 0.3;  // of the allowed error, for fits: theirs is the same all over a ghost
@@ -79,4 +80,4 @@ Tolerance tolerance_for(const RaySheet& sheet, double weight, double shared_flux
   return t;
 }
 
-}  // namespace contrejour::adaptive
+}  // namespace contrejour::inline internal::adaptive

@@ -1,10 +1,11 @@
+// SPDX-License-Identifier: Apache-2.0
 // How far polynomials through a ghost's rays may be off, derived from the error in pixels.
 #pragma once
 
 #include "contrejour/frame.h"
 #include "render/adaptive/maps/rays.h"
 
-namespace contrejour::adaptive {
+namespace contrejour::inline internal::adaptive {
 
 // A ghost, or a part of one, as it appears: its level where most of its light is, as a pixel's value, and its area
 // there.
@@ -31,4 +32,4 @@ struct Tolerance {
 [[nodiscard]] Tolerance tolerance_for(const RaySheet& sheet, double weight, double shared_flux, const Frame& frame,
                                       const ErrorBudget& budget);
 
-}  // namespace contrejour::adaptive
+}  // namespace contrejour::inline internal::adaptive

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "render/adaptive/maps/wavelength_bands.h"
 
 #include <algorithm>
@@ -7,7 +8,7 @@
 
 #include "render/adaptive/maps/band_error.h"
 
-namespace contrejour::adaptive {
+namespace contrejour::inline internal::adaptive {
 namespace {
 
 // Fraction of the displacement that a fit may make of all light. The error of bands is added to that of fits, is
@@ -120,4 +121,4 @@ std::vector<Band> bands_for(const FirstRays& rays, std::span<const PlannedPass> 
   return joined.bands();
 }
 
-}  // namespace contrejour::adaptive
+}  // namespace contrejour::inline internal::adaptive

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Finds wavelengths whose images of a ghost lie so close together that they can share one geometry.
 #pragma once
 
@@ -7,7 +8,7 @@
 
 #include "render/adaptive/maps/first_rays.h"
 
-namespace contrejour::adaptive {
+namespace contrejour::inline internal::adaptive {
 
 // Passes from first to last, excluding last, drawn at one position: that of the middle pass, or one between passes.
 struct Band {
@@ -21,4 +22,4 @@ struct Band {
 [[nodiscard]] std::vector<Band> bands_for(const FirstRays& rays, std::span<const PlannedPass> passes,
                                           const WavelengthSamples& samples, double pixel_pitch_mm);
 
-}  // namespace contrejour::adaptive
+}  // namespace contrejour::inline internal::adaptive

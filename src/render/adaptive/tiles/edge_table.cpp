@@ -1,9 +1,10 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "render/adaptive/tiles/edge_table.h"
 
 #include <algorithm>
 #include <cmath>
 
-namespace contrejour::adaptive {
+namespace contrejour::inline internal::adaptive {
 namespace {
 
 constexpr double kStep = 1.0 / 24.0;  // in units of the finest edge
@@ -40,4 +41,4 @@ EdgeTable::EdgeTable(const screens::BandScreen& band, double width)
   entries_ = {};
 }
 
-}  // namespace contrejour::adaptive
+}  // namespace contrejour::inline internal::adaptive

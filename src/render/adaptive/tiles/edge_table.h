@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A table of the fringes along an iris's edges, for wavelengths that are drawn together and for all channels:
 // `adaptive` looks it up for each pixel. Differs: where two edges meet, the channels' means are multiplied instead of
 // each wavelength's values.
@@ -9,7 +10,7 @@
 #include "render/stop_patterns/band_screen.h"
 #include "render/stop_patterns/iris_screens.h"
 
-namespace contrejour::adaptive {
+namespace contrejour::inline internal::adaptive {
 
 class EdgeTable {
  public:
@@ -42,4 +43,4 @@ class EdgeTable {
   std::vector<Step> steps_;
 };
 
-}  // namespace contrejour::adaptive
+}  // namespace contrejour::inline internal::adaptive

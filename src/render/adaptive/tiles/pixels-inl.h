@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Neighbouring pixels of a row in vectors: three numbers a pixel, interleaved as in a frame.
 #if defined(CONTREJOUR_ADAPTIVE_PIXELS_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef CONTREJOUR_ADAPTIVE_PIXELS_INL_H_
@@ -15,7 +16,7 @@
 #include "render/adaptive/tiles/quad-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace contrejour::adaptive::HWY_NAMESPACE {
+namespace contrejour::inline internal::adaptive::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 constexpr std::size_t kChannels = 3;
@@ -149,7 +150,7 @@ HWY_INLINE PixelsOf<T> taken(double* from) {
   return out;
 }
 
-}  // namespace contrejour::adaptive::HWY_NAMESPACE
+}  // namespace contrejour::inline internal::adaptive::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #endif

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The polygons to draw, in pixels of the frame. Each has an irradiance that is linear over it. They are convex except
 // for sides that follow a curve.
 #pragma once
@@ -9,12 +10,12 @@
 #include <span>
 #include <vector>
 
-#include "contrejour/vec.h"
+#include "contrejour/expert/vec.h"
 #include "render/adaptive/tiles/edge_table.h"
 #include "render/adaptive/tiles/stop_map.h"
 #include "render/stop_patterns/band_dirt.h"
 
-namespace contrejour::adaptive {
+namespace contrejour::inline internal::adaptive {
 
 struct Point {
   float x = 0, y = 0;
@@ -107,4 +108,4 @@ struct PolygonList {
   }
 };
 
-}  // namespace contrejour::adaptive
+}  // namespace contrejour::inline internal::adaptive

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Four numbers, the three channels of a pixel and an unused one, in as many vectors as they need.
 #if defined(CONTREJOUR_ADAPTIVE_QUAD_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef CONTREJOUR_ADAPTIVE_QUAD_INL_H_
@@ -12,7 +13,7 @@
 #include <type_traits>
 
 HWY_BEFORE_NAMESPACE();
-namespace contrejour::adaptive::HWY_NAMESPACE {
+namespace contrejour::inline internal::adaptive::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
@@ -115,7 +116,7 @@ struct QuadLine {
   }
 };
 
-}  // namespace contrejour::adaptive::HWY_NAMESPACE
+}  // namespace contrejour::inline internal::adaptive::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #endif

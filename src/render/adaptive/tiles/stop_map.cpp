@@ -1,10 +1,11 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "render/adaptive/tiles/stop_map.h"
 
 #include <algorithm>
 #include <cassert>
 #include <cmath>
 
-namespace contrejour::adaptive {
+namespace contrejour::inline internal::adaptive {
 namespace {
 
 constexpr double kThick_px = 2.0;  // cells thicker than this also get second-order terms
@@ -66,4 +67,4 @@ std::span<const StopPlace> StopMap::places(Vec2 pixel, std::array<StopPlace, kMa
   return {room.data(), crossings_};
 }
 
-}  // namespace contrejour::adaptive
+}  // namespace contrejour::inline internal::adaptive

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The map from a cell's pixels to the points at which their light crosses the stop: a polynomial of second order in the
 // pixel, or of first order where a cell is thinner than a few pixels.
 #pragma once
@@ -5,11 +6,11 @@
 #include <array>
 #include <span>
 
-#include "contrejour/trace.h"
-#include "contrejour/vec.h"
+#include "contrejour/expert/trace.h"
+#include "contrejour/expert/vec.h"
 #include "render/planning/stop_screen.h"
 
-namespace contrejour::adaptive {
+namespace contrejour::inline internal::adaptive {
 
 // The series of a field over a cell, from its values at the cell's vertices. Coordinates x and y go from -1 to 1:
 // middle + u x + v y + (uu x^2 + vv y^2) / 2 + uv x y.
@@ -82,4 +83,4 @@ class StopMap {
   double bend_ = 0.0;
 };
 
-}  // namespace contrejour::adaptive
+}  // namespace contrejour::inline internal::adaptive

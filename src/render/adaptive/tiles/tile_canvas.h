@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The image that tiles are drawn into.
 #pragma once
 
@@ -9,7 +10,7 @@
 #include "render/adaptive/tiles/tile_sums.h"
 #include "render/adaptive/tiles/tiles.h"
 
-namespace contrejour::adaptive {
+namespace contrejour::inline internal::adaptive {
 
 // An image of a frame, or of the part of it that begins at (left, top).
 struct TileCanvas {
@@ -33,4 +34,4 @@ struct TileCanvas {
   }
 };
 
-}  // namespace contrejour::adaptive
+}  // namespace contrejour::inline internal::adaptive

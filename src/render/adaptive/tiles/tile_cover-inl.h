@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Adds the edges of a polygon to its coverage, stored as changes along the rows of a tile: several rows of an edge, or
 // several columns of a row, at once.
 #if defined(CONTREJOUR_ADAPTIVE_TILE_COVER_INL_H_) == defined(HWY_TARGET_TOGGLE)
@@ -19,7 +20,7 @@
 #include "render/adaptive/tiles/tile_sums.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace contrejour::adaptive::HWY_NAMESPACE {
+namespace contrejour::inline internal::adaptive::HWY_NAMESPACE {
 
 // Marks sums of coverage alone, which is not multiplied by an irradiance.
 struct NoShade {};
@@ -133,7 +134,7 @@ HWY_INLINE void add_edge(CoverSums& tile, NoShade /*none*/, Vec2 a, Vec2 b, doub
   });
 }
 
-}  // namespace contrejour::adaptive::HWY_NAMESPACE
+}  // namespace contrejour::inline internal::adaptive::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #endif

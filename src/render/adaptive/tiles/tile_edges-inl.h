@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Adds a polygon's edges as coverage times irradiance, and as changes of the light beyond, along the rows of a tile.
 #if defined(CONTREJOUR_ADAPTIVE_TILE_EDGES_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef CONTREJOUR_ADAPTIVE_TILE_EDGES_INL_H_
@@ -17,7 +18,7 @@
 #include "render/adaptive/tiles/tile_sums.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace contrejour::adaptive::HWY_NAMESPACE {
+namespace contrejour::inline internal::adaptive::HWY_NAMESPACE {
 
 // The irradiance of a polygon in the form that a row of pixels needs: a line along x, and its change by row.
 struct RowShade {
@@ -207,7 +208,7 @@ HWY_INLINE void for_each_edge(const TileSums& tile, const PolygonList& list, con
   }
 }
 
-}  // namespace contrejour::adaptive::HWY_NAMESPACE
+}  // namespace contrejour::inline internal::adaptive::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #endif

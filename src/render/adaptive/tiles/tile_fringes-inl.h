@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The transmittance near the edges of an iris that have fringes, from tables by distance.
 #if defined(CONTREJOUR_ADAPTIVE_TILE_FRINGES_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef CONTREJOUR_ADAPTIVE_TILE_FRINGES_INL_H_
@@ -21,7 +22,7 @@
 #include "render/adaptive/tiles/tile_rows-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace contrejour::adaptive::HWY_NAMESPACE {
+namespace contrejour::inline internal::adaptive::HWY_NAMESPACE {
 
 static_assert(EdgeTable::kStride == 4);
 
@@ -293,7 +294,7 @@ class GreyFringes {
   GreyTable table_;
 };
 
-}  // namespace contrejour::adaptive::HWY_NAMESPACE
+}  // namespace contrejour::inline internal::adaptive::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #endif

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The transmittance of a diffraction pattern of the whole iris, from images over the stop.
 #if defined(CONTREJOUR_ADAPTIVE_TILE_PATTERNS_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef CONTREJOUR_ADAPTIVE_TILE_PATTERNS_INL_H_
@@ -18,7 +19,7 @@
 #include "render/adaptive/tiles/tile_rows-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace contrejour::adaptive::HWY_NAMESPACE {
+namespace contrejour::inline internal::adaptive::HWY_NAMESPACE {
 
 static_assert(screens::BandPattern::kStride == 4);
 
@@ -161,7 +162,7 @@ class GreyPattern {
   RowPlaces rows_[2];
 };
 
-}  // namespace contrejour::adaptive::HWY_NAMESPACE
+}  // namespace contrejour::inline internal::adaptive::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #endif

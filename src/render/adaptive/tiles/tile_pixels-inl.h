@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Turns what edges left in a tile, and light added to single pixels, into pixels of the frame.
 #if defined(CONTREJOUR_ADAPTIVE_TILE_PIXELS_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef CONTREJOUR_ADAPTIVE_TILE_PIXELS_INL_H_
@@ -22,7 +23,7 @@
 #include "render/adaptive/tiles/tile_sums.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace contrejour::adaptive::HWY_NAMESPACE {
+namespace contrejour::inline internal::adaptive::HWY_NAMESPACE {
 
 // Draws a block's pixels of a row to `to`. The sums of the block are read and cleared, also beyond the tile's border.
 // line: the row's line before the block, and on return after it.
@@ -89,7 +90,7 @@ void draw_pixels(TileSums& tile, const TileCanvas& canvas) {
   for (int row = 0; row < tile.height; ++row) draw_row(tile, row, canvas);
 }
 
-}  // namespace contrejour::adaptive::HWY_NAMESPACE
+}  // namespace contrejour::inline internal::adaptive::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #endif

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A row of pixels, the stop points of its light, and positions of these in tables.
 #if defined(CONTREJOUR_ADAPTIVE_TILE_ROWS_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef CONTREJOUR_ADAPTIVE_TILE_ROWS_INL_H_
@@ -24,7 +25,7 @@
 #include "render/stop_patterns/band_pattern.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace contrejour::adaptive::HWY_NAMESPACE {
+namespace contrejour::inline internal::adaptive::HWY_NAMESPACE {
 
 using FloatTag = RowTag<float>;
 using IntTag = hn::RebindToSigned<FloatTag>;
@@ -245,7 +246,7 @@ class ShortTable {
   hn::Vec<FloatTag> none_;
 };
 
-}  // namespace contrejour::adaptive::HWY_NAMESPACE
+}  // namespace contrejour::inline internal::adaptive::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #endif

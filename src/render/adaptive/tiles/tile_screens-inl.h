@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Draws polygons behind a stop pattern: first their coverage, then for each pixel the transmitted light.
 #if defined(CONTREJOUR_ADAPTIVE_TILE_SCREENS_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef CONTREJOUR_ADAPTIVE_TILE_SCREENS_INL_H_
@@ -24,7 +25,7 @@
 #include "render/adaptive/tiles/tile_rows-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace contrejour::adaptive::HWY_NAMESPACE {
+namespace contrejour::inline internal::adaptive::HWY_NAMESPACE {
 
 // The transmittance of any stop pattern, also at several crossings, and of dirt. Either may be null.
 class AnyScreen {
@@ -387,7 +388,7 @@ void add_screened(TileSums& tile, const PolygonList& list, const Polygon& polygo
   add(AnyScreen(behind.screen, behind.map));
 }
 
-}  // namespace contrejour::adaptive::HWY_NAMESPACE
+}  // namespace contrejour::inline internal::adaptive::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #endif

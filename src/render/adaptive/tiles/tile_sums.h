@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What edges leave in a tile until a pass along its rows turns it into pixels.
 #pragma once
 
@@ -11,7 +12,7 @@
 
 #include "render/adaptive/tiles/tiles.h"
 
-namespace contrejour::adaptive {
+namespace contrejour::inline internal::adaptive {
 
 // The coverage of one polygon as changes along the rows of a tile, in floats: a row ends with the polygon, so that
 // rounding errors do not spread. Edges left of the tile count as on its border. Rows are stored as wide as the polygon,
@@ -130,4 +131,4 @@ struct TileSums {
   std::unique_ptr<Light> light_;  // made with the first polygon behind a stop pattern
 };
 
-}  // namespace contrejour::adaptive
+}  // namespace contrejour::inline internal::adaptive

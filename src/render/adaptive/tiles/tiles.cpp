@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "render/adaptive/tiles/tiles.h"
 
 #include <algorithm>
@@ -21,7 +22,7 @@
 #include "render/adaptive/tiles/tile_screens-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace contrejour::adaptive::HWY_NAMESPACE {
+namespace contrejour::inline internal::adaptive::HWY_NAMESPACE {
 
 void add_polygon(TileSums& tile, const PolygonList& list, const Polygon& polygon) {
   const auto corners = list.corners_of(polygon);
@@ -71,11 +72,11 @@ void draw_tile(std::span<const TiledPolygons> lists, std::size_t at, TileSums& t
   if (canvas.mode == TileMode::Write) canvas.clear(tile);
 }
 
-}  // namespace contrejour::adaptive::HWY_NAMESPACE
+}  // namespace contrejour::inline internal::adaptive::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace contrejour::adaptive {
+namespace contrejour::inline internal::adaptive {
 namespace {
 
 HWY_EXPORT(draw_tile);
@@ -174,5 +175,5 @@ void TileDrawer::draw_row(std::span<const TiledPolygons> lists, const TileGrid& 
   }
 }
 
-}  // namespace contrejour::adaptive
+}  // namespace contrejour::inline internal::adaptive
 #endif  // HWY_ONCE

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Rasterises polygons tile by tile. In each row an edge adds coverage times irradiance to the few pixels near it, and
 // changes the linear function that the light is along the row beyond. One pass along the rows then turns the changes of
 // all polygons into pixels. A polygon thus costs what its outline costs, not its area, and overlapping ghosts share the
@@ -14,7 +15,7 @@
 #include "contrejour/image.h"
 #include "render/adaptive/tiles/polygon_list.h"
 
-namespace contrejour::adaptive {
+namespace contrejour::inline internal::adaptive {
 
 // Divides the frame into rectangles whose sums stay in the cache.
 struct TileGrid {
@@ -85,4 +86,4 @@ class TileDrawer {
   Pool<TileSums> sums_;  // a megabyte each, all zero between uses: one a thread instead of one a row
 };
 
-}  // namespace contrejour::adaptive
+}  // namespace contrejour::inline internal::adaptive

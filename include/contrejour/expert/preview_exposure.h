@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+// The exposure of a preview. Pixels are scene-linear. Thread-safety: pure functions.
+#pragma once
+
+#include "contrejour/expert/parameter_values.h"
+#include "contrejour/export.h"
+#include "contrejour/image.h"
+#include "contrejour/image_io.h"
+
+namespace contrejour::params {
+
+// The exposure, in stops, that brings the 99.9th percentile of the samples to 0.7, from -100 to 100; 0 for a picture
+// without light.
+[[nodiscard]] CONTREJOUR_API double automatic_exposure(const Image& rgb);
+
+// What a preview has where the values have no `exposure`.
+enum class UsualExposure { Automatic, AsItIs };
+
+// The exposure that the values give, or the usual one.
+[[nodiscard]] CONTREJOUR_API PreviewSettings preview_settings(const Values& values, const Image& rgb,
+                                                              UsualExposure usual);
+
+}  // namespace contrejour::params
