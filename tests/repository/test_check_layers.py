@@ -58,7 +58,8 @@ class Planted(unittest.TestCase):
 
     def test_stages_of_a_renderer(self):
         self.allowed("src/render/adaptive/a.cpp", '"render/adaptive/tiles/t.h"', "src/render/adaptive/tiles/t.h")
-        self.allowed("src/render/adaptive/cells/a.cpp", '"render/adaptive/maps/m.h"', "src/render/adaptive/maps/m.h")
+        self.allowed("src/render/adaptive/maps/a.cpp", '"render/adaptive/budget/b.h"', "src/render/adaptive/budget/b.h")
+        self.forbidden("src/render/adaptive/clip/a.cpp", '"render/adaptive/emit/e.h"', "src/render/adaptive/emit/e.h")
         self.allowed("src/render/adaptive/maps/a.cpp", '"render/stop_patterns/s.h"', "src/render/stop_patterns/s.h")
         self.forbidden("src/render/adaptive/tiles/a.cpp", '"render/adaptive/maps/m.h"', "src/render/adaptive/maps/m.h")
         self.forbidden("src/render/adaptive/maps/a.cpp", '"render/adaptive/a.h"', "src/render/adaptive/a.h")

@@ -5,13 +5,12 @@
 #include <atomic>
 #include <cmath>
 #include <functional>
-#include <limits>
 #include <memory>
 #include <numeric>
 
 #include "base/clock.h"
 #include "base/tasks.h"
-#include "render/adaptive/faint_items.h"
+#include "render/adaptive/budget/item_budget.h"
 #include "render/adaptive/item.h"
 #include "render/adaptive/screened_items.h"
 #include "render/adaptive/shadowed_items.h"
@@ -49,33 +48,6 @@ class Stopwatch {
  private:
   Clock::time_point last_ = Clock::now();
 };
-
-// The error that one item may make. Errors of different items have either sign and fall in different places, so they
-// add in squares; and most cells stay far below the bound that they are held to. The budgets of all items may therefore
-// add up to kRoom^2 sqrt(E / kRoomAt) times the squared error that the frame is allowed. How far cells stay below their
-// bounds differs from ghost to ghost, which a few items do not average out (kFew). More cells come near their bounds in
-// items whose first rays fail, which take more rays in the preview frame, and where a smaller error is asked for. The
-// constants were found by measuring random frames (docs/physics/adaptive/items-and-budget.md).
-ErrorBudget budget_per_item(const FrameError& allowed, const std::vector<ItemSize>& sizes) {
-  constexpr double kRoom = 8.5, kRoomAt = 0.003;
-  constexpr double kFew = 16.0;
-  constexpr double kRaysOfOne = 20.0;
-  double items = kFew;
-  for (const ItemSize& size : sizes) items += std::max(size.rays / kRaysOfOne, 1.0);
-  const double room = kRoom * kRoom * std::sqrt(allowed.error / kRoomAt);
-  return {room * allowed.squared() / items, allowed.peak, {}};
-}
-
-// The peak that errors are relative to where the preview frame is dark. It is far below the level of any ghost, so that
-// a ghost's errors count relative to its own level.
-double faintest_peak(const FramePlan& plan, const Frame& frame) {
-  constexpr double kFaintest = 1e-9;  // irradiance on the sensor over that of the light
-  double gain = 0.0;
-  for (const PlannedLight& light : plan.lights)
-    for (const PlannedPass& pass : light.passes) gain = std::max(gain, *std::ranges::max_element(pass.gain));
-  return std::max(kFaintest * gain * frame.pixel_pitch_mm * frame.pixel_pitch_mm,
-                  static_cast<double>(std::numeric_limits<float>::min()));
-}
 
 // Orders the items by falling cost, so that no thread is left with a long one at the end. Items of about equal cost
 // keep their order, since neighbours pass the same surfaces.
@@ -206,7 +178,10 @@ Result<DrawnFlare> render_adaptive(const PlannedFrame& planned, const AdaptiveOp
                            static_cast<double>(frame.width) * frame.height};
   if (screens.on() && !dark) work.add(screen_items(scene, screens, items, rough.sizes, allowed, quiet));
   if (context.cancelled()) return interrupted();
-  if (!dark) mark_faint_items(items, rough.sizes, allowed);
+  if (!dark) {
+    const std::vector<bool> faint = faint_items(rough.sizes, allowed);
+    for (std::size_t k = 0; k < items.size(); ++k) items[k].is_faint = faint[k];
+  }
   if (scene.plan.dirt && !dark) shadow_items(scene, screens, items, rough.sizes, allowed, quiet);
   if (context.cancelled()) return interrupted();
   const double peak_ms = watch.lap_ms();

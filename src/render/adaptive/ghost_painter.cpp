@@ -5,15 +5,14 @@
 #include <cmath>
 #include <optional>
 
+#include "render/adaptive/budget/band_budget.h"
+
 namespace contrejour::inline internal::adaptive {
 namespace {
 
 constexpr double kLightLeft = 0.05;  // of a channel's absolute sum: for smaller sums a band's parts count equally
 constexpr std::size_t kMostSamples = 13;  // wavelengths that are tried, at most
 constexpr int kWorthBending = 2;     // quarterings that a bent box must be able to save
-// Each band, of at least kFewBands, has an equal part of a ghost's squared error, and each cell, of at least kFewCells,
-// an equal part of that.
-constexpr double kFewCells = 96.0, kFewBands = 3.0;
 
 // The first rays of a band: the geometry of its middle wavelength with the light of all its passes.
 RaySheet band_sheet(const FirstRays& rays, const Band& band, std::span<const PlannedPass> passes) {
@@ -138,16 +137,16 @@ void GhostPainter::paint(const FirstRays& rays, bool with_mirror_image, const Er
     dirt.push_back(!dirt_.empty() ? band_dirt(rays, band) : nullptr);
   }
   PatchFitter fitter(tracers_, frame_, deepest_, screens_ != nullptr ? screens_->unseen : 0.0);
-  const auto each = std::max(static_cast<double>(bands.size()), kFewBands);
+  const ErrorBudget per_band = budget_per_band(budget, bands.size());
   const auto paint_all = [&](const BandSet& set, std::span<const std::shared_ptr<const screens::BandScreen>> of_set,
                              std::span<const std::shared_ptr<const screens::BandDirt>> dirt_of_set,
                              const std::vector<FittedPart>& parts) {
     if (parts.empty()) return;
-    CellPainter cells(iris_, frame_, {budget.squared_error / each, budget.peak}, kFewCells, room_, out);
-    cells.sides_bend(tracers_.is_bent());
+    Tessellator cells(iris_, frame_, per_band, kFewCells, room_, out);
+    cells.set_sides_bend(tracers_.is_bent());
     for (std::size_t band = 0; band < set.size(); ++band) {
-      cells.stand_behind(SeenDirt{dirt_of_set[band], &tracers_.light(), tracers_.plane_z_mm()});
-      if (of_set[band]) cells.stand_behind(of_set[band], tracers_.stop_times());
+      cells.set_dirt(SeenDirt{dirt_of_set[band], &tracers_.light(), tracers_.plane_z_mm()});
+      if (of_set[band]) cells.set_stop_pattern(of_set[band], tracers_.stop_times());
       paint_band(set, band, parts, cells);
     }
   };
@@ -173,7 +172,7 @@ void GhostPainter::paint(const FirstRays& rays, bool with_mirror_image, const Er
 
 // Paints one of the set's bands.
 void GhostPainter::paint_band(const BandSet& set, std::size_t band, std::span<const FittedPart> parts,
-                              CellPainter& cells) {
+                              Tessellator& cells) {
   Patch patch;
   for (const FittedPart& part : parts) {
     if (!part.only_band)
@@ -184,7 +183,7 @@ void GhostPainter::paint_band(const BandSet& set, std::size_t band, std::span<co
       continue;
     cells.choose(patch, part.place);
   }
-  cells.draw();
+  cells.emit();
 }
 
 }  // namespace contrejour::inline internal::adaptive

@@ -4,8 +4,8 @@
 // band.
 #pragma once
 
-#include "render/adaptive/cells/cell_painter.h"
 #include "render/adaptive/patch_fitter.h"
+#include "render/adaptive/tessellator.h"
 #include "render/stop_patterns/stop_patterns.h"
 
 namespace contrejour::inline internal::adaptive {
@@ -41,7 +41,7 @@ class GhostPainter {
   void paint(const FirstRays& rays, bool with_mirror_image, const ErrorBudget& budget, PolygonList& out);
   [[nodiscard]] std::shared_ptr<const screens::BandScreen> band_screen(const FirstRays& rays, const Band& band) const;
   [[nodiscard]] std::shared_ptr<const screens::BandDirt> band_dirt(const FirstRays& rays, const Band& band) const;
-  static void paint_band(const BandSet& set, std::size_t band, std::span<const FittedPart> parts, CellPainter& cells);
+  static void paint_band(const BandSet& set, std::size_t band, std::span<const FittedPart> parts, Tessellator& cells);
 
   GhostTracers& tracers_;
   WavelengthSamples samples_;

@@ -10,20 +10,11 @@
 #include "base/tasks.h"
 #include "contrejour/expert/metrics.h"
 #include "ghosts/pupils/ghost_pupil.h"
-#include "render/adaptive/cells/shared_edges.h"
+#include "render/adaptive/budget/preview.h"
+#include "render/adaptive/emit/shared_edges.h"
 
 namespace contrejour::inline internal::adaptive {
 namespace {
-
-constexpr int kDeepest = 4;       // the most times that a box may be quartered
-// The fraction of its squared error that an item with stop patterns may make: cells come closer to their bounds there.
-constexpr double kScreenedShare = 0.75;
-constexpr int kPeakDeepest = 1;
-constexpr double kPeakQuantile = 0.999;
-// The frame's width over that of the preview frame, at most; the preview frame has kPeakPixels or more, if the frame
-// does.
-constexpr int kMostPeakScale = 8;
-constexpr double kPeakPixels = 2500.0;
 
 std::vector<double> wavelengths_of(const PlannedLight& light) {
   std::vector<double> lambda_nm;
@@ -164,17 +155,13 @@ std::vector<Item> find_items(const Scene& scene, const Context& context, Work& w
 
 Painted paint_item(const Scene& scene, const Item& item, const ItemSize& size, const Frame& frame, const TileGrid& grid,
                    const ErrorBudget& budget, Pool<BoxCells>& rooms) {
-  ErrorBudget of_item = budget;
-  of_item.about = size;
-  if (item.screens) of_item.squared_error *= kScreenedShare;
-  if (item.is_faint) of_item.squared_error = std::numeric_limits<double>::infinity();
+  const ErrorBudget of_item = budget_of(size, item.screens != nullptr, item.is_faint, budget);
   return paint(scene, item, item.is_faint ? Care::Little : Care::Much, frame, grid, of_item, rooms);
 }
 
 RoughFrame draw_roughly(const Scene& scene, const std::vector<Item>& items, const Frame& frame, Pool<BoxCells>& rooms,
                         TileDrawer& drawer, const Context& context, Work& work) {
-  const double pixels = static_cast<double>(frame.width) * frame.height;
-  const int scale = std::clamp(static_cast<int>(std::sqrt(pixels / kPeakPixels)), 1, kMostPeakScale);
+  const int scale = preview_scale(frame);
   const Frame small = smaller(frame, scale);
   const TileGrid grid(small.width, small.height);
   // While the peak is not known no level is high relative to it, whatever the light's value.

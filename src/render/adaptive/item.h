@@ -3,6 +3,7 @@
 #pragma once
 
 #include "base/pool.h"
+#include "render/adaptive/budget/item_budget.h"
 #include "render/adaptive/ghost_painter.h"
 #include "render/adaptive/tiles/tiles.h"
 #include "render/planning/frame_plan.h"
@@ -48,11 +49,6 @@ struct Painted {
 
 // Widens the item's boxes to contain the light that its stop patterns transmit.
 [[nodiscard]] Work widen_boxes(const Scene& scene, Item& item);
-
-// An item's size in the preview frame.
-struct ItemSize : Spread {
-  double rays = 0;  // traced for it in the preview frame
-};
 
 // Paints an item in all wavelengths of its light. size: the item's in the preview frame.
 [[nodiscard]] Painted paint_item(const Scene& scene, const Item& item, const ItemSize& size, const Frame& frame,

@@ -7,26 +7,17 @@
 #include <limits>
 #include <utility>
 
+#include "render/adaptive/budget/fit_budget.h"
+#include "render/adaptive/cells/ray_map_names.h"
 #include "render/adaptive/maps/lit_part.h"
-#include "render/adaptive/maps/rays.h"
 #include "render/adaptive/maps/screened_boxes.h"
-#include "render/adaptive/maps/sheet_cells.h"
+#include "render/ray_maps/sheet_cells.h"
 
 namespace contrejour::inline internal::adaptive {
 namespace {
 
 constexpr std::array kNodes{PatchFitter::kFewestNodes, 9, 17};
-// Single precision places a ray on the sensor to within 1e-3 mm; the box in the entrance plane must not be too small
-// for it.
-constexpr double kFloatError_mm = 1e-3;
-constexpr double kFloatBox_mm = 0.05;
-constexpr double kWorthShrinking = 0.5;  // of a box's area: if its lit part has no more, the box is reduced to it
 constexpr double kNoFit = std::numeric_limits<double>::infinity();
-// For light behind a stop pattern: the largest factor by which tolerances of dim light grow, and the multiple of the
-// negligible level below which any fit will do.
-constexpr double kMostLooser = 64.0, kRough = 10.0;
-constexpr int kBesideFailure = 1;  // further quarterings where too much light would be lost next to rays that fail
-constexpr double kHopeless = 2.0;  // times the tolerance, predicted for more nodes: the box is then quartered
 
 // The estimated error of a patch over its tolerance.
 double misfit(const Patch& patch, const Tolerance& tolerance) {

@@ -9,9 +9,9 @@
 #include <span>
 #include <vector>
 
+#include "render/adaptive/budget/tolerance.h"
 #include "render/adaptive/cells/box_cells.h"
 #include "render/adaptive/maps/band_set.h"
-#include "render/adaptive/maps/tolerance.h"
 #include "render/stop_patterns/band_screen.h"
 
 namespace contrejour::inline internal::adaptive {

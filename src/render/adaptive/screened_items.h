@@ -3,7 +3,7 @@
 // are far below the frame's error.
 #pragma once
 
-#include "render/adaptive/cells/frame_error.h"
+#include "render/adaptive/budget/frame_error.h"
 #include "render/adaptive/item.h"
 #include "render/stop_patterns/screens.h"
 

@@ -3,7 +3,7 @@
 // crosses. The other items are dimmed by dirt's mean transmittance.
 #pragma once
 
-#include "render/adaptive/cells/frame_error.h"
+#include "render/adaptive/budget/frame_error.h"
 #include "render/adaptive/item.h"
 #include "render/stop_patterns/screens.h"
 

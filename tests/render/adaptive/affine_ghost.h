@@ -7,7 +7,7 @@
 
 #include "contrejour/frame.h"
 #include "ghosts/pupils/lobatto.h"
-#include "render/adaptive/cells/cell_painter.h"
+#include "render/adaptive/tessellator.h"
 
 namespace contrejour::test {
 
@@ -92,9 +92,9 @@ inline PolygonList painted(const AffineGhost& ghost, const Iris& iris, double er
   const IrisShape shape(iris);
   const Frame frame = frame_px();
   adaptive::BoxCells room;
-  adaptive::CellPainter painter(shape, frame, {error * error * level * level * area_px, level}, 64.0, room, list);
-  painter.choose(ghost.patch(), {});
-  painter.draw();
+  adaptive::Tessellator tessellator(shape, frame, {error * error * level * level * area_px, level}, 64.0, room, list);
+  tessellator.choose(ghost.patch(), {});
+  tessellator.emit();
   return list;
 }
 

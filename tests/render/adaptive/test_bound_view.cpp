@@ -8,7 +8,7 @@
 
 #include <doctest/doctest.h>
 
-#include "render/adaptive/cells/bound_view.h"
+#include "render/adaptive/clip/bound_view.h"
 
 using namespace contrejour;
 using namespace contrejour::adaptive;

@@ -8,7 +8,7 @@
 #include <doctest/doctest.h>
 
 #include "render/adaptive/affine_ghost.h"
-#include "render/adaptive/cells/shared_edges.h"
+#include "render/adaptive/emit/shared_edges.h"
 #include "render/adaptive/plain_image.h"
 #include "render/adaptive/scene.h"
 
@@ -64,7 +64,7 @@ TEST_CASE("patches of one box leave nothing between them, whatever they count po
   PolygonList list;
   const IrisShape iris{Iris{}};
   BoxCells room;
-  CellPainter painter(iris, frame_px(), {3e-4, 1e-3}, 64.0, room, list);
+  Tessellator tessellator(iris, frame_px(), {3e-4, 1e-3}, 64.0, room, list);
   const MeshPlace place{0, 0};
   for (std::size_t q = 0; q < 4; ++q) {
     Patch part = quarter(whole, static_cast<int>(q % 2), static_cast<int>(q / 2));
@@ -75,13 +75,13 @@ TEST_CASE("patches of one box leave nothing between them, whatever they count po
       part.field(PatchLayout::kY)[k] -= static_cast<float>(moved.y);
     }
     if (q != 3) {
-      painter.choose(part, place.quarter(q));
+      tessellator.choose(part, place.quarter(q));
       continue;
     }
     for (std::size_t r = 0; r < 4; ++r)  // deeper than its neighbours
-      painter.choose(quarter(part, static_cast<int>(r % 2), static_cast<int>(r / 2)), place.quarter(q).quarter(r));
+      tessellator.choose(quarter(part, static_cast<int>(r % 2), static_cast<int>(r / 2)), place.quarter(q).quarter(r));
   }
-  painter.draw();
+  tessellator.emit();
   REQUIRE(list.polygons.size() > 20);
   CHECK(farthest_from_level(list, kBend_px) < 1e-5);
   // Every edge is also that of another polygon, in reverse, except those around the box.

@@ -6,7 +6,7 @@
 
 #include <doctest/doctest.h>
 
-#include "render/adaptive/faint_items.h"
+#include "render/adaptive/budget/item_budget.h"
 #include "render/adaptive/maps/lit_part.h"
 
 using namespace contrejour;
@@ -84,11 +84,8 @@ TEST_CASE("beside rays that fail light is looked for as far as it may be flung")
   CHECK(part->high.x >= 0.5);
 }
 
-TEST_CASE("what is faint is drawn with little care as long as all of it is a small part of the error") {
-  std::vector<Item> items(6);
-  for (Item& item : items) item.boxes.push_back({{0.0, 0.0}, {1.0, 1.0}});
-  items[5].boxes.clear();
-  std::vector<ItemSize> sizes(6);
+TEST_CASE("what is faint is drawn in preview quality as long as all of it is a small part of the error") {
+  std::vector<ItemSize> sizes(5);
   const auto size = [](double level, double area_px) {
     ItemSize s;
     s.level = level, s.area_px = area_px;
@@ -99,11 +96,5 @@ TEST_CASE("what is faint is drawn with little care as long as all of it is a sma
   sizes[2] = size(1e-3, 1.0);     // bright
   sizes[3] = size(2e-5, 100.0);
   sizes[4] = size(0.0, 0.0);      // no light was found
-  mark_faint_items(items, sizes, {0.003, 1.0, 1e4});
-  CHECK(items[0].is_faint);
-  CHECK_FALSE(items[1].is_faint);
-  CHECK_FALSE(items[2].is_faint);
-  CHECK(items[3].is_faint);
-  CHECK_FALSE(items[4].is_faint);
-  CHECK_FALSE(items[5].is_faint);
+  CHECK(faint_items(sizes, {0.003, 1.0, 1e4}) == std::vector<bool>{true, false, false, true, false});
 }

@@ -5,7 +5,7 @@
 #include <numbers>
 #include <random>
 
-#include "render/adaptive/cells/outline_cutter.h"
+#include "render/adaptive/clip/outline_cutter.h"
 
 using namespace contrejour;
 using namespace contrejour::adaptive;

@@ -5,11 +5,11 @@
 
 #include <doctest/doctest.h>
 
-#include "render/adaptive/maps/patch.h"
 #include "render/adaptive/scene.h"
+#include "render/ray_maps/patch.h"
 
 using namespace contrejour;
-using namespace contrejour::adaptive;
+using namespace contrejour::ray_maps;
 
 namespace {
 

@@ -4,7 +4,7 @@
 
 #include <doctest/doctest.h>
 
-#include "render/adaptive/cells/shared_edges.h"
+#include "render/adaptive/emit/shared_edges.h"
 #include "render/adaptive/plain_image.h"
 #include "render/adaptive/scene.h"
 

@@ -8,8 +8,8 @@
 #include <doctest/doctest.h>
 
 #include "ghosts/pupils/lobatto.h"
-#include "render/adaptive/cells/frame_error.h"
-#include "render/adaptive/maps/tolerance.h"
+#include "render/adaptive/budget/frame_error.h"
+#include "render/adaptive/budget/tolerance.h"
 
 using namespace contrejour;
 using namespace contrejour::adaptive;

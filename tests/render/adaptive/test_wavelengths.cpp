@@ -8,7 +8,7 @@
 #include <set>
 
 #include "contrejour/expert/metrics.h"
-#include "render/adaptive/maps/band_error.h"
+#include "render/adaptive/budget/band_error.h"
 #include "render/adaptive/maps/band_set.h"
 #include "render/adaptive/maps/first_rays.h"
 #include "render/adaptive/scene.h"

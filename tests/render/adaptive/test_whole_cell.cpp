@@ -4,7 +4,7 @@
 
 #include <random>
 
-#include "render/adaptive/cells/whole_cell.h"
+#include "render/adaptive/clip/whole_cell.h"
 
 using namespace contrejour;
 using namespace contrejour::adaptive;

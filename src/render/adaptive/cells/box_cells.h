@@ -14,30 +14,10 @@
 #include <tuple>
 #include <vector>
 
-#include "render/adaptive/cells/cell_plane.h"
+#include "render/adaptive/cells/cell.h"
 #include "render/adaptive/cells/mesh.h"
-#include "render/stop_patterns/band_screen.h"
 
 namespace contrejour::inline internal::adaptive {
-
-enum class CellState : std::uint8_t { Open, Cut, Closed };
-enum class Sides : std::uint8_t { Straight, Bent };  // bent sides have a corner in their middle
-
-// The vertices of a square of mesh cells: its corners in order, the middles of its sides, its middle.
-struct Cell {
-  int ix = 0, iy = 0, size = 0;
-  std::array<std::size_t, 4> corner{}, side{};
-  std::size_t middle = 0;
-  std::array<bool, 4> shared{};  // whether another cell of the same box lies beyond the side
-  screens::ScreenView screen{ScreenPart::Level, 1.0};  // what the stop pattern transmits of its light
-};
-
-struct ChosenCell {
-  Cell cell;
-  CellState state = CellState::Open;
-  Sides sides = Sides::Straight;
-  const Shade* plane = nullptr;  // irradiance that it shares with other cells; null: its own
-};
 
 // The position of a mesh in its box, of which there may be many: its first vertex and the length of its cells, in units
 // of the finest subdivision (the box's side is kWhole of them).

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <map>
 
-#include "render/adaptive/maps/rays.h"
+#include "render/adaptive/cells/ray_map_names.h"
 
 namespace contrejour::inline internal::adaptive {
 namespace {

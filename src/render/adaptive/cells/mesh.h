@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "ghosts/iris_shape.h"
-#include "render/adaptive/maps/patch.h"
+#include "render/adaptive/cells/ray_map_names.h"
 
 namespace contrejour::inline internal::adaptive {
 

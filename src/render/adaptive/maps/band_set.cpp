@@ -67,7 +67,7 @@ void BandSet::add_weights(std::vector<RaySheet>& sheets, PacketPrecision precisi
 }
 
 std::vector<Patch> BandSet::make_patches(std::span<const RaySheet> sheets, const Frame& frame) const {
-  return adaptive::make_patches(sheets, tracers_.light(), frame);
+  return ray_maps::make_patches(sheets, tracers_.light(), frame);
 }
 
 void BandSet::band_patch(std::span<const Patch> patches, std::size_t band, Patch& out) const {

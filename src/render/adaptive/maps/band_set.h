@@ -8,8 +8,8 @@
 #include <span>
 #include <vector>
 
+#include "render/adaptive/cells/ray_map_names.h"
 #include "render/adaptive/maps/ghost_tracers.h"
-#include "render/adaptive/maps/patch.h"
 #include "render/adaptive/maps/wavelength_bands.h"
 
 namespace contrejour::inline internal::adaptive {

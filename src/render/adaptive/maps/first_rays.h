@@ -7,8 +7,8 @@
 #include <cstddef>
 #include <vector>
 
+#include "render/adaptive/budget/tolerance.h"
 #include "render/adaptive/maps/ghost_tracers.h"
-#include "render/adaptive/maps/tolerance.h"
 #include "render/radiometry/wavelength_samples.h"
 
 namespace contrejour::inline internal::adaptive {

@@ -10,7 +10,7 @@
 
 #include "optics/trace/by_wavelength.h"
 #include "optics/trace/lens_steps.h"
-#include "render/adaptive/maps/rays.h"
+#include "render/adaptive/cells/ray_map_names.h"
 #include "render/planning/planned_light.h"
 
 namespace contrejour::inline internal::adaptive {

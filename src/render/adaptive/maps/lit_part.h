@@ -6,7 +6,7 @@
 #include <span>
 
 #include "contrejour/frame.h"
-#include "render/adaptive/maps/rays.h"
+#include "render/adaptive/cells/ray_map_names.h"
 
 namespace contrejour::inline internal::adaptive {
 

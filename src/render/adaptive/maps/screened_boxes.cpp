@@ -6,7 +6,7 @@
 #include <cmath>
 #include <vector>
 
-#include "render/adaptive/maps/sheet_cells.h"
+#include "render/ray_maps/sheet_cells.h"
 
 namespace contrejour::inline internal::adaptive {
 namespace {

@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "ghosts/light_frame.h"
-#include "render/adaptive/maps/rays.h"
+#include "render/adaptive/cells/ray_map_names.h"
 #include "render/stop_patterns/band_screen.h"
 
 namespace contrejour::inline internal::adaptive {

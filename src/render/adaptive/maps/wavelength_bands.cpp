@@ -6,7 +6,7 @@
 #include <limits>
 #include <utility>
 
-#include "render/adaptive/maps/band_error.h"
+#include "render/adaptive/budget/band_error.h"
 
 namespace contrejour::inline internal::adaptive {
 namespace {

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+// Limits by which polynomial fits to boxes of the pupil are accepted, refined or given up.
+#pragma once
+
+namespace contrejour::inline internal::adaptive {
+
+// Single precision places a ray on the sensor to within 1e-3 mm; the box in the entrance plane must not be too small
+// for it.
+inline constexpr double kFloatError_mm = 1e-3;
+inline constexpr double kFloatBox_mm = 0.05;
+inline constexpr double kWorthShrinking =
+    0.5;  // of a box's area: if its lit part has no more, the box is reduced to it
+// For light behind a stop pattern: the largest factor by which tolerances of dim light grow, and the multiple of the
+// negligible level below which any fit will do.
+inline constexpr double kMostLooser = 64.0, kRough = 10.0;
+inline constexpr int kBesideFailure =
+    1;  // further quarterings where too much light would be lost next to rays that fail
+inline constexpr double kHopeless = 2.0;  // times the tolerance, predicted for more nodes: the box is then quartered
+
+}  // namespace contrejour::inline internal::adaptive

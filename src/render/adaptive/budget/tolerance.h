@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+// How far polynomials through a ghost's rays may be off, derived from the error in pixels.
+#pragma once
+
+#include "contrejour/frame.h"
+#include "render/adaptive/cells/ray_map_names.h"
+
+namespace contrejour::inline internal::adaptive {
+
+// A ghost, or a part of one, as it appears: its level where most of its light is, as a pixel's value, and its area
+// there.
+struct Spread {
+  double level = 0.0, area_px = 0.0;
+};
+
+// The error that may be made in everything that one call paints.
+struct ErrorBudget {
+  double squared_error = 0;  // pixel values squared, summed over the frame; infinite: no limit
+  double peak = 1;           // of the frame's pixel values
+  Spread about = {};         // estimate of the light from the preview; 0: unknown
+};
+
+struct Tolerance {
+  double position_px = 0, stop = 0, weight = 0;  // stop radii; relative to the largest weight
+  double level = 0;  // of the ghost, as a pixel's value
+  double lost_mm2 = 0;   // area of the entrance whose light one part of a box may lose
+  double colour_px = 0;  // limit of wavelengths' displacement for correct colours, however dim
+};
+
+// The tolerance for the ghost of a box's sheet. weight: the largest of any channel at any of its nodes, all wavelengths
+// together. shared_flux: LightSource::shared_flux().
+[[nodiscard]] Tolerance tolerance_for(const RaySheet& sheet, double weight, double shared_flux, const Frame& frame,
+                                      const ErrorBudget& budget);
+
+}  // namespace contrejour::inline internal::adaptive

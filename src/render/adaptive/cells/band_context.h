@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the light of a band passes on its way to the frame. Every stage that turns patches into polygons (choose,
+// budget, clip, emit) reads it, and none changes it.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+
+#include "ghosts/iris_shape.h"
+#include "render/adaptive/cells/mesh.h"
+#include "render/adaptive/cells/seen_dirt.h"
+#include "render/stop_patterns/band_screen.h"
+
+namespace contrejour::inline internal::adaptive {
+
+struct BandContext {
+  const IrisShape& iris;
+  int width = 0, height = 0;  // of the frame, pixels
+  double peak = 1.0;          // of the frame's pixel values
+  // Whether straight lines of the patches are bent in the entrance plane: their sides would then leave seams next to
+  // another box.
+  bool sides_bend = false;
+  std::shared_ptr<const screens::BandScreen> screen = nullptr;  // stop pattern; null: the iris is sharp
+  double stop_unit = 1.0;  // stop radii: unit of the stop coordinates where there is a stop pattern
+  SeenDirt dirt = {};
+
+  // The bits of Mesh::outside that mark vertices without light. A stop pattern clips nothing.
+  [[nodiscard]] std::uint32_t blocking(const Mesh& mesh) const { return screen ? ~0U << mesh.layout.crossings : ~0U; }
+};
+
+}  // namespace contrejour::inline internal::adaptive

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render/adaptive/cells/dirt_crossings.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "render/adaptive/cells/stop_crossings.h"
+
+namespace contrejour::inline internal::adaptive {
+namespace {
+
+constexpr double kDirtDisc = 1.2;  // radius of a curved cell over that of its vertices, in the dirt's plane
+
+}  // namespace
+
+std::array<double, 3> PastDirt::passed(Vec2 pixel) const {
+  std::array<StopPlace, kMaxStopCrossings> room;
+  std::array<DirtPlace, kMaxStopCrossings> places;
+  std::size_t count = 0;
+  for (const StopPlace& place : map.places(pixel, room)) places[count++] = {place.at, place.width};
+  return band->transmission({places.data(), count});
+}
+
+int dirt_crossings(const BandContext& band, const Mesh& mesh) {
+  return band.dirt.plane().on_front() ? 1 : mesh.layout.crossings;
+}
+
+Vec2 dirt_place(const BandContext& band, const Mesh& mesh, std::size_t vertex, int crossing) {
+  if (band.dirt.plane().on_front()) return band.dirt.front_place(mesh.entrance_mm(vertex));
+  return StopPlaces(mesh, crossing, band.stop_unit).at(vertex) * band.dirt.plane().stop_radius_mm();
+}
+
+bool is_dirty(const BandContext& band, const Mesh& mesh, const Cell& cell) {
+  if (!band.dirt) return false;
+  for (int c = 0; c < dirt_crossings(band, mesh); ++c) {
+    const Vec2 middle = dirt_place(band, mesh, cell.middle, c);
+    double radius = 0.0;
+    for (const std::size_t v : cell.corner) radius = std::max(radius, length(dirt_place(band, mesh, v, c) - middle));
+    if (!band.dirt.band->is_clean(middle, kDirtDisc * radius, static_cast<std::size_t>(c))) return true;
+  }
+  return false;
+}
+
+DirtTriangle dirt_triangle(const BandContext& band, const Mesh& mesh, const std::array<std::size_t, 3>& triangle) {
+  DirtTriangle out;
+  out.crossings = static_cast<std::size_t>(dirt_crossings(band, mesh));
+  for (std::size_t k = 0; k < 3; ++k) {
+    out.pixel[k] = mesh.position(triangle[k]) + mesh.origin_px;
+    for (std::size_t c = 0; c < out.crossings; ++c)
+      out.place_mm[c][k] = dirt_place(band, mesh, triangle[k], static_cast<int>(c));
+  }
+  return out;
+}
+
+PastDirt past_dirt(const BandContext& band, const DirtTriangle& dirt) {
+  std::array<CellSeries, kMaxStopCrossings> places;
+  for (std::size_t c = 0; c < dirt.crossings; ++c) places[c] = CellSeries::of_triangle(dirt.place_mm[c]);
+  return {band.dirt.band.get(), {CellSeries::of_triangle(dirt.pixel), {places.data(), dirt.crossings}, kSoft_px}};
+}
+
+double pixel_mm(const screens::PlaneView& view) { return std::sqrt(std::abs(cross(view.along_x, view.along_y))); }
+
+}  // namespace contrejour::inline internal::adaptive

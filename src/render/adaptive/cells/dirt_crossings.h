@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+// Where a cell's light crosses the plane of the dirt. Over a triangle of vertices these points are linear.
+// Units: mm, pixels.
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+#include "render/adaptive/cells/band_context.h"
+#include "render/adaptive/cells/cell.h"
+#include "render/stop_patterns/shadow_cutter.h"
+
+namespace contrejour::inline internal::adaptive {
+
+struct DirtTriangle {
+  std::array<Vec2, 3> pixel;
+  std::array<std::array<Vec2, 3>, kMaxStopCrossings> place_mm;
+  std::size_t crossings = 0;
+};
+
+// How often the light crosses the dirt's plane. This and the following functions: the band's light passes dirt.
+[[nodiscard]] int dirt_crossings(const BandContext& band, const Mesh& mesh);
+[[nodiscard]] Vec2 dirt_place(const BandContext& band, const Mesh& mesh, std::size_t vertex, int crossing);
+[[nodiscard]] DirtTriangle dirt_triangle(const BandContext& band, const Mesh& mesh,
+                                         const std::array<std::size_t, 3>& triangle);
+// For dirt that is looked up pixel by pixel.
+[[nodiscard]] PastDirt past_dirt(const BandContext& band, const DirtTriangle& dirt);
+
+// Whether the cell's light may pass a shape of the dirt; false where the lens is clean.
+[[nodiscard]] bool is_dirty(const BandContext& band, const Mesh& mesh, const Cell& cell);
+
+// The side, in mm, of a square with a pixel's area in the dirt's plane.
+[[nodiscard]] double pixel_mm(const screens::PlaneView& view);
+
+}  // namespace contrejour::inline internal::adaptive

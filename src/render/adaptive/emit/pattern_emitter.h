@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+// Emits polygons whose light passes a stop pattern that varies over them instead of the sharp iris. Points in the stop
+// are polynomials of the pixel. Large polygons are cut along the edges with fringes into strips and a uniform
+// remainder.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "render/adaptive/cells/band_context.h"
+#include "render/adaptive/clip/corner.h"
+#include "render/adaptive/clip/placed_polygon.h"
+#include "render/adaptive/emit/points.h"
+#include "render/adaptive/tiles/polygon_list.h"
+
+namespace contrejour::inline internal::adaptive {
+
+class PatternEmitter {
+ public:
+  // All arguments must outlive this object.
+  PatternEmitter(const BandContext& band, PolygonList& out) : band_(band), out_(out) {}
+
+  // passed: the largest transmittance of the pattern.
+  void emit(std::span<const Corner> polygon, double area_px, const Shade& shade, const StopMap& map, double passed);
+
+ private:
+  void emit_in_strips(const Shade& shade, const StopMap& map, int looks, const EdgeTable& table);
+  void add_fringed(std::span<const PlacedCorner> polygon, const Shade& shade, const StopMap& map, int looks,
+                   const EdgeTable& table);
+  [[nodiscard]] const EdgeTable& table_for(double width);
+
+  const BandContext& band_;
+  PolygonList& out_;
+  std::map<std::pair<const screens::BandScreen*, int>, const EdgeTable*> tables_;  // of stop patterns, by pixel width
+  std::vector<std::uint16_t> active_;
+  PlacedPolygon rest_, strip_;  // scratch for cutting along edges
+  PointBuffer points_;
+};
+
+}  // namespace contrejour::inline internal::adaptive

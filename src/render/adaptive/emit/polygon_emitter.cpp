@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render/adaptive/emit/polygon_emitter.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "render/adaptive/budget/small_polygons.h"
+#include "render/adaptive/cells/cell_shape.h"
+
+namespace contrejour::inline internal::adaptive {
+namespace {
+
+// The irradiance of a small polygon from its flux: the cell's flux times `share_per_px`. Near a focus irradiance varies
+// within cells that pixels do not resolve, so that the fraction of flux that the iris transmits is not the fraction of
+// area that it leaves.
+Shade even_shade(const CellLight& light, double share_per_px) {
+  Shade even{.at = light.shade.at};
+  for (std::size_t c = 0; c < 3; ++c) even.value[c] = static_cast<float>(light.flux[c] * share_per_px);
+  return even;
+}
+
+// The same for a polygon of a few pixels, which keeps the slope of its irradiance.
+Shade with_flux(std::span<const Corner> polygon, const CellLight& light, double share) {
+  constexpr double kMost = 2.0;
+  const Shade& of = light.shade;
+  const Vec2 aside = area_of(polygon.size(), [&](std::size_t k) { return polygon[k].uv; }).centroid - Vec2{0.5, 0.5};
+  share *= std::max(1.0 + dot(light.rise, aside), 0.0);
+  const auto [area, middle] = area_of(polygon.size(), [&](std::size_t k) { return polygon[k].position; });
+  const Vec2 from = middle - Vec2{of.at.x, of.at.y};
+  Shade out = of;
+  for (std::size_t c = 0; c < 3; ++c) {
+    const double has = (of.value[c] + of.along_x[c] * from.x + of.along_y[c] * from.y) * std::abs(area);
+    const double times = light.flux[c] * share / has;
+    if (!(times > 1.0 / kMost && times < kMost)) continue;
+    for (Channels Shade::* part : {&Shade::value, &Shade::along_x, &Shade::along_y})
+      (out.*part)[c] *= static_cast<float>(times);
+  }
+  return out;
+}
+
+// What decides how a polygon is emitted.
+struct PolygonSize {
+  Bounds bounds;
+  double twice_area = 0.0, twice_share = 0.0;  // signed: of the frame, and of uv
+
+  explicit PolygonSize(std::span<const Corner> polygon) {
+    for (std::size_t k = 0; k < polygon.size(); ++k) {
+      const Corner& c = polygon[k];
+      bounds.add(c.position);
+      if (k < 2) continue;
+      twice_area += cross(polygon[k - 1].position - polygon[0].position, c.position - polygon[0].position);
+      twice_share += cross(polygon[k - 1].uv - polygon[0].uv, c.uv - polygon[0].uv);
+    }
+  }
+  [[nodiscard]] double longest() const { return std::max(bounds.size().x, bounds.size().y); }
+  [[nodiscard]] bool is_in_one_pixel() const {
+    const Vec2 low = bounds.low, high = bounds.high;
+    return std::floor(low.x) == std::floor(high.x) && std::floor(low.y) == std::floor(high.y);
+  }
+  [[nodiscard]] bool is_resolved() const {
+    const bool sliver = std::abs(twice_area) < kSliver * longest();
+    return !is_in_one_pixel() && !sliver && longest() > kSpeck;
+  }
+};
+
+}  // namespace
+
+void PolygonEmitter::emit(std::span<const Corner> polygon, const CellLight& light, const Behind& behind) {
+  if (polygon.size() < 3) return;
+  const PolygonSize size(polygon);
+  const double area = 0.5 * std::abs(size.twice_area);
+  const double share = 0.5 * std::abs(size.twice_share) * (light.triangle ? 2.0 : 1.0);
+  if (size.is_resolved()) {
+    const double longest = size.longest();
+    CellLight seen = light;
+    if (longest < kSmall_px) {
+      seen.shade = even_shade(light, share / area);
+    } else if (longest < kFew_px && !light.triangle) {  // half of a cell need not have half of its flux
+      seen.shade = with_flux(polygon, light, share);
+    }
+    return emit_resolved(polygon, area, seen, behind);
+  }
+  const Flux flux{light.flux[0] * share, light.flux[1] * share, light.flux[2] * share};
+  emit_line(polygon, passed(flux, (size.bounds.low + size.bounds.high) * 0.5, behind));
+}
+
+// The flux that remains of a polygon at a point.
+Flux PolygonEmitter::passed(Flux flux, Vec2 pixel, const Behind& behind) const {
+  if (behind.screen != nullptr) {
+    std::array<StopPlace, kMaxStopCrossings> buffer;
+    const auto screened = band_.screen->share(behind.screen->places(pixel, buffer));
+    for (std::size_t c = 0; c < 3; ++c) flux[c] *= screened[c];
+  }
+  if (behind.dirt != nullptr) {
+    const auto left = past_dirt(band_, *behind.dirt).passed(pixel);
+    for (std::size_t c = 0; c < 3; ++c) flux[c] *= left[c];
+  }
+  return flux;
+}
+
+void PolygonEmitter::emit_resolved(std::span<const Corner> polygon, double area_px, const CellLight& light,
+                                   const Behind& behind) {
+  const bool outlined = behind.dirt != nullptr && band_.dirt.band->outlines() != nullptr;
+  if (behind.dirt != nullptr && !outlined) return emit_behind_dirt(polygon, light.shade, behind);
+  if (behind.screen != nullptr) {
+    patterns_.emit(polygon, area_px, light.shade, *behind.screen, behind.most);
+  } else {
+    out_.add(points_.points_of(polygon), light.shade);
+  }
+  if (outlined) emit_shadows(polygon, light, behind);
+}
+
+// A picture of dirt, and shapes that overlap many times, are looked up pixel by pixel.
+void PolygonEmitter::emit_behind_dirt(std::span<const Corner> polygon, const Shade& shade, const Behind& behind) {
+  out_.dirt.push_back(past_dirt(band_, *behind.dirt));
+  Screened seen{behind.screen != nullptr ? *behind.screen : out_.dirt.back().map,
+                behind.screen != nullptr ? band_.screen.get() : nullptr};
+  seen.dirt = static_cast<std::uint32_t>(out_.dirt.size());
+  out_.add(points_.points_of(polygon), shade, seen, {});
+}
+
+// Shapes of dirt subtract their light as polygons of negative sign.
+void PolygonEmitter::emit_shadows(std::span<const Corner> polygon, const CellLight& light, const Behind& behind) {
+  const DirtTriangle& dirt = *behind.dirt;
+  std::array<screens::PlaneView, kMaxStopCrossings> views;
+  double finest_mm = 0.0;
+  for (std::size_t c = 0; c < dirt.crossings; ++c) {
+    views[c] = screens::PlaneView::through(dirt.pixel, dirt.place_mm[c]);
+    finest_mm = c == 0 ? pixel_mm(views[c]) : std::min(finest_mm, pixel_mm(views[c]));
+  }
+  // The coordinates of the three corners in their cell, in the order in which they are drawn.
+  constexpr std::array kInCell{Vec2{0.0, 0.0}, Vec2{1.0, 0.0}, Vec2{1.0, 1.0}};
+  const auto in_cell = screens::PlaneView::through(dirt.pixel, kInCell);
+  std::vector<Vec2> outline;
+  for (const Corner& c : polygon) outline.push_back(c.position);
+  std::vector<Corner> part;
+  shadows_.for_each(*band_.dirt.band->outlines(), {views.data(), dirt.crossings}, outline, finest_mm,
+                    [&](std::span<const Vec2> shadow, double blocked) {
+                      CellLight taken = light;
+                      taken.dim({-blocked, -blocked, -blocked});
+                      part.assign(shadow.size(), Corner{});
+                      double twice_area = 0.0;
+                      for (std::size_t k = 0; k < shadow.size(); ++k) {
+                        part[k].position = shadow[k];
+                        part[k].uv = in_cell.place(shadow[k]);
+                        if (k > 1) twice_area += cross(shadow[k - 1] - shadow[0], shadow[k] - shadow[0]);
+                      }
+                      emit_resolved(part, 0.5 * std::abs(twice_area), taken, {behind.screen, nullptr, behind.most});
+                    });
+}
+
+// Emits a polygon thinner than rounding can resolve as points along its length that carry its flux.
+void PolygonEmitter::emit_line(std::span<const Corner> polygon, const Flux& flux) {
+  std::array<Vec2, 2> ends{polygon[0].position, polygon[0].position};
+  for (const Corner& a : polygon) {
+    for (const Corner& b : polygon) {
+      if (length(b.position - a.position) > length(ends[1] - ends[0])) ends = {a.position, b.position};
+    }
+  }
+  const Vec2 along = ends[1] - ends[0];
+  const int count = std::clamp(static_cast<int>(std::ceil(2.0 * length(along))), 1, kMostPoints);
+  Shade point;
+  for (std::size_t c = 0; c < 3; ++c) point.value[c] = static_cast<float>(flux[c] / count);
+  for (int k = 0; k < count; ++k) {
+    const Vec2 p = ends[0] + along * ((k + 0.5) / count);
+    point.at = {static_cast<float>(p.x), static_cast<float>(p.y)};
+    out_.add({&point.at, 1}, point);
+  }
+}
+
+}  // namespace contrejour::inline internal::adaptive

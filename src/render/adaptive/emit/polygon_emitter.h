@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+// Emits the open parts of cells as polygons of a list: with their light, behind what they pass, and as points where
+// they are smaller than pixels resolve.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "render/adaptive/cells/band_context.h"
+#include "render/adaptive/cells/dirt_crossings.h"
+#include "render/adaptive/clip/corner.h"
+#include "render/adaptive/emit/cell_light.h"
+#include "render/adaptive/emit/pattern_emitter.h"
+#include "render/adaptive/emit/points.h"
+#include "render/adaptive/tiles/polygon_list.h"
+#include "render/stop_patterns/shadow_cutter.h"
+
+namespace contrejour::inline internal::adaptive {
+
+// What the light of a polygon has passed whose transmittance varies over the polygon. If dirt is set, the polygon lies
+// within its triangle.
+struct Behind {
+  const StopMap* screen = nullptr;
+  const DirtTriangle* dirt = nullptr;
+  double most = 1.0;  // largest transmittance of the stop pattern
+};
+
+class PolygonEmitter {
+ public:
+  // All arguments must outlive this object.
+  PolygonEmitter(const BandContext& band, PolygonList& out) : band_(band), out_(out), patterns_(band, out) {}
+
+  // light: of the whole cell or triangle that the polygon is a part of.
+  void emit(std::span<const Corner> polygon, const CellLight& light, const Behind& behind);
+
+ private:
+  void emit_resolved(std::span<const Corner> polygon, double area_px, const CellLight& light, const Behind& behind);
+  void emit_behind_dirt(std::span<const Corner> polygon, const Shade& shade, const Behind& behind);
+  void emit_shadows(std::span<const Corner> polygon, const CellLight& light, const Behind& behind);
+  void emit_line(std::span<const Corner> polygon, const Flux& flux);
+  [[nodiscard]] Flux passed(Flux flux, Vec2 pixel, const Behind& behind) const;
+
+  const BandContext& band_;
+  PolygonList& out_;
+  PatternEmitter patterns_;
+  screens::ShadowCutter shadows_;
+  PointBuffer points_;
+};
+
+}  // namespace contrejour::inline internal::adaptive

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render/adaptive/tessellator.h"
+
+namespace contrejour::inline internal::adaptive {
+
+void Tessellator::emit() {
+  cells_.join();
+  for (std::size_t k = 0; k < cells_.count(); ++k)
+    for (const ChosenCell& cell : cells_[k].cells) emitter_.emit(cells_[k], cell);
+  cells_.clear();
+  budget_.start_band();
+}
+
+void Tessellator::set_stop_pattern(std::shared_ptr<const screens::BandScreen> screen, double unit) {
+  if (screen == band_.screen) return;
+  band_.screen = std::move(screen);
+  band_.stop_unit = unit;
+  out_.screens.push_back(band_.screen);
+}
+
+void Tessellator::set_dirt(const SeenDirt& dirt) {
+  if (dirt.band && dirt.band != band_.dirt.band) out_.band_dirt.push_back(dirt.band);
+  band_.dirt = dirt;
+}
+
+}  // namespace contrejour::inline internal::adaptive

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+// Turns patches into polygons, in stages that share a BandContext: choose cells by their errors (choose, budget), clip
+// them (clip), emit polygons (emit).
+#pragma once
+
+#include <memory>
+#include <utility>
+
+#include "contrejour/frame.h"
+#include "render/adaptive/budget/cell_budget.h"
+#include "render/adaptive/budget/tolerance.h"
+#include "render/adaptive/cells/band_context.h"
+#include "render/adaptive/cells/box_cells.h"
+#include "render/adaptive/choose/cell_chooser.h"
+#include "render/adaptive/emit/cell_emitter.h"
+#include "render/adaptive/tiles/polygon_list.h"
+
+namespace contrejour::inline internal::adaptive {
+
+class Tessellator {
+ public:
+  // budget: of each band. few_cells: as in CellBudget. cells: scratch memory.
+  Tessellator(const IrisShape& iris, const Frame& frame, const ErrorBudget& budget, double few_cells, BoxCells& cells,
+              PolygonList& out)
+      : out_(out), cells_(cells), budget_(budget.squared_error, few_cells),
+        band_{iris, frame.width, frame.height, budget.peak}, chooser_(band_, budget_, cells_),
+        emitter_(band_, budget_, cells_, out) {}
+  Tessellator(const Tessellator&) = delete;
+  Tessellator& operator=(const Tessellator&) = delete;
+
+  // Chooses the cells of a patch at this place in its box; emit() then emits all cells chosen for a band.
+  void choose(const Patch& patch, const MeshPlace& place) { chooser_.choose(patch, place); }
+  void emit();
+
+  // These hold for the patches that follow. sides_bend: as in BandContext.
+  void set_sides_bend(bool sides_bend) { band_.sides_bend = sides_bend; }
+  // unit: of the patches' stop coordinates, in stop radii.
+  void set_stop_pattern(std::shared_ptr<const screens::BandScreen> screen, double unit);
+  void set_dirt(const SeenDirt& dirt);
+
+ private:
+  PolygonList& out_;
+  BoxCells& cells_;
+  CellBudget budget_;
+  BandContext band_;
+  CellChooser chooser_;
+  CellEmitter emitter_;
+};
+
+}  // namespace contrejour::inline internal::adaptive
