@@ -12,7 +12,7 @@
 #include "base/tasks.h"
 #include "render/adaptive/budget/item_budget.h"
 #include "render/adaptive/item.h"
-#include "render/adaptive/screened_items.h"
+#include "render/adaptive/patterned_items.h"
 #include "render/adaptive/shadowed_items.h"
 #include "render/planning/error_bound.h"
 #include "render/planning/frame_memory.h"
@@ -169,20 +169,20 @@ Result<DrawnFlare> render_adaptive(const PlannedFrame& planned, const AdaptiveOp
   if (context.cancelled()) return interrupted();
   if (scene.plan.dirt) dim_items(scene, items);
   const double bound_ms = watch.lap_ms();
-  Screens screens(lens, settings, cache);
+  StopTransmittances stops(lens, settings, plan.dirt, cache);
   const std::shared_ptr<Scratch> scratch = cache.section<Scratch>({});
   const RoughFrame rough = draw_roughly(scene, items, frame, scratch->cells, scratch->drawer, quiet, work);
   if (context.cancelled()) return interrupted();
   const bool dark = !(rough.peak > 0.0);
   const FrameError allowed{options.error, std::max(dark ? faintest_peak(plan, frame) : rough.peak, plan.least_peak),
                            static_cast<double>(frame.width) * frame.height};
-  if (screens.on() && !dark) work.add(screen_items(scene, screens, items, rough.sizes, allowed, quiet));
+  if (stops.on() && !dark) work.add(set_stop_patterns(scene, stops, items, rough.sizes, allowed, quiet));
   if (context.cancelled()) return interrupted();
   if (!dark) {
     const std::vector<bool> faint = faint_items(rough.sizes, allowed);
     for (std::size_t k = 0; k < items.size(); ++k) items[k].is_faint = faint[k];
   }
-  if (scene.plan.dirt && !dark) shadow_items(scene, screens, items, rough.sizes, allowed, quiet);
+  if (scene.plan.dirt && !dark) shadow_items(scene, stops, items, rough.sizes, allowed, quiet);
   if (context.cancelled()) return interrupted();
   const double peak_ms = watch.lap_ms();
   FramePainter painter(scene, frame, *scratch, cache, context, flare);

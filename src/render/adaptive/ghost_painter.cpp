@@ -32,10 +32,10 @@ std::vector<double> wavelengths_of(std::span<const PlannedPass> passes) {
 }  // namespace
 
 GhostPainter::GhostPainter(GhostTracers& tracers, const IrisShape& iris, const Frame& frame, int deepest,
-                           BoxCells& room, const GhostScreens* screens,
-                           std::span<const std::shared_ptr<const DirtScreen>> dirt)
+                           BoxCells& room, const GhostPatterns* patterns,
+                           std::span<const std::shared_ptr<const DirtShadows>> dirt)
     : tracers_(tracers), samples_(wavelengths_of(tracers.passes()), kMostSamples), iris_(iris), frame_(frame),
-      deepest_(deepest), screens_(screens), dirt_(dirt), room_(room) {}
+      deepest_(deepest), patterns_(patterns), dirt_(dirt), room_(room) {}
 
 // A part of a band's wavelengths, one of three at most: its middle pass, and its fraction of each channel's light.
 struct GhostPainter::BandPart {
@@ -64,16 +64,16 @@ std::vector<GhostPainter::BandPart> GhostPainter::parts_of(const FirstRays& rays
   return parts;
 }
 
-std::shared_ptr<const screens::BandDirt> GhostPainter::band_dirt(const FirstRays& rays, const Band& of) const {
-  auto band = std::make_shared<screens::BandDirt>();
+std::shared_ptr<const stop_patterns::BandDirt> GhostPainter::band_dirt(const FirstRays& rays, const Band& of) const {
+  auto band = std::make_shared<stop_patterns::BandDirt>();
   if (dirt_.size() == 1) {
     band->parts.push_back({dirt_.front().get()});
     return band;
   }
   for (const BandPart& part : parts_of(rays, of)) {
-    const DirtScreen* const screen = dirt_[part.middle].get();
-    if (band->parts.empty() || band->parts.back().screen != screen) {
-      band->parts.push_back({screen, part.channel});
+    const DirtShadows* const shadows = dirt_[part.middle].get();
+    if (band->parts.empty() || band->parts.back().shadows != shadows) {
+      band->parts.push_back({shadows, part.channel});
     } else {
       for (std::size_t c = 0; c < 3; ++c) band->parts.back().channel[c] += part.channel[c];
     }
@@ -81,27 +81,15 @@ std::shared_ptr<const screens::BandDirt> GhostPainter::band_dirt(const FirstRays
   return band;
 }
 
-std::shared_ptr<const screens::BandScreen> GhostPainter::band_screen(const FirstRays& rays, const Band& of) const {
-  auto band = std::make_shared<screens::BandScreen>();
+std::shared_ptr<const stop_patterns::BandStopPattern> GhostPainter::band_pattern(const FirstRays& rays,
+                                                                                 const Band& of) const {
+  auto band = std::make_shared<stop_patterns::BandStopPattern>();
   for (const BandPart& part : parts_of(rays, of)) {
-    band->parts.push_back({screens_->by_pass[part.middle].screen, part.channel});
-    band->hull.hold(screens_->by_pass[part.middle].hull);
+    const GhostPatterns::OfPass& pass = patterns_->by_pass[part.middle];
+    band->add({pass.pattern, part.channel}, patterns_->range, pass.hull);
   }
-  bool all_edges = true;
-  std::vector<const screens::PatternTexture*> textures;
-  for (const auto& part : band->parts) {
-    const auto* const edge = dynamic_cast<const screens::EdgeScreen*>(part.screen.get());
-    const auto* const pattern = dynamic_cast<const screens::TextureScreen*>(part.screen.get());
-    if (pattern != nullptr) textures.push_back(&pattern->texture());
-    all_edges = all_edges && edge != nullptr;
-    if (edge == nullptr) continue;
-    band->unit = std::min(band->unit, edge->unit());
-    band->dark_beyond = std::max(band->dark_beyond, -screens_->range.dark * edge->unit());
-    band->level_within = std::max(band->level_within, screens_->range.level * edge->unit());
-  }
-  if (all_edges) band->edges = static_cast<const screens::EdgeScreen*>(band->parts.front().screen.get());
-  band->unseen = screens_->unseen;
-  if (textures.size() == band->parts.size()) band->pattern = screens_->patterns->band(textures);
+  band->unseen = patterns_->unseen;
+  if (const auto textures = band->textures(); !textures.empty()) band->texture = patterns_->patterns->band(textures);
   return band;
 }
 
@@ -130,16 +118,16 @@ std::optional<BentBox> GhostPainter::bent_about(const FirstRays& rays, const Rec
 
 void GhostPainter::paint(const FirstRays& rays, bool with_mirror_image, const ErrorBudget& budget, PolygonList& out) {
   const std::vector<Band> bands = bands_for(rays, tracers_.passes(), samples_, frame_.pixel_pitch_mm);
-  BandScreens screens;
-  std::vector<std::shared_ptr<const screens::BandDirt>> dirt;
+  BandPatterns patterns;
+  std::vector<std::shared_ptr<const stop_patterns::BandDirt>> dirt;
   for (const Band& band : bands) {
-    screens.push_back(screens_ != nullptr ? band_screen(rays, band) : nullptr);
+    patterns.push_back(patterns_ != nullptr ? band_pattern(rays, band) : nullptr);
     dirt.push_back(!dirt_.empty() ? band_dirt(rays, band) : nullptr);
   }
-  PatchFitter fitter(tracers_, frame_, deepest_, screens_ != nullptr ? screens_->unseen : 0.0);
+  PatchFitter fitter(tracers_, frame_, deepest_, patterns_ != nullptr ? patterns_->unseen : 0.0);
   const ErrorBudget per_band = budget_per_band(budget, bands.size());
-  const auto paint_all = [&](const BandSet& set, std::span<const std::shared_ptr<const screens::BandScreen>> of_set,
-                             std::span<const std::shared_ptr<const screens::BandDirt>> dirt_of_set,
+  const auto paint_all = [&](const BandSet& set, std::span<const std::shared_ptr<const stop_patterns::BandStopPattern>> of_set,
+                             std::span<const std::shared_ptr<const stop_patterns::BandDirt>> dirt_of_set,
                              const std::vector<FittedPart>& parts) {
     if (parts.empty()) return;
     Tessellator cells(iris_, frame_, per_band, kFewCells, room_, out);
@@ -150,8 +138,8 @@ void GhostPainter::paint(const FirstRays& rays, bool with_mirror_image, const Er
       paint_band(set, band, parts, cells);
     }
   };
-  const auto fit_and_paint = [&](BandSet& set, std::span<const RaySheet> first, const BandScreens& of_set,
-                                 std::span<const std::shared_ptr<const screens::BandDirt>> dirt_of_set) {
+  const auto fit_and_paint = [&](BandSet& set, std::span<const RaySheet> first, const BandPatterns& of_set,
+                                 std::span<const std::shared_ptr<const stop_patterns::BandDirt>> dirt_of_set) {
     const FittedBox fitted = fitter.fit(set, first, rays.tolerance, of_set, with_mirror_image);
     paint_all(set, of_set, dirt_of_set, fitted.parts);
     paint_all(set, of_set, dirt_of_set, fitted.mirror_image);
@@ -161,12 +149,12 @@ void GhostPainter::paint(const FirstRays& rays, bool with_mirror_image, const Er
     std::vector<RaySheet> sheets;
     for (std::size_t k = 0; k < rays.samples; ++k) sheets.push_back(rays.sheets[samples_[k]]);
     all.add_weights(sheets, PacketPrecision::Double);
-    return fit_and_paint(all, sheets, screens, dirt);
+    return fit_and_paint(all, sheets, patterns, dirt);
   }
   for (std::size_t k = 0; k < bands.size(); ++k) {
     BandSet one(tracers_, bands[k]);
     const RaySheet sheet = band_sheet(rays, bands[k], tracers_.passes());
-    fit_and_paint(one, {&sheet, 1}, {screens[k]}, std::span(dirt).subspan(k, 1));
+    fit_and_paint(one, {&sheet, 1}, {patterns[k]}, std::span(dirt).subspan(k, 1));
   }
 }
 

@@ -11,25 +11,25 @@
 namespace contrejour::inline internal::adaptive {
 
 // The stop patterns of a ghost of a light at its last crossing of the stop, in place of the sharp iris: one a pass.
-struct GhostScreens {
+struct GhostPatterns {
   struct OfPass {
-    std::shared_ptr<const StopScreen> screen;
-    screens::PatternHull hull;  // bounding polygon of a pattern's visible light
+    std::shared_ptr<const StopPattern> pattern;
+    stop_patterns::PatternHull hull;  // bounding polygon of a pattern's visible light
   };
   std::vector<OfPass> by_pass;
   double reach = 1.0;  // largest radius of visible light
-  screens::EdgeProfile::Range range{0.0, 0.0};  // visible range of edges' fringes
+  stop_patterns::EdgeProfile::Range range{0.0, 0.0};  // visible range of edges' fringes
   double unseen = 0.0;  // pixel values that are negligible
-  std::shared_ptr<screens::StopPatterns> patterns;
+  std::shared_ptr<stop_patterns::StopPatterns> patterns;
 };
 
 class GhostPainter {
  public:
   // deepest: how often a box may be quartered before straight lines between rays must do. room: scratch memory for
-  // cells. screens: may be null; if given, the iris is a circle. dirt: the shadows to draw, one a pass or one for all;
+  // cells. patterns: may be null; if given, the iris is a circle. dirt: the shadows to draw, one a pass or one for all;
   // empty for a clean lens.
   GhostPainter(GhostTracers& tracers, const IrisShape& iris, const Frame& frame, int deepest, BoxCells& room,
-               const GhostScreens* screens = nullptr, std::span<const std::shared_ptr<const DirtScreen>> dirt = {});
+               const GhostPatterns* patterns = nullptr, std::span<const std::shared_ptr<const DirtShadows>> dirt = {});
 
   // box: in the light's meridional frame. with_mirror_image: whether the box's mirror image is painted, too.
   void paint(const Rectangle& box, bool with_mirror_image, const ErrorBudget& budget, PolygonList& out);
@@ -39,8 +39,8 @@ class GhostPainter {
   [[nodiscard]] std::vector<BandPart> parts_of(const FirstRays& rays, const Band& band) const;
   [[nodiscard]] std::optional<BentBox> bent_about(const FirstRays& rays, const Rectangle& box);
   void paint(const FirstRays& rays, bool with_mirror_image, const ErrorBudget& budget, PolygonList& out);
-  [[nodiscard]] std::shared_ptr<const screens::BandScreen> band_screen(const FirstRays& rays, const Band& band) const;
-  [[nodiscard]] std::shared_ptr<const screens::BandDirt> band_dirt(const FirstRays& rays, const Band& band) const;
+  [[nodiscard]] std::shared_ptr<const stop_patterns::BandStopPattern> band_pattern(const FirstRays& rays, const Band& band) const;
+  [[nodiscard]] std::shared_ptr<const stop_patterns::BandDirt> band_dirt(const FirstRays& rays, const Band& band) const;
   static void paint_band(const BandSet& set, std::size_t band, std::span<const FittedPart> parts, Tessellator& cells);
 
   GhostTracers& tracers_;
@@ -48,8 +48,8 @@ class GhostPainter {
   const IrisShape& iris_;
   const Frame& frame_;
   int deepest_;
-  const GhostScreens* screens_;
-  std::span<const std::shared_ptr<const DirtScreen>> dirt_;
+  const GhostPatterns* patterns_;
+  std::span<const std::shared_ptr<const DirtShadows>> dirt_;
   BoxCells& room_;
 };
 

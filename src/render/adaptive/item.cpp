@@ -23,7 +23,7 @@ std::vector<double> wavelengths_of(const PlannedLight& light) {
 }
 
 // An item with stop patterns is traced through an enlarged stop, to include the light outside the opening.
-double stop_times(const Item& item) { return item.screens ? item.screens->reach : 1.0; }
+double stop_times(const Item& item) { return item.patterns ? item.patterns->reach : 1.0; }
 
 PupilRequest request_of(const Scene& scene, const Item& item, std::span<const double> lambda_nm) {
   return {scene.steps, item.ghost, item.light->source, item.window, lambda_nm, stop_times(item)};
@@ -87,12 +87,12 @@ Painted paint(const Scene& scene, const Item& item, Care care, const Frame& whol
   Painted painted;
   const Frame frame = item.look->placed(whole);
   const LightFrame light(item.light->source, has_axial_symmetry(scene.lens, item.ghost));
-  const IrisShape& iris = item.screens ? round_iris() : scene.iris;
+  const IrisShape& iris = item.patterns ? round_iris() : scene.iris;
   std::vector<PlannedPass> passes = passes_of(item);
   if (care == Care::Rough) passes = {merged(scene, item, passes)};
   GhostTracers tracers(scene.steps, item.ghost, light, item.window.z_mm, passes, stop_times(item));
   const auto room = rooms.lend();
-  GhostPainter painter(tracers, iris, frame, care == Care::Much ? kDeepest : kPeakDeepest, *room, item.screens.get(),
+  GhostPainter painter(tracers, iris, frame, care == Care::Much ? kDeepest : kPeakDeepest, *room, item.patterns.get(),
                        item.shadows);
   for (const Rectangle& box : item.boxes) {
     const bool aside = light.symmetric && box.low.y != -box.high.y;
@@ -155,7 +155,7 @@ std::vector<Item> find_items(const Scene& scene, const Context& context, Work& w
 
 Painted paint_item(const Scene& scene, const Item& item, const ItemSize& size, const Frame& frame, const TileGrid& grid,
                    const ErrorBudget& budget, Pool<BoxCells>& rooms) {
-  const ErrorBudget of_item = budget_of(size, item.screens != nullptr, item.is_faint, budget);
+  const ErrorBudget of_item = budget_of(size, item.patterns != nullptr, item.is_faint, budget);
   return paint(scene, item, item.is_faint ? Care::Little : Care::Much, frame, grid, of_item, rooms);
 }
 

@@ -32,9 +32,9 @@ struct Item {
   const PlannedLight* light = nullptr;
   EntranceWindow window;  // of the light
   std::vector<Rectangle> boxes;  // in the light's meridional frame; empty: no light gets through
-  std::shared_ptr<const GhostScreens> screens = nullptr;  // null: the iris is sharp
+  std::shared_ptr<const GhostPatterns> patterns = nullptr;  // null: the iris is sharp
   // Transmittance of dirt: one a pass, or one for all; empty: no shadows are drawn, and
-  std::vector<std::shared_ptr<const DirtScreen>> shadows = {};
+  std::vector<std::shared_ptr<const DirtShadows>> shadows = {};
   double past_dirt = 1.0;  // the item is dimmed by this transmittance
   bool is_faint = false;     // drawn in preview quality, at all wavelengths
 };

@@ -65,9 +65,9 @@ double misfit(const BandSet& bands, std::span<const Patch> patches, const Tolera
 }  // namespace
 
 FittedBox PatchFitter::fit(BandSet& bands, std::span<const RaySheet> first, const Tolerance& tolerance,
-                           const BandScreens& screens, bool with_mirror_image) {
+                           const BandPatterns& patterns, bool with_mirror_image) {
   FittedBox out;
-  const Fitting fitting{bands, tolerance, screens, out.parts, with_mirror_image ? &out.mirror_image : nullptr};
+  const Fitting fitting{bands, tolerance, patterns, out.parts, with_mirror_image ? &out.mirror_image : nullptr};
   const BoxPart part = whole(first.front().box);
   double first_misfit = kNoFit;
   if (all_arrive(first)) {
@@ -160,7 +160,7 @@ void PatchFitter::fit_between_rays(const BoxPart& part, std::span<const RaySheet
   for (std::size_t k = 0; k < fitting.bands.size(); ++k) {
     BandSet alone(tracers_, fitting.bands.band(k));
     fit(part, std::nullopt,
-        {alone, fitting.tolerance, fitting.screens.subspan(k, 1), fitting.parts, fitting.mirror_image, k});
+        {alone, fitting.tolerance, fitting.patterns.subspan(k, 1), fitting.parts, fitting.mirror_image, k});
   }
 }
 
@@ -184,14 +184,14 @@ void PatchFitter::fit_quarters(const BoxPart& part, const Fitting& fitting) {
 // used: the iris is sharp, there are several bands, or no four neighbouring rays all arrive.
 std::optional<double> PatchFitter::level_behind(std::span<const RaySheet> sheets, const Fitting& fitting) const {
   const BandSet& bands = fitting.bands;
-  if (fitting.screens.front() == nullptr || bands.size() > 1 || sheets.size() > 1) return std::nullopt;
+  if (fitting.patterns.front() == nullptr || bands.size() > 1 || sheets.size() > 1) return std::nullopt;
   Rgb gain{};
   for (std::size_t k = bands.band(0).first; k < bands.band(0).last; ++k)
     for (std::size_t c = 0; c < 3; ++c) gain[c] += tracers_.passes()[k].gain[c];
   const double pixel_mm2 = frame_.pixel_pitch_mm * frame_.pixel_pitch_mm;
   const double scale = std::max({std::abs(gain[0]), std::abs(gain[1]), std::abs(gain[2])}) * pixel_mm2;
   const double enough = std::max(fitting.tolerance.level, kRough * unseen_);
-  const auto brightest = brightest_passed(sheets.front(), fitting.mirror_image != nullptr, *fitting.screens.front(),
+  const auto brightest = brightest_passed(sheets.front(), fitting.mirror_image != nullptr, *fitting.patterns.front(),
                                           tracers_.stop_times(), tracers_.light(), enough / scale);
   return brightest ? std::optional(*brightest * scale) : std::nullopt;
 }

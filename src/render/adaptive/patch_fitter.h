@@ -12,7 +12,7 @@
 #include "render/adaptive/budget/tolerance.h"
 #include "render/adaptive/cells/box_cells.h"
 #include "render/adaptive/maps/band_set.h"
-#include "render/stop_patterns/band_screen.h"
+#include "render/stop_patterns/band_stop_pattern.h"
 
 namespace contrejour::inline internal::adaptive {
 
@@ -29,7 +29,7 @@ struct FittedBox {
   std::vector<FittedPart> mirror_image;  // of the box, if requested
 };
 
-using BandScreens = std::vector<std::shared_ptr<const screens::BandScreen>>;  // one a band; null: the iris is sharp
+using BandPatterns = std::vector<std::shared_ptr<const stop_patterns::BandStopPattern>>;  // one a band; null: the iris is sharp
 
 class PatchFitter {
  public:
@@ -42,7 +42,7 @@ class PatchFitter {
 
   // first: rays of the box at kFewestNodes, with weights.
   [[nodiscard]] FittedBox fit(BandSet& bands, std::span<const RaySheet> first, const Tolerance& tolerance,
-                              const BandScreens& screens, bool with_mirror_image);
+                              const BandPatterns& patterns, bool with_mirror_image);
 
  private:
   // A box, or a quarter of another part.
@@ -54,7 +54,7 @@ class PatchFitter {
   struct Fitting {
     BandSet& bands;
     const Tolerance& tolerance;
-    std::span<const std::shared_ptr<const screens::BandScreen>> screens;  // those of the bands
+    std::span<const std::shared_ptr<const stop_patterns::BandStopPattern>> patterns;  // those of the bands
     std::vector<FittedPart>& parts;
     std::vector<FittedPart>* mirror_image;  // null: not requested
     std::optional<std::size_t> only_band = std::nullopt;  // if several bands are fitted apart: the band of this set

@@ -7,7 +7,7 @@
 #include <numbers>
 #include <numeric>
 
-#include "render/adaptive/screened_items.h"
+#include "render/adaptive/patterned_items.h"
 
 namespace contrejour::inline internal::adaptive {
 namespace {
@@ -18,10 +18,12 @@ constexpr double kRoom = 0.07;  // of an item's boxes: margin around its light (
 
 // The box in the plane of the dirt that the item's light crosses, approximately, in mm.
 Rectangle crossed(const Scene& scene, const Item& item) {
-  const double r = scene.plan.dirt->stop_radius_mm();
-  if (!scene.plan.dirt->on_front()) return {{-r, -r}, {r, r}};
+  const double r = scene.plan.dirt->site().stop_radius_mm;
+  if (!scene.plan.dirt->site().on_front) return {{-r, -r}, {r, r}};
   const LightFrame light(item.light->source, has_axial_symmetry(scene.lens, item.ghost));
-  const auto seen = [&](Vec2 entrance) { return front_place(*scene.plan.dirt, light, item.window.z_mm, entrance); };
+  const auto seen = [&](Vec2 entrance) {
+    return front_place(scene.plan.dirt->site(), light, item.window.z_mm, entrance);
+  };
   Rectangle all{seen(item.boxes.front().low), seen(item.boxes.front().low)};
   for (const Rectangle& box : item.boxes) {
     for (const Vec2 corner : {box.low, box.high, Vec2{box.low.x, box.high.y}, Vec2{box.high.x, box.low.y}}) {
@@ -35,28 +37,28 @@ Rectangle crossed(const Scene& scene, const Item& item) {
 }
 
 // The squared difference that leaving out an item's shadows makes, summed over its pixels.
-double shadow_error(const Scene& scene, const Screens& screens, const Item& item, const ItemSize& size, double peak) {
+double shadow_error(const Scene& scene, const StopTransmittances& stops, const Item& item, const ItemSize& size,
+                    double peak) {
   if (!(size.area_px > 0.0)) return std::numeric_limits<double>::infinity();  // the preview frame did not show it
   const Rectangle box = crossed(scene, item);
   const double area_mm2 = 0.25 * std::numbers::pi * (box.high.x - box.low.x) * (box.high.y - box.low.y);
   const double seen = size.level * seen_share(size.level, peak);
   const PlannedPass& pass = item.light->passes[item.light->passes.size() / 2];
-  const Screens::Wanted wanted{item.ghost, pass.lambda_nm, pass.spread_nm, item.light->source};
-  const double blur_mm = kBlurOfUnit * screens.dirt_unit_mm(wanted, scene.plan.dirt->on_front());
+  const StopTransmittances::Wanted wanted{item.ghost, pass.lambda_nm, pass.spread_nm, item.light->source};
+  const double blur_mm = kBlurOfUnit * stops.dirt_unit_mm(wanted);
   return seen * seen * size.area_px * scene.plan.dirt->variance(std::max(std::sqrt(area_mm2 / size.area_px), blur_mm));
 }
 
 // Returns a single one for all passes if shadows are sharp at every wavelength.
-std::vector<std::shared_ptr<const DirtScreen>> shadows_of(const Scene& scene, const Screens& screens,
-                                                          const Item& item) {
-  std::vector<std::shared_ptr<const DirtScreen>> shadows;
+std::vector<std::shared_ptr<const DirtShadows>> shadows_of(const StopTransmittances& stops, const Item& item) {
+  std::vector<std::shared_ptr<const DirtShadows>> shadows;
   bool all_sharp = true;
-  for (const PlannedPass& pass : screened_passes(item.light->passes)) {
-    auto fringed = screens.dirt_of(item.ghost, pass.lambda_nm, item.light->source);
-    all_sharp = all_sharp && fringed == nullptr;
-    shadows.push_back(fringed ? std::move(fringed) : scene.plan.dirt);
+  for (const PlannedPass& pass : passes_with_patterns(item.light->passes)) {
+    shadows.push_back(stops.dirt_of(item.ghost, pass.lambda_nm, item.light->source));
+    all_sharp = all_sharp && shadows.back()->is_sharp();
   }
-  return all_sharp ? std::vector<std::shared_ptr<const DirtScreen>>{scene.plan.dirt} : shadows;
+  if (all_sharp) shadows.resize(1);
+  return shadows;
 }
 
 }  // namespace
@@ -69,22 +71,22 @@ void dim_items(const Scene& scene, std::vector<Item>& items) {
   }
 }
 
-void shadow_items(const Scene& scene, Screens& screens, std::vector<Item>& items, const std::vector<ItemSize>& sizes,
-                  const FrameError& allowed, const Context& context) {
+void shadow_items(const Scene& scene, StopTransmittances& stops, std::vector<Item>& items,
+                  const std::vector<ItemSize>& sizes, const FrameError& allowed, const Context& context) {
   std::vector<std::size_t> lit;
   std::vector<double> error(items.size());
   for (std::size_t k = 0; k < items.size(); ++k) {
     if (items[k].boxes.empty()) continue;
-    error[k] = shadow_error(scene, screens, items[k], sizes[k], allowed.peak);
+    error[k] = shadow_error(scene, stops, items[k], sizes[k], allowed.peak);
     lit.push_back(k);
   }
   const auto chosen = worth_drawing(std::move(lit), error, kUnshadowedShare * allowed.squared());
-  std::vector<Screens::Wanted> wanted;
+  std::vector<StopTransmittances::Wanted> wanted;
   for (const std::size_t k : chosen)
-    for (const PlannedPass& pass : screened_passes(items[k].light->passes))
+    for (const PlannedPass& pass : passes_with_patterns(items[k].light->passes))
       wanted.push_back({items[k].ghost, pass.lambda_nm, pass.spread_nm, items[k].light->source});
-  if (!screens.prepare_dirt(wanted, scene.plan.dirt, context)) return;
-  for (const std::size_t k : chosen) items[k].shadows = shadows_of(scene, screens, items[k]);
+  if (!stops.prepare_dirt(wanted, context)) return;
+  for (const std::size_t k : chosen) items[k].shadows = shadows_of(stops, items[k]);
 }
 
 }  // namespace contrejour::inline internal::adaptive

@@ -5,7 +5,7 @@
 
 #include "render/adaptive/budget/frame_error.h"
 #include "render/adaptive/item.h"
-#include "render/stop_patterns/screens.h"
+#include "render/stop_patterns/stop_transmittances.h"
 
 namespace contrejour::inline internal::adaptive {
 
@@ -14,7 +14,7 @@ void dim_items(const Scene& scene, std::vector<Item>& items);
 
 // Gives shadows to all items except those in which leaving them out makes, all together, a small part of the error.
 // sizes: the items' in the preview frame (draw_roughly). Incomplete when cancelled.
-void shadow_items(const Scene& scene, Screens& screens, std::vector<Item>& items, const std::vector<ItemSize>& sizes,
-                  const FrameError& allowed, const Context& context);
+void shadow_items(const Scene& scene, StopTransmittances& stops, std::vector<Item>& items,
+                  const std::vector<ItemSize>& sizes, const FrameError& allowed, const Context& context);
 
 }  // namespace contrejour::inline internal::adaptive

@@ -11,11 +11,11 @@ void Tessellator::emit() {
   budget_.start_band();
 }
 
-void Tessellator::set_stop_pattern(std::shared_ptr<const screens::BandScreen> screen, double unit) {
-  if (screen == band_.screen) return;
-  band_.screen = std::move(screen);
+void Tessellator::set_stop_pattern(std::shared_ptr<const stop_patterns::BandStopPattern> pattern, double unit) {
+  if (pattern == band_.pattern) return;
+  band_.pattern = std::move(pattern);
   band_.stop_unit = unit;
-  out_.screens.push_back(band_.screen);
+  out_.patterns.push_back(band_.pattern);
 }
 
 void Tessellator::set_dirt(const SeenDirt& dirt) {

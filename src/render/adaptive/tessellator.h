@@ -35,7 +35,7 @@ class Tessellator {
   // These hold for the patches that follow. sides_bend: as in BandContext.
   void set_sides_bend(bool sides_bend) { band_.sides_bend = sides_bend; }
   // unit: of the patches' stop coordinates, in stop radii.
-  void set_stop_pattern(std::shared_ptr<const screens::BandScreen> screen, double unit);
+  void set_stop_pattern(std::shared_ptr<const stop_patterns::BandStopPattern> pattern, double unit);
   void set_dirt(const SeenDirt& dirt);
 
  private:

@@ -73,8 +73,8 @@ Result<DrawnFlare> render_bundle(const PlannedFrame& planned, const BundleOption
   if (!by_need) return interrupted();
   const FramePlan& plan = *by_need;
   const auto bounds = bounds_for(plan, lens, options, context);
-  Screens screens(lens, planned.settings, planned.cache);
-  if (!screens.prepare(plan, context)) return interrupted();
+  StopTransmittances stops(lens, planned.settings, plan.dirt, planned.cache);
+  if (!stops.prepare(plan, context)) return interrupted();
   times.bounds_ms = whole.elapsed_ms();
   if (context.cancelled()) return interrupted();
 
@@ -86,10 +86,10 @@ Result<DrawnFlare> render_bundle(const PlannedFrame& planned, const BundleOption
     counts.surface_hits = bounds->surface_hits();
   }
   const auto items = bundle::items_of(plan, options);
-  const bundle::GridSource source{lens, options, plan.tables, screens, bounds ? &*bounds : nullptr};
+  const bundle::GridSource source{lens, options, plan.tables, stops, bounds ? &*bounds : nullptr};
   const bool done = ordered_pipeline(
       items.size(), context,
-      [&](std::size_t k) { return bundle::ItemRenderer(items[k], frame, source, plan.dirt.get(), context).render(); },
+      [&](std::size_t k) { return bundle::ItemRenderer(items[k], frame, source, context).render(); },
       [&](std::size_t, const RenderedItem& item) {
         const Stopwatch adding(times.accumulate_ms);
         add_to(flare.image, item);

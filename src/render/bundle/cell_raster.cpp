@@ -20,8 +20,7 @@ constexpr double kShadedCell_px = 4.0;
 constexpr double kSliver = 1e-7;
 constexpr double kUnseenDetail_px = 0.3;
 constexpr int kRowsBetweenStops = 16;
-constexpr double kLevel = 1e-3;      // a stop pattern this close to 1 all over a cell is drawn as 1
-constexpr double kScreenDisc = 1.5;  // times the corners' distance from the middle, for cells that bend
+constexpr double kUniform = 1e-3;  // a stop pattern this close to 1 all over a cell is drawn as 1
 
 double signed_area(Vec2 a, Vec2 b, Vec2 c) { return 0.5 * cross(b - a, c - a); }
 
@@ -73,8 +72,8 @@ bool is_convex(std::span<const Vec2> q, double orientation) {
 }  // namespace
 
 CellRaster::CellRaster(const RayGrid& grid, const IrisShape& iris, const Frame& frame, double shared_flux,
-                       CellStyle style, CellScreen screen)
-    : grid_(grid), frame_(frame), style_(style), screen_(screen), clipper_(iris) {
+                       CellStyle style, GridStop stop)
+    : grid_(grid), frame_(frame), style_(style), stop_(std::move(stop)), clipper_(iris) {
   const Vec2 step = grid.step_mm();
   triangle_weight_mm2_ = 0.5 * step.x * step.y * shared_flux;
   place_vertices();
@@ -197,97 +196,77 @@ double CellRaster::triangle_flux(const Triangle& t) const {
   return triangle_weight_mm2_ * (grid_.transmission[t[0]] + grid_.transmission[t[1]] + grid_.transmission[t[2]]) / 3.0;
 }
 
-Vec2 CellRaster::stop_place(std::size_t vertex, std::size_t crossing) const {
-  const Vec2 p{grid_.stop_x[crossing][vertex], grid_.stop_y[crossing][vertex]};
-  return (screen_.turn_rad != 0.0 ? turned(p, screen_.turn_rad) : p) * (screen_.screen ? screen_.screen->reach() : 1.0);
-}
-
-std::size_t CellRaster::dirt_crossings() const {
-  return screen_.dirt->on_front() ? 1 : static_cast<std::size_t>(grid_.stop_crossings());
-}
-
-Vec2 CellRaster::dirt_place(std::size_t vertex, std::size_t crossing) const {
-  if (!screen_.dirt->on_front()) return stop_place(vertex, crossing) * screen_.dirt->stop_radius_mm();
+StopCrossings CellRaster::crossings_of(std::size_t vertex) const {
+  const auto in_lens = [&](Vec2 p) { return stop_.turn_rad != 0.0 ? turned(p, stop_.turn_rad) : p; };
+  StopCrossings out;
+  for (std::size_t c = 0; c < static_cast<std::size_t>(grid_.stop_crossings()); ++c)
+    out.stop[c] = in_lens(Vec2{grid_.stop_x[c][vertex], grid_.stop_y[c][vertex]}) * stop_.transmittance.outer_radius();
+  if (!stop_.transmittance.has_front()) return out;
   const auto side = static_cast<std::size_t>(grid_.side());
   const Vec2 step = grid_.step_mm();
   const Vec2 entrance =
       grid_.box().low + Vec2{step.x * static_cast<double>(vertex % side), step.y * static_cast<double>(vertex / side)};
-  const Vec2 p = screen_.dirt->front_place(entrance, screen_.entrance_z_mm, screen_.light);
-  return screen_.turn_rad != 0.0 ? turned(p, screen_.turn_rad) : p;
+  out.front_mm = in_lens(stop_.transmittance.dirt->site().front_point(entrance, stop_.entrance_z_mm, stop_.light));
+  return out;
 }
 
-bool CellRaster::is_dirty(const std::array<std::size_t, 4>& corners) const {
-  if (screen_.dirt == nullptr) return false;
-  if (failed(corners)) return true;
-  for (std::size_t c = 0; c < dirt_crossings(); ++c) {
-    std::array<Vec2, 4> p;
-    for (std::size_t k = 0; k < 4; ++k) p[k] = dirt_place(corners[k], c);
-    const Vec2 middle = (p[0] + p[1] + p[2] + p[3]) * 0.25;
-    double radius = 0.0;
-    for (const Vec2 corner : p) radius = std::max(radius, length(corner - middle));
-    if (!screen_.dirt->is_clean(middle, kScreenDisc * radius, c)) return true;
+// Finds what the stop transmits of a cell. If a ray has failed, the pattern counts as varying, and the cell as dirty.
+void CellRaster::look_at_stop(const std::array<std::size_t, 4>& corners) {
+  const StopTransmittance& stop = stop_.transmittance;
+  const auto crossings = static_cast<std::size_t>(grid_.stop_crossings());
+  region_ = PatternRegion::Uniform;
+  dirty_ = false;
+  if (!stop.pattern && !stop.dirt) return;
+  if (failed(corners)) {
+    if (stop.pattern && crossings > 0) region_ = PatternRegion::Varying;
+    dirty_ = stop.dirt != nullptr;
+    return;
   }
-  return false;
+  std::array<StopCrossings, 4> rays;
+  for (std::size_t k = 0; k < 4; ++k) rays[k] = crossings_of(corners[k]);
+  StopTransmittance::Cell cell{rays, {}, crossings};
+  const auto mean = [&](const auto& of) { return (of(rays[0]) + of(rays[1]) + of(rays[2]) + of(rays[3])) * 0.25; };
+  for (std::size_t c = 0; c < crossings; ++c)
+    cell.middle.stop[c] = mean([&](const StopCrossings& ray) { return ray.stop[c]; });
+  cell.middle.front_mm = mean([](const StopCrossings& ray) { return ray.front_mm; });
+  region_ = stop.region(cell, kUniform);
+  dirty_ = region_ != PatternRegion::Dark && !stop.is_clean(cell);
 }
 
-// The transmittance of dirt about a place in a triangle; arguments as for screened().
-double CellRaster::past_dirt(const Triangle& t, Vec2 uv, double pixels) const {
-  double passed = 1.0;
-  for (std::size_t c = 0; c < dirt_crossings(); ++c) {
-    const Vec2 origin = dirt_place(t[0], c), u = dirt_place(t[1], c) - origin, v = dirt_place(t[2], c) - origin;
-    const double width = std::sqrt(0.5 * std::abs(cross(u, v)) / std::max(pixels, 1.0));
-    passed *= screen_.dirt->transmission({origin + u * uv.x + v * uv.y, width}, c);
-  }
-  return passed;
+// What the stop pattern and, if wanted, dirt transmit about a place in a triangle, as the mean over a pixel or, if that
+// is smaller, the triangle; pixels: the triangle's area.
+double CellRaster::transmittance(const std::array<StopCrossings, 3>& triangle, Vec2 uv, double pixels,
+                                 bool with_dirt) const {
+  const StopTransmittance::Sample at{triangle, static_cast<std::size_t>(grid_.stop_crossings()), uv,
+                                     std::max(pixels, 1.0)};
+  const double transmitted = region_ == PatternRegion::Varying ? stop_.transmittance.pattern_transmittance(at) : 1.0;
+  return with_dirt ? transmitted * stop_.transmittance.dirt_transmittance(at) : transmitted;
 }
 
 // Subtracts the shadows of dirt from a polygon that was drawn without them: they are drawn as negative light.
 void CellRaster::draw_shadows(FluxBox& out, std::span<const Vec2> polygon, const Triangle& t, const Density& density) {
   const std::array<Vec2, 3> p{pixel_[t[0]], pixel_[t[1]], pixel_[t[2]]};
-  std::array<screens::PlaneView, kMaxStopCrossings> views;
+  std::array<stop_patterns::PlaneView, kMaxStopCrossings> views;
   double finest_mm = std::numeric_limits<double>::infinity();
-  for (std::size_t c = 0; c < dirt_crossings(); ++c) {
-    views[c] = screens::PlaneView::through(
-        p, std::array<Vec2, 3>{dirt_place(t[0], c), dirt_place(t[1], c), dirt_place(t[2], c)});
+  const StopTransmittance& stop = stop_.transmittance;
+  const std::array<StopCrossings, 3> rays = crossings_of(t);
+  const std::size_t crossings = stop.dirt_crossings(static_cast<std::size_t>(grid_.stop_crossings()));
+  for (std::size_t c = 0; c < crossings; ++c) {
+    const auto point = [&](std::size_t k) { return stop.dirt_point_mm(rays[k], c); };
+    views[c] = stop_patterns::PlaneView::through(p, std::array<Vec2, 3>{point(0), point(1), point(2)});
     finest_mm = std::min(finest_mm, std::sqrt(std::abs(cross(views[c].along_x, views[c].along_y))));
   }
   const double area = std::abs(signed_area(p[0], p[1], p[2]));
-  const auto screened_at = [&](Vec2 pixel) { return screened(t, place_in(p, pixel), area); };
-  shadows_.for_each(*screen_.dirt->outlines(), {views.data(), dirt_crossings()}, polygon, finest_mm,
+  const auto transmitted_at = [&](Vec2 pixel) { return transmittance(rays, place_in(p, pixel), area, false); };
+  shadows_.for_each(*stop.dirt->outlines(), {views.data(), crossings}, polygon, finest_mm,
                     [&](std::span<const Vec2> shadow, double blocked) {
                       const Density lost{density.point, -blocked * density.value, density.gradient * -blocked};
                       ++primitives_;
-                      if (screens_pixels_)
-                        out.add_polygon(shadow, lost, screened_at);
+                      if (region_ == PatternRegion::Varying)
+                        out.add_polygon(shadow, lost, transmitted_at);
                       else
                         out.add_polygon(shadow, lost);
                     });
-}
-
-// What the stop pattern is over the disc about a cell's last crossing of the stop.
-ScreenPart CellRaster::screen_part(const std::array<std::size_t, 4>& corners) const {
-  const auto crossings = static_cast<std::size_t>(grid_.stop_crossings());
-  if (screen_.screen == nullptr || crossings == 0) return ScreenPart::Level;
-  if (failed(corners)) return ScreenPart::Varied;
-  std::array<Vec2, 4> p;
-  for (std::size_t k = 0; k < 4; ++k) p[k] = stop_place(corners[k], crossings - 1);
-  const Vec2 middle = (p[0] + p[1] + p[2] + p[3]) * 0.25;
-  double radius = 0.0;
-  for (const Vec2 corner : p) radius = std::max(radius, length(corner - middle));
-  const ScreenPart part = screen_.screen->over(middle, kScreenDisc * radius, kLevel);
-  return part == ScreenPart::Level && crossings > 1 ? ScreenPart::Varied : part;
-}
-
-// The transmittance of the stop pattern about a place in a triangle, averaged over a pixel or, if that is smaller, the
-// triangle; pixels: the triangle's area.
-double CellRaster::screened(const Triangle& t, Vec2 uv, double pixels) const {
-  const auto crossings = static_cast<std::size_t>(grid_.stop_crossings());
-  std::array<StopPlace, kMaxStopCrossings> places;
-  for (std::size_t c = 0; c < crossings; ++c) {
-    const Vec2 origin = stop_place(t[0], c), u = stop_place(t[1], c) - origin, v = stop_place(t[2], c) - origin;
-    places[c] = {origin + u * uv.x + v * uv.y, std::sqrt(0.5 * std::abs(cross(u, v)) / std::max(pixels, 1.0))};
-  }
-  return screen_.screen->share({places.data(), crossings});
 }
 
 void CellRaster::draw_open(FluxBox& out, const Cell& cell) {
@@ -332,35 +311,30 @@ void CellRaster::draw_polygon(FluxBox& out, const Cell& cell, const Triangle& t,
                               double share, double open) {
   const std::array<Vec2, 3> p{pixel_[t[0]], pixel_[t[1]], pixel_[t[2]]};
   const double area = std::abs(signed_area(p[0], p[1], p[2]));
-  const bool by_pixels = screens_pixels_ || (dirty_ && screen_.dirt->outlines() == nullptr);
-  const auto screened_at = [&](Vec2 pixel) {
-    const double passed = screens_pixels_ ? screened(t, place_in(p, pixel), area) : 1.0;
-    return dirty_ && screen_.dirt->outlines() == nullptr ? passed * past_dirt(t, place_in(p, pixel), area) : passed;
-  };
+  const bool dirt_by_pixels = dirty_ && !has_outlines();
+  const bool by_pixels = region_ == PatternRegion::Varying || dirt_by_pixels;
+  const auto rays = by_pixels || dirty_ ? crossings_of(t) : std::array<StopCrossings, 3>{};
+  const auto transmitted_at = [&](Vec2 pixel) { return transmittance(rays, place_in(p, pixel), area, dirt_by_pixels); };
   ++primitives_;
   const double flux = triangle_flux(t) * open;
-  const auto whole_share = [&] {
-    const Vec2 middle = mean_of(polygon);
-    const double passed = screens_pixels_ ? screened(t, place_in(p, middle), area) : 1.0;
-    return dirty_ ? passed * past_dirt(t, place_in(p, middle), area) : passed;
-  };
+  const auto mean_transmittance = [&] { return transmittance(rays, place_in(p, mean_of(polygon)), area, dirty_); };
   if (in_one_pixel(polygon)) {
-    out.add_point(polygon[0], flux * share * whole_share());
+    out.add_point(polygon[0], flux * share * mean_transmittance());
     return;
   }
   const auto ends = ends_of(polygon);
   if (area < kSliver * dot(ends[1] - ends[0], ends[1] - ends[0])) {
-    out.add_line(ends[0], ends[1], flux * share * whole_share());
+    out.add_line(ends[0], ends[1], flux * share * mean_transmittance());
     return;
   }
   const double value = flux / area;
   const Vec2 middle = (p[0] + p[1] + p[2]) * (1.0 / 3.0);
   const Density density{middle, value, cell.gradient * value};
   if (by_pixels)
-    out.add_polygon(polygon, density, screened_at);
+    out.add_polygon(polygon, density, transmitted_at);
   else
     out.add_polygon(polygon, density);
-  if (dirty_ && screen_.dirt->outlines() != nullptr) draw_shadows(out, polygon, t, density);
+  if (has_outlines()) draw_shadows(out, polygon, t, density);
 }
 
 bool CellRaster::failed(std::span<const std::size_t> vertices) const {
@@ -381,8 +355,8 @@ void CellRaster::draw_point(FluxBox& out, const Cell& cell, CellState state) {
   const auto& v = cell.vertex;
   if (failed(v)) return;
   double flux = open_flux({v[0], v[1], v[2]}, state) + open_flux({v[0], v[2], v[3]}, state);
-  if (screens_pixels_) flux *= screened({v[0], v[1], v[3]}, {0.5, 0.5}, std::abs(cell.signed_area_px) * 0.5);
-  if (dirty_) flux *= past_dirt({v[0], v[1], v[3]}, {0.5, 0.5}, std::abs(cell.signed_area_px) * 0.5);
+  flux *=
+      transmittance(crossings_of(Triangle{v[0], v[1], v[3]}), {0.5, 0.5}, std::abs(cell.signed_area_px) * 0.5, dirty_);
   ++primitives_;
   out.add_point((pixel_[v[0]] + pixel_[v[1]] + pixel_[v[2]] + pixel_[v[3]]) * 0.25, flux);
 }
@@ -391,7 +365,7 @@ void CellRaster::draw_cell(FluxBox& out, const Cell& cell, CellState state) {
   const auto& v = cell.vertex;
   if (style_.points) {
     draw_point(out, cell, state);
-  } else if (state == CellState::Open && !screens_pixels_ && !dirty_) {
+  } else if (state == CellState::Open && region_ == PatternRegion::Uniform && !dirty_) {
     draw_open(out, cell);
   } else {
     draw_triangle(out, cell, {v[0], v[1], v[2]}, true);
@@ -409,10 +383,8 @@ FluxBox CellRaster::draw(const std::function<bool()>& stop) {
       const CellState state = state_[cell_index(ix, iy)];
       if (state == CellState::Closed) continue;
       if (outside(out.box(), grid_.corners(ix, iy))) continue;
-      const ScreenPart part = screen_part(grid_.corners(ix, iy));
-      if (part == ScreenPart::Dark) continue;
-      screens_pixels_ = part == ScreenPart::Varied;
-      dirty_ = is_dirty(grid_.corners(ix, iy));
+      look_at_stop(grid_.corners(ix, iy));
+      if (region_ == PatternRegion::Dark) continue;
       draw_cell(out, cell_at(ix, iy), state);
     }
   }

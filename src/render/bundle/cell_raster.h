@@ -11,8 +11,8 @@
 #include "contrejour/frame.h"
 #include "render/bundle/cell_clip.h"
 #include "render/bundle/flux_box.h"
-#include "render/planning/stop_screen.h"
 #include "render/stop_patterns/shadow_cutter.h"
+#include "render/stop_patterns/stop_transmittance.h"
 
 namespace contrejour::inline internal::bundle {
 
@@ -21,12 +21,10 @@ struct CellStyle {
   bool points = false;         // every cell's flux goes to the pixel of its middle: hullin2011 7.2
 };
 
-// What replaces the sharp iris (the grid's path is then a widened one, stop_screen.h), and the dirt. Either may be
-// null. light, entrance_z_mm: those of the grid. turn_rad rotates the grid's crossings of the stop and the front into
-// the lens's orientation.
-struct CellScreen {
-  const StopScreen* screen = nullptr;
-  const DirtScreen* dirt = nullptr;
+// What the stop transmits of the grid's ghost. light, entrance_z_mm: those of the grid. turn_rad rotates the grid's
+// crossings of the stop and the front into the lens's orientation.
+struct GridStop {
+  StopTransmittance transmittance;
   LightSource light;
   double entrance_z_mm = 0.0;
   double turn_rad = 0.0;
@@ -36,7 +34,7 @@ class CellRaster {
  public:
   // iris: rotated to the grid's crossings of the stop. shared_flux: LightSource's.
   CellRaster(const RayGrid& grid, const IrisShape& iris, const Frame& frame, double shared_flux, CellStyle style = {},
-             CellScreen screen = {});
+             GridStop stop = {});
 
   // Flux in mm^2 at E0 = 1 by pixel, over the part of the frame that the ghost touches. Stops early, with the part that
   // is done, once `stop()` is true.
@@ -69,14 +67,15 @@ class CellRaster {
   [[nodiscard]] bool failed(std::span<const std::size_t> vertices) const;
   void draw_open(FluxBox& out, const Cell& cell);
   void draw_triangle(FluxBox& out, const Cell& cell, const Triangle& t, bool cut);
-  [[nodiscard]] Vec2 stop_place(std::size_t vertex, std::size_t crossing) const;
-  [[nodiscard]] std::size_t dirt_crossings() const;
-  [[nodiscard]] Vec2 dirt_place(std::size_t vertex, std::size_t crossing) const;  // mm
-  [[nodiscard]] bool is_dirty(const std::array<std::size_t, 4>& corners) const;
-  [[nodiscard]] double past_dirt(const Triangle& t, Vec2 uv, double pixels) const;
+  [[nodiscard]] StopCrossings crossings_of(std::size_t vertex) const;
+  [[nodiscard]] std::array<StopCrossings, 3> crossings_of(const Triangle& t) const {
+    return {crossings_of(t[0]), crossings_of(t[1]), crossings_of(t[2])};
+  }
+  void look_at_stop(const std::array<std::size_t, 4>& corners);
+  [[nodiscard]] bool has_outlines() const { return dirty_ && stop_.transmittance.dirt->outlines() != nullptr; }
+  [[nodiscard]] double transmittance(const std::array<StopCrossings, 3>& triangle, Vec2 uv, double pixels,
+                                     bool with_dirt) const;
   void draw_shadows(FluxBox& out, std::span<const Vec2> polygon, const Triangle& t, const Density& density);
-  [[nodiscard]] ScreenPart screen_part(const std::array<std::size_t, 4>& corners) const;
-  [[nodiscard]] double screened(const Triangle& t, Vec2 uv, double pixels) const;
   void draw_polygon(FluxBox& out, const Cell& cell, const Triangle& t, std::span<const Vec2> polygon, double share,
                     double open);
   [[nodiscard]] static double finest(const std::array<Vec2, 3>& p);
@@ -87,10 +86,11 @@ class CellRaster {
   const RayGrid& grid_;
   const Frame& frame_;
   CellStyle style_;
-  CellScreen screen_;
-  bool screens_pixels_ = false;  // the present cell's pixels have transmittances of their own
-  bool dirty_ = false;  // of the present cell
-  screens::ShadowCutter shadows_;
+  GridStop stop_;
+  // Those of the present cell: what the stop pattern is there, and whether dirt takes light.
+  PatternRegion region_ = PatternRegion::Uniform;
+  bool dirty_ = false;
+  stop_patterns::ShadowCutter shadows_;
   TriangleClipper clipper_;
   double triangle_weight_mm2_;  // flux of a triangle of transmittance 1
   std::vector<Vec2> pixel_;  // by vertex

@@ -43,14 +43,12 @@ std::optional<GhostPupil> GhostGrid::find(Ghost ghost, const LightSource& light,
   const BundleOptions& options = from_.options;
   GhostPupil pupil;
   pupil.lambda_nm = lambda_nm;
-  pupil.path = ghost_path(from_.lens, ghost, lambda_nm);
-  pupil.screen = from_.screens.of(ghost, lambda_nm, light);
-  pupil.dirt = from_.screens.dirt_of(ghost, lambda_nm, light);
-  if (pupil.screen) pupil.path = widened(std::move(pupil.path), pupil.screen->reach());
-  const bool from_table = from_.bounds != nullptr && light.is_distant() && !pupil.screen;
+  pupil.stop = from_.stops.of(ghost, lambda_nm, light);
+  pupil.path = pupil.stop.widened(ghost_path(from_.lens, ghost, lambda_nm));
+  const bool from_table = from_.bounds != nullptr && light.is_distant() && !pupil.stop.pattern;
   const bool in_meridian = mirrors() || from_table;
   pupil.meridian = in_meridian ? meridian_of(light) : Meridian{light, 0.0};
-  pupil.iris = pupil.screen ? Iris{} : turned_back(from_.lens.iris, pupil.meridian);
+  pupil.iris = pupil.stop.traced_iris(turned_back(from_.lens.iris, pupil.meridian));
   const EntranceWindow window = entrance_window(from_.lens, pupil.meridian.light);
   pupil.plane_z_mm = window.z_mm;
 

@@ -11,7 +11,7 @@
 #include "ghosts/pupil_bounds.h"
 #include "optics/trace/by_wavelength.h"
 #include "render/bundle/map_figures.h"
-#include "render/stop_patterns/screens.h"
+#include "render/stop_patterns/stop_transmittances.h"
 
 namespace contrejour::inline internal::bundle {
 
@@ -30,8 +30,7 @@ struct GhostPupil {
   Iris iris;             // rotated to that meridian
   double plane_z_mm = 0;
   PupilRegion region;
-  std::shared_ptr<const StopScreen> screen;  // null: the iris is sharp; else it is a circle, and the path a widened one
-  std::shared_ptr<const DirtScreen> dirt;  // null: its shadows are sharp
+  StopTransmittance stop;  // path and iris: as it requires
   std::optional<MapFigures> figures;  // in the sensor's frame; only if a coarse grid was requested
 };
 
@@ -40,7 +39,7 @@ struct GridSource {
   const LensState& lens;
   const BundleOptions& options;
   const TablesByWavelength& tables;
-  const Screens& screens;
+  const StopTransmittances& stops;
   const PupilBounds* bounds;  // replace a search, for distant lights without a stop pattern; may be null
 };
 

@@ -70,10 +70,9 @@ std::vector<Item> items_of(const FramePlan& plan, const BundleOptions& options) 
   return items;
 }
 
-ItemRenderer::ItemRenderer(const Item& item, const Frame& frame, const GridSource& source, const DirtScreen* dirt,
-                           const Context& context)
+ItemRenderer::ItemRenderer(const Item& item, const Frame& frame, const GridSource& source, const Context& context)
     : item_(item), options_(source.options), frame_(item.look->placed(frame)), context_(context),
-      grid_(source, frame.pixel_pitch_mm), dirt_(dirt) {}
+      grid_(source, frame.pixel_pitch_mm) {}
 
 RenderedItem ItemRenderer::render() {
   RenderedItem out = merge(item_.are_blurred ? draw_and_blur() : draw_all());
@@ -126,11 +125,9 @@ FluxBox ItemRenderer::draw(const GhostPupil& pupil, const Frame& frame) {
   const bool fine = special && !points;
   const Frame drawn = fine ? finer(frame, kFineness) : frame;
   const IrisShape iris(pupil.iris);
-  const DirtScreen* const dirt = pupil.dirt ? pupil.dirt.get() : dirt_;
-  const double flux_of_light = item_.light->source.shared_flux() * (dirt != nullptr ? dirt->level() : 1.0);
+  const double flux_of_light = item_.light->source.shared_flux() * pupil.stop.level();
   CellRaster raster(grid_.rays(), iris, drawn, flux_of_light, {options_.smooth_shading, points},
-                    {.screen = pupil.screen.get(),
-                     .dirt = dirt,
+                    {.transmittance = pupil.stop,
                      .light = pupil.meridian.light,
                      .entrance_z_mm = pupil.plane_z_mm,
                      .turn_rad = pupil.meridian.turn_rad});

@@ -9,8 +9,8 @@
 #include "render/bundle/band_blur.h"
 #include "render/bundle/flux_box.h"
 #include "render/bundle/ghost_grid.h"
-#include "render/planning/dirt_screen.h"
 #include "render/planning/frame_plan.h"
+#include "render/stop_patterns/dirt_shadows.h"
 
 namespace contrejour::inline internal::bundle {
 
@@ -34,9 +34,8 @@ struct RenderedItem {
 
 class ItemRenderer {
  public:
-  // dirt: null where the lens is clean. item, the source's options, dirt and context must outlive the renderer.
-  ItemRenderer(const Item& item, const Frame& frame, const GridSource& source, const DirtScreen* dirt,
-               const Context& context);
+  // item, the source's options and context must outlive the renderer.
+  ItemRenderer(const Item& item, const Frame& frame, const GridSource& source, const Context& context);
 
   // Incomplete when the context is cancelled.
   [[nodiscard]] RenderedItem render();
@@ -55,7 +54,6 @@ class ItemRenderer {
   Frame frame_;  // moved by the ghost's offset
   const Context& context_;
   GhostGrid grid_;
-  const DirtScreen* dirt_;  // null: the lens is clean
 };
 
 }  // namespace contrejour::inline internal::bundle

@@ -55,9 +55,9 @@ std::shared_ptr<const DirtField> DirtField::of(const LensState& lens) {
 }
 
 DirtField::DirtField(const LensState& lens)
-    : DirtScreen({lens.dirt.plane == DirtPlane::Front, lens.stop_radius_mm, lens.surfaces.front().z_mm}),
-      clear_radius_mm_(lens.surfaces[on_front() ? 0 : static_cast<std::size_t>(lens.stop_index)].semi_diameter_mm),
-      extent_mm_(on_front() ? kFrontExtent * clear_radius_mm_ : kStopExtent * lens.stop_radius_mm),
+    : site_{lens.dirt.plane == DirtPlane::Front, lens.stop_radius_mm, lens.surfaces.front().z_mm},
+      clear_radius_mm_(lens.surfaces[site_.on_front ? 0 : static_cast<std::size_t>(lens.stop_index)].semi_diameter_mm),
+      extent_mm_(site_.on_front ? kFrontExtent * clear_radius_mm_ : kStopExtent * lens.stop_radius_mm),
       cell_mm_(2.0 * extent_mm_ / kCells), picture_(lens.dirt.picture),
       dirty_(kCells, extent_mm_, [](int, int) { return false; }) {
   shapes_ = dirt_within(lens.dirt, {-extent_mm_, -extent_mm_}, {extent_mm_, extent_mm_});
@@ -162,24 +162,24 @@ double DirtField::small_transmission(Vec2 at, double width) const {
   return all;
 }
 
-double DirtField::transmission(const DirtPlace& place, std::size_t /*crossing*/) const {
-  if (!std::isfinite(place.at_mm.x + place.at_mm.y)) return 1.0;
-  const double of_picture = picture_ ? picture_transmission(place) : 1.0;
+double DirtField::transmission(const DirtPoint& point) const {
+  if (!std::isfinite(point.at_mm.x + point.at_mm.y)) return 1.0;
+  const double of_picture = picture_ ? picture_transmission(point) : 1.0;
   if (shapes_.empty()) return of_picture;
-  const int parts = std::clamp(static_cast<int>(std::ceil(place.width_mm / cell_mm_)), 1, kMostParts);
+  const int parts = std::clamp(static_cast<int>(std::ceil(point.width_mm / cell_mm_)), 1, kMostParts);
   return of_picture * mean_of_parts(parts, [&](Vec2 off) {
-           return small_transmission(place.at_mm + off * place.width_mm, place.width_mm / parts);
+           return small_transmission(point.at_mm + off * point.width_mm, point.width_mm / parts);
          });
 }
 
-double DirtField::picture_transmission(const DirtPlace& place) const {
-  const Vec2 at = place.at_mm * (1.0 / clear_radius_mm_);
-  const double width = place.width_mm / clear_radius_mm_;
+double DirtField::picture_transmission(const DirtPoint& point) const {
+  const Vec2 at = point.at_mm * (1.0 / clear_radius_mm_);
+  const double width = point.width_mm / clear_radius_mm_;
   const int parts = std::clamp(static_cast<int>(std::ceil(width / picture_->pixel())), 1, kMostSubsamples);
   return mean_of_parts(parts, [&](Vec2 off) { return picture_->transmission(at + off * width); });
 }
 
-bool DirtField::is_clean(Vec2 middle_mm, double radius_mm, std::size_t /*crossing*/) const {
+bool DirtField::is_clean(Vec2 middle_mm, double radius_mm) const {
   if (picture_) return false;
   const int left = cell_of(middle_mm.x - radius_mm), right = cell_of(middle_mm.x + radius_mm);
   const int low = cell_of(middle_mm.y - radius_mm), high = cell_of(middle_mm.y + radius_mm);

@@ -11,24 +11,51 @@
 #include <span>
 #include <vector>
 
+#include "contrejour/expert/light_source.h"
 #include "contrejour/lens.h"
 #include "render/planning/cell_flags.h"
-#include "render/planning/dirt_screen.h"
 
 namespace contrejour::inline internal {
 
-class DirtField final : public DirtScreen {
+// A point where light crosses the dirt's plane, and the side of the square about it over which the mean is taken.
+struct DirtPoint {
+  Vec2 at_mm;
+  double width_mm = 0.0;
+};
+
+// The shadows' edges: their length per area, times opacity^2, and their approximate width (0: sharp).
+struct DirtEdges {
+  double per_mm = 0.0, softness_mm = 0.0;
+};
+
+// The plane that the dirt lies in.
+struct DirtSite {
+  bool on_front = false;
+  double stop_radius_mm = 0.0;
+  double front_z_mm = 0.0;
+
+  // Where a light's ray through a point of the plane z = z_mm crosses the front.
+  [[nodiscard]] Vec2 front_point(Vec2 entrance_mm, double z_mm, const LightSource& light) const {
+    const Vec3 along = light.direction_at({entrance_mm.x, entrance_mm.y, z_mm});
+    return entrance_mm + Vec2{along.x, along.y} * ((front_z_mm - z_mm) / along.z);
+  }
+};
+
+class DirtField {
  public:
   // Null where the lens is clean.
   [[nodiscard]] static std::shared_ptr<const DirtField> of(const LensState& lens);
   explicit DirtField(const LensState& lens);
 
-  using DirtScreen::transmission;
-  [[nodiscard]] double transmission(const DirtPlace& place, std::size_t crossing = 0) const override;
-  [[nodiscard]] bool is_clean(Vec2 middle_mm, double radius_mm, std::size_t crossing = 0) const override;
-  [[nodiscard]] Edges edges() const override { return {edges_per_mm_, 0.0}; }
-  // Null if there is a picture, or if overlaps of shapes cannot be ignored because they cover much of the field.
-  [[nodiscard]] const DirtField* outlines() const override {
+  [[nodiscard]] const DirtSite& site() const { return site_; }
+  // The mean transmittance over the square about the point.
+  [[nodiscard]] double transmission(const DirtPoint& point) const;
+  // Whether transmission() is 1 all over a disc. A large disc counts as not clean where dirt comes near its bounds.
+  [[nodiscard]] bool is_clean(Vec2 middle_mm, double radius_mm) const;
+  [[nodiscard]] DirtEdges edges() const { return {edges_per_mm_, 0.0}; }
+  // This field, whose shadows may be drawn as the shapes' outlines; null if there is a picture, or if overlaps of
+  // shapes cannot be ignored because they cover much of the field.
+  [[nodiscard]] const DirtField* outlines() const {
     return picture_ == nullptr && covered_ < kMostCovered ? this : nullptr;
   }
 
@@ -49,8 +76,9 @@ class DirtField final : public DirtScreen {
   [[nodiscard]] int cell_of(double coordinate_mm) const { return dirty_.cell_of(coordinate_mm); }
   [[nodiscard]] std::span<const std::uint32_t> shapes_about(int x, int y) const;
   [[nodiscard]] double small_transmission(Vec2 at, double width) const;
-  [[nodiscard]] double picture_transmission(const DirtPlace& place) const;
+  [[nodiscard]] double picture_transmission(const DirtPoint& point) const;
 
+  DirtSite site_;
   double clear_radius_mm_;
   double extent_mm_;  // the field is the square from -extent to extent
   double cell_mm_;

@@ -13,8 +13,7 @@ namespace contrejour::inline internal::reference {
 namespace {
 
 constexpr double kFailed = std::numeric_limits<double>::infinity();
-constexpr double kLevel = 1e-4;  // a stop pattern this close to 1 all over a cell needs no smaller cells
-constexpr double kScreenDisc = 1.5;  // times the corners' distance from the middle, for cells that bend
+constexpr double kUniform = 1e-4;  // a stop pattern this close to 1 all over a cell needs no smaller cells
 constexpr double kNoArea = 1e-300;  // pixels; avoids a division by 0
 constexpr double kNearObscuration = 1.5;  // radii from an obscuration's edge
 constexpr double kUnseen = 0.25;  // fraction of a cut cell's footprint, or of the accuracy of a picture's edge
@@ -27,9 +26,8 @@ struct Sample {
   double blocked = kFailed;  // <= 0 gets through; infinite where the ray failed
   double outside = kFailed;  // as blocked, but for the opening's convex hull and without obscurations
   double obscured = -kFailed;  // how deep within an obscuration, over its radius
-  std::array<Vec2, kMaxStopCrossings> stop{};  // for a picture or a stop pattern; in stop radii
-  std::array<double, kMaxStopCrossings> distance{};
-  std::array<Vec2, kMaxStopCrossings> dirt_mm{};  // where it crosses the dirt's plane
+  StopCrossings crossed;
+  std::array<double, kMaxStopCrossings> distance{};  // for a picture as the iris
 
   [[nodiscard]] bool traced() const { return blocked < kFailed; }
 };
@@ -42,12 +40,10 @@ Sample between(const Sample& a, const Sample& b, double t) {
            0.0,
            0.0,
            {},
-           {},
            {}};
-  for (std::size_t c = 0; c < s.stop.size(); ++c) {
-    s.stop[c] = a.stop[c] + (b.stop[c] - a.stop[c]) * t;
-    s.dirt_mm[c] = a.dirt_mm[c] + (b.dirt_mm[c] - a.dirt_mm[c]) * t;
-  }
+  const StopCrossings &from = a.crossed, &to = b.crossed;
+  for (std::size_t c = 0; c < from.stop.size(); ++c) s.crossed.stop[c] = from.stop[c] + (to.stop[c] - from.stop[c]) * t;
+  s.crossed.front_mm = from.front_mm + (to.front_mm - from.front_mm) * t;
   return s;
 }
 
@@ -67,9 +63,8 @@ struct Extent {
 class CellWalker {
  public:
   CellWalker(const OpticalPath& path, const Iris& iris, const LightSource& light, double z_mm, const Frame& frame,
-             const CellLimits& limits, const LitPolygon& lit, const StopScreen* screen, const DirtScreen* dirt)
-      : path_(path), iris_(iris), light_(light), z_mm_(z_mm), frame_(frame), limits_(limits), lit_(lit),
-        screen_(screen), dirt_(dirt) {
+             const CellLimits& limits, const LitPolygon& lit, const StopTransmittance& stop)
+      : path_(path), iris_(iris), light_(light), z_mm_(z_mm), frame_(frame), limits_(limits), lit_(lit), stop_(stop) {
     if (iris.field) hull_ = iris.field->hull();
   }
 
@@ -86,9 +81,8 @@ class CellWalker {
     s.outside = s.blocked;
     if (path_.obscured) look_past_obscurations(ray, s);
     if (iris_.field) look_at_picture(ray, s);
-    if (screen_ != nullptr)
-      for (std::size_t c = 0; c < s.stop.size(); ++c) s.stop[c] = ray.stop[c] * screen_->reach();
-    if (dirt_ != nullptr) look_at_dirt(ray, s);
+    for (std::size_t c = 0; c < ray.stop.size(); ++c) s.crossed.stop[c] = ray.stop[c] * stop_.outer_radius();
+    if (stop_.has_front()) s.crossed.front_mm = stop_.dirt->site().front_point(entrance_mm, z_mm_, light_);
     return s;
   }
 
@@ -98,7 +92,7 @@ class CellWalker {
     if (!may_be_open(blocking, middle, depth)) return;
     if (is_dark_and_small(corners, blocking)) return;
     if (outside_frame(corners, middle)) return;
-    if (screen_part(corners, middle) == ScreenPart::Dark) return;
+    if (pattern_region(corners, middle) == PatternRegion::Dark) return;
     if (depth < limits_.deepest && needs_cutting(corners, middle, blocking, depth)) {
       cut(corners, middle, depth);
       return;
@@ -109,88 +103,70 @@ class CellWalker {
   [[nodiscard]] CellCounts counts() const { return counts_; }
 
  private:
-  // What the stop pattern is over the disc about a cell's crossing of the stop; if a ray has failed, it is neither dark
-  // nor level.
-  [[nodiscard]] ScreenPart screen_part(const Corners& corners, const Sample& middle) const {
-    if (screen_ == nullptr || path_.stop_crossings == 0) return ScreenPart::Level;
-    if (!middle.traced()) return ScreenPart::Varied;
-    const auto last = static_cast<std::size_t>(path_.stop_crossings - 1);
-    double radius = 0.0;
-    for (const Sample& s : corners) {
-      if (!s.traced()) return ScreenPart::Varied;
-      radius = std::max(radius, length(s.stop[last] - middle.stop[last]));
-    }
-    const ScreenPart part = screen_->over(middle.stop[last], kScreenDisc * radius, kLevel);
-    return part == ScreenPart::Level && last > 0 ? ScreenPart::Varied : part;
+  [[nodiscard]] StopTransmittance::Cell stop_cell(const Corners& corners, const Sample& middle,
+                                                  std::array<StopCrossings, 4>& room) const {
+    for (std::size_t k = 0; k < corners.size(); ++k) room[k] = corners[k].crossed;
+    return {room, middle.crossed, static_cast<std::size_t>(path_.stop_crossings)};
+  }
+  [[nodiscard]] static bool all_traced(const Corners& corners, const Sample& middle) {
+    return middle.traced() && std::ranges::all_of(corners, [](const Sample& s) { return s.traced(); });
+  }
+  // If a ray has failed, the pattern counts as varying, and the cell as dirty.
+  [[nodiscard]] PatternRegion pattern_region(const Corners& corners, const Sample& middle) const {
+    if (!stop_.pattern || path_.stop_crossings == 0) return PatternRegion::Uniform;
+    if (!all_traced(corners, middle)) return PatternRegion::Varying;
+    std::array<StopCrossings, 4> room;
+    return stop_.region(stop_cell(corners, middle, room), kUniform);
+  }
+  [[nodiscard]] bool is_dirty(const Corners& corners, const Sample& middle) const {
+    if (!stop_.dirt) return false;
+    if (!all_traced(corners, middle)) return true;
+    std::array<StopCrossings, 4> room;
+    return !stop_.is_clean(stop_cell(corners, middle, room));
   }
 
   // The transmittance of the stop pattern for the open part of a triangle: at the middle of that part, averaged over a
   // square as large as the triangle.
-  [[nodiscard]] double screened(const std::array<const Sample*, 3>& triangle, std::span<const Sample> open) const {
-    if (screen_ == nullptr) return 1.0;
+  [[nodiscard]] double pattern_transmittance(const std::array<const Sample*, 3>& triangle,
+                                             std::span<const Sample> open) const {
+    if (!stop_.pattern) return 1.0;
     const auto crossings = static_cast<std::size_t>(path_.stop_crossings);
-    std::array<StopPlace, kMaxStopCrossings> places;
+    std::array<StopPoint, kMaxStopCrossings> points;
     for (std::size_t c = 0; c < crossings; ++c) {
-      const Vec2 origin = triangle[0]->stop[c];
-      places[c].width = std::sqrt(0.5 * std::abs(cross(triangle[1]->stop[c] - origin, triangle[2]->stop[c] - origin)));
-      for (const Sample& s : open) places[c].at = places[c].at + s.stop[c] * (1.0 / static_cast<double>(open.size()));
+      const auto at = [&](const Sample& s) { return s.crossed.stop[c]; };
+      const Vec2 origin = at(*triangle[0]);
+      points[c].width = std::sqrt(0.5 * std::abs(cross(at(*triangle[1]) - origin, at(*triangle[2]) - origin)));
+      for (const Sample& s : open) points[c].at = points[c].at + at(s) * (1.0 / static_cast<double>(open.size()));
     }
-    return screen_->share({places.data(), crossings});
-  }
-
-  void look_at_dirt(const TracedRay& ray, Sample& s) const {
-    if (dirt_->on_front())
-      s.dirt_mm[0] = dirt_->front_place(s.entrance_mm, z_mm_, light_);
-    else
-      for (std::size_t c = 0; c < s.dirt_mm.size(); ++c) s.dirt_mm[c] = ray.stop[c] * path_.stop_radius_mm;
-  }
-  [[nodiscard]] std::size_t dirt_crossings() const {
-    return dirt_->on_front() ? 1 : static_cast<std::size_t>(path_.stop_crossings);
-  }
-
-  [[nodiscard]] bool is_dirty(const Corners& corners, const Sample& middle) const {
-    if (dirt_ == nullptr) return false;
-    if (!middle.traced()) return true;
-    for (std::size_t c = 0; c < dirt_crossings(); ++c) {
-      double radius = 0.0;
-      for (const Sample& s : corners) {
-        if (!s.traced()) return true;
-        radius = std::max(radius, length(s.dirt_mm[c] - middle.dirt_mm[c]));
-      }
-      if (!dirt_->is_clean(middle.dirt_mm[c], kScreenDisc * radius, c)) return true;
-    }
-    return false;
+    return stop_.pattern->transmittance({points.data(), crossings});
   }
 
   // The transmittance of dirt for the open part of a triangle: the part is split into triangles, and the transmittance
   // is looked up in kParts^2 parts of each.
-  [[nodiscard]] double past_dirt(std::span<const Sample> open) const {
-    if (dirt_ == nullptr) return 1.0;
-    double passed = 0.0, all = 0.0;
+  [[nodiscard]] double dirt_transmittance(std::span<const Sample> open) const {
+    if (!stop_.dirt) return 1.0;
+    double transmitted = 0.0, all = 0.0;
     for (std::size_t k = 2; k < open.size(); ++k) {
-      const std::array<const Sample*, 3> t{&open[0], &open[k - 1], &open[k]};
-      const double area = 0.5 * std::abs(cross(t[1]->pixel - t[0]->pixel, t[2]->pixel - t[0]->pixel)) + kNoArea;
+      const Vec2 origin = open[0].pixel;
+      const double area = 0.5 * std::abs(cross(open[k - 1].pixel - origin, open[k].pixel - origin)) + kNoArea;
       all += area;
-      double mean = 0.0;
+      const std::array<StopCrossings, 3> triangle{open[0].crossed, open[k - 1].crossed, open[k].crossed};
+      double sum = 0.0;
       for (int i = 0; i < kParts; ++i) {
         for (int j = 0; i + j < kParts; ++j) {
-          mean += past_dirt(t, {i + 1.0 / 3.0, j + 1.0 / 3.0});
-          if (i + j + 1 < kParts) mean += past_dirt(t, {i + 2.0 / 3.0, j + 2.0 / 3.0});
+          sum += dirt_transmittance(triangle, {i + 1.0 / 3.0, j + 1.0 / 3.0});
+          if (i + j + 1 < kParts) sum += dirt_transmittance(triangle, {i + 2.0 / 3.0, j + 2.0 / 3.0});
         }
       }
-      passed += area * mean / (kParts * kParts);
+      transmitted += area * sum / (kParts * kParts);
     }
-    return passed / all;
+    return transmitted / all;
   }
   // at: the middle of a part, along two sides.
   static constexpr int kParts = 2;
-  [[nodiscard]] double past_dirt(const std::array<const Sample*, 3>& t, Vec2 at) const {
-    std::array<DirtPlace, kMaxStopCrossings> places;
-    for (std::size_t c = 0; c < dirt_crossings(); ++c) {
-      const Vec2 a = t[0]->dirt_mm[c], u = t[1]->dirt_mm[c] - a, v = t[2]->dirt_mm[c] - a;
-      places[c] = {a + (u * at.x + v * at.y) * (1.0 / kParts), std::sqrt(0.5 * std::abs(cross(u, v))) / kParts};
-    }
-    return dirt_->transmission({places.data(), dirt_crossings()});
+  [[nodiscard]] double dirt_transmittance(const std::array<StopCrossings, 3>& triangle, Vec2 at) const {
+    return stop_.dirt_transmittance(
+        {triangle, static_cast<std::size_t>(path_.stop_crossings), at * (1.0 / kParts), 1.0 * kParts * kParts});
   }
 
   // Bounds of `blocked` over a cell, from its corners and its middle.
@@ -227,7 +203,6 @@ class CellWalker {
   }
 
   void look_at_picture(const TracedRay& ray, Sample& s) const {
-    s.stop = ray.stop;
     s.outside = ray.r_rel - 1.0;
     for (std::size_t c = 0; c < static_cast<std::size_t>(path_.stop_crossings); ++c) {
       s.distance[c] = iris_distance(iris_, ray.stop[c]);
@@ -246,7 +221,7 @@ class CellWalker {
         if (!p.traced()) continue;
         nearest = std::min(nearest, p.distance[c]);
         for (const Sample& q : corners)
-          if (q.traced()) longest = std::max(longest, length(p.stop[c] - q.stop[c]));
+          if (q.traced()) longest = std::max(longest, length(p.crossed.stop[c] - q.crossed.stop[c]));
       }
       b.slack = std::max(b.slack, 0.5 * longest);
       b.dark = b.dark || nearest > 0.5 * longest;
@@ -323,7 +298,8 @@ class CellWalker {
       if (middle.traced()) e.add(middle.pixel);
       return depth < limits_.look_depth || e.size() > limits_.cut_footprint_px;
     }
-    if (e.size() > limits_.screen_footprint_px && screen_part(corners, middle) == ScreenPart::Varied) return true;
+    if (e.size() > limits_.pattern_footprint_px && pattern_region(corners, middle) == PatternRegion::Varying)
+      return true;
     if (e.size() > limits_.dirt_footprint_px && is_dirty(corners, middle)) return true;
     const bool is_cut = blocking.highest > -blocking.slack;
     const bool is_fine = is_cut || blocking.near_obscuration;
@@ -370,7 +346,7 @@ class CellWalker {
       }
     }
     ++counts_.polygons;
-    const double passed = screened(in, {open.data(), count}) * past_dirt({open.data(), count});
+    const double passed = pattern_transmittance(in, {open.data(), count}) * dirt_transmittance({open.data(), count});
     lit_({pixels.data(), count}, 0.5 * std::abs(twice_area) * transmission * light_.shared_flux() * passed);
   }
 
@@ -381,8 +357,7 @@ class CellWalker {
   const Frame& frame_;
   CellLimits limits_;
   const LitPolygon& lit_;
-  const StopScreen* screen_;
-  const DirtScreen* dirt_;
+  const StopTransmittance& stop_;
   std::vector<IrisBound> hull_;  // of a picture's opening
   CellCounts counts_;
 };
@@ -393,7 +368,7 @@ CellLimits CellLimits::for_density(double density) {
   CellLimits limits;
   limits.root_cells = std::max(8, static_cast<int>(std::lround(limits.root_cells * density)));
   limits.footprint_px /= density;
-  limits.screen_footprint_px /= density;
+  limits.pattern_footprint_px /= density;
   limits.dirt_footprint_px /= density;
   limits.cut_footprint_px /= density;
   limits.bend_px /= density;
@@ -403,9 +378,9 @@ CellLimits CellLimits::for_density(double density) {
 
 CellCounts for_each_lit_polygon(const OpticalPath& path, const Iris& iris, const LightSource& light,
                                 const EntranceWindow& window, const Frame& frame, const CellLimits& limits,
-                                const std::function<bool()>& stop, const LitPolygon& lit, const StopScreen* screen,
-                                const DirtScreen* dirt) {
-  CellWalker walker(path, iris, light, window.z_mm, frame, limits, lit, screen, dirt);
+                                const std::function<bool()>& stop, const LitPolygon& lit,
+                                const StopTransmittance& transmittance) {
+  CellWalker walker(path, iris, light, window.z_mm, frame, limits, lit, transmittance);
   const int n = limits.root_cells;
   const auto row_of = [&](int iy) {
     std::vector<Sample> row;

@@ -10,15 +10,14 @@
 
 #include "contrejour/expert/trace.h"
 #include "contrejour/frame.h"
-#include "render/planning/dirt_screen.h"
-#include "render/planning/stop_screen.h"
+#include "render/stop_patterns/stop_transmittance.h"
 
 namespace contrejour::inline internal::reference {
 
 struct CellLimits {
   int root_cells = 192;            // on a side of the window, before any subdivision
   double footprint_px = 4.0;       // longest side of a cell's image
-  double screen_footprint_px = 1.0;  // the longest side where a stop pattern is neither dark nor level
+  double pattern_footprint_px = 1.0;  // the longest side where a stop pattern is neither dark nor uniform
   double dirt_footprint_px = 0.35;   // the longest side where dirt lies: light is spread evenly over each triangle
   double cut_footprint_px = 1.0;   // the longest side where a rim or the iris's edge cuts the cell
   double bend_px = 0.1;            // distance of the middle's image from the mean of the corners'
@@ -40,11 +39,11 @@ struct CellCounts {
 };
 
 // Calls `lit` for every open piece of every cell that may fall inside the frame. Stops early, with the pieces passed on
-// so far, once `stop()` is true. screen: looked up for every triangle; the path is then a widened one, and the iris a
-// circle (stop_screen.h). dirt: looked up for every triangle. Both may be null.
+// so far, once `stop()` is true. path and iris: as the stop's transmittance requires, which is looked up for every
+// triangle.
 CellCounts for_each_lit_polygon(const OpticalPath& path, const Iris& iris, const LightSource& light,
                                 const EntranceWindow& window, const Frame& frame, const CellLimits& limits,
                                 const std::function<bool()>& stop, const LitPolygon& lit,
-                                const StopScreen* screen = nullptr, const DirtScreen* dirt = nullptr);
+                                const StopTransmittance& transmittance = {});
 
 }  // namespace contrejour::inline internal::reference

@@ -6,7 +6,7 @@
 #include "render/planning/frame_plan.h"
 #include "render/reference/flux_image.h"
 #include "render/reference/pupil_cells.h"
-#include "render/stop_patterns/screens.h"
+#include "render/stop_patterns/stop_transmittances.h"
 
 namespace contrejour::inline internal {
 namespace {
@@ -34,23 +34,19 @@ struct RenderedItem {
   std::uint64_t surfaces = 0;  // that each of its rays meets
 };
 
-RenderedItem render_item(const Item& item, const PlannedFrame& planned, double density, const Screens& screens,
+RenderedItem render_item(const Item& item, const PlannedFrame& planned, double density, const StopTransmittances& stops,
                          const Context& context) {
   const LensState& lens = planned.lens;
   const Frame& frame = planned.settings.frame;
   RenderedItem out{{frame.width, frame.height}, {}, 0};
   const LightSource& light = item.light->source;
-  const auto screen = screens.of(item.ghost, item.pass->lambda_nm, light);
-  const auto fringed = screens.dirt_of(item.ghost, item.pass->lambda_nm, light);
-  const DirtScreen* const dirt = fringed ? fringed.get() : planned.plan.dirt.get();
-  const double past_dirt = dirt != nullptr ? dirt->level() : 1.0;
-  const OpticalPath path = widened(ghost_path(lens, item.ghost, item.pass->lambda_nm), screen ? screen->reach() : 1.0);
+  const StopTransmittance stop = stops.of(item.ghost, item.pass->lambda_nm, light);
+  const OpticalPath path = stop.widened(ghost_path(lens, item.ghost, item.pass->lambda_nm));
   out.surfaces = path.steps.size();
   out.counts = reference::for_each_lit_polygon(
-      path, screen ? Iris{} : lens.iris, light, entrance_window(lens, light), item.look->placed(frame),
+      path, stop.traced_iris(lens.iris), light, entrance_window(lens, light), item.look->placed(frame),
       reference::CellLimits::for_density(density), [&] { return context.cancelled(); },
-      [&](std::span<const Vec2> pixels, double flux) { out.flux.add_polygon(pixels, past_dirt * flux); }, screen.get(),
-      dirt);
+      [&](std::span<const Vec2> pixels, double flux) { out.flux.add_polygon(pixels, stop.level() * flux); }, stop);
   return out;
 }
 
@@ -63,8 +59,8 @@ Result<DrawnFlare> render_reference(const PlannedFrame& planned, const Reference
   if (!(options.density > 0.0) || options.density > 64.0) {
     return failure(ErrorCode::InvalidArgument, "the reference's density is out of range; choose a value up to 64");
   }
-  Screens screens(lens, settings, cache);
-  if (!screens.prepare(plan, context)) return interrupted();
+  StopTransmittances stops(lens, settings, plan.dirt, cache);
+  if (!stops.prepare(plan, context)) return interrupted();
 
   DrawnFlare flare;
   flare.image = Image(settings.frame.width, settings.frame.height, 3);
@@ -73,7 +69,7 @@ Result<DrawnFlare> render_reference(const PlannedFrame& planned, const Reference
   const auto items = items_of(plan);
   const bool done = ordered_pipeline(
       items.size(), context,
-      [&](std::size_t k) { return render_item(items[k], planned, options.density, screens, context); },
+      [&](std::size_t k) { return render_item(items[k], planned, options.density, stops, context); },
       [&](std::size_t k, const RenderedItem& rendered) {
         rendered.flux.add_to(sum, items[k].look->tinted(items[k].pass->gain));
         stats.rays += rendered.counts.rays;

@@ -6,7 +6,7 @@
 
 #include "base/tasks.h"
 
-namespace contrejour::inline internal::screens {
+namespace contrejour::inline internal::stop_patterns {
 namespace {
 
 constexpr double kPlanesPerOctave = 8.0;  // fringes of successive planes differ by 4 per cent
@@ -15,30 +15,6 @@ constexpr double kPlaneSpreadStep = 0.004;
 double lambda_z_at(int rung) { return std::exp2(rung / kPlanesPerOctave); }
 
 }  // namespace
-
-FringedDirt::FringedDirt(std::shared_ptr<const DirtField> sharp,
-                         std::vector<std::shared_ptr<const FringedPlane>> crossings)
-    : DirtScreen(sharp->plane()), sharp_(std::move(sharp)), crossings_(std::move(crossings)) {
-  for (const auto& plane : crossings_)
-    if (plane) level_ *= plane->level();
-}
-
-double FringedDirt::transmission(const DirtPlace& place, std::size_t crossing) const {
-  const FringedPlane* const plane = crossings_[std::min(crossing, crossings_.size() - 1)].get();
-  return plane != nullptr ? plane->transmission(place.at_mm, place.width_mm) : sharp_->transmission(place, crossing);
-}
-
-bool FringedDirt::is_clean(Vec2 middle_mm, double radius_mm, std::size_t crossing) const {
-  const FringedPlane* const plane = crossings_[std::min(crossing, crossings_.size() - 1)].get();
-  return plane != nullptr ? plane->is_clean(middle_mm, radius_mm) : sharp_->is_clean(middle_mm, radius_mm, crossing);
-}
-
-DirtScreen::Edges FringedDirt::edges() const {
-  Edges edges = sharp_->edges();
-  for (const auto& plane : crossings_)
-    if (plane) edges.softness_mm = std::max(edges.softness_mm, plane->unit_mm());
-  return edges;
-}
 
 DirtFringes::PlaneKey DirtFringes::key_of(const Wanted& wanted) {
   return {static_cast<int>(std::lround(kPlanesPerOctave * std::log2(wanted.lambda_z_mm2))),
@@ -70,4 +46,4 @@ std::shared_ptr<const FringedPlane> DirtFringes::plane(const Wanted& wanted) con
   return found == planes_.end() ? nullptr : found->second;
 }
 
-}  // namespace contrejour::inline internal::screens
+}  // namespace contrejour::inline internal::stop_patterns

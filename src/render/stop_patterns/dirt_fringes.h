@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Diffraction shadows of dirt: planes of shadows with fringes, by wavelength times effective distance, as a section of
-// RenderCache; and the shadows that one ghost has.
+// RenderCache.
 // Thread-safety: make() from one thread at a time; all else from any thread, afterwards.
 #pragma once
 
@@ -14,25 +14,7 @@
 #include "render/planning/dirt_field.h"
 #include "render/stop_patterns/fringed_plane.h"
 
-namespace contrejour::inline internal::screens {
-
-// The dirt of a ghost at one wavelength, or in a band.
-class FringedDirt final : public DirtScreen {
- public:
-  // crossings: the plane at each crossing of the stop, or at the front; null: shadows there are sharp.
-  FringedDirt(std::shared_ptr<const DirtField> sharp, std::vector<std::shared_ptr<const FringedPlane>> crossings);
-
-  [[nodiscard]] double level() const override { return level_; }
-  using DirtScreen::transmission;
-  [[nodiscard]] double transmission(const DirtPlace& place, std::size_t crossing) const override;
-  [[nodiscard]] bool is_clean(Vec2 middle_mm, double radius_mm, std::size_t crossing) const override;
-  [[nodiscard]] Edges edges() const override;
-
- private:
-  std::shared_ptr<const DirtField> sharp_;
-  std::vector<std::shared_ptr<const FringedPlane>> crossings_;
-  double level_ = 1.0;
-};
+namespace contrejour::inline internal::stop_patterns {
 
 class DirtFringes {
  public:
@@ -65,4 +47,4 @@ class DirtFringes {
   std::map<PlaneKey, std::shared_ptr<const FringedPlane>> planes_;
 };
 
-}  // namespace contrejour::inline internal::screens
+}  // namespace contrejour::inline internal::stop_patterns

@@ -7,7 +7,7 @@
 
 #include "base/scalar.h"
 
-namespace contrejour::inline internal::screens {
+namespace contrejour::inline internal::stop_patterns {
 namespace {
 
 constexpr double kStep = 1.0 / 128.0;  // a fringe at t = 32 is eight of them
@@ -134,4 +134,4 @@ double EdgeProfile::level_above(double tolerance) const {
   return kDarkBelow + static_cast<double>(first - worst_from_.begin()) * kStep;
 }
 
-}  // namespace contrejour::inline internal::screens
+}  // namespace contrejour::inline internal::stop_patterns

@@ -9,7 +9,7 @@
 
 #include <vector>
 
-namespace contrejour::inline internal::screens {
+namespace contrejour::inline internal::stop_patterns {
 
 class EdgeProfile {
  public:
@@ -41,4 +41,4 @@ class EdgeProfile {
   std::vector<double> error_to_, error_from_;  // squared error left out before and from a step
 };
 
-}  // namespace contrejour::inline internal::screens
+}  // namespace contrejour::inline internal::stop_patterns

@@ -10,7 +10,7 @@
 
 #include "base/scalar.h"
 
-namespace contrejour::inline internal::screens {
+namespace contrejour::inline internal::stop_patterns {
 namespace {
 
 constexpr double kSharpSpeck = 5.5;  // in units of sqrt(lambda z): the rim of wider specks is nearly straight
@@ -376,4 +376,4 @@ bool FringedPlane::is_clean(Vec2 middle_mm, double radius_mm) const {
   return true;
 }
 
-}  // namespace contrejour::inline internal::screens
+}  // namespace contrejour::inline internal::stop_patterns

@@ -24,7 +24,7 @@
 #include "diffraction/straight_edge.h"
 #include "render/planning/cell_flags.h"
 
-namespace contrejour::inline internal::screens {
+namespace contrejour::inline internal::stop_patterns {
 
 class FringedPlane {
  public:
@@ -39,7 +39,7 @@ class FringedPlane {
 
   // The transmittance far from all shapes.
   [[nodiscard]] double level() const { return level_; }
-  // Relative to the level, as DirtScreen's.
+  // Relative to the level, as DirtShadows's.
   [[nodiscard]] double transmission(Vec2 at_mm, double width_mm) const;
   [[nodiscard]] bool is_clean(Vec2 middle_mm, double radius_mm) const;
   [[nodiscard]] double unit_mm() const { return unit_mm_; }  // about a fringe's width
@@ -104,4 +104,4 @@ class FringedPlane {
   std::array<Level, 5> levels_;
 };
 
-}  // namespace contrejour::inline internal::screens
+}  // namespace contrejour::inline internal::stop_patterns

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace contrejour::inline internal::screens {
+namespace contrejour::inline internal::stop_patterns {
 
 HalvedPicture::HalvedPicture(int side, double extent, std::vector<float> samples) : extent_(extent) {
   levels_.push_back({side, std::move(samples)});
@@ -51,4 +51,4 @@ double HalvedPicture::at(Vec2 p, double width) const {
   return rest > 0.0 && fine + 1 < levels_.size() ? std::lerp(value, bilinear(levels_[fine + 1], p), rest) : value;
 }
 
-}  // namespace contrejour::inline internal::screens
+}  // namespace contrejour::inline internal::stop_patterns

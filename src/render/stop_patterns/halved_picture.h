@@ -8,7 +8,7 @@
 
 #include "contrejour/expert/vec.h"
 
-namespace contrejour::inline internal::screens {
+namespace contrejour::inline internal::stop_patterns {
 
 class HalvedPicture {
  public:
@@ -34,4 +34,4 @@ class HalvedPicture {
   std::vector<Level> levels_;
 };
 
-}  // namespace contrejour::inline internal::screens
+}  // namespace contrejour::inline internal::stop_patterns

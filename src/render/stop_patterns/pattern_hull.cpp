@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace contrejour::inline internal::screens {
+namespace contrejour::inline internal::stop_patterns {
 namespace {
 
 std::array<Vec2, PatternHull::kLines> even_normals() {
@@ -44,4 +44,4 @@ void PatternHull::hold(const PatternHull& other, double times) {
   nearest_ = *std::min_element(most_.begin(), most_.end());
 }
 
-}  // namespace contrejour::inline internal::screens
+}  // namespace contrejour::inline internal::stop_patterns

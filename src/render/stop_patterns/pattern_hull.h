@@ -9,7 +9,7 @@
 
 #include "contrejour/expert/vec.h"
 
-namespace contrejour::inline internal::screens {
+namespace contrejour::inline internal::stop_patterns {
 
 class PatternHull {
  public:
@@ -29,4 +29,4 @@ class PatternHull {
   double nearest_ = 0.0;  // smallest of them
 };
 
-}  // namespace contrejour::inline internal::screens
+}  // namespace contrejour::inline internal::stop_patterns

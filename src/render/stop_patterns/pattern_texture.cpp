@@ -8,7 +8,7 @@
 #include <numeric>
 #include <span>
 
-namespace contrejour::inline internal::screens {
+namespace contrejour::inline internal::stop_patterns {
 namespace {
 
 constexpr double kFluxBeyond = 0.01;  // fraction that may be left out
@@ -143,4 +143,4 @@ double PatternTexture::flux() const {
   return std::accumulate(samples().begin(), samples().end(), 0.0) * pitch * pitch;
 }
 
-}  // namespace contrejour::inline internal::screens
+}  // namespace contrejour::inline internal::stop_patterns

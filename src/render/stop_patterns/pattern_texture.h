@@ -11,7 +11,7 @@
 #include "render/stop_patterns/halved_picture.h"
 #include "render/stop_patterns/pattern_hull.h"
 
-namespace contrejour::inline internal::screens {
+namespace contrejour::inline internal::stop_patterns {
 
 class PatternTexture {
  public:
@@ -52,4 +52,4 @@ class PatternTexture {
   std::vector<SectorRest> sector_rest_;  // the same, by sector
 };
 
-}  // namespace contrejour::inline internal::screens
+}  // namespace contrejour::inline internal::stop_patterns

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cstddef>
 
-namespace contrejour::inline internal::screens {
+namespace contrejour::inline internal::stop_patterns {
 namespace {
 
 // The position of a sample of one grid between two samples of another, along one axis.
@@ -45,4 +45,4 @@ std::vector<float> resampled(const SquareSamples& from, int side, double extent)
   return out;
 }
 
-}  // namespace contrejour::inline internal::screens
+}  // namespace contrejour::inline internal::stop_patterns

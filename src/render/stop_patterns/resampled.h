@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-namespace contrejour::inline internal::screens {
+namespace contrejour::inline internal::stop_patterns {
 
 // Rows of side x side samples over the square from -extent to extent.
 struct SquareSamples {
@@ -17,4 +17,4 @@ struct SquareSamples {
 
 [[nodiscard]] std::vector<float> resampled(const SquareSamples& from, int side, double extent);
 
-}  // namespace contrejour::inline internal::screens
+}  // namespace contrejour::inline internal::stop_patterns

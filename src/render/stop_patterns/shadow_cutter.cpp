@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace contrejour::inline internal::screens {
+namespace contrejour::inline internal::stop_patterns {
 namespace {
 
 constexpr double kOff = 0.02;        // of the finest detail: error of outlines
@@ -206,4 +206,4 @@ void ShadowCutter::find_parts(const DirtField& dirt, std::span<const PlaneView> 
   }
 }
 
-}  // namespace contrejour::inline internal::screens
+}  // namespace contrejour::inline internal::stop_patterns

@@ -12,7 +12,7 @@
 
 #include "render/planning/dirt_field.h"
 
-namespace contrejour::inline internal::screens {
+namespace contrejour::inline internal::stop_patterns {
 
 // The map from a polygon's coordinates (pixels, for example) to the plane of the dirt, in mm.
 struct PlaneView {
@@ -67,4 +67,4 @@ class ShadowCutter {
   std::vector<std::uint32_t> found_;
 };
 
-}  // namespace contrejour::inline internal::screens
+}  // namespace contrejour::inline internal::stop_patterns

@@ -9,7 +9,7 @@
 #include <bit>
 #include <cstdint>
 
-namespace contrejour::inline internal::screens {
+namespace contrejour::inline internal::stop_patterns {
 
 class ShortLight {
  public:
@@ -38,4 +38,4 @@ class ShortLight {
   std::int32_t lowest_;
 };
 
-}  // namespace contrejour::inline internal::screens
+}  // namespace contrejour::inline internal::stop_patterns

@@ -11,7 +11,7 @@
 #include "contrejour/expert/iris_field.h"
 #include "render/stop_patterns/resampled.h"
 
-namespace contrejour::inline internal::screens {
+namespace contrejour::inline internal::stop_patterns {
 namespace {
 
 constexpr int kMaskSamples = 256;     // across the stop
@@ -167,9 +167,9 @@ StopPatterns::Band StopPatterns::band(std::span<const PatternTexture* const> par
     const auto found = bands_.find(key);
     if (found != bands_.end()) return found->second;
   }
-  auto made = std::make_shared<const BandPattern>(parts);
+  auto made = std::make_shared<const BandTexture>(parts);
   const std::scoped_lock lock(bands_mutex_);
   return bands_.try_emplace(key, std::move(made)).first->second;
 }
 
-}  // namespace contrejour::inline internal::screens
+}  // namespace contrejour::inline internal::stop_patterns

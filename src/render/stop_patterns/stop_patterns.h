@@ -17,18 +17,18 @@
 #include "contrejour/expert/fractional_fourier.h"
 #include "contrejour/expert/iris.h"
 #include "contrejour/expert/pupil_mask.h"
-#include "render/stop_patterns/band_pattern.h"
+#include "render/stop_patterns/band_texture.h"
 #include "render/stop_patterns/edge_profile.h"
 #include "render/stop_patterns/pattern_texture.h"
 
-namespace contrejour::inline internal::screens {
+namespace contrejour::inline internal::stop_patterns {
 
 class StopPatterns {
  public:
   using Key = Iris;
   using Texture = std::shared_ptr<const PatternTexture>;
   using Profile = std::shared_ptr<const EdgeProfile>;
-  using Band = std::shared_ptr<const BandPattern>;
+  using Band = std::shared_ptr<const BandTexture>;
 
   // From this Fresnel number on, the fringes of different edges are nearly independent.
   static constexpr double kEdgesFrom = 48.0;
@@ -84,4 +84,4 @@ class StopPatterns {
   std::map<std::vector<const PatternTexture*>, Band> bands_;
 };
 
-}  // namespace contrejour::inline internal::screens
+}  // namespace contrejour::inline internal::stop_patterns

@@ -9,7 +9,7 @@
 #include "contrejour/expert/fresnel.h"
 #include "optics/surface/shape_constants.h"
 
-namespace contrejour::inline internal::screens {
+namespace contrejour::inline internal::stop_patterns {
 namespace {
 
 // Slopes are dy per unit of distance along the axis, in the direction of travel (first_order.cpp); the sign of a
@@ -123,4 +123,4 @@ PlaneWave front_wave(const OpticalPath& path, double light_distance_mm) {
   return mean_of(wave_of(in_x, in_x.front), wave_of(in_y, in_y.front));
 }
 
-}  // namespace contrejour::inline internal::screens
+}  // namespace contrejour::inline internal::stop_patterns

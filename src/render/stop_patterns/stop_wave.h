@@ -11,7 +11,7 @@
 
 #include "contrejour/expert/trace.h"
 
-namespace contrejour::inline internal::screens {
+namespace contrejour::inline internal::stop_patterns {
 
 struct StopWave {
   double fresnel_number = std::numeric_limits<double>::infinity();  // a^2 (A + B c) / (lambda B)
@@ -35,4 +35,4 @@ struct PlaneWave {
 [[nodiscard]] std::vector<PlaneWave> stop_crossing_waves(const OpticalPath& path, double light_distance_mm);
 [[nodiscard]] PlaneWave front_wave(const OpticalPath& path, double light_distance_mm);
 
-}  // namespace contrejour::inline internal::screens
+}  // namespace contrejour::inline internal::stop_patterns

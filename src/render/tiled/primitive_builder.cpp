@@ -252,7 +252,7 @@ void PrimitiveBuilder::fill(const RayGrid& grid, std::array<std::size_t, 4> corn
     }
     out_->more_crossings.push_back(places);
   }
-  if (traced_.dirt == nullptr || !traced_.dirt->on_front()) return;
+  if (traced_.front_dirt == nullptr) return;
   p.flags |= kFront;
   StopPlaces front{};
   for (std::size_t k = 0; k < 4; ++k) {
@@ -260,7 +260,7 @@ void PrimitiveBuilder::fill(const RayGrid& grid, std::array<std::size_t, 4> corn
     const Vec2 step = grid.step_mm();
     const Vec2 entrance = grid.box().low + Vec2{step.x * static_cast<double>(corners[k] % side),
                                                 step.y * static_cast<double>(corners[k] / side)};
-    const Vec2 at = traced_.dirt->front_place(entrance, traced_.entrance_z_mm, traced_.light);
+    const Vec2 at = traced_.front_dirt->front_point(entrance, traced_.entrance_z_mm, traced_.light);
     front.x[k] = static_cast<float>(at.x);
     front.y[k] = static_cast<float>(at.y);
   }

@@ -8,7 +8,7 @@
 #include "contrejour/frame.h"
 #include "contrejour/method_options.h"
 #include "ghosts/ray_grid.h"
-#include "render/planning/dirt_screen.h"
+#include "render/planning/dirt_field.h"
 #include "render/tiled/primitive.h"
 
 namespace contrejour::inline internal::tiled {
@@ -18,7 +18,7 @@ struct TracedPass {
   double shared_flux = 1;  // LightSource's
   std::uint32_t pass = 0;
   Vec2 shift_mm = {};      // of the ghost, on the sensor
-  const DirtScreen* dirt = nullptr;  // if it lies on the front, places there are kept; may be null
+  const DirtSite* front_dirt = nullptr;  // not null: places on the front are kept, since there is dirt
   LightSource light = {};
   double entrance_z_mm = 0.0;  // of the grid
 };

@@ -94,49 +94,40 @@ HWY_INLINE double pixel_at_stop(const Primitive& p, const StopPlaces& places) {
   return std::sqrt(area(places.x, places.y) / std::max(area(p.x, p.y), 1.0));
 }
 
-// The transmittance of the stop pattern for each pixel, one pixel at a time.
-CONTREJOUR_INLINE_IF_FAST P screened(const TraversalInput& input, const Primitive& p, const StopScreen& screen,
-                                     const hk::Weights<P>& weights, Mask inside) {
+// Multiplies each pixel's value by what the stop pattern and dirt transmit where its light crosses the stop and, if
+// dirt lies there, the front: one pixel at a time.
+CONTREJOUR_INLINE_IF_FAST P behind_stop(const TraversalInput& input, const Primitive& p, const StopTransmittance& stop,
+                                        const hk::Weights<P>& weights, Mask inside, P value) {
   const P::Tag d;
-  constexpr std::size_t kLanes = HWY_MAX_BYTES / sizeof(float);
-  HWY_ALIGN std::array<float, kLanes> wanted, share;
-  HWY_ALIGN std::array<std::array<float, kLanes>, kMaxStopCrossings> x, y;
-  std::array<StopPlace, kMaxStopCrossings> places;
-  for (std::size_t c = 0; c < p.crossings; ++c) {
-    const StopPlaces corners = places_of(input, p, c);
-    hn::Store((interpolate(weights, corners.x) / weights.total).v, d, x[c].data());
-    hn::Store((interpolate(weights, corners.y) / weights.total).v, d, y[c].data());
-    places[c].width = pixel_at_stop(p, corners) * screen.reach();
-  }
+  constexpr std::size_t kLanes = HWY_MAX_BYTES / sizeof(float), kPlanes = kMaxStopCrossings + 1;
+  HWY_ALIGN std::array<float, kLanes> wanted, out;
+  HWY_ALIGN std::array<std::array<float, kLanes>, kPlanes> x, y;
+  std::array<StopPoint, kPlanes> points;
+  const auto look_up = [&](std::size_t plane, const StopPlaces& corners, double unit) {
+    hn::Store((interpolate(weights, corners.x) / weights.total).v, d, x[plane].data());
+    hn::Store((interpolate(weights, corners.y) / weights.total).v, d, y[plane].data());
+    points[plane].width = pixel_at_stop(p, corners) * unit;
+  };
+  const bool on_front = stop.has_front();
+  const double outer = stop.outer_radius();
+  for (std::size_t c = 0; c < p.crossings; ++c) look_up(c, places_of(input, p, c), outer);
+  if (on_front) look_up(p.crossings, input.buffer.more_crossings[p.more_crossings + p.more_places() - 1], 1.0);
+  const double to_mm = stop.dirt && !on_front ? stop.dirt->site().stop_radius_mm : 1.0;
   hn::Store(hn::IfThenElseZero(inside, hn::Set(d, 1.0F)), d, wanted.data());
+  hn::Store(value.v, d, out.data());
   for (std::size_t k = 0; k < hn::Lanes(d); ++k) {
-    for (std::size_t c = 0; c < p.crossings; ++c) places[c].at = Vec2{x[c][k], y[c][k]} * screen.reach();
-    share[k] = wanted[k] > 0.0F ? static_cast<float>(screen.share({places.data(), p.crossings})) : 0.0F;
+    if (!(wanted[k] > 0.0F)) continue;
+    for (std::size_t c = 0; c < p.crossings; ++c) points[c].at = Vec2{x[c][k], y[c][k]} * outer;
+    if (on_front) points[p.crossings].at = Vec2{x[p.crossings][k], y[p.crossings][k]};
+    if (stop.pattern) out[k] *= static_cast<float>(stop.pattern->transmittance({points.data(), p.crossings}));
+    float left = 1.0F;
+    for (std::size_t c = 0; stop.dirt && c < stop.dirt_crossings(p.crossings); ++c) {
+      const StopPoint& point = points[on_front ? p.crossings : c];
+      left *= static_cast<float>(stop.dirt->transmission({point.at * to_mm, point.width * to_mm}, c));
+    }
+    out[k] *= left;
   }
-  return P(hn::Load(d, share.data()));
-}
-
-// The transmittance of dirt for each pixel, where its light crosses the stop or the front, one pixel at a time.
-CONTREJOUR_INLINE_IF_FAST P past_dirt(const TraversalInput& input, const Primitive& p, const hk::Weights<P>& weights,
-                                      Mask inside) {
-  const P::Tag d;
-  constexpr std::size_t kLanes = HWY_MAX_BYTES / sizeof(float);
-  HWY_ALIGN std::array<float, kLanes> share, x, y;
-  hn::Store(hn::IfThenElseZero(inside, hn::Set(d, 1.0F)), d, share.data());
-  const bool on_front = (p.flags & kFront) != 0;
-  const StopScreen* const screen = input.screens.empty() ? nullptr : input.screens[p.pass];
-  const DirtScreen& dirt = *input.dirt[p.pass];
-  const double unit_mm = on_front ? 1.0 : dirt.stop_radius_mm() * (screen != nullptr ? screen->reach() : 1.0);
-  for (std::size_t c = 0; c < (on_front ? 1 : p.crossings); ++c) {
-    const StopPlaces corners =
-        on_front ? input.buffer.more_crossings[p.more_crossings + p.more_places() - 1] : places_of(input, p, c);
-    hn::Store((interpolate(weights, corners.x) / weights.total).v, d, x.data());
-    hn::Store((interpolate(weights, corners.y) / weights.total).v, d, y.data());
-    const double width_mm = pixel_at_stop(p, corners) * unit_mm;
-    for (std::size_t k = 0; k < hn::Lanes(d); ++k)
-      if (share[k] > 0.0F) share[k] *= static_cast<float>(dirt.transmission({Vec2{x[k], y[k]} * unit_mm, width_mm}, c));
-  }
-  return P(hn::Load(d, share.data()));
+  return P(hn::Load(d, out.data()));
 }
 
 // An edge includes the points on it if it runs upwards, or horizontally to the left, so that a shared edge belongs to
@@ -168,7 +159,7 @@ CONTREJOUR_INLINE_IF_FAST void add_primitive(const TraversalInput& input, const 
   const P right = broadcast(static_cast<float>(p.pixels.x1) + 1.0F);
   const Method<P> method(quad);
   const Gain& gain = input.gains[p.pass];
-  const StopScreen* const screen = input.screens.empty() ? nullptr : input.screens[p.pass];
+  const StopTransmittance* const stop = input.stops.empty() ? nullptr : &input.stops[p.pass];
   for (std::size_t k = begin; k < end; k += lanes) {
     const P x(hn::LoadU(d, tile.x.data() + k));
     const P y(hn::LoadU(d, tile.y.data() + k));
@@ -180,13 +171,12 @@ CONTREJOUR_INLINE_IF_FAST void add_primitive(const TraversalInput& input, const 
     const hk::Weights<P> weights = method.at(seen);
     inside = hn::And(inside, hn::Gt(weights.total.v, hn::Zero(d)));
     P value = interpolate(weights, p.irradiance) / weights.total;
-    if (screen != nullptr) {
+    if (stop != nullptr && stop->pattern) {
       inside = hn::And(inside, hn::Le(interpolate(weights, p.r_rel).v, weights.total.v));
-      value = value * screened(input, p, *screen, weights, inside);
     } else if ((p.flags & kOpen) == 0) {
       inside = hn::And(inside, unblocked(input, p, weights));
     }
-    if (!input.dirt.empty()) value = value * past_dirt(input, p, weights, inside);
+    if (stop != nullptr && (stop->pattern || stop->dirt)) value = behind_stop(input, p, *stop, weights, inside, value);
     const auto lit = hn::IfThenElseZero(inside, value.v);
     for (std::size_t c = 0; c < 3; ++c) {
       float* out = tile.value[c].data() + k;

@@ -10,8 +10,7 @@
 #include "contrejour/image.h"
 #include "contrejour/method_options.h"
 #include "ghosts/iris_shape.h"
-#include "render/planning/dirt_screen.h"
-#include "render/planning/stop_screen.h"
+#include "render/stop_patterns/stop_transmittance.h"
 #include "render/tiled/primitive.h"
 #include "render/tiled/tile_lists.h"
 
@@ -25,8 +24,7 @@ struct TraversalInput {
   const PrimitiveBuffer& buffer;
   std::span<const Gain> gains;  // by Primitive::pass
   const IrisShape& iris;
-  std::span<const StopScreen* const> screens;  // by Primitive::pass; a null one, or an empty span: the iris is sharp
-  std::span<const DirtScreen* const> dirt;  // by Primitive::pass; empty: the lens is clean
+  std::span<const StopTransmittance> stops;  // by Primitive::pass; empty: the iris is sharp and the lens clean
   TiledOptions::Interpolation interpolation = TiledOptions::Interpolation::LoopDeRose;
 };
 

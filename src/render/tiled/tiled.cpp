@@ -15,7 +15,7 @@
 #include "render/planning/frame_plan.h"
 #include "render/planning/grid_side.h"
 #include "render/planning/passes_by_need.h"
-#include "render/stop_patterns/screens.h"
+#include "render/stop_patterns/stop_transmittances.h"
 #include "render/tiled/primitive_builder.h"
 #include "render/tiled/tiled_frame.h"
 
@@ -115,24 +115,20 @@ struct Job {
   IrisShape iris;
   std::vector<Item> items;
   std::vector<tiled::Gain> gains;  // one for each item
-  std::vector<std::shared_ptr<const StopScreen>>
-      screens;  // one for each item, null where the iris is sharp; empty: it is sharp for all
+  std::vector<StopTransmittance> stops = {};  // one for each item; empty: the iris is sharp for all, the lens clean
   IrisShape round = IrisShape(Iris{});  // for items with a stop pattern
-  std::vector<std::shared_ptr<const DirtScreen>> dirt = {};  // one for each item; empty: the lens is clean
 };
 
-void list_items(const FramePlan& plan, const Screens& screens, Job& job) {
+void list_items(const FramePlan& plan, const StopTransmittances& stops, Job& job) {
+  const bool any = stops.on() || plan.dirt;
   for_each_pair_with_passes(plan, [&](std::size_t g, std::size_t k, std::span<const PlannedPass> passes) {
     const GhostLook& look = plan.looks[g];
     const PlannedLight& light = plan.lights[k];
     for (const PlannedPass& pass : passes) {
-      if (screens.on()) job.screens.push_back(screens.of(plan.ghosts[g], pass.lambda_nm, light.source));
-      if (plan.dirt) {
-        auto fringed = screens.dirt_of(plan.ghosts[g], pass.lambda_nm, light.source);
-        job.dirt.push_back(fringed ? std::move(fringed) : plan.dirt);
-      }
+      const StopTransmittance stop = stops.of(plan.ghosts[g], pass.lambda_nm, light.source);
+      if (any) job.stops.push_back(stop);
       Rgb gain = look.tinted(pass.gain);
-      for (double& value : gain) value *= plan.dirt ? job.dirt.back()->level() : 1.0;
+      for (double& value : gain) value *= stop.level();
       job.items.push_back({plan.ghosts[g], look.shift_mm, light.source, pass.lambda_nm});
       job.gains.push_back({static_cast<float>(gain[0]), static_cast<float>(gain[1]), static_cast<float>(gain[2])});
     }
@@ -142,10 +138,9 @@ void list_items(const FramePlan& plan, const Screens& screens, Job& job) {
 TracedItem trace_item(const Job& job, std::size_t index, Workspace& workspace) {
   TracedItem out;
   const Item& item = job.items[index];
-  const StopScreen* const screen = job.screens.empty() ? nullptr : job.screens[index].get();
-  const IrisShape& iris = screen != nullptr ? job.round : job.iris;
-  OpticalPath path = ghost_path(job.lens, item.ghost, item.lambda_nm);
-  if (screen != nullptr) path = widened(std::move(path), screen->reach());
+  const StopTransmittance stop = job.stops.empty() ? StopTransmittance{} : job.stops[index];
+  const IrisShape& iris = stop.pattern ? job.round : job.iris;
+  const OpticalPath path = stop.widened(ghost_path(job.lens, item.ghost, item.lambda_nm));
   const ReflectanceTables& tables = job.tables.at(item.lambda_nm);
   const EntranceWindow window = entrance_window(job.lens, item.light);
   const auto count_rays = [&](std::uint64_t rays) {
@@ -170,7 +165,7 @@ TracedItem trace_item(const Job& job, std::size_t index, Workspace& workspace) {
   const tiled::TracedPass traced{item.light.shared_flux(),
                                  static_cast<std::uint32_t>(index),
                                  item.shift_mm,
-                                 job.dirt.empty() ? nullptr : job.dirt[index].get(),
+                                 stop.has_front() ? &stop.dirt->site() : nullptr,
                                  item.light,
                                  window.z_mm};
   out.counts.primitives = workspace.builder.build(workspace.grid, traced, out.buffer);
@@ -207,17 +202,13 @@ Result<DrawnFlare> render_tiled(const PlannedFrame& planned, const TiledOptions&
   const auto by_need = with_passes_by_need(planned.plan, lens, pixels, context);
   if (!by_need) return interrupted();
   const FramePlan& plan = *by_need;
-  Screens screens(lens, planned.settings, planned.cache);
-  if (!screens.prepare(plan, context)) return interrupted();
-  Job job{lens, pixels, options, context, plan.tables, IrisShape(lens.iris), {}, {}, {}};
-  list_items(plan, screens, job);
-  std::vector<const StopScreen*> screen_of_pass;
-  for (const auto& screen : job.screens) screen_of_pass.push_back(screen.get());
-  std::vector<const DirtScreen*> dirt_of_pass;
-  for (const auto& dirt : job.dirt) dirt_of_pass.push_back(dirt.get());
+  StopTransmittances stops(lens, planned.settings, plan.dirt, planned.cache);
+  if (!stops.prepare(plan, context)) return interrupted();
+  Job job{lens, pixels, options, context, plan.tables, IrisShape(lens.iris), {}, {}};
+  list_items(plan, stops, job);
 
   const auto traced = Clock::now();
-  tiled::TiledFrame frame(pixels, options, context, job.iris, job.gains, {}, screen_of_pass, dirt_of_pass);
+  tiled::TiledFrame frame(pixels, options, context, job.iris, job.gains, {}, job.stops);
   Counts counts;
   trace_all(job, frame, counts);
   const double trace_ms = ms_since(traced) - frame.draw_ms();

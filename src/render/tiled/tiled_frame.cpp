@@ -9,9 +9,8 @@
 namespace contrejour::inline internal::tiled {
 
 TiledFrame::TiledFrame(const Frame& frame, const TiledOptions& options, const Context& context, const IrisShape& iris,
-                       std::span<const Gain> gains, const HeldLimits& limits,
-                       std::span<const StopScreen* const> screens, std::span<const DirtScreen* const> dirt)
-    : options_(options), context_(context), iris_(iris), gains_(gains), screens_(screens), dirt_(dirt), limits_(limits),
+                       std::span<const Gain> gains, const HeldLimits& limits, std::span<const StopTransmittance> stops)
+    : options_(options), context_(context), iris_(iris), gains_(gains), stops_(stops), limits_(limits),
       coarse_grid_{frame.width, frame.height, std::max(1, options.coarse_tile)},
       dense_grid_{frame.width, frame.height, options.dense_tile}, image_(frame.width, frame.height, 3) {
   context_.progress = {};
@@ -61,7 +60,7 @@ void TiledFrame::traverse() {
 }
 
 void TiledFrame::traverse_row(std::size_t row) {
-  const TraversalInput input{held_, gains_, iris_, screens_, dirt_, options_.interpolation};
+  const TraversalInput input{held_, gains_, iris_, stops_, options_.interpolation};
   const auto columns = static_cast<std::size_t>(dense_grid_.columns());
   const int size = dense_grid_.tile;
   const int y0 = static_cast<int>(row) * size;

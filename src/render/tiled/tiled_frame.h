@@ -27,10 +27,9 @@ struct HeldLimits {
 
 class TiledFrame {
  public:
-  // gains, screens, dirt: by Primitive::pass. All must outlive the frame.
+  // gains, stops: by Primitive::pass; stops may be empty (TraversalInput). All must outlive the frame.
   TiledFrame(const Frame& frame, const TiledOptions& options, const Context& context, const IrisShape& iris,
-             std::span<const Gain> gains, const HeldLimits& limits = {},
-             std::span<const StopScreen* const> screens = {}, std::span<const DirtScreen* const> dirt = {});
+             std::span<const Gain> gains, const HeldLimits& limits = {}, std::span<const StopTransmittance> stops = {});
 
   // Appends primitives, in the order in which pixels sum them.
   void add(const PrimitiveBuffer& buffer);
@@ -53,8 +52,7 @@ class TiledFrame {
   Context context_;
   const IrisShape& iris_;
   std::span<const Gain> gains_;
-  std::span<const StopScreen* const> screens_;
-  std::span<const DirtScreen* const> dirt_;
+  std::span<const StopTransmittance> stops_;
   HeldLimits limits_;
   TileGrid coarse_grid_, dense_grid_;
   Image image_;

@@ -8,7 +8,7 @@
 
 #include "render/adaptive/plain_image.h"
 #include "render/adaptive/scene.h"
-#include "render/stop_patterns/iris_screens.h"
+#include "render/stop_patterns/stop_pattern.h"
 
 using namespace contrejour;
 using namespace contrejour::adaptive;
@@ -34,15 +34,16 @@ std::shared_ptr<const IrisShape> blades() {
   return std::make_shared<const IrisShape>(iris);
 }
 
-std::shared_ptr<screens::BandScreen> edges(const std::shared_ptr<const IrisShape>& iris) {
-  auto band = std::make_shared<screens::BandScreen>();
-  const auto profile = std::make_shared<const screens::EdgeProfile>(0.05);
+std::shared_ptr<stop_patterns::BandStopPattern> edges(const std::shared_ptr<const IrisShape>& iris) {
+  auto band = std::make_shared<stop_patterns::BandStopPattern>();
+  const auto profile = std::make_shared<const stop_patterns::EdgeProfile>(0.05);
   int k = 0;
   for (const double f : {200.0, 160.0, 120.0}) {
-    band->parts.push_back({std::make_shared<const screens::EdgeScreen>(iris, profile, f), {}});
+    const auto pattern = std::make_shared<const StopPattern>(iris, stop_patterns::EdgePattern(iris, profile, f));
+    band->parts.push_back({pattern, {}});
     band->parts.back().channel[static_cast<std::size_t>(k++)] = 1.0F;
   }
-  band->edges = static_cast<const screens::EdgeScreen*>(band->parts.front().screen.get());
+  band->edges = band->parts.front().pattern->edges();
   band->unit = band->edges->unit();
   band->dark_beyond = 2.0 * band->unit;
   band->level_within = 4.0 * band->unit;
@@ -50,10 +51,10 @@ std::shared_ptr<screens::BandScreen> edges(const std::shared_ptr<const IrisShape
 }
 
 // A smooth pattern, brightest off the middle, with a colour of its own.
-std::shared_ptr<screens::BandScreen> patterns(const std::shared_ptr<const IrisShape>& iris) {
-  auto band = std::make_shared<screens::BandScreen>();
-  std::vector<std::shared_ptr<const screens::PatternTexture>> textures;
-  std::vector<const screens::PatternTexture*> all;
+std::shared_ptr<stop_patterns::BandStopPattern> patterns(const std::shared_ptr<const IrisShape>& iris) {
+  auto band = std::make_shared<stop_patterns::BandStopPattern>();
+  std::vector<std::shared_ptr<const stop_patterns::PatternTexture>> textures;
+  std::vector<const stop_patterns::PatternTexture*> all;
   for (const double extent : {1.5, 1.7, 2.0}) {
     std::vector<float> samples;
     constexpr int kSide = 64;
@@ -62,23 +63,22 @@ std::shared_ptr<screens::BandScreen> patterns(const std::shared_ptr<const IrisSh
         const double x = (column + 0.5) / kSide - 0.4, y = (row + 0.5) / kSide - 0.55;
         samples.push_back(static_cast<float>(std::exp(-12.0 * (x * x + y * y)) * (1.2 + std::cos(20.0 * x * extent))));
       }
-    textures.push_back(std::make_shared<const screens::PatternTexture>(kSide, extent, samples));
+    textures.push_back(std::make_shared<const stop_patterns::PatternTexture>(kSide, extent, samples));
     all.push_back(textures.back().get());
-    band->parts.push_back({std::make_shared<const screens::TextureScreen>(iris, textures.back()),
+    band->parts.push_back({std::make_shared<const StopPattern>(iris, stop_patterns::TexturePattern(textures.back())),
                            {static_cast<float>(extent - 1.0), 0.3F, static_cast<float>(1.9 - extent)}});
   }
-  band->pattern = std::make_shared<const screens::BandPattern>(all);
+  band->texture = std::make_shared<const stop_patterns::BandTexture>(all);
   return band;
 }
 
 // A single wavelength: all channels have the same pattern.
-std::shared_ptr<screens::BandScreen> grey(std::shared_ptr<screens::BandScreen> band) {
+std::shared_ptr<stop_patterns::BandStopPattern> grey(std::shared_ptr<stop_patterns::BandStopPattern> band) {
   band->parts.resize(1);
   band->parts.front().channel = {1.0F, 1.0F, 1.0F};
-  if (band->pattern) {
-    const auto& of_one = static_cast<const screens::TextureScreen&>(*band->parts.front().screen);
-    band->pattern = std::make_shared<const screens::BandPattern>(std::array{&of_one.texture()});
-  }
+  if (band->texture)
+    band->texture =
+        std::make_shared<const stop_patterns::BandTexture>(std::array{band->parts.front().pattern->texture()});
   return band;
 }
 
@@ -245,20 +245,20 @@ TEST_CASE("patterns: each wavelength's own, in its part of the channels") {
   SUBCASE("several") {}
   SUBCASE("one") { alone = true; }
   const auto band = alone ? grey(patterns(iris)) : patterns(iris);
-  CHECK(band->pattern->of_one() == alone);
+  CHECK(band->texture->of_one() == alone);
   const auto screened = [&](PolygonList&, Vec2 middle, double size) {
     return std::pair(Screened{StopMap(pixels_about(middle, size), std::array{stop_about(size)}, 0.2), band.get()},
                      std::vector<std::uint16_t>{});
   };
-  const auto& samples = band->pattern->level_for(0.0);
+  const auto& samples = band->texture->level_for(0.0);
   const auto sample = [&](int column, int row, std::size_t part) {
     if (column < 0 || row < 0 || column >= samples.side || row >= samples.side) return 0.0;
     const auto at = static_cast<std::size_t>((row + 1) * samples.pitch() + column + 1);
     return static_cast<double>(alone ? samples.coding.light(samples.coded[at].here)
-                                     : samples.samples[screens::BandPattern::kStride * at + part]);
+                                     : samples.samples[stop_patterns::BandTexture::kStride * at + part]);
   };
   const auto share = [&](const Polygon&, Vec2 at) {
-    const double scale = 0.5 * samples.side / band->pattern->extent();
+    const double scale = 0.5 * samples.side / band->texture->extent();
     const double x = at.x * scale + 0.5 * samples.side - 0.5, y = -at.y * scale + 0.5 * samples.side - 0.5;
     const int column = static_cast<int>(std::floor(x)), row = static_cast<int>(std::floor(y));
     std::array<double, 3> out{};
@@ -273,19 +273,12 @@ TEST_CASE("patterns: each wavelength's own, in its part of the channels") {
   CHECK(worst_difference(7, screened, share) < 2e-4);
 }
 
-TEST_CASE("any screen: what it says of every crossing") {
-  struct Stripes final : StopScreen {
-    [[nodiscard]] double reach() const override { return 2.0; }
-    [[nodiscard]] double share(std::span<const StopPlace> places) const override {
-      return 0.5 + 0.5 * std::sin(9.0 * places.back().at.x) * std::cos(5.0 * places.front().at.y);
-    }
-    [[nodiscard]] ScreenPart over(Vec2, double, double) const override { return ScreenPart::Varied; }
-  };
-  screens::BandScreen band;
-  band.parts.push_back({std::make_shared<const Stripes>(), {1.0F, 0.5F, 0.0F}});
+TEST_CASE("several crossings: the pattern at the last one, the sharp iris at those before") {
+  const auto iris = blades();
+  const auto band = patterns(iris);
   const auto screened = [&](PolygonList&, Vec2 middle, double size) {
-    const StopMap map(pixels_about(middle, size), std::array{stop_about(size), stop_about(2.0 * size)}, 0.2);
-    return std::pair(Screened{map, &band}, std::vector<std::uint16_t>{});
+    const StopMap map(pixels_about(middle, size), std::array{stop_about(2.0 * size), stop_about(size)}, 0.2);
+    return std::pair(Screened{map, band.get()}, std::vector<std::uint16_t>{});
   };
   Fuzz fuzz(8);
   for (int k = 0; k < 20; ++k) {
@@ -295,8 +288,8 @@ TEST_CASE("any screen: what it says of every crossing") {
     list.add(fuzz.ellipse(middle, size, 0.7, false), fuzz.shade(middle), screened(list, middle, size).first, {});
     PlainImage plain(kScreenedWidth, kScreenedHeight);
     plain.add(list, [&](const Polygon&, Vec2 pixel) {
-      std::array<StopPlace, kMaxStopCrossings> room;
-      return band.share(list.screened[0].map.places(pixel, room));
+      std::array<StopPoint, kMaxStopCrossings> room;
+      return band->transmittance(list.screened[0].map.places(pixel, room));
     });
     CHECK(plain.difference(test::drawn(list, kScreenedWidth, kScreenedHeight)) < 2e-6);
   }

@@ -12,7 +12,7 @@
 #include "render/adaptive/affine_ghost.h"
 #include "render/adaptive/scene.h"
 #include "render/adaptive/tessellator.h"
-#include "render/stop_patterns/iris_screens.h"
+#include "render/stop_patterns/stop_pattern.h"
 
 using namespace contrejour;
 using namespace contrejour::adaptive;
@@ -267,7 +267,7 @@ TEST_CASE("a ghost within a pixel, or thinner than one, keeps its light") {
   CHECK(most_off_of_specks(true) < 0.03);
 }
 
-TEST_CASE("light behind a screen that is too dim for its ripples to matter is drawn as its mean, and all of it") {
+TEST_CASE("light behind a stop pattern that is too dim for its fringes to matter is drawn as its mean, and all of it") {
   constexpr int kSide = 128;
   constexpr double kExtent = 1.6;
   std::vector<float> samples;  // a bell with ripples
@@ -276,12 +276,12 @@ TEST_CASE("light behind a screen that is too dim for its ripples to matter is dr
       const double x = (column + 0.5) * 2.0 / kSide - 1.0, y = (row + 0.5) * 2.0 / kSide - 1.0;
       samples.push_back(static_cast<float>(std::exp(-4.0 * (x * x + y * y)) * (1.0 + 0.3 * std::cos(50.0 * x))));
     }
-  const auto texture = std::make_shared<const screens::PatternTexture>(kSide, kExtent, samples);
-  const auto band = std::make_shared<screens::BandScreen>();
+  const auto texture = std::make_shared<const stop_patterns::PatternTexture>(kSide, kExtent, samples);
+  const auto band = std::make_shared<stop_patterns::BandStopPattern>();
   band->parts.push_back(
-      {std::make_shared<const screens::TextureScreen>(std::make_shared<const IrisShape>(Iris{}), texture),
+      {std::make_shared<const StopPattern>(std::make_shared<const IrisShape>(Iris{}), stop_patterns::TexturePattern(texture)),
        {1.0F, 1.0F, 1.0F}});
-  band->pattern = std::make_shared<const screens::BandPattern>(std::array{texture.get()});
+  band->texture = std::make_shared<const stop_patterns::BandTexture>(std::array{texture.get()});
   band->hull = texture->hull_above(1e-6, 0.0);
 
   AffineGhost ghost;

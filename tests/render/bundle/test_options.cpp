@@ -47,11 +47,11 @@ Image one_ghost(const LensState& lens, Ghost ghost, const Light& light, const te
     plan.lights[0].passes.push_back({band.lambda_nm, band.weight});
   }
   RenderCache cache;
-  const Screens screens(lens, settings, cache);
-  const bundle::GridSource source{lens, settings.bundle, tables, screens, nullptr};
+  const StopTransmittances stops(lens, settings, nullptr, cache);
+  const bundle::GridSource source{lens, settings.bundle, tables, stops, nullptr};
   Image image(settings.frame.width, settings.frame.height, 3);
   for (const bundle::Item& item : bundle::items_of(plan, settings.bundle)) {
-    const auto part = bundle::ItemRenderer(item, settings.frame, source, nullptr, {}).render();
+    const auto part = bundle::ItemRenderer(item, settings.frame, source, {}).render();
     std::size_t k = 0;
     for (int y = part.box.y0; y < part.box.y1; ++y) {
       for (int x = part.box.x0; x < part.box.x1; ++x) {

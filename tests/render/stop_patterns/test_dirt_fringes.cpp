@@ -11,7 +11,7 @@
 #include "render/stop_patterns/fringed_plane.h"
 
 using namespace contrejour;
-using screens::FringedPlane;
+using stop_patterns::FringedPlane;
 
 namespace {
 

@@ -7,7 +7,7 @@
 #include "render/stop_patterns/edge_profile.h"
 
 using namespace contrejour;
-using namespace contrejour::screens;
+using namespace contrejour::stop_patterns;
 
 TEST_CASE("one wavelength: a quarter at the edge, 1.370 at 1.2172, 0.778 at 1.8725") {
   const EdgeProfile edge(0.0);

@@ -7,11 +7,11 @@
 
 #include <doctest/doctest.h>
 
-#include "render/stop_patterns/band_pattern.h"
+#include "render/stop_patterns/band_texture.h"
 #include "render/stop_patterns/resampled.h"
 
 using namespace contrejour;
-using namespace contrejour::screens;
+using namespace contrejour::stop_patterns;
 
 namespace {
 
@@ -132,7 +132,7 @@ TEST_CASE("a pattern of one wavelength is the texture's, coded") {
   for (int row = 0; row < 96; ++row)
     for (int column = 0; column < 96; ++column) ramp.push_back(static_cast<float>(0.02 * column * row));
   const PatternTexture texture(96, 1.5, ramp);
-  const BandPattern band(std::array{&texture});
+  const BandTexture band(std::array{&texture});
   CHECK(band.of_one());
   const auto& level = band.level_for(0.0);
   REQUIRE(level.coded.size() == 98 * 98);
@@ -153,7 +153,7 @@ TEST_CASE("about a place so wide that it is all of a pattern, it is as bright as
   for (int row = 20; row < 28; ++row)
     for (int column = 20; column < 28; ++column) samples[static_cast<std::size_t>(row * kSide + column)] = 1.0F;
   const PatternTexture texture(kSide, 3.0, samples);
-  const BandPattern pattern(std::array{&texture});
+  const BandTexture pattern(std::array{&texture});
   const double mean = 64.0 / 256.0;  // over the middle one of 3 x 3
   for (const Vec2 place : {Vec2{-2.5, -0.5}, Vec2{0.8, -2.4}, Vec2{0.0, 0.0}, Vec2{9.0, 9.0}})
     for (const double distance : {2.1, 3.0, 20.0})
@@ -168,7 +168,7 @@ TEST_CASE("patterns side by side are each what they are alone") {
     for (int column = 0; column < 96; ++column) ramp.push_back(static_cast<float>(1.0 + 0.01 * column - 0.02 * row));
   const PatternTexture small(96, 1.5, ramp), large(96, 3.0, ramp);
   const std::array<const PatternTexture*, 2> parts{&small, &large};
-  const BandPattern band(parts);
+  const BandTexture band(parts);
   CHECK(band.extent() == 3.0);
   const auto& level = band.level_for(0.0);
   REQUIRE(level.side == 96);
@@ -176,7 +176,7 @@ TEST_CASE("patterns side by side are each what they are alone") {
     for (const int column : {0, 30, 48, 66, 95}) {
       const Vec2 p{(column + 0.5) / 16.0 - 3.0, 3.0 - (row + 0.5) / 16.0};
       const float* const at =
-          &level.samples[static_cast<std::size_t>((row + 1) * level.pitch() + column + 1) * BandPattern::kStride];
+          &level.samples[static_cast<std::size_t>((row + 1) * level.pitch() + column + 1) * BandTexture::kStride];
       CHECK(static_cast<double>(at[0]) == doctest::Approx(small.at(p, 0.0)).epsilon(1e-5).scale(1.0));
       CHECK(static_cast<double>(at[1]) == doctest::Approx(large.at(p, 0.0)).epsilon(1e-5).scale(1.0));
       CHECK(at[2] == 0.0F);

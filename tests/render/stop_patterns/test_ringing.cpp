@@ -245,7 +245,7 @@ TEST_CASE("hullin's pattern keeps the light and is the same for all ghosts") {
     CHECK(sum(image) / sum(image_of(bounds_of(method), lens, Light{}, sharp)) == doctest::Approx(1.0).epsilon(0.01));
     CHECK(psnr_db(image_of(bounds_of(method), lens, Light{}, sharp), image) < 35.0);
   }
-  CHECK(cache.find<screens::StopPatterns>()->count() == 1);
+  CHECK(cache.find<stop_patterns::StopPatterns>()->count() == 1);
 }
 
 TEST_CASE("patterns that are kept change nothing, and go with their iris; threads change nothing") {
@@ -260,15 +260,15 @@ TEST_CASE("patterns that are kept change nothing, and go with their iris; thread
     const auto expected = fresh(lens, 1);
     CHECK(fresh(lens, 3) == expected);
     RenderCache cache;
-    CHECK(cache.find<screens::StopPatterns>() == nullptr);
+    CHECK(cache.find<stop_patterns::StopPatterns>() == nullptr);
     CHECK(image_with(cache, bounds.method, lens, settings, 2).pixels == expected);
-    const auto patterns = cache.find<screens::StopPatterns>();
+    const auto patterns = cache.find<stop_patterns::StopPatterns>();
     CHECK(patterns->count() == 2);  // for one wavelength, and for a band of that wavelength alone
     CHECK(image_with(cache, bounds.method, lens, settings, 2).pixels == expected);
-    CHECK(cache.find<screens::StopPatterns>() == patterns);
+    CHECK(cache.find<stop_patterns::StopPatterns>() == patterns);
     CHECK(patterns->count() == 2);
     CHECK(image_with(cache, bounds.method, other, settings, 2).pixels == fresh(other, 2));
-    CHECK(cache.find<screens::StopPatterns>() != patterns);
+    CHECK(cache.find<stop_patterns::StopPatterns>() != patterns);
     CHECK(image_with(cache, bounds.method, lens, settings, 2).pixels == expected);
   });
 }
@@ -281,17 +281,17 @@ TEST_CASE("shadows of dirt that are kept change nothing, and go with their dirt"
     return image_with(cache, "adaptive", lens, settings).pixels;
   };
   RenderCache cache;
-  std::shared_ptr<const screens::DirtFringes> before;
+  std::shared_ptr<const stop_patterns::DirtFringes> before;
   for (const std::uint32_t seed : {1U, 2U}) {
     lens.dirt = {.dust_per_cm2 = 40.0, .dust_mm = 0.3, .seed = seed};
     const auto expected = fresh();
     CHECK(image_with(cache, "adaptive", lens, settings).pixels == expected);
-    const auto fringes = cache.find<screens::DirtFringes>();
+    const auto fringes = cache.find<stop_patterns::DirtFringes>();
     REQUIRE(fringes != nullptr);
     CHECK(fringes->count() > 0);
     CHECK(fringes != before);
     CHECK(image_with(cache, "adaptive", lens, settings).pixels == expected);
-    CHECK(cache.find<screens::DirtFringes>() == fringes);
+    CHECK(cache.find<stop_patterns::DirtFringes>() == fringes);
     before = fringes;
   }
 }

@@ -9,7 +9,7 @@
 #include "support/scenes.h"
 
 using namespace contrejour;
-using namespace contrejour::screens;
+using namespace contrejour::stop_patterns;
 
 namespace {
 

@@ -38,7 +38,7 @@ struct SidesOff {
 // leave gaps. left: fraction of a curve's distance from its chord that remains as drawn.
 SidesOff sides_off(const BandContext& band, const Mesh& mesh, const Cell& cell, double left) {
   const bool cut = cell.state == CellState::Cut;
-  const bool triangles = is_dirty(band, mesh, cell) || (cut && band.iris.is_picture() && !band.screen);
+  const bool triangles = is_dirty(band, mesh, cell) || (cut && band.iris.is_picture() && !band.pattern);
   SidesOff out;
   for (std::size_t k = 0; k < 4; ++k) {
     const Vec2 a = mesh.position(cell.corner[k]);
@@ -77,13 +77,13 @@ double CellError::pattern_error(double seen) {
   if (!map_error_) map_error_ = map_error(band_, mesh_, cell_, longest_px);
   const double off_px = *map_error_ * longest_px;
   const double shown = off_px < kLittleOff_px ? kSeenOfLittle : 1.0;
-  const double edges = std::min(1.0, stop_size(band_, mesh_, cell_) / (band_.screen->unit * longest_px));
+  const double edges = std::min(1.0, stop_size(band_, mesh_, cell_) / (band_.pattern->unit * longest_px));
   return shown * along_edges(seen, off_px, edges);
 }
 
 double CellError::squared(Sides sides, double cell_budget) {
   const CellMeasure& m = measure_;
-  const double passed = cell_.screen.most;
+  const double passed = cell_.pattern.most;
   if (passed == 0.0) return 0.0;
   if (m.whole) return passed * passed * *m.whole;
   const bool cut = cell_.state == CellState::Cut;
@@ -104,7 +104,7 @@ double CellError::squared(Sides sides, double cell_budget) {
     error +=
         kEdgeBound * along_edges(seen, left * m.limit * m.longest_px, band_.iris.is_picture() ? kPictureEdges : 1.0);
   // Cells drawn in parts use no map.
-  if (cell_.screen.part == ScreenPart::Varied && error < m.most && !sees_by_parts(band_, mesh_, cell_, m.longest_px))
+  if (cell_.pattern.part == PatternRegion::Varying && error < m.most && !sees_by_parts(band_, mesh_, cell_, m.longest_px))
     error += pattern_error(seen);
   // Far above the frame's peak only the relative error counts.
   const double dimmed = passed * seen_share(m.mean, band_.peak);

@@ -40,7 +40,7 @@ double off_plane(const ValueAt& at) {
 
 // Whether one plane for the cell shows as a facet.
 bool is_facet(const BandContext& band, const Mesh& mesh, const Cell& cell, const CellMeasure& m) {
-  if (m.on_plane || !(m.area_px > kFacet_px && m.mean * cell.screen.most > kFacetLevel * band.peak)) return false;
+  if (m.on_plane || !(m.area_px > kFacet_px && m.mean * cell.pattern.most > kFacetLevel * band.peak)) return false;
   const NineVertices v = cell.vertices();
   double facet = mesh.layout.weights == 1 ? m.off_plane : 0.0;
   for (int c = 0; c < 3 && mesh.layout.weights == 3; ++c)
@@ -77,7 +77,7 @@ void integrate(const Mesh& mesh, const Cell& cell, CellMeasure& m) {
 CellMeasure measure(const BandContext& band, const Mesh& mesh, const Cell& cell, bool on_plane) {
   const NineVertices v = cell.vertices();
   CellMeasure m;
-  if (cell.screen.most == 0.0) return m;
+  if (cell.pattern.most == 0.0) return m;
   Bounds b;
   bool folded = false;
   double sum = 0.0;
@@ -104,7 +104,7 @@ CellMeasure measure(const BandContext& band, const Mesh& mesh, const Cell& cell,
   }
   if (cell.state == CellState::Cut) {
     m.limit = limit_error(band, mesh, cell);
-    if (m.limit * cell.screen.most > kMostBend) {
+    if (m.limit * cell.pattern.most > kMostBend) {
       m.whole = std::numeric_limits<double>::infinity();  // or light would be lost unnoticed
       return m;
     }

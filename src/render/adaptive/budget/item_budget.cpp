@@ -13,7 +13,7 @@ constexpr double kRoom = 8.5, kRoomAt = 0.003;  // by how much bounds exceed err
 constexpr double kFew = 16.0;  // added to the number of items
 constexpr double kRaysOfOne = 20.0;  // rays in the preview frame that count as one item
 // The fraction of its squared error that an item with stop patterns may make: cells come closer to their bounds there.
-constexpr double kScreenedShare = 0.75;
+constexpr double kPatternedFraction = 0.75;
 constexpr double kFaintLevel = 3e-5;  // of the peak: four stops brighter it is a two-thousandth
 // The fraction of the frame's squared error that the squared light of all faint items may make. Their error is less,
 // since preview quality is within a tenth of their light.
@@ -37,7 +37,7 @@ ErrorBudget budget_per_item(const FrameError& allowed, const std::vector<ItemSiz
 ErrorBudget budget_of(const ItemSize& size, bool has_fringes, bool is_faint, const ErrorBudget& per_item) {
   ErrorBudget of_item = per_item;
   of_item.about = size;
-  if (has_fringes) of_item.squared_error *= kScreenedShare;
+  if (has_fringes) of_item.squared_error *= kPatternedFraction;
   if (is_faint) of_item.squared_error = std::numeric_limits<double>::infinity();
   return of_item;
 }

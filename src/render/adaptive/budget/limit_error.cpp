@@ -45,7 +45,7 @@ double obscuration_error(const Mesh::Field& v, const Cell& cell) {
 double limit_error(const BandContext& band, const Mesh& mesh, const Cell& cell) {
   double largest = 0.0;
   const int first_rim = mesh.layout.rim(0);
-  for (int f = band.screen ? first_rim : PatchLayout::kStop; f < mesh.layout.limits_end(); ++f) {
+  for (int f = band.pattern ? first_rim : PatchLayout::kStop; f < mesh.layout.limits_end(); ++f) {
     const Mesh::Field& v = mesh.field(f);
     if (f >= first_rim && mesh.layout.is_obscuration(f - first_rim)) {
       largest = std::max(largest, obscuration_error(v, cell));

@@ -18,7 +18,7 @@ constexpr double kCoarse = 0.5;       // stop radii a pixel: four pixels or fewe
 constexpr double kMostEdges =
     8.0;  // total length of dirt's edges over the cell's length, at most: more are not visible
 
-Vec2 pixels_between(const screens::PlaneView& view, Vec2 off_mm) {
+Vec2 pixels_between(const stop_patterns::PlaneView& view, Vec2 off_mm) {
   const double determinant = cross(view.along_x, view.along_y);
   return Vec2{cross(off_mm, view.along_y), cross(view.along_x, off_mm)} * (1.0 / determinant);
 }
@@ -48,7 +48,7 @@ double map_error(const BandContext& band, const Mesh& mesh, const Cell& cell, do
 
 double shadow_error(const BandContext& band, const Mesh& mesh, const Cell& cell) {
   double most = 0.0;
-  const DirtScreen::Edges soft = band.dirt.band->edges();
+  const DirtEdges soft = band.dirt.band->edges();
   for (int c = 0; c < dirt_crossings(band, mesh); ++c) {
     double off = 0.0, area_mm2 = 0.0, longest_px = 0.0, width_px = 1.0;
     for (const std::size_t third : {std::size_t{1}, std::size_t{3}}) {
@@ -60,7 +60,7 @@ double shadow_error(const BandContext& band, const Mesh& mesh, const Cell& cell)
         position[k] = mesh.position(corner[k]);
         place[k] = dirt_place(band, mesh, corner[k], c);
       }
-      const auto view = screens::PlaneView::through(position, place);
+      const auto view = stop_patterns::PlaneView::through(position, place);
       if (!(std::abs(cross(view.along_x, view.along_y)) > 0.0)) continue;
       for (const std::size_t v : between)
         off = std::max(off, length(pixels_between(view, dirt_place(band, mesh, v, c) - view.place(mesh.position(v)))));

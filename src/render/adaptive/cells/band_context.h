@@ -9,7 +9,7 @@
 #include "ghosts/iris_shape.h"
 #include "render/adaptive/cells/mesh.h"
 #include "render/adaptive/cells/seen_dirt.h"
-#include "render/stop_patterns/band_screen.h"
+#include "render/stop_patterns/band_stop_pattern.h"
 
 namespace contrejour::inline internal::adaptive {
 
@@ -20,12 +20,12 @@ struct BandContext {
   // Whether straight lines of the patches are bent in the entrance plane: their sides would then leave seams next to
   // another box.
   bool sides_bend = false;
-  std::shared_ptr<const screens::BandScreen> screen = nullptr;  // stop pattern; null: the iris is sharp
+  std::shared_ptr<const stop_patterns::BandStopPattern> pattern = nullptr;  // null: the iris is sharp
   double stop_unit = 1.0;  // stop radii: unit of the stop coordinates where there is a stop pattern
   SeenDirt dirt = {};
 
   // The bits of Mesh::outside that mark vertices without light. A stop pattern clips nothing.
-  [[nodiscard]] std::uint32_t blocking(const Mesh& mesh) const { return screen ? ~0U << mesh.layout.crossings : ~0U; }
+  [[nodiscard]] std::uint32_t blocking(const Mesh& mesh) const { return pattern ? ~0U << mesh.layout.crossings : ~0U; }
 };
 
 }  // namespace contrejour::inline internal::adaptive

@@ -9,7 +9,7 @@
 
 #include "render/adaptive/cells/mesh.h"
 #include "render/adaptive/tiles/polygon_list.h"
-#include "render/stop_patterns/band_screen.h"
+#include "render/stop_patterns/band_stop_pattern.h"
 
 namespace contrejour::inline internal::adaptive {
 
@@ -24,7 +24,7 @@ struct Cell {
   std::array<std::size_t, 4> corner{}, side{};
   std::size_t middle = 0;
   std::array<bool, 4> shared{};  // whether another cell of the same box lies beyond the side
-  screens::ScreenView screen{ScreenPart::Level, 1.0};  // what the stop pattern transmits of its light
+  stop_patterns::PatternView pattern{PatternRegion::Uniform, 1.0};  // what the stop pattern transmits of its light
 
   // Its nine vertices, row by row. For a cell of size 1 corners stand for those between them.
   [[nodiscard]] std::array<std::size_t, 9> vertices() const {

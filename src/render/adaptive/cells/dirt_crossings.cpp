@@ -14,20 +14,20 @@ constexpr double kDirtDisc = 1.2;  // radius of a curved cell over that of its v
 }  // namespace
 
 std::array<double, 3> PastDirt::passed(Vec2 pixel) const {
-  std::array<StopPlace, kMaxStopCrossings> room;
-  std::array<DirtPlace, kMaxStopCrossings> places;
+  std::array<StopPoint, kMaxStopCrossings> room;
+  std::array<DirtPoint, kMaxStopCrossings> places;
   std::size_t count = 0;
-  for (const StopPlace& place : map.places(pixel, room)) places[count++] = {place.at, place.width};
+  for (const StopPoint& place : map.places(pixel, room)) places[count++] = {place.at, place.width};
   return band->transmission({places.data(), count});
 }
 
 int dirt_crossings(const BandContext& band, const Mesh& mesh) {
-  return band.dirt.plane().on_front() ? 1 : mesh.layout.crossings;
+  return band.dirt.site().on_front ? 1 : mesh.layout.crossings;
 }
 
 Vec2 dirt_place(const BandContext& band, const Mesh& mesh, std::size_t vertex, int crossing) {
-  if (band.dirt.plane().on_front()) return band.dirt.front_place(mesh.entrance_mm(vertex));
-  return StopPlaces(mesh, crossing, band.stop_unit).at(vertex) * band.dirt.plane().stop_radius_mm();
+  if (band.dirt.site().on_front) return band.dirt.front_place(mesh.entrance_mm(vertex));
+  return StopPlaces(mesh, crossing, band.stop_unit).at(vertex) * band.dirt.site().stop_radius_mm;
 }
 
 bool is_dirty(const BandContext& band, const Mesh& mesh, const Cell& cell) {
@@ -58,6 +58,6 @@ PastDirt past_dirt(const BandContext& band, const DirtTriangle& dirt) {
   return {band.dirt.band.get(), {CellSeries::of_triangle(dirt.pixel), {places.data(), dirt.crossings}, kSoft_px}};
 }
 
-double pixel_mm(const screens::PlaneView& view) { return std::sqrt(std::abs(cross(view.along_x, view.along_y))); }
+double pixel_mm(const stop_patterns::PlaneView& view) { return std::sqrt(std::abs(cross(view.along_x, view.along_y))); }
 
 }  // namespace contrejour::inline internal::adaptive

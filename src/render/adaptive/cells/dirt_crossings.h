@@ -30,6 +30,6 @@ struct DirtTriangle {
 [[nodiscard]] bool is_dirty(const BandContext& band, const Mesh& mesh, const Cell& cell);
 
 // The side, in mm, of a square with a pixel's area in the dirt's plane.
-[[nodiscard]] double pixel_mm(const screens::PlaneView& view);
+[[nodiscard]] double pixel_mm(const stop_patterns::PlaneView& view);
 
 }  // namespace contrejour::inline internal::adaptive

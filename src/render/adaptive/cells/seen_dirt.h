@@ -11,19 +11,19 @@ namespace contrejour::inline internal::adaptive {
 
 // The point, in the lens's frame, at which a ray crosses the front. entrance_mm: in the plane z = z_mm, in the light's
 // frame.
-[[nodiscard]] inline Vec2 front_place(const DirtScreen& dirt, const LightFrame& light, double z_mm, Vec2 entrance_mm) {
-  return light.into_place(dirt.front_place(entrance_mm, z_mm, light.source));
+[[nodiscard]] inline Vec2 front_place(const DirtSite& dirt, const LightFrame& light, double z_mm, Vec2 entrance_mm) {
+  return light.into_place(dirt.front_point(entrance_mm, z_mm, light.source));
 }
 
 struct SeenDirt {
-  std::shared_ptr<const screens::BandDirt> band = nullptr;  // null: no shadows are drawn
+  std::shared_ptr<const stop_patterns::BandDirt> band = nullptr;  // null: no shadows are drawn
   const LightFrame* light = nullptr;
   double entrance_z_mm = 0.0;  // plane of the rays' coordinates
 
   [[nodiscard]] explicit operator bool() const { return band != nullptr; }
-  [[nodiscard]] const DirtScreen& plane() const { return band->first(); }
+  [[nodiscard]] const DirtSite& site() const { return band->first().site(); }
   [[nodiscard]] Vec2 front_place(Vec2 entrance_mm) const {
-    return adaptive::front_place(plane(), *light, entrance_z_mm, entrance_mm);
+    return adaptive::front_place(site(), *light, entrance_z_mm, entrance_mm);
   }
 };
 

@@ -7,7 +7,7 @@
 namespace contrejour::inline internal::adaptive {
 namespace {
 
-constexpr double kScreenDisc = 1.2;  // radius of a curved cell over its vertices' distance from its middle, in the stop
+constexpr double kPatternDisc = 1.2;  // radius of a curved cell over its vertices' distance from its middle, in the stop
 constexpr double kPixelReach = 0.75;  // pixels: slightly more than from a pixel's middle to its corners
 
 // series_of: returns the series of a field from a function that gives its value at a vertex.
@@ -24,9 +24,9 @@ StopMap map_of(const BandContext& band, const Mesh& mesh, double softness_px, co
 
 }  // namespace
 
-screens::ScreenView view_of_screen(const BandContext& band, const Mesh& mesh, const Cell& cell) {
+stop_patterns::PatternView view_of_pattern(const BandContext& band, const Mesh& mesh, const Cell& cell) {
   const int last = mesh.layout.crossings - 1;
-  if (!band.screen || last < 0) return {ScreenPart::Level, 1.0};
+  if (!band.pattern || last < 0) return {PatternRegion::Uniform, 1.0};
   const StopPlaces stop(mesh, last, band.stop_unit);
   const Vec2 middle = stop.at(cell.middle);
   double squared = 0.0;
@@ -44,13 +44,13 @@ screens::ScreenView view_of_screen(const BandContext& band, const Mesh& mesh, co
   // The disc includes what a neighbouring pixel's look-up reaches: where a cell of a pixel is drawn through the
   // pattern, its neighbours must be, too.
   const double radius = std::sqrt(squared), per_px = radius / std::max(std::sqrt(squared_px), kPixelReach);
-  screens::ScreenView view = band.screen->over(middle, kScreenDisc * radius + kPixelReach * per_px);
-  if (view.part == ScreenPart::Level && last > 0) view.part = ScreenPart::Varied;  // earlier crossings are sharp
+  stop_patterns::PatternView view = band.pattern->over(middle, kPatternDisc * radius + kPixelReach * per_px);
+  if (view.part == PatternRegion::Uniform && last > 0) view.part = PatternRegion::Varying;  // earlier crossings are sharp
   return view;
 }
 
 bool is_dim(const BandContext& band, const Mesh& mesh, const Cell& cell, double times) {
-  return cell.screen.most * brightest(mesh, cell) < times * band.screen->unseen;
+  return cell.pattern.most * brightest(mesh, cell) < times * band.pattern->unseen;
 }
 
 double brightest(const Mesh& mesh, const Cell& cell) {

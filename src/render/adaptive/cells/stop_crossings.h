@@ -28,7 +28,7 @@ class StopPlaces {
 };
 
 // The part of the stop pattern that a cell's last crossing of the stop covers.
-[[nodiscard]] screens::ScreenView view_of_screen(const BandContext& band, const Mesh& mesh, const Cell& cell);
+[[nodiscard]] stop_patterns::PatternView view_of_pattern(const BandContext& band, const Mesh& mesh, const Cell& cell);
 
 // The RMS of the channels' irradiance at the cell's brightest vertex.
 [[nodiscard]] double brightest(const Mesh& mesh, const Cell& cell);

@@ -48,7 +48,7 @@ CellState state_of(const BandContext& band, const Mesh& mesh, const Cell& cell) 
     }
   }
   all &= ~Mesh::kNearObscuration;
-  if ((band.screen ? any >> mesh.layout.crossings : any) == 0) return CellState::Open;
+  if ((band.pattern ? any >> mesh.layout.crossings : any) == 0) return CellState::Open;
   if (all >> mesh.layout.crossings != 0) return CellState::Closed;
   for (int c = 0; c < mesh.layout.crossings; ++c) {
     if ((all >> c & 1U) != 0 && misses_stop(mesh, cell, c)) return CellState::Closed;
@@ -72,8 +72,8 @@ std::optional<Cell> seen_cell(const BandContext& band, const BoxMesh& of, const 
   Cell cell = cell_at(of, square);
   cell.state = state_of(band, mesh, cell);
   if (cell.state == CellState::Closed || off_frame(band, mesh, cell)) return std::nullopt;
-  cell.screen = view_of_screen(band, mesh, cell);
-  if (cell.screen.part == ScreenPart::Dark || (band.screen && is_dim(band, mesh, cell, 1.0))) return std::nullopt;
+  cell.pattern = view_of_pattern(band, mesh, cell);
+  if (cell.pattern.part == PatternRegion::Dark || (band.pattern && is_dim(band, mesh, cell, 1.0))) return std::nullopt;
   return cell;
 }
 

@@ -31,7 +31,7 @@ std::span<const Corner> CellClipper::open_part(const Mesh& mesh, CellState state
   const std::span<const Corner> along =
       of.all.size() == of.shape.size() ? whole : in_frame(mesh, state, of.all, outline_);
   const PatchLayout& layout = mesh.layout;
-  return band_.screen ? cutter_.within_rims(whole, along, layout.crossings, layout.rims)
+  return band_.pattern ? cutter_.within_rims(whole, along, layout.crossings, layout.rims)
                       : cutter_.open_part(whole, along, layout.crossings, layout.rims, arc_step_rad);
 }
 

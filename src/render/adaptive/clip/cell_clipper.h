@@ -23,10 +23,10 @@ class CellClipper {
 
   // Whether for_each_open_part() is needed in place of open_part().
   [[nodiscard]] bool by_picture(CellState state) const {
-    return state == CellState::Cut && band_.iris.is_picture() && !band_.screen;
+    return state == CellState::Cut && band_.iris.is_picture() && !band_.pattern;
   }
   // Whether open_part() needs an arc step.
-  [[nodiscard]] bool by_arcs(CellState state) const { return state == CellState::Cut && !band_.screen; }
+  [[nodiscard]] bool by_arcs(CellState state) const { return state == CellState::Cut && !band_.pattern; }
 
   // The open part in pixels of the frame; the whole outline if the cell is not cut. Empty if nothing is open. Valid
   // until the next call. arc_step_rad: as in OutlineCutter.

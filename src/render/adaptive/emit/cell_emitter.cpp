@@ -63,7 +63,7 @@ void CellEmitter::emit(const BoxMesh& of, const ChosenCell& chosen) {
   const auto at = [&](std::size_t k) { return mesh.position(cell.corner[k]); };
   const DrawnShape shape{area, centroid, at(2) - at(0), at(3) - at(1)};
   const double longest = shape.longest_px();
-  const bool varied = cell.screen.part == ScreenPart::Varied;
+  const bool varied = cell.pattern.part == PatternRegion::Varying;
   const bool by_parts = varied && sees_by_parts(band_, mesh, cell, longest);
   std::optional<Flux> mean;
   if (varied && (by_parts || is_dim(band_, mesh, cell, kMeanBelow))) {
@@ -89,7 +89,7 @@ void CellEmitter::emit_convex(const Mesh& mesh, const ChosenCell& chosen, const 
   const Cell& cell = chosen.cell;
   if (is_dirty(band_, mesh, cell)) return emit_dirty(mesh, cell, light, map);
   const CellShape shape(mesh, cell, chosen.sides);
-  emit_outline(mesh, cell.state, light, {shape.all(), all_corners_}, {map, nullptr, cell.screen.most});
+  emit_outline(mesh, cell.state, light, {shape.all(), all_corners_}, {map, nullptr, cell.pattern.most});
 }
 
 // Emits each part as a polygon of its own, with its part of the cell's flux.
@@ -119,11 +119,11 @@ void CellEmitter::emit_folded(const Mesh& mesh, const Cell& cell, const std::opt
     const std::array<CellCorner, 3> corners = corners_of(mesh, t);
     CellLight light = light_of(mesh, cell, t);
     if (mean) light.dim(*mean);
-    const bool looks_up = cell.screen.part == ScreenPart::Varied && !mean;
+    const bool looks_up = cell.pattern.part == PatternRegion::Varying && !mean;
     const auto map = looks_up ? std::optional(stop_map(band_, mesh, t)) : std::nullopt;
     const auto dirt = is_dirty(band_, mesh, cell) ? std::optional(dirt_triangle(band_, mesh, t)) : std::nullopt;
     emit_outline(mesh, cell.state, light, {corners, corners},
-                 {map ? &*map : nullptr, dirt ? &*dirt : nullptr, cell.screen.most});
+                 {map ? &*map : nullptr, dirt ? &*dirt : nullptr, cell.pattern.most});
   }
 }
 

@@ -54,7 +54,7 @@ CellParts parts_of(const BandContext& band, const Mesh& mesh, const Cell& cell, 
   parts.across = across;
   const auto crossings = static_cast<std::size_t>(mesh.layout.crossings);
   std::array<std::array<Vec2, 4>, kMaxStopCrossings> corner;
-  std::array<StopPlace, kMaxStopCrossings> places;
+  std::array<StopPoint, kMaxStopCrossings> places;
   for (std::size_t c = 0; c < crossings; ++c) {
     const StopPlaces stop(mesh, static_cast<int>(c), band.stop_unit);
     for (std::size_t k = 0; k < 4; ++k) corner[c][k] = stop.at(cell.corner[k]);
@@ -63,7 +63,7 @@ CellParts parts_of(const BandContext& band, const Mesh& mesh, const Cell& cell, 
   }
   for (std::size_t k = 0; k < parts.count(); ++k) {
     for (std::size_t c = 0; c < crossings; ++c) places[c].at = CellParts::between(corner[c], parts.middle(k));
-    parts.values[k] = band.screen->share({places.data(), crossings});
+    parts.values[k] = band.pattern->transmittance({places.data(), crossings});
   }
   return parts;
 }

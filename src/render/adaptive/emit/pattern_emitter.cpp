@@ -18,9 +18,9 @@ constexpr double kWidthsPerOctave = 2.0;  // widths of pixels for which edges' t
 // The table of fringes for pixels of about this width.
 const EdgeTable& PatternEmitter::table_for(double width) {
   const int octave = static_cast<int>(std::lround(kWidthsPerOctave * std::log2(std::max(width, 1e-9))));
-  const auto [at, is_new] = tables_.try_emplace(std::pair(band_.screen.get(), octave), nullptr);
+  const auto [at, is_new] = tables_.try_emplace(std::pair(band_.pattern.get(), octave), nullptr);
   if (is_new) {
-    out_.tables.push_back(std::make_shared<const EdgeTable>(*band_.screen, std::exp2(octave / kWidthsPerOctave)));
+    out_.tables.push_back(std::make_shared<const EdgeTable>(*band_.pattern, std::exp2(octave / kWidthsPerOctave)));
     at->second = out_.tables.back().get();
   }
   return *at->second;
@@ -34,12 +34,12 @@ void PatternEmitter::emit(std::span<const Corner> polygon, double area_px, const
   const bool large = area_px >= kWorthCutting_px;
   const double room = map.bend();  // cuts are straight lines, the map is not linear
   rest_.place(polygon, map);
-  if (band_.screen->edges == nullptr || map.crossings() > 1) {
-    for (std::size_t k = 0; large && band_.screen->pattern && k < screens::PatternHull::kLines; ++k)
-      rest_.keep_within({screens::PatternHull::normals()[k], band_.screen->hull.most(k) + room}, map);
+  if (band_.pattern->edges == nullptr || map.crossings() > 1) {
+    for (std::size_t k = 0; large && band_.pattern->texture && k < stop_patterns::PatternHull::kLines; ++k)
+      rest_.keep_within({stop_patterns::PatternHull::normals()[k], band_.pattern->hull.most(k) + room}, map);
     if (!rest_.is_empty())
       out_.add(points_.points_of(rest_.corners()), shade,
-               Screened{.map = map.narrowed(looks), .screen = band_.screen.get(), .looks = looks}, {});
+               Screened{.map = map.narrowed(looks), .screen = band_.pattern.get(), .looks = looks}, {});
     return;
   }
   const EdgeTable& table = table_for(map.width() / looks);
@@ -85,7 +85,7 @@ void PatternEmitter::add_fringed(std::span<const PlacedCorner> polygon, const Sh
       active_.push_back(static_cast<std::uint16_t>(k));
   }
   out_.add(points_.points_of(polygon), shade,
-           Screened{.map = map.narrowed(looks), .screen = band_.screen.get(), .edges = &table, .looks = looks},
+           Screened{.map = map.narrowed(looks), .screen = band_.pattern.get(), .edges = &table, .looks = looks},
            active_);
 }
 

@@ -87,10 +87,10 @@ void PolygonEmitter::emit(std::span<const Corner> polygon, const CellLight& ligh
 
 // The flux that remains of a polygon at a point.
 Flux PolygonEmitter::passed(Flux flux, Vec2 pixel, const Behind& behind) const {
-  if (behind.screen != nullptr) {
-    std::array<StopPlace, kMaxStopCrossings> buffer;
-    const auto screened = band_.screen->share(behind.screen->places(pixel, buffer));
-    for (std::size_t c = 0; c < 3; ++c) flux[c] *= screened[c];
+  if (behind.pattern != nullptr) {
+    std::array<StopPoint, kMaxStopCrossings> buffer;
+    const auto transmitted = band_.pattern->transmittance(behind.pattern->places(pixel, buffer));
+    for (std::size_t c = 0; c < 3; ++c) flux[c] *= transmitted[c];
   }
   if (behind.dirt != nullptr) {
     const auto left = past_dirt(band_, *behind.dirt).passed(pixel);
@@ -103,8 +103,8 @@ void PolygonEmitter::emit_resolved(std::span<const Corner> polygon, double area_
                                    const Behind& behind) {
   const bool outlined = behind.dirt != nullptr && band_.dirt.band->outlines() != nullptr;
   if (behind.dirt != nullptr && !outlined) return emit_behind_dirt(polygon, light.shade, behind);
-  if (behind.screen != nullptr) {
-    patterns_.emit(polygon, area_px, light.shade, *behind.screen, behind.most);
+  if (behind.pattern != nullptr) {
+    patterns_.emit(polygon, area_px, light.shade, *behind.pattern, behind.most);
   } else {
     out_.add(points_.points_of(polygon), light.shade);
   }
@@ -114,8 +114,8 @@ void PolygonEmitter::emit_resolved(std::span<const Corner> polygon, double area_
 // A picture of dirt, and shapes that overlap many times, are looked up pixel by pixel.
 void PolygonEmitter::emit_behind_dirt(std::span<const Corner> polygon, const Shade& shade, const Behind& behind) {
   out_.dirt.push_back(past_dirt(band_, *behind.dirt));
-  Screened seen{behind.screen != nullptr ? *behind.screen : out_.dirt.back().map,
-                behind.screen != nullptr ? band_.screen.get() : nullptr};
+  Screened seen{behind.pattern != nullptr ? *behind.pattern : out_.dirt.back().map,
+                behind.pattern != nullptr ? band_.pattern.get() : nullptr};
   seen.dirt = static_cast<std::uint32_t>(out_.dirt.size());
   out_.add(points_.points_of(polygon), shade, seen, {});
 }
@@ -123,15 +123,15 @@ void PolygonEmitter::emit_behind_dirt(std::span<const Corner> polygon, const Sha
 // Shapes of dirt subtract their light as polygons of negative sign.
 void PolygonEmitter::emit_shadows(std::span<const Corner> polygon, const CellLight& light, const Behind& behind) {
   const DirtTriangle& dirt = *behind.dirt;
-  std::array<screens::PlaneView, kMaxStopCrossings> views;
+  std::array<stop_patterns::PlaneView, kMaxStopCrossings> views;
   double finest_mm = 0.0;
   for (std::size_t c = 0; c < dirt.crossings; ++c) {
-    views[c] = screens::PlaneView::through(dirt.pixel, dirt.place_mm[c]);
+    views[c] = stop_patterns::PlaneView::through(dirt.pixel, dirt.place_mm[c]);
     finest_mm = c == 0 ? pixel_mm(views[c]) : std::min(finest_mm, pixel_mm(views[c]));
   }
   // The coordinates of the three corners in their cell, in the order in which they are drawn.
   constexpr std::array kInCell{Vec2{0.0, 0.0}, Vec2{1.0, 0.0}, Vec2{1.0, 1.0}};
-  const auto in_cell = screens::PlaneView::through(dirt.pixel, kInCell);
+  const auto in_cell = stop_patterns::PlaneView::through(dirt.pixel, kInCell);
   std::vector<Vec2> outline;
   for (const Corner& c : polygon) outline.push_back(c.position);
   std::vector<Corner> part;
@@ -146,7 +146,7 @@ void PolygonEmitter::emit_shadows(std::span<const Corner> polygon, const CellLig
                         part[k].uv = in_cell.place(shadow[k]);
                         if (k > 1) twice_area += cross(shadow[k - 1] - shadow[0], shadow[k] - shadow[0]);
                       }
-                      emit_resolved(part, 0.5 * std::abs(twice_area), taken, {behind.screen, nullptr, behind.most});
+                      emit_resolved(part, 0.5 * std::abs(twice_area), taken, {behind.pattern, nullptr, behind.most});
                     });
 }
 

@@ -20,7 +20,7 @@ namespace contrejour::inline internal::adaptive {
 // What the light of a polygon has passed whose transmittance varies over the polygon. If dirt is set, the polygon lies
 // within its triangle.
 struct Behind {
-  const StopMap* screen = nullptr;
+  const StopMap* pattern = nullptr;
   const DirtTriangle* dirt = nullptr;
   double most = 1.0;  // largest transmittance of the stop pattern
 };
@@ -43,7 +43,7 @@ class PolygonEmitter {
   const BandContext& band_;
   PolygonList& out_;
   PatternEmitter patterns_;
-  screens::ShadowCutter shadows_;
+  stop_patterns::ShadowCutter shadows_;
   PointBuffer points_;
 };
 

@@ -18,7 +18,7 @@ namespace contrejour::inline internal::adaptive {
 class GhostTracers {
  public:
   // All arguments must outlive this object. plane_z_mm: of the light's entrance window. stop_times: the factor by which
-  // the stop's radius is enlarged (stop_screen.h).
+  // the stop's radius is enlarged (stop_transmittance.h).
   GhostTracers(const StepsByWavelength& steps, Ghost ghost, const LightFrame& light, double plane_z_mm,
                std::span<const PlannedPass> passes, double stop_times)
       : steps_(steps), ghost_(ghost), light_(light), passes_(passes), stop_times_(stop_times), plane_z_mm_(plane_z_mm),

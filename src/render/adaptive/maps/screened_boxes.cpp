@@ -11,15 +11,15 @@
 namespace contrejour::inline internal::adaptive {
 namespace {
 
-constexpr double kScreenDisc = 1.2;    // radius of a curved cell over that of its corners, in the stop
+constexpr double kPatternDisc = 1.2;    // radius of a curved cell over that of its corners, in the stop
 constexpr double kFolded_mm2 = 1e-12;  // area below which a cell's image counts as folded
 
 // The rays of a sheet, and the parts of the stop pattern that their light crosses.
 class ScreenedSheet {
  public:
-  ScreenedSheet(const RaySheet& sheet, bool with_mirror_image, const screens::BandScreen& screen, double unit,
-                const LightFrame& light)
-      : sheet_(sheet), mirror_image_(with_mirror_image), screen_(screen), unit_(unit), light_(light),
+  ScreenedSheet(const RaySheet& sheet, bool with_mirror_image, const stop_patterns::BandStopPattern& screen,
+                double unit, const LightFrame& light)
+      : sheet_(sheet), mirror_image_(with_mirror_image), pattern_(screen), unit_(unit), light_(light),
         flux_mm2_(light.source.shared_flux()), cells_(sheet) {}
 
   [[nodiscard]] const SheetCells& cells() const { return cells_; }
@@ -37,18 +37,18 @@ class ScreenedSheet {
     const Vec2 middle = middle_of(first, 1.0);
     double radius = 0.0;
     for (const std::size_t v : cells_.corners(first)) radius = std::max(radius, length(stop(v, 1.0) - middle));
-    return kScreenDisc * radius;
+    return kPatternDisc * radius;
   }
   // The pattern's largest transmittance for the cell, or within `radius` of a ray.
   [[nodiscard]] double passed(std::size_t first) const {
     const double about = radius(first);
-    double most = screen_.over(middle_of(first, 1.0), about).most;
-    if (mirror_image_) most = std::max(most, screen_.over(middle_of(first, -1.0), about).most);
+    double most = pattern_.over(middle_of(first, 1.0), about).most;
+    if (mirror_image_) most = std::max(most, pattern_.over(middle_of(first, -1.0), about).most);
     return most;
   }
   [[nodiscard]] double passed_about(std::size_t ray, double radius) const {
-    double most = screen_.over(stop(ray, 1.0), radius).most;
-    if (mirror_image_) most = std::max(most, screen_.over(stop(ray, -1.0), radius).most);
+    double most = pattern_.over(stop(ray, 1.0), radius).most;
+    if (mirror_image_) most = std::max(most, pattern_.over(stop(ray, -1.0), radius).most);
     return most;
   }
 
@@ -65,7 +65,7 @@ class ScreenedSheet {
 
   const RaySheet& sheet_;
   bool mirror_image_;
-  const screens::BandScreen& screen_;
+  const stop_patterns::BandStopPattern& pattern_;
   double unit_;
   const LightFrame& light_;
   double flux_mm2_;
@@ -74,8 +74,9 @@ class ScreenedSheet {
 
 }  // namespace
 
-std::optional<double> brightest_passed(const RaySheet& sheet, bool with_mirror_image, const screens::BandScreen& screen,
-                                       double unit, const LightFrame& light, double enough) {
+std::optional<double> brightest_passed(const RaySheet& sheet, bool with_mirror_image,
+                                       const stop_patterns::BandStopPattern& screen, double unit,
+                                       const LightFrame& light, double enough) {
   if (sheet.stop.empty()) return std::nullopt;
   const ScreenedSheet screened(sheet, with_mirror_image, screen, unit, light);
   const SheetCells& cells = screened.cells();

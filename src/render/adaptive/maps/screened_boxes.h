@@ -6,7 +6,7 @@
 
 #include "ghosts/light_frame.h"
 #include "render/adaptive/cells/ray_map_names.h"
-#include "render/stop_patterns/band_screen.h"
+#include "render/stop_patterns/band_stop_pattern.h"
 
 namespace contrejour::inline internal::adaptive {
 
@@ -15,7 +15,7 @@ namespace contrejour::inline internal::adaptive {
 // value above `enough`. with_mirror_image: includes mirrored(sheet). unit: of the sheet's stop coordinates, in stop
 // radii. Empty if no four neighbouring rays all arrive.
 [[nodiscard]] std::optional<double> brightest_passed(const RaySheet& sheet, bool with_mirror_image,
-                                                     const screens::BandScreen& screen, double unit,
+                                                     const stop_patterns::BandStopPattern& screen, double unit,
                                                      const LightFrame& light, double enough);
 
 }  // namespace contrejour::inline internal::adaptive

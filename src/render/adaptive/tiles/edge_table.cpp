@@ -17,7 +17,7 @@ double fade(double way) {
 
 }  // namespace
 
-EdgeTable::EdgeTable(const screens::BandScreen& band, double width)
+EdgeTable::EdgeTable(const stop_patterns::BandStopPattern& band, double width)
     : iris_(&band.edges->iris()), grey_(band.is_grey()), dark_beyond_(band.dark_beyond + 0.5 * width),
       level_within_(band.level_within + 0.5 * width), per_step_(1.0 / (kStep * band.unit)),
       count_(static_cast<std::size_t>((dark_beyond_ + level_within_) * per_step_) + 2) {
@@ -26,8 +26,8 @@ EdgeTable::EdgeTable(const screens::BandScreen& band, double width)
   for (std::size_t k = 1; k + 1 < count_; ++k) {
     const double distance = dark_beyond_ - static_cast<double>(k) / per_step_;
     float* const entry = &entries_[stride * k];
-    for (const screens::BandScreen::Part& part : band.parts) {
-      const double share = static_cast<const screens::EdgeScreen&>(*part.screen).edge(distance, width);
+    for (const stop_patterns::BandStopPattern::Part& part : band.parts) {
+      const double share = part.pattern->edges()->edge(distance, width);
       const double faded = distance > 0.0 ? share * fade(distance / dark_beyond_)
                                           : 1.0 + (share - 1.0) * fade(-distance / level_within_);
       for (std::size_t c = 0; c < std::min<std::size_t>(stride, 3); ++c)

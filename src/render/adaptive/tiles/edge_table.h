@@ -7,8 +7,8 @@
 #include <cstddef>
 #include <vector>
 
-#include "render/stop_patterns/band_screen.h"
-#include "render/stop_patterns/iris_screens.h"
+#include "render/stop_patterns/band_stop_pattern.h"
+#include "render/stop_patterns/stop_pattern.h"
 
 namespace contrejour::inline internal::adaptive {
 
@@ -17,7 +17,7 @@ class EdgeTable {
   static constexpr std::size_t kStride = 4;  // floats of an entry: three channels and an unused one
 
   // band: has edges' fringes, and must outlive the table. width: of a pixel, stop radii.
-  EdgeTable(const screens::BandScreen& band, double width);
+  EdgeTable(const stop_patterns::BandStopPattern& band, double width);
 
   [[nodiscard]] const IrisShape& iris() const { return *iris_; }
   [[nodiscard]] double dark_beyond() const { return dark_beyond_; }  // distance outside a bound, stop radii

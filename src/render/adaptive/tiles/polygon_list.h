@@ -43,7 +43,7 @@ struct Shade {
 
 // Dirt in front of a polygon that is looked up for each pixel, and the map from pixels to its plane, in mm.
 struct PastDirt {
-  const screens::BandDirt* band;
+  const stop_patterns::BandDirt* band;
   StopMap map;
   [[nodiscard]] std::array<double, 3> passed(Vec2 pixel) const;
 };
@@ -51,7 +51,7 @@ struct PastDirt {
 // A stop pattern in front of a polygon: the map from pixels to the stop, and the tables that are looked up there.
 struct Screened {
   StopMap map;
-  const screens::BandScreen* screen;  // null: there is only dirt
+  const stop_patterns::BandStopPattern* screen;  // null: there is only dirt
   const EdgeTable* edges = nullptr;  // of `screen`, if it consists of edges' fringes
   std::uint32_t first = 0, count = 0;  // in PolygonList::bounds: bounds whose fringes reach the polygon
   std::uint32_t dirt = 0;              // k + 1: PolygonList::dirt[k]; 0: none
@@ -77,9 +77,9 @@ struct PolygonList {
   std::vector<Screened> screened;
   std::vector<PastDirt> dirt;
   std::vector<std::uint16_t> bounds;
-  std::vector<std::shared_ptr<const screens::BandScreen>> screens;  // that `screened` points to
+  std::vector<std::shared_ptr<const stop_patterns::BandStopPattern>> patterns;  // that `screened` points to
   std::vector<std::shared_ptr<const EdgeTable>> tables;
-  std::vector<std::shared_ptr<const screens::BandDirt>> band_dirt;  // that `dirt` points to
+  std::vector<std::shared_ptr<const stop_patterns::BandDirt>> band_dirt;  // that `dirt` points to
 
   void add(std::span<const Point> polygon, const Shade& shade) {
     polygons.push_back({static_cast<std::uint32_t>(corners.size()), static_cast<std::uint32_t>(polygon.size()), shade,

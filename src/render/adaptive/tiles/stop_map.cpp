@@ -62,7 +62,7 @@ StopMap::StopMap(const CellSeries& pixel, std::span<const CellSeries> stop, doub
   }
 }
 
-std::span<const StopPlace> StopMap::places(Vec2 pixel, std::array<StopPlace, kMaxStopCrossings>& room) const {
+std::span<const StopPoint> StopMap::places(Vec2 pixel, std::array<StopPoint, kMaxStopCrossings>& room) const {
   for (std::size_t c = 0; c < crossings_; ++c) room[c] = {place(pixel, c), crossing_[c].width};
   return {room.data(), crossings_};
 }

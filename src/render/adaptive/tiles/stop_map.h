@@ -8,7 +8,7 @@
 
 #include "contrejour/expert/trace.h"
 #include "contrejour/expert/vec.h"
-#include "render/planning/stop_screen.h"
+#include "render/stop_patterns/stop_pattern.h"
 
 namespace contrejour::inline internal::adaptive {
 
@@ -50,7 +50,7 @@ class StopMap {
   [[nodiscard]] int crossings() const { return static_cast<int>(crossings_); }
 
   // The points at every crossing. room: memory for the result.
-  [[nodiscard]] std::span<const StopPlace> places(Vec2 pixel, std::array<StopPlace, kMaxStopCrossings>& room) const;
+  [[nodiscard]] std::span<const StopPoint> places(Vec2 pixel, std::array<StopPoint, kMaxStopCrossings>& room) const;
 
   // A polynomial of the last crossing's point, with q the pixel relative to origin(): level + x q.x + y q.y + xx q.x^2
   // + xy q.x q.y + yy q.y^2.

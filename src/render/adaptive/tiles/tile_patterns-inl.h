@@ -21,13 +21,13 @@
 HWY_BEFORE_NAMESPACE();
 namespace contrejour::inline internal::adaptive::HWY_NAMESPACE {
 
-static_assert(screens::BandPattern::kStride == 4);
+static_assert(stop_patterns::BandTexture::kStride == 4);
 
 // Positions in a pattern's samples along rows. No pixels are sorted out as dark, since bounding polygons have clipped
 // the dark parts.
 class PatternPlaces {
  public:
-  PatternPlaces(const screens::BandPattern::Level& level, double extent, const StopMap& map)
+  PatternPlaces(const stop_patterns::BandTexture::Level& level, double extent, const StopMap& map)
       : most_(static_cast<float>(level.side + 1)) {
     const double per_radius = 0.5 * level.side / extent;
     const double centre = 0.5 * level.side + 0.5;  // with a border of one sample, the middle of the first one is at 1
@@ -62,8 +62,8 @@ class PatternPlaces {
 class Pattern {
  public:
   static constexpr bool kGrey = false;
-  Pattern(const screens::BandScreen& screen, const StopMap& map)
-      : level_(screen.pattern->level_for(map.width())), places_(level_, screen.pattern->extent(), map),
+  Pattern(const stop_patterns::BandStopPattern& screen, const StopMap& map)
+      : level_(screen.texture->level_for(map.width())), places_(level_, screen.texture->extent(), map),
         pitch_(kStride * static_cast<std::size_t>(level_.pitch())) {
     for (std::size_t k = 0; k < screen.parts.size(); ++k)
       std::copy_n(screen.parts[k].channel.data(), 3, channel_[k].data());
@@ -95,11 +95,11 @@ class Pattern {
   }
 
  private:
-  static constexpr std::size_t kStride = screens::BandPattern::kStride;
-  const screens::BandPattern::Level& level_;
+  static constexpr std::size_t kStride = stop_patterns::BandTexture::kStride;
+  const stop_patterns::BandTexture::Level& level_;
   PatternPlaces places_;
   std::size_t pitch_;
-  std::array<std::array<float, kQuad>, screens::BandPattern::kMost> channel_{};
+  std::array<std::array<float, kQuad>, stop_patterns::BandTexture::kMost> channel_{};
   HWY_ALIGN std::int32_t column_[kRowRoom], line_[kRowRoom];
   HWY_ALIGN float right_[kRowRoom], below_[kRowRoom];
 };
@@ -116,7 +116,7 @@ struct RowPlaces {
 class GreyPattern {
  public:
   static constexpr bool kGrey = true;
-  GreyPattern(const screens::BandPattern& pattern, const StopMap& map)
+  GreyPattern(const stop_patterns::BandTexture& pattern, const StopMap& map)
       : GreyPattern(pattern, pattern.level_for(map.width()), map) {}
 
   // Prepares the row that comes next.
@@ -152,7 +152,8 @@ class GreyPattern {
   [[nodiscard]] HWY_INLINE Row look(const PixelRow& /*row*/, Groups /*wanted*/) const { return Row(*this); }
 
  private:
-  GreyPattern(const screens::BandPattern& pattern, const screens::BandPattern::Level& level, const StopMap& map)
+  GreyPattern(const stop_patterns::BandTexture& pattern, const stop_patterns::BandTexture::Level& level,
+              const StopMap& map)
       : places_(level, pattern.extent(), map), table_(level.coded, level.coding), pitch_(level.pitch()) {}
 
   PatternPlaces places_;

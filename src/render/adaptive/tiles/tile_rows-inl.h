@@ -22,7 +22,7 @@
 #include "render/adaptive/tiles/pixels-inl.h"
 #include "render/adaptive/tiles/polygon_list.h"
 #include "render/adaptive/tiles/tile_sums.h"
-#include "render/stop_patterns/band_pattern.h"
+#include "render/stop_patterns/band_texture.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace contrejour::inline internal::adaptive::HWY_NAMESPACE {
@@ -213,9 +213,9 @@ struct HalfWords {
 // A table of ShortLight, as pairs of a sample and the one below it.
 class ShortTable {
  public:
-  using Pair = screens::BandPattern::Level::Pair;
+  using Pair = stop_patterns::BandTexture::Level::Pair;
 
-  ShortTable(const std::vector<Pair>& pairs, const screens::ShortLight& coding)
+  ShortTable(const std::vector<Pair>& pairs, const stop_patterns::ShortLight& coding)
       : pairs_(pairs.data()), lowest_(hn::Set(IntTag(), coding.lowest())), none_(hn::Set(FloatTag(), coding.none())) {}
 
   // Interpolates between four samples: those at `place`, by the fractions to the next ones and to those below.
@@ -230,7 +230,7 @@ class ShortTable {
  private:
   // Returns the light plus none_.
   [[nodiscard]] HWY_INLINE hn::Vec<FloatTag> between(hn::Vec<IntTag> pair, hn::Vec<FloatTag> rest) const {
-    constexpr int kShift = screens::ShortLight::kShift;
+    constexpr int kShift = stop_patterns::ShortLight::kShift;
     const FloatTag d;
     const IntTag di;
     const auto bits = hn::Set(di, 0xFFFF << kShift);

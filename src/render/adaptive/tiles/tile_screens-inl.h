@@ -31,17 +31,17 @@ namespace contrejour::inline internal::adaptive::HWY_NAMESPACE {
 class AnyScreen {
  public:
   static constexpr bool kGrey = false;
-  AnyScreen(const screens::BandScreen* screen, const StopMap& map, const PastDirt* dirt = nullptr)
-      : screen_(screen), map_(map), dirt_(dirt) {}
+  AnyScreen(const stop_patterns::BandStopPattern* screen, const StopMap& map, const PastDirt* dirt = nullptr)
+      : pattern_(screen), map_(map), dirt_(dirt) {}
 
   void set_row(const PixelRow& row) { row_ = &row; }
   [[nodiscard]] const AnyScreen& look(const PixelRow& /*row*/, Groups /*wanted*/) const { return *this; }
   [[nodiscard]] const AnyScreen& vector(int /*k*/) const { return *this; }
   [[nodiscard]] Quad passed(int k) const {
     const Vec2 pixel = row_->pixel(k);
-    std::array<StopPlace, kMaxStopCrossings> room;
+    std::array<StopPoint, kMaxStopCrossings> room;
     std::array<double, 3> share{1.0, 1.0, 1.0};
-    if (screen_ != nullptr) share = screen_->share(map_.places(pixel, room));
+    if (pattern_ != nullptr) share = pattern_->transmittance(map_.places(pixel, room));
     if (dirt_ != nullptr) {
       const auto past_dirt = dirt_->passed(pixel);
       for (std::size_t c = 0; c < 3; ++c) share[c] *= past_dirt[c];
@@ -52,7 +52,7 @@ class AnyScreen {
   }
 
  private:
-  const screens::BandScreen* screen_;
+  const stop_patterns::BandStopPattern* pattern_;
   const StopMap& map_;
   const PastDirt* dirt_;
   const PixelRow* row_ = nullptr;
@@ -371,7 +371,7 @@ void add_screened(TileSums& tile, const PolygonList& list, const Polygon& polygo
     MeanOfLooks mean(look, behind.looks);
     add_pixels(tile, polygon, behind.map, within, mean);
   };
-  if (behind.dirt != 0) return add(AnyScreen(behind.screen, behind.map, &list.dirt[behind.dirt - 1]));
+  if (behind.dirt != 0) return add(AnyScreen(behind.pattern, behind.map, &list.dirt[behind.dirt - 1]));
   if (behind.edges != nullptr) {
     const std::span<const std::uint16_t> active(list.bounds.data() + behind.first, behind.count);
     const IrisShape& iris = behind.edges->iris();
@@ -380,12 +380,12 @@ void add_screened(TileSums& tile, const PolygonList& list, const Polygon& polygo
     if (behind.edges->is_grey()) return add(GreyFringes(*behind.edges, active, behind.map));
     return add(Fringes(*behind.edges, active, behind.map));
   }
-  if (behind.screen->pattern && behind.map.crossings() == 1) {
-    const screens::BandPattern& pattern = *behind.screen->pattern;
-    if (!pattern.of_one()) return add(Pattern(*behind.screen, behind.map));
-    if (behind.screen->is_grey()) return add(GreyPattern(pattern, behind.map));
+  if (behind.pattern->texture && behind.map.crossings() == 1) {
+    const stop_patterns::BandTexture& pattern = *behind.pattern->texture;
+    if (!pattern.of_one()) return add(Pattern(*behind.pattern, behind.map));
+    if (behind.pattern->is_grey()) return add(GreyPattern(pattern, behind.map));
   }
-  add(AnyScreen(behind.screen, behind.map));
+  add(AnyScreen(behind.pattern, behind.map));
 }
 
 }  // namespace contrejour::inline internal::adaptive::HWY_NAMESPACE

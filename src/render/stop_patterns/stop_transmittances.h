@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The stop patterns and diffraction shadows of a frame's ghosts, as FrameSettings requests them, for one lens.
+// What the stop transmits of a frame's ghosts, as FrameSettings requests it, for one lens.
 // Thread-safety: prepare() from one thread; of() from any thread, afterwards.
 #pragma once
 
@@ -10,16 +10,15 @@
 
 #include "contrejour/expert/iris_field.h"
 #include "contrejour/frame_settings.h"
-#include "render/planning/dirt_screen.h"
 #include "render/planning/frame_plan.h"
 #include "render/planning/render_cache.h"
-#include "render/planning/stop_screen.h"
 #include "render/stop_patterns/stop_patterns.h"
+#include "render/stop_patterns/stop_transmittance.h"
 #include "render/stop_patterns/stop_wave.h"
 
 namespace contrejour::inline internal {
 
-class Screens {
+class StopTransmittances {
  public:
   struct Wanted {
     Ghost ghost;
@@ -28,8 +27,9 @@ class Screens {
     LightSource light;
   };
 
-  // lens and cache must outlive this object.
-  Screens(const LensState& lens, const FrameSettings& settings, RenderCache& cache);
+  // dirt: the lens's, with sharp shadows (FramePlan); null if it is clean. lens and cache must outlive this object.
+  StopTransmittances(const LensState& lens, const FrameSettings& settings, std::shared_ptr<const DirtField> dirt,
+                     RenderCache& cache);
 
   [[nodiscard]] bool on() const { return options_.mode != RingingMode::None || has_tones(); }
   // A picture's half-tones dim all of a ghost, in or out of focus, so that every ghost needs its stop pattern.
@@ -39,7 +39,7 @@ class Screens {
   [[nodiscard]] double fresnel_number(const Ghost& ghost, double lambda_nm, const LightSource& light) const;
 
   // The section that holds the patterns; null without ringing, and before prepare().
-  [[nodiscard]] const std::shared_ptr<screens::StopPatterns>& patterns() const { return patterns_; }
+  [[nodiscard]] const std::shared_ptr<stop_patterns::StopPatterns>& patterns() const { return patterns_; }
 
   // Makes the stop patterns of these ghosts; all wavelengths of a ghost must be in one call. Returns false if
   // cancelled.
@@ -48,18 +48,20 @@ class Screens {
   bool prepare(const FramePlan& plan, const Context& context);
 
   // Makes the fringes of dirt's shadows; the iris's stop patterns are not needed. Returns false if cancelled.
-  bool prepare_dirt(std::span<const Wanted> wanted, const std::shared_ptr<const DirtField>& dirt,
-                    const Context& context);
+  bool prepare_dirt(std::span<const Wanted> wanted, const Context& context);
 
   // About the width of the fringes of dirt's shadows in its plane, at the last crossing of the stop; 0 without ringing.
-  [[nodiscard]] double dirt_unit_mm(const Wanted& wanted, bool on_front) const;
+  [[nodiscard]] double dirt_unit_mm(const Wanted& wanted) const;
 
+  [[nodiscard]] StopTransmittance of(const Ghost& ghost, double lambda_nm, const LightSource& light) const {
+    return {pattern_of(ghost, lambda_nm, light), dirt_of(ghost, lambda_nm, light)};
+  }
   // Null if the iris is sharp, or if the pattern was not prepared.
-  [[nodiscard]] std::shared_ptr<const StopScreen> of(const Ghost& ghost, double lambda_nm,
-                                                     const LightSource& light) const;
-  // Null if shadows of dirt are sharp, or if they were not prepared.
-  [[nodiscard]] std::shared_ptr<const DirtScreen> dirt_of(const Ghost& ghost, double lambda_nm,
-                                                          const LightSource& light) const;
+  [[nodiscard]] std::shared_ptr<const StopPattern> pattern_of(const Ghost& ghost, double lambda_nm,
+                                                              const LightSource& light) const;
+  // Null if the lens is clean; with sharp shadows if fringes were not prepared.
+  [[nodiscard]] std::shared_ptr<const DirtShadows> dirt_of(const Ghost& ghost, double lambda_nm,
+                                                           const LightSource& light) const;
 
  private:
   struct Key {
@@ -68,10 +70,11 @@ class Screens {
     friend auto operator<=>(const Key&, const Key&) = default;
   };
   [[nodiscard]] static Key key_of(const Ghost& ghost, double lambda_nm, const LightSource& light);
-  [[nodiscard]] std::vector<screens::StopWave> waves_of(std::span<const Wanted> wanted, const Context& context) const;
+  [[nodiscard]] std::vector<stop_patterns::StopWave> waves_of(std::span<const Wanted> wanted,
+                                                              const Context& context) const;
   [[nodiscard]] bool is_sharp(double footprint, double fresnel_number) const;
   [[nodiscard]] double order(double lambda_nm) const;  // of the fractional transform
-  [[nodiscard]] std::vector<screens::PlaneWave> dirt_waves(const Wanted& wanted, bool on_front) const;
+  [[nodiscard]] std::vector<stop_patterns::PlaneWave> dirt_waves(const Wanted& wanted) const;
   bool prepare_fresnel(std::span<const Wanted> wanted, const Context& context);
   bool prepare_hullin(std::span<const Wanted> wanted, const Context& context);
   void add_tones(std::span<const Wanted> wanted);
@@ -79,11 +82,13 @@ class Screens {
   const LensState& lens_;
   RingingOptions options_;
   double pixel_pitch_mm_;
+  std::shared_ptr<const DirtField> dirt_field_;
+  std::shared_ptr<const DirtShadows> sharp_dirt_;
   RenderCache& cache_;
   std::shared_ptr<const class IrisShape> iris_;
-  std::shared_ptr<screens::StopPatterns> patterns_;
-  std::map<Key, std::shared_ptr<const StopScreen>> screens_;
-  std::map<Key, std::shared_ptr<const DirtScreen>> dirt_;
+  std::shared_ptr<stop_patterns::StopPatterns> patterns_;
+  std::map<Key, std::shared_ptr<const StopPattern>> stop_;
+  std::map<Key, std::shared_ptr<const DirtShadows>> dirt_;
 };
 
 }  // namespace contrejour::inline internal

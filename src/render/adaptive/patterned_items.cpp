@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "render/adaptive/screened_items.h"
+#include "render/adaptive/patterned_items.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 #include <numeric>
 
 #include "base/tasks.h"
-#include "render/stop_patterns/iris_screens.h"
+#include "render/stop_patterns/stop_pattern.h"
 
 namespace contrejour::inline internal::adaptive {
 namespace {
@@ -19,7 +19,7 @@ constexpr double kEdgeError = 0.3;
 // A pattern is truncated where it is dimmer than kHullRipple of the dimmest fringe, with at most kHullFlux of its light
 // beyond.
 constexpr double kHullRipple = 0.5, kHullFlux = 0.003;
-constexpr std::size_t kMostScreens = 8;  // of a ghost's wavelengths
+constexpr std::size_t kMostPatterns = 8;  // of a ghost's wavelengths
 constexpr double kUnseen = 0.01;  // fraction of the error that all pixels may have
 constexpr double kOutline = 1.5;  // length of an outline over that of a disc of the same area
 // Pixels along an outline that cost as much as its coverage and cells, and the least error that a pixel of fringes must
@@ -49,35 +49,35 @@ double fringe_error(const Rim& rim) { return kEdgeError * rim.weight; }
 
 // The stop patterns of all passes. A pass whose fringes are not visible takes those of the next one, slightly wider.
 // Null if none is visible.
-std::shared_ptr<GhostScreens> screens_of(const Screens& screens, const Item& item) {
-  auto all = std::make_shared<GhostScreens>();
-  all->patterns = screens.patterns();
-  for (const PlannedPass& pass : screened_passes(item.light->passes))
-    all->by_pass.push_back({screens.of(item.ghost, pass.lambda_nm, item.light->source), {}});
-  const auto seen = [](const GhostScreens::OfPass& pass) { return pass.screen != nullptr; };
+std::shared_ptr<GhostPatterns> patterns_of(const StopTransmittances& stops, const Item& item) {
+  auto all = std::make_shared<GhostPatterns>();
+  all->patterns = stops.patterns();
+  for (const PlannedPass& pass : passes_with_patterns(item.light->passes))
+    all->by_pass.push_back({stops.pattern_of(item.ghost, pass.lambda_nm, item.light->source), {}});
+  const auto seen = [](const GhostPatterns::OfPass& pass) { return pass.pattern != nullptr; };
   const auto any = std::find_if(all->by_pass.rbegin(), all->by_pass.rend(), seen);
   if (any == all->by_pass.rend()) return nullptr;
-  auto next = any->screen;
+  auto next = any->pattern;
   for (auto at = all->by_pass.rbegin(); at != all->by_pass.rend(); ++at) {
-    if (at->screen == nullptr) at->screen = next;
-    next = at->screen;
+    if (at->pattern == nullptr) at->pattern = next;
+    next = at->pattern;
   }
   return all;
 }
 
 // An item whose stop patterns are to be drawn.
 struct Drawn {
-  std::shared_ptr<GhostScreens> screens;
+  std::shared_ptr<GhostPatterns> patterns;
   Rim rim;
 };
 
-const StopScreen& middle_screen(const Drawn& item) {
-  return *item.screens->by_pass[item.screens->by_pass.size() / 2].screen;
+const StopPattern& middle_pattern(const Drawn& item) {
+  return *item.patterns->by_pass[item.patterns->by_pass.size() / 2].pattern;
 }
 
 // The profile of fringes along edges at the middle wavelength; null where the iris has a whole pattern.
-const screens::EdgeProfile* edge_profile(const Drawn& item) {
-  const auto* const edge = dynamic_cast<const screens::EdgeScreen*>(&middle_screen(item));
+const stop_patterns::EdgeProfile* edge_profile(const Drawn& item) {
+  const auto* const edge = middle_pattern(item).edges();
   return edge != nullptr ? &edge->profile() : nullptr;
 }
 
@@ -87,12 +87,12 @@ double dimmest_ripple(const std::vector<Drawn>& items, double allowed) {
   const auto error = [&](double dimmest) {
     double sum = 0.0;
     for (const Drawn& item : items) {
-      if (!item.screens || !(item.rim.level > 0.0)) continue;
+      if (!item.patterns || !(item.rim.level > 0.0)) continue;
       const double ripple = dimmest / item.rim.level;
       if (const auto* const profile = edge_profile(item))
         sum += item.rim.weight * profile->squared_error(profile->range_above(ripple));
-      if (const auto* const pattern = dynamic_cast<const screens::TextureScreen*>(&middle_screen(item)))
-        sum += item.rim.stop_area * pattern->texture().squared_beyond(pattern->texture().reach_above(ripple));
+      if (const auto* const texture = middle_pattern(item).texture())
+        sum += item.rim.stop_area * texture->squared_beyond(texture->reach_above(ripple));
     }
     return sum;
   };
@@ -108,7 +108,7 @@ double dimmest_ripple(const std::vector<Drawn>& items, double allowed) {
 
 // Whether fringes down to the dimmest level remove enough error for the cost of their pixels and of those along the
 // outline.
-bool is_worth_drawing(const Drawn& item, const screens::EdgeProfile& profile, double dimmest) {
+bool is_worth_drawing(const Drawn& item, const stop_patterns::EdgeProfile& profile, double dimmest) {
   const double ripple = dimmest / item.rim.level;
   const auto range = profile.range_above(ripple);
   const double taken = profile.squared_error({0.0, 0.0}) - profile.squared_error(range);
@@ -122,38 +122,38 @@ double leave_out_small(std::vector<Drawn>& items, double allowed) {
   const double dimmest = dimmest_ripple(items, allowed);
   double sharp = 0.0;
   for (Drawn& item : items) {
-    if (!item.screens || !(item.rim.level > 0.0)) continue;
-    const screens::EdgeProfile* const profile = edge_profile(item);
+    if (!item.patterns || !(item.rim.level > 0.0)) continue;
+    const stop_patterns::EdgeProfile* const profile = edge_profile(item);
     if (profile == nullptr || is_worth_drawing(item, *profile, dimmest)) continue;
     sharp += item.rim.weight * profile->squared_error({0.0, 0.0});
-    item.screens = nullptr;
+    item.patterns = nullptr;
   }
   return sharp > 0.0 ? dimmest_ripple(items, std::max(allowed - sharp, kLeastRippleShare * allowed)) : dimmest;
 }
 
 // Sets how far from the edges fringes are drawn: to where they become dimmer than `dimmest`.
 void set_range(const Drawn& item, double dimmest) {
-  GhostScreens& screens = *item.screens;
+  GhostPatterns& patterns = *item.patterns;
   const double ripple = dimmest / item.rim.level;
-  for (GhostScreens::OfPass& pass : screens.by_pass) {
-    double reach = pass.screen->reach();
-    if (const auto* const edge = dynamic_cast<const screens::EdgeScreen*>(pass.screen.get())) {
+  for (GhostPatterns::OfPass& pass : patterns.by_pass) {
+    double reach = pass.pattern->outer_radius();
+    if (const auto* const edge = pass.pattern->edges()) {
       const auto range = edge->profile().range_above(ripple);
-      screens.range = {std::min(screens.range.dark, range.dark), std::max(screens.range.level, range.level)};
+      patterns.range = {std::min(patterns.range.dark, range.dark), std::max(patterns.range.level, range.level)};
       reach = 1.0 - range.dark * edge->unit();
-    } else if (const auto* const pattern = dynamic_cast<const screens::TextureScreen*>(pass.screen.get())) {
-      reach = std::max(pattern->texture().reach_above(ripple), 1.0);
-      pass.hull = pattern->texture().hull_above(kHullRipple * ripple, kHullFlux);
+    } else if (const auto* const texture = pass.pattern->texture()) {
+      reach = std::max(texture->reach_above(ripple), 1.0);
+      pass.hull = texture->hull_above(kHullRipple * ripple, kHullFlux);
     }
-    screens.reach = std::max(screens.reach, reach);
+    patterns.reach = std::max(patterns.reach, reach);
   }
 }
 
 }  // namespace
 
-std::vector<PlannedPass> screened_passes(std::span<const PlannedPass> passes) {
+std::vector<PlannedPass> passes_with_patterns(std::span<const PlannedPass> passes) {
   std::vector<PlannedPass> out(passes.begin(), passes.end());
-  const std::size_t groups = std::min(passes.size(), kMostScreens);
+  const std::size_t groups = std::min(passes.size(), kMostPatterns);
   for (std::size_t g = 0; g < groups; ++g) {
     const std::size_t first = g * passes.size() / groups, last = (g + 1) * passes.size() / groups;
     if (last - first == 1) continue;
@@ -168,8 +168,8 @@ std::vector<PlannedPass> screened_passes(std::span<const PlannedPass> passes) {
   return out;
 }
 
-Work screen_items(const Scene& scene, Screens& screens, std::vector<Item>& items, const std::vector<ItemSize>& sizes,
-                  const FrameError& allowed, const Context& context) {
+Work set_stop_patterns(const Scene& scene, StopTransmittances& stops, std::vector<Item>& items,
+                       const std::vector<ItemSize>& sizes, const FrameError& allowed, const Context& context) {
   const double squares = allowed.squared();
   std::vector<std::size_t> all(items.size());
   std::iota(all.begin(), all.end(), std::size_t{0});
@@ -177,34 +177,33 @@ Work screen_items(const Scene& scene, Screens& screens, std::vector<Item>& items
   std::vector<Rim> rims(items.size());
   for (const std::size_t k : all) error[k] = fringe_error(rim_of(sizes[k], allowed.peak, 0.5));  // an upper bound
   const auto worth = [&](std::vector<std::size_t> some) {
-    return screens.has_tones() ? some : worth_drawing(std::move(some), error, 0.5 * kSharpShare * squares);
+    return stops.has_tones() ? some : worth_drawing(std::move(some), error, 0.5 * kSharpShare * squares);
   };
   std::vector<std::size_t> chosen = worth(all);
   for (const std::size_t k : chosen) {
     const auto& passes = items[k].light->passes;
-    const double f =
-        screens.fresnel_number(items[k].ghost, passes[passes.size() / 2].lambda_nm, items[k].light->source);
+    const double f = stops.fresnel_number(items[k].ghost, passes[passes.size() / 2].lambda_nm, items[k].light->source);
     rims[k] = rim_of(sizes[k], allowed.peak, f);
     error[k] = fringe_error(rims[k]);
   }
   chosen = worth(std::move(chosen));
 
-  std::vector<Screens::Wanted> wanted;
+  std::vector<StopTransmittances::Wanted> wanted;
   for (const std::size_t k : chosen)
-    for (const PlannedPass& pass : screened_passes(items[k].light->passes))
+    for (const PlannedPass& pass : passes_with_patterns(items[k].light->passes))
       wanted.push_back({items[k].ghost, pass.lambda_nm, pass.spread_nm, items[k].light->source});
-  if (!screens.prepare(wanted, context)) return {};
+  if (!stops.prepare(wanted, context)) return {};
   std::vector<Drawn> drawn;
-  for (const std::size_t k : chosen) drawn.push_back({screens_of(screens, items[k]), rims[k]});
+  for (const std::size_t k : chosen) drawn.push_back({patterns_of(stops, items[k]), rims[k]});
   const double dimmest = leave_out_small(drawn, kRippleShare * squares);
 
   std::vector<Work> work(chosen.size());
   parallel_for(chosen.size(), context, [&](std::size_t at) {
-    if (!drawn[at].screens) return;
+    if (!drawn[at].patterns) return;
     set_range(drawn[at], dimmest);
-    drawn[at].screens->unseen = kUnseen * allowed.error * allowed.peak;
+    drawn[at].patterns->unseen = kUnseen * allowed.error * allowed.peak;
     Item& item = items[chosen[at]];
-    item.screens = drawn[at].screens;
+    item.patterns = drawn[at].patterns;
     work[at] = widen_boxes(scene, item);
   });
   Work sum;

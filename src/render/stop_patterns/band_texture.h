@@ -11,16 +11,16 @@
 #include "render/stop_patterns/pattern_texture.h"
 #include "render/stop_patterns/short_light.h"
 
-namespace contrejour::inline internal::screens {
+namespace contrejour::inline internal::stop_patterns {
 
-class BandPattern {
+class BandTexture {
  public:
   static constexpr std::size_t kMost = 3;    // wavelengths
   static constexpr std::size_t kStride = 4;  // floats of a sample: one for each wavelength, the rest unused
   [[nodiscard]] bool of_one() const { return stride_ == 1; }  // wavelength
 
   // parts: 1 to kMost.
-  explicit BandPattern(std::span<const PatternTexture* const> parts);
+  explicit BandTexture(std::span<const PatternTexture* const> parts);
 
   // Samples of the square from -extent to extent, rows from the top, with a border of dark samples.
   struct Level {
@@ -47,4 +47,4 @@ class BandPattern {
   float brightest_of_last_ = 0.0F;
 };
 
-}  // namespace contrejour::inline internal::screens
+}  // namespace contrejour::inline internal::stop_patterns

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "render/stop_patterns/band_pattern.h"
+#include "render/stop_patterns/band_texture.h"
 
 #include <algorithm>
 #include <cassert>
@@ -7,11 +7,11 @@
 
 #include "render/stop_patterns/resampled.h"
 
-namespace contrejour::inline internal::screens {
+namespace contrejour::inline internal::stop_patterns {
 namespace {
 
 void lay_out(const PatternTexture& texture, double extent, std::size_t part, std::size_t stride,
-             BandPattern::Level& level) {
+             BandTexture::Level& level) {
   const auto samples = resampled({texture.side(), texture.extent(), texture.samples()}, level.side, extent);
   const auto side = static_cast<std::size_t>(level.side);
   for (std::size_t row = 0; row < side; ++row) {
@@ -20,15 +20,15 @@ void lay_out(const PatternTexture& texture, double extent, std::size_t part, std
   }
 }
 
-BandPattern::Level dark_level(int side, std::size_t stride) {
-  BandPattern::Level level;
+BandTexture::Level dark_level(int side, std::size_t stride) {
+  BandTexture::Level level;
   level.side = side;
   level.samples.resize(static_cast<std::size_t>(level.pitch()) * static_cast<std::size_t>(level.pitch()) * stride);
   return level;
 }
 
-BandPattern::Level halved(const BandPattern::Level& fine, std::size_t stride) {
-  BandPattern::Level half = dark_level(fine.side / 2, stride);
+BandTexture::Level halved(const BandTexture::Level& fine, std::size_t stride) {
+  BandTexture::Level half = dark_level(fine.side / 2, stride);
   const auto row = static_cast<std::size_t>(fine.pitch()) * stride;
   for (int y = 0; y < half.side; ++y) {
     for (int x = 0; x < half.side; ++x) {
@@ -42,7 +42,7 @@ BandPattern::Level halved(const BandPattern::Level& fine, std::size_t stride) {
   return half;
 }
 
-void code(BandPattern::Level& level) {
+void code(BandTexture::Level& level) {
   level.coding = ShortLight(*std::max_element(level.samples.begin(), level.samples.end()));
   level.coded.resize(level.samples.size());
   const auto pitch = static_cast<std::size_t>(level.pitch());
@@ -55,7 +55,7 @@ void code(BandPattern::Level& level) {
 
 }  // namespace
 
-BandPattern::BandPattern(std::span<const PatternTexture* const> parts) : stride_(parts.size() == 1 ? 1 : kStride) {
+BandTexture::BandTexture(std::span<const PatternTexture* const> parts) : stride_(parts.size() == 1 ? 1 : kStride) {
   assert(!parts.empty() && parts.size() <= kMost);
   int side = 0;
   for (const PatternTexture* part : parts) {
@@ -70,12 +70,12 @@ BandPattern::BandPattern(std::span<const PatternTexture* const> parts) : stride_
     for (Level& level : levels_) code(level);
 }
 
-const BandPattern::Level& BandPattern::level_for(double width) const {
+const BandTexture::Level& BandTexture::level_for(double width) const {
   const double level = std::round(HalvedPicture::level_for(width, levels_.front().side, extent_));
   return levels_[std::min(static_cast<std::size_t>(std::max(level, 0.0)), levels_.size() - 1)];
 }
 
-float BandPattern::brightest(Vec2 middle, double distance) const {
+float BandTexture::brightest(Vec2 middle, double distance) const {
   const double pitches = distance * 0.5 * levels_.front().side / extent_;
   const std::size_t fit = pitches > 1.0 ? static_cast<std::size_t>(std::ilogb(pitches)) + 1 : 0;
   if (fit >= levels_.size()) return brightest_of_last_;  // four samples of the last level cover less than that distance
@@ -95,4 +95,4 @@ float BandPattern::brightest(Vec2 middle, double distance) const {
   return std::max(largest(samples), largest(samples + static_cast<std::size_t>(level.pitch()) * stride_));
 }
 
-}  // namespace contrejour::inline internal::screens
+}  // namespace contrejour::inline internal::stop_patterns

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "render/stop_patterns/screens.h"
+#include "render/stop_patterns/stop_transmittances.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,16 +9,17 @@
 
 #include "base/tasks.h"
 #include "render/stop_patterns/dirt_fringes.h"
-#include "render/stop_patterns/iris_screens.h"
+#include "render/stop_patterns/stop_pattern.h"
 #include "render/stop_patterns/stop_patterns.h"
 #include "render/stop_patterns/stop_wave.h"
 
 namespace contrejour::inline internal {
 namespace {
 
-using screens::EdgeScreen;
-using screens::StopPatterns;
-using screens::TextureScreen;
+using stop_patterns::EdgePattern;
+using stop_patterns::StopPatterns;
+using stop_patterns::TexturePattern;
+using stop_patterns::TonedPattern;
 
 // The first fringe is 1.9 of an edge's unit 1 / sqrt(2 F) wide; where that unit is fewer pixels than this, no fringe is
 // visible.
@@ -34,37 +35,40 @@ double distance_along_axis(const LightSource& light) {
 
 }  // namespace
 
-Screens::Key Screens::key_of(const Ghost& ghost, double lambda_nm, const LightSource& light) {
+StopTransmittances::Key StopTransmittances::key_of(const Ghost& ghost, double lambda_nm, const LightSource& light) {
   return {ghost, lambda_nm, distance_along_axis(light)};
 }
 
-Screens::Screens(const LensState& lens, const FrameSettings& settings, RenderCache& cache)
-    : lens_(lens), options_(settings.ringing), pixel_pitch_mm_(settings.frame.pixel_pitch_mm), cache_(cache) {
+StopTransmittances::StopTransmittances(const LensState& lens, const FrameSettings& settings,
+                                       std::shared_ptr<const DirtField> dirt, RenderCache& cache)
+    : lens_(lens), options_(settings.ringing), pixel_pitch_mm_(settings.frame.pixel_pitch_mm),
+      dirt_field_(std::move(dirt)),
+      sharp_dirt_(dirt_field_ ? std::make_shared<const DirtShadows>(dirt_field_) : nullptr), cache_(cache) {
   if (on()) iris_ = std::make_shared<const IrisShape>(lens.iris);
 }
 
-double Screens::fresnel_number(const Ghost& ghost, double lambda_nm, const LightSource& light) const {
+double StopTransmittances::fresnel_number(const Ghost& ghost, double lambda_nm, const LightSource& light) const {
   if (options_.mode == RingingMode::None) return std::numeric_limits<double>::infinity();
   if (options_.mode == RingingMode::Fresnel)
-    return screens::stop_wave(ghost_path(lens_, ghost, lambda_nm), distance_along_axis(light)).fresnel_number;
+    return stop_patterns::stop_wave(ghost_path(lens_, ghost, lambda_nm), distance_along_axis(light)).fresnel_number;
   return kFractionalFresnel /
          std::tan(0.5 * std::numbers::pi * std::clamp(std::abs(order(lambda_nm)), kSharpOrder, 0.999));
 }
 
-bool Screens::prepare(const FramePlan& plan, const Context& context) {
+bool StopTransmittances::prepare(const FramePlan& plan, const Context& context) {
   std::vector<Wanted> wanted;
   for_each_pair_with_passes(plan, [&](std::size_t g, std::size_t k, std::span<const PlannedPass> passes) {
     for (const PlannedPass& pass : passes)
       wanted.push_back({plan.ghosts[g], pass.lambda_nm, pass.spread_nm, plan.lights[k].source});
   });
-  return prepare(wanted, context) && prepare_dirt(wanted, plan.dirt, context);
+  return prepare(wanted, context) && prepare_dirt(wanted, context);
 }
 
-bool Screens::prepare(std::span<const Wanted> wanted, const Context& context) {
+bool StopTransmittances::prepare(std::span<const Wanted> wanted, const Context& context) {
   if (!on()) return true;
   std::vector<Wanted> missing;
   for (const Wanted& w : wanted)
-    if (screens_.try_emplace(key_of(w.ghost, w.lambda_nm, w.light)).second) missing.push_back(w);
+    if (stop_.try_emplace(key_of(w.ghost, w.lambda_nm, w.light)).second) missing.push_back(w);
   if (options_.mode != RingingMode::None) patterns_ = cache_.section<StopPatterns>(lens_.iris);
   const bool done = options_.mode == RingingMode::None      ? true
                     : options_.mode == RingingMode::Fresnel ? prepare_fresnel(missing, context)
@@ -74,33 +78,35 @@ bool Screens::prepare(std::span<const Wanted> wanted, const Context& context) {
 }
 
 // Applies a picture's half-tones to ghosts with sharp or fringed edges; patterns include them already.
-void Screens::add_tones(std::span<const Wanted> wanted) {
+void StopTransmittances::add_tones(std::span<const Wanted> wanted) {
   for (const Wanted& w : wanted) {
-    auto& screen = screens_[key_of(w.ghost, w.lambda_nm, w.light)];
-    auto edges = std::dynamic_pointer_cast<const EdgeScreen>(screen);
-    if (!screen || edges) screen = std::make_shared<const screens::TonedScreen>(iris_, std::move(edges));
+    auto& pattern = stop_[key_of(w.ghost, w.lambda_nm, w.light)];
+    if (pattern && pattern->edges() == nullptr) continue;
+    std::shared_ptr<const EdgePattern> edges(pattern, pattern ? pattern->edges() : nullptr);
+    pattern = std::make_shared<const StopPattern>(iris_, TonedPattern(iris_, std::move(edges)));
   }
 }
 
 // The wave at the stop of each ghost; empty if cancelled.
-std::vector<screens::StopWave> Screens::waves_of(std::span<const Wanted> wanted, const Context& context) const {
-  std::vector<screens::StopWave> waves(wanted.size());
+std::vector<stop_patterns::StopWave> StopTransmittances::waves_of(std::span<const Wanted> wanted,
+                                                                  const Context& context) const {
+  std::vector<stop_patterns::StopWave> waves(wanted.size());
   Context quiet = context;
   quiet.progress = {};
   const bool done = parallel_for(wanted.size(), quiet, [&](std::size_t k) {
-    waves[k] = screens::stop_wave(ghost_path(lens_, wanted[k].ghost, wanted[k].lambda_nm),
-                                  distance_along_axis(wanted[k].light));
+    waves[k] = stop_patterns::stop_wave(ghost_path(lens_, wanted[k].ghost, wanted[k].lambda_nm),
+                                        distance_along_axis(wanted[k].light));
   });
-  return done ? waves : std::vector<screens::StopWave>{};
+  return done ? waves : std::vector<stop_patterns::StopWave>{};
 }
 
 // Whether no pixel shows the fringes of this Fresnel number in a ghost of this size.
-bool Screens::is_sharp(double footprint, double fresnel_number) const {
+bool StopTransmittances::is_sharp(double footprint, double fresnel_number) const {
   const double unit_mm = lens_.stop_radius_mm * footprint / std::sqrt(2.0 * fresnel_number);
   return !(unit_mm > kUnseenUnit_px * pixel_pitch_mm_);
 }
 
-bool Screens::prepare_fresnel(std::span<const Wanted> wanted, const Context& context) {
+bool StopTransmittances::prepare_fresnel(std::span<const Wanted> wanted, const Context& context) {
   const auto waves = waves_of(wanted, context);
   if (waves.size() != wanted.size()) return false;
   const auto sharp = [&](std::size_t k) { return is_sharp(waves[k].footprint, waves[k].fresnel_number); };
@@ -123,21 +129,21 @@ bool Screens::prepare_fresnel(std::span<const Wanted> wanted, const Context& con
   for (std::size_t k = 0; k < wanted.size(); ++k) {
     if (sharp(k)) continue;
     const double f = waves[k].fresnel_number;
-    auto& screen = screens_[key_of(wanted[k].ghost, wanted[k].lambda_nm, wanted[k].light)];
+    auto& pattern = stop_[key_of(wanted[k].ghost, wanted[k].lambda_nm, wanted[k].light)];
     if (has_pattern(k))
-      screen = std::make_shared<const TextureScreen>(iris_, patterns_->pattern({f, spread(k)}));
+      pattern = std::make_shared<const StopPattern>(iris_, TexturePattern(patterns_->pattern({f, spread(k)})));
     else
-      screen = std::make_shared<const EdgeScreen>(iris_, patterns_->profile(spread(k)), f);
+      pattern = std::make_shared<const StopPattern>(iris_, EdgePattern(iris_, patterns_->profile(spread(k)), f));
   }
   return true;
 }
 
-double Screens::order(double lambda_nm) const {
+double StopTransmittances::order(double lambda_nm) const {
   const double order = options_.alpha.value_or(hullin_order(lambda_nm, lens_.f_number));
   return std::isfinite(order) ? order : 0.0;
 }
 
-bool Screens::prepare_hullin(std::span<const Wanted> wanted, const Context& context) {
+bool StopTransmittances::prepare_hullin(std::span<const Wanted> wanted, const Context& context) {
   const auto waves = waves_of(wanted, context);
   if (waves.size() != wanted.size()) return false;
   for (std::size_t k = 0; k < wanted.size(); ++k) {
@@ -152,26 +158,29 @@ bool Screens::prepare_hullin(std::span<const Wanted> wanted, const Context& cont
         off > 0.0 ? std::vector<double>{middle - off, middle, middle + off} : std::vector<double>{middle};
     const auto texture = patterns_->fractional(orders, context);
     if (!texture) return false;
-    screens_[key_of(w.ghost, w.lambda_nm, w.light)] = std::make_shared<const TextureScreen>(iris_, texture);
+    stop_[key_of(w.ghost, w.lambda_nm, w.light)] = std::make_shared<const StopPattern>(iris_, TexturePattern(texture));
   }
   return true;
 }
 
-std::shared_ptr<const StopScreen> Screens::of(const Ghost& ghost, double lambda_nm, const LightSource& light) const {
-  const auto found = screens_.find(key_of(ghost, lambda_nm, light));
-  return found == screens_.end() ? nullptr : found->second;
+std::shared_ptr<const StopPattern> StopTransmittances::pattern_of(const Ghost& ghost, double lambda_nm,
+                                                                  const LightSource& light) const {
+  const auto found = stop_.find(key_of(ghost, lambda_nm, light));
+  return found == stop_.end() ? nullptr : found->second;
 }
 
 // The wave at the dirt's plane for each crossing. Shadows are limited where the iris's patterns are (kLowestFresnel).
 // With fractional orders, the iris's Fresnel number is the one that the order corresponds to, wherever the dirt lies.
-std::vector<screens::PlaneWave> Screens::dirt_waves(const Wanted& wanted, bool on_front) const {
+std::vector<stop_patterns::PlaneWave> StopTransmittances::dirt_waves(const Wanted& wanted) const {
+  const bool on_front = dirt_field_->site().on_front;
   const OpticalPath path = ghost_path(lens_, wanted.ghost, wanted.lambda_nm);
   const double light_mm = distance_along_axis(wanted.light), lambda_mm = wanted.lambda_nm * 1e-6;
-  const std::vector<screens::PlaneWave> stops = screens::stop_crossing_waves(path, light_mm);
-  std::vector<screens::PlaneWave> waves = on_front ? std::vector{screens::front_wave(path, light_mm)} : stops;
+  const std::vector<stop_patterns::PlaneWave> stops = stop_patterns::stop_crossing_waves(path, light_mm);
+  std::vector<stop_patterns::PlaneWave> waves =
+      on_front ? std::vector{stop_patterns::front_wave(path, light_mm)} : stops;
   if (stops.empty()) return waves;
-  for (screens::PlaneWave& wave : waves) {
-    const screens::PlaneWave& stop = on_front ? stops.back() : wave;
+  for (stop_patterns::PlaneWave& wave : waves) {
+    const stop_patterns::PlaneWave& stop = on_front ? stops.back() : wave;
     const double beam_mm = lens_.stop_radius_mm * stop.magnification / wave.magnification;
     const double f = options_.mode == RingingMode::Hullin ? fresnel_number(wanted.ghost, wanted.lambda_nm, wanted.light)
                                                           : StopPatterns::kLowestFresnel;
@@ -181,24 +190,24 @@ std::vector<screens::PlaneWave> Screens::dirt_waves(const Wanted& wanted, bool o
   return waves;
 }
 
-double Screens::dirt_unit_mm(const Wanted& wanted, bool on_front) const {
-  if (options_.mode == RingingMode::None) return 0.0;
-  const auto waves = dirt_waves(wanted, on_front);
+double StopTransmittances::dirt_unit_mm(const Wanted& wanted) const {
+  if (options_.mode == RingingMode::None || !dirt_field_) return 0.0;
+  const auto waves = dirt_waves(wanted);
   return waves.empty() ? 0.0 : std::sqrt(wanted.lambda_nm * 1e-6 * waves.back().distance_mm);
 }
 
-bool Screens::prepare_dirt(std::span<const Wanted> wanted, const std::shared_ptr<const DirtField>& dirt,
-                           const Context& context) {
+bool StopTransmittances::prepare_dirt(std::span<const Wanted> wanted, const Context& context) {
+  const auto& dirt = dirt_field_;
   if (options_.mode == RingingMode::None || !dirt || dirt->shapes().empty() || dirt->has_picture()) return true;
   std::vector<Wanted> missing;
   for (const Wanted& w : wanted)
     if (dirt_.try_emplace(key_of(w.ghost, w.lambda_nm, w.light)).second) missing.push_back(w);
-  using screens::DirtFringes;
+  using stop_patterns::DirtFringes;
   std::vector<std::vector<std::optional<DirtFringes::Wanted>>> planes;  // by crossing; empty where it is sharp
   std::vector<DirtFringes::Wanted> all;
   for (const Wanted& w : missing) {
     auto& of_crossing = planes.emplace_back();
-    for (const screens::PlaneWave& wave : dirt_waves(w, dirt->on_front())) {
+    for (const stop_patterns::PlaneWave& wave : dirt_waves(w)) {
       const double lambda_z_mm2 = w.lambda_nm * 1e-6 * wave.distance_mm;
       const double seen_mm = std::sqrt(lambda_z_mm2) * wave.magnification;
       const bool is_seen = seen_mm > kUnseenShadow_px * pixel_pitch_mm_ && std::isfinite(lambda_z_mm2);
@@ -212,19 +221,19 @@ bool Screens::prepare_dirt(std::span<const Wanted> wanted, const std::shared_ptr
   quiet.progress = {};
   if (!fringes->make(*dirt, all, quiet)) return false;
   for (std::size_t k = 0; k < missing.size(); ++k) {
-    std::vector<std::shared_ptr<const screens::FringedPlane>> crossings;
+    std::vector<std::shared_ptr<const stop_patterns::FringedPlane>> crossings;
     for (const auto& plane : planes[k]) crossings.push_back(plane ? fringes->plane(*plane) : nullptr);
     if (std::ranges::all_of(crossings, [](const auto& plane) { return plane == nullptr; })) continue;
     dirt_[key_of(missing[k].ghost, missing[k].lambda_nm, missing[k].light)] =
-        std::make_shared<const screens::FringedDirt>(dirt, std::move(crossings));
+        std::make_shared<const DirtShadows>(dirt, std::move(crossings));
   }
   return true;
 }
 
-std::shared_ptr<const DirtScreen> Screens::dirt_of(const Ghost& ghost, double lambda_nm,
-                                                   const LightSource& light) const {
+std::shared_ptr<const DirtShadows> StopTransmittances::dirt_of(const Ghost& ghost, double lambda_nm,
+                                                               const LightSource& light) const {
   const auto found = dirt_.find(key_of(ghost, lambda_nm, light));
-  return found == dirt_.end() ? nullptr : found->second;
+  return found == dirt_.end() || !found->second ? sharp_dirt_ : found->second;
 }
 
 }  // namespace contrejour::inline internal
