@@ -126,7 +126,8 @@ void GhostPainter::paint(const FirstRays& rays, bool with_mirror_image, const Er
   }
   PatchFitter fitter(tracers_, frame_, deepest_, patterns_ != nullptr ? patterns_->unseen : 0.0);
   const ErrorBudget per_band = budget_per_band(budget, bands.size());
-  const auto paint_all = [&](const BandSet& set, std::span<const std::shared_ptr<const stop_patterns::BandStopPattern>> of_set,
+  const auto paint_all = [&](const BandSet& set,
+                             std::span<const std::shared_ptr<const stop_patterns::BandStopPattern>> of_set,
                              std::span<const std::shared_ptr<const stop_patterns::BandDirt>> dirt_of_set,
                              const std::vector<FittedPart>& parts) {
     if (parts.empty()) return;

@@ -39,7 +39,8 @@ class GhostPainter {
   [[nodiscard]] std::vector<BandPart> parts_of(const FirstRays& rays, const Band& band) const;
   [[nodiscard]] std::optional<BentBox> bent_about(const FirstRays& rays, const Rectangle& box);
   void paint(const FirstRays& rays, bool with_mirror_image, const ErrorBudget& budget, PolygonList& out);
-  [[nodiscard]] std::shared_ptr<const stop_patterns::BandStopPattern> band_pattern(const FirstRays& rays, const Band& band) const;
+  [[nodiscard]] std::shared_ptr<const stop_patterns::BandStopPattern> band_pattern(const FirstRays& rays,
+                                                                                   const Band& band) const;
   [[nodiscard]] std::shared_ptr<const stop_patterns::BandDirt> band_dirt(const FirstRays& rays, const Band& band) const;
   static void paint_band(const BandSet& set, std::size_t band, std::span<const FittedPart> parts, Tessellator& cells);
 

@@ -29,7 +29,8 @@ struct FittedBox {
   std::vector<FittedPart> mirror_image;  // of the box, if requested
 };
 
-using BandPatterns = std::vector<std::shared_ptr<const stop_patterns::BandStopPattern>>;  // one a band; null: the iris is sharp
+using BandPatterns =
+    std::vector<std::shared_ptr<const stop_patterns::BandStopPattern>>;  // one a band; null: the iris is sharp
 
 class PatchFitter {
  public:

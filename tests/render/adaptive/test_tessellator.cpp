@@ -278,9 +278,9 @@ TEST_CASE("light behind a stop pattern that is too dim for its fringes to matter
     }
   const auto texture = std::make_shared<const stop_patterns::PatternTexture>(kSide, kExtent, samples);
   const auto band = std::make_shared<stop_patterns::BandStopPattern>();
-  band->parts.push_back(
-      {std::make_shared<const StopPattern>(std::make_shared<const IrisShape>(Iris{}), stop_patterns::TexturePattern(texture)),
-       {1.0F, 1.0F, 1.0F}});
+  band->parts.push_back({std::make_shared<const StopPattern>(std::make_shared<const IrisShape>(Iris{}),
+                                                             stop_patterns::TexturePattern(texture)),
+                         {1.0F, 1.0F, 1.0F}});
   band->texture = std::make_shared<const stop_patterns::BandTexture>(std::array{texture.get()});
   band->hull = texture->hull_above(1e-6, 0.0);
 

@@ -104,7 +104,8 @@ double CellError::squared(Sides sides, double cell_budget) {
     error +=
         kEdgeBound * along_edges(seen, left * m.limit * m.longest_px, band_.iris.is_picture() ? kPictureEdges : 1.0);
   // Cells drawn in parts use no map.
-  if (cell_.pattern.part == PatternRegion::Varying && error < m.most && !sees_by_parts(band_, mesh_, cell_, m.longest_px))
+  if (cell_.pattern.part == PatternRegion::Varying && error < m.most &&
+      !sees_by_parts(band_, mesh_, cell_, m.longest_px))
     error += pattern_error(seen);
   // Far above the frame's peak only the relative error counts.
   const double dimmed = passed * seen_share(m.mean, band_.peak);

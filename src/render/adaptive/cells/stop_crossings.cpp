@@ -7,7 +7,8 @@
 namespace contrejour::inline internal::adaptive {
 namespace {
 
-constexpr double kPatternDisc = 1.2;  // radius of a curved cell over its vertices' distance from its middle, in the stop
+constexpr double kPatternDisc =
+    1.2;  // radius of a curved cell over its vertices' distance from its middle, in the stop
 constexpr double kPixelReach = 0.75;  // pixels: slightly more than from a pixel's middle to its corners
 
 // series_of: returns the series of a field from a function that gives its value at a vertex.
@@ -45,7 +46,8 @@ stop_patterns::PatternView view_of_pattern(const BandContext& band, const Mesh& 
   // pattern, its neighbours must be, too.
   const double radius = std::sqrt(squared), per_px = radius / std::max(std::sqrt(squared_px), kPixelReach);
   stop_patterns::PatternView view = band.pattern->over(middle, kPatternDisc * radius + kPixelReach * per_px);
-  if (view.part == PatternRegion::Uniform && last > 0) view.part = PatternRegion::Varying;  // earlier crossings are sharp
+  if (view.part == PatternRegion::Uniform && last > 0)
+    view.part = PatternRegion::Varying;  // earlier crossings are sharp
   return view;
 }
 

@@ -32,7 +32,7 @@ std::span<const Corner> CellClipper::open_part(const Mesh& mesh, CellState state
       of.all.size() == of.shape.size() ? whole : in_frame(mesh, state, of.all, outline_);
   const PatchLayout& layout = mesh.layout;
   return band_.pattern ? cutter_.within_rims(whole, along, layout.crossings, layout.rims)
-                      : cutter_.open_part(whole, along, layout.crossings, layout.rims, arc_step_rad);
+                       : cutter_.open_part(whole, along, layout.crossings, layout.rims, arc_step_rad);
 }
 
 void CellClipper::for_each_open_part(const Mesh& mesh, const CellOutline& of, const OutlineCutter::OpenPart& visit) {

@@ -34,7 +34,8 @@ class PatternEmitter {
 
   const BandContext& band_;
   PolygonList& out_;
-  std::map<std::pair<const stop_patterns::BandStopPattern*, int>, const EdgeTable*> tables_;  // of stop patterns, by pixel width
+  std::map<std::pair<const stop_patterns::BandStopPattern*, int>, const EdgeTable*>
+      tables_;  // of stop patterns, by pixel width
   std::vector<std::uint16_t> active_;
   PlacedPolygon rest_, strip_;  // scratch for cutting along edges
   PointBuffer points_;
