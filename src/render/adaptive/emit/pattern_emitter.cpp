@@ -39,7 +39,7 @@ void PatternEmitter::emit(std::span<const Corner> polygon, double area_px, const
       rest_.keep_within({stop_patterns::PatternHull::normals()[k], band_.pattern->hull.most(k) + room}, map);
     if (!rest_.is_empty())
       out_.add(points_.points_of(rest_.corners()), shade,
-               Screened{.map = map.narrowed(looks), .screen = band_.pattern.get(), .looks = looks}, {});
+               Screened{.map = map.narrowed(looks), .pattern = band_.pattern.get(), .looks = looks}, {});
     return;
   }
   const EdgeTable& table = table_for(map.width() / looks);
@@ -85,7 +85,7 @@ void PatternEmitter::add_fringed(std::span<const PlacedCorner> polygon, const Sh
       active_.push_back(static_cast<std::uint16_t>(k));
   }
   out_.add(points_.points_of(polygon), shade,
-           Screened{.map = map.narrowed(looks), .screen = band_.pattern.get(), .edges = &table, .looks = looks},
+           Screened{.map = map.narrowed(looks), .pattern = band_.pattern.get(), .edges = &table, .looks = looks},
            active_);
 }
 

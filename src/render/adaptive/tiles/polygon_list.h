@@ -51,8 +51,8 @@ struct PastDirt {
 // A stop pattern in front of a polygon: the map from pixels to the stop, and the tables that are looked up there.
 struct Screened {
   StopMap map;
-  const stop_patterns::BandStopPattern* screen;  // null: there is only dirt
-  const EdgeTable* edges = nullptr;  // of `screen`, if it consists of edges' fringes
+  const stop_patterns::BandStopPattern* pattern;  // null: there is only dirt
+  const EdgeTable* edges = nullptr;  // of `pattern`, if it consists of edges' fringes
   std::uint32_t first = 0, count = 0;  // in PolygonList::bounds: bounds whose fringes reach the polygon
   std::uint32_t dirt = 0;              // k + 1: PolygonList::dirt[k]; 0: none
   int looks = 1;  // look-ups across a pixel, and down it; `map` has the width of the part of one
