@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// contrejour apply: a photograph in, the same photograph with the lens's flare out.
+// contrejour apply: adds the flare of a photograph's own lights to it.
 #include <memory>
 #include <string>
 #include <utility>
@@ -23,10 +23,10 @@ namespace contrejour::cli {
 namespace {
 
 constexpr const char* kApplyExamples =
-    "Bright areas of the picture become lights where they are, and the flare they make in the lens is added. All else\n"
-    "in the file stays as it is; a picture without lights comes back unchanged, bit for bit. IN and OUT may be the\n"
-    "same file. Without --hfov the picture is taken to fill the lens's sensor. --light and --light-at add lights that\n"
-    "the picture does not show, such as a sun outside it.\n\n"
+    "Bright areas of the picture become lights at their positions, and the flare that they cause in the lens is\n"
+    "added. Everything else in the file is unchanged; a picture without lights is copied bit for bit. IN and OUT\n"
+    "may be the same file. Without --hfov the picture is assumed to fill the lens's sensor. --light and --light-at\n"
+    "add lights that are not in the picture, such as a sun outside the frame.\n\n"
     "Examples:\n"
     "  contrejour apply canon-70-200 --focal 135 plate.exr -o out.exr --preview out.png\n"
     "  contrejour apply heliar -f 16 plate.exr -o out.exr --flare-only flare.exr --hfov 40 --json\n"
@@ -48,7 +48,7 @@ struct ApplyFiles {
   OutputFile *flare_only = nullptr, *detected = nullptr, *preview = nullptr, *look = nullptr;  // or null
 };
 
-Result<ApplyFiles> open_files(const ApplyOptions& options, Outputs& outputs) {
+Result<ApplyFiles> open_apply_files(const ApplyOptions& options, Outputs& outputs) {
   ApplyFiles files;
   const std::pair<const std::string&, OutputFile*&> all[] = {{options.output, files.output},
                                                              {options.flare_only, files.flare_only},
@@ -60,8 +60,8 @@ Result<ApplyFiles> open_files(const ApplyOptions& options, Outputs& outputs) {
 }
 
 Result<void> write_preview(const ApplyOptions& options, OutputFile& file, const Image& rgb, const Context& context) {
-  const PreviewSettings look = params::preview_settings(options.values, rgb, params::UsualExposure::AsItIs);
-  return write_preview_png(file, rgb, look, context);
+  const PreviewSettings preview = params::preview_settings(options.values, rgb, params::DefaultExposure::None);
+  return write_preview_png(file, rgb, preview, context);
 }
 
 // The detected lights are drawn over the photograph without flare, so they are written before the flare is added.
@@ -75,7 +75,7 @@ Result<void> write_all(const ApplyOptions& options, const ApplyFiles& files, Pic
   add_flare(picture.rgb, flare);
   ok = plan.lights.empty() ? copy_photograph(*files.output, options.input, picture, options.values, context)
                            : write_photograph(*files.output, picture, options.values, context);
-  if (ok && files.flare_only) ok = write_beside(*files.flare_only, flare, picture, plan, context);
+  if (ok && files.flare_only) ok = write_aligned(*files.flare_only, flare, picture, plan, context);
   if (ok && files.look) ok = files.look->write(params::write_look({{}, {}, options.lens, options.values}));
   if (ok && files.preview) ok = write_preview(options, *files.preview, picture.rgb, context);
   return ok;
@@ -115,7 +115,7 @@ Result<int> run_apply(ApplyOptions options) {
   if (const auto ok = fill_from_look(options.look, options.lens, options.values); !ok)
     return tl::unexpected(ok.error());
   Outputs outputs;
-  const auto files = open_files(options, outputs);
+  const auto files = open_apply_files(options, outputs);
   if (!files) return tl::unexpected(files.error());
   const auto lens = open_lens(options.lens, options.values);
   if (!lens) return tl::unexpected(lens.error());
@@ -131,28 +131,29 @@ Result<int> run_apply(ApplyOptions options) {
   return kDone;
 }
 
-// The error if only one of LENS and IN was given.
+// The error if only one of LENS and IN is given.
 CLI::ParseError missing_argument(const std::string& given) {
   const std::string ending = lower_extension(given);
   if (ending != ".exr" && ending != ".png") return CLI::RequiredError("IN");
   return CLI::RequiredError(
-      fmt::format("LENS before {} (`contrejour lens list`; or a look that names one, --look)", given));
+      fmt::format("LENS before {} (`contrejour lens list`, or a preset that names a lens, --look)", given));
 }
 
 }  // namespace
 
 void add_apply(CLI::App& app, Action& action) {
   const auto options = std::make_shared<ApplyOptions>();
-  CLI::App* command = app.add_subcommand("apply", "put the flare of a lens on a photograph");
+  CLI::App* command = app.add_subcommand("apply", "add the flare of a lens to a photograph");
   add_lens_argument(*command, options->lens);
-  command->add_option("IN", options->input, "a scene-linear EXR, or a PNG")->option_text(" ");
+  command->add_option("IN", options->input, "the photograph: a scene-linear EXR, or a PNG")->option_text(" ");
   add_picture_choice(*command, options->read);
   add_output(*command, "-o,--output", options->output, {".exr", ".png"}, "the photograph with flare")->required();
-  add_output(*command, "--flare-only", options->flare_only, {".exr"}, "only what the flare adds");
-  add_output(*command, "--detected", options->detected, {".exr", ".png"},
-             "what counts as lights: its pixels, or (PNG) the picture in grey with each light in a colour");
-  add_output(*command, "--preview", options->preview, {".png"}, "a PNG of the result to look at");
-  command->add_flag("--json", options->json, "report what was found as JSON");
+  add_output(*command, "--flare-only", options->flare_only, {".exr"}, "the flare alone");
+  add_output(
+      *command, "--detected", options->detected, {".exr", ".png"},
+      "the detected lights: an EXR of their pixels, or a PNG of the picture in grey with each light in a colour");
+  add_output(*command, "--preview", options->preview, {".png"}, "a preview of the result as PNG");
+  command->add_flag("--json", options->json, "print the report on the detected lights as JSON");
   add_look_options(*command, options->look);
   add_parameters(*command, options->values, {"exposure"});
   add_parameters(*command, options->values,

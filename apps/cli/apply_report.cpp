@@ -25,17 +25,17 @@ const char* source_name(ThresholdSource source) {
 
 const char* source_text(ThresholdSource source) {
   switch (source) {
-    case ThresholdSource::Clipped: return " (the picture ends at white)";
+    case ThresholdSource::Clipped: return " (the picture is clipped at white)";
     case ThresholdSource::Brightest:
-      return " (no gap between lights and what they light: two stops below the brightest)";
-    case ThresholdSource::Region: return " (two stops below the brightest of the region)";
+      return " (no gap in brightness between the lights and what they illuminate: two stops below the brightest)";
+    case ThresholdSource::Region: return " (two stops below the brightest pixel of the region)";
     default: return "";
   }
 }
 
 Json given_json(const FlarePlan& plan) {
   Json given = Json::array();
-  for (std::size_t k = plan.lights.size() - plan.given_lights; k < plan.lights.size(); ++k) {
+  for (std::size_t k = plan.lights.size() - plan.given_light_count; k < plan.lights.size(); ++k) {
     const LightAngles angles = angles_from_direction(plan.lights[k].direction);
     given.push_back({{"azimuth_deg", angles.azimuth_rad / params::kDegree_rad},
                      {"elevation_deg", angles.elevation_rad / params::kDegree_rad},
@@ -44,22 +44,22 @@ Json given_json(const FlarePlan& plan) {
   return given;
 }
 
-std::string nothing_found(const FlarePlan& plan) {
+std::string no_lights_text(const FlarePlan& plan) {
   const Detection& found = plan.found;
-  std::string text = fmt::format("no lights: no pixel is above {:.4g}", found.threshold);
+  std::string text = fmt::format("no lights were detected, because no pixel is above {:.4g}", found.threshold);
   if (found.areas_found == 0 && !found.areas.empty())
-    text = "no lights: all bright areas are smaller than --min-pixels";
-  if (!(found.brightest > 0.0)) return text + "; all is black\n";
+    text = "no lights were detected, because all bright areas are smaller than --min-pixels";
+  if (!(found.brightest > 0.0)) return text + "; the picture is black\n";
   const Vec2 uv = plan.grid.frame.uv_from_sensor(plan.grid.sensor_from_pixel(found.brightest_px));
   return text + fmt::format(
-                    "; the brightest has {:.4g}, at {:.1f}, {:.1f} px (white is 1).\n"
-                    "Try --threshold {:.2g}, --region with the corners of what shines, or a light by hand:\n"
-                    "--light-at {:.3f},{:.3f}:VALUE, with VALUE what its image would sum to, some 1000 and more\n",
+                    "; the brightest pixel has {:.4g}, at {:.1f}, {:.1f} px (white is 1).\n"
+                    "Give --threshold {:.2g}, a --region around the light, or the light itself as\n"
+                    "--light-at {:.3f},{:.3f}:VALUE, where VALUE is the sum of its image, typically 1000 or more\n",
                     found.brightest, found.brightest_px.x, found.brightest_px.y, 0.5 * found.brightest, uv.x, uv.y);
 }
 
-std::string table_of_found(const FlarePlan& plan) {
-  std::string text = fmt::format("{} bright areas above {:.4g}{}, taken as {} lights\n", plan.found.areas_found,
+std::string detected_lights_text(const FlarePlan& plan) {
+  std::string text = fmt::format("{} bright areas above {:.4g}{} are {} lights\n", plan.found.areas_found,
                                  plan.found.threshold, source_text(plan.found.source), plan.found.lights.size());
   TextTable table({"light", "x px", "y px", "azimuth deg", "elevation deg", "flux R", "G", "B", "radius px", "pixels",
                    "peak", "areas"});
@@ -108,25 +108,25 @@ Json report_json(const FlarePlan& plan) {
 
 Json visibility_json(const FlareVisibility& visibility) {
   return {{"brightest", visibility.brightest},
-          {"over_picture", visibility.over_picture},
-          {"stops_to_plain", visibility.stops_to_plain ? Json(*visibility.stops_to_plain) : Json()}};
+          {"over_picture", visibility.relative_to_picture},
+          {"stops_to_plain", visibility.stops_to_obvious ? Json(*visibility.stops_to_obvious) : Json()}};
 }
 
 std::string visibility_text(const FlareVisibility& visibility, std::size_t lights) {
   if (lights == 0) return {};
-  if (!visibility.stops_to_plain) return "the flare misses the picture, or nearly so\n";
+  if (!visibility.stops_to_obvious) return "no visible part of the flare falls on the picture\n";
   const std::string text =
-      fmt::format("the flare adds {:.3g} per cent to what is beneath its brightest parts (value {:.2g})",
-                  100.0 * visibility.over_picture, visibility.brightest);
-  if (!(*visibility.stops_to_plain > 0.0)) return text + "\n";
-  return text + fmt::format("; {:.1f} stops more would make it plain (--stops)\n", *visibility.stops_to_plain);
+      fmt::format("the flare adds {:.3g} per cent to the picture below its brightest parts (level {:.2g})",
+                  100.0 * visibility.relative_to_picture, visibility.brightest);
+  if (!(*visibility.stops_to_obvious > 0.0)) return text + "\n";
+  return text + fmt::format("; it would be obvious with {:.1f} more stops (--stops)\n", *visibility.stops_to_obvious);
 }
 
 std::string report_text(const FlarePlan& plan) {
   std::string text;
-  if (plan.found.lights.empty() && !plan.found.area_of_pixel.empty()) text = nothing_found(plan);
-  if (!plan.found.lights.empty()) text = table_of_found(plan);
-  if (plan.given_lights > 0) text += fmt::format("{} lights given\n", plan.given_lights);
+  if (plan.found.lights.empty() && !plan.found.area_of_pixel.empty()) text = no_lights_text(plan);
+  if (!plan.found.lights.empty()) text = detected_lights_text(plan);
+  if (plan.given_light_count > 0) text += fmt::format("{} lights were given as options\n", plan.given_light_count);
   return text;
 }
 

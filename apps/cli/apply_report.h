@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reports the lights that `apply` found in the picture and how visible its flare is: as JSON, or as text.
+// Reports the lights that `apply` detected in a photograph, and how visible their flare is, as JSON or as text.
 #pragma once
 
 #include <string>

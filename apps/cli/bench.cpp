@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// contrejour bench: measurements on this machine.
+// contrejour bench: measures how fast this machine renders.
 #include "cli/command.h"
 
 namespace contrejour::cli {
 
 void add_bench(CLI::App& app, Action& action) {
-  CLI::App* bench = app.add_subcommand("bench", "measure this machine");
+  CLI::App* bench = app.add_subcommand("bench", "measure how fast this machine renders");
   bench->require_subcommand(1);
   bench->footer(
       "Examples:\n  contrejour bench tables\n  contrejour bench tables --json tables.json\n"

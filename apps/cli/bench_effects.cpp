@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// contrejour bench effects: the costs of everything but ghosts on this machine, with their targets.
+// contrejour bench effects: measures the costs of all effects but ghosts, and compares them with targets.
 #include <memory>
 #include <string>
 
@@ -19,7 +19,7 @@ struct EffectsOptions {
   params::Values values;
 };
 
-Result<std::vector<Target>> measure_all(const EffectsOptions& options) {
+Result<std::vector<Target>> measure_effects(const EffectsOptions& options) {
   const LongTask task("effects", options.values.integer("threads"));
   auto scene = effect_scene(options.values, options.runs);
   if (!scene) return tl::unexpected(scene.error());
@@ -36,7 +36,7 @@ Result<std::vector<Target>> measure_all(const EffectsOptions& options) {
 Result<int> run_effects(const EffectsOptions& options) {
   BenchFile json;
   if (const auto ok = json.open(options.json); !ok) return tl::unexpected(ok.error());
-  const auto targets = measure_all(options);
+  const auto targets = measure_effects(options);
   if (!targets) return tl::unexpected(targets.error());
   if (const auto ok = json.write(BenchRows(), *targets); !ok) return tl::unexpected(ok.error());
   print(machine_text());
@@ -49,16 +49,13 @@ Result<int> run_effects(const EffectsOptions& options) {
 void add_bench_effects(CLI::App& bench, Action& action) {
   const auto options = std::make_shared<EffectsOptions>();
   CLI::App* command = bench.add_subcommand(
-      "effects", "starburst, dirt, lights with a size and many lights: times beside their targets");
+      "effects", "measure starbursts, dirt, extended lights and many lights, compared with their targets");
   add_output(*command, "--json", options->json, {".json"}, "write the targets to this file");
-  command->add_option("--runs", options->runs, "of so many runs the fastest counts")
-      ->capture_default_str()
-      ->check(CLI::Range(1, 1000));
+  add_number(*command, "--runs", options->runs, 1, 1000, "number of runs, of which the fastest counts");
   add_parameters(*command, options->values, {"size", "threads"});
   command->footer(
-      "planar-50 at f/8 with 7 blades and one light; the sun beside a point with other lenses too; many lights with "
-      "the\n"
-      "Heliar at 64x36. Targets in ms are for two cores.\n\n"
+      "The lens is planar-50 at f/8 with 7 blades and one light. The sun is also compared with a point in other\n"
+      "lenses, and many lights with one in the Heliar at 64x36. Targets in ms apply to two cores.\n\n"
       "Examples:\n"
       "  contrejour bench effects --threads 2\n"
       "  contrejour bench effects --runs 10 --json effects.json");

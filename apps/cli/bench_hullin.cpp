@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// contrejour bench hullin: figures of hullin2011, measured on this machine.
+// contrejour bench hullin: reproduces figures of hullin2011 and measures their times.
 #include <algorithm>
 #include <filesystem>
 #include <memory>
@@ -26,9 +26,9 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kBenchHullinExamples =
-    "`bundle` is the paper's method; its figures are those of a GeForce GTX 285 (17) and a GTX 580 (19). Pixels are\n"
-    "covered exactly here, which stands for the paper's supersampling. The reference renderer of figure 19 takes\n"
-    "minutes at full size.\n\n"
+    "The method `bundle` is the paper's. Its times are those of a GeForce GTX 285 (figure 17) and a GTX 580 (19).\n"
+    "The exact coverage of pixels takes the place of the paper's supersampling. The reference renderer of figure 19\n"
+    "takes minutes at full size.\n\n"
     "Examples:\n"
     "  contrejour bench hullin\n"
     "  contrejour bench hullin --figures 17,grids --size 480x270\n"
@@ -41,16 +41,16 @@ struct HullinOptions {
   params::Values values;
 };
 
-// Writes an EXR to measure and a PNG to look at.
+// Writes an EXR for measurements and a PNG as a preview.
 Result<void> write_pictures(const fs::path& folder, const std::string& name, const Image& image,
                             const params::Values& values) {
   if (auto ok = write_exr(folder / (name + ".exr"), image); !ok) return ok;
   return write_preview_png(folder / (name + ".png"), image,
-                           params::preview_settings(values, image, params::UsualExposure::Automatic));
+                           params::preview_settings(values, image, params::DefaultExposure::Automatic));
 }
 
-bool is_wanted(const std::vector<std::string>& wanted, std::string_view one) {
-  return wanted.empty() || std::ranges::find(wanted, one) != wanted.end();
+bool is_selected(const std::vector<std::string>& selected, std::string_view name) {
+  return selected.empty() || std::ranges::find(selected, name) != selected.end();
 }
 
 Result<int> run_hullin(const HullinOptions& options) {
@@ -62,7 +62,7 @@ Result<int> run_hullin(const HullinOptions& options) {
   if (!options.pictures.empty()) {
     std::error_code failed;
     fs::create_directories(options.pictures, failed);
-    if (failed) return failure(ErrorCode::Io, "this folder cannot be made: " + failed.message(), {options.pictures});
+    if (failed) return failure(ErrorCode::Io, "the folder cannot be created: " + failed.message(), {options.pictures});
     running.show = [&](const std::string& name, const Image& image) {
       return write_pictures(options.pictures, name, image, options.values);
     };
@@ -70,10 +70,10 @@ Result<int> run_hullin(const HullinOptions& options) {
   std::vector<HullinRow> all;
   std::string text = machine_text();
   for (const HullinFigure& figure : hullin_figures()) {
-    if (!is_wanted(options.figures, figure.key)) continue;
+    if (!is_selected(options.figures, figure.key)) continue;
     std::vector<HullinRow> rows;
     for (const HullinSystem& system : figure.systems) {
-      if (!is_wanted(options.lenses, system.lens)) continue;
+      if (!is_selected(options.lenses, system.lens)) continue;
       const auto more = figure.measure(system, options.values, running);
       if (!more) return tl::unexpected(more.error());
       rows.insert(rows.end(), more->begin(), more->end());
@@ -93,26 +93,25 @@ Result<int> run_hullin(const HullinOptions& options) {
 
 void add_bench_hullin(CLI::App& bench, Action& action) {
   const auto options = std::make_shared<HullinOptions>();
-  CLI::App* command = bench.add_subcommand("hullin", "hullin2011's figures 15, 17, 19 and its coarse grids");
+  CLI::App* command =
+      bench.add_subcommand("hullin", "measure figures 15, 17 and 19 of hullin2011, and its coarse grids");
   std::set<std::string> figures, lenses;
   for (const HullinFigure& figure : hullin_figures()) {
     figures.emplace(figure.key);
     for (const HullinSystem& system : figure.systems) lenses.emplace(system.lens);
   }
-  command->add_option("--figures", options->figures, "15, 17, 19, grids (default: all)")
+  command->add_option("--figures", options->figures, "the figures to measure: 15, 17, 19, grids (default: all)")
       ->option_text("LIST")
       ->delimiter(',')
       ->check(CLI::IsMember(figures));
-  command->add_option("--lenses", options->lenses, "only these of the figures' lenses")
+  command->add_option("--lenses", options->lenses, "measure only these lenses")
       ->option_text("LIST")
       ->delimiter(',')
       ->check(CLI::IsMember(lenses));
   command->add_option("--pictures", options->pictures, "write every picture to this folder, as EXR and as PNG")
       ->option_text("FOLDER");
   add_output(*command, "--json", options->json, {".json"}, "write the figures to this file");
-  command->add_option("--runs", options->running.runs, "of so many runs the fastest counts")
-      ->capture_default_str()
-      ->check(CLI::Range(1, 1000));
+  add_number(*command, "--runs", options->running.runs, 1, 1000, "number of runs, of which the fastest counts");
   add_parameters(*command, options->values, {"size", "grid", "density", "exposure", "threads"});
   command->footer(kBenchHullinExamples);
   command->callback([options, &action] { action = [options] { return run_hullin(*options); }; });

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// contrejour bench lenses: the costs of frames of many lens files, compared with the bundled Canon zoom's.
+// contrejour bench lenses: measures frames of many lens files relative to those of the bundled Canon zoom.
 #include <filesystem>
 #include <fstream>
 #include <memory>
@@ -19,15 +19,16 @@ namespace contrejour::cli {
 namespace {
 
 constexpr const char* kBenchLensesExamples =
-    "One light at u,v = 0.7,0.35, at f/8 (a slower lens: its widest) and wide open, 320x180 and 1920x1080 pixels. A\n"
-    "first frame is one of a fresh process of this program; warm ones are rendered here, after one that does not\n"
-    "count. Times are those of rendering: reading the lens and writing a file are not in them. A ghost's cost is the\n"
-    "first frame's time over the number of ghosts, beside canon-70-200 at 135 mm, measured in the same run.\n\n"
+    "Each lens is rendered with one light at u,v = 0.7,0.35, at f/8 (or the maximum aperture of a slower lens) and\n"
+    "at maximum aperture, with 320x180 and 1920x1080 pixels. A first frame is rendered by a new process; warm\n"
+    "frames are rendered by this process after one that does not count. Times exclude the reading of the lens and\n"
+    "the writing of files. The cost of a ghost is the time of the first frame over the number of ghosts, relative\n"
+    "to canon-70-200 at 135 mm in the same run.\n\n"
     "Examples:\n"
     "  contrejour bench lenses my-lens.toml other.zmx\n"
     "  contrejour bench lenses --list bench/lens_files.txt --folder ~/lenses --json lenses.json";
 
-const BenchedLens kYardstick{"canon-70-200", 135.0};
+const BenchedLens kBaselineLens{"canon-70-200", 135.0};
 
 struct LensesOptions {
   std::vector<std::string> files;
@@ -37,12 +38,12 @@ struct LensesOptions {
   params::Values values;
 };
 
-// The names in a list, one a line; empty lines and lines that begin with # are skipped.
-Result<std::vector<std::string>> files_of(const LensesOptions& options) {
+// The names in a list, one on each line; empty lines and lines that begin with # are skipped.
+Result<std::vector<std::string>> listed_files(const LensesOptions& options) {
   std::vector<std::string> files = options.files;
   if (options.list.empty()) return files;
   std::ifstream list(options.list);
-  if (!list) return failure(ErrorCode::Io, "cannot be read", {options.list});
+  if (!list) return failure(ErrorCode::Io, "the list cannot be read", {options.list});
   const std::filesystem::path folder = options.folder.empty() ? std::filesystem::path(options.list).parent_path()
                                                               : std::filesystem::path(options.folder);
   for (std::string line; std::getline(list, line);) {
@@ -61,14 +62,15 @@ Result<BenchedFrames> measure_lens(const BenchedLens& lens, const LensesOptions&
   return measured;
 }
 
-Result<LensBench> measure_all(const LensesOptions& options) {
-  const auto files = files_of(options);
+Result<LensBench> measure_lenses(const LensesOptions& options) {
+  const auto files = listed_files(options);
   if (!files) return tl::unexpected(files.error());
-  if (files->empty()) return failure(ErrorCode::InvalidArgument, "no lens to measure; name files, or a --list of them");
+  if (files->empty())
+    return failure(ErrorCode::InvalidArgument, "there is no lens to measure; give lens files, or a --list of them");
   LensBench bench;
-  auto yardstick = measure_lens(kYardstick, options);
-  if (!yardstick) return tl::unexpected(yardstick.error());
-  bench.yardstick = std::move(*yardstick);
+  auto baseline = measure_lens(kBaselineLens, options);
+  if (!baseline) return tl::unexpected(baseline.error());
+  bench.baseline = std::move(*baseline);
   for (const std::string& file : *files) {
     auto measured = measure_lens({file}, options);
     if (measured) {
@@ -94,7 +96,7 @@ Result<int> run_lenses(const LensesOptions& options) {
   Outputs outputs;
   const auto json = outputs.add(options.json);
   if (!json) return tl::unexpected(json.error());
-  const auto bench = measure_all(options);
+  const auto bench = measure_lenses(options);
   if (!bench) return tl::unexpected(bench.error());
   if (*json != nullptr) {
     if (const auto ok = (*json)->write(json_text(lens_bench_json(*bench, options.running))); !ok)
@@ -102,7 +104,7 @@ Result<int> run_lenses(const LensesOptions& options) {
     if (const auto ok = outputs.commit(); !ok) return tl::unexpected(ok.error());
   }
   print(machine_text());
-  print(options.running.processor_time ? "processor time of all threads\n" : "time by the clock\n");
+  print(options.running.processor_time ? "processor time of all threads\n" : "elapsed time\n");
   print(lens_bench_text(*bench));
   return bench->refused.empty() ? kDone : kFailed;
 }
@@ -111,20 +113,21 @@ Result<int> run_lenses(const LensesOptions& options) {
 
 void add_bench_lenses(CLI::App& bench, Action& action) {
   const auto options = std::make_shared<LensesOptions>();
-  CLI::App* command = bench.add_subcommand("lenses", "many lens files: first and warm frames, and a ghost's cost");
+  CLI::App* command =
+      bench.add_subcommand("lenses", "measure many lenses: first and warm frames, and the cost of a ghost");
   command->add_option("LENS", options->files, "lens files or names")->option_text("...");
-  command->add_option("--list", options->list, "a file that names lens files, one a line")->option_text("FILE");
-  command->add_option("--folder", options->folder, "where the files of the list are (default: beside the list)")
+  command->add_option("--list", options->list, "a file that lists lens files, one on each line")->option_text("FILE");
+  command->add_option("--folder", options->folder, "the folder of the listed files (default: that of the list)")
       ->option_text("FOLDER");
   add_output(*command, "--json", options->json, {".json"}, "write all figures to this file");
-  command->add_option("--runs", options->running.runs, "of so many frames of milliseconds the fastest counts")
-      ->capture_default_str()
-      ->check(CLI::Range(1, 1000));
-  command->add_flag("--warm-only", options->running.warm_only, "start no fresh processes");
-  command->add_flag("--processor-time", options->running.processor_time,
-                    "times of all threads together instead of the clock's, for a machine that has other work");
+  add_number(*command, "--runs", options->running.runs, 1, 1000,
+             "number of frames, of which the fastest counts; frames that take seconds are rendered once");
+  command->add_flag("--warm-only", options->running.warm_only, "measure warm frames only, without new processes");
+  command->add_flag(
+      "--processor-time", options->running.processor_time,
+      "measure the processor time of all threads in place of elapsed time, for a machine with other work");
   add_parameters(*command, options->values, {"wavelengths", "ghosts", "error", "threads"});
-  // Only fresh processes are started with this option, so that the help omits it.
+  // The program gives this option to its new processes only; the help omits it.
   command->add_flag("--first-frame", options->first_frame)->group("");
   add_parameters(*command, options->values, {"focal", "fnumber", "size"});
   for (const char* hidden : {"--focal", "--fnumber", "--size"}) command->get_option(hidden)->group("");

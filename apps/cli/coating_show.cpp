@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// contrejour coating show: a coating's reflectance, as numbers and as a drawing.
+// contrejour coating show: prints and plots a coating's reflectance.
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -7,13 +7,13 @@
 
 #include <fmt/format.h>
 
-#include "cli/coating_glass.h"
 #include "cli/command.h"
 #include "cli/console.h"
 #include "cli/options.h"
 #include "cli/outputs.h"
 #include "cli/reflectance_plot.h"
 #include "cli/reflected_colour.h"
+#include "cli/substrate_option.h"
 #include "cli/text_table.h"
 #include "contrejour/expert/parameter_text.h"
 
@@ -21,7 +21,7 @@ namespace contrejour::cli {
 namespace {
 
 constexpr const char* kCoatingShowExamples =
-    "R is the unpolarised reflectance from air. A coating is written as for --coating.\n\n"
+    "R is the reflectance of unpolarised light incident from air. COATING is a value of --coating.\n\n"
     "Examples:\n"
     "  contrejour coating show quarter-wave\n"
     "  contrejour coating show broadband-5:540 --glass 1.85,23.8 -o r.svg\n"
@@ -30,7 +30,7 @@ constexpr const char* kCoatingShowExamples =
 constexpr double kTableFirst_nm = 400.0, kTableLast_nm = 700.0, kTableStep_nm = 20.0;
 constexpr std::array kTableAngles_deg{0.0, 30.0, 60.0};
 
-struct ShowOptions {
+struct CoatingShowOptions {
   std::string coating, glass, output;
   bool json = false;
 };
@@ -40,7 +40,7 @@ double percent_at(const Coating& coating, const Glass& glass, double nm, double 
   return 100.0 * reflectance(at_wavelength(coating, nm), 1.0, refractive_index(glass, nm), cos_in, nm);
 }
 
-// The mean and the largest reflectance at normal incidence, over the part of the spectrum that makers specify.
+// The mean and the largest reflectance at normal incidence, over the range that makers specify.
 struct Summary {
   static constexpr double kFirst_nm = 420.0, kLast_nm = 680.0;
   double mean_percent = 0.0, peak_percent = 0.0;
@@ -86,8 +86,8 @@ void print_text(const Coating& coating, const Glass& glass) {
   const Summary s = summary_of(coating, glass);
   const Xyz colour = colour_of(coating, glass);
   out += table.text();
-  out += fmt::format("\n420 to 680 nm: mean {:.3f} %, peak {:.3f} %\nof daylight: {:.3f} %, {}\n", s.mean_percent,
-                     s.peak_percent, 100.0 * colour[1], shown_as(colour));
+  out += fmt::format("\n420 to 680 nm: mean {:.3f} %, peak {:.3f} %\ndaylight: {:.3f} %, {}\n", s.mean_percent,
+                     s.peak_percent, 100.0 * colour[1], srgb_text(colour));
   print(out);
 }
 
@@ -119,15 +119,15 @@ void print_as_json(const Coating& coating, const Glass& glass) {
               {"peak_420_680", 0.01 * s.peak_percent},
               {"luminous_reflectance", colour[1]},
               {"chromaticity", chromaticity(colour)},
-              {"shown_as", shown_as(colour)}});
+              {"shown_as", srgb_text(colour)}});
 }
 
-Result<int> run_show(const ShowOptions& options) {
-  const auto glass = parse_glass(options.glass);
+Result<int> run_coating_show(const CoatingShowOptions& options) {
+  const auto glass = parse_substrate(options.glass);
   if (!glass) return tl::unexpected(glass.error());
-  const auto asked = params::parse_coating(options.coating);
-  if (!asked) return tl::unexpected(asked.error());
-  const Coating coating = placed_on(*asked, air(), *glass);
+  const auto requested = params::parse_coating(options.coating);
+  if (!requested) return tl::unexpected(requested.error());
+  const Coating coating = placed_on(*requested, air(), *glass);
   if (!options.output.empty()) {
     Outputs outputs;
     const auto file = outputs.add(options.output);
@@ -145,16 +145,16 @@ Result<int> run_show(const ShowOptions& options) {
 }  // namespace
 
 void add_coating_show(CLI::App& coating, Action& action) {
-  const auto options = std::make_shared<ShowOptions>();
-  CLI::App* command = coating.add_subcommand("show", "what a coating reflects, over wavelength and angle");
-  command->add_option("coating", options->coating, "as for --coating: a design, a stack, ...")
+  const auto options = std::make_shared<CoatingShowOptions>();
+  CLI::App* command = coating.add_subcommand("show", "show the reflectance of a coating over wavelength and angle");
+  command->add_option("COATING", options->coating, "a coating, as for --coating: a design, a stack, ...")
       ->required()
-      ->type_name("COATING");
-  add_glass_option(*command, options->glass);
-  add_output(*command, "-o,--output", options->output, {".svg"}, "a drawing of it");
-  command->add_flag("--json", options->json, "as JSON");
+      ->option_text(" ");
+  add_substrate_option(*command, options->glass);
+  add_output(*command, "-o,--output", options->output, {".svg"}, "a plot of the reflectance");
+  command->add_flag("--json", options->json, "print JSON");
   command->footer(kCoatingShowExamples);
-  command->callback([options, &action] { action = [options] { return run_show(*options); }; });
+  command->callback([options, &action] { action = [options] { return run_coating_show(*options); }; });
 }
 
 }  // namespace contrejour::cli

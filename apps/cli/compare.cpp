@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// contrejour compare: the differences of picture B from picture A.
+// contrejour compare: measures how far picture B differs from picture A.
 #include <algorithm>
 #include <memory>
 #include <string>
@@ -16,8 +16,8 @@ namespace contrejour::cli {
 namespace {
 
 constexpr const char* kCompareExamples =
-    "PSNR is 10 log10(P^2 / mean square error) over the RGB samples, both pictures clipped at P and -P, P being the\n"
-    "99.9th percentile of A. The flux ratio is the sum of B over the sum of A, per channel.\n\n"
+    "PSNR is 10 log10(P^2 / mean square error) over the RGB samples, with both pictures clipped at P and -P, where\n"
+    "P is the 99.9th percentile of A. The flux ratio is the sum of B over the sum of A, per channel.\n\n"
     "Examples:\n"
     "  contrejour compare reference.exr bundle.exr\n"
     "  contrejour compare reference.exr bundle.exr --json\n"
@@ -46,7 +46,9 @@ void add_names(CLI::App& command, const std::string& flag, std::vector<std::stri
 }
 
 void check_names(const std::string& flag, const std::vector<std::string>& names) {
-  if (names.size() > 2) throw CLI::ValidationError(flag, "at most twice: for A and for B");
+  if (names.size() > 2)
+    throw CLI::ValidationError(
+        flag, "is given more than twice; give it once for both pictures, or once for A and once for B");
 }
 
 Json comparison_json(const Comparison& c) {
@@ -61,7 +63,8 @@ std::string comparison_text(const Comparison& c) {
   std::string text = c.psnr_db ? fmt::format("PSNR           {:.3f} dB\n", *c.psnr_db) : "PSNR           equal\n";
   text += fmt::format("peak           {:.9g}\nlargest error  {:.9g}\nflux ratio    ", c.peak, c.max_abs_error);
   for (const double ratio : c.flux_ratio) text += fmt::format(" {:.9g}", ratio);
-  if (c.non_finite_mismatches > 0) text += fmt::format("\nnot finite in one only: {} samples", c.non_finite_mismatches);
+  if (c.non_finite_mismatches > 0)
+    text += fmt::format("\nnot finite in one picture only: {} samples", c.non_finite_mismatches);
   return text + "\n";
 }
 
@@ -77,7 +80,7 @@ Result<int> run_compare(const CompareOptions& options) {
     return tl::unexpected(error);
   }
   if (a->data_window.x != b->data_window.x || a->data_window.y != b->data_window.y) {
-    print_warnings({"the data windows lie at different places; pixels are compared by their order in the files"});
+    print_warnings({"the data windows have different positions; pixels are compared by their order in the files"});
   }
   if (options.json) {
     print_json(comparison_json(*comparison));
@@ -91,12 +94,14 @@ Result<int> run_compare(const CompareOptions& options) {
 
 void add_compare(CLI::App& app, Action& action) {
   const auto options = std::make_shared<CompareOptions>();
-  CLI::App* command = app.add_subcommand("compare", "PSNR, largest error and flux ratio of two pictures");
-  command->add_option("A", options->a, "the picture taken as true")->required()->option_text(" ");
-  command->add_option("B", options->b, "the other")->required()->option_text(" ");
-  add_names(*command, "--layer", options->layers, "this layer of EXR files; given twice: A's, then B's (\"\": none)");
-  add_names(*command, "--part", options->parts, "this part of EXR files, by name or by number from 0; likewise");
-  command->add_flag("--json", options->json, "as JSON");
+  CLI::App* command = app.add_subcommand("compare", "compare two pictures: PSNR, largest error, flux ratio");
+  command->add_option("A", options->a, "the reference picture")->required()->option_text(" ");
+  command->add_option("B", options->b, "the picture to compare with it")->required()->option_text(" ");
+  add_names(*command, "--layer", options->layers,
+            "the layer of EXR files to read; give it twice for different layers of A and B (\"\": the default)");
+  add_names(*command, "--part", options->parts,
+            "the part of EXR files to read, by name or by number from 0; give it twice for different parts of A and B");
+  command->add_flag("--json", options->json, "print JSON");
   command->footer(kCompareExamples);
   command->callback([options, &action] {
     check_names("--layer", options->layers);

@@ -13,22 +13,22 @@
 namespace contrejour::cli {
 namespace {
 
-constexpr double kLast = std::numeric_limits<double>::infinity();
+constexpr double kSortedLast = std::numeric_limits<double>::infinity();
 
 // The key that ghosts are sorted by, in increasing order.
 double rank_of(const GhostFigures& g, GhostOrder order) {
   switch (order) {
     case GhostOrder::Flux: return -g.relative_flux;
     case GhostOrder::Peak: return -g.peak_irradiance;
-    case GhostOrder::Size: return g.relative_flux > 0.0 ? g.size_mm.x * g.size_mm.y : kLast;
-    case GhostOrder::Focus: return g.first_order.focus_mm ? std::abs(*g.first_order.focus_mm) : kLast;
+    case GhostOrder::Size: return g.relative_flux > 0.0 ? g.size_mm.x * g.size_mm.y : kSortedLast;
+    case GhostOrder::Focus: return g.first_order.focus_mm ? std::abs(*g.first_order.focus_mm) : kSortedLast;
   }
   return 0.0;
 }
 
 Json or_null(const std::optional<double>& value) { return value ? Json(*value) : Json(); }
 
-std::string flags_of(const GhostFigures& g) {
+std::string flags_text(const GhostFigures& g) {
   std::string flags = g.in_focus ? "focus" : "";
   if (g.pupil_ghost) flags += flags.empty() ? "pupil" : ",pupil";
   return flags;
@@ -81,7 +81,7 @@ std::string ghosts_text(const std::vector<GhostFigures>& figures) {
                pixels(g.centroid_px.x), pixels(g.centroid_px.y), pixels(g.size_px.x), pixels(g.size_px.y),
                mm(g.centroid_mm.x), mm(g.centroid_mm.y), mm(g.size_mm.x), mm(g.size_mm.y), number(g.rgb[0]),
                number(g.rgb[1]), number(g.rgb[2]), focus_mm ? pixels(*focus_mm) : "-", number(g.first_order.blur_mm),
-               flags_of(g)});
+               flags_text(g)});
   }
   return table.text();
 }

@@ -10,7 +10,7 @@
 
 namespace contrejour::cli {
 
-enum class GhostOrder { Flux, Peak, Size, Focus };  // the brightest, the smallest, the nearest to focus first
+enum class GhostOrder { Flux, Peak, Size, Focus };  // brightest (Flux, Peak), smallest or nearest to focus first
 
 void sort_ghosts(std::vector<GhostFigures>& figures, GhostOrder order);
 

@@ -18,9 +18,9 @@
 namespace contrejour::cli {
 namespace {
 
-constexpr double kBeyondCorner = 1.5;  // of the corner's field angle: lights outside the picture have ghosts as well
-constexpr double kMostField_deg = 85.0;
-constexpr double kSmallestStop = 22.0;  // f-number, unless the lens's widest is larger
+constexpr double kMaxFieldOverCorner = 1.5;  // because lights outside the picture have ghosts as well
+constexpr double kMaxField_deg = 85.0;
+constexpr double kMaxFNumber = 22.0;  // or twice the f-number of the lens's maximum aperture, if that is larger
 
 double field_of_corner_deg(const LensState& lens) {
   const double half_mm = 0.5 * std::hypot(lens.sensor_width_mm, lens.sensor_height_mm);
@@ -31,12 +31,14 @@ double field_of_corner_deg(const LensState& lens) {
 Result<std::array<double, 2>> ends_of(const SweepRange& range, const Prescription& lens, const LensState& state) {
   if (range.ends) return *range.ends;
   switch (range.axis) {
-    case SweepAxis::Field: return std::array{0.0, std::min(kBeyondCorner * field_of_corner_deg(state), kMostField_deg)};
-    case SweepAxis::FNumber: return std::array{lens.f_number, std::max(kSmallestStop, 2.0 * lens.f_number)};
+    case SweepAxis::Field:
+      return std::array{0.0, std::min(kMaxFieldOverCorner * field_of_corner_deg(state), kMaxField_deg)};
+    case SweepAxis::FNumber: return std::array{lens.f_number, std::max(kMaxFNumber, 2.0 * lens.f_number)};
     case SweepAxis::Focal: break;
   }
   if (lens.zoom.size() < 2)
-    return failure(ErrorCode::InvalidArgument, "--sweep focal: the lens is no zoom; sweep field or fnumber");
+    return failure(ErrorCode::InvalidArgument,
+                   "--sweep focal needs a zoom lens, and this lens has one focal length; sweep field or fnumber");
   return std::array{lens.zoom.front().focal_length_mm, lens.zoom.back().focal_length_mm};
 }
 
@@ -53,14 +55,14 @@ std::vector<double> values_between(SweepAxis axis, const std::array<double, 2>& 
 }
 
 // The direction at a field angle in the plane of the given direction and the axis; upwards if that is the axis.
-Vec3 at_field(Vec3 direction, double field_deg) {
+Vec3 direction_at_field(Vec3 direction, double field_deg) {
   const double across = std::hypot(direction.x, direction.y);
-  const Vec2 side = across > 0.0 ? Vec2{direction.x / across, direction.y / across} : Vec2{0.0, -1.0};
+  const Vec2 sideways = across > 0.0 ? Vec2{direction.x / across, direction.y / across} : Vec2{0.0, -1.0};
   const double angle = field_deg * params::kDegree_rad;
-  return {side.x * std::sin(angle), side.y * std::sin(angle), std::cos(angle)};
+  return {sideways.x * std::sin(angle), sideways.y * std::sin(angle), std::cos(angle)};
 }
 
-// A step with everything that it computes from.
+// The configured lens and the request of one step.
 struct Step {
   LensState lens;
   FiguresRequest request;
@@ -76,7 +78,7 @@ Result<Step> step_at(const Prescription& lens, const params::Values& values, Swe
   if (!state) return tl::unexpected(state.error());
   auto request = figures_request(own, *state);
   if (!request) return tl::unexpected(request.error());
-  if (axis == SweepAxis::Field) request->light.direction = at_field(request->light.direction, value);
+  if (axis == SweepAxis::Field) request->light.direction = direction_at_field(request->light.direction, value);
   return Step{std::move(*state), std::move(*request)};
 }
 
@@ -87,7 +89,8 @@ Result<SweepRange> parse_sweep(std::string_view text) {
   const auto refused = [&] {
     return failure(
         ErrorCode::InvalidArgument,
-        fmt::format("\"{}\" is no sweep; write field, focal or fnumber, or with its ends, as in field:0:40", text));
+        fmt::format("\"{}\" is not a sweep; give field, focal or fnumber, and optionally the range, as in field:0:40",
+                    text));
   };
   SweepRange range;
   if (parts[0] == "focal")
@@ -101,7 +104,7 @@ Result<SweepRange> parse_sweep(std::string_view text) {
   const auto from = params::parse_real(parts[1]), to = params::parse_real(parts[2]);
   if (!from || !to || !(*from < *to)) return refused();
   const bool is_field = range.axis == SweepAxis::Field;
-  if (*from < 0.0 || (!is_field && *from == 0.0) || (is_field && *to > kMostField_deg)) return refused();
+  if (*from < 0.0 || (!is_field && *from == 0.0) || (is_field && *to > kMaxField_deg)) return refused();
   range.ends = std::array{*from, *to};
   return range;
 }

@@ -36,7 +36,7 @@ struct GhostSweep {
   std::vector<SweptGhost> ghosts;
 };
 
-// Everything that the sweep does not change is as in the values; field angles are on the light's side of the axis.
+// Settings that the sweep does not change are those of the values. Field angles are on the light's side of the axis.
 // Errors: those of the lens and its settings, a lens without zoom in a sweep of the focal length, Cancelled.
 [[nodiscard]] Result<GhostSweep> sweep_ghosts(const std::string& lens, const params::Values& values,
                                               const SweepRange& range, int steps);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// contrejour ghosts: each ghost of a lens, the brightest first; or all ghosts as a setting changes.
+// contrejour ghosts: lists the ghosts of a lens, the brightest first, or the worst case of each as a setting changes.
 #include <memory>
 #include <string>
 
@@ -22,18 +22,13 @@ namespace contrejour::cli {
 namespace {
 
 constexpr const char* kGhostsExamples =
-    "flux: the ghost's over the direct image's, wherever it lands. peak: its largest irradiance, mean over a pixel, "
-    "over "
-    "the\n"
-    "light's at the front of the lens. R x R: product of its surfaces' reflectances at normal incidence. Places and "
-    "sizes\n"
-    "in pixels of --size and in mm on the sensor, where right and up in the picture is negative. R, G, B: flux by "
-    "channel\n"
-    "for a white light. focus: from the sensor to where the ghost's near-axis light focuses, positive behind the "
-    "sensor;\n"
-    "blur: the first-order size of its spot there. Flags: focus, a spot of at most 1 per cent of the picture's "
-    "diagonal;\n"
-    "pupil, an image of the stop that stays in the middle of the picture wherever the light is.\n\n"
+    "flux: the flux of the ghost relative to the direct image's, also outside the frame. peak: its largest\n"
+    "irradiance, averaged over a pixel, relative to the irradiance at the front of the lens. R x R: product of the\n"
+    "reflectances of its surfaces at normal incidence. x, y, w, h: centroid, width and height in pixels of --size,\n"
+    "and in mm on the sensor, where the right and top of the picture are negative. R, G, B: flux by channel for a\n"
+    "white light. focus: distance from the sensor to the paraxial focus of the ghost, positive behind the sensor.\n"
+    "blur: first-order diameter of its spot on the sensor. Flags: focus, the spot is at most 1 per cent of the\n"
+    "picture's diagonal; pupil, an image of the stop that stays at the centre of the picture for every light.\n\n"
     "Examples:\n"
     "  contrejour ghosts heliar -f 16\n"
     "  contrejour ghosts canon-70-200 --focal 200 --light 4,3 --sort peak --csv\n"
@@ -113,8 +108,8 @@ Result<int> run_path(const GhostsOptions& options) {
   if (!lens) return tl::unexpected(lens.error());
   const auto ghost = choose_ghost(*lens, options.path);
   if (!ghost) return tl::unexpected(ghost.error());
-  const bool zemax = lower_extension(options.output) == ".zmx";
-  const auto written = zemax ? write_ghost_zmx(*lens, *ghost) : write_ghost_seq(*lens, *ghost);
+  const bool is_zemax = lower_extension(options.output) == ".zmx";
+  const auto written = is_zemax ? write_ghost_zmx(*lens, *ghost) : write_ghost_seq(*lens, *ghost);
   if (!written) return tl::unexpected(written.error());
   if (const auto ok = (*file)->write(written->text); !ok) return tl::unexpected(ok.error());
   if (const auto ok = outputs.commit(); !ok) return tl::unexpected(ok.error());
@@ -122,43 +117,47 @@ Result<int> run_path(const GhostsOptions& options) {
   return kDone;
 }
 
-// Refuses options that exclude each other.
-void check(const GhostsOptions& options) {
+// Refuses combinations of options that exclude each other.
+void check_combinations(const GhostsOptions& options) {
   const params::Values& values = options.values;
   if (values.list("light").size() + values.list("light-at").size() > 1)
-    throw CLI::ValidationError("--light", "the figures are of one light; give one");
+    throw CLI::ValidationError("--light",
+                               "is given more than once; the figures are those of a single light, so give one");
   const std::string ending = lower_extension(options.output);
   if (!options.path.empty()) {
-    if (!options.sweep.empty()) throw CLI::ValidationError("--path", "is of one lens; leave --sweep out");
+    if (!options.sweep.empty())
+      throw CLI::ValidationError("--path", "writes the path of one configuration; leave out --sweep");
     if (ending != ".zmx" && ending != ".seq")
-      throw CLI::ValidationError("--output", "give a .zmx or .seq for the path");
+      throw CLI::ValidationError("--output", "has another extension; the path needs a name that ends in .zmx or .seq");
     return;
   }
   if (options.sweep.empty()) {
     if (!options.output.empty())
-      throw CLI::ValidationError("--output", "is the heat map of a --sweep, or the file of a --path; give one of them");
+      throw CLI::ValidationError("--output", "has no content; give --sweep for a heat map, or --path for a lens file");
     return;
   }
   if (!options.output.empty() && ending != ".svg")
-    throw CLI::ValidationError("--output", "give an .svg for the heat map");
+    throw CLI::ValidationError("--output", "has another extension; the heat map needs a name that ends in .svg");
   if (options.sort == "size" || options.sort == "focus")
-    throw CLI::ValidationError("--sort", "a sweep is sorted by the worst flux or peak");
+    throw CLI::ValidationError("--sort", "does not apply to a sweep; sort a sweep by flux or peak");
   const SweepAxis axis = parse_sweep(options.sweep)->axis;
   if ((axis == SweepAxis::Focal && values.given("focal")) || (axis == SweepAxis::FNumber && values.given("fnumber")))
-    throw CLI::ValidationError("--sweep", "gives what the other option sets; leave that out");
+    throw CLI::ValidationError("--sweep", "varies a setting that another option fixes; leave out that option");
 }
 
 }  // namespace
 
 void add_ghosts(CLI::App& app, Action& action) {
   const auto options = std::make_shared<GhostsOptions>();
-  CLI::App* command = app.add_subcommand("ghosts", "each ghost: flux, peak, place, size, colour, focus; sweeps");
+  CLI::App* command =
+      app.add_subcommand("ghosts", "list the ghosts: flux, peak, position, size, colour, focus; sweep a setting");
   add_lens_argument(*command, options->lens);
-  CLI::Option* json = command->add_flag("--json", options->json, "as JSON");
-  command->add_flag("--csv", options->csv, "as comma-separated values")->excludes(json);
+  CLI::Option* json = command->add_flag("--json", options->json, "print JSON");
+  command->add_flag("--csv", options->csv, "print comma-separated values")->excludes(json);
   command
-      ->add_option("--sort", options->sort,
-                   "flux, peak (the brightest first), size (the smallest), focus (the nearest)")
+      ->add_option(
+          "--sort", options->sort,
+          "order of the ghosts: flux or peak (brightest first), size (smallest first), focus (nearest to focus first)")
       ->check(CLI::IsMember({"flux", "peak", "size", "focus"}))
       ->option_text("flux|peak|size|focus");
   const auto problem = [](const std::string& text) {
@@ -167,16 +166,15 @@ void add_ghosts(CLI::App& app, Action& action) {
   };
   command
       ->add_option("--sweep", options->sweep,
-                   "each ghost's worst case over field angles (of --light's azimuth), focal lengths or f-numbers")
+                   "the worst case of each ghost over field angles (in the plane of --light and the axis), focal "
+                   "lengths or f-numbers")
       ->check(CLI::Validator(problem, "", "sweep"))
       ->option_text("field|focal|fnumber[:FROM:TO]");
-  command->add_option("--steps", options->steps, "of a sweep (default: 13)")
-      ->check(CLI::Range(2, 200))
-      ->option_text("N");
+  add_number(*command, "--steps", options->steps, 2, 200, "number of steps of a sweep");
   add_ghost_option(*command, "--path", options->path,
-                   "write this ghost's path, surface by surface as the light meets them, for design programs");
+                   "write the optical path of this ghost as a sequential lens file for optical design programs");
   add_output(*command, "-o,--output", options->output, {".svg", ".zmx", ".seq"},
-             "a sweep's heat map, ghosts by steps (.svg); a path (.zmx, .seq)");
+             "the heat map of a sweep, ghosts by steps (.svg), or the file of a path (.zmx, .seq)");
   add_parameters(*command, options->values, {"light", "light-at", "colour", "light-distance"});
   add_lens_parameters(*command, options->values);
   hide_parameters(*command, kDirt);
@@ -184,7 +182,7 @@ void add_ghosts(CLI::App& app, Action& action) {
                  {"wavelength", "size", "hfov", "wavelengths", "ghosts", "reflections", "threads"});
   command->footer(kGhostsExamples);
   command->callback([options, &action] {
-    check(*options);
+    check_combinations(*options);
     action = [options] {
       if (!options->path.empty()) return run_path(*options);
       return options->sweep.empty() ? run_figures(*options) : run_sweep(*options);

@@ -32,7 +32,7 @@ std::vector<std::string> environment_paths() {
 void add_catalogue_option(CLI::App& command, std::vector<std::string>& paths) {
   command
       .add_option("--catalogue", paths,
-                  "your own glasses: an .agf file, a .yml of refractiveindex.info, or a folder of them")
+                  "your own catalogue: an .agf file, a .yml file of refractiveindex.info, or a folder of these")
       ->option_text("PATH");
 }
 

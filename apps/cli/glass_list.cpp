@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// contrejour glass list and closest: many glasses, one on each line.
+// contrejour glass list and closest: print many glasses, one on each line.
 #include <memory>
 
 #include <fmt/format.h>
@@ -8,16 +8,17 @@
 #include "cli/command.h"
 #include "cli/console.h"
 #include "cli/glass_choice.h"
+#include "cli/options.h"
 #include "cli/text_table.h"
 #include "contrejour/expert/parameter_text.h"
 
 namespace contrejour::cli {
 namespace {
 
-struct ListOptions {
+struct GlassListOptions {
   std::vector<std::string> catalogues, makers;
   bool json = false;
-  // of closest:
+  // For `closest` only.
   double n_d = 0, v_d = 0;
   int count = 5;
   bool obsolete = false;
@@ -42,31 +43,33 @@ CLI::Validator within(double low, double high) {
   const auto problem = [low, high](const std::string& text) {
     const auto value = params::parse_real(text);
     if (value && *value >= low && *value <= high) return std::string();
-    return fmt::format("{} is not a number from {} to {}", text, low, high);
+    return fmt::format("{} is out of range; give a number from {} to {}", text, low, high);
   };
   return {problem, "", "range"};
 }
 
-void add_common_options(CLI::App& command, ListOptions& options) {
-  command.add_option("--maker", options.makers, "only this maker's; may be repeated")->option_text("MAKER");
+void add_common_options(CLI::App& command, GlassListOptions& options) {
+  command.add_option("--maker", options.makers, "list only glasses of this maker; may be repeated")
+      ->option_text("MAKER");
   add_catalogue_option(command, options.catalogues);
-  command.add_flag("--json", options.json, "as JSON");
+  command.add_flag("--json", options.json, "print JSON");
 }
 
 // A maker that is in no catalogue is an error.
-Result<void> check_makers(const GlassCatalogue& glasses, const std::vector<std::string>& wanted) {
-  for (const std::string& maker : wanted) {
+Result<void> check_makers(const GlassCatalogue& glasses, const std::vector<std::string>& makers) {
+  for (const std::string& maker : makers) {
     bool known = false;
     for (std::size_t k = 0; k < glasses.size() && !known; ++k)
       known = glasses.is_of(k, std::vector<std::string>{maker});
     if (known) continue;
-    return failure(ErrorCode::InvalidArgument, fmt::format("no catalogue has glasses of '{}'; there are those of {}",
-                                                           maker, fmt::join(glasses.makers(), ", ")));
+    return failure(ErrorCode::InvalidArgument,
+                   fmt::format("no catalogue has glasses of the maker \"{}\"; give one of {}", maker,
+                               fmt::join(glasses.makers(), ", ")));
   }
   return {};
 }
 
-Result<int> run_list(const ListOptions& options) {
+Result<int> run_glass_list(const GlassListOptions& options) {
   const auto glasses = all_glasses(options.catalogues);
   if (!glasses) return tl::unexpected(glasses.error());
   if (const auto known = check_makers(*glasses, options.makers); !known) return tl::unexpected(known.error());
@@ -89,7 +92,7 @@ Result<int> run_list(const ListOptions& options) {
   return kDone;
 }
 
-Result<int> run_closest(const ListOptions& options) {
+Result<int> run_closest(const GlassListOptions& options) {
   const auto glasses = all_glasses(options.catalogues);
   if (!glasses) return tl::unexpected(glasses.error());
   if (const auto known = check_makers(*glasses, options.makers); !known) return tl::unexpected(known.error());
@@ -116,25 +119,28 @@ Result<int> run_closest(const ListOptions& options) {
 }  // namespace
 
 void add_glass_list(CLI::App& glass, Action& action) {
-  const auto options = std::make_shared<ListOptions>();
-  CLI::App* command = glass.add_subcommand("list", "the glasses that are known, one line each");
+  const auto options = std::make_shared<GlassListOptions>();
+  CLI::App* command = glass.add_subcommand("list", "list all glasses, one on each line");
   add_common_options(*command, *options);
   command->footer(
       "Examples:\n  contrejour glass list --maker SCHOTT --maker OHARA\n  contrejour glass list --catalogue mine.agf "
       "--json");
-  command->callback([options, &action] { action = [options] { return run_list(*options); }; });
+  command->callback([options, &action] { action = [options] { return run_glass_list(*options); }; });
 }
 
 void add_glass_closest(CLI::App& glass, Action& action) {
-  const auto options = std::make_shared<ListOptions>();
-  CLI::App* command = glass.add_subcommand("closest", "the glasses nearest to an index and an Abbe number");
-  command->add_option("N_D", options->n_d, "index at 587.56 nm")->required()->check(within(1.0, 5.0))->option_text(" ");
+  const auto options = std::make_shared<GlassListOptions>();
+  CLI::App* command = glass.add_subcommand("closest", "find the glasses closest to an index and an Abbe number");
+  command->add_option("N_D", options->n_d, "refractive index at 587.56 nm")
+      ->required()
+      ->check(within(1.0, 5.0))
+      ->option_text(" ");
   command->add_option("V_D", options->v_d, "Abbe number")->required()->check(within(5.0, 200.0))->option_text(" ");
-  command->add_option("--count", options->count, "how many")->check(CLI::Range(1, 10000))->option_text("N");
-  command->add_flag("--obsolete", options->obsolete, "also glasses that are no longer made");
+  add_number(*command, "--count", options->count, 1, 10000, "number of glasses");
+  command->add_flag("--obsolete", options->obsolete, "include glasses that are no longer made");
   add_common_options(*command, *options);
   command->footer(
-      "Distance 1 is 0.001 of n_d, or 0.8 of V_d: about what melts of one glass differ by.\n\n"
+      "A distance of 1 is a difference of 0.001 in n_d or of 0.8 in V_d, about that between melts of one glass.\n\n"
       "Examples:\n  contrejour glass closest 1.62004 36.37\n  contrejour glass closest 1.5168 64.2 --maker HOYA "
       "--count 1 --json");
   command->callback([options, &action] { action = [options] { return run_closest(*options); }; });

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// contrejour glass show: one glass, in the form of a data sheet.
+// contrejour glass show: describes one glass in the form of a data sheet.
 #include <cmath>
 #include <memory>
 
@@ -14,19 +14,19 @@
 namespace contrejour::cli {
 namespace {
 
-struct ShowOptions {
+struct GlassShowOptions {
   std::string name;
   std::vector<std::string> catalogues, makers;
   bool json = false;
 };
 
-struct Line {
+struct SpectralLine {
   const char* name;
   double nm;
 };
-constexpr Line kLines[] = {{"i", kLineI_nm}, {"h", kLineH_nm}, {"g", kLineG_nm}, {"F'", kLineFPrime_nm},
-                           {"F", kLineF_nm}, {"e", kLineE_nm}, {"d", kLineD_nm}, {"C'", kLineCPrime_nm},
-                           {"C", kLineC_nm}, {"r", kLineR_nm}};
+constexpr SpectralLine kSpectralLines[] = {{"i", kLineI_nm}, {"h", kLineH_nm}, {"g", kLineG_nm}, {"F'", kLineFPrime_nm},
+                                           {"F", kLineF_nm}, {"e", kLineE_nm}, {"d", kLineD_nm}, {"C'", kLineCPrime_nm},
+                                           {"C", kLineC_nm}, {"r", kLineR_nm}};
 constexpr double kPath_mm = 10.0;
 
 const GlassData* data_of(const Glass& glass) {
@@ -48,7 +48,7 @@ bool has_transmittance(const Glass& glass) { return data_of(glass) != nullptr &&
 
 Json lines_json(const Glass& glass) {
   Json list = Json::array();
-  for (const Line& line : kLines) {
+  for (const SpectralLine& line : kSpectralLines) {
     const double n = refractive_index(glass, line.nm);
     list.push_back({{"line", line.name},
                     {"wavelength_nm", line.nm},
@@ -84,8 +84,8 @@ Json show_json(const CatalogueEntry& entry) {
 }
 
 std::string lines_text(const Glass& glass) {
-  TextTable table({"<line", "nm", "n", "transmittance of 10 mm"});
-  for (const Line& line : kLines) {
+  TextTable table({"<line", "nm", "n", "internal transmittance of 10 mm"});
+  for (const SpectralLine& line : kSpectralLines) {
     const bool within = within_range(glass, line.nm);
     const double n = refractive_index(glass, line.nm);
     table.add({line.name, fmt::format("{:.4f}", line.nm),
@@ -113,18 +113,18 @@ std::string show_text(const CatalogueEntry& entry) {
       text += fmt::format("\nfrom {:g} to {:g} nm", data->range_nm->first_nm, data->range_nm->last_nm);
     text += fmt::format(", at {:g} deg C\n", data->reference_temperature_c);
   } else {
-    text += "model glass of n_d, V_d and a normal partial dispersion\n";
+    text += "model glass with this n_d and V_d and a normal partial dispersion\n";
   }
   text += fmt::format("n_d {:.6f}  V_d {:.3f}  V_e {:.3f}  P_gF {:.5f}  dP_gF {:+.5f}\n\n", f.n_d, f.v_d, f.v_e, f.p_gf,
                       f.d_pgf);
   text += lines_text(entry.glass);
-  for (const Line& line : kLines) {
-    if (!within_range(entry.glass, line.nm)) return text + "* beyond where the formula holds\n";
+  for (const SpectralLine& line : kSpectralLines) {
+    if (!within_range(entry.glass, line.nm)) return text + "* outside the range of the dispersion formula\n";
   }
   return text;
 }
 
-Result<CatalogueEntry> find_glass(const GlassCatalogue& glasses, const ShowOptions& options) {
+Result<CatalogueEntry> find_glass(const GlassCatalogue& glasses, const GlassShowOptions& options) {
   if (const auto coded = glass_of_code(options.name)) {
     const GlassFigures figures = glass_figures(*coded);
     return CatalogueEntry{
@@ -133,7 +133,7 @@ Result<CatalogueEntry> find_glass(const GlassCatalogue& glasses, const ShowOptio
   return glasses.find(options.name, options.makers);
 }
 
-Result<int> run_show(const ShowOptions& options) {
+Result<int> run_glass_show(const GlassShowOptions& options) {
   const auto glasses = all_glasses(options.catalogues);
   if (!glasses) return tl::unexpected(glasses.error());
   const auto entry = find_glass(*glasses, options);
@@ -149,18 +149,21 @@ Result<int> run_show(const ShowOptions& options) {
 }  // namespace
 
 void add_glass_show(CLI::App& glass, Action& action) {
-  const auto options = std::make_shared<ShowOptions>();
-  CLI::App* command = glass.add_subcommand("show", "one glass as a data sheet has it");
-  command->add_option("NAME", options->name, "\"N-BK7\", \"SCHOTT N-BK7\" or a six-digit code")
+  const auto options = std::make_shared<GlassShowOptions>();
+  CLI::App* command = glass.add_subcommand("show", "describe a glass in the form of a data sheet");
+  command->add_option("NAME", options->name, "a glass, as \"N-BK7\", \"SCHOTT N-BK7\" or a six-digit code")
       ->required()
       ->option_text(" ");
-  command->add_option("--maker", options->makers, "look here, in this order; may be repeated")->option_text("MAKER");
+  command
+      ->add_option("--maker", options->makers,
+                   "search the glasses of this maker; may be repeated, in order of preference")
+      ->option_text("MAKER");
   add_catalogue_option(*command, options->catalogues);
-  command->add_flag("--json", options->json, "as JSON");
+  command->add_flag("--json", options->json, "print JSON");
   command->footer(
       "Examples:\n  contrejour glass show N-BK7\n  contrejour glass show SF4 --maker HIKARI\n  contrejour glass show "
       "517642 --json");
-  command->callback([options, &action] { action = [options] { return run_show(*options); }; });
+  command->callback([options, &action] { action = [options] { return run_glass_show(*options); }; });
 }
 
 }  // namespace contrejour::cli

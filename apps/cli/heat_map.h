@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A sweep as a picture: one row for each ghost, the worst first; one column for each step; colours by decades.
+// A sweep as a heat map with one row for each ghost, the worst first, and one column for each step. Colours are on a
+// logarithmic scale.
 #pragma once
 
 #include <string>
@@ -8,8 +9,8 @@
 
 namespace contrejour::cli {
 
-// The SVG of a sorted sweep, of at most kMostRows ghosts.
-inline constexpr std::size_t kMostRows = 80;
+// The SVG of a sorted sweep, of at most kMaxHeatMapRows ghosts.
+inline constexpr std::size_t kMaxHeatMapRows = 80;
 [[nodiscard]] std::string heat_map(const GhostSweep& sweep, SweepQuantity quantity);
 
 }  // namespace contrejour::cli

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// contrejour lens: queries of a lens itself.
+// contrejour lens: commands about the lens alone.
 #include "cli/command.h"
 
 namespace contrejour::cli {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// contrejour lens browse: a page of many lenses, each with its section and its flare.
+// contrejour lens browse: writes a page of many lenses, each with its section and its flare.
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -29,8 +29,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kLensBrowseExamples =
-    "The page needs no network. The pictures are exposed each by its own brightest parts; the cards say by how "
-    "much.\n\n"
+    "The page needs no network. Each picture is exposed for its own brightest parts; its card states the exposure.\n\n"
     "Examples:\n"
     "  contrejour lens browse -o lenses.html\n"
     "  contrejour lens browse my-lenses/ heliar -f 8 --blades 7 -o lenses.html\n"
@@ -45,7 +44,7 @@ struct BrowseOptions {
 };
 
 // The given files, and all files in given folders and below, in the order of their names.
-Result<std::vector<std::string>> files_of(const std::vector<std::string>& given) {
+Result<std::vector<std::string>> expanded_files(const std::vector<std::string>& given) {
   std::vector<std::string> files;
   for (const std::string& name : given) {
     std::error_code error;
@@ -56,7 +55,7 @@ Result<std::vector<std::string>> files_of(const std::vector<std::string>& given)
     std::vector<std::string> within;
     for (auto at = fs::recursive_directory_iterator(name, error); !error && at != fs::end(at); at.increment(error))
       if (at->is_regular_file(error)) within.push_back(at->path().string());
-    if (error) return failure(ErrorCode::Io, "cannot list this folder: " + error.message(), {name});
+    if (error) return failure(ErrorCode::Io, "the folder cannot be listed: " + error.message(), {name});
     std::sort(within.begin(), within.end());
     files.insert(files.end(), within.begin(), within.end());
   }
@@ -65,7 +64,7 @@ Result<std::vector<std::string>> files_of(const std::vector<std::string>& given)
   return files;
 }
 
-// The requested f-number, or the lens's widest where that is larger.
+// The requested f-number, or that of the lens's maximum aperture if it is larger.
 Result<LensState> state_of(const Prescription& lens, const params::Values& values) {
   auto settings = params::lens_settings(values);
   if (!settings) return tl::unexpected(settings.error());
@@ -73,14 +72,14 @@ Result<LensState> state_of(const Prescription& lens, const params::Values& value
   return configure_lens(lens, *settings);
 }
 
-std::string focal_lengths(const Prescription& lens, const LensState& state) {
+std::string focal_lengths_text(const Prescription& lens, const LensState& state) {
   if (lens.zoom.size() < 2) return fmt::format("{:.4g}", state.focal_length_mm);
   return fmt::format("{:.4g}-{:.4g} at {:.4g}", lens.zoom.front().focal_length_mm, lens.zoom.back().focal_length_mm,
                      state.focal_length_mm);
 }
 
-// The luminance of the flare within the frame, over that of the light.
-double share_of_light(const Image& flare, const Light& light, ColourSpace space) {
+// The luminance of the flare within the frame, relative to that of the light.
+double relative_flare(const Image& flare, const Light& light, ColourSpace space) {
   Rgb sum{};
   for (std::size_t k = 0; k < flare.pixels.size(); ++k) sum[k % 3] += flare.pixels[k];
   const double whole = luminance(light.value, space);
@@ -99,8 +98,8 @@ Result<LensCard> card_of(const std::string& id, const params::Values& values, co
   const FrameSettings settings = params::frame_settings(values, frame, space);
   const auto flare = render(params::method_options(values), *state, *lights, settings, context);
   if (!flare) return tl::unexpected(flare.error());
-  const PreviewSettings look = params::preview_settings(values, flare->image, params::UsualExposure::Automatic);
-  auto picture = preview_png(flare->image, look, context);
+  const PreviewSettings preview = params::preview_settings(values, flare->image, params::DefaultExposure::Automatic);
+  auto picture = preview_png(flare->image, preview, context);
   if (!picture) return tl::unexpected(picture.error());
   SectionRequest section;
   section.lambda_nm = state->design_wavelength_nm;
@@ -109,11 +108,11 @@ Result<LensCard> card_of(const std::string& id, const params::Values& values, co
                   lens->source,
                   state->focal_length_mm,
                   state->f_number,
-                  focal_lengths(*lens, *state),
+                  focal_lengths_text(*lens, *state),
                   lens->surfaces.size(),
                   enumerate_ghosts(*state, settings.scope).size(),
-                  share_of_light(flare->image, lights->front(), space),
-                  look.exposure_stops,
+                  relative_flare(flare->image, lights->front(), space),
+                  preview.exposure_stops,
                   draw_section(make_section(*state, section)),
                   std::move(*picture)};
 }
@@ -122,7 +121,7 @@ Result<int> run_browse(const BrowseOptions& options) {
   Outputs outputs;
   const auto file = outputs.add(options.output);
   if (!file) return tl::unexpected(file.error());
-  const auto files = files_of(options.lenses);
+  const auto files = expanded_files(options.lenses);
   if (!files) return tl::unexpected(files.error());
   std::vector<LensCard> cards;
   std::vector<RefusedLens> refused;
@@ -139,7 +138,7 @@ Result<int> run_browse(const BrowseOptions& options) {
     }
   }
   if (cards.empty() && !refused.empty())
-    return failure(ErrorCode::InvalidArgument, "no lens could be drawn; the first: " + refused.front().reason);
+    return failure(ErrorCode::InvalidArgument, "no lens could be drawn; the first error is: " + refused.front().reason);
   if (const auto ok = (*file)->write(lens_page(cards, refused)); !ok) return tl::unexpected(ok.error());
   if (const auto ok = outputs.commit(); !ok) return tl::unexpected(ok.error());
   print_summary(fmt::format("{}: {} lenses, {} refused\n", options.output, cards.size(), refused.size()));
@@ -150,10 +149,10 @@ Result<int> run_browse(const BrowseOptions& options) {
 
 void add_lens_browse(CLI::App& lens, Action& action) {
   const auto options = std::make_shared<BrowseOptions>();
-  CLI::App* command = lens.add_subcommand("browse", "a page of many lenses, each with its section and its flare");
-  command->add_option("LENS", options->lenses, "lens files, folders or names (default: all that come with the program)")
+  CLI::App* command = lens.add_subcommand("browse", "write a page of many lenses, each with its section and its flare");
+  command->add_option("LENS", options->lenses, "lens files, folders or names (default: all bundled lenses)")
       ->option_text("...");
-  add_output(*command, "-o,--output", options->output, {".html"}, "the page")->required();
+  add_output(*command, "-o,--output", options->output, {".html"}, "the page as HTML")->required();
   add_parameters(*command, options->values, {"light", "light-at", "colour", "light-distance"});
   add_lens_parameters(*command, options->values);
   add_parameters(*command, options->values,

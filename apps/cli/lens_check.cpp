@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// contrejour lens check: whether lens files are sound, and whether computed figures agree with the stated ones.
+// contrejour lens check: checks lens files, and compares computed figures with those that the files state.
 #include <algorithm>
 #include <memory>
 #include <optional>
@@ -32,7 +32,7 @@ struct Verdict {
   std::vector<std::string> warnings;
 };
 
-// Every zoom position must be reachable, not only the first.
+// Configures the lens at every zoom position, because a lens must be valid at all of them.
 Verdict check_lens(const std::string& file) {
   Verdict verdict;
   verdict.file = file;
@@ -80,8 +80,8 @@ Json verdict_json(const Verdict& v) {
 std::string optional_text(const std::optional<double>& value) { return value ? fmt::format("{:.3f}", *value) : "-"; }
 
 std::string verdicts_text(const std::vector<Verdict>& verdicts) {
-  TextTable table(
-      {"<lens", "<verdict", "surfaces", "stop", "focal mm", "stated", "back focus mm", "stated", "warnings"});
+  TextTable table({"<lens", "<verdict", "surfaces", "stop", "focal length mm", "stated", "back focal distance mm",
+                   "stated", "warnings"});
   for (const Verdict& v : verdicts) {
     if (v.refused) {
       table.add({v.file, "refused"});
@@ -125,12 +125,11 @@ Result<int> run_check(const CheckOptions& options) {
 
 void add_lens_check(CLI::App& lens, Action& action) {
   const auto options = std::make_shared<CheckOptions>();
-  CLI::App* command = lens.add_subcommand("check", "are lens files sound, and do their figures agree?");
-  command->add_option("FILE", options->files, "lens files or names (default: all that come with the program)")
-      ->option_text("...");
-  command->add_flag("--json", options->json, "as JSON");
+  CLI::App* command = lens.add_subcommand("check", "check lens files, and compare computed with stated figures");
+  command->add_option("FILE", options->files, "lens files or names (default: all bundled lenses)")->option_text("...");
+  command->add_flag("--json", options->json, "print JSON");
   command->footer(
-      "Ends with 1 if any is refused.\n\n"
+      "The exit code is 1 if a lens is refused.\n\n"
       "Examples:\n"
       "  contrejour lens check my-lens.toml other.toml\n"
       "  contrejour lens check");

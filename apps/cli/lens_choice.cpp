@@ -12,7 +12,7 @@
 namespace contrejour::cli {
 
 CLI::Option* add_lens_argument(CLI::App& command, std::string& lens) {
-  return command.add_option("LENS", lens, "a bundled lens (see `contrejour lens list`) or a file")
+  return command.add_option("LENS", lens, "a bundled lens (`contrejour lens list`) or a lens file")
       ->required()
       ->option_text(" ");
 }
@@ -33,7 +33,7 @@ Result<LensState> open_lens(const std::string& lens, const params::Values& value
 
 namespace {
 
-// Refuses texts that name no ghost while the command line is parsed.
+// Checks while the command line is parsed that the text names a ghost.
 template <auto parse>
 CLI::Option* checked(CLI::Option* option) {
   const auto problem = [](const std::string& text) {
@@ -46,7 +46,7 @@ CLI::Option* checked(CLI::Option* option) {
 Result<Ghost> of_lens(const LensState& lens, const Ghost& ghost) {
   if (has_ghost(lens, ghost)) return ghost;
   return failure(ErrorCode::InvalidArgument,
-                 fmt::format("there is no ghost {}: the lens has {} surfaces and number {}, the stop, does not reflect",
+                 fmt::format("the lens has no ghost {}; give two of its {} surfaces other than {}, which is the stop",
                              ghost_name(ghost), lens.surfaces.size(), lens.stop_index + 1));
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// contrejour lens convert: any lens that can be read -> our own TOML, Zemax or CODE V, by the file's ending.
+// contrejour lens convert: converts a lens of any known format to TOML, Zemax or CODE V, by the file's extension.
 #include <memory>
 #include <string>
 
@@ -20,7 +20,7 @@ struct ConvertOptions {
   std::string input, output;
 };
 
-Result<WrittenLens> written(const Prescription& lens, const std::string& file) {
+Result<WrittenLens> written_lens(const Prescription& lens, const std::string& file) {
   const std::string ending = lower_extension(file);
   if (ending == ".zmx") return write_lens_zmx(lens);
   if (ending == ".seq") return write_lens_seq(lens);
@@ -33,7 +33,7 @@ Result<int> run_convert(const ConvertOptions& options) {
   if (!file) return tl::unexpected(file.error());
   const auto lens = prescription_of(options.input);
   if (!lens) return tl::unexpected(lens.error());
-  const auto out = written(*lens, options.output);
+  const auto out = written_lens(*lens, options.output);
   if (!out) return tl::unexpected(out.error());
   if (const auto ok = (*file)->write(out->text); !ok) return tl::unexpected(ok.error());
   if (const auto ok = outputs.commit(); !ok) return tl::unexpected(ok.error());
@@ -46,13 +46,12 @@ Result<int> run_convert(const ConvertOptions& options) {
 
 void add_lens_convert(CLI::App& lens, Action& action) {
   const auto options = std::make_shared<ConvertOptions>();
-  CLI::App* command =
-      lens.add_subcommand("convert", "write a lens in the program's own format, or in Zemax' or CODE V's");
-  command->add_option("IN", options->input, "a lens file in any format that is read, or a name")
+  CLI::App* command = lens.add_subcommand("convert", "convert a lens to TOML, Zemax or CODE V");
+  command->add_option("IN", options->input, "a lens file in any known format, or a bundled lens")
       ->required()
       ->option_text(" ");
   add_output(*command, "OUT,-o,--output", options->output, {".toml", ".zmx", ".seq"},
-             "the file to write, as the second name or after -o")
+             "the file to write; the extension determines the format")
       ->required();
   command->footer(
       "Examples:\n"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// contrejour lens draw: a section of the lens as SVG, with rays.
+// contrejour lens draw: draws a section of the lens with rays as SVG.
 #include <cmath>
 #include <memory>
 #include <string>
@@ -18,11 +18,9 @@ namespace contrejour::cli {
 namespace {
 
 constexpr const char* kLensDrawExamples =
-    "Without a ghost: the rays that image the axis and the corner of the field. With some: the light's rays to its "
-    "image\n"
-    "and, each in another colour, those that the ghosts' paths let through (dashed, if none gets through). The "
-    "section\n"
-    "lies in the plane of the light.\n\n"
+    "Without --ghost, the drawing shows the rays that form the image on the axis and at the corner of the field.\n"
+    "With --ghost, it shows the rays that form the direct image of a light, and in other colours those along the\n"
+    "optical paths of the ghosts (dashed if all are blocked). The section lies in the plane of the light.\n\n"
     "Examples:\n"
     "  contrejour lens draw heliar -o heliar.svg\n"
     "  contrejour lens draw canon-70-200 --focal 135 -f 8 --ghost 3-14 --light 0,4 -o ghost.svg\n"
@@ -69,11 +67,12 @@ Result<int> run_draw(const DrawOptions& options) {
 
 void add_lens_draw(CLI::App& lens, Action& action) {
   const auto options = std::make_shared<DrawOptions>();
-  CLI::App* command = lens.add_subcommand("draw", "the layout: a section with rays, as SVG");
+  CLI::App* command = lens.add_subcommand("draw", "draw the lens in section, with rays, as SVG");
   command->alias("layout");
   add_lens_argument(*command, options->lens);
   add_output(*command, "-o,--output", options->output, {".svg"}, "the drawing")->required();
-  add_ghosts_option(*command, options->ghosts, "show this ghost's path; may be repeated, or several with commas");
+  add_ghosts_option(*command, options->ghosts,
+                    "the ghost whose optical path is drawn; may be repeated, or several with commas");
   add_parameters(*command, options->values, {"light"});
   add_lens_parameters(*command, options->values);
   for (const auto names : {std::span<const std::string_view>(kIris), {kGrating}, {kDirt}})
@@ -83,9 +82,10 @@ void add_lens_draw(CLI::App& lens, Action& action) {
   command->footer(kLensDrawExamples);
   command->callback([options, &action] {
     if (options->values.given("light") && options->ghosts.empty()) {
-      throw CLI::ValidationError("--light", "is for a ghost's path; give --ghost as well");
+      throw CLI::ValidationError("--light", "applies to the optical path of a ghost only; give --ghost as well");
     }
-    if (options->values.list("light").size() > 1) throw CLI::ValidationError("--light", "one light is drawn; give one");
+    if (options->values.list("light").size() > 1)
+      throw CLI::ValidationError("--light", "is given more than once; one light is drawn, so give one");
     action = [options] { return run_draw(*options); };
   });
 }

@@ -14,14 +14,14 @@
 namespace contrejour::cli {
 namespace {
 
-struct Entry {
+struct ListedLens {
   std::string id;
   Prescription lens;
   LensState state;
 };
 
-Result<std::vector<Entry>> read_all() {
-  std::vector<Entry> all;
+Result<std::vector<ListedLens>> read_bundled_lenses() {
+  std::vector<ListedLens> all;
   for (const BundledLens& bundled : bundled_lenses()) {
     auto lens = read_lens_toml(bundled.toml, std::string(bundled.name));
     if (!lens) return tl::unexpected(lens.error());
@@ -32,15 +32,15 @@ Result<std::vector<Entry>> read_all() {
   return all;
 }
 
-std::string focal_lengths(const Entry& entry) {
+std::string focal_range(const ListedLens& entry) {
   const auto& zoom = entry.lens.zoom;
   if (zoom.empty()) return fmt::format("{:.4g}", entry.state.focal_length_mm);
   return fmt::format("{:.4g}-{:.4g}", zoom.front().focal_length_mm, zoom.back().focal_length_mm);
 }
 
-Json list_json(const std::vector<Entry>& all) {
+Json list_json(const std::vector<ListedLens>& all) {
   Json list = Json::array();
-  for (const Entry& entry : all) {
+  for (const ListedLens& entry : all) {
     Json zoom = Json::array();
     for (const ZoomPosition& position : entry.lens.zoom) zoom.push_back(position.focal_length_mm);
     list.push_back({{"id", entry.id},
@@ -55,10 +55,10 @@ Json list_json(const std::vector<Entry>& all) {
   return {{"lenses", list}};
 }
 
-std::string list_text(const std::vector<Entry>& all) {
+std::string list_text(const std::vector<ListedLens>& all) {
   TextTable table({"<lens", "focal mm", "f/", "surfaces", "ghosts", "<name", "<source"});
-  for (const Entry& entry : all) {
-    table.add({entry.id, focal_lengths(entry), fmt::format("{:g}", entry.lens.f_number),
+  for (const ListedLens& entry : all) {
+    table.add({entry.id, focal_range(entry), fmt::format("{:g}", entry.lens.f_number),
                fmt::format("{}", entry.lens.surfaces.size()),
                fmt::format("{}", enumerate_ghosts(entry.state, GhostScope::All).size()), entry.lens.name,
                entry.lens.source});
@@ -66,8 +66,8 @@ std::string list_text(const std::vector<Entry>& all) {
   return table.text();
 }
 
-Result<int> run_list(bool json) {
-  const auto all = read_all();
+Result<int> run_lens_list(bool json) {
+  const auto all = read_bundled_lenses();
   if (!all) return tl::unexpected(all.error());
   if (json) {
     print_json(list_json(*all));
@@ -81,10 +81,10 @@ Result<int> run_list(bool json) {
 
 void add_lens_list(CLI::App& lens, Action& action) {
   const auto json = std::make_shared<bool>(false);
-  CLI::App* command = lens.add_subcommand("list", "the lenses that come with the program");
-  command->add_flag("--json", *json, "as JSON");
+  CLI::App* command = lens.add_subcommand("list", "list the bundled lenses");
+  command->add_flag("--json", *json, "print JSON");
   command->footer("Examples:\n  contrejour lens list\n  contrejour lens list --json");
-  command->callback([json, &action] { action = [json] { return run_list(*json); }; });
+  command->callback([json, &action] { action = [json] { return run_lens_list(*json); }; });
 }
 
 }  // namespace contrejour::cli

@@ -31,10 +31,10 @@ input, select { font: inherit; background: #24272b; color: inherit; border: 1px 
 <body>
 )";
 
-constexpr const char* kTools = R"(<p>
+constexpr const char* kControls = R"(<p>
 <input id="search" type="search" placeholder="search" aria-label="search">
 <select id="order" aria-label="order">
-<option value="place">as listed</option>
+<option value="index">as listed</option>
 <option value="focal">by focal length</option>
 <option value="fnumber">by f-number</option>
 <option value="ghosts">by number of ghosts</option>
@@ -49,8 +49,8 @@ function show() {
   const words = search.value.toLowerCase().split(/\s+/);
   const all = [...cards.children];
   for (const card of all) card.hidden = !words.every(word => card.dataset.words.includes(word));
-  const falling = order.value === "ghosts" || order.value === "flare" ? -1 : 1;
-  all.sort((a, b) => falling * (a.dataset[order.value] - b.dataset[order.value]) || a.dataset.place - b.dataset.place);
+  const sign = order.value === "ghosts" || order.value === "flare" ? -1 : 1;
+  all.sort((a, b) => sign * (a.dataset[order.value] - b.dataset[order.value]) || a.dataset.index - b.dataset.index);
   cards.append(...all);
 }
 search.addEventListener("input", show);
@@ -60,7 +60,7 @@ order.addEventListener("change", show);
 </html>
 )";
 
-std::string escaped(const std::string& text) {
+std::string html_text(const std::string& text) {
   std::string out;
   for (const char c : text) {
     switch (c) {
@@ -94,12 +94,12 @@ std::string base64(std::span<const std::byte> bytes) {
   return out;
 }
 
-std::string card_html(const LensCard& card, std::size_t place) {
+std::string card_html(const LensCard& card, std::size_t index) {
   std::string html = fmt::format(
-      "<div class=\"card\" data-place=\"{}\" data-focal=\"{:.6g}\" data-fnumber=\"{:.6g}\" data-ghosts=\"{}\" "
+      "<div class=\"card\" data-index=\"{}\" data-focal=\"{:.6g}\" data-fnumber=\"{:.6g}\" data-ghosts=\"{}\" "
       "data-flare=\"{:.6g}\" data-words=\"{}\">\n",
-      place, card.focal_length_mm, card.f_number, card.ghosts, card.flare,
-      escaped(lower(card.id + " " + card.name + " " + card.source)));
+      index, card.focal_length_mm, card.f_number, card.ghosts, card.flare,
+      html_text(lower(card.id + " " + card.name + " " + card.source)));
   html += "<img alt=\"flare\" src=\"data:image/png;base64," + base64(card.picture) + "\">\n";
   // The section is embedded as a picture, so that names of parts within its SVG do not collide with the page's.
   html += "<img class=\"section\" alt=\"section\" src=\"data:image/svg+xml;base64," +
@@ -107,8 +107,8 @@ std::string card_html(const LensCard& card, std::size_t place) {
   html += fmt::format(
       "<h2>{}</h2>\n<p>{} mm f/{:.3g}, {} surfaces, {} ghosts; flare {:.2g} of the light, shown {:+.1f} "
       "stops<br>{}<br>{}</p>\n</div>\n",
-      escaped(card.name), escaped(card.focal_lengths), card.f_number, card.surfaces, card.ghosts, card.flare,
-      card.exposure_stops, escaped(card.id), escaped(card.source));
+      html_text(card.name), html_text(card.focal_lengths), card.f_number, card.surfaces, card.ghosts, card.flare,
+      card.exposure_stops, html_text(card.id), html_text(card.source));
   return html;
 }
 
@@ -116,13 +116,13 @@ std::string card_html(const LensCard& card, std::size_t place) {
 
 std::string lens_page(const std::vector<LensCard>& cards, const std::vector<RefusedLens>& refused) {
   std::string html =
-      std::string(kHead) + fmt::format("<h1>{} lenses</h1>\n", cards.size()) + kTools + "<div id=\"cards\">\n";
+      std::string(kHead) + fmt::format("<h1>{} lenses</h1>\n", cards.size()) + kControls + "<div id=\"cards\">\n";
   for (std::size_t k = 0; k < cards.size(); ++k) html += card_html(cards[k], k);
   html += "</div>\n";
   if (!refused.empty()) {
     html += fmt::format("<h1>{} refused</h1>\n<ul>\n", refused.size());
     for (const RefusedLens& lens : refused)
-      html += fmt::format("<li>{}: {}</li>\n", escaped(lens.id), escaped(lens.reason));
+      html += fmt::format("<li>{}: {}</li>\n", html_text(lens.id), html_text(lens.reason));
     html += "</ul>\n";
   }
   return html + kScript;

@@ -14,8 +14,8 @@ namespace contrejour::cli {
 namespace {
 
 constexpr int kBarCells = 30;
-constexpr auto kBeforeFirst = std::chrono::milliseconds(400);  // quick tasks show no bar
-constexpr auto kBetween = std::chrono::milliseconds(100);
+constexpr auto kFirstDelay = std::chrono::milliseconds(400);  // quick tasks show no bar
+constexpr auto kRedrawInterval = std::chrono::milliseconds(100);
 
 }  // namespace
 
@@ -32,7 +32,7 @@ LongTask::~LongTask() {
 
 void LongTask::draw(double done) {
   const auto now = std::chrono::steady_clock::now();
-  if (now - started_ < kBeforeFirst || now - drawn_ < kBetween) return;
+  if (now - started_ < kFirstDelay || now - drawn_ < kRedrawInterval) return;
   drawn_ = now;
   shown_ = true;
   done = std::clamp(done, 0.0, 1.0);

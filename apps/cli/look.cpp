@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// contrejour look: lists the bundled presets and shows what is in one.
+// contrejour look: lists the bundled presets and shows the settings of one.
 #include <memory>
 #include <string>
 
@@ -13,7 +13,7 @@
 namespace contrejour::cli {
 namespace {
 
-Result<std::vector<std::pair<std::string, params::Look>>> read_all() {
+Result<std::vector<std::pair<std::string, params::Look>>> read_bundled_looks() {
   std::vector<std::pair<std::string, params::Look>> all;
   for (const params::BundledLook& bundled : params::bundled_looks()) {
     auto look = params::find_look(std::string(bundled.name));
@@ -23,8 +23,8 @@ Result<std::vector<std::pair<std::string, params::Look>>> read_all() {
   return all;
 }
 
-Result<int> run_list(bool json) {
-  const auto all = read_all();
+Result<int> run_look_list(bool json) {
+  const auto all = read_bundled_looks();
   if (!all) return tl::unexpected(all.error());
   if (json) {
     Json list = Json::array();
@@ -34,14 +34,14 @@ Result<int> run_list(bool json) {
     print_json({{"looks", list}});
     return kDone;
   }
-  TextTable table({"<look", "<lens", "<what it is"});
+  TextTable table({"<preset", "<lens", "<description"});
   for (const auto& [id, look] : *all) table.add({id, look.lens, look.description});
   print(table.text());
   return kDone;
 }
 
 // Prints a preset file, or JSON with every value as its text.
-Result<int> run_show(const std::string& name, bool json) {
+Result<int> run_look_show(const std::string& name, bool json) {
   const auto look = params::find_look(name);
   if (!look) return tl::unexpected(look.error());
   if (!json) {
@@ -57,32 +57,32 @@ Result<int> run_show(const std::string& name, bool json) {
   return kDone;
 }
 
-void add_list(CLI::App& look, Action& action) {
+void add_look_list(CLI::App& look, Action& action) {
   const auto json = std::make_shared<bool>(false);
-  CLI::App* command = look.add_subcommand("list", "the looks that come with the program");
-  command->add_flag("--json", *json, "as JSON");
+  CLI::App* command = look.add_subcommand("list", "list the bundled presets");
+  command->add_flag("--json", *json, "print JSON");
   command->footer("Examples:\n  contrejour look list\n  contrejour look list --json");
-  command->callback([json, &action] { action = [json] { return run_list(*json); }; });
+  command->callback([json, &action] { action = [json] { return run_look_list(*json); }; });
 }
 
-void add_show(CLI::App& look, Action& action) {
+void add_look_show(CLI::App& look, Action& action) {
   const auto name = std::make_shared<std::string>();
   const auto json = std::make_shared<bool>(false);
-  CLI::App* command = look.add_subcommand("show", "every setting of a look");
-  command->add_option("LOOK", *name, "a bundled look or a file")->required()->option_text(" ");
-  command->add_flag("--json", *json, "as JSON");
+  CLI::App* command = look.add_subcommand("show", "show every setting of a preset");
+  command->add_option("PRESET", *name, "a bundled preset or a file")->required()->option_text(" ");
+  command->add_flag("--json", *json, "print JSON");
   command->footer("Examples:\n  contrejour look show heliar-backlight\n  contrejour look show mine.toml --json");
-  command->callback([name, json, &action] { action = [name, json] { return run_show(*name, *json); }; });
+  command->callback([name, json, &action] { action = [name, json] { return run_look_show(*name, *json); }; });
 }
 
 }  // namespace
 
 void add_look(CLI::App& app, Action& action) {
-  CLI::App* look = app.add_subcommand("look", "presets: settings of a flare under one name");
+  CLI::App* look = app.add_subcommand("look", "list and show presets, which are named sets of settings");
   look->alias("preset");
   look->require_subcommand(1);
-  add_list(*look, action);
-  add_show(*look, action);
+  add_look_list(*look, action);
+  add_look_show(*look, action);
 }
 
 }  // namespace contrejour::cli

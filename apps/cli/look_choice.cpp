@@ -8,9 +8,11 @@ namespace contrejour::cli {
 void add_look_options(CLI::App& command, LookOptions& options) {
   command
       .add_option("--look,--preset", options.look,
-                  "preset to start from: a bundled look (see `contrejour look list`) or a file; options override it")
-      ->option_text("LOOK");
-  add_output(command, "--save-look,--save-preset", options.save, {".toml"}, "all settings of this flare, as a preset");
+                  "the preset to start from: a bundled one (`contrejour look list`) or a file; other options override "
+                  "its settings")
+      ->option_text("PRESET");
+  add_output(command, "--save-look,--save-preset", options.save, {".toml"},
+             "save all settings of this flare as a preset");
 }
 
 Result<void> fill_from_look(const LookOptions& options, std::string& lens, params::Values& values) {
@@ -20,7 +22,7 @@ Result<void> fill_from_look(const LookOptions& options, std::string& lens, param
   values = values.over(look->values);
   if (lens.empty()) lens = look->lens;
   if (!lens.empty()) return {};
-  return failure(ErrorCode::InvalidArgument, "the look names no lens; give one (see `contrejour lens list`)");
+  return failure(ErrorCode::InvalidArgument, "the preset names no lens; give a LENS (`contrejour lens list`)");
 }
 
 }  // namespace contrejour::cli

@@ -15,7 +15,7 @@ namespace {
 using params::Kind;
 using params::Parameter;
 
-std::string flags_of(const Parameter& p) {
+std::string option_flags(const Parameter& p) {
   return p.letter != '\0' ? fmt::format("-{},--{}", p.letter, p.name) : fmt::format("--{}", p.name);
 }
 
@@ -34,29 +34,37 @@ std::string help_of(const Parameter& p) {
   return p.fallback.empty() ? std::string(p.help) : fmt::format("{} (default: {})", p.help, p.fallback);
 }
 
-void add_parameter(CLI::App& command, params::Values& values, const Parameter& p) {
-  const std::string name(p.name);
-  const auto set = [&values, name](const std::string& text) {
-    const auto checked = values.set(name, text);
-    if (!checked) throw CLI::ValidationError("--" + name, checked.error().to_string());
+// A switch. The negative form is for use with a preset that switches the parameter on.
+CLI::Option* add_switch(CLI::App& command, params::Values& values, const Parameter& p, std::string_view name) {
+  return command.add_flag_function(
+      fmt::format("--{0},!--no-{0}", name),
+      [&values, &p](std::int64_t n) { static_cast<void>(values.set(p.name, n > 0 ? "on" : "off")); }, help_of(p));
+}
+
+CLI::Option* add_value(CLI::App& command, params::Values& values, const Parameter& p, const std::string& flags) {
+  const auto set_all = [&values, &p](const CLI::results_t& texts) {
+    for (const std::string& text : texts) {
+      const auto checked = values.set(p.name, text);
+      if (!checked) throw CLI::ValidationError(fmt::format("--{}", p.name), checked.error().to_string());
+    }
+    return true;
   };
-  if (p.kind == Kind::Switch) {
-    // The negative form is for use with a preset that switches the parameter on.
-    command
-        .add_flag_function(
-            fmt::format("--{0},!--no-{0}", p.name), [set](std::int64_t n) { set(n > 0 ? "on" : "off"); }, help_of(p))
-        ->group(std::string(p.group));
-    return;
-  }
-  CLI::Option* option = command.add_option(
-      flags_of(p),
-      [set](const CLI::results_t& texts) {
-        for (const std::string& text : texts) set(text);
-        return true;
-      },
-      help_of(p));
-  option->type_size(1)->expected(1)->option_text(placeholder(p))->group(std::string(p.group));
+  CLI::Option* option = command.add_option(flags, set_all, help_of(p));
+  option->type_size(1)->expected(1)->option_text(placeholder(p));
   if (p.repeats) option->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  return option;
+}
+
+// Adds the parameter, and its former name as an option that the help does not show.
+void add_parameter(CLI::App& command, params::Values& values, const Parameter& p) {
+  const bool is_switch = p.kind == Kind::Switch;
+  CLI::Option* option =
+      is_switch ? add_switch(command, values, p, p.name) : add_value(command, values, p, option_flags(p));
+  option->group(std::string(p.group));
+  if (p.former.empty()) return;
+  option = is_switch ? add_switch(command, values, p, p.former)
+                     : add_value(command, values, p, fmt::format("--{}", p.former));
+  option->group("");
 }
 
 }  // namespace
@@ -86,20 +94,31 @@ void add_rendering_parameters(CLI::App& command, params::Values& values) {
   add_parameters(command, values,
                  {"method", "device", "wavelengths", "colour-space", "ghosts", "reflections", "select", "threads"});
   add_parameters(command, values, {"grid", "scale-grid", "scale-grid-sigma", "scale-grid-phi"});
-  add_parameters(command, values,
-                 {"grid-levels", "mirror", "pupil-table", "spectral-filter", "flat-shading", "anisotropic"});
+  add_parameters(
+      command, values,
+      {"grid-levels", "mirror-symmetry", "precomputed-pupils", "spectral-filter", "flat-shading", "anisotropic"});
   add_parameters(command, values, {"merge-steps", "merge-threshold", "tile", "coarse-tile", "interpolation"});
   add_parameters(command, values, {"error", "density"});
   add_parameters(command, values, {"starburst", "starburst-gain", "glare", "glare-width"});
   add_parameters(command, values, {"ringing", "ringing-alpha"});
   add_parameters(command, values,
-                 {"ghost", "ghost-gain", "ghost-edge-gain", "ghost-ramp", "ghost-scatter", "ghost-seed"});
+                 {"ghost", "ghost-gain", "ghost-edge-gain", "ghost-ramp", "ghost-jitter", "ghost-seed"});
 }
 
 void add_picture_choice(CLI::App& command, ReadOptions& read) {
-  command.add_option("--layer", read.layer, "the EXR's layer NAME.R, NAME.G, NAME.B, or its part of that name")
+  command
+      .add_option("--layer", read.layer,
+                  "the layer of the EXR to read: NAME.R, NAME.G, NAME.B, or the part of this name")
       ->option_text("NAME");
-  command.add_option("--part", read.part, "a part of an EXR, by its name or its number from 0")->option_text("NAME|N");
+  command.add_option("--part", read.part, "the part of the EXR to read, by its name or its number from 0")
+      ->option_text("NAME|N");
+}
+
+CLI::Option* add_number(CLI::App& command, const std::string& flag, int& number, int min, int max,
+                        const std::string& help) {
+  return command.add_option(flag, number, fmt::format("{} (default: {})", help, number))
+      ->check(CLI::Range(min, max))
+      ->option_text("N");
 }
 
 std::string lower_extension(const std::string& file) {
@@ -114,9 +133,9 @@ CLI::Option* add_output(CLI::App& command, const std::string& flags, std::string
   const std::vector<std::string> allowed(endings.begin(), endings.end());
   const auto check = [allowed](const std::string& name) {
     if (std::find(allowed.begin(), allowed.end(), lower_extension(name)) != allowed.end()) return std::string();
-    return fmt::format("\"{}\" does not end in {}", name, fmt::join(allowed, " or "));
+    return fmt::format("\"{}\" has no known extension; give a name that ends in {}", name, fmt::join(allowed, " or "));
   };
-  return command.add_option(flags, file, help)->check(CLI::Validator(check, "", "ending"))->option_text("FILE");
+  return command.add_option(flags, file, help)->check(CLI::Validator(check, "", "extension"))->option_text("FILE");
 }
 
 }  // namespace contrejour::cli

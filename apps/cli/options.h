@@ -20,15 +20,15 @@ namespace contrejour::cli {
 void add_parameters(CLI::App& command, params::Values& values, std::initializer_list<std::string_view> names);
 void add_parameters(CLI::App& command, params::Values& values, std::span<const std::string_view> names);
 
-// Every parameter that sets the lens: focal, fnumber, focus, coating, and those below.
+// Every parameter that configures the lens: focal, fnumber, focus, coating, and those below.
 void add_lens_parameters(CLI::App& command, params::Values& values);
 
 inline constexpr std::array<std::string_view, 7> kIris = {
-    "blades", "blade-rotation", "blade-curvature", "blade-asymmetry", "blade-seed", "blade-spread", "iris-image"};
+    "blades", "blade-rotation", "blade-curvature", "blade-asymmetry", "blade-seed", "blade-slope-error", "iris-image"};
 inline constexpr std::array<std::string_view, 3> kGrating = {"sensor-orders", "sensor-pitch", "sensor-fill"};
 inline constexpr std::array<std::string_view, 11> kDirt = {
-    "dust",           "dust-size",  "scratches", "scratch-length", "scratch-width", "scratch-angle",
-    "scratch-spread", "dirt-image", "dirt-on",   "dirt-seed",      "dirt-time"};
+    "dust",           "dust-size",  "scratches",  "scratch-length", "scratch-width", "scratch-angle",
+    "scratch-spread", "dirt-image", "dirt-plane", "dirt-seed",      "dirt-phase"};
 
 // Adds options that are accepted, so that the same options work for every command, but do not affect this command's
 // result: its help omits them.
@@ -40,6 +40,10 @@ void add_rendering_parameters(CLI::App& command, params::Values& values);
 // Adds -o FILE or another file to write; its name must have one of these endings (".exr"), in any case.
 CLI::Option* add_output(CLI::App& command, const std::string& flags, std::string& file,
                         std::initializer_list<std::string_view> endings, const std::string& help);
+
+// Adds an option for a whole number from `min` to `max`; its present value is the default that the help states.
+CLI::Option* add_number(CLI::App& command, const std::string& flag, int& number, int min, int max,
+                        const std::string& help);
 
 // Adds --layer and --part, which choose the picture to read from an EXR file.
 void add_picture_choice(CLI::App& command, ReadOptions& read);

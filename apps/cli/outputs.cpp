@@ -30,7 +30,8 @@ Result<OutputFile*> Outputs::add(const std::string& destination) {
         return other.is_regular() && canonical(other) == canonical(*file);
       });
   if (named_twice)
-    return failure(ErrorCode::InvalidArgument, "named for two outputs; give each its own file", {destination});
+    return failure(ErrorCode::InvalidArgument, "the same file is given for two outputs; give each output its own file",
+                   {destination});
   return &files_.emplace_back(std::move(*file));
 }
 

@@ -26,9 +26,9 @@ Character first_character(std::string_view text) {
     if ((byte(k) & 0xc0U) != 0x80U) return {};
     code = code << 6 | (byte(k) & 0x3fU);
   }
-  constexpr std::uint32_t kLeast[] = {0, 0, 0x80, 0x800, 0x10000};
+  constexpr std::uint32_t kMinCode[] = {0, 0, 0x80, 0x800, 0x10000};
   const bool is_surrogate = code >= 0xd800 && code <= 0xdfff;
-  if (code < kLeast[bytes] || code > 0x10ffff || is_surrogate) return {};
+  if (code < kMinCode[bytes] || code > 0x10ffff || is_surrogate) return {};
   return {code, bytes, true};
 }
 

@@ -9,7 +9,7 @@
 
 namespace contrejour::cli {
 
-// coating: placed on the glass (placed_on). Returns SVG.
+// Returns SVG. The coating must be placed on the glass (placed_on).
 [[nodiscard]] std::string reflectance_plot(const Coating& coating, const Glass& glass, const std::string& title);
 
 }  // namespace contrejour::cli

@@ -57,12 +57,12 @@ Xyz reflected_colour(std::span<const double> reflectance) {
   return sum;
 }
 
-std::string shown_as(const Xyz& xyz) {
+std::string srgb_text(const Xyz& xyz) {
   Rgb rgb = rgb_from_xyz(xyz, ColourSpace::Rec709);
-  const double most = *std::max_element(rgb.begin(), rgb.end());
+  const double max = *std::max_element(rgb.begin(), rgb.end());
   std::string text = "#";
   for (const double v : rgb)
-    text += fmt::format("{:02x}", std::lround(255.0 * (most > 0.0 ? encoded(std::clamp(v / most, 0.0, 1.0)) : 0.0)));
+    text += fmt::format("{:02x}", std::lround(255.0 * (max > 0.0 ? encoded(std::clamp(v / max, 0.0, 1.0)) : 0.0)));
   return text;
 }
 
@@ -72,13 +72,13 @@ Result<std::array<double, 2>> parse_chromaticity(const std::string& text) {
     const auto numbers = params::parse_light_value(text);
     if (!numbers || text.find(',') == std::string::npos) {
       return failure(ErrorCode::InvalidArgument,
-                     fmt::format("\"{}\" is no colour; write #rrggbb as in a picture, or R,G,B scene-linear", text));
+                     fmt::format("\"{}\" is not a colour; give #rrggbb as in a picture, or scene-linear R,G,B", text));
     }
     rgb = numbers->rgb;
   }
   const Xyz xyz = xyz_from_rgb(*rgb, ColourSpace::Rec709);
   if (!(xyz[0] + xyz[1] + xyz[2] > 0.0))
-    return failure(ErrorCode::InvalidArgument, fmt::format("\"{}\" is black; a reflection's colour is wanted", text));
+    return failure(ErrorCode::InvalidArgument, fmt::format("\"{}\" is black; give the colour of a reflection", text));
   return chromaticity(xyz);
 }
 

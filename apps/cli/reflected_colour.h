@@ -16,8 +16,8 @@ namespace contrejour::cli {
 // XYZ of the reflection from reflectances at those wavelengths; Y is the luminous reflectance, 1 for a mirror.
 [[nodiscard]] Xyz reflected_colour(std::span<const double> reflectance);
 
-// "#8060ff": the colour at full brightness, as screens show it (sRGB).
-[[nodiscard]] std::string shown_as(const Xyz& xyz);
+// "#8060ff": the colour at full brightness in sRGB.
+[[nodiscard]] std::string srgb_text(const Xyz& xyz);
 // The chromaticity of such a text, or of "R,G,B", scene-linear. Errors: it is neither, or black.
 [[nodiscard]] Result<std::array<double, 2>> parse_chromaticity(const std::string& text);
 

@@ -24,8 +24,9 @@ namespace contrejour::cli {
 namespace {
 
 constexpr const char* kRenderExamples =
-    "Without a light there is one at u,v = 0.70,0.33. The image holds what the flare adds to a photograph, in the\n"
-    "lights' own units; a light's own image is not in it. A PNG is made to look at: --exposure says how bright.\n\n"
+    "Without a light option there is one light at u,v = 0.70,0.33. The image contains what the flare adds to a\n"
+    "photograph, in the units of the lights, without their direct images (--starburst adds these). A PNG is a\n"
+    "preview, whose brightness --exposure sets.\n\n"
     "Examples:\n"
     "  contrejour render heliar -o flare.exr\n"
     "  contrejour render canon-70-200 --focal 135 -f 8 --light 6,4 --light -3,5 -o flare.exr --preview flare.png\n"
@@ -44,7 +45,7 @@ struct RenderFiles {
   OutputFile *preview = nullptr, *stats = nullptr, *look = nullptr;  // null where not requested
 };
 
-Result<RenderFiles> open_files(const RenderOptions& options, Outputs& outputs) {
+Result<RenderFiles> open_render_files(const RenderOptions& options, Outputs& outputs) {
   RenderFiles files;
   const std::pair<const std::string&, OutputFile*&> all[] = {{options.output, files.output},
                                                              {options.preview, files.preview},
@@ -85,9 +86,10 @@ Result<RenderedFlare> render_flare(const RenderOptions& options) {
 Result<void> write_flare(const RenderOptions& options, const RenderFiles& files, const RenderedFlare& rendered,
                          const Context& context) {
   const Flare& flare = rendered.flare;
-  const PreviewSettings look = params::preview_settings(options.values, flare.image, params::UsualExposure::Automatic);
+  const PreviewSettings preview =
+      params::preview_settings(options.values, flare.image, params::DefaultExposure::Automatic);
   if (lower_extension(options.output) == ".png") {
-    if (auto ok = write_preview_png(*files.output, flare.image, look, context); !ok) return ok;
+    if (auto ok = write_preview_png(*files.output, flare.image, preview, context); !ok) return ok;
   } else {
     Picture picture = picture_of(flare.image);
     set_colour_space(picture, params::colour_space(options.values, ColourSpace::Rec709));
@@ -95,7 +97,7 @@ Result<void> write_flare(const RenderOptions& options, const RenderFiles& files,
     if (auto ok = write_picture(*files.output, picture, context); !ok) return ok;
   }
   if (files.preview) {
-    if (auto ok = write_preview_png(*files.preview, flare.image, look, context); !ok) return ok;
+    if (auto ok = write_preview_png(*files.preview, flare.image, preview, context); !ok) return ok;
   }
   if (files.look) {
     if (auto ok = files.look->write(params::write_look({{}, {}, options.lens, options.values})); !ok) return ok;
@@ -108,7 +110,7 @@ Result<int> run_render(RenderOptions options) {
   if (const auto ok = fill_from_look(options.look, options.lens, options.values); !ok)
     return tl::unexpected(ok.error());
   Outputs outputs;
-  const auto files = open_files(options, outputs);
+  const auto files = open_render_files(options, outputs);
   if (!files) return tl::unexpected(files.error());
   const auto rendered = render_flare(options);
   if (!rendered) return tl::unexpected(rendered.error());
@@ -125,11 +127,11 @@ Result<int> run_render(RenderOptions options) {
 
 void add_render(CLI::App& app, Action& action) {
   const auto options = std::make_shared<RenderOptions>();
-  CLI::App* command = app.add_subcommand("render", "the flare of a lens and lights, as an image");
+  CLI::App* command = app.add_subcommand("render", "render the flare of lights in a lens as an image");
   add_lens_argument(*command, options->lens)->required(false);
-  add_output(*command, "-o,--output", options->output, {".exr", ".png"}, "the flare")->required();
-  add_output(*command, "--preview", options->preview, {".png"}, "a PNG to look at");
-  add_output(*command, "--stats", options->stats, {".json"}, "times and counts");
+  add_output(*command, "-o,--output", options->output, {".exr", ".png"}, "the image of the flare")->required();
+  add_output(*command, "--preview", options->preview, {".png"}, "a preview as PNG");
+  add_output(*command, "--stats", options->stats, {".json"}, "statistics of the rendering: times and counts");
   add_look_options(*command, options->look);
   add_parameters(*command, options->values, {"exposure"});
   add_parameters(*command, options->values,

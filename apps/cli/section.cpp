@@ -9,28 +9,28 @@
 namespace contrejour::cli {
 namespace {
 
-constexpr int kScan = 2001;       // rays tried across the entrance window
+constexpr int kTriedRays = 2001;  // rays that are tried across the entrance window
 constexpr int kImagingRays = 5;
-constexpr int kGhostRays = 9, kFewGhostRays = 5;  // for a single ghost, for each of several
-constexpr double kLead = 0.10;    // free space in front of the lens, relative to its length
-constexpr double kFieldOfGhostLight = 0.33;
+constexpr int kRaysOfSingleGhost = 9, kRaysOfEachGhost = 5;
+constexpr double kLeadingSpace = 0.10;    // space in front of the lens, relative to its length
+constexpr double kGhostLightField = 0.33;
 
-struct Line {
+struct TriedRay {
   double y_mm = 0;
   bool open = false;
 };
 
-// The heights at which a ray gets through, or at least reaches the sensor.
-std::vector<Line> scan(const OpticalPath& path, const EntranceWindow& window, Vec3 direction) {
-  std::vector<Line> lines;
-  for (int k = 0; k < kScan; ++k) {
-    const double y = std::lerp(window.min_mm.y, window.max_mm.y, static_cast<double>(k) / (kScan - 1));
+// The heights at which a ray is not blocked, or if all are blocked, those at which it reaches the sensor.
+std::vector<TriedRay> rays_that_pass(const OpticalPath& path, const EntranceWindow& window, Vec3 direction) {
+  std::vector<TriedRay> rays;
+  for (int k = 0; k < kTriedRays; ++k) {
+    const double y = std::lerp(window.min_mm.y, window.max_mm.y, static_cast<double>(k) / (kTriedRays - 1));
     const TracedRay ray = trace(path, {{0.0, y, window.z_mm}, direction});
-    if (ray.status == RayStatus::Ok) lines.push_back({y, blocked_by(ray, path, Iris{}) <= 0.0});
+    if (ray.status == RayStatus::Ok) rays.push_back({y, blocked_by(ray, path, Iris{}) <= 0.0});
   }
-  const bool any_open = std::any_of(lines.begin(), lines.end(), [](const Line& line) { return line.open; });
-  if (any_open) std::erase_if(lines, [](const Line& line) { return !line.open; });
-  return lines;
+  const bool any_open = std::any_of(rays.begin(), rays.end(), [](const TriedRay& tried) { return tried.open; });
+  if (any_open) std::erase_if(rays, [](const TriedRay& tried) { return !tried.open; });
+  return rays;
 }
 
 SectionRay record(const OpticalPath& path, Vec3 origin, Vec3 direction, double left_mm) {
@@ -45,19 +45,19 @@ SectionRay record(const OpticalPath& path, Vec3 origin, Vec3 direction, double l
   return ray;
 }
 
-// Adds `count` rays, evenly spaced over those that get through.
+// Adds `count` rays, evenly spaced over those that pass.
 void add_fan(Section& section, const OpticalPath& path, Vec3 direction, RayKind kind, int count,
              std::size_t ghost = 0) {
   const EntranceWindow window = entrance_window(section.lens, direction);
-  const std::vector<Line> lines = scan(path, window, direction);
-  if (lines.empty()) return;
+  const std::vector<TriedRay> passing = rays_that_pass(path, window, direction);
+  if (passing.empty()) return;
   for (int k = 0; k < count; ++k) {
-    const double at = static_cast<double>(k) / (count - 1) * static_cast<double>(lines.size() - 1);
-    const Line& line = lines[static_cast<std::size_t>(std::lround(at))];
-    SectionRay ray = record(path, {0.0, line.y_mm, window.z_mm}, direction, section.left_mm);
+    const double at = static_cast<double>(k) / (count - 1) * static_cast<double>(passing.size() - 1);
+    const TriedRay& chosen = passing[static_cast<std::size_t>(std::lround(at))];
+    SectionRay ray = record(path, {0.0, chosen.y_mm, window.z_mm}, direction, section.left_mm);
     ray.kind = kind;
     ray.ghost = ghost;
-    ray.blocked = !line.open;
+    ray.blocked = !chosen.open;
     section.rays.push_back(std::move(ray));
   }
 }
@@ -84,7 +84,7 @@ void set_bounds(Section& section) {
     leftmost = std::min(leftmost, s.z_mm + std::min(0.0, sag_mm(s, height)));
     highest = std::max(highest, height);
   }
-  section.left_mm = leftmost - kLead * (lens.sensor_z_mm - leftmost);
+  section.left_mm = leftmost - kLeadingSpace * (lens.sensor_z_mm - leftmost);
   section.right_mm = lens.sensor_z_mm;
   section.half_height_mm = 1.06 * highest;
 }
@@ -133,11 +133,11 @@ Section make_section(const LensState& lens, const SectionRequest& request) {
     return section;
   }
   const double light_rad =
-      request.ghost_light_rad.value_or(kFieldOfGhostLight * angles_from_direction(field).elevation_rad);
+      request.ghost_light_rad.value_or(kGhostLightField * angles_from_direction(field).elevation_rad);
   section.ghost_light_deg = light_rad * 180.0 / 3.14159265358979323846;
   const Vec3 light = direction_from_angles(0.0, light_rad);
   add_fan(section, direct, light, RayKind::Axis, kImagingRays);
-  const int rays = request.ghosts.size() > 1 ? kFewGhostRays : kGhostRays;
+  const int rays = request.ghosts.size() > 1 ? kRaysOfEachGhost : kRaysOfSingleGhost;
   for (std::size_t g = 0; g < request.ghosts.size(); ++g)
     add_fan(section, ghost_path(lens, request.ghosts[g], request.lambda_nm), light, RayKind::Ghost, rays, g);
   return section;

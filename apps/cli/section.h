@@ -19,7 +19,7 @@ struct SectionRay {
   std::size_t ghost = 0;  // index among the section's ghosts, for rays of a ghost
   std::vector<Vec2> points_mm;
   std::vector<Vec2> reflections_mm;
-  bool blocked = false;  // drawn although a rim blocks it, because no ray gets through
+  bool blocked = false;  // a clear aperture blocks it; it is drawn because no ray passes
 };
 
 struct Element {  // glass between two surfaces, 0-based

@@ -6,7 +6,7 @@
 namespace contrejour::cli {
 namespace {
 
-std::string escaped(const std::string& words) {
+std::string xml_text(const std::string& words) {
   std::string out;
   for (const char c : words) {
     if (c == '&') {
@@ -50,8 +50,9 @@ void Svg::circle(Vec2 centre, double radius, const std::string& style) {
   body_ += fmt::format("<circle cx=\"{:.2f}\" cy=\"{:.2f}\" r=\"{:.2f}\" {}/>\n", centre.x, centre.y, radius, style);
 }
 
-void Svg::text(Vec2 place, const std::string& words, const std::string& style) {
-  body_ += fmt::format("<text x=\"{:.2f}\" y=\"{:.2f}\" {}>{}</text>\n", place.x, place.y, style, escaped(words));
+void Svg::text(Vec2 position, const std::string& words, const std::string& style) {
+  body_ +=
+      fmt::format("<text x=\"{:.2f}\" y=\"{:.2f}\" {}>{}</text>\n", position.x, position.y, style, xml_text(words));
 }
 
 void Svg::begin_clip(Vec2 corner, Vec2 size) {

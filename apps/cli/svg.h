@@ -19,7 +19,7 @@ class Svg {
   void polyline(const std::vector<Vec2>& points, const std::string& style);
   void path(const std::string& data, const std::string& style);
   void circle(Vec2 centre, double radius, const std::string& style);
-  void text(Vec2 place, const std::string& words, const std::string& style);
+  void text(Vec2 position, const std::string& words, const std::string& style);
 
   void begin_clip(Vec2 corner, Vec2 size);  // until end_clip, nothing outside is drawn
   void end_clip();

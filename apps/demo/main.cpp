@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A demonstration: a lens's flare by itself, and on a photograph of a night street that is made here.
+// A demonstration: the flare of a lens alone, and on a synthetic picture of a night street.
 #include <chrono>
 #include <cmath>
 #include <cstdio>
@@ -27,7 +27,7 @@ constexpr const char* kLens = "canon-70-200";
 constexpr double kFNumber = 5.6;
 constexpr int kBlades = 8;
 
-// Prints what is being done and how long it took.
+// Prints the name of a step, and at its end how long it took.
 class Step {
  public:
   explicit Step(const std::string& what) : started_(std::chrono::steady_clock::now()) {
@@ -82,8 +82,8 @@ Result<std::size_t> show_applied(const LensState& lens, const params::Values& va
   return applied->plan.lights.size();
 }
 
-// The faint ones of the street's many lights are merged.
-Result<params::Values> quick_values() {
+// The street has many lights; the faint ones are merged.
+Result<params::Values> demo_values() {
   params::Values values;
   if (auto ok = values.set("max-lights", "16"); !ok) return tl::unexpected(ok.error());
   return values;
@@ -92,7 +92,7 @@ Result<params::Values> quick_values() {
 Result<void> run(const fs::path& folder) {
   std::error_code error;
   fs::create_directories(folder, error);
-  if (error) return failure(ErrorCode::Io, "cannot create this folder: " + error.message(), {folder.string()});
+  if (error) return failure(ErrorCode::Io, "the folder cannot be created: " + error.message(), {folder.string()});
   const auto prescription = find_lens(kLens);
   if (!prescription) return tl::unexpected(prescription.error());
   LensSettings lens_settings;
@@ -102,14 +102,14 @@ Result<void> run(const fs::path& folder) {
   if (!lens) return tl::unexpected(lens.error());
   fmt::print("{}, {:.0f} mm, f/{:g}\n", lens->name, lens->focal_length_mm, lens->f_number);
 
-  const auto values = quick_values();
+  const auto values = demo_values();
   if (!values) return tl::unexpected(values.error());
   if (auto ok = show_lens_flare(*lens, *values, folder); !ok) return ok;
   const auto street = show_street(*lens, folder);
   if (!street) return tl::unexpected(street.error());
   const auto lights = show_applied(*lens, *values, *street, folder);
   if (!lights) return tl::unexpected(lights.error());
-  fmt::print("\n{} lights were found in the street. Look at (each also as EXR):\n", *lights);
+  fmt::print("\n{} lights were detected in the street. The pictures, each also as EXR, are:\n", *lights);
   for (const char* name : {"flare", "street", "street-with-flare", "street-flare-only"}) {
     fmt::print("  {}\n", (fs::absolute(folder) / (std::string(name) + ".png")).string());
   }
@@ -122,7 +122,7 @@ Result<void> run(const fs::path& folder) {
 int main(int argc, char** argv) {
   CLI::App app("Shows what Contrejour does: pictures of a lens flare, alone and on a night street.", "contrejour-demo");
   std::string folder = "contrejour-demo";
-  app.add_option("FOLDER", folder, "where the pictures go")->capture_default_str();
+  app.add_option("FOLDER", folder, "the folder for the pictures")->capture_default_str();
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

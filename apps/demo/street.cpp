@@ -11,9 +11,9 @@
 namespace contrejour::demo {
 namespace {
 
-constexpr int kSamples = 4;           // on a side of each pixel
-constexpr double kEye_m = 1.7;
-constexpr double kHorizonDown = 0.16;  // fraction of the height, below the middle
+constexpr int kSamples = 4;  // per pixel along each side
+constexpr double kCameraHeight_m = 1.7;
+constexpr double kHorizonOffset = 0.16;  // below the middle of the picture, as a fraction of its height
 
 Rgb pixel(const StreetScene& scene, const StreetSettings& settings, int x, int y) {
   const double scale = 2.0 * std::tan(0.5 * settings.hfov_rad) / settings.width;
@@ -22,9 +22,9 @@ Rgb pixel(const StreetScene& scene, const StreetSettings& settings, int x, int y
     const double px = x + (k % kSamples + hash01(x, y, 2 * k)) / kSamples;
     const double py = y + (k / kSamples + hash01(x, y, 2 * k + 1)) / kSamples;
     const Vec3 direction = normalized(
-        {(px - 0.5 * settings.width) * scale + 1e-9, ((0.5 + kHorizonDown) * settings.height - py) * scale, 1.0});
-    const Rgb seen = scene.radiance({0.5, kEye_m, 0.0}, direction);
-    for (std::size_t c = 0; c < sum.size(); ++c) sum[c] += seen[c] / (kSamples * kSamples);
+        {(px - 0.5 * settings.width) * scale + 1e-9, ((0.5 + kHorizonOffset) * settings.height - py) * scale, 1.0});
+    const Rgb radiance = scene.radiance({0.5, kCameraHeight_m, 0.0}, direction);
+    for (std::size_t c = 0; c < sum.size(); ++c) sum[c] += radiance[c] / (kSamples * kSamples);
   }
   return sum;
 }

@@ -11,7 +11,7 @@
 namespace contrejour::demo {
 
 struct Lamp {  // a glowing sphere
-  Vec3 place;
+  Vec3 centre;
   double radius = 0.1;
   Rgb radiance{};
 };
@@ -25,9 +25,9 @@ class StreetScene {
 
  private:
   [[nodiscard]] Rgb radiance(Vec3 origin, Vec3 direction, bool may_reflect) const;
-  [[nodiscard]] Rgb lamp_light(Vec3 place, Vec3 normal) const;  // irradiance / pi
-  [[nodiscard]] Rgb wall(Vec3 place, double side) const;
-  [[nodiscard]] Rgb road(Vec3 place, Vec3 direction, bool may_reflect) const;
+  [[nodiscard]] Rgb lamp_light(Vec3 point, Vec3 normal) const;  // irradiance / pi
+  [[nodiscard]] Rgb wall(Vec3 point, double side) const;
+  [[nodiscard]] Rgb road(Vec3 point, Vec3 direction, bool may_reflect) const;
   [[nodiscard]] Rgb sky(Vec3 direction) const;
 
   std::vector<Lamp> lamps_;

@@ -14,7 +14,7 @@ namespace {
 Result<Flare> render_on_grid(const FlarePlan& plan, const LensState& lens, const params::Values& values,
                              const Context& context) {
   FrameSettings settings = params::frame_settings(values, plan.grid.frame, plan.space);
-  settings.starburst.left_out = plan.already_there;
+  settings.starburst.left_out = plan.light_matte;
   settings.starburst.lights = plan.imaged_lights;
   return render(params::method_options(values), lens, plan.lights, settings, context);
 }

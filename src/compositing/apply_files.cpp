@@ -17,50 +17,51 @@ namespace {
 
 using params::Values;
 
-bool is_exposed(const OutputFile& file, const Values& values) {
+bool has_exposure(const OutputFile& file, const Values& values) {
   return lower_extension(file.destination()) == ".png" && values.text("exposure");
 }
 
-Picture brighter_by(Picture picture, double stops) {
-  const auto times = static_cast<float>(std::exp2(stops));
-  for (float& value : picture.rgb.pixels) value *= times;
+Picture exposed(Picture picture, double stops) {
+  const auto gain = static_cast<float>(std::exp2(stops));
+  for (float& value : picture.rgb.pixels) value *= gain;
   return picture;
 }
 
 Result<void> copy_bytes(OutputFile& file, const std::filesystem::path& input_path) {
-  constexpr std::size_t kCopiedAtOnce = std::size_t{1} << 20;
+  constexpr std::size_t kBlockBytes = std::size_t{1} << 20;
   std::ifstream input(input_path, std::ios::binary);
-  std::vector<char> piece(kCopiedAtOnce);
+  std::vector<char> block(kBlockBytes);
   while (input) {
-    input.read(piece.data(), static_cast<std::streamsize>(piece.size()));
-    const std::string_view part(piece.data(), static_cast<std::size_t>(input.gcount()));
+    input.read(block.data(), static_cast<std::streamsize>(block.size()));
+    const std::string_view part(block.data(), static_cast<std::size_t>(input.gcount()));
     if (auto ok = file.write(part); !ok) return ok;
   }
   if (input.bad() || !input.eof())
-    return failure(ErrorCode::Io, "cannot read the picture again", {input_path.string()});
+    return failure(ErrorCode::Io, "the picture cannot be read again to copy it; check that the file is unchanged",
+                   {input_path.string()});
   return {};
 }
 
 }  // namespace
 
 Result<void> write_photograph(OutputFile& file, const Picture& picture, const Values& values, const Context& context) {
-  if (!is_exposed(file, values)) return write_picture(file, picture, context);
-  const PreviewSettings look = preview_settings(values, picture.rgb, params::UsualExposure::AsItIs);
-  return write_picture(file, brighter_by(picture, look.exposure_stops), context);
+  if (!has_exposure(file, values)) return write_picture(file, picture, context);
+  const PreviewSettings settings = preview_settings(values, picture.rgb, params::DefaultExposure::None);
+  return write_picture(file, exposed(picture, settings.exposure_stops), context);
 }
 
 Result<void> copy_photograph(OutputFile& file, const std::filesystem::path& input, const Picture& picture,
                              const Values& values, const Context& context) {
   const char* const format = picture.header != nullptr ? ".exr" : ".png";
   std::error_code error;
-  if (is_exposed(file, values) || lower_extension(file.destination()) != format ||
+  if (has_exposure(file, values) || lower_extension(file.destination()) != format ||
       !std::filesystem::is_regular_file(input, error))
     return write_photograph(file, picture, values, context);
   return copy_bytes(file, input);
 }
 
-Result<void> write_beside(OutputFile& file, const Image& image, const Picture& picture, const FlarePlan& plan,
-                          const Context& context) {
+Result<void> write_aligned(OutputFile& file, const Image& image, const Picture& picture, const FlarePlan& plan,
+                           const Context& context) {
   Picture alone = picture_of(image);
   alone.data_window = picture.data_window;
   alone.display_window = picture.display_window;
@@ -71,8 +72,8 @@ Result<void> write_beside(OutputFile& file, const Image& image, const Picture& p
 
 Result<void> write_detected(OutputFile& file, const Picture& picture, const FlarePlan& plan, const Context& context) {
   if (lower_extension(file.destination()) == ".exr")
-    return write_beside(file, pixels_of_lights(picture.rgb, plan.found), picture, plan, context);
-  return write_preview_png(file, map_of_lights(picture.rgb, plan.found, plan.space), {}, context);
+    return write_aligned(file, pixels_of_lights(picture.rgb, plan.found), picture, plan, context);
+  return write_preview_png(file, false_colour_lights(picture.rgb, plan.found, plan.space), {}, context);
 }
 
 }  // namespace contrejour

@@ -8,7 +8,7 @@
 namespace contrejour {
 namespace {
 
-constexpr float kDim = 0.3F;
+constexpr float kDimming = 0.3F;
 // The colours of Okabe and Ito, which most people with a colour deficiency can distinguish; display values as linear
 // light.
 constexpr std::array<std::array<float, 3>, 8> kColours = {{{0.79F, 0.35F, 0.00F},
@@ -45,12 +45,12 @@ Image pixels_of_lights(const Image& rgb, const Detection& found) {
   return out;
 }
 
-Image map_of_lights(const Image& rgb, const Detection& found, ColourSpace space) {
+Image false_colour_lights(const Image& rgb, const Detection& found, ColourSpace space) {
   Image out(rgb.width, rgb.height);
   for (std::size_t k = 0; k + 2 < rgb.pixels.size(); k += 3) {
     const double grey = luminance({rgb.pixels[k], rgb.pixels[k + 1], rgb.pixels[k + 2]}, space);
     std::fill_n(out.pixels.begin() + static_cast<std::ptrdiff_t>(k), 3,
-                kDim * static_cast<float>(std::isfinite(grey) ? std::clamp(grey, 0.0, 1.0) : 0.0));
+                kDimming * static_cast<float>(std::isfinite(grey) ? std::clamp(grey, 0.0, 1.0) : 0.0));
   }
   for_each_pixel(rgb, found, [&](std::size_t light, int x, int y, const float* /*pixel*/) {
     std::copy_n(kColours[light % kColours.size()].begin(), 3,

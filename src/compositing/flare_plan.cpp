@@ -3,79 +3,23 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
+#include <memory>
 #include <string>
 #include <utility>
 
 #include <fmt/format.h>
 
+#include "compositing/detected_lights.h"
 #include "contrejour/expert/settings.h"
 #include "contrejour/expert/spectrum_file.h"
-#include "contrejour/expert/trace.h"
 
 namespace contrejour {
 namespace {
 
 using params::Values;
 
-constexpr double kPoint_px = 1.0;         // root mean square radius: a smaller light is a point
-constexpr int kLargestShape_px = 512;     // on a side of a shape
-constexpr int kMostImages = 32;  // lights with a starburst of their own where the lights of ghosts are merged
-
-Light light_of(const DetectedLight& area, const Spectrum& spectrum, const PixelGrid& grid, const LensState& lens,
-               const Values& values) {
-  const double gain = params::gain(values);
-  Light light;
-  light.distance_mm = *params::parse_distance_mm(*values.text("light-distance"));
-  light.direction = direction_for_image_point(lens, grid.sensor_from_pixel(area.centroid_px), lens.design_wavelength_nm,
-                                              light.distance_mm);
-  light.value = {area.flux[0] * gain, area.flux[1] * gain, area.flux[2] * gain};
-  light.spectrum = spectrum;
-  return light;
-}
-
-// The angles of a pixel's sides around a light's direction, as tangents, from the displacement of its image. nullopt
-// where no light gets through.
-std::optional<LightShape> shape_about(const LightSource& source, const PixelGrid& grid, const LensState& lens) {
-  constexpr double kStep = 1e-3;
-  const auto at = [&](Vec2 tangents) {
-    return grid.pixel_from_sensor(
-        chief_ray_image_point(lens, source_beside(source, tangents), lens.design_wavelength_nm));
-  };
-  const Vec2 x = (at({kStep, 0.0}) - at({-kStep, 0.0})) * (0.5 / kStep);
-  const Vec2 y = (at({0.0, kStep}) - at({0.0, -kStep})) * (0.5 / kStep);
-  const double determinant = cross(x, y);
-  if (!std::isnormal(determinant)) return std::nullopt;
-  LightShape shape;
-  shape.right = {y.y / determinant, -x.y / determinant};
-  shape.down = {-y.x / determinant, x.x / determinant};
-  return shape;
-}
-
-// Gives a light the extent of its own pixels, if it is larger than a point and its pixels can be a shape.
-void give_shape(Light& light, const DetectedLight& area, const Picture& picture, const FlarePlan& plan,
-                const Detection& found, const LensState& lens) {
-  if (!(area.rms_radius_px > kPoint_px)) return;
-  auto shape = shape_about(light.source(), plan.grid, lens);
-  if (!shape) return;
-  shape->level = picture_of_areas(picture.rgb, found, area);
-  shape->centre_px = area.centroid_px - Vec2{static_cast<double>(area.min_x), static_cast<double>(area.min_y)};
-  const int side = std::max(shape->level.width, shape->level.height);
-  Light shaped = light;
-  shaped.shape = std::make_shared<const LightShape>(
-      side > kLargestShape_px ? coarser(*shape, side / kLargestShape_px + 1) : std::move(*shape));
-  if (check_extent(shaped)) light = shaped;
-}
-
-std::vector<Light> lights_of(const Detection& found, const Spectrum& spectrum, const Picture& picture,
-                             const FlarePlan& plan, const LensState& lens, const Values& values) {
-  std::vector<Light> lights;
-  for (const DetectedLight& area : found.lights) {
-    lights.push_back(light_of(area, spectrum, plan.grid, lens, values));
-    if (values.is_on("light-shape")) give_shape(lights.back(), area, picture, plan, found, lens);
-  }
-  return lights;
-}
+// The largest number of lights with a starburst of their own where lights are merged for the ghosts.
+constexpr int kMaxImagedLights = 32;
 
 std::vector<PixelRegion> regions_of(const Values& values, const PixelGrid& grid) {
   std::vector<PixelRegion> regions;
@@ -98,28 +42,27 @@ Result<void> find_lights(const Picture& picture, const LensState& lens, const Va
   if (!found) return tl::unexpected(found.error());
   plan.found = std::move(*found);
   if (values.is_on("starburst") || values.number("glare") > 0.0)
-    plan.already_there =
-        std::make_shared<const Image>(frame_of_picture(light_matte(picture.rgb, plan.found), plan.grid));
-  plan.lights = lights_of(plan.found, *spectrum, picture, plan, lens, values);
-  if (!plan.already_there || !values.is_on("light-shape") || plan.found.areas_found <= detection.max_lights) return {};
+    plan.light_matte = std::make_shared<const Image>(frame_of_picture(light_matte(picture.rgb, plan.found), plan.grid));
+  plan.lights = lights_of(plan.found, *spectrum, picture.rgb, plan.grid, lens, values);
+  if (!plan.light_matte || !values.is_on("light-shape") || plan.found.areas_found <= detection.max_lights) return {};
   detection.threshold = plan.found.threshold;
-  detection.max_lights = std::max(detection.max_lights, kMostImages);
-  const auto apart = detect_lights(picture.rgb, detection);
-  if (!apart) return tl::unexpected(apart.error());
+  detection.max_lights = std::max(detection.max_lights, kMaxImagedLights);
+  const auto unmerged = detect_lights(picture.rgb, detection);
+  if (!unmerged) return tl::unexpected(unmerged.error());
   plan.imaged_lights =
-      std::make_shared<const std::vector<Light>>(lights_of(*apart, *spectrum, picture, plan, lens, values));
+      std::make_shared<const std::vector<Light>>(lights_of(*unmerged, *spectrum, picture.rgb, plan.grid, lens, values));
   return {};
 }
 
-// A value of 1, the default of `render`, would be that of one white pixel: its flare would be invisible, which no user
-// intends.
+// The default value of `render`, 1, is that of one white pixel, whose flare would be invisible. A photograph's lights
+// therefore need a value.
 Result<void> check_values_given(const Values& values) {
   if (values.given("value")) return {};
   for (const char* name : {"light", "light-at"}) {
     for (const std::string& text : values.list(name)) {
       if (const auto light = params::parse_light(text); light && light->value) continue;
       return failure(ErrorCode::InvalidArgument,
-                     fmt::format("--{0} {1} does not say how bright the light is; add what its image sums to, as in "
+                     fmt::format("--{0} {1} does not say how bright the light is; add the sum of its image, as in "
                                  "--{0} {1}:50000, or give --value",
                                  name, text.substr(0, text.find(':'))));
     }
@@ -131,7 +74,7 @@ Result<void> add_given_lights(const LensState& lens, const Values& values, Flare
   if (auto valued = check_values_given(values); !valued) return valued;
   auto given = params::given_lights(values, lens, plan.grid.frame, plan.space);
   if (!given) return tl::unexpected(given.error());
-  plan.given_lights = given->size();
+  plan.given_light_count = given->size();
   if (given->empty()) return {};
   for (Light& light : *given)
     for (double& value : light.value) value *= params::gain(values);
@@ -154,14 +97,16 @@ Result<void> check_window(const Picture& picture) {
 
 std::vector<std::string> warnings_about(const FlarePlan& plan, bool knows_primaries, const Values& values) {
   std::vector<std::string> warnings;
-  // The colours of the lights stay right; only the flare's own tint is slightly off.
+  // The lights keep their colours; only the tint of the flare is slightly wrong.
   if (!knows_primaries && !values.given("colour-space"))
     warnings.emplace_back(
-        "the picture's primaries are neither Rec.709 nor ACEScg; its flare is computed as for Rec.709 "
-        "(--colour-space)");
+        "the picture's primaries are neither Rec.709 nor ACEScg; its flare is computed for Rec.709, or for the space "
+        "of "
+        "--colour-space");
   if (plan.found.capped_pixels > 0 && !values.given("max-value"))
-    warnings.push_back(fmt::format("{} pixels are brighter than {:g} and count as of that level (--max-value)",
-                                   plan.found.capped_pixels, plan.found.max_value));
+    warnings.push_back(fmt::format(
+        "pixels brighter than {:g} are clamped to it, and the picture has {} of them; --max-value sets this limit",
+        plan.found.max_value, plan.found.capped_pixels));
   return warnings;
 }
 

@@ -8,14 +8,14 @@
 namespace contrejour {
 namespace {
 
-constexpr double kShown = 0.995;  // quantile of the pixels: a ghost on 1 / 200 of the frame counts
-constexpr double kBlack = 0.01;   // of white
+constexpr double kQuantile = 0.995;  // a ghost that covers 1 / 200 of the frame counts
+constexpr double kBlackLevel = 0.01;  // is added to the picture's luminance, in units of white
 // A flare that adds a quarter to the picture below it is obvious; one that adds some hundredths can be found.
-constexpr double kPlain = 0.25;
+constexpr double kObvious = 0.25;
 
-double quantile(std::vector<float>& values, double share) {
+double quantile(std::vector<float>& values, double fraction) {
   if (values.empty()) return 0.0;
-  const auto at = values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+  const auto at = values.begin() + static_cast<std::ptrdiff_t>(fraction * static_cast<double>(values.size() - 1));
   std::nth_element(values.begin(), at, values.end());
   return *at;
 }
@@ -38,12 +38,12 @@ FlareVisibility visibility_of(const Image& rgb, const Image& flare, const Detect
     if (has_areas && found.area_of_pixel[k] >= 0) continue;
     const double added = luminance_of(flare, k, space);
     brightness.push_back(static_cast<float>(added));
-    ratio.push_back(static_cast<float>(added / (luminance_of(rgb, k, space) + kBlack)));
+    ratio.push_back(static_cast<float>(added / (luminance_of(rgb, k, space) + kBlackLevel)));
   }
-  visibility.brightest = quantile(brightness, kShown);
-  visibility.over_picture = quantile(ratio, kShown);
-  if (visibility.over_picture > 0.0)
-    visibility.stops_to_plain = std::max(0.0, std::log2(kPlain / visibility.over_picture));
+  visibility.brightest = quantile(brightness, kQuantile);
+  visibility.relative_to_picture = quantile(ratio, kQuantile);
+  if (visibility.relative_to_picture > 0.0)
+    visibility.stops_to_obvious = std::max(0.0, std::log2(kObvious / visibility.relative_to_picture));
   return visibility;
 }
 

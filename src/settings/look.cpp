@@ -23,6 +23,8 @@ constexpr BundledLook kBundled[] = {
 #include "bundled_looks.inc"
 };
 
+bool is_called(const Parameter& p, std::string_view key) { return p.name == key || (p.former == key && !key.empty()); }
+
 std::vector<std::string_view> known_keys() {
   std::vector<std::string_view> keys{"name", "description", "lens"};
   for (const Parameter& p : all_parameters()) {
@@ -33,13 +35,16 @@ std::vector<std::string_view> known_keys() {
 
 Error unknown_key(const KeyValue& given) {
   for (const Parameter& p : all_parameters()) {
-    if (p.name != given.key) continue;
-    return {ErrorCode::Parse, fmt::format("{} belongs to a scene, not to a look; give --{} instead", p.name, p.name),
-            given.place};
+    if (!is_called(p, given.key)) continue;
+    return {
+        ErrorCode::Parse,
+        fmt::format("{} describes a scene and is not part of a preset; give --{} on the command line", p.name, p.name),
+        given.place};
   }
-  const std::string near = nearest_name(given.key, known_keys());
-  const std::string remedy = near.empty() ? fmt::format("see {}", kPage) : fmt::format("did you mean {}?", near);
-  return {ErrorCode::Parse, fmt::format("unknown key \"{}\"; {}", given.key.substr(0, 60), remedy), given.place};
+  const std::string nearest = nearest_name(given.key, known_keys());
+  const std::string remedy = nearest.empty() ? fmt::format("see {}", kPage) : fmt::format("did you mean {}?", nearest);
+  return {ErrorCode::Parse, fmt::format("\"{}\" is not a key of a preset; {}", given.key.substr(0, 60), remedy),
+          given.place};
 }
 
 std::string* heading(Look& look, std::string_view key) {
@@ -49,25 +54,28 @@ std::string* heading(Look& look, std::string_view key) {
   return nullptr;
 }
 
-Result<void> set(Look& look, const KeyValue& given) {
+Result<void> set_key(Look& look, const KeyValue& given) {
   const auto wrong = [&](std::string_view what) {
     return failure(ErrorCode::Parse, fmt::format("{}: {}", given.key, what), given.place);
   };
   if (std::string* text = heading(look, given.key)) {
-    if (given.kind != KeyValue::Kind::Text) return wrong("give text in quotes");
+    if (given.kind != KeyValue::Kind::Text) return wrong("the value is not text; write it in quotes");
     *text = given.texts.front();
     return {};
   }
   const auto all = all_parameters();
   const auto found = std::find_if(all.begin(), all.end(),
-                                  [&](const Parameter& p) { return p.name == given.key && belongs_to_look(p); });
+                                  [&](const Parameter& p) { return is_called(p, given.key) && belongs_to_look(p); });
   if (found == all.end()) return tl::unexpected(unknown_key(given));
+  if (look.values.given(found->name))
+    return wrong(fmt::format("{} is the earlier name of {}; give only the latter", found->former, found->name));
   if (found->kind == Kind::Switch) {
-    if (given.kind != KeyValue::Kind::Boolean) return wrong("give true or false");
+    if (given.kind != KeyValue::Kind::Boolean) return wrong("the value of a switch is true or false");
     return look.values.set(found->name, given.texts.front() == "true" ? "on" : "off");
   }
-  if (given.kind == KeyValue::Kind::Boolean) return wrong("give a value, not true or false");
-  if (given.kind == KeyValue::Kind::TextList && !found->repeats) return wrong("give one value, not a list");
+  if (given.kind == KeyValue::Kind::Boolean) return wrong("this is not a switch; give a value, not true or false");
+  if (given.kind == KeyValue::Kind::TextList && !found->repeats)
+    return wrong("this has a single value; give one, not a list");
   for (const std::string& text : given.texts) {
     if (const auto ok = look.values.set(found->name, text); !ok) return wrong(ok.error().message);
   }
@@ -78,7 +86,7 @@ Result<Look> look_of(const Result<std::vector<KeyValue>>& given) {
   if (!given) return tl::unexpected(given.error());
   Look look;
   for (const KeyValue& value : *given) {
-    if (const auto ok = set(look, value); !ok) return tl::unexpected(ok.error());
+    if (const auto ok = set_key(look, value); !ok) return tl::unexpected(ok.error());
   }
   return look;
 }
@@ -89,7 +97,7 @@ KeyValue::Kind kind_of(const Parameter& p) {
   return p.kind == Kind::Real || p.kind == Kind::Integer ? KeyValue::Kind::Number : KeyValue::Kind::Text;
 }
 
-// A number as TOML writes it: TOML accepts neither ".5" nor "+5" nor "08", which the command line does.
+// A number in the form that TOML requires: the command line also accepts ".5", "+5" and "08", which TOML does not.
 std::string number_text(const Parameter& p, const std::string& given) {
   return p.kind == Kind::Integer ? fmt::format("{}", *parse_integer(given)) : fmt::format("{}", *parse_real(given));
 }
@@ -138,11 +146,12 @@ Result<Look> find_look(const std::string& name_or_file) {
   if (path.has_parent_path() || path.has_extension() || std::filesystem::exists(path, code)) {
     return look_of(read_key_values(path, kPage));
   }
-  const std::string near = nearest_name(name_or_file, names);
-  const std::string remedy = near.empty() ? fmt::format("bundled are {}; or name a file", fmt::join(names, ", "))
-                                          : fmt::format("did you mean {}? `contrejour look list` shows all", near);
-  return failure(ErrorCode::InvalidArgument,
-                 fmt::format("no look and no file is called \"{}\"; {}", name_or_file.substr(0, 60), remedy));
+  const std::string nearest = nearest_name(name_or_file, names);
+  const std::string remedy = nearest.empty()
+                                 ? fmt::format("give a file or one of {}", fmt::join(names, ", "))
+                                 : fmt::format("did you mean {}? `contrejour look list` lists the presets", nearest);
+  return invalid_argument(
+      fmt::format("no preset and no file has the name \"{}\"; {}", name_or_file.substr(0, 60), remedy));
 }
 
 }  // namespace contrejour::params

@@ -9,13 +9,13 @@
 namespace contrejour::params {
 namespace {
 
-constexpr std::uint64_t kMostPixels = std::uint64_t{1} << 26U;  // 8192 x 8192
+constexpr std::uint64_t kMaxMaskPixels = std::uint64_t{1} << 26U;  // 8192 x 8192
 
-// make: builds the value from levels, width and height.
+// `make` builds the value from levels, width and height.
 template <class Value>
 Result<Value> read_levels(const std::string& file, Result<Value> (*make)(std::span<const float>, int, int)) {
   ReadOptions options;
-  options.limits.max_pixels = kMostPixels;
+  options.limits.max_pixels = kMaxMaskPixels;
   const auto picture = read_picture(file, options);
   if (!picture) return tl::unexpected(picture.error());
   const Image& rgb = picture->rgb;

@@ -9,6 +9,7 @@
 #include <fmt/ranges.h>
 
 #include "contrejour/expert/parameter_text.h"
+#include "settings/parameter_tables.h"
 
 namespace contrejour::params {
 namespace {
@@ -21,7 +22,7 @@ std::string range_of(const Parameter& p) {
 
 Result<void> check_range(const Parameter& p, double value, std::string_view text) {
   if (value >= p.minimum && value <= p.maximum) return {};
-  return failure(ErrorCode::InvalidArgument, fmt::format("{} is out of range: give a number {}", text, range_of(p)));
+  return invalid_argument(fmt::format("{} is out of range; give a number {}", text, range_of(p)));
 }
 
 Result<void> check_kind(const Parameter& p, std::string_view text) {
@@ -36,16 +37,30 @@ Result<void> check_kind(const Parameter& p, std::string_view text) {
     }
     case Kind::Choice:
       if (std::find(p.choices.begin(), p.choices.end(), text) != p.choices.end()) return {};
-      return failure(ErrorCode::InvalidArgument, fmt::format("\"{}\" is none of {}", text, fmt::join(p.choices, ", ")));
+      return invalid_argument(fmt::format("\"{}\" is not a choice; give one of {}", text, fmt::join(p.choices, ", ")));
     case Kind::Switch:
       if (text == "on" || text == "off") return {};
-      return failure(ErrorCode::InvalidArgument, fmt::format("\"{}\" is neither on nor off", text));
+      return invalid_argument(fmt::format("\"{}\" is not a state of a switch; give on or off", text));
     case Kind::Text: return {};
   }
   return {};
 }
 
+std::vector<Parameter> joined_tables() {
+  std::vector<Parameter> all;
+  for (const auto& part :
+       {lens_parameters(), dirt_parameters(), coating_parameters(), sensor_parameters(), light_parameters(),
+        frame_parameters(), ghost_parameters(), method_parameters(), effect_parameters(), detection_parameters()})
+    all.insert(all.end(), part.begin(), part.end());
+  return all;
+}
+
 }  // namespace
+
+std::span<const Parameter> all_parameters() {
+  static const std::vector<Parameter> kAll = joined_tables();
+  return kAll;
+}
 
 const Parameter& parameter(std::string_view name) {
   const auto all = all_parameters();

@@ -4,6 +4,7 @@
 #include <charconv>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -38,7 +39,7 @@ std::vector<std::string_view> split(std::string_view text, char separator) {
 Result<double> parse_real(std::string_view text) {
   double value = 0.0;
   if (!read_whole(text, value) || !std::isfinite(value)) {
-    return failure(ErrorCode::InvalidArgument, fmt::format("\"{}\" is not a finite number", text));
+    return invalid_argument(fmt::format("\"{}\" is not a finite number", text));
   }
   return value;
 }
@@ -46,7 +47,7 @@ Result<double> parse_real(std::string_view text) {
 Result<int> parse_integer(std::string_view text) {
   int value = 0;
   if (!read_whole(text, value)) {
-    return failure(ErrorCode::InvalidArgument, fmt::format("\"{}\" is not a whole number", text));
+    return invalid_argument(fmt::format("\"{}\" is not a whole number", text));
   }
   return value;
 }
@@ -59,8 +60,8 @@ Result<std::vector<double>> parse_reals(std::string_view text, std::size_t count
     values.push_back(*value);
   }
   if (values.size() != count) {
-    return failure(ErrorCode::InvalidArgument,
-                   fmt::format("\"{}\" has {} numbers; give {}, with commas between", text, values.size(), count));
+    return invalid_argument(
+        fmt::format("\"{}\" has {} numbers; give {}, separated by commas", text, values.size(), count));
   }
   return values;
 }
@@ -69,8 +70,8 @@ Result<int> parse_wavelengths(std::string_view text) {
   if (text == "auto") return kWavelengthsByNeed;
   int count = 0;
   if (!read_whole(text, count) || count < 1 || count > 1024) {
-    return failure(ErrorCode::InvalidArgument,
-                   fmt::format("\"{}\" is not a number of wavelengths; write auto, or one from 1 to 1024", text));
+    return invalid_argument(
+        fmt::format("\"{}\" is not a number of wavelengths; give auto, or a number from 1 to 1024", text));
   }
   return count;
 }
@@ -80,13 +81,14 @@ Result<PixelSize> parse_size(std::string_view text) {
   const std::size_t cross = text.find('x');
   if (cross == std::string_view::npos || !read_whole(text.substr(0, cross), size.width) ||
       !read_whole(text.substr(cross + 1), size.height)) {
-    return failure(ErrorCode::InvalidArgument, fmt::format("\"{}\" is not a size; write it as 1920x1080", text));
+    return invalid_argument(
+        fmt::format("\"{}\" is not a size; give the width and height in pixels, as in 1920x1080", text));
   }
   if (size.width < 1 || size.height < 1) {
-    return failure(ErrorCode::InvalidArgument, fmt::format("{} has no pixels; both sides must be at least 1", text));
+    return invalid_argument(fmt::format("{} has no pixels; width and height must be at least 1", text));
   }
   if (static_cast<double>(size.width) * size.height > kMaxPixels) {
-    return failure(ErrorCode::InvalidArgument, fmt::format("{} is too large; 2^28 pixels are the limit", text));
+    return invalid_argument(fmt::format("{} is too large; a picture may have at most 2^28 pixels", text));
   }
   return size;
 }
@@ -96,10 +98,10 @@ Result<UvRegion> parse_region(std::string_view text) {
   if (!sides) return tl::unexpected(sides.error());
   const UvRegion region{{(*sides)[0], (*sides)[1]}, {(*sides)[2], (*sides)[3]}};
   if (region.from.x < region.to.x && region.from.y < region.to.y) return region;
-  return failure(ErrorCode::InvalidArgument,
-                 fmt::format("\"{}\" holds nothing; write left,top,right,bottom, as in 0.5,0,1,0.5 for the top right "
-                             "quarter",
-                             text));
+  return invalid_argument(
+      fmt::format("\"{}\" is an empty region; give left,top,right,bottom, with left < right and top < "
+                  "bottom, as in 0.5,0,1,0.5 for the top right quarter",
+                  text));
 }
 
 Result<double> parse_distance_mm(std::string_view text) {
@@ -113,21 +115,22 @@ Result<double> parse_distance_mm(std::string_view text) {
   }
   const auto value = parse_real(number);
   if (!value || !(*value > 0.0) || !std::isfinite(*value * unit_mm)) {
-    return failure(ErrorCode::InvalidArgument,
-                   fmt::format("\"{}\" is not a distance; write 2000, 2000mm, 2m or inf", text));
+    return invalid_argument(
+        fmt::format("\"{}\" is not a distance; give a length above 0, as in 2000 (mm), 200cm or 2m, or inf", text));
   }
   return *value * unit_mm;
 }
 
 Result<double> parse_error_bound(std::string_view text) {
-  constexpr std::pair<std::string_view, double> kPresets[] = {{"preview", 0.01}, {"standard", 0.003}, {"final", 0.001}};
-  for (const auto& [name, bound] : kPresets) {
+  constexpr std::pair<std::string_view, double> kQualities[] = {
+      {"preview", 0.01}, {"standard", 0.003}, {"final", 0.001}};
+  for (const auto& [name, bound] : kQualities) {
     if (text == name) return bound;
   }
   const auto bound = parse_real(text);
   if (bound && *bound >= 1e-4 && *bound <= 0.1) return *bound;
-  return failure(ErrorCode::InvalidArgument,
-                 fmt::format("\"{}\" is no error bound; give preview, standard, final or 0.0001 to 0.1", text));
+  return invalid_argument(fmt::format(
+      "\"{}\" is not an error bound; give preview, standard or final, or a number from 0.0001 to 0.1", text));
 }
 
 }  // namespace contrejour::params

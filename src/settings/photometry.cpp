@@ -21,7 +21,7 @@ constexpr double kMm_per_m = 1000.0;
 
 // The area in mm^2 of the plane before the lens through which the light of its direct image enters. If no light reaches
 // the frame's edge, the area is that on the axis.
-double gathering_mm2(const LensState& lens, const Frame& frame, const LightSource& source) {
+double entrance_area_mm2(const LensState& lens, const Frame& frame, const LightSource& source) {
   const GhostMeter meter(lens, lens.design_wavelength_nm);
   const double own_mm2 = meter.direct_flux(measured_source(lens, frame, source));
   return own_mm2 > 0.0 ? own_mm2 : meter.direct_flux(LightSource({0.0, 0.0, 1.0}, source.distance_mm));
@@ -31,7 +31,7 @@ double gathering_mm2(const LensState& lens, const Frame& frame, const LightSourc
 // time.
 double sum_of_lux(double lux, const Light& light, const LensState& lens, const Frame& frame, const Exposure& exposure) {
   const double pixel_mm2 = frame.pixel_pitch_mm * frame.pixel_pitch_mm;
-  const double on_pixels_lux = lux * gathering_mm2(lens, frame, light.source()) / pixel_mm2;
+  const double on_pixels_lux = lux * entrance_area_mm2(lens, frame, light.source()) / pixel_mm2;
   return on_pixels_lux * exposure.shutter_s * exposure.iso / kWhiteExposure_lx_s;
 }
 
@@ -53,18 +53,21 @@ Result<double> sum_of(const LightValue& value, const Light& light, const LensSta
     case Unit::Sum: return amount;
     case Unit::Stops:
       if (!has_size)
-        return invalid_argument("stops over white are those of a disc; say how large it is with --light-size");
+        return invalid_argument(
+            "a point has no stops above white; give the light a diameter with --light-size, or another unit");
       return std::exp2(amount) * pixels_of_disc(light.radius_rad, lens, frame);
     case Unit::Nits: {
       if (!has_size)
-        return invalid_argument("nits are those of a disc; say how large it is with --light-size, or give lux");
+        return invalid_argument(
+            "a point has no luminance in nits; give the light a diameter with --light-size, or its illuminance in lx");
       const double sine = std::sin(light.radius_rad);
       return sum_of_lux(amount * std::numbers::pi * sine * sine, light, lens, frame, exposure);
     }
     case Unit::Candela: {
       if (light.source().is_distant())
         return invalid_argument(
-            "candela are those of a light at a distance; give --light-distance, or lux at the lens");
+            "a distant light has no intensity in cd; give its distance with --light-distance, or its illuminance in "
+            "lx");
       const double distance_m = light.distance_mm / kMm_per_m;
       return sum_of_lux(amount / (distance_m * distance_m), light, lens, frame, exposure);
     }
@@ -75,10 +78,12 @@ Result<double> sum_of(const LightValue& value, const Light& light, const LensSta
 
 Result<double> parse_shutter(std::string_view text) {
   const auto parts = split(text, '/');
-  const auto over = parse_real(parts[0]), under = parts.size() > 1 ? parse_real(parts[1]) : Result<double>(1.0);
-  const double seconds = over && under ? *over / *under : 0.0;
+  const auto numerator = parse_real(parts[0]),
+             denominator = parts.size() > 1 ? parse_real(parts[1]) : Result<double>(1.0);
+  const double seconds = numerator && denominator ? *numerator / *denominator : 0.0;
   if (parts.size() <= 2 && seconds >= 1e-6 && seconds <= 1e6) return seconds;
-  return invalid_argument(fmt::format("\"{}\" is no shutter time; write 1/50 or 0.02, from 1e-6 to 1e6 s", text));
+  return invalid_argument(
+      fmt::format("\"{}\" is not an exposure time; give seconds from 1e-6 to 1e6, as in 1/50 or 0.02", text));
 }
 
 }  // namespace contrejour::params

@@ -20,7 +20,7 @@ struct Exposure {
   double shutter_s = 0.02;
 };
 
-// docs/physics/radiometry.md, "Brightness of lights". Uses the light's place and size, not its value. Errors:
+// docs/physics/radiometry.md, "Brightness of lights". Uses the light's position and size, not its value. Errors:
 // InvalidArgument for stops and nits of a point and candela of a distant light.
 [[nodiscard]] Result<double> sum_of(const LightValue& value, const Light& light, const LensState& lens,
                                     const Frame& frame, const Exposure& exposure);

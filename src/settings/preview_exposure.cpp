@@ -22,12 +22,12 @@ double automatic_exposure(const Image& rgb) {
   return std::clamp(std::log2(kExposedLevel / bright), -kMaxExposure_stops, kMaxExposure_stops);
 }
 
-PreviewSettings preview_settings(const Values& values, const Image& rgb, UsualExposure usual) {
+PreviewSettings preview_settings(const Values& values, const Image& rgb, DefaultExposure otherwise) {
   PreviewSettings settings;
   const auto text = values.text("exposure");
   if (text && *text != "auto") {
     settings.exposure_stops = *parse_real(*text);
-  } else if (text || usual == UsualExposure::Automatic) {
+  } else if (text || otherwise == DefaultExposure::Automatic) {
     settings.exposure_stops = automatic_exposure(rgb);
   }
   return settings;

@@ -14,7 +14,7 @@
 namespace contrejour::params {
 namespace {
 
-constexpr double kSmallest_mm = 0.1, kLargest_mm = 1e4;  // the limits of lens files
+constexpr double kMinSide_mm = 0.1, kMaxSide_mm = 1e4;  // the limits of lens files
 
 // Camera gates of film and whole sensors as their makers and manuals state them. Formats that several makers share
 // (aps-c, four-thirds, medium-format) differ from camera to camera by some tenths of a millimetre.
@@ -28,7 +28,7 @@ constexpr SensorFormat kFormats[] = {
     {"monstro", 40.96, 21.60},
 };
 
-bool is_possible(double side_mm) { return side_mm >= kSmallest_mm && side_mm <= kLargest_mm; }
+bool is_possible(double side_mm) { return side_mm >= kMinSide_mm && side_mm <= kMaxSide_mm; }
 
 }  // namespace
 
@@ -44,10 +44,10 @@ Result<SensorFormat> parse_sensor(std::string_view text) {
   }
   std::vector<std::string_view> names;
   for (const SensorFormat& format : kFormats) names.push_back(format.name);
-  const std::string near = nearest_name(text, names);
-  return failure(ErrorCode::InvalidArgument,
-                 fmt::format("\"{}\" is no sensor{}; write its size in mm as 24.9x18.7, or one of {}", text,
-                             near.empty() ? "" : fmt::format("; did you mean {}?", near), fmt::join(names, ", ")));
+  const std::string nearest = nearest_name(text, names);
+  return invalid_argument(fmt::format("\"{}\" is not a sensor{}; give its size in mm as 24.9x18.7, or one of {}", text,
+                                      nearest.empty() ? "" : fmt::format("; did you mean {}?", nearest),
+                                      fmt::join(names, ", ")));
 }
 
 }  // namespace contrejour::params

@@ -14,7 +14,7 @@ struct SensorFormat {
   double width_mm = 0, height_mm = 0;
 };
 
-// The sizes of the exposed areas, whichever part of them is shown later.
+// The sizes of the exposed areas, before any crop.
 [[nodiscard]] std::span<const SensorFormat> sensor_formats();
 
 // Accepts "super35", or a size in mm: "24.9x18.7". Errors: InvalidArgument, with the names.

@@ -56,7 +56,7 @@ class Apply(ProgramTest):
         exr.write(self.folder / "flat.exr", {c: (exr.HALF, street) for c in "RGB"}, WIDTH, HEIGHT)
         compare = ["compare", "in.exr", "flat.exr", "--layer", "key", "--layer", ""]
         self.assertIsNone(self.json_of(*compare)["psnr_db"])
-        self.assertIn("at most twice", self.error_of(*compare, "--layer", "fill", code=2))
+        self.assertIn("more than twice", self.error_of(*compare, "--layer", "fill", code=2))
 
     def test_up_right_is_up_right(self):
         self.write("in.exr", dark([(75, 10, 5000.0)]))
@@ -207,7 +207,7 @@ class Apply(ProgramTest):
         values = dark([(x, y, 3e38) for x in range(50, 55) for y in range(20, 25)])
         self.write("in.exr", values)
         done = self.run_program("apply", "heliar", "in.exr", "-o", "out.exr", "--starburst", "--glare", "0.1", *QUICK)
-        self.assertIn(b"25 pixels are brighter than 1e+10", done.stderr)
+        self.assertIn(b"the picture has 25 of them", done.stderr)
         for channel in exr.Picture(self.folder / "out.exr").channels.values():
             self.assertTrue(all(math.isfinite(v) for v in channel))
         arguments = ["apply", "heliar", "in.exr", "-o", "out.exr", "--softness", "0", *QUICK]
@@ -227,7 +227,7 @@ class Apply(ProgramTest):
         """No light: the picture's brightest pixel, and what to try; the suggestions work."""
         self.write("in.exr", dark([(30, 10, 0.9)], level=0.2))
         said = self.run_program("apply", "heliar", "in.exr", "-o", "out.exr", *QUICK).stdout.decode()
-        for words in ("no lights", "the brightest has 0.9, at 30.5, 10.5 px", "--threshold 0.45", "--region", "--light-at 0.339,0.175:"):
+        for words in ("no lights", "the brightest pixel has 0.9, at 30.5, 10.5 px", "--threshold 0.45", "--region", "--light-at 0.339,0.175:"):
             self.assertIn(words, said)
         report = self.json_of("apply", "heliar", "in.exr", "-o", "out.exr", *QUICK)
         self.assertEqual((report["threshold_source"], report["lights"]), ("none", []))
@@ -236,7 +236,7 @@ class Apply(ProgramTest):
             report = self.json_of("apply", "heliar", "in.exr", "-o", "out.exr", *more, *QUICK)
             self.assertEqual([light["centroid_px"] for light in report["lights"]], [[30.5, 10.5]])
         self.write("black.exr", dark(level=0.0))
-        self.assertIn(b"all is black", self.run_program("apply", "heliar", "black.exr", "-o", "out.exr", *QUICK).stdout)
+        self.assertIn(b"the picture is black", self.run_program("apply", "heliar", "black.exr", "-o", "out.exr", *QUICK).stdout)
 
     def test_a_window_without_a_gap(self):
         """Ten stops that fall evenly: the two brightest of them are the light."""
@@ -289,12 +289,12 @@ class Apply(ProgramTest):
         self.assertEqual(exr.Picture(self.folder / "lights.exr").total(), 0)
 
     def test_how_plainly_the_flare_shows(self):
-        """So many stops more make it plain, and then none more are asked for."""
+        """The reported number of stops makes the flare obvious, and then no more are reported."""
         self.write("in.exr", dark([(60, 20, 5000.0)], level=0.2))
         arguments = ["apply", "heliar", "in.exr", "-o", "out.exr", *QUICK]
         stops = self.json_of(*arguments)["flare"]["stops_to_plain"]
         self.assertGreater(stops, 1)
-        self.assertIn(f"{stops:.1f} stops more would make it plain (--stops)".encode(), self.run_program(*arguments).stdout)
+        self.assertIn(f"it would be obvious with {stops:.1f} more stops (--stops)".encode(), self.run_program(*arguments).stdout)
         plain = self.json_of(*arguments, "--stops", repr(stops))["flare"]
         self.assertAlmostEqual(plain["stops_to_plain"], 0, delta=0.01)
         self.assertAlmostEqual(plain["over_picture"], 0.25, delta=0.01)

@@ -50,10 +50,10 @@ class Coating(ProgramTest):
         self.assertNotEqual((self.folder / "a.exr").read_bytes(), (self.folder / "b.exr").read_bytes())
 
     def test_wrong_words(self):
-        self.assertIn("is no coating", self.error_of("coating", "show", "velvet", code=1))
-        self.assertIn("is no glass", self.error_of("coating", "show", "none", "--glass", "0.5", code=1))
+        self.assertIn("is not a coating", self.error_of("coating", "show", "velvet", code=1))
+        self.assertIn("is not a glass", self.error_of("coating", "show", "none", "--glass", "0.5", code=1))
         self.assertIn("did you mean", self.error_of("coating", "show", "none", "--glass", "N-BK8X", code=1))
-        self.assertIn("is no colour", self.error_of("coating", "fit", "#12", code=1))
+        self.assertIn("is not a colour", self.error_of("coating", "fit", "#12", code=1))
         self.assertIn("black", self.error_of("coating", "fit", "0,0,0", code=1))
         self.assertIn("is not a film", self.error_of("coating", "show", "stack:MgF3@90", code=1))
         self.assertIn("is not a film", self.error_of("coating", "show", "stack:MgF2@90q", code=1))

@@ -98,7 +98,7 @@ class Render(ProgramTest):
         ramped = picture("d.exr", "--ghost-ramp=-9:0,0,1/9:0,0,1")
         self.assertEqual(ramped.total("R"), 0)
         self.assertGreater(ramped.total("B"), 0)
-        picture("e.exr", "--ghost-scatter", "0.1", "--ghost-seed", "4")
+        picture("e.exr", "--ghost-jitter", "0.1", "--ghost-seed", "4")
         for wrong in (["--ghost", "2-5:gain"], ["--ghost", "5-5:gain=1"], ["--ghost", "2-5:gain=-1"],
                       ["--ghost", "2-5:shape=1"], ["--ghost", "2-5:offset=1"], ["--ghost-ramp", "0:1,1,1/0:1,1,1"],
                       ["--ghost-ramp", "1,1,1"], ["--ghost-gain", "-1"]):

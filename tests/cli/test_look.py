@@ -25,14 +25,14 @@ class Look(ProgramTest):
         self.assertEqual((self.folder / "a.exr").read_bytes(), (self.folder / "b.exr").read_bytes())
 
     def test_options_override_and_are_saved(self):
-        self.run_program("render", "--look", "old-portrait", "-f", "11", "--blades", "5", "--mirror", "-o", "a.exr",
+        self.run_program("render", "--look", "old-portrait", "-f", "11", "--blades", "5", "--mirror-symmetry", "-o", "a.exr",
                          "--save-look", "mine.toml", *QUICK)
         shown = self.json_of("look", "show", "mine.toml")
         self.assertEqual((shown["lens"], shown["values"]["fnumber"], shown["values"]["blades"]), ("heliar", "11", "5"))
-        self.assertEqual(shown["values"]["mirror"], "on")
+        self.assertEqual(shown["values"]["mirror-symmetry"], "on")
         self.run_program("render", "heliar", "-f", "11", "--blades", "5", "--coating", "none", "--blade-curvature", "0.3",
                          "--starburst", "-o", "b.exr", *QUICK)
-        self.run_program("render", "--look", "mine.toml", "--no-mirror", "-o", "c.exr", *QUICK)
+        self.run_program("render", "--look", "mine.toml", "--no-mirror-symmetry", "-o", "c.exr", *QUICK)
         self.assertEqual((self.folder / "b.exr").read_bytes(), (self.folder / "c.exr").read_bytes())
 
     def test_another_lens_takes_a_looks_settings(self):

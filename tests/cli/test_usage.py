@@ -21,7 +21,7 @@ class Usage(ProgramTest):
         self.assertRegex(self.run_program("--version").stdout.decode(), r"^contrejour \d+\.\d+\.\d+\n$")
 
     def test_help_shows_only_what_a_command_uses(self):
-        """What is left out of a help is taken and changes nothing of what is shown; what is in it is used by one."""
+        """Options that a command's help omits are accepted and have no effect; options that it shows have one."""
         def help_of(*command):
             return self.run_program(*command, "--help").stdout.decode()
 
@@ -37,8 +37,28 @@ class Usage(ProgramTest):
         plain, dirty = (self.run_program("lens", "info", "heliar", *more).stdout for more in ([], unused))
         self.assertEqual(plain, dirty)
 
+    def test_earlier_names_of_options(self):
+        """An option's earlier name has the same effect for one version, and the help does not show it."""
+        quick = ["--size", "48x32", "--wavelengths", "1"]
+        present = ["--dust", "20", "--dust-size", "0.5", "--dirt-plane", "stop", "--dirt-phase", "0.3", "--blades", "7",
+                   "--blade-slope-error", "0.2", "--ghost-jitter", "0.1"]
+        earlier = {"--dirt-plane": "--dirt-on", "--dirt-phase": "--dirt-time", "--blade-slope-error": "--blade-spread",
+                   "--ghost-jitter": "--ghost-scatter"}
+        bundle = {"--mirror-symmetry": "--mirror", "--precomputed-pupils": "--pupil-table"}
+        self.run_program("render", "heliar", *present, "-o", "a.exr", *quick)
+        self.run_program("render", "heliar", *[earlier.get(word, word) for word in present], "-o", "b.exr", *quick)
+        self.assertEqual((self.folder / "a.exr").read_bytes(), (self.folder / "b.exr").read_bytes())
+        self.run_program("render", "heliar", "--method", "bundle", "--grid", "16", *bundle.values(), "--save-look", "l.toml",
+                         "-o", "c.exr", *quick)
+        saved = (self.folder / "l.toml").read_text()
+        for name in bundle:
+            self.assertIn(f"{name[2:]} = true", saved)
+        shown = self.run_program("render", "--help").stdout.decode()
+        for name in [*earlier.values(), *bundle.values()]:
+            self.assertNotRegex(shown, name + r"[ ,{]")
+
     def test_the_lens_is_missing(self):
-        """A picture in the lens's place is told from a lens without a picture."""
+        """A picture in place of the lens, and a lens without a picture, are distinct errors."""
         (self.folder / "plate.exr").write_bytes(b"")
         self.assertIn("LENS before plate.exr", self.error_of("apply", "plate.exr", "-o", "out.exr", code=2))
         self.assertIn("LENS before A.PNG", self.error_of("apply", "A.PNG", "-o", "out.exr", code=2))

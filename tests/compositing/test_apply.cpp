@@ -74,7 +74,7 @@ TEST_CASE("a photograph gains its flare's flux, and no channel falls") {
   REQUIRE(applied.plan.lights.size() == 1);
   CHECK(applied.plan.found.lights[0].centroid_px == Vec2{40.5, 12.5});
   CHECK(applied.flare.statistics.ghosts_rendered > 0);
-  CHECK(applied.flare.visibility.stops_to_plain.has_value());
+  CHECK(applied.flare.visibility.stops_to_obvious.has_value());
 }
 
 TEST_CASE("flare follows its lights: twice the gain, twice the flux; another direction, another flare") {
@@ -134,7 +134,7 @@ TEST_CASE("a photograph without lights stays as it is") {
   CHECK(applied.flare.image.height == kPlateHeight);
   CHECK(sum_of(applied.flare.image) == 0.0);
   CHECK(applied.flare.statistics.ghosts_rendered == 0);
-  CHECK_FALSE(applied.flare.visibility.stops_to_plain.has_value());
+  CHECK_FALSE(applied.flare.visibility.stops_to_obvious.has_value());
 }
 
 TEST_CASE("pixels of twice the width: the flare is as large as the picture, and its flux the same") {
@@ -193,7 +193,8 @@ TEST_CASE("warnings tell what was assumed of the picture, unless the user said i
   };
   const std::vector<std::string> capped = warnings(apply_values());
   REQUIRE(capped.size() == 1);
-  CHECK(capped[0] == "1 pixels are brighter than 1e+10 and count as of that level (--max-value)");
+  CHECK(capped[0] ==
+        "pixels brighter than 1e+10 are clamped to it, and the picture has 1 of them; --max-value sets this limit");
   CHECK(warnings(apply_values({{"max-value", "1e6"}})).empty());
 }
 

@@ -126,7 +126,7 @@ TEST_CASE("a flare by itself lies where the photograph does") {
   const auto applied = apply_flare(picture, heliar_for_files(), {});
   REQUIRE(applied.has_value());
   const auto file = written(folder, "flare.exr", [&](OutputFile& f) {
-    return write_beside(f, applied->flare.image, picture, applied->plan);
+    return write_aligned(f, applied->flare.image, picture, applied->plan);
   });
   const Picture flare = must_read(file);
   CHECK(flare.rgb.pixels == applied->flare.image.pixels);

@@ -33,16 +33,29 @@ TEST_CASE("a look's values are the table's, by its names") {
   const Look look = must_read(
       "name = 'Dusk'\ndescription = \"one line\"\nlens = 'heliar'\n"
       "fnumber = 5.6\nblades = 7\nfocus = '2m'\ncoating = \"quarter-wave:500:1.38\"\n"
-      "mirror = true\nscale-grid = false\n");
+      "mirror-symmetry = true\nscale-grid = false\n");
   CHECK(look.name == "Dusk");
   CHECK(look.description == "one line");
   CHECK(look.lens == "heliar");
   CHECK(look.values.number("fnumber") == 5.6);
   CHECK(look.values.integer("blades") == 7);
   CHECK(look.values.text("focus") == "2m");
-  CHECK(look.values.is_on("mirror"));
+  CHECK(look.values.is_on("mirror-symmetry"));
   CHECK(!look.values.is_on("scale-grid"));
   CHECK(!look.values.given("wavelengths"));
+}
+
+TEST_CASE("a key's earlier name is read, and written as its present one") {
+  const Look look =
+      must_read("mirror = true\ndirt-on = 'stop'\ndirt-time = 0.5\nghost-scatter = 0.1\nblade-spread = 0\n");
+  CHECK(look.values.is_on("mirror-symmetry"));
+  CHECK(look.values.text("dirt-plane") == "stop");
+  CHECK(look.values.number("dirt-phase") == 0.5);
+  CHECK(look.values.number("ghost-jitter") == 0.1);
+  CHECK(look.values.number("blade-slope-error") == 0.0);
+  CHECK(write_look(look).find("ghost-jitter = 0.1") != std::string::npos);
+  CHECK(write_look(look).find("ghost-scatter") == std::string::npos);
+  check_refused("mirror = true\nmirror-symmetry = true", 2, "earlier name");
 }
 
 TEST_CASE("what a look cannot hold is refused with its line and what to do") {
@@ -52,7 +65,7 @@ TEST_CASE("what a look cannot hold is refused with its line and what to do") {
   check_refused("blades = \"+02\"", 1, "3 blades or more");
   check_refused("blades = 2.5", 1, "blades");
   check_refused("# a comment\n\nsize = \"4x4\"", 3, "scene");
-  check_refused("mirror = 1", 1, "true or false");
+  check_refused("mirror-symmetry = 1", 1, "true or false");
   check_refused("blades = true", 1, "give a value");
   check_refused("blades = [\"7\"]", 1, "not a list");
   check_refused("method = \"magic\"", 1, "magic");
@@ -69,7 +82,7 @@ TEST_CASE("what a look cannot hold is refused with its line and what to do") {
 TEST_CASE("a look written is the look read, and names a value for every default") {
   const Look look = must_read(
       "name = \"A \\\"quoted\\\" name\"\nlens = 'heliar'\nblades = 9\nblade-rotation = 0.1\n"
-      "mirror = true\nerror = '0.01'\n");
+      "mirror-symmetry = true\nerror = '0.01'\n");
   const std::string text = write_look(look);
   const Look again = must_read(text);
   CHECK(again.name == look.name);
@@ -98,12 +111,12 @@ TEST_CASE("numbers as the command line takes them are written as TOML has them")
 TEST_CASE("values given stand over a look's") {
   Values given;
   REQUIRE(given.set("blades", "5").has_value());
-  REQUIRE(given.set("mirror", "off").has_value());
-  const Look look = must_read("blades = 9\nfnumber = 8\nmirror = true");
+  REQUIRE(given.set("mirror-symmetry", "off").has_value());
+  const Look look = must_read("blades = 9\nfnumber = 8\nmirror-symmetry = true");
   const Values both = given.over(look.values);
   CHECK(both.integer("blades") == 5);
   CHECK(both.number("fnumber") == 8.0);
-  CHECK(!both.is_on("mirror"));
+  CHECK(!both.is_on("mirror-symmetry"));
 }
 
 TEST_CASE("every bundled look is read, described and names a lens that there is") {

@@ -32,15 +32,15 @@ TEST_CASE("the automatic exposure brings the bright parts to 0.7") {
 
 TEST_CASE("a preview is exposed as the values say, else as usual") {
   const Image rgb = level_picture(2.8F);
-  const auto stops = [&](const char* text, UsualExposure usual) {
+  const auto stops = [&](const char* text, DefaultExposure otherwise) {
     Values values;
     if (text != nullptr) REQUIRE(values.set("exposure", text).has_value());
-    return preview_settings(values, rgb, usual).exposure_stops;
+    return preview_settings(values, rgb, otherwise).exposure_stops;
   };
-  CHECK(stops(nullptr, UsualExposure::AsItIs) == 0.0);
-  CHECK(stops(nullptr, UsualExposure::Automatic) == doctest::Approx(-2.0));
-  for (const UsualExposure usual : {UsualExposure::AsItIs, UsualExposure::Automatic}) {
-    CHECK(stops("1.5", usual) == 1.5);
-    CHECK(stops("auto", usual) == doctest::Approx(-2.0));
+  CHECK(stops(nullptr, DefaultExposure::None) == 0.0);
+  CHECK(stops(nullptr, DefaultExposure::Automatic) == doctest::Approx(-2.0));
+  for (const DefaultExposure otherwise : {DefaultExposure::None, DefaultExposure::Automatic}) {
+    CHECK(stops("1.5", otherwise) == 1.5);
+    CHECK(stops("auto", otherwise) == doctest::Approx(-2.0));
   }
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The cost of ringing: making its patterns, and its frames compared with frames with sharp rims.
+// The cost of ringing: of computing its diffraction patterns, and of frames with fringes relative to frames without.
 #include <utility>
 
 #include <fmt/format.h>
@@ -18,7 +18,8 @@ constexpr EffectSystem kRingingSystems[] = {{"heliar", 0.0, 16.0},
                                             {"canon-70-200", 135.0, 8.0},
                                             {"canon-70-200", 135.0, 32.0}};
 
-// A frame with ringing, including the making of its patterns, by itself and compared with the frame without ringing.
+// The time of a frame with ringing, including the computation of its patterns, and its ratio to that of a frame
+// without.
 Result<std::vector<Target>> rows_of(const EffectScene& scene) {
   const Light& light = scene.lights.front();
   FrameSettings ringing = scene.render;

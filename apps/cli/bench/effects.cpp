@@ -21,7 +21,7 @@ namespace {
 constexpr const char* kLens = "planar-50";
 constexpr double kEffectsFNumber = 8.0;
 constexpr int kBlades = 7;
-constexpr Vec2 kPlace_uv{0.70, 0.33};  // where lights of other lenses are, as bodonyi2023's
+constexpr Vec2 kOtherLight_uv{0.70, 0.33};  // the light of other lenses, that of bodonyi2023
 
 double processor_ms() { return 1e3 * static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
@@ -69,7 +69,7 @@ Result<EffectScene> with_lens(const EffectScene& scene, const EffectSystem& syst
   frame = frame_on_sensor(other.lens, frame.width, frame.height);
   other.lights.resize(1);
   other.lights.front().direction =
-      direction_for_image_point(other.lens, frame.sensor_from_uv(kPlace_uv), other.lens.design_wavelength_nm);
+      direction_for_image_point(other.lens, frame.sensor_from_uv(kOtherLight_uv), other.lens.design_wavelength_nm);
   return other;
 }
 

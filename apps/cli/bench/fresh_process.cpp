@@ -32,7 +32,7 @@ struct Pipe {
   void close_writing_end() { close(std::exchange(ends[1], -1)); }
 };
 
-std::string read_all(int file) {
+std::string read_to_end(int file) {
   std::string text;
   std::array<char, 4096> part;
   for (;;) {
@@ -57,26 +57,28 @@ Result<std::string> output_of_fresh_process(const std::vector<std::string>& argu
   std::vector<char*> argv;
   for (std::string& word : words) argv.push_back(word.data());
   argv.push_back(nullptr);
-  Pipe pipe_to_us;
-  if (pipe(pipe_to_us.ends.data()) != 0) return failure(ErrorCode::Io, "cannot make a pipe to a fresh process");
+  Pipe output;
+  if (pipe(output.ends.data()) != 0) return failure(ErrorCode::Io, "no pipe to a new process can be created");
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
-  posix_spawn_file_actions_addclose(&actions, pipe_to_us.ends[0]);
-  posix_spawn_file_actions_adddup2(&actions, pipe_to_us.ends[1], STDOUT_FILENO);
+  posix_spawn_file_actions_addclose(&actions, output.ends[0]);
+  posix_spawn_file_actions_adddup2(&actions, output.ends[1], STDOUT_FILENO);
   pid_t process = 0;
   const int failed = posix_spawn(&process, kThisProgram, &actions, nullptr, argv.data(), environ);
   posix_spawn_file_actions_destroy(&actions);
-  pipe_to_us.close_writing_end();
-  if (failed != 0) return failure(ErrorCode::Io, "cannot start a fresh process of this program");
-  std::string text = read_all(pipe_to_us.ends[0]);
-  if (wait_for(process) != 0) return failure(ErrorCode::Io, "a fresh process failed; its message is above");
+  output.close_writing_end();
+  if (failed != 0) return failure(ErrorCode::Io, "no new process of this program can be started; use --warm-only");
+  std::string text = read_to_end(output.ends[0]);
+  if (wait_for(process) != 0)
+    return failure(ErrorCode::Io, "a new process of this program failed; its message is above");
   return text;
 }
 
 #else
 
 Result<std::string> output_of_fresh_process(const std::vector<std::string>&) {
-  return failure(ErrorCode::Unsupported, "first frames of fresh processes are measured on Linux only; use --warm-only");
+  return failure(ErrorCode::Unsupported,
+                 "first frames of new processes can be measured on Linux only; use --warm-only");
 }
 
 #endif

@@ -18,19 +18,19 @@ namespace contrejour::cli {
 
 struct HullinRow {
   std::string figure;  // "15"
-  std::string lens;    // of our lens
+  std::string lens;    // the bundled lens
   double f_number = 0;
-  std::string what;  // "high quality"
-  int ghosts = 0;    // that are rendered
+  std::string what;  // what is rendered: "high quality"
+  int ghosts = 0;    // number of rendered ghosts
   double ms = 0;
   std::optional<double> psnr_db = std::nullopt;  // against the picture that the note names
-  double paper_ms = 0;                           // 0: the copy of the text gives none
+  double paper_ms = 0;                           // 0: unknown
   std::string note{};
 };
 
 struct HullinRunning {
   int runs = 1, threads = 0;
-  // Is called with every picture that a figure shows, and a name for it: "17-nikon-80-200-high-quality".
+  // Is called for every picture of a figure, with a name for it: "17-nikon-80-200-high-quality".
   std::function<Result<void>(const std::string& name, const Image& image)> show;
 };
 

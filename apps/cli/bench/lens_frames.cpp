@@ -27,7 +27,7 @@ struct FrameScene {
   FrameSettings settings;
 };
 
-Result<FrameScene> scene_of(const std::string& file, const params::Values& values) {
+Result<FrameScene> frame_scene(const std::string& file, const params::Values& values) {
   const auto prescription = prescription_of(file);
   if (!prescription) return tl::unexpected(prescription.error());
   auto settings = params::lens_settings(values);
@@ -52,8 +52,8 @@ struct Rendered {
   int ghosts = 0;
 };
 
-Result<Rendered> render_scene(const FrameScene& scene, const std::string& name, const params::Values& values,
-                              const FrameRunning& running) {
+Result<Rendered> render_frame_scene(const FrameScene& scene, const std::string& name, const params::Values& values,
+                                    const FrameRunning& running) {
   const LongTask task(name, values.integer("threads"));
   const double start_ms = now_ms(running.processor_time);
   const auto flare = render(scene.adaptive, scene.lens, scene.lights, scene.settings, task.context());
@@ -61,16 +61,16 @@ Result<Rendered> render_scene(const FrameScene& scene, const std::string& name, 
   return Rendered{now_ms(running.processor_time) - start_ms, flare->statistics.ghosts_rendered};
 }
 
-// The fastest of `runs` calls of `measure`, which is not repeated if it takes long.
+// The time of the fastest of `runs` calls of `measure`; a call that takes long is not repeated.
 template <class Measure>
-Result<double> fastest(int runs, const Measure& measure) {
-  double least_ms = std::numeric_limits<double>::infinity();
-  for (int k = 0; k < runs && (k == 0 || least_ms < kLongFrame_ms); ++k) {
+Result<double> fastest_of(int runs, const Measure& measure) {
+  double fastest_ms = std::numeric_limits<double>::infinity();
+  for (int k = 0; k < runs && (k == 0 || fastest_ms < kLongFrame_ms); ++k) {
     const Result<double> ms = measure();
     if (!ms) return ms;
-    least_ms = std::min(least_ms, *ms);
+    fastest_ms = std::min(fastest_ms, *ms);
   }
-  return least_ms;
+  return fastest_ms;
 }
 
 // The arguments for a fresh process that renders the same frame.
@@ -119,9 +119,9 @@ Result<params::Values> values_of(const BenchedLens& lens, const FrameCase& frame
 Result<double> frame_ms(const std::string& lens, const params::Values& values, const FrameRunning& running) {
   params::Values all = values;
   if (const auto ok = all.set("light-at", kLightAt); !ok) return tl::unexpected(ok.error());
-  const auto scene = scene_of(lens, all);
+  const auto scene = frame_scene(lens, all);
   if (!scene) return tl::unexpected(scene.error());
-  const auto rendered = render_scene(*scene, lens, all, running);
+  const auto rendered = render_frame_scene(*scene, lens, all, running);
   if (!rendered) return tl::unexpected(rendered.error());
   return rendered->ms;
 }
@@ -132,26 +132,28 @@ Result<FrameCost> frame_cost(const BenchedLens& lens, const FrameCase& frame_cas
   if (!all) return tl::unexpected(all.error());
   params::Values with_light = *all;
   if (const auto ok = with_light.set("light-at", kLightAt); !ok) return tl::unexpected(ok.error());
-  const auto scene = scene_of(lens.file, with_light);  // reports errors of the lens before a fresh process does
+  const auto scene = frame_scene(lens.file, with_light);  // reports errors of the lens before a fresh process does
   if (!scene) return tl::unexpected(scene.error());
   FrameCost cost;
   if (!running.warm_only) {
-    const auto ms = fastest(running.runs, [&] { return fresh_ms(lens.file, *all, running); });
+    const auto ms = fastest_of(running.runs, [&] { return fresh_ms(lens.file, *all, running); });
     if (!ms) return tl::unexpected(ms.error());
     cost.first_ms = *ms;
   }
   cost.f_number = scene->lens.f_number;
   // One frame to warm up, then the measured frames.
   const auto render_once = [&]() -> Result<double> {
-    const auto rendered = render_scene(*scene, lens.file, with_light, running);
+    const auto rendered = render_frame_scene(*scene, lens.file, with_light, running);
     if (!rendered) return tl::unexpected(rendered.error());
     cost.ghosts = rendered->ghosts;
     return rendered->ms;
   };
   const auto cold_ms = render_once();
   if (!cold_ms) return tl::unexpected(cold_ms.error());
-  if (cost.ghosts == 0) return failure(ErrorCode::InvalidArgument, lens.file + ": no ghost reaches the frame");
-  const auto warm_ms = *cold_ms < kLongFrame_ms ? fastest(running.runs, render_once) : cold_ms;
+  if (cost.ghosts == 0)
+    return failure(ErrorCode::InvalidArgument,
+                   lens.file + ": no ghost reaches the frame, so that there is no cost to measure");
+  const auto warm_ms = *cold_ms < kLongFrame_ms ? fastest_of(running.runs, render_once) : cold_ms;
   if (!warm_ms) return tl::unexpected(warm_ms.error());
   cost.warm_ms = *warm_ms;
   return cost;

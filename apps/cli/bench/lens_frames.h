@@ -17,9 +17,9 @@ struct BenchedLens {
   std::optional<double> focal_length_mm = std::nullopt;
 };
 
-// The ways in which frames differ; all have one light at u,v = 0.7,0.35.
+// The apertures and sizes of the measured frames; all have one light at u,v = 0.7,0.35.
 struct FrameCase {
-  bool wide_open = false;  // else f/8, or the widest f-number of a slower lens
+  bool wide_open = false;  // maximum aperture; else f/8, or the maximum aperture of a slower lens
   std::string size;        // "1920x1080"
 };
 [[nodiscard]] const std::vector<FrameCase>& frame_cases();

@@ -33,7 +33,7 @@ struct Figure {
 double first_of(const FrameCost& frame) { return frame.first_ms > 0.0 ? frame.first_ms : frame.warm_ms; }
 
 double ghost_ratio(const BenchedFrames& lens, const LensBench& bench, std::size_t k) {
-  return lens.frames[k].ghost_ms() / bench.yardstick.frames[k].ghost_ms();
+  return lens.frames[k].ghost_ms() / bench.baseline.frames[k].ghost_ms();
 }
 
 const std::vector<Figure>& figures() {
@@ -83,11 +83,11 @@ const std::vector<Figure>& figures() {
 }
 
 // The value that this fraction of all values does not exceed, interpolated linearly in the sorted list.
-double quantile(const std::vector<double>& sorted, double share) {
-  const double place = share * static_cast<double>(sorted.size() - 1);
-  const auto k = static_cast<std::size_t>(place);
+double quantile(const std::vector<double>& sorted, double fraction) {
+  const double position = fraction * static_cast<double>(sorted.size() - 1);
+  const auto k = static_cast<std::size_t>(position);
   const std::size_t next = std::min(k + 1, sorted.size() - 1);
-  return std::lerp(sorted[k], sorted[next], place - static_cast<double>(k));
+  return std::lerp(sorted[k], sorted[next], position - static_cast<double>(k));
 }
 
 struct Spread {
@@ -118,7 +118,7 @@ std::string lenses_text(const LensBench& bench, const Aperture& aperture) {
                fmt::format("{:.2f}", first_of(small) / first_of(large)),
                fmt::format("{:.2f}", first_of(large) / large.warm_ms)});
   };
-  add(bench.yardstick);
+  add(bench.baseline);
   for (const BenchedFrames& lens : bench.lenses) add(lens);
   return table.text();
 }
@@ -127,11 +127,11 @@ std::string must_text(const std::optional<double>& must) { return must ? fmt::fo
 
 std::string summary_text(const LensBench& bench, const Aperture& aperture) {
   TextTable table({"<figure", "median", "must", "90th percentile", "must", "worst", "<of"});
-  const bool has_musts = &aperture == &kApertures[0];
+  const bool has_limits = &aperture == &kApertures[0];
   for (const Figure& figure : figures()) {
     const Spread spread = spread_of(figure, bench, aperture);
-    table.add({figure.name, fmt::format("{:.2f}", spread.median), has_musts ? must_text(figure.must_median) : "",
-               fmt::format("{:.2f}", spread.ninetieth), has_musts ? must_text(figure.must_90th) : "",
+    table.add({figure.name, fmt::format("{:.2f}", spread.median), has_limits ? must_text(figure.must_median) : "",
+               fmt::format("{:.2f}", spread.ninetieth), has_limits ? must_text(figure.must_90th) : "",
                fmt::format("{:.2f}", spread.worst), spread.worst_lens});
   }
   return table.text();
@@ -183,7 +183,7 @@ Json lens_bench_json(const LensBench& bench, const FrameRunning& running) {
   }
   return {{"machine", machine_json(this_machine())},
           {"time", running.processor_time ? "processor" : "clock"},
-          {"yardstick", frames_json(bench.yardstick, bench)},
+          {"yardstick", frames_json(bench.baseline, bench)},
           {"lenses", lenses},
           {"left_out", bench.refused},
           {"summary", summary}};

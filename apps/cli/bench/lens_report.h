@@ -17,7 +17,7 @@ struct BenchedFrames {
 };
 
 struct LensBench {
-  BenchedFrames yardstick;  // the lens that costs are relative to, measured in the same run
+  BenchedFrames baseline;  // the lens that costs are relative to, measured in the same run
   std::vector<BenchedFrames> lenses;
   std::vector<std::string> refused;  // files that could not be measured, and why
 };

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// How often a task of milliseconds is repeated: a machine is slower at first, and other programs use it.
+// The number of runs of a task that takes milliseconds. Its first runs are slower, and other programs use the machine.
 #pragma once
 
 namespace contrejour::cli {
 
-// At least as many runs as requested; from two on, runs are repeated until they have taken some time in total.
-[[nodiscard]] constexpr bool another_run(int done, int asked, double all_ms) {
+// At least the requested number of runs. If that is two or more, runs continue until they have taken some time in
+// total.
+[[nodiscard]] constexpr bool another_run(int done, int requested, double all_ms) {
   constexpr double kWarm_ms = 300.0;
-  return done < asked || (asked > 1 && all_ms < kWarm_ms);
+  return done < requested || (requested > 1 && all_ms < kWarm_ms);
 }
 
 }  // namespace contrejour::cli

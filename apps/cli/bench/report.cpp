@@ -20,14 +20,14 @@ Json decibels(const std::optional<double>& db) { return db && std::isfinite(*db)
 
 // The paper's figure from the tables that vary tiles, merging or interpolation; null where it has none.
 Json paper_variation(const BenchRow& row) {
-  const TiledOptions usual;
+  const TiledOptions defaults;
   const TiledOptions& t = row.request.tiled;
   const auto& system = *row.system;
   Json times;
   if (row.request.lights != 1) return times;
-  if (t.dense_tile != usual.dense_tile || t.coarse_tile != usual.coarse_tile) {
-    times["total"] = system.tiles_ms[(t.dense_tile == usual.dense_tile ? 0U : 2U) + (t.coarse_tile == 0 ? 0U : 1U)];
-  } else if (t.merge_steps != usual.merge_steps || t.merge_threshold != usual.merge_threshold) {
+  if (t.dense_tile != defaults.dense_tile || t.coarse_tile != defaults.coarse_tile) {
+    times["total"] = system.tiles_ms[(t.dense_tile == defaults.dense_tile ? 0U : 2U) + (t.coarse_tile == 0 ? 0U : 1U)];
+  } else if (t.merge_steps != defaults.merge_steps || t.merge_threshold != defaults.merge_threshold) {
     times["total"] = figure(system.merging_ms[t.merge_steps == 0 ? 0 : 2]);
   } else {
     // The paper's order has the mean value second.

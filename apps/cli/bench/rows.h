@@ -64,7 +64,7 @@ class BenchRows {
  public:
   void add(BenchRow row) { rows_.push_back(std::move(row)); }
   void add(const BenchProbe& probe) { probes_.push_back(probe); }
-  // Measures an existing row again: the faster of the two counts.
+  // Adds a repeated measurement of an existing row; the faster of the two counts.
   void add_again(const BenchRow& row);
   [[nodiscard]] const std::vector<BenchRow>& all() const { return rows_; }
 

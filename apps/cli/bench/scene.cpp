@@ -12,7 +12,7 @@
 
 #include <fmt/format.h>
 
-#include "cli/bench/even_places.h"
+#include "cli/bench/r2_sequence.h"
 #include "cli/bench/repeats.h"
 #include "cli/bench/tables.h"
 #include "cli/flare_report.h"
@@ -31,8 +31,8 @@ constexpr Vec2 kPaperLights_uv[] = {{0.70, 0.33}, {0.25, 0.75}};
 constexpr int kPapersWavelengths = 3;  // hullin2011 7.2, standard quality
 constexpr const char* kReference = "reference";
 
-// Lights in addition to the paper's fill the frame evenly.
-Vec2 light_uv(std::size_t k) { return k < std::size(kPaperLights_uv) ? kPaperLights_uv[k] : evenly_spread(k); }
+// Further lights than the paper's fill the frame evenly.
+Vec2 light_uv(std::size_t k) { return k < std::size(kPaperLights_uv) ? kPaperLights_uv[k] : r2_point(k); }
 
 bool is_of(const BenchRequest& request, const BenchScene& scene) {
   return static_cast<std::size_t>(request.lights) == scene.lights.size() && request.variant == scene.variant;
@@ -46,7 +46,7 @@ int runs_of(const BenchScene& scene, const BenchRequest& request, const BenchRun
   return is_long ? 1 : running.runs;
 }
 
-// The user's options; but grids are scaled by the paper's eq. 13, and `tiled` has the request's options.
+// The user's options, except that grids are scaled by the paper's eq. 13 and that `tiled` has the request's options.
 Result<MethodOptions> options_of(const BenchScene& scene, const BenchRequest& request) {
   auto options = params::method_options(scene.values, request.method);
   if (!options) return options;
@@ -87,7 +87,7 @@ Result<Image> reference_image(const BenchScene& scene, const BenchRunning& runni
   if (fs::exists(file)) return read_picture(file).map([](Picture picture) { return std::move(picture.rgb); });
   auto flare = render_scene(scene, request, running.threads);
   if (!flare) return tl::unexpected(flare.error());
-  std::error_code ignored;  // if the folder cannot be made, writing reports the error
+  std::error_code ignored;  // if the folder cannot be created, writing reports the error
   fs::create_directories(running.cache, ignored);
   if (const auto ok = write_exr(file, flare->image); !ok) return tl::unexpected(ok.error());
   return std::move(flare->image);
@@ -120,9 +120,9 @@ Result<BenchRow> measure(const BenchScene& scene, const BenchRequest& request, c
                .reference_db = {},
                .bundle_db = {},
                .unmerged_db = {}};
-  const int asked = std::exchange(row.runs, 0);
+  const int requested = std::exchange(row.runs, 0);
   double all_ms = 0.0;
-  for (int run = 0; another_run(run, asked, all_ms); ++run) {
+  for (int run = 0; another_run(run, requested, all_ms); ++run) {
     ++row.runs;
     auto flare = render_scene(scene, request, running.threads);
     if (!flare) return tl::unexpected(flare.error());
@@ -185,23 +185,23 @@ SelectList papers_ghosts(const BenchScene& scene) {
 
 Result<void> measure_scene(const BenchScene& scene, const std::vector<BenchRequest>& requests,
                            const BenchRunning& running, BenchRows& rows) {
-  std::vector<BenchRequest> wanted;
-  std::copy_if(requests.begin(), requests.end(), std::back_inserter(wanted),
+  std::vector<BenchRequest> own_requests;
+  std::copy_if(requests.begin(), requests.end(), std::back_inserter(own_requests),
                [&](const BenchRequest& request) { return is_of(request, scene); });
-  // The renders that others are compared with come first.
+  // Renders that others are compared with are made first.
   const auto rank = [&](const BenchRequest& request) {
     return request.method == "bundle" ? 0 : same(request, tiled_merged(request.lights, 0)) ? 1 : 2;
   };
-  std::stable_sort(wanted.begin(), wanted.end(),
+  std::stable_sort(own_requests.begin(), own_requests.end(),
                    [&](const BenchRequest& a, const BenchRequest& b) { return rank(a) < rank(b); });
-  if (wanted.empty()) return {};
+  if (own_requests.empty()) return {};
   Truths truths;
   if (running.reference && scene.variant == SceneVariant{} && has_papers_lights(scene)) {
     auto image = reference_image(scene, running);
     if (!image) return tl::unexpected(image.error());
     truths.reference = std::move(*image);
   }
-  for (const BenchRequest& request : wanted) {
+  for (const BenchRequest& request : own_requests) {
     auto row = measure(scene, request, running, truths);
     if (!row) return tl::unexpected(row.error());
     rows.add(std::move(*row));

@@ -22,7 +22,8 @@ struct BenchScene {
   std::string coating{};  // as requested; empty: the lens's own
 };
 
-// The first two lights are where the paper's are; further lights are spread over the frame, always in the same places.
+// The first two lights are where the paper's are; further lights are spread over the frame, always at the same
+// positions.
 [[nodiscard]] Result<BenchScene> bench_scene(const PaperSystem& system, int light_count, const SceneVariant& variant,
                                              const params::Values& values);
 

@@ -56,10 +56,10 @@ std::string memory_text(const BenchRows& rows, const std::vector<std::string>&) 
 
 }  // namespace
 
-const BenchTable kPrimitivesTable{"5", "Table 5: primitives and their memory by merging; MiB: the most held at once",
+const BenchTable kPrimitivesTable{"5", "Table 5: primitives and their memory by merging; MiB: the maximum held at once",
                                   memory_requests, memory_text<primitives>};
 const BenchTable kIndicesTable{
-    "6", "Table 6: entries of the dense tiles' lists and their memory by merging; MiB: the most held at once",
+    "6", "Table 6: entries of the dense tiles' lists and their memory by merging; MiB: the maximum held at once",
     memory_requests, memory_text<indices>};
 
 }  // namespace contrejour::cli

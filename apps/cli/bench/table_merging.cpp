@@ -14,8 +14,8 @@ std::vector<BenchRequest> merging_requests(const std::vector<std::string>&) {
 }
 
 std::string merging_text(const BenchRows& rows, const std::vector<std::string>&) {
-  TextTable table({"<system", "none ms", "paper", "dB", "paper", "light ms", "paper", "dB", "paper", "dB of none",
-                   "heavy ms", "paper", "dB", "paper", "dB of none"});
+  TextTable table({"<system", "none ms", "paper", "dB", "paper", "light ms", "paper", "dB", "paper", "dB vs none",
+                   "heavy ms", "paper", "dB", "paper", "dB vs none"});
   for (const PaperSystem* system : rows.systems()) {
     std::vector<std::string> cells{std::string(system->name)};
     for (std::size_t k = 0; k < kMergings; ++k) {
@@ -33,8 +33,9 @@ std::string merging_text(const BenchRows& rows, const std::vector<std::string>&)
 
 }  // namespace
 
-const BenchTable kMergingTable{
-    "7", "Table 7: merging, total ms and PSNR of bundle, dB; one light. dB of none: of the picture without merging",
-    merging_requests, merging_text};
+const BenchTable kMergingTable{"7",
+                               "Table 7: merging, total ms and PSNR relative to bundle, dB; one light. dB vs none: "
+                               "relative to the picture without merging",
+                               merging_requests, merging_text};
 
 }  // namespace contrejour::cli

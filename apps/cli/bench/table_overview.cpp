@@ -11,7 +11,7 @@ namespace {
 
 std::string millions(double count) { return fmt::format("{:.2f}", count * 1e-6); }
 
-std::string phases_text(const RenderStatistics& statistics) {
+std::string phase_times_text(const RenderStatistics& statistics) {
   std::string text;
   for (const auto& [phase, ms] : statistics.time_ms) {
     if (phase != "total") text += fmt::format("{}{} {:.0f}", text.empty() ? "" : ", ", phase, ms);
@@ -32,7 +32,7 @@ std::vector<BenchRequest> overview_requests(const std::vector<std::string>& meth
 }
 
 std::string overview_text(const BenchRows& rows, const std::vector<std::string>& methods) {
-  TextTable table({"<system", "f/", "lights", "<method", "total ms", "paper ms", "dB of reference", "M rays", "M hits",
+  TextTable table({"<system", "f/", "lights", "<method", "total ms", "paper ms", "dB vs reference", "M rays", "M hits",
                    "M primitives", "paper M", "<by phase, ms"});
   for (const int lights : {1, 2}) {
     for (const PaperSystem* system : rows.systems()) {
@@ -42,7 +42,8 @@ std::string overview_text(const BenchRows& rows, const std::vector<std::string>&
         table.add({std::string(system->name), fmt::format("{:g}", system->f_number), fmt::format("{}", lights), method,
                    ms_text(total_ms(s)), paper_text(paper_total_ms(row), 2), db_text(row.reference_db),
                    millions(static_cast<double>(s.rays)), millions(static_cast<double>(s.surface_hits)),
-                   millions(static_cast<double>(s.primitives)), millions(row.paper().primitives[0]), phases_text(s)});
+                   millions(static_cast<double>(s.primitives)), millions(row.paper().primitives[0]),
+                   phase_times_text(s)});
       }
     }
   }
@@ -52,7 +53,8 @@ std::string overview_text(const BenchRows& rows, const std::vector<std::string>&
 }  // namespace
 
 const BenchTable kOverviewTable{
-    "overview", "Every method; the paper's total is its previous method's for bundle, its tiled one's else",
+    "overview",
+    "All methods; the paper's total is that of its previous method for bundle, else that of its tiled method",
     overview_requests, overview_text};
 
 }  // namespace contrejour::cli

@@ -13,7 +13,7 @@ std::vector<BenchRequest> quality_requests(const std::vector<std::string>&) {
 }
 
 std::string quality_text(const BenchRows& rows, const std::vector<std::string>&) {
-  TextTable table({"lights", "<system", "tiled of bundle", "paper", "tiled of reference", "bundle of reference"});
+  TextTable table({"lights", "<system", "tiled vs bundle", "paper", "tiled vs reference", "bundle vs reference"});
   for (const int lights : {1, 2}) {
     for (const PaperSystem* system : rows.systems()) {
       const BenchRow& tiled = rows.at(*system, tiled_of(lights));

@@ -51,17 +51,17 @@ Target over_floor(const BenchRow& adaptive, const BenchProbe& probe) {
                               probe.peak_hits_per_ms * 1e-3, hits_ms, probe.frame_pass_ms)};
 }
 
-// The time of a larger task over that of the usual one, both with adaptive, divided by `share`.
-Target growth(std::string name, const BenchRow& more, const BenchRow& usual, double share, double must, double aim) {
+// The time of a larger task over that of the baseline, both with adaptive, divided by `ratio`.
+Target growth(std::string name, const BenchRow& more, const BenchRow& baseline, double ratio, double must, double aim) {
   const double more_ms = total_ms(more.statistics);
-  const double usual_ms = total_ms(usual.statistics);
+  const double baseline_ms = total_ms(baseline.statistics);
   return {.name = std::move(name),
           .system = std::string(more.system->name),
           .lights = more.request.lights,
-          .value = more_ms / usual_ms / share,
+          .value = more_ms / baseline_ms / ratio,
           .must = must,
           .aim = aim,
-          .note = fmt::format("{:.1f} ms, {:.1f} ms", more_ms, usual_ms)};
+          .note = fmt::format("{:.1f} ms, {:.1f} ms", more_ms, baseline_ms)};
 }
 
 Target preparation(const PaperSystem& system, const BenchProbe& probe) {
@@ -94,16 +94,16 @@ void add_of_paper(const BenchRows& rows, const PaperSystem& system, int lights, 
 }
 
 void add_of_growth(const BenchRows& rows, const PaperSystem& system, std::vector<Target>& list) {
-  const BenchRow& usual = rows.at(system, adaptive_of(1));
+  const BenchRow& baseline = rows.at(system, adaptive_of(1));
   const BenchRow& coloured = rows.at(system, many_wavelengths());
   const BenchRow& large = rows.at(system, large_frame());
-  list.push_back(growth(fmt::format("{} wavelengths / {}", kManyWavelengths, usual.settings.wavelengths), coloured,
-                        usual, 1.0, 2.0, 1.3));
+  list.push_back(growth(fmt::format("{} wavelengths / {}", kManyWavelengths, baseline.settings.wavelengths), coloured,
+                        baseline, 1.0, 2.0, 1.3));
   list.push_back(growth(fmt::format("{} lights / 1, per light", kManyLights), rows.at(system, adaptive_of(kManyLights)),
-                        usual, kManyLights, 1.0, 0.5));
+                        baseline, kManyLights, 1.0, 0.5));
   list.push_back(growth(fmt::format("{}x{} / {}x{}", large.settings.frame.width, large.settings.frame.height,
-                                    usual.settings.frame.width, usual.settings.frame.height),
-                        large, usual, 1.0, 4.0, 3.0));
+                                    baseline.settings.frame.width, baseline.settings.frame.height),
+                        large, baseline, 1.0, 4.0, 3.0));
 }
 
 std::vector<Target> measured_targets(const BenchRows& rows) {
@@ -120,8 +120,8 @@ std::vector<Target> measured_targets(const BenchRows& rows) {
   for (const Target& target : list) {
     if (std::find(names.begin(), names.end(), target.name) == names.end()) names.push_back(target.name);
   }
-  const auto place = [&](const Target& target) { return std::find(names.begin(), names.end(), target.name); };
-  std::stable_sort(list.begin(), list.end(), [&](const Target& a, const Target& b) { return place(a) < place(b); });
+  const auto rank = [&](const Target& target) { return std::find(names.begin(), names.end(), target.name); };
+  std::stable_sort(list.begin(), list.end(), [&](const Target& a, const Target& b) { return rank(a) < rank(b); });
   return list;
 }
 
@@ -151,7 +151,7 @@ std::string times_and_targets(const BenchRows& rows, const std::vector<std::stri
 
 const BenchTable kTargetsTable{
     "targets",
-    "Targets of adaptive, all measured in this run: first its times beside the paper's totals on a GeForce RTX 3060",
+    "Targets of adaptive, all measured in this run: with its times next to the paper's totals on a GeForce RTX 3060",
     targets_requests,
     times_and_targets,
     measured_targets,

@@ -23,7 +23,7 @@ std::vector<BenchRequest> tile_sizes_requests(const std::vector<std::string>&) {
 
 std::string tile_sizes_text(const BenchRows& rows, const std::vector<std::string>&) {
   TextTable table({"<system", "8, no coarse", "paper", "8, coarse", "paper", "16, no coarse", "paper", "16, coarse",
-                   "paper", "<lists and traversal alone, likewise"});
+                   "paper", "<tile lists and traversal alone, of the four"});
   for (const PaperSystem* system : rows.systems()) {
     std::vector<std::string> cells{std::string(system->name)};
     std::string alone;

@@ -15,7 +15,8 @@ namespace contrejour::cli {
 struct BenchTable {
   std::string_view key;  // for --tables
   std::string_view title;
-  // The requests that it makes of every system; methods: those that the user chose, for a table that lists any method.
+  // The measurements of every system that the table needs. `methods` are those that the user selected, for a table that
+  // lists any method.
   std::vector<BenchRequest> (*requests)(const std::vector<std::string>& methods);
   std::string (*text)(const BenchRows& rows, const std::vector<std::string>& methods);
   std::vector<Target> (*targets)(const BenchRows& rows) = nullptr;  // null: it has none
@@ -24,7 +25,7 @@ struct BenchTable {
 
 [[nodiscard]] std::span<const BenchTable> bench_tables();
 
-// Settings the tables share.
+// Requests that several tables make.
 [[nodiscard]] BenchRequest bundle_of(int lights);
 [[nodiscard]] BenchRequest adaptive_of(int lights);
 [[nodiscard]] BenchRequest tiled_of(int lights);  // light merge, 8 and 128 pixels, Loop-DeRose

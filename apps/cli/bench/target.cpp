@@ -21,7 +21,7 @@ std::string holds_text(const Target& target) {
 }
 
 std::string targets_text(const std::vector<Target>& targets) {
-  TextTable table({"<what", "<system", "lights", "value", "must", "aim", "<holds", "<made from"});
+  TextTable table({"<target", "<system", "lights", "value", "must", "aim", "<holds", "<computed from"});
   for (const Target& t : targets) {
     table.add({t.name, t.system, fmt::format("{}", t.lights), with_unit(t.value, 2, t.unit),
                with_unit(t.must, 1, t.unit), with_unit(t.aim, 1, t.unit), holds_text(t), t.note});

@@ -28,10 +28,10 @@ namespace contrejour {
                                                           const Picture& picture, const params::Values& values,
                                                           const Context& context = {});
 
-// Writes an image of the photograph's size, such as its flare, as a picture with the photograph's windows and the
-// plan's colour space and pixel aspect.
-[[nodiscard]] CONTREJOUR_API Result<void> write_beside(OutputFile& file, const Image& image, const Picture& picture,
-                                                       const FlarePlan& plan, const Context& context = {});
+// Writes an image of the photograph's size, such as its flare, as a picture of its own that is aligned with the
+// photograph: with its windows, and the plan's colour space and pixel aspect.
+[[nodiscard]] CONTREJOUR_API Result<void> write_aligned(OutputFile& file, const Image& image, const Picture& picture,
+                                                        const FlarePlan& plan, const Context& context = {});
 
 // Writes the lights detected in the photograph without flare: an EXR of their pixels, or a PNG of the photograph in dim
 // grey with each light in a colour of its own (detected_picture.h).

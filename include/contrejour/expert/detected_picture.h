@@ -13,7 +13,8 @@ namespace contrejour {
 // Each pixel times its weight in its light, and 0 elsewhere.
 [[nodiscard]] CONTREJOUR_API Image pixels_of_lights(const Image& rgb, const Detection& found);
 
-// A preview: the picture in dim grey, and each light's pixels in a colour of its own; merged areas share one.
-[[nodiscard]] CONTREJOUR_API Image map_of_lights(const Image& rgb, const Detection& found, ColourSpace space);
+// A false-colour preview: the picture in dim grey, and each light's pixels in a colour of its own. Merged areas have
+// the same colour.
+[[nodiscard]] CONTREJOUR_API Image false_colour_lights(const Image& rgb, const Detection& found, ColourSpace space);
 
 }  // namespace contrejour

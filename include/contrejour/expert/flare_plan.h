@@ -25,12 +25,13 @@ struct FlarePlan {
   PixelGrid grid;                 // the data window within the display window, and the rendered frame
   Detection found;
   std::vector<Light> lights;      // one for each detected light, in the same order, then the given lights
-  std::size_t given_lights = 0;   // the number of the latter
-  // With --starburst or --glare: the lights whose images are drawn, with fewer lights merged than in `lights`. Null:
-  // `lights`.
+  std::size_t given_light_count = 0;  // the number of lights that the user gave
+  // With --starburst or --glare: the lights whose direct images are drawn, with fewer lights merged than in `lights`.
+  // Null: `lights`.
   std::shared_ptr<const std::vector<Light>> imaged_lights;
-  std::shared_ptr<const Image>
-      already_there;  // with --starburst or --glare: the fraction of each pixel that is a light's own image
+  // With --starburst or --glare: the fraction of each pixel that is a light's own image, which the photograph contains
+  // already, as one channel of the frame's size.
+  std::shared_ptr<const Image> light_matte;
   std::vector<std::string> warnings;  // for the user: assumptions about the picture, and lights left out
 };
 

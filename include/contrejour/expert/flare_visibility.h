@@ -12,12 +12,12 @@ namespace contrejour {
 
 struct FlareVisibility {
   double brightest = 0;  // the flare's luminance at its 99.5th percentile, without the lights' pixels
-  double over_picture = 0;  // the 99.5th percentile of the flare's luminance over the picture's
-  std::optional<double> stops_to_plain;  // gain in stops at which the flare is obvious; nullopt: there is no flare
+  double relative_to_picture = 0;  // the 99.5th percentile of the flare's luminance over the picture's
+  std::optional<double> stops_to_obvious;  // gain in stops at which the flare is obvious; nullopt: there is no flare
 };
 
 // rgb: the picture without the flare; found: where its lights are (without effect if it is of another size). A
-// hundredth of white is added to the picture's luminance, since any flare is infinitely brighter than black.
+// hundredth of white is added to the picture's luminance, because the ratio to black would be infinite.
 [[nodiscard]] CONTREJOUR_API FlareVisibility visibility_of(const Image& rgb, const Image& flare, const Detection& found,
                                                            ColourSpace space);
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The table of all parameters that a user can set: name, unit, range, default, help. The command line and every other
 // front end are generated from it, so a parameter means the same everywhere. Values are text, as parameter_text.h reads
-// it, in the unit that the table names; parameter_values.h holds the values given.
+// it, in the unit that the table names; parameter_values.h holds the values that a user has set.
 // Errors: InvalidArgument, saying what would be valid. Thread-safety: constant data and pure functions.
 #pragma once
 
@@ -26,17 +26,18 @@ enum class Kind {
 
 struct Parameter {
   std::string_view name{};  // "fnumber": the command line's --fnumber
+  std::string_view former{};  // an earlier name, which command lines and presets may still use; empty: none
   char letter = '\0';  // its short form, if any
   std::string_view group{};  // heading in a list of parameters
   Kind kind = Kind::Text;
   std::string_view unit{};  // "mm", "deg", "px", ... or how a text is written: "WxH"
   double minimum = -std::numeric_limits<double>::infinity();
   double maximum = std::numeric_limits<double>::infinity();
-  std::string_view fallback{};  // default as text; empty: found from the lens or the picture, as `help` says
+  std::string_view fallback{};  // default as text; empty: derived from the lens or the picture, as `help` says
   std::string_view help{};
   std::vector<std::string_view> choices{};
   bool repeats = false;  // may be given several times
-  bool scene = false;  // belongs to one picture, like lights and size; a preset has all others
+  bool scene = false;  // describes one picture, as lights and size do; a preset has all other parameters
   Result<void> (*check)(std::string_view text) = nullptr;  // in addition to kind and range
 };
 

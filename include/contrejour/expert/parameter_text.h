@@ -47,7 +47,7 @@ struct UvRegion {
 struct LightValue {
   enum class Unit {
     Sum,      // the sum of the image
-    Stops,    // above white, for each pixel of a disc: "12stops"
+    Stops,    // above white, in each pixel of a disc: "12stops"
     Lux,      // at the lens: "100000lx"
     Candela,  // for a light at a finite distance: "800cd"
     Nits,     // cd/m^2, for a disc: "1.6e9nits"
@@ -67,7 +67,7 @@ struct LightColour {
 
 // "A,B", "A,B:VALUE", "A,B:VALUE:COLOUR" or "A,B:VALUE:COLOUR:SIZE"; VALUE and COLOUR may be left empty.
 struct LightText {
-  Vec2 place;  // azimuth and elevation in degrees, or u and v
+  Vec2 position;  // azimuth and elevation in degrees, or u and v
   std::optional<LightValue> value;
   std::optional<LightColour> colour;
   std::optional<double> size_deg;  // diameter of a disc
@@ -81,8 +81,8 @@ struct LightText {
 // "all", "brightest:N", "flux:P", "surface:K", "list:2-5,3-7".
 [[nodiscard]] CONTREJOUR_API Result<GhostSelection> parse_selection(std::string_view text);
 
-// "2-5:gain=0.5,colour=1,0.8,0.6,offset=0.01,-0.02", or "5:..." for all ghosts that reflect at surface 5; each part may
-// be left out.
+// "2-5:gain=0.5,colour=1,0.8,0.6,offset=0.01,-0.02", or "5:..." for all ghosts that reflect at surface 5. Each part is
+// optional.
 [[nodiscard]] CONTREJOUR_API Result<GhostAdjustment> parse_ghost_adjustment(std::string_view text);
 // "-1:1,0.5,0.2/0:1,1,1/1:0.6,0.8,1"
 [[nodiscard]] CONTREJOUR_API Result<std::vector<GhostRampStop>> parse_ghost_ramp(std::string_view text);
@@ -96,7 +96,8 @@ struct LightText {
 // "12:v-coat:550": a surface by its number, and its coating.
 [[nodiscard]] CONTREJOUR_API Result<SurfaceCoating> parse_coating_at(std::string_view text);
 
-// A plane plate in front of the sensor: "2", "2:N-BK7", "2:1.52:0.8": mm thick, glass or index (N-BK7), gap behind (1).
+// A plane-parallel plate in front of the sensor: "2", "2:N-BK7" or "2:1.52:0.8": its thickness in mm, its glass or
+// index (default: N-BK7), and the gap behind it in mm (default: 1).
 [[nodiscard]] CONTREJOUR_API Result<SensorPlate> parse_cover_glass(std::string_view text);
 
 }  // namespace contrejour::params

@@ -13,11 +13,11 @@ namespace contrejour::params {
 // without light.
 [[nodiscard]] CONTREJOUR_API double automatic_exposure(const Image& rgb);
 
-// What a preview has where the values have no `exposure`.
-enum class UsualExposure { Automatic, AsItIs };
+// The exposure of a preview if the values contain none: automatic_exposure(), or 0 stops.
+enum class DefaultExposure { Automatic, None };
 
-// The exposure that the values give, or the usual one.
+// The exposure that the values contain, or the default.
 [[nodiscard]] CONTREJOUR_API PreviewSettings preview_settings(const Values& values, const Image& rgb,
-                                                              UsualExposure usual);
+                                                              DefaultExposure otherwise);
 
 }  // namespace contrejour::params

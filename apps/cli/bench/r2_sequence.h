@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Places that fill a frame evenly for any number of them; the sequence is always the same.
+// Points that fill a frame evenly, however many are taken: a low-discrepancy sequence, always the same.
+// Thread-safety: a pure function.
 #pragma once
 
 #include <cmath>
@@ -9,9 +10,9 @@
 
 namespace contrejour::cli {
 
-// The k-th place, u and v from 0 to 1: the R2 sequence of Roberts 2018 ("The unreasonable effectiveness of quasirandom
-// sequences"), whose steps are the powers of 1 / 1.32471795724474602596.
-[[nodiscard]] inline Vec2 evenly_spread(std::size_t k) {
+// The k-th point, u and v from 0 to 1, of the R2 sequence of Roberts 2018 ("The unreasonable effectiveness of
+// quasirandom sequences"), whose steps are the powers of 1 / 1.32471795724474602596.
+[[nodiscard]] inline Vec2 r2_point(std::size_t k) {
   constexpr double kStep_u = 0.7548776662466927;
   constexpr double kStep_v = 0.5698402909980532;
   const auto n = static_cast<double>(k);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The option --glass of the commands that examine a coating.
+// The option --glass, the substrate of a coating.
 #pragma once
 
 #include <string>
@@ -12,7 +12,7 @@
 namespace contrejour::cli {
 
 // text: a glass by name or six digits, an index, or N_D,V_D. Default: N-BK7.
-void add_glass_option(CLI::App& command, std::string& text);
-[[nodiscard]] Result<Glass> parse_glass(const std::string& text);
+void add_substrate_option(CLI::App& command, std::string& text);
+[[nodiscard]] Result<Glass> parse_substrate(const std::string& text);
 
 }  // namespace contrejour::cli

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: Apache-2.0
+// Parses lights: their positions, brightness, colours and sizes.
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "contrejour/expert/parameter_text.h"
+#include "contrejour/expert/spectrum_file.h"
+#include "settings/parse_rgb.h"
+
+namespace contrejour::params {
+namespace {
+
+constexpr double kMaxLightSize_deg = 90.0;
+constexpr double kMaxValue = 1e15;  // together with a colour, it hardly exceeds kMaxLightValue
+constexpr double kMaxValueStops = 40.0;
+constexpr std::pair<std::string_view, LightValue::Unit> kValueUnits[] = {{"stops", LightValue::Unit::Stops},
+                                                                         {"lx", LightValue::Unit::Lux},
+                                                                         {"nits", LightValue::Unit::Nits},
+                                                                         {"cd", LightValue::Unit::Candela}};
+
+bool is_per_channel(std::string_view text) { return text.find(',') != std::string_view::npos; }
+
+// Removes a unit from the end of the text.
+LightValue::Unit take_unit(std::string_view& text) {
+  for (const auto& [suffix, unit] : kValueUnits) {
+    if (!text.ends_with(suffix)) continue;
+    text.remove_suffix(suffix.size());
+    return unit;
+  }
+  return LightValue::Unit::Sum;
+}
+
+Result<void> check_amount(std::string_view text, double amount, LightValue::Unit unit) {
+  const bool is_stops = unit == LightValue::Unit::Stops;
+  if (is_stops && std::abs(amount) > kMaxValueStops)
+    return invalid_argument(
+        fmt::format("{} is out of range; give from -{} to {} stops", text, kMaxValueStops, kMaxValueStops));
+  if (!is_stops && amount < 0.0)
+    return invalid_argument(fmt::format("{} is negative; give a brightness of 0 or more", text));
+  if (amount > kMaxValue)
+    return invalid_argument(fmt::format("{} is too large; give a brightness of at most {:.0e}", text, kMaxValue));
+  return {};
+}
+
+Result<double> parse_light_size(std::string_view text) {
+  const auto size_deg = parse_real(text);
+  if (!size_deg || (*size_deg >= 0.0 && *size_deg <= kMaxLightSize_deg)) return size_deg;
+  return invalid_argument(
+      fmt::format("{} is out of range; give a light's diameter from 0 to {} degrees", text, kMaxLightSize_deg));
+}
+
+// The parts after the position: VALUE, COLOUR and SIZE; VALUE and COLOUR may be empty, the latter before a size only.
+Result<void> add_parts(const std::vector<std::string_view>& parts, LightText& light) {
+  if (parts.size() > 1 && !parts[1].empty()) {
+    const auto value = parse_light_value(parts[1]);
+    if (!value) return tl::unexpected(value.error());
+    light.value = *value;
+  }
+  if (parts.size() > 2 && !(parts[2].empty() && parts.size() > 3)) {
+    const auto colour = parse_light_colour(parts[2]);
+    if (!colour) return tl::unexpected(colour.error());
+    light.colour = *colour;
+  }
+  if (parts.size() > 3) {
+    const auto size_deg = parse_light_size(parts[3]);
+    if (!size_deg) return tl::unexpected(size_deg.error());
+    light.size_deg = *size_deg;
+  }
+  return {};
+}
+
+}  // namespace
+
+Result<LightValue> parse_light_value(std::string_view text) {
+  if (is_per_channel(text)) {
+    const auto rgb = parse_rgb(text, kMaxValue);
+    if (!rgb) return tl::unexpected(rgb.error());
+    return LightValue{*rgb, true};
+  }
+  std::string_view number = text;
+  const LightValue::Unit unit = take_unit(number);
+  const auto amount = parse_real(number);
+  if (!amount && unit == LightValue::Unit::Sum)
+    return invalid_argument(fmt::format(
+        "\"{}\" is not a brightness; give the sum of the light's image (5000, or R,G,B), or a number with a "
+        "unit, as in 12stops above white, 100000lx at the lens, 800cd or 1.6e9nits",
+        text));
+  if (!amount) return tl::unexpected(amount.error());
+  if (const auto checked = check_amount(text, *amount, unit); !checked) return tl::unexpected(checked.error());
+  return LightValue{{*amount, *amount, *amount}, false, unit};
+}
+
+Result<LightColour> parse_light_colour(std::string_view text) {
+  if (is_per_channel(text)) {
+    const auto rgb = parse_rgb(text, kMaxValue);
+    if (!rgb) return tl::unexpected(rgb.error());
+    return LightColour{IlluminantD65{}, *rgb};
+  }
+  auto spectrum = find_spectrum(std::string(text));
+  if (!spectrum) return tl::unexpected(spectrum.error());
+  return LightColour{*spectrum, std::nullopt};
+}
+
+Result<LightText> parse_light(std::string_view text) {
+  const auto parts = split(text, ':');
+  if (parts.size() > 4)
+    return invalid_argument(fmt::format("\"{}\" has too many parts; write A,B:VALUE:COLOUR:SIZE", text));
+  const auto position = parse_reals(parts[0], 2);
+  if (!position) return tl::unexpected(position.error());
+  LightText light;
+  light.position = {(*position)[0], (*position)[1]};
+  if (const auto added = add_parts(parts, light); !added) return tl::unexpected(added.error());
+  return light;
+}
+
+}  // namespace contrejour::params
