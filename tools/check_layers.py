@@ -102,7 +102,7 @@ PUBLIC = {
     "expert/trace.h": "trace",
     "expert/vec.h": "base",
     "expert/write_lens.h": "lens_files",
-    "look.h": "settings",
+    "preset.h": "settings",
     "expert/nearest_name.h": "base",
     "expert/parameter.h": "settings",
     "expert/parameter_text.h": "settings",

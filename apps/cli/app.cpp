@@ -133,7 +133,7 @@ void set_up(CLI::App& app, Action& action) {
   add_glass(app, action);
   add_ghosts(app, action);
   add_compare(app, action);
-  add_look(app, action);
+  add_preset(app, action);
   add_coating(app, action);
   add_bench(app, action);
 }

@@ -12,9 +12,9 @@
 #include "cli/flare_report.h"
 #include "cli/lens_choice.h"
 #include "cli/long_task.h"
-#include "cli/look_choice.h"
 #include "cli/options.h"
 #include "cli/outputs.h"
+#include "cli/preset_choice.h"
 #include "contrejour/apply.h"
 #include "contrejour/expert/apply_files.h"
 #include "contrejour/expert/preview_exposure.h"
@@ -39,13 +39,13 @@ struct ApplyOptions {
   std::string lens, input, output, flare_only, detected, preview;
   bool json = false;
   ReadOptions read;
-  LookOptions look;
+  PresetOptions preset;
   params::Values values;
 };
 
 struct ApplyFiles {
   OutputFile* output = nullptr;
-  OutputFile *flare_only = nullptr, *detected = nullptr, *preview = nullptr, *look = nullptr;  // or null
+  OutputFile *flare_only = nullptr, *detected = nullptr, *preview = nullptr, *preset = nullptr;  // or null
 };
 
 Result<ApplyFiles> open_apply_files(const ApplyOptions& options, Outputs& outputs) {
@@ -53,7 +53,7 @@ Result<ApplyFiles> open_apply_files(const ApplyOptions& options, Outputs& output
   const std::pair<const std::string&, OutputFile*&> all[] = {{options.output, files.output},
                                                              {options.flare_only, files.flare_only},
                                                              {options.detected, files.detected},
-                                                             {options.look.save, files.look},
+                                                             {options.preset.save, files.preset},
                                                              {options.preview, files.preview}};
   if (auto ok = outputs.add_all(all); !ok) return tl::unexpected(ok.error());
   return files;
@@ -76,7 +76,7 @@ Result<void> write_all(const ApplyOptions& options, const ApplyFiles& files, Pic
   ok = plan.lights.empty() ? copy_photograph(*files.output, options.input, picture, options.values, context)
                            : write_photograph(*files.output, picture, options.values, context);
   if (ok && files.flare_only) ok = write_aligned(*files.flare_only, flare, picture, plan, context);
-  if (ok && files.look) ok = files.look->write(params::write_look({{}, {}, options.lens, options.values}));
+  if (ok && files.preset) ok = files.preset->write(params::write_preset({{}, {}, options.lens, options.values}));
   if (ok && files.preview) ok = write_preview(options, *files.preview, picture.rgb, context);
   return ok;
 }
@@ -112,7 +112,7 @@ Result<PictureFlare> render_planned(const ApplyOptions& options, const FlarePlan
 }
 
 Result<int> run_apply(ApplyOptions options) {
-  if (const auto ok = fill_from_look(options.look, options.lens, options.values); !ok)
+  if (const auto ok = fill_from_preset(options.preset, options.lens, options.values); !ok)
     return tl::unexpected(ok.error());
   Outputs outputs;
   const auto files = open_apply_files(options, outputs);
@@ -136,7 +136,7 @@ CLI::ParseError missing_argument(const std::string& given) {
   const std::string ending = lower_extension(given);
   if (ending != ".exr" && ending != ".png") return CLI::RequiredError("IN");
   return CLI::RequiredError(
-      fmt::format("LENS before {} (`contrejour lens list`, or a preset that names a lens, --look)", given));
+      fmt::format("LENS before {} (`contrejour lens list`, or a preset that names a lens, --preset)", given));
 }
 
 }  // namespace
@@ -154,7 +154,7 @@ void add_apply(CLI::App& app, Action& action) {
       "the detected lights: an EXR of their pixels, or a PNG of the picture in grey with each light in a colour");
   add_output(*command, "--preview", options->preview, {".png"}, "a preview of the result as PNG");
   command->add_flag("--json", options->json, "print the report on the detected lights as JSON");
-  add_look_options(*command, options->look);
+  add_preset_options(*command, options->preset);
   add_parameters(*command, options->values, {"exposure"});
   add_parameters(*command, options->values,
                  {"detect", "region", "threshold", "softness", "max-lights", "min-pixels", "max-value", "light-shape",
@@ -167,7 +167,7 @@ void add_apply(CLI::App& app, Action& action) {
   command->footer(kApplyExamples);
   command->callback([options, &action] {
     if (options->input.empty()) {
-      if (options->look.look.empty()) throw missing_argument(options->lens);
+      if (options->preset.name.empty()) throw missing_argument(options->lens);
       std::swap(options->lens, options->input);  // the lens comes from the preset
     }
     action = [options] { return run_apply(*options); };

@@ -25,7 +25,7 @@ void add_lens(CLI::App& app, Action& action);
 void add_glass(CLI::App& app, Action& action);
 void add_ghosts(CLI::App& app, Action& action);
 void add_compare(CLI::App& app, Action& action);
-void add_look(CLI::App& app, Action& action);
+void add_preset(CLI::App& app, Action& action);
 void add_bench(CLI::App& app, Action& action);
 void add_coating(CLI::App& app, Action& action);
 

@@ -11,9 +11,9 @@
 #include "cli/flare_report.h"
 #include "cli/lens_choice.h"
 #include "cli/long_task.h"
-#include "cli/look_choice.h"
 #include "cli/options.h"
 #include "cli/outputs.h"
+#include "cli/preset_choice.h"
 #include "contrejour/expert/pixel_grid.h"
 #include "contrejour/expert/preview_exposure.h"
 #include "contrejour/expert/settings.h"
@@ -32,17 +32,17 @@ constexpr const char* kRenderExamples =
     "  contrejour render canon-70-200 --focal 135 -f 8 --light 6,4 --light -3,5 -o flare.exr --preview flare.png\n"
     "  contrejour render nikon-80-200 --light-at 0.7,0.33:5000:3200K --light-at 0.2,0.8:900 --size 960x540 -o f.exr\n"
     "  contrejour render heliar --select list:2-5 --method reference -o ghost.exr --stats ghost.json\n"
-    "  contrejour render --look old-portrait --blades 7 -o flare.exr --save-look mine.toml";
+    "  contrejour render --preset old-portrait --blades 7 -o flare.exr --save-preset mine.toml";
 
 struct RenderOptions {
   std::string lens, output, preview, stats;
-  LookOptions look;
+  PresetOptions preset;
   params::Values values;
 };
 
 struct RenderFiles {
   OutputFile* output = nullptr;
-  OutputFile *preview = nullptr, *stats = nullptr, *look = nullptr;  // null where not requested
+  OutputFile *preview = nullptr, *stats = nullptr, *preset = nullptr;  // null where not requested
 };
 
 Result<RenderFiles> open_render_files(const RenderOptions& options, Outputs& outputs) {
@@ -50,7 +50,7 @@ Result<RenderFiles> open_render_files(const RenderOptions& options, Outputs& out
   const std::pair<const std::string&, OutputFile*&> all[] = {{options.output, files.output},
                                                              {options.preview, files.preview},
                                                              {options.stats, files.stats},
-                                                             {options.look.save, files.look}};
+                                                             {options.preset.save, files.preset}};
   if (auto ok = outputs.add_all(all); !ok) return tl::unexpected(ok.error());
   return files;
 }
@@ -99,15 +99,15 @@ Result<void> write_flare(const RenderOptions& options, const RenderFiles& files,
   if (files.preview) {
     if (auto ok = write_preview_png(*files.preview, flare.image, preview, context); !ok) return ok;
   }
-  if (files.look) {
-    if (auto ok = files.look->write(params::write_look({{}, {}, options.lens, options.values})); !ok) return ok;
+  if (files.preset) {
+    if (auto ok = files.preset->write(params::write_preset({{}, {}, options.lens, options.values})); !ok) return ok;
   }
   if (files.stats) return files.stats->write(json_text(stats_json(flare.statistics)));
   return {};
 }
 
 Result<int> run_render(RenderOptions options) {
-  if (const auto ok = fill_from_look(options.look, options.lens, options.values); !ok)
+  if (const auto ok = fill_from_preset(options.preset, options.lens, options.values); !ok)
     return tl::unexpected(ok.error());
   Outputs outputs;
   const auto files = open_render_files(options, outputs);
@@ -132,7 +132,7 @@ void add_render(CLI::App& app, Action& action) {
   add_output(*command, "-o,--output", options->output, {".exr", ".png"}, "the image of the flare")->required();
   add_output(*command, "--preview", options->preview, {".png"}, "a preview as PNG");
   add_output(*command, "--stats", options->stats, {".json"}, "statistics of the rendering: times and counts");
-  add_look_options(*command, options->look);
+  add_preset_options(*command, options->preset);
   add_parameters(*command, options->values, {"exposure"});
   add_parameters(*command, options->values,
                  {"light", "light-at", "value", "colour", "light-size", "light-distance", "iso", "shutter"});
@@ -141,7 +141,7 @@ void add_render(CLI::App& app, Action& action) {
   add_rendering_parameters(*command, options->values);
   command->footer(kRenderExamples);
   command->callback([options, &action] {
-    if (options->lens.empty() && options->look.look.empty()) throw CLI::RequiredError("LENS");
+    if (options->lens.empty() && options->preset.name.empty()) throw CLI::RequiredError("LENS");
     action = [options] { return run_render(*options); };
   });
 }

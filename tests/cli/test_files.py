@@ -57,7 +57,7 @@ class Hostile(ProgramTest):
         self.error_of("render", "/dev/zero", "-o", "o.exr", code=1)
         self.error_of("render", "heliar", "-o", "o.exr", "--iris-image", "/dev/zero", code=1)
         self.error_of("render", "heliar", "-o", "o.exr", "--colour", "/dev/zero", code=2)
-        self.error_of("render", "--look", "/dev/zero", "-o", "o.exr", code=1)
+        self.error_of("render", "--preset", "/dev/zero", "-o", "o.exr", code=1)
         self.assertLess(time.monotonic() - began, 20)
         self.assertEqual(self.files(), [])
 

@@ -7,7 +7,7 @@ from program import ProgramTest
 
 COMMANDS = [["render"], ["apply"], ["ghosts"], ["compare"], ["lens", "list"], ["lens", "info"], ["lens", "draw"],
             ["lens", "trace"], ["lens", "check"], ["lens", "convert"], ["lens", "browse"],
-            ["glass", "list"], ["glass", "show"], ["glass", "closest"], ["look", "list"], ["look", "show"], ["bench", "tables"],
+            ["glass", "list"], ["glass", "show"], ["glass", "closest"], ["preset", "list"], ["preset", "show"], ["bench", "tables"],
             ["bench", "lenses"], ["bench", "hullin"]]
 
 
@@ -48,13 +48,16 @@ class Usage(ProgramTest):
         self.run_program("render", "heliar", *present, "-o", "a.exr", *quick)
         self.run_program("render", "heliar", *[earlier.get(word, word) for word in present], "-o", "b.exr", *quick)
         self.assertEqual((self.folder / "a.exr").read_bytes(), (self.folder / "b.exr").read_bytes())
-        self.run_program("render", "heliar", "--method", "bundle", "--grid", "16", *bundle.values(), "--save-look", "l.toml",
+        self.run_program("render", "heliar", "--method", "bundle", "--grid", "16", *bundle.values(), "--save-preset", "l.toml",
                          "-o", "c.exr", *quick)
         saved = (self.folder / "l.toml").read_text()
+        self.run_program("render", "--look", "l.toml", "--save-look", "m.toml", "-o", "d.exr", *quick)
+        self.assertEqual((self.folder / "m.toml").read_text(), saved)
+        self.assertEqual(self.run_program("look", "list").stdout, self.run_program("preset", "list").stdout)
         for name in bundle:
             self.assertIn(f"{name[2:]} = true", saved)
         shown = self.run_program("render", "--help").stdout.decode()
-        for name in [*earlier.values(), *bundle.values()]:
+        for name in [*earlier.values(), *bundle.values(), "--look", "--save-look"]:
             self.assertNotRegex(shown, name + r"[ ,{]")
 
     def test_the_lens_is_missing(self):

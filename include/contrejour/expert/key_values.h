@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A flat TOML file: names and values that the caller interprets, such as a look (docs/formats/look.md).
+// A flat TOML file: names and values that the caller interprets, such as a preset (docs/formats/preset.md).
 // Text, numbers, true and false, and lists of text; no tables. Bounded in memory and time. Errors name file and line.
 // Thread-safety: pure functions.
 #pragma once

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The options --look and --save-look, and the values that a preset changes.
+// The options --preset and --save-preset, and the values that a preset changes.
 #pragma once
 
 #include <filesystem>
@@ -8,20 +8,20 @@
 
 #include <CLI/CLI.hpp>
 
-#include "contrejour/look.h"
+#include "contrejour/preset.h"
 #include "contrejour/result.h"
 
 namespace contrejour::cli {
 
-struct LookOptions {
-  std::string look;  // a bundled name or a file; empty: none
+struct PresetOptions {
+  std::string name;  // a bundled preset or a file; empty: none
   std::string save;  // a file; empty: none
 };
 
-void add_look_options(CLI::App& command, LookOptions& options);
+void add_preset_options(CLI::App& command, PresetOptions& options);
 
 // Takes the lens and the values from the preset where the command line does not give them. Errors: no such preset; no
 // lens given anywhere.
-[[nodiscard]] Result<void> fill_from_look(const LookOptions& options, std::string& lens, params::Values& values);
+[[nodiscard]] Result<void> fill_from_preset(const PresetOptions& options, std::string& lens, params::Values& values);
 
 }  // namespace contrejour::cli

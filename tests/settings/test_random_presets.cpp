@@ -8,7 +8,7 @@
 #include <doctest/doctest.h>
 
 #include "contrejour/expert/settings.h"
-#include "contrejour/look.h"
+#include "contrejour/preset.h"
 
 using namespace contrejour;
 using namespace contrejour::params;
@@ -38,14 +38,14 @@ const std::map<std::string_view, std::pair<double, double>> kNarrowed = {
 const std::map<std::string_view, double> kDear = {
     {"decentre", 0.8}, {"tilt", 0.8}, {"sensor-reflectance", 0.95}, {"reflections", 0.9}};
 
-class RandomLook {
+class RandomPreset {
  public:
-  explicit RandomLook(unsigned seed) : random_(seed) {}
+  explicit RandomPreset(unsigned seed) : random_(seed) {}
 
   std::string text() {
     std::string out;
     for (const Parameter& p : all_parameters()) {
-      if (!belongs_to_look(p) || p.name == "focal" || chance(0.4)) continue;  // the lenses are no zooms
+      if (!belongs_to_preset(p) || p.name == "focal" || chance(0.4)) continue;  // the lenses are no zooms
       if (const auto dear = kDear.find(p.name); dear != kDear.end() && chance(dear->second)) continue;
       const std::string value = value_of(p);
       if (!value.empty()) out += std::string(p.name) + " = " + value + "\n";
@@ -101,11 +101,11 @@ class RandomLook {
 // Returns false if the preset is refused; such an error must have a reason.
 bool renders(const std::string& text, const char* lens_name) {
   CAPTURE(text);
-  const auto look = read_look(text, "random.toml");
-  REQUIRE_MESSAGE(look.has_value(), (look ? "" : look.error().to_string()));
+  const auto preset = read_preset(text, "random.toml");
+  REQUIRE_MESSAGE(preset.has_value(), (preset ? "" : preset.error().to_string()));
   const auto prescription = find_lens(lens_name);
   REQUIRE(prescription.has_value());
-  const auto settings = lens_settings(look->values);
+  const auto settings = lens_settings(preset->values);
   if (!settings) {
     CHECK(!settings.error().message.empty());
     return false;
@@ -115,11 +115,12 @@ bool renders(const std::string& text, const char* lens_name) {
     CHECK(!lens.error().message.empty());
     return false;
   }
-  const Frame frame = whole_frame(look->values, *lens, {24, 16});
-  const auto space = colour_space(look->values, ColourSpace::Rec709);
-  const auto given = lights(look->values, *lens, frame, space);
+  const Frame frame = whole_frame(preset->values, *lens, {24, 16});
+  const auto space = colour_space(preset->values, ColourSpace::Rec709);
+  const auto given = lights(preset->values, *lens, frame, space);
   REQUIRE(given.has_value());
-  const auto flare = render(method_options(look->values), *lens, *given, frame_settings(look->values, frame, space));
+  const auto flare =
+      render(method_options(preset->values), *lens, *given, frame_settings(preset->values, frame, space));
   if (!flare) {
     CHECK(!flare.error().message.empty());
     return false;
@@ -129,7 +130,7 @@ bool renders(const std::string& text, const char* lens_name) {
 }
 
 int rendered(int count, unsigned seed) {
-  RandomLook random(seed);
+  RandomPreset random(seed);
   int done = 0;
   for (int k = 0; k < count; ++k) done += renders(random.text(), k % 2 == 0 ? "heliar" : "tessar") ? 1 : 0;
   return done;
@@ -137,13 +138,13 @@ int rendered(int count, unsigned seed) {
 
 }  // namespace
 
-TEST_CASE("random looks render without error or NaN") { CHECK(rendered(40, 1) >= 20); }
+TEST_CASE("random presets render without error or NaN") { CHECK(rendered(40, 1) >= 20); }
 
 TEST_CASE("a thousand of them [slow]") { CHECK(rendered(1000, 2) >= 500); }
 
 TEST_CASE("each end of each range, all else as usual [slow]") {
   for (const Parameter& p : all_parameters()) {
-    if (!belongs_to_look(p) || (p.kind != Kind::Real && p.kind != Kind::Integer)) continue;
+    if (!belongs_to_preset(p) || (p.kind != Kind::Real && p.kind != Kind::Integer)) continue;
     for (const double end : {p.minimum, p.maximum}) {
       if (!std::isfinite(end)) continue;
       CAPTURE(p.name);

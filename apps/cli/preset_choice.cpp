@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/preset_choice.h"
+
+#include "cli/options.h"
+
+namespace contrejour::cli {
+
+void add_preset_options(CLI::App& command, PresetOptions& options) {
+  command
+      .add_option(
+          "--preset", options.name,
+          "the preset to start from: a bundled one (`contrejour preset list`) or a file; other options override "
+          "its settings")
+      ->option_text("PRESET");
+  add_output(command, "--save-preset", options.save, {".toml"}, "save all settings of this flare as a preset");
+  // The earlier names, which the help does not show.
+  command.add_option("--look", options.name)->group("");
+  add_output(command, "--save-look", options.save, {".toml"}, "")->group("");
+}
+
+Result<void> fill_from_preset(const PresetOptions& options, std::string& lens, params::Values& values) {
+  if (options.name.empty()) return {};
+  const auto preset = params::find_preset(options.name);
+  if (!preset) return tl::unexpected(preset.error());
+  values = values.over(preset->values);
+  if (lens.empty()) lens = preset->lens;
+  if (!lens.empty()) return {};
+  return failure(ErrorCode::InvalidArgument, "the preset names no lens; give a LENS (`contrejour lens list`)");
+}
+
+}  // namespace contrejour::cli
