@@ -46,8 +46,8 @@ void for_each_part(const PixelGrid& grid, const Visit& visit) {
   }
 }
 
-// One side of the rendered frame: it has `length` pixels and begins at pixel `origin` of a whole frame of `full` pixels.
-// The picture begins at `corner` within it.
+// One side of the rendered frame: it has `length` pixels and begins at pixel `origin` of a whole frame of `full`
+// pixels. The picture begins at `corner` within it.
 struct FrameSide {
   int origin = 0, length = 0, full = 0;
   double corner = 0;
