@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+// All curves of a ghost in one order, with the names that files give them.
+// Thread-safety: pure functions.
+#pragma once
+
+#include <array>
+#include <string_view>
+
+#include "contrejour/expert/measured_flare.h"
+
+namespace contrejour::inline internal {
+
+inline constexpr std::size_t kGhostCurves = 16;
+
+inline constexpr std::array<std::string_view, kGhostCurves> kCurveNames{
+    "centre",      "half_width", "skew",         "half_height", "roundness",  "roundness_skew",
+    "fade_in",     "fade_out",   "slope_in",     "slope_out",   "border_red", "border_green",
+    "border_blue", "inside_red", "inside_green", "inside_blue"};
+
+[[nodiscard]] inline std::array<const AngleCurve*, kGhostCurves> curves_of(const MeasuredGhost& g) {
+  return {&g.centre,    &g.half_width, &g.skew,      &g.half_height, &g.roundness, &g.roundness_skew,
+          &g.fade_in,   &g.fade_out,   &g.slope_in,  &g.slope_out,   &g.border[0], &g.border[1],
+          &g.border[2], &g.inside[0],  &g.inside[1], &g.inside[2]};
+}
+[[nodiscard]] inline std::array<AngleCurve*, kGhostCurves> curves_of(MeasuredGhost& g) {
+  return {&g.centre,    &g.half_width, &g.skew,      &g.half_height, &g.roundness, &g.roundness_skew,
+          &g.fade_in,   &g.fade_out,   &g.slope_in,  &g.slope_out,   &g.border[0], &g.border[1],
+          &g.border[2], &g.inside[0],  &g.inside[1], &g.inside[2]};
+}
+
+}  // namespace contrejour::inline internal

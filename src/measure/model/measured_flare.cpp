@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "contrejour/expert/measured_flare.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "measure/model/flare_curves.h"
+
+namespace contrejour {
+namespace {
+
+// Bounds of what a ghost may be: an outline keeps a size, a shade's exponent stays where its integral is well defined.
+constexpr double kMinHalfAxis = 1e-7;
+constexpr double kMinRoundness = 0.05, kMaxRoundness = 1.0;
+constexpr double kMinSlope = 0.05, kMaxSlope = 30.0;
+
+// 0 to 1 over [0, 1], with a slope of 0 at both ends.
+double smooth_step(double x) {
+  const double t = std::clamp(x, 0.0, 1.0);
+  return t * t * (3.0 - 2.0 * t);
+}
+
+// How much of a ghost is there, at s >= 0.
+double presence(const MeasuredGhost& ghost, double s, double s_max) {
+  if (s < ghost.first || s > ghost.last) return 0.0;
+  if (ghost.transition <= 0.0) return 1.0;
+  const double begins = ghost.first > 0.0 ? smooth_step((s - ghost.first) / ghost.transition) : 1.0;
+  const double ends = ghost.last < s_max ? smooth_step((ghost.last - s) / ghost.transition) : 1.0;
+  return begins * ends;
+}
+
+Result<void> check_ghost(const MeasuredGhost& ghost, double s_max) {
+  for (const AngleCurve* curve : curves_of(ghost)) {
+    if (!std::ranges::all_of(curve->coefficients, [](double c) { return std::isfinite(c); })) {
+      return invalid_argument(fmt::format("ghost \"{}\": a coefficient is not finite", ghost.name));
+    }
+  }
+  if (!(ghost.first >= 0.0 && ghost.first < ghost.last && ghost.last <= s_max && ghost.transition >= 0.0)) {
+    return invalid_argument(
+        fmt::format("ghost \"{}\": it must be visible from first >= 0 to a larger last, no farther than s_max = {:g}",
+                    ghost.name, s_max));
+  }
+  return {};
+}
+
+}  // namespace
+
+double AngleCurve::operator()(double s) const {
+  const double x = parity == Parity::None ? s : s * s;
+  double value = 0.0;
+  for (std::size_t k = coefficients.size(); k > 0; --k) value = value * x + coefficients[k - 1];
+  return parity == Parity::Odd ? value * s : value;
+}
+
+Result<void> check_flare(const MeasuredFlare& flare) {
+  if (!(flare.s_max > 0.0 && std::isfinite(flare.s_max))) {
+    return invalid_argument(fmt::format("s_max must be above 0: {:g}", flare.s_max));
+  }
+  for (const MeasuredGhost& ghost : flare.ghosts) {
+    if (Result<void> ok = check_ghost(ghost, flare.s_max); !ok) return ok;
+  }
+  return {};
+}
+
+std::optional<GhostAtAngle> ghost_at(const MeasuredGhost& ghost, double s, double s_max) {
+  const double level = presence(ghost, s, s_max);
+  if (level <= 0.0) return std::nullopt;
+  const double width = ghost.half_width(s), skew = ghost.skew(s);
+  const double roundness = ghost.roundness(s), roundness_skew = ghost.roundness_skew(s);
+  GhostAtAngle at;
+  at.outline = {ghost.centre(s),
+                std::max(width - skew, kMinHalfAxis),
+                std::max(width + skew, kMinHalfAxis),
+                std::max(ghost.half_height(s), kMinHalfAxis),
+                std::clamp(roundness - roundness_skew, kMinRoundness, kMaxRoundness),
+                std::clamp(roundness + roundness_skew, kMinRoundness, kMaxRoundness)};
+  at.shade = {std::max(ghost.fade_in(s), 0.0), std::max(ghost.fade_out(s), 0.0),
+              std::clamp(ghost.slope_in(s), kMinSlope, kMaxSlope),
+              std::clamp(ghost.slope_out(s), kMinSlope, kMaxSlope)};
+  for (std::size_t c = 0; c < at.border.size(); ++c) {
+    at.border[c] = level * std::max(ghost.border[c](s), 0.0);
+    at.inside[c] = level * std::max(ghost.inside[c](s), 0.0);
+  }
+  return at;
+}
+
+double brightness_scale(const CaptureExposure& capture, const CaptureExposure& picture, double light_ratio) {
+  const double f_ratio = capture.f_number / picture.f_number;
+  return f_ratio * f_ratio * (picture.iso / capture.iso) * (picture.time_s / capture.time_s) * light_ratio;
+}
+
+}  // namespace contrejour

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+// Ghosts for tests: outlines from slim to round, with fades from sharp to wide.
+#pragma once
+
+#include <random>
+#include <string>
+
+#include "contrejour/expert/measured_flare.h"
+
+namespace contrejour::test {
+
+inline GhostOutline random_outline(std::mt19937& random) {
+  std::uniform_real_distribution<double> unit(0.0, 1.0);
+  GhostOutline o;
+  o.centre = -0.5 + unit(random);
+  o.left = 0.02 + 0.2 * unit(random);
+  o.right = 0.02 + 0.2 * unit(random);
+  o.half_height = 0.02 + 0.2 * unit(random);
+  o.round_left = 0.3 + 0.5 * unit(random);
+  o.round_right = 0.3 + 0.5 * unit(random);
+  return o;
+}
+
+inline GhostShade random_shade(std::mt19937& random) {
+  std::uniform_real_distribution<double> unit(0.0, 1.0);
+  return {0.001 + 0.05 * unit(random), 0.0005 + 0.02 * unit(random), 0.5 + 3.0 * unit(random),
+          0.5 + 3.0 * unit(random)};
+}
+
+// A ghost that grows and moves with the light.
+inline MeasuredGhost random_ghost(std::mt19937& random) {
+  std::uniform_real_distribution<double> unit(0.0, 1.0);
+  const GhostOutline o = random_outline(random);
+  const GhostShade shade = random_shade(random);
+  MeasuredGhost ghost;
+  ghost.name = std::to_string(random() % 1000U);
+  ghost.centre.coefficients = {2.0 * o.centre, 0.3 * unit(random)};
+  ghost.half_width.coefficients = {0.5 * (o.left + o.right), 0.05 * unit(random)};
+  ghost.skew.coefficients = {0.02 * unit(random)};
+  ghost.half_height.coefficients = {o.half_height, 0.05 * unit(random)};
+  ghost.fade_in.coefficients = {shade.fade_in};
+  ghost.fade_out.coefficients = {shade.fade_out};
+  ghost.slope_in.coefficients = {shade.slope_in};
+  ghost.slope_out.coefficients = {shade.slope_out};
+  for (std::size_t c = 0; c < 3; ++c) {
+    ghost.border[c].coefficients = {0.5 + unit(random)};
+    ghost.inside[c].coefficients = {0.5 * unit(random)};
+  }
+  ghost.last = 0.6;
+  return ghost;
+}
+
+}  // namespace contrejour::test

@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: Apache-2.0
+// The measured flare: its file, its curves, and its pictures against a plain evaluation of every pixel.
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+
+#include <doctest/doctest.h>
+
+#include "contrejour/expert/measured_flare.h"
+#include "measure/random_ghosts.h"
+
+using namespace contrejour;
+using contrejour::test::random_ghost;
+
+namespace {
+
+MeasuredFlare random_flare(int ghosts, unsigned seed = 1) {
+  std::mt19937 random(seed);
+  MeasuredFlare flare{"test", "random", 0.6, CaptureExposure{1.4, 100.0, 1.0}, {}};
+  for (int k = 0; k < ghosts; ++k) flare.ghosts.push_back(random_ghost(random));
+  return flare;
+}
+
+constexpr TangentFrame kFrame{240, 160, 220.0, {118.3, 82.1}};
+
+// The same picture, one pixel after the other in double precision.
+Image plain_picture(const MeasuredFlare& flare, const FlareLight& light, const TangentFrame& frame) {
+  Image image(frame.width, frame.height);
+  const double s = length(light.position), pixel = 1.0 / frame.focal_length_px;
+  const Vec2 along = light.position * (1.0 / s);
+  for (const MeasuredGhost& ghost : flare.ghosts) {
+    const auto at = ghost_at(ghost, s, flare.s_max);
+    if (!at) continue;
+    for (int y = 0; y < frame.height; ++y) {
+      for (int x = 0; x < frame.width; ++x) {
+        const Vec2 point{(x + 0.5 - frame.centre_px.x) * pixel, (frame.centre_px.y - y - 0.5) * pixel};
+        const double distance = nearest_point(at->outline, {dot(along, point), cross(along, point)}).distance;
+        const ShadeWeights weights = shade_weights(at->shade, distance, pixel);
+        for (std::size_t c = 0; c < 3; ++c) {
+          const double level = at->border[c] * weights.border + at->inside[c] * weights.inside;
+          image.at(x, y, static_cast<int>(c)) += static_cast<float>(light.value[c] * level * pixel * pixel);
+        }
+      }
+    }
+  }
+  return image;
+}
+
+double largest(const Image& image) { return *std::max_element(image.pixels.begin(), image.pixels.end()); }
+
+double largest_difference(const Image& a, const Image& b) {
+  double most = 0.0;
+  for (std::size_t k = 0; k < a.pixels.size(); ++k) {
+    most = std::max(most, std::abs(static_cast<double>(a.pixels[k]) - static_cast<double>(b.pixels[k])));
+  }
+  return most;
+}
+
+}  // namespace
+
+TEST_CASE("measured flare: curves are even, odd or neither") {
+  CHECK(AngleCurve{Parity::Even, {1.0, 2.0}}(-0.5) == doctest::Approx(1.5));
+  CHECK(AngleCurve{Parity::Odd, {1.0, 2.0}}(-0.5) == doctest::Approx(-0.75));
+  CHECK(AngleCurve{Parity::None, {1.0, 2.0, 4.0}}(-0.5) == doctest::Approx(1.0));
+  CHECK(AngleCurve{}(0.3) == 0.0);
+}
+
+TEST_CASE("measured flare: a file reads back bit for bit") {
+  MeasuredFlare flare = random_flare(7);
+  flare.ghosts[2].fade_in.parity = Parity::None;
+  flare.ghosts[2].fade_in.coefficients = {0.1, 1e-17, -3.0};
+  const std::string text = write_flare(flare);
+  const auto again = read_flare(text, "a.flare.toml");
+  REQUIRE_MESSAGE(again.has_value(), again.error().to_string());
+  CHECK(write_flare(*again) == text);
+  CHECK(again->ghosts.size() == 7);
+  CHECK(again->exposure->f_number == 1.4);
+}
+
+TEST_CASE("measured flare: errors name file and line") {
+  const auto error = [](const char* text) {
+    const auto flare = read_flare(text, "a.toml");
+    return flare ? std::string("accepted") : flare.error().to_string();
+  };
+  const std::string head = "name = \"n\"\ns_max = 0.5\n";
+  CHECK(error("name = \"n\"\n").find("s_max") != std::string::npos);
+  CHECK(error((head + "[[ghosts]]\nlast = 0.7\n").c_str()).find("a.toml: ghost \"1\"") == 0);
+  CHECK(error((head + "[[ghosts]]\nlast = 0.4\ncentre = 3\n").c_str()).find("a.toml:5:") == 0);
+  CHECK(error((head + "[[ghosts]]\nlast = 0.4\ncenter = [3]\n").c_str()).find("a.toml:5:") == 0);
+  CHECK(error((head + "[[ghosts]]\nlast = 0.4\ncentre = [nan]\n").c_str()).find("a.toml:5:") == 0);
+  CHECK(error((head + "ghosts = [1]\n").c_str()).find("a.toml:3:") == 0);
+}
+
+TEST_CASE("measured flare: pictures agree with a plain evaluation of every pixel") {
+  const MeasuredFlare flare = random_flare(6);
+  for (const Vec2 position : {Vec2{0.3, 0.0}, Vec2{-0.2, 0.25}, Vec2{0.05, -0.4}}) {
+    const FlareLight light{position, {1e5, 2e5, 5e4}};
+    const auto image = render_measured(flare, std::span(&light, 1), kFrame);
+    REQUIRE(image.has_value());
+    const Image plain = plain_picture(flare, light, kFrame);
+    CHECK(largest(plain) > 0.0);
+    CHECK(largest_difference(*image, plain) < 2e-3 * largest(plain));
+  }
+}
+
+TEST_CASE("measured flare: the same bits for any number of threads; lights add") {
+  const MeasuredFlare flare = random_flare(12);
+  const std::array<FlareLight, 2> lights{FlareLight{{0.3, 0.1}, {1e4, 1e4, 1e4}},
+                                         FlareLight{{-0.1, 0.2}, {5e4, 0, 1e3}}};
+  const auto one = render_measured(flare, lights, kFrame, {.threads = 1});
+  const auto four = render_measured(flare, lights, kFrame, {.threads = 4});
+  REQUIRE(one.has_value());
+  CHECK(one->pixels == four->pixels);
+  const auto first = render_measured(flare, std::span(&lights[0], 1), kFrame);
+  const auto second = render_measured(flare, std::span(&lights[1], 1), kFrame);
+  Image sum = *first;
+  for (std::size_t k = 0; k < sum.pixels.size(); ++k) sum.pixels[k] += second->pixels[k];
+  CHECK(largest_difference(*one, sum) < 1e-5 * largest(sum));
+}
+
+TEST_CASE("measured flare: a disc of level 1 sums to its area, at any resolution") {
+  MeasuredGhost disc;
+  disc.half_width.coefficients = disc.half_height.coefficients = {0.1};
+  for (AngleCurve& level : disc.inside) level.coefficients = {1.0};
+  disc.last = 0.5;
+  const MeasuredFlare flare{"disc", "", 0.5, std::nullopt, {disc}};
+  const FlareLight light{{0.2, 0.0}, {1.0, 1.0, 1.0}};
+  for (const double focal_length_px : {60.0, 200.0, 500.0}) {
+    const int side = static_cast<int>(0.3 * focal_length_px);
+    const TangentFrame frame{side, side, focal_length_px, {0.5 * side, 0.5 * side}};
+    const auto image = render_measured(flare, std::span(&light, 1), frame);
+    REQUIRE(image.has_value());
+    const double sum = std::accumulate(image->pixels.begin(), image->pixels.end(), 0.0) / 3.0;
+    CHECK(sum == doctest::Approx(std::numbers::pi * 0.01).epsilon(2e-3));
+  }
+}
+
+TEST_CASE("measured flare: a ghost fades at the ends of its range, the flare beyond the measured angles") {
+  MeasuredGhost ghost;
+  ghost.half_width.coefficients = ghost.half_height.coefficients = {0.1};
+  for (AngleCurve& level : ghost.inside) level.coefficients = {1.0};
+  ghost.first = 0.1;
+  ghost.last = 0.4;
+  ghost.transition = 0.05;
+  CHECK(!ghost_at(ghost, 0.05, 0.5));
+  CHECK(ghost_at(ghost, 0.125, 0.5)->inside[0] == doctest::Approx(0.5));
+  CHECK(ghost_at(ghost, 0.2, 0.5)->inside[0] == doctest::Approx(1.0));
+  CHECK(ghost_at(ghost, 0.375, 0.5)->inside[0] == doctest::Approx(0.5));
+  ghost.last = 0.5;  // the end of what was measured
+  CHECK(ghost_at(ghost, 0.5, 0.5)->inside[0] == doctest::Approx(1.0));
+  const MeasuredFlare flare{"one", "", 0.5, std::nullopt, {ghost}};
+  const auto sum_at = [&](double s) {
+    const FlareLight light{{s, 0.0}, {1.0, 1.0, 1.0}};
+    const auto image = render_measured(flare, std::span(&light, 1), kFrame);
+    return std::accumulate(image->pixels.begin(), image->pixels.end(), 0.0);
+  };
+  CHECK(sum_at(0.55) == doctest::Approx(0.5 * sum_at(0.5)).epsilon(1e-5));
+  CHECK(sum_at(0.61) == 0.0);
+}
+
+TEST_CASE("measured flare: brightness by walch2018's equation 2") {
+  const CaptureExposure capture{1.4, 100.0, 1.0};
+  CHECK(brightness_scale(capture, capture, 1.0) == doctest::Approx(1.0));
+  CHECK(brightness_scale(capture, {1.4, 200.0, 1.0}, 1.0) == doctest::Approx(2.0));
+  CHECK(brightness_scale(capture, {1.4, 100.0, 0.5}, 1.0) == doctest::Approx(0.5));
+  CHECK(brightness_scale(capture, {2.8, 100.0, 1.0}, 1.0) == doctest::Approx(0.25));
+  CHECK(brightness_scale(capture, capture, 3.0) == doctest::Approx(3.0));
+}
+
+TEST_CASE("measured flare: hostile requests are refused") {
+  const MeasuredFlare flare = random_flare(1);
+  const FlareLight light{{0.1, 0.0}, {1.0, 1.0, 1.0}};
+  CHECK(!render_measured(flare, std::span(&light, 1), {0, 10, 100.0, {}}));
+  CHECK(!render_measured(flare, std::span(&light, 1), {100000, 100000, 100.0, {}}));
+  CHECK(!render_measured(flare, std::span(&light, 1), {10, 10, -1.0, {}}));
+  const FlareLight broken{{std::nan(""), 0.0}, {1.0, 1.0, 1.0}};
+  CHECK(!render_measured(flare, std::span(&broken, 1), kFrame));
+  CHECK(render_measured(flare, {}, kFrame)->pixels == Image(240, 160).pixels);
+}
