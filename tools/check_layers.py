@@ -81,6 +81,7 @@ PUBLIC = {
     "light.h": "image",
     "expert/light_detection.h": "image",
     "expert/light_source.h": "base",
+    "expert/capture.h": "measure",
     "expert/ghost_outline.h": "measure",
     "expert/machine_speed.h": "machine",
     "expert/measured_flare.h": "measure",
