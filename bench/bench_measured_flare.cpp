@@ -21,8 +21,8 @@ MeasuredFlare hundred_ghosts() {
     ghost.centre.coefficients = {3.0 * unit(random) - 1.5};
     ghost.half_width.coefficients = {radius * (0.7 + 0.3 * unit(random))};
     ghost.half_height.coefficients = {radius};
-    ghost.fade_in.coefficients = {0.3 * radius};
-    ghost.fade_out.coefficients = {0.05 * radius};
+    ghost.width_in.coefficients = {0.15 * radius};
+    ghost.width_out.coefficients = {0.025 * radius};
     for (std::size_t c = 0; c < 3; ++c) {
       ghost.border[c].coefficients = {1.0};
       ghost.inside[c].coefficients = {0.5};

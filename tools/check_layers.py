@@ -85,6 +85,8 @@ PUBLIC = {
     "expert/ghost_outline.h": "measure",
     "expert/machine_speed.h": "machine",
     "expert/measured_flare.h": "measure",
+    "expert/sweep.h": "measure",
+    "expert/sweep_geometry.h": "measure",
     "method_options.h": "render/planning",
     "expert/methods.h": "render/planning",
     "expert/metrics.h": "image",
@@ -154,7 +156,7 @@ MAY_INCLUDE = {
     "settings": ["render/planning"],
     "compositing": ["settings"],
     "machine": ["trace", "ghosts", "image", "render/planning"],
-    "measure": ["image"],
+    "measure": ["render/session", "image"],
     "gpu": ["render/planning", "image"],
     "api": ["compositing", "render/session"],
     "apps": ["public"],
@@ -169,8 +171,8 @@ FENCED = [
     (r"pugixml", ("src/optics/lens_files",), "one reader of XML"),
     (r"yaml-cpp/", ("src/base",), "one wrapper that keeps its exceptions in"),
     (r"gemmi/|pocketfft", ("src/diffraction",), "one wrapper of the FFT"),
-    (r"Eigen/", ("src/diffraction", "src/optics/coating", "src/ghosts/pupils"),
-     "one wrapper of the eigen solver, two of least squares"),
+    (r"Eigen/", ("src/diffraction", "src/optics/coating", "src/ghosts/pupils", "src/measure/fit"),
+     "one wrapper of the eigen solver, three of least squares"),
 ]
 
 INCLUDE = re.compile(r'^\s*#\s*include\s*(?:"([^"]+)"|<([^>]+)>)')

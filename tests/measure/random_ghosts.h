@@ -38,8 +38,8 @@ inline MeasuredGhost random_ghost(std::mt19937& random) {
   ghost.half_width.coefficients = {0.5 * (o.left + o.right), 0.05 * unit(random)};
   ghost.skew.coefficients = {0.02 * unit(random)};
   ghost.half_height.coefficients = {o.half_height, 0.05 * unit(random)};
-  ghost.fade_in.coefficients = {shade.fade_in};
-  ghost.fade_out.coefficients = {shade.fade_out};
+  ghost.width_in.coefficients = {shade.fade_in / (shade.slope_in + 1.0)};
+  ghost.width_out.coefficients = {shade.fade_out / (shade.slope_out + 1.0)};
   ghost.slope_in.coefficients = {shade.slope_in};
   ghost.slope_out.coefficients = {shade.slope_out};
   for (std::size_t c = 0; c < 3; ++c) {

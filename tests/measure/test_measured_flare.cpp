@@ -68,8 +68,8 @@ TEST_CASE("measured flare: curves are even, odd or neither") {
 
 TEST_CASE("measured flare: a file reads back bit for bit") {
   MeasuredFlare flare = random_flare(7);
-  flare.ghosts[2].fade_in.parity = Parity::None;
-  flare.ghosts[2].fade_in.coefficients = {0.1, 1e-17, -3.0};
+  flare.ghosts[2].width_in.parity = Parity::None;
+  flare.ghosts[2].width_in.coefficients = {0.1, 1e-17, -3.0};
   const std::string text = write_flare(flare);
   const auto again = read_flare(text, "a.flare.toml");
   REQUIRE_MESSAGE(again.has_value(), again.error().to_string());

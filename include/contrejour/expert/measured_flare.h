@@ -46,7 +46,9 @@ struct MeasuredGhost {
   AngleCurve half_width, skew{Parity::Odd, {}};
   AngleCurve half_height;
   AngleCurve roundness{Parity::Even, {kEllipseRoundness}}, roundness_skew{Parity::Odd, {}};
-  AngleCurve fade_in, fade_out;
+  // How far the border's level reaches: its integral over the distance, over the level; and the exponents of its fall.
+  // A side's fade is width * (slope + 1).
+  AngleCurve width_in, width_out;
   AngleCurve slope_in{Parity::Even, {1.0}}, slope_out{Parity::Even, {1.0}};
   std::array<AngleCurve, 3> border, inside;  // levels of the channels
 

@@ -14,17 +14,17 @@ inline constexpr std::size_t kGhostCurves = 16;
 
 inline constexpr std::array<std::string_view, kGhostCurves> kCurveNames{
     "centre",      "half_width", "skew",         "half_height", "roundness",  "roundness_skew",
-    "fade_in",     "fade_out",   "slope_in",     "slope_out",   "border_red", "border_green",
+    "width_in",    "width_out",  "slope_in",     "slope_out",   "border_red", "border_green",
     "border_blue", "inside_red", "inside_green", "inside_blue"};
 
 [[nodiscard]] inline std::array<const AngleCurve*, kGhostCurves> curves_of(const MeasuredGhost& g) {
   return {&g.centre,    &g.half_width, &g.skew,      &g.half_height, &g.roundness, &g.roundness_skew,
-          &g.fade_in,   &g.fade_out,   &g.slope_in,  &g.slope_out,   &g.border[0], &g.border[1],
+          &g.width_in,  &g.width_out,  &g.slope_in,  &g.slope_out,   &g.border[0], &g.border[1],
           &g.border[2], &g.inside[0],  &g.inside[1], &g.inside[2]};
 }
 [[nodiscard]] inline std::array<AngleCurve*, kGhostCurves> curves_of(MeasuredGhost& g) {
   return {&g.centre,    &g.half_width, &g.skew,      &g.half_height, &g.roundness, &g.roundness_skew,
-          &g.fade_in,   &g.fade_out,   &g.slope_in,  &g.slope_out,   &g.border[0], &g.border[1],
+          &g.width_in,  &g.width_out,  &g.slope_in,  &g.slope_out,   &g.border[0], &g.border[1],
           &g.border[2], &g.inside[0],  &g.inside[1], &g.inside[2]};
 }
 

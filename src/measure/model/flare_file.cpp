@@ -43,7 +43,7 @@ MeasuredGhost read_ghost(const toml::table& table, std::size_t index, TomlErrors
   TomlFields fields(
       table, fmt::format("ghost {}", index + 1),
       {"name",        "first",        "last",           "transition", "centre",       "half_width", "skew",
-       "half_height", "roundness",    "roundness_skew", "fade_in",    "fade_out",     "slope_in",   "slope_out",
+       "half_height", "roundness",    "roundness_skew", "width_in",   "width_out",    "slope_in",   "slope_out",
        "border_red",  "border_green", "border_blue",    "inside_red", "inside_green", "inside_blue"},
       errors);
   MeasuredGhost ghost;

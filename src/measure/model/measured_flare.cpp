@@ -76,9 +76,10 @@ std::optional<GhostAtAngle> ghost_at(const MeasuredGhost& ghost, double s, doubl
                 std::max(ghost.half_height(s), kMinHalfAxis),
                 std::clamp(roundness - roundness_skew, kMinRoundness, kMaxRoundness),
                 std::clamp(roundness + roundness_skew, kMinRoundness, kMaxRoundness)};
-  at.shade = {std::max(ghost.fade_in(s), 0.0), std::max(ghost.fade_out(s), 0.0),
-              std::clamp(ghost.slope_in(s), kMinSlope, kMaxSlope),
-              std::clamp(ghost.slope_out(s), kMinSlope, kMaxSlope)};
+  const double slope_in = std::clamp(ghost.slope_in(s), kMinSlope, kMaxSlope);
+  const double slope_out = std::clamp(ghost.slope_out(s), kMinSlope, kMaxSlope);
+  at.shade = {(slope_in + 1.0) * std::max(ghost.width_in(s), 0.0),
+              (slope_out + 1.0) * std::max(ghost.width_out(s), 0.0), slope_in, slope_out};
   for (std::size_t c = 0; c < at.border.size(); ++c) {
     at.border[c] = level * std::max(ghost.border[c](s), 0.0);
     at.inside[c] = level * std::max(ghost.inside[c](s), 0.0);

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "measure/fit/levenberg_marquardt.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/Cholesky>
+
+namespace contrejour::inline internal {
+namespace {
+
+constexpr double kFirstDamping = 1e-3;  // of the Hessian's diagonal
+constexpr double kMaxDamping = 1e12;
+constexpr double kLeastDamping = 1e-12;  // keeps parameters that act alike from drifting apart
+
+// The step under damping of each parameter by its own diagonal entry. The equations are scaled to a diagonal of 1,
+// because units of parameters may differ by many orders of magnitude; what has no influence, or is held, stays.
+Eigen::VectorXd damped_step(const NormalEquations& equations, const Eigen::VectorXd& is_free, double damping) {
+  const Eigen::VectorXd scale = is_free.cwiseProduct(
+      equations.hessian.diagonal().unaryExpr([](double d) { return d > 0.0 ? 1.0 / std::sqrt(d) : 0.0; }));
+  Eigen::MatrixXd scaled = scale.asDiagonal() * equations.hessian * scale.asDiagonal();
+  scaled.diagonal() = Eigen::VectorXd::Constant(scale.size(), 1.0 + damping + kLeastDamping);
+  const Eigen::VectorXd step = scaled.ldlt().solve(-scale.cwiseProduct(equations.gradient));
+  return scale.cwiseProduct(step);
+}
+
+Eigen::VectorXd within_bounds(const LeastSquaresProblem& problem, Eigen::VectorXd at) {
+  if (problem.lower.size() == at.size()) at = at.cwiseMax(problem.lower).cwiseMin(problem.upper).eval();
+  return at;
+}
+
+// 0 for parameters at a bound beyond which the cost would fall, else 1.
+Eigen::VectorXd free_parameters(const LeastSquaresProblem& problem, const Eigen::VectorXd& at,
+                                const Eigen::VectorXd& gradient) {
+  Eigen::VectorXd is_free = Eigen::VectorXd::Ones(at.size());
+  if (problem.lower.size() != at.size()) return is_free;
+  for (Eigen::Index k = 0; k < at.size(); ++k) {
+    const bool held =
+        (at[k] <= problem.lower[k] && gradient[k] > 0.0) || (at[k] >= problem.upper[k] && gradient[k] < 0.0);
+    if (held) is_free[k] = 0.0;
+  }
+  return is_free;
+}
+
+}  // namespace
+
+LeastSquaresResult least_squares(const LeastSquaresProblem& problem, Eigen::VectorXd start,
+                                 const LeastSquaresSettings& settings) {
+  LeastSquaresResult result;
+  result.parameters = within_bounds(problem, std::move(start));
+  if (result.parameters.size() == 0) {
+    result.cost = problem.cost(result.parameters);
+    result.converged = true;
+    return result;
+  }
+  NormalEquations equations = problem.equations(result.parameters);
+  double damping = kFirstDamping, growth = 2.0;
+  while (result.iterations < settings.max_iterations && damping < kMaxDamping) {
+    ++result.iterations;
+    const Eigen::VectorXd is_free = free_parameters(problem, result.parameters, equations.gradient);
+    const Eigen::VectorXd next = within_bounds(problem, result.parameters + damped_step(equations, is_free, damping));
+    const Eigen::VectorXd step = next - result.parameters;
+    const double predicted = -(equations.gradient.dot(step) + 0.5 * step.dot(equations.hessian * step));
+    const double cost = problem.cost(next);
+    const double decrease = equations.cost - cost;
+    if (!(decrease > 0.0) || !std::isfinite(cost)) {
+      if (predicted <= settings.min_relative_decrease * equations.cost) {
+        result.converged = true;
+        break;
+      }
+      damping *= growth;
+      growth *= 2.0;
+      continue;
+    }
+    result.parameters = next;
+    const double relative = decrease / std::max(equations.cost, 1e-300);
+    const double gain = predicted > 0.0 ? decrease / predicted : 1.0;
+    damping *= std::max(1.0 / 3.0, 1.0 - std::pow(2.0 * gain - 1.0, 3));
+    growth = 2.0;
+    equations = problem.equations(result.parameters);
+    if (relative < settings.min_relative_decrease) {
+      result.converged = true;
+      break;
+    }
+  }
+  result.cost = equations.cost;
+  result.hessian = equations.hessian;
+  return result;
+}
+
+}  // namespace contrejour::inline internal

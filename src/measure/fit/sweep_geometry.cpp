@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "contrejour/expert/sweep_geometry.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+#include <Eigen/LU>
+
+#include "measure/fit/levenberg_marquardt.h"
+
+namespace contrejour {
+namespace {
+
+constexpr int kParameters = 6;  // centre x, centre y, focal length, distortion, zero, roll
+constexpr std::size_t kMinImages = 5;
+constexpr double kMinSpread_px = 4.0;   // of the images, below which nothing can be told
+constexpr double kHuber_px = 0.5;       // a residual beyond which an image counts less
+constexpr double kBrightPart = 0.5;     // of the maximum: what belongs to the light's image
+constexpr double kSaturated = 0.98;     // of the white level
+
+SweepGeometry geometry_of(const Eigen::VectorXd& p) { return {{p[0], p[1]}, p[2], p[3], p[4], p[5], 0.0, {}}; }
+
+// The residuals of an image and their derivatives.
+struct ImageTerm {
+  Eigen::Vector2d residual;
+  Eigen::Matrix<double, 2, kParameters> jacobian;
+};
+
+ImageTerm term_of(const SweepGeometry& g, const DirectImage& image) {
+  const double t = std::tan(image.angle_rad - g.zero_rad);
+  const double radius = g.focal_length_px * t * (1.0 + g.distortion * t * t);
+  const double by_tangent = g.focal_length_px * (1.0 + 3.0 * g.distortion * t * t);
+  const Eigen::Vector2d along(std::cos(g.roll_rad), -std::sin(g.roll_rad));
+  const Eigen::Vector2d by_roll(-std::sin(g.roll_rad), -std::cos(g.roll_rad));
+  ImageTerm term;
+  term.residual = Eigen::Vector2d(g.centre_px.x, g.centre_px.y) + radius * along -
+                  Eigen::Vector2d(image.position_px.x, image.position_px.y);
+  term.jacobian.col(0) = Eigen::Vector2d(1.0, 0.0);
+  term.jacobian.col(1) = Eigen::Vector2d(0.0, 1.0);
+  term.jacobian.col(2) = radius / g.focal_length_px * along;
+  term.jacobian.col(3) = g.focal_length_px * t * t * t * along;
+  term.jacobian.col(4) = -by_tangent * (1.0 + t * t) * along;
+  term.jacobian.col(5) = radius * by_roll;
+  return term;
+}
+
+// Huber's loss: quadratic up to kHuber_px, linear beyond.
+double loss(double distance_px) {
+  return distance_px <= kHuber_px ? 0.5 * distance_px * distance_px : kHuber_px * (distance_px - 0.5 * kHuber_px);
+}
+double weight(double distance_px) { return distance_px <= kHuber_px ? 1.0 : kHuber_px / distance_px; }
+
+double cost_of(const Eigen::VectorXd& p, std::span<const DirectImage> images) {
+  const SweepGeometry g = geometry_of(p);
+  double cost = 0.0;
+  for (const DirectImage& image : images) cost += loss(term_of(g, image).residual.norm());
+  return cost;
+}
+
+NormalEquations equations_of(const Eigen::VectorXd& p, std::span<const DirectImage> images) {
+  const SweepGeometry g = geometry_of(p);
+  NormalEquations equations{0.0, Eigen::VectorXd::Zero(kParameters), Eigen::MatrixXd::Zero(kParameters, kParameters)};
+  for (const DirectImage& image : images) {
+    const ImageTerm term = term_of(g, image);
+    const double distance = term.residual.norm(), w = weight(distance);
+    equations.cost += loss(distance);
+    equations.gradient += w * term.jacobian.transpose() * term.residual;
+    equations.hessian += w * term.jacobian.transpose() * term.jacobian;
+  }
+  return equations;
+}
+
+// A straight line through the first and last image stands for the geometry at the start.
+Eigen::VectorXd start_of(std::span<const DirectImage> images) {
+  const auto [low, high] = std::ranges::minmax_element(images, {}, &DirectImage::angle_rad);
+  const Vec2 path = high->position_px - low->position_px;
+  const double tangents = std::tan(high->angle_rad) - std::tan(low->angle_rad);
+  const double sign = path.x < 0.0 ? -1.0 : 1.0;
+  const double focal_length_px = sign * length(path) / std::max(tangents, 1e-6);
+  const double roll = std::atan2(-sign * path.y, sign * path.x);
+  const double radius = focal_length_px * std::tan(low->angle_rad);
+  Eigen::VectorXd p(kParameters);
+  p << low->position_px.x - radius * std::cos(roll), low->position_px.y + radius * std::sin(roll), focal_length_px, 0.0,
+      0.0, roll;
+  return p;
+}
+
+// Standard errors of the centre along the path and across it, from residuals of this variance.
+Vec2 centre_errors(const Eigen::MatrixXd& hessian, double roll_rad, double variance) {
+  const Eigen::FullPivLU<Eigen::MatrixXd> lu(hessian);
+  if (!lu.isInvertible()) return {1e9, 1e9};
+  const Eigen::Matrix2d centre = variance * lu.inverse().topLeftCorner<2, 2>();
+  const Eigen::Vector2d along(std::cos(roll_rad), -std::sin(roll_rad)), across(std::sin(roll_rad), std::cos(roll_rad));
+  return {std::sqrt(std::max(along.dot(centre * along), 0.0)), std::sqrt(std::max(across.dot(centre * across), 0.0))};
+}
+
+}  // namespace
+
+Vec2 SweepGeometry::position_of(double angle_rad) const {
+  const double t = std::tan(angle_rad - zero_rad);
+  const double radius = focal_length_px * t * (1.0 + distortion * t * t);
+  return {centre_px.x + radius * std::cos(roll_rad), centre_px.y - radius * std::sin(roll_rad)};
+}
+
+std::optional<Vec2> direct_image_position(const RawFrame& direct) {
+  if (direct.dn.empty()) return std::nullopt;
+  const double highest = *std::ranges::max_element(direct.dn);
+  const double range = direct.white_dn - direct.black_dn;
+  if (highest - direct.black_dn < 0.02 * range || highest > direct.black_dn + kSaturated * range) return std::nullopt;
+  const double limit = direct.black_dn + kBrightPart * (highest - direct.black_dn);
+  Vec2 sum{};
+  double weights = 0.0;
+  for (int y = 0; y < direct.height; ++y) {
+    for (int x = 0; x < direct.width; ++x) {
+      const auto k = static_cast<std::size_t>(y) * static_cast<std::size_t>(direct.width) + static_cast<std::size_t>(x);
+      const double above = direct.dn[k] - limit;
+      if (above <= 0.0) continue;
+      sum = sum + Vec2{0.5 * (x + 0.5), 0.5 * (y + 0.5)} * above;
+      weights += above;
+    }
+  }
+  return sum * (1.0 / weights);
+}
+
+Result<SweepGeometry> fit_geometry(std::span<const DirectImage> images) {
+  if (images.size() < kMinImages) {
+    return invalid_argument(
+        fmt::format("{} images of the light; at least {} determine the geometry", images.size(), kMinImages));
+  }
+  double spread = 0.0;
+  for (const DirectImage& image : images)
+    spread = std::max(spread, length(image.position_px - images.front().position_px));
+  if (!(spread > kMinSpread_px)) {
+    return invalid_argument(fmt::format("the light's image moves by {:.1f} pixels only: check the angles", spread));
+  }
+  const LeastSquaresProblem problem{[&](const Eigen::VectorXd& p) { return equations_of(p, images); },
+                                    [&](const Eigen::VectorXd& p) { return cost_of(p, images); }};
+  const LeastSquaresResult fit = least_squares(problem, start_of(images), {200, 1e-14});
+  SweepGeometry geometry = geometry_of(fit.parameters);
+  double squares = 0.0, freedom = -static_cast<double>(kParameters);
+  for (const DirectImage& image : images) {
+    const double off = term_of(geometry, image).residual.norm();
+    squares += weight(off) * off * off;
+    freedom += 2.0;
+  }
+  geometry.rms_px = std::sqrt(squares / static_cast<double>(images.size()));
+  geometry.centre_error_px = centre_errors(fit.hessian, geometry.roll_rad, squares / std::max(freedom, 1.0));
+  return geometry;
+}
+
+}  // namespace contrejour

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: Apache-2.0
+// The fit's derivatives against central differences, and a planted flare found again from a start beside it.
+#include <cmath>
+
+#include <doctest/doctest.h>
+
+#include "contrejour/expert/measured_flare.h"
+#include "measure/fit/flare_problem.h"
+#include "measure/random_ghosts.h"
+
+using namespace contrejour;
+using contrejour::test::random_ghost;
+
+namespace {
+
+MeasuredFlare planted(int ghosts, unsigned seed) {
+  std::mt19937 random(seed);
+  MeasuredFlare flare{"planted", "", 0.5, std::nullopt, {}};
+  for (int k = 0; k < ghosts; ++k) {
+    MeasuredGhost ghost = random_ghost(random);
+    ghost.last = 0.5;
+    ghost.width_in.coefficients[0] += 0.005;  // at least a pixel of these small pictures
+    ghost.width_out.coefficients[0] += 0.005;
+    for (std::size_t c = 0; c < 3; ++c) {
+      ghost.border[c].coefficients[0] *= 1e6;
+      ghost.inside[c].coefficients[0] *= 1e6;
+    }
+    flare.ghosts.push_back(std::move(ghost));
+  }
+  return flare;
+}
+
+// Stations on both sides, as the flare's own pictures show them, with this standard deviation.
+std::vector<FitStation> stations_of(const MeasuredFlare& flare, int count, double deviation, bool noisy) {
+  std::mt19937 random(9);
+  std::normal_distribution<double> normal;
+  std::vector<FitStation> stations;
+  for (int k = 0; k < count; ++k) {
+    const double s = flare.s_max * (2.0 * (k + 0.5) / count - 1.0);
+    FitStation station;
+    station.s = std::abs(s);
+    station.frame = {{96, 64, 90.0, {47.3, 32.8}}, {s < 0.0 ? -1.0 : 1.0, 0.0}};
+    const FlareLight light{{s, 0.0}, {1.0, 1.0, 1.0}};
+    station.rate = *render_measured(flare, std::span(&light, 1), station.frame.pixels);
+    station.weight = Image(96, 64);
+    for (std::size_t i = 0; i < station.rate.pixels.size(); ++i) {
+      if (noisy) station.rate.pixels[i] += static_cast<float>(deviation * normal(random));
+      station.weight.pixels[i] = static_cast<float>(1.0 / (deviation * deviation));
+    }
+    stations.push_back(std::move(station));
+  }
+  return stations;
+}
+
+}  // namespace
+
+TEST_CASE("flare problem: gradients agree with central differences to 1e-5") {
+  const MeasuredFlare flare = planted(3, 2);
+  const auto stations = stations_of(planted(3, 2), 5, 1.0, true);
+  for (const double huber : {1e9, 2.0}) {
+    FlareProblem problem(stations, flare);
+    problem.huber = huber;
+    Eigen::VectorXd at = problem.layout.pack(flare);
+    for (Eigen::Index k = 0; k < at.size(); ++k) at[k] *= 1.0 + 0.01 * std::sin(static_cast<double>(k));
+    const NormalEquations equations = problem.equations(at);
+    CHECK(equations.cost == doctest::Approx(problem.cost(at)).epsilon(1e-12));
+    const double scale = equations.gradient.cwiseProduct(at).cwiseAbs().maxCoeff();
+    for (Eigen::Index k = 0; k < at.size(); ++k) {
+      if (at[k] == 0.0) continue;
+      const double step = 3e-6 * std::abs(at[k]);
+      Eigen::VectorXd more = at, less = at;
+      more[k] += step;
+      less[k] -= step;
+      const double difference = (problem.cost(more) - problem.cost(less)) / (2.0 * step);
+      CHECK(std::abs(equations.gradient[k] - difference) * std::abs(at[k]) < 1e-5 * scale);
+    }
+    CHECK((equations.hessian - equations.hessian.transpose()).cwiseAbs().maxCoeff() <=
+          1e-9 * equations.hessian.cwiseAbs().maxCoeff());
+  }
+}
+
+TEST_CASE("flare problem: a planted flare is found from a start beside it") {
+  const MeasuredFlare truth = planted(3, 5);
+  const auto stations = stations_of(truth, 8, 0.5, true);
+  FlareProblem problem(stations, truth);
+  const Eigen::VectorXd at = problem.layout.pack(truth);
+  Eigen::VectorXd start = at;
+  for (Eigen::Index k = 0; k < start.size(); ++k) start[k] *= 1.0 + 0.04 * std::cos(3.0 * static_cast<double>(k));
+  const LeastSquaresProblem squares{[&](const Eigen::VectorXd& p) { return problem.equations(p); },
+                                    [&](const Eigen::VectorXd& p) { return problem.cost(p); }, problem.layout.lower(),
+                                    problem.layout.upper()};
+  problem.huber = 1e9;  // far from the solution every residual is an outlier
+  const LeastSquaresResult near = least_squares(squares, start, {40, 1e-6});
+  problem.huber = 3.0;
+  const LeastSquaresResult fit = least_squares(squares, near.parameters, {20, 1e-8});
+  CHECK(fit.cost <= problem.cost(at));
+  const MeasuredFlare found = problem.layout.unpack(truth, fit.parameters);
+  for (std::size_t k = 0; k < 3; ++k) {
+    CHECK(found.ghosts[k].centre(0.4) == doctest::Approx(truth.ghosts[k].centre(0.4)).epsilon(0.005));
+    CHECK(found.ghosts[k].half_height(0.1) == doctest::Approx(truth.ghosts[k].half_height(0.1)).epsilon(0.01));
+  }
+}
+
+TEST_CASE("flare problem: the same bits for any number of threads") {
+  const MeasuredFlare flare = planted(4, 7);
+  const auto stations = stations_of(planted(4, 8), 6, 1.0, true);
+  FlareProblem one(stations, flare), four(stations, flare);
+  one.context.threads = 1;
+  four.context.threads = 4;
+  const Eigen::VectorXd at = one.layout.pack(flare);
+  CHECK(one.cost(at) == four.cost(at));
+  CHECK(one.equations(at).hessian == four.equations(at).hessian);
+}
