@@ -42,7 +42,7 @@ Vec2 bright_centroid(const RawFrame& frame) {
 
 }  // namespace
 
-TEST_CASE("sweep: the light's image moves as the head turns") {
+TEST_CASE("sweep: the light's image moves as the head turns [slow]") {
   const LensState lens = heliar();
   SweepSettings settings = small_sweep(lens);
   settings.jitter_deg = settings.roll_deg = 0.0;
@@ -59,7 +59,7 @@ TEST_CASE("sweep: the light's image moves as the head turns") {
   }
 }
 
-TEST_CASE("sweep: roll lifts the light's image, the zero moves it") {
+TEST_CASE("sweep: roll lifts the light's image, the zero moves it [slow]") {
   const LensState lens = heliar();
   SweepSettings settings = small_sweep(lens, 1);
   settings.angles_deg = {0.8 * largest_angle_deg(lens)};
@@ -73,7 +73,7 @@ TEST_CASE("sweep: roll lifts the light's image, the zero moves it") {
   CHECK(bright_centroid(simulate_station(lens, settings, 0)->direct).x < level.x - 2.0);
 }
 
-TEST_CASE("sweep: ghosts reach into the exposures, the source saturates them") {
+TEST_CASE("sweep: ghosts reach into the exposures, the source saturates them [slow]") {
   const LensState lens = heliar();
   const auto station = simulate_station(lens, small_sweep(lens), 1);
   REQUIRE(station.has_value());

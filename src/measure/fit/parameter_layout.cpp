@@ -16,12 +16,13 @@ constexpr double kNone = 1e300;
 constexpr double kMinSize = 1e-5;   // of half axes and widths, as tangents: far below a pixel
 constexpr double kLowestSlope = 0.2, kHighestSlope = 12.0;
 constexpr double kLowestRoundness = 0.2, kHighestRoundness = 0.9;
-constexpr std::array<double, kGhostCurves> kLower{-kNone,   kMinSize, -kNone,    kMinSize,  kLowestRoundness, -kNone,
-                                                  kMinSize, kMinSize, kLowestSlope, kLowestSlope, 0.0,           0.0,
-                                                  0.0,      0.0,      0.0,       0.0};
-constexpr std::array<double, kGhostCurves> kUpper{kNone, kNone, kNone,     kNone,     kHighestRoundness, kNone,
-                                                  kNone, kNone, kHighestSlope, kHighestSlope, kNone,         kNone,
-                                                  kNone, kNone, kNone,     kNone};
+constexpr std::array<double, kGhostCurves> kLower{-kNone, kMinSize, -kNone,   kMinSize,     kLowestRoundness,
+                                                  -kNone, kMinSize, kMinSize, kLowestSlope, kLowestSlope,
+                                                  0.0,    0.0,      0.0,      0.0,          0.0,
+                                                  0.0};
+constexpr std::array<double, kGhostCurves> kUpper{
+    kNone, kNone, kNone, kNone, kHighestRoundness, kNone, kNone, kNone, kHighestSlope, kHighestSlope, kNone, kNone,
+    kNone, kNone, kNone, kNone};
 
 }  // namespace
 
