@@ -14,6 +14,7 @@
 #include "render/adaptive/item.h"
 #include "render/adaptive/patterned_items.h"
 #include "render/adaptive/shadowed_items.h"
+#include "render/adaptive/tiles/tiles.h"
 #include "render/planning/error_bound.h"
 #include "render/planning/frame_memory.h"
 
@@ -25,6 +26,8 @@ using namespace adaptive;
 // A batch of polygons is drawn as soon as it takes this many bytes, or slightly more.
 constexpr std::size_t kBatchBytes = std::size_t{32} << 20U;
 constexpr std::size_t kItemsAtOnce = 256;
+// The same where items may have a transmittance for each pixel, which takes much memory.
+constexpr std::size_t kPatternedItemsAtOnce = 16;
 
 // Scratch memory that later frames use again: a section of RenderCache. Its contents change no picture.
 struct Scratch {
@@ -33,7 +36,7 @@ struct Scratch {
   };
   explicit Scratch(const Key& /*key*/) {}
   Pool<BoxCells> cells;
-  TileDrawer drawer;
+  TileRasteriser rasteriser;
 };
 
 // Measures the milliseconds between laps.
@@ -68,26 +71,30 @@ std::vector<std::size_t> longest_first(std::span<const ItemSize> sizes, double p
 // Paints the items batch by batch and draws each batch: in the order of the items, whatever the number of threads.
 class FramePainter {
  public:
-  FramePainter(const Scene& scene, const Frame& frame, Scratch& scratch, RenderCache& cache, const Context& context,
-               DrawnFlare& flare)
-      : scene_(scene), scratch_(scratch), cache_(cache), frame_(frame), context_(context), quiet_(context),
-        flare_(flare), grid_(frame.width, frame.height) {
+  FramePainter(const Scene& scene, const Frame& frame, const PatternAtlas* atlas, Scratch& scratch, RenderCache& cache,
+               const Context& context, DrawnFlare& flare)
+      : scene_(scene), atlas_(atlas), scratch_(scratch), cache_(cache), frame_(frame), context_(context),
+        quiet_(context), flare_(flare) {
     quiet_.progress = {};
   }
 
   void paint(const std::vector<Item>& items, const std::vector<ItemSize>& sizes, const ErrorBudget& budget) {
-    mode_ = TileMode::Write;
-    if (items.empty()) draw({}, true);
+    const bool patterned =
+        std::ranges::any_of(items, [](const Item& item) { return item.patterns != nullptr || !item.shadows.empty(); });
+    mode_ = RasterMode::Write;
+    if (items.empty()) draw(*new_batch(), true);
     for (std::size_t done = 0; done < items.size();) {
-      std::vector<TiledPolygons> batch;
-      for (std::size_t bytes = 0; done < items.size() && bytes < kBatchBytes;) {
-        const std::size_t count = std::min(kItemsAtOnce, items.size() - done);
-        bytes += paint_some({items.data() + done, count}, {sizes.data() + done, count}, budget, batch);
+      const std::unique_ptr<PolygonBatch> batch = new_batch();
+      for (std::size_t lists = 0; done < items.size() && batch->bytes() < kBatchBytes;) {
+        const std::size_t count = std::min(patterned ? kPatternedItemsAtOnce : kItemsAtOnce, items.size() - done);
+        batch->extend(count);
+        paint_some({items.data() + done, count}, {sizes.data() + done, count}, budget, *batch, lists);
+        lists += count;
         if (context_.cancelled()) return;  // some items may not be painted
         done += count;
       }
       paint_ms_ += watch_.lap_ms();
-      draw(batch, done == items.size());
+      draw(*batch, done == items.size());
       tiles_ms_ += watch_.lap_ms();
       if (context_.progress) context_.progress(static_cast<double>(done) / static_cast<double>(items.size()));
     }
@@ -98,53 +105,56 @@ class FramePainter {
   [[nodiscard]] double tiles_ms() const { return tiles_ms_; }
 
  private:
-  std::size_t paint_some(std::span<const Item> items, std::span<const ItemSize> sizes, const ErrorBudget& budget,
-                         std::vector<TiledPolygons>& batch) {
-    std::vector<Painted> painted(items.size());
+  [[nodiscard]] std::unique_ptr<PolygonBatch> new_batch() {
+    return scratch_.rasteriser.new_batch(frame_.width, frame_.height, atlas_);
+  }
+
+  // first: the list of the first item in the batch.
+  void paint_some(std::span<const Item> items, std::span<const ItemSize> sizes, const ErrorBudget& budget,
+                  PolygonBatch& batch, std::size_t first) {
+    std::vector<Work> work(items.size());
+    std::vector<std::size_t> primitives(items.size());
     const std::vector<std::size_t> order = longest_first(sizes, budget.peak);
     std::atomic<std::size_t> next = 0;
     parallel_for(items.size(), quiet_, [&](std::size_t) {
       const std::size_t k = order[next.fetch_add(1)];
-      painted[k] = paint_item(scene_, items[k], sizes[k], frame_, grid_, budget, scratch_.cells);
+      Painted painted = paint_item(scene_, items[k], sizes[k], frame_, budget, scratch_.cells);
+      work[k] = painted.work;
+      primitives[k] = painted.polygons.polygons.size();
+      batch.set(first + k, std::move(painted.polygons));
     });
-    std::size_t bytes = 0;
-    for (Painted& p : painted) {
-      work_.add(p.work);
-      flare_.statistics.primitives += p.polygons.list.polygons.size();
-      bytes += p.polygons.list.bytes() + p.polygons.tiles.bytes();
-      batch.push_back(std::move(p.polygons));
-    }
-    return bytes;
+    for (const Work& one : work) work_.add(one);
+    for (const std::size_t count : primitives) flare_.statistics.primitives += count;
   }
 
-  void draw(const std::vector<TiledPolygons>& batch, bool is_last) {
-    const bool is_first = mode_ == TileMode::Write;
+  void draw(PolygonBatch& batch, bool is_last) {
+    const bool is_first = mode_ == RasterMode::Write;
     if (is_first && is_last && scene_.plan.dark_margin_px) return draw_lit_part(batch, *scene_.plan.dark_margin_px);
     if (is_first) flare_.image = unwritten_image(cache_, frame_.width, frame_.height);
-    scratch_.drawer.draw(batch, mode_, context_, flare_.image);
-    mode_ = TileMode::Add;
+    batch.draw(mode_, context_, {flare_.image});
+    mode_ = RasterMode::Add;
   }
 
-  void draw_lit_part(const std::vector<TiledPolygons>& all, int margin_px) {
-    const TileRange lit = lit_tiles(all, grid_);
-    if (lit.x1 < lit.x0) return;
-    flare_.left = std::max(lit.x0 * TileGrid::kWidth - margin_px, 0);
-    flare_.top = std::max(lit.y0 * TileGrid::kHeight - margin_px, 0);
-    const int right = std::min((lit.x1 + 1) * TileGrid::kWidth + margin_px, frame_.width);
-    const int bottom = std::min((lit.y1 + 1) * TileGrid::kHeight + margin_px, frame_.height);
+  void draw_lit_part(PolygonBatch& all, int margin_px) {
+    const PixelArea lit = all.touched();
+    if (lit.x1 <= lit.x0) return;
+    flare_.left = std::max(lit.x0 - margin_px, 0);
+    flare_.top = std::max(lit.y0 - margin_px, 0);
+    const int right = std::min(lit.x1 + margin_px, frame_.width);
+    const int bottom = std::min(lit.y1 + margin_px, frame_.height);
     flare_.image = Image::unwritten(right - flare_.left, bottom - flare_.top);
-    scratch_.drawer.draw_part(all, grid_, mode_, context_, flare_.image, flare_.left, flare_.top);
+    all.draw(mode_, context_, {flare_.image, flare_.left, flare_.top});
   }
 
   const Scene& scene_;
+  const PatternAtlas* atlas_;
   Scratch& scratch_;
   RenderCache& cache_;
   const Frame& frame_;
   const Context& context_;
   Context quiet_;
   DrawnFlare& flare_;
-  TileGrid grid_;
-  TileMode mode_ = TileMode::Write;
+  RasterMode mode_ = RasterMode::Write;
   Work work_;
   Stopwatch watch_;
   double paint_ms_ = 0.0, tiles_ms_ = 0.0;
@@ -171,7 +181,7 @@ Result<DrawnFlare> render_adaptive(const PlannedFrame& planned, const AdaptiveOp
   const double bound_ms = watch.lap_ms();
   StopTransmittances stops(lens, settings, plan.dirt, cache);
   const std::shared_ptr<Scratch> scratch = cache.section<Scratch>({});
-  const RoughFrame rough = draw_roughly(scene, items, frame, scratch->cells, scratch->drawer, quiet, work);
+  const RoughFrame rough = draw_roughly(scene, items, frame, scratch->cells, scratch->rasteriser, quiet, work);
   if (context.cancelled()) return interrupted();
   const bool dark = !(rough.peak > 0.0);
   const FrameError allowed{options.error, std::max(dark ? faintest_peak(plan, frame) : rough.peak, plan.least_peak),
@@ -185,7 +195,8 @@ Result<DrawnFlare> render_adaptive(const PlannedFrame& planned, const AdaptiveOp
   if (scene.plan.dirt && !dark) shadow_items(scene, stops, items, rough.sizes, allowed, quiet);
   if (context.cancelled()) return interrupted();
   const double peak_ms = watch.lap_ms();
-  FramePainter painter(scene, frame, *scratch, cache, context, flare);
+  const PatternAtlas* const atlas = stops.patterns() ? &stops.patterns()->atlas() : nullptr;
+  FramePainter painter(scene, frame, atlas, *scratch, cache, context, flare);
   painter.paint(items, rough.sizes, budget_per_item(allowed, rough.sizes));
   if (context.cancelled()) return interrupted();
 

@@ -82,8 +82,8 @@ PlannedPass merged(const Scene& scene, const Item& item, std::span<const Planned
 // Rough: preview quality, with the rays of one wavelength for all.
 enum class Care { Rough, Little, Much };
 
-Painted paint(const Scene& scene, const Item& item, Care care, const Frame& whole, const TileGrid& grid,
-              const ErrorBudget& budget, Pool<BoxCells>& rooms) {
+Painted paint(const Scene& scene, const Item& item, Care care, const Frame& whole, const ErrorBudget& budget,
+              Pool<BoxCells>& rooms) {
   Painted painted;
   const Frame frame = item.look->placed(whole);
   const LightFrame light(item.light->source, has_axial_symmetry(scene.lens, item.ghost));
@@ -98,10 +98,9 @@ Painted paint(const Scene& scene, const Item& item, Care care, const Frame& whol
     const bool aside = light.symmetric && box.low.y != -box.high.y;
     const bool has_image = aside && std::ranges::count(item.boxes, mirrored(box)) > 0;
     if (has_image && is_mirror_image(box)) continue;  // painted together with the other box
-    painter.paint(box, has_image, budget, painted.polygons.list);
+    painter.paint(box, has_image, budget, painted.polygons);
   }
-  share_edges(painted.polygons.list, grid);
-  painted.polygons.tiles = tile_lists(painted.polygons.list, grid);
+  share_edges(painted.polygons, whole.width, whole.height);
   painted.work = {tracers.rays(), tracers.surface_hits()};
   return painted;
 }
@@ -113,7 +112,7 @@ Spread spread_of(const PolygonList& list, int scale) {
   double light = 0.0, squares = 0.0;
   for (const Polygon& polygon : list.polygons) {
     const double polygon_px = 0.5 * std::abs(twice_signed_area(list.corners_of(polygon)));
-    const auto& v = polygon.shade.value;
+    const auto& v = list.shade_of(polygon).value;
     const double here = polygon_px * std::sqrt((v[0] * v[0] + v[1] * v[1] + v[2] * v[2]) / 3.0);
     light += here;
     squares += here * here / std::max(polygon_px, least_px);
@@ -153,34 +152,34 @@ std::vector<Item> find_items(const Scene& scene, const Context& context, Work& w
   return items;
 }
 
-Painted paint_item(const Scene& scene, const Item& item, const ItemSize& size, const Frame& frame, const TileGrid& grid,
+Painted paint_item(const Scene& scene, const Item& item, const ItemSize& size, const Frame& frame,
                    const ErrorBudget& budget, Pool<BoxCells>& rooms) {
   const ErrorBudget of_item = budget_of(size, item.patterns != nullptr, item.is_faint, budget);
-  return paint(scene, item, item.is_faint ? Care::Little : Care::Much, frame, grid, of_item, rooms);
+  return paint(scene, item, item.is_faint ? Care::Little : Care::Much, frame, of_item, rooms);
 }
 
 RoughFrame draw_roughly(const Scene& scene, const std::vector<Item>& items, const Frame& frame, Pool<BoxCells>& rooms,
-                        TileDrawer& drawer, const Context& context, Work& work) {
+                        Rasteriser& rasteriser, const Context& context, Work& work) {
   const int scale = preview_scale(frame);
   const Frame small = smaller(frame, scale);
-  const TileGrid grid(small.width, small.height);
   // While the peak is not known no level is high relative to it, whatever the light's value.
   constexpr double kUnknown = std::numeric_limits<double>::infinity();
   const ErrorBudget unlimited{kUnknown, kUnknown};
-  std::vector<TiledPolygons> polygons(items.size());
+  const std::unique_ptr<PolygonBatch> batch = rasteriser.new_batch(small.width, small.height, nullptr);
+  batch->extend(items.size());
   std::vector<Work> done(items.size());
   RoughFrame rough;
   rough.sizes.resize(items.size());
   parallel_for(items.size(), context, [&](std::size_t k) {
-    Painted painted = paint(scene, items[k], Care::Rough, small, grid, unlimited, rooms);
-    polygons[k] = std::move(painted.polygons);
+    Painted painted = paint(scene, items[k], Care::Rough, small, unlimited, rooms);
     done[k] = painted.work;
-    rough.sizes[k] = {spread_of(polygons[k].list, scale), static_cast<double>(done[k].rays)};
+    rough.sizes[k] = {spread_of(painted.polygons, scale), static_cast<double>(done[k].rays)};
+    batch->set(k, std::move(painted.polygons));
   });
   for (const Work& w : done) work.add(w);
   if (context.cancelled()) return {};
   Image image = Image::unwritten(small.width, small.height);
-  drawer.draw(polygons, TileMode::Write, context, image);
+  batch->draw(RasterMode::Write, context, {image});
   if (context.cancelled()) return {};
   rough.peak = quantile_of_samples(image, kPeakQuantile);
   if (!(rough.peak > 0.0)) {

@@ -5,8 +5,8 @@
 #include "base/pool.h"
 #include "render/adaptive/budget/item_budget.h"
 #include "render/adaptive/ghost_painter.h"
-#include "render/adaptive/tiles/tiles.h"
 #include "render/planning/frame_plan.h"
+#include "render/polygons/rasteriser.h"
 
 namespace contrejour::inline internal::adaptive {
 
@@ -43,7 +43,7 @@ struct Item {
 [[nodiscard]] std::vector<Item> find_items(const Scene& scene, const Context& context, Work& work);
 
 struct Painted {
-  TiledPolygons polygons;
+  PolygonList polygons;
   Work work;
 };
 
@@ -52,13 +52,14 @@ struct Painted {
 
 // Paints an item in all wavelengths of its light. size: the item's in the preview frame.
 [[nodiscard]] Painted paint_item(const Scene& scene, const Item& item, const ItemSize& size, const Frame& frame,
-                                 const TileGrid& grid, const ErrorBudget& budget, Pool<BoxCells>& rooms);
+                                 const ErrorBudget& budget, Pool<BoxCells>& rooms);
 
 struct RoughFrame {
   double peak = 0;  // that errors are relative to: 99.9 per cent of samples are below it (metrics.h)
   std::vector<ItemSize> sizes;  // one an item; empty if cancelled
 };
 [[nodiscard]] RoughFrame draw_roughly(const Scene& scene, const std::vector<Item>& items, const Frame& frame,
-                                      Pool<BoxCells>& rooms, TileDrawer& drawer, const Context& context, Work& work);
+                                      Pool<BoxCells>& rooms, Rasteriser& rasteriser, const Context& context,
+                                      Work& work);
 
 }  // namespace contrejour::inline internal::adaptive

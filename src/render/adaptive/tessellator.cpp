@@ -15,12 +15,6 @@ void Tessellator::set_stop_pattern(std::shared_ptr<const stop_patterns::BandStop
   if (pattern == band_.pattern) return;
   band_.pattern = std::move(pattern);
   band_.stop_unit = unit;
-  out_.patterns.push_back(band_.pattern);
-}
-
-void Tessellator::set_dirt(const SeenDirt& dirt) {
-  if (dirt.band && dirt.band != band_.dirt.band) out_.band_dirt.push_back(dirt.band);
-  band_.dirt = dirt;
 }
 
 }  // namespace contrejour::inline internal::adaptive

@@ -13,7 +13,7 @@
 #include "render/adaptive/cells/box_cells.h"
 #include "render/adaptive/choose/cell_chooser.h"
 #include "render/adaptive/emit/cell_emitter.h"
-#include "render/adaptive/tiles/polygon_list.h"
+#include "render/polygons/polygon_list.h"
 
 namespace contrejour::inline internal::adaptive {
 
@@ -22,9 +22,8 @@ class Tessellator {
   // budget: of each band. few_cells: as in CellBudget. cells: scratch memory.
   Tessellator(const IrisShape& iris, const Frame& frame, const ErrorBudget& budget, double few_cells, BoxCells& cells,
               PolygonList& out)
-      : out_(out), cells_(cells), budget_(budget.squared_error, few_cells),
-        band_{iris, frame.width, frame.height, budget.peak}, chooser_(band_, budget_, cells_),
-        emitter_(band_, budget_, cells_, out) {}
+      : cells_(cells), budget_(budget.squared_error, few_cells), band_{iris, frame.width, frame.height, budget.peak},
+        chooser_(band_, budget_, cells_), emitter_(band_, budget_, cells_, out) {}
   Tessellator(const Tessellator&) = delete;
   Tessellator& operator=(const Tessellator&) = delete;
 
@@ -36,10 +35,9 @@ class Tessellator {
   void set_sides_bend(bool sides_bend) { band_.sides_bend = sides_bend; }
   // unit: of the patches' stop coordinates, in stop radii.
   void set_stop_pattern(std::shared_ptr<const stop_patterns::BandStopPattern> pattern, double unit);
-  void set_dirt(const SeenDirt& dirt);
+  void set_dirt(const SeenDirt& dirt) { band_.dirt = dirt; }
 
  private:
-  PolygonList& out_;
   BoxCells& cells_;
   CellBudget budget_;
   BandContext band_;

@@ -4,37 +4,48 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <utility>
+#include <vector>
 
+#include "render/polygons/short_light.h"
 #include "render/stop_patterns/resampled.h"
 
 namespace contrejour::inline internal::stop_patterns {
 namespace {
 
-void lay_out(const PatternTexture& texture, double extent, std::size_t part, std::size_t stride,
-             BandTexture::Level& level) {
-  const auto samples = resampled({texture.side(), texture.extent(), texture.samples()}, level.side, extent);
-  const auto side = static_cast<std::size_t>(level.side);
+using raster::ShortLight;
+using raster::TextureTable;
+
+// Samples of a level with their border, interleaved.
+struct Grid {
+  int side = 0;  // without the border
+  std::size_t stride = 1;
+  std::vector<float> samples;
+
+  Grid(int samples_a_side, std::size_t floats) : side(samples_a_side), stride(floats) {
+    samples.resize(pitch() * pitch() * stride);
+  }
+  [[nodiscard]] std::size_t pitch() const { return static_cast<std::size_t>(side + 2); }
+};
+
+void lay_out(const PatternTexture& texture, double extent, std::size_t part, Grid& grid) {
+  const auto samples = resampled({texture.side(), texture.extent(), texture.samples()}, grid.side, extent);
+  const auto side = static_cast<std::size_t>(grid.side);
   for (std::size_t row = 0; row < side; ++row) {
-    float* to = level.samples.data() + ((row + 1) * static_cast<std::size_t>(level.pitch()) + 1) * stride + part;
-    for (std::size_t column = 0; column < side; ++column, to += stride) *to = samples[row * side + column];
+    float* to = grid.samples.data() + ((row + 1) * grid.pitch() + 1) * grid.stride + part;
+    for (std::size_t column = 0; column < side; ++column, to += grid.stride) *to = samples[row * side + column];
   }
 }
 
-BandTexture::Level dark_level(int side, std::size_t stride) {
-  BandTexture::Level level;
-  level.side = side;
-  level.samples.resize(static_cast<std::size_t>(level.pitch()) * static_cast<std::size_t>(level.pitch()) * stride);
-  return level;
-}
-
-BandTexture::Level halved(const BandTexture::Level& fine, std::size_t stride) {
-  BandTexture::Level half = dark_level(fine.side / 2, stride);
-  const auto row = static_cast<std::size_t>(fine.pitch()) * stride;
+Grid halved(const Grid& fine) {
+  Grid half(fine.side / 2, fine.stride);
+  const std::size_t stride = fine.stride, row = fine.pitch() * stride;
   for (int y = 0; y < half.side; ++y) {
     for (int x = 0; x < half.side; ++x) {
       const float* from = fine.samples.data() + static_cast<std::size_t>(2 * y + 1) * row +
                           static_cast<std::size_t>(2 * x + 1) * stride;
-      float* to = half.samples.data() + static_cast<std::size_t>((y + 1) * half.pitch() + x + 1) * stride;
+      float* to = half.samples.data() +
+                  (static_cast<std::size_t>(y + 1) * half.pitch() + static_cast<std::size_t>(x + 1)) * stride;
       for (std::size_t c = 0; c < stride; ++c)
         to[c] = 0.25F * (from[c] + from[c + stride] + from[c + row] + from[c + row + stride]);
     }
@@ -42,57 +53,80 @@ BandTexture::Level halved(const BandTexture::Level& fine, std::size_t stride) {
   return half;
 }
 
-void code(BandTexture::Level& level) {
-  level.coding = ShortLight(*std::max_element(level.samples.begin(), level.samples.end()));
-  level.coded.resize(level.samples.size());
-  const auto pitch = static_cast<std::size_t>(level.pitch());
-  for (std::size_t k = 0; k < level.samples.size(); ++k) {
-    level.coded[k].here = level.coding.coded(level.samples[k]);
-    if (k >= pitch) level.coded[k - pitch].below = level.coded[k].here;
+// Appends the grid's samples as pairs of packed ones, and sets how the level packs them.
+void pack(const Grid& grid, std::vector<TextureTable::Pair>& pairs, TextureTable::Level& level) {
+  const ShortLight packing(*std::max_element(grid.samples.begin(), grid.samples.end()));
+  level.lowest = packing.lowest();
+  const std::size_t first = pairs.size(), pitch = grid.pitch();
+  pairs.resize(first + grid.samples.size());
+  for (std::size_t k = 0; k < grid.samples.size(); ++k) {
+    TextureTable::Pair& pair = pairs[first + k];
+    pair.here = packing.coded(grid.samples[k]);
+    if (k >= pitch) pairs[first + k - pitch].below = pair.here;
   }
-  level.samples = {};
+}
+
+void append(const Grid& grid, TextureTable& table) {
+  TextureTable::Level level{grid.side, 0, 0};
+  if (grid.stride == 1) {
+    level.first = static_cast<std::uint32_t>(table.pairs.size());
+    pack(grid, table.pairs, level);
+  } else {
+    level.first = static_cast<std::uint32_t>(table.samples.size());
+    table.samples.insert(table.samples.end(), grid.samples.begin(), grid.samples.end());
+  }
+  table.levels.push_back(level);
 }
 
 }  // namespace
 
-BandTexture::BandTexture(std::span<const PatternTexture* const> parts) : stride_(parts.size() == 1 ? 1 : kStride) {
-  assert(!parts.empty() && parts.size() <= kMost);
+raster::TextureTable texture_table(std::span<const PatternTexture* const> parts) {
+  assert(!parts.empty() && parts.size() <= TextureTable::kWavelengths);
+  TextureTable table;
   int side = 0;
   for (const PatternTexture* part : parts) {
-    extent_ = std::max(extent_, part->extent());
+    table.extent = std::max(table.extent, part->extent());
     side = std::max(side, part->side());
   }
-  levels_.push_back(dark_level(side, stride_));
-  for (std::size_t k = 0; k < parts.size(); ++k) lay_out(*parts[k], extent_, k, stride_, levels_.back());
-  while (levels_.back().side % 2 == 0 && levels_.back().side > 2) levels_.push_back(halved(levels_.back(), stride_));
-  brightest_of_last_ = std::ranges::max(levels_.back().samples);
-  if (of_one())
-    for (Level& level : levels_) code(level);
+  Grid grid(side, parts.size() == 1 ? 1 : TextureTable::kStride);
+  for (std::size_t k = 0; k < parts.size(); ++k) lay_out(*parts[k], table.extent, k, grid);
+  append(grid, table);
+  while (grid.side % 2 == 0 && grid.side > 2) {
+    grid = halved(grid);
+    append(grid, table);
+  }
+  table.largest_of_last = std::ranges::max(grid.samples);
+  return table;
 }
 
-const BandTexture::Level& BandTexture::level_for(double width) const {
-  const double level = std::round(HalvedPicture::level_for(width, levels_.front().side, extent_));
-  return levels_[std::min(static_cast<std::size_t>(std::max(level, 0.0)), levels_.size() - 1)];
+BandTexture::BandTexture(raster::TextureTable table, raster::PatternAtlas& atlas)
+    : index_(atlas.add(std::move(table))), table_(atlas.texture(index_)) {}
+
+std::uint32_t BandTexture::level_for(double width) const {
+  const double level = std::round(HalvedPicture::level_for(width, table_.levels.front().side, table_.extent));
+  return static_cast<std::uint32_t>(std::min(static_cast<std::size_t>(std::max(level, 0.0)), table_.levels.size() - 1));
 }
 
 float BandTexture::brightest(Vec2 middle, double distance) const {
-  const double pitches = distance * 0.5 * levels_.front().side / extent_;
+  const double pitches = distance * 0.5 * table_.levels.front().side / table_.extent;
   const std::size_t fit = pitches > 1.0 ? static_cast<std::size_t>(std::ilogb(pitches)) + 1 : 0;
-  if (fit >= levels_.size()) return brightest_of_last_;  // four samples of the last level cover less than that distance
-  const Level& level = levels_[fit];
+  // Four samples of the last level cover less than that distance.
+  if (fit >= table_.levels.size()) return table_.largest_of_last;
+  const TextureTable::Level& level = table_.levels[fit];
   const auto at = [&](double p) {  // index of the first of the two samples next to p, counting the border
-    const double place = (p / extent_ + 1.0) * 0.5 * level.side + 0.5;
-    return place > 0.0 ? static_cast<int>(std::min(place, level.side + 0.0)) : 0;  // also 0 for NaN
+    const double place = (p / table_.extent + 1.0) * 0.5 * level.side + 0.5;
+    return place > 0.0 ? static_cast<std::size_t>(std::min(place, level.side + 0.0)) : 0;  // also 0 for NaN
   };
-  const int x = at(middle.x), y = at(-middle.y);
-  const std::size_t from = static_cast<std::size_t>(y * level.pitch() + x) * stride_;
+  const std::size_t x = at(middle.x), y = at(-middle.y), pitch = static_cast<std::size_t>(level.pitch());
   if (of_one()) {
-    const Level::Pair left = level.coded[from], right = level.coded[from + 1];
-    return level.coding.light(std::max({left.here, left.below, right.here, right.below}));
+    const TextureTable::Pair* const pair = table_.pairs.data() + level.first + y * pitch + x;
+    return ShortLight::of_lowest(level.lowest)
+        .light(std::max({pair[0].here, pair[0].below, pair[1].here, pair[1].below}));
   }
-  const auto largest = [&](const float* two) { return *std::max_element(two, two + 2 * stride_); };
-  const float* const samples = level.samples.data() + from;
-  return std::max(largest(samples), largest(samples + static_cast<std::size_t>(level.pitch()) * stride_));
+  constexpr std::size_t kStride = TextureTable::kStride;
+  const auto largest = [&](const float* two) { return *std::max_element(two, two + 2 * kStride); };
+  const float* const samples = table_.samples.data() + level.first + (y * pitch + x) * kStride;
+  return std::max(largest(samples), largest(samples + pitch * kStride));
 }
 
 }  // namespace contrejour::inline internal::stop_patterns

@@ -75,7 +75,8 @@ Context quiet(const Context& context) {
 }  // namespace
 
 StopPatterns::StopPatterns(const Iris& iris)
-    : iris_(iris), mask_(mask_of(iris, grid_over(1.0, kMaskSamples), {})), open_area_(mask_.open_area_mm2()) {}
+    : iris_(iris), mask_(mask_of(iris, grid_over(1.0, kMaskSamples), {})), open_area_(mask_.open_area_mm2()),
+      atlas_(iris) {}
 
 StopPatterns::BandKey StopPatterns::key_of(const Wanted& wanted) {
   return {rung_of(wanted.fresnel_number), static_cast<int>(std::lround(wanted.spread / kSpreadStep))};
@@ -167,9 +168,11 @@ StopPatterns::Band StopPatterns::band(std::span<const PatternTexture* const> par
     const auto found = bands_.find(key);
     if (found != bands_.end()) return found->second;
   }
-  auto made = std::make_shared<const BandTexture>(parts);
+  raster::TextureTable table = texture_table(parts);
   const std::scoped_lock lock(bands_mutex_);
-  return bands_.try_emplace(key, std::move(made)).first->second;
+  Band& band = bands_[key];
+  if (!band) band = std::make_shared<const BandTexture>(std::move(table), atlas_);
+  return band;
 }
 
 }  // namespace contrejour::inline internal::stop_patterns

@@ -55,6 +55,8 @@ class StopPatterns {
 
   // Combines some of the textures above; made when first requested. Any thread may call it while no pattern is made.
   [[nodiscard]] Band band(std::span<const PatternTexture* const> parts);
+  // Contains the bands' textures, and the outline of a picture as the iris.
+  [[nodiscard]] const raster::PatternAtlas& atlas() const { return atlas_; }
 
   // The number of stored patterns; fringes of edges need little memory.
   [[nodiscard]] std::size_t count() const { return rungs_.size() + patterns_.size() + by_orders_.size(); }
@@ -80,6 +82,7 @@ class StopPatterns {
   std::optional<FractionalFourier> fractional_;
   std::vector<std::complex<double>> analysis_;
   std::map<std::vector<double>, Texture> by_orders_;
+  raster::PatternAtlas atlas_;
   std::mutex bands_mutex_;
   std::map<std::vector<const PatternTexture*>, Band> bands_;
 };

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "contrejour/image.h"
-#include "render/adaptive/tiles/polygon_list.h"
+#include "render/polygons/polygon_list.h"
 
 namespace contrejour::test {
 
@@ -69,6 +69,7 @@ class PlainImage {
 
  private:
   void add(const PolygonList& list, const Polygon& polygon, const Share& passes) {
+    const Shade& shade = list.shade_of(polygon);
     Corners corners;
     for (const Point p : list.corners_of(polygon)) corners.push_back({p.x, p.y});
     const auto by_x = std::minmax_element(corners.begin(), corners.end(), [](Vec2 a, Vec2 b) { return a.x < b.x; });
@@ -81,10 +82,10 @@ class PlainImage {
         if (corners.size() == 1) {
           share = std::floor(corners[0].x) == x && std::floor(corners[0].y) == y ? 1.0 : 0.0;
         }
-        const Vec2 at = corners.size() == 1 ? Vec2{polygon.shade.at.x, polygon.shade.at.y} : Vec2{x + 0.5, y + 0.5};
+        const Vec2 at = corners.size() == 1 ? Vec2{shade.at.x, shade.at.y} : Vec2{x + 0.5, y + 0.5};
         const auto passed = passes && share > 0.0 ? passes(polygon, at) : std::array{1.0, 1.0, 1.0};
         for (std::size_t c = 0; c < 3; ++c) {
-          const double value = shade_at(polygon.shade, c, at) * passed[c];
+          const double value = shade_at(shade, c, at) * passed[c];
           scale_ = std::max(scale_, std::abs(value));
           values_[static_cast<std::size_t>(3 * (y * width_ + x)) + c] += share * value;
         }

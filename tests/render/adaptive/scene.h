@@ -25,18 +25,21 @@ inline LensState lens_at_f(const char* name, double f_number, double focal_lengt
 }
 
 // Draws lists of polygons in order.
-inline Image drawn(std::span<const adaptive::PolygonList> lists, int width, int height) {
-  const adaptive::TileGrid grid(width, height);
-  std::vector<adaptive::TiledPolygons> tiled;
-  for (const adaptive::PolygonList& list : lists) tiled.push_back({list, adaptive::tile_lists(list, grid)});
+inline Image drawn(std::span<const adaptive::PolygonList> lists, int width, int height,
+                   const adaptive::PatternAtlas* atlas = nullptr) {
+  adaptive::TileRasteriser rasteriser;
+  const auto batch = rasteriser.new_batch(width, height, atlas);
+  batch->extend(lists.size());
+  for (std::size_t k = 0; k < lists.size(); ++k) batch->set(k, lists[k]);
   Image image = Image::unwritten(width, height);
   std::fill(image.pixels.begin(), image.pixels.end(), std::numeric_limits<float>::quiet_NaN());  // all get written
-  adaptive::TileDrawer().draw_rows(tiled, {0, grid.rows}, adaptive::TileMode::Write, image);
+  batch->draw(adaptive::RasterMode::Write, {.threads = 1}, {image});
   return image;
 }
 
-inline Image drawn(const adaptive::PolygonList& list, int width, int height) {
-  return drawn({&list, 1}, width, height);
+inline Image drawn(const adaptive::PolygonList& list, int width, int height,
+                   const adaptive::PatternAtlas* atlas = nullptr) {
+  return drawn({&list, 1}, width, height, atlas);
 }
 
 // Positive where the corners turn from +x to +y.

@@ -26,7 +26,7 @@ Mesh mesh_of(const Patch& patch, const IrisShape& iris) {
 
 // The largest deviation from 1 of a picture of the ghost, within the ghost, when all its polygons have this irradiance.
 double farthest_from_level(PolygonList list, double bend_px) {
-  for (Polygon& p : list.polygons) p.shade = {p.shade.at, {1.0F, 1.0F, 1.0F}, {}, {}};
+  for (Shade& shade : list.shades) shade = {shade.at, {1.0F, 1.0F, 1.0F}, {}, {}};
   const Image image = test::drawn(list, kWidth, kHeight);
   const int beside = static_cast<int>(std::abs(bend_px));
   double farthest = 0.0;
@@ -111,9 +111,9 @@ TEST_CASE("even light is one plane, whatever cuts it: nothing is drawn between i
   ghost.stops = {{{1.3, 0.2}, {-0.1, 1.25}, {0.05, -0.03}}};
   PolygonList list = painted(ghost, {}, 1e-4);
   REQUIRE(list.polygons.size() >= 4);
-  for (const Polygon& p : list.polygons) CHECK(p.shade == list.polygons.front().shade);
+  for (const Polygon& p : list.polygons) CHECK(list.shade_of(p) == list.shades.front());
   const Image before = test::drawn(list, kWidth, kHeight);
-  share_edges(list, TileGrid(kWidth, kHeight));
+  share_edges(list, kWidth, kHeight);
   CHECK(std::ranges::count(list.partner, PolygonList::kNotDrawn) >= 8);
   for (const std::uint32_t partner : list.partner)
     CHECK((partner == PolygonList::kAlone || partner == PolygonList::kNotDrawn));

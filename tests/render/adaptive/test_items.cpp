@@ -29,8 +29,8 @@ RoughFrame rough_frame(const LensState& lens, const Light& light, const test::Se
   Work work;
   const std::vector<Item> items = find_items(scene, {}, work);
   Pool<BoxCells> rooms;
-  TileDrawer drawer;
-  return draw_roughly(scene, items, settings.frame, rooms, drawer, {}, work);
+  TileRasteriser rasteriser;
+  return draw_roughly(scene, items, settings.frame, rooms, rasteriser, {}, work);
 }
 
 }  // namespace

@@ -4,7 +4,7 @@
 
 #include <doctest/doctest.h>
 
-#include "render/adaptive/tiles/stop_map.h"
+#include "render/adaptive/cells/stop_map.h"
 
 using namespace contrejour;
 using namespace contrejour::adaptive;
@@ -65,14 +65,15 @@ TEST_CASE("forms are places, widths are areas, thin cells go on tamely") {
   const CellSeries pixels = series_of([&](Vec2 q) { return bent.pixel(q); });
   const StopMap map(pixels, std::array{series_of(Bent::stop)}, 0.2);
   const Vec2 weights{3.0, -7.0};
-  const StopMap::Form form = map.form(weights, 0.25);
+  const PatternMap last = map.last(1);
+  const PatternMap::Form form = last.form(weights, 0.25);
   for (const Vec2 pixel : {Vec2{90.5, 53.5}, Vec2{101.5, 40.5}, Vec2{118.5, 61.5}}) {
-    const Vec2 q = pixel - map.origin();
+    const Vec2 q = pixel - last.origin_px;
     const double value =
         form.level + form.x * q.x + form.y * q.y + form.xx * q.x * q.x + form.xy * q.x * q.y + form.yy * q.y * q.y;
     CHECK(value == doctest::Approx(dot(weights, map.place(pixel)) + 0.25).epsilon(1e-5));
   }
-  CHECK(map.width() == doctest::Approx(std::sqrt((0.1 * 0.2 + 0.01 * 0.02) / (20.0 * 15.0 + 5.0 * 4.0))).epsilon(1e-9));
+  CHECK(last.width == doctest::Approx(std::sqrt((0.1 * 0.2 + 0.01 * 0.02) / (20.0 * 15.0 + 5.0 * 4.0))).epsilon(1e-9));
 
   // A cell a hundredth of a pixel thick: one pixel outside it, the place is no farther than the cell's own places are
   // apart.

@@ -26,7 +26,7 @@ double flux_of(const PolygonList& list, std::size_t channel) {
   for (const Polygon& p : list.polygons) {
     const auto corners = list.corners_of(p);
     if (corners.size() == 1) {
-      sum += p.shade.value[channel];
+      sum += list.shade_of(p).value[channel];
       continue;
     }
     Vec2 centre;
@@ -39,8 +39,9 @@ double flux_of(const PolygonList& list, std::size_t channel) {
     }
     if (area == 0.0) continue;
     centre = centre * (1.0 / area);
-    sum += std::abs(area) * (p.shade.value[channel] + p.shade.along_x[channel] * (centre.x - p.shade.at.x) +
-                             p.shade.along_y[channel] * (centre.y - p.shade.at.y));
+    const Shade& shade = list.shade_of(p);
+    sum += std::abs(area) * (shade.value[channel] + shade.along_x[channel] * (centre.x - shade.at.x) +
+                             shade.along_y[channel] * (centre.y - shade.at.y));
   }
   return sum;
 }
@@ -87,7 +88,7 @@ TEST_CASE("one weight for all channels draws what one a channel draws") {
   const PolygonList three = painted(ghost, {});
   REQUIRE(one.polygons.size() == three.polygons.size());
   for (std::size_t k = 0; k < one.polygons.size(); ++k) {
-    const Shade &a = one.polygons[k].shade, &b = three.polygons[k].shade;
+    const Shade &a = one.shade_of(one.polygons[k]), &b = three.shade_of(three.polygons[k]);
     CHECK(one.corners_of(one.polygons[k]).size() == three.corners_of(three.polygons[k]).size());
     for (std::size_t c = 0; c < 3; ++c) {
       CHECK(a.value[c] == doctest::Approx(b.value[c]).epsilon(1e-6));
@@ -226,7 +227,7 @@ double light_off(const AffineGhost& ghost, const Iris& iris) {
   const PolygonList list = painted(ghost, iris, 3e-3);
   bool sound = true;
   for (const Polygon& p : list.polygons) {
-    for (const float v : p.shade.value) sound = sound && v >= 0.0F && std::isfinite(v);
+    for (const float v : list.shade_of(p).value) sound = sound && v >= 0.0F && std::isfinite(v);
   }
   const Image image = test::drawn(list, kWidth, kHeight);
   const double brightest = *std::max_element(image.pixels.begin(), image.pixels.end());
@@ -277,11 +278,13 @@ TEST_CASE("light behind a stop pattern that is too dim for its fringes to matter
       samples.push_back(static_cast<float>(std::exp(-4.0 * (x * x + y * y)) * (1.0 + 0.3 * std::cos(50.0 * x))));
     }
   const auto texture = std::make_shared<const stop_patterns::PatternTexture>(kSide, kExtent, samples);
+  PatternAtlas atlas;
   const auto band = std::make_shared<stop_patterns::BandStopPattern>();
   band->parts.push_back({std::make_shared<const StopPattern>(std::make_shared<const IrisShape>(Iris{}),
                                                              stop_patterns::TexturePattern(texture)),
                          {1.0F, 1.0F, 1.0F}});
-  band->texture = std::make_shared<const stop_patterns::BandTexture>(std::array{texture.get()});
+  band->texture = std::make_shared<const stop_patterns::BandTexture>(
+      stop_patterns::texture_table(std::array<const stop_patterns::PatternTexture*, 1>{texture.get()}), atlas);
   band->hull = texture->hull_above(1e-6, 0.0);
 
   AffineGhost ghost;
@@ -300,11 +303,11 @@ TEST_CASE("light behind a stop pattern that is too dim for its fringes to matter
     return list;
   };
   const PolygonList looked_up = behind(0.0), means = behind(0.03 * level), bright = behind(1e-3 * level);
-  CHECK_FALSE(looked_up.screened.empty());
-  CHECK_FALSE(bright.screened.empty());
-  CHECK(means.screened.empty());
+  CHECK_FALSE(looked_up.patterns.empty());
+  CHECK_FALSE(bright.patterns.empty());
+  CHECK(means.patterns.empty());
   REQUIRE_FALSE(means.polygons.empty());
-  const double flux = test::sum_of_channel(test::drawn(looked_up, kWidth, kHeight), 1);
+  const double flux = test::sum_of_channel(test::drawn(looked_up, kWidth, kHeight, &atlas), 1);
   CHECK(flux < 0.5 * ghost.flux);
   CHECK(flux_of(means, 1) == doctest::Approx(flux).epsilon(0.03));
 }

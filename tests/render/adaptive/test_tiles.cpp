@@ -118,27 +118,32 @@ TEST_CASE("many polygons: the sum of each, whatever lists they come in") {
   CHECK(plain.difference(once) < 5e-6);
   CHECK(test::drawn(parts, kWidth, kHeight).pixels == once.pixels);
   // Draws into an image that is not empty.
-  const TileGrid grid(kWidth, kHeight);
-  const TiledPolygons tiled{all, tile_lists(all, grid)};
+  TileRasteriser rasteriser;
+  const auto batch = rasteriser.new_batch(kWidth, kHeight, nullptr);
+  batch->extend(1);
+  batch->set(0, all);
   Image added = once;
-  for (int row = grid.rows - 1; row >= 0; --row)
-    TileDrawer().draw_rows({&tiled, 1}, {row, row + 1}, TileMode::Add, added);
+  batch->draw(RasterMode::Add, {}, {added});
   for (std::size_t k = 0; k < once.pixels.size(); ++k) CHECK(added.pixels[k] == 2.0F * once.pixels[k]);
 }
 
 TEST_CASE(
     "the tiles that polygons touch, drawn by themselves and a margin beside them, are those of the whole picture") {
   const int width = 4 * TileGrid::kWidth + 70, height = 5 * TileGrid::kHeight + 10;
-  const TileGrid grid(width, height);
   PolygonList list;
   const auto top = static_cast<float>(2 * TileGrid::kHeight + 5), left = static_cast<float>(TileGrid::kWidth + 90);
   list.add(std::array{Point{left, top}, Point{left + 580, top + 9}, Point{left + 300, top + 80}},
            Shade{{10, top}, {1.0F, 2.0F, 3.0F}, {}, {}});
-  const std::array tiled{TiledPolygons{{}, tile_lists({}, grid)}, TiledPolygons{list, tile_lists(list, grid)}};
-  const TileRange lit = lit_tiles(tiled, grid);
-  CHECK((lit.x0 == 1 && lit.x1 == 2 && lit.y0 == 2 && lit.y1 == 3));
-  const TileRange none = lit_tiles({tiled.data(), 1}, grid);
-  CHECK((none.x1 < none.x0 && none.y1 < none.y0));
+  TileRasteriser rasteriser;
+  const auto batch = rasteriser.new_batch(width, height, nullptr);
+  batch->extend(1);
+  const PixelArea none = batch->touched();
+  CHECK((none.x1 <= none.x0 && none.y1 <= none.y0));
+  batch->extend(1);
+  batch->set(1, list);
+  const PixelArea lit = batch->touched();
+  CHECK((lit.x0 == TileGrid::kWidth && lit.x1 == 3 * TileGrid::kWidth));
+  CHECK((lit.y0 == 2 * TileGrid::kHeight && lit.y1 == 4 * TileGrid::kHeight));
   const Image whole = test::drawn(list, width, height);
   for (const int margin : {0, 1, 50, 700}) {
     CAPTURE(margin);
@@ -146,7 +151,7 @@ TEST_CASE(
     Image part = Image::unwritten(std::min(3 * TileGrid::kWidth + margin, width) - x0,
                                   std::min(4 * TileGrid::kHeight + margin, height) - y0);
     std::ranges::fill(part.pixels, std::numeric_limits<float>::quiet_NaN());
-    TileDrawer().draw_part(tiled, grid, TileMode::Write, {.threads = 2}, part, x0, y0);
+    batch->draw(RasterMode::Write, {.threads = 2}, {part, x0, y0});
     Image all(width, height);
     for (int y = 0; y < part.height; ++y) std::ranges::copy(part.row(y), &all.at(x0, y0 + y));
     CHECK(all.pixels == whole.pixels);
@@ -218,7 +223,7 @@ TEST_CASE("edges that neighbours share are drawn once, and nothing else changes"
     }
   }
   const Image apart = test::drawn(list, width, height);
-  share_edges(list, TileGrid(width, height));
+  share_edges(list, width, height);
   const auto shared = std::count(list.partner.begin(), list.partner.end(), PolygonList::kNotDrawn);
   CHECK(shared > kCells * kCells / 3);
   CHECK(std::count(list.partner.begin(), list.partner.end(), PolygonList::kAlone) > 4 * kCells);

@@ -7,11 +7,13 @@
 
 #include <doctest/doctest.h>
 
+#include "render/polygons/short_light.h"
 #include "render/stop_patterns/band_texture.h"
 #include "render/stop_patterns/resampled.h"
 
 using namespace contrejour;
 using namespace contrejour::stop_patterns;
+using namespace contrejour::raster;
 
 namespace {
 
@@ -132,18 +134,21 @@ TEST_CASE("a pattern of one wavelength is the texture's, coded") {
   for (int row = 0; row < 96; ++row)
     for (int column = 0; column < 96; ++column) ramp.push_back(static_cast<float>(0.02 * column * row));
   const PatternTexture texture(96, 1.5, ramp);
-  const BandTexture band(std::array{&texture});
+  PatternAtlas atlas;
+  const BandTexture band(texture_table(std::array{&texture}), atlas);
   CHECK(band.of_one());
-  const auto& level = band.level_for(0.0);
-  REQUIRE(level.coded.size() == 98 * 98);
-  CHECK(level.samples.empty());
+  const TextureTable& table = atlas.texture(band.index());
+  const TextureTable::Level& level = table.levels[band.level_for(0.0)];
+  REQUIRE(table.levels[1].first == 98 * 98);
+  CHECK(table.samples.empty());
   for (const int row : {0, 20, 95})
     for (const int column : {0, 48, 95}) {
       const auto at = static_cast<std::size_t>((row + 1) * level.pitch() + column + 1);
       const double sample = static_cast<double>(ramp[static_cast<std::size_t>(96 * row + column)]);
-      CHECK(static_cast<double>(level.coding.light(level.coded[at].here)) == doctest::Approx(sample).epsilon(1.3e-4));
+      CHECK(static_cast<double>(ShortLight::of_lowest(level.lowest).light(table.pairs[at].here)) ==
+            doctest::Approx(sample).epsilon(1.3e-4));
     }
-  CHECK(level.coded.front().here == 0);
+  CHECK(table.pairs.front().here == 0);
   CHECK(static_cast<double>(band.brightest({1.4, -1.4}, 0.01)) == doctest::Approx(0.02 * 93 * 93).epsilon(0.03));
 }
 
@@ -153,7 +158,8 @@ TEST_CASE("about a place so wide that it is all of a pattern, it is as bright as
   for (int row = 20; row < 28; ++row)
     for (int column = 20; column < 28; ++column) samples[static_cast<std::size_t>(row * kSide + column)] = 1.0F;
   const PatternTexture texture(kSide, 3.0, samples);
-  const BandTexture pattern(std::array{&texture});
+  PatternAtlas atlas;
+  const BandTexture pattern(texture_table(std::array{&texture}), atlas);
   const double mean = 64.0 / 256.0;  // over the middle one of 3 x 3
   for (const Vec2 place : {Vec2{-2.5, -0.5}, Vec2{0.8, -2.4}, Vec2{0.0, 0.0}, Vec2{9.0, 9.0}})
     for (const double distance : {2.1, 3.0, 20.0})
@@ -168,21 +174,23 @@ TEST_CASE("patterns side by side are each what they are alone") {
     for (int column = 0; column < 96; ++column) ramp.push_back(static_cast<float>(1.0 + 0.01 * column - 0.02 * row));
   const PatternTexture small(96, 1.5, ramp), large(96, 3.0, ramp);
   const std::array<const PatternTexture*, 2> parts{&small, &large};
-  const BandTexture band(parts);
-  CHECK(band.extent() == 3.0);
-  const auto& level = band.level_for(0.0);
+  PatternAtlas atlas;
+  const BandTexture band(texture_table(parts), atlas);
+  const TextureTable& table = atlas.texture(band.index());
+  CHECK(table.extent == 3.0);
+  const TextureTable::Level& level = table.levels[band.level_for(0.0)];
   REQUIRE(level.side == 96);
   for (const int row : {0, 20, 47, 60, 95}) {
     for (const int column : {0, 30, 48, 66, 95}) {
       const Vec2 p{(column + 0.5) / 16.0 - 3.0, 3.0 - (row + 0.5) / 16.0};
       const float* const at =
-          &level.samples[static_cast<std::size_t>((row + 1) * level.pitch() + column + 1) * BandTexture::kStride];
+          &table.samples[static_cast<std::size_t>((row + 1) * level.pitch() + column + 1) * TextureTable::kStride];
       CHECK(static_cast<double>(at[0]) == doctest::Approx(small.at(p, 0.0)).epsilon(1e-5).scale(1.0));
       CHECK(static_cast<double>(at[1]) == doctest::Approx(large.at(p, 0.0)).epsilon(1e-5).scale(1.0));
       CHECK(at[2] == 0.0F);
     }
   }
-  CHECK(band.level_for(0.5).side == 24);  // 8 samples wide over the root of 3: halved twice
+  CHECK(table.levels[band.level_for(0.5)].side == 24);  // 8 samples wide over the root of 3: halved twice
   CHECK(band.brightest({2.9, -2.9}, 0.05) > 0.0F);
   CHECK(band.brightest({0.0, 0.0}, 1e9) > 0.0F);
   CHECK(band.brightest({50.0, 0.0}, 0.01) >= 0.0F);

@@ -3,8 +3,8 @@
 #pragma once
 
 #include "render/adaptive/cells/band_context.h"
-#include "render/adaptive/tiles/polygon_list.h"
-#include "render/adaptive/tiles/stop_map.h"
+#include "render/adaptive/cells/stop_map.h"
+#include "render/polygons/polygon_list.h"
 
 namespace contrejour::inline internal::adaptive {
 

@@ -8,7 +8,7 @@
 #include <cstdint>
 
 #include "render/adaptive/cells/mesh.h"
-#include "render/adaptive/tiles/polygon_list.h"
+#include "render/polygons/polygon_list.h"
 #include "render/stop_patterns/band_stop_pattern.h"
 
 namespace contrejour::inline internal::adaptive {

@@ -8,7 +8,7 @@
 #include <optional>
 
 #include "render/adaptive/cells/mesh.h"
-#include "render/adaptive/tiles/polygon_list.h"
+#include "render/polygons/polygon_list.h"
 
 namespace contrejour::inline internal::adaptive {
 

@@ -8,9 +8,17 @@
 
 #include "render/adaptive/cells/band_context.h"
 #include "render/adaptive/cells/cell.h"
+#include "render/adaptive/cells/stop_map.h"
 #include "render/stop_patterns/shadow_cutter.h"
 
 namespace contrejour::inline internal::adaptive {
+
+// Dirt that is looked up for each pixel, and the map from pixels to its plane, in mm.
+struct PastDirt {
+  const stop_patterns::BandDirt* band;
+  StopMap map;
+  [[nodiscard]] std::array<double, 3> passed(Vec2 pixel) const;
+};
 
 struct DirtTriangle {
   std::array<Vec2, 3> pixel;

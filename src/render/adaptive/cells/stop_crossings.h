@@ -8,7 +8,7 @@
 
 #include "render/adaptive/cells/band_context.h"
 #include "render/adaptive/cells/cell.h"
-#include "render/adaptive/tiles/stop_map.h"
+#include "render/adaptive/cells/stop_map.h"
 
 namespace contrejour::inline internal::adaptive {
 

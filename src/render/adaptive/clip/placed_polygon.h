@@ -7,8 +7,8 @@
 #include <span>
 #include <vector>
 
+#include "render/adaptive/cells/stop_map.h"
 #include "render/adaptive/clip/outline_cutter.h"
-#include "render/adaptive/tiles/stop_map.h"
 
 namespace contrejour::inline internal::adaptive {
 

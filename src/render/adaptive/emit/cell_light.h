@@ -7,7 +7,7 @@
 
 #include "render/adaptive/cells/cell.h"
 #include "render/adaptive/cells/mesh.h"
-#include "render/adaptive/tiles/polygon_list.h"
+#include "render/polygons/polygon_list.h"
 
 namespace contrejour::inline internal::adaptive {
 

@@ -7,6 +7,8 @@
 
 #include "render/adaptive/budget/pattern_budget.h"
 #include "render/adaptive/clip/bound_view.h"
+#include "render/adaptive/emit/edge_table.h"
+#include "render/adaptive/emit/pixel_pattern.h"
 
 namespace contrejour::inline internal::adaptive {
 namespace {
@@ -16,14 +18,43 @@ constexpr double kWidthsPerOctave = 2.0;  // widths of pixels for which edges' t
 }  // namespace
 
 // The table of fringes for pixels of about this width.
-const EdgeTable& PatternEmitter::table_for(double width) {
+std::uint32_t PatternEmitter::table_for(double width) {
   const int octave = static_cast<int>(std::lround(kWidthsPerOctave * std::log2(std::max(width, 1e-9))));
-  const auto [at, is_new] = tables_.try_emplace(std::pair(band_.pattern.get(), octave), nullptr);
+  const auto [at, is_new] = tables_.try_emplace(std::pair(band_.pattern.get(), octave), 0);
+  if (is_new) at->second = add_edge_table(*band_.pattern, std::exp2(octave / kWidthsPerOctave), out_);
+  return at->second;
+}
+
+// The index of the weights of the pattern's wavelengths.
+std::uint32_t PatternEmitter::weights() {
+  const auto [at, is_new] = weights_.try_emplace(band_.pattern.get(), static_cast<std::uint32_t>(out_.weights.size()));
   if (is_new) {
-    out_.tables.push_back(std::make_shared<const EdgeTable>(*band_.pattern, std::exp2(octave / kWidthsPerOctave)));
-    at->second = out_.tables.back().get();
+    WavelengthWeights& weights = out_.weights.emplace_back();
+    for (std::size_t k = 0; k < band_.pattern->parts.size(); ++k)
+      std::ranges::copy(band_.pattern->parts[k].channel, weights[k].begin());
   }
-  return *at->second;
+  return at->second;
+}
+
+// A texture of the atlas where the light crosses the stop once, and otherwise a table of pixels.
+Pattern PatternEmitter::pattern_of(std::span<const Point> polygon, const StopMap& map, int looks) {
+  const stop_patterns::BandTexture* const texture = band_.pattern->texture.get();
+  if (texture != nullptr && map.crossings() == 1 && (!texture->of_one() || band_.pattern->is_grey())) {
+    const PatternMap last = map.last(looks);
+    return {.kind = PatternKind::Texture,
+            .table = texture->index(),
+            .level = texture->level_for(last.width),
+            .weights = texture->of_one() ? 0 : weights(),
+            .samples = static_cast<std::uint32_t>(looks),
+            .map = last};
+  }
+  return pixel_pattern(
+      polygon, band_.width, band_.height, looks,
+      [&, narrow = map.narrowed(looks)](Vec2 pixel) {
+        std::array<StopPoint, kMaxStopCrossings> buffer;
+        return band_.pattern->transmittance(narrow.places(pixel, buffer));
+      },
+      out_);
 }
 
 // All pixels of a polygon look up the pattern. A large polygon is first clipped to the bounding polygon of a pattern's
@@ -37,36 +68,36 @@ void PatternEmitter::emit(std::span<const Corner> polygon, double area_px, const
   if (band_.pattern->edges == nullptr || map.crossings() > 1) {
     for (std::size_t k = 0; large && band_.pattern->texture && k < stop_patterns::PatternHull::kLines; ++k)
       rest_.keep_within({stop_patterns::PatternHull::normals()[k], band_.pattern->hull.most(k) + room}, map);
-    if (!rest_.is_empty())
-      out_.add(points_.points_of(rest_.corners()), shade,
-               Screened{.map = map.narrowed(looks), .pattern = band_.pattern.get(), .looks = looks}, {});
-    return;
+    if (rest_.is_empty()) return;
+    const std::span<const Point> points = points_.points_of(rest_.corners());
+    return out_.add(points, shade, pattern_of(points, map, looks));
   }
-  const EdgeTable& table = table_for(map.width() / looks);
-  if (!large || table.iris().is_picture()) return add_fringed(rest_.corners(), shade, map, looks, table);
+  const std::uint32_t table = table_for(map.width() / looks);
+  if (!large || out_.edge_tables[table].of_outline) return add_fringed(rest_.corners(), shade, map, looks, table);
   emit_in_strips(shade, map, looks, table);
 }
 
 // Straight lines cut off a part along each edge that has fringes there; the remainder is uniform.
-void PatternEmitter::emit_in_strips(const Shade& shade, const StopMap& map, int looks, const EdgeTable& table) {
+void PatternEmitter::emit_in_strips(const Shade& shade, const StopMap& map, int looks, std::uint32_t at) {
+  const EdgeTable& table = out_.edge_tables[at];
   const double room = map.bend();  // cuts are straight lines, the map is not linear
-  for (const IrisBound& bound : table.iris().bounds()) {
+  for (const IrisBound& bound : out_.bounds) {
     if (rest_.is_empty()) return;
     const BoundView view(bound, rest_.corners());
-    rest_.keep_within({view.normal(), view.outer() + table.dark_beyond() + room}, map);
+    rest_.keep_within({view.normal(), view.outer() + table.dark_beyond + room}, map);
   }
   const auto draw_beyond = [&](const HalfPlane& kept) {
     strip_.take(rest_);
     strip_.keep_within({kept.normal * -1.0, -kept.most}, map);
     if (strip_.is_empty()) return;
     rest_.keep_within(kept, map);
-    add_fringed(strip_.corners(), shade, map, looks, table);
+    add_fringed(strip_.corners(), shade, map, looks, at);
   };
-  for (const IrisBound& bound : table.iris().bounds()) {
+  for (const IrisBound& bound : out_.bounds) {
     if (rest_.is_empty()) return;
     const BoundView view(bound, rest_.corners());
-    const Strip level = view.deeper_than(table.level_within() + room);
-    if (level.is_empty()) return add_fringed(rest_.corners(), shade, map, looks, table);
+    const Strip level = view.deeper_than(table.level_within + room);
+    if (level.is_empty()) return add_fringed(rest_.corners(), shade, map, looks, at);
     draw_beyond({view.normal(), level.most});
     if (std::isfinite(level.least)) draw_beyond({view.normal() * -1.0, -level.least});
   }
@@ -74,19 +105,23 @@ void PatternEmitter::emit_in_strips(const Shade& shade, const StopMap& map, int 
 }
 
 void PatternEmitter::add_fringed(std::span<const PlacedCorner> polygon, const Shade& shade, const StopMap& map,
-                                 int looks, const EdgeTable& table) {
-  active_.clear();
-  const auto& bounds = table.iris().bounds();
-  for (std::size_t k = 0; k < bounds.size() && !table.iris().is_picture(); ++k) {
+                                 int looks, std::uint32_t at) {
+  const EdgeTable& table = out_.edge_tables[at];
+  const auto first = static_cast<std::uint32_t>(out_.active.size());
+  for (std::size_t k = 0; k < out_.bounds.size() && !table.of_outline; ++k) {
     double nearest = -std::numeric_limits<double>::infinity();
-    for (const PlacedCorner& c : polygon) nearest = std::max(nearest, bounds[k].distance(c.stop));
+    for (const PlacedCorner& c : polygon) nearest = std::max(nearest, out_.bounds[k].distance(c.stop));
     // Distances are convex: inside the polygon none exceeds those at the corners, except where pixels reach beyond it.
-    if (nearest + 2.0 * map.pixel_reach() + map.bend() > -table.level_within())
-      active_.push_back(static_cast<std::uint16_t>(k));
+    if (nearest + 2.0 * map.pixel_reach() + map.bend() > -table.level_within)
+      out_.active.push_back(static_cast<std::uint16_t>(k));
   }
   out_.add(points_.points_of(polygon), shade,
-           Screened{.map = map.narrowed(looks), .pattern = band_.pattern.get(), .edges = &table, .looks = looks},
-           active_);
+           {.kind = PatternKind::EdgeFringes,
+            .table = at,
+            .first = first,
+            .count = static_cast<std::uint32_t>(out_.active.size()) - first,
+            .samples = static_cast<std::uint32_t>(looks),
+            .map = map.last(looks)});
 }
 
 }  // namespace contrejour::inline internal::adaptive

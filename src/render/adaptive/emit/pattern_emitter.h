@@ -8,13 +8,12 @@
 #include <map>
 #include <span>
 #include <utility>
-#include <vector>
 
 #include "render/adaptive/cells/band_context.h"
 #include "render/adaptive/clip/corner.h"
 #include "render/adaptive/clip/placed_polygon.h"
 #include "render/adaptive/emit/points.h"
-#include "render/adaptive/tiles/polygon_list.h"
+#include "render/polygons/polygon_list.h"
 
 namespace contrejour::inline internal::adaptive {
 
@@ -27,16 +26,18 @@ class PatternEmitter {
   void emit(std::span<const Corner> polygon, double area_px, const Shade& shade, const StopMap& map, double passed);
 
  private:
-  void emit_in_strips(const Shade& shade, const StopMap& map, int looks, const EdgeTable& table);
+  void emit_in_strips(const Shade& shade, const StopMap& map, int looks, std::uint32_t table);
   void add_fringed(std::span<const PlacedCorner> polygon, const Shade& shade, const StopMap& map, int looks,
-                   const EdgeTable& table);
-  [[nodiscard]] const EdgeTable& table_for(double width);
+                   std::uint32_t table);
+  [[nodiscard]] std::uint32_t table_for(double width);
+  [[nodiscard]] Pattern pattern_of(std::span<const Point> polygon, const StopMap& map, int looks);
+  [[nodiscard]] std::uint32_t weights();
 
   const BandContext& band_;
   PolygonList& out_;
-  std::map<std::pair<const stop_patterns::BandStopPattern*, int>, const EdgeTable*>
-      tables_;  // of stop patterns, by pixel width
-  std::vector<std::uint16_t> active_;
+  // Indices in the list: of edge tables, by pattern and pixel width; of weights, by pattern.
+  std::map<std::pair<const stop_patterns::BandStopPattern*, int>, std::uint32_t> tables_;
+  std::map<const stop_patterns::BandStopPattern*, std::uint32_t> weights_;
   PlacedPolygon rest_, strip_;  // scratch for cutting along edges
   PointBuffer points_;
 };

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "render/adaptive/tiles/polygon_list.h"
+#include "render/polygons/polygon_list.h"
 
 namespace contrejour::inline internal::adaptive {
 

@@ -7,6 +7,7 @@
 
 #include "render/adaptive/budget/small_polygons.h"
 #include "render/adaptive/cells/cell_shape.h"
+#include "render/adaptive/emit/pixel_pattern.h"
 
 namespace contrejour::inline internal::adaptive {
 namespace {
@@ -113,11 +114,17 @@ void PolygonEmitter::emit_resolved(std::span<const Corner> polygon, double area_
 
 // A picture of dirt, and shapes that overlap many times, are looked up pixel by pixel.
 void PolygonEmitter::emit_behind_dirt(std::span<const Corner> polygon, const Shade& shade, const Behind& behind) {
-  out_.dirt.push_back(past_dirt(band_, *behind.dirt));
-  Screened seen{behind.pattern != nullptr ? *behind.pattern : out_.dirt.back().map,
-                behind.pattern != nullptr ? band_.pattern.get() : nullptr};
-  seen.dirt = static_cast<std::uint32_t>(out_.dirt.size());
-  out_.add(points_.points_of(polygon), shade, seen, {});
+  const PastDirt dirt = past_dirt(band_, *behind.dirt);
+  const auto transmittance_at = [&](Vec2 pixel) {
+    std::array<StopPoint, kMaxStopCrossings> buffer;
+    std::array<double, 3> all{1.0, 1.0, 1.0};
+    if (behind.pattern != nullptr) all = band_.pattern->transmittance(behind.pattern->places(pixel, buffer));
+    const auto left = dirt.passed(pixel);
+    for (std::size_t c = 0; c < 3; ++c) all[c] *= left[c];
+    return all;
+  };
+  const std::span<const Point> points = points_.points_of(polygon);
+  out_.add(points, shade, pixel_pattern(points, band_.width, band_.height, 1, transmittance_at, out_));
 }
 
 // Shapes of dirt subtract their light as polygons of negative sign.

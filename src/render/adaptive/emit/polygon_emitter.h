@@ -12,7 +12,7 @@
 #include "render/adaptive/emit/cell_light.h"
 #include "render/adaptive/emit/pattern_emitter.h"
 #include "render/adaptive/emit/points.h"
-#include "render/adaptive/tiles/polygon_list.h"
+#include "render/polygons/polygon_list.h"
 #include "render/stop_patterns/shadow_cutter.h"
 
 namespace contrejour::inline internal::adaptive {

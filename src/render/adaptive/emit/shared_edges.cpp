@@ -50,24 +50,31 @@ class RecentEdges {
   std::vector<Slot> slots_;
 };
 
+bool meets_frame(std::span<const Point> corners, int width, int height) {
+  const auto [left, right] = std::ranges::minmax(corners, {}, &Point::x);
+  const auto [top, bottom] = std::ranges::minmax(corners, {}, &Point::y);
+  return right.x >= 0.0F && bottom.y >= 0.0F && left.x < static_cast<float>(width) &&
+         top.y < static_cast<float>(height);
+}
+
 }  // namespace
 
-void share_edges(PolygonList& list, const TileGrid& grid) {
+void share_edges(PolygonList& list, int width, int height) {
   list.partner.assign(list.corners.size(), PolygonList::kAlone);
   if (list.polygons.size() < 2) return;
   RecentEdges recent(list.corners.size());
   for (std::size_t p = 0; p < list.polygons.size(); ++p) {
     const Polygon& polygon = list.polygons[p];
-    if (polygon.count < 3 || polygon.screened != 0) continue;
+    if (polygon.count < 3 || polygon.pattern != 0) continue;
     const std::span<const Point> corners = list.corners_of(polygon);
-    if (tiles_under(corners, grid).x1 < 0) continue;  // not drawn
+    if (!meets_frame(corners, width, height)) continue;  // not drawn
     for (std::uint32_t k = 0; k < polygon.count; ++k) {
       const Edge edge{static_cast<std::uint32_t>(p), polygon.first + k, corners[k],
-                      corners[k + 1 == polygon.count ? 0 : k + 1], polygon.turns_left};
+                      corners[k + 1 == polygon.count ? 0 : k + 1], polygon.turns_left != 0};
       const Edge* const other = recent.take_or_keep(edge);
       if (other == nullptr) continue;
       list.partner[edge.corner] = PolygonList::kNotDrawn;
-      const bool changes = list.polygons[other->polygon].shade != polygon.shade;
+      const bool changes = list.shade_of(list.polygons[other->polygon]) != list.shade_of(polygon);
       list.partner[other->corner] = changes ? edge.polygon : PolygonList::kNotDrawn;
     }
   }

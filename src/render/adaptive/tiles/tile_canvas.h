@@ -16,10 +16,11 @@ namespace contrejour::inline internal::adaptive {
 struct TileCanvas {
   Image& image;
   int left = 0, top = 0;
-  TileMode mode = TileMode::Write;
+  RasterMode mode = RasterMode::Write;
   PixelWriter writer;
 
-  TileCanvas(Image& of, int x, int y, TileMode how) : image(of), left(x), top(y), mode(how), writer(of) {}
+  TileCanvas(const RasterTarget& target, RasterMode how)
+      : image(target.image), left(target.left), top(target.top), mode(how), writer(target.image) {}
 
   // The pixels of a row of a tile that lies within the image.
   [[nodiscard]] float* at(const TileSums& tile, int row) const {

@@ -15,35 +15,38 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <tuple>
 #include <vector>
 
-#include "render/adaptive/tiles/edge_table.h"
 #include "render/adaptive/tiles/quad-inl.h"
 #include "render/adaptive/tiles/tile_rows-inl.h"
+#include "render/polygons/pattern_atlas.h"
+#include "render/polygons/polygon_list.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace contrejour::inline internal::adaptive::HWY_NAMESPACE {
 
-static_assert(EdgeTable::kStride == 4);
+static_assert(std::tuple_size_v<Channels> == kQuad);
 
 // Indices into a table of fringes along rows, by distance from an edge: from a bound, or from a picture's outline.
 class EdgePlaces {
  public:
   EdgePlaces() = default;
-  EdgePlaces(const EdgeTable& table, const IrisBound& bound, const StopMap& map) {
-    const double scale = table.per_step();
+  EdgePlaces(const EdgeTable& table, const IrisBound& bound, const PatternMap& map) {
+    const double scale = table.per_step;
     if (bound.straight()) {
       kind_ = Kind::Straight;
-      x_ = RowForm(map.form(bound.normal * -scale, (table.dark_beyond() + bound.apothem) * scale));
+      x_ = RowForm(map.form(bound.normal * -scale, (table.dark_beyond + bound.apothem) * scale));
       return;
     }
     kind_ = Kind::Curved;
     x_ = RowForm(map.form({scale, 0.0}, -bound.centre.x * scale));
     y_ = RowForm(map.form({0.0, scale}, -bound.centre.y * scale));
-    edge_ = static_cast<float>((table.dark_beyond() + bound.radius) * scale);
+    edge_ = static_cast<float>((table.dark_beyond + bound.radius) * scale);
   }
-  EdgePlaces(const EdgeTable& table, const StopMap& map)
-      : kind_(Kind::Picture), x_(map.form({1.0, 0.0}, 0.0)), y_(map.form({0.0, 1.0}, 0.0)), table_(&table) {}
+  EdgePlaces(const EdgeTable& table, const OutlineTable& outline, const PatternMap& map)
+      : kind_(Kind::Picture), x_(map.form({1.0, 0.0}, 0.0)), y_(map.form({0.0, 1.0}, 0.0)), table_(&table),
+        outline_(&outline) {}
 
   HWY_INLINE void set_row(const PixelRow& row) {
     x_.set_row(row);
@@ -90,9 +93,8 @@ class EdgePlaces {
     hn::Store(x, d, at_x);
     hn::Store(y, d, at_y);
     for (int k = 0; k < std::min(count, static_cast<int>(hn::Lanes(d))); ++k) {
-      const double distance =
-          table_->iris().picture_distance({static_cast<double>(at_x[k]), static_cast<double>(at_y[k])});
-      place[k] = static_cast<float>((table_->dark_beyond() - distance) * table_->per_step());
+      const double distance = outline_->distance({static_cast<double>(at_x[k]), static_cast<double>(at_y[k])});
+      place[k] = static_cast<float>((table_->dark_beyond - distance) * table_->per_step);
     }
     return hn::Load(d, place);
   }
@@ -101,19 +103,32 @@ class EdgePlaces {
   RowForm x_, y_;  // of a straight edge, x is the index; of a curved one they are offsets from its centre
   float edge_ = 0;  // index at a curved edge's centre
   const EdgeTable* table_ = nullptr;
+  const OutlineTable* outline_ = nullptr;
+};
+
+// What fringes are looked up in: the table, and the bounds or the outline from which distances are measured.
+struct FringeInput {
+  const PolygonList& list;
+  const EdgeTable& table;
+  std::span<const std::uint16_t> active;  // bounds
+  const OutlineTable* outline;
+  const PatternMap& map;
+
+  [[nodiscard]] std::size_t edges() const { return table.of_outline ? 1 : active.size(); }
+  [[nodiscard]] EdgePlaces edge(std::size_t k) const {
+    return table.of_outline ? EdgePlaces(table, *outline, map) : EdgePlaces(table, list.bounds[active[k]], map);
+  }
+  [[nodiscard]] float most() const { return static_cast<float>(table.count - 1); }  // last index of the table
 };
 
 // Several edges: the product of their factors.
 class Edges {
  public:
-  Edges(const EdgeTable& table, std::span<const std::uint16_t> active, const StopMap& map)
-      : most_(static_cast<float>(table.count() - 1)) {
-    const IrisShape& iris = table.iris();
-    const std::size_t count = iris.is_picture() ? 1 : active.size();
+  explicit Edges(const FringeInput& from) : most_(from.most()) {
+    const std::size_t count = from.edges();
     if (count > few_.size()) many_.resize(count);
     all_ = {many_.empty() ? few_.data() : many_.data(), count};
-    for (std::size_t k = 0; k < count; ++k)
-      all_[k] = iris.is_picture() ? EdgePlaces(table, map) : EdgePlaces(table, iris.bounds()[active[k]], map);
+    for (std::size_t k = 0; k < count; ++k) all_[k] = from.edge(k);
   }
   Edges(const Edges&) = delete;
   Edges& operator=(const Edges&) = delete;
@@ -151,8 +166,7 @@ class Edges {
 class Fringes {
  public:
   static constexpr bool kGrey = false;
-  Fringes(const EdgeTable& table, std::span<const std::uint16_t> active, const StopMap& map)
-      : edges_(table, active, map), entries_(table.entries()) {}
+  explicit Fringes(const FringeInput& from) : edges_(from), entries_(from.list.edge_factors[from.table.first].data()) {}
 
   HWY_INLINE void set_row(const PixelRow& row) { edges_.set_row(row); }
   [[nodiscard]] HWY_INLINE SeenGroups seen(const PixelRow& row) const { return edges_.seen(row); }
@@ -180,8 +194,8 @@ class Fringes {
       hn::Store(at.whole, IntTag(), whole);
       hn::Store(at.rest, d, rest);
       for (std::size_t j = 0; j < kLanes; ++j) {
-        const float* const entry = all.entries_ + EdgeTable::kStride * static_cast<std::size_t>(whole[j]);
-        const Quad factor = mix(Quad::load(entry), Quad::load(entry + EdgeTable::kStride), Quad::all(rest[j]));
+        const float* const entry = all.entries_ + kQuad * static_cast<std::size_t>(whole[j]);
+        const Quad factor = mix(Quad::load(entry), Quad::load(entry + kQuad), Quad::all(rest[j]));
         (Quad::load(factors_ + kQuad * j) * factor).store(factors_ + kQuad * j);
       }
     }
@@ -204,13 +218,13 @@ class Fringes {
 // The transmittance by index, with one value for all channels.
 class GreyTable {
  public:
-  explicit GreyTable(const EdgeTable& table)
-      : steps_(table.steps().data()), end_(static_cast<float>(table.count() - 1)) {}
+  explicit GreyTable(const FringeInput& from)
+      : steps_(from.list.edge_steps.data() + from.table.first), end_(from.most()) {}
 
   [[nodiscard]] HWY_INLINE TablePlaces places(hn::Vec<FloatTag> place) const { return end_.places_to_end(place); }
   // Interpolates: `rest` is the fraction of the way within each step.
   [[nodiscard]] HWY_INLINE hn::Vec<FloatTag> at(const std::int32_t* step, hn::Vec<FloatTag> rest) const {
-    static_assert(sizeof(EdgeTable::Step) == 8);
+    static_assert(sizeof(EdgeStep) == 8);
     const HalfWords<float> steps(steps_, step);
     return hn::MulAdd(rest, steps.second, steps.first);
   }
@@ -222,7 +236,7 @@ class GreyTable {
   }
 
  private:
-  const EdgeTable::Step* steps_;
+  const EdgeStep* steps_;
   TableEnd end_;
 };
 
@@ -230,8 +244,7 @@ class GreyTable {
 class GreyFringe {
  public:
   static constexpr bool kGrey = true;
-  GreyFringe(const EdgeTable& table, const IrisBound& bound, const StopMap& map)
-      : table_(table), most_(static_cast<float>(table.count() - 1)), edge_(table, bound, map) {}
+  explicit GreyFringe(const FringeInput& from) : table_(from), most_(from.most()), edge_(from.edge(0)) {}
 
   HWY_INLINE void set_row(const PixelRow& row) { edge_.set_row(row); }
   [[nodiscard]] HWY_INLINE SeenGroups seen(const PixelRow& row) const { return edge_.seen(row, most_); }
@@ -271,8 +284,7 @@ class GreyFringe {
 class GreyFringes {
  public:
   static constexpr bool kGrey = true;
-  GreyFringes(const EdgeTable& table, std::span<const std::uint16_t> active, const StopMap& map)
-      : edges_(table, active, map), table_(table) {}
+  explicit GreyFringes(const FringeInput& from) : edges_(from), table_(from) {}
 
   HWY_INLINE void set_row(const PixelRow& row) { edges_.set_row(row); }
   [[nodiscard]] HWY_INLINE SeenGroups seen(const PixelRow& row) const { return edges_.seen(row); }

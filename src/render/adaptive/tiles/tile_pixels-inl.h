@@ -78,7 +78,7 @@ HWY_INLINE void draw_row(TileSums& tile, int row, const TileCanvas& canvas) {
   }
   const std::size_t count = TileSums::kPixel * static_cast<std::size_t>(tile.width);
   float* const to = canvas.at(tile, row);
-  if (canvas.mode == TileMode::Write)
+  if (canvas.mode == RasterMode::Write)
     canvas.writer.write(pixels, count, to);
   else
     std::transform(pixels, pixels + count, to, to, std::plus<>());

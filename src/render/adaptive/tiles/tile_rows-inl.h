@@ -20,9 +20,10 @@
 #include <vector>
 
 #include "render/adaptive/tiles/pixels-inl.h"
-#include "render/adaptive/tiles/polygon_list.h"
 #include "render/adaptive/tiles/tile_sums.h"
-#include "render/stop_patterns/band_texture.h"
+#include "render/polygons/pattern_atlas.h"
+#include "render/polygons/polygon_list.h"
+#include "render/polygons/short_light.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace contrejour::inline internal::adaptive::HWY_NAMESPACE {
@@ -62,7 +63,7 @@ struct PixelRow {
 class RowForm {
  public:
   RowForm() = default;
-  explicit RowForm(const StopMap::Form& form) : form_(form) {}
+  explicit RowForm(const PatternMap::Form& form) : form_(form) {}
 
   HWY_INLINE void set_row(const PixelRow& row) {
     level_ = form_.level + row.from_y * (form_.y + row.from_y * form_.yy);
@@ -89,7 +90,7 @@ class RowForm {
 
  private:
   static constexpr float kRoom = 1.01F;  // for rounding
-  StopMap::Form form_;
+  PatternMap::Form form_;
   float level_ = 0, slope_ = 0;
 };
 
@@ -213,10 +214,10 @@ struct HalfWords {
 // A table of ShortLight, as pairs of a sample and the one below it.
 class ShortTable {
  public:
-  using Pair = stop_patterns::BandTexture::Level::Pair;
+  using Pair = TextureTable::Pair;
 
-  ShortTable(const std::vector<Pair>& pairs, const stop_patterns::ShortLight& coding)
-      : pairs_(pairs.data()), lowest_(hn::Set(IntTag(), coding.lowest())), none_(hn::Set(FloatTag(), coding.none())) {}
+  ShortTable(const Pair* pairs, const ShortLight& coding)
+      : pairs_(pairs), lowest_(hn::Set(IntTag(), coding.lowest())), none_(hn::Set(FloatTag(), coding.none())) {}
 
   // Interpolates between four samples: those at `place`, by the fractions to the next ones and to those below.
   [[nodiscard]] HWY_INLINE hn::Vec<FloatTag> among(const std::int32_t* place, hn::Vec<FloatTag> across,
@@ -230,7 +231,7 @@ class ShortTable {
  private:
   // Returns the light plus none_.
   [[nodiscard]] HWY_INLINE hn::Vec<FloatTag> between(hn::Vec<IntTag> pair, hn::Vec<FloatTag> rest) const {
-    constexpr int kShift = stop_patterns::ShortLight::kShift;
+    constexpr int kShift = ShortLight::kShift;
     const FloatTag d;
     const IntTag di;
     const auto bits = hn::Set(di, 0xFFFF << kShift);

@@ -18,15 +18,15 @@
 
 #include "render/adaptive/tiles/tile_canvas.h"
 #include "render/adaptive/tiles/tile_edges-inl.h"
+#include "render/adaptive/tiles/tile_patterned-inl.h"
 #include "render/adaptive/tiles/tile_pixels-inl.h"
-#include "render/adaptive/tiles/tile_screens-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace contrejour::inline internal::adaptive::HWY_NAMESPACE {
 
 void add_polygon(TileSums& tile, const PolygonList& list, const Polygon& polygon) {
   const auto corners = list.corners_of(polygon);
-  const RowShade shade = row_shade(polygon.shade, tile);
+  const RowShade shade = row_shade(list.shade_of(polygon), tile);
   if (corners.size() == 1) {
     const auto column = static_cast<int>(std::floor(static_cast<double>(corners[0].x) - tile.x0));
     const auto row = static_cast<int>(std::floor(static_cast<double>(corners[0].y) - tile.y0));
@@ -40,28 +40,29 @@ void add_polygon(TileSums& tile, const PolygonList& list, const Polygon& polygon
     const std::uint32_t partner = list.partner_of(polygon.first + corner);
     if (partner == PolygonList::kNotDrawn) return;
     const bool alone = partner == PolygonList::kAlone;
-    add_clipped(tile, alone ? shade : shade - row_shade(list.polygons[partner].shade, tile), a, b, sign);
+    add_clipped(tile, alone ? shade : shade - row_shade(list.shade_of(list.polygons[partner]), tile), a, b, sign);
   });
 }
 
 // Prefetches the polygons of a tile that come soon, since they lie far apart in memory.
 HWY_INLINE void fetch_ahead(const TiledPolygons& p, std::uint32_t k, std::uint32_t end) {
   constexpr std::uint32_t kPolygon = 8, kRest = 4;  // polygons ahead
-  if (k + kPolygon < end) hwy::Prefetch(&p.list.polygons[p.tiles.index[k + kPolygon]].screened);
+  if (k + kPolygon < end) hwy::Prefetch(&p.list.polygons[p.tiles.index[k + kPolygon]]);
   if (k + kRest >= end) return;
   const Polygon& polygon = p.list.polygons[p.tiles.index[k + kRest]];
   hwy::Prefetch(p.list.corners.data() + polygon.first);
-  if (polygon.screened != 0) hwy::Prefetch(&p.list.screened[polygon.screened - 1]);
+  hwy::Prefetch(&p.list.shade_of(polygon));
+  if (polygon.pattern != 0) hwy::Prefetch(&p.list.patterns[polygon.pattern - 1]);
 }
 
-void draw_tile(std::span<const TiledPolygons> lists, std::size_t at, TileSums& tile, const TileCanvas& canvas) {
+void draw_tile(const TileInput& input, std::size_t at, TileSums& tile, const TileCanvas& canvas) {
   bool any = false;
-  for (const TiledPolygons& p : lists) {
+  for (const TiledPolygons& p : input.lists) {
     for (std::uint32_t k = p.tiles.start[at]; k < p.tiles.start[at + 1]; ++k) {
       fetch_ahead(p, k, p.tiles.start[at + 1]);
       const Polygon& polygon = p.list.polygons[p.tiles.index[k]];
-      if (polygon.screened != 0)
-        add_screened(tile, p.list, polygon);
+      if (polygon.pattern != 0)
+        add_patterned(tile, p.list, polygon, input);
       else
         add_polygon(tile, p.list, polygon);
       any = true;
@@ -69,7 +70,7 @@ void draw_tile(std::span<const TiledPolygons> lists, std::size_t at, TileSums& t
   }
   if (any) return draw_pixels(tile, canvas);
   tile.carried = {};  // all polygons end before this tile: only rounding is left
-  if (canvas.mode == TileMode::Write) canvas.clear(tile);
+  if (canvas.mode == RasterMode::Write) canvas.clear(tile);
 }
 
 }  // namespace contrejour::inline internal::adaptive::HWY_NAMESPACE
@@ -124,55 +125,83 @@ TileLists tile_lists(const PolygonList& list, const TileGrid& grid) {
   return out;
 }
 
-TileRange lit_tiles(std::span<const TiledPolygons> lists, const TileGrid& grid) {
-  TileRange lit{grid.columns, grid.rows, -1, -1};
-  for (int y = 0; y < grid.rows; ++y) {
-    for (int x = 0; x < grid.columns; ++x) {
-      const std::size_t at = grid.index(x, y);
+namespace {
+
+class TiledBatch final : public PolygonBatch {
+ public:
+  TiledBatch(const TileGrid& grid, const PatternAtlas* atlas, Pool<TileSums>& sums)
+      : grid_(grid), atlas_(atlas), sums_(sums) {}
+
+  void extend(std::size_t lists) override { lists_.resize(lists_.size() + lists, {{}, tile_lists({}, grid_)}); }
+  void set(std::size_t list, PolygonList polygons) override {
+    lists_[list].list = std::move(polygons);
+    lists_[list].tiles = tile_lists(lists_[list].list, grid_);
+  }
+  [[nodiscard]] std::size_t bytes() const override {
+    std::size_t sum = 0;
+    for (const TiledPolygons& p : lists_) sum += p.list.bytes() + p.tiles.bytes();
+    return sum;
+  }
+  [[nodiscard]] PixelArea touched() const override;
+  void draw(RasterMode mode, const Context& context, const RasterTarget& target) override;
+
+ private:
+  void draw_row(const TileInput& input, int row, const TileCanvas& canvas);
+
+  TileGrid grid_;
+  const PatternAtlas* atlas_;
+  Pool<TileSums>& sums_;
+  std::vector<TiledPolygons> lists_;
+};
+
+PixelArea TiledBatch::touched() const {
+  TileRange lit{grid_.columns, grid_.rows, -1, -1};
+  for (int y = 0; y < grid_.rows; ++y) {
+    for (int x = 0; x < grid_.columns; ++x) {
+      const std::size_t at = grid_.index(x, y);
       const auto touches = [&](const TiledPolygons& p) { return p.tiles.start[at] != p.tiles.start[at + 1]; };
-      if (std::ranges::any_of(lists, touches))
+      if (std::ranges::any_of(lists_, touches))
         lit = {std::min(lit.x0, x), std::min(lit.y0, y), std::max(lit.x1, x), std::max(lit.y1, y)};
     }
   }
-  return lit;
+  if (lit.x1 < lit.x0) return {};
+  return {lit.x0 * TileGrid::kWidth, lit.y0 * TileGrid::kHeight, std::min((lit.x1 + 1) * TileGrid::kWidth, grid_.width),
+          std::min((lit.y1 + 1) * TileGrid::kHeight, grid_.height)};
 }
 
-TileDrawer::TileDrawer() = default;
-TileDrawer::~TileDrawer() = default;
-
-void TileDrawer::draw(std::span<const TiledPolygons> lists, TileMode mode, const Context& context, Image& image) {
-  draw_part(lists, {image.width, image.height}, mode, context, image, 0, 0);
-}
-
-void TileDrawer::draw_part(std::span<const TiledPolygons> lists, const TileGrid& grid, TileMode mode,
-                           const Context& context, Image& image, int left, int top) {
+void TiledBatch::draw(RasterMode mode, const Context& context, const RasterTarget& target) {
+  const auto textures = atlas_ != nullptr ? atlas_->textures() : std::vector<const TextureTable*>{};
+  const TileInput input{lists_, textures, atlas_ != nullptr ? &atlas_->outline() : nullptr};
   Context quiet = context;
   quiet.progress = {};
-  const int first = top / TileGrid::kHeight;
-  const int last = (top + image.height + TileGrid::kHeight - 1) / TileGrid::kHeight;
+  const int first = target.top / TileGrid::kHeight;
+  const int last = (target.top + target.image.height + TileGrid::kHeight - 1) / TileGrid::kHeight;
   parallel_for(static_cast<std::size_t>(last - first), quiet, [&](std::size_t at) {
     // One canvas a thread, since a writer belongs to one.
-    draw_row(lists, grid, first + static_cast<int>(at), TileCanvas(image, left, top, mode));
+    draw_row(input, first + static_cast<int>(at), TileCanvas(target, mode));
   });
 }
 
-void TileDrawer::draw_rows(std::span<const TiledPolygons> lists, TileRows rows, TileMode mode, Image& image) {
-  const TileCanvas canvas(image, 0, 0, mode);
-  for (int row = rows.first; row < rows.last; ++row) draw_row(lists, {image.width, image.height}, row, canvas);
-}
-
-void TileDrawer::draw_row(std::span<const TiledPolygons> lists, const TileGrid& grid, int row,
-                          const TileCanvas& canvas) {
+void TiledBatch::draw_row(const TileInput& input, int row, const TileCanvas& canvas) {
   const auto lent = sums_.lend();
   TileSums& sums = *lent;
   sums.y0 = row * TileGrid::kHeight;
-  sums.height = std::min(TileGrid::kHeight, grid.height - sums.y0);
+  sums.height = std::min(TileGrid::kHeight, grid_.height - sums.y0);
   sums.carried = {};
-  for (int column = 0; column < grid.columns; ++column) {
+  for (int column = 0; column < grid_.columns; ++column) {
     sums.x0 = column * TileGrid::kWidth;
-    sums.width = std::min(TileGrid::kWidth, grid.width - sums.x0);
-    HWY_DYNAMIC_DISPATCH(draw_tile)(lists, grid.index(column, row), sums, canvas);
+    sums.width = std::min(TileGrid::kWidth, grid_.width - sums.x0);
+    HWY_DYNAMIC_DISPATCH(draw_tile)(input, grid_.index(column, row), sums, canvas);
   }
+}
+
+}  // namespace
+
+TileRasteriser::TileRasteriser() = default;
+TileRasteriser::~TileRasteriser() = default;
+
+std::unique_ptr<PolygonBatch> TileRasteriser::new_batch(int width, int height, const PatternAtlas* atlas) {
+  return std::make_unique<TiledBatch>(TileGrid(width, height), atlas, sums_);
 }
 
 }  // namespace contrejour::inline internal::adaptive

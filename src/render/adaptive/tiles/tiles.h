@@ -7,13 +7,12 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
 #include "base/pool.h"
-#include "contrejour/context.h"
-#include "contrejour/image.h"
-#include "render/adaptive/tiles/polygon_list.h"
+#include "render/polygons/rasteriser.h"
 
 namespace contrejour::inline internal::adaptive {
 
@@ -30,11 +29,6 @@ struct TileGrid {
   [[nodiscard]] std::size_t index(int column, int row) const {
     return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) + static_cast<std::size_t>(column);
   }
-};
-
-// Rows of a grid's tiles, from first to last, excluding last.
-struct TileRows {
-  int first = 0, last = 0;
 };
 
 // The tiles under the bounding box of a polygon, including the last ones; none if x1 < x0.
@@ -56,33 +50,24 @@ struct TiledPolygons {
   TileLists tiles;
 };
 
-// The smallest range of tiles that contains all those that polygons may touch; none if x1 < x0.
-[[nodiscard]] TileRange lit_tiles(std::span<const TiledPolygons> lists, const TileGrid& grid);
-
-enum class TileMode : std::uint8_t { Write, Add };
+// What all tiles of a batch are drawn from.
+struct TileInput {
+  std::span<const TiledPolygons> lists;
+  std::span<const TextureTable* const> textures;  // by Pattern::table
+  const OutlineTable* outline;  // null: no pattern refers to it
+};
 
 struct TileCanvas;
 struct TileSums;
 
-// Draws polygons. Several threads may draw different rows of tiles at once.
-class TileDrawer {
+class TileRasteriser final : public Rasteriser {
  public:
-  TileDrawer();
-  ~TileDrawer();
+  TileRasteriser();
+  ~TileRasteriser() override;
 
-  // Writes the light of the polygons to all pixels of a frame, or adds it.
-  void draw(std::span<const TiledPolygons> lists, TileMode mode, const Context& context, Image& image);
-  // The same for a part of a frame, from (left, top) on, that contains all tiles which polygons may touch.
-  void draw_part(std::span<const TiledPolygons> lists, const TileGrid& grid, TileMode mode, const Context& context,
-                 Image& image, int left, int top);
-
-  // Writes or adds the light of the polygons, list after list, to the pixels of some rows of a frame's tiles. Different
-  // rows of tiles share no pixels.
-  void draw_rows(std::span<const TiledPolygons> lists, TileRows rows, TileMode mode, Image& image);
+  [[nodiscard]] std::unique_ptr<PolygonBatch> new_batch(int width, int height, const PatternAtlas* atlas) override;
 
  private:
-  void draw_row(std::span<const TiledPolygons> lists, const TileGrid& grid, int row, const TileCanvas& canvas);
-
   Pool<TileSums> sums_;  // a megabyte each, all zero between uses: one a thread instead of one a row
 };
 

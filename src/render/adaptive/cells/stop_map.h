@@ -8,6 +8,7 @@
 
 #include "contrejour/expert/trace.h"
 #include "contrejour/expert/vec.h"
+#include "render/polygons/polygon_list.h"
 #include "render/stop_patterns/stop_pattern.h"
 
 namespace contrejour::inline internal::adaptive {
@@ -52,19 +53,12 @@ class StopMap {
   // The points at every crossing. room: memory for the result.
   [[nodiscard]] std::span<const StopPoint> places(Vec2 pixel, std::array<StopPoint, kMaxStopCrossings>& room) const;
 
-  // A polynomial of the last crossing's point, with q the pixel relative to origin(): level + x q.x + y q.y + xx q.x^2
-  // + xy q.x q.y + yy q.y^2.
-  struct Form {
-    float level = 0, x = 0, y = 0, xx = 0, xy = 0, yy = 0;
-  };
-  // Returns the polynomial of weights . place + more.
-  [[nodiscard]] Form form(Vec2 weights, double more) const {
+  // The map of the last crossing, for parts of pixels that are `times` narrower than pixels.
+  [[nodiscard]] PatternMap last(int times) const {
     const Crossing& t = crossing_[crossings_ - 1];
-    const auto of = [&](Vec2 term) { return static_cast<float>(dot(weights, term)); };
-    return {static_cast<float>(dot(weights, t.level) + more), of(t.x), of(t.y), of(t.xx), of(t.xy), of(t.yy)};
+    return {origin_px_, t.level, t.x, t.y, t.xx, t.xy, t.yy, t.width / times};
   }
-  [[nodiscard]] Vec2 origin() const { return origin_px_; }
-  // The same map for parts of pixels, `times` narrower than these.
+  // The same map for such parts.
   [[nodiscard]] StopMap narrowed(int times) const {
     StopMap out = *this;
     for (Crossing& crossing : out.crossing_) crossing.width /= times;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "render/adaptive/tiles/stop_map.h"
+#include "render/adaptive/cells/stop_map.h"
 
 #include <algorithm>
 #include <cassert>

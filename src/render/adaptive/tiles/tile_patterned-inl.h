@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Draws polygons behind a stop pattern: first their coverage, then for each pixel the transmitted light.
-#if defined(CONTREJOUR_ADAPTIVE_TILE_SCREENS_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef CONTREJOUR_ADAPTIVE_TILE_SCREENS_INL_H_
-#undef CONTREJOUR_ADAPTIVE_TILE_SCREENS_INL_H_
+#if defined(CONTREJOUR_ADAPTIVE_TILE_PATTERNED_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef CONTREJOUR_ADAPTIVE_TILE_PATTERNED_INL_H_
+#undef CONTREJOUR_ADAPTIVE_TILE_PATTERNED_INL_H_
 #else
-#define CONTREJOUR_ADAPTIVE_TILE_SCREENS_INL_H_
+#define CONTREJOUR_ADAPTIVE_TILE_PATTERNED_INL_H_
 #endif
 
 #include <hwy/highway.h>
@@ -21,41 +21,43 @@
 #include "render/adaptive/tiles/tile_cover-inl.h"
 #include "render/adaptive/tiles/tile_edges-inl.h"
 #include "render/adaptive/tiles/tile_fringes-inl.h"
-#include "render/adaptive/tiles/tile_patterns-inl.h"
 #include "render/adaptive/tiles/tile_rows-inl.h"
+#include "render/adaptive/tiles/tile_textures-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace contrejour::inline internal::adaptive::HWY_NAMESPACE {
 
-// The transmittance of any stop pattern, also at several crossings, and of dirt. Either may be null.
-class AnyScreen {
+// A transmittance for each pixel, from a polygon's own table.
+class PixelTable {
  public:
   static constexpr bool kGrey = false;
-  AnyScreen(const stop_patterns::BandStopPattern* screen, const StopMap& map, const PastDirt* dirt = nullptr)
-      : pattern_(screen), map_(map), dirt_(dirt) {}
+  PixelTable(const PolygonList& list, const Pattern& pattern)
+      : spans_(list.spans.data() + pattern.first, pattern.count), pixels_(list.pixels.data()) {}
 
-  void set_row(const PixelRow& row) { row_ = &row; }
-  [[nodiscard]] const AnyScreen& look(const PixelRow& /*row*/, Groups /*wanted*/) const { return *this; }
-  [[nodiscard]] const AnyScreen& vector(int /*k*/) const { return *this; }
+  void set_row(const PixelRow& row) {
+    const auto at = static_cast<std::size_t>(spans_.empty() ? 0 : row.y - spans_.front().y);
+    const PixelSpan span = at < spans_.size() ? spans_[at] : PixelSpan{};
+    values_ = pixels_ + span.first;
+    count_ = span.count;
+    skipped_ = row.first - span.x;
+  }
+  [[nodiscard]] const PixelTable& look(const PixelRow& /*row*/, Groups /*wanted*/) const { return *this; }
+  [[nodiscard]] const PixelTable& vector(int /*k*/) const { return *this; }
+  // Nothing of the polygon lies in pixels that the table lacks.
   [[nodiscard]] Quad passed(int k) const {
-    const Vec2 pixel = row_->pixel(k);
-    std::array<StopPoint, kMaxStopCrossings> room;
-    std::array<double, 3> share{1.0, 1.0, 1.0};
-    if (pattern_ != nullptr) share = pattern_->transmittance(map_.places(pixel, room));
-    if (dirt_ != nullptr) {
-      const auto past_dirt = dirt_->passed(pixel);
-      for (std::size_t c = 0; c < 3; ++c) share[c] *= past_dirt[c];
-    }
-    const float all[] = {static_cast<float>(share[0]), static_cast<float>(share[1]), static_cast<float>(share[2]),
-                         0.0F};
+    const auto at = static_cast<std::size_t>(skipped_ + k);
+    if (at >= count_) return Quad::all(0.0F);
+    const std::array<float, 3>& value = values_[at];
+    const float all[] = {value[0], value[1], value[2], 0.0F};
     return Quad::load(all);
   }
 
  private:
-  const stop_patterns::BandStopPattern* pattern_;
-  const StopMap& map_;
-  const PastDirt* dirt_;
-  const PixelRow* row_ = nullptr;
+  std::span<const PixelSpan> spans_;
+  const std::array<float, 3>* pixels_;
+  const std::array<float, 3>* values_ = nullptr;
+  std::size_t count_ = 0;
+  int skipped_ = 0;
 };
 
 // The mean of look-ups at the middles of `across` x `across` parts of each pixel.
@@ -323,18 +325,18 @@ HWY_INLINE void add_row(TileSums& tile, RowOfPixels row, const RowShade& shade, 
 }
 
 template <class Look>
-void add_pixels(TileSums& tile, const Polygon& polygon, const StopMap& map, const PixelRows& within, Look& look) {
+void add_pixels(TileSums& tile, const Shade& of, const PatternMap& map, const PixelRows& within, Look& look) {
   constexpr int kShort = 4 * kGroup;  // pixels: in shorter rows, testing groups costs more than it saves
   const CoveredRows rows(tile, within);
   const auto pixels_of = [&](const CoveredRow& r) {
-    return PixelRow(tile.x0 + r.first, r.count, tile.y0 + r.row, map.origin());
+    return PixelRow(tile.x0 + r.first, r.count, tile.y0 + r.row, map.origin_px);
   };
   const auto expect = [&](const auto& row) {
     if constexpr (requires { look.expect_row(pixels_of(*row)); })
       if (row != rows.all().end()) look.expect_row(pixels_of(*row));
   };
   expect(rows.all().begin());
-  const RowShade shade = row_shade(polygon.shade, tile);
+  const RowShade shade = row_shade(of, tile);
   using Light = PixelLight<Look::kGrey>;
   const Light light(shade);
   for (auto at = rows.all().begin(); at != rows.all().end(); ++at) {
@@ -356,7 +358,7 @@ void add_pixels(TileSums& tile, const Polygon& polygon, const StopMap& map, cons
   }
 }
 
-void add_screened(TileSums& tile, const PolygonList& list, const Polygon& polygon) {
+void add_patterned(TileSums& tile, const PolygonList& list, const Polygon& polygon, const TileInput& input) {
   tile.make_light();
   const PixelRows within = rows_under(tile, list.corners_of(polygon));
   CoverSums& cover = tile.cover;
@@ -365,27 +367,24 @@ void add_screened(TileSums& tile, const PolygonList& list, const Polygon& polygo
   cover.set_columns(within.low_column, within.high_column);
   for_each_edge(tile, list, polygon,
                 [&](Vec2 a, Vec2 b, std::size_t, double sign) { add_clipped(cover, NoShade(), a, b, sign); });
-  const Screened& behind = list.screened[polygon.screened - 1];
+  const Pattern& pattern = list.patterns[polygon.pattern - 1];
+  const Shade& shade = list.shade_of(polygon);
   const auto add = [&](auto&& look) {
-    if (behind.looks <= 1) return add_pixels(tile, polygon, behind.map, within, look);
-    MeanOfLooks mean(look, behind.looks);
-    add_pixels(tile, polygon, behind.map, within, mean);
+    if (pattern.samples <= 1) return add_pixels(tile, shade, pattern.map, within, look);
+    MeanOfLooks mean(look, static_cast<int>(pattern.samples));
+    add_pixels(tile, shade, pattern.map, within, mean);
   };
-  if (behind.dirt != 0) return add(AnyScreen(behind.pattern, behind.map, &list.dirt[behind.dirt - 1]));
-  if (behind.edges != nullptr) {
-    const std::span<const std::uint16_t> active(list.bounds.data() + behind.first, behind.count);
-    const IrisShape& iris = behind.edges->iris();
-    if (behind.edges->is_grey() && active.size() == 1 && !iris.is_picture())
-      return add(GreyFringe(*behind.edges, iris.bounds()[active[0]], behind.map));
-    if (behind.edges->is_grey()) return add(GreyFringes(*behind.edges, active, behind.map));
-    return add(Fringes(*behind.edges, active, behind.map));
+  if (pattern.kind == PatternKind::Pixels) return add(PixelTable(list, pattern));
+  if (pattern.kind == PatternKind::Texture) {
+    const TextureTable& table = *input.textures[pattern.table];
+    if (table.of_one()) return add(GreyTexture(table, pattern));
+    return add(ColourTexture(table, pattern, list.weights[pattern.weights]));
   }
-  if (behind.pattern->texture && behind.map.crossings() == 1) {
-    const stop_patterns::BandTexture& pattern = *behind.pattern->texture;
-    if (!pattern.of_one()) return add(Pattern(*behind.pattern, behind.map));
-    if (behind.pattern->is_grey()) return add(GreyPattern(pattern, behind.map));
-  }
-  add(AnyScreen(behind.pattern, behind.map));
+  const EdgeTable& table = list.edge_tables[pattern.table];
+  const FringeInput from{list, table, {list.active.data() + pattern.first, pattern.count}, input.outline, pattern.map};
+  if (!table.grey) return add(Fringes(from));
+  if (from.edges() == 1 && !table.of_outline) return add(GreyFringe(from));
+  add(GreyFringes(from));
 }
 
 }  // namespace contrejour::inline internal::adaptive::HWY_NAMESPACE

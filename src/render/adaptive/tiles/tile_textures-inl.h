@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // The transmittance of a diffraction pattern of the whole iris, from images over the stop.
-#if defined(CONTREJOUR_ADAPTIVE_TILE_PATTERNS_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef CONTREJOUR_ADAPTIVE_TILE_PATTERNS_INL_H_
-#undef CONTREJOUR_ADAPTIVE_TILE_PATTERNS_INL_H_
+#if defined(CONTREJOUR_ADAPTIVE_TILE_TEXTURES_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef CONTREJOUR_ADAPTIVE_TILE_TEXTURES_INL_H_
+#undef CONTREJOUR_ADAPTIVE_TILE_TEXTURES_INL_H_
 #else
-#define CONTREJOUR_ADAPTIVE_TILE_PATTERNS_INL_H_
+#define CONTREJOUR_ADAPTIVE_TILE_TEXTURES_INL_H_
 #endif
 
 #include <hwy/highway.h>
@@ -21,13 +21,13 @@
 HWY_BEFORE_NAMESPACE();
 namespace contrejour::inline internal::adaptive::HWY_NAMESPACE {
 
-static_assert(stop_patterns::BandTexture::kStride == 4);
+static_assert(TextureTable::kStride == kQuad);
 
 // Positions in a pattern's samples along rows. No pixels are sorted out as dark, since bounding polygons have clipped
 // the dark parts.
 class PatternPlaces {
  public:
-  PatternPlaces(const stop_patterns::BandTexture::Level& level, double extent, const StopMap& map)
+  PatternPlaces(const TextureTable::Level& level, double extent, const PatternMap& map)
       : most_(static_cast<float>(level.side + 1)) {
     const double per_radius = 0.5 * level.side / extent;
     const double centre = 0.5 * level.side + 0.5;  // with a border of one sample, the middle of the first one is at 1
@@ -59,18 +59,16 @@ class PatternPlaces {
 };
 
 // All channels, with each wavelength's part by its own weights.
-class Pattern {
+class ColourTexture {
  public:
   static constexpr bool kGrey = false;
-  Pattern(const stop_patterns::BandStopPattern& screen, const StopMap& map)
-      : level_(screen.texture->level_for(map.width())), places_(level_, screen.texture->extent(), map),
-        pitch_(kStride * static_cast<std::size_t>(level_.pitch())) {
-    for (std::size_t k = 0; k < screen.parts.size(); ++k)
-      std::copy_n(screen.parts[k].channel.data(), 3, channel_[k].data());
-  }
+  ColourTexture(const TextureTable& table, const Pattern& pattern, const WavelengthWeights& weights)
+      : samples_(table.samples.data() + table.levels[pattern.level].first),
+        places_(table.levels[pattern.level], table.extent, pattern.map),
+        pitch_(kStride * static_cast<std::size_t>(table.levels[pattern.level].pitch())), weights_(weights) {}
 
   HWY_INLINE void set_row(const PixelRow& row) { places_.set_row(row); }
-  HWY_INLINE const Pattern& look(const PixelRow& row, Groups /*wanted*/) {
+  HWY_INLINE const ColourTexture& look(const PixelRow& row, Groups /*wanted*/) {
     const PatternPlaces::Along places(places_, row);
     for (int k = 0; k < row.count; k += static_cast<int>(hn::MaxLanes(FloatTag()))) {
       const TablePlaces across = places.across(k), down = places.down(k);
@@ -81,25 +79,25 @@ class Pattern {
     }
     return *this;
   }
-  [[nodiscard]] HWY_INLINE const Pattern& vector(int /*k*/) const { return *this; }
+  [[nodiscard]] HWY_INLINE const ColourTexture& vector(int /*k*/) const { return *this; }
   [[nodiscard]] HWY_INLINE Quad passed(int j) const {
-    const float* const above = level_.samples.data() + static_cast<std::size_t>(line_[j]) * pitch_ +
-                               kStride * static_cast<std::size_t>(column_[j]);
+    const float* const above =
+        samples_ + static_cast<std::size_t>(line_[j]) * pitch_ + kStride * static_cast<std::size_t>(column_[j]);
     const float* const below = above + pitch_;
     const Quad right = Quad::all(right_[j]);
     const Quad value = mix(mix(Quad::load(above), Quad::load(above + kStride), right),
                            mix(Quad::load(below), Quad::load(below + kStride), right), Quad::all(below_[j]));
-    const auto of = [&](std::size_t part) { return Quad::load(channel_[part].data()); };
+    const auto of = [&](std::size_t part) { return Quad::load(weights_[part].data()); };
     return multiply_add(value.broadcast<0>(), of(0),
                         multiply_add(value.broadcast<1>(), of(1), value.broadcast<2>() * of(2)));
   }
 
  private:
-  static constexpr std::size_t kStride = stop_patterns::BandTexture::kStride;
-  const stop_patterns::BandTexture::Level& level_;
+  static constexpr std::size_t kStride = TextureTable::kStride;
+  const float* samples_;
   PatternPlaces places_;
   std::size_t pitch_;
-  std::array<std::array<float, kQuad>, stop_patterns::BandTexture::kMost> channel_{};
+  const WavelengthWeights& weights_;
   HWY_ALIGN std::int32_t column_[kRowRoom], line_[kRowRoom];
   HWY_ALIGN float right_[kRowRoom], below_[kRowRoom];
 };
@@ -113,11 +111,11 @@ struct RowPlaces {
 // The pattern of a single wavelength, with one value for all channels. The positions of all of a row's pixels are
 // computed while the row before is looked up, and their samples are prefetched: patterns are large, and most samples
 // are needed only once.
-class GreyPattern {
+class GreyTexture {
  public:
   static constexpr bool kGrey = true;
-  GreyPattern(const stop_patterns::BandTexture& pattern, const StopMap& map)
-      : GreyPattern(pattern, pattern.level_for(map.width()), map) {}
+  GreyTexture(const TextureTable& table, const Pattern& pattern)
+      : GreyTexture(table, table.levels[pattern.level], pattern.map) {}
 
   // Prepares the row that comes next.
   HWY_INLINE void expect_row(const PixelRow& row) {
@@ -139,7 +137,7 @@ class GreyPattern {
 
   class Row {
    public:
-    explicit HWY_INLINE Row(const GreyPattern& all) : places_(all.rows_[all.now_]), table_(all.table_) {}
+    explicit HWY_INLINE Row(const GreyTexture& all) : places_(all.rows_[all.now_]), table_(all.table_) {}
     [[nodiscard]] HWY_INLINE hn::Vec<FloatTag> passed(int k) const {
       const FloatTag d;
       return table_.among(places_.place + k, hn::Load(d, places_.across + k), hn::Load(d, places_.down + k));
@@ -152,9 +150,9 @@ class GreyPattern {
   [[nodiscard]] HWY_INLINE Row look(const PixelRow& /*row*/, Groups /*wanted*/) const { return Row(*this); }
 
  private:
-  GreyPattern(const stop_patterns::BandTexture& pattern, const stop_patterns::BandTexture::Level& level,
-              const StopMap& map)
-      : places_(level, pattern.extent(), map), table_(level.coded, level.coding), pitch_(level.pitch()) {}
+  GreyTexture(const TextureTable& table, const TextureTable::Level& level, const PatternMap& map)
+      : places_(level, table.extent, map),
+        table_(table.pairs.data() + level.first, ShortLight::of_lowest(level.lowest)), pitch_(level.pitch()) {}
 
   PatternPlaces places_;
   ShortTable table_;

@@ -9,7 +9,7 @@
 #include <bit>
 #include <cstdint>
 
-namespace contrejour::inline internal::stop_patterns {
+namespace contrejour::inline internal::raster {
 
 class ShortLight {
  public:
@@ -19,6 +19,12 @@ class ShortLight {
   explicit ShortLight(float largest = 0.0F) {
     const std::int32_t exponent = std::bit_cast<std::int32_t>(largest * kRoom) >> kMantissa;
     lowest_ = std::max(exponent - 15, 1) << kMantissa;
+  }
+
+  [[nodiscard]] static ShortLight of_lowest(std::int32_t lowest) {
+    ShortLight light;
+    light.lowest_ = lowest;
+    return light;
   }
 
   [[nodiscard]] std::uint16_t coded(float light) const {
@@ -38,4 +44,4 @@ class ShortLight {
   std::int32_t lowest_;
 };
 
-}  // namespace contrejour::inline internal::stop_patterns
+}  // namespace contrejour::inline internal::raster
