@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Properties of each ghost of a lens for one light: flux, position, size, colour, focus. Fluxes are accurate to 1e-3,
-// positions and sizes to a hundredth of the size, peaks to a quarter (GhostMeter). The result is the same for any
+// positions and sizes to a hundredth of the size, peaks to 25 per cent; see GhostMeter. The result is the same for any
 // number of threads.
 // Thread-safety: pure.
 #pragma once
@@ -20,7 +20,7 @@ namespace contrejour {
 struct GhostFigures {
   Ghost ghost;
   Rgb rgb{};                    // flux over the direct image's flux, per channel
-  double relative_flux = 0;     // their luminance
+  double relative_flux = 0;     // luminance of `rgb`
   double peak_irradiance = 0;  // largest mean irradiance over a pixel of the sensor, over the light's irradiance at the
                                // front
   double reflectance = 0;  // product of its surfaces' reflectances at normal incidence, by luminance

@@ -30,7 +30,7 @@ Result<FraunhoferPattern> fraunhofer_pattern(const PupilMask& mask, const Fraunh
   const double open_mm2 = mask.is_complete() ? mask.open_area_mm2() : 0.0;
   if (!(open_mm2 > 0.0) || !std::isfinite(open_mm2 * settings.flux))
     return failure(ErrorCode::InvalidArgument, "a mask that lets nothing through has no pattern");
-  Context steps = context;  // without progress, as its two passes would each report from 0
+  Context steps = context;  // without progress: the transform makes two passes, each of which would report from 0
   steps.progress = {};
   const double lambda_d_mm2 = mm_from_nm(settings.lambda_nm) * settings.distance_mm;
   const auto samples = static_cast<std::size_t>(mask.grid.side);

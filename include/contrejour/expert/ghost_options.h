@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What an artist changes about ghosts: gains, colours and places. The defaults are physically right.
-// Gains, and colours per channel, are at least 0; 1 is physically right. Thread-safety: plain values.
+// Gains, and colours per channel, are at least 0; 1 changes nothing. Thread-safety: plain values.
 #pragma once
 
 #include <cstdint>
@@ -17,7 +17,7 @@ struct GhostAdjustment {
   double gain = 1.0;
   Rgb colour{1, 1, 1};
   Vec2 offset{};  // in the picture, to the right and up, in units of the frame's height
-  int surface = 0;  // 1-based; if set, all ghosts that reflect there, in place of `ghost`
+  int surface = 0;  // 1-based; if set, this applies to all ghosts that reflect there, and `ghost` is ignored
 };
 
 // A factor on the ghosts' colours by position: 1 at the light's image, 0 in the frame's middle, -1 opposite the light
@@ -30,7 +30,7 @@ struct GhostRampStop {
 
 struct GhostOptions {
   double gain = 1.0;  // for all ghosts
-  double edge_gain = 1.0;  // factor for a light at the frame's corner; 1 at the middle, linear between
+  double edge_gain = 1.0;  // factor for a light at the frame's corner; 1 at the middle, linear in the distance from it
   std::vector<GhostAdjustment> adjustments;  // gains and colours of one ghost multiply, its offsets add up
   std::vector<GhostRampStop> ramp;  // in order of place
   // hullin2011 4.2, imperfect symmetry: each ghost has its own random offset, normally distributed with this root mean

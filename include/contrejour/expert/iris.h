@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The shape of the aperture stop's opening in the stop plane, in stop radii.
-// Blades with curved edges close over a round hole of radius 1; where they lie farther out, the hole's rim is the edge.
-// Accuracy: iris_distance is exact inside and near the edges, IrisOpening::distance everywhere
+// Blades with curved edges close over a round hole of radius 1; where the blades lie outside the hole, its rim is the
+// edge. Accuracy: iris_distance is exact inside and near the edges, IrisOpening::distance everywhere
 // (docs/physics/diffraction.md). Thread-safety: plain values. Source: hullin2011 3.3 and figure 5, generalised.
 #pragma once
 
@@ -26,11 +26,11 @@ struct Iris {
   double blade_radius = 1.0;  // of that circle. 1: the corners touch the rim; 1 / cos(pi / blades): the rim alone is
                               // the edge
   double asymmetry = 0.0;  // 0..0.5: each edge lies nearer or farther by up to this fraction of its distance
-  std::uint32_t seed = 0;  // selects one of these irises
+  std::uint32_t seed = 0;  // of the random asymmetry
   std::vector<double> blade_offset = {};  // further offsets, relative, edge by edge, > 0 outwards; missing ones are 0
   std::shared_ptr<const IrisField> field = nullptr;  // a picture (iris_field.h) in place of blades, turned as they are
-  // 0..0.5: RMS deviation of a curved edge's slope from its arc's, over the angle by which the arc turns. Real blades
-  // are not exact arcs, which blurs the ends of the fans in a starburst. Ghosts use the exact arcs.
+  // 0..0.5: RMS deviation of a curved edge's slope from its arc's, divided by the angle by which the arc turns. Real
+  // blades are not exact arcs, which blurs the ends of the fans in a starburst. Ghosts use the exact arcs.
   double slope_spread = 0.1;
   friend bool operator==(const Iris&, const Iris&) = default;
 };
@@ -76,12 +76,13 @@ struct IrisEdge {
 // The opening with its outline, computed once for many points: the intersection of all bounds, which is convex.
 class CONTREJOUR_API IrisOpening {
  public:
-  // Uses blades and rim: a picture has no such outline. cut: more circles that block everything outside them, such as
-  // other apertures as imaged into the stop (vignetting).
+  // Uses blades and rim: a picture has no such outline. cut: further bounds that block everything outside them,
+  // such as other apertures as imaged into the stop (vignetting).
   explicit IrisOpening(const Iris& iris, std::span<const IrisBound> cut = {});
 
   [[nodiscard]] double distance(Vec2 point) const;  // Euclidean, negative inside; infinite when nothing is open
-  [[nodiscard]] double bound_distance(Vec2 point) const;  // faster; beyond a corner a lower bound, as iris_distance
+  [[nodiscard]] double bound_distance(
+      Vec2 point) const;  // faster; beyond a corner an underestimate, like iris_distance
   [[nodiscard]] double area() const;  // for a rim of radius 1: pi when wide open
   [[nodiscard]] double perimeter() const;
   [[nodiscard]] double reach() const;  // distance of the farthest point from the axis

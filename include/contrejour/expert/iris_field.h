@@ -48,8 +48,8 @@ class CONTREJOUR_API IrisField {
   [[nodiscard]] double area() const { return area_; }
   [[nodiscard]] bool has_tones() const { return tones_ != nullptr; }
   // Transmittance, 0 to 1, as the mean over an upright square about p. Half-tones are bilinear between samples and
-  // continue beyond the rim, also in means of squares that the rim crosses, because geometry cuts the edges. Without
-  // half-tones: 1 where distance() <= 0 and else 0, whatever the width.
+  // continue beyond the rim, also in means of squares that the rim crosses, because whoever draws clips at the rim.
+  // Without half-tones: 1 where distance() <= 0 and else 0, whatever the width.
   [[nodiscard]] double transmittance(Vec2 p, double width = 0.0) const;
   [[nodiscard]] const std::vector<IrisBound>& hull() const { return hull_; }  // half-planes that contain the opening
   [[nodiscard]] int samples() const { return side_ - 2; }  // across the stop's diameter
@@ -65,7 +65,7 @@ class CONTREJOUR_API IrisField {
  private:
   friend class IrisFieldBuilder;
 
-  static constexpr double kCoarseEdge = 0.25;  // of a detail
+  static constexpr double kCoarseEdge = 0.25;  // largest error of an edge, as a fraction of `detail`
 
   // A node of a tree of rectangles, each divided into at most four.
   struct Node {
@@ -101,7 +101,7 @@ class CONTREJOUR_API IrisField {
 
   double area_ = 0.0;
   std::shared_ptr<const IrisTones> tones_;
-  int side_ = 0;  // samples of the field along a side: the picture's and a ring around them
+  int side_ = 0;  // samples of the field along a side: the picture's, and one more at each end
   std::vector<float> field_;  // [row from below * side_ + column]
   std::vector<Node> nodes_;  // the root first
   std::vector<IrisPiece> pieces_;

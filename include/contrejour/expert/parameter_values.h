@@ -17,17 +17,17 @@ namespace contrejour::params {
 
 class CONTREJOUR_API Values {
  public:
-  // Sets a value, or adds one to a parameter that repeats. Errors: what check_value says.
+  // Sets a value, or adds one to a parameter that repeats. Errors: those of check_value.
   [[nodiscard]] Result<void> set(std::string_view name, std::string text);
 
-  // These values, and the base's where this has none.
+  // These values; `base` fills in missing ones.
   [[nodiscard]] Values over(const Values& base) const;
 
   [[nodiscard]] bool given(std::string_view name) const;
   [[nodiscard]] std::optional<std::string> text(std::string_view name) const;  // given, or the default
   [[nodiscard]] std::optional<double> real(std::string_view name) const;
   [[nodiscard]] std::vector<std::string> list(std::string_view name) const;
-  [[nodiscard]] bool is_on(std::string_view name) const { return text(name) == "on"; }  // a switch
+  [[nodiscard]] bool is_on(std::string_view name) const { return text(name) == "on"; }  // for switches
 
   // For parameters that have a default in the table.
   [[nodiscard]] double number(std::string_view name) const { return real(name).value(); }

@@ -17,14 +17,14 @@ struct RenderStatistics {
   std::vector<std::pair<std::string, double>> time_ms;  // by phase, "total" last
   std::uint64_t rays = 0;
   std::uint64_t surface_hits = 0;
-  std::uint64_t primitives = 0;
+  std::uint64_t primitives = 0;  // what the method draws: polygons, triangles
   int ghosts_rendered = 0;
   // The fraction of the flare's flux that selection left out; nullopt where selection does not depend on flux (a list,
   // a surface), since measuring every ghost may take longer than rendering the chosen ones.
   std::optional<double> ghosts_skipped_flux;
   std::uint64_t peak_memory_bytes = 0;
 
-  // `tiled`; `primitives` counts them before merging.
+  // Only for `tiled`, where `primitives` counts primitives before merging.
   std::uint64_t primitives_merged = 0;  // their number after merging
   std::uint64_t tile_indices = 0;  // entries of all dense tiles' lists
   std::uint64_t primitive_bytes = 0;  // of the primitives held at once

@@ -25,7 +25,7 @@ struct BundledSpectrum {
 };
 [[nodiscard]] CONTREJOUR_API std::vector<BundledSpectrum> bundled_spectra();
 
-// Finds a spectrum that parse_spectrum knows, a bundled lamp, or else a file: a text with a dot or a slash in it.
+// Finds a spectrum that parse_spectrum knows, a bundled lamp, or a file: a name with a dot or a slash is a file.
 // Errors: those of reading; InvalidArgument for any other name.
 [[nodiscard]] CONTREJOUR_API Result<Spectrum> find_spectrum(const std::string& name_or_file);
 

@@ -21,10 +21,11 @@ enum class ShapeKind : std::uint8_t {
   Biconic,  // a conic in each of x and y
 };
 
-// The shape besides the curvature c, which every surface has: the curvature of all meridians, or of the y-z section.
+// The shape besides the curvature c, which every surface has: that of all meridians of a surface of revolution, or of
+// the y-z section of a toroid or a biconic.
 struct CONTREJOUR_API SurfaceShape {
   ShapeKind kind = ShapeKind::Revolution;
-  double conic = 0.0;  // of the profile: -1 a parabola, below a hyperbola, above an ellipse, 0 a circle
+  double conic = 0.0;  // of the profile: < -1 hyperbola, -1 parabola, > -1 ellipse, 0 circle
   std::vector<double> powers = {};  // [p - 1]: the coefficient of r^p or |y|^p, mm^(1 - p); none in a biconic
   double curvature_x_per_mm = 0;  // of a toroid or a biconic in the x-z section
   double conic_x = 0.0;  // of a biconic
