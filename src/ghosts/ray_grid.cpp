@@ -94,7 +94,14 @@ void RayGrid::trace_rows(const PacketPath& packets, const Rectangle& box, int si
 
 void RayGrid::trace(const OpticalPath& path, const ReflectanceTables& tables, const IrisShape& iris,
                     const LightSource& light, double z_mm, const Rectangle& box, int side, PacketPrecision precision) {
-  trace_rows({path, tables, {{box.low.x, box.low.y, z_mm}, light}}, box, side, side, precision);
+  PacketPath packets(path, tables, {{0.0, 0.0, z_mm}, light});
+  trace(packets, iris, box, side, precision);
+}
+
+void RayGrid::trace(PacketPath& packets, const IrisShape& iris, const Rectangle& box, int side,
+                    PacketPrecision precision) {
+  packets.start_from(box.low);
+  trace_rows(packets, box, side, side, precision);
   find_blocked(iris, at(0, side));
 }
 

@@ -39,6 +39,9 @@ class RayGrid {
   void trace(const OpticalPath& path, const ReflectanceTables& tables, const IrisShape& iris, const LightSource& light,
              double z_mm, const Rectangle& box, int side, PacketPrecision precision);
 
+  // The same for a prepared path of the light from any point of the plane.
+  void trace(PacketPath& packets, const IrisShape& iris, const Rectangle& box, int side, PacketPrecision precision);
+
   // The same for a light in the x-z plane and a box that is symmetric in y: one half is traced and mirrored
   // (hullin2011 4.2, mirror symmetry), the iris is applied to every ray at its crossings. Returns the number of rays
   // traced.

@@ -11,8 +11,8 @@
 
 #include "contrejour/expert/ghost.h"
 #include "contrejour/frame.h"
-#include "ghosts/pupil_search.h"
 #include "ghosts/wavelengths.h"
+#include "render/pupils/pupil_search.h"
 #include "support/scenes.h"
 
 using namespace contrejour;
@@ -32,16 +32,15 @@ Counted counted(const LensState& lens, Ghost ghost, const LightSource& light, in
   const OpticalPath path = ghost_path(lens, ghost, kGreen_nm);
   const ReflectanceTables tables(lens, kGreen_nm);
   const EntranceWindow window = entrance_window(lens, light);
-  RayGrid scratch;
-  const auto region = find_pupil_region(path, tables, IrisShape(lens.iris), light, window, scratch);
+  const pupils::Pupil pupil = find_pupil(pupils::PupilRays(path, tables, light, IrisShape(lens.iris), window), {});
   Counted out;
-  if (!region) return out;
-  const Vec2 size = region->pupil_mm.high - region->pupil_mm.low;
+  if (pupil.is_empty()) return out;
+  const Vec2 size = pupil.box().high - pupil.box().low;
   const double cell_mm2 = size.x * size.y / (static_cast<double>(side) * side) * light.shared_flux();
   std::vector<std::pair<Vec2, double>> landed;
   for (int iy = 0; iy < side; ++iy) {
     for (int ix = 0; ix < side; ++ix) {
-      const Vec2 p = region->pupil_mm.low + Vec2{size.x * (ix + 0.5) / side, size.y * (iy + 0.5) / side};
+      const Vec2 p = pupil.box().low + Vec2{size.x * (ix + 0.5) / side, size.y * (iy + 0.5) / side};
       const TracedRay ray = trace(path, {{p.x, p.y, window.z_mm}, light.direction});
       if (ray.status != RayStatus::Ok || blocked_by(ray, path, lens.iris) > 0.0) continue;
       const double flux = ray.transmission * cell_mm2;
@@ -171,13 +170,12 @@ TEST_CASE("the pupil search finds what a dense scan finds, for ghosts of a zoom 
   const EntranceWindow window = entrance_window(lens, d);
   const auto ghosts = enumerate_ghosts(lens, GhostScope::OneSideOfStop);
   const ReflectanceTables tables(lens, kGreen_nm);
-  RayGrid scratch;
   constexpr int kScan = 220;
   for (std::size_t g = 0; g < ghosts.size(); g += 13) {
     CAPTURE(ghosts[g].i);
     CAPTURE(ghosts[g].j);
     const OpticalPath path = ghost_path(lens, ghosts[g], kGreen_nm);
-    const auto region = find_pupil_region(path, tables, IrisShape(lens.iris), d, window, scratch);
+    const pupils::Pupil pupil = find_pupil(pupils::PupilRays(path, tables, d, IrisShape(lens.iris), window), {});
     int outside = 0;
     for (int iy = 0; iy < kScan; ++iy) {
       for (int ix = 0; ix < kScan; ++ix) {
@@ -185,8 +183,8 @@ TEST_CASE("the pupil search finds what a dense scan finds, for ghosts of a zoom 
                      std::lerp(window.min_mm.y, window.max_mm.y, (iy + 0.5) / kScan)};
         const TracedRay ray = trace(path, {{p.x, p.y, window.z_mm}, d});
         if (ray.status != RayStatus::Ok || blocked_by(ray, path, lens.iris) > 0.0) continue;
-        const bool inside = region && p.x >= region->pupil_mm.low.x && p.x <= region->pupil_mm.high.x &&
-                            p.y >= region->pupil_mm.low.y && p.y <= region->pupil_mm.high.y;
+        const bool inside = !pupil.is_empty() && p.x >= pupil.box().low.x && p.x <= pupil.box().high.x &&
+                            p.y >= pupil.box().low.y && p.y <= pupil.box().high.y;
         if (!inside) ++outside;
       }
     }
@@ -205,6 +203,7 @@ TEST_CASE("a pupil of a ten-thousandth of the window's area is found") {
 // A grid of 577 rays a side for every ghost that lets nothing through had taken up to 50 s, compared with one for
 // drawing.
 TEST_CASE("a search looks no finer than twelve times the grid that it is for") {
+  using namespace pupils;
   CHECK(effort_for_grid(16) == PupilEffort::Once);
   CHECK(effort_for_grid(256) == PupilEffort::Finest);
   for (int side = 16; side <= 512; ++side) {

@@ -58,11 +58,13 @@ class Planted(unittest.TestCase):
 
     def test_stages_of_a_renderer(self):
         self.allowed("src/render/adaptive/a.cpp", '"render/adaptive/tiles/t.h"', "src/render/adaptive/tiles/t.h")
-        self.allowed("src/render/adaptive/maps/a.cpp", '"render/adaptive/budget/b.h"', "src/render/adaptive/budget/b.h")
+        self.allowed("src/render/adaptive/choose/a.cpp", '"render/adaptive/budget/b.h"', "src/render/adaptive/budget/b.h")
         self.forbidden("src/render/adaptive/clip/a.cpp", '"render/adaptive/emit/e.h"', "src/render/adaptive/emit/e.h")
-        self.allowed("src/render/adaptive/maps/a.cpp", '"render/stop_patterns/s.h"', "src/render/stop_patterns/s.h")
-        self.forbidden("src/render/adaptive/tiles/a.cpp", '"render/adaptive/maps/m.h"', "src/render/adaptive/maps/m.h")
-        self.forbidden("src/render/adaptive/maps/a.cpp", '"render/adaptive/a.h"', "src/render/adaptive/a.h")
+        self.allowed("src/render/adaptive/budget/a.cpp", '"render/stop_patterns/s.h"', "src/render/stop_patterns/s.h")
+        self.forbidden("src/render/adaptive/tiles/a.cpp", '"render/adaptive/cells/c.h"', "src/render/adaptive/cells/c.h")
+        self.allowed("src/render/polynomial/a.cpp", '"render/pupils/p.h"', "src/render/pupils/p.h")
+        self.allowed("src/render/polynomial/a.cpp", '"render/ray_maps/m.h"', "src/render/ray_maps/m.h")
+        self.forbidden("src/render/ray_maps/a.cpp", '"render/adaptive/a.h"', "src/render/adaptive/a.h")
         self.forbidden("src/render/bundle/a.cpp", '"render/adaptive/tiles/t.h"', "src/render/adaptive/tiles/t.h")
 
     def test_nobody_includes_gpu(self):

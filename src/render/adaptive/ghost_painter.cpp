@@ -6,6 +6,8 @@
 #include <optional>
 
 #include "render/adaptive/budget/band_budget.h"
+#include "render/adaptive/budget/fit_budget.h"
+#include "render/adaptive/budget/wavelength_bands.h"
 
 namespace contrejour::inline internal::adaptive {
 namespace {
@@ -94,10 +96,10 @@ std::shared_ptr<const stop_patterns::BandStopPattern> GhostPainter::band_pattern
 }
 
 void GhostPainter::paint(const Rectangle& box, bool with_mirror_image, const ErrorBudget& budget, PolygonList& out) {
-  FirstRays rays = first_rays(tracers_, samples_, box, PatchFitter::kFewestNodes, frame_, budget);
+  FirstRays rays = first_rays_within(budget, tracers_, samples_, box, frame_);
   if (const auto bent = bent_about(rays, box)) {
     tracers_.bend(bent->bend);
-    rays = first_rays(tracers_, samples_, bent->box, PatchFitter::kFewestNodes, frame_, budget);
+    rays = first_rays_within(budget, tracers_, samples_, bent->box, frame_);
   }
   paint(rays, with_mirror_image, budget, out);
   tracers_.bend({});

@@ -9,9 +9,9 @@
 
 #include "base/tasks.h"
 #include "contrejour/expert/metrics.h"
-#include "ghosts/pupils/ghost_pupil.h"
 #include "render/adaptive/budget/preview.h"
 #include "render/adaptive/emit/shared_edges.h"
+#include "render/pupils/ghost_pupil.h"
 
 namespace contrejour::inline internal::adaptive {
 namespace {

@@ -7,16 +7,15 @@
 #include <limits>
 #include <utility>
 
-#include "render/adaptive/budget/fit_budget.h"
+#include "render/adaptive/budget/patterned_boxes.h"
 #include "render/adaptive/cells/ray_map_names.h"
-#include "render/adaptive/maps/lit_part.h"
-#include "render/adaptive/maps/screened_boxes.h"
+#include "render/ray_maps/lit_part.h"
 #include "render/ray_maps/sheet_cells.h"
 
 namespace contrejour::inline internal::adaptive {
 namespace {
 
-constexpr std::array kNodes{PatchFitter::kFewestNodes, 9, 17};
+constexpr std::array kNodes{kFewestNodes, 9, 17};
 constexpr double kNoFit = std::numeric_limits<double>::infinity();
 
 // The estimated error of a patch over its tolerance.

@@ -9,9 +9,9 @@
 #include <span>
 #include <vector>
 
-#include "render/adaptive/budget/tolerance.h"
+#include "render/adaptive/budget/fit_budget.h"
 #include "render/adaptive/cells/box_cells.h"
-#include "render/adaptive/maps/band_set.h"
+#include "render/ray_maps/band_set.h"
 #include "render/stop_patterns/band_stop_pattern.h"
 
 namespace contrejour::inline internal::adaptive {
@@ -34,8 +34,6 @@ using BandPatterns =
 
 class PatchFitter {
  public:
-  static constexpr int kFewestNodes = 5;
-
   // deepest: how often a box may be quartered before straight lines between rays must do. unseen: the negligible level
   // of pixel values behind stop patterns.
   PatchFitter(GhostTracers& tracers, const Frame& frame, int deepest, double unseen)

@@ -8,9 +8,12 @@
 #include <optional>
 
 #include "contrejour/light.h"
-#include "render/area_lights/ghost_pupil.h"
+#include "render/pupils/pupil_shape.h"
 
 namespace contrejour::inline internal::area {
+
+using pupils::BorderRay, pupils::kRims, pupils::PupilShape;
+
 namespace {
 
 constexpr double kRayStep = 1e-3;      // of the entrance window's width,
@@ -211,7 +214,7 @@ LinearMap pupil_motion(const std::vector<LocalMotion>& border, const std::vector
   return inverse(squares) * sums;
 }
 
-Vec2 area_rate(const GhostPupil& pupil, const std::vector<LocalMotion>& border, const std::vector<int>& bounds) {
+Vec2 area_rate(const PupilShape& pupil, const std::vector<LocalMotion>& border, const std::vector<int>& bounds) {
   Vec2 rate;
   for (std::size_t k = 0; k < border.size(); ++k) {
     const LocalMotion::Bound bound = border[k].bound(bounds[k]);
@@ -245,7 +248,7 @@ void set_extent(GhostMotion& motion, const std::vector<LocalMotion>& inside, dou
 }
 
 // The motion of a ghost of which no ray was found to get through, by the ray that is blocked least.
-GhostMotion blind_motion(const LocalMotion& at, const GhostPupil& pupil, double cosine) {
+GhostMotion blind_motion(const LocalMotion& at, const PupilShape& pupil, double cosine) {
   GhostMotion motion;
   motion.outside = pupil.outside;
   if (!at.is_usable()) return motion;
@@ -264,7 +267,7 @@ GhostMotion blind_motion(const LocalMotion& at, const GhostPupil& pupil, double 
 GhostMotion ghost_motion(const LensSteps& steps, Ghost ghost, const LightSource& source, const LightWindows& windows) {
   const LightFrame light(source, has_axial_symmetry(steps.lens(), ghost));
   const EntranceWindow& window = windows.of(light.symmetric);
-  const auto pupil = find_ghost_pupil(steps, ghost, light, window);
+  const auto pupil = pupils::find_pupil_shape(steps, ghost, light, window);
   if (!pupil) return {};
   Rays rays(steps, ghost, source, window.z_mm);
   double step_mm = kRayStep * length(window.max_mm - window.min_mm);

@@ -5,10 +5,10 @@
 
 #include <vector>
 
+#include "base/linear_map.h"
 #include "contrejour/expert/light_source.h"
 #include "ghosts/light_frame.h"
 #include "optics/trace/lens_steps.h"
-#include "render/area_lights/linear_map.h"
 
 namespace contrejour::inline internal::area {
 

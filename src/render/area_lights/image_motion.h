@@ -2,9 +2,9 @@
 // How the direct image of a light moves over the frame as the light moves.
 #pragma once
 
+#include "base/linear_map.h"
 #include "contrejour/expert/light_source.h"
 #include "contrejour/frame.h"
-#include "render/area_lights/linear_map.h"
 
 namespace contrejour::inline internal::area {
 

@@ -5,8 +5,8 @@
 #include <cstddef>
 #include <vector>
 
+#include "base/linear_map.h"
 #include "contrejour/light.h"
-#include "render/area_lights/linear_map.h"
 
 namespace contrejour::inline internal::area {
 

@@ -20,10 +20,10 @@ using bundle::RenderedItem;
 using bundle::Stopwatch;
 
 // hullin2011's precomputed pupil bounds, for all angles up to those of the lights; nullopt unless requested.
-std::optional<PupilBounds> bounds_for(const FramePlan& plan, const LensState& lens, const BundleOptions& options,
-                                      const Context& context) {
+std::optional<pupils::PupilBounds> bounds_for(const FramePlan& plan, const LensState& lens,
+                                              const BundleOptions& options, const Context& context) {
   if (!options.precomputed_bounds || !lens.has_axial_symmetry()) return std::nullopt;
-  PupilBoundsRange range;
+  pupils::PupilBoundsRange range;
   range.ghosts = plan.ghosts;
   double shortest_nm = std::numeric_limits<double>::infinity(), longest_nm = 0.0;
   for (const PlannedLight& light : plan.lights) {
@@ -35,7 +35,7 @@ std::optional<PupilBounds> bounds_for(const FramePlan& plan, const LensState& le
   if (!(longest_nm > 0.0)) return std::nullopt;
   range.lambda_nm = {shortest_nm};
   if (longest_nm > shortest_nm) range.lambda_nm.push_back(longest_nm);
-  return PupilBounds(lens, range, context);
+  return pupils::PupilBounds(lens, range, context);
 }
 
 void add_to(Image& image, const RenderedItem& item) {

@@ -52,9 +52,7 @@ std::optional<GhostPupil> GhostGrid::find(Ghost ghost, const LightSource& light,
   const EntranceWindow window = entrance_window(from_.lens, pupil.meridian.light);
   pupil.plane_z_mm = window.z_mm;
 
-  const auto region = from_table ? from_.bounds->find(ghost, pupil.meridian.angle_rad())
-                                 : find_pupil_region(pupil.path, tables_of(pupil), IrisShape(pupil.iris),
-                                                     pupil.meridian.light, window, rays_, search_effort());
+  const auto region = from_table ? from_.bounds->find(ghost, pupil.meridian.angle_rad()) : search(pupil, window);
   if (!region) return std::nullopt;
   pupil.region = *region;
   count_rays(region->rays, pupil.path);
@@ -65,8 +63,12 @@ std::optional<GhostPupil> GhostGrid::find(Ghost ghost, const LightSource& light,
   return pupil;
 }
 
-PupilEffort GhostGrid::search_effort() const {
-  return from_.options.grid_levels ? PupilEffort::Finest : effort_for_grid(from_.options.grid.rays);
+std::optional<pupils::PupilRegion> GhostGrid::search(const GhostPupil& pupil, const EntranceWindow& window) {
+  using pupils::PupilEffort;
+  const PupilEffort effort =
+      from_.options.grid_levels ? PupilEffort::Finest : pupils::effort_for_grid(from_.options.grid.rays);
+  pupils::PupilRays rays(pupil.path, tables_of(pupil), pupil.meridian.light, IrisShape(pupil.iris), window);
+  return pupils::region_of(find_pupil(rays, {.effort = effort}, rays_));
 }
 
 MapFigures GhostGrid::figures_of(const GhostPupil& pupil) {

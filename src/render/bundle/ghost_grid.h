@@ -8,9 +8,9 @@
 #include "contrejour/lens.h"
 #include "contrejour/method_options.h"
 #include "ghosts/meridian.h"
-#include "ghosts/pupil_bounds.h"
 #include "optics/trace/by_wavelength.h"
 #include "render/bundle/map_figures.h"
+#include "render/pupils/pupil_bounds.h"
 #include "render/stop_patterns/stop_transmittances.h"
 
 namespace contrejour::inline internal::bundle {
@@ -29,7 +29,7 @@ struct GhostPupil {
   Meridian meridian;     // that of the light; or no rotation
   Iris iris;             // rotated to that meridian
   double plane_z_mm = 0;
-  PupilRegion region;
+  pupils::PupilRegion region;
   StopTransmittance stop;  // path and iris: as it requires
   std::optional<MapFigures> figures;  // in the sensor's frame; only if a coarse grid was requested
 };
@@ -40,7 +40,7 @@ struct GridSource {
   const BundleOptions& options;
   const TablesByWavelength& tables;
   const StopTransmittances& stops;
-  const PupilBounds* bounds;  // replace a search, for distant lights without a stop pattern; may be null
+  const pupils::PupilBounds* bounds;  // replace a search, for distant lights without a stop pattern; may be null
 };
 
 class GhostGrid {
@@ -60,7 +60,7 @@ class GhostGrid {
   // The mirror image may be used only for a lens with axial symmetry.
   [[nodiscard]] bool mirrors() const { return from_.options.mirror_symmetry && from_.lens.has_axial_symmetry(); }
   [[nodiscard]] const ReflectanceTables& tables_of(const GhostPupil& pupil) const;
-  [[nodiscard]] PupilEffort search_effort() const;
+  [[nodiscard]] std::optional<pupils::PupilRegion> search(const GhostPupil& pupil, const EntranceWindow& window);
   [[nodiscard]] MapFigures figures_of(const GhostPupil& pupil);
   [[nodiscard]] int side_of(const GhostPupil& pupil) const;
   void count_rays(std::uint64_t rays, const OpticalPath& path);

@@ -12,10 +12,10 @@
 
 #include "base/clock.h"
 #include "base/tasks.h"
-#include "ghosts/direct_meter.h"
 #include "render/planning/ghost_selection.h"
 #include "render/planning/kept_dirt.h"
 #include "render/planning/statistics.h"
+#include "render/pupils/direct_meter.h"
 #include "render/radiometry/check_frame.h"
 #include "render/radiometry/direct_light.h"
 #include "render/radiometry/lens_tables.h"

@@ -11,12 +11,12 @@
 
 #include "contrejour/frame_settings.h"
 #include "contrejour/render.h"
-#include "ghosts/pupils/ghost_pupil.h"
 #include "optics/trace/by_wavelength.h"
 #include "render/planning/dirt_field.h"
 #include "render/planning/ghost_look.h"
 #include "render/planning/planned_light.h"
 #include "render/planning/render_cache.h"
+#include "render/pupils/ghost_pupil.h"
 #include "render/radiometry/reflected_share.h"
 
 namespace contrejour::inline internal {

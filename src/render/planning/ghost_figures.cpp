@@ -12,9 +12,9 @@
 
 #include "base/tasks.h"
 #include "contrejour/expert/check_lens.h"
-#include "ghosts/direct_meter.h"
 #include "ghosts/light_frame.h"
-#include "ghosts/pupils/ghost_light.h"
+#include "render/pupils/direct_meter.h"
+#include "render/pupils/ghost_light.h"
 #include "render/radiometry/check_frame.h"
 #include "render/radiometry/direct_light.h"
 

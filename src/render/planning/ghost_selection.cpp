@@ -11,8 +11,8 @@
 
 #include "base/tasks.h"
 #include "ghosts/light_frame.h"
-#include "ghosts/pupils/ghost_light.h"
 #include "render/planning/ghost_look.h"
+#include "render/pupils/ghost_light.h"
 #include "render/radiometry/wavelength_samples.h"
 
 namespace contrejour::inline internal {

@@ -8,9 +8,9 @@
 
 #include "contrejour/context.h"
 #include "contrejour/frame_settings.h"
-#include "ghosts/pupils/ghost_pupil.h"
 #include "optics/trace/by_wavelength.h"
 #include "render/planning/planned_light.h"
+#include "render/pupils/ghost_pupil.h"
 
 namespace contrejour::inline internal {
 

@@ -6,7 +6,7 @@
 
 #include "base/tasks.h"
 #include "contrejour/expert/trace.h"
-#include "ghosts/pupil_search.h"
+#include "render/pupils/pupil_search.h"
 #include "render/radiometry/wavelength_samples.h"
 
 namespace contrejour::inline internal {
@@ -74,12 +74,12 @@ class GhostProbe {
  private:
   // The pupil at the middle wavelength or, if that is empty, at one of the ends of the spectrum.
   [[nodiscard]] std::optional<Rectangle> pupil() const {
-    RayGrid scratch;
     for (const PlannedPass* pass :
          {&light_.passes[light_.passes.size() / 2], &light_.passes.front(), &light_.passes.back()}) {
-      const auto region = find_pupil_region(ghost_path(lens_, ghost_, pass->lambda_nm),
-                                            plan_.tables.at(pass->lambda_nm), iris_, light_.source, window_, scratch);
-      if (region) return region->pupil_mm;
+      const pupils::PupilRays rays(ghost_path(lens_, ghost_, pass->lambda_nm), plan_.tables.at(pass->lambda_nm),
+                                   light_.source, iris_, window_);
+      const pupils::Pupil found = find_pupil(rays, {});
+      if (!found.is_empty()) return found.box();
     }
     return std::nullopt;
   }

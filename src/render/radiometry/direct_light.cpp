@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "base/tasks.h"
-#include "ghosts/direct_meter.h"
+#include "render/pupils/direct_meter.h"
 #include "render/radiometry/wavelength_samples.h"
 
 namespace contrejour::inline internal {

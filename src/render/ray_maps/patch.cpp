@@ -5,7 +5,7 @@
 #include <cmath>
 #include <map>
 
-#include "render/ray_maps/pupil_names.h"
+#include "render/ray_maps/lobatto.h"
 
 namespace contrejour::inline internal::ray_maps {
 namespace {

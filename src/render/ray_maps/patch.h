@@ -11,7 +11,7 @@
 
 #include "contrejour/expert/colour.h"
 #include "contrejour/frame.h"
-#include "render/ray_maps/pupil_names.h"
+#include "render/ray_maps/ray_sheet.h"
 
 namespace contrejour::inline internal::ray_maps {
 

@@ -7,7 +7,8 @@
 #include <cstddef>
 #include <vector>
 
-#include "render/ray_maps/pupil_names.h"
+#include "render/ray_maps/lobatto.h"
+#include "render/ray_maps/ray_sheet.h"
 
 namespace contrejour::inline internal::ray_maps {
 

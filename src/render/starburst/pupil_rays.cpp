@@ -4,8 +4,8 @@
 #include <algorithm>
 
 #include "base/tasks.h"
-#include "ghosts/pupil_search.h"
 #include "optics/trace/beside_axis.h"
+#include "render/pupils/pupil_search.h"
 
 namespace contrejour::inline internal {
 namespace {
@@ -18,12 +18,12 @@ constexpr double kBeyond = 0.08;  // of the region, added on each side: borders 
 std::optional<Rectangle> find_region(LensState lens, const LightSource& light, double lambda_nm) {
   for (SurfaceState& surface : lens.surfaces) surface.coating = {};
   const ReflectanceTables tables(lens, lambda_nm);
-  RayGrid scratch;
-  const auto region = find_pupil_region(direct_path(lens, lambda_nm), tables, IrisShape(lens.iris), light,
-                                        entrance_window(lens, light), scratch);
-  if (!region) return std::nullopt;
-  const Vec2 beyond = (region->pupil_mm.high - region->pupil_mm.low) * kBeyond;
-  return Rectangle{region->pupil_mm.low - beyond, region->pupil_mm.high + beyond};
+  const pupils::PupilRays rays(direct_path(lens, lambda_nm), tables, light, IrisShape(lens.iris),
+                               entrance_window(lens, light));
+  const pupils::Pupil found = find_pupil(rays, {});
+  if (found.is_empty()) return std::nullopt;
+  const Vec2 beyond = (found.box().high - found.box().low) * kBeyond;
+  return Rectangle{found.box().low - beyond, found.box().high + beyond};
 }
 
 // Traces one ray, and writes its places at the rims: rim_places[rim * stride].

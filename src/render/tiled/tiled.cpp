@@ -10,11 +10,11 @@
 
 #include "base/clock.h"
 #include "base/tasks.h"
-#include "ghosts/pupil_search.h"
 #include "optics/trace/by_wavelength.h"
 #include "render/planning/frame_plan.h"
 #include "render/planning/grid_side.h"
 #include "render/planning/passes_by_need.h"
+#include "render/pupils/pupil_search.h"
 #include "render/stop_patterns/stop_transmittances.h"
 #include "render/tiled/primitive_builder.h"
 #include "render/tiled/tiled_frame.h"
@@ -149,18 +149,19 @@ TracedItem trace_item(const Job& job, std::size_t index, Workspace& workspace) {
   };
 
   auto start = Clock::now();
-  const auto region =
-      find_pupil_region(path, tables, iris, item.light, window, workspace.grid, effort_for_grid(job.options.grid.rays));
+  pupils::PupilRays rays(path, tables, item.light, iris, window);
+  const pupils::Pupil pupil =
+      find_pupil(rays, {.effort = pupils::effort_for_grid(job.options.grid.rays)}, workspace.grid);
   out.counts.search_ms = ms_since(start);
-  if (!region) return out;
-  count_rays(region->rays);
+  if (pupil.is_empty()) return out;
+  count_rays(pupil.rays);
 
   start = Clock::now();
   const int fewest = std::max(2, static_cast<int>(std::lround(job.options.grid.rays * kFewestShare)));
-  const int side = grid_side(job.options.grid, job.lens, region->sensor_mm, fewest);
+  const int side = grid_side(job.options.grid, job.lens, pupil.sensor_mm, fewest);
   const auto precision =
-      precision_for(path, tables, item.light, window.z_mm, region->pupil_mm, side, job.frame.pixel_pitch_mm);
-  workspace.grid.trace(path, tables, iris, item.light, window.z_mm, region->pupil_mm, side, precision);
+      precision_for(path, tables, item.light, window.z_mm, pupil.box(), side, job.frame.pixel_pitch_mm);
+  workspace.grid.trace(path, tables, iris, item.light, window.z_mm, pupil.box(), side, precision);
   count_rays(static_cast<std::uint64_t>(side) * static_cast<std::uint64_t>(side));
   const tiled::TracedPass traced{item.light.shared_flux(),
                                  static_cast<std::uint32_t>(index),

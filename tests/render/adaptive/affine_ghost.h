@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "contrejour/frame.h"
-#include "ghosts/pupils/lobatto.h"
 #include "render/adaptive/tessellator.h"
+#include "render/ray_maps/lobatto.h"
 
 namespace contrejour::test {
 
@@ -41,7 +41,7 @@ struct AffineGhost {
     if (weights == 1) patch.gain = {2.0, 1.0, 0.0};
     patch.origin_px = {std::floor(pixels.offset.x), std::floor(pixels.offset.y)};
     patch.values.resize(static_cast<std::size_t>(patch.layout.fields()) * patch.size());
-    const auto points = pupils::lobatto_points(nodes);
+    const auto points = ray_maps::lobatto_points(nodes);
     for (std::size_t k = 0; k < patch.size(); ++k) {
       const auto n = static_cast<std::size_t>(nodes);
       const Vec2 uv{points[k % n], points[k / n]};

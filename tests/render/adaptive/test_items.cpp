@@ -14,7 +14,7 @@ using namespace contrejour::adaptive;
 
 namespace {
 
-struct System {
+struct ItemSystem {
   const char* name;
   double f_number, focal_length_mm;
   Vec2 uv;
@@ -102,10 +102,10 @@ TEST_CASE("a plan that lets dark parts be left out gets the rest, as it is in th
 // Coatings reflect the middle wavelength least: with its light in place of all, the peak would be a third of the true
 // one.
 TEST_CASE("the peak that errors are relative to is the picture's, whatever its size and wavelengths") {
-  for (const System& system :
-       {System{"heliar", 16.0, 0.0, {0.7, 0.33}}, System{"itoh-zoom", 32.0, 123.0, {0.7, 0.33}},
-        System{"nikon-80-200", 16.0, 140.0, {0.25, 0.75}}, System{"canon-70-200", 32.0, 135.0, {0.7, 0.33}},
-        System{"planar-50", 11.0, 0.0, {0.3, 0.8}}}) {
+  for (const ItemSystem& system :
+       {ItemSystem{"heliar", 16.0, 0.0, {0.7, 0.33}}, ItemSystem{"itoh-zoom", 32.0, 123.0, {0.7, 0.33}},
+        ItemSystem{"nikon-80-200", 16.0, 140.0, {0.25, 0.75}}, ItemSystem{"canon-70-200", 32.0, 135.0, {0.7, 0.33}},
+        ItemSystem{"planar-50", 11.0, 0.0, {0.3, 0.8}}}) {
     const LensState lens = test::lens_at_f(system.name, system.f_number, system.focal_length_mm);
     for (const int width : {160, 640}) {
       for (const int wavelengths : {3, 8}) {

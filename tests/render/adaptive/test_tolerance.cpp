@@ -7,13 +7,12 @@
 
 #include <doctest/doctest.h>
 
-#include "ghosts/pupils/lobatto.h"
 #include "render/adaptive/budget/frame_error.h"
 #include "render/adaptive/budget/tolerance.h"
+#include "render/ray_maps/lobatto.h"
 
 using namespace contrejour;
 using namespace contrejour::adaptive;
-using namespace contrejour::pupils;
 
 namespace {
 

@@ -9,9 +9,11 @@
 
 #include "contrejour/expert/metrics.h"
 #include "render/adaptive/budget/band_error.h"
-#include "render/adaptive/maps/band_set.h"
-#include "render/adaptive/maps/first_rays.h"
+#include "render/adaptive/budget/fit_budget.h"
+#include "render/adaptive/budget/wavelength_bands.h"
 #include "render/adaptive/scene.h"
+#include "render/ray_maps/band_set.h"
+#include "render/ray_maps/first_rays.h"
 #include "support/flares.h"
 
 using namespace contrejour;
@@ -46,6 +48,10 @@ struct Rainbow {
     return passes;
   }
 };
+
+FirstRays first_rays_of(Rainbow& rainbow, const Rectangle& box, const Frame& frame, const ErrorBudget& budget) {
+  return first_rays_within(budget, rainbow.tracers, rainbow.samples, box, frame);
+}
 
 const Vec3 kAside{std::sin(0.2), 0.0, std::cos(0.2)};
 
@@ -104,8 +110,7 @@ TEST_CASE("few wavelengths tell the transmissions of sixteen") {
     for (const double allowed : {1e150, 0.1, 1e-3}) {
       CAPTURE(allowed);
       const double peak = 1e-6;
-      const FirstRays rays =
-          first_rays(rainbow.tracers, rainbow.samples, box, 5, frame, {allowed * allowed * peak * peak, peak});
+      const FirstRays rays = first_rays_of(rainbow, box, frame, {allowed * allowed * peak * peak, peak});
       const std::size_t traced = rays.samples == 0 ? 16 : rays.samples;
       CHECK(traced >= std::max<std::size_t>(before, 4));
       if (allowed == 1e150) CHECK(traced <= 9);
@@ -132,7 +137,7 @@ TEST_CASE("bands told by samples have the patches of rays traced at their wavele
   const Frame frame = frame_on_sensor(rainbow.scene.lens, 1920, 1080);
   std::vector<Band> bands;
   for (std::size_t k = 0; k < 16; ++k) bands.push_back({k, k + 1});
-  const FirstRays rays = first_rays(rainbow.tracers, rainbow.samples, box, 5, frame, kSome);
+  const FirstRays rays = first_rays_of(rainbow, box, frame, kSome);
   REQUIRE(rays.samples > 0);
   BandSet told(rainbow.tracers, rainbow.samples, rays, bands);
   std::vector<RaySheet> sheets = told.trace(box, 9, PacketPrecision::Double);
@@ -167,7 +172,7 @@ TEST_CASE("a band of several wavelengths carries the light of all, in each chann
   const Rectangle& box = rainbow.scene.boxes.front();
   const Frame frame = frame_on_sensor(rainbow.scene.lens, 1920, 1080);
   const std::vector<Band> bands{{0, 5}, {5, 16}};
-  const FirstRays rays = first_rays(rainbow.tracers, rainbow.samples, box, 5, frame, kSome);
+  const FirstRays rays = first_rays_of(rainbow, box, frame, kSome);
   REQUIRE(rays.samples > 0);
   BandSet told(rainbow.tracers, rainbow.samples, rays, bands);
   std::vector<RaySheet> sheets = told.trace(box, 9, PacketPrecision::Double);
@@ -243,7 +248,7 @@ TEST_CASE("edges drawn at one place are as wrong as counted pixel by pixel") {
 TEST_CASE("told bands are seen at the middle of their light, traced ones at one of their wavelengths") {
   Rainbow rainbow("heliar", 16.0, {3, 4}, kAside);
   const Frame frame = frame_on_sensor(rainbow.scene.lens, 1920, 1080);
-  FirstRays rays = first_rays(rainbow.tracers, rainbow.samples, rainbow.scene.boxes.front(), 5, frame, {1e300, 1.0});
+  FirstRays rays = first_rays_of(rainbow, rainbow.scene.boxes.front(), frame, {1e300, 1.0});
   rays.tolerance.position_px = 1.0;
   REQUIRE(rays.samples > 0);
   bool several = false;
@@ -261,7 +266,7 @@ TEST_CASE("told bands are seen at the middle of their light, traced ones at one 
 TEST_CASE("bands hold every wavelength once, more of them the less may be wrong") {
   Rainbow rainbow("heliar", 16.0, {3, 4}, kAside);
   const Frame frame = frame_on_sensor(rainbow.scene.lens, 1920, 1080);
-  FirstRays rays = first_rays(rainbow.tracers, rainbow.samples, rainbow.scene.boxes.front(), 5, frame, {1e300, 1.0});
+  FirstRays rays = first_rays_of(rainbow, rainbow.scene.boxes.front(), frame, {1e300, 1.0});
   const auto bands_within = [&](double tolerance_px) {
     rays.tolerance.position_px = tolerance_px;
     return bands_for(rays, rainbow.passes, rainbow.samples, frame.pixel_pitch_mm);
@@ -284,7 +289,7 @@ TEST_CASE("bands hold every wavelength once, more of them the less may be wrong"
 TEST_CASE("however much may be wrong, wavelengths of a band are no farther apart than colours allow") {
   Rainbow rainbow("heliar", 16.0, {3, 4}, kAside);
   const Frame frame = frame_on_sensor(rainbow.scene.lens, 1920, 1080);
-  FirstRays rays = first_rays(rainbow.tracers, rainbow.samples, rainbow.scene.boxes.front(), 5, frame, {1e300, 1.0});
+  FirstRays rays = first_rays_of(rainbow, rainbow.scene.boxes.front(), frame, {1e300, 1.0});
   rays.tolerance.position_px = 1e6;
   const auto bands_within = [&](double colour_px) {
     rays.tolerance.colour_px = colour_px;

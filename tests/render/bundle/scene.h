@@ -10,8 +10,8 @@
 
 #include "contrejour/expert/ghost.h"
 #include "contrejour/lens.h"
-#include "ghosts/pupil_search.h"
 #include "render/bundle/cell_raster.h"
+#include "render/pupils/pupil_search.h"
 #include "render/reference/flux_image.h"
 #include "render/reference/pupil_cells.h"
 
@@ -67,11 +67,10 @@ inline GhostImage bundle_ghost(const LensState& state, Ghost ghost, Vec3 directi
   const IrisShape iris(state.iris);
   const EntranceWindow window = entrance_window(state, direction);
   RayGrid grid;
-  const auto region = find_pupil_region(path, tables, iris, direction, window, grid);
-  if (!region) return image;
-  const auto precision =
-      precision_for(path, tables, direction, window.z_mm, region->pupil_mm, side, frame.pixel_pitch_mm);
-  grid.trace(path, tables, iris, direction, window.z_mm, region->pupil_mm, side, precision);
+  const pupils::Pupil pupil = find_pupil(pupils::PupilRays(path, tables, direction, iris, window), {});
+  if (pupil.is_empty()) return image;
+  const auto precision = precision_for(path, tables, direction, window.z_mm, pupil.box(), side, frame.pixel_pitch_mm);
+  grid.trace(path, tables, iris, direction, window.z_mm, pupil.box(), side, precision);
   image.folded = is_folded(grid);
   bundle::CellRaster raster(grid, iris, frame, direction.z);
   const bundle::FluxBox box = raster.draw([] { return false; });

@@ -93,15 +93,15 @@ TEST_CASE("packets land where single rays in double do, on every instruction set
   const Vec3 direction = normalized({-0.03, -0.02, 1.0});
   const ReflectanceTables tables(lens, 550.0);
   const auto ghosts = enumerate_ghosts(lens, GhostScope::OneSideOfStop);
-  RayGrid scratch;
   for (std::size_t g = 0; g < ghosts.size(); g += 23) {
     CAPTURE(ghosts[g].i);
     CAPTURE(ghosts[g].j);
     const OpticalPath path = ghost_path(lens, ghosts[g], 550.0);
     const EntranceWindow window = entrance_window(lens, direction);
-    const auto region = find_pupil_region(path, tables, IrisShape(lens.iris), direction, window, scratch);
-    if (!region) continue;
-    const Fan fan = fan_over(region->pupil_mm.low, region->pupil_mm.high, window.z_mm, direction, 19);
+    const pupils::Pupil pupil =
+        find_pupil(pupils::PupilRays(path, tables, direction, IrisShape(lens.iris), window), {});
+    if (pupil.is_empty()) continue;
+    const Fan fan = fan_over(pupil.box().low, pupil.box().high, window.z_mm, direction, 19);
     for (const auto target : hwy::SupportedAndGeneratedTargets()) {
       hwy::SetSupportedTargetsForTest(target);
       CAPTURE(hwy::TargetName(target));

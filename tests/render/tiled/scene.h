@@ -5,7 +5,7 @@
 #include <doctest/doctest.h>
 
 #include "contrejour/render.h"
-#include "ghosts/pupil_search.h"
+#include "render/pupils/pupil_search.h"
 #include "render/tiled/primitive_builder.h"
 #include "support/scenes.h"
 
@@ -24,9 +24,9 @@ inline RayGrid traced(const LensState& lens, Ghost ghost, Vec3 direction, int si
   const IrisShape iris(lens.iris);
   const EntranceWindow window = entrance_window(lens, direction);
   RayGrid grid;
-  const auto region = find_pupil_region(path, tables, iris, direction, window, grid);
-  REQUIRE(region.has_value());
-  grid.trace(path, tables, iris, direction, window.z_mm, region->pupil_mm, side, PacketPrecision::Double);
+  const pupils::Pupil pupil = find_pupil(pupils::PupilRays(path, tables, direction, iris, window), {});
+  REQUIRE_FALSE(pupil.is_empty());
+  grid.trace(path, tables, iris, direction, window.z_mm, pupil.box(), side, PacketPrecision::Double);
   return grid;
 }
 

@@ -2,8 +2,12 @@
 // Limits by which polynomial fits to boxes of the pupil are accepted, refined or given up.
 #pragma once
 
+#include "render/adaptive/budget/tolerance.h"
+#include "render/ray_maps/first_rays.h"
+
 namespace contrejour::inline internal::adaptive {
 
+inline constexpr int kFewestNodes = 5;  // of a fit, along a side of its box
 // Single precision places a ray on the sensor to within 1e-3 mm; the box in the entrance plane must not be too small
 // for it.
 inline constexpr double kFloatError_mm = 1e-3;
@@ -16,5 +20,9 @@ inline constexpr double kMostLooser = 64.0, kRough = 10.0;
 inline constexpr int kBesideFailure =
     1;  // further quarterings where too much light would be lost next to rays that fail
 inline constexpr double kHopeless = 2.0;  // times the tolerance, predicted for more nodes: the box is then quartered
+
+// The first rays through a box, at kFewestNodes, with the tolerance that the budget allows.
+[[nodiscard]] FirstRays first_rays_within(const ErrorBudget& budget, GhostTracers& tracers,
+                                          const WavelengthSamples& samples, const Rectangle& box, const Frame& frame);
 
 }  // namespace contrejour::inline internal::adaptive

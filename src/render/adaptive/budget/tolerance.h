@@ -4,6 +4,7 @@
 
 #include "contrejour/frame.h"
 #include "render/adaptive/cells/ray_map_names.h"
+#include "render/ray_maps/tolerance.h"
 
 namespace contrejour::inline internal::adaptive {
 
@@ -18,13 +19,6 @@ struct ErrorBudget {
   double squared_error = 0;  // pixel values squared, summed over the frame; infinite: no limit
   double peak = 1;           // of the frame's pixel values
   Spread about = {};         // estimate of the light from the preview; 0: unknown
-};
-
-struct Tolerance {
-  double position_px = 0, stop = 0, weight = 0;  // stop radii; relative to the largest weight
-  double level = 0;  // of the ghost, as a pixel's value
-  double lost_mm2 = 0;   // area of the entrance whose light one part of a box may lose
-  double colour_px = 0;  // limit of wavelengths' displacement for correct colours, however dim
 };
 
 // The tolerance for the ghost of a box's sheet. weight: the largest of any channel at any of its nodes, all wavelengths

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// Makes the names of rays through boxes of a pupil (ghosts/pupils) and of polynomials through them (render/ray_maps)
-// available in this renderer.
+// Makes the names of pupils (render/pupils), of rays through their boxes and of polynomials through these
+// (render/ray_maps) available in this renderer.
 #pragma once
 
-#include "ghosts/pupils/lobatto.h"
-#include "ghosts/pupils/ray_sheet.h"
+#include "render/ray_maps/lobatto.h"
 #include "render/ray_maps/patch.h"
+#include "render/ray_maps/ray_sheet.h"
 
 namespace contrejour::inline internal::adaptive {
 

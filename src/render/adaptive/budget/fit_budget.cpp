@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render/adaptive/budget/fit_budget.h"
+
+#include <cmath>
+
+namespace contrejour::inline internal::adaptive {
+namespace {
+
+// Interpolation over wavelengths (FirstRaysOptions): the fraction of the tolerance that it may use, as the error of
+// fits is added to it, and the largest error of a transmittance's distribution over the ghost.
+constexpr double kPredictedShare = 0.5, kMostTint = 0.03;
+
+}  // namespace
+
+FirstRays first_rays_within(const ErrorBudget& budget, GhostTracers& tracers, const WavelengthSamples& samples,
+                            const Rectangle& box, const Frame& frame) {
+  const ToleranceOf tolerance_of = [&](const RaySheet& sheet, double weight, double shared_flux) {
+    return tolerance_for(sheet, weight, shared_flux, frame, budget);
+  };
+  // Without an error limit single precision is accurate enough.
+  const auto precision = std::isfinite(budget.squared_error) ? PacketPrecision::Double : PacketPrecision::Float;
+  return first_rays(tracers, samples, box, tolerance_of,
+                    {kFewestNodes, precision, frame.pixel_pitch_mm, kPredictedShare, kMostTint});
+}
+
+}  // namespace contrejour::inline internal::adaptive

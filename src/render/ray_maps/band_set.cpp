@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render/ray_maps/band_set.h"
+
+namespace contrejour::inline internal::ray_maps {
+namespace {
+
+std::vector<double> geometry_of(const Band& band, const WavelengthSamples& samples, std::size_t count) {
+  if (band.mix.empty()) return samples.factors(count, band.middle());
+  std::vector<double> mixed(count, 0.0);
+  for (std::size_t pass = band.first; pass < band.last; ++pass) {
+    const std::vector<double> factors = samples.factors(count, pass);
+    for (std::size_t k = 0; k < count; ++k) mixed[k] += band.mix[pass - band.first] * factors[k];
+  }
+  return mixed;
+}
+
+// The factors that make a band's patch from the samples' patches: its geometry, and the light of all its wavelengths.
+PatchBlend blend_of(const Band& band, std::span<const PlannedPass> passes, const WavelengthSamples& samples,
+                    const FirstRays& rays) {
+  const std::size_t count = rays.samples;
+  PatchBlend blend;
+  blend.geometry = geometry_of(band, samples, count);
+  const bool is_one = band.last - band.first == 1;
+  blend.weight.assign(is_one ? 1 : 3, std::vector<double>(count, 0.0));
+  if (is_one) blend.gain = passes[band.first].gain;
+  for (std::size_t pass = band.first; pass < band.last; ++pass) {
+    const std::vector<double> factors = light_factors(samples, count, pass, rays.straight);
+    for (std::size_t c = 0; c < blend.weight.size(); ++c) {
+      const double gain = is_one ? 1.0 : passes[pass].gain[c];
+      for (std::size_t k = 0; k < count; ++k) blend.weight[c][k] += gain * rays.light[pass] * factors[k];
+    }
+  }
+  return blend;
+}
+
+}  // namespace
+
+BandSet::BandSet(GhostTracers& tracers, const Band& band) : tracers_(tracers), bands_{band}, traced_{band.middle()} {}
+
+BandSet::BandSet(GhostTracers& tracers, const WavelengthSamples& samples, const FirstRays& rays,
+                 std::span<const Band> bands)
+    : tracers_(tracers), bands_(bands.begin(), bands.end()) {
+  for (std::size_t k = 0; k < rays.samples; ++k) traced_.push_back(samples[k]);
+  for (const Band& band : bands) blends_.push_back(blend_of(band, tracers.passes(), samples, rays));
+}
+
+std::vector<RaySheet> BandSet::trace(const Rectangle& box, int nodes, PacketPrecision precision) {
+  std::vector<RaySheet> sheets;
+  for (const std::size_t pass : traced_) sheets.push_back(tracers_.at(pass).trace(box, nodes, precision));
+  return sheets;
+}
+
+void BandSet::add_weights(std::vector<RaySheet>& sheets, PacketPrecision precision) {
+  if (!blends_.empty()) {
+    for (RaySheet& sheet : sheets) add_light(sheet, sheet.transmission, {1.0, 1.0, 1.0});
+    return;
+  }
+  RaySheet& sheet = sheets.front();
+  const Band& band = bands_.front();
+  for (std::size_t pass = band.first; pass < band.last; ++pass) {
+    const Rgb& gain = tracers_.passes()[pass].gain;
+    if (pass == traced_.front())
+      add_light(sheet, sheet.transmission, gain);
+    else
+      add_light(sheet, tracers_.at(pass).transmissions(sheet.box, sheet.nodes, precision), gain);
+  }
+}
+
+std::vector<Patch> BandSet::make_patches(std::span<const RaySheet> sheets, const Frame& frame) const {
+  return ray_maps::make_patches(sheets, tracers_.light(), frame);
+}
+
+void BandSet::band_patch(std::span<const Patch> patches, std::size_t band, Patch& out) const {
+  if (blends_.empty())
+    out = patches.front();
+  else
+    blend(patches, blends_[band], out);
+}
+
+}  // namespace contrejour::inline internal::ray_maps

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+// Bands of wavelengths that are drawn through the same boxes of the pupil: either one band with the geometry of one of
+// its wavelengths, or all bands, interpolated from rays at some of their wavelengths.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "render/ray_maps/band.h"
+#include "render/ray_maps/first_rays.h"
+#include "render/ray_maps/ghost_tracers.h"
+#include "render/ray_maps/patch.h"
+
+namespace contrejour::inline internal::ray_maps {
+
+class BandSet {
+ public:
+  // One band: rays at its middle wavelength, transmittances at all of its wavelengths.
+  BandSet(GhostTracers& tracers, const Band& band);
+  // All bands: rays at the wavelength samples that the first rays found sufficient.
+  BandSet(GhostTracers& tracers, const WavelengthSamples& samples, const FirstRays& rays, std::span<const Band> bands);
+
+  [[nodiscard]] std::size_t size() const { return bands_.size(); }
+  [[nodiscard]] const Band& band(std::size_t k) const { return bands_[k]; }
+
+  // Returns one sheet of rays for each traced wavelength.
+  [[nodiscard]] std::vector<RaySheet> trace(const Rectangle& box, int nodes, PacketPrecision precision);
+  // Computes the weights that trace() leaves out and that drawing needs.
+  void add_weights(std::vector<RaySheet>& sheets, PacketPrecision precision);
+  // The patches of sheets that have weights, at least one of which has no failed rays; band_patch() computes a band's
+  // patch from them.
+  [[nodiscard]] std::vector<Patch> make_patches(std::span<const RaySheet> sheets, const Frame& frame) const;
+  void band_patch(std::span<const Patch> patches, std::size_t band, Patch& out) const;
+
+ private:
+  GhostTracers& tracers_;
+  std::vector<Band> bands_;
+  std::vector<std::size_t> traced_;  // passes
+  std::vector<PatchBlend> blends_;  // one a band; none: there is one band
+};
+
+}  // namespace contrejour::inline internal::ray_maps

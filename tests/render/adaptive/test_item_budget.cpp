@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <vector>
+
+#include <doctest/doctest.h>
+
+#include "render/adaptive/budget/item_budget.h"
+
+using namespace contrejour;
+using namespace contrejour::adaptive;
+
+TEST_CASE("what is faint is drawn in preview quality as long as all of it is a small part of the error") {
+  std::vector<ItemSize> sizes(5);
+  const auto size = [](double level, double area_px) {
+    ItemSize s;
+    s.level = level, s.area_px = area_px;
+    return s;
+  };
+  sizes[0] = size(1e-6, 100.0);
+  sizes[1] = size(1e-6, 1e10);    // dim, but with much light
+  sizes[2] = size(1e-3, 1.0);     // bright
+  sizes[3] = size(2e-5, 100.0);
+  sizes[4] = size(0.0, 0.0);      // no light was found
+  CHECK(faint_items(sizes, {0.003, 1.0, 1e4}) == std::vector<bool>{true, false, false, true, false});
+}
