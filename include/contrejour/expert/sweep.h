@@ -23,8 +23,8 @@ struct SweepSettings {
   std::vector<double> times_s{0.25, 1.0, 4.0};
   SensorModel sensor;
   double source_radius_rad = 0.00436;  // 0.5 degrees across
-  // What goes wrong: errors of the head's angle (RMS), its zero, the camera's roll, the optical centre's offset from
-  // the picture's middle in raw pixels (y down), a room that is not dark, light scattered in the lens.
+  // Errors of the set-up: the RMS error of the head's angle, its zero, the camera's roll, the optical centre's offset
+  // from the picture's middle in raw pixels (y down), the room's own light, light scattered in the lens.
   double jitter_deg = 0.02, zero_deg = 0.0, roll_deg = 0.3;
   Vec2 centre_offset_px{5.0, -3.0};
   double room_rate = 3.0;  // DN per second
@@ -40,7 +40,7 @@ struct SweepSettings {
 
 struct SweepStation {
   double angle_deg = 0;  // as the head reports it
-  std::vector<RawFrame> exposures;   // of times_s
+  std::vector<RawFrame> exposures;  // of times_s
   std::vector<RawFrame> background;  // the same with the light blocked
   RawFrame direct;  // an exposure so short that the light's own image is not saturated
 };
