@@ -116,9 +116,11 @@ bool is_value_of(std::string_view type, std::span<const std::byte> value) {
   if (type == "stringvector") return is_string_list(ByteReader(value));
   if (type == "preview") return is_preview(ByteReader(value));
   if (type == "floatvector") return value.size() % 4 == 0;
-  if (type == "idmanifest") return value.size() >= 4;
   return true;
 }
+
+// OpenEXR 3.1 reads an attribute of this type four bytes too far and takes what follows for sizes of its own.
+constexpr std::string_view kMisreadType = "idmanifest";
 
 // Makes a hostile name safe for the terminal.
 std::string printable(std::string_view text) {
@@ -152,6 +154,12 @@ Result<ExrHeaderSize> check_exr_header(std::span<const std::byte> bytes, const s
     }
     is_first = false;
     const auto type = in.name();
+    if (type == kMisreadType)
+      return failure(ErrorCode::Unsupported,
+                     fmt::format("attribute '{}' is a manifest of identifiers, which OpenEXR 3.1 cannot read; save the "
+                                 "picture without it",
+                                 printable(*attribute)),
+                     place);
     const auto size = type ? in.u32() : std::nullopt;
     const auto value = size ? in.take(*size) : std::nullopt;
     if (!value || !is_value_of(*type, *value))

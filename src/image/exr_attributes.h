@@ -16,7 +16,7 @@ struct ExrHeaderSize {
 };
 
 // Errors: Parse (an attribute is larger than the file or not of its type's size), Unsupported (deep and single-part,
-// newer version).
+// newer version, an attribute that the library misreads).
 [[nodiscard]] Result<ExrHeaderSize> check_exr_header(std::span<const std::byte> bytes, const std::string& name);
 
 }  // namespace contrejour::inline internal

@@ -120,6 +120,20 @@ TEST_CASE("absurd dimensions are refused before anything is allocated") {
   CHECK(peak_memory_bytes() < before + (64 << 20));
 }
 
+// The library would read four bytes too many, and then take any bytes for the size of what follows.
+TEST_CASE("a manifest of identifiers is refused by its name") {
+  std::vector<std::byte> bytes = good_exr();
+  const std::string names = std::string("cryptomatte") + '\0' + "idmanifest" + '\0';
+  std::vector<std::byte> attribute(names.size() + 4 + 16);
+  std::memcpy(attribute.data(), names.data(), names.size());
+  put_int(attribute, names.size(), 16);
+  bytes.insert(bytes.begin() + 8, attribute.begin(), attribute.end());
+  const Result<Picture> picture = read_picture(bytes, "bad.file");
+  REQUIRE_FALSE(picture.has_value());
+  CHECK(picture.error().code == ErrorCode::Unsupported);
+  CHECK(picture.error().message.find("cryptomatte") != std::string::npos);
+}
+
 TEST_CASE("attributes that claim more than the file holds are refused") {
   const std::uint64_t before = peak_memory_bytes();
   const std::vector<std::byte> good = good_exr();
