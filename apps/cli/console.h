@@ -21,6 +21,7 @@ void print_warnings(const std::vector<std::string>& warnings);
 // JSON with an indent of two spaces, every digit of a number, and bytes that are not UTF-8 replaced; ends with a
 // newline.
 [[nodiscard]] std::string json_text(const Json& json);
+[[nodiscard]] std::string json_line(const Json& json);  // the same in one line
 void print_json(const Json& json);
 
 // Returns false if something could not be written, e.g. to a full disk.

@@ -14,6 +14,7 @@
 #include "contrejour/image_io.h"
 #include "contrejour/lens.h"
 #include "contrejour/render.h"
+#include "contrejour/renderer.h"
 #include "contrejour/result.h"
 
 namespace contrejour {
@@ -30,6 +31,12 @@ struct PictureFlare {
 // samples that are not finite.
 [[nodiscard]] CONTREJOUR_API Result<PictureFlare> render_flare(const FlarePlan& plan, const Image& rgb,
                                                                const LensState& lens, const params::Values& values,
+                                                               const Context& context = {});
+
+// The same by a renderer that lives from frame to frame. It has the lens and the method for which the plan was made;
+// the values give all other settings.
+[[nodiscard]] CONTREJOUR_API Result<PictureFlare> render_flare(const FlarePlan& plan, const Image& rgb,
+                                                               const params::Values& values, Renderer& renderer,
                                                                const Context& context = {});
 
 // Adds a flare of the same size to the first three channels of an image, and never subtracts: where a channel of the

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <mutex>
 #include <thread>
+#include <utility>
 
 #include <oneapi/tbb/blocked_range.h>
 #include <oneapi/tbb/global_control.h>
@@ -128,6 +129,37 @@ bool ordered_pipeline_erased(std::size_t count, const Context& context,
   run_in_arena(threads, [&] { tbb::parallel_pipeline(2 * static_cast<std::size_t>(threads), take & work & give); });
   take_over(&consumed);
   return !context.cancelled();
+}
+
+void staged_pipeline(std::size_t count, std::size_t max_items, const std::array<Stage, 3>& stages) {
+  struct Item {
+    std::size_t index = 0;
+    StageItem data;
+  };
+  namespace tbb = oneapi::tbb;
+  constexpr auto kInOrder = tbb::filter_mode::serial_in_order;
+  std::array<char, 3> done{};  // a stage's own data pass from thread to thread, too
+  char started = 0;
+  const auto run = [&](std::size_t stage, Item item) {
+    take_over(&started);
+    take_over(&done[stage]);
+    if (stage > 0) take_over(item.data.get());
+    if (stage == 0 || item.data) item.data = stages[stage](item.index, std::move(item.data));
+    hand_over(item.data.get());
+    hand_over(&done[stage]);
+    return item;
+  };
+  std::size_t next = 0;
+  hand_over(&started);
+  const auto first = tbb::make_filter<void, Item>(kInOrder, [&](tbb::flow_control& flow) -> Item {
+    if (next < count) return run(0, {next++, nullptr});
+    flow.stop();
+    return {};
+  });
+  const auto second = tbb::make_filter<Item, Item>(kInOrder, [&](Item item) { return run(1, std::move(item)); });
+  const auto third = tbb::make_filter<Item, void>(kInOrder, [&](Item item) { run(2, std::move(item)); });
+  tbb::parallel_pipeline(max_items, first & second & third);
+  for (char& token : done) take_over(&token);
 }
 
 }  // namespace contrejour::inline internal

@@ -3,6 +3,7 @@
 // Both loops stop early when the context is cancelled and then return false: their results are then incomplete.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <functional>
 #include <memory>
@@ -26,6 +27,16 @@ bool ordered_pipeline(std::size_t count, const Context& context, Produce produce
 bool ordered_pipeline_erased(std::size_t count, const Context& context,
                              const std::function<std::shared_ptr<void>(std::size_t)>& produce,
                              const std::function<void(std::size_t, void*)>& consume);
+
+// What one stage passes to the next; null where an item ends.
+using StageItem = std::shared_ptr<void>;
+// Makes an item's next form from its last one (null in the first stage).
+using Stage = std::function<StageItem(std::size_t i, StageItem item)>;
+
+// Passes items i in [0, count) through three stages. Each stage handles one item at a time, in rising i; different
+// stages handle different items at once, of which at most `max_items` exist. Stages that follow a null item do not see
+// it. A stage may run parallel_for. Cancelling is the stages' matter: return null to end what is left.
+void staged_pipeline(std::size_t count, std::size_t max_items, const std::array<Stage, 3>& stages);
 
 template <class Produce, class Consume>
 bool ordered_pipeline(std::size_t count, const Context& context, Produce produce, Consume consume) {

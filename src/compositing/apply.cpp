@@ -11,24 +11,24 @@
 namespace contrejour {
 namespace {
 
-Result<Flare> render_on_grid(const FlarePlan& plan, const LensState& lens, const params::Values& values,
+Result<Flare> render_on_grid(const FlarePlan& plan, const params::Values& values, Renderer& renderer,
                              const Context& context) {
   FrameSettings settings = params::frame_settings(values, plan.grid.frame, plan.space);
   settings.starburst.left_out = plan.light_matte;
   settings.starburst.lights = plan.imaged_lights;
-  return render(params::method_options(values), lens, plan.lights, settings, context);
+  return renderer.render(plan.lights, settings, context);
 }
 
 }  // namespace
 
-Result<PictureFlare> render_flare(const FlarePlan& plan, const Image& rgb, const LensState& lens,
-                                  const params::Values& values, const Context& context) {
+Result<PictureFlare> render_flare(const FlarePlan& plan, const Image& rgb, const params::Values& values,
+                                  Renderer& renderer, const Context& context) {
   PictureFlare flare;
   if (plan.lights.empty()) {
     flare.image = Image(plan.grid.width, plan.grid.height);
     return flare;
   }
-  auto rendered = render_on_grid(plan, lens, values, context);
+  auto rendered = render_on_grid(plan, values, renderer, context);
   if (!rendered) return tl::unexpected(rendered.error());
   auto image = picture_of_flare(std::move(rendered->image), plan.grid);
   if (!image) return tl::unexpected(image.error());
@@ -36,6 +36,14 @@ Result<PictureFlare> render_flare(const FlarePlan& plan, const Image& rgb, const
   flare.statistics = std::move(rendered->statistics);
   flare.visibility = visibility_of(rgb, flare.image, plan.found, plan.space);
   return flare;
+}
+
+Result<PictureFlare> render_flare(const FlarePlan& plan, const Image& rgb, const LensState& lens,
+                                  const params::Values& values, const Context& context) {
+  auto renderer = Renderer::create(params::method_options(values));
+  if (!renderer) return tl::unexpected(renderer.error());
+  if (auto set = renderer->set_lens(lens); !set) return tl::unexpected(set.error());
+  return render_flare(plan, rgb, values, *renderer, context);
 }
 
 void add_flare(Image& image, const Image& flare) {

@@ -2,8 +2,6 @@
 // Files and folders for the tests of pictures.
 #pragma once
 
-#include <unistd.h>
-
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -14,33 +12,9 @@
 #include <doctest/doctest.h>
 
 #include "contrejour/image_io.h"
+#include "support/scratch_folder.h"
 
 namespace contrejour::test {
-
-// A temporary folder, removed at the end.
-class ScratchFolder {
- public:
-  ScratchFolder() {
-    static int serial = 0;
-    path_ = std::filesystem::temp_directory_path() /
-            ("contrejour-image-" + std::to_string(getpid()) + "-" + std::to_string(serial++));
-    std::filesystem::create_directories(path_);
-  }
-  ScratchFolder(const ScratchFolder&) = delete;
-  ScratchFolder& operator=(const ScratchFolder&) = delete;
-  ~ScratchFolder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-  }
-  [[nodiscard]] std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
-  [[nodiscard]] std::size_t file_count() const {
-    return static_cast<std::size_t>(
-        std::distance(std::filesystem::directory_iterator(path_), std::filesystem::directory_iterator()));
-  }
-
- private:
-  std::filesystem::path path_;
-};
 
 inline std::vector<std::byte> bytes_of(const std::filesystem::path& file) {
   std::ifstream in(file, std::ios::binary);

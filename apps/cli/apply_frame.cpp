@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/apply_frame.h"
+
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "cli/apply_report.h"
+#include "cli/flare_report.h"
+#include "contrejour/expert/apply_files.h"
+#include "contrejour/expert/preview_exposure.h"
+#include "contrejour/expert/settings.h"
+
+namespace contrejour::cli {
+namespace {
+
+Result<ApplyFiles> open_apply_files(const ApplyOptions& options, Outputs& outputs) {
+  ApplyFiles files;
+  const std::pair<const std::string&, OutputFile*&> all[] = {{options.output, files.output},
+                                                             {options.flare_only, files.flare_only},
+                                                             {options.detected, files.detected},
+                                                             {options.preset.save, files.preset},
+                                                             {options.preview, files.preview}};
+  if (auto ok = outputs.add_all(all); !ok) return tl::unexpected(ok.error());
+  return files;
+}
+
+Result<void> write_preview(const ApplyOptions& options, OutputFile& file, const Image& rgb, const Context& context) {
+  const PreviewSettings preview = params::preview_settings(options.values, rgb, params::DefaultExposure::None);
+  return write_preview_png(file, rgb, preview, context);
+}
+
+Result<void> write_result(const PlannedPhotograph& planned, const Context& context) {
+  const auto& [options, outputs, files, picture, plan] = planned;
+  return plan.lights.empty() ? copy_photograph(*files.output, options.input, picture, options.values, context)
+                             : contrejour::write_photograph(*files.output, picture, options.values, context);
+}
+
+}  // namespace
+
+Result<PlannedPhotograph> read_photograph(const ApplyOptions& options, const LensState& lens) {
+  auto picture = read_picture(options.input, options.read);
+  if (!picture) return tl::unexpected(picture.error());
+  return plan_photograph(options, lens, std::move(*picture));
+}
+
+Result<PlannedPhotograph> plan_photograph(const ApplyOptions& options, const LensState& lens, Picture picture) {
+  PlannedPhotograph planned{options, {}, {}, std::move(picture), {}};
+  auto files = open_apply_files(options, planned.outputs);
+  if (!files) return tl::unexpected(files.error());
+  planned.files = *files;
+  auto plan = plan_flare(planned.picture, lens, options.values);
+  if (!plan) {
+    if (plan.error().place.file.empty()) plan.error().place.file = options.input;
+    return tl::unexpected(plan.error());
+  }
+  planned.plan = std::move(*plan);
+  return planned;
+}
+
+Result<FlaredPhotograph> render_photograph(PlannedPhotograph&& planned, Renderer& renderer, const Context& context) {
+  auto flare = render_flare(planned.plan, planned.picture.rgb, planned.options.values, renderer, context);
+  if (!flare) return tl::unexpected(flare.error());
+  return FlaredPhotograph{std::move(planned), std::move(*flare)};
+}
+
+// The detected lights are drawn over the photograph without flare, so they are written before the flare is added.
+Result<void> write_photograph(FlaredPhotograph& flared, const Context& context) {
+  auto& [options, outputs, files, picture, plan] = flared.planned;
+  const Image& flare = flared.flare.image;
+  Result<void> ok;
+  if (files.detected) ok = write_detected(*files.detected, picture, plan, context);
+  if (!ok) return ok;
+  add_flare(picture.rgb, flare);
+  ok = write_result(flared.planned, context);
+  if (ok && files.flare_only) ok = write_aligned(*files.flare_only, flare, picture, plan, context);
+  if (ok && files.preset) ok = files.preset->write(params::write_preset({{}, {}, options.lens, options.values}));
+  if (ok && files.preview) ok = write_preview(options, *files.preview, picture.rgb, context);
+  return ok ? outputs.commit() : ok;
+}
+
+Json photograph_json(const FlaredPhotograph& flared, const LensState& lens) {
+  const auto& [options, outputs, files, picture, plan] = flared.planned;
+  Json json = {{"lens", lens.name}, {"input", options.input}, {"output", options.output}};
+  json.update(report_json(plan));
+  json["flare"] = visibility_json(flared.flare.visibility);
+  json["statistics"] = plan.lights.empty() ? Json() : stats_json(flared.flare.statistics);
+  return json;
+}
+
+std::string photograph_text(const FlaredPhotograph& flared) {
+  const RenderStatistics& statistics = flared.flare.statistics;
+  return fmt::format("{}: {} ghosts, {:.2f} s\n", flared.planned.options.output, statistics.ghosts_rendered,
+                     total_ms(statistics) / 1000.0);
+}
+
+Result<Renderer> renderer_of(const params::Values& values, const LensState& lens) {
+  auto renderer = Renderer::create(params::method_options(values));
+  if (!renderer) return renderer;
+  if (auto set = renderer->set_lens(lens); !set) return tl::unexpected(set.error());
+  return renderer;
+}
+
+}  // namespace contrejour::cli

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+// One photograph through `apply`, in the three steps of a sequence: read it and find its lights, render their flare,
+// write its files. A still is a sequence of one.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "cli/console.h"
+#include "cli/outputs.h"
+#include "cli/preset_choice.h"
+#include "contrejour/apply.h"
+#include "contrejour/context.h"
+#include "contrejour/renderer.h"
+
+namespace contrejour::cli {
+
+struct ApplyOptions {
+  std::string lens, input, output, flare_only, detected, preview;
+  bool json = false;
+  ReadOptions read;
+  PresetOptions preset;
+  params::Values values;
+
+  [[nodiscard]] std::vector<std::string> outputs() const { return {output, flare_only, detected, preview}; }
+};
+
+struct ApplyFiles {
+  OutputFile* output = nullptr;
+  OutputFile *flare_only = nullptr, *detected = nullptr, *preview = nullptr, *preset = nullptr;  // or null
+};
+
+struct PlannedPhotograph {
+  ApplyOptions options;
+  Outputs outputs;
+  ApplyFiles files;
+  Picture picture;
+  FlarePlan plan;
+};
+
+struct FlaredPhotograph {
+  PlannedPhotograph planned;
+  PictureFlare flare;
+};
+
+// Opens all outputs, so that a long rendering does not fail at its end, reads the photograph and plans its flare.
+[[nodiscard]] Result<PlannedPhotograph> read_photograph(const ApplyOptions& options, const LensState& lens);
+// The same for a picture in memory instead of the input's.
+[[nodiscard]] Result<PlannedPhotograph> plan_photograph(const ApplyOptions& options, const LensState& lens,
+                                                        Picture picture);
+
+// The renderer has the lens and the options' method.
+[[nodiscard]] Result<FlaredPhotograph> render_photograph(PlannedPhotograph&& planned, Renderer& renderer,
+                                                         const Context& context);
+
+// Adds the flare to the photograph and writes all files: all appear, or none.
+[[nodiscard]] Result<void> write_photograph(FlaredPhotograph& flared, const Context& context);
+
+[[nodiscard]] Json photograph_json(const FlaredPhotograph& flared, const LensState& lens);
+[[nodiscard]] std::string photograph_text(const FlaredPhotograph& flared);
+
+// A renderer for the options' method with the lens.
+[[nodiscard]] Result<Renderer> renderer_of(const params::Values& values, const LensState& lens);
+
+}  // namespace contrejour::cli

@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/apply_sequence.h"
+
+#include <algorithm>
+#include <optional>
+#include <set>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "cli/lens_choice.h"
+#include "cli/long_task.h"
+#include "contrejour/expert/frame_record.h"
+#include "contrejour/expert/run_frames.h"
+
+namespace contrejour::cli {
+namespace {
+
+Result<ApplyOptions> options_of_frame(const ApplyOptions& options, int frame) {
+  ApplyOptions own = options;
+  for (std::string* name : {&own.input, &own.output, &own.flare_only, &own.detected, &own.preview}) {
+    auto numbered = name_of_frame(*name, frame);
+    if (!numbered) return tl::unexpected(numbered.error());
+    *name = std::move(*numbered);
+  }
+  own.preset.save.clear();
+  return own;
+}
+
+// The files of a frame, for its record.
+class ApplyRecords {
+ public:
+  ApplyRecords(const ApplyOptions& options, const std::set<int>& missing)
+      : settings_(settings_record("apply", options.lens, options.values)), missing_(missing) {
+    settings_.text += fmt::format("layer = {}\npart = {}\n", options.read.layer, options.read.part);
+  }
+
+  [[nodiscard]] FrameFiles of(const ApplyOptions& own, int frame) const {
+    FrameFiles files{settings_.text, settings_.files, {}};
+    if (!missing_.contains(frame)) files.inputs.emplace_back(own.input);
+    for (const std::string& output : own.outputs())
+      if (!output.empty()) files.outputs.emplace_back(output);
+    return files;
+  }
+
+ private:
+  SettingsRecord settings_;
+  const std::set<int>& missing_;
+};
+
+// Reads frames, all of which must have the first one's size.
+class FrameReader {
+ public:
+  FrameReader(const ApplyOptions& options, const LensState& lens, const SequenceFrames& sequence)
+      : options_(options), lens_(lens), sequence_(sequence) {}
+
+  [[nodiscard]] Result<PlannedPhotograph> read(int frame) {
+    auto own = options_of_frame(options_, frame);
+    if (!own) return tl::unexpected(own.error());
+    auto picture = sequence_.missing.contains(frame) ? black_picture() : read_picture(own->input, own->read);
+    if (!picture) return tl::unexpected(picture.error());
+    if (auto fits = check_size(*picture, frame, own->input); !fits) return tl::unexpected(fits.error());
+    return plan_photograph(*own, lens_, std::move(*picture));
+  }
+
+ private:
+  struct FirstFrame {
+    int frame = 0;
+    PixelWindow window;
+  };
+
+  // Black in the size and form of the first frame that exists.
+  [[nodiscard]] Result<Picture> black_picture() {
+    if (!black_) {
+      const auto present = std::find_if(sequence_.frames.begin(), sequence_.frames.end(),
+                                        [&](int frame) { return !sequence_.missing.contains(frame); });
+      const auto own = options_of_frame(options_, *present);
+      if (!own) return tl::unexpected(own.error());
+      auto picture = read_picture(own->input, own->read);
+      if (!picture) return picture;
+      std::fill(picture->rgb.pixels.begin(), picture->rgb.pixels.end(), 0.0F);
+      black_ = std::move(*picture);
+    }
+    return *black_;
+  }
+
+  [[nodiscard]] Result<void> check_size(const Picture& picture, int frame, const std::string& input) {
+    const PixelWindow& window = picture.display_window;
+    if (!first_) first_ = {frame, window};
+    if (window == first_->window) return {};
+    return failure(ErrorCode::InvalidArgument,
+                   fmt::format("the picture has {} x {} pixels, but frame {} has {} x {}; render it by itself, or make "
+                               "the display windows equal",
+                               window.width, window.height, first_->frame, first_->window.width, first_->window.height),
+                   {input});
+  }
+
+  const ApplyOptions& options_;
+  const LensState& lens_;
+  const SequenceFrames& sequence_;
+  std::optional<FirstFrame> first_;
+  std::optional<Picture> black_;
+};
+
+// Prints a line for each frame, and each warning once.
+class FrameReport {
+ public:
+  FrameReport(const LensState& lens, bool json) : lens_(lens), json_(json) {}
+
+  void add(int frame, const FlaredPhotograph& flared) {
+    for (const std::string& warning : flared.planned.plan.warnings)
+      if (said_.insert(warning).second) print_warnings({warning});
+    if (!json_) return print_summary(photograph_text(flared));
+    Json json = {{"frame", frame}};
+    json.update(photograph_json(flared, lens_));
+    print(json_line(json));
+  }
+
+ private:
+  const LensState& lens_;
+  bool json_;
+  std::set<std::string> said_;
+};
+
+// The preset of the whole sequence.
+Result<void> save_preset(const ApplyOptions& options) {
+  Outputs outputs;
+  const auto file = outputs.add(options.preset.save);
+  if (!file) return tl::unexpected(file.error());
+  if (*file == nullptr) return {};
+  if (auto ok = (*file)->write(params::write_preset({{}, {}, options.lens, options.values})); !ok) return ok;
+  return outputs.commit();
+}
+
+}  // namespace
+
+Result<int> apply_to_sequence(const ApplyOptions& options, const SequenceOptions& sequence_options) {
+  if (auto ok = check_sequence_outputs(options.outputs()); !ok) return tl::unexpected(ok.error());
+  const auto lens = open_lens(options.lens, options.values);
+  if (!lens) return tl::unexpected(lens.error());
+  auto sequence = frames_of_sequence(sequence_options, options.input);
+  if (!sequence) return tl::unexpected(sequence.error());
+  auto renderer = renderer_of(options.values, *lens);
+  if (!renderer) return tl::unexpected(renderer.error());
+  if (auto ok = save_preset(options); !ok) return tl::unexpected(ok.error());
+
+  const ApplyRecords records(options, sequence->missing);
+  std::vector<int> frames = sequence->frames;
+  if (sequence_options.resume)
+    leave_out_done(frames, [&](int frame) {
+      const auto own = options_of_frame(options, frame);
+      return own && is_frame_done(records.of(*own, frame));
+    });
+
+  FrameReader reader(options, *lens, *sequence);
+  FrameReport report(*lens, options.json);
+  const LongTask task("rendering", options.values.integer("threads"));
+  const auto write = [&](int frame, FlaredPhotograph& flared) -> Result<void> {
+    Context quiet = task.context();
+    quiet.progress = {};
+    if (auto ok = write_photograph(flared, quiet); !ok) return ok;
+    report.add(frame, flared);
+    return write_frame_record(records.of(flared.planned.options, frame));
+  };
+  const auto failures = run_frames(
+      frames, [&](int frame) { return reader.read(frame); },
+      [&](int, PlannedPhotograph& planned, const Context& context) {
+        return render_photograph(std::move(planned), *renderer, context);
+      },
+      write, {sequence_options.keep_going}, task.context());
+  if (!failures) return tl::unexpected(failures.error());
+  return report_failures(*failures, frames.size());
+}
+
+}  // namespace contrejour::cli

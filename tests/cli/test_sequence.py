@@ -1,0 +1,142 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""apply on a sequence: names, ranges, frames that are missing or damaged, resuming after any end, JSON."""
+import json
+import random
+import signal
+import subprocess
+import time
+import unittest
+
+import exr
+from program import PROGRAM, ProgramTest
+
+WIDTH, HEIGHT = 96, 64
+LENS = ["heliar", "-f", "8", "--error", "0.003"]
+
+
+class Sequence(ProgramTest):
+    def write_frame(self, number, name="plate.{:04d}.exr", width=WIDTH):
+        """A dim picture with a light that moves to the right."""
+        values = [0.01] * (width * HEIGHT)
+        values[20 * width + 20 + number % 40] = 5000.0
+        exr.write(self.folder / name.format(number), {c: (exr.HALF, values) for c in "RGB"}, width, HEIGHT)
+
+    def write_frames(self, *numbers):
+        for number in numbers:
+            self.write_frame(number)
+
+    def apply(self, *arguments, code=0):
+        return self.run_program("apply", *LENS, "plate.####.exr", "-o", "out.####.exr", *arguments, code=code)
+
+    def outputs(self):
+        return [name for name in self.files() if name.startswith("out.")]
+
+    def test_each_frame_is_that_of_a_still(self):
+        self.write_frames(1, 2, 3)
+        lines = self.apply("--flare-only", "flare.%04d.exr", "--json").stdout.decode().splitlines()
+        reports = [json.loads(line) for line in lines]
+        self.assertEqual([report["frame"] for report in reports], [1, 2, 3])
+        self.assertEqual([report["output"] for report in reports], ["out.0001.exr", "out.0002.exr", "out.0003.exr"])
+        self.assertEqual([report["lights"][0]["centroid_px"] for report in reports], [[21.5, 20.5], [22.5, 20.5], [23.5, 20.5]])
+        for number in (1, 2, 3):
+            self.run_program("apply", *LENS, f"plate.{number:04d}.exr", "-o", "still.exr", "--flare-only", "alone.exr")
+            for still, ours in (("still.exr", f"out.{number:04d}.exr"), ("alone.exr", f"flare.{number:04d}.exr")):
+                self.assertEqual((self.folder / still).read_bytes(), (self.folder / ours).read_bytes())
+
+    def test_ranges_and_other_spellings(self):
+        self.write_frames(*range(1, 8))
+        self.run_program("apply", *LENS, "plate.@@@@.exr", "-o", "out.%02d.png", "--frames", "1-5x2,7")
+        self.assertEqual(self.outputs(), ["out.01.png", "out.03.png", "out.05.png", "out.07.png"])
+        self.assertIn("not a range", self.error_of("apply", *LENS, "plate.#.exr", "-o", "out.#.exr", "--frames", "5-1", code=1))
+        self.assertIn("####", self.error_of("apply", *LENS, "plate.####.exr", "-o", "out.exr", code=1))
+        self.assertIn("no files", self.error_of("apply", *LENS, "other.####.exr", "-o", "out.#.exr", code=1))
+
+    def test_a_file_with_such_a_name_is_a_still(self):
+        self.write_frame(1, "shot#{}.exr")
+        (self.folder / "shot#1.exr").rename(self.folder / "shot#.exr")
+        self.run_program("apply", *LENS, "shot#.exr", "-o", "out.exr")
+        self.assertEqual(self.outputs(), ["out.exr"])
+
+    def test_missing_frames(self):
+        self.write_frames(1, 2, 5)
+        error = self.error_of("apply", *LENS, "plate.####.exr", "-o", "out.####.exr", "--frames", "1-5", code=1)
+        self.assertIn("frames 3-4 are missing", error)
+        self.assertEqual(self.outputs(), [])
+        self.apply("--frames", "1-5", "--missing", "skip")
+        self.assertEqual(self.outputs(), ["out.0001.exr", "out.0002.exr", "out.0005.exr"])
+        self.apply("--frames", "1-5", "--missing", "black")
+        self.assertEqual(len(self.outputs()), 5)
+        black = exr.Picture(self.folder / "out.0003.exr")
+        self.assertEqual((len(black.channels["G"]), set(black.channels["G"])), (WIDTH * HEIGHT, {0.0}))
+
+    def test_bad_frames(self):
+        self.write_frames(1, 2, 4, 5)
+        self.write_frame(3, width=WIDTH + 6)
+        whole = (self.folder / "plate.0004.exr").read_bytes()
+        (self.folder / "plate.0004.exr").write_bytes(whole[:2000])
+        done = self.apply(code=1)
+        self.assertIn("frame 3: plate.0003.exr: the picture has 102 x 64 pixels, but frame 1", done.stderr.decode())
+        self.assertEqual(self.outputs(), ["out.0001.exr", "out.0002.exr"])
+        errors = self.apply("--keep-going", code=1).stderr.decode()
+        self.assertIn("frame 3: plate.0003.exr", errors)
+        self.assertIn("frame 4: plate.0004.exr", errors)
+        self.assertIn("2 of 5 frames failed", errors)
+        self.assertEqual(self.outputs(), ["out.0001.exr", "out.0002.exr", "out.0005.exr"])
+
+    def test_resume_keeps_what_is_done_and_only_that(self):
+        self.write_frames(1, 2, 3)
+        self.apply()
+        times = {name: (self.folder / name).stat().st_mtime_ns for name in self.outputs()}
+
+        def changed(*arguments):
+            self.apply("--resume", *arguments)
+            now = {name: (self.folder / name).stat().st_mtime_ns for name in self.outputs()}
+            different = [name for name in now if now[name] != times.get(name)]
+            times.update(now)
+            return different
+
+        self.assertEqual(changed(), [])
+        self.assertEqual(changed("--threads", "1"), [])
+        self.write_frame(2)
+        self.assertEqual(changed(), ["out.0002.exr"])
+        (self.folder / "out.0003.exr").unlink()
+        self.assertEqual(changed(), ["out.0003.exr"])
+        (self.folder / "out.0001.exr").write_bytes(b"")
+        self.assertEqual(changed(), ["out.0001.exr"])
+        self.assertEqual(len(changed("--gain", "2")), 3)
+
+    def test_killed_at_any_moment(self):
+        """After kill -9 or Ctrl-C every frame is whole, and --resume makes the rest: the same bits."""
+        numbers = range(1, 13)
+        self.write_frames(*numbers)
+        started = time.monotonic()
+        self.apply()
+        whole = time.monotonic() - started
+        expected = {name: (self.folder / name).read_bytes() for name in self.outputs()}
+        command = [PROGRAM, "apply", *LENS, "plate.####.exr", "-o", "out.####.exr", "--resume"]
+        moments = random.Random(5)
+        for turn in range(8):
+            for name in self.outputs():
+                (self.folder / name).unlink()
+            for _ in range(3):
+                with subprocess.Popen(command, cwd=self.folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE) as running:
+                    time.sleep(moments.uniform(0, whole))
+                    running.send_signal(signal.SIGKILL if turn % 2 else signal.SIGINT)
+                    running.communicate(timeout=60)
+                for name in self.outputs():
+                    self.assertEqual((self.folder / name).read_bytes(), expected[name], name)
+            self.apply("--resume")
+            self.assertEqual({name: (self.folder / name).read_bytes() for name in self.outputs()}, expected)
+            self.assertEqual([name for name in self.files() if "part" in name], [])
+
+    def test_an_output_that_cannot_be_written(self):
+        self.write_frames(1, 2, 3)
+        (self.folder / "out.0002.exr").mkdir()
+        done = self.apply("--keep-going", code=1)
+        self.assertIn("frame 2: out.0002.exr", done.stderr.decode())
+        self.assertTrue((self.folder / "out.0003.exr").is_file())
+
+
+if __name__ == "__main__":
+    unittest.main()
